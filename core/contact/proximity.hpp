@@ -1,0 +1,52 @@
+#pragma once
+/// Which cloth samples are near which obstacle, and which would pass through one during a step.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/contact/obstacle.hpp"
+
+namespace gambeson {
+
+/// A sample near an obstacle. `normal` (unit, world) points from the obstacle to the cloth and `gap_m` is the signed
+/// distance at the time of the query (negative inside); `local` is the touched material point in the obstacle's frame.
+struct Contact {
+  int sample = 0;
+  int obstacle = 0;
+  int feature = 0;  ///< which vertex, edge or face of a mesh (0 for an ellipsoid); identifies the contact between steps
+  Vec3 normal;
+  double gap_m = 0;
+  Vec3 local;
+};
+
+/// Search structures of the obstacles: constant topology, boxes refitted lazily (Zheng 2013, section 3.6).
+class ProximityQuery {
+ public:
+  /// The obstacles outlive the query.
+  explicit ProximityQuery(std::span<const Obstacle> obstacles);
+  ~ProximityQuery();
+  ProximityQuery(ProximityQuery&&) noexcept;
+
+  /// Persistent contact (section 3.2.1): all pairs with signed distance at `start` below reach_m[sample] plus what the
+  /// obstacle's surface can move from `start` to `end`. One contact per local minimum of the distance, so none at the
+  /// inner edges of a flat or concave mesh. Every sample is tested against every obstacle.
+  /// Sorted by sample, obstacle, feature. The same bits for any number of threads.
+  void near(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x,
+            std::span<const double> reach_m, std::vector<Contact>& out) const;
+
+  /// Trajectory impact (section 3.3.1): samples whose path x0 -> x1 (straight, against the moving obstacle) enters an
+  /// obstacle from outside, with the normal and material point at the first time of contact, gap_m the separation at
+  /// the start along that normal. Sorted as above; one per (sample, obstacle).
+  void impacts(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x0,
+               std::span<const Vec3> x1, std::vector<Contact>& out) const;
+
+  /// Signed distance of one point to one obstacle (for checks and analysis).
+  double signedDistance(int obstacle, const Placement& placement, const Vec3& x) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gambeson

@@ -1,0 +1,93 @@
+#pragma once
+/// The Recording of a run: closed HDF5 segments, each written whole and renamed into place, so that a killed writer
+/// loses at most the open one; a sidecar (XDMF) that ParaView 5.11 opens, replaced atomically after each segment.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gambeson {
+
+/// Values at the samples or control points of one frame, single precision: data[i * components + c].
+struct Field {
+  std::string name;
+  std::string unit;
+  int components = 1;
+  std::vector<float> data;
+};
+
+struct Frame {
+  double time_s = 0;
+  std::vector<float> positions;  ///< 3 per sample [m]
+  std::vector<Field> sample_fields;
+  std::vector<Field> control_fields;  ///< with components per control point, the positions among them
+};
+
+/// A table with named columns, one row per window of the run, double precision: rows in the order of time.
+struct TableRow {
+  std::string table;
+  std::vector<double> values;
+};
+
+/// All state that the next step depends on, by name.
+struct Checkpoint {
+  double time_s = 0;
+  std::map<std::string, std::vector<double>> reals;
+  std::map<std::string, std::vector<std::int64_t>> integers;
+};
+
+/// What stays constant over a run. `metadata` is free text (JSON) that readers get back; `identity` is what a resumed run
+/// must match (the case hash).
+struct RecordingLayout {
+  std::string identity;
+  std::string metadata;
+  std::vector<std::array<int, 3>> triangles;  ///< of samples
+  std::map<std::string, std::vector<std::string>> tables;  ///< columns (with units in the names) of each table
+};
+
+class RecordingWriter {
+ public:
+  /// Starts a new recording in `directory` (made if absent). What an earlier recording left there is removed.
+  static RecordingWriter create(const std::filesystem::path& directory, const RecordingLayout& layout);
+  /// Continues after the last closed segment and returns its checkpoint through `checkpoint`; what an unfinished writer
+  /// left behind is removed. Throws InputError where there is no recording or its identity differs.
+  static RecordingWriter resume(const std::filesystem::path& directory, const RecordingLayout& layout, Checkpoint& checkpoint);
+  RecordingWriter(RecordingWriter&&) noexcept;
+  ~RecordingWriter();
+
+  void append(Frame frame);
+  void append(TableRow row);
+  /// Writes the open segment with this checkpoint: temporary file, fsync, rename, sidecar.
+  void closeSegment(const Checkpoint& checkpoint);
+
+ private:
+  struct Impl;
+  explicit RecordingWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads the closed segments of a recording; throws InputError where there is none or a segment is damaged.
+class RecordingReader {
+ public:
+  explicit RecordingReader(const std::filesystem::path& directory);
+  RecordingReader(RecordingReader&&) noexcept;
+  ~RecordingReader();
+
+  const RecordingLayout& layout() const;
+  int frameCount() const;
+  double time(int frame) const;
+  Frame frame(int index) const;
+  /// All rows of a table.
+  std::vector<std::vector<double>> table(const std::string& name) const;
+  Checkpoint lastCheckpoint() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gambeson

@@ -1,0 +1,33 @@
+#pragma once
+/// The body surface: shapes fixed to the links of a skeleton.
+
+#include <string>
+#include <vector>
+
+#include "core/contact/obstacle.hpp"
+#include "human/skeleton.hpp"
+
+namespace gambeson {
+
+/// One shape of the surface. `X_LS` is the shape's frame in its link.
+struct BodyShape {
+  int link = 0;
+  std::string name;
+  Shape shape;
+  Pose X_LS;
+};
+
+/// A skeleton with its surface. Segments are the links that carry a shape.
+struct Human {
+  Skeleton skeleton;
+  std::vector<BodyShape> shapes;
+  double mass_kg = 0;
+  double stature_m = 0;
+};
+
+/// The obstacles of a body, one per shape in the same order; the segment is the link's name.
+std::vector<Obstacle> obstaclesOf(const Human& human);
+/// Where the shapes stand for given link poses.
+std::vector<Placement> placementsOf(const Human& human, std::span<const Pose> link_poses);
+
+}  // namespace gambeson
