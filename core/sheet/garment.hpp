@@ -18,17 +18,17 @@ struct PatchEdge {
   bool reversed = false;
 };
 
-/// C0: positions joined, with a rotational spring of `stiffness_N` (moment per length and radian, N m/(m rad));
-/// G1: tangents joined through the map T (Zheng 2013, eq. 2.35), which needs a rest geometry that is G1 with a constant ratio.
+/// C0: positions joined; G1: tangents joined as well through the map T (Zheng 2013, eq. 2.35), which needs a rest geometry
+/// that is G1 with a constant ratio. At the end of a G1 seam where other than two patches (on the border) or four (inside)
+/// meet, the corner control point stays C0.
 enum class SeamKind { C0, G1 };
 
-/// Joins edge `a` to edge `b`. Where `b_from`, `b_to` are not 0 and 1, edge `a` is joined to that part of edge `b`
-/// (fractions of b's parameter range, along b's sense).
+/// Joins edge `a` to edge `b` point by point: same degree, same knots up to their range, same weights.
+/// `stiffness_N` is that of a rotational spring along the seam, moment per length and angle from rest [N m/(m rad)].
 struct Seam {
   PatchEdge a, b;
   SeamKind kind = SeamKind::G1;
   double stiffness_N = 0;
-  double b_from = 0, b_to = 1;
 };
 
 /// A layer at rest. The weft direction at a point of patch i is weft[i] projected on the rest surface.
