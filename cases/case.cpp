@@ -1,1 +1,1 @@
-#include "core/sheet/garment.hpp"
+#include "cases/run.hpp"

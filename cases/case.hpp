@@ -1,0 +1,239 @@
+#pragma once
+/// A case: everything that a run depends on, SI, read and fully validated at the door. Nothing behind it checks again.
+/// What each field means in a case file, its default and range: cases/FIELDS.md, written by the table in
+/// cases/fields_*.cpp.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "analysis/render/render.hpp"
+#include "core/material/fabric.hpp"
+#include "core/math/vec.hpp"
+#include "core/sheet/garment.hpp"
+#include "human/motion.hpp"
+
+namespace gambeson {
+
+// --- What is worn -----------------------------------------------------------------------------------------------
+
+/// A flat rectangle, one patch: corner + s width axis_u + t height axis_v, s and t in [0, 1]. The axes are unit and
+/// orthogonal.
+struct SheetGarment {
+  double width_m = 0, height_m = 0;
+  int cells_u = 16, cells_v = 16;
+  int degree = 2;
+  Vec3 corner;
+  Vec3 axis_u{1, 0, 0}, axis_v{0, 1, 0};
+};
+
+/// A circular tube from `start` along `axis` (unit), cut lengthwise into `patches` equal patches. u runs around, v
+/// along.
+struct TubeGarment {
+  double radius_m = 0, length_m = 0;
+  int cells_around = 24, cells_along = 24;
+  int degree = 2;
+  int patches = 1;
+  Vec3 start;
+  Vec3 axis{1, 0, 0};
+};
+
+/// Shorts drafted on the body of the case, six patches.
+struct ShortsGarment {
+  double inseam_m = 0.20;  ///< crotch to hem
+  double rise_m = 0.25;    ///< crotch to waist edge
+  double ease = 0.06;      ///< garment girth = (1 + ease) body girth
+  double cell_m = 0.02;    ///< wanted size of a cell
+  int degree = 2;
+};
+
+/// A garment read from a file.
+struct FileGarment {
+  std::filesystem::path path;
+};
+
+struct GarmentCase {
+  std::variant<SheetGarment, TubeGarment, ShortsGarment, FileGarment> shape;
+  /// Contact samples per cell edge; 0: the Greville points.
+  int samples_per_cell = 2;
+  /// Rotational spring of C0 seams [N m/(m rad)].
+  double seam_stiffness_N = 0.01;
+  /// Angle from a patch's u direction to the weft, about the patch's normal.
+  double weft_angle_rad = 0;
+};
+
+// --- Who wears it -----------------------------------------------------------------------------------------------
+
+struct TrajectoryMotion {
+  std::filesystem::path file;
+};
+
+struct StandMotion {
+  double duration_s = 1;
+};
+
+/// Either a manikin by name or a URDF with a body file (which may be empty: the URDF's own geometry then).
+struct HumanCase {
+  std::string manikin;
+  std::filesystem::path urdf, body;
+  std::variant<StandMotion, WalkOptions, TrajectoryMotion> motion;
+};
+
+// --- What else it touches ----------------------------------------------------------------------------------------
+
+struct EllipsoidObstacle {
+  Vec3 semi_axes_m, center_m;
+};
+
+/// Exact where rings and segments are 0; otherwise a mesh of `rings` bands from pole to pole and `segments` around (z
+/// is the axis), 2 segments (rings - 1) triangles.
+struct SphereObstacle {
+  double radius_m = 0;
+  Vec3 center_m;
+  int rings = 0, segments = 0;
+};
+
+/// A square of edge size_m about `point`, seen from the side of its unit normal.
+struct PlaneObstacle {
+  Vec3 point_m;
+  Vec3 normal{0, 0, 1};
+  double size_m = 2;
+};
+
+/// A mesh file, in metres times `scale`, moved by `position`.
+struct MeshObstacle {
+  std::filesystem::path file;
+  double scale = 1;
+  Vec3 position_m;
+};
+
+struct ObstacleCase {
+  std::string name;  ///< also the segment that forces are counted under; unique
+  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, MeshObstacle> shape;
+  Vec3 velocity_m_per_s;
+};
+
+// --- What holds it ----------------------------------------------------------------------------------------------
+
+/// An edge of the garment: by name (sheet: "u0" "u1" "v0" "v1"; tube: "start" "end"; shorts: "waist" "hem_left"
+/// "hem_right"), or, with an empty name, by patch and side.
+struct EdgeCase {
+  std::string name;
+  int patch = 0;
+  Side side = Side::u0;
+};
+
+/// Rows of control points held in the world: 1 holds the edge, 2 also its tangent.
+struct FixedSupport {
+  EdgeCase edge;
+  int rows = 1;
+};
+
+/// Elastic springs from the edge's samples to the points of a link where they stand when the springs are attached.
+struct SpringSupport {
+  EdgeCase edge;
+  double stiffness_N_per_m2 = 200;  ///< force per displacement and length of edge
+  std::string link;
+};
+
+using SupportCase = std::variant<FixedSupport, SpringSupport>;
+
+// --- How it touches, and the air -------------------------------------------------------------------------------
+
+struct ContactCase {
+  double layer_m = 0;  ///< the fabric's thickness where the file does not say
+  double friction = 0.3;
+  double relaxation_s = 0.01;  ///< tau in k = 1 - exp(-dt/tau) of the separation correction
+  double tolerance = 1e-3;     ///< relative residual of the contacts of a step
+  int max_iterations = 200;
+};
+
+struct AirCase {
+  double drag_kg_per_m2s = 0;
+  Vec3 velocity_m_per_s;
+  bool with_pelvis = false;  ///< the air moves with the pelvis's mean velocity instead
+};
+
+// --- Dressing, time, output, analysis ---------------------------------------------------------------------------
+
+/// Virtual projecting, Zheng 2013, section 6.3.
+struct Projecting {
+  double clearance_m = 0.005;  ///< free distance that the shrunk body leaves
+  double grow_s = 0.3;         ///< time in which it grows back
+};
+
+struct DressingCase {
+  std::optional<Projecting> projecting;
+  double settle_s = 0.5;  ///< time at rest before the motion starts
+};
+
+struct TimeCase {
+  /// Where absent, the motion's duration. Always present where the case has no human.
+  std::optional<double> duration_s;
+  double step_safety = 0.9;  ///< of the stable step
+  double max_step_s = 1e-3;
+};
+
+enum class PictureTime { at, peak, end };
+enum class PictureField { plain, stress, pressure, strain };
+
+struct PictureCase {
+  PictureTime when = PictureTime::end;
+  double time_s = 0;  ///< where `when` is `at`
+  PictureField field = PictureField::stress;
+  View view = View::front_right;
+  int width = 1280, height = 960;
+};
+
+struct OutputCase {
+  double window_s = 0.01;     ///< forces are impulses over this time
+  double frame_s = 0.02;      ///< a multiple of window_s
+  double checkpoint_s = 0.1;  ///< a multiple of frame_s
+  std::vector<PictureCase> pictures;
+};
+
+enum class Counting { distal_segment, all_distal };
+enum class Task { none, natural_walk };
+
+struct AnalysisCase {
+  std::vector<std::string> joints;  ///< empty: every joint that moves
+  Counting counting = Counting::distal_segment;
+  Task task = Task::none;
+};
+
+// --- The case ---------------------------------------------------------------------------------------------------
+
+struct Case {
+  std::string name, description;
+  Vec3 gravity_m_per_s2{0, 0, -9.81};
+  GarmentCase garment;
+  Fabric fabric;
+  std::optional<HumanCase> human;
+  std::vector<ObstacleCase> obstacles;
+  std::vector<SupportCase> supports;
+  ContactCase contact;
+  AirCase air;
+  DressingCase dressing;
+  TimeCase time;
+  OutputCase output;
+  AnalysisCase analysis;
+
+  std::filesystem::path file;          ///< where it was read
+  std::vector<std::string> overrides;  ///< "path=value" of the command line
+};
+
+/// Reads and checks a case file. `overrides` ("fabric.thickness=0.4 mm") replace or add values before the checks.
+/// Relative paths in the file resolve against its folder, those of overrides against the current folder.
+/// Throws InputError with file, line and key ("command line" and the key for overrides).
+Case readCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The case written out in full as JSON, every default included; readCase gives the same case back.
+std::string writeCase(const Case& c);
+
+/// Hexadecimal hash of all that the results depend on: the written-out case and the contents of the files that it
+/// names.
+std::string caseIdentity(const Case& c);
+
+}  // namespace gambeson
