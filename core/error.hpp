@@ -23,10 +23,10 @@ class InputError : public std::runtime_error {
  private:
   static std::string format(const Where& w, const std::string& reason) {
     std::string s = w.file;
-    if (w.line > 0) s += ":" + std::to_string(w.line);
-    if (!s.empty()) s += ": ";
-    if (!w.key.empty()) s += w.key + ": ";
-    return s + reason;
+    if (w.line > 0) s.append(":").append(std::to_string(w.line));  // not "a" + b: GCC 12 warns falsely (bug 105329)
+    if (!s.empty()) s.append(": ");
+    if (!w.key.empty()) s.append(w.key).append(": ");
+    return s.append(reason);
   }
   Where where_;
   std::string reason_;
