@@ -13,7 +13,8 @@ namespace gambeson {
 
 enum class JointType { fixed, revolute, prismatic };
 
-/// Angles in rad, lengths in m. `X_PJ` is the joint's frame in its parent link for the value 0; `axis` (unit) is in that frame.
+/// Angles in rad, lengths in m. `X_PJ` is the joint's frame in its parent link for the value 0; `axis` (unit) is in
+/// that frame.
 struct Joint {
   std::string name;
   JointType type = JointType::fixed;
@@ -44,8 +45,8 @@ struct Skeleton {
   bool isDistal(int a, int b) const;
 };
 
-/// The pose of each link in the world, X_WL, for joint values `q` (one per joint; those of fixed and mimic joints are ignored)
-/// and the pose of the root link.
+/// The pose of each link in the world, X_WL, for joint values `q` (one per joint; those of fixed and mimic joints are
+/// ignored) and the pose of the root link.
 std::vector<Pose> linkPoses(const Skeleton& skeleton, std::span<const double> q, const Pose& root);
 
 }  // namespace gambeson

@@ -1,0 +1,12 @@
+#pragma once
+/// The facts of human/data, compiled in (see CMakeLists.txt).
+
+#include <string_view>
+
+namespace gambeson::data {
+
+extern const std::string_view manikins;
+extern const std::string_view walk_natural;
+extern const std::string_view task_moments;
+
+}  // namespace gambeson::data

@@ -1,0 +1,62 @@
+#include "human/walk_curves.hpp"
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "human/data.hpp"
+#include "human/units.hpp"
+
+namespace gambeson {
+namespace {
+
+using Values = std::vector<double>;
+
+/// Drops the last value (phase 1) after spreading the closure error over the cycle.
+Values closed(Values x) {
+  const int n = static_cast<int>(x.size()) - 1;
+  const double error = x[n] - x[0];
+  for (int i = 0; i < n; ++i) x[i] -= error * (static_cast<double>(i) / n - 0.5);
+  x.pop_back();
+  return x;
+}
+
+/// (x(p) + sign x(p + 1/2)) / 2
+Values halfStride(const Values& x, double sign) {
+  Values y(x.size());
+  const std::size_t n = x.size();
+  for (std::size_t i = 0; i < n; ++i) y[i] = 0.5 * (x[i] + sign * x[(i + n / 2) % n]);
+  return y;
+}
+
+PeriodicSpline spline(Values x, double scale = 1, double offset = 0) {
+  for (double& v : x) v = scale * (v + offset) * rad_per_deg;
+  return PeriodicSpline(std::move(x));
+}
+
+}  // namespace
+
+WalkCurves naturalWalk() {
+  const nlohmann::json walk = nlohmann::json::parse(data::walk_natural);
+  const auto curve = [&](const char* name) { return closed(walk.at(name).get<Values>()); };
+  const auto percent = [&](const char* name) { return walk.at(name).get<double>(); };
+
+  const Values tilt = halfStride(curve("pelvis_tilt_deg"), 1);
+  const double mean_tilt = std::accumulate(tilt.begin(), tilt.end(), 0.0) / static_cast<double>(tilt.size());
+  WalkCurves c;
+  c.hip_flexion = spline(curve("hip_flexion_deg"), 1, mean_tilt);
+  c.hip_adduction = spline(curve("hip_adduction_deg"));
+  c.hip_rotation = spline(curve("hip_rotation_deg"));
+  c.knee_flexion = spline(curve("knee_flexion_deg"));
+  c.ankle_flexion = spline(curve("ankle_dorsiflexion_deg"));
+  c.shoulder_flexion = spline(curve("shoulder_flexion_deg"));
+  c.elbow_flexion = spline(curve("elbow_flexion_deg"));
+  c.pelvis_yaw = spline(halfStride(curve("pelvis_rotation_deg"), -1));
+  c.pelvis_roll = spline(halfStride(curve("pelvis_obliquity_deg"), -1), -1);  // right side up is + in the data
+  c.pelvis_pitch = spline(tilt, -1, -mean_tilt);                              // anterior tilt is - in the data
+  c.double_support = 0.5 / 100 *
+                     (percent("contralateral_foot_off_percent") + percent("ipsilateral_foot_off_percent") -
+                      percent("contralateral_foot_strike_percent"));
+  return c;
+}
+
+}  // namespace gambeson
