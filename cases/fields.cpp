@@ -1,0 +1,128 @@
+#include "cases/fields.hpp"
+
+#include "cases/case.hpp"
+#include "cases/fields_fabric.hpp"
+#include "cases/table.hpp"
+
+namespace gambeson::schema {
+namespace {
+
+Object contactTable() {
+  using C = ContactCase;
+  return Table<C>("Contact")
+      .number("layer", &C::layer_m, "m", aboveTo(0, 0.05), "distance that contact keeps between cloth and body")
+      .defaultsTo("the fabric's thickness")
+      .number("friction", &C::friction, "", between(0, 5), "Coulomb's coefficient between cloth and body")
+      .required()
+      .number("relaxation", &C::relaxation_s, "s", aboveTo(0, 1),
+              "time in which a sample inside the layer returns to its surface")
+      .number("tolerance", &C::tolerance, "", aboveTo(0, 0.1),
+              "residual to which the contacts of a step are solved together")
+      .integer("max_iterations", &C::max_iterations, 1, 100000, "iterations before a step counts as failed")
+      .build();
+}
+
+Object airTable() {
+  using A = AirCase;
+  Field velocity;
+  velocity.key = "velocity";
+  velocity.kind = Kind::vector;
+  velocity.unit = "m/s";
+  velocity.range = between(-100, 100);
+  velocity.choices = {"pelvis_mean"};
+  velocity.doc =
+      "of the air; pelvis_mean: the air moves with the pelvis's mean velocity, as if the human walked on the spot";
+  return Table<A>("Air")
+      .number("drag", &A::drag_kg_per_m2s, "kg/(m^2 s)", between(0, 1e3),
+              "force per area and relative velocity, eta of Zheng 2013")
+      .custom(
+          velocity,
+          [velocity](const Place& p, A& air) {
+            air.with_pelvis = p.node.type == JsonNode::Type::text;
+            if (air.with_pelvis)
+              readChoice(p, velocity.choices);
+            else
+              air.velocity_m_per_s = readVector(p, velocity.unit, velocity.range);
+          },
+          [](const A& air) {
+            return std::optional(air.with_pelvis ? nodeOf(std::string("pelvis_mean")) : nodeOf(air.velocity_m_per_s));
+          })
+      .build();
+}
+
+Object dressingTable() {
+  using P = Projecting;
+  using D = DressingCase;
+  return Table<D>("Dressing")
+      .object("projecting", &D::projecting,
+              Table<P>("Projecting")
+                  .number("clearance", &P::clearance_m, "m", aboveTo(0, 0.2),
+                          "free distance between garment and shrunk body at the start")
+                  .number("grow", &P::grow_s, "s", between(0.01, 60), "time in which the body grows back")
+                  .build(),
+              "virtual projecting: the body shrinks until the garment is free, then grows back into it")
+      .defaultsTo("none: the garment starts free of the body")
+      .number("settle", &D::settle_s, "s", between(0, 60), "time at rest on the body before the motion starts")
+      .build();
+}
+
+Object timeTable() {
+  using T = TimeCase;
+  return Table<T>("Time")
+      .number("duration", &T::duration_s, "s", aboveTo(0, 3600), "how long the motion is followed, after dressing")
+      .defaultsTo("the motion's own; required without a human")
+      .number("step_safety", &T::step_safety, "", aboveTo(0, 1), "time step as a part of the largest stable one")
+      .number("max_step", &T::max_step_s, "s", between(1e-8, 0.01), "largest time step")
+      .build();
+}
+
+Object analysisTable() {
+  using A = AnalysisCase;
+  return Table<A>("Analysis")
+      .texts("joints", &A::joints, "joints whose torque is reported")
+      .defaultsTo("every joint that moves")
+      .choice("counting", &A::counting,
+              std::vector<std::pair<std::string, Counting>>{{"distal_segment", Counting::distal_segment},
+                                                            {"all_distal", Counting::all_distal}},
+              "contact forces that count for a joint: on the segment just beyond it (Man 2006, chapter 5), or on all "
+              "beyond it")
+      .choice("task", &A::task,
+              std::vector<std::pair<std::string, Task>>{{"none", Task::none}, {"natural_walk", Task::natural_walk}},
+              "natural moments that torques are compared with")
+      .build();
+}
+
+Object makeCaseTable() {
+  using C = Case;
+  return Table<C>("Case")
+      .text("name", &C::name, "title of the pictures and the report")
+      .required()
+      .text("description", &C::description, "what the case is about")
+      .vector("gravity", &C::gravity_m_per_s2, "m/s^2", between(-1e3, 1e3), "acceleration of free fall")
+      .object("garment", &C::garment, garmentTable(), "what is worn: its shape and how finely it is computed")
+      .required()
+      .converted<FabricInput>("fabric", &C::fabric, fabricTable(), resolveFabric, restoreFabric,
+                              "what the garment is made of")
+      .required()
+      .object("human", &C::human, humanTable(), "who wears it, and the motion")
+      .defaultsTo("nobody")
+      .list("obstacles", &C::obstacles, obstacleTable(), "other things that the cloth touches")
+      .list("supports", &C::supports, supportTable(), "what holds the garment")
+      .object("contact", &C::contact, contactTable(), "how cloth touches")
+      .defaultsTo("required with a human or obstacles")
+      .object("air", &C::air, airTable(), "drag of the air")
+      .object("dressing", &C::dressing, dressingTable(), "how the garment gets on the body")
+      .object("time", &C::time, timeTable(), "how long, and in which steps")
+      .object("output", &C::output, outputTable(), "what is recorded and pictured")
+      .object("analysis", &C::analysis, analysisTable(), "which torques, and compared with what")
+      .build();
+}
+
+}  // namespace
+
+const Object& caseTable() {
+  static const Object table = makeCaseTable();
+  return table;
+}
+
+}  // namespace gambeson::schema

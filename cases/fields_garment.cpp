@@ -1,0 +1,89 @@
+#include "cases/case.hpp"
+#include "cases/fields.hpp"
+#include "cases/table.hpp"
+
+namespace gambeson::schema {
+namespace {
+
+Object sheetTable() {
+  using S = SheetGarment;
+  return Table<S>("Sheet")
+      .number("width", &S::width_m, "m", aboveTo(0, 100), "length along axis_u")
+      .required()
+      .number("height", &S::height_m, "m", aboveTo(0, 100), "length along axis_v")
+      .required()
+      .integer("cells_u", &S::cells_u, 1, 1000, "cells along u; there are cells + degree control points")
+      .integer("cells_v", &S::cells_v, 1, 1000, "cells along v")
+      .integer("degree", &S::degree, 1, 5, "polynomial degree; 1 does not feel bending")
+      .vector("corner", &S::corner, "m", between(-1e3, 1e3), "the corner u = v = 0 in the world")
+      .direction("axis_u", &S::axis_u, "direction of u, the weft where weft_angle is 0")
+      .direction("axis_v", &S::axis_v, "direction of v; at right angles to axis_u")
+      .check([](const Place& p, const S& s) {
+        if (!(std::abs(dot(s.axis_u, s.axis_v)) < 1e-6))
+          p.failAt("axis_v", "is not at right angles to axis_u; allowed: 90 deg");
+      })
+      .build();
+}
+
+Object tubeTable() {
+  using T = TubeGarment;
+  return Table<T>("Tube")
+      .number("radius", &T::radius_m, "m", aboveTo(0, 10), "radius at rest")
+      .required()
+      .number("length", &T::length_m, "m", aboveTo(0, 100), "length")
+      .required()
+      .integer("cells_around", &T::cells_around, 3, 1000, "cells around, all patches together")
+      .integer("cells_along", &T::cells_along, 1, 1000, "cells along")
+      .integer("degree", &T::degree, 2, 5, "polynomial degree")
+      .integer("patches", &T::patches, 1, 12, "equal patches around, joined lengthwise by seams")
+      .vector("start", &T::start, "m", between(-1e3, 1e3), "centre of the first ring, the edge \"start\"")
+      .direction("axis", &T::axis, "direction from the edge \"start\" to the edge \"end\"")
+      .check([](const Place& p, const T& t) {
+        if (t.cells_around % t.patches != 0)
+          p.failAt("cells_around", "is not a multiple of patches; allowed: a multiple");
+      })
+      .build();
+}
+
+Object shortsTable() {
+  using S = ShortsGarment;
+  return Table<S>("Shorts")
+      .number("inseam", &S::inseam_m, "m", between(0.02, 0.6), "length of the inner leg, crotch to hem")
+      .number("rise", &S::rise_m, "m", between(0.1, 0.5), "height of the waist edge above the crotch")
+      .number("ease", &S::ease, "", between(0, 0.5), "how much wider than the body: girth = (1 + ease) body girth")
+      .number("cell", &S::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
+      .integer("degree", &S::degree, 2, 5, "polynomial degree")
+      .build();
+}
+
+Object fileTable() {
+  return Table<FileGarment>("Garment file")
+      .path("path", &FileGarment::path, "file with patches and seams, relative to the case's folder")
+      .required()
+      .build();
+}
+
+}  // namespace
+
+Object garmentTable() {
+  using G = GarmentCase;
+  return Table<G>("Garment")
+      .alternative<SheetGarment>("sheet", &G::shape, sheetTable(), "a flat rectangle")
+      .in("shape")
+      .alternative<TubeGarment>("tube", &G::shape, tubeTable(), "a circular tube, a sleeve say")
+      .in("shape")
+      .alternative<ShortsGarment>("shorts", &G::shape, shortsTable(),
+                                  "shorts of six patches drafted on the human of the case")
+      .in("shape")
+      .alternative<FileGarment>("file", &G::shape, fileTable(), "a garment from a file")
+      .in("shape")
+      .oneOf("shape", true)
+      .integer("samples_per_cell", &G::samples_per_cell, 0, 8,
+               "contact samples along the edge of a cell; 0: one per control point (Greville points)")
+      .number("seam_stiffness", &G::seam_stiffness_N, "N/rad", between(0, 1e4),
+              "rotational spring of seams that meet at an angle: moment per length and angle")
+      .number("weft_angle", &G::weft_angle_rad, "rad", between(-3.2, 3.2), "from a patch's u direction to the weft")
+      .build();
+}
+
+}  // namespace gambeson::schema

@@ -1,0 +1,127 @@
+#include "cases/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace gambeson::schema {
+namespace {
+
+/// Complains at the deepest part of `keys` that is written.
+[[noreturn]] void failAt(const Place& place, std::initializer_list<std::string> keys, const std::string& reason) {
+  if (keys.size() == 1) place.failAt(*keys.begin(), reason);
+  const JsonNode* child = place.node.find(*keys.begin());
+  if (child) {
+    const std::vector<std::string> rest(keys.begin() + 1, keys.end());
+    const Place inner = place.member(*child);
+    if (rest.size() == 1) inner.failAt(rest[0], reason);
+    const JsonNode* next = inner.node.find(rest[0]);
+    if (next) inner.member(*next).failAt(rest[1], reason);
+    inner.failAt(rest[0], reason);
+  }
+  std::string path;
+  for (const std::string& k : keys) path += (path.empty() ? "" : ".") + k;
+  place.failAt(path, reason);
+}
+
+Place itemOf(const Place& root, const std::string& list, std::size_t i) {
+  return root.member(*root.node.find(list)).item(i);
+}
+
+std::vector<std::string> edgeNames(const GarmentCase& g) {
+  if (std::holds_alternative<SheetGarment>(g.shape)) return {"u0", "u1", "v0", "v1"};
+  if (std::holds_alternative<TubeGarment>(g.shape)) return {"start", "end"};
+  if (std::holds_alternative<ShortsGarment>(g.shape)) return {"waist", "hem_left", "hem_right"};
+  return {};
+}
+
+/// Patches of the garment; 0 where only its file knows.
+int patchCount(const GarmentCase& g) {
+  if (std::holds_alternative<SheetGarment>(g.shape)) return 1;
+  if (const auto* tube = std::get_if<TubeGarment>(&g.shape)) return tube->patches;
+  if (std::holds_alternative<ShortsGarment>(g.shape)) return 6;
+  return 0;
+}
+
+void checkEdge(const Place& support, const GarmentCase& garment, const EdgeCase& edge) {
+  if (!edge.name.empty()) {
+    const std::vector<std::string> names = edgeNames(garment);
+    if (std::find(names.begin(), names.end(), edge.name) == names.end())
+      support.failAt("edge", fmt::format("\"{}\" is not an edge of this garment; allowed: {}", edge.name,
+                                         names.empty() ? "patch and side, such as 2.u0" : joined(names)));
+    return;
+  }
+  const int patches = patchCount(garment);
+  if (patches > 0 && edge.patch >= patches)
+    support.failAt("edge", fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
+}
+
+void checkSupports(const Place& root, const Case& c) {
+  for (std::size_t i = 0; i < c.supports.size(); ++i) {
+    const Place place = itemOf(root, "supports", i);
+    const Place support = place.member(place.node.children.front());
+    std::visit([&](const auto& s) { checkEdge(support, c.garment, s.edge); }, c.supports[i]);
+    if (std::holds_alternative<SpringSupport>(c.supports[i]) && !c.human)
+      support.failAt("link", "springs tie the garment to a human, and the case has none");
+  }
+}
+
+void checkObstacles(const Place& root, const Case& c) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < c.obstacles.size(); ++i)
+    if (!names.insert(c.obstacles[i].name).second)
+      itemOf(root, "obstacles", i)
+          .failAt("name", fmt::format("\"{}\" names two obstacles; allowed: a name of its own", c.obstacles[i].name));
+}
+
+void checkWithoutHuman(const Place& root, const Case& c) {
+  if (std::holds_alternative<ShortsGarment>(c.garment.shape))
+    failAt(root, {"garment", "shorts"}, "shorts are drafted on a human, and the case has none");
+  if (!c.time.duration_s) failAt(root, {"time", "duration"}, "is required without a human; allowed: > 0 s");
+  if (c.air.with_pelvis) failAt(root, {"air", "velocity"}, "\"pelvis_mean\" needs a human, and the case has none");
+  if (c.dressing.projecting)
+    failAt(root, {"dressing", "projecting"}, "projecting dresses a human, and the case has none");
+  if (c.dressing.settle_s > 0)
+    failAt(root, {"dressing", "settle"}, "a garment settles on a human, and the case has none");
+  if (!c.analysis.joints.empty())
+    failAt(root, {"analysis", "joints"}, "joints are those of a human, and the case has none");
+}
+
+/// Time that the motion is followed, where the case alone says it.
+std::optional<double> knownDuration(const Case& c) {
+  if (c.time.duration_s) return c.time.duration_s;
+  if (!c.human) return std::nullopt;
+  if (const auto* stand = std::get_if<StandMotion>(&c.human->motion)) return stand->duration_s;
+  if (const auto* walk = std::get_if<WalkOptions>(&c.human->motion))
+    return walk->stand_s + walk->lead_in_s + walk->strides * walk->stride_time_s;
+  return std::nullopt;
+}
+
+void checkPictures(const Place& root, const Case& c) {
+  const std::optional<double> duration = knownDuration(c);
+  for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
+    const PictureCase& p = c.output.pictures[i];
+    if (p.when == PictureTime::at && duration && !(p.time_s <= *duration * (1 + 1e-9))) {
+      const Place list = root.member(*root.node.find("output"));
+      itemOf(list, "pictures", i)
+          .failAt("time", fmt::format("{} s is out of range; allowed: 0 to {} s, peak or end", p.time_s, *duration));
+    }
+  }
+}
+
+}  // namespace
+
+void applyRules(const Place& root, Case& c) {
+  if ((c.human || !c.obstacles.empty()) && !root.node.find("contact"))
+    root.failAt("contact", "is required where there is a human or an obstacle: at least its friction");
+  if (c.contact.layer_m == 0) c.contact.layer_m = c.fabric.thickness_m;
+  if (!c.human) checkWithoutHuman(root, c);
+  checkSupports(root, c);
+  checkObstacles(root, c);
+  checkPictures(root, c);
+  if (c.analysis.task == Task::natural_walk && !(c.human && std::holds_alternative<WalkOptions>(c.human->motion)))
+    failAt(root, {"analysis", "task"}, "natural_walk compares with walking, and the human does not walk");
+}
+
+}  // namespace gambeson::schema

@@ -1,0 +1,61 @@
+#include "cases/table.hpp"
+
+#include <cmath>
+
+namespace gambeson::schema {
+
+JsonNode nodeOf(double x) {
+  JsonNode n;
+  n.type = JsonNode::Type::number;
+  n.number = x;
+  return n;
+}
+
+JsonNode nodeOf(const std::string& s) {
+  JsonNode n;
+  n.type = JsonNode::Type::text;
+  n.text = s;
+  return n;
+}
+
+JsonNode nodeOf(const Vec3& v) {
+  JsonNode n = emptyList();
+  for (int i = 0; i < 3; ++i) n.children.push_back(nodeOf(v[i]));
+  return n;
+}
+
+JsonNode emptyList() {
+  JsonNode n;
+  n.type = JsonNode::Type::list;
+  return n;
+}
+
+Vec3 readVector(const Place& place, const std::string& unit, const Range& range) {
+  if (place.node.type != JsonNode::Type::list || place.node.children.size() != 3)
+    place.fail("expected a list of three numbers [x, y, z], not " + describe(place.node));
+  Vec3 v;
+  for (int i = 0; i < 3; ++i) v[i] = readNumber(place.item(static_cast<std::size_t>(i)), unit, range);
+  return v;
+}
+
+Vec3 readDirection(const Place& place) {
+  const Vec3 v = readVector(place, "", between(-1e6, 1e6));
+  if (!(norm(v) > 1e-6)) place.fail("a direction cannot have the length 0; allowed: a length above 1e-6");
+  return normalized(v);
+}
+
+std::filesystem::path readPath(const Place& place) {
+  const std::string& text = readText(place);
+  if (text.find('\0') != std::string::npos || text.size() > 4000) place.fail("this is not the name of a file");
+  const bool from_command_line = place.node.line == 0;
+  const std::filesystem::path base =
+      from_command_line ? std::filesystem::current_path() : std::filesystem::absolute(place.file).parent_path();
+  const std::filesystem::path path = (base / text).lexically_normal();
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) place.fail("there is no file " + path.string());
+  if (!std::filesystem::is_regular_file(status)) place.fail(path.string() + " is not a file");
+  return path;
+}
+
+}  // namespace gambeson::schema
