@@ -1,5 +1,6 @@
 #pragma once
-/// NURBS of any degree: knots, basis functions and surfaces (Zheng 2013, section 2.1; Piegl and Tiller, The NURBS Book).
+/// NURBS of any degree: knots, basis functions and surfaces (Zheng 2013, section 2.1; Piegl and Tiller, The NURBS
+/// Book).
 
 #include <array>
 #include <span>
@@ -26,7 +27,8 @@ KnotVector uniformKnots(int degree, int cells);
 std::vector<double> breakpoints(const KnotVector& knots);
 /// Greville points, the averages of `degree` consecutive inner knots, one per basis function.
 std::vector<double> grevillePoints(const KnotVector& knots);
-/// The index s with knots[s] <= u < knots[s + 1] (the last non-empty cell at the end); the functions s - p .. s are non-zero.
+/// The index s with knots[s] <= u < knots[s + 1] (the last non-empty cell at the end); the functions s - p .. s are
+/// non-zero.
 int findSpan(const KnotVector& knots, double u);
 /// Basis functions s - p .. s and their derivatives up to `order` at u: out[d * (p + 1) + i], zero for d > p.
 /// Piegl and Tiller, algorithm A2.3.
@@ -57,11 +59,13 @@ SurfaceBasis surfaceBasis(const NurbsPatch& patch, double u, double v);
 std::array<Vec3, 6> surfaceDerivatives(const NurbsPatch& patch, double u, double v);
 
 enum class Direction { u, v };
-/// Boehm's knot insertion, `times` times; geometry and parameterisation stay exact. The multiplicity may not exceed the degree.
+/// Boehm's knot insertion, `times` times; geometry and parameterisation stay exact. The knot lies strictly inside the
+/// range and its multiplicity may not exceed the degree; InputError otherwise.
 NurbsPatch insertKnot(const NurbsPatch& patch, Direction direction, double knot, int times = 1);
 /// The same for a list of knots (repeated entries repeat).
 NurbsPatch insertKnots(const NurbsPatch& patch, Direction direction, std::span<const double> knots);
-/// Degree raised by `by`; geometry and parameterisation stay exact, continuity at inner knots is kept.
+/// Degree raised by `by`; geometry and parameterisation stay exact, continuity at inner knots is kept. The knots of the
+/// result are clamped at both ends.
 NurbsPatch elevateDegree(const NurbsPatch& patch, Direction direction, int by = 1);
 
 }  // namespace gambeson

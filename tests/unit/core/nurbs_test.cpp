@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -180,6 +181,73 @@ TEST(Surface, QuarterCylinderIsExact) {
       EXPECT_NEAR(norm(x[4]), 0, 1e-12);
       EXPECT_NEAR(norm(x[5]), 0, 1e-12);
     }
+}
+
+/// Largest difference of position and of derivatives over the same parameters, over the size of the value.
+double largestChange(const NurbsPatch& a, const NurbsPatch& b) {
+  double worst = 0;
+  for (double u : samples(a.u, 5))
+    for (double v : samples(a.v, 5)) {
+      const auto xa = surfaceDerivatives(a, u, v), xb = surfaceDerivatives(b, u, v);
+      for (int d = 0; d < 3; ++d) worst = std::max(worst, norm(xa[d] - xb[d]) / (1 + norm(xa[d])));
+    }
+  return worst;
+}
+
+TEST(Refine, KnotInsertionKeepsGeometry) {
+  for (int p = 1; p <= 5; ++p) {
+    const NurbsPatch s = wavyPatch(p, 6 - p);
+    NurbsPatch t = insertKnot(s, Direction::u, 0.5, p);
+    t = insertKnots(t, Direction::v, std::vector<double>{0.2, 0.35, 0.9});
+    if (p > 1) t = insertKnot(t, Direction::u, 0.1);
+    validate(t);
+    EXPECT_EQ(t.u.count(), s.u.count() + p + (p > 1));
+    EXPECT_EQ(t.v.count(), s.v.count() + 3);
+    EXPECT_LT(largestChange(s, t), 1e-13) << p;
+  }
+}
+
+TEST(Refine, KnotInsertionIntoUnclampedKnots) {
+  NurbsPatch s = wavyPatch(3, 1);
+  s.u.knots = {0, 0.1, 0.25, 0.5, 0.7, 1, 1.1, 1.3, 1.4, 1.7, 2};
+  validate(s);
+  EXPECT_LT(largestChange(s, insertKnot(s, Direction::u, 0.6, 2)), 1e-13);
+  EXPECT_LT(largestChange(s, elevateDegree(s, Direction::u)), 1e-13);
+}
+
+TEST(Refine, InsertionToFullMultiplicityPutsAControlPointOnTheSurface) {
+  const NurbsPatch s = quarterCylinder(0.5, 1), t = insertKnot(s, Direction::u, 0.25, 2);
+  EXPECT_LT(norm(t.points[t.index(2, 0)] - surfaceDerivatives(s, 0.25, 0)[0]), 1e-15);
+}
+
+TEST(Refine, DegreeElevationKeepsGeometryAndContinuity) {
+  for (int p = 1; p <= 5; ++p) {
+    const NurbsPatch s = wavyPatch(p, 6 - p);
+    const NurbsPatch t = elevateDegree(elevateDegree(s, Direction::u, 2), Direction::v);
+    validate(t);
+    EXPECT_EQ(t.u.degree, p + 2);
+    EXPECT_EQ(t.v.degree, 7 - p);
+    // Three inner knots of multiplicity 1 become 3: the continuity stays p - 1.
+    EXPECT_EQ(std::count(t.u.knots.begin(), t.u.knots.end(), 0.35), 3);
+    EXPECT_LT(largestChange(s, t), 1e-13) << p;
+  }
+}
+
+TEST(Refine, ElevatedCircleHasTheBookWeights) {
+  // (1, w, 1) of degree 2 becomes (1, (1 + 2 w)/3, (1 + 2 w)/3, 1) of degree 3 (The NURBS Book, eq. 5.36).
+  const NurbsPatch t = elevateDegree(quarterCylinder(1, 1), Direction::u);
+  const double w = (1 + 2 * std::sqrt(0.5)) / 3;
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(t.weights[i], i % 3 ? w : 1, 1e-15);
+}
+
+TEST(Refine, RejectsBadRequests) {
+  const NurbsPatch s = wavyPatch(2, 3);
+  EXPECT_EQ(rejection([&] { insertKnot(s, Direction::u, -0.5); }), "knot");
+  EXPECT_EQ(rejection([&] { insertKnot(s, Direction::u, 1.25); }), "knot");
+  EXPECT_EQ(rejection([&] { insertKnot(s, Direction::u, std::nan("")); }), "knot");
+  EXPECT_EQ(rejection([&] { insertKnot(s, Direction::u, 0.35, 2); }), "knot");
+  EXPECT_EQ(rejection([&] { insertKnot(s, Direction::u, 0.36, -1); }), "times");
+  EXPECT_EQ(rejection([&] { elevateDegree(s, Direction::u, -1); }), "by");
 }
 
 TEST(Surface, RejectsBadPatches) {
