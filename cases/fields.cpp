@@ -62,7 +62,8 @@ Object dressingTable() {
                   .build(),
               "virtual projecting: the body shrinks until the garment is free, then grows back into it")
       .defaultsTo("none: the garment starts free of the body")
-      .number("settle", &D::settle_s, "s", between(0, 60), "time at rest on the body before the motion starts")
+      .number("settle", &D::settle_s, "s", between(0, 60),
+              "time at rest on the body before the motion starts; 0 without a human")
       .build();
 }
 

@@ -15,6 +15,7 @@ Object fabricTable();    ///< FabricInput, see fields_fabric.hpp
 Object humanTable();     ///< HumanCase
 Object obstacleTable();  ///< ObstacleCase
 Object supportTable();   ///< SupportCase
+Object pictureTable();   ///< PictureCase
 Object outputTable();    ///< OutputCase
 
 }  // namespace gambeson::schema

@@ -11,6 +11,8 @@ namespace {
 
 bool isMultiple(double a, double of) { return a >= of * (1 - 1e-9) && std::abs(a / of - std::round(a / of)) < 1e-6; }
 
+}  // namespace
+
 Object pictureTable() {
   using P = PictureCase;
   Field time;
@@ -51,8 +53,6 @@ Object pictureTable() {
       .integer("height", &P::height, 64, 8192, "pixels")
       .build();
 }
-
-}  // namespace
 
 Object outputTable() {
   using O = OutputCase;

@@ -75,15 +75,17 @@ void checkObstacles(const Place& root, const Case& c) {
           .failAt("name", fmt::format("\"{}\" names two obstacles; allowed: a name of its own", c.obstacles[i].name));
 }
 
-void checkWithoutHuman(const Place& root, const Case& c) {
+void checkWithoutHuman(const Place& root, Case& c) {
   if (std::holds_alternative<ShortsGarment>(c.garment.shape))
     failAt(root, {"garment", "shorts"}, "shorts are drafted on a human, and the case has none");
   if (!c.time.duration_s) failAt(root, {"time", "duration"}, "is required without a human; allowed: > 0 s");
   if (c.air.with_pelvis) failAt(root, {"air", "velocity"}, "\"pelvis_mean\" needs a human, and the case has none");
   if (c.dressing.projecting)
     failAt(root, {"dressing", "projecting"}, "projecting dresses a human, and the case has none");
-  if (c.dressing.settle_s > 0)
+  const JsonNode* dressing = root.node.find("dressing");
+  if (dressing && dressing->find("settle") && c.dressing.settle_s > 0)
     failAt(root, {"dressing", "settle"}, "a garment settles on a human, and the case has none");
+  c.dressing.settle_s = 0;
   if (!c.analysis.joints.empty())
     failAt(root, {"analysis", "joints"}, "joints are those of a human, and the case has none");
 }

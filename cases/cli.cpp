@@ -1,0 +1,196 @@
+#include "cases/cli.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <ostream>
+
+#include "cases/case.hpp"
+#include "cases/fields.hpp"
+#include "cases/run.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr int done = 0, failed = 1, bad_input = 2;
+
+struct CheckArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  bool full = false, schema = false, doc = false;
+};
+
+struct RunArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  std::string device = "auto";
+  RunOptions options;
+};
+
+struct RenderArguments {
+  RenderOptions options;
+  std::string field = "stress", time = "end", view = "front_right", size = "1280x960";
+};
+
+void addOverrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command
+      .add_option("--set", overrides,
+                  "Replaces a value of the case, as often as needed: --set fabric.thickness=\"0.4 mm\" --set "
+                  "output.pictures[0].time=peak")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+void addRun(CLI::App& app, RunArguments& a) {
+  CLI::App& run =
+      *app.add_subcommand("run", "Runs a case: dresses the human, lets it move, measures, takes pictures, reports");
+  run.add_option("CASE", a.file, "Case file (JSON)")->required();
+  run.add_option("--out", a.options.out, "Folder for the results [results/<name of the case file>]")->type_name("DIR");
+  run.add_option("--threads", a.options.threads,
+                 "Threads; 0 takes all that the machine has. The results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  run.add_flag("--resume", a.options.resume,
+               "Continues an interrupted run in the same folder from its last checkpoint");
+  addOverrides(run, a.overrides);
+  run.add_option("--device", a.device, "Where to compute: auto, cpu or cuda")
+      ->type_name("DEVICE")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+      ->capture_default_str();
+  run.footer(
+      "Leaves in DIR: report.html (start here), summary.json, torques.csv, contact.csv, stress.csv,\n"
+      "the recording for ParaView, and snapshots/.\n\n"
+      "Examples:\n"
+      "  gambeson run cases/library/shorts_walk.json\n"
+      "  gambeson run cases/library/shorts_walk.json --out thin --set fabric.thickness=\"0.4 mm\"\n"
+      "  gambeson run cases/library/sleeve_flex.json --set contact.friction=0.5\n\n"
+      "Exit status: 0 done; 1 the run failed, the message says why; 2 something in the input is wrong.");
+}
+
+void addCheck(CLI::App& app, CheckArguments& a) {
+  CLI::App& check = *app.add_subcommand("check", "Checks a case without running it");
+  check.add_option("CASE", a.file, "Case file (JSON)");
+  addOverrides(check, a.overrides);
+  check.add_flag("--full", a.full, "Prints the case with all defaults written out, in SI");
+  check.add_flag("--schema", a.schema,
+                 "Prints the JSON Schema of cases, for editors that complete and check while you write");
+  check.add_flag("--doc", a.doc, "Prints what every field of a case means (Markdown)");
+  check.footer(
+      "Examples:\n"
+      "  gambeson check my_case.json\n"
+      "  gambeson check my_case.json --full --set garment.shorts.ease=\"10 %\"\n"
+      "  gambeson check --schema > case.schema.json\n\n"
+      "Exit status: 0 the case is valid; 2 it is not, and the message says file, line, key and what is allowed.");
+}
+
+void addRender(CLI::App& app, RenderArguments& a) {
+  CLI::App& render = *app.add_subcommand("render", "Takes a picture of recorded results");
+  render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->required();
+  render.add_option("--field", a.field, "What the colours show: stress, pressure, strain or plain")
+      ->capture_default_str();
+  render.add_option("--time", a.time, "A time such as 1.2 or \"1200 ms\"; or peak (largest joint torque) or end")
+      ->capture_default_str();
+  render.add_option("--view", a.view, "From where: " + schema::joined(viewNames()))->capture_default_str();
+  render.add_option("--size", a.size, "Pixels, width x height")->type_name("WxH")->capture_default_str();
+  render.add_option("-o,--output", a.options.png, "Picture to write (PNG)")->type_name("PNG")->required();
+  render.footer(
+      "Examples:\n"
+      "  gambeson render results/shorts_walk -o peak.png --time peak\n"
+      "  gambeson render results/shorts_walk -o back.png --field pressure --view back --time 1.35 --size 1920x1080");
+}
+
+void addReport(CLI::App& app, ReportOptions& options) {
+  CLI::App& report = *app.add_subcommand("report", "Writes the report page of recorded results again");
+  report.add_option("RESULTS", options.results, "Folder that gambeson run left")->required();
+  report.add_option("-o,--output", options.html, "Page to write: one HTML file that needs no other")
+      ->type_name("HTML")
+      ->required();
+  report.footer("Example:\n  gambeson report results/shorts_walk -o shorts.html");
+}
+
+int check(const CheckArguments& a, std::ostream& out) {
+  if (a.schema) out << schema::jsonSchema(schema::caseTable());
+  if (a.doc) out << schema::markdown(schema::caseTable());
+  if (a.file.empty()) {
+    if (a.schema || a.doc) return done;
+    throw InputError({"command line", 0, "CASE"}, "is required: the case file to check");
+  }
+  const Case c = readCase(a.file, a.overrides);
+  out << (a.full ? writeCase(c) : fmt::format("{}: valid\n", a.file.string()));
+  return done;
+}
+
+int run(RunArguments& a) {
+  if (a.device == "cuda")
+    throw InputError({"command line", 0, "--device"}, "\"cuda\" is not in this build; allowed: auto or cpu");
+  const Case c = readCase(a.file, a.overrides);
+  if (a.options.out.empty()) a.options.out = std::filesystem::path("results") / a.file.stem();
+  return runCase(c, a.options);
+}
+
+/// A picture's options go through the same table as the pictures of a case.
+int render(RenderArguments& a) {
+  JsonNode node;
+  node.type = JsonNode::Type::object;
+  overrideValue(node, "field", a.field);
+  overrideValue(node, "time", a.time);
+  overrideValue(node, "view", a.view);
+  const std::size_t x = a.size.find('x');
+  if (x == std::string::npos)
+    throw InputError({"command line", 0, "--size"},
+                     fmt::format("\"{}\" is not a size; allowed: such as 1280x960", a.size));
+  overrideValue(node, "width", a.size.substr(0, x));
+  overrideValue(node, "height", a.size.substr(x + 1));
+  PictureCase picture;
+  const std::string none;
+  schema::readObject(schema::pictureTable(), {node, "", none}, &picture);
+  a.options.field = picture.field;
+  a.options.when = picture.when;
+  a.options.time_s = picture.time_s;
+  a.options.view = picture.view;
+  a.options.width = picture.width;
+  a.options.height = picture.height;
+  return renderResults(a.options);
+}
+
+}  // namespace
+
+int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  CLI::App app{
+      "Gambeson: what a garment costs its wearer.\n\nDresses a digital human in cloth, lets it move, and measures the "
+      "joint torques that the garment adds.",
+      "gambeson"};
+  app.set_version_flag("--version", "gambeson " GAMBESON_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Start with:\n"
+      "  gambeson run cases/library/shorts_walk.json\n\n"
+      "gambeson SUBCOMMAND --help says more. The fields of a case: cases/FIELDS.md, or gambeson check --doc.");
+  RunArguments run_arguments;
+  CheckArguments check_arguments;
+  RenderArguments render_arguments;
+  ReportOptions report_options;
+  addRun(app, run_arguments);
+  addCheck(app, check_arguments);
+  addRender(app, render_arguments);
+  addReport(app, report_options);
+  try {
+    app.parse(argc, argv);
+    if (app.got_subcommand("run")) return run(run_arguments);
+    if (app.got_subcommand("check")) return check(check_arguments, out);
+    if (app.got_subcommand("render")) return render(render_arguments);
+    return reportResults(report_options);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e, out, err) == 0 ? done : bad_input;
+  } catch (const InputError& e) {
+    err << e.what() << '\n';
+    return bad_input;
+  } catch (const std::exception& e) {
+    err << "gambeson failed: " << e.what() << '\n';
+    return failed;
+  }
+}
+
+}  // namespace gambeson

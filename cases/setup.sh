@@ -1,0 +1,54 @@
+# Shared by cases/quickstart and tests/run: installs what is missing with apt-get (Debian 12, Ubuntu 24.04), configures and builds the release.
+# To be sourced with the current folder at the root of the sources. `build` is the build folder, `cmake_options` what
+# the caller adds to the configuration.
+
+packages=(g++ cmake ninja-build pkg-config libeigen3-dev liburdfdom-dev libassimp-dev libsuitesparse-dev libosmesa6-dev
+  nlohmann-json3-dev libcli11-dev libfmt-dev libhdf5-dev libfreetype-dev libpng-dev zlib1g-dev fonts-dejavu-core)
+test_packages=(libgtest-dev libbenchmark-dev)
+build=build/release
+cmake_options=()
+
+# Runs a command as root: directly, or through sudo.
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    echo "This needs root: install sudo, or run as root: $*" >&2
+    return 1
+  fi
+}
+
+# install_packages NAME...: those of them that are not there yet.
+install_packages() {
+  local missing=() name
+  for name in "$@"; do
+    dpkg-query -W -f='${db:Status-Status}\n' "$name" 2>/dev/null | grep -qx installed || missing+=("$name")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  if ! command -v apt-get >/dev/null; then
+    echo "These packages are missing, and there is no apt-get to install them with: ${missing[*]}" >&2
+    return 1
+  fi
+  echo "Installing: ${missing[*]}"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+# build_release [TARGET...]: configures and builds, everything where no target is named. As many compilers at once as there are
+# cores, but no more than one for each 1.5 GB of memory.
+build_release() {
+  local jobs memory_kb by_memory
+  jobs=$(nproc)
+  memory_kb=$(awk '/^MemAvailable:/ {print $2}' /proc/meminfo)
+  by_memory=$((memory_kb / 1500000))
+  [ "$by_memory" -ge 1 ] || by_memory=1
+  [ "$jobs" -le "$by_memory" ] || jobs=$by_memory
+  cmake --preset release "${cmake_options[@]}"
+  if [ $# -gt 0 ]; then
+    cmake --build "$build" --parallel "$jobs" --target "$@"
+  else
+    cmake --build "$build" --parallel "$jobs"
+  fi
+}
