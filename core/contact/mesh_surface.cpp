@@ -1,0 +1,212 @@
+#include "core/contact/mesh_surface.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "core/contact/triangle.hpp"
+
+namespace gambeson {
+
+namespace {
+
+Vec3 unitOrZero(const Vec3& v) {
+  const double l = norm(v);
+  return l > 0 ? v / l : Vec3{};
+}
+
+std::vector<Box> triangleBoxes(std::span<const Vec3> x, std::span<const std::array<int, 3>> triangles) {
+  std::vector<Box> boxes(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int i : triangles[t]) boxes[t].add(x[i]);
+  return boxes;
+}
+
+}  // namespace
+
+MeshSurface::MeshSurface(const TriangleMesh& mesh)
+    : topology_(meshTopology(mesh)), tree_(triangleBoxes(mesh.vertices, topology_.triangles)) {
+  faces_.resize(topology_.triangles.size());
+  std::vector<char> vertex_owned(mesh.vertices.size(), 0);
+  for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
+    const auto& c = topology_.edge_faces[topology_.edge_begin[e]];
+    faces_[c.face].owns_edges |= static_cast<unsigned char>(1 << c.k);
+  }
+  for (std::size_t t = 0; t < faces_.size(); ++t) {
+    if (topology_.collapsed(static_cast<int>(t))) continue;
+    for (int k = 0; k < 3; ++k) {
+      char& owned = vertex_owned[topology_.triangles[t][k]];
+      if (!owned) faces_[t].owns_vertices |= static_cast<unsigned char>(1 << k);
+      owned = 1;
+    }
+  }
+  refit(mesh.vertices);
+}
+
+void MeshSurface::refit(std::span<const Vec3> vertices) {
+  assert(vertices.size() == topology_.vertex_of.size());
+  x_.assign(vertices.begin(), vertices.end());
+  tree_.refit(triangleBoxes(x_, topology_.triangles));
+  tolerance_m_ = 1e-10 * norm(tree_.bounds().halfSize());
+  edge_frames_.assign(topology_.edges.size(), {});
+  vertex_normals_.assign(x_.size(), {});
+  for (std::size_t e = 0; e < edge_frames_.size(); ++e) {
+    const Vec3 d = x_[topology_.edges[e].w] - x_[topology_.edges[e].v];
+    edge_frames_[e].length_m = norm(d);
+    edge_frames_[e].direction = unitOrZero(d);
+  }
+  for (std::size_t t = 0; t < faces_.size(); ++t) {
+    if (topology_.collapsed(static_cast<int>(t))) continue;
+    const auto& c = topology_.triangles[t];
+    Face& f = faces_[t];
+    f.normal = unitOrZero(cross(x_[c[1]] - x_[c[0]], x_[c[2]] - x_[c[0]]));
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 e = x_[c[(k + 1) % 3]] - x_[c[k]], back = x_[c[(k + 2) % 3]] - x_[c[k]];
+      f.inward[k] = unitOrZero(cross(f.normal, e));
+      edge_frames_[topology_.face_edges[t][k]].normal += f.normal;
+      vertex_normals_[c[k]] += std::atan2(norm(cross(e, back)), dot(e, back)) * f.normal;
+    }
+  }
+  for (auto& e : edge_frames_) e.normal = unitOrZero(e.normal);
+  for (auto& n : vertex_normals_) n = unitOrZero(n);
+}
+
+MeshPoint MeshSurface::signedFoot(const Vec3& p, const Vec3& foot, int feature) const {
+  const int n_faces = static_cast<int>(faces_.size()), n_edges = static_cast<int>(edge_frames_.size());
+  MeshPoint m{foot, {}, 0, feature};
+  if (feature < n_faces) {
+    m.normal = faces_[feature].normal;
+    m.distance_m = dot(p - foot, m.normal);
+    return m;
+  }
+  const int e = feature - n_faces, v = e - n_edges;
+  const Vec3& pseudo = e < n_edges ? edge_frames_[e].normal : vertex_normals_[v];
+  const bool rim = e < n_edges ? topology_.rim_edge[e] : topology_.rim_vertex[v];
+  const Vec3 r = p - foot;
+  const double d = norm(r);
+  const bool behind = !rim && dot(r, pseudo) < 0;
+  m.distance_m = behind ? -d : d;
+  // Closer than this the direction is rounding.
+  m.normal = d > 10 * tolerance_m_ ? r / m.distance_m : pseudo;
+  return m;
+}
+
+std::optional<MeshPoint> MeshSurface::nearest(const Vec3& p, double radius) const {
+  double best2 = radius * radius;
+  TrianglePoint best;
+  int best_feature = -1;
+  tree_.nearest(p, best2, [&](int t, double& limit2) {
+    if (topology_.collapsed(t)) return;
+    const auto& c = topology_.triangles[t];
+    const TrianglePoint q = closestOnTriangle({x_[c[0]], x_[c[1]], x_[c[2]]}, p);
+    if (!(q.dist2_m2 <= limit2)) return;
+    const int feature = q.feature == kFace    ? t
+                        : q.feature >= kEdge0 ? topology_.edgeFeature(topology_.face_edges[t][q.feature - kEdge0])
+                                              : topology_.vertexFeature(c[q.feature]);
+    if (q.dist2_m2 == limit2 && best_feature >= 0 && best_feature < feature) return;
+    best = q, best_feature = feature, limit2 = q.dist2_m2;
+  });
+  if (best_feature < 0) return std::nullopt;
+  return signedFoot(p, best.position, best_feature);
+}
+
+/// Along the edge, and no face of the edge under p.
+bool MeshSurface::edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const {
+  const EdgeFrame& f = edge_frames_[e];
+  const Vec3& a = x_[topology_.edges[e].v];
+  const Vec3 r = p - a;
+  const double t = dot(r, f.direction);
+  if (!(t >= -tolerance_m_ && t <= f.length_m + tolerance_m_)) return false;
+  for (int i = topology_.edge_begin[e]; i < topology_.edge_begin[e + 1]; ++i) {
+    const auto& c = topology_.edge_faces[i];
+    if (dot(r, faces_[c.face].inward[c.k]) > tolerance_m_) return false;
+  }
+  foot = a + std::clamp(t, 0.0, f.length_m) * f.direction;
+  return true;
+}
+
+/// No edge leads from the vertex towards p; the cone of a triangle is spanned by its edges, so no triangle does either.
+bool MeshSurface::vertexIsMinimum(int v, const Vec3& p) const {
+  const Vec3 r = p - x_[v];
+  for (int i = topology_.vertex_begin[v]; i < topology_.vertex_begin[v + 1]; ++i) {
+    const int e = topology_.vertex_edges[i];
+    const double t = dot(r, edge_frames_[e].direction);
+    if ((topology_.edges[e].v == v ? t : -t) > tolerance_m_) return false;
+  }
+  return true;
+}
+
+void MeshSurface::touching(const Vec3& p, double radius, std::vector<MeshPoint>& out) const {
+  const std::size_t begin = out.size();
+  bool seen = false;
+  tree_.within(p, radius, [&](int t) {
+    const Face& f = faces_[t];
+    const auto& c = topology_.triangles[t];
+    const double h = dot(p - x_[c[0]], f.normal);
+    if (std::abs(h) > radius || topology_.collapsed(t)) return;
+    seen = true;
+    bool over = norm2(f.normal) > 0;
+    for (int k = 0; k < 3 && over; ++k) over = dot(p - x_[c[k]], f.inward[k]) >= -tolerance_m_;
+    if (over) out.push_back({p - h * f.normal, f.normal, h, t});
+    for (int k = 0; k < 3; ++k) {
+      Vec3 foot;
+      if ((f.owns_edges >> k & 1) && edgeIsMinimum(topology_.face_edges[t][k], p, foot) &&
+          norm2(p - foot) <= radius * radius)
+        out.push_back(signedFoot(p, foot, topology_.edgeFeature(topology_.face_edges[t][k])));
+      if ((f.owns_vertices >> k & 1) && norm2(p - x_[c[k]]) <= radius * radius && vertexIsMinimum(c[k], p))
+        out.push_back(signedFoot(p, x_[c[k]], topology_.vertexFeature(c[k])));
+    }
+  });
+  const auto found = out.begin() + static_cast<std::ptrdiff_t>(begin);
+  const bool maybe_deep = topology_.closed && boxDistance2(tree_.bounds(), p) == 0;
+  if (found == out.end()) {
+    if (!seen && !maybe_deep) return;
+    // Deep inside, or a minimum that the predicates lost to rounding.
+    const auto n = nearest(p, maybe_deep ? std::numeric_limits<double>::infinity() : radius);
+    if (n && (n->distance_m < 0 || n->distance_m <= radius)) out.push_back(*n);
+    return;
+  }
+  std::sort(found, out.end(), [](const MeshPoint& a, const MeshPoint& b) { return a.feature < b.feature; });
+  const auto nearest_it = std::min_element(found, out.end(), [](const MeshPoint& a, const MeshPoint& b) {
+    return std::abs(a.distance_m) < std::abs(b.distance_m);
+  });
+  const double zero = 100 * tolerance_m_;  // a point this deep is on the surface
+  if (nearest_it->distance_m < -zero) {
+    *found = MeshPoint(*nearest_it);
+    out.erase(found + 1, out.end());
+    return;
+  }
+  // Feet that neighbouring features share within the tolerance are one contact; minima on the far side are not seen.
+  const double same2 = zero * zero;
+  auto keep = found;
+  for (auto it = found; it != out.end(); ++it) {
+    if (it->distance_m < -zero) continue;
+    const bool is_face = it->feature < static_cast<int>(faces_.size());
+    const bool twin = std::any_of(found, keep, [&](const MeshPoint& k) {
+      return norm2(k.position - it->position) <= same2 && (!is_face || dot(k.normal, it->normal) > 1 - 1e-9);
+    });
+    if (!twin) *keep++ = *it;
+  }
+  out.erase(keep, out.end());
+}
+
+std::optional<MeshPoint> MeshSurface::entry(const Vec3& p0, const Vec3& p1) const {
+  if (p0 == p1) return std::nullopt;
+  Box path;
+  path.add(p0), path.add(p1);
+  const SegmentTest segment(p0, p1);
+  double first = 2;
+  int face = -1;
+  tree_.overlapping(path.grown(tolerance_m_), [&](int t) {
+    const auto& c = topology_.triangles[t];
+    const auto time = segment.frontCrossing(x_[c[0]], x_[c[1]], x_[c[2]], faces_[t].normal, tolerance_m_);
+    if (time && (*time < first || (*time == first && t < face))) first = *time, face = t;
+  });
+  if (face < 0) return std::nullopt;
+  const Vec3 hit = p0 + first * (p1 - p0);
+  const Vec3& n = faces_[face].normal;
+  return MeshPoint{hit, n, dot(p0 - hit, n), face};
+}
+
+}  // namespace gambeson

@@ -1,0 +1,81 @@
+#pragma once
+/// Distance queries on a triangle mesh in its own frame: nearest feature, local minima of the distance, first entry.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/contact/bounding_tree.hpp"
+#include "core/contact/mesh_topology.hpp"
+#include "core/contact/obstacle.hpp"
+
+namespace gambeson {
+
+/// A foot point on a mesh: the unit normal points to the front, distance_m is negative behind.
+struct MeshPoint {
+  Vec3 position;
+  Vec3 normal;
+  double distance_m = 0;
+  int feature = 0;
+};
+
+/// Topology and box tree are built once. A mesh that is rigid in its frame needs no refit: the queries come to it in
+/// local coordinates, which is its lazy refit. A mesh that deforms calls refit.
+class MeshSurface {
+ public:
+  /// Throws InputError: see meshTopology.
+  explicit MeshSurface(const TriangleMesh& mesh);
+
+  /// New positions of the same mesh (Zheng 2013, section 3.6.2).
+  void refit(std::span<const Vec3> vertices);
+
+  const Box& bounds() const { return tree_.bounds(); }
+  bool closed() const { return topology_.closed; }
+  const MeshTopology& topology() const { return topology_; }
+  const BoundingTree& tree() const { return tree_; }
+  /// Lengths below this are rounding: two feet this close (times 100) are one.
+  double tolerance_m() const { return tolerance_m_; }
+
+  /// The nearest point within `radius` (none: empty). The sign is that of the pseudo-normal of the nearest feature
+  /// (angle-weighted at vertices; Baerentzen and Aanaes 2005), exact for closed meshes. Beyond the rim of an open mesh
+  /// the distance is positive.
+  std::optional<MeshPoint> nearest(const Vec3& p, double radius) const;
+
+  /// What a sample at p touches within `radius`: every local minimum of the distance that faces p, so one on flat and
+  /// convex regions and several in concave ones; none at the inner edges of flat or concave regions, because a foot on
+  /// an edge or vertex counts only if it is the closest point of every triangle there. A point behind the surface gets
+  /// its nearest foot only (the way out), in a closed mesh at any depth. Appended to `out`, sorted by feature. (A point
+  /// on a sharp edge to within the tolerance sees the faces of both sides.)
+  void touching(const Vec3& p, double radius, std::vector<MeshPoint>& out) const;
+
+  /// First passage of the segment p0 -> p1 through a triangle from its front. Because the mesh is rigid in its frame
+  /// and the path is straight there, the cubic of Zheng 2013, eq. 3.22 is linear: a segment against triangles. Never
+  /// slips through an edge or a vertex. `distance_m` is the separation of p0 along the normal.
+  std::optional<MeshPoint> entry(const Vec3& p0, const Vec3& p1) const;
+
+ private:
+  struct Face {
+    Vec3 normal;                                      ///< unit; 0 for a triangle without area
+    Vec3 inward[3];                                   ///< unit, in the plane, from edge k into the face; 0 without area
+    unsigned char owns_edges = 0, owns_vertices = 0;  ///< bit k: this face answers for its edge/corner k
+  };
+  struct EdgeFrame {
+    Vec3 direction;  ///< unit, v to w
+    double length_m = 0;
+    Vec3 normal;  ///< pseudo-normal, unit
+  };
+
+  MeshPoint signedFoot(const Vec3& p, const Vec3& foot, int feature) const;
+  bool edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const;
+  bool vertexIsMinimum(int v, const Vec3& p) const;
+
+  MeshTopology topology_;
+  std::vector<Vec3> x_;  ///< positions
+  std::vector<Face> faces_;
+  std::vector<EdgeFrame> edge_frames_;
+  std::vector<Vec3> vertex_normals_;
+  BoundingTree tree_;
+  double tolerance_m_ = 0;
+};
+
+}  // namespace gambeson

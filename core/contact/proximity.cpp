@@ -1,0 +1,250 @@
+#include "core/contact/proximity.hpp"
+
+#include <omp.h>
+
+#include <cassert>
+#include <cmath>
+
+#include "core/contact/ellipsoid.hpp"
+#include "core/contact/mesh_surface.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+
+namespace {
+
+/// Consecutive samples are neighbours on the cloth: whole blocks of them are culled at once.
+constexpr int kBlock = 16;
+/// A reject must be certain in spite of rounding.
+constexpr double kSlack = 1 + 1e-9;
+
+/// A shape ready for queries, and its box in its own frame.
+struct Prepared {
+  std::variant<EllipsoidMetric, MeshSurface> shape;
+  Box local;
+};
+
+Prepared prepare(const Shape& shape) {
+  if (const auto* e = std::get_if<Ellipsoid>(&shape)) {
+    const EllipsoidMetric m = ellipsoidMetric(*e);
+    return {m, Box{-m.semi_axes, m.semi_axes}};
+  }
+  MeshSurface s(std::get<TriangleMesh>(shape));
+  const Box b = s.bounds();
+  return {std::move(s), b};
+}
+
+double component(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+Box worldBox(const Prepared& p, const Placement& X) {
+  const Mat3& R = X.rotation;
+  Vec3 h;
+  if (std::holds_alternative<EllipsoidMetric>(p.shape)) {
+    const Vec3& e = p.local.hi;  // support function: |diag(e) R^T axis|
+    for (int i = 0; i < 3; ++i) h[i] = X.scale * norm({R.a[i] * e.x, R.b[i] * e.y, R.c[i] * e.z});
+  } else {
+    const Vec3 l = p.local.halfSize();
+    for (int i = 0; i < 3; ++i)
+      h[i] = X.scale * (std::abs(R.a[i]) * l.x + std::abs(R.b[i]) * l.y + std::abs(R.c[i]) * l.z);
+  }
+  const Vec3 c = X * p.local.centre();
+  // Larger by the rounding of the placement.
+  const Box box{c - h, c + h};
+  return box.grown(1e-12 * (norm(h) + norm(c)));
+}
+
+/// How far a point of the shape can move from start to end: the motion is affine, so a corner of the box moves most.
+double motionBound_m(const Box& local, const Placement& start, const Placement& end) {
+  if (start == end) return 0;
+  double d2 = 0;
+  for (int i = 0; i < 8; ++i) d2 = std::max(d2, norm2(end * local.corner(i) - start * local.corner(i)));
+  return std::sqrt(d2);
+}
+
+Mat3 minus(const Mat3& m, const Mat3& n) { return {m.a - n.a, m.b - n.b, m.c - n.c}; }
+double frobenius(const Mat3& m) { return std::sqrt(norm2(m.a) + norm2(m.b) + norm2(m.c)); }
+Mat3 scaled(const Mat3& m, double s) { return {s * m.a, s * m.b, s * m.c}; }
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void requireFinite(std::span<const Vec3> x, const char* what) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!finite(x[i])) throw RunError(std::string(what) + " of sample " + std::to_string(i) + " is not finite");
+}
+
+/// Runs append(block, list) over all blocks; the lists are joined in the order of the blocks, whoever made them.
+template <class Append>
+void collect(int blocks, std::vector<Contact>& out, Append&& append) {
+  out.clear();
+  if (blocks == 0) return;
+  struct Part {
+    int thread;
+    std::size_t begin, end;
+  };
+  std::vector<Part> parts(blocks);
+  std::vector<std::vector<Contact>> lists(omp_get_max_threads());
+#pragma omp parallel if (blocks >= 8)
+  {
+    const int me = omp_get_thread_num();
+    std::vector<Contact>& mine = lists[me];
+#pragma omp for schedule(dynamic, 4)
+    for (int b = 0; b < blocks; ++b) {
+      const std::size_t begin = mine.size();
+      append(b, mine);
+      parts[b] = {me, begin, mine.size()};
+    }
+  }
+  for (const Part& p : parts)
+    out.insert(out.end(), lists[p.thread].begin() + static_cast<std::ptrdiff_t>(p.begin),
+               lists[p.thread].begin() + static_cast<std::ptrdiff_t>(p.end));
+}
+
+}  // namespace
+
+struct ProximityQuery::Impl {
+  std::vector<Prepared> shapes;
+};
+
+ProximityQuery::ProximityQuery(std::span<const Obstacle> obstacles) : impl_(std::make_unique<Impl>()) {
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    try {
+      impl_->shapes.push_back(prepare(obstacles[i].shape));
+    } catch (const InputError& e) {
+      throw InputError(e.where(), "obstacle " + std::to_string(i) + " (" + obstacles[i].segment + "): " + e.reason());
+    }
+  }
+}
+ProximityQuery::~ProximityQuery() = default;
+ProximityQuery::ProximityQuery(ProximityQuery&&) noexcept = default;
+
+void ProximityQuery::near(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x,
+                          std::span<const double> reach_m, std::vector<Contact>& out) const {
+  const auto& shapes = impl_->shapes;
+  const int n_obstacles = static_cast<int>(shapes.size()), n = static_cast<int>(x.size());
+  assert(static_cast<int>(start.size()) == n_obstacles && static_cast<int>(end.size()) == n_obstacles);
+  assert(static_cast<int>(reach_m.size()) == n);
+  requireFinite(x, "position");
+  std::vector<double> motion(n_obstacles);
+  std::vector<Box> box(n_obstacles);  // of the shape at start, grown by its motion
+  for (int o = 0; o < n_obstacles; ++o) {
+    motion[o] = motionBound_m(shapes[o].local, start[o], end[o]);
+    box[o] = worldBox(shapes[o], start[o]).grown(motion[o]);
+  }
+  collect((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<Contact>& list) {
+    const int first = b * kBlock, last = std::min(n, first + kBlock);
+    Box block;
+    for (int i = first; i < last; ++i) block.add(Box{x[i], x[i]}.grown(reach_m[i] * kSlack));
+    std::vector<MeshPoint> feet;
+    // Sample by sample below, so that the list comes out sorted.
+    std::vector<int> candidates;
+    for (int o = 0; o < n_obstacles; ++o)
+      if (overlap(block, box[o])) candidates.push_back(o);
+    if (candidates.empty()) return;
+    for (int i = first; i < last; ++i) {
+      for (int o : candidates) {
+        const double r = reach_m[i] * kSlack;
+        if (component(maximum(x[i] - box[o].hi, box[o].lo - x[i])) > r) continue;
+        const Placement& X = start[o];
+        const Vec3 p = toLocal(X, x[i]);
+        const double limit_m = reach_m[i] + motion[o];
+        if (const auto* e = std::get_if<EllipsoidMetric>(&shapes[o].shape)) {
+          if (ellipsoidDistanceBound_m(*e, p) * X.scale > limit_m * kSlack) continue;
+          const SurfacePoint s = closestOnEllipsoid(*e, p);
+          const double gap = X.scale * s.distance_m;
+          if (gap < limit_m) list.push_back({i, o, 0, X.rotation * s.normal, gap, s.position});
+        } else {
+          feet.clear();
+          std::get<MeshSurface>(shapes[o].shape).touching(p, limit_m / X.scale, feet);
+          for (const MeshPoint& f : feet) {
+            const double gap = X.scale * f.distance_m;
+            if (gap < limit_m) list.push_back({i, o, f.feature, X.rotation * f.normal, gap, f.position});
+          }
+        }
+      }
+    }
+  });
+}
+
+void ProximityQuery::impacts(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x0,
+                             std::span<const Vec3> x1, std::vector<Contact>& out) const {
+  const auto& shapes = impl_->shapes;
+  const int n_obstacles = static_cast<int>(shapes.size()), n = static_cast<int>(x0.size());
+  assert(static_cast<int>(start.size()) == n_obstacles && static_cast<int>(end.size()) == n_obstacles);
+  assert(x0.size() == x1.size());
+  requireFinite(x0, "position");
+  requireFinite(x1, "predicted position");
+  // The path is the chord in the obstacle's frame, p(t) = (1 - t) p0 + t p1 with x0 = X0 p0, x1 = X1 p1. Under the
+  // interpolated map Xt = (1 - t) X0 + t X1 (affine, linear part At) a point of the shape lies in the hull of the
+  // shape's two boxes, and Xt p(t) = (1 - t) x0 + t x1 - t (1 - t) (A1 - A0) (p1 - p0). So the world chord comes within
+  // |A1 - A0| |p1 - p0| / 4 of that hull wherever the local chord touches the shape, where
+  // |p1 - p0| <= |x1 - x0|/s1 + |o1 - o0|/s1 + |A1^-1 - A0^-1| |x0 - o0|.
+  struct Sweep {
+    Box hull;
+    double bend, per_motion, shift, turn;
+  };
+  std::vector<Sweep> sweep(n_obstacles);
+  for (int o = 0; o < n_obstacles; ++o) {
+    const Placement &X0 = start[o], &X1 = end[o];
+    Sweep& s = sweep[o];
+    s.hull = worldBox(shapes[o], X0);
+    s.hull.add(worldBox(shapes[o], X1));
+    s.bend = frobenius(minus(scaled(X1.rotation, X1.scale), scaled(X0.rotation, X0.scale))) / 4;
+    s.per_motion = 1 / X1.scale;
+    s.shift = norm(X1.origin - X0.origin) / X1.scale;
+    s.turn = frobenius(minus(scaled(X1.rotation, 1 / X1.scale), scaled(X0.rotation, 1 / X0.scale)));
+  }
+  collect((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<Contact>& list) {
+    const int first = b * kBlock, last = std::min(n, first + kBlock);
+    Box block, starts;
+    double step2 = 0;
+    for (int i = first; i < last; ++i) {
+      starts.add(x0[i]);
+      block.add(x1[i]);
+      step2 = std::max(step2, norm2(x1[i] - x0[i]));
+    }
+    block.add(starts);
+    const double step = std::sqrt(step2);
+    std::vector<int> candidates;
+    for (int o = 0; o < n_obstacles; ++o) {
+      const Sweep& s = sweep[o];
+      double margin = 0;
+      if (s.bend > 0) {
+        const Vec3 far = maximum(starts.hi - start[o].origin, start[o].origin - starts.lo);
+        margin = s.bend * (step * s.per_motion + s.shift + s.turn * norm(far)) * kSlack;
+      }
+      if (overlap(block.grown(margin), s.hull)) candidates.push_back(o);
+    }
+    for (int i = first; i < last && !candidates.empty(); ++i) {
+      for (int o : candidates) {
+        const Vec3 p0 = toLocal(start[o], x0[i]), p1 = toLocal(end[o], x1[i]);
+        Box path;
+        path.add(p0), path.add(p1);
+        if (!overlap(path.grown(1e-9 * norm(shapes[o].local.halfSize())), shapes[o].local)) continue;
+        Vec3 hit, normal;
+        int feature = 0;
+        if (const auto* e = std::get_if<EllipsoidMetric>(&shapes[o].shape)) {
+          const auto t = ellipsoidEntry(*e, p0, p1);
+          if (!t) continue;
+          hit = p0 + *t * (p1 - p0);
+          normal = normalized({hit.x * e->inverse2.x, hit.y * e->inverse2.y, hit.z * e->inverse2.z});
+        } else {
+          const auto f = std::get<MeshSurface>(shapes[o].shape).entry(p0, p1);
+          if (!f) continue;
+          hit = f->position, normal = f->normal, feature = f->feature;
+        }
+        list.push_back({i, o, feature, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit});
+      }
+    }
+  });
+}
+
+double ProximityQuery::signedDistance(int obstacle, const Placement& placement, const Vec3& x) const {
+  const Prepared& s = impl_->shapes.at(obstacle);
+  const Vec3 p = toLocal(placement, x);
+  if (const auto* e = std::get_if<EllipsoidMetric>(&s.shape))
+    return placement.scale * closestOnEllipsoid(*e, p).distance_m;
+  const auto n = std::get<MeshSurface>(s.shape).nearest(p, std::numeric_limits<double>::infinity());
+  return n ? placement.scale * n->distance_m : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace gambeson
