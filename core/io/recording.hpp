@@ -24,7 +24,7 @@ struct Frame {
   double time_s = 0;
   std::vector<float> positions;  ///< 3 per sample [m]
   std::vector<Field> sample_fields;
-  std::vector<Field> control_fields;  ///< with components per control point, the positions among them
+  std::vector<Field> control_fields;  ///< one row per control point, the field "position" (3 components) among them
 };
 
 /// A table with named columns, one row per window of the run, double precision: rows in the order of time.
@@ -40,22 +40,30 @@ struct Checkpoint {
   std::map<std::string, std::vector<std::int64_t>> integers;
 };
 
-/// What stays constant over a run. `metadata` is free text (JSON) that readers get back; `identity` is what a resumed run
-/// must match (the case hash).
+/// What stays constant over a run. `metadata` is free text (JSON) that readers get back; `identity` is what a resumed
+/// run must match (the case hash).
 struct RecordingLayout {
   std::string identity;
   std::string metadata;
-  std::vector<std::array<int, 3>> triangles;  ///< of samples
+  std::vector<std::array<int, 3>> triangles;               ///< of samples
   std::map<std::string, std::vector<std::string>> tables;  ///< columns (with units in the names) of each table
 };
 
+/// The number of closed segments in a directory; 0 where there is no recording to resume (a run killed before its first
+/// checkpoint starts anew).
+int closedSegments(const std::filesystem::path& directory);
+
+/// Frames need ascending times and one row per sample or control point, table rows one value per column: anything else
+/// is our own mistake (std::logic_error). Where the file system fails: RunError with the reason.
 class RecordingWriter {
  public:
   /// Starts a new recording in `directory` (made if absent). What an earlier recording left there is removed.
   static RecordingWriter create(const std::filesystem::path& directory, const RecordingLayout& layout);
   /// Continues after the last closed segment and returns its checkpoint through `checkpoint`; what an unfinished writer
-  /// left behind is removed. Throws InputError where there is no recording or its identity differs.
-  static RecordingWriter resume(const std::filesystem::path& directory, const RecordingLayout& layout, Checkpoint& checkpoint);
+  /// left behind is removed. Throws InputError where there is no recording, no closed segment, a damaged one, or where
+  /// the identity, the triangles or the tables differ. The metadata stay those of the recording.
+  static RecordingWriter resume(const std::filesystem::path& directory, const RecordingLayout& layout,
+                                Checkpoint& checkpoint);
   RecordingWriter(RecordingWriter&&) noexcept;
   ~RecordingWriter();
 
