@@ -1,0 +1,120 @@
+#include "analysis/render/render.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "analysis/render/layers.hpp"
+#include "analysis/render/overlay.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+/// A light sheet of paper, a little darker below.
+Color backgroundAt(double t) {
+  const float f = static_cast<float>(t);
+  return {0.992f - 0.034f * f, 0.992f - 0.030f * f, 0.990f - 0.024f * f};
+}
+
+struct Linear {
+  std::array<float, 256> value;
+  Linear() {
+    for (int i = 0; i < 256; ++i) value[static_cast<std::size_t>(i)] = linearOfSrgb(float(i) / 255);
+  }
+};
+
+/// Lays a sub-pixel (encoded colour times coverage) over `c`, both linear. `darker` multiplies the colour.
+void over(std::array<float, 3>& c, const unsigned char* p, const Linear& linear, float darker, float strength) {
+  if (p[3] == 0) return;
+  const float coverage = strength * float(p[3]) / 255;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int straight = std::min(255, (255 * p[i] + p[3] / 2) / p[3]);
+    c[i] += coverage * (darker * linear.value[static_cast<std::size_t>(straight)] - c[i]);
+  }
+}
+
+Image compose(const Layers& layers, const Overlay& overlay, bool fade) {
+  constexpr float occlusion_strength = 0.75f;
+  const Linear linear;
+  Image image;
+  image.width = layers.width, image.height = layers.height;
+  const std::size_t w = static_cast<std::size_t>(layers.width), h = static_cast<std::size_t>(layers.height);
+  image.rgb.resize(3 * w * h);
+  for (std::size_t y = 0; y < h; ++y) {
+    const Color paper = backgroundAt(double(y) / double(h));
+    const std::array<float, 3> ground{linearOfSrgb(paper.r), linearOfSrgb(paper.g), linearOfSrgb(paper.b)};
+    const std::size_t row = h - 1 - y;  // the layers start below
+    for (std::size_t x = 0; x < w; ++x) {
+      const float open = float(layers.occlusion[4 * (row * w + x)]) / 255;
+      const float darker = 1 - occlusion_strength * (1 - open);
+      const float strength = fade ? fadeAt(overlay, double(x), double(y)) : 1;
+      std::array<float, 3> sum{};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t at = 4 * ((2 * row + k / 2) * 2 * w + 2 * x + k % 2);
+        std::array<float, 3> c = ground;
+        over(c, &layers.surfaces[at], linear, darker, strength);
+        over(c, &layers.arrows[at], linear, 1, 1);
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += 0.25f * c[i];
+      }
+      for (std::size_t i = 0; i < 3; ++i)
+        image.rgb[3 * (y * w + x) + i] =
+            static_cast<unsigned char>(std::lround(255 * std::clamp(srgbOfLinear(sum[i]), 0.0f, 1.0f)));
+    }
+  }
+  return image;
+}
+
+Beyond beyondOf(const Scene& scene, const ColorBar& bar) {
+  // The ends themselves are within; a millionth of the range takes up rounding.
+  const double slack = 1e-6 * (bar.high - bar.low);
+  Beyond b;
+  for (const auto& mesh : scene.meshes)
+    for (const double s : mesh.scalars) b.below |= s<bar.low - slack, b.above |= s> bar.high + slack;
+  return b;
+}
+
+bool finite(const Vec3& a) { return std::isfinite(norm2(a)); }
+
+}  // namespace
+
+Image render(const Scene& scene, int width, int height) {
+  if (width < 16 || height < 16 || width > 8192 || height > 8192)
+    throw RunError("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                   " pixels is outside 16 .. 8192");
+  if (!(norm2(scene.up) > 0) || !finite(scene.up))
+    throw RunError("cannot draw: the up direction of the scene is no direction");
+  for (std::size_t i = 0; i < scene.arrows.size(); ++i)
+    if (!finite(scene.arrows[i].from) || !finite(scene.arrows[i].to))
+      throw RunError("cannot draw arrow " + std::to_string(i) + ": it is not finite");
+  const ColorBar bar = scene.bar ? effective(*scene.bar) : ColorBar{};
+  const Fonts fonts = loadFonts(width, height);
+  const Overlay overlay = layOut(scene, fonts, width, height);
+
+  LayerInput in;
+  in.camera = fitCamera(scene, overlay.free);
+  in.colors = makeColorTable();
+  const double pixel_m = 1 / in.camera.pixels_per_m;
+  in.arrow_radius_m = 3.2 * overlay.unit * pixel_m;
+  in.surfaces = drawListOf(scene.meshes, in.camera, bar.low, bar.high, std::max(1.8 * overlay.unit, 1.5) * pixel_m);
+  if (!scene.bar)
+    for (auto& v : in.surfaces.vertices) v.mapped = 0;
+  for (const Arrow& a : scene.arrows)
+    addArrow(in.arrows, in.camera.toCamera(a.from), in.camera.toCamera(a.to), in.arrow_radius_m, a.color);
+  if (overlay.legend.width() > 0) {
+    const double y = overlay.legend.bottom - 0.35 * fonts.text.size(), x = overlay.legend.left;
+    const Color color = scene.arrows.empty() ? Arrow{}.color : scene.arrows.front().color;
+    const Vec3 from = in.camera.fromPixel(x, y, 0), to = from + Vec3{scene.arrow_legend_length_m, 0, 0};
+    addArrow(in.legend, from, to, in.arrow_radius_m, color);
+  }
+  const CameraAxes& axes = in.camera.axes;
+  const Vec3 up = normalized(scene.up);
+  in.up_camera = {dot(axes.right, up), dot(axes.up, up), dot(axes.towards, up)};
+  if (scene.ground_m) in.ground_m = *scene.ground_m - dot(up, in.camera.origin);
+
+  Image image = compose(drawLayers(in, width, height), overlay, scene.focus.has_value() || scene.ground_m.has_value());
+  drawOverlay(image, scene, overlay, fonts, in.colors, scene.bar ? beyondOf(scene, bar) : Beyond{});
+  return image;
+}
+
+}  // namespace gambeson

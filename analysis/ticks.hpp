@@ -1,0 +1,23 @@
+#pragma once
+/// Round numbers for axes and colour bars, and numbers as people write them.
+
+#include <string>
+#include <vector>
+
+namespace gambeson {
+
+struct Ticks {
+  std::vector<double> values;  ///< rising, within the range, at multiples of `step`
+  double step = 0;             ///< 1, 2 or 5 times a power of ten
+  /// The value with as many decimals as `step` needs, U+2212 as the minus sign.
+  std::string label(double value) const;
+};
+
+/// Ticks within [low, high], about `target` of them. Needs finite low < high and target >= 1.
+Ticks niceTicks(double low, double high, int target);
+
+/// The value rounded to `digits` significant digits, without exponent between 1e-4 and 1e6: 1.83, 0.0042, 12 300.
+/// U+2212 as the minus sign; "not a number" and "infinite" for what is not finite.
+std::string formatNumber(double value, int digits = 3);
+
+}  // namespace gambeson

@@ -1,0 +1,46 @@
+#include "analysis/ticks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace gambeson {
+namespace {
+
+TEST(Ticks, AreRoundWithinTheRangeAndAboutAsManyAsWanted) {
+  for (const auto& [low, high] : {std::pair{0.0, 15.0}, {-0.37, 2.11}, {1e-7, 9e-7}, {-3e5, 8e5}, {12.34, 12.39}})
+    for (int target = 2; target < 9; ++target) {
+      const Ticks t = niceTicks(low, high, target);
+      const double lead = t.step / std::pow(10.0, std::floor(std::log10(t.step) + 1e-9));
+      EXPECT_TRUE(std::abs(lead - 1) < 1e-9 || std::abs(lead - 2) < 1e-9 || std::abs(lead - 5) < 1e-9) << t.step;
+      ASSERT_GE(t.values.size(), 1u);
+      EXPECT_LE(std::abs(double(t.values.size()) - target), target) << low << " " << high;
+      EXPECT_GE(t.values.front(), low - 1e-6 * t.step);
+      EXPECT_LE(t.values.back(), high + 1e-6 * t.step);
+      // The next one would lie outside.
+      EXPECT_GT(t.values.back() + t.step, high);
+    }
+}
+
+TEST(Ticks, LabelsHaveTheDecimalsOfTheStep) {
+  EXPECT_EQ(niceTicks(0, 1, 5).label(0.2), "0.2");
+  EXPECT_EQ(niceTicks(0, 10, 5).label(4), "4");
+  EXPECT_EQ(niceTicks(-1, 1, 4).label(-0.5), "\u22120.5");
+  EXPECT_EQ(niceTicks(-1, 1, 4).label(-1e-17), "0.0");
+  EXPECT_EQ(niceTicks(0, 0.1, 4).label(0.02), "0.02");
+}
+
+TEST(Numbers, HaveSignificantDigits) {
+  EXPECT_EQ(formatNumber(1.8349), "1.83");
+  EXPECT_EQ(formatNumber(-0.0041849), "\u22120.00418");
+  EXPECT_EQ(formatNumber(12345), "12300");
+  EXPECT_EQ(formatNumber(0), "0");
+  EXPECT_EQ(formatNumber(1e-9, 2), "1.0e\u22129");
+  EXPECT_EQ(formatNumber(1000), "1000");
+  EXPECT_EQ(formatNumber(std::numeric_limits<double>::quiet_NaN()), "not a number");
+  EXPECT_EQ(formatNumber(-std::numeric_limits<double>::infinity()), "\u2212infinite");
+}
+
+}  // namespace
+}  // namespace gambeson
