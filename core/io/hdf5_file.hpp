@@ -48,7 +48,8 @@ class Builder {
   Builder();
 
   void group(const std::string& path);
-  /// Rows of `columns` values (columns 0: a one-dimensional array). Deflate 2 with shuffle, Fletcher-32.
+  /// Rows of `columns` values (columns 0: a one-dimensional array). Shuffle and deflate 2, whose stream carries
+  /// an Adler-32 checksum.
   void array(const std::string& path, std::span<const float> values, std::size_t columns = 0);
   void array(const std::string& path, std::span<const double> values, std::size_t columns = 0);
   void array(const std::string& path, std::span<const int> values, std::size_t columns = 0);

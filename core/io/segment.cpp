@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <new>
+#include <numeric>
 
 namespace gambeson {
 namespace {
@@ -141,6 +142,9 @@ FrameInfo SegmentBuilder::add(const Frame& frame) {
     put(samplePath(index, field.name), field);
     info.sample_fields.push_back({field.name, field.unit, field.components});
   }
+  std::vector<int> vertices(info.controls);  // one cell per control point, for ParaView
+  std::iota(vertices.begin(), vertices.end(), 0);
+  file_.array(framePath(index) + "/vertices", vertices);
   for (const Field& field : frame.control_fields) {
     put(controlPath(index, field.name), field);
     info.control_fields.push_back({field.name, field.unit, field.components});

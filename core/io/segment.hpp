@@ -5,7 +5,7 @@
 ///     DIR/frames/layout.h5             what stays constant; its presence makes DIR a recording
 ///     DIR/frames/segment_000000.h5 ... closed segments, numbered from 0 without gaps
 ///
-/// A segment holds  /times  /frames/000000/{positions, samples/FIELD, controls/FIELD}  (numbered through the recording)
+/// A segment holds  /times  /frames/000000/{positions, vertices, samples/FIELD, controls/FIELD}  (numbered through)
 /// /tables/TABLE  /checkpoint/{time, reals/NAME, integers/NAME}.  Names are encoded by hdf5::linkName.
 
 #include "core/error.hpp"

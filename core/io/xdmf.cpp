@@ -66,8 +66,9 @@ std::string surface(std::size_t triangles, const FrameInfo& info, int frame, con
 
 std::string controlPoints(const FrameInfo& info, int frame, const std::string& file) {
   std::string s = "<Grid Name=\"control_points\" GridType=\"Uniform\">\n";
-  s += fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{0}\" NodesPerElement=\"1\"/>\n",
-                   info.controls);
+  s +=
+      fmt::format("<Topology TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"{}\">{}</Topology>\n",
+                  info.controls, heavy("Int", 4, info.controls, 1, file, framePath(frame) + "/vertices"));
   s += fmt::format("<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
                    heavy("Float", 4, info.controls, 3, file, controlPath(frame, "position")));
   for (const auto& field : info.control_fields)

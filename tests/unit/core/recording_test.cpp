@@ -1,6 +1,7 @@
 #include "core/io/recording.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -60,7 +62,10 @@ Checkpoint someCheckpoint(int f) {
   Checkpoint c;
   c.time_s = 0.1 * f;
   c.reals = {{"q", {1.0 / 3, -0.0, 1e-300 * f}}, {"contact/history", {}}, {"", {0.1}}};
-  c.integers = {{"frame", {f, std::numeric_limits<std::int64_t>::min()}}};
+  c.integers = {{"frame", {f, std::numeric_limits<std::int64_t>::min()}}, {"noise", {}}};
+  // Bits that do not compress need their checksum as much as others.
+  std::mt19937_64 random(static_cast<unsigned>(f));
+  for (int i = 0; i < 500; ++i) c.integers["noise"].push_back(static_cast<std::int64_t>(random()));
   return c;
 }
 
@@ -150,9 +155,17 @@ TEST_F(RecordingTest, ReadsBackEveryBit) {
 }
 
 TEST_F(RecordingTest, SameContentSameBytes) {
+  const auto before = static_cast<std::uint32_t>(std::time(nullptr));
   recordAll(dir / "a", 7);
+  const auto after = static_cast<std::uint32_t>(std::time(nullptr));
   recordAll(dir / "b", 7);
   EXPECT_EQ(contentOf(dir / "a"), contentOf(dir / "b"));
+  // Both were written within a second: look for the second itself, which HDF5 would store in each object's header.
+  for (const auto& [name, bytes] : contentOf(dir / "a"))
+    for (std::uint32_t second = before; second <= after; ++second) {
+      const std::string stamp(reinterpret_cast<const char*>(&second), sizeof second);
+      EXPECT_EQ(bytes.find(stamp), std::string::npos) << name << " holds the time of its writing";
+    }
 }
 
 TEST_F(RecordingTest, SegmentsWithoutFramesKeepRowsAndCheckpoint) {
@@ -224,6 +237,35 @@ TEST_F(RecordingTest, KilledAndResumedIsTheUninterruptedOne) {
   EXPECT_EQ(contentOf(killed), contentOf(dir / "whole"));
 }
 
+// Killed in the middle of a write, at every place: the limit on the size of files sends SIGXFSZ when a write reaches
+// it, in the layout, a segment, or the sidecar.
+TEST_F(RecordingTest, KilledInTheMiddleOfAWrite) {
+  recordAll(dir / "whole", 9);
+  const auto whole = contentOf(dir / "whole");
+  std::size_t largest = 0;
+  for (const auto& [name, bytes] : whole) largest = std::max(largest, bytes.size());
+  for (rlim_t limit = 500; limit < largest; limit += 1500) {
+    const fs::path killed = dir / std::to_string(limit);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      const rlimit none{0, 0}, most{limit, limit};
+      setrlimit(RLIMIT_CORE, &none);
+      setrlimit(RLIMIT_FSIZE, &most);
+      recordOn(killed, 9);
+      _exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ);
+    if (closedSegments(killed) > 0) {
+      expectSame(RecordingReader(killed), kFramesPerSegment * closedSegments(killed));
+    }
+    recordOn(killed, 9);
+    EXPECT_EQ(contentOf(killed), whole) << "killed at byte " << limit;
+  }
+}
+
 // What a kill can leave at the worst places, placed there by hand: a half-written segment, a half-written sidecar, and
 // a sidecar older than the last segment.
 TEST_F(RecordingTest, ResumeCleansUpAndCatchesUp) {
@@ -288,8 +330,8 @@ TEST_F(RecordingTest, WhereThereIsNoneOrAGap) {
 bool readsRight(const fs::path& recording, const fs::path& file, int frames) {
   try {
     const RecordingReader reader(recording);
-    reader.lastCheckpoint();
     expectSame(reader, frames);
+    EXPECT_EQ(reader.lastCheckpoint().integers, someCheckpoint(frames - 1).integers);
     return true;
   } catch (const InputError& e) {
     EXPECT_EQ(e.where().file, file.string()) << e.what();
@@ -388,9 +430,9 @@ TEST_F(RecordingTest, SidecarListsClosedFramesOnly) {
   EXPECT_EQ(all("<Attribute Name=\"(mass)\"").size(), 6u);
   // Every file named is there, relative to the sidecar.
   const auto files = all(">([^<:]*):/[^<]*<");
-  EXPECT_EQ(files.size(), 6u * 7);
+  EXPECT_EQ(files.size(), 6u * 8);
   for (const auto& file : files) EXPECT_TRUE(fs::exists(dir / "r" / file)) << file;
-  EXPECT_EQ(std::count(files.begin(), files.end(), "frames/segment_000001.h5"), 3 * 6);
+  EXPECT_EQ(std::count(files.begin(), files.end(), "frames/segment_000001.h5"), 3 * 7);
 }
 
 }  // namespace
