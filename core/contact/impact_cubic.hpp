@@ -11,7 +11,7 @@ namespace gambeson {
 struct MovingHit {
   double time = 0;   ///< in [0, 1]
   Vec3 weights{};    ///< of the corners at the closest point at that time, sum 1
-  double gap_m = 0;  ///< separation at that time: at most the tolerance of the test
+  double gap_m = 0;  ///< separation at that time: at most 2e-13 of the extent of the positions
 };
 
 /// First time in [0, 1] at which the point p0 -> p1 meets the triangle corner0 -> corner1, all moving straight at
@@ -19,7 +19,7 @@ struct MovingHit {
 /// into monotone pieces at the roots of its derivative, and each piece gives the window in which it is zero to within
 /// its rounding error (all of [0, 1] for a motion in a plane). Within a window times are excluded by conservative
 /// advancement: a distance at mid-window larger than the relative motion in half of it cannot vanish there.
-/// Conservative: a true hit is not missed, a pass closer than 1e-13 of the extent of the positions may be reported. Not
+/// Conservative: a true hit is not missed, a pass closer than 2e-13 of the extent of the positions may be reported. Not
 /// certified: the error bounds are those of the formulas, not of every operation.
 std::optional<MovingHit> movingPointTriangle(const Vec3& p0, const Vec3& p1, const std::array<Vec3, 3>& corner0,
                                              const std::array<Vec3, 3>& corner1);
