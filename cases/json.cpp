@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <unordered_set>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -104,7 +105,9 @@ class TreeBuilder {
   bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& e) {
     std::string reason = reasonOf(e.what());
     if (token.find("<U+0000>") != std::string::npos) reason = "this is not a text file";
-    throw InputError({file_, count_.token_line, path("")}, reason);
+    if (reason.starts_with("number overflow")) reason = "the number is too large; allowed: at most 1.8e308";
+    if (reason.find("UTF-8") != std::string::npos) reason = "this is not UTF-8 text";
+    throw InputError({file_, count_.token_line, path(key_)}, reason);
   }
 
  private:
@@ -125,7 +128,7 @@ class TreeBuilder {
     JsonNode* node = &root;
     if (!open_.empty()) {
       node = &open_.back()->children.emplace_back();
-      if (open_.back()->type == JsonNode::Type::object) node->key = std::move(key_);
+      if (open_.back()->type == JsonNode::Type::object) node->key = std::exchange(key_, {});
     }
     node->type = type;
     node->line = node->key.empty() ? count_.token_line : key_line_;

@@ -187,7 +187,9 @@ double parseQuantity(std::string_view text, std::string_view si_unit) {
     throw InputError({}, fmt::format("\"{}\" has the wrong unit; expected one like {}", text,
                                      si_unit.empty() ? "% (or none)" : si_unit));
   }
-  return value * unit.factor;
+  const double si = value * unit.factor;
+  if (!std::isfinite(si)) throw InputError({}, fmt::format("\"{}\" is beyond the range of numbers", text));
+  return si;
 }
 
 }  // namespace gambeson
