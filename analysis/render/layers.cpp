@@ -102,7 +102,7 @@ Ground groundOf(const LayerInput& in, const Box& scene) {
     const Vec3 p = middle + ground.radius_m * (s * a + (ground.edge_on && t > 0 ? 0 : t) * b);
     DrawVertex v{};
     for (int i = 0; i < 3; ++i) v.position[i] = static_cast<float>(p[i]);
-    // The grid stands still in the world: its lines go through multiples of 0.5 m along two fixed directions.
+    // The grid is counted from the middle of the picture's ground.
     v.map = static_cast<float>(s * ground.radius_m), v.mapped = static_cast<float>(t * ground.radius_m);
     ground.list.vertices.push_back(v);
   }

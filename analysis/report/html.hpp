@@ -1,0 +1,24 @@
+#pragma once
+/// Text and bytes as HTML carries them.
+
+#include <string>
+#include <string_view>
+
+namespace gambeson::html {
+
+/// & < > " ' as entities, for text and for attribute values in quotes.
+std::string escape(std::string_view text);
+
+/// RFC 4648, section 4, with padding.
+std::string base64(std::string_view bytes);
+
+/// <name attributes>content</name>; `content` is HTML already. Attributes are given with a leading space or empty.
+std::string element(std::string_view name, std::string_view content, std::string_view attributes = "");
+
+/// A paragraph for what is missing, visible to all.
+std::string notice(std::string_view text);
+
+/// A time to 10 ms, the window of the torques: "1.24 s".
+std::string seconds(double time_s);
+
+}  // namespace gambeson::html

@@ -1,0 +1,290 @@
+#include "analysis/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "analysis/report/chart.hpp"
+#include "analysis/report/html.hpp"
+#include "analysis/report/style.hpp"
+#include "analysis/ticks.hpp"
+#include "core/io/atomic_file.hpp"
+
+namespace gambeson {
+namespace {
+
+using html::element;
+using html::escape;
+using html::notice;
+using html::seconds;
+
+std::string percent(double p) { return (p > 0 && p < 0.1 ? "less than 0.1" : formatNumber(p, 2)) + " %"; }
+
+std::string capital(std::string s) {
+  if (!s.empty() && s[0] >= 'a' && s[0] <= 'z') s[0] = static_cast<char>(s[0] - 'a' + 'A');
+  return s;
+}
+/// Escaped text in which a number and its unit stay on one line.
+std::string prose(const std::string& text) {
+  static const std::regex quantity("([0-9]+[.]?[0-9]*) (Nm|N/m|N|Pa|%|s|m)(?![A-Za-z0-9])");
+  return std::regex_replace(escape(text), quantity, "<span class=\"q\">$1 $2</span>");
+}
+/// Prose never shows a minus: the page speaks of sizes.
+double sizeOf(const JointSummary& j) { return std::abs(j.peak_Nm); }
+std::string shareOf(const JointSummary& j) {
+  return j.natural_percent ? percent(*j.natural_percent) + " of the natural " + j.joint + " moment" : "";
+}
+
+std::string table(const Table& t) {
+  std::string head;
+  for (std::size_t c = 0; c < t.columns.size(); ++c) {
+    const bool number =
+        c > 0 && std::any_of(t.rows.begin(), t.rows.end(), [&](const auto& r) { return c < r.size() && r[c].number; });
+    head += element("th", escape(t.columns[c]), number ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
+  }
+  std::string body;
+  for (const auto& row : t.rows) {
+    std::string cells;
+    for (std::size_t c = 0; c < row.size(); ++c)
+      cells += c == 0 ? element("th", escape(row[c].text), " scope=\"row\"")
+                      : element("td", escape(row[c].text), row[c].number ? " class=\"number\"" : "");
+    body += element("tr", cells);
+  }
+  std::string out = element(
+      "table", element("caption", escape(t.title)) + element("thead", element("tr", head)) + element("tbody", body));
+  if (t.rows.empty()) out += notice("There are no rows.");
+  if (!t.caption.empty()) out += element("p", escape(t.caption), " class=\"caption\"");
+  return element("div", element("div", out, " class=\"scroll\""), " class=\"panel\"");
+}
+
+std::string picture(const Picture& p) {
+  std::string bytes, why;
+  if (const auto* file = std::get_if<std::filesystem::path>(&p.png)) {
+    std::ifstream in(*file, std::ios::binary);
+    std::ostringstream all;
+    if (in) all << in.rdbuf();
+    bytes = all.str();
+    if (!in) why = "The picture " + file->string() + " cannot be read.";
+  } else {
+    bytes = std::get<std::string>(p.png);
+  }
+  if (why.empty() && bytes.rfind("\x89PNG\r\n\x1a\n", 0) != 0) why = "A picture is not a PNG.";
+  const std::string shown = why.empty() ? "<img alt=\"" + escape(p.alt.empty() ? p.caption : p.alt) +
+                                              "\" src=\"data:image/png;base64," + html::base64(bytes) + "\">"
+                                        : notice(why);
+  return element("figure", shown + element("figcaption", escape(p.caption)));
+}
+
+std::string section(const std::string& id, const std::string& title, const std::string& lead, const std::string& body) {
+  return element(
+      "section",
+      element("h2", escape(title), " id=\"" + id + "\"") + (lead.empty() ? "" : element("p", escape(lead))) + body,
+      " aria-labelledby=\"" + id + "\"");
+}
+
+std::string answers(const ReportInput& in, const JointSummary& j) {
+  const auto item = [](const std::string& q, const std::string& a) {
+    return element("dt", escape(q)) + element("dd", prose(a));
+  };
+  std::string list = item("Peak added torque", formatNumber(sizeOf(j)) + " Nm, at the " + j.joint);
+  list += item("Side", j.side.empty() ? "none" : j.side);
+  list += item("When", seconds(j.peak_time_s));
+  list += item("Cause", j.cause.empty() ? "not known" : j.cause);
+  list += item("Share of the natural moment", j.natural_percent ? shareOf(j) + (in.task.empty() ? "" : " in " + in.task)
+                                                                : "not known: this task has no reference moment");
+  if (j.drag_percent) list += item("Part of it from air drag", percent(*j.drag_percent));
+  return element("dl", list, " class=\"answers\"");
+}
+
+std::string headline(const ReportInput& in) {
+  std::string words = element("p", prose(headlineOf(in)), " class=\"sentence\"");
+  if (const JointSummary* j = highestJoint(in)) {
+    words += answers(in, *j);
+    words += element("p",
+                     "Added torque is what the garment\u2019s contact forces do about a joint: the wearer\u2019s "
+                     "muscles supply it on top of what the movement needs without the garment, or are spared it.",
+                     " class=\"meaning\"");
+  }
+  std::string body = element("div", words, " class=\"words\"");
+  if (!in.pictures.empty()) body += picture(in.pictures.front());
+  return element("section", body,
+                 in.pictures.empty() ? " class=\"headline\" aria-label=\"The result\""
+                                     : " class=\"headline pictured\" aria-label=\"The result\"");
+}
+
+std::string alarms(const ReportInput& in) {
+  std::string out;
+  for (const auto& w : in.warnings) out += element("p", escape(w), " class=\"alarm\" role=\"alert\"");
+  const auto failed = std::count_if(in.audit.begin(), in.audit.end(), [](const AuditCheck& c) { return !c.holds(); });
+  if (failed > 0)
+    out += element("p",
+                   fmt::format("{} of {} checks of this run {}: do not rely on its numbers before you know why. See <a "
+                               "href=\"#audit\">the audit</a>.",
+                               failed, in.audit.size(), failed == 1 ? "fails" : "fail"),
+                   " class=\"alarm\" role=\"alert\"");
+  return out;
+}
+
+std::string jointName(const JointSummary& j) { return capital(j.joint) + (j.side.empty() ? "" : ", " + j.side); }
+
+std::string joints(const ReportInput& in) {
+  if (in.joints.empty()) return notice("This run has no joint torques.");
+  constexpr std::size_t most_cards = 6;
+  std::vector<const JointSummary*> order;
+  for (const auto& j : in.joints) order.push_back(&j);
+  std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+    const auto key = [](const JointSummary* j) { return std::isfinite(j->peak_Nm) ? sizeOf(*j) : -1; };
+    return key(a) > key(b);
+  });
+  std::string cards;
+  for (std::size_t i = 0; i < std::min(order.size(), most_cards); ++i) {
+    const JointSummary& j = *order[i];
+    std::string c =
+        element("h3", (&j == highestJoint(in) ? "<span class=\"tag\">highest</span>" : "") + escape(jointName(j)));
+    if (std::isfinite(j.peak_Nm))
+      c += element("p", escape(formatNumber(sizeOf(j))) + " <small>Nm peak</small>", " class=\"big\"") +
+           element("p", prose("at " + seconds(j.peak_time_s) + (j.cause.empty() ? "" : ", during " + j.cause)));
+    else
+      c += notice("The peak is " + formatNumber(j.peak_Nm) + ".");
+    c += element("p", prose(j.natural_percent ? shareOf(j) : "share of a natural moment: not known"),
+                 j.natural_percent ? "" : " class=\"soft\"");
+    c += element("p",
+                 prose("root mean square " + formatNumber(j.rms_Nm) + " Nm" +
+                       (j.drag_percent ? "; air drag " + percent(*j.drag_percent) + " of the peak" : "")),
+                 " class=\"soft\"");
+    cards += element("div", c, " class=\"card " + escape(j.side) + "\"");
+  }
+  std::string out = element("div", cards, " class=\"cards\"");
+  if (order.size() > most_cards) {
+    Table all{"All joints",
+              "",
+              {"joint", "peak [Nm]", "at [s]", "during", "root mean square [Nm]", "of the natural moment [%]",
+               "from air drag [%]"},
+              {}};
+    const auto optional = [](const std::optional<double>& v) { return v ? Cell(*v, 2) : Cell("not known"); };
+    for (const auto* j : order)
+      all.rows.push_back({jointName(*j), j->peak_Nm, j->peak_time_s, j->cause, j->rms_Nm, optional(j->natural_percent),
+                          optional(j->drag_percent)});
+    out += element("div", table(all), " class=\"charts\"");
+  }
+  return out;
+}
+
+std::string audit(const ReportInput& in) {
+  std::string rows;
+  for (const auto& c : in.audit)
+    rows += element("tr", element("th", escape(c.name), " scope=\"row\"") + element("td", escape(c.meaning)) +
+                              element("td", escape(formatNumber(c.value, 2) + " " + c.unit), " class=\"number\"") +
+                              element("td", escape(formatNumber(c.limit, 2) + " " + c.unit), " class=\"number\"") +
+                              element("td", c.holds() ? "<span class=\"good\">\u2713 holds</span>"
+                                                      : "<span class=\"bad\">\u2717 fails</span>"));
+  const std::string head =
+      element("tr", element("th", "check", " scope=\"col\"") + element("th", "what is compared", " scope=\"col\"") +
+                        element("th", "measured", " scope=\"col\" class=\"number\"") +
+                        element("th", "allowed", " scope=\"col\" class=\"number\"") +
+                        element("th", "verdict", " scope=\"col\""));
+  return element("div",
+                 element("div",
+                         element("table", element("caption", "Checks of every step") + element("thead", head) +
+                                              element("tbody", rows)),
+                         " class=\"scroll\""),
+                 " class=\"panel\"");
+}
+
+template <class Item, class Show>
+std::string each(const std::vector<Item>& items, Show show) {
+  std::string out;
+  for (const auto& i : items) out += show(i);
+  return out;
+}
+
+std::string charts(const std::string& body) { return element("div", body, " class=\"charts\""); }
+
+}  // namespace
+
+Cell::Cell(double v, int digits) : text(formatNumber(v, digits)), number(true) {}
+
+const JointSummary* highestJoint(const ReportInput& input) {
+  const JointSummary* best = nullptr;
+  for (const auto& j : input.joints)
+    if (std::isfinite(j.peak_Nm) && (!best || sizeOf(j) > sizeOf(*best))) best = &j;
+  return best;
+}
+
+std::string headlineOf(const ReportInput& input) {
+  const JointSummary* j = highestJoint(input);
+  if (!j)
+    return input.joints.empty() ? "This run measured no joint torques."
+                                : "No joint torque of this run is a finite number.";
+  std::string s = fmt::format("Peak added {} torque: {} Nm", j->joint, formatNumber(sizeOf(*j)));
+  if (!j->side.empty()) s += ", " + j->side + " side";
+  s += ", at " + seconds(j->peak_time_s);
+  if (!j->cause.empty()) s += ", during " + j->cause;
+  if (j->natural_percent) s += "; " + shareOf(*j);
+  return s + ".";
+}
+
+std::string formatReport(const ReportInput& in) {
+  std::string body = alarms(in) + headline(in);
+  body += section("joints", "What each joint pays",
+                  "Highest first. The share compares the peak with the moment that the joint needs in this task "
+                  "without the garment.",
+                  joints(in));
+  if (!in.torques.empty())
+    body += section("torques", "Torque over time", "Dotted vertical lines mark the strides.",
+                    charts(each(in.torques, lineChart)));
+  if (!in.contact_charts.empty() || !in.contact_tables.empty())
+    body += section("contact", "Where the garment presses", "Contact force of the cloth on each body segment.",
+                    charts(each(in.contact_charts, barChart) + each(in.contact_tables, table)));
+  if (!in.stress_tables.empty())
+    body += section("stress", "What the fabric carries", "", charts(each(in.stress_tables, table)));
+  if (in.pictures.size() > 1)
+    body += section("pictures", "Pictures", "",
+                    element("div", each(std::vector<Picture>(in.pictures.begin() + 1, in.pictures.end()), picture),
+                            " class=\"pictures\""));
+  if (!in.support_tables.empty())
+    body += section("supports", "What holds the garment",
+                    "Reactions of the supports are reported apart and are part of no joint torque.",
+                    charts(each(in.support_tables, table)));
+  body += section("audit", "Why to trust these numbers", "",
+                  in.audit.empty() ? notice("This run was not audited.") : charts(audit(in)));
+  body += section("assumptions", "What was assumed", "",
+                  in.assumptions.empty()
+                      ? notice("The assumptions of this run were not recorded.")
+                      : element("ul", each(in.assumptions, [](const auto& a) { return element("li", escape(a)); }),
+                                " class=\"assumptions\""));
+  if (!in.facts.empty() || !in.fact_tables.empty()) {
+    Table facts{"The run", "", {"fact", "value"}, {}};
+    for (const auto& [name, value] : in.facts) facts.rows.push_back({name, value});
+    body += section("run", "How it was computed", "",
+                    charts((in.facts.empty() ? "" : table(facts)) + each(in.fact_tables, table)));
+  }
+  const std::string head =
+      std::string(
+          "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+          "'unsafe-inline'; script-src 'unsafe-inline'\">\n") +
+      "<meta name=\"description\" content=\"" + escape(headlineOf(in)) + "\">\n" + element("title", escape(in.title)) +
+      element("style", report::kStyle);
+  return "<!DOCTYPE html>\n" +
+         element(
+             "html",
+             element("head", head) +
+                 element("body",
+                         element("header", element("h1", escape(in.title)) + element("p", escape(in.description)),
+                                 " class=\"page\"") +
+                             element("main", body + element("footer",
+                                                            "Made by Gambeson. This page holds everything it shows.")) +
+                             element("script", report::kScript)),
+             " lang=\"en\"");
+}
+
+void writeReport(const ReportInput& input, const std::filesystem::path& html) {
+  writeFileAtomically(html, formatReport(input));
+}
+
+}  // namespace gambeson

@@ -1,0 +1,91 @@
+#pragma once
+/// The page's look, and the little script that shows values under the pointer; the page is whole without it.
+
+namespace gambeson::report {
+
+inline constexpr const char* kStyle = R"css(
+:root { --ink:#1b1f27; --soft:#555d6b; --line:#d9dde4; --paper:#ffffff; --ground:#f5f6f8; --accent:#3a2d86; --left:#1668b0; --right:#c04a0f;
+  --third:#00796b; --fourth:#6b4c9a; --good:#1b6e3c; --bad:#a61b1b; }
+* { box-sizing:border-box; }
+body { margin:0; background:var(--ground); color:var(--ink); font:16px/1.5 system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; }
+main, header.page { max-width:1120px; margin:0 auto; padding:0 20px; }
+header.page { padding-top:32px; }
+h1 { font-size:1.15rem; margin:0; font-weight:600; color:var(--accent); }
+header.page p { margin:4px 0 0; color:var(--soft); max-width:75ch; }
+h2 { font-size:1.35rem; margin:44px 0 6px; }
+h2 + p { margin-top:0; color:var(--soft); max-width:75ch; }
+h3 { font-size:1rem; margin:0 0 8px; }
+.headline { display:grid; grid-template-columns:minmax(0,1fr); gap:24px; margin:20px 0 0; background:var(--paper); border:1px solid var(--line); border-radius:14px; overflow:hidden; }
+.headline .words { padding:26px 28px; }
+.headline .sentence { font-size:1.5rem; line-height:1.3; margin:0 0 18px; font-weight:600; text-wrap:balance; }
+.headline img { width:100%; height:100%; max-height:560px; object-fit:contain; display:block; background:#f9fafa; }
+.headline figure { margin:0; }
+.headline figcaption { padding:6px 16px 12px; font-size:.9rem; color:var(--soft); }
+dl.answers { display:grid; grid-template-columns:max-content minmax(0,1fr); gap:7px 18px; margin:0; }
+dl.answers dt { color:var(--soft); }
+dl.answers dd { margin:0; font-weight:600; }
+.meaning { margin:18px 0 0; padding-top:14px; border-top:1px solid var(--line); color:var(--soft); font-size:.95rem; }
+.cards { display:grid; grid-template-columns:repeat(auto-fill,minmax(235px,1fr)); gap:14px; margin-top:14px; }
+.card { background:var(--paper); border:1px solid var(--line); border-top:4px solid var(--third); border-radius:10px; padding:14px 16px; }
+.card.left { border-top-color:var(--left); } .card.right { border-top-color:var(--right); }
+.card .big { font-size:1.9rem; font-weight:700; line-height:1.15; margin:2px 0 6px; }
+.card .big small { font-size:1rem; font-weight:600; }
+.card h3 { margin:0; } .card h3 .tag { float:right; font-size:.75rem; font-weight:600; color:var(--accent); border:1px solid var(--accent); border-radius:99px; padding:0 8px; }
+.card p { margin:0; font-size:.95rem; } .card p.soft { color:var(--soft); }
+.charts { display:grid; grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); gap:16px; margin-top:14px; align-items:start; }
+figure.chart, .panel { margin:0; background:var(--paper); border:1px solid var(--line); border-radius:10px; padding:16px; min-width:0; }
+figure.chart figcaption, .panel .caption { font-size:.9rem; color:var(--soft); margin:6px 0 0; }
+svg { display:block; width:100%; height:auto; font:14px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; fill:var(--ink); overflow:visible; }
+svg .grid { stroke:#e4e7ec; } svg .zero { stroke:#8d95a3; } svg .axis, svg .mark-label { fill:var(--soft); } svg .mark-label { font-size:12px; }
+svg .mark { stroke:#8d95a3; stroke-dasharray:3 4; } svg .peak-label { font-weight:600; paint-order:stroke; stroke:#fff; stroke-width:4px; }
+svg .series { fill:none; stroke-width:2.2; stroke-linejoin:round; }
+svg .left { stroke:var(--left); } svg .right { stroke:var(--right); stroke-dasharray:7 2.5; } svg .third { stroke:var(--third); } svg .fourth { stroke:var(--fourth); stroke-dasharray:2 3; }
+svg .peak { fill:#fff; stroke-width:2.4; stroke-dasharray:none; } svg .bar { fill:var(--third); } svg .value { font-weight:600; }
+svg .cursor { stroke:var(--ink); stroke-width:1; } svg .readout { font-weight:600; font-size:13px; paint-order:stroke; stroke:#fff; stroke-width:5px; }
+.scroll { overflow-x:auto; } .q { white-space:nowrap; }
+table { border-collapse:collapse; width:100%; font-size:.95rem; }
+caption { text-align:left; font-weight:600; padding-bottom:6px; }
+th, td { text-align:left; padding:6px 12px 6px 0; border-bottom:1px solid var(--line); vertical-align:top; }
+thead th { font-weight:600; color:var(--soft); font-size:.88rem; border-bottom-color:#aab1bd; }
+th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font-variant-numeric:tabular-nums; white-space:nowrap; } thead th.number { white-space:normal; }
+.pictures { display:grid; grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); gap:16px; margin-top:14px; align-items:start; }
+.pictures figure { margin:0; background:var(--paper); border:1px solid var(--line); border-radius:10px; overflow:hidden; }
+.pictures img { display:block; width:100%; height:auto; } .pictures figcaption { padding:10px 16px 14px; font-size:.95rem; }
+.notice { background:#fff6df; border:1px solid #d8b25a; border-radius:8px; padding:8px 12px; margin:10px 0 0; color:#5c4300; font-size:.95rem; }
+.alarm { background:#fdecec; border:2px solid var(--bad); border-radius:10px; padding:12px 16px; margin:16px 0 0; color:#6d1010; font-weight:600; }
+.good, .bad { font-weight:700; white-space:nowrap; } .good { color:var(--good); } .bad { color:var(--bad); }
+ul.assumptions { margin:10px 0 0; padding-left:22px; columns:2 420px; column-gap:36px; } ul.assumptions li { break-inside:avoid; margin-bottom:6px; }
+footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }
+@media (min-width:900px) { .headline.pictured { grid-template-columns:minmax(0,1fr) minmax(0,1fr); } .headline.pictured figure { display:flex; flex-direction:column; background:#f9fafa; border-left:1px solid var(--line); } .headline img { flex:1; min-height:0; } }
+@media (max-width:560px) { main, header.page { padding-left:12px; padding-right:12px; } .headline .words { padding:18px 16px; } .headline .sentence { font-size:1.25rem; } figure.chart, .panel { padding:12px 10px; } }
+@media print { @page { margin:14mm; } body { background:#fff; font-size:10.5pt; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page { padding-top:0; } h2 { break-after:avoid; margin-top:26px; }
+  figure, .card, .panel, .headline, tr { break-inside:avoid; } .headline.pictured { grid-template-columns:1fr 1fr; } .cards { grid-template-columns:repeat(3,1fr); } .charts, .pictures { grid-template-columns:1fr 1fr; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
+)css";
+
+/// Values under the pointer, read back from the drawn paths.
+inline constexpr const char* kScript = R"js(
+document.querySelectorAll('svg[data-frame]').forEach(svg => {
+  const [x0, x1, y0, y1, t0, t1, v0, v1] = svg.dataset.frame.split(' ').map(Number);
+  const make = (name, cls) => { const e = document.createElementNS(svg.namespaceURI, name); e.setAttribute('class', cls); svg.appendChild(e); return e; };
+  const cursor = make('line', 'cursor'), readout = make('text', 'readout');
+  const lines = [...svg.querySelectorAll('path.series')].map(p => ({ name: p.dataset.name,
+    points: p.getAttribute('d').slice(1).split(/[ML]/).map(s => s.split(' ').map(Number)) }));
+  const hide = () => { cursor.style.display = readout.style.display = 'none'; };
+  const show = event => {
+    const box = svg.getBoundingClientRect(), x = (event.clientX - box.left) / box.width * svg.viewBox.baseVal.width;
+    if (x < x0 || x > x1) return hide();
+    const near = lines.map(l => ({ name: l.name, p: l.points.reduce((a, b) => Math.abs(b[0] - x) < Math.abs(a[0] - x) ? b : a) }));
+    const at = near[0].p[0];
+    cursor.style.display = readout.style.display = '';
+    for (const [k, v] of [['x1', at], ['x2', at], ['y1', y0], ['y2', y1]]) cursor.setAttribute(k, v);
+    readout.textContent = (t0 + (at - x0) / (x1 - x0) * (t1 - t0)).toFixed(2) + ' s: ' +
+      near.map(n => n.name + ' ' + (v0 + (n.p[1] - y0) / (y1 - y0) * (v1 - v0)).toPrecision(3)).join(', ') + ' ' + svg.dataset.unit;
+    readout.setAttribute('x', at < (x0 + x1) / 2 ? at + 6 : at - 6);
+    readout.setAttribute('y', y0 - 6);
+    readout.setAttribute('text-anchor', at < (x0 + x1) / 2 ? 'start' : 'end');
+  };
+  svg.addEventListener('pointermove', show); svg.addEventListener('pointerdown', show); svg.addEventListener('pointerleave', hide); hide();
+});
+)js";
+
+}  // namespace gambeson::report

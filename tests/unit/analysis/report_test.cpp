@@ -1,0 +1,266 @@
+#include "analysis/report/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "analysis/render/render.hpp"
+#include "analysis/report/chart.hpp"
+#include "analysis/report/html.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+bool has(const std::string& page, const std::string& what) { return page.find(what) != std::string::npos; }
+
+std::size_t count(const std::string& page, const std::string& what) {
+  std::size_t n = 0;
+  for (auto at = page.find(what); at != std::string::npos; at = page.find(what, at + what.size())) ++n;
+  return n;
+}
+
+/// The text that a reader sees: without tags.
+std::string seen(const std::string& page) { return std::regex_replace(page, std::regex("<[^>]*>"), ""); }
+
+std::string onePixelPng() {
+  Image image;
+  image.width = image.height = 1;
+  image.rgb = {10, 20, 30};
+  return encodePng(image);
+}
+
+Series wave(const std::string& name, int n, Tone tone) {
+  Series s{name, "Nm", {}, {}, tone};
+  for (int i = 0; i < n; ++i) s.time_s.push_back(0.01 * i), s.values.push_back(std::sin(0.1 * i));
+  return s;
+}
+
+ReportInput example() {
+  ReportInput in;
+  in.title = "Shorts <walking> & \"more\"";
+  in.description = "A man walks.";
+  in.task = "walking at natural speed";
+  in.joints = {{"knee", "left", 0.021, 0.93, "", 0.0071, {}, {}},
+               {"hip", "right", -1.8349, 1.2432, "hip flexion (swing)", 0.6123, 3.31, 4.24},
+               {"hip", "left", 1.79, 1.79, "hip flexion (swing)", 0.605, 3.2, {}}};
+  Plot plot;
+  plot.title = "Hip flexion torque";
+  plot.series = {wave("left", 120, Tone::left), wave("right", 120, Tone::right)};
+  plot.marks = {{0.5, "first stride"}};
+  in.torques = {plot};
+  in.contact_charts = {{"Mean contact force", "N", "", {{"right thigh", 5.31}, {"pelvis", 3.9}}}};
+  in.contact_tables = {{"Contact force per segment", "", {"segment", "mean [N]"}, {{"right thigh", 5.3149}}}};
+  in.stress_tables = {{"Stress", "", {"region", "99 % [N/m]"}, {{"seat", 10.24}}}};
+  in.support_tables = {{"Waist springs", "", {"component", "peak [N]"}, {{"up", 4.917}}}};
+  in.pictures = {{onePixelPng(), "Stress at the peak", "A figure in <shorts>"}};
+  in.audit = {{"momentum", 3.1e-13, 1e-9, "", "change of momentum against impulses"}};
+  in.assumptions = {"No self-contact yet."};
+  in.facts = {{"steps", "412018"}, {"case", "9f3c22ab"}};
+  return in;
+}
+
+TEST(Html, EscapesWhatMarkupMeans) {
+  EXPECT_EQ(html::escape("a<b & \"c\" > 'd'"), "a&lt;b &amp; &quot;c&quot; &gt; &#39;d&#39;");
+  EXPECT_EQ(html::escape("Nm \u00b7 \u2212"), "Nm \u00b7 \u2212");
+}
+
+TEST(Html, Base64OfRfc4648Section10) {
+  EXPECT_EQ(html::base64(""), "");
+  EXPECT_EQ(html::base64("f"), "Zg==");
+  EXPECT_EQ(html::base64("fo"), "Zm8=");
+  EXPECT_EQ(html::base64("foo"), "Zm9v");
+  EXPECT_EQ(html::base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(html::base64("\xff\xfe\x00"), "//4=");  // the literal ends at its NUL
+}
+
+TEST(Report, HeadlineNamesTorqueSideTimeCauseAndShare) {
+  EXPECT_EQ(headlineOf(example()),
+            "Peak added hip torque: 1.83 Nm, right side, at 1.24 s, during hip flexion (swing); 3.3 % of the natural "
+            "hip moment.");
+  ReportInput bare;
+  bare.joints = {{"elbow", "", 0.5, 2.0, "", 0.1, {}, {}}};
+  EXPECT_EQ(headlineOf(bare), "Peak added elbow torque: 0.500 Nm, at 2.00 s.");
+  bare.joints[0].peak_Nm = NAN;
+  EXPECT_EQ(headlineOf(bare), "No joint torque of this run is a finite number.");
+  EXPECT_EQ(headlineOf({}), "This run measured no joint torques.");
+}
+
+TEST(Report, HighestJointIsTheLargestMagnitudeAndNeverNan) {
+  ReportInput in = example();
+  EXPECT_EQ(highestJoint(in), &in.joints[1]);
+  in.joints[1].peak_Nm = NAN;
+  EXPECT_EQ(highestJoint(in), &in.joints[2]);
+  EXPECT_TRUE(has(seen(formatReport(in)), "The peak is not a number."));
+}
+
+TEST(Report, ShowsTheNumbersThatItIsGiven) {
+  const std::string page = seen(formatReport(example()));
+  for (const char* number :
+       {"1.83 Nm, at the hip", "3.3 % of the natural hip moment in walking at natural speed", "4.2 %",
+        "root mean square 0.612 Nm", "0.0210 Nm peak", "at 0.93 s", "5.31 N", "3.90 N", "10.2", "4.92", "3.1e\u221213",
+        "1.0e\u22129", "412018", "9f3c22ab", "No self-contact yet.", "first stride", "not known"})
+    EXPECT_TRUE(has(page, number)) << number;
+}
+
+TEST(Report, EscapesEveryTextOfTheUser) {
+  ReportInput in = example();
+  const std::string evil = "<script>x</script>\"&'";
+  in.title = in.description = in.task = evil;
+  in.warnings = {evil};
+  for (auto& j : in.joints) j.joint = j.cause = j.side = evil;
+  in.torques[0].title = in.torques[0].caption = in.torques[0].marks[0].label = evil;
+  for (auto& s : in.torques[0].series) s.name = s.unit = evil;
+  in.contact_charts = {{evil, evil, evil, {{evil, 1}}}};
+  in.contact_tables = {{evil, evil, {evil, evil}, {{evil, evil}}}};
+  in.pictures = {{onePixelPng(), evil, evil}, {std::filesystem::path(evil), evil, evil}};
+  in.audit = {{evil, 0, 1, evil, evil}};
+  in.assumptions = {evil};
+  in.facts = {{evil, evil}};
+  const std::string page = formatReport(in);
+  EXPECT_EQ(count(page, "<script>"), 1u);  // the page's own
+  EXPECT_FALSE(has(page, "x</script>"));
+  EXPECT_FALSE(has(page, "\"&'"));
+}
+
+TEST(Report, AsksTheNetworkForNothing) {
+  const std::string page = formatReport(example());
+  EXPECT_FALSE(has(page, "http://"));
+  EXPECT_FALSE(has(page, "https://"));
+  EXPECT_FALSE(has(page, "src=\"//"));
+  EXPECT_FALSE(has(page, "@import"));
+  EXPECT_FALSE(has(page, "url("));
+  EXPECT_TRUE(has(page, "default-src 'none'"));
+  const std::regex target("(src|href)=\"([^\"]{5})");
+  for (std::sregex_iterator it(page.begin(), page.end(), target), end; it != end; ++it)
+    EXPECT_TRUE((*it)[2] == "data:" || (*it)[2].str()[0] == '#') << it->str();
+}
+
+TEST(Report, IsReadableByAll) {
+  const std::string page = formatReport(example());
+  EXPECT_EQ(count(page, "<img "), count(page, "<img alt=\""));
+  EXPECT_TRUE(has(page, "alt=\"A figure in &lt;shorts&gt;\""));
+  EXPECT_EQ(count(page, "<svg "), count(page, "aria-label=\"") - count(page, "<section class=\"headline"));
+  EXPECT_EQ(count(page, "<table>"), count(page, "<thead>"));
+  EXPECT_EQ(count(page, "<table>"), count(page, "<caption>"));
+  EXPECT_TRUE(has(page, "<html lang=\"en\">"));
+  for (const char* tag : {"section", "figure", "table", "div", "p", "svg", "main", "tr", "td"})
+    EXPECT_EQ(count(page, std::string("<") + tag + " ") + count(page, std::string("<") + tag + ">"),
+              count(page, std::string("</") + tag + ">"))
+        << tag;
+}
+
+TEST(Report, FailedCheckAndWarningStandAtTheTop) {
+  ReportInput in = example();
+  EXPECT_FALSE(has(formatReport(in), "class=\"alarm\""));
+  in.warnings = {"The run stopped at 1.2 s."};
+  in.audit.push_back({"energy", NAN, 0.01, "", ""});
+  in.audit.push_back({"sign", -2, 1, "", ""});
+  const std::string page = formatReport(in);
+  EXPECT_TRUE(has(seen(page), "2 of 3 checks of this run fail"));
+  EXPECT_LT(page.find("The run stopped at 1.2 s."), page.find("Peak added torque"));
+  EXPECT_EQ(count(page, "\u2717 fails"), 2u);
+  EXPECT_EQ(count(page, "\u2713 holds"), 1u);
+}
+
+TEST(Report, MissingPartsSaySo) {
+  const std::string page = seen(formatReport({}));
+  for (const char* message : {"This run has no joint torques.", "This run was not audited.",
+                              "The assumptions of this run were not recorded."})
+    EXPECT_TRUE(has(page, message)) << message;
+  ReportInput in;
+  in.pictures = {{std::filesystem::path("/nonexistent.png"), "A", ""}, {std::string("GIF89a"), "B", ""}};
+  in.torques = {Plot{}};
+  in.contact_charts = {BarChart{}};
+  const std::string other = seen(formatReport(in));
+  EXPECT_TRUE(has(other, "The picture /nonexistent.png cannot be read."));
+  EXPECT_TRUE(has(other, "A picture is not a PNG."));
+  EXPECT_EQ(count(other, "There is nothing to plot."), 2u);
+}
+
+TEST(Report, MoreJointsThanCardsGetATable) {
+  ReportInput in = example();
+  for (int i = 0; i < 5; ++i) in.joints.push_back({"ankle", "left", 0.001 * i, 0.1, "", 0, {}, {}});
+  const std::string page = formatReport(in);
+  EXPECT_EQ(count(page, "<div class=\"card "), 6u);
+  EXPECT_TRUE(has(page, "All joints"));
+}
+
+TEST(Chart, HasOnePointPerValue) {
+  Plot plot{"T", "", {wave("left", 57, Tone::left)}, {}, true};
+  const std::string svg = lineChart(plot);
+  std::smatch d;
+  ASSERT_TRUE(std::regex_search(svg, d, std::regex("<path[^>]* d=\"([^\"]*)\"")));
+  const std::string path = d[1];
+  EXPECT_EQ(count(path, "M"), 1u);
+  EXPECT_EQ(count(path, "L"), 56u);
+}
+
+TEST(Chart, PointsStandWhereTheAxesSay) {
+  // Linear between the ends of the frame that the figure states.
+  Plot plot{"T", "", {{"a", "Nm", {0, 1, 4}, {0, 2, -1}, Tone::third}}, {}, true};
+  const std::string svg = lineChart(plot);
+  std::smatch m;
+  ASSERT_TRUE(std::regex_search(svg, m, std::regex("data-frame=\"([^\"]*)\"")));
+  std::istringstream frame(m[1]);
+  double x0, x1, y0, y1, t0, t1, v0, v1;
+  frame >> x0 >> x1 >> y0 >> y1 >> t0 >> t1 >> v0 >> v1;
+  ASSERT_TRUE(std::regex_search(svg, m, std::regex("L([0-9.]+) ([0-9.]+)L")));
+  EXPECT_NEAR(t0 + (std::stod(m[1]) - x0) / (x1 - x0) * (t1 - t0), 1, 0.01);
+  EXPECT_NEAR(v0 + (std::stod(m[2]) - y0) / (y1 - y0) * (v1 - v0), 2, 0.01);
+  EXPECT_TRUE(has(svg, "peak 2.00 Nm at 1.00 s"));
+}
+
+TEST(Chart, NanInterruptsTheLineAndIsCounted) {
+  Plot plot{"T", "", {wave("right", 30, Tone::right)}, {}, true};
+  plot.series[0].values[10] = NAN;
+  plot.series[0].values[11] = INFINITY;
+  const std::string svg = lineChart(plot);
+  std::smatch d;
+  ASSERT_TRUE(std::regex_search(svg, d, std::regex(" d=\"([^\"]*)\"")));
+  EXPECT_EQ(count(d[1], "M"), 2u);
+  EXPECT_EQ(count(d[1], "L"), 26u);
+  EXPECT_FALSE(has(d[1], "n"));
+  EXPECT_TRUE(has(svg, "2 of the 30 values of right are not finite numbers and are left out."));
+}
+
+TEST(Chart, EmptyAndUnusableSeriesSaySo) {
+  Plot plot{"T", "", {{"left", "Nm", {}, {}, Tone::left}, {"right", "Nm", {0, 1}, {NAN, NAN}, Tone::right}}, {}, true};
+  const std::string svg = lineChart(plot);
+  EXPECT_TRUE(has(svg, "No values of left were recorded."));
+  EXPECT_TRUE(has(svg, "None of the 2 values of right is a finite number."));
+  EXPECT_FALSE(has(svg, "<svg"));
+  plot.series[0] = {"one", "Nm", {1}, {0}, Tone::left};
+  EXPECT_TRUE(has(lineChart(plot), "<svg"));  // a single point and a constant have a frame too
+  plot.series[0].time_s.push_back(2);
+  EXPECT_THROW(lineChart(plot), InputError);
+}
+
+TEST(Chart, BarsAreAsLongAsTheirValues) {
+  const std::string svg = barChart({"F", "N", "", {{"a", 4}, {"b", 1}, {"c", NAN}, {"d", 0}}});
+  std::vector<double> w;
+  const std::regex width("<rect[^>]*width=\"([0-9.]+)\"");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), width), end; it != end; ++it) w.push_back(std::stod((*it)[1]));
+  ASSERT_EQ(w.size(), 4u);
+  EXPECT_NEAR(w[0] / w[1], 4, 0.01);
+  EXPECT_EQ(w[2], 0);
+  EXPECT_TRUE(has(svg, "not a number N"));
+}
+
+TEST(Report, IsWrittenWholeOrNotAtAll) {
+  const auto file = std::filesystem::temp_directory_path() / "gambeson_report_test.html";
+  writeReport(example(), file);
+  std::ifstream in(file);
+  std::ostringstream all;
+  all << in.rdbuf();
+  EXPECT_EQ(all.str(), formatReport(example()));
+  std::filesystem::remove(file);
+  EXPECT_THROW(writeReport(example(), "/nonexistent/report.html"), RunError);
+}
+
+}  // namespace
+}  // namespace gambeson
