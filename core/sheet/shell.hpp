@@ -1,0 +1,78 @@
+#pragma once
+/// The NURBS Kirchhoff-Love sheet (Zheng 2013, section 2.2): force, energy and stress of a garment.
+
+#include <span>
+#include <vector>
+
+#include "core/sheet/garment.hpp"
+#include "core/sheet/seams.hpp"
+#include "core/sheet/shell_kernel.hpp"
+#include "core/sheet/surface.hpp"
+
+namespace gambeson {
+
+/// Which parts of the force to evaluate. `steepest` replaces eq. 2.14 by the linear law of its steepest slope: what the
+/// stable time step must allow for.
+struct ShellTerms {
+  bool membrane = true, bending = true, seams = true;
+  bool steepest = false;
+};
+
+/// Scratch of Shell::force; nobody else reads it.
+struct ShellWork {
+  AlignedVector<double> slots;
+  AlignedVector<double> lane_energy;
+};
+
+/// Resultants and strain at one point, in the physical basis of the cloth.
+struct ShellStress {
+  double principal1_N_per_m = 0, principal2_N_per_m = 0;  ///< true (Cauchy) resultants, first >= second
+  double strain1 = 0, strain2 = 0;                        ///< principal Green-Lagrange strains, first >= second
+};
+
+class Shell {
+ public:
+  /// `gauss_extra` points more than degree + 1 in each direction. Throws InputError on bad geometry or fabric.
+  Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra = 0);
+
+  int controlCount() const { return control_count_; }
+  /// f = - dE/dq on the control points [N]; `energy` [J] where not null. The same bits for any number of threads.
+  void force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy = nullptr, const ShellTerms& terms = {}) const;
+  /// Stress and strain at a point of a patch.
+  ShellStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  /// Physical curvature (weft, warp, twist) at a point of a patch, the rest curvature not subtracted [1/m].
+  Vec3 curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+
+  const KernelSet& kernels() const { return *kernels_; }
+  long gaussPoints() const { return gauss_points_; }
+  const Garment& garment() const { return garment_; }
+
+ private:
+  struct Part {
+    ShellBlock block;
+    ShellLaw law;
+    long first_slot = 0;
+  };
+  struct Frame;
+  Frame frameAt(int patch, Vec2 uv) const;
+
+  Garment garment_;
+  const KernelSet* kernels_;
+  std::vector<int> offsets_;
+  int control_count_ = 0;
+  long gauss_points_ = 0;
+  std::vector<Part> parts_;
+  std::vector<HingePoint> hinges_;
+  long hinge_slot_ = 0;             ///< first slot of the hinges
+  std::vector<long> hinge_offset_;  ///< of each hinge, in columns
+  long slot_count_ = 0;
+  /// Where each control point's contributions lie: slot of x; y and z follow at the stride of the slot's part.
+  std::vector<long> gather_offsets_;
+  std::vector<long> gather_slots_;
+  std::vector<int> gather_strides_;
+};
+
+/// The membrane resultants' stiffness of a fabric (eq. 2.13 times the thickness), plane stress.
+ShellLaw shellLaw(const Fabric& fabric);
+
+}  // namespace gambeson
