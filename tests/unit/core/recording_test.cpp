@@ -14,7 +14,6 @@
 #include <iterator>
 #include <limits>
 #include <random>
-#include <regex>
 #include <stdexcept>
 
 #include "core/error.hpp"
@@ -414,24 +413,31 @@ TEST_F(RecordingTest, SidecarListsClosedFramesOnly) {
   record(writer, 0, 6);
   writer.append(someFrame(6));
   const std::string text = slurp(dir / "r" / "frames.xdmf");
-  const auto all = [&](const std::string& pattern) {
-    const std::regex regex(pattern);
+  // Every text between `before` and the next `after`.
+  const auto all = [&](const std::string& before, const std::string& after) {
     std::vector<std::string> found;
-    for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it) found.push_back((*it)[1]);
+    for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
+      const std::size_t from = at + before.size();
+      found.push_back(text.substr(from, text.find(after, from) - from));
+    }
     return found;
   };
-  EXPECT_EQ(all("CollectionType=\"(Temporal)\"").size(), 1u);
-  const auto times = all("<Time Value=\"([^\"]*)\"/>");
+  EXPECT_EQ(all("CollectionType=\"Temporal", "\"").size(), 1u);
+  const auto times = all("<Time Value=\"", "\"/>");
   ASSERT_EQ(times.size(), 6u);
   for (int f = 0; f < 6; ++f) EXPECT_EQ(std::stod(times[static_cast<std::size_t>(f)]), 0.1 * f);
-  EXPECT_EQ(all("<Topology TopologyType=\"Triangle\" NumberOfElements=\"(58)\"").size(), 6u);
-  EXPECT_EQ(all("<Attribute Name=\"(stress)\" AttributeType=\"Scalar\" Center=\"Node\">").size(), 6u);
-  EXPECT_EQ(all("<Attribute Name=\"(velocity)\" AttributeType=\"Vector\" Center=\"Node\">").size(), 6u);
-  EXPECT_EQ(all("<Attribute Name=\"(mass)\"").size(), 6u);
+  EXPECT_EQ(all("<Topology TopologyType=\"Triangle\" NumberOfElements=\"", "\""), std::vector<std::string>(6, "58"));
+  EXPECT_EQ(all("<Attribute Name=\"stress\" AttributeType=\"Scalar\" Center=\"Node\"", ">").size(), 6u);
+  EXPECT_EQ(all("<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\"", ">").size(), 6u);
+  EXPECT_EQ(all("<Attribute Name=\"mass\"", ">").size(), 6u);
   // Every file named is there, relative to the sidecar.
-  const auto files = all(">([^<:]*):/[^<]*<");
+  auto files = all("<DataItem", "</DataItem>");
   EXPECT_EQ(files.size(), 6u * 8);
-  for (const auto& file : files) EXPECT_TRUE(fs::exists(dir / "r" / file)) << file;
+  for (auto& file : files) {
+    file = file.substr(file.find('>') + 1);
+    file = file.substr(0, file.find(':'));
+    EXPECT_TRUE(fs::exists(dir / "r" / file)) << file;
+  }
   EXPECT_EQ(std::count(files.begin(), files.end(), "frames/segment_000001.h5"), 3 * 7);
 }
 

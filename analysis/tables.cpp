@@ -1,0 +1,52 @@
+#include "analysis/tables.hpp"
+
+#include "core/io/csv.hpp"
+
+namespace gambeson {
+
+void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueHistory& history) {
+  std::vector<std::string> columns{"time_s"};
+  for (const int j : history.joints) {
+    const Joint& joint = skeleton.joints[static_cast<std::size_t>(j)];
+    columns.push_back(joint.name + (joint.type == JointType::prismatic ? "_N" : "_Nm"));
+  }
+  std::vector<std::vector<double>> rows;
+  for (std::size_t w = 0; w < history.time_s.size(); ++w) {
+    rows.push_back({history.time_s[w]});
+    rows.back().insert(rows.back().end(), history.value[w].begin(), history.value[w].end());
+  }
+  writeCsv(csv, columns, rows);
+}
+
+void writeContact(const std::filesystem::path& csv, const Human& human, std::span<const ContactWindow> windows) {
+  const std::vector<int> links = segmentLinks(human);
+  std::vector<std::string> columns{"time_s"};
+  for (const int l : links)
+    for (const char* unit : {"_N", "_x_N", "_y_N", "_z_N"})
+      columns.push_back(human.skeleton.links[static_cast<std::size_t>(l)].name + unit);
+  std::vector<std::vector<double>> rows;
+  for (const ContactWindow& w : windows) {
+    rows.push_back({w.middle()});
+    for (const int l : links) {
+      const Vec3 force = w.links[static_cast<std::size_t>(l)].force_Ns / w.duration();
+      rows.back().insert(rows.back().end(), {norm(force), force.x, force.y, force.z});
+    }
+  }
+  writeCsv(csv, columns, rows);
+}
+
+void writeStress(const std::filesystem::path& csv, const Regions& regions, std::span<const StressFrame> frames) {
+  std::vector<std::string> columns{"time_s"};
+  for (const std::string& name : regions.names)
+    for (const char* what : {"_p50_N_per_m", "_p95_N_per_m", "_p99_N_per_m", "_max_N_per_m", "_max_strain"})
+      columns.push_back(name + what);
+  std::vector<std::vector<double>> rows;
+  for (const StressFrame& frame : frames) {
+    rows.push_back({frame.time_s});
+    for (const StressSummary& s : summarizeStress(regions, {&frame, 1}))
+      rows.back().insert(rows.back().end(), {s.p50_N_per_m, s.p95_N_per_m, s.p99_N_per_m, s.max_N_per_m, s.max_strain});
+  }
+  writeCsv(csv, columns, rows);
+}
+
+}  // namespace gambeson
