@@ -1,6 +1,7 @@
 #include "cases/case.hpp"
 
 #include "cases/fields.hpp"
+#include "cases/references.hpp"
 #include "cases/rules.hpp"
 #include "core/error.hpp"
 
@@ -20,6 +21,7 @@ Case readCase(const std::filesystem::path& file, const std::vector<std::string>&
   const schema::Place place{root, "", name};
   schema::readObject(schema::caseTable(), place, &c);
   schema::applyRules(place, c);
+  schema::checkReferences(place, c);
   c.file = file;
   c.overrides = overrides;
   return c;

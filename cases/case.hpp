@@ -226,6 +226,7 @@ struct Case {
 
 /// Reads and checks a case file. `overrides` ("fabric.thickness=0.4 mm") replace or add values before the checks.
 /// Relative paths in the file resolve against its folder, those of overrides against the current folder.
+/// The files that the case names are read once as well, so that the run does not stumble over them.
 /// Throws InputError with file, line and key ("command line" and the key for overrides).
 Case readCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 

@@ -90,28 +90,6 @@ void checkWithoutHuman(const Place& root, Case& c) {
     failAt(root, {"analysis", "joints"}, "joints are those of a human, and the case has none");
 }
 
-/// Time that the motion is followed, where the case alone says it.
-std::optional<double> knownDuration(const Case& c) {
-  if (c.time.duration_s) return c.time.duration_s;
-  if (!c.human) return std::nullopt;
-  if (const auto* stand = std::get_if<StandMotion>(&c.human->motion)) return stand->duration_s;
-  if (const auto* walk = std::get_if<WalkOptions>(&c.human->motion))
-    return walk->stand_s + walk->lead_in_s + walk->strides * walk->stride_time_s;
-  return std::nullopt;
-}
-
-void checkPictures(const Place& root, const Case& c) {
-  const std::optional<double> duration = knownDuration(c);
-  for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
-    const PictureCase& p = c.output.pictures[i];
-    if (p.when == PictureTime::at && duration && !(p.time_s <= *duration * (1 + 1e-9))) {
-      const Place list = root.member(*root.node.find("output"));
-      itemOf(list, "pictures", i)
-          .failAt("time", fmt::format("{} s is out of range; allowed: 0 to {} s, peak or end", p.time_s, *duration));
-    }
-  }
-}
-
 }  // namespace
 
 void applyRules(const Place& root, Case& c) {
@@ -121,7 +99,6 @@ void applyRules(const Place& root, Case& c) {
   if (!c.human) checkWithoutHuman(root, c);
   checkSupports(root, c);
   checkObstacles(root, c);
-  checkPictures(root, c);
   if (c.analysis.task == Task::natural_walk && !(c.human && std::holds_alternative<WalkOptions>(c.human->motion)))
     failAt(root, {"analysis", "task"}, "natural_walk compares with walking, and the human does not walk");
 }

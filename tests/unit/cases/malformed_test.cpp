@@ -100,6 +100,13 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
       {"\"manikin\": \"male_p50\",", "\"urdf\": \"nobody.urdf\",", 16, "human.urdf", "there is no file"},
       {"\"manikin\": \"male_p50\",", "\"urdf\": \".\",", 16, "human.urdf", "is not a file"},
       {"\"walk\": {\"strides\": 1}", "\"trajectory\": {}", 17, "human.motion.trajectory.file", "is required"},
+      {"\"walk\": {\"strides\": 1}", "\"trajectory\": {\"file\": \"nowhere.csv\"}", 17, "human.motion.trajectory.file",
+       "there is no file"},
+      // Names that the human does not have.
+      {"hip_flexion_left", "hip_flexon_left", 33, "analysis.joints[0]", "did you mean \"hip_flexion_left\"?"},
+      {"\"hip_flexion_left\"", "\"hip_flexion_left\", \"hip_flexion_left\"", 33, "analysis.joints[1]", "listed twice"},
+      {"\"link\": \"pelvis\"", "\"link\": \"pelvic\"", 25, "supports[1].springs.link", "did you mean \"pelvis\"?"},
+      {"\"floor\"", "\"pelvis\"", 21, "obstacles[1].name", "also a link of the human"},
       // Syntax, duplicates.
       {"\"poisson\": 0.3,", "\"poisson\": 0.3", 13, "", "unexpected string literal"},
       {"\"poisson\": 0.3,", "\"poisson\": 0.3, \"poisson\": 0.4,", 12, "fabric.poisson",
@@ -187,12 +194,64 @@ TEST(MalformedCase, FilesThatAreNone) {
   }
 }
 
-TEST(MalformedCase, UnreadableFile) {
-  if (geteuid() == 0) GTEST_SKIP() << "root reads every file";
+/// What is wrong in a file that the case names is said with that file's own name.
+TEST(MalformedCase, FilesThatItNames) {
+  const std::filesystem::path library = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library";
+  for (const char* broken : {"arm.urdf", "arm_body.json", "arm_flex.csv"}) {
+    const Folder folder;
+    for (const char* name : {"arm.urdf", "arm_body.json", "arm_flex.csv", "sleeve_flex.json"})
+      std::filesystem::copy_file(library / name, folder.path() / name);
+    EXPECT_NO_THROW(readCase(folder.path() / "sleeve_flex.json"));
+    folder.write(broken, "{broken");
+    SCOPED_TRACE(broken);
+    try {
+      readCase(folder.path() / "sleeve_flex.json");
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.where().file, (folder.path() / broken).string()) << e.what();
+    }
+  }
   const Folder folder;
-  const std::filesystem::path file = folder.write("case.json", example);
-  std::filesystem::permissions(file, std::filesystem::perms::none);
-  EXPECT_THROW(readCase(file), InputError);
+  const std::filesystem::path mesh = folder.write("ball.obj", "v 0 0 zero\nf 1 2 3\n");
+  const std::string sphere = "\"sphere\": {\"radius\": \"10 cm\", \"rings\": 8, \"segments\": 9}";
+  const std::filesystem::path file =
+      folder.write("example.json", replaced(example, sphere, "\"mesh\": {\"file\": \"ball.obj\"}"));
+  try {
+    readCase(file);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.where().file, mesh.string()) << e.what();
+  }
+}
+
+/// Root reads every file: it steps back to nobody for the test.
+TEST(MalformedCase, UnreadableFile) {
+  constexpr uid_t nobody = 65534;
+  const Folder folder;
+  const std::filesystem::path closed_file = folder.write("case.json", example);
+  std::filesystem::create_directory(folder.path() / "closed");
+  const std::filesystem::path in_closed_folder = folder.write("closed/case.json", example);
+  using std::filesystem::perms;
+  std::filesystem::permissions(folder.path(), perms::owner_all | perms::others_read | perms::others_exec);
+  std::filesystem::permissions(closed_file, perms::none);
+  std::filesystem::permissions(folder.path() / "closed", perms::none);
+  const bool root = geteuid() == 0;
+  if (root && seteuid(nobody) != 0) GTEST_SKIP() << "cannot step back from root";
+  std::vector<std::string> reasons;
+  for (const std::filesystem::path& file : {closed_file, in_closed_folder}) {
+    try {
+      readCase(file);
+      reasons.push_back("accepted");
+    } catch (const InputError& e) {
+      reasons.push_back(e.reason());
+    }
+  }
+  if (root) {
+    ASSERT_EQ(seteuid(0), 0);
+  }
+  std::filesystem::permissions(folder.path() / "closed", perms::owner_all);
+  EXPECT_EQ(reasons[0], "cannot be opened; check its permissions");
+  EXPECT_EQ(reasons[1], "cannot be read: Permission denied");
 }
 
 TEST(MalformedCase, OverridesGoThroughTheSameTable) {

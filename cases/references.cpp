@@ -1,0 +1,90 @@
+#include "cases/references.hpp"
+
+#include <fmt/format.h>
+
+#include "human/load.hpp"
+
+namespace gambeson::schema {
+namespace {
+
+Place listItem(const Place& parent, const std::string& list, std::size_t i) {
+  return parent.member(*parent.node.find(list)).item(i);
+}
+
+/// "there is no joint "x"; did you mean "y"?" or what there is.
+std::string absent(const std::string& what, const std::string& name, const std::vector<std::string>& names) {
+  const std::string near = closest(name, names);
+  return fmt::format("the human has no {} \"{}\"; {}", what, name,
+                     near.empty() ? "allowed: " + joined(names) : fmt::format("did you mean \"{}\"?", near));
+}
+
+void checkJoints(const Place& root, const Case& c, const Skeleton& skeleton) {
+  std::vector<std::string> moving;
+  for (const Joint& j : skeleton.joints)
+    if (j.type != JointType::fixed) moving.push_back(j.name);
+  for (std::size_t i = 0; i < c.analysis.joints.size(); ++i) {
+    const std::string& name = c.analysis.joints[i];
+    const Place place = listItem(root.member(*root.node.find("analysis")), "joints", i);
+    const int joint = skeleton.joint(name);
+    if (joint < 0) place.fail(absent("joint", name, moving));
+    if (skeleton.joints[static_cast<std::size_t>(joint)].type == JointType::fixed)
+      place.fail(fmt::format("the joint \"{}\" is fixed; allowed: {}", name, joined(moving)));
+    for (std::size_t k = 0; k < i; ++k)
+      if (c.analysis.joints[k] == name) place.fail(fmt::format("\"{}\" is listed twice", name));
+  }
+}
+
+void checkLinks(const Place& root, const Case& c, const Skeleton& skeleton) {
+  std::vector<std::string> names;
+  for (const Link& l : skeleton.links) names.push_back(l.name);
+  for (std::size_t i = 0; i < c.supports.size(); ++i) {
+    const auto* springs = std::get_if<SpringSupport>(&c.supports[i]);
+    if (!springs || skeleton.link(springs->link) >= 0) continue;
+    const Place support = listItem(root, "supports", i);
+    support.member(*support.node.find("springs")).failAt("link", absent("link", springs->link, names));
+  }
+  for (std::size_t i = 0; i < c.obstacles.size(); ++i)
+    if (skeleton.link(c.obstacles[i].name) >= 0)
+      listItem(root, "obstacles", i)
+          .failAt("name",
+                  fmt::format("\"{}\" is also a link of the human; allowed: a name of its own", c.obstacles[i].name));
+}
+
+void checkPictures(const Place& root, const Case& c, double duration_s) {
+  for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
+    const PictureCase& p = c.output.pictures[i];
+    if (p.when == PictureTime::at && !(p.time_s <= duration_s * (1 + 1e-9)))
+      listItem(root.member(*root.node.find("output")), "pictures", i)
+          .failAt("time", fmt::format("{} s is out of range; allowed: 0 to {} s, peak or end", p.time_s, duration_s));
+  }
+}
+
+/// Time that the motion takes by itself.
+double motionDuration(const HumanCase& h, const Human& human) {
+  if (const auto* stand = std::get_if<StandMotion>(&h.motion)) return stand->duration_s;
+  if (const auto* walk = std::get_if<WalkOptions>(&h.motion)) return makeWalk(human, *walk)->duration();
+  return loadTrajectory(std::get<TrajectoryMotion>(h.motion).file, human)->duration();
+}
+
+Human readHuman(const HumanCase& h) {
+  if (!h.manikin.empty()) return makeManikin(h.manikin);
+  return h.body.empty() ? loadUrdf(h.urdf) : loadHuman(h.urdf, h.body);
+}
+
+}  // namespace
+
+void checkReferences(const Place& root, const Case& c) {
+  double duration_s = c.time.duration_s.value_or(0);
+  if (c.human) {
+    const Human human = readHuman(*c.human);
+    checkJoints(root, c, human.skeleton);
+    checkLinks(root, c, human.skeleton);
+    const double motion_s = motionDuration(*c.human, human);
+    duration_s = c.time.duration_s.value_or(motion_s);
+  }
+  for (const ObstacleCase& o : c.obstacles)
+    if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) loadMesh(mesh->file, mesh->scale);
+  checkPictures(root, c, duration_s);
+}
+
+}  // namespace gambeson::schema
