@@ -1,0 +1,136 @@
+// The garment file: what is written comes back to the bit, and what is wrong is named.
+#include "tryon/pattern/garment_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "human/load.hpp"
+#include "tryon/pattern/pattern.hpp"
+
+namespace gambeson {
+namespace {
+
+using Json = nlohmann::json;
+
+class GarmentFile : public testing::Test {
+ protected:
+  std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string("garment_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json");
+  ~GarmentFile() override { std::filesystem::remove(path); }
+
+  Json good() {
+    TubePattern t;
+    t.radius_m = 0.06;
+    t.length_m = 0.5;
+    t.patches = 2;
+    t.cells_around = 6;
+    t.cells_along = 1;
+    writeGarment(makeTube(t), path);
+    std::ifstream in(path);
+    return Json::parse(in);
+  }
+  InputError::Where failure(const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+    try {
+      loadGarment(path);
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.where().file, path.string());
+      EXPECT_FALSE(e.reason().empty());
+      return e.where();
+    }
+    return {"", 0, "accepted"};
+  }
+  template <class F>
+  std::string damaged(F damage) {
+    Json j = good();
+    damage(j);
+    return failure(j.dump()).key;
+  }
+};
+
+TEST_F(GarmentFile, ComesBackToTheBit) {
+  Garment g = makeShorts({}, makeManikin("male_p50"));
+  g.patches[4].weights.back() = 1;  // stays unwritten
+  writeGarment(g, path);
+  const Garment h = loadGarment(path);
+  EXPECT_EQ(h.name, "shorts");
+  ASSERT_EQ(h.patches.size(), g.patches.size());
+  for (std::size_t n = 0; n < g.patches.size(); ++n) {
+    EXPECT_EQ(h.patches[n].u, g.patches[n].u);
+    EXPECT_EQ(h.patches[n].v, g.patches[n].v);
+    EXPECT_TRUE(h.patches[n].points == g.patches[n].points);
+    EXPECT_EQ(h.patches[n].weights, g.patches[n].weights);
+    EXPECT_EQ(h.weft[n], g.weft[n]);
+  }
+  ASSERT_EQ(h.seams.size(), g.seams.size());
+  for (std::size_t n = 0; n < g.seams.size(); ++n) {
+    EXPECT_EQ(h.seams[n].kind, g.seams[n].kind);
+    EXPECT_EQ(h.seams[n].stiffness_N, g.seams[n].stiffness_N);
+    for (auto e : {&Seam::a, &Seam::b}) {
+      EXPECT_EQ((h.seams[n].*e).patch, (g.seams[n].*e).patch);
+      EXPECT_EQ((h.seams[n].*e).side, (g.seams[n].*e).side);
+      EXPECT_EQ((h.seams[n].*e).reversed, (g.seams[n].*e).reversed);
+    }
+  }
+}
+
+TEST_F(GarmentFile, KeepsWeights) {
+  Garment g = makeSheet({.width_m = 1, .height_m = 1, .cells_u = 2, .cells_v = 2});
+  g.patches[0].weights[5] = 1.0 / 3;
+  writeGarment(g, path);
+  EXPECT_EQ(loadGarment(path).patches[0].weights, g.patches[0].weights);
+}
+
+TEST_F(GarmentFile, NamesWhatIsWrong) {
+  EXPECT_EQ(damaged([](Json&) {}), "accepted");
+  EXPECT_EQ(damaged([](Json& j) { j["patchs"] = 1; }), "patchs");
+  EXPECT_EQ(damaged([](Json& j) { j.erase("seams"); }), "seams");
+  EXPECT_EQ(damaged([](Json& j) { j["format"] = "x"; }), "format");
+  EXPECT_EQ(damaged([](Json& j) {
+              j["patches"] = Json::array();
+              j["seams"] = Json::array();
+            }),
+            "patches");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][1]["degree"] = {2, 2.5}; }), "patches[1].degree[1]");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][1]["degree"] = {2, 3}; }), "patches[1].v.knots");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][1]["degree"] = {-1, 2}; }), "patches[1].degree[0]");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][0]["knots_u"][3] = "a"; }), "patches[0].knots_u[3]");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][0]["knots_u"][3] = 7; }), "patches[0].u.knots[4]");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][0]["points_m"][2] = {1, 2}; }), "patches[0].points_m[2]");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][0]["points_m"].erase(0); }), "patches[0].points");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][0]["weights"] = {1, 1}; }), "patches[0].weights");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][0]["weft"] = {0, 0, 0}; }), "weft[0]");
+  EXPECT_EQ(damaged([](Json& j) { j["seams"][0]["a"]["patch"] = 9; }), "seams[0].a.patch");
+  EXPECT_EQ(damaged([](Json& j) { j["seams"][0]["a"]["side"] = "w0"; }), "seams[0].a.side");
+  EXPECT_EQ(damaged([](Json& j) { j["seams"][0]["a"]["side"] = "u0"; }), "seams[0]");
+  EXPECT_EQ(damaged([](Json& j) { j["seams"][0]["kind"] = "G2"; }), "seams[0].kind");
+  EXPECT_EQ(damaged([](Json& j) { j["seams"][0]["stiffness_N"] = -1; }), "seams[0].stiffness_N");
+  EXPECT_EQ(damaged([](Json& j) { j["seams"].push_back(j["seams"][0]); }), "seams[2]");
+  // A point beside a G1 seam moved by a micrometre; one on the seam moved on one side only.
+  EXPECT_EQ(damaged([](Json& j) {
+              j["patches"][0]["points_m"][6][0] = j["patches"][0]["points_m"][6][0].get<double>() + 1e-6;
+            }),
+            "seams[1].kind");
+  EXPECT_EQ(damaged([](Json& j) {
+              j["patches"][0]["points_m"][5][0] = j["patches"][0]["points_m"][5][0].get<double>() + 1e-6;
+            }),
+            "seams[1]");
+}
+
+TEST_F(GarmentFile, NamesTheLineOfBrokenSyntax) {
+  EXPECT_EQ(failure("{\"format\": 1,\n\n \"name\": }").line, 3);
+  EXPECT_EQ(failure("").line, 1);
+  EXPECT_GT(failure(good().dump(1).substr(0, 400)).line, 5);
+  EXPECT_EQ(failure("{\"format\": 1e999}").key, "");
+  EXPECT_EQ(failure("[]").key, "");
+  path = path.parent_path() / "no_such_garment.json";
+  EXPECT_THROW(loadGarment(path), InputError);
+  EXPECT_THROW(loadGarment(path.parent_path()), InputError);
+}
+
+}  // namespace
+}  // namespace gambeson

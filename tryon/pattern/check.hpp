@@ -1,0 +1,21 @@
+#pragma once
+/// What a pattern's numbers and a garment must satisfy; each throws InputError with the key.
+
+#include "core/sheet/garment.hpp"
+
+namespace gambeson {
+
+void requirePositive(const char* key, double value);
+void requireDegree(int degree, int least);
+void requireCells(const char* key, int cells, int least);
+
+/// Patches valid; one weft per patch, not zero; seams name patches that exist, no edge twice, edges of the same degree,
+/// knots (up to their range, 1e-9) and weights that coincide within 1e-9 m; G1 seams are G1 with a constant ratio
+/// within 1e-9 m save at their ends; stiffness not negative.
+void validate(const Garment& garment);
+
+/// Largest distance of a control point of a G1 seam from where the two rows beside it and the ratio put it, the ends
+/// left out [m].
+double g1Residual(const Garment& garment, const Seam& seam);
+
+}  // namespace gambeson

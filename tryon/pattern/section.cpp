@@ -1,0 +1,157 @@
+#include "tryon/pattern/section.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace gambeson {
+namespace {
+
+double turn(const Vec2& o, const Vec2& a, const Vec2& b) {
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+// x = c + R diag(a) w with |w| = 1: the plane z = height is m . w = height - c.z, m = diag(a) Rᵀ e_z, a circle on the
+// sphere.
+std::vector<Vec2> section(const Ellipsoid& e, const Placement& X, double height) {
+  const Vec3 a = X.scale * e.semi_axes, up = transposeTimes(X.rotation, {0, 0, 1});
+  const Vec3 m{a.x * up.x, a.y * up.y, a.z * up.z};
+  const double d = (height - X.origin.z) / norm(m);
+  if (!(std::abs(d) < 1)) return {};
+  const Vec3 k = normalized(m);
+  const Vec3 i = normalized(cross(std::abs(k.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, k)), j = cross(k, i);
+  const double r = std::sqrt(1 - d * d);
+  constexpr int n = 720;
+  std::vector<Vec2> out;
+  for (int t = 0; t < n; ++t) {
+    const double angle = 2 * std::numbers::pi * t / n;
+    const Vec3 w = d * k + r * (std::cos(angle) * i + std::sin(angle) * j);
+    const Vec3 x = X.rotation * Vec3{a.x * w.x, a.y * w.y, a.z * w.z} + X.origin;
+    out.push_back({x.x, x.y});
+  }
+  return out;
+}
+
+std::vector<Vec2> section(const TriangleMesh& mesh, const Placement& X, double height) {
+  std::vector<Vec2> out;
+  for (const auto& triangle : mesh.triangles)
+    for (int e = 0; e < 3; ++e) {
+      const Vec3 a = X * mesh.vertices[triangle[e]], b = X * mesh.vertices[triangle[(e + 1) % 3]];
+      if ((a.z < height) == (b.z < height)) continue;
+      const double t = (height - a.z) / (b.z - a.z);
+      out.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+    }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Vec2> section(const Shape& shape, const Placement& placement, double height) {
+  return std::visit([&](const auto& s) { return section(s, placement, height); }, shape);
+}
+
+std::vector<Vec2> convexHull(std::vector<Vec2> p) {
+  std::sort(p.begin(), p.end(), [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<Vec2> hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t start = hull.size();
+    for (const Vec2& q : p) {
+      while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), q) <= 0) hull.pop_back();
+      hull.push_back(q);
+    }
+    if (!hull.empty()) hull.pop_back();  // the last point starts the other chain
+    std::reverse(p.begin(), p.end());
+  }
+  return hull;
+}
+
+Wrap::Wrap(const std::vector<std::vector<Vec2>>& sections, double from, double to) : from_(from), to_(to) {
+  assert(sections.size() >= 2);
+  const int n = static_cast<int>(sections.size());
+  support_.assign(n, std::vector<double>(directions));
+  std::vector<int> chain;
+  for (int d = 0; d < directions; ++d) {
+    const double angle = 2 * std::numbers::pi * d / directions, c = std::cos(angle), s = std::sin(angle);
+    for (int k = 0; k < n; ++k) {
+      double h = -HUGE_VAL;
+      for (const Vec2& p : sections[k]) h = std::max(h, c * p.x + s * p.y);
+      support_[k][d] = h;
+    }
+    chain.clear();  // the heights where the concave envelope touches
+    for (int k = 0; k < n; ++k) {
+      const auto height = [&](int i) { return Vec2{static_cast<double>(i), support_[i][d]}; };
+      while (chain.size() >= 2 && turn(height(chain[chain.size() - 2]), height(chain.back()), height(k)) >= 0)
+        chain.pop_back();
+      chain.push_back(k);
+    }
+    for (std::size_t i = 1; i < chain.size(); ++i)
+      for (int k = chain[i - 1] + 1; k < chain[i]; ++k) {
+        const double t = static_cast<double>(k - chain[i - 1]) / (chain[i] - chain[i - 1]);
+        support_[k][d] = (1 - t) * support_[chain[i - 1]][d] + t * support_[chain[i]][d];
+      }
+  }
+}
+
+std::vector<Vec2> Wrap::section(double z) const {
+  const int n = static_cast<int>(support_.size());
+  const double at = std::clamp((z - from_) / (to_ - from_), 0.0, 1.0) * (n - 1);
+  const int k = std::min(static_cast<int>(at), n - 2);
+  const double t = at - k;
+  const auto h = [&](int d) { return (1 - t) * support_[k][d % directions] + t * support_[k + 1][d % directions]; };
+  const double step = 2 * std::numbers::pi / directions;
+  std::vector<Vec2> out;
+  for (int d = 0; d < directions; ++d) {
+    // Where the tangents d and d + 1 cross: h along the normal and, along the tangent, (h' - h cos) / sin.
+    const double along = (h(d + 1) - h(d) * std::cos(step)) / std::sin(step);
+    const double c = std::cos(d * step), s = std::sin(d * step);
+    out.push_back({c * h(d) - s * along, s * h(d) + c * along});
+  }
+  return out;
+}
+
+ClosedCurve::ClosedCurve(std::vector<Vec2> points) : points_(std::move(points)) {
+  assert(points_.size() >= 3);
+  points_.push_back(points_.front());
+  at_.push_back(0);
+  for (std::size_t i = 1; i < points_.size(); ++i)
+    at_.push_back(at_.back() + std::hypot(points_[i].x - points_[i - 1].x, points_[i].y - points_[i - 1].y));
+}
+
+Vec2 ClosedCurve::point(double s) const {
+  s -= length() * std::floor(s / length());
+  const auto it = std::upper_bound(at_.begin() + 1, at_.end() - 1, s);
+  const std::size_t i = it - at_.begin();
+  const double t = (s - at_[i - 1]) / (at_[i] - at_[i - 1]);
+  return {points_[i - 1].x + t * (points_[i].x - points_[i - 1].x),
+          points_[i - 1].y + t * (points_[i].y - points_[i - 1].y)};
+}
+
+double ClosedCurve::crossing(const Vec2& origin, const Vec2& direction) const {
+  const auto side = [&](const Vec2& p) { return direction.x * (p.y - origin.y) - direction.y * (p.x - origin.x); };
+  for (std::size_t i = 1; i < points_.size(); ++i) {
+    const double a = side(points_[i - 1]), b = side(points_[i]);
+    if (a < 0 && b >= 0) return at_[i - 1] + a / (a - b) * (at_[i] - at_[i - 1]);
+  }
+  return 0;  // only for an origin outside
+}
+
+Vec2 ClosedCurve::centroid() const {
+  const Vec2 o = points_.front();
+  double area = 0, x = 0, y = 0;
+  for (std::size_t i = 1; i < points_.size(); ++i) {
+    const double w = turn(o, points_[i - 1], points_[i]);
+    area += w;
+    x += w * (points_[i - 1].x + points_[i].x - 2 * o.x) / 3;
+    y += w * (points_[i - 1].y + points_[i].y - 2 * o.y) / 3;
+  }
+  return {o.x + x / area, o.y + y / area};
+}
+
+ClosedCurve ClosedCurve::grown(double factor, const Vec2& centre) const {
+  std::vector<Vec2> out(points_.begin(), points_.end() - 1);
+  for (Vec2& p : out) p = {centre.x + factor * (p.x - centre.x), centre.y + factor * (p.y - centre.y)};
+  return ClosedCurve(std::move(out));
+}
+
+}  // namespace gambeson

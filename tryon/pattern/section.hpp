@@ -1,0 +1,57 @@
+#pragma once
+/// Horizontal sections of a body, as a tape measure sees them: convex closed curves with their length.
+
+#include <span>
+#include <vector>
+
+#include "core/contact/obstacle.hpp"
+#include "core/math/vec.hpp"
+
+namespace gambeson {
+
+/// The points where a placed shape meets the plane z = height: 720 points of an ellipse, or the crossings of a mesh's
+/// edges. Empty where they do not meet.
+std::vector<Vec2> section(const Shape& shape, const Placement& placement, double height);
+
+/// The convex hull, counterclockwise, without points on its edges (Andrew's monotone chain).
+std::vector<Vec2> convexHull(std::vector<Vec2> points);
+
+/// Horizontal sections of the convex hull of a body between two heights: cloth under tension bridges the hollows
+/// between the shapes below one another, as a tape bridges those beside one another.
+///
+/// The support function of a hull's section at height z, h(angle, z) = max of cos(angle) x + sin(angle) y, is the least
+/// concave function of z above that of the sections. Kept for 360 directions at evenly spaced heights, linear between.
+class Wrap {
+ public:
+  /// sections[k], not empty, belongs to the height from + k (to - from) / (count - 1).
+  Wrap(const std::vector<std::vector<Vec2>>& sections, double from, double to);
+  /// The section as the polygon of its tangents, counterclockwise; from <= z <= to.
+  std::vector<Vec2> section(double z) const;
+
+ private:
+  static constexpr int directions = 360;
+  double from_, to_;
+  std::vector<std::vector<double>> support_;  ///< by height, then direction
+};
+
+/// A closed polygon by arc length.
+class ClosedCurve {
+ public:
+  /// Counterclockwise, at least three points.
+  explicit ClosedCurve(std::vector<Vec2> points);
+  double length() const { return at_.back(); }
+  /// The point at arc length s from the first vertex, any s (wraps).
+  Vec2 point(double s) const;
+  /// Arc length where the ray from `origin` (inside) along `direction` leaves the curve.
+  double crossing(const Vec2& origin, const Vec2& direction) const;
+  /// Centroid of the area.
+  Vec2 centroid() const;
+  /// Grown by a factor about a centre.
+  ClosedCurve grown(double factor, const Vec2& centre) const;
+
+ private:
+  std::vector<Vec2> points_;
+  std::vector<double> at_;
+};
+
+}  // namespace gambeson

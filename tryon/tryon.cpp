@@ -1,1 +1,0 @@
-#include "core/sheet/garment.hpp"
