@@ -232,7 +232,7 @@ TEST(MalformedCase, UnreadableFile) {
   std::filesystem::create_directory(folder.path() / "closed");
   const std::filesystem::path in_closed_folder = folder.write("closed/case.json", example);
   using std::filesystem::perms;
-  std::filesystem::permissions(folder.path(), perms::owner_all | perms::others_read | perms::others_exec);
+  std::filesystem::permissions(folder.path(), static_cast<perms>(0755));
   std::filesystem::permissions(closed_file, perms::none);
   std::filesystem::permissions(folder.path() / "closed", perms::none);
   const bool root = geteuid() == 0;
