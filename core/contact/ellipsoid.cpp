@@ -28,22 +28,35 @@ EllipsoidMetric ellipsoidMetric(const Ellipsoid& shape) {
 
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-
-/// Root u > 0 of |q(u)| = 1 with q_i = n_i/(u + d_i), n_i >= 0, d_i >= 0; q is left at the root. |q| falls with u and
-/// 1 - 1/|q| is convex (the secular function of trust-region methods), so Newton from a point left of the root rises
-/// monotonically to it; a step that rounding throws out of the bracket is replaced by bisection.
-void solveSecular(const Vec3& n, const Vec3& d, double lo, double hi, Vec3& q) {
-  double u = lo;
+/// Root u in [lo, hi], u > 0, of |q(u)| = 1 with q_i = n_i/(u + d_i), n_i >= 0, d_i >= 0, from the guess u; q is left
+/// at the root. Far from the root: Newton on 1 - 1/|q|, which falls and is convex (the secular function of trust-region
+/// methods), so that from the left of the root it rises monotonically to it, and from the right it lands on the left.
+/// Near the root: Halley on |q|^2 - 1, of third order and without a square root. A step out of the bracket is replaced
+/// by bisection.
+void solveSecular(const Vec3& n, const Vec3& d, double lo, double hi, double u, Vec3& q) {
   for (int iteration = 0; iteration < 200; ++iteration) {
     const Vec3 w{1 / (u + d.x), 1 / (u + d.y), 1 / (u + d.z)};
     q = {n.x * w.x, n.y * w.y, n.z * w.z};
-    const Vec3 q2{q.x * q.x, q.y * q.y, q.z * q.z};
-    const double length2 = q2.x + q2.y + q2.z;
-    const double length = std::sqrt(length2);
-    (length > 1 ? lo : hi) = u;
-    double next = u + (length - 1) * length2 / dot(q2, w);
-    if (std::abs(next - u) <= 2 * kEps * u || std::abs(length2 - 1) <= 4 * kEps) return;
+    const Vec3 r{q.x * q.x * w.x, q.y * q.y * w.y, q.z * q.z * w.z};  // -(1/2) d/du of q_i^2
+    const double excess = norm2(q) - 1, fall = r.x + r.y + r.z;
+    (excess > 0 ? lo : hi) = u;
+    double step;
+    if (std::abs(excess) < 0.5) {
+      step = 2 * excess * fall / (4 * fall * fall - 3 * excess * dot(r, w));
+    } else {
+      const double length2 = 1 + excess;
+      step = (std::sqrt(length2) - 1) * length2 / fall;
+    }
+    if (std::abs(step) <= 4e-6 * u && std::abs(excess) < 0.5) {
+      // The next iterate is the root to rounding (third order), and q there is given by its expansion.
+      const auto moved = [&](double qi, double wi) {
+        const double k = wi * step;
+        return qi * (1 - k * (1 - k));
+      };
+      q = {moved(q.x, w.x), moved(q.y, w.y), moved(q.z, w.z)};
+      return;
+    }
+    double next = u + step;
     if (!(next >= lo && next <= hi)) next = 0.5 * (lo + hi);
     if (next == u) return;
     u = next;
@@ -79,8 +92,14 @@ SurfacePoint closestOnEllipsoid(const EllipsoidMetric& s, const Vec3& p) {
     }
     lo = 1e-300;
   }
-  if (!solved) solveSecular(n, d, lo, hi, q);
-  q = q / norm(q);
+  if (!solved) {
+    // Near the surface t = distance / |x/e^2|, with the distance to first order and x/e^2 taken at p.
+    const Vec3 z{p.x * s.inverse.x, p.y * s.inverse.y, p.z * s.inverse.z};
+    const Vec3 g{p.x * s.inverse2.x, p.y * s.inverse2.y, p.z * s.inverse2.z};
+    const double guess = 1 + 0.5 * (norm2(z) - 1) / (norm2(g) * s.min_axis_m * s.min_axis_m);
+    solveSecular(n, d, lo, hi, guess > lo && guess < hi ? guess : lo, q);
+  }
+  q *= 1.5 - 0.5 * norm2(q);  // |q| = 1 but for rounding: to the last bit
   SurfacePoint c;
   Vec3 g;
   for (int i = 0; i < 3; ++i) {
@@ -88,7 +107,7 @@ SurfacePoint closestOnEllipsoid(const EllipsoidMetric& s, const Vec3& p) {
     c.position[i] = e[i] * signed_q;
     g[i] = signed_q * s.inverse[i];
   }
-  c.normal = normalized(g);
+  c.normal = (1 / norm(g)) * g;
   // Along the normal: an error of the foot point enters squared only.
   c.distance_m = dot(p - c.position, c.normal);
   return c;

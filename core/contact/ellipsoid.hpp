@@ -33,15 +33,14 @@ EllipsoidMetric ellipsoidMetric(const Ellipsoid& shape);
 /// rounding of max(|p|, largest semi-axis).
 SurfacePoint closestOnEllipsoid(const EllipsoidMetric& shape, const Vec3& p);
 
-/// A lower bound of the signed distance, for a point outside; negative inside, where it bounds nothing.
-/// f(x) = |x/e| is convex with f = 1 on the surface, so f(p) - 1 <= |grad f(p)| distance; the bound is asymptotically
-/// exact near the surface.
-inline double ellipsoidDistanceBound_m(const EllipsoidMetric& s, const Vec3& p) {
+/// True only if p is outside and further than `limit_m` >= 0 from the ellipsoid: a cheap and certain reject, sharp near
+/// the surface. f(x) = |x/e|^2 is convex with f = 1 on the surface, so f(p) - 1 <= |grad f(p)| distance.
+inline bool surelyBeyond(const EllipsoidMetric& s, const Vec3& p, double limit_m) {
   const Vec3 a{p.x * s.inverse.x, p.y * s.inverse.y, p.z * s.inverse.z};
-  const double f2 = norm2(a);
-  if (!(f2 > 1)) return -s.min_axis_m;
-  const Vec3 g{p.x * s.inverse2.x, p.y * s.inverse2.y, p.z * s.inverse2.z};
-  return (f2 - std::sqrt(f2)) / norm(g);
+  const Vec3 g{a.x * s.inverse.x, a.y * s.inverse.y, a.z * s.inverse.z};
+  const double excess = norm2(a) - 1;
+  constexpr double slack = 1e-12;  // of rounding
+  return excess > slack && (excess - slack) * (excess - slack) > 4 * (1 + slack) * limit_m * limit_m * norm2(g);
 }
 
 /// First time in [0, 1] at which the straight path p0 -> p1 enters the ellipsoid from outside: the first root of the

@@ -11,6 +11,9 @@ namespace gambeson {
 
 namespace {
 
+/// Cells along the longest side: 4 mm for half a metre, at most 2 MB.
+constexpr int kGridResolution = 128;
+
 Vec3 unitOrZero(const Vec3& v) {
   const double l = norm(v);
   return l > 0 ? v / l : Vec3{};
@@ -41,10 +44,21 @@ MeshSurface::MeshSurface(const TriangleMesh& mesh)
       owned = 1;
     }
   }
-  refit(mesh.vertices);
+  place(mesh.vertices);
+  if (topology_.closed) {
+    const auto is_inside = [&](const Vec3& p) {
+      return nearest(p, std::numeric_limits<double>::infinity())->distance_m < 0;
+    };
+    inside_ = InsideGrid(triangleBoxes(x_, topology_.triangles), is_inside, kGridResolution);
+  }
 }
 
 void MeshSurface::refit(std::span<const Vec3> vertices) {
+  inside_ = {};
+  place(vertices);
+}
+
+void MeshSurface::place(std::span<const Vec3> vertices) {
   assert(vertices.size() == topology_.vertex_of.size());
   x_.assign(vertices.begin(), vertices.end());
   tree_.refit(triangleBoxes(x_, topology_.triangles));
@@ -146,22 +160,24 @@ void MeshSurface::touching(const Vec3& p, double radius, std::vector<MeshPoint>&
     const double h = dot(p - x_[c[0]], f.normal);
     if (std::abs(h) > radius || topology_.collapsed(t)) return;
     seen = true;
-    bool over = norm2(f.normal) > 0;
-    for (int k = 0; k < 3 && over; ++k) over = dot(p - x_[c[k]], f.inward[k]) >= -tolerance_m_;
-    if (over) out.push_back({p - h * f.normal, f.normal, h, t});
+    const Vec3 r[3] = {p - x_[c[0]], p - x_[c[1]], p - x_[c[2]]};
+    const double s[3] = {dot(r[0], f.inward[0]), dot(r[1], f.inward[1]), dot(r[2], f.inward[2])};
+    if (std::min({s[0], s[1], s[2]}) >= -tolerance_m_ && norm2(f.normal) > 0)
+      out.push_back({p - h * f.normal, f.normal, h, t});
     for (int k = 0; k < 3; ++k) {
+      // This face alone often tells that it has a closer point than its edge or corner.
       Vec3 foot;
-      if ((f.owns_edges >> k & 1) && edgeIsMinimum(topology_.face_edges[t][k], p, foot) &&
+      if ((f.owns_edges >> k & 1) && s[k] <= tolerance_m_ && edgeIsMinimum(topology_.face_edges[t][k], p, foot) &&
           norm2(p - foot) <= radius * radius)
         out.push_back(signedFoot(p, foot, topology_.edgeFeature(topology_.face_edges[t][k])));
-      if ((f.owns_vertices >> k & 1) && norm2(p - x_[c[k]]) <= radius * radius && vertexIsMinimum(c[k], p))
+      if ((f.owns_vertices >> k & 1) && norm2(r[k]) <= radius * radius && vertexIsMinimum(c[k], p))
         out.push_back(signedFoot(p, x_[c[k]], topology_.vertexFeature(c[k])));
     }
   });
   const auto found = out.begin() + static_cast<std::ptrdiff_t>(begin);
   const bool maybe_deep = topology_.closed && boxDistance2(tree_.bounds(), p) == 0;
   if (found == out.end()) {
-    if (!seen && !maybe_deep) return;
+    if (!seen && (!maybe_deep || inside_.at(p) == InsideGrid::Cell::outside)) return;
     // Deep inside, or a minimum that the predicates lost to rounding.
     const auto n = nearest(p, maybe_deep ? std::numeric_limits<double>::infinity() : radius);
     if (n && (n->distance_m < 0 || n->distance_m <= radius)) out.push_back(*n);

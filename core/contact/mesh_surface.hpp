@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contact/bounding_tree.hpp"
+#include "core/contact/inside_grid.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/contact/obstacle.hpp"
 
@@ -26,7 +27,8 @@ class MeshSurface {
   /// Throws InputError: see meshTopology.
   explicit MeshSurface(const TriangleMesh& mesh);
 
-  /// New positions of the same mesh (Zheng 2013, section 3.6.2).
+  /// New positions of the same mesh (Zheng 2013, section 3.6.2). Points far from a refitted surface are slower to
+  /// tell inside from outside: the look-up for it is made for the first positions only.
   void refit(std::span<const Vec3> vertices);
 
   const Box& bounds() const { return tree_.bounds(); }
@@ -65,6 +67,7 @@ class MeshSurface {
     Vec3 normal;  ///< pseudo-normal, unit
   };
 
+  void place(std::span<const Vec3> vertices);
   MeshPoint signedFoot(const Vec3& p, const Vec3& foot, int feature) const;
   bool edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const;
   bool vertexIsMinimum(int v, const Vec3& p) const;
@@ -75,6 +78,7 @@ class MeshSurface {
   std::vector<EdgeFrame> edge_frames_;
   std::vector<Vec3> vertex_normals_;
   BoundingTree tree_;
+  InsideGrid inside_;
   double tolerance_m_ = 0;
 };
 

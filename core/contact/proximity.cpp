@@ -72,31 +72,21 @@ void requireFinite(std::span<const Vec3> x, const char* what) {
     if (!finite(x[i])) throw RunError(std::string(what) + " of sample " + std::to_string(i) + " is not finite");
 }
 
-/// Runs append(block, list) over all blocks; the lists are joined in the order of the blocks, whoever made them.
+/// Runs append(block, list) over all blocks. Each thread has a run of consecutive blocks, so that the lists joined in
+/// the order of the threads are in the order of the blocks, however many threads there are.
 template <class Append>
 void collect(int blocks, std::vector<Contact>& out, Append&& append) {
   out.clear();
   if (blocks == 0) return;
-  struct Part {
-    int thread;
-    std::size_t begin, end;
-  };
-  std::vector<Part> parts(blocks);
   std::vector<std::vector<Contact>> lists(omp_get_max_threads());
 #pragma omp parallel if (blocks >= 8)
   {
     const int me = omp_get_thread_num();
-    std::vector<Contact>& mine = lists[me];
-#pragma omp for schedule(dynamic, 4)
-    for (int b = 0; b < blocks; ++b) {
-      const std::size_t begin = mine.size();
-      append(b, mine);
-      parts[b] = {me, begin, mine.size()};
-    }
+    std::vector<Contact>& mine = me == 0 ? out : lists[me];
+#pragma omp for schedule(static)
+    for (int b = 0; b < blocks; ++b) append(b, mine);
   }
-  for (const Part& p : parts)
-    out.insert(out.end(), lists[p.thread].begin() + static_cast<std::ptrdiff_t>(p.begin),
-               lists[p.thread].begin() + static_cast<std::ptrdiff_t>(p.end));
+  for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
 }
 
 }  // namespace
@@ -148,7 +138,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
         const Vec3 p = toLocal(X, x[i]);
         const double limit_m = reach_m[i] + motion[o];
         if (const auto* e = std::get_if<EllipsoidMetric>(&shapes[o].shape)) {
-          if (ellipsoidDistanceBound_m(*e, p) * X.scale > limit_m * kSlack) continue;
+          if (surelyBeyond(*e, p, limit_m / X.scale)) continue;
           const SurfacePoint s = closestOnEllipsoid(*e, p);
           const double gap = X.scale * s.distance_m;
           if (gap < limit_m) list.push_back({i, o, 0, X.rotation * s.normal, gap, s.position});

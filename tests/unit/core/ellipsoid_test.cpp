@@ -138,22 +138,26 @@ TEST(Ellipsoid, GradientOfTheDistanceIsTheNormal) {
   }
 }
 
-TEST(Ellipsoid, BoundNeverExceedsTheDistance) {
+TEST(Ellipsoid, TheRejectIsCertainAndSharp) {
   std::mt19937 rng(5);
   std::uniform_real_distribution<double> u(0.05, 1.0);
-  double tightest = 1;
+  int close = 0, sharp = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const EllipsoidMetric m = ellipsoidMetric({{u(rng), u(rng), u(rng)}});
     const Vec3 p = 3 * u(rng) * randomDirection(rng);
-    const double d = closestOnEllipsoid(m, p).distance_m, bound = ellipsoidDistanceBound_m(m, p);
-    if (d > 0) {
-      ASSERT_LE(bound, d * (1 + 1e-12) + 1e-15);
-      if (d < 1e-2) tightest = std::min(tightest, bound / d);
-    } else {
-      ASSERT_LT(bound, 1e-15);
+    const double d = closestOnEllipsoid(m, p).distance_m;
+    if (d <= 0) {
+      ASSERT_FALSE(surelyBeyond(m, p, 0));
+      continue;
     }
+    ASSERT_FALSE(surelyBeyond(m, p, d)) << trial;
+    ASSERT_FALSE(surelyBeyond(m, p, 2 * d));
+    if (d > 0.1 * m.min_axis_m) continue;
+    ++close;
+    sharp += surelyBeyond(m, p, 0.8 * d);
   }
-  EXPECT_GT(tightest, 0.5) << "the bound should be sharp near the surface";
+  EXPECT_GT(close, 200);
+  EXPECT_GT(sharp, 0.95 * close);
 }
 
 TEST(Ellipsoid, EntryFollowsTheQuadratic) {

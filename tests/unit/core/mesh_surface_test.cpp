@@ -326,6 +326,26 @@ TEST(MeshSurface, ASegmentAimedAtAVertexOrEdgeNeverSlipsThrough) {
   }
 }
 
+TEST(InsideGrid, DecidedCellsAgreeWithTheWindingNumber) {
+  std::mt19937 rng(9);
+  for (const TriangleMesh& m : {torus(0.6, 0.25, 40, 16), sphere(0.8, 3)}) {
+    std::vector<Box> boxes(m.triangles.size());
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+      for (int i : m.triangles[t]) boxes[t].add(m.vertices[i]);
+    const InsideGrid grid(
+        boxes, [&](const Vec3& p) { return winding(m, p) > 0.5; }, 40);
+    int decided = 0;
+    for (int trial = 0; trial < 4000; ++trial) {
+      const Vec3 p = randomPoint(rng, 0.8);
+      if (grid.at(p) == InsideGrid::Cell::undecided) continue;
+      ++decided;
+      ASSERT_EQ(grid.at(p) == InsideGrid::Cell::inside, winding(m, p) > 0.5);
+    }
+    EXPECT_GT(decided, 800);
+    EXPECT_EQ(grid.at({5, 0, 0}), InsideGrid::Cell::undecided);
+  }
+}
+
 TEST(MeshSurface, RefitFollowsADeformingMesh) {
   std::mt19937 rng(8);
   TriangleMesh m = sphere(0.7, 2);
@@ -338,6 +358,9 @@ TEST(MeshSurface, RefitFollowsADeformingMesh) {
     const auto a = s.nearest(p, 10), b = fresh.nearest(p, 10);
     ASSERT_NEAR(std::abs(a->distance_m), bruteDistance(m, p), 1e-14);
     ASSERT_NEAR(a->distance_m, b->distance_m, 1e-15);
+    std::vector<MeshPoint> touching;
+    s.touching(p, 0.01, touching);
+    ASSERT_EQ(!touching.empty(), b->distance_m <= 0.01);
   }
 }
 

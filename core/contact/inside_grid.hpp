@@ -1,0 +1,41 @@
+#pragma once
+/// Inside or outside of a closed surface by look-up, for points that are not close to it.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/contact/box.hpp"
+
+namespace gambeson {
+
+/// Cells that no triangle's box touches form connected regions that the surface does not cross, so one exact answer
+/// serves a region. Cells near the surface stay undecided. Valid for the positions that it was built from.
+class InsideGrid {
+ public:
+  enum class Cell : unsigned char { undecided, outside, inside };
+
+  InsideGrid() = default;
+  /// `triangle_boxes` cover the surface; is_inside answers for one point of each region. Cells are cubes, `resolution`
+  /// of them along the longest side of the bounds.
+  InsideGrid(std::span<const Box> triangle_boxes, const std::function<bool(const Vec3&)>& is_inside, int resolution);
+
+  Cell at(const Vec3& p) const {
+    if (cells_.empty()) return Cell::undecided;
+    int index[3];
+    for (int i = 0; i < 3; ++i) {
+      const double t = (p[i] - origin_[i]) * per_cell_;
+      if (!(t >= 0 && t < size_[i])) return Cell::undecided;
+      index[i] = static_cast<int>(t);
+    }
+    return cells_[(static_cast<std::size_t>(index[2]) * size_[1] + index[1]) * size_[0] + index[0]];
+  }
+
+ private:
+  Vec3 origin_;
+  double per_cell_ = 0;
+  int size_[3] = {0, 0, 0};
+  std::vector<Cell> cells_;
+};
+
+}  // namespace gambeson
