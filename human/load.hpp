@@ -15,7 +15,7 @@ Human loadUrdf(const std::filesystem::path& urdf);
 /// Reads a URDF and a body file (JSON: ellipsoids per link), whose shapes replace the URDF's geometry.
 Human loadHuman(const std::filesystem::path& urdf, const std::filesystem::path& body);
 
-/// The triangles of a mesh file (OBJ, PLY, STL, glTF ...) in metres times `scale`, welded; throws InputError.
+/// The triangles of a mesh file (OBJ, PLY, STL, glTF) in metres times `scale`, welded; throws InputError.
 TriangleMesh loadMesh(const std::filesystem::path& file, double scale = 1);
 
 /// Our own manikin by name (male_p5 ... female_p95), generated from the facts in human/data.

@@ -38,7 +38,9 @@ constexpr double heel_behind_heel_point_m = 0.015;
 /// Neck: from C7 up into the head, half as high again as the distance to the head's lower end, so that both ends are
 /// covered.
 constexpr double neck_vertical_factor = 0.75;
-/// Neck limits: 45 degrees either way, the clinical normal range (AAOS).
+/// The data leave a gap between chest and arm: a sphere as thick as the arm closes it at the shoulder joint, where it
+/// reaches to within 25 mm of the bideltoid breadth. Neck limits: 45 degrees either way, the clinical normal range
+/// (AAOS).
 constexpr double neck_limit_deg = 45;
 /// The hand's centre of mass: the middle of its ellipsoid (de Leva's is referred to a length that the data lack).
 /// The foot's centre of mass: likewise.
@@ -153,6 +155,8 @@ void addArm(Builder& b, const Facts& f, int torso, const Vec3& shoulder, const s
   const Vec3 elbow{0, 0, -f.length("upper_arm")}, wrist{0, 0, -f.length("forearm")};
   b.mass(u, f.mass("upper_arm"), f.com("upper_arm") * elbow);
   b.shape(u, "upper_arm_" + side, upright(f.size("upper_arm")), 0.5 * elbow);
+  const double r = f.size("upper_arm").at(1);
+  b.shape(u, "shoulder_" + side, {{r, r, r}}, {});
   const int e = b.joint(u, "forearm_" + side, "elbow_flexion_" + side, elbow, back, "elbow_flexion");
   b.mass(e, f.mass("forearm"), f.com("forearm") * wrist);
   b.shape(e, "forearm_" + side, upright(f.size("forearm")), 0.5 * wrist);

@@ -1,4 +1,4 @@
-/// Mesh files through assimp.
+/// Mesh files through assimp. Of its formats these five are let in: others (OFF, say) believe any count in a header.
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -70,9 +70,9 @@ TriangleMesh loadMesh(const std::filesystem::path& file, double scale) {
   if (!(scale > 0 && std::isfinite(scale))) fail("scale", fmt::format("{} is not allowed: > 0", scale));
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const std::array<const char*, 7> known{".obj", ".ply", ".stl", ".off", ".gltf", ".glb", ".dae"};
+  const std::array<const char*, 5> known{".obj", ".ply", ".stl", ".gltf", ".glb"};
   if (std::find(known.begin(), known.end(), extension) == known.end())
-    fail("", "meshes are read from .obj, .ply, .stl, .off, .gltf, .glb, .dae");
+    fail("", "meshes are read from .obj, .ply, .stl, .gltf, .glb");
   const std::string text = readText(file, largest_file);
   if (extension == ".ply") checkPly(text, file.string());
 

@@ -92,6 +92,7 @@ TEST(Mesh, RefusesWhatIsMalformed) {
   refused("a.obj", "# nothing\n", "");
   refused("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "");
   refused("a.stl", "solid nothing\nendsolid nothing\n", "");
+  refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "meshes are read from");
   refused("a.xyz", tetrahedron, "meshes are read from");
   refused("a", tetrahedron, "meshes are read from");
   expectRefused([](const auto& f) { loadMesh(f); }, folder.path / "none.obj", 0, "no such file");

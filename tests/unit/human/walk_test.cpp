@@ -66,7 +66,10 @@ INSTANTIATE_TEST_SUITE_P(All, EveryWalk, testing::ValuesIn(manikinNames()), [](c
 TEST(Walk, VelocityIsContinuous) {
   const Walking w;
   const double h = 1e-5, T = w.options.stride_time_s, begin = w.options.stand_s, walking = w.periodic();
+  const double d = naturalWalk().double_support;
   std::vector<double> times{begin, walking, walking + T};
+  for (int i = 0; i < 4; ++i)
+    times.insert(times.end(), {walking + T * i / 2, walking + T * (i / 2.0 + d)});        // foot strike, foot off
   for (int i = 1; i < 100; ++i) times.push_back(walking + T * i / 50);                    // spline knots
   for (int i = 1; i < 400; ++i) times.push_back(w.walk->duration() * (i + 0.123) / 400);  // anywhere
   for (int i = 1; i < 250; ++i) times.push_back(begin + 0.002 * i);                       // nodes of the path
