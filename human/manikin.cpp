@@ -39,7 +39,7 @@ constexpr double heel_behind_heel_point_m = 0.015;
 /// covered.
 constexpr double neck_vertical_factor = 0.75;
 /// The data leave a gap between chest and arm: a sphere as thick as the arm closes it at the shoulder joint, where it
-/// reaches to within 25 mm of the bideltoid breadth. Neck limits: 45 degrees either way, the clinical normal range
+/// reaches to within 30 mm of the bideltoid breadth. Neck limits: 45 degrees either way, the clinical normal range
 /// (AAOS).
 constexpr double neck_limit_deg = 45;
 /// The hand's centre of mass: the middle of its ellipsoid (de Leva's is referred to a length that the data lack).
