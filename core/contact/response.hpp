@@ -1,0 +1,71 @@
+#pragma once
+/// The contact impulses of one step, all contacts solved together (Zheng 2013, sections 3.2.2, 3.3.2 and 3.5, with
+/// consistent impulses and effective masses).
+
+#include <span>
+#include <vector>
+
+#include "core/contact/proximity.hpp"
+#include "core/math/sparse.hpp"
+
+namespace gambeson {
+
+struct ContactParameters {
+  double layer_m = 0;       ///< delta: the distance at which persistent contact begins and which it restores
+  double friction = 0;      ///< Coulomb's mu
+  double relaxation_s = 0;  ///< tau: the correction of the distance takes this time, k = 1 - exp(-dt/tau) of eq. 3.17
+  double tolerance_m_per_s = 0;  ///< residual velocity at which a solve is done
+  int max_iterations = 200;
+};
+
+/// A contact with what the solve needs to know of it.
+struct ContactRow {
+  Contact contact;
+  Vec3 body_velocity;        ///< of the touched material point, mean over the step [m/s]
+  double target_m_per_s = 0; ///< least normal velocity relative to the body that the step must end with
+  bool impact = false;       ///< found by trajectory (section 3.3), not by distance (section 3.2)
+};
+
+/// Impulse of one contact on the cloth, world axes [N s]; the body receives the opposite.
+struct ContactImpulse {
+  int sample = 0, obstacle = 0, feature = 0;
+  Vec3 impulse;
+  Vec3 normal;  ///< unit, from the body to the cloth
+  Vec3 point;   ///< where the body is touched, world [m], at the start of the step
+};
+
+struct ContactSolve {
+  double residual_m_per_s = 0;
+  int iterations = 0;
+  bool converged = true;
+};
+
+/// Scratch of solveContacts.
+struct ContactWork {
+  std::vector<int> samples, sample_slot, free_points, free_slot, row_slot;
+  SparseRows rows, columns;
+  std::vector<Vec3> sample_impulse, sample_velocity, free_velocity, traction, candidate, point, previous;
+};
+
+/// The least normal velocity of eq. 3.15 to 3.18 as one unilateral condition. With g the gap and delta the layer,
+///   g <= delta: v_n >= k (delta - g)/dt, k = 1 - exp(-dt/tau)   (the correction of eq. 3.17, d the remaining depth)
+///   g >  delta: v_n >= (delta - g)/dt                            (may reach the layer in this step, not enter it)
+/// and the impulse acts only where the condition would be violated. Eq. 3.18 pushes a separating point as well; that
+/// impulse has no cause in mechanics and is left out.
+double persistentTarget(double gap_m, double dt_s, const ContactParameters& parameters);
+
+/// Solves for impulses on the samples such that after the solve, with v = v_free + W_T M^-1 W_T^T lambda,
+///   lambda_n >= 0,  v_n >= target,  lambda_n (v_n - target) = 0,   |lambda_t| <= mu lambda_n opposing the slip (eq. 3.20).
+/// Unknowns are impulses per area (tractions times dt): lambda = a tau, with the consistent areas a. In these unknowns the
+/// operator is bounded by 1/rho because W_Tᵀ a = m/rho, so that projected gradient steps of length rho (surface density,
+/// kg/m^2) are stable, independent of the mesh, and keep the pressure a smooth field over the surface also where samples
+/// outnumber control points; Nesterov's acceleration with restart. The residual is |tau - proj(tau - rho r)|/rho [m/s].
+///
+/// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample;
+/// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the result.
+ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT,
+                           std::span<const double> inverse_mass, std::span<const double> area, double density,
+                           const ContactParameters& parameters, std::span<Vec3> velocity, std::span<Vec3> warm,
+                           std::vector<Vec3>& impulses, ContactWork& work);
+
+}  // namespace gambeson

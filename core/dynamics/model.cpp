@@ -1,0 +1,34 @@
+#include "core/dynamics/model.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace gambeson {
+
+std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& options, const Environment& environment,
+                                  const ContactParameters& contact, std::vector<Obstacle> obstacles) {
+  const KernelSet& kernels = options.kernels ? *options.kernels : widestKernels();
+  FreeMap map = buildFreeMap(garment);
+  Surface surface = buildSurface(garment, map, options.samples_per_cell);
+  const int n = map.T.column_count;
+  std::vector<double> control_area = controlAreas(garment), area(n), mass(n), inverse(n);
+  map.Tt.multiply<double>(control_area, area);
+  std::vector<char> held(n, 0);
+  for (int c : options.held_control_points)
+    for (int k = map.T.offsets[c]; k < map.T.offsets[c + 1]; ++k) held[map.T.columns[k]] = 1;
+  const double rho = garment.fabric.surfaceDensity();
+  for (int i = 0; i < n; ++i) {
+    mass[i] = rho * area[i];
+    if (!(mass[i] > 0)) throw InputError({"", 0, "garment"}, "a control point would carry no mass");
+    inverse[i] = held[i] ? 0 : 1 / mass[i];
+  }
+  Shell shell(garment, kernels, options.gauss_extra);
+  auto model = std::unique_ptr<Model>(new Model{std::move(shell), std::move(map), std::move(surface), std::move(mass), std::move(inverse),
+                                                std::move(area), std::move(held), environment, contact, std::move(obstacles),
+                                                nullptr, options.springs, options.anchor_count});
+  model->proximity = std::make_unique<ProximityQuery>(model->obstacles);
+  return model;
+}
+
+}  // namespace gambeson

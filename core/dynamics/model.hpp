@@ -1,0 +1,134 @@
+#pragma once
+/// The constant model of a run, its state, and what a step reports.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/contact/proximity.hpp"
+#include "core/contact/response.hpp"
+#include "core/sheet/shell.hpp"
+
+namespace gambeson {
+
+/// What is prescribed over time: where the obstacles and the frames that supports hang on stand.
+class Stage {
+ public:
+  virtual ~Stage() = default;
+  virtual void placements(double time_s, std::span<Placement> obstacles, std::span<Placement> anchors) const = 0;
+};
+
+/// An elastic spring from a sample to a point fixed in an anchor frame; force = -stiffness (x - anchor).
+struct SpringSupportPoint {
+  int sample = 0;
+  int anchor = 0;  ///< frame
+  double stiffness_N_per_m = 0;
+};
+
+struct Environment {
+  Vec3 gravity_m_per_s2{0, 0, -9.81};
+  double drag_kg_per_m2s = 0;  ///< eta: force per area -eta (v - air_velocity), Zheng 2013, section 2.2.3
+  Vec3 air_velocity_m_per_s;
+};
+
+/// Constant after it is built.
+struct Model {
+  Shell shell;
+  FreeMap map;
+  Surface surface;
+  std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
+  std::vector<char> held;                              ///< free points that do not move
+  Environment environment;
+  ContactParameters contact;
+  std::vector<Obstacle> obstacles;
+  std::unique_ptr<ProximityQuery> proximity;
+  std::vector<SpringSupportPoint> springs;
+  int anchor_count = 0;
+
+  int freeCount() const { return static_cast<int>(mass_kg.size()); }
+};
+
+struct ModelOptions {
+  int samples_per_cell = 2;
+  int gauss_extra = 0;
+  std::vector<int> held_control_points;
+  std::vector<SpringSupportPoint> springs;
+  int anchor_count = 0;
+  const KernelSet* kernels = nullptr;  ///< the widest where null
+};
+
+/// `contact.tolerance_m_per_s` is taken as given. Throws InputError.
+std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& options, const Environment& environment,
+                                  const ContactParameters& contact, std::vector<Obstacle> obstacles);
+
+/// Sums over the free points of the forces that are not internal [N].
+struct ForceSums {
+  Vec3 drag, springs, held;  ///< `held`: what held points exert on the free ones, minus the internal force of their rows
+};
+
+/// A traction impulse that the next solve starts from.
+struct WarmContact {
+  int sample = 0, obstacle = 0, feature = 0;
+  Vec3 traction;
+};
+
+/// All that the next step depends on.
+struct State {
+  double time_s = 0;
+  std::vector<Vec3> p, v, a;  ///< free points: position, velocity, acceleration without contact
+  std::vector<Vec3> anchors;  ///< of each spring, in its anchor frame
+  ForceSums sums;             ///< at this time
+  std::vector<WarmContact> warm;
+  // Step control.
+  double frequency_rad_per_s = 0;  ///< estimate of the largest
+  std::vector<Vec3> mode;          ///< its mode, warm start of the next estimate
+  int steps_to_estimate = 0;
+  double last_step_s = 0;
+};
+
+/// Momentum of the free points over one step [N s]: change = gravity + drag + supports - obstacles.
+struct MomentumAudit {
+  Vec3 change, gravity, drag, supports;
+  Vec3 obstacles;  ///< the obstacles' own ledger: what they received
+  double error() const { return norm(change - (gravity + drag + supports - obstacles)); }
+  /// Sum of the absolute impulses, the scale of `error`.
+  double scale = 0;
+};
+
+/// Work over one step [J].
+struct WorkAudit {
+  double contact = 0;     ///< of the contact impulses on the cloth
+  double separation = 0;  ///< part of it: what restoring the layer's distance adds
+  double friction = 0;    ///< part of it: tangential
+  double drag = 0, supports = 0;
+};
+
+enum class StepFailure { none, not_finite, impact };
+
+struct StepReport {
+  StepFailure failure = StepFailure::none;
+  std::string why;
+  double step_s = 0;
+  MomentumAudit momentum;
+  WorkAudit work;
+  ContactSolve contact;
+  int contacts = 0, impacts = 0, impact_rounds = 0;
+  double deepest_m = 0;  ///< largest penetration of a sample at the start of the step, 0 if none
+};
+
+/// Scratch of a step, and the impulses of the last one (read by the recorder).
+struct StepWork {
+  ShellWork shell;
+  ContactWork contact;
+  std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;
+  std::vector<double> reach;
+  std::vector<Contact> near, hits;
+  std::vector<ContactRow> rows;
+  std::vector<Placement> start, end, anchors_start, anchors_end;
+  std::vector<ContactImpulse> contact_impulses;  ///< of the last step
+  std::vector<Vec3> spring_impulses;             ///< of the last step, on the cloth, one per spring [N s]
+};
+
+}  // namespace gambeson

@@ -1,0 +1,275 @@
+#include "core/dynamics/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace gambeson {
+namespace {
+
+Vec3 sum(std::span<const Vec3> values) {
+  Vec3 s{};
+  for (const Vec3& v : values) s += v;
+  return s;
+}
+
+/// Internal force on the free points, Tᵀ f(T p), into work.f's place `out`.
+void internalForce(const Model& m, std::span<const Vec3> p, std::vector<Vec3>& out, StepWork& w, double* energy = nullptr,
+                   const ShellTerms& terms = {}) {
+  w.q.resize(m.shell.controlCount());
+  w.f.resize(m.shell.controlCount());
+  out.resize(m.freeCount());
+  m.map.T.multiply<Vec3>(p, w.q);
+  m.shell.force(w.q, w.f, w.shell, energy, terms);
+  m.map.Tt.multiply<Vec3>(w.f, out);
+}
+
+Vec3 sampleAt(const SparseRows& WT, int sample, std::span<const Vec3> values) {
+  Vec3 s{};
+  for (int k = WT.offsets[sample]; k < WT.offsets[sample + 1]; ++k) s += WT.values[k] * values[WT.columns[k]];
+  return s;
+}
+
+/// Forces of the springs [N]; anchors stand as `frames` say.
+void springForces(const Model& m, const State& s, std::span<const Placement> frames, std::vector<Vec3>& forces) {
+  forces.resize(m.springs.size());
+  for (std::size_t k = 0; k < m.springs.size(); ++k) {
+    const SpringSupportPoint& spring = m.springs[k];
+    forces[k] = -spring.stiffness_N_per_m * (sampleAt(m.surface.WT, spring.sample, s.p) - frames[spring.anchor] * s.anchors[k]);
+  }
+}
+
+/// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit there
+/// (eq. 3.13), v = half_velocity + half_step a. For an evaluation at a known velocity pass it with half_step 0.
+void accelerate(const Model& m, std::span<const Placement> anchor_frames, std::span<const Vec3> half_velocity, double half_step_s, State& s,
+                StepWork& w) {
+  const int n = m.freeCount();
+  internalForce(m, s.p, s.a, w);
+  springForces(m, s, anchor_frames, w.spring_force);
+  s.sums = {};
+  s.sums.springs = sum(w.spring_force);
+  for (std::size_t k = 0; k < m.springs.size(); ++k) {
+    const int sample = m.springs[k].sample;
+    for (int e = m.surface.WT.offsets[sample]; e < m.surface.WT.offsets[sample + 1]; ++e) {
+      const int i = m.surface.WT.columns[e];
+      const Vec3 f = m.surface.WT.values[e] * w.spring_force[k];
+      if (m.held[i]) {
+        s.sums.springs -= f;  // taken by what holds the point
+      } else {
+        s.a[i] += f;
+      }
+    }
+  }
+  const double eta = m.environment.drag_kg_per_m2s;
+  for (int i = 0; i < n; ++i) {
+    if (m.held[i]) {
+      s.sums.held -= s.a[i];
+      s.a[i] = {};
+      s.v[i] = {};
+      continue;
+    }
+    const double d = eta * m.area_m2[i];
+    const Vec3 f = s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 - d * (half_velocity[i] - m.environment.air_velocity_m_per_s);
+    s.a[i] = f / (m.mass_kg[i] + d * half_step_s);
+    s.v[i] = half_velocity[i] + half_step_s * s.a[i];
+    s.sums.drag -= d * (s.v[i] - m.environment.air_velocity_m_per_s);
+  }
+}
+
+/// Rows of the persistent contacts with their warm tractions.
+void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
+  w.rows.clear();
+  w.warm.clear();
+  const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
+  std::size_t at = 0;
+  const auto key = [](const auto& c) { return std::tuple(c.sample, c.obstacle, c.feature); };
+  for (const Contact& c : w.near) {
+    const Vec3 body = (w.end[c.obstacle] * c.local - w.start[c.obstacle] * c.local) / dt;
+    w.rows.push_back({c, body, persistentTarget(c.gap_m, dt, m.contact), false});
+    while (at < in.warm.size() && key(in.warm[at]) < key(c)) ++at;
+    w.warm.push_back(at < in.warm.size() && key(in.warm[at]) == key(c) ? scale * in.warm[at].traction : Vec3{});
+  }
+}
+
+/// Turns a trajectory hit into a row (eq. 3.23: the gap may shrink to min(k delta, g)); replaces the row of the same pair.
+void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWork& w) {
+  const double keep = std::min(-std::expm1(-dt / m.contact.relaxation_s) * m.contact.layer_m, std::max(hit.gap_m, 0.0));
+  // A pair that is hit again (curved or turning bodies) is asked for a little more each round.
+  const double more = 0.05 * (round - 1) * m.contact.layer_m;
+  const Vec3 body = (w.end[hit.obstacle] * hit.local - w.start[hit.obstacle] * hit.local) / dt;
+  const ContactRow row{hit, body, (keep - hit.gap_m + more) / dt, true};
+  for (std::size_t i = 0; i < w.rows.size(); ++i)
+    if (w.rows[i].contact.sample == hit.sample && w.rows[i].contact.obstacle == hit.obstacle && (w.rows[i].impact || round > 2)) {
+      w.rows[i] = row;
+      return;
+    }
+  w.rows.push_back(row);
+  w.warm.push_back({});
+}
+
+void ledger(const Model& m, StepReport& report, StepWork& w) {
+  w.contact_impulses.clear();
+  for (std::size_t i = 0; i < w.rows.size(); ++i) {
+    const ContactRow& row = w.rows[i];
+    const Vec3& impulse = w.impulses[i];
+    if (impulse == Vec3{}) continue;
+    const Contact& c = row.contact;
+    w.contact_impulses.push_back({c.sample, c.obstacle, c.feature, impulse, c.normal, w.start[c.obstacle] * c.local});
+    report.momentum.obstacles -= impulse;
+    report.momentum.scale += norm(impulse);
+    for (int k = m.surface.WT.offsets[c.sample]; k < m.surface.WT.offsets[c.sample + 1]; ++k)
+      if (m.held[m.surface.WT.columns[k]]) report.momentum.supports -= m.surface.WT.values[k] * impulse;
+    const Vec3 mean = 0.5 * (sampleAt(m.surface.WT, c.sample, w.predictor) + sampleAt(m.surface.WT, c.sample, w.velocity));
+    const double normal = dot(impulse, c.normal);
+    report.work.contact += dot(impulse, mean);
+    report.work.friction += dot(impulse - normal * c.normal, mean);
+    if (c.gap_m < m.contact.layer_m && row.target_m_per_s > 0) report.work.separation += normal * row.target_m_per_s;
+  }
+}
+
+}  // namespace
+
+void samplePositions(const Model& model, std::span<const Vec3> p, std::vector<Vec3>& x) {
+  x.resize(model.surface.size());
+  model.surface.WT.multiply<Vec3>(p, x);
+}
+
+State initialState(const Model& model, const Stage& stage, double time_s, StepWork& work) {
+  State s;
+  s.time_s = time_s;
+  std::vector<Vec3> Q;
+  for (const NurbsPatch& patch : model.shell.garment().patches) Q.insert(Q.end(), patch.points.begin(), patch.points.end());
+  for (int home : model.map.home) s.p.push_back(Q[home]);
+  s.v.assign(s.p.size(), {});
+  attachSprings(model, stage, s, work);
+  return s;
+}
+
+void attachSprings(const Model& model, const Stage& stage, State& state, StepWork& work) {
+  work.start.resize(model.obstacles.size());
+  work.anchors_start.resize(model.anchor_count);
+  stage.placements(state.time_s, work.start, work.anchors_start);
+  state.anchors.clear();
+  for (const SpringSupportPoint& spring : model.springs)
+    state.anchors.push_back(toLocal(work.anchors_start[spring.anchor], sampleAt(model.surface.WT, spring.sample, state.p)));
+  const std::vector<Vec3> v = state.v;
+  accelerate(model, work.anchors_start, v, 0, state, work);
+}
+
+StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
+  const int n = m.freeCount();
+  const double half = 0.5 * dt;
+  StepReport report;
+  report.step_s = dt;
+  w.start.resize(m.obstacles.size());
+  w.end.resize(m.obstacles.size());
+  w.anchors_start.resize(m.anchor_count);
+  w.anchors_end.resize(m.anchor_count);
+  stage.placements(in.time_s, w.start, w.anchors_start);
+  stage.placements(in.time_s + dt, w.end, w.anchors_end);
+
+  // 1.1 Predictor, eq. 3.11.
+  w.predictor.resize(n);
+  for (int i = 0; i < n; ++i) w.predictor[i] = in.v[i] + half * in.a[i];
+
+  // 1.2 Contact and impact, eq. 3.12.
+  samplePositions(m, in.p, w.x0);
+  w.sample_velocity.resize(m.surface.size());
+  m.surface.WT.multiply<Vec3>(w.predictor, w.sample_velocity);
+  w.reach.resize(m.surface.size());
+  for (int s = 0; s < m.surface.size(); ++s) w.reach[s] = 1.1 * m.contact.layer_m + dt * norm(w.sample_velocity[s]);
+  m.proximity->near(w.start, w.end, w.x0, w.reach, w.near);
+  persistentRows(m, in, dt, w);
+  for (const Contact& c : w.near) report.deepest_m = std::max(report.deepest_m, -c.gap_m);
+  report.contacts = static_cast<int>(w.rows.size());
+  const double rho = m.shell.garment().fabric.surfaceDensity();
+  constexpr int kRounds = 12;
+  for (int round = 1;; ++round) {
+    w.velocity = w.predictor;
+    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, rho, m.contact, w.velocity, w.warm, w.impulses,
+                                   w.contact);
+    w.x1.resize(m.surface.size());
+    m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
+    for (int s = 0; s < m.surface.size(); ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
+    m.proximity->impacts(w.start, w.end, w.x0, w.x1, w.hits);
+    report.impact_rounds = round - 1;
+    if (w.hits.empty()) break;
+    if (round > kRounds) {
+      report.failure = StepFailure::impact;
+      report.why = std::to_string(w.hits.size()) + " surface samples would still pass into " + m.obstacles[w.hits[0].obstacle].segment;
+      return report;
+    }
+    if (round == 1) report.impacts = static_cast<int>(w.hits.size());
+    for (const Contact& hit : w.hits) addImpact(m, hit, dt, round, w);
+  }
+
+  // 1.2 continued: positions; 2. acceleration and velocity, eq. 3.13.
+  out.time_s = in.time_s + dt;
+  out.p.resize(n);
+  out.v.resize(n);
+  bool finite = true;
+  for (int i = 0; i < n; ++i) {
+    out.p[i] = in.p[i] + dt * w.velocity[i];
+    finite = finite && std::isfinite(out.p[i].x + out.p[i].y + out.p[i].z);
+  }
+  if (!finite) {
+    report.failure = StepFailure::not_finite;
+    report.why = "a position is not finite";
+    return report;
+  }
+  out.anchors = in.anchors;
+  std::vector<Vec3>& spring_mean = w.spring_impulses;
+  springForces(m, in, w.anchors_start, spring_mean);
+  accelerate(m, w.anchors_end, w.velocity, half, out, w);
+  for (std::size_t k = 0; k < spring_mean.size(); ++k) {
+    spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
+    const SpringSupportPoint& s = m.springs[k];
+    const Vec3 anchor_velocity = (w.anchors_end[s.anchor] * in.anchors[k] - w.anchors_start[s.anchor] * in.anchors[k]) / dt;
+    report.work.supports += dot(spring_mean[k], anchor_velocity);
+    report.momentum.scale += norm(spring_mean[k]);
+  }
+
+  out.warm.clear();
+  for (std::size_t i = 0; i < w.rows.size(); ++i)
+    if (!w.rows[i].impact && !(w.warm[i] == Vec3{}))
+      out.warm.push_back({w.rows[i].contact.sample, w.rows[i].contact.obstacle, w.rows[i].contact.feature, w.warm[i]});
+  out.frequency_rad_per_s = in.frequency_rad_per_s;
+  out.mode = in.mode;
+  out.steps_to_estimate = in.steps_to_estimate;
+  out.last_step_s = dt;
+
+  // The audit, each term from its own source.
+  MomentumAudit& audit = report.momentum;
+  ledger(m, report, w);
+  for (int i = 0; i < n; ++i) {
+    if (m.held[i]) continue;
+    audit.change += m.mass_kg[i] * (out.v[i] - in.v[i]);
+    audit.gravity += (m.mass_kg[i] * dt) * m.environment.gravity_m_per_s2;
+    audit.scale += m.mass_kg[i] * dt * norm(m.environment.gravity_m_per_s2);
+    const double d = m.environment.drag_kg_per_m2s * m.area_m2[i];
+    const Vec3 &v0 = in.v[i], &v1 = out.v[i], &air = m.environment.air_velocity_m_per_s;
+    report.work.drag -= half * d * (dot(v0 - air, v0) + dot(v1 - air, v1));
+  }
+  audit.drag = half * (in.sums.drag + out.sums.drag);
+  audit.supports += half * (in.sums.springs + in.sums.held + out.sums.springs + out.sums.held);
+  audit.scale += norm(audit.drag) + half * (norm(in.sums.held) + norm(out.sums.held));
+  return report;
+}
+
+Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w) {
+  Energy e;
+  internalForce(m, s.p, w.sample_force, w, &e.internal);
+  for (int i = 0; i < m.freeCount(); ++i) {
+    if (m.held[i]) continue;
+    e.kinetic += 0.5 * m.mass_kg[i] * norm2(s.v[i]);
+    e.gravity -= m.mass_kg[i] * dot(m.environment.gravity_m_per_s2, s.p[i]);
+  }
+  w.start.resize(m.obstacles.size());
+  w.anchors_start.resize(m.anchor_count);
+  stage.placements(s.time_s, w.start, w.anchors_start);
+  springForces(m, s, w.anchors_start, w.spring_force);
+  for (std::size_t k = 0; k < m.springs.size(); ++k) e.springs += 0.5 * norm2(w.spring_force[k]) / m.springs[k].stiffness_N_per_m;
+  return e;
+}
+
+}  // namespace gambeson
