@@ -93,7 +93,7 @@ double persistentTarget(double gap, double dt, const ContactParameters& c) {
 
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT,
                            std::span<const double> inverse_mass, std::span<const double> area, double density,
-                           const ContactParameters& c, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
+                           const ContactParameters& c, double dt, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
                            ContactWork& w) {
   const int n = static_cast<int>(rows.size());
   impulses.assign(n, {});
@@ -157,7 +157,7 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
     }
     report.iterations = it + 1;
     report.residual_m_per_s = residual;
-    if (residual <= c.tolerance_m_per_s) {
+    if (residual <= c.tolerance_m_per_s2 * dt) {
       report.converged = true;
       std::swap(w.traction, w.candidate);
       break;

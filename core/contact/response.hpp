@@ -14,7 +14,7 @@ struct ContactParameters {
   double layer_m = 0;       ///< delta: the distance at which persistent contact begins and which it restores
   double friction = 0;      ///< Coulomb's mu
   double relaxation_s = 0;  ///< tau: the correction of the distance takes this time, k = 1 - exp(-dt/tau) of eq. 3.17
-  double tolerance_m_per_s = 0;  ///< residual velocity at which a solve is done
+  double tolerance_m_per_s2 = 1e-2;  ///< a solve is done at a residual velocity of this times dt
   int max_iterations = 200;
 };
 
@@ -65,7 +65,7 @@ double persistentTarget(double gap_m, double dt_s, const ContactParameters& para
 /// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the result.
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT,
                            std::span<const double> inverse_mass, std::span<const double> area, double density,
-                           const ContactParameters& parameters, std::span<Vec3> velocity, std::span<Vec3> warm,
+                           const ContactParameters& parameters, double dt_s, std::span<Vec3> velocity, std::span<Vec3> warm,
                            std::vector<Vec3>& impulses, ContactWork& work);
 
 }  // namespace gambeson

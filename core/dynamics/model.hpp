@@ -18,6 +18,8 @@ class Stage {
  public:
   virtual ~Stage() = default;
   virtual void placements(double time_s, std::span<Placement> obstacles, std::span<Placement> anchors) const = 0;
+  /// Velocity of the air, for the drag [m/s].
+  virtual Vec3 air(double) const { return {}; }
 };
 
 /// An elastic spring from a sample to a point fixed in an anchor frame; force = -stiffness (x - anchor).
@@ -29,8 +31,7 @@ struct SpringSupportPoint {
 
 struct Environment {
   Vec3 gravity_m_per_s2{0, 0, -9.81};
-  double drag_kg_per_m2s = 0;  ///< eta: force per area -eta (v - air_velocity), Zheng 2013, section 2.2.3
-  Vec3 air_velocity_m_per_s;
+  double drag_kg_per_m2s = 0;  ///< eta: force per area -eta (v - air), Zheng 2013, section 2.2.3
 };
 
 /// Constant after it is built.
@@ -59,7 +60,7 @@ struct ModelOptions {
   const KernelSet* kernels = nullptr;  ///< the widest where null
 };
 
-/// `contact.tolerance_m_per_s` is taken as given. Throws InputError.
+/// Throws InputError.
 std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& options, const Environment& environment,
                                   const ContactParameters& contact, std::vector<Obstacle> obstacles);
 
@@ -118,6 +119,11 @@ struct StepReport {
   double deepest_m = 0;  ///< largest penetration of a sample at the start of the step, 0 if none
 };
 
+/// Wall time of the phases of the steps so far [s].
+struct PhaseTimes {
+  double stage = 0, proximity = 0, contact = 0, impact = 0, force = 0, other = 0;
+};
+
 /// Scratch of a step, and the impulses of the last one (read by the recorder).
 struct StepWork {
   ShellWork shell;
@@ -129,6 +135,7 @@ struct StepWork {
   std::vector<Placement> start, end, anchors_start, anchors_end;
   std::vector<ContactImpulse> contact_impulses;  ///< of the last step
   std::vector<Vec3> spring_impulses;             ///< of the last step, on the cloth, one per spring [N s]
+  PhaseTimes times;                              ///< summed over the steps
 };
 
 }  // namespace gambeson

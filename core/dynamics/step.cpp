@@ -1,11 +1,25 @@
 #include "core/dynamics/step.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <tuple>
 
 namespace gambeson {
 namespace {
+
+/// Adds the time since the last lap to a phase.
+class StopWatch {
+ public:
+  void lap(double& phase) {
+    const auto now = std::chrono::steady_clock::now();
+    phase += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 Vec3 sum(std::span<const Vec3> values) {
   Vec3 s{};
@@ -41,7 +55,7 @@ void springForces(const Model& m, const State& s, std::span<const Placement> fra
 
 /// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit there
 /// (eq. 3.13), v = half_velocity + half_step a. For an evaluation at a known velocity pass it with half_step 0.
-void accelerate(const Model& m, std::span<const Placement> anchor_frames, std::span<const Vec3> half_velocity, double half_step_s, State& s,
+void accelerate(const Model& m, std::span<const Placement> anchor_frames, const Vec3& air, std::span<const Vec3> half_velocity, double half_step_s, State& s,
                 StepWork& w) {
   const int n = m.freeCount();
   internalForce(m, s.p, s.a, w);
@@ -69,10 +83,10 @@ void accelerate(const Model& m, std::span<const Placement> anchor_frames, std::s
       continue;
     }
     const double d = eta * m.area_m2[i];
-    const Vec3 f = s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 - d * (half_velocity[i] - m.environment.air_velocity_m_per_s);
+    const Vec3 f = s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 - d * (half_velocity[i] - air);
     s.a[i] = f / (m.mass_kg[i] + d * half_step_s);
     s.v[i] = half_velocity[i] + half_step_s * s.a[i];
-    s.sums.drag -= d * (s.v[i] - m.environment.air_velocity_m_per_s);
+    s.sums.drag -= d * (s.v[i] - air);
   }
 }
 
@@ -153,7 +167,7 @@ void attachSprings(const Model& model, const Stage& stage, State& state, StepWor
   for (const SpringSupportPoint& spring : model.springs)
     state.anchors.push_back(toLocal(work.anchors_start[spring.anchor], sampleAt(model.surface.WT, spring.sample, state.p)));
   const std::vector<Vec3> v = state.v;
-  accelerate(model, work.anchors_start, v, 0, state, work);
+  accelerate(model, work.anchors_start, stage.air(state.time_s), v, 0, state, work);
 }
 
 StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
@@ -161,12 +175,16 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   const double half = 0.5 * dt;
   StepReport report;
   report.step_s = dt;
+  StopWatch clock;
   w.start.resize(m.obstacles.size());
   w.end.resize(m.obstacles.size());
   w.anchors_start.resize(m.anchor_count);
   w.anchors_end.resize(m.anchor_count);
   stage.placements(in.time_s, w.start, w.anchors_start);
   stage.placements(in.time_s + dt, w.end, w.anchors_end);
+
+  const Vec3 air0 = stage.air(in.time_s), air1 = stage.air(in.time_s + dt);
+  clock.lap(w.times.stage);
 
   // 1.1 Predictor, eq. 3.11.
   w.predictor.resize(n);
@@ -179,6 +197,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   w.reach.resize(m.surface.size());
   for (int s = 0; s < m.surface.size(); ++s) w.reach[s] = 1.1 * m.contact.layer_m + dt * norm(w.sample_velocity[s]);
   m.proximity->near(w.start, w.end, w.x0, w.reach, w.near);
+  clock.lap(w.times.proximity);
   persistentRows(m, in, dt, w);
   for (const Contact& c : w.near) report.deepest_m = std::max(report.deepest_m, -c.gap_m);
   report.contacts = static_cast<int>(w.rows.size());
@@ -186,12 +205,14 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   constexpr int kRounds = 12;
   for (int round = 1;; ++round) {
     w.velocity = w.predictor;
-    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, rho, m.contact, w.velocity, w.warm, w.impulses,
+    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, rho, m.contact, dt, w.velocity, w.warm, w.impulses,
                                    w.contact);
+    clock.lap(w.times.contact);
     w.x1.resize(m.surface.size());
     m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
     for (int s = 0; s < m.surface.size(); ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
     m.proximity->impacts(w.start, w.end, w.x0, w.x1, w.hits);
+    clock.lap(w.times.impact);
     report.impact_rounds = round - 1;
     if (w.hits.empty()) break;
     if (round > kRounds) {
@@ -217,10 +238,11 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
     report.why = "a position is not finite";
     return report;
   }
+  clock.lap(w.times.other);
   out.anchors = in.anchors;
   std::vector<Vec3>& spring_mean = w.spring_impulses;
   springForces(m, in, w.anchors_start, spring_mean);
-  accelerate(m, w.anchors_end, w.velocity, half, out, w);
+  accelerate(m, w.anchors_end, air1, w.velocity, half, out, w);
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
     const SpringSupportPoint& s = m.springs[k];
@@ -229,6 +251,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
     report.momentum.scale += norm(spring_mean[k]);
   }
 
+  clock.lap(w.times.force);
   out.warm.clear();
   for (std::size_t i = 0; i < w.rows.size(); ++i)
     if (!w.rows[i].impact && !(w.warm[i] == Vec3{}))
@@ -247,12 +270,13 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
     audit.gravity += (m.mass_kg[i] * dt) * m.environment.gravity_m_per_s2;
     audit.scale += m.mass_kg[i] * dt * norm(m.environment.gravity_m_per_s2);
     const double d = m.environment.drag_kg_per_m2s * m.area_m2[i];
-    const Vec3 &v0 = in.v[i], &v1 = out.v[i], &air = m.environment.air_velocity_m_per_s;
-    report.work.drag -= half * d * (dot(v0 - air, v0) + dot(v1 - air, v1));
+    const Vec3 &v0 = in.v[i], &v1 = out.v[i];
+    report.work.drag -= half * d * (dot(v0 - air0, v0) + dot(v1 - air1, v1));
   }
   audit.drag = half * (in.sums.drag + out.sums.drag);
   audit.supports += half * (in.sums.springs + in.sums.held + out.sums.springs + out.sums.held);
   audit.scale += norm(audit.drag) + half * (norm(in.sums.held) + norm(out.sums.held));
+  clock.lap(w.times.other);
   return report;
 }
 
