@@ -19,7 +19,7 @@ struct Fabric {
   double bending_weft_Nm = 0, bending_warp_Nm = 0;
   /// kappa_0 of eq. 2.14 [1/m] and the curvature below which the root is regularised.
   double kappa0_per_m = 0, kappa_regular_per_m = 0;
-  /// Twist rigidity [N m]: m_12 = twist * 2 kappa_12 / 2; zero in the thesis.
+  /// Twist rigidity [N m]: m_12 = twist * 2 kappa_12 (G h^3/12 for a homogeneous plate); zero in the thesis.
   double twist_Nm = 0;
   /// Rest curvature: false, zero (the thesis); true, that of the rest shape.
   bool rest_curvature_of_shape = false;

@@ -102,6 +102,21 @@ void packCell(const Garment& garment, const std::vector<int>& offsets, const Cel
   }
 }
 
+/// What the laws need to be laws at all: a positive definite membrane and an eq. 2.14 with a finite slope. NaN fails.
+void checkFabric(const Fabric& f) {
+  const auto reject = [](const char* key, const char* reason) { throw InputError({"", 0, std::string("fabric.") + key}, reason); };
+  if (!(f.thickness_m > 0)) reject("thickness_m", "must be > 0");
+  if (!(f.young_weft_Pa > 0)) reject("young_weft_Pa", "must be > 0");
+  if (!(f.young_warp_Pa > 0)) reject("young_warp_Pa", "must be > 0");
+  if (!(f.shear_Pa > 0)) reject("shear_Pa", "must be > 0");
+  if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa)) reject("poisson", "must satisfy poisson^2 young_warp < young_weft");
+  if (!(f.bending_weft_Nm >= 0)) reject("bending_weft_Nm", "must be >= 0");
+  if (!(f.bending_warp_Nm >= 0)) reject("bending_warp_Nm", "must be >= 0");
+  if (!(f.twist_Nm >= 0)) reject("twist_Nm", "must be >= 0");
+  if (f.bending_law == BendingLaw::zheng && !(f.kappa_regular_per_m > 0 && f.kappa_regular_per_m <= f.kappa0_per_m))
+    reject("kappa_regular_per_m", "must be > 0 and at most kappa0_per_m");
+}
+
 }  // namespace
 
 ShellLaw shellLaw(const Fabric& f) {
@@ -124,6 +139,8 @@ ShellLaw shellLaw(const Fabric& f) {
 
 Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra)
     : garment_(garment), kernels_(&kernels), offsets_(controlOffsets(garment)), control_count_(offsets_.back()) {
+  checkFabric(garment.fabric);
+  if (garment.weft.size() != garment.patches.size()) throw InputError({"", 0, "weft"}, "one direction for each patch is needed");
   // Blocks: cells of the same degrees, rational or not.
   std::map<std::tuple<int, int, bool>, std::vector<Cell>> kinds;
   for (std::size_t p = 0; p < garment.patches.size(); ++p) {
