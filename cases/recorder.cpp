@@ -1,0 +1,277 @@
+#include "cases/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gambeson {
+namespace {
+
+/// Row of "steps": how each column is combined over the steps of a window.
+enum Column {
+  kSteps, kShortest, kLongest, kContacts, kImpacts, kIterations, kUnconverged, kResidual, kMomentumError, kDeepest,
+  kWorkContact, kWorkSeparation, kWorkFriction, kWorkDrag, kWorkSupports,
+  kKinetic, kInternal, kGravity, kSprings, kFrequency, kMembrane, kBending, kSeam, kSpringShare, kColumns
+};
+
+void addVec(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x, v.y, v.z}); }
+
+std::vector<float> floats(std::span<const Vec3> values) {
+  std::vector<float> out;
+  out.reserve(3 * values.size());
+  for (const Vec3& v : values) {
+    out.push_back(static_cast<float>(v.x));
+    out.push_back(static_cast<float>(v.y));
+    out.push_back(static_cast<float>(v.z));
+  }
+  return out;
+}
+
+std::vector<double> doubles(std::span<const Vec3> values) {
+  std::vector<double> out;
+  for (const Vec3& v : values) out.insert(out.end(), {v.x, v.y, v.z});
+  return out;
+}
+
+std::vector<Vec3> vectors(const std::vector<double>& values) {
+  std::vector<Vec3> out(values.size() / 3);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  return out;
+}
+
+}  // namespace
+
+const std::vector<std::string>& stepColumns() {
+  static const std::vector<std::string> names{
+      "steps", "shortest_step_s", "longest_step_s", "most_contacts", "impacts", "iterations", "unconverged_steps", "largest_residual_m_per_s",
+      "momentum_error", "deepest_m", "work_contact_J", "work_separation_J", "work_friction_J", "work_drag_J", "work_supports_J",
+      "kinetic_J", "internal_J", "gravity_J", "springs_J", "frequency_rad_per_s", "membrane_share", "bending_share", "seam_share", "spring_share"};
+  return names;
+}
+
+RecordingLayout recordingLayout(const Scenario& s) {
+  RecordingLayout layout;
+  layout.identity = caseIdentity(s.definition) + " " + s.model->shell.kernels().name;
+  layout.metadata = writeCase(s.definition);
+  layout.triangles = s.model->surface.triangles;
+  const std::vector<std::string> window{"start_s", "end_s"};
+  auto &bodies = layout.tables["bodies"] = window, &drag = layout.tables["drag"] = window;
+  for (const std::string& name : s.bodies) {
+    for (const char* part : {"_Jx_Ns", "_Jy_Ns", "_Jz_Ns", "_Lx_Nms", "_Ly_Nms", "_Lz_Nms"}) {
+      bodies.push_back(name + part);
+      drag.push_back(name + part);
+    }
+    bodies.push_back(name + "_n_Ns");
+    bodies.push_back(name + "_t_Ns");
+  }
+  auto& supports = layout.tables["supports"] = window;
+  for (const SupportGroup& g : s.supports)
+    for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(g.name + part);
+  auto& steps = layout.tables["steps"] = window;
+  steps.insert(steps.end(), stepColumns().begin(), stepColumns().end());
+  return layout;
+}
+
+Checkpoint checkpointOf(const State& s, const Frequency& f) {
+  Checkpoint c;
+  c.time_s = s.time_s;
+  c.reals = {{"p", doubles(s.p)}, {"v", doubles(s.v)}, {"a", doubles(s.a)}, {"anchors", doubles(s.anchors)}, {"mode", doubles(s.mode)}};
+  c.reals["sums"] = doubles(std::vector<Vec3>{s.sums.drag, s.sums.springs, s.sums.held});
+  c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s,  f.largest_rad_per_s, f.membrane_share,
+                        f.bending_share,       f.seam_share, f.spring_share};
+  c.integers["steps_to_estimate"] = {s.steps_to_estimate};
+  std::vector<Vec3> traction;
+  auto& ids = c.integers["warm"];
+  for (const WarmContact& w : s.warm) {
+    traction.push_back(w.traction);
+    ids.insert(ids.end(), {w.sample, w.obstacle, w.feature});
+  }
+  c.reals["warm"] = doubles(traction);
+  return c;
+}
+
+State stateOf(const Checkpoint& c, Frequency& f) {
+  State s;
+  s.time_s = c.time_s;
+  s.p = vectors(c.reals.at("p"));
+  s.v = vectors(c.reals.at("v"));
+  s.a = vectors(c.reals.at("a"));
+  s.anchors = vectors(c.reals.at("anchors"));
+  s.mode = vectors(c.reals.at("mode"));
+  const std::vector<Vec3> sums = vectors(c.reals.at("sums"));
+  s.sums = {sums[0], sums[1], sums[2]};
+  const std::vector<double>& control = c.reals.at("control");
+  s.frequency_rad_per_s = control[0];
+  s.last_step_s = control[1];
+  f = {control[2], control[3], control[4], control[5], control[6]};
+  s.steps_to_estimate = static_cast<int>(c.integers.at("steps_to_estimate")[0]);
+  const auto& ids = c.integers.at("warm");
+  const std::vector<Vec3> traction = vectors(c.reals.at("warm"));
+  for (std::size_t i = 0; i < traction.size(); ++i)
+    s.warm.push_back({static_cast<int>(ids[3 * i]), static_cast<int>(ids[3 * i + 1]), static_cast<int>(ids[3 * i + 2]), traction[i]});
+  return s;
+}
+
+Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
+    : scenario_(scenario), writer_(writer), bodies_(scenario.bodies.size()), supports_(scenario.supports.size()),
+      contact_(scenario.model->surface.size()), normal_(scenario.model->surface.size()), steps_(kColumns, 0) {}
+
+void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepWork& work, const Frequency& f) {
+  // Moments about the body's origin at the middle of the step, where the impulse acts in the mean.
+  const std::vector<Pose> poses = scenario_.bodyPoses(0.5 * (before.time_s + after.time_s));
+  for (const ContactImpulse& c : work.contact_impulses) {
+    Body& body = bodies_[scenario_.body_of_obstacle[c.obstacle]];
+    const Vec3 received = -c.impulse;
+    const double normal = dot(c.impulse, c.normal);
+    body.force += received;
+    body.moment += cross(c.point - poses[scenario_.body_of_obstacle[c.obstacle]].origin, received);
+    body.normal += normal;
+    body.tangential += norm(c.impulse - normal * c.normal);
+    contact_[c.sample] += c.impulse;
+    normal_[c.sample] += normal;
+  }
+  for (std::size_t g = 0; g < scenario_.supports.size(); ++g) {
+    for (int k : scenario_.supports[g].springs) supports_[g] += work.spring_impulses[k];
+    if (scenario_.supports[g].springs.empty()) {
+      Vec3 springs{};
+      for (const Vec3& i : work.spring_impulses) springs += i;
+      supports_[g] += r.momentum.supports - springs;
+    }
+  }
+  const bool first = steps_[kSteps] == 0;
+  const auto most = [&](Column c, double value) { steps_[c] = first ? value : std::max(steps_[c], value); };
+  steps_[kShortest] = first ? r.step_s : std::min(steps_[kShortest], r.step_s);
+  most(kLongest, r.step_s);
+  most(kContacts, r.contacts);
+  most(kResidual, r.contact.residual_m_per_s);
+  most(kMomentumError, r.momentum.scale > 0 ? r.momentum.error() / r.momentum.scale : 0);
+  most(kDeepest, r.deepest_m);
+  steps_[kSteps] += 1;
+  steps_[kImpacts] += r.impacts;
+  steps_[kIterations] += r.contact.iterations;
+  steps_[kUnconverged] += r.contact.converged ? 0 : 1;
+  steps_[kWorkContact] += r.work.contact;
+  steps_[kWorkSeparation] += r.work.separation;
+  steps_[kWorkFriction] += r.work.friction;
+  steps_[kWorkDrag] += r.work.drag;
+  steps_[kWorkSupports] += r.work.supports;
+  steps_[kFrequency] = f.largest_rad_per_s;
+  steps_[kMembrane] = f.membrane_share;
+  steps_[kBending] = f.bending_share;
+  steps_[kSeam] = f.seam_share;
+  steps_[kSpringShare] = f.spring_share;
+}
+
+void Recorder::closeWindow(const State& state, double start_s, bool frame, StepWork& work) {
+  const Model& m = *scenario_.model;
+  const double window = state.time_s - start_s;
+  const std::vector<double> head{start_s, state.time_s};
+  const std::vector<Pose> poses = scenario_.bodyPoses(state.time_s);
+
+  std::vector<double> row = head;
+  for (const Body& b : bodies_) {
+    addVec(row, b.force);
+    addVec(row, b.moment);
+    row.insert(row.end(), {b.normal, b.tangential});
+  }
+  writer_.append(TableRow{"bodies", row});
+
+  // Drag at the window's end, on the body nearest to each sample.
+  std::vector<Body> drag(bodies_.size());
+  std::vector<Vec3> x(m.surface.size()), v(m.surface.size());
+  m.surface.WT.multiply<Vec3>(state.p, x);
+  m.surface.WT.multiply<Vec3>(state.v, v);
+  if (m.environment.drag_kg_per_m2s > 0 && !m.obstacles.empty()) {
+    const std::vector<Placement> placed = scenario_.obstaclePlacements(state.time_s);
+    const Vec3 air = scenario_.stage->air(state.time_s);
+    std::vector<int> nearest(x.size());
+#pragma omp parallel for schedule(static)
+    for (int s = 0; s < m.surface.size(); ++s) {
+      double least = std::numeric_limits<double>::infinity();
+      for (int o = 0; o < static_cast<int>(placed.size()); ++o) {
+        const double d = m.proximity->signedDistance(o, placed[o], x[s]);
+        if (d < least) {
+          least = d;
+          nearest[s] = scenario_.body_of_obstacle[o];
+        }
+      }
+    }
+    for (int s = 0; s < m.surface.size(); ++s) {
+      const Vec3 f = (-m.environment.drag_kg_per_m2s * m.surface.area_m2[s] * window) * (v[s] - air);
+      drag[nearest[s]].force += f;
+      drag[nearest[s]].moment += cross(x[s] - poses[nearest[s]].origin, f);
+    }
+  }
+  row = head;
+  for (const Body& b : drag) {
+    addVec(row, b.force);
+    addVec(row, b.moment);
+  }
+  writer_.append(TableRow{"drag", row});
+
+  row = head;
+  for (std::size_t g = 0; g < scenario_.supports.size(); ++g) {
+    addVec(row, supports_[g]);
+    double drop = 0;
+    const SupportGroup& group = scenario_.supports[g];
+    if (!group.springs.empty()) {
+      std::vector<Placement> obstacles(m.obstacles.size()), anchors(m.anchor_count);
+      scenario_.stage->placements(state.time_s, obstacles, anchors);
+      const double size = norm(m.environment.gravity_m_per_s2);
+      const Vec3 down = size > 0 ? m.environment.gravity_m_per_s2 / size : Vec3{};
+      for (int k : group.springs)
+        drop += dot(x[m.springs[k].sample] - anchors[group.anchor] * state.anchors[k], down) / static_cast<double>(group.springs.size());
+    }
+    row.push_back(drop);
+  }
+  writer_.append(TableRow{"supports", row});
+
+  const Energy energy = energyOf(m, *scenario_.stage, state, work);
+  steps_[kKinetic] = energy.kinetic;
+  steps_[kInternal] = energy.internal;
+  steps_[kGravity] = energy.gravity;
+  steps_[kSprings] = energy.springs;
+  row = head;
+  row.insert(row.end(), steps_.begin(), steps_.end());
+  writer_.append(TableRow{"steps", row});
+
+  if (frame) appendFrame(state, window);
+  std::fill(bodies_.begin(), bodies_.end(), Body{});
+  std::fill(supports_.begin(), supports_.end(), Vec3{});
+  std::fill(contact_.begin(), contact_.end(), Vec3{});
+  std::fill(normal_.begin(), normal_.end(), 0.0);
+  std::fill(steps_.begin(), steps_.end(), 0.0);
+}
+
+void Recorder::appendFrame(const State& state, double window) {
+  const Model& m = *scenario_.model;
+  const int n = m.surface.size();
+  Frame frame;
+  frame.time_s = state.time_s;
+  std::vector<Vec3> x(n), v(n), q(m.shell.controlCount()), force(n);
+  m.surface.WT.multiply<Vec3>(state.p, x);
+  m.surface.WT.multiply<Vec3>(state.v, v);
+  m.map.T.multiply<Vec3>(state.p, q);
+  frame.positions = floats(x);
+  Field velocity{"velocity", "m/s", 3, floats(v)}, contact{"contact_force", "N", 3, {}}, pressure{"pressure", "Pa", 1, {}};
+  for (int s = 0; s < n; ++s) {
+    force[s] = contact_[s] / window;
+    pressure.data.push_back(static_cast<float>(normal_[s] / (m.surface.area_m2[s] * window)));
+  }
+  contact.data = floats(force);
+  Field s1{"stress", "N/m", 1, std::vector<float>(n)}, s2{"stress_second", "N/m", 1, std::vector<float>(n)};
+  Field e1{"strain", "1", 1, std::vector<float>(n)}, e2{"strain_second", "1", 1, std::vector<float>(n)};
+#pragma omp parallel for schedule(static)
+  for (int s = 0; s < n; ++s) {
+    const ShellStress stress = m.shell.stressAt(m.surface.patch[s], m.surface.parameters[s], q);
+    s1.data[s] = static_cast<float>(stress.principal1_N_per_m);
+    s2.data[s] = static_cast<float>(stress.principal2_N_per_m);
+    e1.data[s] = static_cast<float>(stress.strain1);
+    e2.data[s] = static_cast<float>(stress.strain2);
+  }
+  frame.sample_fields = {velocity, contact, pressure, s1, s2, e1, e2};
+  frame.control_fields = {Field{"control_points", "m", 3, floats(q)}};
+  writer_.append(std::move(frame));
+}
+
+}  // namespace gambeson

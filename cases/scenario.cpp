@@ -1,0 +1,299 @@
+#include "cases/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "human/load.hpp"
+#include "tryon/pattern/garment_file.hpp"
+#include "tryon/pattern/pattern.hpp"
+#include "tryon/projecting.hpp"
+
+namespace gambeson {
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+/// The human through dressing, settling and the motion, and the case's own obstacles.
+class CaseStage : public Stage {
+ public:
+  const Human* human = nullptr;
+  const Motion* motion = nullptr;
+  std::vector<Placement> shrunk;  ///< of the human's shapes, empty without projecting
+  double grow_start_s = 0, grow_s = 0;
+  std::vector<Placement> fixed;
+  std::vector<Vec3> fixed_velocity;
+  Vec3 air_velocity;
+  double air_ramp_s = 0;
+
+  void placements(double t, std::span<Placement> obstacles, std::span<Placement> anchors) const override {
+    std::size_t at = 0;
+    if (human) {
+      const Posture posture = motion->at(std::max(t, 0.0));
+      const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
+      std::vector<Placement> body = placementsOf(*human, poses);
+      if (!shrunk.empty() && t < grow_start_s + grow_s) body = placementsDuringGrowth(body, shrunk, (t - grow_start_s) / grow_s);
+      for (const Placement& p : body) obstacles[at++] = p;
+      for (std::size_t l = 0; l < anchors.size(); ++l) anchors[l] = {poses[l].rotation, poses[l].origin, 1};
+    }
+    for (std::size_t k = 0; k < fixed.size(); ++k) {
+      obstacles[at] = fixed[k];
+      obstacles[at++].origin += t * fixed_velocity[k];
+    }
+  }
+
+  /// The air starts with the motion, smoothly over the lead-in.
+  Vec3 air(double t) const override {
+    if (air_ramp_s <= 0) return air_velocity;
+    const double x = std::clamp(t / air_ramp_s, 0.0, 1.0);
+    return (x * x * (3 - 2 * x)) * air_velocity;
+  }
+};
+
+Garment makeGarment(const Case& c, const Human* human, std::vector<std::string>& names) {
+  Garment garment = std::visit(
+      Overloaded{
+          [&](const SheetGarment& s) {
+            return makeSheet({s.width_m, s.height_m, s.cells_u, s.cells_v, s.degree, s.corner, s.axis_u, s.axis_v});
+          },
+          [&](const TubeGarment& t) {
+            return makeTube({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start, t.axis, SeamKind::G1, 0});
+          },
+          [&](const ShortsGarment& s) {
+            ShortsPattern pattern;
+            pattern.inseam_m = s.inseam_m;
+            pattern.rise_m = s.rise_m;
+            pattern.ease = s.ease;
+            pattern.cell_m = s.cell_m;
+            pattern.degree = s.degree;
+            pattern.seam_stiffness_N = c.garment.seam_stiffness_N;
+            names = {"trunk_left", "trunk_right", "outer_left", "outer_right", "inner_left", "inner_right"};
+            return makeShorts(pattern, *human);
+          },
+          [&](const FileGarment& f) { return loadGarment(f.path); },
+      },
+      c.garment.shape);
+  if (names.empty())
+    for (std::size_t p = 0; p < garment.patches.size(); ++p) names.push_back("patch_" + std::to_string(p));
+  garment.fabric = c.fabric;
+  if (c.garment.weft_angle_rad != 0)
+    for (std::size_t p = 0; p < garment.patches.size(); ++p) {
+      const NurbsPatch& patch = garment.patches[p];
+      const auto d = surfaceDerivatives(patch, 0.5 * (patch.u.front() + patch.u.back()), 0.5 * (patch.v.front() + patch.v.back()));
+      garment.weft[p] = rotationAbout(normalized(cross(d[1], d[2])), c.garment.weft_angle_rad) * garment.weft[p];
+    }
+  return garment;
+}
+
+std::vector<PatchEdge> edgesOf(const Case& c, const EdgeCase& e) {
+  if (e.name.empty()) return {{e.patch, e.side, false}};
+  return std::visit(Overloaded{
+                        [&](const SheetGarment&) { return sheetEdge(e.name); },
+                        [&](const TubeGarment& t) {
+                          return tubeEdge({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start, t.axis,
+                                           SeamKind::G1, 0},
+                                          e.name);
+                        },
+                        [&](const ShortsGarment&) { return shortsEdge(e.name); },
+                        [&](const FileGarment&) -> std::vector<PatchEdge> {
+                          throw InputError({c.file.string(), 0, "supports"}, "edge \"" + e.name + "\": name the patch and side of a garment file's edge");
+                        },
+                    },
+                    c.garment.shape);
+}
+
+Shape shapeOf(const ObstacleCase& o, Placement& at) {
+  return std::visit(Overloaded{
+                        [&](const EllipsoidObstacle& e) -> Shape {
+                          at.origin = e.center_m;
+                          return Ellipsoid{e.semi_axes_m};
+                        },
+                        [&](const SphereObstacle& s) -> Shape {
+                          at.origin = s.center_m;
+                          if (s.rings == 0) return Ellipsoid{{s.radius_m, s.radius_m, s.radius_m}};
+                          TriangleMesh mesh;
+                          mesh.vertices.push_back({0, 0, s.radius_m});
+                          for (int r = 1; r < s.rings; ++r)
+                            for (int k = 0; k < s.segments; ++k) {
+                              const double theta = M_PI * r / s.rings, phi = 2 * M_PI * k / s.segments;
+                              mesh.vertices.push_back(s.radius_m * Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+                            }
+                          mesh.vertices.push_back({0, 0, -s.radius_m});
+                          const int last = static_cast<int>(mesh.vertices.size()) - 1;
+                          const auto id = [&](int r, int k) { return 1 + (r - 1) * s.segments + k % s.segments; };
+                          for (int k = 0; k < s.segments; ++k) {
+                            mesh.triangles.push_back({0, id(1, k), id(1, k + 1)});
+                            for (int r = 1; r + 1 < s.rings; ++r) {
+                              mesh.triangles.push_back({id(r, k), id(r + 1, k), id(r + 1, k + 1)});
+                              mesh.triangles.push_back({id(r, k), id(r + 1, k + 1), id(r, k + 1)});
+                            }
+                            mesh.triangles.push_back({id(s.rings - 1, k), last, id(s.rings - 1, k + 1)});
+                          }
+                          return mesh;
+                        },
+                        [&](const PlaneObstacle& p) -> Shape {
+                          at.origin = p.point_m;
+                          const Vec3 n = normalized(p.normal);
+                          const Vec3 e1 = normalized(cross(std::abs(n.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)), e2 = cross(n, e1);
+                          const double h = 0.5 * p.size_m;
+                          return TriangleMesh{{-h * e1 - h * e2, h * e1 - h * e2, h * e1 + h * e2, -h * e1 + h * e2}, {{0, 1, 2}, {0, 2, 3}}};
+                        },
+                        [&](const MeshObstacle& m) -> Shape {
+                          at.origin = m.position_m;
+                          return loadMesh(m.file, m.scale);
+                        },
+                    },
+                    o.shape);
+}
+
+void addSupports(const Case& c, const Garment& garment, const Surface& surface, const Human* human, ModelOptions& options,
+                 std::vector<SupportGroup>& groups) {
+  for (const SupportCase& support : c.supports) {
+    SupportGroup group;
+    const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
+    const std::string name = edge.name.empty() ? "edge of patch " + std::to_string(edge.patch) : edge.name;
+    const std::vector<PatchEdge> edges = edgesOf(c, edge);
+    for (const PatchEdge& e : edges) {
+      if (e.patch >= static_cast<int>(garment.patches.size()))
+        throw InputError({c.file.string(), 0, "supports"}, "patch " + std::to_string(e.patch) + " does not exist; the garment has " + std::to_string(garment.patches.size()));
+      for (int s : edgeSamples(surface, e))
+        if (std::find(group.samples.begin(), group.samples.end(), s) == group.samples.end()) group.samples.push_back(s);
+    }
+    if (const auto* fixed = std::get_if<FixedSupport>(&support)) {
+      group.name = name + " held";
+      for (const PatchEdge& e : edges) {
+        const EdgeColumns columns = edgeColumns(garment, e);
+        options.held_control_points.insert(options.held_control_points.end(), columns.edge.begin(), columns.edge.end());
+        if (fixed->rows > 1) options.held_control_points.insert(options.held_control_points.end(), columns.inner.begin(), columns.inner.end());
+      }
+    } else {
+      const auto& springs = std::get<SpringSupport>(support);
+      group.name = name + " springs to " + springs.link;
+      group.anchor = human->skeleton.link(springs.link);
+      if (group.anchor < 0) throw InputError({c.file.string(), 0, "supports.springs.link"}, "the human has no link \"" + springs.link + "\"");
+      // Each sample answers for half of the edge to either neighbour.
+      std::vector<double> length(surface.size(), 0);
+      std::vector<Vec3> Q;
+      for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
+      std::vector<Vec3> X(surface.size());
+      surface.W.multiply<Vec3>(Q, X);
+      for (const PatchEdge& e : edges) {
+        const std::vector<int> at = edgeSamples(surface, e);
+        for (std::size_t k = 0; k + 1 < at.size(); ++k) {
+          const double half = 0.5 * norm(X[at[k + 1]] - X[at[k]]);
+          length[at[k]] += half;
+          length[at[k + 1]] += half;
+        }
+      }
+      for (int s : group.samples) {
+        group.springs.push_back(static_cast<int>(options.springs.size()));
+        options.springs.push_back({s, group.anchor, springs.stiffness_N_per_m2 * length[s]});
+      }
+    }
+    groups.push_back(std::move(group));
+  }
+}
+
+}  // namespace
+
+std::vector<Placement> Scenario::obstaclePlacements(double time_s) const {
+  std::vector<Placement> obstacles(model->obstacles.size()), anchors(model->anchor_count);
+  stage->placements(time_s, obstacles, anchors);
+  return obstacles;
+}
+
+std::vector<Pose> Scenario::bodyPoses(double time_s) const {
+  std::vector<Placement> obstacles(model->obstacles.size()), anchors(model->anchor_count);
+  stage->placements(time_s, obstacles, anchors);
+  std::vector<Pose> poses;
+  for (const Placement& a : anchors) poses.push_back({a.rotation, a.origin});
+  for (std::size_t o = 0; o < obstacles.size(); ++o)
+    if (body_of_obstacle[o] >= static_cast<int>(anchors.size())) poses.push_back({obstacles[o].rotation, obstacles[o].origin});
+  return poses;
+}
+
+std::unique_ptr<Scenario> buildScenario(const Case& c) {
+  auto s = std::make_unique<Scenario>();
+  s->definition = c;
+  auto stage = std::make_unique<CaseStage>();
+  std::vector<Obstacle> obstacles;
+  double duration = c.time.duration_s.value_or(0);
+  if (c.human) {
+    s->human = c.human->manikin.empty() ? (c.human->body.empty() ? loadUrdf(c.human->urdf) : loadHuman(c.human->urdf, c.human->body))
+                                        : makeManikin(c.human->manikin);
+    std::visit(Overloaded{
+                   [&](const StandMotion& m) {
+                     WalkOptions still;
+                     class Standing : public Motion {
+                      public:
+                       Standing(Posture p, double d) : posture_(std::move(p)), duration_(d) {}
+                       double duration() const override { return duration_; }
+                       Posture at(double) const override { return posture_; }
+
+                      private:
+                       Posture posture_;
+                       double duration_;
+                     };
+                     s->motion = std::make_unique<Standing>(standing(*s->human), m.duration_s);
+                   },
+                   [&](const WalkOptions& w) {
+                     s->motion = makeWalk(*s->human, w, &s->mean_velocity_m_per_s);
+                     stage->air_ramp_s = w.stand_s + w.lead_in_s;
+                   },
+                   [&](const TrajectoryMotion& t) { s->motion = loadTrajectory(t.file, *s->human); },
+               },
+               c.human->motion);
+    if (!c.time.duration_s) duration = s->motion->duration();
+    stage->human = &*s->human;
+    stage->motion = s->motion.get();
+    obstacles = obstaclesOf(*s->human);
+    for (const Link& link : s->human->skeleton.links) s->bodies.push_back(link.name);
+    for (const BodyShape& shape : s->human->shapes) s->body_of_obstacle.push_back(shape.link);
+  }
+  stage->air_velocity = c.air.with_pelvis ? s->mean_velocity_m_per_s : c.air.velocity_m_per_s;
+  if (!c.air.with_pelvis) stage->air_ramp_s = 0;
+  for (const ObstacleCase& o : c.obstacles) {
+    Placement at;
+    obstacles.push_back({shapeOf(o, at), o.name});
+    stage->fixed.push_back(at);
+    stage->fixed_velocity.push_back(o.velocity_m_per_s);
+    s->body_of_obstacle.push_back(static_cast<int>(s->bodies.size()));
+    s->bodies.push_back(o.name);
+  }
+
+  const Human* human = s->human ? &*s->human : nullptr;
+  const Garment garment = makeGarment(c, human, s->patch_names);
+  ModelOptions options;
+  options.samples_per_cell = c.garment.samples_per_cell;
+  options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
+  addSupports(c, garment, buildSurface(garment, buildFreeMap(garment), options.samples_per_cell), human, options, s->supports);
+  Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
+  const double g = norm(c.gravity_m_per_s2);
+  const ContactParameters contact{c.contact.layer_m, c.contact.friction, c.contact.relaxation_s, c.contact.tolerance * (g > 0 ? g : 9.81),
+                                  c.contact.max_iterations};
+  s->model = buildModel(garment, options, environment, contact, std::move(obstacles));
+
+  const double grow = c.dressing.projecting ? c.dressing.projecting->grow_s : 0, settle = human ? c.dressing.settle_s : 0;
+  s->start_s = -(grow + settle);
+  s->end_s = duration;
+  stage->grow_start_s = s->start_s;
+  stage->grow_s = grow;
+  if (c.dressing.projecting && human) {
+    std::vector<Vec3> Q, X(s->model->surface.size());
+    for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
+    s->model->surface.W.multiply<Vec3>(Q, X);
+    const Posture posture = s->motion->at(0);
+    const std::vector<Placement> body = placementsOf(*human, linkPoses(human->skeleton, posture.q, posture.root));
+    const std::vector<Obstacle> shapes = obstaclesOf(*human);
+    stage->shrunk = shrinkToFree(ProximityQuery(shapes), shapes, body, X, c.dressing.projecting->clearance_m);
+  }
+  s->stage = std::move(stage);
+  return s;
+}
+
+}  // namespace gambeson

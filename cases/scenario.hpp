@@ -1,0 +1,46 @@
+#pragma once
+/// From a case to all that a run and its analysis need: garment, human, motion, stage and model.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "core/dynamics/advance.hpp"
+#include "human/body.hpp"
+#include "human/motion.hpp"
+
+namespace gambeson {
+
+/// What holds the garment, by name, as the supports table lists it.
+struct SupportGroup {
+  std::string name;            ///< "waist springs to pelvis", "fixed start"
+  std::vector<int> springs;    ///< indices in Model::springs; empty for held control points
+  std::vector<int> samples;    ///< of the supported edge
+  int anchor = -1;             ///< frame of the springs
+};
+
+/// Constant after it is built. Time 0 is where the motion starts; dressing and settling lie before it.
+struct Scenario {
+  Case definition;
+  std::optional<Human> human;
+  std::unique_ptr<Motion> motion;
+  Vec3 mean_velocity_m_per_s;              ///< of the pelvis in walking
+  std::unique_ptr<Model> model;
+  std::unique_ptr<Stage> stage;
+  std::vector<std::string> bodies;         ///< links of the human, then the case's own obstacles
+  std::vector<int> body_of_obstacle;       ///< index in `bodies`
+  std::vector<std::string> patch_names;
+  std::vector<SupportGroup> supports;
+  double start_s = 0, end_s = 0;
+
+  /// Where the origin of each body's frame stands.
+  std::vector<Pose> bodyPoses(double time_s) const;
+  std::vector<Placement> obstaclePlacements(double time_s) const;
+};
+
+/// Throws InputError (with the case's file) where the case cannot be built, RunError where the body cannot be freed.
+std::unique_ptr<Scenario> buildScenario(const Case& c);
+
+}  // namespace gambeson
