@@ -1,11 +1,111 @@
 #include "cases/run.hpp"
 
+#include <fmt/format.h>
+#include <omp.h>
+#include <sched.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "cases/progress.hpp"
+#include "cases/recorder.hpp"
+#include "cases/results.hpp"
 #include "core/error.hpp"
+#include "core/io/atomic_file.hpp"
 
 namespace gambeson {
+namespace {
 
-int runCase(const Case&, const RunOptions&) { throw RunError("the run driver is not linked"); }
-int renderResults(const RenderOptions&) { throw RunError("the run driver is not linked"); }
-int reportResults(const ReportOptions&) { throw RunError("the run driver is not linked"); }
+/// Threads that this process may run on at once.
+int machineThreads() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : omp_get_num_procs();
+}
+
+/// Ends of the windows: multiples of the window's length, from the start to the end of the run.
+class Windows {
+ public:
+  Windows(double start, double end, double length) : start_(start), end_(end), length_(length) {
+    first_ = static_cast<long>(std::floor(start / length + 1e-9));
+    count_ = static_cast<long>(std::ceil(end / length - 1e-9)) - first_;
+  }
+  long count() const { return count_; }
+  double bound(long k) const { return k == 0 ? start_ : k == count_ ? end_ : static_cast<double>(first_ + k) * length_; }
+  /// Whether the window that ends at bound(k) completes a multiple of `period`; the last always does.
+  bool completes(long k, double period) const {
+    return k == count_ || (first_ + k) % std::max(1L, std::lround(period / length_)) == 0;
+  }
+
+ private:
+  double start_, end_, length_;
+  long first_ = 0, count_ = 0;
+};
+
+std::string phaseName(const Scenario& s, double time_s) {
+  if (time_s >= 0) return s.human ? "moving" : "running";
+  const auto& projecting = s.definition.dressing.projecting;
+  return projecting && time_s < s.start_s + projecting->grow_s ? "dressing" : "settling";
+}
+
+}  // namespace
+
+int runCase(const Case& c, const RunOptions& options) {
+  const auto clock_start = std::chrono::steady_clock::now();
+  omp_set_num_threads(options.threads > 0 ? options.threads : machineThreads());
+  const std::unique_ptr<Scenario> scenario = buildScenario(c);
+  const Model& model = *scenario->model;
+  std::error_code ignored;
+  std::filesystem::create_directories(options.out, ignored);
+  if (!options.resume) writeFileAtomically(options.out / "case.json", writeCase(c));
+
+  StepWork work;
+  State state;
+  Frequency frequency;
+  Checkpoint checkpoint;
+  const RecordingLayout layout = recordingLayout(*scenario);
+  RecordingWriter writer = options.resume ? RecordingWriter::resume(options.out, layout, checkpoint)
+                                          : RecordingWriter::create(options.out, layout);
+  state = options.resume ? stateOf(checkpoint, frequency) : initialState(model, *scenario->stage, scenario->start_s, work);
+
+  const Windows windows(scenario->start_s, scenario->end_s, c.output.window_s);
+  long k = 0;
+  while (k < windows.count() && windows.bound(k) < state.time_s) ++k;
+  Recorder recorder(*scenario, writer);
+  if (!options.resume) {
+    // Nothing yet for a run that is killed early to start again from but the start itself.
+    writer.closeSegment(checkpointOf(state, frequency));
+  }
+  const StepControl control{c.time.step_safety, c.time.max_step_s};
+  {
+    Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
+    try {
+      for (; k < windows.count(); ++k) {
+        advance(model, *scenario->stage, control, windows.bound(k + 1), state, frequency, work,
+                [&](const State& before, const State& after, const StepReport& report, const StepWork& w, const Frequency& f) {
+                  recorder.observe(before, after, report, w, f);
+                });
+        recorder.closeWindow(state, windows.bound(k), windows.completes(k + 1, c.output.frame_s), work);
+        if (windows.completes(k + 1, c.output.checkpoint_s)) writer.closeSegment(checkpointOf(state, frequency));
+        progress.update(state.time_s - scenario->start_s, phaseName(*scenario, state.time_s));
+      }
+    } catch (const RunError& e) {
+      throw RunError(fmt::format("{} ({})\nThe results up to the last checkpoint are in {}", e.what(), phaseName(*scenario, state.time_s),
+                                 options.out.string()));
+    }
+  }
+
+  RunFacts facts;
+  facts.threads = omp_get_max_threads();
+  facts.kernels = model.shell.kernels().name;
+  facts.resumed = options.resume;
+  facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
+  facts.phases_s = {{"body motion", work.times.stage},   {"finding contacts", work.times.proximity}, {"solving contacts", work.times.contact},
+                    {"finding impacts", work.times.impact}, {"cloth forces", work.times.force},         {"other", work.times.other}};
+  writeRunFacts(facts, options.out);
+  writeResults(*scenario, options.out);
+  fmt::print("Report: {}\n", (options.out / "report.html").string());
+  return 0;
+}
 
 }  // namespace gambeson
