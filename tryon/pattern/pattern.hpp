@@ -58,8 +58,8 @@ struct ShortsPattern {
   double cell_m = 0.022;   ///< wanted size of a cell
   int degree = 2;
   double crotch_below_pelvis_m = 0.010;  ///< crotch line under the lowest point of the pelvis
-  double gusset_m = 0.14;                ///< length of the gusset line, Cf to Cb
-  double fork_m = 0.09;
+  double gusset_share = 0.6;  ///< length of the gusset line, Cf to Cb, over the depth of the garment above it
+  double fork_m = 0.11;
   double blend_m = 0.08;
   double seam_stiffness_N = 0.01;  ///< rotational spring of the C0 seams [N m/(m rad)]
 };

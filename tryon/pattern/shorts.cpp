@@ -90,19 +90,15 @@ class Draft {
         body_(body),
         crotch_z_(body.pelvisBottom() - p.crotch_below_pelvis_m),
         trunk_(body.trunk(crotch_z_, crotch_z_ + p.rise_m)) {
-    const Tape top = tape(0);
-    const double front = top.curve.point(top.front).x, back = top.curve.point(top.front + top.half).x;
-    if (!(p.gusset_m < front - back))
-      reject("gusset_m", std::to_string(p.gusset_m) + ", must be below the depth of the body there, " +
-                             std::to_string(front - back) + " m");
-    pull_ = 1 - p.gusset_m / (front - back);
     notch_half_width_ = body.leftThigh(crotch_z_).centroid().y - body.medianY();
     if (!(notch_half_width_ > 0)) reject("garment.shorts", "thigh_left does not stand on the left of the body");
 
+    const Tape top = tape(0);
+    const double depth = top.front_x - top.back_x;
     const int around = cellsFor(0.5 * (top.half + tape(1).half));
     trunk_cells_ = {around, cellsFor(p.rise_m)};
     leg_cells_ = cellsFor(p.inseam_m);
-    inner_cells_ = std::max(3, cellsFor(p.gusset_m));
+    inner_cells_ = std::max(3, cellsFor(p.gusset_share * depth));
     if (!(p.degree < inner_cells_ + 2))
       reject("cell_m", "too large for the degree: the inner leg would have few cells");
   }
@@ -114,17 +110,15 @@ class Draft {
 
   /// s from centre front to centre back around the left hip, t from the crotch's level up to the waist.
   Vec3 trunk(double s, double t) const {
-    const Tape around = tape(t);
-    const double z = crotch_z_ + t * p_.rise_m;
-    const Vec2 c = around.centre;
-    Vec2 x = around.curve.point(around.front + s * around.half);
-    if (s == 0 || s == 1) x.y = body_.medianY();
-    // The fork: towards the median by a bell across and a parabola upward, both flat where they end, so that the
-    // section stays smooth and mirrors without a kink.
-    const double y = std::min(1.0, (x.y - body_.medianY()) / notch_half_width_);
-    const double up = std::max(0.0, 1 - t * p_.rise_m / p_.fork_m);
-    x.x = c.x + (x.x - c.x) * (1 - pull_ * std::pow(std::cos(0.5 * std::numbers::pi * y) * up, 2));
-    return {x.x, x.y, z};
+    const std::vector<Vec2> section = halfSection(t);
+    std::vector<double> at{0};
+    for (std::size_t i = 1; i < section.size(); ++i)
+      at.push_back(at.back() + std::hypot(section[i].x - section[i - 1].x, section[i].y - section[i - 1].y));
+    const double length = s * at.back();
+    const std::size_t i = std::upper_bound(at.begin() + 1, at.end() - 1, length) - at.begin();
+    const double f = (length - at[i - 1]) / (at[i] - at[i - 1]);
+    const Vec2 &a = section[i - 1], &b = section[i];
+    return {a.x + f * (b.x - a.x), a.y + f * (b.y - a.y), crotch_z_ + t * p_.rise_m};
   }
   /// s from the front leg line around the outside to the back leg line, t from the hem up to the trunk.
   Vec3 outer(double s, double t) const { return blend(trunk(s, 0), legPoint(s * share(), t), t); }
@@ -135,17 +129,35 @@ class Draft {
   }
 
  private:
-  /// The trunk's section grown by the ease: where it starts at the centre front, and half its length.
+  /// The trunk's section grown by the ease.
   struct Tape {
     ClosedCurve curve;
-    Vec2 centre;
-    double front = 0, half = 0;
+    double front = 0, half = 0;  ///< arc length where the centre front stands, and to the centre back
+    double front_x = 0, back_x = 0;
   };
   Tape tape(double t) const {
     const ClosedCurve body(trunk_.section(crotch_z_ + t * p_.rise_m));
     const Vec2 c{body.centroid().x, body_.medianY()};
     const ClosedCurve grown = body.grown(1 + p_.ease, c);
-    return {grown, c, grown.crossing(c, {1, 0}), 0.5 * grown.length()};
+    const double front = grown.crossing(c, {1, 0}), half = 0.5 * grown.length();
+    return {grown, front, half, grown.point(front).x, grown.point(front + half).x};
+  }
+  /// The trunk's section with the fork, from centre front to centre back: the tape, drawn towards the middle by a bell
+  /// across and a parabola upward, both flat where they end, so that the section mirrors without a kink.
+  std::vector<Vec2> halfSection(double t) const {
+    const Tape around = tape(t);
+    const double up = std::max(0.0, 1 - t * p_.rise_m / p_.fork_m);
+    constexpr int n = 720;
+    std::vector<Vec2> out;
+    for (int k = 0; k <= n; ++k) {
+      Vec2 x = around.curve.point(around.front + around.half * k / n);
+      if (k == 0 || k == n) x.y = body_.medianY();
+      const double y = std::min(1.0, (x.y - body_.medianY()) / notch_half_width_);
+      const double pull = (1 - p_.gusset_share) * std::pow(std::cos(0.5 * std::numbers::pi * y) * up, 2);
+      const double middle = 0.5 * (around.front_x + around.back_x);
+      out.push_back({x.x + pull * (middle - x.x), x.y});
+    }
+    return out;
   }
   int cellsFor(double length_m) const {
     const double n = std::round(length_m / p_.cell_m);
@@ -173,7 +185,7 @@ class Draft {
   const Drafted& body_;
   double crotch_z_;
   Wrap trunk_;
-  double pull_ = 0, notch_half_width_ = 0;
+  double notch_half_width_ = 0;
   std::array<int, 2> trunk_cells_{};
   int leg_cells_ = 0, inner_cells_ = 0;
 };
@@ -193,7 +205,8 @@ void check(const ShortsPattern& p) {
   requirePositive("inseam_m", p.inseam_m);
   requirePositive("rise_m", p.rise_m);
   requirePositive("cell_m", p.cell_m);
-  requirePositive("gusset_m", p.gusset_m);
+  if (!(p.gusset_share > 0.2 && p.gusset_share <= 1))
+    reject("gusset_share", std::to_string(p.gusset_share) + ", must lie above 0.2 and not above 1");
   requirePositive("fork_m", p.fork_m);
   requirePositive("blend_m", p.blend_m);
   requireDegree(p.degree, 2);
