@@ -154,8 +154,9 @@ inline Garment fourPatches(int p, int q, bool rational, SeamKind kind, double st
                    fabric, turnedWeft());
 }
 
-/// `corners` flat patches of degree 2 around the origin, cut so that all seams are G1 except at the origin itself.
-/// Their inner rows are the mirror images of each other: control point (i, j) has distances t_i, t_j along both edges.
+/// `corners` flat patches of degree 2 around the origin, whose seams are G1 except perhaps at the origin itself:
+/// control points (i, 0) and (i, 1), i > 0, of an edge have the same distance along it, and the patches are mirror
+/// images.
 inline Garment star(int corners, SeamKind kind, const Fabric& fabric) {
   const double phi = 2 * kPi / corners;
   const KnotVector k = uniformKnots(2, 4);
@@ -167,9 +168,13 @@ inline Garment star(int corners, SeamKind kind, const Fabric& fabric) {
     NurbsPatch s = patchOf(k, k, [&](double, double) { return Vec3{}; });
     for (int j = 0; j < k.count(); ++j)
       for (int i = 0; i < k.count(); ++i) {
-        const double det = d.x * e.y - d.y * e.x;
-        const Vec3 inside{(t[i] * e.y - t[j] * d.y) / det, (t[j] * d.x - t[i] * e.x) / det, 0};
-        s.points[s.index(i, j)] = j == 0 ? t[i] * d : i == 0 ? t[j] * e : inside;
+        const Vec3 along_d = t[i] * d + t[1] * std::tan(phi / 2) * Vec3{-d.y, d.x, 0};
+        const Vec3 along_e = t[j] * e + t[1] * std::tan(phi / 2) * Vec3{e.y, -e.x, 0};
+        s.points[s.index(i, j)] = j == 0   ? t[i] * d
+                                  : i == 0 ? t[j] * e
+                                  : j == 1 ? along_d
+                                  : i == 1 ? along_e
+                                           : t[i] * d + t[j] * e;
       }
     patches.push_back(s);
     seams.push_back({{c, Side::u0}, {(c + 1) % corners, Side::v0}, kind, 0});
