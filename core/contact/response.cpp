@@ -123,7 +123,7 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
 
   ContactSolve report;
   report.converged = false;
-  double momentum = 1, last_residual = INFINITY;
+  double momentum = 1;
   for (int it = 0; it < c.max_iterations; ++it) {
     double residual = 0;
 #pragma omp parallel if (n > 256)
@@ -162,16 +162,16 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
       std::swap(w.traction, w.candidate);
       break;
     }
-    // Nesterov's sequence; started again where the residual grows.
-    double beta = 0;
-    if (residual > last_residual) {
+    // Nesterov's sequence; started again where the last step went against the gradient (O'Donoghue and Candes, 2015).
+    double beta = 0, against = 0;
+    for (int i = 0; i < n; ++i) against += share[w.row_slot[i]] * dot(w.point[i] - w.candidate[i], w.candidate[i] - w.traction[i]);
+    if (against > 0) {
       momentum = 1;
     } else {
       const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum));
       beta = (momentum - 1) / next;
       momentum = next;
     }
-    last_residual = residual;
     for (int i = 0; i < n; ++i) {
       w.point[i] = w.candidate[i] + beta * (w.candidate[i] - w.traction[i]);
       w.traction[i] = w.candidate[i];

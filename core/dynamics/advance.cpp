@@ -7,7 +7,18 @@
 
 namespace gambeson {
 namespace {
-constexpr int kColdIterations = 40, kWarmIterations = 6;
+constexpr int kColdIterations = 40, kWarmIterations = 8;
+
+/// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the estimate, the
+/// estimate is out of date.
+double shownFrequency2(const Model& m, const State& before, const State& after) {
+  double force2 = 0, way2 = 0;
+  for (int i = 0; i < m.freeCount(); ++i) {
+    force2 += m.mass_kg[i] * norm2(after.a[i] - before.a[i]);
+    way2 += m.mass_kg[i] * norm2(after.p[i] - before.p[i]);
+  }
+  return way2 > 0 ? std::sqrt(force2 / way2) : 0;
+}
 }
 
 void advance(const Model& model, const Stage& stage, const StepControl& control, double until, State& state, Frequency& frequency,
@@ -15,8 +26,10 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
   State next;
   while (state.time_s < until) {
     if (state.steps_to_estimate <= 0) {
-      frequency = largestFrequency(model, stage, state, state.frequency_rad_per_s > 0 ? kWarmIterations : kColdIterations, work);
-      state.frequency_rad_per_s = frequency.largest_rad_per_s;
+      const bool cold = state.frequency_rad_per_s == 0 || state.steps_to_estimate < 0;
+      frequency = largestFrequency(model, stage, state, cold ? kColdIterations : kWarmIterations, work);
+      // The warm estimate may have followed one mode while another rose: let it fall only slowly.
+      state.frequency_rad_per_s = std::max(frequency.largest_rad_per_s, 0.98 * state.frequency_rad_per_s);
       state.steps_to_estimate = control.estimate_every;
     }
     const double longest = std::min(control.max_step_s, control.safety * 2 / std::max(state.frequency_rad_per_s, 1e-300));
@@ -33,6 +46,8 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     }
     if (pieces <= 1 && dt == left) next.time_s = until;
     --next.steps_to_estimate;
+    const double omega = state.frequency_rad_per_s;
+    if (shownFrequency2(model, state, next) > 0.5 * omega * omega) next.steps_to_estimate = std::min(next.steps_to_estimate, -1);
     observe(state, next, report, work, frequency);
     std::swap(state, next);
   }
