@@ -34,7 +34,10 @@ Gl::Gl() : small_(4 * 16 * 16) {
   }
 }
 
-Gl::~Gl() { OSMesaDestroyContext(context_); }
+Gl::~Gl() {
+  OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
+  OSMesaDestroyContext(context_);
+}
 
 void Gl::check(const char* what) const {
   if (const GLenum error = GetError(); error != GL_NO_ERROR)
