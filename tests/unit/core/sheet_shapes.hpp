@@ -182,6 +182,22 @@ inline Garment star(int corners, SeamKind kind, const Fabric& fabric) {
   return garmentOf(patches, seams, fabric);
 }
 
+/// Half a tube about z from the angle `from`; the halves meet smoothly.
+inline NurbsPatch halfTube(double from) {
+  const KnotVector k = uniformKnots(2, 6);
+  NurbsPatch s = patchOf(k, uniformKnots(2, 3), [&](double a, double b) {
+    return Vec3{std::cos(from + kPi * a), std::sin(from + kPi * a), 2 * b};
+  });
+  const double tangent = std::tan(kPi / 12);  // inner points on the tangents at both ends, at one distance
+  for (int j = 0; j < s.v.count(); ++j)
+    for (int end : {0, 1}) {
+      const double at = from + kPi * end, sign = end == 0 ? 1 : -1, z = s.points[s.index(0, j)].z;
+      s.points[s.index(end == 0 ? 1 : k.count() - 2, j)] = {std::cos(at) - sign * tangent * std::sin(at),
+                                                            std::sin(at) + sign * tangent * std::cos(at), z};
+    }
+  return s;
+}
+
 inline std::vector<Vec3> restPoints(const Garment& g) {
   std::vector<Vec3> q;
   for (const NurbsPatch& p : g.patches) q.insert(q.end(), p.points.begin(), p.points.end());

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/material/bending.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {
@@ -206,6 +207,49 @@ TEST(ShellStress, StretchAtThirtyDegreesToTheWeft) {
   for (std::size_t i = 0; i < x.size(); ++i) right += g.patches[0].points[i].x * force[i];
   EXPECT_NEAR(-right.x, l * nxx, 1e-12);
   EXPECT_NEAR(-right.y, nxy, 1e-12);
+}
+
+/// Small z = (a X^2 + 2 b X Y + c Y^2) / 2 over a unit square has the curvatures a, b, c; at 30 degrees to the grid
+/// they turn as a tensor. Energy per area: the law's of the weft and warp curvature, and 1/2 (2 m12 kappa12), m12 =
+/// twist * 2 kappa12.
+TEST(ShellBending, EnergyOfAConstantCurvature) {
+  const double a = 3e-4, b = 2e-4, c = -1e-4, cs = std::cos(kPi / 6), sn = std::sin(kPi / 6);
+  for (BendingLaw law : {BendingLaw::linear, BendingLaw::zheng}) {
+    Fabric f = plainFabric(law);
+    f.kappa0_per_m = 3e-4;
+    f.kappa_regular_per_m = 1.5e-4;
+    const Garment g = garmentOf({flatPatch(uniformKnots(2, 3), uniformKnots(2, 2), 1, 1)}, {}, f, turnedWeft());
+    NurbsPatch bent = g.patches[0];  // blossom of the quadratic at the Greville points: exact coefficients
+    const auto &u = bent.u, &v = bent.v;
+    for (int j = 0; j < v.count(); ++j)
+      for (int i = 0; i < u.count(); ++i) {
+        Vec3& x = bent.points[bent.index(i, j)];
+        x.z = 0.5 * (a * u.knots[i + 1] * u.knots[i + 2] + 2 * b * x.x * x.y + c * v.knots[j + 1] * v.knots[j + 2]);
+      }
+    const double k11 = cs * cs * a + 2 * cs * sn * b + sn * sn * c, k22 = sn * sn * a - 2 * cs * sn * b + cs * cs * c;
+    const double k12 = cs * sn * (c - a) + (cs * cs - sn * sn) * b;
+    const Shell shell(g, widestKernels());
+    const Vec3 kappa = shell.curvatureAt(0, {0.4, 0.7}, bent.points);
+    EXPECT_NEAR(kappa.x, k11, 1e-6 * a);
+    EXPECT_NEAR(kappa.y, k22, 1e-6 * a);
+    EXPECT_NEAR(kappa.z, k12, 1e-6 * a);
+    const auto density = [&](double k, double B) {
+      return law == BendingLaw::linear ? 0.5 * B * k * k : zhengEnergy(k, B, f.kappa0_per_m, f.kappa_regular_per_m);
+    };
+    const double expected =
+        density(k11, f.bending_weft_Nm) + density(k22, f.bending_warp_Nm) + 2 * f.twist_Nm * k12 * k12;
+    double energy;
+    forceOn(shell, bent.points, &energy, {false, true, false, false});
+    EXPECT_NEAR(energy, expected, 1e-6 * expected);
+    if (law == BendingLaw::linear) continue;
+    // `steepest`: the linear law of the steepest slope instead.
+    forceOn(shell, bent.points, &energy, {false, true, false, true});
+    const auto steepest = [&](double B) { return zhengSteepest(B, f.kappa0_per_m, f.kappa_regular_per_m); };
+    EXPECT_NEAR(energy,
+                0.5 * (steepest(f.bending_weft_Nm) * k11 * k11 + steepest(f.bending_warp_Nm) * k22 * k22) +
+                    2 * f.twist_Nm * k12 * k12,
+                1e-6 * energy);
+  }
 }
 
 TEST(ShellInput, BadGeometryAndFabricAreRefused) {
