@@ -73,6 +73,22 @@ TEST(ImpactCubic, MotionInThePlaneOfTheTriangle) {
   EXPECT_TRUE(movingPointTriangle({0.2, 0.2, 0}, {0.2, 0.2, 0}, kFlat, kFlat)) << "at rest on it";
 }
 
+TEST(ImpactCubic, MotionInATiltedPlaneIsNotLostToRounding) {
+  // The determinant is nothing but rounding, of either sign: the window of zeros must hold the whole motion.
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int trial = 0; trial < 5000; ++trial) {
+    const Mat3 R = rotationAbout(normalized({u(rng), u(rng), u(rng)}), 3 * u(rng));
+    const Vec3 o{u(rng), u(rng), u(rng)}, drift{u(rng), u(rng), 0};
+    const auto at = [&](const Vec3& x) { return R * x + o; };
+    const Triangle a{at(kFlat[0]), at(kFlat[1]), at(kFlat[2])};
+    const Triangle b{at(kFlat[0] + drift), at(kFlat[1] + drift), at(kFlat[2] + drift)};
+    // Relative to the triangle the point crosses (1/4, 1/4) half way.
+    const Vec3 d = 2 * Vec3{u(rng), u(rng), 0}, m{0.25, 0.25, 0};
+    ASSERT_TRUE(movingPointTriangle(at(m - d), at(m + d + drift), a, b)) << trial;
+  }
+}
+
 TEST(ImpactCubic, FirstOfThreeCoplanarTimes) {
   // The corners move so that the plane through them passes the resting point several times; the time is checked by
   // marching along the exact motion.

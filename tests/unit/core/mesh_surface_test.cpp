@@ -156,6 +156,24 @@ TEST(MeshSurface, SignedDistanceIsThatOfBruteForceAndWinding) {
   }
 }
 
+TEST(MeshSurface, SliversAtASpikeDoNotTurnTheSign) {
+  // A sharp pyramid, one of whose sides is a fan of 20 slivers: counted one by one they would outvote the others.
+  TriangleMesh m;
+  m.vertices = {{0, 0, 1}, {-0.05, 0.05, 0}, {-0.05, -0.05, 0}};
+  for (int i = 0; i <= 20; ++i) m.vertices.push_back({0.05, -0.05 + 0.005 * i, 0});
+  m.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 23, 1}};
+  for (int i = 3; i < 23; ++i) {
+    m.triangles.push_back({0, i, i + 1});
+    m.triangles.push_back({1, i + 1, i});
+  }
+  m.triangles.push_back({1, 3, 2});
+  const MeshSurface s(m);
+  ASSERT_TRUE(s.closed());
+  const auto q = s.nearest({-0.1, 0, 1.02}, 10);
+  EXPECT_EQ(q->position, m.vertices[0]);
+  EXPECT_NEAR(q->distance_m, std::hypot(0.1, 0.02), 1e-15);
+}
+
 TEST(MeshSurface, NormalIsTheGradientOfTheDistance) {
   std::mt19937 rng(4);
   const MeshSurface s(torus(0.6, 0.25, 20, 9));

@@ -222,6 +222,14 @@ TEST(ProximityImpact, AMovingEllipsoidHitsARestingSample) {
   EXPECT_NEAR(c[0].gap_m, 0.2, 1e-15);
 }
 
+TEST(ProximityImpact, TheChordInTheFrameOfAFastTurningObstacleIsNotCulled) {
+  // Half a turn within the step: in the ball's frame the resting sample crosses from one side to the other. The path is
+  // defined as that chord, which leaves the box of the ball and the sample's place in the world far apart.
+  Scene s = one(Ellipsoid{{0.1, 0.1, 0.1}}, {{0, 0.3, 0}});
+  s.end[0].rotation = rotationAbout({0, 0, 1}, M_PI);
+  EXPECT_EQ(impactsOf(s).size(), 1u);
+}
+
 TEST(ProximityImpact, NoPairOfARandomSceneIsCulledWrongly) {
   for (unsigned seed : {21u, 22u}) {
     const Scene s = randomScene(seed, 4000);
