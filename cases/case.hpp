@@ -146,8 +146,8 @@ struct ContactCase {
   double layer_m = 0;  ///< the fabric's thickness where the file does not say
   double friction = 0.3;
   double relaxation_s = 0.01;  ///< tau in k = 1 - exp(-dt/tau) of the separation correction
-  double tolerance = 1e-3;     ///< relative residual of the contacts of a step
-  int max_iterations = 200;
+  double tolerance = 1e-2;     ///< residual of the contacts of a step, of g dt
+  int max_iterations = 400;
 };
 
 struct AirCase {

@@ -15,7 +15,7 @@ struct ContactParameters {
   double friction = 0;      ///< Coulomb's mu
   double relaxation_s = 0;  ///< tau: the correction of the distance takes this time, k = 1 - exp(-dt/tau) of eq. 3.17
   double tolerance_m_per_s2 = 1e-2;  ///< a solve is done at a residual velocity of this times dt
-  int max_iterations = 200;
+  int max_iterations = 400;
 };
 
 /// A contact with what the solve needs to know of it.
