@@ -1,13 +1,147 @@
 #include "cases/results.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "analysis/tables.hpp"
+#include "cases/results_write.hpp"
 #include "cases/run.hpp"
 #include "core/error.hpp"
+#include "core/io/atomic_file.hpp"
 
 namespace gambeson {
+namespace {
 
-void writeRunFacts(const RunFacts&, const std::filesystem::path&) {}
-void writeResults(const Scenario&, const std::filesystem::path&) {}
-int renderResults(const RenderOptions&) { throw RunError("pictures are not linked"); }
-int reportResults(const ReportOptions&) { throw RunError("the report is not linked"); }
+using Json = nlohmann::ordered_json;
+
+std::string pictureName(std::size_t number, const PictureCase& p, double time_s) {
+  const char* field = p.field == PictureField::stress     ? "stress"
+                      : p.field == PictureField::pressure ? "pressure"
+                      : p.field == PictureField::strain   ? "strain"
+                                                          : "plain";
+  const std::string when = p.when == PictureTime::peak  ? "peak"
+                           : p.when == PictureTime::end ? "end"
+                                                        : fmt::format("{:.0f}ms", 1e3 * time_s);
+  return fmt::format("{:02d}_{}_{}_{}.png", number, field, when, viewNames()[static_cast<std::size_t>(p.view)]);
+}
+
+/// The case's pictures into `folder`. One that fails leaves its reason in `failures` and does not stop the others.
+std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& recording, const Measured& m,
+                                  const std::filesystem::path& folder, std::vector<std::string>& failures) {
+  std::vector<Picture> pictures;
+  std::filesystem::create_directories(folder);
+  std::map<PictureField, double> ranges;
+  for (const PictureCase& picture : s.definition.output.pictures) {
+    std::string name;
+    try {
+      const int frame = frameOf(recording, m, picture);
+      const double time = recording.time(frame);
+      name = pictureName(pictures.size() + 1, picture, time);
+      if (!ranges.contains(picture.field)) ranges[picture.field] = fieldRange(s, recording, picture.field);
+      renderFrame(s, recording, frame, picture, ranges[picture.field], folder / name);
+      pictures.push_back({folder / name, captionOf(picture, time), ""});
+    } catch (const RunError& e) {
+      failures.push_back(fmt::format("The picture {} could not be drawn: {}", name, e.what()));
+    }
+  }
+  return pictures;
+}
+
+std::filesystem::path temporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "gambeson_XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw RunError("no folder can be made in " + std::filesystem::temp_directory_path().string());
+  return name;
+}
+
+}  // namespace
+
+std::pair<std::string, std::string> identityParts(const std::string& identity) {
+  const std::size_t blank = identity.find(' ');
+  return {identity.substr(0, blank), blank == std::string::npos ? "" : identity.substr(blank + 1)};
+}
+
+void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
+  Json phases = Json::array();
+  for (const auto& [name, seconds] : f.phases_s) phases.push_back({{"phase", name}, {"seconds", seconds}});
+  const Json j{{"version", f.version.empty() ? GAMBESON_VERSION : f.version},
+               {"threads", f.threads},
+               {"kernels", f.kernels},
+               {"wall_s", f.wall_s},
+               {"resumed", f.resumed},
+               {"phases", phases}};
+  writeFileAtomically(dir / "run.json", j.dump(2) + "\n");
+}
+
+RunFacts readRunFacts(const std::filesystem::path& dir) {
+  RunFacts f;
+  const std::filesystem::path file = dir / "run.json";
+  std::ifstream stream(file);
+  if (!stream) return f;
+  try {
+    const Json j = Json::parse(stream);
+    f.version = j.at("version").get<std::string>();
+    f.threads = j.at("threads").get<int>();
+    f.kernels = j.at("kernels").get<std::string>();
+    f.wall_s = j.at("wall_s").get<double>();
+    f.resumed = j.at("resumed").get<bool>();
+    for (const Json& p : j.at("phases"))
+      f.phases_s.emplace_back(p.at("phase").get<std::string>(), p.at("seconds").get<double>());
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError({file.string(), 0, ""}, e.what());
+  }
+  return f;
+}
+
+std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir) {
+  if (!std::filesystem::exists(dir / "case.json"))
+    throw InputError({dir.string(), 0, ""}, "holds no results: there is no case.json as \"gambeson run\" leaves it");
+  return buildScenario(readCase(dir / "case.json"));
+}
+
+void writeResults(const Scenario& s, const std::filesystem::path& dir) {
+  const RecordingReader recording(dir);
+  const RunFacts facts = readRunFacts(dir);
+  const Measured m = measure(s, recording);
+  writeSummary(s, recording, m, facts, dir / "summary.json");
+  if (s.human) writeTorques(dir / "torques.csv", s.human->skeleton, m.added);
+  writeContact(dir / "contact.csv", m.bodies, m.windows);
+  writeStress(dir / "stress.csv", m.regions, m.frames);
+  std::vector<std::string> failures;
+  const std::vector<Picture> pictures = takePictures(s, recording, m, dir / "snapshots", failures);
+  ReportInput in = reportInput(s, m, facts, recording.layout().identity, pictures);
+  in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
+  writeReport(in, dir / "report.html");
+  if (!failures.empty()) throw RunError(failures.front() + " (the numbers and the report are in " + dir.string() + ")");
+}
+
+int renderResults(const RenderOptions& o) {
+  const auto scenario = scenarioOfResults(o.results);
+  const RecordingReader recording(o.results);
+  const PictureCase picture{o.when, o.time_s, o.field, o.view, o.width, o.height};
+  const int frame = frameOf(recording, measure(*scenario, recording), picture);
+  renderFrame(*scenario, recording, frame, picture, fieldRange(*scenario, recording, o.field), o.png);
+  return 0;
+}
+
+int reportResults(const ReportOptions& o) {
+  const auto scenario = scenarioOfResults(o.results);
+  const RecordingReader recording(o.results);
+  const Measured m = measure(*scenario, recording);
+  const std::filesystem::path folder = temporaryFolder();
+  std::vector<std::string> failures;
+  const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder, failures);
+  ReportInput in = reportInput(*scenario, m, readRunFacts(o.results), recording.layout().identity, pictures);
+  in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
+  writeReport(in, o.html);
+  std::filesystem::remove_all(folder);
+  if (!failures.empty()) throw RunError(failures.front() + " (the report is " + o.html.string() + ")");
+  return 0;
+}
 
 }  // namespace gambeson

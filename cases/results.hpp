@@ -8,20 +8,35 @@
 #include <vector>
 
 #include "cases/scenario.hpp"
+#include "core/io/recording.hpp"
 
 namespace gambeson {
 
 /// What the run knows of itself and the recording does not; DIR/run.json.
 struct RunFacts {
   int threads = 0;
-  std::string kernels, version;
+  std::string kernels, version;  ///< this program's version is written where it is empty
   double wall_s = 0;
   std::vector<std::pair<std::string, double>> phases_s;
   bool resumed = false;
 };
 void writeRunFacts(const RunFacts& facts, const std::filesystem::path& dir);
+/// Throws InputError where DIR/run.json is damaged; a run that was killed left none: empty facts.
+RunFacts readRunFacts(const std::filesystem::path& dir);
 
-/// Reads DIR's recording and run.json; writes summary.json, the tables, the pictures and report.html.
+/// Reads DIR's recording and run.json; writes summary.json, the tables, the pictures and report.html. What the
+/// recording holds alone decides the bytes, but for the object "timings".
 void writeResults(const Scenario& scenario, const std::filesystem::path& dir);
+
+/// The scenario of a results folder, built again from its case.json. Throws InputError where that is missing.
+std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir);
+
+/// Top of the colour bar of a field: the 99th percentile by area over the frames of the motion (all, where it has
+/// none), rounded up to a number that reads well. 0 for a field at rest and for `plain`.
+double fieldRange(const Scenario& scenario, const RecordingReader& recording, PictureField field);
+
+/// Draws one frame as `picture` asks (its time is not looked at), colours from 0 to `high`.
+void renderFrame(const Scenario& scenario, const RecordingReader& recording, int frame, const PictureCase& picture,
+                 double high, const std::filesystem::path& png);
 
 }  // namespace gambeson

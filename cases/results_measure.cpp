@@ -1,0 +1,225 @@
+#include "cases/results_measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "human/task_moments.hpp"
+
+namespace gambeson {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+/// From one table, rows of windows that lie in the motion. The bounds were added up.
+Rows motionRows(const RecordingReader& recording, const std::string& table) {
+  Rows rows = recording.table(table);
+  std::erase_if(rows, [](const auto& r) { return r[0] < -1e-9; });
+  return rows;
+}
+
+/// Rows with `stride` columns per body, of which the first six are force and moment.
+std::vector<ContactWindow> windowsOf(const Rows& rows, std::size_t bodies, std::size_t stride) {
+  std::vector<ContactWindow> windows;
+  for (const auto& r : rows) {
+    ContactWindow w{r[0], r[1], {}};
+    for (std::size_t b = 0; b < bodies; ++b) {
+      const double* v = &r[2 + stride * b];
+      w.links.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}});
+    }
+    windows.push_back(std::move(w));
+  }
+  return windows;
+}
+
+/// The scenario's bodies come with the human's links first.
+TorqueHistory addedTorques(const Scenario& s, std::vector<ContactWindow> windows, std::span<const int> joints) {
+  for (ContactWindow& w : windows) w.links.resize(s.human->skeleton.links.size());
+  const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
+                                                                               : TorqueCounting::distal_segment;
+  TorqueHistory history = torqueHistory(*s.human, *s.motion, 0, windows, joints, counting);
+  for (auto& row : history.value)
+    for (double& tau : row) tau = -tau;
+  return history;
+}
+
+/// "hip_flexion_left" is "hip", "flexion", "left"; "elbow" is just that.
+void splitName(JointMeasure& m) {
+  std::string rest = m.name;
+  for (const char* side : {"left", "right"})
+    if (rest.ends_with(std::string("_") + side)) {
+      m.side = side;
+      rest.resize(rest.size() - m.side.size() - 1);
+    }
+  const std::size_t cut = rest.rfind('_');
+  m.part = rest.substr(0, cut);
+  if (cut != std::string::npos) m.movement = rest.substr(cut + 1);
+  std::replace(m.part.begin(), m.part.end(), '_', ' ');
+}
+
+double meanOf(const Rows& rows, const std::vector<int>& bodies, std::size_t part) {
+  double sum = 0, time = 0;
+  for (const auto& r : rows) {
+    time += r[1] - r[0];
+    for (const int b : bodies) sum += r[2 + 8 * static_cast<std::size_t>(b) + part];
+  }
+  return time > 0 ? sum / time : 0;
+}
+
+/// Phase of the largest joint value within the strides.
+double highestPhase(const Scenario& s, const Strides& strides, const JointMeasure& m) {
+  double best = -std::numeric_limits<double>::infinity(), at = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = strides.start_s + strides.time_s * i / 1000;
+    const double q = s.motion->at(t).q[static_cast<std::size_t>(m.joint)];
+    if (q > best) best = q, at = t;
+  }
+  return strides.phase(at, m.side);
+}
+
+void measureJoints(const Scenario& s, const Rows& rows, Measured& out) {
+  const Skeleton& skeleton = s.human->skeleton;
+  std::vector<int> joints;
+  for (const std::string& name : s.definition.analysis.joints) {
+    joints.push_back(skeleton.joint(name));
+    if (joints.back() < 0)
+      throw InputError({s.definition.file.string(), 0, "analysis.joints"}, "the human has no joint \"" + name + "\"");
+  }
+  if (joints.empty()) joints = movingJoints(skeleton);
+  out.added = addedTorques(s, out.windows, joints);
+  out.added_drag = addedTorques(s, out.drag, joints);
+  const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
+                                                                               : TorqueCounting::distal_segment;
+  const auto& time = out.added.time_s;
+  for (const int j : joints) {
+    JointMeasure m;
+    m.joint = j;
+    m.name = skeleton.joints[static_cast<std::size_t>(j)].name;
+    m.prismatic = skeleton.joints[static_cast<std::size_t>(j)].type == JointType::prismatic;
+    splitName(m);
+    const std::vector<double> tau = out.added.of(j), drag = out.added_drag.of(j);
+    m.peak = peakOf(time, tau);
+    m.rms = rms(tau);
+    for (std::size_t w = 0; w < time.size(); ++w)
+      if (time[w] == m.peak.time_s) m.drag_at_peak = drag[w];
+    const auto q = [&](double t) { return s.motion->at(t).q[static_cast<std::size_t>(j)]; };
+    constexpr double h = 1e-3;
+    m.position_at_peak = q(m.peak.time_s);
+    m.rate_at_peak = (q(m.peak.time_s + h) - q(m.peak.time_s - h)) / (2 * h);
+    if (s.definition.analysis.task == Task::natural_walk) {
+      try {
+        m.natural_Nm = naturalPeakMoment_Nm("Natural", m.name, s.human->mass_kg);
+      } catch (const InputError&) {  // the published data have no such joint; the page says "not known"
+      }
+    }
+    const std::vector<int> counted = countedLinks(*s.human, j, counting);
+    m.normal_N = meanOf(rows, counted, 6);
+    m.friction_N = meanOf(rows, counted, 7);
+    if (const auto& strides = out.strides) {
+      const double T = strides->time_s, start = strides->start_s, end = strides->end_s();
+      if (m.peak.time_s >= start) m.phase_at_peak = strides->phase(m.peak.time_s, m.side);
+      m.phase_of_highest = highestPhase(s, *strides, m);
+      for (int k = 0; k < strides->count; ++k) {
+        std::vector<double> t, values;
+        for (std::size_t w = 0; w < time.size(); ++w)
+          if (time[w] >= start + k * T && time[w] < start + (k + 1) * T) t.push_back(time[w]), values.push_back(tau[w]);
+        if (!t.empty()) m.stride_peaks.push_back(peakOf(t, values));
+      }
+      if (strides->count >= 2) m.second_stride = compareShifted(time, tau, tau, T, start, start + T);
+      const int other = m.side == "right" ? skeleton.joint(otherSide(m.name)) : -1;
+      if (std::find(joints.begin(), joints.end(), other) != joints.end())
+        m.other_side = compareShifted(time, tau, out.added.of(other), 0.5 * T, start, end - 0.5 * T);
+    }
+    out.joints.push_back(std::move(m));
+  }
+}
+
+void measureBodies(const Scenario& s, const Rows& rows, Measured& out) {
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    Link link;
+    link.name = s.bodies[b];
+    out.bodies.skeleton.links.push_back(link);
+  }
+  for (std::size_t o = 0; o < s.model->obstacles.size(); ++o)
+    out.bodies.shapes.push_back(
+        {s.body_of_obstacle[o], s.model->obstacles[o].segment, s.model->obstacles[o].shape, {}});
+  for (const ContactShare& share : contactShares(out.bodies, out.windows))
+    out.contact.push_back({share, meanOf(rows, {share.link}, 6), meanOf(rows, {share.link}, 7)});
+}
+
+void measureSupports(const Scenario& s, const Rows& rows, Measured& out) {
+  for (std::size_t g = 0; g < s.supports.size(); ++g) {
+    SupportMeasure m;
+    m.name = s.supports[g].name;
+    m.springs = !s.supports[g].springs.empty();
+    double time = 0;
+    for (const auto& r : rows) {
+      const double* v = &r[2 + 4 * g];
+      const Vec3 impulse{v[0], v[1], v[2]};
+      const double dt = r[1] - r[0];
+      m.mean_N += impulse;
+      time += dt;
+      if (norm(impulse) / dt > m.peak_N) m.peak_N = norm(impulse) / dt, m.peak_time_s = 0.5 * (r[0] + r[1]);
+      m.largest_drop_m = std::max(m.largest_drop_m, v[3]);
+    }
+    if (time > 0) m.mean_N = m.mean_N / time;
+    out.supports.push_back(m);
+  }
+}
+
+}  // namespace
+
+double Strides::phase(double t_s, const std::string& side) const {
+  const double p = (t_s - start_s) / time_s + (side == "left" ? 0.5 : 0);
+  return p - std::floor(p);
+}
+
+std::optional<Strides> stridesOf(const Case& c) {
+  if (!c.human) return {};
+  const auto* walk = std::get_if<WalkOptions>(&c.human->motion);
+  if (!walk) return {};
+  return Strides{walk->stand_s + walk->lead_in_s, walk->stride_time_s, walk->strides};
+}
+
+const JointMeasure* Measured::highest() const {
+  const JointMeasure* best = nullptr;
+  for (const JointMeasure& m : joints)
+    if (!m.prismatic && (!best || std::abs(m.peak.value) > std::abs(best->peak.value))) best = &m;
+  return best;
+}
+
+const Field& fieldOf(const Frame& frame, const std::string& name) {
+  for (const Field& f : frame.sample_fields)
+    if (f.name == name) return f;
+  throw RunError("the recording has no field \"" + name + "\"");
+}
+
+Regions regionsOf(const Scenario& s) { return {s.patch_names, s.model->surface.patch, s.model->surface.area_m2}; }
+
+Measured measure(const Scenario& s, const RecordingReader& recording) {
+  Measured out;
+  out.strides = stridesOf(s.definition);
+  const Rows bodies = motionRows(recording, "bodies");
+  out.windows = windowsOf(bodies, s.bodies.size(), 8);
+  out.drag = windowsOf(motionRows(recording, "drag"), s.bodies.size(), 6);
+  measureBodies(s, bodies, out);
+  if (s.human) measureJoints(s, bodies, out);
+  measureSupports(s, motionRows(recording, "supports"), out);
+  measureSteps(recording, out);
+  out.regions = regionsOf(s);
+  measureFrames(recording, out);
+  if (const JointMeasure* joint = out.highest(); joint && !out.windows.empty()) {
+    out.peak_time_s = joint->peak.time_s;
+  } else {
+    double most = -1;
+    for (const ContactWindow& w : out.windows) {
+      double sum = 0;
+      for (const LinkImpulse& i : w.links) sum += norm(i.force_Ns) / w.duration();
+      if (sum > most) most = sum, out.peak_time_s = w.middle();
+    }
+  }
+  return out;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,114 @@
+#pragma once
+/// The numbers of a recording: what summary.json, the tables and the report show. Only the motion counts (windows that
+/// start at time 0 or later, frames after it), dressing and settling do not, unless a name says otherwise.
+
+#include <array>
+#include <optional>
+
+#include "analysis/contact_table.hpp"
+#include "analysis/series.hpp"
+#include "analysis/stress.hpp"
+#include "analysis/torque.hpp"
+#include "cases/scenario.hpp"
+#include "core/io/recording.hpp"
+
+namespace gambeson {
+
+/// Strides of a walk: right foot strikes at start, start + time, ...
+struct Strides {
+  double start_s = 0, time_s = 0;
+  int count = 0;
+  double end_s() const { return start_s + count * time_s; }
+  /// Of the side's own stride, [0, 1), 0 at its foot strike; the left foot strikes half a stride after the right.
+  double phase(double t_s, const std::string& side) const;
+};
+std::optional<Strides> stridesOf(const Case& c);
+
+/// The added torque: what the wearer's actuators must give on top, the opposite of the contact torque. Positive:
+/// towards positive joint values (flexion, adduction, internal rotation).
+struct JointMeasure {
+  int joint = 0;
+  std::string name, part, movement, side;  ///< "hip_flexion_left", "hip", "flexion", "left"
+  bool prismatic = false;
+  Peak peak;
+  double rms = 0;
+  double drag_at_peak = 0;                        ///< part of the peak that air drag has, in the unit of the peak
+  double position_at_peak = 0, rate_at_peak = 0;  ///< of the joint [rad, rad/s or m, m/s]
+  std::optional<double> natural_Nm;               ///< peak moment of the task without the garment
+  double normal_N = 0, friction_N = 0;            ///< mean sums of magnitudes over the counted bodies
+  std::optional<double> phase_at_peak,
+      phase_of_highest;                   ///< of the peak, and of the largest joint value, in its side's stride
+  std::vector<Peak> stride_peaks;         ///< of each stride that was recorded
+  std::optional<Likeness> second_stride;  ///< against the first
+  std::optional<Likeness> other_side;     ///< left, half a stride later, against this right
+};
+
+/// Of one body beside its ContactShare.
+struct BodyMeasure {
+  ContactShare contact;
+  double normal_N = 0, friction_N = 0;  ///< means of the sums of magnitudes; opposite pressures do not cancel here
+};
+
+struct SupportMeasure {
+  std::string name;
+  bool springs = false;
+  Vec3 mean_N;  ///< on the cloth
+  double peak_N = 0, peak_time_s = 0, largest_drop_m = 0;
+};
+
+/// Over all windows of the run, dressing included, but for what says otherwise.
+struct StepMeasure {
+  long steps = 0, unconverged = 0, impacts = 0;
+  double shortest_s = 0, mean_s = 0, longest_s = 0;
+  double frequency_rad_per_s = 0, frequency_time_s = 0;  ///< largest
+  std::array<double, 4> shares{};                        ///< membrane, bending, seam, spring, at the largest frequency
+  std::string governing;
+  double largest_residual_m_per_s = 0, momentum_error = 0, momentum_error_time_s = 0;
+  double deepest_m = 0, deepest_time_s = 0;  ///< of a sample, in the motion
+  double mean_iterations = 0;
+};
+
+/// Change of the total energy from the end of the first window of the motion, against the works since [J].
+struct EnergyMeasure {
+  double change = 0, contact = 0, friction = 0, separation = 0, drag = 0, supports = 0, absolute = 0;
+  double drift() const { return change - (contact + drag + supports); }
+  double relative() const { return absolute > 0 ? drift() / absolute : 0; }
+};
+
+/// As the recording stores it, in single precision.
+struct RecordedRange {
+  std::array<float, 3> low{}, high{};                                                ///< of the last frame's samples
+  float stress_low = 0, stress_high = 0, last_stress_low = 0, last_stress_high = 0;  ///< of all frames, of the last
+};
+
+struct Measured {
+  double recorded_end_s = 0;
+  std::optional<Strides> strides;
+  Human bodies;  ///< every body of the scenario as a link without joints, for the tables per segment
+  std::vector<ContactWindow> windows, drag;  ///< one link per body
+  TorqueHistory added, added_drag;
+  std::vector<JointMeasure> joints;
+  std::vector<BodyMeasure> contact;
+  double peak_time_s = 0;  ///< of the largest added torque; without joints of the largest sum of contact forces
+  std::vector<SupportMeasure> supports;
+  Regions regions;
+  std::vector<StressFrame> frames;
+  std::vector<StressSummary> stress;
+  StepMeasure steps;
+  EnergyMeasure energy;
+  std::optional<RecordedRange> recorded;
+
+  const JointMeasure* highest() const;  ///< null without joints
+};
+
+Measured measure(const Scenario& scenario, const RecordingReader& recording);
+
+// Its parts (results_steps.cpp): the table "steps", and the frames.
+void measureSteps(const RecordingReader& recording, Measured& out);
+void measureFrames(const RecordingReader& recording, Measured& out);
+
+/// The field of a frame by name; throws RunError where the frame has none.
+const Field& fieldOf(const Frame& frame, const std::string& name);
+Regions regionsOf(const Scenario& scenario);
+
+}  // namespace gambeson

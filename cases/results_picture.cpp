@@ -1,0 +1,193 @@
+/// Pictures of a recorded frame.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "analysis/render/camera.hpp"
+#include "analysis/render/shapes.hpp"
+#include "cases/results_write.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr Color body_color{0.74f, 0.73f, 0.72f}, cloth_color{0.42f, 0.50f, 0.62f}, arrow_color{0.80f, 0.08f, 0.10f};
+
+/// Arrows sum the forces of samples within cells of this size, so that they can be told apart.
+constexpr double arrow_cell_m = 0.05;
+/// Arrows shorter than this part of the longest are left out.
+constexpr double least_arrow = 0.06;
+/// Forces that point this much at the viewer press on the far side: the picture would show them through the body.
+constexpr double far_side = 0.3;
+
+struct FieldWords {
+  const char *field, *title, *word;
+  double scale;  ///< to the unit of the title
+};
+
+FieldWords wordsOf(PictureField field) {
+  switch (field) {
+    case PictureField::stress:
+      return {"stress", "First principal stress resultant [N/m]", "stress in the fabric", 1};
+    case PictureField::pressure:
+      return {"pressure", "Contact pressure [Pa]", "contact pressure", 1};
+    case PictureField::strain:
+      return {"strain", "First principal strain [%]", "strain of the fabric", 100};
+    case PictureField::plain:
+      break;
+  }
+  return {"", "", "the garment", 1};
+}
+
+std::vector<Vec3> positionsOf(const Frame& frame) {
+  std::vector<Vec3> x(frame.positions.size() / 3);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = {frame.positions[3 * i], frame.positions[3 * i + 1], frame.positions[3 * i + 2]};
+  return x;
+}
+
+Vec3 upOf(const Scenario& s) {
+  const Vec3 g = s.model->environment.gravity_m_per_s2;
+  return norm(g) > 0 ? -1.0 / norm(g) * g : Vec3{0, 0, 1};
+}
+
+std::array<Vec3, 2> boxOf(const std::vector<Vec3>& x, double margin_m) {
+  const double inf = std::numeric_limits<double>::infinity();
+  std::array<Vec3, 2> box{Vec3{inf, inf, inf}, Vec3{-inf, -inf, -inf}};
+  for (const Vec3& p : x)
+    for (int c = 0; c < 3; ++c) {
+      box[0][c] = std::min(box[0][c], p[c] - margin_m);
+      box[1][c] = std::max(box[1][c], p[c] + margin_m);
+    }
+  return box;
+}
+
+/// The force on the body of all samples in one cell near one body, where it acts in the mean.
+struct Cluster {
+  Vec3 force, moment_of_size;
+  double size = 0;
+};
+
+std::vector<Cluster> clustersOf(const Scenario& s, const Frame& frame, const std::vector<Vec3>& x) {
+  const Field& contact = fieldOf(frame, "contact_force");
+  const std::vector<Placement> placed = s.obstaclePlacements(frame.time_s);
+  std::map<std::array<int, 4>, Cluster> cells;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 force{-contact.data[3 * i], -contact.data[3 * i + 1], -contact.data[3 * i + 2]};
+    const double size = norm(force);
+    if (!(size > 0)) continue;
+    int body = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int o = 0; o < static_cast<int>(placed.size()); ++o) {
+      const double d = s.model->proximity->signedDistance(o, placed[static_cast<std::size_t>(o)], x[i]);
+      if (d < least) least = d, body = s.body_of_obstacle[static_cast<std::size_t>(o)];
+    }
+    const auto cell = [&](double v) { return static_cast<int>(std::floor(v / arrow_cell_m)); };
+    Cluster& cluster = cells[{body, cell(x[i].x), cell(x[i].y), cell(x[i].z)}];
+    cluster.force += force;
+    cluster.moment_of_size += size * x[i];
+    cluster.size += size;
+  }
+  std::vector<Cluster> clusters;
+  for (const auto& [key, cluster] : cells) clusters.push_back(cluster);
+  return clusters;
+}
+
+/// Arrows end where the body is pushed, so that they stay outside of it.
+void addArrows(Scene& scene, const std::vector<Cluster>& clusters, double longest_m) {
+  double most = 0;
+  for (const Cluster& c : clusters) most = std::max(most, norm(c.force));
+  if (!(most > 0)) return;
+  const double legend_N = roundedUp(0.5 * most), m_per_N = longest_m / most;
+  const Vec3 towards = axesOf(scene.view, scene.up).towards;
+  for (const Cluster& c : clusters) {
+    if (norm(c.force) < least_arrow * most || dot(c.force, towards) > far_side * norm(c.force)) continue;
+    const Vec3 tip = c.moment_of_size / c.size;
+    scene.arrows.push_back({tip - m_per_N * c.force, tip, arrow_color});
+  }
+  scene.arrow_legend = fmt::format("{:g} N on the body, summed over {:g} cm", legend_N, 100 * arrow_cell_m);
+  scene.arrow_legend_length_m = legend_N * m_per_N;
+}
+
+}  // namespace
+
+double roundedUp(double value) {
+  if (!(value > 0)) return 0;
+  const double ten = std::pow(10, std::floor(std::log10(value)));
+  for (const double n : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (value <= n * ten * (1 + 1e-12)) return n * ten;
+  return 10 * ten;
+}
+
+double fieldRange(const Scenario& s, const RecordingReader& recording, PictureField field) {
+  if (field == PictureField::plain) return 0;
+  const FieldWords words = wordsOf(field);
+  std::vector<double> values, weights;
+  for (const bool motion : {true, false}) {
+    for (int k = 0; k < recording.frameCount(); ++k) {
+      if (motion && !(recording.time(k) > 1e-9)) continue;
+      const Frame frame = recording.frame(k);
+      for (const float v : fieldOf(frame, words.field).data) values.push_back(v);
+      weights.insert(weights.end(), s.model->surface.area_m2.begin(), s.model->surface.area_m2.end());
+    }
+    if (!values.empty()) break;
+  }
+  return values.empty() ? 0 : roundedUp(words.scale * weightedPercentile(values, weights, 0.99)) / words.scale;
+}
+
+std::string captionOf(const PictureCase& picture, double time_s) {
+  std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
+  std::replace(view.begin(), view.end(), '_', ' ');
+  std::string what = wordsOf(picture.field).word;
+  what[0] = static_cast<char>(what[0] - 'a' + 'A');
+  return fmt::format("{} at {:.2f} s{}, seen from the {}", what, time_s,
+                     picture.when == PictureTime::peak ? " (the peak)" : "", view);
+}
+
+int frameOf(const RecordingReader& recording, const Measured& m, const PictureCase& picture) {
+  const int count = recording.frameCount();
+  if (count == 0) throw RunError("the recording has no frames");
+  const double wanted = picture.when == PictureTime::at ? picture.time_s : m.peak_time_s;
+  if (picture.when == PictureTime::end) return count - 1;
+  int best = 0;
+  for (int k = 1; k < count; ++k)
+    if (std::abs(recording.time(k) - wanted) < std::abs(recording.time(best) - wanted)) best = k;
+  return best;
+}
+
+void renderFrame(const Scenario& s, const RecordingReader& recording, int index, const PictureCase& picture,
+                 double high, const std::filesystem::path& png) {
+  const Frame frame = recording.frame(index);
+  const std::vector<Vec3> x = positionsOf(frame);
+  const FieldWords words = wordsOf(picture.field);
+  Scene scene;
+  const std::vector<Placement> placed = s.obstaclePlacements(frame.time_s);
+  for (std::size_t o = 0; o < placed.size(); ++o)
+    scene.meshes.push_back(meshOf(s.model->obstacles[o].shape, placed[o], body_color));
+  RenderMesh cloth;
+  cloth.vertices = x;
+  cloth.triangles = s.model->surface.triangles;
+  cloth.color = cloth_color;
+  cloth.edges = true;
+  if (picture.field != PictureField::plain) {
+    for (const float v : fieldOf(frame, words.field).data) cloth.scalars.push_back(words.scale * v);
+    scene.bar = ColorBar{words.title, 0, words.scale * high};
+  }
+  scene.meshes.push_back(std::move(cloth));
+  const std::array<Vec3, 2> garment = boxOf(x, 0);
+  const double size = norm(garment[1] - garment[0]);
+  addArrows(scene, clustersOf(s, frame, x), 0.14 * size);
+  scene.focus = boxOf(x, 0.06 * size);
+  scene.title = s.definition.name;
+  scene.subtitle = captionOf(picture, frame.time_s);
+  scene.view = picture.view;
+  scene.up = upOf(s);
+  writePng(render(scene, picture.width, picture.height), png);
+}
+
+}  // namespace gambeson

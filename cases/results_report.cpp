@@ -1,0 +1,201 @@
+/// report.html from the measured numbers.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/ticks.hpp"
+#include "cases/results_write.hpp"
+
+namespace gambeson {
+namespace {
+
+std::string titleOf(const JointMeasure& m) { return m.movement.empty() ? m.part : m.part + " " + m.movement; }
+
+Tone toneOf(const std::string& side) {
+  return side == "left" ? Tone::left : side == "right" ? Tone::right : Tone::third;
+}
+
+std::string capital(std::string s) {
+  if (!s.empty()) s[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(s[0])));
+  return s;
+}
+
+void addJoints(const Measured& m, ReportInput& in) {
+  for (const JointMeasure& j : m.joints) {
+    if (j.prismatic) continue;
+    JointSummary summary;
+    summary.joint = j.movement.empty() ? j.part : j.part + " (" + j.movement + ")";
+    summary.side = j.side;
+    summary.peak_Nm = j.peak.value;
+    summary.peak_time_s = j.peak.time_s;
+    summary.cause = causeOf(j, m.strides);
+    summary.rms_Nm = j.rms;
+    if (j.natural_Nm) summary.natural_percent = 100 * std::abs(j.peak.value) / *j.natural_Nm;
+    if (j.peak.value != 0) summary.drag_percent = 100 * j.drag_at_peak / j.peak.value;
+    in.joints.push_back(std::move(summary));
+  }
+}
+
+/// One plot per movement, both sides in it.
+void addPlots(const Measured& m, ReportInput& in) {
+  std::vector<TimeMark> marks;
+  if (m.strides)
+    for (int k = 0; k <= m.strides->count; ++k)
+      marks.push_back(
+          {m.strides->start_s + k * m.strides->time_s, k < m.strides->count ? fmt::format("stride {}", k + 1) : "end"});
+  std::vector<std::string> titles;
+  for (const JointMeasure& j : m.joints)
+    if (std::find(titles.begin(), titles.end(), titleOf(j)) == titles.end()) titles.push_back(titleOf(j));
+  for (const std::string& title : titles) {
+    Plot plot{capital(title),
+              "Positive: the wearer must push towards positive joint values (flexion, adduction, internal rotation).",
+              {},
+              marks,
+              true};
+    std::string unit = "Nm";
+    for (const JointMeasure& j : m.joints)
+      if (titleOf(j) == title) {
+        unit = j.prismatic ? "N" : "Nm";
+        plot.series.push_back(
+            {j.side.empty() ? j.name : j.side, unit, m.added.time_s, m.added.of(j.joint), toneOf(j.side)});
+      }
+    plot.title += unit == "N" ? ": added force" : ": added torque";
+    in.torques.push_back(std::move(plot));
+  }
+}
+
+void addContact(const Measured& m, ReportInput& in) {
+  BarChart chart{"Share of each segment in the contact",
+                 "%",
+                 "Of the impulse of the contact force over the motion; segments that nothing touched are left out.",
+                 {}};
+  Table table{"Contact force per segment",
+              "Force: the vector sum on the segment, opposite pressures cancel. Pressing and friction: sums of "
+              "magnitudes, which do not.",
+              {"segment", "peak [N]", "at [s]", "mean [N]", "share [%]", "pressing, mean [N]", "friction, mean [N]"},
+              {}};
+  std::vector<const BodyMeasure*> order;
+  for (const BodyMeasure& b : m.contact)
+    if (b.contact.impulse_Ns > 0) order.push_back(&b);
+  std::stable_sort(order.begin(), order.end(), [](auto* a, auto* b) { return a->contact.share > b->contact.share; });
+  for (const BodyMeasure* b : order) {
+    std::string name = b->contact.segment;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    chart.bars.push_back({name, 100 * b->contact.share});
+    table.rows.push_back({name, b->contact.peak_N, Cell(fmt::format("{:.2f}", b->contact.peak_time_s)),
+                          b->contact.mean_N, Cell(100 * b->contact.share), b->normal_N, b->friction_N});
+    table.rows.back()[2].number = true;
+  }
+  if (!chart.bars.empty()) in.contact_charts.push_back(std::move(chart));
+  in.contact_tables.push_back(std::move(table));
+}
+
+void addStress(const Measured& m, ReportInput& in) {
+  Table table{"First principal stress resultant and strain per region",
+              "Percentiles by area over all frames of the motion: 95 % of the area carries at most p95.",
+              {"region", "median [N/m]", "p95 [N/m]", "p99 [N/m]", "largest [N/m]", "at [s]", "largest strain [%]"},
+              {}};
+  for (std::size_t r = 0; r < m.stress.size(); ++r) {
+    const StressSummary& s = m.stress[r];
+    std::string name = m.regions.names[r];
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.rows.push_back({name, s.p50_N_per_m, s.p95_N_per_m, s.p99_N_per_m, s.max_N_per_m,
+                          Cell(fmt::format("{:.2f}", s.max_time_s)), 100 * s.max_strain});
+    table.rows.back()[5].number = true;
+  }
+  in.stress_tables.push_back(std::move(table));
+}
+
+void addSupports(const Measured& m, ReportInput& in) {
+  if (m.supports.empty()) return;
+  Table table{"Forces of the supports on the cloth",
+              "Means over the motion in world axes; sinking of the edge against what it hangs on.",
+              {"support", "mean x [N]", "mean y [N]", "mean z [N]", "peak [N]", "largest sinking [mm]"},
+              {}};
+  for (const SupportMeasure& s : m.supports)
+    table.rows.push_back({s.name, s.mean_N.x, s.mean_N.y, s.mean_N.z, s.peak_N,
+                          s.springs ? Cell(1e3 * s.largest_drop_m) : Cell("held")});
+  in.support_tables.push_back(std::move(table));
+}
+
+void addRepeatability(const Measured& m, ReportInput& in) {
+  Table table{
+      "How well the strides repeat",
+      "The second stride's added torque against the first's; the left side's, half a stride later, against the "
+      "right's.",
+      {"joint", "second stride: correlation", "RMS difference [%]", "other side: correlation", "RMS difference [%]"},
+      {}};
+  const auto cells = [](const std::optional<Likeness>& l, std::vector<Cell>& row) {
+    if (l)
+      row.insert(row.end(), {Cell(l->correlation), Cell(100 * l->relative)});
+    else
+      row.insert(row.end(), {Cell(""), Cell("")});
+  };
+  for (const JointMeasure& j : m.joints) {
+    if (!j.second_stride && !j.other_side) continue;
+    std::vector<Cell> row{Cell(titleOf(j) + (j.side.empty() ? "" : ", " + j.side))};
+    cells(j.second_stride, row);
+    cells(j.other_side, row);
+    table.rows.push_back(std::move(row));
+  }
+  if (!table.rows.empty()) in.fact_tables.push_back(std::move(table));
+}
+
+std::string duration(double s) {
+  if (s < 1e-3) return formatNumber(1e6 * s) + " µs";
+  return s < 1 ? formatNumber(1e3 * s) + " ms" : formatNumber(s) + " s";
+}
+
+}  // namespace
+
+ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& facts, const std::string& identity,
+                        const std::vector<Picture>& pictures) {
+  ReportInput in;
+  in.title = s.definition.name;
+  in.description = s.definition.description;
+  if (s.definition.analysis.task == Task::natural_walk) in.task = "level walking at natural speed";
+  if (m.recorded_end_s < s.end_s - 1e-9)
+    in.warnings.push_back(
+        fmt::format("The run stopped at {:.2f} s of {:.2f} s: what follows is only what was recorded until then.",
+                    m.recorded_end_s, s.end_s));
+  if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
+  addJoints(m, in);
+  addPlots(m, in);
+  addContact(m, in);
+  addStress(m, in);
+  addSupports(m, in);
+  in.pictures = pictures;
+  in.audit = auditOf(m);
+  in.assumptions = assumptionsOf(s);
+  const auto [hash, kernels] = identityParts(identity);
+  in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->shell.controlCount(),
+                                      s.model->surface.size(), s.definition.fabric.name)},
+              {"Steps", formatNumber(static_cast<double>(m.steps.steps), 7)},
+              {"Smallest time step",
+               fmt::format("{}; governed by the {} term", duration(m.steps.shortest_s), m.steps.governing)},
+              {"Mean time step", duration(m.steps.mean_s)},
+              {"Largest strain",
+               [&] {
+                 double e = 0;
+                 for (const StressSummary& r : m.stress) e = std::max(e, r.max_strain);
+                 return formatNumber(100 * e) + " %";
+               }()},
+              {"Computed in", fmt::format("{} on {} threads, {} kernels{}", duration(facts.wall_s), facts.threads,
+                                          kernels, facts.resumed ? "; resumed, the time is of the last part" : "")},
+              {"Gambeson", facts.version},
+              {"Case hash", hash}};
+  addRepeatability(m, in);
+  if (!facts.phases_s.empty()) {
+    Table timings{"Where the time went", "", {"phase", "time [s]", "share [%]"}, {}};
+    double sum = 0;
+    for (const auto& [name, seconds] : facts.phases_s) sum += seconds;
+    for (const auto& [name, seconds] : facts.phases_s)
+      timings.rows.push_back({name, seconds, Cell(sum > 0 ? 100 * seconds / sum : 0)});
+    in.fact_tables.push_back(std::move(timings));
+  }
+  return in;
+}
+
+}  // namespace gambeson

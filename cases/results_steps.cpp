@@ -1,0 +1,93 @@
+/// What the steps reported, the energy balance, and what the frames hold.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "cases/recorder.hpp"
+#include "cases/results_measure.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+
+void measureSteps(const RecordingReader& recording, Measured& out) {
+  std::map<std::string, std::size_t> column;
+  for (const std::string& name : stepColumns()) column.emplace(name, 2 + column.size());
+  StepMeasure& m = out.steps;
+  EnergyMeasure& e = out.energy;
+  m.shortest_s = std::numeric_limits<double>::infinity();
+  double time = 0, iterations = 0, first_energy = 0;
+  bool moving = false;
+  for (const auto& r : recording.table("steps")) {
+    const auto at = [&](const char* name) { return r[column.at(name)]; };
+    out.recorded_end_s = r[1];
+    const double middle = 0.5 * (r[0] + r[1]);
+    time += r[1] - r[0];
+    iterations += at("iterations");
+    m.steps += std::lround(at("steps"));
+    m.unconverged += std::lround(at("unconverged_steps"));
+    m.impacts += std::lround(at("impacts"));
+    m.shortest_s = std::min(m.shortest_s, at("shortest_step_s"));
+    m.longest_s = std::max(m.longest_s, at("longest_step_s"));
+    m.largest_residual_m_per_s = std::max(m.largest_residual_m_per_s, at("largest_residual_m_per_s"));
+    // Not std::max: a NaN must win.
+    if (!(at("momentum_error") <= m.momentum_error))
+      m.momentum_error = at("momentum_error"), m.momentum_error_time_s = middle;
+    if (at("frequency_rad_per_s") > m.frequency_rad_per_s) {
+      m.frequency_rad_per_s = at("frequency_rad_per_s");
+      m.frequency_time_s = middle;
+      m.shares = {at("membrane_share"), at("bending_share"), at("seam_share"), at("spring_share")};
+    }
+    if (r[0] < -1e-9) continue;
+    if (at("deepest_m") > m.deepest_m) m.deepest_m = at("deepest_m"), m.deepest_time_s = middle;
+    const double energy = at("kinetic_J") + at("internal_J") + at("gravity_J") + at("springs_J");
+    if (!moving) {
+      moving = true;
+      first_energy = energy;
+      continue;
+    }
+    e.change = energy - first_energy;
+    e.contact += at("work_contact_J");
+    e.friction += at("work_friction_J");
+    e.separation += at("work_separation_J");
+    e.drag += at("work_drag_J");
+    e.supports += at("work_supports_J");
+    e.absolute += std::abs(at("work_contact_J")) + std::abs(at("work_drag_J")) + std::abs(at("work_supports_J"));
+  }
+  if (m.steps == 0) m.shortest_s = 0;
+  m.mean_s = m.steps > 0 ? time / static_cast<double>(m.steps) : 0;
+  m.mean_iterations = m.steps > 0 ? iterations / static_cast<double>(m.steps) : 0;
+  const Frequency f{m.frequency_rad_per_s, m.shares[0], m.shares[1], m.shares[2], m.shares[3]};
+  m.governing = f.governing();
+}
+
+void measureFrames(const RecordingReader& recording, Measured& out) {
+  RecordedRange range;
+  range.stress_low = std::numeric_limits<float>::infinity();
+  range.stress_high = -range.stress_low;
+  for (int k = 0; k < recording.frameCount(); ++k) {
+    const Frame frame = recording.frame(k);
+    const Field &stress = fieldOf(frame, "stress"), &strain = fieldOf(frame, "strain");
+    if (stress.data.empty()) throw RunError("the recording has frames without samples");
+    const auto [low, high] = std::minmax_element(stress.data.begin(), stress.data.end());
+    range.stress_low = std::min(range.stress_low, *low);
+    range.stress_high = std::max(range.stress_high, *high);
+    if (k == recording.frameCount() - 1) {
+      range.last_stress_low = *low;
+      range.last_stress_high = *high;
+      for (std::size_t c = 0; c < 3; ++c) {
+        range.low[c] = range.high[c] = frame.positions[c];
+        for (std::size_t i = c; i < frame.positions.size(); i += 3) {
+          range.low[c] = std::min(range.low[c], frame.positions[i]);
+          range.high[c] = std::max(range.high[c], frame.positions[i]);
+        }
+      }
+    }
+    if (frame.time_s > 1e-9) out.frames.push_back({frame.time_s, stress.data, strain.data});
+  }
+  if (recording.frameCount() > 0) out.recorded = range;
+  if (!out.frames.empty()) out.stress = summarizeStress(out.regions, out.frames);
+}
+
+}  // namespace gambeson

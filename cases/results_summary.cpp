@@ -1,0 +1,157 @@
+/// summary.json
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cases/results_write.hpp"
+#include "core/io/atomic_file.hpp"
+
+namespace gambeson {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json likeness(const Likeness& l) {
+  return {{"correlation", l.correlation},
+          {"rms_difference", l.rms_difference},
+          {"rms_difference_ratio", l.relative},
+          {"samples", l.samples}};
+}
+
+Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides) {
+  const std::string unit = m.prismatic ? "_N" : "_Nm";
+  Json j{{"joint", m.name}, {"side", m.side}};
+  j["peak" + unit] = m.peak.value;
+  j["peak_time_s"] = m.peak.time_s;
+  j["cause"] = causeOf(m, strides);
+  j["rms" + unit] = m.rms;
+  j["drag_at_peak" + unit] = m.drag_at_peak;
+  j["joint_at_peak"] = m.position_at_peak;
+  j["joint_rate_at_peak"] = m.rate_at_peak;
+  if (m.natural_Nm) {
+    j["natural_peak_Nm"] = *m.natural_Nm;
+    j["percent_of_natural"] = 100 * std::abs(m.peak.value) / *m.natural_Nm;
+  }
+  j["normal_mean_N"] = m.normal_N;
+  j["friction_mean_N"] = m.friction_N;
+  if (m.phase_at_peak) j["stride_phase_at_peak"] = *m.phase_at_peak;
+  if (m.phase_of_highest) j["stride_phase_of_highest_joint_value"] = *m.phase_of_highest;
+  if (strides)
+    for (const Peak& p : m.stride_peaks)
+      j["stride_peaks"].push_back(
+          {{"value", p.value}, {"time_s", p.time_s}, {"stride_phase", strides->phase(p.time_s, m.side)}});
+  if (m.second_stride) j["second_stride_against_first"] = likeness(*m.second_stride);
+  if (m.other_side) j["left_half_a_stride_later_against_right"] = likeness(*m.other_side);
+  return j;
+}
+
+Json stressJson(const Measured& m) {
+  Json all = Json::array();
+  for (std::size_t r = 0; r < m.stress.size(); ++r) {
+    const StressSummary& s = m.stress[r];
+    all.push_back({{"region", m.regions.names[r]},
+                   {"p50_N_per_m", s.p50_N_per_m},
+                   {"p95_N_per_m", s.p95_N_per_m},
+                   {"p99_N_per_m", s.p99_N_per_m},
+                   {"max_N_per_m", s.max_N_per_m},
+                   {"max_time_s", s.max_time_s},
+                   {"max_strain", s.max_strain},
+                   {"max_strain_time_s", s.max_strain_time_s}});
+  }
+  return all;
+}
+
+Json auditJson(const Measured& m) {
+  Json all = Json::array();
+  for (const AuditCheck& c : auditOf(m))
+    all.push_back({{"check", c.name}, {"value", c.value}, {"limit", c.limit}, {"unit", c.unit}, {"holds", c.holds()}});
+  return all;
+}
+
+Json recordedJson(const RecordedRange& r) {
+  const auto three = [](const std::array<float, 3>& v) { return Json{double(v[0]), double(v[1]), double(v[2])}; };
+  return {{"last_frame_low_m", three(r.low)},
+          {"last_frame_high_m", three(r.high)},
+          {"stress_low_N_per_m", double(r.stress_low)},
+          {"stress_high_N_per_m", double(r.stress_high)},
+          {"last_frame_stress_low_N_per_m", double(r.last_stress_low)},
+          {"last_frame_stress_high_N_per_m", double(r.last_stress_high)}};
+}
+
+}  // namespace
+
+void writeSummary(const Scenario& s, const RecordingReader& recording, const Measured& m, const RunFacts& facts,
+                  const std::filesystem::path& file) {
+  const auto [hash, kernels] = identityParts(recording.layout().identity);
+  Json j{{"name", s.definition.name}, {"version", facts.version}, {"case_hash", hash}, {"kernels", kernels}};
+  j["recorded_from_s"] = s.start_s;
+  j["recorded_to_s"] = m.recorded_end_s;
+  j["planned_to_s"] = s.end_s;
+  j["control_points"] = s.model->shell.controlCount();
+  j["samples"] = s.model->surface.size();
+  j["sign"] = signRule();
+  j["joints"] = Json::array();
+  for (const JointMeasure& joint : m.joints) j["joints"].push_back(jointJson(joint, m.strides));
+  if (const JointMeasure* top = m.highest()) j["highest"] = top->name;
+  if (m.strides)
+    j["strides"] = {{"start_s", m.strides->start_s}, {"time_s", m.strides->time_s}, {"count", m.strides->count}};
+  j["contact"] = Json::array();
+  for (const BodyMeasure& b : m.contact)
+    j["contact"].push_back({{"segment", b.contact.segment},
+                            {"peak_N", b.contact.peak_N},
+                            {"peak_time_s", b.contact.peak_time_s},
+                            {"mean_N", b.contact.mean_N},
+                            {"share", b.contact.share},
+                            {"normal_mean_N", b.normal_N},
+                            {"friction_mean_N", b.friction_N}});
+  j["supports"] = Json::array();
+  for (const SupportMeasure& g : m.supports)
+    j["supports"].push_back({{"support", g.name},
+                             {"mean_on_cloth_N", list(g.mean_N)},
+                             {"peak_N", g.peak_N},
+                             {"peak_time_s", g.peak_time_s},
+                             {"largest_drop_m", g.largest_drop_m}});
+  j["stress"] = stressJson(m);
+  double strain = 0;
+  for (const StressSummary& r : m.stress) strain = std::max(strain, r.max_strain);
+  j["largest_strain"] = strain;
+  j["deepest_penetration_m"] = m.steps.deepest_m;
+  j["deepest_penetration_time_s"] = m.steps.deepest_time_s;
+  j["momentum"] = {{"largest_error_ratio", m.steps.momentum_error}, {"at_s", m.steps.momentum_error_time_s}};
+  j["energy"] = {{"change_J", m.energy.change},
+                 {"work_contact_J", m.energy.contact},
+                 {"work_contact_friction_J", m.energy.friction},
+                 {"work_contact_separation_J", m.energy.separation},
+                 {"work_drag_J", m.energy.drag},
+                 {"work_supports_J", m.energy.supports},
+                 {"drift_J", m.energy.drift()},
+                 {"sum_of_absolute_works_J", m.energy.absolute},
+                 {"drift_ratio", m.energy.relative()}};
+  j["steps"] = {{"count", m.steps.steps},
+                {"smallest_s", m.steps.shortest_s},
+                {"mean_s", m.steps.mean_s},
+                {"largest_s", m.steps.longest_s},
+                {"governing_term", m.steps.governing},
+                {"governing_shares",
+                 {{"membrane", m.steps.shares[0]},
+                  {"bending", m.steps.shares[1]},
+                  {"seam", m.steps.shares[2]},
+                  {"spring", m.steps.shares[3]}}},
+                {"largest_frequency_rad_per_s", m.steps.frequency_rad_per_s},
+                {"largest_frequency_time_s", m.steps.frequency_time_s}};
+  j["contact_solver"] = {{"unconverged_steps", m.steps.unconverged},
+                         {"largest_residual_m_per_s", m.steps.largest_residual_m_per_s},
+                         {"mean_iterations", m.steps.mean_iterations},
+                         {"impacts", m.steps.impacts}};
+  j["audit"] = auditJson(m);
+  if (m.recorded) j["recording"] = recordedJson(*m.recorded);
+  Json phases = Json::object();
+  for (const auto& [name, seconds] : facts.phases_s) phases[name] = seconds;
+  j["timings"] = {
+      {"wall_s", facts.wall_s}, {"threads", facts.threads}, {"resumed", facts.resumed}, {"phases_s", phases}};
+  writeFileAtomically(file, j.dump(2) + "\n");
+}
+
+}  // namespace gambeson

@@ -1,0 +1,169 @@
+/// The words of a report: causes, checks, assumptions.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/ticks.hpp"
+#include "cases/results_write.hpp"
+#include "core/material/bending.hpp"
+#include "human/units.hpp"
+#include "human/walk_curves.hpp"
+
+namespace gambeson {
+namespace {
+
+/// "flexes" for a rising flexion, "extends" for a falling one; the nouns of either side and of the way there.
+struct Words {
+  const char *rises, *falls, *above, *below, *to_above, *to_below;
+};
+Words wordsOf(const std::string& movement) {
+  if (movement == "flexion") return {"flexes", "extends", "flexion", "extension", "flexion", "extension"};
+  if (movement == "adduction") return {"adducts", "abducts", "adduction", "abduction", "adduction", "abduction"};
+  if (movement == "abduction") return {"abducts", "adducts", "abduction", "adduction", "abduction", "adduction"};
+  if (movement == "rotation")
+    return {"turns inwards",     "turns outwards",    "internal rotation",
+            "external rotation", "internal rotation", "external rotation"};
+  return {"moves to higher joint values",
+          "moves to lower joint values",
+          "the joint value",
+          "minus the joint value",
+          "motion",
+          "motion"};
+}
+
+/// Phase at which a foot leaves the ground: half a stride and the double support after it (about 62 %), as the walk has
+/// it.
+double footOff() { return 0.5 + naturalWalk().double_support; }
+
+/// Below this a joint counts as at rest [rad/s].
+constexpr double still_rad_per_s = 0.02;
+
+}  // namespace
+
+std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides) {
+  if (m.prismatic || m.peak.value == 0) return "";
+  const Words words = wordsOf(m.movement);
+  const bool still = std::abs(m.rate_at_peak) < still_rad_per_s;
+  const char* who = still                                        ? ""
+                    : (m.peak.value > 0) == (m.rate_at_peak > 0) ? " against the garment"
+                                                                 : " with the garment's push";
+  std::string text;
+  if (strides && !m.side.empty())
+    text = (m.phase_at_peak ? fmt::format("{} ({:.0f} % of the stride)",
+                                          *m.phase_at_peak < footOff() ? "stance" : "swing", 100 * *m.phase_at_peak)
+                            : "the lead-in from standing") +
+           fmt::format(", while the {} {}{}", m.part,
+                       still                ? "is held"
+                       : m.rate_at_peak > 0 ? words.rises
+                                            : words.falls,
+                       who);
+  else
+    text = fmt::format("{} of the {}{}",
+                       still                ? "rest"
+                       : m.rate_at_peak > 0 ? words.to_above
+                                            : words.to_below,
+                       m.part, who);
+  const double degrees = m.position_at_peak / rad_per_deg;
+  return text + fmt::format(", at {:.0f} degrees of {}", std::abs(degrees), degrees >= 0 ? words.above : words.below);
+}
+
+std::string signRule() {
+  return "Added torque is what the wearer's muscles must give on top because of the garment: the opposite of the "
+         "torque of the cloth's "
+         "contact forces about the joint axis. Positive: the wearer must push towards positive joint values (flexion, "
+         "adduction, internal "
+         "rotation).";
+}
+
+std::vector<AuditCheck> auditOf(const Measured& m) {
+  std::vector<AuditCheck> checks{
+      {"Momentum", m.steps.momentum_error, 1e-9, "of the sum of absolute impulses",
+       "in every step: the cloth's change of momentum against gravity, drag, supports and what the body's own ledger "
+       "received; the largest"},
+      {"Energy", 100 * m.energy.relative(), 5, "% of the works",
+       "over the motion: the change of the total energy against the works of contact, drag and supports"},
+      {"Penetration", 1e3 * m.steps.deepest_m, 0.2, "mm",
+       "the deepest point of the cloth's samples inside the body, over the motion"},
+      {"Contact solver",
+       m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
+       "% of the steps", "steps whose contacts were not solved to the tolerance of the case"}};
+  for (const SupportMeasure& s : m.supports)
+    if (s.springs)
+      checks.push_back({"Sinking, " + s.name, 1e3 * s.largest_drop_m, 20, "mm",
+                        "mean sinking of the supported edge against the body, the largest"});
+  if (const JointMeasure* top = m.highest(); top && top->second_stride && top->second_stride->samples > 0) {
+    const std::string joint = top->part + " " + top->movement + (top->side.empty() ? "" : ", " + top->side);
+    checks.push_back({"Repeatability, shape", 1 - top->second_stride->correlation, 0.05, "",
+                      "1 minus the correlation of the second stride's added torque with the first's (" + joint + ")"});
+    checks.push_back({"Repeatability, size", 100 * top->second_stride->relative, 10, "%",
+                      "RMS difference of the second stride from the first, of the first's RMS (" + joint + ")"});
+  }
+  return checks;
+}
+
+std::vector<std::string> assumptionsOf(const Scenario& s) {
+  const Case& c = s.definition;
+  const Fabric& f = c.fabric;
+  std::vector<std::string> list;
+  const auto say = [&](std::string text) { list.push_back(std::move(text)); };
+  if (s.human) {
+    if (!c.human->manikin.empty())
+      say("The body is a manikin of rigid ellipsoids: sizes from ANSUR II (2012), masses from de Leva 1996, offsets of "
+          "joints from Rajagopal et al. "
+          "2016. Flesh does not give way, and the thighs are flattened at the sides so that the legs clear each "
+          "other.");
+    else
+      say("The body is rigid: flesh does not give way.");
+    if (std::holds_alternative<WalkOptions>(c.human->motion))
+      say("Walking is prescribed: joint angles of healthy adults at natural speed (Bovi et al. 2011), closed to a "
+          "period and equal on both sides. "
+          "The wearer does not change gait because of the garment.");
+    else
+      say("The motion is prescribed: the wearer does not change it because of the garment.");
+    say(c.analysis.counting == Counting::all_distal
+            ? "A joint's torque counts the contact on every segment distal of it."
+            : "A joint's torque counts the contact on the segment next to it on the distal side (Man 2006).");
+    say(
+        fmt::format("Torques are impulses over windows of {} ms, not filtered; the garment's weight and inertia enter "
+                    "only through its contact.",
+                    formatNumber(1e3 * c.output.window_s)));
+    if (c.analysis.task == Task::natural_walk)
+      say("Natural moments are the peaks of net joint moments in level walking of healthy adults (Bovi et al. 2011), "
+          "scaled with body mass.");
+  }
+  say("Cloth does not touch itself in this version: folds may cross each other.");
+  say("Contact is tested at the cloth's samples against the body's surface; edges are not tested against edges.");
+  say("The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and orthotropic "
+      "(Zheng 2013, eq. 2.13).");
+  if (f.bending_law == BendingLaw::zheng)
+    say(
+        fmt::format("Bending follows Zheng 2013, eq. 2.14. Its root is replaced by a smooth cubic below a curvature of "
+                    "{} 1/m; the steepest slope is "
+                    "then {} N m (weft).",
+                    formatNumber(f.kappa_regular_per_m),
+                    formatNumber(zhengSteepest(f.bending_weft_Nm, f.kappa0_per_m, f.kappa_regular_per_m))));
+  else
+    say(fmt::format("Bending is linear, {} N m (weft).", formatNumber(f.bending_weft_Nm)));
+  say(f.rest_curvature_of_shape
+          ? "The fabric rests in its sewn shape: bending starts from that curvature."
+          : "The fabric is flat at rest (Zheng 2013): bending it around the body already costs moment.");
+  say(f.twist_Nm > 0 ? fmt::format("Twist stiffness {} N m.", formatNumber(f.twist_Nm))
+                     : "The fabric has no stiffness against twist (Zheng 2013).");
+  if (c.air.drag_kg_per_m2s > 0)
+    say(fmt::format("Air drag is linear, {} kg/(m² s) times the velocity relative to the air, which {}.",
+                    formatNumber(c.air.drag_kg_per_m2s),
+                    c.air.with_pelvis ? "moves with the pelvis's mean velocity" : "is that of the case"));
+  say(
+      fmt::format("Contact begins at a layer of {} mm and is restored with a relaxation time of {} ms; Coulomb "
+                  "friction {}, the same for sticking "
+                  "and sliding.",
+                  formatNumber(1e3 * c.contact.layer_m), formatNumber(1e3 * c.contact.relaxation_s),
+                  formatNumber(c.contact.friction)));
+  for (const SupportGroup& g : s.supports)
+    say("Support: " + g.name + ". Its reaction is reported apart and is part of no joint torque.");
+  return list;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,41 @@
+#pragma once
+/// The pieces of writeResults.
+
+#include "analysis/report/report.hpp"
+#include "cases/results.hpp"
+#include "cases/results_measure.hpp"
+
+namespace gambeson {
+
+/// Replaces DIR/summary.json atomically.
+void writeSummary(const Scenario& scenario, const RecordingReader& recording, const Measured& measured,
+                  const RunFacts& facts, const std::filesystem::path& json);
+
+/// "swing (80 % of the stride), while the hip flexes against the garment, at 23 degrees of flexion".
+std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides);
+
+/// Whose flexion and the like: what a positive added torque means.
+std::string signRule();
+
+/// Holds or fails, with limits.
+std::vector<AuditCheck> auditOf(const Measured& measured);
+
+/// What a reader must know before trusting the numbers.
+std::vector<std::string> assumptionsOf(const Scenario& scenario);
+
+ReportInput reportInput(const Scenario& scenario, const Measured& measured, const RunFacts& facts,
+                        const std::string& identity, const std::vector<Picture>& pictures);
+
+/// The frame nearest to what the picture asks for.
+int frameOf(const RecordingReader& recording, const Measured& measured, const PictureCase& picture);
+
+/// "stress at 1.24 s, seen from front_right"
+std::string captionOf(const PictureCase& picture, double time_s);
+
+/// Case hash and kernels of a recording's identity.
+std::pair<std::string, std::string> identityParts(const std::string& identity);
+
+/// The value rounded up to 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten; 0 for what is not above 0.
+double roundedUp(double value);
+
+}  // namespace gambeson
