@@ -92,6 +92,10 @@ void measureJoints(const Scenario& s, const Rows& rows, Measured& out) {
   const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
                                                                                : TorqueCounting::distal_segment;
   const auto& time = out.added.time_s;
+  std::size_t first = 0;  // window that counts
+  if (out.strides && !out.windows.empty() &&
+      out.windows.back().end_s > out.strides->start_s + out.strides->time_s - 1e-9)
+    while (time[first] < out.strides->start_s) ++first;
   for (const int j : joints) {
     JointMeasure m;
     m.joint = j;
@@ -99,8 +103,9 @@ void measureJoints(const Scenario& s, const Rows& rows, Measured& out) {
     m.prismatic = skeleton.joints[static_cast<std::size_t>(j)].type == JointType::prismatic;
     splitName(m);
     const std::vector<double> tau = out.added.of(j), drag = out.added_drag.of(j);
-    m.peak = peakOf(time, tau);
-    m.rms = rms(tau);
+    m.peak = peakOf(std::span(time).subspan(first), std::span(tau).subspan(first));
+    m.rms = rms(std::span(tau).subspan(first));
+    if (first > 0) m.lead_in_peak = peakOf(std::span(time).first(first), std::span(tau).first(first));
     for (std::size_t w = 0; w < time.size(); ++w)
       if (time[w] == m.peak.time_s) m.drag_at_peak = drag[w];
     const auto q = [&](double t) { return s.motion->at(t).q[static_cast<std::size_t>(j)]; };

@@ -38,6 +38,7 @@ struct JointMeasure {
   double normal_N = 0, friction_N = 0;            ///< mean sums of magnitudes over the counted bodies
   std::optional<double> phase_at_peak,
       phase_of_highest;                   ///< of the peak, and of the largest joint value, in its side's stride
+  std::optional<Peak> lead_in_peak;       ///< before the strides
   std::vector<Peak> stride_peaks;         ///< of each stride that was recorded
   std::optional<Likeness> second_stride;  ///< against the first
   std::optional<Likeness> other_side;     ///< left, half a stride later, against this right

@@ -38,6 +38,7 @@ Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides) {
   j["friction_mean_N"] = m.friction_N;
   if (m.phase_at_peak) j["stride_phase_at_peak"] = *m.phase_at_peak;
   if (m.phase_of_highest) j["stride_phase_of_highest_joint_value"] = *m.phase_of_highest;
+  if (m.lead_in_peak) j["lead_in_peak"] = {{"value", m.lead_in_peak->value}, {"time_s", m.lead_in_peak->time_s}};
   if (strides)
     for (const Peak& p : m.stride_peaks)
       j["stride_peaks"].push_back(

@@ -79,16 +79,17 @@ std::string signRule() {
 
 std::vector<AuditCheck> auditOf(const Measured& m) {
   std::vector<AuditCheck> checks{
-      {"Momentum", m.steps.momentum_error, 1e-9, "of the sum of absolute impulses",
+      {"Momentum", m.steps.momentum_error, 1e-9, "",
        "in every step: the cloth's change of momentum against gravity, drag, supports and what the body's own ledger "
        "received; the largest"},
-      {"Energy", 100 * m.energy.relative(), 5, "% of the works",
-       "over the motion: the change of the total energy against the works of contact, drag and supports"},
+      {"Energy", 100 * m.energy.relative(), 5, "%",
+       "over the motion: the change of the total energy against the works of contact, drag and supports, "
+       "of the sum of the absolute works"},
       {"Penetration", 1e3 * m.steps.deepest_m, 0.2, "mm",
        "the deepest point of the cloth's samples inside the body, over the motion"},
       {"Contact solver",
        m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
-       "% of the steps", "steps whose contacts were not solved to the tolerance of the case"}};
+       "%", "share of the steps whose contacts were not solved to the tolerance of the case"}};
   for (const SupportMeasure& s : m.supports)
     if (s.springs)
       checks.push_back({"Sinking, " + s.name, 1e3 * s.largest_drop_m, 20, "mm",
@@ -133,6 +134,11 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
       say("Natural moments are the peaks of net joint moments in level walking of healthy adults (Bovi et al. 2011), "
           "scaled with body mass.");
   }
+  if (const auto strides = stridesOf(c))
+    say(
+        fmt::format("Peaks and mean squares of torques count from the first foot strike at {} s on; the lead-in from "
+                    "standing is only drawn.",
+                    formatNumber(strides->start_s)));
   say("Cloth does not touch itself in this version: folds may cross each other.");
   say("Contact is tested at the cloth's samples against the body's surface; edges are not tested against edges.");
   say("The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and orthotropic "
