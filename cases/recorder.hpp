@@ -5,7 +5,8 @@
 ///   bodies    per body <name>_Jx_Ns .. Jz (impulse received from the cloth), <name>_Lx_Nms .. Lz (its moment about the body
 ///             frame's origin), <name>_n_Ns (sum of normal impulses), <name>_t_Ns (sum of tangential magnitudes)
 ///   drag      per body <name>_Jx_Ns .. Lz_Nms: air drag on the cloth nearest to that body, as if the body carried it
-///   supports  per support <name>_x_Ns .. z: impulse on the cloth; <name>_drop_m: mean sinking of the edge since time 0
+///   supports  per support <name>_x_Ns .. z: impulse on the cloth; <name>_drop_m: mean sinking of the edge against its link,
+///             from where the springs were attached
 ///   steps     what the steps of the window reported (columns: stepColumns())
 
 #include <vector>

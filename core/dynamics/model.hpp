@@ -47,6 +47,9 @@ struct Model {
   std::unique_ptr<ProximityQuery> proximity;
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;
+  /// How far above its sample a spring is anchored, so that all together carry the garment's weight where they were attached:
+  /// -g M / sum k [m].
+  Vec3 spring_rise_m;
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
 };

@@ -165,7 +165,7 @@ void attachSprings(const Model& model, const Stage& stage, State& state, StepWor
   stage.placements(state.time_s, work.start, work.anchors_start);
   state.anchors.clear();
   for (const SpringSupportPoint& spring : model.springs)
-    state.anchors.push_back(toLocal(work.anchors_start[spring.anchor], sampleAt(model.surface.WT, spring.sample, state.p)));
+    state.anchors.push_back(toLocal(work.anchors_start[spring.anchor], sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m));
   const std::vector<Vec3> v = state.v;
   accelerate(model, work.anchors_start, stage.air(state.time_s), v, 0, state, work);
 }

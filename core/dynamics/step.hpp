@@ -9,7 +9,7 @@ namespace gambeson {
 /// anchored where their samples are (`attachSprings` does so again later).
 State initialState(const Model& model, const Stage& stage, double time_s, StepWork& work);
 
-/// Anchors every spring where its sample is now, and evaluates the forces again.
+/// Anchors every spring above where its sample is now (Model::spring_rise_m), and evaluates the forces again.
 void attachSprings(const Model& model, const Stage& stage, State& state, StepWork& work);
 
 /// Velocity Verlet with the contact split, eq. 3.11 to 3.13, by `dt_s`. Drag is implicit in the second half as in eq. 3.13.
