@@ -107,7 +107,8 @@ std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir) {
 void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   const RecordingReader recording(dir);
   const RunFacts facts = readRunFacts(dir);
-  const Measured m = measure(s, recording);
+  Measured m = measure(s, recording);
+  m.surface_depth = surfaceDepth(s, recording);
   writeSummary(s, recording, m, facts, dir / "summary.json");
   if (s.human) writeTorques(dir / "torques.csv", s.human->skeleton, m.added);
   writeContact(dir / "contact.csv", m.bodies, m.windows);
@@ -132,7 +133,8 @@ int renderResults(const RenderOptions& o) {
 int reportResults(const ReportOptions& o) {
   const auto scenario = scenarioOfResults(o.results);
   const RecordingReader recording(o.results);
-  const Measured m = measure(*scenario, recording);
+  Measured m = measure(*scenario, recording);
+  m.surface_depth = surfaceDepth(*scenario, recording);
   const std::filesystem::path folder = temporaryFolder();
   std::vector<std::string> failures;
   const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder, failures);

@@ -82,6 +82,13 @@ struct RecordedRange {
   float stress_low = 0, stress_high = 0, last_stress_low = 0, last_stress_high = 0;  ///< of all frames, of the last
 };
 
+/// Of the surface itself, evaluated four times finer than the samples in each direction, at every frame of the motion.
+struct SurfaceDepth {
+  double deepest_m = 0, time_s = 0;
+  int points = 0;
+};
+SurfaceDepth surfaceDepth(const Scenario& scenario, const RecordingReader& recording);
+
 struct Measured {
   double recorded_end_s = 0;
   std::optional<Strides> strides;
@@ -97,6 +104,7 @@ struct Measured {
   std::vector<StressSummary> stress;
   StepMeasure steps;
   EnergyMeasure energy;
+  std::optional<SurfaceDepth> surface_depth;  ///< costs seconds: only where asked for
   std::optional<RecordedRange> recorded;
 
   const JointMeasure* highest() const;  ///< null without joints

@@ -120,6 +120,10 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   j["largest_strain"] = strain;
   j["deepest_penetration_m"] = m.steps.deepest_m;
   j["deepest_penetration_time_s"] = m.steps.deepest_time_s;
+  if (m.surface_depth)
+    j["deepest_penetration_of_finer_surface"] = {{"deepest_m", m.surface_depth->deepest_m},
+                                                 {"time_s", m.surface_depth->time_s},
+                                                 {"points", m.surface_depth->points}};
   j["momentum"] = {{"largest_error_ratio", m.steps.momentum_error}, {"at_s", m.steps.momentum_error_time_s}};
   j["energy"] = {{"change_J", m.energy.change},
                  {"work_contact_J", m.energy.contact},

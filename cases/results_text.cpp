@@ -90,6 +90,10 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
       {"Contact solver",
        m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
        "%", "share of the steps whose contacts were not solved to the tolerance of the case"}};
+  if (m.surface_depth)
+    checks.push_back(
+        {"Penetration between samples", 1e3 * m.surface_depth->deepest_m, 0.2, "mm",
+         "the deepest point of the cloth's surface, evaluated four times finer than the samples, at every frame"});
   for (const SupportMeasure& s : m.supports)
     if (s.springs)
       checks.push_back({"Sinking, " + s.name, 1e3 * s.largest_drop_m, 20, "mm",

@@ -36,7 +36,7 @@ Case sleeve() {
 /// Down on the forearm, 0.1 m from the elbow, one force per window of 10 ms from time 0 on [N]; before that 100 N,
 /// which do not count.
 const std::vector<double> forces{1, 2, 3, 2, 1};
-constexpr double lever_m = 0.1;
+constexpr double lever_m = 0.1, depth_m = 1e-3;
 constexpr float stress_high = 123.456f;
 
 void record(const Scenario& s, const std::filesystem::path& dir, std::size_t windows = 5) {
@@ -89,8 +89,10 @@ void record(const Scenario& s, const std::filesystem::path& dir, std::size_t win
       frame.sample_fields.push_back({field, "", 1, std::vector<float>(n, 10)});
     if (w == 0) frame.sample_fields[3].data[0] = 1000;  // dressing counts in the recording's range alone
     if (w == 4) frame.sample_fields[3].data[1] = stress_high;
-    frame.control_fields = {Field{"control_points", "m", 3,
-                                  std::vector<float>(3 * static_cast<std::size_t>(s.model->shell.controlCount()))}};
+    Field control{"control_points", "m", 3, {}};
+    for (int i = 0; i < s.model->shell.controlCount(); ++i)
+      for (const double v : {0.125, 0.0, 0.048 - depth_m}) control.data.push_back(static_cast<float>(v));
+    frame.control_fields = {control};
     writer.append(std::move(frame));
   }
   writer.closeSegment(Checkpoint{0.01 * static_cast<double>(windows), {}, {}});
@@ -130,6 +132,8 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   EXPECT_NEAR(j.at("energy").at("drift_ratio").get<double>(), 2.0 / 18, 1e-12);
   EXPECT_EQ(j.at("momentum").at("largest_error_ratio"), 3e-12);
   EXPECT_EQ(j.at("deepest_penetration_m"), 1e-5);
+  // All control points lie in one point, above the middle of the upper arm, whose radius there is 48 mm.
+  EXPECT_NEAR(j.at("deepest_penetration_of_finer_surface").at("deepest_m").get<double>(), depth_m, 1e-7);
   EXPECT_EQ(j.at("steps").at("count"), 60);
   EXPECT_NEAR(j.at("steps").at("smallest_s").get<double>(), 1e-3 / 6, 1e-15);
   EXPECT_NEAR(j.at("steps").at("mean_s").get<double>(), 1e-3, 1e-15);

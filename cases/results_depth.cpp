@@ -1,0 +1,67 @@
+/// How deep the cloth's surface itself lies in the body, between the samples that contact sees.
+
+#include <algorithm>
+
+#include "cases/results_measure.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+/// The surface at `fineness` points where the samples have one, along each direction: rows of basis functions.
+SparseRows finerSurface(const Garment& garment, int per_cell) {
+  SparseRows rows;
+  int first = 0;
+  for (const NurbsPatch& patch : garment.patches) {
+    const auto parameters = [&](const KnotVector& knots) {
+      const std::vector<double> ends = breakpoints(knots);
+      std::vector<double> at;
+      for (std::size_t c = 0; c + 1 < ends.size(); ++c)
+        for (int i = 0; i < per_cell; ++i) at.push_back(ends[c] + (ends[c + 1] - ends[c]) * i / per_cell);
+      at.push_back(ends.back());
+      return at;
+    };
+    for (const double v : parameters(patch.v))
+      for (const double u : parameters(patch.u)) {
+        const SurfaceBasis basis = surfaceBasis(patch, u, v);
+        for (std::size_t k = 0; k < basis.columns.size(); ++k) rows.add(first + basis.columns[k], basis.values[0][k]);
+        rows.endRow();
+      }
+    first += patch.size();
+  }
+  rows.column_count = first;
+  return rows;
+}
+
+}  // namespace
+
+SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
+  constexpr int fineness = 4;
+  const int samples_per_cell = std::max(1, s.definition.garment.samples_per_cell);  // 0: Greville points, one per cell
+  const SparseRows W = finerSurface(s.model->shell.garment(), fineness * samples_per_cell);
+  const auto n = static_cast<std::size_t>(W.rows());
+  SurfaceDepth depth;
+  depth.points = W.rows();
+  std::vector<Vec3> x(n);
+  const std::vector<double> reach(n, 0);
+  std::vector<Contact> inside;
+  for (int k = 0; k < recording.frameCount(); ++k) {
+    if (!(recording.time(k) > 1e-9)) continue;
+    const Frame frame = recording.frame(k);
+    const auto field = std::find_if(frame.control_fields.begin(), frame.control_fields.end(),
+                                    [](const Field& f) { return f.name == "control_points"; });
+    if (field == frame.control_fields.end() || field->data.size() != 3 * static_cast<std::size_t>(W.column_count))
+      throw RunError("the recording has no control points that fit the garment");
+    std::vector<Vec3> q(static_cast<std::size_t>(W.column_count));
+    for (std::size_t i = 0; i < q.size(); ++i)
+      q[i] = {field->data[3 * i], field->data[3 * i + 1], field->data[3 * i + 2]};
+    W.multiply<Vec3>(q, x);
+    const std::vector<Placement> placed = s.obstaclePlacements(frame.time_s);
+    s.model->proximity->near(placed, placed, x, reach, inside);
+    for (const Contact& c : inside)
+      if (-c.gap_m > depth.deepest_m) depth.deepest_m = -c.gap_m, depth.time_s = frame.time_s;
+  }
+  return depth;
+}
+
+}  // namespace gambeson
