@@ -2,7 +2,7 @@
 # To be sourced with the current folder at the root of the sources. `build` is the build folder, `cmake_options` what
 # the caller adds to the configuration.
 
-packages=(g++ cmake ninja-build pkg-config libeigen3-dev liburdfdom-dev libassimp-dev libsuitesparse-dev libosmesa6-dev
+packages=(g++ cmake ninja-build pkg-config libeigen3-dev liburdfdom-dev libtinyxml-dev libassimp-dev libosmesa6-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev libhdf5-dev libfreetype-dev libpng-dev zlib1g-dev fonts-dejavu-core)
 test_packages=(libgtest-dev libbenchmark-dev)
 build=build/release
