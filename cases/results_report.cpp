@@ -172,7 +172,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   const auto [hash, kernels] = identityParts(identity);
   in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->shell.controlCount(),
                                       s.model->surface.size(), s.definition.fabric.name)},
-              {"Steps", formatNumber(static_cast<double>(m.steps.steps), 7)},
+              {"Steps", std::to_string(m.steps.steps)},
               {"Smallest time step",
                fmt::format("{}; governed by the {} term", duration(m.steps.shortest_s), m.steps.governing)},
               {"Mean time step", duration(m.steps.mean_s)},
@@ -182,7 +182,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
                  for (const StressSummary& r : m.stress) e = std::max(e, r.max_strain);
                  return formatNumber(100 * e) + " %";
                }()},
-              {"Computed in", fmt::format("{} on {} threads, {} kernels{}", duration(facts.wall_s), facts.threads,
+              {"Computed in", fmt::format("{}; threads: {}; kernels: {}{}", duration(facts.wall_s), facts.threads,
                                           kernels, facts.resumed ? "; resumed, the time is of the last part" : "")},
               {"Gambeson", facts.version},
               {"Case hash", hash}};
