@@ -121,7 +121,7 @@ void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWor
   w.warm.push_back({});
 }
 
-void ledger(const Model& m, StepReport& report, StepWork& w) {
+void ledger(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
   w.contact_impulses.clear();
   for (std::size_t i = 0; i < w.rows.size(); ++i) {
     const ContactRow& row = w.rows[i];
@@ -133,7 +133,8 @@ void ledger(const Model& m, StepReport& report, StepWork& w) {
     report.momentum.scale += norm(impulse);
     for (int k = m.surface.WT.offsets[c.sample]; k < m.surface.WT.offsets[c.sample + 1]; ++k)
       if (m.held[m.surface.WT.columns[k]]) report.momentum.supports -= m.surface.WT.values[k] * impulse;
-    const Vec3 mean = 0.5 * (sampleAt(m.surface.WT, c.sample, w.predictor) + sampleAt(m.surface.WT, c.sample, w.velocity));
+    const Vec3 mean = 0.5 * (sampleAt(m.surface.WT, c.sample, w.predictor) + sampleAt(m.surface.WT, c.sample, w.velocity) -
+                             dt * sampleAt(m.surface.WT, c.sample, in.a));
     const double normal = dot(impulse, c.normal);
     report.work.contact += dot(impulse, mean);
     report.work.friction += dot(impulse - normal * c.normal, mean);
@@ -263,7 +264,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 
   // The audit, each term from its own source.
   MomentumAudit& audit = report.momentum;
-  ledger(m, report, w);
+  ledger(m, in, dt, report, w);
   for (int i = 0; i < n; ++i) {
     if (m.held[i]) continue;
     audit.change += m.mass_kg[i] * (out.v[i] - in.v[i]);
