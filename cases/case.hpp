@@ -60,7 +60,7 @@ struct GarmentCase {
   int samples_per_cell = 2;
   /// Rotational spring of C0 seams [N m/(m rad)].
   double seam_stiffness_N = 0.01;
-  /// Angle from a patch's u direction to the weft, about the patch's normal.
+  /// Turns the weft about the patch's normal; at 0 it lies along u in a sheet, lengthwise in a tube and in shorts.
   double weft_angle_rad = 0;
 };
 
