@@ -208,7 +208,7 @@ JsonNode readJson(const std::filesystem::path& file, const JsonLimits& limits) {
   const InputError::Where where{file.string(), 0, ""};
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (error == std::errc::permission_denied) throw InputError(where, "cannot be read: " + error.message());
+  if (status.type() == std::filesystem::file_type::none) throw InputError(where, "cannot be read: " + error.message());
   if (!std::filesystem::exists(status)) throw InputError(where, "there is no such file");
   if (std::filesystem::is_directory(status)) throw InputError(where, "this is a folder, not a file");
   if (!std::filesystem::is_regular_file(status)) throw InputError(where, "this is not a regular file");

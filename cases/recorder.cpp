@@ -270,7 +270,7 @@ void Recorder::appendFrame(const State& state, double window) {
     e2.data[s] = static_cast<float>(stress.strain2);
   }
   frame.sample_fields = {velocity, contact, pressure, s1, s2, e1, e2};
-  frame.control_fields = {Field{"control_points", "m", 3, floats(q)}};
+  frame.control_fields = {Field{"position", "m", 3, floats(q)}};
   writer_.append(std::move(frame));
 }
 

@@ -49,7 +49,7 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
     if (!(recording.time(k) > 1e-9)) continue;
     const Frame frame = recording.frame(k);
     const auto field = std::find_if(frame.control_fields.begin(), frame.control_fields.end(),
-                                    [](const Field& f) { return f.name == "control_points"; });
+                                    [](const Field& f) { return f.name == "position"; });
     if (field == frame.control_fields.end() || field->data.size() != 3 * static_cast<std::size_t>(W.column_count))
       throw RunError("the recording has no control points that fit the garment");
     std::vector<Vec3> q(static_cast<std::size_t>(W.column_count));

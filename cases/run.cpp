@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <omp.h>
 #include <sched.h>
+#include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -42,6 +45,35 @@ class Windows {
   long first_ = 0, count_ = 0;
 };
 
+/// Files of a run beside its recording, as they stand in the results folder.
+constexpr std::array kFiles{"case.json", "run.json", "summary.json", "torques.csv", "contact.csv", "stress.csv", "report.html"};
+
+/// Makes the results folder. Refuses one that cannot be written, and one that is not a results folder (holds no recording) but
+/// has files under the names that a run would overwrite: with --out . that would be the user's own case.json.
+void prepareFolder(const std::filesystem::path& out) {
+  const auto fail = [&](const std::string& reason) { throw InputError({"command line", 0, "--out"}, out.string() + " " + reason); };
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(out, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) fail("is not a folder");
+  std::filesystem::create_directories(out, error);
+  if (error) fail("cannot be made: " + error.message());
+  if (::access(out.c_str(), R_OK | W_OK | X_OK) != 0) fail("cannot be written: " + std::generic_category().message(errno));
+  if (holdsRecording(out)) return;
+  for (const char* name : kFiles)
+    if (std::filesystem::exists(out / name, error))
+      fail(fmt::format("holds a file {} and no recording: it is not the folder of an earlier run, and this run would overwrite it; "
+                       "allowed: a new folder, or one of an earlier run", name));
+}
+
+/// What an earlier run left beside its recording must not be taken for results of this one.
+void removeEarlierFiles(const std::filesystem::path& out) {
+  for (const char* name : kFiles) {
+    std::error_code error;
+    std::filesystem::remove(out / name, error);
+    if (error) throw RunError("cannot remove " + (out / name).string() + ": " + error.message());
+  }
+}
+
 std::string phaseName(const Scenario& s, double time_s) {
   if (time_s >= 0) return s.human ? "moving" : "running";
   const auto& projecting = s.definition.dressing.projecting;
@@ -53,29 +85,31 @@ std::string phaseName(const Scenario& s, double time_s) {
 int runCase(const Case& c, const RunOptions& options) {
   const auto clock_start = std::chrono::steady_clock::now();
   omp_set_num_threads(options.threads > 0 ? options.threads : machineThreads());
+  prepareFolder(options.out);
+  const bool resume = options.resume && closedSegments(options.out) > 0;
+  if (options.resume && !resume) fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   const Model& model = *scenario->model;
-  std::error_code ignored;
-  std::filesystem::create_directories(options.out, ignored);
-  if (!options.resume) writeFileAtomically(options.out / "case.json", writeCase(c));
 
   StepWork work;
   State state;
   Frequency frequency;
   Checkpoint checkpoint;
   const RecordingLayout layout = recordingLayout(*scenario);
-  RecordingWriter writer = options.resume ? RecordingWriter::resume(options.out, layout, checkpoint)
-                                          : RecordingWriter::create(options.out, layout);
-  state = options.resume ? stateOf(checkpoint, frequency) : initialState(model, *scenario->stage, scenario->start_s, work);
+  // The case is written once there is a recording and before its first segment: a folder that holds one of these files holds a
+  // recording, whenever the run is killed, and a recording with a segment has its case.
+  if (!resume && holdsRecording(options.out)) removeEarlierFiles(options.out);
+  RecordingWriter writer = resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
+  if (!resume) writeFileAtomically(options.out / "case.json", writeCase(c));
+  state = resume ? stateOf(checkpoint, frequency) : initialState(model, *scenario->stage, scenario->start_s, work);
 
   const Windows windows(scenario->start_s, scenario->end_s, c.output.window_s);
   long k = 0;
   while (k < windows.count() && windows.bound(k) < state.time_s) ++k;
   Recorder recorder(*scenario, writer);
-  if (!options.resume) {
-    // Nothing yet for a run that is killed early to start again from but the start itself.
-    writer.closeSegment(checkpointOf(state, frequency));
-  }
+  // A run that is killed early starts again from the start itself.
+  if (!resume) writer.closeSegment(checkpointOf(state, frequency));
+  const bool finished = k == windows.count();
   const StepControl control{c.time.step_safety, c.time.max_step_s};
   {
     Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
@@ -98,11 +132,12 @@ int runCase(const Case& c, const RunOptions& options) {
   RunFacts facts;
   facts.threads = omp_get_max_threads();
   facts.kernels = model.shell.kernels().name;
-  facts.resumed = options.resume;
+  facts.resumed = resume;
   facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
   facts.phases_s = {{"body motion", work.times.stage},   {"finding contacts", work.times.proximity}, {"solving contacts", work.times.contact},
                     {"finding impacts", work.times.impact}, {"cloth forces", work.times.force},         {"other", work.times.other}};
-  writeRunFacts(facts, options.out);
+  // Resuming a finished run only writes its results again; what was measured of the run itself stays.
+  if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
   writeResults(*scenario, options.out);
   fmt::print("Report: {}\n", (options.out / "report.html").string());
   return 0;

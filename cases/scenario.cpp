@@ -217,7 +217,9 @@ std::vector<Pose> Scenario::bodyPoses(double time_s) const {
   return poses;
 }
 
-std::unique_ptr<Scenario> buildScenario(const Case& c) {
+namespace {
+
+std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
   auto s = std::make_unique<Scenario>();
   s->definition = c;
   auto stage = std::make_unique<CaseStage>();
@@ -294,6 +296,18 @@ std::unique_ptr<Scenario> buildScenario(const Case& c) {
   }
   s->stage = std::move(stage);
   return s;
+}
+
+}  // namespace
+
+/// What only building shows to be wrong (a pattern that does not fit the body, say) is said with the case's name.
+std::unique_ptr<Scenario> buildScenario(const Case& c) {
+  try {
+    return buildUnnamed(c);
+  } catch (const InputError& e) {
+    if (!e.where().file.empty()) throw;
+    throw InputError({c.file.string(), e.where().line, e.where().key}, e.reason());
+  }
 }
 
 }  // namespace gambeson

@@ -55,6 +55,15 @@ bool isClosed(const TriangleMesh& m) {
   });
 }
 
+/// Triangulating a mesh some of whose faces have no corner ends the program in an assertion of assimp: refused before
+/// it.
+void checkFaces(const aiScene& scene, const std::string& file) {
+  for (unsigned k = 0; k < scene.mNumMeshes; ++k)
+    for (unsigned i = 0; i < scene.mMeshes[k]->mNumFaces; ++i)
+      if (scene.mMeshes[k]->mFaces[i].mNumIndices == 0)
+        throw InputError({file, 0, fmt::format("face {} of part {}", i, k)}, "has no corner");
+}
+
 double signedVolume(const TriangleMesh& m) {
   double v = 0;
   for (const auto& t : m.triangles) v += dot(m.vertices[t[0]], cross(m.vertices[t[1]], m.vertices[t[2]])) / 6;
@@ -85,14 +94,19 @@ TriangleMesh loadMesh(const std::filesystem::path& file, double scale) {
                                                             aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
                                                             aiComponent_TEXTURES | aiComponent_LIGHTS |
                                                             aiComponent_CAMERAS | aiComponent_MATERIALS);
-    const unsigned steps = aiProcess_ValidateDataStructure | aiProcess_RemoveComponent | aiProcess_Triangulate |
-                           aiProcess_SortByPType | aiProcess_PreTransformVertices;
+    const unsigned validate = aiProcess_ValidateDataStructure;
+    const unsigned steps =
+        aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices;
     // glTF may name other files beside it; the rest is read from memory, ended by a newline that
     // importers look for (but STL, whose length tells binary from text).
     const bool alone = !extension.starts_with(".gl");
     const std::string ended = extension == ".stl" ? text : text + "\n";
-    const aiScene* scene = alone ? importer.ReadFileFromMemory(ended.data(), ended.size(), steps, extension.c_str() + 1)
-                                 : importer.ReadFile(file.string(), steps);
+    const aiScene* scene =
+        alone ? importer.ReadFileFromMemory(ended.data(), ended.size(), validate, extension.c_str() + 1)
+              : importer.ReadFile(file.string(), validate);
+    if (!scene) fail("", importer.GetErrorString());
+    checkFaces(*scene, file.string());
+    scene = importer.ApplyPostProcessing(steps);
     if (!scene) fail("", importer.GetErrorString());
     for (unsigned k = 0; k < scene->mNumMeshes; ++k) {
       const aiMesh& mesh = *scene->mMeshes[k];

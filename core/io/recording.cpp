@@ -60,9 +60,14 @@ void writing(const fs::path& directory, F&& write) {
 
 }  // namespace
 
+bool holdsRecording(const fs::path& directory) {
+  std::error_code error;
+  return fs::exists(layoutPath(directory), error);
+}
+
 int closedSegments(const fs::path& directory) {
   std::error_code error;
-  if (!fs::exists(layoutPath(directory), error)) return 0;
+  if (!holdsRecording(directory)) return 0;
   int count = 0;
   for (fs::directory_iterator it(directory / "frames", error), end; !error && it != end; it.increment(error))
     if (const auto index = segmentIndex(it->path().filename().string())) count = std::max(count, *index + 1);

@@ -49,6 +49,9 @@ struct RecordingLayout {
   std::map<std::string, std::vector<std::string>> tables;  ///< columns (with units in the names) of each table
 };
 
+/// Whether a writer has made a recording in a directory, with or without closed segments.
+bool holdsRecording(const std::filesystem::path& directory);
+
 /// The number of closed segments in a directory; 0 where there is no recording to resume (a run killed before its first
 /// checkpoint starts anew).
 int closedSegments(const std::filesystem::path& directory);

@@ -1,6 +1,7 @@
 #include "tryon/pattern/garment_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,8 @@ using Json = nlohmann::json;
 
 constexpr const char* format_name = "gambeson garment 1";
 constexpr std::size_t most_bytes = 256u << 20;
+constexpr int deepest = 16;
+constexpr double largest_coordinate_m = 1000;  // as of meshes: far beyond any garment, near enough to keep its digits
 constexpr const char* side_names[] = {"u0", "u1", "v0", "v1"};
 
 [[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
@@ -87,7 +90,13 @@ NurbsPatch readPatch(const Node& n) {
   p.u = {degree.at(std::size_t{0}).integer(), n.at("knots_u").numbers()};
   p.v = {degree.at(1).integer(), n.at("knots_v").numbers()};
   const Node points = n.at("points_m");
-  for (std::size_t i = 0; i < points.size(); ++i) p.points.push_back(points.at(i).vec());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Node point = points.at(i);
+    p.points.push_back(point.vec());
+    for (int c = 0; c < 3; ++c)
+      if (!(std::abs(p.points.back()[c]) <= largest_coordinate_m))
+        reject(point.key, shown(point.json) + " is not within 1000 m");
+  }
   p.weights = n.has("weights") ? n.at("weights").numbers() : std::vector<double>(p.points.size(), 1.0);
   return p;
 }
@@ -142,7 +151,8 @@ std::string edge(const PatchEdge& e) {
 
 Garment loadGarment(const std::filesystem::path& path) {
   const std::string file = path.string();
-  if (!std::filesystem::is_regular_file(path)) throw InputError({file, 0, ""}, "is not a readable file");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw InputError({file, 0, ""}, "is not a readable file");
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   if (!in || std::filesystem::file_size(path) > most_bytes)
@@ -151,7 +161,12 @@ Garment loadGarment(const std::filesystem::path& path) {
   const std::string s = text.str();
   Json json;
   try {
-    json = Json::parse(s);
+    // Deeper nesting than a garment has would only overflow the stack where a value is shown.
+    json = Json::parse(s, [&](int depth, Json::parse_event_t, Json&) {
+      if (depth > deepest)
+        throw InputError({file, 0, ""}, "is nested deeper than " + std::to_string(deepest) + " levels");
+      return true;
+    });
   } catch (const Json::parse_error& e) {
     const std::size_t at = std::min(e.byte, s.size());
     throw InputError({file, 1 + static_cast<int>(std::count(s.begin(), s.begin() + at, '\n')), ""}, e.what());

@@ -109,6 +109,7 @@ TEST(Mesh, RefusesWhatIsMalformed) {
   refused("a.obj", replaced(tetrahedron, "f 2 3 4", "f 2 3 -9"), "");
   refused("a.ply", replaced(ply, "3 1 2 3", "3 1 2 77"), "");
   refused("a.ply", replaced(ply, "3 1 2 3", "3 1 2 -1"), "");
+  refused("a.ply", replaced(ply, "3 1 2 3", "0"), "has no corner");
   // NaN
   refused("a.obj", replaced(tetrahedron, "v 1 0 0", "v nan 0 0"), "");
   refused("a.obj", replaced(tetrahedron, "v 1 0 0", "v inf 0 0"), "");

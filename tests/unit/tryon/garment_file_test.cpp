@@ -110,6 +110,7 @@ TEST_F(GarmentFile, NamesWhatIsWrong) {
   EXPECT_EQ(damaged([](Json& j) { j["seams"][0]["kind"] = "G2"; }), "seams[0].kind");
   EXPECT_EQ(damaged([](Json& j) { j["seams"][0]["stiffness_N"] = -1; }), "seams[0].stiffness_N");
   EXPECT_EQ(damaged([](Json& j) { j["seams"].push_back(j["seams"][0]); }), "seams[2]");
+  EXPECT_EQ(damaged([](Json& j) { j["patches"][0]["points_m"][2][1] = 1e200; }), "patches[0].points_m[2]");
   // A point beside a G1 seam moved by a micrometre; one on the seam moved on one side only.
   EXPECT_EQ(damaged([](Json& j) {
               j["patches"][0]["points_m"][6][0] = j["patches"][0]["points_m"][6][0].get<double>() + 1e-6;
@@ -127,6 +128,9 @@ TEST_F(GarmentFile, NamesTheLineOfBrokenSyntax) {
   EXPECT_GT(failure(good().dump(1).substr(0, 400)).line, 5);
   EXPECT_EQ(failure("{\"format\": 1e999}").key, "");
   EXPECT_EQ(failure("[]").key, "");
+  // Deep enough to overflow the stack of anything that recurses.
+  const std::string deep(3000000, '['), back(3000000, ']');
+  EXPECT_EQ(failure("{\"format\": " + deep + back + "}").key, "");
   path = path.parent_path() / "no_such_garment.json";
   EXPECT_THROW(loadGarment(path), InputError);
   EXPECT_THROW(loadGarment(path.parent_path()), InputError);
