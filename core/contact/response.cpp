@@ -103,7 +103,13 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   // Contacts of one sample share its area, so that the bound on the operator holds.
   std::vector<double> share(sample_count, 0);
   for (int slot : w.row_slot) share[slot] += 1;
-  for (int s = 0; s < sample_count; ++s) share[s] = area[w.samples[s]] / share[s];
+  for (int s = 0; s < sample_count; ++s) {
+    // A sample that only held points carry cannot answer: it takes no part.
+    double mobility = 0;
+    for (int k = w.rows.offsets[s]; k < w.rows.offsets[s + 1]; ++k)
+      mobility += w.rows.values[k] * w.rows.values[k] * inverse_mass[w.free_points[w.rows.columns[k]]];
+    share[s] = mobility > 0 ? area[w.samples[s]] / share[s] : 0;
+  }
   std::vector<int> first(sample_count + 1, 0), of_sample(n);
   for (int slot : w.row_slot) ++first[slot + 1];
   for (int s = 0; s < sample_count; ++s) first[s + 1] += first[s];
@@ -119,7 +125,8 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   w.candidate.resize(n);
   w.point.resize(n);
   smoothWarm(rows, first, of_sample, share, warm, w);
-  for (int i = 0; i < n; ++i) w.traction[i] = w.point[i] = project(w.traction[i], rows[i].contact.normal, c.friction);
+  for (int i = 0; i < n; ++i)
+    w.traction[i] = w.point[i] = share[w.row_slot[i]] > 0 ? project(w.traction[i], rows[i].contact.normal, c.friction) : Vec3{};
 
   ContactSolve report;
   report.converged = false;
@@ -147,6 +154,10 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
         for (int k = w.rows.offsets[s]; k < w.rows.offsets[s + 1]; ++k) v += w.rows.values[k] * w.free_velocity[w.rows.columns[k]];
         for (int k = first[s]; k < first[s + 1]; ++k) {
           const int i = of_sample[k];
+          if (share[s] == 0) {
+            w.candidate[i] = {};
+            continue;
+          }
           const ContactRow& row = rows[i];
           const Vec3 excess = v - row.body_velocity - row.target_m_per_s * row.contact.normal;
           const Vec3 next = project(w.point[i] - density * excess, row.contact.normal, c.friction);

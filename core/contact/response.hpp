@@ -60,6 +60,7 @@ double persistentTarget(double gap_m, double dt_s, const ContactParameters& para
 /// operator is bounded by 1/rho because W_Tᵀ a = m/rho, so that projected gradient steps of length rho (surface density,
 /// kg/m^2) are stable, independent of the mesh, and keep the pressure a smooth field over the surface also where samples
 /// outnumber control points; Nesterov's acceleration with restart. The residual is |tau - proj(tau - rho r)|/rho [m/s].
+/// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample;
 /// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the result.

@@ -1,0 +1,233 @@
+/// Contact impulses of a step against closed forms: Zheng 2013, eq. 3.17 to 3.20 and 3.35, the latter with the
+/// effective mass 1 / sum(N^2/m) (the printed one holds for equal masses only).
+
+#include "core/contact/response.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "motion_shapes.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr double rho = 0.144, dt = 1e-3;
+
+/// Rows of W T by hand.
+SparseRows rowsOf(int columns, const std::vector<std::vector<std::pair<int, double>>>& rows) {
+  SparseRows W;
+  W.column_count = columns;
+  for (const auto& row : rows) {
+    for (auto [c, v] : row) W.add(c, v);
+    W.endRow();
+  }
+  return W;
+}
+
+struct Problem {
+  SparseRows W;
+  std::vector<double> mass, area;
+  std::vector<Vec3> velocity;
+  std::vector<ContactRow> rows;
+  ContactParameters parameters{1e-3, 0.3, 0.01, 1e-9, 4000};
+
+  std::vector<Vec3> impulses;
+  ContactSolve solve() {
+    std::vector<double> inverse;
+    for (double m : mass) inverse.push_back(m > 0 ? 1 / m : 0);
+    std::vector<Vec3> warm(rows.size());
+    ContactWork work;
+    return solveContacts(rows, W, inverse, area, rho, parameters, dt, velocity, warm, impulses, work);
+  }
+  Vec3 sampleVelocity(int s) const {
+    Vec3 v{};
+    for (int k = W.offsets[s]; k < W.offsets[s + 1]; ++k) v += W.values[k] * velocity[W.columns[k]];
+    return v;
+  }
+};
+
+ContactRow row(int sample, const Vec3& n, double target, const Vec3& body = {}) {
+  ContactRow r;
+  r.contact.sample = sample;
+  r.contact.normal = normalized(n);
+  r.body_velocity = body;
+  r.target_m_per_s = target;
+  return r;
+}
+
+/// One sample on three control points of unequal mass; the masses are those of samples around it as well.
+Problem oneSample(const Vec3& v) {
+  Problem p;
+  p.W = rowsOf(3, {{{0, 0.2}, {1, 0.5}, {2, 0.3}}});
+  p.area = {1e-4};
+  p.mass = {3 * rho * 0.2e-4, 2 * rho * 0.5e-4, 5 * rho * 0.3e-4};
+  p.velocity = {v + Vec3{0.5, 0, 0}, v, v + Vec3{-0.2 / 0.3 * 0.5, 0, 0}};  // the sample moves with v
+  return p;
+}
+
+double effectiveMass(const Problem& p) { return 1 / (0.04 / p.mass[0] + 0.25 / p.mass[1] + 0.09 / p.mass[2]); }
+
+TEST(Response, OneContactTakesTheEffectiveMassTimesTheVelocityChange) {
+  Problem p = oneSample({0, 0, -2});
+  p.rows = {row(0, {0, 0, 1}, 0.05, {0, 0, 0.3})};
+  const std::vector<Vec3> before = p.velocity;
+  ASSERT_TRUE(p.solve().converged);
+  const double exact = effectiveMass(p) * (2 + 0.3 + 0.05);
+  EXPECT_NEAR(p.impulses[0].z, exact, 1e-9 * exact);
+  EXPECT_NEAR(p.sampleVelocity(0).z, 0.35, 1e-9);
+  // Control point I gets N_I i, and nobody else anything: the free ones' momentum changes by the impulse.
+  const double N[] = {0.2, 0.5, 0.3};
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(p.mass[i] * (p.velocity[i].z - before[i].z), N[i] * exact, 1e-9 * exact);
+}
+
+TEST(Response, FrictionSticksWithinTheConeAndSlipsOnIt) {
+  for (double slip : {0.3, 3.0}) {  // mu times the normal change is 0.6
+    Problem p = oneSample({slip, 0, -2});
+    p.parameters.friction = 0.3;
+    p.rows = {row(0, {0, 0, 1}, 0)};
+    ASSERT_TRUE(p.solve().converged);
+    const double m = effectiveMass(p), tangential = std::min(slip, 0.6);
+    EXPECT_NEAR(p.impulses[0].z, 2 * m, 1e-8 * m) << slip;
+    EXPECT_NEAR(p.impulses[0].x, -tangential * m, 1e-8 * m) << slip;
+    EXPECT_NEAR(p.impulses[0].y, 0, 1e-12 * m) << slip;
+    EXPECT_NEAR(p.sampleVelocity(0).x, slip - tangential, 1e-8) << slip;
+  }
+}
+
+TEST(Response, FrictionIsThatOfTheMotionRelativeToTheBody) {
+  Problem p = oneSample({1, 0.2, -2});
+  p.rows = {row(0, {0, 0, 1}, 0, {1, 0.2, 0})};
+  ASSERT_TRUE(p.solve().converged);
+  EXPECT_LT(std::hypot(p.impulses[0].x, p.impulses[0].y), 1e-12);
+}
+
+TEST(Response, SeparatingContactGetsNothing) {
+  Problem p = oneSample({0.4, 0, 0.1});
+  p.rows = {row(0, {0, 0, 1}, 0.05)};
+  const std::vector<Vec3> before = p.velocity;
+  ASSERT_TRUE(p.solve().converged);
+  EXPECT_EQ(p.impulses[0], Vec3{});
+  EXPECT_EQ(p.velocity, before);
+}
+
+/// Two samples that share control points, normals 40 degrees apart: A lambda = target - v, two by two.
+Problem twoSamples(const Vec3& v0, const Vec3& v1) {
+  Problem p;
+  p.W = rowsOf(3, {{{0, 0.6}, {1, 0.4}}, {{1, 0.3}, {2, 0.7}}});
+  p.area = {1e-4, 2e-4};
+  p.mass = {rho * 0.9e-4, 1.1 * rho * (0.4e-4 + 0.6e-4), rho * 1.6e-4};
+  p.velocity = {v0, {}, v1};
+  p.parameters.friction = 0;
+  p.rows = {row(0, {0, 0, 1}, 0.1), row(1, {std::sin(0.7), 0, std::cos(0.7)}, 0.2)};
+  return p;
+}
+
+TEST(Response, ContactsThatShareControlPointsAreSolvedTogether) {
+  Problem p = twoSamples({0, 0, -2}, {0, 0, -1});
+  const Vec3 n0 = p.rows[0].contact.normal, n1 = p.rows[1].contact.normal;
+  Eigen::Matrix2d A;
+  A(0, 0) = 0.36 / p.mass[0] + 0.16 / p.mass[1];
+  A(1, 1) = 0.09 / p.mass[1] + 0.49 / p.mass[2];
+  A(0, 1) = A(1, 0) = dot(n0, n1) * 0.4 * 0.3 / p.mass[1];
+  const Eigen::Vector2d b(0.1 - dot(p.sampleVelocity(0), n0), 0.2 - dot(p.sampleVelocity(1), n1));
+  const Eigen::Vector2d exact = A.inverse() * b;
+  ASSERT_TRUE(p.solve().converged);
+  ASSERT_GT(exact.minCoeff(), 0);
+  EXPECT_NEAR(dot(p.impulses[0], n0), exact(0), 1e-8 * exact(0));
+  EXPECT_NEAR(dot(p.impulses[1], n1), exact(1), 1e-8 * exact(1));
+  EXPECT_GT(std::abs(exact(0) / (b(0) / A(0, 0)) - 1), 0.01);  // one by one it would be something else
+}
+
+TEST(Response, AContactThatAnotherOneOpensGetsNothing) {
+  // Alone, the second would need an impulse; the first one's lifts it off.
+  Problem p = twoSamples({0, 0, -40}, {0.15, 0, 0.2});
+  p.velocity[1] = {0, 0, -0.5};
+  const Vec3 n1 = p.rows[1].contact.normal;
+  ASSERT_LT(dot(p.sampleVelocity(1), n1), 0.2);
+  ASSERT_TRUE(p.solve().converged);
+  EXPECT_GT(p.impulses[0].z, 0);
+  EXPECT_EQ(p.impulses[1], Vec3{});
+  EXPECT_GT(dot(p.sampleVelocity(1), n1), 0.2);
+}
+
+TEST(Response, AContactOnHeldPointsAloneMovesNothingAndLeavesTheOthersAlone) {
+  Problem p = twoSamples({0, 0, -2}, {});
+  p.mass[1] = p.mass[2] = 0;  // held
+  p.velocity[1] = p.velocity[2] = {};
+  ASSERT_TRUE(p.solve().converged);
+  EXPECT_EQ(p.impulses[1], Vec3{});
+  const double exact = p.mass[0] / 0.36 * (0.1 + 0.6 * 2);
+  EXPECT_NEAR(p.impulses[0].z, exact, 1e-8 * exact);
+}
+
+/// eq. 3.17 with d = layer - gap, k = 1 - exp(-dt/tau): independent of how the time is cut into steps.
+TEST(Response, TheLayerIsRestoredWithTheRelaxationTimeWhateverTheStep) {
+  ContactParameters c;
+  c.layer_m = 1e-3;
+  c.relaxation_s = 0.01;
+  for (int steps : {1, 7, 100}) {
+    double gap = 2e-4;
+    for (int k = 0; k < steps; ++k) gap += 0.02 / steps * persistentTarget(gap, 0.02 / steps, c);
+    EXPECT_NEAR(gap, 1e-3 - 8e-4 * std::exp(-2), 1e-15) << steps;
+  }
+  EXPECT_NEAR(3e-3 + 0.5 * persistentTarget(3e-3, 0.5, c), 1e-3, 1e-15);  // may reach the layer, not enter it
+}
+
+/// The natural residual |tau - proj(tau - rho r)|/rho of the definition, from the results alone.
+double measuredResidual(const Problem& p) {
+  double most = 0;
+  std::vector<double> count(p.area.size(), 0);
+  for (const ContactRow& r : p.rows) count[r.contact.sample] += 1;
+  for (std::size_t i = 0; i < p.rows.size(); ++i) {
+    const ContactRow& r = p.rows[i];
+    const int s = r.contact.sample;
+    const Vec3 n = r.contact.normal, tau = p.impulses[i] * (count[s] / p.area[s]);
+    const Vec3 to = tau - rho * (p.sampleVelocity(s) - r.body_velocity - r.target_m_per_s * n);
+    const double normal = std::max(dot(to, n), 0.0);
+    Vec3 t = to - dot(to, n) * n;
+    if (norm(t) > p.parameters.friction * normal) t *= norm(t) > 0 ? p.parameters.friction * normal / norm(t) : 0;
+    most = std::max(most, norm(tau - (normal * n + t)) / rho);
+  }
+  return most;
+}
+
+/// A sheet on a bumpy ground: neighbours' normals differ, samples outnumber control points, some have two contacts.
+TEST(Response, ClaimedResidualIsTheMeasuredOne) {
+  const Garment g = shapes::squareSheet(8, 0.2, 0);
+  const FreeMap map = buildFreeMap(g);
+  const Surface surface = buildSurface(g, map, 2);
+  std::vector<double> area(map.T.column_count);
+  map.Tt.multiply<double>(controlAreas(g), area);
+  for (double tolerance : {1e-1, 1e-2, 1e-4}) {
+    Problem p;
+    p.W = surface.WT;
+    p.area = surface.area_m2;
+    for (double a : area) p.mass.push_back(rho * a);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> d(-1, 1);
+    for (std::size_t i = 0; i < p.mass.size(); ++i)
+      p.velocity.push_back({0.3 * d(random), 0.3 * d(random), d(random) - 0.3});
+    for (int s = 0; s < surface.size(); ++s)
+      for (int k = 0; k < 1 + (s % 5 == 0); ++k)
+        p.rows.push_back(row(s, {0.4 * d(random), 0.4 * d(random), 1}, 0.05 * d(random)));
+    p.parameters.tolerance_m_per_s2 = tolerance;
+    const ContactSolve solve = p.solve();
+    ASSERT_TRUE(solve.converged);
+    const double measured = measuredResidual(p);
+    std::printf("[ measured ] tolerance %.3g m/s: claimed %.3g, measured %.3g, %d iterations\n", tolerance * dt,
+                solve.residual_m_per_s, measured, solve.iterations);
+    EXPECT_LE(measured, tolerance * dt);
+    EXPECT_NEAR(measured, solve.residual_m_per_s, 0.5 * solve.residual_m_per_s);
+    for (std::size_t i = 0; i < p.rows.size(); ++i) {
+      const double normal = dot(p.impulses[i], p.rows[i].contact.normal);
+      EXPECT_GE(normal, 0);
+      EXPECT_LE(norm(p.impulses[i] - normal * p.rows[i].contact.normal), 0.3 * normal * (1 + 1e-9) + 1e-18);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gambeson
