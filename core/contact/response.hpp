@@ -21,9 +21,9 @@ struct ContactParameters {
 /// A contact with what the solve needs to know of it.
 struct ContactRow {
   Contact contact;
-  Vec3 body_velocity;        ///< of the touched material point, mean over the step [m/s]
-  double target_m_per_s = 0; ///< least normal velocity relative to the body that the step must end with
-  bool impact = false;       ///< found by trajectory (section 3.3), not by distance (section 3.2)
+  Vec3 body_velocity;         ///< of the touched material point, mean over the step [m/s]
+  double target_m_per_s = 0;  ///< least normal velocity relative to the body that the step must end with
+  bool impact = false;        ///< found by trajectory (section 3.3), not by distance (section 3.2)
 };
 
 /// Impulse of one contact on the cloth, world axes [N s]; the body receives the opposite.
@@ -43,8 +43,20 @@ struct ContactSolve {
 /// Scratch of solveContacts.
 struct ContactWork {
   std::vector<int> samples, sample_slot, free_points, free_slot, row_slot;
+  std::vector<int> first, of_sample;  ///< rows of a sample: of_sample[k], first[s] <= k < first[s + 1]
   SparseRows rows, columns;
-  std::vector<Vec3> sample_impulse, sample_velocity, free_velocity, traction, candidate, point, previous;
+  std::vector<double> share, weight;  ///< of a sample: area of each of its rows; of its warm rows together
+  std::vector<Vec3> sample_impulse, free_velocity, traction;
+  // The iteration's own arrays, four lanes wide; the rows in the order of of_sample.
+  struct alignas(32) Quad {
+    double lane[4];
+  };
+  struct Row {
+    Vec3 normal, drift;  ///< v_n - target = (v - drift) . normal
+  };
+  std::vector<Row> facts;
+  std::vector<Quad> point, candidate, previous, impulse, base, moved;
+  std::vector<double> inverse_mass, largest2, against;
 };
 
 /// The least normal velocity of eq. 3.15 to 3.18 as one unilateral condition. With g the gap and delta the layer,
@@ -55,18 +67,23 @@ struct ContactWork {
 double persistentTarget(double gap_m, double dt_s, const ContactParameters& parameters);
 
 /// Solves for impulses on the samples such that after the solve, with v = v_free + W_T M^-1 W_T^T lambda,
-///   lambda_n >= 0,  v_n >= target,  lambda_n (v_n - target) = 0,   |lambda_t| <= mu lambda_n opposing the slip (eq. 3.20).
-/// Unknowns are impulses per area (tractions times dt): lambda = a tau, with the consistent areas a. In these unknowns the
-/// operator is bounded by 1/rho because W_Tᵀ a = m/rho, so that projected gradient steps of length rho (surface density,
-/// kg/m^2) are stable, independent of the mesh, and keep the pressure a smooth field over the surface also where samples
-/// outnumber control points; Nesterov's acceleration with restart. The residual is |tau - proj(tau - rho r)|/rho [m/s].
+///   lambda_n >= 0,  v_n >= target,  lambda_n (v_n - target) = 0,   |lambda_t| <= mu lambda_n opposing the slip
+///   (eq. 3.20).
+/// Unknowns are impulses per area (tractions times dt): lambda = a tau, with the consistent areas a. In these unknowns
+/// the operator is bounded by 1/rho because W_Tᵀ a = m/rho, so that projected gradient steps of length rho (surface
+/// density, kg/m^2) are stable, independent of the mesh, and keep the pressure a smooth field over the surface also
+/// where samples outnumber control points; Nesterov's acceleration with restart. Only rows that carry something count
+/// in that bound: where they cover part of a neighbourhood, the row sum D_s = sum_j (W_T M^-1 W_T^T)_sj a_j over them
+/// is less than 1/rho and the step is 1/D_s (the operator's entries are not negative, so that D - W_T M^-1 W_T^T a has
+/// no negative eigenvalue). The residual is |tau - proj(tau - rho r)|/rho [m/s] whatever the steps were.
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample;
-/// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the result.
-ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT,
-                           std::span<const double> inverse_mass, std::span<const double> area, double density,
-                           const ContactParameters& parameters, double dt_s, std::span<Vec3> velocity, std::span<Vec3> warm,
-                           std::vector<Vec3>& impulses, ContactWork& work);
+/// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the
+/// result.
+ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+                           std::span<const double> area, double density, const ContactParameters& parameters,
+                           double dt_s, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
+                           ContactWork& work);
 
 }  // namespace gambeson
