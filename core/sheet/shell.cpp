@@ -217,7 +217,7 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra)
   }
 }
 
-void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy, const ShellTerms& terms) const {
+void Shell::cellForces(std::span<const Vec3> q, ShellWork& work, double* energy, const ShellTerms& terms) const {
   work.slots.resize(slot_count_);
   double total = 0;
   const bool cells = terms.membrane || terms.bending;
@@ -238,6 +238,12 @@ void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, d
     if (energy)
       for (double e : work.lane_energy) total += e;
   }
+  if (energy) *energy = total;
+}
+
+void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy, const ShellTerms& terms) const {
+  double total = 0;
+  cellForces(q, work, energy ? &total : nullptr, terms);
   const int hinge_count = static_cast<int>(hinges_.size());
   std::vector<double> hinge_energy(energy ? hinge_count : 0);
 #pragma omp parallel if (hinge_count > 64)
