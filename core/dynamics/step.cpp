@@ -142,6 +142,12 @@ void ledger(const Model& m, const State& in, double dt, StepReport& report, Step
   }
 }
 
+bool allFinite(std::span<const Vec3> values) {
+  double zero = 0;
+  for (const Vec3& v : values) zero += 0 * (v.x + v.y + v.z);  // NaN from the first infinity or NaN on
+  return zero == 0;
+}
+
 }  // namespace
 
 void samplePositions(const Model& model, std::span<const Vec3> p, std::vector<Vec3>& x) {
@@ -190,6 +196,12 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   // 1.1 Predictor, eq. 3.11.
   w.predictor.resize(n);
   for (int i = 0; i < n; ++i) w.predictor[i] = in.v[i] + half * in.a[i];
+  const auto notFinite = [&](const char* what) {
+    report.failure = StepFailure::not_finite;
+    report.why = what;
+    return report;
+  };
+  if (!allFinite(w.predictor)) return notFinite("a velocity is not finite");
 
   // 1.2 Contact and impact, eq. 3.12.
   samplePositions(m, in.p, w.x0);
@@ -209,6 +221,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
     report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, rho, m.contact, dt, w.velocity, w.warm, w.impulses,
                                    w.contact);
     clock.lap(w.times.contact);
+    if (!allFinite(w.velocity)) return notFinite("a velocity is not finite after the contacts");
     w.x1.resize(m.surface.size());
     m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
     for (int s = 0; s < m.surface.size(); ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
@@ -229,16 +242,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.time_s = in.time_s + dt;
   out.p.resize(n);
   out.v.resize(n);
-  bool finite = true;
-  for (int i = 0; i < n; ++i) {
-    out.p[i] = in.p[i] + dt * w.velocity[i];
-    finite = finite && std::isfinite(out.p[i].x + out.p[i].y + out.p[i].z);
-  }
-  if (!finite) {
-    report.failure = StepFailure::not_finite;
-    report.why = "a position is not finite";
-    return report;
-  }
+  for (int i = 0; i < n; ++i) out.p[i] = in.p[i] + dt * w.velocity[i];
+  if (!allFinite(out.p)) return notFinite("a position is not finite");
   clock.lap(w.times.other);
   out.anchors = in.anchors;
   std::vector<Vec3>& spring_mean = w.spring_impulses;

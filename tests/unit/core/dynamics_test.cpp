@@ -160,11 +160,13 @@ TEST(Advance, EndsAtTheTimeAndSaysWhyItCannot) {
   EXPECT_EQ(m.state.time_s, 0.0137);
   EXPECT_GT(steps, 10);
   m.state.v[20].z = std::nan("");
+  EXPECT_EQ(m.step(1e-6).failure, StepFailure::not_finite);
   const auto ignore = [](const State&, const State&, const StepReport&, const StepWork&, const Frequency&) {};
   try {
     advance(*m.model, m.stage, {}, 0.02, m.state, f, m.work, ignore);
     ADD_FAILURE() << "a velocity that is not a number went through";
   } catch (const RunError& e) {
+    EXPECT_NE(std::string(e.what()).find("no step at time 0.0137"), std::string::npos) << e.what();
     EXPECT_NE(std::string(e.what()).find("not finite"), std::string::npos) << e.what();
   }
 }
