@@ -33,11 +33,19 @@ struct RenderArguments {
   std::string field = "stress", time = "end", view = "front_right", size = "1280x960";
 };
 
+/// A blank line between what a command does and how it is used.
+class HelpText : public CLI::Formatter {
+ public:
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return "\n" + CLI::Formatter::make_usage(app, std::move(name));
+  }
+};
+
 void addOverrides(CLI::App& command, std::vector<std::string>& overrides) {
   command
       .add_option("--set", overrides,
-                  "Replaces a value of the case, as often as needed: --set fabric.thickness=\"0.4 mm\" --set "
-                  "output.pictures[0].time=peak")
+                  "Replaces a value of the case, for instance fabric.thickness=\"0.4 mm\" or "
+                  "output.pictures[0].time=peak; may be given several times")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
 }
@@ -45,33 +53,34 @@ void addOverrides(CLI::App& command, std::vector<std::string>& overrides) {
 void addRun(CLI::App& app, RunArguments& a) {
   CLI::App& run =
       *app.add_subcommand("run", "Runs a case: dresses the human, lets it move, measures, takes pictures, reports");
-  run.add_option("CASE", a.file, "Case file (JSON)")->required();
-  run.add_option("--out", a.options.out, "Folder for the results [results/<name of the case file>]")->type_name("DIR");
+  run.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  run.add_option(
+         "--out", a.options.out,
+         "Folder for the results; an earlier run's results there are replaced [results/<name of the case file>]")
+      ->type_name("DIR");
   run.add_option("--threads", a.options.threads,
-                 "Threads; 0 takes all that the machine has. The results do not depend on it")
+                 "Threads, 0 for as many as the machine has [0]. The results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(0, 4096))
-      ->capture_default_str();
+      ->check(CLI::Range(0, 4096).description(""));
   run.add_flag("--resume", a.options.resume,
-               "Continues an interrupted run in the same folder from its last checkpoint");
+               "Continues an interrupted run of the same case, in the same folder, from its last checkpoint");
   addOverrides(run, a.overrides);
-  run.add_option("--device", a.device, "Where to compute: auto, cpu or cuda")
+  run.add_option("--device", a.device, "Where to compute: auto or cpu, the same in this version [auto]")
       ->type_name("DEVICE")
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
-      ->capture_default_str();
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}).description(""));
   run.footer(
-      "Leaves in DIR: report.html (start here), summary.json, torques.csv, contact.csv, stress.csv,\n"
-      "the recording for ParaView, and snapshots/.\n\n"
+      "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, stress.csv,\n"
+      "snapshots/ (pictures) and frames.xdmf (the recording, for ParaView).\n\n"
       "Examples:\n"
       "  gambeson run cases/library/shorts_walk.json\n"
-      "  gambeson run cases/library/shorts_walk.json --out thin --set fabric.thickness=\"0.4 mm\"\n"
+      "  gambeson run cases/library/shorts_walk.json --out results/thin --set fabric.thickness=\"0.4 mm\"\n"
       "  gambeson run cases/library/sleeve_flex.json --set contact.friction=0.5\n\n"
       "Exit status: 0 done; 1 the run failed, the message says why; 2 something in the input is wrong.");
 }
 
 void addCheck(CLI::App& app, CheckArguments& a) {
   CLI::App& check = *app.add_subcommand("check", "Checks a case without running it");
-  check.add_option("CASE", a.file, "Case file (JSON)");
+  check.add_option("CASE", a.file, "Case file (JSON); not needed with --schema or --doc")->type_name("");
   addOverrides(check, a.overrides);
   check.add_flag("--full", a.full, "Prints the case with all defaults written out, in SI");
   check.add_flag("--schema", a.schema,
@@ -87,12 +96,16 @@ void addCheck(CLI::App& app, CheckArguments& a) {
 
 void addRender(CLI::App& app, RenderArguments& a) {
   CLI::App& render = *app.add_subcommand("render", "Takes a picture of recorded results");
-  render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->required();
+  render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
   render.add_option("--field", a.field, "What the colours show: stress, pressure, strain or plain")
+      ->type_name("FIELD")
       ->capture_default_str();
   render.add_option("--time", a.time, "A time such as 1.2 or \"1200 ms\"; or peak (largest joint torque) or end")
+      ->type_name("TIME")
       ->capture_default_str();
-  render.add_option("--view", a.view, "From where: " + schema::joined(viewNames()))->capture_default_str();
+  render.add_option("--view", a.view, "From where: " + schema::joined(viewNames()))
+      ->type_name("VIEW")
+      ->capture_default_str();
   render.add_option("--size", a.size, "Pixels, width x height")->type_name("WxH")->capture_default_str();
   render.add_option("-o,--output", a.options.png, "Picture to write (PNG)")->type_name("PNG")->required();
   render.footer(
@@ -103,7 +116,7 @@ void addRender(CLI::App& app, RenderArguments& a) {
 
 void addReport(CLI::App& app, ReportOptions& options) {
   CLI::App& report = *app.add_subcommand("report", "Writes the report page of recorded results again");
-  report.add_option("RESULTS", options.results, "Folder that gambeson run left")->required();
+  report.add_option("RESULTS", options.results, "Folder that gambeson run left")->type_name("")->required();
   report.add_option("-o,--output", options.html, "Page to write: one HTML file that needs no other")
       ->type_name("HTML")
       ->required();
@@ -162,7 +175,9 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       "Gambeson: what a garment costs its wearer.\n\nDresses a digital human in cloth, lets it move, and measures the "
       "joint torques that the garment adds.",
       "gambeson"};
-  app.set_version_flag("--version", "gambeson " GAMBESON_VERSION);
+  app.formatter(std::make_shared<HelpText>());
+  app.set_version_flag("--version", "gambeson " GAMBESON_VERSION, "Prints the version");
+  app.set_help_flag("-h,--help", "Prints this help");
   app.require_subcommand(1);
   app.footer(
       "Start with:\n"
@@ -176,6 +191,18 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addCheck(app, check_arguments);
   addRender(app, render_arguments);
   addReport(app, report_options);
+  if (argc < 2) {
+    err << app.help();
+    return bad_input;
+  }
+  if (const std::string command = argv[1];
+      !command.starts_with('-') &&
+      app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
+    err << fmt::format(
+        "gambeson: there is no command \"{}\"; there are run, check, render and report (see gambeson --help)\n",
+        command);
+    return bad_input;
+  }
   try {
     app.parse(argc, argv);
     if (app.got_subcommand("run")) return run(run_arguments);

@@ -71,8 +71,8 @@ TEST(Command, BadInputExitsWithTwo) {
   folder.write("empty.json", "");
   folder.write("truncated.json", example.substr(0, 300));
   const std::array<std::pair<std::string, std::string>, 18> cases{{
-      {"", "subcommand"},
-      {"dance", ""},
+      {"", "gambeson run cases/library/shorts_walk.json"},
+      {"dance", "there is no command \"dance\"; there are run, check, render and report"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},
