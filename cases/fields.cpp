@@ -17,7 +17,8 @@ Object contactTable() {
       .number("relaxation", &C::relaxation_s, "s", aboveTo(0, 1),
               "time in which a sample inside the layer returns to its surface")
       .number("tolerance", &C::tolerance, "", aboveTo(0, 0.1),
-              "residual to which the contacts of a step are solved together")
+              "residual velocity to which the contacts of a step are solved together, as a part of what gravity adds "
+              "in the step")
       .integer("max_iterations", &C::max_iterations, 1, 100000, "iterations before a step counts as failed")
       .build();
 }
@@ -80,7 +81,7 @@ Object timeTable() {
 Object analysisTable() {
   using A = AnalysisCase;
   return Table<A>("Analysis")
-      .texts("joints", &A::joints, "joints whose torque is reported")
+      .texts("joints", &A::joints, "joints whose torque is reported, such as hip_flexion_left")
       .defaultsTo("every joint that moves")
       .choice("counting", &A::counting,
               std::vector<std::pair<std::string, Counting>>{{"distal_segment", Counting::distal_segment},

@@ -122,14 +122,14 @@ Object supportTable() {
   springs
       .number("stiffness", &SpringSupport::stiffness_N_per_m2, "N/m^2", aboveTo(0, 1e8),
               "force per displacement and length of edge")
-      .text("link", &SpringSupport::link, "link of the human that the springs are tied to")
+      .text("link", &SpringSupport::link, "link of the human that the springs are tied to, such as pelvis")
       .required();
   return Table<SupportCase>("Support")
       .alternative<FixedSupport>("fixed", self, fixed.build(), "an edge that stays where it is in the world")
       .in("support")
-      .alternative<SpringSupport>(
-          "springs", self, springs.build(),
-          "an edge tied by elastic springs to a link of the human; their reactions are reported apart")
+      .alternative<SpringSupport>("springs", self, springs.build(),
+                                  "an edge tied by elastic springs to a link of the human, so that it hangs where it "
+                                  "was drafted; their reactions are reported apart")
       .in("support")
       .oneOf("support", true)
       .build();
