@@ -82,7 +82,9 @@ Object garmentTable() {
                "contact samples along the edge of a cell; 0: one per control point (Greville points)")
       .number("seam_stiffness", &G::seam_stiffness_N, "N/rad", between(0, 1e4),
               "rotational spring of seams that meet at an angle: moment per length and angle")
-      .number("weft_angle", &G::weft_angle_rad, "rad", between(-3.2, 3.2), "turns the weft about the outward normal; at 0 it lies along u in a sheet, lengthwise in a tube and in shorts")
+      .number("weft_angle", &G::weft_angle_rad, "rad", between(-3.2, 3.2),
+              "turns the weft about the outward normal; at 0 it lies along u in a sheet, lengthwise in a tube and in "
+              "shorts")
       .build();
 }
 

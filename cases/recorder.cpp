@@ -9,9 +9,31 @@ namespace {
 
 /// Row of "steps": how each column is combined over the steps of a window.
 enum Column {
-  kSteps, kShortest, kLongest, kContacts, kImpacts, kIterations, kUnconverged, kResidual, kMomentumError, kDeepest,
-  kWorkContact, kWorkSeparation, kWorkFriction, kWorkDrag, kWorkSupports,
-  kKinetic, kInternal, kGravity, kSprings, kFrequency, kMembrane, kBending, kSeam, kSpringShare, kColumns
+  kSteps,
+  kShortest,
+  kLongest,
+  kContacts,
+  kImpacts,
+  kIterations,
+  kUnconverged,
+  kResidual,
+  kMomentumError,
+  kDeepest,
+  kWorkContact,
+  kWorkSeparation,
+  kWorkFriction,
+  kWorkDrag,
+  kWorkSupports,
+  kKinetic,
+  kInternal,
+  kGravity,
+  kSprings,
+  kFrequency,
+  kMembrane,
+  kBending,
+  kSeam,
+  kSpringShare,
+  kColumns
 };
 
 void addVec(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x, v.y, v.z}); }
@@ -43,9 +65,12 @@ std::vector<Vec3> vectors(const std::vector<double>& values) {
 
 const std::vector<std::string>& stepColumns() {
   static const std::vector<std::string> names{
-      "steps", "shortest_step_s", "longest_step_s", "most_contacts", "impacts", "iterations", "unconverged_steps", "largest_residual_m_per_s",
-      "momentum_error", "deepest_m", "work_contact_J", "work_separation_J", "work_friction_J", "work_drag_J", "work_supports_J",
-      "kinetic_J", "internal_J", "gravity_J", "springs_J", "frequency_rad_per_s", "membrane_share", "bending_share", "seam_share", "spring_share"};
+      "steps",           "shortest_step_s", "longest_step_s",    "most_contacts",
+      "impacts",         "iterations",      "unconverged_steps", "largest_residual_m_per_s",
+      "momentum_error",  "deepest_m",       "work_contact_J",    "work_separation_J",
+      "work_friction_J", "work_drag_J",     "work_supports_J",   "kinetic_J",
+      "internal_J",      "gravity_J",       "springs_J",         "frequency_rad_per_s",
+      "membrane_share",  "bending_share",   "seam_share",        "spring_share"};
   return names;
 }
 
@@ -75,10 +100,14 @@ RecordingLayout recordingLayout(const Scenario& s) {
 Checkpoint checkpointOf(const State& s, const Frequency& f) {
   Checkpoint c;
   c.time_s = s.time_s;
-  c.reals = {{"p", doubles(s.p)}, {"v", doubles(s.v)}, {"a", doubles(s.a)}, {"anchors", doubles(s.anchors)}, {"mode", doubles(s.mode)}};
+  c.reals = {{"p", doubles(s.p)},
+             {"v", doubles(s.v)},
+             {"a", doubles(s.a)},
+             {"anchors", doubles(s.anchors)},
+             {"mode", doubles(s.mode)}};
   c.reals["sums"] = doubles(std::vector<Vec3>{s.sums.drag, s.sums.springs, s.sums.held});
-  c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s,  f.largest_rad_per_s, f.membrane_share,
-                        f.bending_share,       f.seam_share, f.spring_share};
+  c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s, f.largest_rad_per_s, f.membrane_share,
+                        f.bending_share,       f.seam_share,  f.spring_share};
   c.integers["steps_to_estimate"] = {s.steps_to_estimate};
   std::vector<Vec3> traction;
   auto& ids = c.integers["warm"];
@@ -108,15 +137,22 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   const auto& ids = c.integers.at("warm");
   const std::vector<Vec3> traction = vectors(c.reals.at("warm"));
   for (std::size_t i = 0; i < traction.size(); ++i)
-    s.warm.push_back({static_cast<int>(ids[3 * i]), static_cast<int>(ids[3 * i + 1]), static_cast<int>(ids[3 * i + 2]), traction[i]});
+    s.warm.push_back({static_cast<int>(ids[3 * i]), static_cast<int>(ids[3 * i + 1]), static_cast<int>(ids[3 * i + 2]),
+                      traction[i]});
   return s;
 }
 
 Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
-    : scenario_(scenario), writer_(writer), bodies_(scenario.bodies.size()), supports_(scenario.supports.size()),
-      contact_(scenario.model->surface.size()), normal_(scenario.model->surface.size()), steps_(kColumns, 0) {}
+    : scenario_(scenario),
+      writer_(writer),
+      bodies_(scenario.bodies.size()),
+      supports_(scenario.supports.size()),
+      contact_(scenario.model->surface.size()),
+      normal_(scenario.model->surface.size()),
+      steps_(kColumns, 0) {}
 
-void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepWork& work, const Frequency& f) {
+void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepWork& work,
+                       const Frequency& f) {
   // Moments about the body's origin at the middle of the step, where the impulse acts in the mean.
   const std::vector<Pose> poses = scenario_.bodyPoses(0.5 * (before.time_s + after.time_s));
   for (const ContactImpulse& c : work.contact_impulses) {
@@ -220,7 +256,8 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
       const double size = norm(m.environment.gravity_m_per_s2);
       const Vec3 down = size > 0 ? m.environment.gravity_m_per_s2 / size : Vec3{};
       for (int k : group.springs)
-        drop += dot(x[m.springs[k].sample] + m.spring_rise_m - anchors[group.anchor] * state.anchors[k], down) / static_cast<double>(group.springs.size());
+        drop += dot(x[m.springs[k].sample] + m.spring_rise_m - anchors[group.anchor] * state.anchors[k], down) /
+                static_cast<double>(group.springs.size());
     }
     row.push_back(drop);
   }
@@ -253,7 +290,8 @@ void Recorder::appendFrame(const State& state, double window) {
   m.surface.WT.multiply<Vec3>(state.v, v);
   m.map.T.multiply<Vec3>(state.p, q);
   frame.positions = floats(x);
-  Field velocity{"velocity", "m/s", 3, floats(v)}, contact{"contact_force", "N", 3, {}}, pressure{"pressure", "Pa", 1, {}};
+  Field velocity{"velocity", "m/s", 3, floats(v)}, contact{"contact_force", "N", 3, {}},
+      pressure{"pressure", "Pa", 1, {}};
   for (int s = 0; s < n; ++s) {
     force[s] = contact_[s] / window;
     pressure.data.push_back(static_cast<float>(normal_[s] / (m.surface.area_m2[s] * window)));

@@ -1,11 +1,14 @@
 #pragma once
-/// The only reader of the live State: sums what the steps did over windows, and appends windows and frames to the Recording.
+/// The only reader of the live State: sums what the steps did over windows, and appends windows and frames to the
+/// Recording.
 ///
 /// Tables, one row per window; the first two columns are start_s and end_s:
-///   bodies    per body <name>_Jx_Ns .. Jz (impulse received from the cloth), <name>_Lx_Nms .. Lz (its moment about the body
+///   bodies    per body <name>_Jx_Ns .. Jz (impulse received from the cloth), <name>_Lx_Nms .. Lz (its moment about the
+///   body
 ///             frame's origin), <name>_n_Ns (sum of normal impulses), <name>_t_Ns (sum of tangential magnitudes)
 ///   drag      per body <name>_Jx_Ns .. Lz_Nms: air drag on the cloth nearest to that body, as if the body carried it
-///   supports  per support <name>_x_Ns .. z: impulse on the cloth; <name>_drop_m: mean sinking of the edge against its link,
+///   supports  per support <name>_x_Ns .. z: impulse on the cloth; <name>_drop_m: mean sinking of the edge against its
+///   link,
 ///             from where the springs were attached
 ///   steps     what the steps of the window reported (columns: stepColumns())
 
@@ -28,7 +31,8 @@ class Recorder {
  public:
   Recorder(const Scenario& scenario, RecordingWriter& writer);
 
-  void observe(const State& before, const State& after, const StepReport& report, const StepWork& work, const Frequency& frequency);
+  void observe(const State& before, const State& after, const StepReport& report, const StepWork& work,
+               const Frequency& frequency);
   /// Ends the window that began at start_s; appends a frame where `frame` says so.
   void closeWindow(const State& state, double start_s, bool frame, StepWork& work);
 
@@ -43,9 +47,9 @@ class Recorder {
   RecordingWriter& writer_;
   std::vector<Body> bodies_;
   std::vector<Vec3> supports_;
-  std::vector<Vec3> contact_;    ///< impulse per sample over the window
-  std::vector<double> normal_;   ///< its normal part
-  std::vector<double> steps_;    ///< sums and extremes, in the order of stepColumns()
+  std::vector<Vec3> contact_;   ///< impulse per sample over the window
+  std::vector<double> normal_;  ///< its normal part
+  std::vector<double> steps_;   ///< sums and extremes, in the order of stepColumns()
 };
 
 }  // namespace gambeson

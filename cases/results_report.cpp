@@ -61,6 +61,12 @@ void addPlots(const Measured& m, ReportInput& in) {
         plot.series.push_back(
             {j.side.empty() ? j.name : j.side, unit, m.added.time_s, m.added.of(j.joint), toneOf(j.side)});
       }
+    for (const JointMeasure& j : m.joints)
+      if (j.lead_in_peak) {
+        plot.mark_from_s = m.strides->start_s;
+        plot.caption += " The lead-in before the first stride is shown but not counted.";
+        break;
+      }
     plot.title += unit == "N" ? ": added force" : ": added torque";
     in.torques.push_back(std::move(plot));
   }

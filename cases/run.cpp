@@ -34,7 +34,9 @@ class Windows {
     count_ = static_cast<long>(std::ceil(end / length - 1e-9)) - first_;
   }
   long count() const { return count_; }
-  double bound(long k) const { return k == 0 ? start_ : k == count_ ? end_ : static_cast<double>(first_ + k) * length_; }
+  double bound(long k) const {
+    return k == 0 ? start_ : k == count_ ? end_ : static_cast<double>(first_ + k) * length_;
+  }
   /// Whether the window that ends at bound(k) completes a multiple of `period`; the last always does.
   bool completes(long k, double period) const {
     return k == count_ || (first_ + k) % std::max(1L, std::lround(period / length_)) == 0;
@@ -46,23 +48,30 @@ class Windows {
 };
 
 /// Files of a run beside its recording, as they stand in the results folder.
-constexpr std::array kFiles{"case.json", "run.json", "summary.json", "torques.csv", "contact.csv", "stress.csv", "report.html"};
+constexpr std::array kFiles{"case.json",   "run.json",   "summary.json", "torques.csv",
+                            "contact.csv", "stress.csv", "report.html"};
 
-/// Makes the results folder. Refuses one that cannot be written, and one that is not a results folder (holds no recording) but
-/// has files under the names that a run would overwrite: with --out . that would be the user's own case.json.
+/// Makes the results folder. Refuses one that cannot be written, and one that is not a results folder (holds no
+/// recording) but has files under the names that a run would overwrite: with --out . that would be the user's own
+/// case.json.
 void prepareFolder(const std::filesystem::path& out) {
-  const auto fail = [&](const std::string& reason) { throw InputError({"command line", 0, "--out"}, out.string() + " " + reason); };
+  const auto fail = [&](const std::string& reason) {
+    throw InputError({"command line", 0, "--out"}, out.string() + " " + reason);
+  };
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(out, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) fail("is not a folder");
   std::filesystem::create_directories(out, error);
   if (error) fail("cannot be made: " + error.message());
-  if (::access(out.c_str(), R_OK | W_OK | X_OK) != 0) fail("cannot be written: " + std::generic_category().message(errno));
+  if (::access(out.c_str(), R_OK | W_OK | X_OK) != 0)
+    fail("cannot be written: " + std::generic_category().message(errno));
   if (holdsRecording(out)) return;
   for (const char* name : kFiles)
     if (std::filesystem::exists(out / name, error))
-      fail(fmt::format("holds a file {} and no recording: it is not the folder of an earlier run, and this run would overwrite it; "
-                       "allowed: a new folder, or one of an earlier run", name));
+      fail(fmt::format(
+          "holds a file {} and no recording: it is not the folder of an earlier run, and this run would overwrite it; "
+          "allowed: a new folder, or one of an earlier run",
+          name));
 }
 
 /// What an earlier run left beside its recording must not be taken for results of this one.
@@ -87,7 +96,8 @@ int runCase(const Case& c, const RunOptions& options) {
   omp_set_num_threads(options.threads > 0 ? options.threads : machineThreads());
   prepareFolder(options.out);
   const bool resume = options.resume && closedSegments(options.out) > 0;
-  if (options.resume && !resume) fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
+  if (options.resume && !resume)
+    fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   const Model& model = *scenario->model;
 
@@ -96,10 +106,11 @@ int runCase(const Case& c, const RunOptions& options) {
   Frequency frequency;
   Checkpoint checkpoint;
   const RecordingLayout layout = recordingLayout(*scenario);
-  // The case is written once there is a recording and before its first segment: a folder that holds one of these files holds a
-  // recording, whenever the run is killed, and a recording with a segment has its case.
+  // The case is written once there is a recording and before its first segment: a folder that holds one of these files
+  // holds a recording, whenever the run is killed, and a recording with a segment has its case.
   if (!resume && holdsRecording(options.out)) removeEarlierFiles(options.out);
-  RecordingWriter writer = resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
+  RecordingWriter writer =
+      resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
   if (!resume) writeFileAtomically(options.out / "case.json", writeCase(c));
   state = resume ? stateOf(checkpoint, frequency) : initialState(model, *scenario->stage, scenario->start_s, work);
 
@@ -116,16 +127,15 @@ int runCase(const Case& c, const RunOptions& options) {
     try {
       for (; k < windows.count(); ++k) {
         advance(model, *scenario->stage, control, windows.bound(k + 1), state, frequency, work,
-                [&](const State& before, const State& after, const StepReport& report, const StepWork& w, const Frequency& f) {
-                  recorder.observe(before, after, report, w, f);
-                });
+                [&](const State& before, const State& after, const StepReport& report, const StepWork& w,
+                    const Frequency& f) { recorder.observe(before, after, report, w, f); });
         recorder.closeWindow(state, windows.bound(k), windows.completes(k + 1, c.output.frame_s), work);
         if (windows.completes(k + 1, c.output.checkpoint_s)) writer.closeSegment(checkpointOf(state, frequency));
         progress.update(state.time_s - scenario->start_s, phaseName(*scenario, state.time_s));
       }
     } catch (const RunError& e) {
-      throw RunError(fmt::format("{} ({})\nThe results up to the last checkpoint are in {}", e.what(), phaseName(*scenario, state.time_s),
-                                 options.out.string()));
+      throw RunError(fmt::format("{} ({})\nThe results up to the last checkpoint are in {}", e.what(),
+                                 phaseName(*scenario, state.time_s), options.out.string()));
     }
   }
 
@@ -134,8 +144,9 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.kernels = model.shell.kernels().name;
   facts.resumed = resume;
   facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
-  facts.phases_s = {{"body motion", work.times.stage},   {"finding contacts", work.times.proximity}, {"solving contacts", work.times.contact},
-                    {"finding impacts", work.times.impact}, {"cloth forces", work.times.force},         {"other", work.times.other}};
+  facts.phases_s = {{"body motion", work.times.stage},        {"finding contacts", work.times.proximity},
+                    {"solving contacts", work.times.contact}, {"finding impacts", work.times.impact},
+                    {"cloth forces", work.times.force},       {"other", work.times.other}};
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
   writeResults(*scenario, options.out);

@@ -37,7 +37,8 @@ class CaseStage : public Stage {
       const Posture posture = motion->at(std::max(t, 0.0));
       const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
       std::vector<Placement> body = placementsOf(*human, poses);
-      if (!shrunk.empty() && t < grow_start_s + grow_s) body = placementsDuringGrowth(body, shrunk, (t - grow_start_s) / grow_s);
+      if (!shrunk.empty() && t < grow_start_s + grow_s)
+        body = placementsDuringGrowth(body, shrunk, (t - grow_start_s) / grow_s);
       for (const Placement& p : body) obstacles[at++] = p;
       for (std::size_t l = 0; l < anchors.size(); ++l) anchors[l] = {poses[l].rotation, poses[l].origin, 1};
     }
@@ -62,7 +63,8 @@ Garment makeGarment(const Case& c, const Human* human, std::vector<std::string>&
             return makeSheet({s.width_m, s.height_m, s.cells_u, s.cells_v, s.degree, s.corner, s.axis_u, s.axis_v});
           },
           [&](const TubeGarment& t) {
-            return makeTube({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start, t.axis, SeamKind::G1, 0});
+            return makeTube({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start,
+                             t.axis, SeamKind::G1, 0});
           },
           [&](const ShortsGarment& s) {
             ShortsPattern pattern;
@@ -84,7 +86,8 @@ Garment makeGarment(const Case& c, const Human* human, std::vector<std::string>&
   if (c.garment.weft_angle_rad != 0)
     for (std::size_t p = 0; p < garment.patches.size(); ++p) {
       const NurbsPatch& patch = garment.patches[p];
-      const auto d = surfaceDerivatives(patch, 0.5 * (patch.u.front() + patch.u.back()), 0.5 * (patch.v.front() + patch.v.back()));
+      const auto d =
+          surfaceDerivatives(patch, 0.5 * (patch.u.front() + patch.u.back()), 0.5 * (patch.v.front() + patch.v.back()));
       garment.weft[p] = rotationAbout(normalized(cross(d[1], d[2])), c.garment.weft_angle_rad) * garment.weft[p];
     }
   return garment;
@@ -95,64 +98,69 @@ std::vector<PatchEdge> edgesOf(const Case& c, const EdgeCase& e) {
   return std::visit(Overloaded{
                         [&](const SheetGarment&) { return sheetEdge(e.name); },
                         [&](const TubeGarment& t) {
-                          return tubeEdge({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start, t.axis,
-                                           SeamKind::G1, 0},
+                          return tubeEdge({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches,
+                                           t.start, t.axis, SeamKind::G1, 0},
                                           e.name);
                         },
                         [&](const ShortsGarment&) { return shortsEdge(e.name); },
                         [&](const FileGarment&) -> std::vector<PatchEdge> {
-                          throw InputError({c.file.string(), 0, "supports"}, "edge \"" + e.name + "\": name the patch and side of a garment file's edge");
+                          throw InputError({c.file.string(), 0, "supports"},
+                                           "edge \"" + e.name + "\": name the patch and side of a garment file's edge");
                         },
                     },
                     c.garment.shape);
 }
 
 Shape shapeOf(const ObstacleCase& o, Placement& at) {
-  return std::visit(Overloaded{
-                        [&](const EllipsoidObstacle& e) -> Shape {
-                          at.origin = e.center_m;
-                          return Ellipsoid{e.semi_axes_m};
-                        },
-                        [&](const SphereObstacle& s) -> Shape {
-                          at.origin = s.center_m;
-                          if (s.rings == 0) return Ellipsoid{{s.radius_m, s.radius_m, s.radius_m}};
-                          TriangleMesh mesh;
-                          mesh.vertices.push_back({0, 0, s.radius_m});
-                          for (int r = 1; r < s.rings; ++r)
-                            for (int k = 0; k < s.segments; ++k) {
-                              const double theta = M_PI * r / s.rings, phi = 2 * M_PI * k / s.segments;
-                              mesh.vertices.push_back(s.radius_m * Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
-                            }
-                          mesh.vertices.push_back({0, 0, -s.radius_m});
-                          const int last = static_cast<int>(mesh.vertices.size()) - 1;
-                          const auto id = [&](int r, int k) { return 1 + (r - 1) * s.segments + k % s.segments; };
-                          for (int k = 0; k < s.segments; ++k) {
-                            mesh.triangles.push_back({0, id(1, k), id(1, k + 1)});
-                            for (int r = 1; r + 1 < s.rings; ++r) {
-                              mesh.triangles.push_back({id(r, k), id(r + 1, k), id(r + 1, k + 1)});
-                              mesh.triangles.push_back({id(r, k), id(r + 1, k + 1), id(r, k + 1)});
-                            }
-                            mesh.triangles.push_back({id(s.rings - 1, k), last, id(s.rings - 1, k + 1)});
-                          }
-                          return mesh;
-                        },
-                        [&](const PlaneObstacle& p) -> Shape {
-                          at.origin = p.point_m;
-                          const Vec3 n = normalized(p.normal);
-                          const Vec3 e1 = normalized(cross(std::abs(n.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)), e2 = cross(n, e1);
-                          const double h = 0.5 * p.size_m;
-                          return TriangleMesh{{-h * e1 - h * e2, h * e1 - h * e2, h * e1 + h * e2, -h * e1 + h * e2}, {{0, 1, 2}, {0, 2, 3}}};
-                        },
-                        [&](const MeshObstacle& m) -> Shape {
-                          at.origin = m.position_m;
-                          return loadMesh(m.file, m.scale);
-                        },
-                    },
-                    o.shape);
+  return std::visit(
+      Overloaded{
+          [&](const EllipsoidObstacle& e) -> Shape {
+            at.origin = e.center_m;
+            return Ellipsoid{e.semi_axes_m};
+          },
+          [&](const SphereObstacle& s) -> Shape {
+            at.origin = s.center_m;
+            if (s.rings == 0) return Ellipsoid{{s.radius_m, s.radius_m, s.radius_m}};
+            TriangleMesh mesh;
+            mesh.vertices.push_back({0, 0, s.radius_m});
+            for (int r = 1; r < s.rings; ++r)
+              for (int k = 0; k < s.segments; ++k) {
+                const double theta = M_PI * r / s.rings, phi = 2 * M_PI * k / s.segments;
+                mesh.vertices.push_back(s.radius_m * Vec3{std::sin(theta) * std::cos(phi),
+                                                          std::sin(theta) * std::sin(phi), std::cos(theta)});
+              }
+            mesh.vertices.push_back({0, 0, -s.radius_m});
+            const int last = static_cast<int>(mesh.vertices.size()) - 1;
+            const auto id = [&](int r, int k) { return 1 + (r - 1) * s.segments + k % s.segments; };
+            for (int k = 0; k < s.segments; ++k) {
+              mesh.triangles.push_back({0, id(1, k), id(1, k + 1)});
+              for (int r = 1; r + 1 < s.rings; ++r) {
+                mesh.triangles.push_back({id(r, k), id(r + 1, k), id(r + 1, k + 1)});
+                mesh.triangles.push_back({id(r, k), id(r + 1, k + 1), id(r, k + 1)});
+              }
+              mesh.triangles.push_back({id(s.rings - 1, k), last, id(s.rings - 1, k + 1)});
+            }
+            return mesh;
+          },
+          [&](const PlaneObstacle& p) -> Shape {
+            at.origin = p.point_m;
+            const Vec3 n = normalized(p.normal);
+            const Vec3 e1 = normalized(cross(std::abs(n.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)),
+                       e2 = cross(n, e1);
+            const double h = 0.5 * p.size_m;
+            return TriangleMesh{{-h * e1 - h * e2, h * e1 - h * e2, h * e1 + h * e2, -h * e1 + h * e2},
+                                {{0, 1, 2}, {0, 2, 3}}};
+          },
+          [&](const MeshObstacle& m) -> Shape {
+            at.origin = m.position_m;
+            return loadMesh(m.file, m.scale);
+          },
+      },
+      o.shape);
 }
 
-void addSupports(const Case& c, const Garment& garment, const Surface& surface, const Human* human, ModelOptions& options,
-                 std::vector<SupportGroup>& groups) {
+void addSupports(const Case& c, const Garment& garment, const Surface& surface, const Human* human,
+                 ModelOptions& options, std::vector<SupportGroup>& groups) {
   for (const SupportCase& support : c.supports) {
     SupportGroup group;
     const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
@@ -160,7 +168,9 @@ void addSupports(const Case& c, const Garment& garment, const Surface& surface, 
     const std::vector<PatchEdge> edges = edgesOf(c, edge);
     for (const PatchEdge& e : edges) {
       if (e.patch >= static_cast<int>(garment.patches.size()))
-        throw InputError({c.file.string(), 0, "supports"}, "patch " + std::to_string(e.patch) + " does not exist; the garment has " + std::to_string(garment.patches.size()));
+        throw InputError({c.file.string(), 0, "supports"}, "patch " + std::to_string(e.patch) +
+                                                               " does not exist; the garment has " +
+                                                               std::to_string(garment.patches.size()));
       for (int s : edgeSamples(surface, e))
         if (std::find(group.samples.begin(), group.samples.end(), s) == group.samples.end()) group.samples.push_back(s);
     }
@@ -169,13 +179,17 @@ void addSupports(const Case& c, const Garment& garment, const Surface& surface, 
       for (const PatchEdge& e : edges) {
         const EdgeColumns columns = edgeColumns(garment, e);
         options.held_control_points.insert(options.held_control_points.end(), columns.edge.begin(), columns.edge.end());
-        if (fixed->rows > 1) options.held_control_points.insert(options.held_control_points.end(), columns.inner.begin(), columns.inner.end());
+        if (fixed->rows > 1)
+          options.held_control_points.insert(options.held_control_points.end(), columns.inner.begin(),
+                                             columns.inner.end());
       }
     } else {
       const auto& springs = std::get<SpringSupport>(support);
       group.name = name + " springs to " + springs.link;
       group.anchor = human->skeleton.link(springs.link);
-      if (group.anchor < 0) throw InputError({c.file.string(), 0, "supports.springs.link"}, "the human has no link \"" + springs.link + "\"");
+      if (group.anchor < 0)
+        throw InputError({c.file.string(), 0, "supports.springs.link"},
+                         "the human has no link \"" + springs.link + "\"");
       // Each sample answers for half of the edge to either neighbour.
       std::vector<double> length(surface.size(), 0);
       std::vector<Vec3> Q;
@@ -213,7 +227,8 @@ std::vector<Pose> Scenario::bodyPoses(double time_s) const {
   std::vector<Pose> poses;
   for (const Placement& a : anchors) poses.push_back({a.rotation, a.origin});
   for (std::size_t o = 0; o < obstacles.size(); ++o)
-    if (body_of_obstacle[o] >= static_cast<int>(anchors.size())) poses.push_back({obstacles[o].rotation, obstacles[o].origin});
+    if (body_of_obstacle[o] >= static_cast<int>(anchors.size()))
+      poses.push_back({obstacles[o].rotation, obstacles[o].origin});
   return poses;
 }
 
@@ -226,8 +241,9 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
   std::vector<Obstacle> obstacles;
   double duration = c.time.duration_s.value_or(0);
   if (c.human) {
-    s->human = c.human->manikin.empty() ? (c.human->body.empty() ? loadUrdf(c.human->urdf) : loadHuman(c.human->urdf, c.human->body))
-                                        : makeManikin(c.human->manikin);
+    s->human = c.human->manikin.empty()
+                   ? (c.human->body.empty() ? loadUrdf(c.human->urdf) : loadHuman(c.human->urdf, c.human->body))
+                   : makeManikin(c.human->manikin);
     std::visit(Overloaded{
                    [&](const StandMotion& m) {
                      WalkOptions still;
@@ -273,14 +289,16 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
   ModelOptions options;
   options.samples_per_cell = c.garment.samples_per_cell;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
-  addSupports(c, garment, buildSurface(garment, buildFreeMap(garment), options.samples_per_cell), human, options, s->supports);
+  addSupports(c, garment, buildSurface(garment, buildFreeMap(garment), options.samples_per_cell), human, options,
+              s->supports);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
-  const ContactParameters contact{c.contact.layer_m, c.contact.friction, c.contact.relaxation_s, c.contact.tolerance * (g > 0 ? g : 9.81),
-                                  c.contact.max_iterations};
+  const ContactParameters contact{c.contact.layer_m, c.contact.friction, c.contact.relaxation_s,
+                                  c.contact.tolerance * (g > 0 ? g : 9.81), c.contact.max_iterations};
   s->model = buildModel(garment, options, environment, contact, std::move(obstacles));
 
-  const double grow = c.dressing.projecting ? c.dressing.projecting->grow_s : 0, settle = human ? c.dressing.settle_s : 0;
+  const double grow = c.dressing.projecting ? c.dressing.projecting->grow_s : 0,
+               settle = human ? c.dressing.settle_s : 0;
   s->start_s = -(grow + settle);
   s->end_s = duration;
   stage->grow_start_s = s->start_s;

@@ -15,10 +15,10 @@ namespace gambeson {
 
 /// What holds the garment, by name, as the supports table lists it.
 struct SupportGroup {
-  std::string name;            ///< "waist springs to pelvis", "fixed start"
-  std::vector<int> springs;    ///< indices in Model::springs; empty for held control points
-  std::vector<int> samples;    ///< of the supported edge
-  int anchor = -1;             ///< frame of the springs
+  std::string name;          ///< "waist springs to pelvis", "fixed start"
+  std::vector<int> springs;  ///< indices in Model::springs; empty for held control points
+  std::vector<int> samples;  ///< of the supported edge
+  int anchor = -1;           ///< frame of the springs
 };
 
 /// Constant after it is built. Time 0 is where the motion starts; dressing and settling lie before it.
@@ -26,11 +26,11 @@ struct Scenario {
   Case definition;
   std::optional<Human> human;
   std::unique_ptr<Motion> motion;
-  Vec3 mean_velocity_m_per_s;              ///< of the pelvis in walking
+  Vec3 mean_velocity_m_per_s;  ///< of the pelvis in walking
   std::unique_ptr<Model> model;
   std::unique_ptr<Stage> stage;
-  std::vector<std::string> bodies;         ///< links of the human, then the case's own obstacles
-  std::vector<int> body_of_obstacle;       ///< index in `bodies`
+  std::vector<std::string> bodies;    ///< links of the human, then the case's own obstacles
+  std::vector<int> body_of_obstacle;  ///< index in `bodies`
   std::vector<std::string> patch_names;
   std::vector<SupportGroup> supports;
   double start_s = 0, end_s = 0;

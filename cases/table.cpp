@@ -53,7 +53,8 @@ std::filesystem::path readPath(const Place& place) {
   const std::filesystem::path path = (base / text).lexically_normal();
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::none) place.fail(path.string() + " cannot be read: " + error.message());
+  if (status.type() == std::filesystem::file_type::none)
+    place.fail(path.string() + " cannot be read: " + error.message());
   if (!std::filesystem::exists(status)) place.fail("there is no file " + path.string());
   if (!std::filesystem::is_regular_file(status)) place.fail(path.string() + " is not a file");
   return path;

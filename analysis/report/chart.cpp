@@ -91,12 +91,12 @@ std::string path(const Series& s, const Frame& f) {
 }
 
 /// The place of the largest magnitude: series and index.
-std::pair<std::size_t, std::size_t> peakOf(const std::vector<const Series*>& series) {
+std::pair<std::size_t, std::size_t> peakOf(const std::vector<const Series*>& series, double from_s) {
   std::pair<std::size_t, std::size_t> best{0, 0};
   double most = -1;
   for (std::size_t k = 0; k < series.size(); ++k)
     for (std::size_t i = 0; i < series[k]->values.size(); ++i)
-      if (drawn(*series[k], i) && std::abs(series[k]->values[i]) > most)
+      if (drawn(*series[k], i) && series[k]->time_s[i] >= from_s && std::abs(series[k]->values[i]) > most)
         most = std::abs(series[k]->values[i]), best = {k, i};
   return best;
 }
@@ -161,7 +161,7 @@ std::string lineChart(const Plot& plot) {
   if (f.v.high > 0) f.v.high += room;
   if (f.v.low < 0) f.v.low -= room;
 
-  const auto [k, i] = peakOf(shown);
+  const auto [k, i] = peakOf(shown, plot.mark_from_s);
   const std::string peak = fmt::format("{} {} at {} ({})", formatNumber(shown[k]->values[i]), shown[k]->unit,
                                        html::seconds(shown[k]->time_s[i]), shown[k]->name);
   std::string svg = fmt::format(

@@ -55,7 +55,8 @@ struct Plot {
   std::string title, caption;
   std::vector<Series> series;
   std::vector<TimeMark> marks;
-  bool mark_peak = true;  ///< the largest magnitude of all series
+  bool mark_peak = true;        ///< the largest magnitude of all series
+  double mark_from_s = -1e300;  ///< from here on: what comes before is shown but not judged
 };
 
 struct Bar {

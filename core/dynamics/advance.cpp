@@ -9,8 +9,8 @@ namespace gambeson {
 namespace {
 constexpr int kColdIterations = 40, kWarmIterations = 8;
 
-/// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the estimate, the
-/// estimate is out of date.
+/// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
+/// estimate, the estimate is out of date.
 double shownFrequency2(const Model& m, const State& before, const State& after) {
   double force2 = 0, way2 = 0;
   for (int i = 0; i < m.freeCount(); ++i) {
@@ -19,10 +19,10 @@ double shownFrequency2(const Model& m, const State& before, const State& after) 
   }
   return way2 > 0 ? std::sqrt(force2 / way2) : 0;
 }
-}
+}  // namespace
 
-void advance(const Model& model, const Stage& stage, const StepControl& control, double until, State& state, Frequency& frequency,
-             StepWork& work, const StepObserver& observe) {
+void advance(const Model& model, const Stage& stage, const StepControl& control, double until, State& state,
+             Frequency& frequency, StepWork& work, const StepObserver& observe) {
   State next;
   while (state.time_s < until) {
     if (state.steps_to_estimate <= 0) {
@@ -32,7 +32,8 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
       state.frequency_rad_per_s = std::max(frequency.largest_rad_per_s, 0.98 * state.frequency_rad_per_s);
       state.steps_to_estimate = control.estimate_every;
     }
-    const double longest = std::min(control.max_step_s, control.safety * 2 / std::max(state.frequency_rad_per_s, 1e-300));
+    const double longest =
+        std::min(control.max_step_s, control.safety * 2 / std::max(state.frequency_rad_per_s, 1e-300));
     const double left = until - state.time_s;
     const double pieces = std::ceil(left / longest * (1 - 1e-12));
     double dt = pieces <= 1 ? left : left / pieces;
@@ -41,13 +42,15 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
       report = step(model, stage, state, dt, next, work);
       if (report.failure == StepFailure::none) break;
       if (halvings == control.max_halvings)
-        throw RunError("no step at time " + std::to_string(state.time_s) + " s, down to " + std::to_string(dt * 1e6) + " us: " + report.why);
+        throw RunError("no step at time " + std::to_string(state.time_s) + " s, down to " + std::to_string(dt * 1e6) +
+                       " us: " + report.why);
       dt *= 0.5;
     }
     if (pieces <= 1 && dt == left) next.time_s = until;
     --next.steps_to_estimate;
     const double omega = state.frequency_rad_per_s;
-    if (shownFrequency2(model, state, next) > 0.5 * omega * omega) next.steps_to_estimate = std::min(next.steps_to_estimate, -1);
+    if (shownFrequency2(model, state, next) > 0.5 * omega * omega)
+      next.steps_to_estimate = std::min(next.steps_to_estimate, -1);
     observe(state, next, report, work, frequency);
     std::swap(state, next);
   }

@@ -64,7 +64,8 @@ double inner(std::span<const Vec3> a, std::span<const Vec3> b) {
 }  // namespace
 
 const char* Frequency::governing() const {
-  if (membrane_share >= bending_share && membrane_share >= seam_share && membrane_share >= spring_share) return "membrane";
+  if (membrane_share >= bending_share && membrane_share >= seam_share && membrane_share >= spring_share)
+    return "membrane";
   if (bending_share >= seam_share && bending_share >= spring_share) return "bending";
   return seam_share >= spring_share ? "seam" : "spring";
 }

@@ -24,9 +24,20 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
     inverse[i] = held[i] ? 0 : 1 / mass[i];
   }
   Shell shell(garment, kernels, options.gauss_extra);
-  auto model = std::unique_ptr<Model>(new Model{std::move(shell), std::move(map), std::move(surface), std::move(mass), std::move(inverse),
-                                                std::move(area), std::move(held), environment, contact, std::move(obstacles),
-                                                nullptr, options.springs, options.anchor_count, {}});
+  auto model = std::unique_ptr<Model>(new Model{std::move(shell),
+                                                std::move(map),
+                                                std::move(surface),
+                                                std::move(mass),
+                                                std::move(inverse),
+                                                std::move(area),
+                                                std::move(held),
+                                                environment,
+                                                contact,
+                                                std::move(obstacles),
+                                                nullptr,
+                                                options.springs,
+                                                options.anchor_count,
+                                                {}});
   double total = 0, stiffness = 0;
   for (double m : model->mass_kg) total += m;
   for (const SpringSupportPoint& s : options.springs) stiffness += s.stiffness_N_per_m;

@@ -47,8 +47,8 @@ struct Model {
   std::unique_ptr<ProximityQuery> proximity;
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;
-  /// How far above its sample a spring is anchored, so that all together carry the garment's weight where they were attached:
-  /// -g M / sum k [m].
+  /// How far above its sample a spring is anchored, so that all together carry the garment's weight where they were
+  /// attached: -g M / sum k [m].
   Vec3 spring_rise_m;
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
@@ -69,7 +69,8 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
 
 /// Sums over the free points of the forces that are not internal [N].
 struct ForceSums {
-  Vec3 drag, springs, held;  ///< `held`: what held points exert on the free ones, minus the internal force of their rows
+  Vec3 drag, springs,
+      held;  ///< `held`: what held points exert on the free ones, minus the internal force of their rows
 };
 
 /// A traction impulse that the next solve starts from.

@@ -28,8 +28,8 @@ Vec3 sum(std::span<const Vec3> values) {
 }
 
 /// Internal force on the free points, Tᵀ f(T p), into work.f's place `out`.
-void internalForce(const Model& m, std::span<const Vec3> p, std::vector<Vec3>& out, StepWork& w, double* energy = nullptr,
-                   const ShellTerms& terms = {}) {
+void internalForce(const Model& m, std::span<const Vec3> p, std::vector<Vec3>& out, StepWork& w,
+                   double* energy = nullptr, const ShellTerms& terms = {}) {
   w.q.resize(m.shell.controlCount());
   w.f.resize(m.shell.controlCount());
   out.resize(m.freeCount());
@@ -49,14 +49,15 @@ void springForces(const Model& m, const State& s, std::span<const Placement> fra
   forces.resize(m.springs.size());
   for (std::size_t k = 0; k < m.springs.size(); ++k) {
     const SpringSupportPoint& spring = m.springs[k];
-    forces[k] = -spring.stiffness_N_per_m * (sampleAt(m.surface.WT, spring.sample, s.p) - frames[spring.anchor] * s.anchors[k]);
+    forces[k] =
+        -spring.stiffness_N_per_m * (sampleAt(m.surface.WT, spring.sample, s.p) - frames[spring.anchor] * s.anchors[k]);
   }
 }
 
-/// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit there
-/// (eq. 3.13), v = half_velocity + half_step a. For an evaluation at a known velocity pass it with half_step 0.
-void accelerate(const Model& m, std::span<const Placement> anchor_frames, const Vec3& air, std::span<const Vec3> half_velocity, double half_step_s, State& s,
-                StepWork& w) {
+/// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit
+/// there (eq. 3.13), v = half_velocity + half_step a. For an evaluation at a known velocity pass it with half_step 0.
+void accelerate(const Model& m, std::span<const Placement> anchor_frames, const Vec3& air,
+                std::span<const Vec3> half_velocity, double half_step_s, State& s, StepWork& w) {
   const int n = m.freeCount();
   internalForce(m, s.p, s.a, w);
   springForces(m, s, anchor_frames, w.spring_force);
@@ -105,7 +106,8 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   }
 }
 
-/// Turns a trajectory hit into a row (eq. 3.23: the gap may shrink to min(k delta, g)); replaces the row of the same pair.
+/// Turns a trajectory hit into a row (eq. 3.23: the gap may shrink to min(k delta, g)); replaces the row of the same
+/// pair.
 void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWork& w) {
   const double keep = std::min(-std::expm1(-dt / m.contact.relaxation_s) * m.contact.layer_m, std::max(hit.gap_m, 0.0));
   // A pair that is hit again (curved or turning bodies) is asked for a little more each round.
@@ -113,7 +115,8 @@ void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWor
   const Vec3 body = (w.end[hit.obstacle] * hit.local - w.start[hit.obstacle] * hit.local) / dt;
   const ContactRow row{hit, body, (keep - hit.gap_m + more) / dt, true};
   for (std::size_t i = 0; i < w.rows.size(); ++i)
-    if (w.rows[i].contact.sample == hit.sample && w.rows[i].contact.obstacle == hit.obstacle && (w.rows[i].impact || round > 2)) {
+    if (w.rows[i].contact.sample == hit.sample && w.rows[i].contact.obstacle == hit.obstacle &&
+        (w.rows[i].impact || round > 2)) {
       w.rows[i] = row;
       return;
     }
@@ -133,8 +136,9 @@ void ledger(const Model& m, const State& in, double dt, StepReport& report, Step
     report.momentum.scale += norm(impulse);
     for (int k = m.surface.WT.offsets[c.sample]; k < m.surface.WT.offsets[c.sample + 1]; ++k)
       if (m.held[m.surface.WT.columns[k]]) report.momentum.supports -= m.surface.WT.values[k] * impulse;
-    const Vec3 mean = 0.5 * (sampleAt(m.surface.WT, c.sample, w.predictor) + sampleAt(m.surface.WT, c.sample, w.velocity) -
-                             dt * sampleAt(m.surface.WT, c.sample, in.a));
+    const Vec3 mean =
+        0.5 * (sampleAt(m.surface.WT, c.sample, w.predictor) + sampleAt(m.surface.WT, c.sample, w.velocity) -
+               dt * sampleAt(m.surface.WT, c.sample, in.a));
     const double normal = dot(impulse, c.normal);
     report.work.contact += dot(impulse, mean);
     report.work.friction += dot(impulse - normal * c.normal, mean);
@@ -159,7 +163,8 @@ State initialState(const Model& model, const Stage& stage, double time_s, StepWo
   State s;
   s.time_s = time_s;
   std::vector<Vec3> Q;
-  for (const NurbsPatch& patch : model.shell.garment().patches) Q.insert(Q.end(), patch.points.begin(), patch.points.end());
+  for (const NurbsPatch& patch : model.shell.garment().patches)
+    Q.insert(Q.end(), patch.points.begin(), patch.points.end());
   for (int home : model.map.home) s.p.push_back(Q[home]);
   s.v.assign(s.p.size(), {});
   attachSprings(model, stage, s, work);
@@ -172,7 +177,8 @@ void attachSprings(const Model& model, const Stage& stage, State& state, StepWor
   stage.placements(state.time_s, work.start, work.anchors_start);
   state.anchors.clear();
   for (const SpringSupportPoint& spring : model.springs)
-    state.anchors.push_back(toLocal(work.anchors_start[spring.anchor], sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m));
+    state.anchors.push_back(toLocal(work.anchors_start[spring.anchor],
+                                    sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m));
   const std::vector<Vec3> v = state.v;
   accelerate(model, work.anchors_start, stage.air(state.time_s), v, 0, state, work);
 }
@@ -218,8 +224,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   constexpr int kRounds = 12;
   for (int round = 1;; ++round) {
     w.velocity = w.predictor;
-    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, rho, m.contact, dt, w.velocity, w.warm, w.impulses,
-                                   w.contact);
+    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, rho, m.contact, dt,
+                                   w.velocity, w.warm, w.impulses, w.contact);
     clock.lap(w.times.contact);
     if (!allFinite(w.velocity)) return notFinite("a velocity is not finite after the contacts");
     w.x1.resize(m.surface.size());
@@ -231,7 +237,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
     if (w.hits.empty()) break;
     if (round > kRounds) {
       report.failure = StepFailure::impact;
-      report.why = std::to_string(w.hits.size()) + " surface samples would still pass into " + m.obstacles[w.hits[0].obstacle].segment;
+      report.why = std::to_string(w.hits.size()) + " surface samples would still pass into " +
+                   m.obstacles[w.hits[0].obstacle].segment;
       return report;
     }
     if (round == 1) report.impacts = static_cast<int>(w.hits.size());
@@ -252,7 +259,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
     const SpringSupportPoint& s = m.springs[k];
-    const Vec3 anchor_velocity = (w.anchors_end[s.anchor] * in.anchors[k] - w.anchors_start[s.anchor] * in.anchors[k]) / dt;
+    const Vec3 anchor_velocity =
+        (w.anchors_end[s.anchor] * in.anchors[k] - w.anchors_start[s.anchor] * in.anchors[k]) / dt;
     report.work.supports += dot(spring_mean[k], anchor_velocity);
     report.momentum.scale += norm(spring_mean[k]);
   }
@@ -298,7 +306,8 @@ Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w)
   w.anchors_start.resize(m.anchor_count);
   stage.placements(s.time_s, w.start, w.anchors_start);
   springForces(m, s, w.anchors_start, w.spring_force);
-  for (std::size_t k = 0; k < m.springs.size(); ++k) e.springs += 0.5 * norm2(w.spring_force[k]) / m.springs[k].stiffness_N_per_m;
+  for (std::size_t k = 0; k < m.springs.size(); ++k)
+    e.springs += 0.5 * norm2(w.spring_force[k]) / m.springs[k].stiffness_N_per_m;
   return e;
 }
 

@@ -5,15 +5,15 @@
 
 namespace gambeson {
 
-/// The garment at rest as a state at `time_s`: positions of the rest shape, no velocity; accelerations evaluated. Springs are
-/// anchored where their samples are (`attachSprings` does so again later).
+/// The garment at rest as a state at `time_s`: positions of the rest shape, no velocity; accelerations evaluated.
+/// Springs are anchored where their samples are (`attachSprings` does so again later).
 State initialState(const Model& model, const Stage& stage, double time_s, StepWork& work);
 
 /// Anchors every spring above where its sample is now (Model::spring_rise_m), and evaluates the forces again.
 void attachSprings(const Model& model, const Stage& stage, State& state, StepWork& work);
 
-/// Velocity Verlet with the contact split, eq. 3.11 to 3.13, by `dt_s`. Drag is implicit in the second half as in eq. 3.13.
-/// On failure `out` is not to be used.
+/// Velocity Verlet with the contact split, eq. 3.11 to 3.13, by `dt_s`. Drag is implicit in the second half as in
+/// eq. 3.13. On failure `out` is not to be used.
 StepReport step(const Model& model, const Stage& stage, const State& in, double dt_s, State& out, StepWork& work);
 
 /// Sample positions W T p and velocities W T v.
@@ -33,9 +33,10 @@ struct Frequency {
   const char* governing() const;
 };
 
-/// The largest eigenfrequency of M^-1 K at the state's positions by Lanczos with full orthogonalisation, K from differences of
-/// the force with the steepest bending law; starts from state.mode where it is not empty and leaves the new mode there.
-/// The stable step of the scheme is 2 / frequency. Accurate from below; 40 iterations are within about 1 % cold.
+/// The largest eigenfrequency of M^-1 K at the state's positions by Lanczos with full orthogonalisation, K from
+/// differences of the force with the steepest bending law; starts from state.mode where it is not empty and leaves the
+/// new mode there. The stable step of the scheme is 2 / frequency. Accurate from below; 40 iterations are within about
+/// 1 % cold.
 Frequency largestFrequency(const Model& model, const Stage& stage, State& state, int iterations, StepWork& work);
 
 }  // namespace gambeson

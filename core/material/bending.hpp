@@ -9,8 +9,8 @@ namespace gambeson {
 ///   m = 2 B0 sqrt(k0 |k|) sign(k),  kr <= |k| <= k0;   m = B0 (|k| + k0) sign(k),  |k| > k0.
 /// The root has an infinite slope at k = 0. Below the regularising curvature kr it is replaced by the odd cubic
 ///   m = 2 B0 sqrt(k0/kr) k (5/4 - (k/kr)^2/4),
-/// which meets it at kr with the same value and slope; the law is C1, and its steepest slope is 5/2 B0 sqrt(k0/kr) at k = 0.
-/// Valid for B0 >= 0 [N m], 0 < kr <= k0 [1/m].
+/// which meets it at kr with the same value and slope; the law is C1, and its steepest slope is 5/2 B0 sqrt(k0/kr) at k
+/// = 0. Valid for B0 >= 0 [N m], 0 < kr <= k0 [1/m].
 GAMBESON_HD inline double zhengMoment(double k, double b0, double k0, double kr) {
   const double a = k < 0 ? -k : k;
   const double m = a > k0   ? b0 * (a + k0)

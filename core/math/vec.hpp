@@ -19,9 +19,24 @@ struct Vec3 {
   double x = 0, y = 0, z = 0;
   GAMBESON_HD double& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
   GAMBESON_HD double operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
-  GAMBESON_HD Vec3& operator+=(const Vec3& b) { x += b.x; y += b.y; z += b.z; return *this; }
-  GAMBESON_HD Vec3& operator-=(const Vec3& b) { x -= b.x; y -= b.y; z -= b.z; return *this; }
-  GAMBESON_HD Vec3& operator*=(double s) { x *= s; y *= s; z *= s; return *this; }
+  GAMBESON_HD Vec3& operator+=(const Vec3& b) {
+    x += b.x;
+    y += b.y;
+    z += b.z;
+    return *this;
+  }
+  GAMBESON_HD Vec3& operator-=(const Vec3& b) {
+    x -= b.x;
+    y -= b.y;
+    z -= b.z;
+    return *this;
+  }
+  GAMBESON_HD Vec3& operator*=(double s) {
+    x *= s;
+    y *= s;
+    z *= s;
+    return *this;
+  }
   bool operator==(const Vec3&) const = default;
 };
 

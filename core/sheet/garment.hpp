@@ -18,9 +18,9 @@ struct PatchEdge {
   bool reversed = false;
 };
 
-/// C0: positions joined; G1: tangents joined as well through the map T (Zheng 2013, eq. 2.35), which needs a rest geometry
-/// that is G1 with a constant ratio. At the end of a G1 seam where other than two patches (on the border) or four (inside)
-/// meet, the corner control point stays C0.
+/// C0: positions joined; G1: tangents joined as well through the map T (Zheng 2013, eq. 2.35), which needs a rest
+/// geometry that is G1 with a constant ratio. At the end of a G1 seam where other than two patches (on the border) or
+/// four (inside) meet, the corner control point stays C0.
 enum class SeamKind { C0, G1 };
 
 /// Joins edge `a` to edge `b` point by point: same degree, same knots up to their range, same weights.

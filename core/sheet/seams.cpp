@@ -37,9 +37,7 @@ std::vector<double> edgeKnots(const NurbsPatch& patch, const PatchEdge& e) {
   return knots;
 }
 
-bool isClamped(const KnotVector& k) {
-  return k.knots.front() == k.front() && k.knots.back() == k.back();
-}
+bool isClamped(const KnotVector& k) { return k.knots.front() == k.front() && k.knots.back() == k.back(); }
 
 struct UnionFind {
   std::vector<int> parent;
@@ -57,10 +55,13 @@ struct UnionFind {
 void checkMatch(const Garment& g, int s) {
   const Seam& seam = g.seams[s];
   for (const PatchEdge* e : {&seam.a, &seam.b})
-    if (e->patch < 0 || e->patch >= static_cast<int>(g.patches.size())) reject(s, "patch " + std::to_string(e->patch) + " does not exist");
+    if (e->patch < 0 || e->patch >= static_cast<int>(g.patches.size()))
+      reject(s, "patch " + std::to_string(e->patch) + " does not exist");
   const NurbsPatch &pa = g.patches[seam.a.patch], &pb = g.patches[seam.b.patch];
-  if (!isClamped(pa.u) || !isClamped(pa.v) || !isClamped(pb.u) || !isClamped(pb.v)) reject(s, "knots must be clamped at their ends");
-  if (knotsAlong(pa, seam.a.side).degree != knotsAlong(pb, seam.b.side).degree) reject(s, "degrees along the edge differ");
+  if (!isClamped(pa.u) || !isClamped(pa.v) || !isClamped(pb.u) || !isClamped(pb.v))
+    reject(s, "knots must be clamped at their ends");
+  if (knotsAlong(pa, seam.a.side).degree != knotsAlong(pb, seam.b.side).degree)
+    reject(s, "degrees along the edge differ");
   const auto ka = edgeKnots(pa, seam.a), kb = edgeKnots(pb, seam.b);
   if (ka.size() != kb.size()) reject(s, "numbers of knots along the edge differ");
   for (std::size_t i = 0; i < ka.size(); ++i)
@@ -89,10 +90,18 @@ EdgeColumns edgeColumns(const Garment& garment, const PatchEdge& e) {
   for (int k = 0; k < n; ++k) {
     const int at = e.reversed ? n - 1 - k : k;
     switch (e.side) {
-      case Side::u0: c.edge.push_back(offset + p.index(0, at)), c.inner.push_back(offset + p.index(1, at)); break;
-      case Side::u1: c.edge.push_back(offset + p.index(nu - 1, at)), c.inner.push_back(offset + p.index(nu - 2, at)); break;
-      case Side::v0: c.edge.push_back(offset + p.index(at, 0)), c.inner.push_back(offset + p.index(at, 1)); break;
-      case Side::v1: c.edge.push_back(offset + p.index(at, nv - 1)), c.inner.push_back(offset + p.index(at, nv - 2)); break;
+      case Side::u0:
+        c.edge.push_back(offset + p.index(0, at)), c.inner.push_back(offset + p.index(1, at));
+        break;
+      case Side::u1:
+        c.edge.push_back(offset + p.index(nu - 1, at)), c.inner.push_back(offset + p.index(nu - 2, at));
+        break;
+      case Side::v0:
+        c.edge.push_back(offset + p.index(at, 0)), c.inner.push_back(offset + p.index(at, 1));
+        break;
+      case Side::v1:
+        c.edge.push_back(offset + p.index(at, nv - 1)), c.inner.push_back(offset + p.index(at, nv - 2));
+        break;
     }
   }
   return c;
@@ -146,7 +155,8 @@ FreeMap buildFreeMap(const Garment& garment) {
     const Seam& seam = garment.seams[s];
     if (seam.kind != SeamKind::G1) continue;
     const NurbsPatch &pa = garment.patches[seam.a.patch], &pb = garment.patches[seam.b.patch];
-    if (knotsAcross(pa, seam.a.side).degree != knotsAcross(pb, seam.b.side).degree) reject(s, "G1: degrees across the edge differ");
+    if (knotsAcross(pa, seam.a.side).degree != knotsAcross(pb, seam.b.side).degree)
+      reject(s, "G1: degrees across the edge differ");
     const EdgeColumns a = edgeColumns(garment, seam.a), b = edgeColumns(garment, seam.b);
     std::optional<double> ratio;
     for (std::size_t k = 0; k < a.edge.size(); ++k) {
@@ -156,14 +166,17 @@ FreeMap buildFreeMap(const Garment& garment) {
       if (!(norm(da) > 0 && norm(db) > 0)) reject(s, "G1: control points coincide at the edge");
       const double c = dot(da, db) / norm2(da);
       if (!(c > 0) || norm(db - c * da) > 1e-8 * norm(db))
-        reject(s, "G1: the rest geometry has a crease at control point " + std::to_string(k) + " of the edge; use a C0 seam with a rotational spring");
+        reject(s, "G1: the rest geometry has a crease at control point " + std::to_string(k) +
+                      " of the edge; use a C0 seam with a rotational spring");
       // The ratio of the tangents themselves (eq. 2.27 to 2.29) must be one constant along the edge.
-      const double tangent_ratio = c * (weightOf(garment, offsets, b.inner[k]) / weightOf(garment, offsets, a.inner[k]));
+      const double tangent_ratio =
+          c * (weightOf(garment, offsets, b.inner[k]) / weightOf(garment, offsets, a.inner[k]));
       if (!ratio) ratio = tangent_ratio;
       if (std::abs(tangent_ratio - *ratio) > 1e-8 * *ratio)
         reject(s, "G1: the ratio of the tangents varies along the edge; use a C0 seam with a rotational spring");
       const int middle = joined.find(a.edge[k]);
-      combined.try_emplace(middle, Combination{joined.find(a.inner[k]), joined.find(b.inner[k]), c / (1 + c), 1 / (1 + c), s});
+      combined.try_emplace(middle,
+                           Combination{joined.find(a.inner[k]), joined.find(b.inner[k]), c / (1 + c), 1 / (1 + c), s});
     }
   }
 
@@ -184,7 +197,8 @@ FreeMap buildFreeMap(const Garment& garment) {
       row[free_index[r]] = 1;
     } else {
       const Combination& c = combined.at(r);
-      if (!open.insert(r).second) reject(c.seam, "G1: this seam depends on itself; a patch needs more control points between its G1 edges");
+      if (!open.insert(r).second)
+        reject(c.seam, "G1: this seam depends on itself; a patch needs more control points between its G1 edges");
       for (const auto& [i, w] : resolve(c.a)) row[i] += c.wa * w;
       for (const auto& [i, w] : resolve(c.b)) row[i] += c.wb * w;
       open.erase(r);
@@ -232,7 +246,8 @@ std::vector<HingePoint> buildHinges(const Garment& garment) {
           const NurbsPatch& patch = garment.patches[e.patch];
           const KnotVector &ka = knotsAlong(patch, e.side), &kc = knotsAcross(patch, e.side);
           const double t = ka.front() + (e.reversed ? 1 - s : s) * (ka.back() - ka.front());
-          const bool across_u = e.side == Side::u0 || e.side == Side::u1, far = e.side == Side::u1 || e.side == Side::v1;
+          const bool across_u = e.side == Side::u0 || e.side == Side::u1,
+                     far = e.side == Side::u1 || e.side == Side::v1;
           const double c = far ? kc.back() : kc.front();
           const SurfaceBasis basis = surfaceBasis(patch, across_u ? c : t, across_u ? t : c);
           for (std::size_t k = 0; k < basis.columns.size(); ++k) {
@@ -274,7 +289,8 @@ double hingeAngle(const HingePoint& h, std::span<const Vec3> q, std::vector<Vec3
   const double theta = std::atan2(dot(cross(-a_perp, b_perp), e), dot(-a_perp, b_perp));
   if (gradient) {
     // Turning v_perp about e by d(phi) moves it along n = e x v_perp/|v_perp|; with a tilting e,
-    // d(phi) = n . (dv - (v.e) de) / |v_perp| and n . de = n . dt/|t|; the twist of the frame about e cancels in the difference.
+    // d(phi) = n . (dv - (v.e) de) / |v_perp| and n . de = n . dt/|t|; the twist of the frame about e cancels in the
+    // difference.
     const double alpha = norm(a_perp), beta = norm(b_perp);
     const Vec3 na = cross(e, a_perp) / (alpha * alpha), nb = cross(e, b_perp) / (beta * beta);
     const double ca = dot(a, e) / length, cb = dot(b, e) / length;

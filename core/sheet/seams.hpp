@@ -19,20 +19,20 @@ EdgeColumns edgeColumns(const Garment& garment, const PatchEdge& edge);
 
 /// q = T p, positions only: joined edges are one point; the middle column of a G1 seam is
 ///   q_edge = (q_b + c' q_a) / (1 + c'),   Zheng 2013, eq. 2.35,
-/// with c' from the rest geometry. Rows sum to 1. The corner control point of a G1 seam where other than two patches (on the
-/// border) or four (inside) meet stays free.
+/// with c' from the rest geometry. Rows sum to 1. The corner control point of a G1 seam where other than two patches
+/// (on the border) or four (inside) meet stays free.
 struct FreeMap {
   SparseRows T;           ///< control points x free points
   SparseRows Tt;          ///< its transpose
   std::vector<int> home;  ///< of each free point: the control point that it is
 };
 
-/// Throws InputError (key names the seam) where edges do not match, where the rest geometry is not G1 with a constant ratio,
-/// or where two seams contradict each other.
+/// Throws InputError (key names the seam) where edges do not match, where the rest geometry is not G1 with a constant
+/// ratio, or where two seams contradict each other.
 FreeMap buildFreeMap(const Garment& garment);
 
-/// One quadrature point of a rotational spring. `t`, `a`, `b` are derivative rows at the point: along the edge, into patch a,
-/// into patch b. Energy 1/2 stiffness (theta - theta0)^2 length, theta the angle between the tangents about t.
+/// One quadrature point of a rotational spring. `t`, `a`, `b` are derivative rows at the point: along the edge, into
+/// patch a, into patch b. Energy 1/2 stiffness (theta - theta0)^2 length, theta the angle between the tangents about t.
 struct HingePoint {
   std::vector<int> columns;
   std::vector<double> t, a, b;
@@ -41,7 +41,8 @@ struct HingePoint {
 };
 std::vector<HingePoint> buildHinges(const Garment& garment);
 
-/// The angle of a hinge and, where `gradient` is not null, its derivative with respect to the control points in `columns`.
+/// The angle of a hinge and, where `gradient` is not null, its derivative with respect to the control points in
+/// `columns`.
 double hingeAngle(const HingePoint& hinge, std::span<const Vec3> q, std::vector<Vec3>* gradient);
 
 }  // namespace gambeson

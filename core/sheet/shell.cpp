@@ -24,7 +24,8 @@ RestFrame restFrame(const Vec3& A1, const Vec3& A2, const Vec3& weft) {
   if (!(area > 0)) throw InputError({"", 0, "patch"}, "the rest surface is degenerate (zero area)");
   const Vec3 n = normal / area;
   const Vec3 in_plane = weft - dot(weft, n) * n;
-  if (!(norm(in_plane) > 1e-6 * norm(weft))) throw InputError({"", 0, "weft"}, "the weft direction is normal to the rest surface");
+  if (!(norm(in_plane) > 1e-6 * norm(weft)))
+    throw InputError({"", 0, "weft"}, "the weft direction is normal to the rest surface");
   const Vec3 E1 = normalized(in_plane), E2 = cross(n, E1);
   const double J11 = dot(E1, A1), J12 = dot(E1, A2), J21 = dot(E2, A1), J22 = dot(E2, A2);
   const double det = J11 * J22 - J12 * J21;
@@ -53,13 +54,14 @@ std::vector<Cell> cellsOf(const NurbsPatch& patch, int index) {
   const auto us = breakpoints(patch.u), vs = breakpoints(patch.v);
   for (std::size_t j = 0; j + 1 < vs.size(); ++j)
     for (std::size_t i = 0; i + 1 < us.size(); ++i)
-      cells.push_back({index, findSpan(patch.u, 0.5 * (us[i] + us[i + 1])), findSpan(patch.v, 0.5 * (vs[j] + vs[j + 1])), us[i],
-                       us[i + 1], vs[j], vs[j + 1]});
+      cells.push_back({index, findSpan(patch.u, 0.5 * (us[i] + us[i + 1])),
+                       findSpan(patch.v, 0.5 * (vs[j] + vs[j + 1])), us[i], us[i + 1], vs[j], vs[j + 1]});
   return cells;
 }
 
 /// Fills lane `lane` of group `group`; `real` is false for the copies that fill a last group up (their area is zero).
-void packCell(const Garment& garment, const std::vector<int>& offsets, const Cell& cell, bool real, ShellBlock& b, int group, int lane) {
+void packCell(const Garment& garment, const std::vector<int>& offsets, const Cell& cell, bool real, ShellBlock& b,
+              int group, int lane) {
   const NurbsPatch& patch = garment.patches[cell.patch];
   const int nu = b.p + 1, nv = b.q + 1, nn = nu * nv, L = b.lanes;
   std::vector<double> w(nn);
@@ -75,14 +77,17 @@ void packCell(const Garment& garment, const std::vector<int>& offsets, const Cel
   for (int gv = 0; gv < b.gv; ++gv) {
     const double v = cell.v0 + rv.points[gv] * (cell.v1 - cell.v0);
     basisDerivatives(patch.v, cell.sv, v, 2, bv);
-    for (int k = 0; k < 3 * nv; ++k) b.basis_v[((static_cast<long>(group) * b.gv + gv) * 3 * nv + k) * L + lane] = bv[k];
+    for (int k = 0; k < 3 * nv; ++k)
+      b.basis_v[((static_cast<long>(group) * b.gv + gv) * 3 * nv + k) * L + lane] = bv[k];
     for (int gu = 0; gu < b.gu; ++gu) {
       const double u = cell.u0 + ru.points[gu] * (cell.u1 - cell.u0);
       basisDerivatives(patch.u, cell.su, u, 2, bu);
-      for (int k = 0; k < 3 * nu; ++k) b.basis_u[((static_cast<long>(group) * b.gu + gu) * 3 * nu + k) * L + lane] = bu[k];
+      for (int k = 0; k < 3 * nu; ++k)
+        b.basis_u[((static_cast<long>(group) * b.gu + gu) * 3 * nu + k) * L + lane] = bu[k];
       const auto d = surfaceDerivatives(patch, u, v);
       const RestFrame G = restFrame(d[1], d[2], garment.weft[cell.patch]);
-      const double dA = real ? G.area * (cell.u1 - cell.u0) * (cell.v1 - cell.v0) * ru.weights[gu] * rv.weights[gv] : 0.0;
+      const double dA =
+          real ? G.area * (cell.u1 - cell.u0) * (cell.v1 - cell.v0) * ru.weights[gu] * rv.weights[gv] : 0.0;
       std::vector<double> data{G.G11, G.G12, G.G21, G.G22, dA};
       if (b.rational) {
         std::array<double, 6> W{};  // the denominator and its derivatives: w, 1, 2, 11, 22, 12
@@ -104,12 +109,15 @@ void packCell(const Garment& garment, const std::vector<int>& offsets, const Cel
 
 /// What the laws need to be laws at all: a positive definite membrane and an eq. 2.14 with a finite slope. NaN fails.
 void checkFabric(const Fabric& f) {
-  const auto reject = [](const char* key, const char* reason) { throw InputError({"", 0, std::string("fabric.") + key}, reason); };
+  const auto reject = [](const char* key, const char* reason) {
+    throw InputError({"", 0, std::string("fabric.") + key}, reason);
+  };
   if (!(f.thickness_m > 0)) reject("thickness_m", "must be > 0");
   if (!(f.young_weft_Pa > 0)) reject("young_weft_Pa", "must be > 0");
   if (!(f.young_warp_Pa > 0)) reject("young_warp_Pa", "must be > 0");
   if (!(f.shear_Pa > 0)) reject("shear_Pa", "must be > 0");
-  if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa)) reject("poisson", "must satisfy poisson^2 young_warp < young_weft");
+  if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa))
+    reject("poisson", "must satisfy poisson^2 young_warp < young_weft");
   if (!(f.bending_weft_Nm >= 0)) reject("bending_weft_Nm", "must be >= 0");
   if (!(f.bending_warp_Nm >= 0)) reject("bending_warp_Nm", "must be >= 0");
   if (!(f.twist_Nm >= 0)) reject("twist_Nm", "must be >= 0");
@@ -140,7 +148,8 @@ ShellLaw shellLaw(const Fabric& f) {
 Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra)
     : garment_(garment), kernels_(&kernels), offsets_(controlOffsets(garment)), control_count_(offsets_.back()) {
   checkFabric(garment.fabric);
-  if (garment.weft.size() != garment.patches.size()) throw InputError({"", 0, "weft"}, "one direction for each patch is needed");
+  if (garment.weft.size() != garment.patches.size())
+    throw InputError({"", 0, "weft"}, "one direction for each patch is needed");
   // Blocks: cells of the same degrees, rational or not.
   std::map<std::tuple<int, int, bool>, std::vector<Cell>> kinds;
   for (std::size_t p = 0; p < garment.patches.size(); ++p) {
@@ -204,7 +213,8 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra)
   hinge_slot_ = slot_count_;
   for (const HingePoint& h : hinges_) {
     hinge_offset_.push_back((slot_count_ - hinge_slot_) / 3);
-    for (std::size_t k = 0; k < h.columns.size(); ++k) gather[h.columns[k]].push_back({slot_count_ + 3 * static_cast<long>(k), 1});
+    for (std::size_t k = 0; k < h.columns.size(); ++k)
+      gather[h.columns[k]].push_back({slot_count_ + 3 * static_cast<long>(k), 1});
     slot_count_ += 3 * static_cast<long>(h.columns.size());
   }
   gather_offsets_.push_back(0);
@@ -241,7 +251,8 @@ void Shell::cellForces(std::span<const Vec3> q, ShellWork& work, double* energy,
   if (energy) *energy = total;
 }
 
-void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy, const ShellTerms& terms) const {
+void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy,
+                  const ShellTerms& terms) const {
   double total = 0;
   cellForces(q, work, energy ? &total : nullptr, terms);
   const int hinge_count = static_cast<int>(hinges_.size());

@@ -37,9 +37,12 @@ class Shell {
 
   int controlCount() const { return control_count_; }
   /// f = - dE/dq on the control points [N]; `energy` [J] where not null. The same bits for any number of threads.
-  void force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy = nullptr, const ShellTerms& terms = {}) const;
-  /// The first part of `force` alone: each cell's own share, written to work.slots and not yet summed on the control points.
-  void cellForces(std::span<const Vec3> q, ShellWork& work, double* energy = nullptr, const ShellTerms& terms = {}) const;
+  void force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy = nullptr,
+             const ShellTerms& terms = {}) const;
+  /// The first part of `force` alone: each cell's own share, written to work.slots and not yet summed on the control
+  /// points.
+  void cellForces(std::span<const Vec3> q, ShellWork& work, double* energy = nullptr,
+                  const ShellTerms& terms = {}) const;
   /// Stress and strain at a point of a patch.
   ShellStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   /// Physical curvature (weft, warp, twist) at a point of a patch, the rest curvature not subtracted [1/m].

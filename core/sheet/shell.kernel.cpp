@@ -1,9 +1,9 @@
 /// Internal force of the Kirchhoff-Love shell (Zheng 2013, eq. 2.6 to 2.22), vectorised over cells. Compiled once per
 /// instruction set with GAMBESON_ISA defined.
 ///
-/// The tensor product is used twice: derivatives of the numerator sum_ij B_i B_j (w q)_ij are built direction by direction,
-/// the quotient rule turns them into derivatives of x, and the transpose of both steps takes the stresses back to the
-/// control points. With n the unit normal, b_ab = n . x,ab and a^g the dual base,
+/// The tensor product is used twice: derivatives of the numerator sum_ij B_i B_j (w q)_ij are built direction by
+/// direction, the quotient rule turns them into derivatives of x, and the transpose of both steps takes the stresses
+/// back to the control points. With n the unit normal, b_ab = n . x,ab and a^g the dual base,
 ///   d(kappa_ab) = n . d(x,ab) - (x,ab . a^g) n . d(a_g),
 /// which is eq. 2.20 in fewer terms.
 
@@ -89,8 +89,8 @@ inline V moment(V k, double b0, double k0, double kr, V& energy) {
 /// Resultants and their pull-back at one quadrature point: on return g1, g2, g11, g22, g12 hold the force conjugate to
 /// x,u x,v x,uu x,vv x,uv (times the point's area).
 template <bool kEnergy>
-inline void shellPoint(const ShellLaw& law, const double* data, const double* rest_curvature, V3 a1, V3 a2, V3 x11, V3 x22, V3 x12,
-                       V3& g1, V3& g2, V3& g11, V3& g22, V3& g12, V& energy) {
+inline void shellPoint(const ShellLaw& law, const double* data, const double* rest_curvature, V3 a1, V3 a2, V3 x11,
+                       V3 x22, V3 x12, V3& g1, V3& g2, V3& g11, V3& g22, V3& g12, V& energy) {
   const V G11 = load(data), G12 = load(data + kLanes), G21 = load(data + 2 * kLanes), G22 = load(data + 3 * kLanes);
   const V dA = load(data + 4 * kLanes);
   const V C11 = dot(a1, a1), C22 = dot(a2, a2), C12 = dot(a1, a2);
@@ -161,7 +161,7 @@ void force(const ShellBlock& block, const ShellLaw& law, const double* q, double
         X[k].z[l] = at[2];
       }
       if constexpr (kRational) X[k] = load(weights + k * kLanes) * X[k];
-  F[k] = V3{};
+      F[k] = V3{};
     }
     V e{};
     for (int gv = 0; gv < block.gv; ++gv) {
@@ -181,7 +181,8 @@ void force(const ShellBlock& block, const ShellLaw& law, const double* q, double
       }
       for (int gu = 0; gu < block.gu; ++gu) {
         const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 3 * nu * kLanes;
-        const double* data = block.points.data() + ((static_cast<long>(group) * block.gv + gv) * block.gu + gu) * stride;
+        const double* data =
+            block.points.data() + ((static_cast<long>(group) * block.gv + gv) * block.gu + gu) * stride;
         const double* rest = block.rest_curvature ? data + (5 + (kRational ? 6 : 0)) * kLanes : nullptr;
         V3 x0{}, x1{}, x2{}, x11{}, x22{}, x12{};
         for (int i = 0; i < nu; ++i) {
@@ -258,9 +259,11 @@ void forceOfDegree(const ShellBlock& b, const ShellLaw& law, const double* q, do
 
 void shellForce(const ShellBlock& b, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
   if (b.rational) {
-    energy ? forceOfDegree<true, true>(b, law, q, cell_force, energy) : forceOfDegree<true, false>(b, law, q, cell_force, energy);
+    energy ? forceOfDegree<true, true>(b, law, q, cell_force, energy)
+           : forceOfDegree<true, false>(b, law, q, cell_force, energy);
   } else {
-    energy ? forceOfDegree<false, true>(b, law, q, cell_force, energy) : forceOfDegree<false, false>(b, law, q, cell_force, energy);
+    energy ? forceOfDegree<false, true>(b, law, q, cell_force, energy)
+           : forceOfDegree<false, false>(b, law, q, cell_force, energy);
   }
 }
 
@@ -284,6 +287,7 @@ double multiplyAddPeak(long rounds) {
 extern const KernelSet GAMBESON_CONCAT(kKernels_, GAMBESON_ISA);
 #define GAMBESON_STRING2(a) #a
 #define GAMBESON_STRING(a) GAMBESON_STRING2(a)
-const KernelSet GAMBESON_CONCAT(kKernels_, GAMBESON_ISA){GAMBESON_STRING(GAMBESON_ISA), kLanes, shellForce, multiplyAddPeak};
+const KernelSet GAMBESON_CONCAT(kKernels_, GAMBESON_ISA){GAMBESON_STRING(GAMBESON_ISA), kLanes, shellForce,
+                                                         multiplyAddPeak};
 
 }  // namespace gambeson

@@ -17,12 +17,13 @@ struct ShellBlock {
   int p = 2, q = 2;    ///< degrees along u and v
   int gu = 3, gv = 3;  ///< quadrature points along u and v
   bool rational = false;
-  AlignedVector<int> nodes;         ///< [group][(p+1)(q+1)][lane] control point, u fastest
-  AlignedVector<double> weights;    ///< [group][(p+1)(q+1)][lane], rational blocks only
-  AlignedVector<double> basis_u;    ///< [group][gu][3][p+1][lane]: B-spline values, first and second derivatives
-  AlignedVector<double> basis_v;    ///< [group][gv][3][q+1][lane]
-  AlignedVector<double> points;     ///< [group][gv][gu][pointDoubles()][lane]: G11 G12 G21 G22 dA (w w1 w2 w11 w22 w12) (k11 k22 k12)
-  bool rest_curvature = false;      ///< whether the rest curvature (physical components) is subtracted
+  AlignedVector<int> nodes;       ///< [group][(p+1)(q+1)][lane] control point, u fastest
+  AlignedVector<double> weights;  ///< [group][(p+1)(q+1)][lane], rational blocks only
+  AlignedVector<double> basis_u;  ///< [group][gu][3][p+1][lane]: B-spline values, first and second derivatives
+  AlignedVector<double> basis_v;  ///< [group][gv][3][q+1][lane]
+  AlignedVector<double>
+      points;  ///< [group][gv][gu][pointDoubles()][lane]: G11 G12 G21 G22 dA (w w1 w2 w11 w22 w12) (k11 k22 k12)
+  bool rest_curvature = false;  ///< whether the rest curvature (physical components) is subtracted
 
   int nodeCount() const { return (p + 1) * (q + 1); }
   int pointDoubles() const { return 5 + (rational ? 6 : 0) + (rest_curvature ? 3 : 0); }
@@ -38,8 +39,10 @@ struct ShellLaw {
   double kappa0 = 0, kappa_regular = 0;  ///< kappa0 = 0: the linear law m = B kappa
 };
 
-/// Adds nothing: writes f_int per cell, [group][node][3][lane], and the energy of each lane of a group where `energy` is not null.
-using ShellForceKernel = void (*)(const ShellBlock&, const ShellLaw&, const double* q, double* cell_force, double* energy);
+/// Adds nothing: writes f_int per cell, [group][node][3][lane], and the energy of each lane of a group where `energy`
+/// is not null.
+using ShellForceKernel = void (*)(const ShellBlock&, const ShellLaw&, const double* q, double* cell_force,
+                                  double* energy);
 
 struct KernelSet {
   const char* name;  ///< "sse2", "avx2", "avx512"

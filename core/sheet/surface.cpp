@@ -29,10 +29,18 @@ std::vector<int> gridEdge(int nu, int nv, const PatchEdge& e) {
   for (int k = 0; k < n; ++k) {
     const int t = e.reversed ? n - 1 - k : k;
     switch (e.side) {
-      case Side::u0: at.push_back(nu * t); break;
-      case Side::u1: at.push_back(nu - 1 + nu * t); break;
-      case Side::v0: at.push_back(t); break;
-      case Side::v1: at.push_back(t + nu * (nv - 1)); break;
+      case Side::u0:
+        at.push_back(nu * t);
+        break;
+      case Side::u1:
+        at.push_back(nu - 1 + nu * t);
+        break;
+      case Side::v0:
+        at.push_back(t);
+        break;
+      case Side::v1:
+        at.push_back(t + nu * (nv - 1));
+        break;
     }
   }
   return at;
@@ -48,7 +56,8 @@ std::vector<double> consistentAreas(const SparseRows& WT, const std::vector<doub
   const Matrix gram = W.transpose() * W;
   Eigen::SimplicialLDLT<Matrix> factor(gram);
   if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-9 * factor.vectorD().maxCoeff()))
-    throw InputError({"", 0, "sampling"}, "the surface samples do not see every control point; use more samples per cell");
+    throw InputError({"", 0, "sampling"},
+                     "the surface samples do not see every control point; use more samples per cell");
   const Eigen::VectorXd A = Eigen::Map<const Eigen::VectorXd>(free_area.data(), free_area.size());
   Eigen::VectorXd y = factor.solve(A);
   y += factor.solve(A - gram * y);  // one refinement: the identity W^T a = A is used as exact
@@ -77,7 +86,8 @@ std::vector<double> controlAreas(const Garment& garment) {
               A2 += basis.values[2][k] * patch.points[basis.columns[k]];
             }
             const double dA = norm(cross(A1, A2)) * du * dv * ru.weights[a] * rv.weights[b];
-            for (std::size_t k = 0; k < basis.columns.size(); ++k) area[offsets[p] + basis.columns[k]] += basis.values[0][k] * dA;
+            for (std::size_t k = 0; k < basis.columns.size(); ++k)
+              area[offsets[p] + basis.columns[k]] += basis.values[0][k] * dA;
           }
   }
   return area;
@@ -151,9 +161,11 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
   s.area_m2 = consistentAreas(s.WT, free_area);
   for (int i = 0; i < s.size(); ++i)
     if (!(s.area_m2[i] > 0))
-      throw InputError({"", 0, "sampling"}, "surface sample " + std::to_string(i) + " of patch " + std::to_string(s.patch[i]) + " at (" +
-                       std::to_string(s.parameters[i].x) + ", " + std::to_string(s.parameters[i].y) + ") would carry the area " +
-                       std::to_string(s.area_m2[i]) + " m^2; choose another number of samples per cell");
+      throw InputError({"", 0, "sampling"},
+                       "surface sample " + std::to_string(i) + " of patch " + std::to_string(s.patch[i]) + " at (" +
+                           std::to_string(s.parameters[i].x) + ", " + std::to_string(s.parameters[i].y) +
+                           ") would carry the area " + std::to_string(s.area_m2[i]) +
+                           " m^2; choose another number of samples per cell");
   return s;
 }
 

@@ -10,8 +10,8 @@
 
 namespace gambeson {
 
-/// x = W q. Rows of W sum to 1 and W T has full column rank. `area_m2` is consistent: Wᵀ a = ∫ N dA over the free points, the
-/// minimum-norm solution, so that a uniform pressure p is the impulse a p dt on the samples.
+/// x = W q. Rows of W sum to 1 and W T has full column rank. `area_m2` is consistent: Wᵀ a = ∫ N dA over the free
+/// points, the minimum-norm solution, so that a uniform pressure p is the impulse a p dt on the samples.
 struct Surface {
   SparseRows W;   ///< samples x control points
   SparseRows WT;  ///< samples x free points, W T
@@ -26,8 +26,9 @@ struct Surface {
   int size() const { return static_cast<int>(area_m2.size()); }
 };
 
-/// `per_cell` samples along each cell edge (their parameters divide the cell evenly), or the Greville points for 0. Samples on
-/// joined edges are one. Throws InputError where the samples are too few to see every control point, or an area is not positive.
+/// `per_cell` samples along each cell edge (their parameters divide the cell evenly), or the Greville points for 0.
+/// Samples on joined edges are one. Throws InputError where the samples are too few to see every control point, or an
+/// area is not positive.
 Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell);
 
 /// ∫ N dA at rest for each control point [m^2].

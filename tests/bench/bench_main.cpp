@@ -22,8 +22,8 @@ void gambeson::bench::note(const std::string& name, double value) {
 }
 
 int main(int argc, char** argv) {
-  // One thread to a core: a scheduler may leave two short-lived loops' threads on one core for the whole measurement. The
-  // OpenMP library reads this once, when it is loaded.
+  // One thread to a core: a scheduler may leave two short-lived loops' threads on one core for the whole measurement.
+  // The OpenMP library reads this once, when it is loaded.
   if (!std::getenv("OMP_PROC_BIND") && setenv("OMP_PROC_BIND", "true", 1) == 0) execv("/proc/self/exe", argv);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

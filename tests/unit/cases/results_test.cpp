@@ -91,7 +91,7 @@ void record(const Scenario& s, const std::filesystem::path& dir, std::size_t win
     if (w == 4) frame.sample_fields[3].data[1] = stress_high;
     Field control{"position", "m", 3, {}};
     for (int i = 0; i < s.model->shell.controlCount(); ++i)
-      for (const double v : {0.125, 0.0, 0.0588 - depth_m}) control.data.push_back(static_cast<float>(v));
+      for (const double v : {0.125, 0.0, 0.0570 - depth_m}) control.data.push_back(static_cast<float>(v));
     frame.control_fields = {control};
     writer.append(std::move(frame));
   }
@@ -132,7 +132,7 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   EXPECT_NEAR(j.at("energy").at("drift_ratio").get<double>(), 2.0 / 18, 1e-12);
   EXPECT_EQ(j.at("momentum").at("largest_error_ratio"), 3e-12);
   EXPECT_EQ(j.at("deepest_penetration_m"), 1e-5);
-  // All control points lie in one point, above the middle of the upper arm, whose radius there is 58.8 mm.
+  // All control points lie in one point, above the middle of the upper arm, whose radius there is 57 mm.
   EXPECT_NEAR(j.at("deepest_penetration_of_finer_surface").at("deepest_m").get<double>(), depth_m, 1e-7);
   EXPECT_EQ(j.at("steps").at("count"), 60);
   EXPECT_NEAR(j.at("steps").at("smallest_s").get<double>(), 1e-3 / 6, 1e-15);
