@@ -246,7 +246,6 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
                    : makeManikin(c.human->manikin);
     std::visit(Overloaded{
                    [&](const StandMotion& m) {
-                     WalkOptions still;
                      class Standing : public Motion {
                       public:
                        Standing(Posture p, double d) : posture_(std::move(p)), duration_(d) {}
