@@ -2,10 +2,15 @@
 /// What a fabric is: numbers of the case, SI.
 
 #include <string>
+#include <vector>
+
+#include "core/material/section.hpp"
 
 namespace gambeson {
 
-enum class BendingLaw { linear, zheng };
+/// linear: m = B kappa, B given; zheng: eq. 2.14; consistent: D = h^2/12 times the membrane's stiffness (a homogeneous
+/// St. Venant-Kirchhoff sheet).
+enum class BendingLaw { linear, zheng, consistent };
 
 struct Fabric {
   std::string name;
@@ -23,6 +28,13 @@ struct Fabric {
   double twist_Nm = 0;
   /// Rest curvature: false, zero (the thesis); true, that of the rest shape.
   bool rest_curvature_of_shape = false;
+
+  /// A layered section: its membrane and bending stiffness replace all of the above but the density. The thickness is
+  /// the sum of the plies.
+  std::vector<Ply> plies;
+  /// No compression: the membrane's energy is relaxed to its tension field (core/material/tension_field.hpp). Not with
+  /// a laminate whose B is not zero.
+  bool tension_field = false;
 
   double surfaceDensity() const { return density_kg_per_m3 * thickness_m; }
 };

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/material/fabric.hpp"
-#include "core/nurbs/nurbs.hpp"
+#include "core/nurbs/trim.hpp"
 
 namespace gambeson {
 
@@ -31,12 +31,14 @@ struct Seam {
   double stiffness_N = 0;
 };
 
-/// A layer at rest. The weft direction at a point of patch i is weft[i] projected on the rest surface.
+/// A layer at rest. The weft direction at a point of patch i is weft[i] projected on the rest surface. `trims` is
+/// empty, or holds one entry per patch.
 struct Garment {
   std::string name;
   std::vector<NurbsPatch> patches;
   std::vector<Seam> seams;
   std::vector<Vec3> weft;
+  std::vector<Trim> trims;
   Fabric fabric;
 };
 

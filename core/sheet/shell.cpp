@@ -145,7 +145,7 @@ ShellLaw shellLaw(const Fabric& f) {
   return law;
 }
 
-Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra)
+Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, CellRule)
     : garment_(garment), kernels_(&kernels), offsets_(controlOffsets(garment)), control_count_(offsets_.back()) {
   checkFabric(garment.fabric);
   if (garment.weft.size() != garment.patches.size())

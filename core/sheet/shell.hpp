@@ -30,10 +30,14 @@ struct ShellStress {
   double strain1 = 0, strain2 = 0;                        ///< principal Green-Lagrange strains, first >= second
 };
 
+/// How cells are integrated. Quadratic patches lock under the full rule; `automatic` takes the remedy for them (see
+/// shell.cpp) and the full rule for other degrees.
+enum class CellRule { automatic, full };
+
 class Shell {
  public:
   /// `gauss_extra` points more than degree + 1 in each direction. Throws InputError on bad geometry or fabric.
-  Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra = 0);
+  Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra = 0, CellRule rule = CellRule::automatic);
 
   int controlCount() const { return control_count_; }
   /// f = - dE/dq on the control points [N]; `energy` [J] where not null. The same bits for any number of threads.

@@ -1,0 +1,52 @@
+#pragma once
+/// Static equilibrium: Newton with line search, load stepping, arc length through limit points.
+
+#include <functional>
+
+#include "core/dynamics/structure.hpp"
+
+namespace gambeson {
+
+struct StaticOptions {
+  bool linear = false;  ///< one solve about the rest shape
+  int steps = 10;       ///< equal load steps from factor 0 to 1; a step that fails is halved, at most `halvings` times
+  int halvings = 8;
+  int iterations = 30;      ///< Newton iterations of a step
+  double tolerance = 1e-8;  ///< of the residual's norm against that of the forces that balance (loads, reactions)
+  bool arc_length =
+      false;             ///< Crisfield's cylindrical arc length; `steps` then sets the first step, 1/steps of the load
+  int max_points = 200;  ///< of the path, arc length only
+  double stop_factor = 1;  ///< arc length ends where the factor first reaches this for good, or at max_points
+};
+
+/// A converged point of the path.
+struct StaticPoint {
+  double factor = 0;  ///< the programs' argument
+  std::vector<double> y;
+  int iterations = 0;
+  double residual = 0;      ///< relative
+  int negative_pivots = 0;  ///< of the tangent: 0 where the equilibrium is stable
+};
+
+struct StaticReport {
+  bool reached = false;  ///< the end of the path
+  std::string why;       ///< else: the step, the residual and the likeliest cause
+  int points = 0, factorisations = 0;
+};
+
+/// Returns false to stop early.
+using StaticObserver = std::function<bool(const StaticPoint&)>;
+
+/// Starts from `start` (empty: the rest shape) at factor 0. Throws RunError where a support is missing (a mechanism:
+/// names the direction and the place that moves freely).
+StaticReport solveStatic(const Structure& structure, const StaticOptions& options, const StaticObserver& observe,
+                         std::vector<double> start = {});
+
+/// Control points q of the unknowns y at a time (or factor).
+std::vector<Vec3> controlPoints(const Structure& structure, std::span<const double> y, double t);
+/// f_int - f_ext on the control points: what supports (and inertia) take up there [N].
+std::vector<Vec3> reactions(const Structure& structure, std::span<const double> y, double t);
+/// Stored energy [J], loads not counted.
+double strainEnergy(const Structure& structure, std::span<const double> y, double t);
+
+}  // namespace gambeson
