@@ -15,9 +15,13 @@ struct SymmetricMatrix {
   std::vector<double> values;
 };
 
+/// y = A x, in a fixed order.
+void multiply(const SymmetricMatrix& a, std::span<const double> x, std::span<double> y);
+
+/// singular: a pivot is zero to rounding (below 1e-14 of its diagonal entry).
 enum class Definiteness { positive, indefinite, singular };
 
-/// Analyses the pattern once; `factorise` may be called as often as values change.
+/// Analyses the pattern once; `factorise` may be called as often as values change. Not for use by two threads at once.
 class SymmetricFactor {
  public:
   explicit SymmetricFactor(const SymmetricMatrix& pattern);
@@ -26,13 +30,16 @@ class SymmetricFactor {
   SymmetricFactor& operator=(SymmetricFactor&&) noexcept;
 
   /// Supernodal Cholesky; where that meets a pivot that is not positive, simplicial L D Lᵀ (no pivoting: static
-  /// condensation may lose digits where leading minors nearly vanish; `solve` refines against the matrix).
+  /// condensation may lose digits where leading minors nearly vanish; `solve` refines against the matrix). Throws
+  /// RunError where a value is not finite or memory runs out.
   Definiteness factorise(const SymmetricMatrix& matrix);
   /// Of D: how many eigenvalues are negative (Sylvester). Valid after factorise.
   int negativePivots() const;
   /// The unknown with the smallest pivot relative to its diagonal: what a mechanism moves.
   int weakestUnknown() const;
-  /// x = K^-1 b, one step of iterative refinement.
+  /// False after a pivot that is exactly zero: nothing to solve with.
+  bool solvable() const;
+  /// x = K^-1 b, one step of iterative refinement. b and x are different vectors.
   void solve(std::span<const double> b, std::span<double> x) const;
 
  private:

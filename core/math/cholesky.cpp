@@ -1,0 +1,204 @@
+#include "core/math/cholesky.hpp"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+/// A pivot below this part of its diagonal entry is rounding: elimination subtracts terms of the diagonal's size.
+constexpr double kSingularPivot = 1e-14;
+
+}  // namespace
+
+struct SymmetricFactor::Implementation {
+  cholmod_common common{};
+  SymmetricMatrix matrix;                 ///< the last one factorised, for the refinement
+  cholmod_factor* supernodal = nullptr;   ///< L Lᵀ
+  cholmod_factor* simplicial = nullptr;   ///< L D Lᵀ, analysed when first needed, with the same ordering
+  const cholmod_factor* valid = nullptr;  ///< of the two, the one that holds the last factorisation
+  int negative = 0;
+  int weakest = 0;
+  double weakest_ratio = 0;
+
+  Implementation() {
+    cholmod_start(&common);
+    common.print = 0;
+    common.error_handler = nullptr;
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_AMD;
+    common.postorder = 1;
+    common.quick_return_if_not_posdef = 1;
+  }
+  ~Implementation() {
+    cholmod_free_factor(&supernodal, &common);
+    cholmod_free_factor(&simplicial, &common);
+    cholmod_finish(&common);
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  cholmod_sparse view() {
+    cholmod_sparse a{};
+    a.nrow = a.ncol = static_cast<std::size_t>(matrix.size);
+    a.nzmax = matrix.rows.size();
+    a.p = matrix.offsets.data();
+    a.i = matrix.rows.data();
+    a.x = matrix.values.data();
+    a.stype = -1;
+    a.itype = CHOLMOD_INT;
+    a.xtype = CHOLMOD_REAL;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = 1;
+    a.packed = 1;
+    return a;
+  }
+
+  void check(const char* what) const {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw RunError(std::string(what) + ": out of memory");
+    if (common.status == CHOLMOD_TOO_LARGE) throw RunError(std::string(what) + ": the matrix is too large");
+    if (common.status < CHOLMOD_OK) throw RunError(std::string(what) + " failed");
+  }
+
+  /// Looks at the pivot of the unknown `at`.
+  void pivot(int at, double value, double diagonal) {
+    if (value < 0) ++negative;
+    const double ratio = diagonal != 0 ? std::abs(value / diagonal) : 0.0;
+    if (!(ratio >= weakest_ratio)) weakest_ratio = std::isnan(ratio) ? 0.0 : ratio, weakest = at;
+  }
+
+  double diagonal(int column) const { return matrix.values[matrix.offsets[column]]; }
+
+  void scanSupernodal() {
+    const auto* super = static_cast<const int*>(supernodal->super);
+    const auto* pi = static_cast<const int*>(supernodal->pi);
+    const auto* px = static_cast<const int*>(supernodal->px);
+    const auto* perm = static_cast<const int*>(supernodal->Perm);
+    const auto* x = static_cast<const double*>(supernodal->x);
+    for (std::size_t s = 0; s < supernodal->nsuper; ++s)
+      for (int j = super[s]; j < super[s + 1]; ++j) {
+        const long local = j - super[s], rows = pi[s + 1] - pi[s];
+        const double l = x[px[s] + local * (rows + 1)];
+        pivot(perm[j], l * l, diagonal(perm[j]));
+      }
+  }
+
+  void scanSimplicial() {
+    const auto* p = static_cast<const int*>(simplicial->p);
+    const auto* perm = static_cast<const int*>(simplicial->Perm);
+    const auto* x = static_cast<const double*>(simplicial->x);
+    for (std::size_t j = 0; j < simplicial->n; ++j) pivot(perm[j], x[p[j]], diagonal(perm[j]));
+  }
+
+  void solveOnce(std::span<const double> b, std::span<double> x) {
+    cholmod_dense right{};
+    right.nrow = right.d = right.nzmax = b.size();
+    right.ncol = 1;
+    right.x = const_cast<double*>(b.data());  // CHOLMOD does not write it
+    right.xtype = CHOLMOD_REAL;
+    right.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* result = cholmod_solve(CHOLMOD_A, const_cast<cholmod_factor*>(valid), &right, &common);
+    if (!result) check("solution of a linear system");
+    std::copy_n(static_cast<const double*>(result->x), b.size(), x.begin());
+    cholmod_free_dense(&result, &common);
+  }
+};
+
+void multiply(const SymmetricMatrix& a, std::span<const double> x, std::span<double> y) {
+  std::fill(y.begin(), y.end(), 0.0);
+  for (int c = 0; c < a.size; ++c) {
+    double sum = 0;
+    for (int k = a.offsets[c]; k < a.offsets[c + 1]; ++k) {
+      const int r = a.rows[k];
+      sum += a.values[k] * x[r];
+      if (r != c) y[r] += a.values[k] * x[c];
+    }
+    y[c] += sum;
+  }
+}
+
+SymmetricFactor::SymmetricFactor(const SymmetricMatrix& pattern) : self_(std::make_unique<Implementation>()) {
+  Implementation& s = *self_;
+  s.matrix = pattern;
+  s.matrix.values.resize(pattern.rows.size());
+  s.common.supernodal = CHOLMOD_SUPERNODAL;
+  s.common.final_ll = 1;
+  cholmod_sparse a = s.view();
+  s.supernodal = cholmod_analyze(&a, &s.common);
+  if (!s.supernodal) s.check("symbolic factorisation");
+}
+
+SymmetricFactor::~SymmetricFactor() = default;
+SymmetricFactor::SymmetricFactor(SymmetricFactor&&) noexcept = default;
+SymmetricFactor& SymmetricFactor::operator=(SymmetricFactor&&) noexcept = default;
+
+Definiteness SymmetricFactor::factorise(const SymmetricMatrix& matrix) {
+  Implementation& s = *self_;
+  assert(matrix.size == s.matrix.size && matrix.rows.size() == s.matrix.rows.size());
+  s.matrix.values = matrix.values;
+  s.valid = nullptr;
+  s.negative = 0;
+  s.weakest = 0;
+  s.weakest_ratio = std::numeric_limits<double>::infinity();
+  if (matrix.size == 0) return Definiteness::positive;
+  if (!std::all_of(matrix.values.begin(), matrix.values.end(), [](double v) { return std::isfinite(v); }))
+    throw RunError("factorisation: the matrix is not finite");
+
+  cholmod_sparse a = s.view();
+  cholmod_factorize(&a, s.supernodal, &s.common);
+  s.check("factorisation");
+  if (s.common.status == CHOLMOD_OK) {
+    s.valid = s.supernodal;
+    s.scanSupernodal();
+    return s.weakest_ratio < kSingularPivot ? Definiteness::singular : Definiteness::positive;
+  }
+  // Not positive definite: L D Lᵀ with the same ordering.
+  s.common.supernodal = CHOLMOD_SIMPLICIAL;
+  s.common.final_ll = 0;
+  if (!s.simplicial) {
+    const int ordering = s.common.method[0].ordering;
+    s.common.method[0].ordering = CHOLMOD_GIVEN;
+    s.common.postorder = 0;
+    s.simplicial = cholmod_analyze_p(&a, static_cast<int*>(s.supernodal->Perm), nullptr, 0, &s.common);
+    s.common.method[0].ordering = ordering;
+    s.common.postorder = 1;
+  }
+  if (s.simplicial) cholmod_factorize(&a, s.simplicial, &s.common);
+  const bool zero_pivot = s.common.status == CHOLMOD_NOT_POSDEF;
+  s.common.supernodal = CHOLMOD_SUPERNODAL;
+  s.common.final_ll = 1;
+  s.check("factorisation");
+  if (zero_pivot) {  // exactly zero: the rest is not computed
+    s.weakest = static_cast<const int*>(s.simplicial->Perm)[std::min(s.simplicial->minor, s.simplicial->n - 1)];
+    s.weakest_ratio = 0;
+    return Definiteness::singular;
+  }
+  s.valid = s.simplicial;
+  s.scanSimplicial();
+  if (s.weakest_ratio < kSingularPivot) return Definiteness::singular;
+  return s.negative > 0 ? Definiteness::indefinite : Definiteness::positive;
+}
+
+int SymmetricFactor::negativePivots() const { return self_->negative; }
+int SymmetricFactor::weakestUnknown() const { return self_->weakest; }
+bool SymmetricFactor::solvable() const { return self_->valid != nullptr || self_->matrix.size == 0; }
+
+void SymmetricFactor::solve(std::span<const double> b, std::span<double> x) const {
+  Implementation& s = *self_;
+  assert(solvable());
+  if (s.matrix.size == 0) return;
+  s.solveOnce(b, x);
+  std::vector<double> residual(b.size()), correction(b.size());
+  multiply(s.matrix, x, residual);
+  for (std::size_t i = 0; i < b.size(); ++i) residual[i] = b[i] - residual[i];
+  s.solveOnce(residual, correction);
+  for (std::size_t i = 0; i < b.size(); ++i) x[i] += correction[i];
+}
+
+}  // namespace gambeson

@@ -1,0 +1,116 @@
+/// Sparse symmetric factorisation: against dense algebra (Eigen), known inertia (Sylvester), singular matrices.
+
+#include "core/math/cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+SymmetricMatrix sparseOf(const Eigen::MatrixXd& a) {
+  SymmetricMatrix m;
+  m.size = static_cast<int>(a.rows());
+  for (int c = 0; c < m.size; ++c) {
+    for (int r = c; r < m.size; ++r)
+      if (r == c || a(r, c) != 0) m.rows.push_back(r), m.values.push_back(a(r, c));
+    m.offsets.push_back(static_cast<int>(m.rows.size()));
+  }
+  return m;
+}
+
+/// Sparse random symmetric; eigenvalues about +-1, shifted by `shift`.
+Eigen::MatrixXd randomSymmetric(int n, double shift, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> d(-1, 1);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 0; k < 4 * n; ++k) {
+    const int i = static_cast<int>(random() % n), j = static_cast<int>(random() % n);
+    a(i, j) = a(j, i) = d(random);
+  }
+  return a + shift * Eigen::MatrixXd::Identity(n, n);
+}
+
+double relativeError(const SymmetricFactor& factor, const Eigen::MatrixXd& a) {
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(a.rows(), -1, 2), b = a * x, y(a.rows());
+  factor.solve({b.data(), static_cast<std::size_t>(b.size())}, {y.data(), static_cast<std::size_t>(y.size())});
+  return (y - x).norm() / x.norm();
+}
+
+TEST(Cholesky, SolvesRandomPositiveDefiniteSystems) {
+  for (int n : {1, 2, 40, 200}) {
+    const Eigen::MatrixXd a = randomSymmetric(n, 12, 3);
+    SymmetricFactor factor(sparseOf(a));
+    ASSERT_EQ(factor.factorise(sparseOf(a)), Definiteness::positive);
+    EXPECT_EQ(factor.negativePivots(), 0);
+    EXPECT_LT(relativeError(factor, a), 1e-13);
+  }
+}
+
+TEST(Cholesky, CountsTheNegativeEigenvaluesOfIndefiniteMatrices) {
+  for (double shift : {-8.0, -1.0, -0.1, 0.4, 1.5}) {
+    const Eigen::MatrixXd a = randomSymmetric(120, shift, 7);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a);
+    const int negative = static_cast<int>((eigen.eigenvalues().array() < 0).count());
+    ASSERT_GT(negative, 0);
+    SymmetricFactor factor(sparseOf(a));
+    ASSERT_EQ(factor.factorise(sparseOf(a)), Definiteness::indefinite);
+    EXPECT_EQ(factor.negativePivots(), negative);
+    EXPECT_LT(relativeError(factor, a), 1e-9);
+  }
+}
+
+/// The symbolic part is kept: positive, indefinite and positive again with one object, each with its own values.
+TEST(Cholesky, FactorisesAgainAfterAnIndefiniteMatrix) {
+  const Eigen::MatrixXd positive = randomSymmetric(60, 12, 5), other = randomSymmetric(60, 15, 5),
+                        indefinite = randomSymmetric(60, 0.1, 5);
+  SymmetricFactor factor(sparseOf(positive));
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(factor.factorise(sparseOf(positive)), Definiteness::positive);
+    EXPECT_LT(relativeError(factor, positive), 1e-13);
+    EXPECT_EQ(factor.factorise(sparseOf(indefinite)), Definiteness::indefinite);
+    EXPECT_LT(relativeError(factor, indefinite), 1e-9);
+    EXPECT_EQ(factor.factorise(sparseOf(other)), Definiteness::positive);
+    EXPECT_LT(relativeError(factor, other), 1e-13);
+  }
+  SymmetricFactor moved = std::move(factor);
+  EXPECT_LT(relativeError(moved, other), 1e-13);
+}
+
+/// A chain of springs without support: the rows sum to zero. And a chain with a loose point (row 7 is zero).
+TEST(Cholesky, SeesThatAMatrixIsSingular) {
+  const int n = 30;
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i + 1 < n; ++i) {
+    const double k = 1 + 0.1 * i;
+    chain(i, i) += k, chain(i + 1, i + 1) += k, chain(i, i + 1) -= k, chain(i + 1, i) -= k;
+  }
+  SymmetricFactor factor(sparseOf(chain));
+  EXPECT_EQ(factor.factorise(sparseOf(chain)), Definiteness::singular);
+
+  Eigen::MatrixXd loose = Eigen::MatrixXd::Identity(n, n);
+  loose(7, 7) = 0;
+  SymmetricFactor second(sparseOf(loose));
+  EXPECT_EQ(second.factorise(sparseOf(loose)), Definiteness::singular);
+  EXPECT_EQ(second.weakestUnknown(), 7);
+  loose(7, 7) = 1e-16;
+  loose(7, 6) = loose(6, 7) = 1e-20;
+  SymmetricFactor third(sparseOf(loose));
+  EXPECT_EQ(third.factorise(sparseOf(loose)), Definiteness::positive);  // small, but not against its own diagonal
+}
+
+TEST(Cholesky, RefusesValuesThatAreNotFinite) {
+  SymmetricMatrix m = sparseOf(Eigen::MatrixXd::Identity(3, 3));
+  SymmetricFactor factor(m);
+  m.values[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(factor.factorise(m), RunError);
+}
+
+}  // namespace
+}  // namespace gambeson
