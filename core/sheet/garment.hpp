@@ -6,6 +6,7 @@
 
 #include "core/material/fabric.hpp"
 #include "core/nurbs/trim.hpp"
+#include "core/sheet/fields.hpp"
 
 namespace gambeson {
 
@@ -31,8 +32,8 @@ struct Seam {
   double stiffness_N = 0;
 };
 
-/// A layer at rest. The weft direction at a point of patch i is weft[i] projected on the rest surface. `trims` is
-/// empty, or holds one entry per patch.
+/// A layer at rest. The weft direction at a point of patch i is weft[i] projected on the rest surface. `trims` and `fields` are
+/// empty, or hold one entry per patch.
 struct Garment {
   std::string name;
   std::vector<NurbsPatch> patches;
@@ -40,6 +41,8 @@ struct Garment {
   std::vector<Vec3> weft;
   std::vector<Trim> trims;
   Fabric fabric;
+  std::vector<Fabric> other_fabrics;  ///< what material fields choose from, beside `fabric`
+  std::vector<PatchFields> fields;
 };
 
 }  // namespace gambeson
