@@ -16,7 +16,7 @@ struct StaticOptions {
   bool arc_length =
       false;             ///< Crisfield's cylindrical arc length; `steps` then sets the first step, 1/steps of the load
   int max_points = 200;  ///< of the path, arc length only
-  double stop_factor = 1;  ///< arc length ends where the factor first reaches this for good, or at max_points
+  double stop_factor = 1;  ///< arc length ends where the factor first reaches this, or at max_points
 };
 
 /// A converged point of the path.

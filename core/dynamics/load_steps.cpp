@@ -1,0 +1,82 @@
+/// Load steps: an Euler predictor along the path, Newton, halving and growing back.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/dynamics/path.hpp"
+
+namespace gambeson {
+namespace {
+
+/// What stopped Newton, as far as the tangents tell.
+std::string likeliestCause(const PathState& state, const NewtonReport& newton, double softening) {
+  if (newton.singular) return "the tangent is singular";
+  if (state.solver.negativePivots() > 0 || newton.negative_pivots > 0 || softening < 0.1)
+    return "a limit point or a bifurcation (the tangent loses its definiteness): follow the path by arc length";
+  if (!newton.finite) return "forces that are not finite: the step is too large, or a cell collapses";
+  return "too large a step: take more steps";
+}
+
+}  // namespace
+
+void followLoadSteps(System& system, const StaticOptions& options, const StaticObserver& observe, PathState& state,
+                     StaticReport& report) {
+  const long units = 1L << options.halvings, total = options.steps * units;
+  const auto factorAt = [&](long position) { return static_cast<double>(position) / static_cast<double>(total); };
+  std::vector<double> dg(state.y.size()), dy(state.y.size()), trial;
+  double first_stiffness = 0, softening = 1;  // work of the load on the tangent's motion, now against at first
+  long position = 0, step = units;
+  while (position < total) {
+    const double next = factorAt(position + step);
+    system.change(state.y, state.factor, next, dg);
+    if (state.solver.solvable()) {
+      state.solver.solve(dg, dy);
+      const double rate = next - state.factor, work = dot(dg, dy) / (rate * rate);
+      if (first_stiffness == 0) first_stiffness = work;
+      softening = work != 0 ? first_stiffness / work : 1;
+    } else {
+      dy.assign(dy.size(), 0.0);
+    }
+    NewtonReport newton;
+    bool singular = false;
+    for (const bool line_search : {false, true}) {
+      trial = state.y;
+      for (std::size_t i = 0; i < trial.size(); ++i) trial[i] -= dy[i];
+      EquilibriumAt equilibrium(system, next);
+      NewtonOptions n = newtonOptions(system, options, state);
+      n.line_search = line_search;
+      newton = solveNewton(equilibrium, n, trial, state.K, state.solver);
+      report.factorisations += newton.factorisations;
+      singular = singular || newton.singular;
+      if (newton.converged) break;
+    }
+    if (newton.converged) {
+      position += step;
+      state.y.swap(trial);
+      state.factor = next;
+      if (!observe(acceptPoint(system, state, newton, report))) return;
+      while (step < units && position % (2 * step) == 0 && newton.iterations <= options.iterations / 3) step *= 2;
+      continue;
+    }
+    // The tangent of the last converged point again: predictor and diagnosis start there.
+    system.stiffness(state.y, state.factor, state.K);
+    state.definite = state.solver.factorise(state.K);
+    ++report.factorisations;
+    if (step > 1) {
+      step /= 2;
+      continue;
+    }
+    newton.singular = singular;
+    report.why = fmt::format(
+        "load step {} of {}, from factor {:.6g} to {:.6g}: Newton's residual is {:.2e} of the forces after {} "
+        "iterations, "
+        "with steps halved {} times; likeliest cause: {}. The last converged state is at factor {:.6g}",
+        position / units + 1, options.steps, state.factor, next, newton.residual, newton.iterations, options.halvings,
+        likeliestCause(state, newton, softening), state.factor);
+    return;
+  }
+  report.reached = true;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,52 @@
+#pragma once
+/// Newton's method with a safeguarded line search on the energy's slope.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/math/cholesky.hpp"
+
+namespace gambeson {
+
+/// r(y) = 0, with the symmetric tangent dr/dy.
+class Equations {
+ public:
+  virtual ~Equations() = default;
+  /// Writes r; returns the size of the forces that balance in it.
+  virtual double residual(std::span<const double> y, std::span<double> r) = 0;
+  virtual void tangent(std::span<const double> y, SymmetricMatrix& K) = 0;
+};
+
+struct NewtonOptions {
+  int iterations = 30;
+  double tolerance = 1e-8;  ///< of |r| against the forces that balance
+  double least_force = 0;   ///< these count as at least so large [N]
+  double length_m = 1;      ///< of the structure, for what is rounding
+  bool line_search = false;
+};
+
+struct NewtonReport {
+  bool converged = false, singular = false, finite = true;
+  int iterations = 0, factorisations = 0, negative_pivots = 0;
+  double residual = 0;            ///< relative, the last
+  double force = 0;               ///< the size it is relative to [N]
+  std::vector<double> residuals;  ///< relative, of each iterate
+};
+
+/// Iterates y. `K` and `factor` are scratch with the pattern of the tangent.
+///
+/// A thin shell's residual grows at first in a large step (transverse motion stretches the membrane to second order)
+/// and falls quadratically afterwards, so |r| need not fall. With `line_search` a step s obeys |G(s)| <= 0.8 |G(0)|,
+/// G(s) = dy . r(y + s dy) the slope of the energy (Crisfield 1991, section 9.2), by regula falsi where G changes sign
+/// in (0, 1]; else the whole step is taken. Steps into states that are not finite are halved.
+NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std::vector<double>& y, SymmetricMatrix& K,
+                         SymmetricFactor& factor);
+
+/// What of |r| is rounding: eps |diag K| length.
+double roundingForce(const SymmetricMatrix& K, double length_m);
+
+double norm(std::span<const double> a);
+double dot(std::span<const double> a, std::span<const double> b);
+
+}  // namespace gambeson

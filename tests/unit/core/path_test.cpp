@@ -1,0 +1,182 @@
+/// Equilibrium paths of systems with closed forms: cubic spring, von Mises truss with limit points and snap-back.
+
+#include "core/dynamics/path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "small_systems.hpp"
+
+namespace gambeson {
+namespace {
+
+using namespace shapes;
+
+std::vector<StaticPoint> follow(System& system, const StaticOptions& options, StaticReport* report = nullptr,
+                                std::vector<double> start = {}) {
+  std::vector<StaticPoint> points;
+  const StaticReport r = followPath(
+      system, options, [&](const StaticPoint& p) { return points.push_back(p), true; }, std::move(start));
+  if (report)
+    *report = r;
+  else
+    EXPECT_TRUE(r.reached) << r.why;
+  return points;
+}
+
+/// y + c y^3 = t P.
+SmallSystem cubicSpring(double c, double P) {
+  SmallSystem s(1);
+  s.force = [c](const Eigen::VectorXd& y) -> Eigen::VectorXd { return y + c * y.cwiseProduct(y).cwiseProduct(y); };
+  s.tangent = [c](const Eigen::VectorXd& y) -> Eigen::MatrixXd {
+    return Eigen::MatrixXd::Constant(1, 1, 1 + 3 * c * y(0) * y(0));
+  };
+  s.load = [P](double t) { return Eigen::VectorXd::Constant(1, t * P); };
+  return s;
+}
+
+/// Load on the von Mises truss of two bars at the apex displacement w (downwards): EA/L^3 (w^2 - 2 h w)(w - h).
+double trussLoad(double w, double h, double EA) {
+  const double L2 = 1 + h * h;
+  return EA / (L2 * std::sqrt(L2)) * (w * w - 2 * h * w) * (w - h);
+}
+
+TEST(StaticPath, CubicSpringAgreesWithItsEquation) {
+  SmallSystem s = cubicSpring(4, 3);
+  for (const StaticPoint& p : follow(s, {.steps = 5})) {
+    EXPECT_NEAR(p.y[0] + 4 * std::pow(p.y[0], 3), 3 * p.factor, 1e-7);
+    EXPECT_EQ(p.negative_pivots, 0);
+  }
+  const auto points = follow(s, {.steps = 5});
+  ASSERT_EQ(points.size(), 5u);
+  EXPECT_DOUBLE_EQ(points.back().factor, 1);
+  EXPECT_NEAR(follow(s, {.linear = true}).at(0).y[0], 3, 1e-14);
+}
+
+/// |r_(k+1)| <= C |r_k|^2 close to the solution: the residual's exponent doubles.
+TEST(StaticPath, NewtonConvergesQuadratically) {
+  Truss t = misesTruss(0.4, 100, 0);
+  SmallSystem s = t.system(Eigen::Vector2d(0.3, -0.8));
+  PathState state(s);
+  EquilibriumAt at(s, 1);
+  const NewtonReport n = solveNewton(at, {.tolerance = 1e-14}, state.y, state.K, state.solver);
+  ASSERT_TRUE(n.converged);
+  int pairs = 0;
+  for (std::size_t k = 0; k + 2 < n.residuals.size(); ++k)
+    if (n.residuals[k] < 1e-2 && n.residuals[k + 1] > 1e-13) {
+      EXPECT_LT(n.residuals[k + 1], 50 * n.residuals[k] * n.residuals[k]);
+      ++pairs;
+    }
+  EXPECT_GE(pairs, 1);
+}
+
+/// 2 y/(1 + y^2) is at most 1, at y = 1: a load of 1.2 has no equilibrium.
+TEST(StaticPath, LoadStepsStopAtALimitPointAndNameIt) {
+  SmallSystem s(1);
+  s.force = [](const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, 2 * y(0) / (1 + y(0) * y(0))); };
+  s.tangent = [](const Eigen::VectorXd& y) {
+    const double d = 1 + y(0) * y(0);
+    return Eigen::MatrixXd::Constant(1, 1, 2 * (2 - d) / (d * d));
+  };
+  s.load = [](double t) { return Eigen::VectorXd::Constant(1, 1.2 * t); };
+  StaticReport report;
+  const auto points = follow(s, {.steps = 10}, &report);
+  EXPECT_FALSE(report.reached);
+  EXPECT_NE(report.why.find("limit point"), std::string::npos) << report.why;
+  EXPECT_NE(report.why.find("load step 9"), std::string::npos) << report.why;
+  EXPECT_NE(report.why.find("residual"), std::string::npos) << report.why;
+  EXPECT_LE(points.back().factor, 1 / 1.2);
+  EXPECT_GT(points.back().factor, 0.99 / 1.2);  // halved down to the limit
+  EXPECT_NEAR(2 * points.back().y[0] / (1 + std::pow(points.back().y[0], 2)), 1.2 * points.back().factor, 1e-8);
+}
+
+TEST(StaticPath, ArcLengthFollowsTheTrussThroughBothLimitPoints) {
+  const double h = 0.3, EA = 100, L3 = std::pow(1 + h * h, 1.5), limit = EA / L3 * h * h * h * 2 / (3 * std::sqrt(3));
+  Truss t = misesTruss(h, EA, 0);
+  SmallSystem s = t.system(Eigen::Vector2d(0, -3 * limit));
+  const auto points = follow(s, {.steps = 40, .arc_length = true});
+  double most = 0, least = 0;
+  for (const StaticPoint& p : points) {
+    const double w = -p.y[1];
+    EXPECT_NEAR(p.y[0], 0, 1e-9);
+    EXPECT_NEAR(3 * limit * p.factor, trussLoad(w, h, EA), 1e-6 * limit);
+    // Unstable between the limit points w = h (1 -+ 1/sqrt 3).
+    EXPECT_EQ(p.negative_pivots, std::abs(w - h) < h / std::sqrt(3) ? 1 : 0) << w;
+    if (w < h) most = std::max(most, 3 * p.factor);
+    least = std::min(least, 3 * p.factor);
+  }
+  EXPECT_NEAR(most, 1, 0.05);
+  EXPECT_NEAR(least, -1, 0.05);
+  EXPECT_DOUBLE_EQ(points.back().factor, 1);
+}
+
+/// With a soft spring above the apex its upper end moves back while the truss snaps: the displacement under the load is
+/// not monotone either.
+TEST(StaticPath, ArcLengthFollowsASnapBack) {
+  const double h = 0.3, EA = 100, L3 = std::pow(1 + h * h, 1.5), limit = EA / L3 * h * h * h * 2 / (3 * std::sqrt(3));
+  Truss t = misesTruss(h, EA, 0.4 * EA * h * h);
+  SmallSystem s = t.system(Eigen::Vector3d(0, 0, -3 * limit));
+  const auto points = follow(s, {.steps = 30, .arc_length = true, .max_points = 400});
+  bool back = false;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    EXPECT_NEAR(3 * limit * points[k].factor, trussLoad(-points[k].y[1], h, EA), 1e-6 * limit);
+    if (k > 0) {
+      EXPECT_LT(points[k].y[1], points[k - 1].y[1]);  // the apex goes on
+      back = back || points[k].y[2] > points[k - 1].y[2];
+    }
+  }
+  EXPECT_TRUE(back);
+  EXPECT_DOUBLE_EQ(points.back().factor, 1);
+}
+
+/// A stiffening bar string, flat at first: the first whole Newton step overshoots the far side by orders of magnitude.
+TEST(StaticPath, AHardSpringNeedsTheLineSearchOrHalving) {
+  SmallSystem s = cubicSpring(1e8, 1000);
+  const auto points = follow(s, {.steps = 1});
+  EXPECT_NEAR(points.back().y[0] + 1e8 * std::pow(points.back().y[0], 3), 1000, 1e-4);
+}
+
+/// sqrt is not a number below zero: steps into it are cut.
+TEST(StaticPath, StatesThatAreNotFiniteAreLeft) {
+  SmallSystem s(1);
+  s.force = [](const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, 2 - 2 * std::sqrt(1 - y(0))); };
+  s.tangent = [](const Eigen::VectorXd& y) { return Eigen::MatrixXd::Constant(1, 1, 1 / std::sqrt(1 - y(0))); };
+  s.load = [](double t) { return Eigen::VectorXd::Constant(1, 1.9 * t); };
+  EXPECT_NEAR(follow(s, {.steps = 1}).back().y[0], 1 - 0.05 * 0.05, 1e-7);
+}
+
+TEST(StaticPath, AMechanismIsNamed) {
+  Eigen::MatrixXd K = Eigen::MatrixXd::Identity(3, 3);
+  K(1, 1) = 0;
+  SmallSystem s = linearSystem(K, Eigen::Vector3d(1, 1, 1));
+  try {
+    follow(s, {});
+    FAIL() << "accepted";
+  } catch (const RunError& e) {
+    EXPECT_NE(std::string(e.what()).find("unknown 1"), std::string::npos) << e.what();
+  }
+}
+
+TEST(StaticPath, StartsFromAGivenStateAndFindsItsEquilibriumFirst) {
+  const double h = 0.3;
+  Truss t = misesTruss(h, 100, 0);
+  SmallSystem s = t.system(Eigen::Vector2d(0, -1e-3));
+  const auto points = follow(s, {.steps = 2}, nullptr, {0, -1.9 * h});  // close to the mirrored rest shape
+  EXPECT_NEAR(points.back().y[1], -2 * h, 1e-2 * h);
+  EXPECT_THROW(follow(s, {}, nullptr, {0}), InputError);
+  EXPECT_THROW(follow(s, {.steps = 0}), InputError);
+}
+
+TEST(StaticPath, AnObserverStopsThePath) {
+  SmallSystem s = cubicSpring(1, 1);
+  int points = 0;
+  const StaticReport r = followPath(s, {.steps = 10}, [&](const StaticPoint&) { return ++points < 3; });
+  EXPECT_EQ(points, 3);
+  EXPECT_FALSE(r.reached);
+  EXPECT_TRUE(r.why.empty());
+}
+
+}  // namespace
+}  // namespace gambeson
