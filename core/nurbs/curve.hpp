@@ -1,6 +1,7 @@
 #pragma once
 /// Plane NURBS curves: the edges of trimming loops (Zheng 2013, eq. 2.36).
 
+#include <span>
 #include <vector>
 
 #include "core/nurbs/nurbs.hpp"
@@ -25,5 +26,19 @@ CurvePoint curvePoint(const NurbsCurve& curve, double t);
 NurbsCurve line(Vec2 from, Vec2 to);
 /// A full circle about `center` as a rational quadratic, exact; counter-clockwise, or clockwise.
 NurbsCurve circle(Vec2 center, double radius_u, double radius_v, bool clockwise);
+/// The edges of a polygon, in the given order, closed. At least three corners.
+std::vector<NurbsCurve> polygon(std::span<const Vec2> corners);
+/// A closed, C2 cubic B-spline through `points` in the given order, t by chord length. At least three points, none
+/// equal to the next.
+NurbsCurve closedSpline(std::span<const Vec2> points);
+/// The same curve run backwards.
+NurbsCurve reversed(const NurbsCurve& curve);
+
+/// A rational Bezier segment on t in [0, 1]: points (w u, w v, w). NURBS curves are chains of them, one per knot cell.
+struct BezierSegment {
+  std::vector<Vec3> points;
+  CurvePoint at(double t) const;
+};
+std::vector<BezierSegment> bezierSegments(const NurbsCurve& curve);
 
 }  // namespace gambeson

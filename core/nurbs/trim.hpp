@@ -40,4 +40,7 @@ std::vector<TrimmedCell> trimCells(const NurbsPatch& patch, const Trim& trim);
 /// Whether a parameter point is kept (on the loop: kept).
 bool isKept(const NurbsPatch& patch, const Trim& trim, Vec2 uv);
 
+/// Where the loops meet the lines of breakpoints (the patch's border among them), loop by loop in their order.
+std::vector<Vec2> trimIntersections(const NurbsPatch& patch, const Trim& trim);
+
 }  // namespace gambeson
