@@ -10,12 +10,16 @@ namespace gambeson {
 std::vector<SheetCell> sheetCells(const Garment& garment) {
   if (!garment.trims.empty() && garment.trims.size() != garment.patches.size())
     throw InputError({"", 0, "trims"}, "must be empty or hold one entry per patch");
-  for (const Trim& trim : garment.trims)
-    if (!trim.loops.empty()) throw InputError({"", 0, "trims"}, "trimmed patches cannot be integrated yet");
   std::vector<SheetCell> cells;
   for (int index = 0; index < static_cast<int>(garment.patches.size()); ++index) {
     const NurbsPatch& patch = garment.patches[index];
     const auto us = breakpoints(patch.u), vs = breakpoints(patch.v);
+    std::vector<TrimmedCell> trimmed;
+    if (!garment.trims.empty() && !garment.trims[index].loops.empty()) try {
+        trimmed = trimCells(patch, garment.trims[index]);
+      } catch (const InputError& e) {
+        throw InputError({"", 0, "trims[" + std::to_string(index) + "]." + e.where().key}, e.reason());
+      }
     for (std::size_t j = 0; j + 1 < vs.size(); ++j)
       for (std::size_t i = 0; i + 1 < us.size(); ++i) {
         SheetCell cell;
@@ -23,6 +27,12 @@ std::vector<SheetCell> sheetCells(const Garment& garment) {
         cell.su = findSpan(patch.u, 0.5 * (us[i] + us[i + 1]));
         cell.sv = findSpan(patch.v, 0.5 * (vs[j] + vs[j + 1]));
         cell.u0 = us[i], cell.u1 = us[i + 1], cell.v0 = vs[j], cell.v1 = vs[j + 1];
+        if (!trimmed.empty()) {
+          TrimmedCell& t = trimmed[i + (us.size() - 1) * j];
+          if (t.kind == CellKind::outside) continue;
+          cell.cut = t.kind == CellKind::cut;
+          cell.points = std::move(t.points);
+        }
         cells.push_back(std::move(cell));
       }
   }

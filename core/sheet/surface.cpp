@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/math/quadrature.hpp"
+#include "core/sheet/cells.hpp"
 
 namespace gambeson {
 namespace {
@@ -70,25 +70,19 @@ std::vector<double> consistentAreas(const SparseRows& WT, const std::vector<doub
 std::vector<double> controlAreas(const Garment& garment) {
   const std::vector<int> offsets = controlOffsets(garment);
   std::vector<double> area(offsets.back(), 0);
-  for (std::size_t p = 0; p < garment.patches.size(); ++p) {
-    const NurbsPatch& patch = garment.patches[p];
-    const auto us = breakpoints(patch.u), vs = breakpoints(patch.v);
-    const Quadrature ru = gaussLegendre(patch.u.degree + 1), rv = gaussLegendre(patch.v.degree + 1);
-    for (std::size_t cv = 0; cv + 1 < vs.size(); ++cv)
-      for (std::size_t cu = 0; cu + 1 < us.size(); ++cu)
-        for (std::size_t b = 0; b < rv.points.size(); ++b)
-          for (std::size_t a = 0; a < ru.points.size(); ++a) {
-            const double du = us[cu + 1] - us[cu], dv = vs[cv + 1] - vs[cv];
-            const SurfaceBasis basis = surfaceBasis(patch, us[cu] + ru.points[a] * du, vs[cv] + rv.points[b] * dv);
-            Vec3 A1{}, A2{};
-            for (std::size_t k = 0; k < basis.columns.size(); ++k) {
-              A1 += basis.values[1][k] * patch.points[basis.columns[k]];
-              A2 += basis.values[2][k] * patch.points[basis.columns[k]];
-            }
-            const double dA = norm(cross(A1, A2)) * du * dv * ru.weights[a] * rv.weights[b];
-            for (std::size_t k = 0; k < basis.columns.size(); ++k)
-              area[offsets[p] + basis.columns[k]] += basis.values[0][k] * dA;
-          }
+  for (const SheetCell& cell : sheetCells(garment)) {
+    const NurbsPatch& patch = garment.patches[cell.patch];
+    for (const CellPoint& point : cellRule(cell, patch.u.degree + 1, patch.v.degree + 1)) {
+      const SurfaceBasis basis = surfaceBasis(patch, point.u, point.v);
+      Vec3 A1{}, A2{};
+      for (std::size_t k = 0; k < basis.columns.size(); ++k) {
+        A1 += basis.values[1][k] * patch.points[basis.columns[k]];
+        A2 += basis.values[2][k] * patch.points[basis.columns[k]];
+      }
+      const double dA = norm(cross(A1, A2)) * point.weight;
+      for (std::size_t k = 0; k < basis.columns.size(); ++k)
+        area[offsets[cell.patch] + basis.columns[k]] += basis.values[0][k] * dA;
+    }
   }
   return area;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/sheet/surface.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {
@@ -40,6 +41,34 @@ TEST(Cells, CutCellKeepsItsOwnRule) {
   const auto rule = cellRule(cell, 3, 3);
   ASSERT_EQ(rule.size(), 1u);
   EXPECT_EQ(rule[0].weight, 0.125);
+}
+
+TEST(Cells, TrimmedPatches) {
+  // The second of two unit squares loses a circle: the cell inside it is left out, area 2 - pi/16; a bad loop is named
+  // with its patch.
+  const NurbsPatch square = flatPatch(uniformKnots(2, 5), uniformKnots(2, 5), 1, 1);
+  Garment g = garmentOf({square, square}, {}, plainFabric());
+  g.trims.resize(2);
+  g.trims[1].loops = {{circle({0.5, 0.5}, 0.25, 0.25, true)}};
+  g.trims[1].points_per_piece = 10;
+  const auto cells = sheetCells(g);
+  EXPECT_EQ(cells.size(), 25u + 24u);
+  double area = 0;
+  for (const SheetCell& cell : cells) {
+    EXPECT_TRUE(!cell.cut || cell.patch == 1);
+    for (const CellPoint& point : cellRule(cell, 3, 3)) area += point.weight;
+  }
+  EXPECT_NEAR(area, 2 - kPi / 16, 1e-10);
+  double control = 0;
+  for (double a : controlAreas(g)) control += a;
+  EXPECT_NEAR(control, 2 - kPi / 16, 1e-10);
+  g.trims[1].loops = {{circle({0.5, 0.9}, 0.25, 0.25, true)}};
+  try {
+    sheetCells(g);
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.where().key, "trims[1].loops[0].curves[0]");
+  }
 }
 
 TEST(Cells, TrimsMatchPatches) {
