@@ -42,11 +42,14 @@ using StaticObserver = std::function<bool(const StaticPoint&)>;
 StaticReport solveStatic(const Structure& structure, const StaticOptions& options, const StaticObserver& observe,
                          std::vector<double> start = {});
 
-/// Control points q of the unknowns y at a time (or factor).
-std::vector<Vec3> controlPoints(const Structure& structure, std::span<const double> y, double t);
+/// Control points q of the unknowns y at a time (or, with programs that go on beyond their ends, at a factor).
+std::vector<Vec3> controlPoints(const Structure& structure, std::span<const double> y, double t,
+                                ProgramEnds ends = ProgramEnds::constant);
 /// f_int - f_ext on the control points: what supports (and inertia) take up there [N].
-std::vector<Vec3> reactions(const Structure& structure, std::span<const double> y, double t);
+std::vector<Vec3> reactions(const Structure& structure, std::span<const double> y, double t,
+                            ProgramEnds ends = ProgramEnds::constant);
 /// Stored energy [J], loads not counted.
-double strainEnergy(const Structure& structure, std::span<const double> y, double t);
+double strainEnergy(const Structure& structure, std::span<const double> y, double t,
+                    ProgramEnds ends = ProgramEnds::constant);
 
 }  // namespace gambeson
