@@ -36,7 +36,12 @@ struct Fabric {
   /// a laminate whose B is not zero.
   bool tension_field = false;
 
-  double surfaceDensity() const { return density_kg_per_m3 * thickness_m; }
+  /// [kg/m^2]; a layered section has the thickness of its plies.
+  double surfaceDensity() const {
+    double thickness = plies.empty() ? thickness_m : 0;
+    for (const Ply& ply : plies) thickness += ply.thickness_m;
+    return density_kg_per_m3 * thickness;
+  }
 };
 
 }  // namespace gambeson

@@ -52,12 +52,4 @@ std::vector<CellPoint> cellRule(const SheetCell& cell, int per_direction_u, int 
   return points;
 }
 
-double surfaceDensity(const Garment& garment, int /*patch*/, Vec2 /*uv*/) {
-  const Fabric& fabric = garment.fabric;
-  if (fabric.plies.empty()) return fabric.surfaceDensity();
-  double thickness = 0;
-  for (const Ply& ply : fabric.plies) thickness += ply.thickness_m;
-  return fabric.density_kg_per_m3 * thickness;
-}
-
 }  // namespace gambeson

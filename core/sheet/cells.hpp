@@ -23,7 +23,4 @@ std::vector<SheetCell> sheetCells(const Garment& garment);
 /// The points of a cell: its own, or `per_direction_u` x `per_direction_v` Gauss points.
 std::vector<CellPoint> cellRule(const SheetCell& cell, int per_direction_u, int per_direction_v);
 
-/// Mass per area of the cloth at rest at a point of a patch [kg/m^2]: all that integrates mass or weight asks here.
-double surfaceDensity(const Garment& garment, int patch, Vec2 uv);
-
 }  // namespace gambeson

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/sheet/edge.hpp"
+#include "core/sheet/fields.hpp"
 #include "core/sheet/free_blocks.hpp"
 
 namespace gambeson {
@@ -94,7 +95,7 @@ std::vector<Vec3> weightForce(const Garment& garment, const Vec3& gravity_m_per_
   std::vector<Vec3> force = zeroForce(garment);
   for (int p = 0; p < static_cast<int>(garment.patches.size()); ++p)
     addSurface(
-        garment, p, [&](Vec2 uv) { return surfaceDensity(garment, p, uv) * gravity_m_per_s2; }, force);
+        garment, p, [&](Vec2 uv) { return surfaceDensityAt(garment, p, uv) * gravity_m_per_s2; }, force);
   return force;
 }
 

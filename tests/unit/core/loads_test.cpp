@@ -74,6 +74,9 @@ TEST(Loads, WeightIsThatOfAllPatches) {
   expectVec(total(garmentForce(g, {0, 0, 1})), {0, 0, area}, 1e-7);
   g.fabric.plies = {{.thickness_m = 0.002}, {.thickness_m = 0.003}};  // the plies' thickness counts
   expectVec(total(weightForce(g, {0, 0, -9.81})), {0, 0, -9.81 * 1.5 * area}, 1e-5);
+  g.fields.resize(2);  // twice as thick at the far end of the flat patch: 1.5 on average
+  g.fields[0].thickness = PatchField{1, 2, 2, {1, 2, 1, 2}};
+  expectVec(total(weightForce(g, {0, 0, -9.81})), {0, 0, -9.81 * 1.5 * (area + 0.5)}, 1e-5);
 }
 
 TEST(Loads, PointForceActsAtItsPoint) {
