@@ -7,15 +7,23 @@
 
 namespace gambeson {
 
-std::vector<SheetCell> sheetCells(const Garment& garment) {
+void checkTrims(const Garment& garment) {
   if (!garment.trims.empty() && garment.trims.size() != garment.patches.size())
     throw InputError({"", 0, "trims"}, "must be empty or hold one entry per patch");
+}
+
+bool isTrimmed(const Garment& garment, int patch) {
+  return !garment.trims.empty() && !garment.trims[patch].loops.empty();
+}
+
+std::vector<SheetCell> sheetCells(const Garment& garment) {
+  checkTrims(garment);
   std::vector<SheetCell> cells;
   for (int index = 0; index < static_cast<int>(garment.patches.size()); ++index) {
     const NurbsPatch& patch = garment.patches[index];
     const auto us = breakpoints(patch.u), vs = breakpoints(patch.v);
     std::vector<TrimmedCell> trimmed;
-    if (!garment.trims.empty() && !garment.trims[index].loops.empty()) try {
+    if (isTrimmed(garment, index)) try {
         trimmed = trimCells(patch, garment.trims[index]);
       } catch (const InputError& e) {
         throw InputError({"", 0, "trims[" + std::to_string(index) + "]." + e.where().key}, e.reason());

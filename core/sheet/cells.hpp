@@ -17,6 +17,11 @@ struct SheetCell {
       points;  ///< of a cut cell: its own rule. A whole cell takes a tensor rule of the user's choice.
 };
 
+/// Throws InputError unless `trims` is empty or holds one entry per patch.
+void checkTrims(const Garment& garment);
+/// Whether a patch has trimming loops.
+bool isTrimmed(const Garment& garment, int patch);
+
 /// Cells outside the trimming loops are left out. Order: patch by patch, u fastest.
 std::vector<SheetCell> sheetCells(const Garment& garment);
 

@@ -23,6 +23,16 @@ void checkMotion(const std::string& name, const Prescribed& motion) {
     reject(name, "a prescribed displacement needs a program that says when it acts");
 }
 
+/// The control points of an edge, in the patch's own order, that trimming leaves.
+std::vector<int> keptRow(const Garment& garment, const PatchEdge& edge) {
+  const EdgeColumns rows = edgeColumns(garment, {edge.patch, edge.side});
+  const std::vector<bool> kept = keptControls(garment, edge);
+  std::vector<int> out;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) out.push_back(rows.edge[i]);
+  return out;
+}
+
 /// An equation without terms yet; its program counts only where it moves something.
 LinearConstraint equation(const std::string& name, const Vec3& direction, const Prescribed& motion) {
   LinearConstraint c;
@@ -92,15 +102,15 @@ bool rightAngles(const std::vector<EdgeFrame>& frames) {
 template <class F>
 void keepAcross(const Garment& garment, const PatchEdge& edge, const std::vector<EdgeFrame>& frames, bool constant,
                 const std::string& name, F&& direction, std::vector<LinearConstraint>& out) {
-  const EdgeColumns rows = edgeColumns(garment, edge);
+  const EdgeColumns rows = edgeColumns(garment, {edge.patch, edge.side});
   const bool by_points = constant && rightAngles(frames) && rowsMatch(garment, edge, rows);
+  const std::vector<bool> kept = keptControls(garment, edge);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Vec3 d = direction(i);
-    if (norm2(d) == 0) continue;
+    if (!kept[i] || norm2(d) == 0) continue;
     LinearConstraint c = equation(name, d, {});
     if (by_points) {
-      const std::size_t at = edge.reversed ? frames.size() - 1 - i : i;
-      c.terms = {{rows.inner[at], d}, {rows.edge[at], -d}};
+      c.terms = {{rows.inner[i], d}, {rows.edge[i], -d}};
     } else {
       for (std::size_t k = 0; k < frames[i].across.size(); ++k)
         if (frames[i].across[k] != 0) c.terms.emplace_back(frames[i].basis.columns[k], frames[i].across[k] * d);
@@ -118,10 +128,10 @@ std::vector<LinearConstraint> supportEdge(const Garment& garment, const PatchEdg
   checkMotion(name, motion);
   if (directions.empty()) reject(name, "needs at least one direction");
   std::vector<LinearConstraint> out;
-  const EdgeColumns rows = edgeColumns(garment, edge);
+  const std::vector<int> row = keptRow(garment, edge);
   for (const Vec3& d : directions) {
     checkDirection(name, d);
-    for (int control : rows.edge) {
+    for (int control : row) {
       out.push_back(equation(name, d, motion));
       out.back().terms = {{control, d}};
     }
@@ -195,11 +205,11 @@ std::vector<LinearConstraint> tieEdge(const Garment& garment, const PatchEdge& e
   const std::string name = "tie of " + edgeName(edge);
   checkEdge(garment, edge, name);
   checkDirection(name, direction);
-  const EdgeColumns rows = edgeColumns(garment, edge);
+  const std::vector<int> row = keptRow(garment, edge);
   std::vector<LinearConstraint> out;
-  for (std::size_t i = 1; i < rows.edge.size(); ++i) {
+  for (std::size_t i = 1; i < row.size(); ++i) {
     out.push_back(equation(name, direction, {}));
-    out.back().terms = {{rows.edge[i], direction}, {rows.edge[0], -direction}};
+    out.back().terms = {{row[i], direction}, {row[0], -direction}};
   }
   return out;
 }

@@ -9,7 +9,8 @@
 ///   rigid guide       tieEdge for each direction in which all points move alike; with all three the edge only shifts
 /// A clamp that turns by a finite angle, and a bar that keeps its length while it turns, are not linear in the
 /// displacements and cannot be stated here. Constraints that several supports share (at a corner, say) are dropped by
-/// buildDofMap where they agree.
+/// buildDofMap where they agree. Of a trimmed edge, the control points are held whose basis functions reach what is
+/// left of it.
 
 #include "core/sheet/constraint.hpp"
 

@@ -297,6 +297,35 @@ TEST(Loads, ConstantMomentPatchTest) {
   }
 }
 
+/// A flat 2 m x 1 m patch cut along the line from (0.3, 0) to (0.1, 1), with a round hole; in parameters.
+Garment trimmedFlat() {
+  Garment g = garmentOf({flatPatch(uniformKnots(2, 8), uniformKnots(2, 5), 2, 1)}, {}, plainFabric());
+  const std::vector<Vec2> outline{{0.3, 0}, {1, 0}, {1, 1}, {0.1, 1}};
+  g.trims = {Trim{.loops = {polygon(outline), {circle({0.7, 0.5}, 0.1, 0.2, true)}}, .points_per_piece = 6}};
+  return g;
+}
+
+TEST(Loads, TrimmedPatchCarriesWhatIsLeft) {
+  const Garment g = trimmedFlat();
+  const double hole = kPi * 0.2 * 0.2, area = 2 * (1 - 0.2) - hole;
+  const auto f = surfaceForce(g, 0, {0, 0, 3});
+  expectVec(total(f), {0, 0, 3 * area}, 1e-6);
+  // First moment about y: the trapezium from x = 0.6 - 0.4 y to 2, less the hole at x = 1.4.
+  const double first = 0.5 * (4 - (0.36 - 0.24 + 0.16 / 3)) - 1.4 * hole;
+  EXPECT_NEAR(totalMoment(f, restPoints(g)).y, -3 * first, 1e-6);
+  const Loads loads(g, {}, {{0, 3.0, 0}}, {});
+  expectVec(total(forceOf(loads, restPoints(g))), {0, 0, 3 * area}, 1e-6);
+  // Edges: what is left of them.
+  expectVec(total(edgeForce(g, {0, Side::v0}, {1, 0, 0})), {1.4, 0, 0}, 1e-12);
+  expectVec(total(edgeForce(g, {0, Side::v1}, {1, 0, 0})), {1.8, 0, 0}, 1e-12);
+  expectVec(total(edgeForce(g, {0, Side::u1}, {1, 0, 0})), {1, 0, 0}, 1e-12);
+  const auto moment = forceOf(Loads(g, {}, {}, {{{0, Side::v0}, 2.0, 0}}), restPoints(g));
+  EXPECT_NEAR(totalMoment(moment, restPoints(g)).x, 2.8, 1e-12);
+  EXPECT_THROW(edgeForce(g, {0, Side::u0}, {1, 0, 0}), InputError);   // cut away
+  EXPECT_THROW(pointForce(g, 0, {0.7, 0.5}, {1, 0, 0}), InputError);  // in the hole
+  EXPECT_THROW(Loads(g, {}, {}, {{{0, Side::u0}, 1.0, 0}}), InputError);
+}
+
 TEST(Loads, BadInputIsRefused) {
   const Garment g = cylinder();
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -211,6 +211,21 @@ TEST(Supports, TieLeavesTheCommonMotion) {
   EXPECT_GT(largestViolation(tie, motion(q, [&](const Vec3& x) { return x.y * d; })), 0.1);
 }
 
+TEST(Supports, TrimmedEdgeHoldsWhatIsLeft) {
+  Garment g = garmentOf({flatPatch(uniformKnots(2, 10), uniformKnots(2, 4), 1, 1)}, {}, plainFabric());
+  const std::vector<Vec2> outline{{0.25, 0}, {1, 0}, {1, 1}, {0.25, 1}};
+  g.trims = {Trim{.loops = {polygon(outline)}}};
+  // Of 12 functions the first two, on [0, 0.1] and [0, 0.2], do not reach [0.25, 1].
+  const auto held = supportEdge(g, {0, Side::v0}, std::vector{Vec3{0, 0, 1}});
+  EXPECT_EQ(held.size(), 10u);
+  EXPECT_EQ(held[0].terms[0].first, 2);
+  EXPECT_EQ(clampRotation(g, {0, Side::v0, true}).size(), 10u);
+  EXPECT_EQ(tieEdge(g, {0, Side::v0}, {0, 0, 1}).size(), 9u);
+  EXPECT_EQ(supportEdge(g, {0, Side::u1}, std::vector{Vec3{0, 0, 1}}).size(), 6u);
+  EXPECT_THROW(supportEdge(g, {0, Side::u0}, std::vector{Vec3{0, 0, 1}}), InputError);
+  EXPECT_THROW(supportPoint(g, 0, {0.1, 0.5}, kAxes), InputError);
+}
+
 TEST(Supports, BadInputIsRefused) {
   const Garment g = garmentOf({curvedPatch(2, 2, false)}, {}, plainFabric());
   const double nan = std::numeric_limits<double>::quiet_NaN();
