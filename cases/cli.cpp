@@ -8,6 +8,7 @@
 #include "cases/case.hpp"
 #include "cases/fields.hpp"
 #include "cases/run.hpp"
+#include "cases/verify.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -123,6 +124,26 @@ void addReport(CLI::App& app, ReportOptions& options) {
   report.footer("Example:\n  gambeson report results/shorts_walk -o shorts.html");
 }
 
+void addVerify(CLI::App& app, verify::Options& o) {
+  CLI::App& command =
+      *app.add_subcommand("verify", "Runs published references: measured against reference, tolerance, on one page");
+  command.add_option("--filter", o.filters, "Only references whose id fits the pattern, such as 'sze_*' [all]")
+      ->type_name("GLOB")
+      ->allow_extra_args(false);
+  command.add_flag("--quick", o.quick, "Only the quick half");
+  command.add_option("--dir", o.dir, "Folder of the references [tests/verify]")->type_name("DIR");
+  command.add_option("--out", o.out, "Folder for the results [results/verify]")->type_name("DIR");
+  command.add_option("--jobs", o.jobs, "Runs at a time, of one thread each; 0 for one on each core [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.footer(
+      "Leaves in DIR: verify.html (start here), verify.json and a folder for each run.\n\n"
+      "Examples:\n"
+      "  gambeson verify --quick\n"
+      "  gambeson verify --filter 'sze_3_4*' --out results/hemisphere\n\n"
+      "Exit status: 0 all references passed; 1 some failed; 2 something in the input is wrong.");
+}
+
 int check(const CheckArguments& a, std::ostream& out) {
   if (a.schema) out << schema::jsonSchema(schema::caseTable());
   if (a.doc) out << schema::markdown(schema::caseTable());
@@ -187,10 +208,12 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   CheckArguments check_arguments;
   RenderArguments render_arguments;
   ReportOptions report_options;
+  verify::Options verify_options;
   addRun(app, run_arguments);
   addCheck(app, check_arguments);
   addRender(app, render_arguments);
   addReport(app, report_options);
+  addVerify(app, verify_options);
   if (argc < 2) {
     err << app.help();
     return bad_input;
@@ -199,7 +222,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       !command.starts_with('-') &&
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
     err << fmt::format(
-        "gambeson: there is no command \"{}\"; there are run, check, render and report (see gambeson --help)\n",
+        "gambeson: there is no command \"{}\"; there are run, check, render, report and verify (see gambeson --help)\n",
         command);
     return bad_input;
   }
@@ -208,6 +231,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("run")) return run(run_arguments);
     if (app.got_subcommand("check")) return check(check_arguments, out);
     if (app.got_subcommand("render")) return render(render_arguments);
+    if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
     return reportResults(report_options);
   } catch (const CLI::ParseError& e) {
     return app.exit(e, out, err) == 0 ? done : bad_input;

@@ -41,6 +41,7 @@ svg .mark { stroke:#8d95a3; stroke-dasharray:3 4; } svg .peak-label { font-weigh
 svg .series { fill:none; stroke-width:2.2; stroke-linejoin:round; }
 svg .left { stroke:var(--left); } svg .right { stroke:var(--right); stroke-dasharray:7 2.5; } svg .third { stroke:var(--third); } svg .fourth { stroke:var(--fourth); stroke-dasharray:2 3; }
 svg .peak { fill:#fff; stroke-width:2.4; stroke-dasharray:none; } svg .bar { fill:var(--third); } svg .value { font-weight:600; }
+svg .published { fill:#fff; fill-opacity:.75; stroke:var(--ink); stroke-width:1.3; }
 svg .cursor { stroke:var(--ink); stroke-width:1; } svg .readout { font-weight:600; font-size:13px; paint-order:stroke; stroke:#fff; stroke-width:5px; }
 .scroll { overflow-x:auto; } .q { white-space:nowrap; }
 table { border-collapse:collapse; width:100%; font-size:.95rem; }

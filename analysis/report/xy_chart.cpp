@@ -1,0 +1,150 @@
+#include "analysis/report/xy_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "analysis/report/html.hpp"
+#include "analysis/ticks.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+using html::escape;
+
+constexpr double kWidth = 500, kPlotHeight = 270, kLeft = 62, kRight = 16, kBottom = 46, kLegendRow = 19;
+constexpr std::array<const char*, 4> kTones{"left", "third", "right", "fourth"};
+
+std::string text(double x, double y, const std::string& s, const char* anchor, const char* style = "") {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor, style, escape(s));
+}
+
+struct Tick {
+  double at = 0;  ///< on the axis: the value, or its logarithm
+  std::string label;
+};
+
+/// One axis; logarithmic ones work with the logarithm to base 10.
+struct Axis {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double from = 0, to = 1;  ///< pixels
+  bool logarithmic = false;
+
+  double coordinate(double v) const { return logarithmic ? (v > 0 ? std::log10(v) : std::nan("")) : v; }
+  double pixel(double c) const { return from + (c - low) / (high - low) * (to - from); }
+  void add(double c) { low = std::min(low, c), high = std::max(high, c); }
+  void widen() {
+    const double room = high > low ? 0.04 * (high - low) : low == 0 || logarithmic ? 0.5 : 0.5 * std::abs(low);
+    low -= room, high += room;
+  }
+  std::vector<Tick> ticks(int target) const {
+    std::vector<Tick> all;
+    if (!logarithmic) {
+      const Ticks t = niceTicks(low, high, target);
+      for (const double v : t.values) all.push_back({v, t.label(v)});
+      return all;
+    }
+    // Every power of ten, and 2 and 5 times it where there is room for them.
+    const bool few = high - low < 2.5;
+    for (int e = static_cast<int>(std::floor(low)) - 1; e <= static_cast<int>(std::ceil(high)); ++e)
+      for (const int m : {1, 2, 5}) {
+        const double c = e + std::log10(m);
+        if (c < low || c > high || (m != 1 && !few)) continue;
+        all.push_back({c, formatNumber(m * std::pow(10.0, e), 1)});
+      }
+    return all;
+  }
+};
+
+std::string legend(const std::vector<XySeries>& series, double& height) {
+  std::string out;
+  double x = kLeft, y = 12;
+  std::size_t tone = 0;
+  for (const XySeries& s : series) {
+    const double w = 7.4 * static_cast<double>(s.name.size()) + 42;
+    if (x > kLeft && x + w > kWidth) x = kLeft, y += kLegendRow;
+    if (s.circles)
+      out += fmt::format("<circle class=\"published\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.6\"/>", x + 10, y - 1);
+    else
+      out += fmt::format("<line class=\"series {}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>",
+                         kTones[tone++ % kTones.size()], x, x + 20, y - 1, y - 1);
+    out += text(x + 26, y + 4, s.name, "start");
+    x += w;
+  }
+  height = y + 10;
+  return out;
+}
+
+}  // namespace
+
+std::string xyChart(const XyPlot& plot) {
+  Axis ax, ay;
+  ax.logarithmic = ay.logarithmic = plot.logarithmic;
+  for (const XySeries& s : plot.series) {
+    if (s.x.size() != s.y.size())
+      throw InputError({"", 0, s.name}, fmt::format("{} values of x for {} of y", s.x.size(), s.y.size()));
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      const double cx = ax.coordinate(s.x[i]), cy = ay.coordinate(s.y[i]);
+      if (std::isfinite(cx) && std::isfinite(cy)) ax.add(cx), ay.add(cy);
+    }
+  }
+  const std::string heading = html::element("h3", escape(plot.title));
+  const std::string caption = plot.caption.empty() ? "" : html::element("figcaption", escape(plot.caption));
+  if (!(ax.low <= ax.high))
+    return html::element("figure", heading + html::notice("There is nothing to plot.") + caption, " class=\"chart\"");
+  ax.widen();
+  ay.widen();
+
+  double top = 0;
+  const std::string key = legend(plot.series, top);
+  top += 22;  // the name of the ordinate
+  const double bottom = top + kPlotHeight - kBottom - 22;
+  ax.from = kLeft, ax.to = kWidth - kRight;
+  ay.from = bottom, ay.to = top;
+
+  std::string svg = fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">", kWidth,
+                                bottom + kBottom, escape(plot.title + ": " + plot.y_name + " over " + plot.x_name));
+  for (const Tick& t : ay.ticks(5)) {
+    const double y = ay.pixel(t.at);
+    svg += fmt::format("<line class=\"{}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>",
+                       t.at == 0 && !plot.logarithmic ? "zero" : "grid", ax.from, ax.to, y, y);
+    svg += text(kLeft - 7, y + 4.5, t.label, "end");
+  }
+  for (const Tick& t : ax.ticks(6)) {
+    const double x = ax.pixel(t.at);
+    svg += fmt::format("<line class=\"grid\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", x, x, top,
+                       bottom);
+    svg += text(x, bottom + 18, t.label, "middle");
+  }
+  svg += text(0.5 * (ax.from + ax.to), bottom + 39, plot.x_name, "middle", " class=\"axis\"");
+  svg += text(4, top - 9, plot.y_name, "start", " class=\"axis\"");
+
+  std::size_t tone = 0;
+  std::string lines, circles;
+  for (const XySeries& s : plot.series) {
+    std::string d;
+    bool pen_down = false;
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      const double cx = ax.coordinate(s.x[i]), cy = ay.coordinate(s.y[i]);
+      if (!std::isfinite(cx) || !std::isfinite(cy)) {
+        pen_down = false;
+      } else if (s.circles) {
+        circles += fmt::format("<circle class=\"published\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.6\"/>", ax.pixel(cx),
+                               ay.pixel(cy));
+      } else {
+        d += fmt::format("{}{:.2f} {:.2f}", pen_down ? "L" : "M", ax.pixel(cx), ay.pixel(cy));
+        pen_down = true;
+      }
+    }
+    if (!s.circles)
+      lines += fmt::format("<path class=\"series {}\" data-name=\"{}\" d=\"{}\"/>", kTones[tone++ % kTones.size()],
+                           escape(s.name), d);
+  }
+  return html::element("figure", heading + svg + lines + circles + key + "</svg>\n" + caption, " class=\"chart\"");
+}
+
+}  // namespace gambeson

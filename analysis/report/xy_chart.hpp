@@ -1,0 +1,24 @@
+#pragma once
+/// A plot of y over x as inline SVG: lines for what was measured, open circles for published points.
+
+#include <string>
+#include <vector>
+
+namespace gambeson {
+
+struct XySeries {
+  std::string name;
+  std::vector<double> x, y;  ///< points that are not finite interrupt the line
+  bool circles = false;      ///< points instead of a line
+};
+
+struct XyPlot {
+  std::string title, caption, x_name, y_name;
+  std::vector<XySeries> series;
+  bool logarithmic = false;  ///< both axes; points <= 0 are left out
+};
+
+/// A figure with the plot, its legend and its caption. Throws InputError where a series has not one y per x.
+std::string xyChart(const XyPlot& plot);
+
+}  // namespace gambeson

@@ -1,0 +1,219 @@
+#pragma once
+/// Published references against this program: what a reference is, how it is read, run, judged and shown.
+///
+/// A reference is one file tests/verify/<id>.json: runs (a case, with values set in it), and checks, which compare
+/// numbers that the runs leave (summary.json, tables) with published ones. The runs are processes of the command
+/// itself: what is verified is what the user gets.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cases/json.hpp"
+
+namespace gambeson::verify {
+
+/// One run: a case file, or a case written in the reference, with values set in it.
+struct Run {
+  std::string name;
+  std::filesystem::path file;                                ///< empty: `inline_case`
+  JsonNode inline_case;                                      ///< null: the reference's own case
+  std::vector<std::pair<std::string, std::string>> changes;  ///< path, value as JSON
+  double limit_s = 1800;                                     ///< of wall time; a run that takes longer has failed
+};
+
+/// One number of a run. For several runs (seeds, say) their median, mean, least or largest.
+struct Quantity {
+  enum class Of { median, mean, least, largest };
+  std::vector<std::string> runs;
+  Of of = Of::median;
+  std::string summary;  ///< path of a number of summary.json; or else
+  std::string column;   ///< of a table
+  std::string table = "path.csv";
+  std::string along;         ///< the column that `at` is a value of; empty: the first
+  std::optional<double> at;  ///< linear between rows; absent: the last row
+  double scale = 1, offset = 0;
+  double convert(double x) const { return scale * x + offset; }
+};
+
+/// A column of a run's table beside a column of the reference's table.
+struct Pair {
+  std::string column, reference;
+  double scale = 1, offset = 0;
+};
+
+/// Compares; what the members mean depends on the kind.
+struct Check {
+  enum class Kind { value, curve, table, rate, waves };
+  Kind kind = Kind::value;
+  std::string quantity, unit;  ///< what is measured, in words
+  std::string note;            ///< on the page: where the tolerance comes from, why it is not gated
+  bool gated = true;
+
+  // value: (of - minus) / over
+  Quantity of;
+  std::optional<Quantity> minus, over;
+  std::optional<double> reference, relative, absolute, at_least, at_most;
+
+  // curve and table
+  std::string run;
+  std::vector<std::string> also;  ///< other runs, reported: mesh convergence
+  std::string file = "path.csv";
+  Pair x, y;
+  double bound = 0;           ///< of the largest deviation over the column's largest value
+  bool interpolated = false;  ///< table: between rows of the run, else each row must be hit
+  struct Reported {
+    std::string column;
+    double from = 0, to = 0;
+  };
+  std::optional<Reported> reported;  ///< rows of the reference that are shown, not gated
+
+  // rate: the order in h of |u - exact|^power; `of` without a run is taken from each of `runs`
+  std::vector<std::string> runs;
+  std::vector<double> sizes;
+  std::optional<double> exact;  ///< absent: from three runs of sizes in geometric progression
+  double power = 1;
+
+  // waves: crests of y over x
+  double prominence = 0.1;  ///< of a crest, as a part of the largest less the least value
+  bool closed = false;      ///< the profile closes on itself: crests are counted; else their mean distance is measured
+};
+
+/// The published numbers that curve and table checks refer to.
+struct ReferenceTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+
+struct Reference {
+  std::filesystem::path file;
+  std::string id, title, group, source, doc;
+  bool quick = false;
+  JsonNode inline_case;
+  std::filesystem::path case_file;
+  ReferenceTable table;
+  std::vector<Run> runs;
+  std::vector<Check> checks;
+};
+
+/// Throws InputError: file, line, key.
+Reference readReference(const std::filesystem::path& file);
+
+/// Table of numbers as a run leaves it; cells that are not numbers are NaN.
+struct Numbers {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+  /// Throws RunError with the columns that there are.
+  std::size_t find(const std::string& column) const;
+};
+Numbers parseCsv(std::string_view text, const std::string& name);
+
+/// What became of a run.
+struct Outcome {
+  std::string why;  ///< empty: it succeeded
+  double seconds = 0;
+  std::filesystem::path folder;
+};
+
+/// The numbers of the runs of one reference. Throw RunError where there is no such number.
+class RunNumbers {
+ public:
+  virtual ~RunNumbers() = default;
+  virtual double summary(const std::string& run, const std::string& path) const = 0;
+  virtual const Numbers& table(const std::string& run, const std::string& file) const = 0;
+};
+
+/// One line of verify.json. Absent: there is no number, `note` says why.
+struct Result {
+  std::string id, source, quantity, unit;
+  std::optional<double> measured, reference, tolerance;
+  bool passed = false, gated = true;
+  double seconds = 0;
+  std::string note;
+};
+
+/// Points of a check for the page: measured lines and reference points.
+struct Shown {
+  struct Line {
+    std::string name;
+    std::vector<double> x, y;
+  };
+  std::string title, x_name, y_name;
+  std::vector<Line> measured;
+  Line reference;
+  bool logarithmic = false;
+  /// Row by row: the reference's x and y, what was measured there, the deviation as a part of the largest value.
+  struct Row {
+    double x = 0, y = 0, measured_x = 0, measured_y = 0, deviation = 0;
+    bool gated = true;
+  };
+  std::vector<Row> rows;
+};
+
+/// Results of one check: the gated run first, then the others.
+struct Judged {
+  std::vector<Result> results;
+  std::optional<Shown> shown;
+  /// Mesh convergence: run and measured value (or deviation).
+  std::vector<std::pair<std::string, double>> convergence;
+};
+
+/// Never throws for what a run left: a number that is missing fails with its reason.
+Judged judge(const Reference& reference, const Check& check, const RunNumbers& numbers);
+
+/// Distance of a point from a polyline [units of the axes after division by sx, sy], and where it is met.
+struct Nearest {
+  double distance = 0, x = 0, y = 0;
+};
+Nearest nearestOnPolyline(const std::vector<double>& x, const std::vector<double>& y, double px, double py, double sx,
+                          double sy);
+
+/// Places of the crests of y whose prominence is at least `prominence` (height above the higher of the two saddles
+/// that part it from higher ground or from the ends). Closed: the last point is followed by the first.
+std::vector<std::size_t> crests(const std::vector<double>& y, double prominence, bool closed);
+
+/// A reference with its runs done.
+struct Verified {
+  Reference reference;
+  std::vector<Outcome> outcomes;  ///< of its runs
+  std::vector<Judged> judged;     ///< of its checks
+  double seconds = 0;             ///< of its runs together
+  std::vector<Result> results() const;
+  bool passed() const;
+};
+
+/// Judges all checks; runs that failed are failures of their own.
+Verified assess(const Reference& reference, const std::vector<Outcome>& outcomes);
+
+/// A run to do, as a process.
+struct Job {
+  std::vector<std::string> command;
+  std::filesystem::path log;  ///< takes its output
+  std::filesystem::path folder;
+  double limit_s = 0;
+};
+/// Runs all jobs, `parallel` at a time, each told to use one thread; calls `done` (never two at a time) after each.
+std::vector<Outcome> runJobs(const std::vector<Job>& jobs, int parallel,
+                             const std::function<void(std::size_t, const Outcome&)>& done);
+
+struct Options {
+  std::filesystem::path dir = "tests/verify", out = "results/verify";
+  std::vector<std::string> filters;  ///< shell patterns of ids; empty: all
+  int jobs = 0;                      ///< 0: one for each core
+  bool quick = false;
+  std::string binary = "/proc/self/exe";  ///< the command that runs a case
+};
+
+/// References of the folder that the options choose, by id. Throws InputError: no such folder, nothing chosen.
+std::vector<Reference> chooseReferences(const Options& options);
+
+/// Runs and writes verify.json and verify.html. Exit status: 0 all passed, 1 some failed.
+int runVerify(const Options& options, std::ostream& out);
+
+std::string formatJson(const std::vector<Verified>& all);
+std::string formatPage(const std::vector<Verified>& all, const std::string& command, double wall_s);
+
+}  // namespace gambeson::verify

@@ -1,0 +1,366 @@
+/// Comparisons of measured numbers with published ones. What is not a number never passes.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cases/schema.hpp"
+#include "cases/verify.hpp"
+#include "core/error.hpp"
+
+namespace gambeson::verify {
+
+Nearest nearestOnPolyline(const std::vector<double>& x, const std::vector<double>& y, double px, double py, double sx,
+                          double sy) {
+  Nearest best{std::numeric_limits<double>::infinity(), 0, 0};
+  const auto consider = [&](double qx, double qy) {
+    const double d = std::hypot((qx - px) / sx, (qy - py) / sy);
+    if (d < best.distance) best = {d, qx, qy};
+  };
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    consider(x[i], y[i]);
+    if (i == 0) continue;
+    const double dx = (x[i] - x[i - 1]) / sx, dy = (y[i] - y[i - 1]) / sy, length2 = dx * dx + dy * dy;
+    if (!(length2 > 0)) continue;
+    const double t = ((px - x[i - 1]) / sx * dx + (py - y[i - 1]) / sy * dy) / length2;
+    if (t > 0 && t < 1) consider(x[i - 1] + t * (x[i] - x[i - 1]), y[i - 1] + t * (y[i] - y[i - 1]));
+  }
+  return best;
+}
+
+std::vector<std::size_t> crests(const std::vector<double>& y, double prominence, bool closed) {
+  std::vector<std::size_t> found;
+  const std::size_t n = y.size();
+  // The lowest point on the way from i to higher ground, in steps of +1 or -1, or to the end where there is none.
+  const auto saddle = [&](std::size_t i, std::ptrdiff_t step) {
+    double low = y[i];
+    const auto size = static_cast<std::ptrdiff_t>(n);
+    std::ptrdiff_t at = static_cast<std::ptrdiff_t>(i);
+    for (std::ptrdiff_t k = 1; k < size; ++k) {
+      at += step;
+      if (!closed && (at < 0 || at >= size)) break;
+      const double v = y[static_cast<std::size_t>((at + size) % size)];
+      if (v > y[i]) break;
+      low = std::min(low, v);
+    }
+    return low;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!closed && (i == 0 || i + 1 == n)) continue;
+    const double before = y[(i + n - 1) % n], after = y[(i + 1) % n];
+    if (!(y[i] > before && y[i] >= after)) continue;
+    if (y[i] - std::max(saddle(i, -1), saddle(i, 1)) >= prominence) found.push_back(i);
+  }
+  return found;
+}
+
+std::size_t Numbers::find(const std::string& column) const {
+  const auto it = std::find(columns.begin(), columns.end(), column);
+  if (it == columns.end())
+    throw RunError(fmt::format("there is no column \"{}\"; there are: {}", column, schema::joined(columns)));
+  return static_cast<std::size_t>(it - columns.begin());
+}
+
+namespace {
+
+std::vector<double> columnOf(const Numbers& t, const std::string& name, double scale, double offset) {
+  const std::size_t c = t.find(name);
+  std::vector<double> values;
+  for (const auto& row : t.rows) values.push_back(scale * row[c] + offset);
+  return values;
+}
+
+/// y at x = at, linear between the rows of the first interval that holds `at`.
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  double span = 0;
+  for (const double v : x) span = std::max(span, std::abs(v));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::abs(x[i] - at) <= 1e-9 * span) return y[i];
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if ((x[i - 1] - at) * (x[i] - at) < 0) return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
+  throw RunError(fmt::format("the run's table does not reach {}", at));
+}
+
+/// y where x = at is a row.
+double hit(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  double span = 0;
+  for (const double v : x) span = std::max(span, std::abs(v));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::abs(x[i] - at) <= 1e-9 * span) return y[i];
+  throw RunError(fmt::format("the run's table has no row at {}", at));
+}
+
+double numberOf(const Quantity& q, const std::string& run, const RunNumbers& numbers) {
+  if (!q.summary.empty()) return q.convert(numbers.summary(run, q.summary));
+  const Numbers& t = numbers.table(run, q.table);
+  if (t.rows.empty()) throw RunError(fmt::format("{} of run {} has no rows", q.table, run));
+  const std::vector<double> y = columnOf(t, q.column, q.scale, q.offset);
+  if (!q.at) return y.back();
+  return interpolate(columnOf(t, q.along.empty() ? t.columns.front() : q.along, 1, 0), y, *q.at);
+}
+
+double numberOf(const Quantity& q, const RunNumbers& numbers) {
+  std::vector<double> all;
+  double sum = 0;
+  for (const std::string& run : q.runs) all.push_back(numberOf(q, run, numbers)), sum += all.back();
+  for (const double v : all)
+    if (!std::isfinite(v)) return v;
+  std::sort(all.begin(), all.end());
+  const std::size_t n = all.size();
+  switch (q.of) {
+    case Quantity::Of::median:
+      return 0.5 * (all[(n - 1) / 2] + all[n / 2]);
+    case Quantity::Of::mean:
+      return sum / static_cast<double>(n);
+    case Quantity::Of::least:
+      return all.front();
+    case Quantity::Of::largest:
+      return all.back();
+  }
+  return all.front();
+}
+
+/// Reference, tolerance and verdict for a measured number.
+void decide(const Check& c, double measured, Result& r) {
+  r.measured = measured;
+  if (c.reference) {
+    r.reference = c.reference;
+    r.tolerance = c.absolute ? *c.absolute : *c.relative * std::abs(*c.reference);
+    r.passed = std::abs(measured - *c.reference) <= *r.tolerance;
+  } else if (c.at_least) {
+    r.reference = c.at_least;
+    r.passed = measured >= *c.at_least;
+    r.note = "at least" + (r.note.empty() ? "" : "; " + r.note);
+  } else {
+    r.reference = c.at_most;
+    r.passed = measured <= *c.at_most;
+    r.note = "at most" + (r.note.empty() ? "" : "; " + r.note);
+  }
+}
+
+Result resultOf(const Reference& reference, const Check& c, const std::string& run, bool gated) {
+  Result r;
+  r.id = reference.id;
+  r.source = reference.source;
+  r.quantity = gated || run.empty() ? c.quantity : c.quantity + " (" + run + ")";
+  r.unit = c.unit;
+  r.gated = gated && c.gated;
+  r.note = c.note;
+  return r;
+}
+
+/// Does `fill`, and fails the result where a number is missing.
+template <class Fill>
+Result attempt(Result r, Fill fill) {
+  try {
+    fill(r);
+    if (r.measured && !std::isfinite(*r.measured)) {
+      r.passed = false;
+      r.measured.reset();
+      r.note = "not a finite number";
+    }
+  } catch (const std::exception& e) {
+    r.passed = false;
+    r.measured.reset();
+    r.note = e.what();
+  }
+  return r;
+}
+
+double valueOf(const Check& c, const std::string& instead, const RunNumbers& numbers) {
+  const auto number = [&](Quantity q) {
+    // A coarser mesh takes the place of the mesh that is gated, wherever that one is used.
+    if (!instead.empty())
+      for (std::string& run : q.runs)
+        if (run == c.of.runs.front()) run = instead;
+    return numberOf(q, numbers);
+  };
+  double v = number(c.of);
+  if (c.minus) v -= number(*c.minus);
+  if (c.over) v /= number(*c.over);
+  return v;
+}
+
+/// Judges the gated run, then the others in the order in which they are written (coarse to fine), so that the page
+/// shows convergence.
+template <class Measure>
+void judgeEach(const Reference& reference, const Check& c, const std::string& gated, Measure measure, Judged& out) {
+  out.results.push_back(attempt(resultOf(reference, c, gated, true), [&](Result& r) { measure(gated, true, r); }));
+  for (const std::string& run : c.also) {
+    out.results.push_back(attempt(resultOf(reference, c, run, false), [&](Result& r) { measure(run, false, r); }));
+    if (out.results.back().measured) out.convergence.emplace_back(run, *out.results.back().measured);
+  }
+  if (!c.also.empty() && out.results.front().measured)
+    out.convergence.emplace_back(gated, *out.results.front().measured);
+}
+
+/// Column `name` of the published table.
+std::vector<double> published(const Reference& reference, const std::string& name) {
+  const auto& all = reference.table.columns;
+  const auto c = static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin());
+  std::vector<double> values;
+  for (const auto& row : reference.table.rows) values.push_back(row[c]);
+  return values;
+}
+
+double largestOf(const std::vector<double>& v) {
+  double most = 0;
+  for (const double x : v) most = std::max(most, std::abs(x));
+  return most;
+}
+
+/// curve: distance of each published point from the run's polyline, both axes divided by their largest published
+/// value. table: |y - published y| at the published x, over the column's largest value.
+void judgeRows(const Reference& reference, const Check& c, const RunNumbers& numbers, Judged& out) {
+  const std::vector<double> px = published(reference, c.x.reference), py = published(reference, c.y.reference);
+  const double sx = largestOf(px), sy = largestOf(py);
+  std::vector<bool> row_gated(px.size(), true);
+  if (c.reported) {
+    const std::vector<double> v = published(reference, c.reported->column);
+    for (std::size_t i = 0; i < v.size(); ++i) row_gated[i] = !(v[i] >= c.reported->from && v[i] <= c.reported->to);
+  }
+  Shown shown;
+  shown.title = c.quantity;
+  shown.x_name = c.x.reference;
+  shown.y_name = c.y.reference;
+  shown.reference = {"published", px, py};
+  double worst_reported = 0;
+  const auto measure = [&](const std::string& run, bool gated, Result& r) {
+    r.reference = 0;
+    r.tolerance = c.bound;
+    const Numbers& t = numbers.table(run, c.file);
+    if (t.rows.empty()) throw RunError(fmt::format("{} of run {} has no rows", c.file, run));
+    const std::vector<double> x = columnOf(t, c.x.column, c.x.scale, c.x.offset);
+    const std::vector<double> y = columnOf(t, c.y.column, c.y.scale, c.y.offset);
+    shown.measured.push_back({run, x, y});
+    if (std::any_of(x.begin(), x.end(), [](double v) { return !std::isfinite(v); }) ||
+        std::any_of(y.begin(), y.end(), [](double v) { return !std::isfinite(v); }))
+      throw RunError(fmt::format("{} of run {} holds numbers that are not finite", c.file, run));
+    double worst = 0;
+    for (std::size_t i = 0; i < px.size(); ++i) {
+      Shown::Row row{px[i], py[i], px[i], 0, 0, row_gated[i]};
+      if (c.kind == Check::Kind::curve) {
+        const Nearest near = nearestOnPolyline(x, y, px[i], py[i], sx, sy);
+        row.measured_x = near.x;
+        row.measured_y = near.y;
+        row.deviation = near.distance;
+      } else {
+        row.measured_y = c.interpolated ? interpolate(x, y, px[i]) : hit(x, y, px[i]);
+        row.deviation = std::abs(row.measured_y - py[i]) / sy;
+      }
+      if (gated) shown.rows.push_back(row);
+      if (row.gated)
+        worst = std::max(worst, row.deviation);
+      else if (gated)
+        worst_reported = std::max(worst_reported, row.deviation);
+    }
+    r.measured = worst;
+    r.passed = worst <= c.bound;
+  };
+  judgeEach(reference, c, c.run, measure, out);
+  // The finest mesh is drawn last and named last.
+  if (!shown.measured.empty() && shown.measured.front().name == c.run)
+    std::rotate(shown.measured.begin(), shown.measured.begin() + 1, shown.measured.end());
+  if (c.reported && out.results.front().measured) {
+    Result r = resultOf(reference, c, "", true);
+    r.quantity = fmt::format("{}, rows {} to {} of {} (reported)", c.quantity, c.reported->from, c.reported->to,
+                             c.reported->column);
+    r.measured = worst_reported;
+    r.reference = 0;
+    r.tolerance = c.bound;
+    r.passed = worst_reported <= c.bound;
+    r.gated = false;
+    out.results.push_back(r);
+  }
+  out.shown = std::move(shown);
+}
+
+/// Order p of |u_h - u|^power = C h^p between the last two runs. Without the limit u, from three: with
+/// d_i = u_i - u_{i+1} and sizes in geometric progression, |d_1/d_2|^power = (h_1/h_2)^p.
+void judgeRate(const Reference& reference, const Check& c, const RunNumbers& numbers, Judged& out) {
+  Shown shown;
+  shown.title = c.quantity;
+  shown.x_name = "size";
+  shown.y_name = c.exact ? "error" : "difference to the next finer";
+  shown.logarithmic = true;
+  out.results.push_back(attempt(resultOf(reference, c, "", true), [&](Result& r) {
+    std::vector<double> u, error;
+    for (const std::string& run : c.runs) {
+      u.push_back(numberOf(c.of, run, numbers));
+      out.convergence.emplace_back(run, u.back());
+    }
+    const std::size_t n = u.size();
+    if (c.exact)
+      for (const double v : u) error.push_back(std::pow(std::abs(v - *c.exact), c.power));
+    else
+      for (std::size_t i = 0; i + 1 < n; ++i) error.push_back(std::pow(std::abs(u[i] - u[i + 1]), c.power));
+    const std::size_t m = error.size();
+    if (!(error[m - 1] > 0)) throw RunError("the error of the finest run is 0: there is no rate");
+    shown.measured.push_back({"measured", {c.sizes.begin(), c.sizes.begin() + static_cast<std::ptrdiff_t>(m)}, error});
+    decide(c, std::log(error[m - 2] / error[m - 1]) / std::log(c.sizes[m - 2] / c.sizes[m - 1]), r);
+    if (!c.reference) return;
+    // A line of the published slope through the finest error.
+    shown.reference.name = fmt::format("order {}", *c.reference);
+    for (std::size_t i = 0; i < m; ++i) {
+      shown.reference.x.push_back(c.sizes[i]);
+      shown.reference.y.push_back(error[m - 1] * std::pow(c.sizes[i] / c.sizes[m - 1], *c.reference));
+    }
+  }));
+  out.shown = std::move(shown);
+}
+
+/// Number of crests of a closed profile, or mean distance of the crests of an open one.
+void judgeWaves(const Reference& reference, const Check& c, const RunNumbers& numbers, Judged& out) {
+  Shown shown;
+  shown.title = c.quantity;
+  shown.x_name = c.x.column;
+  shown.y_name = c.y.column;
+  const auto measure = [&](const std::string& run, bool, Result& r) {
+    const Numbers& t = numbers.table(run, c.file);
+    const std::vector<double> x = columnOf(t, c.x.column, c.x.scale, c.x.offset);
+    const std::vector<double> y = columnOf(t, c.y.column, c.y.scale, c.y.offset);
+    if (y.size() < 3) throw RunError(fmt::format("{} of run {} has less than three rows", c.file, run));
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+        throw RunError(fmt::format("{} of run {} holds numbers that are not finite", c.file, run));
+    shown.measured.push_back({run, x, y});
+    const auto [low, high] = std::minmax_element(y.begin(), y.end());
+    const std::vector<std::size_t> at = crests(y, c.prominence * (*high - *low), c.closed);
+    if (c.closed) return decide(c, static_cast<double>(at.size()), r);
+    if (at.size() < 2) throw RunError(fmt::format("run {} has {} crests: no distance", run, at.size()));
+    decide(c, std::abs(x[at.back()] - x[at.front()]) / static_cast<double>(at.size() - 1), r);
+  };
+  judgeEach(reference, c, c.run, measure, out);
+  out.shown = std::move(shown);
+}
+
+}  // namespace
+
+Judged judge(const Reference& reference, const Check& check, const RunNumbers& numbers) {
+  Judged out;
+  switch (check.kind) {
+    case Check::Kind::value:
+      judgeEach(
+          reference, check, check.of.runs.size() == 1 ? check.of.runs.front() : "",
+          [&](const std::string& run, bool gated, Result& r) {
+            decide(check, valueOf(check, gated ? "" : run, numbers), r);
+          },
+          out);
+      break;
+    case Check::Kind::curve:
+    case Check::Kind::table:
+      judgeRows(reference, check, numbers, out);
+      break;
+    case Check::Kind::rate:
+      judgeRate(reference, check, numbers, out);
+      break;
+    case Check::Kind::waves:
+      judgeWaves(reference, check, numbers, out);
+      break;
+  }
+  return out;
+}
+
+}  // namespace gambeson::verify

@@ -1,0 +1,542 @@
+/// gambeson verify: a right number passes, a wrong one fails; runs that fail, and references that are malformed, say
+/// so.
+
+#include "cases/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "cases/cli.hpp"
+#include "core/error.hpp"
+#include "example.hpp"
+
+namespace gambeson::verify {
+namespace {
+
+/// Numbers at hand in place of a run's files.
+class Given : public RunNumbers {
+ public:
+  std::map<std::string, double> numbers;  ///< "run/path"
+  std::map<std::string, Numbers> tables;  ///< "run/file"
+  double summary(const std::string& run, const std::string& path) const override {
+    const auto it = numbers.find(run + "/" + path);
+    if (it == numbers.end()) throw RunError("there is no " + path);
+    return it->second;
+  }
+  const Numbers& table(const std::string& run, const std::string& file) const override {
+    const auto it = tables.find(run + "/" + file);
+    if (it == tables.end()) throw RunError("there is no " + file);
+    return it->second;
+  }
+};
+
+Quantity summaryOf(const std::string& run, const std::string& path) {
+  Quantity q;
+  q.runs = {run};
+  q.summary = path;
+  return q;
+}
+
+Check valueCheck(double reference, double absolute) {
+  Check c;
+  c.of = summaryOf("a", "w");
+  c.reference = reference;
+  c.absolute = absolute;
+  return c;
+}
+
+TEST(VerifyValue, PassesWithinItsToleranceOnly) {
+  Given given;
+  given.numbers["a/w"] = 2.5;
+  EXPECT_TRUE(judge({}, valueCheck(2.49, 0.011), given).results[0].passed);
+  EXPECT_FALSE(judge({}, valueCheck(2.49, 0.009), given).results[0].passed);
+  Check relative = valueCheck(-2.5, 1);
+  relative.absolute.reset();
+  relative.relative = 0.01;
+  EXPECT_FALSE(judge({}, relative, given).results[0].passed);
+  EXPECT_DOUBLE_EQ(*judge({}, relative, given).results[0].tolerance, 0.025);
+}
+
+TEST(VerifyValue, WhatIsNoNumberFails) {
+  Given given;
+  given.numbers["a/w"] = std::nan("");
+  const Result nan = judge({}, valueCheck(0, 1e300), given).results[0];
+  EXPECT_FALSE(nan.passed);
+  EXPECT_FALSE(nan.measured);
+  Check missing = valueCheck(0, 1);
+  missing.of = summaryOf("a", "v");
+  const Result none = judge({}, missing, given).results[0];
+  EXPECT_FALSE(none.passed);
+  EXPECT_EQ(none.note, "there is no v");
+  Check least = valueCheck(0, 1);
+  least.reference.reset();
+  least.absolute.reset();
+  least.at_least = -1e300;
+  EXPECT_FALSE(judge({}, least, given).results[0].passed);
+}
+
+TEST(VerifyValue, DifferencesRatiosAndBounds) {
+  Given given;
+  given.numbers = {{"a/w", 6}, {"a/u", 2}, {"b/w", 8}};
+  Check c = valueCheck(0.5, 1e-12);
+  c.minus = summaryOf("a", "u");
+  c.over = summaryOf("b", "w");
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);  // (6 - 2)/8
+  c.reference.reset();
+  c.absolute.reset();
+  c.at_least = 0.51;
+  EXPECT_FALSE(judge({}, c, given).results[0].passed);
+  c.at_least.reset();
+  c.at_most = 0.51;
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);
+}
+
+TEST(VerifyValue, SeedsBecomeOneNumber) {
+  Given given;
+  given.numbers = {{"a/w", 7}, {"b/w", 1}, {"c/w", 4}};
+  Check c = valueCheck(4, 1e-12);
+  c.of.runs = {"a", "b", "c"};
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);
+  c.of.of = Quantity::Of::largest;
+  EXPECT_DOUBLE_EQ(*judge({}, c, given).results[0].measured, 7);
+  c.of.of = Quantity::Of::least;
+  EXPECT_DOUBLE_EQ(*judge({}, c, given).results[0].measured, 1);
+  c.of.of = Quantity::Of::mean;
+  EXPECT_DOUBLE_EQ(*judge({}, c, given).results[0].measured, 4);
+  given.numbers["b/w"] = std::nan("");  // not the least, nor lost in the median
+  for (const auto of : {Quantity::Of::median, Quantity::Of::least, Quantity::Of::largest}) {
+    c.of.of = of;
+    EXPECT_FALSE(judge({}, c, given).results[0].passed);
+  }
+}
+
+TEST(VerifyValue, RowsOfATable) {
+  Given given;
+  given.tables["a/path.csv"] = {{"factor", "w"}, {{0, 0}, {0.5, 1}, {1, 4}}};
+  Check c = valueCheck(-39, 1e-9);
+  c.of = {};
+  c.of.runs = {"a"};
+  c.of.column = "w";
+  c.of.scale = -10;
+  c.of.offset = 1;
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);  // 1 - 10 * 4
+  c.of.at = 0.75;
+  EXPECT_DOUBLE_EQ(*judge({}, c, given).results[0].measured, -24);  // halfway between 1 and 4
+  c.of.at = 1.1;
+  EXPECT_FALSE(judge({}, c, given).results[0].passed);
+  c.of.at.reset();
+  c.of.column = "v";
+  EXPECT_EQ(judge({}, c, given).results[0].note, "there is no column \"v\"; there are: factor or w");
+}
+
+TEST(VerifyValue, CoarseMeshesAreReported) {
+  Given given;
+  given.numbers = {{"a/w", 1.0}, {"coarse/w", 0.8}};
+  Check c = valueCheck(1, 0.01);
+  c.also = {"coarse"};
+  const Judged j = judge({}, c, given);
+  ASSERT_EQ(j.results.size(), 2u);
+  EXPECT_TRUE(j.results[0].passed && j.results[0].gated);
+  EXPECT_FALSE(j.results[1].passed || j.results[1].gated);
+  ASSERT_EQ(j.convergence.size(), 2u);
+  EXPECT_EQ(j.convergence[0].first, "coarse");
+  EXPECT_DOUBLE_EQ(j.convergence[1].second, 1.0);
+}
+
+TEST(VerifyCurve, DistanceFromAPolyline) {
+  // A corner at (1, 1): the point (2, 1) is 1 from it; with the x axis divided by 4, a quarter.
+  EXPECT_DOUBLE_EQ(nearestOnPolyline({0, 1, 0}, {0, 1, 2}, 2, 1, 1, 1).distance, 1);
+  EXPECT_DOUBLE_EQ(nearestOnPolyline({0, 1, 0}, {0, 1, 2}, 2, 1, 4, 1).distance, 0.25);
+  // Inside a segment, by hand: (0, 1) from the line y = x is 1/sqrt 2, met at (1/2, 1/2).
+  const Nearest n = nearestOnPolyline({0, 1}, {0, 1}, 0, 1, 1, 1);
+  EXPECT_NEAR(n.distance, std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(n.x, 0.5, 1e-15);
+  // Repeated points and the empty line.
+  EXPECT_DOUBLE_EQ(nearestOnPolyline({1, 1}, {1, 1}, 1, 3, 1, 1).distance, 2);
+  EXPECT_TRUE(std::isinf(nearestOnPolyline({}, {}, 0, 0, 1, 1).distance));
+}
+
+/// A path with a limit point: load sin(3 w), w from 0 to 1, of which the reference has some rows.
+struct Snap {
+  Given given;
+  Reference reference;
+  Check check;
+  Snap() {
+    Numbers& t = given.tables["a/path.csv"];
+    t.columns = {"factor", "w_m"};
+    for (int i = 0; i <= 400; ++i) t.rows.push_back({std::sin(3 * i / 400.0), i / 400.0});
+    reference.table.columns = {"P", "-W"};
+    for (const double w : {0.2, 0.5, 0.8, 1.0}) reference.table.rows.push_back({std::sin(3 * w), -100 * w});
+    check.kind = Check::Kind::curve;
+    check.quantity = "snap";
+    check.run = "a";
+    check.x = {"w_m", "-W", -100, 0};
+    check.y = {"factor", "P", 1, 0};
+    check.bound = 1e-4;
+  }
+};
+
+TEST(VerifyCurve, FollowsAPathThroughALimitPoint) {
+  Snap s;
+  const Judged j = judge(s.reference, s.check, s.given);
+  EXPECT_TRUE(j.results[0].passed) << *j.results[0].measured;
+  EXPECT_LT(*j.results[0].measured, 2e-5);  // the chords' error, (3/400)^2/8
+  ASSERT_TRUE(j.shown);
+  EXPECT_EQ(j.shown->rows.size(), 4u);
+}
+
+TEST(VerifyCurve, OneWrongRowFails) {
+  Snap s;
+  s.reference.table.rows[2][1] *= 1.02;
+  const Judged j = judge(s.reference, s.check, s.given);
+  EXPECT_FALSE(j.results[0].passed);
+  EXPECT_NEAR(j.shown->rows[2].deviation, *j.results[0].measured, 1e-15);
+  // Reported instead of gated: the others still are.
+  s.check.reported = {"-W", -85, -75};
+  const Judged reported = judge(s.reference, s.check, s.given);
+  EXPECT_TRUE(reported.results[0].passed);
+  ASSERT_EQ(reported.results.size(), 2u);
+  EXPECT_FALSE(reported.results[1].gated);
+  EXPECT_FALSE(reported.results[1].passed);
+  s.reference.table.rows[1][0] += 0.1;
+  EXPECT_FALSE(judge(s.reference, s.check, s.given).results[0].passed);
+}
+
+TEST(VerifyCurve, APathThatEndsEarlyFails) {
+  Snap s;
+  s.given.tables["a/path.csv"].rows.resize(300);
+  EXPECT_FALSE(judge(s.reference, s.check, s.given).results[0].passed);
+  s.given.tables["a/path.csv"].rows.clear();
+  EXPECT_FALSE(judge(s.reference, s.check, s.given).results[0].passed);
+}
+
+TEST(VerifyCurve, ANumberThatIsNotFiniteFails) {
+  Snap s;
+  s.given.tables["a/path.csv"].rows[3][1] = std::nan("");
+  EXPECT_FALSE(judge(s.reference, s.check, s.given).results[0].passed);
+}
+
+TEST(VerifyTable, RowsAreHitOrInterpolated) {
+  Given given;
+  given.tables["a/path.csv"] = {{"factor", "w"}, {{0, 0}, {0.5, 1}, {1, 4}}};
+  Reference r;
+  r.table = {{"P", "W"}, {{0.5, 1.02}, {1, 4}}};
+  Check c;
+  c.kind = Check::Kind::table;
+  c.run = "a";
+  c.x = {"factor", "P", 1, 0};
+  c.y = {"w", "W", 1, 0};
+  c.bound = 0.0051;  // 0.02/4
+  EXPECT_TRUE(judge(r, c, given).results[0].passed);
+  c.bound = 0.0049;
+  EXPECT_FALSE(judge(r, c, given).results[0].passed);
+  r.table.rows.push_back({0.75, 2.5});
+  const Result missed = judge(r, c, given).results[0];
+  EXPECT_FALSE(missed.passed);
+  EXPECT_NE(missed.note.find("no row at 0.75"), std::string::npos);
+  c.bound = 0.0051;
+  c.interpolated = true;
+  EXPECT_TRUE(judge(r, c, given).results[0].passed);
+}
+
+TEST(VerifyRate, OrderFromEnergiesAndFromDifferences) {
+  // Energy 2 - 3 h^4: the error in the energy norm falls with h^2.
+  Given given;
+  Check c;
+  c.kind = Check::Kind::rate;
+  c.of.summary = "e";
+  c.runs = {"a", "b", "c"};
+  c.sizes = {0.4, 0.2, 0.1};
+  for (std::size_t i = 0; i < 3; ++i) given.numbers[c.runs[i] + "/e"] = 2 - 3 * std::pow(c.sizes[i], 4);
+  c.exact = 2;
+  c.power = 0.5;
+  c.reference = 2;
+  c.absolute = 1e-9;
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);
+  c.exact.reset();
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);
+  given.numbers["c/e"] = 2 - 3 * std::pow(0.1, 3.5);
+  EXPECT_FALSE(judge({}, c, given).results[0].passed);
+  c.exact = 2;
+  given.numbers["c/e"] = 2;  // no error, no rate
+  EXPECT_FALSE(judge({}, c, given).results[0].passed);
+}
+
+TEST(VerifyWaves, CrestsByProminence) {
+  // Prominences by hand: 3 at index 1 (saddle 1 towards the 4, end 0), 4 at 3 is the highest (ends 0 and 0), 2.2 at 5
+  // rises 0.2 above its saddle 2.
+  const std::vector<double> y{0, 3, 1, 4, 2, 2.2, 0};
+  EXPECT_EQ(crests(y, 0.1, false), (std::vector<std::size_t>{1, 3, 5}));
+  EXPECT_EQ(crests(y, 0.5, false), (std::vector<std::size_t>{1, 3}));
+  EXPECT_EQ(crests(y, 2.5, false), (std::vector<std::size_t>{3}));
+  std::vector<double> seven;
+  for (int i = 0; i < 100; ++i) seven.push_back(1 + 0.2 * std::cos(2 * std::numbers::pi * 7 * i / 100.0));
+  EXPECT_EQ(crests(seven, 0.04, true).size(), 7u);
+  EXPECT_TRUE(crests({1, 1, 1, 1}, 0.1, true).empty());
+}
+
+TEST(VerifyWaves, MeanDistance) {
+  Given given;
+  Numbers& t = given.tables["a/line.csv"];
+  t.columns = {"s", "w"};
+  for (int i = 0; i <= 1000; ++i)
+    t.rows.push_back({i * 1e-4, std::sin(2 * std::numbers::pi * i * 1e-4 / 0.025) + 0.02 * std::cos(7.0 * i)});
+  Check c;
+  c.kind = Check::Kind::waves;
+  c.run = "a";
+  c.file = "line.csv";
+  c.x = {"s", "", 1000, 0};
+  c.y = {"w", "", 1, 0};
+  c.prominence = 0.5;
+  c.reference = 25;
+  c.relative = 0.02;
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);
+  c.reference = 24;
+  EXPECT_FALSE(judge({}, c, given).results[0].passed);
+}
+
+// ---- files, runs, the whole command
+
+const std::string reference_text = R"json({
+  "id": "tip",
+  "title": "A tip",
+  "source": "a book",
+  "doc": "Nothing to say.",
+  "quick": true,
+  "case": {"static": {"steps": 4}},
+  "table": {"columns": ["P", "W"], "rows": [[0.5, 1.0], [1, 2.5]]},
+  "runs": [{"name": "fine", "set": {"static.steps": 8}}, {"name": "coarse"}],
+  "checks": [
+    {"kind": "value", "quantity": "tip", "unit": "m", "of": {"run": "fine", "summary": "points.tip.w[1]"}, "reference": 2.5, "relative": 0.01},
+    {"kind": "table", "quantity": "path", "run": "fine", "also": ["coarse"], "x": {"column": "factor", "reference": "P"},
+     "y": {"column": "tip.w", "reference": "W"}, "bound": 1e-6}
+  ]
+})json";
+
+/// In place of the command: leaves the same numbers whatever the case, fails where the case says so, keeps its
+/// arguments, the threads that it was told and the case beside its results.
+const std::string fake = R"sh(#!/bin/sh
+case_file=$2; out=$4
+cp "$case_file" "$out/case.json"
+echo "$@" > "$out/arguments"; echo "$OMP_NUM_THREADS" > "$out/threads"
+if grep -q '"steps": 666' "$case_file"; then echo "step 3: the residual grows"; exit 1; fi
+if grep -q '"steps": 667' "$case_file"; then kill -9 $$; fi
+if grep -q '"steps": 668' "$case_file"; then exec tail -f /dev/null; fi
+printf '{"points": {"tip.w": [1.0, 2.5]}}' > "$out/summary.json"
+printf 'factor,tip.w\n0,0\n0.5,1\n1,2.5\n' > "$out/path.csv"
+)sh";
+
+class VerifyCommand : public testing::Test {
+ protected:
+  Folder folder;
+  Options options;
+  std::ostringstream out;
+
+  void SetUp() override {
+    options.binary = folder.write("fake", fake).string();
+    std::filesystem::permissions(options.binary, std::filesystem::perms::owner_all);
+    options.dir = folder.path() / "references";
+    options.out = folder.path() / "results";
+    options.jobs = 2;
+    std::filesystem::create_directories(options.dir);
+  }
+  void write(const std::string& name, const std::string& text) { folder.write("references/" + name + ".json", text); }
+  nlohmann::json written() const {
+    std::ifstream stream(options.out / "verify.json");
+    return nlohmann::json::parse(stream);
+  }
+  std::string content(const std::string& file) const {
+    std::ifstream stream(options.out / file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+};
+
+TEST_F(VerifyCommand, PassesAndWritesNumbersAndPage) {
+  write("tip", reference_text);
+  EXPECT_EQ(runVerify(options, out), 0) << out.str();
+  const auto all = written();
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].at("id"), "tip");
+  EXPECT_EQ(all[0].at("source"), "a book");
+  EXPECT_EQ(all[0].at("quantity"), "tip");
+  EXPECT_EQ(all[0].at("unit"), "m");
+  EXPECT_DOUBLE_EQ(all[0].at("measured").get<double>(), 2.5);
+  EXPECT_DOUBLE_EQ(all[0].at("reference").get<double>(), 2.5);
+  EXPECT_DOUBLE_EQ(all[0].at("tolerance").get<double>(), 0.025);
+  EXPECT_TRUE(all[0].at("passed").get<bool>() && all[0].at("gated").get<bool>());
+  EXPECT_GE(all[0].at("seconds").get<double>(), 0);
+  EXPECT_FALSE(all[2].at("gated").get<bool>());
+  const std::string page = content("verify.html");
+  EXPECT_NE(page.find("A tip"), std::string::npos);
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos);  // asks the network for nothing
+  EXPECT_NE(out.str().find("1 of 1 references passed"), std::string::npos);
+}
+
+TEST_F(VerifyCommand, RunsGetTheirCaseValuesAndOneThread) {
+  write("tip", reference_text);
+  ASSERT_EQ(runVerify(options, out), 0);
+  EXPECT_EQ(nlohmann::json::parse(content("tip/fine/case.json")).at("static").at("steps"), 8);
+  EXPECT_EQ(nlohmann::json::parse(content("tip/coarse/case.json")).at("static").at("steps"), 4);
+  EXPECT_EQ(content("tip/fine/threads"), "1\n");
+  EXPECT_NE(content("tip/fine/arguments").find("--threads 1"), std::string::npos);
+}
+
+TEST_F(VerifyCommand, ACaseFileIsChangedOnTheCommandLine) {
+  write("tip", replaced(reference_text, R"("case": {"static": {"steps": 4}})", R"("case": "../beam.case")"));
+  folder.write("beam.case", R"({"static": {"steps": 4}})");
+  ASSERT_EQ(runVerify(options, out), 0);
+  EXPECT_NE(content("tip/fine/arguments").find("beam.case"), std::string::npos);
+  EXPECT_NE(content("tip/fine/arguments").find("--set static.steps=8"), std::string::npos);
+}
+
+TEST_F(VerifyCommand, AWrongNumberFails) {
+  write("tip", replaced(reference_text, "\"reference\": 2.5", "\"reference\": 2.6"));
+  EXPECT_EQ(runVerify(options, out), 1);
+  EXPECT_FALSE(written()[0].at("passed").get<bool>());
+  EXPECT_NE(out.str().find("FAILED  tip"), std::string::npos);
+  EXPECT_NE(content("verify.html").find("FAILED"), std::string::npos);
+  // Reported, it does not count.
+  write("tip", replaced(reference_text, "\"reference\": 2.5", "\"gated\": false, \"reference\": 2.6"));
+  EXPECT_EQ(runVerify(options, out), 0);
+  EXPECT_FALSE(written()[0].at("passed").get<bool>());
+}
+
+TEST_F(VerifyCommand, ARunThatFailsSaysWhy) {
+  const std::array<std::pair<const char*, const char*>, 2> ways{
+      {{"666", "step 3: the residual grows"}, {"667", "ended by signal 9"}}};
+  for (const auto& [steps, why] : ways) {
+    write("tip", replaced(reference_text, "\"static.steps\": 8", std::string("\"static.steps\": ") + steps));
+    EXPECT_EQ(runVerify(options, out), 1);
+    const auto all = written();
+    EXPECT_EQ(all[0].at("quantity"), "run fine");
+    EXPECT_NE(all[0].at("note").get<std::string>().find(why), std::string::npos) << all[0];
+    EXPECT_TRUE(all[1].at("measured").is_null());
+    EXPECT_FALSE(all[1].at("passed").get<bool>());
+  }
+}
+
+TEST_F(VerifyCommand, ARunThatTakesTooLongIsStopped) {
+  write("tip", replaced(reference_text, "\"static.steps\": 8}", "\"static.steps\": 668}, \"time_limit\": 0.2"));
+  EXPECT_EQ(runVerify(options, out), 1);
+  EXPECT_NE(written()[0].at("note").get<std::string>().find("its limit"), std::string::npos);
+}
+
+TEST_F(VerifyCommand, AMissingBinaryFails) {
+  write("tip", reference_text);
+  options.binary = "/no/such/program";
+  EXPECT_EQ(runVerify(options, out), 1);
+  EXPECT_NE(written()[0].at("note").get<std::string>().find("/no/such/program"), std::string::npos);
+}
+
+TEST_F(VerifyCommand, OldResultsAreNotTakenForNewOnes) {
+  write("tip", reference_text);
+  ASSERT_EQ(runVerify(options, out), 0);
+  write("tip", replaced(reference_text, "\"static.steps\": 8", "\"static.steps\": 666"));
+  ASSERT_EQ(runVerify(options, out), 1);
+  EXPECT_FALSE(std::filesystem::exists(options.out / "tip/fine/summary.json"));
+}
+
+TEST_F(VerifyCommand, FiltersAndTheQuickHalf) {
+  write("tip", reference_text);
+  write("slow", replaced(replaced(reference_text, "\"tip\",\n  \"title\"", "\"slow\",\n  \"title\""), "true", "false"));
+  EXPECT_EQ(chooseReferences(options).size(), 2u);
+  options.quick = true;
+  ASSERT_EQ(chooseReferences(options).size(), 1u);
+  EXPECT_EQ(chooseReferences(options)[0].id, "tip");
+  options.filters = {"s*"};
+  EXPECT_THROW(chooseReferences(options), InputError);
+  options.quick = false;
+  EXPECT_EQ(chooseReferences(options)[0].id, "slow");
+  options.filters = {"x*", "t?p"};
+  EXPECT_EQ(chooseReferences(options)[0].id, "tip");
+}
+
+TEST_F(VerifyCommand, MalformedReferencesAreBadInput) {
+  struct Wrong {
+    std::string from, to, says;
+  };
+  const std::vector<Wrong> all{
+      {"\"quick\"", "\"quik\"", ":6: quik: unknown key"},
+      {"\"tip\",\n  \"title\"", "\"tap\",\n  \"title\"", ":2: id: \"tap\" is not the name of the file"},
+      {"\"a book\"", "\"\"", "source"},
+      {"\"quick\": true", "\"quick\": 1", "expected true or false"},
+      {"\"name\": \"coarse\"", "\"name\": \"fine\"", "is the name of two runs"},
+      {"\"name\": \"coarse\"", "\"name\": \"../coarse\"", "no slashes"},
+      {"\"reference\": 2.5, \"relative\": 0.01", "\"reference\": 2.5", "needs a tolerance"},
+      {"\"relative\": 0.01", "\"relative\": 0.01, \"absolute\": 1", "one of relative and absolute"},
+      {"\"relative\": 0.01", "\"relative\": 0", "relative"},
+      {"\"relative\": 0.01", "\"relative\": -0.01", "relative"},
+      {"\"relative\": 0.01", "\"relative\": 0.01, \"bound\": 1", "is not for a check of kind value"},
+      {"\"reference\": 2.5, \"relative\": 0.01", "\"note\": \"no goal\"", "needs either reference"},
+      {"\"reference\": 2.5, \"relative\": 0.01", "\"at_most\": 1, \"at_least\": 1", "exclude each other"},
+      {"\"kind\": \"value\"", "\"kind\": \"values\"", "kind"},
+      {"\"kind\": \"table\"", "\"kind\": \"rate\"", "a check of kind rate needs of"},
+      {"\"run\": \"fine\", \"summary\"", "\"run\": \"fin\", \"summary\"", "there is no run \"fin\""},
+      {"\"run\": \"fine\", \"summary\"", "\"summary\"", "needs run"},
+      {"\"summary\": \"points.tip.w[1]\"", "\"scale\": 1", "one of summary and column"},
+      {"[\"coarse\"]", "[\"coars\"]", "there is no run \"coars\""},
+      {"\"reference\": \"W\"", "\"reference\": \"V\"", "there is no column \"V\""},
+      {", \"bound\": 1e-6", "", "needs bound"},
+      {"[1, 2.5]", "[1]", ":8: table.rows[1]: 1 numbers for 2 columns"},
+      {"[1, 2.5]", "[1, null]", "rows[1][1]"},
+      {"\"case\": {\"static\": {\"steps\": 4}},", "", "has no case"},
+      {"\"case\": {\"static\": {\"steps\": 4}}", "\"case\": \"none.json\"", "there is no file"},
+      {"\"set\": {\"static.steps\": 8}", "\"set\": 3", "expected an object"},
+      {"\"doc\": \"Nothing to say.\",", "", "doc: is required"},
+  };
+  for (const Wrong& w : all) {
+    write("tip", replaced(reference_text, w.from, w.to));
+    try {
+      chooseReferences(options);
+      ADD_FAILURE() << w.to << " is accepted";
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(w.says), std::string::npos) << w.to << ": " << e.what();
+      EXPECT_NE(std::string(e.what()).find("tip.json"), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST_F(VerifyCommand, ThePathOfAChangeMustFitTheCase) {
+  write("tip", replaced(reference_text, "\"static.steps\": 8", "\"static[0]\": 8"));
+  EXPECT_THROW(runVerify(options, out), InputError);
+}
+
+TEST_F(VerifyCommand, ExitStatusOfTheCommand) {
+  const auto status = [&](std::vector<std::string> arguments) {
+    std::vector<const char*> argv{"gambeson", "verify"};
+    for (const std::string& a : arguments) argv.push_back(a.c_str());
+    std::ostringstream err;
+    return runCommand(static_cast<int>(argv.size()), argv.data(), out, err);
+  };
+  EXPECT_EQ(status({"--dir", "/no/such/folder"}), 2);
+  EXPECT_EQ(status({"--dir", options.dir.string()}), 2);  // holds no references
+  write("tip", reference_text);
+  EXPECT_EQ(status({"--dir", options.dir.string(), "--filter", "nothing*"}), 2);
+  EXPECT_EQ(status({"--dir", options.dir.string(), "--jobs", "-1"}), 2);
+  EXPECT_EQ(status({"--fast"}), 2);
+}
+
+TEST(VerifyReferences, TheShippedOnesRead) {
+  for (const auto& entry : std::filesystem::directory_iterator(GAMBESON_SOURCE_DIR "/tests/verify"))
+    if (entry.path().extension() == ".json") {
+      EXPECT_NO_THROW(readReference(entry.path())) << entry.path();
+    }
+}
+
+TEST(VerifyCsv, AsRunsWriteThem) {
+  const Numbers t = parseCsv("factor,\"a, \"\"b\"\"\"\r\n0,1e-3\n\n1,abc\n", "t.csv");
+  EXPECT_EQ(t.columns, (std::vector<std::string>{"factor", "a, \"b\""}));
+  ASSERT_EQ(t.rows.size(), 2u);
+  EXPECT_DOUBLE_EQ(t.rows[0][1], 1e-3);
+  EXPECT_TRUE(std::isnan(t.rows[1][1]));
+  EXPECT_THROW(parseCsv("a,b\n1\n", "t.csv"), RunError);
+  EXPECT_THROW(parseCsv("", "t.csv"), RunError);
+}
+
+}  // namespace
+}  // namespace gambeson::verify
