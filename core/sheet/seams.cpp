@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
+#include "core/sheet/trim_map.hpp"
 
 namespace gambeson {
 namespace {
@@ -180,11 +181,14 @@ FreeMap buildFreeMap(const Garment& garment) {
     }
   }
 
+  // What trimming leaves without support follows others.
+  const std::map<int, TrimFollower> followers = trimFollowers(garment);
+
   // Substitute until only free points are left.
   FreeMap map;
   std::vector<int> free_index(n, -1);
   for (int i = 0; i < n; ++i)
-    if (joined.find(i) == i && !combined.contains(i)) {
+    if (joined.find(i) == i && !combined.contains(i) && !followers.contains(i)) {
       free_index[i] = static_cast<int>(map.home.size());
       map.home.push_back(i);
     }
@@ -195,6 +199,9 @@ FreeMap buildFreeMap(const Garment& garment) {
     std::map<int, double> row;
     if (free_index[r] >= 0) {
       row[free_index[r]] = 1;
+    } else if (const auto follower = followers.find(r); follower != followers.end()) {
+      for (const auto& [c, e] : follower->second.of)
+        for (const auto& [i, w] : resolve(joined.find(c))) row[i] += e * w;
     } else {
       const Combination& c = combined.at(r);
       if (!open.insert(r).second)
@@ -218,6 +225,7 @@ FreeMap buildFreeMap(const Garment& garment) {
   map.T.multiply<Vec3>(p, back);
   for (int i = 0; i < n; ++i)
     if (norm(back[i] - Q[i]) > 1e-7 * (1e-3 + norm(Q[i]))) {
+      if (const auto follower = followers.find(i); follower != followers.end() && !follower->second.supported) continue;
       const auto it = combined.find(joined.find(i));
       reject(it == combined.end() ? 0 : it->second.seam, "seams that meet at a corner contradict each other");
     }
