@@ -8,12 +8,19 @@ namespace gambeson {
 struct Mode {
   double omega_rad_per_s = 0;  ///< negative where the equilibrium is unstable: -sqrt(-omega^2)
   std::vector<double> shape;   ///< unknowns, mass-normalised
-  double residual = 0;         ///< |K s - omega^2 M s| / |K s|
+  double residual = 0;         ///< |K s - omega^2 M s| / (|K s| + |sigma| |M s|), sigma the shift
 };
 
 /// The lowest `count` modes of K s = omega^2 M s at y (empty: at rest) and time t, by shift-and-invert Lanczos with
-/// full orthogonalisation; consistent mass unless `lumped_mass`. Free bodies have their rigid modes at zero.
+/// full orthogonalisation; consistent mass unless `lumped_mass`. Repeated modes are all found: after a run has
+/// converged, others look in the complement of what is known until none finds a lower mode. Where K is not positive
+/// definite (free bodies, unstable equilibria) the shift goes below the lowest eigenvalue, and an omega^2 within
+/// 1e-3 of the first such shift, 1e-10 max K_ii/M_ii, is zero: a rigid mode.
 std::vector<Mode> naturalModes(const Structure& structure, std::span<const double> y, double t, int count,
                                bool lumped_mass = false);
+
+class System;
+/// The same for any system.
+std::vector<Mode> lowestModes(System& system, std::span<const double> y, double t, int count, bool lumped_mass = false);
 
 }  // namespace gambeson
