@@ -46,10 +46,10 @@ class Line {
 constexpr double kSlopeRatio = 0.8, kLeastStep = 0.02;
 constexpr int kSearches = 6;
 
-/// Ends on a point of the line; false where no finite one was found.
-bool search(Line& line, double slope0, bool line_search) {
+/// Ends on a point of the line; false where no finite one was found. `finite` becomes false where one was not.
+bool search(Line& line, double slope0, bool line_search, bool& finite) {
   double right = 1, slope = line.slope(1);
-  for (int k = 0; !std::isfinite(slope) && k < 10; ++k) slope = line.slope(right *= 0.5);
+  for (int k = 0; !std::isfinite(slope) && k < 10; ++k) finite = false, slope = line.slope(right *= 0.5);
   if (!std::isfinite(slope)) return false;
   if (!line_search || std::abs(slope) <= kSlopeRatio * std::abs(slope0) || slope * slope0 >= 0) return true;
   double left = 0, slope_left = slope0, slope_right = slope;
@@ -107,7 +107,7 @@ NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std
     }
     still = largest <= 1e-14 * options.length_m;
     Line line(equations, y, dy);
-    if (!search(line, dot(dy, r), options.line_search)) {
+    if (!search(line, dot(dy, r), options.line_search, report.finite)) {
       report.finite = false;
       return report;
     }

@@ -27,7 +27,8 @@ struct NewtonOptions {
 };
 
 struct NewtonReport {
-  bool converged = false, singular = false, finite = true;
+  bool converged = false, singular = false;
+  bool finite = true;  ///< false where any state that was tried had forces that are not
   int iterations = 0, factorisations = 0, negative_pivots = 0;
   double residual = 0;            ///< relative, the last
   double force = 0;               ///< the size it is relative to [N]
