@@ -13,13 +13,6 @@ namespace {
 bool isClamped(const KnotVector& k) { return k.knots.front() == k.front() && k.knots.back() == k.back(); }
 bool acrossIsU(Side side) { return side == Side::u0 || side == Side::u1; }
 bool isFar(Side side) { return side == Side::u1 || side == Side::v1; }
-/// The parameters (u, v) of a point of an edge.
-Vec2 edgeParameters(const NurbsPatch& patch, Side side, double t) {
-  const KnotVector& across = acrossKnots(patch, side);
-  const double c = isFar(side) ? across.back() : across.front();
-  return acrossIsU(side) ? Vec2{c, t} : Vec2{t, c};
-}
-
 }  // namespace
 
 std::string edgeName(const PatchEdge& edge) {
@@ -51,11 +44,17 @@ void checkPoint(const Garment& garment, int patch, Vec2 uv, const std::string& k
 const KnotVector& alongKnots(const NurbsPatch& patch, Side side) { return acrossIsU(side) ? patch.v : patch.u; }
 const KnotVector& acrossKnots(const NurbsPatch& patch, Side side) { return acrossIsU(side) ? patch.u : patch.v; }
 
+Vec2 edgeParameters(const Garment& garment, const PatchEdge& edge, double t) {
+  const KnotVector& across = acrossKnots(garment.patches[edge.patch], edge.side);
+  const double c = isFar(edge.side) ? across.back() : across.front();
+  return acrossIsU(edge.side) ? Vec2{c, t} : Vec2{t, c};
+}
+
 EdgeBasis edgeBasis(const Garment& garment, const PatchEdge& edge, double t) {
   const NurbsPatch& patch = garment.patches[edge.patch];
   const int offset = controlOffsets(garment)[edge.patch];
   const bool across_u = acrossIsU(edge.side), far = isFar(edge.side);
-  const Vec2 uv = edgeParameters(patch, edge.side, t);
+  const Vec2 uv = edgeParameters(garment, edge, t);
   const SurfaceBasis basis = surfaceBasis(patch, uv.x, uv.y);
   EdgeBasis row;
   for (std::size_t k = 0; k < basis.columns.size(); ++k) {
@@ -89,7 +88,7 @@ std::vector<std::pair<double, double>> keptRanges(const Garment& garment, const 
   std::vector<std::pair<double, double>> ranges;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     if (!(ends[i + 1] - ends[i] > 1e-12 * (knots.back() - knots.front()))) continue;
-    if (!isKept(patch, trim, edgeParameters(patch, edge.side, 0.5 * (ends[i] + ends[i + 1])))) continue;
+    if (!isKept(patch, trim, edgeParameters(garment, edge, 0.5 * (ends[i] + ends[i + 1])))) continue;
     if (!ranges.empty() && ranges.back().second >= ends[i])
       ranges.back().second = ends[i + 1];
     else

@@ -22,6 +22,9 @@ void checkPoint(const Garment& garment, int patch, Vec2 uv, const std::string& k
 const KnotVector& alongKnots(const NurbsPatch& patch, Side side);   ///< along the edge
 const KnotVector& acrossKnots(const NurbsPatch& patch, Side side);  ///< across it
 
+/// The parameters (u, v) of a point of an edge.
+Vec2 edgeParameters(const Garment& garment, const PatchEdge& edge, double t);
+
 /// Basis at a point of an edge: value, derivative along it (in the sense of the edge), and across it into the patch.
 /// Columns are control points of the garment; those whose three values vanish are left out.
 struct EdgeBasis {

@@ -32,8 +32,18 @@ struct Seam {
   double stiffness_N = 0;
 };
 
-/// A layer at rest. The weft direction at a point of patch i is weft[i] projected on the rest surface. `trims` and `fields` are
-/// empty, or hold one entry per patch.
+/// Joins edges `a` and `b` whose knots, degrees or weights differ, by a penalty (core/sheet/weak_seam.hpp). They lie on
+/// one curve at rest, or one lies on a part of the other. G1: the angle between the patches is kept, smooth or creased;
+/// C0: it is free but for a spring `stiffness_N`, as in Seam.
+struct WeakSeam {
+  PatchEdge a, b;
+  SeamKind kind = SeamKind::G1;
+  double stiffness_N = 0;
+  double factor = 1e3;  ///< penalty over the stiffness of a cell
+};
+
+/// A layer at rest. The weft direction at a point of patch i is weft[i] projected on the rest surface. `trims` and
+/// `fields` are empty, or hold one entry per patch.
 struct Garment {
   std::string name;
   std::vector<NurbsPatch> patches;
@@ -43,6 +53,7 @@ struct Garment {
   Fabric fabric;
   std::vector<Fabric> other_fabrics;  ///< what material fields choose from, beside `fabric`
   std::vector<PatchFields> fields;
+  std::vector<WeakSeam> weak_seams;
 };
 
 }  // namespace gambeson
