@@ -131,6 +131,7 @@ struct Result {
   std::string id, source, quantity, unit;
   std::optional<double> measured, reference, tolerance;
   bool passed = false, gated = true;
+  bool other_run = false;  ///< of a run named in `also`: the page shows it as convergence
   double seconds = 0;
   std::string note;
 };

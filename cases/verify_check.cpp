@@ -145,7 +145,8 @@ Result resultOf(const Reference& reference, const Check& c, const std::string& r
   r.id = reference.id;
   r.source = reference.source;
   r.quantity = gated || run.empty() ? c.quantity : c.quantity + " (" + run + ")";
-  r.unit = c.unit;
+  const bool deviation = c.kind == Check::Kind::curve || c.kind == Check::Kind::table;
+  r.unit = deviation && c.unit.empty() ? "of the largest" : c.unit;
   r.gated = gated && c.gated;
   r.note = c.note;
   return r;
@@ -190,6 +191,7 @@ void judgeEach(const Reference& reference, const Check& c, const std::string& ga
   out.results.push_back(attempt(resultOf(reference, c, gated, true), [&](Result& r) { measure(gated, true, r); }));
   for (const std::string& run : c.also) {
     out.results.push_back(attempt(resultOf(reference, c, run, false), [&](Result& r) { measure(run, false, r); }));
+    out.results.back().other_run = true;
     if (out.results.back().measured) out.convergence.emplace_back(run, *out.results.back().measured);
   }
   if (!c.also.empty() && out.results.front().measured)

@@ -28,7 +28,7 @@ section.reference { border-top:1px solid var(--line); margin-top:36px; } section
 .soft { color:var(--soft); } .meter { display:inline-block; width:90px; height:9px; background:#e8ebf0; border-radius:5px; overflow:hidden; vertical-align:middle; margin-right:8px; }
 .meter i { display:block; height:100%; background:var(--good); } .meter.over i { background:var(--bad); } .meter.free i { background:#8d95a3; }
 details { margin-top:12px; } summary { cursor:pointer; color:var(--accent); }
-.panel { margin-top:14px; } a { color:var(--accent); }
+.panel { margin-top:14px; } th.group { padding-top:18px; color:var(--accent); } a { color:var(--accent); }
 )css";
 
 std::string cell(const std::string& content, bool number = false) {
@@ -66,6 +66,7 @@ std::string meter(const Result& r) {
 std::string resultTable(const Verified& v) {
   std::string rows;
   for (const Result& r : v.results()) {
+    if (r.other_run) continue;
     std::string what = escape(r.quantity);
     if (!r.note.empty()) what += "<br><span class=\"soft\">" + escape(r.note) + "</span>";
     rows += element("tr", cell(verdict(r)) + cell(what) + cell(escape(r.unit)) + cell(numberText(r.measured), true) +
@@ -160,29 +161,38 @@ std::string section(const Verified& v) {
                  fmt::format(" class=\"reference\" id=\"{}\"", escape(v.reference.id)));
 }
 
-std::string overview(const std::vector<Verified>& all, const std::string& group) {
+std::string overview(const std::vector<Verified>& all, const std::vector<std::string>& groups) {
   std::string rows;
-  for (const Verified& v : all) {
-    if (v.reference.group != group) continue;
-    int gated = 0, good = 0, reported = 0;
-    const std::vector<Result> results = v.results();
-    const Result* worst = nullptr;
-    for (const Result& r : results) {
-      gated += r.gated, good += r.gated && r.passed, reported += !r.gated;
-      if (r.gated && used(r) && (!worst || *used(r) > *used(*worst))) worst = &r;
+  for (const std::string& group : groups) {
+    rows +=
+        element("tr", element("th", escape(group.empty() ? "References" : group), " colspan=\"6\" class=\"group\""));
+    for (const Verified& v : all) {
+      if (v.reference.group != group) continue;
+      int gated = 0, good = 0, reported = 0;
+      bool missing = false;
+      const std::vector<Result> results = v.results();
+      const Result* worst = nullptr;
+      for (const Result& r : results) {
+        gated += r.gated, good += r.gated && r.passed, reported += !r.gated && !r.other_run;
+        missing = missing || (r.gated && !r.measured);
+        if (r.gated && used(r) && (!worst || *used(r) > *used(*worst))) worst = &r;
+      }
+      rows += element(
+          "tr", cell(v.passed() ? "<span class=\"good\">passed</span>" : "<span class=\"bad\">FAILED</span>") +
+                    cell(fmt::format("<a href=\"#{}\">{}</a>", escape(v.reference.id), escape(v.reference.title))) +
+                    cell(fmt::format("{} of {}", good, gated), true) +
+                    cell(reported ? fmt::format("{}", reported) : "", true) +
+                    cell(missing ? "<span class=\"bad\">no number</span>"
+                         : worst ? meter(*worst)
+                                 : "",
+                         true) +
+                    cell(formatNumber(v.seconds, 2) + " s", true));
     }
-    rows += element(
-        "tr", cell(v.passed() ? "<span class=\"good\">passed</span>" : "<span class=\"bad\">FAILED</span>") +
-                  cell(fmt::format("<a href=\"#{}\">{}</a>", escape(v.reference.id), escape(v.reference.title))) +
-                  cell(fmt::format("{} of {}", good, gated), true) +
-                  cell(reported ? fmt::format("{}", reported) : "", true) + cell(worst ? meter(*worst) : "", true) +
-                  cell(formatNumber(v.seconds, 2) + " s", true));
   }
   return element("div",
-                 element("table", element("caption", escape(group.empty() ? "References" : group)) +
-                                      head({"", "reference", "checks passed", "reported",
-                                            "largest deviation, part of the tolerance", "computing"},
-                                           2) +
+                 element("table", head({"", "reference", "checks passed", "reported",
+                                        "largest deviation, part of the tolerance", "computing"},
+                                       2) +
                                       element("tbody", rows)),
                  " class=\"panel scroll\"");
 }
@@ -199,7 +209,8 @@ std::string formatPage(const std::vector<Verified>& all, const std::string& comm
   std::vector<std::string> groups;
   for (const Verified& v : all) {
     passed += v.passed();
-    for (const Result& r : v.results()) checks += r.gated, checks_failed += r.gated && !r.passed, reported += !r.gated;
+    for (const Result& r : v.results())
+      checks += r.gated, checks_failed += r.gated && !r.passed, reported += !r.gated && !r.other_run;
     if (std::find(groups.begin(), groups.end(), v.reference.group) == groups.end()) groups.push_back(v.reference.group);
   }
   const int failed = static_cast<int>(all.size()) - passed;
@@ -209,7 +220,7 @@ std::string formatPage(const std::vector<Verified>& all, const std::string& comm
                   tile("", checks, "gated checks") + tile(checks_failed ? "bad" : "", checks_failed, "of them failed") +
                   tile("", reported, "numbers reported, not gated"),
               " class=\"tiles\"");
-  for (const std::string& g : groups) body += overview(all, g);
+  body += overview(all, groups);
   for (const std::string& g : groups) {
     body += element("h2", escape(g.empty() ? "References" : g));
     for (const Verified& v : all)
