@@ -32,6 +32,15 @@ GAMBESON_HD inline double zhengEnergy(double k, double b0, double k0, double kr)
   return e;
 }
 
+/// The slope dm/dk of zhengMoment [N m]; at the joints that of both sides, for the law is C1. Never negative: at kr the
+/// cubic's slope is B0 sqrt(k0/kr).
+GAMBESON_HD inline double zhengSlope(double k, double b0, double k0, double kr) {
+  const double a = k < 0 ? -k : k;
+  return a > k0   ? b0
+         : a > kr ? b0 * std::sqrt(k0 / a)
+                  : 2 * b0 * std::sqrt(k0 / kr) * (1.25 - 0.75 * (a / kr) * (a / kr));
+}
+
 /// The steepest slope dm/dk of zhengMoment, at k = 0 [N m]; what a stable time step must allow for.
 GAMBESON_HD inline double zhengSteepest(double b0, double k0, double kr) { return 2.5 * b0 * std::sqrt(k0 / kr); }
 

@@ -4,21 +4,23 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/material/bending.hpp"
-#include "core/math/quadrature.hpp"
+#include "core/sheet/cells.hpp"
 
 namespace gambeson {
 namespace {
 
 /// G = d(xi)/dX: columns are the physical directions weft and warp (orthonormal, tangent to the rest surface).
 struct RestFrame {
-  double G11, G12, G21, G22, area;  ///< area: |A1 x A2|
+  double G11 = 1, G12 = 0, G21 = 0, G22 = 1, area = 1;  ///< area: |A1 x A2|
 };
 
-RestFrame restFrame(const Vec3& A1, const Vec3& A2, const Vec3& weft) {
+/// The weft is turned by `angle` about the normal.
+RestFrame restFrame(const Vec3& A1, const Vec3& A2, const Vec3& weft, double angle) {
   const Vec3 normal = cross(A1, A2);
   const double area = norm(normal);
   if (!(area > 0)) throw InputError({"", 0, "patch"}, "the rest surface is degenerate (zero area)");
@@ -26,7 +28,8 @@ RestFrame restFrame(const Vec3& A1, const Vec3& A2, const Vec3& weft) {
   const Vec3 in_plane = weft - dot(weft, n) * n;
   if (!(norm(in_plane) > 1e-6 * norm(weft)))
     throw InputError({"", 0, "weft"}, "the weft direction is normal to the rest surface");
-  const Vec3 E1 = normalized(in_plane), E2 = cross(n, E1);
+  const Vec3 e = normalized(in_plane);
+  const Vec3 E1 = angle == 0 ? e : std::cos(angle) * e + std::sin(angle) * cross(n, e), E2 = cross(n, E1);
   const double J11 = dot(E1, A1), J12 = dot(E1, A2), J21 = dot(E2, A1), J22 = dot(E2, A2);
   const double det = J11 * J22 - J12 * J21;
   return {J22 / det, -J12 / det, -J21 / det, J11 / det, area};
@@ -44,152 +47,213 @@ bool isRational(const NurbsPatch& p) {
   return std::any_of(p.weights.begin(), p.weights.end(), [&](double w) { return w != p.weights.front(); });
 }
 
-struct Cell {
-  int patch, su, sv;  ///< spans
-  double u0, u1, v0, v1;
+/// Whether any fabric that a point of the patch may have counts bending from the rest shape.
+bool anyRestCurvature(const Garment& garment) {
+  return hasRestCurvature(garment.fabric) ||
+         std::any_of(garment.other_fabrics.begin(), garment.other_fabrics.end(), hasRestCurvature);
+}
+
+/// Basis functions of a cell at a point: of its spans, also on its border.
+struct CellBasis {
+  std::vector<double> u, v;                     ///< of the knots: [derivative][function]
+  std::array<double, 6> denominator{};          ///< and its derivatives: w, 1, 2, 11, 22, 12
+  std::array<std::vector<double>, 6> rational;  ///< N, N,1 N,2 N,11 N,22 N,12
+  std::array<Vec3, 6> rest{};                   ///< X and its derivatives
 };
 
-std::vector<Cell> cellsOf(const NurbsPatch& patch, int index) {
-  std::vector<Cell> cells;
-  const auto us = breakpoints(patch.u), vs = breakpoints(patch.v);
-  for (std::size_t j = 0; j + 1 < vs.size(); ++j)
-    for (std::size_t i = 0; i + 1 < us.size(); ++i)
-      cells.push_back({index, findSpan(patch.u, 0.5 * (us[i] + us[i + 1])),
-                       findSpan(patch.v, 0.5 * (vs[j] + vs[j + 1])), us[i], us[i + 1], vs[j], vs[j + 1]});
-  return cells;
+CellBasis cellBasis(const NurbsPatch& patch, const SheetCell& cell, double u, double v) {
+  const int p = patch.u.degree, q = patch.v.degree, nu = p + 1, nv = q + 1;
+  CellBasis b;
+  b.u.resize(3 * nu);
+  b.v.resize(3 * nv);
+  basisDerivatives(patch.u, cell.su, u, 2, b.u);
+  basisDerivatives(patch.v, cell.sv, v, 2, b.v);
+  static constexpr int du[6] = {0, 1, 0, 2, 0, 1}, dv[6] = {0, 0, 1, 0, 2, 1};
+  const auto local = [&](int k) { return patch.index(cell.su - p + k % nu, cell.sv - q + k / nu); };
+  for (int m = 0; m < 6; ++m) {
+    b.rational[m].resize(nu * nv);
+    for (int k = 0; k < nu * nv; ++k) {
+      b.rational[m][k] = b.u[du[m] * nu + k % nu] * b.v[dv[m] * nv + k / nu] * patch.weights[local(k)];
+      b.denominator[m] += b.rational[m][k];
+    }
+  }
+  const auto& W = b.denominator;
+  auto& [r, r1, r2, r11, r22, r12] = b.rational;
+  for (int k = 0; k < nu * nv; ++k) {
+    r[k] = r[k] / W[0];
+    r1[k] = (r1[k] - r[k] * W[1]) / W[0];
+    r2[k] = (r2[k] - r[k] * W[2]) / W[0];
+    r11[k] = (r11[k] - 2 * r1[k] * W[1] - r[k] * W[3]) / W[0];
+    r22[k] = (r22[k] - 2 * r2[k] * W[2] - r[k] * W[4]) / W[0];
+    r12[k] = (r12[k] - r1[k] * W[2] - r2[k] * W[1] - r[k] * W[5]) / W[0];
+    for (int m = 0; m < 6; ++m) b.rest[m] += b.rational[m][k] * patch.points[local(k)];
+  }
+  return b;
+}
+
+/// Writes what a point of a cell has beside its basis: frame, area, denominator, rest curvature, law.
+void packPoint(const Garment& garment, const SheetCell& cell, const CellBasis& basis, const CellPoint& at, bool real,
+               ShellBlock& b, long point, int lane) {
+  const Vec2 uv{at.u, at.v};
+  const auto& d = basis.rest;
+  const RestFrame G = restFrame(d[1], d[2], garment.weft[cell.patch], fibreAngleAt(garment, cell.patch, uv));
+  std::vector<double> data{G.G11, G.G12, G.G21, G.G22, real ? G.area * at.weight : 0.0};
+  if (b.rational) data.insert(data.end(), basis.denominator.begin(), basis.denominator.end());
+  const bool varies = fabricVaries(garment, cell.patch);
+  const Fabric fabric = varies ? fabricAt(garment, cell.patch, uv) : garment.fabric;
+  if (b.rest_curvature) {
+    const Vec3 k0 = hasRestCurvature(fabric) ? curvature(G, d[1], d[2], d[3], d[4], d[5]) : Vec3{};
+    data.insert(data.end(), {k0.x, k0.y, k0.z});
+  }
+  for (std::size_t k = 0; k < data.size(); ++k)
+    b.points[(point * b.pointDoubles() + static_cast<long>(k)) * b.lanes + lane] = data[k];
+  if (!varies) return;
+  checkFabric(fabric);
+  const PointLaw law = pointLaw(fabric);
+  const double* values = reinterpret_cast<const double*>(&law);
+  for (int k = 0; k < kLawDoubles; ++k) b.laws[(point * kLawDoubles + k) * b.lanes + lane] = values[k];
 }
 
 /// Fills lane `lane` of group `group`; `real` is false for the copies that fill a last group up (their area is zero).
-void packCell(const Garment& garment, const std::vector<int>& offsets, const Cell& cell, bool real, ShellBlock& b,
+void packCell(const Garment& garment, const std::vector<int>& offsets, const SheetCell& cell, bool real, ShellBlock& b,
               int group, int lane) {
   const NurbsPatch& patch = garment.patches[cell.patch];
   const int nu = b.p + 1, nv = b.q + 1, nn = nu * nv, L = b.lanes;
-  std::vector<double> w(nn);
-  for (int j = 0; j < nv; ++j)
-    for (int i = 0; i < nu; ++i) {
-      const int local = patch.index(cell.su - b.p + i, cell.sv - b.q + j), k = i + nu * j;
-      b.nodes[(static_cast<long>(group) * nn + k) * L + lane] = offsets[cell.patch] + local;
-      w[k] = patch.weights[local];
-      if (b.rational) b.weights[(static_cast<long>(group) * nn + k) * L + lane] = w[k];
-    }
-  const Quadrature ru = gaussLegendre(b.gu), rv = gaussLegendre(b.gv);
-  std::vector<double> bu(3 * nu), bv(3 * nv);
-  for (int gv = 0; gv < b.gv; ++gv) {
-    const double v = cell.v0 + rv.points[gv] * (cell.v1 - cell.v0);
-    basisDerivatives(patch.v, cell.sv, v, 2, bv);
-    for (int k = 0; k < 3 * nv; ++k)
-      b.basis_v[((static_cast<long>(group) * b.gv + gv) * 3 * nv + k) * L + lane] = bv[k];
-    for (int gu = 0; gu < b.gu; ++gu) {
-      const double u = cell.u0 + ru.points[gu] * (cell.u1 - cell.u0);
-      basisDerivatives(patch.u, cell.su, u, 2, bu);
-      for (int k = 0; k < 3 * nu; ++k)
-        b.basis_u[((static_cast<long>(group) * b.gu + gu) * 3 * nu + k) * L + lane] = bu[k];
-      const auto d = surfaceDerivatives(patch, u, v);
-      const RestFrame G = restFrame(d[1], d[2], garment.weft[cell.patch]);
-      const double dA =
-          real ? G.area * (cell.u1 - cell.u0) * (cell.v1 - cell.v0) * ru.weights[gu] * rv.weights[gv] : 0.0;
-      std::vector<double> data{G.G11, G.G12, G.G21, G.G22, dA};
-      if (b.rational) {
-        std::array<double, 6> W{};  // the denominator and its derivatives: w, 1, 2, 11, 22, 12
-        const int du[6] = {0, 1, 0, 2, 0, 1}, dv[6] = {0, 0, 1, 0, 2, 1};
-        for (int m = 0; m < 6; ++m)
-          for (int j = 0; j < nv; ++j)
-            for (int i = 0; i < nu; ++i) W[m] += bu[du[m] * nu + i] * bv[dv[m] * nv + j] * w[i + nu * j];
-        data.insert(data.end(), W.begin(), W.end());
-      }
-      if (b.rest_curvature) {
-        const Vec3 k0 = curvature(G, d[1], d[2], d[3], d[4], d[5]);
-        data.insert(data.end(), {k0.x, k0.y, k0.z});
-      }
-      const long at = ((static_cast<long>(group) * b.gv + gv) * b.gu + gu) * b.pointDoubles();
-      for (std::size_t k = 0; k < data.size(); ++k) b.points[(at + static_cast<long>(k)) * L + lane] = data[k];
-    }
+  for (int k = 0; k < nn; ++k) {
+    const int local = patch.index(cell.su - b.p + k % nu, cell.sv - b.q + k / nu);
+    const long at = (static_cast<long>(group) * nn + k) * L + lane;
+    b.nodes[at] = offsets[cell.patch] + local;
+    if (b.rational) b.weights[at] = patch.weights[local];
   }
+  if (b.scattered) {
+    // The last point, with no area, fills the group up.
+    const long first = b.first_point[group], count = b.first_point[group + 1] - first;
+    for (long i = 0; i < count; ++i) {
+      const bool own = i < static_cast<long>(cell.points.size());
+      const CellPoint at = own ? cell.points[i] : cell.points.back();
+      const CellBasis basis = cellBasis(patch, cell, at.u, at.v);
+      for (int d = 0; d < 5; ++d)
+        for (int k = 0; k < nn; ++k) b.shapes[(((first + i) * 5 + d) * nn + k) * L + lane] = basis.rational[d + 1][k];
+      packPoint(garment, cell, basis, at, real && own, b, first + i, lane);
+    }
+    return;
+  }
+  const std::vector<CellPoint> points = cellRule(cell, b.gu, b.gv);
+  for (int gv = 0; gv < b.gv; ++gv)
+    for (int gu = 0; gu < b.gu; ++gu) {
+      const CellPoint& at = points[gu + b.gu * gv];
+      const CellBasis basis = cellBasis(patch, cell, at.u, at.v);
+      for (int k = 0; k < 3 * nu; ++k)
+        b.basis_u[((static_cast<long>(group) * b.gu + gu) * 3 * nu + k) * L + lane] = basis.u[k];
+      for (int k = 0; k < 3 * nv; ++k)
+        b.basis_v[((static_cast<long>(group) * b.gv + gv) * 3 * nv + k) * L + lane] = basis.v[k];
+      packPoint(garment, cell, basis, at, real, b, b.firstPoint(group) + gu + b.gu * gv, lane);
+    }
 }
 
-/// What the laws need to be laws at all: a positive definite membrane and an eq. 2.14 with a finite slope. NaN fails.
-void checkFabric(const Fabric& f) {
-  const auto reject = [](const char* key, const char* reason) {
-    throw InputError({"", 0, std::string("fabric.") + key}, reason);
-  };
-  if (!(f.thickness_m > 0)) reject("thickness_m", "must be > 0");
-  if (!(f.young_weft_Pa > 0)) reject("young_weft_Pa", "must be > 0");
-  if (!(f.young_warp_Pa > 0)) reject("young_warp_Pa", "must be > 0");
-  if (!(f.shear_Pa > 0)) reject("shear_Pa", "must be > 0");
-  if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa))
-    reject("poisson", "must satisfy poisson^2 young_warp < young_weft");
-  if (!(f.bending_weft_Nm >= 0)) reject("bending_weft_Nm", "must be >= 0");
-  if (!(f.bending_warp_Nm >= 0)) reject("bending_warp_Nm", "must be >= 0");
-  if (!(f.twist_Nm >= 0)) reject("twist_Nm", "must be >= 0");
-  if (f.bending_law == BendingLaw::zheng && !(f.kappa_regular_per_m > 0 && f.kappa_regular_per_m <= f.kappa0_per_m))
-    reject("kappa_regular_per_m", "must be > 0 and at most kappa0_per_m");
+/// What cells of one block share.
+struct Kind {
+  int p, q;
+  bool rational, scattered, varies;
+  auto operator<=>(const Kind&) const = default;
+};
+
+ShellBlock packBlock(const Garment& garment, const std::vector<int>& offsets, const Kind& kind,
+                     const std::vector<SheetCell>& cells, int lanes, int gauss_extra) {
+  ShellBlock b;
+  b.p = kind.p;
+  b.q = kind.q;
+  b.rational = kind.rational;
+  b.scattered = kind.scattered;
+  b.gu = b.p + 1 + gauss_extra;
+  b.gv = b.q + 1 + gauss_extra;
+  b.lanes = lanes;
+  const int count = static_cast<int>(cells.size());
+  b.groups = (count + lanes - 1) / lanes;
+  b.rest_curvature = anyRestCurvature(garment);
+  const long nn = b.nodeCount(), L = lanes;
+  b.nodes.resize(b.groups * nn * L);
+  long points = static_cast<long>(b.groups) * b.gu * b.gv;
+  if (b.scattered) {
+    b.first_point.push_back(0);
+    for (int g = 0; g < b.groups; ++g) {
+      std::size_t most = 0;
+      for (int i = g * lanes; i < std::min(count, (g + 1) * lanes); ++i) most = std::max(most, cells[i].points.size());
+      b.first_point.push_back(b.first_point.back() + static_cast<long>(most));
+    }
+    points = b.first_point.back();
+    b.shapes.resize(points * 5 * nn * L);
+  } else {
+    b.basis_u.resize(static_cast<long>(b.groups) * b.gu * 3 * (b.p + 1) * L);
+    b.basis_v.resize(static_cast<long>(b.groups) * b.gv * 3 * (b.q + 1) * L);
+  }
+  if (b.rational) b.weights.resize(b.groups * nn * L);
+  b.points.resize(points * b.pointDoubles() * L);
+  if (kind.varies) b.laws.resize(points * kLawDoubles * L);
+  for (int g = 0; g < b.groups; ++g)
+    for (int l = 0; l < lanes; ++l) {
+      const int at = g * lanes + l;
+      packCell(garment, offsets, cells[std::min(at, count - 1)], at < count, b, g, l);
+    }
+  return b;
 }
 
-}  // namespace
-
-ShellLaw shellLaw(const Fabric& f) {
-  const double nu21 = f.poisson * f.young_warp_Pa / f.young_weft_Pa, h = f.thickness_m;
-  const double scale = h / (1 - f.poisson * nu21);
-  ShellLaw law;
-  law.d1 = f.young_weft_Pa * scale;
-  law.d2 = f.young_warp_Pa * scale;
-  law.d3 = f.poisson * law.d2;
-  law.d4 = f.shear_Pa * h;
-  law.bending_weft = f.bending_weft_Nm;
-  law.bending_warp = f.bending_warp_Nm;
-  law.twist = f.twist_Nm;
-  if (f.bending_law == BendingLaw::zheng) {
-    law.kappa0 = f.kappa0_per_m;
-    law.kappa_regular = f.kappa_regular_per_m;
+/// The law of a block: where it varies, what any of its points may need.
+ShellLaw blockLaw(const Garment& garment, bool varies) {
+  ShellLaw law = shellLaw(garment.fabric);
+  if (!varies) return law;
+  law.general = true;
+  for (const Fabric& other : garment.other_fabrics) {
+    const ShellLaw more = shellLaw(other);
+    law.zheng |= more.zheng;
+    law.tension |= more.tension;
   }
   return law;
 }
 
+/// Cut cells in the order of their number of points, so that a group has equals.
+void sortByPoints(std::vector<SheetCell>& cells) {
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const SheetCell& a, const SheetCell& b) { return a.points.size() < b.points.size(); });
+}
+
+}  // namespace
+
 Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, CellRule)
     : garment_(garment), kernels_(&kernels), offsets_(controlOffsets(garment)), control_count_(offsets_.back()) {
   checkFabric(garment.fabric);
+  for (std::size_t k = 0; k < garment.other_fabrics.size(); ++k)
+    checkFabric(garment.other_fabrics[k], ("other_fabrics[" + std::to_string(k) + "]").c_str());
   if (garment.weft.size() != garment.patches.size())
     throw InputError({"", 0, "weft"}, "one direction for each patch is needed");
-  // Blocks: cells of the same degrees, rational or not.
-  std::map<std::tuple<int, int, bool>, std::vector<Cell>> kinds;
-  for (std::size_t p = 0; p < garment.patches.size(); ++p) {
-    const NurbsPatch& patch = garment.patches[p];
+  for (const NurbsPatch& patch : garment.patches) {
     validate(patch);
     if (patch.u.degree < 1 || patch.u.degree > 5 || patch.v.degree < 1 || patch.v.degree > 5)
       throw InputError({"", 0, "degree"}, "degrees of a shell patch must be 1 to 5");
-    auto& cells = kinds[{patch.u.degree, patch.v.degree, isRational(patch)}];
-    const auto more = cellsOf(patch, static_cast<int>(p));
-    cells.insert(cells.end(), more.begin(), more.end());
+  }
+  validateFields(garment);
+  std::map<Kind, std::vector<SheetCell>> kinds;
+  for (SheetCell& cell : sheetCells(garment)) {
+    if (cell.cut && cell.points.empty()) continue;
+    const NurbsPatch& patch = garment.patches[cell.patch];
+    kinds[{patch.u.degree, patch.v.degree, !cell.cut && isRational(patch), cell.cut, fabricVaries(garment, cell.patch)}]
+        .push_back(std::move(cell));
   }
   const int L = kernels.lanes;
   std::vector<std::vector<std::pair<long, int>>> gather(control_count_);
-  for (const auto& [kind, cells] : kinds) {
-    Part part;
-    ShellBlock& b = part.block;
-    std::tie(b.p, b.q, b.rational) = kind;
-    b.gu = b.p + 1 + gauss_extra;
-    b.gv = b.q + 1 + gauss_extra;
-    b.lanes = L;
-    b.groups = (static_cast<int>(cells.size()) + L - 1) / L;
-    b.rest_curvature = garment.fabric.rest_curvature_of_shape;
+  for (auto& [kind, cells] : kinds) {
+    if (kind.scattered) sortByPoints(cells);
+    ShellPart part{packBlock(garment, offsets_, kind, cells, L, gauss_extra), blockLaw(garment, kind.varies),
+                   slot_count_, static_cast<int>(cells.size())};
+    const ShellBlock& b = part.block;
     const int nn = b.nodeCount();
-    b.nodes.resize(static_cast<long>(b.groups) * nn * L);
-    if (b.rational) b.weights.resize(static_cast<long>(b.groups) * nn * L);
-    b.basis_u.resize(static_cast<long>(b.groups) * b.gu * 3 * (b.p + 1) * L);
-    b.basis_v.resize(static_cast<long>(b.groups) * b.gv * 3 * (b.q + 1) * L);
-    b.points.resize(static_cast<long>(b.groups) * b.gu * b.gv * b.pointDoubles() * L);
-    part.law = shellLaw(garment.fabric);
-    part.first_slot = slot_count_;
-    for (int g = 0; g < b.groups; ++g)
-      for (int l = 0; l < L; ++l) {
-        const std::size_t at = static_cast<std::size_t>(g) * L + l;
-        packCell(garment, offsets_, cells[std::min(at, cells.size() - 1)], at < cells.size(), b, g, l);
-        if (at >= cells.size()) continue;
-        for (int k = 0; k < nn; ++k)
-          gather[b.nodes[(static_cast<long>(g) * nn + k) * L + l]].push_back(
-              {part.first_slot + (static_cast<long>(g) * nn + k) * 3 * L + l, L});
+    for (long at = 0; at < static_cast<long>(cells.size()); ++at)
+      for (int k = 0; k < nn; ++k) {
+        const long place = (at / L) * nn + k;
+        gather[b.nodes[place * L + at % L]].push_back({part.first_slot + place * 3 * L + at % L, L});
       }
-    gauss_points_ += static_cast<long>(cells.size()) * b.gu * b.gv;
+    for (const SheetCell& cell : cells)
+      gauss_points_ += cell.cut ? static_cast<long>(cell.points.size()) : long{b.gu} * b.gv;
     slot_count_ += static_cast<long>(b.groups) * nn * 3 * L;
     parts_.push_back(std::move(part));
   }
@@ -227,21 +291,28 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   }
 }
 
+ShellLaw withTerms(ShellLaw law, const ShellTerms& terms) {
+  law.membrane = terms.membrane;
+  law.bending = terms.bending;
+  law.steepest = terms.steepest;
+  if (!terms.membrane) law.d1 = law.d2 = law.d3 = law.d4 = 0;
+  if (terms.steepest && law.kappa0 > 0) {
+    law.bending_weft = zhengSteepest(law.bending_weft, law.kappa0, law.kappa_regular);
+    law.bending_warp = zhengSteepest(law.bending_warp, law.kappa0, law.kappa_regular);
+    law.kappa0 = law.kappa_regular = 0;
+  }
+  if (!terms.bending) law.bending_weft = law.bending_warp = law.twist = 0;
+  return law;
+}
+
 void Shell::cellForces(std::span<const Vec3> q, ShellWork& work, double* energy, const ShellTerms& terms) const {
   work.slots.resize(slot_count_);
   double total = 0;
   const bool cells = terms.membrane || terms.bending;
   if (!cells) std::fill(work.slots.begin(), work.slots.begin() + hinge_slot_, 0.0);
-  for (const Part& part : parts_) {
+  for (const ShellPart& part : parts_) {
     if (!cells) break;
-    ShellLaw law = part.law;
-    if (!terms.membrane) law.d1 = law.d2 = law.d3 = law.d4 = 0;
-    if (terms.steepest && law.kappa0 > 0) {
-      law.bending_weft = zhengSteepest(law.bending_weft, law.kappa0, law.kappa_regular);
-      law.bending_warp = zhengSteepest(law.bending_warp, law.kappa0, law.kappa_regular);
-      law.kappa0 = law.kappa_regular = 0;
-    }
-    if (!terms.bending) law.bending_weft = law.bending_warp = law.twist = 0;
+    const ShellLaw law = withTerms(part.law, terms);
     if (energy) work.lane_energy.assign(static_cast<std::size_t>(part.block.groups) * part.block.lanes, 0.0);
     kernels_->force(part.block, law, reinterpret_cast<const double*>(q.data()), work.slots.data() + part.first_slot,
                     energy ? work.lane_energy.data() : nullptr);
@@ -290,48 +361,53 @@ void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, d
 }
 
 struct Shell::Frame {
-  SurfaceBasis basis;
   RestFrame G;
+  std::array<Vec3, 6> rest{}, now{};  ///< derivatives in the parameters, as SurfaceBasis
 };
 
-Shell::Frame Shell::frameAt(int patch, Vec2 uv) const {
-  Frame frame{surfaceBasis(garment_.patches[patch], uv.x, uv.y), {}};
-  Vec3 A1{}, A2{};
-  for (std::size_t k = 0; k < frame.basis.columns.size(); ++k) {
-    A1 += frame.basis.values[1][k] * garment_.patches[patch].points[frame.basis.columns[k]];
-    A2 += frame.basis.values[2][k] * garment_.patches[patch].points[frame.basis.columns[k]];
-  }
-  frame.G = restFrame(A1, A2, garment_.weft[patch]);
+Shell::Frame Shell::frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
+  const SurfaceBasis basis = surfaceBasis(garment_.patches[patch], uv.x, uv.y);
+  Frame frame;
+  for (std::size_t k = 0; k < basis.columns.size(); ++k)
+    for (int m = 1; m < 6; ++m) {
+      frame.rest[m] += basis.values[m][k] * garment_.patches[patch].points[basis.columns[k]];
+      frame.now[m] += basis.values[m][k] * q[offsets_[patch] + basis.columns[k]];
+    }
+  frame.G = restFrame(frame.rest[1], frame.rest[2], garment_.weft[patch], fibreAngleAt(garment_, patch, uv));
   return frame;
 }
 
-ShellStress Shell::stressAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
-  const Frame frame = frameAt(patch, uv);
+ShellState Shell::stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
+  const Frame frame = frameAt(patch, uv, q);
   const RestFrame& G = frame.G;
-  Vec3 a1{}, a2{};
-  for (std::size_t k = 0; k < frame.basis.columns.size(); ++k) {
-    const Vec3& x = q[offsets_[patch] + frame.basis.columns[k]];
-    a1 += frame.basis.values[1][k] * x;
-    a2 += frame.basis.values[2][k] * x;
-  }
-  const Vec3 e1 = G.G11 * a1 + G.G21 * a2, e2 = G.G12 * a1 + G.G22 * a2;
-  const double C11 = dot(e1, e1), C22 = dot(e2, e2), C12 = dot(e1, e2);
-  const double E11 = 0.5 * (C11 - 1), E22 = 0.5 * (C22 - 1), E12 = 0.5 * C12;
-  const ShellLaw law = shellLaw(garment_.fabric);
-  const double n11 = law.d1 * E11 + law.d3 * E22, n22 = law.d3 * E11 + law.d2 * E22, n12 = 2 * law.d4 * E12;
+  const Vec3 e1 = G.G11 * frame.now[1] + G.G21 * frame.now[2], e2 = G.G12 * frame.now[1] + G.G22 * frame.now[2];
+  const Fabric fabric = fabricAt(garment_, patch, uv);
+  const auto bent = [&](const std::array<Vec3, 6>& d) { return curvature(G, d[1], d[2], d[3], d[4], d[5]); };
+  Vec3 change = bent(frame.now);
+  if (hasRestCurvature(fabric)) change -= bent(frame.rest);
+  change.z *= 2;
+  ShellState state{{0.5 * (norm2(e1) - 1), 0.5 * (norm2(e2) - 1), dot(e1, e2)}, change, {}, {}};
+  const double e[3] = {state.strain.x, state.strain.y, state.strain.z}, k[3] = {change.x, change.y, change.z};
+  const PointResultants r = resultants(pointLaw(fabric), e, k);
+  state.n = {r.n[0], r.n[1], r.n[2]};
+  state.m = {r.m[0], r.m[1], r.m[2]};
+  return state;
+}
+
+ShellStress Shell::stressAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
+  const auto [e, change, n, m] = stateAt(patch, uv, q);
+  const double E11 = e.x, E22 = e.y, E12 = 0.5 * e.z, C11 = 2 * E11 + 1, C22 = 2 * E22 + 1, C12 = 2 * E12;
   // Principal values of F n Fᵀ / J are those of n C / J.
   const double J = std::sqrt(C11 * C22 - C12 * C12);
-  const double trace = n11 * C11 + 2 * n12 * C12 + n22 * C22, det = (n11 * n22 - n12 * n12) * (C11 * C22 - C12 * C12);
+  const double trace = n.x * C11 + 2 * n.z * C12 + n.y * C22, det = (n.x * n.y - n.z * n.z) * (C11 * C22 - C12 * C12);
   const double root = std::sqrt(std::max(0.0, 0.25 * trace * trace - det));
   const double mean = 0.5 * (E11 + E22), radius = std::hypot(0.5 * (E11 - E22), E12);
   return {(0.5 * trace + root) / J, (0.5 * trace - root) / J, mean + radius, mean - radius};
 }
 
 Vec3 Shell::curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
-  const Frame frame = frameAt(patch, uv);
-  std::array<Vec3, 6> d{};
-  for (std::size_t k = 0; k < frame.basis.columns.size(); ++k)
-    for (int m = 1; m < 6; ++m) d[m] += frame.basis.values[m][k] * q[offsets_[patch] + frame.basis.columns[k]];
+  const Frame frame = frameAt(patch, uv, q);
+  const auto& d = frame.now;
   return curvature(frame.G, d[1], d[2], d[3], d[4], d[5]);
 }
 

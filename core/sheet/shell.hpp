@@ -7,6 +7,7 @@
 #include "core/sheet/garment.hpp"
 #include "core/sheet/seams.hpp"
 #include "core/sheet/shell_kernel.hpp"
+#include "core/sheet/shell_law.hpp"
 #include "core/sheet/surface.hpp"
 
 namespace gambeson {
@@ -18,16 +19,32 @@ struct ShellTerms {
   bool steepest = false;
 };
 
-/// Scratch of Shell::force; nobody else reads it.
+/// Scratch of Shell::force and Tangent::assemble; nobody else reads it.
 struct ShellWork {
   AlignedVector<double> slots;
   AlignedVector<double> lane_energy;
+  AlignedVector<double> tangent_slots;
 };
 
 /// Resultants and strain at one point, in the physical basis of the cloth.
 struct ShellStress {
   double principal1_N_per_m = 0, principal2_N_per_m = 0;  ///< true (Cauchy) resultants, first >= second
   double strain1 = 0, strain2 = 0;                        ///< principal Green-Lagrange strains, first >= second
+};
+
+/// All that the law sees and says at one point, in the physical basis (weft, warp, shear or twist) of the rest surface:
+/// Green-Lagrange strains (E11, E22, 2 E12), changes of curvature (k11, k22, 2 k12) [1/m], their conjugates n [N/m]
+/// (second Piola-Kirchhoff) and m [N].
+struct ShellState {
+  Vec3 strain, curvature_change, n, m;
+};
+
+/// Cells of one kind, packed, and where their shares of the force lie in ShellWork::slots.
+struct ShellPart {
+  ShellBlock block;
+  ShellLaw law;
+  long first_slot = 0;
+  int cell_count = 0;  ///< the rest of the last group are copies without area
 };
 
 /// How cells are integrated. Quadratic patches lock under the full rule; `automatic` takes the remedy for them (see
@@ -49,6 +66,8 @@ class Shell {
                   const ShellTerms& terms = {}) const;
   /// Stress and strain at a point of a patch.
   ShellStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  /// Strains and resultants at a point of a patch.
+  ShellState stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   /// Physical curvature (weft, warp, twist) at a point of a patch, the rest curvature not subtracted [1/m].
   Vec3 curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
 
@@ -56,21 +75,20 @@ class Shell {
   long gaussPoints() const { return gauss_points_; }
   const Garment& garment() const { return garment_; }
 
+  const std::vector<ShellPart>& parts() const { return parts_; }
+  /// The springs along seams, without those that the map T holds.
+  const std::vector<HingePoint>& hinges() const { return hinges_; }
+
  private:
-  struct Part {
-    ShellBlock block;
-    ShellLaw law;
-    long first_slot = 0;
-  };
   struct Frame;
-  Frame frameAt(int patch, Vec2 uv) const;
+  Frame frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
 
   Garment garment_;
   const KernelSet* kernels_;
   std::vector<int> offsets_;
   int control_count_ = 0;
   long gauss_points_ = 0;
-  std::vector<Part> parts_;
+  std::vector<ShellPart> parts_;
   std::vector<HingePoint> hinges_;
   long hinge_slot_ = 0;             ///< first slot of the hinges
   std::vector<long> hinge_offset_;  ///< of each hinge, in columns
@@ -81,7 +99,7 @@ class Shell {
   std::vector<int> gather_strides_;
 };
 
-/// The membrane resultants' stiffness of a fabric (eq. 2.13 times the thickness), plane stress.
-ShellLaw shellLaw(const Fabric& fabric);
+/// A part's law with what `terms` leave out.
+ShellLaw withTerms(ShellLaw law, const ShellTerms& terms);
 
 }  // namespace gambeson

@@ -7,90 +7,44 @@
 ///   d(kappa_ab) = n . d(x,ab) - (x,ab . a^g) n . d(a_g),
 /// which is eq. 2.20 in fewer terms.
 
-#include <cmath>
-
-#if defined(__AVX2__)
-#include <immintrin.h>
-#else
-#include <emmintrin.h>
-#endif
-
-#include "core/sheet/shell_kernel.hpp"
-
-#define GAMBESON_CONCAT2(a, b) a##b
-#define GAMBESON_CONCAT(a, b) GAMBESON_CONCAT2(a, b)
+#include "core/sheet/lanes.hpp"
 
 namespace gambeson {
+
+void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, int, int, double*);
+
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 8;
-#elif defined(__AVX2__)
-constexpr int kLanes = 4;
-#else
-constexpr int kLanes = 2;
-#endif
-typedef double V __attribute__((vector_size(8 * kLanes)));
-typedef long long M __attribute__((vector_size(8 * kLanes)));
-
-inline V load(const double* p) { return *reinterpret_cast<const V*>(p); }
-inline void store(double* p, V v) { *reinterpret_cast<V*>(p) = v; }
-inline V splat(double s) { return V{} + s; }
-inline V absolute(V v) { return v < 0 ? -v : v; }
-inline V squareRoot(V v) {
-#if defined(__AVX512F__)
-  return _mm512_sqrt_pd(v);
-#elif defined(__AVX2__)
-  return _mm256_sqrt_pd(v);
-#else
-  return _mm_sqrt_pd(v);
-#endif
-}
-
-struct V3 {
-  V x, y, z;
+/// The numbers of ShellLaw alone: orthotropic membrane, bending of weft and warp, twist.
+struct FabricLaw {
+  const ShellLaw& law;
+  template <bool kEnergy>
+  void evaluate(const V* e, const V* k, V* n, V* m, V& energy) const {
+    n[0] = law.d1 * e[0] + law.d3 * e[1];
+    n[1] = law.d3 * e[0] + law.d2 * e[1];
+    n[2] = law.d4 * e[2];
+    if constexpr (kEnergy) energy += 0.5 * (n[0] * e[0] + n[1] * e[1] + n[2] * e[2]);
+    m[0] = moment<kEnergy>(k[0], law.bending_weft, law.kappa0, law.kappa_regular, energy);
+    m[1] = moment<kEnergy>(k[1], law.bending_warp, law.kappa0, law.kappa_regular, energy);
+    m[2] = law.twist * k[2];
+    if constexpr (kEnergy) energy += 0.5 * m[2] * k[2];
+  }
 };
-inline V3 operator+(V3 a, V3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline V3 operator-(V3 a, V3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline V3 operator*(V s, V3 a) { return {s * a.x, s * a.y, s * a.z}; }
-inline V dot(V3 a, V3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline V3 cross(V3 a, V3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-inline void add(V3& a, V s, V3 b) {
-  a.x += s * b.x;
-  a.y += s * b.y;
-  a.z += s * b.z;
-}
 
-/// core/material/bending.hpp, in lanes. Returns the moment; adds the energy.
-template <bool kEnergy>
-inline V moment(V k, double b0, double k0, double kr, V& energy) {
-  if (k0 == 0) {
-    if constexpr (kEnergy) energy += 0.5 * b0 * k * k;
-    return b0 * k;
+struct GeneralLaw {
+  const ShellLaw& law;
+  LawLanes lanes{};
+  template <bool kEnergy>
+  void evaluate(const V* e, const V* k, V* n, V* m, V& energy) const {
+    generalLaw<kEnergy, false>(law, lanes, e, k, n, m, energy);
   }
-  const V a = absolute(k);
-  const double steep = 2 * b0 * std::sqrt(k0 / kr);
-  const V ratio2 = (a * a) * (1 / (kr * kr));
-  const V root = squareRoot(k0 * a);
-  const V m = a > k0 ? b0 * (a + k0) : a > kr ? 2 * b0 * root : steep * a * (1.25 - 0.25 * ratio2);
-  if constexpr (kEnergy) {
-    const V below = a < kr ? a : splat(kr);
-    const V r2 = below * below * (1 / (kr * kr));
-    V e = steep * below * below * (0.625 - 0.0625 * r2);
-    const V mid = a < k0 ? a : splat(k0);
-    const V e_root = 4.0 / 3.0 * b0 * std::sqrt(k0) * (mid * squareRoot(mid) - kr * std::sqrt(kr));
-    e = a > kr ? e + e_root : e;
-    e = a > k0 ? e + b0 * (0.5 * (a * a - k0 * k0) + k0 * (a - k0)) : e;
-    energy += e;
-  }
-  return k < 0 ? -m : m;
-}
+};
 
 /// Resultants and their pull-back at one quadrature point: on return g1, g2, g11, g22, g12 hold the force conjugate to
 /// x,u x,v x,uu x,vv x,uv (times the point's area).
-template <bool kEnergy>
-inline void shellPoint(const ShellLaw& law, const double* data, const double* rest_curvature, V3 a1, V3 a2, V3 x11,
-                       V3 x22, V3 x12, V3& g1, V3& g2, V3& g11, V3& g22, V3& g12, V& energy) {
+template <bool kEnergy, class Law>
+inline void shellPoint(const Law& law, const double* data, const double* rest_curvature, V3 a1, V3 a2, V3 x11, V3 x22,
+                       V3 x12, V3& g1, V3& g2, V3& g11, V3& g22, V3& g12, V& energy) {
   const V G11 = load(data), G12 = load(data + kLanes), G21 = load(data + 2 * kLanes), G22 = load(data + 3 * kLanes);
   const V dA = load(data + 4 * kLanes);
   const V C11 = dot(a1, a1), C22 = dot(a2, a2), C12 = dot(a1, a2);
@@ -99,9 +53,6 @@ inline void shellPoint(const ShellLaw& law, const double* data, const double* re
   const V c2a = C11 * G12 + C12 * G22, c2b = C12 * G12 + C22 * G22;
   const V E11 = 0.5 * (G11 * c1a + G21 * c1b - 1.0), E22 = 0.5 * (G12 * c2a + G22 * c2b - 1.0);
   const V E12x2 = G12 * c1a + G22 * c1b;
-  const V n11 = law.d1 * E11 + law.d3 * E22, n22 = law.d3 * E11 + law.d2 * E22, n12 = law.d4 * E12x2;
-  if constexpr (kEnergy) energy += 0.5 * dA * (n11 * E11 + n22 * E22 + n12 * E12x2);
-
   const V3 normal_j = cross(a1, a2);
   const V j2 = dot(normal_j, normal_j);
   const V inv_j = 1.0 / squareRoot(j2);
@@ -115,11 +66,12 @@ inline void shellPoint(const ShellLaw& law, const double* data, const double* re
     k22 -= load(rest_curvature + kLanes);
     k12 -= load(rest_curvature + 2 * kLanes);
   }
-  V bending{};
-  const V m11 = moment<kEnergy>(k11, law.bending_weft, law.kappa0, law.kappa_regular, bending);
-  const V m22 = moment<kEnergy>(k22, law.bending_warp, law.kappa0, law.kappa_regular, bending);
-  const V m12 = law.twist * 2.0 * k12;
-  if constexpr (kEnergy) energy += dA * (bending + m12 * k12);
+  const V strain[3] = {E11, E22, E12x2}, change[3] = {k11, k22, 2.0 * k12};
+  V resultant[3], couple[3], density{};
+  law.template evaluate<kEnergy>(strain, change, resultant, couple, density);
+  if constexpr (kEnergy) energy += dA * density;
+  const V n11 = resultant[0], n22 = resultant[1], n12 = resultant[2];
+  const V m11 = couple[0], m22 = couple[1], m12 = couple[2];
 
   // Back to the parameters: N = G n Gᵀ, M = G m Gᵀ (symmetric).
   const V p1 = G11 * n11 + G12 * n12, p2 = G11 * n12 + G12 * n22;
@@ -143,27 +95,25 @@ inline void shellPoint(const ShellLaw& law, const double* data, const double* re
 constexpr int kMaxDegree = 5;
 
 /// kP, kQ: degrees known at compile time, or -1.
-template <int kP, int kQ, bool kRational, bool kEnergy>
-void force(const ShellBlock& block, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
+template <int kP, int kQ, bool kRational, bool kEnergy, class Law>
+void force(const ShellBlock& block, const ShellLaw& shell_law, const double* q, double* cell_force, double* energy) {
   const int nu = kP < 0 ? block.p + 1 : kP + 1, nv = kQ < 0 ? block.q + 1 : kQ + 1, nn = nu * nv;
   constexpr int kNu = kP < 0 ? kMaxDegree + 1 : kP + 1, kNv = kQ < 0 ? kMaxDegree + 1 : kQ + 1;
   const int stride = block.pointDoubles() * kLanes;
+  [[maybe_unused]] const double* laws = block.laws.empty() ? nullptr : block.laws.data();
 #pragma omp parallel for schedule(static) if (block.groups > 16)
   for (int group = 0; group < block.groups; ++group) {
     V3 X[kNu * kNv], F[kNu * kNv];
     const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
     const double* weights = kRational ? block.weights.data() + static_cast<long>(group) * nn * kLanes : nullptr;
     for (int k = 0; k < nn; ++k) {
-      for (int l = 0; l < kLanes; ++l) {
-        const double* at = q + 3L * nodes[k * kLanes + l];
-        X[k].x[l] = at[0];
-        X[k].y[l] = at[1];
-        X[k].z[l] = at[2];
-      }
+      X[k] = gather(q, nodes + k * kLanes);
       if constexpr (kRational) X[k] = load(weights + k * kLanes) * X[k];
       F[k] = V3{};
     }
     V e{};
+    Law law{shell_law};
+    if constexpr (std::is_same_v<Law, GeneralLaw>) constantLaw(shell_law, law.lanes);
     for (int gv = 0; gv < block.gv; ++gv) {
       const double* bv = block.basis_v.data() + (static_cast<long>(group) * block.gv + gv) * 3 * nv * kLanes;
       V3 Y0[kNu], Y1[kNu], Y2[kNu], Z0[kNu], Z1[kNu], Z2[kNu];
@@ -211,6 +161,10 @@ void force(const ShellBlock& block, const ShellLaw& law, const double* q, double
           x12 = inv_w * (x12 - w1 * x2 - w2 * x1 - w12 * x0);
         }
         V3 g0{}, g1, g2, g11, g22, g12;
+        if constexpr (std::is_same_v<Law, GeneralLaw>)
+          if (laws)
+            lawAtPoint(shell_law, laws + ((group * long{block.gv} + gv) * block.gu + gu) * kLawDoubles * kLanes,
+                       law.lanes);
         shellPoint<kEnergy>(law, data, rest, x1, x2, x11, x22, x12, g1, g2, g11, g22, g12, e);
         if constexpr (kRational) {
           g11 = inv_w * g11;
@@ -250,20 +204,70 @@ void force(const ShellBlock& block, const ShellLaw& law, const double* q, double
   }
 }
 
-template <bool kRational, bool kEnergy>
+/// Cut cells: points of their own, the law in its general form.
+template <bool kEnergy>
+void scatteredForce(const ShellBlock& block, const ShellLaw& shell_law, const double* q, double* cell_force,
+                    double* energy) {
+  const int nn = block.nodeCount(), stride = block.pointDoubles() * kLanes;
+  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+#pragma omp parallel for schedule(static) if (block.groups > 16)
+  for (int group = 0; group < block.groups; ++group) {
+    constexpr int kMax = (kMaxDegree + 1) * (kMaxDegree + 1);
+    V3 X[kMax], F[kMax];
+    const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
+    for (int k = 0; k < nn; ++k) {
+      X[k] = gather(q, nodes + k * kLanes);
+      F[k] = V3{};
+    }
+    V e{};
+    GeneralLaw law{shell_law, {}};
+    constantLaw(shell_law, law.lanes);
+    for (long point = block.first_point[group]; point < block.first_point[group + 1]; ++point) {
+      const double* data = block.points.data() + point * stride;
+      const double* shape = block.shapes.data() + point * 5 * nn * kLanes;
+      const auto N = [&](int d, int k) { return load(shape + (d * nn + k) * kLanes); };
+      if (laws) lawAtPoint(shell_law, laws + point * kLawDoubles * kLanes, law.lanes);
+      V3 x[5]{}, g[5];
+      for (int k = 0; k < nn; ++k)
+        for (int d = 0; d < 5; ++d) add(x[d], N(d, k), X[k]);
+      shellPoint<kEnergy>(law, data, block.rest_curvature ? data + 5 * kLanes : nullptr, x[0], x[1], x[2], x[3], x[4],
+                          g[0], g[1], g[2], g[3], g[4], e);
+      for (int k = 0; k < nn; ++k)
+        for (int d = 0; d < 5; ++d) add(F[k], N(d, k), g[d]);
+    }
+    double* out = cell_force + static_cast<long>(group) * nn * 3 * kLanes;
+    for (int k = 0; k < nn; ++k) {
+      store(out + (3 * k) * kLanes, F[k].x);
+      store(out + (3 * k + 1) * kLanes, F[k].y);
+      store(out + (3 * k + 2) * kLanes, F[k].z);
+    }
+    if constexpr (kEnergy) store(energy + static_cast<long>(group) * kLanes, e);
+  }
+}
+
+template <bool kRational, bool kEnergy, class Law>
 void forceOfDegree(const ShellBlock& b, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
-  if (b.p == 2 && b.q == 2) return force<2, 2, kRational, kEnergy>(b, law, q, cell_force, energy);
-  if (b.p == 3 && b.q == 3) return force<3, 3, kRational, kEnergy>(b, law, q, cell_force, energy);
-  force<-1, -1, kRational, kEnergy>(b, law, q, cell_force, energy);
+  if (b.p == 2 && b.q == 2) return force<2, 2, kRational, kEnergy, Law>(b, law, q, cell_force, energy);
+  if (b.p == 3 && b.q == 3) return force<3, 3, kRational, kEnergy, Law>(b, law, q, cell_force, energy);
+  force<-1, -1, kRational, kEnergy, Law>(b, law, q, cell_force, energy);
+}
+
+template <bool kRational, bool kEnergy>
+void forceOfLaw(const ShellBlock& b, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
+  law.general ? forceOfDegree<kRational, kEnergy, GeneralLaw>(b, law, q, cell_force, energy)
+              : forceOfDegree<kRational, kEnergy, FabricLaw>(b, law, q, cell_force, energy);
 }
 
 void shellForce(const ShellBlock& b, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
+  if (b.scattered)
+    return energy ? scatteredForce<true>(b, law, q, cell_force, energy)
+                  : scatteredForce<false>(b, law, q, cell_force, energy);
   if (b.rational) {
-    energy ? forceOfDegree<true, true>(b, law, q, cell_force, energy)
-           : forceOfDegree<true, false>(b, law, q, cell_force, energy);
+    energy ? forceOfLaw<true, true>(b, law, q, cell_force, energy)
+           : forceOfLaw<true, false>(b, law, q, cell_force, energy);
   } else {
-    energy ? forceOfDegree<false, true>(b, law, q, cell_force, energy)
-           : forceOfDegree<false, false>(b, law, q, cell_force, energy);
+    energy ? forceOfLaw<false, true>(b, law, q, cell_force, energy)
+           : forceOfLaw<false, false>(b, law, q, cell_force, energy);
   }
 }
 
@@ -288,6 +292,6 @@ extern const KernelSet GAMBESON_CONCAT(kKernels_, GAMBESON_ISA);
 #define GAMBESON_STRING2(a) #a
 #define GAMBESON_STRING(a) GAMBESON_STRING2(a)
 const KernelSet GAMBESON_CONCAT(kKernels_, GAMBESON_ISA){GAMBESON_STRING(GAMBESON_ISA), kLanes, shellForce,
-                                                         multiplyAddPeak};
+                                                         GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA), multiplyAddPeak};
 
 }  // namespace gambeson

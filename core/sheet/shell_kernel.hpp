@@ -6,27 +6,47 @@
 #include <string>
 #include <vector>
 
+#include "core/material/section.hpp"
 #include "core/math/aligned.hpp"
 
 namespace gambeson {
 
+/// The general law at a point: n = A e + B k, m = B e + D k (core/material/section.hpp), with eq. 2.14 for the moments
+/// of weft and warp where kappa0 > 0 (B0 in D11 and D22, the twist rigidity in D33), with the membrane relaxed to its
+/// tension field where `tension` is not 0.
+struct PointLaw {
+  Section section;
+  double kappa0 = 0, kappa_regular = 0;
+  double tension = 0;
+};
+constexpr int kLawDoubles = 21;  ///< A, B, D, kappa0, kappa_regular, tension: a PointLaw as the kernels read it
+static_assert(sizeof(PointLaw) == kLawDoubles * sizeof(double));
+
 /// Cells of one degree pair and one quadrature rule, packed for vectors of `lanes` doubles. All arrays run
 /// [group][...][lane]; a last group is filled up with copies of a cell whose area is zero.
+/// A block of cut cells (`scattered`) holds the derivatives of the (rational) basis at each point instead of their
+/// factors; its groups differ in the number of points.
 struct ShellBlock {
   int lanes = 1, groups = 0;
   int p = 2, q = 2;    ///< degrees along u and v
   int gu = 3, gv = 3;  ///< quadrature points along u and v
   bool rational = false;
+  bool scattered = false;
   AlignedVector<int> nodes;       ///< [group][(p+1)(q+1)][lane] control point, u fastest
   AlignedVector<double> weights;  ///< [group][(p+1)(q+1)][lane], rational blocks only
   AlignedVector<double> basis_u;  ///< [group][gu][3][p+1][lane]: B-spline values, first and second derivatives
   AlignedVector<double> basis_v;  ///< [group][gv][3][q+1][lane]
+  std::vector<long> first_point;  ///< scattered: of each group, and the end
+  AlignedVector<double> shapes;   ///< scattered: [point][5][(p+1)(q+1)][lane]: N,1 N,2 N,11 N,22 N,12
   AlignedVector<double>
       points;  ///< [group][gv][gu][pointDoubles()][lane]: G11 G12 G21 G22 dA (w w1 w2 w11 w22 w12) (k11 k22 k12)
   bool rest_curvature = false;  ///< whether the rest curvature (physical components) is subtracted
+  AlignedVector<double> laws;   ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
 
   int nodeCount() const { return (p + 1) * (q + 1); }
+  int pairCount() const { return nodeCount() * (nodeCount() + 1) / 2; }
   int pointDoubles() const { return 5 + (rational ? 6 : 0) + (rest_curvature ? 3 : 0); }
+  long firstPoint(int group) const { return scattered ? first_point[group] : static_cast<long>(group) * gu * gv; }
 };
 
 /// What the law needs at every point of a block, as resultants.
@@ -37,17 +57,36 @@ struct ShellLaw {
   double d1 = 0, d2 = 0, d3 = 0, d4 = 0;
   double bending_weft = 0, bending_warp = 0, twist = 0;
   double kappa0 = 0, kappa_regular = 0;  ///< kappa0 = 0: the linear law m = B kappa
+
+  /// The same as a general law: what the tangent reads, and the force where `general` says that the numbers above are
+  /// not enough.
+  PointLaw point;
+  bool general = false;
+  bool zheng = false, tension = false;  ///< whether any point follows eq. 2.14, is a tension field
+  /// What is left out, as in ShellTerms: of the general law in the kernel, of the numbers above by the caller.
+  bool membrane = true, bending = true, steepest = false;
 };
+
+/// core/material/tension_field.hpp for each lane whose `on` is not 0: overwrites n, the energy per area and, where not
+/// null, the slope. Arrays run [component][lane]. Compiled once, for all instruction sets.
+void tensionFieldLanes(int lanes, const double* A, const double* strain, const double* on, double* n, double* energy,
+                       double* slope);
 
 /// Adds nothing: writes f_int per cell, [group][node][3][lane], and the energy of each lane of a group where `energy`
 /// is not null.
 using ShellForceKernel = void (*)(const ShellBlock&, const ShellLaw&, const double* q, double* cell_force,
                                   double* energy);
 
+/// Writes d2E/dq2 of the cells of groups [first, first + count): [group - first][pair][9][lane]. Pairs of nodes I <= J,
+/// I slowest; nine values row by row, rows for the components of I.
+using ShellTangentKernel = void (*)(const ShellBlock&, const ShellLaw&, const double* q, int first, int count,
+                                    double* pairs);
+
 struct KernelSet {
   const char* name;  ///< "sse2", "avx2", "avx512"
   int lanes;
   ShellForceKernel force;
+  ShellTangentKernel tangent;
   /// `rounds` rounds of independent multiply-adds in registers; returns flops done (to measure the core's peak).
   double (*multiplyAddPeak)(long rounds);
 };
