@@ -12,7 +12,8 @@ namespace gambeson {
 namespace {
 
 constexpr int kIterationsWanted = 5;
-constexpr double kLongest = 4;  ///< arc, against the first
+constexpr double kLongest = 4;       ///< arc, against the first
+constexpr int kMostIterations = 15;  ///< a corrector that needs more has an arc that is too long
 
 /// -dg/dfactor: what the load adds per factor.
 void loadRate(System& system, std::span<const double> y, double factor, std::span<double> p) {
@@ -115,7 +116,9 @@ void followArc(System& system, const StaticOptions& options, const StaticObserve
     forward = report.points == 0 ? way : dot(last, tangent) >= 0 ? 1 : -1;
     Increment inc{tangent, forward * length / size};
     for (double& v : inc.dy) v *= inc.dfactor;
-    NewtonReport newton = correct(system, newtonOptions(system, options, state), length, state, inc);
+    NewtonOptions corrector = newtonOptions(system, options, state);
+    corrector.iterations = std::min(corrector.iterations, kMostIterations);
+    NewtonReport newton = correct(system, corrector, length, state, inc);
     report.factorisations += newton.factorisations;
     // A step that turns back has lost the path.
     const double turn = report.points == 0 ? 1 : dot(inc.dy, last) / (norm(inc.dy) * norm(last));
