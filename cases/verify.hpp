@@ -47,7 +47,7 @@ struct Pair {
 
 /// Compares; what the members mean depends on the kind.
 struct Check {
-  enum class Kind { value, curve, table, rate, waves };
+  enum class Kind { value, curve, table, rate, waves, wrinkles };
   Kind kind = Kind::value;
   std::string quantity, unit;  ///< what is measured, in words
   std::string note;            ///< on the page: where the tolerance comes from, why it is not gated
@@ -80,6 +80,12 @@ struct Check {
   // waves: crests of y over x
   double prominence = 0.1;  ///< of a crest, as a part of the largest less the least value
   bool closed = false;      ///< the profile closes on itself: crests are counted; else their mean distance is measured
+
+  // wrinkles of `height` over a grid of x and y
+  enum class Measure { wavelength, angle };
+  Pair height;
+  Measure measure = Measure::wavelength;
+  double margin = 0.15;  ///< part of each extent that is left out at both ends
 };
 
 /// The published numbers that curve and table checks refer to.
@@ -175,6 +181,18 @@ Nearest nearestOnPolyline(const std::vector<double>& x, const std::vector<double
 /// Places of the crests of y whose prominence is at least `prominence` (height above the higher of the two saddles
 /// that part it from higher ground or from the ends). Closed: the last point is followed by the first.
 std::vector<std::size_t> crests(const std::vector<double>& y, double prominence, bool closed);
+
+/// Straight wrinkles over a rectangular grid.
+struct Wrinkles {
+  double angle_deg = 0;      ///< of the crests from the x axis, in [0, 180)
+  double wavelength = 0;     ///< across the crests
+  std::vector<double> x, w;  ///< the middle line that the crests were counted on
+};
+/// Angle from the gradients' mean square tensor (its first principal direction is across the crests); wavelength from
+/// the mean distance of the crests along the middle line y = const, times sin(angle). Throws RunError where the points
+/// are no grid or the line has less than three crests.
+Wrinkles wrinklesOf(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& w,
+                    double margin, double prominence);
 
 /// A reference with its runs done.
 struct Verified {

@@ -30,32 +30,6 @@ Nearest nearestOnPolyline(const std::vector<double>& x, const std::vector<double
   return best;
 }
 
-std::vector<std::size_t> crests(const std::vector<double>& y, double prominence, bool closed) {
-  std::vector<std::size_t> found;
-  const std::size_t n = y.size();
-  // The lowest point on the way from i to higher ground, in steps of +1 or -1, or to the end where there is none.
-  const auto saddle = [&](std::size_t i, std::ptrdiff_t step) {
-    double low = y[i];
-    const auto size = static_cast<std::ptrdiff_t>(n);
-    std::ptrdiff_t at = static_cast<std::ptrdiff_t>(i);
-    for (std::ptrdiff_t k = 1; k < size; ++k) {
-      at += step;
-      if (!closed && (at < 0 || at >= size)) break;
-      const double v = y[static_cast<std::size_t>((at + size) % size)];
-      if (v > y[i]) break;
-      low = std::min(low, v);
-    }
-    return low;
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!closed && (i == 0 || i + 1 == n)) continue;
-    const double before = y[(i + n - 1) % n], after = y[(i + 1) % n];
-    if (!(y[i] > before && y[i] >= after)) continue;
-    if (y[i] - std::max(saddle(i, -1), saddle(i, 1)) >= prominence) found.push_back(i);
-  }
-  return found;
-}
-
 std::size_t Numbers::find(const std::string& column) const {
   const auto it = std::find(columns.begin(), columns.end(), column);
   if (it == columns.end())
@@ -338,6 +312,24 @@ void judgeWaves(const Reference& reference, const Check& c, const RunNumbers& nu
   out.shown = std::move(shown);
 }
 
+/// Wavelength or angle of straight wrinkles.
+void judgeWrinkles(const Reference& reference, const Check& c, const RunNumbers& numbers, Judged& out) {
+  Shown shown;
+  shown.title = c.quantity + ": middle line";
+  shown.x_name = c.x.column;
+  shown.y_name = c.height.column;
+  const auto measure = [&](const std::string& run, bool, Result& r) {
+    const Numbers& t = numbers.table(run, c.file);
+    const Wrinkles found =
+        wrinklesOf(columnOf(t, c.x.column, c.x.scale, c.x.offset), columnOf(t, c.y.column, c.y.scale, c.y.offset),
+                   columnOf(t, c.height.column, c.height.scale, c.height.offset), c.margin, c.prominence);
+    shown.measured.push_back({run, found.x, found.w});
+    decide(c, c.measure == Check::Measure::angle ? found.angle_deg : found.wavelength, r);
+  };
+  judgeEach(reference, c, c.run, measure, out);
+  out.shown = std::move(shown);
+}
+
 }  // namespace
 
 Judged judge(const Reference& reference, const Check& check, const RunNumbers& numbers) {
@@ -360,6 +352,9 @@ Judged judge(const Reference& reference, const Check& check, const RunNumbers& n
       break;
     case Check::Kind::waves:
       judgeWaves(reference, check, numbers, out);
+      break;
+    case Check::Kind::wrinkles:
+      judgeWrinkles(reference, check, numbers, out);
       break;
   }
   return out;

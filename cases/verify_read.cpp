@@ -145,7 +145,11 @@ const std::vector<KindRule>& kinds() {
       {"waves",
        Check::Kind::waves,
        {"run", "x", "y"},
-       {"also", "table", "prominence", "closed", "reference", "relative", "absolute", "at_least", "at_most"}}};
+       {"also", "table", "prominence", "closed", "reference", "relative", "absolute", "at_least", "at_most"}},
+      {"wrinkles",
+       Check::Kind::wrinkles,
+       {"run", "x", "y", "height", "measure"},
+       {"also", "table", "prominence", "margin", "reference", "relative", "absolute", "at_least", "at_most"}}};
   return rules;
 }
 
@@ -200,6 +204,12 @@ schema::Object checkTable() {
   t.number("prominence", &C::prominence, "", schema::between(0, 1),
            "least prominence of a crest, as a part of the range");
   boolean(t, "closed", &C::closed, "count the crests of a closed profile");
+  t.object("height", &C::height, pairTable(), "what the wrinkles are of");
+  t.choice("measure", &C::measure,
+           std::vector<std::pair<std::string, C::Measure>>{{"wavelength", C::Measure::wavelength},
+                                                           {"angle", C::Measure::angle}},
+           "of wrinkles");
+  t.number("margin", &C::margin, "", schema::between(0, 0.45), "part of the sheet's extents left out at both ends");
   t.check([](const Place& p, const C& c) {
     const auto rule = std::find_if(kinds().begin(), kinds().end(), [&](const KindRule& r) { return r.kind == c.kind; });
     for (const std::string& key : rule->needs)

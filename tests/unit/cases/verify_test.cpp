@@ -279,6 +279,22 @@ TEST(VerifyWaves, CrestsByProminence) {
   EXPECT_TRUE(crests({1, 1, 1, 1}, 0.1, true).empty());
 }
 
+TEST(VerifyWaves, StraightWrinkles) {
+  // Crests at 47 degrees, 25 mm apart, on a sheet of 0.38 x 0.128 m.
+  std::vector<double> x, y, w;
+  const double n = (47 + 90) * std::numbers::pi / 180;
+  for (int j = 0; j <= 60; ++j)
+    for (int i = 0; i <= 180; ++i) {
+      x.push_back(0.38 * i / 180), y.push_back(0.128 * j / 60);
+      w.push_back(1e-3 * std::sin(2 * std::numbers::pi / 0.025 * (std::cos(n) * x.back() + std::sin(n) * y.back())));
+    }
+  const Wrinkles found = wrinklesOf(x, y, w, 0.15, 0.1);
+  EXPECT_NEAR(found.angle_deg, 47, 1);
+  EXPECT_NEAR(found.wavelength, 0.025, 0.0005);
+  w.pop_back(), x.pop_back(), y.pop_back();
+  EXPECT_THROW(wrinklesOf(x, y, w, 0.15, 0.1), RunError);  // no grid any more
+}
+
 TEST(VerifyWaves, MeanDistance) {
   Given given;
   Numbers& t = given.tables["a/line.csv"];
