@@ -28,7 +28,8 @@ GAMBESON_HD inline TensionField tensionField(const double* A, const double* e) {
   TensionField out;
   const double linear[3] = {A[0] * e[0] + A[3] * e[1] + A[4] * e[2], A[3] * e[0] + A[1] * e[1] + A[5] * e[2],
                             A[4] * e[0] + A[5] * e[1] + A[2] * e[2]};
-  if (linear[0] + linear[1] >= 0 && linear[0] * linear[1] >= linear[2] * linear[2]) {
+  const bool at_rest = std::fabs(e[0]) < 1e-12 && std::fabs(e[1]) < 1e-12 && std::fabs(e[2]) < 1e-12;
+  if (at_rest || (linear[0] + linear[1] >= 0 && linear[0] * linear[1] >= linear[2] * linear[2])) {
     out.state = TensionField::taut;
     for (int i = 0; i < 3; ++i) out.n[i] = linear[i];
     for (int i = 0; i < 6; ++i) out.slope[i] = A[i];

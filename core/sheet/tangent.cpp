@@ -1,10 +1,11 @@
 #include "core/sheet/tangent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <tuple>
 
-#include "core/sheet/hinge_tangent.hpp"
+#include "core/sheet/hinge.hpp"
 
 namespace gambeson {
 namespace {
@@ -132,9 +133,19 @@ void Tangent::assemble(const Shell& shell, std::span<const Vec3> q, ShellWork& w
   for (const Batch& batch : batches_) {
     if (batch.part < 0 ? !terms.seams : !terms.membrane && !terms.bending) continue;
     if (batch.part < 0) {
-#pragma omp parallel for schedule(static) if (batch.count > 16)
-      for (int h = batch.first; h < batch.first + batch.count; ++h)
-        hingeTangent(shell.hinges()[h], q, slots + hinge_slot_[h]);
+#pragma omp parallel if (batch.count > 16)
+      {
+        std::vector<std::array<double, 9>> blocks;
+#pragma omp for schedule(static)
+        for (int h = batch.first; h < batch.first + batch.count; ++h) {
+          hingeStiffness(shell.hinges()[h], q, blocks);
+          double* out = slots + hinge_slot_[h];
+          const std::size_t n = shell.hinges()[h].columns.size();
+          for (std::size_t I = 0; I < n; ++I)
+            for (std::size_t J = I; J < n; ++J)
+              out = std::copy(blocks[I * n + J].begin(), blocks[I * n + J].end(), out);
+        }
+      }
     } else {
       const ShellPart& part = shell.parts()[batch.part];
       shell.kernels().tangent(part.block, withTerms(part.law, terms), reinterpret_cast<const double*>(q.data()),

@@ -43,6 +43,17 @@ TEST(BendingLaw, IsC1AtBothJoints) {
   }
 }
 
+TEST(BendingLaw, SlopeIsTheDerivativeOfTheMoment) {
+  const auto m = [](double k) { return zhengMoment(k, kB0, kK0, kKr); };
+  for (double k : {-450.0, -199.0, -50.0, -8.5, -7.5, -0.1, 0.0, 0.3, 5.0, 7.9, 8.1, 60.0, 199.0, 201.0, 900.0}) {
+    const double h = 1e-3;
+    const double slope = (8 * (m(k + h) - m(k - h)) - (m(k + 2 * h) - m(k - 2 * h))) / (12 * h);
+    EXPECT_NEAR(zhengSlope(k, kB0, kK0, kKr), slope, 1e-8 * kB0 * kK0) << "at " << k;
+  }
+  EXPECT_DOUBLE_EQ(zhengSlope(kKr, kB0, kK0, kKr), kB0 * std::sqrt(kK0 / kKr));
+  EXPECT_DOUBLE_EQ(zhengSlope(0, kB0, kK0, kKr), zhengSteepest(kB0, kK0, kKr));
+}
+
 TEST(BendingLaw, NoSlopeIsSteeperThanAtZero) {
   const double steepest = zhengSteepest(kB0, kK0, kKr);
   EXPECT_NEAR(zhengMoment(1e-6 * kKr, kB0, kK0, kKr) / (1e-6 * kKr), steepest, 1e-9 * steepest);
