@@ -1,12 +1,14 @@
 #include "core/sheet/surface.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "core/sheet/cells.hpp"
+#include "core/sheet/trim_mesh.hpp"
 
 namespace gambeson {
 namespace {
@@ -46,13 +48,29 @@ std::vector<int> gridEdge(int nu, int nv, const PatchEdge& e) {
   return at;
 }
 
-std::vector<double> consistentAreas(const SparseRows& WT, const std::vector<double>& free_area) {
-  using Matrix = Eigen::SparseMatrix<double>;
+/// Which sides (u0, u1, v0, v1) of a patch are joined to others.
+std::array<bool, 4> joinedSides(const Garment& garment, int patch) {
+  std::array<bool, 4> joined{};
+  for (const Seam& seam : garment.seams)
+    for (const PatchEdge& e : {seam.a, seam.b})
+      if (e.patch == patch) joined[static_cast<int>(e.side)] = true;
+  return joined;
+}
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+Matrix matrixOf(const SparseRows& WT) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int r = 0; r < WT.rows(); ++r)
     for (int k = WT.offsets[r]; k < WT.offsets[r + 1]; ++k) entries.emplace_back(r, WT.columns[k], WT.values[k]);
   Matrix W(WT.rows(), WT.column_count);
   W.setFromTriplets(entries.begin(), entries.end());
+  return W;
+}
+
+/// The smallest a with WTᵀ a = A.
+std::vector<double> consistentAreas(const SparseRows& WT, const std::vector<double>& free_area) {
+  const Matrix W = matrixOf(WT);
   const Matrix gram = W.transpose() * W;
   Eigen::SimplicialLDLT<Matrix> factor(gram);
   if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-9 * factor.vectorD().maxCoeff()))
@@ -63,6 +81,56 @@ std::vector<double> consistentAreas(const SparseRows& WT, const std::vector<doub
   y += factor.solve(A - gram * y);  // one refinement: the identity W^T a = A is used as exact
   const Eigen::VectorXd a = W * y;
   return {a.data(), a.data() + a.size()};
+}
+
+/// The a with WTᵀ a = A that is nearest to g > 0 in the sense of least sum a log(a/g) - a, always positive:
+/// a = g exp(WT y), with y from Newton on the convex dual sum g exp(WT y) - A y. Its first step is the minimum of
+/// sum (a - g)^2 / g.
+std::vector<double> positiveAreas(const SparseRows& WT, const std::vector<double>& free_area,
+                                  const Eigen::VectorXd& g) {
+  const Matrix W = matrixOf(WT);
+  const Eigen::VectorXd A = Eigen::Map<const Eigen::VectorXd>(free_area.data(), free_area.size());
+  Eigen::VectorXd a = g;
+  Eigen::SimplicialLDLT<Matrix> factor;
+  const double small = 1e-14 * A.maxCoeff();
+  for (int k = 0; k < 100; ++k) {
+    const Eigen::VectorXd left = A - W.transpose() * a;
+    if (left.cwiseAbs().maxCoeff() <= small) return {a.data(), a.data() + a.size()};
+    const Matrix hessian = W.transpose() * a.asDiagonal() * W;
+    if (k == 0) factor.analyzePattern(hessian);
+    factor.factorize(hessian);
+    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-12 * factor.vectorD().maxCoeff()))
+      throw InputError({"", 0, "sampling"},
+                       "the surface samples do not see every control point; use more samples per cell");
+    const Eigen::VectorXd step = factor.solve(left), move = W * step;
+    // No area changes more than e-fold in a step; then halve until the dual does not rise.
+    double scale = std::min(1.0, 1 / std::max(1e-300, move.cwiseAbs().maxCoeff()));
+    const double slope = left.dot(step);
+    for (int halvings = 0;; ++halvings, scale *= 0.5) {
+      const Eigen::VectorXd next = (a.array() * (scale * move).array().exp()).matrix();
+      const double change = (next - a).sum() - scale * A.dot(step);
+      if (change <= -1e-4 * scale * slope || halvings == 40 || slope <= 1e-13 * A.sum()) {
+        a = next;
+        break;
+      }
+    }
+  }
+  const double error = (A - W.transpose() * a).cwiseAbs().maxCoeff();
+  if (error <= 1e3 * small) return {a.data(), a.data() + a.size()};
+  throw InputError(
+      {"", 0, "sampling"},
+      "no positive areas of the surface samples stand for the cloth; use another number of samples per cell");
+}
+
+/// A third of the rest area of the triangles at each sample.
+Eigen::VectorXd tributaryAreas(const Garment& garment, const Surface& s) {
+  std::vector<Vec3> Q, X(s.W.rows());
+  for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
+  s.W.multiply<Vec3>(Q, X);
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(s.W.rows());
+  for (const auto& [a, b, c] : s.triangles)
+    for (int i : {a, b, c}) area(i) += norm(cross(X[b] - X[a], X[c] - X[a])) / 6;
+  return area;
 }
 
 }  // namespace
@@ -116,21 +184,55 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
     }
   }
   std::vector<int> index(first.back(), -1);
+  const auto addSample = [&](int p, Vec2 uv) {
+    const SurfaceBasis basis = surfaceBasis(garment.patches[p], uv.x, uv.y);
+    for (std::size_t k = 0; k < basis.columns.size(); ++k)
+      if (basis.values[0][k] != 0) s.W.add(offsets[p] + basis.columns[k], basis.values[0][k]);
+    s.W.endRow();
+    s.patch.push_back(p);
+    s.parameters.push_back(uv);
+    return s.W.rows() - 1;
+  };
+  bool trimmed = false;
   s.W.column_count = offsets.back();
   s.patch_grid.resize(patch_count);
+  s.edge_samples.resize(patch_count);
   for (int p = 0; p < patch_count; ++p) {
     const auto [nu, nv] = s.patch_grid_size[p];
+    if (isTrimmed(garment, p)) {
+      trimmed = true;
+      const TrimMesh mesh = trimMesh(garment.patches[p], garment.trims[p], us[p], vs[p], joinedSides(garment, p));
+      std::vector<int> sample(mesh.uv.size(), -1);
+      for (int raw = 0; raw < nu * nv; ++raw) {
+        const int root = find(first[p] + raw), at = mesh.grid[raw];
+        if (at >= 0 && root == first[p] + raw) index[root] = addSample(p, mesh.uv[at]);
+        if (at >= 0) sample[at] = index[root];
+        s.patch_grid[p].push_back(at < 0 ? -1 : index[root]);
+      }
+      for (std::size_t k = 0; k < mesh.uv.size(); ++k)
+        if (sample[k] < 0) sample[k] = addSample(p, mesh.uv[k]);
+      s.edge_samples[p].resize(4);
+      for (int side = 0; side < 4; ++side) {
+        const bool along_v = side < 2;
+        const double line = side == 0   ? us[p].front()
+                            : side == 1 ? us[p].back()
+                            : side == 2 ? vs[p].front()
+                                        : vs[p].back();
+        std::vector<std::pair<double, int>> on;
+        for (std::size_t k = 0; k < mesh.uv.size(); ++k)
+          if ((along_v ? mesh.uv[k].x : mesh.uv[k].y) == line)
+            on.push_back({along_v ? mesh.uv[k].y : mesh.uv[k].x, sample[k]});
+        std::sort(on.begin(), on.end());
+        for (const auto& entry : on) s.edge_samples[p][side].push_back(entry.second);
+      }
+      for (const auto& [a, b, c] : mesh.triangles) s.triangles.push_back({sample[a], sample[b], sample[c]});
+      continue;
+    }
     for (int j = 0; j < nv; ++j)
       for (int i = 0; i < nu; ++i) {
         const int raw = first[p] + i + nu * j, root = find(raw);
         if (root == raw) {
-          index[raw] = s.W.rows();
-          const SurfaceBasis basis = surfaceBasis(garment.patches[p], us[p][i], vs[p][j]);
-          for (std::size_t k = 0; k < basis.columns.size(); ++k)
-            if (basis.values[0][k] != 0) s.W.add(offsets[p] + basis.columns[k], basis.values[0][k]);
-          s.W.endRow();
-          s.patch.push_back(p);
-          s.parameters.push_back({us[p][i], vs[p][j]});
+          index[raw] = addSample(p, {us[p][i], vs[p][j]});
         }
         s.patch_grid[p].push_back(index[root]);
       }
@@ -152,7 +254,8 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
   const std::vector<double> area = controlAreas(garment);
   std::vector<double> free_area(map.T.column_count);
   map.Tt.multiply<double>(area, free_area);
-  s.area_m2 = consistentAreas(s.WT, free_area);
+  // The minimum norm turns negative beside slivers.
+  s.area_m2 = trimmed ? positiveAreas(s.WT, free_area, tributaryAreas(garment, s)) : consistentAreas(s.WT, free_area);
   for (int i = 0; i < s.size(); ++i)
     if (!(s.area_m2[i] > 0))
       throw InputError({"", 0, "sampling"},
@@ -167,6 +270,10 @@ std::vector<int> edgeSamples(const Surface& surface, const PatchEdge& edge) {
   const auto [nu, nv] = surface.patch_grid_size[edge.patch];
   std::vector<int> at = gridEdge(nu, nv, edge);
   for (int& i : at) i = surface.patch_grid[edge.patch][i];
+  if (surface.edge_samples.empty() || surface.edge_samples[edge.patch].empty()) return at;
+  // A trimmed patch: what is left of the edge, with the points where loops meet it.
+  at = surface.edge_samples[edge.patch][static_cast<int>(edge.side)];
+  if (edge.reversed) std::reverse(at.begin(), at.end());
   return at;
 }
 

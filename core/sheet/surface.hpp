@@ -11,7 +11,9 @@
 namespace gambeson {
 
 /// x = W q. Rows of W sum to 1 and W T has full column rank. `area_m2` is consistent: Wᵀ a = ∫ N dA over the free
-/// points, the minimum-norm solution, so that a uniform pressure p is the impulse a p dt on the samples.
+/// points, so that a uniform pressure p is the impulse a p dt on the samples: the minimum-norm solution; with trimmed
+/// patches, where that turns negative beside slivers, the positive one nearest to the areas g that the triangles give
+/// to the samples (least sum a log(a/g) - a).
 struct Surface {
   SparseRows W;   ///< samples x control points
   SparseRows WT;  ///< samples x free points, W T
@@ -20,21 +22,24 @@ struct Surface {
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> patch;                    ///< of each sample
   std::vector<Vec2> parameters;              ///< (u, v) of each sample in its patch
-  std::vector<std::vector<int>> patch_grid;  ///< samples of each patch, u fastest
+  std::vector<std::vector<int>> patch_grid;  ///< samples of each patch, u fastest; -1 where trimming leaves none
   std::vector<std::array<int, 2>> patch_grid_size;
+  /// Of each trimmed patch: the samples on its sides u0, u1, v0, v1, ascending in the parameter; empty of others.
+  std::vector<std::vector<std::vector<int>>> edge_samples;
 
   int size() const { return static_cast<int>(area_m2.size()); }
 };
 
 /// `per_cell` samples along each cell edge (their parameters divide the cell evenly), or the Greville points for 0.
-/// Samples on joined edges are one. Throws InputError where the samples are too few to see every control point, or an
+/// Samples on joined edges are one. Trimmed patches have samples along their loops, which outline the triangles
+/// (trim_mesh.hpp). Throws InputError where the samples are too few to see every control point, or an
 /// area is not positive.
 Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell);
 
 /// ∫ N dA at rest for each control point [m^2].
 std::vector<double> controlAreas(const Garment& garment);
 
-/// The samples along an edge, in the edge's sense.
+/// The samples along an edge, in the edge's sense; of a trimmed patch those on what is left of it.
 std::vector<int> edgeSamples(const Surface& surface, const PatchEdge& edge);
 
 }  // namespace gambeson
