@@ -53,7 +53,11 @@ bool startPath(System& system, const StaticOptions& options, PathState& state, S
     system.stiffness(state.y, 0, state.K);
     state.definite = state.solver.factorise(state.K);
     ++report.factorisations;
-    if (state.definite == Definiteness::singular)
+    // Strains at rest are rounding, and their stress is a stiffness of eps of the membrane's in every direction: what
+    // resists less than that is not held.
+    double largest = 0;
+    for (int c = 0; c < state.K.size; ++c) largest = std::max(largest, state.K.values[state.K.offsets[c]]);
+    if (state.definite == Definiteness::singular || state.solver.smallestPivot() < 1e-15 * largest)
       throw RunError("the structure is a mechanism: " + system.describe(weakestMotion(state.K)));
   };
   tangent();

@@ -26,6 +26,7 @@ struct SymmetricFactor::Implementation {
   int negative = 0;
   int weakest = 0;
   double weakest_ratio = 0;
+  double smallest = 0;
 
   Implementation() {
     cholmod_start(&common);
@@ -69,6 +70,7 @@ struct SymmetricFactor::Implementation {
   /// Looks at the pivot of the unknown `at`.
   void pivot(int at, double value, double diagonal) {
     if (value < 0) ++negative;
+    smallest = std::min(smallest, std::abs(value));
     const double ratio = diagonal != 0 ? std::abs(value / diagonal) : 0.0;
     if (!(ratio >= weakest_ratio)) weakest_ratio = std::isnan(ratio) ? 0.0 : ratio, weakest = at;
   }
@@ -145,7 +147,7 @@ Definiteness SymmetricFactor::factorise(const SymmetricMatrix& matrix) {
   s.valid = nullptr;
   s.negative = 0;
   s.weakest = 0;
-  s.weakest_ratio = std::numeric_limits<double>::infinity();
+  s.weakest_ratio = s.smallest = std::numeric_limits<double>::infinity();
   if (matrix.size == 0) return Definiteness::positive;
   if (!std::all_of(matrix.values.begin(), matrix.values.end(), [](double v) { return std::isfinite(v); }))
     throw RunError("factorisation: the matrix is not finite");
@@ -176,7 +178,7 @@ Definiteness SymmetricFactor::factorise(const SymmetricMatrix& matrix) {
   s.check("factorisation");
   if (zero_pivot) {  // exactly zero: the rest is not computed
     s.weakest = static_cast<const int*>(s.simplicial->Perm)[std::min(s.simplicial->minor, s.simplicial->n - 1)];
-    s.weakest_ratio = 0;
+    s.weakest_ratio = s.smallest = 0;
     return Definiteness::singular;
   }
   s.valid = s.simplicial;
@@ -187,6 +189,7 @@ Definiteness SymmetricFactor::factorise(const SymmetricMatrix& matrix) {
 
 int SymmetricFactor::negativePivots() const { return self_->negative; }
 int SymmetricFactor::weakestUnknown() const { return self_->weakest; }
+double SymmetricFactor::smallestPivot() const { return self_->smallest; }
 bool SymmetricFactor::solvable() const { return self_->valid != nullptr || self_->matrix.size == 0; }
 
 void SymmetricFactor::solve(std::span<const double> b, std::span<double> x) const {

@@ -37,6 +37,8 @@ class SymmetricFactor {
   int negativePivots() const;
   /// The unknown with the smallest pivot relative to its diagonal: what a mechanism moves.
   int weakestUnknown() const;
+  /// The smallest |pivot|.
+  double smallestPivot() const;
   /// False after a pivot that is exactly zero: nothing to solve with.
   bool solvable() const;
   /// x = K^-1 b, one step of iterative refinement. b and x are different vectors.
