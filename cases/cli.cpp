@@ -5,9 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <ostream>
 
-#include "cases/case.hpp"
+#include "cases/any_case.hpp"
 #include "cases/fields.hpp"
 #include "cases/run.hpp"
+#include "cases/structure_run.hpp"
 #include "cases/verify.hpp"
 #include "core/error.hpp"
 
@@ -145,23 +146,25 @@ void addVerify(CLI::App& app, verify::Options& o) {
 }
 
 int check(const CheckArguments& a, std::ostream& out) {
-  if (a.schema) out << schema::jsonSchema(schema::caseTable());
-  if (a.doc) out << schema::markdown(schema::caseTable());
+  if (a.schema) out << caseSchema();
+  if (a.doc) out << caseFields();
   if (a.file.empty()) {
     if (a.schema || a.doc) return done;
     throw InputError({"command line", 0, "CASE"}, "is required: the case file to check");
   }
-  const Case c = readCase(a.file, a.overrides);
-  out << (a.full ? writeCase(c) : fmt::format("{}: valid\n", a.file.string()));
+  const AnyCase any = readAnyCase(a.file, a.overrides);
+  out << (a.full ? std::visit([](const auto& c) { return writeCase(c); }, any)
+                 : fmt::format("{}: valid\n", a.file.string()));
   return done;
 }
 
 int run(RunArguments& a) {
   if (a.device == "cuda")
     throw InputError({"command line", 0, "--device"}, "\"cuda\" is not in this build; allowed: auto or cpu");
-  const Case c = readCase(a.file, a.overrides);
+  const AnyCase any = readAnyCase(a.file, a.overrides);
   if (a.options.out.empty()) a.options.out = std::filesystem::path("results") / a.file.stem();
-  return runCase(c, a.options);
+  if (const auto* structure = std::get_if<StructureCase>(&any)) return runStructure(*structure, a.options);
+  return runCase(std::get<Case>(any), a.options);
 }
 
 /// A picture's options go through the same table as the pictures of a case.
@@ -186,7 +189,7 @@ int render(RenderArguments& a) {
   a.options.view = picture.view;
   a.options.width = picture.width;
   a.options.height = picture.height;
-  return renderResults(a.options);
+  return holdsStructure(a.options.results) ? renderStructureResults(a.options) : renderResults(a.options);
 }
 
 }  // namespace
@@ -232,7 +235,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("check")) return check(check_arguments, out);
     if (app.got_subcommand("render")) return render(render_arguments);
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
-    return reportResults(report_options);
+    return holdsStructure(report_options.results) ? reportStructureResults(report_options)
+                                                  : reportResults(report_options);
   } catch (const CLI::ParseError& e) {
     return app.exit(e, out, err) == 0 ? done : bad_input;
   } catch (const InputError& e) {

@@ -96,7 +96,16 @@ Object analysisTable() {
 
 Object makeCaseTable() {
   using C = Case;
-  return Table<C>("Case")
+  Field kind;
+  kind.key = "kind";
+  kind.kind = Kind::choice;
+  kind.choices = {"wear"};
+  kind.default_note = "wear";
+  kind.doc = "what the case is; the other kinds have fields of their own";
+  return Table<C>("Case", "a garment on a moving human, or cloth among obstacles, followed in time")
+      .custom(
+          kind, [choices = kind.choices](const Place& p, C&) { readChoice(p, choices); },
+          [](const C&) { return std::optional<JsonNode>(); })
       .text("name", &C::name, "title of the pictures and the report")
       .required()
       .text("description", &C::description, "what the case is about")

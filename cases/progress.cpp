@@ -15,16 +15,21 @@ std::string durationText(double seconds) {
   return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
 }
 
-std::string progressLine(const std::string& what, double done, double total, double already_done, double elapsed_s) {
+std::string progressLine(const std::string& what, double done, double total, double already_done, double elapsed_s,
+                         const std::string& unit) {
   const double part = total > 0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
-  std::string line = fmt::format("{}  {:.0f} %  {:.2f} of {:.2f} s", what, 100 * part, done, total);
+  std::string line = fmt::format("{}  {:.0f} %  {:.2f} of {:.2f}{}", what, 100 * part, done, total, unit);
   if (elapsed_s >= 2 && done > already_done)
     line += fmt::format("  {} left", durationText(elapsed_s * (total - done) / (done - already_done)));
   return line;
 }
 
-Progress::Progress(double total, double already_done, std::FILE* stream)
-    : total_(total), already_done_(already_done), stream_(stream), terminal_(isatty(fileno(stream)) != 0) {}
+Progress::Progress(double total, double already_done, std::FILE* stream, std::string unit)
+    : total_(total),
+      already_done_(already_done),
+      stream_(stream),
+      unit_(std::move(unit)),
+      terminal_(isatty(fileno(stream)) != 0) {}
 
 Progress::~Progress() {
   if (drawn_) std::fputs("\n", stream_);
@@ -36,7 +41,7 @@ void Progress::update(double done, const std::string& what) {
   if (now - last_ < std::chrono::milliseconds(200) && done < total_) return;
   last_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  const std::string line = progressLine(what, done, total_, already_done_, elapsed_s);
+  const std::string line = progressLine(what, done, total_, already_done_, elapsed_s, unit_);
   std::fprintf(stream_, "\r\033[K%s", line.c_str());
   std::fflush(stream_);
   drawn_ = true;

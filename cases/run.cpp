@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 #include <omp.h>
-#include <sched.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -14,17 +10,12 @@
 #include "cases/progress.hpp"
 #include "cases/recorder.hpp"
 #include "cases/results.hpp"
+#include "cases/results_folder.hpp"
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
 
 namespace gambeson {
 namespace {
-
-/// Threads that this process may run on at once.
-int machineThreads() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : omp_get_num_procs();
-}
 
 /// Ends of the windows: multiples of the window's length, from the start to the end of the run.
 class Windows {
@@ -47,42 +38,6 @@ class Windows {
   long first_ = 0, count_ = 0;
 };
 
-/// Files of a run beside its recording, as they stand in the results folder.
-constexpr std::array kFiles{"case.json",   "run.json",   "summary.json", "torques.csv",
-                            "contact.csv", "stress.csv", "report.html"};
-
-/// Makes the results folder. Refuses one that cannot be written, and one that is not a results folder (holds no
-/// recording) but has files under the names that a run would overwrite: with --out . that would be the user's own
-/// case.json.
-void prepareFolder(const std::filesystem::path& out) {
-  const auto fail = [&](const std::string& reason) {
-    throw InputError({"command line", 0, "--out"}, out.string() + " " + reason);
-  };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(out, error);
-  if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) fail("is not a folder");
-  std::filesystem::create_directories(out, error);
-  if (error) fail("cannot be made: " + error.message());
-  if (::access(out.c_str(), R_OK | W_OK | X_OK) != 0)
-    fail("cannot be written: " + std::generic_category().message(errno));
-  if (holdsRecording(out)) return;
-  for (const char* name : kFiles)
-    if (std::filesystem::exists(out / name, error))
-      fail(fmt::format(
-          "holds a file {} and no recording: it is not the folder of an earlier run, and this run would overwrite it; "
-          "allowed: a new folder, or one of an earlier run",
-          name));
-}
-
-/// What an earlier run left beside its recording must not be taken for results of this one.
-void removeEarlierFiles(const std::filesystem::path& out) {
-  for (const char* name : kFiles) {
-    std::error_code error;
-    std::filesystem::remove(out / name, error);
-    if (error) throw RunError("cannot remove " + (out / name).string() + ": " + error.message());
-  }
-}
-
 std::string phaseName(const Scenario& s, double time_s) {
   if (time_s >= 0) return s.human ? "moving" : "running";
   const auto& projecting = s.definition.dressing.projecting;
@@ -93,8 +48,8 @@ std::string phaseName(const Scenario& s, double time_s) {
 
 int runCase(const Case& c, const RunOptions& options) {
   const auto clock_start = std::chrono::steady_clock::now();
-  omp_set_num_threads(options.threads > 0 ? options.threads : machineThreads());
-  prepareFolder(options.out);
+  useThreads(options.threads);
+  prepareResultsFolder(options.out);
   const bool resume = options.resume && closedSegments(options.out) > 0;
   if (options.resume && !resume)
     fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
@@ -108,7 +63,7 @@ int runCase(const Case& c, const RunOptions& options) {
   const RecordingLayout layout = recordingLayout(*scenario);
   // The case is written once there is a recording and before its first segment: a folder that holds one of these files
   // holds a recording, whenever the run is killed, and a recording with a segment has its case.
-  if (!resume && holdsRecording(options.out)) removeEarlierFiles(options.out);
+  if (!resume && holdsRecording(options.out)) removeEarlierResults(options.out);
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
   if (!resume) writeFileAtomically(options.out / "case.json", writeCase(c));

@@ -142,6 +142,12 @@ int readInteger(const Place& place, const Range& range) {
   return static_cast<int>(place.node.number);
 }
 
+bool readBoolean(const Place& place) {
+  if (place.node.type != JsonNode::Type::boolean)
+    place.fail(fmt::format("expected true or false, not {}", describe(place.node)));
+  return place.node.boolean;
+}
+
 const std::string& readText(const Place& place) {
   if (place.node.type != JsonNode::Type::text)
     place.fail(fmt::format("expected a text in quotes, not {}", describe(place.node)));

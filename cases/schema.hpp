@@ -45,7 +45,24 @@ struct Place {
 
 struct Object;
 
-enum class Kind { number, integer, text, path, choice, vector, object, list, text_list };
+/// pair: [s, t]; numbers: a list of numbers; rows: a list of such lists; map: an object whose keys are names of the
+/// user's own, with rows in them.
+enum class Kind {
+  number,
+  integer,
+  boolean,
+  text,
+  path,
+  choice,
+  pair,
+  vector,
+  numbers,
+  rows,
+  map,
+  object,
+  list,
+  text_list
+};
 
 /// One row of the table.
 struct Field {
@@ -74,6 +91,7 @@ struct Group {
 /// An object of a case file.
 struct Object {
   std::string title;  ///< for the documentation
+  std::string about;  ///< of a whole file: what it is, without a full stop
   std::vector<Field> fields;
   std::vector<Group> groups;
   /// Rules between fields, run after all fields are read.
@@ -90,6 +108,7 @@ JsonNode writeObject(const Object& object, const void* source);
 /// Values of single fields; throw InputError.
 double readNumber(const Place& place, const std::string& unit, const Range& range);
 int readInteger(const Place& place, const Range& range);
+bool readBoolean(const Place& place);
 const std::string& readText(const Place& place);
 std::size_t readChoice(const Place& place, const std::vector<std::string>& choices);
 
@@ -102,7 +121,15 @@ std::string joined(const std::vector<std::string>& words);
 std::string toText(const JsonNode& node);
 /// JSON Schema (draft 2020-12) of an object.
 std::string jsonSchema(const Object& root);
+/// Of a file that is one of several kinds, told apart by the key "kind"; the first kind is that of files without it.
+struct KindOfFile {
+  std::string kind;
+  const Object* root;
+};
+std::string jsonSchema(const std::vector<KindOfFile>& kinds);
 /// The fields as Markdown, one table per object.
 std::string markdown(const Object& root);
+/// The same for several kinds; objects that read alike in two kinds are written once.
+std::string markdown(const std::vector<KindOfFile>& kinds);
 
 }  // namespace gambeson::schema

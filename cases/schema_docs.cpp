@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cases/schema.hpp"
 
@@ -61,6 +62,8 @@ std::string typeText(const Field& f) {
       return f.choices.empty() ? "number" : "number or word";
     case Kind::integer:
       return "whole number";
+    case Kind::boolean:
+      return "true or false";
     case Kind::text:
       return "text";
     case Kind::path:
@@ -69,6 +72,14 @@ std::string typeText(const Field& f) {
       return "word";
     case Kind::vector:
       return f.choices.empty() ? "[x, y, z]" : "[x, y, z] or word";
+    case Kind::pair:
+      return "[s, t]";
+    case Kind::numbers:
+      return "list of numbers";
+    case Kind::rows:
+      return f.choices.empty() ? "list of lists of numbers" : "list of lists of numbers, or word";
+    case Kind::map:
+      return "name: list of lists of numbers";
     case Kind::object:
       return "object";
     case Kind::list:
@@ -82,7 +93,8 @@ std::string typeText(const Field& f) {
 std::string allowedText(const Field& f) {
   std::string s;
   for (const std::string& c : f.choices) s += (s.empty() ? "" : ", ") + c;
-  const bool ranged = f.kind == Kind::number || f.kind == Kind::integer || f.kind == Kind::vector;
+  const bool ranged = f.kind == Kind::number || f.kind == Kind::integer || f.kind == Kind::vector ||
+                      f.kind == Kind::pair || f.kind == Kind::numbers || f.kind == Kind::rows;
   if (ranged && f.range.text() != "any") s = f.range.text(f.unit) + (s.empty() ? "" : "; or " + s);
   if (ranged && s.empty()) s = f.unit;
   return s;
@@ -97,6 +109,10 @@ Json numberSchema(const Field& f) {
   return {{"description", sort}, {"anyOf", Json::array({number, Json{{"type", "string"}}})}};
 }
 
+Json rowsSchema(const Field& f) {
+  return {{"type", "array"}, {"items", {{"type", "array"}, {"items", numberSchema(f)}}}};
+}
+
 Json objectSchema(const Object& object);
 
 Json fieldSchema(const Field& f) {
@@ -109,6 +125,22 @@ Json fieldSchema(const Field& f) {
     case Kind::vector:
       s = {{"type", "array"}, {"items", numberSchema(f)}, {"minItems", 3}, {"maxItems", 3}};
       if (!f.choices.empty()) s = {{"anyOf", Json::array({s, Json{{"enum", f.choices}}})}};
+      break;
+    case Kind::boolean:
+      s = {{"type", "boolean"}};
+      break;
+    case Kind::pair:
+      s = {{"type", "array"}, {"items", numberSchema(f)}, {"minItems", 2}, {"maxItems", 2}};
+      break;
+    case Kind::numbers:
+      s = {{"type", "array"}, {"items", numberSchema(f)}};
+      break;
+    case Kind::rows:
+      s = rowsSchema(f);
+      if (!f.choices.empty()) s = {{"anyOf", Json::array({s, Json{{"enum", f.choices}}})}};
+      break;
+    case Kind::map:
+      s = {{"type", "object"}, {"additionalProperties", rowsSchema(f)}};
       break;
     case Kind::text:
     case Kind::path:
@@ -156,20 +188,23 @@ Json objectSchema(const Object& object) {
   return s;
 }
 
-void describeObject(const Object& object, const std::string& path, std::string& out) {
-  out += fmt::format("\n## {}{}\n\n", path.empty() ? "" : "`" + path + "`: ", object.title);
+/// `seen`: the sections written so far.
+void describeObject(const Object& object, const std::string& path, std::set<std::string>& seen, std::string& out) {
+  std::string section = fmt::format("\n## {}{}\n\n", path.empty() ? "" : "`" + path + "`: ", object.title);
   for (const Group& g : object.groups) {
     std::vector<std::string> keys;
     for (const Field& f : object.fields)
       if (f.group == g.name) keys.push_back("`" + f.key + "`");
-    out += fmt::format("{} of {}.\n\n", g.required ? "Exactly one" : "At most one", joined(keys));
+    section += fmt::format("{} of {}.\n\n", g.required ? "Exactly one" : "At most one", joined(keys));
   }
-  out += "| key | type | default | allowed | meaning |\n|---|---|---|---|---|\n";
+  section += "| key | type | default | allowed | meaning |\n|---|---|---|---|---|\n";
   for (const Field& f : object.fields)
-    out += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.key, typeText(f), defaultText(f), allowedText(f), f.doc);
+    section += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.key, typeText(f), defaultText(f), allowedText(f), f.doc);
+  if (seen.insert(section).second) out += section;
   for (const Field& f : object.fields)
     if (f.object)
-      describeObject(*f.object, (path.empty() ? "" : path + ".") + f.key + (f.kind == Kind::list ? "[]" : ""), out);
+      describeObject(*f.object, (path.empty() ? "" : path + ".") + f.key + (f.kind == Kind::list ? "[]" : ""), seen,
+                     out);
 }
 
 }  // namespace
@@ -182,16 +217,50 @@ std::string jsonSchema(const Object& root) {
   return s.dump(2) + "\n";
 }
 
+std::string jsonSchema(const std::vector<KindOfFile>& kinds) {
+  Json s{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"type", "object"}};
+  Json words = Json::array();
+  // Of the branches only the one of the file's own kind speaks, so that an editor's messages are about that kind.
+  for (const KindOfFile& k : kinds) {
+    words.push_back(k.kind);
+    Json is{{"properties", {{"kind", {{"const", k.kind}}}}}};
+    if (k.root != kinds.front().root) is["required"] = {"kind"};
+    s["allOf"].push_back({{"if", is}, {"then", objectSchema(*k.root)}});
+  }
+  s["properties"]["kind"] = {{"enum", words}};
+  return s.dump(2) + "\n";
+}
+
+namespace {
+
+const std::string heading =
+    "# Fields of a case\n\n"
+    "Written by `gambeson check --doc` from the table that reads the cases; do not edit it by hand.\n\n"
+    "A number is SI, or a text with a unit: `0.000762` or `\"0.762 mm\"`, `\"57 deg\"`, `\"4 kg/(m^2 s)\"`, `\"6 "
+    "%\"`. Units: m g s N Pa\n"
+    "J Hz rad with the prefixes n u m c d k M G, and deg in ft min % gf gsm; products by a space, quotients by `/`, "
+    "powers by `^`. Files\n"
+    "are found relative to the folder of the case. Keys that are not listed here are errors.\n";
+
+}  // namespace
+
 std::string markdown(const Object& root) {
-  std::string out =
-      "# Fields of a case\n\n"
-      "Written by `gambeson check --doc` from the table that reads the cases; do not edit it by hand.\n\n"
-      "A number is SI, or a text with a unit: `0.000762` or `\"0.762 mm\"`, `\"57 deg\"`, `\"4 kg/(m^2 s)\"`, `\"6 "
-      "%\"`. Units: m g s N Pa\n"
-      "J Hz rad with the prefixes n u m c d k M G, and deg in ft min % gf gsm; products by a space, quotients by `/`, "
-      "powers by `^`. Files\n"
-      "are found relative to the folder of the case. Keys that are not listed here are errors.\n";
-  describeObject(root, "", out);
+  std::string out = heading;
+  std::set<std::string> seen;
+  describeObject(root, "", seen, out);
+  return out;
+}
+
+std::string markdown(const std::vector<KindOfFile>& kinds) {
+  std::string out = heading + "\nThe key `kind` says what a case is:\n\n";
+  for (const KindOfFile& k : kinds)
+    out += fmt::format("- `{}`{}: {}\n", k.kind, k.root == kinds.front().root ? " (where the key is absent)" : "",
+                       k.root->about);
+  std::set<std::string> seen;
+  for (const KindOfFile& k : kinds) {
+    out += fmt::format("\n# Kind `{}`\n\n{}.\n", k.kind, k.root->about);
+    describeObject(*k.root, "", seen, out);
+  }
   return out;
 }
 

@@ -11,6 +11,13 @@ JsonNode nodeOf(double x) {
   return n;
 }
 
+JsonNode nodeOf(bool b) {
+  JsonNode n;
+  n.type = JsonNode::Type::boolean;
+  n.boolean = b;
+  return n;
+}
+
 JsonNode nodeOf(const std::string& s) {
   JsonNode n;
   n.type = JsonNode::Type::text;

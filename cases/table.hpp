@@ -15,6 +15,8 @@ namespace gambeson::schema {
 
 /// Values as nodes, for writing.
 JsonNode nodeOf(double x);
+JsonNode nodeOf(bool b);
+inline JsonNode nodeOf(const char*) = delete;  // would be taken for a bool
 JsonNode nodeOf(const std::string& s);
 JsonNode nodeOf(const Vec3& v);
 JsonNode emptyList();
@@ -33,7 +35,10 @@ inline constexpr bool is_optional<std::optional<M>> = true;
 template <class T>
 class Table {
  public:
-  explicit Table(std::string title) { object_.title = std::move(title); }
+  explicit Table(std::string title, std::string about = "") {
+    object_.title = std::move(title);
+    object_.about = std::move(about);
+  }
 
   template <class Get>
   Table& number(const std::string& key, Get get, const std::string& unit, const Range& range, const std::string& doc) {
@@ -50,6 +55,13 @@ class Table {
     f.range = between(low, high);
     f.read = [get, range = f.range](const Place& p, void* t) { member(get, t) = readInteger(p, range); };
     f.write = [=](const void* t) { return writeMember(member(get, t)); };
+    return *this;
+  }
+  template <class Get>
+  Table& flag(const std::string& key, Get get, const std::string& doc) {
+    Field& f = add(key, Kind::boolean, doc);
+    f.read = [=](const Place& p, void* t) { member(get, t) = readBoolean(p); };
+    f.write = [=](const void* t) { return std::optional(nodeOf(member(get, t))); };
     return *this;
   }
   /// Text; an empty one counts as absent.
@@ -241,6 +253,12 @@ class Table {
   static std::optional<JsonNode> writeMember(double x) { return nodeOf(x); }
   static std::optional<JsonNode> writeMember(int x) { return nodeOf(static_cast<double>(x)); }
   static std::optional<JsonNode> writeMember(const Vec3& v) { return nodeOf(v); }
+  static std::optional<JsonNode> writeMember(const std::optional<int>& x) {
+    return x ? std::optional(nodeOf(static_cast<double>(*x))) : std::nullopt;
+  }
+  static std::optional<JsonNode> writeMember(const std::optional<Vec3>& v) {
+    return v ? std::optional(nodeOf(*v)) : std::nullopt;
+  }
   static std::optional<JsonNode> writeMember(const std::string& s) {
     return s.empty() ? std::nullopt : std::optional(nodeOf(s));
   }

@@ -36,11 +36,6 @@ void expect(const Place& p, JsonNode::Type type, const char* what) {
   if (p.node.type != type) p.fail(fmt::format("expected {}, not {}", what, describe(p.node)));
 }
 
-bool readBoolean(const Place& p) {
-  expect(p, JsonNode::Type::boolean, "true or false");
-  return p.node.boolean;
-}
-
 std::vector<std::string> readTexts(const Place& p) {
   expect(p, JsonNode::Type::list, "a list [ ] of texts");
   std::vector<std::string> texts;

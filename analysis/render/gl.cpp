@@ -45,7 +45,7 @@ void Gl::check(const char* what) const {
                    (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
 }
 
-Program::Program(const Gl& gl, const std::string& vertex, const std::string& fragment)
+ShaderProgram::ShaderProgram(const Gl& gl, const std::string& vertex, const std::string& fragment)
     : gl_(gl), id_(gl.CreateProgram()) {
   std::string log;
   const auto add = [&](GLenum kind, const std::string& source) {

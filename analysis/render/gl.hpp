@@ -59,12 +59,12 @@ class Gl {
 };
 
 /// A program of one vertex and one fragment shader.
-class Program {
+class ShaderProgram {
  public:
-  Program(const Gl& gl, const std::string& vertex, const std::string& fragment);
-  ~Program() { gl_.DeleteProgram(id_); }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
+  ShaderProgram(const Gl& gl, const std::string& vertex, const std::string& fragment);
+  ~ShaderProgram() { gl_.DeleteProgram(id_); }
+  ShaderProgram(const ShaderProgram&) = delete;
+  ShaderProgram& operator=(const ShaderProgram&) = delete;
   void use() const { gl_.UseProgram(id_); }
   GLint at(const char* name) const { return gl_.GetUniformLocation(id_, name); }
 

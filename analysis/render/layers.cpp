@@ -125,7 +125,7 @@ void clear(const Gl& gl, const Target& target, float r, float g, float b, float 
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void texture(const Gl& gl, const Program& program, const char* name, int unit, GLuint id) {
+void texture(const Gl& gl, const ShaderProgram& program, const char* name, int unit, GLuint id) {
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   gl.BindTexture(GL_TEXTURE_2D, id);
   gl.Uniform1i(program.at(name), unit);
@@ -190,7 +190,7 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
   constexpr int sun_size = 2048;
   const Target sun_target(gl, sun_size, sun_size, 0, 0, true);
   {
-    const Program program(gl, shader::kSurfaceVertex, shader::kNothingFragment);
+    const ShaderProgram program(gl, shader::kSurfaceVertex, shader::kNothingFragment);
     clear(gl, sun_target, 0, 0, 0, 0);
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, S.data());
@@ -201,7 +201,7 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
   // Normals and depth at the size of the picture, for occlusion and hidden arrows.
   const Target normals(gl, width, height, GL_RGBA32F, 0);
   {
-    const Program program(gl, shader::kSurfaceVertex, shader::kNormalFragment);
+    const ShaderProgram program(gl, shader::kSurfaceVertex, shader::kNormalFragment);
     clear(gl, normals, 0, 0, 0, -1e9f);
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, P.data());
@@ -213,7 +213,7 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
   {
     const Target raw(gl, width, height, GL_RGBA8, 0), smooth(gl, width, height, GL_RGBA8, 0);
     gl.Disable(GL_DEPTH_TEST);
-    const Program occlusion(gl, shader::kScreenVertex, shader::kOcclusionFragment),
+    const ShaderProgram occlusion(gl, shader::kScreenVertex, shader::kOcclusionFragment),
         blur(gl, shader::kScreenVertex, shader::kBlurFragment);
     raw.bind();
     occlusion.use();
@@ -233,7 +233,7 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
   gl.check("the occlusion");
 
   const Target samples(gl, 2 * width, 2 * height, GL_RGBA8, 4), resolved(gl, 2 * width, 2 * height, GL_RGBA8, 0);
-  const auto sunlit = [&](const Program& program) {
+  const auto sunlit = [&](const ShaderProgram& program) {
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, P.data());
     gl.UniformMatrix4fv(program.at("S"), 1, GL_FALSE, S.data());
@@ -242,7 +242,7 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
   };
   clear(gl, samples, 0, 0, 0, 0);
   if (ground) {
-    const Program program(gl, shader::kSurfaceVertex, version + shader::kSunlight + shader::kGroundFragment);
+    const ShaderProgram program(gl, shader::kSurfaceVertex, version + shader::kSunlight + shader::kGroundFragment);
     const Buffers square(gl, ground->list);
     sunlit(program);
     uniform(gl, program.at("middle"), ground->middle);
@@ -253,7 +253,7 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
     gl.DepthMask(GL_TRUE);
   }
   {
-    const Program program(gl, shader::kSurfaceVertex, version + shader::kSunlight + shader::kSurfaceFragment);
+    const ShaderProgram program(gl, shader::kSurfaceVertex, version + shader::kSunlight + shader::kSurfaceFragment);
     sunlit(program);
     texture(gl, program, "map", 1, colors);
     uniform(gl, program.at("up"), in.up_camera);
@@ -267,7 +267,7 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
 
   clear(gl, samples, 0, 0, 0, 0);
   if (!in.arrows.indices.empty() || !in.legend.indices.empty()) {
-    const Program program(gl, shader::kSurfaceVertex, shader::kArrowFragment);
+    const ShaderProgram program(gl, shader::kSurfaceVertex, shader::kArrowFragment);
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, P.data());
     texture(gl, program, "layer", 0, normals.colorTexture());

@@ -10,6 +10,7 @@
 
 #include "analysis/report/chart.hpp"
 #include "analysis/report/html.hpp"
+#include "analysis/report/parts.hpp"
 #include "analysis/report/style.hpp"
 #include "analysis/ticks.hpp"
 #include "core/io/atomic_file.hpp"
@@ -64,53 +65,6 @@ std::string shareOf(const JointSummary& j) {
   return j.natural_percent ? percent(*j.natural_percent) + " of the natural " + j.joint + " moment" : "";
 }
 
-std::string table(const Table& t) {
-  std::string head;
-  for (std::size_t c = 0; c < t.columns.size(); ++c) {
-    const bool number =
-        c > 0 && std::any_of(t.rows.begin(), t.rows.end(), [&](const auto& r) { return c < r.size() && r[c].number; });
-    head += element("th", escape(t.columns[c]), number ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
-  }
-  std::string body;
-  for (const auto& row : t.rows) {
-    std::string cells;
-    for (std::size_t c = 0; c < row.size(); ++c)
-      cells += c == 0 ? element("th", escape(row[c].text), " scope=\"row\"")
-                      : element("td", escape(row[c].text), row[c].number ? " class=\"number\"" : "");
-    body += element("tr", cells);
-  }
-  std::string out = element(
-      "table", element("caption", escape(t.title)) + element("thead", element("tr", head)) + element("tbody", body));
-  if (t.rows.empty()) out += notice("There are no rows.");
-  if (!t.caption.empty()) out += element("p", escape(t.caption), " class=\"caption\"");
-  return element("div", element("div", out, " class=\"scroll\""), " class=\"panel\"");
-}
-
-std::string picture(const Picture& p) {
-  std::string bytes, why;
-  if (const auto* file = std::get_if<std::filesystem::path>(&p.png)) {
-    std::ifstream in(*file, std::ios::binary);
-    std::ostringstream all;
-    if (in) all << in.rdbuf();
-    bytes = all.str();
-    if (!in) why = "The picture " + file->string() + " cannot be read.";
-  } else {
-    bytes = std::get<std::string>(p.png);
-  }
-  if (why.empty() && bytes.rfind("\x89PNG\r\n\x1a\n", 0) != 0) why = "A picture is not a PNG.";
-  const std::string shown = why.empty() ? "<img alt=\"" + escape(p.alt.empty() ? p.caption : p.alt) +
-                                              "\" src=\"data:image/png;base64," + html::base64(bytes) + "\">"
-                                        : notice(why);
-  return element("figure", shown + element("figcaption", escape(p.caption)));
-}
-
-std::string section(const std::string& id, const std::string& title, const std::string& lead, const std::string& body) {
-  return element(
-      "section",
-      element("h2", escape(title), " id=\"" + id + "\"") + (lead.empty() ? "" : element("p", escape(lead))) + body,
-      " aria-labelledby=\"" + id + "\"");
-}
-
 std::string answers(const ReportInput& in, const JointSummary& j) {
   const auto item = [](const std::string& q, const std::string& a) {
     return element("dt", escape(q)) + element("dd", prose(a));
@@ -135,7 +89,7 @@ std::string headline(const ReportInput& in) {
                      " class=\"meaning\"");
   }
   std::string body = element("div", words, " class=\"words\"");
-  if (!in.pictures.empty()) body += picture(in.pictures.front());
+  if (!in.pictures.empty()) body += figureOf(in.pictures.front());
   return element("section", body,
                  in.pictures.empty() ? " class=\"headline\" aria-label=\"The result\""
                                      : " class=\"headline pictured\" aria-label=\"The result\"");
@@ -194,7 +148,7 @@ std::string joints(const ReportInput& in) {
     for (const auto* j : order)
       all.rows.push_back({jointName(*j), j->peak_Nm, j->peak_time_s, j->cause, j->rms_Nm, optional(j->natural_percent),
                           optional(j->drag_percent)});
-    out += element("div", table(all), " class=\"charts\"");
+    out += element("div", tableOf(all), " class=\"charts\"");
   }
   return out;
 }
@@ -231,6 +185,76 @@ std::string charts(const std::string& body) { return element("div", body, " clas
 
 }  // namespace
 
+std::string tableOf(const Table& t) {
+  std::string head;
+  for (std::size_t c = 0; c < t.columns.size(); ++c) {
+    const bool number =
+        c > 0 && std::any_of(t.rows.begin(), t.rows.end(), [&](const auto& r) { return c < r.size() && r[c].number; });
+    head += element("th", escape(t.columns[c]), number ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
+  }
+  std::string body;
+  for (const auto& row : t.rows) {
+    std::string cells;
+    for (std::size_t c = 0; c < row.size(); ++c)
+      cells += c == 0 ? element("th", escape(row[c].text), " scope=\"row\"")
+                      : element("td", escape(row[c].text), row[c].number ? " class=\"number\"" : "");
+    body += element("tr", cells);
+  }
+  std::string out = element(
+      "table", element("caption", escape(t.title)) + element("thead", element("tr", head)) + element("tbody", body));
+  if (t.rows.empty()) out += notice("There are no rows.");
+  if (!t.caption.empty()) out += element("p", escape(t.caption), " class=\"caption\"");
+  return element("div", element("div", out, " class=\"scroll\""), " class=\"panel\"");
+}
+
+std::string figureOf(const Picture& p) {
+  std::string bytes, why;
+  if (const auto* file = std::get_if<std::filesystem::path>(&p.png)) {
+    std::ifstream in(*file, std::ios::binary);
+    std::ostringstream all;
+    if (in) all << in.rdbuf();
+    bytes = all.str();
+    if (!in) why = "The picture " + file->string() + " cannot be read.";
+  } else {
+    bytes = std::get<std::string>(p.png);
+  }
+  if (why.empty() && bytes.rfind("\x89PNG\r\n\x1a\n", 0) != 0) why = "A picture is not a PNG.";
+  const std::string shown = why.empty() ? "<img alt=\"" + escape(p.alt.empty() ? p.caption : p.alt) +
+                                              "\" src=\"data:image/png;base64," + html::base64(bytes) + "\">"
+                                        : notice(why);
+  return element("figure", shown + element("figcaption", escape(p.caption)));
+}
+
+std::string sectionOf(const std::string& id, const std::string& title, const std::string& lead,
+                      const std::string& body) {
+  return element(
+      "section",
+      element("h2", escape(title), " id=\"" + id + "\"") + (lead.empty() ? "" : element("p", escape(lead))) + body,
+      " aria-labelledby=\"" + id + "\"");
+}
+
+std::string pageOf(const std::string& title, const std::string& description, const std::string& summary,
+                   const std::string& body) {
+  const std::string head =
+      std::string(
+          "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+          "'unsafe-inline'; script-src 'unsafe-inline'\">\n") +
+      "<meta name=\"description\" content=\"" + escape(summary) + "\">\n" + element("title", escape(title)) +
+      element("style", report::kStyle);
+  return "<!DOCTYPE html>\n" +
+         element(
+             "html",
+             element("head", head) +
+                 element("body",
+                         element("header", element("h1", escape(title)) + element("p", escape(description)),
+                                 " class=\"page\"") +
+                             element("main", body + element("footer",
+                                                            "Made by Gambeson. This page holds everything it shows.")) +
+                             element("script", report::kScript)),
+             " lang=\"en\"");
+}
+
 Cell::Cell(double v, int digits) : text(formatNumber(v, digits)), number(true) {}
 
 const JointSummary* highestJoint(const ReportInput& input) {
@@ -255,57 +279,40 @@ std::string headlineOf(const ReportInput& input) {
 
 std::string formatReport(const ReportInput& in) {
   std::string body = alarms(in) + headline(in);
-  body += section("joints", "What each joint pays",
-                  "Highest first. The share compares the peak with the moment that the joint needs in this task "
-                  "without the garment.",
-                  joints(in));
+  body += sectionOf("joints", "What each joint pays",
+                    "Highest first. The share compares the peak with the moment that the joint needs in this task "
+                    "without the garment.",
+                    joints(in));
   if (!in.torques.empty())
-    body += section("torques", "Torque over time", "Dotted vertical lines mark the strides.",
-                    charts(each(in.torques, lineChart)));
+    body += sectionOf("torques", "Torque over time", "Dotted vertical lines mark the strides.",
+                      charts(each(in.torques, lineChart)));
   if (!in.contact_charts.empty() || !in.contact_tables.empty())
-    body += section("contact", "Where the garment presses", "Contact force of the cloth on each body segment.",
-                    charts(each(in.contact_charts, barChart) + each(in.contact_tables, table)));
+    body += sectionOf("contact", "Where the garment presses", "Contact force of the cloth on each body segment.",
+                      charts(each(in.contact_charts, barChart) + each(in.contact_tables, tableOf)));
   if (!in.stress_tables.empty())
-    body += section("stress", "What the fabric carries", "", charts(each(in.stress_tables, table)));
+    body += sectionOf("stress", "What the fabric carries", "", charts(each(in.stress_tables, tableOf)));
   if (in.pictures.size() > 1)
-    body += section("pictures", "Pictures", "",
-                    element("div", each(std::vector<Picture>(in.pictures.begin() + 1, in.pictures.end()), picture),
-                            " class=\"pictures\""));
+    body += sectionOf("pictures", "Pictures", "",
+                      element("div", each(std::vector<Picture>(in.pictures.begin() + 1, in.pictures.end()), figureOf),
+                              " class=\"pictures\""));
   if (!in.support_tables.empty())
-    body += section("supports", "What holds the garment",
-                    "Reactions of the supports are reported apart and are part of no joint torque.",
-                    charts(each(in.support_tables, table)));
-  body += section("audit", "Why to trust these numbers", "",
-                  in.audit.empty() ? notice("This run was not audited.") : charts(audit(in)));
-  body += section("assumptions", "What was assumed", "",
-                  in.assumptions.empty()
-                      ? notice("The assumptions of this run were not recorded.")
-                      : element("ul", each(in.assumptions, [](const auto& a) { return element("li", escape(a)); }),
-                                " class=\"assumptions\""));
+    body += sectionOf("supports", "What holds the garment",
+                      "Reactions of the supports are reported apart and are part of no joint torque.",
+                      charts(each(in.support_tables, tableOf)));
+  body += sectionOf("audit", "Why to trust these numbers", "",
+                    in.audit.empty() ? notice("This run was not audited.") : charts(audit(in)));
+  body += sectionOf("assumptions", "What was assumed", "",
+                    in.assumptions.empty()
+                        ? notice("The assumptions of this run were not recorded.")
+                        : element("ul", each(in.assumptions, [](const auto& a) { return element("li", escape(a)); }),
+                                  " class=\"assumptions\""));
   if (!in.facts.empty() || !in.fact_tables.empty()) {
     Table facts{"The run", "", {"fact", "value"}, {}};
     for (const auto& [name, value] : in.facts) facts.rows.push_back({name, value});
-    body += section("run", "How it was computed", "",
-                    charts((in.facts.empty() ? "" : table(facts)) + each(in.fact_tables, table)));
+    body += sectionOf("run", "How it was computed", "",
+                      charts((in.facts.empty() ? "" : tableOf(facts)) + each(in.fact_tables, tableOf)));
   }
-  const std::string head =
-      std::string(
-          "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
-          "'unsafe-inline'; script-src 'unsafe-inline'\">\n") +
-      "<meta name=\"description\" content=\"" + escape(headlineOf(in)) + "\">\n" + element("title", escape(in.title)) +
-      element("style", report::kStyle);
-  return "<!DOCTYPE html>\n" +
-         element(
-             "html",
-             element("head", head) +
-                 element("body",
-                         element("header", element("h1", escape(in.title)) + element("p", escape(in.description)),
-                                 " class=\"page\"") +
-                             element("main", body + element("footer",
-                                                            "Made by Gambeson. This page holds everything it shows.")) +
-                             element("script", report::kScript)),
-             " lang=\"en\"");
+  return pageOf(in.title, in.description, headlineOf(in), body);
 }
 
 void writeReport(const ReportInput& input, const std::filesystem::path& html) {

@@ -1,0 +1,41 @@
+#include "cases/structure_case.hpp"
+
+#include <fmt/format.h>
+
+#include "cases/any_case.hpp"
+#include "cases/fingerprint.hpp"
+#include "cases/structure_fields.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+
+StructureCase readStructureCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const JsonNode root = readCaseNode(file, overrides);
+  const std::string name = file.string();
+  const schema::Place place{root, "", name};
+  const JsonNode* word = root.find("kind");
+  std::vector<std::string> words;
+  for (const auto& [w, kind] : schema::structureKinds()) words.push_back(w);
+  if (!word) place.failAt("kind", "is required: " + schema::joined(words));
+  StructureCase c;
+  c.kind = schema::structureKinds()[schema::readChoice(place.member(*word), words)].second;
+  schema::readObject(schema::structureTable(c.kind), place, &c);
+  schema::applyStructureRules(place, c);
+  c.file = file;
+  c.overrides = overrides;
+  return c;
+}
+
+std::string writeCase(const StructureCase& c) {
+  return schema::toText(schema::writeObject(schema::structureTable(c.kind), &c)) + "\n";
+}
+
+std::string caseIdentity(const StructureCase& c) {
+  Fingerprint hash;
+  StructureCase named = c;
+  if (auto* file = std::get_if<SheetFile>(&named.sheet.shape)) hash.addFile(file->path);
+  hash.add(writeCase(named));
+  return hash.text();
+}
+
+}  // namespace gambeson

@@ -1,0 +1,327 @@
+#include "cases/structure_run.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "cases/any_case.hpp"
+#include "cases/progress.hpp"
+#include "cases/results_folder.hpp"
+#include "cases/structure_results.hpp"
+#include "core/dynamics/modal.hpp"
+#include "core/error.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/io/csv.hpp"
+#include "core/sheet/constraint.hpp"
+
+namespace gambeson {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// What a run gathers on its way.
+class Run {
+ public:
+  Run(const StructureCase& c, const RunOptions& options) : c_(c), out_(options.out) {
+    prepareResultsFolder(out_);
+    try {
+      model_ = buildModel(c);
+      probes_.emplace(c, model_, optionsOf(c, model_.sheet));
+      mesh_ = shapeMesh(model_.sheet.garment, c.output.samples_per_cell);
+    } catch (const InputError& e) {
+      if (!e.where().file.empty()) throw;
+      throw InputError({c.file.string(), 0, e.where().key}, e.reason());
+    }
+    if (holdsRecording(out_)) removeEarlierResults(out_);
+    RecordingLayout layout;
+    layout.identity = caseIdentity(c) + " " + model_.structure->shell.kernels().name;
+    layout.metadata = writeCase(c);
+    layout.triangles = mesh_.triangles;
+    writer_.emplace(RecordingWriter::create(out_, layout));
+    writeFileAtomically(out_ / "case.json", writeCase(c));
+    facts.build_s = since(start_);
+  }
+
+  const Structure& structure() const { return *model_.structure; }
+  const StructureModel& model() const { return model_; }
+
+  /// A row of the table: `lead`, then the probes' values.
+  void add(const MeasuredState& state, std::vector<double> lead) {
+    const std::vector<double> values = probes_->values(state);
+    lead.insert(lead.end(), values.begin(), values.end());
+    path.rows.push_back(std::move(lead));
+    last_ = state;
+    if (c_.output.shapes == ShapesKept::all) keep(state);
+  }
+  void columns(std::vector<std::string> lead) {
+    lead.insert(lead.end(), probes_->columns().begin(), probes_->columns().end());
+    path.columns = std::move(lead);
+  }
+  /// A whole shape for ParaView and the pictures.
+  void keep(const MeasuredState& state) {
+    writer_->append(frameOf(shapeOf(structure(), mesh_, state), frames_++, state.at));
+  }
+
+  /// Everything that is left; `failures` of pictures do not stop it.
+  void finish() {
+    facts.wall_s = since(start_);
+    facts.solve_s = facts.wall_s - facts.build_s;
+    facts.threads = omp_get_max_threads();
+    if (last_.q.empty()) last_ = measureRest();
+    const MeshShape shape = shapeOf(structure(), mesh_, last_);
+    if (frames_ == 0 && c_.output.shapes != ShapesKept::none) keep(last_);
+    if (frames_ > 0) writer_->closeSegment({});
+    writeCsv(out_ / "path.csv", path.columns, path.rows);
+    writeShapeTable(mesh_, shape, out_ / "shape.csv");
+    writeStructureSummary(c_, model_, path, modes, last_, shape, facts, out_ / "summary.json");
+    std::vector<std::string> failures;
+    const std::vector<Picture> pictures = takeStructurePictures(c_, out_, out_ / "snapshots", failures);
+    writeStructurePage(c_, out_, pictures, out_ / "report.html");
+    if (!facts.finished) throw RunError(fmt::format("{}\nWhat converged before is in {}", facts.why, out_.string()));
+    if (!failures.empty())
+      throw RunError(failures.front() + " (the numbers and the report are in " + out_.string() + ")");
+  }
+
+  StructureFacts facts;
+  PathTable path;
+  std::vector<ModeRow> modes;
+
+ private:
+  MeasuredState measureRest() const {
+    MeasuredState state;
+    state.q = structure().rest;
+    return state;
+  }
+
+  const StructureCase& c_;
+  std::filesystem::path out_;
+  Clock::time_point start_ = Clock::now();
+  StructureModel model_;
+  std::optional<Probes> probes_;
+  ShapeMesh mesh_;
+  std::optional<RecordingWriter> writer_;
+  int frames_ = 0;
+  MeasuredState last_;
+};
+
+/// Runs f; what it throws as a failure of the run is kept for after the results.
+template <class F>
+void attempt(StructureFacts& facts, F f) {
+  try {
+    f();
+  } catch (const RunError& e) {
+    facts.finished = false;
+    facts.why = e.what();
+  }
+}
+
+void solve(const StaticReport& report, StructureFacts& facts) {
+  facts.finished = report.reached;
+  facts.why = report.why;
+  facts.factorisations = report.factorisations;
+}
+
+void runStatic(const StructureCase& c, Run& run) {
+  run.columns({"factor", "iterations", "residual", "negative_pivots", "strain_energy_J"});
+  const Structure& s = run.structure();
+  Progress progress(1, 0, stderr, "");
+  // The start of every path, so that tables and plots have it.
+  const std::vector<double> rest(static_cast<std::size_t>(s.dofs.unknowns()), 0.0);
+  const MeasuredState start = measureStatic(s, rest, 0, c.statics.linear);
+  run.add(start, {0, 0, 0, 0, start.strain_energy_J});
+  attempt(run.facts, [&] {
+    solve(solveStatic(s, c.statics,
+                      [&](const StaticPoint& p) {
+                        const MeasuredState state = measureStatic(s, p.y, p.factor, c.statics.linear);
+                        run.add(state, {p.factor, static_cast<double>(p.iterations), p.residual,
+                                        static_cast<double>(p.negative_pivots), state.strain_energy_J});
+                        ++run.facts.points;
+                        run.facts.iterations += p.iterations;
+                        progress.update(std::abs(p.factor), "loading");
+                        return true;
+                      }),
+          run.facts);
+  });
+}
+
+/// Unknowns of displacements of the free points, by least squares: C y = u.
+std::vector<double> unknownsOf(const Structure& s, const std::vector<double>& u) {
+  const SparseRows normal = multiply(s.dofs.Ct, s.dofs.C);
+  SymmetricMatrix m;
+  m.size = s.dofs.unknowns();
+  for (int column = 0; column < m.size; ++column) {
+    for (int k = normal.offsets[column]; k < normal.offsets[column + 1]; ++k)
+      if (normal.columns[k] >= column) {
+        m.rows.push_back(normal.columns[k]);
+        m.values.push_back(normal.values[k]);
+      }
+    m.offsets.push_back(static_cast<int>(m.rows.size()));
+  }
+  SymmetricFactor factor(m);
+  factor.factorise(m);
+  std::vector<double> right(static_cast<std::size_t>(m.size)), y(right.size());
+  s.dofs.Ct.multiply<double>(u, right);
+  factor.solve(right, y);
+  return y;
+}
+
+DynamicState startOf(const StructureCase& c, const Run& run) {
+  const Structure& s = run.structure();
+  DynamicState state;
+  const auto n = static_cast<std::size_t>(s.dofs.unknowns());
+  state.y.assign(n, 0.0);
+  state.v.assign(n, 0.0);
+  state.a.assign(n, 0.0);
+  const auto onFree = [&](auto value) {
+    std::vector<double> u;
+    for (std::size_t f = 0; f < s.map.home.size(); ++f) {
+      const Vec3 d = value(f);
+      u.insert(u.end(), {d.x, d.y, d.z});
+    }
+    return unknownsOf(s, u);
+  };
+  if (c.initial.noise) {
+    const std::vector<Vec3> noise = noiseOf(run.model().sheet, *c.initial.noise);
+    state.y = onFree([&](std::size_t f) { return noise[static_cast<std::size_t>(s.map.home[f])]; });
+  }
+  if (norm(c.initial.velocity_m_per_s) > 0) state.v = onFree([&](std::size_t) { return c.initial.velocity_m_per_s; });
+  return state;
+}
+
+void runDynamic(const StructureCase& c, Run& run) {
+  run.columns({"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"});
+  const Structure& s = run.structure();
+  const bool lumped = c.dynamics.lumped_mass || c.dynamics.scheme == TimeScheme::explicit_verlet;
+  const double interval = c.output.interval_s.value_or(c.dynamics.end_s / 100);
+  Progress progress(c.dynamics.end_s);
+  DynamicState state = startOf(c, run);
+  long rows = 0;
+  const auto record = [&](const DynamicState& now) {
+    const DynamicEnergy energy = energyOf(s, now, lumped);
+    run.add(measureDynamic(s, now, lumped),
+            {now.time_s, energy.kinetic, energy.internal, energy.external, energy.total()});
+    while (static_cast<double>(rows) * interval <= now.time_s * (1 + 1e-12)) ++rows;
+  };
+  attempt(run.facts, [&] {
+    record(state);
+    const DynamicReport report = solveDynamic(s, c.dynamics, state, [&](const DynamicState& now) {
+      if (now.time_s * (1 + 1e-12) >= static_cast<double>(rows) * interval || now.time_s >= c.dynamics.end_s)
+        record(now);
+      progress.update(now.time_s, "moving");
+      return true;
+    });
+    run.facts.finished = report.reached;
+    run.facts.why = report.why;
+    run.facts.points = report.steps;
+    run.facts.factorisations = report.factorisations;
+  });
+}
+
+void runModal(const StructureCase& c, Run& run) {
+  run.columns({"mode", "omega_rad_per_s", "frequency_Hz", "residual"});
+  const Structure& s = run.structure();
+  attempt(run.facts, [&] {
+    std::vector<double> y;
+    double factor = 0;
+    run.facts.finished = true;
+    if (c.modal.at_equilibrium) {
+      solve(solveStatic(s, c.statics,
+                        [&](const StaticPoint& p) {
+                          y = p.y;
+                          factor = p.factor;
+                          ++run.facts.points;
+                          run.facts.iterations += p.iterations;
+                          return true;
+                        }),
+            run.facts);
+      if (!run.facts.finished) return;
+    }
+    const std::vector<Mode> modes = naturalModes(s, y, factor, c.modal.count, c.modal.lumped_mass);
+    Vec3 low = s.rest[0], high = s.rest[0];
+    for (const Vec3& x : s.rest)
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], x[k]);
+        high[k] = std::max(high[k], x[k]);
+      }
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      MeasuredState state = measureMode(s, y, factor, modes[k].shape, 0.1 * norm(high - low));
+      state.at = static_cast<double>(k + 1);
+      run.modes.push_back({modes[k].omega_rad_per_s, modes[k].residual});
+      run.add(state, {state.at, modes[k].omega_rad_per_s, modes[k].omega_rad_per_s / (2 * std::numbers::pi),
+                      modes[k].residual});
+      if (c.output.shapes == ShapesKept::last) run.keep(state);
+    }
+  });
+}
+
+}  // namespace
+
+int runStructure(const StructureCase& c, const RunOptions& options) {
+  if (options.resume)
+    throw InputError({"command line", 0, "--resume"},
+                     "is not possible for static, dynamic and modal cases: they start from the beginning");
+  useThreads(options.threads);
+  Run run(c, options);
+  if (c.kind == StructureKind::statics)
+    runStatic(c, run);
+  else if (c.kind == StructureKind::dynamics)
+    runDynamic(c, run);
+  else
+    runModal(c, run);
+  run.finish();
+  fmt::print("Report: {}\n", (options.out / "report.html").string());
+  return 0;
+}
+
+bool holdsStructure(const std::filesystem::path& results) {
+  if (!std::filesystem::exists(results / "case.json")) return false;
+  const JsonNode root = readCaseNode(results / "case.json", {});
+  const JsonNode* kind = root.find("kind");
+  return kind && kind->text != "wear";
+}
+
+int renderStructureResults(const RenderOptions& o) {
+  const StructureCase c = readStructureCase(o.results / "case.json");
+  if (o.field == PictureField::pressure)
+    throw InputError({"command line", 0, "--field"},
+                     "there is no contact pressure here; allowed: stress, strain or plain");
+  if (o.when == PictureTime::peak)
+    throw InputError({"command line", 0, "--time"},
+                     "there is no peak here; allowed: end, or a frame's load factor, time or mode");
+  const RecordingReader recording(o.results);
+  StructurePicture picture;
+  picture.field = o.field == PictureField::stress   ? StructureField::stress
+                  : o.field == PictureField::strain ? StructureField::strain
+                                                    : StructureField::plain;
+  picture.view = o.view;
+  picture.width = o.width;
+  picture.height = o.height;
+  int best = recording.frameCount() - 1;
+  if (o.when == PictureTime::at) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < recording.frameCount(); ++k) {
+      const double at = frameValue(recording.frame(k));
+      if (std::abs(at - o.time_s) < least) least = std::abs(at - o.time_s), best = k;
+    }
+  }
+  renderStructure(c, recording.layout(), recording.frame(best), picture, o.png);
+  return 0;
+}
+
+int reportStructureResults(const ReportOptions& o) {
+  const StructureCase c = readStructureCase(o.results / "case.json");
+  std::string name = (std::filesystem::temp_directory_path() / "gambeson_XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw RunError("no folder can be made in " + std::filesystem::temp_directory_path().string());
+  std::vector<std::string> failures;
+  const std::vector<Picture> pictures = takeStructurePictures(c, o.results, name, failures);
+  writeStructurePage(c, o.results, pictures, o.html);
+  std::filesystem::remove_all(name);
+  if (!failures.empty()) throw RunError(failures.front() + " (the report is " + o.html.string() + ")");
+  return 0;
+}
+
+}  // namespace gambeson

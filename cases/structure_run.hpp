@@ -1,0 +1,17 @@
+#pragma once
+/// Runs a structure's case and leaves its results; pictures and report of such results.
+
+#include "cases/run.hpp"
+#include "cases/structure_case.hpp"
+
+namespace gambeson {
+
+/// As runCase. Throws RunError where the run fails; what converged before is in the folder.
+int runStructure(const StructureCase& c, const RunOptions& options);
+
+/// Whether a results folder was left by runStructure.
+bool holdsStructure(const std::filesystem::path& results);
+int renderStructureResults(const RenderOptions& options);
+int reportStructureResults(const ReportOptions& options);
+
+}  // namespace gambeson
