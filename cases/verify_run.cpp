@@ -33,12 +33,18 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The last line of a log that says something: where a run failed, its message.
-std::string lastLine(const std::filesystem::path& log) {
+/// What a run that failed said last: its message from "gambeson failed:" on, else its last line.
+std::string messageOf(const std::filesystem::path& log) {
   std::ifstream stream(log, std::ios::binary);
   std::string line, last;
-  while (std::getline(stream, line))
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  bool message = false;
+  while (std::getline(stream, line)) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const bool begins = line.starts_with("gambeson failed: ");
+    if (begins) line.erase(0, line.find(": ") + 2);
+    message = message || begins;
+    last = message && !begins ? last + "; " + line : line;
+  }
   if (last.size() > 600) last.resize(600), last += "...";
   return last;
 }
@@ -93,7 +99,7 @@ Outcome runJob(const Job& job) {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    const std::string said = lastLine(job.log);
+    const std::string said = messageOf(job.log);
     if (late)
       o.why = fmt::format("stopped after {:.0f} s, its limit", job.limit_s);
     else if (WIFSIGNALED(status))
@@ -156,7 +162,9 @@ void say(std::ostream& out, const Verified& v) {
     if (!r.gated) continue;
     ++gated;
     good += r.passed;
-    if (r.passed) continue;
+    // A run that failed is said once, not again with every number that it does not give.
+    if (r.passed || (!r.measured && r.note.starts_with("run ") && r.note.find(" failed: ") != std::string::npos))
+      continue;
     failures += fmt::format("    {}: ", r.quantity);
     failures += r.measured ? fmt::format("{:.7g}", *r.measured) : std::string("no number");
     if (r.reference) failures += fmt::format(", reference {:.7g}", *r.reference);
