@@ -59,6 +59,8 @@ NewtonReport correct(System& system, const NewtonOptions& options, double length
     }
     if (report.iterations == options.iterations) return report;
     system.stiffness(y, factor, state.K);
+    report.finite = isFinite(state.K);
+    if (!report.finite) return report;
     report.singular = state.solver.factorise(state.K) == Definiteness::singular;
     report.negative_pivots = state.solver.negativePivots();
     ++report.factorisations;

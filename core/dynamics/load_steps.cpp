@@ -67,11 +67,34 @@ void followLoadSteps(System& system, const StaticOptions& options, const StaticO
       step /= 2;
       continue;
     }
+    // The end of the path, as far as load steps can follow it: down to a stable state at the end of the whole step.
+    const long target = (position / units + 1) * units;
+    trial = state.y;
+    EquilibriumAt beyond(system, factorAt(target));
+    NewtonOptions descent = newtonOptions(system, options, state);
+    descent.descend = true;
+    descent.iterations = 10 * options.iterations;
+    const NewtonReport jump = solveNewton(beyond, descent, trial, state.K, state.solver);
+    report.factorisations += jump.factorisations;
+    if (jump.converged) {
+      position = target;
+      step = units;
+      state.y.swap(trial);
+      state.factor = factorAt(target);
+      StaticPoint point = acceptPoint(system, state, jump, report);
+      point.jumped = true;
+      if (!observe(point)) return;
+      continue;
+    }
+    system.stiffness(state.y, state.factor, state.K);
+    state.definite = state.solver.factorise(state.K);
+    ++report.factorisations;
     newton.singular = singular;
     report.why = fmt::format(
         "load step {} of {}, from factor {:.6g} to {:.6g}: Newton's residual is {:.2e} of the forces after {} "
         "iterations, "
-        "with steps halved {} times; likeliest cause: {}. The last converged state is at factor {:.6g}",
+        "with steps halved {} times, and no stable state was found beyond; likeliest cause: {}. The last converged "
+        "state is at factor {:.6g}",
         position / units + 1, options.steps, state.factor, next, newton.residual, newton.iterations, options.halvings,
         likeliestCause(state, newton, softening), state.factor);
     return;

@@ -19,6 +19,10 @@ double roundingForce(const SymmetricMatrix& K, double length_m) {
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum) * length_m;
 }
 
+bool isFinite(const SymmetricMatrix& K) {
+  return std::all_of(K.values.begin(), K.values.end(), [](double v) { return std::isfinite(v); });
+}
+
 namespace {
 
 /// y + s dy, its residual and G(s) = dy . r.
@@ -77,6 +81,7 @@ NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std
   std::vector<double> r(y.size()), dy(y.size());
   double force = equations.residual(y, r);
   bool still = false;  // the last correction was rounding
+  double raise = 0;    // of the diagonal, descending only
   for (;; ++report.iterations) {
     const double size = norm(r);
     report.force = std::max(force, options.least_force);
@@ -92,8 +97,23 @@ NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std
     }
     if (report.iterations == options.iterations) return report;
     equations.tangent(y, K);
-    const Definiteness definite = factor.factorise(K);
+    if (!isFinite(K)) {
+      report.finite = false;
+      return report;
+    }
+    double largest_diagonal = 0;
+    for (int c = 0; c < K.size; ++c) largest_diagonal = std::max(largest_diagonal, std::abs(K.values[K.offsets[c]]));
+    raise = raise > 1e-11 * largest_diagonal ? 0.3 * raise : 0;
+    for (int c = 0; c < K.size && raise > 0; ++c) K.values[K.offsets[c]] += raise;
+    Definiteness definite = factor.factorise(K);
     ++report.factorisations;
+    while (options.descend && definite != Definiteness::positive && raise < largest_diagonal) {
+      const double more = std::max(4 * raise, 1e-10 * largest_diagonal) - raise;
+      raise += more;
+      for (int c = 0; c < K.size; ++c) K.values[K.offsets[c]] += more;
+      definite = factor.factorise(K);
+      ++report.factorisations;
+    }
     report.singular = definite == Definiteness::singular;
     report.negative_pivots = factor.negativePivots();
     if (!factor.solvable()) return report;
@@ -107,7 +127,7 @@ NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std
     }
     still = largest <= 1e-14 * options.length_m;
     Line line(equations, y, dy);
-    if (!search(line, dot(dy, r), options.line_search, report.finite)) {
+    if (!search(line, dot(dy, r), options.line_search || options.descend, report.finite)) {
       report.finite = false;
       return report;
     }

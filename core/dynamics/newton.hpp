@@ -24,6 +24,9 @@ struct NewtonOptions {
   double least_force = 0;   ///< these count as at least so large [N]
   double length_m = 1;      ///< of the structure, for what is rounding
   bool line_search = false;
+  /// Only downhill, to a stable equilibrium that may be far: as long as the tangent is not positive definite its
+  /// diagonal is raised until it is, and lowered again step by step.
+  bool descend = false;
 };
 
 struct NewtonReport {
@@ -47,6 +50,7 @@ NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std
 /// What of |r| is rounding: eps |diag K| length.
 double roundingForce(const SymmetricMatrix& K, double length_m);
 
+bool isFinite(const SymmetricMatrix& K);
 double norm(std::span<const double> a);
 double dot(std::span<const double> a, std::span<const double> b);
 

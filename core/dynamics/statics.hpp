@@ -9,7 +9,8 @@ namespace gambeson {
 
 struct StaticOptions {
   bool linear = false;  ///< one solve about the rest shape
-  int steps = 10;       ///< equal load steps from factor 0 to 1; a step that fails is halved, at most `halvings` times
+  int steps = 10;       ///< equal load steps from factor 0 to 1; a step that fails is halved, at most `halvings` times,
+                        ///< and then descends to a stable state if there is one (a snap-through)
   int halvings = 8;
   int iterations = 30;      ///< Newton iterations of a step
   double tolerance = 1e-8;  ///< of the residual's norm against that of the forces that balance (loads, reactions)
@@ -26,6 +27,7 @@ struct StaticPoint {
   int iterations = 0;
   double residual = 0;      ///< relative
   int negative_pivots = 0;  ///< of the tangent: 0 where the equilibrium is stable
+  bool jumped = false;      ///< load steps: the path ended (a limit point), and this is a stable state beyond it
 };
 
 struct StaticReport {

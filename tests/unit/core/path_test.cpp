@@ -92,6 +92,30 @@ TEST(StaticPath, LoadStepsStopAtALimitPointAndNameIt) {
   EXPECT_NEAR(2 * points.back().y[0] / (1 + std::pow(points.back().y[0], 2)), 1.2 * points.back().factor, 1e-8);
 }
 
+/// y - y^3 + y^5/5 = t P with P between the limit loads: load steps follow the near branch to its limit point and then
+/// jump to the far one, once, and say so.
+TEST(StaticPath, LoadStepsJumpToAStableStateBeyondALimitPoint) {
+  SmallSystem s(1);
+  const auto f = [](double y) { return y - std::pow(y, 3) + std::pow(y, 5) / 5; };
+  s.force = [f](const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, f(y(0))); };
+  s.tangent = [](const Eigen::VectorXd& y) {
+    return Eigen::MatrixXd::Constant(1, 1, 1 - 3 * y(0) * y(0) + std::pow(y(0), 4));
+  };
+  s.load = [](double t) { return Eigen::VectorXd::Constant(1, 0.8 * t); };
+  const double near = std::sqrt((3 - std::sqrt(5)) / 2), far = std::sqrt((3 + std::sqrt(5)) / 2);  // limit points
+  bool beyond = false;
+  for (const StaticPoint& p : follow(s, {.steps = 20, .iterations = 6})) {
+    EXPECT_NEAR(f(p.y[0]), 0.8 * p.factor, 1e-7);
+    beyond = beyond || p.y[0] > far;
+    EXPECT_EQ(p.negative_pivots, 0);
+    EXPECT_TRUE(beyond ? p.y[0] > far : p.y[0] < near) << p.y[0];
+    if (!beyond) {
+      EXPECT_LE(0.8 * p.factor, f(near) + 1e-9);
+    }
+  }
+  EXPECT_TRUE(beyond);
+}
+
 TEST(StaticPath, ArcLengthFollowsTheTrussThroughBothLimitPoints) {
   const double h = 0.3, EA = 100, L3 = std::pow(1 + h * h, 1.5), limit = EA / L3 * h * h * h * 2 / (3 * std::sqrt(3));
   Truss t = misesTruss(h, EA, 0);
