@@ -37,11 +37,31 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 nullptr,
                                                 options.springs,
                                                 options.anchor_count,
+                                                {},
+                                                {},
+                                                options.strain_limit,
                                                 {}});
   double total = 0, stiffness = 0;
   for (double m : model->mass_kg) total += m;
   for (const SpringSupportPoint& s : options.springs) stiffness += s.stiffness_N_per_m;
   if (stiffness > 0) model->spring_rise_m = (-total / stiffness) * environment.gravity_m_per_s2;
+  if (!options.dead_force_N.empty()) {
+    if (static_cast<int>(options.dead_force_N.size()) != model->shell.controlCount())
+      throw InputError({"", 0, "loads"}, "dead forces need one entry per control point");
+    model->dead_force_N.resize(n);
+    model->map.Tt.multiply<Vec3>(options.dead_force_N, model->dead_force_N);
+  }
+  if (options.strain_limit.mode != LimitMode::none) {
+    const StrainLimit& limit = options.strain_limit;
+    const auto reject = [](const char* key, const char* reason) {
+      throw InputError({"", 0, std::string("strain_limit.") + key}, reason);
+    };
+    if (!(limit.limit >= 0)) reject("limit", "must be >= 0");
+    if (!(limit.tolerance >= 1e-10)) reject("tolerance", "must be >= 1e-10");
+    if (!(limit.max_projections > 0)) reject("max_projections", "must be > 0");
+    if (!(limit.max_rounds > 0)) reject("max_rounds", "must be > 0");
+    model->strain_rows = buildStrainRows(garment, model->map, model->inverse_mass);
+  }
   model->proximity = std::make_unique<ProximityQuery>(model->obstacles);
   return model;
 }

@@ -9,6 +9,7 @@
 
 #include "core/contact/proximity.hpp"
 #include "core/contact/response.hpp"
+#include "core/dynamics/strain_limit.hpp"
 #include "core/sheet/shell.hpp"
 
 namespace gambeson {
@@ -50,6 +51,9 @@ struct Model {
   /// How far above its sample a spring is anchored, so that all together carry the garment's weight where they were
   /// attached: -g M / sum k [m].
   Vec3 spring_rise_m;
+  std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
+  StrainLimit strain_limit;
+  StrainRows strain_rows;  ///< without points where strain is not limited
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
 };
@@ -60,6 +64,8 @@ struct ModelOptions {
   std::vector<int> held_control_points;
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;
+  std::vector<Vec3> dead_force_N;  ///< per control point, such as edgeForce gives; empty: none
+  StrainLimit strain_limit;
   const KernelSet* kernels = nullptr;  ///< the widest where null
 };
 
@@ -86,6 +92,7 @@ struct State {
   std::vector<Vec3> anchors;  ///< of each spring, in its anchor frame
   ForceSums sums;             ///< at this time
   std::vector<WarmContact> warm;
+  std::vector<double> limit_J;  ///< multipliers of the strain limits, mean of the last step (eq. 5.7)
   // Step control.
   double frequency_rad_per_s = 0;  ///< estimate of the largest
   std::vector<Vec3> mode;          ///< its mode, warm start of the next estimate
@@ -93,11 +100,13 @@ struct State {
   double last_step_s = 0;
 };
 
-/// Momentum of the free points over one step [N s]: change = gravity + drag + supports - obstacles.
+/// Momentum of the free points over one step [N s]: change = gravity + dead + drag + supports - obstacles.
 struct MomentumAudit {
-  Vec3 change, gravity, drag, supports;
+  Vec3 change, gravity, drag;
+  Vec3 supports;   ///< springs and what holds points, with the pull of strain limits on held points
+  Vec3 dead;       ///< dead forces
   Vec3 obstacles;  ///< the obstacles' own ledger: what they received
-  double error() const { return norm(change - (gravity + drag + supports - obstacles)); }
+  double error() const { return norm(change - (gravity + dead + drag + supports - obstacles)); }
   /// Sum of the absolute impulses, the scale of `error`.
   double scale = 0;
 };
@@ -108,6 +117,7 @@ struct WorkAudit {
   double separation = 0;  ///< part of it: what restoring the layer's distance adds
   double friction = 0;    ///< part of it: tangential
   double drag = 0, supports = 0;
+  double limit = 0;  ///< of the strain limits' impulses on the free points
 };
 
 enum class StepFailure { none, not_finite, impact };
@@ -119,20 +129,23 @@ struct StepReport {
   MomentumAudit momentum;
   WorkAudit work;
   ContactSolve contact;
+  LimitReport limit;
   int contacts = 0, impacts = 0, impact_rounds = 0;
   double deepest_m = 0;  ///< largest penetration of a sample at the start of the step, 0 if none
 };
 
 /// Wall time of the phases of the steps so far [s].
 struct PhaseTimes {
-  double stage = 0, proximity = 0, contact = 0, impact = 0, force = 0, other = 0;
+  double stage = 0, proximity = 0, contact = 0, impact = 0, force = 0, limit = 0, other = 0;
 };
 
 /// Scratch of a step, and the impulses of the last one (read by the recorder).
 struct StepWork {
   ShellWork shell;
   ContactWork contact;
+  LimitWork limit;
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;
+  std::vector<Vec3> limit_end, pulled_before, pulled_after;
   std::vector<double> reach;
   std::vector<Contact> near, hits;
   std::vector<ContactRow> rows;

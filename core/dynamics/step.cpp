@@ -56,8 +56,12 @@ void springForces(const Model& m, const State& s, std::span<const Placement> fra
 
 /// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit
 /// there (eq. 3.13), v = half_velocity + half_step a. For an evaluation at a known velocity pass it with half_step 0.
+/// With strain limits v = half_velocity + half_step (a + pulled), `pulled` being the limits' acceleration in the last
+/// step (empty: none): the limits' force acts all the time though its impulse comes once a step, and without its half
+/// cloth that hangs still would have the velocity half_step a, on which drag would act.
 void accelerate(const Model& m, std::span<const Placement> anchor_frames, const Vec3& air,
-                std::span<const Vec3> half_velocity, double half_step_s, State& s, StepWork& w) {
+                std::span<const Vec3> half_velocity, std::span<const Vec3> pulled, double half_step_s, State& s,
+                StepWork& w) {
   const int n = m.freeCount();
   internalForce(m, s.p, s.a, w);
   springForces(m, s, anchor_frames, w.spring_force);
@@ -84,11 +88,30 @@ void accelerate(const Model& m, std::span<const Placement> anchor_frames, const 
       continue;
     }
     const double d = eta * m.area_m2[i];
-    const Vec3 f = s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 - d * (half_velocity[i] - air);
+    const Vec3 start = pulled.empty() ? half_velocity[i] : half_velocity[i] + half_step_s * pulled[i];
+    Vec3 f = s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 - d * (start - air);
+    if (!m.dead_force_N.empty()) f += m.dead_force_N[i];
     s.a[i] = f / (m.mass_kg[i] + d * half_step_s);
-    s.v[i] = half_velocity[i] + half_step_s * s.a[i];
+    s.v[i] = start + half_step_s * s.a[i];
     s.sums.drag -= d * (s.v[i] - air);
   }
+}
+
+/// Accelerations - M^-1 J^T lambda of the strain limits at s [m/s^2], and their sum of forces on held points [N]. Empty
+/// where nothing pulls.
+Vec3 limitAccelerations(const Model& m, const State& s, std::vector<Vec3>& out, LimitWork& w) {
+  out.clear();
+  if (s.limit_J.empty()) return {};
+  strainVectors(m.strain_rows, s.p, w.e);
+  for (std::size_t i = 0; i < w.e.size(); ++i) w.e[i] *= s.limit_J[i];
+  out.resize(m.freeCount());
+  m.strain_rows.Bt.multiply<Vec3>(w.e, out);
+  Vec3 held{};
+  for (int i = 0; i < m.freeCount(); ++i) {
+    if (m.held[i]) held -= out[i];
+    out[i] *= -m.inverse_mass[i];
+  }
+  return held;
 }
 
 /// Rows of the persistent contacts with their warm tractions.
@@ -146,6 +169,45 @@ void ledger(const Model& m, const State& in, double dt, StepReport& report, Step
   }
 }
 
+/// Velocities of the half step after contacts and strain limits, in turn until both hold; w.rows stay what they are.
+void solveVelocities(const Model& m, const State& in, double density, double dt, bool first, StepReport& report,
+                     StopWatch& clock, StepWork& w) {
+  const auto contacts = [&] {
+    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, density, m.contact, dt,
+                                   w.velocity, w.warm, w.impulses, w.contact);
+    clock.lap(w.times.contact);
+  };
+  const StrainLimit& limit = m.strain_limit;
+  if (limit.mode == LimitMode::none) {
+    w.velocity = w.predictor;
+    contacts();
+    return;
+  }
+  const int n = m.freeCount();
+  std::vector<Vec3>& end = w.limit_end;
+  end.resize(n);
+  const auto limited = [&](int i) { return w.predictor[i] - (m.inverse_mass[i] / dt) * w.limit.pull[i]; };
+  w.velocity.resize(n);
+  for (int turn = 1;; ++turn) {
+    for (int i = 0; i < n; ++i) end[i] = in.p[i] + dt * (limited(i) + w.limit.contact_change[i]);
+    projectStrain(m.strain_rows, limit, m.inverse_mass, first && turn == 1 && limit.always, end, report.limit, w.limit);
+    ++report.limit.rounds;
+    clock.lap(w.times.limit);
+    for (int i = 0; i < n; ++i) w.velocity[i] = limited(i);
+    contacts();
+    if (w.rows.empty()) return;
+    for (int i = 0; i < n; ++i) {
+      w.limit.contact_change[i] = w.velocity[i] - limited(i);
+      end[i] = in.p[i] + dt * w.velocity[i];
+    }
+    report.limit.residual = limitResidual(m.strain_rows, limit, end, w.limit);
+    report.limit.converged = report.limit.residual <= limit.tolerance;
+    clock.lap(w.times.limit);
+    // A residual that is not finite shows in the velocities.
+    if (report.limit.converged || turn == limit.max_rounds || !std::isfinite(report.limit.residual)) return;
+  }
+}
+
 bool allFinite(std::span<const Vec3> values) {
   double zero = 0;
   for (const Vec3& v : values) zero += 0 * (v.x + v.y + v.z);  // NaN from the first infinity or NaN on
@@ -180,7 +242,8 @@ void attachSprings(const Model& model, const Stage& stage, State& state, StepWor
     state.anchors.push_back(toLocal(work.anchors_start[spring.anchor],
                                     sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m));
   const std::vector<Vec3> v = state.v;
-  accelerate(model, work.anchors_start, stage.air(state.time_s), v, 0, state, work);
+  state.limit_J.clear();
+  accelerate(model, work.anchors_start, stage.air(state.time_s), v, {}, 0, state, work);
 }
 
 StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
@@ -201,7 +264,10 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 
   // 1.1 Predictor, eq. 3.11.
   w.predictor.resize(n);
+  const Vec3 held_before = limitAccelerations(m, in, w.pulled_before, w.limit);
   for (int i = 0; i < n; ++i) w.predictor[i] = in.v[i] + half * in.a[i];
+  if (!w.pulled_before.empty())
+    for (int i = 0; i < n; ++i) w.predictor[i] -= half * w.pulled_before[i];  // this step's impulse comes in its place
   const auto notFinite = [&](const char* what) {
     report.failure = StepFailure::not_finite;
     report.why = what;
@@ -222,11 +288,9 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   report.contacts = static_cast<int>(w.rows.size());
   const double rho = m.shell.garment().fabric.surfaceDensity();
   constexpr int kRounds = 12;
+  startProjection(m.strain_rows, in.limit_J, w.limit);
   for (int round = 1;; ++round) {
-    w.velocity = w.predictor;
-    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, rho, m.contact, dt,
-                                   w.velocity, w.warm, w.impulses, w.contact);
-    clock.lap(w.times.contact);
+    solveVelocities(m, in, rho, dt, round == 1, report, clock, w);
     if (!allFinite(w.velocity)) return notFinite("a velocity is not finite after the contacts");
     w.x1.resize(m.surface.size());
     m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
@@ -255,7 +319,10 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.anchors = in.anchors;
   std::vector<Vec3>& spring_mean = w.spring_impulses;
   springForces(m, in, w.anchors_start, spring_mean);
-  accelerate(m, w.anchors_end, air1, w.velocity, half, out, w);
+  out.limit_J.clear();
+  if (m.strain_limit.mode != LimitMode::none) limitMultipliers(m.strain_rows, out.p, dt, out.limit_J, w.limit);
+  const Vec3 held_after = limitAccelerations(m, out, w.pulled_after, w.limit);
+  accelerate(m, w.anchors_end, air1, w.velocity, w.pulled_after, half, out, w);
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
     const SpringSupportPoint& s = m.springs[k];
@@ -278,8 +345,32 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   // The audit, each term from its own source.
   MomentumAudit& audit = report.momentum;
   ledger(m, in, dt, report, w);
+  if (m.strain_limit.mode != LimitMode::none) {
+    audit.supports -= half * (held_after - held_before);
+    audit.scale += half * (norm(held_after) + norm(held_before));
+    for (int i = 0; i < n; ++i) {
+      const Vec3 impulse = -w.limit.pull[i] / dt;
+      if (m.held[i]) {
+        audit.supports -= impulse;
+        audit.scale += norm(impulse);
+        continue;
+      }
+      report.work.limit += 0.5 * dot(impulse, w.predictor[i] + w.velocity[i] - dt * in.a[i]);
+      const double m_half = m.mass_kg[i] * half;
+      if (!w.pulled_before.empty()) {
+        const Vec3& c = w.pulled_before[i];
+        report.work.limit -= m_half * dot(c, in.v[i] - (0.5 * half) * c);
+      }
+      const Vec3& c = w.pulled_after[i];
+      report.work.limit += m_half * dot(c, out.v[i] - (0.5 * half) * c);
+    }
+  }
   for (int i = 0; i < n; ++i) {
     if (m.held[i]) continue;
+    if (!m.dead_force_N.empty()) {
+      audit.dead += dt * m.dead_force_N[i];
+      audit.scale += dt * norm(m.dead_force_N[i]);
+    }
     audit.change += m.mass_kg[i] * (out.v[i] - in.v[i]);
     audit.gravity += (m.mass_kg[i] * dt) * m.environment.gravity_m_per_s2;
     audit.scale += m.mass_kg[i] * dt * norm(m.environment.gravity_m_per_s2);
@@ -301,6 +392,7 @@ Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w)
     if (m.held[i]) continue;
     e.kinetic += 0.5 * m.mass_kg[i] * norm2(s.v[i]);
     e.gravity -= m.mass_kg[i] * dot(m.environment.gravity_m_per_s2, s.p[i]);
+    if (!m.dead_force_N.empty()) e.dead -= dot(m.dead_force_N[i], s.p[i]);
   }
   w.start.resize(m.obstacles.size());
   w.anchors_start.resize(m.anchor_count);

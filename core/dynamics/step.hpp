@@ -14,16 +14,22 @@ void attachSprings(const Model& model, const Stage& stage, State& state, StepWor
 
 /// Velocity Verlet with the contact split, eq. 3.11 to 3.13, by `dt_s`. Drag is implicit in the second half as in
 /// eq. 3.13. On failure `out` is not to be used.
+///
+/// Where strain is limited (Zheng 2013, section 5.2), the end positions p + dt v are projected, v being the velocity of
+/// the first half step after drag-free forces; what the projection moves is an impulse of that velocity, dq/dt, as the
+/// contacts' impulses are. Section 5.1 lets contact follow as the next substep. But contact stretches again what it
+/// pushes, and a projection pulls into what the cloth touches, so they take turns, each with the other's impulses in
+/// place, until the strains hold after the contacts; the contacts have the last word. StepReport gives both residuals.
 StepReport step(const Model& model, const Stage& stage, const State& in, double dt_s, State& out, StepWork& work);
 
 /// Sample positions W T p and velocities W T v.
 void samplePositions(const Model& model, std::span<const Vec3> p, std::vector<Vec3>& x);
 
 struct Energy {
-  double kinetic = 0, internal = 0, gravity = 0, springs = 0;
-  double total() const { return kinetic + internal + gravity + springs; }
+  double kinetic = 0, internal = 0, gravity = 0, springs = 0, dead = 0;
+  double total() const { return kinetic + internal + gravity + springs + dead; }
 };
-/// Energy of the free points and the cloth [J]; gravity's zero is at the origin.
+/// Energy of the free points and the cloth [J]; the zero of gravity and of dead forces is at the origin.
 Energy energyOf(const Model& model, const Stage& stage, const State& state, StepWork& work);
 
 /// What holds the step down.

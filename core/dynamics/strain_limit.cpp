@@ -1,0 +1,209 @@
+#include "core/dynamics/strain_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gambeson {
+namespace {
+
+constexpr double kRegular = 1e-9;  ///< of the diagonal, see the header
+constexpr double kLargestTurn = 0.5;
+
+void constraints(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> e, std::vector<double>& C) {
+  const double at = limit.mode == LimitMode::upper_limit ? limit.limit : 0;
+  C.resize(rows.rows());
+  for (int i = 0; i < rows.rows(); ++i) C[i] = rows.live[i] ? strainOf(e[i]) - at : 0;
+}
+
+double residualOf(const StrainRows& rows, const StrainLimit& limit, std::span<const double> C) {
+  double most = 0;
+  for (int i = 0; i < rows.rows(); ++i) {
+    if (!rows.live[i]) continue;
+    const double c = limit.mode == LimitMode::upper_limit ? C[i] : std::abs(C[i]);
+    if (!(c <= most)) most = c;  // NaN stays
+  }
+  return most;
+}
+
+/// J M^-1 J^T at e.
+void assemble(const StrainRows& rows, std::span<const Vec3> e, SymmetricMatrix& A) {
+  if (A.size != rows.S.size) A = rows.S;
+  for (int c = 0; c < A.size; ++c)
+    for (int k = A.offsets[c]; k < A.offsets[c + 1]; ++k) {
+      const int r = A.rows[k];
+      if (!rows.live[c]) continue;  // alone, 1
+      A.values[k] = rows.S.values[k] * (dot(e[c], e[r]) + (r == c ? kRegular : 0));
+    }
+}
+
+class Projection {
+ public:
+  Projection(const StrainRows& rows, const StrainLimit& limit, LimitReport& report, LimitWork& work)
+      : rows_(rows), limit_(limit), report_(report), w_(work) {
+    if (!w_.factor) w_.factor = std::make_unique<SymmetricFactor>(rows.S);
+  }
+
+  /// New total multipliers into w.solution. `fresh`: A has changed since the last factorisation.
+  bool solve(bool fresh) { return limit_.mode == LimitMode::equality ? solveEquality(fresh) : solveLimited(fresh); }
+
+ private:
+  bool solveEquality(bool fresh) {
+    if (fresh && !factorise(w_.A)) return false;
+    w_.factor->solve(w_.C, w_.solution);
+    for (int i = 0; i < rows_.rows(); ++i) w_.solution[i] += w_.multiplier[i];
+    return true;
+  }
+
+  bool factorise(const SymmetricMatrix& A) {
+    ++report_.factorisations;
+    w_.factor->factorise(A);
+    return w_.factor->solvable();
+  }
+
+  /// A with the rows outside the active set replaced by those of the identity.
+  bool factoriseActive() {
+    if (w_.active_A.size != w_.A.size) w_.active_A = w_.A;
+    SymmetricMatrix& A = w_.active_A;
+    for (int c = 0; c < A.size; ++c)
+      for (int k = A.offsets[c]; k < A.offsets[c + 1]; ++k) {
+        const int r = A.rows[k];
+        A.values[k] = w_.active[c] && w_.active[r] ? w_.A.values[k] : r == c ? 1.0 : 0.0;
+      }
+    w_.factored_active = w_.active;
+    return factorise(A);
+  }
+
+  /// x >= 0, s = A x - (C + A multiplier) >= 0, x s = 0.
+  bool solveLimited(bool fresh) {
+    const int n = rows_.rows();
+    w_.right.resize(n);
+    w_.moved.resize(n);
+    multiply(w_.A, w_.multiplier, w_.right);
+    for (int i = 0; i < n; ++i) w_.right[i] += w_.C[i];
+    int least_bad = n + 1, patience = 3;
+    for (int pivots = 0; pivots < 20 + 4 * n; ++pivots) {
+      if ((fresh && pivots == 0) || w_.active != w_.factored_active)
+        if (!factoriseActive()) return false;
+      for (int i = 0; i < n; ++i) w_.moved[i] = w_.active[i] ? w_.right[i] : 0;
+      w_.factor->solve(w_.moved, w_.solution);
+      double largest = 0;
+      for (int i = 0; i < n; ++i) {
+        if (!w_.active[i]) w_.solution[i] = 0;
+        largest = std::max(largest, std::abs(w_.solution[i]));
+      }
+      multiply(w_.A, w_.solution, w_.moved);
+      int bad = 0, last = -1;
+      const auto isBad = [&](int i) {
+        if (!rows_.live[i]) return false;
+        return w_.active[i] ? w_.solution[i] < -1e-12 * largest : w_.moved[i] - w_.right[i] < -1e-12;
+      };
+      for (int i = 0; i < n; ++i)
+        if (isBad(i)) ++bad, last = i;
+      if (bad == 0) {
+        for (double& x : w_.solution) x = std::max(x, 0.0);
+        return true;
+      }
+      bool single = false;
+      if (bad < least_bad) {
+        least_bad = bad;
+        patience = 3;
+      } else if (--patience < 0) {
+        single = true;
+      }
+      std::vector<int> flip;
+      for (int i = 0; i < n; ++i)
+        if ((!single || i == last) && isBad(i)) flip.push_back(i);
+      for (int i : flip) w_.active[i] = !w_.active[i];
+    }
+    return false;
+  }
+
+  const StrainRows& rows_;
+  const StrainLimit& limit_;
+  LimitReport& report_;
+  LimitWork& w_;
+};
+
+}  // namespace
+
+void startProjection(const StrainRows& rows, std::span<const double> warm, LimitWork& w) {
+  w.multiplier.assign(rows.rows(), 0);
+  w.solution.assign(rows.rows(), 0);
+  w.force.assign(rows.rows(), {});
+  w.pull.assign(rows.B.column_count, {});
+  w.contact_change.assign(rows.B.column_count, {});
+  w.active.assign(rows.rows(), 0);
+  w.factored_active.clear();
+  for (std::size_t i = 0; i < warm.size(); ++i) w.active[i] = rows.live[i] && warm[i] > 0;
+}
+
+void limitMultipliers(const StrainRows& rows, std::span<const Vec3> p, double dt, std::vector<double>& lambda,
+                      LimitWork& w) {
+  lambda.assign(rows.rows(), 0);
+  strainVectors(rows, p, w.e);
+  for (int i = 0; i < rows.rows(); ++i) {
+    const double size2 = norm2(w.e[i]);
+    if (size2 > 0) lambda[i] = dot(w.force[i], w.e[i]) / (size2 * dt * dt);
+  }
+}
+
+double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& w) {
+  strainVectors(rows, p, w.e);
+  constraints(rows, limit, w.e, w.C);
+  return residualOf(rows, limit, w.C);
+}
+
+void projectStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const double> inverse_mass,
+                   bool at_least_once, std::span<Vec3> p, LimitReport& report, LimitWork& w) {
+  const int n = rows.rows();
+  Projection projection(rows, limit, report, w);
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0;; ++iteration) {
+    const double residual = report.residual = limitResidual(rows, limit, p, w);
+    report.converged = residual <= limit.tolerance;
+    if (!std::isfinite(residual)) return;
+    const bool wanted = iteration == 0 && at_least_once && residual > 0;
+    if (report.converged && !wanted) break;
+    if (iteration == limit.max_projections) break;
+    const bool fresh = iteration == 0 || residual > 0.25 * before;
+    if (fresh) assemble(rows, w.e, w.A);
+    if (limit.mode == LimitMode::upper_limit)
+      for (int i = 0; i < n; ++i)
+        if (rows.live[i] && w.C[i] > 0) w.active[i] = 1;
+    if (!projection.solve(fresh)) {
+      report.converged = false;
+      break;
+    }
+    before = residual;
+    ++report.projections;
+    // The step in multipliers, shortened where it turns the cloth too far for the linearisation.
+    const auto moveBy = [&](double part) {
+      w.scaled.resize(n);
+      for (int i = 0; i < n; ++i) w.scaled[i] = (part * (w.solution[i] - w.multiplier[i])) * w.e[i];
+      w.end.resize(p.size());
+      rows.Bt.multiply<Vec3>(w.scaled, w.end);
+    };
+    moveBy(1);
+    w.velocity.resize(p.size());
+    for (std::size_t k = 0; k < p.size(); ++k) w.velocity[k] = -inverse_mass[k] * w.end[k];
+    strainVectors(rows, w.velocity, w.e_next);
+    double turn = 0;
+    for (const Vec3& d : w.e_next) turn = std::max(turn, norm(d));
+    const double part = turn > kLargestTurn ? kLargestTurn / turn : 1;
+    if (part < 1) moveBy(part);
+    for (int i = 0; i < n; ++i) {
+      w.multiplier[i] += part * (w.solution[i] - w.multiplier[i]);
+      w.force[i] += w.scaled[i];
+    }
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      w.pull[k] += w.end[k];
+      p[k] -= inverse_mass[k] * w.end[k];
+    }
+    if (part < 1) before = 0;  // a new matrix next
+  }
+  report.active =
+      static_cast<int>(std::count_if(w.multiplier.begin(), w.multiplier.end(), [](double x) { return x != 0; }));
+}
+
+}  // namespace gambeson

@@ -1,0 +1,75 @@
+#pragma once
+/// Strain limiting by fast projection (Zheng 2013, sections 5.2 and 5.3; Goldenthal et al. 2007).
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/strain_points.hpp"
+
+namespace gambeson {
+
+/// equality: C = E = 0 at every point, weft and warp (eq. 5.6). upper_limit: C = E - limit <= 0 with multipliers >= 0,
+/// so that cloth may shorten freely and is only held where it would stretch beyond the limit.
+enum class LimitMode { none, equality, upper_limit };
+
+struct StrainLimit {
+  LimitMode mode = LimitMode::none;
+  double limit = 0;         ///< upper_limit: the largest Green-Lagrange strain, >= 0
+  double tolerance = 1e-3;  ///< epsilon: projections end at max |C| (upper_limit: max C) below it
+  int max_projections = 40;
+  /// Project at least once in a step (upper_limit: where any C > 0), so that multipliers are those of a constraint that
+  /// holds and not of one that is met now and then. The thesis ends as soon as the tolerance is met.
+  bool always = true;
+  int max_rounds = 12;  ///< of contacts and projections in turn
+};
+
+/// What the projections of a step came to.
+struct LimitReport {
+  int projections = 0, factorisations = 0;
+  int active = 0;       ///< rows that pull
+  int rounds = 0;       ///< of contacts and projections in turn
+  double residual = 0;  ///< max |C| (upper_limit: max C, at least 0) at the end of the step, after the contacts
+  bool converged = true;
+};
+
+/// Scratch of projectStrain, and its result: `multiplier` is dt^2 lambda of each row [kg m^2], `pull` the sum of
+/// dt^2 J^T dlambda over the iterations on all free points, held ones among them [kg m]: what has moved the free ones
+/// by - pull/m; `force` the sum of dt^2 dlambda F D of each row, with the F D of the iterates.
+struct LimitWork {
+  std::unique_ptr<SymmetricFactor> factor;
+  SymmetricMatrix A, active_A;
+  std::vector<Vec3> e, e_next, scaled, pull, force, end;
+  std::vector<double> C, solution, right, moved;
+  std::vector<char> active, factored_active;
+  std::vector<double> multiplier;
+  std::vector<Vec3> velocity, contact_change;
+};
+
+/// Starts a step: no multipliers, no pull. `warm` holds last step's multipliers (empty: none).
+void startProjection(const StrainRows& rows, std::span<const double> warm, LimitWork& work);
+
+/// The multipliers whose forces J^T lambda at the positions p are those of the step [J]: F D of the iterates is longer
+/// than at the end, by what one step stretches, so that the plain sum of dlambda says too little.
+void limitMultipliers(const StrainRows& rows, std::span<const Vec3> p, double dt_s, std::vector<double>& lambda_J,
+                      LimitWork& work);
+
+/// max |C| over the rows that a free point changes (upper_limit: max C, at least 0).
+double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& work);
+
+/// Moves the positions p on the constraints by eq. 5.21 and 5.22,
+///   (J M^-1 J^T) dt^2 dlambda = C,   dp = - M^-1 J^T dt^2 dlambda,
+/// until the residual is within tolerance; adds to work.multiplier and work.pull, and to the report.
+/// The matrix is factorised at the first iterate and again where the residual has not fallen by a factor of 4.
+/// Redundant rows (a line of points between two held edges, say) make it singular: its diagonal is raised by 1e-9 of
+/// S_ii, which leaves the positions alone, since a combination of rows without gradient moves nothing, and shares
+/// their multipliers out evenly. Where constraints cannot be met (held edges too far apart) it ends unconverged.
+/// A step that would turn or stretch any F D by more than a half is shortened.
+/// upper_limit: each iterate solves the linear complementarity problem lambda >= 0, C + J dp <= 0, of which one is 0,
+/// by block principal pivoting (Judice and Pires 1994), whose fallback to single pivots ends for positive definite
+/// matrices; multipliers of earlier iterates may fall to zero again, so that points are released.
+/// Rows of J annihilate translations and, about p, rotations: momentum is kept where nothing is held.
+void projectStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const double> inverse_mass,
+                   bool at_least_once, std::span<Vec3> p, LimitReport& report, LimitWork& work);
+
+}  // namespace gambeson

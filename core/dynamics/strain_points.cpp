@@ -1,0 +1,331 @@
+#include "core/dynamics/strain_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/sheet/cells.hpp"
+
+namespace gambeson {
+namespace {
+
+/// A candidate and the point that it became.
+struct Place {
+  Vec2 uv;
+  int point = -1;
+};
+
+/// N, weft and warp derivative of a point on the free points.
+struct PointRows {
+  std::map<int, std::array<double, 3>> entries;
+};
+
+PointRows rowsAt(const Garment& garment, const FreeMap& map, int offset, int patch_index, Vec2 uv) {
+  const NurbsPatch& patch = garment.patches[patch_index];
+  const SurfaceBasis basis = surfaceBasis(patch, uv.x, uv.y);
+  Vec3 A1{}, A2{};
+  for (std::size_t k = 0; k < basis.columns.size(); ++k) {
+    A1 += basis.values[1][k] * patch.points[basis.columns[k]];
+    A2 += basis.values[2][k] * patch.points[basis.columns[k]];
+  }
+  const Vec3 normal = cross(A1, A2);
+  if (!(norm(normal) > 0)) throw InputError({"", 0, "patch"}, "the rest surface is degenerate (zero area)");
+  const Vec3 n = normalized(normal);
+  const Vec3 weft = rotationAbout(n, fibreAngleAt(garment, patch_index, uv)) * garment.weft[patch_index];
+  const Vec3 E1 = normalized(weft - dot(weft, n) * n), E2 = cross(n, E1);
+  // d(xi)/dX: the inverse of the rest tangents in the physical basis.
+  const double J11 = dot(E1, A1), J12 = dot(E1, A2), J21 = dot(E2, A1), J22 = dot(E2, A2);
+  const double det = J11 * J22 - J12 * J21;
+  const Vec2 along_weft{J22 / det, -J21 / det}, along_warp{-J12 / det, J11 / det};
+  PointRows rows;
+  for (std::size_t k = 0; k < basis.columns.size(); ++k) {
+    const int c = offset + basis.columns[k];
+    const double N = basis.values[0][k], Nu = basis.values[1][k], Nv = basis.values[2][k];
+    for (int e = map.T.offsets[c]; e < map.T.offsets[c + 1]; ++e) {
+      auto& entry = rows.entries[map.T.columns[e]];
+      entry[0] += map.T.values[e] * N;
+      entry[1] += map.T.values[e] * (along_weft.x * Nu + along_weft.y * Nv);
+      entry[2] += map.T.values[e] * (along_warp.x * Nu + along_warp.y * Nv);
+    }
+  }
+  return rows;
+}
+
+/// Points with the same position for all p are one: found by the free points that carry them.
+class Positions {
+ public:
+  /// The point that has these entries, or `next` where none has.
+  int find(const PointRows& rows, int next) {
+    std::vector<int> columns;
+    std::vector<double> values;
+    for (const auto& [column, entry] : rows.entries)
+      if (std::abs(entry[0]) > 1e-7) {
+        columns.push_back(column);
+        values.push_back(entry[0]);
+      }
+    auto& bucket = seen_[columns];
+    for (const auto& [point, other] : bucket) {
+      double most = 0;
+      for (std::size_t k = 0; k < values.size(); ++k) most = std::max(most, std::abs(values[k] - other[k]));
+      if (most < 1e-9) return point;
+    }
+    bucket.push_back({next, values});
+    return next;
+  }
+
+ private:
+  std::map<std::vector<int>, std::vector<std::pair<int, std::vector<double>>>> seen_;
+};
+
+double restArea(const NurbsPatch& patch, const CellPoint& at) {
+  const auto d = surfaceDerivatives(patch, at.u, at.v);
+  return norm(cross(d[1], d[2])) * at.weight;
+}
+
+int intervalOf(const std::vector<double>& ends, double t) {
+  const auto at = std::upper_bound(ends.begin(), ends.end(), t) - ends.begin() - 1;
+  return static_cast<int>(std::clamp<long>(at, 0, static_cast<long>(ends.size()) - 2));
+}
+
+/// Places of constraints on a patch: kept vertices, then crossings that are not near another place.
+std::vector<Place> placesOf(const Garment& garment, int patch_index, const StrainRows::Grid& grid) {
+  const NurbsPatch& patch = garment.patches[patch_index];
+  const bool trimmed = isTrimmed(garment, patch_index);
+  std::vector<Place> places;
+  for (double v : grid.vs)
+    for (double u : grid.us)
+      if (!trimmed || isKept(patch, garment.trims[patch_index], {u, v})) places.push_back({{u, v}});
+  if (trimmed)
+    for (const Vec2& at : trimIntersections(patch, garment.trims[patch_index])) {
+      const int i = intervalOf(grid.us, at.x), j = intervalOf(grid.vs, at.y);
+      const double du = grid.us[i + 1] - grid.us[i], dv = grid.vs[j + 1] - grid.vs[j];
+      const bool near = std::any_of(places.begin(), places.end(), [&](const Place& p) {
+        return std::hypot((p.uv.x - at.x) / du, (p.uv.y - at.y) / dv) < 0.05;
+      });
+      if (!near) places.push_back({at});
+    }
+  return places;
+}
+
+/// S = B M^-1 B^T, lower triangle by columns.
+SymmetricMatrix mobilityOf(const SparseRows& B, const SparseRows& Bt, std::span<const double> inverse_mass,
+                           std::vector<char>& live) {
+  SymmetricMatrix S;
+  S.size = B.rows();
+  live.assign(B.rows(), 0);
+  for (int c = 0; c < B.rows(); ++c) {
+    std::map<int, double> column;
+    for (int k = B.offsets[c]; k < B.offsets[c + 1]; ++k) {
+      const int free = B.columns[k];
+      const double w = B.values[k] * inverse_mass[free];
+      if (w == 0) continue;
+      for (int j = Bt.offsets[free]; j < Bt.offsets[free + 1]; ++j)
+        if (Bt.columns[j] >= c) column[Bt.columns[j]] += w * Bt.values[j];
+    }
+    live[c] = column.contains(c) && column[c] > 0;
+    if (!live[c]) column = {{c, 1.0}};
+    for (const auto& [row, value] : column) {
+      S.rows.push_back(row);
+      S.values.push_back(value);
+    }
+    S.offsets.push_back(static_cast<int>(S.rows.size()));
+  }
+  return S;
+}
+
+struct CellShare {
+  bool kept = false;
+  double area = 0;
+  std::map<int, double> points;  ///< area that each point takes of the cell
+};
+
+/// Hat functions in a whole cell; in a cut one inverse squared distances to its places.
+CellShare shareOf(const NurbsPatch& patch, const SheetCell& cell, const std::vector<Place>& places) {
+  CellShare share;
+  share.kept = true;
+  const double du = cell.u1 - cell.u0, dv = cell.v1 - cell.v0;
+  std::vector<std::pair<Vec2, int>> inside;  // in units of the cell
+  for (const Place& p : places) {
+    const Vec2 at{(p.uv.x - cell.u0) / du, (p.uv.y - cell.v0) / dv};
+    const auto in = [](double t) { return t > -1e-9 && t < 1 + 1e-9; };
+    if (in(at.x) && in(at.y)) inside.push_back({at, p.point});
+  }
+  if (cell.cut && inside.empty()) {  // its crossings were merged with places of neighbours
+    double least = std::numeric_limits<double>::infinity();
+    for (const Place& p : places) {
+      const Vec2 at{(p.uv.x - cell.u0) / du - 0.5, (p.uv.y - cell.v0) / dv - 0.5};
+      if (std::hypot(at.x, at.y) < least) least = std::hypot(at.x, at.y), inside = {{at, p.point}};
+    }
+  }
+  for (const CellPoint& point : cellRule(cell, patch.u.degree + 1, patch.v.degree + 1)) {
+    const double dA = restArea(patch, point);
+    const Vec2 at{(point.u - cell.u0) / du, (point.v - cell.v0) / dv};
+    share.area += dA;
+    std::vector<double> weight;
+    double total = 0;
+    for (const auto& [place, unused] : inside) {
+      const double x = std::abs(at.x - place.x), y = std::abs(at.y - place.y);
+      weight.push_back(cell.cut ? 1 / (x * x + y * y + 1e-6) : std::max(0.0, 1 - x) * std::max(0.0, 1 - y));
+      total += weight.back();
+    }
+    for (std::size_t k = 0; k < inside.size(); ++k) share.points[inside[k].second] += weight[k] / total * dA;
+  }
+  return share;
+}
+
+/// The value at a vertex from those of cells near it, as weights: the mean of four cells that meet there, else the
+/// value of the plane through the cells of the two rings around it that exist, else their mean.
+std::vector<std::pair<int, double>> vertexRow(const StrainRows::Grid& g, const std::vector<CellShare>& cells, int i,
+                                              int j) {
+  const int nu = static_cast<int>(g.us.size()) - 1, nv = static_cast<int>(g.vs.size()) - 1;
+  struct Near {
+    int cell;
+    double x, y, area;
+  };
+  const double scale_u = g.us[std::min(i + 1, nu)] - g.us[std::max(i - 1, 0)],
+               scale_v = g.vs[std::min(j + 1, nv)] - g.vs[std::max(j - 1, 0)];
+  const auto gather = [&](int ring) {
+    std::vector<Near> list;
+    for (int b = std::max(0, j - ring); b < std::min(nv, j + ring); ++b)
+      for (int a = std::max(0, i - ring); a < std::min(nu, i + ring); ++a)
+        if (cells[a + nu * b].kept)
+          list.push_back({a + nu * b, (0.5 * (g.us[a] + g.us[a + 1]) - g.us[i]) / scale_u,
+                          (0.5 * (g.vs[b] + g.vs[b + 1]) - g.vs[j]) / scale_v, cells[a + nu * b].area});
+    return list;
+  };
+  std::vector<Near> list = gather(1);
+  if (list.empty()) return {};
+  std::vector<std::pair<int, double>> row;
+  const std::vector<Near> wide = gather(2);
+  if (list.size() == 4 || wide.size() < 3) {
+    double total = 0;
+    for (const Near& c : list) total += c.area;
+    // Inside, the bilinear interpolation between the centres; on a uniform grid the mean.
+    if (list.size() == 4) {
+      const double x0 = list[0].x, x1 = list[1].x, y0 = list[0].y, y1 = list[2].y;
+      const double fx = -x0 / (x1 - x0), fy = -y0 / (y1 - y0);
+      return {{list[0].cell, (1 - fx) * (1 - fy)},
+              {list[1].cell, fx * (1 - fy)},
+              {list[2].cell, (1 - fx) * fy},
+              {list[3].cell, fx * fy}};
+    }
+    for (const Near& c : list) row.push_back({c.cell, c.area / total});
+    return row;
+  }
+  // Least squares of a + b x + c y over `wide`; the value at (0, 0) is a. A direction with one cell only is left out.
+  double n = 0, mx = 0, my = 0;
+  for (const Near& c : wide) n += 1, mx += c.x, my += c.y;
+  mx /= n, my /= n;
+  double xx = 0, yy = 0, xy = 0;
+  for (const Near& c : wide)
+    xx += (c.x - mx) * (c.x - mx), yy += (c.y - my) * (c.y - my), xy += (c.x - mx) * (c.y - my);
+  const double det = xx * yy - xy * xy;
+  for (const Near& c : wide) {
+    double gx = 0, gy = 0;  // gradient's weights
+    if (det > 1e-6) {
+      gx = (yy * (c.x - mx) - xy * (c.y - my)) / det;
+      gy = (xx * (c.y - my) - xy * (c.x - mx)) / det;
+    } else if (xx > 1e-6 && yy < 1e-6) {
+      gx = (c.x - mx) / xx;
+    } else if (yy > 1e-6 && xx < 1e-6) {
+      gy = (c.y - my) / yy;
+    }
+    row.push_back({c.cell, 1 / n - gx * mx - gy * my});
+  }
+  return row;
+}
+
+}  // namespace
+
+StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, std::span<const double> inverse_mass) {
+  const std::vector<int> offsets = controlOffsets(garment);
+  const int patch_count = static_cast<int>(garment.patches.size());
+  StrainRows s;
+  s.B.column_count = map.T.column_count;
+  std::vector<std::vector<Place>> places(patch_count);
+  Positions positions;
+  for (int p = 0; p < patch_count; ++p) {
+    s.grids.push_back({breakpoints(garment.patches[p].u), breakpoints(garment.patches[p].v), 0});
+    places[p] = placesOf(garment, p, s.grids[p]);
+    for (Place& place : places[p]) {
+      const PointRows rows = rowsAt(garment, map, offsets[p], p, place.uv);
+      place.point = positions.find(rows, static_cast<int>(s.points.size()));
+      if (place.point < static_cast<int>(s.points.size())) continue;
+      s.points.push_back({p, place.uv, 0});
+      for (int direction : {1, 2}) {
+        double size = 0;
+        for (const auto& entry : rows.entries) size = std::max(size, std::abs(entry.second[direction]));
+        for (const auto& [column, entry] : rows.entries)
+          if (std::abs(entry[direction]) > 1e-13 * size) s.B.add(column, entry[direction]);
+        s.B.endRow();
+      }
+    }
+  }
+  s.Bt = transpose(s.B);
+  s.S = mobilityOf(s.B, s.Bt, inverse_mass, s.live);
+
+  // Areas, and the way from multipliers to cells to vertices.
+  std::vector<std::vector<CellShare>> cells(patch_count);
+  std::vector<int> first_cell{0};
+  for (int p = 0; p < patch_count; ++p) {
+    cells[p].resize((s.grids[p].us.size() - 1) * (s.grids[p].vs.size() - 1));
+    first_cell.push_back(first_cell.back() + static_cast<int>(cells[p].size()));
+  }
+  for (const SheetCell& cell : sheetCells(garment)) {
+    const StrainRows::Grid& g = s.grids[cell.patch];
+    const int at = intervalOf(g.us, 0.5 * (cell.u0 + cell.u1)) +
+                   (static_cast<int>(g.us.size()) - 1) * intervalOf(g.vs, 0.5 * (cell.v0 + cell.v1));
+    cells[cell.patch][at] = shareOf(garment.patches[cell.patch], cell, places[cell.patch]);
+    for (const auto& [point, area] : cells[cell.patch][at].points) s.points[point].area_m2 += area;
+  }
+  s.cell_of_point.column_count = static_cast<int>(s.points.size());
+  s.vertex_of_cell.column_count = first_cell.back();
+  for (int p = 0; p < patch_count; ++p) {
+    StrainRows::Grid& g = s.grids[p];
+    for (const CellShare& cell : cells[p]) {
+      for (const auto& [point, area] : cell.points)
+        if (area > 0) s.cell_of_point.add(point, area / (s.points[point].area_m2 * cell.area));
+      s.cell_of_point.endRow();
+    }
+    g.first_vertex = s.vertex_of_cell.rows();
+    for (int j = 0; j < static_cast<int>(g.vs.size()); ++j)
+      for (int i = 0; i < static_cast<int>(g.us.size()); ++i) {
+        for (const auto& [cell, weight] : vertexRow(g, cells[p], i, j))
+          s.vertex_of_cell.add(first_cell[p] + cell, weight);
+        s.vertex_of_cell.endRow();
+      }
+  }
+  return s;
+}
+
+void strainVectors(const StrainRows& rows, std::span<const Vec3> p, std::vector<Vec3>& e) {
+  e.resize(rows.rows());
+  rows.B.multiply<Vec3>(p, e);
+}
+
+std::vector<Vec2> limitStress(const StrainRows& rows, std::span<const double> multiplier) {
+  const int points = static_cast<int>(rows.points.size());
+  std::vector<double> one(points), cell(rows.cell_of_point.rows()), vertex(rows.vertex_of_cell.rows());
+  std::vector<Vec2> field(rows.vertex_of_cell.rows());
+  for (int direction : {0, 1}) {
+    for (int i = 0; i < points; ++i) one[i] = multiplier[2 * i + direction];
+    rows.cell_of_point.multiply<double>(one, cell);
+    rows.vertex_of_cell.multiply<double>(cell, vertex);
+    for (std::size_t i = 0; i < field.size(); ++i) (direction == 0 ? field[i].x : field[i].y) = vertex[i];
+  }
+  return field;
+}
+
+Vec2 limitStressAt(const StrainRows& rows, std::span<const Vec2> field, int patch, Vec2 uv) {
+  const StrainRows::Grid& g = rows.grids[patch];
+  const int i = intervalOf(g.us, uv.x), j = intervalOf(g.vs, uv.y), nu = static_cast<int>(g.us.size());
+  const double x = (uv.x - g.us[i]) / (g.us[i + 1] - g.us[i]), y = (uv.y - g.vs[j]) / (g.vs[j + 1] - g.vs[j]);
+  const Vec2 &a = field[g.first_vertex + i + nu * j], &b = field[g.first_vertex + i + 1 + nu * j],
+             &c = field[g.first_vertex + i + nu * (j + 1)], &d = field[g.first_vertex + i + 1 + nu * (j + 1)];
+  const double wa = (1 - x) * (1 - y), wb = x * (1 - y), wc = (1 - x) * y, wd = x * y;
+  return {wa * a.x + wb * b.x + wc * c.x + wd * d.x, wa * a.y + wb * b.y + wc * c.y + wd * d.y};
+}
+
+}  // namespace gambeson

@@ -1,0 +1,336 @@
+/// Strain limiting by fast projection (Zheng 2013, chapter 5): the constraints themselves, the projection's momentum,
+/// tolerance and complementarity.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "core/dynamics/strain_limit.hpp"
+#include "core/error.hpp"
+#include "motion_shapes.hpp"
+#include "trim_shapes.hpp"
+
+namespace gambeson {
+namespace {
+
+using namespace shapes;
+
+std::vector<double> uniformInverse(const FreeMap& map, double mass = 0.01) {
+  return std::vector<double>(map.T.column_count, 1 / mass);
+}
+
+struct Net {
+  Garment garment;
+  FreeMap map;
+  std::vector<double> inverse;
+  StrainRows rows;
+  std::vector<Vec3> p;
+
+  explicit Net(const Garment& g)
+      : garment(g),
+        map(buildFreeMap(g)),
+        inverse(uniformInverse(map)),
+        rows(buildStrainRows(g, map, inverse)),
+        p(deformedFree(g, map, 0)) {}
+  /// Each point at random by up to `size`.
+  void shake(double size, unsigned seed = 5) { p = deformedFree(garment, map, size, seed); }
+};
+
+Garment seamed() { return fourPatches(2, 3, true, SeamKind::G1, 0, plainFabric()); }
+
+TEST(StrainRows, VanishAtRestAndGrowAsACovarianceOfTheStretch) {
+  for (const Garment& g :
+       {seamed(), squareSheet(5, 0.3, 0), fourPatches(2, 2, false, SeamKind::C0, 1, plainFabric())}) {
+    Net net(g);
+    std::vector<Vec3> e;
+    strainVectors(net.rows, net.p, e);
+    for (int i = 0; i < net.rows.rows(); ++i) EXPECT_NEAR(strainOf(e[i]), 0, 1e-11);
+    for (std::size_t i = 0; i < net.rows.points.size(); ++i) EXPECT_NEAR(dot(e[2 * i], e[2 * i + 1]), 0, 1e-11);
+    for (Vec3& x : net.p) x *= 1.1;
+    strainVectors(net.rows, net.p, e);
+    for (const Vec3& f : e) EXPECT_NEAR(strainOf(f), 0.5 * (1.21 - 1), 1e-11);
+  }
+}
+
+/// A flat sheet with the weft turned by 30 degrees, stretched by s along x: E_weft = (s^2 - 1)/2 cos^2, E_warp = ...
+/// sin^2.
+TEST(StrainRows, FollowTheTurnedWeft) {
+  Garment g = squareSheet(4, 0.2, 0);
+  g.weft = {turnedWeft()};
+  Net net(g);
+  for (Vec3& x : net.p) x.x *= 1.2;
+  std::vector<Vec3> e;
+  strainVectors(net.rows, net.p, e);
+  const double E = 0.5 * (1.44 - 1), c2 = 0.75, s2 = 0.25;
+  for (std::size_t i = 0; i < net.rows.points.size(); ++i) {
+    EXPECT_NEAR(strainOf(e[2 * i]), E * c2, 1e-12);
+    EXPECT_NEAR(strainOf(e[2 * i + 1]), E * s2, 1e-12);
+  }
+}
+
+TEST(StrainRows, PointsOnJoinedEdgesAreOneAndCarryTheWholeArea) {
+  const Garment g = seamed();
+  const Net net(g);
+  // 3 x 2 cells over the whole, cut at inner knots: 4 x 3 vertices.
+  EXPECT_EQ(net.rows.points.size(), 12u);
+  double area = 0, control = 0;
+  for (const StrainPoint& p : net.rows.points) {
+    EXPECT_GT(p.area_m2, 0);
+    area += p.area_m2;
+  }
+  for (double a : controlAreas(g)) control += a;
+  EXPECT_NEAR(area, control, 1e-12 * control);
+}
+
+/// J (translation) = 0 and J (rotation about any axis) = 0, to rounding.
+TEST(StrainRows, DoNotSeeRigidMotions) {
+  for (const Garment& g : {seamed(), squareSheet(5, 0.3, 0)}) {
+    Net net(g);
+    net.shake(0.02);
+    std::vector<Vec3> e, de(net.rows.rows()), u(net.p.size());
+    strainVectors(net.rows, net.p, e);
+    for (const Vec3& omega : {Vec3{1, 0, 0}, Vec3{0.3, -0.5, 0.8}}) {
+      for (std::size_t k = 0; k < u.size(); ++k) u[k] = Vec3{0.2, -0.7, 0.4} + cross(omega, net.p[k]);
+      net.rows.B.multiply<Vec3>(u, de);
+      for (int i = 0; i < net.rows.rows(); ++i) EXPECT_NEAR(dot(e[i], de[i]), 0, 1e-12);
+    }
+  }
+}
+
+/// The constant S and the products of F D give J M^-1 J^T.
+TEST(StrainRows, MobilityIsThatOfTheGradients) {
+  Net net(squareSheet(3, 0.3, 0));
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> d(0.5, 2);
+  for (double& w : net.inverse) w = 100 * d(random);
+  net.inverse[3] = net.inverse[4] = 0;
+  net.rows = buildStrainRows(net.garment, net.map, net.inverse);
+  net.shake(0.02);
+  std::vector<Vec3> e;
+  strainVectors(net.rows, net.p, e);
+  const SymmetricMatrix& S = net.rows.S;
+  std::vector<std::vector<Vec3>> J;  // by differences of the strain
+  for (int i = 0; i < net.rows.rows(); ++i) J.emplace_back(net.p.size());
+  std::vector<Vec3> plus, minus;
+  for (std::size_t k = 0; k < net.p.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      const double h = 1e-6;
+      auto p = net.p;
+      p[k][c] += h;
+      strainVectors(net.rows, p, plus);
+      p[k][c] -= 2 * h;
+      strainVectors(net.rows, p, minus);
+      for (int i = 0; i < net.rows.rows(); ++i) J[i][k][c] = (strainOf(plus[i]) - strainOf(minus[i])) / (2 * h);
+    }
+  double largest = 0, worst = 0;
+  for (int c = 0; c < S.size; ++c) {
+    std::vector<double> column(S.size, 0);
+    for (int k = S.offsets[c]; k < S.offsets[c + 1]; ++k) column[S.rows[k]] = S.values[k] * dot(e[c], e[S.rows[k]]);
+    if (!net.rows.live[c]) continue;
+    for (int r = c; r < S.size; ++r) {
+      double exact = 0;
+      for (std::size_t k = 0; k < net.p.size(); ++k) exact += net.inverse[k] * dot(J[c][k], J[r][k]);
+      largest = std::max(largest, std::abs(exact));
+      worst = std::max(worst, std::abs(exact - column[r]));
+    }
+  }
+  EXPECT_LT(worst, 1e-8 * largest);
+}
+
+Vec3 momentum(const std::vector<double>& inverse, const std::vector<Vec3>& v) {
+  Vec3 sum{};
+  for (std::size_t k = 0; k < v.size(); ++k) sum += v[k] / inverse[k];
+  return sum;
+}
+
+TEST(Projection, ReachesTheToleranceAndKeepsTheMomentum) {
+  for (LimitMode mode : {LimitMode::equality, LimitMode::upper_limit}) {
+    Net net(seamed());
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> d(0.5, 2);
+    for (double& w : net.inverse) w *= d(random);
+    net.rows = buildStrainRows(net.garment, net.map, net.inverse);
+    net.shake(0.03);
+    const std::vector<Vec3> before = net.p;
+    LimitWork work;
+    LimitReport report;
+    StrainLimit limit{mode, 0.01, 1e-9};
+    startProjection(net.rows, {}, work);
+    EXPECT_GT(limitResidual(net.rows, limit, net.p, work), 0.05);
+    projectStrain(net.rows, limit, net.inverse, true, net.p, report, work);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LT(report.projections, 15);
+    EXPECT_LE(limitResidual(net.rows, limit, net.p, work), 1e-9);
+    std::vector<Vec3> moved;
+    for (std::size_t k = 0; k < before.size(); ++k) moved.push_back(net.p[k] - before[k]);
+    double size = 0;
+    for (std::size_t k = 0; k < before.size(); ++k) size += norm(moved[k]) / net.inverse[k];
+    EXPECT_GT(size, 1e-4);
+    EXPECT_LT(norm(momentum(net.inverse, moved)), 1e-13 * size);
+  }
+}
+
+/// One projection: the impulses have no moment about the positions at which their gradients were taken.
+TEST(Projection, KeepsTheAngularMomentum) {
+  Net net(seamed());
+  net.shake(0.01);
+  const std::vector<Vec3> before = net.p;
+  LimitWork work;
+  LimitReport report;
+  startProjection(net.rows, {}, work);
+  projectStrain(net.rows, {LimitMode::equality, 0, 1e-9, 1}, net.inverse, true, net.p, report, work);
+  ASSERT_EQ(report.projections, 1);
+  Vec3 sum{};
+  double size = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const Vec3 moment = cross(before[k], net.p[k] - before[k]) / net.inverse[k];
+    sum += moment;
+    size += norm(moment);
+  }
+  EXPECT_LT(norm(sum), 1e-12 * size);
+}
+
+TEST(Projection, PullsHeldPointsByWhatItGivesTheFree) {
+  Net net(squareSheet(5, 0.3, 0));
+  for (int k = 0; k < 7; ++k) net.inverse[k] = 0;
+  net.rows = buildStrainRows(net.garment, net.map, net.inverse);
+  net.shake(0.01);
+  const std::vector<Vec3> before = net.p;
+  LimitWork work;
+  LimitReport report;
+  startProjection(net.rows, {}, work);
+  projectStrain(net.rows, {LimitMode::equality, 0, 1e-8}, net.inverse, true, net.p, report, work);
+  EXPECT_TRUE(report.converged);
+  Vec3 free{}, held{};
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (net.inverse[k] == 0) {
+      EXPECT_EQ(net.p[k], before[k]);
+      held -= work.pull[k];
+    } else {
+      free += (net.p[k] - before[k]) / net.inverse[k];
+    }
+  }
+  EXPECT_GT(norm(free), 1e-6);
+  EXPECT_LT(norm(free + held), 1e-12 * norm(free));
+}
+
+/// Held on opposite edges at rest, the rows along each line between them are dependent: the telescoping sum of the
+/// stretches is given. The positions do not suffer.
+TEST(Projection, RedundantRowsDoNotSpoilIt) {
+  Net net(squareSheet(6, 0.3, 0));
+  for (int j = 0; j < 8; ++j) net.inverse[8 * j] = net.inverse[7 + 8 * j] = 0;
+  net.rows = buildStrainRows(net.garment, net.map, net.inverse);
+  const std::vector<Vec3> rest = net.p;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> d(-1, 1);
+  for (std::size_t k = 0; k < net.p.size(); ++k)
+    if (net.inverse[k] > 0) net.p[k] += 1e-3 * Vec3{d(random), d(random), 0};
+  LimitWork work;
+  LimitReport report;
+  startProjection(net.rows, {}, work);
+  projectStrain(net.rows, {LimitMode::equality, 0, 1e-5}, net.inverse, true, net.p, report, work);
+  EXPECT_TRUE(report.converged);
+  EXPECT_LT(report.projections, 10);
+  for (std::size_t k = 0; k < net.p.size(); ++k) EXPECT_LT(norm(net.p[k] - rest[k]), 5e-3);
+}
+
+/// Held edges pulled apart by 10 %: no answer exists; the report says so, and the positions stay where cloth can be.
+TEST(Projection, SaysWhatItCannotDo) {
+  Net net(squareSheet(6, 0.3, 0));
+  for (int j = 0; j < 8; ++j) {
+    net.inverse[8 * j] = net.inverse[7 + 8 * j] = 0;
+    net.p[7 + 8 * j].x += 0.03;
+  }
+  net.rows = buildStrainRows(net.garment, net.map, net.inverse);
+  LimitWork work;
+  LimitReport report;
+  startProjection(net.rows, {}, work);
+  projectStrain(net.rows, {LimitMode::equality, 0, 1e-6}, net.inverse, true, net.p, report, work);
+  EXPECT_FALSE(report.converged);
+  EXPECT_GT(report.residual, 0.05);
+  EXPECT_EQ(report.projections, 40);
+  for (const Vec3& x : net.p) EXPECT_LT(norm(x), 2);
+}
+
+/// lambda >= 0, C <= 0, and one of them 0, whatever the start of the active set.
+TEST(Projection, UpperLimitIsComplementary) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    Net net(seamed());
+    net.shake(0.04, seed);
+    std::vector<double> warm;
+    if (seed % 2) warm.assign(net.rows.rows(), 1.0);
+    LimitWork work;
+    LimitReport report;
+    const StrainLimit limit{LimitMode::upper_limit, 0.02, 1e-9};
+    startProjection(net.rows, warm, work);
+    projectStrain(net.rows, limit, net.inverse, true, net.p, report, work);
+    EXPECT_TRUE(report.converged);
+    std::vector<Vec3> e;
+    strainVectors(net.rows, net.p, e);
+    int pulling = 0, slack = 0;
+    for (int i = 0; i < net.rows.rows(); ++i) {
+      EXPECT_GE(work.multiplier[i], 0);
+      EXPECT_LE(strainOf(e[i]), 0.02 + 1e-9);
+      if (work.multiplier[i] > 0) {
+        ++pulling;
+        EXPECT_NEAR(strainOf(e[i]), 0.02, 1e-7);
+      } else {
+        slack += strainOf(e[i]) < 0.02 - 1e-4;
+      }
+    }
+    EXPECT_EQ(report.active, pulling);
+    EXPECT_GT(pulling, 3);
+    EXPECT_GT(slack, 3);
+  }
+}
+
+TEST(Projection, ShortenedClothIsFree) {
+  Net net(squareSheet(4, 0.2, 0));
+  for (Vec3& x : net.p) x *= 0.9;
+  const std::vector<Vec3> before = net.p;
+  LimitWork work;
+  LimitReport report;
+  startProjection(net.rows, {}, work);
+  projectStrain(net.rows, {LimitMode::upper_limit, 0, 1e-6}, net.inverse, true, net.p, report, work);
+  EXPECT_EQ(report.projections, 0);
+  EXPECT_EQ(net.p, before);
+}
+
+TEST(StrainRows, TrimmedPatchesAreConstrainedWhereTheLoopsCrossKnotLines) {
+  Garment g = squareSheet(8, 1, 0);
+  g.trims = {{{{circle({0.47, 0.53}, 0.21, 0.21, true)}}}};
+  const Net net(g);
+  const auto crossings = trimIntersections(g.patches[0], g.trims[0]);
+  std::size_t vertices = 0, on_loop = 0;
+  double area = 0;
+  for (const StrainPoint& p : net.rows.points) {
+    const double r = std::hypot(p.uv.x - 0.47, p.uv.y - 0.53);
+    EXPECT_GT(r, 0.21 - 1e-9);
+    if (std::abs(r - 0.21) < 1e-9)
+      ++on_loop;
+    else
+      ++vertices;
+    area += p.area_m2;
+    EXPECT_GT(p.area_m2, 0);
+  }
+  std::size_t kept = 0, alone = 0;
+  for (int j = 0; j <= 8; ++j)
+    for (int i = 0; i <= 8; ++i) kept += std::hypot(i / 8.0 - 0.47, j / 8.0 - 0.53) > 0.21;
+  for (const Vec2& c : crossings) {
+    double nearest = 1;
+    for (int j = 0; j <= 8; ++j)
+      for (int i = 0; i <= 8; ++i)
+        if (std::hypot(i / 8.0 - 0.47, j / 8.0 - 0.53) > 0.21)
+          nearest = std::min(nearest, std::hypot(i / 8.0 - c.x, j / 8.0 - c.y));
+    alone += nearest > 0.05 / 8;
+  }
+  EXPECT_EQ(vertices, kept);
+  EXPECT_GT(on_loop, 8u);
+  EXPECT_LE(on_loop, alone);
+  EXPECT_NEAR(area, 1 - kPi * 0.21 * 0.21, 1e-6);
+}
+
+}  // namespace
+}  // namespace gambeson
