@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -262,7 +263,11 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   const FreeMap map = buildFreeMap(garment);
   std::vector<Vec3> Q, gradient;
   for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
-  for (HingePoint& h : buildHinges(garment)) {
+  WeakPoints weak = buildWeakSeams(garment);
+  gaps_ = std::move(weak.gaps);
+  std::vector<HingePoint> hinges = buildHinges(garment);
+  std::move(weak.hinges.begin(), weak.hinges.end(), std::back_inserter(hinges));
+  for (HingePoint& h : hinges) {
     hingeAngle(h, Q, &gradient);
     std::map<int, Vec3> pulled;
     double size = 0, left = 0;
@@ -280,6 +285,13 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
     for (std::size_t k = 0; k < h.columns.size(); ++k)
       gather[h.columns[k]].push_back({slot_count_ + 3 * static_cast<long>(k), 1});
     slot_count_ += 3 * static_cast<long>(h.columns.size());
+  }
+  gap_slot_ = slot_count_;
+  for (const GapPoint& point : gaps_) {
+    gap_offset_.push_back((slot_count_ - gap_slot_) / 3);
+    for (std::size_t k = 0; k < point.columns.size(); ++k)
+      gather[point.columns[k]].push_back({slot_count_ + 3 * static_cast<long>(k), 1});
+    slot_count_ += 3 * static_cast<long>(point.columns.size());
   }
   gather_offsets_.push_back(0);
   for (const auto& list : gather) {
@@ -346,6 +358,22 @@ void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, d
     }
   }
   for (double e : hinge_energy) total += e;
+  const int gap_count = static_cast<int>(gaps_.size());
+  std::vector<double> gap_energy(energy ? gap_count : 0);
+#pragma omp parallel for schedule(static) if (gap_count > 64)
+  for (int i = 0; i < gap_count; ++i) {
+    const GapPoint& point = gaps_[i];
+    const Vec3 gap = terms.seams ? gapOf(point, q) : Vec3{};
+    for (std::size_t k = 0; k < point.columns.size(); ++k) {
+      const Vec3 g = (point.stiffness_N_per_m * point.row[k]) * gap;
+      double* slot = work.slots.data() + gap_slot_ + 3 * (gap_offset_[i] + static_cast<long>(k));
+      slot[0] = g.x;
+      slot[1] = g.y;
+      slot[2] = g.z;
+    }
+    if (energy) gap_energy[i] = 0.5 * point.stiffness_N_per_m * norm2(gap);
+  }
+  for (double e : gap_energy) total += e;
   if (energy) *energy = total;
 #pragma omp parallel for schedule(static) if (control_count_ > 512)
   for (int i = 0; i < control_count_; ++i) {

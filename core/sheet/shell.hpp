@@ -9,6 +9,7 @@
 #include "core/sheet/shell_kernel.hpp"
 #include "core/sheet/shell_law.hpp"
 #include "core/sheet/surface.hpp"
+#include "core/sheet/weak_seam.hpp"
 
 namespace gambeson {
 
@@ -78,6 +79,8 @@ class Shell {
   const std::vector<ShellPart>& parts() const { return parts_; }
   /// The springs along seams, without those that the map T holds.
   const std::vector<HingePoint>& hinges() const { return hinges_; }
+  /// What holds weak seams together.
+  const std::vector<GapPoint>& gaps() const { return gaps_; }
 
  private:
   struct Frame;
@@ -92,6 +95,9 @@ class Shell {
   std::vector<HingePoint> hinges_;
   long hinge_slot_ = 0;             ///< first slot of the hinges
   std::vector<long> hinge_offset_;  ///< of each hinge, in columns
+  std::vector<GapPoint> gaps_;
+  long gap_slot_ = 0;  ///< first slot of the gaps
+  std::vector<long> gap_offset_;
   long slot_count_ = 0;
   /// Where each control point's contributions lie: slot of x; y and z follow at the stride of the slot's part.
   std::vector<long> gather_offsets_;

@@ -41,6 +41,7 @@ BlockMatrix patternOf(const Shell& shell, const FreeMap& map) {
   for (const ShellPart& part : shell.parts())
     for (int cell = 0; cell < part.cell_count; ++cell) connect(nodesOf(part.block, cell));
   for (const HingePoint& h : shell.hinges()) connect(h.columns);
+  for (const GapPoint& g : shell.gaps()) connect(g.columns);
   BlockMatrix K;
   for (std::vector<int>& row : rows) {
     std::sort(row.begin(), row.end());
@@ -103,22 +104,29 @@ Tangent::Tangent(const Shell& shell, const FreeMap& map) : pattern_(patternOf(sh
       for (int cell = first * b.lanes; cell < std::min((first + count) * b.lanes, shell.parts()[p].cell_count); ++cell)
         elements.push_back(
             {nodesOf(b, cell), static_cast<int>((cell / b.lanes - first) * group_doubles + cell % b.lanes)});
-      addBatch(map, {static_cast<int>(p), first, count, b.lanes, count * group_doubles, 0, 0}, elements);
+      addBatch(map, {Batch::cells, static_cast<int>(p), first, count, b.lanes, count * group_doubles, 0, 0}, elements);
     }
   }
-  const int hinge_count = static_cast<int>(shell.hinges().size());
-  for (int first = 0; first < hinge_count;) {
+  std::vector<const std::vector<int>*> hinges, gaps;
+  for (const HingePoint& h : shell.hinges()) hinges.push_back(&h.columns);
+  for (const GapPoint& g : shell.gaps()) gaps.push_back(&g.columns);
+  addSeamBatches(map, Batch::hinges, hinges);
+  addSeamBatches(map, Batch::gaps, gaps);
+}
+
+/// `columns`: the control points of each hinge or gap.
+void Tangent::addSeamBatches(const FreeMap& map, Batch::Kind kind,
+                             const std::vector<const std::vector<int>*>& columns) {
+  const int count = static_cast<int>(columns.size());
+  for (int first = 0, end = 0; first < count; first = end) {
     std::vector<std::pair<std::vector<int>, int>> elements;
     long doubles = 0;
-    int end = first;
-    for (; end < hinge_count && (end == first || doubles < kBatchDoubles); ++end) {
-      const std::vector<int>& columns = shell.hinges()[end].columns;
-      elements.push_back({columns, static_cast<int>(doubles)});
-      hinge_slot_.push_back(doubles);
-      doubles += 9 * static_cast<long>(columns.size() * (columns.size() + 1) / 2);
+    for (; end < count && (end == first || doubles < kBatchDoubles); ++end) {
+      elements.push_back({*columns[end], static_cast<int>(doubles)});
+      seam_slot_[kind].push_back(doubles);
+      doubles += 9 * static_cast<long>(columns[end]->size() * (columns[end]->size() + 1) / 2);
     }
-    addBatch(map, {-1, first, end - first, 1, doubles, 0, 0}, elements);
-    first = end;
+    addBatch(map, {kind, 0, first, end - first, 1, doubles, 0, 0}, elements);
   }
 }
 
@@ -131,16 +139,18 @@ void Tangent::assemble(const Shell& shell, std::span<const Vec3> q, ShellWork& w
   work.tangent_slots.resize(most);
   double* slots = work.tangent_slots.data();
   for (const Batch& batch : batches_) {
-    if (batch.part < 0 ? !terms.seams : !terms.membrane && !terms.bending) continue;
-    if (batch.part < 0) {
+    if (batch.kind == Batch::cells ? !terms.membrane && !terms.bending : !terms.seams) continue;
+    if (batch.kind != Batch::cells) {
 #pragma omp parallel if (batch.count > 16)
       {
         std::vector<std::array<double, 9>> blocks;
 #pragma omp for schedule(static)
-        for (int h = batch.first; h < batch.first + batch.count; ++h) {
-          hingeStiffness(shell.hinges()[h], q, blocks);
-          double* out = slots + hinge_slot_[h];
-          const std::size_t n = shell.hinges()[h].columns.size();
+        for (int i = batch.first; i < batch.first + batch.count; ++i) {
+          const bool hinge = batch.kind == Batch::hinges;
+          if (hinge) hingeStiffness(shell.hinges()[i], q, blocks);
+          if (!hinge) gapStiffness(shell.gaps()[i], blocks);
+          const std::size_t n = hinge ? shell.hinges()[i].columns.size() : shell.gaps()[i].columns.size();
+          double* out = slots + seam_slot_[batch.kind][i];
           for (std::size_t I = 0; I < n; ++I)
             for (std::size_t J = I; J < n; ++J)
               out = std::copy(blocks[I * n + J].begin(), blocks[I * n + J].end(), out);

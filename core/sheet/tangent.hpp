@@ -20,8 +20,9 @@ class Tangent {
                 const ShellTerms& terms = {}) const;
 
  private:
-  /// Groups of one part of the shell, or (part = -1) hinges.
+  /// Groups of one part of the shell, or points of its seams.
   struct Batch {
+    enum Kind { cells, hinges, gaps } kind = cells;
     int part = 0, first = 0, count = 0;
     int stride = 1;    ///< between the nine values of a pair
     long doubles = 0;  ///< of scratch
@@ -33,6 +34,7 @@ class Tangent {
     bool transposed = false;
     double weight = 0;  ///< product of the entries of T
   };
+  void addSeamBatches(const FreeMap& map, Batch::Kind kind, const std::vector<const std::vector<int>*>& columns);
   void addBatch(const FreeMap& map, const Batch& batch, const std::vector<std::pair<std::vector<int>, int>>& elements);
 
   BlockMatrix pattern_;
@@ -40,7 +42,7 @@ class Tangent {
   std::vector<long> sum_block_;       ///< block of K that a sum goes to
   std::vector<long> sum_offsets_{0};  ///< its sources
   std::vector<Source> sources_;
-  std::vector<long> hinge_slot_;  ///< of each hinge in its batch
+  std::vector<long> seam_slot_[3];  ///< of each hinge and of each gap in its batch
 };
 
 }  // namespace gambeson

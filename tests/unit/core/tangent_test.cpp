@@ -125,6 +125,25 @@ TEST_P(TangentOf, GoesThroughSeams) {
   }
 }
 
+/// The penalty of a weak seam is part of the sheet: force, energy and tangent.
+TEST(Tangent, HoldsWeakSeams) {
+  const auto [left, right] = cutU(curvedPatch(2, 2, false), 0.55);
+  const NurbsPatch finer = insertKnot(right, Direction::v, 0.7);
+  for (SeamKind kind : {SeamKind::C0, SeamKind::G1}) {
+    Garment g = garmentOf({left, finer}, {}, plainFabric());
+    g.weak_seams = {{{0, Side::u1}, {1, Side::u0}, kind, 0.3, 10}};
+    EXPECT_LT(tangentError(g), 1e-8);
+    const WeakPoints points = buildWeakSeams(g);
+    const FreeMap map = buildFreeMap(g);
+    const std::vector<Vec3> q = controlsOf(map, deformedFree(g, map, 0.02));
+    double energy;
+    const auto f = forceOn(Shell(g, widestKernels()), q, &energy, {false, false, true, false});
+    std::vector<Vec3> alone(q.size());
+    EXPECT_NEAR(energy, addWeakForce(points, q, alone), 1e-12 * energy);
+    for (std::size_t i = 0; i < q.size(); ++i) EXPECT_LE(norm(f[i] - alone[i]), 1e-12 * (1 + norm(f[i])));
+  }
+}
+
 /// The moment of eq. 2.14 has kinks in its slope at kr and k0: the state keeps all points on one branch.
 TEST(Tangent, FollowsEquation214OnEachBranch) {
   const NurbsPatch patch = curvedPatch(2, 2, true);

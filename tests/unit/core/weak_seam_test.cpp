@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/sheet/hinge.hpp"
 #include "core/sheet/loads.hpp"
+#include "core/sheet/tangent.hpp"
 #include "sheet_cylinder.hpp"
 
 namespace gambeson {
@@ -155,10 +156,18 @@ StripErrors strip(double factor, double scale) {
   Garment g = garmentOf(
       {part(2, {0, 0.5, 1}, {0, 0.4, 1}, 0, 0.5), part(3, {0, 0.6, 1}, {0, 0.3, 0.7, 1}, 0.5, length)}, {}, fabric);
   g.weak_seams = {{{0, Side::u1}, {1, Side::u0}, SeamKind::G1, 0, factor}};
-  const auto points = buildWeakSeams(g);
   const Shell shell(g, widestKernels());
   const auto q = restPoints(g);
-  Eigen::MatrixXd K = differences([&](const auto& x) { return forceOn(shell, x); }, q, 1e-5) + stiffness(points, q);
+  ShellWork work;
+  BlockMatrix blocks;
+  Tangent(shell, buildFreeMap(g)).assemble(shell, q, work, blocks);  // no strong seams: all control points are free
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * blocks.rows(), 3 * blocks.rows());
+  for (int r = 0; r < blocks.rows(); ++r)
+    for (long k = blocks.offsets[r]; k < blocks.offsets[r + 1]; ++k)
+      for (int i = 0; i < 9; ++i) {
+        K(3 * r + i / 3, 3 * blocks.columns[k] + i % 3) = blocks.values[9 * k + i];
+        K(3 * blocks.columns[k] + i % 3, 3 * r + i / 3) = blocks.values[9 * k + i];
+      }
 
   const auto stretch = edgeForce(g, {1, Side::u1}, {1, 0, 0});
   std::vector<Vec3> bend(q.size());
