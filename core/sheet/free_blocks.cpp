@@ -1,6 +1,5 @@
 #include "core/sheet/free_blocks.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 namespace gambeson {
@@ -19,10 +18,9 @@ void addSymmetrised(const FreeMap& map, std::span<const int> columns, std::span<
         for (int b = T.offsets[columns[J]]; b < T.offsets[columns[J] + 1]; ++b) {
           const int r = T.columns[a], c = T.columns[b];
           if (r > c) continue;  // its mirror image comes with I and J exchanged
-          const auto begin = K.columns.begin() + K.offsets[r], end = K.columns.begin() + K.offsets[r + 1];
-          const auto at = std::lower_bound(begin, end, c);
-          assert(at != end && *at == c);
-          double* out = &K.values[9 * (at - K.columns.begin())];
+          const long at = K.find(r, c);
+          assert(at >= 0);
+          double* out = &K.values[9 * at];
           const double w = T.values[a] * T.values[b];
           for (int k = 0; k < 9; ++k) out[k] += w * s[k];
         }
