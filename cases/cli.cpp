@@ -54,7 +54,9 @@ void addOverrides(CLI::App& command, std::vector<std::string>& overrides) {
 
 void addRun(CLI::App& app, RunArguments& a) {
   CLI::App& run =
-      *app.add_subcommand("run", "Runs a case: dresses the human, lets it move, measures, takes pictures, reports");
+      *app.add_subcommand("run",
+                          "Runs a case: dresses the human, lets it move, measures, takes pictures, reports; or "
+                          "solves a static, dynamic or modal case of a structure");
   run.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
   run.add_option(
          "--out", a.options.out,
@@ -72,11 +74,13 @@ void addRun(CLI::App& app, RunArguments& a) {
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}).description(""));
   run.footer(
       "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, stress.csv,\n"
-      "snapshots/ (pictures) and frames.xdmf (the recording, for ParaView).\n\n"
+      "snapshots/ (pictures) and frames.xdmf (the recording, for ParaView). Static, dynamic and modal cases\n"
+      "leave path.csv (points and edges of each step) and shape.csv (the last shape) in place of the three tables.\n\n"
       "Examples:\n"
       "  gambeson run cases/library/shorts_walk.json\n"
       "  gambeson run cases/library/shorts_walk.json --out results/thin --set fabric.thickness=\"0.4 mm\"\n"
-      "  gambeson run cases/library/sleeve_flex.json --set contact.friction=0.5\n\n"
+      "  gambeson run cases/library/sleeve_flex.json --set contact.friction=0.5\n"
+      "  gambeson run cases/library/cantilever.json --set sheet.cells_u=32\n\n"
       "Exit status: 0 done; 1 the run failed, the message says why; 2 something in the input is wrong.");
 }
 
@@ -102,7 +106,10 @@ void addRender(CLI::App& app, RenderArguments& a) {
   render.add_option("--field", a.field, "What the colours show: stress, pressure, strain or plain")
       ->type_name("FIELD")
       ->capture_default_str();
-  render.add_option("--time", a.time, "A time such as 1.2 or \"1200 ms\"; or peak (largest joint torque) or end")
+  render
+      .add_option("--time", a.time,
+                  "A time such as 1.2 or \"1200 ms\" (static: a load factor, modal: a mode); or peak (largest joint "
+                  "torque) or end")
       ->type_name("TIME")
       ->capture_default_str();
   render.add_option("--view", a.view, "From where: " + schema::joined(viewNames()))

@@ -111,7 +111,16 @@ Sheet sheetOf(const StructureCase& c) {
       validateFields(sheet.garment);
       return sheet;
     } catch (const InputError& e) {
-      const std::string& key = e.where().file.empty() ? e.where().key : "";
+      std::string key = e.where().key;
+      const bool own = std::holds_alternative<NurbsShape>(c.sheet.shape);
+      if (own && key.starts_with("seams[")) {
+        // The n-th seam that is not weak.
+        const auto& seams = std::get<NurbsShape>(c.sheet.shape).seams;
+        std::size_t wanted = std::stoul(key.substr(6)), k = 0;
+        for (; k < seams.size(); ++k)
+          if (!seams[k].weak && wanted-- == 0) break;
+        key = fmt::format("nurbs.seams[{}]", k);
+      }
       if (!e.where().file.empty()) throw;  // a file that the case names says it itself
       throw InputError({"", 0, key.empty() ? "sheet" : "sheet." + key}, e.reason());
     }

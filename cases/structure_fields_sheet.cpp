@@ -182,8 +182,8 @@ Object patchTable() {
 }
 
 Object seamTable() {
-  using S = Seam;
-  const auto edge = [](const char* key, PatchEdge S::*member) {
+  using S = SeamCase;
+  const auto edge = [](const char* key, PatchEdge Seam::*member) {
     Field f = fieldOf(key, Kind::text, "", any(), "a patch and its side, such as 0.u1");
     f.required = true;
     return std::tuple(
@@ -191,25 +191,31 @@ Object seamTable() {
         [member](const Place& p, S& s) {
           const EdgeAt e = readEdgeAt(p);
           if (e.patch < 0) p.fail("a seam names the patch as well; allowed: such as 0.u1");
-          (s.*member).patch = e.patch;
-          (s.*member).side = e.side;
+          (s.seam.*member).patch = e.patch;
+          (s.seam.*member).side = e.side;
         },
         [member](const S& s) {
-          return std::optional(nodeOf(EdgeAt{(s.*member).patch, (s.*member).side}));
+          return std::optional(nodeOf(EdgeAt{(s.seam.*member).patch, (s.seam.*member).side}));
         });
   };
-  const auto [fa, ra, wa] = edge("a", &S::a);
-  const auto [fb, rb, wb] = edge("b", &S::b);
+  const auto [fa, ra, wa] = edge("a", &Seam::a);
+  const auto [fb, rb, wb] = edge("b", &Seam::b);
   return Table<S>("Seam")
       .custom(fa, ra, wa)
       .custom(fb, rb, wb)
       .flag(
-          "reversed", [](auto& s) -> auto& { return s.b.reversed; }, "b runs against a")
+          "reversed", [](auto& s) -> auto& { return s.seam.b.reversed; }, "b runs against a")
       .choice(
-          "kind", &S::kind, seam_kinds,
+          "kind", [](auto& x) -> auto& { return x.seam.kind; }, seam_kinds,
           "G1: tangents joined as well, for smooth shapes with a constant ratio of the tangents' lengths; C0: joined "
           "by position, a hinge with the given stiffness")
-      .number("stiffness", &S::stiffness_N, "N/rad", between(0, 1e12), "rotational spring: moment per length and angle")
+      .number(
+          "stiffness", [](auto& x) -> auto& { return x.seam.stiffness_N; }, "N/rad", between(0, 1e12),
+          "rotational spring: moment per length and angle")
+      .flag(
+          "weak", &S::weak,
+          "for edges whose knots, degrees or weights differ, or of which one lies on a part of the other: joined by a "
+          "penalty; G1 then keeps the angle between the patches")
       .build();
 }
 
@@ -218,11 +224,12 @@ Object nurbsTable() {
   return Table<S>("Patches")
       .list("patches", &S::patches, patchTable(), "the patches")
       .required()
-      .list("seams", &S::seams, seamTable(), "how they are joined: edges with the same degree, knots and weights")
+      .list("seams", &S::seams, seamTable(),
+            "how they are joined: edges with the same degree, knots and weights (others: weak)")
       .check([](const Place& p, const S& s) {
         if (s.patches.empty()) p.failAt("patches", "there is none; allowed: at least one");
         for (std::size_t i = 0; i < s.seams.size(); ++i)
-          for (const int patch : {s.seams[i].a.patch, s.seams[i].b.patch})
+          for (const int patch : {s.seams[i].seam.a.patch, s.seams[i].seam.b.patch})
             if (patch >= static_cast<int>(s.patches.size()))
               p.member(*p.node.find("seams"))
                   .item(i)
@@ -302,23 +309,24 @@ Object trimTable() {
           .build();
   Field points = fieldOf("points", Kind::rows, "m", world, "corners [s, t] in order, " + trim_lengths);
   points.required = true;
-  const Object polygon_table =
-      Table<TrimPolygon>("Polygon")
-          .custom(
-              points,
-              [](const Place& p, TrimPolygon& c) {
-                if (p.node.type != JsonNode::Type::list) p.fail("expected a list of points, not " + describe(p.node));
-                for (std::size_t i = 0; i < p.node.children.size(); ++i)
-                  c.points.push_back(readPair(p.item(i), "m", world));
-                if (c.points.size() < 3)
-                  p.fail(fmt::format("there are {} corners; allowed: at least 3", c.points.size()));
-              },
-              [](const TrimPolygon& c) {
-                JsonNode list = emptyList();
-                for (const Vec2& x : c.points) list.children.push_back(nodeOf(x));
-                return std::optional(list);
-              })
-          .build();
+  const auto corners = [&](auto kind, const std::string& title) {
+    using C = decltype(kind);
+    return Table<C>(title)
+        .custom(
+            points,
+            [](const Place& p, C& c) {
+              if (p.node.type != JsonNode::Type::list) p.fail("expected a list of points, not " + describe(p.node));
+              for (std::size_t i = 0; i < p.node.children.size(); ++i)
+                c.points.push_back(readPair(p.item(i), "m", world));
+              if (c.points.size() < 3) p.fail(fmt::format("there are {} points; allowed: at least 3", c.points.size()));
+            },
+            [](const C& c) {
+              JsonNode list = emptyList();
+              for (const Vec2& x : c.points) list.children.push_back(nodeOf(x));
+              return std::optional(list);
+            })
+        .build();
+  };
   const Object curves_table = Table<TrimCurves>("Curves")
                                   .list("curves", &TrimCurves::curves, curveTable(),
                                         "NURBS curves in order, each starting where the one before ends")
@@ -330,7 +338,10 @@ Object trimTable() {
   return Table<T>("Trimming loop")
       .alternative<TrimCircle>("circle", &T::loop, circle_table, "an exact circle")
       .in("loop")
-      .alternative<TrimPolygon>("polygon", &T::loop, polygon_table, "straight edges")
+      .alternative<TrimPolygon>("polygon", &T::loop, corners(TrimPolygon{}, "Polygon"), "straight edges")
+      .in("loop")
+      .alternative<TrimSpline>("spline", &T::loop, corners(TrimSpline{}, "Spline"),
+                               "a smooth closed curve through points (plate)")
       .in("loop")
       .alternative<TrimCurves>("loop", &T::loop, curves_table, "a chain of NURBS curves")
       .in("loop")

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/dynamics/structure_system.hpp"
-#include "core/nurbs/trim.hpp"
+#include "core/sheet/trim_mesh.hpp"
 
 namespace gambeson {
 namespace {
@@ -282,24 +282,27 @@ ShapeMesh shapeMesh(const Garment& g, int samples_per_cell) {
     const NurbsPatch& patch = g.patches[p];
     const std::vector<double> us = sampled(patch.u), vs = sampled(patch.v);
     const bool trimmed = !g.trims.empty() && !g.trims[p].loops.empty();
-    std::vector<int> index(us.size() * vs.size(), -1);
-    for (std::size_t j = 0; j < vs.size(); ++j)
-      for (std::size_t i = 0; i < us.size(); ++i) {
-        if (trimmed && !isKept(patch, g.trims[p], {us[i], vs[j]})) continue;
-        index[i + us.size() * j] = static_cast<int>(mesh.uv.size());
-        mesh.patch.push_back(static_cast<int>(p));
-        mesh.uv.push_back({us[i], vs[j]});
-        mesh.fraction.push_back({(us[i] - patch.u.front()) / (patch.u.back() - patch.u.front()),
-                                 (vs[j] - patch.v.front()) / (patch.v.back() - patch.v.front())});
-      }
-    const auto add = [&](int a, int b, int c) {
-      if (a >= 0 && b >= 0 && c >= 0) mesh.triangles.push_back({a, b, c});
+    const auto point = [&](Vec2 uv) {
+      mesh.patch.push_back(static_cast<int>(p));
+      mesh.uv.push_back(uv);
+      mesh.fraction.push_back({(uv.x - patch.u.front()) / (patch.u.back() - patch.u.front()),
+                               (uv.y - patch.v.front()) / (patch.v.back() - patch.v.front())});
     };
-    for (std::size_t j = 0; j + 1 < vs.size(); ++j)
-      for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-        const std::size_t k = i + us.size() * j;
-        add(index[k], index[k + 1], index[k + us.size() + 1]);
-        add(index[k], index[k + us.size() + 1], index[k + us.size()]);
+    if (trimmed) {
+      const int first = static_cast<int>(mesh.uv.size());
+      const TrimMesh cut = trimMesh(patch, g.trims[p], us, vs);
+      for (const Vec2& uv : cut.uv) point(uv);
+      for (const auto& t : cut.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      continue;
+    }
+    const int first = static_cast<int>(mesh.uv.size()), across = static_cast<int>(us.size());
+    for (const double v : vs)
+      for (const double u : us) point({u, v});
+    for (int j = 0; j + 1 < static_cast<int>(vs.size()); ++j)
+      for (int i = 0; i + 1 < across; ++i) {
+        const int k = first + i + across * j;
+        mesh.triangles.push_back({k, k + 1, k + across + 1});
+        mesh.triangles.push_back({k, k + across + 1, k + across});
       }
   }
   return mesh;

@@ -257,6 +257,10 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
                     escape("The run did not reach its end: " + s.at("why").get<std::string>() +
                            ". What follows is what converged before."),
                     " class=\"alarm\" role=\"alert\"");
+  if (s.contains("jumps") && s.at("jumps").get<int>() > 0)
+    body += html::notice(
+        "A load step went over a limit point and landed on a stable state beyond it (column \"jumped\" of path.csv): "
+        "the path between is not known. \"arc_length\": true follows it.");
   const std::string sentence = sentenceOf(c, s);
   std::string head = element("div", element("p", escape(sentence), " class=\"sentence\""), " class=\"words\"");
   if (!pictures.empty()) head += figureOf(pictures.front());

@@ -23,6 +23,7 @@ struct StructureFacts {
   bool finished = false;
   std::string why;  ///< else
   long points = 0, factorisations = 0, iterations = 0;
+  int jumps = 0;  ///< of load steps over limit points
   double wall_s = 0, build_s = 0, solve_s = 0;
   int threads = 1;
 };

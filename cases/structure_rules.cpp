@@ -50,7 +50,14 @@ void checkSheet(const Place& root, SheetCase& s) {
     if (s.split) sheet.failAt("split", "goes with nurbs and file; give cells_u and cells_v");
     s.cells_u = s.cells_u.value_or(16);
     s.cells_v = s.cells_v.value_or(16);
+    constexpr long most = 250000;
+    if (static_cast<long>(*s.cells_u) * *s.cells_v > most)
+      sheet.failAt("cells_u", fmt::format("{} x {} cells are too many; allowed: at most {} together", *s.cells_u,
+                                          *s.cells_v, most));
   } else {
+    for (std::size_t i = 0; i < s.trim.size(); ++i)
+      if (std::holds_alternative<TrimSpline>(s.trim[i].loop))
+        itemOf(sheet, "trim", i).failAt("spline", "goes with a plate; give a loop of curves");
     for (const char* key : {"cells_u", "cells_v"})
       if (sheet.node.find(key)) sheet.failAt(key, "goes with built shapes; patches of your own are refined by split");
     s.split = s.split.value_or(1);

@@ -125,19 +125,21 @@ void solve(const StaticReport& report, StructureFacts& facts) {
 }
 
 void runStatic(const StructureCase& c, Run& run) {
-  run.columns({"factor", "iterations", "residual", "negative_pivots", "strain_energy_J"});
+  run.columns({"factor", "iterations", "residual", "negative_pivots", "jumped", "strain_energy_J"});
   const Structure& s = run.structure();
   Progress progress(1, 0, stderr, "");
   // The start of every path, so that tables and plots have it.
   const std::vector<double> rest(static_cast<std::size_t>(s.dofs.unknowns()), 0.0);
   const MeasuredState start = measureStatic(s, rest, 0, c.statics.linear);
-  run.add(start, {0, 0, 0, 0, start.strain_energy_J});
+  run.add(start, {0, 0, 0, 0, 0, start.strain_energy_J});
   attempt(run.facts, [&] {
     solve(solveStatic(s, c.statics,
                       [&](const StaticPoint& p) {
                         const MeasuredState state = measureStatic(s, p.y, p.factor, c.statics.linear);
-                        run.add(state, {p.factor, static_cast<double>(p.iterations), p.residual,
-                                        static_cast<double>(p.negative_pivots), state.strain_energy_J});
+                        run.add(state,
+                                {p.factor, static_cast<double>(p.iterations), p.residual,
+                                 static_cast<double>(p.negative_pivots), p.jumped ? 1. : 0., state.strain_energy_J});
+                        run.facts.jumps += p.jumped ? 1 : 0;
                         ++run.facts.points;
                         run.facts.iterations += p.iterations;
                         progress.update(std::abs(p.factor), "loading");

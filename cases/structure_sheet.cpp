@@ -10,6 +10,7 @@
 #include "cases/structure_shapes.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
+#include "core/sheet/trim_loops.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson {
@@ -121,7 +122,11 @@ struct Builder {
     fill(g, [&](int, int j) { return annulusPatch(s, g, j); });
   }
   void operator()(const NurbsShape& s) {
-    sheet.garment.seams = s.seams;
+    for (const SeamCase& seam : s.seams)
+      if (seam.weak)
+        sheet.garment.weak_seams.push_back({seam.seam.a, seam.seam.b, seam.seam.kind, seam.seam.stiffness_N});
+      else
+        sheet.garment.seams.push_back(seam.seam);
     for (const NurbsPatch& p : s.patches) {
       const std::array<Vec3, 6> middle = surfaceDerivatives(p, atFraction(p.u, 0.5), atFraction(p.v, 0.5));
       if (!(norm(middle[1]) > 0)) reject("nurbs", "a patch has no direction u in its middle: its points coincide");
@@ -179,6 +184,8 @@ TrimLoop loopOf(const SheetCase& c, const TrimCase& t, const NurbsPatch& patch) 
   TrimLoop loop;
   if (const auto* o = std::get_if<TrimCircle>(&t.loop))
     return {circle(map(o->center), o->radius / su * range_u, o->radius / sv * range_v, !t.keep_inside)};
+  if (const auto* o = std::get_if<TrimSpline>(&t.loop))
+    return splineLoop(patch, o->points, t.keep_inside ? Keep::inside : Keep::outside);
   if (const auto* o = std::get_if<TrimPolygon>(&t.loop))
     for (std::size_t i = 0; i < o->points.size(); ++i)
       loop.push_back(line(map(o->points[i]), map(o->points[(i + 1) % o->points.size()])));

@@ -50,9 +50,15 @@ struct AnnulusShape {
   Vec3 normal{0, 0, 1}, zero{1, 0, 0};
 };
 
+/// `weak`: the edges' knots, degrees or weights may differ; joined by a penalty, WeakSeam.
+struct SeamCase {
+  Seam seam;
+  bool weak = false;
+};
+
 struct NurbsShape {
   std::vector<NurbsPatch> patches;
-  std::vector<Seam> seams;
+  std::vector<SeamCase> seams;
 };
 
 struct SheetFile {
@@ -83,11 +89,15 @@ struct TrimCircle {
 struct TrimPolygon {
   std::vector<Vec2> points;
 };
+/// A smooth closed curve through the points; plates only.
+struct TrimSpline {
+  std::vector<Vec2> points;
+};
 struct TrimCurves {
   std::vector<NurbsCurve> curves;
 };
 struct TrimCase {
-  std::variant<TrimCircle, TrimPolygon, TrimCurves> loop;
+  std::variant<TrimCircle, TrimPolygon, TrimSpline, TrimCurves> loop;
   bool keep_inside = false;  ///< else the inside is a hole
   int patch = 0;
 };

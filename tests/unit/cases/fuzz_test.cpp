@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <sstream>
 
-#include "cases/case.hpp"
+#include "cases/any_case.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
 #include "human/load.hpp"
@@ -129,6 +129,12 @@ const auto readSleeve = [](const std::filesystem::path& file) { readCase(file.pa
 TEST(Fuzz, Cases) {
   fuzz("sleeve_flex.json", library("sleeve_flex.json"), 1, 700, readSleeve);
   fuzz("sphere_drape.json", library("sphere_drape.json"), 2, 700, [](const auto& file) { readCase(file); });
+}
+
+TEST(Fuzz, Structures) {
+  const auto read = [](const std::filesystem::path& file) { readAnyCase(file); };
+  fuzz("cantilever.json", library("cantilever.json"), 11, 500, read);
+  fuzz("roof.json", library("hinged_roof.json"), 12, 300, read);
 }
 
 TEST(Fuzz, HumansAndMotions) {

@@ -1,0 +1,208 @@
+/// Runs of structures from file to results, against closed forms.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "cases/structure_run.hpp"
+#include "core/error.hpp"
+#include "structure_example.hpp"
+
+namespace gambeson {
+namespace {
+
+const std::filesystem::path library = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library";
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+/// Runs and gives path.csv by columns.
+std::map<std::string, std::vector<double>> runTable(const StructureCase& c, const std::filesystem::path& out,
+                                                    int threads = 1) {
+  RunOptions options;
+  options.out = out;
+  options.threads = threads;
+  runStructure(c, options);
+  std::istringstream lines(content(out / "path.csv"));
+  std::string line, cell;
+  std::getline(lines, line);
+  std::vector<std::string> names;
+  for (std::istringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
+  std::map<std::string, std::vector<double>> table;
+  while (std::getline(lines, line)) {
+    std::size_t k = 0;
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');) table[names[k++]].push_back(std::stod(cell));
+  }
+  return table;
+}
+
+const std::vector<std::string> no_shapes{"output.shapes=none", "output.pictures=[]"};
+
+std::vector<std::string> with(std::vector<std::string> more) {
+  more.insert(more.end(), no_shapes.begin(), no_shapes.end());
+  return more;
+}
+
+/// The inextensible elastica at P L^2/(E I) = 2 and 4 (theta'' = -(P L^2/EI) cos theta, DOP853 to 1e-12): the strip
+/// itself stretches by 3e-5. Its root carries force and moment.
+TEST(StructureRun, CantileverFollowsTheElastica) {
+  const Folder folder;
+  auto t = runTable(readStructureCase(library / "cantilever.json", no_shapes), folder.path() / "out");
+  ASSERT_EQ(t["factor"].size(), 21u);
+  EXPECT_NEAR(t["tip_ux_m"][10], -1.60642, 1e-4 * 3.3);
+  EXPECT_NEAR(t["tip_uz_m"][10], 4.93457, 1e-4 * 6.7);
+  EXPECT_NEAR(t["tip_ux_m"][20], -3.28941, 1e-4 * 3.3);
+  EXPECT_NEAR(t["tip_uz_m"][20], 6.69964, 1e-4 * 6.7);
+  EXPECT_NEAR(t["root_rz_N"][20], -4, 1e-6);
+  // The moment about the root's middle balances the force at its current arm.
+  EXPECT_NEAR(t["root_my_Nm"][20], 4 * (10 + t["tip_ux_m"][20]), 1e-4);
+  const auto s = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
+  EXPECT_EQ(s.at("points")[0].at("uz_m").get<double>(), t["tip_uz_m"][20]);
+  EXPECT_TRUE(s.at("finished").get<bool>());
+}
+
+/// The same bits for any run and any number of threads.
+TEST(StructureRun, TwiceTheSameBits) {
+  const Folder folder;
+  const StructureCase c = readStructureCase(library / "cantilever.json", with({"solver.steps=4"}));
+  runTable(c, folder.path() / "a");
+  runTable(c, folder.path() / "b", 2);
+  for (const char* file : {"path.csv", "shape.csv"})
+    EXPECT_EQ(content(folder.path() / "a" / file), content(folder.path() / "b" / file)) << file;
+}
+
+/// w = F L^3/(3 E I) (linear, poisson 0), energy F w/2, reactions of the linear problem.
+TEST(StructureRun, LinearCantilever) {
+  const Folder folder;
+  auto t = runTable(readStructureCase(library / "cantilever.json", with({"solver={\"linear\":true}"})),
+                    folder.path() / "out");
+  const double w = 4 * 1000 / (3 * 1.2e6 * 1e-3 / 12);
+  EXPECT_NEAR(t["tip_uz_m"].back(), w, 1e-6 * w);
+  EXPECT_NEAR(t["strain_energy_J"].back(), 4 * w / 2, 1e-6 * w);
+  EXPECT_NEAR(t["root_rz_N"].back(), -4, 1e-7);
+  EXPECT_NEAR(t["root_my_Nm"].back(), 40, 1e-6);
+}
+
+/// A moved end: the force on it is that of the same displacement under a load.
+TEST(StructureRun, MovedSupportPushes) {
+  const Folder folder;
+  const StructureCase c = readStructureCase(
+      library / "cantilever.json", with({R"(supports[1]={"edge":"u1","hold":"z","move":[0,0,6.699736746]})", "loads=[]",
+                                         R"(output.edges[1]={"name":"end","edge":"u1"})"}));
+  auto t = runTable(c, folder.path() / "out");
+  EXPECT_NEAR(t["end_rz_N"].back(), 4, 1e-5);
+  EXPECT_NEAR(t["root_rz_N"].back(), -4, 1e-5);
+}
+
+/// omega = pi^2 (m^2 + n^2) sqrt(D/(rho h)), a thin plate simply supported on all edges.
+TEST(StructureRun, PlateFrequencies) {
+  const Folder folder;
+  auto t = runTable(readStructureCase(library / "plate_modes.json", with({"sheet.cells_u=8", "sheet.cells_v=8"})),
+                    folder.path() / "out");
+  const double pi = std::numbers::pi, d = 70e9 * std::pow(0.005, 3) / (12 * (1 - 0.33 * 0.33));
+  const double unit = pi * pi * std::sqrt(d / (2700 * 0.005));
+  const double expected[] = {2, 5, 5, 8, 10, 10};
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_NEAR(t["omega_rad_per_s"][k] / (unit * expected[k]), 1, 0.01) << "mode " << k + 1;
+}
+
+/// An unsupported sheet falls: z = -g t^2/2 exactly for Newmark with constant acceleration.
+TEST(StructureRun, FreeFall) {
+  const Folder folder;
+  const std::filesystem::path file = folder.write("fall.json", R"({
+    "kind": "dynamic", "name": "fall",
+    "sheet": {"plate": {"width": 1, "height": 1}, "degree": 2, "cells_u": 2, "cells_v": 2},
+    "material": {"isotropic": {"young": 1e6, "thickness": 0.01, "density": 1000}},
+    "loads": [{"gravity": [0, 0, -10]}],
+    "solver": {"scheme": "newmark", "end": 0.5, "step": 0.05},
+    "initial": {"velocity": [2, 0, 0]},
+    "output": {"points": [{"name": "p", "point": [0.3, 0.6]}], "interval": 0.05, "shapes": "none"}})");
+  auto t = runTable(readStructureCase(file), folder.path() / "out");
+  ASSERT_EQ(t["time_s"].size(), 11u);
+  EXPECT_DOUBLE_EQ(t["time_s"].back(), 0.5);
+  EXPECT_NEAR(t["p_uz_m"].back(), -1.25, 1e-9);
+  EXPECT_NEAR(t["p_ux_m"].back(), 1, 1e-9);
+  EXPECT_NEAR(t["p_vz_m_per_s"].back(), -5, 1e-9);
+  EXPECT_NEAR(t["total_energy_J"].back(), 20, 1e-7);  // 10 kg at 2 m/s
+}
+
+/// A missing support is named; the results say so.
+TEST(StructureRun, MechanismIsNamed) {
+  const Folder folder;
+  const StructureCase c =
+      readStructureCase(library / "cantilever.json", with({R"(supports=[{"edge":"u0","hold":"xyz"}])"}));
+  try {
+    runTable(c, folder.path() / "out");
+    ADD_FAILURE() << "a hinged strip is a mechanism";
+  } catch (const RunError& e) {
+    EXPECT_NE(std::string(e.what()).find("What converged before is in"), std::string::npos) << e.what();
+  }
+  const auto s = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
+  EXPECT_FALSE(s.at("finished").get<bool>());
+  EXPECT_FALSE(s.at("why").get<std::string>().empty());
+}
+
+/// A second step a thousand times the first, and few iterations: the first stays.
+TEST(StructureRun, DivergedNewtonLeavesWhatConverged) {
+  const Folder folder;
+  const StructureCase c = readStructureCase(
+      library / "cantilever.json", with({R"(solver={"steps":2,"halvings":0,"iterations":3,"tolerance":1e-6})",
+                                         R"(programs={"late":[[0,0],[0.5,0.001],[1,1]]})", "loads[0].program=late"}));
+  EXPECT_THROW(runTable(c, folder.path() / "out"), RunError);
+  const auto s = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
+  EXPECT_FALSE(s.at("finished").get<bool>());
+  EXPECT_NE(s.at("why").get<std::string>().find("residual"), std::string::npos);
+  EXPECT_EQ(s.at("factor").get<double>(), 0.5);
+  // F L^3/(3 E I), F = 0.004.
+  EXPECT_NEAR(s.at("points")[0].at("uz_m").get<double>(), 0.004 * 1000 / 300, 1e-6);
+}
+
+/// Load steps over a limit point (0.742: Sze, Liu and Lo 2004, section 3.8) land on the far branch, and say so.
+TEST(StructureRun, JumpIsMarked) {
+  const Folder folder;
+  const StructureCase c = readStructureCase(
+      library / "hinged_roof.json",
+      with({R"(solver={"steps":10,"halvings":0,"iterations":2})", "sheet.cells_u=4", "sheet.cells_v=4"}));
+  auto t = runTable(c, folder.path() / "out");
+  const auto at = std::find(t["jumped"].begin(), t["jumped"].end(), 1.) - t["jumped"].begin();
+  ASSERT_LT(at, static_cast<long>(t["jumped"].size()));
+  const auto k = static_cast<std::size_t>(at);
+  EXPECT_GT(t["factor"][k], 0.742);
+  EXPECT_GT(t["centre_uz_m"][k - 1], -11);
+  EXPECT_LT(t["centre_uz_m"][k], -25);
+  EXPECT_EQ(nlohmann::json::parse(content(folder.path() / "out/summary.json")).at("jumps").get<int>(), 1);
+}
+
+/// Pictures and page of a run, and again from its folder.
+TEST(StructureRun, PicturesAndReport) {
+  const Folder folder;
+  runTable(readStructureCase(library / "cantilever.json", {"solver.steps=4", "output.shapes=all"}),
+           folder.path() / "out");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/frames.xdmf"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/snapshots/01_stress_front_right.png"));
+  const std::string page = content(folder.path() / "out/report.html");
+  EXPECT_NE(page.find("Cantilever under an end force"), std::string::npos);
+  EXPECT_NE(page.find("displacement of tip"), std::string::npos);
+  ASSERT_TRUE(holdsStructure(folder.path() / "out"));
+  EXPECT_EQ(reportStructureResults({folder.path() / "out", folder.path() / "again.html"}), 0);
+  EXPECT_EQ(content(folder.path() / "again.html"), page);
+  RenderOptions render;
+  render.results = folder.path() / "out";
+  render.png = folder.path() / "half.png";
+  render.when = PictureTime::at;
+  render.time_s = 0.5;
+  EXPECT_EQ(renderStructureResults(render), 0);
+  EXPECT_GT(std::filesystem::file_size(render.png), 1000u);
+  render.field = PictureField::pressure;
+  EXPECT_THROW(renderStructureResults(render), InputError);
+}
+
+}  // namespace
+}  // namespace gambeson
