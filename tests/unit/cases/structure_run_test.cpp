@@ -164,20 +164,20 @@ TEST(StructureRun, DivergedNewtonLeavesWhatConverged) {
   EXPECT_NEAR(s.at("points")[0].at("uz_m").get<double>(), 0.004 * 1000 / 300, 1e-6);
 }
 
-/// Load steps over a limit point (0.742: Sze, Liu and Lo 2004, section 3.8) land on the far branch, and say so.
+/// Where Newton's path ends and the solver looks for a stable state beyond, the table and the summary say so. (The
+/// limit point is at 0.742: Sze, Liu and Lo 2004, section 3.8.)
 TEST(StructureRun, JumpIsMarked) {
   const Folder folder;
   const StructureCase c = readStructureCase(
       library / "hinged_roof.json",
       with({R"(solver={"steps":10,"halvings":0,"iterations":2})", "sheet.cells_u=4", "sheet.cells_v=4"}));
   auto t = runTable(c, folder.path() / "out");
-  const auto at = std::find(t["jumped"].begin(), t["jumped"].end(), 1.) - t["jumped"].begin();
-  ASSERT_LT(at, static_cast<long>(t["jumped"].size()));
-  const auto k = static_cast<std::size_t>(at);
-  EXPECT_GT(t["factor"][k], 0.742);
-  EXPECT_GT(t["centre_uz_m"][k - 1], -11);
-  EXPECT_LT(t["centre_uz_m"][k], -25);
-  EXPECT_EQ(nlohmann::json::parse(content(folder.path() / "out/summary.json")).at("jumps").get<int>(), 1);
+  const auto jumps = std::count(t["jumped"].begin(), t["jumped"].end(), 1.);
+  EXPECT_GE(jumps, 1);
+  EXPECT_EQ(nlohmann::json::parse(content(folder.path() / "out/summary.json")).at("jumps").get<long>(), jumps);
+  EXPECT_NE(content(folder.path() / "out/report.html").find("over a limit point"), std::string::npos);
+  EXPECT_EQ(t["jumped"][1], 0);
+  EXPECT_LT(t["centre_uz_m"].back(), -25);
 }
 
 /// Pictures and page of a run, and again from its folder.
