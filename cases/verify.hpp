@@ -80,6 +80,10 @@ struct Check {
   // waves: crests of y over x
   double prominence = 0.1;  ///< of a crest, as a part of the largest less the least value
   bool closed = false;      ///< the profile closes on itself: crests are counted; else their mean distance is measured
+  std::optional<Reported> where;  ///< only rows of the run's table in this range
+  /// Instead of `run`: the median over `runs` (seeds); against that over `reference_runs` where there are some.
+  std::vector<std::string> reference_runs;
+  std::optional<Pair> with;  ///< second component: the profile is sqrt(y^2 + with^2), a radius
 
   // wrinkles of `height` over a grid of x and y
   enum class Measure { wavelength, angle };

@@ -292,11 +292,19 @@ void judgeWaves(const Reference& reference, const Check& c, const RunNumbers& nu
   Shown shown;
   shown.title = c.quantity;
   shown.x_name = c.x.column;
-  shown.y_name = c.y.column;
-  const auto measure = [&](const std::string& run, bool, Result& r) {
-    const Numbers& t = numbers.table(run, c.file);
+  shown.y_name = c.with ? "radius" : c.y.column;
+  const auto wavesOf = [&](const std::string& run) {
+    Numbers t = numbers.table(run, c.file);
+    if (c.where)
+      std::erase_if(t.rows, [column = t.find(c.where->column), &w = *c.where](const std::vector<double>& row) {
+        return !(row[column] >= w.from && row[column] <= w.to);
+      });
     const std::vector<double> x = columnOf(t, c.x.column, c.x.scale, c.x.offset);
-    const std::vector<double> y = columnOf(t, c.y.column, c.y.scale, c.y.offset);
+    std::vector<double> y = columnOf(t, c.y.column, c.y.scale, c.y.offset);
+    if (c.with) {
+      const std::vector<double> z = columnOf(t, c.with->column, c.with->scale, c.with->offset);
+      for (std::size_t i = 0; i < y.size(); ++i) y[i] = std::hypot(y[i], z[i]);
+    }
     if (y.size() < 3) throw RunError(fmt::format("{} of run {} has less than three rows", c.file, run));
     for (std::size_t i = 0; i < y.size(); ++i)
       if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
@@ -304,11 +312,29 @@ void judgeWaves(const Reference& reference, const Check& c, const RunNumbers& nu
     shown.measured.push_back({run, x, y});
     const auto [low, high] = std::minmax_element(y.begin(), y.end());
     const std::vector<std::size_t> at = crests(y, c.prominence * (*high - *low), c.closed);
-    if (c.closed) return decide(c, static_cast<double>(at.size()), r);
+    if (c.closed) return static_cast<double>(at.size());
     if (at.size() < 2) throw RunError(fmt::format("run {} has {} crests: no distance", run, at.size()));
-    decide(c, std::abs(x[at.back()] - x[at.front()]) / static_cast<double>(at.size() - 1), r);
+    return std::abs(x[at.back()] - x[at.front()]) / static_cast<double>(at.size() - 1);
   };
-  judgeEach(reference, c, c.run, measure, out);
+  if (c.runs.empty()) {
+    judgeEach(
+        reference, c, c.run, [&](const std::string& run, bool, Result& r) { decide(c, wavesOf(run), r); }, out);
+  } else {
+    out.results.push_back(attempt(resultOf(reference, c, "", true), [&](Result& r) {
+      const auto medianOf = [&](const std::vector<std::string>& runs) {
+        std::vector<double> all;
+        for (const std::string& run : runs) {
+          all.push_back(wavesOf(run));
+          out.convergence.emplace_back(run, all.back());
+        }
+        std::sort(all.begin(), all.end());
+        return 0.5 * (all[(all.size() - 1) / 2] + all[all.size() / 2]);
+      };
+      Check goal = c;
+      if (!c.reference_runs.empty()) goal.reference = medianOf(c.reference_runs);
+      decide(goal, medianOf(c.runs), r);
+    }));
+  }
   out.shown = std::move(shown);
 }
 

@@ -89,8 +89,9 @@ class Files : public RunNumbers {
         if (c.minus) need(*c.minus, c.also);
         if (c.over) need(*c.over, c.also);
       } else {
-        loadTable(c.run, c.file);
-        for (const std::string& run : c.also) loadTable(run, c.file);
+        if (!c.run.empty()) loadTable(c.run, c.file);
+        for (const auto* runs : {&c.also, &c.runs, &c.reference_runs})
+          for (const std::string& run : *runs) loadTable(run, c.file);
       }
     }
   }

@@ -107,10 +107,10 @@ schema::Object pairTable() {
       .build();
 }
 
-schema::Object reportedTable() {
+schema::Object reportedTable(const std::string& title, const std::string& column) {
   using R = Check::Reported;
-  return Fields<R>("Rows that are not gated")
-      .text("column", &R::column, "column of the reference's table")
+  return Fields<R>(title)
+      .text("column", &R::column, column)
       .required()
       .number("from", &R::from, "", schema::any(), "first value")
       .required()
@@ -139,8 +139,9 @@ const std::vector<KindRule>& kinds() {
        {"exact", "power", "reference", "relative", "absolute", "at_least", "at_most"}},
       {"waves",
        Check::Kind::waves,
-       {"run", "x", "y"},
-       {"also", "table", "prominence", "closed", "reference", "relative", "absolute", "at_least", "at_most"}},
+       {"x", "y"},
+       {"run", "runs", "reference_runs", "also", "table", "where", "with", "prominence", "closed", "reference",
+        "relative", "absolute", "at_least", "at_most"}},
       {"wrinkles",
        Check::Kind::wrinkles,
        {"run", "x", "y", "height", "measure"},
@@ -149,12 +150,15 @@ const std::vector<KindRule>& kinds() {
 }
 
 void checkGoal(const Place& p, const Check& c) {
-  const int goals = c.reference.has_value() + (c.at_least || c.at_most);
+  const bool measured = !c.reference_runs.empty();
+  if (measured && c.relative) p.failAt("relative", "reference_runs go with absolute");
+  const int goals = static_cast<int>(c.reference.has_value()) + static_cast<int>(measured) + (c.at_least || c.at_most);
   if (goals != 1) p.fail("needs either reference (with relative or absolute), or at_least, or at_most");
   if (c.at_least && c.at_most) p.failAt("at_most", "at_least and at_most exclude each other");
   const int tolerances = c.relative.has_value() + c.absolute.has_value();
-  if (c.reference && tolerances != 1) p.fail("a reference needs a tolerance: one of relative and absolute");
-  if (!c.reference && tolerances != 0) p.fail("relative and absolute belong to a reference");
+  if ((c.reference || measured) && tolerances != 1)
+    p.fail("a reference needs a tolerance: one of relative and absolute");
+  if (!c.reference && !measured && tolerances != 0) p.fail("relative and absolute belong to a reference");
   if (c.relative && *c.reference == 0) p.failAt("relative", "a reference of 0 needs an absolute tolerance");
 }
 
@@ -187,10 +191,14 @@ schema::Object checkTable() {
   t.object("y", &C::y, pairTable(), "ordinate; of a table check: what is compared");
   t.number("bound", &C::bound, "", tolerance, "largest deviation, as a part of the reference column's largest value");
   boolean(t, "interpolated", &C::interpolated, "the run's rows are interpolated; else each row must be hit");
-  t.object("reported", &C::reported, reportedTable(), "rows that are shown and not gated");
+  t.object("reported", &C::reported, reportedTable("Rows that are not gated", "column of the reference's table"),
+           "rows that are shown and not gated");
   t.custom(
       field("runs", Kind::text_list, "runs from coarse to fine"), [](const Place& p, C& c) { c.runs = readTexts(p); },
       unwritten);
+  t.custom(
+      field("reference_runs", Kind::text_list, "runs whose median is the reference"),
+      [](const Place& p, C& c) { c.reference_runs = readTexts(p); }, unwritten);
   t.custom(
       field("sizes", Kind::list, "their mesh sizes or steps"), [](const Place& p, C& c) { c.sizes = readNumbers(p); },
       unwritten);
@@ -199,6 +207,8 @@ schema::Object checkTable() {
   t.number("prominence", &C::prominence, "", schema::between(0, 1),
            "least prominence of a crest, as a part of the range");
   boolean(t, "closed", &C::closed, "count the crests of a closed profile");
+  t.object("where", &C::where, reportedTable("Rows to take", "column of the run's table"), "only rows in this range");
+  t.object("with", &C::with, pairTable(), "second component: the profile is sqrt(y^2 + with^2)");
   t.object("height", &C::height, pairTable(), "what the wrinkles are of");
   t.choice("measure", &C::measure,
            std::vector<std::pair<std::string, C::Measure>>{{"wavelength", C::Measure::wavelength},
@@ -217,6 +227,9 @@ schema::Object checkTable() {
         p.failAt(n.key, fmt::format("is not for a check of kind {}", rule->name));
     }
     if (c.kind != C::Kind::curve && c.kind != C::Kind::table) checkGoal(p, c);
+    if (c.kind == C::Kind::waves && c.run.empty() == c.runs.empty()) p.fail("needs one of run and runs");
+    if (c.kind == C::Kind::waves && c.runs.empty() && !c.reference_runs.empty())
+      p.failAt("reference_runs", "goes with runs");
     if (c.kind == C::Kind::rate) {
       if (c.runs.size() < (c.exact ? 2u : 3u)) p.failAt("runs", c.exact ? "at least two" : "at least three");
       if (c.sizes.size() != c.runs.size()) p.failAt("sizes", "one for each of runs");
@@ -307,6 +320,7 @@ void checkNames(const Place& p, const Reference& r) {
     };
     for (const std::string& run : c.also) known("also", run);
     for (const std::string& run : c.runs) known("runs", run);
+    for (const std::string& run : c.reference_runs) known("reference_runs", run);
     if (!c.run.empty()) known("run", c.run);
     const auto quantity = [&](const std::string& key, const Quantity& q) {
       if (q.runs.empty()) place.failAt(key, "needs run (or runs)");

@@ -315,6 +315,45 @@ TEST(VerifyWaves, MeanDistance) {
   EXPECT_FALSE(judge({}, c, given).results[0].passed);
 }
 
+TEST(VerifyWaves, FoldsOfAHem) {
+  // Rows of two circles; the outer one, u = 1, has 5 folds, the inner one 3.
+  Given given;
+  Numbers& t = given.tables["a/shape.csv"];
+  t.columns = {"u", "v", "x", "y"};
+  for (const double u : {0.0, 1.0})
+    for (int i = 0; i < 200; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 200;
+      const double radius = 1 + 0.1 * std::cos((u > 0 ? 5 : 3) * angle);
+      t.rows.push_back({u, i / 200.0, radius * std::cos(angle), radius * std::sin(angle)});
+    }
+  Check c;
+  c.kind = Check::Kind::waves;
+  c.run = "a";
+  c.file = "shape.csv";
+  c.x.column = "v";
+  c.y.column = "x";
+  c.with.emplace().column = "y";
+  c.where = {"u", 1, 1};
+  c.closed = true;
+  c.reference = 5;
+  c.absolute = 0.1;
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);
+  c.where = {"u", 0, 0};
+  EXPECT_FALSE(judge({}, c, given).results[0].passed);
+  // Medians against each other. b has the circles in turn: 5 folds at u = 0.
+  given.tables["b/shape.csv"] = t;
+  for (std::vector<double>& row : given.tables["b/shape.csv"].rows) row[0] = 1 - row[0];
+  c.run.clear();
+  c.reference.reset();
+  c.runs = {"a", "b", "a"};
+  c.reference_runs = {"a"};
+  EXPECT_TRUE(judge({}, c, given).results[0].passed);  // 3, 5, 3 against 3
+  c.reference_runs = {"b"};
+  EXPECT_FALSE(judge({}, c, given).results[0].passed);
+  c.reference_runs = {"c"};
+  EXPECT_FALSE(judge({}, c, given).results[0].passed);  // there is no such run
+}
+
 // ---- files, runs, the whole command
 
 const std::string reference_text = R"json({
