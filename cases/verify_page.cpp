@@ -28,6 +28,7 @@ section.reference { border-top:1px solid var(--line); margin-top:36px; } section
 .soft { color:var(--soft); } .meter { display:inline-block; width:90px; height:9px; background:#e8ebf0; border-radius:5px; overflow:hidden; vertical-align:middle; margin-right:8px; }
 .meter i { display:block; height:100%; background:var(--good); } .meter.over i { background:var(--bad); } .meter.free i { background:#8d95a3; }
 details { margin-top:12px; } summary { cursor:pointer; color:var(--accent); }
+.charts figure.chart:only-child { max-width:560px; }
 .panel { margin-top:14px; } th.group { padding-top:18px; color:var(--accent); } a { color:var(--accent); }
 )css";
 
