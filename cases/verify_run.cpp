@@ -253,18 +253,19 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
   if (error) throw RunError(fmt::format("{}: {}", options.out.string(), error.message()));
   options.out = std::filesystem::absolute(options.out);
 
-  std::vector<Job> jobs;
+  // The long half starts first, and of each reference its last run, the finest mesh: so that no long run is left alone
+  // at the end.
   std::vector<std::pair<std::size_t, std::size_t>> owner;  // reference and run of a job
   std::vector<std::vector<Outcome>> outcomes;
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < references.size(); ++i) {
-    for (std::size_t k = 0; k < references[i].runs.size(); ++k) {
-      jobs.push_back(jobOf(references[i], references[i].runs[k], options));
-      owner.emplace_back(i, k);
-    }
+    for (std::size_t k = references[i].runs.size(); k-- > 0;) owner.emplace_back(i, k);
     outcomes.emplace_back(references[i].runs.size());
     missing.push_back(references[i].runs.size());
   }
+  std::stable_partition(owner.begin(), owner.end(), [&](const auto& o) { return !references[o.first].quick; });
+  std::vector<Job> jobs;
+  for (const auto& [i, k] : owner) jobs.push_back(jobOf(references[i], references[i].runs[k], options));
   std::vector<std::optional<Verified>> verified(references.size());
   {
     const bool terminal = isatty(STDERR_FILENO) != 0;
