@@ -23,7 +23,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
     if (!(mass[i] > 0)) throw InputError({"", 0, "garment"}, "a control point would carry no mass");
     inverse[i] = held[i] ? 0 : 1 / mass[i];
   }
-  Shell shell(garment, kernels, options.gauss_extra);
+  Shell shell(garment, kernels, options.gauss_extra, options.cell_rule);
   auto model = std::unique_ptr<Model>(new Model{std::move(shell),
                                                 std::move(map),
                                                 std::move(surface),

@@ -61,6 +61,7 @@ struct Model {
 struct ModelOptions {
   int samples_per_cell = 2;
   int gauss_extra = 0;
+  CellRule cell_rule = CellRule::automatic;
   std::vector<int> held_control_points;
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;

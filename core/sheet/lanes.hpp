@@ -206,5 +206,30 @@ inline void generalLaw(const ShellLaw& law, Lanes& l, const V* e, const V* k, V*
   for (int i = 0; i < 3; ++i) m[i] += coupled[i];
 }
 
+/// The numbers of ShellLaw alone: orthotropic membrane, bending of weft and warp, twist.
+struct FabricLaw {
+  const ShellLaw& law;
+  template <bool kEnergy>
+  void evaluate(const V* e, const V* k, V* n, V* m, V& energy) const {
+    n[0] = law.d1 * e[0] + law.d3 * e[1];
+    n[1] = law.d3 * e[0] + law.d2 * e[1];
+    n[2] = law.d4 * e[2];
+    if constexpr (kEnergy) energy += 0.5 * (n[0] * e[0] + n[1] * e[1] + n[2] * e[2]);
+    m[0] = moment<kEnergy>(k[0], law.bending_weft, law.kappa0, law.kappa_regular, energy);
+    m[1] = moment<kEnergy>(k[1], law.bending_warp, law.kappa0, law.kappa_regular, energy);
+    m[2] = law.twist * k[2];
+    if constexpr (kEnergy) energy += 0.5 * m[2] * k[2];
+  }
+};
+
+struct GeneralLaw {
+  const ShellLaw& law;
+  LawLanes lanes{};
+  template <bool kEnergy>
+  void evaluate(const V* e, const V* k, V* n, V* m, V& energy) const {
+    generalLaw<kEnergy, false>(law, lanes, e, k, n, m, energy);
+  }
+};
+
 }  // namespace
 }  // namespace gambeson

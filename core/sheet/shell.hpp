@@ -48,8 +48,9 @@ struct ShellPart {
   int cell_count = 0;  ///< the rest of the last group are copies without area
 };
 
-/// How cells are integrated. Quadratic patches lock under the full rule; `automatic` takes the remedy for them (see
-/// shell.cpp) and the full rule for other degrees.
+/// How cells are integrated. Quadratic patches lock under the full rule; `automatic` takes assumed
+/// strains with 2 x 2 points (rational, narrow and trimmed patches: 3 x 3) for them (core/sheet/assumed.hpp) and the
+/// full rule for other degrees and for cut cells.
 enum class CellRule { automatic, full };
 
 class Shell {

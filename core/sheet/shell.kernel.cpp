@@ -12,33 +12,9 @@
 namespace gambeson {
 
 void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, int, int, double*);
+void GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, double*, double*);
 
 namespace {
-
-/// The numbers of ShellLaw alone: orthotropic membrane, bending of weft and warp, twist.
-struct FabricLaw {
-  const ShellLaw& law;
-  template <bool kEnergy>
-  void evaluate(const V* e, const V* k, V* n, V* m, V& energy) const {
-    n[0] = law.d1 * e[0] + law.d3 * e[1];
-    n[1] = law.d3 * e[0] + law.d2 * e[1];
-    n[2] = law.d4 * e[2];
-    if constexpr (kEnergy) energy += 0.5 * (n[0] * e[0] + n[1] * e[1] + n[2] * e[2]);
-    m[0] = moment<kEnergy>(k[0], law.bending_weft, law.kappa0, law.kappa_regular, energy);
-    m[1] = moment<kEnergy>(k[1], law.bending_warp, law.kappa0, law.kappa_regular, energy);
-    m[2] = law.twist * k[2];
-    if constexpr (kEnergy) energy += 0.5 * m[2] * k[2];
-  }
-};
-
-struct GeneralLaw {
-  const ShellLaw& law;
-  LawLanes lanes{};
-  template <bool kEnergy>
-  void evaluate(const V* e, const V* k, V* n, V* m, V& energy) const {
-    generalLaw<kEnergy, false>(law, lanes, e, k, n, m, energy);
-  }
-};
 
 /// Resultants and their pull-back at one quadrature point: on return g1, g2, g11, g22, g12 hold the force conjugate to
 /// x,u x,v x,uu x,vv x,uv (times the point's area).
@@ -259,6 +235,7 @@ void forceOfLaw(const ShellBlock& b, const ShellLaw& law, const double* q, doubl
 }
 
 void shellForce(const ShellBlock& b, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
+  if (b.assumed) return GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(b, law, q, cell_force, energy);
   if (b.scattered)
     return energy ? scatteredForce<true>(b, law, q, cell_force, energy)
                   : scatteredForce<false>(b, law, q, cell_force, energy);

@@ -19,7 +19,10 @@ struct PointLaw {
   double kappa0 = 0, kappa_regular = 0;
   double tension = 0;
 };
-constexpr int kLawDoubles = 21;  ///< A, B, D, kappa0, kappa_regular, tension: a PointLaw as the kernels read it
+constexpr int kShareDoubles = 33;  ///< of the ties at a Gauss point, and of the correction of the mean
+constexpr int kMeanDoubles = 75;   ///< of a cell's correction of the mean
+constexpr int kMaxTies = 8;        ///< Gauss points per direction of a cell with assumed strains
+constexpr int kLawDoubles = 21;    ///< A, B, D, kappa0, kappa_regular, tension: a PointLaw as the kernels read it
 static_assert(sizeof(PointLaw) == kLawDoubles * sizeof(double));
 
 /// Cells of one degree pair and one quadrature rule, packed for vectors of `lanes` doubles. All arrays run
@@ -41,11 +44,19 @@ struct ShellBlock {
   AlignedVector<double>
       points;  ///< [group][gv][gu][pointDoubles()][lane]: G11 G12 G21 G22 dA (w w1 w2 w11 w22 w12) (k11 k22 k12)
   bool rest_curvature = false;  ///< whether the rest curvature (physical components) is subtracted
-  AlignedVector<double> laws;   ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
+  /// Assumed strains (core/sheet/assumed.hpp; p = q = 2, not scattered): basis at the two knots of the cell,
+  /// [group][2][2][degree + 1][lane] values and first derivatives; shares of the ties at the Gauss points,
+  /// [point][kShareDoubles][lane]; covariant rest metric at the ties (A11, A22, A12), [group][tieCount()][3][lane];
+  /// rows of the mean gradient and of the correction of the mean strain, and its value at rest,
+  /// [group][kMeanDoubles][lane].
+  bool assumed = false;
+  AlignedVector<double> tie_u, tie_v, tie_share, tie_rest, tie_mean;
+  AlignedVector<double> laws;  ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
 
   int nodeCount() const { return (p + 1) * (q + 1); }
   int pairCount() const { return nodeCount() * (nodeCount() + 1) / 2; }
   int pointDoubles() const { return 5 + (rational ? 6 : 0) + (rest_curvature ? 3 : 0); }
+  int tieCount() const { return 2 * gv + 2 * gu + 4; }
   long firstPoint(int group) const { return scattered ? first_point[group] : static_cast<long>(group) * gu * gv; }
 };
 

@@ -10,17 +10,12 @@
 ///   bending   - mu_I t_J n^T - mu_J n t_I^T - Y (t_I . t_J) n n^T
 /// for rows of I and columns of J.
 
-#include "core/sheet/lanes.hpp"
+#include "core/sheet/assumed.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr int kMaxDegree = 5;
-
-/// Derivatives of one node's basis function in the parameters.
-struct Shape {
-  V d1, d2, d11, d22, d12;
-};
 
 /// Of one node at one point: rows of the strains (a vector each) and of the curvatures (times n), the change of the
 /// normal, and what the resultants make of them.
@@ -35,10 +30,18 @@ struct Changes {
   V3 n[3], m[3];
 };
 
-/// Adds the point's share to all pairs. `kNodes`: their largest number, `nn` the number.
-template <int kNodes>
+/// Where a Gauss point lies among the ties of its cell.
+struct Tied {
+  Ties* ties;
+  const double* share;
+  int gu, gv;
+};
+
+/// Adds the point's share to all pairs. `kNodes`: their largest number, `nn` the number. With assumed strains (`tied`)
+/// the resultants go to the ties, which add the rest of the membrane's share (addTies).
+template <int kNodes, bool kAssumed = false>
 inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, const double* rest, const ShellLaw& law,
-                     LawLanes l, double* pairs) {
+                     LawLanes l, double* pairs, [[maybe_unused]] const Tied* tied = nullptr) {
   V3 a1{}, a2{}, x11{}, x22{}, x12{};
   for (int k = 0; k < nn; ++k) {
     add(a1, N[k].d1, X[k]);
@@ -61,7 +64,14 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
   const V3 n = squareRoot(inv_j2) * normal_j;
   const V3 dual1 = inv_j2 * (C22 * e1 - C12 * e2), dual2 = inv_j2 * (C11 * e2 - C12 * e1);
   const V b11 = dot(n, y11), b22 = dot(n, y22), b12 = dot(n, y12);
-  const V strain[3] = {0.5 * (C11 - 1.0), 0.5 * (C22 - 1.0), C12};
+  V strain[3] = {0.5 * (C11 - 1.0), 0.5 * (C22 - 1.0), C12};
+  // From covariant (11, 22, 2 x 12) to physical components.
+  [[maybe_unused]] const V T[3][3] = {{q11, q13, 0.5 * q12}, {q21, q23, 0.5 * q22}, {2.0 * q31, 2.0 * q33, q32}};
+  if constexpr (kAssumed) {
+    V cov[3];
+    tied->ties->strains(tied->share, tied->gu, tied->gv, cov);
+    for (int i = 0; i < 3; ++i) strain[i] = T[i][0] * cov[0] + T[i][1] * cov[1] + T[i][2] * cov[2];
+  }
   V change[3] = {b11, b22, 2.0 * b12};
   if (rest) {
     change[0] -= load(rest);
@@ -79,6 +89,11 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
     force[i] *= dA;
     moment3[i] *= dA;
   }
+  if constexpr (kAssumed) {
+    V R[3];
+    for (int i = 0; i < 3; ++i) R[i] = T[0][i] * force[0] + T[1][i] * force[1] + T[2][i] * force[2];
+    tied->ties->collect(tied->share, tied->gu, tied->gv, R);
+  }
   const V Y = moment3[0] * b11 + moment3[1] * b22 + 2.0 * moment3[2] * b12;
   const V g111 = dot(y11, dual1), g211 = dot(y11, dual2), g122 = dot(y22, dual1), g222 = dot(y22, dual2),
           g112 = dot(y12, dual1), g212 = dot(y12, dual2);
@@ -92,9 +107,15 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
     r.bend[0] = q11 * N[k].d11 + q12 * N[k].d12 + q13 * N[k].d22 - g111 * r.p1 - g211 * r.p2;
     r.bend[1] = q21 * N[k].d11 + q22 * N[k].d12 + q23 * N[k].d22 - g122 * r.p1 - g222 * r.p2;
     r.bend[2] = 2.0 * (q31 * N[k].d11 + q32 * N[k].d12 + q33 * N[k].d22 - g112 * r.p1 - g212 * r.p2);
-    r.strain[0] = r.p1 * e1;
-    r.strain[1] = r.p2 * e2;
-    r.strain[2] = r.p1 * e2 + r.p2 * e1;
+    if constexpr (kAssumed) {
+      V3 cov[3];
+      tied->ties->rows(tied->share, tied->gu, tied->gv, k, cov);
+      for (int i = 0; i < 3; ++i) r.strain[i] = T[i][0] * cov[0] + T[i][1] * cov[1] + T[i][2] * cov[2];
+    } else {
+      r.strain[0] = r.p1 * e1;
+      r.strain[1] = r.p2 * e2;
+      r.strain[2] = r.p1 * e2 + r.p2 * e1;
+    }
     r.t = r.p1 * dual1 + r.p2 * dual2;
     r.mu = moment3[0] * r.bend[0] + moment3[1] * r.bend[1] + moment3[2] * r.bend[2];
     V bn[3]{}, bm[3]{};
@@ -118,7 +139,7 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
       const V3 tJ = rows[J].t;
       V3 w = r.bend[0] * c.m[0] + r.bend[1] * c.m[1] + r.bend[2] * c.m[2] - rows[J].mu * r.t;
       add(w, -Y * dot(r.t, tJ), n);
-      const V spread = f1 * rows[J].p1 + f2 * rows[J].p2;
+      const V spread = kAssumed ? V{} : f1 * rows[J].p1 + f2 * rows[J].p2;
       const V left[5][3] = {{r.strain[0].x, r.strain[0].y, r.strain[0].z},
                             {r.strain[1].x, r.strain[1].y, r.strain[1].z},
                             {r.strain[2].x, r.strain[2].y, r.strain[2].z},
@@ -162,32 +183,73 @@ void tensorTangent(const ShellBlock& block, const ShellLaw& law, const double* q
         const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 3 * nu * kLanes;
         const long point = (static_cast<long>(group) * block.gv + gv) * block.gu + gu;
         const double* data = block.points.data() + point * stride;
-        for (int j = 0; j < nv; ++j) {
-          const V v0 = load(bv + j * kLanes), v1 = load(bv + (nv + j) * kLanes), v2 = load(bv + (2 * nv + j) * kLanes);
-          for (int i = 0; i < nu; ++i) {
-            const V u0 = load(bu + i * kLanes), u1 = load(bu + (nu + i) * kLanes),
-                    u2 = load(bu + (2 * nu + i) * kLanes);
-            Shape& s = N[i + nu * j];
-            s = {u1 * v0, u0 * v1, u2 * v0, u0 * v2, u1 * v1};
-            if (weights) {
-              // The quotient rule on weight times product over the denominator.
-              const double* w = data + 5 * kLanes;
-              const V inv_w = 1.0 / load(w), w1 = load(w + kLanes), w2 = load(w + 2 * kLanes),
-                      w11 = load(w + 3 * kLanes), w22 = load(w + 4 * kLanes), w12 = load(w + 5 * kLanes);
-              const V over = load(weights + (i + nu * j) * kLanes) * inv_w, s0 = over * u0 * v0;
-              s.d1 = over * s.d1 - inv_w * w1 * s0;
-              s.d2 = over * s.d2 - inv_w * w2 * s0;
-              s.d11 = over * s.d11 - inv_w * (2.0 * w1 * s.d1 + w11 * s0);
-              s.d22 = over * s.d22 - inv_w * (2.0 * w2 * s.d2 + w22 * s0);
-              s.d12 = over * s.d12 - inv_w * (w1 * s.d2 + w2 * s.d1 + w12 * s0);
-            }
-          }
-        }
+        tensorShapes(nu, nv, bu, bv, weights, data + 5 * kLanes, N);
         if (!block.laws.empty()) lawAtPoint(law, block.laws.data() + point * kLawDoubles * kLanes, lanes);
         const double* rest = block.rest_curvature ? data + (5 + (block.rational ? 6 : 0)) * kLanes : nullptr;
         addPoint<kNodes>(nn, X, N, data, rest, law, lanes, out);
       }
     }
+  }
+}
+
+/// n^ab N_I,a N_J,b of the ties, on the diagonal of each pair's block.
+void addTies(const Ties& ties, double* pairs) {
+  V spread[45]{};
+  for (int component = 0; component < 3; ++component)
+    for (int knot = 0; knot < 2; ++knot)
+      for (int g = 0; g < ties.count[component]; ++g) {
+        const Tie& t = ties.at[component][knot][g];
+        int pair = 0;
+        for (int I = 0; I < 9; ++I) {
+          const V f1 = t.force[0] * t.d1[I] + t.force[2] * t.d2[I], f2 = t.force[2] * t.d1[I] + t.force[1] * t.d2[I];
+          for (int J = I; J < 9; ++J) spread[pair++] += f1 * t.d1[J] + f2 * t.d2[J];
+        }
+      }
+  for (int i = 0; i < 3; ++i)
+    for (int c = 0; c < 2; ++c) {
+      int pair = 0;
+      for (int I = 0; I < 9; ++I) {
+        const V f = ties.mean_force[i] * ties.gradient[c][I], h = ties.mean_force[i] * ties.excess[i][c][I];
+        for (int J = I; J < 9; ++J) spread[pair++] += f * ties.excess[i][c][J] + h * ties.gradient[c][J];
+      }
+    }
+  for (int pair = 0; pair < 45; ++pair)
+    for (int d = 0; d < 9; d += 4) {
+      double* at = pairs + (9 * pair + d) * kLanes;
+      store(at, load(at) + spread[pair]);
+    }
+}
+
+void assumedTangent(const ShellBlock& block, const ShellLaw& law, const double* q, int first, int count,
+                    double* pairs) {
+  constexpr int nn = 9;
+  const int stride = block.pointDoubles() * kLanes;
+  const long pair_doubles = static_cast<long>(block.pairCount()) * 9 * kLanes;
+#pragma omp parallel for schedule(static) if (count > 4)
+  for (int group = first; group < first + count; ++group) {
+    V3 X[nn];
+    Shape N[nn];
+    const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
+    const double* weights = block.rational ? block.weights.data() + static_cast<long>(group) * nn * kLanes : nullptr;
+    for (int k = 0; k < nn; ++k) X[k] = gather(q, nodes + k * kLanes);
+    double* out = pairs + (group - first) * pair_doubles;
+    for (long k = 0; k < pair_doubles; k += kLanes) store(out + k, V{});
+    Ties ties(block, group, weights, X);
+    LawLanes lanes;
+    constantLaw(law, lanes);
+    for (int gv = 0; gv < block.gv; ++gv)
+      for (int gu = 0; gu < block.gu; ++gu) {
+        const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 9 * kLanes;
+        const double* bv = block.basis_v.data() + (static_cast<long>(group) * block.gv + gv) * 9 * kLanes;
+        const long point = (static_cast<long>(group) * block.gv + gv) * block.gu + gu;
+        const double* data = block.points.data() + point * stride;
+        tensorShapes(3, 3, bu, bv, weights, data + 5 * kLanes, N);
+        if (!block.laws.empty()) lawAtPoint(law, block.laws.data() + point * kLawDoubles * kLanes, lanes);
+        const double* rest = block.rest_curvature ? data + (5 + (block.rational ? 6 : 0)) * kLanes : nullptr;
+        const Tied tied{&ties, block.tie_share.data() + point * kShareDoubles * kLanes, gu, gv};
+        addPoint<nn, true>(nn, X, N, data, rest, law, lanes, out, &tied);
+      }
+    addTies(ties, out);
   }
 }
 
@@ -222,6 +284,7 @@ void scatteredTangent(const ShellBlock& block, const ShellLaw& law, const double
 void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, int, int, double*);
 void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock& b, const ShellLaw& law, const double* q, int first,
                                                   int count, double* pairs) {
+  if (b.assumed) return assumedTangent(b, law, q, first, count, pairs);
   if (b.scattered) return scatteredTangent(b, law, q, first, count, pairs);
   if (b.p == 2 && b.q == 2) return tensorTangent<2, 2>(b, law, q, first, count, pairs);
   if (b.p == 3 && b.q == 3) return tensorTangent<3, 3>(b, law, q, first, count, pairs);
