@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/render/render.hpp"
+#include "core/dynamics/strain_limit.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/vec.hpp"
 #include "core/sheet/garment.hpp"
@@ -150,6 +151,14 @@ struct ContactCase {
   int max_iterations = 400;
 };
 
+/// Strain limiting of weft and warp by projection (core/dynamics/strain_limit.hpp).
+struct StrainLimitCase {
+  LimitMode mode = LimitMode::upper_limit;
+  std::optional<double> limit;  ///< Green-Lagrange strain, of upper_limit alone
+  double tolerance = 2e-3;      ///< of the strain
+  int max_projections = 40;     ///< of one pass
+};
+
 struct AirCase {
   double drag_kg_per_m2s = 0;
   Vec3 velocity_m_per_s;
@@ -214,6 +223,7 @@ struct Case {
   std::vector<ObstacleCase> obstacles;
   std::vector<SupportCase> supports;
   ContactCase contact;
+  std::optional<StrainLimitCase> strain_limit;
   AirCase air;
   DressingCase dressing;
   TimeCase time;

@@ -24,6 +24,10 @@ enum Column {
   kWorkFriction,
   kWorkDrag,
   kWorkSupports,
+  kWorkLimit,
+  kProjections,
+  kUnlimited,
+  kLimitResidual,
   kKinetic,
   kInternal,
   kGravity,
@@ -64,13 +68,34 @@ std::vector<Vec3> vectors(const std::vector<double>& values) {
 }  // namespace
 
 const std::vector<std::string>& stepColumns() {
-  static const std::vector<std::string> names{
-      "steps",           "shortest_step_s", "longest_step_s",    "most_contacts",
-      "impacts",         "iterations",      "unconverged_steps", "largest_residual_m_per_s",
-      "momentum_error",  "deepest_m",       "work_contact_J",    "work_separation_J",
-      "work_friction_J", "work_drag_J",     "work_supports_J",   "kinetic_J",
-      "internal_J",      "gravity_J",       "springs_J",         "frequency_rad_per_s",
-      "membrane_share",  "bending_share",   "seam_share",        "spring_share"};
+  static const std::vector<std::string> names{"steps",
+                                              "shortest_step_s",
+                                              "longest_step_s",
+                                              "most_contacts",
+                                              "impacts",
+                                              "iterations",
+                                              "unconverged_steps",
+                                              "largest_residual_m_per_s",
+                                              "momentum_error",
+                                              "deepest_m",
+                                              "work_contact_J",
+                                              "work_separation_J",
+                                              "work_friction_J",
+                                              "work_drag_J",
+                                              "work_supports_J",
+                                              "work_limit_J",
+                                              "projections",
+                                              "unlimited_steps",
+                                              "largest_limit_residual",
+                                              "kinetic_J",
+                                              "internal_J",
+                                              "gravity_J",
+                                              "springs_J",
+                                              "frequency_rad_per_s",
+                                              "membrane_share",
+                                              "bending_share",
+                                              "seam_share",
+                                              "spring_share"};
   return names;
 }
 
@@ -105,6 +130,7 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
              {"a", doubles(s.a)},
              {"anchors", doubles(s.anchors)},
              {"mode", doubles(s.mode)}};
+  c.reals["limit"] = s.limit_J;
   c.reals["sums"] = doubles(std::vector<Vec3>{s.sums.drag, s.sums.springs, s.sums.held});
   c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s, f.largest_rad_per_s, f.membrane_share,
                         f.bending_share,       f.seam_share,  f.spring_share};
@@ -127,6 +153,7 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   s.a = vectors(c.reals.at("a"));
   s.anchors = vectors(c.reals.at("anchors"));
   s.mode = vectors(c.reals.at("mode"));
+  s.limit_J = c.reals.at("limit");
   const std::vector<Vec3> sums = vectors(c.reals.at("sums"));
   s.sums = {sums[0], sums[1], sums[2]};
   const std::vector<double>& control = c.reals.at("control");
@@ -149,6 +176,7 @@ Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
       supports_(scenario.supports.size()),
       contact_(scenario.model->surface.size()),
       normal_(scenario.model->surface.size()),
+      limit_(scenario.model->strain_rows.rows(), 0),
       steps_(kColumns, 0) {}
 
 void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepWork& work,
@@ -191,6 +219,11 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   steps_[kWorkFriction] += r.work.friction;
   steps_[kWorkDrag] += r.work.drag;
   steps_[kWorkSupports] += r.work.supports;
+  steps_[kWorkLimit] += r.work.limit;
+  steps_[kProjections] += r.limit.projections;
+  steps_[kUnlimited] += r.limit.converged ? 0 : 1;
+  most(kLimitResidual, r.limit.residual);
+  for (std::size_t i = 0; i < limit_.size(); ++i) limit_[i] += r.step_s * after.limit_J[i];
   steps_[kFrequency] = f.largest_rad_per_s;
   steps_[kMembrane] = f.membrane_share;
   steps_[kBending] = f.bending_share;
@@ -277,6 +310,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   std::fill(supports_.begin(), supports_.end(), Vec3{});
   std::fill(contact_.begin(), contact_.end(), Vec3{});
   std::fill(normal_.begin(), normal_.end(), 0.0);
+  std::fill(limit_.begin(), limit_.end(), 0.0);
   std::fill(steps_.begin(), steps_.end(), 0.0);
 }
 
@@ -299,9 +333,15 @@ void Recorder::appendFrame(const State& state, double window) {
   contact.data = floats(force);
   Field s1{"stress", "N/m", 1, std::vector<float>(n)}, s2{"stress_second", "N/m", 1, std::vector<float>(n)};
   Field e1{"strain", "1", 1, std::vector<float>(n)}, e2{"strain_second", "1", 1, std::vector<float>(n)};
+  // Strain limits pull in impulses, one a step: like the contact forces, the mean over the window.
+  for (double& l : limit_) l /= window;
+  const std::vector<Vec2> limits = limit_.empty() ? std::vector<Vec2>{} : limitStress(m.strain_rows, limit_);
 #pragma omp parallel for schedule(static)
   for (int s = 0; s < n; ++s) {
-    const ShellStress stress = m.shell.stressAt(m.surface.patch[s], m.surface.parameters[s], q);
+    const int patch = m.surface.patch[s];
+    const Vec2 uv = m.surface.parameters[s];
+    const ShellStress stress =
+        m.shell.stressAt(patch, uv, q, limits.empty() ? Vec2{} : limitStressAt(m.strain_rows, limits, patch, uv));
     s1.data[s] = static_cast<float>(stress.principal1_N_per_m);
     s2.data[s] = static_cast<float>(stress.principal2_N_per_m);
     e1.data[s] = static_cast<float>(stress.strain1);

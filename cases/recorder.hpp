@@ -49,6 +49,7 @@ class Recorder {
   std::vector<Vec3> supports_;
   std::vector<Vec3> contact_;   ///< impulse per sample over the window
   std::vector<double> normal_;  ///< its normal part
+  std::vector<double> limit_;   ///< multipliers of the strain limits times time, over the window
   std::vector<double> steps_;   ///< sums and extremes, in the order of stepColumns()
 };
 

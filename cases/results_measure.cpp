@@ -212,6 +212,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   if (s.human) measureJoints(s, bodies, out);
   measureSupports(s, motionRows(recording, "supports"), out);
   measureSteps(recording, out);
+  out.limited = s.definition.strain_limit.has_value();
   out.regions = regionsOf(s);
   measureFrames(recording, out);
   if (const JointMeasure* joint = out.highest(); joint && !out.windows.empty()) {

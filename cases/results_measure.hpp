@@ -67,12 +67,14 @@ struct StepMeasure {
   double largest_residual_m_per_s = 0, momentum_error = 0, momentum_error_time_s = 0;
   double deepest_m = 0, deepest_time_s = 0;  ///< of a sample, in the motion
   double mean_iterations = 0;
+  long projections = 0, unlimited = 0;  ///< strain limits: projections, and steps that they did not hold in
+  double largest_limit_residual = 0;    ///< of the strain
 };
 
 /// Change of the total energy from the end of the first window of the motion, against the works since [J].
 struct EnergyMeasure {
-  double change = 0, contact = 0, friction = 0, separation = 0, drag = 0, supports = 0, absolute = 0;
-  double drift() const { return change - (contact + drag + supports); }
+  double change = 0, contact = 0, friction = 0, separation = 0, drag = 0, supports = 0, limit = 0, absolute = 0;
+  double drift() const { return change - (contact + drag + supports + limit); }
   double relative() const { return absolute > 0 ? drift() / absolute : 0; }
 };
 
@@ -104,6 +106,7 @@ struct Measured {
   std::vector<StressSummary> stress;
   StepMeasure steps;
   EnergyMeasure energy;
+  bool limited = false;                       ///< whether the case limits strain
   std::optional<SurfaceDepth> surface_depth;  ///< costs seconds: only where asked for
   std::optional<RecordedRange> recorded;
 

@@ -27,6 +27,9 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     iterations += at("iterations");
     m.steps += std::lround(at("steps"));
     m.unconverged += std::lround(at("unconverged_steps"));
+    m.projections += std::lround(at("projections"));
+    m.unlimited += std::lround(at("unlimited_steps"));
+    m.largest_limit_residual = std::max(m.largest_limit_residual, at("largest_limit_residual"));
     m.impacts += std::lround(at("impacts"));
     m.shortest_s = std::min(m.shortest_s, at("shortest_step_s"));
     m.longest_s = std::max(m.longest_s, at("longest_step_s"));
@@ -53,7 +56,9 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     e.separation += at("work_separation_J");
     e.drag += at("work_drag_J");
     e.supports += at("work_supports_J");
-    e.absolute += std::abs(at("work_contact_J")) + std::abs(at("work_drag_J")) + std::abs(at("work_supports_J"));
+    e.limit += at("work_limit_J");
+    e.absolute += std::abs(at("work_contact_J")) + std::abs(at("work_drag_J")) + std::abs(at("work_supports_J")) +
+                  std::abs(at("work_limit_J"));
   }
   if (m.steps == 0) m.shortest_s = 0;
   m.mean_s = m.steps > 0 ? time / static_cast<double>(m.steps) : 0;

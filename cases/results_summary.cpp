@@ -150,6 +150,14 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                          {"largest_residual_m_per_s", m.steps.largest_residual_m_per_s},
                          {"mean_iterations", m.steps.mean_iterations},
                          {"impacts", m.steps.impacts}};
+  if (m.limited)
+    j["strain_limit"] = {
+        {"largest_residual", m.steps.largest_limit_residual},
+        {"projections", m.steps.projections},
+        {"projections_per_step",
+         m.steps.steps > 0 ? static_cast<double>(m.steps.projections) / static_cast<double>(m.steps.steps) : 0},
+        {"unconverged_steps", m.steps.unlimited},
+        {"work_J", m.energy.limit}};
   j["audit"] = auditJson(m);
   if (m.recorded) j["recording"] = recordedJson(*m.recorded);
   Json phases = Json::object();

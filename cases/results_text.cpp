@@ -90,6 +90,11 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
       {"Contact solver",
        m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
        "%", "share of the steps whose contacts were not solved to the tolerance of the case"}};
+  if (m.limited)
+    checks.push_back(
+        {"Strain limit",
+         m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unlimited) / static_cast<double>(m.steps.steps) : 0, 1,
+         "%", "share of the steps at whose end a thread missed its strain by more than the tolerance of the case"});
   if (m.surface_depth)
     checks.push_back(
         {"Penetration between samples", 1e3 * m.surface_depth->deepest_m, 0.2, "mm",
@@ -147,6 +152,15 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
   say("Contact is tested at the cloth's samples against the body's surface; edges are not tested against edges.");
   say("The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and orthotropic "
       "(Zheng 2013, eq. 2.13).");
+  if (c.strain_limit)
+    say(c.strain_limit->mode == LimitMode::equality
+            ? "Weft and warp keep their length by projection at the vertices of the knot mesh (Zheng 2013, chapter 5); "
+              "stress includes what that takes, as a mean over the window."
+            : fmt::format(
+                  "Weft and warp are kept from stretching beyond a strain of {} by projection at the vertices of "
+                  "the knot mesh (Zheng 2013, chapter 5); stress includes what that takes, as a mean over the "
+                  "window.",
+                  formatNumber(*c.strain_limit->limit)));
   if (f.bending_law == BendingLaw::zheng)
     say(
         fmt::format("Bending follows Zheng 2013, eq. 2.14. Its root is replaced by a smooth cubic below a curvature of "

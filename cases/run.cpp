@@ -102,6 +102,7 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.phases_s = {{"body motion", work.times.stage},        {"finding contacts", work.times.proximity},
                     {"solving contacts", work.times.contact}, {"finding impacts", work.times.impact},
                     {"cloth forces", work.times.force},       {"other", work.times.other}};
+  if (c.strain_limit) facts.phases_s.insert(facts.phases_s.end() - 1, {"limiting strain", work.times.limit});
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
   writeResults(*scenario, options.out);

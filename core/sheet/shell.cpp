@@ -576,8 +576,9 @@ ShellState Shell::stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   return state;
 }
 
-ShellStress Shell::stressAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
-  const auto [e, change, n, m] = stateAt(patch, uv, q);
+ShellStress Shell::stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m) const {
+  const auto [e, change, of_strain, m] = stateAt(patch, uv, q);
+  const Vec3 n = of_strain + Vec3{more_N_per_m.x, more_N_per_m.y, 0};
   const double E11 = e.x, E22 = e.y, E12 = 0.5 * e.z, C11 = 2 * E11 + 1, C22 = 2 * E22 + 1, C12 = 2 * E12;
   // Principal values of F n Fᵀ / J are those of n C / J.
   const double J = std::sqrt(C11 * C22 - C12 * C12);

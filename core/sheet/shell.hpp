@@ -67,7 +67,8 @@ class Shell {
   void cellForces(std::span<const Vec3> q, ShellWork& work, double* energy = nullptr,
                   const ShellTerms& terms = {}) const;
   /// Stress and strain at a point of a patch.
-  ShellStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  /// `more_N_per_m` is added to the second Piola-Kirchhoff resultants along weft and warp (of strain limits, say).
+  ShellStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m = {}) const;
   /// Strains and resultants at a point of a patch.
   ShellState stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   /// Physical curvature (weft, warp, twist) at a point of a patch, the rest curvature not subtracted [1/m].

@@ -315,8 +315,8 @@ TEST(LimitedStep, TheirWorkIsInTheAudit) {
   Motion m = corners(100, {LimitMode::equality, 0, 1e-4});
   const double before = m.energy().total();
   double limit = 0, drag = 0, size = 0;
-  for (int s = 0; s < 3000; ++s) {
-    const StepReport r = m.step(1e-4);
+  for (int s = 0; s < 1200; ++s) {
+    const StepReport r = m.step(5e-4);
     limit += r.work.limit;
     drag += r.work.drag;
     size += std::abs(r.work.limit);
@@ -325,7 +325,8 @@ TEST(LimitedStep, TheirWorkIsInTheAudit) {
   std::printf("[ measured ] change %.5f J, drag %.5f J, limits %.5f J (absolute %.3g)\n", change, drag, limit, size);
   EXPECT_NEAR(change, limit + drag, 1e-3 * std::abs(drag));
   EXPECT_GT(size, 1e-3);
-  EXPECT_LT(std::abs(limit), 0.02 * std::abs(change));
+  EXPECT_LT(size, 0.05 * std::abs(change));  // no chatter
+  EXPECT_LE(limit, 0);
 }
 
 }  // namespace
