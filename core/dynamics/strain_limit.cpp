@@ -7,7 +7,7 @@
 namespace gambeson {
 namespace {
 
-constexpr double kRegular = 1e-3;  ///< of the diagonal, see the header
+constexpr double kRegular = 1e-4;  ///< of the diagonal, see the header
 constexpr double kLargestTurn = 0.5;
 
 void constraints(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> e, std::vector<double>& C) {

@@ -61,20 +61,19 @@ double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span
 ///   (J M^-1 J^T) dt^2 dlambda = C,   dp = - M^-1 J^T dt^2 dlambda,
 /// until the residual is within tolerance; adds to work.multiplier and work.pull, and to the report.
 /// The matrix is factorised at the first iterate and again where the residual has not fallen by a factor of 4.
-/// The diagonal is raised by 1e-3 S_ii. Redundant rows (a line of points between two held edges, say) would make the
+/// The diagonal is raised by 1e-4 S_ii. Redundant rows (a line of points between two held edges, say) would make the
 /// matrix singular; and multipliers that alternate from point to point move the cloth so little that a step's own
 /// second-order stretch (omega dt)^2/2 would call up tensions a thousand times those of the load, whose chatter feeds
-/// energy in (measured on section 5.6.1: absolute work of the limits 20 J against 0.005 J with the term). The term is a
-/// compliance of the threads of 1e-3 S_ii dt^2 per row, that is a thread stiffness 1/(1e-3 S a dt^2): 1.5e7 N/m at 0.5
-/// ms on the mesh of that section, well above any fabric. It slows convergence where the matrix is weak, and changes
-/// no position that has converged. Near a solution that redundant rows isolate (flat between held edges) convergence
-/// is linear.
-/// Where constraints cannot be met (held edges too far apart) it ends unconverged.
-/// A step that would turn or stretch any F D by more than a half is shortened.
-/// upper_limit: each iterate solves the linear complementarity problem lambda >= 0, C + J dp <= 0, of which one is 0,
-/// by block principal pivoting (Judice and Pires 1994), whose fallback to single pivots ends for positive definite
-/// matrices; multipliers of earlier iterates may fall to zero again, so that points are released.
-/// Rows of J annihilate translations and, about p, rotations: momentum is kept where nothing is held.
+/// energy in (measured on section 5.6.1: absolute work of the limits 20 J against 0.002 J with the term). The term is a
+/// compliance of the threads of 1e-4 S_ii dt^2 per row, that is a thread stiffness 1/(1e-4 S a dt^2): 1.5e8 N/m at 0.5
+/// ms on the mesh of that section, well above any fabric. It slows convergence where the matrix is weak (a factor
+/// ten more leaves steps of a 34 x 34 mesh unconverged), and changes no position that has converged. Near a solution
+/// that redundant rows isolate (flat between held edges) convergence is linear. Where constraints cannot be met (held
+/// edges too far apart) it ends unconverged. A step that would turn or stretch any F D by more than a half is
+/// shortened. upper_limit: each iterate solves the linear complementarity problem lambda >= 0, C + J dp <= 0, of which
+/// one is 0, by block principal pivoting (Judice and Pires 1994), whose fallback to single pivots ends for positive
+/// definite matrices; multipliers of earlier iterates may fall to zero again, so that points are released. Rows of J
+/// annihilate translations and, about p, rotations: momentum is kept where nothing is held.
 void projectStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const double> inverse_mass,
                    bool at_least_once, std::span<Vec3> p, LimitReport& report, LimitWork& work);
 
