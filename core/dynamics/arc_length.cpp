@@ -125,9 +125,7 @@ void followArc(System& system, const StaticOptions& options, const StaticObserve
     // A step that turns back has lost the path.
     const double turn = report.points == 0 ? 1 : dot(inc.dy, last) / (norm(inc.dy) * norm(last));
     if (!newton.converged || turn < -0.2) {
-      system.stiffness(state.y, state.factor, state.K);
-      state.definite = state.solver.factorise(state.K);
-      ++report.factorisations;
+      restoreTangent(system, state, report);
       if (++halvings > 2 * options.halvings) {
         report.why = fmt::format(
             "arc length, point {} at factor {:.6g}: the residual is {:.2e} of the forces after {} iterations, with the "

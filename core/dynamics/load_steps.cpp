@@ -18,6 +18,10 @@ std::string likeliestCause(const PathState& state, const NewtonReport& newton, d
   return "too large a step: take more steps";
 }
 
+/// Halvings of a step, failing where the tangent is not positive definite, after which a descent is tried: what lies
+/// ahead is a limit point, and each halving costs two solutions that fail.
+constexpr int kHalvingsBeforeDescent = 3;
+
 }  // namespace
 
 void followLoadSteps(System& system, const StaticOptions& options, const StaticObserver& observe, PathState& state,
@@ -27,6 +31,18 @@ void followLoadSteps(System& system, const StaticOptions& options, const StaticO
   std::vector<double> dg(state.y.size()), dy(state.y.size()), trial;
   double first_stiffness = 0, softening = 1;  // work of the load on the tangent's motion, now against at first
   long position = 0, step = units;
+  int unstable_failures = 0;  ///< of this whole step: Newton failed where the tangent has negative pivots
+  bool descended = false;     ///< in vain, in this whole step
+  /// `trial` is the next point; `dy` was the tangent's way there, with the other sign.
+  const auto accept = [&](double factor, const NewtonReport& newton) {
+    const double before = state.factor;
+    state.y.swap(trial);
+    state.factor = factor;
+    StaticPoint point = acceptPoint(system, state, newton, report);
+    for (double& v : dy) v = -v;
+    point.jumped = hasJumped(system, options, trial, before, dy, state, report);
+    return observe(point);
+  };
   while (position < total) {
     const double next = factorAt(position + step);
     system.change(state.y, state.factor, next, dg);
@@ -53,42 +69,42 @@ void followLoadSteps(System& system, const StaticOptions& options, const StaticO
     }
     if (newton.converged) {
       position += step;
-      state.y.swap(trial);
-      state.factor = next;
-      if (!observe(acceptPoint(system, state, newton, report))) return;
+      if (!accept(next, newton)) return;
+      if (position % units == 0) unstable_failures = 0, descended = false;
       while (step < units && position % (2 * step) == 0 && newton.iterations <= options.iterations / 3) step *= 2;
       continue;
     }
     // The tangent of the last converged point again: predictor and diagnosis start there.
-    system.stiffness(state.y, state.factor, state.K);
-    state.definite = state.solver.factorise(state.K);
-    ++report.factorisations;
-    if (step > 1) {
+    restoreTangent(system, state, report);
+    if (newton.negative_pivots > 0) ++unstable_failures;
+    const bool early = unstable_failures > kHalvingsBeforeDescent && !descended;
+    if (step > 1 && !early) {
       step /= 2;
       continue;
     }
     // The end of the path, as far as load steps can follow it: down to a stable state at the end of the whole step.
     const long target = (position / units + 1) * units;
     trial = state.y;
+    for (double& v : dy) v *= static_cast<double>(target - position) / static_cast<double>(step);
     EquilibriumAt beyond(system, factorAt(target));
     NewtonOptions descent = newtonOptions(system, options, state);
     descent.descend = true;
     descent.iterations = 10 * options.iterations;
-    const NewtonReport jump = solveNewton(beyond, descent, trial, state.K, state.solver);
-    report.factorisations += jump.factorisations;
-    if (jump.converged) {
+    const NewtonReport landing = solveNewton(beyond, descent, trial, state.K, state.solver);
+    report.factorisations += landing.factorisations;
+    if (landing.converged) {
       position = target;
       step = units;
-      state.y.swap(trial);
-      state.factor = factorAt(target);
-      StaticPoint point = acceptPoint(system, state, jump, report);
-      point.jumped = true;
-      if (!observe(point)) return;
+      unstable_failures = 0, descended = false;
+      if (!accept(factorAt(target), landing)) return;
       continue;
     }
-    system.stiffness(state.y, state.factor, state.K);
-    state.definite = state.solver.factorise(state.K);
-    ++report.factorisations;
+    restoreTangent(system, state, report);
+    if (step > 1) {  // smaller steps may still go on
+      descended = true;
+      step /= 2;
+      continue;
+    }
     newton.singular = singular;
     report.why = fmt::format(
         "load step {} of {}, from factor {:.6g} to {:.6g}: Newton's residual is {:.2e} of the forces after {} "

@@ -103,17 +103,50 @@ TEST(StaticPath, LoadStepsJumpToAStableStateBeyondALimitPoint) {
   };
   s.load = [](double t) { return Eigen::VectorXd::Constant(1, 0.8 * t); };
   const double near = std::sqrt((3 - std::sqrt(5)) / 2), far = std::sqrt((3 + std::sqrt(5)) / 2);  // limit points
-  bool beyond = false;
-  for (const StaticPoint& p : follow(s, {.steps = 20, .iterations = 6})) {
-    EXPECT_NEAR(f(p.y[0]), 0.8 * p.factor, 1e-7);
-    beyond = beyond || p.y[0] > far;
-    EXPECT_EQ(p.negative_pivots, 0);
-    EXPECT_TRUE(beyond ? p.y[0] > far : p.y[0] < near) << p.y[0];
-    if (!beyond) {
-      EXPECT_LE(0.8 * p.factor, f(near) + 1e-9);
+  for (const auto& [steps, iterations] : {std::pair{20, 6}, {20, 30}, {7, 30}, {10, 2}, {3, 30}, {2, 30}, {1, 30}}) {
+    bool beyond = false;
+    StaticReport report;
+    for (const StaticPoint& p : follow(s, {.steps = steps, .iterations = iterations}, &report)) {
+      SCOPED_TRACE(steps);
+      EXPECT_NEAR(f(p.y[0]), 0.8 * p.factor, 1e-7);
+      EXPECT_EQ(p.jumped, !beyond && p.y[0] > far) << p.factor;
+      beyond = beyond || p.y[0] > far;
+      EXPECT_EQ(p.negative_pivots, 0);
+      EXPECT_TRUE(beyond ? p.y[0] > far : p.y[0] < near) << p.y[0];
+      if (!beyond) {
+        EXPECT_LE(0.8 * p.factor, f(near) + 1e-9);
+      }
     }
+    EXPECT_TRUE(report.reached) << report.why;
+    EXPECT_TRUE(beyond);
   }
-  EXPECT_TRUE(beyond);
+}
+
+/// Steep, but continuous: y of a load that softens a hundredfold around 1/2 and stiffens again is no jump at
+/// any number of steps.
+TEST(StaticPath, SteepPathsAreNoJumps) {
+  SmallSystem s(1);
+  // y = t + 5 (1 + tanh((t - 1/2)/0.05)), its inverse by Newton on t.
+  const auto inverse = [](double y) {
+    double low = -20, high = 20;
+    for (int k = 0; k < 200; ++k) {
+      const double t = 0.5 * (low + high);
+      (t + 5 * (1 + std::tanh((t - 0.5) / 0.05)) < y ? low : high) = t;
+    }
+    return 0.5 * (low + high);
+  };
+  s.force = [&](const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, inverse(y(0))); };
+  s.tangent = [&](const Eigen::VectorXd& y) {
+    const double c = std::cosh((inverse(y(0)) - 0.5) / 0.05);
+    return Eigen::MatrixXd::Constant(1, 1, 1 / (1 + 100 / (c * c)));
+  };
+  s.load = [](double t) { return Eigen::VectorXd::Constant(1, t); };
+  for (int steps : {1, 2, 3, 5, 10, 20}) {
+    StaticReport report;
+    for (const StaticPoint& p : follow(s, {.steps = steps}, &report))
+      EXPECT_FALSE(p.jumped) << steps << " " << p.factor;
+    EXPECT_TRUE(report.reached) << report.why;
+  }
 }
 
 TEST(StaticPath, ArcLengthFollowsTheTrussThroughBothLimitPoints) {

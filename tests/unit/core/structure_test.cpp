@@ -101,12 +101,15 @@ TEST(Structure, RefusesProgramsAndDampingThatAreNone) {
   refuse([&](auto& o) { o.dead = {{edgeForce(c.garment, {0, Side::u1}, {0, 0, 1}), 3}}; });
 }
 
-std::string mechanismOf(const Garment& garment, const std::vector<LinearConstraint>& constraints) {
+std::string mechanismOf(const Garment& garment, const std::vector<LinearConstraint>& constraints,
+                        const std::vector<std::vector<Vec3>>& loads = {}, const StaticOptions& options = {}) {
   StructureOptions o;
   o.constraints = constraints;
+  for (const std::vector<Vec3>& load : loads) o.dead.push_back({load});
   const auto s = buildStructure(garment, o);
   try {
-    solveStatic(*s, {}, [](const StaticPoint&) { return true; });
+    const StaticReport r = solveStatic(*s, options, [](const StaticPoint&) { return true; });
+    EXPECT_TRUE(r.reached) << r.why;
   } catch (const RunError& e) {
     return e.what();
   }
@@ -139,6 +142,83 @@ TEST(Structure, AMissingSupportIsNamed) {
   Garment limp = g;
   limp.fabric.bending_law = BendingLaw::linear;
   has(mechanismOf(limp, all(supportEdge(limp, left, kAxes), clampRotation(limp, left))), "control point (");
+}
+
+/// A strip of 1 m by 5 cm along x, limp (E h = 1000 N/m, B = 8e-9 N m), its first edge hinged, its long edges symmetry
+/// edges: it swings about y only.
+struct Hanging {
+  Garment garment;
+  std::vector<LinearConstraint> hinge, sides;
+  explicit Hanging(int cells) {
+    garment =
+        garmentOf({flatPatch(uniformKnots(3, cells), uniformKnots(2, 1), 1, 0.05)}, {}, isotropic(1e8, 0, 1e-5, 1e4));
+    hinge = supportEdge(garment, {0, Side::u0}, kAxes);
+    sides = all(symmetryEdge(garment, {0, Side::v0}, {0, 1, 0}), symmetryEdge(garment, {0, Side::v1}, {0, 1, 0}));
+  }
+};
+
+/// Hanging chain (D. Bernoulli 1732): omega_n sqrt(L/g) = j_0n/2, the zeros of J0. At rest the rotation about the hinge
+/// has no stiffness; the weight brings it.
+TEST(Structure, AStripHangsFromAHingeAndSwingsLikeAChain) {
+  Hanging strip(16);
+  const double g = 9.81;
+  StructureOptions o;
+  o.constraints = all(strip.hinge, strip.sides);
+  o.dead = {{weightForce(strip.garment, {g, 0, 0})}};
+  const auto s = buildStructure(strip.garment, o);
+  for (const bool arc : {false, true}) {
+    StaticPoint last;
+    const StaticReport r =
+        solveStatic(*s, {.steps = 2, .arc_length = arc}, [&](const StaticPoint& p) { return last = p, true; });
+    ASSERT_TRUE(r.reached) << r.why;
+    EXPECT_EQ(last.negative_pivots, 0);
+    // It lengthens by rho g L^2/(2 E).
+    EXPECT_NEAR(controlPoints(*s, last.y, 1)[strip.garment.patches[0].u.count() - 1].x - 1, 1e4 * g / 2e8, 1e-5);
+    const auto modes = naturalModes(*s, last.y, 1, 3);
+    const double exact[] = {1.202413, 2.760039, 4.326864};
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(modes[k].omega_rad_per_s / std::sqrt(g), exact[k], 0.01 * exact[k]) << k;
+  }
+}
+
+/// Loads hold what they do no work on and what their stress makes stiff; nothing else.
+TEST(Structure, LoadsHoldOnlyWhatTheirStressHolds) {
+  const auto has = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in: " << text;
+  };
+  Hanging strip(8);
+  const Garment& g = strip.garment;
+  const auto supports = all(strip.hinge, strip.sides);
+  const auto weight = [&](const Vec3& a) { return std::vector<std::vector<Vec3>>{weightForce(g, a)}; };
+  EXPECT_EQ(mechanismOf(g, supports, weight({9.81, 0, 0})), "");
+  // Across the strip, at any angle, and none at all.
+  for (const Vec3& a : {Vec3{0, 0, -9.81}, Vec3{9.81, 0, 0.1}, Vec3{}})
+    has(mechanismOf(g, supports, weight(a)), "rotation about y through (0, ");
+  has(mechanismOf(g, supports, weight({9.81, 0, 0}), {.linear = true}), "rotation about y through (0, ");
+  // From one point: its weight does not hold the turn about the vertical.
+  has(mechanismOf(g, all(supportPoint(g, 0, {0, 0.5}, kAxes)), weight({9.81, 0, 0})), "rotation about x");
+  // Free: under its weight, and pulled at both ends alike.
+  has(mechanismOf(g, {}, weight({9.81, 0, 0})), "translation along x");
+  has(mechanismOf(g, {}, {edgeForce(g, {0, Side::u0}, {-1, 0, 0}), edgeForce(g, {0, Side::u1}, {1, 0, 0})}),
+      "translation along z");
+  // It falls along its only free translation.
+  has(mechanismOf(g, all(supportEdge(g, {0, Side::u0}, std::vector<Vec3>{{0, 1, 0}, {0, 0, 1}}), strip.sides),
+                  weight({9.81, 0, 0})),
+      "translation along x");
+}
+
+/// A strip that stands on its hinge is in equilibrium, and not a stable one.
+TEST(Structure, AStripThatStandsOnItsHingeIsUnstable) {
+  Cantilever c(4);
+  StructureOptions o;
+  o.constraints = supportEdge(c.garment, {0, Side::u0}, kAxes);
+  o.dead = {{weightForce(c.garment, {-1e-3, 0, 0})}};
+  int negative = 0;
+  const StaticReport r = solveStatic(*buildStructure(c.garment, o), {.steps = 1}, [&](const StaticPoint& p) {
+    negative = p.negative_pivots;
+    return true;
+  });
+  EXPECT_TRUE(r.reached) << r.why;
+  EXPECT_EQ(negative, 1);
 }
 
 /// The inextensible elastica under a dead end force of 4 EI/L^2 (theta'' = -4 f cos theta): U, W at P/Pmax.
