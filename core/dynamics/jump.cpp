@@ -8,7 +8,7 @@
 namespace gambeson {
 namespace {
 
-constexpr int kBisections = 8;
+constexpr int kBisections = 6;
 constexpr double kShare = 0.25;      ///< of the step's displacement, left after them: a jump
 constexpr double kMisfit = 0.25;     ///< of the trapezoidal rule, against the displacement: else not looked at
 constexpr double kStiffer = 5;       ///< nor the first step where the start's tangent predicted so much more
@@ -54,7 +54,7 @@ bool hasJumped(System& system, const StaticOptions& options, std::span<const dou
     middle = low;
     EquilibriumAt equilibrium(system, factor);
     NewtonOptions newton = newtonOptions(system, options, state);
-    newton.iterations = std::max(newton.iterations, 30);
+    newton.iterations = 20;
     newton.line_search = true;
     const NewtonReport r = solveNewton(equilibrium, newton, middle, state.K, state.solver);
     report.factorisations += r.factorisations;

@@ -29,9 +29,9 @@ struct StaticPoint {
   int negative_pivots = 0;  ///< of the tangent: 0 where the equilibrium is stable
   /// Load steps: the state lies on another branch than the last one; over a limit point, say. Found so: where the
   /// displacement is not what the tangents at both ends of the step make of it, the step is bisected, always into the
-  /// half that moves more; it is a jump where after 8 bisections (1/256 of the load) the displacement is still more
+  /// half that moves more; it is a jump where after 6 bisections (1/64 of the load) the displacement is still more
   /// than 1/4 of the step's, or where there is no equilibrium close by at a bisection's load. A continuous path moves
-  /// less, even next to a limit point or a bifurcation (like the root of the load: 1/16). Not looked at: moves of less
+  /// less, even next to a limit point or a bifurcation (like the root of the load: 1/8). Not looked at: moves of less
   /// than 1e-4 of the structure's length, and a first step of less than 1/5 of what the start's tangent predicted (a
   /// slack sheet stiffens).
   bool jumped = false;
