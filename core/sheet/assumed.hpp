@@ -1,5 +1,5 @@
 #pragma once
-/// Assumed strains: the remedy for the membrane locking of quadratic cells, in lanes. Included only by kernels.
+/// Assumed strains: no membrane locking of quadratic cells at any thickness, in lanes. Included only by kernels.
 ///
 /// In bending, a quadratic net cannot keep its membrane strains zero at all points of the full rule, and answers with
 /// spurious membrane stress. The strains of a cell are therefore taken where the net can follow, and interpolated

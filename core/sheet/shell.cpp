@@ -287,17 +287,15 @@ void packCell(const Garment& garment, const std::vector<int>& offsets, const She
 struct Kind {
   int p, q;
   bool rational, scattered, varies;
-  bool assumed, fewer;  ///< assumed strains, with 2 x 2 points
+  bool assumed, fewer;  ///< assumed strains; 2 x 2 points
   auto operator<=>(const Kind&) const = default;
 };
 
-/// Whether 2 x 2 points see every mode: not where a patch, or what trimming leaves of it, may be so narrow that a
-/// function of a direction vanishes at all of them (the quadratic of one cell does at its two); and not on rational
-/// cells, whose metric varies more.
+/// Whether 2 x 2 points see every mode of a quadratic patch: not where it, or what trimming leaves of it, may be so
+/// narrow that a function of one direction vanishes at all of them (the quadratic of one cell does at its two).
 bool fewerPoints(const Garment& garment, int index) {
   const NurbsPatch& patch = garment.patches[index];
-  return !isRational(patch) && !isTrimmed(garment, index) && breakpoints(patch.u).size() > 3 &&
-         breakpoints(patch.v).size() > 3;
+  return !isTrimmed(garment, index) && breakpoints(patch.u).size() > 3 && breakpoints(patch.v).size() > 3;
 }
 
 ShellBlock packBlock(const Garment& garment, const std::vector<int>& offsets, const Kind& kind,
@@ -390,8 +388,10 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
     Kind kind{
         patch.u.degree, patch.v.degree, !cell.cut && isRational(patch), cell.cut, fabricVaries(garment, cell.patch),
         false,          false};
-    kind.assumed = rule == CellRule::automatic && kind.p == 2 && kind.q == 2 && !kind.scattered;
-    kind.fewer = kind.assumed && fewerPoints(garment, cell.patch);
+    if (kind.p == 2 && kind.q == 2 && !kind.scattered) {
+      kind.assumed = rule == CellRule::assumed;
+      kind.fewer = rule != CellRule::full && fewerPoints(garment, cell.patch) && !(kind.assumed && kind.rational);
+    }
     kinds[kind].push_back(std::move(cell));
   }
   const int L = kernels.lanes;

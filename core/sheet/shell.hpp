@@ -48,10 +48,13 @@ struct ShellPart {
   int cell_count = 0;  ///< the rest of the last group are copies without area
 };
 
-/// How cells are integrated. Quadratic patches lock under the full rule; `automatic` takes assumed
-/// strains with 2 x 2 points (rational, narrow and trimmed patches: 3 x 3) for them (core/sheet/assumed.hpp) and the
-/// full rule for other degrees and for cut cells.
-enum class CellRule { automatic, full };
+/// How quadratic cells are integrated; other degrees, and what trimming leaves of a cell, always take the full rule of
+/// degree + 1 points in each direction. Quadratic cells lock in bending under it.
+///   automatic: 2 x 2 points (3 x 3 on narrow and trimmed patches, where 2 x 2 might miss a mode)
+///   full:      3 x 3 points
+///   assumed:   assumed strains (core/sheet/assumed.hpp): free of locking for any thickness, less accurate where
+///              membrane stress governs the bending (wrinkles, hanging strips)
+enum class CellRule { automatic, full, assumed };
 
 class Shell {
  public:
