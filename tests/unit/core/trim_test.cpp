@@ -216,7 +216,7 @@ TEST(Trim, FewPointsPerCutCell) {
       points += static_cast<long>(c.points.size());
     }
   }
-  EXPECT_LT(static_cast<double>(points) / cells, 18.0);  // measured 14.7
+  EXPECT_LT(static_cast<double>(points) / cells, 18.0);
 }
 
 TEST(Trim, IntersectionsWithTheKnotMesh) {
