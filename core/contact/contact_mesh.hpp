@@ -1,0 +1,35 @@
+#pragma once
+/// Triangles that may touch each other: who is whose neighbour, with one number for each edge.
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace gambeson {
+
+/// Lists of numbers, one after another: list i is items[first[i], first[i + 1]), ascending.
+struct Lists {
+  std::vector<int> first{0};
+  std::vector<int> items;
+
+  int size() const { return static_cast<int>(first.size()) - 1; }
+  std::span<const int> operator[](int i) const {
+    return {items.data() + first[i], static_cast<std::size_t>(first[i + 1] - first[i])};
+  }
+};
+
+/// Topology alone: no positions, any orientation, any number of faces at an edge, several sheets in one mesh.
+struct ContactMesh {
+  int vertex_count = 0;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<std::array<int, 2>> edges;       ///< v < w, in lexicographic order
+  std::vector<std::array<int, 3>> face_edges;  ///< edge k runs from corner k to corner k + 1 or back
+  Lists edge_faces, vertex_faces, vertex_edges;
+
+  bool border(int edge) const { return edge_faces[edge].size() == 1; }
+};
+
+/// The corners of a triangle are three different vertices below vertex_count.
+ContactMesh contactMesh(int vertex_count, std::span<const std::array<int, 3>> triangles);
+
+}  // namespace gambeson
