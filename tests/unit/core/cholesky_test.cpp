@@ -6,8 +6,10 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "core/error.hpp"
 
@@ -110,6 +112,39 @@ TEST(Cholesky, RefusesValuesThatAreNotFinite) {
   SymmetricFactor factor(m);
   m.values[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(factor.factorise(m), RunError);
+}
+
+/// The library's own loops would start three threads more, whatever OMP_NUM_THREADS says. Tried on a new thread, which
+/// has no team yet whatever tests ran before.
+TEST(Cholesky, StaysOnTheThreadOfItsCaller) {
+  const std::filesystem::path tasks = "/proc/self/task";
+  if (!std::filesystem::exists(tasks)) GTEST_SKIP() << "this system does not list a process's threads";
+  const auto threads = [&] { return std::distance(std::filesystem::directory_iterator(tasks), {}); };
+  // Laplacian of a square grid with blocks of 3: large enough for supernodes with many rows.
+  constexpr int side = 40;
+  SymmetricMatrix a;
+  const auto at = [](int i, int j, int k) { return 3 * (side * j + i) + k; };
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const auto add = [&](int row, double value) { a.rows.push_back(row), a.values.push_back(value); };
+        add(at(i, j, k), 5);
+        for (int l = k + 1; l < 3; ++l) add(at(i, j, l), 0.1);
+        for (int l = 0; l < 3 && i + 1 < side; ++l) add(at(i + 1, j, l), l == k ? -1 : 0.01);
+        for (int l = 0; l < 3 && j + 1 < side; ++l) add(at(i, j + 1, l), l == k ? -1 : 0.01);
+        a.offsets.push_back(static_cast<int>(a.rows.size()));
+      }
+  a.size = 3 * side * side;
+  long before = 0, after = 0;
+  std::thread([&] {
+    before = threads();
+    SymmetricFactor factor(a);
+    EXPECT_EQ(factor.factorise(a), Definiteness::positive);
+    std::vector<double> b(a.size, 1.0), x(a.size);
+    factor.solve(b, x);
+    after = threads();
+  }).join();
+  EXPECT_EQ(after, before);
 }
 
 }  // namespace
