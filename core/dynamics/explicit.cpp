@@ -4,6 +4,11 @@
 ///
 /// M = Cᵀ M_lumped C: diagonal where supports hold components, with small blocks where they couple them. Stable for h <
 /// 2/omega, omega the largest frequency.
+///
+/// omega changes as the sheet deforms: cloth crushed at the rim of a hole doubles it within fifty steps, and one step
+/// at 1.1 of the stable length more than doubles what moves in that mode. So steps run in windows; omega is estimated
+/// at the end of each, and a window whose step was too long there is done again from its start, shorter. What is
+/// observed has passed. A window is as long as omega is steady.
 
 #include <fmt/format.h>
 
@@ -63,8 +68,164 @@ double largestFrequency(System& system, const SymmetricMatrix& M, const MassSolv
 }
 
 namespace {
-constexpr int kStepsToEstimate = 100;
+
+/// Steps of one length between two estimates of the largest frequency.
+constexpr long kFirstWindow = 25, kLongestWindow = 100;
+/// Doubles that the states of a window may hold.
+constexpr double kWindowMemory = 2e7;
+constexpr int kMostRejections = 30;
+
+/// One run of explicit steps.
+class ExplicitRun {
+ public:
+  ExplicitRun(System& system, const DynamicOptions& o, DynamicState& state)
+      : system_(system),
+        o_(o),
+        state_(state),
+        M_(withDiagonalMass(system)),
+        D_(M_),
+        mass_(M_),
+        g_(state.y.size()),
+        f_(g_.size()),
+        damping_(g_.size()) {
+    system_.damping(state.y, state.time_s, true, false, D_);
+    damped_ = std::any_of(D_.values.begin(), D_.values.end(), [](double v) { return v != 0; });
+  }
+
+  DynamicReport run(const DynamicObserver& observe);
+
+ private:
+  static SymmetricMatrix withDiagonalMass(System& system) {
+    SymmetricMatrix M = system.pattern();
+    system.mass(true, M);
+    return M;
+  }
+  double estimate() {
+    ++report_.factorisations;
+    return largestFrequency(system_, M_, mass_, state_.y, state_.time_s, mode_);
+  }
+  /// All forces but the inertia, with the damping of state.v.
+  void forces() {
+    system_.residual(state_.y, state_.time_s, g_);
+    system_.supportForce(state_.time_s, h_, true, f_);
+    if (damped_) multiply(D_, state_.v, damping_);
+    for (std::size_t i = 0; i < f_.size(); ++i) f_[i] = -(f_[i] + g_[i] + damping_[i]);
+  }
+  /// Equal steps to the end, none longer than `wanted` [s].
+  void setStep(double wanted) {
+    const double span = o_.end_s - state_.time_s;
+    left_ = std::max(1L, static_cast<long>(std::ceil(span / wanted - 1e-6)));
+    h_ = span / static_cast<double>(left_);
+    if (!damped_) return;
+    SymmetricMatrix sum = M_;
+    for (std::size_t k = 0; k < sum.values.size(); ++k) sum.values[k] += 0.5 * h_ * D_.values[k];
+    effective_ = std::make_unique<MassSolver>(sum);
+  }
+  double stableStep(double omega) const { return omega > 0 ? o_.safety * 2 / omega : o_.end_s - state_.time_s; }
+  bool step();
+
+  System& system_;
+  const DynamicOptions& o_;
+  DynamicState& state_;
+  SymmetricMatrix M_, D_;
+  MassSolver mass_;
+  std::unique_ptr<MassSolver> effective_;  ///< M + h/2 D
+  std::vector<double> mode_, g_, f_, damping_;
+  bool damped_ = false;
+  double h_ = 0;
+  long left_ = 0;  ///< steps to the end
+  DynamicReport report_;
+};
+
+/// False: the motion is not finite.
+bool ExplicitRun::step() {
+  const std::size_t n = f_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    state_.v[i] += 0.5 * h_ * state_.a[i];
+    state_.y[i] += h_ * state_.v[i];
+  }
+  --left_;
+  state_.time_s = left_ == 0 ? o_.end_s : o_.end_s - static_cast<double>(left_) * h_;
+  forces();
+  (damped_ ? *effective_ : mass_).solve(f_, state_.a);
+  for (std::size_t i = 0; i < n; ++i) state_.v[i] += 0.5 * h_ * state_.a[i];
+  return std::isfinite(norm(state_.a));
 }
+
+DynamicReport ExplicitRun::run(const DynamicObserver& observe) {
+  const bool automatic = o_.step_s == 0;
+  if (!(state_.time_s < o_.end_s)) {
+    report_.reached = true;
+    return report_;
+  }
+  double omega = automatic ? estimate() : 0;
+  setStep(automatic ? stableStep(omega) : o_.step_s);
+  forces();
+  mass_.solve(f_, state_.a);
+  const long longest =
+      std::clamp(static_cast<long>(kWindowMemory / (3 * static_cast<double>(f_.size()))), 8L, kLongestWindow);
+  long window = automatic ? std::min(kFirstWindow, longest) : 1;
+  std::vector<DynamicState> passed;
+  int rejections = 0;
+  while (state_.time_s < o_.end_s) {
+    const DynamicState start = state_;
+    passed.clear();
+    bool finite = true;
+    while (finite && left_ > 0 && static_cast<long>(passed.size()) < window) {
+      finite = step();
+      if (finite) passed.push_back(state_);
+    }
+    if (!automatic && !finite) {
+      state_ = start;
+      report_.why = fmt::format(
+          "time {:.6g} s, after {} steps of {:.3e} s: the motion is not finite; likeliest cause: the step "
+          "is longer than the stable one (step_s 0 takes that)",
+          state_.time_s, report_.steps, h_);
+      return report_;
+    }
+    double after = omega;
+    if (automatic) {
+      if (finite) after = estimate();
+      // Not for the last digits of an estimate whose error is part of it.
+      if (!finite || !(h_ * after <= 2 || after <= 1.005 * omega)) {
+        state_ = start;
+        if (++rejections > kMostRejections) {
+          report_.why = fmt::format(
+              "time {:.6g} s, after {} steps, the last of {:.3e} s: the stable step shrinks without end; likeliest "
+              "cause: part of the sheet is crushed to nothing ({})",
+              state_.time_s, report_.steps, h_, system_.describe(mode_));
+          return report_;
+        }
+        omega = finite ? std::max(omega, after) : 2 * omega;
+        window = std::max(1L, window / 2);
+        setStep(stableStep(omega));
+        continue;
+      }
+      rejections = 0;
+    }
+    for (DynamicState& now : passed) {
+      ++report_.steps;
+      if (!observe(now)) {
+        state_ = now;
+        return report_;
+      }
+    }
+    if (!automatic || left_ == 0) continue;
+    if (after > 1.02 * omega)
+      window = std::max(1L, window / 2);
+    else if (after < 1.01 * omega)
+      window = std::min(longest, 2 * window);
+    // A warm estimate may have followed one mode while another rose: it falls only slowly.
+    omega = std::max(after, 0.95 * omega);
+    // A change of step costs energy; keep it while it is neither too long nor far too short.
+    const double wanted = stableStep(omega);
+    if (wanted < h_ || 0.7 * wanted > h_) setStep(wanted);
+  }
+  report_.reached = true;
+  return report_;
+}
+
+}  // namespace
 
 DynamicReport integrateExplicit(System& system, const DynamicOptions& o, DynamicState& state,
                                 const DynamicObserver& observe) {
@@ -74,77 +235,7 @@ DynamicReport integrateExplicit(System& system, const DynamicOptions& o, Dynamic
   if (!(o.step_s >= 0)) throw InputError({"", 0, "step_s"}, "must be >= 0");
   if (o.step_s == 0 && !(o.safety > 0 && o.safety <= 1))
     throw InputError({"", 0, "safety"}, "must be > 0 and at most 1");
-  const std::size_t n = state.y.size();
-  SymmetricMatrix M = system.pattern(), D = M;
-  system.mass(true, M);
-  system.damping(state.y, state.time_s, true, false, D);
-  const MassSolver mass(M);
-  const bool damped = std::any_of(D.values.begin(), D.values.end(), [](double v) { return v != 0; });
-  std::unique_ptr<MassSolver> effective;  // M + h/2 D
-  std::vector<double> mode, g(n), f(n), damping(n);
-  DynamicState before;
-  DynamicReport report;
-  double h = 0;
-  const auto forces = [&] {  // all but the inertia, with the damping of state.v
-    system.residual(state.y, state.time_s, g);
-    system.supportForce(state.time_s, h, true, f);
-    if (damped) multiply(D, state.v, damping);
-    for (std::size_t i = 0; i < n; ++i) f[i] = -(f[i] + g[i] + damping[i]);
-  };
-  const auto setStep = [&](double step) {
-    h = step;
-    if (!damped) return;
-    SymmetricMatrix sum = M;
-    for (std::size_t k = 0; k < sum.values.size(); ++k) sum.values[k] += 0.5 * h * D.values[k];
-    effective = std::make_unique<MassSolver>(sum);
-  };
-  long left = 0;  // steps to the end
-  while (state.time_s < o.end_s) {
-    const double span = o.end_s - state.time_s;
-    if (report.steps % kStepsToEstimate == 0 && (o.step_s == 0 || report.steps == 0)) {
-      double wanted = o.step_s;
-      if (o.step_s == 0) {
-        const double omega = largestFrequency(system, M, mass, state.y, state.time_s, mode);
-        ++report.factorisations;
-        wanted = omega > 0 ? o.safety * 2 / omega : span;
-      }
-      // A change of step costs energy; keep it while it is neither too long nor far too short.
-      if (h == 0 || wanted < h || 0.7 * wanted > h) {
-        left = std::max(1L, static_cast<long>(std::ceil(span / wanted - 1e-6)));
-        setStep(span / static_cast<double>(left));
-      }
-    }
-    if (report.steps == 0) {
-      forces();
-      mass.solve(f, state.a);
-    }
-    before = state;
-    for (std::size_t i = 0; i < n; ++i) {
-      state.v[i] += 0.5 * h * state.a[i];
-      state.y[i] += h * state.v[i];
-    }
-    --left;
-    state.time_s = left == 0 ? o.end_s : o.end_s - static_cast<double>(left) * h;
-    forces();
-    if (damped)
-      effective->solve(f, state.a);
-    else
-      mass.solve(f, state.a);
-    for (std::size_t i = 0; i < n; ++i) state.v[i] += 0.5 * h * state.a[i];
-    ++report.steps;
-    if (!std::isfinite(norm(state.a))) {
-      state = before;
-      --report.steps;
-      report.why = fmt::format(
-          "time {:.6g} s, after {} steps of {:.3e} s: the motion is not finite; likeliest cause: the step "
-          "is longer than the stable one (step_s 0 takes that)",
-          state.time_s, report.steps, h);
-      return report;
-    }
-    if (!observe(state)) return report;
-  }
-  report.reached = true;
-  return report;
+  return ExplicitRun(system, o, state).run(observe);
 }
 
 }  // namespace gambeson
