@@ -14,6 +14,7 @@ namespace {
 constexpr int kIterationsWanted = 5;
 constexpr double kLongest = 4;       ///< arc, against the first
 constexpr int kMostIterations = 15;  ///< a corrector that needs more has an arc that is too long
+constexpr int kDoubtHalvings = 6;    ///< a doubtful step is taken all the same after so many: a bifurcation
 
 /// -dg/dfactor: what the load adds per factor.
 void loadRate(System& system, std::span<const double> y, double factor, std::span<double> p) {
@@ -39,11 +40,13 @@ std::optional<double> onCylinder(std::span<const double> dy, std::span<const dou
   return along >= 0 ? x1 : x2;
 }
 
-/// Corrects from the predictor `inc` at constant arc. K and solver of the state are scratch.
-NewtonReport correct(System& system, const NewtonOptions& options, double length, PathState& state, Increment& inc) {
+/// Corrects from the predictor `inc` at constant arc. K and solver of the state are scratch. `by_load` becomes the
+/// motion per factor at the last iterate but one.
+NewtonReport correct(System& system, const NewtonOptions& options, double length, PathState& state, Increment& inc,
+                     std::vector<double>& by_load) {
   const std::size_t n = state.y.size();
   NewtonReport report;
-  std::vector<double> y(n), r(n), p(n), by_residual(n), by_load(n), a(n);
+  std::vector<double> y(n), r(n), p(n), by_residual(n), a(n);
   for (;; ++report.iterations) {
     for (std::size_t i = 0; i < n; ++i) y[i] = state.y[i] + inc.dy[i];
     const double factor = state.factor + inc.dfactor;
@@ -79,6 +82,17 @@ NewtonReport correct(System& system, const NewtonOptions& options, double length
   }
 }
 
+/// Whether a step may have left the path between its ends. The cylinder about the start cuts a path that bends back on
+/// itself (a snap-back) more than once, and the corrector may land where the path comes in again: there it leads
+/// against the step, so that going on along the step would lead back to where it came from. `by_load` is the motion per
+/// factor at the end, `forward` the sign of the factor's change at the start. Between simple limit points the factor
+/// turns exactly where the determinant of K changes its sign: at the way in the two disagree. At a bifurcation they
+/// disagree too, on any arc.
+bool isDoubtful(const Increment& inc, std::span<const double> by_load, double forward, int more_negative_pivots) {
+  const double along = dot(inc.dy, by_load);
+  return (along * forward < 0) != (more_negative_pivots % 2 != 0);
+}
+
 /// Where the step passed the factor wanted: the equilibrium at that factor, from the chord.
 bool landOn(System& system, const StaticOptions& options, double factor, PathState& state, const Increment& inc,
             NewtonReport& newton, StaticReport& report) {
@@ -101,7 +115,7 @@ bool landOn(System& system, const StaticOptions& options, double factor, PathSta
 void followArc(System& system, const StaticOptions& options, const StaticObserver& observe, PathState& state,
                StaticReport& report) {
   const std::size_t n = state.y.size();
-  std::vector<double> p(n), tangent(n), last(n, 0.0);
+  std::vector<double> p(n), tangent(n), last(n, 0.0), by_load(n);
   double length = 0, first_length = 0, forward = 1;
   const double way = options.stop_factor >= state.factor ? 1 : -1;
   int halvings = 0;
@@ -120,11 +134,14 @@ void followArc(System& system, const StaticOptions& options, const StaticObserve
     for (double& v : inc.dy) v *= inc.dfactor;
     NewtonOptions corrector = newtonOptions(system, options, state);
     corrector.iterations = std::min(corrector.iterations, kMostIterations);
-    NewtonReport newton = correct(system, corrector, length, state, inc);
+    const int pivots = state.solver.negativePivots();
+    NewtonReport newton = correct(system, corrector, length, state, inc, by_load);
     report.factorisations += newton.factorisations;
     // A step that turns back has lost the path.
     const double turn = report.points == 0 ? 1 : dot(inc.dy, last) / (norm(inc.dy) * norm(last));
-    if (!newton.converged || turn < -0.2) {
+    const bool doubtful = newton.iterations > 0 && halvings < kDoubtHalvings &&
+                          isDoubtful(inc, by_load, forward, newton.negative_pivots - pivots);
+    if (!newton.converged || turn < -0.2 || doubtful) {
       restoreTangent(system, state, report);
       if (++halvings > 2 * options.halvings) {
         report.why = fmt::format(

@@ -188,6 +188,31 @@ TEST(StaticPath, ArcLengthFollowsASnapBack) {
   EXPECT_DOUBLE_EQ(points.back().factor, 1);
 }
 
+/// The softer a (linear) spring on the apex, the sharper its end turns back: long arcs meet the path where it comes in
+/// again, and from there the way on leads against the step. Whatever the first arc, the apex must go on.
+TEST(StaticPath, ArcLengthDoesNotTurnBackAtASharpSnapBack) {
+  const double h = 0.3, EA = 100, L3 = std::pow(1 + h * h, 1.5), limit = EA / L3 * h * h * h * 2 / (3 * std::sqrt(3));
+  for (const double share : {0.4, 0.1, 0.03, 0.01})
+    for (int steps = 2; steps <= 40; steps += 2) {
+      const double k = share * EA * h * h;
+      SmallSystem s(2);  // apex, upper end of the spring
+      s.force = [=](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+        const double spring = k * (y(1) - y(0));
+        return Eigen::Vector2d(trussLoad(y(0), h, EA) - spring, spring);
+      };
+      s.tangent = [=](const Eigen::VectorXd& y) -> Eigen::MatrixXd {
+        const double w = y(0), truss = EA / L3 * (3 * w * w - 6 * h * w + 2 * h * h);
+        return Eigen::Matrix2d{{truss + k, -k}, {-k, k}};
+      };
+      s.load = [=](double t) -> Eigen::VectorXd { return Eigen::Vector2d(0, 3 * limit * t); };
+      StaticReport report;
+      const auto points = follow(s, {.steps = steps, .arc_length = true, .max_points = 2000}, &report);
+      ASSERT_TRUE(report.reached) << share << " " << steps << ": " << report.why;
+      for (std::size_t i = 1; i < points.size(); ++i)
+        ASSERT_GT(points[i].y[0], points[i - 1].y[0]) << share << " " << steps << ", point " << i;
+    }
+}
+
 /// A stiffening bar string, flat at first: the first whole Newton step overshoots the far side by orders of magnitude.
 TEST(StaticPath, AHardSpringNeedsTheLineSearchOrHalving) {
   SmallSystem s = cubicSpring(1e8, 1000);
