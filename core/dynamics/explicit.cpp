@@ -2,6 +2,10 @@
 ///
 ///   v' = v0 + h/2 a0,  y1 = y0 + h v',  (M + h/2 D) a1 = -g(y1, t1) - D v',  v1 = v' + h/2 a1
 ///
+/// With strain limits (core/dynamics/strain_limit.hpp) y1 is projected onto them, v' changed by what that moves over h;
+/// c = M^-1 times their force is in the velocities with its half step, as that of every other force, and taken out
+/// before the next impulse: v' = v0 + h/2 (a0 - c0) + ..., v1 = v' + h/2 (a1 + c1).
+///
 /// M = Cᵀ M_lumped C: diagonal where supports hold components, with small blocks where they couple them. Stable for h <
 /// 2/omega, omega the largest frequency.
 ///
@@ -87,9 +91,13 @@ class ExplicitRun {
         mass_(M_),
         g_(state.y.size()),
         f_(g_.size()),
-        damping_(g_.size()) {
+        damping_(g_.size()),
+        limit_(system.limit()),
+        pulled_(g_.size()),
+        change_(g_.size()) {
     system_.damping(state.y, state.time_s, true, false, D_);
     damped_ = std::any_of(D_.values.begin(), D_.values.end(), [](double v) { return v != 0; });
+    if (limit_ && !state.limit_J.empty()) limit_->acceleration(state.y, state.time_s, state.limit_J, pulled_);
   }
 
   DynamicReport run(const DynamicObserver& observe);
@@ -123,6 +131,8 @@ class ExplicitRun {
   }
   double stableStep(double omega) const { return omega > 0 ? o_.safety * 2 / omega : o_.end_s - state_.time_s; }
   bool step();
+  /// Onto the limits, after the positions of a step.
+  LimitReport limit();
 
   System& system_;
   const DynamicOptions& o_;
@@ -131,21 +141,32 @@ class ExplicitRun {
   MassSolver mass_;
   std::unique_ptr<MassSolver> effective_;  ///< M + h/2 D
   std::vector<double> mode_, g_, f_, damping_;
+  MotionLimit* limit_;
+  std::vector<double> pulled_, change_;  ///< c, and what a projection has moved
+  LimitReport limited_;                  ///< of the step
   bool damped_ = false;
   double h_ = 0;
   long left_ = 0;  ///< steps to the end
   DynamicReport report_;
 };
 
+LimitReport ExplicitRun::limit() {
+  const LimitReport report = limit_->project(state_.time_s, h_, state_.y, change_, state_.limit_J);
+  limit_->acceleration(state_.y, state_.time_s, state_.limit_J, pulled_);
+  for (std::size_t i = 0; i < f_.size(); ++i) state_.v[i] += change_[i] / h_ + 0.5 * h_ * pulled_[i];
+  return report;
+}
+
 /// False: the motion is not finite.
 bool ExplicitRun::step() {
   const std::size_t n = f_.size();
   for (std::size_t i = 0; i < n; ++i) {
-    state_.v[i] += 0.5 * h_ * state_.a[i];
+    state_.v[i] += 0.5 * h_ * (state_.a[i] - pulled_[i]);
     state_.y[i] += h_ * state_.v[i];
   }
   --left_;
   state_.time_s = left_ == 0 ? o_.end_s : o_.end_s - static_cast<double>(left_) * h_;
+  if (limit_) limited_ = limit();
   forces();
   (damped_ ? *effective_ : mass_).solve(f_, state_.a);
   for (std::size_t i = 0; i < n; ++i) state_.v[i] += 0.5 * h_ * state_.a[i];
@@ -166,14 +187,19 @@ DynamicReport ExplicitRun::run(const DynamicObserver& observe) {
       std::clamp(static_cast<long>(kWindowMemory / (3 * static_cast<double>(f_.size()))), 8L, kLongestWindow);
   long window = automatic ? std::min(kFirstWindow, longest) : 1;
   std::vector<DynamicState> passed;
+  std::vector<LimitReport> limited;  // of the passed
   int rejections = 0;
   while (state_.time_s < o_.end_s) {
     const DynamicState start = state_;
+    const std::vector<double> pulled = pulled_;
     passed.clear();
+    limited.clear();
     bool finite = true;
     while (finite && left_ > 0 && static_cast<long>(passed.size()) < window) {
       finite = step();
-      if (finite) passed.push_back(state_);
+      if (!finite) break;
+      passed.push_back(state_);
+      limited.push_back(limited_);
     }
     if (!automatic && !finite) {
       state_ = start;
@@ -189,6 +215,7 @@ DynamicReport ExplicitRun::run(const DynamicObserver& observe) {
       // Not for the last digits of an estimate whose error is part of it.
       if (!finite || !(h_ * after <= 2 || after <= 1.005 * omega)) {
         state_ = start;
+        pulled_ = pulled;
         if (++rejections > kMostRejections) {
           report_.why = fmt::format(
               "time {:.6g} s, after {} steps, the last of {:.3e} s: the stable step shrinks without end; likeliest "
@@ -203,10 +230,13 @@ DynamicReport ExplicitRun::run(const DynamicObserver& observe) {
       }
       rejections = 0;
     }
-    for (DynamicState& now : passed) {
+    for (std::size_t k = 0; k < passed.size(); ++k) {
       ++report_.steps;
-      if (!observe(now)) {
-        state_ = now;
+      report_.projections += limited[k].projections;
+      report_.limits_missed += !limited[k].converged;
+      report_.limit_residual = std::max(report_.limit_residual, limited[k].residual);
+      if (!observe(passed[k])) {
+        state_ = passed[k];
         return report_;
       }
     }

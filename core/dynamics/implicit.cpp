@@ -182,6 +182,8 @@ DynamicReport integrate(System& system, const DynamicOptions& o, DynamicState& s
   }
   if (!(o.end_s > state.time_s)) throw InputError({"", 0, "end_s"}, "must be after the start");
   if (!(o.tolerance > 0) || o.iterations < 1) throw InputError({"", 0, "tolerance"}, "must be > 0");
+  if (o.scheme != TimeScheme::explicit_verlet && system.limit())
+    throw InputError({"", 0, "strain_limit"}, "goes with explicit steps alone");
   return o.scheme == TimeScheme::explicit_verlet ? integrateExplicit(system, o, state, observe)
                                                  : integrateImplicit(system, o, state, observe);
 }

@@ -22,15 +22,19 @@ struct DynamicOptions {
   bool lumped_mass = false;  ///< implicit schemes; explicit ones always lump
 };
 
+/// With strain limits v holds the half step of their force, a does not (as State of core/dynamics/model.hpp).
 struct DynamicState {
   double time_s = 0;
   std::vector<double> y, v, a;
+  std::vector<double> limit_J = {};  ///< multipliers of the strain limits in the last step; empty: none
 };
 
 struct DynamicReport {
   bool reached = false;
   std::string why;
   long steps = 0, factorisations = 0;
+  long projections = 0, limits_missed = 0;  ///< of strain limits: in all, and steps that did not reach the tolerance
+  double limit_residual = 0;                ///< the largest after a step
 };
 
 struct DynamicEnergy {

@@ -52,15 +52,8 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
     model->map.Tt.multiply<Vec3>(options.dead_force_N, model->dead_force_N);
   }
   if (options.strain_limit.mode != LimitMode::none) {
-    const StrainLimit& limit = options.strain_limit;
-    const auto reject = [](const char* key, const char* reason) {
-      throw InputError({"", 0, std::string("strain_limit.") + key}, reason);
-    };
-    if (!(limit.limit >= 0)) reject("limit", "must be >= 0");
-    if (!(limit.tolerance >= 1e-10)) reject("tolerance", "must be >= 1e-10");
-    if (!(limit.max_projections > 0)) reject("max_projections", "must be > 0");
-    if (!(limit.max_rounds > 0)) reject("max_rounds", "must be > 0");
-    model->strain_rows = buildStrainRows(garment, model->map, model->inverse_mass);
+    checkLimit(options.strain_limit);
+    model->strain_rows = buildStrainRows(garment, model->map, {model->inverse_mass, {}});
   }
   model->proximity = std::make_unique<ProximityQuery>(model->obstacles);
   return model;

@@ -190,7 +190,7 @@ void solveVelocities(const Model& m, const State& in, double density, double dt,
   w.velocity.resize(n);
   for (int turn = 1;; ++turn) {
     for (int i = 0; i < n; ++i) end[i] = in.p[i] + dt * (limited(i) + w.limit.contact_change[i]);
-    projectStrain(m.strain_rows, limit, m.inverse_mass, first && turn == 1 && limit.always, end, report.limit, w.limit);
+    projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit);
     ++report.limit.rounds;
     clock.lap(w.times.limit);
     for (int i = 0; i < n; ++i) w.velocity[i] = limited(i);

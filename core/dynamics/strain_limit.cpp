@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include "core/error.hpp"
 
 namespace gambeson {
 namespace {
@@ -33,7 +36,15 @@ void assemble(const StrainRows& rows, std::span<const Vec3> e, SymmetricMatrix& 
     for (int k = A.offsets[c]; k < A.offsets[c + 1]; ++k) {
       const int r = A.rows[k];
       if (!rows.live[c]) continue;  // alone, 1
-      A.values[k] = rows.S.values[k] * (dot(e[c], e[r]) + (r == c ? kRegular : 0));
+      A.values[k] = rows.S.values[k] * (r == c ? kRegular : 0);
+      if (rows.tensors.empty()) {
+        A.values[k] += rows.S.values[k] * dot(e[c], e[r]);
+      } else {
+        const std::array<double, 9>& t = rows.tensors[k];
+        const Vec3 &a = e[r], &b = e[c];
+        A.values[k] += a.x * (t[0] * b.x + t[1] * b.y + t[2] * b.z) + a.y * (t[3] * b.x + t[4] * b.y + t[5] * b.z) +
+                       a.z * (t[6] * b.x + t[7] * b.y + t[8] * b.z);
+      }
     }
 }
 
@@ -127,6 +138,16 @@ class Projection {
 
 }  // namespace
 
+void checkLimit(const StrainLimit& limit) {
+  const auto reject = [](const char* key, const char* reason) {
+    throw InputError({"", 0, std::string("strain_limit.") + key}, reason);
+  };
+  if (!(limit.limit >= 0)) reject("limit", "must be >= 0");
+  if (!(limit.tolerance >= 1e-10)) reject("tolerance", "must be >= 1e-10");
+  if (!(limit.max_projections > 0)) reject("max_projections", "must be > 0");
+  if (!(limit.max_rounds > 0)) reject("max_rounds", "must be > 0");
+}
+
 void startProjection(const StrainRows& rows, std::span<const double> warm, LimitWork& w) {
   w.multiplier.assign(rows.rows(), 0);
   w.solution.assign(rows.rows(), 0);
@@ -154,8 +175,8 @@ double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span
   return residualOf(rows, limit, w.C);
 }
 
-void projectStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const double> inverse_mass,
-                   bool at_least_once, std::span<Vec3> p, LimitReport& report, LimitWork& w) {
+void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_least_once, std::span<Vec3> p,
+                   LimitReport& report, LimitWork& w) {
   const int n = rows.rows();
   Projection projection(rows, limit, report, w);
   double before = std::numeric_limits<double>::infinity();
@@ -186,19 +207,22 @@ void projectStrain(const StrainRows& rows, const StrainLimit& limit, std::span<c
     };
     moveBy(1);
     w.velocity.resize(p.size());
-    for (std::size_t k = 0; k < p.size(); ++k) w.velocity[k] = -inverse_mass[k] * w.end[k];
+    applyMobility(rows.mobility, w.end, w.velocity);
     strainVectors(rows, w.velocity, w.e_next);
     double turn = 0;
     for (const Vec3& d : w.e_next) turn = std::max(turn, norm(d));
     const double part = turn > kLargestTurn ? kLargestTurn / turn : 1;
-    if (part < 1) moveBy(part);
+    if (part < 1) {
+      moveBy(part);
+      applyMobility(rows.mobility, w.end, w.velocity);
+    }
     for (int i = 0; i < n; ++i) {
       w.multiplier[i] += part * (w.solution[i] - w.multiplier[i]);
       w.force[i] += w.scaled[i];
     }
     for (std::size_t k = 0; k < p.size(); ++k) {
       w.pull[k] += w.end[k];
-      p[k] -= inverse_mass[k] * w.end[k];
+      p[k] -= w.velocity[k];
     }
     if (part < 1) before = 0;  // a new matrix next
   }

@@ -24,6 +24,9 @@ struct StrainLimit {
   int max_rounds = 12;  ///< of contacts and projections in turn
 };
 
+/// Throws InputError (key strain_limit.KEY).
+void checkLimit(const StrainLimit& limit);
+
 /// What the projections of a step came to.
 struct LimitReport {
   int projections = 0, factorisations = 0;
@@ -35,7 +38,7 @@ struct LimitReport {
 
 /// Scratch of projectStrain, and its result: `multiplier` is dt^2 lambda of each row [kg m^2], `pull` the sum of
 /// dt^2 J^T dlambda over the iterations on all free points, held ones among them [kg m]: what has moved the free ones
-/// by - pull/m; `force` the sum of dt^2 dlambda F D of each row, with the F D of the iterates.
+/// by - P pull; `force` the sum of dt^2 dlambda F D of each row, with the F D of the iterates.
 struct LimitWork {
   std::unique_ptr<SymmetricFactor> factor;
   SymmetricMatrix A, active_A;
@@ -74,7 +77,7 @@ double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span
 /// one is 0, by block principal pivoting (Judice and Pires 1994), whose fallback to single pivots ends for positive
 /// definite matrices; multipliers of earlier iterates may fall to zero again, so that points are released. Rows of J
 /// annihilate translations and, about p, rotations: momentum is kept where nothing is held.
-void projectStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const double> inverse_mass,
-                   bool at_least_once, std::span<Vec3> p, LimitReport& report, LimitWork& work);
+void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_least_once, std::span<Vec3> p,
+                   LimitReport& report, LimitWork& work);
 
 }  // namespace gambeson

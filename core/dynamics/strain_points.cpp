@@ -53,26 +53,33 @@ PointRows rowsAt(const Garment& garment, const FreeMap& map, int offset, int pat
   return rows;
 }
 
-/// Points with the same position for all p are one: found by the free points that carry them.
-class Positions {
+/// Strains that are the same function of p are one: found by the free points that carry them.
+class RowTable {
  public:
-  /// The point that has these entries, or `next` where none has.
-  int find(const PointRows& rows, int next) {
+  /// The row with these entries up to their sign, which E does not see; a new one of B where there is none.
+  int find(const PointRows& rows, int direction, SparseRows& B) {
+    double size = 0;
+    for (const auto& entry : rows.entries) size = std::max(size, std::abs(entry.second[direction]));
     std::vector<int> columns;
     std::vector<double> values;
+    // A bucket is chosen by the large entries: the others may be rounding on one side of a seam.
     for (const auto& [column, entry] : rows.entries)
-      if (std::abs(entry[0]) > 1e-7) {
+      if (std::abs(entry[direction]) > 1e-7 * size) {
         columns.push_back(column);
-        values.push_back(entry[0]);
+        values.push_back(entry[direction]);
       }
     auto& bucket = seen_[columns];
-    for (const auto& [point, other] : bucket) {
-      double most = 0;
-      for (std::size_t k = 0; k < values.size(); ++k) most = std::max(most, std::abs(values[k] - other[k]));
-      if (most < 1e-9) return point;
-    }
-    bucket.push_back({next, values});
-    return next;
+    for (const auto& [row, other] : bucket)
+      for (double sign : {1., -1.}) {
+        double most = 0;
+        for (std::size_t k = 0; k < values.size(); ++k) most = std::max(most, std::abs(values[k] - sign * other[k]));
+        if (most < 1e-9 * size) return row;
+      }
+    bucket.push_back({B.rows(), values});
+    for (const auto& [column, entry] : rows.entries)
+      if (std::abs(entry[direction]) > 1e-13 * size) B.add(column, entry[direction]);
+    B.endRow();
+    return B.rows() - 1;
   }
 
  private:
@@ -109,30 +116,64 @@ std::vector<Place> placesOf(const Garment& garment, int patch_index, const Strai
   return places;
 }
 
-/// S = B M^-1 B^T, lower triangle by columns.
-SymmetricMatrix mobilityOf(const SparseRows& B, const SparseRows& Bt, std::span<const double> inverse_mass,
-                           std::vector<char>& live) {
-  SymmetricMatrix S;
-  S.size = B.rows();
-  live.assign(B.rows(), 0);
-  for (int c = 0; c < B.rows(); ++c) {
-    std::map<int, double> column;
-    for (int k = B.offsets[c]; k < B.offsets[c + 1]; ++k) {
-      const int free = B.columns[k];
-      const double w = B.values[k] * inverse_mass[free];
-      if (w == 0) continue;
-      for (int j = Bt.offsets[free]; j < Bt.offsets[free + 1]; ++j)
-        if (Bt.columns[j] >= c) column[Bt.columns[j]] += w * Bt.values[j];
-    }
-    live[c] = column.contains(c) && column[c] > 0;
-    if (!live[c]) column = {{c, 1.0}};
+/// Of the rows alone that nothing moves: a diagonal of 1.
+void addColumn(const std::map<int, double>& column, int c, bool live, SymmetricMatrix& S) {
+  if (live) {
     for (const auto& [row, value] : column) {
       S.rows.push_back(row);
       S.values.push_back(value);
     }
-    S.offsets.push_back(static_cast<int>(S.rows.size()));
+  } else {
+    S.rows.push_back(c);
+    S.values.push_back(1);
   }
-  return S;
+  S.offsets.push_back(static_cast<int>(S.rows.size()));
+}
+
+/// S = B M^-1 B^T, lower triangle by columns.
+void addMobility(StrainRows& s) {
+  const SparseRows &B = s.B, &Bt = s.Bt;
+  s.S.size = B.rows();
+  for (int c = 0; c < B.rows(); ++c) {
+    std::map<int, double> column;
+    for (int k = B.offsets[c]; k < B.offsets[c + 1]; ++k) {
+      const int free = B.columns[k];
+      const double w = B.values[k] * s.mobility.inverse_mass[free];
+      if (w == 0) continue;
+      for (int j = Bt.offsets[free]; j < Bt.offsets[free + 1]; ++j)
+        if (Bt.columns[j] >= c) column[Bt.columns[j]] += w * Bt.values[j];
+    }
+    s.live.push_back(column.contains(c) && column[c] > 0);
+    addColumn(column, c, s.live.back(), s.S);
+  }
+}
+
+/// The same with blocks B P B^T, component by component.
+void addMobilityTensors(StrainRows& s) {
+  const SparseRows &B = s.B, &Bt = s.Bt, &P = s.mobility.P;
+  s.S.size = B.rows();
+  for (int c = 0; c < B.rows(); ++c) {
+    std::map<int, std::array<double, 9>> column;  // of rows >= c
+    for (int b = 0; b < 3; ++b) {
+      std::map<int, double> pulled;  // column b of P B_c^T, P symmetric
+      for (int k = B.offsets[c]; k < B.offsets[c + 1]; ++k) {
+        const int from = 3 * B.columns[k] + b;
+        for (int e = P.offsets[from]; e < P.offsets[from + 1]; ++e) pulled[P.columns[e]] += B.values[k] * P.values[e];
+      }
+      for (const auto& [to, value] : pulled)
+        for (int j = Bt.offsets[to / 3]; j < Bt.offsets[to / 3 + 1]; ++j)
+          if (Bt.columns[j] >= c) column[Bt.columns[j]][3 * (to % 3) + b] += Bt.values[j] * value;
+    }
+    const auto third = [](const std::array<double, 9>& t) { return (t[0] + t[4] + t[8]) / 3; };
+    s.live.push_back(column.contains(c) && third(column[c]) > 0);
+    if (!s.live.back()) column = {{c, {1, 0, 0, 0, 1, 0, 0, 0, 1}}};
+    std::map<int, double> numbers;
+    for (const auto& [row, tensor] : column) {
+      numbers[row] = third(tensor);
+      s.tensors.push_back(tensor);
+    }
+    addColumn(numbers, c, true, s.S);
+  }
 }
 
 struct CellShare {
@@ -239,32 +280,39 @@ std::vector<std::pair<int, double>> vertexRow(const StrainRows::Grid& g, const s
 
 }  // namespace
 
-StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, std::span<const double> inverse_mass) {
+void applyMobility(const Mobility& mobility, std::span<const Vec3> impulse, std::span<Vec3> velocity) {
+  if (mobility.P.rows() == 0) {
+    for (std::size_t k = 0; k < impulse.size(); ++k) velocity[k] = mobility.inverse_mass[k] * impulse[k];
+    return;
+  }
+  mobility.P.multiply<double>({&impulse.data()->x, 3 * impulse.size()}, {&velocity.data()->x, 3 * velocity.size()});
+}
+
+StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, Mobility mobility) {
   const std::vector<int> offsets = controlOffsets(garment);
   const int patch_count = static_cast<int>(garment.patches.size());
   StrainRows s;
+  s.mobility = std::move(mobility);
   s.B.column_count = map.T.column_count;
   std::vector<std::vector<Place>> places(patch_count);
-  Positions positions;
+  RowTable table;
+  std::map<std::array<int, 2>, int> point_of;
   for (int p = 0; p < patch_count; ++p) {
     s.grids.push_back({breakpoints(garment.patches[p].u), breakpoints(garment.patches[p].v), 0});
     places[p] = placesOf(garment, p, s.grids[p]);
     for (Place& place : places[p]) {
       const PointRows rows = rowsAt(garment, map, offsets[p], p, place.uv);
-      place.point = positions.find(rows, static_cast<int>(s.points.size()));
-      if (place.point < static_cast<int>(s.points.size())) continue;
-      s.points.push_back({p, place.uv, 0});
-      for (int direction : {1, 2}) {
-        double size = 0;
-        for (const auto& entry : rows.entries) size = std::max(size, std::abs(entry.second[direction]));
-        for (const auto& [column, entry] : rows.entries)
-          if (std::abs(entry[direction]) > 1e-13 * size) s.B.add(column, entry[direction]);
-        s.B.endRow();
-      }
+      const std::array<int, 2> row{table.find(rows, 1, s.B), table.find(rows, 2, s.B)};
+      const auto [at, is_new] = point_of.try_emplace(row, static_cast<int>(s.points.size()));
+      place.point = at->second;
+      if (is_new) s.points.push_back({p, place.uv, 0, row});
     }
   }
   s.Bt = transpose(s.B);
-  s.S = mobilityOf(s.B, s.Bt, inverse_mass, s.live);
+  if (s.mobility.P.rows() == 0)
+    addMobility(s);
+  else
+    addMobilityTensors(s);
 
   // Areas, and the way from multipliers to cells to vertices.
   std::vector<std::vector<CellShare>> cells(patch_count);
@@ -280,6 +328,9 @@ StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, std::span
     cells[cell.patch][at] = shareOf(garment.patches[cell.patch], cell, places[cell.patch]);
     for (const auto& [point, area] : cells[cell.patch][at].points) s.points[point].area_m2 += area;
   }
+  s.area_m2.assign(s.rows(), 0.0);
+  for (const StrainPoint& point : s.points)
+    for (int row : point.row) s.area_m2[row] += point.area_m2;
   s.cell_of_point.column_count = static_cast<int>(s.points.size());
   s.vertex_of_cell.column_count = first_cell.back();
   for (int p = 0; p < patch_count; ++p) {
@@ -310,7 +361,11 @@ std::vector<Vec2> limitStress(const StrainRows& rows, std::span<const double> mu
   std::vector<double> one(points), cell(rows.cell_of_point.rows()), vertex(rows.vertex_of_cell.rows());
   std::vector<Vec2> field(rows.vertex_of_cell.rows());
   for (int direction : {0, 1}) {
-    for (int i = 0; i < points; ++i) one[i] = multiplier[2 * i + direction];
+    for (int i = 0; i < points; ++i) {
+      const StrainPoint& point = rows.points[i];
+      const int row = point.row[direction];
+      one[i] = rows.area_m2[row] > 0 ? multiplier[row] * point.area_m2 / rows.area_m2[row] : 0;
+    }
     rows.cell_of_point.multiply<double>(one, cell);
     rows.vertex_of_cell.multiply<double>(cell, vertex);
     for (std::size_t i = 0; i < field.size(); ++i) (direction == 0 ? field[i].x : field[i].y) = vertex[i];

@@ -131,10 +131,12 @@ std::unique_ptr<Structure> buildStructure(const Garment& garment, const Structur
   const std::vector<double> ones(map.home.size(), 1.0);
   consistent.multiply<double>(ones, lumped);
   map.Tt.multiply<double>(integral.area, area);
+  std::optional<StructureLimit> limit;
+  if (o.strain_limit.mode != LimitMode::none) limit = buildStructureLimit(garment, map, dofs, lumped, o.strain_limit);
   return std::make_unique<Structure>(Structure{
       std::move(shell), std::move(map), std::move(dofs), std::move(loads), std::move(programs), std::move(tangent),
       std::move(reduction), std::move(rest), o.dead, std::move(lumped), std::move(consistent), o.rayleigh_mass_per_s,
-      o.rayleigh_stiffness_s, o.drag_kg_per_m2s, std::move(area)});
+      o.rayleigh_stiffness_s, o.drag_kg_per_m2s, std::move(area), std::move(limit)});
 }
 
 }  // namespace gambeson

@@ -2,11 +2,13 @@
 /// A sheet with supports and loads: what the static, implicit and modal solvers see.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/dynamics/reduction.hpp"
+#include "core/dynamics/structure_limit.hpp"
 #include "core/math/cholesky.hpp"
 #include "core/sheet/constraint.hpp"
 #include "core/sheet/loads.hpp"
@@ -45,6 +47,8 @@ struct Structure {
   double rayleigh_stiffness_s = 0;  ///< b
   double drag_kg_per_m2s = 0;       ///< Zheng 2013, section 2.2.3
   std::vector<double> area_m2;      ///< ∫ N dA of the free points
+  /// Of explicit steps. Its force is no part of what equilibrium and implicit steps see: they refuse it.
+  std::optional<StructureLimit> limit;
 };
 
 struct StructureOptions {
@@ -54,6 +58,7 @@ struct StructureOptions {
   std::vector<EdgeMoment> moments;
   std::vector<Program> programs;  ///< none: one, from 0 at 0 to 1 at 1
   double rayleigh_mass_per_s = 0, rayleigh_stiffness_s = 0, drag_kg_per_m2s = 0;
+  StrainLimit strain_limit;
   CellRule cell_rule = CellRule::automatic;
   int gauss_extra = 0;
   const KernelSet* kernels = nullptr;  ///< the widest where null

@@ -16,6 +16,7 @@ DynamicReport solveDynamic(const Structure& structure, const DynamicOptions& opt
 
 std::vector<Mode> naturalModes(const Structure& structure, std::span<const double> y, double t, int count,
                                bool lumped_mass) {
+  refuseLimit(structure);
   StructureSystem system(structure, ProgramEnds::constant);
   return lowestModes(system, y, t, count, lumped_mass);
 }

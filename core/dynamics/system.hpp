@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "core/dynamics/motion_limit.hpp"
 #include "core/math/cholesky.hpp"
 
 namespace gambeson {
@@ -37,6 +38,8 @@ class System {
   virtual void supportForce(double /*t*/, double /*dt*/, bool /*lumped*/, std::span<double> f) {
     for (double& v : f) v = 0;
   }
+  /// What holds at the end of explicit steps beside the supports; null: nothing.
+  virtual MotionLimit* limit() { return nullptr; }
 };
 
 }  // namespace gambeson

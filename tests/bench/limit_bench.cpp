@@ -51,7 +51,7 @@ Swing swing(int cells, double k_over_rho, const StrainLimit& limit) {
   o.strain_limit = limit;
   o.cell_rule = CellRule::full;
   const auto model = buildModel(g, o, {{0, 0, -9.8}, 0.351}, {}, {});
-  const StrainRows rows = buildStrainRows(g, model->map, model->inverse_mass);
+  const StrainRows rows = buildStrainRows(g, model->map, {model->inverse_mass, {}});
   const Still stage;
   StepWork work;
   State state = initialState(*model, stage, 0, work);

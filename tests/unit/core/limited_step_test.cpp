@@ -127,7 +127,7 @@ struct Stretch {
 };
 Stretch swing(double k_over_rho, const StrainLimit& limit, CellRule rule = CellRule::full) {
   Motion m = corners(k_over_rho, limit, rule);
-  const StrainRows rows = buildStrainRows(m.model->shell.garment(), m.model->map, m.model->inverse_mass);
+  const StrainRows rows = buildStrainRows(m.model->shell.garment(), m.model->map, {m.model->inverse_mass, {}});
   Frequency frequency;
   Stretch s;
   std::vector<Vec3> e;
@@ -226,7 +226,7 @@ Pulled pull(LimitMode mode, int cells) {
   if (mode != LimitMode::none) {
     field = limitStress(rows, m.state.limit_J);
     for (std::size_t i = 0; i < rows.points.size(); ++i)
-      pulled.raw.push_back(m.state.limit_J[2 * i + 1] / rows.points[i].area_m2);
+      pulled.raw.push_back(m.state.limit_J[rows.points[i].row[1]] / rows.points[i].area_m2);
   }
   NurbsPatch now = patch;
   m.model->map.T.multiply<Vec3>(m.state.p, now.points);
