@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <random>
 
 #include "cases/structure_shapes.hpp"
 #include "core/error.hpp"
@@ -232,31 +231,6 @@ void applyTrim(const SheetCase& c, Garment& g) {
   }
 }
 
-/// Uniform in [0, 1), the same on every machine.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-/// Waves over [0, 1] with the amplitude 1.
-struct Waves {
-  std::vector<double> size, phase;
-  int from = 0;
-  double largest = 0;
-
-  Waves(const NoiseCase& n, std::mt19937_64& random) : from(n.from) {
-    for (int k = n.from; k <= n.to; ++k) {
-      size.push_back(2 * uniform(random) - 1);
-      phase.push_back(2 * std::numbers::pi * uniform(random));
-    }
-    for (int i = 0; i < 4096; ++i) largest = std::max(largest, std::abs(sum(i / 4096.)));
-  }
-  double sum(double t) const {
-    double s = 0;
-    for (std::size_t k = 0; k < size.size(); ++k)
-      s += size[k] * std::cos(2 * std::numbers::pi * (from + static_cast<double>(k)) * t + phase[k]);
-    return s;
-  }
-  double operator()(double t) const { return largest > 0 ? sum(t) / largest : 0; }
-};
-
 }  // namespace
 
 Sheet buildSheet(const SheetCase& c) {
@@ -338,41 +312,6 @@ double edgeLength(const Sheet& sheet, const EdgeAt& edge) {
       }
   }
   return length;
-}
-
-std::vector<Vec3> noiseOf(const Sheet& sheet, const NoiseCase& noise) {
-  const Garment& g = sheet.garment;
-  const FreeMap map = buildFreeMap(g);
-  const std::vector<int> offsets = controlOffsets(g);
-  std::mt19937_64 random(static_cast<std::uint64_t>(noise.seed));
-  const Waves waves(noise, random);
-  // On the free points, so that seams stay smooth.
-  std::vector<Vec3> free(map.home.size()), all(static_cast<std::size_t>(offsets.back()));
-  for (std::size_t f = 0; f < free.size(); ++f) {
-    const auto patch =
-        static_cast<std::size_t>(std::upper_bound(offsets.begin(), offsets.end(), map.home[f]) - offsets.begin() - 1);
-    const NurbsPatch& p = g.patches[patch];
-    const int local = map.home[f] - offsets[patch], i = local % p.u.count(), j = local / p.u.count();
-    const double u = grevillePoints(p.u)[static_cast<std::size_t>(i)],
-                 v = grevillePoints(p.v)[static_cast<std::size_t>(j)];
-    const std::array<Vec3, 6> x = surfaceDerivatives(p, u, v);
-    double size = 0;
-    if (noise.from == 0) {
-      size = 2 * uniform(random) - 1;
-    } else {
-      const KnotVector& k = noise.along_v ? p.v : p.u;
-      const double angle = noise.along_v ? sheet.angle_v_rad : sheet.angle_u_rad;
-      const int count = noise.along_v ? sheet.count_v : sheet.count_u;
-      const int piece = sheet.grid ? (noise.along_v ? static_cast<int>(patch) / sheet.count_u
-                                                    : static_cast<int>(patch) % sheet.count_u)
-                                   : 0;
-      const double t = ((noise.along_v ? v : u) - k.front()) / (k.back() - k.front());
-      size = waves((piece + arcFraction(angle, t)) / count);
-    }
-    free[f] = noise.amplitude_m * size * normalized(cross(x[1], x[2]));
-  }
-  map.T.multiply<Vec3>(free, all);
-  return all;
 }
 
 }  // namespace gambeson

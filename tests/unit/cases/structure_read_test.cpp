@@ -155,7 +155,7 @@ TEST(StructureSheet, NoiseIsOfTheCaseAlone) {
     difference = std::max(difference, std::abs(at(fine, noise, (i + 0.5) / 100) - at(coarse, noise, (i + 0.5) / 100)));
   }
   EXPECT_NEAR(largest, 1e-3, 1e-4);
-  EXPECT_LT(difference, 1e-4);
+  EXPECT_LT(difference, 2e-6);
   EXPECT_GT(std::abs(at(fine, noise, 0.3) - at(fine, {1e-3, 4, 2, 8, true}, 0.3)), 1e-5);
 }
 
