@@ -1,0 +1,314 @@
+#include "core/contact/certified_impact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace gambeson {
+
+namespace {
+
+constexpr double kDirectionBound = 0x1p-48;    ///< error of a gap over R
+constexpr double kCoplanarBound = 0x1p-46;     ///< error of the determinant over the product of its arms
+constexpr double kRoundUp = 1 + 0x1p-49;       ///< the separation against |n| <= 1 + 5u
+constexpr double kTiny = 1e-280;               ///< covers underflow
+constexpr double kLargest = 1e50;              ///< relative coordinates beyond this are not looked at
+constexpr int kCap = 2000;                     ///< steps
+constexpr double kNormalised = 1e-200;         ///< squared length from which a vector has a direction
+
+/// The differences x_i - x_j between the corners of the two primitives: N = 3 (p - a, p - b, p - c) or
+/// N = 4 (a - c, a - d, b - c, b - d). The primitives meet where the hull of these points holds the origin; the hull is a
+/// triangle or a parallelogram, and its nearest point to the origin tells the nearest points of the primitives.
+template <std::size_t N>
+using Relative = std::array<Vec3, N>;
+
+Relative<3> relative3(const FourPoints& x) { return {x[0] - x[1], x[0] - x[2], x[0] - x[3]}; }
+Relative<4> relative4(const FourPoints& x) { return {x[0] - x[2], x[0] - x[3], x[1] - x[2], x[1] - x[3]}; }
+
+double largest(const Vec3& a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
+
+/// A unit vector, from the hull towards the origin's other side: n.r > 0 on the hull where it separates.
+struct Direction {
+  Vec3 n;
+  double u = 0, v = 0;  ///< of the nearest points that it belongs to
+  double length_m = 0;  ///< their distance
+  bool valid = false;
+};
+
+/// Nearest point of a segment r0 r1 to the origin: r0 + s (r1 - r0), made orthogonal to the segment anew, as the
+/// difference of long vectors leaves a direction that is not.
+struct SegmentFoot {
+  double s, length2;
+  Vec3 q;
+};
+SegmentFoot footOnSegment(const Vec3& r0, const Vec3& r1) {
+  const Vec3 e = r1 - r0;
+  const double along = -dot(r0, e), length2 = norm2(e);
+  if (!(along > 0)) return {0, norm2(r0), r0};
+  if (!(along < length2)) return {1, norm2(r1), r1};
+  const double s = along / length2;
+  Vec3 q = r0 + s * e;
+  q -= (dot(q, e) / length2) * e;
+  return {s, norm2(q), q};
+}
+
+void orient(Direction& d, const Vec3& q, double length2) {
+  d.valid = length2 > kNormalised;
+  if (!d.valid) return;
+  d.length_m = std::sqrt(length2);
+  d.n = (1 / d.length_m) * q;
+}
+
+/// The direction of the plane of the hull, with the foot of the origin on it; `inside` where the foot is in the hull.
+Direction planeDirection(const Vec3& normal, const Vec3& r) {
+  Direction d;
+  orient(d, normal, norm2(normal));
+  if (!d.valid) return d;
+  d.length_m = dot(d.n, r);
+  if (d.length_m < 0) {
+    d.length_m = -d.length_m;
+    d.n = -d.n;
+  }
+  return d;
+}
+
+Direction faceDirection(const Relative<3>& r, bool& inside) {
+  const Vec3 n = cross(r[0] - r[1], r[0] - r[2]);
+  const double w0 = dot(n, cross(r[1], r[2])), w1 = dot(n, cross(r[2], r[0])), w2 = dot(n, cross(r[0], r[1]));
+  Direction d = planeDirection(n, r[0]);
+  inside = d.valid && w0 >= 0 && w1 >= 0 && w2 >= 0;
+  if (inside) {
+    const double sum = w0 + w1 + w2;
+    d.u = sum > 0 ? w1 / sum : 1.0 / 3, d.v = sum > 0 ? w2 / sum : 1.0 / 3;
+  }
+  return d;
+}
+
+Direction faceDirection(const Relative<4>& r, bool& inside) {
+  const Vec3 e = r[2] - r[0], f = r[0] - r[1];  // b - a, d - c
+  const Vec3 n = cross(e, f);
+  const double n2 = norm2(n);
+  Direction d = planeDirection(n, r[0]);
+  const double s = dot(n, cross(f, r[0])), t = dot(n, cross(e, r[0]));
+  inside = d.valid && s >= 0 && s <= n2 && t >= 0 && t <= n2;
+  if (inside) d.u = s / n2, d.v = t / n2;
+  return d;
+}
+
+Direction rimDirection(const Relative<3>& r) {
+  Direction d;
+  const SegmentFoot ab = footOnSegment(r[0], r[1]), bc = footOnSegment(r[1], r[2]), ca = footOnSegment(r[2], r[0]);
+  if (ab.length2 <= bc.length2 && ab.length2 <= ca.length2) {
+    d.u = ab.s;
+    orient(d, ab.q, ab.length2);
+  } else if (bc.length2 <= ca.length2) {
+    d.u = 1 - bc.s, d.v = bc.s;
+    orient(d, bc.q, bc.length2);
+  } else {
+    d.v = 1 - ca.s;
+    orient(d, ca.q, ca.length2);
+  }
+  return d;
+}
+
+Direction rimDirection(const Relative<4>& r) {
+  Direction d;
+  SegmentFoot best = footOnSegment(r[0], r[1]);  // the corner a against cd
+  d.u = 0, d.v = best.s;
+  if (const SegmentFoot b = footOnSegment(r[2], r[3]); b.length2 < best.length2) best = b, d.u = 1, d.v = b.s;
+  if (const SegmentFoot c = footOnSegment(r[0], r[2]); c.length2 < best.length2) best = c, d.u = c.s, d.v = 0;
+  if (const SegmentFoot e = footOnSegment(r[1], r[3]); e.length2 < best.length2) best = e, d.u = e.s, d.v = 1;
+  orient(d, best.q, best.length2);
+  return d;
+}
+
+template <std::size_t N>
+struct Query {
+  Relative<N> r0, r1;
+  double error_m;       ///< of a gap along a unit vector
+  double separation_m;  ///< rounded up
+
+  Relative<N> at(double t) const {
+    Relative<N> r;
+    const double s = 1 - t;
+    for (std::size_t i = 0; i < N; ++i) r[i] = s * r0[i] + t * r1[i];
+    return r;
+  }
+  bool beyond(double gap_m) const { return gap_m - error_m > separation_m; }
+
+  /// Do the boxes of the hull at both ends lie beyond the separation on one side of the origin?
+  bool boxesApart() const {
+    for (int k = 0; k < 3; ++k) {
+      double lo = std::min(r0[0][k], r1[0][k]), hi = std::max(r0[0][k], r1[0][k]);
+      for (std::size_t i = 1; i < N; ++i) {
+        lo = std::min({lo, r0[i][k], r1[i][k]});
+        hi = std::max({hi, r0[i][k], r1[i][k]});
+      }
+      if (lo > separation_m || hi < -separation_m) return true;
+    }
+    return false;
+  }
+
+  /// Smallest gap along n at time t, and the time from t on until which all gaps are certainly beyond the separation
+  /// (-1: not even at t).
+  struct Reach {
+    double gap_m, time;
+  };
+  Reach reach(const Vec3& n, double t) const {
+    std::array<double, N> h0, h1;
+    const double s = 1 - t;
+    double gap = INFINITY, until = 1;
+    for (std::size_t i = 0; i < N; ++i) {
+      h0[i] = dot(n, r0[i]), h1[i] = dot(n, r1[i]);
+      const double g = s * h0[i] + t * h1[i];
+      gap = g < gap ? g : gap;
+      if (!beyond(g)) return {gap, -1};  // NaN too
+      if (beyond(h1[i])) continue;
+      // Where the gap falls to the separation and twice the error; what rounding does to it is checked below.
+      until = std::min(until, (h0[i] - 2 * error_m - separation_m) / (h0[i] - h1[i]));
+    }
+    until = std::max(until, t);
+    for (std::size_t i = 0; i < N; ++i)
+      if (!beyond((1 - until) * h0[i] + until * h1[i])) return {gap, t};
+    return {gap, until};
+  }
+
+  /// Is the pair apart from tA to tB along the direction that turns from nA to nB? rA, rB: positions at these times.
+  bool apartTurning(const Vec3& nA, const Relative<N>& rA, const Vec3& nB, const Relative<N>& rB) const {
+    for (std::size_t i = 0; i < N; ++i)
+      if (!(beyond(dot(nA, rA[i])) && beyond(0.5 * (dot(nA, rB[i]) + dot(nB, rA[i]))) && beyond(dot(nB, rB[i]))))
+        return false;
+    return true;
+  }
+};
+
+/// Is the determinant of coplanarity (edges e, f and an arm w between the primitives, each from its start to its end)
+/// beyond separation times |e x f|, with one sign, at all times?
+bool neverCoplanar(const Vec3& e0, const Vec3& e1, const Vec3& f0, const Vec3& f1, const Vec3& w0, const Vec3& w1,
+                   double separation_m) {
+  const Vec3 n0 = cross(e0, f0), n1 = 0.5 * (cross(e0, f1) + cross(e1, f0)), n2 = cross(e1, f1);
+  const double c0 = dot(n0, w0), c3 = dot(n2, w1);
+  if (!((c0 > 0) == (c3 > 0))) return false;
+  const double c1 = (dot(n0, w1) + 2 * dot(n1, w0)) / 3, c2 = (2 * dot(n1, w1) + dot(n2, w0)) / 3;
+  const double lo = std::min({c0, c1, c2, c3}), hi = std::max({c0, c1, c2, c3});
+  const double E = std::max(largest(e0), largest(e1)), F = std::max(largest(f0), largest(f1)),
+               W = std::max(largest(w0), largest(w1));
+  const double error = kCoplanarBound * (E * F * W) + kTiny;
+  double bound = error;
+  // |n| lies below the largest of its coefficients; their own error is 10u EF each, sqrt(3) of it in length.
+  if (separation_m > 0)
+    bound += separation_m * (std::sqrt(std::max({norm2(n0), norm2(n1), norm2(n2)}) + 1e-300) + kCoplanarBound * (E * F)) *
+             kRoundUp;
+  return lo > bound || hi < -bound;
+}
+bool neverCoplanar3(const FourPoints& x0, const FourPoints& x1, double separation_m) {
+  return neverCoplanar(x0[2] - x0[1], x1[2] - x1[1], x0[3] - x0[1], x1[3] - x1[1], x0[0] - x0[1], x1[0] - x1[1],
+                       separation_m);
+}
+bool neverCoplanar4(const FourPoints& x0, const FourPoints& x1, double separation_m) {
+  return neverCoplanar(x0[1] - x0[0], x1[1] - x1[0], x0[3] - x0[2], x1[3] - x1[2], x0[2] - x0[0], x1[2] - x1[0],
+                       separation_m);
+}
+
+/// The better of the directions known at a time: the one that separates longest from then on.
+struct Best {
+  Direction direction;   ///< that reaches furthest
+  double time = -1;      ///< how far
+  double gap_m = 0;      ///< largest of the certified gaps of all directions
+  ImpactTime nearest{};  ///< nearest points
+};
+template <std::size_t N>
+Best bestDirection(const Query<N>& q, const Relative<N>& r, double t) {
+  Best best;
+  best.gap_m = -INFINITY;
+  const auto consider = [&](const Direction& d) {
+    if (!d.valid) return;
+    const auto [gap, time] = q.reach(d.n, t);
+    best.gap_m = std::max(best.gap_m, gap);
+    if (time > best.time) best.time = time, best.direction = d;
+  };
+  bool inside = false;
+  const Direction face = faceDirection(r, inside);
+  if (inside) consider(face);
+  if (inside) best.nearest = {t, face.u, face.v, face.length_m};
+  if (best.time >= 1) return best;
+  const Direction rim = rimDirection(r);
+  consider(rim);
+  if (!inside || rim.length_m < face.length_m) best.nearest = {t, rim.u, rim.v, rim.length_m};
+  if (!inside && best.time < 1) consider(face);
+  return best;
+}
+
+template <std::size_t N>
+std::optional<ImpactTime> impact(const Relative<N>& r0, const Relative<N>& r1, double separation_m, double tolerance_m,
+                                 bool (*neverCoplanarOf)(const FourPoints&, const FourPoints&, double),
+                                 const FourPoints& x0, const FourPoints& x1) {
+  double extent = 0, sum = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    extent = std::max({extent, largest(r0[i]), largest(r1[i])});
+    sum += (r0[i].x + r0[i].y + r0[i].z) + (r1[i].x + r1[i].y + r1[i].z);  // NaN is lost in a maximum, not in a sum
+  }
+  if (!(extent < kLargest && std::isfinite(sum))) return ImpactTime{0, 0, 0, 0, true};
+  Query<N> q{r0, r1, kDirectionBound * extent + kTiny, separation_m * kRoundUp};
+  if (q.boxesApart()) return std::nullopt;
+  if (neverCoplanarOf(x0, x1, q.separation_m)) return std::nullopt;
+  const double enough_m = q.separation_m + std::max(tolerance_m, 3 * q.error_m);
+
+  double t = 0, stride = 1;
+  Relative<N> r = r0;
+  Best best = bestDirection(q, r, t);
+  for (int step = 0;; ++step) {
+    if (best.time >= 1) return std::nullopt;
+    if (!(best.gap_m > enough_m) || !(best.time > t) || step == kCap) {
+      best.nearest.capped = !(best.nearest.gap_m <= enough_m + 4 * q.error_m);
+      return best.nearest;
+    }
+    double next = best.time;
+    if (step > 0) {
+      // The pair turns faster than a constant direction can follow.
+      const double far = std::min(1.0, t + stride);
+      if (far > next) {
+        const Relative<N> rFar = q.at(far);
+        const Best later = bestDirection(q, rFar, far);
+        if (later.time >= far && q.apartTurning(best.direction.n, r, later.direction.n, rFar)) {
+          if (far >= 1) return std::nullopt;
+          t = far, r = rFar, best = later;
+          stride *= 2;
+          continue;
+        }
+        stride = 0.25 * (far - t);
+      } else {
+        stride = 2 * (next - t);
+      }
+    }
+    t = next;
+    r = q.at(t);
+    best = bestDirection(q, r, t);
+  }
+}
+
+template <std::size_t N>
+double gap(const Relative<N>& r) {
+  double extent = 0;
+  for (std::size_t i = 0; i < N; ++i) extent = std::max(extent, largest(r[i]));
+  const Query<N> q{r, r, kDirectionBound * extent + kTiny, 0};
+  const double below = (bestDirection(q, r, 0).gap_m - q.error_m) / kRoundUp;
+  return extent < kLargest && below > 0 ? below : 0;
+}
+
+}  // namespace
+
+std::optional<ImpactTime> pointTriangleImpact(const FourPoints& x0, const FourPoints& x1, double separation_m,
+                                              double tolerance_m) {
+  return impact<3>(relative3(x0), relative3(x1), separation_m, tolerance_m, neverCoplanar3, x0, x1);
+}
+
+std::optional<ImpactTime> edgeEdgeImpact(const FourPoints& x0, const FourPoints& x1, double separation_m,
+                                         double tolerance_m) {
+  return impact<4>(relative4(x0), relative4(x1), separation_m, tolerance_m, neverCoplanar4, x0, x1);
+}
+
+double pointTriangleGap(const FourPoints& x) { return gap(relative3(x)); }
+double edgeEdgeGap(const FourPoints& x) { return gap(relative4(x)); }
+
+}  // namespace gambeson
