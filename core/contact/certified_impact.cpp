@@ -8,17 +8,17 @@ namespace gambeson {
 
 namespace {
 
-constexpr double kDirectionBound = 0x1p-48;    ///< error of a gap over R
-constexpr double kCoplanarBound = 0x1p-46;     ///< error of the determinant over the product of its arms
-constexpr double kRoundUp = 1 + 0x1p-49;       ///< the separation against |n| <= 1 + 5u
-constexpr double kTiny = 1e-280;               ///< covers underflow
-constexpr double kLargest = 1e50;              ///< relative coordinates beyond this are not looked at
-constexpr int kCap = 2000;                     ///< steps
-constexpr double kNormalised = 1e-200;         ///< squared length from which a vector has a direction
+constexpr double kDirectionBound = 0x1p-48;  ///< error of a gap over R
+constexpr double kCoplanarBound = 0x1p-45;   ///< error of the determinant over the product of its arms
+constexpr double kRoundUp = 1 + 0x1p-49;     ///< the separation against |n| <= 1 + 5u
+constexpr double kTiny = 1e-280;             ///< covers underflow
+constexpr double kLargest = 1e50;            ///< relative coordinates beyond this are not looked at
+constexpr int kCap = 2000;                   ///< steps
+constexpr double kNormalised = 1e-200;       ///< squared length from which a vector has a direction
 
 /// The differences x_i - x_j between the corners of the two primitives: N = 3 (p - a, p - b, p - c) or
-/// N = 4 (a - c, a - d, b - c, b - d). The primitives meet where the hull of these points holds the origin; the hull is a
-/// triangle or a parallelogram, and its nearest point to the origin tells the nearest points of the primitives.
+/// N = 4 (a - c, a - d, b - c, b - d). The primitives meet where the hull of these points holds the origin; the hull is
+/// a triangle or a parallelogram, and its nearest point to the origin tells the nearest points of the primitives.
 template <std::size_t N>
 using Relative = std::array<Vec3, N>;
 
@@ -182,32 +182,45 @@ struct Query {
   }
 };
 
-/// Is the determinant of coplanarity (edges e, f and an arm w between the primitives, each from its start to its end)
-/// beyond separation times |e x f|, with one sign, at all times?
-bool neverCoplanar(const Vec3& e0, const Vec3& e1, const Vec3& f0, const Vec3& f1, const Vec3& w0, const Vec3& w1,
-                   double separation_m) {
-  const Vec3 n0 = cross(e0, f0), n1 = 0.5 * (cross(e0, f1) + cross(e1, f0)), n2 = cross(e1, f1);
-  const double c0 = dot(n0, w0), c3 = dot(n2, w1);
-  if (!((c0 > 0) == (c3 > 0))) return false;
-  const double c1 = (dot(n0, w1) + 2 * dot(n1, w0)) / 3, c2 = (2 * dot(n1, w1) + dot(n2, w0)) / 3;
-  const double lo = std::min({c0, c1, c2, c3}), hi = std::max({c0, c1, c2, c3});
-  const double E = std::max(largest(e0), largest(e1)), F = std::max(largest(f0), largest(f1)),
-               W = std::max(largest(w0), largest(w1));
-  const double error = kCoplanarBound * (E * F * W) + kTiny;
-  double bound = error;
-  // |n| lies below the largest of its coefficients; their own error is 10u EF each, sqrt(3) of it in length.
-  if (separation_m > 0)
-    bound += separation_m * (std::sqrt(std::max({norm2(n0), norm2(n1), norm2(n2)}) + 1e-300) + kCoplanarBound * (E * F)) *
-             kRoundUp;
-  return lo > bound || hi < -bound;
+/// What the determinant of coplanarity is made of: two edges e, f and an arm w between the primitives, at 0 and 1.
+struct Coplanarity {
+  Vec3 e0, e1, f0, f1, w0, w1;
+  double ef_m2, efw_m3;  ///< products of their largest components
+
+  Coplanarity(const Vec3& ea, const Vec3& eb, const Vec3& fa, const Vec3& fb, const Vec3& wa, const Vec3& wb)
+      : e0(ea), e1(eb), f0(fa), f1(fb), w0(wa), w1(wb) {
+    ef_m2 = std::max(largest(e0), largest(e1)) * std::max(largest(f0), largest(f1));
+    efw_m3 = ef_m2 * std::max(largest(w0), largest(w1));
+  }
+  /// Is it beyond separation times |e x f|, with one sign, at all times?
+  bool never(double separation_m) const {
+    const Vec3 n0 = cross(e0, f0), n2 = cross(e1, f1);
+    const double c0 = dot(n0, w0), c3 = dot(n2, w1);
+    if (!((c0 > 0) == (c3 > 0))) return false;
+    const Vec3 n1 = 0.5 * (cross(e0, f1) + cross(e1, f0));
+    const double c1 = (dot(n0, w1) + 2 * dot(n1, w0)) / 3, c2 = (2 * dot(n1, w1) + dot(n2, w0)) / 3;
+    double bound = kCoplanarBound * efw_m3 + kTiny;
+    // |n| lies below the largest of its coefficients.
+    if (separation_m > 0)
+      bound += separation_m * kRoundUp *
+               (std::sqrt(std::max({norm2(n0), norm2(n1), norm2(n2)}) + 1e-300) + kCoplanarBound * ef_m2);
+    return std::min({c0, c1, c2, c3}) > bound || std::max({c0, c1, c2, c3}) < -bound;
+  }
+  bool never(double separation_m, double tA, double tB) const {
+    const auto at = [](const Vec3& a, const Vec3& b, double t) { return (1 - t) * a + t * b; };
+    Coplanarity part = *this;  // with the products of the whole: they bound the errors at all times
+    part.e0 = at(e0, e1, tA), part.e1 = at(e0, e1, tB);
+    part.f0 = at(f0, f1, tA), part.f1 = at(f0, f1, tB);
+    part.w0 = at(w0, w1, tA), part.w1 = at(w0, w1, tB);
+    return part.never(separation_m);
+  }
+};
+
+Coplanarity coplanarity(const Relative<3>& r0, const Relative<3>& r1, const FourPoints& x0, const FourPoints& x1) {
+  return {x0[2] - x0[1], x1[2] - x1[1], x0[3] - x0[1], x1[3] - x1[1], r0[0], r1[0]};
 }
-bool neverCoplanar3(const FourPoints& x0, const FourPoints& x1, double separation_m) {
-  return neverCoplanar(x0[2] - x0[1], x1[2] - x1[1], x0[3] - x0[1], x1[3] - x1[1], x0[0] - x0[1], x1[0] - x1[1],
-                       separation_m);
-}
-bool neverCoplanar4(const FourPoints& x0, const FourPoints& x1, double separation_m) {
-  return neverCoplanar(x0[1] - x0[0], x1[1] - x1[0], x0[3] - x0[2], x1[3] - x1[2], x0[2] - x0[0], x1[2] - x1[0],
-                       separation_m);
+Coplanarity coplanarity(const Relative<4>& r0, const Relative<4>& r1, const FourPoints& x0, const FourPoints& x1) {
+  return {x0[1] - x0[0], x1[1] - x1[0], x0[3] - x0[2], x1[3] - x1[2], r0[0], r1[0]};
 }
 
 /// The better of the directions known at a time: the one that separates longest from then on.
@@ -241,17 +254,17 @@ Best bestDirection(const Query<N>& q, const Relative<N>& r, double t) {
 
 template <std::size_t N>
 std::optional<ImpactTime> impact(const Relative<N>& r0, const Relative<N>& r1, double separation_m, double tolerance_m,
-                                 bool (*neverCoplanarOf)(const FourPoints&, const FourPoints&, double),
                                  const FourPoints& x0, const FourPoints& x1) {
   double extent = 0, sum = 0;
   for (std::size_t i = 0; i < N; ++i) {
     extent = std::max({extent, largest(r0[i]), largest(r1[i])});
     sum += (r0[i].x + r0[i].y + r0[i].z) + (r1[i].x + r1[i].y + r1[i].z);  // NaN is lost in a maximum, not in a sum
   }
-  if (!(extent < kLargest && std::isfinite(sum))) return ImpactTime{0, 0, 0, 0, true};
+  if (!(extent < kLargest && std::isfinite(sum) && separation_m >= 0)) return ImpactTime{0, 0, 0, 0, true};
   Query<N> q{r0, r1, kDirectionBound * extent + kTiny, separation_m * kRoundUp};
   if (q.boxesApart()) return std::nullopt;
-  if (neverCoplanarOf(x0, x1, q.separation_m)) return std::nullopt;
+  const Coplanarity coplanar = coplanarity(r0, r1, x0, x1);
+  if (coplanar.never(q.separation_m)) return std::nullopt;
   const double enough_m = q.separation_m + std::max(tolerance_m, 3 * q.error_m);
 
   double t = 0, stride = 1;
@@ -268,9 +281,11 @@ std::optional<ImpactTime> impact(const Relative<N>& r0, const Relative<N>& r1, d
       // The pair turns faster than a constant direction can follow.
       const double far = std::min(1.0, t + stride);
       if (far > next) {
+        const bool apart = coplanar.never(q.separation_m, t, far);
+        if (apart && far >= 1) return std::nullopt;
         const Relative<N> rFar = q.at(far);
         const Best later = bestDirection(q, rFar, far);
-        if (later.time >= far && q.apartTurning(best.direction.n, r, later.direction.n, rFar)) {
+        if (apart || (later.time >= far && q.apartTurning(best.direction.n, r, later.direction.n, rFar))) {
           if (far >= 1) return std::nullopt;
           t = far, r = rFar, best = later;
           stride *= 2;
@@ -300,12 +315,12 @@ double gap(const Relative<N>& r) {
 
 std::optional<ImpactTime> pointTriangleImpact(const FourPoints& x0, const FourPoints& x1, double separation_m,
                                               double tolerance_m) {
-  return impact<3>(relative3(x0), relative3(x1), separation_m, tolerance_m, neverCoplanar3, x0, x1);
+  return impact<3>(relative3(x0), relative3(x1), separation_m, tolerance_m, x0, x1);
 }
 
 std::optional<ImpactTime> edgeEdgeImpact(const FourPoints& x0, const FourPoints& x1, double separation_m,
                                          double tolerance_m) {
-  return impact<4>(relative4(x0), relative4(x1), separation_m, tolerance_m, neverCoplanar4, x0, x1);
+  return impact<4>(relative4(x0), relative4(x1), separation_m, tolerance_m, x0, x1);
 }
 
 double pointTriangleGap(const FourPoints& x) { return gap(relative3(x)); }

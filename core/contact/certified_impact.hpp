@@ -23,11 +23,11 @@ struct ImpactTime {
 /// Distance over which an impact may be reported early where the caller has no better value.
 constexpr double kImpactTolerance_m = 1e-9;
 
-/// First time in [0, 1] at which the Euclidean distance of the pair may be `separation_m` (>= 0) or less, all four points
-/// moving straight at constant speed from x0 to x1.
+/// First time in [0, 1] at which the Euclidean distance of the pair may be `separation_m` (>= 0) or less, all four
+/// points moving straight at constant speed from x0 to x1.
 ///
-/// Guarantees, for all inputs (relative coordinates below 1e50 m; above, or where one is not finite, the answer is a hit
-/// at 0):
+/// Guarantees, for all inputs (relative coordinates below 1e50 m; above, or where one is not finite, the answer is a
+/// hit at 0):
 /// - nothing returned: the distance exceeds separation_m at all times in [0, 1];
 /// - a time returned: the distance exceeds separation_m at all earlier times. A query that reaches its cap of steps is
 ///   a hit at the time up to which it got.
@@ -36,8 +36,8 @@ constexpr double kImpactTolerance_m = 1e-9;
 /// tolerance_m below 2^-46 R counts as that: nothing finer can be told in double precision.
 ///
 /// Law. Two convex sets are further apart than s where a unit vector n has n.(x_i - x_j) > s for all pairs of corners
-/// (3 or 4 pairs). For an n that is constant, linear or quadratic in time these gaps are polynomials of degree 1, 2 or 3
-/// in time; on an interval each lies in the hull of its Bernstein coefficients, so coefficients that all exceed s |n|
+/// (3 or 4 pairs). For an n that is constant, linear or quadratic in time these gaps are polynomials of degree 1, 2 or
+/// 3 in time; on an interval each lies in the hull of its Bernstein coefficients, so coefficients that all exceed s |n|
 /// certify the interval, wherever n came from. In order of cost: n a coordinate axis (swept boxes); n the normal of the
 /// triangle, or the cross product of the edges, at each time (quadratic; the gap is then the determinant of
 /// coplanarity, a cubic, against s max|n|: bounds both signs); n the direction between the nearest points, constant
@@ -48,14 +48,17 @@ constexpr double kImpactTolerance_m = 1e-9;
 ///
 /// Rounding, u = 2^-53. Inputs enter as differences x_i - x_j, each rounded once: relative error u.
 /// - Axes: the sign of a difference is exact, its value to u; s is rounded up by 16u.
-/// - Constant n, |n| <= 1 + 5u, |n|_1 <= sqrt(3)(1 + 5u): a gap at 0 or 1 is off by 4u |n|_1 R, interpolation in time adds
+/// - Constant n, |n| <= 1 + 5u, |n|_1 <= sqrt(3)(1 + 5u): a gap at 0 or 1 is off by 4u |n|_1 R, interpolation in time
+/// adds
 ///   as much: below 14u R. Linear n: positions at t are off by 5u R, so the coefficients by 8u |n|_1 R, their mean by
 ///   2u |n|_1 R more: below 18u R. 32u R = 2^-48 R is taken off both.
-/// - Quadratic n: components of the edges at most E, F, of the arm W: a component of a coefficient of n has magnitude
-///   2EF and error 5u 2EF, a term of the determinant's coefficients, 6EFW in all, nine roundings, the weighted mean three
-///   more: 72u EFW. 128u EFW = 2^-46 EFW is taken off.
-/// Underflow (of products, below 1e-290) is covered by a constant of 1e-280, in m and m^3. (No contraction, no reordering:
-/// the file is compiled with -ffp-contract=off; the same bits on all instruction sets.)
+/// - Quadratic n: components of the edges are at most E, F, of the arm W, each with an error of 5u of that at a time
+/// within
+///   [0, 1]. A component of a coefficient of n: two products (5u + 5u + u), their difference, the mean of two: 2EF with
+///   an error of 13u 2EF. A coefficient of the determinant: 6EFW in all, with 13u + 5u + u, two sums, three roundings
+///   for the weighted mean: 144u EFW; |n| to sqrt(3) 26u EF. 256u = 2^-45 of EFW and EF is taken off.
+/// Underflow (of products, below 1e-290) is covered by a constant of 1e-280, in m and m^3. (No contraction, no
+/// reordering: the file is compiled with -ffp-contract=off; the same bits on all instruction sets.)
 ///
 /// Which pairs to ask. The queries are complete for two triangles without a common corner (6 point-triangle, 9
 /// edge-edge). Triangles that share corners touch there at all times; what else they can do is seen by those of the
@@ -65,16 +68,16 @@ constexpr double kImpactTolerance_m = 1e-9;
 ///   the edge ab touches ocd, or cd touches oab. First contact of these is point-triangle (a, b; ocd), (c, d; oab) or
 ///   edge-edge (ab; cd), (ab; oc), (ab; od), (cd; oa), (cd; ob): all with four different vertices, complete.
 /// - a common edge ab, triangles abc and abd: they touch elsewhere where the dihedral angle closes. Then both lie in
-///   one plane on one side of ab, so either one apex is in the other triangle, (c; abd), (d; abc), or sides cross, (ac; bd),
-///   (bc; ad): complete, with a separation too: these four distances are positive until the angle closes.
+///   one plane on one side of ab, so either one apex is in the other triangle, (c; abd), (d; abc), or sides cross, (ac;
+///   bd), (bc; ad): complete, with a separation too: these four distances are positive until the angle closes.
 /// Queries with a repeated vertex have distance 0 at all times and mean nothing (they are a hit at 0).
 std::optional<ImpactTime> pointTriangleImpact(const FourPoints& x0, const FourPoints& x1, double separation_m,
                                               double tolerance_m = kImpactTolerance_m);
 std::optional<ImpactTime> edgeEdgeImpact(const FourPoints& x0, const FourPoints& x1, double separation_m,
                                          double tolerance_m = kImpactTolerance_m);
 
-/// Certified lower bound (>= 0) of the distance of a pair at rest, at most 2^-46 R below it where the nearest points are
-/// well defined: the separation of a pair is to be chosen below it.
+/// Certified lower bound (>= 0) of the distance of a pair at rest, at most 2^-46 R below it where the nearest points
+/// are well defined: the separation of a pair is to be chosen below it.
 double pointTriangleGap(const FourPoints& x);
 double edgeEdgeGap(const FourPoints& x);
 

@@ -262,7 +262,8 @@ bool inTriangle(const std::array<PolyVec, 4>& x, Root& r) {
 bool segmentsMeet(const std::array<PolyVec, 4>& x, Root& r) {
   const PolyVec &a = x[0], &b = x[1], &c = x[2], &d = x[3];
   const PolyVec e = b - a, f = d - c, w = c - a, n = crossOf(e, f);
-  if (vanishes(n, r)) return onSegment(a, c, d, r) || onSegment(b, c, d, r) || onSegment(c, a, b, r) || onSegment(d, a, b, r);
+  if (vanishes(n, r))
+    return onSegment(a, c, d, r) || onSegment(b, c, d, r) || onSegment(c, a, b, r) || onSegment(d, a, b, r);
   // a + s e = c + t f: s n.n = (w x f).n, t n.n = (w x e).n
   const Poly n2 = dotOf(n, n), s = dotOf(crossOf(w, f), n), t = dotOf(crossOf(w, e), n);
   return signAt(dotOf(n, w), r) == 0 && signAt(s, r) >= 0 && signAt(n2 - s, r) >= 0 && signAt(t, r) >= 0 &&

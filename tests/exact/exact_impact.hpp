@@ -1,7 +1,7 @@
 #pragma once
-/// Exact answers about moving points, in integer arithmetic (GMP): the reference for core/contact/certified_impact.hpp. Shares
-/// nothing with it: roots of the coplanarity cubic are isolated by Sturm sequences, and conditions decided by the signs
-/// of polynomials at these algebraic numbers.
+/// Exact answers about moving points, in integer arithmetic (GMP): the reference for core/contact/certified_impact.hpp.
+/// Shares nothing with it: roots of the coplanarity cubic are isolated by Sturm sequences, and conditions decided by
+/// the signs of polynomials at these algebraic numbers.
 
 #include <gmpxx.h>
 
