@@ -1,0 +1,81 @@
+#include "core/contact/crossing.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/contact/orientation.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+/// Positions for which `orientation` is exact.
+std::vector<Vec3> exactRange(std::span<const Vec3> x) {
+  std::vector<Vec3> y(x.begin(), x.end());
+  for (auto& p : y)
+    for (int c = 0; c < 3; ++c) {
+      if (!(std::abs(p[c]) < 1e60)) throw RunError("a position is not finite, or 1e60 m or more from the origin");
+      if (std::abs(p[c]) < 1e-60) p[c] = 0;
+    }
+  return y;
+}
+
+}  // namespace
+
+std::vector<Box> triangleBoxes(const ContactMesh& mesh, std::span<const Vec3> x) {
+  std::vector<Box> boxes(mesh.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t)
+    for (int v : mesh.triangles[t]) boxes[t].add(x[v]);
+  return boxes;
+}
+
+std::vector<Crossing> findCrossings(const ContactMesh& mesh, std::span<const Vec3> positions,
+                                    const BoundingTree& triangle_tree, std::span<const char> obstacle) {
+  assert(positions.size() == static_cast<std::size_t>(mesh.vertex_count));
+  assert(obstacle.empty() || obstacle.size() == positions.size());
+  const std::vector<Vec3> x = exactRange(positions);
+  // Boxes and tree see the given positions: what a coordinate below 1e-60 can change is within the margin.
+  const std::vector<Box> boxes = triangleBoxes(mesh, positions);
+  constexpr double margin = 1e-60;
+
+  const auto test = [&](int e, int t, std::vector<Crossing>& out) {
+    const auto& [v, w] = mesh.edges[e];
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (v == a || v == b || v == c || w == a || w == b || w == c) return;
+    if (!obstacle.empty() && obstacle[v] && obstacle[a]) return;
+    const int back = orientation(x, {a, b, c, v}), front = orientation(x, {a, b, c, w});
+    if (back == front) return;
+    const int turn = orientation(x, {v, w, a, b});
+    if (turn != orientation(x, {v, w, b, c}) || turn != orientation(x, {v, w, c, a})) return;
+    out.push_back({e, t, front});
+  };
+
+  const int edges = static_cast<int>(mesh.edges.size());
+  constexpr int kChunk = 256;
+  const int chunks = (edges + kChunk - 1) / kChunk;
+  std::vector<std::vector<Crossing>> found(chunks);
+#pragma omp parallel for schedule(dynamic)
+  for (int chunk = 0; chunk < chunks; ++chunk) {
+    for (int e = chunk * kChunk; e < std::min(edges, (chunk + 1) * kChunk); ++e) {
+      Box box;
+      for (int v : mesh.edges[e]) box.add(positions[v]);
+      box = box.grown(margin);
+      triangle_tree.overlapping(box, [&](int t) {
+        if (overlap(box, boxes[t])) test(e, t, found[chunk]);
+      });
+    }
+    std::sort(found[chunk].begin(), found[chunk].end(), [](const Crossing& p, const Crossing& q) {
+      return p.edge != q.edge ? p.edge < q.edge : p.triangle < q.triangle;
+    });
+  }
+  std::vector<Crossing> out;
+  for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+  return out;
+}
+
+std::vector<Crossing> findCrossings(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const char> obstacle) {
+  return findCrossings(mesh, x, BoundingTree(triangleBoxes(mesh, x)), obstacle);
+}
+
+}  // namespace gambeson
