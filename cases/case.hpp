@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/render/render.hpp"
-#include "core/dynamics/strain_limit.hpp"
+#include "cases/strain_limit_case.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/vec.hpp"
 #include "core/sheet/garment.hpp"
@@ -149,14 +149,6 @@ struct ContactCase {
   double relaxation_s = 0.01;  ///< tau in k = 1 - exp(-dt/tau) of the separation correction
   double tolerance = 1e-2;     ///< residual of the contacts of a step, of g dt
   int max_iterations = 400;
-};
-
-/// Strain limiting of weft and warp by projection (core/dynamics/strain_limit.hpp).
-struct StrainLimitCase {
-  LimitMode mode = LimitMode::upper_limit;
-  std::optional<double> limit;  ///< Green-Lagrange strain, of upper_limit alone
-  double tolerance = 2e-3;      ///< of the strain
-  int max_projections = 40;     ///< of one pass
 };
 
 struct AirCase {

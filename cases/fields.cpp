@@ -23,30 +23,6 @@ Object contactTable() {
       .build();
 }
 
-Object strainLimitTable() {
-  using S = StrainLimitCase;
-  return Table<S>("Strain limit")
-      .choice("mode", &S::mode,
-              std::vector<std::pair<std::string, LimitMode>>{{"upper_limit", LimitMode::upper_limit},
-                                                             {"equality", LimitMode::equality}},
-              "upper_limit: threads may slacken, and hold where they would stretch beyond the limit; equality: threads "
-              "keep their length (Zheng 2013, eq. 5.6)")
-      .required()
-      .number("limit", &S::limit, "", between(0, 1), "largest Green-Lagrange strain along weft and warp")
-      .defaultsTo("required for upper_limit; not allowed for equality")
-      .number("tolerance", &S::tolerance, "", between(1e-5, 0.05),
-              "strain by which points may miss it at the end of a step; much smaller ones cost projections and stir up "
-              "the tensions, which take up what a step turns the threads")
-      .integer("max_projections", &S::max_projections, 1, 1000, "projections in a row before a step counts as failed")
-      .check([](const Place& p, const S& s) {
-        if (s.mode == LimitMode::upper_limit && !s.limit)
-          p.failAt("limit", "is required for upper_limit: the largest strain");
-        if (s.mode == LimitMode::equality && s.limit)
-          p.failAt("limit", "has no meaning for equality, which holds the strain at 0; remove it");
-      })
-      .build();
-}
-
 Object airTable() {
   using A = AirCase;
   Field velocity;

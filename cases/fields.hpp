@@ -10,12 +10,13 @@ namespace gambeson::schema {
 const Object& caseTable();
 
 // Its parts, each beside the rules between its fields.
-Object garmentTable();   ///< GarmentCase
-Object fabricTable();    ///< FabricInput, see fields_fabric.hpp
-Object humanTable();     ///< HumanCase
-Object obstacleTable();  ///< ObstacleCase
-Object supportTable();   ///< SupportCase
-Object pictureTable();   ///< PictureCase
-Object outputTable();    ///< OutputCase
+Object garmentTable();      ///< GarmentCase
+Object fabricTable();       ///< FabricInput, see fields_fabric.hpp
+Object humanTable();        ///< HumanCase
+Object obstacleTable();     ///< ObstacleCase
+Object supportTable();      ///< SupportCase
+Object pictureTable();      ///< PictureCase
+Object outputTable();       ///< OutputCase
+Object strainLimitTable();  ///< StrainLimitCase, of structures too
 
 }  // namespace gambeson::schema

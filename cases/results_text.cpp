@@ -152,15 +152,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
   say("Contact is tested at the cloth's samples against the body's surface; edges are not tested against edges.");
   say("The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and orthotropic "
       "(Zheng 2013, eq. 2.13).");
-  if (c.strain_limit)
-    say(c.strain_limit->mode == LimitMode::equality
-            ? "Weft and warp keep their length by projection at the vertices of the knot mesh (Zheng 2013, chapter 5); "
-              "stress includes what that takes, as a mean over the window."
-            : fmt::format(
-                  "Weft and warp are kept from stretching beyond a strain of {} by projection at the vertices of "
-                  "the knot mesh (Zheng 2013, chapter 5); stress includes what that takes, as a mean over the "
-                  "window.",
-                  formatNumber(*c.strain_limit->limit)));
+  if (c.strain_limit) say(limitInWords(*c.strain_limit, "the window"));
   if (f.bending_law == BendingLaw::zheng)
     say(
         fmt::format("Bending follows Zheng 2013, eq. 2.14. Its root is replaced by a smooth cubic below a curvature of "

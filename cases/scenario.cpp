@@ -290,8 +290,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
   addSupports(c, garment, buildSurface(garment, buildFreeMap(garment), options.samples_per_cell), human, options,
               s->supports);
-  if (const auto& limit = c.strain_limit)
-    options.strain_limit = {limit->mode, limit->limit.value_or(0), limit->tolerance, limit->max_projections};
+  if (const auto& limit = c.strain_limit) options.strain_limit = limitOf(*limit);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
   const ContactParameters contact{c.contact.layer_m, c.contact.friction, c.contact.relaxation_s,

@@ -152,6 +152,7 @@ StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet) {
   o.rayleigh_mass_per_s = c.damping.mass_per_s;
   o.rayleigh_stiffness_s = c.damping.stiffness_s;
   o.drag_kg_per_m2s = c.damping.drag_kg_per_m2s;
+  if (c.strain_limit) o.strain_limit = limitOf(*c.strain_limit);
   o.cell_rule = c.sheet.rule;
   o.gauss_extra = c.sheet.gauss_extra;
   return o;

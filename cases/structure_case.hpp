@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "analysis/render/render.hpp"
+#include "cases/strain_limit_case.hpp"
 #include "cases/structure_sheet.hpp"
 #include "core/dynamics/implicit.hpp"
 #include "core/dynamics/statics.hpp"
@@ -118,6 +119,7 @@ struct StructureOutput {
   ShapesKept shapes = ShapesKept::last;
   std::optional<double> interval_s;  ///< dynamic: between rows of the table and kept shapes
   int samples_per_cell = 2;
+  bool thread_strains = false;             ///< dynamic: strains of weft and warp at vertices and Gauss points
   std::vector<StructurePicture> pictures;  ///< none: one of the last shape
 };
 
@@ -136,6 +138,7 @@ struct StructureCase {
   DynamicOptions dynamics;
   ModalOptions modal;
   DampingCase damping;
+  std::optional<StrainLimitCase> strain_limit;  ///< dynamic, explicit steps
   InitialCase initial;
   StructureOutput output;
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/fields.hpp"
 #include "cases/table.hpp"
 
 namespace gambeson::schema {
@@ -115,7 +116,13 @@ Object makeTable(StructureKind kind, const std::string& word) {
       .custom(programsField(), readPrograms, writePrograms)
       .object("solver", self, solverTable(kind), "how it is solved");
   if (kind == StructureKind::dynamics)
-    table.required().object("initial", &C::initial, initialTable(), "how the motion starts; at rest where absent");
+    table.required()
+        .object("strain_limit", &C::strain_limit, strainLimitTable(),
+                "keeps weft and warp from stretching by projection at the vertices of the knot mesh (Zheng 2013, "
+                "chapter 5), so that the material may be given soft threads, and with them long time steps; explicit "
+                "scheme only")
+        .defaultsTo("none: the material's own stiffness")
+        .object("initial", &C::initial, initialTable(), "how the motion starts; at rest where absent");
   return table.object("output", &C::output, structureOutputTable(kind), "what is written and pictured").build();
 }
 

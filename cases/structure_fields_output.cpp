@@ -59,7 +59,12 @@ Object structureOutputTable(StructureKind kind) {
     table
         .number("interval", &O::interval_s, "s", aboveTo(0, 1e9),
                 "time between rows of the table and between kept shapes; each is the first step at or after it")
-        .defaultsTo("a hundredth of end");
+        .defaultsTo("a hundredth of end")
+        .flag(
+            "thread_strains", &O::thread_strains,
+            "largest and mean absolute Green-Lagrange strain of weft and warp, at the vertices of the knot mesh and at "
+            "degree x degree Gauss points a cell: columns of the table (vertex_weft_max ...) and thread_strain in "
+            "summary.json (largest over the rows of the table, mean at the end)");
   return table
       .integer("samples_per_cell", &O::samples_per_cell, 1, 16, "how finely shapes and pictures follow a cell's edge")
       .list("pictures", &O::pictures, picture.build(), "pictures to take")

@@ -117,6 +117,16 @@ MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool
     s.consistent_kg.multiply<Vec3>(inertia, force);
   for (std::size_t f = 0; f < force.size(); ++f)
     m.reaction_N[f] += force[f] + s.drag_kg_per_m2s * s.area_m2[f] * velocity[f];
+  if (s.limit && !state.limit_J.empty()) {
+    // The acceleration of the state is without the limits': what they push on free points is inertia there.
+    std::vector<Vec3> pull(force.size());
+    limitForce(s.limit->rows, freePoints(s, state.y, state.time_s), state.limit_J, pull);
+    std::vector<double> c(static_cast<std::size_t>(s.dofs.unknowns())), moved(3 * pull.size());
+    s.limit->release.multiply<double>({&pull.data()->x, 3 * pull.size()}, c);
+    s.dofs.C.multiply<double>(c, moved);
+    for (std::size_t f = 0; f < pull.size(); ++f) m.reaction_N[f] += s.lumped_kg[f] * asPoints(moved)[f] - pull[f];
+    m.limit_N_per_m = limitStress(s.limit->rows, state.limit_J);
+  }
   m.velocity.resize(s.rest.size());
   s.map.T.multiply<Vec3>(velocity, m.velocity);
   return m;
@@ -136,7 +146,7 @@ MeasuredState measureMode(const Structure& s, std::span<const double> y, double 
 }
 
 StressState::StressState(const Structure& structure, const MeasuredState& state)
-    : shell_(structure.shell), q_(state.q) {
+    : structure_(structure), q_(state.q), limit_(state.limit_N_per_m) {
   if (!state.small) return;
   // Principal values are homogeneous of degree one in small displacements: taken from a part of them so small that the
   // quadratic terms are below 1e-5 of the linear ones.
@@ -147,7 +157,8 @@ StressState::StressState(const Structure& structure, const MeasuredState& state)
 }
 
 ShellStress StressState::at(int patch, Vec2 uv) const {
-  ShellStress stress = shell_.stressAt(patch, uv, q_);
+  const Vec2 limit = limit_.empty() ? Vec2{} : limitStressAt(structure_.limit->rows, limit_, patch, uv);
+  ShellStress stress = structure_.shell.stressAt(patch, uv, q_, limit);
   stress.principal1_N_per_m /= part_;
   stress.principal2_N_per_m /= part_;
   stress.strain1 /= part_;

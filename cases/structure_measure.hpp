@@ -12,10 +12,11 @@ namespace gambeson {
 
 /// A state as measured: of small displacements (a linear static case, a mode) or of any.
 struct MeasuredState {
-  double at = 0;                 ///< factor, time or number of the mode
-  std::vector<Vec3> q;           ///< control points; of small displacements: rest + displacements
-  std::vector<Vec3> velocity;    ///< of control points; empty where there is none
-  std::vector<Vec3> reaction_N;  ///< on the free points: what supports push with
+  double at = 0;                    ///< factor, time or number of the mode
+  std::vector<Vec3> q;              ///< control points; of small displacements: rest + displacements
+  std::vector<Vec3> velocity;       ///< of control points; empty where there is none
+  std::vector<Vec3> reaction_N;     ///< on the free points: what supports push with
+  std::vector<Vec2> limit_N_per_m;  ///< field of limitStress where strain is limited; else empty
   double strain_energy_J = 0;
   bool small = false;  ///< strains and forces are those of the linearised sheet
 };
@@ -35,8 +36,9 @@ class StressState {
   ShellStress at(int patch, Vec2 uv) const;
 
  private:
-  const Shell& shell_;
+  const Structure& structure_;
   std::vector<Vec3> q_;
+  std::vector<Vec2> limit_;
   double part_ = 1;  ///< of the displacements, in q_
 };
 

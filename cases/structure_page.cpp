@@ -212,6 +212,7 @@ std::vector<std::string> assumptionsOf(const StructureCase& c) {
   if (dead) a.push_back("Forces keep their direction and size, per rest length or area.");
   if (follow) a.push_back("Pressure and edge moments follow the sheet.");
   if (c.sheet.imperfection) a.push_back("The stress-free shape deviates from the ideal one as the case says.");
+  if (c.strain_limit) a.push_back(limitInWords(*c.strain_limit, "the last step"));
   if (c.kind == StructureKind::dynamics) a.push_back("No contact; the sheet may pass through itself.");
   if (c.kind == StructureKind::modal)
     a.push_back(c.modal.at_equilibrium ? "Frequencies about the equilibrium under the loads."
@@ -233,6 +234,15 @@ std::string factsTable(const Json& s) {
   number("strain_energy_J", "Strain energy at the end", " J");
   number("largest_stress_N_per_m", "Largest stress resultant", " N/m");
   number("largest_strain", "Largest strain", "");
+  if (s.contains("thread_strain"))
+    for (const auto& [where, threads] : s.at("thread_strain").items())
+      for (const auto& [thread, values] : threads.items())
+        t.rows.push_back({Cell(fmt::format("Strain of the {} at {} points: largest, mean at the end", thread, where)),
+                          Cell(formatNumber(values.at("largest").get<double>(), 3) + ", " +
+                               formatNumber(values.at("mean").get<double>(), 3))});
+  if (s.contains("strain_limit"))
+    for (const auto& [key, value] : s.at("strain_limit").items())
+      t.rows.push_back({Cell("Strain limit: " + key), Cell(formatNumber(value.get<double>(), 3))});
   for (const auto& [key, value] : s.at("solver").items())
     t.rows.push_back({Cell("Solver: " + key), Cell(value.dump())});
   t.rows.push_back(
@@ -261,6 +271,11 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
     body += html::notice(
         "A load step went over a limit point and landed on a stable state beyond it (column \"jumped\" of path.csv): "
         "the path between is not known. \"arc_length\": true follows it.");
+  if (s.contains("strain_limit") && s.at("strain_limit").at("unconverged_steps").get<long>() > 0)
+    body += html::notice(fmt::format(
+        "{} of {} steps did not reach the strain limit within its tolerance; the strain missed it by up to {}.",
+        s.at("strain_limit").at("unconverged_steps").dump(), s.at("solver").at("steps").dump(),
+        formatNumber(s.at("strain_limit").at("largest_residual").get<double>())));
   const std::string sentence = sentenceOf(c, s);
   std::string head = element("div", element("p", escape(sentence), " class=\"sentence\""), " class=\"words\"");
   if (!pictures.empty()) head += figureOf(pictures.front());

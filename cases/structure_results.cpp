@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/structure_run.hpp"
+#include "cases/structure_strains.hpp"
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/csv.hpp"
@@ -133,6 +134,14 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     j["edges"] = Json::array();
     for (const OutputEdge& e : c.output.edges) j["edges"].push_back(valuesOf(path, e.name));
   }
+  if (!path.rows.empty() && c.output.thread_strains) j["thread_strain"] = threadStrainSummary(path);
+  if (c.strain_limit)
+    j["strain_limit"] = {
+        {"largest_residual", facts.limit_residual},
+        {"projections", facts.projections},
+        {"projections_per_step",
+         facts.points > 0 ? static_cast<double>(facts.projections) / static_cast<double>(facts.points) : 0},
+        {"unconverged_steps", facts.limits_missed}};
   j["solver"] = {{c.kind == StructureKind::dynamics ? "steps" : "points", facts.points},
                  {"iterations", facts.iterations},
                  {"factorisations", facts.factorisations}};

@@ -23,7 +23,9 @@ struct StructureFacts {
   bool finished = false;
   std::string why;  ///< else
   long points = 0, factorisations = 0, iterations = 0;
-  int jumps = 0;  ///< of load steps over limit points
+  int jumps = 0;                            ///< of load steps over limit points
+  long projections = 0, limits_missed = 0;  ///< of strain limits, and steps that did not reach the tolerance
+  double limit_residual = 0;                ///< the largest after a step
   double wall_s = 0, build_s = 0, solve_s = 0;
   int threads = 1;
 };

@@ -191,6 +191,8 @@ void applyStructureRules(const Place& root, StructureCase& c) {
   for (std::size_t i = 0; i < c.other_materials.size(); ++i)
     checkMaterial(itemOf(root, "other_materials", i), c, c.other_materials[i]);
   checkLoads(root, c);
+  if (c.strain_limit && c.dynamics.scheme != TimeScheme::explicit_verlet)
+    root.failAt("strain_limit", "goes with explicit steps; give \"scheme\": \"explicit\"");
   try {
     const Sheet sheet = sheetOf(c);
     checkPlaces(root, c, sheet);

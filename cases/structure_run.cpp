@@ -10,6 +10,7 @@
 #include "cases/progress.hpp"
 #include "cases/results_folder.hpp"
 #include "cases/structure_results.hpp"
+#include "cases/structure_strains.hpp"
 #include "core/dynamics/modal.hpp"
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
@@ -194,8 +195,14 @@ DynamicState startOf(const StructureCase& c, const Run& run) {
 }
 
 void runDynamic(const StructureCase& c, Run& run) {
-  run.columns({"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"});
+  std::vector<std::string> lead{"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"};
   const Structure& s = run.structure();
+  std::optional<ThreadStrains> strains;
+  if (c.output.thread_strains) {
+    strains.emplace(s);
+    lead.insert(lead.end(), ThreadStrains::columns().begin(), ThreadStrains::columns().end());
+  }
+  run.columns(std::move(lead));
   const bool lumped = c.dynamics.lumped_mass || c.dynamics.scheme == TimeScheme::explicit_verlet;
   const double interval = c.output.interval_s.value_or(c.dynamics.end_s / 100);
   Progress progress(c.dynamics.end_s);
@@ -203,8 +210,13 @@ void runDynamic(const StructureCase& c, Run& run) {
   long rows = 0;
   const auto record = [&](const DynamicState& now) {
     const DynamicEnergy energy = energyOf(s, now, lumped);
-    run.add(measureDynamic(s, now, lumped),
-            {now.time_s, energy.kinetic, energy.internal, energy.external, energy.total()});
+    std::vector<double> row{now.time_s, energy.kinetic, energy.internal, energy.external, energy.total()};
+    const MeasuredState state_now = measureDynamic(s, now, lumped);
+    if (strains) {
+      const std::vector<double> more = strains->values(state_now.q);
+      row.insert(row.end(), more.begin(), more.end());
+    }
+    run.add(state_now, std::move(row));
     while (static_cast<double>(rows) * interval <= now.time_s * (1 + 1e-12)) ++rows;
   };
   attempt(run.facts, [&] {
@@ -219,6 +231,9 @@ void runDynamic(const StructureCase& c, Run& run) {
     run.facts.why = report.why;
     run.facts.points = report.steps;
     run.facts.factorisations = report.factorisations;
+    run.facts.projections = report.projections;
+    run.facts.limits_missed = report.limits_missed;
+    run.facts.limit_residual = report.limit_residual;
   });
 }
 

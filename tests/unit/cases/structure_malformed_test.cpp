@@ -167,6 +167,41 @@ TEST(MalformedStructure, DynamicCasesAndClosedShapes) {
       });
 }
 
+const std::string limited_example = R"json({
+  "kind": "dynamic",
+  "name": "example",
+  "sheet": {"plate": {"width": 0.2, "height": 0.2}, "cells_u": 4, "cells_v": 4},
+  "material": {"isotropic": {"young": 10000, "thickness": 0.001, "density": 100}},
+  "supports": [{"edge": "v1", "hold": "xyz"}],
+  "loads": [{"gravity": [0, -9.81, 0]}],
+  "solver": {"scheme": "explicit", "end": 0.05},
+  "strain_limit": {"mode": "upper_limit", "limit": 0.005, "max_projections": 9},
+  "output": {"thread_strains": true}
+})json";
+
+TEST(MalformedStructure, StrainLimits) {
+  expectRefused(
+      limited_example,
+      {
+          {"\"upper_limit\"", "\"lower_limit\"", 9, "strain_limit.mode", "upper_limit or equality"},
+          {"\"upper_limit\"", "true", 9, "strain_limit.mode", "expected one of"},
+          {"\"mode\": \"upper_limit\", ", "", 9, "strain_limit.mode", "is required"},
+          {"\"limit\": 0.005, ", "", 9, "strain_limit.limit", "is required for upper_limit"},
+          {"\"upper_limit\"", "\"equality\"", 9, "strain_limit.limit", "has no meaning for equality"},
+          {"\"limit\": 0.005", "\"limit\": -0.005", 9, "strain_limit.limit", "allowed: >= 0"},
+          {"\"limit\": 0.005", "\"limit\": 2", 9, "strain_limit.limit", "<= 1"},
+          {"\"limit\": 0.005", "\"limit\": \"0.5 mm\"", 9, "strain_limit.limit", "unit"},
+          {"\"limit\": 0.005", "\"limit\": 0.005, \"tolerance\": 0", 9, "strain_limit.tolerance", ">= 1e-05"},
+          {"\"max_projections\": 9", "\"max_projections\": 0", 9, "strain_limit.max_projections", ">= 1"},
+          {"\"max_projections\"", "\"max_projection\"", 9, "strain_limit.max_projection", "did you mean"},
+          {"{\"mode\": \"upper_limit\", \"limit\": 0.005, \"max_projections\": 9}", "0.005", 9, "strain_limit",
+           "expected an object"},
+          {"\"scheme\": \"explicit\"", "\"step\": 0.01", 9, "strain_limit", "goes with explicit steps"},
+          {"\"dynamic\"", "\"modal\"", 9, "strain_limit", "unknown key"},
+          {"\"thread_strains\": true", "\"thread_strains\": 1", 10, "output.thread_strains", "expected true or false"},
+      });
+}
+
 const std::string patches_example = R"json({
   "kind": "modal",
   "name": "example",

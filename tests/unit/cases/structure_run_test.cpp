@@ -134,6 +134,53 @@ TEST(StructureRun, FreeFall) {
 }
 
 /// A missing support is named; the results say so.
+/// Zheng 2013, 5.6.4: soft cloth whose threads keep their length carries 1 N/m to its support, in its stress as in its
+/// reaction.
+TEST(StructureRun, LimitedStrainCarriesTheLoad) {
+  const Folder folder;
+  const auto file = folder.write("pulled.json", R"json({
+  "kind": "dynamic", "name": "pulled",
+  "sheet": {"plate": {"width": 1, "height": 1}, "degree": 2, "cells_u": 4, "cells_v": 4},
+  "material": {"isotropic": {"young": 10000, "thickness": 0.001, "density": 100}},
+  "supports": [{"edge": "v1", "hold": "xyz"}],
+  "loads": [{"edge": "v0", "force_per_length": [0, -1, 0]}],
+  "solver": {"scheme": "explicit", "end": 3, "step": 0.002, "drag": 1},
+  "strain_limit": {"mode": "equality", "tolerance": 1e-4},
+  "output": {"points": [{"name": "a", "point": [0.5, 0.5]}, {"name": "b", "point": [0.1, 0.3]}],
+    "edges": [{"name": "root", "edge": "v1"}], "interval": 0.5, "thread_strains": true, "shapes": "none"}
+})json");
+  const StructureCase c = readStructureCase(file);
+  EXPECT_EQ(c.strain_limit->mode, LimitMode::equality);
+  auto t = runTable(c, folder.path() / "out");
+  EXPECT_NEAR(t["a_n1_N_per_m"].back(), 1, 1e-3);
+  EXPECT_NEAR(t["b_n1_N_per_m"].back(), 1, 1e-3);
+  EXPECT_NEAR(t["root_ry_N"].back(), 1, 1e-3);
+  EXPECT_NEAR(t["root_rx_N"].back(), 0, 1e-3);
+  EXPECT_LT(t["a_vy_m_per_s"].back(), 1e-4);
+  ASSERT_EQ(t["vertex_warp_max"].size(), 7u);
+  for (const char* column : {"vertex_warp_max", "vertex_weft_max", "vertex_warp_mean", "vertex_weft_mean"})
+    for (double E : t[column]) EXPECT_LE(E, 1e-4) << column;
+  EXPECT_EQ(t["gauss_warp_max"].size(), 7u);
+  const auto s = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
+  EXPECT_LE(s.at("strain_limit").at("largest_residual").get<double>(), 1e-4);
+  EXPECT_EQ(s.at("strain_limit").at("unconverged_steps").get<long>(), 0);
+  EXPECT_GE(s.at("strain_limit").at("projections_per_step").get<double>(), 1);
+  EXPECT_EQ(s.at("thread_strain").at("vertex").at("warp").at("mean").get<double>(), t["vertex_warp_mean"].back());
+  const StructureCase again = readStructureCase(folder.path() / "out/case.json");
+  EXPECT_EQ(writeCase(again), writeCase(c));
+  EXPECT_NE(content(folder.path() / "out/report.html").find("Weft and warp keep their length"), std::string::npos);
+
+  // Without the limit the threads stretch by a tenth, and the strains say so: (1 + 2 E)^(1/2) E h E = 1 with nu = 0.
+  auto soft = runTable(readStructureCase(file, {"strain_limit={\"mode\":\"upper_limit\",\"limit\":1}"}),
+                       folder.path() / "soft");
+  double E = 0.1;
+  for (int k = 0; k < 50; ++k) E = 0.1 / std::sqrt(1 + 2 * E);
+  EXPECT_NEAR(soft["vertex_warp_max"].back(), E, 1e-4);
+  EXPECT_NEAR(soft["gauss_warp_mean"].back(), E, 1e-4);
+  EXPECT_NEAR(soft["gauss_weft_max"].back(), 0, 1e-4);
+  EXPECT_NEAR(soft["root_ry_N"].back(), 1, 1e-3);
+}
+
 TEST(StructureRun, MechanismIsNamed) {
   const Folder folder;
   const StructureCase c =

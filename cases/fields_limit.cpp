@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include "analysis/ticks.hpp"
+#include "cases/fields.hpp"
+#include "cases/strain_limit_case.hpp"
+#include "cases/table.hpp"
+
+namespace gambeson {
+
+StrainLimit limitOf(const StrainLimitCase& c) { return {c.mode, c.limit.value_or(0), c.tolerance, c.max_projections}; }
+
+std::string limitInWords(const StrainLimitCase& c, const std::string& mean) {
+  const std::string held =
+      c.mode == LimitMode::equality
+          ? "Weft and warp keep their length"
+          : fmt::format("Weft and warp are kept from stretching beyond a strain of {}", formatNumber(*c.limit));
+  return fmt::format(
+      "{} by projection at the vertices of the knot mesh (Zheng 2013, chapter 5); stress includes what that takes, as "
+      "a "
+      "mean over {}.",
+      held, mean);
+}
+
+namespace schema {
+
+Object strainLimitTable() {
+  using S = StrainLimitCase;
+  return Table<S>("Strain limit")
+      .choice("mode", &S::mode,
+              std::vector<std::pair<std::string, LimitMode>>{{"upper_limit", LimitMode::upper_limit},
+                                                             {"equality", LimitMode::equality}},
+              "upper_limit: threads may slacken, and hold where they would stretch beyond the limit; equality: threads "
+              "keep their length (Zheng 2013, eq. 5.6)")
+      .required()
+      .number("limit", &S::limit, "", between(0, 1), "largest Green-Lagrange strain along weft and warp")
+      .defaultsTo("required for upper_limit; not allowed for equality")
+      .number("tolerance", &S::tolerance, "", between(1e-5, 0.05),
+              "strain by which points may miss it at the end of a step; much smaller ones cost projections and stir up "
+              "the tensions, which take up what a step turns the threads")
+      .integer("max_projections", &S::max_projections, 1, 1000, "projections in a row before a step counts as failed")
+      .check([](const Place& p, const S& s) {
+        if (s.mode == LimitMode::upper_limit && !s.limit)
+          p.failAt("limit", "is required for upper_limit: the largest strain");
+        if (s.mode == LimitMode::equality && s.limit)
+          p.failAt("limit", "has no meaning for equality, which holds the strain at 0; remove it");
+      })
+      .build();
+}
+
+}  // namespace schema
+}  // namespace gambeson
