@@ -1,0 +1,152 @@
+#include "core/contact/untangle.hpp"
+
+#include <cmath>
+
+#include "core/contact/contour_region.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+Vec3 unitNormal(const ContactMesh& mesh, std::span<const Vec3> x, int face) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  const Vec3 n = cross(x[b] - x[a], x[c] - x[a]);
+  const double length = norm(n);
+  return length > 0 ? n / length : Vec3{};
+}
+
+/// J^T r for a unit vector r, J = dx/dd of a point: a (x) n / (a.n) on an edge (direction a) of surface 0 through
+/// a triangle (normal n) of surface 1, which d moves; I - a (x) n / (a.n) on an edge of surface 1. (Eq. 4.1 to 4.3;
+/// eq. 4.14 covers the second case only.)
+Vec3 transposeTimesMotion(const ContactMesh& mesh, std::span<const Vec3> x, const ContourPoint& p, const Vec3& r) {
+  if (p.vertex >= 0) return 0.5 * r;
+  const Vec3 a = x[mesh.edges[p.edge][1]] - x[mesh.edges[p.edge][0]], n = unitNormal(mesh, x, p.triangle);
+  const double slope = dot(a, n);
+  const Vec3 slide = slope != 0 ? (dot(a, r) / slope) * n : Vec3{};
+  return p.owner == 0 ? slide : r - slide;
+}
+
+double contourLength(const Contour& c) {
+  double sum = 0;
+  for (std::size_t i = 0; i < c.segments.size(); ++i)
+    sum += norm(c.points[c.next(static_cast<int>(i))].x - c.points[i].x);
+  return sum;
+}
+
+/// The wrong part between layers: +1 left of the contour, -1 right, 0 within one layer. The left is in front of the
+/// other surface where -m . n_other > 0: on surface 0 where direction * normal < 0, on surface 1 where it is > 0. Where
+/// the normals of a layer disagree the longer part of the contour decides.
+int wrongByLayer(const ContactMesh& mesh, const Contour& c, int surface, std::span<const int> layer) {
+  if (layer.empty()) return 0;
+  const auto layerOf = [&](int s) { return layer[mesh.triangles[c.segments[0].face[s]][0]]; };
+  const int own = layerOf(surface), other = layerOf(1 - surface);
+  if (own == other) return 0;
+  double left_in_front = 0;
+  for (std::size_t i = 0; i < c.segments.size(); ++i) {
+    const ContourSegment& s = c.segments[i];
+    const double length = norm(c.points[c.next(static_cast<int>(i))].x - c.points[i].x);
+    left_in_front += length * s.direction * s.normal[surface] * (surface == 0 ? -1 : 1);
+  }
+  const int left = left_in_front >= 0 ? 1 : -1;
+  return own < other ? left : -left;
+}
+
+}  // namespace
+
+Vec3 lengthGradient(const ContactMesh& mesh, std::span<const Vec3> x, const Contour& c) {
+  Vec3 gradient;
+  for (std::size_t i = 0; i < c.segments.size(); ++i) {
+    const ContourSegment& s = c.segments[i];
+    const Vec3 line = cross(unitNormal(mesh, x, s.face[0]), unitNormal(mesh, x, s.face[1]));
+    const double sine = norm(line);
+    if (!(sine > 0)) continue;
+    const Vec3 r = (s.direction / sine) * line;
+    gradient += transposeTimesMotion(mesh, x, c.points[c.next(static_cast<int>(i))], r) -
+                transposeTimesMotion(mesh, x, c.points[i], r);
+  }
+  return gradient;
+}
+
+Vec3 areaGradient(const ContactMesh& mesh, std::span<const Vec3> x, const Contour& c, int surface) {
+  Vec3 gradient;
+  for (std::size_t i = 0; i < c.segments.size(); ++i) {
+    const ContourSegment& s = c.segments[i];
+    const Vec3 own = unitNormal(mesh, x, s.face[surface]), other = unitNormal(mesh, x, s.face[1 - surface]);
+    const double sine = norm(cross(own, other));
+    if (!(sine > 0)) continue;
+    // On surface 1, m = r x n' has n.m = -direction |n x n'|, and surface 0 moves by -d against it: two signs.
+    const double length = norm(c.points[c.next(static_cast<int>(i))].x - c.points[i].x);
+    gradient += (s.direction * s.normal[surface] * length / sine) * other;
+  }
+  return gradient;
+}
+
+void checkUntangleLaw(const UntangleLaw& law) {
+  if (!(law.speed_mps > 0 && std::isfinite(law.speed_mps)))
+    throw InputError({"", 0, "untangle.speed"}, "must be positive and finite");
+  if (!(law.g0 > 0 && std::isfinite(law.g0))) throw InputError({"", 0, "untangle.g0"}, "must be positive and finite");
+}
+
+std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<const Vec3> x,
+                                         std::vector<Contour> contours, std::span<const int> layer,
+                                         const UntangleLaw& law) {
+  checkUntangleLaw(law);
+  FloodWork work;
+  work.label.resize(mesh.vertex_count);
+  std::vector<Untangling> out;
+  out.reserve(contours.size());
+  for (auto& contour : contours) {
+    Untangling u;
+    u.contour = std::move(contour);
+    const Contour& c = u.contour;
+    u.length_m = contourLength(c);
+    for (int s = 0; s < 2; ++s) {
+      if (!c.closed[s]) continue;
+      ContourRegion region = floodRegion(mesh, x, c, s, wrongByLayer(mesh, c, s, layer), work);
+      u.closed[s] = region.found;
+      if (!region.found) continue;
+      u.wrong_sign[s] = region.sign;
+      u.wrong_area_m2[s] = region.area_m2;
+      u.wrong_vertices[s] = std::move(region.vertices);
+    }
+    if (u.length_m > 0) {
+      const Vec3 open = -2 * lengthGradient(mesh, x, c);
+      for (int s = 0; s < 2; ++s)
+        u.G_side[s] = u.closed[s] && law.by == UntangleBy::kArea
+                          ? (-u.wrong_sign[s] / u.length_m) * areaGradient(mesh, x, c, s)
+                          : open;
+      u.G = norm2(u.G_side[0]) > norm2(u.G_side[1]) ? u.G_side[0] : u.G_side[1];
+      const double size = norm(u.G);
+      if (size > 0) {
+        u.direction = u.G / size;
+        u.speed_mps = law.speed_mps * size / std::hypot(size, law.g0);
+      }
+    }
+    out.push_back(std::move(u));
+  }
+  return out;
+}
+
+std::vector<Untangling> untangle(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const int> layer,
+                                 std::span<const char> obstacle, const UntangleLaw& law) {
+  return untangleContours(mesh, x, traceContours(mesh, x, findCrossings(mesh, x, obstacle)), layer, law);
+}
+
+std::vector<Tangle> tangledVertices(const ContactMesh& mesh, std::span<const Untangling> untanglings) {
+  std::vector<Tangle> tangle(mesh.vertex_count, Tangle::kFree);
+  for (const auto& u : untanglings)
+    for (const auto& p : u.contour.points) {
+      if (p.vertex >= 0) {
+        tangle[p.vertex] = Tangle::kBeside;
+        continue;
+      }
+      for (int v : mesh.edges[p.edge]) tangle[v] = Tangle::kBeside;
+      for (int v : mesh.triangles[p.triangle]) tangle[v] = Tangle::kBeside;
+    }
+  for (const auto& u : untanglings)
+    for (const auto& part : u.wrong_vertices)
+      for (int v : part) tangle[v] = Tangle::kWrong;
+  return tangle;
+}
+
+}  // namespace gambeson
