@@ -1,12 +1,15 @@
 /// What strain limits cost and gain on the corner-held sheet of Zheng 2013, section 5.6.1 (1 m, 0.6 s, 50 frames per
 /// second, full rule): seconds per frame of soft cloth that is limited, of stiff and of soft cloth that is not, at 100
-/// and at 1,156 control points; and of the cloth that is stiff enough to stretch no more than the limited one.
+/// and at 1,156 control points; and of the cloth that is stiff enough to stretch no more than the limited one. Then one
+/// projection by itself, from a thousand to a hundred thousand control points.
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
+#include <numbers>
 
+#include "bench_time.hpp"
 #include "core/dynamics/advance.hpp"
 
 namespace gambeson {
@@ -62,19 +65,18 @@ Swing swing(int cells, double k_over_rho, const StrainLimit& limit) {
   std::vector<Vec3> e;
   double looking = 0;
   long steps = 0;
-  using Clock = std::chrono::steady_clock;
-  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
-  const auto start = Clock::now();
+  const auto now = [] { return bench::seconds(bench::Clock::processor); };
+  const double start = now();
   advance(*model, stage, control, 0.6, state, frequency, work,
           [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
-            const auto now = Clock::now();
+            const double pause = now();
             ++steps;
             result.projections += r.limit.projections;
             strainVectors(rows, after.p, e);
             for (const Vec3& d : e) result.most = std::max(result.most, strainOf(d));
-            looking += seconds(Clock::now() - now);
+            looking += now() - pause;
           });
-  result.frame_s = (seconds(Clock::now() - start) - looking) / 30;
+  result.frame_s = (now() - start - looking) / 30;
   result.projections /= static_cast<double>(steps);
   result.step_s = 0.6 / static_cast<double>(steps);
   return result;
@@ -120,6 +122,76 @@ void AsStiffAsLimited(benchmark::State& state) {
   }
 }
 
+/// The control points on a cylinder of 0.5 m radius, which stretches nothing, and by 1 % where it is most along both
+/// directions: what a step may leave to the projection.
+std::vector<Vec3> stretched(const Garment& g) {
+  constexpr double radius = 0.5, wave = 2 * std::numbers::pi;
+  std::vector<Vec3> p;
+  for (const Vec3& X : g.patches[0].points) {
+    const double s = X.x + 0.01 / wave * std::sin(wave * X.x), t = X.y + 0.01 / wave * std::sin(wave * X.y);
+    p.push_back({radius * std::sin(s / radius), t, radius * (1 - std::cos(s / radius))});
+  }
+  return p;
+}
+
+/// Control points each way, and what: 0 one projection with its factorisation, equality; 1 until every strain is within
+/// 0.1 %; 2 until none is more than 0.1 % above a limit of 0.5 %; 3 the analysis, once a run. `forces`: the time in
+/// those that one internal force of the sheet takes in the same run.
+void Projection(benchmark::State& state) {
+  omp_set_num_threads(1);
+  const int cells = static_cast<int>(state.range(0)) - 2, what = static_cast<int>(state.range(1));
+  const Garment g = sheet(cells, 100);
+  ModelOptions o;
+  o.held_control_points = {g.patches[0].index(0, 0), g.patches[0].index(cells + 1, 0)};
+  o.cell_rule = CellRule::full;
+  o.strain_limit = what == 2 ? StrainLimit{LimitMode::upper_limit, 0.005, 1e-3} : StrainLimit{LimitMode::equality, 0};
+  if (what == 0) o.strain_limit.max_projections = 1;
+  const auto model = buildModel(g, o, {}, {}, {});
+  const StrainRows& rows = model->strain_rows;
+  const std::vector<Vec3> start = stretched(g);
+  std::vector<Vec3> p, f(start.size());
+  ShellWork shell_work;
+  model->shell.force(start, f, shell_work);
+  const double force_s = bench::medianOf(5, [&] { model->shell.force(start, f, shell_work); });
+  LimitWork work;
+  LimitReport report;
+  const auto project = [&] {
+    p = start;
+    report = {};
+    startProjection(rows, {}, work);
+    projectStrain(rows, o.strain_limit, model->inverse_mass, true, p, report, work);
+  };
+  project();  // analyses the pattern
+  const std::vector<double> t = bench::times(state, bench::Clock::processor, [&] {
+    if (what == 3) {
+      benchmark::DoNotOptimize(SymmetricFactor(rows.S).negativePivots());
+    } else {
+      project();
+    }
+  });
+  if (what == 1 || what == 2) {
+    if (!report.converged) state.SkipWithError("not converged");
+    state.counters["projections"] = report.projections;
+    state.counters["factorisations"] = report.factorisations;
+  }
+  state.counters["rows"] = rows.rows();
+  state.counters["forces"] = t[t.size() / 2] / force_s;
+  state.counters["median_ms"] = 1e3 * t[t.size() / 2];
+}
+
+BENCHMARK(Projection)
+    ->ArgNames({"points", "what"})
+    ->ArgsProduct({{32, 100, 316}, {0, 1, 3}})
+    ->ArgsProduct({{32, 100}, {2}})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+BENCHMARK(Projection)
+    ->ArgNames({"points", "what"})
+    ->Args({316, 2})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 BENCHMARK(CornerHeldSheet)
     ->ArgNames({"points", "kind"})
     ->ArgsProduct({{10, 34}, {0, 1, 2, 3}})

@@ -1,38 +1,10 @@
 /// Every way to get a structure's case wrong says where and why.
 
-#include <gtest/gtest.h>
-
-#include "cases/any_case.hpp"
-#include "core/error.hpp"
+#include "malformed.hpp"
 #include "structure_example.hpp"
 
 namespace gambeson {
 namespace {
-
-struct Bad {
-  std::string from, to;
-  int line;
-  std::string key;
-  std::string reason;
-};
-
-void expectRefused(const std::string& good, const std::vector<Bad>& cases) {
-  const Folder folder;
-  ASSERT_NO_THROW(readAnyCase(folder.write("good.json", good)));
-  for (const Bad& c : cases) {
-    SCOPED_TRACE(c.from + " -> " + c.to);
-    const std::filesystem::path file = folder.write("example.json", replaced(good, c.from, c.to));
-    try {
-      readAnyCase(file);
-      ADD_FAILURE() << "accepted";
-    } catch (const InputError& e) {
-      EXPECT_EQ(e.where().file, file.string()) << e.what();
-      EXPECT_EQ(e.where().line, c.line) << e.what();
-      EXPECT_EQ(e.where().key, c.key) << e.what();
-      EXPECT_NE(e.reason().find(c.reason), std::string::npos) << e.what();
-    }
-  }
-}
 
 TEST(MalformedStructure, EachSaysFileLineKeyAndReason) {
   expectRefused(
