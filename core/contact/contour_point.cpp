@@ -17,8 +17,8 @@ Interval overlapInPlane(const std::array<Vec3, 3>& corner, const Vec3& n, const 
     const Vec3& a = corner[k];
     const Vec3 inward = cross(n, corner[(k + 1) % 3] - a);
     const double at_p = dot(inward, p - a), at_q = dot(inward, q - a);
-    if (at_p < 0 && at_q > 0) part.lo = std::max(part.lo, at_p / (at_p - at_q));
-    if (at_p > 0 && at_q < 0) part.hi = std::min(part.hi, at_p / (at_p - at_q));
+    if (at_p < 0 && at_q >= 0) part.lo = std::max(part.lo, at_p / (at_p - at_q));
+    if (at_p >= 0 && at_q < 0) part.hi = std::min(part.hi, at_p / (at_p - at_q));
   }
   return part;
 }

@@ -1,6 +1,7 @@
 #include "core/contact/untangle.hpp"
 
 #include <cmath>
+#include <map>
 
 #include "core/contact/contour_region.hpp"
 #include "core/error.hpp"
@@ -33,13 +34,15 @@ double contourLength(const Contour& c) {
   return sum;
 }
 
+int layerOf(const ContactMesh& mesh, const Contour& c, int surface, std::span<const int> layer) {
+  return layer.empty() ? 0 : layer[mesh.triangles[c.segments[0].face[surface]][0]];
+}
+
 /// The wrong part between layers: +1 left of the contour, -1 right, 0 within one layer. The left is in front of the
 /// other surface where -m . n_other > 0: on surface 0 where direction * normal < 0, on surface 1 where it is > 0. Where
 /// the normals of a layer disagree the longer part of the contour decides.
 int wrongByLayer(const ContactMesh& mesh, const Contour& c, int surface, std::span<const int> layer) {
-  if (layer.empty()) return 0;
-  const auto layerOf = [&](int s) { return layer[mesh.triangles[c.segments[0].face[s]][0]]; };
-  const int own = layerOf(surface), other = layerOf(1 - surface);
+  const int own = layerOf(mesh, c, surface, layer), other = layerOf(mesh, c, 1 - surface, layer);
   if (own == other) return 0;
   double left_in_front = 0;
   for (std::size_t i = 0; i < c.segments.size(); ++i) {
@@ -50,6 +53,65 @@ int wrongByLayer(const ContactMesh& mesh, const Contour& c, int surface, std::sp
   const int left = left_in_front >= 0 ? 1 : -1;
   return own < other ? left : -left;
 }
+
+/// Per vertex, a number of its connected piece.
+std::vector<int> connectedPieces(const ContactMesh& mesh) {
+  std::vector<int> piece(mesh.vertex_count, -1), queue;
+  for (int start = 0; start < mesh.vertex_count; ++start) {
+    if (piece[start] >= 0) continue;
+    piece[start] = start;
+    queue.assign(1, start);
+    while (!queue.empty()) {
+      const int v = queue.back();
+      queue.pop_back();
+      for (int e : mesh.vertex_edges[v])
+        for (int w : mesh.edges[e])
+          if (piece[w] < 0) {
+            piece[w] = start;
+            queue.push_back(w);
+          }
+    }
+  }
+  return piece;
+}
+
+/// Contours that bound regions together: closed on the same piece, by the same layer or the same piece of the own
+/// layer. A piece that crosses itself has each contour for itself.
+class Bounds {
+ public:
+  Bounds(const ContactMesh& mesh, std::span<const Contour> contours, std::span<const int> layer)
+      : mesh_(mesh), layer_(layer), piece_(contours.empty() ? std::vector<int>{} : connectedPieces(mesh)) {
+    for (const Contour& c : contours)
+      for (int s = 0; s < 2; ++s)
+        if (c.closed[s]) groups_[key(c, s)].push_back({&c, s});
+  }
+
+  /// The contour first.
+  std::vector<ContourPath> with(const Contour& c, int surface) const {
+    std::vector<ContourPath> out{{&c, surface}};
+    const Key k = key(c, surface);
+    if (k.own != k.other || k.layer != k.other_layer)
+      for (const auto& path : groups_.at(k))
+        if (path.contour != &c) out.push_back(path);
+    return out;
+  }
+
+ private:
+  struct Key {
+    int own, other, layer, other_layer;
+    auto operator<=>(const Key&) const = default;
+  };
+  Key key(const Contour& c, int s) const {
+    const auto pieceOf = [&](int k) { return piece_[mesh_.triangles[c.segments[0].face[k]][0]]; };
+    const int own = layerOf(mesh_, c, s, layer_), other = layerOf(mesh_, c, 1 - s, layer_);
+    return {pieceOf(s), own == other ? pieceOf(1 - s) : -1, own, other};
+  }
+
+  const ContactMesh& mesh_;
+  std::span<const int> layer_;
+  std::vector<int> piece_;
+  std::map<Key, std::vector<ContourPath>> groups_;
+};
 
 }  // namespace
 
@@ -93,19 +155,21 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
   checkUntangleLaw(law);
   FloodWork work;
   work.label.resize(mesh.vertex_count);
-  std::vector<Untangling> out;
-  out.reserve(contours.size());
-  for (auto& contour : contours) {
-    Untangling u;
-    u.contour = std::move(contour);
-    const Contour& c = u.contour;
+  std::vector<Untangling> out(contours.size());
+  const Bounds bounds(mesh, contours, layer);
+  for (std::size_t k = 0; k < contours.size(); ++k) {
+    Untangling& u = out[k];
+    const Contour& c = contours[k];
     u.length_m = contourLength(c);
     for (int s = 0; s < 2; ++s) {
       if (!c.closed[s]) continue;
-      ContourRegion region = floodRegion(mesh, x, c, s, wrongByLayer(mesh, c, s, layer), work);
-      u.closed[s] = region.found;
+      const int by_layer = wrongByLayer(mesh, c, s, layer);
+      ContourRegion region;
+      if (by_layer == 0) region = floodRegion(mesh, x, std::array{ContourPath{&c, s}}, 0, work);
+      if (!region.found) region = floodRegion(mesh, x, bounds.with(c, s), by_layer, work);
+      u.closed[s] = by_layer != 0 || region.found;
+      u.wrong_sign[s] = by_layer != 0 ? by_layer : region.found ? region.sign : 0;
       if (!region.found) continue;
-      u.wrong_sign[s] = region.sign;
       u.wrong_area_m2[s] = region.area_m2;
       u.wrong_vertices[s] = std::move(region.vertices);
     }
@@ -122,8 +186,8 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
         u.speed_mps = law.speed_mps * size / std::hypot(size, law.g0);
       }
     }
-    out.push_back(std::move(u));
   }
+  for (std::size_t k = 0; k < contours.size(); ++k) out[k].contour = std::move(contours[k]);
   return out;
 }
 

@@ -38,8 +38,9 @@ void checkUntangleLaw(const UntangleLaw& law);
 struct Untangling {
   Contour contour;
   double length_m = 0;
-  /// Where the contour cuts surface s in two parts (closed[s]): the wrong part's sign (+1: left of the contour), its
-  /// area and its vertices. Otherwise 0, 0 and none.
+  /// Where the contour is closed on surface s and tells a wrong part: its sign (+1: left of the contour), its area and
+  /// its vertices. Otherwise false, 0, 0 and none. Between layers area and vertices are missing too where nothing keeps
+  /// the two sides apart (a cut through a ring). Contours that bound one region together report it each.
   std::array<bool, 2> closed{};
   std::array<int, 2> wrong_sign{};
   std::array<double, 2> wrong_area_m2{};
@@ -59,6 +60,8 @@ struct Untangling {
 /// part of the lower layer in front of the higher and the part of the higher behind the lower, where the normals
 /// of all triangles point outward, from the low to the high layers; within one layer it is the smaller part.
 /// (With G = -dA/dd the thesis's rule for one layer reverses the sign of A+ where |A+| > |A-|.)
+/// A contour that does not divide its surface alone (a cut along a tube) is taken with the others between the same two
+/// pieces; where these do not either, as open.
 std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<const Vec3> x,
                                          std::vector<Contour> contours, std::span<const int> layer,
                                          const UntangleLaw& law);

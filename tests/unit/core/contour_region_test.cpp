@@ -22,7 +22,7 @@ int sideOf(const Tangled& s, const Contour& c, int piece) {
 ContourRegion region(const Tangled& s, const Contour& c, int piece, int sign) {
   FloodWork work;
   work.label.resize(s.x.size());
-  const ContourRegion r = floodRegion(s.mesh, s.x, c, sideOf(s, c, piece), sign, work);
+  const ContourRegion r = floodRegion(s.mesh, s.x, std::array{ContourPath{&c, sideOf(s, c, piece)}}, sign, work);
   for (auto l : work.label) EXPECT_EQ(l, 0) << "labels are cleaned";
   return r;
 }
@@ -151,6 +151,104 @@ TEST(ContourRegion, AreaDecidesNotTheNumberOfVertices) {
     EXPECT_NEAR(r.area_m2, 0.4 * 0.4, 1e-14);
     EXPECT_EQ(r.vertices.size() > s.x.size() / 2, power > 1);
   }
+}
+
+/// Two cuts across a sheet: with both, what lies beside one ends at the other.
+TEST(ContourRegion, TwoCutsBoundARegionTogether) {
+  const auto across = [](double at) {
+    return sheet(9, 3, [=](double u, double v) { return Vec3{at + 0.1 * (v - 0.47), 1.4 * u - 0.2, v - 0.47}; });
+  };
+  const Tangled s = join({sheet(11, 7, [](double u, double v) { return Vec3{u, v, 0}; }), across(0.23), across(0.71)});
+  const auto contours = contoursOf(s);
+  ASSERT_EQ(contours.size(), 2u);
+  FloodWork work;
+  work.label.resize(s.x.size());
+  const std::array<ContourPath, 2> paths{ContourPath{&contours[0], sideOf(s, contours[0], 0)},
+                                         ContourPath{&contours[1], sideOf(s, contours[1], 0)}};
+  for (const bool swap : {false, true}) {
+    const std::array<ContourPath, 2> order{paths[swap], paths[!swap]};
+    const double cut = order[0].contour->points[0].x.x, rest = std::min(cut, 1 - cut);
+    std::array<double, 2> area{};
+    for (const int sign : {-1, 1}) {
+      const ContourRegion r = floodRegion(s.mesh, s.x, order, sign, work);
+      ASSERT_TRUE(r.found);
+      area[sign > 0] = r.area_m2;
+      const bool middle = std::abs(r.area_m2 - 0.48) < 1e-13;
+      for (int v : r.vertices) EXPECT_EQ(s.x[v].x > 0.23 && s.x[v].x < 0.71, middle);
+      const ContourRegion alone = floodRegion(s.mesh, s.x, std::span(order).first(1), sign, work);
+      EXPECT_NEAR(alone.area_m2, middle ? 1 - rest : rest, 1e-13);
+    }
+    EXPECT_NEAR(std::max(area[0], area[1]), 0.48, 1e-13);
+    EXPECT_NEAR(std::min(area[0], area[1]), rest, 1e-13);
+  }
+}
+
+/// The same where every triangle between them has both cuts: what lies between holds no vertex.
+TEST(ContourRegion, TwoCutsInOneTriangle) {
+  const auto across = [](double at) {
+    return sheet(9, 3, [=](double u, double v) { return Vec3{at + 0.1 * (v - 0.47), 1.4 * u - 0.2, v - 0.47}; });
+  };
+  const Tangled s = join({sheet(1, 5, [](double u, double v) { return Vec3{u, v, 0}; }), across(0.23), across(0.71)});
+  const auto contours = contoursOf(s);
+  ASSERT_EQ(contours.size(), 2u);
+  FloodWork work;
+  work.label.resize(s.x.size());
+  const std::array<ContourPath, 2> paths{ContourPath{&contours[0], sideOf(s, contours[0], 0)},
+                                         ContourPath{&contours[1], sideOf(s, contours[1], 0)}};
+  for (const bool swap : {false, true}) {
+    const ContourRegion r = floodRegion(s.mesh, s.x, std::array{paths[swap], paths[!swap]}, 0, work);
+    ASSERT_TRUE(r.found);
+    EXPECT_NEAR(r.area_m2, 0.48, 1e-14);
+    EXPECT_TRUE(r.vertices.empty());
+  }
+}
+
+/// Crumpled sheets through each other, with exact touches and without: wherever a contour has two sides they make up
+/// the whole piece, each vertex on one of them.
+TEST(ContourRegion, TwoSidesMakeUpThePiece) {
+  std::mt19937 random(9);
+  int checked = 0, without_vertices = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    std::vector<Piece> pieces;
+    for (int k = 0; k < 2; ++k)
+      pieces.push_back(sheet(9, 8, [&](double u, double v) {
+        const auto jitter = [&] { return static_cast<double>(random() % 1000) / 1000; };
+        const Vec3 p{u + 0.05 * jitter(), v + 0.05 * jitter(), 0.15 * jitter()};
+        const double levels = trial % 2 ? 40 : 1e6;
+        return Vec3{std::round(p.x * levels), std::round(p.y * levels), std::round(p.z * levels)} / levels;
+      }));
+    const Tangled s = join(pieces);
+    std::array<double, 2> total{};
+    for (std::size_t f = 0; f < s.mesh.triangles.size(); ++f) {
+      const auto& [a, b, c] = s.mesh.triangles[f];
+      total[s.piece[a]] += polygonArea({s.x[a], s.x[b], s.x[c]});
+    }
+    FloodWork work;
+    work.label.resize(s.x.size());
+    for (const Contour& c : contoursOf(s))
+      for (int side = 0; side < 2; ++side) {
+        if (!c.closed[side]) continue;
+        const std::array path{ContourPath{&c, side}};
+        const auto plus = floodRegion(s.mesh, s.x, path, 1, work), minus = floodRegion(s.mesh, s.x, path, -1, work);
+        const auto smaller = floodRegion(s.mesh, s.x, path, 0, work);
+        ASSERT_EQ(plus.found, minus.found);
+        if (!plus.found) continue;  // crosses itself
+        ++checked;
+        const int piece = s.pieceOfFace(c.segments[0].face[side]);
+        EXPECT_NEAR(plus.area_m2 + minus.area_m2, total[piece], 1e-12);
+        EXPECT_GT(plus.area_m2, -1e-14);
+        EXPECT_GT(minus.area_m2, -1e-14);
+        EXPECT_NEAR(smaller.area_m2, std::min(plus.area_m2, minus.area_m2), 1e-14);
+        std::set<int> all(plus.vertices.begin(), plus.vertices.end());
+        all.insert(minus.vertices.begin(), minus.vertices.end());
+        EXPECT_EQ(all.size(), 90u);
+        EXPECT_EQ(plus.vertices.size() + minus.vertices.size(), 90u);
+        without_vertices += smaller.vertices.empty();
+      }
+    ASSERT_FALSE(HasFailure()) << trial;
+  }
+  EXPECT_GT(checked, 300);
+  EXPECT_GT(without_vertices, 50);
 }
 
 Piece torus(int n, int k) {

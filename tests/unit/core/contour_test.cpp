@@ -68,6 +68,13 @@ void expectConsistent(const Tangled& s) {
         sum += w;
       }
       EXPECT_NEAR(sum, 1, 1e-14);
+      // Also of an exact contact the point lies on both (but a triangle without area has no inside).
+      const auto& [a, b, d] = s.mesh.triangles[p.triangle];
+      Vec3 on_triangle;
+      for (int k = 0; k < 3; ++k) on_triangle += p.triangle_weight[k] * s.x[s.mesh.triangles[p.triangle][k]];
+      if (norm(cross(s.x[b] - s.x[a], s.x[d] - s.x[a])) > 0) {
+        EXPECT_LT(norm(on_triangle - p.x), 1e-13);
+      }
       EXPECT_TRUE(p.edge_weight[1] >= 0 && p.edge_weight[1] <= 1);
       EXPECT_EQ(p.edge_weight[0] + p.edge_weight[1], 1);
     }
@@ -264,6 +271,29 @@ TEST(Contour, OneSidedSurfacesAreNotClosed) {
     return p;
   };
   const Tangled s = join({band(40, 0), band(40, M_PI / 2)});
+  expectConsistent(s);
+  const auto contours = contoursOf(s);
+  ASSERT_EQ(contours.size(), 1u);
+  EXPECT_TRUE(contours[0].cyclic);
+  EXPECT_FALSE(contours[0].closed[0] || contours[0].closed[1]);
+}
+
+/// A band that goes around twice, with half a twist in all: its two passes cross along their core, each becomes the
+/// other after one turn. The cycle exchanges the names 0 and 1.
+TEST(Contour, SurfacesExchangedByACycleAreNotClosed) {
+  Piece p;
+  const int n = 61;  // odd: the passes share no vertices
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double a = 4 * M_PI * i / n, b = a / 4 + 0.2, w = 0.1 * (j - 1.5);
+      p.x.push_back({(1 + w * std::cos(b)) * std::cos(a), (1 + w * std::cos(b)) * std::sin(a), w * std::sin(b)});
+    }
+  const auto at = [=](int i, int j) { return i < n ? 4 * i + j : 3 - j; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < 3; ++j)
+      p.triangles.insert(p.triangles.end(),
+                         {{at(i, j), at(i + 1, j), at(i + 1, j + 1)}, {at(i, j), at(i + 1, j + 1), at(i, j + 1)}});
+  const Tangled s = join({p});
   expectConsistent(s);
   const auto contours = contoursOf(s);
   ASSERT_EQ(contours.size(), 1u);

@@ -1,7 +1,9 @@
 #include "core/contact/crossing.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -263,12 +265,35 @@ TEST(Crossing, ObstaclesAreLeftOut) {
 /// Coordinates far below any length count as zero: the same crossings as with zeros.
 TEST(Crossing, VanishingCoordinatesCountAsZero) {
   std::mt19937 random(5);
-  Tangled s = soup(random, 12, 14, 2);
+  const Tangled s = soup(random, 12, 14, 2);
   const auto expected = findCrossings(s.mesh, s.x);
-  for (auto& p : s.x)
-    for (int c = 0; c < 3; ++c)
-      if (p[c] == 0) p[c] = std::ldexp(1.0, -1070) * (random() % 2 ? 1 : -1);
-  EXPECT_EQ(findCrossings(s.mesh, s.x), expected);
+  for (const double tiny : {std::ldexp(1.0, -1070), 1e-150, 0.99e-60}) {
+    std::vector<Vec3> x = s.x;
+    for (auto& p : x)
+      for (int c = 0; c < 3; ++c)
+        if (p[c] == 0) p[c] = random() % 2 ? tiny : -tiny;
+    EXPECT_EQ(findCrossings(s.mesh, x), expected) << tiny;
+  }
+}
+
+TEST(Crossing, SameForAnyNumberOfThreads) {
+  const auto wavy = [](double phase) {
+    return sheet(40, 40, [=](double u, double v) {
+      return Vec3{u, v, 0.02 * std::sin(20 * u + phase) * std::cos(17 * v)};
+    });
+  };
+  const Tangled s = join({wavy(0), wavy(1)});
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const auto one = findCrossings(s.mesh, s.x);
+  omp_set_num_threads(3);
+  const auto three = findCrossings(s.mesh, s.x);
+  omp_set_num_threads(before);
+  EXPECT_GT(one.size(), 500u);
+  EXPECT_EQ(one, three);
+  EXPECT_TRUE(std::is_sorted(one.begin(), one.end(), [](const Crossing& a, const Crossing& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.triangle < b.triangle;
+  }));
 }
 
 TEST(Crossing, PositionsMustBeFinite) {

@@ -29,7 +29,7 @@ double length(const Contour& c) {
 double areaPlus(const Tangled& s, std::span<const Vec3> x, const Contour& c, int surface) {
   FloodWork work;
   work.label.resize(x.size());
-  const ContourRegion r = floodRegion(s.mesh, x, c, surface, 1, work);
+  const ContourRegion r = floodRegion(s.mesh, x, std::array{ContourPath{&c, surface}}, 1, work);
   EXPECT_TRUE(r.found);
   return r.area_m2;
 }
@@ -165,7 +165,7 @@ TEST(Untangle, AreaGradientIsTheThesissSumOverSubchains) {
 TEST(Untangle, StripThroughPlane) {
   const Piece strip = sheet(5, 9, [](double u, double v) { return Vec3{0.21 + 0.5 * u, 0.53, v - 0.31}; });
   const Tangled s = join({sheet(6, 7, [](double u, double v) { return Vec3{u, v, 0}; }), strip});
-  const auto found = untangle(s.mesh, s.x);
+  const auto found = untangle(s.mesh, s.x, {}, {}, {0.7, 3});
   ASSERT_EQ(found.size(), 1u);
   const Untangling& u = found[0];
   EXPECT_NEAR(u.length_m, 0.5, 1e-15);
@@ -174,10 +174,60 @@ TEST(Untangle, StripThroughPlane) {
   EXPECT_NEAR(u.wrong_area_m2[1], 0.5 * 0.31, 1e-15);
   EXPECT_NEAR(norm(u.G - Vec3{0, 0, 1}), 0, 1e-13);
   EXPECT_NEAR(norm(u.direction - Vec3{0, 0, 1}), 0, 1e-13);
-  EXPECT_NEAR(u.speed_mps, 0.5 / std::sqrt(2.0), 1e-13);  // h0 |G| / sqrt(|G|^2 + g0^2)
+  EXPECT_NEAR(u.speed_mps, 0.7 / std::sqrt(10.0), 1e-13);  // h0 |G| / sqrt(|G|^2 + g0^2)
   EXPECT_NEAR(norm(u.G_side[0]), 0, 1e-13);
   const auto by_length = untangle(s.mesh, s.x, {}, {}, {0.5, 1, UntangleBy::kLength});
   EXPECT_NEAR(norm(by_length[0].G), 0, 1e-13);
+}
+
+/// Open on both: G = -2 dC/dd (eq. 4.19') on both sides, by differences. Of the two sides' gradients the longer is
+/// taken (eq. 4.20).
+TEST(Untangle, OpenContoursShrink) {
+  int open = 0, mixed = 0;
+  for (const Tangled& s : scenes()) {
+    const auto found = untangle(s.mesh, s.x);
+    ASSERT_EQ(found.size(), 1u);
+    const Untangling& u = found[0];
+    const Vec3 d = -2 * differences(s, u.contour, [&](const std::vector<Vec3>& y) { return length(only(s, y)); });
+    open += !u.closed[0] && !u.closed[1];
+    mixed += u.closed[0] != u.closed[1];
+    for (int side = 0; side < 2; ++side) {
+      if (!u.closed[side]) {
+        EXPECT_LT(norm(u.G_side[side] - d), 1e-7 * norm(d));
+      }
+      EXPECT_GE(norm(u.G), norm(u.G_side[side]));
+    }
+    EXPECT_TRUE(u.G == u.G_side[0] || u.G == u.G_side[1]);
+  }
+  EXPECT_EQ(open, 2);
+  EXPECT_EQ(mixed, 2);
+}
+
+/// A contour that starts at the vertex of both its triangles. Taken apart, the triangles move by d against each other
+/// and the start by half of it: the gradient of the distance along the line of the two planes.
+TEST(Untangle, LengthGradientAtASharedVertex) {
+  const std::vector<Vec3> x{{0, 0, 0}, {1, -0.5, 0.1}, {1, 0.5, 0}, {0.6, 0.1, 0.5}, {0.6, 0.05, -0.5}};
+  const Tangled fan = join({Piece{x, {{0, 1, 2}, {0, 3, 4}}}});
+  const Contour c = only(fan, fan.x);
+  ASSERT_EQ(c.points.size(), 2u);
+  const int end = c.points[0].vertex == 0 ? 1 : 0;
+  const Vec3 r = normalized(c.points[end].x);
+  const int moving = c.segments[0].face[1];  // triangle 0 or 1
+  Vec3 d;
+  constexpr double h = 1e-6;
+  for (int k = 0; k < 3; ++k) {
+    const auto distance = [&](double by) {
+      Vec3 shift;
+      shift[k] = by;
+      const auto at = [&](int v, int triangle) { return triangle == moving ? x[v] + shift : x[v]; };
+      // The edge 3-4 of triangle 1 through the plane of triangle 0.
+      const Vec3 n = cross(at(1, 0) - at(0, 0), at(2, 0) - at(0, 0)), p = at(3, 1), q = at(4, 1);
+      const double t = dot(n, at(0, 0) - p) / dot(n, q - p);
+      return dot(r, p + t * (q - p) - 0.5 * shift);
+    };
+    d[k] = (distance(h) - distance(-h)) / (2 * h);
+  }
+  EXPECT_LT(norm(lengthGradient(fan.mesh, fan.x, c) - d), 1e-8);
 }
 
 /// Zheng 2013, fig. 4.5 and 4.6, acceptance C3: a waisted sleeve stuck at its neck. The length is stationary there, the
@@ -252,6 +302,55 @@ TEST(Untangle, LayerOrderDecides) {
       // Surface 1 against surface 0: the strip goes up where it is the higher layer.
       EXPECT_NEAR(u.direction.z, (side == 1 ? 1 : -1) * (strip_layer == 2 ? 1 : -1), 1e-13);
     }
+  }
+}
+
+/// Two tubes, the inner shifted sideways through the outer: two straight cuts along them, none of which divides a tube
+/// alone, together bound the lens of the inner one that is outside. Layers or not, G pushes it in.
+TEST(Untangle, ShiftedNestedTubes) {
+  const int n = 24;
+  const double r = 0.100, R = 0.103, shift = 0.008, length = 0.28;
+  const Piece inner = mapped(tube({{r, 0.01}, {r, 0.1}, {r, 0.2}, {r, 0.01 + length}}, n), [=](const Vec3& p) {
+    return p + Vec3{shift, 0, 0};
+  });
+  const Piece outer = tube({{R, 0}, {R, 0.13}, {R, 0.3}}, n);
+  const Tangled s = join({inner, outer});
+  // By hand: the arc of the inner polygon outside the outer one, between the two points where they meet.
+  double arc = 0;
+  const auto at = [&](double radius, int i, double dx) {
+    const double a = 0.1 + 2 * M_PI * i / n;
+    return Vec3{radius * std::cos(a) + dx, radius * std::sin(a), 0};
+  };
+  const double apothem = R * std::cos(M_PI / n);
+  constexpr int kParts = 4000;
+  for (int i = 0; i < n; ++i) {
+    const Vec3 p = at(r, i, shift), q = at(r, i + 1, shift);
+    for (int k = 0; k < kParts; ++k) {
+      const Vec3 m = p + ((k + 0.5) / kParts) * (q - p);
+      double out = -1;  // beyond one of the outer polygon's sides
+      for (int j = 0; j < n; ++j) {
+        const double b = 0.1 + 2 * M_PI * (j + 0.5) / n;
+        out = std::max(out, m.x * std::cos(b) + m.y * std::sin(b) - apothem);
+      }
+      if (out > 0) arc += norm(q - p) / kParts;
+    }
+  }
+  for (const bool layers : {true, false}) {
+    const auto found = untangle(s.mesh, s.x, layers ? std::span<const int>(s.piece) : std::span<const int>{});
+    ASSERT_EQ(found.size(), 2u);
+    Vec3 push;
+    for (const auto& u : found) {
+      const int on_inner = s.pieceOfFace(u.contour.segments[0].face[0]) == 0 ? 0 : 1;
+      EXPECT_TRUE(u.closed[on_inner]);
+      EXPECT_NEAR(u.length_m, length, 1e-12);
+      EXPECT_NEAR(u.wrong_area_m2[on_inner], arc * length, 1e-3 * arc * length);
+      EXPECT_EQ(u.wrong_vertices[on_inner], found[0].wrong_vertices[on_inner]);
+      for (int v : u.wrong_vertices[on_inner]) EXPECT_GT(std::hypot(s.x[v].x, s.x[v].y), apothem);
+      // Moving the outer tube by d is moving the inner by -d.
+      push += (on_inner == 1 ? 1 : -1) * u.direction;
+      EXPECT_GT(norm(u.G), 1);
+    }
+    EXPECT_LT(push.x, -0.5);
   }
 }
 
