@@ -47,7 +47,7 @@ Object structureOutputTable(StructureKind kind) {
              "points whose displacement is written (and, in dynamic cases, velocity)");
   if (kind != StructureKind::modal)
     table.list("edges", &O::edges, outputPlaceTable<OutputEdge>("Named edge"),
-               "edges whose mean displacement and total reaction (force, and moment about the edge's middle at rest) "
+               "edges whose mean displacement and total reaction (force, and moment about the mean of its points now) "
                "are written");
   table.choice(
       "shapes", &O::shapes,

@@ -173,21 +173,39 @@ Probes::Probes(const StructureCase& c, const StructureModel& model, const Struct
   const Garment& g = model.sheet.garment;
   const Structure& s = *structure_;
   const std::vector<int> offsets = controlOffsets(g);
+  // Free points that a control point moves.
+  const auto freeOf = [&](int control, std::set<int>& into) {
+    for (int e = s.map.T.offsets[control]; e < s.map.T.offsets[control + 1]; ++e) into.insert(s.map.T.columns[e]);
+  };
+  // A support that moves several points as one pushes on all of them: between them its forces are inner ones.
+  std::vector<std::set<int>> ties;
+  for (const LinearConstraint& l : options.constraints) {
+    std::set<int> tied;
+    for (const auto& [control, coefficient] : l.terms) freeOf(control, tied);
+    if (tied.size() > 1) ties.push_back(std::move(tied));
+  }
+  const auto withTies = [&](std::set<int>& points) {
+    for (std::size_t before = 0; before != points.size();) {
+      before = points.size();
+      for (const std::set<int>& tied : ties)
+        if (std::any_of(tied.begin(), tied.end(), [&](int f) { return points.contains(f); }))
+          points.insert(tied.begin(), tied.end());
+    }
+  };
   for (const OutputPoint& p : c.output.points) {
     PointProbe probe;
     std::tie(probe.patch, probe.uv) = locate(model.sheet, p.where);
     const SurfaceBasis basis = surfaceBasis(g.patches[static_cast<std::size_t>(probe.patch)], probe.uv.x, probe.uv.y);
-    std::vector<double> free(s.map.home.size());
+    std::set<int> free;
     for (std::size_t k = 0; k < basis.columns.size(); ++k) {
       const int control = offsets[static_cast<std::size_t>(probe.patch)] + basis.columns[k];
       const double value = basis.values[0][k];
       if (value == 0) continue;
       probe.control.emplace_back(control, value);
-      for (int e = s.map.T.offsets[control]; e < s.map.T.offsets[control + 1]; ++e)
-        free[static_cast<std::size_t>(s.map.T.columns[e])] += value * s.map.T.values[e];
+      freeOf(control, free);
     }
-    for (std::size_t f = 0; f < free.size(); ++f)
-      if (free[f] != 0) probe.free.emplace_back(static_cast<int>(f), free[f]);
+    withTies(free);
+    probe.free.assign(free.begin(), free.end());
     points_.push_back(std::move(probe));
     addVector(columns_, p.name, "u", "m");
     if (with_velocity_) addVector(columns_, p.name, "v", "m_per_s");
@@ -195,10 +213,6 @@ Probes::Probes(const StructureCase& c, const StructureModel& model, const Struct
     for (const char* what : {"n1_N_per_m", "n2_N_per_m", "e1", "e2"}) columns_.push_back(p.name + "_" + what);
     addVector(columns_, p.name, "r", "N");
   }
-  // Free points that the supports of a place move, by support.
-  const auto freeOf = [&](int control, std::set<int>& into) {
-    for (int e = s.map.T.offsets[control]; e < s.map.T.offsets[control + 1]; ++e) into.insert(s.map.T.columns[e]);
-  };
   for (const OutputEdge& e : c.output.edges) {
     EdgeProbe probe;
     probe.weight.assign(static_cast<std::size_t>(offsets.back()), 0.0);
@@ -246,19 +260,15 @@ std::vector<double> Probes::values(const MeasuredState& state) const {
       u += value * (state.q[k] - s.rest[k]);
       if (!state.velocity.empty()) v += value * state.velocity[k];
     }
-    // A force F at the point is N F on the free points: the least-squares F.
-    double square = 0;
+    // A force F at the point is N F on the control points, and N sums to 1.
     if (!state.reaction_N.empty())
-      for (const auto& [f, value] : p.free) {
-        r += value * state.reaction_N[static_cast<std::size_t>(f)];
-        square += value * value;
-      }
+      for (const int f : p.free) r += state.reaction_N[static_cast<std::size_t>(f)];
     addVector(row, u);
     if (with_velocity_) addVector(row, v);
     if (displacements_only_) continue;
     const ShellStress stress = stresses.at(p.patch, p.uv);
     row.insert(row.end(), {stress.principal1_N_per_m, stress.principal2_N_per_m, stress.strain1, stress.strain2});
-    addVector(row, square > 0 ? r / square : r);
+    addVector(row, r);
   }
   for (const EdgeProbe& e : edges_) {
     Vec3 u, middle, force, moment;

@@ -47,7 +47,7 @@ class Probes {
  public:
   Probes(const StructureCase& c, const StructureModel& model, const StructureOptions& options);
   /// Modal: displacements alone. Of a point: NAME_ux_m, _uy_m, _uz_m, (dynamic: _vx_m_per_s ...), _n1_N_per_m,
-  /// _n2_N_per_m, _e1, _e2, _rx_N ... (a support at the point alone). Of an edge: mean displacement NAME_ux_m ...,
+  /// _n2_N_per_m, _e1, _e2, _rx_N ... (of a support at the point alone, with what is tied to it). Of an edge: mean displacement NAME_ux_m ...,
   /// reaction NAME_rx_N ..., and its moment about the mean of the edge's points now NAME_mx_Nm ....
   const std::vector<std::string>& columns() const { return columns_; }
   std::vector<double> values(const MeasuredState& state) const;
@@ -56,7 +56,8 @@ class Probes {
   struct PointProbe {
     int patch = 0;
     Vec2 uv;
-    std::vector<std::pair<int, double>> control, free;  ///< basis values
+    std::vector<std::pair<int, double>> control;  ///< basis values
+    std::vector<int> free;                        ///< whose reactions count
   };
   struct EdgeProbe {
     std::vector<double> weight;  ///< of control points, sum 1: mean along the edge at rest

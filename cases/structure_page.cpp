@@ -71,9 +71,12 @@ double largest(const std::vector<double>& v) {
   return most;
 }
 
+/// Numbers below this part of what they stand beside are rounding, and not shown.
+constexpr double kRounding = 1e-9;
+
 /// One plot per named point and edge. Static: load factor over displacement, as the literature draws it; dynamic:
-/// displacement over time.
-std::string plots(const StructureCase& c, const PathTable& t) {
+/// displacement over time. `force_N`, `moment_Nm`: what reactions stand beside.
+std::string plots(const StructureCase& c, const PathTable& t, double force_N, double moment_Nm) {
   std::string out;
   const bool statics = c.kind == StructureKind::statics;
   const std::vector<double> lead = columnOf(t, statics ? "factor" : "time_s");
@@ -87,13 +90,13 @@ std::string plots(const StructureCase& c, const PathTable& t) {
              over ? "load factor" : what + " [" + unit + "]",
              {},
              false};
-    double most = 0;
+    double most = letter[0] == 'r' ? force_N : letter[0] == 'm' ? moment_Nm : 0;
     for (const char* axis : {"x", "y", "z"})
       most = std::max(most, largest(columnOf(t, name + "_" + letter + axis + "_" + unit)));
     for (const char* axis : {"x", "y", "z"}) {
       const std::vector<double> values = columnOf(t, name + "_" + letter + axis + "_" + unit);
       // Components that are rounding beside the others are left out.
-      if (values.empty() || !(largest(values) > 1e-9 * most)) continue;
+      if (values.empty() || !(largest(values) > kRounding * most)) continue;
       XySeries series{std::string(axis), over ? values : lead, over ? lead : values, false};
       p.series.push_back(std::move(series));
     }
@@ -170,10 +173,13 @@ std::string sentenceOf(const StructureCase& c, const Json& s) {
                                  formatNumber(s.at("factor").get<double>(), 4), moved);
   if (c.output.points.size() == 1 && !s.at("points").empty()) {
     const Json& p = s.at("points")[0];
-    if (p.contains("ux_m"))
-      text += fmt::format("; {} moves by ({}, {}, {}) m", c.output.points[0].name,
-                          formatNumber(p.at("ux_m").get<double>(), 4), formatNumber(p.at("uy_m").get<double>(), 4),
-                          formatNumber(p.at("uz_m").get<double>(), 4));
+    if (p.contains("ux_m")) {
+      const double u[] = {p.at("ux_m").get<double>(), p.at("uy_m").get<double>(), p.at("uz_m").get<double>()};
+      const double most = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
+      const auto shown = [&](double v) { return formatNumber(std::abs(v) > kRounding * most ? v : 0, 4); };
+      text +=
+          fmt::format("; {} moves by ({}, {}, {}) m", c.output.points[0].name, shown(u[0]), shown(u[1]), shown(u[2]));
+    }
   }
   return text + ".";
 }
@@ -224,7 +230,10 @@ std::vector<std::string> assumptionsOf(const StructureCase& c) {
 std::string factsTable(const Json& s) {
   Table t{"The run", "", {"fact", "value"}, {}};
   const auto number = [&](const char* key, const char* name, const char* unit) {
-    if (s.contains(key)) t.rows.push_back({Cell(name), Cell(formatNumber(s.at(key).get<double>(), 5) + unit)});
+    if (!s.contains(key)) return;
+    const Json& value = s.at(key);
+    t.rows.push_back(
+        {Cell(name), Cell(value.is_number_integer() ? value.dump() : formatNumber(value.get<double>(), 5) + unit)});
   };
   number("patches", "Patches", "");
   number("control_points", "Control points", "");
@@ -244,7 +253,7 @@ std::string factsTable(const Json& s) {
     for (const auto& [key, value] : s.at("strain_limit").items())
       t.rows.push_back({Cell("Strain limit: " + key), Cell(formatNumber(value.get<double>(), 3))});
   for (const auto& [key, value] : s.at("solver").items())
-    t.rows.push_back({Cell("Solver: " + key), Cell(value.dump())});
+    if (value != 0) t.rows.push_back({Cell("Solver: " + key), Cell(value.dump())});
   t.rows.push_back(
       {Cell("Computed in"),
        Cell(fmt::format("{} s; threads: {}; kernels: {}", formatNumber(s.at("timings").at("wall_s").get<double>()),
@@ -282,11 +291,14 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
   body += element("section", head,
                   pictures.empty() ? " class=\"headline\" aria-label=\"The result\""
                                    : " class=\"headline pictured\" aria-label=\"The result\"");
-  if (c.kind == StructureKind::modal)
+  if (c.kind == StructureKind::modal) {
     body += sectionOf("modes", "Frequencies", "", charts(modesTable(s)));
-  else
+  } else {
+    const double size = std::sqrt(s.at("area_m2").get<double>()),
+                 force = s.at("largest_stress_N_per_m").get<double>() * size;
     body += sectionOf("path", c.kind == StructureKind::statics ? "The path" : "The motion",
-                      "All numbers are in path.csv.", charts(plots(c, path) + placesTable(s)));
+                      "All numbers are in path.csv.", charts(plots(c, path, force, force * size) + placesTable(s)));
+  }
   if (pictures.size() > 1) {
     std::string more;
     for (std::size_t k = 1; k < pictures.size(); ++k) more += figureOf(pictures[k]);

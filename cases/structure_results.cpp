@@ -111,8 +111,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     j["modes"] = list;
   } else {
     double control = 0, displacement = 0, stress = 0, strain = 0;
-    for (std::size_t k = 0; k < last.q.size(); ++k)
-      for (int i = 0; i < 3; ++i) control = std::max(control, std::abs(last.q[k][i] - s.rest[k][i]));
+    for (std::size_t k = 0; k < last.q.size(); ++k) control = std::max(control, norm(last.q[k] - s.rest[k]));
     for (std::size_t k = 0; k < shape.x.size(); ++k) {
       displacement = std::max(displacement, norm(shape.x[k] - shape.rest[k]));
       stress = std::max(stress, shape.stress[k].principal1_N_per_m);

@@ -230,6 +230,7 @@ void runDynamic(const StructureCase& c, Run& run) {
     run.facts.finished = report.reached;
     run.facts.why = report.why;
     run.facts.points = report.steps;
+    run.facts.iterations = report.iterations;
     run.facts.factorisations = report.factorisations;
     run.facts.projections = report.projections;
     run.facts.limits_missed = report.limits_missed;

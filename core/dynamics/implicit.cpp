@@ -142,6 +142,7 @@ DynamicReport integrateImplicit(System& system, const DynamicOptions& o, Dynamic
       newton.line_search = careful;
       result = solveNewton(equations, newton, trial, K, factor);
       report.factorisations += result.factorisations;
+      report.iterations += result.iterations;
       if (result.converged) break;
     }
     if (!result.converged) {

@@ -1,9 +1,11 @@
 /// Runs of structures from file to results, against closed forms.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -99,6 +101,33 @@ TEST(StructureRun, MovedSupportPushes) {
   auto t = runTable(c, folder.path() / "out");
   EXPECT_NEAR(t["end_rz_N"].back(), 4, 1e-5);
   EXPECT_NEAR(t["root_rz_N"].back(), -4, 1e-5);
+}
+
+/// The middle of a plate, a quarter of it with symmetry on two edges: under a load no support acts there; moved, the
+/// support's force is that load, symmetry's ties and all.
+TEST(StructureRun, AMovedPointPushesAcrossSymmetry) {
+  const Folder folder;
+  const std::string plate = R"({"kind": "static", "name": "quarter",
+    "sheet": {"plate": {"width": 1, "height": 1}, "degree": 3, "cells_u": 4, "cells_v": 4},
+    "material": {"isotropic": {"young": 1e6, "poisson": 0.3, "thickness": 0.05}},
+    "supports": [{"edge": "u1", "hold": "xyz"}, {"edge": "v1", "hold": "xyz"},
+                 {"edge": "u0", "symmetry": [1, 0, 0]}, {"edge": "v0", "symmetry": [0, 1, 0]} MORE],
+    "loads": [LOAD], "solver": {"steps": 2},
+    "output": {"points": [{"name": "middle", "corner": "u0v0"}], "shapes": "none"}})";
+  const auto run = [&](const char* name, const std::string& more, const std::string& load) {
+    std::string text = plate;
+    text.replace(text.find("MORE"), 4, more);
+    text.replace(text.find("LOAD"), 4, load);
+    const std::filesystem::path file = folder.path() / (std::string(name) + ".json");
+    std::ofstream(file) << text;
+    return runTable(readStructureCase(file), folder.path() / name);
+  };
+  auto loaded = run("loaded", "", R"({"corner": "u0v0", "force": [0, 0, -3]})");
+  const double w = loaded["middle_uz_m"].back();
+  EXPECT_LT(w, -0.01);
+  EXPECT_NEAR(loaded["middle_rz_N"].back(), 0, 1e-6);
+  auto moved = run("moved", fmt::format(R"(, {{"corner": "u0v0", "hold": "z", "move": [0, 0, {:.12g}]}})", w), "");
+  EXPECT_NEAR(moved["middle_rz_N"].back(), -3, 1e-6);
 }
 
 /// omega = pi^2 (m^2 + n^2) sqrt(D/(rho h)), a thin plate simply supported on all edges.
