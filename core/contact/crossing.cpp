@@ -51,18 +51,28 @@ std::vector<Crossing> findCrossings(const ContactMesh& mesh, std::span<const Vec
     out.push_back({e, t, front});
   };
 
+  // One walk through the tree for all edges with the same lower vertex: they follow one another.
   const int edges = static_cast<int>(mesh.edges.size());
   constexpr int kChunk = 256;
   const int chunks = (edges + kChunk - 1) / kChunk;
   std::vector<std::vector<Crossing>> found(chunks);
 #pragma omp parallel for schedule(dynamic)
   for (int chunk = 0; chunk < chunks; ++chunk) {
-    for (int e = chunk * kChunk; e < std::min(edges, (chunk + 1) * kChunk); ++e) {
-      Box box;
-      for (int v : mesh.edges[e]) box.add(positions[v]);
-      box = box.grown(margin);
-      triangle_tree.overlapping(box, [&](int t) {
-        if (overlap(box, boxes[t])) test(e, t, found[chunk]);
+    std::vector<Box> edge_boxes;
+    const int chunk_end = std::min(edges, (chunk + 1) * kChunk);
+    for (int first = chunk * kChunk, end = first; first < chunk_end; first = end) {
+      edge_boxes.clear();
+      Box all;
+      for (; end < chunk_end && mesh.edges[end][0] == mesh.edges[first][0]; ++end) {
+        Box box;
+        for (int v : mesh.edges[end]) box.add(positions[v]);
+        edge_boxes.push_back(box.grown(margin));
+        all.add(edge_boxes.back());
+      }
+      triangle_tree.overlapping(all, [&](int t) {
+        if (!overlap(all, boxes[t])) return;
+        for (int e = first; e < end; ++e)
+          if (overlap(edge_boxes[e - first], boxes[t])) test(e, t, found[chunk]);
       });
     }
     std::sort(found[chunk].begin(), found[chunk].end(), [](const Crossing& p, const Crossing& q) {

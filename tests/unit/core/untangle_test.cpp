@@ -354,6 +354,31 @@ TEST(Untangle, ShiftedNestedTubes) {
   }
 }
 
+/// A ribbon that widens along the loop x = t^3 - t, z = t^2 and passes through itself at t = -1 and 1, at a right
+/// angle: closed on the narrow pass, whose end t < -1 is the smaller part and is pulled back along the ribbon, (1, 0,
+/// -1)/sqrt(2).
+TEST(Untangle, RibbonThroughItself) {
+  const auto at = [](double u) { return -1.3 + 2.6 * u; };
+  const Tangled s = join({sheet(61, 4, [&](double u, double v) {
+    const double t = at(u);
+    return Vec3{t * t * t - t, (0.5 + 0.15 * t) * (v - 0.47), t * t};
+  })});
+  const auto found = untangle(s.mesh, s.x);
+  ASSERT_EQ(found.size(), 1u);
+  const Untangling& u = found[0];
+  const int narrow = u.closed[0] ? 0 : 1;
+  EXPECT_TRUE(u.closed[narrow]);
+  EXPECT_FALSE(u.closed[1 - narrow]);
+  EXPECT_NEAR(u.length_m, 0.35, 0.01);
+  std::vector<int> end;
+  for (int v = 0; v < static_cast<int>(s.x.size()); ++v)
+    if (at((v % 62) / 61.0) < -1) end.push_back(v);
+  EXPECT_EQ(u.wrong_vertices[narrow], end);
+  const Vec3 back = (narrow == 1 ? 1 : -1) * Vec3{1, 0, -1} / std::sqrt(2.0);
+  EXPECT_GT(dot(u.G_side[narrow], back), 0.95);
+  EXPECT_LT(norm(u.G_side[narrow]), 1.1);
+}
+
 /// Which vertices impact leaves alone.
 TEST(Untangle, TangledVertices) {
   const Piece strip = sheet(5, 9, [](double u, double v) { return Vec3{0.21 + 0.5 * u, 0.53, v - 0.31}; });
