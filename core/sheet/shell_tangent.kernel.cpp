@@ -159,39 +159,6 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
   }
 }
 
-/// kP, kQ: degrees known at compile time, or -1.
-template <int kP, int kQ>
-void tensorTangent(const ShellBlock& block, const ShellLaw& law, const double* q, int first, int count, double* pairs) {
-  const int nu = kP < 0 ? block.p + 1 : kP + 1, nv = kQ < 0 ? block.q + 1 : kQ + 1, nn = nu * nv;
-  constexpr int kNodes = (kP < 0 ? kMaxDegree + 1 : kP + 1) * (kQ < 0 ? kMaxDegree + 1 : kQ + 1);
-  const int stride = block.pointDoubles() * kLanes;
-  const long pair_doubles = static_cast<long>(block.pairCount()) * 9 * kLanes;
-#pragma omp parallel for schedule(static) if (count > 4)
-  for (int group = first; group < first + count; ++group) {
-    V3 X[kNodes];
-    Shape N[kNodes];
-    const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
-    const double* weights = block.rational ? block.weights.data() + static_cast<long>(group) * nn * kLanes : nullptr;
-    for (int k = 0; k < nn; ++k) X[k] = gather(q, nodes + k * kLanes);
-    double* out = pairs + (group - first) * pair_doubles;
-    for (long k = 0; k < pair_doubles; k += kLanes) store(out + k, V{});
-    LawLanes lanes;
-    constantLaw(law, lanes);
-    for (int gv = 0; gv < block.gv; ++gv) {
-      const double* bv = block.basis_v.data() + (static_cast<long>(group) * block.gv + gv) * 3 * nv * kLanes;
-      for (int gu = 0; gu < block.gu; ++gu) {
-        const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 3 * nu * kLanes;
-        const long point = (static_cast<long>(group) * block.gv + gv) * block.gu + gu;
-        const double* data = block.points.data() + point * stride;
-        tensorShapes(nu, nv, bu, bv, weights, data + 5 * kLanes, N);
-        if (!block.laws.empty()) lawAtPoint(law, block.laws.data() + point * kLawDoubles * kLanes, lanes);
-        const double* rest = block.rest_curvature ? data + (5 + (block.rational ? 6 : 0)) * kLanes : nullptr;
-        addPoint<kNodes>(nn, X, N, data, rest, law, lanes, out);
-      }
-    }
-  }
-}
-
 /// n^ab N_I,a N_J,b of the ties, on the diagonal of each pair's block.
 void addTies(const Ties& ties, double* pairs) {
   V spread[45]{};
@@ -220,36 +187,47 @@ void addTies(const Ties& ties, double* pairs) {
     }
 }
 
-void assumedTangent(const ShellBlock& block, const ShellLaw& law, const double* q, int first, int count,
-                    double* pairs) {
-  constexpr int nn = 9;
+struct NoTies {
+  NoTies(const ShellBlock&, int, const double*, const V3*) {}
+};
+
+/// kP, kQ: degrees known at compile time, or -1. kAssumed: with assumed strains, degree 2.
+template <int kP, int kQ, bool kAssumed = false>
+void tensorTangent(const ShellBlock& block, const ShellLaw& law, const double* q, int first, int count, double* pairs) {
+  const int nu = kP < 0 ? block.p + 1 : kP + 1, nv = kQ < 0 ? block.q + 1 : kQ + 1, nn = nu * nv;
+  constexpr int kNodes = (kP < 0 ? kMaxDegree + 1 : kP + 1) * (kQ < 0 ? kMaxDegree + 1 : kQ + 1);
   const int stride = block.pointDoubles() * kLanes;
   const long pair_doubles = static_cast<long>(block.pairCount()) * 9 * kLanes;
 #pragma omp parallel for schedule(static) if (count > 4)
   for (int group = first; group < first + count; ++group) {
-    V3 X[nn];
-    Shape N[nn];
+    V3 X[kNodes];
+    Shape N[kNodes];
     const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
     const double* weights = block.rational ? block.weights.data() + static_cast<long>(group) * nn * kLanes : nullptr;
     for (int k = 0; k < nn; ++k) X[k] = gather(q, nodes + k * kLanes);
     double* out = pairs + (group - first) * pair_doubles;
     for (long k = 0; k < pair_doubles; k += kLanes) store(out + k, V{});
-    Ties ties(block, group, weights, X);
+    [[maybe_unused]] std::conditional_t<kAssumed, Ties, NoTies> ties(block, group, weights, X);
     LawLanes lanes;
     constantLaw(law, lanes);
-    for (int gv = 0; gv < block.gv; ++gv)
+    for (int gv = 0; gv < block.gv; ++gv) {
+      const double* bv = block.basis_v.data() + (static_cast<long>(group) * block.gv + gv) * 3 * nv * kLanes;
       for (int gu = 0; gu < block.gu; ++gu) {
-        const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 9 * kLanes;
-        const double* bv = block.basis_v.data() + (static_cast<long>(group) * block.gv + gv) * 9 * kLanes;
+        const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 3 * nu * kLanes;
         const long point = (static_cast<long>(group) * block.gv + gv) * block.gu + gu;
         const double* data = block.points.data() + point * stride;
-        tensorShapes(3, 3, bu, bv, weights, data + 5 * kLanes, N);
+        tensorShapes(nu, nv, bu, bv, weights, data + 5 * kLanes, N);
         if (!block.laws.empty()) lawAtPoint(law, block.laws.data() + point * kLawDoubles * kLanes, lanes);
         const double* rest = block.rest_curvature ? data + (5 + (block.rational ? 6 : 0)) * kLanes : nullptr;
-        const Tied tied{&ties, block.tie_share.data() + point * kShareDoubles * kLanes, gu, gv};
-        addPoint<nn, true>(nn, X, N, data, rest, law, lanes, out, &tied);
+        if constexpr (kAssumed) {
+          const Tied tied{&ties, block.tie_share.data() + point * kShareDoubles * kLanes, gu, gv};
+          addPoint<kNodes, true>(nn, X, N, data, rest, law, lanes, out, &tied);
+        } else {
+          addPoint<kNodes>(nn, X, N, data, rest, law, lanes, out);
+        }
       }
-    addTies(ties, out);
+    }
+    if constexpr (kAssumed) addTies(ties, out);
   }
 }
 
@@ -284,7 +262,7 @@ void scatteredTangent(const ShellBlock& block, const ShellLaw& law, const double
 void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, int, int, double*);
 void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock& b, const ShellLaw& law, const double* q, int first,
                                                   int count, double* pairs) {
-  if (b.assumed) return assumedTangent(b, law, q, first, count, pairs);
+  if (b.assumed) return tensorTangent<2, 2, true>(b, law, q, first, count, pairs);
   if (b.scattered) return scatteredTangent(b, law, q, first, count, pairs);
   if (b.p == 2 && b.q == 2) return tensorTangent<2, 2>(b, law, q, first, count, pairs);
   if (b.p == 3 && b.q == 3) return tensorTangent<3, 3>(b, law, q, first, count, pairs);
