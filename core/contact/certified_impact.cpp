@@ -9,7 +9,7 @@ namespace gambeson {
 namespace {
 
 constexpr double kDirectionBound = 0x1p-48;  ///< error of a gap over R
-constexpr double kCoplanarBound = 0x1p-45;   ///< error of the determinant over the product of its arms
+constexpr double kCoplanarBound = 0x1p-44;   ///< error of the determinant over the product of its arms
 constexpr double kRoundUp = 1 + 0x1p-49;     ///< the separation against |n| <= 1 + 5u
 constexpr double kTiny = 1e-280;             ///< covers underflow
 constexpr double kLargest = 1e50;            ///< relative coordinates beyond this are not looked at
@@ -122,6 +122,26 @@ Direction rimDirection(const Relative<4>& r) {
   return d;
 }
 
+/// A polynomial by its Bernstein coefficients lies above their lower hull: the part of [0, 1], from 0 on, on which the
+/// hull lies above a level. It falls to it on one of the lines between two coefficients.
+template <std::size_t M>
+double partAbove(const std::array<double, M>& c, double level) {
+  if (!(c[0] > level)) return 0;
+  double s = 1;
+  for (std::size_t j = 1; j < M; ++j) {
+    if (c[j] > level) continue;
+    for (std::size_t i = 0; i < j; ++i) {
+      if (!(c[i] > level)) continue;
+      const double di = static_cast<double>(i), dj = static_cast<double>(j);
+      s = std::min(s, (di + (dj - di) * ((c[i] - level) / (c[i] - c[j]))) / (M - 1));
+    }
+  }
+  return s;
+}
+
+/// tA + s (tB - tA), never above: a time in [tA, tB], both in [0, 1].
+double partWay(double tA, double tB, double s) { return s >= 1 ? tB : std::max(tA, tA + s * (tB - tA) - 0x1p-51); }
+
 template <std::size_t N>
 struct Query {
   Relative<N> r0, r1;
@@ -133,6 +153,15 @@ struct Query {
     const double s = 1 - t;
     for (std::size_t i = 0; i < N; ++i) r[i] = s * r0[i] + t * r1[i];
     return r;
+  }
+  /// Of the nearest points that belong to a direction, relative to each other, over the whole step.
+  Vec3 velocityAt(const Direction& d) const {
+    const double u = d.u, v = d.v;
+    if constexpr (N == 3)
+      return (1 - u - v) * (r1[0] - r0[0]) + u * (r1[1] - r0[1]) + v * (r1[2] - r0[2]);
+    else
+      return (1 - u) * ((1 - v) * (r1[0] - r0[0]) + v * (r1[1] - r0[1])) +
+             u * ((1 - v) * (r1[2] - r0[2]) + v * (r1[3] - r0[3]));
   }
   bool beyond(double gap_m) const { return gap_m - error_m > separation_m; }
 
@@ -173,12 +202,14 @@ struct Query {
     return {gap, until};
   }
 
-  /// Is the pair apart from tA to tB along the direction that turns from nA to nB? rA, rB: positions at these times.
-  bool apartTurning(const Vec3& nA, const Relative<N>& rA, const Vec3& nB, const Relative<N>& rB) const {
+  /// The pair from tA (positions rA) to tB along the direction that turns from nA to nB: the part of the interval, from
+  /// its start, on which all gaps are certainly beyond the separation.
+  double turning(const Vec3& nA, const Relative<N>& rA, const Vec3& nB, const Relative<N>& rB) const {
+    double s = 1;
     for (std::size_t i = 0; i < N; ++i)
-      if (!(beyond(dot(nA, rA[i])) && beyond(0.5 * (dot(nA, rB[i]) + dot(nB, rA[i]))) && beyond(dot(nB, rB[i]))))
-        return false;
-    return true;
+      s = std::min(s, partAbove<3>({dot(nA, rA[i]), 0.5 * (dot(nA, rB[i]) + dot(nB, rA[i])), dot(nB, rB[i])},
+                                   separation_m + 2 * error_m));
+    return s;
   }
 };
 
@@ -192,27 +223,22 @@ struct Coplanarity {
     ef_m2 = std::max(largest(e0), largest(e1)) * std::max(largest(f0), largest(f1));
     efw_m3 = ef_m2 * std::max(largest(w0), largest(w1));
   }
-  /// Is it beyond separation times |e x f|, with one sign, at all times?
-  bool never(double separation_m) const {
-    const Vec3 n0 = cross(e0, f0), n2 = cross(e1, f1);
-    const double c0 = dot(n0, w0), c3 = dot(n2, w1);
-    if (!((c0 > 0) == (c3 > 0))) return false;
-    const Vec3 n1 = 0.5 * (cross(e0, f1) + cross(e1, f0));
-    const double c1 = (dot(n0, w1) + 2 * dot(n1, w0)) / 3, c2 = (2 * dot(n1, w1) + dot(n2, w0)) / 3;
+  /// The part of [tA, tB], from its start, on which it is beyond separation times |e x f|, with one sign.
+  double clear(double separation_m, double tA, double tB) const {
+    const auto at = [](const Vec3& a, const Vec3& b, double t) { return (1 - t) * a + t * b; };
+    const Vec3 ea = tA > 0 ? at(e0, e1, tA) : e0, fa = tA > 0 ? at(f0, f1, tA) : f0, wa = tA > 0 ? at(w0, w1, tA) : w0;
+    const Vec3 eb = tB < 1 ? at(e0, e1, tB) : e1, fb = tB < 1 ? at(f0, f1, tB) : f1, wb = tB < 1 ? at(w0, w1, tB) : w1;
+    const Vec3 n0 = cross(ea, fa), n2 = cross(eb, fb), n1 = 0.5 * (cross(ea, fb) + cross(eb, fa));
+    std::array<double, 4> c{dot(n0, wa), (dot(n0, wb) + 2 * dot(n1, wa)) / 3, (2 * dot(n1, wb) + dot(n2, wa)) / 3,
+                            dot(n2, wb)};
+    if (c[0] < 0)
+      for (double& x : c) x = -x;
     double bound = kCoplanarBound * efw_m3 + kTiny;
     // |n| lies below the largest of its coefficients.
     if (separation_m > 0)
       bound += separation_m * kRoundUp *
                (std::sqrt(std::max({norm2(n0), norm2(n1), norm2(n2)}) + 1e-300) + kCoplanarBound * ef_m2);
-    return std::min({c0, c1, c2, c3}) > bound || std::max({c0, c1, c2, c3}) < -bound;
-  }
-  bool never(double separation_m, double tA, double tB) const {
-    const auto at = [](const Vec3& a, const Vec3& b, double t) { return (1 - t) * a + t * b; };
-    Coplanarity part = *this;  // with the products of the whole: they bound the errors at all times
-    part.e0 = at(e0, e1, tA), part.e1 = at(e0, e1, tB);
-    part.f0 = at(f0, f1, tA), part.f1 = at(f0, f1, tB);
-    part.w0 = at(w0, w1, tA), part.w1 = at(w0, w1, tB);
-    return part.never(separation_m);
+    return partAbove(c, bound);
   }
 };
 
@@ -223,33 +249,36 @@ Coplanarity coplanarity(const Relative<4>& r0, const Relative<4>& r1, const Four
   return {x0[1] - x0[0], x1[1] - x1[0], x0[3] - x0[2], x1[3] - x1[2], r0[0], r1[0]};
 }
 
-/// The better of the directions known at a time: the one that separates longest from then on.
-struct Best {
-  Direction direction;   ///< that reaches furthest
-  double time = -1;      ///< how far
-  double gap_m = 0;      ///< largest of the certified gaps of all directions
-  ImpactTime nearest{};  ///< nearest points
+/// What is known about a pair at a time.
+struct Known {
+  Direction nearest;   ///< between the nearest points
+  Direction furthest;  ///< the direction that separates longest from then on
+  double until = -1;   ///< how long
+  double gap_m = 0;    ///< largest of the gaps along the directions
 };
 template <std::size_t N>
-Best bestDirection(const Query<N>& q, const Relative<N>& r, double t) {
-  Best best;
-  best.gap_m = -INFINITY;
+Known know(const Query<N>& q, const Relative<N>& r, double t) {
+  Known k;
+  k.gap_m = -INFINITY;
   const auto consider = [&](const Direction& d) {
     if (!d.valid) return;
-    const auto [gap, time] = q.reach(d.n, t);
-    best.gap_m = std::max(best.gap_m, gap);
-    if (time > best.time) best.time = time, best.direction = d;
+    const auto [gap, until] = q.reach(d.n, t);
+    k.gap_m = std::max(k.gap_m, gap);
+    if (until > k.until) k.until = until, k.furthest = d;
   };
   bool inside = false;
   const Direction face = faceDirection(r, inside);
-  if (inside) consider(face);
-  if (inside) best.nearest = {t, face.u, face.v, face.length_m};
-  if (best.time >= 1) return best;
+  if (inside) {
+    k.nearest = face;
+    consider(face);
+    // The face direction of a hull that is nearly a line may be anything.
+    if (k.until >= 1 || k.gap_m >= 0.5 * face.length_m) return k;
+  }
   const Direction rim = rimDirection(r);
   consider(rim);
-  if (!inside || rim.length_m < face.length_m) best.nearest = {t, rim.u, rim.v, rim.length_m};
-  if (!inside && best.time < 1) consider(face);
-  return best;
+  if (!inside || rim.length_m < face.length_m) k.nearest = rim;
+  if (!inside && k.until < 1) consider(face);
+  return k;
 }
 
 template <std::size_t N>
@@ -261,44 +290,47 @@ std::optional<ImpactTime> impact(const Relative<N>& r0, const Relative<N>& r1, d
     sum += (r0[i].x + r0[i].y + r0[i].z) + (r1[i].x + r1[i].y + r1[i].z);  // NaN is lost in a maximum, not in a sum
   }
   if (!(extent < kLargest && std::isfinite(sum) && separation_m >= 0)) return ImpactTime{0, 0, 0, 0, true};
-  Query<N> q{r0, r1, kDirectionBound * extent + kTiny, separation_m * kRoundUp};
+  const Query<N> q{r0, r1, kDirectionBound * extent + kTiny, separation_m * kRoundUp};
   if (q.boxesApart()) return std::nullopt;
   const Coplanarity coplanar = coplanarity(r0, r1, x0, x1);
-  if (coplanar.never(q.separation_m)) return std::nullopt;
+  double t = partWay(0, 1, coplanar.clear(q.separation_m, 0, 1));
+  if (t >= 1) return std::nullopt;
   const double enough_m = q.separation_m + std::max(tolerance_m, 3 * q.error_m);
 
-  double t = 0, stride = 1;
-  Relative<N> r = r0;
-  Best best = bestDirection(q, r, t);
+  Relative<N> r = q.at(t);
+  Known now = know(q, r, t);
+  double stride = 1;
   for (int step = 0;; ++step) {
-    if (best.time >= 1) return std::nullopt;
-    if (!(best.gap_m > enough_m) || !(best.time > t) || step == kCap) {
-      best.nearest.capped = !(best.nearest.gap_m <= enough_m + 4 * q.error_m);
-      return best.nearest;
+    if (now.until >= 1) return std::nullopt;
+    if (!(now.gap_m > enough_m) || !(now.until > t) || step == kCap) {
+      const Direction& n = now.nearest;
+      return ImpactTime{t, n.u, n.v, n.length_m, !(n.length_m <= enough_m + 4 * q.error_m)};
     }
-    double next = best.time;
-    if (step > 0) {
-      // The pair turns faster than a constant direction can follow.
-      const double far = std::min(1.0, t + stride);
-      if (far > next) {
-        const bool apart = coplanar.never(q.separation_m, t, far);
-        if (apart && far >= 1) return std::nullopt;
-        const Relative<N> rFar = q.at(far);
-        const Best later = bestDirection(q, rFar, far);
-        if (apart || (later.time >= far && q.apartTurning(best.direction.n, r, later.direction.n, rFar))) {
-          if (far >= 1) return std::nullopt;
-          t = far, r = rFar, best = later;
-          stride *= 2;
-          continue;
-        }
-        stride = 0.25 * (far - t);
-      } else {
-        stride = 2 * (next - t);
+    // Just before the nearest points of now would be at the separation, or the end: as far as it is worth to look.
+    const Direction& d = now.furthest;
+    const double closing = -dot(d.n, q.velocityAt(d));
+    double far = std::min(1.0, t + stride);
+    if (closing > 0) far = std::min(far, t + 0.999 * (now.gap_m - q.separation_m) / closing);
+    if (far > now.until) {
+      const Relative<N> rFar = q.at(far);
+      Known later = know(q, rFar, far);
+      Vec3 n = later.nearest.n;
+      if (dot(n, d.n) < 0) n = -n;  // already through the face
+      const double part = std::max(q.turning(d.n, r, n, rFar), coplanar.clear(q.separation_m, t, far));
+      if (part >= 1) {
+        if (far >= 1) return std::nullopt;
+        t = far, r = rFar, now = later;
+        stride *= 2;
+        continue;
       }
+      stride = part > 0.25 ? 2 * (far - t) : 0.25 * (far - t);
+      t = std::max(now.until, partWay(t, far, part));
+    } else {
+      stride = 2 * (now.until - t);
+      t = now.until;
     }
-    t = next;
     r = q.at(t);
-    best = bestDirection(q, r, t);
+    now = know(q, r, t);
   }
 }
 
@@ -307,7 +339,7 @@ double gap(const Relative<N>& r) {
   double extent = 0;
   for (std::size_t i = 0; i < N; ++i) extent = std::max(extent, largest(r[i]));
   const Query<N> q{r, r, kDirectionBound * extent + kTiny, 0};
-  const double below = (bestDirection(q, r, 0).gap_m - q.error_m) / kRoundUp;
+  const double below = (know(q, r, 0).gap_m - q.error_m) / kRoundUp;
   return extent < kLargest && below > 0 ? below : 0;
 }
 

@@ -116,7 +116,7 @@ bool check(const Set& set, const Options& options) {
     const std::string separation = rule == Rule::kZero    ? "0"
                                    : rule == Rule::kFixed ? fmt::format("{:g}", options.separation_m)
                                                           : "gap/10";
-    fmt::print("{:<44}{:>8}{:>8}{:>7}{:>7}{:>8}{:>6}{:>8}{:>6} of {:<6}{:>7}{:>8.0f} ns\n", set.name, separation,
+    fmt::print("{:<58}{:>8}{:>8}{:>7}{:>7}{:>8}{:>6}{:>8}{:>6} of {:<6}{:>7}{:>8.0f} ns\n", set.name, separation,
                set.queries.size(), c.truths, c.hits, c.missed, c.late, c.extra, c.false_far, c.negatives_far, c.capped,
                set.queries.empty() ? 0 : 1e9 * c.seconds / static_cast<double>(set.queries.size()));
     if (rule == Rule::kZero && c.unknown > 0)
@@ -223,7 +223,7 @@ int check(int argc, char** argv) {
     }
   }
   if (!truth.empty()) addTruth(sets.front(), truth);
-  fmt::print("tolerance {:g} m\n{:<44}{:>8}{:>8}{:>7}{:>7}{:>8}{:>6}{:>8}{:>16}{:>7}{:>11}\n", options.tolerance_m,
+  fmt::print("tolerance {:g} m\n{:<58}{:>8}{:>8}{:>7}{:>7}{:>8}{:>6}{:>8}{:>16}{:>7}{:>11}\n", options.tolerance_m,
              "set", "sep [m]", "queries", "true", "hits", "missed", "late", "extra", "beyond bound", "capped",
              "per query");
   bool good = true;
