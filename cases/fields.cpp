@@ -122,8 +122,8 @@ Object makeCaseTable() {
       .object("contact", &C::contact, contactTable(), "how cloth touches")
       .defaultsTo("required with a human or obstacles")
       .object("strain_limit", &C::strain_limit, strainLimitTable(),
-              "keeps weft and warp from stretching by projection at the vertices of the knot mesh (Zheng 2013, chapter "
-              "5), so that the fabric may be given soft threads, and with them long time steps")
+              "keeps weft and warp from stretching by projection (Zheng 2013, chapter 5), "
+              "so that the fabric may be given soft threads, and with them long time steps")
       .defaultsTo("none: the fabric's own stiffness")
       .object("air", &C::air, airTable(), "drag of the air")
       .object("dressing", &C::dressing, dressingTable(), "how the garment gets on the body")

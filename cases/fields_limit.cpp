@@ -7,7 +7,11 @@
 
 namespace gambeson {
 
-StrainLimit limitOf(const StrainLimitCase& c) { return {c.mode, c.limit.value_or(0), c.tolerance, c.max_projections}; }
+StrainLimit limitOf(const StrainLimitCase& c) {
+  StrainLimit limit{c.mode, c.limit.value_or(0), c.tolerance, c.max_projections};
+  limit.points = c.points;
+  return limit;
+}
 
 std::string limitInWords(const StrainLimitCase& c, const std::string& mean) {
   const std::string held =
@@ -15,10 +19,10 @@ std::string limitInWords(const StrainLimitCase& c, const std::string& mean) {
           ? "Weft and warp keep their length"
           : fmt::format("Weft and warp are kept from stretching beyond a strain of {}", formatNumber(*c.limit));
   return fmt::format(
-      "{} by projection at the vertices of the knot mesh (Zheng 2013, chapter 5); stress includes what that takes, as "
+      "{} by projection at {} (Zheng 2013, chapter 5); stress includes what that takes, as "
       "a "
       "mean over {}.",
-      held, mean);
+      held, c.points == LimitPoints::vertices ? "the vertices of the knot mesh" : "points of each thread's own", mean);
 }
 
 namespace schema {
@@ -38,6 +42,14 @@ Object strainLimitTable() {
               "strain by which points may miss it at the end of a step; much smaller ones cost projections and stir up "
               "the tensions, which take up what a step turns the threads")
       .integer("max_projections", &S::max_projections, 1, 1000, "projections in a row before a step counts as failed")
+      .choice(
+          "points", &S::points,
+          std::vector<std::pair<std::string, LimitPoints>>{{"vertices", LimitPoints::vertices},
+                                                           {"threads", LimitPoints::threads}},
+          "vertices: of the knot mesh (Zheng 2013, 5.4), on any sheet; they miss a motion that alternates across the "
+          "threads, what loads do on it the fabric carries. threads: Greville points of each thread's strain, which "
+          "miss none and give smooth stress on any number of cells; for whole patches of degree 2 or more whose "
+          "threads follow their knot lines")
       .check([](const Place& p, const S& s) {
         if (s.mode == LimitMode::upper_limit && !s.limit)
           p.failAt("limit", "is required for upper_limit: the largest strain");

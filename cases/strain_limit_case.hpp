@@ -14,6 +14,7 @@ struct StrainLimitCase {
   std::optional<double> limit;  ///< Green-Lagrange strain, of upper_limit alone
   double tolerance = 2e-3;      ///< of the strain
   int max_projections = 40;     ///< of one pass
+  LimitPoints points = LimitPoints::vertices;
 };
 
 StrainLimit limitOf(const StrainLimitCase& c);

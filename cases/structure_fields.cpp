@@ -118,8 +118,8 @@ Object makeTable(StructureKind kind, const std::string& word) {
   if (kind == StructureKind::dynamics)
     table.required()
         .object("strain_limit", &C::strain_limit, strainLimitTable(),
-                "keeps weft and warp from stretching by projection at the vertices of the knot mesh (Zheng 2013, "
-                "chapter 5), so that the material may be given soft threads, and with them long time steps; explicit "
+                "keeps weft and warp from stretching by projection (Zheng 2013, chapter 5), "
+                "so that the material may be given soft threads, and with them long time steps; explicit "
                 "scheme only")
         .defaultsTo("none: the material's own stiffness")
         .object("initial", &C::initial, initialTable(), "how the motion starts; at rest where absent");

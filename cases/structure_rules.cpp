@@ -7,6 +7,7 @@
 
 #include "cases/structure_build.hpp"
 #include "cases/structure_fields.hpp"
+#include "core/dynamics/thread_points.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::schema {
@@ -198,7 +199,10 @@ void applyStructureRules(const Place& root, StructureCase& c) {
     checkPlaces(root, c, sheet);
     checkOutput(root, c, sheet);
     const StructureOptions o = optionsOf(c, sheet);
-    const DofMap dofs = buildDofMap(buildFreeMap(sheet.garment), o.constraints, static_cast<int>(o.programs.size()));
+    const FreeMap map = buildFreeMap(sheet.garment);
+    if (o.strain_limit.points == LimitPoints::threads)
+      for (int p = 0; p < static_cast<int>(sheet.garment.patches.size()); ++p) threadGrids(sheet.garment, map, p);
+    const DofMap dofs = buildDofMap(map, o.constraints, static_cast<int>(o.programs.size()));
     if (dofs.unknowns() == 0) root.failAt("supports", "hold everything: nothing is left to move");
   } catch (const InputError& e) {
     if (!e.where().file.empty()) throw;

@@ -53,7 +53,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
   }
   if (options.strain_limit.mode != LimitMode::none) {
     checkLimit(options.strain_limit);
-    model->strain_rows = buildStrainRows(garment, model->map, {model->inverse_mass, {}});
+    model->strain_rows = buildStrainRows(garment, model->map, {model->inverse_mass, {}}, options.strain_limit.points);
   }
   model->proximity = std::make_unique<ProximityQuery>(model->obstacles);
   return model;

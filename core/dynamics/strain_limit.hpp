@@ -22,6 +22,7 @@ struct StrainLimit {
   /// holds and not of one that is met now and then. The thesis ends as soon as the tolerance is met.
   bool always = true;
   int max_rounds = 12;  ///< of contacts and projections in turn
+  LimitPoints points = LimitPoints::vertices;
 };
 
 /// Throws InputError (key strain_limit.KEY).

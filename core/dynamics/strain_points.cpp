@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "core/error.hpp"
+#include "core/dynamics/thread_points.hpp"
 #include "core/sheet/cells.hpp"
 
 namespace gambeson {
@@ -15,75 +15,6 @@ namespace {
 struct Place {
   Vec2 uv;
   int point = -1;
-};
-
-/// N, weft and warp derivative of a point on the free points.
-struct PointRows {
-  std::map<int, std::array<double, 3>> entries;
-};
-
-PointRows rowsAt(const Garment& garment, const FreeMap& map, int offset, int patch_index, Vec2 uv) {
-  const NurbsPatch& patch = garment.patches[patch_index];
-  const SurfaceBasis basis = surfaceBasis(patch, uv.x, uv.y);
-  Vec3 A1{}, A2{};
-  for (std::size_t k = 0; k < basis.columns.size(); ++k) {
-    A1 += basis.values[1][k] * patch.points[basis.columns[k]];
-    A2 += basis.values[2][k] * patch.points[basis.columns[k]];
-  }
-  const Vec3 normal = cross(A1, A2);
-  if (!(norm(normal) > 0)) throw InputError({"", 0, "patch"}, "the rest surface is degenerate (zero area)");
-  const Vec3 n = normalized(normal);
-  const Vec3 weft = rotationAbout(n, fibreAngleAt(garment, patch_index, uv)) * garment.weft[patch_index];
-  const Vec3 E1 = normalized(weft - dot(weft, n) * n), E2 = cross(n, E1);
-  // d(xi)/dX: the inverse of the rest tangents in the physical basis.
-  const double J11 = dot(E1, A1), J12 = dot(E1, A2), J21 = dot(E2, A1), J22 = dot(E2, A2);
-  const double det = J11 * J22 - J12 * J21;
-  const Vec2 along_weft{J22 / det, -J21 / det}, along_warp{-J12 / det, J11 / det};
-  PointRows rows;
-  for (std::size_t k = 0; k < basis.columns.size(); ++k) {
-    const int c = offset + basis.columns[k];
-    const double N = basis.values[0][k], Nu = basis.values[1][k], Nv = basis.values[2][k];
-    for (int e = map.T.offsets[c]; e < map.T.offsets[c + 1]; ++e) {
-      auto& entry = rows.entries[map.T.columns[e]];
-      entry[0] += map.T.values[e] * N;
-      entry[1] += map.T.values[e] * (along_weft.x * Nu + along_weft.y * Nv);
-      entry[2] += map.T.values[e] * (along_warp.x * Nu + along_warp.y * Nv);
-    }
-  }
-  return rows;
-}
-
-/// Strains that are the same function of p are one: found by the free points that carry them.
-class RowTable {
- public:
-  /// The row with these entries up to their sign, which E does not see; a new one of B where there is none.
-  int find(const PointRows& rows, int direction, SparseRows& B) {
-    double size = 0;
-    for (const auto& entry : rows.entries) size = std::max(size, std::abs(entry.second[direction]));
-    std::vector<int> columns;
-    std::vector<double> values;
-    // A bucket is chosen by the large entries: the others may be rounding on one side of a seam.
-    for (const auto& [column, entry] : rows.entries)
-      if (std::abs(entry[direction]) > 1e-7 * size) {
-        columns.push_back(column);
-        values.push_back(entry[direction]);
-      }
-    auto& bucket = seen_[columns];
-    for (const auto& [row, other] : bucket)
-      for (double sign : {1., -1.}) {
-        double most = 0;
-        for (std::size_t k = 0; k < values.size(); ++k) most = std::max(most, std::abs(values[k] - sign * other[k]));
-        if (most < 1e-9 * size) return row;
-      }
-    bucket.push_back({B.rows(), values});
-    for (const auto& [column, entry] : rows.entries)
-      if (std::abs(entry[direction]) > 1e-13 * size) B.add(column, entry[direction]);
-    B.endRow();
-    return B.rows() - 1;
-  }
-
- private:
-  std::map<std::vector<int>, std::vector<std::pair<int, std::vector<double>>>> seen_;
 };
 
 double restArea(const NurbsPatch& patch, const CellPoint& at) {
@@ -288,17 +219,16 @@ void applyMobility(const Mobility& mobility, std::span<const Vec3> impulse, std:
   mobility.P.multiply<double>({&impulse.data()->x, 3 * impulse.size()}, {&velocity.data()->x, 3 * velocity.size()});
 }
 
-StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, Mobility mobility) {
+namespace {
+
+/// Constraints at places that weft and warp share, and the way from multipliers to cells to vertices.
+void addVertices(const Garment& garment, const FreeMap& map, StrainRows& s) {
   const std::vector<int> offsets = controlOffsets(garment);
   const int patch_count = static_cast<int>(garment.patches.size());
-  StrainRows s;
-  s.mobility = std::move(mobility);
-  s.B.column_count = map.T.column_count;
   std::vector<std::vector<Place>> places(patch_count);
   RowTable table;
   std::map<std::array<int, 2>, int> point_of;
   for (int p = 0; p < patch_count; ++p) {
-    s.grids.push_back({breakpoints(garment.patches[p].u), breakpoints(garment.patches[p].v), 0});
     places[p] = placesOf(garment, p, s.grids[p]);
     for (Place& place : places[p]) {
       const PointRows rows = rowsAt(garment, map, offsets[p], p, place.uv);
@@ -308,13 +238,7 @@ StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, Mobility 
       if (is_new) s.points.push_back({p, place.uv, 0, row});
     }
   }
-  s.Bt = transpose(s.B);
-  if (s.mobility.P.rows() == 0)
-    addMobility(s);
-  else
-    addMobilityTensors(s);
 
-  // Areas, and the way from multipliers to cells to vertices.
   std::vector<std::vector<CellShare>> cells(patch_count);
   std::vector<int> first_cell{0};
   for (int p = 0; p < patch_count; ++p) {
@@ -331,23 +255,113 @@ StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, Mobility 
   s.area_m2.assign(s.rows(), 0.0);
   for (const StrainPoint& point : s.points)
     for (int row : point.row) s.area_m2[row] += point.area_m2;
-  s.cell_of_point.column_count = static_cast<int>(s.points.size());
-  s.vertex_of_cell.column_count = first_cell.back();
+  SparseRows cell_of_point, vertex_of_cell;  // resultants of cells from multipliers of points, field from cells
+  cell_of_point.column_count = static_cast<int>(s.points.size());
+  vertex_of_cell.column_count = first_cell.back();
   for (int p = 0; p < patch_count; ++p) {
-    StrainRows::Grid& g = s.grids[p];
+    const StrainRows::Grid& g = s.grids[p];
     for (const CellShare& cell : cells[p]) {
       for (const auto& [point, area] : cell.points)
-        if (area > 0) s.cell_of_point.add(point, area / (s.points[point].area_m2 * cell.area));
-      s.cell_of_point.endRow();
+        if (area > 0) cell_of_point.add(point, area / (s.points[point].area_m2 * cell.area));
+      cell_of_point.endRow();
     }
-    g.first_vertex = s.vertex_of_cell.rows();
     for (int j = 0; j < static_cast<int>(g.vs.size()); ++j)
       for (int i = 0; i < static_cast<int>(g.us.size()); ++i) {
         for (const auto& [cell, weight] : vertexRow(g, cells[p], i, j))
-          s.vertex_of_cell.add(first_cell[p] + cell, weight);
-        s.vertex_of_cell.endRow();
+          vertex_of_cell.add(first_cell[p] + cell, weight);
+        vertex_of_cell.endRow();
       }
   }
+  const SparseRows vertex_of_point = multiply(vertex_of_cell, cell_of_point);
+  for (int direction : {0, 1}) {
+    SparseRows share;  // of a row's multiplier
+    share.column_count = s.rows();
+    for (const StrainPoint& point : s.points) {
+      const int row = point.row[direction];
+      if (s.area_m2[row] > 0) share.add(row, point.area_m2 / s.area_m2[row]);
+      share.endRow();
+    }
+    s.field_of_row[direction] = multiply(vertex_of_point, share);
+  }
+}
+
+/// Index and weight of the linear interpolation at t: at[k] (1 - w) + at[k + 1] w.
+std::pair<int, double> between(const std::vector<double>& at, double t) {
+  const int k = intervalOf(at, t);
+  return {k, (t - at[k]) / (at[k + 1] - at[k])};
+}
+
+/// Constraints at places of each thread's own; a multiplier over its area is the resultant there.
+void addThreadPoints(const Garment& garment, const FreeMap& map, StrainRows& s) {
+  const std::vector<int> offsets = controlOffsets(garment);
+  const int patch_count = static_cast<int>(garment.patches.size());
+  RowTable table;
+  std::map<std::array<int, 2>, int> point_of;
+  std::vector<std::array<ThreadGrid, 2>> grids;
+  std::vector<std::array<std::vector<int>, 2>> row_of(patch_count);
+  for (int p = 0; p < patch_count; ++p) {
+    grids.push_back(threadGrids(garment, map, p));
+    for (int direction : {0, 1}) {
+      const ThreadGrid& g = grids[p][direction];
+      for (std::size_t j = 0; j < g.v.at.size(); ++j)
+        for (std::size_t i = 0; i < g.u.at.size(); ++i) {
+          const Vec2 uv{g.u.at[i], g.v.at[j]};
+          const PointRows rows = rowsAt(garment, map, offsets[p], p, uv);
+          std::array<int, 2> row{-1, -1};
+          row[direction] = table.find(rows, direction + 1, s.B);
+          const auto [at, is_new] = point_of.try_emplace(row, static_cast<int>(s.points.size()));
+          if (is_new) s.points.push_back({p, uv, 0, row});
+          s.points[at->second].area_m2 += g.u.weight[i] * g.v.weight[j] * norm(cross(rows.threads.A1, rows.threads.A2));
+          row_of[p][direction].push_back(row[direction]);
+        }
+    }
+  }
+  s.area_m2.assign(s.rows(), 0.0);
+  for (const StrainPoint& point : s.points)
+    for (int row : point.row)
+      if (row >= 0) s.area_m2[row] += point.area_m2;
+  for (int direction : {0, 1}) {
+    SparseRows& field = s.field_of_row[direction];
+    field.column_count = s.rows();
+    for (int p = 0; p < patch_count; ++p) {
+      const ThreadGrid& g = grids[p][direction];
+      const int across = static_cast<int>(g.u.at.size());
+      for (double v : s.grids[p].vs)
+        for (double u : s.grids[p].us) {
+          const auto [i, x] = between(g.u.at, u);
+          const auto [j, y] = between(g.v.at, v);
+          for (const auto& [a, wa] : {std::pair(i, 1 - x), std::pair(i + 1, x)})
+            for (const auto& [b, wb] : {std::pair(j, 1 - y), std::pair(j + 1, y)})
+              if (wa * wb != 0) {
+                const int row = row_of[p][direction][static_cast<std::size_t>(a + across * b)];
+                field.add(row, wa * wb / s.area_m2[row]);
+              }
+          field.endRow();
+        }
+    }
+  }
+}
+
+}  // namespace
+
+StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, Mobility mobility, LimitPoints points) {
+  StrainRows s;
+  s.mobility = std::move(mobility);
+  s.B.column_count = map.T.column_count;
+  int vertices = 0;
+  for (const NurbsPatch& patch : garment.patches) {
+    s.grids.push_back({breakpoints(patch.u), breakpoints(patch.v), vertices});
+    vertices += static_cast<int>(s.grids.back().us.size() * s.grids.back().vs.size());
+  }
+  if (points == LimitPoints::vertices)
+    addVertices(garment, map, s);
+  else
+    addThreadPoints(garment, map, s);
+  s.Bt = transpose(s.B);
+  if (s.mobility.P.rows() == 0)
+    addMobility(s);
+  else
+    addMobilityTensors(s);
   return s;
 }
 
@@ -357,17 +371,10 @@ void strainVectors(const StrainRows& rows, std::span<const Vec3> p, std::vector<
 }
 
 std::vector<Vec2> limitStress(const StrainRows& rows, std::span<const double> multiplier) {
-  const int points = static_cast<int>(rows.points.size());
-  std::vector<double> one(points), cell(rows.cell_of_point.rows()), vertex(rows.vertex_of_cell.rows());
-  std::vector<Vec2> field(rows.vertex_of_cell.rows());
+  std::vector<Vec2> field(rows.field_of_row[0].rows());
+  std::vector<double> vertex(field.size());
   for (int direction : {0, 1}) {
-    for (int i = 0; i < points; ++i) {
-      const StrainPoint& point = rows.points[i];
-      const int row = point.row[direction];
-      one[i] = rows.area_m2[row] > 0 ? multiplier[row] * point.area_m2 / rows.area_m2[row] : 0;
-    }
-    rows.cell_of_point.multiply<double>(one, cell);
-    rows.vertex_of_cell.multiply<double>(cell, vertex);
+    rows.field_of_row[direction].multiply<double>(multiplier, vertex);
     for (std::size_t i = 0; i < field.size(); ++i) (direction == 0 ? field[i].x : field[i].y) = vertex[i];
   }
   return field;

@@ -106,7 +106,7 @@ StructureLimit buildStructureLimit(const Garment& garment, const FreeMap& map, c
   checkLimit(limit);
   SparseRows release = releaseOf(dofs, lumped_kg);
   Mobility mobility = mobilityOf(multiply(dofs.C, release));
-  return {limit, buildStrainRows(garment, map, std::move(mobility)), std::move(release)};
+  return {limit, buildStrainRows(garment, map, std::move(mobility), limit.points), std::move(release)};
 }
 
 std::unique_ptr<MotionLimit> motionLimit(const Structure& s) {

@@ -147,7 +147,7 @@ const std::string limited_example = R"json({
   "supports": [{"edge": "v1", "hold": "xyz"}],
   "loads": [{"gravity": [0, -9.81, 0]}],
   "solver": {"scheme": "explicit", "end": 0.05},
-  "strain_limit": {"mode": "upper_limit", "limit": 0.005, "max_projections": 9},
+  "strain_limit": {"mode": "upper_limit", "limit": 0.005, "max_projections": 9, "points": "threads"},
   "output": {"thread_strains": true}
 })json";
 
@@ -166,8 +166,11 @@ TEST(MalformedStructure, StrainLimits) {
           {"\"limit\": 0.005", "\"limit\": 0.005, \"tolerance\": 0", 9, "strain_limit.tolerance", ">= 1e-05"},
           {"\"max_projections\": 9", "\"max_projections\": 0", 9, "strain_limit.max_projections", ">= 1"},
           {"\"max_projections\"", "\"max_projection\"", 9, "strain_limit.max_projection", "did you mean"},
-          {"{\"mode\": \"upper_limit\", \"limit\": 0.005, \"max_projections\": 9}", "0.005", 9, "strain_limit",
-           "expected an object"},
+          {"\"threads\"", "\"cells\"", 9, "strain_limit.points", "vertices or threads"},
+          {"\"height\": 0.2}, \"cells_u\": 4, \"cells_v\": 4},\n", "\"height\": 0.2}, \"weft\": [1, 1, 0]},\n", 9,
+           "strain_limit.points", "across its knot lines"},
+          {"{\"mode\": \"upper_limit\", \"limit\": 0.005, \"max_projections\": 9, \"points\": \"threads\"}", "0.005", 9,
+           "strain_limit", "expected an object"},
           {"\"scheme\": \"explicit\"", "\"step\": 0.01", 9, "strain_limit", "goes with explicit steps"},
           {"\"dynamic\"", "\"modal\"", 9, "strain_limit", "unknown key"},
           {"\"thread_strains\": true", "\"thread_strains\": 1", 10, "output.thread_strains", "expected true or false"},

@@ -156,6 +156,101 @@ TEST(Projection, HoldsBothSidesOfASeam) {
   }
 }
 
+Mobility unitMobility(const FreeMap& map) { return {std::vector<double>(map.T.column_count, 1.0), {}}; }
+
+/// The alternating motion of LimitPoints: along the threads, any amount along them; vertices do not see it for odd and
+/// even numbers of cells, points of threads do.
+TEST(StrainRows, VerticesMissAMotionThatPointsOfThreadsSee) {
+  for (int cells : {7, 8}) {
+    const Garment g = squareSheet(cells, 1, 0);
+    const FreeMap map = buildFreeMap(g);
+    std::vector<Vec3> u(map.T.column_count), de;
+    for (int j = 0; j < cells + 2; ++j)
+      for (int i = 1; i <= cells; ++i) u[g.patches[0].index(i, j)] = {0, (i % 2 ? 1.0 : -1.0) * std::cos(0.3 * j), 0};
+    const auto seen = [&](LimitPoints points) {
+      const StrainRows rows = buildStrainRows(g, map, unitMobility(map), points);
+      de.resize(rows.rows());
+      rows.B.multiply<Vec3>(u, de);
+      std::vector<Vec3> e, p;
+      for (int home : map.home) p.push_back(g.patches[0].points[home]);
+      strainVectors(rows, p, e);
+      double most = 0;
+      for (int i = 0; i < rows.rows(); ++i) most = std::max(most, std::abs(dot(e[i], de[i])));
+      return most;
+    };
+    EXPECT_LT(seen(LimitPoints::vertices), 1e-10);
+    EXPECT_GT(seen(LimitPoints::threads), 0.1);
+  }
+}
+
+/// As many rows as the strains have coefficients; areas of each thread sum to the sheet's and are positive; a linear
+/// field of stress comes back exactly at the vertices. Weft along u or along v, seams, cubic patches.
+TEST(StrainRows, PointsOfThreadsIntegrateTheirSplines) {
+  Garment turned = squareSheet(5, 0.3, 0);
+  turned.weft = {{0, 1, 0}};
+  Garment cubic = squareSheet(5, 0.3, 0);
+  cubic.patches[0] = flatPatch(uniformKnots(3, 4), uniformKnots(3, 5), 0.3, 0.3);
+  struct Expected {
+    Garment garment;
+    int rows;
+    double area;
+  };
+  for (const Expected& x : {Expected{squareSheet(5, 0.3, 0), 2 * 6 * 7, 0.09}, Expected{turned, 2 * 6 * 7, 0.09},
+                            Expected{cubic, 6 * 8 + 7 * 7, 0.09},
+                            // Along the fold both sides share their five warp points.
+                            Expected{folded(), 4 * 6 + 5 * 5 + 7 * 6 + 8 * 5 - 5, 0.02}}) {
+    const FreeMap map = buildFreeMap(x.garment);
+    const StrainRows rows = buildStrainRows(x.garment, map, unitMobility(map), LimitPoints::threads);
+    EXPECT_EQ(rows.rows(), x.rows);
+    std::array<double, 2> area{0, 0};
+    std::vector<double> multiplier(rows.rows());
+    for (const StrainPoint& p : rows.points)
+      for (int k : {0, 1})
+        if (p.row[k] >= 0) {
+          EXPECT_GT(p.area_m2, 0);
+          area[k] += p.area_m2;
+          const Vec3 at = surfaceDerivatives(x.garment.patches[p.patch], p.uv.x, p.uv.y)[0];
+          multiplier[p.row[k]] = (2 + at.x - 3 * at.y) * rows.area_m2[p.row[k]];
+        }
+    EXPECT_NEAR(area[0], x.area, 1e-12);
+    EXPECT_NEAR(area[1], x.area, 1e-12);
+    const std::vector<Vec2> field = limitStress(rows, multiplier);
+    for (std::size_t p = 0; p < x.garment.patches.size(); ++p) {
+      std::size_t k = static_cast<std::size_t>(rows.grids[p].first_vertex);
+      for (double v : rows.grids[p].vs)
+        for (double u : rows.grids[p].us) {
+          const Vec3 at = surfaceDerivatives(x.garment.patches[p], u, v)[0];
+          EXPECT_NEAR(field[k].x, 2 + at.x - 3 * at.y, 1e-12);
+          EXPECT_NEAR(field[k++].y, 2 + at.x - 3 * at.y, 1e-12);
+        }
+    }
+  }
+}
+
+TEST(StrainRows, PointsOfThreadsRefuseWhatTheyCannotDo) {
+  const auto refused = [](const Garment& g) {
+    const FreeMap map = buildFreeMap(g);
+    try {
+      buildStrainRows(g, map, unitMobility(map), LimitPoints::threads);
+      return std::string();
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.where().key, "strain_limit.points");
+      return e.reason();
+    }
+  };
+  Garment slanted = squareSheet(4, 1, 0), holed = slanted, linear = slanted, creased = slanted;
+  slanted.weft = {turnedWeft()};
+  holed.trims = {{{{circle({0.47, 0.53}, 0.21, 0.21, true)}}}};
+  linear.patches[0] = flatPatch(uniformKnots(1, 4), uniformKnots(2, 4), 1, 1);
+  const std::vector<double> knot{0.5};
+  creased.patches[0] = insertKnots(creased.patches[0], Direction::v, knot);
+  EXPECT_NE(refused(slanted).find("across its knot lines"), std::string::npos);
+  EXPECT_NE(refused(holed).find("trimmed"), std::string::npos);
+  EXPECT_NE(refused(linear).find("degree 1"), std::string::npos);
+  EXPECT_NE(refused(creased).find("derivative jumps"), std::string::npos);
+  EXPECT_EQ(refused(squareSheet(4, 1, 0)), "");
+}
+
 /// J (translation) = 0 and J (rotation about any axis) = 0, to rounding.
 TEST(StrainRows, DoNotSeeRigidMotions) {
   for (const Garment& g : {seamed(), squareSheet(5, 0.3, 0)}) {
