@@ -118,6 +118,7 @@ struct StructureOutput {
   std::vector<OutputEdge> edges;
   ShapesKept shapes = ShapesKept::last;
   std::optional<double> interval_s;  ///< dynamic: between rows of the table and kept shapes
+  bool audit = false;                ///< dynamic: balance of energy and momentum
   int samples_per_cell = 2;
   bool thread_strains = false;             ///< dynamic: strains of weft and warp at vertices and Gauss points
   std::vector<StructurePicture> pictures;  ///< none: one of the last shape

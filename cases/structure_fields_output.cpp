@@ -64,7 +64,10 @@ Object structureOutputTable(StructureKind kind) {
             "thread_strains", &O::thread_strains,
             "largest and mean absolute Green-Lagrange strain of weft and warp, at the vertices of the knot mesh and at "
             "degree x degree Gauss points a cell: columns of the table (vertex_weft_max ...) and thread_strain in "
-            "summary.json (largest over the rows of the table, mean at the end)");
+            "summary.json (largest over the rows of the table, mean at the end)")
+        .flag("audit", &O::audit,
+              "balance of energy and momentum over all steps, in summary.json; costs up to two evaluations of the "
+              "forces a step. What a strain limit does is not in it and shows as a gap");
   return table
       .integer("samples_per_cell", &O::samples_per_cell, 1, 16, "how finely shapes and pictures follow a cell's edge")
       .list("pictures", &O::pictures, picture.build(), "pictures to take")

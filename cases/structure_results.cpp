@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cases/self_crossings.hpp"
 #include "cases/structure_run.hpp"
 #include "cases/structure_strains.hpp"
 #include "core/error.hpp"
@@ -84,8 +85,8 @@ void writeShapeTable(const ShapeMesh& mesh, const MeshShape& shape, const std::f
 }
 
 void writeStructureSummary(const StructureCase& c, const StructureModel& model, const PathTable& path,
-                           const std::vector<ModeRow>& modes, const MeasuredState& last, const MeshShape& shape,
-                           const StructureFacts& facts, const std::filesystem::path& file) {
+                           const std::vector<ModeRow>& modes, const MeasuredState& last, const ShapeMesh& mesh,
+                           const MeshShape& shape, const StructureFacts& facts, const std::filesystem::path& file) {
   const Structure& s = *model.structure;
   Json j{{"name", c.name},
          {"kind", kindName(c.kind)},
@@ -124,6 +125,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     j["largest_control_displacement_m"] = control;
     j["largest_stress_N_per_m"] = stress;
     j["largest_strain"] = strain;
+    j["self_crossings"] = selfCrossings(shape.x, mesh.triangles);
     if (c.kind == StructureKind::dynamics && !path.rows.empty()) {
       j["kinetic_energy_J"] = path.rows.back()[1];
       j["total_energy_J"] = path.rows.back()[4];
@@ -141,6 +143,21 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
         {"projections_per_step",
          facts.points > 0 ? static_cast<double>(facts.projections) / static_cast<double>(facts.points) : 0},
         {"unconverged_steps", facts.limits_missed}};
+  if (facts.audit) {
+    const MotionAudit& a = *facts.audit;
+    Json audit;
+    const auto part = [](double gap, double of) { return of > 0 ? gap / of : 0; };
+    if (a.hasEnergy()) {
+      audit["energy_gap_J"] = a.energyGap();
+      audit["largest_energy_gap_J"] = a.largestEnergyGap();
+      audit["works_J"] = a.works();
+      audit["energy_gap_over_works"] = part(a.largestEnergyGap(), a.works());
+    }
+    audit["largest_momentum_gap_Ns"] = a.largestMomentumGap();
+    audit["impulses_Ns"] = a.impulses();
+    audit["momentum_gap_over_impulses"] = part(a.largestMomentumGap(), a.impulses());
+    j["audit"] = audit;
+  }
   j["solver"] = {{c.kind == StructureKind::dynamics ? "steps" : "points", facts.points},
                  {"iterations", facts.iterations},
                  {"factorisations", facts.factorisations}};

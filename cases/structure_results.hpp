@@ -2,12 +2,14 @@
 /// What a run of a structure leaves: path.csv, shape.csv, frames, pictures, summary.json, report.html.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "analysis/report/report.hpp"
 #include "cases/structure_measure.hpp"
+#include "core/dynamics/motion_audit.hpp"
 #include "core/io/recording.hpp"
 
 namespace gambeson {
@@ -28,6 +30,7 @@ struct StructureFacts {
   double limit_residual = 0;                ///< the largest after a step
   double wall_s = 0, build_s = 0, solve_s = 0;
   int threads = 1;
+  std::optional<MotionAudit> audit;
 };
 
 struct ModeRow {
@@ -45,8 +48,8 @@ void writeShapeTable(const ShapeMesh& mesh, const MeshShape& shape, const std::f
 
 /// summary.json; all but "timings" is decided by the case alone.
 void writeStructureSummary(const StructureCase& c, const StructureModel& model, const PathTable& path,
-                           const std::vector<ModeRow>& modes, const MeasuredState& last, const MeshShape& shape,
-                           const StructureFacts& facts, const std::filesystem::path& json);
+                           const std::vector<ModeRow>& modes, const MeasuredState& last, const ShapeMesh& mesh,
+                           const MeshShape& shape, const StructureFacts& facts, const std::filesystem::path& json);
 
 /// A picture of a frame, colours from 0 to the largest value of the frame.
 void renderStructure(const StructureCase& c, const RecordingLayout& layout, const Frame& frame,

@@ -77,7 +77,7 @@ class Run {
     if (frames_ > 0) writer_->closeSegment({});
     writeCsv(out_ / "path.csv", path.columns, path.rows);
     writeShapeTable(mesh_, shape, out_ / "shape.csv");
-    writeStructureSummary(c_, model_, path, modes, last_, shape, facts, out_ / "summary.json");
+    writeStructureSummary(c_, model_, path, modes, last_, mesh_, shape, facts, out_ / "summary.json");
     std::vector<std::string> failures;
     const std::vector<Picture> pictures = takeStructurePictures(c_, out_, out_ / "snapshots", failures);
     writeStructurePage(c_, out_, pictures, out_ / "report.html");
@@ -219,11 +219,13 @@ void runDynamic(const StructureCase& c, Run& run) {
     run.add(state_now, std::move(row));
     while (static_cast<double>(rows) * interval <= now.time_s * (1 + 1e-12)) ++rows;
   };
+  if (c.output.audit) run.facts.audit.emplace(s, lumped);
   attempt(run.facts, [&] {
     record(state);
     const DynamicReport report = solveDynamic(s, c.dynamics, state, [&](const DynamicState& now) {
       if (now.time_s * (1 + 1e-12) >= static_cast<double>(rows) * interval || now.time_s >= c.dynamics.end_s)
         record(now);
+      if (run.facts.audit) run.facts.audit->observe(now);
       progress.update(now.time_s, "moving");
       return true;
     });
