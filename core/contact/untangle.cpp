@@ -196,6 +196,24 @@ std::vector<Untangling> untangle(const ContactMesh& mesh, std::span<const Vec3> 
   return untangleContours(mesh, x, traceContours(mesh, x, findCrossings(mesh, x, obstacle)), layer, law);
 }
 
+std::vector<RestoringRow> restoringRows(const ContactMesh& mesh, const Untangling& u) {
+  std::vector<RestoringRow> rows;
+  if (!(u.speed_mps > 0)) return rows;
+  for (const ContourPoint& p : u.contour.points) {
+    if (p.vertex >= 0) continue;
+    const auto& [v, w] = mesh.edges[p.edge];
+    const auto& [a, b, c] = mesh.triangles[p.triangle];
+    const double sign = p.owner == 1 ? 1 : -1;
+    const auto& e = p.edge_weight;
+    const auto& t = p.triangle_weight;
+    rows.push_back({{v, w, a, b, c},
+                    {sign * e[0], sign * e[1], -sign * t[0], -sign * t[1], -sign * t[2]},
+                    u.direction,
+                    u.speed_mps});
+  }
+  return rows;
+}
+
 std::vector<Tangle> tangledVertices(const ContactMesh& mesh, std::span<const Untangling> untanglings) {
   std::vector<Tangle> tangle(mesh.vertex_count, Tangle::kFree);
   for (const auto& u : untanglings)

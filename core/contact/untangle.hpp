@@ -70,6 +70,18 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
 std::vector<Untangling> untangle(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const int> layer = {},
                                  std::span<const char> obstacle = {}, const UntangleLaw& law = {});
 
+/// One condition on velocities: sum over k of weight[k] v[vertex[k]] . direction >= speed_mps. The weights sum to 0:
+/// the edge's two are positive on surface 1, those of the triangle on surface 0 negative, or the other way round.
+struct RestoringRow {
+  std::array<int, 5> vertex{};
+  std::array<double, 5> weight{};
+  Vec3 direction;
+  double speed_mps = 0;
+};
+
+/// For each point of the contour but shared vertices, in its order; none where G is zero.
+std::vector<RestoringRow> restoringRows(const ContactMesh& mesh, const Untangling& untangling);
+
 /// How far a vertex is involved in intersections.
 enum class Tangle : char {
   kFree,

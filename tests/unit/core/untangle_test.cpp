@@ -379,6 +379,62 @@ TEST(Untangle, RibbonThroughItself) {
   EXPECT_LT(norm(u.G_side[narrow]), 1.1);
 }
 
+/// The rows see a rigid motion of surface 1 against surface 0 with its speed along G, a common motion not at all, and
+/// vanish on the positions themselves (the two points of a row coincide).
+TEST(Untangle, RowsMeasureSurfaceOneAgainstSurfaceZero) {
+  for (const Tangled& s : scenes()) {
+    const auto found = untangle(s.mesh, s.x);
+    ASSERT_EQ(found.size(), 1u);
+    const Untangling& u = found[0];
+    const auto rows = restoringRows(s.mesh, u);
+    EXPECT_EQ(rows.size(), u.contour.points.size());
+    const int moving = s.pieceOfFace(u.contour.segments[0].face[1]);
+    const Vec3 together{0.3, -0.7, 0.2}, apart{-0.1, 0.5, 0.4};
+    for (const RestoringRow& row : rows) {
+      double speed = 0;
+      Vec3 gap;
+      for (int k = 0; k < 5; ++k) {
+        const int v = row.vertex[k];
+        speed += row.weight[k] * dot(row.direction, s.piece[v] == moving ? together + apart : together);
+        gap += row.weight[k] * s.x[v];
+      }
+      EXPECT_NEAR(speed, dot(apart, u.direction), 1e-14);
+      EXPECT_LT(norm(gap), 1e-15);
+      EXPECT_EQ(row.speed_mps, u.speed_mps);
+    }
+  }
+}
+
+/// Three nested tubes, each shifted 8 mm sideways in the next: moved along G, half of a step each, they come free in
+/// the order of their layers, and stand clear of one another.
+TEST(Untangle, NestedTubesComeFree) {
+  std::vector<Piece> tubes;
+  for (int k = 0; k < 3; ++k) {
+    const double r = 0.100 + 0.003 * k, z = -0.005 * k;
+    tubes.push_back(mapped(tube({{r, z}, {r, 0.11}, {r, 0.2}, {r, 0.3 - z}}, 24), [=](const Vec3& p) {
+      return p - Vec3{0.008 * k, 0, 0};
+    }));
+  }
+  const Tangled s = join(tubes);
+  std::vector<Vec3> x = s.x;
+  int steps = 0;
+  for (; steps < 400; ++steps) {
+    const auto found = untangle(s.mesh, x, s.piece);
+    if (found.empty()) break;
+    std::array<Vec3, 3> move;
+    for (const auto& u : found)
+      for (int side = 0; side < 2; ++side)
+        move[s.pieceOfFace(u.contour.segments[0].face[side])] += (side == 1 ? 0.5e-4 : -0.5e-4) * u.direction;
+    for (std::size_t v = 0; v < x.size(); ++v) x[v] += move[s.piece[v]];
+  }
+  EXPECT_LT(steps, 400);
+  for (int k = 0; k + 1 < 3; ++k) {  // axes nearer than the play between the inner tube and the outer one's sides
+    Vec3 axis;
+    for (std::size_t v = 0; v < x.size(); ++v) axis += (s.piece[v] == k + 1 ? 1 : s.piece[v] == k ? -1 : 0) * x[v] / 96;
+    EXPECT_LT(std::hypot(axis.x, axis.y), 0.003);
+  }
+}
+
 /// Which vertices impact leaves alone.
 TEST(Untangle, TangledVertices) {
   const Piece strip = sheet(5, 9, [](double u, double v) { return Vec3{0.21 + 0.5 * u, 0.53, v - 0.31}; });
