@@ -20,7 +20,8 @@ struct ImpactTime {
   bool capped = false;  ///< reported without having come this near: cap of steps, or directions lost to rounding
 };
 
-/// Distance over which an impact may be reported early where the caller has no better value.
+/// Distance over which an impact may be reported early where the caller has no better value. A pair that starts within
+/// separation + tolerance is a hit at 0: where starting gaps are smaller, both are to be chosen below them.
 constexpr double kImpactTolerance_m = 1e-9;
 
 /// First time in [0, 1] at which the Euclidean distance of the pair may be `separation_m` (>= 0) or less, all four
