@@ -111,8 +111,13 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
                       {"residual", m.residual}});
     j["modes"] = list;
   } else {
-    double control = 0, displacement = 0, stress = 0, strain = 0;
-    for (std::size_t k = 0; k < last.q.size(); ++k) control = std::max(control, norm(last.q[k] - s.rest[k]));
+    // The largest component is what codes give that look at their vector of unknowns.
+    double control = 0, component = 0, displacement = 0, stress = 0, strain = 0;
+    for (std::size_t k = 0; k < last.q.size(); ++k) {
+      const Vec3 u = last.q[k] - s.rest[k];
+      control = std::max(control, norm(u));
+      component = std::max({component, std::abs(u.x), std::abs(u.y), std::abs(u.z)});
+    }
     for (std::size_t k = 0; k < shape.x.size(); ++k) {
       displacement = std::max(displacement, norm(shape.x[k] - shape.rest[k]));
       stress = std::max(stress, shape.stress[k].principal1_N_per_m);
@@ -123,6 +128,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     j["strain_energy_J"] = last.strain_energy_J;
     j["largest_displacement_m"] = displacement;
     j["largest_control_displacement_m"] = control;
+    j["largest_control_component_m"] = component;
     j["largest_stress_N_per_m"] = stress;
     j["largest_strain"] = strain;
     j["self_crossings"] = selfCrossings(shape.x, mesh.triangles);
