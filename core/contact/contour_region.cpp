@@ -4,49 +4,41 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <set>
+#include <unordered_set>
 
 namespace gambeson {
-namespace {
 
-/// A crossing of a contour with an edge of the surface.
-struct Cut {
-  int edge;
-  double t;  ///< from the lower vertex of the edge
-  int path;
-  int left;  ///< +1 where the lower vertex's side of the cut is to the left of the contour, -1 where it is to the right
-  Vec3 x;
-};
-
-/// A segment inside a triangle.
-struct Piece {
-  int face, path, segment, normal;
-};
-
-/// Cuts and pieces of one contour; empty cuts for a contour inside one triangle.
-struct Path {
-  std::vector<Cut> cuts;
-  std::vector<Piece> pieces;
-  bool valid = true;  ///< two-sided, and not winding twice around a vertex
-};
-
-bool byEdge(const Cut& a, const Cut& b) {
-  return a.edge != b.edge   ? a.edge < b.edge
-         : a.t != b.t       ? a.t < b.t
-         : a.path != b.path ? a.path < b.path
-                            : a.left < b.left;
+CutSurface::CutSurface(const ContactMesh& mesh, std::span<const ContourPath> contours) {
+  for (const auto& from : contours) add(mesh, from);
+  std::sort(cuts_.begin(), cuts_.end(), [](const Cut& a, const Cut& b) {
+    return a.edge != b.edge   ? a.edge < b.edge
+           : a.t != b.t       ? a.t < b.t
+           : a.path != b.path ? a.path < b.path
+                              : a.left < b.left;
+  });
+  std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.face < b.face; });
+  std::sort(unclear_.begin(), unclear_.end());
 }
 
-Path collect(const ContactMesh& mesh, const ContourPath& from, int number) {
+void CutSurface::add(const ContactMesh& mesh, const ContourPath& from) {
   const Contour& c = *from.contour;
-  Path path;
-  const int segments = static_cast<int>(c.segments.size());
+  const int number = static_cast<int>(paths_.size()), segments = static_cast<int>(c.segments.size());
+  Path path{from, {}, false, c.closed[from.surface]};
+  std::vector<Piece> pieces;
   for (int i = 0; i < segments; ++i)
-    path.pieces.push_back({c.segments[i].face[from.surface], number, i, c.segments[i].normal[from.surface]});
-  std::sort(path.pieces.begin(), path.pieces.end(),
-            [](const Piece& a, const Piece& b) { return a.face != b.face ? a.face < b.face : a.segment < b.segment; });
-  for (std::size_t i = 1; i < path.pieces.size(); ++i)
-    if (path.pieces[i].face == path.pieces[i - 1].face && path.pieces[i].normal != path.pieces[i - 1].normal)
-      path.valid = false;
+    pieces.push_back({c.segments[i].face[from.surface], number, i, c.segments[i].normal[from.surface]});
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.face < b.face; });
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (i > 0 && pieces[i].face == pieces[i - 1].face) {
+      path.valid = path.valid && pieces[i].normal == pieces[i - 1].normal;
+      continue;
+    }
+    for (int e : mesh.face_edges[pieces[i].face]) path.edges.push_back(e);
+  }
+  std::sort(path.edges.begin(), path.edges.end());
+  path.edges.erase(std::unique(path.edges.begin(), path.edges.end()), path.edges.end());
+  std::vector<Cut> cuts;
   for (int i = 0; i < static_cast<int>(c.points.size()); ++i) {
     const ContourPoint& p = c.points[i];
     if (p.vertex >= 0 || p.owner != from.surface) continue;
@@ -58,46 +50,52 @@ Path collect(const ContactMesh& mesh, const ContourPath& from, int number) {
     for (int k = 0; k < 3; ++k)
       if (mesh.face_edges[face][k] == p.edge && mesh.triangles[face][k] != mesh.edges[p.edge][0]) left = 1;
     if (!leaves) left = -left;
-    path.cuts.push_back({p.edge, p.edge_weight[1], number, left * s.normal[from.surface], p.x});
+    cuts.push_back({p.edge, p.edge_weight[1], number, left * s.normal[from.surface], p.x});
   }
-  std::sort(path.cuts.begin(), path.cuts.end(), byEdge);
-  for (std::size_t i = 0; i < path.cuts.size();) {
+  path.without_cuts = cuts.empty();
+  std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.edge < b.edge; });
+  for (std::size_t i = 0; i < cuts.size();) {
     int sum = 0;
-    const int edge = path.cuts[i].edge;
-    for (; i < path.cuts.size() && path.cuts[i].edge == edge; ++i) sum += path.cuts[i].left;
-    if (std::abs(sum) > 1) path.valid = false;
+    const int edge = cuts[i].edge;
+    for (; i < cuts.size() && cuts[i].edge == edge; ++i) sum += cuts[i].left;
+    path.valid = path.valid && std::abs(sum) <= 1;
   }
-  return path;
+  if (path.valid) {
+    cuts_.insert(cuts_.end(), cuts.begin(), cuts.end());
+    pieces_.insert(pieces_.end(), pieces.begin(), pieces.end());
+  } else {
+    for (const Cut& cut : cuts) unclear_.push_back(cut.edge);
+  }
+  paths_.push_back(std::move(path));
 }
 
-class Fill {
+std::span<const CutSurface::Cut> CutSurface::cutsOf(int edge) const {
+  const auto [lo, hi] = std::equal_range(cuts_.begin(), cuts_.end(), Cut{edge, 0, 0, 0, {}},
+                                         [](const Cut& a, const Cut& b) { return a.edge < b.edge; });
+  return {lo, hi};
+}
+
+std::span<const CutSurface::Piece> CutSurface::piecesIn(int face) const {
+  const auto [lo, hi] = std::equal_range(pieces_.begin(), pieces_.end(), Piece{face, 0, 0, 0},
+                                         [](const Piece& a, const Piece& b) { return a.face < b.face; });
+  return {lo, hi};
+}
+
+class RegionFill {
  public:
-  Fill(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const ContourPath> contours,
-       std::vector<signed char>& label)
-      : mesh_(mesh), x_(x), contours_(contours), label_(label) {}
-  ~Fill() {
+  RegionFill(const ContactMesh& mesh, std::span<const Vec3> x, const CutSurface& surface, int which,
+             std::vector<signed char>& label)
+      : mesh_(mesh), x_(x), surface_(surface), main_(which), label_(label) {}
+  ~RegionFill() {
     for (const auto& part : labelled_)
       for (int v : part) label_[v] = 0;
   }
-  Fill(const Fill&) = delete;
-  Fill& operator=(const Fill&) = delete;
+  RegionFill(const RegionFill&) = delete;
+  RegionFill& operator=(const RegionFill&) = delete;
 
   ContourRegion run(int wanted) {
     ContourRegion region;
-    main_ = collect(mesh_, contours_[0], 0);
-    if (!main_.valid) return region;
-    cuts_ = main_.cuts;
-    pieces_ = main_.pieces;
-    const int inner_sign = signInside();
-    for (std::size_t k = 1; k < contours_.size(); ++k) {
-      const Path other = collect(mesh_, contours_[k], static_cast<int>(k));
-      if (!other.valid || other.cuts.empty()) continue;
-      cuts_.insert(cuts_.end(), other.cuts.begin(), other.cuts.end());
-      pieces_.insert(pieces_.end(), other.pieces.begin(), other.pieces.end());
-    }
-    std::sort(cuts_.begin(), cuts_.end(), byEdge);
-    std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.face < b.face; });
-    if (!labelHosts(inner_sign)) return region;
+    if (!surface_.paths_[main_].valid || !labelHosts()) return region;
     countSeedFaces();
     if (!flood(wanted)) return region;
     region.found = true;
@@ -105,6 +103,7 @@ class Fill {
     region.area_m2 = area_[done_];
     region.vertices = labelled_[done_];
     std::sort(region.vertices.begin(), region.vertices.end());
+    region.beside.assign(beside_[done_].begin(), beside_[done_].end());
     return region;
   }
 
@@ -114,17 +113,9 @@ class Fill {
     return 0.5 * norm(cross(x_[b] - x_[a], x_[c] - x_[a]));
   }
 
-  std::span<const Piece> piecesIn(int face) const {
-    const auto [lo, hi] = std::equal_range(pieces_.begin(), pieces_.end(), Piece{face, 0, 0, 0},
-                                           [](const Piece& a, const Piece& b) { return a.face < b.face; });
-    return {lo, hi};
-  }
-
-  std::span<const Cut> cutsOf(int edge) const {
-    const auto [lo, hi] = std::equal_range(cuts_.begin(), cuts_.end(), Cut{edge, 0, 0, 0, {}},
-                                           [](const Cut& a, const Cut& b) { return a.edge < b.edge; });
-    return {lo, hi};
-  }
+  using Cut = CutSurface::Cut;
+  using Piece = CutSurface::Piece;
+  std::span<const Cut> cutsOf(int edge) const { return surface_.cutsOf(edge); }
 
   int flip(int edge) const { return cutsOf(edge).size() % 2 ? -1 : 1; }
 
@@ -135,7 +126,7 @@ class Fill {
 
   /// Which side of the path is to its left in a face whose corners have these labels: +1 Omega+, -1 Omega-.
   int colourLeftOf(int path, int face, const std::array<int, 3>& corner_label) const {
-    if (path == 0) return 1;
+    if (path == main_) return 1;
     for (int k = 0; k < 3; ++k) {
       const int e = mesh_.face_edges[face][k];
       int colour = corner_label[mesh_.triangles[face][k] == mesh_.edges[e][0] ? k : (k + 1) % 3];
@@ -144,21 +135,22 @@ class Fill {
         colour = -colour;
       }
     }
-    return 1;  // not reached: a path without cuts is left out
+    return 1;  // not reached: such paths are left out
   }
 
   /// Area of Omega+ in a face, by the boundary of the polygons: the pieces of the contour with Omega+ to their left,
   /// and the parts of the triangle's edges that are in Omega+, in the order of corners (Zheng 2013, eq. 4.9; any
   /// reference point will do, and one rule serves the types I to III).
-  double plusArea(int face, const std::array<int, 3>& corner_label) const {
+  double plusArea(int face, const std::array<int, 3>& corner_label, bool only_main = false) const {
     const auto& corner = mesh_.triangles[face];
     const Vec3& o = x_[corner[0]];
     const Vec3 n = cross(x_[corner[1]] - o, x_[corner[2]] - o);
     if (!(norm2(n) > 0)) return 0;
     Vec3 sum;
     const auto add = [&](const Vec3& a, const Vec3& b, int sign) { sum += sign * cross(a - o, b - o); };
-    for (const Piece& p : piecesIn(face)) {
-      const Contour& c = *contours_[p.path].contour;
+    for (const Piece& p : surface_.piecesIn(face)) {
+      if (p.path != main_ && (only_main || surface_.paths_[p.path].without_cuts)) continue;
+      const Contour& c = *surface_.paths_[p.path].from.contour;
       add(c.points[p.segment].x, c.points[c.next(p.segment)].x, p.normal * colourLeftOf(p.path, face, corner_label));
     }
     for (int k = 0; k < 3; ++k) {
@@ -172,30 +164,32 @@ class Fill {
         from = to;
         inside = !inside;
       };
-      for (std::size_t i = 0; i < cuts.size(); ++i) stop(cuts[backwards ? cuts.size() - 1 - i : i].x);
+      for (std::size_t i = 0; i < cuts.size(); ++i) {
+        const Cut& cut = cuts[backwards ? cuts.size() - 1 - i : i];
+        if (cut.path == main_ || !only_main) stop(cut.x);
+      }
       stop(x_[corner[(k + 1) % 3]]);
     }
     return 0.5 * dot(sum, normalized(n));
   }
 
-  /// The label of all vertices nearby where the first contour encloses none: with all in Omega-, is the area of Omega+
+  /// The label of the vertices nearby where the contour encloses none: with all in Omega-, is the area of Omega+
   /// positive?
-  int signInside() const {
+  int labelOutside() const {
     double inner = 0;
-    int last = -1;
-    for (const Piece& p : pieces_)
-      if (p.face != last) inner += plusArea(last = p.face, {-1, -1, -1});
+    std::vector<int> faces;
+    const ContourPath& from = surface_.paths_[main_].from;
+    for (const auto& s : from.contour->segments) faces.push_back(s.face[from.surface]);
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    for (int f : faces) inner += plusArea(f, {-1, -1, -1}, true);
     return inner >= 0 ? -1 : 1;
   }
 
-  /// The corners of the first contour's triangles; false where that contradicts itself.
-  bool labelHosts(int inner_sign) {
-    std::vector<int> edges;
-    for (const Piece& p : main_.pieces)
-      edges.insert(edges.end(), mesh_.face_edges[p.face].begin(), mesh_.face_edges[p.face].end());
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    seed(edges, inner_sign);
+  /// The corners of the contour's triangles; false where that contradicts itself.
+  bool labelHosts() {
+    const std::vector<int>& edges = surface_.paths_[main_].edges;
+    seed(edges);
     // The triangles hang together by their edges: a few sweeps label all corners.
     for (bool more = true; more;) {
       more = false;
@@ -213,30 +207,31 @@ class Fill {
     return true;
   }
 
-  /// One vertex: preferably on an edge that the first contour crosses and no other does.
-  void seed(const std::vector<int>& edges, int inner_sign) {
+  /// One vertex: preferably on an edge that this contour crosses and no other does.
+  void seed(const std::vector<int>& edges) {
     for (const bool alone : {true, false})
       for (int e : edges) {
         int sum = 0, before = 0, label = 0;
         bool others = false;
         for (const Cut& cut : cutsOf(e)) {
-          if (cut.path == 0) {
-            if (sum == 0 && label == 0) label = before % 2 ? -cut.left : cut.left;
+          if (cut.path == main_) {
+            if (label == 0) label = before % 2 ? -cut.left : cut.left;
             sum += cut.left;
           }
-          others = others || cut.path != 0;
+          others = others || cut.path != main_;
           ++before;
         }
         if (sum == 0 || (alone && others)) continue;
         // Without others the label is the sum, whatever the order of the crossings.
         return put(mesh_.edges[e][0], others ? label : sum);
       }
+    int edge = edges[0];
     for (int e : edges) {
       const auto cuts = cutsOf(e);
-      if (!cuts.empty() && std::all_of(cuts.begin(), cuts.end(), [](const Cut& cut) { return cut.path == 0; }))
-        return put(mesh_.edges[e][0], inner_sign);
+      if (!cuts.empty() && std::all_of(cuts.begin(), cuts.end(), [&](const Cut& cut) { return cut.path == main_; }))
+        edge = e;
     }
-    put(mesh_.edges[edges[0]][0], inner_sign);
+    put(mesh_.edges[edge][0], labelOutside());
   }
 
   /// Faces with all corners labelled, and cut faces with one labelled corner.
@@ -252,9 +247,9 @@ class Fill {
   /// Called whenever a corner has got its label.
   void count(int face) {
     const auto& corner = mesh_.triangles[face];
-    if (const auto pieces = piecesIn(face); !pieces.empty()) {
+    if (const auto pieces = surface_.piecesIn(face); !pieces.empty()) {
       std::array<int, 3> label{label_[corner[0]], label_[corner[1]], label_[corner[2]]};
-      const bool main = pieces[0].path == 0;
+      const bool main = std::any_of(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.path == main_; });
       std::array<bool, 2> wanted{main, main};
       for (int l : label)
         if (l) wanted[l > 0 ? 0 : 1] = true;
@@ -262,7 +257,7 @@ class Fill {
         if (label[k % 3] && !label[(k + 1) % 3])
           label[(k + 1) % 3] = label[k % 3] * flip(mesh_.face_edges[face][k % 3]);
       for (int s = 0; s < 2; ++s) {
-        if (!wanted[s] || !counted_[s].insert(face)) continue;
+        if (!wanted[s] || !counted_[s].insert(face).second) continue;
         const double plus = plusArea(face, label);
         area_[s] += s == 0 ? plus : area(face) - plus;
       }
@@ -271,11 +266,17 @@ class Fill {
     }
   }
 
-  /// Grows side s by the neighbours of one vertex; false where it meets the other side.
+  /// Grows side s by the neighbours of one vertex; false where it meets the other side, or a contour without sides.
   bool grow(int s) {
     const int v = labelled_[s][next_[s]++];
     for (int e : mesh_.vertex_edges[v]) {
-      if (flip(e) < 0) continue;
+      if (std::binary_search(surface_.unclear_.begin(), surface_.unclear_.end(), e)) return false;
+      if (const auto cuts = cutsOf(e); !cuts.empty()) {
+        const Cut& nearest = mesh_.edges[e][0] == v ? cuts.front() : cuts.back();
+        // From the upper vertex the last cut is seen from its other side.
+        beside_[s].insert({nearest.path, mesh_.edges[e][0] == v ? nearest.left : -nearest.left});
+        if (cuts.size() % 2) continue;
+      }
       const int w = mesh_.edges[e][0] == v ? mesh_.edges[e][1] : mesh_.edges[e][0];
       if (label_[w] == label_[v]) continue;
       if (label_[w]) return false;
@@ -304,37 +305,23 @@ class Fill {
     }
   }
 
-  /// A small set of faces.
-  struct FaceSet {
-    std::vector<int> sorted;
-    bool insert(int face) {
-      const auto it = std::lower_bound(sorted.begin(), sorted.end(), face);
-      if (it != sorted.end() && *it == face) return false;
-      sorted.insert(it, face);
-      return true;
-    }
-  };
-
   const ContactMesh& mesh_;
   std::span<const Vec3> x_;
-  std::span<const ContourPath> contours_;
+  const CutSurface& surface_;
+  int main_;
   std::vector<signed char>& label_;
-  Path main_;
-  std::vector<Cut> cuts_;                     ///< of all contours, by edge
-  std::vector<Piece> pieces_;                 ///< of all contours, by face; the first contour's first
   std::array<std::vector<int>, 2> labelled_;  ///< Omega+, Omega-
   std::array<std::size_t, 2> next_{};
   std::array<double, 2> area_{};
-  std::array<FaceSet, 2> counted_;  ///< cut faces whose share of the side is in area_
+  std::array<std::unordered_set<int>, 2> counted_;  ///< cut faces whose share of the side is in area_
+  std::array<std::set<std::array<int, 2>>, 2> beside_;
   int done_ = 0;
 };
 
-}  // namespace
-
-ContourRegion floodRegion(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const ContourPath> contours,
+ContourRegion floodRegion(const ContactMesh& mesh, std::span<const Vec3> x, const CutSurface& surface, int which,
                           int sign, FloodWork& work) {
-  assert(!contours.empty() && work.label.size() == static_cast<std::size_t>(mesh.vertex_count));
-  return Fill(mesh, x, contours, work.label).run(sign);
+  assert(work.label.size() == static_cast<std::size_t>(mesh.vertex_count));
+  return RegionFill(mesh, x, surface, which, work.label).run(sign);
 }
 
 }  // namespace gambeson

@@ -79,38 +79,69 @@ std::vector<int> connectedPieces(const ContactMesh& mesh) {
 /// layer. A piece that crosses itself has each contour for itself.
 class Bounds {
  public:
-  Bounds(const ContactMesh& mesh, std::span<const Contour> contours, std::span<const int> layer)
-      : mesh_(mesh), layer_(layer), piece_(contours.empty() ? std::vector<int>{} : connectedPieces(mesh)) {
-    for (const Contour& c : contours)
-      for (int s = 0; s < 2; ++s)
-        if (c.closed[s]) groups_[key(c, s)].push_back({&c, s});
+  /// The contours outlive it.
+  Bounds(const ContactMesh& mesh, std::span<const Contour> contours, std::span<const int> layer) {
+    if (contours.empty()) return;
+    struct Key {
+      int own, other, layer, other_layer, contour;
+      auto operator<=>(const Key&) const = default;
+    };
+    const std::vector<int> piece = connectedPieces(mesh);
+    std::map<Key, std::vector<ContourPath>> groups;
+    std::vector<std::array<Key, 2>> keys(contours.size());
+    place_.resize(contours.size());
+    for (std::size_t k = 0; k < contours.size(); ++k)
+      for (int s = 0; s < 2; ++s) {
+        const Contour& c = contours[k];
+        const auto pieceOf = [&](int side) { return piece[mesh.triangles[c.segments[0].face[side]][0]]; };
+        const int own = layerOf(mesh, c, s, layer), other = layerOf(mesh, c, 1 - s, layer);
+        const bool itself = pieceOf(0) == pieceOf(1);
+        const Key key{pieceOf(s), own == other ? pieceOf(1 - s) : -1, own, other,
+                      itself ? 2 * static_cast<int>(k) + s : -1};
+        auto& group = groups[key];
+        keys[k][s] = key;
+        place_[k][s].which = static_cast<int>(group.size());
+        group.push_back({&c, s});
+      }
+    std::map<Key, int> number;
+    for (const auto& [key, group] : groups) {
+      number[key] = static_cast<int>(surfaces_.size());
+      surfaces_.emplace_back(mesh, group);
+    }
+    for (std::size_t k = 0; k < contours.size(); ++k)
+      for (int s = 0; s < 2; ++s) place_[k][s].surface = number[keys[k][s]];
   }
 
-  /// The contour first.
-  std::vector<ContourPath> with(const Contour& c, int surface) const {
-    std::vector<ContourPath> out{{&c, surface}};
-    const Key k = key(c, surface);
-    if (k.own != k.other || k.layer != k.other_layer)
-      for (const auto& path : groups_.at(k))
-        if (path.contour != &c) out.push_back(path);
-    return out;
+  const CutSurface& surface(std::size_t contour, int side) const { return surfaces_[place_[contour][side].surface]; }
+  int which(std::size_t contour, int side) const { return place_[contour][side].which; }
+
+  /// Contours share their regions: one flood for all of them.
+  void learn(std::size_t contour, int side, const ContourRegion& region) {
+    const int surface = place_[contour][side].surface;
+    for (const auto& [path, sign] : region.beside)
+      known_.try_emplace({surface, path, sign}, Known{region.area_m2, region.vertices});
+  }
+  bool known(std::size_t contour, int side, int sign, Untangling& u) const {
+    const auto it = known_.find({place_[contour][side].surface, which(contour, side), sign});
+    if (it == known_.end()) return false;
+    u.closed[side] = true;
+    u.wrong_sign[side] = sign;
+    u.wrong_area_m2[side] = it->second.area_m2;
+    u.wrong_vertices[side] = it->second.vertices;
+    return true;
   }
 
  private:
-  struct Key {
-    int own, other, layer, other_layer;
-    auto operator<=>(const Key&) const = default;
+  struct Place {
+    int surface = -1, which = -1;
   };
-  Key key(const Contour& c, int s) const {
-    const auto pieceOf = [&](int k) { return piece_[mesh_.triangles[c.segments[0].face[k]][0]]; };
-    const int own = layerOf(mesh_, c, s, layer_), other = layerOf(mesh_, c, 1 - s, layer_);
-    return {pieceOf(s), own == other ? pieceOf(1 - s) : -1, own, other};
-  }
-
-  const ContactMesh& mesh_;
-  std::span<const int> layer_;
-  std::vector<int> piece_;
-  std::map<Key, std::vector<ContourPath>> groups_;
+  struct Known {
+    double area_m2;
+    std::vector<int> vertices;
+  };
+  std::map<std::array<int, 3>, Known> known_;  ///< by surface, contour and sign
+  std::vector<CutSurface> surfaces_;
+  std::vector<std::array<Place, 2>> place_;
 };
 
 }  // namespace
@@ -156,7 +187,7 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
   FloodWork work;
   work.label.resize(mesh.vertex_count);
   std::vector<Untangling> out(contours.size());
-  const Bounds bounds(mesh, contours, layer);
+  Bounds bounds(mesh, contours, layer);
   for (std::size_t k = 0; k < contours.size(); ++k) {
     Untangling& u = out[k];
     const Contour& c = contours[k];
@@ -164,12 +195,14 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
     for (int s = 0; s < 2; ++s) {
       if (!c.closed[s]) continue;
       const int by_layer = wrongByLayer(mesh, c, s, layer);
+      if (by_layer != 0 && bounds.known(k, s, by_layer, u)) continue;
       ContourRegion region;
-      if (by_layer == 0) region = floodRegion(mesh, x, std::array{ContourPath{&c, s}}, 0, work);
-      if (!region.found) region = floodRegion(mesh, x, bounds.with(c, s), by_layer, work);
+      if (by_layer == 0) region = floodRegion(mesh, x, CutSurface(mesh, std::array{ContourPath{&c, s}}), 0, 0, work);
+      if (!region.found) region = floodRegion(mesh, x, bounds.surface(k, s), bounds.which(k, s), by_layer, work);
       u.closed[s] = by_layer != 0 || region.found;
       u.wrong_sign[s] = by_layer != 0 ? by_layer : region.found ? region.sign : 0;
       if (!region.found) continue;
+      if (by_layer != 0) bounds.learn(k, s, region);
       u.wrong_area_m2[s] = region.area_m2;
       u.wrong_vertices[s] = std::move(region.vertices);
     }

@@ -40,7 +40,8 @@ struct Untangling {
   double length_m = 0;
   /// Where the contour is closed on surface s and tells a wrong part: its sign (+1: left of the contour), its area and
   /// its vertices. Otherwise false, 0, 0 and none. Between layers area and vertices are missing too where nothing keeps
-  /// the two sides apart (a cut through a ring). Contours that bound one region together report it each.
+  /// the two sides apart (a cut through a ring, a way around the end of an open contour). Contours that bound one
+  /// region together report it each.
   std::array<bool, 2> closed{};
   std::array<int, 2> wrong_sign{};
   std::array<double, 2> wrong_area_m2{};

@@ -22,7 +22,8 @@ int sideOf(const Tangled& s, const Contour& c, int piece) {
 ContourRegion region(const Tangled& s, const Contour& c, int piece, int sign) {
   FloodWork work;
   work.label.resize(s.x.size());
-  const ContourRegion r = floodRegion(s.mesh, s.x, std::array{ContourPath{&c, sideOf(s, c, piece)}}, sign, work);
+  const ContourRegion r =
+      floodRegion(s.mesh, s.x, CutSurface(s.mesh, std::array{ContourPath{&c, sideOf(s, c, piece)}}), 0, sign, work);
   for (auto l : work.label) EXPECT_EQ(l, 0) << "labels are cleaned";
   return r;
 }
@@ -166,16 +167,23 @@ TEST(ContourRegion, TwoCutsBoundARegionTogether) {
   const std::array<ContourPath, 2> paths{ContourPath{&contours[0], sideOf(s, contours[0], 0)},
                                          ContourPath{&contours[1], sideOf(s, contours[1], 0)}};
   for (const bool swap : {false, true}) {
-    const std::array<ContourPath, 2> order{paths[swap], paths[!swap]};
-    const double cut = order[0].contour->points[0].x.x, rest = std::min(cut, 1 - cut);
+    const CutSurface both(s.mesh, paths), one(s.mesh, std::span(paths).subspan(swap, 1));
+    const double cut = paths[swap].contour->points[0].x.x, rest = std::min(cut, 1 - cut);
     std::array<double, 2> area{};
     for (const int sign : {-1, 1}) {
-      const ContourRegion r = floodRegion(s.mesh, s.x, order, sign, work);
+      const ContourRegion r = floodRegion(s.mesh, s.x, both, swap, sign, work);
       ASSERT_TRUE(r.found);
       area[sign > 0] = r.area_m2;
       const bool middle = std::abs(r.area_m2 - 0.48) < 1e-13;
       for (int v : r.vertices) EXPECT_EQ(s.x[v].x > 0.23 && s.x[v].x < 0.71, middle);
-      const ContourRegion alone = floodRegion(s.mesh, s.x, std::span(order).first(1), sign, work);
+      ASSERT_EQ(r.beside.size(), middle ? 2u : 1u);
+      for (const auto& [contour, side] : r.beside) {
+        EXPECT_TRUE(middle || contour == swap);
+        const ContourRegion same = floodRegion(s.mesh, s.x, both, contour, side, work);
+        EXPECT_EQ(same.vertices, r.vertices);
+        EXPECT_EQ(same.area_m2, r.area_m2);
+      }
+      const ContourRegion alone = floodRegion(s.mesh, s.x, one, 0, sign, work);
       EXPECT_NEAR(alone.area_m2, middle ? 1 - rest : rest, 1e-13);
     }
     EXPECT_NEAR(std::max(area[0], area[1]), 0.48, 1e-13);
@@ -196,7 +204,7 @@ TEST(ContourRegion, TwoCutsInOneTriangle) {
   const std::array<ContourPath, 2> paths{ContourPath{&contours[0], sideOf(s, contours[0], 0)},
                                          ContourPath{&contours[1], sideOf(s, contours[1], 0)}};
   for (const bool swap : {false, true}) {
-    const ContourRegion r = floodRegion(s.mesh, s.x, std::array{paths[swap], paths[!swap]}, 0, work);
+    const ContourRegion r = floodRegion(s.mesh, s.x, CutSurface(s.mesh, paths), swap, 0, work);
     ASSERT_TRUE(r.found);
     EXPECT_NEAR(r.area_m2, 0.48, 1e-14);
     EXPECT_TRUE(r.vertices.empty());
@@ -228,9 +236,10 @@ TEST(ContourRegion, TwoSidesMakeUpThePiece) {
     for (const Contour& c : contoursOf(s))
       for (int side = 0; side < 2; ++side) {
         if (!c.closed[side]) continue;
-        const std::array path{ContourPath{&c, side}};
-        const auto plus = floodRegion(s.mesh, s.x, path, 1, work), minus = floodRegion(s.mesh, s.x, path, -1, work);
-        const auto smaller = floodRegion(s.mesh, s.x, path, 0, work);
+        const CutSurface path(s.mesh, std::array{ContourPath{&c, side}});
+        const auto plus = floodRegion(s.mesh, s.x, path, 0, 1, work),
+                   minus = floodRegion(s.mesh, s.x, path, 0, -1, work);
+        const auto smaller = floodRegion(s.mesh, s.x, path, 0, 0, work);
         ASSERT_EQ(plus.found, minus.found);
         if (!plus.found) continue;  // crosses itself
         ++checked;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 
 #include "core/contact/contour_region.hpp"
 #include "core/error.hpp"
@@ -29,7 +30,7 @@ double length(const Contour& c) {
 double areaPlus(const Tangled& s, std::span<const Vec3> x, const Contour& c, int surface) {
   FloodWork work;
   work.label.resize(x.size());
-  const ContourRegion r = floodRegion(s.mesh, x, std::array{ContourPath{&c, surface}}, 1, work);
+  const ContourRegion r = floodRegion(s.mesh, x, CutSurface(s.mesh, std::array{ContourPath{&c, surface}}), 0, 1, work);
   EXPECT_TRUE(r.found);
   return r.area_m2;
 }
@@ -433,6 +434,56 @@ TEST(Untangle, NestedTubesComeFree) {
     for (std::size_t v = 0; v < x.size(); ++v) axis += (s.piece[v] == k + 1 ? 1 : s.piece[v] == k ? -1 : 0) * x[v] / 96;
     EXPECT_LT(std::hypot(axis.x, axis.y), 0.003);
   }
+}
+
+/// Two layers that differ by noise are through each other in a hundred places. The higher one is a little wider, so
+/// that all contours are closed on the lower one: exactly its vertices in front of the higher one are found wrong, and
+/// the areas of all wrong parts sum to all that is wrong. On the higher one some contours are open: no vertex is wrong
+/// that is not.
+TEST(Untangle, HundredsOfContoursBetweenTwoLayers) {
+  std::mt19937 random(10);
+  constexpr int n = 40;
+  const auto noisy = [&](double u, double v) { return Vec3{u, v, 1e-3 * static_cast<double>(random()) / 0x1p32}; };
+  const Piece low = sheet(n, n, noisy);
+  Piece high = sheet(n, n, noisy);  // the same triangles seen from above, but for the border
+  for (auto& p : high.x)
+    for (int c = 0; c < 2; ++c) {
+      if (p[c] == 0) p[c] = -1e-9;
+      if (p[c] == 1) p[c] = 1 + 1e-9;
+    }
+  const Tangled s = join({low, high});
+  const auto found = untangle(s.mesh, s.x, s.piece);
+  EXPECT_GT(found.size(), 50u);
+  std::vector<char> wrong(s.x.size());
+  std::array<std::map<std::vector<int>, double>, 2> areas;
+  for (const auto& u : found)
+    for (int side = 0; side < 2; ++side) {
+      for (int v : u.wrong_vertices[side]) wrong[v] = 1;
+      const int piece = s.pieceOfFace(u.contour.segments[0].face[side]);
+      if (!u.wrong_vertices[side].empty()) areas[piece][u.wrong_vertices[side]] = u.wrong_area_m2[side];
+    }
+  const int vertices = static_cast<int>(low.x.size());
+  int all = 0;
+  for (int v = 0; v < vertices; ++v) {
+    const bool turned = low.x[v].z > high.x[v].z;
+    EXPECT_EQ(wrong[v], turned) << v;
+    EXPECT_LE(wrong[v + vertices], turned) << v;
+    all += turned;
+  }
+  EXPECT_GT(all, vertices / 3);
+  // The two sheets lie over each other: on the lower one the wrong area is where the difference of heights is positive.
+  double area = 0, sum = 0;
+  for (const auto& [a, b, c] : low.triangles) {
+    const std::array<double, 3> d{low.x[a].z - high.x[a].z, low.x[b].z - high.x[b].z, low.x[c].z - high.x[c].z};
+    const double whole = 0.5 * norm(cross(low.x[b] - low.x[a], low.x[c] - low.x[a]));
+    const int over = (d[0] > 0) + (d[1] > 0) + (d[2] > 0);
+    double part = 0;  // of the corner that is alone on its side
+    for (int k = 0; k < 3; ++k)
+      if ((d[k] > 0) == (over == 1)) part = d[k] / (d[k] - d[(k + 1) % 3]) * d[k] / (d[k] - d[(k + 2) % 3]);
+    area += whole * (over == 3 ? 1 : over == 0 ? 0 : over == 1 ? part : 1 - part);
+  }
+  for (const auto& [part, a] : areas[0]) sum += a;
+  EXPECT_NEAR(sum, area, 1e-8);  // but for the wider border
 }
 
 /// Which vertices impact leaves alone.
