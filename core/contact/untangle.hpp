@@ -17,7 +17,8 @@ Vec3 lengthGradient(const ContactMesh& mesh, std::span<const Vec3> x, const Cont
 /// (surface 0) or 4.18 (surface 1) over all segments. A segment stays on the line in which the two planes meet,
 /// whatever edges its ends are on, so its share needs neither these nor a reference point: it sweeps the area
 ///   l n'.d / (n'.m) on surface 0,   m = r x n the unit vector to the right of the contour's direction r,
-/// where n is the unit normal of surface 0's triangle and n' of surface 1's; n'.m = direction |n x n'|.
+/// where n is the unit normal of surface 0's triangle and n' of surface 1's; n'.m = direction |n x n'|
+/// (times -1 where the carried normal is opposite to n).
 /// Segments whose planes coincide are left out: their gradient is unbounded.
 Vec3 areaGradient(const ContactMesh& mesh, std::span<const Vec3> x, const Contour& contour, int surface);
 

@@ -116,7 +116,7 @@ struct Motion {
   Vec3 transposed(const Vec3& r) const { return identity * r + (sign * dot(a, r) / dot(a, n)) * n; }
 };
 
-/// dx_P/dd, eq. 4.1 for edges of element II and the README's a' (x) n' / (a'.n') for those of element I.
+/// dx_P/dd, eq. 4.1 for edges of element II and a' (x) n' / (a'.n') for those of element I, by the same derivation.
 Motion motion(const Tangled& s, const ContourPoint& p) {
   const auto& [v, w] = s.mesh.edges[p.edge];
   const auto& [i, j, k] = s.mesh.triangles[p.triangle];
