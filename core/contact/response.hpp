@@ -2,6 +2,7 @@
 /// The contact impulses of one step, all contacts solved together (Zheng 2013, sections 3.2.2, 3.3.2 and 3.5, with
 /// consistent impulses and effective masses).
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -18,13 +19,36 @@ struct ContactParameters {
   int max_iterations = 400;
 };
 
-/// A contact with what the solve needs to know of it.
+/// Samples whose weighted velocities make up the velocity that a contact acts on: one sample on a body (weight 1), a
+/// sample and a triangle, two edges; weights of one side are positive, of the other negative.
+struct Stencil {
+  int count = 0;
+  std::array<int, 4> sample{};
+  std::array<double, 4> weight{};
+
+  void add(int s, double w) {
+    sample[count] = s;
+    weight[count++] = w;
+  }
+};
+
+/// In place of an obstacle's number: contacts of cloth with cloth. Contact::sample and feature then name a sample and
+/// the feature of the cloth's mesh that it touches, or two edges.
+enum ClothContact { kSampleOnCloth = -1, kEdgeOnEdge = -2 };
+
+/// A contact with what the solve needs to know of it. Its relative velocity is sum w v(sample) - body_velocity, its
+/// impulse lambda acts on each sample as w lambda.
 struct ContactRow {
   Contact contact;
-  Vec3 body_velocity;         ///< of the touched material point, mean over the step [m/s]
-  double target_m_per_s = 0;  ///< least normal velocity relative to the body that the step must end with
-  bool impact = false;        ///< found by trajectory (section 3.3), not by distance (section 3.2)
+  Stencil stencil;
+  Vec3 body_velocity;                   ///< of the touched material point, mean over the step [m/s]
+  double target_m_per_s = 0;            ///< least normal velocity relative to the body that the step must end with
+  bool impact = false;                  ///< found by trajectory (section 3.3), not by distance (section 3.2)
+  std::array<int, 3> pair{-1, -1, -1};  ///< of an impact of triangles: 0 or 1 for edges, and the two primitives
 };
+
+/// The row of a sample at an obstacle.
+ContactRow bodyRow(const Contact& contact, const Vec3& body_velocity, double target_m_per_s, bool impact);
 
 /// Impulse of one contact on the cloth, world axes [N s]; the body receives the opposite.
 struct ContactImpulse {
@@ -42,10 +66,12 @@ struct ContactSolve {
 
 /// Scratch of solveContacts.
 struct ContactWork {
-  std::vector<int> samples, sample_slot, free_points, free_slot, row_slot;
-  std::vector<int> first, of_sample;  ///< rows of a sample: of_sample[k], first[s] <= k < first[s + 1]
-  SparseRows rows, columns;
-  std::vector<double> share, weight;  ///< of a sample: area of each of its rows; of its warm rows together
+  std::vector<int> samples, sample_slot, free_points, free_slot;
+  std::vector<int> order;          ///< rows in the order of the iteration
+  SparseRows rows, columns;        ///< samples x free points and back
+  SparseRows stencils, of_sample;  ///< rows x samples and back, with weights
+  std::vector<double> share;       ///< area of each row
+  std::vector<double> weight;      ///< of a sample: area of its warm rows together
   std::vector<Vec3> sample_impulse, free_velocity, traction;
   // The iteration's own arrays, four lanes wide; the rows in the order of of_sample.
   struct alignas(32) Quad {
@@ -53,9 +79,13 @@ struct ContactWork {
   };
   struct Row {
     Vec3 normal, drift;  ///< v_n - target = (v - drift) . normal
+    double slope = 0;    ///< 1/rho, or for cloth on cloth the sum of both: the residual's measure
+    double largest = 0;  ///< the bound if all rows carried something, at least the slope
   };
   std::vector<Row> facts;
-  std::vector<Quad> point, candidate, previous, impulse, base, moved;
+  std::vector<Quad> point, candidate, previous;  ///< of rows
+  std::vector<Quad> impulse, velocity;           ///< of samples
+  std::vector<Quad> base, moved;                 ///< of free points
   std::vector<double> inverse_mass, largest2, against;
 };
 
@@ -76,14 +106,18 @@ double persistentTarget(double gap_m, double dt_s, const ContactParameters& para
 /// in that bound: where they cover part of a neighbourhood, the row sum D_s = sum_j (W_T M^-1 W_T^T)_sj a_j over them
 /// is less than 1/rho and the step is 1/D_s (the operator's entries are not negative, so that D - W_T M^-1 W_T^T a has
 /// no negative eigenvalue). The residual is |tau - proj(tau - rho r)|/rho [m/s] whatever the steps were.
+/// Contacts of cloth with cloth (stencils B of several samples) solve with B W_T M^-1 W_Tᵀ Bᵀ in the same way; row sums
+/// are those of absolute weights there, and 1/rho is the sum of both sides'. Each sample on cloth stands for half its
+/// area, because the other side's samples stand for the other half; an edge for an eighth of what its pair touches.
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
-/// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample;
+/// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
+/// kg/m^2];
 /// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the
 /// result.
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-                           std::span<const double> area, double density, const ContactParameters& parameters,
-                           double dt_s, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
-                           ContactWork& work);
+                           std::span<const double> area, std::span<const double> density,
+                           const ContactParameters& parameters, double dt_s, std::span<Vec3> velocity,
+                           std::span<Vec3> warm, std::vector<Vec3>& impulses, ContactWork& work);
 
 }  // namespace gambeson

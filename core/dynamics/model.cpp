@@ -31,16 +31,19 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 std::move(inverse),
                                                 std::move(area),
                                                 std::move(held),
+                                                {},
                                                 environment,
                                                 contact,
                                                 std::move(obstacles),
                                                 nullptr,
+                                                {},
                                                 options.springs,
                                                 options.anchor_count,
                                                 {},
                                                 {},
                                                 options.strain_limit,
                                                 {}});
+  model->density_kg_per_m2.assign(model->surface.size(), rho);
   double total = 0, stiffness = 0;
   for (double m : model->mass_kg) total += m;
   for (const SpringSupportPoint& s : options.springs) stiffness += s.stiffness_N_per_m;
@@ -56,6 +59,13 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
     model->strain_rows = buildStrainRows(garment, model->map, {model->inverse_mass, {}}, options.strain_limit.points);
   }
   model->proximity = std::make_unique<ProximityQuery>(model->obstacles);
+  std::vector<Vec3> Q, rest(model->surface.size());
+  for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
+  model->surface.W.multiply<Vec3>(Q, rest);
+  const std::vector<Placement> placement(model->obstacles.size());
+  model->collisions = buildCollisions(model->surface, rest, std::vector<int>(rest.size(), 0),
+                                      std::vector<double>(rest.size(), contact.layer_m), model->obstacles, placement,
+                                      options.self_contact);
   return model;
 }
 

@@ -9,6 +9,8 @@
 
 #include "core/contact/proximity.hpp"
 #include "core/contact/response.hpp"
+#include "core/contact/zones.hpp"
+#include "core/dynamics/collisions.hpp"
 #include "core/dynamics/strain_limit.hpp"
 #include "core/sheet/shell.hpp"
 
@@ -42,10 +44,12 @@ struct Model {
   Surface surface;
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
   std::vector<char> held;                              ///< free points that do not move
+  std::vector<double> density_kg_per_m2;               ///< of the samples
   Environment environment;
   ContactParameters contact;
   std::vector<Obstacle> obstacles;
   std::unique_ptr<ProximityQuery> proximity;
+  CollisionModel collisions;
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;
   /// How far above its sample a spring is anchored, so that all together carry the garment's weight where they were
@@ -67,6 +71,7 @@ struct ModelOptions {
   int anchor_count = 0;
   std::vector<Vec3> dead_force_N;  ///< per control point, such as edgeForce gives; empty: none
   StrainLimit strain_limit;
+  bool self_contact = true;            ///< cloth touches cloth
   const KernelSet* kernels = nullptr;  ///< the widest where null
 };
 
@@ -131,8 +136,13 @@ struct StepReport {
   WorkAudit work;
   ContactSolve contact;
   LimitReport limit;
-  int contacts = 0, impacts = 0, impact_rounds = 0;
-  double deepest_m = 0;  ///< largest penetration of a sample at the start of the step, 0 if none
+  int contacts = 0;        ///< persistent, with bodies and of cloth with cloth
+  int cloth_contacts = 0;  ///< those of cloth with cloth
+  int impacts = 0;         ///< pairs that would have passed through each other after the first solve
+  int impact_rounds = 0;
+  int zones = 0;               ///< rigid impact zones
+  double earliest_impact = 1;  ///< of the step, where it failed for impacts
+  double deepest_m = 0;        ///< largest penetration of a sample at the start of the step, 0 if none
 };
 
 /// Wall time of the phases of the steps so far [s].
@@ -149,6 +159,11 @@ struct StepWork {
   std::vector<Vec3> limit_end, pulled_before, pulled_after;
   std::vector<double> reach;
   std::vector<Contact> near, hits;
+  std::vector<PairHit> pair_hits;
+  std::vector<char> inside;  ///< samples that are behind a body's surface
+  CollisionWork collisions;
+  std::vector<ImpactZone> zones;  ///< of the last step
+  std::vector<Vec3> zone_change;  ///< velocity of each free point that they added, where there are zones
   std::vector<ContactRow> rows;
   std::vector<Placement> start, end, anchors_start, anchors_end;
   std::vector<ContactImpulse> contact_impulses;  ///< of the last step

@@ -1,25 +1,12 @@
 #include "core/dynamics/step.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <tuple>
+
+#include "core/dynamics/step_contact.hpp"
 
 namespace gambeson {
 namespace {
-
-/// Adds the time since the last lap to a phase.
-class StopWatch {
- public:
-  void lap(double& phase) {
-    const auto now = std::chrono::steady_clock::now();
-    phase += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 Vec3 sum(std::span<const Vec3> values) {
   Vec3 s{};
@@ -36,12 +23,6 @@ void internalForce(const Model& m, std::span<const Vec3> p, std::vector<Vec3>& o
   m.map.T.multiply<Vec3>(p, w.q);
   m.shell.force(w.q, w.f, w.shell, energy, terms);
   m.map.Tt.multiply<Vec3>(w.f, out);
-}
-
-Vec3 sampleAt(const SparseRows& WT, int sample, std::span<const Vec3> values) {
-  Vec3 s{};
-  for (int k = WT.offsets[sample]; k < WT.offsets[sample + 1]; ++k) s += WT.values[k] * values[WT.columns[k]];
-  return s;
 }
 
 /// Forces of the springs [N]; anchors stand as `frames` say.
@@ -114,106 +95,6 @@ Vec3 limitAccelerations(const Model& m, const State& s, std::vector<Vec3>& out, 
   return held;
 }
 
-/// Rows of the persistent contacts with their warm tractions.
-void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
-  w.rows.clear();
-  w.warm.clear();
-  const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
-  std::size_t at = 0;
-  const auto key = [](const auto& c) { return std::tuple(c.sample, c.obstacle, c.feature); };
-  for (const Contact& c : w.near) {
-    const Vec3 body = (w.end[c.obstacle] * c.local - w.start[c.obstacle] * c.local) / dt;
-    w.rows.push_back({c, body, persistentTarget(c.gap_m, dt, m.contact), false});
-    while (at < in.warm.size() && key(in.warm[at]) < key(c)) ++at;
-    w.warm.push_back(at < in.warm.size() && key(in.warm[at]) == key(c) ? scale * in.warm[at].traction : Vec3{});
-  }
-}
-
-/// Turns a trajectory hit into a row (eq. 3.23: the gap may shrink to min(k delta, g)); replaces the row of the same
-/// pair.
-void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWork& w) {
-  const double keep = std::min(-std::expm1(-dt / m.contact.relaxation_s) * m.contact.layer_m, std::max(hit.gap_m, 0.0));
-  // A pair that is hit again (curved or turning bodies) is asked for a little more each round.
-  const double more = 0.05 * (round - 1) * m.contact.layer_m;
-  const Vec3 body = (w.end[hit.obstacle] * hit.local - w.start[hit.obstacle] * hit.local) / dt;
-  const ContactRow row{hit, body, (keep - hit.gap_m + more) / dt, true};
-  for (std::size_t i = 0; i < w.rows.size(); ++i)
-    if (w.rows[i].contact.sample == hit.sample && w.rows[i].contact.obstacle == hit.obstacle &&
-        (w.rows[i].impact || round > 2)) {
-      w.rows[i] = row;
-      return;
-    }
-  w.rows.push_back(row);
-  w.warm.push_back({});
-}
-
-void ledger(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
-  w.contact_impulses.clear();
-  for (std::size_t i = 0; i < w.rows.size(); ++i) {
-    const ContactRow& row = w.rows[i];
-    const Vec3& impulse = w.impulses[i];
-    if (impulse == Vec3{}) continue;
-    const Contact& c = row.contact;
-    w.contact_impulses.push_back({c.sample, c.obstacle, c.feature, impulse, c.normal, w.start[c.obstacle] * c.local});
-    report.momentum.obstacles -= impulse;
-    report.momentum.scale += norm(impulse);
-    for (int k = m.surface.WT.offsets[c.sample]; k < m.surface.WT.offsets[c.sample + 1]; ++k)
-      if (m.held[m.surface.WT.columns[k]]) report.momentum.supports -= m.surface.WT.values[k] * impulse;
-    const Vec3 mean =
-        0.5 * (sampleAt(m.surface.WT, c.sample, w.predictor) + sampleAt(m.surface.WT, c.sample, w.velocity) -
-               dt * sampleAt(m.surface.WT, c.sample, in.a));
-    const double normal = dot(impulse, c.normal);
-    report.work.contact += dot(impulse, mean);
-    report.work.friction += dot(impulse - normal * c.normal, mean);
-    if (c.gap_m < m.contact.layer_m && row.target_m_per_s > 0) report.work.separation += normal * row.target_m_per_s;
-  }
-}
-
-/// Velocities of the half step after contacts and strain limits, in turn until both hold; w.rows stay what they are.
-void solveVelocities(const Model& m, const State& in, double density, double dt, bool first, StepReport& report,
-                     StopWatch& clock, StepWork& w) {
-  const auto contacts = [&] {
-    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, density, m.contact, dt,
-                                   w.velocity, w.warm, w.impulses, w.contact);
-    clock.lap(w.times.contact);
-  };
-  const StrainLimit& limit = m.strain_limit;
-  if (limit.mode == LimitMode::none) {
-    w.velocity = w.predictor;
-    contacts();
-    return;
-  }
-  const int n = m.freeCount();
-  std::vector<Vec3>& end = w.limit_end;
-  end.resize(n);
-  const auto limited = [&](int i) { return w.predictor[i] - (m.inverse_mass[i] / dt) * w.limit.pull[i]; };
-  w.velocity.resize(n);
-  for (int turn = 1;; ++turn) {
-    for (int i = 0; i < n; ++i) end[i] = in.p[i] + dt * (limited(i) + w.limit.contact_change[i]);
-    projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit);
-    ++report.limit.rounds;
-    clock.lap(w.times.limit);
-    for (int i = 0; i < n; ++i) w.velocity[i] = limited(i);
-    contacts();
-    if (w.rows.empty()) return;
-    for (int i = 0; i < n; ++i) {
-      w.limit.contact_change[i] = w.velocity[i] - limited(i);
-      end[i] = in.p[i] + dt * w.velocity[i];
-    }
-    report.limit.residual = limitResidual(m.strain_rows, limit, end, w.limit);
-    report.limit.converged = report.limit.residual <= limit.tolerance;
-    clock.lap(w.times.limit);
-    // A residual that is not finite shows in the velocities.
-    if (report.limit.converged || turn == limit.max_rounds || !std::isfinite(report.limit.residual)) return;
-  }
-}
-
-bool allFinite(std::span<const Vec3> values) {
-  double zero = 0;
-  for (const Vec3& v : values) zero += 0 * (v.x + v.y + v.z);  // NaN from the first infinity or NaN on
-  return zero == 0;
-}
-
 }  // namespace
 
 void samplePositions(const Model& model, std::span<const Vec3> p, std::vector<Vec3>& x) {
@@ -277,37 +158,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 
   // 1.2 Contact and impact, eq. 3.12.
   samplePositions(m, in.p, w.x0);
-  w.sample_velocity.resize(m.surface.size());
-  m.surface.WT.multiply<Vec3>(w.predictor, w.sample_velocity);
-  w.reach.resize(m.surface.size());
-  for (int s = 0; s < m.surface.size(); ++s) w.reach[s] = 1.1 * m.contact.layer_m + dt * norm(w.sample_velocity[s]);
-  m.proximity->near(w.start, w.end, w.x0, w.reach, w.near);
-  clock.lap(w.times.proximity);
-  persistentRows(m, in, dt, w);
-  for (const Contact& c : w.near) report.deepest_m = std::max(report.deepest_m, -c.gap_m);
-  report.contacts = static_cast<int>(w.rows.size());
-  const double rho = m.shell.garment().fabric.surfaceDensity();
-  constexpr int kRounds = 12;
-  startProjection(m.strain_rows, in.limit_J, w.limit);
-  for (int round = 1;; ++round) {
-    solveVelocities(m, in, rho, dt, round == 1, report, clock, w);
-    if (!allFinite(w.velocity)) return notFinite("a velocity is not finite after the contacts");
-    w.x1.resize(m.surface.size());
-    m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
-    for (int s = 0; s < m.surface.size(); ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
-    m.proximity->impacts(w.start, w.end, w.x0, w.x1, w.hits);
-    clock.lap(w.times.impact);
-    report.impact_rounds = round - 1;
-    if (w.hits.empty()) break;
-    if (round > kRounds) {
-      report.failure = StepFailure::impact;
-      report.why = std::to_string(w.hits.size()) + " surface samples would still pass into " +
-                   m.obstacles[w.hits[0].obstacle].segment;
-      return report;
-    }
-    if (round == 1) report.impacts = static_cast<int>(w.hits.size());
-    for (const Contact& hit : w.hits) addImpact(m, hit, dt, round, w);
-  }
+  if (!resolveContacts(m, in, dt, report, clock, w)) return report;
 
   // 1.2 continued: positions; 2. acceleration and velocity, eq. 3.13.
   out.time_s = in.time_s + dt;
@@ -344,7 +195,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 
   // The audit, each term from its own source.
   MomentumAudit& audit = report.momentum;
-  ledger(m, in, dt, report, w);
+  contactLedger(m, in, dt, report, w);
   if (m.strain_limit.mode != LimitMode::none) {
     audit.supports -= half * (held_after - held_before);
     audit.scale += half * (norm(held_after) + norm(held_before));

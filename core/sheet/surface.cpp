@@ -225,7 +225,16 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
         std::sort(on.begin(), on.end());
         for (const auto& entry : on) s.edge_samples[p][side].push_back(entry.second);
       }
-      for (const auto& [a, b, c] : mesh.triangles) s.triangles.push_back({sample[a], sample[b], sample[c]});
+      const auto cellOf = [](const std::vector<double>& lines, double at) {
+        const auto above = std::upper_bound(lines.begin(), lines.end(), at);
+        return std::clamp(static_cast<int>(above - lines.begin()) - 1, 0, static_cast<int>(lines.size()) - 2);
+      };
+      for (const auto& [a, b, c] : mesh.triangles) {
+        s.triangles.push_back({sample[a], sample[b], sample[c]});
+        s.triangle_patch.push_back(p);
+        s.triangle_cell.push_back(cellOf(us[p], (mesh.uv[a].x + mesh.uv[b].x + mesh.uv[c].x) / 3) +
+                                  (nu - 1) * cellOf(vs[p], (mesh.uv[a].y + mesh.uv[b].y + mesh.uv[c].y) / 3));
+      }
       continue;
     }
     for (int j = 0; j < nv; ++j)
@@ -247,6 +256,8 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
           s.triangles.push_back({a, b, d});
           s.triangles.push_back({b, c, d});
         }
+        s.triangle_patch.insert(s.triangle_patch.end(), 2, p);
+        s.triangle_cell.insert(s.triangle_cell.end(), 2, i + (nu - 1) * j);
       }
   }
   s.WT = multiply(s.W, map.T);

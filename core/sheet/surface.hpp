@@ -20,6 +20,8 @@ struct Surface {
   SparseRows WTt;
   std::vector<double> area_m2;
   std::vector<std::array<int, 3>> triangles;
+  std::vector<int> triangle_patch;  ///< ascending
+  std::vector<int> triangle_cell;   ///< i + (size_u - 1) j of its patch's grid; where trimmed that of its centroid
   std::vector<int> patch;                    ///< of each sample
   std::vector<Vec2> parameters;              ///< (u, v) of each sample in its patch
   std::vector<std::vector<int>> patch_grid;  ///< samples of each patch, u fastest; -1 where trimming leaves none

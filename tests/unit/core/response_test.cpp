@@ -40,7 +40,8 @@ struct Problem {
     for (double m : mass) inverse.push_back(m > 0 ? 1 / m : 0);
     std::vector<Vec3> warm(rows.size());
     ContactWork work;
-    return solveContacts(rows, W, inverse, area, rho, parameters, dt, velocity, warm, impulses, work);
+    const std::vector<double> density(area.size(), rho);
+    return solveContacts(rows, W, inverse, area, density, parameters, dt, velocity, warm, impulses, work);
   }
   Vec3 sampleVelocity(int s) const {
     Vec3 v{};
@@ -50,12 +51,10 @@ struct Problem {
 };
 
 ContactRow row(int sample, const Vec3& n, double target, const Vec3& body = {}) {
-  ContactRow r;
-  r.contact.sample = sample;
-  r.contact.normal = normalized(n);
-  r.body_velocity = body;
-  r.target_m_per_s = target;
-  return r;
+  Contact c;
+  c.sample = sample;
+  c.normal = normalized(n);
+  return bodyRow(c, body, target, false);
 }
 
 /// One sample on three control points of unequal mass; the masses are those of samples around it as well.

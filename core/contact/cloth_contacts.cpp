@@ -1,0 +1,194 @@
+#include "core/contact/cloth_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/contact/segment_pair.hpp"
+#include "core/contact/triangle.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr double kSharp = 0.05;  ///< sine of the angle by which the faces of an edge bend away
+
+class Search {
+ public:
+  Search(const ContactMesh& mesh, const ClothFacts& facts, std::span<const Vec3> x0, std::span<const Vec3> x1)
+      : mesh_(mesh), facts_(facts), x_(x0), end_(x1) {}
+
+  std::array<Vec3, 3> corners(int t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {x_[a], x_[b], x_[c]};
+  }
+
+  /// Number of a triangle's feature in the mesh: faces, then edges, then vertices.
+  int featureOf(int t, int feature) const {
+    const int faces = static_cast<int>(mesh_.triangles.size()), edges = static_cast<int>(mesh_.edges.size());
+    if (feature == kFace) return t;
+    return feature >= kEdge0 ? faces + mesh_.face_edges[t][feature - kEdge0]
+                             : faces + edges + mesh_.triangles[t][feature - kCorner0];
+  }
+
+  void sampleOn(const PointTriangle& pair, std::vector<ClothContactPoint>& out) const {
+    const int v = pair.vertex, t = pair.triangle;
+    if (v >= facts_.cloth_vertices || mesh_.triangles[t][0] >= facts_.cloth_vertices) return;
+    const std::array<Vec3, 3> corner = corners(t);
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const auto path = [&](int i) { return norm(end_[i] - x_[i]); };
+    const auto& h = facts_.thickness_m;
+    const double far =
+        contactReach(0.5 * (h[v] + std::max({h[a], h[b], h[c]}))) + path(v) + std::max({path(a), path(b), path(c)});
+    if (boxDistance2(
+            {minimum(minimum(corner[0], corner[1]), corner[2]), maximum(maximum(corner[0], corner[1]), corner[2])},
+            x_[v]) >= far * far)
+      return;
+    const TrianglePoint foot = closestOnTriangle(corner, x_[v]);
+    if (!(foot.dist2_m2 < far * far)) return;
+    if (foot.feature != kFace && !nearestAround(v, t, foot)) return;
+    const Vec3 w = barycentric(corner, foot.position);
+    const double layer = 0.5 * (h[v] + w.x * h[a] + w.y * h[b] + w.z * h[c]);
+    const Vec3 rest = w.x * facts_.rest[a] + w.y * facts_.rest[b] + w.z * facts_.rest[c];
+    if (neighbours(v, a, rest - facts_.rest[v], layer)) return;
+    ClothContactPoint p;
+    p.contact.sample = v;
+    p.contact.obstacle = kSampleOnCloth;
+    p.contact.feature = featureOf(t, foot.feature);
+    // Two vertices that are nearest to each other are one contact.
+    if (foot.feature < kEdge0 && mesh_.triangles[t][foot.feature] < v &&
+        nearestAround(mesh_.triangles[t][foot.feature], v))
+      return;
+    p.contact.gap_m = std::sqrt(foot.dist2_m2);
+    p.contact.normal = direction(x_[v] - foot.position, cross(corner[1] - corner[0], corner[2] - corner[0]));
+    p.layer_m = layer;
+    p.stencil.add(v, 1);
+    for (int k = 0; k < 3; ++k)
+      if (w[k] > 0) p.stencil.add(mesh_.triangles[t][k], -w[k]);
+    keep(p, out);
+  }
+
+  void edgeOn(const EdgeEdge& pair, std::vector<ClothContactPoint>& out) const {
+    const auto [a, b] = mesh_.edges[pair.a];
+    const auto [c, d] = mesh_.edges[pair.b];
+    if (std::max(b, d) >= facts_.cloth_vertices) return;
+    const auto& h = facts_.thickness_m;
+    const auto path = [&](int i) { return norm(end_[i] - x_[i]); };
+    const double most = contactReach(0.5 * (std::max(h[a], h[b]) + std::max(h[c], h[d]))) + std::max(path(a), path(b)) +
+                        std::max(path(c), path(d));
+    if (!overlap(Box{minimum(x_[a], x_[b]), maximum(x_[a], x_[b])}.grown(most),
+                 Box{minimum(x_[c], x_[d]), maximum(x_[c], x_[d])}))
+      return;
+    const SegmentPair near = nearestOnSegments(x_[a], x_[b], x_[c], x_[d]);
+    const double layer = 0.5 * ((1 - near.s) * h[a] + near.s * h[b] + (1 - near.t) * h[c] + near.t * h[d]);
+    if (!(near.dist2_m2 < most * most)) return;
+    constexpr double inside = 1e-6;
+    if (!(near.s > inside && near.s < 1 - inside && near.t > inside && near.t < 1 - inside)) return;
+    const Vec3 p = x_[a] + near.s * (x_[b] - x_[a]), q = x_[c] + near.t * (x_[d] - x_[c]);
+    const Vec3 way = direction(p - q, cross(x_[b] - x_[a], x_[d] - x_[c]));
+    if (!sharp(pair.a, p, -way) || !sharp(pair.b, q, way)) return;
+    const auto& X = facts_.rest;
+    const Vec3 rest = X[c] + near.t * (X[d] - X[c]) - (X[a] + near.s * (X[b] - X[a]));
+    if (neighbours(a, c, rest, layer)) return;
+    ClothContactPoint out_point;
+    out_point.contact.sample = pair.a;
+    out_point.contact.obstacle = kEdgeOnEdge;
+    out_point.contact.feature = pair.b;
+    out_point.contact.gap_m = std::sqrt(near.dist2_m2);
+    out_point.contact.normal = way;
+    out_point.layer_m = layer;
+    out_point.stencil.add(a, 1 - near.s);
+    out_point.stencil.add(b, near.s);
+    out_point.stencil.add(c, near.t - 1);
+    out_point.stencil.add(d, -near.t);
+    keep(out_point, out);
+  }
+
+ private:
+  /// Where the two points come, or are, close enough on their way.
+  void keep(const ClothContactPoint& p, std::vector<ClothContactPoint>& out) const {
+    const Vec3 start = p.contact.gap_m * p.contact.normal;
+    Vec3 way{};
+    for (int k = 0; k < p.stencil.count; ++k)
+      way += p.stencil.weight[k] * (end_[p.stencil.sample[k]] - x_[p.stencil.sample[k]]);
+    const double way2 = norm2(way), t = way2 > 0 ? std::clamp(-dot(start, way) / way2, 0.0, 1.0) : 0;
+    const double reach = contactReach(p.layer_m);
+    if (norm2(start + t * way) < reach * reach) out.push_back(p);
+  }
+
+  static Vec3 direction(const Vec3& way, const Vec3& otherwise) {
+    const double length = norm(way);
+    if (length > 1e-12) return way / length;
+    const double other = norm(otherwise);
+    return other > 0 ? otherwise / other : Vec3{0, 0, 1};
+  }
+
+  static Vec3 barycentric(const std::array<Vec3, 3>& corner, const Vec3& p) {
+    const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], r = p - corner[0];
+    const double uu = norm2(u), uv = dot(u, v), vv = norm2(v), ru = dot(r, u), rv = dot(r, v);
+    const double det = uu * vv - uv * uv;
+    if (!(det > 0)) return {1, 0, 0};
+    const double b = std::clamp((vv * ru - uv * rv) / det, 0.0, 1.0),
+                 c = std::clamp((uu * rv - uv * ru) / det, 0.0, 1.0 - b);
+    return {1 - b - c, b, c};
+  }
+
+  bool neighbours(int v, int w, const Vec3& apart_at_rest, double layer) const {
+    return facts_.layer[v] == facts_.layer[w] && norm(apart_at_rest) < neighbourDistance(layer);
+  }
+
+  /// No triangle at the foot's edge or corner is nearer, and this one is the first of them.
+  bool nearestAround(int v, int t, const TrianglePoint& foot) const {
+    const std::span<const int> around = foot.feature >= kEdge0
+                                            ? mesh_.edge_faces[mesh_.face_edges[t][foot.feature - kEdge0]]
+                                            : mesh_.vertex_faces[mesh_.triangles[t][foot.feature]];
+    for (int other : around) {
+      if (other == t) continue;
+      const TrianglePoint there = closestOnTriangle(corners(other), x_[v]);
+      if (there.dist2_m2 < foot.dist2_m2 * (1 - 1e-12)) return false;
+      if (other < t) return false;  // it answers for the feature
+    }
+    return true;
+  }
+  /// Vertex w is a local minimum of the distance to v, seen from v's triangles: v is nearest in all of them.
+  bool nearestAround(int v, int w) const {
+    const double dist2 = norm2(x_[v] - x_[w]);
+    for (int t : mesh_.vertex_faces[w])
+      if (closestOnTriangle(corners(t), x_[v]).dist2_m2 < dist2 * (1 - 1e-12)) return false;
+    return true;
+  }
+
+  /// The faces at an edge bend away from `way` (unit) at its point p.
+  bool sharp(int edge, const Vec3& p, const Vec3& way) const {
+    const auto [a, b] = mesh_.edges[edge];
+    const Vec3 along = x_[b] - x_[a];
+    const double length2 = norm2(along);
+    for (int t : mesh_.edge_faces[edge])
+      for (int c : mesh_.triangles[t]) {
+        if (c == a || c == b) continue;
+        const Vec3 r = x_[c] - p, across = r - (dot(r, along) / length2) * along;
+        if (!(dot(across, way) < -kSharp * norm(across))) return false;
+      }
+    return true;
+  }
+
+  const ContactMesh& mesh_;
+  const ClothFacts& facts_;
+  std::span<const Vec3> x_, end_;
+};
+
+}  // namespace
+
+void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const CandidatePairs& pairs,
+                   std::span<const Vec3> x0, std::span<const Vec3> x1, std::vector<ClothContactPoint>& out) {
+  out.clear();
+  const Search search(mesh, facts, x0, x1);
+  for (const PointTriangle& pair : pairs.points) search.sampleOn(pair, out);
+  for (const EdgeEdge& pair : pairs.edges) search.edgeOn(pair, out);
+  const auto key = [](const ClothContactPoint& p) {
+    return std::tuple(-p.contact.obstacle, p.contact.sample, p.contact.feature);
+  };
+  std::sort(out.begin(), out.end(),
+            [&](const ClothContactPoint& a, const ClothContactPoint& b) { return key(a) < key(b); });
+}
+
+}  // namespace gambeson

@@ -1,0 +1,43 @@
+#pragma once
+/// Persistent contact of cloth with cloth: samples on triangles from both sides, and sharp edges on edges.
+
+#include <span>
+#include <vector>
+
+#include "core/contact/pairs.hpp"
+#include "core/contact/response.hpp"
+
+namespace gambeson {
+
+/// What is constant about the cloth. Vertices of the mesh below cloth_vertices are samples of cloth.
+struct ClothFacts {
+  int cloth_vertices = 0;
+  std::vector<Vec3> rest;           ///< positions of the samples at rest
+  std::vector<int> layer;           ///< of each sample: the garment it belongs to
+  std::vector<double> thickness_m;  ///< of each sample
+};
+
+/// Where two surfaces touch, both ways of writing it: the least distance of a contact is `layer_m`.
+struct ClothContactPoint {
+  Contact contact;  ///< obstacle kSampleOnCloth or kEdgeOnEdge; the normal points to the sample, or to edge `sample`
+  Stencil stencil;
+  double layer_m = 0;  ///< half the sum of the thicknesses
+};
+
+/// Distance within which contacts between cloth of this thickness are kept, and the distance at rest within which
+/// points of one layer are neighbours.
+inline double contactReach(double layer_m) { return 1.1 * layer_m; }
+inline double neighbourDistance(double layer_m) { return 2 * layer_m; }
+
+/// Local minima of the distance between cloth and cloth at positions x0, where it is, or at the rate of the paths
+/// x0 -> x1 would become, less than 1.1 layers (Zheng 2013, section 3.2.1: the normal points from the foot to the
+/// sample, whatever the side). A sample against a triangle: feet on an edge or corner count only if no triangle there
+/// is nearer, and once for the feature. Edges against edges count only inside both and where both are sharp, that is
+/// where the faces of each bend away from the other by more than 3 degrees: flat cloth on flat cloth is carried by its
+/// samples alone, since all its edges are equally near. Neighbours along one layer are no contact: samples less than
+/// twice the layer from the foot, both at rest (a fold of the least radius, half the layer, joins points that are pi/2
+/// layers apart). Sorted by kind, then sample, then feature.
+void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const CandidatePairs& pairs,
+                   std::span<const Vec3> x0, std::span<const Vec3> x1, std::vector<ClothContactPoint>& out);
+
+}  // namespace gambeson

@@ -1,0 +1,190 @@
+#include "core/contact/contact_tree.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace gambeson {
+namespace {
+constexpr int kObstacleLeaf = 2;
+constexpr int kHullCells = 16;  ///< hulls of so few cells are looked at cell by cell
+}  // namespace
+
+ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts, std::span<const ChartCorners> corners,
+                         std::span<const TriangleRange> obstacles, std::span<const Vec3> x)
+    : charts_(std::move(charts)) {
+  boxes_.resize(mesh.triangles.size());
+  for (const ChartCorners& c : corners) {
+    const double a = c[1].x - c[0].x, b = c[1].y - c[0].y, d = c[2].x - c[0].x, e = c[2].y - c[0].y;
+    const double area2 = a * e - b * d;
+    inverse_.push_back({e / area2, -b / area2, -d / area2, a / area2});
+  }
+  for (std::size_t k = 0; k < charts_.size(); ++k) {
+    cells_.emplace_back(charts_[k].whole.size());
+    roots_.push_back(buildChart(static_cast<int>(k), {0, 0}, charts_[k].cells));
+  }
+  std::vector<Vec3> centres;
+  for (const auto& [a, b, c] : mesh.triangles) centres.push_back(x[a] + x[b] + x[c]);
+  for (const TriangleRange& range : obstacles) {
+    const int first = static_cast<int>(order_.size());
+    for (int t = range.first; t < range.end; ++t) order_.push_back(t);
+    if (range.first < range.end) roots_.push_back(buildObstacle(first, static_cast<int>(order_.size()), centres));
+  }
+}
+
+int ContactTree::buildChart(int chart, std::array<int, 2> begin, std::array<int, 2> end) {
+  const int at = static_cast<int>(nodes_.size());
+  nodes_.emplace_back();
+  const GridChart& c = charts_[chart];
+  Node node;
+  node.chart = chart;
+  std::copy_n(begin.begin(), 2, node.begin);
+  std::copy_n(end.begin(), 2, node.end);
+  const int axis = end[0] - begin[0] >= end[1] - begin[1] ? 0 : 1;
+  if (end[axis] - begin[axis] <= 1) {
+    const int cell = begin[0] + c.cells[0] * begin[1];
+    node.first = static_cast<int>(order_.size());
+    node.count = static_cast<int>(c.triangles[cell].size());
+    node.whole = c.whole[cell];
+    order_.insert(order_.end(), c.triangles[cell].begin(), c.triangles[cell].end());
+  } else {
+    const int middle = begin[axis] + (end[axis] - begin[axis]) / 2;
+    std::array<int, 2> left_end = end, right_begin = begin;
+    left_end[axis] = right_begin[axis] = middle;
+    node.left = buildChart(chart, begin, left_end);
+    node.right = buildChart(chart, right_begin, end);
+    node.whole = nodes_[node.left].whole && nodes_[node.right].whole;
+  }
+  nodes_[at] = node;
+  return at;
+}
+
+int ContactTree::buildObstacle(int first, int end, std::span<const Vec3> centres) {
+  const int at = static_cast<int>(nodes_.size());
+  nodes_.emplace_back();
+  Node node;
+  if (end - first <= kObstacleLeaf) {
+    node.first = first;
+    node.count = end - first;
+  } else {
+    Box box;
+    for (int k = first; k < end; ++k) box.add(centres[order_[k]]);
+    const Vec3 h = box.halfSize();
+    const int axis = h.x >= h.y && h.x >= h.z ? 0 : h.y >= h.z ? 1 : 2;
+    const int middle = first + (end - first) / 2;
+    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
+      return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
+    });
+    node.left = buildObstacle(first, middle, centres);
+    node.right = buildObstacle(middle, end, centres);
+  }
+  nodes_[at] = node;
+  return at;
+}
+
+ContactTree::Gradient ContactTree::gradient(const ContactMesh& mesh, int triangle, std::span<const Vec3> x) const {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const auto& [ia, ib, ic, id] = inverse_[triangle];
+  const Vec3 e = x[b] - x[a], f = x[c] - x[a];
+  return {ia * e + ib * f, ic * e + id * f};
+}
+
+namespace {
+double distance(const Vec3& s, const Vec3& t) { return std::sqrt(norm2(s) + norm2(t)); }
+}  // namespace
+
+ContactTree::Cluster ContactTree::cellCluster(std::span<const int> triangles, std::span<const double> change) const {
+  const Gradient &a = gradients_[triangles[0]], &b = gradients_[triangles[1]];
+  const double spread = 0.5 * distance(a.s - b.s, a.t - b.t);
+  return {{0.5 * (a.s + b.s), 0.5 * (a.t + b.t)},
+          spread + (change.empty() ? 0 : std::max(change[triangles[0]], change[triangles[1]]))};
+}
+
+void ContactTree::gradientChanges(const ContactMesh& mesh, std::span<const Vec3> x0, std::span<const Vec3> x1,
+                                  std::vector<double>& out) const {
+  out.resize(inverse_.size());
+  for (std::size_t t = 0; t < inverse_.size(); ++t) {
+    const Gradient a = gradient(mesh, static_cast<int>(t), x0), b = gradient(mesh, static_cast<int>(t), x1);
+    out[t] = distance(b.s - a.s, b.t - a.t);
+  }
+}
+
+bool ContactTree::gradientsHold(const ContactMesh& mesh, std::span<const Vec3> x,
+                                std::span<const double> change) const {
+  for (const Node& n : nodes_) {
+    if (n.left >= 0 || !n.whole) continue;
+    for (int k = n.first; k < n.first + n.count; ++k) {
+      const int t = order_[k];
+      const Gradient now = gradient(mesh, t, x), &then = gradients_[t];
+      if (!(norm2(now.s - then.s) + norm2(now.t - then.t) <= change[t] * change[t])) return false;
+    }
+  }
+  return true;
+}
+
+ContactTree::Cluster ContactTree::merge(const Cluster& a, const Cluster& b) {
+  Cluster out;
+  out.mean = {0.5 * (a.mean.s + b.mean.s), 0.5 * (a.mean.t + b.mean.t)};
+  out.spread = std::max(a.spread, b.spread) + 0.5 * distance(a.mean.s - b.mean.s, a.mean.t - b.mean.t);
+  return out;
+}
+
+void ContactTree::refit(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const double> slack,
+                        std::span<const double> change) {
+  gradients_.resize(inverse_.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    boxes_[t] = Box{};
+    for (int v : mesh.triangles[t]) boxes_[t].add(slack.empty() ? Box{x[v], x[v]} : Box{x[v], x[v]}.grown(slack[v]));
+    if (t < gradients_.size()) gradients_[t] = gradient(mesh, static_cast<int>(t), x);
+  }
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& n = nodes_[i];
+    n.box = Box{};
+    if (n.left >= 0) {
+      n.box = nodes_[n.left].box;
+      n.box.add(nodes_[n.right].box);
+      if (n.whole) n.cluster = merge(nodes_[n.left].cluster, nodes_[n.right].cluster);
+      continue;
+    }
+    for (int k = n.first; k < n.first + n.count; ++k) n.box.add(boxes_[order_[k]]);
+    if (!n.whole) continue;
+    n.cluster = cellCluster({order_.data() + n.first, 2}, change);
+    cells_[n.chart][n.begin[0] + charts_[n.chart].cells[0] * n.begin[1]] = n.cluster;
+  }
+}
+
+double ContactTree::certifiedBound(const Cluster& cluster) {
+  const Vec3 &s = cluster.mean.s, &t = cluster.mean.t;
+  const double ss = norm2(s), tt = norm2(t), st = dot(s, t);
+  const double half = 0.5 * (ss + tt), root = std::sqrt(0.25 * (ss - tt) * (ss - tt) + st * st);
+  const double largest = std::sqrt(half + root), least2 = std::max(0.0, half - root);
+  // A part in a thousand for the rounding of all this, far more than it is.
+  return largest > 0 ? (0.999 * least2 - largest * cluster.spread) / largest : 0;
+}
+
+double ContactTree::hullBound(const Node& a, const Node& b) const {
+  const int i0 = std::min(a.begin[0], b.begin[0]), i1 = std::max(a.end[0], b.end[0]);
+  const int j0 = std::min(a.begin[1], b.begin[1]), j1 = std::max(a.end[1], b.end[1]);
+  const long cells = static_cast<long>(i1 - i0) * (j1 - j0);
+  const auto count = [](const Node& n) { return static_cast<long>(n.end[0] - n.begin[0]) * (n.end[1] - n.begin[1]); };
+  if (a.whole && b.whole && cells == count(a) + count(b)) return certifiedBound(merge(a.cluster, b.cluster));
+  if (cells > kHullCells) return -1;
+  const GridChart& chart = charts_[a.chart];
+  const std::vector<Cluster>& clusters = cells_[a.chart];
+  Cluster hull;
+  for (int j = j0; j < j1; ++j)
+    for (int i = i0; i < i1; ++i) {
+      const int cell = i + chart.cells[0] * j;
+      if (!chart.whole[cell]) return -1;
+      hull.mean.s += (1.0 / cells) * clusters[cell].mean.s;
+      hull.mean.t += (1.0 / cells) * clusters[cell].mean.t;
+    }
+  for (int j = j0; j < j1; ++j)
+    for (int i = i0; i < i1; ++i) {
+      const Cluster& c = clusters[i + chart.cells[0] * j];
+      hull.spread = std::max(hull.spread, c.spread + distance(c.mean.s - hull.mean.s, c.mean.t - hull.mean.t));
+    }
+  return certifiedBound(hull);
+}
+
+}  // namespace gambeson

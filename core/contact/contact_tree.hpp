@@ -1,0 +1,151 @@
+#pragma once
+/// Which triangles may touch during a step: a tree of swept boxes over cloth and obstacles that leaves out what cloth
+/// provably does not do to itself (Zheng 2013, section 3.6, with certificates in place of tests of neighbours).
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/contact/box.hpp"
+#include "core/contact/contact_mesh.hpp"
+#include "core/math/vec.hpp"
+
+namespace gambeson {
+
+/// The triangles of a patch in the rectangular grid of its samples. `whole` cells consist of two triangles between the
+/// cell's four corners; others (cut by trimming) hold what lies in them and are never certified.
+struct GridChart {
+  std::array<int, 2> cells{0, 0};
+  Lists triangles;          ///< of cell i + cells[0] j
+  std::vector<char> whole;  ///< of each cell
+};
+
+/// Where the corners of a triangle lie in its chart's plane [m], counterclockwise: cells are rectangles there.
+using ChartCorners = std::array<Vec2, 3>;
+
+/// Triangles [first, end) of the mesh.
+struct TriangleRange {
+  int first = 0, end = 0;
+};
+
+/// The tree. Cloth is bisected in its grids, so that a node is a rectangle of cells; obstacles by their centres, once.
+///
+/// Certificate. Let X be reference coordinates in a convex part of a chart (a rectangle of whole cells) and F the
+/// gradient of the piecewise linear surface x(X), constant in a triangle. If all F of the part lie within R of a matrix
+/// M (3 x 2, singular values s1 >= s2) in the spectral norm, then for any two of its points, because Mᵀx is a strictly
+/// monotone map there,
+///   |x(X) - x(Y)| >= c |X - Y|,  c = (s2² - s1 R)/s1.
+/// With c > 0 the part neither touches itself nor passes through itself. Where no F moves by more than e, c falls by no
+/// more than e; on straight paths the farthest F is that of one of the ends.
+class ContactTree {
+ public:
+  ContactTree() = default;
+  /// Charts hold the mesh's first triangles with their `corners`, obstacles the others; `x` are positions of all
+  /// vertices that tell what is near what on obstacles.
+  ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts, std::span<const ChartCorners> corners,
+              std::span<const TriangleRange> obstacles, std::span<const Vec3> x);
+
+  /// Boxes and certificates of the positions x, good for as long as no vertex is further from there than its own
+  /// `slack_m` along any axis (up to a shift that all have in common) and no gradient moves by more than `change` of
+  /// its triangle of cloth. Empty spans: zero.
+  void refit(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const double> slack_m,
+             std::span<const double> change);
+
+  /// Frobenius norm of F(x1) - F(x0) of each triangle of cloth.
+  void gradientChanges(const ContactMesh& mesh, std::span<const Vec3> x0, std::span<const Vec3> x1,
+                       std::vector<double>& out) const;
+  /// No gradient at x differs by more than its `change` from the last refit, of those that certificates count on.
+  bool gradientsHold(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const double> change) const;
+
+  /// Calls visit(a, b) once for every two triangles, not both of obstacles, whose boxes are within `margin_m` along
+  /// each axis, except those of a part of cloth with c >= `least`.
+  template <class Visit>
+  void pairs(double margin_m, double least, Visit&& visit) const {
+    Traversal<Visit> t{*this, margin_m, least, visit};
+    const int charts = static_cast<int>(charts_.size()), roots = static_cast<int>(roots_.size());
+    for (int i = 0; i < charts; ++i) {
+      t.within(roots_[i]);
+      for (int j = i + 1; j < roots; ++j) t.between(roots_[i], roots_[j]);
+    }
+  }
+
+  bool empty() const { return nodes_.empty(); }
+  const Box& box(int triangle) const { return boxes_[triangle]; }
+
+ private:
+  struct Gradient {
+    Vec3 s, t;  ///< columns: dx/dX1, dx/dX2
+  };
+  /// Gradients within `spread` (Frobenius) of `mean`.
+  struct Cluster {
+    Gradient mean;
+    double spread = 0;
+  };
+  struct Node {
+    Box box;
+    Cluster cluster;
+    int chart = -1;             ///< of cloth
+    int begin[2]{}, end[2]{};   ///< cells of the rectangle
+    int left = -1, right = -1;  ///< children, after their parent; -1 in leaves
+    int first = 0, count = 0;   ///< triangles order_[first, first + count) of a leaf
+    bool whole = false;         ///< all cells are
+  };
+  template <class Visit>
+  struct Traversal {
+    const ContactTree& tree;
+    double margin, least;
+    Visit& visit;
+
+    void within(int at) {
+      const Node& n = tree.nodes_[at];
+      if (n.whole && certifiedBound(n.cluster) >= least) return;
+      if (n.left < 0) {
+        for (int i = n.first; i < n.first + n.count; ++i)
+          for (int j = i + 1; j < n.first + n.count; ++j) emit(tree.order_[i], tree.order_[j]);
+        return;
+      }
+      within(n.left);
+      within(n.right);
+      between(n.left, n.right);
+    }
+    void between(int ia, int ib) {
+      const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
+      if (!overlap(a.box.grown(margin), b.box)) return;
+      if (a.chart >= 0 && a.chart == b.chart && tree.hullBound(a, b) >= least) return;
+      if (a.left < 0 && b.left < 0) {
+        for (int i = a.first; i < a.first + a.count; ++i)
+          for (int j = b.first; j < b.first + b.count; ++j) emit(tree.order_[i], tree.order_[j]);
+        return;
+      }
+      if (b.left < 0 || (a.left >= 0 && norm2(a.box.halfSize()) >= norm2(b.box.halfSize()))) {
+        between(a.left, ib);
+        between(a.right, ib);
+      } else {
+        between(ia, b.left);
+        between(ia, b.right);
+      }
+    }
+    void emit(int a, int b) {
+      if (overlap(tree.boxes_[a].grown(margin), tree.boxes_[b])) visit(a, b);
+    }
+  };
+
+  int buildChart(int chart, std::array<int, 2> begin, std::array<int, 2> end);
+  int buildObstacle(int first, int end, std::span<const Vec3> centres);
+  Gradient gradient(const ContactMesh& mesh, int triangle, std::span<const Vec3> x) const;
+  Cluster cellCluster(std::span<const int> triangles, std::span<const double> change) const;
+  static double certifiedBound(const Cluster& cluster);
+  static Cluster merge(const Cluster& a, const Cluster& b);
+  double hullBound(const Node& a, const Node& b) const;
+
+  std::vector<GridChart> charts_;
+  std::vector<Node> nodes_;
+  std::vector<int> roots_;                      ///< of the charts, then of the obstacles
+  std::vector<int> order_;                      ///< triangles, leaf by leaf
+  std::vector<Box> boxes_;                      ///< of each triangle
+  std::vector<Gradient> gradients_;             ///< at the last refit, of each triangle of cloth
+  std::vector<std::array<double, 4>> inverse_;  ///< of the reference edges of each triangle of a whole cell
+  std::vector<std::vector<Cluster>> cells_;     ///< of each cell of each chart
+};
+
+}  // namespace gambeson

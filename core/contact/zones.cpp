@@ -1,0 +1,88 @@
+#include "core/contact/zones.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace gambeson {
+
+void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vector<ImpactZone>& zones) {
+  // Each row and each zone is a set of points; sets that share one are joined.
+  struct Set {
+    std::vector<int> points;
+    int body = -1;
+    bool pinched = false;
+  };
+  std::vector<Set> sets;
+  for (const ImpactZone& z : zones) sets.push_back({z.points, z.body, z.pinched});
+  for (const ContactRow& row : rows) {
+    Set set;
+    for (int k = 0; k < row.stencil.count; ++k) {
+      const int s = row.stencil.sample[k];
+      set.points.insert(set.points.end(), WT.columns.begin() + WT.offsets[s], WT.columns.begin() + WT.offsets[s + 1]);
+    }
+    set.body = std::max(row.contact.obstacle, -1);
+    sets.push_back(std::move(set));
+  }
+  std::vector<int> parent(sets.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto find = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::map<int, int> owner;  // of a point: a set
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    for (int p : sets[i].points) {
+      const auto [at, fresh] = owner.insert({p, static_cast<int>(i)});
+      if (fresh) continue;
+      const int a = find(at->second), b = find(static_cast<int>(i));
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::map<int, ImpactZone> joined;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    ImpactZone& z = joined[find(static_cast<int>(i))];
+    z.points.insert(z.points.end(), sets[i].points.begin(), sets[i].points.end());
+    z.pinched = z.pinched || sets[i].pinched || (sets[i].body >= 0 && z.body >= 0 && sets[i].body != z.body);
+    z.body = std::max(z.body, sets[i].body);
+  }
+  zones.clear();
+  for (auto& [root, z] : joined) {
+    std::sort(z.points.begin(), z.points.end());
+    z.points.erase(std::unique(z.points.begin(), z.points.end()), z.points.end());
+    zones.push_back(std::move(z));
+  }
+  std::sort(zones.begin(), zones.end(),
+            [](const ImpactZone& a, const ImpactZone& b) { return a.points.front() < b.points.front(); });
+}
+
+void makeRigid(const ImpactZone& zone, std::span<const Vec3> p, std::span<const double> mass,
+               std::span<Vec3> velocity) {
+  double total = 0;
+  Vec3 centre{}, momentum{};
+  for (int i : zone.points) {
+    total += mass[i];
+    centre += mass[i] * p[i];
+    momentum += mass[i] * velocity[i];
+  }
+  centre = centre / total;
+  const Vec3 mean = momentum / total;
+  Vec3 turn{};
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (int i : zone.points) {
+    const Vec3 r = p[i] - centre;
+    turn += mass[i] * cross(r, velocity[i] - mean);
+    const Eigen::Vector3d e{r.x, r.y, r.z};
+    inertia += mass[i] * (e.squaredNorm() * Eigen::Matrix3d::Identity() - e * e.transpose());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(inertia);
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d L{turn.x, turn.y, turn.z};
+  for (int k = 0; k < 3; ++k)
+    if (axes.eigenvalues()[k] > 1e-12 * axes.eigenvalues()[2])
+      spin += axes.eigenvectors().col(k).dot(L) / axes.eigenvalues()[k] * axes.eigenvectors().col(k);
+  const Vec3 omega{spin.x(), spin.y(), spin.z()};
+  for (int i : zone.points) velocity[i] = mean + cross(omega, p[i] - centre);
+}
+
+}  // namespace gambeson

@@ -1,0 +1,30 @@
+#pragma once
+/// Rigid impact zones: what contacts solved one by one cannot keep apart moves as one body.
+
+#include <span>
+#include <vector>
+
+#include "core/contact/response.hpp"
+#include "core/math/sparse.hpp"
+#include "core/math/vec.hpp"
+
+namespace gambeson {
+
+/// Free points that move together, ascending; with a body where a pair of the zone has one (`body` >= 0), with two
+/// where it is pinched between bodies.
+struct ImpactZone {
+  std::vector<int> points;
+  int body = -1;
+  bool pinched = false;
+};
+
+/// Joins the pairs of `rows` that share free points, and what `zones` joined before: zones are closed over the support
+/// of their samples, so that each sample of a pair moves rigidly (Harmon et al. 2008, for samples in place of
+/// vertices). Sorted by first point.
+void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vector<ImpactZone>& zones);
+
+/// Replaces the velocities of a zone by those of the rigid motion nearest to them in the norm of the masses, which
+/// keeps linear and angular momentum: v + omega x (p - centre). Where the points lie on a line, no rotation about it.
+void makeRigid(const ImpactZone& zone, std::span<const Vec3> p, std::span<const double> mass, std::span<Vec3> velocity);
+
+}  // namespace gambeson

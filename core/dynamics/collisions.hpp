@@ -1,0 +1,79 @@
+#pragma once
+/// Contact of the cloth's triangles with each other and with those of the obstacles: what is near at the start of a
+/// step, and what would pass through what during it.
+
+#include <span>
+#include <vector>
+
+#include "core/contact/cloth_contacts.hpp"
+#include "core/contact/contact_tree.hpp"
+#include "core/contact/pairs.hpp"
+#include "core/sheet/surface_charts.hpp"
+
+namespace gambeson {
+
+/// Constant. The mesh has the cloth's samples first, then the vertices of each obstacle that is a mesh.
+struct CollisionModel {
+  struct Body {
+    int obstacle = 0;
+    int first_vertex = 0;
+    std::vector<Vec3> local;  ///< vertices in the obstacle's frame
+  };
+  ContactMesh mesh;
+  ClothFacts cloth;
+  std::vector<Body> bodies;
+  std::vector<int> body_of_vertex;  ///< -1: cloth
+  PairCollector collector;
+  ContactTree tree;  ///< as built; a step fits a copy
+  double largest_thickness_m = 0;
+  /// Distance over distance at rest from which parts of the cloth have neither contacts nor impacts with each other.
+  double least = 1;
+  bool self = true;  ///< cloth meets cloth
+};
+
+/// `rest`: positions of the samples at rest; `layer` and `thickness_m` of each sample.
+CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> rest, std::vector<int> layer,
+                               std::vector<double> thickness_m, std::span<const Obstacle> obstacles,
+                               std::span<const Placement> placement, bool self);
+
+/// A pair that would come closer than its separation, first at `time` of the step.
+struct PairHit {
+  bool edges = false;
+  int a = 0, b = 0;  ///< vertex and triangle, or two edges
+  double time = 0;   ///< in [0, 1], a lower bound
+  ContactRow row;  ///< asks for what keeps the pair apart: normal, stencil, gap at the start, body velocity; no target
+};
+
+struct CollisionReport {
+  int candidates = 0;  ///< pairs on the list
+  int builds = 0;      ///< of lists, so far
+  int capped = 0;      ///< queries that reached their cap, so far
+  int touching = 0;    ///< pairs without a gap at the start of a step, so far: nothing tells which side is right
+};
+
+/// Scratch, with the candidates of the last search. A list serves as long as no vertex has left the neighbourhood that
+/// it was made for, which the positions of each query certify: what a query finds does not depend on the list.
+struct CollisionWork {
+  ContactTree tree;
+  CandidatePairs pairs;
+  std::vector<Vec3> x0, x1, listed_at;
+  std::vector<double> slack_m, change;  ///< what the list allows each vertex and each gradient (ContactTree::refit)
+  std::vector<Box> path, edge_path;     ///< of each vertex and edge in this query
+  std::vector<ClothContactPoint> points;
+  CollisionReport report;
+};
+
+/// Positions of the mesh's vertices at both ends of the step: cloth as given, obstacles as placed.
+void placeVertices(const CollisionModel& model, std::span<const Vec3> x0, std::span<const Vec3> x1,
+                   std::span<const Placement> start, std::span<const Placement> end, CollisionWork& work);
+
+/// Persistent contacts of cloth with cloth at work.x0 (cloth_contacts.hpp); the samples may move to x1.
+void nearCloth(const CollisionModel& model, CollisionWork& work);
+
+/// All pairs that would come closer than the smaller of 1 um and a tenth of their distance at the start, on straight
+/// paths x0 -> x1 in time dt. `exempt`: vertices of cloth that are inside of a body are not stopped by its skin. Sorted
+/// by kind, then numbers.
+void findImpacts(const CollisionModel& model, double dt_s, std::span<const char> exempt, CollisionWork& work,
+                 std::vector<PairHit>& hits);
+
+}  // namespace gambeson

@@ -1,0 +1,261 @@
+#include "core/dynamics/step_contact.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace gambeson {
+namespace {
+
+constexpr int kRounds = 8;  ///< of solves
+constexpr int kZoneRounds = 12;
+
+/// Rows of the persistent contacts with their warm tractions.
+void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
+  w.rows.clear();
+  w.warm.clear();
+  const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
+  // Bodies first, then samples on cloth, then edges; as the lists come.
+  const auto key = [](const auto& c) { return std::tuple(std::max(0, -c.obstacle), c.sample, c.obstacle, c.feature); };
+  std::size_t at = 0;
+  const auto add = [&](const ContactRow& row) {
+    w.rows.push_back(row);
+    while (at < in.warm.size() && key(in.warm[at]) < key(row.contact)) ++at;
+    w.warm.push_back(at < in.warm.size() && key(in.warm[at]) == key(row.contact) ? scale * in.warm[at].traction
+                                                                                 : Vec3{});
+  };
+  for (const Contact& c : w.near) {
+    const Vec3 body = (w.end[c.obstacle] * c.local - w.start[c.obstacle] * c.local) / dt;
+    add(bodyRow(c, body, persistentTarget(c.gap_m, dt, m.contact), false));
+  }
+  for (const ClothContactPoint& p : w.collisions.points) {
+    ContactParameters parameters = m.contact;
+    parameters.layer_m = p.layer_m;
+    ContactRow row;
+    row.contact = p.contact;
+    row.stencil = p.stencil;
+    row.target_m_per_s = persistentTarget(p.contact.gap_m, dt, parameters);
+    add(row);
+  }
+}
+
+/// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for a little more each round: bodies are curved, and
+/// pairs turn.
+void setImpactTarget(const Model& m, double dt, int round, ContactRow& row) {
+  const double layer = m.contact.layer_m, gap = row.contact.gap_m;
+  const double keep = std::min(-std::expm1(-dt / m.contact.relaxation_s) * layer, std::max(gap, 0.0));
+  row.target_m_per_s = (keep - gap + 0.05 * (round - 1) * layer) / dt;
+}
+
+/// A sample's hit at an obstacle; replaces the row of the same pair.
+void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWork& w) {
+  const Vec3 body = (w.end[hit.obstacle] * hit.local - w.start[hit.obstacle] * hit.local) / dt;
+  ContactRow row = bodyRow(hit, body, 0, true);
+  setImpactTarget(m, dt, round, row);
+  for (ContactRow& old : w.rows)
+    if (old.stencil.count == 1 && old.contact.sample == hit.sample && old.contact.obstacle == hit.obstacle &&
+        old.pair[0] < 0 && (old.impact || round > 2)) {
+      old = row;
+      return;
+    }
+  w.rows.push_back(row);
+  w.warm.push_back({});
+}
+
+void addImpact(const Model& m, const PairHit& hit, double dt, int round, StepWork& w) {
+  ContactRow row = hit.row;
+  setImpactTarget(m, dt, round, row);
+  for (ContactRow& old : w.rows)
+    if (old.pair == row.pair) {
+      old = row;
+      return;
+    }
+  w.rows.push_back(row);
+  w.warm.push_back({});
+}
+
+/// Velocities of the half step after contacts and strain limits, in turn until both hold; w.rows stay what they are.
+void solveVelocities(const Model& m, const State& in, double dt, bool first, StepReport& report, StopWatch& clock,
+                     StepWork& w) {
+  const auto contacts = [&] {
+    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2,
+                                   m.contact, dt, w.velocity, w.warm, w.impulses, w.contact);
+    clock.lap(w.times.contact);
+  };
+  const StrainLimit& limit = m.strain_limit;
+  if (limit.mode == LimitMode::none) {
+    w.velocity = w.predictor;
+    contacts();
+    return;
+  }
+  const int n = m.freeCount();
+  std::vector<Vec3>& end = w.limit_end;
+  end.resize(n);
+  const auto limited = [&](int i) { return w.predictor[i] - (m.inverse_mass[i] / dt) * w.limit.pull[i]; };
+  w.velocity.resize(n);
+  for (int turn = 1;; ++turn) {
+    for (int i = 0; i < n; ++i) end[i] = in.p[i] + dt * (limited(i) + w.limit.contact_change[i]);
+    projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit);
+    ++report.limit.rounds;
+    clock.lap(w.times.limit);
+    for (int i = 0; i < n; ++i) w.velocity[i] = limited(i);
+    contacts();
+    if (w.rows.empty()) return;
+    for (int i = 0; i < n; ++i) {
+      w.limit.contact_change[i] = w.velocity[i] - limited(i);
+      end[i] = in.p[i] + dt * w.velocity[i];
+    }
+    report.limit.residual = limitResidual(m.strain_rows, limit, end, w.limit);
+    report.limit.converged = report.limit.residual <= limit.tolerance;
+    clock.lap(w.times.limit);
+    // A residual that is not finite shows in the velocities.
+    if (report.limit.converged || turn == limit.max_rounds || !std::isfinite(report.limit.residual)) return;
+  }
+}
+
+/// What would pass through what with w.velocity: w.hits and w.pair_hits.
+bool anyImpact(const Model& m, double dt, StepWork& w) {
+  w.x1.resize(m.surface.size());
+  m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
+  for (int s = 0; s < m.surface.size(); ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
+  m.proximity->impacts(w.start, w.end, w.x0, w.x1, w.hits);
+  placeVertices(m.collisions, w.x0, w.x1, w.start, w.end, w.collisions);
+  findImpacts(m.collisions, dt, w.inside, w.collisions, w.pair_hits);
+  return !w.hits.empty() || !w.pair_hits.empty();
+}
+
+/// Moves what still meets in rigid zones, which grow until nothing does. A zone at a body moves with it, a zone with a
+/// held point stays. False where it is no use: pinched between bodies, or never done.
+bool moveZones(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
+  std::vector<ImpactZone> zones;
+  std::vector<ContactRow> rows;
+  w.zone_change.assign(m.freeCount(), Vec3{});
+  const std::vector<Vec3> solved = w.velocity;
+  for (int round = 0; round < kZoneRounds; ++round) {
+    rows.clear();
+    for (const Contact& hit : w.hits) rows.push_back(bodyRow(hit, {}, 0, true));
+    for (const PairHit& hit : w.pair_hits) rows.push_back(hit.row);
+    joinZones(rows, m.surface.WT, zones);
+    w.velocity = solved;
+    for (const ImpactZone& zone : zones) {
+      if (zone.pinched) return false;
+      const bool held = std::any_of(zone.points.begin(), zone.points.end(), [&](int i) { return m.held[i]; });
+      if (zone.body >= 0) {
+        if (held) return false;
+        for (int i : zone.points)
+          w.velocity[i] = (w.end[zone.body] * toLocal(w.start[zone.body], in.p[i]) - in.p[i]) / dt;
+      } else if (held) {
+        for (int i : zone.points) w.velocity[i] = {};
+      } else {
+        makeRigid(zone, in.p, m.mass_kg, w.velocity);
+      }
+    }
+    report.zones = static_cast<int>(zones.size());
+    if (!allFinite(w.velocity) || !anyImpact(m, dt, w)) {
+      w.zones = std::move(zones);
+      for (int i = 0; i < m.freeCount(); ++i) w.zone_change[i] = w.velocity[i] - solved[i];
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool resolveContacts(const Model& m, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w) {
+  const int samples = m.surface.size();
+  w.zones.clear();
+  w.sample_velocity.resize(samples);
+  m.surface.WT.multiply<Vec3>(w.predictor, w.sample_velocity);
+  w.reach.resize(samples);
+  w.x1.resize(samples);
+  for (int s = 0; s < samples; ++s) {
+    w.reach[s] = 1.1 * m.contact.layer_m + dt * norm(w.sample_velocity[s]);
+    w.x1[s] = w.x0[s] + dt * w.sample_velocity[s];
+  }
+  m.proximity->near(w.start, w.end, w.x0, w.reach, w.near);
+  w.inside.assign(samples, 0);
+  for (const Contact& c : w.near) {
+    report.deepest_m = std::max(report.deepest_m, -c.gap_m);
+    if (!(c.gap_m > 0)) w.inside[c.sample] = 1;
+  }
+  placeVertices(m.collisions, w.x0, w.x1, w.start, w.end, w.collisions);
+  nearCloth(m.collisions, w.collisions);
+  persistentRows(m, in, dt, w);
+  report.contacts = static_cast<int>(w.rows.size());
+  report.cloth_contacts = static_cast<int>(w.collisions.points.size());
+  clock.lap(w.times.proximity);
+  startProjection(m.strain_rows, in.limit_J, w.limit);
+  for (int round = 1;; ++round) {
+    solveVelocities(m, in, dt, round == 1, report, clock, w);
+    if (!allFinite(w.velocity)) {
+      report.failure = StepFailure::not_finite;
+      report.why = "a velocity is not finite after the contacts";
+      return false;
+    }
+    const bool any = anyImpact(m, dt, w);
+    clock.lap(w.times.impact);
+    report.impact_rounds = round - 1;
+    if (!any) return true;
+    if (round == 1) report.impacts = static_cast<int>(w.hits.size() + w.pair_hits.size());
+    if (round > kRounds) break;
+    for (const Contact& hit : w.hits) addImpact(m, hit, dt, round, w);
+    for (const PairHit& hit : w.pair_hits) addImpact(m, hit, dt, round, w);
+  }
+  const bool done = moveZones(m, in, dt, report, w);
+  clock.lap(w.times.impact);
+  if (done && allFinite(w.velocity)) return true;
+  report.failure = StepFailure::impact;
+  for (const PairHit& hit : w.pair_hits) report.earliest_impact = std::min(report.earliest_impact, hit.time);
+  report.why = std::to_string(w.hits.size() + w.pair_hits.size()) + " pairs would still pass through each other" +
+               (w.hits.empty() ? "" : ", of the cloth into " + m.obstacles[w.hits[0].obstacle].segment);
+  return false;
+}
+
+void contactLedger(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
+  w.contact_impulses.clear();
+  const SparseRows& WT = m.surface.WT;
+  for (std::size_t i = 0; i < w.rows.size(); ++i) {
+    const ContactRow& row = w.rows[i];
+    const Vec3& impulse = w.impulses[i];
+    if (impulse == Vec3{}) continue;
+    const Contact& c = row.contact;
+    const bool body = c.obstacle >= 0;
+    Vec3 mean{};
+    for (int j = 0; j < row.stencil.count; ++j) {
+      const int s = row.stencil.sample[j];
+      const Vec3 share = row.stencil.weight[j] * impulse;
+      if (body)
+        w.contact_impulses.push_back({s, c.obstacle, c.feature, share, c.normal, w.start[c.obstacle] * c.local});
+      if (body) report.momentum.obstacles -= share;
+      for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
+        if (m.held[WT.columns[k]]) report.momentum.supports -= WT.values[k] * share;
+      mean += (0.5 * row.stencil.weight[j]) *
+              (sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, in.a));
+    }
+    report.momentum.scale += norm(impulse);
+    const double normal = dot(impulse, c.normal);
+    report.work.contact += dot(impulse, mean);
+    report.work.friction += dot(impulse - normal * c.normal, mean);
+    if (c.gap_m < m.contact.layer_m && row.target_m_per_s > 0) report.work.separation += normal * row.target_m_per_s;
+  }
+  // What zones take from the cloth goes to what they move with.
+  for (const ImpactZone& zone : w.zones)
+    for (int i : zone.points) {
+      if (m.held[i]) continue;
+      const Vec3 impulse = m.mass_kg[i] * w.zone_change[i];
+      report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.zone_change[i]);
+      report.momentum.scale += norm(impulse);
+      if (zone.body >= 0) {
+        const Vec3 point = in.p[i];
+        const int sample = m.surface.WTt.columns[m.surface.WTt.offsets[i]];
+        const double size = norm(impulse);
+        if (size == 0) continue;
+        w.contact_impulses.push_back({sample, zone.body, 0, impulse, impulse / size, point});
+        report.momentum.obstacles -= impulse;
+      } else if (std::any_of(zone.points.begin(), zone.points.end(), [&](int k) { return m.held[k]; })) {
+        report.momentum.supports += impulse;
+      }
+    }
+}
+
+}  // namespace gambeson

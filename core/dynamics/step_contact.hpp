@@ -1,0 +1,47 @@
+#pragma once
+/// The contact part of a step: from the predicted velocities to those with which nothing passes through anything.
+/// Internal to core/dynamics.
+
+#include <chrono>
+#include <cmath>
+#include <span>
+
+#include "core/dynamics/model.hpp"
+
+namespace gambeson {
+
+/// Adds the time since the last lap to a phase.
+class StopWatch {
+ public:
+  void lap(double& phase) {
+    const auto now = std::chrono::steady_clock::now();
+    phase += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+inline Vec3 sampleAt(const SparseRows& WT, int sample, std::span<const Vec3> values) {
+  Vec3 s{};
+  for (int k = WT.offsets[sample]; k < WT.offsets[sample + 1]; ++k) s += WT.values[k] * values[WT.columns[k]];
+  return s;
+}
+
+inline bool allFinite(std::span<const Vec3> values) {
+  double zero = 0;
+  for (const Vec3& v : values) zero += 0 * (v.x + v.y + v.z);  // NaN from the first infinity or NaN on
+  return zero == 0;
+}
+
+/// Reads w.predictor, w.x0, w.start, w.end; leaves w.velocity, w.rows with w.impulses and w.warm, and w.zone_impulses.
+/// In turn: contacts and impacts found so far solved together; paths tested; what would still pass joins them. After
+/// some rounds what is left moves in rigid zones. False where that does not do either: report.earliest_impact is the
+/// part of the step up to which nothing touches.
+bool resolveContacts(const Model& model, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w);
+
+/// Contact's part of the audit, and the impulses on bodies.
+void contactLedger(const Model& model, const State& in, double dt, StepReport& report, StepWork& w);
+
+}  // namespace gambeson

@@ -1,0 +1,169 @@
+#include "core/contact/contact_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "core/contact/certified_impact.hpp"
+#include "core/contact/pairs.hpp"
+#include "core/contact/triangle.hpp"
+#include "core/sheet/constraint.hpp"
+#include "core/sheet/surface_charts.hpp"
+#include "sheet_shapes.hpp"
+
+namespace gambeson {
+namespace {
+
+/// A sheet of 0.4 m x 0.3 m, 20 x 16 samples' cells, and a body of four triangles.
+class TreeTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    Garment g;
+    std::vector<double> u, v;
+    for (int i = 0; i <= 10; ++i) u.push_back(0.1 * i);
+    for (int i = 0; i <= 8; ++i) v.push_back(0.125 * i);
+    g.patches = {shapes::flatPatch(shapes::knotsAt(2, u), shapes::knotsAt(2, v), 0.4, 0.3)};
+    g.weft = {{1, 0, 0}};
+    const FreeMap map = buildFreeMap(g);
+    surface = buildSurface(g, map, 2);
+    rest.resize(surface.size());
+    surface.W.multiply<Vec3>(g.patches[0].points, rest);
+    cloth = surface.size();
+    std::vector<std::array<int, 3>> triangles = surface.triangles;
+    cloth_triangles = static_cast<int>(triangles.size());
+    for (const Vec3& p : {Vec3{0.1, 0.1, -0.05}, Vec3{0.3, 0.1, -0.05}, Vec3{0.2, 0.25, -0.05}, Vec3{0.2, 0.15, 0.02}})
+      rest.push_back(p);
+    for (const std::array<int, 3>& t :
+         {std::array{0, 1, 2}, std::array{0, 1, 3}, std::array{1, 2, 3}, std::array{2, 0, 3}})
+      triangles.push_back({cloth + t[0], cloth + t[1], cloth + t[2]});
+    mesh = contactMesh(static_cast<int>(rest.size()), triangles);
+    const SurfaceCharts charts = surfaceCharts(surface, rest);
+    const TriangleRange body{cloth_triangles, static_cast<int>(triangles.size())};
+    tree = ContactTree(mesh, charts.charts, charts.corners, {&body, 1}, rest);
+    collector = PairCollector(mesh);
+  }
+
+  CandidatePairs pairs(std::span<const Vec3> x, double margin, double least, std::span<const double> slack = {},
+                       std::span<const double> change = {}) {
+    CandidatePairs out;
+    tree.refit(mesh, x, slack, change);
+    collector.collect(mesh, tree, x, slack, margin, least, out);
+    std::ranges::sort(out.points);
+    std::ranges::sort(out.edges);
+    return out;
+  }
+  bool isCloth(const PointTriangle& p) const { return p.vertex < cloth && p.triangle < cloth_triangles; }
+
+  Surface surface;
+  ContactMesh mesh;
+  ContactTree tree;
+  PairCollector collector;
+  std::vector<Vec3> rest;
+  int cloth = 0, cloth_triangles = 0;
+};
+
+/// The cloth rolled about the y axis with `turns` turns, radius growing, so that turns lie `gap` apart.
+Vec3 rolled(const Vec3& X, double radius, double gap) {
+  const double angle = X.x / radius;
+  const double r = radius + gap * angle / (2 * M_PI);
+  return {r * std::sin(angle), X.y, r * (1 - std::cos(angle))};
+}
+
+TEST_F(TreeTest, FlatAndGentlyBentClothIsCertifiedWithoutAPair) {
+  std::vector<Vec3> x = rest;
+  EXPECT_TRUE(std::ranges::none_of(pairs(x, 1e-3, 0.5).points, [&](auto& p) { return isCloth(p); }));
+  for (int i = 0; i < cloth; ++i) x[i] = rolled(rest[i], 0.5, 0);  // 46 degrees in all
+  const CandidatePairs bent = pairs(x, 1e-3, 0.5);
+  EXPECT_TRUE(std::ranges::none_of(bent.points, [&](auto& p) { return isCloth(p); }));
+  // The body pierces the sheet: those pairs are there.
+  EXPECT_FALSE(bent.points.empty());
+  EXPECT_FALSE(bent.edges.empty());
+}
+
+TEST_F(TreeTest, PairsOfCoilsAreFoundAndOnlyThose) {
+  std::vector<Vec3> x = rest;
+  const double radius = 0.03, gap = 0.002, reach = 0.003;
+  for (int i = 0; i < cloth; ++i) x[i] = rolled(rest[i], radius, gap);
+  const CandidatePairs found = pairs(x, reach, 0.3);
+  int near = 0;
+  for (int v = 0; v < cloth; ++v)
+    for (int t = 0; t < cloth_triangles; ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      if (v == a || v == b || v == c) continue;
+      const TrianglePoint foot = closestOnTriangle({x[a], x[b], x[c]}, x[v]);
+      if (foot.dist2_m2 > reach * reach) continue;
+      // Neighbours along the cloth are left out where the certificate says so.
+      if (closestOnTriangle({rest[a], rest[b], rest[c]}, rest[v]).dist2_m2 < 0.03 * 0.03) continue;
+      ++near;
+      EXPECT_TRUE(std::ranges::binary_search(found.points, PointTriangle{v, t})) << v << " " << t;
+    }
+  EXPECT_GT(near, 400);
+  EXPECT_LT(found.points.size(), 20u * near);
+}
+
+/// Whatever the cloth does, no passage of a point through a triangle is left out.
+TEST_F(TreeTest, NoPassageIsLostInCrumplingCloth) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise;
+  int hits = 0, listed = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    std::vector<Vec3> x0 = rest, x1 = rest;
+    const double size = 0.002 * (1 + trial % 4), jump = 0.004 * (1 + trial / 4);
+    for (int i = 0; i < cloth; ++i) {
+      x0[i] = rolled(rest[i], 0.04, 0.004) + size * Vec3{noise(random), noise(random), noise(random)};
+      x1[i] = x0[i] + jump * Vec3{noise(random), noise(random), noise(random)};
+    }
+    std::vector<double> slack(rest.size(), 0), change;
+    for (int i = 0; i < cloth; ++i) {
+      const Vec3 d = x1[i] - x0[i];
+      slack[i] = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    }
+    tree.gradientChanges(mesh, x0, x1, change);
+    const CandidatePairs found = pairs(x0, 0, 0, slack, change);
+    EXPECT_TRUE(tree.gradientsHold(mesh, x1, change));
+    for (double& c : change) c *= 0.9;
+    EXPECT_FALSE(tree.gradientsHold(mesh, x1, change));
+    listed += static_cast<int>(found.points.size());
+    for (int v = 0; v < cloth; ++v)
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        if (v == a || v == b || v == c) continue;
+        Box path, swept;
+        path.add(x0[v]), path.add(x1[v]);
+        for (int k : {a, b, c}) swept.add(x0[k]), swept.add(x1[k]);
+        if (!overlap(path, swept)) continue;
+        if (!pointTriangleImpact({x0[v], x0[a], x0[b], x0[c]}, {x1[v], x1[a], x1[b], x1[c]}, 0)) continue;
+        ++hits;
+        EXPECT_TRUE(std::ranges::binary_search(found.points, PointTriangle{v, static_cast<int>(t)})) << v << " " << t;
+      }
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_GT(listed, hits);
+}
+
+TEST_F(TreeTest, EveryPairComesOnceAndSharesNoVertex) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise;
+  std::vector<Vec3> x = rest;
+  for (Vec3& p : x) p += 0.03 * Vec3{noise(random), noise(random), noise(random)};
+  const CandidatePairs found = pairs(x, 0, 0);
+  EXPECT_EQ(std::ranges::adjacent_find(found.points), found.points.end());
+  EXPECT_EQ(std::ranges::adjacent_find(found.edges), found.edges.end());
+  // All edges whose boxes overlap, by brute force: nothing is certified in such a heap.
+  std::size_t edges = 0;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    for (std::size_t f = e + 1; f < mesh.edges.size(); ++f) {
+      const auto [v, w] = mesh.edges[e];
+      const auto [y, z] = mesh.edges[f];
+      if (v == y || v == z || w == y || w == z || v >= cloth) continue;
+      Box a, b;
+      a.add(x[v]), a.add(x[w]), b.add(x[y]), b.add(x[z]);
+      edges += overlap(a, b);
+    }
+  EXPECT_GE(found.edges.size(), edges * 98 / 100);
+  EXPECT_LE(found.edges.size(), edges);
+}
+
+}  // namespace
+}  // namespace gambeson
