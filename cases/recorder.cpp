@@ -135,6 +135,8 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
   c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s, f.largest_rad_per_s, f.membrane_share,
                         f.bending_share,       f.seam_share,  f.spring_share};
   c.integers["steps_to_estimate"] = {s.steps_to_estimate};
+  c.integers["tangled"] = {s.tangled};
+  c.integers["pinched"].assign(s.pinched.begin(), s.pinched.end());
   std::vector<Vec3> traction;
   auto& ids = c.integers["warm"];
   for (const WarmContact& w : s.warm) {
@@ -161,6 +163,8 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   s.last_step_s = control[1];
   f = {control[2], control[3], control[4], control[5], control[6]};
   s.steps_to_estimate = static_cast<int>(c.integers.at("steps_to_estimate")[0]);
+  s.tangled = c.integers.at("tangled")[0] != 0;
+  for (const auto sample : c.integers.at("pinched")) s.pinched.push_back(static_cast<int>(sample));
   const auto& ids = c.integers.at("warm");
   const std::vector<Vec3> traction = vectors(c.reals.at("warm"));
   for (std::size_t i = 0; i < traction.size(); ++i)

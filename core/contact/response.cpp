@@ -59,7 +59,7 @@ void shareAreas(std::span<const ContactRow> rows, std::span<const double> area, 
   std::vector<int> on_body(w.samples.size(), 0), on_cloth(w.samples.size(), 0);
   const auto owner = [&](int i) { return w.sample_slot[rows[i].contact.sample]; };
   for (int i = 0; i < n; ++i) {
-    if (rows[i].contact.obstacle == kEdgeOnEdge) continue;
+    if (rows[i].contact.obstacle == kEdgeOnEdge || rows[i].contact.obstacle == kRestoring) continue;
     ++(rows[i].contact.obstacle < 0 ? on_cloth : on_body)[owner(i)];
   }
   w.share.resize(n);
@@ -73,7 +73,8 @@ void shareAreas(std::span<const ContactRow> rows, std::span<const double> area, 
         mobility += w.rows.values[e] * w.rows.values[e] * inverse_mass[w.free_points[w.rows.columns[e]]];
     }
     double a = 0;
-    if (rows[i].contact.obstacle == kEdgeOnEdge || (rows[i].contact.obstacle >= 0 && stencil.count > 1)) {
+    if (rows[i].contact.obstacle == kEdgeOnEdge || rows[i].contact.obstacle == kRestoring ||
+        (rows[i].contact.obstacle >= 0 && stencil.count > 1)) {
       for (int k = 0; k < stencil.count; ++k) a += 0.125 * std::abs(stencil.weight[k]) * area[stencil.sample[k]];
     } else if (rows[i].contact.obstacle == kSampleOnCloth) {
       a = 0.5 * area[rows[i].contact.sample] / on_cloth[owner(i)];
@@ -202,7 +203,7 @@ inline void relative(const ContactWork& w, int row, V4& v) {
 /// One projected step of the rows from `point` to `candidate`. Sets the largest squared residual of the range and the
 /// product that tells whether the last step went against the gradient. `exact` takes the step rho everywhere and leaves
 /// `candidate` alone: the residual as it is defined.
-GAMBESON_WIDE void projectRows(ContactWork& w, double mu, bool exact, int begin, int end, double& largest2_out,
+GAMBESON_WIDE void projectRows(ContactWork& w, bool exact, int begin, int end, double& largest2_out,
                                double& against_out) {
   double largest2 = 0, against = 0;
   for (int k = begin; k < end; ++k) {
@@ -218,7 +219,7 @@ GAMBESON_WIDE void projectRows(ContactWork& w, double mu, bool exact, int begin,
                                                                 : facts.largest;
     const double step = 1 / inverse;
     const Vec3 from{at[0], at[1], at[2]};
-    const Vec3 next = project(from - step * (Vec3{v[0], v[1], v[2]} - facts.drift), facts.normal, mu);
+    const Vec3 next = project(from - step * (Vec3{v[0], v[1], v[2]} - facts.drift), facts.normal, facts.friction);
     const Vec3 way = next - from;
     largest2 = std::max(largest2, norm2(way) * (inverse * inverse));
     if (exact) continue;
@@ -282,7 +283,7 @@ ContactSolve iterate(ContactWork& w, const ContactParameters& c, double dt) {
       for (int s = 0; s < sample_count; s += kChunk) moveSamples(w, s, std::min(sample_count, s + kChunk));
 #pragma omp for schedule(static)
       for (int chunk = 0; chunk < chunks; ++chunk)
-        projectRows(w, c.friction, false, chunk * kChunk, last(chunk), w.largest2[chunk], w.against[chunk]);
+        projectRows(w, false, chunk * kChunk, last(chunk), w.largest2[chunk], w.against[chunk]);
       residual = largest();
       double against = 0;
       for (double a : w.against) against += a;
@@ -292,7 +293,7 @@ ContactSolve iterate(ContactWork& w, const ContactParameters& c, double dt) {
 #pragma omp for schedule(static)
         for (int chunk = 0; chunk < chunks; ++chunk) {
           double unused;
-          projectRows(w, c.friction, true, chunk * kChunk, last(chunk), w.largest2[chunk], unused);
+          projectRows(w, true, chunk * kChunk, last(chunk), w.largest2[chunk], unused);
         }
         residual = largest();
         done = residual <= goal;
@@ -359,11 +360,13 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   for (int k = 0; k < n; ++k) {
     const ContactRow& row = rows[w.order[k]];
     Vec3& t = w.traction[k];
-    t = w.share[k] > 0 ? project(t, row.contact.normal, c.friction) : Vec3{};
+    const double friction = row.slippery ? 0 : c.friction;
+    t = w.share[k] > 0 ? project(t, row.contact.normal, friction) : Vec3{};
     double slope = 0;
     for (int j = 0; j < row.stencil.count; ++j)
       slope += std::abs(row.stencil.weight[j]) / density[row.stencil.sample[j]];
-    w.facts[k] = {row.contact.normal, row.body_velocity + row.target_m_per_s * row.contact.normal, slope, slope};
+    w.facts[k] = {row.contact.normal, row.body_velocity + row.target_m_per_s * row.contact.normal, friction, slope,
+                  slope};
   }
   for (int f = 0; f < free_count; ++f) {
     const Vec3& v = velocity[w.free_points[f]];

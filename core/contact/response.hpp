@@ -23,8 +23,8 @@ struct ContactParameters {
 /// sample and a triangle, two edges; weights of one side are positive, of the other negative.
 struct Stencil {
   int count = 0;
-  std::array<int, 4> sample{};
-  std::array<double, 4> weight{};
+  std::array<int, 5> sample{};
+  std::array<double, 5> weight{};
 
   void add(int s, double w) {
     sample[count] = s;
@@ -33,8 +33,8 @@ struct Stencil {
 };
 
 /// In place of an obstacle's number: contacts of cloth with cloth. Contact::sample and feature then name a sample and
-/// the feature of the cloth's mesh that it touches, or two edges.
-enum ClothContact { kSampleOnCloth = -1, kEdgeOnEdge = -2 };
+/// the feature of the cloth's mesh that it touches, or two edges, or an edge and the triangle that it passes through.
+enum ClothContact { kSampleOnCloth = -1, kEdgeOnEdge = -2, kRestoring = -3 };
 
 /// A contact with what the solve needs to know of it. Its relative velocity is sum w v(sample) - body_velocity, its
 /// impulse lambda acts on each sample as w lambda.
@@ -44,6 +44,7 @@ struct ContactRow {
   Vec3 body_velocity;                   ///< of the touched material point, mean over the step [m/s]
   double target_m_per_s = 0;            ///< least normal velocity relative to the body that the step must end with
   bool impact = false;                  ///< found by trajectory (section 3.3), not by distance (section 3.2)
+  bool slippery = false;                ///< without friction
   std::array<int, 3> pair{-1, -1, -1};  ///< of an impact of triangles: 0 or 1 for edges, and the two primitives
 };
 
@@ -79,6 +80,7 @@ struct ContactWork {
   };
   struct Row {
     Vec3 normal, drift;  ///< v_n - target = (v - drift) . normal
+    double friction = 0;
     double slope = 0;    ///< 1/rho, or for cloth on cloth the sum of both: the residual's measure
     double largest = 0;  ///< the bound if all rows carried something, at least the slope
   };

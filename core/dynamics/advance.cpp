@@ -8,6 +8,8 @@
 namespace gambeson {
 namespace {
 constexpr int kColdIterations = 40, kWarmIterations = 8;
+constexpr double kPinched = 64;  ///< part of a step below which samples count as pinched
+constexpr int kMostCuts = 200;
 
 /// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
 /// estimate, the estimate is out of date.
@@ -38,13 +40,21 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     const double pieces = std::ceil(left / longest * (1 - 1e-12));
     double dt = pieces <= 1 ? left : left / pieces;
     StepReport report;
-    for (int halvings = 0;; ++halvings) {
+    const double whole = dt, shortest = dt / (1 << control.max_halvings);
+    for (int cuts = 0;; ++cuts) {
       report = step(model, stage, state, dt, next, work);
+      report.cuts = cuts;
       if (report.failure == StepFailure::none) break;
-      if (halvings == control.max_halvings)
+      const bool impact = report.failure == StepFailure::impact && report.earliest_impact < 1;
+      if (impact && dt <= whole / kPinched && state.pinched != work.stuck) {
+        state.pinched = work.stuck;  // no step is short enough: let them pass, and free them afterwards
+        dt = whole;
+        continue;
+      }
+      if (dt <= shortest || cuts == kMostCuts)
         throw RunError("no step at time " + std::to_string(state.time_s) + " s, down to " + std::to_string(dt * 1e6) +
                        " us: " + report.why);
-      dt *= 0.5;
+      dt *= impact ? std::clamp(0.9 * report.earliest_impact, 0.1, 0.9) : 0.5;
     }
     if (pieces <= 1 && dt == left) next.time_s = until;
     --next.steps_to_estimate;

@@ -16,8 +16,9 @@ constexpr double kSeparation_m = 1e-6;
 
 double reachOf(const CollisionModel& m) { return std::max(contactReach(m.largest_thickness_m), 2 * kSeparation_m); }
 
-/// What a list allows for: so many steps like the one that it was made for, and not less than this.
-constexpr double kSteps = 5, kLeastSlack_m = 1e-4, kLeastChange = 0.03;
+/// What a list allows for: so many steps like the one that it was made for, and not less than this; cloth trembles, so
+/// each vertex is given the mean way of all as well.
+constexpr double kSteps = 6, kLeastSlack_m = 1e-4, kLeastChange = 0.05;
 
 /// Mean way of the cloth from where it was listed.
 Vec3 shift(const CollisionModel& m, const CollisionWork& w, std::span<const Vec3> x) {
@@ -45,8 +46,12 @@ void listPairs(const CollisionModel& m, CollisionWork& w) {
   w.listed_at = w.x0;
   const Vec3 shift1 = shift(m, w, w.x1);
   w.slack_m.resize(w.x0.size());
-  for (std::size_t i = 0; i < w.x0.size(); ++i)
-    w.slack_m[i] = std::max(kSteps * largest(w.x1[i] - w.x0[i] - shift1), kLeastSlack_m);
+  double mean = 0;
+  for (std::size_t i = 0; i < w.x0.size(); ++i) {
+    w.slack_m[i] = kSteps * largest(w.x1[i] - w.x0[i] - shift1);
+    mean += w.slack_m[i] / static_cast<double>(w.x0.size());
+  }
+  for (double& slack : w.slack_m) slack = std::max(slack, mean) + kLeastSlack_m;
   w.tree.gradientChanges(m.mesh, w.x0, w.x1, w.change);
   for (double& c : w.change) c = std::max(kSteps * c, kLeastChange);
   w.tree.refit(m.mesh, w.listed_at, w.slack_m, w.change);
@@ -155,9 +160,48 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
       apart = std::min(apart, a * b / std::hypot(a, b));
     }
   m.least = contactReach(m.largest_thickness_m) / std::max(apart, neighbourDistance(m.largest_thickness_m));
+  for (int body : m.body_of_vertex) m.is_body.push_back(body >= 0);
+  const bool layered =
+      std::any_of(m.cloth.layer.begin(), m.cloth.layer.end(), [&](int l) { return l != m.cloth.layer[0]; });
+  if (layered || !m.bodies.empty()) {
+    m.layer_of_vertex = m.cloth.layer;
+    m.layer_of_vertex.resize(x.size(), -1);
+  }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
   m.collector = PairCollector(m.mesh);
   return m;
+}
+
+int findTangles(const CollisionModel& m, bool search, double dt, CollisionWork& w, std::vector<ContactRow>& restoring) {
+  restoring.clear();
+  w.tangle.assign(m.mesh.vertex_count, Tangle::kFree);
+  if (!search || (!m.self && m.bodies.empty())) return 0;
+  const std::vector<Untangling> found = untangle(m.mesh, w.x0, m.layer_of_vertex, m.is_body, m.untangling);
+  w.tangle = tangledVertices(m.mesh, found);
+  for (const Untangling& u : found)
+    for (const RestoringRow& r : restoringRows(m.mesh, u)) {
+      ContactRow row;
+      row.contact.obstacle = kRestoring;
+      row.contact.sample = -1;
+      row.contact.normal = r.direction;
+      row.target_m_per_s = r.speed_mps;
+      row.impact = true;
+      row.slippery = true;
+      for (int k = 0; k < 5; ++k) {
+        const int v = r.vertex[k], body = m.body_of_vertex[v];
+        if (body < 0) {
+          if (r.weight[k] != 0) row.stencil.add(v, r.weight[k]);
+          continue;
+        }
+        row.contact.obstacle = m.bodies[body].obstacle;
+        row.body_velocity -= (r.weight[k] / dt) * (w.x1[v] - w.x0[v]);
+        row.contact.local += std::abs(r.weight[k]) * m.bodies[body].local[v - m.bodies[body].first_vertex];
+      }
+      if (row.stencil.count == 0) continue;
+      row.contact.sample = row.stencil.sample[0];
+      restoring.push_back(row);
+    }
+  return static_cast<int>(found.size());
 }
 
 void placeVertices(const CollisionModel& m, std::span<const Vec3> x0, std::span<const Vec3> x1,
@@ -178,7 +222,13 @@ void nearCloth(const CollisionModel& m, CollisionWork& w) {
   if (w.tree.empty()) w.tree = m.tree;
   if (!m.self && m.bodies.empty()) return;
   listPairs(m, w);
-  if (m.self) clothContacts(m.mesh, m.cloth, w.pairs, w.x0, w.x1, w.points);
+  if (!m.self) return;
+  clothContacts(m.mesh, m.cloth, w.pairs, w.x0, w.x1, w.points);
+  std::erase_if(w.points, [&](const ClothContactPoint& p) {
+    for (int k = 0; k < p.stencil.count; ++k)
+      if (w.tangle[p.stencil.sample[k]] != Tangle::kFree) return true;
+    return false;
+  });
 }
 
 void findImpacts(const CollisionModel& m, double dt, std::span<const char> exempt, CollisionWork& w,
@@ -200,6 +250,7 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
         body = true;
       else
         cloth_inside = cloth_inside || exempt[v];
+      if (m.body_of_vertex[v] < 0 && w.tangle[v] != Tangle::kFree) return;
     }
     if (body && cloth_inside) return;
     FourPoints x0, x1;

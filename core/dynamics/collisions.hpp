@@ -8,6 +8,7 @@
 #include "core/contact/cloth_contacts.hpp"
 #include "core/contact/contact_tree.hpp"
 #include "core/contact/pairs.hpp"
+#include "core/contact/untangle.hpp"
 #include "core/sheet/surface_charts.hpp"
 
 namespace gambeson {
@@ -28,7 +29,10 @@ struct CollisionModel {
   double largest_thickness_m = 0;
   /// Distance over distance at rest from which parts of the cloth have neither contacts nor impacts with each other.
   double least = 1;
-  bool self = true;  ///< cloth meets cloth
+  bool self = true;                  ///< cloth meets cloth
+  std::vector<int> layer_of_vertex;  ///< bodies -1; empty where there is one layer and no body
+  std::vector<char> is_body;         ///< of each vertex
+  UntangleLaw untangling;
 };
 
 /// `rest`: positions of the samples at rest; `layer` and `thickness_m` of each sample.
@@ -60,6 +64,7 @@ struct CollisionWork {
   std::vector<double> slack_m, change;  ///< what the list allows each vertex and each gradient (ContactTree::refit)
   std::vector<Box> path, edge_path;     ///< of each vertex and edge in this query
   std::vector<ClothContactPoint> points;
+  std::vector<Tangle> tangle;  ///< of each vertex in this step
   CollisionReport report;
 };
 
@@ -67,12 +72,18 @@ struct CollisionWork {
 void placeVertices(const CollisionModel& model, std::span<const Vec3> x0, std::span<const Vec3> x1,
                    std::span<const Placement> start, std::span<const Placement> end, CollisionWork& work);
 
+/// Looks for intersections at work.x0 and writes what frees them (chapter 4): the points of each contour are asked for
+/// the restoring speed. Sets work.tangle. Returns the number of contours. Without `search` there are none.
+int findTangles(const CollisionModel& model, bool search, double dt_s, CollisionWork& work,
+                std::vector<ContactRow>& restoring);
+
 /// Persistent contacts of cloth with cloth at work.x0 (cloth_contacts.hpp); the samples may move to x1.
+/// Those of tangled samples are left out: their side is not the right one.
 void nearCloth(const CollisionModel& model, CollisionWork& work);
 
 /// All pairs that would come closer than the smaller of 1 um and a tenth of their distance at the start, on straight
-/// paths x0 -> x1 in time dt. `exempt`: vertices of cloth that are inside of a body are not stopped by its skin. Sorted
-/// by kind, then numbers.
+/// paths x0 -> x1 in time dt. `exempt`: vertices of cloth that are inside of a body are not stopped by its skin. Pairs
+/// with a vertex that is tangled are left to the restoring rows. Sorted by kind, then numbers.
 void findImpacts(const CollisionModel& model, double dt_s, std::span<const char> exempt, CollisionWork& work,
                  std::vector<PairHit>& hits);
 

@@ -98,6 +98,8 @@ struct State {
   std::vector<Vec3> anchors;  ///< of each spring, in its anchor frame
   ForceSums sums;             ///< at this time
   std::vector<WarmContact> warm;
+  bool tangled = true;          ///< cloth may pass through cloth or a mesh: look for intersections
+  std::vector<int> pinched;     ///< samples that no step length frees: their impacts are let pass in the next step
   std::vector<double> limit_J;  ///< multipliers of the strain limits, mean of the last step (eq. 5.7)
   // Step control.
   double frequency_rad_per_s = 0;  ///< estimate of the largest
@@ -121,6 +123,7 @@ struct MomentumAudit {
 struct WorkAudit {
   double contact = 0;     ///< of the contact impulses on the cloth
   double separation = 0;  ///< part of it: what restoring the layer's distance adds
+  double restoring = 0;   ///< part of it: what freeing intersections adds (section 4.3)
   double friction = 0;    ///< part of it: tangential
   double drag = 0, supports = 0;
   double limit = 0;  ///< of the strain limits' impulses on the free points
@@ -142,6 +145,10 @@ struct StepReport {
   int impact_rounds = 0;
   int zones = 0;               ///< rigid impact zones
   double earliest_impact = 1;  ///< of the step, where it failed for impacts
+  int cuts = 0;                ///< times that the step was cut or halved before it worked
+  int pinched = 0;             ///< samples whose impacts were let pass
+  int intersections = 0;       ///< contours at the start of the step
+  double smallest_gap_m = 0;   ///< of the persistent contacts; negative inside bodies; the largest double where none
   double deepest_m = 0;        ///< largest penetration of a sample at the start of the step, 0 if none
 };
 
@@ -161,6 +168,8 @@ struct StepWork {
   std::vector<Contact> near, hits;
   std::vector<PairHit> pair_hits;
   std::vector<char> inside;  ///< samples that are behind a body's surface
+  std::vector<ContactRow> restoring;
+  std::vector<int> stuck;  ///< samples of the pairs that no zone kept apart, where the step failed for impacts
   CollisionWork collisions;
   std::vector<ImpactZone> zones;  ///< of the last step
   std::vector<Vec3> zone_change;  ///< velocity of each free point that they added, where there are zones

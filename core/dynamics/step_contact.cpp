@@ -1,6 +1,7 @@
 #include "core/dynamics/step_contact.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 namespace gambeson {
@@ -118,6 +119,7 @@ bool anyImpact(const Model& m, double dt, StepWork& w) {
   m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
   for (int s = 0; s < m.surface.size(); ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
   m.proximity->impacts(w.start, w.end, w.x0, w.x1, w.hits);
+  std::erase_if(w.hits, [&](const Contact& hit) { return w.collisions.tangle[hit.sample] != Tangle::kFree; });
   placeVertices(m.collisions, w.x0, w.x1, w.start, w.end, w.collisions);
   findImpacts(m.collisions, dt, w.inside, w.collisions, w.pair_hits);
   return !w.hits.empty() || !w.pair_hits.empty();
@@ -179,9 +181,16 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
     if (!(c.gap_m > 0)) w.inside[c.sample] = 1;
   }
   placeVertices(m.collisions, w.x0, w.x1, w.start, w.end, w.collisions);
+  report.intersections = findTangles(m.collisions, in.tangled || !in.pinched.empty(), dt, w.collisions, w.restoring);
+  report.pinched = static_cast<int>(in.pinched.size());
+  for (int s : in.pinched) w.collisions.tangle[s] = Tangle::kBeside;
   nearCloth(m.collisions, w.collisions);
   persistentRows(m, in, dt, w);
-  report.contacts = static_cast<int>(w.rows.size());
+  report.smallest_gap_m = std::numeric_limits<double>::max();
+  for (const ContactRow& row : w.rows) report.smallest_gap_m = std::min(report.smallest_gap_m, row.contact.gap_m);
+  w.rows.insert(w.rows.end(), w.restoring.begin(), w.restoring.end());
+  w.warm.resize(w.rows.size());
+  report.contacts = static_cast<int>(w.rows.size() - w.restoring.size());
   report.cloth_contacts = static_cast<int>(w.collisions.points.size());
   clock.lap(w.times.proximity);
   startProjection(m.strain_rows, in.limit_J, w.limit);
@@ -205,7 +214,15 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   clock.lap(w.times.impact);
   if (done && allFinite(w.velocity)) return true;
   report.failure = StepFailure::impact;
-  for (const PairHit& hit : w.pair_hits) report.earliest_impact = std::min(report.earliest_impact, hit.time);
+  w.stuck.clear();
+  for (const Contact& hit : w.hits) w.stuck.push_back(hit.sample);
+  for (const PairHit& hit : w.pair_hits) {
+    report.earliest_impact = std::min(report.earliest_impact, hit.time);
+    w.stuck.insert(w.stuck.end(), hit.row.stencil.sample.begin(),
+                   hit.row.stencil.sample.begin() + hit.row.stencil.count);
+  }
+  std::sort(w.stuck.begin(), w.stuck.end());
+  w.stuck.erase(std::unique(w.stuck.begin(), w.stuck.end()), w.stuck.end());
   report.why = std::to_string(w.hits.size() + w.pair_hits.size()) + " pairs would still pass through each other" +
                (w.hits.empty() ? "" : ", of the cloth into " + m.obstacles[w.hits[0].obstacle].segment);
   return false;
@@ -235,8 +252,10 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
     report.momentum.scale += norm(impulse);
     const double normal = dot(impulse, c.normal);
     report.work.contact += dot(impulse, mean);
+    if (row.slippery) report.work.restoring += dot(impulse, mean);
     report.work.friction += dot(impulse - normal * c.normal, mean);
-    if (c.gap_m < m.contact.layer_m && row.target_m_per_s > 0) report.work.separation += normal * row.target_m_per_s;
+    if (!row.slippery && c.gap_m < m.contact.layer_m && row.target_m_per_s > 0)
+      report.work.separation += normal * row.target_m_per_s;
   }
   // What zones take from the cloth goes to what they move with.
   for (const ImpactZone& zone : w.zones)
