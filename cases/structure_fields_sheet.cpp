@@ -147,9 +147,8 @@ Object structureSheetTable() {
               std::vector<std::pair<std::string, CellRule>>{
                   {"automatic", CellRule::automatic}, {"full", CellRule::full}, {"assumed", CellRule::assumed}},
               "integration of quadratic cells, which lock in bending under full, 3 x 3 Gauss points; automatic: 2 x 2, "
-              "but 3 x 3 on trimmed patches and on those with fewer than three cells along u or v; assumed: strains "
-              "taken at the knots, free of locking but less accurate for wrinkles. Other degrees: "
-              "degree + 1")
+              "but 3 across a patch of a single cell, and 3 x 3 on trimmed patches; assumed: strains taken at the "
+              "knots, free of locking but less accurate for wrinkles. Other degrees: degree + 1")
       .integer("gauss_extra", &S::gauss_extra, 0, 5, "more integration points each way than the rule takes")
       .build();
 }

@@ -20,11 +20,16 @@ bool isRational(const NurbsPatch& p) {
   return std::any_of(p.weights.begin(), p.weights.end(), [&](double w) { return w != p.weights.front(); });
 }
 
-/// Whether 2 x 2 points see every mode of a quadratic patch: not where it, or what trimming leaves of it, may be so
-/// narrow that a function of one direction vanishes at all of them (the quadratic of one cell does at its two).
-bool fewerPoints(const Garment& garment, int index) {
-  const NurbsPatch& patch = garment.patches[index];
-  return !isTrimmed(garment, index) && breakpoints(patch.u).size() > 3 && breakpoints(patch.v).size() > 3;
+/// Whether two points a cell tell all quadratics on these knots apart: if and only if an inner knot is simple.
+///
+/// f = c (s - s1)(s - s2) is what vanishes at both points of a cell, s from 0 to its length h. On two cells of lengths
+/// k and h that join with their slopes, f = d k^2/6 = c h^2/6 and f' = d k = - c h: only d = c = 0, and what joins them
+/// is 0 as well. Where all inner knots are double (or there is none), the bubbles of the cells make up a function that
+/// no point sees. It bends the sheet across, but pulls along it, and the stiffness of a tension there, do not see it.
+bool twoPointsSeeAll(const KnotVector& k) {
+  const std::vector<double> ends = breakpoints(k);
+  return std::any_of(ends.begin() + 1, ends.end() - 1,
+                     [&](double t) { return std::count(k.knots.begin(), k.knots.end(), t) == 1; });
 }
 
 /// The law of a block: where it varies, what any of its points may need.
@@ -65,12 +70,20 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   for (SheetCell& cell : sheetCells(garment)) {
     if (cell.cut && cell.points.empty()) continue;
     const NurbsPatch& patch = garment.patches[cell.patch];
-    BlockKind kind{
-        patch.u.degree, patch.v.degree, !cell.cut && isRational(patch), cell.cut, fabricVaries(garment, cell.patch),
-        false,          false};
+    BlockKind kind{patch.u.degree,
+                   patch.v.degree,
+                   !cell.cut && isRational(patch),
+                   cell.cut,
+                   fabricVaries(garment, cell.patch),
+                   false,
+                   false,
+                   false};
     if (kind.p == 2 && kind.q == 2 && !kind.scattered) {
       kind.assumed = rule == CellRule::assumed;
-      kind.fewer = rule != CellRule::full && fewerPoints(garment, cell.patch) && !(kind.assumed && kind.rational);
+      // What trimming leaves of a patch may be as narrow as a cell anywhere.
+      const bool fewer = rule != CellRule::full && !isTrimmed(garment, cell.patch) && !(kind.assumed && kind.rational);
+      kind.fewer_u = fewer && twoPointsSeeAll(patch.u);
+      kind.fewer_v = fewer && twoPointsSeeAll(patch.v);
     }
     kinds[kind].push_back(std::move(cell));
   }

@@ -116,8 +116,8 @@ ShellBlock packBlock(const Garment& garment, const std::vector<int>& offsets, co
   b.q = kind.q;
   b.rational = kind.rational;
   b.scattered = kind.scattered;
-  b.gu = b.p + (kind.fewer ? 0 : 1) + gauss_extra;
-  b.gv = b.q + (kind.fewer ? 0 : 1) + gauss_extra;
+  b.gu = b.p + (kind.fewer_u ? 0 : 1) + gauss_extra;
+  b.gv = b.q + (kind.fewer_v ? 0 : 1) + gauss_extra;
   assert(!b.assumed || (b.gu <= kMaxTies && b.gv <= kMaxTies));
   b.lanes = lanes;
   const int count = static_cast<int>(cells.size());

@@ -14,7 +14,7 @@ namespace gambeson {
 struct BlockKind {
   int p, q;
   bool rational, scattered, varies;
-  bool assumed, fewer;  ///< assumed strains; 2 x 2 points
+  bool assumed, fewer_u, fewer_v;  ///< assumed strains; a Gauss point less along u, along v
   auto operator<=>(const BlockKind&) const = default;
 };
 
