@@ -62,8 +62,9 @@ void addRun(CLI::App& app, RunArguments& a) {
          "--out", a.options.out,
          "Folder for the results; an earlier run's results there are replaced [results/<name of the case file>]")
       ->type_name("DIR");
-  run.add_option("--threads", a.options.threads,
-                 "Threads, 0 for as many as the machine has [0]. The results do not depend on it")
+  run.add_option(
+         "--threads", a.options.threads,
+         "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
   run.add_flag("--resume", a.options.resume,
@@ -103,7 +104,9 @@ void addCheck(CLI::App& app, CheckArguments& a) {
 void addRender(CLI::App& app, RenderArguments& a) {
   CLI::App& render = *app.add_subcommand("render", "Takes a picture of recorded results");
   render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
-  render.add_option("--field", a.field, "What the colours show: stress, pressure, strain or plain")
+  render
+      .add_option("--field", a.field,
+                  "What the colours show: stress (of a mode: its displacement), pressure, strain or plain")
       ->type_name("FIELD")
       ->capture_default_str();
   render

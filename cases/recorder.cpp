@@ -175,6 +175,7 @@ State stateOf(const Checkpoint& c, Frequency& f) {
 
 Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
     : scenario_(scenario),
+      stress_(scenario.model->shell),
       writer_(writer),
       bodies_(scenario.bodies.size()),
       supports_(scenario.supports.size()),
@@ -340,12 +341,12 @@ void Recorder::appendFrame(const State& state, double window) {
   // Strain limits pull in impulses, one a step: like the contact forces, the mean over the window.
   for (double& l : limit_) l /= window;
   const std::vector<Vec2> limits = limit_.empty() ? std::vector<Vec2>{} : limitStress(m.strain_rows, limit_);
+  StressField::More more;
+  if (!limits.empty()) more = [&](int patch, Vec2 uv) { return limitStressAt(m.strain_rows, limits, patch, uv); };
+  const std::vector<StressField::Sample> means = stress_.means(m.shell, q, more);
 #pragma omp parallel for schedule(static)
   for (int s = 0; s < n; ++s) {
-    const int patch = m.surface.patch[s];
-    const Vec2 uv = m.surface.parameters[s];
-    const ShellStress stress =
-        m.shell.stressAt(patch, uv, q, limits.empty() ? Vec2{} : limitStressAt(m.strain_rows, limits, patch, uv));
+    const ShellStress stress = stress_.at(m.shell, q, m.surface.patch[s], m.surface.parameters[s], means, more);
     s1.data[s] = static_cast<float>(stress.principal1_N_per_m);
     s2.data[s] = static_cast<float>(stress.principal2_N_per_m);
     e1.data[s] = static_cast<float>(stress.strain1);

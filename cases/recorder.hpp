@@ -16,6 +16,7 @@
 
 #include "cases/scenario.hpp"
 #include "core/io/recording.hpp"
+#include "core/sheet/stress_field.hpp"
 
 namespace gambeson {
 
@@ -44,6 +45,7 @@ class Recorder {
   void appendFrame(const State& state, double window_s);
 
   const Scenario& scenario_;
+  StressField stress_;
   RecordingWriter& writer_;
   std::vector<Body> bodies_;
   std::vector<Vec3> supports_;

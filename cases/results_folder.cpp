@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 
 #include "core/error.hpp"
 #include "core/io/recording.hpp"
@@ -49,6 +50,8 @@ void removeEarlierResults(const std::filesystem::path& out) {
 }
 
 void useThreads(int threads) {
+  if (threads == 0)  // OMP_NUM_THREADS: a number, or one for each level of nesting
+    if (const char* wanted = std::getenv("OMP_NUM_THREADS")) threads = std::max(0, std::atoi(wanted));
   cpu_set_t set;
   const int machine = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : omp_get_num_procs();
   omp_set_num_threads(threads > 0 ? threads : machine);

@@ -13,7 +13,7 @@ void prepareResultsFolder(const std::filesystem::path& out);
 /// What an earlier run left beside its recording must not be taken for results of this one.
 void removeEarlierResults(const std::filesystem::path& out);
 
-/// `threads` for the parallel loops; 0: as many as this process may run on at once.
+/// `threads` for the parallel loops; 0: OMP_NUM_THREADS, or without it as many as this process may run on at once.
 void useThreads(int threads);
 
 }  // namespace gambeson

@@ -12,7 +12,7 @@ namespace gambeson {
 
 struct RunOptions {
   std::filesystem::path out;  ///< results folder
-  int threads = 0;            ///< 0: as many as the machine has
+  int threads = 0;            ///< 0: OMP_NUM_THREADS, or as many as the machine has
   bool resume = false;        ///< continue what an interrupted run left in `out`
 };
 

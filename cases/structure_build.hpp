@@ -5,12 +5,14 @@
 
 #include "cases/structure_case.hpp"
 #include "core/dynamics/structure.hpp"
+#include "core/sheet/stress_field.hpp"
 
 namespace gambeson {
 
 struct StructureModel {
   Sheet sheet;  ///< with fabrics
   std::unique_ptr<Structure> structure;
+  std::unique_ptr<StressField> stress;  ///< how its stress is shown
 };
 
 /// The sheet with its materials. Throws InputError whose key is relative to the case ("sheet.trim[0]").

@@ -103,10 +103,11 @@ struct OutputEdge {
 };
 
 enum class ShapesKept { none, last, all };
-enum class StructureField { plain, displacement, stress, strain };
+/// automatic: displacement of a mode, else stress.
+enum class StructureField { automatic, plain, displacement, stress, strain };
 
 struct StructurePicture {
-  StructureField field = StructureField::stress;
+  StructureField field = StructureField::automatic;
   View view = View::front_right;
   double scale = 1;  ///< of displacements; of a mode: its largest displacement as a part of the sheet's size
   int mode = 1;      ///< modal: which

@@ -28,12 +28,14 @@ Object structureOutputTable(StructureKind kind) {
   Table<P> picture("Picture of a structure");
   picture
       .choice("field", &P::field,
-              std::vector<std::pair<std::string, StructureField>>{{"stress", StructureField::stress},
+              std::vector<std::pair<std::string, StructureField>>{{"automatic", StructureField::automatic},
+                                                                  {"stress", StructureField::stress},
                                                                   {"strain", StructureField::strain},
                                                                   {"displacement", StructureField::displacement},
                                                                   {"plain", StructureField::plain}},
               "what the colours show: first principal stress resultant, first principal strain, size of the "
-              "displacement, or nothing")
+              "displacement, or nothing; automatic: displacement in modal cases, else stress. The size of a mode is "
+              "arbitrary: its colours are parts of the largest value")
       .choice("view", &P::view, views, "where the picture is taken from")
       .integer("width", &P::width, 64, 8192, "pixels")
       .integer("height", &P::height, 64, 8192, "pixels");

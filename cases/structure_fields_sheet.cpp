@@ -61,7 +61,8 @@ Object fieldsTable() {
               "turns the weft about the normal")
       .defaultsTo("none")
       .object("material", material, patchFieldTable("", between(0, 1000), "Material field"),
-              "0: the material, k: other_materials[k - 1]; between whole numbers the two are mixed")
+              "0: the material, k: other_materials[k - 1]; between whole numbers the stiffness (in plane stress), "
+              "thickness, density and bending rigidities of the two are mixed linearly")
       .defaultsTo("the material everywhere")
       .build();
 }

@@ -145,20 +145,27 @@ MeasuredState measureMode(const Structure& s, std::span<const double> y, double 
   return m;
 }
 
-StressState::StressState(const Structure& structure, const MeasuredState& state)
-    : structure_(structure), q_(state.q), limit_(state.limit_N_per_m) {
-  if (!state.small) return;
-  // Principal values are homogeneous of degree one in small displacements: taken from a part of them so small that the
-  // quadratic terms are below 1e-5 of the linear ones.
-  for (std::size_t i = 0; i < q_.size(); ++i) q_[i] -= structure.rest[i];
-  const double most = largest(q_);
-  part_ = most > 0 ? std::min(1.0, 1e-7 * sizeOf(structure.rest) / most) : 1;
-  for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = structure.rest[i] + part_ * q_[i];
+StressState::StressState(const StructureModel& model, const MeasuredState& state, bool everywhere)
+    : model_(model), q_(state.q), limit_(state.limit_N_per_m) {
+  const Structure& structure = *model.structure;
+  if (state.small) {
+    // Principal values are homogeneous of degree one in small displacements: taken from a part of them so small that
+    // the quadratic terms are below 1e-5 of the linear ones.
+    for (std::size_t i = 0; i < q_.size(); ++i) q_[i] -= structure.rest[i];
+    const double most = largest(q_);
+    part_ = most > 0 ? std::min(1.0, 1e-7 * sizeOf(structure.rest) / most) : 1;
+    for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = structure.rest[i] + part_ * q_[i];
+  }
+  if (everywhere) means_ = model.stress->means(structure.shell, q_, more());
+}
+
+StressField::More StressState::more() const {
+  if (limit_.empty()) return {};
+  return [this](int patch, Vec2 uv) { return limitStressAt(model_.structure->limit->rows, limit_, patch, uv); };
 }
 
 ShellStress StressState::at(int patch, Vec2 uv) const {
-  const Vec2 limit = limit_.empty() ? Vec2{} : limitStressAt(structure_.limit->rows, limit_, patch, uv);
-  ShellStress stress = structure_.shell.stressAt(patch, uv, q_, limit);
+  ShellStress stress = model_.stress->at(model_.structure->shell, q_, patch, uv, means_, more());
   stress.principal1_N_per_m /= part_;
   stress.principal2_N_per_m /= part_;
   stress.strain1 /= part_;
@@ -167,7 +174,8 @@ ShellStress StressState::at(int patch, Vec2 uv) const {
 }
 
 Probes::Probes(const StructureCase& c, const StructureModel& model, const StructureOptions& options)
-    : structure_(model.structure.get()),
+    : model_(&model),
+      structure_(model.structure.get()),
       with_velocity_(c.kind == StructureKind::dynamics),
       displacements_only_(c.kind == StructureKind::modal) {
   const Garment& g = model.sheet.garment;
@@ -252,7 +260,7 @@ Probes::Probes(const StructureCase& c, const StructureModel& model, const Struct
 std::vector<double> Probes::values(const MeasuredState& state) const {
   const Structure& s = *structure_;
   std::vector<double> row;
-  const StressState stresses(s, state);
+  const StressState stresses(*model_, state, false);
   for (const PointProbe& p : points_) {
     Vec3 u, v, r;
     for (const auto& [control, value] : p.control) {
@@ -289,13 +297,13 @@ std::vector<double> Probes::values(const MeasuredState& state) const {
   return row;
 }
 
-ShapeMesh shapeMesh(const Garment& g, int samples_per_cell) {
+ShapeMesh shapeMesh(const Garment& g, int means_per_cell) {
   ShapeMesh mesh;
   const auto sampled = [&](const KnotVector& k) {
     const std::vector<double> ends = breakpoints(k);
     std::vector<double> t;
     for (std::size_t s = 0; s + 1 < ends.size(); ++s)
-      for (int i = 0; i < samples_per_cell; ++i) t.push_back(ends[s] + (ends[s + 1] - ends[s]) * i / samples_per_cell);
+      for (int i = 0; i < means_per_cell; ++i) t.push_back(ends[s] + (ends[s + 1] - ends[s]) * i / means_per_cell);
     t.push_back(ends.back());
     return t;
   };
@@ -329,11 +337,12 @@ ShapeMesh shapeMesh(const Garment& g, int samples_per_cell) {
   return mesh;
 }
 
-MeshShape shapeOf(const Structure& s, const ShapeMesh& mesh, const MeasuredState& state) {
+MeshShape shapeOf(const StructureModel& model, const ShapeMesh& mesh, const MeasuredState& state) {
+  const Structure& s = *model.structure;
   const Garment& g = s.shell.garment();
   const std::vector<int> offsets = controlOffsets(g);
   const int n = static_cast<int>(mesh.uv.size());
-  const StressState stresses(s, state);
+  const StressState stresses(model, state, true);
   MeshShape shape;
   shape.rest.resize(mesh.uv.size());
   shape.x.resize(mesh.uv.size());

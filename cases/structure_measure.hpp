@@ -28,15 +28,19 @@ MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool
 MeasuredState measureMode(const Structure& s, std::span<const double> y, double factor, std::span<const double> shape,
                           double amplitude_m);
 
-/// Resultants and strains of a state; of small displacements by their derivative at rest. Lives no longer than the
-/// structure.
+/// Resultants and strains of a state (core/sheet/stress_field.hpp); of small displacements by their derivative at rest.
+/// Lives no longer than the model.
 class StressState {
  public:
-  StressState(const Structure& structure, const MeasuredState& state);
+  /// `everywhere`: the means of all cells are taken at once, for many places.
+  StressState(const StructureModel& model, const MeasuredState& state, bool everywhere);
   ShellStress at(int patch, Vec2 uv) const;
 
  private:
-  const Structure& structure_;
+  StressField::More more() const;
+
+  const StructureModel& model_;
+  std::vector<StressField::Sample> means_;
   std::vector<Vec3> q_;
   std::vector<Vec2> limit_;
   double part_ = 1;  ///< of the displacements, in q_
@@ -47,8 +51,9 @@ class Probes {
  public:
   Probes(const StructureCase& c, const StructureModel& model, const StructureOptions& options);
   /// Modal: displacements alone. Of a point: NAME_ux_m, _uy_m, _uz_m, (dynamic: _vx_m_per_s ...), _n1_N_per_m,
-  /// _n2_N_per_m, _e1, _e2, _rx_N ... (of a support at the point alone, with what is tied to it). Of an edge: mean displacement NAME_ux_m ...,
-  /// reaction NAME_rx_N ..., and its moment about the mean of the edge's points now NAME_mx_Nm ....
+  /// _n2_N_per_m, _e1, _e2, _rx_N ... (of a support at the point alone, with what is tied to it). Of an edge: mean
+  /// displacement NAME_ux_m ..., reaction NAME_rx_N ..., and its moment about the mean of the edge's points now
+  /// NAME_mx_Nm ....
   const std::vector<std::string>& columns() const { return columns_; }
   std::vector<double> values(const MeasuredState& state) const;
 
@@ -63,6 +68,7 @@ class Probes {
     std::vector<double> weight;  ///< of control points, sum 1: mean along the edge at rest
     std::vector<int> free;       ///< whose reactions count
   };
+  const StructureModel* model_;
   const Structure* structure_;
   bool with_velocity_ = false, displacements_only_ = false;
   std::vector<PointProbe> points_;
@@ -77,13 +83,13 @@ struct ShapeMesh {
   std::vector<Vec2> fraction;
   std::vector<std::array<int, 3>> triangles;
 };
-ShapeMesh shapeMesh(const Garment& garment, int samples_per_cell);
+ShapeMesh shapeMesh(const Garment& garment, int means_per_cell);
 
 /// Values at the points of a mesh.
 struct MeshShape {
   std::vector<Vec3> rest, x, normal;
   std::vector<ShellStress> stress;
 };
-MeshShape shapeOf(const Structure& s, const ShapeMesh& mesh, const MeasuredState& state);
+MeshShape shapeOf(const StructureModel& model, const ShapeMesh& mesh, const MeasuredState& state);
 
 }  // namespace gambeson

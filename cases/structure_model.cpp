@@ -7,6 +7,7 @@ StructureModel buildModel(const StructureCase& c) {
   m.sheet = sheetOf(c);
   const StructureOptions options = optionsOf(c, m.sheet);
   m.structure = buildStructure(m.sheet.garment, options);
+  m.stress = std::make_unique<StressField>(m.structure->shell);
   return m;
 }
 

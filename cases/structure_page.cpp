@@ -280,6 +280,11 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
     body += html::notice(
         "A load step went over a limit point and landed on a stable state beyond it (column \"jumped\" of path.csv): "
         "the path between is not known. \"arc_length\": true follows it.");
+  if (s.contains("rounded_residual") && s.at("rounded_residual").get<double>() > 1e-6)
+    body += html::notice(fmt::format(
+        "Rounding kept the forces of some points (column \"rounded\" of path.csv) from balancing within the tolerance: "
+        "up to {} of them is left, since the loads are small beside the stiffness.",
+        formatNumber(s.at("rounded_residual").get<double>(), 2)));
   if (s.contains("strain_limit") && s.at("strain_limit").at("unconverged_steps").get<long>() > 0)
     body += html::notice(fmt::format(
         "{} of {} steps did not reach the strain limit within its tolerance; the strain missed it by up to {}.",

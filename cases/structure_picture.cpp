@@ -19,14 +19,20 @@ struct FieldWords {
   double scale;
 };
 
-FieldWords wordsOf(StructureField field) {
+FieldWords wordsOf(const StructureCase& c, StructureField field) {
+  const bool mode = c.kind == StructureKind::modal;
   switch (field) {
+    case StructureField::automatic:
+      return wordsOf(c, mode ? StructureField::displacement : StructureField::stress);
     case StructureField::stress:
-      return {"stress1", "First principal stress resultant [N/m]", "stress", 1};
+      return {"stress1",
+              mode ? "First principal stress resultant / its largest value" : "First principal stress resultant [N/m]",
+              "stress", 1};
     case StructureField::strain:
-      return {"strain1", "First principal strain [%]", "strain", 100};
+      return {"strain1", mode ? "First principal strain / its largest value" : "First principal strain [%]", "strain",
+              mode ? 1. : 100.};
     case StructureField::displacement:
-      return {"displacement", "Displacement [m]", "displacement", 1};
+      return {"displacement", mode ? "Displacement / its largest value" : "Displacement [m]", "displacement", 1};
     case StructureField::plain:
       break;
   }
@@ -43,7 +49,7 @@ std::string placeOf(const StructureCase& c, const Frame& frame) {
 std::string captionOf(const StructureCase& c, const Frame& frame, const StructurePicture& picture) {
   std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
   std::replace(view.begin(), view.end(), '_', ' ');
-  std::string what = wordsOf(picture.field).word;
+  std::string what = wordsOf(c, picture.field).word;
   what[0] = static_cast<char>(what[0] - 'a' + 'A');
   return fmt::format("{} {}{}, seen from the {}", what, placeOf(c, frame),
                      picture.scale != 1 ? fmt::format(", displacements times {:g}", picture.scale) : "", view);
@@ -55,10 +61,7 @@ std::vector<StructurePicture> picturesOf(const StructureCase& c) {
   std::vector<StructurePicture> pictures(1);
   if (c.kind == StructureKind::modal) {
     pictures.resize(static_cast<std::size_t>(std::min(4, c.modal.count)));
-    for (std::size_t k = 0; k < pictures.size(); ++k) {
-      pictures[k].field = StructureField::displacement;
-      pictures[k].mode = static_cast<int>(k) + 1;
-    }
+    for (std::size_t k = 0; k < pictures.size(); ++k) pictures[k].mode = static_cast<int>(k) + 1;
   }
   return pictures;
 }
@@ -67,7 +70,7 @@ std::vector<StructurePicture> picturesOf(const StructureCase& c) {
 
 void renderStructure(const StructureCase& c, const RecordingLayout& layout, const Frame& frame,
                      const StructurePicture& picture, const std::filesystem::path& png) {
-  const FieldWords words = wordsOf(picture.field);
+  const FieldWords words = wordsOf(c, picture.field);
   const Field& displacement = fieldOf(frame, "displacement");
   RenderMesh sheet, rest;
   sheet.triangles = rest.triangles = layout.triangles;
@@ -93,6 +96,11 @@ void renderStructure(const StructureCase& c, const RecordingLayout& layout, cons
       low = std::min(low, words.scale * v);
       high = std::max(high, words.scale * v);
     }
+    if (c.kind == StructureKind::modal && high > 0) {
+      for (double& v : sheet.scalars) v /= high;
+      low /= high;
+      high = 1;
+    }
     // A small compression beside a large tension is not worth a colour of its own.
     scene.bar = ColorBar{words.title, low < -0.05 * high ? -roundedUp(-low) : 0, roundedUp(high)};
   }
@@ -113,7 +121,7 @@ std::vector<Picture> takeStructurePictures(const StructureCase& c, const std::fi
   for (const StructurePicture& picture : picturesOf(c)) {
     const int k = c.kind == StructureKind::modal ? std::min(picture.mode, frames) - 1 : frames - 1;
     if (k < 0) continue;
-    const std::string name = fmt::format("{:02d}_{}_{}.png", pictures.size() + 1, wordsOf(picture.field).word,
+    const std::string name = fmt::format("{:02d}_{}_{}.png", pictures.size() + 1, wordsOf(c, picture.field).word,
                                          viewNames()[static_cast<std::size_t>(picture.view)]);
     try {
       const Frame frame = recording.frame(k);

@@ -124,7 +124,10 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
       strain = std::max(strain, shape.stress[k].strain1);
     }
     j[c.kind == StructureKind::statics ? "factor" : "time_s"] = last.at;
-    if (c.kind == StructureKind::statics) j["jumps"] = facts.jumps;
+    if (c.kind == StructureKind::statics) {
+      j["jumps"] = facts.jumps;
+      j["rounded_residual"] = facts.rounded;
+    }
     j["strain_energy_J"] = last.strain_energy_J;
     j["largest_displacement_m"] = displacement;
     j["largest_control_displacement_m"] = control;

@@ -25,7 +25,8 @@ struct StructureFacts {
   bool finished = false;
   std::string why;  ///< else
   long points = 0, factorisations = 0, iterations = 0;
-  int jumps = 0;                            ///< of load steps over limit points
+  int jumps = 0;       ///< of load steps over limit points
+  double rounded = 0;  ///< largest relative residual of points that rounding kept above the tolerance; 0: none
   long projections = 0, limits_missed = 0;  ///< of strain limits, and steps that did not reach the tolerance
   double limit_residual = 0;                ///< the largest after a step
   double wall_s = 0, build_s = 0, solve_s = 0;

@@ -63,7 +63,7 @@ class Run {
   }
   /// A whole shape for ParaView and the pictures.
   void keep(const MeasuredState& state) {
-    writer_->append(frameOf(shapeOf(structure(), mesh_, state), frames_++, state.at));
+    writer_->append(frameOf(shapeOf(model_, mesh_, state), frames_++, state.at));
   }
 
   /// Everything that is left; `failures` of pictures do not stop it.
@@ -72,7 +72,7 @@ class Run {
     facts.solve_s = facts.wall_s - facts.build_s;
     facts.threads = omp_get_max_threads();
     if (last_.q.empty()) last_ = measureRest();
-    const MeshShape shape = shapeOf(structure(), mesh_, last_);
+    const MeshShape shape = shapeOf(model_, mesh_, last_);
     if (frames_ == 0 && c_.output.shapes != ShapesKept::none) keep(last_);
     if (frames_ > 0) writer_->closeSegment({});
     writeCsv(out_ / "path.csv", path.columns, path.rows);
@@ -126,20 +126,21 @@ void solve(const StaticReport& report, StructureFacts& facts) {
 }
 
 void runStatic(const StructureCase& c, Run& run) {
-  run.columns({"factor", "iterations", "residual", "negative_pivots", "jumped", "strain_energy_J"});
+  run.columns({"factor", "iterations", "residual", "negative_pivots", "jumped", "rounded", "strain_energy_J"});
   const Structure& s = run.structure();
   Progress progress(1, 0, stderr, "");
   // The start of every path, so that tables and plots have it.
   const std::vector<double> rest(static_cast<std::size_t>(s.dofs.unknowns()), 0.0);
   const MeasuredState start = measureStatic(s, rest, 0, c.statics.linear);
-  run.add(start, {0, 0, 0, 0, 0, start.strain_energy_J});
+  run.add(start, {0, 0, 0, 0, 0, 0, start.strain_energy_J});
   attempt(run.facts, [&] {
     solve(solveStatic(s, c.statics,
                       [&](const StaticPoint& p) {
                         const MeasuredState state = measureStatic(s, p.y, p.factor, c.statics.linear);
-                        run.add(state,
-                                {p.factor, static_cast<double>(p.iterations), p.residual,
-                                 static_cast<double>(p.negative_pivots), p.jumped ? 1. : 0., state.strain_energy_J});
+                        run.add(state, {p.factor, static_cast<double>(p.iterations), p.residual,
+                                        static_cast<double>(p.negative_pivots), p.jumped ? 1. : 0., p.rounded ? 1. : 0.,
+                                        state.strain_energy_J});
+                        if (p.rounded) run.facts.rounded = std::max(run.facts.rounded, p.residual);
                         run.facts.jumps += p.jumped ? 1 : 0;
                         ++run.facts.points;
                         run.facts.iterations += p.iterations;
@@ -313,7 +314,7 @@ int renderStructureResults(const RenderOptions& o) {
                      "there is no peak here; allowed: end, or a frame's load factor, time or mode");
   const RecordingReader recording(o.results);
   StructurePicture picture;
-  picture.field = o.field == PictureField::stress   ? StructureField::stress
+  picture.field = o.field == PictureField::stress   ? StructureField::automatic
                   : o.field == PictureField::strain ? StructureField::strain
                                                     : StructureField::plain;
   picture.view = o.view;

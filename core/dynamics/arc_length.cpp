@@ -56,8 +56,10 @@ NewtonReport correct(System& system, const NewtonOptions& options, double length
     report.residuals.push_back(report.residual);
     report.finite = std::isfinite(size);
     if (!report.finite) return report;
-    if (size <= options.tolerance * report.force || size <= roundingForce(state.K, options.length_m)) {
+    const bool balanced = size <= options.tolerance * report.force;
+    if (balanced || endsByRounding(size, report.force, roundingForce(state.K, options.length_m), false)) {
       report.converged = true;
+      report.rounded = !balanced;
       return report;
     }
     if (report.iterations == options.iterations) return report;

@@ -14,6 +14,9 @@ std::string likeliestCause(const PathState& state, const NewtonReport& newton, d
   if (newton.singular) return "the tangent is singular";
   if (state.solver.negativePivots() > 0 || newton.negative_pivots > 0 || softening < 0.1)
     return "a limit point or a bifurcation (the tangent loses its definiteness): follow the path by arc length";
+  if (newton.stalled)
+    return "the corrections are rounding, below 1e-14 of the structure's size, and the forces do not balance: the "
+           "loads are too small beside the stiffness";
   if (!newton.finite) return "forces that are not finite: the step is too large, or a cell collapses";
   return "too large a step: take more steps";
 }

@@ -19,6 +19,11 @@ double roundingForce(const SymmetricMatrix& K, double length_m) {
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum) * length_m;
 }
 
+bool endsByRounding(double size, double force, double rounding, bool still) {
+  constexpr double kLargest = 1e-3;  // of the forces
+  return (size <= rounding || still) && (size <= kLargest * force || force <= rounding);
+}
+
 bool isFinite(const SymmetricMatrix& K) {
   return std::all_of(K.values.begin(), K.values.end(), [](double v) { return std::isfinite(v); });
 }
@@ -91,10 +96,13 @@ NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std
       report.finite = false;
       return report;
     }
-    if (size <= options.tolerance * report.force || size <= roundingForce(K, options.length_m) || still) {
+    const bool balanced = size <= options.tolerance * report.force;
+    if (balanced || endsByRounding(size, report.force, roundingForce(K, options.length_m), still)) {
       report.converged = true;
+      report.rounded = !balanced;
       return report;
     }
+    report.stalled = still;
     if (report.iterations == options.iterations) return report;
     equations.tangent(y, K);
     if (!isFinite(K)) {

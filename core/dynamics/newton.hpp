@@ -32,6 +32,10 @@ struct NewtonOptions {
 struct NewtonReport {
   bool converged = false, singular = false;
   bool finite = true;  ///< false where any state that was tried had forces that are not
+  /// Converged because what is left is rounding, and not within the tolerance.
+  bool rounded = false;
+  /// Not converged: the last correction was rounding, and the forces do not balance.
+  bool stalled = false;
   int iterations = 0, factorisations = 0, negative_pivots = 0;
   double residual = 0;            ///< relative, the last
   double force = 0;               ///< the size it is relative to [N]
@@ -44,11 +48,16 @@ struct NewtonReport {
 /// and falls quadratically afterwards, so |r| need not fall. With `line_search` a step s obeys |G(s)| <= 0.8 |G(0)|,
 /// G(s) = dy . r(y + s dy) the slope of the energy (Crisfield 1991, section 9.2), by regula falsi where G changes sign
 /// in (0, 1]; else the whole step is taken. Steps into states that are not finite are halved.
+///
+/// Rounding ends the iteration, too: a residual below roundingForce, or a correction below 1e-14 of the length. But not
+/// while more than a thousandth of the forces is out of balance, unless these forces are themselves rounding.
 NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std::vector<double>& y, SymmetricMatrix& K,
                          SymmetricFactor& factor);
 
 /// What of |r| is rounding: eps |diag K| length.
 double roundingForce(const SymmetricMatrix& K, double length_m);
+/// Whether a residual of this size may end an iteration as rounding; `still`: the last correction was rounding.
+bool endsByRounding(double size, double force, double rounding, bool still);
 
 bool isFinite(const SymmetricMatrix& K);
 double norm(std::span<const double> a);

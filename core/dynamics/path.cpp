@@ -143,6 +143,7 @@ bool startPath(System& system, const StaticOptions& options, PathState& state, S
     const NewtonReport r = solveNewton(at_zero, newton, state.y, state.K, state.solver);
     report.factorisations += r.factorisations;
     if (!r.converged) {
+      report.no_start = true;
       report.why = fmt::format(
           "the start is not in equilibrium at factor 0, and Newton finds none from it (residual {:.2e} of the forces "
           "after {} iterations)",
@@ -164,7 +165,7 @@ StaticPoint acceptPoint(System& system, PathState& state, const NewtonReport& ne
   state.raised = false;
   restoreTangent(system, state, report);
   ++report.points;
-  return {state.factor, state.y, newton.iterations, newton.residual, state.solver.negativePivots()};
+  return {state.factor, state.y, newton.iterations, newton.residual, newton.rounded, state.solver.negativePivots()};
 }
 
 namespace {
@@ -180,7 +181,7 @@ void solveLinear(System& system, const StaticOptions&, const StaticObserver& obs
   const double size = norm(dg);
   report.points = 1;
   report.reached = true;
-  observe({1, state.y, 1, size > 0 ? norm(g) / size : 0, state.solver.negativePivots()});
+  observe({1, state.y, 1, size > 0 ? norm(g) / size : 0, false, state.solver.negativePivots()});
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct StaticPoint {
   std::vector<double> y;
   int iterations = 0;
   double residual = 0;      ///< relative
+  bool rounded = false;     ///< above the tolerance, but rounding (NewtonReport::rounded)
   int negative_pivots = 0;  ///< of the tangent: 0 where the equilibrium is stable
   /// Load steps: the state lies on another branch than the last one; over a limit point, say. Found so: where the
   /// displacement is not what the tangents at both ends of the step make of it, the step is bisected, always into the
@@ -38,8 +39,9 @@ struct StaticPoint {
 };
 
 struct StaticReport {
-  bool reached = false;  ///< the end of the path
-  std::string why;       ///< else: the step, the residual and the likeliest cause
+  bool reached = false;   ///< the end of the path
+  bool no_start = false;  ///< no equilibrium was found at factor 0
+  std::string why;        ///< else: the step, the residual and the likeliest cause
   int points = 0, factorisations = 0;
 };
 

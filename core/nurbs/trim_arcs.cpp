@@ -304,7 +304,11 @@ TrimBoundary trimBoundary(const NurbsPatch& patch, const Trim& trim) {
           MonotoneArc arc{static_cast<int>(b.segments.size()), cuts[c], cuts[c + 1], bezier.at(cuts[c]).point,
                           bezier.at(cuts[c + 1]).point,        false};
           for (Vec2 p : {arc.a, arc.b})
-            if (!inside(p)) reject(loop, k, "leaves the patch at " + text(p));
+            if (!inside(p))
+              reject(loop, k,
+                     "leaves the patch at " + text(p) +
+                         "; a loop stays within: where it cuts the border, let it run along the border "
+                         "(a notch: a chain of curves, one of them a straight line on the border)");
           arc.a = started ? last : onto(arc.a);
           arc.b = onto(arc.b);
           if (std::abs(arc.a.x - arc.b.x) <= b.eps_u && std::abs(arc.a.y - arc.b.y) <= b.eps_v) continue;

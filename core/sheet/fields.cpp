@@ -29,15 +29,26 @@ Vec2 fraction(const NurbsPatch& p, Vec2 uv) {
 
 const PatchFields* fieldsOf(const Garment& g, int patch) { return g.fields.empty() ? nullptr : &g.fields[patch]; }
 
-/// (1 - w) a + w b of all that the laws read.
+/// (1 - w) a + w b of all that the laws read; of Young's moduli and Poisson's ratio through the plane-stress stiffness
+///   Q11 = E1 / s, Q22 = E2 / s, Q12 = nu E2 / s, s = 1 - nu^2 E2 / E1,
+/// which is positive definite between two that are. Moduli and ratio mixed one by one need not be.
 Fabric mixture(const Fabric& a, const Fabric& b, double w) {
   Fabric f = a;
-  const auto mix = [&](double Fabric::*member) { f.*member = (1 - w) * (a.*member) + w * (b.*member); };
+  const auto mix = [&](double in_a, double in_b) { return (1 - w) * in_a + w * in_b; };
   for (double Fabric::*member :
-       {&Fabric::thickness_m, &Fabric::density_kg_per_m3, &Fabric::young_weft_Pa, &Fabric::young_warp_Pa,
-        &Fabric::shear_Pa, &Fabric::poisson, &Fabric::bending_weft_Nm, &Fabric::bending_warp_Nm, &Fabric::kappa0_per_m,
-        &Fabric::kappa_regular_per_m, &Fabric::twist_Nm})
-    mix(member);
+       {&Fabric::thickness_m, &Fabric::density_kg_per_m3, &Fabric::shear_Pa, &Fabric::bending_weft_Nm,
+        &Fabric::bending_warp_Nm, &Fabric::kappa0_per_m, &Fabric::kappa_regular_per_m, &Fabric::twist_Nm})
+    f.*member = mix(a.*member, b.*member);
+  const auto stiffness = [](const Fabric& g) {
+    const double s = 1 - g.poisson * g.poisson * g.young_warp_Pa / g.young_weft_Pa;
+    return std::array{g.young_weft_Pa / s, g.young_warp_Pa / s, g.poisson * g.young_warp_Pa / s};
+  };
+  const auto in_a = stiffness(a), in_b = stiffness(b);
+  const double Q11 = mix(in_a[0], in_b[0]), Q22 = mix(in_a[1], in_b[1]), Q12 = mix(in_a[2], in_b[2]),
+               s = 1 - Q12 * Q12 / (Q11 * Q22);
+  f.young_weft_Pa = Q11 * s;
+  f.young_warp_Pa = Q22 * s;
+  f.poisson = Q12 / Q22;
   return f;
 }
 

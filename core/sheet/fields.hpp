@@ -31,7 +31,7 @@ struct PatchFields {
   std::optional<PatchField> thickness;    ///< thickness over that of the fabric, > 0
   std::optional<PatchField> fibre_angle;  ///< turns the weft direction about the normal [rad]
   /// Which material: k is the garment's fabric for k = 0, else its other_fabrics[k - 1]; between whole numbers the two
-  /// neighbours' stiffness, density and (eq. 2.14) kappa_0 are mixed linearly.
+  /// neighbours' plane-stress stiffness [Pa], thickness, density, rigidities and (eq. 2.14) kappa_0 are mixed linearly.
   std::optional<PatchField> material;
 };
 

@@ -72,6 +72,35 @@ TEST(StaticPath, NewtonConvergesQuadratically) {
   EXPECT_GE(pairs, 1);
 }
 
+/// A tangent of 1e14 where the force rises by 1: each correction is rounding of a structure of 1 m, and the load stays
+/// without its reaction. That is not convergence.
+TEST(StaticPath, CorrectionsThatAreRoundingBalanceNothing) {
+  SmallSystem s(1);
+  s.force = [](const Eigen::VectorXd& y) { return y; };
+  s.tangent = [](const Eigen::VectorXd&) { return Eigen::MatrixXd::Constant(1, 1, 1.1e14); };
+  s.load = [](double t) { return Eigen::VectorXd::Constant(1, t); };
+  StaticReport report;
+  EXPECT_TRUE(follow(s, {.steps = 1, .halvings = 0}, &report).empty());
+  EXPECT_FALSE(report.reached);
+  EXPECT_NE(report.why.find("corrections are rounding"), std::string::npos) << report.why;
+}
+
+/// Two unknowns tied by a spring of 1e9: its forces, and so the balance, are rounded to 1e-7, which is more than the
+/// tolerance asks. Accepted, and said.
+TEST(StaticPath, WhatConvergesToRoundingSaysSo) {
+  const double k = 1e9;
+  const auto K = [k](double more) { return Eigen::MatrixXd{{1 + k, -k}, {-k, k + more}}; };
+  SmallSystem s = linearSystem(K(0), Eigen::Vector2d(0.3, 0));
+  const auto points = follow(s, {.steps = 3, .tolerance = 1e-15});
+  ASSERT_EQ(points.size(), 3u);
+  for (const StaticPoint& p : points) {
+    EXPECT_TRUE(p.rounded) << p.residual;
+    EXPECT_GT(p.residual, 1e-15);
+    EXPECT_NEAR(p.y[0], 0.3 * p.factor, 1e-6);
+  }
+  for (const StaticPoint& p : follow(s, {.steps = 3, .tolerance = 1e-3})) EXPECT_FALSE(p.rounded);
+}
+
 /// 2 y/(1 + y^2) is at most 1, at y = 1: a load of 1.2 has no equilibrium.
 TEST(StaticPath, LoadStepsStopAtALimitPointAndNameIt) {
   SmallSystem s(1);
