@@ -56,12 +56,20 @@ std::vector<Vec3> linearForce(const Structure& s, const std::vector<double>& u) 
   return {points.begin(), points.end()};
 }
 
-/// Rates of the programs, for the velocity of moving supports.
-std::vector<double> programRates(const Structure& s, double t, double dt) {
-  std::vector<double> after = programValues(s, t + dt, ProgramEnds::constant);
-  const std::vector<double> before = programValues(s, t - dt, ProgramEnds::constant);
-  for (std::size_t k = 0; k < after.size(); ++k) after[k] = (after[k] - before[k]) / (2 * dt);
-  return after;
+/// Rates of the programs, for the motion of supports.
+struct ProgramRates {
+  std::vector<double> first, second;
+};
+ProgramRates programRates(const Structure& s, double t, double dt) {
+  const std::vector<double> after = programValues(s, t + dt, ProgramEnds::constant),
+                            now = programValues(s, t, ProgramEnds::constant),
+                            before = programValues(s, t - dt, ProgramEnds::constant);
+  ProgramRates rates;
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    rates.first.push_back((after[k] - before[k]) / (2 * dt));
+    rates.second.push_back((after[k] - 2 * now[k] + before[k]) / (dt * dt));
+  }
+  return rates;
 }
 
 const char* const axes[] = {"x", "y", "z"};
@@ -97,17 +105,18 @@ MeasuredState measureStatic(const Structure& s, std::span<const double> y, doubl
   return m;
 }
 
-MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool lumped_mass) {
+MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool lumped_mass, double step_s) {
   MeasuredState m;
   m.at = state.time_s;
   m.q = controlPoints(s, state.y, state.time_s);
   m.strain_energy_J = strainEnergy(s, state.y, state.time_s);
   m.reaction_N = pulledBack(s, reactions(s, state.y, state.time_s));
-  const double dt = 1e-6 * std::max(1e-3, state.time_s);
-  const std::vector<double> v = freeDisplacements(s, state.v, programRates(s, state.time_s, dt));
-  const std::vector<double> a = freeDisplacements(s, state.a, std::vector<double>(s.programs.size(), 0.0));
+  ProgramRates rates = programRates(s, state.time_s, step_s > 0 ? step_s : 1e-6 * std::max(1e-3, state.time_s));
+  if (!(step_s > 0)) rates.second.assign(rates.second.size(), 0.0);
+  const std::vector<double> v = freeDisplacements(s, state.v, rates.first),
+                            a = freeDisplacements(s, state.a, rates.second);
   const std::span<const Vec3> velocity = asPoints(v), acceleration = asPoints(a);
-  // What supports push with, beyond what the sheet pulls with: inertia and the damping by mass and air.
+  // What supports push with, beyond what the sheet pulls with: inertia and damping.
   std::vector<Vec3> inertia(velocity.size());
   for (std::size_t f = 0; f < inertia.size(); ++f) inertia[f] = acceleration[f] + s.rayleigh_mass_per_s * velocity[f];
   std::vector<Vec3> force(velocity.size());
@@ -117,6 +126,15 @@ MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool
     s.consistent_kg.multiply<Vec3>(inertia, force);
   for (std::size_t f = 0; f < force.size(); ++f)
     m.reaction_N[f] += force[f] + s.drag_kg_per_m2s * s.area_m2[f] * velocity[f];
+  if (s.rayleigh_stiffness_s > 0) {
+    BlockMatrix K = s.tangent.pattern();
+    ShellWork work;
+    s.tangent.assemble(s.shell, m.q, work, K);
+    if (s.loads.follow()) s.loads.addStiffness(m.q, programValues(s, state.time_s, ProgramEnds::constant), s.map, K);
+    std::vector<double> damping(v.size());
+    multiply(K, v, damping);
+    for (std::size_t f = 0; f < force.size(); ++f) m.reaction_N[f] += s.rayleigh_stiffness_s * asPoints(damping)[f];
+  }
   if (s.limit && !state.limit_J.empty()) {
     // The acceleration of the state is without the limits': what they push on free points is inertia there.
     std::vector<Vec3> pull(force.size());

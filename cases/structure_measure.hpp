@@ -23,7 +23,8 @@ struct MeasuredState {
 
 /// Of a static point. `linear`: forces, energy and stress are linear in the displacements.
 MeasuredState measureStatic(const Structure& s, std::span<const double> y, double factor, bool linear);
-MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool lumped_mass);
+/// `step_s`: of the last step, over which the motion of supports is differentiated as the solver does; 0: none yet.
+MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool lumped_mass, double step_s);
 /// The shape of a mode, its largest displacement `amplitude_m`.
 MeasuredState measureMode(const Structure& s, std::span<const double> y, double factor, std::span<const double> shape,
                           double amplitude_m);

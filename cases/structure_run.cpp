@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -12,6 +13,7 @@
 #include "cases/structure_results.hpp"
 #include "cases/structure_strains.hpp"
 #include "core/dynamics/modal.hpp"
+#include "core/dynamics/structure_system.hpp"
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/csv.hpp"
@@ -195,6 +197,36 @@ DynamicState startOf(const StructureCase& c, const Run& run) {
   return state;
 }
 
+/// Work of the loads since rest. Where all of them are constant it is that of the displacements; else it is summed over
+/// the steps, by the trapezium rule. (- F(t) . u is no potential where F changes with time.)
+class LoadWork {
+ public:
+  explicit LoadWork(const Structure& s) : s_(s), varies_(s.loads.follow()) {
+    for (const DeadLoad& load : s.dead) {
+      const std::vector<double>& value = s.programs[load.program].value;
+      varies_ = varies_ || std::any_of(value.begin(), value.end(), [&](double v) { return v != value[0]; });
+    }
+  }
+  /// After each step, and first at the start.
+  void follow(const DynamicState& state, bool lumped) {
+    const bool first = q_.empty();
+    if (!varies_ && !first) return;
+    std::vector<Vec3> q = controlPoints(s_, state.y, state.time_s), force(q.size());
+    s_.loads.add(q, programValues(s_, state.time_s, ProgramEnds::constant), force);
+    if (first) work_J_ = -energyOf(s_, state, lumped).external;
+    for (std::size_t i = 0; i < q_.size(); ++i) work_J_ += 0.5 * dot(force_[i] + force[i], q[i] - q_[i]);
+    q_ = std::move(q);
+    force_ = std::move(force);
+  }
+  double work_J(const DynamicEnergy& now) const { return varies_ ? work_J_ : -now.external; }
+
+ private:
+  const Structure& s_;
+  bool varies_;
+  std::vector<Vec3> q_, force_;
+  double work_J_ = 0;
+};
+
 void runDynamic(const StructureCase& c, Run& run) {
   std::vector<std::string> lead{"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"};
   const Structure& s = run.structure();
@@ -209,10 +241,13 @@ void runDynamic(const StructureCase& c, Run& run) {
   Progress progress(c.dynamics.end_s);
   DynamicState state = startOf(c, run);
   long rows = 0;
+  LoadWork work(s);
+  double step_s = 0;
   const auto record = [&](const DynamicState& now) {
-    const DynamicEnergy energy = energyOf(s, now, lumped);
+    DynamicEnergy energy = energyOf(s, now, lumped);
+    energy.external = -work.work_J(energy);
     std::vector<double> row{now.time_s, energy.kinetic, energy.internal, energy.external, energy.total()};
-    const MeasuredState state_now = measureDynamic(s, now, lumped);
+    const MeasuredState state_now = measureDynamic(s, now, lumped, step_s);
     if (strains) {
       const std::vector<double> more = strains->values(state_now.q);
       row.insert(row.end(), more.begin(), more.end());
@@ -222,8 +257,13 @@ void runDynamic(const StructureCase& c, Run& run) {
   };
   if (c.output.audit) run.facts.audit.emplace(s, lumped);
   attempt(run.facts, [&] {
+    work.follow(state, lumped);
     record(state);
+    double before_s = state.time_s;
     const DynamicReport report = solveDynamic(s, c.dynamics, state, [&](const DynamicState& now) {
+      work.follow(now, lumped);
+      step_s = now.time_s - before_s;
+      before_s = now.time_s;
       if (now.time_s * (1 + 1e-12) >= static_cast<double>(rows) * interval || now.time_s >= c.dynamics.end_s)
         record(now);
       if (run.facts.audit) run.facts.audit->observe(now);

@@ -248,6 +248,10 @@ TEST(Trim, RefusesBadLoops) {
                 "closed");
   expectRefused(holes({hole, {}}), "loops[1]", "no curve");
   expectRefused(holes({{circle({0.9, 0.5}, 0.2, 0.2, true)}}), "loops[0].curves[0]", "leaves the patch");
+  // What to do is said, and can be done: a notch that runs along the border.
+  expectRefused(holes({{circle({0.9, 0.5}, 0.2, 0.2, true)}}), "loops[0].curves[0]", "along the border");
+  EXPECT_NO_THROW(
+      trimCells(unitPatch(2, 4), holes({polygon(std::vector<Vec2>{{1, 0.3}, {0.8, 0.3}, {0.8, 0.7}, {1, 0.7}})})));
   expectRefused(holes({polygon(std::vector<Vec2>{{0.1, 0.1}, {0.5, 0.6}, {0.5, 0.1}, {0.1, 0.5}})}),
                 "loops[0].curves[2]", "itself");
   // A figure of eight in one curve, and one that touches itself at a corner.
