@@ -13,7 +13,13 @@ enum Column {
   kShortest,
   kLongest,
   kContacts,
+  kClothContacts,
   kImpacts,
+  kZones,
+  kCuts,
+  kPinched,
+  kIntersections,
+  kSmallestGap,
   kIterations,
   kUnconverged,
   kResidual,
@@ -21,6 +27,7 @@ enum Column {
   kDeepest,
   kWorkContact,
   kWorkSeparation,
+  kWorkRestoring,
   kWorkFriction,
   kWorkDrag,
   kWorkSupports,
@@ -72,7 +79,13 @@ const std::vector<std::string>& stepColumns() {
                                               "shortest_step_s",
                                               "longest_step_s",
                                               "most_contacts",
+                                              "most_cloth_contacts",
                                               "impacts",
+                                              "zones",
+                                              "cut_steps",
+                                              "pinched",
+                                              "most_intersections",
+                                              "smallest_gap_m",
                                               "iterations",
                                               "unconverged_steps",
                                               "largest_residual_m_per_s",
@@ -80,6 +93,7 @@ const std::vector<std::string>& stepColumns() {
                                               "deepest_m",
                                               "work_contact_J",
                                               "work_separation_J",
+                                              "work_restoring_J",
                                               "work_friction_J",
                                               "work_drag_J",
                                               "work_supports_J",
@@ -212,6 +226,12 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   steps_[kShortest] = first ? r.step_s : std::min(steps_[kShortest], r.step_s);
   most(kLongest, r.step_s);
   most(kContacts, r.contacts);
+  most(kClothContacts, r.cloth_contacts);
+  most(kIntersections, r.intersections);
+  steps_[kSmallestGap] = first ? r.smallest_gap_m : std::min(steps_[kSmallestGap], r.smallest_gap_m);
+  steps_[kZones] += r.zones;
+  steps_[kCuts] += r.cuts > 0;
+  steps_[kPinched] += r.pinched;
   most(kResidual, r.contact.residual_m_per_s);
   most(kMomentumError, r.momentum.scale > 0 ? r.momentum.error() / r.momentum.scale : 0);
   most(kDeepest, r.deepest_m);
@@ -221,6 +241,7 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   steps_[kUnconverged] += r.contact.converged ? 0 : 1;
   steps_[kWorkContact] += r.work.contact;
   steps_[kWorkSeparation] += r.work.separation;
+  steps_[kWorkRestoring] += r.work.restoring;
   steps_[kWorkFriction] += r.work.friction;
   steps_[kWorkDrag] += r.work.drag;
   steps_[kWorkSupports] += r.work.supports;

@@ -57,6 +57,15 @@ struct SupportMeasure {
   double peak_N = 0, peak_time_s = 0, largest_drop_m = 0;
 };
 
+/// What collided in a window.
+struct CollisionWindow {
+  double start_s = 0, end_s = 0;
+  long contacts = 0, cloth_contacts = 0;  ///< the most of a step
+  long impacts = 0, zones = 0, cut_steps = 0, pinched = 0;
+  long intersections = 0;  ///< contours, the most of a step
+  double smallest_gap_m = 0, residual_m_per_s = 0, iterations = 0;
+};
+
 /// Over all windows of the run, dressing included, but for what says otherwise.
 struct StepMeasure {
   long steps = 0, unconverged = 0, impacts = 0;
@@ -67,13 +76,14 @@ struct StepMeasure {
   double largest_residual_m_per_s = 0, momentum_error = 0, momentum_error_time_s = 0;
   double deepest_m = 0, deepest_time_s = 0;  ///< of a sample, in the motion
   double mean_iterations = 0;
+  std::vector<CollisionWindow> collisions;
   long projections = 0, unlimited = 0;  ///< strain limits: projections, and steps that they did not hold in
   double largest_limit_residual = 0;    ///< of the strain
 };
 
 /// Change of the total energy from the end of the first window of the motion, against the works since [J].
 struct EnergyMeasure {
-  double change = 0, contact = 0, friction = 0, separation = 0, drag = 0, supports = 0, limit = 0, absolute = 0;
+  double change = 0, contact = 0, friction = 0, separation = 0, restoring = 0, drag = 0, supports = 0, limit = 0, absolute = 0;
   double drift() const { return change - (contact + drag + supports + limit); }
   double relative() const { return absolute > 0 ? drift() / absolute : 0; }
 };

@@ -7,7 +7,9 @@
 
 #include "cases/recorder.hpp"
 #include "cases/results_measure.hpp"
+#include "cases/results_write.hpp"
 #include "core/error.hpp"
+#include "core/io/csv.hpp"
 
 namespace gambeson {
 
@@ -31,6 +33,11 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     m.unlimited += std::lround(at("unlimited_steps"));
     m.largest_limit_residual = std::max(m.largest_limit_residual, at("largest_limit_residual"));
     m.impacts += std::lround(at("impacts"));
+    const auto count = [&](const char* name) { return std::lround(at(name)); };
+    m.collisions.push_back({r[0], r[1], count("most_contacts"), count("most_cloth_contacts"), count("impacts"),
+                            count("zones"), count("cut_steps"), count("pinched"), count("most_intersections"),
+                            at("smallest_gap_m"), at("largest_residual_m_per_s"),
+                            at("iterations") / std::max(1.0, at("steps"))});
     m.shortest_s = std::min(m.shortest_s, at("shortest_step_s"));
     m.longest_s = std::max(m.longest_s, at("longest_step_s"));
     m.largest_residual_m_per_s = std::max(m.largest_residual_m_per_s, at("largest_residual_m_per_s"));
@@ -54,6 +61,7 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     e.contact += at("work_contact_J");
     e.friction += at("work_friction_J");
     e.separation += at("work_separation_J");
+    e.restoring += at("work_restoring_J");
     e.drag += at("work_drag_J");
     e.supports += at("work_supports_J");
     e.limit += at("work_limit_J");
@@ -65,6 +73,20 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
   m.mean_iterations = m.steps > 0 ? iterations / static_cast<double>(m.steps) : 0;
   const Frequency f{m.frequency_rad_per_s, m.shares[0], m.shares[1], m.shares[2], m.shares[3]};
   m.governing = f.governing();
+}
+
+void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows) {
+  std::vector<std::vector<double>> rows;
+  for (const CollisionWindow& w : windows) {
+    rows.push_back({w.start_s, w.end_s});
+    for (long n : {w.contacts, w.cloth_contacts, w.impacts, w.zones, w.cut_steps, w.pinched, w.intersections})
+      rows.back().push_back(static_cast<double>(n));
+    rows.back().insert(rows.back().end(), {w.contacts > 0 ? w.smallest_gap_m : 0, w.residual_m_per_s, w.iterations});
+  }
+  writeCsv(csv,
+           {"start_s", "end_s", "most_contacts", "most_cloth_contacts", "impacts", "rigid_zones", "cut_steps",
+            "pinched_samples", "most_intersections", "smallest_gap_m", "largest_residual_m_per_s", "mean_iterations"},
+           rows);
 }
 
 void measureFrames(const RecordingReader& recording, Measured& out) {

@@ -64,6 +64,32 @@ Json stressJson(const Measured& m) {
   return all;
 }
 
+Json collisionsJson(const Measured& m) {
+  CollisionWindow all;
+  double flagged_s = -1;
+  for (const CollisionWindow& w : m.steps.collisions) {
+    all.contacts = std::max(all.contacts, w.contacts);
+    all.cloth_contacts = std::max(all.cloth_contacts, w.cloth_contacts);
+    all.impacts += w.impacts;
+    all.zones += w.zones;
+    all.cut_steps += w.cut_steps;
+    all.pinched += w.pinched;
+    all.intersections = std::max(all.intersections, w.intersections);
+    if (w.pinched > 0 && flagged_s < 0) flagged_s = w.start_s;
+  }
+  Json j{{"most_contacts", all.contacts},
+         {"most_contacts_of_cloth_with_cloth", all.cloth_contacts},
+         {"impacts", all.impacts},
+         {"rigid_zones", all.zones},
+         {"cut_steps", all.cut_steps},
+         {"pinched_samples", all.pinched},
+         {"most_intersections", all.intersections},
+         {"intersections_at_end", m.steps.collisions.empty() ? 0 : m.steps.collisions.back().intersections},
+         {"work_of_restoring_J", m.energy.restoring}};
+  if (flagged_s >= 0) j["first_pinched_at_s"] = flagged_s;
+  return j;
+}
+
 Json auditJson(const Measured& m) {
   Json all = Json::array();
   for (const AuditCheck& c : auditOf(m))
@@ -150,6 +176,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                          {"largest_residual_m_per_s", m.steps.largest_residual_m_per_s},
                          {"mean_iterations", m.steps.mean_iterations},
                          {"impacts", m.steps.impacts}};
+  j["collisions"] = collisionsJson(m);
   if (m.limited)
     j["strain_limit"] = {
         {"largest_residual", m.steps.largest_limit_residual},

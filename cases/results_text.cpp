@@ -90,6 +90,12 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
       {"Contact solver",
        m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
        "%", "share of the steps whose contacts were not solved to the tolerance of the case"}};
+  double pinched = 0;
+  for (const CollisionWindow& w : m.steps.collisions) pinched += static_cast<double>(w.pinched);
+  checks.push_back({"Intersections",
+                    m.steps.collisions.empty() ? 0 : static_cast<double>(m.steps.collisions.back().intersections), 0,
+                    "", "places where cloth passes through cloth or a mesh at the end"});
+  checks.push_back({"Pinched", pinched, 0, "", "samples between two obstacles whose impacts had to be let pass"});
   if (m.limited)
     checks.push_back(
         {"Strain limit",

@@ -11,6 +11,9 @@ namespace gambeson {
 void writeSummary(const Scenario& scenario, const RecordingReader& recording, const Measured& measured,
                   const RunFacts& facts, const std::filesystem::path& json);
 
+/// Replaces DIR/collisions.csv: what collided, window by window. The smallest gap is 0 where nothing was near.
+void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows);
+
 /// "swing (80 % of the stride), while the hip flexes against the garment, at 23 degrees of flexion".
 std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides);
 

@@ -177,13 +177,18 @@ TEST(Results, SameRecordingSameBytes) {
   record(*s, folder.path());
   writeResults(*s, folder.path());
   std::vector<std::string> first;
-  const std::vector<std::string> names{"summary.json", "torques.csv", "contact.csv",
-                                       "stress.csv",   "report.html", "snapshots/01_stress_peak_left.png"};
+  const std::vector<std::string> names{"summary.json",
+                                       "torques.csv",
+                                       "contact.csv",
+                                       "collisions.csv",
+                                       "stress.csv",
+                                       "report.html",
+                                       "snapshots/01_stress_peak_left.png"};
   for (const std::string& name : names) first.push_back(content(folder.path() / name));
   writeResults(*scenarioOfResults(folder.path()), folder.path());
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(content(folder.path() / names[i]), first[i]) << names[i];
   EXPECT_EQ(reportResults({folder.path(), folder.path() / "again.html"}), 0);
-  EXPECT_EQ(content(folder.path() / "again.html"), first[4]);
+  EXPECT_EQ(content(folder.path() / "again.html"), first[5]);
 }
 
 TEST(Results, PartialRunSaysSo) {
