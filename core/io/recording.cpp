@@ -201,6 +201,12 @@ std::vector<std::vector<double>> RecordingReader::table(const std::string& name)
   return rows == impl_->rows.end() ? std::vector<std::vector<double>>{} : rows->second;
 }
 
+int RecordingReader::checkpointCount() const { return static_cast<int>(impl_->segments.size()); }
+
+Checkpoint RecordingReader::checkpoint(int index) const {
+  return impl_->segments.at(static_cast<std::size_t>(index)).checkpoint();
+}
+
 Checkpoint RecordingReader::lastCheckpoint() const { return impl_->segments.back().checkpoint(); }
 
 }  // namespace gambeson

@@ -94,6 +94,9 @@ class RecordingReader {
   Frame frame(int index) const;
   /// All rows of a table.
   std::vector<std::vector<double>> table(const std::string& name) const;
+  /// One at the end of each closed segment.
+  int checkpointCount() const;
+  Checkpoint checkpoint(int index) const;
   Checkpoint lastCheckpoint() const;
 
  private:

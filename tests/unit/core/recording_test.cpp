@@ -155,6 +155,10 @@ TEST_F(RecordingTest, ReadsBackEveryBit) {
   EXPECT_EQ(c.reals, e.reals);
   EXPECT_TRUE(std::signbit(c.reals.at("q")[1]));
   EXPECT_EQ(c.integers, e.integers);
+  ASSERT_EQ(reader.checkpointCount(), (8 + kFramesPerSegment - 1) / kFramesPerSegment);
+  for (int k = 0; k < reader.checkpointCount(); ++k)
+    EXPECT_EQ(reader.checkpoint(k).time_s, someCheckpoint(std::min(8, (k + 1) * kFramesPerSegment) - 1).time_s);
+  EXPECT_THROW(reader.checkpoint(reader.checkpointCount()), std::out_of_range);
 }
 
 TEST_F(RecordingTest, SameContentSameBytes) {
