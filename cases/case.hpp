@@ -56,7 +56,14 @@ struct FileGarment {
 };
 
 struct GarmentCase {
+  std::string name;  ///< where there are several: what supports and tables call it; unique
   std::variant<SheetGarment, TubeGarment, ShortsGarment, FileGarment> shape;
+  Vec3 position_m;               ///< moves the shape
+  std::optional<Fabric> fabric;  ///< that of the case where absent
+  /// Displacement of each control point along the normal, uniform in -amplitude .. amplitude, that the motion starts
+  /// from; the rest shape has none.
+  double noise_m = 0;
+  int noise_seed = 1;
   /// Contact samples per cell edge; 0: the Greville points.
   int samples_per_cell = 2;
   /// Rotational spring of C0 seams [N m/(m rad)].
@@ -103,6 +110,14 @@ struct PlaneObstacle {
   double size_m = 2;
 };
 
+/// A ring about `axis` (unit), as a mesh of rings x segments x 2 triangles.
+struct TorusObstacle {
+  double radius_m = 0, tube_m = 0;  ///< of the ring's middle line, and of the tube about it
+  Vec3 center_m;
+  Vec3 axis{0, 0, 1};
+  int segments = 48, rings = 16;  ///< around the axis, around the tube
+};
+
 /// A mesh file, in metres times `scale`, moved by `position`.
 struct MeshObstacle {
   std::filesystem::path file;
@@ -112,15 +127,16 @@ struct MeshObstacle {
 
 struct ObstacleCase {
   std::string name;  ///< also the segment that forces are counted under; unique
-  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, MeshObstacle> shape;
+  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle> shape;
   Vec3 velocity_m_per_s;
 };
 
 // --- What holds it ----------------------------------------------------------------------------------------------
 
-/// An edge of the garment: by name (sheet: "u0" "u1" "v0" "v1"; tube: "start" "end"; shorts: "waist" "hem_left"
-/// "hem_right"), or, with an empty name, by patch and side.
+/// An edge of a garment, which is named where there are several: by name (sheet: "u0" "u1" "v0" "v1"; tube: "start"
+/// "end"; shorts: "waist" "hem_left" "hem_right"), or, with an empty name, by patch and side.
 struct EdgeCase {
+  std::string garment;
   std::string name;
   int patch = 0;
   Side side = Side::u0;
@@ -139,12 +155,19 @@ struct SpringSupport {
   std::string link;
 };
 
-using SupportCase = std::variant<FixedSupport, SpringSupport>;
+/// The control points that shape a point of a patch held in the world.
+struct PinnedSupport {
+  EdgeCase edge;  ///< garment and patch
+  double s = 0.5, t = 0.5;
+};
+
+using SupportCase = std::variant<FixedSupport, SpringSupport, PinnedSupport>;
 
 // --- How it touches, and the air -------------------------------------------------------------------------------
 
 struct ContactCase {
-  double layer_m = 0;  ///< the fabric's thickness where the file does not say
+  std::optional<double> layer_m;  ///< of all cloth; the thickness of each fabric where absent
+  bool self = true;               ///< cloth touches cloth
   double friction = 0.3;
   double relaxation_s = 0.01;  ///< tau in k = 1 - exp(-dt/tau) of the separation correction
   double tolerance = 1e-2;     ///< residual of the contacts of a step, of g dt
@@ -209,8 +232,8 @@ struct AnalysisCase {
 struct Case {
   std::string name, description;
   Vec3 gravity_m_per_s2{0, 0, -9.81};
-  GarmentCase garment;
-  Fabric fabric;
+  std::vector<GarmentCase> garments;  ///< innermost first, at least one
+  Fabric fabric;                      ///< of garments without one of their own
   std::optional<HumanCase> human;
   std::vector<ObstacleCase> obstacles;
   std::vector<SupportCase> supports;
@@ -225,6 +248,8 @@ struct Case {
   std::filesystem::path file;          ///< where it was read
   std::vector<std::string> overrides;  ///< "path=value" of the command line
 };
+
+inline const Fabric& fabricOf(const Case& c, const GarmentCase& g) { return g.fabric ? *g.fabric : c.fabric; }
 
 /// Reads and checks a case file. `overrides` ("fabric.thickness=0.4 mm") replace or add values before the checks.
 /// Relative paths in the file resolve against its folder, those of overrides against the current folder.

@@ -10,10 +10,13 @@ namespace {
 Object contactTable() {
   using C = ContactCase;
   return Table<C>("Contact")
-      .number("layer", &C::layer_m, "m", aboveTo(0, 0.05), "distance that contact keeps between cloth and body")
-      .defaultsTo("the fabric's thickness")
-      .number("friction", &C::friction, "", between(0, 5), "Coulomb's coefficient between cloth and body")
+      .number("layer", &C::layer_m, "m", aboveTo(0, 0.05),
+              "distance that contact keeps between cloth and body, and between cloth and cloth")
+      .defaultsTo("the fabric's thickness; between two fabrics half the sum of theirs")
+      .number("friction", &C::friction, "", between(0, 5),
+              "Coulomb's coefficient between cloth and body, and between cloth and cloth")
       .required()
+      .flag("self", &C::self, "cloth touches cloth: layers each other, folds themselves")
       .number("relaxation", &C::relaxation_s, "s", aboveTo(0, 1),
               "time in which a sample inside the layer returns to its surface")
       .number("tolerance", &C::tolerance, "", aboveTo(0, 0.1),
@@ -96,6 +99,23 @@ Object analysisTable() {
 
 Object makeCaseTable() {
   using C = Case;
+  // A single garment need not be a list.
+  Field garment, garments;
+  garment.key = "garment";
+  garment.kind = Kind::object;
+  garment.object = std::make_shared<const Object>(garmentTable());
+  garment.group = garments.group = "garments";
+  garment.doc = "what is worn: its shape and how finely it is computed";
+  garments.key = "garments";
+  garments.kind = Kind::list;
+  garments.object = garment.object;
+  garments.doc = "several garments worn over each other, innermost first, each a layer of its own";
+  Field fabric;
+  fabric.key = "fabric";
+  fabric.kind = Kind::object;
+  fabric.object = std::make_shared<const Object>(fabricTable());
+  fabric.doc = "what garments without a fabric of their own are made of";
+  fabric.default_note = "required, or a fabric in each garment";
   Field kind;
   kind.key = "kind";
   kind.kind = Kind::choice;
@@ -110,17 +130,50 @@ Object makeCaseTable() {
       .required()
       .text("description", &C::description, "what the case is about")
       .vector("gravity", &C::gravity_m_per_s2, "m/s^2", between(-1e3, 1e3), "acceleration of free fall")
-      .object("garment", &C::garment, garmentTable(), "what is worn: its shape and how finely it is computed")
-      .required()
-      .converted<FabricInput>("fabric", &C::fabric, fabricTable(), resolveFabric, restoreFabric,
-                              "what the garment is made of")
-      .required()
+      .custom(
+          garment,
+          [o = garment.object](const Place& p, C& c) {
+            c.garments.clear();
+            readObject(*o, p, &c.garments.emplace_back());
+          },
+          [o = garment.object](const C& c) {
+            return c.garments.size() == 1 ? std::optional(writeObject(*o, &c.garments[0])) : std::nullopt;
+          })
+      .custom(
+          garments,
+          [o = garment.object](const Place& p, C& c) {
+            if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
+            if (p.node.children.empty()) p.fail("the list is empty; allowed: at least one garment");
+            c.garments.clear();
+            for (std::size_t i = 0; i < p.node.children.size(); ++i)
+              readObject(*o, p.item(i), &c.garments.emplace_back());
+          },
+          [o = garment.object](const C& c) -> std::optional<JsonNode> {
+            if (c.garments.size() < 2) return std::nullopt;
+            JsonNode n = emptyList();
+            for (const GarmentCase& g : c.garments) n.children.push_back(writeObject(*o, &g));
+            return n;
+          })
+      .oneOf("garments", true)
+      .custom(
+          fabric,
+          [o = fabric.object](const Place& p, C& c) {
+            FabricInput in;
+            readObject(*o, p, &in);
+            c.fabric = resolveFabric(p, in);
+          },
+          [o = fabric.object](const C& c) -> std::optional<JsonNode> {
+            if (std::all_of(c.garments.begin(), c.garments.end(), [](const GarmentCase& g) { return g.fabric; }))
+              return std::nullopt;
+            const FabricInput in = restoreFabric(c.fabric);
+            return writeObject(*o, &in);
+          })
       .object("human", &C::human, humanTable(), "who wears it, and the motion")
       .defaultsTo("nobody")
       .list("obstacles", &C::obstacles, obstacleTable(), "other things that the cloth touches")
       .list("supports", &C::supports, supportTable(), "what holds the garment")
       .object("contact", &C::contact, contactTable(), "how cloth touches")
-      .defaultsTo("required with a human or obstacles")
+      .defaultsTo("required with a human, obstacles or several garments")
       .object("strain_limit", &C::strain_limit, strainLimitTable(),
               "keeps weft and warp from stretching by projection (Zheng 2013, chapter 5), "
               "so that the fabric may be given soft threads, and with them long time steps")

@@ -1,5 +1,6 @@
 #include "cases/case.hpp"
 #include "cases/fields.hpp"
+#include "cases/fields_fabric.hpp"
 #include "cases/table.hpp"
 
 namespace gambeson::schema {
@@ -68,6 +69,7 @@ Object fileTable() {
 Object garmentTable() {
   using G = GarmentCase;
   return Table<G>("Garment")
+      .text("name", &G::name, "what supports and tables call it; required where there are several garments")
       .alternative<SheetGarment>("sheet", &G::shape, sheetTable(), "a flat rectangle")
       .in("shape")
       .alternative<TubeGarment>("tube", &G::shape, tubeTable(), "a circular tube, a sleeve say")
@@ -78,6 +80,15 @@ Object garmentTable() {
       .alternative<FileGarment>("file", &G::shape, fileTable(), "a garment from a file")
       .in("shape")
       .oneOf("shape", true)
+      .vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
+      .converted<FabricInput>("fabric", &G::fabric, fabricTable(), resolveFabric, restoreFabric,
+                              "what this garment is made of")
+      .defaultsTo("the case's fabric")
+      .number("noise", &G::noise_m, "m", between(0, 0.1),
+              "largest displacement along the normal, control point by control point, that the motion starts from; the "
+              "rest shape has none")
+      .integer("noise_seed", &G::noise_seed, 0, 1000000000,
+               "another seed gives another pattern, the same on every machine")
       .integer("samples_per_cell", &G::samples_per_cell, 0, 8,
                "contact samples along the edge of a cell; 0: one per control point (Greville points)")
       .number("seam_stiffness", &G::seam_stiffness_N, "N/rad", between(0, 1e4),

@@ -46,6 +46,24 @@ Object planeTable() {
       .build();
 }
 
+Object torusTable() {
+  using T = TorusObstacle;
+  return Table<T>("Torus")
+      .number("radius", &T::radius_m, "m", aboveTo(0, 100), "radius of the ring's middle line")
+      .required()
+      .number("tube", &T::tube_m, "m", aboveTo(0, 100), "radius of the tube about it, smaller than radius")
+      .required()
+      .vector("center", &T::center_m, "m", world, "centre")
+      .direction("axis", &T::axis, "axis of the ring")
+      .integer("segments", &T::segments, 3, 1000, "pieces around the axis")
+      .integer("rings", &T::rings, 3, 1000, "pieces around the tube")
+      .check([](const Place& p, const T& t) {
+        if (!(t.tube_m < t.radius_m))
+          p.failAt("tube", fmt::format("{} m is out of range; allowed: < radius = {} m", t.tube_m, t.radius_m));
+      })
+      .build();
+}
+
 Object meshTable() {
   using M = MeshObstacle;
   return Table<M>("Mesh")
@@ -61,6 +79,10 @@ const std::vector<std::string> side_names{"u0", "u1", "v0", "v1"};
 
 template <class S>
 void edgeField(Table<S>& table) {
+  table
+      .text(
+          "garment", [](auto& s) -> auto& { return s.edge.garment; }, "whose edge it is, by the garment's name")
+      .defaultsTo("the only garment; required where there are several");
   Field f;
   f.key = "edge";
   f.kind = Kind::text;
@@ -75,7 +97,7 @@ void edgeField(Table<S>& table) {
         const std::string& text = readText(p);
         const std::size_t dot_at = text.find('.');
         if (dot_at == std::string::npos) {
-          s.edge = {text, 0, Side::u0};
+          s.edge.name = text;
           return;
         }
         const std::string patch = text.substr(0, dot_at), side = text.substr(dot_at + 1);
@@ -83,7 +105,9 @@ void edgeField(Table<S>& table) {
         if (patch.empty() || patch.size() > 4 || patch.find_first_not_of("0123456789") != std::string::npos ||
             found == side_names.end())
           p.fail(describe(p.node) + " is not an edge; allowed: a name, or patch and side such as 2.u0");
-        s.edge = {"", std::stoi(patch), static_cast<Side>(found - side_names.begin())};
+        s.edge.name.clear();
+        s.edge.patch = std::stoi(patch);
+        s.edge.side = static_cast<Side>(found - side_names.begin());
       },
       [](const S& s) {
         return std::optional(nodeOf(
@@ -105,6 +129,8 @@ Object obstacleTable() {
       .in("shape")
       .alternative<PlaneObstacle>("plane", &O::shape, planeTable(), "a square of a plane")
       .in("shape")
+      .alternative<TorusObstacle>("torus", &O::shape, torusTable(), "a ring")
+      .in("shape")
       .alternative<MeshObstacle>("mesh", &O::shape, meshTable(), "triangles from a file")
       .in("shape")
       .oneOf("shape", true)
@@ -124,12 +150,24 @@ Object supportTable() {
               "force per displacement and length of edge")
       .text("link", &SpringSupport::link, "link of the human that the springs are tied to, such as pelvis")
       .required();
+  Table<PinnedSupport> pinned("Pinned point");
+  pinned
+      .text(
+          "garment", [](auto& s) -> auto& { return s.edge.garment; }, "which garment, by its name")
+      .defaultsTo("the only garment; required where there are several")
+      .integer(
+          "patch", [](auto& s) -> auto& { return s.edge.patch; }, 0, 9999, "patch of the garment")
+      .number("s", &PinnedSupport::s, "", between(0, 1), "where along u, as a part of the patch's range")
+      .number("t", &PinnedSupport::t, "", between(0, 1), "where along v");
   return Table<SupportCase>("Support")
       .alternative<FixedSupport>("fixed", self, fixed.build(), "an edge that stays where it is in the world")
       .in("support")
       .alternative<SpringSupport>("springs", self, springs.build(),
                                   "an edge tied by elastic springs to a link of the human, so that it hangs where it "
                                   "was drafted; their reactions are reported apart")
+      .in("support")
+      .alternative<PinnedSupport>("pinned", self, pinned.build(),
+                                  "a point that stays where it is in the world: the control points that shape it")
       .in("support")
       .oneOf("support", true)
       .build();

@@ -6,7 +6,8 @@ namespace gambeson {
 std::string caseIdentity(const Case& c) {
   Fingerprint hash;
   Case named = c;
-  if (auto* file = std::get_if<FileGarment>(&named.garment.shape)) hash.addFile(file->path);
+  for (GarmentCase& g : named.garments)
+    if (auto* file = std::get_if<FileGarment>(&g.shape)) hash.addFile(file->path);
   if (named.human) {
     hash.addFile(named.human->urdf);
     hash.addFile(named.human->body);

@@ -72,15 +72,16 @@ Human readHuman(const HumanCase& h) {
   return h.body.empty() ? loadUrdf(h.urdf) : loadHuman(h.urdf, h.body);
 }
 
-/// The garment's file, and the patches of it that supports name.
-void checkGarmentFile(const Place& root, const Case& c, const FileGarment& file) {
+/// A garment's file, and the patches of it that supports name.
+void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment, const FileGarment& file) {
   const int patches = static_cast<int>(loadGarment(file.path).patches.size());
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, c.supports[i]);
-    if (edge.patch < patches) continue;
+    if (edge.patch < patches || (!edge.garment.empty() && edge.garment != garment.name)) continue;
     const Place support = listItem(root, "supports", i);
-    support.member(support.node.children.front())
-        .failAt("edge", fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
+    const Place kind = support.member(support.node.children.front());
+    kind.failAt(kind.node.find("edge") ? "edge" : "patch",
+                fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
   }
 }
 
@@ -95,7 +96,8 @@ void checkReferences(const Place& root, const Case& c) {
     const double motion_s = motionDuration(*c.human, human);
     duration_s = c.time.duration_s.value_or(motion_s);
   }
-  if (const auto* file = std::get_if<FileGarment>(&c.garment.shape)) checkGarmentFile(root, c, *file);
+  for (const GarmentCase& g : c.garments)
+    if (const auto* file = std::get_if<FileGarment>(&g.shape)) checkGarmentFile(root, c, g, *file);
   for (const ObstacleCase& o : c.obstacles)
     if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) loadMesh(mesh->file, mesh->scale);
   checkPictures(root, c, duration_s);

@@ -9,10 +9,11 @@ namespace gambeson {
 namespace {
 
 /// The surface at `fineness` points where the samples have one, along each direction: rows of basis functions.
-SparseRows finerSurface(const Garment& garment, int per_cell) {
+SparseRows finerSurface(const Garment& garment, int fineness, const std::vector<int>& samples_per_cell) {
   SparseRows rows;
-  int first = 0;
+  int first = 0, p = 0;
   for (const NurbsPatch& patch : garment.patches) {
+    const int per_cell = fineness * std::max(1, samples_per_cell[p++]);  // 0: Greville points, one per cell
     const auto parameters = [&](const KnotVector& knots) {
       const std::vector<double> ends = breakpoints(knots);
       std::vector<double> at;
@@ -37,8 +38,7 @@ SparseRows finerSurface(const Garment& garment, int per_cell) {
 
 SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
   constexpr int fineness = 4;
-  const int samples_per_cell = std::max(1, s.definition.garment.samples_per_cell);  // 0: Greville points, one per cell
-  const SparseRows W = finerSurface(s.model->shell.garment(), fineness * samples_per_cell);
+  const SparseRows W = finerSurface(s.model->shell.garment(), fineness, s.samples_per_cell);
   const auto n = static_cast<std::size_t>(W.rows());
   SurfaceDepth depth;
   depth.points = W.rows();

@@ -16,7 +16,11 @@
 namespace gambeson {
 namespace {
 
-constexpr Color body_color{0.74f, 0.73f, 0.72f}, cloth_color{0.42f, 0.50f, 0.62f}, arrow_color{0.80f, 0.08f, 0.10f};
+constexpr Color body_color{0.74f, 0.73f, 0.72f}, arrow_color{0.80f, 0.08f, 0.10f};
+/// Of the layers in turn.
+constexpr std::array<Color, 5> cloth_colors{Color{0.42f, 0.50f, 0.62f}, Color{0.76f, 0.57f, 0.35f},
+                                            Color{0.44f, 0.60f, 0.45f}, Color{0.62f, 0.45f, 0.56f},
+                                            Color{0.68f, 0.66f, 0.42f}};
 
 /// Arrows sum the forces of samples within cells of this size, so that they can be told apart.
 constexpr double arrow_cell_m = 0.05;
@@ -169,16 +173,33 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   const std::vector<Placement> placed = s.obstaclePlacements(frame.time_s);
   for (std::size_t o = 0; o < placed.size(); ++o)
     scene.meshes.push_back(meshOf(s.model->obstacles[o].shape, placed[o], body_color));
-  RenderMesh cloth;
-  cloth.vertices = x;
-  cloth.triangles = s.model->surface.triangles;
-  cloth.color = cloth_color;
-  cloth.edges = true;
+  std::vector<double> scalars;
   if (picture.field != PictureField::plain) {
-    for (const float v : fieldOf(frame, words.field).data) cloth.scalars.push_back(words.scale * v);
+    for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
     scene.bar = ColorBar{words.title, 0, words.scale * high};
   }
-  scene.meshes.push_back(std::move(cloth));
+  // A mesh for each layer, with its samples alone.
+  const Surface& surface = s.model->surface;
+  std::map<int, RenderMesh> layers;
+  std::vector<int> at(x.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const int layer = s.model->shell.garment().layerOf(surface.triangle_patch[t]);
+    RenderMesh& cloth = layers[layer];
+    cloth.color = cloth_colors[static_cast<std::size_t>(layer) % cloth_colors.size()];
+    cloth.edges = true;
+    std::array<int, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto sample = static_cast<std::size_t>(surface.triangles[t][k]);
+      if (at[sample] < 0) {
+        at[sample] = static_cast<int>(cloth.vertices.size());
+        cloth.vertices.push_back(x[sample]);
+        if (!scalars.empty()) cloth.scalars.push_back(scalars[sample]);
+      }
+      corners[k] = at[sample];
+    }
+    cloth.triangles.push_back(corners);
+  }
+  for (auto& [layer, cloth] : layers) scene.meshes.push_back(std::move(cloth));
   const std::array<Vec3, 2> garment = boxOf(x, 0);
   const double size = norm(garment[1] - garment[0]);
   addArrows(scene, clustersOf(s, frame, x), 0.14 * size);

@@ -1,6 +1,7 @@
 /// report.html from the measured numbers.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -177,7 +178,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   in.assumptions = assumptionsOf(s);
   const auto [hash, kernels] = identityParts(identity);
   in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->shell.controlCount(),
-                                      s.model->surface.size(), s.definition.fabric.name)},
+                                      s.model->surface.size(), fmt::join(s.fabric_names, ", "))},
               {"Steps", std::to_string(m.steps.steps)},
               {"Smallest time step",
                fmt::format("{}; governed by the {} term", duration(m.steps.shortest_s), m.steps.governing)},

@@ -119,9 +119,31 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
   return checks;
 }
 
+namespace {
+
+/// How a fabric bends; `of`: "" where there is only one.
+void sayFabric(const std::string& of, const Fabric& f, std::vector<std::string>& list) {
+  const auto say = [&](const std::string& text) { list.push_back(of + text); };
+  if (f.bending_law == BendingLaw::zheng)
+    say(
+        fmt::format("Bending follows Zheng 2013, eq. 2.14. Its root is replaced by a smooth cubic below a curvature of "
+                    "{} 1/m; the steepest slope is "
+                    "then {} N m (weft).",
+                    formatNumber(f.kappa_regular_per_m),
+                    formatNumber(zhengSteepest(f.bending_weft_Nm, f.kappa0_per_m, f.kappa_regular_per_m))));
+  else
+    say(fmt::format("Bending is linear, {} N m (weft).", formatNumber(f.bending_weft_Nm)));
+  say(f.rest_curvature_of_shape
+          ? "The fabric rests in its sewn shape: bending starts from that curvature."
+          : "The fabric is flat at rest (Zheng 2013): bending it around the body already costs moment.");
+  say(f.twist_Nm > 0 ? fmt::format("Twist stiffness {} N m.", formatNumber(f.twist_Nm))
+                     : "The fabric has no stiffness against twist (Zheng 2013).");
+}
+
+}  // namespace
+
 std::vector<std::string> assumptionsOf(const Scenario& s) {
   const Case& c = s.definition;
-  const Fabric& f = c.fabric;
   std::vector<std::string> list;
   const auto say = [&](std::string text) { list.push_back(std::move(text)); };
   if (s.human) {
@@ -154,35 +176,32 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
         fmt::format("Peaks and mean squares of torques count from the first foot strike at {} s on; the lead-in from "
                     "standing is only drawn.",
                     formatNumber(strides->start_s)));
-  say("Cloth does not touch itself in this version: folds may cross each other.");
-  say("Contact is tested at the cloth's samples against the body's surface; edges are not tested against edges.");
+  if (!c.contact.self) say("Cloth does not touch cloth in this case: folds and layers may cross each other.");
+  say("Cloth rests on bodies with its samples, and on cloth with samples and sharp edges; what would pass through a "
+      "mesh or through cloth within a step is found for its triangles and edges.");
   say("The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and orthotropic "
       "(Zheng 2013, eq. 2.13).");
   if (c.strain_limit) say(limitInWords(*c.strain_limit, "the window"));
-  if (f.bending_law == BendingLaw::zheng)
-    say(
-        fmt::format("Bending follows Zheng 2013, eq. 2.14. Its root is replaced by a smooth cubic below a curvature of "
-                    "{} 1/m; the steepest slope is "
-                    "then {} N m (weft).",
-                    formatNumber(f.kappa_regular_per_m),
-                    formatNumber(zhengSteepest(f.bending_weft_Nm, f.kappa0_per_m, f.kappa_regular_per_m))));
-  else
-    say(fmt::format("Bending is linear, {} N m (weft).", formatNumber(f.bending_weft_Nm)));
-  say(f.rest_curvature_of_shape
-          ? "The fabric rests in its sewn shape: bending starts from that curvature."
-          : "The fabric is flat at rest (Zheng 2013): bending it around the body already costs moment.");
-  say(f.twist_Nm > 0 ? fmt::format("Twist stiffness {} N m.", formatNumber(f.twist_Nm))
-                     : "The fabric has no stiffness against twist (Zheng 2013).");
+  std::vector<Fabric> said;
+  for (const GarmentCase& g : c.garments) {
+    const Fabric& f = fabricOf(c, g);
+    if (std::find(said.begin(), said.end(), f) != said.end()) continue;
+    said.push_back(f);
+    const bool one = std::all_of(c.garments.begin(), c.garments.end(),
+                                 [&](const GarmentCase& other) { return fabricOf(c, other) == f; });
+    sayFabric(one ? "" : fmt::format("Fabric of {}: ", g.name), f, list);
+  }
   if (c.air.drag_kg_per_m2s > 0)
     say(fmt::format("Air drag is linear, {} kg/(m² s) times the velocity relative to the air, which {}.",
                     formatNumber(c.air.drag_kg_per_m2s),
                     c.air.with_pelvis ? "moves with the pelvis's mean velocity" : "is that of the case"));
   say(
-      fmt::format("Contact begins at a layer of {} mm and is restored with a relaxation time of {} ms; Coulomb "
+      fmt::format("Contact begins at {} and is restored with a relaxation time of {} ms; Coulomb "
                   "friction {}, the same for sticking "
                   "and sliding.",
-                  formatNumber(1e3 * c.contact.layer_m), formatNumber(1e3 * c.contact.relaxation_s),
-                  formatNumber(c.contact.friction)));
+                  c.contact.layer_m ? fmt::format("a layer of {} mm", formatNumber(1e3 * *c.contact.layer_m))
+                                    : "the thickness of the cloth",
+                  formatNumber(1e3 * c.contact.relaxation_s), formatNumber(c.contact.friction)));
   for (const SupportGroup& g : s.supports)
     say("Support: " + g.name + ". Its reaction is reported apart and is part of no joint torque.");
   return list;

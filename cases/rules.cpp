@@ -36,6 +36,20 @@ std::vector<std::string> edgeNames(const GarmentCase& g) {
   return {};
 }
 
+/// Whose edge it is.
+const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase& edge) {
+  std::vector<std::string> names;
+  for (const GarmentCase& g : c.garments) {
+    if (edge.garment.empty() ? c.garments.size() == 1 : g.name == edge.garment) return &g;
+    names.push_back(g.name);
+  }
+  support.failAt("garment", edge.garment.empty()
+                                ? "is required where there are several garments; allowed: " + joined(names)
+                                : fmt::format("there is no garment \"{}\"; allowed: {}", edge.garment,
+                                              names.size() == 1 && names[0].empty() ? "none, as there is only one"
+                                                                                    : joined(names)));
+}
+
 /// Patches of the garment; 0 where only its file knows.
 int patchCount(const GarmentCase& g) {
   if (std::holds_alternative<SheetGarment>(g.shape)) return 1;
@@ -44,7 +58,8 @@ int patchCount(const GarmentCase& g) {
   return 0;
 }
 
-void checkEdge(const Place& support, const GarmentCase& garment, const EdgeCase& edge) {
+void checkEdge(const Place& support, const Case& c, const EdgeCase& edge) {
+  const GarmentCase& garment = *garmentOf(support, c, edge);
   if (!edge.name.empty()) {
     const std::vector<std::string> names = edgeNames(garment);
     if (std::find(names.begin(), names.end(), edge.name) == names.end())
@@ -54,17 +69,44 @@ void checkEdge(const Place& support, const GarmentCase& garment, const EdgeCase&
   }
   const int patches = patchCount(garment);
   if (patches > 0 && edge.patch >= patches)
-    support.failAt("edge", fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
+    support.failAt(support.node.find("edge") ? "edge" : "patch",
+                   fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
 }
 
 void checkSupports(const Place& root, const Case& c) {
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const Place place = itemOf(root, "supports", i);
     const Place support = place.member(place.node.children.front());
-    std::visit([&](const auto& s) { checkEdge(support, c.garment, s.edge); }, c.supports[i]);
+    std::visit([&](const auto& s) { checkEdge(support, c, s.edge); }, c.supports[i]);
     if (std::holds_alternative<SpringSupport>(c.supports[i]) && !c.human)
       support.failAt("link", "springs tie the garment to a human, and the case has none");
   }
+}
+
+/// Garment i where it is written.
+Place garmentPlace(const Place& root, std::size_t i) {
+  const JsonNode* list = root.node.find("garments");
+  return list ? root.member(*list).item(i) : root.member(*root.node.find("garment"));
+}
+
+void checkGarments(const Place& root, const Case& c) {
+  std::set<std::string> names;
+  bool all_own = true;
+  for (std::size_t i = 0; i < c.garments.size(); ++i) {
+    const GarmentCase& g = c.garments[i];
+    const Place place = garmentPlace(root, i);
+    if (c.garments.size() > 1 && g.name.empty())
+      place.failAt("name", "is required where there are several garments: what supports and tables call it");
+    if (!names.insert(g.name).second)
+      place.failAt("name", fmt::format("\"{}\" names two garments; allowed: a name of its own", g.name));
+    if (std::holds_alternative<ShortsGarment>(g.shape) && !c.human)
+      place.failAt("shorts", "shorts are drafted on a human, and the case has none");
+    all_own = all_own && g.fabric;
+  }
+  const bool common = root.node.find("fabric");
+  if (!common && !all_own)
+    root.failAt("fabric", "is required: what garments without a fabric of their own are made of");
+  if (common && all_own) root.failAt("fabric", "is of no use: every garment has a fabric of its own");
 }
 
 void checkObstacles(const Place& root, const Case& c) {
@@ -76,8 +118,6 @@ void checkObstacles(const Place& root, const Case& c) {
 }
 
 void checkWithoutHuman(const Place& root, Case& c) {
-  if (std::holds_alternative<ShortsGarment>(c.garment.shape))
-    failAt(root, {"garment", "shorts"}, "shorts are drafted on a human, and the case has none");
   if (!c.time.duration_s) failAt(root, {"time", "duration"}, "is required without a human; allowed: > 0 s");
   if (c.air.with_pelvis) failAt(root, {"air", "velocity"}, "\"pelvis_mean\" needs a human, and the case has none");
   if (c.dressing.projecting)
@@ -93,9 +133,10 @@ void checkWithoutHuman(const Place& root, Case& c) {
 }  // namespace
 
 void applyRules(const Place& root, Case& c) {
-  if ((c.human || !c.obstacles.empty()) && !root.node.find("contact"))
-    root.failAt("contact", "is required where there is a human or an obstacle: at least its friction");
-  if (c.contact.layer_m == 0) c.contact.layer_m = c.fabric.thickness_m;
+  checkGarments(root, c);
+  if ((c.human || !c.obstacles.empty() || c.garments.size() > 1) && !root.node.find("contact"))
+    root.failAt("contact",
+                "is required where there is a human, an obstacle or a second garment: at least its friction");
   if (!c.human) checkWithoutHuman(root, c);
   checkSupports(root, c);
   checkObstacles(root, c);

@@ -46,7 +46,7 @@ int runCase(const Case& c, const RunOptions& options) {
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
   if (!resume) writeFileAtomically(options.out / "case.json", writeCase(c));
-  state = resume ? stateOf(checkpoint, frequency) : initialState(model, *scenario->stage, scenario->start_s, work);
+  state = resume ? stateOf(checkpoint, frequency) : startOf(*scenario, work);
 
   const Windows windows(scenario->start_s, scenario->end_s, c.output.window_s);
   long k = 0;

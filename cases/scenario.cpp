@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/structure_sheet.hpp"
+#include "core/dynamics/step.hpp"
 #include "core/error.hpp"
+#include "core/sheet/layers.hpp"
 #include "human/load.hpp"
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
@@ -56,16 +59,17 @@ class CaseStage : public Stage {
   }
 };
 
-Garment makeGarment(const Case& c, const Human* human, std::vector<std::string>& names) {
+TubePattern patternOf(const TubeGarment& t) {
+  return {t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start, t.axis, SeamKind::G1, 0};
+}
+
+Garment makeGarment(const Case& c, const GarmentCase& worn, const Human* human, std::vector<std::string>& names) {
   Garment garment = std::visit(
       Overloaded{
           [&](const SheetGarment& s) {
             return makeSheet({s.width_m, s.height_m, s.cells_u, s.cells_v, s.degree, s.corner, s.axis_u, s.axis_v});
           },
-          [&](const TubeGarment& t) {
-            return makeTube({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start,
-                             t.axis, SeamKind::G1, 0});
-          },
+          [&](const TubeGarment& t) { return makeTube(patternOf(t)); },
           [&](const ShortsGarment& s) {
             ShortsPattern pattern;
             pattern.inseam_m = s.inseam_m;
@@ -73,42 +77,66 @@ Garment makeGarment(const Case& c, const Human* human, std::vector<std::string>&
             pattern.ease = s.ease;
             pattern.cell_m = s.cell_m;
             pattern.degree = s.degree;
-            pattern.seam_stiffness_N = c.garment.seam_stiffness_N;
+            pattern.seam_stiffness_N = worn.seam_stiffness_N;
             names = {"trunk_left", "trunk_right", "outer_left", "outer_right", "inner_left", "inner_right"};
             return makeShorts(pattern, *human);
           },
           [&](const FileGarment& f) { return loadGarment(f.path); },
       },
-      c.garment.shape);
+      worn.shape);
   if (names.empty())
     for (std::size_t p = 0; p < garment.patches.size(); ++p) names.push_back("patch_" + std::to_string(p));
-  garment.fabric = c.fabric;
-  if (c.garment.weft_angle_rad != 0)
+  garment.fabric = fabricOf(c, worn);
+  for (NurbsPatch& patch : garment.patches)
+    for (Vec3& point : patch.points) point += worn.position_m;
+  if (worn.weft_angle_rad != 0)
     for (std::size_t p = 0; p < garment.patches.size(); ++p) {
       const NurbsPatch& patch = garment.patches[p];
       const auto d =
           surfaceDerivatives(patch, 0.5 * (patch.u.front() + patch.u.back()), 0.5 * (patch.v.front() + patch.v.back()));
-      garment.weft[p] = rotationAbout(normalized(cross(d[1], d[2])), c.garment.weft_angle_rad) * garment.weft[p];
+      garment.weft[p] = rotationAbout(normalized(cross(d[1], d[2])), worn.weft_angle_rad) * garment.weft[p];
     }
   return garment;
 }
 
-std::vector<PatchEdge> edgesOf(const Case& c, const EdgeCase& e) {
+/// All garments of the case as one, and the first patch of each, with the number of patches at the end.
+/// `noise`: displacement of each control point at the start.
+Garment joinGarments(const Case& c, const Human* human, Scenario& s, std::vector<int>& first,
+                     std::vector<Vec3>& noise) {
+  std::vector<Garment> garments;
+  first = {0};
+  for (const GarmentCase& worn : c.garments) {
+    std::vector<std::string> names;
+    garments.push_back(makeGarment(c, worn, human, names));
+    if (worn.noise_m > 0) {
+      const std::vector<Vec3> own = noiseOf(Sheet{garments.back()}, {worn.noise_m, worn.noise_seed, 0, 0, false});
+      noise.insert(noise.end(), own.begin(), own.end());
+    } else {
+      noise.resize(noise.size() + static_cast<std::size_t>(controlOffsets(garments.back()).back()));
+    }
+    for (const std::string& name : names)
+      s.patch_names.push_back(c.garments.size() == 1 ? name : names.size() == 1 ? worn.name : worn.name + " " + name);
+    s.samples_per_cell.insert(s.samples_per_cell.end(), names.size(), worn.samples_per_cell);
+    const std::string& fabric = garments.back().fabric.name;
+    if (std::find(s.fabric_names.begin(), s.fabric_names.end(), fabric) == s.fabric_names.end())
+      s.fabric_names.push_back(fabric);
+    first.push_back(first.back() + static_cast<int>(names.size()));
+  }
+  return garments.size() == 1 ? garments[0] : joinLayers(garments);
+}
+
+std::vector<PatchEdge> edgesOf(const Case& c, const GarmentCase& garment, const EdgeCase& e) {
   if (e.name.empty()) return {{e.patch, e.side, false}};
   return std::visit(Overloaded{
                         [&](const SheetGarment&) { return sheetEdge(e.name); },
-                        [&](const TubeGarment& t) {
-                          return tubeEdge({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches,
-                                           t.start, t.axis, SeamKind::G1, 0},
-                                          e.name);
-                        },
+                        [&](const TubeGarment& t) { return tubeEdge(patternOf(t), e.name); },
                         [&](const ShortsGarment&) { return shortsEdge(e.name); },
                         [&](const FileGarment&) -> std::vector<PatchEdge> {
                           throw InputError({c.file.string(), 0, "supports"},
                                            "edge \"" + e.name + "\": name the patch and side of a garment file's edge");
                         },
                     },
-                    c.garment.shape);
+                    garment.shape);
 }
 
 Shape shapeOf(const ObstacleCase& o, Placement& at) {
@@ -151,6 +179,26 @@ Shape shapeOf(const ObstacleCase& o, Placement& at) {
             return TriangleMesh{{-h * e1 - h * e2, h * e1 - h * e2, h * e1 + h * e2, -h * e1 + h * e2},
                                 {{0, 1, 2}, {0, 2, 3}}};
           },
+          [&](const TorusObstacle& t) -> Shape {
+            at.origin = t.center_m;
+            const Vec3 n = normalized(t.axis);
+            const Vec3 e1 = normalized(cross(std::abs(n.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)),
+                       e2 = cross(n, e1);
+            TriangleMesh mesh;
+            const auto id = [&](int i, int k) { return i % t.segments * t.rings + k % t.rings; };
+            for (int i = 0; i < t.segments; ++i) {
+              const double phi = 2 * M_PI * i / t.segments;
+              const Vec3 out = std::cos(phi) * e1 + std::sin(phi) * e2;
+              for (int k = 0; k < t.rings; ++k) {
+                const double theta = 2 * M_PI * k / t.rings;
+                mesh.vertices.push_back((t.radius_m + t.tube_m * std::cos(theta)) * out +
+                                        t.tube_m * std::sin(theta) * n);
+                mesh.triangles.push_back({id(i, k), id(i + 1, k), id(i + 1, k + 1)});
+                mesh.triangles.push_back({id(i, k), id(i + 1, k + 1), id(i, k + 1)});
+              }
+            }
+            return mesh;
+          },
           [&](const MeshObstacle& m) -> Shape {
             at.origin = m.position_m;
             return loadMesh(m.file, m.scale);
@@ -159,22 +207,38 @@ Shape shapeOf(const ObstacleCase& o, Placement& at) {
       o.shape);
 }
 
-void addSupports(const Case& c, const Garment& garment, const Surface& surface, const Human* human,
-                 ModelOptions& options, std::vector<SupportGroup>& groups) {
+/// `first`: the first patch of each garment.
+void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first, const Surface& surface,
+                 const Human* human, ModelOptions& options, std::vector<SupportGroup>& groups) {
   for (const SupportCase& support : c.supports) {
     SupportGroup group;
     const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
-    const std::string name = edge.name.empty() ? "edge of patch " + std::to_string(edge.patch) : edge.name;
-    const std::vector<PatchEdge> edges = edgesOf(c, edge);
-    for (const PatchEdge& e : edges) {
-      if (e.patch >= static_cast<int>(garment.patches.size()))
+    std::size_t worn = 0;
+    if (!edge.garment.empty())
+      while (c.garments[worn].name != edge.garment) ++worn;
+    const std::string of = c.garments.size() == 1 ? "" : edge.garment + " ";
+    const std::string name = of + (edge.name.empty() ? "edge of patch " + std::to_string(edge.patch) : edge.name);
+    std::vector<PatchEdge> edges;
+    if (!std::holds_alternative<PinnedSupport>(support)) edges = edgesOf(c, c.garments[worn], edge);
+    for (PatchEdge& e : edges) {
+      if (e.patch >= first[worn + 1] - first[worn])
         throw InputError({c.file.string(), 0, "supports"}, "patch " + std::to_string(e.patch) +
                                                                " does not exist; the garment has " +
-                                                               std::to_string(garment.patches.size()));
+                                                               std::to_string(first[worn + 1] - first[worn]));
+      e.patch += first[worn];
       for (int s : edgeSamples(surface, e))
         if (std::find(group.samples.begin(), group.samples.end(), s) == group.samples.end()) group.samples.push_back(s);
     }
-    if (const auto* fixed = std::get_if<FixedSupport>(&support)) {
+    if (const auto* pinned = std::get_if<PinnedSupport>(&support)) {
+      const int p = edge.patch + first[worn];
+      const NurbsPatch& patch = garment.patches[p];
+      const auto at = [](const KnotVector& k, double part) { return k.front() + part * (k.back() - k.front()); };
+      const SurfaceBasis basis = surfaceBasis(patch, at(patch.u, pinned->s), at(patch.v, pinned->t));
+      group.name = of + "point held";
+      for (std::size_t k = 0; k < basis.columns.size(); ++k)
+        if (basis.values[0][k] > 1e-12)
+          options.held_control_points.push_back(controlOffsets(garment)[p] + basis.columns[k]);
+    } else if (const auto* fixed = std::get_if<FixedSupport>(&support)) {
       group.name = name + " held";
       for (const PatchEdge& e : edges) {
         const EdgeColumns columns = edgeColumns(garment, e);
@@ -284,18 +348,25 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
   }
 
   const Human* human = s->human ? &*s->human : nullptr;
-  const Garment garment = makeGarment(c, human, s->patch_names);
+  std::vector<int> first;
+  std::vector<Vec3> noise;
+  const Garment garment = joinGarments(c, human, *s, first, noise);
   ModelOptions options;
-  options.samples_per_cell = c.garment.samples_per_cell;
+  options.patch_samples_per_cell = s->samples_per_cell;
+  options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
-  addSupports(c, garment, buildSurface(garment, buildFreeMap(garment), options.samples_per_cell), human, options,
+  addSupports(c, garment, first, buildSurface(garment, buildFreeMap(garment), s->samples_per_cell), human, options,
               s->supports);
   if (const auto& limit = c.strain_limit) options.strain_limit = limitOf(*limit);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
-  const ContactParameters contact{c.contact.layer_m, c.contact.friction, c.contact.relaxation_s,
+  const ContactParameters contact{c.contact.layer_m.value_or(0), c.contact.friction, c.contact.relaxation_s,
                                   c.contact.tolerance * (g > 0 ? g : 9.81), c.contact.max_iterations};
   s->model = buildModel(garment, options, environment, contact, std::move(obstacles));
+
+  if (std::any_of(noise.begin(), noise.end(), [](const Vec3& n) { return n != Vec3{}; }))
+    for (std::size_t i = 0; i < s->model->map.home.size(); ++i)
+      s->noise_m.push_back(s->model->held[i] ? Vec3{} : noise[static_cast<std::size_t>(s->model->map.home[i])]);
 
   const double grow = c.dressing.projecting ? c.dressing.projecting->grow_s : 0,
                settle = human ? c.dressing.settle_s : 0;
@@ -317,6 +388,14 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
 }
 
 }  // namespace
+
+State startOf(const Scenario& s, StepWork& work) {
+  State state = initialState(*s.model, *s.stage, s.start_s, work);
+  if (s.noise_m.empty()) return state;
+  for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.noise_m[i];
+  attachSprings(*s.model, *s.stage, state, work);
+  return state;
+}
 
 /// What only building shows to be wrong (a pattern that does not fit the body, say) is said with the case's name.
 std::unique_ptr<Scenario> buildScenario(const Case& c) {

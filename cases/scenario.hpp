@@ -29,16 +29,22 @@ struct Scenario {
   Vec3 mean_velocity_m_per_s;  ///< of the pelvis in walking
   std::unique_ptr<Model> model;
   std::unique_ptr<Stage> stage;
-  std::vector<std::string> bodies;    ///< links of the human, then the case's own obstacles
-  std::vector<int> body_of_obstacle;  ///< index in `bodies`
-  std::vector<std::string> patch_names;
+  std::vector<std::string> bodies;        ///< links of the human, then the case's own obstacles
+  std::vector<int> body_of_obstacle;      ///< index in `bodies`
+  std::vector<std::string> patch_names;   ///< where there are several garments, each starts with its garment's
+  std::vector<std::string> fabric_names;  ///< of the garments, each once
+  std::vector<int> samples_per_cell;      ///< of the patches
   std::vector<SupportGroup> supports;
+  std::vector<Vec3> noise_m;  ///< of the free points at the start; empty: none
   double start_s = 0, end_s = 0;
 
   /// Where the origin of each body's frame stands.
   std::vector<Pose> bodyPoses(double time_s) const;
   std::vector<Placement> obstaclePlacements(double time_s) const;
 };
+
+/// What a run starts from: the rest shapes with their noise.
+State startOf(const Scenario& scenario, StepWork& work);
 
 /// Throws InputError (with the case's file) where the case cannot be built, RunError where the body cannot be freed.
 std::unique_ptr<Scenario> buildScenario(const Case& c);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -188,9 +189,9 @@ Json objectSchema(const Object& object) {
   return s;
 }
 
-/// `seen`: the sections written so far.
-void describeObject(const Object& object, const std::string& path, std::set<std::string>& seen, std::string& out) {
-  std::string section = fmt::format("\n## {}{}\n\n", path.empty() ? "" : "`" + path + "`: ", object.title);
+/// What is said of an object alone.
+std::string sectionOf(const Object& object) {
+  std::string section;
   for (const Group& g : object.groups) {
     std::vector<std::string> keys;
     for (const Field& f : object.fields)
@@ -200,11 +201,33 @@ void describeObject(const Object& object, const std::string& path, std::set<std:
   section += "| key | type | default | allowed | meaning |\n|---|---|---|---|---|\n";
   for (const Field& f : object.fields)
     section += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.key, typeText(f), defaultText(f), allowedText(f), f.doc);
+  return section;
+}
+
+/// What is said of an object and all below it.
+std::string wholeOf(const Object& object) {
+  std::string whole = object.title + sectionOf(object);
+  for (const Field& f : object.fields)
+    if (f.object) whole += wholeOf(*f.object);
+  return whole;
+}
+
+/// `seen`: the sections written so far; `places`: objects with all below them, and where they stand in this kind.
+void describeObject(const Object& object, const std::string& path, std::map<std::string, std::string>& places,
+                    std::set<std::string>& seen, std::string& out) {
+  std::string section = fmt::format("\n## {}{}\n\n", path.empty() ? "" : "`" + path + "`: ", object.title);
+  const auto [first, fresh] = places.insert({wholeOf(object), path});
+  if (!fresh) {
+    section += fmt::format("As `{}`.\n", first->second);
+    if (seen.insert(section).second) out += section;
+    return;
+  }
+  section += sectionOf(object);
   if (seen.insert(section).second) out += section;
   for (const Field& f : object.fields)
     if (f.object)
-      describeObject(*f.object, (path.empty() ? "" : path + ".") + f.key + (f.kind == Kind::list ? "[]" : ""), seen,
-                     out);
+      describeObject(*f.object, (path.empty() ? "" : path + ".") + f.key + (f.kind == Kind::list ? "[]" : ""), places,
+                     seen, out);
 }
 
 }  // namespace
@@ -247,7 +270,8 @@ const std::string heading =
 std::string markdown(const Object& root) {
   std::string out = heading;
   std::set<std::string> seen;
-  describeObject(root, "", seen, out);
+  std::map<std::string, std::string> places;
+  describeObject(root, "", places, seen, out);
   return out;
 }
 
@@ -259,7 +283,8 @@ std::string markdown(const std::vector<KindOfFile>& kinds) {
   std::set<std::string> seen;
   for (const KindOfFile& k : kinds) {
     out += fmt::format("\n# Kind `{}`\n\n{}.\n", k.kind, k.root->about);
-    describeObject(*k.root, "", seen, out);
+    std::map<std::string, std::string> places;
+    describeObject(*k.root, "", places, seen, out);
   }
   return out;
 }

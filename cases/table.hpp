@@ -131,7 +131,8 @@ class Table {
     };
     return *this;
   }
-  /// An object that is written as an `In` and kept as something else: member = resolve(in), in = restore(member).
+  /// An object that is written as an `In` and kept as something else, or an optional of it: member = resolve(in),
+  /// in = restore(member).
   template <class In, class Get, class Resolve, class Restore>
   Table& converted(const std::string& key, Get get, Object table, Resolve resolve, Restore restore,
                    const std::string& doc) {
@@ -143,8 +144,15 @@ class Table {
       member(get, t) = resolve(p, in);
     };
     f.write = [=, o = f.object](const void* t) -> std::optional<JsonNode> {
-      const In in = restore(member(get, t));
-      return writeObject(*o, &in);
+      const auto& m = member(get, t);
+      if constexpr (is_optional<std::remove_cvref_t<decltype(m)>>) {
+        if (!m) return std::nullopt;
+        const In in = restore(*m);
+        return writeObject(*o, &in);
+      } else {
+        const In in = restore(m);
+        return writeObject(*o, &in);
+      }
     };
     return *this;
   }

@@ -10,16 +10,20 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                   const ContactParameters& contact, std::vector<Obstacle> obstacles) {
   const KernelSet& kernels = options.kernels ? *options.kernels : widestKernels();
   FreeMap map = buildFreeMap(garment);
-  Surface surface = buildSurface(garment, map, options.samples_per_cell);
+  if (!garment.layer.empty() && garment.layer.size() != garment.patches.size())
+    throw InputError({"", 0, "layer"}, "one number for each patch is needed");
+  validateFields(garment);
+  std::vector<int> per_cell = options.patch_samples_per_cell;
+  if (per_cell.empty()) per_cell.assign(garment.patches.size(), options.samples_per_cell);
+  Surface surface = buildSurface(garment, map, per_cell);
   const int n = map.T.column_count;
   std::vector<double> control_area = controlAreas(garment), area(n), mass(n), inverse(n);
   map.Tt.multiply<double>(control_area, area);
+  map.Tt.multiply<double>(controlMasses(garment), mass);
   std::vector<char> held(n, 0);
   for (int c : options.held_control_points)
     for (int k = map.T.offsets[c]; k < map.T.offsets[c + 1]; ++k) held[map.T.columns[k]] = 1;
-  const double rho = garment.fabric.surfaceDensity();
   for (int i = 0; i < n; ++i) {
-    mass[i] = rho * area[i];
     if (!(mass[i] > 0)) throw InputError({"", 0, "garment"}, "a control point would carry no mass");
     inverse[i] = held[i] ? 0 : 1 / mass[i];
   }
@@ -32,6 +36,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 std::move(area),
                                                 std::move(held),
                                                 {},
+                                                {},
                                                 environment,
                                                 contact,
                                                 std::move(obstacles),
@@ -43,7 +48,14 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 {},
                                                 options.strain_limit,
                                                 {}});
-  model->density_kg_per_m2.assign(model->surface.size(), rho);
+  std::vector<int> layer;
+  for (int s = 0; s < model->surface.size(); ++s) {
+    const int patch = model->surface.patch[s];
+    const Fabric fabric = fabricAt(garment, patch, model->surface.parameters[s]);
+    model->density_kg_per_m2.push_back(fabric.surfaceDensity());
+    model->layer_m.push_back(contact.layer_m > 0 ? contact.layer_m : fabric.thickness());
+    layer.push_back(garment.layerOf(patch));
+  }
   double total = 0, stiffness = 0;
   for (double m : model->mass_kg) total += m;
   for (const SpringSupportPoint& s : options.springs) stiffness += s.stiffness_N_per_m;
@@ -63,9 +75,8 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
   for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
   model->surface.W.multiply<Vec3>(Q, rest);
   const std::vector<Placement> placement(model->obstacles.size());
-  model->collisions = buildCollisions(model->surface, rest, std::vector<int>(rest.size(), 0),
-                                      std::vector<double>(rest.size(), contact.layer_m), model->obstacles, placement,
-                                      options.self_contact);
+  model->collisions = buildCollisions(model->surface, rest, std::move(layer), model->layer_m, model->obstacles,
+                                      placement, options.self_contact);
   return model;
 }
 

@@ -45,6 +45,7 @@ struct Model {
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
   std::vector<char> held;                              ///< free points that do not move
   std::vector<double> density_kg_per_m2;               ///< of the samples
+  std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
   Environment environment;
   ContactParameters contact;
   std::vector<Obstacle> obstacles;
@@ -64,6 +65,7 @@ struct Model {
 
 struct ModelOptions {
   int samples_per_cell = 2;
+  std::vector<int> patch_samples_per_cell;  ///< of each patch, in place of samples_per_cell; or empty
   int gauss_extra = 0;
   CellRule cell_rule = CellRule::automatic;
   std::vector<int> held_control_points;
@@ -75,7 +77,7 @@ struct ModelOptions {
   const KernelSet* kernels = nullptr;  ///< the widest where null
 };
 
-/// Throws InputError.
+/// contact.layer_m = 0: each sample keeps the thickness of its fabric. Throws InputError.
 std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& options, const Environment& environment,
                                   const ContactParameters& contact, std::vector<Obstacle> obstacles);
 

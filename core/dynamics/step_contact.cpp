@@ -10,6 +10,20 @@ namespace {
 constexpr int kRounds = 8;  ///< of solves
 constexpr int kZoneRounds = 12;
 
+/// The distance that a contact restores: half the sum of both sides' thicknesses, at a body that of the cloth. Weights
+/// of a side add up to 1.
+double layerOf(const Model& m, const ContactRow& row) {
+  double sum = 0;
+  for (int k = 0; k < row.stencil.count; ++k) sum += std::abs(row.stencil.weight[k]) * m.layer_m[row.stencil.sample[k]];
+  return row.contact.obstacle >= 0 ? sum : 0.5 * sum;
+}
+
+double targetOf(const Model& m, const ContactRow& row, double dt) {
+  ContactParameters parameters = m.contact;
+  parameters.layer_m = layerOf(m, row);
+  return persistentTarget(row.contact.gap_m, dt, parameters);
+}
+
 /// Rows of the persistent contacts with their warm tractions.
 void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   w.rows.clear();
@@ -26,15 +40,15 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   };
   for (const Contact& c : w.near) {
     const Vec3 body = (w.end[c.obstacle] * c.local - w.start[c.obstacle] * c.local) / dt;
-    add(bodyRow(c, body, persistentTarget(c.gap_m, dt, m.contact), false));
+    ContactRow row = bodyRow(c, body, 0, false);
+    row.target_m_per_s = targetOf(m, row, dt);
+    add(row);
   }
   for (const ClothContactPoint& p : w.collisions.points) {
-    ContactParameters parameters = m.contact;
-    parameters.layer_m = p.layer_m;
     ContactRow row;
     row.contact = p.contact;
     row.stencil = p.stencil;
-    row.target_m_per_s = persistentTarget(p.contact.gap_m, dt, parameters);
+    row.target_m_per_s = targetOf(m, row, dt);
     add(row);
   }
 }
@@ -42,7 +56,7 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
 /// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for a little more each round: bodies are curved, and
 /// pairs turn.
 void setImpactTarget(const Model& m, double dt, int round, ContactRow& row) {
-  const double layer = m.contact.layer_m, gap = row.contact.gap_m;
+  const double layer = layerOf(m, row), gap = row.contact.gap_m;
   const double keep = std::min(-std::expm1(-dt / m.contact.relaxation_s) * layer, std::max(gap, 0.0));
   row.target_m_per_s = (keep - gap + 0.05 * (round - 1) * layer) / dt;
 }
@@ -171,7 +185,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   w.reach.resize(samples);
   w.x1.resize(samples);
   for (int s = 0; s < samples; ++s) {
-    w.reach[s] = 1.1 * m.contact.layer_m + dt * norm(w.sample_velocity[s]);
+    w.reach[s] = 1.1 * m.layer_m[s] + dt * norm(w.sample_velocity[s]);
     w.x1[s] = w.x0[s] + dt * w.sample_velocity[s];
   }
   m.proximity->near(w.start, w.end, w.x0, w.reach, w.near);
@@ -254,7 +268,7 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
     report.work.contact += dot(impulse, mean);
     if (row.slippery) report.work.restoring += dot(impulse, mean);
     report.work.friction += dot(impulse - normal * c.normal, mean);
-    if (!row.slippery && c.gap_m < m.contact.layer_m && row.target_m_per_s > 0)
+    if (!row.slippery && c.gap_m < layerOf(m, row) && row.target_m_per_s > 0)
       report.work.separation += normal * row.target_m_per_s;
   }
   // What zones take from the cloth goes to what they move with.

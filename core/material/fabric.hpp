@@ -36,12 +36,16 @@ struct Fabric {
   /// a laminate whose B is not zero.
   bool tension_field = false;
 
-  /// [kg/m^2]; a layered section has the thickness of its plies.
-  double surfaceDensity() const {
+  bool operator==(const Fabric&) const = default;
+
+  /// [m]; a layered section has the thickness of its plies.
+  double thickness() const {
     double thickness = plies.empty() ? thickness_m : 0;
     for (const Ply& ply : plies) thickness += ply.thickness_m;
-    return density_kg_per_m3 * thickness;
+    return thickness;
   }
+  /// [kg/m^2]
+  double surfaceDensity() const { return density_kg_per_m3 * thickness(); }
 };
 
 }  // namespace gambeson

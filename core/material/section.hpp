@@ -22,6 +22,8 @@ struct Ply {
   double thickness_m = 0;
   double young1_Pa = 0, young2_Pa = 0, shear_Pa = 0, poisson12 = 0;
   double angle_rad = 0;
+
+  bool operator==(const Ply&) const = default;
 };
 
 /// Reduced stiffness Q-bar of a ply in the section's axes [Pa] (Jones, Mechanics of Composite Materials, 2nd ed., eq.

@@ -138,12 +138,17 @@ void validateFields(const Garment& g) {
               "must be between 0 and " + std::to_string(g.other_fabrics.size()) + ", the number of other materials");
       const bool whole = f.material->degree == 0 && std::all_of(f.material->values.begin(), f.material->values.end(),
                                                                 [](double v) { return v == std::floor(v); });
-      const auto layered = [](const Fabric& fabric) { return !fabric.plies.empty(); };
-      if (!whole && (layered(g.fabric) || std::any_of(g.other_fabrics.begin(), g.other_fabrics.end(), layered)))
-        throw InputError({"", 0, at + "material"}, "laminates cannot be mixed: use degree 0 and whole numbers");
-      for (const Fabric& other : g.other_fabrics)
-        if (!whole && (other.bending_law != g.fabric.bending_law || other.tension_field != g.fabric.tension_field))
+      if (whole) continue;
+      const auto [low, high] = std::minmax_element(f.material->values.begin(), f.material->values.end());
+      const int first_used = static_cast<int>(std::floor(*low)), last_used = static_cast<int>(std::ceil(*high));
+      const auto pick = [&](int k) -> const Fabric& { return k == 0 ? g.fabric : g.other_fabrics[k - 1]; };
+      for (int k = first_used; k <= last_used; ++k) {
+        if (!pick(k).plies.empty())
+          throw InputError({"", 0, at + "material"}, "laminates cannot be mixed: use degree 0 and whole numbers");
+        if (pick(k).bending_law != pick(first_used).bending_law ||
+            pick(k).tension_field != pick(first_used).tension_field)
           throw InputError({"", 0, at + "material"}, "only fabrics with the same laws can be mixed");
+      }
     }
   }
 }

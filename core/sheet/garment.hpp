@@ -1,5 +1,5 @@
 #pragma once
-/// What a layer of cloth is made of: patches at rest, the seams between them, and the fabric.
+/// What cloth is made of: patches at rest, the seams between them, and the fabric.
 
 #include <string>
 #include <vector>
@@ -42,8 +42,9 @@ struct WeakSeam {
   double factor = 1e3;  ///< penalty over the stiffness of a cell
 };
 
-/// A layer at rest. The weft direction at a point of patch i is weft[i] projected on the rest surface. `trims` and
-/// `fields` are empty, or hold one entry per patch.
+/// Cloth at rest: one garment, or several worn over each other (core/sheet/layers.hpp). The weft direction at a point
+/// of patch i is weft[i] projected on the rest surface. `trims`, `fields` and `layer` are empty, or hold one entry per
+/// patch.
 struct Garment {
   std::string name;
   std::vector<NurbsPatch> patches;
@@ -54,6 +55,9 @@ struct Garment {
   std::vector<Fabric> other_fabrics;  ///< what material fields choose from, beside `fabric`
   std::vector<PatchFields> fields;
   std::vector<WeakSeam> weak_seams;
+  std::vector<int> layer;  ///< garment that a patch belongs to, 0 innermost; empty: one garment
+
+  int layerOf(int patch) const { return layer.empty() ? 0 : layer[patch]; }
 };
 
 }  // namespace gambeson

@@ -133,9 +133,8 @@ Eigen::VectorXd tributaryAreas(const Garment& garment, const Surface& s) {
   return area;
 }
 
-}  // namespace
-
-std::vector<double> controlAreas(const Garment& garment) {
+/// ∫ weight N dA at rest for each control point; weight(patch, uv).
+std::vector<double> integrate(const Garment& garment, const auto& weight) {
   const std::vector<int> offsets = controlOffsets(garment);
   std::vector<double> area(offsets.back(), 0);
   for (const SheetCell& cell : sheetCells(garment)) {
@@ -147,7 +146,7 @@ std::vector<double> controlAreas(const Garment& garment) {
         A1 += basis.values[1][k] * patch.points[basis.columns[k]];
         A2 += basis.values[2][k] * patch.points[basis.columns[k]];
       }
-      const double dA = norm(cross(A1, A2)) * point.weight;
+      const double dA = norm(cross(A1, A2)) * point.weight * weight(cell.patch, Vec2{point.u, point.v});
       for (std::size_t k = 0; k < basis.columns.size(); ++k)
         area[offsets[cell.patch] + basis.columns[k]] += basis.values[0][k] * dA;
     }
@@ -155,15 +154,34 @@ std::vector<double> controlAreas(const Garment& garment) {
   return area;
 }
 
+}  // namespace
+
+std::vector<double> controlAreas(const Garment& garment) {
+  return integrate(garment, [](int, Vec2) { return 1.0; });
+}
+
+std::vector<double> controlMasses(const Garment& garment) {
+  const double density = garment.fabric.surfaceDensity();
+  return integrate(garment, [&](int patch, Vec2 uv) {
+    return fabricVaries(garment, patch) ? surfaceDensityAt(garment, patch, uv) : density;
+  });
+}
+
 Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
+  return buildSurface(garment, map, std::vector<int>(garment.patches.size(), per_cell));
+}
+
+Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const int> per_cell) {
   const std::vector<int> offsets = controlOffsets(garment);
   const int patch_count = static_cast<int>(garment.patches.size());
+  if (per_cell.size() != garment.patches.size())
+    throw InputError({"", 0, "sampling"}, "one number of samples per cell for each patch is needed");
   Surface s;
   std::vector<std::vector<double>> us(patch_count), vs(patch_count);
   std::vector<int> first{0};
   for (int p = 0; p < patch_count; ++p) {
-    us[p] = sampleParameters(garment.patches[p].u, per_cell);
-    vs[p] = sampleParameters(garment.patches[p].v, per_cell);
+    us[p] = sampleParameters(garment.patches[p].u, per_cell[p]);
+    vs[p] = sampleParameters(garment.patches[p].v, per_cell[p]);
     s.patch_grid_size.push_back({static_cast<int>(us[p].size()), static_cast<int>(vs[p].size())});
     first.push_back(first.back() + static_cast<int>(us[p].size() * vs[p].size()));
   }
@@ -175,6 +193,8 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
     return i;
   };
   for (const Seam& seam : garment.seams) {
+    if (per_cell[seam.a.patch] != per_cell[seam.b.patch])
+      throw InputError({"", 0, "sampling"}, "patches that a seam joins need the same number of samples per cell");
     const auto [nua, nva] = s.patch_grid_size[seam.a.patch];
     const auto [nub, nvb] = s.patch_grid_size[seam.b.patch];
     const auto a = gridEdge(nua, nva, seam.a), b = gridEdge(nub, nvb, seam.b);

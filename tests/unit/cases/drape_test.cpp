@@ -40,7 +40,7 @@ Drape drape(const Case& c) {
   for (int k = 1; k <= looks; ++k) {
     last = k > looks - 20;
     scene.run(end * k / looks, watch);
-    const TriangleMesh fine = denseSurface(m, scene.state, 4 * c.garment.samples_per_cell);
+    const TriangleMesh fine = denseSurface(m, scene.state, 4 * c.garments[0].samples_per_cell);
     if (const auto deepest = deepestPenetration(*m.proximity, placed, fine.vertices))
       d.depth_m = std::max(d.depth_m, deepest->depth_m);
     d.vertices_through = std::max(d.vertices_through, static_cast<int>(piercings(m.obstacles, placed, fine).size()));
@@ -49,7 +49,7 @@ Drape drape(const Case& c) {
   // The checks would see it: a sphere larger by 2 % is through the cloth that lies on it.
   std::vector<Placement> larger = placed;
   for (Placement& p : larger) p.scale = 1.02;
-  const TriangleMesh fine = denseSurface(m, scene.state, 4 * c.garment.samples_per_cell);
+  const TriangleMesh fine = denseSurface(m, scene.state, 4 * c.garments[0].samples_per_cell);
   EXPECT_TRUE(deepestPenetration(*m.proximity, larger, fine.vertices));
   EXPECT_FALSE(piercings(m.obstacles, larger, fine).empty());
   std::printf(

@@ -245,7 +245,7 @@ TEST(MalformedCase, OverridesGoThroughTheSameTable) {
   const Folder folder;
   const std::filesystem::path file = folder.write("example.json", example);
   EXPECT_EQ(readCase(file, {"contact.friction=0.7"}).contact.friction, 0.7);
-  EXPECT_EQ(readCase(file, {"fabric.thickness=0.4 mm"}).contact.layer_m, 0.4e-3);
+  EXPECT_EQ(readCase(file, {"fabric.thickness=0.4 mm"}).fabric.thickness_m, 0.4e-3);
   EXPECT_EQ(readCase(file, {"time.duration=1 s"}).time.duration_s, 1.0);
   const std::pair<std::string, std::string> cases[] = {
       {"fabric.thicknes=1", "fabric.thicknes"},

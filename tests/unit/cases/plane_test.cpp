@@ -20,7 +20,7 @@ namespace {
 Case slope(double alpha_rad, double friction, const std::vector<std::string>& overrides = {}) {
   Case c = libraryCase("inclined_plane", overrides);
   const Vec3 n{std::sin(alpha_rad), 0, std::cos(alpha_rad)}, down{std::cos(alpha_rad), 0, -std::sin(alpha_rad)};
-  auto& sheet = std::get<SheetGarment>(c.garment.shape);
+  auto& sheet = std::get<SheetGarment>(c.garments[0].shape);
   sheet.axis_u = down;
   sheet.corner = 0.1 * n - 0.3 * down + Vec3{0, -0.3, 0};
   std::get<PlaneObstacle>(c.obstacles[0].shape).normal = n;
@@ -72,8 +72,8 @@ Landing land(const Case& c) {
     if (!landed) return;
     samplePositions(m, after.p, x);
     for (const Vec3& s : x) {
-      l.rebound_m = std::max(l.rebound_m, dot(s, n) - c.contact.layer_m);
-      l.depth_m = std::max(l.depth_m, c.contact.layer_m - dot(s, n));
+      l.rebound_m = std::max(l.rebound_m, dot(s, n) - *c.contact.layer_m);
+      l.depth_m = std::max(l.depth_m, *c.contact.layer_m - dot(s, n));
     }
     const double t = now - l.time_s, decay = std::exp(-drag * t);
     if (a > 0) {
@@ -116,7 +116,7 @@ void expectSliding(const Case& c, const Landing& l, double alpha_rad) {
   EXPECT_LT(l.depth_m, 1e-6);
   EXPECT_LT(l.sliding_error, 0.02);
   // 0.1 m less the layer along the normal, with the fall's closed form solved for the time by Newton's method.
-  const double way = (0.1 - c.contact.layer_m) / std::cos(alpha_rad);
+  const double way = (0.1 - *c.contact.layer_m) / std::cos(alpha_rad);
   double t = std::sqrt(2 * way / g);
   for (int k = 0; k < 20; ++k) {
     const double v = g / drag * (1 - std::exp(-drag * t));

@@ -25,7 +25,7 @@ class SceneRun {
  public:
   explicit SceneRun(const Case& c) : scenario(buildScenario(c)), model(*scenario->model), stage(*scenario->stage) {
     omp_set_num_threads(1);
-    state = initialState(model, stage, scenario->start_s, work);
+    state = startOf(*scenario, work);
   }
 
   void run(double until_s, const StepObserver& watch) {
