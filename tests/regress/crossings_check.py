@@ -12,7 +12,7 @@ from common import HERE, Folder, check, run_case
 
 CASE = {
     "name": "A sheet on a block",
-    "garment": {"sheet": {"width": "0.1 m", "height": "0.1 m", "cells_u": 8, "cells_v": 8, "corner": [-0.05, -0.05, 0.032]}},
+    "garment": {"sheet": {"width": "0.1 m", "height": "0.1 m", "cells_u": 8, "cells_v": 8, "corner": [-0.05, -0.05, 0.032]}, "noise": "0.1 mm"},
     "fabric": {"thickness": "1 mm", "surface_density": "0.144 kg/m^2", "young": "30 kPa", "poisson": 0.3,
                "bending": {"law": "zheng", "rigidity": "7e-6 N m", "kappa0": "30 1/m"}},
     "obstacles": [{"name": "ball", "sphere": {"radius": "0.03 m", "rings": 9, "segments": 12}}],

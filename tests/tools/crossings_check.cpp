@@ -113,7 +113,7 @@ int checkAgain(const Scenario& scenario, const RecordingReader* recording, bool 
   const Case& c = scenario.definition;
   StepWork work;
   Frequency frequency;
-  State state = initialState(*scenario.model, *scenario.stage, scenario.start_s, work);
+  State state = startOf(scenario, work);
   look.state(state, true);
   const Windows windows(scenario.start_s, scenario.end_s, c.output.window_s);
   int frame = 0, equal = 0;
