@@ -60,6 +60,17 @@ TEST_P(TangledSheets, ComeFreeAndStayFree) {
 }
 INSTANTIATE_TEST_SUITE_P(Library, TangledSheets, testing::Values("tangle_open", "tangle_half", "tangle_closed"));
 
+/// At the neck dC/dd = 0: by length the sleeve stays, by area it leaves (Zheng 2013, fig. 4.5 and 4.6).
+TEST(TangledSleeve, ComesFreeByAreaAndNotByLength) {
+  SceneRun by_area(libraryCase("tangle_sleeve"));
+  const Freed area = freed(by_area, 0.3);
+  EXPECT_GT(area.at_start, 0);
+  EXPECT_EQ(area.at_end, 0);
+  SceneRun by_length(libraryCase("tangle_sleeve"));
+  by_length.scenario->model->collisions.untangling.by = UntangleBy::kLength;
+  EXPECT_GT(freed(by_length, 0.3).at_end, 0);
+}
+
 /// In the order of their layers: each tube's samples lie outside of the one below.
 TEST(TangledTubes, ComeFreeInTheOrderOfTheirLayers) {
   SceneRun scene(libraryCase("nested_tubes"));
