@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "cases/recorder.hpp"
@@ -68,6 +69,7 @@ class Looker {
       fmt::print("    {}\n", check_.name(found.pairs[k]));
     for (int k = 0; k < named_ && k < static_cast<int>(found.collapsed.size()); ++k)
       fmt::print("    {} has no area\n", check_.name(found.collapsed[k]));
+    std::fflush(stdout);
   }
 
   exact::SceneIntersections check_;
