@@ -210,16 +210,18 @@ GAMBESON_WIDE void projectRows(ContactWork& w, bool exact, int begin, int end, d
     if (w.share[k] == 0) continue;  // stays zero
     V4 v;
     relative(w, k, v);
-    const double bound = v[3];
-    const double* at = w.point[k].lane;
     const ContactWork::Row& facts = w.facts[k];
+    const double bound = v[3] + facts.compliance;
+    const double* at = w.point[k].lane;
     // A row without a mark is not in the bound yet.
     const double inverse = exact                                ? facts.slope  // of the step
                            : at[3] > 0 && bound < facts.largest ? std::max(bound, 0.05 * facts.largest)
                                                                 : facts.largest;
     const double step = 1 / inverse;
     const Vec3 from{at[0], at[1], at[2]};
-    const Vec3 next = project(from - step * (Vec3{v[0], v[1], v[2]} - facts.drift), facts.normal, facts.friction);
+    const Vec3 yields = (facts.compliance * dot(from, facts.normal)) * facts.normal;
+    const Vec3 next =
+        project(from - step * (Vec3{v[0], v[1], v[2]} + yields - facts.drift), facts.normal, facts.friction);
     const Vec3 way = next - from;
     largest2 = std::max(largest2, norm2(way) * (inverse * inverse));
     if (exact) continue;
@@ -242,7 +244,7 @@ void largestBounds(ContactWork& w) {
   for (int k = 0; k < n; ++k) {
     V4 v;
     relative(w, k, v);
-    w.facts[k].largest = std::max(w.facts[k].slope, v[3]);
+    w.facts[k].largest = std::max(w.facts[k].slope, v[3] + w.facts[k].compliance);
   }
 }
 
@@ -331,6 +333,11 @@ double persistentTarget(double gap, double dt, const ContactParameters& c) {
   return depth > 0 ? -std::expm1(-dt / c.relaxation_s) * depth / dt : depth / dt;
 }
 
+double persistentCompliance(double gap, double dt, const ContactParameters& c) {
+  if (gap >= c.layer_m) return 0;
+  return -std::expm1(-dt / c.relaxation_s) * c.compliance_m_per_Pa / (dt * dt);
+}
+
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                            std::span<const double> area, std::span<const double> density, const ContactParameters& c,
                            double dt, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
@@ -365,7 +372,12 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
     double slope = 0;
     for (int j = 0; j < row.stencil.count; ++j)
       slope += std::abs(row.stencil.weight[j]) / density[row.stencil.sample[j]];
-    w.facts[k] = {row.contact.normal, row.body_velocity + row.target_m_per_s * row.contact.normal, friction, slope,
+    slope += row.compliance;
+    w.facts[k] = {row.contact.normal,
+                  row.body_velocity + row.target_m_per_s * row.contact.normal,
+                  friction,
+                  row.compliance,
+                  slope,
                   slope};
   }
   for (int f = 0; f < free_count; ++f) {

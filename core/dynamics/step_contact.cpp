@@ -18,10 +18,11 @@ double layerOf(const Model& m, const ContactRow& row) {
   return row.contact.obstacle >= 0 ? sum : 0.5 * sum;
 }
 
-double targetOf(const Model& m, const ContactRow& row, double dt) {
+void setPersistent(const Model& m, double dt, ContactRow& row) {
   ContactParameters parameters = m.contact;
   parameters.layer_m = layerOf(m, row);
-  return persistentTarget(row.contact.gap_m, dt, parameters);
+  row.target_m_per_s = persistentTarget(row.contact.gap_m, dt, parameters);
+  row.compliance = persistentCompliance(row.contact.gap_m, dt, parameters);
 }
 
 /// Rows of the persistent contacts with their warm tractions.
@@ -41,14 +42,14 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   for (const Contact& c : w.near) {
     const Vec3 body = (w.end[c.obstacle] * c.local - w.start[c.obstacle] * c.local) / dt;
     ContactRow row = bodyRow(c, body, 0, false);
-    row.target_m_per_s = targetOf(m, row, dt);
+    setPersistent(m, dt, row);
     add(row);
   }
   for (const ClothContactPoint& p : w.collisions.points) {
     ContactRow row;
     row.contact = p.contact;
     row.stencil = p.stencil;
-    row.target_m_per_s = targetOf(m, row, dt);
+    setPersistent(m, dt, row);
     add(row);
   }
 }
