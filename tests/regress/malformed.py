@@ -222,7 +222,7 @@ def all_bad():
         cloth("truncated", cut(0.7), ":", ""),
         # empty
         case("empty", whole(""), "", "empty"),
-        case("empty", whole("{}"), ":1: name", "is required"),
+        case("empty", whole("{}"), ":1: one of garment or garments", "is required"),
         urdf("empty", whole(""), "", "empty"),
         urdf("empty", whole('<robot name="x"/>'), ":1:", "<link>"),
         body("empty", whole(""), "", "empty"),
