@@ -154,18 +154,26 @@ TEST(ContourRegion, AreaDecidesNotTheNumberOfVertices) {
   }
 }
 
-/// Two cuts across a sheet: with both, what lies beside one ends at the other.
-TEST(ContourRegion, TwoCutsBoundARegionTogether) {
+/// A flat square of nu x nv cells, cut across by two upright sheets.
+Tangled cutTwice(int nu, int nv) {
   const auto across = [](double at) {
     return sheet(9, 3, [=](double u, double v) { return Vec3{at + 0.1 * (v - 0.47), 1.4 * u - 0.2, v - 0.47}; });
   };
-  const Tangled s = join({sheet(11, 7, [](double u, double v) { return Vec3{u, v, 0}; }), across(0.23), across(0.71)});
+  return join({sheet(nu, nv, [](double u, double v) { return Vec3{u, v, 0}; }), across(0.23), across(0.71)});
+}
+
+std::array<ContourPath, 2> pathsOnSheet(const Tangled& s, const std::vector<Contour>& contours) {
+  return {ContourPath{&contours[0], sideOf(s, contours[0], 0)}, ContourPath{&contours[1], sideOf(s, contours[1], 0)}};
+}
+
+/// Two cuts across a sheet: with both, what lies beside one ends at the other.
+TEST(ContourRegion, TwoCutsBoundARegionTogether) {
+  const Tangled s = cutTwice(11, 7);
   const auto contours = contoursOf(s);
   ASSERT_EQ(contours.size(), 2u);
   FloodWork work;
   work.label.resize(s.x.size());
-  const std::array<ContourPath, 2> paths{ContourPath{&contours[0], sideOf(s, contours[0], 0)},
-                                         ContourPath{&contours[1], sideOf(s, contours[1], 0)}};
+  const std::array<ContourPath, 2> paths = pathsOnSheet(s, contours);
   for (const bool swap : {false, true}) {
     const CutSurface both(s.mesh, paths), one(s.mesh, std::span(paths).subspan(swap, 1));
     const double cut = paths[swap].contour->points[0].x.x, rest = std::min(cut, 1 - cut);
@@ -193,16 +201,12 @@ TEST(ContourRegion, TwoCutsBoundARegionTogether) {
 
 /// The same where every triangle between them has both cuts: what lies between holds no vertex.
 TEST(ContourRegion, TwoCutsInOneTriangle) {
-  const auto across = [](double at) {
-    return sheet(9, 3, [=](double u, double v) { return Vec3{at + 0.1 * (v - 0.47), 1.4 * u - 0.2, v - 0.47}; });
-  };
-  const Tangled s = join({sheet(1, 5, [](double u, double v) { return Vec3{u, v, 0}; }), across(0.23), across(0.71)});
+  const Tangled s = cutTwice(1, 5);
   const auto contours = contoursOf(s);
   ASSERT_EQ(contours.size(), 2u);
   FloodWork work;
   work.label.resize(s.x.size());
-  const std::array<ContourPath, 2> paths{ContourPath{&contours[0], sideOf(s, contours[0], 0)},
-                                         ContourPath{&contours[1], sideOf(s, contours[1], 0)}};
+  const std::array<ContourPath, 2> paths = pathsOnSheet(s, contours);
   for (const bool swap : {false, true}) {
     const ContourRegion r = floodRegion(s.mesh, s.x, CutSurface(s.mesh, paths), swap, 0, work);
     ASSERT_TRUE(r.found);

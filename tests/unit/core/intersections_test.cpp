@@ -196,7 +196,7 @@ collision::Frame publicMesh(const std::string& name) {
 
 TEST(ExactIntersections, TwoCubes) {
   const collision::Frame close = publicMesh("two-cubes-close.ply"), through = publicMesh("two-cubes-intersecting.ply");
-  if (close.faces.empty() || through.faces.empty()) GTEST_SKIP() << "no public data";
+  if (close.faces.empty() || through.faces.empty()) GTEST_SKIP() << "no public data: real/collision/two-cubes-*.ply";
   EXPECT_TRUE(intersections(close.vertices, close.faces).none());
   const auto found = intersections(through.vertices, through.faces);
   EXPECT_TRUE(found.collapsed.empty());
