@@ -71,18 +71,21 @@ TEST(SelfContact, TwoSheetsMeetWithoutPassingAndKeepTheirMomentum) {
 TEST(SelfContact, FastSheetsAreStoppedByImpact) {
   Motion m = twoSheets(0.02, 0.4);
   for (int i = 0; i < m.model->freeCount(); ++i)
-    if (m.state.p[i].z > 0.005) m.state.v[i] = {0, 0, -60};
+    if (m.state.p[i].z > 0.005) m.state.v[i] = {-120, 40, -60};
   m.restart();
-  int impacts = 0;
+  int impacts = 0, contacts = 0;
   for (int s = 0; s < 30; ++s) {
-    const StepReport r = m.step(2e-4);  // 12 mm in a step
+    // 12 mm down and 25 mm sideways in a step: the nearest points at its start tell nothing.
+    const StepReport r = m.step(2e-4);
     ASSERT_EQ(r.failure, StepFailure::none) << r.why;
     ASSERT_EQ(crossings(m), 0) << s;
-    impacts += r.impacts + r.cloth_contacts;
+    impacts += r.impacts;
+    contacts += r.cloth_contacts;
     // Impulses take energy, but for what restoring the layer adds.
     EXPECT_LE(r.work.contact, r.work.separation + 1e-12) << s;
   }
-  EXPECT_GT(impacts, 100);
+  EXPECT_GT(impacts, 10);
+  EXPECT_GT(impacts + contacts, 100);
 }
 
 TEST(SelfContact, AClosingFoldDoesNotPassThroughItself) {
