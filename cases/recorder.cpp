@@ -25,6 +25,7 @@ enum Column {
   kResidual,
   kMomentumError,
   kDeepest,
+  kWay,
   kWorkContact,
   kWorkSeparation,
   kWorkRestoring,
@@ -32,6 +33,7 @@ enum Column {
   kWorkDrag,
   kWorkSupports,
   kWorkLimit,
+  kDissipated,
   kProjections,
   kUnlimited,
   kLimitResidual,
@@ -91,6 +93,7 @@ const std::vector<std::string>& stepColumns() {
                                               "largest_residual_m_per_s",
                                               "momentum_error",
                                               "deepest_m",
+                                              "largest_way_cells",
                                               "work_contact_J",
                                               "work_separation_J",
                                               "work_restoring_J",
@@ -98,6 +101,7 @@ const std::vector<std::string>& stepColumns() {
                                               "work_drag_J",
                                               "work_supports_J",
                                               "work_limit_J",
+                                              "dissipated_J",
                                               "projections",
                                               "unlimited_steps",
                                               "largest_limit_residual",
@@ -235,6 +239,7 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   most(kResidual, r.contact.residual_m_per_s);
   most(kMomentumError, r.momentum.scale > 0 ? r.momentum.error() / r.momentum.scale : 0);
   most(kDeepest, r.deepest_m);
+  most(kWay, r.largest_way);
   steps_[kSteps] += 1;
   steps_[kImpacts] += r.impacts;
   steps_[kIterations] += r.contact.iterations;
@@ -246,6 +251,7 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   steps_[kWorkDrag] += r.work.drag;
   steps_[kWorkSupports] += r.work.supports;
   steps_[kWorkLimit] += r.work.limit;
+  steps_[kDissipated] += r.work.dissipated;
   steps_[kProjections] += r.limit.projections;
   steps_[kUnlimited] += r.limit.converged ? 0 : 1;
   most(kLimitResidual, r.limit.residual);

@@ -64,6 +64,7 @@ struct CollisionWindow {
   long impacts = 0, zones = 0, cut_steps = 0, pinched = 0;
   long intersections = 0;  ///< contours, the most of a step
   double smallest_gap_m = 0, residual_m_per_s = 0, iterations = 0;
+  double way_cells = 0;  ///< of a sample in a step, in sides of its cell, the largest
 };
 
 /// Over all windows of the run, dressing included, but for what says otherwise.
@@ -83,7 +84,9 @@ struct StepMeasure {
 
 /// Change of the total energy from the end of the first window of the motion, against the works since [J].
 struct EnergyMeasure {
-  double change = 0, contact = 0, friction = 0, separation = 0, restoring = 0, drag = 0, supports = 0, limit = 0, absolute = 0;
+  double change = 0, contact = 0, friction = 0, separation = 0, restoring = 0, drag = 0, supports = 0, limit = 0,
+         absolute = 0;
+  double dissipated = 0;  ///< by friction, inelastic impact and drag
   double drift() const { return change - (contact + drag + supports + limit); }
   double relative() const { return absolute > 0 ? drift() / absolute : 0; }
 };

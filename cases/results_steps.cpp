@@ -37,7 +37,7 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     m.collisions.push_back({r[0], r[1], count("most_contacts"), count("most_cloth_contacts"), count("impacts"),
                             count("zones"), count("cut_steps"), count("pinched"), count("most_intersections"),
                             at("smallest_gap_m"), at("largest_residual_m_per_s"),
-                            at("iterations") / std::max(1.0, at("steps"))});
+                            at("iterations") / std::max(1.0, at("steps")), at("largest_way_cells")});
     m.shortest_s = std::min(m.shortest_s, at("shortest_step_s"));
     m.longest_s = std::max(m.longest_s, at("longest_step_s"));
     m.largest_residual_m_per_s = std::max(m.largest_residual_m_per_s, at("largest_residual_m_per_s"));
@@ -63,6 +63,7 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     e.separation += at("work_separation_J");
     e.restoring += at("work_restoring_J");
     e.drag += at("work_drag_J");
+    e.dissipated += at("dissipated_J");
     e.supports += at("work_supports_J");
     e.limit += at("work_limit_J");
     e.absolute += std::abs(at("work_contact_J")) + std::abs(at("work_drag_J")) + std::abs(at("work_supports_J")) +
@@ -81,11 +82,13 @@ void writeCollisions(const std::filesystem::path& csv, std::span<const Collision
     rows.push_back({w.start_s, w.end_s});
     for (long n : {w.contacts, w.cloth_contacts, w.impacts, w.zones, w.cut_steps, w.pinched, w.intersections})
       rows.back().push_back(static_cast<double>(n));
-    rows.back().insert(rows.back().end(), {w.contacts > 0 ? w.smallest_gap_m : 0, w.residual_m_per_s, w.iterations});
+    rows.back().insert(rows.back().end(),
+                       {w.contacts > 0 ? w.smallest_gap_m : 0, w.residual_m_per_s, w.iterations, w.way_cells});
   }
   writeCsv(csv,
            {"start_s", "end_s", "most_contacts", "most_cloth_contacts", "impacts", "rigid_zones", "cut_steps",
-            "pinched_samples", "most_intersections", "smallest_gap_m", "largest_residual_m_per_s", "mean_iterations"},
+            "pinched_samples", "most_intersections", "smallest_gap_m", "largest_residual_m_per_s", "mean_iterations",
+            "largest_way_cells"},
            rows);
 }
 

@@ -1,6 +1,7 @@
 /// summary.json
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cases/results_write.hpp"
@@ -66,7 +67,10 @@ Json stressJson(const Measured& m) {
 
 Json collisionsJson(const Measured& m) {
   CollisionWindow all;
-  double flagged_s = -1;
+  all.smallest_gap_m = std::numeric_limits<double>::infinity();
+  double flagged_s = -1, apart_s = 0;
+  bool touched = false;
+  long flagged = 0;
   for (const CollisionWindow& w : m.steps.collisions) {
     all.contacts = std::max(all.contacts, w.contacts);
     all.cloth_contacts = std::max(all.cloth_contacts, w.cloth_contacts);
@@ -75,6 +79,11 @@ Json collisionsJson(const Measured& m) {
     all.cut_steps += w.cut_steps;
     all.pinched += w.pinched;
     all.intersections = std::max(all.intersections, w.intersections);
+    all.way_cells = std::max(all.way_cells, w.way_cells);
+    touched = touched || w.contacts > 0;
+    if (touched && w.contacts == 0) apart_s += w.end_s - w.start_s;
+    if (w.contacts > 0) all.smallest_gap_m = std::min(all.smallest_gap_m, w.smallest_gap_m);
+    flagged += w.pinched > 0;
     if (w.pinched > 0 && flagged_s < 0) flagged_s = w.start_s;
   }
   Json j{{"most_contacts", all.contacts},
@@ -83,9 +92,15 @@ Json collisionsJson(const Measured& m) {
          {"rigid_zones", all.zones},
          {"cut_steps", all.cut_steps},
          {"pinched_samples", all.pinched},
+         {"flagged_windows", flagged},
          {"most_intersections", all.intersections},
          {"intersections_at_end", m.steps.collisions.empty() ? 0 : m.steps.collisions.back().intersections},
+         {"largest_way_of_a_sample_in_cells", all.way_cells},
+         {"largest_residual_m_per_s", m.steps.largest_residual_m_per_s},
+         {"unconverged_steps", m.steps.unconverged},
+         {"without_contact_after_the_first_s", apart_s},
          {"work_of_restoring_J", m.energy.restoring}};
+  if (touched) j["smallest_gap_m"] = all.smallest_gap_m;
   if (flagged_s >= 0) j["first_pinched_at_s"] = flagged_s;
   return j;
 }
@@ -156,6 +171,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                  {"work_contact_friction_J", m.energy.friction},
                  {"work_contact_separation_J", m.energy.separation},
                  {"work_drag_J", m.energy.drag},
+                 {"dissipated_J", m.energy.dissipated},
                  {"work_supports_J", m.energy.supports},
                  {"drift_J", m.energy.drift()},
                  {"sum_of_absolute_works_J", m.energy.absolute},

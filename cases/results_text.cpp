@@ -95,6 +95,9 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
   checks.push_back({"Intersections",
                     m.steps.collisions.empty() ? 0 : static_cast<double>(m.steps.collisions.back().intersections), 0,
                     "", "places where cloth passes through cloth or a mesh at the end"});
+  double way = 0;
+  for (const CollisionWindow& w : m.steps.collisions) way = std::max(way, w.way_cells);
+  checks.push_back({"Movement", way, 0.5, "cells", "the farthest that a sample of the cloth goes in a step"});
   checks.push_back({"Pinched", pinched, 0, "", "samples between two obstacles whose impacts had to be let pass"});
   if (m.limited)
     checks.push_back(

@@ -1,10 +1,24 @@
 #include "core/dynamics/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 
 namespace gambeson {
+namespace {
+
+/// The shorter side of the cell that (u, v) is in, measured through the cell's middle: a cell whose edge is a point
+/// has one too.
+double cellSide(const NurbsPatch& patch, const Vec2& at) {
+  const int i = findSpan(patch.u, at.x), j = findSpan(patch.v, at.y);
+  const double u0 = patch.u.knots[i], u1 = patch.u.knots[i + 1], v0 = patch.v.knots[j], v1 = patch.v.knots[j + 1];
+  const double u = 0.5 * (u0 + u1), v = 0.5 * (v0 + v1);
+  const auto x = [&](double a, double b) { return surfaceDerivatives(patch, a, b)[0]; };
+  return std::min(norm(x(u1, v) - x(u0, v)), norm(x(u, v1) - x(u, v0)));
+}
+
+}  // namespace
 
 std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& options, const Environment& environment,
                                   const ContactParameters& contact, std::vector<Obstacle> obstacles) {
@@ -37,6 +51,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 std::move(held),
                                                 {},
                                                 {},
+                                                {},
                                                 environment,
                                                 contact,
                                                 std::move(obstacles),
@@ -52,6 +67,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
   for (int s = 0; s < model->surface.size(); ++s) {
     const int patch = model->surface.patch[s];
     const Fabric fabric = fabricAt(garment, patch, model->surface.parameters[s]);
+    model->cell_m.push_back(cellSide(garment.patches[patch], model->surface.parameters[s]));
     model->density_kg_per_m2.push_back(fabric.surfaceDensity());
     model->layer_m.push_back(contact.layer_m > 0 ? contact.layer_m : fabric.thickness());
     layer.push_back(garment.layerOf(patch));

@@ -45,6 +45,7 @@ struct Model {
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
   std::vector<char> held;                              ///< free points that do not move
   std::vector<double> density_kg_per_m2;               ///< of the samples
+  std::vector<double> cell_m;   ///< of the samples: the shorter side of their cell at rest, through its middle
   std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
   Environment environment;
   ContactParameters contact;
@@ -129,6 +130,9 @@ struct WorkAudit {
   double friction = 0;    ///< part of it: tangential
   double drag = 0, supports = 0;
   double limit = 0;  ///< of the strain limits' impulses on the free points
+  /// Lost to friction, inelastic impact and drag, at least 0: works relative to the bodies and the air, without what
+  /// separation and restoring add.
+  double dissipated = 0;
 };
 
 enum class StepFailure { none, not_finite, impact };
@@ -152,6 +156,7 @@ struct StepReport {
   int intersections = 0;       ///< contours at the start of the step
   double smallest_gap_m = 0;   ///< of the persistent contacts; negative inside bodies; the largest double where none
   double deepest_m = 0;        ///< largest penetration of a sample at the start of the step, 0 if none
+  double largest_way = 0;      ///< of a sample during the step, in sides of its cell (Model::cell_m)
 };
 
 /// Wall time of the phases of the steps so far [s].

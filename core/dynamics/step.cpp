@@ -166,6 +166,9 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.v.resize(n);
   for (int i = 0; i < n; ++i) out.p[i] = in.p[i] + dt * w.velocity[i];
   if (!allFinite(out.p)) return notFinite("a position is not finite");
+  samplePositions(m, out.p, w.x1);
+  for (int s = 0; s < m.surface.size(); ++s)
+    report.largest_way = std::max(report.largest_way, norm(w.x1[s] - w.x0[s]) / m.cell_m[s]);
   clock.lap(w.times.other);
   out.anchors = in.anchors;
   std::vector<Vec3>& spring_mean = w.spring_impulses;
@@ -230,6 +233,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
     const double d = m.environment.drag_kg_per_m2s * m.area_m2[i];
     const Vec3 &v0 = in.v[i], &v1 = out.v[i];
     report.work.drag -= half * d * (dot(v0 - air0, v0) + dot(v1 - air1, v1));
+    report.work.dissipated += half * d * (norm2(v0 - air0) + norm2(v1 - air1));
   }
   audit.drag = half * (in.sums.drag + out.sums.drag);
   audit.supports += half * (in.sums.springs + in.sums.held + out.sums.springs + out.sums.held);

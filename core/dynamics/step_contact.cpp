@@ -269,8 +269,10 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
     report.work.contact += dot(impulse, mean);
     if (row.slippery) report.work.restoring += dot(impulse, mean);
     report.work.friction += dot(impulse - normal * c.normal, mean);
-    if (!row.slippery && c.gap_m < layerOf(m, row) && row.target_m_per_s > 0)
-      report.work.separation += normal * row.target_m_per_s;
+    const double separation =
+        !row.slippery && c.gap_m < layerOf(m, row) && row.target_m_per_s > 0 ? normal * row.target_m_per_s : 0;
+    report.work.separation += separation;
+    if (!row.slippery) report.work.dissipated += separation - dot(impulse, mean - row.body_velocity);
   }
   // What zones take from the cloth goes to what they move with.
   for (const ImpactZone& zone : w.zones)
@@ -278,6 +280,8 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
       if (m.held[i]) continue;
       const Vec3 impulse = m.mass_kg[i] * w.zone_change[i];
       report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.zone_change[i]);
+      report.work.dissipated +=
+          0.5 * dot(impulse, w.zone_change[i]) - (zone.body < 0 ? dot(impulse, w.velocity[i]) : 0);
       report.momentum.scale += norm(impulse);
       if (zone.body >= 0) {
         const Vec3 point = in.p[i];
