@@ -22,6 +22,7 @@ enum Column {
   kSmallestGap,
   kIterations,
   kUnconverged,
+  kYielded,
   kResidual,
   kMomentumError,
   kDeepest,
@@ -90,6 +91,7 @@ const std::vector<std::string>& stepColumns() {
                                               "smallest_gap_m",
                                               "iterations",
                                               "unconverged_steps",
+                                              "yielded_steps",
                                               "largest_residual_m_per_s",
                                               "momentum_error",
                                               "deepest_m",
@@ -244,6 +246,7 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   steps_[kImpacts] += r.impacts;
   steps_[kIterations] += r.contact.iterations;
   steps_[kUnconverged] += r.contact.converged ? 0 : 1;
+  steps_[kYielded] += r.contact.yielded;
   steps_[kWorkContact] += r.work.contact;
   steps_[kWorkSeparation] += r.work.separation;
   steps_[kWorkRestoring] += r.work.restoring;

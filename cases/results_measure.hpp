@@ -70,6 +70,7 @@ struct CollisionWindow {
 /// Over all windows of the run, dressing included, but for what says otherwise.
 struct StepMeasure {
   long steps = 0, unconverged = 0, impacts = 0;
+  long yielded = 0;  ///< steps whose contacts contradicted each other (cloth is pinched) and gave way
   double shortest_s = 0, mean_s = 0, longest_s = 0;
   double frequency_rad_per_s = 0, frequency_time_s = 0;  ///< largest
   std::array<double, 4> shares{};                        ///< membrane, bending, seam, spring, at the largest frequency

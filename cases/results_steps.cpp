@@ -29,6 +29,7 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     iterations += at("iterations");
     m.steps += std::lround(at("steps"));
     m.unconverged += std::lround(at("unconverged_steps"));
+    m.yielded += std::lround(at("yielded_steps"));
     m.projections += std::lround(at("projections"));
     m.unlimited += std::lround(at("unlimited_steps"));
     m.largest_limit_residual = std::max(m.largest_limit_residual, at("largest_limit_residual"));

@@ -189,6 +189,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                 {"largest_frequency_rad_per_s", m.steps.frequency_rad_per_s},
                 {"largest_frequency_time_s", m.steps.frequency_time_s}};
   j["contact_solver"] = {{"unconverged_steps", m.steps.unconverged},
+                         {"yielded_steps", m.steps.yielded},
                          {"largest_residual_m_per_s", m.steps.largest_residual_m_per_s},
                          {"mean_iterations", m.steps.mean_iterations},
                          {"impacts", m.steps.impacts}};

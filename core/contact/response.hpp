@@ -65,6 +65,7 @@ struct ContactSolve {
   double residual_m_per_s = 0;
   int iterations = 0;
   bool converged = true;
+  bool yielded = false;  ///< the rows contradicted each other; the rest is of rows that give way (step_contact.cpp)
 };
 
 /// Scratch of solveContacts.

@@ -38,12 +38,13 @@ int layerOf(const ContactMesh& mesh, const Contour& c, int surface, std::span<co
   return layer.empty() ? 0 : layer[mesh.triangles[c.segments[0].face[surface]][0]];
 }
 
-/// The wrong part between layers: +1 left of the contour, -1 right, 0 within one layer. The left is in front of the
+/// The wrong part between layers: +1 left of the contour, -1 right, 0 where the order does not tell: within one layer,
+/// and on a body, since cloth may lie on a body with either side. The left is in front of the
 /// other surface where -m . n_other > 0: on surface 0 where direction * normal < 0, on surface 1 where it is > 0. Where
 /// the normals of a layer disagree the longer part of the contour decides.
 int wrongByLayer(const ContactMesh& mesh, const Contour& c, int surface, std::span<const int> layer) {
   const int own = layerOf(mesh, c, surface, layer), other = layerOf(mesh, c, 1 - surface, layer);
-  if (own == other) return 0;
+  if (own == other || own < 0) return 0;
   double left_in_front = 0;
   for (std::size_t i = 0; i < c.segments.size(); ++i) {
     const ContourSegment& s = c.segments[i];
@@ -76,7 +77,7 @@ std::vector<int> connectedPieces(const ContactMesh& mesh) {
 }
 
 /// Contours that bound regions together: closed on the same piece, by the same layer or the same piece of the own
-/// layer. A piece that crosses itself has each contour for itself.
+/// layer or of the bodies. A piece that crosses itself has each contour for itself.
 class Bounds {
  public:
   /// The contours outlive it.
@@ -96,7 +97,7 @@ class Bounds {
         const auto pieceOf = [&](int side) { return piece[mesh.triangles[c.segments[0].face[side]][0]]; };
         const int own = layerOf(mesh, c, s, layer), other = layerOf(mesh, c, 1 - s, layer);
         const bool itself = pieceOf(0) == pieceOf(1);
-        const Key key{pieceOf(s), own == other ? pieceOf(1 - s) : -1, own, other,
+        const Key key{pieceOf(s), own == other || other < 0 ? pieceOf(1 - s) : -1, own, other,
                       itself ? 2 * static_cast<int>(k) + s : -1};
         auto& group = groups[key];
         keys[k][s] = key;
@@ -213,6 +214,10 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
                           ? (-u.wrong_sign[s] / u.length_m) * areaGradient(mesh, x, c, s)
                           : open;
       u.G = norm2(u.G_side[0]) > norm2(u.G_side[1]) ? u.G_side[0] : u.G_side[1];
+      // Which part of a body has come through is a guess by size, which part of the cloth is inside of it is not.
+      if (dot(u.G_side[0], u.G_side[1]) < 0)
+        for (int s = 0; s < 2; ++s)
+          if (layerOf(mesh, c, s, layer) >= 0 && layerOf(mesh, c, 1 - s, layer) < 0 && u.closed[s]) u.G = u.G_side[s];
       const double size = norm(u.G);
       if (size > 0) {
         u.direction = u.G / size;

@@ -60,7 +60,8 @@ struct Untangling {
 
 /// The wrong part is, between two layers (`layer`, one number per vertex, equal on each connected piece, or empty), the
 /// part of the lower layer in front of the higher and the part of the higher behind the lower, where the normals
-/// of all triangles point outward, from the low to the high layers; within one layer it is the smaller part.
+/// of all triangles point outward, from the low to the high layers; within one layer it is the smaller part. Negative
+/// layers are bodies: the wrong part of the cloth is what is behind their surface, that of the body the smaller one.
 /// (With G = -dA/dd the thesis's rule for one layer reverses the sign of A+ where |A+| > |A-|.)
 /// A contour that does not divide its surface alone (a cut along a tube) is taken with the others between the same two
 /// pieces; where these do not either, as open.

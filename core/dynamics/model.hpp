@@ -180,7 +180,8 @@ struct StepWork {
   CollisionWork collisions;
   std::vector<ImpactZone> zones;  ///< of the last step
   std::vector<Vec3> zone_change;  ///< velocity of each free point that they added, where there are zones
-  std::vector<ContactRow> rows;
+  std::vector<ContactRow> rows, yielding;
+  std::vector<Vec3> unsolved;  ///< velocities before the contacts
   std::vector<Placement> start, end, anchors_start, anchors_end;
   std::vector<ContactImpulse> contact_impulses;  ///< of the last step
   std::vector<Vec3> spring_impulses;             ///< of the last step, on the cloth, one per spring [N s]

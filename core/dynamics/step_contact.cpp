@@ -54,12 +54,13 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   }
 }
 
-/// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for a little more each round: bodies are curved, and
-/// pairs turn.
+/// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for half of k delta more each round: bodies are
+/// curved, and pairs turn. As a speed that is delta/(2 tau) at most, however short the step: where steps are cut, what
+/// is asked for must not grow.
 void setImpactTarget(const Model& m, double dt, int round, ContactRow& row) {
-  const double layer = layerOf(m, row), gap = row.contact.gap_m;
-  const double keep = std::min(-std::expm1(-dt / m.contact.relaxation_s) * layer, std::max(gap, 0.0));
-  row.target_m_per_s = (keep - gap + 0.05 * (round - 1) * layer) / dt;
+  const double gap = row.contact.gap_m;
+  const double restored = -std::expm1(-dt / m.contact.relaxation_s) * layerOf(m, row);
+  row.target_m_per_s = (std::min(restored, std::max(gap, 0.0)) - gap + 0.5 * (round - 1) * restored) / dt;
 }
 
 /// A sample's hit at an obstacle; replaces the row of the same pair.
@@ -89,12 +90,50 @@ void addImpact(const Model& m, const PairHit& hit, double dt, int round, StepWor
   w.warm.push_back({});
 }
 
+/// Contacts contradict each other where cloth is pinched: between bodies that come closer than two layers, or where it
+/// would have to bend more sharply than its control points can. Then no velocities keep what they ask for, or only such
+/// as grow without bound from step to step, the impulses of both sides grow with each iteration, and the residual stays
+/// far above the tolerance.
+bool contradict(const ContactSolve& solve, double dt) {
+  constexpr double kFar_m_per_s2 = 1;  // a tenth of what gravity adds in a step; the tolerance is a hundredth of it
+  return !solve.converged && !(solve.residual_m_per_s <= kFar_m_per_s2 * dt);
+}
+
+/// Gives way by a hundredth of what the row's own impulse would move the cloth at it, B 1/rho in the mean:
+/// contradicting rows then share what they miss in proportion to their impulses. These are bounded (by a hundred times
+/// what stops the cloth), the solve converges, and no more energy enters than what bodies and targets do: with D(tau) =
+/// tau.A.tau/2 + tau.(v - target) + |yield| <= D(0) = 0, the work tau.(v + A tau/2) is at most tau.target.
+void yield(const Model& m, ContactRow& row) {
+  constexpr double kShare = 0.01;
+  for (int k = 0; k < row.stencil.count; ++k)
+    row.compliance += kShare * std::abs(row.stencil.weight[k]) / m.density_kg_per_m2[row.stencil.sample[k]];
+}
+
+/// w.velocity after the contacts w.rows.
+void solveRows(const Model& m, double dt, StepReport& report, StepWork& w) {
+  const auto solve = [&](std::span<const ContactRow> rows) {
+    return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt,
+                         w.velocity, w.warm, w.impulses, w.contact);
+  };
+  w.unsolved = w.velocity;
+  report.contact = solve(w.rows);
+  report.contact.yielded = contradict(report.contact, dt);
+  if (!report.contact.yielded) return;
+  w.yielding = w.rows;
+  for (ContactRow& row : w.yielding) yield(m, row);
+  w.velocity = w.unsolved;
+  std::fill(w.warm.begin(), w.warm.end(), Vec3{});
+  const int before = report.contact.iterations;
+  report.contact = solve(w.yielding);
+  report.contact.iterations += before;
+  report.contact.yielded = true;
+}
+
 /// Velocities of the half step after contacts and strain limits, in turn until both hold; w.rows stay what they are.
 void solveVelocities(const Model& m, const State& in, double dt, bool first, StepReport& report, StopWatch& clock,
                      StepWork& w) {
   const auto contacts = [&] {
-    report.contact = solveContacts(w.rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2,
-                                   m.contact, dt, w.velocity, w.warm, w.impulses, w.contact);
+    solveRows(m, dt, report, w);
     clock.lap(w.times.contact);
   };
   const StrainLimit& limit = m.strain_limit;
