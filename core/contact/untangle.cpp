@@ -55,6 +55,14 @@ int wrongByLayer(const ContactMesh& mesh, const Contour& c, int surface, std::sp
   return own < other ? left : -left;
 }
 
+/// A contour from the rim of one surface to the rim of the other ("mixed"). It divides neither, but the order of layers
+/// says which side of it is wrong, and where it ends inside one surface the other one ends too.
+bool fromRimToOtherRim(const ContactMesh& mesh, const Contour& c) {
+  const auto onRim = [&](const ContourPoint& p) { return p.vertex < 0 && mesh.border(p.edge); };
+  return !c.cyclic && onRim(c.points.front()) && onRim(c.points.back()) &&
+         c.points.front().owner != c.points.back().owner;
+}
+
 /// Per vertex, a number of its connected piece.
 std::vector<int> connectedPieces(const ContactMesh& mesh) {
   std::vector<int> piece(mesh.vertex_count, -1), queue;
@@ -194,8 +202,11 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
     const Contour& c = contours[k];
     u.length_m = contourLength(c);
     for (int s = 0; s < 2; ++s) {
-      if (!c.closed[s]) continue;
       const int by_layer = wrongByLayer(mesh, c, s, layer);
+      if (!c.closed[s]) {
+        u.wrong_sign[s] = by_layer != 0 && fromRimToOtherRim(mesh, c) ? by_layer : 0;
+        continue;
+      }
       if (by_layer != 0 && bounds.known(k, s, by_layer, u)) continue;
       ContourRegion region;
       if (by_layer == 0) region = floodRegion(mesh, x, CutSurface(mesh, std::array{ContourPath{&c, s}}), 0, 0, work);
@@ -210,14 +221,15 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
     if (u.length_m > 0) {
       const Vec3 open = -2 * lengthGradient(mesh, x, c);
       for (int s = 0; s < 2; ++s)
-        u.G_side[s] = u.closed[s] && law.by == UntangleBy::kArea
+        u.G_side[s] = u.wrong_sign[s] != 0 && law.by == UntangleBy::kArea
                           ? (-u.wrong_sign[s] / u.length_m) * areaGradient(mesh, x, c, s)
                           : open;
       u.G = norm2(u.G_side[0]) > norm2(u.G_side[1]) ? u.G_side[0] : u.G_side[1];
       // Which part of a body has come through is a guess by size, which part of the cloth is inside of it is not.
       if (dot(u.G_side[0], u.G_side[1]) < 0)
         for (int s = 0; s < 2; ++s)
-          if (layerOf(mesh, c, s, layer) >= 0 && layerOf(mesh, c, 1 - s, layer) < 0 && u.closed[s]) u.G = u.G_side[s];
+          if (layerOf(mesh, c, s, layer) >= 0 && layerOf(mesh, c, 1 - s, layer) < 0 && u.wrong_sign[s] != 0)
+            u.G = u.G_side[s];
       const double size = norm(u.G);
       if (size > 0) {
         u.direction = u.G / size;

@@ -40,15 +40,16 @@ struct Untangling {
   Contour contour;
   double length_m = 0;
   /// Where the contour is closed on surface s and tells a wrong part: its sign (+1: left of the contour), its area and
-  /// its vertices. Otherwise false, 0, 0 and none. Between layers area and vertices are missing too where nothing keeps
-  /// the two sides apart (a cut through a ring, a way around the end of an open contour). Contours that bound one
-  /// region together report it each.
+  /// its vertices. Otherwise false, 0, 0 and none; but between layers a contour from the rim of one to the rim of the
+  /// other has its sign all the same ("mixed": nested tubes with flush rims). Between layers area and vertices
+  /// are missing too where nothing keeps the two sides apart (a cut through a ring, a way around the end of an open
+  /// contour). Contours that bound one region together report it each.
   std::array<bool, 2> closed{};
   std::array<int, 2> wrong_sign{};
   std::array<double, 2> wrong_area_m2{};
   std::array<std::vector<int>, 2> wrong_vertices;
-  /// Per surface: -(gradient of the wrong area) / C where closed, eq. 4.19; else -2 dC/dd, eq. 4.19' [1]. G is the
-  /// longer one, eq. 4.20. Zero where the contour has no length.
+  /// Per surface: -(gradient of the wrong area) / C where the sign is known, eq. 4.19; else -2 dC/dd, eq. 4.19' [1]. G
+  /// is the longer one, eq. 4.20. Zero where the contour has no length.
   std::array<Vec3, 2> G_side;
   Vec3 G;
   /// What to ask for at each point of the contour: (velocity of surface 1 - velocity of surface 0) . direction >=

@@ -407,11 +407,14 @@ TEST(Untangle, RowsMeasureSurfaceOneAgainstSurfaceZero) {
 }
 
 /// Three nested tubes, each shifted 8 mm sideways in the next: moved along G, half of a step each, they come free in
-/// the order of their layers, and stand clear of one another.
-TEST(Untangle, NestedTubesComeFree) {
+/// the order of their layers, and stand clear of one another: where each is longer than the one inside, and where their
+/// rims are flush, so that contours run from the rim of one to the rim of another.
+class NestedTubes : public testing::TestWithParam<double> {};
+
+TEST_P(NestedTubes, ComeFree) {
   std::vector<Piece> tubes;
   for (int k = 0; k < 3; ++k) {
-    const double r = 0.100 + 0.003 * k, z = -0.005 * k;
+    const double r = 0.100 + 0.003 * k, z = -GetParam() * k;
     tubes.push_back(mapped(tube({{r, z}, {r, 0.11}, {r, 0.2}, {r, 0.3 - z}}, 24), [=](const Vec3& p) {
       return p - Vec3{0.008 * k, 0, 0};
     }));
@@ -435,6 +438,8 @@ TEST(Untangle, NestedTubesComeFree) {
     EXPECT_LT(std::hypot(axis.x, axis.y), 0.003);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Rims, NestedTubes, testing::Values(0.005, 0.0));
 
 /// Two layers that differ by noise are through each other in a hundred places. The higher one is a little wider, so
 /// that all contours are closed on the lower one: exactly its vertices in front of the higher one are found wrong, and
