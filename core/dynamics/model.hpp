@@ -154,6 +154,7 @@ struct StepReport {
   int cuts = 0;                ///< times that the step was cut or halved before it worked
   int pinched = 0;             ///< samples whose impacts were let pass
   int intersections = 0;       ///< contours at the start of the step
+  int inside = 0;              ///< samples inside of meshes at the start of the step
   double smallest_gap_m = 0;   ///< of the persistent contacts; negative inside bodies; the largest double where none
   double deepest_m = 0;        ///< largest penetration of a sample at the start of the step, 0 if none
   double largest_way = 0;      ///< of a sample during the step, in sides of its cell (Model::cell_m)

@@ -191,7 +191,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   for (std::size_t i = 0; i < w.rows.size(); ++i)
     if (!w.rows[i].impact && !(w.warm[i] == Vec3{}))
       out.warm.push_back({w.rows[i].contact.sample, w.rows[i].contact.obstacle, w.rows[i].contact.feature, w.warm[i]});
-  out.tangled = report.intersections > 0 || report.pinched > 0;
+  // Cloth wholly inside of a mesh crosses nothing until it comes out.
+  out.tangled = report.intersections > 0 || report.pinched > 0 || report.inside > 0;
   out.pinched.clear();
   out.frequency_rad_per_s = in.frequency_rad_per_s;
   out.mode = in.mode;

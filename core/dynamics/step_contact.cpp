@@ -18,10 +18,12 @@ double layerOf(const Model& m, const ContactRow& row) {
   return row.contact.obstacle >= 0 ? sum : 0.5 * sum;
 }
 
+/// A sample inside of a body comes out no faster than other intersections are freed (h0 of eq. 4.21).
 void setPersistent(const Model& m, double dt, ContactRow& row) {
   ContactParameters parameters = m.contact;
   parameters.layer_m = layerOf(m, row);
   row.target_m_per_s = persistentTarget(row.contact.gap_m, dt, parameters);
+  if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
   row.compliance = persistentCompliance(row.contact.gap_m, dt, parameters);
 }
 
@@ -232,7 +234,10 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   w.inside.assign(samples, 0);
   for (const Contact& c : w.near) {
     report.deepest_m = std::max(report.deepest_m, -c.gap_m);
-    if (!(c.gap_m > 0)) w.inside[c.sample] = 1;
+    if (!(c.gap_m > 0)) {
+      w.inside[c.sample] = 1;
+      if (std::holds_alternative<TriangleMesh>(m.obstacles[c.obstacle].shape)) ++report.inside;
+    }
   }
   placeVertices(m.collisions, w.x0, w.x1, w.start, w.end, w.collisions);
   report.intersections = findTangles(m.collisions, in.tangled || !in.pinched.empty(), dt, w.collisions, w.restoring);
