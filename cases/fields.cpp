@@ -19,6 +19,9 @@ Object contactTable() {
       .flag("self", &C::self, "cloth touches cloth: layers each other, folds themselves")
       .number("relaxation", &C::relaxation_s, "s", aboveTo(0, 1),
               "time in which a sample inside the layer returns to its surface")
+      .number("compliance", &C::compliance_m_per_Pa, "m/Pa", between(0, 1e-6),
+              "how much thinner the layer becomes under a pressure that lasts; where samples cannot all follow a round "
+              "body to the nanometre, it spreads the pressure over them (cloth pressed flat has about 1e-7 m/Pa)")
       .number("tolerance", &C::tolerance, "", aboveTo(0, 0.1),
               "residual velocity to which the contacts of a step are solved together, as a part of what gravity adds "
               "in the step")

@@ -159,8 +159,10 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
   c.integers["pinched"].assign(s.pinched.begin(), s.pinched.end());
   std::vector<Vec3> traction;
   auto& ids = c.integers["warm"];
+  auto& mean_Pa = c.reals["warm_mean"];
   for (const WarmContact& w : s.warm) {
     traction.push_back(w.traction);
+    mean_Pa.push_back(w.mean_Pa);
     ids.insert(ids.end(), {w.sample, w.obstacle, w.feature});
   }
   c.reals["warm"] = doubles(traction);
@@ -187,9 +189,10 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   for (const auto sample : c.integers.at("pinched")) s.pinched.push_back(static_cast<int>(sample));
   const auto& ids = c.integers.at("warm");
   const std::vector<Vec3> traction = vectors(c.reals.at("warm"));
+  const std::vector<double>& mean_Pa = c.reals.at("warm_mean");
   for (std::size_t i = 0; i < traction.size(); ++i)
     s.warm.push_back({static_cast<int>(ids[3 * i]), static_cast<int>(ids[3 * i + 1]), static_cast<int>(ids[3 * i + 2]),
-                      traction[i]});
+                      traction[i], mean_Pa[i]});
   return s;
 }
 

@@ -360,8 +360,9 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
   if (const auto& limit = c.strain_limit) options.strain_limit = limitOf(*limit);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
-  const ContactParameters contact{c.contact.layer_m.value_or(0), c.contact.friction, c.contact.relaxation_s,
-                                  c.contact.tolerance * (g > 0 ? g : 9.81), c.contact.max_iterations};
+  const ContactParameters contact{c.contact.layer_m.value_or(0), c.contact.friction,
+                                  c.contact.relaxation_s,        c.contact.tolerance * (g > 0 ? g : 9.81),
+                                  c.contact.max_iterations,      c.contact.compliance_m_per_Pa};
   s->model = buildModel(garment, options, environment, contact, std::move(obstacles));
 
   if (std::any_of(noise.begin(), noise.end(), [](const Vec3& n) { return n != Vec3{}; }))

@@ -7,6 +7,9 @@
 namespace gambeson {
 namespace {
 
+/// Of a pressure, in its mean over the relaxation time.
+double countsAtMost(double mean_Pa, double density) { return 2 * mean_Pa + 9.81 * density; }
+
 /// Restricts W_T to the samples and free points that the contacts touch.
 void restrict(std::span<const ContactRow> rows, const SparseRows& WT, ContactWork& w) {
   w.sample_slot.resize(WT.rows(), -1);
@@ -333,9 +336,19 @@ double persistentTarget(double gap, double dt, const ContactParameters& c) {
   return depth > 0 ? -std::expm1(-dt / c.relaxation_s) * depth / dt : depth / dt;
 }
 
-double persistentCompliance(double gap, double dt, const ContactParameters& c) {
-  if (gap >= c.layer_m) return 0;
-  return -std::expm1(-dt / c.relaxation_s) * c.compliance_m_per_Pa / (dt * dt);
+double lastingPressure(double mean, double pressure, double dt, double density, const ContactParameters& c) {
+  return mean - std::expm1(-dt / c.relaxation_s) * (std::min(pressure, countsAtMost(mean, density)) - mean);
+}
+
+void layerUnder(double last, double dt, double density, const ContactParameters& c, ContactRow& row) {
+  const double gap = row.contact.gap_m;
+  row.target_m_per_s = persistentTarget(gap, dt, c);
+  row.compliance = 0;
+  if (!atLayer(gap, c.layer_m)) return;
+  const double k = -std::expm1(-dt / c.relaxation_s), gives = k * c.compliance_m_per_Pa / dt;
+  const double counted = last > 0 ? std::min(1.0, countsAtMost(row.mean_Pa, density) / last) : row.mean_Pa > 0;
+  row.target_m_per_s -= gives * (1 - k) * row.mean_Pa;
+  row.compliance = gives * k * counted / dt;
 }
 
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,

@@ -17,7 +17,7 @@ struct ContactParameters {
   double relaxation_s = 0;  ///< tau: the correction of the distance takes this time, k = 1 - exp(-dt/tau) of eq. 3.17
   double tolerance_m_per_s2 = 1e-2;  ///< a solve is done at a residual velocity of this times dt
   int max_iterations = 400;
-  double compliance_m_per_Pa = 0;  ///< c: how much a pressure compresses the layer
+  double compliance_m_per_Pa = 1e-9;  ///< c: how much a pressure that lasts compresses the layer
 };
 
 /// Samples whose weighted velocities make up the velocity that a contact acts on: one sample on a body (weight 1), a
@@ -45,7 +45,8 @@ struct ContactRow {
   Vec3 body_velocity;                   ///< of the touched material point, mean over the step [m/s]
   double target_m_per_s = 0;            ///< least normal velocity relative to the body that the step must end with
   bool impact = false;                  ///< found by trajectory (section 3.3), not by distance (section 3.2)
-  double compliance = 0;                ///< k c/dt² (persistentCompliance) [m/s per N s/m^2]
+  double compliance = 0;                ///< of the layer in this step (layerUnder) [m/s per N s/m^2]
+  double mean_Pa = 0;                   ///< pressure that has lasted, at the start of the step (lastingPressure)
   bool slippery = false;                ///< without friction
   std::array<int, 3> pair{-1, -1, -1};  ///< of an impact of triangles: 0 or 1 for edges, and the two primitives
 };
@@ -101,13 +102,27 @@ struct ContactWork {
 /// impulse has no cause in mechanics and is left out.
 double persistentTarget(double gap_m, double dt_s, const ContactParameters& parameters);
 
-/// A layer that gives way: under the pressure p it is c p thinner, so that inside it v_n + (k c/dt²) tau takes the
-/// place of v_n, tau the normal impulse per area. A sample that arrives from outside is stopped at the layer all the
-/// same. Cloth pressed flat has c about 1e-7 m/Pa. A rigid layer (c = 0) under a strip stretched over a round body
-/// carries on the few samples that stand highest, by nanometres, because a smooth surface cannot follow the body to the
-/// last of them; friction that drags for long then acts on few (tests/unit/core/capstan_test.cpp). Not the default yet:
-/// the pressure of an impact compresses the layer as well, and the cloth then sinks by c p over the relaxation time.
-double persistentCompliance(double gap_m, double dt_s, const ContactParameters& parameters);
+/// Whether a contact has come to its layer and presses on it, up to rounding; what is farther is on its way there.
+inline bool atLayer(double gap_m, double layer_m) { return gap_m <= layer_m * (1 + 1e-6); }
+
+/// The pressure that has lasted, p_m, after a step in which the contact bore `pressure`: the mean over the relaxation
+/// time, in which a pressure counts as at most twice the mean plus that of a weight, 2 p_m + rho 9.81 m/s². An impact,
+/// of hundreds of Pa for a step or two, thus counts as little; a pressure that stays, whatever its size, counts in full
+/// after some relaxation times (the mean may grow e-fold in each).
+double lastingPressure(double mean_Pa, double pressure_Pa, double dt_s, double density_kg_per_m2,
+                       const ContactParameters& parameters);
+
+/// A layer that gives way by c p_m under the pressure p_m that has lasted at the end of the step:
+///   v_n >= k (delta - c p_m' - g)/dt,   p_m' = e p_m + (1 - e) s tau/dt,   e = exp(-dt/tau_r),
+/// tau the normal impulse per area that is solved for and s the part of it that lastingPressure counts, as in the last
+/// step (`last_Pa`, 0 at once after a contact has begun). Sets the row's target and compliance; beyond the layer it is
+/// persistentTarget. Cloth pressed flat has c about 1e-7 m/Pa.
+/// A rigid layer (c = 0) bears a strip that is stretched over a round body on the few samples that stand highest, by
+/// nanometres, because a smooth surface cannot follow the body to the last of them. Which ones changes from step to
+/// step; the impulses stir up vibrations along the strip as fast as it slides, and samples that stick for moments
+/// drag less than mu p (tests/unit/core/capstan_test.cpp).
+void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const ContactParameters& parameters,
+                ContactRow& row);
 
 /// Solves for impulses on the samples such that after the solve, with v = v_free + W_T M^-1 W_T^T lambda,
 ///   lambda_n >= 0,  v_n >= target,  lambda_n (v_n - target) = 0,   |lambda_t| <= mu lambda_n opposing the slip

@@ -88,10 +88,11 @@ struct ForceSums {
       held;  ///< `held`: what held points exert on the free ones, minus the internal force of their rows
 };
 
-/// A traction impulse that the next solve starts from.
+/// What a contact leaves to the next step.
 struct WarmContact {
   int sample = 0, obstacle = 0, feature = 0;
-  Vec3 traction;
+  Vec3 traction;       ///< impulse per area that the next solve starts from [N s/m^2]
+  double mean_Pa = 0;  ///< pressure that has lasted (lastingPressure)
 };
 
 /// All that the next step depends on.

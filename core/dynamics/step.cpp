@@ -187,10 +187,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   }
 
   clock.lap(w.times.force);
-  out.warm.clear();
-  for (std::size_t i = 0; i < w.rows.size(); ++i)
-    if (!w.rows[i].impact && !(w.warm[i] == Vec3{}))
-      out.warm.push_back({w.rows[i].contact.sample, w.rows[i].contact.obstacle, w.rows[i].contact.feature, w.warm[i]});
+  keepWarm(m, dt, w, out.warm);
   // Cloth wholly inside of a mesh crosses nothing until it comes out.
   out.tangled = report.intersections > 0 || report.pinched > 0 || report.inside > 0;
   out.pinched.clear();

@@ -18,13 +18,13 @@ double layerOf(const Model& m, const ContactRow& row) {
   return row.contact.obstacle >= 0 ? sum : 0.5 * sum;
 }
 
-/// A sample inside of a body comes out no faster than other intersections are freed (h0 of eq. 4.21).
-void setPersistent(const Model& m, double dt, ContactRow& row) {
+/// `warm`: its traction in the last step, times dt. A sample inside of a body comes out no faster than other
+/// intersections are freed (h0 of eq. 4.21).
+void setPersistent(const Model& m, double dt, const Vec3& warm, ContactRow& row) {
   ContactParameters parameters = m.contact;
   parameters.layer_m = layerOf(m, row);
-  row.target_m_per_s = persistentTarget(row.contact.gap_m, dt, parameters);
+  layerUnder(dot(warm, row.contact.normal) / dt, dt, m.density_kg_per_m2[row.contact.sample], parameters, row);
   if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
-  row.compliance = persistentCompliance(row.contact.gap_m, dt, parameters);
 }
 
 /// Rows of the persistent contacts with their warm tractions.
@@ -35,23 +35,22 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   // Bodies first, then samples on cloth, then edges; as the lists come.
   const auto key = [](const auto& c) { return std::tuple(std::max(0, -c.obstacle), c.sample, c.obstacle, c.feature); };
   std::size_t at = 0;
-  const auto add = [&](const ContactRow& row) {
-    w.rows.push_back(row);
+  const auto add = [&](ContactRow row) {
     while (at < in.warm.size() && key(in.warm[at]) < key(row.contact)) ++at;
-    w.warm.push_back(at < in.warm.size() && key(in.warm[at]) == key(row.contact) ? scale * in.warm[at].traction
-                                                                                 : Vec3{});
+    const bool known = at < in.warm.size() && key(in.warm[at]) == key(row.contact);
+    w.warm.push_back(known ? scale * in.warm[at].traction : Vec3{});
+    if (known) row.mean_Pa = in.warm[at].mean_Pa;
+    setPersistent(m, dt, w.warm.back(), row);
+    w.rows.push_back(row);
   };
   for (const Contact& c : w.near) {
     const Vec3 body = (w.end[c.obstacle] * c.local - w.start[c.obstacle] * c.local) / dt;
-    ContactRow row = bodyRow(c, body, 0, false);
-    setPersistent(m, dt, row);
-    add(row);
+    add(bodyRow(c, body, 0, false));
   }
   for (const ClothContactPoint& p : w.collisions.points) {
     ContactRow row;
     row.contact = p.contact;
     row.stencil = p.stencil;
-    setPersistent(m, dt, row);
     add(row);
   }
 }
@@ -218,6 +217,19 @@ bool moveZones(const Model& m, const State& in, double dt, StepReport& report, S
 }
 
 }  // namespace
+
+void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmContact>& warm) {
+  warm.clear();
+  for (std::size_t i = 0; i < w.rows.size(); ++i) {
+    const ContactRow& row = w.rows[i];
+    const Contact& c = row.contact;
+    if (row.impact || (row.mean_Pa == 0 && w.warm[i] == Vec3{})) continue;
+    // What stops a sample on its way to the layer does not press on the layer.
+    const double pressure = atLayer(c.gap_m, layerOf(m, row)) ? dot(w.warm[i], c.normal) / dt : 0;
+    const double mean = lastingPressure(row.mean_Pa, pressure, dt, m.density_kg_per_m2[c.sample], m.contact);
+    warm.push_back({c.sample, c.obstacle, c.feature, w.warm[i], mean});
+  }
+}
 
 bool resolveContacts(const Model& m, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w) {
   const int samples = m.surface.size();

@@ -41,6 +41,9 @@ inline bool allFinite(std::span<const Vec3> values) {
 /// part of the step up to which nothing touches.
 bool resolveContacts(const Model& model, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w);
 
+/// What the persistent contacts of the step leave to the next.
+void keepWarm(const Model& model, double dt, const StepWork& work, std::vector<WarmContact>& warm);
+
 /// Contact's part of the audit, and the impulses on bodies.
 void contactLedger(const Model& model, const State& in, double dt, StepReport& report, StepWork& w);
 

@@ -58,7 +58,7 @@ double tensionRatio(double friction, double wrap) {
     o.held_control_points.push_back(patch.index(0, j));
     o.dead_force_N[patch.index(last, j)] = (kSlack_N_per_m * kWidth_m / 3 / norm(pull)) * pull;
   }
-  ContactParameters c{kLayer_m, friction, 0.01, 1e-3 * 9.81, 2000, 1e-9};
+  const ContactParameters c{kLayer_m, friction, 0.01};  // all else by default
   o.self_contact = false;
   TurningDrum drum;
   const auto model = buildModel(g, o, {{0, 0, 0}, 2000}, c, {{Ellipsoid{{kRadius_m, 100, kRadius_m}}, "drum"}});

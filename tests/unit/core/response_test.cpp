@@ -175,6 +175,47 @@ TEST(Response, TheLayerIsRestoredWithTheRelaxationTimeWhateverTheStep) {
   EXPECT_NEAR(3e-3 + 0.5 * persistentTarget(3e-3, 0.5, c), 1e-3, 1e-15);  // may reach the layer, not enter it
 }
 
+/// p_m' = (p - p_m)/tau_r for a pressure below that of a weight: p_m = p (1 - exp(-t/tau_r)), however the time is cut.
+TEST(Response, APressureThatStaysLastsAfterTheRelaxationTimeWhateverTheStep) {
+  ContactParameters c;
+  c.relaxation_s = 0.01;
+  for (int steps : {1, 7, 100}) {
+    double mean = 0;
+    for (int k = 0; k < steps; ++k) mean = lastingPressure(mean, 1.0, 0.02 / steps, rho, c);
+    EXPECT_NEAR(mean, 1 - std::exp(-2), 1e-14) << steps;
+  }
+  double large = 0;
+  for (int k = 0; k < 200; ++k) large = lastingPressure(large, 1e4, dt, rho, c);
+  EXPECT_NEAR(large, 1e4, 1);
+}
+
+TEST(Response, AnImpactHardlyCompressesTheLayer) {
+  ContactParameters c;
+  c.relaxation_s = 0.01;
+  // 5 m/s stopped in one step press 720 Pa; they count as a weight of 1.4 Pa.
+  const double after = lastingPressure(0, rho * 5 / dt, dt, rho, c);
+  EXPECT_NEAR(after, (1 - std::exp(-0.1)) * 9.81 * rho, 1e-12);
+}
+
+TEST(Response, ALayerUnderALastingPressureRestsThinnerByItsCompliance) {
+  ContactParameters c{1e-3, 0.3, 0.01};
+  c.compliance_m_per_Pa = 1e-8;
+  const double p = 500;
+  double gap = 1e-3 * (1 + 1e-12), mean = 0;
+  for (int k = 0; k < 400; ++k) {
+    ContactRow r = row(0, {0, 0, 1}, 0);
+    r.contact.gap_m = gap;
+    r.mean_Pa = mean;
+    layerUnder(k > 0 ? p : 0, dt, rho, c, r);
+    if (k == 0) {
+      EXPECT_EQ(r.compliance, 0);  // at the layer: stops at it
+    }
+    gap += dt * (r.target_m_per_s - r.compliance * p * dt);  // what the solve leaves of a contact that bears p
+    mean = lastingPressure(mean, k > 0 ? p : 0, dt, rho, c);
+  }
+  EXPECT_NEAR(gap, 1e-3 - 1e-8 * p, 1e-12);
+}
+
 /// The natural residual |tau - proj(tau - rho r)|/rho of the definition, from the results alone.
 double measuredResidual(const Problem& p) {
   double most = 0;
