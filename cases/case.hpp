@@ -30,6 +30,15 @@ struct SheetGarment {
   Vec3 axis_u{1, 0, 0}, axis_v{0, 1, 0};
 };
 
+/// A flat disc, cut out of a sheet; u runs along axis_u, v along axis_v.
+struct DiscGarment {
+  double radius_m = 0;
+  int cells = 16;
+  int degree = 2;
+  Vec3 center;
+  Vec3 axis_u{1, 0, 0}, axis_v{0, 1, 0};
+};
+
 /// A circular tube from `start` along `axis` (unit), cut lengthwise into `patches` equal patches. u runs around, v
 /// along.
 struct TubeGarment {
@@ -57,7 +66,7 @@ struct FileGarment {
 
 struct GarmentCase {
   std::string name;  ///< where there are several: what supports and tables call it; unique
-  std::variant<SheetGarment, TubeGarment, ShortsGarment, FileGarment> shape;
+  std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, FileGarment> shape;
   Vec3 position_m;               ///< moves the shape
   std::optional<Fabric> fabric;  ///< that of the case where absent
   /// Displacement of each control point along the normal, uniform in -amplitude .. amplitude, that the motion starts

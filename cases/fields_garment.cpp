@@ -26,6 +26,23 @@ Object sheetTable() {
       .build();
 }
 
+Object discTable() {
+  using D = DiscGarment;
+  return Table<D>("Disc")
+      .number("radius", &D::radius_m, "m", aboveTo(0, 100), "radius")
+      .required()
+      .integer("cells", &D::cells, 2, 1000, "cells across the diameter; the rim cuts through the outer ones")
+      .integer("degree", &D::degree, 2, 5, "polynomial degree")
+      .vector("center", &D::center, "m", between(-1e3, 1e3), "centre in the world")
+      .direction("axis_u", &D::axis_u, "direction of u through the centre, the weft where weft_angle is 0")
+      .direction("axis_v", &D::axis_v, "direction of v through the centre; at right angles to axis_u")
+      .check([](const Place& p, const D& d) {
+        if (!(std::abs(dot(d.axis_u, d.axis_v)) < 1e-6))
+          p.failAt("axis_v", "is not at right angles to axis_u; allowed: 90 deg");
+      })
+      .build();
+}
+
 Object tubeTable() {
   using T = TubeGarment;
   return Table<T>("Tube")
@@ -72,6 +89,8 @@ Object garmentTable() {
       .text("name", &G::name, "what supports and tables call it; required where there are several garments")
       .alternative<SheetGarment>("sheet", &G::shape, sheetTable(), "a flat rectangle")
       .in("shape")
+      .alternative<DiscGarment>("disc", &G::shape, discTable(), "a flat disc")
+      .in("shape")
       .alternative<TubeGarment>("tube", &G::shape, tubeTable(), "a circular tube, a sleeve say")
       .in("shape")
       .alternative<ShortsGarment>("shorts", &G::shape, shortsTable(),
@@ -94,7 +113,8 @@ Object garmentTable() {
       .number("seam_stiffness", &G::seam_stiffness_N, "N/rad", between(0, 1e4),
               "rotational spring of seams that meet at an angle: moment per length and angle")
       .number("weft_angle", &G::weft_angle_rad, "rad", between(-3.2, 3.2),
-              "turns the weft about the outward normal; at 0 it lies along u in a sheet, lengthwise in a tube and in "
+              "turns the weft about the outward normal; at 0 it lies along u in a sheet or disc, lengthwise in a tube "
+              "and in "
               "shorts")
       .build();
 }

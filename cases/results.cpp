@@ -74,7 +74,8 @@ void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
                {"kernels", f.kernels},
                {"wall_s", f.wall_s},
                {"resumed", f.resumed},
-               {"phases", phases}};
+               {"phases", phases},
+               {"windows", f.windows_s}};
   writeFileAtomically(dir / "run.json", j.dump(2) + "\n");
 }
 
@@ -90,6 +91,7 @@ RunFacts readRunFacts(const std::filesystem::path& dir) {
     f.kernels = j.at("kernels").get<std::string>();
     f.wall_s = j.at("wall_s").get<double>();
     f.resumed = j.at("resumed").get<bool>();
+    f.windows_s = j.at("windows").get<std::vector<std::vector<double>>>();
     for (const Json& p : j.at("phases"))
       f.phases_s.emplace_back(p.at("phase").get<std::string>(), p.at("seconds").get<double>());
   } catch (const nlohmann::json::exception& e) {

@@ -19,6 +19,8 @@ struct RunFacts {
   double wall_s = 0;
   std::vector<std::pair<std::string, double>> phases_s;
   bool resumed = false;
+  /// Of each window, those of a resumed run's last part: start, end, time of each phase [s].
+  std::vector<std::vector<double>> windows_s{};
 };
 void writeRunFacts(const RunFacts& facts, const std::filesystem::path& dir);
 /// Throws InputError where DIR/run.json is damaged; a run that was killed left none: empty facts.

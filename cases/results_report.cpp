@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "analysis/ticks.hpp"
 #include "cases/results_write.hpp"
@@ -150,6 +151,33 @@ void addRepeatability(const Measured& m, ReportInput& in) {
   if (!table.rows.empty()) in.fact_tables.push_back(std::move(table));
 }
 
+/// What a run without a wearer shows.
+std::string outcomeOf(const Measured& m) {
+  const BodyMeasure* top = nullptr;
+  for (const BodyMeasure& b : m.contact)
+    if (!top || b.contact.peak_N > top->contact.peak_N) top = &b;
+  std::string s;
+  if (top && top->contact.impulse_Ns > 0)
+    s = fmt::format("Largest contact force: {} N, on the {}, at {:.2f} s; {} N in the mean over the motion.",
+                    formatNumber(top->contact.peak_N), top->contact.segment, top->contact.peak_time_s,
+                    formatNumber(top->contact.mean_N));
+  long most = 0, tangles = 0, left = 0;
+  double free_s = 0;
+  for (const CollisionWindow& w : m.steps.collisions) {
+    most = std::max(most, w.cloth_contacts);
+    tangles = std::max(tangles, w.intersections);
+    left = w.intersections;
+    if (w.intersections > 0) free_s = w.end_s;
+  }
+  const auto add = [&](const std::string& sentence) { s += (s.empty() ? "" : " ") + sentence; };
+  if (most > 0) add(fmt::format("Cloth touches cloth in up to {} places at a time.", most));
+  if (tangles > 0)
+    add(left > 0
+            ? fmt::format("Cloth passes through something in {} places at the end.", left)
+            : fmt::format("It passed through something in {} places, and is free from {:.2f} s on.", tangles, free_s));
+  return s.empty() ? "Nothing touched anything in this run." : s;
+}
+
 std::string duration(double s) {
   if (s < 1e-3) return formatNumber(1e6 * s) + " µs";
   return s < 1 ? formatNumber(1e3 * s) + " ms" : formatNumber(s) + " s";
@@ -170,7 +198,9 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
   addJoints(m, in);
   addPlots(m, in);
-  addContact(m, in);
+  if (!m.contact.empty()) addContact(m, in);
+  addCollisions(m, in);
+  if (m.joints.empty()) in.outcome = outcomeOf(m);
   addStress(m, in);
   addSupports(m, in);
   in.pictures = pictures;
@@ -201,6 +231,20 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
     for (const auto& [name, seconds] : facts.phases_s)
       timings.rows.push_back({name, seconds, Cell(sum > 0 ? 100 * seconds / sum : 0)});
     in.fact_tables.push_back(std::move(timings));
+    Plot over_time{"Time of each phase", "Of each window; the largest phases.", {}, {}, false};
+    std::vector<std::size_t> order(facts.phases_s.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return facts.phases_s[a].second > facts.phases_s[b].second; });
+    for (std::size_t k = 0; k < std::min<std::size_t>(4, order.size()); ++k) {
+      Series series{facts.phases_s[order[k]].first, "ms", {}, {}, static_cast<Tone>(k)};
+      for (const auto& w : facts.windows_s) {
+        series.time_s.push_back(0.5 * (w[0] + w[1]));
+        series.values.push_back(1e3 * w[2 + order[k]]);
+      }
+      over_time.series.push_back(std::move(series));
+    }
+    if (!facts.windows_s.empty()) in.fact_plots.push_back(std::move(over_time));
   }
   return in;
 }

@@ -77,20 +77,24 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
   m.governing = f.governing();
 }
 
-void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows) {
-  std::vector<std::vector<double>> rows;
+CollisionTable collisionTable(std::span<const CollisionWindow> windows) {
+  CollisionTable t{{"start_s", "end_s", "most_contacts", "most_cloth_contacts", "impacts", "rigid_zones", "cut_steps",
+                    "pinched_samples", "most_intersections", "smallest_gap_m", "largest_residual_m_per_s",
+                    "mean_iterations", "largest_way_cells"},
+                   {}};
   for (const CollisionWindow& w : windows) {
-    rows.push_back({w.start_s, w.end_s});
+    t.rows.push_back({w.start_s, w.end_s});
     for (long n : {w.contacts, w.cloth_contacts, w.impacts, w.zones, w.cut_steps, w.pinched, w.intersections})
-      rows.back().push_back(static_cast<double>(n));
-    rows.back().insert(rows.back().end(),
-                       {w.contacts > 0 ? w.smallest_gap_m : 0, w.residual_m_per_s, w.iterations, w.way_cells});
+      t.rows.back().push_back(static_cast<double>(n));
+    t.rows.back().insert(t.rows.back().end(),
+                         {w.contacts > 0 ? w.smallest_gap_m : 0, w.residual_m_per_s, w.iterations, w.way_cells});
   }
-  writeCsv(csv,
-           {"start_s", "end_s", "most_contacts", "most_cloth_contacts", "impacts", "rigid_zones", "cut_steps",
-            "pinched_samples", "most_intersections", "smallest_gap_m", "largest_residual_m_per_s", "mean_iterations",
-            "largest_way_cells"},
-           rows);
+  return t;
+}
+
+void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows) {
+  const CollisionTable t = collisionTable(windows);
+  writeCsv(csv, t.columns, t.rows);
 }
 
 void measureFrames(const RecordingReader& recording, Measured& out) {

@@ -101,6 +101,8 @@ Json collisionsJson(const Measured& m) {
          {"without_contact_after_the_first_s", apart_s},
          {"work_of_restoring_J", m.energy.restoring}};
   if (touched) j["smallest_gap_m"] = all.smallest_gap_m;
+  const CollisionTable table = collisionTable(m.steps.collisions);
+  j["windows"] = {{"columns", table.columns}, {"rows", table.rows}};
   if (flagged_s >= 0) j["first_pinched_at_s"] = flagged_s;
   return j;
 }
@@ -206,8 +208,13 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   if (m.recorded) j["recording"] = recordedJson(*m.recorded);
   Json phases = Json::object();
   for (const auto& [name, seconds] : facts.phases_s) phases[name] = seconds;
-  j["timings"] = {
-      {"wall_s", facts.wall_s}, {"threads", facts.threads}, {"resumed", facts.resumed}, {"phases_s", phases}};
+  Json columns{"start_s", "end_s"};
+  for (const auto& phase : facts.phases_s) columns.push_back(phase.first);
+  j["timings"] = {{"wall_s", facts.wall_s},
+                  {"threads", facts.threads},
+                  {"resumed", facts.resumed},
+                  {"phases_s", phases},
+                  {"windows", {{"columns", columns}, {"rows", facts.windows_s}}}};
   writeFileAtomically(file, j.dump(2) + "\n");
 }
 

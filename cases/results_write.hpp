@@ -11,6 +11,16 @@ namespace gambeson {
 void writeSummary(const Scenario& scenario, const RecordingReader& recording, const Measured& measured,
                   const RunFacts& facts, const std::filesystem::path& json);
 
+/// What collided, window by window, as numbers.
+struct CollisionTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+CollisionTable collisionTable(std::span<const CollisionWindow> windows);
+
+/// Plots and a table of it for the page; nothing where nothing touches.
+void addCollisions(const Measured& measured, ReportInput& in);
+
 /// Replaces DIR/collisions.csv: what collided, window by window. The smallest gap is 0 where nothing was near.
 void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows);
 

@@ -52,7 +52,7 @@ const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase
 
 /// Patches of the garment; 0 where only its file knows.
 int patchCount(const GarmentCase& g) {
-  if (std::holds_alternative<SheetGarment>(g.shape)) return 1;
+  if (std::holds_alternative<SheetGarment>(g.shape) || std::holds_alternative<DiscGarment>(g.shape)) return 1;
   if (const auto* tube = std::get_if<TubeGarment>(&g.shape)) return tube->patches;
   if (std::holds_alternative<ShortsGarment>(g.shape)) return 6;
   return 0;

@@ -17,6 +17,15 @@
 namespace gambeson {
 namespace {
 
+/// The phases that a page names; limits of strain only where the case has them.
+std::vector<std::pair<std::string, double>> phasesOf(const PhaseTimes& t, bool limited) {
+  std::vector<std::pair<std::string, double>> phases{{"body motion", t.stage},        {"finding contacts", t.proximity},
+                                                     {"solving contacts", t.contact}, {"finding impacts", t.impact},
+                                                     {"cloth forces", t.force},       {"other", t.other}};
+  if (limited) phases.insert(phases.end() - 1, {"limiting strain", t.limit});
+  return phases;
+}
+
 std::string phaseName(const Scenario& s, double time_s) {
   if (time_s >= 0) return s.human ? "moving" : "running";
   const auto& projecting = s.definition.dressing.projecting;
@@ -56,6 +65,8 @@ int runCase(const Case& c, const RunOptions& options) {
   if (!resume) writer.closeSegment(checkpointOf(state, frequency));
   const bool finished = k == windows.count();
   const StepControl control{c.time.step_safety, c.time.max_step_s};
+  std::vector<std::vector<double>> windows_s;
+  auto before_s = phasesOf(work.times, c.strain_limit.has_value());
   {
     Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
     try {
@@ -63,6 +74,11 @@ int runCase(const Case& c, const RunOptions& options) {
         advance(model, *scenario->stage, control, windows.bound(k + 1), state, frequency, work,
                 [&](const State& before, const State& after, const StepReport& report, const StepWork& w,
                     const Frequency& f) { recorder.observe(before, after, report, w, f); });
+        auto after_s = phasesOf(work.times, c.strain_limit.has_value());
+        windows_s.push_back({windows.bound(k), state.time_s});
+        for (std::size_t p = 0; p < after_s.size(); ++p)
+          windows_s.back().push_back(after_s[p].second - before_s[p].second);
+        before_s = std::move(after_s);
         recorder.closeWindow(state, windows.bound(k), windows.completes(k + 1, c.output.frame_s), work);
         if (windows.completes(k + 1, c.output.checkpoint_s)) writer.closeSegment(checkpointOf(state, frequency));
         progress.update(state.time_s - scenario->start_s, phaseName(*scenario, state.time_s));
@@ -78,10 +94,8 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.kernels = model.shell.kernels().name;
   facts.resumed = resume;
   facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
-  facts.phases_s = {{"body motion", work.times.stage},        {"finding contacts", work.times.proximity},
-                    {"solving contacts", work.times.contact}, {"finding impacts", work.times.impact},
-                    {"cloth forces", work.times.force},       {"other", work.times.other}};
-  if (c.strain_limit) facts.phases_s.insert(facts.phases_s.end() - 1, {"limiting strain", work.times.limit});
+  facts.phases_s = phasesOf(work.times, c.strain_limit.has_value());
+  facts.windows_s = std::move(windows_s);
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
   writeResults(*scenario, options.out);

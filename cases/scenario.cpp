@@ -69,6 +69,9 @@ Garment makeGarment(const Case& c, const GarmentCase& worn, const Human* human, 
           [&](const SheetGarment& s) {
             return makeSheet({s.width_m, s.height_m, s.cells_u, s.cells_v, s.degree, s.corner, s.axis_u, s.axis_v});
           },
+          [&](const DiscGarment& d) {
+            return makeDisc({d.radius_m, d.cells, d.degree, d.center, d.axis_u, d.axis_v});
+          },
           [&](const TubeGarment& t) { return makeTube(patternOf(t)); },
           [&](const ShortsGarment& s) {
             ShortsPattern pattern;
@@ -129,6 +132,9 @@ std::vector<PatchEdge> edgesOf(const Case& c, const GarmentCase& garment, const 
   if (e.name.empty()) return {{e.patch, e.side, false}};
   return std::visit(Overloaded{
                         [&](const SheetGarment&) { return sheetEdge(e.name); },
+                        [&](const DiscGarment&) -> std::vector<PatchEdge> {
+                          throw InputError({c.file.string(), 0, "supports"}, "a disc has no edges to hold");
+                        },
                         [&](const TubeGarment& t) { return tubeEdge(patternOf(t), e.name); },
                         [&](const ShortsGarment&) { return shortsEdge(e.name); },
                         [&](const FileGarment&) -> std::vector<PatchEdge> {

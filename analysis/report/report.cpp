@@ -266,6 +266,7 @@ const JointSummary* highestJoint(const ReportInput& input) {
 
 std::string headlineOf(const ReportInput& input) {
   const JointSummary* j = highestJoint(input);
+  if (!j && input.joints.empty() && !input.outcome.empty()) return input.outcome;
   if (!j)
     return input.joints.empty() ? "This run measured no joint torques."
                                 : "No joint torque of this run is a finite number.";
@@ -279,16 +280,21 @@ std::string headlineOf(const ReportInput& input) {
 
 std::string formatReport(const ReportInput& in) {
   std::string body = alarms(in) + headline(in);
-  body += sectionOf("joints", "What each joint pays",
-                    "Highest first. The share compares the peak with the moment that the joint needs in this task "
-                    "without the garment.",
-                    joints(in));
+  if (!in.joints.empty() || in.outcome.empty())
+    body += sectionOf("joints", "What each joint pays",
+                      "Highest first. The share compares the peak with the moment that the joint needs in this task "
+                      "without the garment.",
+                      joints(in));
   if (!in.torques.empty())
     body += sectionOf("torques", "Torque over time", "Dotted vertical lines mark the strides.",
                       charts(each(in.torques, lineChart)));
   if (!in.contact_charts.empty() || !in.contact_tables.empty())
     body += sectionOf("contact", "Where the garment presses", "Contact force of the cloth on each body segment.",
                       charts(each(in.contact_charts, barChart) + each(in.contact_tables, tableOf)));
+  if (!in.collision_plots.empty() || !in.collision_tables.empty())
+    body += sectionOf("collisions", "What met what",
+                      "Cloth with bodies and cloth with cloth, window by window; the numbers stand in collisions.csv.",
+                      charts(each(in.collision_tables, tableOf) + each(in.collision_plots, lineChart)));
   if (!in.stress_tables.empty())
     body += sectionOf("stress", "What the fabric carries", "", charts(each(in.stress_tables, tableOf)));
   if (in.pictures.size() > 1)
@@ -310,7 +316,8 @@ std::string formatReport(const ReportInput& in) {
     Table facts{"The run", "", {"fact", "value"}, {}};
     for (const auto& [name, value] : in.facts) facts.rows.push_back({name, value});
     body += sectionOf("run", "How it was computed", "",
-                      charts((in.facts.empty() ? "" : tableOf(facts)) + each(in.fact_tables, tableOf)));
+                      charts((in.facts.empty() ? "" : tableOf(facts)) + each(in.fact_tables, tableOf) +
+                             each(in.fact_plots, lineChart)));
   }
   return pageOf(in.title, in.description, headlineOf(in), body);
 }

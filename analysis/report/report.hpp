@@ -98,14 +98,18 @@ struct ReportInput {
   std::string task;                   ///< names the reference: "walking at natural speed"; empty where there is none
   std::vector<std::string> warnings;  ///< shown at the top: "The run stopped at 1.2 s: ..."
   std::vector<JointSummary> joints;   ///< the headline is the largest |peak|
+  std::string outcome;                ///< the headline of a run without joints, one or two sentences
   std::vector<Plot> torques;
   std::vector<BarChart> contact_charts;
   std::vector<Table> contact_tables, stress_tables, support_tables;
+  std::vector<Plot> collision_plots;  ///< what met what, window by window
+  std::vector<Table> collision_tables;
   std::vector<Picture> pictures;  ///< the first stands beside the headline
   std::vector<AuditCheck> audit;
   std::vector<std::string> assumptions;
   std::vector<std::pair<std::string, std::string>> facts;  ///< "Smallest time step", "12.3 µs (governed by bending)"
   std::vector<Table> fact_tables;                          ///< timings per phase
+  std::vector<Plot> fact_plots;                            ///< the same over time
 };
 
 /// The joint with the largest |peak|; null where no peak is finite.

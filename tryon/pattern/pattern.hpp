@@ -20,6 +20,18 @@ struct SheetPattern {
 };
 Garment makeSheet(const SheetPattern& pattern);
 
+/// A flat disc: one patch of square cells, trimmed by a circle. (A rational patch whose corners lie on the circle is
+/// singular there: with 2 n cells across its explicit step is 1/16 of that with n.) The centre is the middle of a
+/// patch that reaches half a cell beyond the circle. The axes are unit and orthogonal; the weft runs along axis_u.
+struct DiscPattern {
+  double radius_m = 0;
+  int cells = 16;  ///< across the diameter
+  int degree = 2;
+  Vec3 center{};
+  Vec3 axis_u{1, 0, 0}, axis_v{0, 1, 0};
+};
+Garment makeDisc(const DiscPattern& pattern);
+
 /// A closed tube from `start` along `axis` (unit), cut lengthwise into equal patches, whose number divides
 /// cells_around. u runs around, v along, normals outward. Its section is the uniform periodic spline through the circle
 /// at the knots: the radius between them differs by about radius (pi / cells_around)^4 / 8 for degree 2, and every

@@ -1,9 +1,10 @@
-// The sheet and the tube.
+// The sheet, the disc and the tube.
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/sheet/trim_loops.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
 #include "tryon/pattern/pattern.hpp"
@@ -58,6 +59,26 @@ Garment makeSheet(const SheetPattern& s) {
   p.weights.assign(p.points.size(), 1);
   g.patches.push_back(std::move(p));
   g.weft.push_back(s.axis_u);
+  return g;
+}
+
+// The section is one uniform periodic spline, whose net is a regular polygon; each patch is cut out of it by inserting
+// its end knots to multiplicity p. The cut leaves the curve C^(p-1), so both sides have the same first difference
+// there.
+Garment makeDisc(const DiscPattern& d) {
+  requirePositive("radius_m", d.radius_m);
+  requireDegree(d.degree, 1);
+  requireFinite("center", d.center);
+  requireUnit("axis_u", d.axis_u);
+  requireUnit("axis_v", d.axis_v);
+  if (!(std::abs(dot(d.axis_u, d.axis_v)) < 1e-9)) throw InputError({"", 0, "axis_v"}, "must be orthogonal to axis_u");
+  requireCells("cells", d.cells, 2);
+  const int cells = d.cells + 1;
+  const double side = 2 * d.radius_m * cells / d.cells;
+  Garment g = makeSheet(
+      {side, side, cells, cells, d.degree, d.center - (0.5 * side) * (d.axis_u + d.axis_v), d.axis_u, d.axis_v});
+  g.name = "disc";
+  g.trims = {Trim{{circleLoop(g.patches[0], {0.5 * side, 0.5 * side}, d.radius_m, Keep::inside)}}};
   return g;
 }
 
