@@ -115,6 +115,7 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   if (s.human) writeTorques(dir / "torques.csv", s.human->skeleton, m.added);
   writeContact(dir / "contact.csv", m.bodies, m.windows);
   writeCollisions(dir / "collisions.csv", m.steps.collisions);
+  if (!m.touch.empty()) writeLatitude(dir / "latitude.csv", m.touch);
   writeStress(dir / "stress.csv", m.regions, m.frames);
   std::vector<std::string> failures;
   const std::vector<Picture> pictures = takePictures(s, recording, m, dir / "snapshots", failures);

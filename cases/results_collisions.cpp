@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -23,10 +24,13 @@ Series seriesOf(const Measured& m, const std::string& name, const std::string& u
   return s;
 }
 
+/// Whether there is a line to see: not where all is 0, nor where most windows have no value.
 bool shows(const Plot& plot) {
-  for (const Series& s : plot.series)
-    for (const double v : s.values)
-      if (std::isfinite(v) && v != 0) return true;
+  for (const Series& s : plot.series) {
+    const auto known = std::count_if(s.values.begin(), s.values.end(), [](double v) { return std::isfinite(v); });
+    const bool any = std::any_of(s.values.begin(), s.values.end(), [](double v) { return std::isfinite(v) && v != 0; });
+    if (any && 2 * known > static_cast<long>(s.values.size())) return true;
+  }
   return false;
 }
 

@@ -215,6 +215,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   out.limited = s.definition.strain_limit.has_value();
   out.regions = regionsOf(s);
   measureFrames(recording, out);
+  measureTouch(s, recording, out);
   if (const JointMeasure* joint = out.highest(); joint && !out.windows.empty()) {
     out.peak_time_s = joint->peak.time_s;
   } else {

@@ -50,6 +50,19 @@ struct BodyMeasure {
   double normal_N = 0, friction_N = 0;  ///< means of the sums of magnitudes; opposite pressures do not cancel here
 };
 
+/// How one body is touched in the last frame, seen from its origin: angles are from up, radii from the vertical axis.
+struct TouchMeasure {
+  std::string body;
+  double normal_N = 0;        ///< sum of normal forces
+  double area_m2 = 0;         ///< of the samples nearer than 1.01 layers
+  double force_radius_m = 0;  ///< root mean square radius of the normal force
+  /// In bands of kBandDegrees: normal force and area of the touching samples.
+  std::vector<double> band_N, band_m2;
+  static constexpr int kBandDegrees = 3;
+  /// Of a circle with the contact's area.
+  double radius_m() const;
+};
+
 struct SupportMeasure {
   std::string name;
   bool springs = false;
@@ -115,6 +128,7 @@ struct Measured {
   std::vector<BodyMeasure> contact;
   double peak_time_s = 0;  ///< of the largest added torque; without joints of the largest sum of contact forces
   std::vector<SupportMeasure> supports;
+  std::vector<TouchMeasure> touch;  ///< of each body; empty without frames
   Regions regions;
   std::vector<StressFrame> frames;
   std::vector<StressSummary> stress;
@@ -132,6 +146,8 @@ Measured measure(const Scenario& scenario, const RecordingReader& recording);
 // Its parts (results_steps.cpp): the table "steps", and the frames.
 void measureSteps(const RecordingReader& recording, Measured& out);
 void measureFrames(const RecordingReader& recording, Measured& out);
+/// Of results_touch.cpp.
+void measureTouch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 
 /// The field of a frame by name; throws RunError where the frame has none.
 const Field& fieldOf(const Frame& frame, const std::string& name);

@@ -149,8 +149,9 @@ std::string captionOf(const PictureCase& picture, double time_s) {
   std::replace(view.begin(), view.end(), '_', ' ');
   std::string what = wordsOf(picture.field).word;
   what[0] = static_cast<char>(what[0] - 'a' + 'A');
-  return fmt::format("{} at {:.2f} s{}, seen from the {}", what, time_s,
-                     picture.when == PictureTime::peak ? " (the peak)" : "", view);
+  return fmt::format("{} at {:.2f} s{}, seen from {}{}", what, time_s,
+                     picture.when == PictureTime::peak ? " (the peak)" : "", picture.view == View::above ? "" : "the ",
+                     view);
 }
 
 int frameOf(const RecordingReader& recording, const Measured& m, const PictureCase& picture) {

@@ -231,12 +231,12 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
     for (const auto& [name, seconds] : facts.phases_s)
       timings.rows.push_back({name, seconds, Cell(sum > 0 ? 100 * seconds / sum : 0)});
     in.fact_tables.push_back(std::move(timings));
-    Plot over_time{"Time of each phase", "Of each window; the largest phases.", {}, {}, false};
+    Plot over_time{"Time of each phase", "Of each window; the three largest phases.", {}, {}, false};
     std::vector<std::size_t> order(facts.phases_s.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return facts.phases_s[a].second > facts.phases_s[b].second; });
-    for (std::size_t k = 0; k < std::min<std::size_t>(4, order.size()); ++k) {
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, order.size()); ++k) {
       Series series{facts.phases_s[order[k]].first, "ms", {}, {}, static_cast<Tone>(k)};
       for (const auto& w : facts.windows_s) {
         series.time_s.push_back(0.5 * (w[0] + w[1]));

@@ -69,6 +69,7 @@ Json collisionsJson(const Measured& m) {
   CollisionWindow all;
   all.smallest_gap_m = std::numeric_limits<double>::infinity();
   double flagged_s = -1, apart_s = 0;
+  double farthest = -std::numeric_limits<double>::infinity();  ///< smallest gap of a window, the largest
   bool touched = false;
   long flagged = 0;
   for (const CollisionWindow& w : m.steps.collisions) {
@@ -82,6 +83,7 @@ Json collisionsJson(const Measured& m) {
     all.way_cells = std::max(all.way_cells, w.way_cells);
     touched = touched || w.contacts > 0;
     if (touched && w.contacts == 0) apart_s += w.end_s - w.start_s;
+    if (touched) farthest = std::max(farthest, w.contacts > 0 ? w.smallest_gap_m : farthest);
     if (w.contacts > 0) all.smallest_gap_m = std::min(all.smallest_gap_m, w.smallest_gap_m);
     flagged += w.pinched > 0;
     if (w.pinched > 0 && flagged_s < 0) flagged_s = w.start_s;
@@ -101,6 +103,7 @@ Json collisionsJson(const Measured& m) {
          {"without_contact_after_the_first_s", apart_s},
          {"work_of_restoring_J", m.energy.restoring}};
   if (touched) j["smallest_gap_m"] = all.smallest_gap_m;
+  if (touched) j["largest_smallest_gap_of_a_window_m"] = farthest;
   const CollisionTable table = collisionTable(m.steps.collisions);
   j["windows"] = {{"columns", table.columns}, {"rows", table.rows}};
   if (flagged_s >= 0) j["first_pinched_at_s"] = flagged_s;
@@ -150,6 +153,11 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                             {"share", b.contact.share},
                             {"normal_mean_N", b.normal_N},
                             {"friction_mean_N", b.friction_N}});
+  for (const TouchMeasure& t : m.touch)
+    j["touch_at_end"][t.body] = {{"normal_N", t.normal_N},
+                                 {"area_m2", t.area_m2},
+                                 {"radius_m", t.radius_m()},
+                                 {"force_radius_m", t.force_radius_m}};
   j["supports"] = Json::array();
   for (const SupportMeasure& g : m.supports)
     j["supports"].push_back({{"support", g.name},

@@ -24,6 +24,10 @@ void addCollisions(const Measured& measured, ReportInput& in);
 /// Replaces DIR/collisions.csv: what collided, window by window. The smallest gap is 0 where nothing was near.
 void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows);
 
+/// Replaces DIR/latitude.csv: pressure and touching area of each body in bands up to the angle from up (seen from the
+/// body's origin), and the normal force within, in the last frame.
+void writeLatitude(const std::filesystem::path& csv, const std::vector<TouchMeasure>& touch);
+
 /// "swing (80 % of the stride), while the hip flexes against the garment, at 23 degrees of flexion".
 std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides);
 

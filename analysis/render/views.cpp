@@ -6,7 +6,9 @@
 namespace gambeson {
 namespace {
 
-constexpr double kElevation_rad = 12 * 3.14159265358979323846 / 180;
+constexpr double kDegree = 3.14159265358979323846 / 180;
+/// Of the views from a corner; `above` is for what lies flat.
+constexpr double kElevation_rad = 12 * kDegree, kAbove_rad = 45 * kDegree;
 
 /// Where a view looks from, in the body's frame: front, left, up.
 Vec3 towardsViewer(View view) {
@@ -24,6 +26,7 @@ Vec3 towardsViewer(View view) {
     case View::front_left:
       return {1, 1, 0};
     case View::front_right:
+    case View::above:
       return {1, -1, 0};
     case View::back_left:
       return {-1, 1, 0};
@@ -40,7 +43,7 @@ bool isElevated(View view) { return norm2(towardsViewer(view)) > 1.5; }
 
 const std::vector<std::string>& viewNames() {
   static const std::vector<std::string> names{"front",      "back",        "left",      "right",     "top",
-                                              "front_left", "front_right", "back_left", "back_right"};
+                                              "front_left", "front_right", "back_left", "back_right", "above"};
   return names;
 }
 
@@ -61,7 +64,7 @@ CameraAxes axesOf(View view, const Vec3& up_W) {
   if (view == View::top) {
     axes.up = front;
   } else {
-    const double e = isElevated(view) ? kElevation_rad : 0;
+    const double e = view == View::above ? kAbove_rad : isElevated(view) ? kElevation_rad : 0;
     const Vec3 level = axes.towards;
     axes.towards = std::cos(e) * level + std::sin(e) * up;
     axes.up = std::cos(e) * up - std::sin(e) * level;

@@ -226,6 +226,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
       audit.scale += dt * norm(m.dead_force_N[i]);
     }
     audit.change += m.mass_kg[i] * (out.v[i] - in.v[i]);
+    audit.scale += m.mass_kg[i] * norm(out.v[i] - in.v[i]);  // internal forces cancel in the sum, not in its rounding
     audit.gravity += (m.mass_kg[i] * dt) * m.environment.gravity_m_per_s2;
     audit.scale += m.mass_kg[i] * dt * norm(m.environment.gravity_m_per_s2);
     const double d = m.environment.drag_kg_per_m2s * m.area_m2[i];
