@@ -41,10 +41,9 @@ struct ColorBar {
 };
 
 /// front: seen from +x looking to -x, with `up` up ...; the body faces +x, left is +y, up is +z. `left` is seen from
-/// the body's left. Named pairs are seen from 12 degrees above the horizon, `above` as front_right from 45 degrees, the others exactly
-/// along their axis. Where
-/// `up` is not z, the body faces +x made orthogonal to `up` (z where `up` is x). All views are orthographic: lengths
-/// across the view, the arrow legend's among them, are true.
+/// the body's left. Named pairs are seen from 12 degrees above the horizon, `above` as front_right from 45 degrees, the
+/// others exactly along their axis. Where `up` is not z, the body faces +x made orthogonal to `up` (z where `up` is x).
+/// All views are orthographic: lengths across the view, the arrow legend's among them, are true.
 enum class View { front, back, left, right, top, front_left, front_right, back_left, back_right, above };
 std::optional<View> viewByName(const std::string& name);
 const std::vector<std::string>& viewNames();

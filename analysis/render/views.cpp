@@ -42,7 +42,7 @@ bool isElevated(View view) { return norm2(towardsViewer(view)) > 1.5; }
 }  // namespace
 
 const std::vector<std::string>& viewNames() {
-  static const std::vector<std::string> names{"front",      "back",        "left",      "right",     "top",
+  static const std::vector<std::string> names{"front",      "back",        "left",      "right",      "top",
                                               "front_left", "front_right", "back_left", "back_right", "above"};
   return names;
 }

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/sheet/surface.hpp"
 #include "human/load.hpp"
 #include "human/motion.hpp"
 #include "tryon/pattern/check.hpp"
@@ -89,6 +90,35 @@ TEST(Sheet, IsThePlaneItSays) {
       EXPECT_LT(norm(x[0] - Vec3{1, 2 + 0.3 * u, 3 + 0.5 * v}), 1e-15);
       EXPECT_LT(norm(x[1] - Vec3{0, 0.3, 0}), 1e-14);
     }
+}
+
+TEST(Disc, HasTheAreaAndTheMomentsOfOne) {
+  const double r = 0.06;
+  for (const int cells : {4, 7, 16}) {
+    const Garment g = makeDisc({r, cells, 2, {0.1, -0.2, 0.3}, {0, 1, 0}, {0, 0, 1}});
+    const std::vector<double> area = controlAreas(g);
+    const NurbsPatch& p = g.patches[0];
+    const double side = 2 * r * (cells + 1) / cells;
+    double sum = 0, second = 0;
+    Vec3 first{};
+    for (int j = 0; j < p.v.count(); ++j)
+      for (int i = 0; i < p.u.count(); ++i) {
+        const auto k = static_cast<std::size_t>(p.index(i, j));
+        const Vec3 d = p.points[k] - Vec3{0.1, -0.2, 0.3};
+        sum += area[k];
+        first += area[k] * d;
+        EXPECT_NEAR(d.x, 0, 1e-15);
+        // The blossom: products of neighbouring knots are the coefficients of u^2 and v^2.
+        const double u2 = p.u.knots[i + 1] * p.u.knots[i + 2], v2 = p.v.knots[j + 1] * p.v.knots[j + 2];
+        second += area[k] * (side * side * (u2 + v2) - side * (d.y + d.z) - 0.5 * side * side);
+      }
+    EXPECT_NEAR(sum / (std::numbers::pi * r * r), 1, 1e-6) << cells;
+    EXPECT_LT(norm(first) / (sum * r), 1e-12);
+    EXPECT_NEAR(second / (sum * 0.5 * r * r), 1, 1e-6) << cells;
+  }
+  EXPECT_EQ(rejectedKey([] { makeDisc({0, 8}); }), "radius_m");
+  EXPECT_EQ(rejectedKey([] { makeDisc({1, 1}); }), "cells");
+  EXPECT_EQ(rejectedKey([] { makeDisc({1, 8, 2, {}, {1, 0, 0}, {1, 0, 0}}); }), "axis_v");
 }
 
 TEST(Tube, IsRoundAndG1ForAnyCut) {
