@@ -79,7 +79,8 @@ Object timeTable() {
   return Table<T>("Time")
       .number("duration", &T::duration_s, "s", aboveTo(0, 3600), "how long the motion is followed, after dressing")
       .defaultsTo("the motion's own; required without a human")
-      .number("step_safety", &T::step_safety, "", aboveTo(0, 1), "time step as a part of the largest stable one")
+      .number("step_safety", &T::step_safety, "", aboveTo(0, 1),
+              "time step as a part of the largest stable one; at most 0.7 to 0.8 where the highest modes swing far")
       .number("max_step", &T::max_step_s, "s", between(1e-8, 0.01), "largest time step")
       .build();
 }

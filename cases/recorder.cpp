@@ -154,6 +154,7 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
   c.reals["sums"] = doubles(std::vector<Vec3>{s.sums.drag, s.sums.springs, s.sums.held});
   c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s, f.largest_rad_per_s, f.membrane_share,
                         f.bending_share,       f.seam_share,  f.spring_share};
+  c.reals["swing"] = {s.swing, s.share};
   c.integers["steps_to_estimate"] = {s.steps_to_estimate};
   c.integers["tangled"] = {s.tangled};
   c.integers["pinched"].assign(s.pinched.begin(), s.pinched.end());
@@ -183,6 +184,8 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   const std::vector<double>& control = c.reals.at("control");
   s.frequency_rad_per_s = control[0];
   s.last_step_s = control[1];
+  s.swing = c.reals.at("swing")[0];
+  s.share = c.reals.at("swing")[1];
   f = {control[2], control[3], control[4], control[5], control[6]};
   s.steps_to_estimate = static_cast<int>(c.integers.at("steps_to_estimate")[0]);
   s.tangled = c.integers.at("tangled")[0] != 0;

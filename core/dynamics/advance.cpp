@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/resonance.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -10,6 +11,10 @@ namespace {
 constexpr int kColdIterations = 40, kWarmIterations = 8;
 constexpr double kPinched = 64;  ///< part of a step below which samples count as pinched
 constexpr int kMostCuts = 200;
+/// Each estimate is of the stiffness at one moment. Steps that follow it up and down gain energy (a crumpled sheet
+/// without drag 25 times its own in 0.4 s), so what is used stays near the largest of late.
+constexpr double kFall = 0.995;
+constexpr int kSoonest = 10;  ///< steps between estimates
 
 /// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
 /// estimate, the estimate is out of date.
@@ -30,12 +35,13 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     if (state.steps_to_estimate <= 0) {
       const bool cold = state.frequency_rad_per_s == 0 || state.steps_to_estimate < 0;
       frequency = largestFrequency(model, stage, state, cold ? kColdIterations : kWarmIterations, work);
-      // The warm estimate may have followed one mode while another rose: let it fall only slowly.
-      state.frequency_rad_per_s = std::max(frequency.largest_rad_per_s, 0.98 * state.frequency_rad_per_s);
+      // A warm estimate may also have followed one mode while another rose.
+      state.frequency_rad_per_s = std::max(frequency.largest_rad_per_s, kFall * state.frequency_rad_per_s);
       state.steps_to_estimate = control.estimate_every;
     }
-    const double longest =
-        std::min(control.max_step_s, control.safety * 2 / std::max(state.frequency_rad_per_s, 1e-300));
+    const double omega = std::max(state.frequency_rad_per_s, 1e-300);
+    const double share = std::min(control.safety, state.share > 0 ? state.share : kFirstShare);
+    const double longest = std::min(control.max_step_s, share * 2 / omega);
     const double left = until - state.time_s;
     const double pieces = std::ceil(left / longest * (1 - 1e-12));
     double dt = pieces <= 1 ? left : left / pieces;
@@ -58,9 +64,10 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     }
     if (pieces <= 1 && dt == left) next.time_s = until;
     --next.steps_to_estimate;
-    const double omega = state.frequency_rad_per_s;
-    if (shownFrequency2(model, state, next) > 0.5 * omega * omega)
-      next.steps_to_estimate = std::min(next.steps_to_estimate, -1);
+    next.swing = std::max(swing(model, state, next, dt, omega, work), kSwingHeld * state.swing);
+    next.share = shareAtSwing(next.swing, state.share);
+    const bool old = control.estimate_every - next.steps_to_estimate >= kSoonest;
+    if (old && shownFrequency2(model, state, next) > 0.8 * omega * omega) next.steps_to_estimate = -1;
     observe(state, next, report, work, frequency);
     std::swap(state, next);
   }

@@ -62,7 +62,8 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 {},
                                                 {},
                                                 options.strain_limit,
-                                                {}});
+                                                {},
+                                                netEdges(garment)});
   std::vector<int> layer;
   for (int s = 0; s < model->surface.size(); ++s) {
     const int patch = model->surface.patch[s];

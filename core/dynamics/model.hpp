@@ -11,6 +11,7 @@
 #include "core/contact/response.hpp"
 #include "core/contact/zones.hpp"
 #include "core/dynamics/collisions.hpp"
+#include "core/dynamics/resonance.hpp"
 #include "core/dynamics/strain_limit.hpp"
 #include "core/sheet/shell.hpp"
 
@@ -59,7 +60,8 @@ struct Model {
   Vec3 spring_rise_m;
   std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
   StrainLimit strain_limit;
-  StrainRows strain_rows;  ///< without points where strain is not limited
+  StrainRows strain_rows;    ///< without points where strain is not limited
+  std::vector<NetEdge> net;  ///< of the patches' control points
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
 };
@@ -109,6 +111,8 @@ struct State {
   double frequency_rad_per_s = 0;  ///< estimate of the largest
   std::vector<Vec3> mode;          ///< its mode, warm start of the next estimate
   int steps_to_estimate = 0;
+  double swing = 0;  ///< of the highest modes, its peaks held for a while (core/dynamics/resonance.hpp)
+  double share = 0;  ///< of the stable step that this swing allows; 0 where there was no step yet
   double last_step_s = 0;
 };
 
@@ -172,6 +176,7 @@ struct StepWork {
   ContactWork contact;
   LimitWork limit;
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;
+  std::vector<Vec3> jerk, net_jerk;  ///< changes of acceleration: of the free points, of the control points
   std::vector<Vec3> limit_end, pulled_before, pulled_after;
   std::vector<double> reach;
   std::vector<Contact> near, hits;

@@ -194,6 +194,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.frequency_rad_per_s = in.frequency_rad_per_s;
   out.mode = in.mode;
   out.steps_to_estimate = in.steps_to_estimate;
+  out.swing = in.swing;
+  out.share = in.share;
   out.last_step_s = dt;
 
   // The audit, each term from its own source.
