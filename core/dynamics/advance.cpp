@@ -14,7 +14,10 @@ constexpr int kMostCuts = 200;
 /// Each estimate is of the stiffness at one moment. Steps that follow it up and down gain energy (a crumpled sheet
 /// without drag 25 times its own in 0.4 s), so what is used stays near the largest of late.
 constexpr double kFall = 0.995;
-constexpr int kSoonest = 10;  ///< steps between estimates
+/// Steps until the next estimate, times the swing: cloth that swings far changes its stiffness as far. From a swing of
+/// kCrumpling on cells collapse, and one mode may take over from another between two estimates.
+constexpr double kStepsAtSwing = 6, kCrumpling = 0.5;
+constexpr int kSoonest = 10;  ///< steps between estimates because of the shown frequency
 
 /// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
 /// estimate, the estimate is out of date.
@@ -66,8 +69,9 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     --next.steps_to_estimate;
     next.swing = std::max(swing(model, state, next, dt, omega, work), kSwingHeld * state.swing);
     next.share = shareAtSwing(next.swing, state.share);
-    const bool old = control.estimate_every - next.steps_to_estimate >= kSoonest;
-    if (old && shownFrequency2(model, state, next) > 0.8 * omega * omega) next.steps_to_estimate = -1;
+    const int since = control.estimate_every - next.steps_to_estimate;
+    if (since >= kStepsAtSwing / next.swing) next.steps_to_estimate = next.swing > kCrumpling ? -1 : 0;
+    if (since >= kSoonest && shownFrequency2(model, state, next) > 0.8 * omega * omega) next.steps_to_estimate = -1;
     observe(state, next, report, work, frequency);
     std::swap(state, next);
   }
