@@ -123,7 +123,8 @@ struct MomentumAudit {
   Vec3 dead;       ///< dead forces
   Vec3 obstacles;  ///< the obstacles' own ledger: what they received
   double error() const { return norm(change - (gravity + dead + drag + supports - obstacles)); }
-  /// Sum of the absolute impulses, the scale of `error`.
+  /// Sum of the absolute impulses, the scale of `error`; at least what rounding is measured by (kScaleFloor in
+  /// step.cpp).
   double scale = 0;
 };
 
