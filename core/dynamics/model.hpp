@@ -183,7 +183,7 @@ struct StepWork {
   std::vector<Contact> near, hits;
   std::vector<PairHit> pair_hits;
   std::vector<char> inside;  ///< samples that are behind a body's surface
-  std::vector<ContactRow> restoring;
+  std::vector<ContactRow> restoring, edge_rows;
   std::vector<int> stuck;  ///< samples of the pairs that no zone kept apart, where the step failed for impacts
   CollisionWork collisions;
   std::vector<ImpactZone> zones;  ///< of the last step

@@ -4,6 +4,8 @@
 #include <limits>
 #include <tuple>
 
+#include "core/dynamics/body_edges.hpp"
+
 namespace gambeson {
 namespace {
 
@@ -32,8 +34,11 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   w.rows.clear();
   w.warm.clear();
   const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
-  // Bodies first, then samples on cloth, then edges; as the lists come.
-  const auto key = [](const auto& c) { return std::tuple(std::max(0, -c.obstacle), c.sample, c.obstacle, c.feature); };
+  // Bodies first, then samples on cloth, then edges, then edges of bodies; as the lists come.
+  const auto key = [](const auto& c) {
+    const bool body_edge = c.obstacle >= 0 && c.feature < 0;
+    return std::tuple(body_edge ? 4 : std::max(0, -c.obstacle), c.sample, c.obstacle, c.feature);
+  };
   std::size_t at = 0;
   const auto add = [&](ContactRow row) {
     while (at < in.warm.size() && key(in.warm[at]) < key(row.contact)) ++at;
@@ -51,6 +56,10 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     ContactRow row;
     row.contact = p.contact;
     row.stencil = p.stencil;
+    add(row);
+  }
+  for (ContactRow& row : w.edge_rows) {
+    setPersistent(m, dt, row);
     add(row);
   }
 }
@@ -256,6 +265,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   report.pinched = static_cast<int>(in.pinched.size());
   for (int s : in.pinched) w.collisions.tangle[s] = Tangle::kBeside;
   nearCloth(m.collisions, w.collisions);
+  bodyEdgeRows(m.collisions, dt, w.inside, w.collisions, w.edge_rows);
   persistentRows(m, in, dt, w);
   report.smallest_gap_m = std::numeric_limits<double>::max();
   for (const ContactRow& row : w.rows) report.smallest_gap_m = std::min(report.smallest_gap_m, row.contact.gap_m);

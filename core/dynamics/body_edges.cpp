@@ -1,0 +1,162 @@
+#include "core/dynamics/body_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/contact/segment_pair.hpp"
+#include "core/contact/triangle.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr double kSharp = 0.26;  ///< sine of 15 degrees
+constexpr double kAway = 1e-3;   ///< of faces from the cloth: else they are nearer than the edge
+constexpr double kInside = 1e-6;
+
+class Search {
+ public:
+  Search(const CollisionModel& m, double dt, std::span<const char> inside, const CollisionWork& w,
+         std::vector<ContactRow>& rows)
+      : m_(m), dt_(dt), inside_(inside), w_(w), rows_(rows), x_(w.x0) {}
+
+  void cornerOn(const PointTriangle& pair) {
+    const int v = pair.vertex;
+    const std::array<int, 3>& t = m_.mesh.triangles[pair.triangle];
+    if (m_.body_of_vertex[v] < 0 || m_.body_of_vertex[t[0]] >= 0) return;
+    if (!counts(t) || !mayReach(std::array{v}, t)) return;
+    const std::array<Vec3, 3> corner{x_[t[0]], x_[t[1]], x_[t[2]]};
+    const TrianglePoint foot = closestOnTriangle(corner, x_[v]);
+    if (foot.feature != kFace) return;
+    const Vec3 way = foot.position - x_[v];
+    const double gap = norm(way);
+    if (!(gap > 0) || !cornerIsSharp(v, way / gap)) return;
+    const Vec3 u = corner[1] - corner[0], s = corner[2] - corner[0], r = foot.position - corner[0], n = cross(u, s);
+    const double b = dot(cross(r, s), n) / norm2(n), c = dot(cross(u, r), n) / norm2(n);
+    add(std::array{t[0], t[1], t[2]}, std::array{1 - b - c, b, c}, std::array{v}, std::array{1.0}, way / gap, gap,
+        {0, v, pair.triangle}, v);
+  }
+
+  void edgeOn(const EdgeEdge& pair) {
+    const bool a_is_body = m_.body_of_vertex[m_.mesh.edges[pair.a][0]] >= 0;
+    const bool b_is_body = m_.body_of_vertex[m_.mesh.edges[pair.b][0]] >= 0;
+    if (a_is_body == b_is_body) return;
+    const int cloth = a_is_body ? pair.b : pair.a, body = a_is_body ? pair.a : pair.b;
+    const std::array<int, 2>&c = m_.mesh.edges[cloth], &e = m_.mesh.edges[body];
+    if (!counts(c) || !mayReach(e, c)) return;
+    const SegmentPair near = nearestOnSegments(x_[c[0]], x_[c[1]], x_[e[0]], x_[e[1]]);
+    if (!(std::min({near.s, 1 - near.s, near.t, 1 - near.t}) > kInside)) return;
+    const Vec3 at = x_[e[0]] + near.t * (x_[e[1]] - x_[e[0]]);
+    const Vec3 way = x_[c[0]] + near.s * (x_[c[1]] - x_[c[0]]) - at;
+    const double gap = norm(way);
+    if (!(gap > 0) || !edgeIsSharp(body, at, way / gap)) return;
+    add(c, std::array{1 - near.s, near.s}, e, std::array{1 - near.t, near.t}, way / gap, gap, {1, pair.a, pair.b},
+        m_.mesh.vertex_count + body);
+  }
+
+ private:
+  template <std::size_t N>
+  bool counts(const std::array<int, N>& cloth) const {
+    return std::all_of(cloth.begin(), cloth.end(), [&](int v) { return w_.tangle[v] == Tangle::kFree && !inside_[v]; });
+  }
+
+  template <std::size_t N, std::size_t M>
+  bool mayReach(const std::array<int, N>& body, const std::array<int, M>& cloth) const {
+    double far = contactReach(m_.largest_thickness_m), body_way = 0, cloth_way = 0;
+    Box a, b;
+    for (int v : body) a.add(x_[v]), body_way = std::max(body_way, norm(w_.x1[v] - x_[v]));
+    for (int v : cloth) b.add(x_[v]), cloth_way = std::max(cloth_way, norm(w_.x1[v] - x_[v]));
+    far += body_way + cloth_way;
+    return overlap(a.grown(far), b);
+  }
+
+  /// The corner stands out, and is the nearest point of its faces: all edges at it lead away from `way`.
+  bool cornerIsSharp(int v, const Vec3& way) const {
+    const auto along = [&](int e) {
+      const auto& [a, b] = m_.mesh.edges[e];
+      return normalized(a == v ? x_[b] - x_[a] : x_[a] - x_[b]);
+    };
+    Vec3 sum{};
+    for (int e : m_.mesh.vertex_edges[v]) {
+      if (!(dot(along(e), way) < -kAway)) return false;
+      sum += along(e);
+    }
+    const double length = norm(sum);
+    for (int e : m_.mesh.vertex_edges[v])
+      if (!(dot(along(e), sum) > kSharp * length)) return false;
+    return true;
+  }
+
+  bool edgeIsSharp(int edge, const Vec3& at, const Vec3& way) const {
+    const auto& [a, b] = m_.mesh.edges[edge];
+    const Vec3 along = x_[b] - x_[a];
+    Vec3 sum{};
+    std::array<Vec3, 2> sides;
+    const std::span<const int> faces = m_.mesh.edge_faces[edge];
+    if (faces.size() > 2) return false;
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      for (int c : m_.mesh.triangles[faces[k]]) {
+        if (c == a || c == b) continue;
+        const Vec3 r = x_[c] - at;
+        sides[k] = normalized(r - (dot(r, along) / norm2(along)) * along);
+        if (!(dot(sides[k], way) < -kAway)) return false;
+        sum += sides[k];
+      }
+    // Half the angle by which the faces bend has the sine |sum|/2.
+    return faces.size() < 2 || norm(sum) > 2 * kSharp;
+  }
+
+  template <std::size_t N, std::size_t M>
+  void add(const std::array<int, N>& cloth, const std::array<double, N>& weight, const std::array<int, M>& body,
+           const std::array<double, M>& body_weight, const Vec3& normal, double gap, const std::array<int, 3>& pair,
+           int feature) {
+    ContactRow row;
+    row.pair = pair;
+    row.contact.normal = normal;
+    row.contact.gap_m = gap;
+    row.contact.sample = cloth[0];
+    row.contact.feature = -1 - feature;
+    const CollisionModel::Body& of = m_.bodies[m_.body_of_vertex[body[0]]];
+    row.contact.obstacle = of.obstacle;
+    Vec3 way{};
+    double thickness = 0;
+    for (std::size_t k = 0; k < N; ++k) {
+      row.stencil.add(cloth[k], weight[k]);
+      way += weight[k] * (w_.x1[cloth[k]] - x_[cloth[k]]);
+      thickness += weight[k] * m_.cloth.thickness_m[cloth[k]];
+    }
+    for (std::size_t k = 0; k < M; ++k) {
+      row.body_velocity += (body_weight[k] / dt_) * (w_.x1[body[k]] - x_[body[k]]);
+      row.contact.local += body_weight[k] * of.local[body[k] - of.first_vertex];
+    }
+    way -= dt_ * row.body_velocity;
+    const Vec3 start = gap * normal;
+    const double way2 = norm2(way), t = way2 > 0 ? std::clamp(-dot(start, way) / way2, 0.0, 1.0) : 0;
+    const double reach = contactReach(thickness);
+    if (norm2(start + t * way) < reach * reach) rows_.push_back(row);
+  }
+
+  const CollisionModel& m_;
+  double dt_;
+  std::span<const char> inside_;
+  const CollisionWork& w_;
+  std::vector<ContactRow>& rows_;
+  std::span<const Vec3> x_;
+};
+
+}  // namespace
+
+void bodyEdgeRows(const CollisionModel& m, double dt, std::span<const char> inside, const CollisionWork& w,
+                  std::vector<ContactRow>& rows) {
+  rows.clear();
+  if (m.bodies.empty()) return;
+  Search search(m, dt, inside, w, rows);
+  for (const PointTriangle& pair : w.pairs.points) search.cornerOn(pair);
+  for (const EdgeEdge& pair : w.pairs.edges) search.edgeOn(pair);
+  const auto key = [](const ContactRow& r) {
+    return std::tuple(r.contact.sample, r.contact.obstacle, r.contact.feature, r.pair);
+  };
+  std::sort(rows.begin(), rows.end(), [&](const ContactRow& a, const ContactRow& b) { return key(a) < key(b); });
+}
+
+}  // namespace gambeson
