@@ -58,10 +58,7 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     row.stencil = p.stencil;
     add(row);
   }
-  for (ContactRow& row : w.edge_rows) {
-    setPersistent(m, dt, row);
-    add(row);
-  }
+  for (const ContactRow& row : w.edge_rows) add(row);
 }
 
 /// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for half of k delta more each round: bodies are
