@@ -34,7 +34,7 @@ bool shows(const Plot& plot) {
   return false;
 }
 
-/// The largest (of -value: smallest) of all windows, and when.
+/// The largest (or smallest) of all windows, and when. Without a unit it is a count.
 std::vector<Cell> most(const Measured& m, const std::string& name, const Value& value, const std::string& unit,
                        bool smallest = false) {
   double best = -std::numeric_limits<double>::infinity(), at = 0;
@@ -44,7 +44,9 @@ std::vector<Cell> most(const Measured& m, const std::string& name, const Value& 
   }
   if (!std::isfinite(best)) return {name, "none", ""};
   if (best == 0 && !smallest) return {name, "0", ""};
-  return {name, formatNumber(smallest ? -best : best) + (unit.empty() ? "" : " " + unit), fmt::format("{:.2f}", at)};
+  const double shown = smallest ? -best : best;
+  return {name, unit.empty() ? fmt::format("{:.0f}", shown) : formatNumber(shown) + " " + unit,
+          fmt::format("{:.2f}", at)};
 }
 
 std::vector<Cell> total(const Measured& m, const std::string& name, const Value& value) {
