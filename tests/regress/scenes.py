@@ -86,7 +86,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--csv", type=pathlib.Path)
     parser.add_argument("cases", nargs="*")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     wanted = options.cases or (SHORT if options.short else [])
     cases = [c for c in scenes() if not wanted or c.stem in wanted]
     check(len(cases) == len(wanted) or not wanted, f"not all of {wanted} are scenes of the library")
