@@ -101,39 +101,53 @@ Vec3 project(const Vec3& traction, const Vec3& n, double mu) {
 /// Where samples outnumber control points, tractions have parts that move nothing; a solve neither makes nor removes
 /// them, so what an impact left would stay. Each warm start moves a fifth of the way to the lumped projection of the
 /// traction on the basis, sum_I N_I (sum_s N_I a tau)/(sum_s N_I a), which keeps constants. Sets w.traction. Contacts
-/// of cloth with cloth have no direction in common: theirs start as they were.
+/// of samples on cloth have no direction in common with the others around: theirs take the projection of their normal
+/// parts, the two sides of the cloth apart, told by the normal's sign along a direction that no usual sheet lies in.
 void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, ContactWork& w) {
   constexpr double kMix = 0.2;
+  const Vec3 side{0.6180, 0.4142, 0.7321};
   const int n = static_cast<int>(rows.size()), free_count = static_cast<int>(w.free_points.size());
-  const auto smoothed = [&](int at) {
-    const int i = w.order[at];
-    return rows[i].contact.obstacle >= 0 && rows[i].stencil.count == 1 && !(warm[i] == Vec3{});
-  };
-  w.weight.assign(w.samples.size(), 0);
-  w.sample_impulse.assign(w.samples.size(), Vec3{});
-  for (int at = 0; at < n; ++at) {
-    w.traction[at] = warm[w.order[at]];
-    if (!smoothed(at)) continue;
-    const int s = w.stencils.columns[w.stencils.offsets[at]];
-    w.weight[s] += w.share[at];
-    w.sample_impulse[s] += w.share[at] * w.traction[at];
-  }
-  for (int f = 0; f < free_count; ++f) {
-    Vec3 sum{};
-    double total = 0;
-    for (int k = w.columns.offsets[f]; k < w.columns.offsets[f + 1]; ++k) {
-      sum += w.columns.values[k] * w.sample_impulse[w.columns.columns[k]];
-      total += w.columns.values[k] * w.weight[w.columns.columns[k]];
+  for (int at = 0; at < n; ++at) w.traction[at] = warm[w.order[at]];
+  // Bodies, then both sides of the cloth.
+  for (int group = 0; group < 3; ++group) {
+    const auto smoothed = [&](int at) {
+      const ContactRow& row = rows[w.order[at]];
+      if (warm[w.order[at]] == Vec3{}) return false;
+      if (group == 0) return row.contact.obstacle >= 0 && row.stencil.count == 1;
+      return row.contact.obstacle == kSampleOnCloth && (dot(row.contact.normal, side) > 0) == (group == 1);
+    };
+    const auto part = [&](int at) {
+      const Vec3& t = warm[w.order[at]];
+      return group == 0 ? t : Vec3{dot(t, rows[w.order[at]].contact.normal), 0, 0};
+    };
+    const auto sampleOf = [&](int at) { return w.sample_slot[rows[w.order[at]].contact.sample]; };
+    bool any = false;
+    w.weight.assign(w.samples.size(), 0);
+    w.sample_impulse.assign(w.samples.size(), Vec3{});
+    for (int at = 0; at < n; ++at) {
+      if (!smoothed(at)) continue;
+      any = true;
+      w.weight[sampleOf(at)] += w.share[at];
+      w.sample_impulse[sampleOf(at)] += w.share[at] * part(at);
     }
-    w.free_velocity[f] = total > 0 ? sum / total : Vec3{};
-  }
-  for (int at = 0; at < n; ++at) {
-    if (!smoothed(at)) continue;
-    const int s = w.stencils.columns[w.stencils.offsets[at]];
-    Vec3 smooth{};
-    for (int k = w.rows.offsets[s]; k < w.rows.offsets[s + 1]; ++k)
-      smooth += w.rows.values[k] * w.free_velocity[w.rows.columns[k]];
-    w.traction[at] += kMix * (smooth - w.traction[at]);
+    if (!any) continue;
+    for (int f = 0; f < free_count; ++f) {
+      Vec3 sum{};
+      double total = 0;
+      for (int k = w.columns.offsets[f]; k < w.columns.offsets[f + 1]; ++k) {
+        sum += w.columns.values[k] * w.sample_impulse[w.columns.columns[k]];
+        total += w.columns.values[k] * w.weight[w.columns.columns[k]];
+      }
+      w.free_velocity[f] = total > 0 ? sum / total : Vec3{};
+    }
+    for (int at = 0; at < n; ++at) {
+      if (!smoothed(at)) continue;
+      Vec3 smooth{};
+      for (int k = w.rows.offsets[sampleOf(at)]; k < w.rows.offsets[sampleOf(at) + 1]; ++k)
+        smooth += w.rows.values[k] * w.free_velocity[w.rows.columns[k]];
+      const Vec3 change = kMix * (smooth - part(at));
+      w.traction[at] += group == 0 ? change : change.x * rows[w.order[at]].contact.normal;
+    }
   }
 }
 
