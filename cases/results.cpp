@@ -122,6 +122,10 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   ReportInput in = reportInput(s, m, facts, recording.layout().identity, pictures);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, dir / "report.html");
+  for (const AuditCheck& c : in.audit)
+    if (!c.holds())
+      fmt::print(stderr, "check not met: {} {:.4g}{}{} (allowed {:.4g}): {}\n", c.name, c.value,
+                 c.unit.empty() ? "" : " ", c.unit, c.limit, c.meaning);
   if (!failures.empty()) throw RunError(failures.front() + " (the numbers and the report are in " + dir.string() + ")");
 }
 

@@ -195,6 +195,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
     in.warnings.push_back(
         fmt::format("The run stopped at {:.2f} s of {:.2f} s: what follows is only what was recorded until then.",
                     m.recorded_end_s, s.end_s));
+  for (const std::string& note : s.notes) in.warnings.push_back("Note: " + note + ".");
   if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
   addJoints(m, in);
   addPlots(m, in);

@@ -43,6 +43,7 @@ int runCase(const Case& c, const RunOptions& options) {
     fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   const Model& model = *scenario->model;
+  for (const std::string& note : scenario->notes) fmt::print(stderr, "note: {}\n", note);
 
   StepWork work;
   State state;

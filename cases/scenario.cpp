@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cases/structure_sheet.hpp"
+#include "core/contact/mesh_topology.hpp"
 #include "core/dynamics/step.hpp"
 #include "core/error.hpp"
 #include "core/sheet/layers.hpp"
@@ -213,6 +214,17 @@ Shape shapeOf(const ObstacleCase& o, Placement& at) {
       o.shape);
 }
 
+void noteDefects(const MeshObstacle& file, const std::string& name, const Obstacle& obstacle,
+                 std::vector<std::string>& notes) {
+  std::string defects;
+  try {
+    defects = meshDefects(meshTopology(std::get<TriangleMesh>(obstacle.shape)));
+  } catch (const InputError& e) {
+    throw InputError({file.file.string(), 0, ""}, "the mesh of obstacle " + name + ": " + e.reason());
+  }
+  if (!defects.empty()) notes.push_back("obstacle " + name + " (" + file.file.filename().string() + ") " + defects);
+}
+
 /// `first`: the first patch of each garment.
 void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first, const Surface& surface,
                  const Human* human, ModelOptions& options, std::vector<SupportGroup>& groups) {
@@ -347,6 +359,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
   for (const ObstacleCase& o : c.obstacles) {
     Placement at;
     obstacles.push_back({shapeOf(o, at), o.name});
+    if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) noteDefects(*mesh, o.name, obstacles.back(), s->notes);
     stage->fixed.push_back(at);
     stage->fixed_velocity.push_back(o.velocity_m_per_s);
     s->body_of_obstacle.push_back(static_cast<int>(s->bodies.size()));

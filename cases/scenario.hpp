@@ -35,7 +35,8 @@ struct Scenario {
   std::vector<std::string> fabric_names;  ///< of the garments, each once
   std::vector<int> samples_per_cell;      ///< of the patches
   std::vector<SupportGroup> supports;
-  std::vector<Vec3> noise_m;  ///< of the free points at the start; empty: none
+  std::vector<std::string> notes;  ///< what a user should know of the case before its results
+  std::vector<Vec3> noise_m;       ///< of the free points at the start; empty: none
   double start_s = 0, end_s = 0;
 
   /// Where the origin of each body's frame stands.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 #include <tuple>
 
 #include "core/error.hpp"
@@ -12,6 +13,12 @@ namespace gambeson {
 namespace {
 
 [[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
+
+std::string place(const Vec3& x) {
+  std::ostringstream text;
+  text << "(" << x.x << ", " << x.y << ", " << x.z << ") m";
+  return text.str();
+}
 
 std::vector<int> weld(const std::vector<Vec3>& vertices) {
   std::vector<int> order(vertices.size()), representative(vertices.size());
@@ -25,6 +32,36 @@ std::vector<int> weld(const std::vector<Vec3>& vertices) {
 }
 
 }  // namespace
+
+std::string meshDefects(const MeshTopology& m) {
+  std::vector<int> parent(m.rim_vertex.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto find = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  int rim = 0, crowded = 0;
+  for (std::size_t e = 0; e < m.edges.size(); ++e) {
+    crowded += m.edge_begin[e + 1] - m.edge_begin[e] > 2;
+    if (!m.rim_edge[e]) continue;
+    ++rim;
+    parent[find(m.edges[e].v)] = find(m.edges[e].w);
+  }
+  int holes = 0;
+  for (std::size_t v = 0; v < parent.size(); ++v)
+    holes += m.rim_vertex[v] && find(static_cast<int>(v)) == static_cast<int>(v);
+  std::string text;
+  if (holes > 0)
+    text = "is open: " + std::to_string(holes) + (holes == 1 ? " border of " : " borders of ") + std::to_string(rim) +
+           " edges together; cloth can pass in and out there, and cloth that starts inside is not pushed out from any "
+           "depth";
+  if (crowded > 0)
+    text += std::string(text.empty() ? "has " : "; it has ") + std::to_string(crowded) +
+            (crowded == 1 ? " edge" : " edges") +
+            " of more than two triangles: which side of these is outside is not known, and cloth may be taken for "
+            "inside there";
+  return text;
+}
 
 MeshTopology meshTopology(const TriangleMesh& mesh) {
   const int n_vertices = static_cast<int>(mesh.vertices.size()), n_faces = static_cast<int>(mesh.triangles.size());
@@ -75,7 +112,9 @@ MeshTopology meshTopology(const TriangleMesh& mesh) {
     m.edge_begin.push_back(static_cast<int>(m.edge_faces.size()));
     if (forward + backward == 2 && forward != 1)
       reject("mesh", "triangles " + std::to_string(m.edge_faces[m.edge_begin[e]].face) + " and " +
-                         std::to_string(m.edge_faces[m.edge_begin[e] + 1].face) + " disagree on which side is outside");
+                         std::to_string(m.edge_faces[m.edge_begin[e] + 1].face) +
+                         " disagree on which side is outside, at the edge from " + place(mesh.vertices[v]) + " to " +
+                         place(mesh.vertices[w]) + "; turn one of them (most mesh tools recalculate normals)");
     m.rim_edge.push_back(forward + backward == 1);
     if (forward != backward) m.closed = false;
     if (forward + backward == 1) m.rim_vertex[v] = m.rim_vertex[w] = 1;

@@ -2,6 +2,7 @@
 /// Who is whose neighbour in a triangle mesh, with one number for each face, edge and vertex.
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "core/contact/obstacle.hpp"
@@ -36,5 +37,8 @@ struct MeshTopology {
 /// Throws InputError where the mesh is empty, a position is not finite, an index is out of range, neighbouring
 /// triangles disagree on what is outside, or a closed mesh is turned inside out.
 MeshTopology meshTopology(const TriangleMesh& mesh);
+
+/// What a user should know of a mesh that is taken as it is: holes, and edges of more than two triangles. Empty: none.
+std::string meshDefects(const MeshTopology& mesh);
 
 }  // namespace gambeson

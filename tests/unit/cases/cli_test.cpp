@@ -51,6 +51,39 @@ TEST(Command, CheckAcceptsTheLibrary) {
   }
 }
 
+/// Meshes with holes, fins and triangles that face the wrong way: what is taken is said, what is refused names the
+/// place.
+TEST(Command, RunSaysWhatIsWrongWithAMesh) {
+  const Folder folder;
+  // A tetrahedron about the origin, its lid left out, a fin added, or a face turned.
+  const std::string corners = "v 0.05 0 -0.04\nv -0.03 0.05 -0.04\nv -0.03 -0.05 -0.04\nv 0 0 0.04\nv 0.2 0.2 0.2\n";
+  const std::string closed = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const auto run = [&](const std::string& faces) {
+    folder.write("body.obj", corners + faces);
+    folder.write("mesh.json", R"({"name": "mesh", "gravity": [0, 0, 0], "contact": {"friction": 0.2},
+      "garment": {"sheet": {"width": "0.1 m", "height": "0.1 m", "cells_u": 4, "cells_v": 4, "corner": [0, 0, 1]}},
+      "fabric": {"thickness": "1 mm", "surface_density": "0.1 kg/m^2", "young": "30 kPa", "poisson": 0.3,
+                 "bending": {"law": "zheng", "rigidity": "3e-6 N m", "kappa0": "30 1/m"}},
+      "obstacles": [{"name": "body", "mesh": {"file": "body.obj"}}], "time": {"duration": "1 ms"}})");
+    return gambeson(folder, "run mesh.json --out out");
+  };
+  const Outcome good = run(closed);
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_EQ(good.err.find("note:"), std::string::npos) << good.err;
+  const Outcome open = run("f 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  EXPECT_EQ(open.status, 0) << open.err;
+  EXPECT_NE(open.err.find("note: obstacle body (body.obj) is open: 1 border of 3 edges"), std::string::npos)
+      << open.err;
+  EXPECT_NE(content(folder.path() / "out/report.html").find("is open: 1 border of 3 edges"), std::string::npos);
+  const Outcome fin = run(closed + "f 1 2 5\n");
+  EXPECT_EQ(fin.status, 0) << fin.err;
+  EXPECT_NE(fin.err.find("1 edge of more than two triangles"), std::string::npos) << fin.err;
+  const Outcome turned = run("f 1 3 2\nf 1 2 4\nf 3 2 4\nf 3 1 4\n");
+  EXPECT_EQ(turned.status, 2);
+  for (const char* word : {"body.obj", "obstacle body", "disagree on which side is outside", "(-0.03, 0.05, -0.04) m"})
+    EXPECT_NE(turned.err.find(word), std::string::npos) << turned.err;
+}
+
 TEST(Command, CheckSaysWhatACaseIs) {
   const Folder folder;
   folder.write("example.json", example);
