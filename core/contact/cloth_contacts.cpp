@@ -110,9 +110,7 @@ class Search {
     Vec3 way{};
     for (int k = 0; k < p.stencil.count; ++k)
       way += p.stencil.weight[k] * (end_[p.stencil.sample[k]] - x_[p.stencil.sample[k]]);
-    const double way2 = norm2(way), t = way2 > 0 ? std::clamp(-dot(start, way) / way2, 0.0, 1.0) : 0;
-    const double reach = contactReach(p.layer_m);
-    if (norm2(start + t * way) < reach * reach) out.push_back(p);
+    if (comesWithin(contactReach(p.layer_m), start, way)) out.push_back(p);
   }
 
   static Vec3 direction(const Vec3& way, const Vec3& otherwise) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Persistent contact of cloth with cloth: samples on triangles from both sides, and sharp edges on edges.
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,11 @@ struct ClothContactPoint {
 /// Distance within which contacts between cloth of this thickness are kept, and the distance at rest within which
 /// points of one layer are neighbours.
 inline double contactReach(double layer_m) { return 1.1 * layer_m; }
+/// A point that moves straight by `way` comes less than `reach` from the origin, starting at `from`.
+inline bool comesWithin(double reach, const Vec3& from, const Vec3& way) {
+  const double way2 = norm2(way), t = way2 > 0 ? std::clamp(-dot(from, way) / way2, 0.0, 1.0) : 0;
+  return norm2(from + t * way) < reach * reach;
+}
 inline double neighbourDistance(double layer_m) { return 2 * layer_m; }
 
 /// Local minima of the distance between cloth and cloth at positions x0, where it is, or at the rate of the paths
@@ -37,6 +43,7 @@ inline double neighbourDistance(double layer_m) { return 2 * layer_m; }
 /// samples alone, since all its edges are equally near. Neighbours along one layer are no contact: samples less than
 /// twice the layer from the foot, both at rest (a fold of the least radius, half the layer, joins points that are pi/2
 /// layers apart). Sorted by kind, then sample, then feature.
+/// `pairs` hold all that come as near as this.
 void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const CandidatePairs& pairs,
                    std::span<const Vec3> x0, std::span<const Vec3> x1, std::vector<ClothContactPoint>& out);
 

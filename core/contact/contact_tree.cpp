@@ -21,7 +21,7 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
   }
   for (std::size_t k = 0; k < charts_.size(); ++k) {
     cells_.emplace_back(charts_[k].whole.size());
-    roots_.push_back(buildChart(static_cast<int>(k), {0, 0}, charts_[k].cells));
+    roots_.push_back(buildChart(static_cast<int>(k), {0, 0}, charts_[k].cells, corners));
   }
   std::vector<Vec3> centres;
   for (const auto& [a, b, c] : mesh.triangles) centres.push_back(x[a] + x[b] + x[c]);
@@ -32,7 +32,8 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
   }
 }
 
-int ContactTree::buildChart(int chart, std::array<int, 2> begin, std::array<int, 2> end) {
+int ContactTree::buildChart(int chart, std::array<int, 2> begin, std::array<int, 2> end,
+                            std::span<const ChartCorners> corners) {
   const int at = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
   const GridChart& c = charts_[chart];
@@ -47,12 +48,16 @@ int ContactTree::buildChart(int chart, std::array<int, 2> begin, std::array<int,
     node.count = static_cast<int>(c.triangles[cell].size());
     node.whole = c.whole[cell];
     order_.insert(order_.end(), c.triangles[cell].begin(), c.triangles[cell].end());
+    for (int t : c.triangles[cell])
+      for (const Vec2& corner : corners[t]) node.rest.add(Vec3{corner.x, corner.y, 0});
   } else {
     const int middle = begin[axis] + (end[axis] - begin[axis]) / 2;
     std::array<int, 2> left_end = end, right_begin = begin;
     left_end[axis] = right_begin[axis] = middle;
-    node.left = buildChart(chart, begin, left_end);
-    node.right = buildChart(chart, right_begin, end);
+    node.left = buildChart(chart, begin, left_end, corners);
+    node.right = buildChart(chart, right_begin, end, corners);
+    node.rest = nodes_[node.left].rest;
+    node.rest.add(nodes_[node.right].rest);
     node.whole = nodes_[node.left].whole && nodes_[node.right].whole;
   }
   nodes_[at] = node;
@@ -129,17 +134,16 @@ ContactTree::Cluster ContactTree::merge(const Cluster& a, const Cluster& b) {
   return out;
 }
 
-void ContactTree::refit(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const double> slack,
-                        std::span<const double> change) {
+void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion, std::span<const double> change) {
   gradients_.resize(inverse_.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    boxes_[t] = Box{};
-    for (int v : mesh.triangles[t]) boxes_[t].add(slack.empty() ? Box{x[v], x[v]} : Box{x[v], x[v]}.grown(slack[v]));
-    if (t < gradients_.size()) gradients_[t] = gradient(mesh, static_cast<int>(t), x);
+    boxes_[t] = {};
+    for (int v : mesh.triangles[t]) boxes_[t].add(around(motion, v));
+    if (t < gradients_.size()) gradients_[t] = gradient(mesh, static_cast<int>(t), motion.x);
   }
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& n = nodes_[i];
-    n.box = Box{};
+    n.box = {};
     if (n.left >= 0) {
       n.box = nodes_[n.left].box;
       n.box.add(nodes_[n.right].box);

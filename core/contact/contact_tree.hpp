@@ -2,6 +2,7 @@
 /// Which triangles may touch during a step: a tree of swept boxes over cloth and obstacles that leaves out what cloth
 /// provably does not do to itself (Zheng 2013, section 3.6, with certificates in place of tests of neighbours).
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -28,6 +29,46 @@ struct TriangleRange {
   int first = 0, end = 0;
 };
 
+/// What a list of candidates allows for: at times t in [0, horizon_s] vertex i is within slack_m[i] of the point
+/// x[i] + t velocity[i]. Empty spans: zero.
+struct ListedMotion {
+  std::span<const Vec3> x, velocity_m_per_s;
+  std::span<const double> slack_m;
+  double horizon_s = 0;
+
+  double slack(int i) const { return slack_m.empty() ? 0.0 : slack_m[i]; }
+  Vec3 velocity(int i) const { return velocity_m_per_s.empty() ? Vec3{} : velocity_m_per_s[i]; }
+};
+
+/// A box of points, and of their ways until the horizon.
+struct MovingBox {
+  Box at, way;
+
+  void add(const MovingBox& b) { at.add(b.at), way.add(b.way); }
+};
+
+inline MovingBox around(const ListedMotion& m, int i) {
+  const Vec3 way = m.horizon_s * m.velocity(i);
+  return {Box{m.x[i], m.x[i]}.grown(m.slack(i)), {way, way}};
+}
+
+/// Points of the two boxes may come within `margin` of each other along each axis. Only how they move relative to each
+/// other counts: cloth that moves along together, however fast, stays apart.
+inline bool mayMeet(const MovingBox& a, const MovingBox& b, double margin) {
+  for (int i = 0; i < 3; ++i) {
+    const double up = std::max(0.0, b.way.hi[i] - a.way.lo[i]), down = std::min(0.0, b.way.lo[i] - a.way.hi[i]);
+    if (a.at.lo[i] - margin > b.at.hi[i] + up || b.at.lo[i] + down > a.at.hi[i] + margin) return false;
+  }
+  return true;
+}
+
+/// Which pairs matter.
+struct PairRules {
+  double margin_m = 0;           ///< what comes no nearer does not
+  double least = 0;              ///< nor do parts of one cloth with a certificate c (ContactTree) of at least this
+  bool cloth_with_cloth = true;  ///< or with obstacles only
+};
+
 /// The tree. Cloth is bisected in its grids, so that a node is a rectangle of cells; obstacles by their centres, once.
 ///
 /// Certificate. Let X be reference coordinates in a convex part of a chart (a rectangle of whole cells) and F the
@@ -45,11 +86,9 @@ class ContactTree {
   ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts, std::span<const ChartCorners> corners,
               std::span<const TriangleRange> obstacles, std::span<const Vec3> x);
 
-  /// Boxes and certificates of the positions x, good for as long as no vertex is further from there than its own
-  /// `slack_m` along any axis (up to a shift that all have in common) and no gradient moves by more than `change` of
-  /// its triangle of cloth. Empty spans: zero.
-  void refit(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const double> slack_m,
-             std::span<const double> change);
+  /// Boxes and certificates of a motion, good for as long as all vertices do what it says and no gradient moves from
+  /// where it is at x by more than `change` of its triangle of cloth (empty: zero).
+  void refit(const ContactMesh& mesh, const ListedMotion& motion, std::span<const double> change);
 
   /// Frobenius norm of F(x1) - F(x0) of each triangle of cloth.
   void gradientChanges(const ContactMesh& mesh, std::span<const Vec3> x0, std::span<const Vec3> x1,
@@ -57,20 +96,20 @@ class ContactTree {
   /// No gradient at x differs by more than its `change` from the last refit, of those that certificates count on.
   bool gradientsHold(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const double> change) const;
 
-  /// Calls visit(a, b) once for every two triangles, not both of obstacles, whose boxes are within `margin_m` along
-  /// each axis, except those of a part of cloth with c >= `least`.
+  /// Calls visit(a, b) once for every two triangles, not both of obstacles, whose boxes may meet, except those of a
+  /// part of cloth with c >= `least`.
   template <class Visit>
-  void pairs(double margin_m, double least, Visit&& visit) const {
-    Traversal<Visit> t{*this, margin_m, least, visit};
+  void pairs(const PairRules& rules, Visit&& visit) const {
+    Traversal<Visit> t{*this, rules.margin_m, rules.least, visit};
     const int charts = static_cast<int>(charts_.size()), roots = static_cast<int>(roots_.size());
     for (int i = 0; i < charts; ++i) {
-      t.within(roots_[i]);
-      for (int j = i + 1; j < roots; ++j) t.between(roots_[i], roots_[j]);
+      if (rules.cloth_with_cloth) t.within(roots_[i]);
+      for (int j = rules.cloth_with_cloth ? i + 1 : charts; j < roots; ++j) t.between(roots_[i], roots_[j]);
     }
   }
 
   bool empty() const { return nodes_.empty(); }
-  const Box& box(int triangle) const { return boxes_[triangle]; }
+  const MovingBox& box(int triangle) const { return boxes_[triangle]; }
 
  private:
   struct Gradient {
@@ -82,10 +121,11 @@ class ContactTree {
     double spread = 0;
   };
   struct Node {
-    Box box;
+    MovingBox box;
     Cluster cluster;
     int chart = -1;             ///< of cloth
     int begin[2]{}, end[2]{};   ///< cells of the rectangle
+    Box rest;                   ///< of the rectangle in the chart's plane
     int left = -1, right = -1;  ///< children, after their parent; -1 in leaves
     int first = 0, count = 0;   ///< triangles order_[first, first + count) of a leaf
     bool whole = false;         ///< all cells are
@@ -110,14 +150,17 @@ class ContactTree {
     }
     void between(int ia, int ib) {
       const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
-      if (!overlap(a.box.grown(margin), b.box)) return;
-      if (a.chart >= 0 && a.chart == b.chart && tree.hullBound(a, b) >= least) return;
+      if (!mayMeet(a.box, b.box, margin)) return;
+      // Points whose distance at rest is D are at least c D apart.
+      if (a.chart >= 0 && a.chart == b.chart &&
+          tree.hullBound(a, b) >= std::min(least, margin / restDistance(a.rest, b.rest)))
+        return;
       if (a.left < 0 && b.left < 0) {
         for (int i = a.first; i < a.first + a.count; ++i)
           for (int j = b.first; j < b.first + b.count; ++j) emit(tree.order_[i], tree.order_[j]);
         return;
       }
-      if (b.left < 0 || (a.left >= 0 && norm2(a.box.halfSize()) >= norm2(b.box.halfSize()))) {
+      if (b.left < 0 || (a.left >= 0 && norm2(a.box.at.halfSize()) >= norm2(b.box.at.halfSize()))) {
         between(a.left, ib);
         between(a.right, ib);
       } else {
@@ -126,23 +169,26 @@ class ContactTree {
       }
     }
     void emit(int a, int b) {
-      if (overlap(tree.boxes_[a].grown(margin), tree.boxes_[b])) visit(a, b);
+      if (mayMeet(tree.boxes_[a], tree.boxes_[b], margin)) visit(a, b);
     }
   };
 
-  int buildChart(int chart, std::array<int, 2> begin, std::array<int, 2> end);
+  int buildChart(int chart, std::array<int, 2> begin, std::array<int, 2> end, std::span<const ChartCorners> corners);
   int buildObstacle(int first, int end, std::span<const Vec3> centres);
   Gradient gradient(const ContactMesh& mesh, int triangle, std::span<const Vec3> x) const;
   Cluster cellCluster(std::span<const int> triangles, std::span<const double> change) const;
   static double certifiedBound(const Cluster& cluster);
   static Cluster merge(const Cluster& a, const Cluster& b);
   double hullBound(const Node& a, const Node& b) const;
+  static double restDistance(const Box& a, const Box& b) {
+    return norm(maximum(maximum(b.lo - a.hi, a.lo - b.hi), Vec3{}));
+  }
 
   std::vector<GridChart> charts_;
   std::vector<Node> nodes_;
   std::vector<int> roots_;                      ///< of the charts, then of the obstacles
   std::vector<int> order_;                      ///< triangles, leaf by leaf
-  std::vector<Box> boxes_;                      ///< of each triangle
+  std::vector<MovingBox> boxes_;                ///< of each triangle
   std::vector<Gradient> gradients_;             ///< at the last refit, of each triangle of cloth
   std::vector<std::array<double, 4>> inverse_;  ///< of the reference edges of each triangle of a whole cell
   std::vector<std::vector<Cluster>> cells_;     ///< of each cell of each chart

@@ -151,29 +151,52 @@ bool MeshSurface::vertexIsMinimum(int v, const Vec3& p) const {
   return true;
 }
 
+/// Local minima that this triangle answers for. False: it is out of reach.
+bool MeshSurface::faceFeet(int t, const Vec3& p, double radius, std::vector<MeshPoint>& out) const {
+  const Face& f = faces_[t];
+  const auto& c = topology_.triangles[t];
+  const double h = dot(p - x_[c[0]], f.normal);
+  if (std::abs(h) > radius || topology_.collapsed(t)) return false;
+  const Vec3 r[3] = {p - x_[c[0]], p - x_[c[1]], p - x_[c[2]]};
+  const double s[3] = {dot(r[0], f.inward[0]), dot(r[1], f.inward[1]), dot(r[2], f.inward[2])};
+  if (std::min({s[0], s[1], s[2]}) >= -tolerance_m_ && norm2(f.normal) > 0)
+    out.push_back({p - h * f.normal, f.normal, h, t});
+  for (int k = 0; k < 3; ++k) {
+    // This face alone often tells that it has a closer point than its edge or corner.
+    Vec3 foot;
+    if ((f.owns_edges >> k & 1) && s[k] <= tolerance_m_ && edgeIsMinimum(topology_.face_edges[t][k], p, foot) &&
+        norm2(p - foot) <= radius * radius)
+      out.push_back(signedFoot(p, foot, topology_.edgeFeature(topology_.face_edges[t][k])));
+    if ((f.owns_vertices >> k & 1) && norm2(r[k]) <= radius * radius && vertexIsMinimum(c[k], p))
+      out.push_back(signedFoot(p, x_[c[k]], topology_.vertexFeature(c[k])));
+  }
+  return true;
+}
+
 void MeshSurface::touching(const Vec3& p, double radius, std::vector<MeshPoint>& out) const {
   const std::size_t begin = out.size();
   bool seen = false;
-  tree_.within(p, radius, [&](int t) {
-    const Face& f = faces_[t];
-    const auto& c = topology_.triangles[t];
-    const double h = dot(p - x_[c[0]], f.normal);
-    if (std::abs(h) > radius || topology_.collapsed(t)) return;
-    seen = true;
-    const Vec3 r[3] = {p - x_[c[0]], p - x_[c[1]], p - x_[c[2]]};
-    const double s[3] = {dot(r[0], f.inward[0]), dot(r[1], f.inward[1]), dot(r[2], f.inward[2])};
-    if (std::min({s[0], s[1], s[2]}) >= -tolerance_m_ && norm2(f.normal) > 0)
-      out.push_back({p - h * f.normal, f.normal, h, t});
-    for (int k = 0; k < 3; ++k) {
-      // This face alone often tells that it has a closer point than its edge or corner.
-      Vec3 foot;
-      if ((f.owns_edges >> k & 1) && s[k] <= tolerance_m_ && edgeIsMinimum(topology_.face_edges[t][k], p, foot) &&
-          norm2(p - foot) <= radius * radius)
-        out.push_back(signedFoot(p, foot, topology_.edgeFeature(topology_.face_edges[t][k])));
-      if ((f.owns_vertices >> k & 1) && norm2(r[k]) <= radius * radius && vertexIsMinimum(c[k], p))
-        out.push_back(signedFoot(p, x_[c[k]], topology_.vertexFeature(c[k])));
-    }
-  });
+  tree_.within(p, radius, [&](int t) { seen = faceFeet(t, p, radius, out) || seen; });
+  chooseFeet(p, radius, seen, begin, out);
+}
+
+void MeshSurface::touching(const Vec3& p, double radius, std::span<const int> triangles,
+                           std::vector<MeshPoint>& out) const {
+  const std::size_t begin = out.size();
+  bool seen = false;
+  for (int t : triangles) seen = faceFeet(t, p, radius, out) || seen;
+  chooseFeet(p, radius, seen, begin, out);
+}
+
+std::optional<MeshPoint> MeshSurface::wayOut(const Vec3& p) const {
+  if (!topology_.closed || boxDistance2(tree_.bounds(), p) > 0 || inside_.at(p) == InsideGrid::Cell::outside)
+    return std::nullopt;
+  return nearest(p, std::numeric_limits<double>::infinity());
+}
+
+/// Of the minima found from `begin`, those that p touches.
+void MeshSurface::chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin,
+                             std::vector<MeshPoint>& out) const {
   const auto found = out.begin() + static_cast<std::ptrdiff_t>(begin);
   const bool maybe_deep = topology_.closed && boxDistance2(tree_.bounds(), p) == 0;
   if (found == out.end()) {
@@ -205,24 +228,6 @@ void MeshSurface::touching(const Vec3& p, double radius, std::vector<MeshPoint>&
     if (!twin) *keep++ = *it;
   }
   out.erase(keep, out.end());
-}
-
-std::optional<MeshPoint> MeshSurface::entry(const Vec3& p0, const Vec3& p1) const {
-  if (p0 == p1) return std::nullopt;
-  Box path;
-  path.add(p0), path.add(p1);
-  const SegmentTest segment(p0, p1);
-  double first = 2;
-  int face = -1;
-  tree_.overlapping(path.grown(tolerance_m_), [&](int t) {
-    const auto& c = topology_.triangles[t];
-    const auto time = segment.frontCrossing(x_[c[0]], x_[c[1]], x_[c[2]], faces_[t].normal, tolerance_m_);
-    if (time && (*time < first || (*time == first && t < face))) first = *time, face = t;
-  });
-  if (face < 0) return std::nullopt;
-  const Vec3 hit = p0 + first * (p1 - p0);
-  const Vec3& n = faces_[face].normal;
-  return MeshPoint{hit, n, dot(p0 - hit, n), face};
 }
 
 }  // namespace gambeson

@@ -49,11 +49,11 @@ class MeshSurface {
   /// its nearest foot only (the way out), in a closed mesh at any depth. Appended to `out`, sorted by feature. (A point
   /// on a sharp edge to within the tolerance sees the faces of both sides.)
   void touching(const Vec3& p, double radius, std::vector<MeshPoint>& out) const;
+  /// The same, where `triangles` are all that come within `radius` of p.
+  void touching(const Vec3& p, double radius, std::span<const int> triangles, std::vector<MeshPoint>& out) const;
 
-  /// First passage of the segment p0 -> p1 through a triangle from its front. Because the mesh is rigid in its frame
-  /// and the path is straight there, the cubic of Zheng 2013, eq. 3.22 is linear: a segment against triangles. Never
-  /// slips through an edge or a vertex. `distance_m` is the separation of p0 along the normal.
-  std::optional<MeshPoint> entry(const Vec3& p0, const Vec3& p1) const;
+  /// The nearest point, where p may be inside of a closed mesh; empty where it is surely not.
+  std::optional<MeshPoint> wayOut(const Vec3& p) const;
 
  private:
   struct Face {
@@ -71,6 +71,8 @@ class MeshSurface {
   MeshPoint signedFoot(const Vec3& p, const Vec3& foot, int feature) const;
   bool edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const;
   bool vertexIsMinimum(int v, const Vec3& p) const;
+  bool faceFeet(int t, const Vec3& p, double radius, std::vector<MeshPoint>& out) const;
+  void chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin, std::vector<MeshPoint>& out) const;
 
   MeshTopology topology_;
   std::vector<Vec3> x_;  ///< positions

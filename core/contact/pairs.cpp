@@ -1,9 +1,56 @@
 #include "core/contact/pairs.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "core/contact/segment_pair.hpp"
+#include "core/contact/triangle.hpp"
+
 namespace gambeson {
+namespace {
+
+/// Two primitives by their corners: each corner of the first stays on its side of a direction from the second.
+template <std::size_t A, std::size_t B>
+Apart apart(const ListedMotion& m, const std::array<int, A>& a, const std::array<int, B>& b, const Vec3& way) {
+  const double length = norm(way);
+  if (!(length > 0)) return {0, std::numeric_limits<float>::infinity()};
+  const Vec3 n = way / length;
+  double gap = std::numeric_limits<double>::infinity(), closing = -gap;
+  std::array<double, B> at, speed;
+  for (std::size_t k = 0; k < B; ++k) at[k] = dot(n, m.x[b[k]] - m.x[a[0]]), speed[k] = dot(n, m.velocity(b[k]));
+  for (int i : a) {
+    const double x = dot(n, m.x[i] - m.x[a[0]]), v = dot(n, m.velocity(i));
+    for (std::size_t k = 0; k < B; ++k) gap = std::min(gap, x - at[k]), closing = std::max(closing, speed[k] - v);
+  }
+  // Rounded to the safe side, of a float too.
+  return {static_cast<float>(gap - 1e-6 * std::abs(gap) - 1e-9),
+          static_cast<float>(closing + 1e-6 * std::abs(closing))};
+}
+
+/// All corners of b stay on one side of the plane of a, by more than `margin`.
+bool beyondPlane(const ListedMotion& m, const std::array<int, 3>& a, const std::array<int, 3>& b, double margin) {
+  const Vec3 n = cross(m.x[a[1]] - m.x[a[0]], m.x[a[2]] - m.x[a[0]]);
+  const Vec3 at{dot(n, m.x[b[0]] - m.x[a[0]]), dot(n, m.x[b[1]] - m.x[a[0]]), dot(n, m.x[b[2]] - m.x[a[0]])};
+  const double least = norm(n) * margin;
+  const bool above = std::min({at.x, at.y, at.z}) > least, below = std::max({at.x, at.y, at.z}) < -least;
+  if (!above && !below) return false;
+  const Vec3 s{dot(n, m.velocity(a[0])), dot(n, m.velocity(a[1])), dot(n, m.velocity(a[2]))};
+  const Vec3 t{dot(n, m.velocity(b[0])), dot(n, m.velocity(b[1])), dot(n, m.velocity(b[2]))};
+  const Vec3 then = at + m.horizon_s * t;
+  return above ? std::min({then.x, then.y, then.z}) - m.horizon_s * std::max({s.x, s.y, s.z}) > least
+               : std::max({then.x, then.y, then.z}) - m.horizon_s * std::min({s.x, s.y, s.z}) < -least;
+}
+
+double slackOf(const ListedMotion& m, std::span<const int> corners) {
+  double most = 0;
+  for (int i : corners) most = std::max(most, m.slack(i));
+  return most;
+}
+
+}  // namespace
 
 PairCollector::PairCollector(const ContactMesh& mesh) : owned_(mesh.triangles.size(), 0) {
   std::vector<char> vertex_taken(mesh.vertex_count, 0), edge_taken(mesh.edges.size(), 0);
@@ -14,42 +61,62 @@ PairCollector::PairCollector(const ContactMesh& mesh) : owned_(mesh.triangles.si
     }
 }
 
-void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, std::span<const Vec3> x,
-                            std::span<const double> slack, double margin_m, double least, CandidatePairs& out) const {
-  const auto around = [&](int v) { return slack.empty() ? Box{x[v], x[v]} : Box{x[v], x[v]}.grown(slack[v]); };
-  const auto aroundBoth = [&](int v, int w) {
-    Box b = around(v);
-    b.add(around(w));
-    return b;
+void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion,
+                            const PairRules& rules, CandidatePairs& out) const {
+  const std::span<const Vec3> x = motion.x;
+  const auto keep = [&](const Apart& apart, std::span<const int> a, std::span<const int> b) {
+    return !(apart.within(0, motion.horizon_s) > rules.margin_m + slackOf(motion, a) + slackOf(motion, b));
   };
   out.points.clear();
   out.edges.clear();
+  out.vertex_box.resize(mesh.vertex_count);
+  for (int i = 0; i < mesh.vertex_count; ++i) out.vertex_box[i] = around(motion, i);
+  out.edge_box.resize(mesh.edges.size());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    out.edge_box[e] = out.vertex_box[mesh.edges[e][0]];
+    out.edge_box[e].add(out.vertex_box[mesh.edges[e][1]]);
+  }
+  const auto apartByPlane = [&](int a, int b) {
+    const std::array<int, 3>&s = mesh.triangles[a], &t = mesh.triangles[b];
+    const double margin = (rules.margin_m + slackOf(motion, s) + slackOf(motion, t)) * (1 + 1e-6) + 1e-9;
+    return beyondPlane(motion, s, t, margin) || beyondPlane(motion, t, s, margin);
+  };
   const auto pointsAgainst = [&](int a, int b) {
     for (int k = 0; k < 3; ++k) {
       if (!(owned_[a] & (1 << k))) continue;
-      const int v = mesh.triangles[a][k];
-      const auto& [p, q, r] = mesh.triangles[b];
-      if (v == p || v == q || v == r) continue;
-      if (overlap(around(v).grown(margin_m), tree.box(b))) out.points.push_back({v, b});
+      const std::array<int, 1> v{mesh.triangles[a][k]};
+      const std::array<int, 3>& t = mesh.triangles[b];
+      if (v[0] == t[0] || v[0] == t[1] || v[0] == t[2] || !mayMeet(out.vertex_box[v[0]], tree.box(b), rules.margin_m))
+        continue;
+      const Vec3 way = x[v[0]] - closestOnTriangle({x[t[0]], x[t[1]], x[t[2]]}, x[v[0]]).position;
+      const Apart gap = apart(motion, v, t, way);
+      if (keep(gap, v, t)) out.points.push_back({v[0], b, gap});
     }
   };
-  tree.pairs(margin_m, least, [&](int a, int b) {
+  tree.pairs(rules, [&](int a, int b) {
+    if (apartByPlane(a, b)) return;
     pointsAgainst(a, b);
     pointsAgainst(b, a);
     for (int k = 0; k < 3; ++k) {
       if (!(owned_[a] & (8 << k))) continue;
       const int e = mesh.face_edges[a][k];
-      const auto [v, w] = mesh.edges[e];
-      const Box box = aroundBoth(v, w).grown(margin_m);
+      const std::array<int, 2>& v = mesh.edges[e];
+      const MovingBox& box = out.edge_box[e];
       for (int l = 0; l < 3; ++l) {
         if (!(owned_[b] & (8 << l))) continue;
         const int f = mesh.face_edges[b][l];
-        const auto [y, z] = mesh.edges[f];
-        if (v == y || v == z || w == y || w == z) continue;
-        if (overlap(box, aroundBoth(y, z))) out.edges.push_back({std::min(e, f), std::max(e, f)});
+        const std::array<int, 2>& y = mesh.edges[f];
+        if (v[0] == y[0] || v[0] == y[1] || v[1] == y[0] || v[1] == y[1] ||
+            !mayMeet(box, out.edge_box[f], rules.margin_m))
+          continue;
+        const SegmentPair near = nearestOnSegments(x[v[0]], x[v[1]], x[y[0]], x[y[1]]);
+        const Vec3 way = x[v[0]] + near.s * (x[v[1]] - x[v[0]]) - x[y[0]] - near.t * (x[y[1]] - x[y[0]]);
+        const Apart gap = apart(motion, v, y, way);
+        if (keep(gap, v, y)) out.edges.push_back({std::min(e, f), std::max(e, f), gap});
       }
     }
   });
+  std::sort(out.points.begin(), out.points.end());
 }
 
 }  // namespace gambeson

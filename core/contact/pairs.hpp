@@ -1,24 +1,43 @@
 #pragma once
 /// Pairs of primitives that may touch: points against triangles, edges against edges.
 
+#include <compare>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/contact/contact_tree.hpp"
 
 namespace gambeson {
 
+/// A lower bound of the distance of two primitives that do what a list allows for (ListedMotion): `gap_m` less t times
+/// `closing`, less what each leaves its path by.
+struct Apart {
+  float gap_m = 0, closing_m_per_s = 0;
+
+  /// Over times t in [t0, t1].
+  double within(double t0, double t1) const { return gap_m - closing_m_per_s * (closing_m_per_s > 0 ? t1 : t0); }
+};
+
+/// Compared by which primitives they are.
 struct PointTriangle {
   int vertex = 0, triangle = 0;
-  auto operator<=>(const PointTriangle&) const = default;
+  Apart apart{};
+  auto operator<=>(const PointTriangle& o) const {
+    return std::pair(vertex, triangle) <=> std::pair(o.vertex, o.triangle);
+  }
+  bool operator==(const PointTriangle& o) const { return (*this <=> o) == 0; }
 };
 struct EdgeEdge {
   int a = 0, b = 0;  ///< a < b
-  auto operator<=>(const EdgeEdge&) const = default;
+  Apart apart{};
+  auto operator<=>(const EdgeEdge& o) const { return std::pair(a, b) <=> std::pair(o.a, o.b); }
+  bool operator==(const EdgeEdge& o) const { return (*this <=> o) == 0; }
 };
 struct CandidatePairs {
-  std::vector<PointTriangle> points;
-  std::vector<EdgeEdge> edges;
+  std::vector<PointTriangle> points;            ///< ascending
+  std::vector<EdgeEdge> edges;                  ///< in no order
+  std::vector<MovingBox> vertex_box, edge_box;  ///< scratch
 };
 
 /// Every vertex and edge belongs to one of its triangles, so that a pair of primitives comes up with one pair of
@@ -28,10 +47,10 @@ class PairCollector {
   PairCollector() = default;
   explicit PairCollector(const ContactMesh& mesh);
 
-  /// Of ContactTree::pairs, the primitives whose own boxes are within `margin_m`, x and slack_m being what the tree was
-  /// fitted to; those that share a vertex are not pairs. In no order.
-  void collect(const ContactMesh& mesh, const ContactTree& tree, std::span<const Vec3> x,
-               std::span<const double> slack_m, double margin_m, double least, CandidatePairs& out) const;
+  /// Of ContactTree::pairs, the primitives that may come within the margin of each other in the motion that the tree
+  /// was fitted to; those that share a vertex are not pairs.
+  void collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
+               CandidatePairs& out) const;
 
  private:
   std::vector<unsigned char> owned_;  ///< of a triangle: bits 0 to 2 its corners, bits 3 to 5 its edges

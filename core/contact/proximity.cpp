@@ -108,12 +108,14 @@ ProximityQuery::~ProximityQuery() = default;
 ProximityQuery::ProximityQuery(ProximityQuery&&) noexcept = default;
 
 void ProximityQuery::near(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x,
-                          std::span<const double> reach_m, std::vector<Contact>& out) const {
+                          std::span<const double> reach_m, std::vector<Contact>& out,
+                          MeshCandidates* candidates_of) const {
   const auto& shapes = impl_->shapes;
   const int n_obstacles = static_cast<int>(shapes.size()), n = static_cast<int>(x.size());
   assert(static_cast<int>(start.size()) == n_obstacles && static_cast<int>(end.size()) == n_obstacles);
   assert(static_cast<int>(reach_m.size()) == n);
   requireFinite(x, "position");
+  if (candidates_of) candidates_of->outside.resize(static_cast<std::size_t>(n_obstacles) * n);
   std::vector<double> motion(n_obstacles);
   std::vector<Box> box(n_obstacles);  // of the shape at start, grown by its motion
   for (int o = 0; o < n_obstacles; ++o) {
@@ -125,6 +127,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
     Box block;
     for (int i = first; i < last; ++i) block.add(Box{x[i], x[i]}.grown(reach_m[i] * kSlack));
     std::vector<MeshPoint> feet;
+    std::vector<int> triangles;
     // Sample by sample below, so that the list comes out sorted.
     std::vector<int> candidates;
     for (int o = 0; o < n_obstacles; ++o)
@@ -144,7 +147,26 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
           if (gap < limit_m) list.push_back({i, o, 0, X.rotation * s.normal, gap, s.position});
         } else {
           feet.clear();
-          std::get<MeshSurface>(shapes[o].shape).touching(p, limit_m / X.scale, feet);
+          const auto& surface = std::get<MeshSurface>(shapes[o].shape);
+          if (candidates_of) {
+            triangles.clear();
+            for (int k = candidates_of->first[i]; k < candidates_of->first[i + 1]; ++k)
+              if (candidates_of->items[k].obstacle == o) triangles.push_back(candidates_of->items[k].triangle);
+            if (triangles.empty()) {
+              MeshCandidates::Ball& ball = candidates_of->outside[static_cast<std::size_t>(o) * n + i];
+              if (norm(p - ball.centre) < ball.radius) continue;
+              const auto foot = surface.wayOut(p);
+              if (!foot) continue;
+              if (foot->distance_m > 0)
+                ball = {p, foot->distance_m * (1 - 1e-9)};
+              else
+                feet.push_back(*foot);
+            } else {
+              surface.touching(p, limit_m / X.scale, triangles, feet);
+            }
+          } else {
+            surface.touching(p, limit_m / X.scale, feet);
+          }
           for (const MeshPoint& f : feet) {
             const double gap = X.scale * f.distance_m;
             if (gap < limit_m) list.push_back({i, o, f.feature, X.rotation * f.normal, gap, f.position});
@@ -196,6 +218,7 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
     const double step = std::sqrt(step2);
     std::vector<int> candidates;
     for (int o = 0; o < n_obstacles; ++o) {
+      if (!std::holds_alternative<EllipsoidMetric>(shapes[o].shape)) continue;
       const Sweep& s = sweep[o];
       double margin = 0;
       if (s.bend > 0) {
@@ -210,19 +233,12 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
         Box path;
         path.add(p0), path.add(p1);
         if (!overlap(path.grown(1e-9 * norm(shapes[o].local.halfSize())), shapes[o].local)) continue;
-        Vec3 hit, normal;
-        int feature = 0;
-        if (const auto* e = std::get_if<EllipsoidMetric>(&shapes[o].shape)) {
-          const auto t = ellipsoidEntry(*e, p0, p1);
-          if (!t) continue;
-          hit = p0 + *t * (p1 - p0);
-          normal = normalized({hit.x * e->inverse2.x, hit.y * e->inverse2.y, hit.z * e->inverse2.z});
-        } else {
-          const auto f = std::get<MeshSurface>(shapes[o].shape).entry(p0, p1);
-          if (!f) continue;
-          hit = f->position, normal = f->normal, feature = f->feature;
-        }
-        list.push_back({i, o, feature, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit});
+        const auto& e = std::get<EllipsoidMetric>(shapes[o].shape);
+        const auto t = ellipsoidEntry(e, p0, p1);
+        if (!t) continue;
+        const Vec3 hit = p0 + *t * (p1 - p0);
+        const Vec3 normal = normalized({hit.x * e.inverse2.x, hit.y * e.inverse2.y, hit.z * e.inverse2.z});
+        list.push_back({i, o, 0, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit});
       }
     }
   });

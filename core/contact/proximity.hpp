@@ -20,6 +20,21 @@ struct Contact {
   Vec3 local;
 };
 
+/// Triangles of meshes that a sample may touch, by sample: items[first[s], first[s + 1]). Where there are none the
+/// sample may still be deep inside of a mesh; it is not as long as it stays in a ball known to be outside.
+struct MeshCandidates {
+  struct Item {
+    int obstacle = 0, triangle = 0;
+  };
+  struct Ball {
+    Vec3 centre;  ///< in the obstacle's frame
+    double radius = 0;
+  };
+  std::vector<int> first;
+  std::vector<Item> items;
+  std::vector<Ball> outside;  ///< of obstacle o and sample s at o n + s; kept by `near` from query to query
+};
+
 /// Search structures of the obstacles: constant topology, boxes refitted lazily (Zheng 2013, section 3.6).
 class ProximityQuery {
  public:
@@ -32,12 +47,14 @@ class ProximityQuery {
   /// obstacle's surface can move from `start` to `end`. One contact per local minimum of the distance, so none at the
   /// inner edges of a flat or concave mesh. Every sample is tested against every obstacle.
   /// Sorted by sample, obstacle, feature. The same bits for any number of threads.
+  /// `candidates`: the triangles of meshes to look at instead of all.
   void near(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x,
-            std::span<const double> reach_m, std::vector<Contact>& out) const;
+            std::span<const double> reach_m, std::vector<Contact>& out, MeshCandidates* candidates = nullptr) const;
 
   /// Trajectory impact (section 3.3.1): samples whose path x0 -> x1 (straight, against the moving obstacle) enters an
-  /// obstacle from outside, with the normal and material point at the first time of contact, gap_m the separation at
-  /// the start along that normal. Sorted as above; one per (sample, obstacle).
+  /// ellipsoid from outside, with the normal and material point at the first time of contact, gap_m the separation at
+  /// the start along that normal. Sorted as above; one per (sample, obstacle). Meshes are not asked: their triangles
+  /// take part in the search of core/dynamics/collisions.hpp.
   void impacts(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x0,
                std::span<const Vec3> x1, std::vector<Contact>& out) const;
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "core/math/vec.hpp"
 
@@ -73,16 +72,6 @@ class SegmentTest {
     const double u = edge(B, C), v = edge(C, A), w = edge(A, B);
     if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
     return u != 0 || v != 0 || w != 0;
-  }
-
-  /// Time in [0, 1] at which the segment passes through the triangle from the side that its unit normal n points to.
-  /// `start_tolerance_m`: a start that rounding put this deep behind the plane still counts as in front (time 0).
-  std::optional<double> frontCrossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& n,
-                                      double start_tolerance_m) const {
-    const double g0 = dot(p0_ - a, n), g1 = dot(p0_ + d_ - a, n);
-    if (!(g0 >= -start_tolerance_m && g1 <= 0 && g1 < g0)) return std::nullopt;
-    if (!lineMeets(a, b, c)) return std::nullopt;
-    return g0 > 0 ? g0 / (g0 - g1) : 0;
   }
 
  private:

@@ -14,6 +14,22 @@ constexpr double kSharp = 0.26;  ///< sine of 15 degrees
 constexpr double kAway = 1e-3;   ///< of faces from the cloth: else they are nearer than the edge
 constexpr double kInside = 1e-6;
 
+/// Unit vector from vertex v along an edge that ends there.
+Vec3 alongFrom(const ContactMesh& mesh, std::span<const Vec3> x, int v, int edge) {
+  const auto& [a, b] = mesh.edges[edge];
+  return normalized(a == v ? x[b] - x[a] : x[a] - x[b]);
+}
+
+/// Unit vector in the plane of triangle t, from its edge into it.
+Vec3 acrossFrom(const ContactMesh& mesh, std::span<const Vec3> x, int edge, int t) {
+  const auto& [a, b] = mesh.edges[edge];
+  const Vec3 along = x[b] - x[a];
+  Vec3 r{};
+  for (int c : mesh.triangles[t])
+    if (c != a && c != b) r = x[c] - x[a];
+  return normalized(r - (dot(r, along) / norm2(along)) * along);
+}
+
 class Search {
  public:
   Search(const CollisionModel& m, double dt, std::span<const char> inside, const CollisionWork& w,
@@ -23,14 +39,14 @@ class Search {
   void cornerOn(const PointTriangle& pair) {
     const int v = pair.vertex;
     const std::array<int, 3>& t = m_.mesh.triangles[pair.triangle];
-    if (m_.body_of_vertex[v] < 0 || m_.body_of_vertex[t[0]] >= 0) return;
+    if (!m_.sharp_corner[v] || m_.body_of_vertex[t[0]] >= 0) return;
     if (!counts(t) || !mayReach(std::array{v}, t)) return;
     const std::array<Vec3, 3> corner{x_[t[0]], x_[t[1]], x_[t[2]]};
     const TrianglePoint foot = closestOnTriangle(corner, x_[v]);
     if (foot.feature != kFace) return;
     const Vec3 way = foot.position - x_[v];
     const double gap = norm(way);
-    if (!(gap > 0) || !cornerIsSharp(v, way / gap)) return;
+    if (!(gap > 0) || !cornerIsNearest(v, way / gap)) return;
     const Vec3 u = corner[1] - corner[0], s = corner[2] - corner[0], r = foot.position - corner[0], n = cross(u, s);
     const double b = dot(cross(r, s), n) / norm2(n), c = dot(cross(u, r), n) / norm2(n);
     add(std::array{t[0], t[1], t[2]}, std::array{1 - b - c, b, c}, std::array{v}, std::array{1.0}, way / gap, gap,
@@ -42,6 +58,7 @@ class Search {
     const bool b_is_body = m_.body_of_vertex[m_.mesh.edges[pair.b][0]] >= 0;
     if (a_is_body == b_is_body) return;
     const int cloth = a_is_body ? pair.b : pair.a, body = a_is_body ? pair.a : pair.b;
+    if (!m_.sharp_edge[body]) return;
     const std::array<int, 2>&c = m_.mesh.edges[cloth], &e = m_.mesh.edges[body];
     if (!counts(c) || !mayReach(e, c)) return;
     const SegmentPair near = nearestOnSegments(x_[c[0]], x_[c[1]], x_[e[0]], x_[e[1]]);
@@ -49,7 +66,7 @@ class Search {
     const Vec3 at = x_[e[0]] + near.t * (x_[e[1]] - x_[e[0]]);
     const Vec3 way = x_[c[0]] + near.s * (x_[c[1]] - x_[c[0]]) - at;
     const double gap = norm(way);
-    if (!(gap > 0) || !edgeIsSharp(body, at, way / gap)) return;
+    if (!(gap > 0) || !edgeIsNearest(body, way / gap)) return;
     add(c, std::array{1 - near.s, near.s}, e, std::array{1 - near.t, near.t}, way / gap, gap, {1, pair.a, pair.b},
         m_.mesh.vertex_count + body);
   }
@@ -70,40 +87,17 @@ class Search {
     return overlap(a.grown(far), b);
   }
 
-  /// The corner stands out, and is the nearest point of its faces: all edges at it lead away from `way`.
-  bool cornerIsSharp(int v, const Vec3& way) const {
-    const auto along = [&](int e) {
-      const auto& [a, b] = m_.mesh.edges[e];
-      return normalized(a == v ? x_[b] - x_[a] : x_[a] - x_[b]);
-    };
-    Vec3 sum{};
-    for (int e : m_.mesh.vertex_edges[v]) {
-      if (!(dot(along(e), way) < -kAway)) return false;
-      sum += along(e);
-    }
-    const double length = norm(sum);
+  /// The corner is the nearest point of its faces: all edges at it lead away from `way`.
+  bool cornerIsNearest(int v, const Vec3& way) const {
     for (int e : m_.mesh.vertex_edges[v])
-      if (!(dot(along(e), sum) > kSharp * length)) return false;
+      if (!(dot(alongFrom(m_.mesh, x_, v, e), way) < -kAway)) return false;
     return true;
   }
 
-  bool edgeIsSharp(int edge, const Vec3& at, const Vec3& way) const {
-    const auto& [a, b] = m_.mesh.edges[edge];
-    const Vec3 along = x_[b] - x_[a];
-    Vec3 sum{};
-    std::array<Vec3, 2> sides;
-    const std::span<const int> faces = m_.mesh.edge_faces[edge];
-    if (faces.size() > 2) return false;
-    for (std::size_t k = 0; k < faces.size(); ++k)
-      for (int c : m_.mesh.triangles[faces[k]]) {
-        if (c == a || c == b) continue;
-        const Vec3 r = x_[c] - at;
-        sides[k] = normalized(r - (dot(r, along) / norm2(along)) * along);
-        if (!(dot(sides[k], way) < -kAway)) return false;
-        sum += sides[k];
-      }
-    // Half the angle by which the faces bend has the sine |sum|/2.
-    return faces.size() < 2 || norm(sum) > 2 * kSharp;
+  bool edgeIsNearest(int edge, const Vec3& way) const {
+    for (int t : m_.mesh.edge_faces[edge])
+      if (!(dot(acrossFrom(m_.mesh, x_, edge, t), way) < -kAway)) return false;
+    return true;
   }
 
   template <std::size_t N, std::size_t M>
@@ -130,10 +124,7 @@ class Search {
       row.contact.local += body_weight[k] * of.local[body[k] - of.first_vertex];
     }
     way -= dt_ * row.body_velocity;
-    const Vec3 start = gap * normal;
-    const double way2 = norm2(way), t = way2 > 0 ? std::clamp(-dot(start, way) / way2, 0.0, 1.0) : 0;
-    const double reach = contactReach(thickness);
-    if (norm2(start + t * way) < reach * reach) rows_.push_back(row);
+    if (comesWithin(contactReach(thickness), gap * normal, way)) rows_.push_back(row);
   }
 
   const CollisionModel& m_;
@@ -146,13 +137,34 @@ class Search {
 
 }  // namespace
 
+void markSharp(CollisionModel& m, std::span<const Vec3> x) {
+  m.sharp_edge.assign(m.mesh.edges.size(), 0);
+  m.sharp_corner.assign(m.mesh.vertex_count, 0);
+  for (std::size_t e = 0; e < m.mesh.edges.size(); ++e) {
+    if (m.body_of_vertex[m.mesh.edges[e][0]] < 0) continue;
+    const int edge = static_cast<int>(e);
+    const std::span<const int> faces = m.mesh.edge_faces[edge];
+    // Half the angle by which two faces bend has half the length of the sum as its sine.
+    m.sharp_edge[e] =
+        faces.size() == 1 || (faces.size() == 2 && norm(acrossFrom(m.mesh, x, edge, faces[0]) +
+                                                        acrossFrom(m.mesh, x, edge, faces[1])) > 2 * kSharp);
+  }
+  for (int v = 0; v < m.mesh.vertex_count; ++v) {
+    if (m.body_of_vertex[v] < 0) continue;
+    Vec3 sum{};
+    for (int e : m.mesh.vertex_edges[v]) sum += alongFrom(m.mesh, x, v, e);
+    m.sharp_corner[v] = std::all_of(m.mesh.vertex_edges[v].begin(), m.mesh.vertex_edges[v].end(),
+                                    [&](int e) { return dot(alongFrom(m.mesh, x, v, e), sum) > kSharp * norm(sum); });
+  }
+}
+
 void bodyEdgeRows(const CollisionModel& m, double dt, std::span<const char> inside, const CollisionWork& w,
                   std::vector<ContactRow>& rows) {
   rows.clear();
   if (m.bodies.empty()) return;
   Search search(m, dt, inside, w, rows);
-  for (const PointTriangle& pair : w.pairs.points) search.cornerOn(pair);
-  for (const EdgeEdge& pair : w.pairs.edges) search.edgeOn(pair);
+  for (const PointTriangle& pair : w.near.points) search.cornerOn(pair);
+  for (const EdgeEdge& pair : w.near.edges) search.edgeOn(pair);
   const auto key = [](const ContactRow& r) {
     return std::tuple(r.contact.sample, r.contact.obstacle, r.contact.feature, r.pair);
   };

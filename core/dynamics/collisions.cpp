@@ -8,63 +8,15 @@
 
 #include "core/contact/certified_impact.hpp"
 #include "core/contact/mesh_topology.hpp"
+#include "core/dynamics/body_edges.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr double kSeparation_m = 1e-6;
 
-double reachOf(const CollisionModel& m) { return std::max(contactReach(m.largest_thickness_m), 2 * kSeparation_m); }
-
-/// What a list allows for: so many steps like the one that it was made for, and not less than this; cloth trembles, so
-/// each vertex is given the mean way of all as well.
-constexpr double kSteps = 6, kLeastSlack_m = 1e-4, kLeastChange = 0.05;
-
-/// Mean way of the cloth from where it was listed.
-Vec3 shift(const CollisionModel& m, const CollisionWork& w, std::span<const Vec3> x) {
-  Vec3 sum{};
-  for (int i = 0; i < m.cloth.cloth_vertices; ++i) sum += x[i] - w.listed_at[i];
-  return sum / m.cloth.cloth_vertices;
-}
-
-double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-/// The list was made for these positions.
-bool listHolds(const CollisionModel& m, const CollisionWork& w) {
-  if (w.listed_at.size() != w.x0.size()) return false;
-  const Vec3 shift0 = shift(m, w, w.x0), shift1 = shift(m, w, w.x1);
-  for (std::size_t i = 0; i < w.x0.size(); ++i) {
-    if (!(largest(w.x0[i] - w.listed_at[i] - shift0) <= w.slack_m[i])) return false;
-    if (!(largest(w.x1[i] - w.listed_at[i] - shift1) <= w.slack_m[i])) return false;
-  }
-  return w.tree.gradientsHold(m.mesh, w.x0, w.change) && w.tree.gradientsHold(m.mesh, w.x1, w.change);
-}
-
-/// Sees to it that the list holds all pairs that come within contactReach along each axis between x0 and x1.
-void listPairs(const CollisionModel& m, CollisionWork& w) {
-  if (listHolds(m, w)) return;
-  w.listed_at = w.x0;
-  const Vec3 shift1 = shift(m, w, w.x1);
-  w.slack_m.resize(w.x0.size());
-  double mean = 0;
-  for (std::size_t i = 0; i < w.x0.size(); ++i) {
-    w.slack_m[i] = kSteps * largest(w.x1[i] - w.x0[i] - shift1);
-    mean += w.slack_m[i] / static_cast<double>(w.x0.size());
-  }
-  for (double& slack : w.slack_m) slack = std::max(slack, mean) + kLeastSlack_m;
-  w.tree.gradientChanges(m.mesh, w.x0, w.x1, w.change);
-  for (double& c : w.change) c = std::max(kSteps * c, kLeastChange);
-  w.tree.refit(m.mesh, w.listed_at, w.slack_m, w.change);
-  m.collector.collect(m.mesh, w.tree, w.listed_at, w.slack_m, reachOf(m), m.least, w.pairs);
-  if (!m.self) {
-    std::erase_if(w.pairs.points, [&](const PointTriangle& p) {
-      return m.body_of_vertex[p.vertex] < 0 && m.body_of_vertex[m.mesh.triangles[p.triangle][0]] < 0;
-    });
-    std::erase_if(w.pairs.edges, [&](const EdgeEdge& p) {
-      return m.body_of_vertex[m.mesh.edges[p.a][0]] < 0 && m.body_of_vertex[m.mesh.edges[p.b][0]] < 0;
-    });
-  }
-  ++w.report.builds;
+PairRules rulesOf(const CollisionModel& m) {
+  return {std::max(contactReach(m.largest_thickness_m), 2 * kSeparation_m), m.least, m.self};
 }
 
 /// The row that keeps a pair apart: weights at the hit, normal there, from side b to side a as they stood at the start.
@@ -131,6 +83,8 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
   std::vector<std::array<int, 3>> triangles = surface.triangles;
   std::vector<Vec3> x(rest.begin(), rest.end());
   std::vector<TriangleRange> ranges;
+  std::vector<int> body_triangle;
+  m.cloth_triangles = static_cast<int>(triangles.size());
   m.body_of_vertex.assign(surface.size(), -1);
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     const auto* mesh = std::get_if<TriangleMesh>(&obstacles[o].shape);
@@ -141,13 +95,16 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
       if (topology.collapsed(static_cast<int>(t))) continue;
       const auto& [a, b, c] = topology.triangles[t];
       triangles.push_back({first + a, first + b, first + c});
+      body_triangle.push_back(static_cast<int>(t));
     }
     ranges.push_back({first_triangle, static_cast<int>(triangles.size())});
     m.body_of_vertex.resize(x.size() + mesh->vertices.size(), static_cast<int>(m.bodies.size()));
     m.bodies.push_back({static_cast<int>(o), first, mesh->vertices});
     for (const Vec3& p : mesh->vertices) x.push_back(placement[o] * p);
   }
+  m.body_triangle = std::move(body_triangle);
   m.mesh = contactMesh(static_cast<int>(x.size()), triangles);
+  markSharp(m, x);
   const SurfaceCharts charts = surfaceCharts(surface, rest);
   // Primitives of a whole cell without a common vertex are at least as far apart at rest as a corner from the diagonal.
   double apart = std::numeric_limits<double>::infinity();
@@ -161,6 +118,7 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
     }
   m.least = contactReach(m.largest_thickness_m) / std::max(apart, neighbourDistance(m.largest_thickness_m));
   for (int body : m.body_of_vertex) m.is_body.push_back(body >= 0);
+  for (const Obstacle& o : obstacles) m.is_mesh.push_back(std::holds_alternative<TriangleMesh>(o.shape));
   const bool layered =
       std::any_of(m.cloth.layer.begin(), m.cloth.layer.end(), [&](int l) { return l != m.cloth.layer[0]; });
   if (layered || !m.bodies.empty()) {
@@ -204,10 +162,9 @@ int findTangles(const CollisionModel& m, bool search, double dt, CollisionWork& 
   return static_cast<int>(found.size());
 }
 
-void placeVertices(const CollisionModel& m, std::span<const Vec3> x0, std::span<const Vec3> x1,
+void placeVertices(const CollisionModel& m, double time_s, double dt, std::span<const Vec3> x0,
                    std::span<const Placement> start, std::span<const Placement> end, CollisionWork& w) {
   w.x0.assign(x0.begin(), x0.end());
-  w.x1.assign(x1.begin(), x1.end());
   w.x0.resize(m.mesh.vertex_count);
   w.x1.resize(m.mesh.vertex_count);
   for (const CollisionModel::Body& body : m.bodies)
@@ -215,15 +172,49 @@ void placeVertices(const CollisionModel& m, std::span<const Vec3> x0, std::span<
       w.x0[body.first_vertex + k] = start[body.obstacle] * body.local[k];
       w.x1[body.first_vertex + k] = end[body.obstacle] * body.local[k];
     }
+  if (w.list.empty()) w.list = CandidateList(m.tree);
+  w.list.begin(time_s, time_s + dt, w.x0);
+}
+
+void moveVertices(std::span<const Vec3> x1, CollisionWork& w) { std::copy(x1.begin(), x1.end(), w.x1.begin()); }
+
+void listNear(const CollisionModel& m, CollisionWork& w) {
+  w.near.points.clear();
+  w.near.edges.clear();
+  w.near_bodies.first.assign(m.cloth.cloth_vertices + 1, 0);
+  w.near_bodies.items.clear();
+  if (!m.self && m.bodies.empty()) return;
+  w.list.cover(m.mesh, m.collector, rulesOf(m), w.x1);
+  const double reach = contactReach(m.largest_thickness_m);
+  for (const PointTriangle& p : w.list.pairs().points) {
+    if (!(w.list.apart(p) < reach)) continue;
+    if (p.triangle < m.cloth_triangles) {
+      w.near.points.push_back(p);
+    } else {
+      const int body = m.body_of_vertex[m.mesh.triangles[p.triangle][0]];
+      ++w.near_bodies.first[p.vertex + 1];
+      w.near_bodies.items.push_back({m.bodies[body].obstacle, m.body_triangle[p.triangle - m.cloth_triangles]});
+    }
+  }
+  for (int v = 0; v < m.cloth.cloth_vertices; ++v) w.near_bodies.first[v + 1] += w.near_bodies.first[v];
+  for (const EdgeEdge& p : w.list.pairs().edges)
+    if (w.list.apart(p) < reach) w.near.edges.push_back(p);
+}
+
+void dropUnreached(const CollisionModel& m, std::span<const Placement> start, std::span<const Placement> end,
+                   const CollisionWork& w, std::vector<Contact>& near) {
+  std::erase_if(near, [&](const Contact& c) {
+    if (!m.is_mesh[c.obstacle] || !(c.gap_m > 0)) return false;
+    const Vec3 from = c.gap_m * c.normal;
+    const Vec3 way = w.x1[c.sample] - w.x0[c.sample] - (end[c.obstacle] * c.local - start[c.obstacle] * c.local);
+    return !comesWithin(contactReach(m.cloth.thickness_m[c.sample]), from, way);
+  });
 }
 
 void nearCloth(const CollisionModel& m, CollisionWork& w) {
   w.points.clear();
-  if (w.tree.empty()) w.tree = m.tree;
-  if (!m.self && m.bodies.empty()) return;
-  listPairs(m, w);
   if (!m.self) return;
-  clothContacts(m.mesh, m.cloth, w.pairs, w.x0, w.x1, w.points);
+  clothContacts(m.mesh, m.cloth, w.near, w.x0, w.x1, w.points);
   std::erase_if(w.points, [&](const ClothContactPoint& p) {
     for (int k = 0; k < p.stencil.count; ++k)
       if (w.tangle[p.stencil.sample[k]] != Tangle::kFree) return true;
@@ -235,14 +226,13 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
                  std::vector<PairHit>& hits) {
   hits.clear();
   if (!m.self && m.bodies.empty()) return;
-  listPairs(m, w);
-  w.path.resize(w.x0.size());
-  for (std::size_t v = 0; v < w.x0.size(); ++v) w.path[v] = {minimum(w.x0[v], w.x1[v]), maximum(w.x0[v], w.x1[v])};
-  w.edge_path.resize(m.mesh.edges.size());
-  for (std::size_t e = 0; e < m.mesh.edges.size(); ++e) {
-    w.edge_path[e] = w.path[m.mesh.edges[e][0]];
-    w.edge_path[e].add(w.path[m.mesh.edges[e][1]]);
-  }
+  w.list.cover(m.mesh, m.collector, rulesOf(m), w.x1);
+  const auto path = [&](int v) { return Box{minimum(w.x0[v], w.x1[v]), maximum(w.x0[v], w.x1[v])}; };
+  const auto edgePath = [&](int e) {
+    Box box = path(m.mesh.edges[e][0]);
+    box.add(path(m.mesh.edges[e][1]));
+    return box;
+  };
   const auto ask = [&](PairHit hit, const std::array<int, 4>& vertex) {
     bool cloth_inside = false, body = false;
     for (int v : vertex) {
@@ -274,15 +264,18 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
     hit.row = rowOf(m, hit, x0, x1, vertex, *at, dt);
     hits.push_back(hit);
   };
-  for (const PointTriangle& p : w.pairs.points) {
+  for (const PointTriangle& p : w.list.pairs().points) {
+    if (w.list.apart(p) > 2 * kSeparation_m) continue;
     const auto& [a, b, c] = m.mesh.triangles[p.triangle];
-    Box triangle = w.edge_path[m.mesh.face_edges[p.triangle][0]];
-    triangle.add(w.path[c]);
-    if (!overlap(w.path[p.vertex].grown(2 * kSeparation_m), triangle)) continue;
+    Box triangle = path(a);
+    triangle.add(path(b));
+    triangle.add(path(c));
+    if (!overlap(path(p.vertex).grown(2 * kSeparation_m), triangle)) continue;
     ask({false, p.vertex, p.triangle, 0, {}}, {p.vertex, a, b, c});
   }
-  for (const EdgeEdge& p : w.pairs.edges) {
-    if (!overlap(w.edge_path[p.a].grown(2 * kSeparation_m), w.edge_path[p.b])) continue;
+  for (const EdgeEdge& p : w.list.pairs().edges) {
+    if (w.list.apart(p) > 2 * kSeparation_m || !overlap(edgePath(p.a).grown(2 * kSeparation_m), edgePath(p.b)))
+      continue;
     const auto [a, b] = m.mesh.edges[p.a];
     const auto [c, d] = m.mesh.edges[p.b];
     ask({true, p.a, p.b, 0, {}}, {a, b, c, d});
@@ -290,7 +283,7 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
   std::sort(hits.begin(), hits.end(), [](const PairHit& p, const PairHit& q) {
     return std::tie(p.edges, p.a, p.b) < std::tie(q.edges, q.a, q.b);
   });
-  w.report.candidates = static_cast<int>(w.pairs.points.size() + w.pairs.edges.size());
+  w.report.candidates = static_cast<int>(w.list.pairs().points.size() + w.list.pairs().edges.size());
 }
 
 }  // namespace gambeson

@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/candidate_list.hpp"
 #include "core/contact/cloth_contacts.hpp"
-#include "core/contact/contact_tree.hpp"
 #include "core/contact/pairs.hpp"
+#include "core/contact/proximity.hpp"
 #include "core/contact/untangle.hpp"
 #include "core/sheet/surface_charts.hpp"
 
@@ -22,6 +23,8 @@ struct CollisionModel {
   };
   ContactMesh mesh;
   ClothFacts cloth;
+  int cloth_triangles = 0;         ///< the mesh's first
+  std::vector<int> body_triangle;  ///< of the others: their number in their obstacle's mesh
   std::vector<Body> bodies;
   std::vector<int> body_of_vertex;  ///< -1: cloth
   PairCollector collector;
@@ -29,9 +32,11 @@ struct CollisionModel {
   double largest_thickness_m = 0;
   /// Distance over distance at rest from which parts of the cloth have neither contacts nor impacts with each other.
   double least = 1;
-  bool self = true;                  ///< cloth meets cloth
-  std::vector<int> layer_of_vertex;  ///< bodies -1; empty where there is one layer and no body
-  std::vector<char> is_body;         ///< of each vertex
+  bool self = true;                            ///< cloth meets cloth
+  std::vector<int> layer_of_vertex;            ///< bodies -1; empty where there is one layer and no body
+  std::vector<char> is_body;                   ///< of each vertex
+  std::vector<char> is_mesh;                   ///< of each obstacle
+  std::vector<char> sharp_edge, sharp_corner;  ///< of bodies (body_edges.hpp)
   UntangleLaw untangling;
 };
 
@@ -50,7 +55,6 @@ struct PairHit {
 
 struct CollisionReport {
   int candidates = 0;  ///< pairs on the list
-  int builds = 0;      ///< of lists, so far
   int capped = 0;      ///< queries that reached their cap, so far
   int touching = 0;    ///< pairs without a gap at the start of a step, so far: nothing tells which side is right
 };
@@ -58,26 +62,35 @@ struct CollisionReport {
 /// Scratch, with the candidates of the last search. A list serves as long as no vertex has left the neighbourhood that
 /// it was made for, which the positions of each query certify: what a query finds does not depend on the list.
 struct CollisionWork {
-  ContactTree tree;
-  CandidatePairs pairs;
-  std::vector<Vec3> x0, x1, listed_at;
-  std::vector<double> slack_m, change;  ///< what the list allows each vertex and each gradient (ContactTree::refit)
-  std::vector<Box> path, edge_path;     ///< of each vertex and edge in this query
+  CandidateList list;
+  std::vector<Vec3> x0, x1;    ///< of this step
+  CandidatePairs near;         ///< of the list, what may come within reach of a contact
+  MeshCandidates near_bodies;  ///< and triangles of bodies, by sample
   std::vector<ClothContactPoint> points;
   std::vector<Tangle> tangle;  ///< of each vertex in this step
   CollisionReport report;
 };
 
-/// Positions of the mesh's vertices at both ends of the step: cloth as given, obstacles as placed.
-void placeVertices(const CollisionModel& model, std::span<const Vec3> x0, std::span<const Vec3> x1,
+/// A new step: positions of the mesh's vertices at its start, and of the obstacles' at its end. Ends of the cloth are
+/// to follow.
+void placeVertices(const CollisionModel& model, double time_s, double dt_s, std::span<const Vec3> x0,
                    std::span<const Placement> start, std::span<const Placement> end, CollisionWork& work);
+/// The cloth would move to x1.
+void moveVertices(std::span<const Vec3> x1, CollisionWork& work);
+
+/// What may come within reach of a contact between work.x0 and x1: work.near and near_bodies.
+void listNear(const CollisionModel& model, CollisionWork& work);
+
+/// Leaves out contacts with meshes outside of the reach of contacts all the way from x0 to x1.
+void dropUnreached(const CollisionModel& model, std::span<const Placement> start, std::span<const Placement> end,
+                   const CollisionWork& work, std::vector<Contact>& near);
 
 /// Looks for intersections at work.x0 and writes what frees them (chapter 4): the points of each contour are asked for
 /// the restoring speed. Sets work.tangle. Returns the number of contours. Without `search` there are none.
 int findTangles(const CollisionModel& model, bool search, double dt_s, CollisionWork& work,
                 std::vector<ContactRow>& restoring);
 
-/// Persistent contacts of cloth with cloth at work.x0 (cloth_contacts.hpp); the samples may move to x1.
+/// Persistent contacts of cloth with cloth at work.x0 among work.near (cloth_contacts.hpp); samples may move to x1.
 /// Those of tangled samples are left out: their side is not the right one.
 void nearCloth(const CollisionModel& model, CollisionWork& work);
 

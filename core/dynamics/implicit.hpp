@@ -33,7 +33,7 @@ struct DynamicReport {
   bool reached = false;
   std::string why;
   long steps = 0, factorisations = 0;
-  long iterations = 0;  ///< of Newton, implicit schemes
+  long iterations = 0;                      ///< of Newton, implicit schemes
   long projections = 0, limits_missed = 0;  ///< of strain limits: in all, and steps that did not reach the tolerance
   double limit_residual = 0;                ///< the largest after a step
 };

@@ -181,7 +181,7 @@ bool anyImpact(const Model& m, double dt, StepWork& w) {
   for (int s = 0; s < m.surface.size(); ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
   m.proximity->impacts(w.start, w.end, w.x0, w.x1, w.hits);
   std::erase_if(w.hits, [&](const Contact& hit) { return w.collisions.tangle[hit.sample] != Tangle::kFree; });
-  placeVertices(m.collisions, w.x0, w.x1, w.start, w.end, w.collisions);
+  moveVertices(w.x1, w.collisions);
   findImpacts(m.collisions, dt, w.inside, w.collisions, w.pair_hits);
   return !w.hits.empty() || !w.pair_hits.empty();
 }
@@ -248,7 +248,11 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
     w.reach[s] = 1.1 * m.layer_m[s] + dt * norm(w.sample_velocity[s]);
     w.x1[s] = w.x0[s] + dt * w.sample_velocity[s];
   }
-  m.proximity->near(w.start, w.end, w.x0, w.reach, w.near);
+  placeVertices(m.collisions, in.time_s, dt, w.x0, w.start, w.end, w.collisions);
+  moveVertices(w.x1, w.collisions);
+  listNear(m.collisions, w.collisions);
+  m.proximity->near(w.start, w.end, w.x0, w.reach, w.near, &w.collisions.near_bodies);
+  dropUnreached(m.collisions, w.start, w.end, w.collisions, w.near);
   w.inside.assign(samples, 0);
   for (const Contact& c : w.near) {
     report.deepest_m = std::max(report.deepest_m, -c.gap_m);
@@ -257,7 +261,6 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
       if (std::holds_alternative<TriangleMesh>(m.obstacles[c.obstacle].shape)) ++report.inside;
     }
   }
-  placeVertices(m.collisions, w.x0, w.x1, w.start, w.end, w.collisions);
   report.intersections = findTangles(m.collisions, in.tangled || !in.pinched.empty(), dt, w.collisions, w.restoring);
   report.pinched = static_cast<int>(in.pinched.size());
   for (int s : in.pinched) w.collisions.tangle[s] = Tangle::kBeside;

@@ -113,12 +113,10 @@ void impacts(benchmark::State& state, const Scene& s, int threads) {
 void NearEllipsoids(benchmark::State& st) { near(st, bodyScene(), static_cast<int>(st.range(0))); }
 void NearMesh(benchmark::State& st) { near(st, meshScene(), static_cast<int>(st.range(0))); }
 void ImpactEllipsoids(benchmark::State& st) { impacts(st, bodyScene(), static_cast<int>(st.range(0))); }
-void ImpactMesh(benchmark::State& st) { impacts(st, meshScene(), static_cast<int>(st.range(0))); }
 
 BENCHMARK(NearEllipsoids)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(NearMesh)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(ImpactEllipsoids)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(ImpactMesh)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace gambeson

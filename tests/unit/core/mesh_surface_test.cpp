@@ -284,66 +284,6 @@ TEST(MeshSurface, RepeatedVerticesAreWelded) {
   EXPECT_EQ(got.size(), 1u);
 }
 
-TEST(MeshSurface, NothingTunnelsThroughThinWalls) {
-  std::mt19937 rng(6);
-  for (const TriangleMesh& m : {box({0.5, 0.4, 0.001}), torus(0.6, 0.05, 40, 6), sphere(0.7, 2)}) {
-    const MeshSurface s(m);
-    int entered = 0;
-    for (int trial = 0; trial < 40000; ++trial) {
-      Vec3 p0 = randomPoint(rng), p1 = randomPoint(rng);
-      if (trial % 4 == 0) {  // through a vertex; through the middle of an edge
-        const auto& t = m.triangles[rng() % m.triangles.size()];
-        const Vec3 q = trial % 8 ? m.vertices[t[0]] : 0.5 * (m.vertices[t[0]] + m.vertices[t[1]]);
-        p1 = q + (q - p0);
-      }
-      // The winding numbers of the ends, from all triangles: 0 -> 1 must enter.
-      const bool in0 = winding(m, p0) > 0.5;
-      const auto hit = s.entry(p0, p1);
-      if (!in0 && winding(m, p1) > 0.5) {
-        ASSERT_TRUE(hit) << trial;
-      }
-      // Parity by brute force along the path: a path that meets a front meets it here too.
-      bool front = false;
-      for (const auto& t : m.triangles) {
-        const Vec3 &a = m.vertices[t[0]], &b = m.vertices[t[1]], &c = m.vertices[t[2]], d = p1 - p0;
-        const Vec3 n = cross(b - a, c - a);
-        const double det = dot(d, n);
-        if (!(det < 0)) continue;
-        const double time = dot(a - p0, n) / det;
-        const Vec3 q = p0 + time * d;
-        const double u = dot(cross(b - a, q - a), n), v = dot(cross(c - b, q - b), n), w = dot(cross(a - c, q - c), n);
-        if (time >= 0 && time <= 1 && std::min({u, v, w}) > 1e-9 * norm2(n)) front = true;
-      }
-      if (front) {
-        ASSERT_TRUE(hit) << trial;
-      }
-      if (hit) {
-        ++entered;
-        ASSERT_LT(bruteDistance(m, hit->position), 1e-12);
-        ASSERT_LT(dot(hit->normal, p1 - p0), 0);
-      }
-    }
-    EXPECT_GT(entered, 5000);
-  }
-}
-
-TEST(MeshSurface, ASegmentAimedAtAVertexOrEdgeNeverSlipsThrough) {
-  std::mt19937 rng(7);
-  const TriangleMesh m = sphere(1, 3);
-  const MeshSurface s(m);
-  for (int trial = 0; trial < 100000; ++trial) {
-    const auto& t = m.triangles[rng() % m.triangles.size()];
-    std::uniform_real_distribution<double> u(0, 1);
-    const double w = trial % 2 ? u(rng) : 0;
-    const Vec3 q = (1 - w) * m.vertices[t[0]] + w * m.vertices[t[1]];
-    const Vec3 p0 = 2 * q + 0.1 * randomPoint(rng);
-    // From outside through q to the far side: it must be stopped on the near one.
-    const auto hit = s.entry(p0, q - (p0 - q));
-    ASSERT_TRUE(hit) << trial;
-    ASSERT_NEAR(norm(hit->position - q), 0, 1e-12);
-  }
-}
-
 TEST(InsideGrid, DecidedCellsAgreeWithTheWindingNumber) {
   std::mt19937 rng(9);
   for (const TriangleMesh& m : {torus(0.6, 0.25, 40, 16), sphere(0.8, 3)}) {

@@ -232,22 +232,17 @@ TEST(ProximityImpact, TheChordInTheFrameOfAFastTurningObstacleIsNotCulled) {
 
 TEST(ProximityImpact, NoPairOfARandomSceneIsCulledWrongly) {
   for (unsigned seed : {21u, 22u}) {
-    const Scene s = randomScene(seed, 4000);
+    const Scene s = randomScene(seed, 8000);
     const auto contacts = impactsOf(s);
     std::size_t k = 0;
     for (int i = 0; i < static_cast<int>(s.x0.size()); ++i)
       for (int o = 0; o < static_cast<int>(s.obstacles.size()); ++o) {
         const bool reported = k < contacts.size() && contacts[k].sample == i && contacts[k].obstacle == o;
         const Vec3 p0 = toLocal(s.start[o], s.x0[i]), p1 = toLocal(s.end[o], s.x1[i]);
-        // Alone, no block culls it.
-        Scene pair;
-        pair.obstacles.push_back(s.obstacles[o]);
-        pair.start = pair.end = {Placement{}};
-        pair.x0 = {p0}, pair.x1 = {p1};
         if (const auto* e = std::get_if<Ellipsoid>(&s.obstacles[o].shape)) {
           ASSERT_EQ(reported, ellipsoidEntry(ellipsoidMetric(*e), p0, p1).has_value()) << i << " " << o;
-        } else if (i % 8 == 0) {
-          ASSERT_EQ(reported, !impactsOf(pair).empty()) << i << " " << o;
+        } else {
+          ASSERT_FALSE(reported) << "meshes are not asked";
         }
         if (reported) ++k;
       }

@@ -1,0 +1,60 @@
+#pragma once
+/// Pairs of primitives that may touch, kept from step to step for as long as that is certain.
+
+#include <span>
+#include <vector>
+
+#include "core/contact/pairs.hpp"
+
+namespace gambeson {
+
+/// A list is made for a motion (ListedMotion): each vertex goes on with the mean velocity of its last steps, and may
+/// leave that path by a few times the way that it trembles in a step. As long as all vertices and all gradients do
+/// that, the list is complete, and each pair on it has a lower bound of its distance that costs two subtractions. Both
+/// ends of the straight paths of a step are checked, and so all between. What a query finds does not depend on when its
+/// list was made.
+class CandidateList {
+ public:
+  CandidateList() = default;
+  explicit CandidateList(ContactTree tree) : tree_(std::move(tree)) {}
+
+  bool empty() const { return tree_.empty(); }
+
+  /// The next step: from x0 at start_s to positions at end_s that `cover` is told.
+  void begin(double start_s, double end_s, std::span<const Vec3> x0);
+  /// Sees to it that the list holds all pairs that come within the margin of each other between x0 and x1.
+  void cover(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules, std::span<const Vec3> x1);
+
+  const CandidatePairs& pairs() const { return pairs_; }
+  /// The pair is at least that far apart all the way from x0 to x1.
+  double apart(const PointTriangle& p) const {
+    return p.apart.within(start_s_ - listed_s_, end_s_ - listed_s_) - moved_[p.vertex] - triangle_moved_[p.triangle];
+  }
+  double apart(const EdgeEdge& p) const {
+    return p.apart.within(start_s_ - listed_s_, end_s_ - listed_s_) - edge_moved_[p.a] - edge_moved_[p.b];
+  }
+  int builds() const { return builds_; }  ///< so far
+
+ private:
+  bool holds(const ContactMesh& mesh, std::span<const Vec3> x1);
+  void make(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules, std::span<const Vec3> x1);
+  void leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const;
+  bool startHolds(const ContactMesh& mesh) const;
+
+  ContactTree tree_;
+  CandidatePairs pairs_;
+  std::vector<Vec3> x0_;  ///< of this step
+  double start_s_ = 0, end_s_ = 0;
+  std::vector<Vec3> drift_;      ///< mean velocity of the last steps [m/s], for paths
+  std::vector<double> tremor2_;  ///< mean square of what the velocity differs from it by
+  // What the list was made for.
+  std::vector<Vec3> listed_at_, listed_velocity_;
+  std::vector<double> slack_m_, change_;
+  double listed_s_ = 0, horizon_s_ = 0;
+  // How far each vertex is off its path: at x0 (empty: not looked at yet), and the most in this step.
+  std::vector<double> start_moved_, moved_, edge_moved_, triangle_moved_;
+  std::vector<Vec3> last_end_;  ///< the last x1 that was found to hold
+  int builds_ = 0;
+};
+
+}  // namespace gambeson
