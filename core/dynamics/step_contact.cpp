@@ -20,12 +20,21 @@ double layerOf(const Model& m, const ContactRow& row) {
   return row.contact.obstacle >= 0 ? sum : 0.5 * sum;
 }
 
+/// Mass per area of the cloth on the side that the normal points to, whose weights add up to 1. Contact::sample does
+/// not tell: of two edges it is an edge's number.
+double densityOf(const Model& m, const Stencil& stencil) {
+  double sum = 0;
+  for (int k = 0; k < stencil.count; ++k)
+    if (stencil.weight[k] > 0) sum += stencil.weight[k] * m.density_kg_per_m2[stencil.sample[k]];
+  return sum;
+}
+
 /// `warm`: its traction in the last step, times dt. A sample inside of a body comes out no faster than other
 /// intersections are freed (h0 of eq. 4.21).
 void setPersistent(const Model& m, double dt, const Vec3& warm, ContactRow& row) {
   ContactParameters parameters = m.contact;
   parameters.layer_m = layerOf(m, row);
-  layerUnder(dot(warm, row.contact.normal) / dt, dt, m.density_kg_per_m2[row.contact.sample], parameters, row);
+  layerUnder(dot(warm, row.contact.normal) / dt, dt, densityOf(m, row.stencil), parameters, row);
   if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
 }
 
@@ -232,7 +241,7 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
     if (row.impact || (row.mean_Pa == 0 && w.warm[i] == Vec3{})) continue;
     // What stops a sample on its way to the layer does not press on the layer.
     const double pressure = atLayer(c.gap_m, layerOf(m, row)) ? dot(w.warm[i], c.normal) / dt : 0;
-    const double mean = lastingPressure(row.mean_Pa, pressure, dt, m.density_kg_per_m2[c.sample], m.contact);
+    const double mean = lastingPressure(row.mean_Pa, pressure, dt, densityOf(m, row.stencil), m.contact);
     warm.push_back({c.sample, c.obstacle, c.feature, w.warm[i], mean});
   }
 }
