@@ -138,7 +138,7 @@ void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion, std
   gradients_.resize(inverse_.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     boxes_[t] = {};
-    for (int v : mesh.triangles[t]) boxes_[t].add(around(motion, v));
+    for (int v : mesh.triangles[t]) boxes_[t].add(MovingBox(motion, v));
     if (t < gradients_.size()) gradients_[t] = gradient(mesh, static_cast<int>(t), motion.x);
   }
   for (std::size_t i = nodes_.size(); i-- > 0;) {

@@ -9,6 +9,7 @@
 
 #include "core/contact/box.hpp"
 #include "core/contact/contact_mesh.hpp"
+#include "core/contact/moving_box.hpp"
 #include "core/math/vec.hpp"
 
 namespace gambeson {
@@ -28,39 +29,6 @@ using ChartCorners = std::array<Vec2, 3>;
 struct TriangleRange {
   int first = 0, end = 0;
 };
-
-/// What a list of candidates allows for: at times t in [0, horizon_s] vertex i is within slack_m[i] of the point
-/// x[i] + t velocity[i]. Empty spans: zero.
-struct ListedMotion {
-  std::span<const Vec3> x, velocity_m_per_s;
-  std::span<const double> slack_m;
-  double horizon_s = 0;
-
-  double slack(int i) const { return slack_m.empty() ? 0.0 : slack_m[i]; }
-  Vec3 velocity(int i) const { return velocity_m_per_s.empty() ? Vec3{} : velocity_m_per_s[i]; }
-};
-
-/// A box of points, and of their ways until the horizon.
-struct MovingBox {
-  Box at, way;
-
-  void add(const MovingBox& b) { at.add(b.at), way.add(b.way); }
-};
-
-inline MovingBox around(const ListedMotion& m, int i) {
-  const Vec3 way = m.horizon_s * m.velocity(i);
-  return {Box{m.x[i], m.x[i]}.grown(m.slack(i)), {way, way}};
-}
-
-/// Points of the two boxes may come within `margin` of each other along each axis. Only how they move relative to each
-/// other counts: cloth that moves along together, however fast, stays apart.
-inline bool mayMeet(const MovingBox& a, const MovingBox& b, double margin) {
-  for (int i = 0; i < 3; ++i) {
-    const double up = std::max(0.0, b.way.hi[i] - a.way.lo[i]), down = std::min(0.0, b.way.lo[i] - a.way.hi[i]);
-    if (a.at.lo[i] - margin > b.at.hi[i] + up || b.at.lo[i] + down > a.at.hi[i] + margin) return false;
-  }
-  return true;
-}
 
 /// Which pairs matter.
 struct PairRules {
@@ -100,7 +68,7 @@ class ContactTree {
   /// part of cloth with c >= `least`.
   template <class Visit>
   void pairs(const PairRules& rules, Visit&& visit) const {
-    Traversal<Visit> t{*this, rules.margin_m, rules.least, visit};
+    Traversal<Visit> t{*this, rules.margin_m, rules.least, roundUp(rules.margin_m), visit};
     const int charts = static_cast<int>(charts_.size()), roots = static_cast<int>(roots_.size());
     for (int i = 0; i < charts; ++i) {
       if (rules.cloth_with_cloth) t.within(roots_[i]);
@@ -122,18 +90,19 @@ class ContactTree {
   };
   struct Node {
     MovingBox box;
-    Cluster cluster;
-    int chart = -1;             ///< of cloth
-    int begin[2]{}, end[2]{};   ///< cells of the rectangle
-    Box rest;                   ///< of the rectangle in the chart's plane
     int left = -1, right = -1;  ///< children, after their parent; -1 in leaves
     int first = 0, count = 0;   ///< triangles order_[first, first + count) of a leaf
+    int chart = -1;             ///< of cloth
+    int begin[2]{}, end[2]{};   ///< cells of the rectangle
     bool whole = false;         ///< all cells are
+    Cluster cluster;
+    Box rest;  ///< of the rectangle in the chart's plane
   };
   template <class Visit>
   struct Traversal {
     const ContactTree& tree;
     double margin, least;
+    float reach;  ///< the margin for boxes
     Visit& visit;
 
     void within(int at) {
@@ -150,7 +119,7 @@ class ContactTree {
     }
     void between(int ia, int ib) {
       const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
-      if (!mayMeet(a.box, b.box, margin)) return;
+      if (!mayMeet(a.box, b.box, reach)) return;
       // Points whose distance at rest is D are at least c D apart.
       if (a.chart >= 0 && a.chart == b.chart &&
           tree.hullBound(a, b) >= std::min(least, margin / restDistance(a.rest, b.rest)))
@@ -160,7 +129,7 @@ class ContactTree {
           for (int j = b.first; j < b.first + b.count; ++j) emit(tree.order_[i], tree.order_[j]);
         return;
       }
-      if (b.left < 0 || (a.left >= 0 && norm2(a.box.at.halfSize()) >= norm2(b.box.at.halfSize()))) {
+      if (b.left < 0 || (a.left >= 0 && a.box.size2() >= b.box.size2())) {
         between(a.left, ib);
         between(a.right, ib);
       } else {
@@ -169,7 +138,7 @@ class ContactTree {
       }
     }
     void emit(int a, int b) {
-      if (mayMeet(tree.boxes_[a], tree.boxes_[b], margin)) visit(a, b);
+      if (mayMeet(tree.boxes_[a], tree.boxes_[b], reach)) visit(a, b);
     }
   };
 

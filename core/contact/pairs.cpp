@@ -67,10 +67,11 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
   const auto keep = [&](const Apart& apart, std::span<const int> a, std::span<const int> b) {
     return !(apart.within(0, motion.horizon_s) > rules.margin_m + slackOf(motion, a) + slackOf(motion, b));
   };
+  const float reach = roundUp(rules.margin_m);
   out.points.clear();
   out.edges.clear();
   out.vertex_box.resize(mesh.vertex_count);
-  for (int i = 0; i < mesh.vertex_count; ++i) out.vertex_box[i] = around(motion, i);
+  for (int i = 0; i < mesh.vertex_count; ++i) out.vertex_box[i] = MovingBox(motion, i);
   out.edge_box.resize(mesh.edges.size());
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     out.edge_box[e] = out.vertex_box[mesh.edges[e][0]];
@@ -86,8 +87,7 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
       if (!(owned_[a] & (1 << k))) continue;
       const std::array<int, 1> v{mesh.triangles[a][k]};
       const std::array<int, 3>& t = mesh.triangles[b];
-      if (v[0] == t[0] || v[0] == t[1] || v[0] == t[2] || !mayMeet(out.vertex_box[v[0]], tree.box(b), rules.margin_m))
-        continue;
+      if (v[0] == t[0] || v[0] == t[1] || v[0] == t[2] || !mayMeet(out.vertex_box[v[0]], tree.box(b), reach)) continue;
       const Vec3 way = x[v[0]] - closestOnTriangle({x[t[0]], x[t[1]], x[t[2]]}, x[v[0]]).position;
       const Apart gap = apart(motion, v, t, way);
       if (keep(gap, v, t)) out.points.push_back({v[0], b, gap});
@@ -106,8 +106,7 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
         if (!(owned_[b] & (8 << l))) continue;
         const int f = mesh.face_edges[b][l];
         const std::array<int, 2>& y = mesh.edges[f];
-        if (v[0] == y[0] || v[0] == y[1] || v[1] == y[0] || v[1] == y[1] ||
-            !mayMeet(box, out.edge_box[f], rules.margin_m))
+        if (v[0] == y[0] || v[0] == y[1] || v[1] == y[0] || v[1] == y[1] || !mayMeet(box, out.edge_box[f], reach))
           continue;
         const SegmentPair near = nearestOnSegments(x[v[0]], x[v[1]], x[y[0]], x[y[1]]);
         const Vec3 way = x[v[0]] + near.s * (x[v[1]] - x[v[0]]) - x[y[0]] - near.t * (x[y[1]] - x[y[0]]);
