@@ -10,7 +10,7 @@ namespace {
 constexpr double kSteps = 5;    ///< like the one that a list is made for
 constexpr double kTremors = 3;  ///< ways off the path, in units of what is usual in a step
 constexpr double kLeastSlack_m = 1e-4;
-constexpr double kLeastChange = 0.05;  ///< of gradients
+constexpr double kLeastChange = 0.2;  ///< of gradients
 constexpr double kMemory = 16;         ///< steps of which drift and tremor are means
 
 /// Positions that agree to this have gradients that agree to a part in a million of kLeastChange on edges of 0.1 mm.
@@ -49,20 +49,20 @@ void CandidateList::leavePath(std::span<const Vec3> x, double time_s, std::vecto
 }
 
 /// The gradients do at x0, which most often is where the last step was found to end.
-bool CandidateList::startHolds(const ContactMesh& mesh) const {
+bool CandidateList::startHolds() const {
   bool same = last_end_.size() == x0_.size();
   for (std::size_t i = 0; same && i < x0_.size(); ++i) same = norm2(x0_[i] - last_end_[i]) < kSame_m * kSame_m;
-  return same || tree_.gradientsHold(mesh, x0_, change_);
+  return same || tree_.gradientsHold(x0_);
 }
 
-bool CandidateList::holds(const ContactMesh& mesh, std::span<const Vec3> x1) {
+bool CandidateList::holds(std::span<const Vec3> x1) {
   if (listed_at_.size() != x0_.size() || start_s_ < listed_s_ || end_s_ > listed_s_ + horizon_s_) return false;
   if (start_moved_.empty()) {
     leavePath(x0_, start_s_, start_moved_);
-    if (!within(start_moved_, slack_m_) || !startHolds(mesh)) return false;
+    if (!within(start_moved_, slack_m_) || !startHolds()) return false;
   }
   leavePath(x1, end_s_, moved_);
-  if (!within(moved_, slack_m_) || !tree_.gradientsHold(mesh, x1, change_)) return false;
+  if (!within(moved_, slack_m_) || !tree_.gradientsHold(x1)) return false;
   last_end_.assign(x1.begin(), x1.end());
   return true;
 }
@@ -90,7 +90,7 @@ void CandidateList::make(const ContactMesh& mesh, const PairCollector& collector
 
 void CandidateList::cover(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules,
                           std::span<const Vec3> x1) {
-  if (!holds(mesh, x1)) make(mesh, collector, rules, x1);
+  if (!holds(x1)) make(mesh, collector, rules, x1);
   for (std::size_t i = 0; i < moved_.size(); ++i) moved_[i] = std::max(moved_[i], start_moved_[i]);
   edge_moved_.resize(mesh.edges.size());
   for (std::size_t e = 0; e < edge_moved_.size(); ++e)

@@ -36,10 +36,10 @@ class CandidateList {
   int builds() const { return builds_; }  ///< so far
 
  private:
-  bool holds(const ContactMesh& mesh, std::span<const Vec3> x1);
+  bool holds(std::span<const Vec3> x1);
   void make(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules, std::span<const Vec3> x1);
   void leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const;
-  bool startHolds(const ContactMesh& mesh) const;
+  bool startHolds() const;
 
   ContactTree tree_;
   CandidatePairs pairs_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace gambeson {
 namespace {
@@ -23,6 +25,7 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
     cells_.emplace_back(charts_[k].whole.size());
     roots_.push_back(buildChart(static_cast<int>(k), {0, 0}, charts_[k].cells, corners));
   }
+  findSides(mesh, corners);
   std::vector<Vec3> centres;
   for (const auto& [a, b, c] : mesh.triangles) centres.push_back(x[a] + x[b] + x[c]);
   for (const TriangleRange& range : obstacles) {
@@ -114,17 +117,63 @@ void ContactTree::gradientChanges(const ContactMesh& mesh, std::span<const Vec3>
   }
 }
 
-bool ContactTree::gradientsHold(const ContactMesh& mesh, std::span<const Vec3> x,
-                                std::span<const double> change) const {
-  for (const Node& n : nodes_) {
-    if (n.left >= 0 || !n.whole) continue;
-    for (int k = n.first; k < n.first + n.count; ++k) {
+/// The sides of cells along the axes: the columns of F are their quotients by their lengths at rest.
+void ContactTree::findSides(const ContactMesh& mesh, std::span<const ChartCorners> corners) {
+  triangle_sides_.assign(corners.size(), {-1, -1});
+  struct Found {
+    int a, b, triangle, axis;
+    float length;
+  };
+  std::vector<Found> found;
+  for (const Node& n : nodes_)
+    for (int k = n.whole && n.left < 0 ? n.first : n.first + n.count; k < n.first + n.count; ++k) {
       const int t = order_[k];
-      const Gradient now = gradient(mesh, t, x), &then = gradients_[t];
-      if (!(norm2(now.s - then.s) + norm2(now.t - then.t) <= change[t] * change[t])) return false;
+      for (int i = 0; i < 3; ++i) {
+        const Vec2 along{corners[t][(i + 1) % 3].x - corners[t][i].x, corners[t][(i + 1) % 3].y - corners[t][i].y};
+        const double length = std::max(std::abs(along.x), std::abs(along.y));
+        if (std::min(std::abs(along.x), std::abs(along.y)) > 1e-9 * length) continue;  // the diagonal
+        const auto [v, w] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
+        found.push_back({v, w, t, along.x == 0 || std::abs(along.x) < std::abs(along.y), static_cast<float>(length)});
+      }
     }
+  std::sort(found.begin(), found.end(), [](const Found& p, const Found& q) {
+    return std::tie(p.a, p.b, p.length, p.triangle) < std::tie(q.a, q.b, q.length, q.triangle);
+  });
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Found& f = found[k];
+    if (k == 0 || f.a != found[k - 1].a || f.b != found[k - 1].b || f.length != found[k - 1].length)
+      sides_.push_back({f.a, f.b, f.length});
+    triangle_sides_[f.triangle][f.axis] = static_cast<int>(sides_.size()) - 1;
   }
-  return true;
+  sides_then_.resize(sides_.size());
+}
+
+/// Each column may change by 1/sqrt(2) of what the triangle may.
+void ContactTree::watchSides(std::span<const Vec3> x, std::span<const double> change) {
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const Vec3 d = x[sides_[k].b] - x[sides_[k].a];
+    sides_then_[k] = {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
+                      std::numeric_limits<float>::infinity()};
+  }
+  for (std::size_t t = 0; t < triangle_sides_.size(); ++t)
+    for (int k : triangle_sides_[t]) {
+      if (k < 0) continue;
+      // Less by the rounding of all this: that of the sides is 1e-7 of them.
+      const float most = (0.7071f * static_cast<float>(change.empty() ? 0 : change[t]) - 1e-5f) * sides_[k].length_m;
+      sides_then_[k].most2 = std::min(sides_then_[k].most2, most > 0 ? most * most : -1.0f);
+    }
+}
+
+bool ContactTree::gradientsHold(std::span<const Vec3> x) const {
+  bool hold = true;
+  for (std::size_t k = 0; k < sides_.size() && hold; ++k) {
+    const SideThen& then = sides_then_[k];
+    const Vec3 d = x[sides_[k].b] - x[sides_[k].a];
+    const float dx = static_cast<float>(d.x) - then.x, dy = static_cast<float>(d.y) - then.y,
+                dz = static_cast<float>(d.z) - then.z;
+    hold = dx * dx + dy * dy + dz * dz <= then.most2;
+  }
+  return hold;
 }
 
 ContactTree::Cluster ContactTree::merge(const Cluster& a, const Cluster& b) {
@@ -141,6 +190,7 @@ void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion, std
     for (int v : mesh.triangles[t]) boxes_[t].add(MovingBox(motion, v));
     if (t < gradients_.size()) gradients_[t] = gradient(mesh, static_cast<int>(t), motion.x);
   }
+  watchSides(motion.x, change);
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& n = nodes_[i];
     n.box = {};

@@ -61,8 +61,9 @@ class ContactTree {
   /// Frobenius norm of F(x1) - F(x0) of each triangle of cloth.
   void gradientChanges(const ContactMesh& mesh, std::span<const Vec3> x0, std::span<const Vec3> x1,
                        std::vector<double>& out) const;
-  /// No gradient at x differs by more than its `change` from the last refit, of those that certificates count on.
-  bool gradientsHold(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const double> change) const;
+  /// No gradient at x differs by more than its `change` from the last refit, of those that certificates count on: no
+  /// column by more than 1/sqrt(2) of it.
+  bool gradientsHold(std::span<const Vec3> x) const;
 
   /// Calls visit(a, b) once for every two triangles, not both of obstacles, whose boxes may meet, except those of a
   /// part of cloth with c >= `least`.
@@ -146,6 +147,8 @@ class ContactTree {
   int buildObstacle(int first, int end, std::span<const Vec3> centres);
   Gradient gradient(const ContactMesh& mesh, int triangle, std::span<const Vec3> x) const;
   Cluster cellCluster(std::span<const int> triangles, std::span<const double> change) const;
+  void findSides(const ContactMesh& mesh, std::span<const ChartCorners> corners);
+  void watchSides(std::span<const Vec3> x, std::span<const double> change);
   static double certifiedBound(const Cluster& cluster);
   static Cluster merge(const Cluster& a, const Cluster& b);
   double hullBound(const Node& a, const Node& b) const;
@@ -155,12 +158,23 @@ class ContactTree {
 
   std::vector<GridChart> charts_;
   std::vector<Node> nodes_;
-  std::vector<int> roots_;                      ///< of the charts, then of the obstacles
-  std::vector<int> order_;                      ///< triangles, leaf by leaf
-  std::vector<MovingBox> boxes_;                ///< of each triangle
-  std::vector<Gradient> gradients_;             ///< at the last refit, of each triangle of cloth
-  std::vector<std::array<double, 4>> inverse_;  ///< of the reference edges of each triangle of a whole cell
-  std::vector<std::vector<Cluster>> cells_;     ///< of each cell of each chart
+  std::vector<int> roots_;           ///< of the charts, then of the obstacles
+  std::vector<int> order_;           ///< triangles, leaf by leaf
+  std::vector<MovingBox> boxes_;     ///< of each triangle
+  std::vector<Gradient> gradients_;  ///< at the last refit, of each triangle of cloth
+  struct Side {
+    int a = 0, b = 0;
+    float length_m = 0;  ///< at rest
+  };
+  struct SideThen {
+    float x = 0, y = 0, z = 0;  ///< from a to b at the last refit
+    float most2 = 0;            ///< squared change that is allowed for
+  };
+  std::vector<Side> sides_;  ///< of whole cells, each once
+  std::vector<SideThen> sides_then_;
+  std::vector<std::array<int, 2>> triangle_sides_;  ///< of each triangle of cloth; -1 in cells that are cut
+  std::vector<std::array<double, 4>> inverse_;      ///< of the reference edges of each triangle of a whole cell
+  std::vector<std::vector<Cluster>> cells_;         ///< of each cell of each chart
 };
 
 }  // namespace gambeson
