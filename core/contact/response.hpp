@@ -69,10 +69,19 @@ struct ContactSolve {
   bool yielded = false;  ///< the rows contradicted each other; the rest is of rows that give way (step_contact.cpp)
 };
 
-/// Scratch of solveContacts.
+/// Scratch of solveContacts. The rows that are iterated on are some of all; what is said of rows is of these, in
+/// their order, where it does not say otherwise.
 struct ContactWork {
+  // Of all rows.
+  std::vector<int> sorted;             ///< their order in the iteration, by sample
+  std::vector<double> area_of;         ///< that each stands for
+  std::vector<char> in;                ///< is iterated on
+  std::vector<char> joins;             ///< is left out and would be penetrated
+  std::vector<double> left_out;        ///< squared residual of what is left out
+  std::vector<int> on_body, on_cloth;  ///< contacts of each sample of the cloth
+
+  std::vector<int> order;  ///< rows in the order of the iteration
   std::vector<int> samples, sample_slot, free_points, free_slot;
-  std::vector<int> order;          ///< rows in the order of the iteration
   SparseRows rows, columns;        ///< samples x free points and back
   SparseRows stencils, of_sample;  ///< rows x samples and back, with weights
   std::vector<double> share;       ///< area of each row
@@ -89,9 +98,10 @@ struct ContactWork {
     double largest = 0;  ///< the bound if all rows carried something, at least the slope
   };
   std::vector<Row> facts;
-  std::vector<Quad> point, candidate, previous;  ///< of rows
-  std::vector<Quad> impulse, velocity;           ///< of samples
-  std::vector<Quad> base, moved;                 ///< of free points
+  std::vector<Quad> point, candidate, previous;     ///< of rows
+  std::vector<Quad> kept_candidate, kept_previous;  ///< of all rows, while the rows change
+  std::vector<Quad> impulse, velocity;              ///< of samples
+  std::vector<Quad> base, moved;                    ///< of free points
   std::vector<double> inverse_mass, largest2, against;
 };
 

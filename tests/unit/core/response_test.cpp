@@ -152,6 +152,24 @@ TEST(Response, AContactThatAnotherOneOpensGetsNothing) {
   EXPECT_GT(dot(p.sampleVelocity(1), n1), 0.2);
 }
 
+/// Nothing is warm, and the second contact, a ceiling, is clear of the cloth's free motion; the impulse of the first
+/// one drives the cloth into it. Both conditions then hold with equality, as in a system of two equations.
+TEST(Response, AContactThatAnotherOneClosesIsFound) {
+  Problem p = twoSamples({0, 0, -20}, {0, 0, 0});
+  p.velocity[1] = {0, 0, -0.5};
+  p.rows[1] = row(1, {0, 0, -1}, 0);
+  ASSERT_GT(-p.sampleVelocity(1).z, 0.1);
+  Eigen::Matrix2d A;
+  A(0, 0) = 0.36 / p.mass[0] + 0.16 / p.mass[1];
+  A(1, 1) = 0.09 / p.mass[1] + 0.49 / p.mass[2];
+  A(0, 1) = A(1, 0) = -0.4 * 0.3 / p.mass[1];
+  const Eigen::Vector2d b(0.1 - p.sampleVelocity(0).z, p.sampleVelocity(1).z), exact = A.inverse() * b;
+  ASSERT_GT(exact.minCoeff(), 0);
+  ASSERT_TRUE(p.solve().converged);
+  EXPECT_NEAR(p.impulses[0].z, exact(0), 1e-8 * exact(0));
+  EXPECT_NEAR(-p.impulses[1].z, exact(1), 1e-8 * exact(1));
+}
+
 TEST(Response, AContactOnHeldPointsAloneMovesNothingAndLeavesTheOthersAlone) {
   Problem p = twoSamples({0, 0, -2}, {});
   p.mass[1] = p.mass[2] = 0;  // held

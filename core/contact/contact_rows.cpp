@@ -1,0 +1,162 @@
+#include "core/contact/contact_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gambeson {
+namespace {
+
+/// W_T of the samples and free points that the rows touch.
+void touched(std::span<const ContactRow> rows, const SparseRows& WT, ContactWork& w) {
+  w.sample_slot.resize(WT.rows(), -1);
+  w.free_slot.resize(WT.column_count, -1);
+  for (int s : w.samples) w.sample_slot[s] = -1;
+  for (int f : w.free_points) w.free_slot[f] = -1;
+  w.samples.clear();
+  w.free_points.clear();
+  const auto clear = [](SparseRows& m) {
+    m.offsets.assign(1, 0);
+    m.columns.clear();
+    m.values.clear();
+  };
+  clear(w.stencils);
+  for (int i : w.order) {
+    const Stencil& stencil = rows[i].stencil;
+    for (int k = 0; k < stencil.count; ++k) {
+      int& slot = w.sample_slot[stencil.sample[k]];
+      if (slot < 0) {
+        slot = static_cast<int>(w.samples.size());
+        w.samples.push_back(stencil.sample[k]);
+      }
+      w.stencils.add(slot, stencil.weight[k]);
+    }
+    w.stencils.endRow();
+  }
+  w.stencils.column_count = static_cast<int>(w.samples.size());
+  w.of_sample = transpose(w.stencils);
+  clear(w.rows);
+  for (int s : w.samples) {
+    for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k) {
+      int& slot = w.free_slot[WT.columns[k]];
+      if (slot < 0) {
+        slot = static_cast<int>(w.free_points.size());
+        w.free_points.push_back(WT.columns[k]);
+      }
+      w.rows.add(slot, WT.values[k]);
+    }
+    w.rows.endRow();
+  }
+  w.rows.column_count = static_cast<int>(w.free_points.size());
+  w.columns = transpose(w.rows);
+}
+
+}  // namespace
+
+void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> area,
+                std::span<const double> inverse_mass, ContactWork& w) {
+  const int n = static_cast<int>(rows.size());
+  // Contacts of one sample share its area.
+  w.on_body.assign(area.size(), 0);
+  w.on_cloth.assign(area.size(), 0);
+  for (const ContactRow& row : rows) {
+    if (row.contact.obstacle == kEdgeOnEdge || row.contact.obstacle == kRestoring) continue;
+    ++(row.contact.obstacle < 0 ? w.on_cloth : w.on_body)[row.contact.sample];
+  }
+  w.area_of.resize(n);
+  for (int i = 0; i < n; ++i) {
+    const ContactRow& row = rows[i];
+    const Stencil& stencil = row.stencil;
+    bool moves = false;
+    for (int k = 0; k < stencil.count && !moves; ++k)
+      for (int e = WT.offsets[stencil.sample[k]]; e < WT.offsets[stencil.sample[k] + 1] && !moves; ++e)
+        moves = WT.values[e] != 0 && inverse_mass[WT.columns[e]] > 0;
+    double a = 0;
+    if (row.contact.obstacle == kEdgeOnEdge || row.contact.obstacle == kRestoring ||
+        (row.contact.obstacle >= 0 && stencil.count > 1)) {
+      for (int k = 0; k < stencil.count; ++k) a += 0.125 * std::abs(stencil.weight[k]) * area[stencil.sample[k]];
+    } else if (row.contact.obstacle == kSampleOnCloth) {
+      a = 0.5 * area[row.contact.sample] / w.on_cloth[row.contact.sample];
+    } else {
+      a = area[row.contact.sample] / w.on_body[row.contact.sample];
+    }
+    w.area_of[i] = moves ? a : 0;
+  }
+}
+
+void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+              std::span<const double> density, double friction, std::span<const Vec3> velocity, ContactWork& w) {
+  touched(rows, WT, w);
+  const int n = static_cast<int>(w.order.size()), samples = static_cast<int>(w.samples.size()),
+            free_count = static_cast<int>(w.free_points.size());
+  w.facts.resize(n);
+  w.share.resize(n);
+  w.traction.resize(n);
+  for (auto* rows_of : {&w.point, &w.candidate, &w.previous}) rows_of->resize(n);
+  w.impulse.resize(samples);
+  w.velocity.resize(samples);
+  w.free_velocity.resize(free_count);
+  w.base.resize(free_count);
+  w.moved.resize(free_count);
+  w.inverse_mass.resize(free_count);
+  for (int k = 0; k < n; ++k) {
+    const ContactRow& row = rows[w.order[k]];
+    w.share[k] = w.area_of[w.order[k]];
+    const double slope = slopeOf(row, density);
+    w.facts[k] = {row.contact.normal, driftOf(row), row.slippery ? 0 : friction, row.compliance, slope, slope};
+  }
+  for (int f = 0; f < free_count; ++f) {
+    const Vec3& v = velocity[w.free_points[f]];
+    w.base[f] = {{v.x, v.y, v.z, 0}};
+    w.inverse_mass[f] = inverse_mass[w.free_points[f]];
+  }
+}
+
+void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, ContactWork& w) {
+  constexpr double kMix = 0.2;
+  const Vec3 side{0.6180, 0.4142, 0.7321};
+  const int n = static_cast<int>(w.order.size()), free_count = static_cast<int>(w.free_points.size());
+  for (int at = 0; at < n; ++at) w.traction[at] = warm[w.order[at]];
+  // Bodies, then both sides of the cloth.
+  for (int group = 0; group < 3; ++group) {
+    const auto smoothed = [&](int at) {
+      const ContactRow& row = rows[w.order[at]];
+      if (warm[w.order[at]] == Vec3{}) return false;
+      if (group == 0) return row.contact.obstacle >= 0 && row.stencil.count == 1;
+      return row.contact.obstacle == kSampleOnCloth && (dot(row.contact.normal, side) > 0) == (group == 1);
+    };
+    const auto part = [&](int at) {
+      const Vec3& t = warm[w.order[at]];
+      return group == 0 ? t : Vec3{dot(t, rows[w.order[at]].contact.normal), 0, 0};
+    };
+    const auto sampleOf = [&](int at) { return w.sample_slot[rows[w.order[at]].contact.sample]; };
+    bool any = false;
+    w.weight.assign(w.samples.size(), 0);
+    w.sample_impulse.assign(w.samples.size(), Vec3{});
+    for (int at = 0; at < n; ++at) {
+      if (!smoothed(at)) continue;
+      any = true;
+      w.weight[sampleOf(at)] += w.share[at];
+      w.sample_impulse[sampleOf(at)] += w.share[at] * part(at);
+    }
+    if (!any) continue;
+    for (int f = 0; f < free_count; ++f) {
+      Vec3 sum{};
+      double total = 0;
+      for (int k = w.columns.offsets[f]; k < w.columns.offsets[f + 1]; ++k) {
+        sum += w.columns.values[k] * w.sample_impulse[w.columns.columns[k]];
+        total += w.columns.values[k] * w.weight[w.columns.columns[k]];
+      }
+      w.free_velocity[f] = total > 0 ? sum / total : Vec3{};
+    }
+    for (int at = 0; at < n; ++at) {
+      if (!smoothed(at)) continue;
+      Vec3 smooth{};
+      for (int k = w.rows.offsets[sampleOf(at)]; k < w.rows.offsets[sampleOf(at) + 1]; ++k)
+        smooth += w.rows.values[k] * w.free_velocity[w.rows.columns[k]];
+      const Vec3 change = kMix * (smooth - part(at));
+      w.traction[at] += group == 0 ? change : change.x * rows[w.order[at]].contact.normal;
+    }
+  }
+}
+
+}  // namespace gambeson

@@ -1,0 +1,48 @@
+#pragma once
+/// The rows of a contact solve that are iterated on, with the part of the cloth that they touch. Internal to the solve.
+
+#include <cmath>
+#include <span>
+
+#include "core/contact/response.hpp"
+
+namespace gambeson {
+
+/// Onto the Coulomb cone of the row: normal part >= 0, tangential part within mu times it.
+inline Vec3 project(const Vec3& traction, const Vec3& n, double mu) {
+  const double tn = dot(traction, n);
+  if (!(tn > 0)) return {};
+  Vec3 tangential = traction - tn * n;
+  const double size2 = norm2(tangential), limit = mu * tn;
+  if (size2 > limit * limit) tangential *= limit / std::sqrt(size2);
+  return tn * n + tangential;
+}
+
+/// v_n - target = (v - drift) . normal.
+inline Vec3 driftOf(const ContactRow& row) { return row.body_velocity + row.target_m_per_s * row.contact.normal; }
+
+/// 1/rho, or for cloth on cloth the sum of both, and what the layer yields: the residual's measure.
+inline double slopeOf(const ContactRow& row, std::span<const double> density) {
+  double slope = 0;
+  for (int j = 0; j < row.stencil.count; ++j) slope += std::abs(row.stencil.weight[j]) / density[row.stencil.sample[j]];
+  return slope + row.compliance;
+}
+
+/// The area that each row stands for, work.area_of; 0 where only held points carry its samples.
+void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> area,
+                std::span<const double> inverse_mass, ContactWork& work);
+
+/// Restricts W_T to the samples and free points that the rows of work.order touch; everything of the iteration that
+/// follows from the rows, and its arrays at their sizes.
+void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+              std::span<const double> density, double friction, std::span<const Vec3> velocity, ContactWork& work);
+
+/// Where samples outnumber control points, tractions have parts that move nothing; a solve neither makes nor removes
+/// them, so what an impact left would stay. Each warm start moves a fifth of the way to the lumped projection of the
+/// traction on the basis, sum_I N_I (sum_s N_I a tau)/(sum_s N_I a), which keeps constants. Sets work.traction.
+/// Contacts of samples on cloth have no direction in common with the others around: theirs take the projection of
+/// their normal parts, the two sides of the cloth apart, told by the normal's sign along a direction that no usual
+/// sheet lies in.
+void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, ContactWork& work);
+
+}  // namespace gambeson
