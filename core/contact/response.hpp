@@ -16,7 +16,7 @@ struct ContactParameters {
   double friction = 0;      ///< Coulomb's mu
   double relaxation_s = 0;  ///< tau: the correction of the distance takes this time, k = 1 - exp(-dt/tau) of eq. 3.17
   double tolerance_m_per_s2 = 1e-2;  ///< a solve is done at a residual velocity of this times dt
-  int max_iterations = 400;
+  int max_iterations = 4000;
   double compliance_m_per_Pa = 1e-9;  ///< c: how much a pressure that lasts compresses the layer
 };
 
@@ -147,6 +147,7 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 /// Contacts of cloth with cloth (stencils B of several samples) solve with B W_T M^-1 W_Tᵀ Bᵀ in the same way; row sums
 /// are those of absolute weights there, and 1/rho is the sum of both sides'. Each sample on cloth stands for half its
 /// area, because the other side's samples stand for the other half; an edge for an eighth of what its pair touches.
+/// Rows that carry nothing are left out while they are not penetrated; the residual is that of all rows.
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
