@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <ostream>
 
 #include "core/contact/pairs.hpp"
 #include "tools/collision_data.hpp"
@@ -22,6 +23,8 @@ fs::path collisionFolder() {
 struct Frames {
   const char *folder, *start, *end, *number;
 };
+
+void PrintTo(const Frames& f, std::ostream* out) { *out << f.folder; }
 
 class FramesTest : public testing::TestWithParam<Frames> {};
 
