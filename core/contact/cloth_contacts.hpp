@@ -28,12 +28,13 @@ struct ClothContactPoint {
 /// Distance within which contacts between cloth of this thickness are kept, and the distance at rest within which
 /// points of one layer are neighbours.
 inline double contactReach(double layer_m) { return 1.1 * layer_m; }
+inline double neighbourDistance(double layer_m) { return 2 * layer_m; }
+
 /// A point that moves straight by `way` comes less than `reach` from the origin, starting at `from`.
 inline bool comesWithin(double reach, const Vec3& from, const Vec3& way) {
   const double way2 = norm2(way), t = way2 > 0 ? std::clamp(-dot(from, way) / way2, 0.0, 1.0) : 0;
   return norm2(from + t * way) < reach * reach;
 }
-inline double neighbourDistance(double layer_m) { return 2 * layer_m; }
 
 /// Local minima of the distance between cloth and cloth at positions x0, where it is, or at the rate of the paths
 /// x0 -> x1 would become, less than 1.1 layers (Zheng 2013, section 3.2.1: the normal points from the foot to the

@@ -83,7 +83,6 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
   std::vector<std::array<int, 3>> triangles = surface.triangles;
   std::vector<Vec3> x(rest.begin(), rest.end());
   std::vector<TriangleRange> ranges;
-  std::vector<int> body_triangle;
   m.cloth_triangles = static_cast<int>(triangles.size());
   m.body_of_vertex.assign(surface.size(), -1);
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
@@ -95,14 +94,13 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
       if (topology.collapsed(static_cast<int>(t))) continue;
       const auto& [a, b, c] = topology.triangles[t];
       triangles.push_back({first + a, first + b, first + c});
-      body_triangle.push_back(static_cast<int>(t));
+      m.body_triangle.push_back(static_cast<int>(t));
     }
     ranges.push_back({first_triangle, static_cast<int>(triangles.size())});
     m.body_of_vertex.resize(x.size() + mesh->vertices.size(), static_cast<int>(m.bodies.size()));
     m.bodies.push_back({static_cast<int>(o), first, mesh->vertices});
     for (const Vec3& p : mesh->vertices) x.push_back(placement[o] * p);
   }
-  m.body_triangle = std::move(body_triangle);
   m.mesh = contactMesh(static_cast<int>(x.size()), triangles);
   markSharp(m, x);
   const SurfaceCharts charts = surfaceCharts(surface, rest);

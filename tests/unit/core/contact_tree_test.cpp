@@ -232,5 +232,38 @@ TEST_F(TreeTest, AListServesManyStepsAndNeverMissesAPair) {
   EXPECT_LT(list.builds(), steps / 2);
 }
 
+/// The body comes at cloth that stands still, evenly: the list follows it and is made anew before its horizon is
+/// passed.
+TEST_F(TreeTest, AListEndsAtItsHorizon) {
+  CandidateList list(tree);
+  const PairRules rules{0.002, 0.3, true};
+  const double dt = 5e-4, speed = 2, start = 0.27;
+  std::vector<Vec3> x0 = rest, x1 = rest;
+  const auto place = [&](int step, std::vector<Vec3>& x) {
+    for (std::size_t i = cloth; i < x.size(); ++i) x[i] = rest[i] + Vec3{0, 0, speed * dt * step - start};
+  };
+  std::size_t asked = 0;
+  for (int step = 0; step < 250; ++step) {
+    place(step, x0);
+    place(step + 1, x1);
+    list.begin(step * dt, (step + 1) * dt, x0);
+    list.cover(mesh, collector, rules, x1);
+    for (int v = cloth; v < static_cast<int>(x0.size()); ++v)
+      for (int t = 0; t < cloth_triangles; ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        const double at_start = std::sqrt(closestOnTriangle({x0[a], x0[b], x0[c]}, x0[v]).dist2_m2);
+        const double at_end = std::sqrt(closestOnTriangle({x1[a], x1[b], x1[c]}, x1[v]).dist2_m2);
+        if (std::min(at_start, at_end) > rules.margin_m) continue;
+        ++asked;
+        const auto at = std::ranges::lower_bound(list.pairs().points, PointTriangle{v, t, {}});
+        ASSERT_TRUE(at != list.pairs().points.end() && *at == (PointTriangle{v, t, {}}))
+            << step << " " << v << " " << t;
+        ASSERT_LE(list.apart(*at), std::min(at_start, at_end));
+      }
+  }
+  EXPECT_GT(asked, 5u);
+  EXPECT_LT(list.builds(), 125);
+}
+
 }  // namespace
 }  // namespace gambeson
