@@ -38,7 +38,10 @@ class Stiffness {
     }
     out.resize(p_.size());
     for (std::size_t i = 0; i < p_.size(); ++i) out[i] = (before_[i] - after_[i]) / (2 * epsilon);
-    if (springs)
+    if (springs) {
+      negative_.assign(p_.size(), {});
+      addStitchForces(m_.stitches, m_.surface.WT, y, negative_);
+      for (std::size_t i = 0; i < p_.size(); ++i) out[i] -= negative_[i];
       for (const SpringSupportPoint& s : m_.springs) {
         Vec3 x{};
         const SparseRows& WT = m_.surface.WT;
@@ -46,13 +49,14 @@ class Stiffness {
         for (int k = WT.offsets[s.sample]; k < WT.offsets[s.sample + 1]; ++k)
           out[WT.columns[k]] += (WT.values[k] * s.stiffness_N_per_m) * x;
       }
+    }
   }
 
  private:
   const Model& m_;
   std::span<const Vec3> p_;
   StepWork& w_;
-  std::vector<Vec3> shifted_, before_, after_;
+  std::vector<Vec3> shifted_, before_, after_, negative_;
 };
 
 double inner(std::span<const Vec3> a, std::span<const Vec3> b) {

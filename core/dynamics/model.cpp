@@ -63,7 +63,9 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 {},
                                                 options.strain_limit,
                                                 {},
-                                                netEdges(garment)});
+                                                netEdges(garment),
+                                                options.stitches,
+                                                {}});
   std::vector<int> layer;
   for (int s = 0; s < model->surface.size(); ++s) {
     const int patch = model->surface.patch[s];
@@ -73,6 +75,8 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
     model->layer_m.push_back(contact.layer_m > 0 ? contact.layer_m : fabric.thickness());
     layer.push_back(garment.layerOf(patch));
   }
+  for (double a : model->area_m2) model->drag_kg_per_s.push_back(environment.drag_kg_per_m2s * a);
+  addStitchDamping(model->stitches, model->surface.WT, model->drag_kg_per_s);
   double total = 0, stiffness = 0;
   for (double m : model->mass_kg) total += m;
   for (const SpringSupportPoint& s : options.springs) stiffness += s.stiffness_N_per_m;

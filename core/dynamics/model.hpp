@@ -12,6 +12,7 @@
 #include "core/contact/zones.hpp"
 #include "core/dynamics/collisions.hpp"
 #include "core/dynamics/resonance.hpp"
+#include "core/dynamics/stitch.hpp"
 #include "core/dynamics/strain_limit.hpp"
 #include "core/sheet/shell.hpp"
 
@@ -62,6 +63,8 @@ struct Model {
   StrainLimit strain_limit;
   StrainRows strain_rows;    ///< without points where strain is not limited
   std::vector<NetEdge> net;  ///< of the patches' control points
+  std::vector<Stitch> stitches;
+  std::vector<double> drag_kg_per_s;  ///< of the free points: eta times area, and what damps stitches
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
 };
@@ -77,6 +80,7 @@ struct ModelOptions {
   std::vector<Vec3> dead_force_N;  ///< per control point, such as edgeForce gives; empty: none
   StrainLimit strain_limit;
   bool self_contact = true;            ///< cloth touches cloth
+  std::vector<Stitch> stitches;
   const KernelSet* kernels = nullptr;  ///< the widest where null
 };
 

@@ -50,6 +50,7 @@ void accelerate(const Model& m, std::span<const Placement> anchor_frames, const 
                 StepWork& w) {
   const int n = m.freeCount();
   internalForce(m, s.p, s.a, w);
+  addStitchForces(m.stitches, m.surface.WT, s.p, s.a);
   springForces(m, s, anchor_frames, w.spring_force);
   s.sums = {};
   s.sums.springs = sum(w.spring_force);
@@ -65,7 +66,6 @@ void accelerate(const Model& m, std::span<const Placement> anchor_frames, const 
       }
     }
   }
-  const double eta = m.environment.drag_kg_per_m2s;
   for (int i = 0; i < n; ++i) {
     if (m.held[i]) {
       s.sums.held -= s.a[i];
@@ -73,7 +73,7 @@ void accelerate(const Model& m, std::span<const Placement> anchor_frames, const 
       s.v[i] = {};
       continue;
     }
-    const double d = eta * m.area_m2[i];
+    const double d = m.drag_kg_per_s[i];
     const Vec3 start = pulled.empty() ? half_velocity[i] : half_velocity[i] + half_step_s * pulled[i];
     Vec3 f = s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 - d * (start - air);
     if (!m.dead_force_N.empty()) f += m.dead_force_N[i];
@@ -238,7 +238,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
     audit.scale += m.mass_kg[i] * norm(out.v[i] - in.v[i]);  // internal forces cancel in the sum, not in its rounding
     audit.gravity += (m.mass_kg[i] * dt) * m.environment.gravity_m_per_s2;
     audit.scale += m.mass_kg[i] * dt * norm(m.environment.gravity_m_per_s2);
-    const double d = m.environment.drag_kg_per_m2s * m.area_m2[i];
+    const double d = m.drag_kg_per_s[i];
     const Vec3 &v0 = in.v[i], &v1 = out.v[i];
     report.work.drag -= half * d * (dot(v0 - air0, v0) + dot(v1 - air1, v1));
     report.work.dissipated += half * d * (norm2(v0 - air0) + norm2(v1 - air1));
@@ -266,6 +266,7 @@ Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w)
   springForces(m, s, w.anchors_start, w.spring_force);
   for (std::size_t k = 0; k < m.springs.size(); ++k)
     e.springs += 0.5 * norm2(w.spring_force[k]) / m.springs[k].stiffness_N_per_m;
+  e.springs += stitchEnergy(m.stitches, m.surface.WT, s.p);
   return e;
 }
 
