@@ -1,6 +1,7 @@
 #pragma once
 /// The body surface: shapes fixed to the links of a skeleton.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "human/skeleton.hpp"
 
 namespace gambeson {
+
+struct Skin;  // human/skin.hpp
 
 /// One shape of the surface. `X_LS` is the shape's frame in its link.
 struct BodyShape {
@@ -23,6 +26,7 @@ struct Human {
   std::vector<BodyShape> shapes;
   double mass_kg = 0;
   double stature_m = 0;
+  std::shared_ptr<const Skin> skin;  ///< null: the shapes are the surface
 };
 
 /// The obstacles of a body, one per shape in the same order; the segment is the link's name.

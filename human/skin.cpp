@@ -1,0 +1,210 @@
+#include "human/skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "human/motion.hpp"
+#include "human/skin_field.hpp"
+#include "human/skin_mesh.hpp"
+
+namespace gambeson {
+namespace {
+
+/// 0 to 1 over [-1, 1], linear between quadratic ends: slope 1/1.6 in the middle, continuous. Little steeper than a
+/// straight line, since a fold's inside must not overtake itself (skin_bend.cpp).
+double shareProfile(double s) {
+  constexpr double e = 0.4, slope = 1 / (2 - e);
+  s = std::clamp(s, -1.0, 1.0);
+  if (s < -1 + e) return slope / (2 * e) * (s + 1) * (s + 1);
+  if (s > 1 - e) return 1 - slope / (2 * e) * (1 - s) * (1 - s);
+  return 0.5 + slope * s;
+}
+
+double smoothStep(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * (3 - 2 * u);
+}
+
+/// One joint of the skeleton with the region over which it bends.
+struct Region {
+  int child;
+  int side;  ///< +1 left, -1 right, 0 both
+  Vec3 centre, normal;
+  double offset_m, half_width_m;
+  bool bends, crease;
+};
+
+class Maker {
+ public:
+  Maker(const Human& human, const SkinOptions& options) : human_(human), s_(human.skeleton) {
+    const Posture p = standing(human);
+    skin_.bind = linkPoses(s_, p.q, p.root);
+    skin_.crease_gap_m = options.crease_gap_m;
+    const BodyField field(human, skin_.bind);
+    ImplicitSurface surface;
+    surface.value = [&](const Vec3& x) { return field(x); };
+    surface.gradient = [&](const Vec3& x) { return field.gradient(x); };
+    surface.edge = [&](const Vec3& x) { return options.cell_m * (1 + 0.6 * field.coarseness(x)); };
+    surface.low = field.low();
+    surface.high = field.high();
+    skin_.rest = meshOf(surface, options.cell_m);
+    regions();
+    for (const Vec3& x : skin_.rest.vertices) towards_arm_.push_back(field.towardsArm(x));
+    shares();
+    creases();
+  }
+  Skin take() { return std::move(skin_); }
+
+ private:
+  int link(const std::string& name) const {
+    const int l = s_.link(name);
+    if (l < 0) throw InputError({"", 0, "skin"}, "needs a skeleton with a link '" + name + "', as our manikins have");
+    return l;
+  }
+  Vec3 at(const std::string& name) const { return skin_.bind[link(name)].origin; }
+
+  /// Where the body bends: the plane through each joint and half the width of the region that takes part.
+  void regions() {
+    const Vec3 pelvis = skin_.bind[0].origin;
+    const auto add = [&](const std::string& child, int side, const Vec3& normal, double offset, double half_width,
+                         bool bends, bool crease) {
+      regions_.push_back({link(child), side, at(child), normalized(normal), offset, half_width, bends, crease});
+    };
+    for (const int side : {1, -1}) {
+      const std::string name = side > 0 ? "_left" : "_right";
+      const Vec3 hip = at("thigh" + name), knee = at("shank" + name), ankle = at("foot" + name),
+                 shoulder = at("upper_arm" + name), elbow = at("forearm" + name), wrist = at("hand" + name);
+      const double thigh = norm(knee - hip), upper_arm = norm(elbow - shoulder);
+      add("foot" + name, side, ankle - knee, 0, 0.10 * thigh, true, false);
+      add("shank" + name, side, (ankle - hip), 0, 0.25 * thigh, true, true);
+      // The groin runs from the crotch up and outwards: where the plane meets the median plane it lies below the
+      // crotch.
+      const double half = std::abs(hip.y - pelvis.y), drop = 0.95 * half;
+      add("thigh" + name, side, {0, side * drop, -half}, 0, 0.28 * thigh, true, true);
+      add("hand" + name, side, wrist - elbow, 0, 0.10 * upper_arm, false, false);
+      add("forearm" + name, side, wrist - shoulder, 0, 0.25 * upper_arm, true, true);
+      // Between chest and arm, leaning outwards by half the held abduction.
+      const Vec3 down = normalized(normalized(elbow - shoulder) + Vec3{0, 0, -1});
+      add("upper_arm" + name, side, cross({1, 0, 0}, side * down), -0.10 * upper_arm, 0.25 * upper_arm, true, true);
+    }
+    const double trunk = at("head").z - at("torso").z;
+    add("head", 0, {0, 0, 1}, 0.02 * trunk, 0.12 * trunk, true, false);
+    add("torso", 0, {0, 0, 1}, 0.04 * trunk, 0.22 * trunk, true, false);
+    for (const Region& r : regions_)
+      if (r.bends) skin_.bends.push_back({parentSegment(r.child), r.child, r.centre, r.normal, r.offset_m, r.crease});
+  }
+
+  /// The nearest link up the tree that has a region, or the root.
+  int parentSegment(int l) const {
+    while (l != 0) {
+      l = s_.joints[s_.links[l].parent_joint].parent;
+      if (std::any_of(regions_.begin(), regions_.end(), [&](const Region& r) { return r.child == l; })) return l;
+    }
+    return 0;
+  }
+
+  void shares() {
+    const std::size_t n = skin_.rest.vertices.size();
+    std::vector<int> bend_of(regions_.size(), -1), above(regions_.size());
+    for (std::size_t r = 0, b = 0; r < regions_.size(); ++r) {
+      if (regions_[r].bends) bend_of[r] = static_cast<int>(b++);
+      const int p = parentSegment(regions_[r].child);
+      above[r] = -1;
+      for (std::size_t q = 0; q < regions_.size(); ++q)
+        if (regions_[q].child == p) above[r] = static_cast<int>(q);
+    }
+    skin_.first = {0};
+    skin_.bend_first = {0};
+    const Vec3 pelvis = skin_.bind[0].origin;
+    std::vector<double> own(regions_.size()), total(regions_.size());
+    for (std::size_t v = 0; v < n; ++v) {
+      const Vec3& x = skin_.rest.vertices[v];
+      for (std::size_t r = 0; r < regions_.size(); ++r) own[r] = ownShare(regions_[r], x, pelvis, towards_arm_[v]);
+      // Of a chain only what lies beyond the joints before it.
+      for (int r = static_cast<int>(regions_.size()) - 1; r >= 0; --r)
+        total[r] = own[r] * (above[r] >= 0 ? total[above[r]] : 1);
+      std::vector<std::pair<int, double>> parts;
+      double root = 1;
+      for (std::size_t r = 0; r < regions_.size(); ++r) {
+        double w = total[r];
+        for (std::size_t q = 0; q < regions_.size(); ++q)
+          if (above[q] == static_cast<int>(r)) w -= total[q];
+        if (above[r] < 0) root -= total[r];
+        if (w > 0) parts.emplace_back(regions_[r].child, w);
+        if (bend_of[r] >= 0 && total[r] > 0) {
+          skin_.bend.push_back(bend_of[r]);
+          skin_.share.push_back(own[r]);
+        }
+      }
+      if (root > 0) parts.emplace_back(0, root);
+      std::sort(parts.begin(), parts.end());
+      double sum = 0;
+      for (const auto& [l, w] : parts) sum += w;
+      int best = 0;
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        skin_.link.push_back(parts[i].first);
+        skin_.weight.push_back(parts[i].second / sum);
+        if (parts[i].second > parts[best].second) best = static_cast<int>(i);
+      }
+      skin_.segment.push_back(parts[best].first);
+      skin_.first.push_back(static_cast<int>(skin_.link.size()));
+      skin_.bend_first.push_back(static_cast<int>(skin_.bend.size()));
+    }
+  }
+
+  /// The share of a point of the skin in one joint. Legs end at the median plane; arms are told from the trunk by what
+  /// is nearer, where a plane through the joint no longer can.
+  double ownShare(const Region& r, const Vec3& x, const Vec3& pelvis, double towards_arm) const {
+    if (r.side != 0 && r.side * (x.y - pelvis.y) <= 0) return 0;
+    const double s = (dot(r.normal, x - r.centre) - r.offset_m) / r.half_width_m;
+    const std::string& name = s_.links[r.child].name;
+    if (name.starts_with("upper_arm") || name == "torso")
+      return shareProfile(s + std::clamp(2 * towards_arm / r.half_width_m, -2.0, 2.0));
+    const bool of_arm = name.starts_with("forearm") || name.starts_with("hand");
+    if (of_arm || r.side == 0) return shareProfile(s);
+    if (towards_arm > 0) return 0;
+    if (!name.starts_with("thigh")) return shareProfile(s);
+    const double half = std::abs(r.centre.y - pelvis.y);
+    return shareProfile(s) * smoothStep(std::abs(x.y - pelvis.y) / (0.5 * half));
+  }
+
+  void creases() {
+    for (std::size_t b = 0; b < skin_.bends.size(); ++b) {
+      const SkinBend& bend = skin_.bends[b];
+      if (!bend.crease) continue;
+      SkinCrease c;
+      c.bend = static_cast<int>(b);
+      for (std::size_t v = 0; v < skin_.segment.size(); ++v) {
+        const double s = dot(bend.normal, skin_.rest.vertices[v] - bend.centre) - bend.offset_m;
+        double w = 0;
+        for (int i = skin_.bend_first[v]; i < skin_.bend_first[v + 1]; ++i)
+          if (skin_.bend[i] == static_cast<int>(b)) w = skin_.share[i];
+        if (w > 0 && s > 0) c.child_side.push_back(static_cast<int>(v));
+        if (w < 1 && s < 0 && (skin_.segment[v] == bend.parent || w > 0)) c.parent_side.push_back(static_cast<int>(v));
+      }
+      skin_.creases.push_back(std::move(c));
+    }
+  }
+
+  const Human& human_;
+  const Skeleton& s_;
+  Skin skin_;
+  std::vector<Region> regions_;
+  std::vector<double> towards_arm_;
+};
+
+void check(const char* key, double value, bool good, const char* allowed) {
+  if (!good) throw InputError({"", 0, key}, std::to_string(value) + " is not allowed: " + allowed);
+}
+
+}  // namespace
+
+Skin makeSkin(const Human& human, const SkinOptions& o) {
+  check("cell_m", o.cell_m, o.cell_m >= 0.006 && o.cell_m <= 0.04, "0.006 to 0.04");
+  check("crease_gap_m", o.crease_gap_m, o.crease_gap_m >= 0 && o.crease_gap_m <= 0.02, "0 to 0.02");
+  return Maker(human, o).take();
+}
+
+}  // namespace gambeson

@@ -1,0 +1,60 @@
+#pragma once
+/// A closed skin around a skeleton: one triangle mesh that bends with the joints.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/contact/obstacle.hpp"
+#include "human/body.hpp"
+
+namespace gambeson {
+
+/// How a skin is made.
+struct SkinOptions {
+  double cell_m = 0.012;        ///< edge length where garments lie; hands, feet and head have up to 1.6 times as much
+  double crease_gap_m = 0.003;  ///< where a joint folds the skin onto itself, the two sides stay this far apart
+};
+
+/// A joint about which the skin bends. A vertex of share w turns by the w-th part of the joint's rotation since the
+/// bind posture about `centre`: the points of share 1/2, which lie on the plane normal . (x - centre) = offset in the
+/// bind posture, then always lie on the plane that bisects the two segments. Both in the world frame of the bind
+/// posture; `normal` points to the child's side.
+struct SkinBend {
+  int parent = 0, child = 0;  ///< links
+  Vec3 centre, normal{0, 0, -1};
+  double offset_m = 0;
+  bool crease = false;  ///< whether it folds the skin: then either side stays half the gap off the bisecting plane
+};
+
+/// Vertices that stay on one side of the bisecting plane of a bend.
+struct SkinCrease {
+  int bend = 0;
+  std::vector<int> parent_side, child_side;  ///< vertices
+};
+
+/// `weight` sums to 1 at each vertex. With bends (skins that we make) the shares move the skin and the weights say how
+/// much of a vertex belongs to each link; without (skins from files) the weights blend the links' motions linearly.
+struct Skin {
+  TriangleMesh rest;                  ///< closed, outward, in the world frame of the bind posture
+  std::vector<Pose> bind;             ///< X_WL of each link of the skeleton in the bind posture
+  std::vector<int> first, link;       ///< links of vertex v: link[first[v]] .. link[first[v + 1] - 1], ascending
+  std::vector<double> weight;         ///< as `link`
+  std::vector<int> segment;           ///< of each vertex: the link of largest weight
+  std::vector<SkinBend> bends;        ///< a child's bend stands before its parent's
+  std::vector<int> bend_first, bend;  ///< bends of vertex v with a share > 0, as `first` and `link`, ascending
+  std::vector<double> share;          ///< as `bend`, in (0, 1]
+  std::vector<SkinCrease> creases;
+  double crease_gap_m = 0;
+};
+
+/// The skin of a human of ellipsoids with the links, joints and shapes of our manikins (human/manikin.hpp), in the
+/// standing posture with the limbs held. Symmetric about the median plane. Throws InputError where a part is missing or
+/// an option is out of range.
+Skin makeSkin(const Human& human, const SkinOptions& options = {});
+
+/// Where the vertices are for given link poses, a smooth function of these alone; the same bits for any number of
+/// threads. Sizes of `link_poses` and `x` must be those of `bind` and `rest`.
+void skinPositions(const Skin& skin, std::span<const Pose> link_poses, std::span<Vec3> x);
+
+}  // namespace gambeson

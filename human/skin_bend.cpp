@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "human/skin.hpp"
+
+/// How the skin follows the links. A vertex turns about each of its joints by its share of the joint's rotation since
+/// the bind posture, distal joints first; then creases keep the two sides of a joint apart.
+///
+/// A crease: with the distance d of a point from the bisecting plane, counted into its own side,
+///   d' = h + (d - h + sqrt((d - h)² + 4 b²)) / 2 > h,   h = S gap/2,  b = S (softness),
+/// S growing from 0 at rest to 1 at a bend of 30 degrees. d -> d' is strictly increasing, so a surface that does not
+/// cross itself does not by being flattened either; at rest nothing moves.
+
+namespace gambeson {
+namespace {
+
+constexpr double kSoftness = 0.003;    ///< b [m]: the flattening begins about this far off the plane
+constexpr double kFullSine2 = 0.0670;  ///< sin²(15 degrees)
+
+struct Quaternion {
+  double w = 1;
+  Vec3 v;
+};
+
+/// Of a rotation by less than 180 degrees (Shepperd's other cases are not met by joints of a body but kept for safety).
+Quaternion quaternion(const Mat3& m) {
+  const double trace = m.a.x + m.b.y + m.c.z;
+  Quaternion q;
+  if (trace > 0) {
+    const double s = 2 * std::sqrt(1 + trace);
+    q = {0.25 * s, {(m.b.z - m.c.y) / s, (m.c.x - m.a.z) / s, (m.a.y - m.b.x) / s}};
+  } else if (m.a.x >= m.b.y && m.a.x >= m.c.z) {
+    const double s = 2 * std::sqrt(std::max(0.0, 1 + m.a.x - m.b.y - m.c.z));
+    q = {(m.b.z - m.c.y) / s, {0.25 * s, (m.b.x + m.a.y) / s, (m.c.x + m.a.z) / s}};
+  } else if (m.b.y >= m.c.z) {
+    const double s = 2 * std::sqrt(std::max(0.0, 1 + m.b.y - m.a.x - m.c.z));
+    q = {(m.c.x - m.a.z) / s, {(m.b.x + m.a.y) / s, 0.25 * s, (m.c.y + m.b.z) / s}};
+  } else {
+    const double s = 2 * std::sqrt(std::max(0.0, 1 + m.c.z - m.a.x - m.b.y));
+    q = {(m.a.y - m.b.x) / s, {(m.c.x + m.a.z) / s, (m.c.y + m.b.z) / s, 0.25 * s}};
+  }
+  if (q.w < 0) q = {-q.w, -q.v};
+  return q;
+}
+
+/// The w-th part of a rotation, by normalised linear interpolation: exact at 0, 1/2 and 1.
+Quaternion part(const Quaternion& q, double w) {
+  const double r = 1 - w + w * q.w;
+  const double n = 1 / std::sqrt(r * r + w * w * norm2(q.v));
+  return {r * n, (w * n) * q.v};
+}
+
+Vec3 turned(const Quaternion& q, const Vec3& p) {
+  const Vec3 t = 2 * cross(q.v, p);
+  return p + q.w * t + cross(q.v, t);
+}
+
+void blendLinearly(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3> x) {
+  std::vector<Pose> move(X_WL.size());
+  for (std::size_t l = 0; l < move.size(); ++l) move[l] = X_WL[l] * inverse(skin.bind[l]);
+  const int n = static_cast<int>(x.size());
+#pragma omp parallel for schedule(static)
+  for (int v = 0; v < n; ++v) {
+    Vec3 sum;
+    for (int i = skin.first[v]; i < skin.first[v + 1]; ++i)
+      sum += skin.weight[i] * (move[skin.link[i]] * skin.rest.vertices[v]);
+    x[v] = sum;
+  }
+}
+
+}  // namespace
+
+void skinPositions(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3> x) {
+  if (X_WL.size() != skin.bind.size() || x.size() != skin.rest.vertices.size())
+    throw RunError("skinPositions: " + std::to_string(X_WL.size()) + " links and " + std::to_string(x.size()) +
+                   " vertices instead of " + std::to_string(skin.bind.size()) + " and " +
+                   std::to_string(skin.rest.vertices.size()));
+  if (skin.bends.empty()) return blendLinearly(skin, X_WL, x);
+
+  const int nb = static_cast<int>(skin.bends.size()), n = static_cast<int>(x.size());
+  std::vector<Quaternion> turn(nb);
+  for (int b = 0; b < nb; ++b) {
+    const SkinBend& bend = skin.bends[b];
+    const Mat3 parent = X_WL[bend.parent].rotation * transpose(skin.bind[bend.parent].rotation),
+               child = X_WL[bend.child].rotation * transpose(skin.bind[bend.child].rotation);
+    turn[b] = quaternion(transpose(parent) * child);
+  }
+  const Pose move = X_WL[0] * inverse(skin.bind[0]);
+#pragma omp parallel for schedule(static)
+  for (int v = 0; v < n; ++v) {
+    Vec3 p = skin.rest.vertices[v];
+    for (int i = skin.bend_first[v]; i < skin.bend_first[v + 1]; ++i) {
+      const Vec3& c = skin.bends[skin.bend[i]].centre;
+      p = c + turned(part(turn[skin.bend[i]], skin.share[i]), p - c);
+    }
+    x[v] = move * p;
+  }
+
+  for (const SkinCrease& crease : skin.creases) {
+    const SkinBend& bend = skin.bends[crease.bend];
+    const double bent = std::clamp(norm2(turn[crease.bend].v) / kFullSine2, 0.0, 1.0), S = bent * bent * (3 - 2 * bent);
+    if (S == 0) continue;
+    const Pose A = X_WL[bend.parent] * inverse(skin.bind[bend.parent]);
+    const Vec3 normal = A.rotation * turned(part(turn[crease.bend], 0.5), bend.normal);
+    const double level = dot(normal, A * bend.centre) + bend.offset_m, h = 0.5 * S * skin.crease_gap_m,
+                 b = S * kSoftness;
+    const auto keep = [&](const std::vector<int>& vertices, double side) {
+      const int count = static_cast<int>(vertices.size());
+#pragma omp parallel for schedule(static)
+      for (int i = 0; i < count; ++i) {
+        Vec3& p = x[vertices[i]];
+        const double d = side * (dot(normal, p) - level) - h, to = 0.5 * (d + std::sqrt(d * d + 4 * b * b));
+        p += (side * (to - d)) * normal;
+      }
+    };
+    keep(crease.parent_side, -1);
+    keep(crease.child_side, 1);
+  }
+}
+
+}  // namespace gambeson

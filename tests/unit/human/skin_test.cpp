@@ -1,0 +1,73 @@
+/// The skin at rest: a closed surface, and its weights.
+
+#include "human/skin.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "core/contact/mesh_topology.hpp"
+#include "core/error.hpp"
+#include "human/load.hpp"
+#include "human/motion.hpp"
+
+namespace gambeson {
+namespace {
+
+const Human& human() {
+  static const Human h = makeManikin("male_p50");
+  return h;
+}
+const Skin& skin() {
+  static const Skin s = makeSkin(human());
+  return s;
+}
+
+TEST(Skin, IsClosedAndOfOnePieceWithoutHandles) {
+  const MeshTopology m = meshTopology(skin().rest);
+  EXPECT_TRUE(m.closed);
+  EXPECT_EQ(meshDefects(m), "");
+  const auto count = [](const auto& list) { return static_cast<long>(list.size()); };
+  EXPECT_EQ(count(skin().rest.vertices) - count(m.edges) + count(skin().rest.triangles), 2);  // Euler: a sphere
+  EXPECT_GE(count(skin().rest.triangles), 20000);
+}
+
+TEST(Skin, WeightsSumToOneAndLinksAscend) {
+  const Skin& s = skin();
+  ASSERT_EQ(s.first.size(), s.rest.vertices.size() + 1);
+  for (std::size_t v = 0; v < s.rest.vertices.size(); ++v) {
+    double sum = 0;
+    for (int i = s.first[v]; i < s.first[v + 1]; ++i) {
+      sum += s.weight[i];
+      EXPECT_GT(s.weight[i], 0);
+      if (i > s.first[v]) EXPECT_GT(s.link[i], s.link[i - 1]);
+    }
+    EXPECT_NEAR(sum, 1, 1e-14);
+  }
+}
+
+TEST(Skin, StaysAtRestInTheBindPostureAndMovesWithTheRoot) {
+  const Skin& s = skin();
+  std::vector<Vec3> x(s.rest.vertices.size());
+  skinPositions(s, s.bind, x);
+  for (std::size_t v = 0; v < x.size(); ++v) EXPECT_LT(norm(x[v] - s.rest.vertices[v]), 1e-14);
+  Posture p = standing(human());
+  const Pose X{rotationAbout({0.6, 0, 0.8}, 0.7), {0.3, -0.2, 0.1}};
+  p.root = X * p.root;
+  skinPositions(s, linkPoses(human().skeleton, p.q, p.root), x);
+  for (std::size_t v = 0; v < x.size(); ++v) EXPECT_LT(norm(x[v] - X * s.rest.vertices[v]), 1e-14);
+}
+
+TEST(Skin, RefusesOptionsAndBodiesThatItCannotServe) {
+  EXPECT_THROW(makeSkin(human(), {.cell_m = 0}), InputError);
+  EXPECT_THROW(makeSkin(human(), {.cell_m = std::nan("")}), InputError);
+  EXPECT_THROW(makeSkin(human(), {.crease_gap_m = -1e-3}), InputError);
+  Human headless = human();
+  std::erase_if(headless.shapes, [](const BodyShape& s) { return s.name == "head"; });
+  EXPECT_THROW(makeSkin(headless), InputError);
+  std::vector<Vec3> few(3);
+  EXPECT_THROW(skinPositions(skin(), skin().bind, few), RunError);
+}
+
+}  // namespace
+}  // namespace gambeson
