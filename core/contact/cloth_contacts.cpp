@@ -55,9 +55,10 @@ class Search {
     p.contact.obstacle = kSampleOnCloth;
     p.contact.feature = featureOf(t, foot.feature);
     // Two vertices that are nearest to each other are one contact.
-    if (foot.feature < kEdge0 && mesh_.triangles[t][foot.feature] < v &&
-        nearestAround(mesh_.triangles[t][foot.feature], v))
-      return;
+    if (foot.feature < kEdge0 && nearestAround(mesh_.triangles[t][foot.feature], v)) {
+      p.partner = mesh_.triangles[t][foot.feature];
+      if (p.partner < v) return;
+    }
     p.contact.gap_m = std::sqrt(foot.dist2_m2);
     p.contact.normal = direction(x_[v] - foot.position, cross(corner[1] - corner[0], corner[2] - corner[0]));
     p.layer_m = layer;

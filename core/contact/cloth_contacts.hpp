@@ -23,6 +23,7 @@ struct ClothContactPoint {
   Contact contact;  ///< obstacle kSampleOnCloth or kEdgeOnEdge; the normal points to the sample, or to edge `sample`
   Stencil stencil;
   double layer_m = 0;  ///< half the sum of the thicknesses
+  int partner = -1;    ///< ContactRow::partner
 };
 
 /// Distance within which contacts between cloth of this thickness are kept, and the distance at rest within which

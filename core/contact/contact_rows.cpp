@@ -50,18 +50,43 @@ void touched(std::span<const ContactRow> rows, const SparseRows& WT, ContactWork
   w.columns = transpose(w.rows);
 }
 
+/// The rows that each sample has on cloth, by sample: w.first_on_cloth and w.on_cloth.
+void listOnCloth(std::span<const ContactRow> rows, int samples, ContactWork& w) {
+  const auto each = [&](const auto& visit) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].contact.obstacle != kSampleOnCloth) continue;
+      visit(rows[i].contact.sample, static_cast<int>(i));
+      if (rows[i].partner >= 0) visit(rows[i].partner, static_cast<int>(i));
+    }
+  };
+  w.first_on_cloth.assign(samples + 1, 0);
+  each([&](int sample, int) { ++w.first_on_cloth[sample + 1]; });
+  for (int s = 0; s < samples; ++s) w.first_on_cloth[s + 1] += w.first_on_cloth[s];
+  w.on_cloth.resize(w.first_on_cloth[samples]);
+  each([&](int sample, int row) { w.on_cloth[w.first_on_cloth[sample]++] = row; });
+  for (int s = samples; s > 0; --s) w.first_on_cloth[s] = w.first_on_cloth[s - 1];
+  w.first_on_cloth[0] = 0;
+}
+
+/// How many rows of a sample lie on the side of it that `normal` points from.
+int sharedBy(std::span<const ContactRow> rows, int sample, const Vec3& normal, const ContactWork& w) {
+  int count = 0;
+  for (int k = w.first_on_cloth[sample]; k < w.first_on_cloth[sample + 1]; ++k) {
+    const Contact& c = rows[w.on_cloth[k]].contact;
+    count += (c.sample == sample ? 1 : -1) * dot(c.normal, normal) > 0;
+  }
+  return std::max(1, count);
+}
+
 }  // namespace
 
 void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> area,
                 std::span<const double> inverse_mass, ContactWork& w) {
   const int n = static_cast<int>(rows.size());
-  // Contacts of one sample share its area.
   w.on_body.assign(area.size(), 0);
-  w.on_cloth.assign(area.size(), 0);
-  for (const ContactRow& row : rows) {
-    if (row.contact.obstacle == kEdgeOnEdge || row.contact.obstacle == kRestoring) continue;
-    ++(row.contact.obstacle < 0 ? w.on_cloth : w.on_body)[row.contact.sample];
-  }
+  for (const ContactRow& row : rows)
+    if (row.contact.obstacle >= 0) ++w.on_body[row.contact.sample];
+  listOnCloth(rows, static_cast<int>(area.size()), w);
   w.area_of.resize(n);
   for (int i = 0; i < n; ++i) {
     const ContactRow& row = rows[i];
@@ -75,7 +100,8 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
         (row.contact.obstacle >= 0 && stencil.count > 1)) {
       for (int k = 0; k < stencil.count; ++k) a += 0.125 * std::abs(stencil.weight[k]) * area[stencil.sample[k]];
     } else if (row.contact.obstacle == kSampleOnCloth) {
-      a = 0.5 * area[row.contact.sample] / w.on_cloth[row.contact.sample];
+      a = 0.5 * area[row.contact.sample] / sharedBy(rows, row.contact.sample, row.contact.normal, w);
+      if (row.partner >= 0) a += 0.5 * area[row.partner] / sharedBy(rows, row.partner, -row.contact.normal, w);
     } else {
       a = area[row.contact.sample] / w.on_body[row.contact.sample];
     }

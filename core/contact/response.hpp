@@ -48,6 +48,7 @@ struct ContactRow {
   double compliance = 0;                ///< of the layer in this step (layerUnder) [m/s per N s/m^2]
   double mean_Pa = 0;                   ///< pressure that has lasted, at the start of the step (lastingPressure)
   bool slippery = false;                ///< without friction
+  int partner = -1;                     ///< of two samples that are nearest to each other, one contact: the other one
   std::array<int, 3> pair{-1, -1, -1};  ///< of an impact of triangles: 0 or 1 for edges, and the two primitives
 };
 
@@ -73,12 +74,13 @@ struct ContactSolve {
 /// their order, where it does not say otherwise.
 struct ContactWork {
   // Of all rows.
-  std::vector<int> sorted;             ///< their order in the iteration, by sample
-  std::vector<double> area_of;         ///< that each stands for
-  std::vector<char> in;                ///< is iterated on
-  std::vector<char> joins;             ///< is left out and would be penetrated
-  std::vector<double> left_out;        ///< squared residual of what is left out
-  std::vector<int> on_body, on_cloth;  ///< contacts of each sample of the cloth
+  std::vector<int> sorted;                    ///< their order in the iteration, by sample
+  std::vector<double> area_of;                ///< that each stands for
+  std::vector<char> in;                       ///< is iterated on
+  std::vector<char> joins;                    ///< is left out and would be penetrated
+  std::vector<double> left_out;               ///< squared residual of what is left out
+  std::vector<int> on_body;                   ///< contacts of each sample of the cloth with bodies
+  std::vector<int> first_on_cloth, on_cloth;  ///< rows of each sample on cloth
 
   std::vector<int> order;  ///< rows in the order of the iteration
   std::vector<int> samples, sample_slot, free_points, free_slot;

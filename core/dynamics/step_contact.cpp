@@ -38,22 +38,47 @@ void setPersistent(const Model& m, double dt, const Vec3& warm, ContactRow& row)
   if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
 }
 
+/// The order of persistent contacts: bodies first, then samples on cloth, then edges, then edges of bodies; as the
+/// lists come.
+auto key(const auto& c) {
+  const bool body_edge = c.obstacle >= 0 && c.feature < 0;
+  return std::tuple(body_edge ? 4 : std::max(0, -c.obstacle), c.sample, c.obstacle, c.feature);
+}
+
 /// Rows of the persistent contacts with their warm tractions.
 void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   w.rows.clear();
   w.warm.clear();
   const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
-  // Bodies first, then samples on cloth, then edges, then edges of bodies; as the lists come.
-  const auto key = [](const auto& c) {
-    const bool body_edge = c.obstacle >= 0 && c.feature < 0;
-    return std::tuple(body_edge ? 4 : std::max(0, -c.obstacle), c.sample, c.obstacle, c.feature);
-  };
   std::size_t at = 0;
+  // The sample's feet move from feature to feature, and there may be one or several of them: a new one starts from what
+  // those on its side have borne in the mean.
+  const auto around = [&](const Contact& c) {
+    WarmContact mean;
+    int count = 0;
+    const auto first = std::lower_bound(in.warm.begin(), in.warm.end(), std::pair(-kSampleOnCloth, c.sample),
+                                        [&](const WarmContact& a, const std::pair<int, int>& b) {
+                                          return std::pair(std::get<0>(key(a)), a.sample) < b;
+                                        });
+    for (auto it = first; it != in.warm.end() && it->obstacle == kSampleOnCloth && it->sample == c.sample; ++it) {
+      if (!(dot(it->traction, c.normal) > 0)) continue;
+      mean.traction += it->traction;
+      mean.mean_Pa += it->mean_Pa;
+      ++count;
+    }
+    if (count == 0) return mean;
+    mean.traction *= 1.0 / count;
+    mean.mean_Pa /= count;
+    return mean;
+  };
   const auto add = [&](ContactRow row) {
     while (at < in.warm.size() && key(in.warm[at]) < key(row.contact)) ++at;
     const bool known = at < in.warm.size() && key(in.warm[at]) == key(row.contact);
-    w.warm.push_back(known ? scale * in.warm[at].traction : Vec3{});
-    if (known) row.mean_Pa = in.warm[at].mean_Pa;
+    WarmContact warm;
+    if (known) warm = in.warm[at];
+    if (!known && row.contact.obstacle == kSampleOnCloth) warm = around(row.contact);
+    w.warm.push_back(scale * warm.traction);
+    row.mean_Pa = warm.mean_Pa;
     setPersistent(m, dt, w.warm.back(), row);
     w.rows.push_back(row);
   };
@@ -65,6 +90,7 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     ContactRow row;
     row.contact = p.contact;
     row.stencil = p.stencil;
+    row.partner = p.partner;
     add(row);
   }
   for (const ContactRow& row : w.edge_rows) add(row);
@@ -243,7 +269,10 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
     const double pressure = atLayer(c.gap_m, layerOf(m, row)) ? dot(w.warm[i], c.normal) / dt : 0;
     const double mean = lastingPressure(row.mean_Pa, pressure, dt, densityOf(m, row.stencil), m.contact);
     warm.push_back({c.sample, c.obstacle, c.feature, w.warm[i], mean});
+    if (row.partner >= 0) warm.push_back({row.partner, c.obstacle, -1, -w.warm[i], mean});
   }
+  std::stable_sort(warm.begin(), warm.end(),
+                   [](const WarmContact& a, const WarmContact& b) { return key(a) < key(b); });
 }
 
 bool resolveContacts(const Model& m, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w) {

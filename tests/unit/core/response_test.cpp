@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/contact/contact_rows.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {
@@ -168,6 +169,33 @@ TEST(Response, AContactThatAnotherOneClosesIsFound) {
   ASSERT_TRUE(p.solve().converged);
   EXPECT_NEAR(p.impulses[0].z, exact(0), 1e-8 * exact(0));
   EXPECT_NEAR(-p.impulses[1].z, exact(1), 1e-8 * exact(1));
+}
+
+/// Whatever the number of feet, the samples of both sides of two layers together stand for the area once: a uniform
+/// pressure is then the same traction in all rows.
+TEST(Response, EachSideOfASampleStandsForHalfItsAreaWhateverTheNumberOfFeet) {
+  const auto on = [](int s, int t, double up) {
+    ContactRow r;
+    r.contact.sample = s;
+    r.contact.obstacle = kSampleOnCloth;
+    r.contact.normal = normalized(Vec3{0.02 * t, 0, up});
+    r.stencil.add(s, 1);
+    r.stencil.add(t, -1);
+    return r;
+  };
+  // Sample 0 lies on 1, 2 and 3, under 4, which is nearest to it as it is to 4; 4 lies under 5 and 6 as well.
+  std::vector<ContactRow> rows{on(0, 1, 1), on(0, 2, 1), on(0, 3, 1), on(0, 4, -1), on(4, 5, -1), on(4, 6, -1)};
+  rows[3].partner = 4;
+  SparseRows W;
+  W.column_count = 7;
+  for (int s = 0; s < 7; ++s) {
+    W.add(s, 1);
+    W.endRow();
+  }
+  const std::vector<double> area{6, 1, 1, 1, 8, 1, 1}, inverse(7, 1);
+  ContactWork work;
+  shareAreas(rows, W, area, inverse, work);
+  EXPECT_EQ(work.area_of, (std::vector<double>{1, 1, 1, 3 + 4, 2, 2}));
 }
 
 TEST(Response, AContactOnHeldPointsAloneMovesNothingAndLeavesTheOthersAlone) {
