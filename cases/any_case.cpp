@@ -27,16 +27,21 @@ JsonNode readCaseNode(const std::filesystem::path& file, const std::vector<std::
   return root;
 }
 
-AnyCase readAnyCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  const JsonNode root = readCaseNode(file, overrides);
+AnyCase readAnyCase(const JsonNode& root, const std::filesystem::path& file) {
   const JsonNode* kind = root.find("kind");
-  if (!kind) return readCase(file, overrides);
+  if (!kind) return readCase(root, file);
   std::vector<std::string> words;
   for (const schema::KindOfFile& k : allKinds()) words.push_back(k.kind);
   const std::string name = file.string();
   const schema::Place place{root, "", name};
-  if (schema::readChoice(place.member(*kind), words) == 0) return readCase(file, overrides);
-  return readStructureCase(file, overrides);
+  if (schema::readChoice(place.member(*kind), words) == 0) return readCase(root, file);
+  return readStructureCase(root, file);
+}
+
+AnyCase readAnyCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  AnyCase any = readAnyCase(readCaseNode(file, overrides), file);
+  std::visit([&](auto& c) { c.overrides = overrides; }, any);
+  return any;
 }
 
 std::string caseSchema() { return schema::jsonSchema(allKinds()); }

@@ -8,8 +8,7 @@
 
 namespace gambeson {
 
-Case readCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  const JsonNode root = readCaseNode(file, overrides);
+Case readCase(const JsonNode& root, const std::filesystem::path& file) {
   Case c;
   const std::string name = file.string();
   const schema::Place place{root, "", name};
@@ -17,6 +16,11 @@ Case readCase(const std::filesystem::path& file, const std::vector<std::string>&
   schema::applyRules(place, c);
   schema::checkReferences(place, c);
   c.file = file;
+  return c;
+}
+
+Case readCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  Case c = readCase(readCaseNode(file, overrides), file);
   c.overrides = overrides;
   return c;
 }

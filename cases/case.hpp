@@ -190,6 +190,15 @@ struct AirCase {
   bool with_pelvis = false;  ///< the air moves with the pelvis's mean velocity instead
 };
 
+// --- What studies vary --------------------------------------------------------------------------------------------
+
+/// Multiples of what the case says, 1 each unless a study asks what a torque depends on; cases/factors.hpp applies
+/// them.
+struct FactorsCase {
+  double thickness = 1, bending = 1, membrane = 1, weight = 1, inertia = 1, drag = 1;
+  bool operator==(const FactorsCase&) const = default;
+};
+
 // --- Dressing, time, output, analysis ---------------------------------------------------------------------------
 
 /// Virtual projecting, Zheng 2013, section 6.3.
@@ -250,6 +259,7 @@ struct Case {
   ContactCase contact;
   std::optional<StrainLimitCase> strain_limit;
   AirCase air;
+  FactorsCase factors;
   DressingCase dressing;
   TimeCase time;
   OutputCase output;

@@ -57,6 +57,21 @@ Object airTable() {
       .build();
 }
 
+Object factorsTable() {
+  using F = FactorsCase;
+  const Range range = between(0.01, 100);
+  return Table<F>("Factors")
+      .number("thickness", &F::thickness, "", range,
+              "of all cloth: mass and membrane stiffness change in proportion, the rigidities of bending, twist and "
+              "seams with the cube; the contact layer follows the thickness; the drag coefficient stays")
+      .number("bending", &F::bending, "", range, "of the rigidities of bending and twist, and of seam_stiffness")
+      .number("membrane", &F::membrane, "", range, "of Young's and the shear moduli; bending stays")
+      .number("weight", &F::weight, "", range, "of the acceleration of free fall")
+      .number("inertia", &F::inertia, "", range, "of the density; free fall is divided by it, so that the weight stays")
+      .number("drag", &F::drag, "", range, "of the drag coefficient")
+      .build();
+}
+
 Object dressingTable() {
   using P = Projecting;
   using D = DressingCase;
@@ -183,6 +198,8 @@ Object makeCaseTable() {
               "so that the fabric may be given soft threads, and with them long time steps")
       .defaultsTo("none: the fabric's own stiffness")
       .object("air", &C::air, airTable(), "drag of the air")
+      .object("factors", &C::factors, factorsTable(),
+              "multiples of what the case says of its cloth, for variants: thinner, without weight, ...")
       .object("dressing", &C::dressing, dressingTable(), "how the garment gets on the body")
       .object("time", &C::time, timeTable(), "how long, and in which steps")
       .object("output", &C::output, outputTable(), "what is recorded and pictured")

@@ -238,9 +238,9 @@ struct Step {
   std::size_t index = 0;
 };
 
-std::vector<Step> splitPath(const std::string& path) {
-  const InputError malformed({command_line, 0, path},
-                             "this is not a path of a field; write for example output.pictures[0].time");
+/// `where` is for messages.
+std::vector<Step> splitPath(const std::string& path, const InputError::Where& where) {
+  const InputError malformed(where, "this is not a path of a field; write for example output.pictures[0].time");
   std::vector<Step> steps;
   std::size_t at = 0;
   while (at < path.size()) {
@@ -264,6 +264,43 @@ std::vector<Step> splitPath(const std::string& path) {
   return steps;
 }
 
+/// Puts `value` at `path`; what is made on the way has the line and the file of the value.
+void put(JsonNode& root, const std::string& path, JsonNode value, const InputError::Where& where) {
+  JsonNode* node = &root;
+  const auto made = [&](JsonNode& fresh) {
+    fresh.line = value.line;
+    fresh.file = value.file;
+    return &fresh;
+  };
+  for (const Step& step : splitPath(path, where)) {
+    const JsonNode::Type wanted = step.key.empty() ? JsonNode::Type::list : JsonNode::Type::object;
+    if (node->type == JsonNode::Type::null) node->type = wanted;
+    if (node->type != wanted)
+      throw InputError(where, fmt::format("there is {} on the way, not {}", describe(*node),
+                                          step.key.empty() ? "a list" : "an object"));
+    JsonNode* next = nullptr;
+    if (step.key.empty()) {
+      if (step.index > node->children.size())
+        throw InputError(where, fmt::format("index {}, but the list has {} items", step.index, node->children.size()));
+      next = step.index < node->children.size() ? &node->children[step.index] : made(node->children.emplace_back());
+    } else {
+      next = node->find(step.key);
+      if (!next) {
+        next = made(node->children.emplace_back());
+        next->key = step.key;
+      }
+    }
+    node = next;
+  }
+  value.key = node->key;
+  *node = std::move(value);
+}
+
+void setFile(JsonNode& node, const std::shared_ptr<const std::string>& file) {
+  node.file = file;
+  for (JsonNode& c : node.children) setFile(c, file);
+}
+
 }  // namespace
 
 void overrideValue(JsonNode& root, const std::string& path, const std::string& value) {
@@ -276,30 +313,13 @@ void overrideValue(JsonNode& root, const std::string& path, const std::string& v
     parsed.type = JsonNode::Type::text;
     parsed.text = value;
   }
-  JsonNode* node = &root;
-  for (const Step& step : splitPath(path)) {
-    const JsonNode::Type wanted = step.key.empty() ? JsonNode::Type::list : JsonNode::Type::object;
-    if (node->type == JsonNode::Type::null) node->type = wanted;
-    if (node->type != wanted)
-      throw InputError({command_line, 0, path}, fmt::format("there is {} on the way, not {}", describe(*node),
-                                                            step.key.empty() ? "a list" : "an object"));
-    JsonNode* next = nullptr;
-    if (step.key.empty()) {
-      if (step.index > node->children.size())
-        throw InputError({command_line, 0, path},
-                         fmt::format("index {}, but the list has {} items", step.index, node->children.size()));
-      next = step.index < node->children.size() ? &node->children[step.index] : &node->children.emplace_back();
-    } else {
-      next = node->find(step.key);
-      if (!next) {
-        next = &node->children.emplace_back();
-        next->key = step.key;
-      }
-    }
-    node = next;
-  }
-  parsed.key = node->key;
-  *node = std::move(parsed);
+  put(root, path, std::move(parsed), {command_line, 0, path});
+}
+
+void overrideValue(JsonNode& root, const std::string& path, const JsonNode& value, const std::string& file) {
+  JsonNode placed = value;
+  setFile(placed, std::make_shared<const std::string>(file));
+  put(root, path, std::move(placed), {file, value.line, path});
 }
 
 }  // namespace gambeson

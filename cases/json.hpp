@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct JsonNode {
   bool is_integer = false;  ///< the number was written without fraction and exponent
   std::string text;
   std::string key;                 ///< name of a member of an object
+  /// Where it was read, where that is another file than its root's (a study's value within a case); else null.
+  std::shared_ptr<const std::string> file;
   std::vector<JsonNode> children;  ///< members of an object, items of a list
 
   /// The member called `name`, or null.
@@ -48,5 +51,9 @@ JsonNode readJson(const std::filesystem::path& file, const JsonLimits& limits = 
 /// Throws InputError
 /// ("command line", path) where the path is malformed or runs into something else than an object or a list.
 void overrideValue(JsonNode& root, const std::string& path, const std::string& value);
+
+/// The same with a value of another file, which keeps its lines and knows its file: messages about it point there, and
+/// so do those about the path, at the value's line.
+void overrideValue(JsonNode& root, const std::string& path, const JsonNode& value, const std::string& file);
 
 }  // namespace gambeson

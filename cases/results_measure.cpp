@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "cases/factors.hpp"
 #include "core/error.hpp"
 #include "human/task_moments.hpp"
 
@@ -16,6 +17,14 @@ using Rows = std::vector<std::vector<double>>;
 Rows motionRows(const RecordingReader& recording, const std::string& table) {
   Rows rows = recording.table(table);
   std::erase_if(rows, [](const auto& r) { return r[0] < -1e-9; });
+  return rows;
+}
+
+/// Windows of the bodies in the last 0.1 s of settling, the motion's posture held; none where nothing settles.
+Rows restRows(const Scenario& s, const RecordingReader& recording) {
+  const double from_s = -std::min(0.1, s.definition.dressing.settle_s) - 1e-9;
+  Rows rows = recording.table("bodies");
+  std::erase_if(rows, [&](const auto& r) { return r[0] < from_s || r[1] > 1e-9; });
   return rows;
 }
 
@@ -78,7 +87,25 @@ double highestPhase(const Scenario& s, const Strides& strides, const JointMeasur
   return strides.phase(at, m.side);
 }
 
-void measureJoints(const Scenario& s, const Rows& rows, Measured& out) {
+/// The added torques of each joint in the windows of the last 0.1 s before the motion, all of one length; the posture
+/// is that of the motion's start.
+std::vector<std::vector<double>> standingTorques(const Scenario& s, const Rows& rest, const std::vector<int>& joints) {
+  std::vector<std::vector<double>> torques(joints.size());
+  if (rest.empty()) return torques;
+  std::vector<ContactWindow> windows = windowsOf(rest, s.bodies.size(), 8);
+  const double length = windows.back().duration();
+  const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
+                                                                               : TorqueCounting::distal_segment;
+  for (ContactWindow& w : windows) {
+    if (std::abs(w.duration() - length) > 1e-9) continue;
+    w.links.resize(s.human->skeleton.links.size());
+    const std::vector<double> tau = contactTorques(*s.human, s.motion->at(0), w.links, w.duration(), joints, counting);
+    for (std::size_t j = 0; j < joints.size(); ++j) torques[j].push_back(-tau[j]);
+  }
+  return torques;
+}
+
+void measureJoints(const Scenario& s, const Rows& rows, const Rows& rest, Measured& out) {
   const Skeleton& skeleton = s.human->skeleton;
   std::vector<int> joints;
   for (const std::string& name : s.definition.analysis.joints) {
@@ -96,6 +123,8 @@ void measureJoints(const Scenario& s, const Rows& rows, Measured& out) {
   if (out.strides && !out.windows.empty() &&
       out.windows.back().end_s > out.strides->start_s + out.strides->time_s - 1e-9)
     while (time[first] < out.strides->start_s) ++first;
+  if (first > 0) out.counted_from_s = out.strides->start_s;
+  const std::vector<std::vector<double>> standing = standingTorques(s, rest, joints);
   for (const int j : joints) {
     JointMeasure m;
     m.joint = j;
@@ -105,6 +134,10 @@ void measureJoints(const Scenario& s, const Rows& rows, Measured& out) {
     const std::vector<double> tau = out.added.of(j), drag = out.added_drag.of(j);
     m.peak = peakOf(std::span(time).subspan(first), std::span(tau).subspan(first));
     m.rms = rms(std::span(tau).subspan(first));
+    if (const std::vector<double>& still = standing[out.joints.size()]; !still.empty()) {
+      m.standing = 0;
+      for (const double t : still) *m.standing += t / static_cast<double>(still.size());
+    }
     if (first > 0) m.lead_in_peak = peakOf(std::span(time).first(first), std::span(tau).first(first));
     for (std::size_t w = 0; w < time.size(); ++w)
       if (time[w] == m.peak.time_s) m.drag_at_peak = drag[w];
@@ -200,6 +233,26 @@ const Field& fieldOf(const Frame& frame, const std::string& name) {
   throw RunError("the recording has no field \"" + name + "\"");
 }
 
+std::vector<LayerMeasure> layersOf(const Scenario& s) {
+  std::vector<LayerMeasure> layers;
+  const Case effective = withFactors(s.definition);
+  for (const GarmentCase& g : effective.garments) {
+    const Fabric& fabric = fabricOf(effective, g);
+    layers.push_back({g.name, fabric.name, 0, 0, fabric.thickness(), 0});
+  }
+  const Garment& garment = s.model->shell.garment();
+  const Surface& surface = s.model->surface;
+  for (std::size_t i = 0; i < surface.area_m2.size(); ++i) {
+    LayerMeasure& l = layers[static_cast<std::size_t>(garment.layerOf(surface.patch[i]))];
+    l.area_m2 += surface.area_m2[i];
+    l.mass_kg += surface.area_m2[i] * s.model->density_kg_per_m2[i];
+  }
+  for (std::size_t p = 0; p < garment.patches.size(); ++p)
+    layers[static_cast<std::size_t>(garment.layerOf(static_cast<int>(p)))].control_points +=
+        static_cast<int>(garment.patches[p].points.size());
+  return layers;
+}
+
 Regions regionsOf(const Scenario& s) { return {s.patch_names, s.model->surface.patch, s.model->surface.area_m2}; }
 
 Measured measure(const Scenario& s, const RecordingReader& recording) {
@@ -209,7 +262,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   out.windows = windowsOf(bodies, s.bodies.size(), 8);
   out.drag = windowsOf(motionRows(recording, "drag"), s.bodies.size(), 6);
   measureBodies(s, bodies, out);
-  if (s.human) measureJoints(s, bodies, out);
+  if (s.human) measureJoints(s, bodies, restRows(s, recording), out);
   measureSupports(s, motionRows(recording, "supports"), out);
   measureSteps(recording, out);
   out.limited = s.definition.strain_limit.has_value();

@@ -32,6 +32,7 @@ struct JointMeasure {
   bool prismatic = false;
   Peak peak;
   double rms = 0;
+  std::optional<double> standing;                 ///< mean over the last 0.1 s before the motion: dressed, at rest
   double drag_at_peak = 0;                        ///< part of the peak that air drag has, in the unit of the peak
   double position_at_peak = 0, rate_at_peak = 0;  ///< of the joint [rad, rad/s or m, m/s]
   std::optional<double> natural_Nm;               ///< peak moment of the task without the garment
@@ -118,8 +119,17 @@ struct SurfaceDepth {
 };
 SurfaceDepth surfaceDepth(const Scenario& scenario, const RecordingReader& recording);
 
+/// One garment of the case, a layer.
+struct LayerMeasure {
+  std::string name, fabric;
+  double mass_kg = 0, area_m2 = 0, thickness_m = 0;
+  int control_points = 0;
+};
+std::vector<LayerMeasure> layersOf(const Scenario& scenario);
+
 struct Measured {
   double recorded_end_s = 0;
+  double counted_from_s = 0;  ///< peaks and mean squares of torques count from here on
   std::optional<Strides> strides;
   Human bodies;  ///< every body of the scenario as a link without joints, for the tables per segment
   std::vector<ContactWindow> windows, drag;  ///< one link per body

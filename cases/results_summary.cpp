@@ -28,6 +28,7 @@ Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides) {
   j["peak_time_s"] = m.peak.time_s;
   j["cause"] = causeOf(m, strides);
   j["rms" + unit] = m.rms;
+  if (m.standing) j["standing" + unit] = *m.standing;
   j["drag_at_peak" + unit] = m.drag_at_peak;
   j["joint_at_peak"] = m.position_at_peak;
   j["joint_rate_at_peak"] = m.rate_at_peak;
@@ -136,6 +137,18 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   j["recorded_from_s"] = s.start_s;
   j["recorded_to_s"] = m.recorded_end_s;
   j["planned_to_s"] = s.end_s;
+  const FactorsCase& f = s.definition.factors;
+  j["factors"] = {{"thickness", f.thickness}, {"bending", f.bending}, {"membrane", f.membrane},
+                  {"weight", f.weight},       {"inertia", f.inertia}, {"drag", f.drag}};
+  j["garments"] = Json::array();
+  for (const LayerMeasure& l : layersOf(s))
+    j["garments"].push_back({{"garment", l.name},
+                             {"fabric", l.fabric},
+                             {"mass_kg", l.mass_kg},
+                             {"area_m2", l.area_m2},
+                             {"thickness_m", l.thickness_m},
+                             {"control_points", l.control_points}});
+  j["counted_from_s"] = m.counted_from_s;
   j["control_points"] = s.model->shell.controlCount();
   j["samples"] = s.model->surface.size();
   j["sign"] = signRule();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/ticks.hpp"
+#include "cases/factors.hpp"
 #include "cases/results_write.hpp"
 #include "core/material/bending.hpp"
 #include "human/units.hpp"
@@ -146,9 +147,11 @@ void sayFabric(const std::string& of, const Fabric& f, std::vector<std::string>&
 }  // namespace
 
 std::vector<std::string> assumptionsOf(const Scenario& s) {
-  const Case& c = s.definition;
+  const Case c = withFactors(s.definition);
   std::vector<std::string> list;
   const auto say = [&](std::string text) { list.push_back(std::move(text)); };
+  if (const std::string factors = factorsText(s.definition.factors); !factors.empty())
+    say("Factors on what the case says: " + factors + ". What stands below has them in it.");
   if (s.human) {
     if (!c.human->manikin.empty())
       say("The body is a manikin of rigid ellipsoids: sizes from ANSUR II (2012), masses from de Leva 1996, offsets of "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/factors.hpp"
 #include "cases/structure_sheet.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/dynamics/step.hpp"
@@ -316,9 +317,10 @@ std::vector<Pose> Scenario::bodyPoses(double time_s) const {
 
 namespace {
 
-std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
+std::unique_ptr<Scenario> buildUnnamed(const Case& written) {
   auto s = std::make_unique<Scenario>();
-  s->definition = c;
+  s->definition = written;
+  const Case c = withFactors(written);
   auto stage = std::make_unique<CaseStage>();
   std::vector<Obstacle> obstacles;
   double duration = c.time.duration_s.value_or(0);
@@ -369,7 +371,8 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& c) {
   const Human* human = s->human ? &*s->human : nullptr;
   std::vector<int> first;
   std::vector<Vec3> noise;
-  const Garment garment = joinGarments(c, human, *s, first, noise);
+  Garment garment = joinGarments(c, human, *s, first, noise);
+  scaleSeams(garment, written.factors);
   ModelOptions options;
   options.patch_samples_per_cell = s->samples_per_cell;
   options.self_contact = c.contact.self;

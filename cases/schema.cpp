@@ -67,9 +67,14 @@ void Place::failAt(const std::string& key, const std::string& reason) const {
   Place{node, (path.empty() ? "" : path + ".") + key, file}.fail(reason);
 }
 
-Place Place::member(const JsonNode& child) const { return {child, (path.empty() ? "" : path + ".") + child.key, file}; }
+Place Place::member(const JsonNode& child) const {
+  return {child, (path.empty() ? "" : path + ".") + child.key, child.file ? *child.file : file};
+}
 
-Place Place::item(std::size_t index) const { return {node.children[index], fmt::format("{}[{}]", path, index), file}; }
+Place Place::item(std::size_t index) const {
+  const JsonNode& child = node.children[index];
+  return {child, fmt::format("{}[{}]", path, index), child.file ? *child.file : file};
+}
 
 const Field* Object::find(std::string_view key) const {
   for (const Field& f : fields)

@@ -46,7 +46,7 @@ struct Place {
 struct Object;
 
 /// pair: [s, t]; numbers: a list of numbers; rows: a list of such lists; map: an object whose keys are names of the
-/// user's own, with rows in them.
+/// user's own, with rows in them; any: whatever the meaning says.
 enum class Kind {
   number,
   integer,
@@ -61,7 +61,8 @@ enum class Kind {
   map,
   object,
   list,
-  text_list
+  text_list,
+  any
 };
 
 /// One row of the table.
@@ -131,5 +132,7 @@ std::string jsonSchema(const std::vector<KindOfFile>& kinds);
 std::string markdown(const Object& root);
 /// The same for several kinds; objects that read alike in two kinds are written once.
 std::string markdown(const std::vector<KindOfFile>& kinds);
+/// An object and all below it, as a chapter of its own in the same page.
+std::string chapter(const std::string& title, const Object& root);
 
 }  // namespace gambeson::schema

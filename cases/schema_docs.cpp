@@ -87,6 +87,8 @@ std::string typeText(const Field& f) {
       return "list of objects";
     case Kind::text_list:
       return "list of texts";
+    case Kind::any:
+      return "see meaning";
   }
   return "";
 }
@@ -158,6 +160,9 @@ Json fieldSchema(const Field& f) {
       break;
     case Kind::text_list:
       s = {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}};
+      break;
+    case Kind::any:
+      s = Json::object();
       break;
   }
   s["description"] = f.doc + (s.contains("description") ? "; " + s["description"].get<std::string>() : "");
@@ -286,6 +291,14 @@ std::string markdown(const std::vector<KindOfFile>& kinds) {
     std::map<std::string, std::string> places;
     describeObject(*k.root, "", places, seen, out);
   }
+  return out;
+}
+
+std::string chapter(const std::string& title, const Object& root) {
+  std::string out = fmt::format("\n# {}\n\n{}.\n", title, root.about);
+  std::set<std::string> seen;
+  std::map<std::string, std::string> places;
+  describeObject(root, "", places, seen, out);
   return out;
 }
 

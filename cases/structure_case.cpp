@@ -9,8 +9,7 @@
 
 namespace gambeson {
 
-StructureCase readStructureCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  const JsonNode root = readCaseNode(file, overrides);
+StructureCase readStructureCase(const JsonNode& root, const std::filesystem::path& file) {
   const std::string name = file.string();
   const schema::Place place{root, "", name};
   const JsonNode* word = root.find("kind");
@@ -22,6 +21,11 @@ StructureCase readStructureCase(const std::filesystem::path& file, const std::ve
   schema::readObject(schema::structureTable(c.kind), place, &c);
   schema::applyStructureRules(place, c);
   c.file = file;
+  return c;
+}
+
+StructureCase readStructureCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  StructureCase c = readStructureCase(readCaseNode(file, overrides), file);
   c.overrides = overrides;
   return c;
 }
