@@ -8,7 +8,7 @@
 namespace gambeson {
 namespace {
 
-constexpr int kPasses = 10;  // edge lengths and angles no longer change by then
+constexpr int kPasses = 8;  // edge lengths and angles no longer change by then
 
 class Remesher {
  public:
@@ -29,6 +29,10 @@ class Remesher {
     }
     flip();
     relax();
+    const int n = static_cast<int>(x_.size());
+#pragma omp parallel for schedule(static)
+    for (int v = 0; v < n; ++v)
+      if (!at_[v].empty()) x_[v] = project(x_[v], border_[v]);
     return packed();
   }
 
@@ -46,12 +50,22 @@ class Remesher {
   Vec3 normal(const Tri& t) const { return cross(x_[t[1]] - x_[t[0]], x_[t[2]] - x_[t[0]]); }
 
   Vec3 project(Vec3 x, bool border) const {
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < 8; ++i) {
       if (border) x.y = 0;
+      const double f = s_.value(x);
+      if (std::abs(f) < 1e-7) break;  // [m]
       const Vec3 g = s_.gradient(x);
-      x -= s_.value(x) / norm2(g) * g;
+      x -= f / norm2(g) * g;
     }
     if (border) x.y = 0;
+    return x;
+  }
+  /// Onto the surface by steps along a gradient that is known nearby.
+  Vec3 projectAlong(Vec3 x, const Vec3& g, bool border) const {
+    for (int i = 0; i < 2; ++i) {
+      x -= s_.value(x) / norm2(g) * g;
+      if (border) x.y = 0;
+    }
     return x;
   }
 
@@ -196,7 +210,7 @@ class Remesher {
   /// Moves each point towards the mean of its triangles' centroids, weighed by area over the wanted one; then onto the
   /// surface. A border point moves along the border.
   void relax() {
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < 2; ++round) {
       const int n = static_cast<int>(x_.size());
       std::vector<Vec3> to = x_;
 #pragma omp parallel for schedule(static)
@@ -221,8 +235,8 @@ class Remesher {
           }
         }
         if (!(weight > 0)) continue;
-        const Vec3 g = normalized(s_.gradient(x_[v])), move = sum / weight - x_[v];
-        to[v] = project(x_[v] + move - dot(move, g) * g, border_[v]);
+        const Vec3 g = s_.gradient(x_[v]), move = sum / weight - x_[v];
+        to[v] = projectAlong(x_[v] + move - dot(move, g) / norm2(g) * g, g, border_[v]);
       }
       x_ = std::move(to);
     }

@@ -51,7 +51,10 @@ class Maker {
     surface.high = field.high();
     skin_.rest = meshOf(surface, options.cell_m);
     regions();
-    for (const Vec3& x : skin_.rest.vertices) towards_arm_.push_back(field.towardsArm(x));
+    for (const Vec3& x : skin_.rest.vertices) {
+      towards_arm_.push_back(field.towardsArm(x));
+      towards_left_.push_back(field.towardsLeftLeg(x));
+    }
     shares();
     creases();
   }
@@ -68,6 +71,9 @@ class Maker {
   /// Where the body bends: the plane through each joint and half the width of the region that takes part.
   void regions() {
     const Vec3 pelvis = skin_.bind[0].origin;
+    double hip_depth = 0;
+    for (const BodyShape& s : human_.shapes)
+      if (s.name == "pelvis") hip_depth = std::get<Ellipsoid>(s.shape).semi_axes.x;
     const auto add = [&](const std::string& child, int side, const Vec3& normal, double offset, double half_width,
                          bool bends, bool crease) {
       regions_.push_back({link(child), side, at(child), normalized(normal), offset, half_width, bends, crease});
@@ -82,7 +88,7 @@ class Maker {
       // The groin runs from the crotch up and outwards: where the plane meets the median plane it lies below the
       // crotch.
       const double half = std::abs(hip.y - pelvis.y), drop = 0.95 * half;
-      add("thigh" + name, side, {0, side * drop, -half}, 0, 0.28 * thigh, true, true);
+      add("thigh" + name, side, {0, side * drop, -half}, 0, std::max(0.28 * thigh, 1.05 * hip_depth), true, true);
       add("hand" + name, side, wrist - elbow, 0, 0.10 * upper_arm, false, false);
       add("forearm" + name, side, wrist - shoulder, 0, 0.25 * upper_arm, true, true);
       // Between chest and arm, leaning outwards by half the held abduction.
@@ -120,8 +126,7 @@ class Maker {
     const Vec3 pelvis = skin_.bind[0].origin;
     std::vector<double> own(regions_.size()), total(regions_.size());
     for (std::size_t v = 0; v < n; ++v) {
-      const Vec3& x = skin_.rest.vertices[v];
-      for (std::size_t r = 0; r < regions_.size(); ++r) own[r] = ownShare(regions_[r], x, pelvis, towards_arm_[v]);
+      for (std::size_t r = 0; r < regions_.size(); ++r) own[r] = ownShare(regions_[r], v, pelvis);
       // Of a chain only what lies beyond the joints before it.
       for (int r = static_cast<int>(regions_.size()) - 1; r >= 0; --r)
         total[r] = own[r] * (above[r] >= 0 ? total[above[r]] : 1);
@@ -156,33 +161,52 @@ class Maker {
 
   /// The share of a point of the skin in one joint. Legs end at the median plane; arms are told from the trunk by what
   /// is nearer, where a plane through the joint no longer can.
-  double ownShare(const Region& r, const Vec3& x, const Vec3& pelvis, double towards_arm) const {
-    if (r.side != 0 && r.side * (x.y - pelvis.y) <= 0) return 0;
-    const double s = (dot(r.normal, x - r.centre) - r.offset_m) / r.half_width_m;
+  double ownShare(const Region& r, std::size_t v, const Vec3& pelvis) const {
+    const Vec3& x = skin_.rest.vertices[v];
+    const double towards_arm = towards_arm_[v];
+    const double s = dot(r.normal, x - r.centre) - r.offset_m;
     const std::string& name = s_.links[r.child].name;
-    if (name.starts_with("upper_arm") || name == "torso")
-      return shareProfile(s + std::clamp(2 * towards_arm / r.half_width_m, -2.0, 2.0));
-    const bool of_arm = name.starts_with("forearm") || name.starts_with("hand");
-    if (of_arm || r.side == 0) return shareProfile(s);
-    if (towards_arm > 0) return 0;
-    if (!name.starts_with("thigh")) return shareProfile(s);
-    const double half = std::abs(r.centre.y - pelvis.y);
-    return shareProfile(s) * smoothStep(std::abs(x.y - pelvis.y) / (0.5 * half));
+    if (name.starts_with("thigh")) {
+      if (towards_arm > 0) return 0;
+      // Narrow between the legs, where pelvis and thigh meet within a hand's breadth; elsewhere as wide as the fold's
+      // inside needs.
+      const double away = std::hypot(x.x - r.centre.x, x.y - pelvis.y);
+      const double width = std::min(0.012 + 1.15 * away, r.half_width_m);
+      constexpr double between_m = 0.02;
+      return shareProfile(s / width) * smoothStep(0.5 + 0.5 * r.side * towards_left_[v] / between_m);
+    }
+    if (r.side != 0 && r.side * (x.y - pelvis.y) <= 0) return 0;
+    const double u = s / r.half_width_m;
+    if (name == "torso") return shareProfile(u + 40 * std::max(0.0, towards_arm) / r.half_width_m);
+    if (name.starts_with("upper_arm")) return shareProfile(u + std::clamp(2 * towards_arm / r.half_width_m, -2.0, 2.0));
+    return shareProfile(u);
   }
 
+  /// Which vertices a joint keeps apart: those of its segments; at the hips the whole trunk, since a thigh can reach
+  /// it; at the shoulders only near the armpit, since an arm may pass in front of the chest.
   void creases() {
+    const int torso = link("torso");
     for (std::size_t b = 0; b < skin_.bends.size(); ++b) {
       const SkinBend& bend = skin_.bends[b];
       if (!bend.crease) continue;
+      const std::string& child = s_.links[bend.child].name;
+      const bool hip = child.starts_with("thigh"), shoulder = child.starts_with("upper_arm");
+      const double upper_arm = norm(at("upper_arm_left") - at("forearm_left"));
       SkinCrease c;
       c.bend = static_cast<int>(b);
       for (std::size_t v = 0; v < skin_.segment.size(); ++v) {
-        const double s = dot(bend.normal, skin_.rest.vertices[v] - bend.centre) - bend.offset_m;
+        const Vec3& x = skin_.rest.vertices[v];
+        const double s = dot(bend.normal, x - bend.centre) - bend.offset_m;
         double w = 0;
         for (int i = skin_.bend_first[v]; i < skin_.bend_first[v + 1]; ++i)
           if (skin_.bend[i] == static_cast<int>(b)) w = skin_.share[i];
-        if (w > 0 && s > 0) c.child_side.push_back(static_cast<int>(v));
-        if (w < 1 && s < 0 && (skin_.segment[v] == bend.parent || w > 0)) c.parent_side.push_back(static_cast<int>(v));
+        const bool of_parent = skin_.segment[v] == bend.parent || w > 0 || (hip && skin_.segment[v] == torso);
+        if (s == 0 || (s > 0 ? w == 0 : w == 1 || !of_parent)) continue;
+        const double strength = shoulder ? 1 - smoothStep(norm(x - bend.centre) / (0.3 * upper_arm) - 1) : 1;
+        if (!(strength > 0)) continue;
+        c.vertex.push_back(static_cast<int>(v));
+        c.side.push_back(s > 0 ? 1 : -1);
+        c.strength.push_back(strength);
       }
       skin_.creases.push_back(std::move(c));
     }
@@ -192,7 +216,7 @@ class Maker {
   const Skeleton& s_;
   Skin skin_;
   std::vector<Region> regions_;
-  std::vector<double> towards_arm_;
+  std::vector<double> towards_arm_, towards_left_;
 };
 
 void check(const char* key, double value, bool good, const char* allowed) {

@@ -27,10 +27,12 @@ struct SkinBend {
   bool crease = false;  ///< whether it folds the skin: then either side stays half the gap off the bisecting plane
 };
 
-/// Vertices that stay on one side of the bisecting plane of a bend.
+/// Vertices that stay on their side of the bisecting plane of a bend: side +1 the child's, -1 the parent's. `strength`,
+/// in (0, 1], scales how far a vertex is moved: 1 but where the crease runs out.
 struct SkinCrease {
   int bend = 0;
-  std::vector<int> parent_side, child_side;  ///< vertices
+  std::vector<int> vertex;
+  std::vector<double> side, strength;
 };
 
 /// `weight` sums to 1 at each vertex. With bends (skins that we make) the shares move the skin and the weights say how

@@ -9,14 +9,15 @@
 /// the bind posture, distal joints first; then creases keep the two sides of a joint apart.
 ///
 /// A crease: with the distance d of a point from the bisecting plane, counted into its own side,
-///   d' = h + (d - h + sqrt((d - h)² + 4 b²)) / 2 > h,   h = S gap/2,  b = S (softness),
-/// S growing from 0 at rest to 1 at a bend of 30 degrees. d -> d' is strictly increasing, so a surface that does not
-/// cross itself does not by being flattened either; at rest nothing moves.
+///   d' = d                          for u = (d - h)/b - 1 >= 0,
+///   d' = h + b / (1 - u + u²)       for u < 0,        h = S gap/2,  b = S (softness),
+/// S growing from 0 at rest to 1 at a bend of 30 degrees. d -> d' is C² and strictly increasing, d' > h: a surface that
+/// does not cross itself does not by being flattened either; at rest nothing moves.
 
 namespace gambeson {
 namespace {
 
-constexpr double kSoftness = 0.003;    ///< b [m]: the flattening begins about this far off the plane
+constexpr double kSoftness = 0.005;    ///< b [m]: the flattening begins about this far off the plane
 constexpr double kFullSine2 = 0.0670;  ///< sin²(15 degrees)
 
 struct Quaternion {
@@ -106,17 +107,13 @@ void skinPositions(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3>
     const Vec3 normal = A.rotation * turned(part(turn[crease.bend], 0.5), bend.normal);
     const double level = dot(normal, A * bend.centre) + bend.offset_m, h = 0.5 * S * skin.crease_gap_m,
                  b = S * kSoftness;
-    const auto keep = [&](const std::vector<int>& vertices, double side) {
-      const int count = static_cast<int>(vertices.size());
+    const int count = static_cast<int>(crease.vertex.size());
 #pragma omp parallel for schedule(static)
-      for (int i = 0; i < count; ++i) {
-        Vec3& p = x[vertices[i]];
-        const double d = side * (dot(normal, p) - level) - h, to = 0.5 * (d + std::sqrt(d * d + 4 * b * b));
-        p += (side * (to - d)) * normal;
-      }
-    };
-    keep(crease.parent_side, -1);
-    keep(crease.child_side, 1);
+    for (int i = 0; i < count; ++i) {
+      Vec3& p = x[crease.vertex[i]];
+      const double side = crease.side[i], d = side * (dot(normal, p) - level) - h, u = d / b - 1;
+      if (u < 0) p += (crease.strength[i] * side * (b / (1 - u + u * u) - d)) * normal;
+    }
   }
 }
 

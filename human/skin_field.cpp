@@ -14,7 +14,7 @@ namespace {
 namespace shape {
 constexpr double crotch_over_pelvis = 0.53;        ///< crotch below the hips over the pelvis's vertical semi-axis
 constexpr double thigh_lateral_over_round = 0.83;  ///< the fore-aft semi-axis keeps the girth
-constexpr double thigh_outward_over_hip_half = 0.15;
+constexpr double thigh_outward_over_hip_half = 0.12;
 }  // namespace shape
 
 /// Radius of the circle with the perimeter of the ellipse a, b.
@@ -106,7 +106,7 @@ double FramedEllipsoid::operator()(const Vec3& x_W) const {
 struct BodyField::Parts {
   Loft trunk, neck, leg, arm;
   FramedEllipsoid buttock, head, jaw, foot, hand;
-  RoundCone trapezius;
+  RoundCone trapezius, girdle, instep;
   double scale;
   Vec3 neck_base, wrist, ankle;
 };
@@ -124,13 +124,15 @@ Loft trunkOf(const Human& human, std::span<const Pose> X_WL) {
     return Loft::Station{p.X_WS.origin.z - root.z, p.X_WS.origin.x, 0, p.semi.x, p.semi.y};
   };
   std::vector<Loft::Station> s;
-  s.push_back({0, mx + 0.03 * hips.semi.x, 0, 0.97 * hips.semi.x, 0.98 * hips.semi.y});
+  s.push_back({0, mx + 0.03 * hips.semi.x, 0, 0.93 * hips.semi.x, 0.925 * hips.semi.y});
   s.push_back(at(iliac));
   s.push_back(at(waist));
+  const Vec3 w = waist.semi;
+  const double wz = waist.X_WS.origin.z - root.z;
+  s.push_back({0.5 * (wz + cz), 0.5 * (waist.X_WS.origin.x + cx), 0, 0.485 * (w.x + c.x), 0.98 * std::min(w.y, c.y)});
   s.push_back(at(chest));
-  s.push_back({cz + 0.55 * drop, 0.5 * (cx + sx), 0, 0.88 * c.x, 0.98 * c.y});
-  s.push_back({sz, sx, 0, 0.62 * c.x, 0.82 * c.y});
-  return Loft({{}, {0, 0, root.z}}, s, shape::crotch_over_pelvis * hips.semi.z, 0.5 * drop);
+  s.push_back({cz + 0.25 * drop, 0.85 * cx + 0.15 * sx, 0, 0.98 * c.x, 1.01 * c.y});
+  return Loft({{}, {0, 0, root.z}}, s, shape::crotch_over_pelvis * hips.semi.z, 1.30 * drop);
 }
 
 Loft legOf(const Human& human, std::span<const Pose> X_WL) {
@@ -156,9 +158,10 @@ Loft legOf(const Human& human, std::span<const Pose> X_WL) {
   add(ankle.z + 0.88 * ls, -0.10 * calf, 0, 0.92 * calf, 0.88 * calf);
   add(knee.z, 0, 0, 0.96 * k, 0.90 * k);
   add(-0.80 * lt, 0.04 * k, 0.15 * out, 1.12 * k, 1.05 * k);
-  add(-0.50 * lt, 0.05 * r, 0.6 * out, 0.96 * deep, 0.98 * lateral);
-  add(-0.25 * lt, 0, out, deep, lateral);
-  add(0, -0.02 * r, out, 0.97 * deep, 0.96 * lateral);
+  add(-0.50 * lt, 0.05 * r, 0.6 * out, 0.985 * deep, 0.99 * lateral);
+  add(-0.25 * lt, -0.03 * r, out, deep, lateral);
+  add(-0.06 * lt, -0.10 * r, out, 0.93 * deep, 0.98 * lateral);
+  add(0.08 * lt, -0.14 * r, 0.8 * out, 0.82 * deep, 0.88 * lateral);
   return Loft(X_WT, s, 0.5 * calf, 0.8 * r);
 }
 
@@ -205,13 +208,20 @@ BodyField::BodyField(const Human& human, std::span<const Pose> X_WL) {
                             {shoulder.x, 0.88 * shoulder.y, shoulder.z + 0.04 * ra},
                             0.9 * rn,
                             0.90 * ra};
-  parts_ = std::make_shared<const Parts>(Parts{
-      trunkOf(human, X_WL), neck_loft, legOf(human, X_WL), armOf(human, X_WL), buttock,
-      ellipsoid(head.X_WS, {0, 0, 0.10 * head.semi.z}, {head.semi.x, head.semi.y, 0.90 * head.semi.z}),
-      ellipsoid(head.X_WS, {0.30 * head.semi.x, 0, -0.45 * head.semi.z},
-                {0.62 * head.semi.x, 0.68 * head.semi.y, 0.55 * head.semi.z}),
-      ellipsoid(foot.X_WS, {}, foot.semi), ellipsoid(hand.X_WS, {}, {1.1 * hand.semi.x, hand.semi.y, hand.semi.z}),
-      trapezius, scale, C7, linkPose(human, X_WL, "hand_left").origin, linkPose(human, X_WL, "foot_left").origin});
+  const Part chest = partOf(human, X_WL, "chest");
+  const Vec3 sternum{0.5 * (chest.X_WS.origin.x + shoulder.x), 0.50 * chest.semi.y, shoulder.z - 0.055 * scale};
+  const RoundCone girdle{
+      sternum, {shoulder.x, 0.97 * shoulder.y, shoulder.z - 0.010 * scale}, 0.60 * chest.semi.x, 0.96 * ra};
+  const Vec3 ankle = linkPose(human, X_WL, "foot_left").origin, toes = foot.X_WS * Vec3{0.35 * foot.semi.x, 0, 0};
+  const RoundCone instep{ankle, toes, 0.95 * foot.semi.z, 0.75 * foot.semi.z};
+  parts_ = std::make_shared<const Parts>(
+      Parts{trunkOf(human, X_WL), neck_loft, legOf(human, X_WL), armOf(human, X_WL), buttock,
+            ellipsoid(head.X_WS, {0, 0, 0.10 * head.semi.z}, {head.semi.x, head.semi.y, 0.90 * head.semi.z}),
+            ellipsoid(head.X_WS, {0.30 * head.semi.x, 0, -0.45 * head.semi.z},
+                      {0.62 * head.semi.x, 0.68 * head.semi.y, 0.55 * head.semi.z}),
+            ellipsoid(foot.X_WS, {}, foot.semi),
+            ellipsoid(hand.X_WS, {}, {0.92 * hand.semi.x, 1.45 * hand.semi.y, 0.96 * hand.semi.z}), trapezius, girdle,
+            instep, scale, C7, linkPose(human, X_WL, "hand_left").origin, linkPose(human, X_WL, "foot_left").origin});
   low_ = {1e9, 1e9, 1e9};
   high_ = -low_;
   for (const BodyShape& s : human.shapes) {
@@ -229,7 +239,7 @@ BodyField::BodyField(const Human& human, std::span<const Pose> X_WL) {
 
 double BodyField::side(const Vec3& x) const {
   const Parts& p = *parts_;
-  return smoothMin(p.leg(x), p.foot(x), 0.03 * p.scale);
+  return smoothMin(p.leg(x), smoothMin(p.foot(x), p.instep(x), 0.03 * p.scale), 0.03 * p.scale);
 }
 
 double BodyField::withoutArms(const Vec3& x) const {
@@ -239,8 +249,9 @@ double BodyField::withoutArms(const Vec3& x) const {
   double f = p.trunk(l);
   f = smoothMin(f, smoothMin(p.buttock(l), p.buttock(r), 0.01 * k), 0.03 * k);
   f = smoothMin(f, smoothMin(p.trapezius(l), p.trapezius(r), 0.05 * k), 0.05 * k);
+  f = smoothMin(f, smoothMin(p.girdle(l), p.girdle(r), 0.05 * k), 0.06 * k);
   f = smoothMin(f, smoothMin(p.neck(l), smoothMin(p.head(l), p.jaw(l), 0.03 * k), 0.03 * k), 0.04 * k);
-  return smoothMin(f, smoothMin(side(l), side(r), 0.02 * k), 0.025 * k);
+  return smoothMin(f, smoothMin(side(l), side(r), 0.02 * k), 0.045 * k);
 }
 
 double BodyField::arm(const Vec3& x) const {
@@ -253,6 +264,8 @@ double BodyField::operator()(const Vec3& x) const { return smoothMin(withoutArms
 
 double BodyField::towardsArm(const Vec3& x) const { return withoutArms(x) - arm(x); }
 
+double BodyField::towardsLeftLeg(const Vec3& x) const { return side(flipped(x)) - side(x); }
+
 Vec3 BodyField::gradient(const Vec3& x) const {
   constexpr double h = 1e-5;
   const auto& f = *this;
@@ -263,11 +276,13 @@ Vec3 BodyField::gradient(const Vec3& x) const {
 
 double BodyField::coarseness(const Vec3& x) const {
   const Parts& p = *parts_;
-  const double reach = 0.10 * p.scale, y = std::abs(x.y);
-  const double beyond = std::max({x.z - p.neck_base.z, p.ankle.z + reach - x.z,
-                                  y > 0.8 * p.wrist.y && x.z < p.wrist.z + reach ? p.wrist.z + reach - x.z : 0.0});
-  const double u = std::clamp(beyond / reach, 0.0, 1.0);
-  return u * u * (3 - 2 * u);
+  const double reach = 0.10 * p.scale;
+  const auto ramp = [](double u) {
+    u = std::clamp(u, 0.0, 1.0);
+    return u * u * (3 - 2 * u);
+  };
+  const double hand = std::abs(x.y) > 0.8 * p.wrist.y ? 0.4 * ramp((p.wrist.z + reach - x.z) / reach) : 0;
+  return std::max({ramp((x.z - p.neck_base.z) / reach), 0.6 * ramp((p.ankle.z + reach - x.z) / reach), hand});
 }
 
 }  // namespace gambeson

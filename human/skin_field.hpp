@@ -50,10 +50,12 @@ class BodyField {
   Vec3 gradient(const Vec3& x) const;
   Vec3 low() const { return low_; }
   Vec3 high() const { return high_; }
-  /// How far from the region of garments: 0 there, growing to 1 on hands, feet and head.
+  /// 0 where garments lie, growing to 1 on the head, less on feet and hands, which are thin.
   double coarseness(const Vec3& x) const;
   /// How much nearer a point of the surface is to the arm of its side than to the rest [m]; negative off the arm.
   double towardsArm(const Vec3& x) const;
+  /// How much nearer to the left leg than to the right [m].
+  double towardsLeftLeg(const Vec3& x) const;
 
  private:
   struct Parts;
