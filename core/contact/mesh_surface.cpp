@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/contact/triangle.hpp"
 
@@ -13,23 +14,28 @@ namespace {
 
 /// Cells along the longest side: 4 mm for half a metre, at most 2 MB.
 constexpr int kGridResolution = 128;
+constexpr int kManyFaces = 2000;  ///< from which on threads share the work
 
 Vec3 unitOrZero(const Vec3& v) {
   const double l = norm(v);
   return l > 0 ? v / l : Vec3{};
 }
 
-std::vector<Box> triangleBoxes(std::span<const Vec3> x, std::span<const std::array<int, 3>> triangles) {
-  std::vector<Box> boxes(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
+void triangleBoxes(std::span<const Vec3> x, std::span<const std::array<int, 3>> triangles, std::vector<Box>& boxes) {
+  const int n = static_cast<int>(triangles.size());
+  boxes.resize(triangles.size());
+#pragma omp parallel for schedule(static) if (n > kManyFaces)
+  for (int t = 0; t < n; ++t) {
+    boxes[t] = {};
     for (int i : triangles[t]) boxes[t].add(x[i]);
-  return boxes;
+  }
 }
 
 }  // namespace
 
-MeshSurface::MeshSurface(const TriangleMesh& mesh)
-    : topology_(meshTopology(mesh)), tree_(triangleBoxes(mesh.vertices, topology_.triangles)) {
+MeshSurface::MeshSurface(const TriangleMesh& mesh, bool deforms) : topology_(meshTopology(mesh)) {
+  triangleBoxes(mesh.vertices, topology_.triangles, boxes_);
+  tree_ = BoundingTree(boxes_);
   faces_.resize(topology_.triangles.size());
   std::vector<char> vertex_owned(mesh.vertices.size(), 0);
   for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
@@ -44,12 +50,23 @@ MeshSurface::MeshSurface(const TriangleMesh& mesh)
       owned = 1;
     }
   }
+  corners_begin_.assign(mesh.vertices.size() + 1, 0);
+  const auto everyCorner = [&](auto&& visit) {
+    for (std::size_t t = 0; t < faces_.size(); ++t)
+      for (int k = 0; k < 3 && !topology_.collapsed(static_cast<int>(t)); ++k)
+        visit(topology_.triangles[t][k], MeshTopology::Corner{static_cast<int>(t), k});
+  };
+  everyCorner([&](int v, const MeshTopology::Corner&) { ++corners_begin_[v + 1]; });
+  std::partial_sum(corners_begin_.begin(), corners_begin_.end(), corners_begin_.begin());
+  corners_.resize(corners_begin_.back());
+  std::vector<int> next(corners_begin_.begin(), corners_begin_.end() - 1);
+  everyCorner([&](int v, const MeshTopology::Corner& c) { corners_[next[v]++] = c; });
   place(mesh.vertices);
-  if (topology_.closed) {
+  if (topology_.closed && !deforms) {
     const auto is_inside = [&](const Vec3& p) {
       return nearest(p, std::numeric_limits<double>::infinity())->distance_m < 0;
     };
-    inside_ = InsideGrid(triangleBoxes(x_, topology_.triangles), is_inside, kGridResolution);
+    inside_ = InsideGrid(boxes_, is_inside, kGridResolution);
   }
 }
 
@@ -61,29 +78,66 @@ void MeshSurface::refit(std::span<const Vec3> vertices) {
 void MeshSurface::place(std::span<const Vec3> vertices) {
   assert(vertices.size() == topology_.vertex_of.size());
   x_.assign(vertices.begin(), vertices.end());
-  tree_.refit(triangleBoxes(x_, topology_.triangles));
+  triangleBoxes(x_, topology_.triangles, boxes_);
+  tree_.refit(boxes_);
   tolerance_m_ = 1e-10 * norm(tree_.bounds().halfSize());
-  edge_frames_.assign(topology_.edges.size(), {});
-  vertex_normals_.assign(x_.size(), {});
-  for (std::size_t e = 0; e < edge_frames_.size(); ++e) {
+  edge_frames_.resize(topology_.edges.size());
+  const int n_edges = static_cast<int>(edge_frames_.size()), n_faces = static_cast<int>(faces_.size());
+#pragma omp parallel for schedule(static) if (n_faces > kManyFaces)
+  for (int e = 0; e < n_edges; ++e) {
     const Vec3 d = x_[topology_.edges[e].w] - x_[topology_.edges[e].v];
     edge_frames_[e].length_m = norm(d);
     edge_frames_[e].direction = unitOrZero(d);
   }
-  for (std::size_t t = 0; t < faces_.size(); ++t) {
-    if (topology_.collapsed(static_cast<int>(t))) continue;
+#pragma omp parallel for schedule(static) if (n_faces > kManyFaces)
+  for (int t = 0; t < n_faces; ++t) {
+    if (topology_.collapsed(t)) continue;
     const auto& c = topology_.triangles[t];
     Face& f = faces_[t];
     f.normal = unitOrZero(cross(x_[c[1]] - x_[c[0]], x_[c[2]] - x_[c[0]]));
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 e = x_[c[(k + 1) % 3]] - x_[c[k]], back = x_[c[(k + 2) % 3]] - x_[c[k]];
-      f.inward[k] = unitOrZero(cross(f.normal, e));
-      edge_frames_[topology_.face_edges[t][k]].normal += f.normal;
-      vertex_normals_[c[k]] += std::atan2(norm(cross(e, back)), dot(e, back)) * f.normal;
-    }
+    for (int k = 0; k < 3; ++k) f.inward[k] = unitOrZero(cross(f.normal, x_[c[(k + 1) % 3]] - x_[c[k]]));
   }
-  for (auto& e : edge_frames_) e.normal = unitOrZero(e.normal);
-  for (auto& n : vertex_normals_) n = unitOrZero(n);
+}
+
+Vec3 MeshSurface::edgeNormal(int e) const {
+  Vec3 sum{};
+  for (int i = topology_.edge_begin[e]; i < topology_.edge_begin[e + 1]; ++i)
+    sum += faces_[topology_.edge_faces[i].face].normal;
+  return unitOrZero(sum);
+}
+
+Vec3 MeshSurface::vertexNormal(int v) const {
+  Vec3 sum{};
+  for (int i = corners_begin_[v]; i < corners_begin_[v + 1]; ++i) {
+    const auto [t, k] = corners_[i];
+    const auto& c = topology_.triangles[t];
+    const Vec3 e = x_[c[(k + 1) % 3]] - x_[c[k]], back = x_[c[(k + 2) % 3]] - x_[c[k]];
+    sum += std::atan2(norm(cross(e, back)), dot(e, back)) * faces_[t].normal;
+  }
+  return unitOrZero(sum);
+}
+
+MaterialPoint MeshSurface::material(const MeshPoint& foot) const {
+  const int n_faces = static_cast<int>(faces_.size()), n_edges = static_cast<int>(edge_frames_.size());
+  MaterialPoint m;
+  if (foot.feature >= n_faces + n_edges) {
+    m.add(foot.feature - n_faces - n_edges, 1);
+  } else if (foot.feature >= n_faces) {
+    const int e = foot.feature - n_faces;
+    const auto [v, w] = topology_.edges[e];
+    const EdgeFrame& f = edge_frames_[e];
+    const double t = f.length_m > 0 ? std::clamp(dot(foot.position - x_[v], f.direction) / f.length_m, 0.0, 1.0) : 0;
+    m.add(v, 1 - t);
+    m.add(w, t);
+  } else {
+    const auto& c = topology_.triangles[foot.feature];
+    const Vec3 u = x_[c[1]] - x_[c[0]], s = x_[c[2]] - x_[c[0]], r = foot.position - x_[c[0]], n = cross(u, s);
+    const double b = dot(cross(r, s), n) / norm2(n), d = dot(cross(u, r), n) / norm2(n);
+    m.add(c[0], 1 - b - d);
+    m.add(c[1], b);
+    m.add(c[2], d);
+  }
+  return m;
 }
 
 MeshPoint MeshSurface::signedFoot(const Vec3& p, const Vec3& foot, int feature) const {
@@ -95,7 +149,7 @@ MeshPoint MeshSurface::signedFoot(const Vec3& p, const Vec3& foot, int feature) 
     return m;
   }
   const int e = feature - n_faces, v = e - n_edges;
-  const Vec3& pseudo = e < n_edges ? edge_frames_[e].normal : vertex_normals_[v];
+  const Vec3 pseudo = e < n_edges ? edgeNormal(e) : vertexNormal(v);
   const bool rim = e < n_edges ? topology_.rim_edge[e] : topology_.rim_vertex[v];
   const Vec3 r = p - foot;
   const double d = norm(r);
@@ -177,15 +231,15 @@ void MeshSurface::touching(const Vec3& p, double radius, std::vector<MeshPoint>&
   const std::size_t begin = out.size();
   bool seen = false;
   tree_.within(p, radius, [&](int t) { seen = faceFeet(t, p, radius, out) || seen; });
-  chooseFeet(p, radius, seen, begin, out);
+  chooseFeet(p, radius, seen, false, begin, out);
 }
 
-void MeshSurface::touching(const Vec3& p, double radius, std::span<const int> triangles,
-                           std::vector<MeshPoint>& out) const {
+void MeshSurface::touching(const Vec3& p, double radius, std::span<const int> triangles, std::vector<MeshPoint>& out,
+                           bool outside) const {
   const std::size_t begin = out.size();
   bool seen = false;
   for (int t : triangles) seen = faceFeet(t, p, radius, out) || seen;
-  chooseFeet(p, radius, seen, begin, out);
+  chooseFeet(p, radius, seen, outside, begin, out);
 }
 
 std::optional<MeshPoint> MeshSurface::wayOut(const Vec3& p) const {
@@ -195,10 +249,10 @@ std::optional<MeshPoint> MeshSurface::wayOut(const Vec3& p) const {
 }
 
 /// Of the minima found from `begin`, those that p touches.
-void MeshSurface::chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin,
+void MeshSurface::chooseFeet(const Vec3& p, double radius, bool seen, bool outside, std::size_t begin,
                              std::vector<MeshPoint>& out) const {
   const auto found = out.begin() + static_cast<std::ptrdiff_t>(begin);
-  const bool maybe_deep = topology_.closed && boxDistance2(tree_.bounds(), p) == 0;
+  const bool maybe_deep = !outside && topology_.closed && boxDistance2(tree_.bounds(), p) == 0;
   if (found == out.end()) {
     if (!seen && (!maybe_deep || inside_.at(p) == InsideGrid::Cell::outside)) return;
     // Deep inside, or a minimum that the predicates lost to rounding.

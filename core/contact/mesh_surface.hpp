@@ -24,11 +24,11 @@ struct MeshPoint {
 /// local coordinates, which is its lazy refit. A mesh that deforms calls refit.
 class MeshSurface {
  public:
-  /// Throws InputError: see meshTopology.
-  explicit MeshSurface(const TriangleMesh& mesh);
+  /// Throws InputError: see meshTopology. A surface that is to be refitted gets no look-up of inside and outside, which
+  /// would hold for the first positions only: there the nearest point of all tells.
+  explicit MeshSurface(const TriangleMesh& mesh, bool deforms = false);
 
-  /// New positions of the same mesh (Zheng 2013, section 3.6.2). Points far from a refitted surface are slower to
-  /// tell inside from outside: the look-up for it is made for the first positions only.
+  /// New positions of the same mesh (Zheng 2013, section 3.6.2), in linear time.
   void refit(std::span<const Vec3> vertices);
 
   const Box& bounds() const { return tree_.bounds(); }
@@ -49,11 +49,15 @@ class MeshSurface {
   /// its nearest foot only (the way out), in a closed mesh at any depth. Appended to `out`, sorted by feature. (A point
   /// on a sharp edge to within the tolerance sees the faces of both sides.)
   void touching(const Vec3& p, double radius, std::vector<MeshPoint>& out) const;
-  /// The same, where `triangles` are all that come within `radius` of p.
-  void touching(const Vec3& p, double radius, std::span<const int> triangles, std::vector<MeshPoint>& out) const;
+  /// The same, where `triangles` are all that come within `radius` of p. `outside`: p is known to be.
+  void touching(const Vec3& p, double radius, std::span<const int> triangles, std::vector<MeshPoint>& out,
+                bool outside = false) const;
 
   /// The nearest point, where p may be inside of a closed mesh; empty where it is surely not.
   std::optional<MeshPoint> wayOut(const Vec3& p) const;
+
+  /// The foot's point as weights of the vertices of its triangle, edge or corner.
+  MaterialPoint material(const MeshPoint& foot) const;
 
  private:
   struct Face {
@@ -64,21 +68,25 @@ class MeshSurface {
   struct EdgeFrame {
     Vec3 direction;  ///< unit, v to w
     double length_m = 0;
-    Vec3 normal;  ///< pseudo-normal, unit
   };
 
   void place(std::span<const Vec3> vertices);
+  Vec3 edgeNormal(int e) const;
+  Vec3 vertexNormal(int v) const;
   MeshPoint signedFoot(const Vec3& p, const Vec3& foot, int feature) const;
   bool edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const;
   bool vertexIsMinimum(int v, const Vec3& p) const;
   bool faceFeet(int t, const Vec3& p, double radius, std::vector<MeshPoint>& out) const;
-  void chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin, std::vector<MeshPoint>& out) const;
+  void chooseFeet(const Vec3& p, double radius, bool seen, bool outside, std::size_t begin,
+                  std::vector<MeshPoint>& out) const;
 
   MeshTopology topology_;
   std::vector<Vec3> x_;  ///< positions
   std::vector<Face> faces_;
   std::vector<EdgeFrame> edge_frames_;
-  std::vector<Vec3> vertex_normals_;
+  std::vector<MeshTopology::Corner> corners_;  ///< of vertex v: [corners_begin_[v], corners_begin_[v + 1]), by face
+  std::vector<int> corners_begin_;
+  std::vector<Box> boxes_;  ///< of the triangles
   BoundingTree tree_;
   InsideGrid inside_;
   double tolerance_m_ = 0;

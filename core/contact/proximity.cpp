@@ -4,6 +4,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/contact/ellipsoid.hpp"
 #include "core/contact/mesh_surface.hpp"
@@ -18,13 +19,19 @@ constexpr int kBlock = 16;
 /// A reject must be certain in spite of rounding.
 constexpr double kSlack = 1 + 1e-9;
 
-/// A shape ready for queries, and its box in its own frame.
+/// A shape ready for queries, and its box in its own frame. Of a mesh that deforms nothing is known before its
+/// vertices.
 struct Prepared {
-  std::variant<EllipsoidMetric, MeshSurface> shape;
+  std::variant<EllipsoidMetric, MeshSurface, std::monostate> shape;
   Box local;
 };
 
-Prepared prepare(const Shape& shape) {
+Prepared prepare(const Obstacle& obstacle) {
+  const Shape& shape = obstacle.shape;
+  if (obstacle.deforms) {
+    meshTopology(std::get<TriangleMesh>(shape));  // says what is wrong with it
+    return {std::monostate{}, {}};
+  }
   if (const auto* e = std::get_if<Ellipsoid>(&shape)) {
     const EllipsoidMetric m = ellipsoidMetric(*e);
     return {m, Box{-m.semi_axes, m.semi_axes}};
@@ -98,7 +105,7 @@ struct ProximityQuery::Impl {
 ProximityQuery::ProximityQuery(std::span<const Obstacle> obstacles) : impl_(std::make_unique<Impl>()) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     try {
-      impl_->shapes.push_back(prepare(obstacles[i].shape));
+      impl_->shapes.push_back(prepare(obstacles[i]));
     } catch (const InputError& e) {
       throw InputError(e.where(), "obstacle " + std::to_string(i) + " (" + obstacles[i].segment + "): " + e.reason());
     }
@@ -108,19 +115,23 @@ ProximityQuery::~ProximityQuery() = default;
 ProximityQuery::ProximityQuery(ProximityQuery&&) noexcept = default;
 
 void ProximityQuery::near(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x,
-                          std::span<const double> reach_m, std::vector<Contact>& out,
-                          MeshCandidates* candidates_of) const {
+                          std::span<const double> reach_m, std::vector<Contact>& out, MeshCandidates* candidates_of,
+                          const DeformedSurfaces* deformed) const {
   const auto& shapes = impl_->shapes;
   const int n_obstacles = static_cast<int>(shapes.size()), n = static_cast<int>(x.size());
   assert(static_cast<int>(start.size()) == n_obstacles && static_cast<int>(end.size()) == n_obstacles);
   assert(static_cast<int>(reach_m.size()) == n);
   requireFinite(x, "position");
   if (candidates_of) candidates_of->outside.resize(static_cast<std::size_t>(n_obstacles) * n);
+  if (candidates_of && deformed && !deformed->empty())
+    candidates_of->outside_of.resize(static_cast<std::size_t>(n_obstacles) * n, 0);
   std::vector<double> motion(n_obstacles);
   std::vector<Box> box(n_obstacles);  // of the shape at start, grown by its motion
   for (int o = 0; o < n_obstacles; ++o) {
-    motion[o] = motionBound_m(shapes[o].local, start[o], end[o]);
-    box[o] = worldBox(shapes[o], start[o]).grown(motion[o]);
+    const bool deforms = std::holds_alternative<std::monostate>(shapes[o].shape);
+    if (deforms && !deformed) throw std::logic_error("an obstacle deforms and its vertices are not given");
+    motion[o] = deforms ? deformed->motion_m(o) : motionBound_m(shapes[o].local, start[o], end[o]);
+    box[o] = (deforms ? deformed->of(o).bounds() : worldBox(shapes[o], start[o])).grown(motion[o]);
   }
   collect((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<Contact>& list) {
     const int first = b * kBlock, last = std::min(n, first + kBlock);
@@ -144,7 +155,28 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
           if (surelyBeyond(*e, p, limit_m / X.scale)) continue;
           const SurfacePoint s = closestOnEllipsoid(*e, p);
           const double gap = X.scale * s.distance_m;
-          if (gap < limit_m) list.push_back({i, o, 0, X.rotation * s.normal, gap, s.position});
+          if (gap < limit_m) list.push_back({i, o, 0, X.rotation * s.normal, gap, s.position, {}});
+        } else if (std::holds_alternative<std::monostate>(shapes[o].shape)) {
+          feet.clear();
+          const MeshSurface& surface = deformed->of(o);
+          if (candidates_of) {
+            triangles.clear();
+            for (int k = candidates_of->first[i]; k < candidates_of->first[i + 1]; ++k)
+              if (candidates_of->items[k].obstacle == o) triangles.push_back(candidates_of->items[k].triangle);
+            char& outside = candidates_of->outside_of[static_cast<std::size_t>(o) * n + i];
+            if (!triangles.empty()) {
+              surface.touching(x[i], limit_m, triangles, feet, outside);
+            } else if (!outside) {
+              const auto foot = surface.wayOut(x[i]);
+              if (foot && !(foot->distance_m > 0)) feet.push_back(*foot);
+            }
+            outside = std::all_of(feet.begin(), feet.end(), [](const MeshPoint& f) { return f.distance_m > 0; });
+          } else {
+            surface.touching(x[i], limit_m, feet);
+          }
+          for (const MeshPoint& f : feet)
+            if (f.distance_m < limit_m)
+              list.push_back({i, o, f.feature, f.normal, f.distance_m, f.position, surface.material(f)});
         } else {
           feet.clear();
           const auto& surface = std::get<MeshSurface>(shapes[o].shape);
@@ -169,7 +201,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
           }
           for (const MeshPoint& f : feet) {
             const double gap = X.scale * f.distance_m;
-            if (gap < limit_m) list.push_back({i, o, f.feature, X.rotation * f.normal, gap, f.position});
+            if (gap < limit_m) list.push_back({i, o, f.feature, X.rotation * f.normal, gap, f.position, {}});
           }
         }
       }
@@ -238,19 +270,31 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
         if (!t) continue;
         const Vec3 hit = p0 + *t * (p1 - p0);
         const Vec3 normal = normalized({hit.x * e.inverse2.x, hit.y * e.inverse2.y, hit.z * e.inverse2.z});
-        list.push_back({i, o, 0, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit});
+        list.push_back({i, o, 0, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit, {}});
       }
     }
   });
 }
 
-double ProximityQuery::signedDistance(int obstacle, const Placement& placement, const Vec3& x) const {
+double ProximityQuery::signedDistance(int obstacle, const Placement& placement, const Vec3& x,
+                                      const DeformedSurfaces* deformed) const {
   const Prepared& s = impl_->shapes.at(obstacle);
+  if (std::holds_alternative<std::monostate>(s.shape)) {
+    if (!deformed) throw std::logic_error("an obstacle deforms and its vertices are not given");
+    return nearest(obstacle, x, *deformed).gap_m;
+  }
   const Vec3 p = toLocal(placement, x);
   if (const auto* e = std::get_if<EllipsoidMetric>(&s.shape))
     return placement.scale * closestOnEllipsoid(*e, p).distance_m;
   const auto n = std::get<MeshSurface>(s.shape).nearest(p, std::numeric_limits<double>::infinity());
   return n ? placement.scale * n->distance_m : std::numeric_limits<double>::quiet_NaN();
+}
+
+Contact ProximityQuery::nearest(int obstacle, const Vec3& x, const DeformedSurfaces& deformed) const {
+  const MeshSurface& surface = deformed.of(obstacle);
+  const auto n = surface.nearest(x, std::numeric_limits<double>::infinity());
+  if (!n) return {-1, obstacle, 0, {}, std::numeric_limits<double>::quiet_NaN(), x, {}};
+  return {-1, obstacle, n->feature, n->normal, n->distance_m, n->position, surface.material(*n)};
 }
 
 }  // namespace gambeson

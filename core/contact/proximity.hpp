@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/deformed.hpp"
 #include "core/contact/obstacle.hpp"
 
 namespace gambeson {
@@ -18,10 +19,12 @@ struct Contact {
   Vec3 normal;
   double gap_m = 0;
   Vec3 local;
+  MaterialPoint touched;  ///< the same of an obstacle that deforms, whose frame is the world's
 };
 
 /// Triangles of meshes that a sample may touch, by sample: items[first[s], first[s + 1]). Where there are none the
-/// sample may still be deep inside of a mesh; it is not as long as it stays in a ball known to be outside.
+/// sample may still be deep inside of a mesh; it is not as long as it stays in a ball known to be outside. Of a mesh
+/// that deforms it is not as long as it has not passed through it, which is for the owner to know (`outside_of`).
 struct MeshCandidates {
   struct Item {
     int obstacle = 0, triangle = 0;
@@ -33,6 +36,9 @@ struct MeshCandidates {
   std::vector<int> first;
   std::vector<Item> items;
   std::vector<Ball> outside;  ///< of obstacle o and sample s at o n + s; kept by `near` from query to query
+  /// Known to be outside of a mesh that deforms, by obstacle and sample as above: set by `near`, taken back by its
+  /// owner.
+  std::vector<char> outside_of;
 };
 
 /// Search structures of the obstacles: constant topology, boxes refitted lazily (Zheng 2013, section 3.6).
@@ -47,9 +53,11 @@ class ProximityQuery {
   /// obstacle's surface can move from `start` to `end`. One contact per local minimum of the distance, so none at the
   /// inner edges of a flat or concave mesh. Every sample is tested against every obstacle.
   /// Sorted by sample, obstacle, feature. The same bits for any number of threads.
-  /// `candidates`: the triangles of meshes to look at instead of all.
+  /// `candidates`: the triangles of meshes to look at instead of all. `deformed`: the surfaces at `start`, where there
+  /// are obstacles that deform; they move no farther than it says.
   void near(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x,
-            std::span<const double> reach_m, std::vector<Contact>& out, MeshCandidates* candidates = nullptr) const;
+            std::span<const double> reach_m, std::vector<Contact>& out, MeshCandidates* candidates = nullptr,
+            const DeformedSurfaces* deformed = nullptr) const;
 
   /// Trajectory impact (section 3.3.1): samples whose path x0 -> x1 (straight, against the moving obstacle) enters an
   /// ellipsoid from outside, with the normal and material point at the first time of contact, gap_m the separation at
@@ -59,7 +67,10 @@ class ProximityQuery {
                std::span<const Vec3> x1, std::vector<Contact>& out) const;
 
   /// Signed distance of one point to one obstacle (for checks and analysis).
-  double signedDistance(int obstacle, const Placement& placement, const Vec3& x) const;
+  double signedDistance(int obstacle, const Placement& placement, const Vec3& x,
+                        const DeformedSurfaces* deformed = nullptr) const;
+  /// The nearest point of an obstacle that deforms, as a contact of no sample.
+  Contact nearest(int obstacle, const Vec3& x, const DeformedSurfaces& deformed) const;
 
  private:
   struct Impl;

@@ -59,8 +59,9 @@ ContactRow bodyRow(const Contact& contact, const Vec3& body_velocity, double tar
 struct ContactImpulse {
   int sample = 0, obstacle = 0, feature = 0;
   Vec3 impulse;
-  Vec3 normal;  ///< unit, from the body to the cloth
-  Vec3 point;   ///< where the body is touched, world [m], at the start of the step
+  Vec3 normal;            ///< unit, from the body to the cloth
+  Vec3 point;             ///< where the body is touched, world [m], at the start of the step
+  MaterialPoint touched;  ///< the same, where the body deforms
 };
 
 struct ContactSolve {

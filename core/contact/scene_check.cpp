@@ -11,10 +11,10 @@
 namespace gambeson {
 
 std::optional<Penetration> deepestPenetration(const ProximityQuery& query, std::span<const Placement> placement,
-                                              std::span<const Vec3> points) {
+                                              std::span<const Vec3> points, const DeformedSurfaces* deformed) {
   std::vector<Contact> inside;
   const std::vector<double> reach(points.size(), 0.0);
-  query.near(placement, placement, points, reach, inside);
+  query.near(placement, placement, points, reach, inside, nullptr, deformed);
   std::optional<Penetration> deepest;
   for (const Contact& c : inside)
     if (-c.gap_m > (deepest ? deepest->depth_m : 0)) deepest = Penetration{-c.gap_m, c.sample, c.obstacle};
@@ -66,7 +66,7 @@ TriangleMesh ellipsoidMesh(const Ellipsoid& shape, int levels) {
 }
 
 std::vector<Piercing> piercings(std::span<const Obstacle> obstacles, std::span<const Placement> placement,
-                                const TriangleMesh& cloth, int levels) {
+                                const TriangleMesh& cloth, int levels, const DeformedVertices& vertices) {
   assert(obstacles.size() == placement.size());
   std::vector<Box> boxes(cloth.triangles.size());
   for (std::size_t t = 0; t < boxes.size(); ++t)
@@ -79,7 +79,10 @@ std::vector<Piercing> piercings(std::span<const Obstacle> obstacles, std::span<c
     const TriangleMesh& body = mesh ? *mesh : own;
     std::vector<Vec3> x;
     x.reserve(body.vertices.size());
-    for (const Vec3& p : body.vertices) x.push_back(placement[o] * p);
+    if (obstacles[o].deforms)
+      x = vertices.at(o);
+    else
+      for (const Vec3& p : body.vertices) x.push_back(placement[o] * p);
     std::vector<std::pair<int, int>> edges;
     for (const auto& t : body.triangles)
       for (int k = 0; k < 3; ++k) edges.emplace_back(std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3]));

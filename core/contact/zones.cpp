@@ -13,9 +13,10 @@ void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vect
     std::vector<int> points;
     int body = -1;
     bool pinched = false;
+    std::vector<int> touched;
   };
   std::vector<Set> sets;
-  for (const ImpactZone& z : zones) sets.push_back({z.points, z.body, z.pinched});
+  for (const ImpactZone& z : zones) sets.push_back({z.points, z.body, z.pinched, z.touched});
   for (const ContactRow& row : rows) {
     Set set;
     for (int k = 0; k < row.stencil.count; ++k) {
@@ -23,6 +24,8 @@ void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vect
       set.points.insert(set.points.end(), WT.columns.begin() + WT.offsets[s], WT.columns.begin() + WT.offsets[s + 1]);
     }
     set.body = std::max(row.contact.obstacle, -1);
+    for (int v : row.contact.touched.vertex)
+      if (v >= 0) set.touched.push_back(v);
     sets.push_back(std::move(set));
   }
   std::vector<int> parent(sets.size());
@@ -45,22 +48,25 @@ void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vect
     z.points.insert(z.points.end(), sets[i].points.begin(), sets[i].points.end());
     z.pinched = z.pinched || sets[i].pinched || (sets[i].body >= 0 && z.body >= 0 && sets[i].body != z.body);
     z.body = std::max(z.body, sets[i].body);
+    z.touched.insert(z.touched.end(), sets[i].touched.begin(), sets[i].touched.end());
   }
   zones.clear();
   for (auto& [root, z] : joined) {
     std::sort(z.points.begin(), z.points.end());
     z.points.erase(std::unique(z.points.begin(), z.points.end()), z.points.end());
+    std::sort(z.touched.begin(), z.touched.end());
+    z.touched.erase(std::unique(z.touched.begin(), z.touched.end()), z.touched.end());
     zones.push_back(std::move(z));
   }
   std::sort(zones.begin(), zones.end(),
             [](const ImpactZone& a, const ImpactZone& b) { return a.points.front() < b.points.front(); });
 }
 
-void makeRigid(const ImpactZone& zone, std::span<const Vec3> p, std::span<const double> mass,
-               std::span<Vec3> velocity) {
+RigidVelocity nearestRigid(std::span<const int> points, std::span<const Vec3> p, std::span<const double> mass,
+                           std::span<const Vec3> velocity) {
   double total = 0;
   Vec3 centre{}, momentum{};
-  for (int i : zone.points) {
+  for (int i : points) {
     total += mass[i];
     centre += mass[i] * p[i];
     momentum += mass[i] * velocity[i];
@@ -69,7 +75,7 @@ void makeRigid(const ImpactZone& zone, std::span<const Vec3> p, std::span<const 
   const Vec3 mean = momentum / total;
   Vec3 turn{};
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for (int i : zone.points) {
+  for (int i : points) {
     const Vec3 r = p[i] - centre;
     turn += mass[i] * cross(r, velocity[i] - mean);
     const Eigen::Vector3d e{r.x, r.y, r.z};
@@ -81,8 +87,13 @@ void makeRigid(const ImpactZone& zone, std::span<const Vec3> p, std::span<const 
   for (int k = 0; k < 3; ++k)
     if (axes.eigenvalues()[k] > 1e-12 * axes.eigenvalues()[2])
       spin += axes.eigenvectors().col(k).dot(L) / axes.eigenvalues()[k] * axes.eigenvectors().col(k);
-  const Vec3 omega{spin.x(), spin.y(), spin.z()};
-  for (int i : zone.points) velocity[i] = mean + cross(omega, p[i] - centre);
+  return {centre, mean, {spin.x(), spin.y(), spin.z()}};
+}
+
+void makeRigid(const ImpactZone& zone, std::span<const Vec3> p, std::span<const double> mass,
+               std::span<Vec3> velocity) {
+  const RigidVelocity rigid = nearestRigid(zone.points, p, mass, velocity);
+  for (int i : zone.points) velocity[i] = rigid.at(p[i]);
 }
 
 }  // namespace gambeson

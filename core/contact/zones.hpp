@@ -16,6 +16,7 @@ struct ImpactZone {
   std::vector<int> points;
   int body = -1;
   bool pinched = false;
+  std::vector<int> touched;  ///< vertices of the body where it deforms, ascending
 };
 
 /// Joins the pairs of `rows` that share free points, and what `zones` joined before: zones are closed over the support
@@ -23,8 +24,17 @@ struct ImpactZone {
 /// vertices). Sorted by first point.
 void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vector<ImpactZone>& zones);
 
-/// Replaces the velocities of a zone by those of the rigid motion nearest to them in the norm of the masses, which
-/// keeps linear and angular momentum: v + omega x (p - centre). Where the points lie on a line, no rotation about it.
+/// v + omega x (p - centre)
+struct RigidVelocity {
+  Vec3 centre, mean, spin;
+  Vec3 at(const Vec3& p) const { return mean + cross(spin, p - centre); }
+};
+/// The rigid motion nearest to the velocities of some points in the norm of the masses. Where the points lie on a line,
+/// no rotation about it.
+RigidVelocity nearestRigid(std::span<const int> points, std::span<const Vec3> p, std::span<const double> mass,
+                           std::span<const Vec3> velocity);
+
+/// Replaces the velocities of a zone by those of the nearest rigid motion, which keeps linear and angular momentum.
 void makeRigid(const ImpactZone& zone, std::span<const Vec3> p, std::span<const double> mass, std::span<Vec3> velocity);
 
 }  // namespace gambeson

@@ -30,6 +30,20 @@ Vec3 acrossFrom(const ContactMesh& mesh, std::span<const Vec3> x, int edge, int 
   return normalized(r - (dot(r, along) / norm2(along)) * along);
 }
 
+/// Half the angle by which two faces bend has half the length of the sum as its sine.
+bool isSharpEdge(const ContactMesh& mesh, std::span<const Vec3> x, int edge) {
+  const std::span<const int> faces = mesh.edge_faces[edge];
+  return faces.size() == 1 || (faces.size() == 2 && norm(acrossFrom(mesh, x, edge, faces[0]) +
+                                                         acrossFrom(mesh, x, edge, faces[1])) > 2 * kSharp);
+}
+
+bool isSharpCorner(const ContactMesh& mesh, std::span<const Vec3> x, int v) {
+  Vec3 sum{};
+  for (int e : mesh.vertex_edges[v]) sum += alongFrom(mesh, x, v, e);
+  return std::all_of(mesh.vertex_edges[v].begin(), mesh.vertex_edges[v].end(),
+                     [&](int e) { return dot(alongFrom(mesh, x, v, e), sum) > kSharp * norm(sum); });
+}
+
 class Search {
  public:
   Search(const CollisionModel& m, double dt, std::span<const char> inside, const CollisionWork& w,
@@ -40,7 +54,7 @@ class Search {
     const int v = pair.vertex;
     const std::array<int, 3>& t = m_.mesh.triangles[pair.triangle];
     if (!m_.sharp_corner[v] || m_.body_of_vertex[t[0]] >= 0) return;
-    if (!counts(t) || !mayReach(std::array{v}, t)) return;
+    if (!counts(t) || !mayReach(std::array{v}, t) || (deforms(v) && !isSharpCorner(m_.mesh, x_, v))) return;
     const std::array<Vec3, 3> corner{x_[t[0]], x_[t[1]], x_[t[2]]};
     const TrianglePoint foot = closestOnTriangle(corner, x_[v]);
     if (foot.feature != kFace) return;
@@ -60,7 +74,7 @@ class Search {
     const int cloth = a_is_body ? pair.b : pair.a, body = a_is_body ? pair.a : pair.b;
     if (!m_.sharp_edge[body]) return;
     const std::array<int, 2>&c = m_.mesh.edges[cloth], &e = m_.mesh.edges[body];
-    if (!counts(c) || !mayReach(e, c)) return;
+    if (!counts(c) || !mayReach(e, c) || (deforms(e[0]) && !isSharpEdge(m_.mesh, x_, body))) return;
     const SegmentPair near = nearestOnSegments(x_[c[0]], x_[c[1]], x_[e[0]], x_[e[1]]);
     if (!(std::min({near.s, 1 - near.s, near.t, 1 - near.t}) > kInside)) return;
     const Vec3 at = x_[e[0]] + near.t * (x_[e[1]] - x_[e[0]]);
@@ -72,6 +86,8 @@ class Search {
   }
 
  private:
+  bool deforms(int v) const { return m_.bodies[m_.body_of_vertex[v]].deforms; }
+
   template <std::size_t N>
   bool counts(const std::array<int, N>& cloth) const {
     return std::all_of(cloth.begin(), cloth.end(), [&](int v) { return w_.tangle[v] == Tangle::kFree && !inside_[v]; });
@@ -121,7 +137,8 @@ class Search {
     }
     for (std::size_t k = 0; k < M; ++k) {
       row.body_velocity += (body_weight[k] / dt_) * (w_.x1[body[k]] - x_[body[k]]);
-      row.contact.local += body_weight[k] * of.local[body[k] - of.first_vertex];
+      row.contact.local += body_weight[k] * (of.deforms ? x_[body[k]] : of.local[body[k] - of.first_vertex]);
+      touch(m_, body[k], body_weight[k], row.contact);
     }
     way -= dt_ * row.body_velocity;
     if (comesWithin(contactReach(thickness), gap * normal, way)) rows_.push_back(row);
@@ -140,22 +157,13 @@ class Search {
 void markSharp(CollisionModel& m, std::span<const Vec3> x) {
   m.sharp_edge.assign(m.mesh.edges.size(), 0);
   m.sharp_corner.assign(m.mesh.vertex_count, 0);
+  const auto rigid = [&](int v) { return !m.bodies[m.body_of_vertex[v]].deforms; };
   for (std::size_t e = 0; e < m.mesh.edges.size(); ++e) {
-    if (m.body_of_vertex[m.mesh.edges[e][0]] < 0) continue;
-    const int edge = static_cast<int>(e);
-    const std::span<const int> faces = m.mesh.edge_faces[edge];
-    // Half the angle by which two faces bend has half the length of the sum as its sine.
-    m.sharp_edge[e] =
-        faces.size() == 1 || (faces.size() == 2 && norm(acrossFrom(m.mesh, x, edge, faces[0]) +
-                                                        acrossFrom(m.mesh, x, edge, faces[1])) > 2 * kSharp);
+    const int edge = static_cast<int>(e), v = m.mesh.edges[e][0];
+    if (m.body_of_vertex[v] >= 0) m.sharp_edge[e] = !rigid(v) || isSharpEdge(m.mesh, x, edge);
   }
-  for (int v = 0; v < m.mesh.vertex_count; ++v) {
-    if (m.body_of_vertex[v] < 0) continue;
-    Vec3 sum{};
-    for (int e : m.mesh.vertex_edges[v]) sum += alongFrom(m.mesh, x, v, e);
-    m.sharp_corner[v] = std::all_of(m.mesh.vertex_edges[v].begin(), m.mesh.vertex_edges[v].end(),
-                                    [&](int e) { return dot(alongFrom(m.mesh, x, v, e), sum) > kSharp * norm(sum); });
-  }
+  for (int v = 0; v < m.mesh.vertex_count; ++v)
+    if (m.body_of_vertex[v] >= 0) m.sharp_corner[v] = !rigid(v) || isSharpCorner(m.mesh, x, v);
 }
 
 void bodyEdgeRows(const CollisionModel& m, double dt, std::span<const char> inside, const CollisionWork& w,

@@ -10,7 +10,8 @@
 namespace gambeson {
 
 /// Marks what cloth may rest on between its samples: edges of bodies at which two faces bend by more than 30 degrees or
-/// that have one face, and corners no blunter than that. `x`: positions of the mesh's vertices.
+/// that have one face, and corners no blunter than that. `x`: positions of the mesh's vertices. What belongs to a body
+/// that deforms is marked all, and asked in each step where cloth comes near it.
 void markSharp(CollisionModel& model, std::span<const Vec3> x);
 
 /// Rows without a target for cloth that is within contactReach of a sharp edge or corner of a body at work.x0 -> x1,

@@ -19,9 +19,15 @@ PairRules rulesOf(const CollisionModel& m) {
   return {std::max(contactReach(m.largest_thickness_m), 2 * kSeparation_m), m.least, m.self};
 }
 
+/// A vertex of a body in its frame; of one that deforms, in the world at the start.
+Vec3 onBody(const CollisionModel& m, const CollisionWork& w, int vertex) {
+  const CollisionModel::Body& body = m.bodies[m.body_of_vertex[vertex]];
+  return body.deforms ? w.x0[vertex] : body.local[vertex - body.first_vertex];
+}
+
 /// The row that keeps a pair apart: weights at the hit, normal there, from side b to side a as they stood at the start.
-ContactRow rowOf(const CollisionModel& m, const PairHit& hit, const FourPoints& x0, const FourPoints& x1,
-                 const std::array<int, 4>& vertex, const ImpactTime& at, double dt) {
+ContactRow rowOf(const CollisionModel& m, const CollisionWork& w, const PairHit& hit, const FourPoints& x0,
+                 const FourPoints& x1, const std::array<int, 4>& vertex, const ImpactTime& at, double dt) {
   const double u = at.u, v = at.v;
   const std::array<double, 4> weight =
       hit.edges ? std::array<double, 4>{1 - u, u, v - 1, -v} : std::array<double, 4>{1, u + v - 1, -u, -v};
@@ -55,11 +61,13 @@ ContactRow rowOf(const CollisionModel& m, const PairHit& hit, const FourPoints& 
     }
     row.contact.obstacle = m.bodies[body].obstacle;
     row.body_velocity -= (weight[k] / dt) * (x1[k] - x0[k]);
-    touched += weight[k] * m.bodies[body].local[vertex[k] - m.bodies[body].first_vertex];
+    touched += weight[k] * onBody(m, w, vertex[k]);
     body_weight += weight[k];
   }
   if (body_weight != 0) {
     row.contact.local = touched / body_weight;
+    for (int k = 0; k < 4; ++k)
+      if (m.body_of_vertex[vertex[k]] >= 0) touch(m, vertex[k], weight[k] / body_weight, row.contact);
     row.contact.sample = row.stencil.sample[0];
     if (body_weight > 0) {
       // The body is the first side: written from the cloth's.
@@ -87,6 +95,7 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
   m.body_of_vertex.assign(surface.size(), -1);
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     const auto* mesh = std::get_if<TriangleMesh>(&obstacles[o].shape);
+    m.body_of_obstacle.push_back(mesh ? static_cast<int>(m.bodies.size()) : -1);
     if (!mesh) continue;
     const MeshTopology topology = meshTopology(*mesh);
     const int first = static_cast<int>(x.size()), first_triangle = static_cast<int>(triangles.size());
@@ -98,7 +107,8 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
     }
     ranges.push_back({first_triangle, static_cast<int>(triangles.size())});
     m.body_of_vertex.resize(x.size() + mesh->vertices.size(), static_cast<int>(m.bodies.size()));
-    m.bodies.push_back({static_cast<int>(o), first, mesh->vertices});
+    m.bodies.push_back({static_cast<int>(o), first, mesh->vertices, obstacles[o].deforms});
+    m.deforms = m.deforms || obstacles[o].deforms;
     for (const Vec3& p : mesh->vertices) x.push_back(placement[o] * p);
   }
   m.mesh = contactMesh(static_cast<int>(x.size()), triangles);
@@ -151,7 +161,8 @@ int findTangles(const CollisionModel& m, bool search, double dt, CollisionWork& 
         }
         row.contact.obstacle = m.bodies[body].obstacle;
         row.body_velocity -= (r.weight[k] / dt) * (w.x1[v] - w.x0[v]);
-        row.contact.local += std::abs(r.weight[k]) * m.bodies[body].local[v - m.bodies[body].first_vertex];
+        row.contact.local += std::abs(r.weight[k]) * onBody(m, w, v);
+        touch(m, v, std::abs(r.weight[k]), row.contact);
       }
       if (row.stencil.count == 0) continue;
       row.contact.sample = row.stencil.sample[0];
@@ -160,18 +171,81 @@ int findTangles(const CollisionModel& m, bool search, double dt, CollisionWork& 
   return static_cast<int>(found.size());
 }
 
+void touch(const CollisionModel& m, int vertex, double weight, Contact& contact) {
+  const CollisionModel::Body& body = m.bodies[m.body_of_vertex[vertex]];
+  if (body.deforms && weight != 0) contact.touched.add(vertex - body.first_vertex, weight);
+}
+
+namespace {
+
+/// Positions that agree to this are the same but for rounding.
+constexpr double kSame_m = 1e-12;
+
+bool same(std::span<const Vec3> x, std::span<const Vec3> y) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!(norm2(x[i] - y[i]) < kSame_m * kSame_m)) return false;
+  return true;
+}
+
+/// Which samples are known to be outside of bodies that deform, at the start of the next step. A sample that stays
+/// apart from all triangles all the way stays on its side; the list knows of all that come near, at the paths it was
+/// told last.
+void keepOutside(const CollisionModel& m, double time_s, std::span<const Vec3> x0, const ObstacleMotion& obstacles,
+                 CollisionWork& w) {
+  std::vector<char>& known = w.near_bodies.outside_of;
+  if (known.empty()) return;
+  const auto isAt = [&](double time, std::span<const Vec3> x) {
+    if (!(std::abs(time - time_s) <= 1e-12) || !same(x0, x.first(x0.size()))) return false;
+    return std::all_of(m.bodies.begin(), m.bodies.end(), [&](const CollisionModel::Body& b) {
+      return !b.deforms || same(obstacles.start_vertices[b.obstacle], x.subspan(b.first_vertex, b.local.size()));
+    });
+  };
+  if (w.x0.size() == static_cast<std::size_t>(m.mesh.vertex_count)) {
+    if (isAt(w.start_s, w.x0)) return;
+    if (isAt(w.end_s, w.x1)) {
+      for (const PointTriangle& p : w.list.pairs().points) {
+        if (p.triangle < m.cloth_triangles || w.list.apart(p) > 0) continue;
+        const CollisionModel::Body& body = m.bodies[m.body_of_vertex[m.mesh.triangles[p.triangle][0]]];
+        known[static_cast<std::size_t>(body.obstacle) * m.cloth.cloth_vertices + p.vertex] = 0;
+      }
+      return;
+    }
+  }
+  std::fill(known.begin(), known.end(), 0);
+}
+
+}  // namespace
+
 void placeVertices(const CollisionModel& m, double time_s, double dt, std::span<const Vec3> x0,
-                   std::span<const Placement> start, std::span<const Placement> end, CollisionWork& w) {
+                   const ObstacleMotion& obstacles, CollisionWork& w) {
+  keepOutside(m, time_s, x0, obstacles, w);
+  w.start_s = time_s;
+  w.end_s = time_s + dt;
   w.x0.assign(x0.begin(), x0.end());
   w.x0.resize(m.mesh.vertex_count);
   w.x1.resize(m.mesh.vertex_count);
-  for (const CollisionModel::Body& body : m.bodies)
-    for (std::size_t k = 0; k < body.local.size(); ++k) {
-      w.x0[body.first_vertex + k] = start[body.obstacle] * body.local[k];
-      w.x1[body.first_vertex + k] = end[body.obstacle] * body.local[k];
+  for (const CollisionModel::Body& body : m.bodies) {
+    if (body.deforms) {
+      std::copy(obstacles.start_vertices[body.obstacle].begin(), obstacles.start_vertices[body.obstacle].end(),
+                w.x0.begin() + body.first_vertex);
+      std::copy(obstacles.end_vertices[body.obstacle].begin(), obstacles.end_vertices[body.obstacle].end(),
+                w.x1.begin() + body.first_vertex);
+      continue;
     }
+    for (std::size_t k = 0; k < body.local.size(); ++k) {
+      w.x0[body.first_vertex + k] = obstacles.start[body.obstacle] * body.local[k];
+      w.x1[body.first_vertex + k] = obstacles.end[body.obstacle] * body.local[k];
+    }
+  }
   if (w.list.empty()) w.list = CandidateList(m.tree);
   w.list.begin(time_s, time_s + dt, w.x0);
+}
+
+Vec3 wayOfBody(const CollisionModel& m, const ObstacleMotion& obstacles, const Contact& c) {
+  const int body = m.body_of_obstacle[c.obstacle];
+  if (body >= 0 && m.bodies[body].deforms)
+    return c.touched.of(obstacles.end_vertices[c.obstacle]) - c.touched.of(obstacles.start_vertices[c.obstacle]);
+  return obstacles.end[c.obstacle] * c.local - obstacles.start[c.obstacle] * c.local;
 }
 
 void moveVertices(std::span<const Vec3> x1, CollisionWork& w) { std::copy(x1.begin(), x1.end(), w.x1.begin()); }
@@ -199,12 +273,12 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
     if (w.list.apart(p) < reach) w.near.edges.push_back(p);
 }
 
-void dropUnreached(const CollisionModel& m, std::span<const Placement> start, std::span<const Placement> end,
-                   const CollisionWork& w, std::vector<Contact>& near) {
+void dropUnreached(const CollisionModel& m, const ObstacleMotion& obstacles, const CollisionWork& w,
+                   std::vector<Contact>& near) {
   std::erase_if(near, [&](const Contact& c) {
     if (!m.is_mesh[c.obstacle] || !(c.gap_m > 0)) return false;
     const Vec3 from = c.gap_m * c.normal;
-    const Vec3 way = w.x1[c.sample] - w.x0[c.sample] - (end[c.obstacle] * c.local - start[c.obstacle] * c.local);
+    const Vec3 way = w.x1[c.sample] - w.x0[c.sample] - wayOfBody(m, obstacles, c);
     return !comesWithin(contactReach(m.cloth.thickness_m[c.sample]), from, way);
   });
 }
@@ -259,7 +333,7 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
     if (!at) return;
     w.report.capped += at->capped;
     hit.time = at->time;
-    hit.row = rowOf(m, hit, x0, x1, vertex, *at, dt);
+    hit.row = rowOf(m, w, hit, x0, x1, vertex, *at, dt);
     hits.push_back(hit);
   };
   for (const PointTriangle& p : w.list.pairs().points) {

@@ -19,7 +19,8 @@ struct CollisionModel {
   struct Body {
     int obstacle = 0;
     int first_vertex = 0;
-    std::vector<Vec3> local;  ///< vertices in the obstacle's frame
+    std::vector<Vec3> local;  ///< vertices in the obstacle's frame; where it deforms, at first
+    bool deforms = false;
   };
   ContactMesh mesh;
   ClothFacts cloth;
@@ -36,6 +37,8 @@ struct CollisionModel {
   std::vector<int> layer_of_vertex;            ///< bodies -1; empty where there is one layer and no body
   std::vector<char> is_body;                   ///< of each vertex
   std::vector<char> is_mesh;                   ///< of each obstacle
+  std::vector<int> body_of_obstacle;           ///< -1: no mesh
+  bool deforms = false;                        ///< some body does
   std::vector<char> sharp_edge, sharp_corner;  ///< of bodies (body_edges.hpp)
   UntangleLaw untangling;
 };
@@ -63,6 +66,7 @@ struct CollisionReport {
 /// it was made for, which the positions of each query certify: what a query finds does not depend on the list.
 struct CollisionWork {
   CandidateList list;
+  double start_s = 0, end_s = 0;
   std::vector<Vec3> x0, x1;    ///< of this step
   CandidatePairs near;         ///< of the list, what may come within reach of a contact
   MeshCandidates near_bodies;  ///< and triangles of bodies, by sample
@@ -71,19 +75,33 @@ struct CollisionWork {
   CollisionReport report;
 };
 
+/// Where the obstacles are at the ends of a step.
+struct ObstacleMotion {
+  std::span<const Placement> start, end;
+  const DeformedVertices &start_vertices, &end_vertices;  ///< of those that deform
+};
+
 /// A new step: positions of the mesh's vertices at its start, and of the obstacles' at its end. Ends of the cloth are
 /// to follow.
+/// Where the step begins as the last one did, or where that ended without passing through anything, samples that
+/// were known to be outside of bodies that deform are so still.
 void placeVertices(const CollisionModel& model, double time_s, double dt_s, std::span<const Vec3> x0,
-                   std::span<const Placement> start, std::span<const Placement> end, CollisionWork& work);
+                   const ObstacleMotion& obstacles, CollisionWork& work);
 /// The cloth would move to x1.
 void moveVertices(std::span<const Vec3> x1, CollisionWork& work);
 
 /// What may come within reach of a contact between work.x0 and x1: work.near and near_bodies.
 void listNear(const CollisionModel& model, CollisionWork& work);
 
+/// Notes that a contact is with a body's vertex, where the body deforms.
+void touch(const CollisionModel& model, int vertex, double weight, Contact& contact);
+
+/// Where the point of a body that a contact touches goes during the step.
+Vec3 wayOfBody(const CollisionModel& model, const ObstacleMotion& obstacles, const Contact& contact);
+
 /// Leaves out contacts with meshes outside of the reach of contacts all the way from x0 to x1.
-void dropUnreached(const CollisionModel& model, std::span<const Placement> start, std::span<const Placement> end,
-                   const CollisionWork& work, std::vector<Contact>& near);
+void dropUnreached(const CollisionModel& model, const ObstacleMotion& obstacles, const CollisionWork& work,
+                   std::vector<Contact>& near);
 
 /// Looks for intersections at work.x0 and writes what frees them (chapter 4): the points of each contour are asked for
 /// the restoring speed. Sets work.tangle. Returns the number of contours. Without `search` there are none.

@@ -11,6 +11,7 @@
 #include "core/contact/response.hpp"
 #include "core/contact/zones.hpp"
 #include "core/dynamics/collisions.hpp"
+#include "core/dynamics/deforming.hpp"
 #include "core/dynamics/resonance.hpp"
 #include "core/dynamics/stitch.hpp"
 #include "core/dynamics/strain_limit.hpp"
@@ -23,6 +24,8 @@ class Stage {
  public:
   virtual ~Stage() = default;
   virtual void placements(double time_s, std::span<Placement> obstacles, std::span<Placement> anchors) const = 0;
+  /// Where the vertices of an obstacle that deforms are, in the world. A motion with continuous velocity.
+  virtual void vertices(int obstacle, double time_s, std::span<Vec3> x) const;
   /// Velocity of the air, for the drag [m/s].
   virtual Vec3 air(double) const { return {}; }
 };
@@ -195,6 +198,7 @@ struct StepWork {
   std::vector<ContactRow> rows, yielding;
   std::vector<Vec3> unsolved;  ///< velocities before the contacts
   std::vector<Placement> start, end, anchors_start, anchors_end;
+  DeformingWork deforming;
   std::vector<ContactImpulse> contact_impulses;  ///< of the last step
   std::vector<Vec3> spring_impulses;             ///< of the last step, on the cloth, one per spring [N s]
   PhaseTimes times;                              ///< summed over the steps

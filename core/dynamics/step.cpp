@@ -145,6 +145,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   stage.placements(in.time_s, w.start, w.anchors_start);
   stage.placements(in.time_s + dt, w.end, w.anchors_end);
 
+  placeDeforming(m, stage, in.time_s, in.time_s + dt, w.deforming);
+
   const Vec3 air0 = stage.air(in.time_s), air1 = stage.air(in.time_s + dt);
   clock.lap(w.times.stage);
 

@@ -45,6 +45,8 @@ auto key(const auto& c) {
   return std::tuple(body_edge ? 4 : std::max(0, -c.obstacle), c.sample, c.obstacle, c.feature);
 }
 
+ObstacleMotion motionOf(const StepWork& w) { return {w.start, w.end, w.deforming.start, w.deforming.end}; }
+
 /// Rows of the persistent contacts with their warm tractions.
 void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   w.rows.clear();
@@ -83,7 +85,7 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     w.rows.push_back(row);
   };
   for (const Contact& c : w.near) {
-    const Vec3 body = (w.end[c.obstacle] * c.local - w.start[c.obstacle] * c.local) / dt;
+    const Vec3 body = wayOfBody(m.collisions, motionOf(w), c) / dt;
     add(bodyRow(c, body, 0, false));
   }
   for (const ClothContactPoint& p : w.collisions.points) {
@@ -221,6 +223,33 @@ bool anyImpact(const Model& m, double dt, StepWork& w) {
   return !w.hits.empty() || !w.pair_hits.empty();
 }
 
+/// The rigid motion nearest to that of a body that deforms, around where a zone touches it: of all triangles there.
+RigidVelocity motionAround(const Model& m, const ImpactZone& zone, double dt, const StepWork& w) {
+  const CollisionModel& c = m.collisions;
+  const int first = c.bodies[c.body_of_obstacle[zone.body]].first_vertex;
+  std::vector<int> around;
+  for (int v : zone.touched)
+    for (int t : c.mesh.vertex_faces[first + v])
+      for (int corner : c.mesh.triangles[t]) around.push_back(corner - first);
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  const std::vector<Vec3>&start = w.deforming.start[zone.body], &end = w.deforming.end[zone.body];
+  std::vector<Vec3> velocity(start.size());
+  for (int v : around) velocity[v] = (end[v] - start[v]) / dt;
+  return nearestRigid(around, start, std::vector<double>(start.size(), 1.0), velocity);
+}
+
+/// The touched vertex of a zone's body nearest to a point, where the body deforms.
+MaterialPoint nearestTouched(const Model& m, const ImpactZone& zone, const Vec3& p, const StepWork& w) {
+  MaterialPoint point;
+  if (!m.obstacles[zone.body].deforms) return point;
+  const std::vector<Vec3>& x = w.deforming.start[zone.body];
+  point.add(*std::min_element(zone.touched.begin(), zone.touched.end(),
+                              [&](int a, int b) { return norm2(x[a] - p) < norm2(x[b] - p); }),
+            1);
+  return point;
+}
+
 /// Moves what still meets in rigid zones, which grow until nothing does. A zone at a body moves with it, a zone with a
 /// held point stays. False where it is no use: pinched between bodies, or never done.
 bool moveZones(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
@@ -239,8 +268,13 @@ bool moveZones(const Model& m, const State& in, double dt, StepReport& report, S
       const bool held = std::any_of(zone.points.begin(), zone.points.end(), [&](int i) { return m.held[i]; });
       if (zone.body >= 0) {
         if (held) return false;
-        for (int i : zone.points)
-          w.velocity[i] = (w.end[zone.body] * toLocal(w.start[zone.body], in.p[i]) - in.p[i]) / dt;
+        if (m.obstacles[zone.body].deforms) {
+          const RigidVelocity body = motionAround(m, zone, dt, w);
+          for (int i : zone.points) w.velocity[i] = body.at(in.p[i]);
+        } else {
+          for (int i : zone.points)
+            w.velocity[i] = (w.end[zone.body] * toLocal(w.start[zone.body], in.p[i]) - in.p[i]) / dt;
+        }
       } else if (held) {
         for (int i : zone.points) w.velocity[i] = {};
       } else {
@@ -286,11 +320,11 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
     w.reach[s] = 1.1 * m.layer_m[s] + dt * norm(w.sample_velocity[s]);
     w.x1[s] = w.x0[s] + dt * w.sample_velocity[s];
   }
-  placeVertices(m.collisions, in.time_s, dt, w.x0, w.start, w.end, w.collisions);
+  placeVertices(m.collisions, in.time_s, dt, w.x0, motionOf(w), w.collisions);
   moveVertices(w.x1, w.collisions);
   listNear(m.collisions, w.collisions);
-  m.proximity->near(w.start, w.end, w.x0, w.reach, w.near, &w.collisions.near_bodies);
-  dropUnreached(m.collisions, w.start, w.end, w.collisions, w.near);
+  m.proximity->near(w.start, w.end, w.x0, w.reach, w.near, &w.collisions.near_bodies, &w.deforming.surfaces);
+  dropUnreached(m.collisions, motionOf(w), w.collisions, w.near);
   w.inside.assign(samples, 0);
   for (const Contact& c : w.near) {
     report.deepest_m = std::max(report.deepest_m, -c.gap_m);
@@ -361,7 +395,8 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
       const int s = row.stencil.sample[j];
       const Vec3 share = row.stencil.weight[j] * impulse;
       if (body)
-        w.contact_impulses.push_back({s, c.obstacle, c.feature, share, c.normal, w.start[c.obstacle] * c.local});
+        w.contact_impulses.push_back(
+            {s, c.obstacle, c.feature, share, c.normal, w.start[c.obstacle] * c.local, c.touched});
       if (body) report.momentum.obstacles -= share;
       for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
         if (m.held[WT.columns[k]]) report.momentum.supports -= WT.values[k] * share;
@@ -392,7 +427,8 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
         const int sample = m.surface.WTt.columns[m.surface.WTt.offsets[i]];
         const double size = norm(impulse);
         if (size == 0) continue;
-        w.contact_impulses.push_back({sample, zone.body, 0, impulse, impulse / size, point});
+        w.contact_impulses.push_back(
+            {sample, zone.body, 0, impulse, impulse / size, point, nearestTouched(m, zone, point, w)});
         report.momentum.obstacles -= impulse;
       } else if (std::any_of(zone.points.begin(), zone.points.end(), [&](int k) { return m.held[k]; })) {
         report.momentum.supports += impulse;

@@ -37,6 +37,12 @@ Intersections SceneIntersections::ofSamples(std::span<const Vec3> samples, doubl
   std::vector<Vec3> x(samples.begin(), samples.end());
   x.reserve(obstacle_.size());
   for (std::size_t k = 0; k < local_.size(); ++k) x.push_back(placed[obstacle_of_[k]] * local_[k]);
+  std::size_t first = samples.size();
+  const DeformedVertices vertices = deformedVertices(model_, stage_, time_s);
+  for (std::size_t o = 0, k = 0; o < vertices.size(); ++o, first = samples.size() + k) {
+    std::copy(vertices[o].begin(), vertices[o].end(), x.begin() + static_cast<std::ptrdiff_t>(first));
+    while (k < local_.size() && obstacle_of_[k] == static_cast<int>(o)) ++k;
+  }
   Intersections found = intersections(x, triangles_, obstacle_);
   // A body's own triangles are the case's, not the simulation's.
   std::erase_if(found.collapsed, [&](int t) { return obstacle_[triangles_[t][0]]; });

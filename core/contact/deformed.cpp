@@ -1,0 +1,27 @@
+#include "core/contact/deformed.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace gambeson {
+
+DeformedSurfaces::DeformedSurfaces(std::span<const Obstacle> obstacles) {
+  if (std::none_of(obstacles.begin(), obstacles.end(), [](const Obstacle& o) { return o.deforms; })) return;
+  for (const Obstacle& o : obstacles)
+    surfaces_.push_back(o.deforms ? std::make_unique<MeshSurface>(std::get<TriangleMesh>(o.shape), true) : nullptr);
+  motion_.assign(obstacles.size(), 0);
+}
+
+void DeformedSurfaces::move(const DeformedVertices& start, const DeformedVertices& end) {
+  assert(empty() || (start.size() == surfaces_.size() && end.size() == surfaces_.size()));
+  for (std::size_t o = 0; o < surfaces_.size(); ++o) {
+    if (!surfaces_[o]) continue;
+    surfaces_[o]->refit(start[o]);
+    double most2 = 0;
+    for (std::size_t v = 0; v < start[o].size(); ++v) most2 = std::max(most2, norm2(end[o][v] - start[o][v]));
+    motion_[o] = std::sqrt(most2);
+  }
+}
+
+}  // namespace gambeson
