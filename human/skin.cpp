@@ -46,7 +46,7 @@ class Maker {
     ImplicitSurface surface;
     surface.value = [&](const Vec3& x) { return field(x); };
     surface.gradient = [&](const Vec3& x) { return field.gradient(x); };
-    surface.edge = [&](const Vec3& x) { return options.cell_m * (1 + 0.6 * field.coarseness(x)); };
+    surface.edge = [&](const Vec3& x) { return 0.965 * options.cell_m * (1 + 0.6 * field.coarseness(x)); };
     surface.low = field.low();
     surface.high = field.high();
     skin_.rest = meshOf(surface, options.cell_m);
@@ -66,14 +66,18 @@ class Maker {
     if (l < 0) throw InputError({"", 0, "skin"}, "needs a skeleton with a link '" + name + "', as our manikins have");
     return l;
   }
+  Vec3 semiAxes(const std::string& shape) const {
+    for (const BodyShape& s : human_.shapes)
+      if (s.name == shape) return std::get<Ellipsoid>(s.shape).semi_axes;  // the field has seen that there is one
+    throw InputError({"", 0, "skin"}, "needs an ellipsoid '" + shape + "'");
+  }
   Vec3 at(const std::string& name) const { return skin_.bind[link(name)].origin; }
 
   /// Where the body bends: the plane through each joint and half the width of the region that takes part.
   void regions() {
     const Vec3 pelvis = skin_.bind[0].origin;
-    double hip_depth = 0;
-    for (const BodyShape& s : human_.shapes)
-      if (s.name == "pelvis") hip_depth = std::get<Ellipsoid>(s.shape).semi_axes.x;
+    const double hip_depth = semiAxes("pelvis").x, chest_half = semiAxes("chest").y,
+                 arm_radius = semiAxes("upper_arm_left").x;
     const auto add = [&](const std::string& child, int side, const Vec3& normal, double offset, double half_width,
                          bool bends, bool crease) {
       regions_.push_back({link(child), side, at(child), normalized(normal), offset, half_width, bends, crease});
@@ -91,13 +95,17 @@ class Maker {
       add("thigh" + name, side, {0, side * drop, -half}, 0, std::max(0.28 * thigh, 1.05 * hip_depth), true, true);
       add("hand" + name, side, wrist - elbow, 0, 0.10 * upper_arm, false, false);
       add("forearm" + name, side, wrist - shoulder, 0, 0.25 * upper_arm, true, true);
-      // Between chest and arm, leaning outwards by half the held abduction.
-      const Vec3 down = normalized(normalized(elbow - shoulder) + Vec3{0, 0, -1});
-      add("upper_arm" + name, side, cross({1, 0, 0}, side * down), -0.10 * upper_arm, 0.25 * upper_arm, true, true);
+      // Midway between chest and arm a hand's breadth below the joint, leaning outwards by half the held abduction.
+      const Vec3 arm = normalized(elbow - shoulder), down = normalized(arm + Vec3{0, 0, -1});
+      const double depth = 0.35 * upper_arm, inner = depth * std::abs(arm.y / arm.z) - arm_radius / std::abs(arm.z);
+      const Vec3 middle{shoulder.x, side * 0.5 * (std::abs(shoulder.y) + inner + chest_half), shoulder.z - depth};
+      const Vec3 normal = cross({1, 0, 0}, side * down);
+      add("upper_arm" + name, side, normal, dot(normal, middle - shoulder), 0.25 * upper_arm, true, true);
     }
     const double trunk = at("head").z - at("torso").z;
     add("head", 0, {0, 0, 1}, 0.02 * trunk, 0.12 * trunk, true, false);
-    add("torso", 0, {0, 0, 1}, 0.04 * trunk, 0.22 * trunk, true, false);
+    add("torso", 0, {0, 0, 1}, 0.09 * trunk, 0.22 * trunk, true, false);
+    torso_ = static_cast<int>(regions_.size()) - 1;
     for (const Region& r : regions_)
       if (r.bends) skin_.bends.push_back({parentSegment(r.child), r.child, r.centre, r.normal, r.offset_m, r.crease});
   }
@@ -127,6 +135,9 @@ class Maker {
     std::vector<double> own(regions_.size()), total(regions_.size());
     for (std::size_t v = 0; v < n; ++v) {
       for (std::size_t r = 0; r < regions_.size(); ++r) own[r] = ownShare(regions_[r], v, pelvis);
+      // The lumbar joint leaves alone what turns with a thigh.
+      for (std::size_t r = 0; r < regions_.size(); ++r)
+        if (s_.links[regions_[r].child].name.starts_with("thigh")) own[torso_] *= 1 - own[r];
       // Of a chain only what lies beyond the joints before it.
       for (int r = static_cast<int>(regions_.size()) - 1; r >= 0; --r)
         total[r] = own[r] * (above[r] >= 0 ? total[above[r]] : 1);
@@ -164,21 +175,30 @@ class Maker {
   double ownShare(const Region& r, std::size_t v, const Vec3& pelvis) const {
     const Vec3& x = skin_.rest.vertices[v];
     const double towards_arm = towards_arm_[v];
-    const double s = dot(r.normal, x - r.centre) - r.offset_m;
     const std::string& name = s_.links[r.child].name;
+    const bool shoulder = name.starts_with("upper_arm");
+    // Above the shoulder the boundary between arm and trunk is upright.
+    const Vec3 level{x.x, x.y, shoulder ? std::min(x.z, r.centre.z) : x.z};
+    const double s = dot(r.normal, level - r.centre) - r.offset_m;
     if (name.starts_with("thigh")) {
       if (towards_arm > 0) return 0;
       // Narrow between the legs, where pelvis and thigh meet within a hand's breadth; elsewhere as wide as the fold's
       // inside needs.
       const double away = std::hypot(x.x - r.centre.x, x.y - pelvis.y);
-      const double width = std::min(0.012 + 1.15 * away, r.half_width_m);
-      constexpr double between_m = 0.02;
+      const double width = std::min(0.03 + 1.0 * away, r.half_width_m);
+      // Both thighs pull at the skin between them, less and less down the legs.
+      const double below = (r.centre.z - x.z) / r.half_width_m,
+                   between_m = 0.07 - 0.055 * smoothStep((below - 0.4) / 0.8);
       return shareProfile(s / width) * smoothStep(0.5 + 0.5 * r.side * towards_left_[v] / between_m);
     }
     if (r.side != 0 && r.side * (x.y - pelvis.y) <= 0) return 0;
     const double u = s / r.half_width_m;
     if (name == "torso") return shareProfile(u + 40 * std::max(0.0, towards_arm) / r.half_width_m);
-    if (name.starts_with("upper_arm")) return shareProfile(u + std::clamp(2 * towards_arm / r.half_width_m, -2.0, 2.0));
+    if (shoulder) {
+      // Narrower below the armpit, until the arm is free.
+      const double down = (r.centre.z - x.z) / r.half_width_m, free = smoothStep((down - 1.3) / 1.5);
+      return shareProfile(u / (1 - 0.9 * free));
+    }
     return shareProfile(u);
   }
 
@@ -197,12 +217,13 @@ class Maker {
       for (std::size_t v = 0; v < skin_.segment.size(); ++v) {
         const Vec3& x = skin_.rest.vertices[v];
         const double s = dot(bend.normal, x - bend.centre) - bend.offset_m;
-        double w = 0;
-        for (int i = skin_.bend_first[v]; i < skin_.bend_first[v + 1]; ++i)
-          if (skin_.bend[i] == static_cast<int>(b)) w = skin_.share[i];
-        const bool of_parent = skin_.segment[v] == bend.parent || w > 0 || (hip && skin_.segment[v] == torso);
-        if (s == 0 || (s > 0 ? w == 0 : w == 1 || !of_parent)) continue;
-        const double strength = shoulder ? 1 - smoothStep(norm(x - bend.centre) / (0.3 * upper_arm) - 1) : 1;
+        const int segment = skin_.segment[v];
+        const bool of_child = s_.isDistal(segment, bend.child);
+        const bool of_parent = segment == bend.parent || (hip && segment == torso);
+        if (s > 0 ? !of_child : s == 0 || !of_parent) continue;
+        double strength = 1;
+        if (shoulder) strength = 1 - smoothStep(norm(x - bend.centre) / (0.3 * upper_arm) - 1);
+        if (hip && of_child) strength = smoothStep(std::abs(towards_left_[v]) / 0.04);
         if (!(strength > 0)) continue;
         c.vertex.push_back(static_cast<int>(v));
         c.side.push_back(s > 0 ? 1 : -1);
@@ -216,6 +237,7 @@ class Maker {
   const Skeleton& s_;
   Skin skin_;
   std::vector<Region> regions_;
+  int torso_ = 0;  ///< its region
   std::vector<double> towards_arm_, towards_left_;
 };
 

@@ -156,12 +156,12 @@ Loft legOf(const Human& human, std::span<const Pose> X_WL) {
   add(ankle.z + 0.35 * ls, -0.10 * calf, 0, 0.80 * calf, 0.77 * calf);
   add(ankle.z + 0.68 * ls, -0.22 * calf, 0, 1.01 * calf, 0.98 * calf);
   add(ankle.z + 0.88 * ls, -0.10 * calf, 0, 0.92 * calf, 0.88 * calf);
-  add(knee.z, 0, 0, 0.96 * k, 0.90 * k);
+  add(knee.z, 0, 0, 1.00 * k, 0.95 * k);
   add(-0.80 * lt, 0.04 * k, 0.15 * out, 1.12 * k, 1.05 * k);
   add(-0.50 * lt, 0.05 * r, 0.6 * out, 0.985 * deep, 0.99 * lateral);
   add(-0.25 * lt, -0.03 * r, out, deep, lateral);
-  add(-0.06 * lt, -0.10 * r, out, 0.93 * deep, 0.98 * lateral);
-  add(0.08 * lt, -0.14 * r, 0.8 * out, 0.82 * deep, 0.88 * lateral);
+  add(-0.06 * lt, -0.10 * r, out, 0.92 * deep, 0.96 * lateral);
+  add(0.08 * lt, -0.14 * r, 0.8 * out, 0.80 * deep, 0.84 * lateral);
   return Loft(X_WT, s, 0.5 * calf, 0.8 * r);
 }
 

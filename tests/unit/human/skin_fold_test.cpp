@@ -1,0 +1,218 @@
+/// The skin in motion: it does not cross itself, folds keep their gap, limbs keep clear.
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/contact/contact_mesh.hpp"
+#include "core/contact/crossing.hpp"
+#include "exact/intersections.hpp"
+#include "human/load.hpp"
+#include "human/manikin.hpp"
+#include "human/motion.hpp"
+#include "human/skin.hpp"
+#include "human/units.hpp"
+
+namespace gambeson {
+namespace {
+
+using Angles = std::map<std::string, double>;  ///< of joints [degrees]; the others as in standing
+
+const Human& human() {
+  static const Human h = makeManikin("male_p50");
+  return h;
+}
+const Skin& skin() {
+  static const Skin s = makeSkin(human());
+  return s;
+}
+
+std::vector<Vec3> posed(const Human& h, const Skin& s, const Angles& angles) {
+  Posture p = standing(h);
+  for (const auto& [joint, deg] : angles) p.q.at(h.skeleton.joint(joint)) = deg * rad_per_deg;
+  std::vector<Vec3> x(s.rest.vertices.size());
+  skinPositions(s, linkPoses(h.skeleton, p.q, p.root), x);
+  return x;
+}
+
+/// The end of aiming and its begin: motion_aiming_kneeling.json of the public data, "end_aim_at_ground_lean_left" with
+/// the pelvis's tilt left out, "start_low_ready".
+const Angles aiming{{"hip_flexion_left", 95},       {"hip_flexion_right", 70},
+                    {"hip_adduction_left", -10},    {"hip_adduction_right", -8},
+                    {"hip_rotation_left", -5},      {"hip_rotation_right", -5},
+                    {"knee_flexion_left", 75},      {"knee_flexion_right", 70},
+                    {"ankle_flexion_left", 20},     {"ankle_flexion_right", 20},
+                    {"lumbar_flexion", 35},         {"lumbar_bending", -12},
+                    {"lumbar_rotation", 8},         {"shoulder_flexion_left", 80},
+                    {"shoulder_abduction_left", 5}, {"elbow_flexion_left", 50},
+                    {"shoulder_flexion_right", 45}, {"shoulder_abduction_right", 40},
+                    {"elbow_flexion_right", 110},   {"neck_flexion", 15}};
+const Angles low_ready{{"hip_flexion_left", 5},     {"hip_flexion_right", 5},       {"hip_adduction_left", -3},
+                       {"hip_adduction_right", -3}, {"knee_flexion_left", 5},       {"knee_flexion_right", 5},
+                       {"lumbar_flexion", 5},       {"shoulder_flexion_left", 30},  {"shoulder_abduction_left", 10},
+                       {"elbow_flexion_left", 80},  {"shoulder_flexion_right", 10}, {"shoulder_abduction_right", 20},
+                       {"elbow_flexion_right", 95}};
+const Angles stairs{{"hip_flexion_left", 70},  {"knee_flexion_left", 90},  {"ankle_flexion_left", 15},
+                    {"hip_flexion_right", -5}, {"elbow_flexion_left", 40}, {"elbow_flexion_right", 40}};
+const Angles folded{
+    {"knee_flexion_left", 110}, {"knee_flexion_right", 110}, {"elbow_flexion_left", 115}, {"elbow_flexion_right", 115}};
+
+Angles between(const Angles& a, const Angles& b, double u) {
+  Angles c = a;
+  for (const auto& [joint, deg] : b) c[joint] = deg;
+  for (auto& [joint, deg] : c) {
+    const auto at = [&, &name = joint](const Angles& m) { return m.contains(name) ? m.at(name) : 0.0; };
+    deg = (1 - u) * at(a) + u * at(b);
+  }
+  return c;
+}
+
+std::size_t crossings(const Skin& s, const std::vector<Vec3>& x) {
+  const ContactMesh mesh = contactMesh(static_cast<int>(x.size()), s.rest.triangles);
+  return findCrossings(mesh, x).size();
+}
+
+/// The smallest distance of a vertex from one that it faces (normals opposed) within 20 mm but more than 30 mm away at
+/// rest: the narrowest fold. 20 mm where there is none. `which` tells what pairs count.
+template <class Which>
+double narrowest(const Skin& s, const std::vector<Vec3>& x, Which which) {
+  constexpr double reach = 0.02;
+  std::vector<Vec3> normal(x.size());
+  for (const auto& t : s.rest.triangles)
+    for (const int v : t) normal[v] += cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+  for (Vec3& n : normal) n = normalized(n);
+  std::vector<int> order(x.size());
+  for (std::size_t v = 0; v < x.size(); ++v) order[v] = static_cast<int>(v);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return x[a].z < x[b].z; });
+  double least = reach;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size() && x[order[j]].z - x[order[i]].z < reach; ++j) {
+      const int v = order[i], w = order[j];
+      const Vec3 d = x[w] - x[v];
+      if (norm2(d) > reach * reach || dot(normal[v], normal[w]) > -0.7) continue;
+      const double h = dot(d, normal[v]);
+      if (h < 0.5 * norm(d) || norm(s.rest.vertices[w] - s.rest.vertices[v]) < 0.03 || !which(v, w)) continue;
+      least = std::min(least, norm(d));
+    }
+  return least;
+}
+double narrowest(const Skin& s, const std::vector<Vec3>& x) {
+  return narrowest(s, x, [](int, int) { return true; });
+}
+
+TEST(SkinFolds, DoesNotTouchItselfAtRest) {
+  EXPECT_TRUE(exact::intersections(skin().rest.vertices, skin().rest.triangles).none());
+}
+
+TEST(SkinFolds, FoldsWithoutCrossingAndKeepsTheGap) {
+  const auto check = [](const Angles& angles, const std::string& what) {
+    const std::vector<Vec3> x = posed(human(), skin(), angles);
+    EXPECT_EQ(crossings(skin(), x), 0u) << what;
+    EXPECT_GE(narrowest(skin(), x), skin().crease_gap_m) << what;
+  };
+  check(stairs, "stairs");
+  check(folded, "knees and elbows");
+  for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0})
+    check(between(low_ready, aiming, u), "aiming " + std::to_string(u));
+  for (const double hip : {30.0, 60.0, 95.0}) check({{"hip_flexion_left", hip}}, "hip " + std::to_string(hip));
+}
+
+TEST(SkinFolds, TheGapIsWhatIsAskedFor) {
+  const Skin wide = makeSkin(human(), {.cell_m = 0.018, .crease_gap_m = 0.008});
+  EXPECT_GE(narrowest(wide, posed(human(), wide, folded)), 0.008);
+  const Skin narrow = makeSkin(human(), {.cell_m = 0.018, .crease_gap_m = 0.001});
+  EXPECT_LT(narrowest(narrow, posed(human(), narrow, folded)), 0.008);
+}
+
+/// Inner thighs: two layers of the shorts, 0.762 mm each (Zheng 2013, 6.2), and 3 mm. Arms: 20 mm from a shirt 5 mm off
+/// the trunk, below the armholes (a hand's breadth, 0.1 m, below the armpits) and for forearms and hands.
+TEST(SkinFolds, WalkingKeepsThighsApartAndArmsOffTheShirt) {
+  const auto walk = makeWalk(human(), {});
+  const Skin& s = skin();
+  std::vector<Vec3> x(s.rest.vertices.size());
+  const auto side = [&](int v) {
+    const std::string& name = human().skeleton.links[s.segment[v]].name;
+    return name.starts_with("thigh") ? (name.ends_with("left") ? 1 : -1) : 0;
+  };
+  std::vector<char> free_arm(x.size()), covered(x.size());
+  const int shoulder = human().skeleton.link("upper_arm_left");
+  const double armpit = s.bind[shoulder].origin.z - 0.12, low = s.bind[0].origin.z - 0.2;  // the shirt ends above `low`
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const std::string& name = human().skeleton.links[s.segment[v]].name;
+    const double z = s.rest.vertices[v].z;
+    const bool arm = name.find("arm") != std::string::npos || name.starts_with("hand");
+    free_arm[v] = arm && z < armpit - 0.1;
+    covered[v] = !arm && z > low && z < armpit + 0.1;
+  }
+  for (int i = 0; i <= 8; ++i) {
+    const Posture p = walk->at(0.5 + 1.1 * i / 8);
+    skinPositions(s, linkPoses(human().skeleton, p.q, p.root), x);
+    EXPECT_EQ(crossings(s, x), 0u) << i;
+    EXPECT_GT(narrowest(s, x, [&](int v, int w) { return side(v) * side(w) < 0; }), 2 * 0.762e-3 + 3e-3) << i;
+    double clear = 1;
+    for (std::size_t v = 0; v < x.size(); ++v)
+      if (free_arm[v])
+        for (std::size_t w = 0; w < x.size(); ++w)
+          if (covered[w]) clear = std::min(clear, norm(x[w] - x[v]));
+    EXPECT_GT(clear, 0.025) << i;
+  }
+}
+
+TEST(SkinFolds, IsTheSameForAnyNumberOfThreads) {
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const std::vector<Vec3> one = posed(human(), skin(), aiming);
+  omp_set_num_threads(3);
+  const std::vector<Vec3> three = posed(human(), skin(), aiming);
+  const Skin again = makeSkin(human());
+  omp_set_num_threads(threads);
+  EXPECT_EQ(one, three);
+  EXPECT_EQ(again.rest.vertices, skin().rest.vertices);
+  EXPECT_EQ(again.share, skin().share);
+}
+
+/// Velocity is continuous: between two instants it changes by an amount that falls with their distance. A C0 clamp
+/// would keep the jump at any distance.
+TEST(SkinFolds, MovesWithContinuousVelocity) {
+  const auto largestJump = [&](double dt) {
+    double largest = 0;
+    for (int i = 0; i < 6; ++i) {
+      const double u = 0.1 + 0.15 * i;
+      const auto x0 = posed(human(), skin(), between(low_ready, aiming, u - dt)),
+                 x1 = posed(human(), skin(), between(low_ready, aiming, u)),
+                 x2 = posed(human(), skin(), between(low_ready, aiming, u + dt));
+      for (std::size_t v = 0; v < x0.size(); ++v) largest = std::max(largest, norm(x2[v] - 2 * x1[v] + x0[v]) / dt);
+    }
+    return largest;
+  };
+  const double coarse = largestJump(1e-3), fine = largestJump(1e-4);
+  EXPECT_LT(fine, 0.2 * coarse);
+}
+
+/// Where one link has all the weight the skin is rigid with it, whatever the joint does (creases aside).
+TEST(SkinFolds, IsRigidAwayFromTheJoints) {
+  Posture p = standing(human());
+  p.q.at(human().skeleton.joint("hip_flexion_left")) = 1.2;
+  p.q.at(human().skeleton.joint("knee_flexion_left")) = 0.9;
+  const auto X = linkPoses(human().skeleton, p.q, p.root);
+  std::vector<Vec3> x(skin().rest.vertices.size());
+  skinPositions(skin(), X, x);
+  const int shank = human().skeleton.link("shank_left"), foot = human().skeleton.link("foot_left");
+  int count = 0;
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const int l = skin().segment[v];
+    if ((l != shank && l != foot) || skin().first[v + 1] - skin().first[v] > 1) continue;
+    const Vec3 rigid = X[l] * (inverse(skin().bind[l]) * skin().rest.vertices[v]);
+    if (l == foot || norm(rigid - X[shank].origin) > 0.2) {
+      EXPECT_LT(norm(x[v] - rigid), 1e-12);
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 300);
+}
+
+}  // namespace
+}  // namespace gambeson
