@@ -196,14 +196,14 @@ class Maker {
     if (name == "torso") return shareProfile(u + 40 * std::max(0.0, towards_arm) / r.half_width_m);
     if (shoulder) {
       // Narrower below the armpit, until the arm is free.
-      const double down = (r.centre.z - x.z) / r.half_width_m, free = smoothStep((down - 1.3) / 1.5);
+      const double down = (r.centre.z - x.z) / r.half_width_m, free = smoothStep((down - 1.0) / 2.2);
       return shareProfile(u / (1 - 0.9 * free));
     }
     return shareProfile(u);
   }
 
-  /// Which vertices a joint keeps apart: those of its segments; at the hips the whole trunk, since a thigh can reach
-  /// it; at the shoulders only near the armpit, since an arm may pass in front of the chest.
+  /// Which vertices a joint keeps apart: those of its segments; at the hips those in front that a thigh can reach, of
+  /// the trunk too; at the shoulders those near the armpit, since an arm may pass in front of the chest.
   void creases() {
     const int torso = link("torso");
     for (std::size_t b = 0; b < skin_.bends.size(); ++b) {
@@ -211,7 +211,8 @@ class Maker {
       if (!bend.crease) continue;
       const std::string& child = s_.links[bend.child].name;
       const bool hip = child.starts_with("thigh"), shoulder = child.starts_with("upper_arm");
-      const double upper_arm = norm(at("upper_arm_left") - at("forearm_left"));
+      const double upper_arm = norm(at("upper_arm_left") - at("forearm_left")),
+                   hip_half = 0.5 * norm(at("thigh_left") - at("thigh_right"));
       SkinCrease c;
       c.bend = static_cast<int>(b);
       for (std::size_t v = 0; v < skin_.segment.size(); ++v) {
@@ -223,7 +224,10 @@ class Maker {
         if (s > 0 ? !of_child : s == 0 || !of_parent) continue;
         double strength = 1;
         if (shoulder) strength = 1 - smoothStep(norm(x - bend.centre) / (0.3 * upper_arm) - 1);
-        if (hip && of_child) strength = smoothStep(std::abs(towards_left_[v]) / 0.04);
+        if (hip)
+          strength = (1 - smoothStep(norm(x - bend.centre) / (1.6 * hip_half) - 1)) *
+                     smoothStep((x.x - bend.centre.x) / (0.6 * hip_half)) *
+                     (of_child ? smoothStep(std::abs(towards_left_[v]) / 0.04) : 1);
         if (!(strength > 0)) continue;
         c.vertex.push_back(static_cast<int>(v));
         c.side.push_back(s > 0 ? 1 : -1);

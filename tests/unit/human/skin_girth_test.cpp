@@ -1,5 +1,5 @@
-/// Sizes of the skin: girths by the tape against the ellipsoids of the data (human/data/manikins.json), triangles,
-/// volume and area, for all manikins.
+/// The skins of all manikins: folds, and girths by the tape against the ellipsoids of the data
+/// (human/data/manikins.json), triangles, volume and area, for all manikins.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,7 @@
 #include "human/load.hpp"
 #include "human/manikin.hpp"
 #include "human/skin.hpp"
+#include "unit/human/skin_postures.hpp"
 
 namespace gambeson {
 namespace {
@@ -70,7 +71,7 @@ double perimeter(double a, double b) {
 class SkinOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Manikins, SkinOf, testing::ValuesIn(manikinNames()), [](const auto& i) { return i.param; });
 
-TEST_P(SkinOf, HasTheGirthsOfTheDataAndGoodTriangles) {
+TEST_P(SkinOf, HasTheGirthsOfTheDataGoodTrianglesAndCleanFolds) {
   const Human h = makeManikin(GetParam());
   const Skin s = makeSkin(h);
   for (const BodyShape& part : h.shapes) {
@@ -107,6 +108,12 @@ TEST_P(SkinOf, HasTheGirthsOfTheDataAndGoodTriangles) {
   const double du_bois = 0.007184 * std::pow(h.mass_kg, 0.425) * std::pow(100 * h.stature_m, 0.725);
   EXPECT_NEAR(area, du_bois, 0.15 * du_bois);
   EXPECT_TRUE(meshTopology(s.rest).closed);
+
+  for (const Angles& angles : {stairs, aiming, folded}) {
+    const std::vector<Vec3> x = posed(h, s, angles);
+    EXPECT_EQ(crossings(s, x), 0u);
+    EXPECT_GE(narrowest(s, x), s.crease_gap_m);
+  }
 
   // Symmetric to the bit.
   std::vector<std::array<double, 3>> points, mirrored;
