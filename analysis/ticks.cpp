@@ -20,7 +20,13 @@ std::string withMinus(std::string s) {
 std::string Ticks::label(double value) const {
   const double size = std::max(
       {std::abs(value), std::abs(values.empty() ? 0 : values.front()), std::abs(values.empty() ? 0 : values.back())});
-  if (step < 1e-4 || size >= 1e6) return formatNumber(std::abs(value) < step / 2 ? 0 : value, 3);
+  if (step < 1e-4 || size >= 1e6) {
+    if (std::abs(value) < step / 2) return "0";
+    const auto magnitude = [](double v) { return static_cast<int>(std::floor(std::log10(v) + 1e-9)); };
+    const int power = magnitude(std::abs(value)), decimals = std::clamp(power - magnitude(step), 0, 6);
+    return withMinus(fmt::format("{:.{}f}", value / std::pow(10.0, power), decimals)) + "e" +
+           withMinus(fmt::format("{}", power));
+  }
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   return withMinus(fmt::format("{:.{}f}", value, decimals));
 }
@@ -38,6 +44,20 @@ Ticks niceTicks(double low, double high, int target) {
   const double first = std::ceil(low / ticks.step - 1e-6), last = std::floor(high / ticks.step + 1e-6);
   for (double k = first; k <= last; ++k) ticks.values.push_back(k * ticks.step + 0.0);
   return ticks;
+}
+
+Ticks ticksThatFit(double low, double high, int target, double length, double per_character) {
+  for (;; --target) {
+    Ticks ticks = niceTicks(low, high, target);
+    std::size_t widest = 0;
+    for (const double v : ticks.values) {
+      std::size_t characters = 0;
+      for (const char c : ticks.label(v)) characters += (c & 0xC0) != 0x80;  // of UTF-8, without continuations
+      widest = std::max(widest, characters);
+    }
+    const double apart = ticks.step / (high - low) * length;
+    if (target == 1 || apart >= per_character * static_cast<double>(widest + 1)) return ticks;
+  }
 }
 
 std::string formatNumber(double value, int digits) {

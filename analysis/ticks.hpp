@@ -13,6 +13,10 @@ struct Ticks {
   std::string label(double value) const;
 };
 
+/// niceTicks of an axis along which labels stand side by side: fewer than `target` where they would touch. `length` of
+/// the axis and `per_character`, both in the same unit.
+Ticks ticksThatFit(double low, double high, int target, double length, double per_character);
+
 /// Ticks within [low, high], about `target` of them. Needs finite low < high and target >= 1.
 Ticks niceTicks(double low, double high, int target);
 

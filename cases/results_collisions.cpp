@@ -115,6 +115,7 @@ void addCollisions(const Measured& m, ReportInput& in) {
                            {seriesOf(m, "residual", "mm/s", Tone::third, residual)},
                            {},
                            false}};
+  plots[1].series[0].gaps = true;
   for (Plot& plot : plots)
     if (shows(plot)) in.collision_plots.push_back(std::move(plot));
 }

@@ -107,6 +107,8 @@ void decide(const Check& c, double measured, Result& r) {
     r.reference = c.at_least;
     r.passed = measured >= *c.at_least;
     r.note = "at least" + (r.note.empty() ? "" : "; " + r.note);
+  } else if (!c.at_most) {
+    r.passed = true;
   } else {
     r.reference = c.at_most;
     r.passed = measured <= *c.at_most;

@@ -41,7 +41,9 @@ std::string head(const std::vector<std::string>& names, std::size_t texts) {
     row += element("th", escape(names[i]), i < texts ? "" : " class=\"number\"");
   return element("thead", element("tr", row));
 }
-std::string numberText(const std::optional<double>& v, int digits = 6) { return v ? formatNumber(*v, digits) : "none"; }
+std::string numberText(const std::optional<double>& v, int digits = 6, const std::string& otherwise = "none") {
+  return v ? formatNumber(*v, digits) : otherwise;
+}
 
 std::string verdict(const Result& r) {
   if (!r.gated) return r.passed ? "<span class=\"soft\">reported</span>" : "<span class=\"soft\">reported, off</span>";
@@ -70,9 +72,10 @@ std::string resultTable(const Verified& v) {
     if (r.other_run) continue;
     std::string what = escape(r.quantity);
     if (!r.note.empty()) what += "<br><span class=\"soft\">" + escape(r.note) + "</span>";
+    const std::string none = r.gated ? "none" : "";  // to be compared with
     rows += element("tr", cell(verdict(r)) + cell(what) + cell(escape(r.unit)) + cell(numberText(r.measured), true) +
-                              cell(numberText(r.reference), true) + cell(numberText(r.tolerance, 2), true) +
-                              cell(meter(r), true));
+                              cell(numberText(r.reference, 6, none), true) +
+                              cell(numberText(r.tolerance, 2, none), true) + cell(meter(r), true));
   }
   return element(
       "div",

@@ -153,7 +153,8 @@ void checkGoal(const Place& p, const Check& c) {
   const bool measured = !c.reference_runs.empty();
   if (measured && c.relative) p.failAt("relative", "reference_runs go with absolute");
   const int goals = static_cast<int>(c.reference.has_value()) + static_cast<int>(measured) + (c.at_least || c.at_most);
-  if (goals != 1) p.fail("needs either reference (with relative or absolute), or at_least, or at_most");
+  if (goals != 1 && !(goals == 0 && !c.gated))
+    p.fail("needs either reference (with relative or absolute), or at_least, or at_most, or gated false");
   if (c.at_least && c.at_most) p.failAt("at_most", "at_least and at_most exclude each other");
   const int tolerances = c.relative.has_value() + c.absolute.has_value();
   if ((c.reference || measured) && tolerances != 1)

@@ -60,7 +60,8 @@ bool drawn(const Series& s, std::size_t i) { return std::isfinite(s.time_s[i]) &
 
 std::string axes(const Frame& f, const std::string& unit) {
   std::string out;
-  const Ticks xs = niceTicks(f.t.low, f.t.high, 6), ys = niceTicks(f.v.low, f.v.high, 5);
+  const Ticks xs = ticksThatFit(f.t.low, f.t.high, 6, kWidth - kLeft - kRight, 7.4),
+              ys = niceTicks(f.v.low, f.v.high, 5);
   for (const double v : ys.values) {
     out += fmt::format("<line class=\"{}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>",
                        v == 0 ? "zero" : "grid", kLeft, kWidth - kRight, f.y(v), f.y(v));
@@ -147,7 +148,7 @@ std::string lineChart(const Plot& plot) {
     else if (good == 0)
       notices += html::notice("None of the " + std::to_string(s.values.size()) + " values of " + s.name +
                               " is a finite number.");
-    else if (good < s.values.size())
+    else if (good < s.values.size() && !s.gaps)
       notices += html::notice(fmt::format("{} of the {} values of {} are not finite numbers and are left out.",
                                           s.values.size() - good, s.values.size(), s.name));
   }

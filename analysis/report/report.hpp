@@ -42,6 +42,7 @@ struct Series {
   std::string name, unit;
   std::vector<double> time_s, values;
   Tone tone = Tone::third;
+  bool gaps = false;  ///< a value that is not a number says that there is nothing at that time, and no notice is given
 };
 
 /// A vertical line: "left heel strike".

@@ -31,8 +31,8 @@ struct Tick {
 /// One axis; logarithmic ones work with the logarithm to base 10.
 struct Axis {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  double from = 0, to = 1;  ///< pixels
-  bool logarithmic = false;
+  double from = 0, to = 1;                  ///< pixels
+  bool logarithmic = false, level = false;  ///< level: its labels stand side by side
 
   double coordinate(double v) const { return logarithmic ? (v > 0 ? std::log10(v) : std::nan("")) : v; }
   double pixel(double c) const { return from + (c - low) / (high - low) * (to - from); }
@@ -44,7 +44,7 @@ struct Axis {
   std::vector<Tick> ticks(int target) const {
     std::vector<Tick> all;
     if (!logarithmic) {
-      const Ticks t = niceTicks(low, high, target);
+      const Ticks t = level ? ticksThatFit(low, high, target, std::abs(to - from), 7.4) : niceTicks(low, high, target);
       for (const double v : t.values) all.push_back({v, t.label(v)});
       return all;
     }
@@ -84,6 +84,7 @@ std::string legend(const std::vector<XySeries>& series, double& height) {
 std::string xyChart(const XyPlot& plot) {
   Axis ax, ay;
   ax.logarithmic = ay.logarithmic = plot.logarithmic;
+  ax.level = true;
   for (const XySeries& s : plot.series) {
     if (s.x.size() != s.y.size())
       throw InputError({"", 0, s.name}, fmt::format("{} values of x for {} of y", s.x.size(), s.y.size()));

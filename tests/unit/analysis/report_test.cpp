@@ -248,6 +248,9 @@ TEST(Chart, NanInterruptsTheLineAndIsCounted) {
   EXPECT_EQ(count(path, "L"), 26u);
   EXPECT_FALSE(has(path, "n"));
   EXPECT_TRUE(has(svg, "2 of the 30 values of right are not finite numbers and are left out."));
+  plot.series[0].gaps = true;
+  EXPECT_FALSE(has(lineChart(plot), "not finite"));
+  EXPECT_EQ(quoted(lineChart(plot), " d=\"").at(0), path);
 }
 
 TEST(Chart, EmptyAndUnusableSeriesSaySo) {

@@ -29,6 +29,25 @@ TEST(Ticks, LabelsHaveTheDecimalsOfTheStep) {
   EXPECT_EQ(niceTicks(-1, 1, 4).label(-0.5), "\u22120.5");
   EXPECT_EQ(niceTicks(-1, 1, 4).label(-1e-17), "0.0");
   EXPECT_EQ(niceTicks(0, 0.1, 4).label(0.02), "0.02");
+  EXPECT_EQ(niceTicks(0, 1e-4, 5).label(2e-5), "2e\u22125");
+  EXPECT_EQ(niceTicks(0, 1.4e-4, 5).label(1.2e-4), "1.2e\u22124");
+  EXPECT_EQ(niceTicks(0, 1e7, 5).label(2e6), "2e6");
+}
+
+TEST(Ticks, LabelsSideBySideDoNotTouch) {
+  for (const double high : {9e-5, 8.9e-6, 9.1e7, 3.0})
+    for (const double length : {200.0, 400.0}) {
+      const Ticks t = ticksThatFit(0, high, 6, length, 7.4);
+      ASSERT_GE(t.values.size(), 2u);
+      // A sign of minus has three bytes.
+      for (const double v : t.values) {
+        const std::string label = t.label(v);
+        const double characters =
+            static_cast<double>(label.size()) - (label.find("\u2212") == std::string::npos ? 0 : 2);
+        EXPECT_LT(7.4 * characters, t.step / high * length) << label << " " << length;
+      }
+    }
+  EXPECT_EQ(ticksThatFit(0, 1, 6, 400, 7.4).step, niceTicks(0, 1, 6).step);
 }
 
 TEST(Numbers, HaveSignificantDigits) {

@@ -93,6 +93,11 @@ TEST(VerifyValue, DifferencesRatiosAndBounds) {
   c.at_least.reset();
   c.at_most = 0.51;
   EXPECT_TRUE(judge({}, c, given).results[0].passed);
+  c.at_most.reset();
+  c.gated = false;
+  const Result reported = judge({}, c, given).results[0];
+  EXPECT_TRUE(reported.passed && !reported.gated && !reported.reference);
+  EXPECT_EQ(*reported.measured, 0.5);
 }
 
 TEST(VerifyValue, SeedsBecomeOneNumber) {
