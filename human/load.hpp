@@ -23,4 +23,7 @@ Human makeManikin(const std::string& name);
 /// The same manikin as a URDF and a body file that loadHuman reads back.
 void writeManikin(const std::string& name, const std::filesystem::path& urdf, const std::filesystem::path& body);
 
+/// A mesh as a Wavefront OBJ file, in metres.
+void writeMesh(const TriangleMesh& mesh, const std::filesystem::path& obj);
+
 }  // namespace gambeson

@@ -121,53 +121,98 @@ class Maker {
 
   void shares() {
     const std::size_t n = skin_.rest.vertices.size();
-    std::vector<int> bend_of(regions_.size(), -1), above(regions_.size());
+    bend_of_.assign(regions_.size(), -1);
+    above_.assign(regions_.size(), -1);
     for (std::size_t r = 0, b = 0; r < regions_.size(); ++r) {
-      if (regions_[r].bends) bend_of[r] = static_cast<int>(b++);
+      if (regions_[r].bends) bend_of_[r] = static_cast<int>(b++);
       const int p = parentSegment(regions_[r].child);
-      above[r] = -1;
       for (std::size_t q = 0; q < regions_.size(); ++q)
-        if (regions_[q].child == p) above[r] = static_cast<int>(q);
+        if (regions_[q].child == p) above_[r] = static_cast<int>(q);
     }
+    std::vector<Shares> own(n);
+    for (std::size_t v = 0; v < n; ++v) own[v] = sharesAt(v);
+    group(own);
     skin_.first = {0};
-    skin_.bend_first = {0};
-    const Vec3 pelvis = skin_.bind[0].origin;
-    std::vector<double> own(regions_.size()), total(regions_.size());
-    for (std::size_t v = 0; v < n; ++v) {
-      for (std::size_t r = 0; r < regions_.size(); ++r) own[r] = ownShare(regions_[r], v, pelvis);
-      // The lumbar joint leaves alone what turns with a thigh.
+    for (const Shares& s : own) weigh(s);
+  }
+
+  /// What a vertex has of each region's joint, and of all joints from the root to it.
+  struct Shares {
+    std::vector<double> own, total;
+  };
+
+  Shares sharesAt(std::size_t v) const {
+    Shares s;
+    for (const Region& r : regions_) s.own.push_back(ownShare(r, v, skin_.bind[0].origin));
+    // The lumbar joint leaves alone what turns with a thigh.
+    for (std::size_t r = 0; r < regions_.size(); ++r)
+      if (s_.links[regions_[r].child].name.starts_with("thigh")) s.own[torso_] *= 1 - s.own[r];
+    s.total = s.own;
+    for (int r = static_cast<int>(regions_.size()) - 1; r >= 0; --r)
+      if (above_[r] >= 0) s.total[r] *= s.total[above_[r]];
+    return s;
+  }
+
+  /// Sorts the vertices by the bends that move them, so that each run is one loop.
+  void group(std::vector<Shares>& own) {
+    using Key = std::vector<std::pair<int, bool>>;  // bend, whether in part
+    std::vector<Key> key(own.size());
+    for (std::size_t v = 0; v < own.size(); ++v)
       for (std::size_t r = 0; r < regions_.size(); ++r)
-        if (s_.links[regions_[r].child].name.starts_with("thigh")) own[torso_] *= 1 - own[r];
-      // Of a chain only what lies beyond the joints before it.
-      for (int r = static_cast<int>(regions_.size()) - 1; r >= 0; --r)
-        total[r] = own[r] * (above[r] >= 0 ? total[above[r]] : 1);
-      std::vector<std::pair<int, double>> parts;
-      double root = 1;
-      for (std::size_t r = 0; r < regions_.size(); ++r) {
-        double w = total[r];
-        for (std::size_t q = 0; q < regions_.size(); ++q)
-          if (above[q] == static_cast<int>(r)) w -= total[q];
-        if (above[r] < 0) root -= total[r];
-        if (w > 0) parts.emplace_back(regions_[r].child, w);
-        if (bend_of[r] >= 0 && total[r] > 0) {
-          skin_.bend.push_back(bend_of[r]);
-          skin_.share.push_back(own[r]);
-        }
+        if (bend_of_[r] >= 0 && own[v].total[r] > 0) key[v].emplace_back(bend_of_[r], own[v].own[r] < 1);
+    std::vector<int> order(own.size()), number(own.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
+    const auto sorted = [&](auto& list) {
+      auto old = list;
+      for (std::size_t i = 0; i < order.size(); ++i) list[i] = std::move(old[order[i]]);
+    };
+    sorted(key);
+    sorted(own);
+    sorted(skin_.rest.vertices);
+    sorted(towards_arm_);
+    sorted(towards_left_);
+    for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);
+    for (auto& t : skin_.rest.triangles)
+      for (int& v : t) v = number[v];
+
+    for (std::size_t begin = 0, end = 0; begin < key.size(); begin = end) {
+      while (end < key.size() && key[end] == key[begin]) ++end;
+      SkinRun run{static_cast<int>(begin), static_cast<int>(end), {}, {}, {}};
+      for (const auto& [bend, partial] : key[begin]) {
+        run.bends.push_back(bend);
+        run.partial.push_back(partial);
+        if (!partial) continue;
+        const auto r = std::find(bend_of_.begin(), bend_of_.end(), bend) - bend_of_.begin();
+        for (std::size_t v = begin; v < end; ++v) run.share.push_back(own[v].own[r]);
       }
-      if (root > 0) parts.emplace_back(0, root);
-      std::sort(parts.begin(), parts.end());
-      double sum = 0;
-      for (const auto& [l, w] : parts) sum += w;
-      int best = 0;
-      for (std::size_t i = 0; i < parts.size(); ++i) {
-        skin_.link.push_back(parts[i].first);
-        skin_.weight.push_back(parts[i].second / sum);
-        if (parts[i].second > parts[best].second) best = static_cast<int>(i);
-      }
-      skin_.segment.push_back(parts[best].first);
-      skin_.first.push_back(static_cast<int>(skin_.link.size()));
-      skin_.bend_first.push_back(static_cast<int>(skin_.bend.size()));
+      skin_.runs.push_back(std::move(run));
     }
+  }
+
+  /// Weights of the next vertex: of a chain only what no joint further on takes.
+  void weigh(const Shares& s) {
+    std::vector<std::pair<int, double>> parts;
+    double root = 1;
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+      double w = s.total[r];
+      for (std::size_t q = 0; q < regions_.size(); ++q)
+        if (above_[q] == static_cast<int>(r)) w -= s.total[q];
+      if (above_[r] < 0) root -= s.total[r];
+      if (w > 0) parts.emplace_back(regions_[r].child, w);
+    }
+    if (root > 0) parts.emplace_back(0, root);
+    std::sort(parts.begin(), parts.end());
+    double sum = 0;
+    for (const auto& [l, w] : parts) sum += w;
+    int best = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      skin_.link.push_back(parts[i].first);
+      skin_.weight.push_back(parts[i].second / sum);
+      if (parts[i].second > parts[best].second) best = static_cast<int>(i);
+    }
+    skin_.segment.push_back(parts[best].first);
+    skin_.first.push_back(static_cast<int>(skin_.link.size()));
   }
 
   /// The share of a point of the skin in one joint. Legs end at the median plane; arms are told from the trunk by what
@@ -241,7 +286,8 @@ class Maker {
   const Skeleton& s_;
   Skin skin_;
   std::vector<Region> regions_;
-  int torso_ = 0;  ///< its region
+  int torso_ = 0;                     ///< its region
+  std::vector<int> bend_of_, above_;  ///< of each region: its bend, and the next region towards the root (or -1)
   std::vector<double> towards_arm_, towards_left_;
 };
 

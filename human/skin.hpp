@@ -35,17 +35,25 @@ struct SkinCrease {
   std::vector<double> side, strength;
 };
 
+/// Consecutive vertices that turn about the same bends, distal first: `partial` tells about which with shares below 1,
+/// which follow by vertex for each such bend in turn (share[k * (end - begin) + v - begin] for the k-th).
+struct SkinRun {
+  int begin = 0, end = 0;
+  std::vector<int> bends;
+  std::vector<char> partial;
+  std::vector<double> share;
+};
+
 /// `weight` sums to 1 at each vertex. With bends (skins that we make) the shares move the skin and the weights say how
 /// much of a vertex belongs to each link; without (skins from files) the weights blend the links' motions linearly.
 struct Skin {
-  TriangleMesh rest;                  ///< closed, outward, in the world frame of the bind posture
-  std::vector<Pose> bind;             ///< X_WL of each link of the skeleton in the bind posture
-  std::vector<int> first, link;       ///< links of vertex v: link[first[v]] .. link[first[v + 1] - 1], ascending
-  std::vector<double> weight;         ///< as `link`
-  std::vector<int> segment;           ///< of each vertex: the link of largest weight
-  std::vector<SkinBend> bends;        ///< a child's bend stands before its parent's
-  std::vector<int> bend_first, bend;  ///< bends of vertex v with a share > 0, as `first` and `link`, ascending
-  std::vector<double> share;          ///< as `bend`, in (0, 1]
+  TriangleMesh rest;             ///< closed, outward, in the world frame of the bind posture
+  std::vector<Pose> bind;        ///< X_WL of each link of the skeleton in the bind posture
+  std::vector<int> first, link;  ///< links of vertex v: link[first[v]] .. link[first[v + 1] - 1], ascending
+  std::vector<double> weight;    ///< as `link`
+  std::vector<int> segment;      ///< of each vertex: the link of largest weight
+  std::vector<SkinBend> bends;   ///< a child's bend stands before its parent's
+  std::vector<SkinRun> runs;     ///< all vertices, in order
   std::vector<SkinCrease> creases;
   double crease_gap_m = 0;
 };

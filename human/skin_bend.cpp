@@ -58,6 +58,68 @@ Vec3 turned(const Quaternion& q, const Vec3& p) {
   return p + q.w * t + cross(q.v, t);
 }
 
+/// Vertices of one run that are moved together, coordinate by coordinate, so that the loops become vector code.
+constexpr int kBlock = 128;
+struct Block {
+  const SkinRun* run;
+  int begin, end;
+};
+
+void bendBlock(const Skin& skin, const std::vector<Quaternion>& turn, const Pose& move, const Block& block,
+               std::span<Vec3> x) {
+  const SkinRun& run = *block.run;
+  const int n = block.end - block.begin;
+  double px[kBlock], py[kBlock], pz[kBlock];
+  for (int i = 0; i < n; ++i) {
+    const Vec3& p = skin.rest.vertices[block.begin + i];
+    px[i] = p.x;
+    py[i] = p.y;
+    pz[i] = p.z;
+  }
+  const auto rigid = [&](const Pose& X) {
+    const Mat3 R = X.rotation;
+    const Vec3 o = X.origin;
+#pragma omp simd
+    for (int i = 0; i < n; ++i) {
+      const double a = px[i], b = py[i], c = pz[i];
+      px[i] = a * R.a.x + b * R.b.x + c * R.c.x + o.x;
+      py[i] = a * R.a.y + b * R.b.y + c * R.c.y + o.y;
+      pz[i] = a * R.a.z + b * R.b.z + c * R.c.z + o.z;
+    }
+  };
+  Pose pending;  // turns of share 1, not yet done
+  bool waiting = false;
+  const double* share = run.share.data() + (block.begin - run.begin);
+  for (std::size_t k = 0; k < run.bends.size(); ++k) {
+    const Vec3 c = skin.bends[run.bends[k]].centre;
+    const Quaternion q = turn[run.bends[k]];
+    if (!run.partial[k]) {
+      const Mat3 R{turned(q, {1, 0, 0}), turned(q, {0, 1, 0}), turned(q, {0, 0, 1})};
+      pending = Pose{R, c - R * c} * pending;
+      waiting = true;
+      continue;
+    }
+    if (waiting) rigid(pending);
+    pending = {};
+    waiting = false;
+    const double v2 = norm2(q.v);
+#pragma omp simd
+    for (int i = 0; i < n; ++i) {
+      // part() and turned(), written out.
+      const double w = share[i], r = 1 - w + w * q.w, s = 1 / std::sqrt(r * r + w * w * v2), qw = r * s, f = w * s;
+      const double vx = f * q.v.x, vy = f * q.v.y, vz = f * q.v.z;
+      const double a = px[i] - c.x, b = py[i] - c.y, d = pz[i] - c.z;
+      const double tx = 2 * (vy * d - vz * b), ty = 2 * (vz * a - vx * d), tz = 2 * (vx * b - vy * a);
+      px[i] += qw * tx + (vy * tz - vz * ty);
+      py[i] += qw * ty + (vz * tx - vx * tz);
+      pz[i] += qw * tz + (vx * ty - vy * tx);
+    }
+    share += run.end - run.begin;
+  }
+  rigid(move * pending);
+  for (int i = 0; i < n; ++i) x[block.begin + i] = {px[i], py[i], pz[i]};
+}
+
 void blendLinearly(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3> x) {
   std::vector<Pose> move(X_WL.size());
   for (std::size_t l = 0; l < move.size(); ++l) move[l] = X_WL[l] * inverse(skin.bind[l]);
@@ -80,7 +142,7 @@ void skinPositions(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3>
                    std::to_string(skin.rest.vertices.size()));
   if (skin.bends.empty()) return blendLinearly(skin, X_WL, x);
 
-  const int nb = static_cast<int>(skin.bends.size()), n = static_cast<int>(x.size());
+  const int nb = static_cast<int>(skin.bends.size());
   std::vector<Quaternion> turn(nb);
   for (int b = 0; b < nb; ++b) {
     const SkinBend& bend = skin.bends[b];
@@ -89,15 +151,13 @@ void skinPositions(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3>
     turn[b] = quaternion(transpose(parent) * child);
   }
   const Pose move = X_WL[0] * inverse(skin.bind[0]);
+  std::vector<Block> blocks;
+  for (const SkinRun& run : skin.runs)
+    for (int begin = run.begin; begin < run.end; begin += kBlock)
+      blocks.push_back({&run, begin, std::min(begin + kBlock, run.end)});
+  const int nblocks = static_cast<int>(blocks.size());
 #pragma omp parallel for schedule(static)
-  for (int v = 0; v < n; ++v) {
-    Vec3 p = skin.rest.vertices[v];
-    for (int i = skin.bend_first[v]; i < skin.bend_first[v + 1]; ++i) {
-      const Vec3& c = skin.bends[skin.bend[i]].centre;
-      p = c + turned(part(turn[skin.bend[i]], skin.share[i]), p - c);
-    }
-    x[v] = move * p;
-  }
+  for (int i = 0; i < nblocks; ++i) bendBlock(skin, turn, move, blocks[i], x);
 
   for (const SkinCrease& crease : skin.creases) {
     const SkinBend& bend = skin.bends[crease.bend];

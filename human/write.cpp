@@ -1,4 +1,4 @@
-/// A human as a URDF and a body file, with numbers that read back to the same bits.
+/// A human as a URDF and a body file, and meshes as OBJ, with numbers that read back to the same bits.
 
 #include <fmt/format.h>
 
@@ -65,6 +65,13 @@ std::string bodyOf(const Human& h) {
 }
 
 }  // namespace
+
+void writeMesh(const TriangleMesh& mesh, const std::filesystem::path& obj) {
+  std::string s = "# metres\n";
+  for (const Vec3& x : mesh.vertices) s += fmt::format("v {}\n", triple(x, " "));
+  for (const auto& t : mesh.triangles) s += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  save(obj, s);
+}
 
 void writeManikin(const std::string& name, const std::filesystem::path& urdf, const std::filesystem::path& body) {
   const Human human = makeManikin(name);

@@ -94,7 +94,7 @@ TEST(SkinFolds, IsTheSameForAnyNumberOfThreads) {
   omp_set_num_threads(threads);
   EXPECT_EQ(one, three);
   EXPECT_EQ(again.rest.vertices, skin().rest.vertices);
-  EXPECT_EQ(again.share, skin().share);
+  EXPECT_EQ(again.weight, skin().weight);
 }
 
 /// Velocity is continuous: between two instants it changes by an amount that falls with their distance. A C0 clamp

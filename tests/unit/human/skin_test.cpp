@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "human/load.hpp"
 #include "human/motion.hpp"
+#include "unit/human/files.hpp"
 
 namespace gambeson {
 namespace {
@@ -56,6 +57,32 @@ TEST(Skin, StaysAtRestInTheBindPostureAndMovesWithTheRoot) {
   p.root = X * p.root;
   skinPositions(s, linkPoses(human().skeleton, p.q, p.root), x);
   for (std::size_t v = 0; v < x.size(); ++v) EXPECT_LT(norm(x[v] - X * s.rest.vertices[v]), 1e-14);
+}
+
+/// A skin from a file has weights only: x = sum of w_l X_l X_l,bind⁻¹ x0, so a vertex halfway between two links that
+/// moved by a and b moves by (a + b)/2.
+TEST(Skin, BlendsLinearlyWithoutBends) {
+  Skin s;
+  s.rest.vertices = {{1, 2, 3}, {1, 2, 3}};
+  s.bind = {Pose{{}, {0, 0, 1}}, Pose{{}, {0, 0, 2}}};
+  s.first = {0, 1, 3};
+  s.link = {0, 0, 1};
+  s.weight = {1, 0.5, 0.5};
+  std::vector<Vec3> x(2);
+  skinPositions(s, std::vector<Pose>{Pose{{}, {0.2, 0, 1}}, Pose{{}, {0, 0.4, 2}}}, x);
+  EXPECT_LT(norm(x[0] - Vec3{1.2, 2, 3}), 1e-15);
+  EXPECT_LT(norm(x[1] - Vec3{1.1, 2.2, 3}), 1e-15);
+}
+
+TEST(Skin, ReadsBackFromItsFile) {
+  const test::Folder folder;
+  writeMesh(skin().rest, folder.path / "skin.obj");
+  const TriangleMesh m = loadMesh(folder.path / "skin.obj");
+  ASSERT_EQ(m.triangles.size(), skin().rest.triangles.size());
+  for (std::size_t t = 0; t < m.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)  // the reader's numbers are single precision
+      ASSERT_LT(norm(m.vertices[m.triangles[t][k]] - skin().rest.vertices[skin().rest.triangles[t][k]]), 1e-6);
+  EXPECT_THROW(writeMesh(skin().rest, folder.path / "none" / "skin.obj"), InputError);
 }
 
 TEST(Skin, RefusesOptionsAndBodiesThatItCannotServe) {
