@@ -2,6 +2,7 @@
 
 #include "cases/fields.hpp"
 #include "cases/structure_fields.hpp"
+#include "cases/study/study.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -45,6 +46,6 @@ AnyCase readAnyCase(const std::filesystem::path& file, const std::vector<std::st
 }
 
 std::string caseSchema() { return schema::jsonSchema(allKinds()); }
-std::string caseFields() { return schema::markdown(allKinds()); }
+std::string caseFields() { return schema::markdown(allKinds()) + schema::chapter("Studies", study::studyTable()); }
 
 }  // namespace gambeson

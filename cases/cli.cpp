@@ -9,6 +9,7 @@
 #include "cases/fields.hpp"
 #include "cases/run.hpp"
 #include "cases/structure_run.hpp"
+#include "cases/study/run.hpp"
 #include "cases/verify.hpp"
 #include "core/error.hpp"
 
@@ -33,6 +34,14 @@ struct RunArguments {
 struct RenderArguments {
   RenderOptions options;
   std::string field = "stress", time = "end", view = "front_right", size = "1280x960";
+};
+
+struct StudyArguments {
+  std::filesystem::path file;
+  std::vector<std::filesystem::path> cases;
+  std::string engine = "local";
+  bool check = false;
+  study::Options options;
 };
 
 /// A blank line between what a command does and how it is used.
@@ -156,6 +165,56 @@ void addVerify(CLI::App& app, verify::Options& o) {
       "Exit status: 0 all references passed; 1 some failed; 2 something in the input is wrong.");
 }
 
+void addJobs(CLI::App& command, study::Options& o) {
+  command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.add_option("--threads", o.threads, "Threads of all runs together, 0 for as many as the machine has [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.add_flag("--resume", o.resume,
+                   "Keeps runs that are done with the same case, continues those that were interrupted, and runs the "
+                   "others; without it all run again");
+}
+
+void addStudy(CLI::App& app, StudyArguments& a) {
+  CLI::App& command = *app.add_subcommand(
+      "study",
+      "Runs the variants of a case side by side and compares them: which one to take, why, and how sure that is");
+  command.add_option("STUDY", a.file, "Study file (JSON)")->type_name("")->required();
+  command.add_option("--out", a.options.out, "Folder for the results [results/<name of the study file>]")
+      ->type_name("DIR");
+  addJobs(command, a.options);
+  command
+      .add_option(
+          "--engine", a.engine,
+          "local: runs here; slurm: writes DIR/study.slurm, an array of jobs for sbatch, and runs nothing [local]")
+      ->type_name("ENGINE")
+      ->check(CLI::IsMember({"local", "slurm"}).description(""));
+  command.add_flag("--check", a.check, "Only checks the study and all its variants, and lists them");
+  command.footer(
+      "Leaves in DIR: report.html (start here), study.json (all numbers), variants.csv (a row for each variant), "
+      "curves.csv\n"
+      "(torques over time), pictures/, logs/, and a folder with the run of each variant.\n\n"
+      "Examples:\n"
+      "  gambeson study cases/library/shorts_thickness.study.json\n"
+      "  gambeson study my.study.json --out results/mine --jobs 4 --resume\n\n"
+      "Exit status: 0 all variants are done; 1 some failed, and the report compares the others; 2 something in the "
+      "input\n"
+      "of any variant is wrong, and nothing ran.");
+}
+
+void addBatch(CLI::App& app, StudyArguments& a) {
+  CLI::App& command =
+      *app.add_subcommand("batch", "Runs several cases as a study does, each in a folder named after its file");
+  command.add_option("CASE", a.cases, "Case files (JSON)")->type_name("")->required();
+  command.add_option("--out", a.options.out, "Folder for the results")->type_name("DIR")->required();
+  addJobs(command, a.options);
+  command.footer(
+      "Example:\n  gambeson batch cases/library/flag.json cases/library/stack_mixed.json --out results/cloth\n\n"
+      "Exit status: 0 all cases are done; 1 some failed; 2 something in the input is wrong, and nothing ran.");
+}
+
 int check(const CheckArguments& a, std::ostream& out) {
   if (a.schema) out << caseSchema();
   if (a.doc) out << caseFields();
@@ -176,6 +235,20 @@ int run(RunArguments& a) {
   if (a.options.out.empty()) a.options.out = std::filesystem::path("results") / a.file.stem();
   if (const auto* structure = std::get_if<StructureCase>(&any)) return runStructure(*structure, a.options);
   return runCase(std::get<Case>(any), a.options);
+}
+
+int studyCommand(StudyArguments& a, std::ostream& out) {
+  if (a.options.out.empty()) {
+    std::string name = a.file.stem().string();
+    if (name.ends_with(".study")) name.resize(name.size() - 6);
+    a.options.out = std::filesystem::path("results") / name;
+  }
+  a.options.slurm = a.engine == "slurm";
+  const study::Study s = study::readStudy(a.file);
+  if (!a.check) return study::runStudy(s, a.options, out);
+  for (const study::Variant& v : s.variants) out << v.folder << '\n';
+  out << fmt::format("{}: valid, {} variants\n", a.file.string(), s.variants.size());
+  return done;
 }
 
 /// A picture's options go through the same table as the pictures of a case.
@@ -228,6 +301,9 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addRender(app, render_arguments);
   addReport(app, report_options);
   addVerify(app, verify_options);
+  StudyArguments study_arguments, batch_arguments;
+  addStudy(app, study_arguments);
+  addBatch(app, batch_arguments);
   if (argc < 2) {
     err << app.help();
     return bad_input;
@@ -236,7 +312,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       !command.starts_with('-') &&
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
     err << fmt::format(
-        "gambeson: there is no command \"{}\"; there are run, check, render, report and verify (see gambeson --help)\n",
+        "gambeson: there is no command \"{}\"; there are run, check, render, report, verify, study and batch (see "
+        "gambeson --help)\n",
         command);
     return bad_input;
   }
@@ -246,6 +323,9 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("check")) return check(check_arguments, out);
     if (app.got_subcommand("render")) return render(render_arguments);
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
+    if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
+    if (app.got_subcommand("batch"))
+      return study::runStudy(study::batchOf(batch_arguments.cases), batch_arguments.options, out);
     return holdsStructure(report_options.results) ? reportStructureResults(report_options)
                                                   : reportResults(report_options);
   } catch (const CLI::ParseError& e) {

@@ -20,7 +20,7 @@ struct JsonNode {
   double number = 0;
   bool is_integer = false;  ///< the number was written without fraction and exponent
   std::string text;
-  std::string key;                 ///< name of a member of an object
+  std::string key;  ///< name of a member of an object
   /// Where it was read, where that is another file than its root's (a study's value within a case); else null.
   std::shared_ptr<const std::string> file;
   std::vector<JsonNode> children;  ///< members of an object, items of a list

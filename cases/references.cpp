@@ -104,3 +104,12 @@ void checkReferences(const Place& root, const Case& c) {
 }
 
 }  // namespace gambeson::schema
+
+namespace gambeson {
+
+double plannedDuration(const Case& c) {
+  if (c.time.duration_s || !c.human) return c.time.duration_s.value_or(0);
+  return schema::motionDuration(*c.human, schema::readHuman(*c.human));
+}
+
+}  // namespace gambeson

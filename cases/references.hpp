@@ -11,3 +11,10 @@ namespace gambeson::schema {
 void checkReferences(const Place& root, const Case& c);
 
 }  // namespace gambeson::schema
+
+namespace gambeson {
+
+/// How long a case follows its motion: its own duration, or that of the motion [s].
+double plannedDuration(const Case& c);
+
+}  // namespace gambeson

@@ -14,13 +14,13 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <thread>
 
 #include "cases/progress.hpp"
+#include "cases/run_log.hpp"
 #include "cases/schema.hpp"
 #include "cases/verify.hpp"
 #include "core/error.hpp"
@@ -32,22 +32,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// What a run that failed said last: its message from "gambeson failed:" on, else its last line.
-std::string messageOf(const std::filesystem::path& log) {
-  std::ifstream stream(log, std::ios::binary);
-  std::string line, last;
-  bool message = false;
-  while (std::getline(stream, line)) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const bool begins = line.starts_with("gambeson failed: ");
-    if (begins) line.erase(0, line.find(": ") + 2);
-    message = message || begins;
-    last = message && !begins ? last + "; " + line : line;
-  }
-  if (last.size() > 600) last.resize(600), last += "...";
-  return last;
-}
 
 /// The environment with one OpenMP thread, whatever the user has set.
 std::vector<std::string> environmentOfRuns() {
@@ -99,7 +83,7 @@ Outcome runJob(const Job& job) {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    const std::string said = messageOf(job.log);
+    const std::string said = lastMessage(job.log);
     if (late)
       o.why = fmt::format("stopped after {:.0f} s, its limit", job.limit_s);
     else if (WIFSIGNALED(status))

@@ -8,5 +8,6 @@ namespace gambeson::data {
 extern const std::string_view manikins;
 extern const std::string_view walk_natural;
 extern const std::string_view task_moments;
+extern const std::string_view effort_limits;
 
 }  // namespace gambeson::data

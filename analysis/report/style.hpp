@@ -23,7 +23,7 @@ h3 { font-size:1rem; margin:0 0 8px; }
 .headline figcaption { padding:6px 16px 12px; font-size:.9rem; color:var(--soft); }
 dl.answers { display:grid; grid-template-columns:max-content minmax(0,1fr); gap:7px 18px; margin:0; }
 dl.answers dt { color:var(--soft); }
-dl.answers dd { margin:0; font-weight:600; }
+dl.answers dd { margin:0; font-weight:600; } dl.answers .reason { font-weight:400; }
 .meaning { margin:18px 0 0; padding-top:14px; border-top:1px solid var(--line); color:var(--soft); font-size:.95rem; }
 .cards { display:grid; grid-template-columns:repeat(auto-fill,minmax(235px,1fr)); gap:14px; margin-top:14px; }
 .card { background:var(--paper); border:1px solid var(--line); border-top:4px solid var(--third); border-radius:10px; padding:14px 16px; }
@@ -54,6 +54,7 @@ th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font
 .pictures img { display:block; width:100%; height:auto; } .pictures figcaption { padding:10px 16px 14px; font-size:.95rem; }
 .notice { background:#fff6df; border:1px solid #d8b25a; border-radius:8px; padding:8px 12px; margin:10px 0 0; color:#5c4300; font-size:.95rem; }
 .alarm { background:#fdecec; border:2px solid var(--bad); border-radius:10px; padding:12px 16px; margin:16px 0 0; color:#6d1010; font-weight:600; }
+.light { font-weight:700; white-space:nowrap; } .light.green { color:var(--good); } .light.amber { color:#8a5300; } .light.red { color:var(--bad); }
 .good, .bad { font-weight:700; white-space:nowrap; } .good { color:var(--good); } .bad { color:var(--bad); }
 ul.assumptions { margin:10px 0 0; padding-left:22px; columns:2 420px; column-gap:36px; } ul.assumptions li { break-inside:avoid; margin-bottom:6px; }
 footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }

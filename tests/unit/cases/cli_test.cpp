@@ -31,7 +31,7 @@ Outcome gambeson(const Folder& folder, const std::string& arguments) {
 
 TEST(Command, HelpForNewcomers) {
   const Folder folder;
-  for (const char* subcommand : {"", "run ", "check ", "render ", "report ", "verify "}) {
+  for (const char* subcommand : {"", "run ", "check ", "render ", "report ", "verify ", "study ", "batch "}) {
     const Outcome o = gambeson(folder, std::string(subcommand) + "--help");
     SCOPED_TRACE(subcommand);
     EXPECT_EQ(o.status, 0);
@@ -106,7 +106,7 @@ TEST(Command, BadInputExitsWithTwo) {
   folder.write("truncated.json", example.substr(0, 300));
   const std::array<std::pair<std::string, std::string>, 18> cases{{
       {"", "gambeson run cases/library/shorts_walk.json"},
-      {"dance", "there is no command \"dance\"; there are run, check, render, report and verify"},
+      {"dance", "there is no command \"dance\"; there are run, check, render, report, verify, study and batch"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},

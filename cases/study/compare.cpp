@@ -1,0 +1,374 @@
+#include "cases/study/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/io/atomic_file.hpp"
+
+namespace gambeson::study {
+namespace {
+
+/// "walking, friction 0.3": the levels of a variant on all axes but those in `without`.
+std::string settingOf(const Study& s, const Variant& v, const std::vector<int>& without) {
+  std::string label;
+  for (std::size_t a = 0; a < s.axes.size(); ++a) {
+    if (std::find(without.begin(), without.end(), static_cast<int>(a)) != without.end()) continue;
+    const Axis& axis = s.axes[a];
+    if (axis.levels.size() < 2) continue;
+    const Level& level = axis.levels[static_cast<std::size_t>(v.levels[a])];
+    label += (label.empty() ? "" : ", ") + level.name;
+  }
+  return label;
+}
+
+/// Where all variants are single ones, their labels stand for levels.
+std::string nameOf(const Study& s, const Comparison& c, const Variant& v) {
+  if (c.main_axis < 0) return v.label;
+  const Axis& axis = s.axes[static_cast<std::size_t>(c.main_axis)];
+  return axis.levels[static_cast<std::size_t>(v.levels[static_cast<std::size_t>(c.main_axis)])].name;
+}
+
+void findAxes(const Study& s, Comparison& c) {
+  for (const int a : s.compared)
+    if (c.main_axis < 0 || (s.axes[static_cast<std::size_t>(a)].role == Role::thickness &&
+                            s.axes[static_cast<std::size_t>(c.main_axis)].role != Role::thickness))
+      c.main_axis = a;
+  for (std::size_t a = 0; a < s.axes.size(); ++a)
+    if (s.axes[a].role == Role::mesh && s.axes[a].levels.size() > 1 && static_cast<int>(a) != c.main_axis)
+      c.mesh_axis = static_cast<int>(a);
+  if (c.mesh_axis < 0) return;
+  int most = -1;
+  for (std::size_t i = 0; i < s.variants.size(); ++i)
+    if (c.runs[i].good && c.runs[i].control_points > most) {
+      most = c.runs[i].control_points;
+      c.mesh_level = s.variants[i].levels[static_cast<std::size_t>(c.mesh_axis)];
+    }
+}
+
+bool onMainMesh(const Comparison& c, const Variant& v) {
+  return c.mesh_axis < 0 || c.mesh_level < 0 || v.levels[static_cast<std::size_t>(c.mesh_axis)] == c.mesh_level;
+}
+
+void findGroups(const Study& s, Comparison& c) {
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    const Variant& v = s.variants[i];
+    if (!v.grid || !onMainMesh(c, v)) continue;
+    const std::string label = settingOf(s, v, {c.main_axis, c.mesh_axis});
+    Group* group = nullptr;
+    for (Group& g : c.groups)
+      if (g.label == label) group = &g;
+    if (!group) group = &c.groups.emplace_back(Group{label, {}, -1, ""});
+    group->members.push_back(i);
+    if (v.baseline == static_cast<int>(i)) group->baseline = v.baseline;
+  }
+  for (Group& g : c.groups) {
+    const RunNumbers* run = g.baseline >= 0 ? &c.runs[static_cast<std::size_t>(g.baseline)] : nullptr;
+    for (std::size_t k = 0; k < g.members.size() && (!run || !run->good); ++k) run = &c.runs[g.members[k]];
+    if (run && run->highest()) g.joint = run->highest()->name;
+  }
+}
+
+void findRatios(const Study& s, Comparison& c) {
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    c.ratios.emplace_back();
+    const int b = s.variants[i].baseline;
+    const RunNumbers& run = c.runs[i];
+    if (b < 0 || !run.good || !c.runs[static_cast<std::size_t>(b)].good) continue;
+    const RunNumbers& base = c.runs[static_cast<std::size_t>(b)];
+    for (const JointNumbers& j : run.joints) {
+      const JointNumbers* of = base.joint(j.name);
+      if (!of) continue;
+      JointRatio r{j.name, std::abs(j.peak_Nm) / std::abs(of->peak_Nm), j.rms_Nm / of->rms_Nm, {}};
+      if (run.time_s.size() == base.time_s.size() && run.time_s == base.time_s && !run.time_s.empty())
+        r.likeness =
+            compareShifted(run.time_s, of->torque_Nm, j.torque_Nm, 0, base.counted_from_s, run.time_s.back() + 1);
+      else
+        r.likeness.correlation = r.likeness.relative = std::nan("");
+      c.ratios.back().push_back(r);
+    }
+  }
+}
+
+struct Quantity {
+  const char* name;
+  double (*of)(const JointNumbers&);
+};
+const Quantity kQuantities[]{{"peak", [](const JointNumbers& j) { return std::abs(j.peak_Nm); }},
+                             {"RMS", [](const JointNumbers& j) { return j.rms_Nm; }}};
+
+/// Joints that all of the runs have, with torque in the first; first "", the highest of each run.
+std::vector<std::string> jointsOf(const std::vector<const RunNumbers*>& runs) {
+  std::vector<std::string> names;
+  if (runs.empty() || !runs[0]->highest()) return names;
+  names.emplace_back("");
+  for (const JointNumbers& j : runs[0]->joints)
+    if (!j.prismatic && j.applies() &&
+        std::all_of(runs.begin(), runs.end(), [&](const RunNumbers* r) { return r->joint(j.name); }))
+      names.push_back(j.name);
+  return names;
+}
+
+double valueOf(const RunNumbers& run, const std::string& joint, const Quantity& q) {
+  const JointNumbers* j = joint.empty() ? run.highest() : run.joint(joint);
+  return j ? q.of(*j) : std::nan("");
+}
+
+std::string jointLabel(const RunNumbers& run, const std::string& joint) {
+  return joint.empty() ? "the highest" : run.joint(joint)->label;
+}
+
+/// Along every axis of numbers, all other levels kept.
+void findExponents(const Study& s, Comparison& c) {
+  for (std::size_t a = 0; a < s.axes.size(); ++a) {
+    const Axis& axis = s.axes[a];
+    if (axis.role == Role::mesh || axis.levels.size() < 2 || !axis.levels[0].number) continue;
+    std::map<std::vector<int>, std::vector<std::size_t>> lines;
+    std::vector<std::vector<int>> order;
+    for (std::size_t i = 0; i < s.variants.size(); ++i) {
+      if (!s.variants[i].grid || !c.runs[i].good) continue;
+      std::vector<int> others = s.variants[i].levels;
+      others[a] = 0;
+      if (!lines.contains(others)) order.push_back(others);
+      lines[others].push_back(i);
+    }
+    for (const auto& key : order) {
+      const std::vector<std::size_t>& line = lines[key];
+      std::vector<const RunNumbers*> runs;
+      std::vector<double> x;
+      for (const std::size_t i : line) {
+        runs.push_back(&c.runs[i]);
+        x.push_back(*axis.levels[static_cast<std::size_t>(s.variants[i].levels[a])].number);
+      }
+      for (const std::string& joint : jointsOf(runs))
+        for (const Quantity& q : kQuantities) {
+          std::vector<double> y;
+          for (const RunNumbers* r : runs) y.push_back(valueOf(*r, joint, q));
+          if (const auto law = fitPowerLaw(x, y))
+            c.exponents.push_back({axis.name, settingOf(s, s.variants[line[0]], {static_cast<int>(a)}),
+                                   jointLabel(*runs[0], joint), q.name, *law, x, y});
+        }
+    }
+  }
+}
+
+/// Of cases that differ in factors alone: each factor's smallest and largest value beside 1.
+void findElasticities(const Study& s, Comparison& c) {
+  std::map<std::string, std::vector<std::size_t>> families;
+  std::vector<std::string> order;
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    if (s.variants[i].rest_identity.empty() || !c.runs[i].good) continue;
+    if (!families.contains(s.variants[i].rest_identity)) order.push_back(s.variants[i].rest_identity);
+    families[s.variants[i].rest_identity].push_back(i);
+  }
+  using F = FactorsCase;
+  const std::pair<double F::*, std::optional<double> Elasticities::*> five[]{{&F::bending, &Elasticities::bending},
+                                                                             {&F::membrane, &Elasticities::membrane},
+                                                                             {&F::weight, &Elasticities::weight},
+                                                                             {&F::inertia, &Elasticities::inertia},
+                                                                             {&F::drag, &Elasticities::drag}};
+  for (const std::string& key : order) {
+    const std::vector<std::size_t>& family = families[key];
+    const auto factors = [&](std::size_t i) { return std::get<Case>(s.variants[i].definition).factors; };
+    /// The variants in which `factor` alone may differ from 1, by its value.
+    const auto along = [&](double F::*factor) {
+      std::map<double, std::size_t> line;
+      for (const std::size_t i : family) {
+        F f = factors(i);
+        const double value = f.*factor;
+        f.*factor = 1;
+        if (f == F{}) line.emplace(value, i);
+      }
+      return line;
+    };
+    std::vector<const RunNumbers*> runs;
+    for (const std::size_t i : family) runs.push_back(&c.runs[i]);
+    bool any = false;
+    for (const auto& [factor, e] : five) any = any || along(factor).size() > 1;
+    if (!any) continue;
+    const std::map<double, std::size_t> thick = along(&F::thickness);
+    const auto base = thick.find(1);
+    const Variant& at = s.variants[base != thick.end() ? base->second : family[0]];
+    std::vector<int> factor_axes;
+    for (std::size_t a = 0; a < s.axes.size(); ++a)
+      for (const Setting& set : s.axes[a].levels[0].set)
+        if (set.path.starts_with("factors")) factor_axes.push_back(static_cast<int>(a));
+    for (const std::string& joint : jointsOf(runs))
+      for (const Quantity& q : kQuantities) {
+        ElasticityRow row{settingOf(s, at, factor_axes), jointLabel(*runs[0], joint), q.name, {}, {}};
+        for (const auto& [factor, e] : five) {
+          const auto line = along(factor);
+          if (line.size() < 2) continue;
+          const auto &low = *line.begin(), &high = *line.rbegin();
+          row.e.*e = elasticity(low.first, high.first, valueOf(c.runs[low.second], joint, q),
+                                valueOf(c.runs[high.second], joint, q));
+        }
+        std::vector<double> x, y;
+        for (const auto& [value, i] : thick) {
+          x.push_back(value);
+          y.push_back(valueOf(c.runs[i], joint, q));
+        }
+        if (const auto law = fitPowerLaw(x, y)) row.measured = law->exponent;
+        c.elasticities.push_back(std::move(row));
+      }
+  }
+}
+
+/// Every mesh against the finest, all else the same.
+void compareMeshes(const Study& s, Comparison& c) {
+  if (c.mesh_axis < 0 || c.mesh_level < 0) return;
+  const auto m = static_cast<std::size_t>(c.mesh_axis);
+  constexpr double settled_s = 0.2;  // Zheng 2013, fig. 6.11: the histories agree but for the start
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    const Variant& v = s.variants[i];
+    if (!v.grid || !c.runs[i].good || onMainMesh(c, v)) continue;
+    std::vector<int> levels = v.levels;
+    levels[m] = c.mesh_level;
+    for (std::size_t k = 0; k < s.variants.size(); ++k) {
+      const RunNumbers &coarse = c.runs[i], &fine = c.runs[k];
+      if (!s.variants[k].grid || s.variants[k].levels != levels || !fine.good || !fine.highest()) continue;
+      const JointNumbers& f = *fine.highest();
+      const JointNumbers* of = coarse.joint(f.name);
+      if (!of) continue;
+      MeshRow row{settingOf(s, v, {c.mesh_axis}),
+                  f.label,
+                  coarse.control_points,
+                  fine.control_points,
+                  of->peak_Nm,
+                  f.peak_Nm,
+                  0,
+                  0};
+      row.difference = std::abs(of->peak_Nm) / std::abs(f.peak_Nm) - 1;
+      const Likeness like = compareShifted(fine.time_s, f.torque_Nm, of->torque_Nm, 0, settled_s, 1e300);
+      row.history = coarse.time_s == fine.time_s ? like.rms_difference / std::abs(f.peak_Nm) : std::nan("");
+      c.meshes.push_back(row);
+    }
+  }
+}
+
+/// The joint that decides in a run: of the largest part of its natural moment, or of the largest torque where none is
+/// known.
+const JointNumbers* decisive(const RunNumbers& run) {
+  const JointNumbers* best = nullptr;
+  for (const JointNumbers& j : run.joints)
+    if (!j.prismatic && j.part() && (!best || *j.part() > *best->part())) best = &j;
+  return best ? best : run.highest();
+}
+
+void findVerdict(const Study& s, Comparison& c) {
+  VerdictInput& in = c.input;
+  const Axis* axis = c.main_axis >= 0 ? &s.axes[static_cast<std::size_t>(c.main_axis)] : nullptr;
+  in.what = axis ? axis->name : "variant";
+  in.sized = axis && axis->role == Role::thickness && axis->levels[0].number;
+  in.green = s.limits.green;
+  in.red = s.limits.red;
+  const std::size_t levels = axis ? axis->levels.size() : s.variants.size();
+  std::vector<std::size_t> order;
+  for (std::size_t l = 0; l < levels; ++l) order.push_back(l);
+  if (in.sized)
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return *axis->levels[a].number < *axis->levels[b].number; });
+  for (const std::size_t l : order) {
+    Option option;
+    bool any = false;
+    for (const Group& g : c.groups) {
+      const RunNumbers* base = g.baseline >= 0 && c.runs[static_cast<std::size_t>(g.baseline)].good
+                                   ? &c.runs[static_cast<std::size_t>(g.baseline)]
+                                   : nullptr;
+      for (const std::size_t i : g.members) {
+        const Variant& v = s.variants[i];
+        if (axis ? v.levels[static_cast<std::size_t>(c.main_axis)] != static_cast<int>(l) : i != l) continue;
+        any = true;
+        option.name = nameOf(s, c, v);
+        if (in.sized) option.size = axis->levels[l].number;
+        if (v.baseline == static_cast<int>(i)) in.baseline = static_cast<int>(in.options.size());
+        const JointNumbers* j = c.runs[i].good ? decisive(c.runs[i]) : nullptr;
+        if (!j) {
+          option.missing = true;
+          continue;
+        }
+        Option::Cost cost{g.label, j->label, std::abs(j->peak_Nm), j->part(), {}};
+        if (base && base->highest() && base->highest()->peak_Nm != 0)
+          cost.ratio = std::abs(c.runs[i].highest()->peak_Nm) / std::abs(base->highest()->peak_Nm);
+        option.costs.push_back(cost);
+      }
+    }
+    if (any) in.options.push_back(std::move(option));
+  }
+  for (const MeshRow& m : c.meshes)
+    if (std::isfinite(m.difference)) in.mesh_error = std::max(in.mesh_error.value_or(0), std::abs(m.difference));
+  if (in.sized)
+    for (const Group& g : c.groups) {
+      if (g.members.empty()) continue;
+      const std::string setting = settingOf(s, s.variants[g.members[0]], {c.main_axis});
+      for (const AxisExponent& e : c.exponents)
+        if (e.axis == axis->name && e.setting == setting && e.joint == "the highest" && e.quantity == "peak")
+          in.exponents.push_back({g.label, e.law});
+    }
+  for (const RunNumbers& r : c.runs) {
+    if (!r.good) continue;
+    ++in.checked_runs;
+    in.failing_checks += r.failing() > 0;
+  }
+  c.verdict = verdictOf(in);
+}
+
+}  // namespace
+
+std::optional<double> peakAboveStanding(const RunNumbers& run, const JointNumbers& j) {
+  if (!j.standing_Nm) return {};
+  double most = 0;
+  for (std::size_t i = 0; i < run.time_s.size(); ++i)
+    if (run.time_s[i] >= run.counted_from_s) most = std::max(most, std::abs(j.torque_Nm[i] - *j.standing_Nm));
+  return most;
+}
+
+Comparison compare(const Study& s, std::vector<RunNumbers> runs) {
+  Comparison c;
+  c.runs = std::move(runs);
+  for (const RunNumbers& r : c.runs) {
+    const JointNumbers* j = r.good ? decisive(r) : nullptr;
+    c.lights.push_back(lightOf(j ? j->part() : std::nullopt, s.limits.green, s.limits.red));
+  }
+  findAxes(s, c);
+  findGroups(s, c);
+  findRatios(s, c);
+  findExponents(s, c);
+  findElasticities(s, c);
+  compareMeshes(s, c);
+  findVerdict(s, c);
+  return c;
+}
+
+std::vector<std::string> switchedOff(const Case& c) {
+  std::vector<std::string> off;
+  if (!c.contact.self) off.emplace_back("contact of cloth with cloth");
+  if (c.contact.friction == 0) off.emplace_back("friction");
+  if (c.air.drag_kg_per_m2s == 0) off.emplace_back("air drag");
+  if (norm(c.gravity_m_per_s2) == 0) off.emplace_back("weight");
+  if (!c.strain_limit) off.emplace_back("limits of strain");
+  if (c.human && c.dressing.settle_s == 0) off.emplace_back("settling before the motion");
+  if (c.human && c.analysis.task == Task::none) off.emplace_back("comparison with natural moments");
+  return off;
+}
+
+void compareVariants(const Study& s, const std::vector<Outcome>& outcomes, const std::filesystem::path& out) {
+  std::vector<RunNumbers> runs;
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    RunNumbers run;
+    if (outcomes[i].good)
+      run = readRun(out / s.variants[i].folder);
+    else
+      run.why = outcomes[i].why;
+    runs.push_back(std::move(run));
+  }
+  const Comparison c = compare(s, std::move(runs));
+  std::vector<std::string> failures;
+  const std::vector<SidePicture> pictures = takeSidePictures(s, c, out, failures);
+  writeStudyTables(s, c, out);
+  writeFileAtomically(out / "report.html", studyPage(s, c, pictures, failures));
+}
+
+}  // namespace gambeson::study

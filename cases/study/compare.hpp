@@ -1,0 +1,89 @@
+#pragma once
+/// The variants of a study against each other.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/compare.hpp"
+#include "analysis/series.hpp"
+#include "cases/study/numbers.hpp"
+#include "cases/study/run.hpp"
+
+namespace gambeson::study {
+
+/// A variant's joint against the same of its baseline.
+struct JointRatio {
+  std::string joint;
+  double peak = 0, rms = 0;  ///< ratios of sizes
+  Likeness likeness;         ///< of the histories, from where torques count
+};
+
+/// Variants that differ along the main axis (the thickness, where there is one) alone.
+struct Group {
+  std::string label;                 ///< the levels of the other axes, the mesh left out: "walking"
+  std::vector<std::size_t> members;  ///< on the finest mesh, in the order of the axis; of good runs and bad
+  int baseline = -1;                 ///< variant; -1: none
+  std::string joint;                 ///< of the baseline's largest torque
+};
+
+/// An exponent of a torque along an axis whose levels are numbers.
+struct AxisExponent {
+  std::string axis, setting, joint, quantity;
+  PowerLaw law;
+  std::vector<double> x, y;
+};
+
+struct ElasticityRow {
+  std::string setting, joint, quantity;
+  Elasticities e;
+  std::optional<double> measured;  ///< exponent of the thickness, of the same case, joint and quantity
+};
+
+struct MeshRow {
+  std::string setting, joint;
+  int coarse_points = 0, fine_points = 0;
+  double coarse_Nm = 0, fine_Nm = 0;  ///< peaks
+  double difference = 0;              ///< of the peaks, relative to the fine one
+  double history = 0;                 ///< RMS difference after 0.2 s, of the fine peak
+};
+
+struct Comparison {
+  std::vector<RunNumbers> runs;                 ///< of the variants
+  std::vector<std::vector<JointRatio>> ratios;  ///< of the variants, empty without baseline
+  std::vector<Light> lights;
+  int main_axis = -1, mesh_axis = -1, mesh_level = -1;
+  std::vector<Group> groups;
+  std::vector<AxisExponent> exponents;
+  std::vector<ElasticityRow> elasticities;
+  std::vector<MeshRow> meshes;
+  VerdictInput input;
+  Verdict verdict;
+};
+
+Comparison compare(const Study& study, std::vector<RunNumbers> runs);
+
+/// Largest |torque - standing| where torques count; nothing where the garment did not stand before.
+std::optional<double> peakAboveStanding(const RunNumbers& run, const JointNumbers& joint);
+
+/// Reads what the runs left, compares, and writes study.json, variants.csv, curves.csv, pictures/ and report.html. The
+/// bytes depend on the runs' results alone.
+void compareVariants(const Study& study, const std::vector<Outcome>& outcomes, const std::filesystem::path& out);
+
+// Its parts.
+void writeStudyTables(const Study& study, const Comparison& c, const std::filesystem::path& out);
+/// A picture per member and wish, all of one wish at one time of their group and in the same colours.
+struct SidePicture {
+  std::size_t variant = 0, wish = 0;
+  std::filesystem::path png;
+  std::string caption;
+};
+std::vector<SidePicture> takeSidePictures(const Study& study, const Comparison& c, const std::filesystem::path& out,
+                                          std::vector<std::string>& failures);
+std::string studyPage(const Study& study, const Comparison& c, const std::vector<SidePicture>& pictures,
+                      const std::vector<std::string>& failures);
+/// What a case leaves out: "cloth does not touch cloth", "no air drag".
+std::vector<std::string> switchedOff(const Case& c);
+
+}  // namespace gambeson::study

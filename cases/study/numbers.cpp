@@ -1,0 +1,147 @@
+#include "cases/study/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace gambeson::study {
+namespace {
+
+using Json = nlohmann::json;
+
+/// "hip_flexion_left": "left hip (flexion)".
+std::string labelOf(const std::string& joint, const std::string& side) {
+  std::string rest = joint;
+  if (!side.empty()) rest.resize(rest.size() - side.size() - 1);
+  const std::size_t cut = rest.rfind('_');
+  std::string label = cut == std::string::npos ? rest : rest.substr(0, cut) + " (" + rest.substr(cut + 1) + ")";
+  std::replace(label.begin(), label.end(), '_', ' ');
+  return side.empty() ? label : side + " " + label;
+}
+
+std::optional<double> optional(const Json& j, const std::string& key) {
+  return j.contains(key) && j.at(key).is_number() ? std::optional(j.at(key).get<double>()) : std::nullopt;
+}
+
+JointNumbers jointOf(const Json& j) {
+  JointNumbers n;
+  n.name = j.at("joint").get<std::string>();
+  n.label = labelOf(n.name, j.at("side").get<std::string>());
+  n.prismatic = j.contains("peak_N");
+  const std::string unit = n.prismatic ? "_N" : "_Nm";
+  n.peak_Nm = j.at("peak" + unit).get<double>();
+  n.peak_time_s = j.at("peak_time_s").get<double>();
+  n.rms_Nm = j.at("rms" + unit).get<double>();
+  n.standing_Nm = optional(j, "standing" + unit);
+  n.natural_Nm = optional(j, "natural_peak_Nm");
+  n.normal_N = j.at("normal_mean_N").get<double>();
+  n.friction_N = j.at("friction_mean_N").get<double>();
+  return n;
+}
+
+void readCurves(const std::filesystem::path& csv, RunNumbers& run) {
+  std::ifstream stream(csv);
+  std::string line, word;
+  if (!std::getline(stream, line)) throw RunError(csv.string() + " cannot be read");
+  std::vector<JointNumbers*> column;
+  std::istringstream head(line);
+  while (std::getline(head, word, ',')) {
+    column.push_back(nullptr);
+    for (JointNumbers& j : run.joints)
+      if (word == j.name + (j.prismatic ? "_N" : "_Nm")) column.back() = &j;
+  }
+  while (std::getline(stream, line)) {
+    std::istringstream row(line);
+    for (std::size_t c = 0; std::getline(row, word, ',') && c < column.size(); ++c) {
+      const double value = std::strtod(word.c_str(), nullptr);
+      if (c == 0)
+        run.time_s.push_back(value);
+      else if (column[c])
+        column[c]->torque_Nm.push_back(value);
+    }
+  }
+  for (const JointNumbers& j : run.joints)
+    if (j.torque_Nm.size() != run.time_s.size())
+      throw RunError(fmt::format("{} has not one value per time of {}", csv.string(), j.name));
+}
+
+}  // namespace
+
+std::optional<double> JointNumbers::part() const {
+  return natural_Nm && *natural_Nm > 0 ? std::optional(std::abs(peak_Nm) / *natural_Nm) : std::nullopt;
+}
+
+double RunNumbers::mass_kg() const {
+  double m = 0;
+  for (const LayerNumbers& l : layers) m += l.mass_kg;
+  return m;
+}
+
+int RunNumbers::failing() const {
+  return static_cast<int>(std::count_if(checks.begin(), checks.end(), [](const CheckNumbers& c) { return !c.holds; }));
+}
+
+const JointNumbers* RunNumbers::highest() const {
+  const JointNumbers* best = nullptr;
+  for (const JointNumbers& j : joints)
+    if (!j.prismatic && std::isfinite(j.peak_Nm) && (!best || std::abs(j.peak_Nm) > std::abs(best->peak_Nm))) best = &j;
+  return best;
+}
+
+const JointNumbers* RunNumbers::joint(const std::string& name) const {
+  for (const JointNumbers& j : joints)
+    if (j.name == name) return &j;
+  return nullptr;
+}
+
+RunNumbers readRun(const std::filesystem::path& folder) {
+  RunNumbers run;
+  try {
+    std::ifstream stream(folder / "summary.json");
+    if (!stream) throw RunError((folder / "summary.json").string() + " cannot be read");
+    const Json j = Json::parse(stream);
+    if (!j.contains("joints")) {  // a structure: its own page says what there is
+      run.good = true;
+      return run;
+    }
+    run.recorded_to_s = j.at("recorded_to_s").get<double>();
+    run.planned_to_s = j.at("planned_to_s").get<double>();
+    run.counted_from_s = j.at("counted_from_s").get<double>();
+    run.control_points = j.at("control_points").get<int>();
+    run.largest_strain = j.at("largest_strain").get<double>();
+    for (const Json& l : j.at("garments"))
+      run.layers.push_back({l.at("garment").get<std::string>(), l.at("mass_kg").get<double>(),
+                            l.at("area_m2").get<double>(), l.at("thickness_m").get<double>(),
+                            l.at("control_points").get<int>()});
+    for (const Json& joint : j.at("joints")) run.joints.push_back(jointOf(joint));
+    for (const Json& c : j.at("contact"))
+      run.contact.push_back({c.at("segment").get<std::string>(), c.at("share").get<double>(),
+                             c.at("mean_N").get<double>(), c.at("peak_N").get<double>(),
+                             c.at("normal_mean_N").get<double>(), c.at("friction_mean_N").get<double>()});
+    for (const Json& s : j.at("stress"))
+      run.stress.push_back({s.at("region").get<std::string>(), s.at("p50_N_per_m").get<double>(),
+                            s.at("p95_N_per_m").get<double>(), s.at("p99_N_per_m").get<double>(),
+                            s.at("max_N_per_m").get<double>(), s.at("max_strain").get<double>()});
+    for (const Json& c : j.at("audit"))
+      run.checks.push_back({c.at("check").get<std::string>(),
+                            c.at("value").is_number() ? c.at("value").get<double>() : std::nan(""),
+                            c.at("limit").get<double>(), c.at("unit").get<std::string>(), c.at("holds").get<bool>()});
+    if (!run.joints.empty()) readCurves(folder / "torques.csv", run);
+    run.good = true;
+  } catch (const Json::exception& e) {
+    run = {};
+    run.why = fmt::format("{}: {}", (folder / "summary.json").string(), e.what());
+  } catch (const RunError& e) {
+    run = {};
+    run.why = e.what();
+  }
+  return run;
+}
+
+}  // namespace gambeson::study

@@ -1,0 +1,73 @@
+#pragma once
+/// What a run left, read back from its folder.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gambeson::study {
+
+struct JointNumbers {
+  std::string name;   ///< "hip_flexion_left"
+  std::string label;  ///< "left hip (flexion)"
+  bool prismatic = false;
+  double peak_Nm = 0, peak_time_s = 0, rms_Nm = 0;  ///< of the added torque; the peak is signed
+  std::optional<double> standing_Nm;                ///< dressed at rest before the motion
+  std::optional<double> natural_Nm;                 ///< peak moment of the task without the garment
+  double normal_N = 0, friction_N = 0;              ///< mean sums of magnitudes of what counts at the joint
+  std::vector<double> torque_Nm;                    ///< at RunNumbers::time_s
+
+  std::optional<double> part() const;  ///< |peak| of the natural moment
+  /// Nothing touches what lies beyond the joint: no sleeves, no torque.
+  bool applies() const { return peak_Nm != 0 || normal_N != 0; }
+};
+
+struct LayerNumbers {
+  std::string name;
+  double mass_kg = 0, area_m2 = 0, thickness_m = 0;
+  int control_points = 0;
+};
+
+struct ContactNumbers {
+  std::string segment;
+  double share = 0, mean_N = 0, peak_N = 0, normal_N = 0, friction_N = 0;
+};
+
+struct StressNumbers {
+  std::string region;
+  double p50_N_per_m = 0, p95_N_per_m = 0, p99_N_per_m = 0, max_N_per_m = 0, max_strain = 0;
+};
+
+struct CheckNumbers {
+  std::string name;
+  double value = 0, limit = 0;
+  std::string unit;
+  bool holds = true;
+};
+
+struct RunNumbers {
+  bool good = false;
+  std::string why;  ///< where it is not good
+  double recorded_to_s = 0, planned_to_s = 0, counted_from_s = 0;
+  int control_points = 0;
+  std::vector<LayerNumbers> layers;
+  std::vector<JointNumbers> joints;
+  std::vector<double> time_s;
+  std::vector<ContactNumbers> contact;
+  std::vector<StressNumbers> stress;
+  double largest_strain = 0;
+  std::vector<CheckNumbers> checks;
+
+  double mass_kg() const;
+  int failing() const;
+  /// The joint of the largest |peak|, null without joints that turn.
+  const JointNumbers* highest() const;
+  const JointNumbers* joint(const std::string& name) const;
+};
+
+/// Reads summary.json and torques.csv of a run's folder; a run of a structure has no joints. What cannot be read makes
+/// the run not good, with its reason.
+RunNumbers readRun(const std::filesystem::path& folder);
+
+}  // namespace gambeson::study

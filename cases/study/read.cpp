@@ -1,0 +1,547 @@
+/// The file of a study: its fields, and the variants that they make.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cases/fields.hpp"
+#include "cases/study/study.hpp"
+#include "cases/table.hpp"
+#include "core/error.hpp"
+#include "human/data.hpp"
+
+namespace gambeson::study {
+namespace {
+
+using schema::Place;
+using schema::Table;
+
+constexpr std::size_t most_variants = 2000;
+
+/// As the file has them.
+struct AxisInput {
+  std::string name, path, unit;
+  std::optional<Role> role;
+  JsonNode values, sets;
+  std::vector<std::string> labels;
+  int line = 0;
+};
+struct ExtraInput {
+  std::string label;
+  JsonNode at, set;
+};
+struct ElasticityInput {
+  double step = 0.1;
+  JsonNode where;
+};
+struct StudyInput {
+  std::string name, description;
+  std::filesystem::path file;
+  JsonNode set, baseline;
+  std::vector<AxisInput> axes;
+  std::vector<ExtraInput> variants;
+  std::optional<ElasticityInput> elasticities;
+  Limits limits = publishedLimits();
+  std::vector<PictureCase> pictures{
+      {PictureTime::peak, 0, PictureField::stress, View::front_right, 640, 720},
+  };
+};
+
+/// A field that is kept as it is written.
+template <class T>
+void rawField(Table<T>& table, const std::string& key, JsonNode T::*member, const std::string& doc,
+              const std::string& note = "none") {
+  schema::Field f;
+  f.key = key;
+  f.kind = schema::Kind::any;
+  f.doc = doc;
+  f.default_note = note;
+  table.custom(
+      f, [member](const Place& p, T& t) { t.*member = p.node; },
+      [member](const T& t) {
+        return (t.*member).type == JsonNode::Type::null ? std::nullopt : std::optional(t.*member);
+      });
+}
+
+schema::Object axisTable() {
+  using A = AxisInput;
+  Table<A> table("Axis");
+  table.text("name", &A::name, "what tables call it")
+      .defaultsTo("the last part of the path")
+      .text("path", &A::path, "the value of the case that varies, such as factors.thickness or garments[0].shorts.cell")
+      .defaultsTo("required, or sets");
+  rawField(table, "values", &A::values, "list of the values, at least one; anything that the case may have there",
+           "required with path");
+  rawField(
+      table, "sets", &A::sets,
+      "in place of path and values, where several values of the case go together: list of objects path: value, one "
+      "for each level");
+  table.texts("labels", &A::labels, "name of each level, for folders and tables; no two alike")
+      .defaultsTo("the values; required with sets, and where values are objects or lists")
+      .text("unit", &A::unit, "shown beside values that are numbers")
+      .choice(
+          "role", &A::role,
+          std::vector<std::pair<std::string, std::optional<Role>>>{
+              {"thickness", Role::thickness}, {"mesh", Role::mesh}, {"motion", Role::motion}, {"other", Role::other}},
+          "what the levels are: thicknesses, of which the verdict takes one; meshes, coarse and fine, whose difference "
+          "is "
+          "the verdict's error; motions")
+      .defaultsTo(
+          "by the path (factors.thickness, fabric.thickness; cell, cells_...; human.motion) or the name (thickness, "
+          "mesh, motion)");
+  return table.build();
+}
+
+schema::Object extraTable() {
+  using E = ExtraInput;
+  Table<E> table("Further variant");
+  table.text("label", &E::label, "its name").required();
+  rawField(table, "at", &E::at, "object axis: label; the levels that it starts from",
+           "the baseline; of an axis that the baseline does not name, the first level");
+  rawField(table, "set", &E::set, "object path: value; what is changed there", "required");
+  return table.build();
+}
+
+schema::Object elasticityTable() {
+  using E = ElasticityInput;
+  Table<E> table("Elasticities");
+  table.number("step", &E::step, "", schema::between(0.001, 0.5), "each factor is run at 1 - step and 1 + step");
+  rawField(table, "where", &E::where, "object axis: list of labels; only at these levels", "at all levels");
+  return table.build();
+}
+
+schema::Object limitsTable() {
+  return Table<Limits>("Limits")
+      .number("green", &Limits::green, "", schema::aboveTo(0, 10), "green below this part of the natural moment")
+      .defaultsTo("5 %")
+      .number("red", &Limits::red, "", schema::aboveTo(0, 10), "red above this part; amber between")
+      .defaultsTo("15 %")
+      .check([](const Place& p, Limits& l) {
+        if (!(l.green < l.red))
+          p.failAt("red", fmt::format("{} is out of range; allowed: > green = {}", l.red, l.green));
+        l.source = "limits of the study";
+      })
+      .build();
+}
+
+schema::Object makeStudyTable() {
+  using S = StudyInput;
+  Table<S> table("Study", "variants of a case, run and compared by `gambeson study`");
+  table.text("name", &S::name, "title of the page")
+      .required()
+      .text("description", &S::description, "what the study is about")
+      .path("case", &S::file, "the case that varies, relative to the study's folder")
+      .required();
+  rawField(table, "set", &S::set, "object path: value; set in every variant, before the axes");
+  table.list("axes", &S::axes, axisTable(), "what varies; every combination of the axes' levels is a variant")
+      .list("variants", &S::variants, extraTable(), "single variants beside those of the axes")
+      .object("elasticities", &S::elasticities, elasticityTable(),
+              "adds the ten variants that tell how much of the torque is due to bending, membrane, weight, inertia and "
+              "drag, at each combination of the axes that are not factors (those stay at the baseline)")
+      .defaultsTo("none");
+  rawField(table, "baseline", &S::baseline,
+           "object axis: label; variants are compared along these axes with the variant that has these levels",
+           "factors: the level 1; without one, the first level of the first axis");
+  table.object("limits", &S::limits, limitsTable(), "traffic light of added torques")
+      .defaultsTo("green 5 %, red 15 %: human/data/effort_limits.json")
+      .list("pictures", &S::pictures, schema::pictureTable(),
+            "of all variants of the axes side by side, at the same time (peak: that of the baseline) and with the same "
+            "colours")
+      .defaultsTo("one of the stress at the baseline's peak");
+  return table.build();
+}
+
+// --- From the fields to axes ------------------------------------------------------------------------------------
+
+std::string textOf(const JsonNode& value) {
+  switch (value.type) {
+    case JsonNode::Type::number:
+      return fmt::format("{}", value.number);
+    case JsonNode::Type::text:
+      return value.text;
+    case JsonNode::Type::boolean:
+      return value.boolean ? "true" : "false";
+    default:
+      return "";
+  }
+}
+
+/// What a folder's name may have.
+std::string safe(const std::string& text) {
+  std::string s;
+  for (const char c : text)
+    s += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'
+             ? c
+             : '_';
+  return s;
+}
+
+std::vector<Setting> settingsOf(const Place& place) {
+  if (place.node.type != JsonNode::Type::object)
+    place.fail("expected an object { } of path: value, not " + describe(place.node));
+  if (place.node.children.empty()) place.fail("is empty; allowed: at least one path: value");
+  std::vector<Setting> all;
+  for (const JsonNode& child : place.node.children) all.push_back({child.key, child});
+  return all;
+}
+
+Role roleOf(const AxisInput& in, const std::string& name) {
+  if (in.role) return *in.role;
+  const std::string last = in.path.substr(in.path.rfind('.') + 1);
+  if (name == "thickness" || last == "thickness") return Role::thickness;
+  if (name == "mesh" || last == "cell" || last.starts_with("cells")) return Role::mesh;
+  if (name == "motion" || in.path.starts_with("human.motion")) return Role::motion;
+  return Role::other;
+}
+
+/// Numbers of the levels where all are plain numbers, or all are numbers with one and the same unit.
+void findNumbers(Axis& axis, const JsonNode& values) {
+  std::vector<double> numbers;
+  std::set<std::string> units;
+  for (const JsonNode& v : values.children) {
+    if (v.type == JsonNode::Type::number) {
+      numbers.push_back(v.number);
+      units.insert("");
+      continue;
+    }
+    if (v.type != JsonNode::Type::text) return;
+    const char* begin = v.text.c_str();
+    char* end = nullptr;
+    numbers.push_back(std::strtod(begin, &end));
+    if (end == begin) return;
+    units.insert(end);
+  }
+  if (units.size() != 1) return;
+  for (std::size_t i = 0; i < numbers.size(); ++i) axis.levels[i].number = numbers[i];
+}
+
+Axis axisOf(const Place& place, const AxisInput& in) {
+  const bool sets = in.sets.type != JsonNode::Type::null, values = in.values.type != JsonNode::Type::null;
+  if (sets && (values || !in.path.empty()))
+    place.failAt("sets", "excludes path and values; give either sets, or path and values");
+  if (!sets && in.path.empty()) place.failAt("path", "is required: the value of the case that varies (or sets)");
+  if (!sets && !values) place.failAt("values", "is required: a list of values");
+  Axis axis;
+  axis.name = in.name.empty() ? in.path.substr(in.path.rfind('.') + 1) : in.name;
+  if (axis.name.empty()) place.failAt("name", "is required where sets are given");
+  axis.unit = in.unit;
+  axis.role = roleOf(in, axis.name);
+  const std::string key = sets ? "sets" : "values";
+  const JsonNode& list = sets ? in.sets : in.values;
+  const Place at = place.member(*place.node.find(key));
+  if (list.type != JsonNode::Type::list) at.fail("expected a list [ ], not " + describe(list));
+  if (list.children.empty()) at.fail("the list is empty; allowed: at least one level");
+  if (!in.labels.empty() && in.labels.size() != list.children.size())
+    place.failAt("labels", fmt::format("{} labels for {} {}; allowed: one for each", in.labels.size(),
+                                       list.children.size(), key));
+  std::map<std::string, std::string> folders;
+  for (std::size_t i = 0; i < list.children.size(); ++i) {
+    Level level;
+    const JsonNode& value = list.children[i];
+    level.label = in.labels.empty() ? (sets ? "" : textOf(value)) : in.labels[i];
+    if (level.label.empty())
+      place.failAt("labels", "is required: what no number, text or flag names needs a label for each level");
+    const std::string name = in.labels.empty() ? axis.name + "_" + level.label : level.label;
+    level.folder = safe(name);
+    level.name = !in.labels.empty()
+                     ? level.label
+                     : fmt::format("{} {}{}{}", axis.name, level.label, axis.unit.empty() ? "" : " ", axis.unit);
+    if (level.label.size() > 60) at.item(i).fail("its label is longer than 60 characters; give shorter labels");
+    const Place where = in.labels.empty() ? at.item(i) : place.member(*place.node.find("labels")).item(i);
+    if (const auto [other, fresh] = folders.insert({level.folder, level.label}); !fresh)
+      where.fail(fmt::format("\"{}\" and \"{}\" name two levels alike; allowed: labels that differ in more than signs",
+                             level.label, other->second));
+    if (sets)
+      level.set = settingsOf(at.item(i));
+    else
+      level.set = {{in.path, value}};
+    axis.levels.push_back(std::move(level));
+  }
+  if (!sets) findNumbers(axis, list);
+  return axis;
+}
+
+std::size_t axisNamed(const Place& place, const Study& s, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t a = 0; a < s.axes.size(); ++a) {
+    if (s.axes[a].name == name) return a;
+    names.push_back(s.axes[a].name);
+  }
+  place.fail(names.empty() ? "there are no axes"
+                           : fmt::format("there is no axis \"{}\"; allowed: {}", name, schema::joined(names)));
+}
+
+int levelNamed(const Place& place, const Axis& axis, const JsonNode& value) {
+  const std::string wanted = textOf(value);
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < axis.levels.size(); ++i) {
+    if (axis.levels[i].label == wanted) return static_cast<int>(i);
+    labels.push_back(axis.levels[i].label);
+  }
+  place.fail(
+      fmt::format("{} is no level of the axis {}; allowed: {}", describe(value), axis.name, schema::joined(labels)));
+}
+
+/// Object axis: label.
+std::map<std::size_t, int> levelsAt(const Place& place, const Study& s) {
+  if (place.node.type != JsonNode::Type::object)
+    place.fail("expected an object { } of axis: label, not " + describe(place.node));
+  std::map<std::size_t, int> levels;
+  for (const JsonNode& child : place.node.children) {
+    const Place at = place.member(child);
+    const std::size_t axis = axisNamed(at, s, child.key);
+    levels[axis] = levelNamed(at, s.axes[axis], child);
+  }
+  return levels;
+}
+
+bool isFactor(const Axis& axis) {
+  return std::any_of(axis.levels.begin(), axis.levels.end(), [](const Level& l) {
+    return std::any_of(l.set.begin(), l.set.end(), [](const Setting& s) { return s.path.starts_with("factors"); });
+  });
+}
+
+void findBaseline(const Place& root, const StudyInput& in, Study& s) {
+  if (in.baseline.type != JsonNode::Type::null) {
+    const Place place = root.member(*root.node.find("baseline"));
+    const auto levels = levelsAt(place, s);
+    if (levels.empty()) place.fail("is empty; allowed: at least one axis: label");
+    for (const auto& [axis, level] : levels) {
+      s.compared.push_back(static_cast<int>(axis));
+      s.baseline.push_back(level);
+    }
+    return;
+  }
+  for (std::size_t a = 0; a < s.axes.size(); ++a)
+    for (std::size_t l = 0; l < s.axes[a].levels.size(); ++l)
+      if (isFactor(s.axes[a]) && s.axes[a].levels[l].number == 1.0) {
+        s.compared.push_back(static_cast<int>(a));
+        s.baseline.push_back(static_cast<int>(l));
+      }
+  if (!s.compared.empty() || s.axes.empty()) return;
+  std::size_t first = 0;  // the mesh is no design
+  while (first + 1 < s.axes.size() && s.axes[first].role == Role::mesh) ++first;
+  s.compared = {static_cast<int>(first)};
+  s.baseline = {0};
+}
+
+// --- From the axes to variants ----------------------------------------------------------------------------------
+
+/// Builds and checks variants one by one.
+class Maker {
+ public:
+  Maker(const Place& place, const StudyInput& in, Study& study) : place_(place), in_(in), study_(study) {
+    base_ = readJson(in.file);
+    if (in.set.type != JsonNode::Type::null) common_ = settingsOf(place.member(*place.node.find("set")));
+  }
+
+  void add(std::vector<int> levels, const std::vector<Setting>& more, const std::string& extra_label, const Place& at) {
+    Variant v;
+    v.levels = std::move(levels);
+    v.grid = more.empty();
+    JsonNode root = base_;
+    std::vector<Setting> all = common_;
+    for (std::size_t a = 0; a < study_.axes.size(); ++a) {
+      const Axis& axis = study_.axes[a];
+      const Level& level = axis.levels[static_cast<std::size_t>(v.levels[a])];
+      all.insert(all.end(), level.set.begin(), level.set.end());
+      v.folder += (v.folder.empty() ? "" : "__") + level.folder;
+      v.label += (v.label.empty() ? "" : ", ") + level.name;
+    }
+    all.insert(all.end(), more.begin(), more.end());
+    if (!extra_label.empty()) {
+      v.folder += (v.folder.empty() ? "" : "__") + safe(extra_label);
+      v.label += (v.label.empty() ? "" : ", ") + extra_label;
+    }
+    if (v.folder.size() > 200)
+      at.fail(fmt::format("the folder of the variant {} has a name longer than 200 characters", v.label));
+    if (v.folder == "." || v.folder == ".." || v.folder == "cases" || v.folder == "logs" || v.folder == "pictures")
+      at.fail(fmt::format("a variant cannot be called \"{}\"; allowed: another label", v.label));
+    if (!folders_.insert(v.folder).second)
+      at.fail(fmt::format("there are two variants {}; allowed: labels that differ", v.label));
+    if (study_.variants.size() >= most_variants) at.fail(fmt::format("more than {} variants", most_variants));
+    try {
+      for (const Setting& s : all) overrideValue(root, s.path, s.value, place_.file);
+      v.definition = readAnyCase(root, in_.file);
+    } catch (const InputError& e) {
+      throw InputError(e.where(), fmt::format("{} (variant {})", e.reason(), v.label));
+    }
+    identify(v);
+    study_.variants.push_back(std::move(v));
+  }
+
+  static void identify(Variant& v) {
+    std::visit(
+        [&](auto& c) {
+          if (!v.label.empty()) c.name += ": " + v.label;
+        },
+        v.definition);
+    v.identity = std::visit([](const auto& c) { return caseIdentity(c); }, v.definition);
+    if (const auto* c = std::get_if<Case>(&v.definition)) {
+      Case rest = *c;
+      rest.factors = {};
+      rest.name = "rest";
+      v.rest_identity = caseIdentity(rest);
+    }
+  }
+
+ private:
+  const Place& place_;
+  const StudyInput& in_;
+  Study& study_;
+  JsonNode base_;
+  std::vector<Setting> common_;
+  std::set<std::string> folders_;
+};
+
+/// All combinations of levels of the axes, the last axis fastest.
+std::vector<std::vector<int>> combinations(const std::vector<std::vector<int>>& choices) {
+  std::vector<std::vector<int>> all{{}};
+  for (const std::vector<int>& choice : choices) {
+    std::vector<std::vector<int>> next;
+    for (const auto& before : all)
+      for (const int level : choice) {
+        next.push_back(before);
+        next.back().push_back(level);
+      }
+    all = std::move(next);
+    if (all.size() > most_variants) break;
+  }
+  return all;
+}
+
+std::vector<std::vector<int>> allLevels(const Study& s) {
+  std::vector<std::vector<int>> choices;
+  for (const Axis& a : s.axes) {
+    choices.emplace_back();
+    for (std::size_t l = 0; l < a.levels.size(); ++l) choices.back().push_back(static_cast<int>(l));
+  }
+  return choices;
+}
+
+int baselineLevel(const Study& s, std::size_t axis) {
+  for (std::size_t k = 0; k < s.compared.size(); ++k)
+    if (s.compared[k] == static_cast<int>(axis)) return s.baseline[k];
+  return 0;
+}
+
+void addElasticities(const Place& root, const ElasticityInput& in, Maker& maker, Study& s) {
+  const Place place = root.member(*root.node.find("elasticities"));
+  std::vector<std::vector<int>> choices = allLevels(s);
+  for (std::size_t a = 0; a < s.axes.size(); ++a)
+    if (isFactor(s.axes[a])) choices[a] = {baselineLevel(s, a)};
+  if (in.where.type != JsonNode::Type::null) {
+    const Place where = place.member(*place.node.find("where"));
+    if (in.where.type != JsonNode::Type::object)
+      where.fail("expected an object { } of axis: list of labels, not " + describe(in.where));
+    for (const JsonNode& child : where.node.children) {
+      const Place at = where.member(child);
+      const std::size_t axis = axisNamed(at, s, child.key);
+      if (isFactor(s.axes[axis])) at.fail("is an axis of factors, which stay at the baseline; allowed: another axis");
+      if (child.type != JsonNode::Type::list || child.children.empty())
+        at.fail("expected a list of labels, not " + describe(child));
+      choices[axis].clear();
+      for (std::size_t i = 0; i < child.children.size(); ++i)
+        choices[axis].push_back(levelNamed(at.item(i), s.axes[axis], child.children[i]));
+    }
+  }
+  for (const auto& levels : combinations(choices))
+    for (const char* factor : {"bending", "membrane", "weight", "inertia", "drag"})
+      for (const double value : {1 - in.step, 1 + in.step}) {
+        JsonNode node = schema::nodeOf(value);
+        node.line = place.node.line;
+        maker.add(levels, {{fmt::format("factors.{}", factor), node}}, fmt::format("{}_{:g}", factor, value), place);
+      }
+}
+
+/// Without axes the first variant is what the others are compared with.
+void linkBaselines(Study& s) {
+  if (s.axes.empty())
+    for (Variant& v : s.variants) v.grid = true;
+  for (Variant& v : s.variants) {
+    std::vector<int> wanted = v.levels;
+    for (std::size_t k = 0; k < s.compared.size(); ++k) wanted[static_cast<std::size_t>(s.compared[k])] = s.baseline[k];
+    for (std::size_t i = 0; i < s.variants.size(); ++i)
+      if (s.variants[i].grid && s.variants[i].levels == wanted) v.baseline = static_cast<int>(i);
+  }
+}
+
+}  // namespace
+
+Limits publishedLimits() {
+  const auto facts = nlohmann::json::parse(data::effort_limits);
+  return {facts.at("green_below").get<double>(), facts.at("red_above").get<double>(),
+          "a suggestion for design, as no published standard was found"};
+}
+
+const schema::Object& studyTable() {
+  static const schema::Object table = makeStudyTable();
+  return table;
+}
+
+Study readStudy(const std::filesystem::path& file) {
+  const JsonNode root = readJson(file);
+  const std::string name = file.string();
+  const Place place{root, "", name};
+  StudyInput in;
+  schema::readObject(studyTable(), place, &in);
+  Study s;
+  s.name = in.name;
+  s.description = in.description;
+  s.file = file;
+  s.limits = in.limits;
+  s.pictures = in.pictures;
+  if (in.axes.empty() && in.variants.empty()) place.fail("one of axes or variants is required, and not empty");
+  for (std::size_t a = 0; a < in.axes.size(); ++a) {
+    const Place at = place.member(*root.find("axes")).item(a);
+    Axis axis = axisOf(at, in.axes[a]);
+    for (const Axis& other : s.axes)
+      if (other.name == axis.name)
+        at.failAt("name", fmt::format("\"{}\" names two axes; allowed: a name of its own", axis.name));
+    s.axes.push_back(std::move(axis));
+  }
+  findBaseline(place, in, s);
+  Maker maker(place, in, s);
+  if (!s.axes.empty()) {
+    const Place axes = place.member(*root.find("axes"));
+    for (const auto& levels : combinations(allLevels(s))) maker.add(levels, {}, "", axes);
+  }
+  for (std::size_t i = 0; i < in.variants.size(); ++i) {
+    const Place at = place.member(*root.find("variants")).item(i);
+    std::vector<int> levels;
+    for (std::size_t a = 0; a < s.axes.size(); ++a) levels.push_back(baselineLevel(s, a));
+    if (in.variants[i].at.type != JsonNode::Type::null)
+      for (const auto& [axis, level] : levelsAt(at.member(*at.node.find("at")), s)) levels[axis] = level;
+    if (!at.node.find("set")) at.failAt("set", "is required: object path: value");
+    maker.add(levels, settingsOf(at.member(*at.node.find("set"))), in.variants[i].label, at);
+  }
+  if (in.elasticities) addElasticities(place, *in.elasticities, maker, s);
+  linkBaselines(s);
+  return s;
+}
+
+Study batchOf(const std::vector<std::filesystem::path>& cases) {
+  Study s;
+  s.name = "Batch of cases";
+  s.limits = publishedLimits();
+  std::map<std::string, std::filesystem::path> seen;
+  for (const std::filesystem::path& file : cases) {
+    Variant v;
+    v.folder = v.label = safe(file.stem().string());
+    v.grid = true;
+    if (const auto [other, fresh] = seen.insert({v.folder, file}); !fresh)
+      throw InputError({"command line", 0, file.string()},
+                       fmt::format("has the same name as {}; allowed: cases whose files have names of their own",
+                                   other->second.string()));
+    v.definition = readAnyCase(file);
+    const std::string label = std::exchange(v.label, "");
+    Maker::identify(v);
+    v.label = label;
+    s.variants.push_back(std::move(v));
+  }
+  return s;
+}
+
+}  // namespace gambeson::study

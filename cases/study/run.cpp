@@ -1,0 +1,245 @@
+#include "cases/study/run.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <set>
+
+#include "cases/progress.hpp"
+#include "cases/references.hpp"
+#include "cases/study/compare.hpp"
+#include "cases/study/pool.hpp"
+#include "core/error.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/io/recording.hpp"
+#include "core/sheet/shell_kernel.hpp"
+
+namespace gambeson::study {
+namespace {
+
+int machineThreads() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : omp_get_num_procs();
+}
+
+std::filesystem::path caseFile(const std::filesystem::path& out, const Variant& v) {
+  return out / "cases" / (v.folder + ".json");
+}
+
+/// Checkpoints that a whole run leaves, about; 0 where that is not known (structures).
+double checkpointsOf(const AnyCase& any) {
+  const auto* c = std::get_if<Case>(&any);
+  if (!c) return 0;
+  const double dressing = (c->dressing.projecting ? c->dressing.projecting->grow_s : 0) + c->dressing.settle_s;
+  return 1 + (dressing + plannedDuration(*c)) / c->output.checkpoint_s;
+}
+
+void prepareFolder(const std::filesystem::path& out) {
+  std::error_code error;
+  for (const auto& folder : {out, out / "cases", out / "logs"}) {
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      throw InputError({"command line", 0, "--out"},
+                       fmt::format("{} cannot be made: {}", folder.string(), error.message()));
+  }
+}
+
+/// A folder of a variant that is neither empty nor of a run is not ours to fill.
+void refuseForeign(const Study& s, const std::filesystem::path& out) {
+  for (const Variant& v : s.variants) {
+    const std::filesystem::path folder = out / v.folder;
+    std::error_code error;
+    if (!std::filesystem::exists(folder, error) || holdsRecording(folder)) continue;
+    if (!std::filesystem::is_directory(folder, error) || !std::filesystem::is_empty(folder, error))
+      throw InputError(
+          {"command line", 0, "--out"},
+          fmt::format("{} is in the way of the variant {}: it holds no run; allowed: a new folder, or that "
+                      "of an earlier study",
+                      folder.string(), v.label));
+  }
+}
+
+std::vector<std::string> commandOf(const Variant& v, const Options& o, int threads, Stand stand) {
+  std::vector<std::string> command{o.binary,
+                                   "run",
+                                   caseFile(o.out, v).string(),
+                                   "--out",
+                                   (o.out / v.folder).string(),
+                                   "--threads",
+                                   std::to_string(threads)};
+  if (stand == Stand::interrupted) command.push_back("--resume");
+  return command;
+}
+
+/// One line for all, and on what is no terminal a line for each variant that ends.
+class Line {
+ public:
+  Line(std::size_t all, std::size_t kept)
+      : all_(all), done_(kept), kept_(kept), terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~Line() { clear(); }
+  void clear() {
+    if (drawn_) std::fputs("\r\033[K", stderr);
+    drawn_ = false;
+  }
+  void ended() { ++done_; }
+  /// `parts`: of the runs under way.
+  void update(const std::vector<double>& parts) {
+    if (!terminal_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::milliseconds(200)) return;
+    last_ = now;
+    double sum = static_cast<double>(done_);
+    for (const double p : parts) sum += p;
+    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+    const std::string left =
+        progressLine("", sum, static_cast<double>(all_), static_cast<double>(kept_), elapsed_s, "");
+    std::fprintf(stderr, "\r\033[K%zu of %zu variants done, %zu running %s", done_, all_, parts.size(), left.c_str());
+    std::fflush(stderr);
+    drawn_ = true;
+  }
+
+ private:
+  std::size_t all_, done_, kept_;
+  bool terminal_, drawn_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
+};
+
+}  // namespace
+
+Stand standOf(const std::filesystem::path& folder, const std::string& identity) {
+  if (closedSegments(folder) == 0) return Stand::fresh;
+  const std::string whole = identity + " " + widestKernels().name;
+  try {
+    if (RecordingReader(folder).layout().identity != whole) return Stand::fresh;
+    std::ifstream stream(folder / "summary.json");
+    // The page is written last.
+    if (!stream || !std::filesystem::exists(folder / "report.html")) return Stand::interrupted;
+    const auto j = nlohmann::json::parse(stream);
+    if (!j.contains("planned_to_s")) return Stand::done;
+    return j.at("recorded_to_s").get<double>() >= j.at("planned_to_s").get<double>() - 1e-9 ? Stand::done
+                                                                                            : Stand::interrupted;
+  } catch (const nlohmann::json::exception&) {
+    return Stand::interrupted;
+  } catch (const InputError&) {
+    return Stand::fresh;
+  }
+}
+
+int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
+  const auto begin = std::chrono::steady_clock::now();
+  Options o = chosen;
+  const Signals signals;
+  prepareFolder(o.out);
+  o.out = std::filesystem::absolute(o.out).lexically_normal();
+  const FolderLock lock(o.out);
+  refuseForeign(s, o.out);
+  const int threads = o.threads > 0 ? o.threads : machineThreads();
+
+  std::vector<Stand> stands;
+  std::vector<Outcome> outcomes(s.variants.size());
+  std::vector<std::size_t> todo;
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    const Variant& v = s.variants[i];
+    stands.push_back(o.resume ? standOf(o.out / v.folder, v.identity) : Stand::fresh);
+    writeFileAtomically(caseFile(o.out, v), std::visit([](const auto& c) { return writeCase(c); }, v.definition));
+    if (stands.back() == Stand::done)
+      outcomes[i].good = true;
+    else
+      todo.push_back(i);
+  }
+  if (o.slurm && todo.empty()) {
+    out << "all variants are done: the same command without --engine compares them\n";
+    return 0;
+  }
+  if (o.slurm) {
+    writeFileAtomically(o.out / "study.slurm", slurmScript(s, o, stands));
+    out << fmt::format(
+        "{0} of {1} variants to do: sbatch {2}\nThen compare: the same command with --resume and without --engine\n",
+        todo.size(), s.variants.size(), (o.out / "study.slurm").string());
+    return 0;
+  }
+  const int parallel = std::clamp(o.jobs > 0 ? o.jobs : threads, 1, std::max(1, static_cast<int>(todo.size())));
+  const int each = std::max(1, threads / parallel);
+  // Those interrupted first: they are nearest to their end.
+  std::stable_partition(todo.begin(), todo.end(), [&](std::size_t i) { return stands[i] == Stand::interrupted; });
+  std::vector<Job> jobs;
+  std::vector<double> checkpoints;
+  for (const std::size_t i : todo) {
+    jobs.push_back({commandOf(s.variants[i], o, each, stands[i]), o.out / "logs" / (s.variants[i].folder + ".log")});
+    checkpoints.push_back(checkpointsOf(s.variants[i].definition));
+  }
+  if (todo.size() < s.variants.size())
+    out << fmt::format("{} of {} variants are done already\n", s.variants.size() - todo.size(), s.variants.size())
+        << std::flush;
+  bool whole = true;
+  {
+    Line line(s.variants.size(), s.variants.size() - todo.size());
+    Pool pool;
+    pool.parallel = parallel;
+    pool.ended = [&](std::size_t job, const Ended& e) {
+      const Variant& v = s.variants[todo[job]];
+      outcomes[todo[job]] = {e.good, e.why};
+      line.ended();
+      line.clear();
+      out << (e.good ? fmt::format("done    {}  {}\n", v.folder, durationText(e.seconds))
+                     : fmt::format("FAILED  {}  {}\n", v.folder, e.why))
+          << std::flush;
+    };
+    pool.watch = [&](const std::vector<std::size_t>& running) {
+      std::vector<double> parts;
+      for (const std::size_t job : running) {
+        const double n = checkpoints[job];
+        parts.push_back(n > 0 ? std::min(1.0, closedSegments(o.out / s.variants[todo[job]].folder) / n) : 0);
+      }
+      line.update(parts);
+    };
+    whole = runJobs(jobs, pool, signals, lock.descriptor());
+  }
+  if (!whole)
+    throw RunError(
+        fmt::format("stopped by a signal; what is done stands in {}, and --resume goes on from there", o.out.string()));
+  compareVariants(s, outcomes, o.out);
+  std::size_t failures = 0;
+  for (const Outcome& v : outcomes) failures += !v.good;
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (failures > 0) out << fmt::format("{} of {} variants failed: the report says why\n", failures, s.variants.size());
+  out << fmt::format("Report, after {}: {}\n", durationText(wall_s), (o.out / "report.html").string());
+  return failures > 0 ? 1 : 0;
+}
+
+std::string slurmScript(const Study& s, const Options& o, const std::vector<Stand>& stands) {
+  std::string folders, again;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    if (stands[i] == Stand::done) continue;
+    folders += " '" + s.variants[i].folder + "'";
+    again += stands[i] == Stand::interrupted ? " --resume" : " ''";
+    ++count;
+  }
+  const std::string limit = o.jobs > 0 ? fmt::format("%{}", o.jobs) : "";
+  std::error_code error;
+  const std::filesystem::path binary = std::filesystem::canonical(o.binary, error);
+  return fmt::format(
+      "#!/usr/bin/env bash\n"
+      "# {} variants, each a job of its own. When all are done, compare them: gambeson study ... --out ... --resume\n"
+      "#SBATCH --array=0-{}{}\n"
+      "#SBATCH --cpus-per-task={}\n"
+      "#SBATCH --output='{}/logs/slurm_%a.log'\n"
+      "folders=({})\n"
+      "again=({})\n"
+      "i=$SLURM_ARRAY_TASK_ID\n"
+      "exec '{}' run '{}'/cases/\"${{folders[i]}}\".json --out '{}'/\"${{folders[i]}}\" --threads "
+      "\"$SLURM_CPUS_PER_TASK\" "
+      "${{again[i]}}\n",
+      count, count > 0 ? count - 1 : 0, limit, std::max(1, o.threads), o.out.string(), folders, again,
+      error ? o.binary : binary.string(), o.out.string(), o.out.string());
+}
+
+}  // namespace gambeson::study

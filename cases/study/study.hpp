@@ -1,0 +1,80 @@
+#pragma once
+/// A study: variants of a case, run and compared. Everything is read and checked before the first of them runs.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/any_case.hpp"
+#include "cases/schema.hpp"
+
+namespace gambeson::study {
+
+/// A value of the case that a variant replaces; the value knows its line in the study's file.
+struct Setting {
+  std::string path;
+  JsonNode value;
+};
+
+struct Level {
+  std::string label;
+  std::string name;    ///< as people read it: the label where the study gives one, else with the axis: "thickness 0.5"
+  std::string folder;  ///< what it adds to a variant's folder
+  std::vector<Setting> set;
+  std::optional<double> number;  ///< where all levels of the axis are numbers, of one unit
+};
+
+/// What an axis is about, which decides how its levels are compared.
+enum class Role { other, thickness, mesh, motion };
+
+struct Axis {
+  std::string name, unit;
+  Role role = Role::other;
+  std::vector<Level> levels;
+};
+
+/// One run.
+struct Variant {
+  std::string folder;       ///< within the study's
+  std::string label;        ///< as people read it: "thickness 0.5, walking"
+  std::vector<int> levels;  ///< of each axis
+  bool grid = false;        ///< of the axes alone, nothing else set
+  int baseline = -1;        ///< the variant that it is compared with; -1: none
+  AnyCase definition;
+  std::string identity;       ///< caseIdentity
+  std::string rest_identity;  ///< with all factors 1 and the name left out: what variants of factors alone share
+};
+
+/// Torque of the garment as a part of the natural moment of the task: green below the one, red above the other, amber
+/// between.
+struct Limits {
+  double green = 0, red = 0;
+  std::string source;
+};
+/// Of human/data/effort_limits.json.
+Limits publishedLimits();
+
+struct Study {
+  std::string name, description;
+  std::filesystem::path file;  ///< empty: a batch
+  std::vector<Axis> axes;
+  std::vector<int> compared;  ///< axes that the baseline names: variants are compared along them
+  std::vector<int> baseline;  ///< level of each of `compared`
+  std::vector<Variant> variants;
+  Limits limits;
+  std::vector<PictureCase> pictures;
+};
+
+/// Reads and checks a study and all its variants. Throws InputError: file, line, key, what is allowed; of a variant
+/// also its label.
+Study readStudy(const std::filesystem::path& file);
+
+/// Several cases as variants without axes, named after their files.
+Study batchOf(const std::vector<std::filesystem::path>& cases);
+
+/// The fields of a study's file.
+const schema::Object& studyTable();
+
+}  // namespace gambeson::study

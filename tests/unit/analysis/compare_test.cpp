@@ -1,0 +1,215 @@
+/// Exponents and elasticities of synthetic laws, and what the verdict says of synthetic tables.
+
+#include "analysis/compare.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gambeson {
+namespace {
+
+TEST(Compare, APowerLawGivesItsExponentExactly) {
+  const std::vector<double> t{1, 0.5, 0.75};  // in any order
+  std::vector<double> tau;
+  for (const double x : t) tau.push_back(2.7 * std::pow(x, 1.58));
+  const auto law = fitPowerLaw(t, tau);
+  ASSERT_TRUE(law);
+  EXPECT_NEAR(law->exponent, 1.58, 1e-12);
+  EXPECT_NEAR(law->standard_error, 0, 1e-7);
+  EXPECT_NEAR(law->lowest, 1.58, 1e-12);
+  EXPECT_NEAR(law->highest, 1.58, 1e-12);
+  EXPECT_EQ(law->points, 3);
+}
+
+/// 56 % in proportion and 44 % with the cube is no power law: its slope is t tau'/tau, 1.18 at 0.5 and 1.88 at 1, and
+/// the range between neighbours lies within.
+TEST(Compare, WhatIsNoPowerLawShowsASpread) {
+  const std::vector<double> t{0.5, 0.75, 1};
+  std::vector<double> tau;
+  for (const double x : t) tau.push_back(0.56 * x + 0.44 * x * x * x);
+  const auto slope = [](double x) { return (0.56 * x + 3 * 0.44 * x * x * x) / (0.56 * x + 0.44 * x * x * x); };
+  const auto law = fitPowerLaw(t, tau);
+  ASSERT_TRUE(law);
+  EXPECT_GT(law->lowest, slope(0.5));
+  EXPECT_LT(law->highest, slope(1));
+  EXPECT_LT(law->lowest, law->exponent);
+  EXPECT_GT(law->highest, law->exponent);
+  EXPECT_GT(law->standard_error, 0.01);
+  // Half the thickness leaves a third (Zheng 2013, section 6.4): 0.335.
+  EXPECT_NEAR(tau[0] / tau[2], 1.0 / 3, 0.01);
+}
+
+/// Least squares by hand: ln y = 0, 1, 1 over ln x = 0, 1, 2 has slope 1/2, residuals -1/6, 1/3, -1/6.
+TEST(Compare, LeastSquaresAndItsErrorByHand) {
+  const double e = std::exp(1.0);
+  const auto law = fitPowerLaw(std::vector{1.0, e, e * e}, std::vector{1.0, e, e});
+  ASSERT_TRUE(law);
+  EXPECT_NEAR(law->exponent, 0.5, 1e-12);
+  EXPECT_NEAR(law->standard_error, std::sqrt((1.0 / 36 + 1.0 / 9 + 1.0 / 36) / 1 / 2), 1e-12);
+  EXPECT_NEAR(law->lowest, 0, 1e-12);
+  EXPECT_NEAR(law->highest, 1, 1e-12);
+}
+
+TEST(Compare, WhatCannotBeFittedIsNotFitted) {
+  EXPECT_FALSE(fitPowerLaw(std::vector{1.0}, std::vector{1.0}));
+  EXPECT_FALSE(fitPowerLaw(std::vector{1.0, 1.0}, std::vector{1.0, 2.0}));
+  EXPECT_FALSE(fitPowerLaw(std::vector{0.5, 1.0}, std::vector{0.0, 2.0}));
+  EXPECT_FALSE(fitPowerLaw(std::vector{0.5, 1.0}, std::vector{std::nan(""), 2.0}));
+  EXPECT_FALSE(fitPowerLaw(std::vector{-0.5, 1.0}, std::vector{1.0, 2.0}));
+  const auto two = fitPowerLaw(std::vector{0.5, 1.0}, std::vector{1.0, 2.0});
+  ASSERT_TRUE(two);
+  EXPECT_NEAR(two->exponent, 1, 1e-12);
+  EXPECT_TRUE(std::isnan(two->standard_error));  // two points have no error of their own
+}
+
+/// A torque that is linear in five forces: its elasticities are their parts of it, and sum to 1.
+TEST(Compare, ElasticitiesOfALinearLawAreItsPartsAndSumToOne) {
+  const double parts[]{0.31, 0.22, 0.28, 0.15, 0.04};
+  const auto torque = [&](int factor, double value) {
+    double tau = 0;
+    for (int k = 0; k < 5; ++k) tau += parts[k] * (k == factor ? value : 1);
+    return 3.2 * tau;
+  };
+  Elasticities e;
+  std::optional<double>* const all[]{&e.bending, &e.membrane, &e.weight, &e.inertia, &e.drag};
+  for (int k = 0; k < 5; ++k) *all[k] = elasticity(0.9, 1.1, torque(k, 0.9), torque(k, 1.1));
+  // The central difference of ln(1 - p + p f) about 1 errs by less than p h^2.
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(**all[k], parts[k], 0.01 * parts[k]);
+  EXPECT_NEAR(*e.sum(), 1, 0.005);
+  EXPECT_NEAR(*e.thicknessExponent(), 0.22 + 0.28 + 0.15 + 3 * 0.31, 0.01);
+  const auto measured = [&](double t) { return 3.2 * ((0.22 + 0.28 + 0.15) * t + 0.31 * t * t * t + 0.04); };
+  EXPECT_NEAR(*elasticity(0.99, 1.01, measured(0.99), measured(1.01)), *e.thicknessExponent(), 0.01);
+}
+
+TEST(Compare, MissingElasticitiesMakeNoSum) {
+  Elasticities e;
+  e.bending = 0.4;
+  e.membrane = 0.2;
+  e.weight = 0.3;
+  EXPECT_FALSE(e.sum());
+  EXPECT_FALSE(e.thicknessExponent());
+  e.inertia = 0.1;
+  EXPECT_FALSE(e.sum());
+  EXPECT_NEAR(*e.thicknessExponent(), 0.6 + 1.2, 1e-12);  // drag does not go with the thickness
+  EXPECT_FALSE(elasticity(0.9, 1.1, 0, 1));
+  EXPECT_FALSE(elasticity(1, 1, 1, 1));
+}
+
+TEST(Compare, Lights) {
+  EXPECT_EQ(lightOf(0.04, 0.05, 0.15), Light::green);
+  EXPECT_EQ(lightOf(0.05, 0.05, 0.15), Light::amber);
+  EXPECT_EQ(lightOf(0.15, 0.05, 0.15), Light::amber);
+  EXPECT_EQ(lightOf(0.16, 0.05, 0.15), Light::red);
+  EXPECT_EQ(lightOf(std::nan(""), 0.05, 0.15), Light::unknown);
+  EXPECT_EQ(lightOf({}, 0.05, 0.15), Light::unknown);
+}
+
+/// Three thicknesses in two motions; `parts` of the natural moment in the worse one, stairs.
+VerdictInput table(std::vector<double> parts) {
+  VerdictInput in{"thickness", true, {}, 2, 0.05, 0.15, {}, {}, 0, 6};
+  const char* names[]{"thickness 0.5", "thickness 0.75", "thickness 1"};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Option o;
+    o.name = names[i];
+    o.size = 0.5 + 0.25 * static_cast<double>(i);
+    o.costs = {{"walking", "left hip (flexion)", 40 * parts[i], 0.8 * parts[i], parts[i] / parts.back()},
+               {"stairs", "right hip (flexion)", 50 * parts[i], parts[i], parts[i] / parts.back()}};
+    in.options.push_back(o);
+  }
+  return in;
+}
+
+TEST(Verdict, TakesTheThickestThatStaysGreen) {
+  const Verdict v = verdictOf(table({0.02, 0.04, 0.08}));
+  EXPECT_EQ(v.take, 1);
+  EXPECT_EQ(v.light, Light::green);
+  EXPECT_EQ(
+      v.sentence,
+      "Take thickness 0.75, the thickest that stays green in all 2 motions: 2.00 Nm at the right hip (flexion), 4 % "
+      "of its "
+      "natural moment (stairs) at most, below 5 %. The next, thickness 1, costs 4.00 Nm at the right hip (flexion), "
+      "8 % of its "
+      "natural moment (stairs): amber.");
+  // 0.04 reaches 0.05 with +25 %; 0.08 falls below with -37.5 %.
+  ASSERT_TRUE(v.holds_up_to);
+  EXPECT_NEAR(*v.holds_up_to, 0.25, 1e-9);
+  EXPECT_NE(v.why.find("Peak torque of thickness 0.5 against thickness 1: 0.25 walking, 0.25 stairs."),
+            std::string::npos)
+      << v.why;
+  EXPECT_EQ(v.sure,
+            "Mesh error: not known, the study has one mesh. The answer stays the same as long as the torques are right "
+            "within 25 %. All checks "
+            "of all runs hold.");
+}
+
+TEST(Verdict, TheMarginMayComeFromTheOneNotTaken) {
+  const Verdict v = verdictOf(table({0.01, 0.02, 0.055}));
+  EXPECT_EQ(v.take, 1);
+  EXPECT_NEAR(*v.holds_up_to, 1 - 0.05 / 0.055, 1e-9);
+}
+
+TEST(Verdict, SaysHowSureThatIs) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  in.mesh_error = 0.06;
+  EXPECT_NE(verdictOf(in).sure.find(
+                "differ by 6 % in the peaks. That does not change the answer, which stays the same up to 25 %."),
+            std::string::npos)
+      << verdictOf(in).sure;
+  in.mesh_error = 0.3;
+  EXPECT_NE(verdictOf(in).sure.find("too much to be sure: beyond 25 % the answer is another one"), std::string::npos);
+  in.failing_checks = 2;
+  EXPECT_NE(verdictOf(in).sure.find("Checks fail in 2 of 6 runs"), std::string::npos);
+  in.exponents = {{"walking", {1.6, 0.05, 1.4, 1.8, 3}}};
+  EXPECT_NE(verdictOf(in).why.find("to the power 1.6 (1.4 to 1.8 between neighbours) walking"), std::string::npos)
+      << verdictOf(in).why;
+}
+
+TEST(Verdict, AllGreenNoneGreenAndTooMuch) {
+  Verdict v = verdictOf(table({0.01, 0.02, 0.03}));
+  EXPECT_EQ(v.take, 2);
+  EXPECT_NE(v.sentence.find("Take thickness 1, the thickest: it stays green in all 2 motions"), std::string::npos)
+      << v.sentence;
+  v = verdictOf(table({0.07, 0.09, 0.2}));
+  EXPECT_EQ(v.take, 0);
+  EXPECT_EQ(v.light, Light::amber);
+  EXPECT_NE(v.sentence.find("Take thickness 0.5 if it must be"), std::string::npos) << v.sentence;
+  v = verdictOf(table({0.2, 0.3, 0.4}));
+  EXPECT_EQ(v.light, Light::red);
+  EXPECT_NE(v.sentence.find("Take none of them as it is"), std::string::npos) << v.sentence;
+}
+
+TEST(Verdict, WithoutNaturalMomentsItSaysWhatCostsLeast) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  for (Option& o : in.options)
+    for (Option::Cost& c : o.costs) c.part.reset();
+  const Verdict v = verdictOf(in);
+  EXPECT_EQ(v.take, 0);
+  EXPECT_EQ(v.light, Light::unknown);
+  EXPECT_NE(v.sentence.find("Thickness 0.5 costs the wearer least"), std::string::npos) << v.sentence;
+  EXPECT_NE(v.sentence.find("No natural moment"), std::string::npos);
+  EXPECT_FALSE(v.holds_up_to);
+}
+
+TEST(Verdict, MissingRunsAreNotTakenAndAreSaid) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  in.options[1].missing = true;
+  const Verdict v = verdictOf(in);
+  EXPECT_EQ(v.take, 0);
+  EXPECT_NE(v.sure.find("1 of 3 are missing because runs failed"), std::string::npos) << v.sure;
+  for (Option& o : in.options) o.missing = true;
+  EXPECT_EQ(verdictOf(in).take, -1);
+  EXPECT_NE(verdictOf(in).sentence.find("No verdict"), std::string::npos);
+}
+
+/// Cuts, say, have no size: the one that costs least is taken.
+TEST(Verdict, WithoutSizesTheCheapestIsTaken) {
+  VerdictInput in = table({0.04, 0.02, 0.03});
+  in.sized = false;
+  const Verdict v = verdictOf(in);
+  EXPECT_EQ(v.take, 1);
+  EXPECT_NE(v.sentence.find("it costs least"), std::string::npos) << v.sentence;
+}
+
+}  // namespace
+}  // namespace gambeson

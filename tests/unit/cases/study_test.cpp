@@ -1,0 +1,293 @@
+/// Studies: what their files mean, what is wrong with malformed ones, and what is made of the numbers of their runs.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases/study/compare.hpp"
+#include "core/error.hpp"
+#include "example.hpp"
+
+namespace gambeson::study {
+namespace {
+
+const std::string cloth = R"({"name": "cloth",
+  "garment": {"sheet": {"width": "0.1 m", "height": "0.1 m", "cells_u": 2, "cells_v": 2}},
+  "fabric": {"thickness": "1 mm", "density": "500 kg/m^3", "young": "1 MPa", "poisson": 0.3,
+             "bending": {"law": "linear", "rigidity": "1e-4 N m"}},
+  "obstacles": [{"name": "floor", "plane": {"point": [0, 0, -1]}}],
+  "contact": {"friction": 0.3}, "time": {"duration": 0.1}})";
+
+/// The first line below is line 1 of the file.
+const std::string good = R"({
+  "name": "thin and thick",
+  "case": "cloth.json",
+  "axes": [
+    {"path": "factors.thickness", "values": [0.5, 0.75, 1]},
+    {"name": "mesh", "sets": [{"garment.sheet.cells_u": 2, "garment.sheet.cells_v": 2},
+                              {"garment.sheet.cells_u": 3, "garment.sheet.cells_v": 3}], "labels": ["coarse", "fine"]},
+    {"name": "slip", "path": "contact.friction", "values": [0.1, 0.4], "labels": ["smooth", "rough"]}
+  ],
+  "variants": [{"label": "slow", "at": {"slip": "rough"}, "set": {"time.max_step": "0.1 ms"}}],
+  "elasticities": {"step": 0.2, "where": {"mesh": ["coarse"]}}
+})";
+
+Study read(const std::string& text) {
+  static const Folder folder;
+  folder.write("cloth.json", cloth);
+  return readStudy(folder.write("a.study.json", text));
+}
+
+const Variant& variant(const Study& s, const std::string& folder) {
+  for (const Variant& v : s.variants)
+    if (v.folder == folder) return v;
+  ADD_FAILURE() << "no variant " << folder;
+  return s.variants[0];
+}
+
+TEST(Study, AxesMakeAGridAndTheRestIsAdded) {
+  const Study s = read(good);
+  ASSERT_EQ(s.axes.size(), 3u);
+  EXPECT_EQ(s.axes[0].name, "thickness");
+  EXPECT_EQ(s.axes[0].role, Role::thickness);
+  EXPECT_EQ(s.axes[1].role, Role::mesh);
+  EXPECT_EQ(s.variants.size(), 12u + 1 + 20);  // the grid, the extra one, five factors twice at two levels of slip
+  const Variant& v = variant(s, "thickness_0.75__fine__rough");
+  EXPECT_EQ(v.label, "thickness 0.75, fine, rough");
+  const Case& c = std::get<Case>(v.definition);
+  EXPECT_EQ(c.factors.thickness, 0.75);
+  EXPECT_EQ(std::get<SheetGarment>(c.garments[0].shape).cells_v, 3);
+  EXPECT_EQ(c.contact.friction, 0.4);
+  EXPECT_EQ(c.name, "cloth: thickness 0.75, fine, rough");
+  // The baseline is found: thickness 1, everything else its own.
+  EXPECT_EQ(s.variants[static_cast<std::size_t>(v.baseline)].folder, "thickness_1__fine__rough");
+  const Variant& slow = variant(s, "thickness_1__coarse__rough__slow");
+  EXPECT_EQ(std::get<Case>(slow.definition).time.max_step_s, 1e-4);
+  EXPECT_EQ(s.variants[static_cast<std::size_t>(slow.baseline)].folder, "thickness_1__coarse__rough");
+  const Variant& light = variant(s, "thickness_1__coarse__smooth__inertia_0.8");
+  EXPECT_EQ(std::get<Case>(light.definition).factors.inertia, 0.8);
+  // Variants of factors alone are one family, others are not.
+  EXPECT_EQ(light.rest_identity, variant(s, "thickness_0.5__coarse__smooth").rest_identity);
+  EXPECT_NE(light.rest_identity, variant(s, "thickness_0.5__coarse__rough").rest_identity);
+  EXPECT_NE(light.identity, variant(s, "thickness_1__coarse__smooth").identity);
+}
+
+TEST(Study, FilesOfValuesAreFoundBesideTheStudy) {
+  const Folder folder;
+  folder.write("sub.txt", "");
+  std::filesystem::create_directories(folder.path() / "cases");
+  std::filesystem::create_directories(folder.path() / "studies");
+  folder.write("cases/cloth.json", cloth);
+  folder.write("studies/ball.obj", "v 1 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const Study s = readStudy(folder.write("studies/s.json", R"({"name": "s", "case": "../cases/cloth.json", "axes": [
+    {"name": "what", "path": "obstacles[0]", "labels": ["ball"], "values": [{"name": "ball", "mesh": {"file": "ball.obj"}}]}]})"));
+  EXPECT_EQ(std::get<MeshObstacle>(std::get<Case>(s.variants[0].definition).obstacles[0].shape).file,
+            folder.path() / "studies/ball.obj");
+}
+
+struct Bad {
+  const char *from, *to;  ///< what is replaced in the good file
+  const char* where;      ///< how the message goes on after the file's name
+  const char* reason;
+};
+
+TEST(Study, MalformedOnesAreRefusedWithTheirPlace) {
+  const Bad bads[]{
+      {"factors.thickness", "factors.thicknes", ":5: factors.thicknes: ", "did you mean \"thickness\"?"},
+      {"factors.thickness", "factors..thickness", ":5: factors..thickness: ", "not a path"},
+      {"[0.5, 0.75, 1]", "[]", ":5: axes[0].values: ", "empty"},
+      {"[0.5, 0.75, 1]", "0.5", ":5: axes[0].values: ", "expected a list"},
+      {"[0.5, 0.75, 1]", "[0.5, -1]",
+       ":5: factors.thickness: ", "allowed: >= 0.01 and <= 100 (variant thickness -1, coarse, smooth)"},
+      {"[0.5, 0.75, 1]", "[0.5, \"thick\"]", ":5: factors.thickness: ", "thick"},
+      {"[0.5, 0.75, 1]", "[0.5, 0.5]", ":5: axes[0].values[1]: ", "name two levels alike"},
+      {"[0.5, 0.75, 1]", "[{\"a\": 1}]", ":5: axes[0].labels: ", "is required"},
+      {"[\"smooth\", \"rough\"]", "[\"smooth\"]", ":8: axes[2].labels: ", "1 labels for 2 values"},
+      {"[\"smooth\", \"rough\"]", "[\"a b\", \"a_b\"]", ":8: axes[2].labels[1]: ", "alike"},
+      {"\"name\": \"slip\"", "\"name\": \"mesh\"", ":8: axes[2].name: ", "names two axes"},
+      {"\"path\": \"contact.friction\", ", "", ":8: axes[2].path: ", "is required"},
+      {"cloth.json", "clothes.json", ":3: case: ", "there is no file"},
+      {"\"case\": \"cloth.json\",", "", ":1: case: ", "is required"},
+      {"\"name\": \"thin and thick\",", "\"name\": 3,", ":2: name: ", "expected a text"},
+      {"{\"slip\": \"rough\"}", "{\"slip\": \"wet\"}", ":10: variants[0].at.slip: ", "allowed: smooth or rough"},
+      {"{\"slip\": \"rough\"}", "{\"grip\": \"rough\"}", ":10: variants[0].at.grip: ", "there is no axis"},
+      {"{\"time.max_step\": \"0.1 ms\"}", "{}", ":10: variants[0].set: ", "is empty"},
+      {"\"0.1 ms\"", "\"0.1 mm\"", ":10: time.max_step: ", "variant"},
+      {"\"step\": 0.2", "\"step\": 0.9", ":11: elasticities.step: ", "allowed: >= 0.001 and <= 0.5"},
+      {"[\"coarse\"]}}", "[\"thin\"]}}", ":11: elasticities.where.mesh[0]: ", "is no level"},
+      {"\"where\": {\"mesh\"", "\"where\": {\"thickness\"", ":11: elasticities.where.thickness: ", "axis of factors"},
+      {"\"elasticities\"", "\"limits\": {\"green\": 0.2, \"red\": 0.1}, \"elasticities\"",
+       ":11: limits.red: ", "allowed: > green"},
+      {"\"elasticities\"", "\"baseline\": {\"thickness\": \"2\"}, \"elasticities\"",
+       ":11: baseline.thickness: ", "is no level"},
+      {"\"axes\"", "\"axis\"", ":4: axis: ", "did you mean \"axes\"?"},
+      {"\"garment.sheet.cells_u\": 3", "\"garment.disc.cells\": 3", ":7: garment.disc: ", "excludes"},
+  };
+  EXPECT_NO_THROW(read(good));
+  for (const Bad& bad : bads) {
+    SCOPED_TRACE(bad.to);
+    try {
+      read(replaced(good, bad.from, bad.to));
+      ADD_FAILURE() << "was taken";
+    } catch (const InputError& e) {
+      const std::string what = e.what(), file = "a.study.json";
+      const std::size_t at = what.find(file);
+      ASSERT_NE(at, std::string::npos) << what;
+      EXPECT_EQ(what.substr(at + file.size(), std::string(bad.where).size()), bad.where) << what;
+      EXPECT_NE(what.find(bad.reason), std::string::npos) << what;
+    }
+  }
+}
+
+/// Runs whose torque is 4 Nm (0.65 t + 0.31 t^3 + 0.04), each part of it with its factor; the fine mesh has 5 % more;
+/// rough cloth twice as much. Standing is 0.5 Nm of it.
+std::vector<RunNumbers> numbersOf(const Study& s) {
+  std::vector<RunNumbers> runs;
+  for (const Variant& v : s.variants) {
+    const Case& c = std::get<Case>(v.definition);
+    const FactorsCase& f = c.factors;
+    const double t = f.thickness;
+    double tau = 4 * (0.22 * t * f.membrane + 0.28 * t * f.weight + 0.15 * t * f.inertia +
+                      0.31 * t * t * t * f.bending + 0.04 * f.drag);
+    const bool fine = std::get<SheetGarment>(c.garments[0].shape).cells_u == 3;
+    if (fine) tau *= 1.05;
+    if (c.contact.friction == 0.4) tau *= 2;
+    RunNumbers r;
+    r.good = true;
+    r.control_points = fine ? 25 : 16;
+    r.recorded_to_s = r.planned_to_s = 1;
+    r.layers = {{"", 0.5 * t, 1, 1e-3 * t, r.control_points}};
+    JointNumbers j;
+    j.name = "hip_flexion_left";
+    j.label = "left hip (flexion)";
+    j.natural_Nm = 100;
+    j.standing_Nm = 0.5;
+    for (int w = 0; w < 100; ++w) {
+      r.time_s.push_back(0.005 + 0.01 * w);
+      j.torque_Nm.push_back(tau * std::sin(2 * M_PI * r.time_s.back()));
+      if (std::abs(j.torque_Nm.back()) > std::abs(j.peak_Nm))
+        j.peak_Nm = j.torque_Nm.back(), j.peak_time_s = r.time_s.back();
+    }
+    j.rms_Nm = rms(j.torque_Nm);
+    JointNumbers elbow;
+    elbow.name = elbow.label = "elbow";
+    elbow.torque_Nm.assign(100, 0);
+    r.joints = {j, elbow};
+    runs.push_back(r);
+  }
+  return runs;
+}
+
+TEST(Study, ComparesWhatItsRunsLeft) {
+  const Study s = read(good);
+  const Comparison c = compare(s, numbersOf(s));
+  EXPECT_EQ(c.main_axis, 0);
+  EXPECT_EQ(c.mesh_axis, 1);
+  EXPECT_EQ(c.mesh_level, 1);
+  ASSERT_EQ(c.groups.size(), 2u);
+  EXPECT_EQ(c.groups[0].label, "smooth");
+  EXPECT_EQ(c.groups[0].members.size(), 3u);
+  EXPECT_EQ(c.groups[0].joint, "hip_flexion_left");
+  // 0.65/2 + 0.31/8 + 0.04 of the baseline's 1.
+  const auto at = [&](const std::string& folder) {
+    return static_cast<std::size_t>(&variant(s, folder) - s.variants.data());
+  };
+  const JointRatio& thin = c.ratios[at("thickness_0.5__fine__smooth")][0];
+  EXPECT_NEAR(thin.peak, 0.325 + 0.31 / 8 + 0.04, 1e-12);
+  EXPECT_NEAR(thin.rms, 0.325 + 0.31 / 8 + 0.04, 1e-12);
+  EXPECT_NEAR(thin.likeness.correlation, 1, 1e-12);
+  EXPECT_NEAR(*peakAboveStanding(c.runs[0], c.runs[0].joints[0]), std::abs(c.runs[0].joints[0].peak_Nm) + 0.5, 1e-12);
+
+  ASSERT_FALSE(c.elasticities.empty());
+  const ElasticityRow& e = c.elasticities[0];
+  EXPECT_EQ(e.setting, "coarse, smooth");
+  EXPECT_EQ(e.joint, "the highest");
+  // A part p of the torque changes it from 1 - 0.2 p to 1 + 0.2 p.
+  const auto part = [](double p) { return std::log((1 + 0.2 * p) / (1 - 0.2 * p)) / std::log(1.2 / 0.8); };
+  EXPECT_NEAR(*e.e.bending, part(0.31), 1e-9);
+  EXPECT_NEAR(*e.e.drag, part(0.04), 1e-9);
+  EXPECT_NEAR(*e.e.sum(), part(0.31) + part(0.22) + part(0.28) + part(0.15) + part(0.04), 1e-9);
+  EXPECT_NEAR(*e.e.thicknessExponent(), 3 * part(0.31) + part(0.22) + part(0.28) + part(0.15), 1e-9);
+  EXPECT_TRUE(e.measured);
+  for (const ElasticityRow& row : c.elasticities) EXPECT_EQ(row.joint.find("elbow"), std::string::npos);
+
+  ASSERT_EQ(c.meshes.size(), 6u);
+  for (const MeshRow& m : c.meshes) {
+    EXPECT_NEAR(m.difference, 1 / 1.05 - 1, 1e-12);
+    EXPECT_EQ(m.coarse_points, 16);
+  }
+  // Rough is worse: 8.4 Nm of 100 at thickness 1, 3.39 at 0.5, 5.39 at 0.75.
+  EXPECT_NEAR(*c.input.mesh_error, 1 - 1 / 1.05, 1e-12);
+  ASSERT_EQ(c.input.options.size(), 3u);
+  EXPECT_EQ(c.verdict.take, 0);
+  EXPECT_EQ(c.input.options[0].name, "thickness 0.5");
+  EXPECT_EQ(c.input.baseline, 2);
+  ASSERT_EQ(c.input.exponents.size(), 2u);
+  EXPECT_EQ(c.input.exponents[0].motion, "smooth");
+  // 0.75 comes below 5 % with an error of -7 %, more than the 4.8 % of the mesh.
+  EXPECT_NEAR(*c.verdict.holds_up_to,
+              1 - 0.05 / (std::abs(c.runs[at("thickness_0.75__fine__rough")].joints[0].peak_Nm) / 100), 1e-6);
+  EXPECT_NE(c.verdict.sure.find("That does not change the answer"), std::string::npos) << c.verdict.sure;
+}
+
+TEST(Study, FailedRunsAreLeftOutAndSaid) {
+  const Study s = read(good);
+  std::vector<RunNumbers> runs = numbersOf(s);
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (s.variants[i].folder.starts_with("thickness_0.5")) runs[i] = RunNumbers{}, runs[i].why = "it <broke>";
+  const Comparison c = compare(s, runs);
+  EXPECT_TRUE(c.input.options[0].missing);
+  EXPECT_NE(c.verdict.take, 0);
+  const std::string page = studyPage(s, c, {}, {});
+  EXPECT_NE(page.find("thickness 0.5, fine, smooth failed: it &lt;broke&gt;"), std::string::npos);
+  EXPECT_NE(page.find("elbow: not applicable"), std::string::npos);
+  EXPECT_NE(page.find("href=\"thickness_1__fine__smooth/report.html\""), std::string::npos);
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+TEST(Study, TablesHaveOneRowPerVariant) {
+  const Study s = read(good);
+  const Folder folder;
+  writeStudyTables(s, compare(s, numbersOf(s)), folder.path());
+  std::ifstream stream(folder.path() / "variants.csv");
+  std::string line;
+  std::getline(stream, line);
+  const auto columns = std::count(line.begin(), line.end(), ',');
+  std::size_t rows = 0;
+  for (; std::getline(stream, line); ++rows) EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns) << line;
+  EXPECT_EQ(rows, s.variants.size());
+}
+
+TEST(Study, LimitsHaveASource) {
+  const Limits l = publishedLimits();
+  EXPECT_EQ(l.green, 0.05);
+  EXPECT_EQ(l.red, 0.15);
+  EXPECT_FALSE(l.source.empty());
+}
+
+TEST(Study, ScriptsForSlurmHaveTheVariantsThatAreNotDone) {
+  Study s = read(good);
+  s.variants.resize(3);
+  Options o;
+  o.out = "/data/out";
+  o.jobs = 2;
+  o.threads = 4;
+  const std::string script = slurmScript(s, o, {Stand::done, Stand::interrupted, Stand::fresh});
+  EXPECT_NE(script.find("--array=0-1%2"), std::string::npos) << script;
+  EXPECT_NE(script.find("folders=( 'thickness_0.5__coarse__rough' 'thickness_0.5__fine__smooth')"), std::string::npos)
+      << script;
+  EXPECT_NE(script.find("again=( --resume '')"), std::string::npos) << script;
+}
+
+TEST(Study, BatchesRefuseTwoOfOneName) {
+  const Folder folder;
+  const auto a = folder.write("cloth.json", cloth);
+  std::filesystem::create_directories(folder.path() / "b");
+  const auto b = folder.write("b/cloth.json", cloth);
+  EXPECT_EQ(batchOf({a}).variants[0].folder, "cloth");
+  EXPECT_EQ(std::get<Case>(batchOf({a}).variants[0].definition).name, "cloth");
+  EXPECT_THROW(batchOf({a, b}), InputError);
+}
+
+}  // namespace
+}  // namespace gambeson::study
