@@ -8,6 +8,12 @@
 /// How the skin follows the links. A vertex turns about each of its joints by its share of the joint's rotation since
 /// the bind posture, distal joints first; then creases keep the two sides of a joint apart.
 ///
+/// The inside of a fold: with psi = 1 - 2 share running from 0 on the plane to 1 a half-width away, a point at distance
+/// s from the plane and r above the axis comes to
+///   s' = s cos(psi theta/2) - r sin(psi theta/2)
+/// from the bisecting plane, so the skin does not overtake itself where psi'(0) r theta/2 < 1: half-widths are chosen
+/// above 1.25 r theta/2 for the bends that bodies make (hip 95, knee 110, elbow 115 degrees).
+///
 /// A crease: with the distance d of a point from the bisecting plane, counted into its own side,
 ///   d' = d                          for u = (d - h)/b - 1 >= 0,
 ///   d' = h + b / (1 - u + u²)       for u < 0,        h = S gap/2,  b = S (softness),
