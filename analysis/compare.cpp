@@ -64,6 +64,9 @@ int choose(const VerdictInput& in, double error) {
   return green >= 0 ? green : best;
 }
 
+/// A choice that an error of the torques of this size would change is said to be only just right.
+constexpr double kNarrow = 0.1;
+
 /// Smallest relative error, up or down, that changes the choice.
 std::optional<double> marginOf(const VerdictInput& in, int take) {
   double margin = std::numeric_limits<double>::infinity();
@@ -106,7 +109,7 @@ std::string whyOf(const VerdictInput& in) {
   if (!laws.empty())
     say(fmt::format(
         "The torque goes with the {} to the power {}: stretch, weight and inertia alone would give 1, bending "
-        "alone 3, and what does not go with it, such as drag, less than 1.",
+        "alone 3, and what does not go with it, such as drag and springs that hold the garment, less than 1.",
         in.what, laws));
   return why;
 }
@@ -116,11 +119,11 @@ std::string sureOf(const VerdictInput& in, const Verdict& v) {
   const auto say = [&](const std::string& text) { s += (s.empty() ? "" : " ") + text; };
   if (!in.mesh_error) {
     say("Mesh error: not known, the study has one mesh.");
-    constexpr double narrow = 0.1;
     if (v.holds_up_to)
-      say(fmt::format("The answer stays the same {}as long as the torques are right within {}{}.",
-                      *v.holds_up_to < narrow ? "only " : "", percent(*v.holds_up_to),
-                      *v.holds_up_to < narrow ? ", a narrow margin: compare with a finer mesh before you decide" : ""));
+      say(fmt::format(
+          "The answer stays the same {}as long as the torques are right within {}{}.",
+          *v.holds_up_to < kNarrow ? "only " : "", percent(*v.holds_up_to),
+          *v.holds_up_to < kNarrow ? ", a narrow margin: compare with a finer mesh before you decide" : ""));
   } else {
     say(fmt::format("Coarse and fine mesh differ by {} in the peaks.", percent(*in.mesh_error)));
     if (v.holds_up_to)
@@ -222,7 +225,9 @@ Verdict verdictOf(const VerdictInput& in) {
   v.light = optionLight(o, in);
   v.holds_up_to = marginOf(in, v.take);
   const bool all_motions = o.costs.size() > 1;
-  const std::string where = all_motions ? " in all " + std::to_string(o.costs.size()) + " motions" : "";
+  const bool only_just = v.holds_up_to && *v.holds_up_to < kNarrow;
+  const std::string where = (all_motions ? fmt::format(" in all {} motions", o.costs.size()) : std::string())
+                                .append(only_just ? ", though only just" : "");
   const Option* next = nullptr;  // the next larger one, which was not taken
   if (in.sized)
     for (std::size_t i = static_cast<std::size_t>(v.take) + 1; i < in.options.size() && !next; ++i)

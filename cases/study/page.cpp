@@ -160,7 +160,7 @@ std::string variantsOf(const Study& s, const Comparison& c) {
       if (ratio.joint == top->name && !own)
         peak = ratio.peak, rms = ratio.rms, correlation = ratio.likeness.correlation;
     rows.push_back({linkTo(v) + (own ? " <small>(baseline)</small>" : ""), Html(r.mass_kg()), escape(top->label),
-                    Html(std::abs(top->peak_Nm)), Html(top->rms_Nm), Html(peak, 2), Html(rms, 2), Html(correlation, 3),
+                    Html(std::abs(top->peak_Nm)), Html(top->rms_Nm), Html(peak), Html(rms), Html(correlation),
                     top->part() ? Html(100 * *top->part(), 2) : Html(std::nan("")), lightOf(c.lights[i]),
                     Html(r.failing())});
     if (r.failing() == 0) rows.back().back() = std::string("<span class=\"good\">\u2713</span>");
@@ -289,22 +289,21 @@ std::string elasticities(const Comparison& c) {
     const auto sum = e.e.sum(), predicted = e.e.thicknessExponent();
     rows.push_back({escape((e.setting.empty() ? "" : e.setting + ", ") + e.joint), std::string(e.quantity),
                     Html(e.e.bending), Html(e.e.membrane), Html(e.e.weight), Html(e.e.inertia), Html(e.e.drag),
-                    Html(sum), Html(predicted), Html(e.measured),
+                    Html(sum), Html(sum ? 1 - *sum : std::nan(""), 2), Html(predicted), Html(e.measured),
                     predicted && e.measured ? Html(*e.measured - *predicted, 2) : Html(std::nan(""))});
   }
   return charts(htmlTable("By how many per cent the torque changes with one per cent of ...",
-                          {"torque", "of", "bending", "membrane", "weight", "inertia", "drag", "sum",
+                          {"torque", "of", "bending", "membrane", "weight", "inertia", "drag", "sum", "rest",
                            "thickness: predicted", "measured", "difference"},
                           rows,
-                          "Central differences of the logarithms. The sum is 1 where nothing else carries force. "
-                          "Predicted exponent of the thickness: membrane + weight + "
-                          "inertia + 3 bending."));
+                          "Central differences of the logarithms. The rest, 1 - sum, is carried by what is none of the "
+                          "five: above all springs of supports, which do not change with the cloth. Predicted exponent "
+                          "of the thickness: membrane + weight + inertia + 3 bending."));
 }
 
 std::string forces(const Study& s, const Comparison& c) {
   std::vector<std::vector<Html>> split;
   std::set<std::string> segments;
-  std::map<std::string, std::vector<std::vector<Html>>> unused;
   for (const Group& g : c.groups)
     for (const std::size_t i : g.members) {
       const JointNumbers* j = c.runs[i].good ? c.runs[i].joint(g.joint) : nullptr;

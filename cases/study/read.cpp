@@ -1,157 +1,21 @@
-/// The file of a study: its fields, and the variants that they make.
+/// From the file of a study to its variants.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <set>
 
-#include "cases/fields.hpp"
-#include "cases/study/study.hpp"
+#include "cases/study/input.hpp"
 #include "cases/table.hpp"
 #include "core/error.hpp"
-#include "human/data.hpp"
 
 namespace gambeson::study {
 namespace {
 
 using schema::Place;
-using schema::Table;
 
 constexpr std::size_t most_variants = 2000;
-
-/// As the file has them.
-struct AxisInput {
-  std::string name, path, unit;
-  std::optional<Role> role;
-  JsonNode values, sets;
-  std::vector<std::string> labels;
-  int line = 0;
-};
-struct ExtraInput {
-  std::string label;
-  JsonNode at, set;
-};
-struct ElasticityInput {
-  double step = 0.1;
-  JsonNode where;
-};
-struct StudyInput {
-  std::string name, description;
-  std::filesystem::path file;
-  JsonNode set, baseline;
-  std::vector<AxisInput> axes;
-  std::vector<ExtraInput> variants;
-  std::optional<ElasticityInput> elasticities;
-  Limits limits = publishedLimits();
-  std::vector<PictureCase> pictures{
-      {PictureTime::peak, 0, PictureField::stress, View::front_right, 640, 720},
-  };
-};
-
-/// A field that is kept as it is written.
-template <class T>
-void rawField(Table<T>& table, const std::string& key, JsonNode T::*member, const std::string& doc,
-              const std::string& note = "none") {
-  schema::Field f;
-  f.key = key;
-  f.kind = schema::Kind::any;
-  f.doc = doc;
-  f.default_note = note;
-  table.custom(
-      f, [member](const Place& p, T& t) { t.*member = p.node; },
-      [member](const T& t) {
-        return (t.*member).type == JsonNode::Type::null ? std::nullopt : std::optional(t.*member);
-      });
-}
-
-schema::Object axisTable() {
-  using A = AxisInput;
-  Table<A> table("Axis");
-  table.text("name", &A::name, "what tables call it")
-      .defaultsTo("the last part of the path")
-      .text("path", &A::path, "the value of the case that varies, such as factors.thickness or garments[0].shorts.cell")
-      .defaultsTo("required, or sets");
-  rawField(table, "values", &A::values, "list of the values, at least one; anything that the case may have there",
-           "required with path");
-  rawField(
-      table, "sets", &A::sets,
-      "in place of path and values, where several values of the case go together: list of objects path: value, one "
-      "for each level");
-  table.texts("labels", &A::labels, "name of each level, for folders and tables; no two alike")
-      .defaultsTo("the values; required with sets, and where values are objects or lists")
-      .text("unit", &A::unit, "shown beside values that are numbers")
-      .choice(
-          "role", &A::role,
-          std::vector<std::pair<std::string, std::optional<Role>>>{
-              {"thickness", Role::thickness}, {"mesh", Role::mesh}, {"motion", Role::motion}, {"other", Role::other}},
-          "what the levels are: thicknesses, of which the verdict takes one; meshes, coarse and fine, whose difference "
-          "is "
-          "the verdict's error; motions")
-      .defaultsTo(
-          "by the path (factors.thickness, fabric.thickness; cell, cells_...; human.motion) or the name (thickness, "
-          "mesh, motion)");
-  return table.build();
-}
-
-schema::Object extraTable() {
-  using E = ExtraInput;
-  Table<E> table("Further variant");
-  table.text("label", &E::label, "its name").required();
-  rawField(table, "at", &E::at, "object axis: label; the levels that it starts from",
-           "the baseline; of an axis that the baseline does not name, the first level");
-  rawField(table, "set", &E::set, "object path: value; what is changed there", "required");
-  return table.build();
-}
-
-schema::Object elasticityTable() {
-  using E = ElasticityInput;
-  Table<E> table("Elasticities");
-  table.number("step", &E::step, "", schema::between(0.001, 0.5), "each factor is run at 1 - step and 1 + step");
-  rawField(table, "where", &E::where, "object axis: list of labels; only at these levels", "at all levels");
-  return table.build();
-}
-
-schema::Object limitsTable() {
-  return Table<Limits>("Limits")
-      .number("green", &Limits::green, "", schema::aboveTo(0, 10), "green below this part of the natural moment")
-      .defaultsTo("5 %")
-      .number("red", &Limits::red, "", schema::aboveTo(0, 10), "red above this part; amber between")
-      .defaultsTo("15 %")
-      .check([](const Place& p, Limits& l) {
-        if (!(l.green < l.red))
-          p.failAt("red", fmt::format("{} is out of range; allowed: > green = {}", l.red, l.green));
-        l.source = "limits of the study";
-      })
-      .build();
-}
-
-schema::Object makeStudyTable() {
-  using S = StudyInput;
-  Table<S> table("Study", "variants of a case, run and compared by `gambeson study`");
-  table.text("name", &S::name, "title of the page")
-      .required()
-      .text("description", &S::description, "what the study is about")
-      .path("case", &S::file, "the case that varies, relative to the study's folder")
-      .required();
-  rawField(table, "set", &S::set, "object path: value; set in every variant, before the axes");
-  table.list("axes", &S::axes, axisTable(), "what varies; every combination of the axes' levels is a variant")
-      .list("variants", &S::variants, extraTable(), "single variants beside those of the axes")
-      .object("elasticities", &S::elasticities, elasticityTable(),
-              "adds the ten variants that tell how much of the torque is due to bending, membrane, weight, inertia and "
-              "drag, at each combination of the axes that are not factors (those stay at the baseline)")
-      .defaultsTo("none");
-  rawField(table, "baseline", &S::baseline,
-           "object axis: label; variants are compared along these axes with the variant that has these levels",
-           "factors: the level 1; without one, the first level of the first axis");
-  table.object("limits", &S::limits, limitsTable(), "traffic light of added torques")
-      .defaultsTo("green 5 %, red 15 %: human/data/effort_limits.json")
-      .list("pictures", &S::pictures, schema::pictureTable(),
-            "of all variants of the axes side by side, at the same time (peak: that of the baseline) and with the same "
-            "colours")
-      .defaultsTo("one of the stress at the baseline's peak");
-  return table.build();
-}
 
 // --- From the fields to axes ------------------------------------------------------------------------------------
 
@@ -452,7 +316,7 @@ void addElasticities(const Place& root, const ElasticityInput& in, Maker& maker,
       for (const double value : {1 - in.step, 1 + in.step}) {
         JsonNode node = schema::nodeOf(value);
         node.line = place.node.line;
-        maker.add(levels, {{fmt::format("factors.{}", factor), node}}, fmt::format("{}_{:g}", factor, value), place);
+        maker.add(levels, {{fmt::format("factors.{}", factor), node}}, fmt::format("{} x {:g}", factor, value), place);
       }
 }
 
@@ -469,17 +333,6 @@ void linkBaselines(Study& s) {
 }
 
 }  // namespace
-
-Limits publishedLimits() {
-  const auto facts = nlohmann::json::parse(data::effort_limits);
-  return {facts.at("green_below").get<double>(), facts.at("red_above").get<double>(),
-          "a suggestion for design, as no published standard was found"};
-}
-
-const schema::Object& studyTable() {
-  static const schema::Object table = makeStudyTable();
-  return table;
-}
 
 Study readStudy(const std::filesystem::path& file) {
   const JsonNode root = readJson(file);

@@ -204,6 +204,7 @@ Json elasticityJson(const ElasticityRow& e) {
           {"inertia", number(e.e.inertia)},
           {"drag", number(e.e.drag)},
           {"sum", number(e.e.sum())},
+          {"rest", e.e.sum() ? number(1 - *e.e.sum()) : Json(nullptr)},
           {"predicted_thickness_exponent", number(e.e.thicknessExponent())},
           {"measured_thickness_exponent", number(e.measured)}};
 }

@@ -147,6 +147,8 @@ TEST(Verdict, TheMarginMayComeFromTheOneNotTaken) {
   const Verdict v = verdictOf(table({0.01, 0.02, 0.055}));
   EXPECT_EQ(v.take, 1);
   EXPECT_NEAR(*v.holds_up_to, 1 - 0.05 / 0.055, 1e-9);
+  EXPECT_NE(v.sentence.find("green in all 2 motions, though only just"), std::string::npos) << v.sentence;
+  EXPECT_NE(v.sure.find("a narrow margin"), std::string::npos) << v.sure;
 }
 
 TEST(Verdict, SaysHowSureThatIs) {

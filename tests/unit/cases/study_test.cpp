@@ -64,7 +64,7 @@ TEST(Study, AxesMakeAGridAndTheRestIsAdded) {
   const Variant& slow = variant(s, "thickness_1__coarse__rough__slow");
   EXPECT_EQ(std::get<Case>(slow.definition).time.max_step_s, 1e-4);
   EXPECT_EQ(s.variants[static_cast<std::size_t>(slow.baseline)].folder, "thickness_1__coarse__rough");
-  const Variant& light = variant(s, "thickness_1__coarse__smooth__inertia_0.8");
+  const Variant& light = variant(s, "thickness_1__coarse__smooth__inertia_x_0.8");
   EXPECT_EQ(std::get<Case>(light.definition).factors.inertia, 0.8);
   // Variants of factors alone are one family, others are not.
   EXPECT_EQ(light.rest_identity, variant(s, "thickness_0.5__coarse__smooth").rest_identity);
