@@ -15,6 +15,7 @@
 #include "core/math/vec.hpp"
 #include "core/sheet/garment.hpp"
 #include "human/motion.hpp"
+#include "human/motion_file.hpp"
 
 namespace gambeson {
 
@@ -95,7 +96,7 @@ struct StandMotion {
 struct HumanCase {
   std::string manikin;
   std::filesystem::path urdf, body;
-  std::variant<StandMotion, WalkOptions, TrajectoryMotion> motion;
+  std::variant<StandMotion, WalkOptions, TrajectoryMotion, MotionFileOptions> motion;
 };
 
 // --- What else it touches ----------------------------------------------------------------------------------------

@@ -5,6 +5,63 @@
 namespace gambeson::schema {
 namespace {
 
+/// A map by its name, or the path of one against the case's folder.
+Field mapField() {
+  Field f;
+  f.key = "map";
+  f.kind = Kind::text;
+  f.doc =
+      "what its joints, bones or markers are in our human: gait2392, rajagopal, snu_woody, makehuman, "
+      "gait2392_markers, "
+      "joint_centres, or a file of one's own";
+  f.default_note = "that which goes with the names in the file";
+  return f;
+}
+
+Object motionFileTable() {
+  using M = MotionFileOptions;
+  return Table<M>("Recorded motion")
+      .path("path", &M::path, "OpenSim coordinates (.mot, .sto), a hierarchy of bones (.bvh) or markers (.trc)")
+      .required()
+      .path("model", &M::model, "the subject's scaled OpenSim model (.osim): where markers sit and joints are")
+      .defaultsTo("none; markers that are not at joints need it")
+      .custom(
+          mapField(),
+          [](const Place& p, M& m) {
+            const std::string word = readText(p);
+            m.map = word.find_first_of("./") == std::string::npos ? word : readPath(p).string();
+          },
+          [](const M& m) { return m.map.empty() ? std::nullopt : std::optional(nodeOf(m.map)); })
+      .number("from", &M::from_s, "s", between(-1e6, 1e6), "begin of the window in the file's own time")
+      .defaultsTo("its first instant")
+      .number("to", &M::to_s, "s", between(-1e6, 1e6), "end of the window")
+      .defaultsTo("its last instant")
+      .number("stand", &M::stand_s, "s", between(0, 60), "time at rest before the lead-in")
+      .number("lead_in", &M::lead_in_s, "s", between(0, 10),
+              "from standing into the window; 0: starts in the window's first posture")
+      .integer("repeat", &M::repeat, 1, 1000, "a clip of one whole stride is walked so many times")
+      .number("slower", &M::slower, "", between(0.1, 10), "the file's time times this")
+      .number("scale", &M::scale, "", aboveTo(0, 100), "of the recorded path")
+      .defaultsTo("our leg over the subject's; where that is not known, what lets the feet slip least")
+      .number("floor", &M::floor_m, "m", between(-100, 100),
+              "height of the ground in the file, if its heights are to stand")
+      .defaultsTo("the feet are put on the ground")
+      .text("forward", &M::forward, "axis of the file's world that one faces, such as x or -y; with up")
+      .defaultsTo("that of the map")
+      .text("up", &M::up, "axis of the file's world that points up; with forward")
+      .defaultsTo("that of the map")
+      .choice("heading", &M::heading,
+              std::vector<std::pair<std::string, Heading>>{{"keep", Heading::keep}, {"straight", Heading::straight}},
+              "turns are kept (the first second faces x), or taken out")
+      .choice("travel", &M::travel,
+              std::vector<std::pair<std::string, Travel>>{{"file", Travel::file}, {"feet", Travel::feet}},
+              "the pelvis goes as in the file, or where the feet take it (treadmills)")
+      .number("hips_apart", &M::hips_apart_rad, "rad", between(-0.6, 0.6),
+              "abduction of the hips held on top of the recorded one, where our thighs are thicker than the subject's")
+      .number("arms_apart", &M::arms_apart_rad, "rad", between(-1.6, 1.6), "likewise of the shoulders")
+      .build();
+}
+
 Object motionTable() {
   using Motions = decltype(HumanCase::motion);
   const auto self = [](auto& m) -> auto& { return m; };
@@ -34,6 +91,8 @@ Object motionTable() {
               .required()
               .build(),
           "moves its joints as a file says")
+      .in("motion")
+      .alternative<MotionFileOptions>("file", self, motionFileTable(), "moves as a person was recorded")
       .in("motion")
       .oneOf("motion", true)
       .build();

@@ -12,6 +12,15 @@ std::string caseIdentity(const Case& c) {
     hash.addFile(named.human->urdf);
     hash.addFile(named.human->body);
     if (auto* trajectory = std::get_if<TrajectoryMotion>(&named.human->motion)) hash.addFile(trajectory->file);
+    if (auto* recorded = std::get_if<MotionFileOptions>(&named.human->motion)) {
+      hash.addFile(recorded->path);
+      hash.addFile(recorded->model);
+      std::filesystem::path map = recorded->map;
+      if (map.is_absolute()) {  // not the name of one that ships
+        hash.addFile(map);
+        recorded->map = map.string();
+      }
+    }
   }
   for (ObstacleCase& o : named.obstacles)
     if (auto* mesh = std::get_if<MeshObstacle>(&o.shape)) hash.addFile(mesh->file);

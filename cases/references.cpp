@@ -64,6 +64,8 @@ void checkPictures(const Place& root, const Case& c, double duration_s) {
 double motionDuration(const HumanCase& h, const Human& human) {
   if (const auto* stand = std::get_if<StandMotion>(&h.motion)) return stand->duration_s;
   if (const auto* walk = std::get_if<WalkOptions>(&h.motion)) return makeWalk(human, *walk)->duration();
+  if (const auto* recorded = std::get_if<MotionFileOptions>(&h.motion))
+    return loadMotionFile(*recorded, human)->duration();
   return loadTrajectory(std::get<TrajectoryMotion>(h.motion).file, human)->duration();
 }
 

@@ -1,5 +1,7 @@
 #include "cases/scenario.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -317,6 +319,23 @@ std::vector<Pose> Scenario::bodyPoses(double time_s) const {
 
 namespace {
 
+/// Reads a recorded motion, its mean velocity, and what a user should know of it; returns when its window begins.
+double readRecorded(const MotionFileOptions& m, Scenario& s) {
+  MotionFileNotes notes;
+  s.motion = loadMotionFile(m, *s.human, &notes);
+  const Vec3 way = s.motion->at(s.motion->duration()).root.origin - s.motion->at(notes.window_s).root.origin;
+  s.mean_velocity_m_per_s = Vec3{way.x, way.y, 0} / (s.motion->duration() - notes.window_s);
+  const std::string file = m.path.filename().string();
+  for (const std::string& line : notes.lines) s.notes.push_back(fmt::format("motion {}: {}", file, line));
+  if (notes.beyond_limits_deg > 5)
+    s.notes.push_back(fmt::format("motion {}: {} goes {:.0f} degrees beyond its limits", file, notes.beyond_joint,
+                                  notes.beyond_limits_deg));
+  s.notes.push_back(fmt::format(
+      "motion {}: feet at most {:.0f} mm below and {:.0f} mm above the ground, slip of carrying feet {:.2f} m/s RMS",
+      file, 1e3 * notes.feet.deepest_m, 1e3 * notes.feet.highest_m, notes.feet.slip_m_per_s));
+  return notes.window_s;
+}
+
 std::unique_ptr<Scenario> buildUnnamed(const Case& written) {
   auto s = std::make_unique<Scenario>();
   s->definition = written;
@@ -347,6 +366,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written) {
                      stage->air_ramp_s = w.stand_s + w.lead_in_s;
                    },
                    [&](const TrajectoryMotion& t) { s->motion = loadTrajectory(t.file, *s->human); },
+                   [&](const MotionFileOptions& m) { stage->air_ramp_s = readRecorded(m, *s); },
                },
                c.human->motion);
     if (!c.time.duration_s) duration = s->motion->duration();

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "human/motion.hpp"
+#include "human/curve.hpp"
 #include "human/read_text.hpp"
 #include "human/units.hpp"
 
@@ -19,74 +19,9 @@ namespace {
 constexpr std::uintmax_t largest_file = std::uintmax_t{256} << 20;
 constexpr double largest_distance_m = 1e5, largest_angle_rad = 1e4;  // of what has no limits
 
-/// Slopes of the monotone cubic of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984), so that the curve never
-/// leaves the range of neighbouring values; one-sided three-point slopes, limited likewise, at the ends.
-std::vector<double> monotoneSlopes(const std::vector<double>& t, const std::vector<double>& x) {
-  const std::size_t n = t.size();
-  std::vector<double> h(n - 1), d(n - 1), m(n);
-  for (std::size_t i = 0; i + 1 < n; ++i) h[i] = t[i + 1] - t[i], d[i] = (x[i + 1] - x[i]) / h[i];
-  if (n == 2) return {d[0], d[0]};
-  for (std::size_t i = 1; i + 1 < n; ++i)
-    if (d[i - 1] * d[i] > 0) {
-      const double w1 = 2 * h[i] + h[i - 1], w2 = h[i] + 2 * h[i - 1];
-      m[i] = (w1 + w2) / (w1 / d[i - 1] + w2 / d[i]);
-    }
-  const auto end = [](double h0, double h1, double d0, double d1) {
-    const double s = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
-    if (s * d0 <= 0) return 0.0;
-    return d0 * d1 < 0 && std::abs(s) > 3 * std::abs(d0) ? 3 * d0 : s;
-  };
-  m[0] = end(h[0], h[1], d[0], d[1]);
-  m[n - 1] = end(h[n - 2], h[n - 3], d[n - 2], d[n - 3]);
-  return m;
-}
-
-struct Column {
-  int joint = -1;  ///< -1: of the root
-  int root = 0;    ///< 0, 1, 2: x, y, z; 3, 4, 5: roll, pitch, yaw
+struct Column : MotionColumn {
   double scale = 1, lower = 0, upper = 0;
   std::string name;
-  std::vector<double> x, slope;
-};
-
-class Trajectory final : public Motion {
- public:
-  Trajectory(std::vector<double> times, std::vector<Column> columns, Posture start)
-      : times_(std::move(times)), columns_(std::move(columns)), start_(std::move(start)) {
-    for (Column& c : columns_) c.slope = monotoneSlopes(times_, c.x);
-  }
-  double duration() const override { return times_.back(); }
-  Posture at(double time_s) const override {
-    const double t = std::clamp(time_s, 0.0, duration());
-    const std::size_t i =
-        std::clamp<std::size_t>(
-            static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin()), 1,
-            times_.size() - 1) -
-        1;
-    const double h = times_[i + 1] - times_[i], u = (t - times_[i]) / h, w = 1 - u;
-    Posture p = start_;
-    Vec3 turn;
-    bool turned = false;
-    for (const Column& c : columns_) {
-      const double x = w * w * (1 + 2 * u) * c.x[i] + u * u * (1 + 2 * w) * c.x[i + 1] +
-                       h * u * w * (w * c.slope[i] - u * c.slope[i + 1]);
-      if (c.joint >= 0)
-        p.q[c.joint] = x;
-      else if (c.root < 3)
-        p.root.origin[c.root] = x;
-      else
-        turn[c.root - 3] = x, turned = true;
-    }
-    if (turned)
-      p.root.rotation =
-          rotationAbout({0, 0, 1}, turn.z) * rotationAbout({0, 1, 0}, turn.y) * rotationAbout({1, 0, 0}, turn.x);
-    return p;
-  }
-
- private:
-  std::vector<double> times_;
-  std::vector<Column> columns_;
-  Posture start_;
 };
 
 std::string_view trimmed(std::string_view s) {
@@ -197,7 +132,12 @@ std::unique_ptr<Motion> loadTrajectory(const std::filesystem::path& csv, const H
   }
   if (columns.empty()) throw InputError(where(1, ""), "has no header");
   if (times.size() < 2) throw InputError(where(line, ""), "needs at least two rows of values");
-  return std::make_unique<Trajectory>(std::move(times), std::move(columns), standing(human));
+  std::vector<MotionColumn> values;
+  for (Column& c : columns) {
+    c.slope = monotoneSlopes(times, c.x);
+    values.push_back(std::move(c));
+  }
+  return makeSampledMotion(std::move(times), std::move(values), standing(human));
 }
 
 }  // namespace gambeson

@@ -24,7 +24,7 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {"\"contact\": {\"friction\": 0.2},", "", 1, "contact", "is required"},
           {", \"link\": \"pelvis\"", "", 25, "supports[1].springs.link", "is required"},
           {"\"manikin\": \"male_p50\",", "", 15, "human", "one of manikin or urdf is required"},
-          {"{\"walk\": {\"strides\": 1}}", "{}", 17, "human.motion", "one of stand, walk or trajectory is required"},
+          {"{\"walk\": {\"strides\": 1}}", "{}", 17, "human.motion", "one of stand, walk, trajectory or file is required"},
           // Fields that exclude each other.
           {"\"weft_angle\"", "\"tube\": {\"radius\": 1, \"length\": 1}, \"weft_angle\"", 6, "garment.tube",
            "excludes \"sheet\""},
@@ -102,6 +102,9 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {"\"manikin\": \"male_p50\",", "\"urdf\": \"nobody.urdf\",", 16, "human.urdf", "there is no file"},
           {"\"manikin\": \"male_p50\",", "\"urdf\": \".\",", 16, "human.urdf", "is not a file"},
           {"\"walk\": {\"strides\": 1}", "\"trajectory\": {}", 17, "human.motion.trajectory.file", "is required"},
+          {"\"walk\": {\"strides\": 1}", "\"file\": {}", 17, "human.motion.file.path", "is required"},
+          {"\"walk\": {\"strides\": 1}", "\"file\": {\"path\": \"nowhere.mot\"}", 17, "human.motion.file.path",
+           "there is no file"},
           {"\"walk\": {\"strides\": 1}", "\"trajectory\": {\"file\": \"nowhere.csv\"}", 17,
            "human.motion.trajectory.file", "there is no file"},
           // Names that the human does not have.

@@ -1,0 +1,39 @@
+#pragma once
+/// A text file line by line, its cells, and errors that say where.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gambeson {
+
+/// Lines are numbered from 1; carriage returns and blanks at their ends are taken off.
+class TextLines {
+ public:
+  explicit TextLines(const std::filesystem::path& file);
+  /// The next line; false at the end of the text.
+  bool next();
+  /// The next line that is not blank.
+  bool nextFull();
+  const std::string& file() const { return file_; }
+  int line() const { return line_; }
+  std::string_view text() const { return text_; }
+  /// Cells between blanks and tabs.
+  std::vector<std::string_view> words() const;
+  /// Cells between tabs; they may be empty.
+  std::vector<std::string_view> tabbed() const;
+  [[noreturn]] void fail(const std::string& reason, const std::string& key = "") const;
+  /// A finite number or a message that names the cell (counted from 1) and what it stands for.
+  double number(std::string_view cell, std::size_t column, std::string_view name) const;
+
+ private:
+  std::string file_, all_;
+  std::string_view rest_, text_;
+  int line_ = 0;
+};
+
+/// Time stamps must ascend and stay within 1e6 s.
+void checkNextTime(const TextLines& lines, const std::vector<double>& before, double t);
+
+}  // namespace gambeson
