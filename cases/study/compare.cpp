@@ -232,14 +232,14 @@ void compareMeshes(const Study& s, Comparison& c) {
       const JointNumbers& f = *fine.highest();
       const JointNumbers* of = coarse.joint(f.name);
       if (!of) continue;
-      MeshRow row{settingOf(s, v, {c.mesh_axis}),
-                  f.label,
-                  coarse.control_points,
-                  fine.control_points,
-                  of->peak_Nm,
-                  f.peak_Nm,
-                  0,
-                  0};
+      MeshRow row;
+      row.setting = settingOf(s, v, {c.mesh_axis});
+      row.joint = f.label;
+      if (c.main_axis >= 0) row.level = v.levels[static_cast<std::size_t>(c.main_axis)];
+      row.coarse_points = coarse.control_points;
+      row.fine_points = fine.control_points;
+      row.coarse_Nm = of->peak_Nm;
+      row.fine_Nm = f.peak_Nm;
       row.difference = std::abs(of->peak_Nm) / std::abs(f.peak_Nm) - 1;
       const Likeness like = compareShifted(fine.time_s, f.torque_Nm, of->torque_Nm, 0, settled_s, 1e300);
       row.history = coarse.time_s == fine.time_s ? like.rms_difference / std::abs(f.peak_Nm) : std::nan("");
@@ -297,8 +297,13 @@ void findVerdict(const Study& s, Comparison& c) {
     }
     if (any) in.options.push_back(std::move(option));
   }
-  for (const MeshRow& m : c.meshes)
-    if (std::isfinite(m.difference)) in.mesh_error = std::max(in.mesh_error.value_or(0), std::abs(m.difference));
+  // Of the largest torque of the same level: what a motion that costs next to nothing is off by decides nothing.
+  std::map<int, double> largest;
+  for (const MeshRow& m : c.meshes) largest[m.level] = std::max(largest[m.level], std::abs(m.fine_Nm));
+  for (const MeshRow& m : c.meshes) {
+    const double error = std::abs(std::abs(m.coarse_Nm) - std::abs(m.fine_Nm)) / largest[m.level];
+    if (std::isfinite(error)) in.mesh_error = std::max(in.mesh_error.value_or(0), error);
+  }
   if (in.sized)
     for (const Group& g : c.groups) {
       if (g.members.empty()) continue;

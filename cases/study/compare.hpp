@@ -43,6 +43,7 @@ struct ElasticityRow {
 
 struct MeshRow {
   std::string setting, joint;
+  int level = -1;  ///< on the main axis
   int coarse_points = 0, fine_points = 0;
   double coarse_Nm = 0, fine_Nm = 0;  ///< peaks
   double difference = 0;              ///< of the peaks, relative to the fine one
