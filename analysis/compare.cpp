@@ -224,10 +224,15 @@ Verdict verdictOf(const VerdictInput& in) {
   const Option::Cost& c = *worstOf(o);
   v.light = optionLight(o, in);
   v.holds_up_to = marginOf(in, v.take);
-  const bool all_motions = o.costs.size() > 1;
+  const auto known =
+      std::count_if(o.costs.begin(), o.costs.end(), [](const auto& cost) { return cost.part.has_value(); });
   const bool only_just = v.holds_up_to && *v.holds_up_to < kNarrow;
-  const std::string where = (all_motions ? fmt::format(" in all {} motions", o.costs.size()) : std::string())
-                                .append(only_just ? ", though only just" : "");
+  // Motions without a natural moment have no light to stay in.
+  const std::string where =
+      (known < 2                      ? std::string()
+       : known == std::ssize(o.costs) ? fmt::format(" in all {} motions", known)
+                                      : fmt::format(" in the {} motions whose natural moments are known", known))
+          .append(only_just ? ", though only just" : "");
   const Option* next = nullptr;  // the next larger one, which was not taken
   if (in.sized)
     for (std::size_t i = static_cast<std::size_t>(v.take) + 1; i < in.options.size() && !next; ++i)
