@@ -65,6 +65,15 @@ struct FileGarment {
   std::filesystem::path path;
 };
 
+/// Virtual stitching, Zheng 2013, section 6.3: the panels start apart, and springs along the seams close them.
+struct Stitching {
+  double offset_m = 0.05;            ///< of the panels from where they are drafted
+  double stiffness_N_per_m2 = 1000;  ///< k of eq. 6.2, per length of seam
+  double damping_kg_per_m_s = 2;     ///< eta of eq. 6.2, per length of seam
+  double close_m = 0.005;            ///< the panels are sewn once no pair is further apart
+  double within_s = 3;               ///< by then they must be
+};
+
 struct GarmentCase {
   std::string name;  ///< where there are several: what supports and tables call it; unique
   std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, FileGarment> shape;
@@ -80,6 +89,7 @@ struct GarmentCase {
   double seam_stiffness_N = 0.01;
   /// Turns the weft about the patch's normal; at 0 it lies along u in a sheet, lengthwise in a tube and in shorts.
   double weft_angle_rad = 0;
+  std::optional<Stitching> stitching;  ///< how it is put on where layers are dressed one by one; else by projecting
 };
 
 // --- Who wears it -----------------------------------------------------------------------------------------------
@@ -210,7 +220,9 @@ struct Projecting {
 
 struct DressingCase {
   std::optional<Projecting> projecting;
-  double settle_s = 0.5;  ///< time at rest before the motion starts
+  bool layer_by_layer = false;  ///< each garment is put on by itself, then all are worn together
+  std::filesystem::path from;   ///< dressed state that another run or `gambeson dress` left
+  double settle_s = 0.5;        ///< time at rest before the motion starts
 };
 
 struct TimeCase {

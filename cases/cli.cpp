@@ -6,7 +6,9 @@
 #include <ostream>
 
 #include "cases/any_case.hpp"
+#include "cases/dress.hpp"
 #include "cases/fields.hpp"
+#include "cases/results_folder.hpp"
 #include "cases/run.hpp"
 #include "cases/structure_run.hpp"
 #include "cases/study/run.hpp"
@@ -29,6 +31,12 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::string device = "auto";
   RunOptions options;
+};
+
+struct DressArguments {
+  std::filesystem::path file, output;
+  std::vector<std::string> overrides;
+  int threads = 0;
 };
 
 struct RenderArguments {
@@ -93,6 +101,25 @@ void addRun(CLI::App& app, RunArguments& a) {
       "  gambeson run cases/library/sleeve_flex.json --set contact.friction=0.5\n"
       "  gambeson run cases/library/cantilever.json --set sheet.cells_u=32\n\n"
       "Exit status: 0 done; 1 the run failed, the message says why; 2 something in the input is wrong.");
+}
+
+void addDress(CLI::App& app, DressArguments& a) {
+  CLI::App& command =
+      *app.add_subcommand("dress", "Puts the garments of a case on its human, for many runs to start from");
+  command.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  command.add_option("-o,--output", a.output, "Dressed state to write (JSON)")->type_name("FILE")->required();
+  command
+      .add_option(
+          "--threads", a.threads,
+          "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The state does not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  addOverrides(command, a.overrides);
+  command.footer(
+      "Examples:\n"
+      "  gambeson dress armour.json -o dressed.json\n"
+      "  gambeson run armour.json --set dressing.from=dressed.json\n\n"
+      "Exit status: 0 done; 1 a garment could not be put on, the message says why; 2 something in the input is wrong.");
 }
 
 void addCheck(CLI::App& app, CheckArguments& a) {
@@ -251,6 +278,16 @@ int studyCommand(StudyArguments& a, std::ostream& out) {
   return done;
 }
 
+int dressCase(const DressArguments& a) {
+  const AnyCase any = readAnyCase(a.file, a.overrides);
+  const auto* c = std::get_if<Case>(&any);
+  if (!c || !c->human) throw InputError({a.file.string(), 0, "human"}, "is required: whom to dress");
+  useThreads(a.threads);
+  writeDressed(dress(*c), a.output);
+  fmt::print("Dressed: {}\n", a.output.string());
+  return done;
+}
+
 /// A picture's options go through the same table as the pictures of a case.
 int render(RenderArguments& a) {
   JsonNode node;
@@ -293,10 +330,12 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       "gambeson SUBCOMMAND --help says more. The fields of a case: cases/FIELDS.md, or gambeson check --doc.");
   RunArguments run_arguments;
   CheckArguments check_arguments;
+  DressArguments dress_arguments;
   RenderArguments render_arguments;
   ReportOptions report_options;
   verify::Options verify_options;
   addRun(app, run_arguments);
+  addDress(app, dress_arguments);
   addCheck(app, check_arguments);
   addRender(app, render_arguments);
   addReport(app, report_options);
@@ -312,7 +351,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       !command.starts_with('-') &&
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
     err << fmt::format(
-        "gambeson: there is no command \"{}\"; there are run, check, render, report, verify, study and batch (see "
+        "gambeson: there is no command \"{}\"; there are run, dress, check, render, report, verify, study and batch (see "
         "gambeson --help)\n",
         command);
     return bad_input;
@@ -320,6 +359,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   try {
     app.parse(argc, argv);
     if (app.got_subcommand("run")) return run(run_arguments);
+    if (app.got_subcommand("dress")) return dressCase(dress_arguments);
     if (app.got_subcommand("check")) return check(check_arguments, out);
     if (app.got_subcommand("render")) return render(render_arguments);
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);

@@ -84,6 +84,11 @@ Object dressingTable() {
                   .build(),
               "virtual projecting: the body shrinks until the garment is free, then grows back into it")
       .defaultsTo("none: the garment starts free of the body")
+      .flag("layer_by_layer", &D::layer_by_layer,
+            "each garment is put on the bare body by itself (by stitching where it says so, else by projecting), then "
+            "all are worn together and freed of each other, the first innermost")
+      .path("from", &D::from, "dressed state that gambeson dress, or a run in its folder as dressed.json, left")
+      .defaultsTo("none: the garments are put on")
       .number("settle", &D::settle_s, "s", between(0, 60),
               "time at rest on the body before the motion starts; 0 without a human")
       .build();

@@ -81,6 +81,21 @@ Object fileTable() {
       .build();
 }
 
+Object stitchingTable() {
+  using S = Stitching;
+  return Table<S>("Stitching")
+      .number("offset", &S::offset_m, "m", between(0, 0.5),
+              "how far panels that face one way stand off from where they are drafted; others start there")
+      .number("stiffness", &S::stiffness_N_per_m2, "N/m^2", aboveTo(0, 1e6),
+              "springs along the seams: force per distance and length of seam, k of Zheng 2013, eq. 6.2")
+      .number("damping", &S::damping_kg_per_m_s, "kg/(m s)", between(0, 1e4),
+              "their damping per length of seam, eta of eq. 6.2")
+      .number("close", &S::close_m, "m", aboveTo(0, 0.05),
+              "the panels are sewn once no pair of points is further apart; contact keeps them the layer apart")
+      .number("within", &S::within_s, "s", aboveTo(0, 60), "time by which they must be that close")
+      .build();
+}
+
 }  // namespace
 
 Object garmentTable() {
@@ -116,6 +131,10 @@ Object garmentTable() {
               "turns the weft about the outward normal; at 0 it lies along u in a sheet or disc, lengthwise in a tube "
               "and in "
               "shorts")
+      .object("stitching", &G::stitching, stitchingTable(),
+              "virtual stitching: the panels start apart and springs along the seams close them; needs "
+              "dressing.layer_by_layer")
+      .defaultsTo("none: drafted sewn, put on by projecting")
       .build();
 }
 

@@ -22,6 +22,7 @@ std::string caseIdentity(const Case& c) {
       }
     }
   }
+  hash.addFile(named.dressing.from);
   for (ObstacleCase& o : named.obstacles)
     if (auto* mesh = std::get_if<MeshObstacle>(&o.shape)) hash.addFile(mesh->file);
   hash.add(writeCase(named));

@@ -330,7 +330,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
       const double size = norm(m.environment.gravity_m_per_s2);
       const Vec3 down = size > 0 ? m.environment.gravity_m_per_s2 / size : Vec3{};
       for (int k : group.springs)
-        drop += dot(x[m.springs[k].sample] + m.spring_rise_m - anchors[group.anchor] * state.anchors[k], down) /
+        drop += dot(x[m.springs[k].sample] + m.spring_rise_m[k] - anchors[group.anchor] * state.anchors[k], down) /
                 static_cast<double>(group.springs.size());
     }
     row.push_back(drop);

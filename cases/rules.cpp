@@ -102,6 +102,8 @@ void checkGarments(const Place& root, const Case& c) {
     if (std::holds_alternative<ShortsGarment>(g.shape) && !c.human)
       place.failAt("shorts", "shorts are drafted on a human, and the case has none");
     all_own = all_own && g.fabric;
+    if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())
+      place.failAt("stitching", "needs dressing.layer_by_layer: each garment is then put on by itself");
   }
   const bool common = root.node.find("fabric");
   if (!common && !all_own)
@@ -122,6 +124,10 @@ void checkWithoutHuman(const Place& root, Case& c) {
   if (c.air.with_pelvis) failAt(root, {"air", "velocity"}, "\"pelvis_mean\" needs a human, and the case has none");
   if (c.dressing.projecting)
     failAt(root, {"dressing", "projecting"}, "projecting dresses a human, and the case has none");
+  if (c.dressing.layer_by_layer)
+    failAt(root, {"dressing", "layer_by_layer"}, "garments are put on a human, and the case has none");
+  if (!c.dressing.from.empty())
+    failAt(root, {"dressing", "from"}, "a dressed state is one of a human, and the case has none");
   const JsonNode* dressing = root.node.find("dressing");
   if (dressing && dressing->find("settle") && c.dressing.settle_s > 0)
     failAt(root, {"dressing", "settle"}, "a garment settles on a human, and the case has none");

@@ -4,8 +4,10 @@
 #include <omp.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
+#include "cases/dress.hpp"
 #include "cases/progress.hpp"
 #include "cases/recorder.hpp"
 #include "cases/results.hpp"
@@ -28,8 +30,7 @@ std::vector<std::pair<std::string, double>> phasesOf(const PhaseTimes& t, bool l
 
 std::string phaseName(const Scenario& s, double time_s) {
   if (time_s >= 0) return s.human ? "moving" : "running";
-  const auto& projecting = s.definition.dressing.projecting;
-  return projecting && time_s < s.start_s + projecting->grow_s ? "dressing" : "settling";
+  return time_s < -s.definition.dressing.settle_s ? "dressing" : "settling";
 }
 
 }  // namespace
@@ -56,6 +57,7 @@ int runCase(const Case& c, const RunOptions& options) {
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
   if (!resume) writeFileAtomically(options.out / "case.json", writeCase(c));
+  if (!resume && c.dressing.layer_by_layer && c.dressing.from.empty()) wear(*scenario, putOnApart(c));
   state = resume ? stateOf(checkpoint, frequency) : startOf(*scenario, work);
 
   const Windows windows(scenario->start_s, scenario->end_s, c.output.window_s);
@@ -81,6 +83,8 @@ int runCase(const Case& c, const RunOptions& options) {
           windows_s.back().push_back(after_s[p].second - before_s[p].second);
         before_s = std::move(after_s);
         recorder.closeWindow(state, windows.bound(k), windows.completes(k + 1, c.output.frame_s), work);
+        if (scenario->human && std::abs(state.time_s) < 1e-9)
+          writeDressed(dressedOf(*scenario, state), options.out / "dressed.json");
         if (windows.completes(k + 1, c.output.checkpoint_s)) writer.closeSegment(checkpointOf(state, frequency));
         progress.update(state.time_s - scenario->start_s, phaseName(*scenario, state.time_s));
       }

@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/dress.hpp"
 #include "cases/factors.hpp"
 #include "cases/structure_sheet.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/dynamics/step.hpp"
 #include "core/error.hpp"
 #include "core/sheet/layers.hpp"
+#include "human/blend.hpp"
 #include "human/load.hpp"
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
 #include "tryon/projecting.hpp"
+#include "tryon/stitching.hpp"
 
 namespace gambeson {
 namespace {
@@ -33,6 +36,8 @@ class CaseStage : public Stage {
   const Motion* motion = nullptr;
   std::vector<Placement> shrunk;  ///< of the human's shapes, empty without projecting
   double grow_start_s = 0, grow_s = 0;
+  std::optional<Posture> dressed;  ///< posture that the garments were put on in, left from start_s on
+  double start_s = 0;
   std::vector<Placement> fixed;
   std::vector<Vec3> fixed_velocity;
   Vec3 air_velocity;
@@ -41,7 +46,7 @@ class CaseStage : public Stage {
   void placements(double t, std::span<Placement> obstacles, std::span<Placement> anchors) const override {
     std::size_t at = 0;
     if (human) {
-      const Posture posture = motion->at(std::max(t, 0.0));
+      const Posture posture = postureAt(t);
       const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
       std::vector<Placement> body = placementsOf(*human, poses);
       if (!shrunk.empty() && t < grow_start_s + grow_s)
@@ -53,6 +58,14 @@ class CaseStage : public Stage {
       obstacles[at] = fixed[k];
       obstacles[at++].origin += t * fixed_velocity[k];
     }
+  }
+
+  /// From the posture of dressing into that in which the motion starts, in the first two thirds of the time to settle.
+  Posture postureAt(double t) const {
+    const Posture first = motion->at(std::max(t, 0.0));
+    if (!dressed || t >= 0 || !(start_s < 0)) return first;
+    const double x = std::clamp(1.5 * (t - start_s) / -start_s, 0.0, 1.0);
+    return blend(*dressed, first, x * x * x * (10 + x * (6 * x - 15)));
   }
 
   /// The air starts with the motion, smoothly over the lead-in.
@@ -130,6 +143,19 @@ Garment joinGarments(const Case& c, const Human* human, Scenario& s, std::vector
     first.push_back(first.back() + static_cast<int>(names.size()));
   }
   return garments.size() == 1 ? garments[0] : joinLayers(garments);
+}
+
+/// The garment without its seams, springs in their place, and the panels moved off the body (as `noise`).
+void standPanelsApart(const Stitching& law, const std::vector<int>& samples_per_cell, Garment& garment,
+                      std::vector<Vec3>& noise, std::vector<Stitch>& stitches) {
+  const std::vector<Vec3> offsets = panelOffsets(garment, law.offset_m);
+  const std::vector<int> first = controlOffsets(garment);
+  for (std::size_t p = 0; p < offsets.size(); ++p)
+    for (int i = first[p]; i < first[p + 1]; ++i) noise[static_cast<std::size_t>(i)] += offsets[p];
+  const Garment open = unsewn(garment);
+  stitches = stitchesOf(garment, buildSurface(open, buildFreeMap(open), samples_per_cell),
+                        {law.stiffness_N_per_m2, law.damping_kg_per_m_s});
+  garment = open;
 }
 
 std::vector<PatchEdge> edgesOf(const Case& c, const GarmentCase& garment, const EdgeCase& e) {
@@ -336,7 +362,7 @@ double readRecorded(const MotionFileOptions& m, Scenario& s) {
   return notes.window_s;
 }
 
-std::unique_ptr<Scenario> buildUnnamed(const Case& written) {
+std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   auto s = std::make_unique<Scenario>();
   s->definition = written;
   const Case c = withFactors(written);
@@ -394,6 +420,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written) {
   Garment garment = joinGarments(c, human, *s, first, noise);
   scaleSeams(garment, written.factors);
   ModelOptions options;
+  if (panels) standPanelsApart(*c.garments[0].stitching, s->samples_per_cell, garment, noise, options.stitches);
   options.patch_samples_per_cell = s->samples_per_cell;
   options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
@@ -411,13 +438,18 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written) {
     for (std::size_t i = 0; i < s->model->map.home.size(); ++i)
       s->noise_m.push_back(s->model->held[i] ? Vec3{} : noise[static_cast<std::size_t>(s->model->map.home[i])]);
 
-  const double grow = c.dressing.projecting ? c.dressing.projecting->grow_s : 0,
-               settle = human ? c.dressing.settle_s : 0;
+  const bool project = c.dressing.projecting && human && !c.dressing.layer_by_layer && c.dressing.from.empty();
+  const double grow = project ? c.dressing.projecting->grow_s : 0, settle = human ? c.dressing.settle_s : 0;
   s->start_s = -(grow + settle);
   s->end_s = duration;
-  stage->grow_start_s = s->start_s;
+  stage->start_s = stage->grow_start_s = s->start_s;
   stage->grow_s = grow;
-  if (c.dressing.projecting && human) {
+  if (!c.dressing.from.empty()) {
+    const Dressed dressed = readDressed(c.dressing.from);
+    wear(*s, dressed);
+    stage->dressed = dressed.posture;
+  }
+  if (project) {
     std::vector<Vec3> Q, X(s->model->surface.size());
     for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
     s->model->surface.W.multiply<Vec3>(Q, X);
@@ -434,20 +466,37 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written) {
 
 State startOf(const Scenario& s, StepWork& work) {
   State state = initialState(*s.model, *s.stage, s.start_s, work);
-  if (s.noise_m.empty()) return state;
-  for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.noise_m[i];
+  if (s.noise_m.empty() && s.start_m.empty()) return state;
+  const std::vector<Vec3> drafted = state.anchors;
+  if (!s.start_m.empty())
+    state.p = s.start_m;
+  else
+    for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.noise_m[i];
   attachSprings(*s.model, *s.stage, state, work);
+  if (!s.start_m.empty()) hangSprings(*s.model, *s.stage, drafted, state, work);
   return state;
 }
 
+namespace {
+
 /// What only building shows to be wrong (a pattern that does not fit the body, say) is said with the case's name.
-std::unique_ptr<Scenario> buildScenario(const Case& c) {
+std::unique_ptr<Scenario> build(const Case& c, bool panels) {
   try {
-    return buildUnnamed(c);
+    return buildUnnamed(c, panels);
   } catch (const InputError& e) {
     if (!e.where().file.empty()) throw;
     throw InputError({c.file.string(), e.where().line, e.where().key}, e.reason());
   }
+}
+
+}  // namespace
+
+std::unique_ptr<Scenario> buildScenario(const Case& c) { return build(c, false); }
+
+std::unique_ptr<Scenario> buildPanels(const Case& c) {
+  if (c.garments.size() != 1 || !c.garments[0].stitching)
+    throw InputError({c.file.string(), 0, "stitching"}, "panels are those of one garment that is to be stitched");
+  return build(c, true);
 }
 
 }  // namespace gambeson

@@ -36,6 +36,7 @@ struct Scenario {
   std::vector<int> samples_per_cell;      ///< of the patches
   std::vector<SupportGroup> supports;
   std::vector<std::string> notes;  ///< what a user should know of the case before its results
+  std::vector<Vec3> start_m;       ///< where the free points start; empty: where they are drafted
   std::vector<Vec3> noise_m;       ///< of the free points at the start; empty: none
   double start_s = 0, end_s = 0;
 
@@ -44,10 +45,14 @@ struct Scenario {
   std::vector<Placement> obstaclePlacements(double time_s) const;
 };
 
-/// What a run starts from: the rest shapes with their noise.
+/// What a run starts from: where the garments are drafted, with their noise, or where they were put on. Springs are
+/// anchored where they are drafted.
 State startOf(const Scenario& scenario, StepWork& work);
 
 /// Throws InputError (with the case's file) where the case cannot be built, RunError where the body cannot be freed.
 std::unique_ptr<Scenario> buildScenario(const Case& c);
+/// The only garment of the case with its panels apart and springs along its seams (virtual stitching), without weight
+/// or supports, beside the body that stands as at time 0. Ends at 0.
+std::unique_ptr<Scenario> buildPanels(const Case& c);
 
 }  // namespace gambeson

@@ -18,6 +18,22 @@ double cellSide(const NurbsPatch& patch, const Vec2& at) {
   return std::min(norm(x(u1, v) - x(u0, v)), norm(x(u, v1) - x(u, v0)));
 }
 
+/// See Model::spring_rise_m.
+std::vector<Vec3> springRise(const Garment& garment, const Model& m) {
+  std::vector<double> mass(garment.patches.size(), 0), stiffness(mass.size(), 0);  // by layer, of which there are fewer
+  const std::vector<int> first = controlOffsets(garment);
+  const std::vector<double> control_mass = controlMasses(garment);
+  for (std::size_t p = 0; p < garment.patches.size(); ++p)
+    for (int c = first[p]; c < first[p + 1]; ++c) mass[garment.layerOf(static_cast<int>(p))] += control_mass[c];
+  const auto layer = [&](const SpringSupportPoint& s) { return garment.layerOf(m.surface.patch[s.sample]); };
+  for (const SpringSupportPoint& s : m.springs) stiffness[layer(s)] += s.stiffness_N_per_m;
+  std::vector<Vec3> rise;
+  for (const SpringSupportPoint& s : m.springs)
+    rise.push_back(stiffness[layer(s)] > 0 ? (-mass[layer(s)] / stiffness[layer(s)]) * m.environment.gravity_m_per_s2
+                                           : Vec3{});
+  return rise;
+}
+
 }  // namespace
 
 std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& options, const Environment& environment,
@@ -77,10 +93,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
   }
   for (double a : model->area_m2) model->drag_kg_per_s.push_back(environment.drag_kg_per_m2s * a);
   addStitchDamping(model->stitches, model->surface.WT, model->drag_kg_per_s);
-  double total = 0, stiffness = 0;
-  for (double m : model->mass_kg) total += m;
-  for (const SpringSupportPoint& s : options.springs) stiffness += s.stiffness_N_per_m;
-  if (stiffness > 0) model->spring_rise_m = (-total / stiffness) * environment.gravity_m_per_s2;
+  model->spring_rise_m = springRise(garment, *model);
   if (!options.dead_force_N.empty()) {
     if (static_cast<int>(options.dead_force_N.size()) != model->shell.controlCount())
       throw InputError({"", 0, "loads"}, "dead forces need one entry per control point");

@@ -59,9 +59,9 @@ struct Model {
   CollisionModel collisions;
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;
-  /// How far above its sample a spring is anchored, so that all together carry the garment's weight where they were
-  /// attached: -g M / sum k [m].
-  Vec3 spring_rise_m;
+  /// How far above its sample each spring is anchored, so that the springs of a layer carry it where they were
+  /// attached: -g M / sum k, M the mass of the layer [m].
+  std::vector<Vec3> spring_rise_m;
   std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
   StrainLimit strain_limit;
   StrainRows strain_rows;    ///< without points where strain is not limited
@@ -82,7 +82,7 @@ struct ModelOptions {
   int anchor_count = 0;
   std::vector<Vec3> dead_force_N;  ///< per control point, such as edgeForce gives; empty: none
   StrainLimit strain_limit;
-  bool self_contact = true;            ///< cloth touches cloth
+  bool self_contact = true;  ///< cloth touches cloth
   std::vector<Stitch> stitches;
   const KernelSet* kernels = nullptr;  ///< the widest where null
 };

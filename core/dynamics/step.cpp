@@ -124,9 +124,20 @@ void attachSprings(const Model& model, const Stage& stage, State& state, StepWor
   work.anchors_start.resize(model.anchor_count);
   stage.placements(state.time_s, work.start, work.anchors_start);
   state.anchors.clear();
-  for (const SpringSupportPoint& spring : model.springs)
+  for (std::size_t k = 0; k < model.springs.size(); ++k) {
+    const SpringSupportPoint& spring = model.springs[k];
     state.anchors.push_back(toLocal(work.anchors_start[spring.anchor],
-                                    sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m));
+                                    sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m[k]));
+  }
+  const std::vector<Vec3> anchors = std::move(state.anchors);
+  hangSprings(model, stage, anchors, state, work);
+}
+
+void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> anchors, State& state, StepWork& work) {
+  work.start.resize(model.obstacles.size());
+  work.anchors_start.resize(model.anchor_count);
+  stage.placements(state.time_s, work.start, work.anchors_start);
+  state.anchors.assign(anchors.begin(), anchors.end());
   const std::vector<Vec3> v = state.v;
   state.limit_J.clear();
   accelerate(model, work.anchors_start, stage.air(state.time_s), v, {}, 0, state, work);

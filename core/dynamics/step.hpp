@@ -12,6 +12,9 @@ State initialState(const Model& model, const Stage& stage, double time_s, StepWo
 /// Anchors every spring above where its sample is now (Model::spring_rise_m), and evaluates the forces again.
 void attachSprings(const Model& model, const Stage& stage, State& state, StepWork& work);
 
+/// Hangs the springs on the given points of their anchor frames, and evaluates the forces again.
+void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> anchors, State& state, StepWork& work);
+
 /// Velocity Verlet with the contact split, eq. 3.11 to 3.13, by `dt_s`. Drag is implicit in the second half as in
 /// eq. 3.13. On failure `out` is not to be used.
 ///

@@ -1,0 +1,176 @@
+#include "cases/dress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tryon/stitching.hpp"
+
+namespace gambeson {
+namespace {
+
+/// Between looks at how far the seams are closed [s].
+constexpr double look_s = 0.01;
+
+Case alone(const Case& c, std::size_t g) {
+  Case one = c;
+  one.garments = {c.garments[g]};
+  one.supports.clear();
+  for (const SupportCase& support : c.supports) {
+    const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
+    if (edge.garment.empty() || edge.garment == c.garments[g].name) one.supports.push_back(support);
+  }
+  one.dressing.layer_by_layer = false;
+  one.dressing.from.clear();
+  return one;
+}
+
+std::vector<Vec3> controlPoints(const Scenario& s, const State& state) {
+  std::vector<Vec3> q(s.model->map.T.rows());
+  s.model->map.T.multiply<Vec3>(state.p, q);
+  return q;
+}
+
+State settled(const Scenario& s, bool* tangled) {
+  StepWork work;
+  State state = startOf(s, work);
+  Frequency frequency;
+  const TimeCase& time = s.definition.time;
+  bool last = false;
+  advance(*s.model, *s.stage, {time.step_safety, time.max_step_s}, 0, state, frequency, work,
+          [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) {
+            last = r.intersections > 0 || r.inside > 0 || r.pinched > 0;
+          });
+  if (tangled) *tangled = last;
+  return state;
+}
+
+/// The control points of the sewn garment, closed by springs.
+std::vector<Vec3> closePanels(const Case& one) {
+  const Stitching& law = *one.garments[0].stitching;
+  Case floating = one;
+  floating.gravity_m_per_s2 = {};
+  floating.supports.clear();
+  floating.dressing.projecting.reset();
+  floating.dressing.settle_s = law.within_s;
+  const std::unique_ptr<Scenario> panels = buildPanels(floating);
+  const Model& m = *panels->model;
+  StepWork work;
+  State state = startOf(*panels, work);
+  Frequency frequency;
+  double widest = widestStitch(m.stitches, m.surface.WT, state.p);
+  while (widest > law.close_m && state.time_s < -1e-9) {
+    advance(m, *panels->stage, {one.time.step_safety, one.time.max_step_s}, std::min(0.0, state.time_s + look_s), state,
+            frequency, work, [](const State&, const State&, const StepReport&, const StepWork&, const Frequency&) {});
+    widest = widestStitch(m.stitches, m.surface.WT, state.p);
+  }
+  if (widest > law.close_m)
+    throw RunError(
+        fmt::format("the panels of the garment \"{}\" are still {:.1f} mm apart after {} s of stitching (to be "
+                    "sewn: {:.1f} mm); stiffer springs, more time or a larger offset may close them",
+                    one.garments[0].name, 1e3 * widest, law.within_s, 1e3 * law.close_m));
+  return controlPoints(*panels, state);
+}
+
+}  // namespace
+
+Dressed putOnApart(const Case& c) {
+  Dressed dressed;
+  for (std::size_t g = 0; g < c.garments.size(); ++g) {
+    Case one = alone(c, g);
+    const bool stitched = one.garments[0].stitching.has_value();
+    std::vector<Vec3> closed;
+    try {
+      if (stitched) {
+        closed = closePanels(one);
+        one.dressing.projecting.reset();
+      }
+      const std::unique_ptr<Scenario> s = buildScenario(one);
+      if (stitched) s->start_m = sew(s->model->map, closed);
+      const State state = settled(*s, nullptr);
+      Dressed worn = dressedOf(*s, state);
+      dressed.body = worn.body;
+      dressed.posture = worn.posture;
+      dressed.garments.push_back(std::move(worn.garments[0]));
+    } catch (const RunError& e) {
+      throw RunError(fmt::format("putting on the garment \"{}\": {}", c.garments[g].name, e.what()));
+    }
+  }
+  return dressed;
+}
+
+void wear(Scenario& s, const Dressed& dressed) {
+  const Case& c = s.definition;
+  const auto fail = [&](const std::string& reason) { throw InputError({c.dressing.from.string(), 0, ""}, reason); };
+  if (!c.human || dressed.body != bodyFingerprint(*c.human))
+    fail("was dressed on another body than that of " + c.file.string());
+  if (dressed.posture.q.size() != s.human->skeleton.joints.size()) fail("has a posture of another skeleton");
+  if (dressed.garments.size() != c.garments.size())
+    fail(fmt::format("holds {} garments, the case {}", dressed.garments.size(), c.garments.size()));
+  const Garment& garment = s.model->shell.garment();
+  const std::vector<int> first = controlOffsets(garment);
+  std::vector<Vec3> q;
+  std::size_t patch = 0;
+  for (std::size_t g = 0; g < c.garments.size(); ++g) {
+    const DressedGarment& worn = dressed.garments[g];
+    if (worn.name != c.garments[g].name)
+      fail(fmt::format("garment {} is \"{}\", in the case \"{}\"", g + 1, worn.name, c.garments[g].name));
+    std::size_t points = 0;
+    while (patch < garment.patches.size() && garment.layerOf(static_cast<int>(patch)) == static_cast<int>(g)) {
+      points += static_cast<std::size_t>(first[patch + 1] - first[patch]);
+      ++patch;
+    }
+    if (points != worn.points_m.size())
+      fail(fmt::format("the garment \"{}\" has {} control points, in the case {}", worn.name, worn.points_m.size(),
+                       points));
+    q.insert(q.end(), worn.points_m.begin(), worn.points_m.end());
+  }
+  s.start_m = sew(s.model->map, q);
+}
+
+Dressed dressedOf(const Scenario& s, const State& state) {
+  const Case& c = s.definition;
+  Dressed dressed;
+  dressed.body = bodyFingerprint(*c.human);
+  dressed.posture = s.motion->at(0);
+  const std::vector<Vec3> q = controlPoints(s, state);
+  const Garment& garment = s.model->shell.garment();
+  const std::vector<int> first = controlOffsets(garment);
+  for (const GarmentCase& g : c.garments) dressed.garments.push_back({g.name, {}});
+  for (std::size_t p = 0; p < garment.patches.size(); ++p) {
+    std::vector<Vec3>& points =
+        dressed.garments[static_cast<std::size_t>(garment.layerOf(static_cast<int>(p)))].points_m;
+    points.insert(points.end(), q.begin() + first[p], q.begin() + first[p + 1]);
+  }
+  return dressed;
+}
+
+namespace {
+
+Dressed freed(const Scenario& s) {
+  bool tangled = false;
+  const State state = settled(s, &tangled);
+  if (tangled)
+    throw RunError(
+        fmt::format("cloth still passes through cloth or the body after {} s of settling; more time "
+                    "(dressing.settle) may free it",
+                    s.definition.dressing.settle_s));
+  return dressedOf(s, state);
+}
+
+}  // namespace
+
+Dressed wearTogether(const Case& c, const Dressed& apart) {
+  const std::unique_ptr<Scenario> s = buildScenario(c);
+  wear(*s, apart);
+  return freed(*s);
+}
+
+Dressed dress(const Case& c) {
+  if (c.dressing.layer_by_layer && c.dressing.from.empty()) return wearTogether(c, putOnApart(c));
+  return freed(*buildScenario(c));
+}
+
+}  // namespace gambeson
