@@ -4,16 +4,23 @@
 
 namespace gambeson {
 
-void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueHistory& history) {
+void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueHistory& history,
+                  std::span<const TorqueVariant> variants) {
   std::vector<std::string> columns{"time_s"};
-  for (const int j : history.joints) {
-    const Joint& joint = skeleton.joints[static_cast<std::size_t>(j)];
-    columns.push_back(joint.name + (joint.type == JointType::prismatic ? "_N" : "_Nm"));
-  }
+  const auto name = [&](const std::string& variant) {
+    for (const int j : history.joints) {
+      const Joint& joint = skeleton.joints[static_cast<std::size_t>(j)];
+      columns.push_back(joint.name + variant + (joint.type == JointType::prismatic ? "_N" : "_Nm"));
+    }
+  };
+  name("");
+  for (const TorqueVariant& v : variants) name("_" + v.name);
   std::vector<std::vector<double>> rows;
   for (std::size_t w = 0; w < history.time_s.size(); ++w) {
     rows.push_back({history.time_s[w]});
     rows.back().insert(rows.back().end(), history.value[w].begin(), history.value[w].end());
+    for (const TorqueVariant& v : variants)
+      rows.back().insert(rows.back().end(), v.history->value[w].begin(), v.history->value[w].end());
   }
   writeCsv(csv, columns, rows);
 }

@@ -11,8 +11,14 @@
 namespace gambeson {
 
 /// time_s, then one column per joint: hip_flexion_left_Nm (prismatic: _N). The contact torque; the wearer adds its
-/// opposite.
-void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueHistory& history);
+/// opposite. `variants` of the same joints and times follow, each joint's name with theirs behind:
+/// hip_flexion_left_segments_Nm.
+struct TorqueVariant {
+  std::string name;
+  const TorqueHistory* history = nullptr;
+};
+void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueHistory& history,
+                  std::span<const TorqueVariant> variants = {});
 
 /// time_s, then four columns per segment: thigh_left_N (magnitude), thigh_left_x_N, _y_N, _z_N in world axes.
 void writeContact(const std::filesystem::path& csv, const Human& human, std::span<const ContactWindow> windows);

@@ -16,6 +16,7 @@
 #include "core/sheet/garment.hpp"
 #include "human/motion.hpp"
 #include "human/motion_file.hpp"
+#include "human/skin.hpp"
 
 namespace gambeson {
 
@@ -106,6 +107,7 @@ struct StandMotion {
 struct HumanCase {
   std::string manikin;
   std::filesystem::path urdf, body;
+  std::optional<SkinOptions> skin;  ///< around the manikin; where absent, its ellipsoids are the surface
   std::variant<StandMotion, WalkOptions, TrajectoryMotion, MotionFileOptions> motion;
 };
 

@@ -113,9 +113,17 @@ Object humanTable() {
       .oneOf("who", true)
       .path("body", &H::body, "body file that goes with urdf: ellipsoids per link")
       .defaultsTo("the geometry in the URDF")
+      .object("skin", &H::skin,
+              Table<SkinOptions>("Skin")
+                  .number("cell", &SkinOptions::cell_m, "m", between(0.006, 0.04), "edges where garments lie")
+                  .number("crease_gap", &SkinOptions::crease_gap_m, "m", between(0, 0.02),
+                          "what stays between the two sides of a fold, at hips, knees, elbows and shoulders")
+                  .build(),
+              "a closed skin around the manikin that bends with its joints, in place of its ellipsoids")
       .object("motion", &H::motion, motionTable(), "what the human does")
       .required()
       .check([](const Place& p, const H& h) {
+        if (h.skin && h.manikin.empty()) p.failAt("skin", "is made around a manikin, not around a body of your own");
         if (h.urdf.empty() && !h.body.empty()) p.failAt("body", "goes with \"urdf\"; a manikin has its own body");
       })
       .build();

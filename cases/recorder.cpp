@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace gambeson {
 namespace {
@@ -134,6 +133,11 @@ RecordingLayout recordingLayout(const Scenario& s) {
     bodies.push_back(name + "_n_Ns");
     bodies.push_back(name + "_t_Ns");
   }
+  if (s.hasSkin()) {
+    auto& skin = layout.tables["skin"] = window;
+    const std::vector<std::string> joints = SkinLedger::columns(s);
+    skin.insert(skin.end(), joints.begin(), joints.end());
+  }
   auto& supports = layout.tables["supports"] = window;
   for (const SupportGroup& g : s.supports)
     for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(g.name + part);
@@ -203,25 +207,37 @@ Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
     : scenario_(scenario),
       stress_(scenario.model->shell),
       writer_(writer),
+      placed_(scenario),
       bodies_(scenario.bodies.size()),
       supports_(scenario.supports.size()),
       contact_(scenario.model->surface.size()),
       normal_(scenario.model->surface.size()),
       limit_(scenario.model->strain_rows.rows(), 0),
-      steps_(kColumns, 0) {}
+      steps_(kColumns, 0) {
+  if (scenario.hasSkin()) skin_.emplace(scenario);
+}
 
 void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepWork& work,
                        const Frequency& f) {
   // Moments about the body's origin at the middle of the step, where the impulse acts in the mean.
   const std::vector<Pose> poses = scenario_.bodyPoses(0.5 * (before.time_s + after.time_s));
   for (const ContactImpulse& c : work.contact_impulses) {
-    Body& body = bodies_[scenario_.body_of_obstacle[c.obstacle]];
     const Vec3 received = -c.impulse;
-    const double normal = dot(c.impulse, c.normal);
-    body.force += received;
-    body.moment += cross(c.point - poses[scenario_.body_of_obstacle[c.obstacle]].origin, received);
-    body.normal += normal;
-    body.tangential += norm(c.impulse - normal * c.normal);
+    const double normal = dot(c.impulse, c.normal), tangential = norm(c.impulse - normal * c.normal);
+    const auto give = [&](int to, double part) {
+      Body& body = bodies_[to];
+      body.force += part * received;
+      body.moment += cross(c.point - poses[to].origin, part * received);
+      body.normal += part * normal;
+      body.tangential += part * tangential;
+    };
+    if (const int body = scenario_.body_of_obstacle[c.obstacle]; body >= 0) {
+      give(body, 1);
+    } else {
+      for (int k = 0; k < 3 && c.touched.vertex[k] >= 0; ++k)
+        give(scenario_.human->skin->segment[c.touched.vertex[k]], c.touched.weight[k]);
+      skin_->add(c.touched, received, normal);
+    }
     contact_[c.sample] += c.impulse;
     normal_[c.sample] += normal;
   }
@@ -285,6 +301,13 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
     row.insert(row.end(), {b.normal, b.tangential});
   }
   writer_.append(TableRow{"bodies", row});
+  if (skin_) {
+    row = head;
+    const std::vector<double> joints = skin_->row(0.5 * (start_s + state.time_s));
+    row.insert(row.end(), joints.begin(), joints.end());
+    writer_.append(TableRow{"skin", row});
+    skin_->clear();
+  }
 
   // Drag at the window's end, on the body nearest to each sample.
   std::vector<Body> drag(bodies_.size());
@@ -292,20 +315,11 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   m.surface.WT.multiply<Vec3>(state.p, x);
   m.surface.WT.multiply<Vec3>(state.v, v);
   if (m.environment.drag_kg_per_m2s > 0 && !m.obstacles.empty()) {
-    const std::vector<Placement> placed = scenario_.obstaclePlacements(state.time_s);
+    placed_.moveTo(state.time_s);
     const Vec3 air = scenario_.stage->air(state.time_s);
     std::vector<int> nearest(x.size());
 #pragma omp parallel for schedule(static)
-    for (int s = 0; s < m.surface.size(); ++s) {
-      double least = std::numeric_limits<double>::infinity();
-      for (int o = 0; o < static_cast<int>(placed.size()); ++o) {
-        const double d = m.proximity->signedDistance(o, placed[o], x[s]);
-        if (d < least) {
-          least = d;
-          nearest[s] = scenario_.body_of_obstacle[o];
-        }
-      }
-    }
+    for (int s = 0; s < m.surface.size(); ++s) nearest[s] = placed_.nearest(x[s]).body;
     for (int s = 0; s < m.surface.size(); ++s) {
       const Vec3 f = (-m.environment.drag_kg_per_m2s * m.surface.area_m2[s] * window) * (v[s] - air);
       drag[nearest[s]].force += f;

@@ -10,11 +10,15 @@
 ///   supports  per support <name>_x_Ns .. z: impulse on the cloth; <name>_drop_m: mean sinking of the edge against its
 ///   link,
 ///             from where the springs were attached
+///   skin      where the human has a skin: what its contact is at the joints (cases/skin_ledger.hpp)
 ///   steps     what the steps of the window reported (columns: stepColumns())
 
+#include <optional>
 #include <vector>
 
+#include "cases/placed_bodies.hpp"
 #include "cases/scenario.hpp"
+#include "cases/skin_ledger.hpp"
 #include "core/io/recording.hpp"
 #include "core/sheet/stress_field.hpp"
 
@@ -47,6 +51,8 @@ class Recorder {
   const Scenario& scenario_;
   StressField stress_;
   RecordingWriter& writer_;
+  PlacedBodies placed_;
+  std::optional<SkinLedger> skin_;
   std::vector<Body> bodies_;
   std::vector<Vec3> supports_;
   std::vector<Vec3> contact_;   ///< impulse per sample over the window

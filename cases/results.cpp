@@ -112,7 +112,12 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   Measured m = measure(s, recording);
   m.surface_depth = surfaceDepth(s, recording);
   writeSummary(s, recording, m, facts, dir / "summary.json");
-  if (s.human) writeTorques(dir / "torques.csv", s.human->skeleton, m.added);
+  if (s.human) {
+    std::vector<TorqueVariant> variants;
+    if (s.hasSkin())
+      variants = {{"segments", &m.added_segments}, {"proximal", &m.added_proximal}, {"distal", &m.added_distal}};
+    writeTorques(dir / "torques.csv", s.human->skeleton, m.added, variants);
+  }
   writeContact(dir / "contact.csv", m.bodies, m.windows);
   writeCollisions(dir / "collisions.csv", m.steps.collisions);
   if (!m.touch.empty()) writeLatitude(dir / "latitude.csv", m.touch);

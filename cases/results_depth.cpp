@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cases/placed_bodies.hpp"
 #include "cases/results_measure.hpp"
 #include "core/error.hpp"
 
@@ -45,6 +46,7 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
   std::vector<Vec3> x(n);
   const std::vector<double> reach(n, 0);
   std::vector<Contact> inside;
+  PlacedBodies placed(s);
   for (int k = 0; k < recording.frameCount(); ++k) {
     if (!(recording.time(k) > 1e-9)) continue;
     const Frame frame = recording.frame(k);
@@ -56,8 +58,8 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
     for (std::size_t i = 0; i < q.size(); ++i)
       q[i] = {field->data[3 * i], field->data[3 * i + 1], field->data[3 * i + 2]};
     W.multiply<Vec3>(q, x);
-    const std::vector<Placement> placed = s.obstaclePlacements(frame.time_s);
-    s.model->proximity->near(placed, placed, x, reach, inside);
+    placed.moveTo(frame.time_s);
+    s.model->proximity->near(placed.placements(), placed.placements(), x, reach, inside, nullptr, placed.surfaces());
     for (const Contact& c : inside)
       if (-c.gap_m > depth.deepest_m) depth.deepest_m = -c.gap_m, depth.time_s = frame.time_s;
   }

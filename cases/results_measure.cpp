@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cases/factors.hpp"
+#include "cases/skin_ledger.hpp"
 #include "core/error.hpp"
 #include "human/task_moments.hpp"
 
@@ -20,10 +21,10 @@ Rows motionRows(const RecordingReader& recording, const std::string& table) {
   return rows;
 }
 
-/// Windows of the bodies in the last 0.1 s of settling, the motion's posture held; none where nothing settles.
-Rows restRows(const Scenario& s, const RecordingReader& recording) {
+/// Windows of a table in the last 0.1 s of settling, the motion's posture held; none where nothing settles.
+Rows restRows(const Scenario& s, const RecordingReader& recording, const std::string& table) {
   const double from_s = -std::min(0.1, s.definition.dressing.settle_s) - 1e-9;
-  Rows rows = recording.table("bodies");
+  Rows rows = recording.table(table);
   std::erase_if(rows, [&](const auto& r) { return r[0] < from_s || r[1] > 1e-9; });
   return rows;
 }
@@ -50,6 +51,23 @@ TorqueHistory addedTorques(const Scenario& s, std::vector<ContactWindow> windows
   TorqueHistory history = torqueHistory(*s.human, *s.motion, 0, windows, joints, counting);
   for (auto& row : history.value)
     for (double& tau : row) tau = -tau;
+  return history;
+}
+
+/// One of the torques that the table "skin" holds of each joint, as the wearer adds it.
+TorqueHistory skinTorques(const Scenario& s, const Rows& rows, std::span<const int> joints, int which) {
+  const std::vector<int> moving = movingJoints(s.human->skeleton);
+  TorqueHistory history{{joints.begin(), joints.end()}, {}, {}};
+  for (const auto& r : rows) {
+    history.time_s.push_back(0.5 * (r[0] + r[1]));
+    history.value.emplace_back();
+    for (const int j : joints) {
+      const auto at = std::find(moving.begin(), moving.end(), j) - moving.begin();
+      history.value.back().push_back(
+          at < std::ssize(moving) ? -r[2 + static_cast<std::size_t>(SkinLedger::kPerJoint * at + which)] / (r[1] - r[0])
+                                  : 0);
+    }
+  }
   return history;
 }
 
@@ -92,6 +110,14 @@ double highestPhase(const Scenario& s, const Strides& strides, const JointMeasur
 std::vector<std::vector<double>> standingTorques(const Scenario& s, const Rows& rest, const std::vector<int>& joints) {
   std::vector<std::vector<double>> torques(joints.size());
   if (rest.empty()) return torques;
+  if (s.hasSkin()) {
+    for (std::size_t w = 0; w < rest.size(); ++w) {
+      if (std::abs((rest[w][1] - rest[w][0]) - (rest.back()[1] - rest.back()[0])) > 1e-9) continue;
+      const TorqueHistory at = skinTorques(s, {rest[w]}, joints, 0);
+      for (std::size_t j = 0; j < joints.size(); ++j) torques[j].push_back(at.value[0][j]);
+    }
+    return torques;
+  }
   std::vector<ContactWindow> windows = windowsOf(rest, s.bodies.size(), 8);
   const double length = windows.back().duration();
   const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
@@ -105,7 +131,9 @@ std::vector<std::vector<double>> standingTorques(const Scenario& s, const Rows& 
   return torques;
 }
 
-void measureJoints(const Scenario& s, const Rows& rows, const Rows& rest, Measured& out) {
+/// `skin`: of the table of that name, empty without a skin; `rest` of that table too where there is one, else of
+/// bodies.
+void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const Rows& rest, Measured& out) {
   const Skeleton& skeleton = s.human->skeleton;
   std::vector<int> joints;
   for (const std::string& name : s.definition.analysis.joints) {
@@ -114,7 +142,14 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& rest, Measur
       throw InputError({s.definition.file.string(), 0, "analysis.joints"}, "the human has no joint \"" + name + "\"");
   }
   if (joints.empty()) joints = movingJoints(skeleton);
-  out.added = addedTorques(s, out.windows, joints);
+  if (s.hasSkin()) {
+    out.added = skinTorques(s, skin, joints, 0);
+    out.added_segments = skinTorques(s, skin, joints, 1);
+    out.added_proximal = skinTorques(s, skin, joints, 2);
+    out.added_distal = skinTorques(s, skin, joints, 3);
+  } else {
+    out.added = addedTorques(s, out.windows, joints);
+  }
   out.added_drag = addedTorques(s, out.drag, joints);
   const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
                                                                                : TorqueCounting::distal_segment;
@@ -134,6 +169,17 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& rest, Measur
     const std::vector<double> tau = out.added.of(j), drag = out.added_drag.of(j);
     m.peak = peakOf(std::span(time).subspan(first), std::span(tau).subspan(first));
     m.rms = rms(std::span(tau).subspan(first));
+    if (s.hasSkin()) {
+      const std::vector<double> segments = out.added_segments.of(j);
+      m.segments.emplace();
+      m.segments->peak = peakOf(std::span(time).subspan(first), std::span(segments).subspan(first));
+      for (std::size_t w = 0; w < time.size(); ++w)
+        if (time[w] == m.peak.time_s) {
+          m.segments->at_peak = segments[w];
+          m.segments->border_proximal = out.added_proximal.of(j)[w];
+          m.segments->border_distal = out.added_distal.of(j)[w];
+        }
+    }
     if (const std::vector<double>& still = standing[out.joints.size()]; !still.empty()) {
       m.standing = 0;
       for (const double t : still) *m.standing += t / static_cast<double>(still.size());
@@ -179,9 +225,16 @@ void measureBodies(const Scenario& s, const Rows& rows, Measured& out) {
     link.name = s.bodies[b];
     out.bodies.skeleton.links.push_back(link);
   }
+  if (s.hasSkin()) {
+    std::vector<int> links = s.human->skin->segment;
+    std::sort(links.begin(), links.end());
+    links.erase(std::unique(links.begin(), links.end()), links.end());
+    for (const int l : links) out.bodies.shapes.push_back({l, s.bodies[static_cast<std::size_t>(l)], Ellipsoid{}, {}});
+  }
   for (std::size_t o = 0; o < s.model->obstacles.size(); ++o)
-    out.bodies.shapes.push_back(
-        {s.body_of_obstacle[o], s.model->obstacles[o].segment, s.model->obstacles[o].shape, {}});
+    if (s.body_of_obstacle[o] >= 0)
+      out.bodies.shapes.push_back(
+          {s.body_of_obstacle[o], s.model->obstacles[o].segment, s.model->obstacles[o].shape, {}});
   for (const ContactShare& share : contactShares(out.bodies, out.windows))
     out.contact.push_back({share, meanOf(rows, {share.link}, 6), meanOf(rows, {share.link}, 7)});
 }
@@ -262,7 +315,9 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   out.windows = windowsOf(bodies, s.bodies.size(), 8);
   out.drag = windowsOf(motionRows(recording, "drag"), s.bodies.size(), 6);
   measureBodies(s, bodies, out);
-  if (s.human) measureJoints(s, bodies, restRows(s, recording), out);
+  if (s.human)
+    measureJoints(s, bodies, s.hasSkin() ? motionRows(recording, "skin") : Rows{},
+                  restRows(s, recording, s.hasSkin() ? "skin" : "bodies"), out);
   measureSupports(s, motionRows(recording, "supports"), out);
   measureSteps(recording, out);
   out.limited = s.definition.strain_limit.has_value();

@@ -24,6 +24,13 @@ struct Strides {
 };
 std::optional<Strides> stridesOf(const Case& c);
 
+/// Of a skin, beside the generalised force: the added torque by segments (SkinLedger), when the generalised one peaks.
+struct SegmentsMeasure {
+  Peak peak;  ///< of its own course
+  double at_peak = 0;
+  double border_proximal = 0, border_distal = 0;  ///< at_peak with the border moved by SkinLedger::kBorder_m
+};
+
 /// The added torque: what the wearer's actuators must give on top, the opposite of the contact torque. Positive:
 /// towards positive joint values (flexion, adduction, internal rotation).
 struct JointMeasure {
@@ -35,8 +42,9 @@ struct JointMeasure {
   std::optional<double> standing;                 ///< mean over the last 0.1 s before the motion: dressed, at rest
   double drag_at_peak = 0;                        ///< part of the peak that air drag has, in the unit of the peak
   double position_at_peak = 0, rate_at_peak = 0;  ///< of the joint [rad, rad/s or m, m/s]
-  std::optional<double> natural_Nm;               ///< peak moment of the task without the garment
-  double normal_N = 0, friction_N = 0;            ///< mean sums of magnitudes over the counted bodies
+  std::optional<SegmentsMeasure> segments;
+  std::optional<double> natural_Nm;     ///< peak moment of the task without the garment
+  double normal_N = 0, friction_N = 0;  ///< mean sums of magnitudes over the counted bodies
   std::optional<double> phase_at_peak,
       phase_of_highest;                   ///< of the peak, and of the largest joint value, in its side's stride
   std::optional<Peak> lead_in_peak;       ///< before the strides
@@ -134,6 +142,8 @@ struct Measured {
   Human bodies;  ///< every body of the scenario as a link without joints, for the tables per segment
   std::vector<ContactWindow> windows, drag;  ///< one link per body
   TorqueHistory added, added_drag;
+  /// Of a skin, by segments, and with the border moved (SkinLedger); without a skin they have no windows.
+  TorqueHistory added_segments, added_proximal, added_distal;
   std::vector<JointMeasure> joints;
   std::vector<BodyMeasure> contact;
   double peak_time_s = 0;  ///< of the largest added torque; without joints of the largest sum of contact forces

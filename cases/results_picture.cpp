@@ -10,6 +10,7 @@
 
 #include "analysis/render/camera.hpp"
 #include "analysis/render/shapes.hpp"
+#include "cases/placed_bodies.hpp"
 #include "cases/results_write.hpp"
 #include "core/error.hpp"
 
@@ -77,20 +78,14 @@ struct Cluster {
   double size = 0;
 };
 
-std::vector<Cluster> clustersOf(const Scenario& s, const Frame& frame, const std::vector<Vec3>& x) {
+std::vector<Cluster> clustersOf(const PlacedBodies& placed, const Frame& frame, const std::vector<Vec3>& x) {
   const Field& contact = fieldOf(frame, "contact_force");
-  const std::vector<Placement> placed = s.obstaclePlacements(frame.time_s);
   std::map<std::array<int, 4>, Cluster> cells;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Vec3 force{-contact.data[3 * i], -contact.data[3 * i + 1], -contact.data[3 * i + 2]};
     const double size = norm(force);
     if (!(size > 0)) continue;
-    int body = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (int o = 0; o < static_cast<int>(placed.size()); ++o) {
-      const double d = s.model->proximity->signedDistance(o, placed[static_cast<std::size_t>(o)], x[i]);
-      if (d < least) least = d, body = s.body_of_obstacle[static_cast<std::size_t>(o)];
-    }
+    const int body = placed.nearest(x[i]).body;
     const auto cell = [&](double v) { return static_cast<int>(std::floor(v / arrow_cell_m)); };
     Cluster& cluster = cells[{body, cell(x[i].x), cell(x[i].y), cell(x[i].z)}];
     cluster.force += force;
@@ -171,9 +166,12 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   const std::vector<Vec3> x = positionsOf(frame);
   const FieldWords words = wordsOf(picture.field);
   Scene scene;
-  const std::vector<Placement> placed = s.obstaclePlacements(frame.time_s);
-  for (std::size_t o = 0; o < placed.size(); ++o)
-    scene.meshes.push_back(meshOf(s.model->obstacles[o].shape, placed[o], body_color));
+  PlacedBodies placed(s);
+  placed.moveTo(frame.time_s);
+  for (std::size_t o = 0; o < s.model->obstacles.size(); ++o)
+    scene.meshes.push_back(meshOf(
+        s.model->obstacles[o].deforms ? Shape(placed.deformedMesh(static_cast<int>(o))) : s.model->obstacles[o].shape,
+        placed.placements()[o], body_color));
   std::vector<double> scalars;
   if (picture.field != PictureField::plain) {
     for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
@@ -203,7 +201,7 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   for (auto& [layer, cloth] : layers) scene.meshes.push_back(std::move(cloth));
   const std::array<Vec3, 2> garment = boxOf(x, 0);
   const double size = norm(garment[1] - garment[0]);
-  addArrows(scene, clustersOf(s, frame, x), 0.14 * size);
+  addArrows(scene, clustersOf(placed, frame, x), 0.14 * size);
   scene.focus = boxOf(x, 0.06 * size);
   scene.title = s.definition.name;
   scene.subtitle = captionOf(picture, frame.time_s);

@@ -28,6 +28,12 @@ Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides) {
   j["peak_time_s"] = m.peak.time_s;
   j["cause"] = causeOf(m, strides);
   j["rms" + unit] = m.rms;
+  if (const auto& g = m.segments)
+    j["by_segments"] = {{"peak" + unit, g->peak.value},
+                        {"peak_time_s", g->peak.time_s},
+                        {"at_peak" + unit, g->at_peak},
+                        {"border_2cm_proximal" + unit, g->border_proximal},
+                        {"border_2cm_distal" + unit, g->border_distal}};
   if (m.standing) j["standing" + unit] = *m.standing;
   j["drag_at_peak" + unit] = m.drag_at_peak;
   j["joint_at_peak"] = m.position_at_peak;

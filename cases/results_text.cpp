@@ -153,13 +153,23 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
   if (const std::string factors = factorsText(s.definition.factors); !factors.empty())
     say("Factors on what the case says: " + factors + ". What stands below has them in it.");
   if (s.human) {
-    if (!c.human->manikin.empty())
+    if (s.hasSkin())
+      say("The body is a closed skin drawn around a manikin of ellipsoids (sizes from ANSUR II (2012), masses from de "
+          "Leva 1996, offsets of joints from Rajagopal et al. 2016), which bends with the joints. Flesh does not give "
+          "way.");
+    else if (!c.human->manikin.empty())
       say("The body is a manikin of rigid ellipsoids: sizes from ANSUR II (2012), masses from de Leva 1996, offsets of "
           "joints from Rajagopal et al. "
           "2016. Flesh does not give way, and the thighs are flattened at the sides so that the legs clear each "
           "other.");
     else
       say("The body is rigid: flesh does not give way.");
+    if (s.hasSkin())
+      say("A joint's torque is the generalised force of the contact on the skin: the sum over its vertices of force "
+          "times how the vertex moves with the joint. torques.csv also holds the sum over segments (NAME_segments_Nm: "
+          "each vertex belongs to the link of its largest weight), and the same with the segments' border moved by 2 "
+          "cm "
+          "towards the trunk (NAME_proximal_Nm) and away from it (NAME_distal_Nm).");
     if (std::holds_alternative<WalkOptions>(c.human->motion))
       say("Walking is prescribed: joint angles of healthy adults at natural speed (Bovi et al. 2011), closed to a "
           "period and equal on both sides. "

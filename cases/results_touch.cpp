@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "cases/placed_bodies.hpp"
 #include "cases/results_measure.hpp"
 #include "cases/results_write.hpp"
 #include "core/io/csv.hpp"
@@ -21,21 +21,17 @@ void measureTouch(const Scenario& s, const RecordingReader& recording, Measured&
   const Model& m = *s.model;
   const Frame frame = recording.frame(recording.frameCount() - 1);
   const Field& pressure = fieldOf(frame, "pressure");
-  const std::vector<Placement> placed = s.obstaclePlacements(frame.time_s);
+  PlacedBodies placed(s);
+  placed.moveTo(frame.time_s);
   const std::vector<Pose> poses = s.bodyPoses(frame.time_s);
   const Vec3 g = m.environment.gravity_m_per_s2;
   const Vec3 up = norm(g) > 0 ? -1 / norm(g) * g : Vec3{0, 0, 1};
   for (int i = 0; i < m.surface.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Vec3 x{frame.positions[3 * k], frame.positions[3 * k + 1], frame.positions[3 * k + 2]};
-    int nearest = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (int o = 0; o < static_cast<int>(placed.size()); ++o) {
-      const double d = m.proximity->signedDistance(o, placed[static_cast<std::size_t>(o)], x);
-      if (d < least) least = d, nearest = o;
-    }
+    const auto [nearest, least] = placed.nearest(x);
     if (nearest < 0) continue;
-    const auto body = static_cast<std::size_t>(s.body_of_obstacle[static_cast<std::size_t>(nearest)]);
+    const auto body = static_cast<std::size_t>(nearest);
     const double force = pressure.data[k] * m.surface.area_m2[k];
     const bool near = least < 1.01 * m.layer_m[k];
     if (!near && force == 0) continue;

@@ -17,6 +17,7 @@
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
 #include "tryon/projecting.hpp"
+#include "tryon/skin_projecting.hpp"
 #include "tryon/stitching.hpp"
 
 namespace gambeson {
@@ -35,6 +36,7 @@ class CaseStage : public Stage {
   const Human* human = nullptr;
   const Motion* motion = nullptr;
   std::vector<Placement> shrunk;  ///< of the human's shapes, empty without projecting
+  std::vector<Vec3> shrunk_skin;  ///< of the human's skin, the same
   double grow_start_s = 0, grow_s = 0;
   std::optional<Posture> dressed;  ///< posture that the garments were put on in, left from start_s on
   double start_s = 0;
@@ -48,7 +50,7 @@ class CaseStage : public Stage {
     if (human) {
       const Posture posture = postureAt(t);
       const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
-      std::vector<Placement> body = placementsOf(*human, poses);
+      std::vector<Placement> body = obstaclePlacementsOf(*human, poses);
       if (!shrunk.empty() && t < grow_start_s + grow_s)
         body = placementsDuringGrowth(body, shrunk, (t - grow_start_s) / grow_s);
       for (const Placement& p : body) obstacles[at++] = p;
@@ -66,6 +68,14 @@ class CaseStage : public Stage {
     if (!dressed || t >= 0 || !(start_s < 0)) return first;
     const double x = std::clamp(1.5 * (t - start_s) / -start_s, 0.0, 1.0);
     return blend(*dressed, first, x * x * x * (10 + x * (6 * x - 15)));
+  }
+
+  void vertices(int, double t, std::span<Vec3> x) const override {
+    const Posture posture = postureAt(t);
+    skinPositions(*human->skin, linkPoses(human->skeleton, posture.q, posture.root), x);
+    if (shrunk_skin.empty() || !(t < grow_start_s + grow_s)) return;
+    const double w = grownPart((t - grow_start_s) / grow_s);
+    for (std::size_t v = 0; v < x.size(); ++v) x[v] = shrunk_skin[v] + w * (x[v] - shrunk_skin[v]);
   }
 
   /// The air starts with the motion, smoothly over the lead-in.
@@ -332,6 +342,13 @@ std::vector<Placement> Scenario::obstaclePlacements(double time_s) const {
   return obstacles;
 }
 
+int Scenario::bodyOf(int obstacle, const MaterialPoint& touched) const {
+  const int body = body_of_obstacle[obstacle];
+  if (body >= 0) return body;
+  const auto most = std::max_element(touched.weight.begin(), touched.weight.end()) - touched.weight.begin();
+  return human->skin->segment[touched.vertex[most]];
+}
+
 std::vector<Pose> Scenario::bodyPoses(double time_s) const {
   std::vector<Placement> obstacles(model->obstacles.size()), anchors(model->anchor_count);
   stage->placements(time_s, obstacles, anchors);
@@ -373,6 +390,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
     s->human = c.human->manikin.empty()
                    ? (c.human->body.empty() ? loadUrdf(c.human->urdf) : loadHuman(c.human->urdf, c.human->body))
                    : makeManikin(c.human->manikin);
+    if (c.human->skin) s->human->skin = std::make_shared<const Skin>(makeSkin(*s->human, *c.human->skin));
     std::visit(Overloaded{
                    [&](const StandMotion& m) {
                      class Standing : public Motion {
@@ -400,7 +418,10 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
     stage->motion = s->motion.get();
     obstacles = obstaclesOf(*s->human);
     for (const Link& link : s->human->skeleton.links) s->bodies.push_back(link.name);
-    for (const BodyShape& shape : s->human->shapes) s->body_of_obstacle.push_back(shape.link);
+    if (s->human->skin)
+      s->body_of_obstacle.push_back(-1);
+    else
+      for (const BodyShape& shape : s->human->shapes) s->body_of_obstacle.push_back(shape.link);
   }
   stage->air_velocity = c.air.with_pelvis ? s->mean_velocity_m_per_s : c.air.velocity_m_per_s;
   if (!c.air.with_pelvis) stage->air_ramp_s = 0;
@@ -454,9 +475,14 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
     for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
     s->model->surface.W.multiply<Vec3>(Q, X);
     const Posture posture = s->motion->at(0);
-    const std::vector<Placement> body = placementsOf(*human, linkPoses(human->skeleton, posture.q, posture.root));
-    const std::vector<Obstacle> shapes = obstaclesOf(*human);
-    stage->shrunk = shrinkToFree(ProximityQuery(shapes), shapes, body, X, c.dressing.projecting->clearance_m);
+    const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
+    const double clearance = c.dressing.projecting->clearance_m;
+    if (human->skin) {
+      stage->shrunk_skin = shrinkSkinToFree(*human, poses, X, clearance).x;
+    } else {
+      const std::vector<Obstacle> shapes = obstaclesOf(*human);
+      stage->shrunk = shrinkToFree(ProximityQuery(shapes), shapes, placementsOf(*human, poses), X, clearance);
+    }
   }
   s->stage = std::move(stage);
   return s;

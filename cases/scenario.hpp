@@ -30,7 +30,7 @@ struct Scenario {
   std::unique_ptr<Model> model;
   std::unique_ptr<Stage> stage;
   std::vector<std::string> bodies;        ///< links of the human, then the case's own obstacles
-  std::vector<int> body_of_obstacle;      ///< index in `bodies`
+  std::vector<int> body_of_obstacle;      ///< index in `bodies`; -1: the human's skin, whose segments are links
   std::vector<std::string> patch_names;   ///< where there are several garments, each starts with its garment's
   std::vector<std::string> fabric_names;  ///< of the garments, each once
   std::vector<int> samples_per_cell;      ///< of the patches
@@ -43,6 +43,9 @@ struct Scenario {
   /// Where the origin of each body's frame stands.
   std::vector<Pose> bodyPoses(double time_s) const;
   std::vector<Placement> obstaclePlacements(double time_s) const;
+  /// Which of `bodies` an obstacle's point belongs to; of a skin the link of most weight at the nearest vertex.
+  int bodyOf(int obstacle, const MaterialPoint& touched) const;
+  bool hasSkin() const { return human && human->skin; }
 };
 
 /// What a run starts from: where the garments are drafted, with their noise, or where they were put on. Springs are

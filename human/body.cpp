@@ -1,11 +1,19 @@
 #include "human/body.hpp"
 
+#include "human/skin.hpp"
+
 namespace gambeson {
 
 std::vector<Obstacle> obstaclesOf(const Human& human) {
   std::vector<Obstacle> obstacles;
+  if (human.skin) return {{human.skin->rest, "skin", true}};
   for (const BodyShape& s : human.shapes) obstacles.push_back({s.shape, human.skeleton.links[s.link].name});
   return obstacles;
+}
+
+std::vector<Placement> obstaclePlacementsOf(const Human& human, std::span<const Pose> link_poses) {
+  if (human.skin) return {Placement{}};
+  return placementsOf(human, link_poses);
 }
 
 std::vector<Placement> placementsOf(const Human& human, std::span<const Pose> link_poses) {

@@ -84,10 +84,15 @@ std::vector<Placement> shrinkToFree(const ProximityQuery& query, std::span<const
   return out;
 }
 
+double grownPart(double phase) {
+  const double s = std::clamp(phase, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
 std::vector<Placement> placementsDuringGrowth(std::span<const Placement> standing, std::span<const Placement> shrunk,
                                               double phase) {
   assert(standing.size() == shrunk.size());
-  const double s = std::clamp(phase, 0.0, 1.0), w = s * s * (3 - 2 * s);
+  const double w = grownPart(phase);
   std::vector<Placement> out;
   for (std::size_t i = 0; i < standing.size(); ++i) {
     const Placement &a = shrunk[i], &b = standing[i];

@@ -26,6 +26,9 @@ std::vector<Placement> shrinkToFree(const ProximityQuery& query, std::span<const
                                     std::span<const Placement> standing, std::span<const Vec3> samples,
                                     double clearance_m);
 
+/// How much has grown back at a phase of growing: 3 s² - 2 s³, 0 before and 1 after.
+double grownPart(double phase);
+
 /// Growing back: `shrunk` at phase 0, `standing` at 1 and beyond, with 3 s² - 2 s³ in between, so that every point of
 /// the surface has a continuous velocity that starts and ends at zero.
 std::vector<Placement> placementsDuringGrowth(std::span<const Placement> standing, std::span<const Placement> shrunk,
