@@ -137,6 +137,7 @@ RecordingLayout recordingLayout(const Scenario& s) {
     auto& skin = layout.tables["skin"] = window;
     const std::vector<std::string> joints = SkinLedger::columns(s);
     skin.insert(skin.end(), joints.begin(), joints.end());
+    layout.body_triangles = s.human->skin->rest.triangles;
   }
   auto& supports = layout.tables["supports"] = window;
   for (const SupportGroup& g : s.supports)
@@ -306,7 +307,6 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
     const std::vector<double> joints = skin_->row(0.5 * (start_s + state.time_s));
     row.insert(row.end(), joints.begin(), joints.end());
     writer_.append(TableRow{"skin", row});
-    skin_->clear();
   }
 
   // Drag at the window's end, on the body nearest to each sample.
@@ -361,6 +361,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   writer_.append(TableRow{"steps", row});
 
   if (frame) appendFrame(state, window);
+  if (skin_) skin_->clear();
   std::fill(bodies_.begin(), bodies_.end(), Body{});
   std::fill(supports_.begin(), supports_.end(), Vec3{});
   std::fill(contact_.begin(), contact_.end(), Vec3{});
@@ -404,7 +405,25 @@ void Recorder::appendFrame(const State& state, double window) {
   }
   frame.sample_fields = {velocity, contact, pressure, s1, s2, e1, e2};
   frame.control_fields = {Field{"position", "m", 3, floats(q)}};
+  if (skin_) addSkin(state, window, frame);
   writer_.append(std::move(frame));
+}
+
+/// Pressure: the normal force on a vertex over a third of the area of its triangles.
+void Recorder::addSkin(const State& state, double window, Frame& frame) const {
+  const std::vector<Vec3> x = deformedVertices(*scenario_.model, *scenario_.stage, state.time_s)[0];
+  std::vector<double> area(x.size(), 0);
+  for (const auto& t : scenario_.human->skin->rest.triangles) {
+    const double third = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 6;
+    for (int v : t) area[v] += third;
+  }
+  std::vector<Vec3> force(x.size());
+  Field pressure{"pressure", "Pa", 1, std::vector<float>(x.size())};
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    force[v] = skin_->received()[v] / window;
+    pressure.data[v] = static_cast<float>(area[v] > 0 ? skin_->normal()[v] / (area[v] * window) : 0);
+  }
+  frame.body_fields = {Field{"position", "m", 3, floats(x)}, Field{"contact_force", "N", 3, floats(force)}, pressure};
 }
 
 }  // namespace gambeson

@@ -11,6 +11,7 @@
 ///   link,
 ///             from where the springs were attached
 ///   skin      where the human has a skin: what its contact is at the joints (cases/skin_ledger.hpp)
+/// Frames of a human with a skin also hold the skin's vertices, the contact force on each and the pressure on it.
 ///   steps     what the steps of the window reported (columns: stepColumns())
 
 #include <optional>
@@ -47,6 +48,7 @@ class Recorder {
     double normal = 0, tangential = 0;
   };
   void appendFrame(const State& state, double window_s);
+  void addSkin(const State& state, double window_s, Frame& frame) const;
 
   const Scenario& scenario_;
   StressField stress_;

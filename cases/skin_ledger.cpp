@@ -5,7 +5,6 @@
 #include <queue>
 
 #include "analysis/torque.hpp"
-#include "human/skin_part.hpp"
 
 namespace gambeson {
 namespace {
@@ -131,28 +130,27 @@ std::vector<double> SkinLedger::row(double middle_s) const {
   const Human& human = *scenario_.human;
   const Posture posture = scenario_.motion->at(std::max(middle_s, 0.0));
   const std::vector<Pose> X_WL = linkPoses(human.skeleton, posture.q, posture.root);
-  const Skin part = skinPart(skin_, touched);
-  std::vector<Vec3> x(touched.size()), more(touched.size()), less(touched.size());
-  skinPositions(part, X_WL, x);
+  std::vector<Vec3> x(received_.size()), more(x.size()), less(x.size());
+  skinPositions(skin_, X_WL, x);
   for (const JointFacts& f : joints_) {
     const Joint& joint = human.skeleton.joints[static_cast<std::size_t>(f.joint)];
     const auto moved = [&](double by, std::vector<Vec3>& to) {
       std::vector<double> q = posture.q;
       q[static_cast<std::size_t>(f.joint)] += by;
-      skinPositions(part, linkPoses(human.skeleton, q, posture.root), to);
+      skinPositions(skin_, linkPoses(human.skeleton, q, posture.root), to);
     };
     moved(kDifference, more);
     moved(-kDifference, less);
     const Pose X_WJ = X_WL[static_cast<std::size_t>(joint.parent)] * joint.X_PJ;
     const Vec3 axis = X_WJ.rotation * joint.axis;
     double generalised = 0, segments = 0, proximal = 0, distal = 0;
-    for (std::size_t i = 0; i < touched.size(); ++i) {
-      const auto v = static_cast<std::size_t>(touched[i]);
+    for (const int vertex : touched) {
+      const auto v = static_cast<std::size_t>(vertex);
       const Vec3& J = received_[v];
-      const Vec3 way = more[i] - less[i];
-      if (way != Vec3{}) generalised += share(f, touched[i]) * dot(J, way) / (2 * kDifference);
+      const Vec3 way = more[v] - less[v];
+      if (way != Vec3{}) generalised += share(f, vertex) * dot(J, way) / (2 * kDifference);
       if (!f.segments[v] && !f.proximal[v]) continue;
-      const double tau = joint.type == JointType::prismatic ? dot(axis, J) : dot(axis, cross(x[i] - X_WJ.origin, J));
+      const double tau = joint.type == JointType::prismatic ? dot(axis, J) : dot(axis, cross(x[v] - X_WJ.origin, J));
       if (f.segments[v]) segments += tau;
       if (f.proximal[v]) proximal += tau;
       if (f.distally[v]) distal += tau;

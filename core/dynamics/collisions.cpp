@@ -187,9 +187,9 @@ bool same(std::span<const Vec3> x, std::span<const Vec3> y) {
   return true;
 }
 
-/// Which samples are known to be outside of bodies that deform, at the start of the next step. A sample that stays
-/// apart from all triangles all the way stays on its side; the list knows of all that come near, at the paths it was
-/// told last.
+/// Which samples are known to be outside of bodies that deform, at the start of the next step. A sample stays on its
+/// side where it stays apart from all triangles all the way: the list knows of all that come near, at the paths it was
+/// told last, and impacts with these were looked for on the same paths, but for tangled samples.
 void keepOutside(const CollisionModel& m, double time_s, std::span<const Vec3> x0, const ObstacleMotion& obstacles,
                  CollisionWork& w) {
   std::vector<char>& known = w.near_bodies.outside_of;
@@ -204,7 +204,7 @@ void keepOutside(const CollisionModel& m, double time_s, std::span<const Vec3> x
     if (isAt(w.start_s, w.x0)) return;
     if (isAt(w.end_s, w.x1)) {
       for (const PointTriangle& p : w.list.pairs().points) {
-        if (p.triangle < m.cloth_triangles || w.list.apart(p) > 0) continue;
+        if (p.triangle < m.cloth_triangles || w.list.apart(p) > 0 || w.tangle[p.vertex] == Tangle::kFree) continue;
         const CollisionModel::Body& body = m.bodies[m.body_of_vertex[m.mesh.triangles[p.triangle][0]]];
         known[static_cast<std::size_t>(body.obstacle) * m.cloth.cloth_vertices + p.vertex] = 0;
       }

@@ -89,7 +89,8 @@ struct RecordingWriter::Impl {
     return *open;
   }
   void writeSidecar() const {
-    writeFileAtomically(sidecarPath(directory), xdmfSidecar(layout.triangles.size(), infos, segment_ends));
+    writeFileAtomically(sidecarPath(directory),
+                        xdmfSidecar(layout.triangles.size(), layout.body_triangles.size(), infos, segment_ends));
   }
 };
 
@@ -125,7 +126,8 @@ RecordingWriter RecordingWriter::resume(const fs::path& directory, const Recordi
   if (impl->layout.identity != layout.identity)
     throw InputError(at(directory), "the recording there belongs to another case or version (identity " +
                                         impl->layout.identity + ", this run is " + layout.identity + ")");
-  if (impl->layout.triangles != layout.triangles || impl->layout.tables != layout.tables)
+  if (impl->layout.triangles != layout.triangles || impl->layout.body_triangles != layout.body_triangles ||
+      impl->layout.tables != layout.tables)
     throw InputError(at(directory), "the recording there has other triangles or tables than this run");
   const int segments = closedSegments(directory);
   if (segments == 0) throw InputError(at(directory), "the recording there has no closed segment to resume from");

@@ -25,6 +25,8 @@ struct Frame {
   std::vector<float> positions;  ///< 3 per sample [m]
   std::vector<Field> sample_fields;
   std::vector<Field> control_fields;  ///< one row per control point, the field "position" (3 components) among them
+  /// One row per vertex of a body that deforms, the field "position" among them; empty where none does.
+  std::vector<Field> body_fields;
 };
 
 /// A table with named columns, one row per window of the run, double precision: rows in the order of time.
@@ -47,6 +49,7 @@ struct RecordingLayout {
   std::string metadata;
   std::vector<std::array<int, 3>> triangles;               ///< of samples
   std::map<std::string, std::vector<std::string>> tables;  ///< columns (with units in the names) of each table
+  std::vector<std::array<int, 3>> body_triangles{};        ///< of the vertices of a body that deforms, or none
 };
 
 /// Whether a writer has made a recording in a directory, with or without closed segments.

@@ -40,10 +40,17 @@ void requireFormat(const hdf5::File& file, const char* format) {
     throw hdf5::Error(fmt::format("version {}; this program reads version {}", version, kVersion));
 }
 
-std::size_t highestSample(const RecordingLayout& layout) {
+std::size_t highestCorner(const std::vector<std::array<int, 3>>& triangles) {
   int highest = -1;
-  for (const auto& t : layout.triangles) highest = std::max({highest, t[0], t[1], t[2]});
+  for (const auto& t : triangles) highest = std::max({highest, t[0], t[1], t[2]});
   return static_cast<std::size_t>(highest + 1);
+}
+
+std::size_t highestSample(const RecordingLayout& layout) { return highestCorner(layout.triangles); }
+
+bool holds(const hdf5::File& file, const std::string& group, const std::string& name) {
+  const auto names = file.names(group);
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::size_t rowsOf(const Field& field) {
@@ -66,15 +73,23 @@ std::string controlPath(int frame, const std::string& field) {
   return framePath(frame) + "/controls/" + hdf5::linkName(field);
 }
 
+std::string bodyPath(int frame, const std::string& field) {
+  return framePath(frame) + "/body/" + hdf5::linkName(field);
+}
+
 std::string layoutImage(const RecordingLayout& layout) {
   hdf5::Builder file;
   file.attribute("/", "format", kLayoutFormat);
   file.attribute("/", "version", kVersion);
   file.texts("/identity", {layout.identity});
   file.texts("/metadata", {layout.metadata});
-  std::vector<int> corners;
-  for (const auto& t : layout.triangles) corners.insert(corners.end(), t.begin(), t.end());
-  file.array("/triangles", corners, 3);
+  const auto put = [&](const char* name, const std::vector<std::array<int, 3>>& triangles) {
+    std::vector<int> corners;
+    for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+    file.array(name, corners, 3);
+  };
+  put("/triangles", layout.triangles);
+  if (!layout.body_triangles.empty()) put("/body_triangles", layout.body_triangles);
   file.group("/tables");
   for (const auto& [table, columns] : layout.tables) file.texts("/tables/" + hdf5::linkName(table), columns);
   return file.finish();
@@ -94,13 +109,17 @@ RecordingLayout readLayout(const fs::path& directory) {
     RecordingLayout layout;
     layout.identity = one("/identity");
     layout.metadata = one("/metadata");
-    const auto corners = file.ints("/triangles");
-    if (corners.columns != 3) throw hdf5::Error("/triangles: not three columns");
-    for (std::size_t i = 0; i < corners.rows; ++i) {
-      const int* c = corners.values.data() + 3 * i;
-      if (std::min({c[0], c[1], c[2]}) < 0) throw hdf5::Error("/triangles: a negative sample");
-      layout.triangles.push_back({c[0], c[1], c[2]});
-    }
+    const auto triangles = [&](const std::string& name, std::vector<std::array<int, 3>>& to) {
+      const auto corners = file.ints(name);
+      if (corners.columns != 3) throw hdf5::Error(name + ": not three columns");
+      for (std::size_t i = 0; i < corners.rows; ++i) {
+        const int* c = corners.values.data() + 3 * i;
+        if (std::min({c[0], c[1], c[2]}) < 0) throw hdf5::Error(name + ": a negative sample");
+        to.push_back({c[0], c[1], c[2]});
+      }
+    };
+    triangles("/triangles", layout.triangles);
+    if (holds(file, "/", "body_triangles")) triangles("/body_triangles", layout.body_triangles);
     for (const auto& name : file.names("/tables"))
       layout.tables[hdf5::fromLinkName(name)] = file.texts("/tables/" + name);
     return layout;
@@ -119,7 +138,9 @@ SegmentBuilder::SegmentBuilder(const RecordingLayout& layout, int index, int fir
 }
 
 FrameInfo SegmentBuilder::add(const Frame& frame) {
-  FrameInfo info{frame.time_s, frame.positions.size() / 3, 0, {}, {}};
+  FrameInfo info;
+  info.time_s = frame.time_s;
+  info.samples = frame.positions.size() / 3;
   if (frame.positions.size() != 3 * info.samples) throw std::logic_error("positions need 3 values per sample");
   if (info.samples < highestSample(*layout_)) throw std::logic_error("a triangle refers to a sample that is not there");
   for (const Field& field : frame.sample_fields)
@@ -128,6 +149,13 @@ FrameInfo SegmentBuilder::add(const Frame& frame) {
   for (const Field& field : frame.control_fields)
     if (rowsOf(field) != info.controls)
       throw std::logic_error("field " + field.name + " needs one row per control point");
+
+  if (!frame.body_fields.empty()) info.body = rowsOf(frame.body_fields[0]);
+  if (info.body < highestCorner(layout_->body_triangles))
+    throw std::logic_error("a triangle of the body refers to a vertex that is not there");
+  for (const Field& field : frame.body_fields)
+    if (rowsOf(field) != info.body)
+      throw std::logic_error("field " + field.name + " needs one row per vertex of the body");
 
   const int index = first_frame_ + static_cast<int>(times_.size());
   const auto put = [&](const std::string& path, const Field& field) {
@@ -148,6 +176,11 @@ FrameInfo SegmentBuilder::add(const Frame& frame) {
   for (const Field& field : frame.control_fields) {
     put(controlPath(index, field.name), field);
     info.control_fields.push_back({field.name, field.unit, field.components});
+  }
+  if (!frame.body_fields.empty()) file_.group(framePath(index) + "/body");
+  for (const Field& field : frame.body_fields) {
+    put(bodyPath(index, field.name), field);
+    info.body_fields.push_back({field.name, field.unit, field.components});
   }
   times_.push_back(frame.time_s);
   return info;
@@ -208,6 +241,9 @@ Frame SegmentReader::frame(int index) const {
     };
     fields(framePath(index) + "/samples", frame.sample_fields);
     fields(framePath(index) + "/controls", frame.control_fields);
+    if (holds(file_, framePath(index), "body")) fields(framePath(index) + "/body", frame.body_fields);
+    if (!frame.body_fields.empty() && rowsOf(frame.body_fields[0]) < highestCorner(layout_->body_triangles))
+      throw hdf5::Error("body: wrong size");
     return frame;
   });
 }
@@ -227,6 +263,7 @@ FrameInfo SegmentReader::info(int index) const {
     };
     fields(framePath(index) + "/samples", info.sample_fields, nullptr);
     fields(framePath(index) + "/controls", info.control_fields, &info.controls);
+    if (holds(file_, framePath(index), "body")) fields(framePath(index) + "/body", info.body_fields, &info.body);
     return info;
   });
 }

@@ -5,7 +5,8 @@
 ///     DIR/frames/layout.h5             what stays constant; its presence makes DIR a recording
 ///     DIR/frames/segment_000000.h5 ... closed segments, numbered from 0 without gaps
 ///
-/// A segment holds  /times  /frames/000000/{positions, vertices, samples/FIELD, controls/FIELD}  (numbered through)
+/// A segment holds  /times  /frames/000000/{positions, vertices, samples/FIELD, controls/FIELD, body/FIELD}  (numbered
+/// through; body only where one deforms)
 /// /tables/TABLE  /checkpoint/{time, reals/NAME, integers/NAME}.  Names are encoded by hdf5::linkName.
 
 #include "core/error.hpp"
@@ -22,8 +23,8 @@ struct FieldInfo {
 
 struct FrameInfo {
   double time_s = 0;
-  std::size_t samples = 0, controls = 0;
-  std::vector<FieldInfo> sample_fields, control_fields;
+  std::size_t samples = 0, controls = 0, body = 0;  ///< rows
+  std::vector<FieldInfo> sample_fields, control_fields, body_fields;
 };
 
 using TableRows = std::map<std::string, std::vector<std::vector<double>>>;
@@ -37,6 +38,7 @@ std::filesystem::path segmentPath(const std::filesystem::path& directory, int in
 std::string framePath(int frame);
 std::string samplePath(int frame, const std::string& field);
 std::string controlPath(int frame, const std::string& field);
+std::string bodyPath(int frame, const std::string& field);
 
 std::string layoutImage(const RecordingLayout& layout);
 RecordingLayout readLayout(const std::filesystem::path& directory);

@@ -76,9 +76,20 @@ std::string controlPoints(const FrameInfo& info, int frame, const std::string& f
   return s + "</Grid>\n";
 }
 
+std::string body(std::size_t triangles, const FrameInfo& info, int frame, const std::string& file) {
+  std::string s = "<Grid Name=\"body\" GridType=\"Uniform\">\n";
+  s += fmt::format("<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", triangles,
+                   heavy("Int", 4, triangles, 3, "frames/layout.h5", "/body_triangles"));
+  s += fmt::format("<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+                   heavy("Float", 4, info.body, 3, file, bodyPath(frame, "position")));
+  for (const auto& field : info.body_fields)
+    if (field.name != "position") s += attribute(field, info.body, file, bodyPath(frame, field.name));
+  return s + "</Grid>\n";
+}
+
 }  // namespace
 
-std::string xdmfSidecar(std::size_t triangles, const std::vector<FrameInfo>& infos,
+std::string xdmfSidecar(std::size_t triangles, std::size_t body_triangles, const std::vector<FrameInfo>& infos,
                         const std::vector<int>& segment_ends) {
   std::string s = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n";
   s += "<Grid Name=\"recording\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -94,6 +105,7 @@ std::string xdmfSidecar(std::size_t triangles, const std::vector<FrameInfo>& inf
     s += "<Time Value=\"" + shortest(info.time_s) + "\"/>\n";
     s += surface(triangles, info, frame, file);
     if (points) s += controlPoints(info, frame, file);
+    if (body_triangles > 0 && info.body > 0) s += body(body_triangles, info, frame, file);
     s += "</Grid>\n";
   }
   return s + "</Grid>\n</Domain>\n</Xdmf>\n";

@@ -27,11 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSamples = 60, kControls = 20, kFramesPerSegment = 3;
+constexpr int kSamples = 60, kControls = 20, kBody = 7, kFramesPerSegment = 3;
 
 RecordingLayout someLayout() {
   RecordingLayout layout{"case-0123abcd", R"({"title": "Größe \"M\""})", {}, {}};
   for (int i = 0; i + 2 < kSamples; ++i) layout.triangles.push_back({i, i + 1, i + 2});
+  for (int i = 0; i + 2 < kBody; ++i) layout.body_triangles.push_back({i + 2, i + 1, i});
   layout.tables = {{"contact", {"time_s", "thigh/left_Ns"}}, {"empty", {"time_s"}}};
   return layout;
 }
@@ -55,6 +56,7 @@ Frame someFrame(int f) {
   frame.sample_fields[1].data[0] = -0.0f;
   frame.sample_fields[2].data[0] = std::numeric_limits<float>::quiet_NaN();
   frame.control_fields = {{"position", "m", 3, values(3 * kControls)}, {"mass", "kg", 1, values(kControls)}};
+  frame.body_fields = {{"position", "m", 3, values(3 * kBody)}, {"pressure", "Pa", 1, values(kBody)}};
   return frame;
 }
 
@@ -108,7 +110,7 @@ bool same(const std::vector<Field>& a, const std::vector<Field>& b) {
 
 bool same(const Frame& a, const Frame& b) {
   return a.time_s == b.time_s && sameBits(a.positions, b.positions) && same(a.sample_fields, b.sample_fields) &&
-         same(a.control_fields, b.control_fields);
+         same(a.control_fields, b.control_fields) && same(a.body_fields, b.body_fields);
 }
 
 void expectSame(const RecordingReader& reader, int frames) {
@@ -412,6 +414,12 @@ TEST_F(RecordingTest, RefusesWhatWouldNotReadBack) {
   frame = someFrame(2);
   frame.control_fields[1].data.pop_back();
   EXPECT_THROW(writer.append(frame), std::logic_error);
+  frame = someFrame(2);
+  frame.body_fields[1].data.pop_back();
+  EXPECT_THROW(writer.append(frame), std::logic_error);
+  frame = someFrame(2);
+  frame.body_fields.clear();  // its triangles have corners
+  EXPECT_THROW(writer.append(frame), std::logic_error);
   EXPECT_THROW(writer.append(TableRow{"absent", {1}}), std::logic_error);
   EXPECT_THROW(writer.append(TableRow{"contact", {1}}), std::logic_error);
 }
@@ -434,19 +442,22 @@ TEST_F(RecordingTest, SidecarListsClosedFramesOnly) {
   const auto times = all("<Time Value=\"", "\"/>");
   ASSERT_EQ(times.size(), 6u);
   for (int f = 0; f < 6; ++f) EXPECT_EQ(std::stod(times[static_cast<std::size_t>(f)]), 0.1 * f);
-  EXPECT_EQ(all("<Topology TopologyType=\"Triangle\" NumberOfElements=\"", "\""), std::vector<std::string>(6, "58"));
+  std::vector<std::string> elements;
+  for (int f = 0; f < 6; ++f) elements.insert(elements.end(), {"58", "5"});
+  EXPECT_EQ(all("<Topology TopologyType=\"Triangle\" NumberOfElements=\"", "\""), elements);
+  EXPECT_EQ(all("<Grid Name=\"body\"", ">").size(), 6u);
   EXPECT_EQ(all("<Attribute Name=\"stress\" AttributeType=\"Scalar\" Center=\"Node\"", ">").size(), 6u);
   EXPECT_EQ(all("<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\"", ">").size(), 6u);
   EXPECT_EQ(all("<Attribute Name=\"mass\"", ">").size(), 6u);
   // Every file named is there, relative to the sidecar.
   auto files = all("<DataItem", "</DataItem>");
-  EXPECT_EQ(files.size(), 6u * 8);
+  EXPECT_EQ(files.size(), 6u * 11);
   for (auto& file : files) {
     file = file.substr(file.find('>') + 1);
     file = file.substr(0, file.find(':'));
     EXPECT_TRUE(fs::exists(dir / "r" / file)) << file;
   }
-  EXPECT_EQ(std::count(files.begin(), files.end(), "frames/segment_000001.h5"), 3 * 7);
+  EXPECT_EQ(std::count(files.begin(), files.end(), "frames/segment_000001.h5"), 3 * 9);
 }
 
 }  // namespace
