@@ -40,7 +40,7 @@ class OnASkin : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     human_ = new Human(makeManikin("male_p50"));
-    skin_ = new Skin(makeSkin(*human_, {0.03, 0.003}));
+    skin_ = new Skin(makeSkin(*human_, {0.016, 0.003}));
   }
   static void TearDownTestSuite() {
     delete human_;
