@@ -35,6 +35,7 @@ struct PairRules {
   double margin_m = 0;           ///< what comes no nearer does not
   double least = 0;              ///< nor do parts of one cloth with a certificate c (ContactTree) of at least this
   bool cloth_with_cloth = true;  ///< or with obstacles only
+  double blunt_margin_m = 0;     ///< the margin of pairs with something blunt (BluntFeatures), no more than margin_m
 };
 
 /// The tree. Cloth is bisected in its grids, so that a node is a rectangle of cells; obstacles by their centres, once.
@@ -116,13 +117,14 @@ class ContactTree {
       }
       within(n.left);
       within(n.right);
-      between(n.left, n.right);
+      between(n.left, n.right, n.whole);
     }
-    void between(int ia, int ib) {
+    /// `asked`: their hull has no certificate.
+    void between(int ia, int ib, bool asked = false) {
       const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
       if (!mayMeet(a.box, b.box, reach)) return;
       // Points whose distance at rest is D are at least c D apart.
-      if (a.chart >= 0 && a.chart == b.chart &&
+      if (!asked && a.chart >= 0 && a.chart == b.chart &&
           tree.hullBound(a, b) >= std::min(least, margin / restDistance(a.rest, b.rest)))
         return;
       if (a.left < 0 && b.left < 0) {

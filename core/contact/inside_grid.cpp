@@ -5,10 +5,11 @@
 
 namespace gambeson {
 
-InsideGrid::InsideGrid(std::span<const Box> triangle_boxes, const std::function<bool(const Vec3&)>& is_inside,
-                       int resolution) {
+InsideGrid::InsideGrid(std::span<const std::array<Vec3, 3>> triangles,
+                       const std::function<bool(const Vec3&)>& is_inside, int resolution) {
   Box bounds;
-  for (const Box& b : triangle_boxes) bounds.add(b);
+  for (const std::array<Vec3, 3>& t : triangles)
+    for (const Vec3& p : t) bounds.add(p);
   const Vec3 extent = bounds.hi - bounds.lo;
   const double longest = std::max({extent.x, extent.y, extent.z});
   if (!(longest > 0)) return;
@@ -20,17 +21,26 @@ InsideGrid::InsideGrid(std::span<const Box> triangle_boxes, const std::function<
   const std::size_t n = index(0, 0, nz);
   enum State : unsigned char { kSurface, kFree };
   std::vector<unsigned char> state(n, kFree);
-  for (const Box& b : triangle_boxes) {
+  for (const std::array<Vec3, 3>& t : triangles) {
+    Box b;
+    for (const Vec3& p : t) b.add(p);
     int lo[3], hi[3];
     for (int i = 0; i < 3; ++i) {
       // Larger by far more than the rounding of a look-up.
       lo[i] = std::clamp(static_cast<int>(std::floor((b.lo[i] - origin_[i]) * per_cell_ - 1e-6)), 0, size_[i] - 1);
       hi[i] = std::clamp(static_cast<int>(std::floor((b.hi[i] - origin_[i]) * per_cell_ + 1e-6)), 0, size_[i] - 1);
     }
+    // Its plane misses cells whose centre is farther from it than the cell's corners; without an area there is none.
+    const Vec3 u = t[1] - t[0], v = t[2] - t[0], normal = cross(u, v);
+    const double rounding = 1e-14 * norm(u) * norm(v) * (norm(u) + norm(v) + 1 / per_cell_);
+    const double half =
+        (0.5 + 1e-6) / per_cell_ * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) + rounding;
     for (int k = lo[2]; k <= hi[2]; ++k)
       for (int j = lo[1]; j <= hi[1]; ++j)
-        std::fill(state.begin() + static_cast<std::ptrdiff_t>(index(lo[0], j, k)),
-                  state.begin() + static_cast<std::ptrdiff_t>(index(hi[0], j, k)) + 1, kSurface);
+        for (int i = lo[0]; i <= hi[0]; ++i) {
+          const Vec3 centre = origin_ + (1 / per_cell_) * Vec3{i + 0.5, j + 0.5, k + 0.5};
+          if (!(std::abs(dot(normal, centre - t[0])) > half)) state[index(i, j, k)] = kSurface;
+        }
   }
   cells_.assign(n, Cell::undecided);
   struct Index {

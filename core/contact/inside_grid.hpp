@@ -1,6 +1,7 @@
 #pragma once
 /// Inside or outside of a closed surface by look-up, for points that are not close to it.
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -9,16 +10,18 @@
 
 namespace gambeson {
 
-/// Cells that no triangle's box touches form connected regions that the surface does not cross, so one exact answer
-/// serves a region. Cells near the surface stay undecided. Valid for the positions that it was built from.
+/// Cells that no triangle comes into form connected regions that the surface does not cross, so one exact answer
+/// serves a region. Cells that a triangle's box and plane both touch stay undecided. Valid for the positions that it
+/// was built from.
 class InsideGrid {
  public:
   enum class Cell : unsigned char { undecided, outside, inside };
 
   InsideGrid() = default;
-  /// `triangle_boxes` cover the surface; is_inside answers for one point of each region. Cells are cubes, `resolution`
-  /// of them along the longest side of the bounds.
-  InsideGrid(std::span<const Box> triangle_boxes, const std::function<bool(const Vec3&)>& is_inside, int resolution);
+  /// `triangles` are the surface; is_inside answers for one point of each region. Cells are cubes, `resolution` of them
+  /// along the longest side of the bounds.
+  InsideGrid(std::span<const std::array<Vec3, 3>> triangles, const std::function<bool(const Vec3&)>& is_inside,
+             int resolution);
 
   Cell at(const Vec3& p) const {
     if (cells_.empty()) return Cell::undecided;

@@ -66,7 +66,9 @@ MeshSurface::MeshSurface(const TriangleMesh& mesh, bool deforms) : topology_(mes
     const auto is_inside = [&](const Vec3& p) {
       return nearest(p, std::numeric_limits<double>::infinity())->distance_m < 0;
     };
-    inside_ = InsideGrid(boxes_, is_inside, kGridResolution);
+    std::vector<std::array<Vec3, 3>> corners;
+    for (const auto& [a, b, c] : topology_.triangles) corners.push_back({x_[a], x_[b], x_[c]});
+    inside_ = InsideGrid(corners, is_inside, kGridResolution);
   }
 }
 

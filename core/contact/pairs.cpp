@@ -30,73 +30,83 @@ Apart apart(const ListedMotion& m, const std::array<int, A>& a, const std::array
           static_cast<float>(closing + 1e-6 * std::abs(closing))};
 }
 
-/// All corners of b stay on one side of the plane of a, by more than `margin`.
-bool beyondPlane(const ListedMotion& m, const std::array<int, 3>& a, const std::array<int, 3>& b, double margin) {
+/// A lower bound of how far all corners of b stay on one side of the plane of a until the horizon, slack apart.
+double beyondPlane(const ListedMotion& m, const std::array<int, 3>& a, const std::array<int, 3>& b) {
   const Vec3 n = cross(m.x[a[1]] - m.x[a[0]], m.x[a[2]] - m.x[a[0]]);
+  const double size = norm(n);
+  if (!(size > 0)) return 0;
   const Vec3 at{dot(n, m.x[b[0]] - m.x[a[0]]), dot(n, m.x[b[1]] - m.x[a[0]]), dot(n, m.x[b[2]] - m.x[a[0]])};
-  const double least = norm(n) * margin;
-  const bool above = std::min({at.x, at.y, at.z}) > least, below = std::max({at.x, at.y, at.z}) < -least;
-  if (!above && !below) return false;
+  const double above = std::min({at.x, at.y, at.z}), below = -std::max({at.x, at.y, at.z});
+  if (above <= 0 && below <= 0) return 0;
   const Vec3 s{dot(n, m.velocity(a[0])), dot(n, m.velocity(a[1])), dot(n, m.velocity(a[2]))};
   const Vec3 t{dot(n, m.velocity(b[0])), dot(n, m.velocity(b[1])), dot(n, m.velocity(b[2]))};
   const Vec3 then = at + m.horizon_s * t;
-  return above ? std::min({then.x, then.y, then.z}) - m.horizon_s * std::max({s.x, s.y, s.z}) > least
-               : std::max({then.x, then.y, then.z}) - m.horizon_s * std::min({s.x, s.y, s.z}) < -least;
-}
-
-double slackOf(const ListedMotion& m, std::span<const int> corners) {
-  double most = 0;
-  for (int i : corners) most = std::max(most, m.slack(i));
-  return most;
+  const double last = above > 0 ? std::min({then.x, then.y, then.z}) - m.horizon_s * std::max({s.x, s.y, s.z})
+                                : m.horizon_s * std::min({s.x, s.y, s.z}) - std::max({then.x, then.y, then.z});
+  return std::min(std::max(above, below), last) / size * (1 - 1e-6) - 1e-9;
 }
 
 }  // namespace
 
-PairCollector::PairCollector(const ContactMesh& mesh) : owned_(mesh.triangles.size(), 0) {
+PairCollector::PairCollector(const ContactMesh& mesh, const BluntFeatures& blunt) : owned_(mesh.triangles.size(), 0) {
   std::vector<char> vertex_taken(mesh.vertex_count, 0), edge_taken(mesh.edges.size(), 0);
+  blunt_.resize(mesh.triangles.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
-      if (!std::exchange(vertex_taken[mesh.triangles[t][k]], 1)) owned_[t] |= 1 << k;
-      if (!std::exchange(edge_taken[mesh.face_edges[t][k]], 1)) owned_[t] |= 8 << k;
+      const int vertex = mesh.triangles[t][k], edge = mesh.face_edges[t][k];
+      if (!std::exchange(vertex_taken[vertex], 1)) owned_[t] |= 1 << k;
+      if (!std::exchange(edge_taken[edge], 1)) owned_[t] |= 8 << k;
+      if (!blunt.vertex.empty() && blunt.vertex[vertex]) blunt_[t] |= 1 << k;
+      if (!blunt.edge.empty() && blunt.edge[edge]) blunt_[t] |= 8 << k;
     }
 }
 
 void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion,
                             const PairRules& rules, CandidatePairs& out) const {
   const std::span<const Vec3> x = motion.x;
-  const auto keep = [&](const Apart& apart, std::span<const int> a, std::span<const int> b) {
-    return !(apart.within(0, motion.horizon_s) > rules.margin_m + slackOf(motion, a) + slackOf(motion, b));
-  };
-  const float reach = roundUp(rules.margin_m);
+  const double wide = rules.margin_m, narrow = rules.blunt_margin_m;
+  const float wide_reach = roundUp(wide), narrow_reach = roundUp(narrow);
   out.points.clear();
   out.edges.clear();
   out.vertex_box.resize(mesh.vertex_count);
   for (int i = 0; i < mesh.vertex_count; ++i) out.vertex_box[i] = MovingBox(motion, i);
   out.edge_box.resize(mesh.edges.size());
+  out.edge_slack.resize(mesh.edges.size());
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    out.edge_box[e] = out.vertex_box[mesh.edges[e][0]];
-    out.edge_box[e].add(out.vertex_box[mesh.edges[e][1]]);
+    const auto& [v, w] = mesh.edges[e];
+    out.edge_box[e] = out.vertex_box[v];
+    out.edge_box[e].add(out.vertex_box[w]);
+    out.edge_slack[e] = std::max(motion.slack(v), motion.slack(w));
   }
-  const auto apartByPlane = [&](int a, int b) {
-    const std::array<int, 3>&s = mesh.triangles[a], &t = mesh.triangles[b];
-    const double margin = (rules.margin_m + slackOf(motion, s) + slackOf(motion, t)) * (1 + 1e-6) + 1e-9;
-    return beyondPlane(motion, s, t, margin) || beyondPlane(motion, t, s, margin);
-  };
-  const auto pointsAgainst = [&](int a, int b) {
+  out.triangle_slack.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [u, v, w] = mesh.triangles[t];
+    out.triangle_slack[t] = std::max({motion.slack(u), motion.slack(v), motion.slack(w)});
+  }
+  // `beyond`: that far apart a and b are, but for what they may leave their paths by.
+  const auto pointsAgainst = [&](int a, int b, double beyond) {
     for (int k = 0; k < 3; ++k) {
       if (!(owned_[a] & (1 << k))) continue;
+      const bool blunt = blunt_[a] & (1 << k);
+      const double margin = (blunt ? narrow : wide) + motion.slack(mesh.triangles[a][k]) + out.triangle_slack[b];
+      if (beyond > margin) continue;
       const std::array<int, 1> v{mesh.triangles[a][k]};
       const std::array<int, 3>& t = mesh.triangles[b];
-      if (v[0] == t[0] || v[0] == t[1] || v[0] == t[2] || !mayMeet(out.vertex_box[v[0]], tree.box(b), reach)) continue;
+      if (v[0] == t[0] || v[0] == t[1] || v[0] == t[2]) continue;
+      if (!mayMeet(out.vertex_box[v[0]], tree.box(b), blunt ? narrow_reach : wide_reach)) continue;
       const Vec3 way = x[v[0]] - closestOnTriangle({x[t[0]], x[t[1]], x[t[2]]}, x[v[0]]).position;
       const Apart gap = apart(motion, v, t, way);
-      if (keep(gap, v, t)) out.points.push_back({v[0], b, gap});
+      if (!(gap.within(0, motion.horizon_s) > margin)) out.points.push_back({v[0], b, gap});
     }
   };
   tree.pairs(rules, [&](int a, int b) {
-    if (apartByPlane(a, b)) return;
-    pointsAgainst(a, b);
-    pointsAgainst(b, a);
+    const double slack = out.triangle_slack[a] + out.triangle_slack[b];
+    double beyond = beyondPlane(motion, mesh.triangles[a], mesh.triangles[b]);
+    if (beyond > wide + slack) return;
+    beyond = std::max(beyond, beyondPlane(motion, mesh.triangles[b], mesh.triangles[a]));
+    if (beyond > wide + slack) return;
+    pointsAgainst(a, b, beyond);
+    pointsAgainst(b, a, beyond);
     for (int k = 0; k < 3; ++k) {
       if (!(owned_[a] & (8 << k))) continue;
       const int e = mesh.face_edges[a][k];
@@ -105,13 +115,16 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
       for (int l = 0; l < 3; ++l) {
         if (!(owned_[b] & (8 << l))) continue;
         const int f = mesh.face_edges[b][l];
+        const bool blunt = (blunt_[a] & (8 << k)) || (blunt_[b] & (8 << l));
+        const double margin = (blunt ? narrow : wide) + out.edge_slack[e] + out.edge_slack[f];
+        if (beyond > margin) continue;
         const std::array<int, 2>& y = mesh.edges[f];
-        if (v[0] == y[0] || v[0] == y[1] || v[1] == y[0] || v[1] == y[1] || !mayMeet(box, out.edge_box[f], reach))
-          continue;
+        if (v[0] == y[0] || v[0] == y[1] || v[1] == y[0] || v[1] == y[1]) continue;
+        if (!mayMeet(box, out.edge_box[f], blunt ? narrow_reach : wide_reach)) continue;
         const SegmentPair near = nearestOnSegments(x[v[0]], x[v[1]], x[y[0]], x[y[1]]);
         const Vec3 way = x[v[0]] + near.s * (x[v[1]] - x[v[0]]) - x[y[0]] - near.t * (x[y[1]] - x[y[0]]);
         const Apart gap = apart(motion, v, y, way);
-        if (keep(gap, v, y)) out.edges.push_back({std::min(e, f), std::max(e, f), gap});
+        if (!(gap.within(0, motion.horizon_s) > margin)) out.edges.push_back({std::min(e, f), std::max(e, f), gap});
       }
     }
   });

@@ -38,6 +38,13 @@ struct CandidatePairs {
   std::vector<PointTriangle> points;            ///< ascending
   std::vector<EdgeEdge> edges;                  ///< in no order
   std::vector<MovingBox> vertex_box, edge_box;  ///< scratch
+  std::vector<double> edge_slack, triangle_slack;
+};
+
+/// What has no persistent contacts of its own (1) and matters to a list only within PairRules::blunt_margin_m: vertices
+/// against triangles, edges against edges. Empty: nothing.
+struct BluntFeatures {
+  std::vector<char> vertex, edge;
 };
 
 /// Every vertex and edge belongs to one of its triangles, so that a pair of primitives comes up with one pair of
@@ -45,15 +52,16 @@ struct CandidatePairs {
 class PairCollector {
  public:
   PairCollector() = default;
-  explicit PairCollector(const ContactMesh& mesh);
+  explicit PairCollector(const ContactMesh& mesh, const BluntFeatures& blunt = {});
 
-  /// Of ContactTree::pairs, the primitives that may come within the margin of each other in the motion that the tree
+  /// Of ContactTree::pairs, the primitives that may come within their margin of each other in the motion that the tree
   /// was fitted to; those that share a vertex are not pairs.
   void collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
                CandidatePairs& out) const;
 
  private:
   std::vector<unsigned char> owned_;  ///< of a triangle: bits 0 to 2 its corners, bits 3 to 5 its edges
+  std::vector<unsigned char> blunt_;  ///< likewise
 };
 
 }  // namespace gambeson

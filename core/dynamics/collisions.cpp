@@ -16,7 +16,16 @@ namespace {
 constexpr double kSeparation_m = 1e-6;
 
 PairRules rulesOf(const CollisionModel& m) {
-  return {std::max(contactReach(m.largest_thickness_m), 2 * kSeparation_m), m.least, m.self};
+  return {std::max(contactReach(m.largest_thickness_m), 2 * kSeparation_m), m.least, m.self, 2 * kSeparation_m};
+}
+
+/// Samples are carried by the faces of bodies, and cloth by what is sharp; all else meets only in impacts.
+BluntFeatures bluntFeatures(const CollisionModel& m) {
+  BluntFeatures out{std::vector<char>(m.mesh.vertex_count, 0), std::vector<char>(m.mesh.edges.size(), 0)};
+  for (int v = 0; v < m.mesh.vertex_count; ++v) out.vertex[v] = m.body_of_vertex[v] >= 0 && !m.sharp_corner[v];
+  for (std::size_t e = 0; e < m.mesh.edges.size(); ++e)
+    out.edge[e] = m.body_of_vertex[m.mesh.edges[e][0]] >= 0 && !m.sharp_edge[e];
+  return out;
 }
 
 /// A vertex of a body in its frame; of one that deforms, in the world at the start.
@@ -134,7 +143,7 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
     m.layer_of_vertex.resize(x.size(), -1);
   }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
-  m.collector = PairCollector(m.mesh);
+  m.collector = PairCollector(m.mesh, bluntFeatures(m));
   return m;
 }
 

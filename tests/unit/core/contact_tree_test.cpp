@@ -174,6 +174,64 @@ TEST_F(TreeTest, EveryPairComesOnceAndSharesNoVertex) {
   EXPECT_LE(found.edges.size(), edges + edges / 100 + 8);
 }
 
+/// Of a blunt body's vertices and edges what comes within their own, smaller margin is on the list; all else within the
+/// wide one: cloth vertices against the body's faces, sharp edges and corners of the body against cloth.
+TEST_F(TreeTest, BluntFeaturesAreListedWithinTheirOwnMargin) {
+  std::mt19937 random(13);
+  std::normal_distribution<double> noise;
+  BluntFeatures blunt{std::vector<char>(mesh.vertex_count, 0), std::vector<char>(mesh.edges.size(), 0)};
+  for (int v = cloth; v < mesh.vertex_count - 1; ++v) blunt.vertex[v] = 1;  // the last corner is sharp
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    blunt.edge[e] = mesh.edges[e][0] >= cloth && mesh.edges[e][1] < mesh.vertex_count - 1;
+  const PairCollector with_blunt(mesh, blunt);
+  const PairRules rules{0.012, 0, true, 0.003};
+  const double horizon = 0.01;
+  std::array<int, 2> asked_points{}, asked_edges{};
+  std::size_t listed = 0, listed_without = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    std::vector<Vec3> x = rest, velocity(rest.size()), end;
+    for (int i = 0; i < mesh.vertex_count; ++i) {
+      if (i >= cloth) x[i].z += 0.003 * trial - 0.02;
+      x[i] += 0.002 * Vec3{noise(random), noise(random), noise(random)};
+      velocity[i] = 0.3 * Vec3{noise(random), noise(random), noise(random)};
+    }
+    for (int i = 0; i < mesh.vertex_count; ++i) end.push_back(x[i] + horizon * velocity[i]);
+    const ListedMotion motion{x, velocity, {}, horizon};
+    tree.refit(mesh, motion, {});
+    CandidatePairs found;
+    collector.collect(mesh, tree, motion, rules, found);
+    listed_without += found.points.size() + found.edges.size();
+    with_blunt.collect(mesh, tree, motion, rules, found);
+    listed += found.points.size() + found.edges.size();
+    std::ranges::sort(found.edges);
+    for (const std::vector<Vec3>* at : {&x, &end}) {
+      const std::vector<Vec3>& y = *at;
+      for (int v = 0; v < mesh.vertex_count; ++v)
+        for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+          const auto& [a, b, c] = mesh.triangles[t];
+          if ((v >= cloth) == (t >= cloth_triangles) || norm(y[v] - y[a]) > 0.3) continue;
+          const double margin = blunt.vertex[v] ? rules.blunt_margin_m : rules.margin_m;
+          if (closestOnTriangle({y[a], y[b], y[c]}, y[v]).dist2_m2 > margin * margin) continue;
+          ++asked_points[blunt.vertex[v] != 0];
+          ASSERT_TRUE(std::ranges::binary_search(found.points, PointTriangle{v, t})) << trial << " " << v << " " << t;
+        }
+      for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e)
+        for (int f = e + 1; f < static_cast<int>(mesh.edges.size()); ++f) {
+          const auto [a, b] = mesh.edges[e];
+          const auto [c, d] = mesh.edges[f];
+          if (a >= cloth || c < cloth || norm(y[a] - y[c]) > 0.3) continue;
+          const bool narrow = blunt.edge[e] || blunt.edge[f];
+          const double margin = narrow ? rules.blunt_margin_m : rules.margin_m;
+          if (nearestOnSegments(y[a], y[b], y[c], y[d]).dist2_m2 > margin * margin) continue;
+          ++asked_edges[narrow];
+          ASSERT_TRUE(std::ranges::binary_search(found.edges, EdgeEdge{e, f})) << trial << " " << e << " " << f;
+        }
+    }
+  }
+  for (int asked : {asked_points[0], asked_points[1], asked_edges[0], asked_edges[1]}) EXPECT_GT(asked, 20);
+  EXPECT_LT(listed, listed_without);
+}
+
 /// Cloth that rolls along, trembles and folds, over a body that moves: whenever two primitives come near in a step, the
 /// list has them, with a distance that is not too large, however old it is.
 TEST_F(TreeTest, AListServesManyStepsAndNeverMissesAPair) {

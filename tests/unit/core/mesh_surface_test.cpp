@@ -287,11 +287,10 @@ TEST(MeshSurface, RepeatedVerticesAreWelded) {
 TEST(InsideGrid, DecidedCellsAgreeWithTheWindingNumber) {
   std::mt19937 rng(9);
   for (const TriangleMesh& m : {torus(0.6, 0.25, 40, 16), sphere(0.8, 3)}) {
-    std::vector<Box> boxes(m.triangles.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t)
-      for (int i : m.triangles[t]) boxes[t].add(m.vertices[i]);
+    std::vector<std::array<Vec3, 3>> corners;
+    for (const auto& [a, b, c] : m.triangles) corners.push_back({m.vertices[a], m.vertices[b], m.vertices[c]});
     const InsideGrid grid(
-        boxes, [&](const Vec3& p) { return winding(m, p) > 0.5; }, 40);
+        corners, [&](const Vec3& p) { return winding(m, p) > 0.5; }, 40);
     int decided = 0;
     for (int trial = 0; trial < 4000; ++trial) {
       const Vec3 p = randomPoint(rng, 0.8);
