@@ -42,6 +42,9 @@ constexpr double neck_vertical_factor = 0.75;
 /// reaches to within 30 mm of the bideltoid breadth. Neck limits: 45 degrees either way, the clinical normal range
 /// (AAOS).
 constexpr double neck_limit_deg = 45;
+/// Knee limit [degrees]: the normal range of adults (137 to 142, Soucie et al. 2011, Haemophilia 17:500-507). Where the
+/// OpenSim model stops (120), its muscle paths do.
+constexpr double knee_limit_deg = 140;
 /// The hand's centre of mass: the middle of its ellipsoid (de Leva's is referred to a length that the data lack).
 /// The foot's centre of mass: likewise.
 }  // namespace chosen
@@ -131,7 +134,7 @@ void addLeg(Builder& b, const Facts& f, const std::string& side) {
   const double r = f.size("thigh_distal_radius");
   b.shape(t, "knee_" + side, {{r, r, r}}, knee);
 
-  const int k = b.joint(t, "shank_" + side, "knee_flexion_" + side, knee, {0, 1, 0}, "knee_flexion");
+  const int k = b.joint(t, "shank_" + side, "knee_flexion_" + side, knee, {0, 1, 0}, 0, chosen::knee_limit_deg);
   const Vec3 ankle{f.scale * f.opensim.at("ankle_in_tibia").at(0).get<double>(), 0, -shank};
   b.mass(k, f.mass("shank"), f.com("shank") * ankle);
   b.shape(k, "shank_" + side, upright(f.size("shank")), 0.5 * ankle);

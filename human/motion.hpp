@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "human/body.hpp"
+#include "human/ground.hpp"
 
 namespace gambeson {
 
@@ -21,6 +23,8 @@ class Motion {
   virtual ~Motion() = default;
   virtual double duration() const = 0;
   virtual Posture at(double time_s) const = 0;
+  /// The stairs that it climbs; none: level ground z = 0.
+  virtual std::optional<Stairs> stairs() const { return {}; }
 };
 
 /// The skeleton's zero posture with the root where the manikin stands on the ground (z = 0).
@@ -36,10 +40,34 @@ struct WalkOptions {
   double stand_s = 0;      ///< time at rest before the lead-in
   double lead_in_s = 0.5;  ///< smooth start from standing
   int strides = 2;
+  int paces = 0;  ///< single steps after the lead-in in place of strides; 0: strides count
   double stride_time_s = 1.10;
+  double strideCount() const { return paces > 0 ? 0.5 * paces : strides; }
 };
 /// Walking at natural speed (Bovi et al. 2011, closed to a period). `mean_velocity` returns the pelvis's mean velocity
 /// over a stride [m/s].
 std::unique_ptr<Motion> makeWalk(const Human& human, const WalkOptions& options, Vec3* mean_velocity = nullptr);
+
+/// What climbing stairs is made of.
+struct StairOptions {
+  double stand_s = 0;       ///< time at rest before the lead-in
+  double lead_in_s = 0.6;   ///< the first step, from standing; 0.4 to 0.7 strides' time
+  int strides = 2;          ///< of two steps each, after the lead-in
+  int lead_in_strides = 1;  ///< how many of them come before what is measured
+  double stride_time_s = 1.2;
+  double measuredFrom_s() const { return stand_s + lead_in_s + lead_in_strides * stride_time_s; }
+};
+/// Climbing stairs (Bovi et al. 2011, human/stairs.cpp); Motion::stairs() has the stairs that the steps imply.
+std::unique_ptr<Motion> makeStairs(const Human& human, const StairOptions& options, Vec3* mean_velocity = nullptr);
+
+/// What taking aim is made of.
+struct AimOptions {
+  double stand_s = 0;  ///< time at low ready before it
+  double duration_s = 1.5;
+  double hold_s = 0;           ///< time aiming after it
+  double rifle_mass_kg = 3.5;  ///< enters natural moments, not contact
+};
+/// From low ready to aiming at the ground, leaning left (Zheng 2013, 6.6; human/aim.cpp).
+std::unique_ptr<Motion> makeAim(const Human& human, const AimOptions& options);
 
 }  // namespace gambeson

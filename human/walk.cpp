@@ -11,40 +11,18 @@
 #include "human/ground.hpp"
 #include "human/manikin.hpp"
 #include "human/motion.hpp"
+#include "human/path.hpp"
+#include "human/smooth_step.hpp"
 #include "human/walk_curves.hpp"
 
 namespace gambeson {
 namespace {
-
-/// 0 to 1 with zero first and second derivatives at both ends: 6 s⁵ - 15 s⁴ + 10 s³. Its integral from 0 to s is
-/// smootherArea(s).
-double smootherStep(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * s * (s * (6 * s - 15) + 10);
-}
-double smootherArea(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * s * s * (s * (s - 3) + 2.5);
-}
 
 /// A driven joint: which value of the posture, which curve, its shift in phase, and what is added.
 struct Drive {
   int joint;
   const PeriodicSpline* curve;
   double shift, offset;
-};
-
-/// x and y over equal steps of time with their rates; cubic Hermite between (C¹).
-struct Path {
-  double step_s = 0;
-  std::vector<Vec3> x, v;
-  Vec3 at(double t) const {
-    const int n = static_cast<int>(x.size()) - 1;
-    const int i = std::clamp(static_cast<int>(t / step_s), 0, n - 1);
-    const double u = t / step_s - i, w = 1 - u;
-    return w * w * (1 + 2 * u) * x[i] + u * u * (1 + 2 * w) * x[i + 1] +
-           step_s * (u * w * w * v[i] - u * u * w * v[i + 1]);
-  }
 };
 
 class Walk final : public Motion {
@@ -68,7 +46,7 @@ class Walk final : public Motion {
       drive("ankle_flexion", curves_.ankle_flexion, 0, true);
       drive("shoulder_flexion", curves_.shoulder_flexion, 0, false);
       drive("elbow_flexion", curves_.elbow_flexion, 0, false);
-      feet_.push_back(footOf(s.joints[s.joint("ankle_flexion" + side)].child));
+      feet_.push_back(&footOf(human_, shift == 0 ? "right" : "left", "walking"));
     }
     lumbar_ = {s.joint("lumbar_flexion"), s.joint("lumbar_bending"), s.joint("lumbar_rotation")};
     lead_in_ = integrate(0, options_.lead_in_s, {});
@@ -76,7 +54,7 @@ class Walk final : public Motion {
   }
 
   double duration() const override {
-    return options_.stand_s + options_.lead_in_s + options_.strides * options_.stride_time_s;
+    return options_.stand_s + options_.lead_in_s + options_.strideCount() * options_.stride_time_s;
   }
   Vec3 meanVelocity() const { return (stride_.x.back() - stride_.x.front()) / options_.stride_time_s; }
 
@@ -86,7 +64,8 @@ class Walk final : public Motion {
     p.root.origin = t <= 0 ? Vec3{} : lead_in_.at(std::min(t, options_.lead_in_s));
     if (t > options_.lead_in_s) {
       const double walked = t - options_.lead_in_s;
-      const int k = std::min(static_cast<int>(walked / options_.stride_time_s), options_.strides - 1);
+      const int last = static_cast<int>(std::ceil(options_.strideCount())) - 1;
+      const int k = std::min(static_cast<int>(walked / options_.stride_time_s), last);
       p.root.origin = stride_.at(walked - k * options_.stride_time_s) + k * (stride_.x.back() - stride_.x.front());
     }
     p.root.origin.z = heightAt(t, p);
@@ -94,13 +73,6 @@ class Walk final : public Motion {
   }
 
  private:
-  const BodyShape* footOf(int link) const {
-    for (const BodyShape& shape : human_.shapes)
-      if (shape.link == link && std::holds_alternative<Ellipsoid>(shape.shape)) return &shape;
-    throw InputError({"", 0, "human"},
-                     "walking needs an ellipsoid on the link '" + human_.skeleton.links[link].name + "'");
-  }
-
   /// How far the lead-in has come (0 standing, 1 walking) and the phase of the stride, which speeds up from rest
   /// likewise and is 0 (right foot strike) at the end of the lead-in; t counts from its begin.
   double amplitude(double t) const { return smootherStep(t / options_.lead_in_s); }
@@ -170,9 +142,9 @@ class Walk final : public Motion {
   }
 
   /// Simpson's rule over steps of about 2 ms.
-  Path integrate(double begin, double length, Vec3 x) const {
+  HermitePath<Vec3> integrate(double begin, double length, Vec3 x) const {
     const int n = std::max(16, static_cast<int>(std::ceil(length / 0.002)));
-    Path path{length / n, {x}, {velocityAt(begin)}};
+    HermitePath<Vec3> path{length / n, {x}, {velocityAt(begin)}};
     for (int i = 0; i < n; ++i) {
       const double t = begin + (i + 1) * path.step_s;
       const Vec3 middle = velocityAt(t - 0.5 * path.step_s), end = velocityAt(t);
@@ -190,7 +162,7 @@ class Walk final : public Motion {
   std::vector<Drive> drives_;
   std::array<int, 3> lumbar_{};         ///< joints of flexion, bending, rotation; -1 where there is none
   std::vector<const BodyShape*> feet_;  ///< right, left; into human_
-  Path lead_in_, stride_;
+  HermitePath<Vec3> lead_in_, stride_;
 };
 
 }  // namespace
@@ -202,6 +174,7 @@ std::unique_ptr<Motion> makeWalk(const Human& human, const WalkOptions& o, Vec3*
   check("stand_s", o.stand_s, o.stand_s >= 0 && o.stand_s <= 3600, "0 to 3600");
   check("lead_in_s", o.lead_in_s, o.lead_in_s >= 0.1 && o.lead_in_s <= 60, "0.1 to 60");
   check("strides", o.strides, o.strides >= 1 && o.strides <= 100000, "1 to 100000");
+  check("paces", o.paces, o.paces >= 0 && o.paces <= 200000, "0 to 200000");
   check("stride_time_s", o.stride_time_s, o.stride_time_s >= 0.5 && o.stride_time_s <= 5, "0.5 to 5");
   auto walk = std::make_unique<Walk>(human, o);
   if (mean_velocity) *mean_velocity = walk->meanVelocity();

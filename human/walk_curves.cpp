@@ -33,15 +33,23 @@ PeriodicSpline spline(Values x, double scale = 1, double offset = 0) {
   return PeriodicSpline(std::move(x));
 }
 
+double mean(const Values& x) { return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size()); }
+
+Values walkingTilt(const nlohmann::json& walk) {
+  return halfStride(closed(walk.at("pelvis_tilt_deg").get<Values>()), 1);
+}
+
 }  // namespace
+
+double pelvisZero_deg() { return mean(walkingTilt(nlohmann::json::parse(data::walk_natural))); }
 
 WalkCurves naturalWalk() {
   const nlohmann::json walk = nlohmann::json::parse(data::walk_natural);
   const auto curve = [&](const char* name) { return closed(walk.at(name).get<Values>()); };
   const auto percent = [&](const char* name) { return walk.at(name).get<double>(); };
 
-  const Values tilt = halfStride(curve("pelvis_tilt_deg"), 1);
-  const double mean_tilt = std::accumulate(tilt.begin(), tilt.end(), 0.0) / static_cast<double>(tilt.size());
+  const Values tilt = walkingTilt(walk);
+  const double mean_tilt = mean(tilt);
   WalkCurves c;
   c.hip_flexion = spline(curve("hip_flexion_deg"), 1, mean_tilt);
   c.hip_adduction = spline(curve("hip_adduction_deg"));
@@ -56,6 +64,30 @@ WalkCurves naturalWalk() {
   c.double_support = 0.5 / 100 *
                      (percent("contralateral_foot_off_percent") + percent("ipsilateral_foot_off_percent") -
                       percent("contralateral_foot_strike_percent"));
+  return c;
+}
+
+StairCurves stairAscent() {
+  const nlohmann::json stairs = nlohmann::json::parse(data::stairs_ascent);
+  const auto curve = [&](const char* name) { return closed(stairs.at(name).get<Values>()); };
+  const auto percent = [&](const char* name) { return stairs.at(name).get<double>(); };
+  const double zero = pelvisZero_deg();
+  StairCurves c;
+  c.hip_flexion = spline(curve("hip_flexion_deg"), 1, zero);
+  c.hip_adduction = spline(curve("hip_adduction_deg"));
+  c.hip_rotation = spline(curve("hip_rotation_deg"));
+  c.ankle_flexion = spline(curve("ankle_dorsiflexion_deg"));
+  Values knee = curve("knee_flexion_deg");
+  c.knee_flexion = spline(knee);
+  const std::size_t n = knee.size();
+  for (std::size_t i = n - n / 6; i < n; ++i) knee[i] = knee[0];
+  c.knee_flexion_landed = spline(knee);
+  c.pelvis_yaw = spline(halfStride(curve("pelvis_rotation_deg"), -1));
+  c.pelvis_roll = spline(halfStride(curve("pelvis_obliquity_deg"), -1), -1);
+  c.pelvis_pitch = spline(halfStride(curve("pelvis_tilt_deg"), 1), -1, -zero);
+  c.foot_off = 0.5 + 0.5 / 100 *
+                         (percent("contralateral_foot_off_percent") + percent("ipsilateral_foot_off_percent") -
+                          percent("contralateral_foot_strike_percent"));
   return c;
 }
 

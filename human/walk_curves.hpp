@@ -23,4 +23,21 @@ struct WalkCurves {
 ///   (-9 degrees) is added to the hip.
 WalkCurves naturalWalk();
 
+/// Mean pelvis tilt of walking in the data [degrees, anterior negative], the zero of our pelvis in all movements.
+double pelvisZero_deg();
+
+/// Stair ascent over the phase of a stride (two steps), with the same signs. The right foot stands on its tread from 0
+/// to foot_off.
+struct StairCurves {
+  PeriodicSpline hip_flexion, hip_adduction, hip_rotation, ankle_flexion;
+  PeriodicSpline knee_flexion;         ///< of the data
+  PeriodicSpline knee_flexion_landed;  ///< without the swing's end: a knee that does not move before foot strike
+  PeriodicSpline pelvis_yaw, pelvis_roll, pelvis_pitch;
+  double foot_off = 0;  ///< phase at which a foot leaves its tread
+};
+
+/// From human/data/stairs_ascent.json, closed and made symmetric as the walk; the pelvis's zero is that of walking,
+/// since it is one of how markers are placed.
+StairCurves stairAscent();
+
 }  // namespace gambeson

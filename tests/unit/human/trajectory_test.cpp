@@ -97,7 +97,7 @@ TEST_F(Trajectory, RefusesWhatIsMalformed) {
   refused("time_ms,root_x_m\n0,0\n1,0\n", 1, "time_s");
   refused("time_s,root_x_m\n0,0\n1,1m\n", 3, "1m");
   // range
-  refused("time_s,knee_flexion_right_deg\n0,0\n1,121\n", 3, "outside 0 to 120");
+  refused("time_s,knee_flexion_right_deg\n0,0\n1,141\n", 3, "outside 0 to 140");
   refused("time_s,knee_flexion_right_deg\n0,-1\n1,12\n", 2, "outside");
   refused("time_s,root_x_m\n0,0\n1,0\n1,0\n", 4, "does not come after");
   refused("time_s,root_x_m\n0,0\n2,0\n1,0\n", 4, "does not come after");

@@ -186,6 +186,21 @@ TEST(Walk, StartsTheStrideAtRightFootStrike) {
   EXPECT_NEAR(w.q(w.periodic(), "knee_flexion_left"), naturalWalk().knee_flexion.at(0.5), 1e-12);
 }
 
+// Three paces (Zheng 6.4): a stride and a half, the same way.
+TEST(Walk, TakesPaces) {
+  const Human h = makeManikin("male_p50");
+  WalkOptions strides, paces;
+  strides.strides = 3;
+  paces.paces = 3;
+  const auto a = makeWalk(h, strides), b = makeWalk(h, paces);
+  EXPECT_DOUBLE_EQ(b->duration(), 0.5 + 1.5 * 1.10);
+  for (int i = 0; i <= 50; ++i) {
+    const double t = b->duration() * i / 50;
+    EXPECT_EQ(a->at(t).q, b->at(t).q);
+    EXPECT_EQ(a->at(t).root, b->at(t).root);
+  }
+}
+
 TEST(Walk, RefusesNonsense) {
   const Human h = makeManikin("male_p50");
   const auto with = [](auto change) {
@@ -198,6 +213,7 @@ TEST(Walk, RefusesNonsense) {
   EXPECT_THROW(makeWalk(h, with([&](WalkOptions& o) { o.lead_in_s = 0; })), InputError);
   EXPECT_THROW(makeWalk(h, with([&](WalkOptions& o) { o.lead_in_s = nan; })), InputError);
   EXPECT_THROW(makeWalk(h, with([&](WalkOptions& o) { o.strides = 0; })), InputError);
+  EXPECT_THROW(makeWalk(h, with([&](WalkOptions& o) { o.paces = -1; })), InputError);
   EXPECT_THROW(makeWalk(h, with([&](WalkOptions& o) { o.stride_time_s = 1e9; })), InputError);
   Human footless = h;
   std::erase_if(footless.shapes, [](const BodyShape& s) { return s.name == "foot_left"; });
