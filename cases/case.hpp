@@ -108,7 +108,7 @@ struct HumanCase {
   std::string manikin;
   std::filesystem::path urdf, body;
   std::optional<SkinOptions> skin;  ///< around the manikin; where absent, its ellipsoids are the surface
-  std::variant<StandMotion, WalkOptions, TrajectoryMotion, MotionFileOptions> motion;
+  std::variant<StandMotion, WalkOptions, StairOptions, AimOptions, TrajectoryMotion, MotionFileOptions> motion;
 };
 
 // --- What else it touches ----------------------------------------------------------------------------------------
@@ -253,7 +253,7 @@ struct OutputCase {
 };
 
 enum class Counting { distal_segment, all_distal };
-enum class Task { none, natural_walk };
+enum class Task { none, natural_walk, natural_stairs, aiming };
 
 struct AnalysisCase {
   std::vector<std::string> joints;  ///< empty: every joint that moves

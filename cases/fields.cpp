@@ -116,7 +116,10 @@ Object analysisTable() {
               "contact forces that count for a joint: on the segment just beyond it (Man 2006, chapter 5), or on all "
               "beyond it")
       .choice("task", &A::task,
-              std::vector<std::pair<std::string, Task>>{{"none", Task::none}, {"natural_walk", Task::natural_walk}},
+              std::vector<std::pair<std::string, Task>>{{"none", Task::none},
+                                                        {"natural_walk", Task::natural_walk},
+                                                        {"natural_stairs", Task::natural_stairs},
+                                                        {"aiming", Task::aiming}},
               "natural moments that torques are compared with")
       .build();
 }

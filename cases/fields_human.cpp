@@ -66,6 +66,8 @@ Object motionTable() {
   using Motions = decltype(HumanCase::motion);
   const auto self = [](auto& m) -> auto& { return m; };
   using W = WalkOptions;
+  using S = StairOptions;
+  using A = AimOptions;
   return Table<Motions>("Motion")
       .alternative<StandMotion>("stand", self,
                                 Table<StandMotion>("Standing")
@@ -79,9 +81,40 @@ Object motionTable() {
               .number("stand", &W::stand_s, "s", between(0, 60), "time at rest before the first step")
               .number("lead_in", &W::lead_in_s, "s", between(0.1, 10), "smooth start from standing into the stride")
               .integer("strides", &W::strides, 1, 100, "full strides (two steps each) after the lead-in")
+              .integer("paces", &W::paces, 0, 200,
+                       "single steps after the lead-in, in place of strides; 0: strides count")
               .number("stride_time", &W::stride_time_s, "s", between(0.5, 3), "time of one stride")
               .build(),
           "walks at natural speed")
+      .in("motion")
+      .alternative<StairOptions>(
+          "stairs", self,
+          Table<S>("Climbing stairs")
+              .number("stand", &S::stand_s, "s", between(0, 60), "time at rest before the first step")
+              .number("lead_in", &S::lead_in_s, "s", between(0.2, 2.1),
+                      "the first step, from standing; 0.4 to 0.7 of stride_time")
+              .integer("strides", &S::strides, 1, 100, "full strides (two steps each) after the lead-in")
+              .integer("lead_in_strides", &S::lead_in_strides, 0, 99,
+                       "how many of the strides come before what is measured; fewer than strides")
+              .number("stride_time", &S::stride_time_s, "s", between(0.5, 3), "time of one stride")
+              .check([](const Place& p, const S& o) {
+                if (!(o.lead_in_s >= 0.4 * o.stride_time_s && o.lead_in_s <= 0.7 * o.stride_time_s))
+                  p.failAt("lead_in", "must be 0.4 to 0.7 of stride_time");
+                if (o.lead_in_strides >= o.strides) p.failAt("lead_in_strides", "must be fewer than strides");
+              })
+              .build(),
+          "climbs stairs; rise and tread are those that the legs and the steps imply")
+      .in("motion")
+      .alternative<AimOptions>(
+          "aim", self,
+          Table<A>("Taking aim")
+              .number("stand", &A::stand_s, "s", between(0, 60), "time at low ready before it")
+              .number("duration", &A::duration_s, "s", between(0.2, 60), "from low ready to aiming at the ground")
+              .number("hold", &A::hold_s, "s", between(0, 60), "time aiming after it")
+              .number("rifle", &A::rifle_mass_kg, "kg", between(0, 50),
+                      "mass of the rifle; it enters the natural moments, not contact")
+              .build(),
+          "takes aim at the ground, leaning left, from low ready")
       .in("motion")
       .alternative<TrajectoryMotion>(
           "trajectory", self,

@@ -66,6 +66,8 @@ double motionDuration(const HumanCase& h, const Human& human) {
   if (const auto* walk = std::get_if<WalkOptions>(&h.motion)) return makeWalk(human, *walk)->duration();
   if (const auto* recorded = std::get_if<MotionFileOptions>(&h.motion))
     return loadMotionFile(*recorded, human)->duration();
+  if (const auto* stairs = std::get_if<StairOptions>(&h.motion)) return makeStairs(human, *stairs)->duration();
+  if (const auto* aim = std::get_if<AimOptions>(&h.motion)) return makeAim(human, *aim)->duration();
   return loadTrajectory(std::get<TrajectoryMotion>(h.motion).file, human)->duration();
 }
 

@@ -7,7 +7,9 @@
 #include "cases/factors.hpp"
 #include "cases/skin_ledger.hpp"
 #include "core/error.hpp"
+#include "human/inverse_statics.hpp"
 #include "human/task_moments.hpp"
+#include "human/walk_curves.hpp"
 
 namespace gambeson {
 namespace {
@@ -131,6 +133,23 @@ std::vector<std::vector<double>> standingTorques(const Scenario& s, const Rows& 
   return torques;
 }
 
+/// The task's own peak moment at a joint; `held`: per joint the moments that hold the aim still. Throws InputError
+/// where the published data have no such joint.
+std::optional<double> naturalMoment(const Scenario& s, const JointMeasure& m, const std::vector<double>& held) {
+  switch (s.definition.analysis.task) {
+    case Task::none:
+      return {};
+    case Task::natural_walk:
+      return naturalPeakMoment_Nm("Natural", m.name, s.human->mass_kg);
+    case Task::natural_stairs:
+      return naturalPeakMoment_Nm("Ascending", m.name, s.human->mass_kg);
+    case Task::aiming:
+      break;
+  }
+  const double moment = std::abs(held[static_cast<std::size_t>(m.joint)]);
+  return moment > 0 ? std::optional(moment) : std::nullopt;
+}
+
 /// `skin`: of the table of that name, empty without a skin; `rest` of that table too where there is one, else of
 /// bodies.
 void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const Rows& rest, Measured& out) {
@@ -160,6 +179,10 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
     while (time[first] < out.strides->start_s) ++first;
   if (first > 0) out.counted_from_s = out.strides->start_s;
   const std::vector<std::vector<double>> standing = standingTorques(s, rest, joints);
+  std::vector<double> held;  // moments that hold the aim still
+  if (const auto* aim = std::get_if<AimOptions>(&s.definition.human->motion);
+      aim && s.definition.analysis.task == Task::aiming)
+    held = peakStaticMoments(*s.human, *s.motion, rifleInHands(*s.human, aim->rifle_mass_kg));
   for (const int j : joints) {
     JointMeasure m;
     m.joint = j;
@@ -191,9 +214,9 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
     constexpr double h = 1e-3;
     m.position_at_peak = q(m.peak.time_s);
     m.rate_at_peak = (q(m.peak.time_s + h) - q(m.peak.time_s - h)) / (2 * h);
-    if (s.definition.analysis.task == Task::natural_walk) {
+    if (s.definition.analysis.task != Task::none) {
       try {
-        m.natural_Nm = naturalPeakMoment_Nm("Natural", m.name, s.human->mass_kg);
+        m.natural_Nm = naturalMoment(s, m, held);
       } catch (const InputError&) {  // the published data have no such joint; the page says "not known"
       }
     }
@@ -268,9 +291,14 @@ double Strides::phase(double t_s, const std::string& side) const {
 
 std::optional<Strides> stridesOf(const Case& c) {
   if (!c.human) return {};
+  if (const auto* stairs = std::get_if<StairOptions>(&c.human->motion))
+    return Strides{stairs->measuredFrom_s(), stairs->stride_time_s, stairs->strides - stairs->lead_in_strides, 0,
+                   stairAscent().foot_off};
   const auto* walk = std::get_if<WalkOptions>(&c.human->motion);
   if (!walk) return {};
-  return Strides{walk->stand_s + walk->lead_in_s, walk->stride_time_s, walk->strides};
+  const int count = static_cast<int>(walk->strideCount());
+  return Strides{walk->stand_s + walk->lead_in_s, walk->stride_time_s, count,
+                 (walk->strideCount() - count) * walk->stride_time_s, 0.5 + naturalWalk().double_support};
 }
 
 const JointMeasure* Measured::highest() const {

@@ -191,6 +191,8 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   in.title = s.definition.name;
   in.description = s.definition.description;
   if (s.definition.analysis.task == Task::natural_walk) in.task = "level walking at natural speed";
+  if (s.definition.analysis.task == Task::natural_stairs) in.task = "climbing stairs";
+  if (s.definition.analysis.task == Task::aiming) in.task = "taking aim, held still";
   if (m.recorded_end_s < s.end_s - 1e-9)
     in.warnings.push_back(
         fmt::format("The run stopped at {:.2f} s of {:.2f} s: what follows is only what was recorded until then.",

@@ -163,6 +163,13 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   if (const JointMeasure* top = m.highest()) j["highest"] = top->name;
   if (m.strides)
     j["strides"] = {{"start_s", m.strides->start_s}, {"time_s", m.strides->time_s}, {"count", m.strides->count}};
+  if (s.feet)
+    j["feet"] = {{"slip_m", s.feet->slip_m},
+                 {"slip_m_per_s", s.feet->slip_m_per_s},
+                 {"penetration_m", s.feet->penetration_m},
+                 {"hover_m", s.feet->hover_m}};
+  if (const auto stairs = s.motion ? s.motion->stairs() : std::nullopt)
+    j["stairs"] = {{"rise_m", stairs->rise_m}, {"tread_m", stairs->tread_m}};
   j["contact"] = Json::array();
   for (const BodyMeasure& b : m.contact)
     j["contact"].push_back({{"segment", b.contact.segment},

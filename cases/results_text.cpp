@@ -10,7 +10,6 @@
 #include "cases/results_write.hpp"
 #include "core/material/bending.hpp"
 #include "human/units.hpp"
-#include "human/walk_curves.hpp"
 
 namespace gambeson {
 namespace {
@@ -34,10 +33,6 @@ Words wordsOf(const std::string& movement) {
           "motion"};
 }
 
-/// Phase at which a foot leaves the ground: half a stride and the double support after it (about 62 %), as the walk has
-/// it.
-double footOff() { return 0.5 + naturalWalk().double_support; }
-
 /// Below this a joint counts as at rest [rad/s].
 constexpr double still_rad_per_s = 0.02;
 
@@ -52,9 +47,10 @@ std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides
                                                                  : " with the garment's push";
   std::string text;
   if (strides && !m.side.empty())
-    text = (m.phase_at_peak ? fmt::format("{} ({:.0f} % of the stride)",
-                                          *m.phase_at_peak < footOff() ? "stance" : "swing", 100 * *m.phase_at_peak)
-                            : "the lead-in from standing") +
+    text = (m.phase_at_peak
+                ? fmt::format("{} ({:.0f} % of the stride)", *m.phase_at_peak < strides->foot_off ? "stance" : "swing",
+                              100 * *m.phase_at_peak)
+                : "the lead-in from standing") +
            fmt::format(", while the {} {}{}", m.part,
                        still                ? "is held"
                        : m.rate_at_peak > 0 ? words.rises
@@ -174,8 +170,24 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
       say("Walking is prescribed: joint angles of healthy adults at natural speed (Bovi et al. 2011), closed to a "
           "period and equal on both sides. "
           "The wearer does not change gait because of the garment.");
+    else if (const auto stairs = s.motion->stairs())
+      say(
+          fmt::format("Climbing stairs is prescribed: hip angles of healthy adults (Bovi et al. 2011), whose swing is "
+                      "interpolated through published peaks because the recorded stride ended on a landing. The steps "
+                      "imply stairs of {:.0f} mm rise and {:.0f} mm tread; knees and ankles keep the feet on them. The "
+                      "wearer does not change gait because of the garment.",
+                      1e3 * stairs->rise_m, 1e3 * stairs->tread_m));
+    else if (std::holds_alternative<AimOptions>(c.human->motion))
+      say("Taking aim is prescribed: end posture after Zheng 2013, 6.6, hips and trunk with minimum jerk, knees, "
+          "ankles "
+          "and hip rotations such that the feet stand. The rifle loads the wearer, not the garment.");
     else
       say("The motion is prescribed: the wearer does not change it because of the garment.");
+    if (s.feet) {
+      std::string feet = feetText(*s.feet);
+      feet[0] = 'T';
+      say(feet + ".");
+    }
     say(c.analysis.counting == Counting::all_distal
             ? "A joint's torque counts the contact on every segment distal of it."
             : "A joint's torque counts the contact on the segment next to it on the distal side (Man 2006).");
@@ -186,11 +198,19 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
     if (c.analysis.task == Task::natural_walk)
       say("Natural moments are the peaks of net joint moments in level walking of healthy adults (Bovi et al. 2011), "
           "scaled with body mass.");
+    if (c.analysis.task == Task::aiming)
+      say("Natural moments are the largest that hold the motion's postures still, with the rifle's weight in the "
+          "hands: "
+          "inverse statics from segment masses, over the times when both feet stand. The feet share the weight in "
+          "proportion to where the centre of mass projects between them.");
+    if (c.analysis.task == Task::natural_stairs)
+      say("Natural moments are the peaks of net joint moments in stair ascent of healthy adults (Bovi et al. 2011), "
+          "scaled with body mass.");
   }
   if (const auto strides = stridesOf(c))
     say(
-        fmt::format("Peaks and mean squares of torques count from the first foot strike at {} s on; the lead-in from "
-                    "standing is only drawn.",
+        fmt::format("Peaks and mean squares of torques count from the foot strike at {} s on; the lead-in before it is "
+                    "only drawn.",
                     formatNumber(strides->start_s)));
   if (!c.contact.self) say("Cloth does not touch cloth in this case: folds and layers may cross each other.");
   say("Cloth rests on bodies with its samples, and on cloth with samples and sharp edges; what would pass through a "

@@ -148,6 +148,10 @@ void applyRules(const Place& root, Case& c) {
   checkObstacles(root, c);
   if (c.analysis.task == Task::natural_walk && !(c.human && std::holds_alternative<WalkOptions>(c.human->motion)))
     failAt(root, {"analysis", "task"}, "natural_walk compares with walking, and the human does not walk");
+  if (c.analysis.task == Task::natural_stairs && !(c.human && std::holds_alternative<StairOptions>(c.human->motion)))
+    failAt(root, {"analysis", "task"}, "natural_stairs compares with climbing stairs, and the human climbs none");
+  if (c.analysis.task == Task::aiming && !(c.human && std::holds_alternative<AimOptions>(c.human->motion)))
+    failAt(root, {"analysis", "task"}, "aiming compares with taking aim, and the human takes none");
 }
 
 }  // namespace gambeson::schema

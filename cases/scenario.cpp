@@ -30,6 +30,9 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
+/// Feet of our own motions slip and sink by a centimetre or two at most.
+bool plausible(const FootReport& f) { return f.slip_m < 0.05 && f.penetration_m < 0.02 && f.hover_m < 0.02; }
+
 /// The human through dressing, settling and the motion, and the case's own obstacles.
 class CaseStage : public Stage {
  public:
@@ -336,6 +339,14 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
 
 }  // namespace
 
+std::string feetText(const FootReport& f) {
+  return fmt::format(
+      "the foot that stands slips by up to {:.1f} mm (at most {:.2f} m/s, at {:.2f} s), feet enter the "
+      "ground by up to {:.1f} mm (at {:.2f} s) and hover up to {:.1f} mm above it (at {:.2f} s)",
+      1e3 * f.slip_m, f.slip_m_per_s, f.slip_time_s, 1e3 * f.penetration_m, f.penetration_time_s, 1e3 * f.hover_m,
+      f.hover_time_s);
+}
+
 std::vector<Placement> Scenario::obstaclePlacements(double time_s) const {
   std::vector<Placement> obstacles(model->obstacles.size()), anchors(model->anchor_count);
   stage->placements(time_s, obstacles, anchors);
@@ -409,11 +420,20 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
                      s->motion = makeWalk(*s->human, w, &s->mean_velocity_m_per_s);
                      stage->air_ramp_s = w.stand_s + w.lead_in_s;
                    },
+                   [&](const StairOptions& o) {
+                     s->motion = makeStairs(*s->human, o, &s->mean_velocity_m_per_s);
+                     stage->air_ramp_s = o.stand_s + o.lead_in_s;
+                   },
+                   [&](const AimOptions& o) { s->motion = makeAim(*s->human, o); },
                    [&](const TrajectoryMotion& t) { s->motion = loadTrajectory(t.file, *s->human); },
                    [&](const MotionFileOptions& m) { stage->air_ramp_s = readRecorded(m, *s); },
                },
                c.human->motion);
     if (!c.time.duration_s) duration = s->motion->duration();
+    s->feet = footReport(*s->human, *s->motion);
+    const bool told = std::holds_alternative<MotionFileOptions>(c.human->motion);  // by its own reader
+    if (s->feet && !told && !plausible(*s->feet))
+      s->notes.push_back("the feet do not stand well: " + feetText(*s->feet));
     stage->human = &*s->human;
     stage->motion = s->motion.get();
     obstacles = obstaclesOf(*s->human);

@@ -9,6 +9,7 @@
 #include "cases/case.hpp"
 #include "core/dynamics/advance.hpp"
 #include "human/body.hpp"
+#include "human/foot_report.hpp"
 #include "human/motion.hpp"
 
 namespace gambeson {
@@ -26,7 +27,7 @@ struct Scenario {
   Case definition;
   std::optional<Human> human;
   std::unique_ptr<Motion> motion;
-  Vec3 mean_velocity_m_per_s;  ///< of the pelvis in walking
+  Vec3 mean_velocity_m_per_s;  ///< of the pelvis in walking and climbing
   std::unique_ptr<Model> model;
   std::unique_ptr<Stage> stage;
   std::vector<std::string> bodies;        ///< links of the human, then the case's own obstacles
@@ -35,6 +36,7 @@ struct Scenario {
   std::vector<std::string> fabric_names;  ///< of the garments, each once
   std::vector<int> samples_per_cell;      ///< of the patches
   std::vector<SupportGroup> supports;
+  std::optional<FootReport> feet;  ///< whether they could stand; none without feet
   std::vector<std::string> notes;  ///< what a user should know of the case before its results
   std::vector<Vec3> start_m;       ///< where the free points start; empty: where they are drafted
   std::vector<Vec3> noise_m;       ///< of the free points at the start; empty: none
@@ -47,6 +49,9 @@ struct Scenario {
   int bodyOf(int obstacle, const MaterialPoint& touched) const;
   bool hasSkin() const { return human && human->skin; }
 };
+
+/// What a foot report says, as a sentence without its full stop.
+std::string feetText(const FootReport& feet);
 
 /// What a run starts from: where the garments are drafted, with their noise, or where they were put on. Springs are
 /// anchored where they are drafted.

@@ -43,8 +43,8 @@ TEST(Command, HelpForNewcomers) {
 
 TEST(Command, CheckAcceptsTheLibrary) {
   const Folder folder;
-  for (const char* name : {"shorts_walk", "sleeve_flex", "inclined_plane", "sphere_drape", "flag", "cantilever",
-                           "roll_up", "hinged_roof", "plate_modes", "flag_dynamic"}) {
+  for (const char* name : {"shorts_walk", "shorts_stairs", "sleeve_flex", "inclined_plane", "sphere_drape", "flag",
+                           "cantilever", "roll_up", "hinged_roof", "plate_modes", "flag_dynamic"}) {
     const Outcome o = gambeson(folder, "check '" GAMBESON_SOURCE_DIR "/cases/library/" + std::string(name) + ".json'");
     EXPECT_EQ(o.status, 0) << o.err;
     EXPECT_NE(o.out.find("valid"), std::string::npos);

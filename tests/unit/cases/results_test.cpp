@@ -227,7 +227,7 @@ TEST(Results, RoundedUpReadsWell) {
 }
 
 TEST(Results, PhaseCountsFromTheOwnFootStrike) {
-  const Strides strides{0.5, 1.1, 2};
+  const Strides strides{0.5, 1.1, 2, 0, 0.62};
   EXPECT_NEAR(strides.phase(0.5, "right"), 0, 1e-12);
   EXPECT_NEAR(strides.phase(0.5 + 0.55, "right"), 0.5, 1e-12);
   EXPECT_NEAR(strides.phase(0.5 + 0.55, "left"), 0, 1e-12);
