@@ -33,26 +33,26 @@ void triangleBoxes(std::span<const Vec3> x, std::span<const std::array<int, 3>> 
 
 }  // namespace
 
-MeshSurface::MeshSurface(const TriangleMesh& mesh, bool deforms) : topology_(meshTopology(mesh)) {
+MeshSurface::MeshSurface(const TriangleMesh& mesh, bool deforms) : topology_(meshTopology(mesh)), deforms_(deforms) {
   triangleBoxes(mesh.vertices, topology_.triangles, boxes_);
   tree_ = BoundingTree(boxes_);
-  faces_.resize(topology_.triangles.size());
+  owns_.resize(topology_.triangles.size());
   std::vector<char> vertex_owned(mesh.vertices.size(), 0);
   for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
     const auto& c = topology_.edge_faces[topology_.edge_begin[e]];
-    faces_[c.face].owns_edges |= static_cast<unsigned char>(1 << c.k);
+    owns_[c.face].edges |= static_cast<unsigned char>(1 << c.k);
   }
-  for (std::size_t t = 0; t < faces_.size(); ++t) {
+  for (std::size_t t = 0; t < owns_.size(); ++t) {
     if (topology_.collapsed(static_cast<int>(t))) continue;
     for (int k = 0; k < 3; ++k) {
       char& owned = vertex_owned[topology_.triangles[t][k]];
-      if (!owned) faces_[t].owns_vertices |= static_cast<unsigned char>(1 << k);
+      if (!owned) owns_[t].vertices |= static_cast<unsigned char>(1 << k);
       owned = 1;
     }
   }
   corners_begin_.assign(mesh.vertices.size() + 1, 0);
   const auto everyCorner = [&](auto&& visit) {
-    for (std::size_t t = 0; t < faces_.size(); ++t)
+    for (std::size_t t = 0; t < owns_.size(); ++t)
       for (int k = 0; k < 3 && !topology_.collapsed(static_cast<int>(t)); ++k)
         visit(topology_.triangles[t][k], MeshTopology::Corner{static_cast<int>(t), k});
   };
@@ -83,28 +83,48 @@ void MeshSurface::place(std::span<const Vec3> vertices) {
   triangleBoxes(x_, topology_.triangles, boxes_);
   tree_.refit(boxes_);
   tolerance_m_ = 1e-10 * norm(tree_.bounds().halfSize());
-  edge_frames_.resize(topology_.edges.size());
-  const int n_edges = static_cast<int>(edge_frames_.size()), n_faces = static_cast<int>(faces_.size());
+  if (deforms_) return;
+  const int n_edges = static_cast<int>(topology_.edges.size()), n_faces = static_cast<int>(owns_.size());
+  edge_frames_.clear();
+  faces_.clear();
+  std::vector<EdgeFrame> edges(n_edges);
+  std::vector<Face> faces(n_faces);
 #pragma omp parallel for schedule(static) if (n_faces > kManyFaces)
-  for (int e = 0; e < n_edges; ++e) {
-    const Vec3 d = x_[topology_.edges[e].w] - x_[topology_.edges[e].v];
-    edge_frames_[e].length_m = norm(d);
-    edge_frames_[e].direction = unitOrZero(d);
-  }
+  for (int e = 0; e < n_edges; ++e) edges[e] = edgeOf(e);
 #pragma omp parallel for schedule(static) if (n_faces > kManyFaces)
   for (int t = 0; t < n_faces; ++t) {
     if (topology_.collapsed(t)) continue;
-    const auto& c = topology_.triangles[t];
-    Face& f = faces_[t];
-    f.normal = unitOrZero(cross(x_[c[1]] - x_[c[0]], x_[c[2]] - x_[c[0]]));
-    for (int k = 0; k < 3; ++k) f.inward[k] = unitOrZero(cross(f.normal, x_[c[(k + 1) % 3]] - x_[c[k]]));
+    Face& f = faces[t];
+    f.normal = normalOf(t);
+    for (int k = 0; k < 3; ++k) f.inward[k] = inwardOf(t, k, f.normal);
   }
+  edge_frames_ = std::move(edges);
+  faces_ = std::move(faces);
+}
+
+Vec3 MeshSurface::normalOf(int t) const {
+  if (!faces_.empty()) return faces_[t].normal;
+  if (topology_.collapsed(t)) return {};
+  const auto& c = topology_.triangles[t];
+  return unitOrZero(cross(x_[c[1]] - x_[c[0]], x_[c[2]] - x_[c[0]]));
+}
+
+Vec3 MeshSurface::inwardOf(int t, int k, const Vec3& normal) const {
+  if (!faces_.empty()) return faces_[t].inward[k];
+  const auto& c = topology_.triangles[t];
+  return unitOrZero(cross(normal, x_[c[(k + 1) % 3]] - x_[c[k]]));
+}
+
+MeshSurface::EdgeFrame MeshSurface::edgeOf(int e) const {
+  if (!edge_frames_.empty()) return edge_frames_[e];
+  const Vec3 d = x_[topology_.edges[e].w] - x_[topology_.edges[e].v];
+  return {unitOrZero(d), norm(d)};
 }
 
 Vec3 MeshSurface::edgeNormal(int e) const {
   Vec3 sum{};
   for (int i = topology_.edge_begin[e]; i < topology_.edge_begin[e + 1]; ++i)
-    sum += faces_[topology_.edge_faces[i].face].normal;
+    sum += normalOf(topology_.edge_faces[i].face);
   return unitOrZero(sum);
 }
 
@@ -114,20 +134,20 @@ Vec3 MeshSurface::vertexNormal(int v) const {
     const auto [t, k] = corners_[i];
     const auto& c = topology_.triangles[t];
     const Vec3 e = x_[c[(k + 1) % 3]] - x_[c[k]], back = x_[c[(k + 2) % 3]] - x_[c[k]];
-    sum += std::atan2(norm(cross(e, back)), dot(e, back)) * faces_[t].normal;
+    sum += std::atan2(norm(cross(e, back)), dot(e, back)) * normalOf(t);
   }
   return unitOrZero(sum);
 }
 
 MaterialPoint MeshSurface::material(const MeshPoint& foot) const {
-  const int n_faces = static_cast<int>(faces_.size()), n_edges = static_cast<int>(edge_frames_.size());
+  const int n_faces = static_cast<int>(owns_.size()), n_edges = static_cast<int>(topology_.edges.size());
   MaterialPoint m;
   if (foot.feature >= n_faces + n_edges) {
     m.add(foot.feature - n_faces - n_edges, 1);
   } else if (foot.feature >= n_faces) {
     const int e = foot.feature - n_faces;
     const auto [v, w] = topology_.edges[e];
-    const EdgeFrame& f = edge_frames_[e];
+    const EdgeFrame f = edgeOf(e);
     const double t = f.length_m > 0 ? std::clamp(dot(foot.position - x_[v], f.direction) / f.length_m, 0.0, 1.0) : 0;
     m.add(v, 1 - t);
     m.add(w, t);
@@ -143,10 +163,10 @@ MaterialPoint MeshSurface::material(const MeshPoint& foot) const {
 }
 
 MeshPoint MeshSurface::signedFoot(const Vec3& p, const Vec3& foot, int feature) const {
-  const int n_faces = static_cast<int>(faces_.size()), n_edges = static_cast<int>(edge_frames_.size());
+  const int n_faces = static_cast<int>(owns_.size()), n_edges = static_cast<int>(topology_.edges.size());
   MeshPoint m{foot, {}, 0, feature};
   if (feature < n_faces) {
-    m.normal = faces_[feature].normal;
+    m.normal = normalOf(feature);
     m.distance_m = dot(p - foot, m.normal);
     return m;
   }
@@ -183,14 +203,14 @@ std::optional<MeshPoint> MeshSurface::nearest(const Vec3& p, double radius) cons
 
 /// Along the edge, and no face of the edge under p.
 bool MeshSurface::edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const {
-  const EdgeFrame& f = edge_frames_[e];
+  const EdgeFrame f = edgeOf(e);
   const Vec3& a = x_[topology_.edges[e].v];
   const Vec3 r = p - a;
   const double t = dot(r, f.direction);
   if (!(t >= -tolerance_m_ && t <= f.length_m + tolerance_m_)) return false;
   for (int i = topology_.edge_begin[e]; i < topology_.edge_begin[e + 1]; ++i) {
     const auto& c = topology_.edge_faces[i];
-    if (dot(r, faces_[c.face].inward[c.k]) > tolerance_m_) return false;
+    if (dot(r, inwardOf(c.face, c.k, normalOf(c.face))) > tolerance_m_) return false;
   }
   foot = a + std::clamp(t, 0.0, f.length_m) * f.direction;
   return true;
@@ -201,7 +221,7 @@ bool MeshSurface::vertexIsMinimum(int v, const Vec3& p) const {
   const Vec3 r = p - x_[v];
   for (int i = topology_.vertex_begin[v]; i < topology_.vertex_begin[v + 1]; ++i) {
     const int e = topology_.vertex_edges[i];
-    const double t = dot(r, edge_frames_[e].direction);
+    const double t = dot(r, edgeOf(e).direction);
     if ((topology_.edges[e].v == v ? t : -t) > tolerance_m_) return false;
   }
   return true;
@@ -209,21 +229,21 @@ bool MeshSurface::vertexIsMinimum(int v, const Vec3& p) const {
 
 /// Local minima that this triangle answers for. False: it is out of reach.
 bool MeshSurface::faceFeet(int t, const Vec3& p, double radius, std::vector<MeshPoint>& out) const {
-  const Face& f = faces_[t];
+  const Vec3 normal = normalOf(t);
   const auto& c = topology_.triangles[t];
-  const double h = dot(p - x_[c[0]], f.normal);
+  const double h = dot(p - x_[c[0]], normal);
   if (std::abs(h) > radius || topology_.collapsed(t)) return false;
   const Vec3 r[3] = {p - x_[c[0]], p - x_[c[1]], p - x_[c[2]]};
-  const double s[3] = {dot(r[0], f.inward[0]), dot(r[1], f.inward[1]), dot(r[2], f.inward[2])};
-  if (std::min({s[0], s[1], s[2]}) >= -tolerance_m_ && norm2(f.normal) > 0)
-    out.push_back({p - h * f.normal, f.normal, h, t});
+  const double s[3] = {dot(r[0], inwardOf(t, 0, normal)), dot(r[1], inwardOf(t, 1, normal)),
+                       dot(r[2], inwardOf(t, 2, normal))};
+  if (std::min({s[0], s[1], s[2]}) >= -tolerance_m_ && norm2(normal) > 0) out.push_back({p - h * normal, normal, h, t});
   for (int k = 0; k < 3; ++k) {
     // This face alone often tells that it has a closer point than its edge or corner.
     Vec3 foot;
-    if ((f.owns_edges >> k & 1) && s[k] <= tolerance_m_ && edgeIsMinimum(topology_.face_edges[t][k], p, foot) &&
+    if ((owns_[t].edges >> k & 1) && s[k] <= tolerance_m_ && edgeIsMinimum(topology_.face_edges[t][k], p, foot) &&
         norm2(p - foot) <= radius * radius)
       out.push_back(signedFoot(p, foot, topology_.edgeFeature(topology_.face_edges[t][k])));
-    if ((f.owns_vertices >> k & 1) && norm2(r[k]) <= radius * radius && vertexIsMinimum(c[k], p))
+    if ((owns_[t].vertices >> k & 1) && norm2(r[k]) <= radius * radius && vertexIsMinimum(c[k], p))
       out.push_back(signedFoot(p, x_[c[k]], topology_.vertexFeature(c[k])));
   }
   return true;
@@ -277,7 +297,7 @@ void MeshSurface::chooseFeet(const Vec3& p, double radius, bool seen, bool outsi
   auto keep = found;
   for (auto it = found; it != out.end(); ++it) {
     if (it->distance_m < -zero) continue;
-    const bool is_face = it->feature < static_cast<int>(faces_.size());
+    const bool is_face = it->feature < static_cast<int>(owns_.size());
     const bool twin = std::any_of(found, keep, [&](const MeshPoint& k) {
       return norm2(k.position - it->position) <= same2 && (!is_face || dot(k.normal, it->normal) > 1 - 1e-9);
     });

@@ -61,9 +61,12 @@ class MeshSurface {
 
  private:
   struct Face {
-    Vec3 normal;                                      ///< unit; 0 for a triangle without area
-    Vec3 inward[3];                                   ///< unit, in the plane, from edge k into the face; 0 without area
-    unsigned char owns_edges = 0, owns_vertices = 0;  ///< bit k: this face answers for its edge/corner k
+    Vec3 normal;     ///< unit; 0 for a triangle without area
+    Vec3 inward[3];  ///< unit, in the plane, from edge k into the face; 0 without area
+  };
+  /// Bit k: the face answers for its edge/corner k.
+  struct Owns {
+    unsigned char edges = 0, vertices = 0;
   };
   struct EdgeFrame {
     Vec3 direction;  ///< unit, v to w
@@ -71,6 +74,10 @@ class MeshSurface {
   };
 
   void place(std::span<const Vec3> vertices);
+  // From the table, or, where the surface deforms, made when asked for: of a skin few are near cloth.
+  Vec3 normalOf(int t) const;
+  Vec3 inwardOf(int t, int k, const Vec3& normal) const;
+  EdgeFrame edgeOf(int e) const;
   Vec3 edgeNormal(int e) const;
   Vec3 vertexNormal(int v) const;
   MeshPoint signedFoot(const Vec3& p, const Vec3& foot, int feature) const;
@@ -81,15 +88,17 @@ class MeshSurface {
                   std::vector<MeshPoint>& out) const;
 
   MeshTopology topology_;
-  std::vector<Vec3> x_;  ///< positions
-  std::vector<Face> faces_;
-  std::vector<EdgeFrame> edge_frames_;
+  std::vector<Vec3> x_;                        ///< positions
+  std::vector<Owns> owns_;                     ///< of each face
+  std::vector<Face> faces_;                    ///< empty where the surface deforms
+  std::vector<EdgeFrame> edge_frames_;         ///< empty where the surface deforms
   std::vector<MeshTopology::Corner> corners_;  ///< of vertex v: [corners_begin_[v], corners_begin_[v + 1]), by face
   std::vector<int> corners_begin_;
   std::vector<Box> boxes_;  ///< of the triangles
   BoundingTree tree_;
   InsideGrid inside_;
   double tolerance_m_ = 0;
+  bool deforms_ = false;
 };
 
 }  // namespace gambeson
