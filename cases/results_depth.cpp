@@ -47,6 +47,11 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
   const std::vector<double> reach(n, 0);
   std::vector<Contact> inside;
   PlacedBodies placed(s);
+  // Without triangles to look at, only whether a point is inside of a mesh is asked, and of points that were outside
+  // and have gone less than their distance since not even that. What deforms keeps no distances.
+  MeshCandidates known;
+  known.first.assign(n + 1, 0);
+  MeshCandidates* const candidates = placed.surfaces()->empty() ? &known : nullptr;
   for (int k = 0; k < recording.frameCount(); ++k) {
     if (!(recording.time(k) > 1e-9)) continue;
     const Frame frame = recording.frame(k);
@@ -59,7 +64,7 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
       q[i] = {field->data[3 * i], field->data[3 * i + 1], field->data[3 * i + 2]};
     W.multiply<Vec3>(q, x);
     placed.moveTo(frame.time_s);
-    s.model->proximity->near(placed.placements(), placed.placements(), x, reach, inside, nullptr, placed.surfaces());
+    s.model->proximity->near(placed.placements(), placed.placements(), x, reach, inside, candidates, placed.surfaces());
     for (const Contact& c : inside)
       if (-c.gap_m > depth.deepest_m) depth.deepest_m = -c.gap_m, depth.time_s = frame.time_s;
   }
