@@ -26,10 +26,15 @@ enum class SeamKind { C0, G1 };
 
 /// Joins edge `a` to edge `b` point by point: same degree, same knots up to their range, same weights.
 /// `stiffness_N` is that of a rotational spring along the seam, moment per length and angle from rest [N m/(m rad)].
+/// With `first_cell` >= 0 the whole of `a` lies on a part of `b`: on as many of its cells as `a` has, from this one on
+/// in the sense of `b` (core/sheet/part_seam.hpp). Such seams are C0, and their edges have equal weights.
 struct Seam {
   PatchEdge a, b;
   SeamKind kind = SeamKind::G1;
   double stiffness_N = 0;
+  int first_cell = -1;
+
+  bool onPart() const { return first_cell >= 0; }
 };
 
 /// Joins edges `a` and `b` whose knots, degrees or weights differ, by a penalty (core/sheet/weak_seam.hpp). They lie on
@@ -42,9 +47,15 @@ struct WeakSeam {
   double factor = 1e3;  ///< penalty over the stiffness of a cell
 };
 
+/// Edges that supports and studies call by one name.
+struct NamedEdge {
+  std::string name;
+  std::vector<PatchEdge> edges;
+};
+
 /// Cloth at rest: one garment, or several worn over each other (core/sheet/layers.hpp). The weft direction at a point
-/// of patch i is weft[i] projected on the rest surface. `trims`, `fields` and `layer` are empty, or hold one entry per
-/// patch.
+/// of patch i is weft[i] projected on the rest surface. `trims`, `fields`, `layer`, `patch_names` and `placed` are
+/// empty, or hold one entry per patch.
 struct Garment {
   std::string name;
   std::vector<NurbsPatch> patches;
@@ -56,6 +67,12 @@ struct Garment {
   std::vector<PatchFields> fields;
   std::vector<WeakSeam> weak_seams;
   std::vector<int> layer;  ///< garment that a patch belongs to, 0 innermost; empty: one garment
+
+  std::vector<std::string> patch_names;  ///< of each patch, or empty
+  std::vector<NamedEdge> edges;
+  /// Where the control points of each patch stand when they do not start at rest (a belt that is put on stretched);
+  /// empty, or one list per patch, empty where the patch starts at rest.
+  std::vector<std::vector<Vec3>> placed;
 
   int layerOf(int patch) const { return layer.empty() ? 0 : layer[patch]; }
 };

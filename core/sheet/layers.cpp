@@ -15,6 +15,7 @@ Garment joinLayers(std::span<const Garment> garments) {
   });
   const bool plain = std::all_of(garments.begin(), garments.end(), [](const Garment& g) { return g.fields.empty(); });
   const bool trimmed = std::any_of(garments.begin(), garments.end(), [](const Garment& g) { return !g.trims.empty(); });
+  const bool placed = std::any_of(garments.begin(), garments.end(), [](const Garment& g) { return !g.placed.empty(); });
   Garment all;
   all.fabric = garments[0].fabric;
   int layer = 0;
@@ -37,6 +38,10 @@ Garment joinLayers(std::span<const Garment> garments) {
     for (WeakSeam seam : g.weak_seams) {
       seam.a = moved(seam.a), seam.b = moved(seam.b);
       all.weak_seams.push_back(seam);
+    }
+    if (placed) {
+      all.placed.insert(all.placed.end(), g.placed.begin(), g.placed.end());
+      all.placed.resize(all.patches.size());
     }
     if (trimmed) {
       all.trims.insert(all.trims.end(), g.trims.begin(), g.trims.end());

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
+#include "core/sheet/part_seam.hpp"
 #include "core/sheet/trim_map.hpp"
 
 namespace gambeson {
@@ -24,18 +25,6 @@ const KnotVector& knotsAlong(const NurbsPatch& patch, Side side) {
 }
 const KnotVector& knotsAcross(const NurbsPatch& patch, Side side) {
   return side == Side::u0 || side == Side::u1 ? patch.u : patch.v;
-}
-
-/// Knots of an edge mapped to [0, 1] in the edge's sense.
-std::vector<double> edgeKnots(const NurbsPatch& patch, const PatchEdge& e) {
-  const KnotVector& k = knotsAlong(patch, e.side);
-  std::vector<double> knots;
-  for (double value : k.knots) knots.push_back((value - k.front()) / (k.back() - k.front()));
-  if (e.reversed) {
-    std::reverse(knots.begin(), knots.end());
-    for (double& value : knots) value = 1 - value;
-  }
-  return knots;
 }
 
 bool isClamped(const KnotVector& k) { return k.knots.front() == k.front() && k.knots.back() == k.back(); }
@@ -61,13 +50,14 @@ void checkMatch(const Garment& g, int s) {
   const NurbsPatch &pa = g.patches[seam.a.patch], &pb = g.patches[seam.b.patch];
   if (!isClamped(pa.u) || !isClamped(pa.v) || !isClamped(pb.u) || !isClamped(pb.v))
     reject(s, "knots must be clamped at their ends");
+  if (!(seam.stiffness_N >= 0)) reject(s, "stiffness must be >= 0");
+  if (seam.onPart()) return;  // partOf looks closer
   if (knotsAlong(pa, seam.a.side).degree != knotsAlong(pb, seam.b.side).degree)
     reject(s, "degrees along the edge differ");
   const auto ka = edgeKnots(pa, seam.a), kb = edgeKnots(pb, seam.b);
   if (ka.size() != kb.size()) reject(s, "numbers of knots along the edge differ");
   for (std::size_t i = 0; i < ka.size(); ++i)
     if (std::abs(ka[i] - kb[i]) > 1e-12) reject(s, "knots along the edge differ");
-  if (!(seam.stiffness_N >= 0)) reject(s, "stiffness must be >= 0");
 }
 
 double weightOf(const Garment& g, const std::vector<int>& offsets, int control) {
@@ -118,6 +108,7 @@ FreeMap buildFreeMap(const Garment& garment) {
   UnionFind joined(n);
   for (int s = 0; s < static_cast<int>(garment.seams.size()); ++s) {
     checkMatch(garment, s);
+    if (garment.seams[s].onPart()) continue;
     const EdgeColumns a = edgeColumns(garment, garment.seams[s].a), b = edgeColumns(garment, garment.seams[s].b);
     for (std::size_t k = 0; k < a.edge.size(); ++k) {
       const double size = norm(Q[a.inner[k]] - Q[a.edge[k]]) + norm(Q[b.inner[k]] - Q[b.edge[k]]);
@@ -136,6 +127,7 @@ FreeMap buildFreeMap(const Garment& garment) {
       for (int j : {0, patch.v.count() - 1}) ++corners[joined.find(offsets[p] + patch.index(i, j))];
   }
   for (const Seam& seam : garment.seams) {
+    if (seam.onPart()) continue;
     const EdgeColumns a = edgeColumns(garment, seam.a);
     ++seam_ends[joined.find(a.edge.front())];
     ++seam_ends[joined.find(a.edge.back())];
@@ -145,13 +137,33 @@ FreeMap buildFreeMap(const Garment& garment) {
     return c == e ? c == 4 : c == 2;  // inside as many seams as patches meet, on the border one less
   };
 
-  // The middle columns of G1 seams, each as a combination of its two neighbours.
+  // Points as combinations of others: edges on a part of another, and the middle columns of G1 seams, each between its
+  // two neighbours.
   struct Combination {
-    int a, b;
-    double wa, wb;
+    std::vector<std::pair<int, double>> of;
     int seam;
   };
   std::map<int, Combination> combined;
+  std::vector<int> alike(n, 0);
+  for (int i = 0; i < n; ++i) ++alike[joined.find(i)];
+  for (int s = 0; s < static_cast<int>(garment.seams.size()); ++s) {
+    const Seam& seam = garment.seams[s];
+    if (!seam.onPart()) continue;
+    const EdgePart part = partOf(garment, s);
+    const EdgeColumns a = edgeColumns(garment, seam.a), b = edgeColumns(garment, seam.b);
+    for (std::size_t k = 0; k < a.edge.size(); ++k) {
+      Combination c{{}, s};
+      Vec3 at{};
+      for (const auto& [i, weight] : part.rows[k]) {
+        c.of.push_back({joined.find(b.edge[i]), weight});
+        at += weight * Q[b.edge[i]];
+      }
+      const double apart = norm(at - Q[a.edge[k]]);
+      if (!(apart <= 1e-9 * norm(Q[a.inner[k]] - Q[a.edge[k]]))) reject(s, "the edges do not meet at rest");
+      if (alike[joined.find(a.edge[k])] > 1 || !combined.try_emplace(joined.find(a.edge[k]), std::move(c)).second)
+        reject(s, "an edge on a part of another may not be joined to a third one");
+    }
+  }
   for (int s = 0; s < static_cast<int>(garment.seams.size()); ++s) {
     const Seam& seam = garment.seams[s];
     if (seam.kind != SeamKind::G1) continue;
@@ -175,9 +187,9 @@ FreeMap buildFreeMap(const Garment& garment) {
       if (!ratio) ratio = tangent_ratio;
       if (std::abs(tangent_ratio - *ratio) > 1e-8 * *ratio)
         reject(s, "G1: the ratio of the tangents varies along the edge; use a C0 seam with a rotational spring");
-      const int middle = joined.find(a.edge[k]);
-      combined.try_emplace(middle,
-                           Combination{joined.find(a.inner[k]), joined.find(b.inner[k]), c / (1 + c), 1 / (1 + c), s});
+      combined.try_emplace(
+          joined.find(a.edge[k]),
+          Combination{{{joined.find(a.inner[k]), c / (1 + c)}, {joined.find(b.inner[k]), 1 / (1 + c)}}, s});
     }
   }
 
@@ -205,9 +217,11 @@ FreeMap buildFreeMap(const Garment& garment) {
     } else {
       const Combination& c = combined.at(r);
       if (!open.insert(r).second)
-        reject(c.seam, "G1: this seam depends on itself; a patch needs more control points between its G1 edges");
-      for (const auto& [i, w] : resolve(c.a)) row[i] += c.wa * w;
-      for (const auto& [i, w] : resolve(c.b)) row[i] += c.wb * w;
+        reject(c.seam, garment.seams[c.seam].onPart()
+                           ? "this seam depends on itself"
+                           : "G1: this seam depends on itself; a patch needs more control points between its G1 edges");
+      for (const auto& [of, weight] : c.of)
+        for (const auto& [i, w] : resolve(of)) row[i] += weight * w;
       open.erase(r);
     }
     return rows.emplace(r, std::move(row)).first->second;
@@ -237,8 +251,11 @@ std::vector<HingePoint> buildHinges(const Garment& garment) {
   std::vector<Vec3> Q;
   for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
   std::vector<HingePoint> hinges;
-  for (const Seam& seam : garment.seams) {
+  for (std::size_t number = 0; number < garment.seams.size(); ++number) {
+    const Seam& seam = garment.seams[number];
     if (seam.stiffness_N == 0) continue;
+    EdgePart part;  // of edge b
+    if (seam.onPart()) part = partOf(garment, static_cast<int>(number));
     const KnotVector& knots = knotsAlong(garment.patches[seam.a.patch], seam.a.side);
     const std::vector<double> ends = breakpoints(knots);
     const Quadrature rule = gaussLegendre(knots.degree + 1);
@@ -246,13 +263,14 @@ std::vector<HingePoint> buildHinges(const Garment& garment) {
       for (std::size_t g = 0; g < rule.points.size(); ++g) {
         const double along = ends[cell] + rule.points[g] * (ends[cell + 1] - ends[cell]);
         const double fraction = (along - knots.front()) / (knots.back() - knots.front());
-        const double s = seam.a.reversed ? 1 - fraction : fraction;  // in the sense of the seam
+        const double sense = seam.a.reversed ? 1 - fraction : fraction;  // in the sense of the seam
         HingePoint h;
         std::map<int, std::array<double, 3>> row;
         for (int which : {0, 1}) {
           const PatchEdge& e = which == 0 ? seam.a : seam.b;
           const NurbsPatch& patch = garment.patches[e.patch];
           const KnotVector &ka = knotsAlong(patch, e.side), &kc = knotsAcross(patch, e.side);
+          const double s = which == 0 ? sense : part.from + sense * (part.to - part.from);
           const double t = ka.front() + (e.reversed ? 1 - s : s) * (ka.back() - ka.front());
           const bool across_u = e.side == Side::u0 || e.side == Side::u1,
                      far = e.side == Side::u1 || e.side == Side::v1;

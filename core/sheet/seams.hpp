@@ -17,7 +17,8 @@ struct EdgeColumns {
 };
 EdgeColumns edgeColumns(const Garment& garment, const PatchEdge& edge);
 
-/// q = T p, positions only: joined edges are one point; the middle column of a G1 seam is
+/// q = T p, positions only: joined edges are one point, an edge on a part of another is a combination of its points;
+/// the middle column of a G1 seam is
 ///   q_edge = (q_b + c' q_a) / (1 + c'),   Zheng 2013, eq. 2.35,
 /// with c' from the rest geometry. Rows sum to 1. The corner control point of a G1 seam where other than two patches
 /// (on the border) or four (inside) meet stays free.

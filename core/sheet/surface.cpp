@@ -198,8 +198,12 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const
     const auto [nua, nva] = s.patch_grid_size[seam.a.patch];
     const auto [nub, nvb] = s.patch_grid_size[seam.b.patch];
     const auto a = gridEdge(nua, nva, seam.a), b = gridEdge(nub, nvb, seam.b);
+    if (seam.onPart() && per_cell[seam.a.patch] == 0)
+      throw InputError({"", 0, "sampling"},
+                       "patches that a seam joins to a part of an edge need a number of samples per cell");
+    const std::size_t from = seam.onPart() ? static_cast<std::size_t>(seam.first_cell * per_cell[seam.a.patch]) : 0;
     for (std::size_t k = 0; k < a.size(); ++k) {
-      const int i = find(first[seam.a.patch] + a[k]), j = find(first[seam.b.patch] + b[k]);
+      const int i = find(first[seam.a.patch] + a[k]), j = find(first[seam.b.patch] + b[from + k]);
       if (i != j) parent[std::max(i, j)] = std::min(i, j);
     }
   }

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/nurbs/trim_arcs.hpp"
+#include "core/sheet/part_seam.hpp"
 #include "core/sheet/seams.hpp"
 #include "core/sheet/surface.hpp"
 
@@ -137,19 +138,28 @@ class Followers {
 /// untrimmed sheet, at 1 it falls to 0.39 of it, without a limit masses turn negative (square outline).
 constexpr double kHeaviest = 0.3;
 
-/// A seam needs its edges whole, and the control points that the map T or its springs act through.
+/// A seam needs its edges whole (or the part that is joined), and the control points that the map T or its springs act
+/// through.
 void checkSeams(const Garment& g, const std::vector<char>& used) {
   for (std::size_t s = 0; s < g.seams.size(); ++s)
-    for (const PatchEdge& e : {g.seams[s].a, g.seams[s].b}) {
-      if (e.patch < 0 || e.patch >= static_cast<int>(g.patches.size())) continue;  // buildFreeMap refuses it
+    for (const bool second : {false, true}) {
+      const PatchEdge &e = second ? g.seams[s].b : g.seams[s].a, &other = second ? g.seams[s].a : g.seams[s].b;
+      const int patches = static_cast<int>(g.patches.size());
+      if (std::min(e.patch, other.patch) < 0 || std::max(e.patch, other.patch) >= patches)
+        continue;  // buildFreeMap refuses it
       const Trim& trim = g.trims[e.patch];
       if (trim.loops.empty()) continue;
       const InputError::Where where{"", 0, "trims[" + std::to_string(e.patch) + "]"};
       const std::string seam = "seams[" + std::to_string(s) + "]";
+      const EdgePart part = second && g.seams[s].onPart() ? partOf(g, static_cast<int>(s)) : EdgePart{};
       const EdgeColumns columns = edgeColumns(g, e);
+      std::vector<char> needed(columns.edge.size(), part.rows.empty());
+      for (const auto& row : part.rows)
+        for (const auto& entry : row) needed[entry.first] = 1;
       for (const auto& list : {columns.edge, columns.inner})
-        for (int c : list)
-          if (!used[c]) throw InputError(where, "leaves a control point that " + seam + " needs without support");
+        for (std::size_t k = 0; k < list.size(); ++k)
+          if (const int c = list[k]; needed[k] && !used[c])
+            throw InputError(where, "leaves a control point that " + seam + " needs without support");
       const NurbsPatch& patch = g.patches[e.patch];
       const TrimBoundary b = trimBoundary(patch, trim);
       const bool along_v = e.side == Side::u0 || e.side == Side::u1, far = e.side == Side::u1 || e.side == Side::v1;
@@ -161,7 +171,10 @@ void checkSeams(const Garment& g, const std::vector<char>& used) {
       std::sort(at.begin(), at.end());
       for (std::size_t k = 0; k + 1 < at.size(); ++k) {
         const double mid = 0.5 * (at[k] + at[k + 1]);
-        if (at[k] < at[k + 1] && b.winding(along_v ? Vec2{side + inward, mid} : Vec2{mid, side + inward}) <= 0)
+        const double fraction = (mid - at.front()) / (at.back() - at.front());
+        const double sense = e.reversed ? 1 - fraction : fraction;
+        if (at[k] < at[k + 1] && sense > part.from && sense < part.to &&
+            b.winding(along_v ? Vec2{side + inward, mid} : Vec2{mid, side + inward}) <= 0)
           throw InputError(where, "cuts the edge of " + seam + "; a loop may not take a stretch of a joined edge");
       }
     }

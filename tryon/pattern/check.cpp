@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/sheet/part_seam.hpp"
 #include "tryon/pattern/fit.hpp"
 
 namespace gambeson {
@@ -19,19 +20,6 @@ std::string number(double x) {
   return s;
 }
 
-/// Knots along an edge, over [0, 1] in the edge's sense.
-std::vector<double> edgeKnots(const Garment& g, const PatchEdge& e) {
-  const NurbsPatch& p = g.patches[e.patch];
-  const KnotVector& k = e.side == Side::u0 || e.side == Side::u1 ? p.v : p.u;
-  std::vector<double> out;
-  for (const double x : k.knots) out.push_back((x - k.front()) / (k.back() - k.front()));
-  if (e.reversed) {
-    std::reverse(out.begin(), out.end());
-    for (double& x : out) x = 1 - x;
-  }
-  return out;
-}
-
 /// How many patch corners stand at x.
 int cornersAt(const Garment& g, const Vec3& x) {
   int n = 0;
@@ -41,13 +29,37 @@ int cornersAt(const Garment& g, const Vec3& x) {
   return n;
 }
 
+/// Edge a on a part of edge b.
+void checkPart(const Garment& g, const Seam& s, const std::string& key) {
+  EdgePart part;
+  try {
+    part = partOf(g, static_cast<int>(&s - g.seams.data()));
+  } catch (const InputError& e) {
+    reject(key, e.reason());
+  }
+  const NurbsPatch &a = g.patches[s.a.patch], &b = g.patches[s.b.patch];
+  const auto ra = edgeRow(a, s.a), rb = edgeRow(b, s.b);
+  for (std::size_t k = 0; k < ra.size(); ++k) {
+    Vec3 x{};
+    for (const auto& [i, w] : part.rows[k]) x += w * b.points[rb[i]];
+    const double apart = norm(x - a.points[ra[k]]);
+    if (!(apart <= tolerance_m))
+      reject(key, "the edge is " + number(apart) + " m from its part of the other at control point " +
+                      std::to_string(k) + " along edge a");
+  }
+}
+
 void checkSeam(const Garment& g, const Seam& s, const std::string& key) {
   for (const auto& [name, e] : {std::pair{".a", s.a}, std::pair{".b", s.b}})
     if (e.patch < 0 || e.patch >= static_cast<int>(g.patches.size()))
       reject(key + name + ".patch", std::to_string(e.patch) + ", there are patches 0 to " +
                                         std::to_string(static_cast<int>(g.patches.size()) - 1));
   if (!(s.stiffness_N >= 0) || !std::isfinite(s.stiffness_N)) reject(key + ".stiffness_N", "must not be negative");
-  const auto ka = edgeKnots(g, s.a), kb = edgeKnots(g, s.b);
+  if (s.onPart()) {
+    checkPart(g, s, key);
+    return;
+  }
+  const auto ka = edgeKnots(g.patches[s.a.patch], s.a), kb = edgeKnots(g.patches[s.b.patch], s.b);
   if (ka.size() != kb.size())
     reject(key, "the edges have " + std::to_string(ka.size()) + " and " + std::to_string(kb.size()) +
                     " knots; a seam joins edges of the same degree and knots");
@@ -126,11 +138,27 @@ void validate(const Garment& g) {
   for (std::size_t i = 0; i < g.weft.size(); ++i)
     if (!(norm(g.weft[i]) > 0) || !std::isfinite(norm(g.weft[i])))
       reject(item("weft", i), "must be a direction, not zero");
+  if (!g.trims.empty() && g.trims.size() != g.patches.size())
+    reject("trims", std::to_string(g.trims.size()) + " for " + std::to_string(g.patches.size()) + " patches");
+  if (!g.patch_names.empty() && g.patch_names.size() != g.patches.size())
+    reject("patch_names",
+           std::to_string(g.patch_names.size()) + " for " + std::to_string(g.patches.size()) + " patches");
+  if (!g.placed.empty() && g.placed.size() != g.patches.size())
+    reject("placed", std::to_string(g.placed.size()) + " for " + std::to_string(g.patches.size()) + " patches");
+  for (std::size_t i = 0; i < g.placed.size(); ++i)
+    if (!g.placed[i].empty() && g.placed[i].size() != g.patches[i].points.size())
+      reject(item("patches", i) + ".placed_m",
+             std::to_string(g.placed[i].size()) + " points, must be " + std::to_string(g.patches[i].points.size()));
+  for (std::size_t i = 0; i < g.edges.size(); ++i)
+    for (const PatchEdge& e : g.edges[i].edges)
+      if (e.patch < 0 || e.patch >= static_cast<int>(g.patches.size()))
+        reject(item("edges", i), "there is no patch " + std::to_string(e.patch));
   std::vector<std::pair<int, Side>> used;
   for (std::size_t i = 0; i < g.seams.size(); ++i) {
     const Seam& s = g.seams[i];
     checkSeam(g, s, item("seams", i));
     for (const PatchEdge& e : {s.a, s.b}) {
+      if (s.onPart() && e.patch == s.b.patch && e.side == s.b.side) continue;
       if (std::find(used.begin(), used.end(), std::pair{e.patch, e.side}) != used.end())
         reject(item("seams", i), "an edge of patch " + std::to_string(e.patch) + " is already in a seam");
       used.push_back({e.patch, e.side});

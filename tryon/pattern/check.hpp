@@ -11,7 +11,8 @@ void requireCells(const char* key, int cells, int least);
 
 /// Patches valid; one weft per patch, not zero; seams name patches that exist, no edge twice, edges of the same degree,
 /// knots (up to their range, 1e-9) and weights that coincide within 1e-9 m; G1 seams are G1 with a constant ratio
-/// within 1e-9 m save at their ends; stiffness not negative.
+/// within 1e-9 m save at their ends; stiffness not negative. Seams on a part of an edge: that edge a lies there within
+/// 1e-9 m. Lists by patch have one entry for each.
 void validate(const Garment& garment);
 
 /// Largest distance of a control point of a G1 seam from where the two rows beside it and the ratio put it, the ends

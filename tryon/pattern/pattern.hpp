@@ -1,11 +1,13 @@
 #pragma once
 /// Builders of garments at rest: a sheet, a tube, and shorts drafted on a body. The fabric is left for the case.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/sheet/garment.hpp"
 #include "human/body.hpp"
+#include "tryon/pattern/form.hpp"
 
 namespace gambeson {
 
@@ -64,10 +66,11 @@ Garment makeTube(const TubePattern& pattern);
 /// the centre lines leave the hull towards the gusset (a tape across the section still reads the same); from the crotch
 /// down to `blend_m` the leg goes over from the fork to the thigh's section.
 struct ShortsPattern {
-  double inseam_m = 0.20;  ///< crotch to hem
-  double rise_m = 0.25;    ///< crotch to waist edge
-  double ease = 0.06;      ///< garment girth = (1 + ease) body girth
-  double cell_m = 0.022;   ///< wanted size of a cell
+  double inseam_m = 0.20;            ///< crotch to hem
+  double rise_m = 0.25;              ///< crotch to waist edge
+  double ease = 0.06;                ///< garment girth = (1 + ease) body girth
+  std::optional<double> waist_ease;  ///< that of the waist edge, where it is another
+  double cell_m = 0.022;             ///< wanted size of a cell
   int degree = 2;
   double crotch_below_pelvis_m = 0.010;  ///< crotch line under the lowest point of the pelvis
   double gusset_share = 0.6;  ///< length of the gusset line, Cf to Cb, over the depth of the garment above it
@@ -76,6 +79,7 @@ struct ShortsPattern {
   double seam_stiffness_N = 0.01;  ///< rotational spring of the C0 seams [N m/(m rad)]
 };
 Garment makeShorts(const ShortsPattern& pattern, const Human& human);
+Garment makeShorts(const ShortsPattern& pattern, const BodyForm& form);
 
 /// Where the patches of the shorts stand in Garment::patches.
 enum ShortsPatch { trunk_left, trunk_right, outer_left, outer_right, inner_left, inner_right };

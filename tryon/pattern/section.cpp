@@ -93,6 +93,71 @@ Wrap::Wrap(const std::vector<std::vector<Vec2>>& sections, double from, double t
   }
 }
 
+namespace {
+Vec2 directionOf(int d, int directions) {
+  const double angle = 2 * std::numbers::pi * d / directions;
+  return {std::cos(angle), std::sin(angle)};
+}
+double supportOf(const std::vector<Vec2>& points, const Vec2& n) {
+  double h = -HUGE_VAL;
+  for (const Vec2& p : points) h = std::max(h, n.x * p.x + n.y * p.y);
+  return h;
+}
+}  // namespace
+
+Wrap Wrap::plain(const std::vector<std::vector<Vec2>>& sections, double from, double to) {
+  Wrap out;
+  out.from_ = from, out.to_ = to;
+  for (const auto& points : sections) {
+    out.support_.emplace_back(directions);
+    for (int d = 0; d < directions; ++d) out.support_.back()[d] = supportOf(points, directionOf(d, directions));
+  }
+  return out;
+}
+
+template <class F>
+Wrap Wrap::changed(const F& support) const {
+  Wrap out = *this;
+  for (int k = 0; k < heights(); ++k)
+    for (int d = 0; d < directions; ++d) out.support_[k][d] = support(k, d);
+  return out;
+}
+
+Wrap Wrap::grown(double factor, const Vec2& c) const {
+  return changed([&](int k, int d) {
+    const Vec2 n = directionOf(d, directions);
+    const double middle = n.x * c.x + n.y * c.y;
+    return middle + factor * (support_[k][d] - middle);
+  });
+}
+
+Wrap Wrap::offset(double distance) const {
+  return changed([&](int k, int d) { return support_[k][d] + distance; });
+}
+
+Wrap Wrap::with(const Wrap& other) const {
+  assert(other.heights() == heights() && other.from_ == from_ && other.to_ == to_);
+  return changed([&](int k, int d) { return std::max(support_[k][d], other.support_[k][d]); });
+}
+
+Wrap Wrap::widened(double reach) const {
+  const int n = static_cast<int>(std::ceil(reach * (heights() - 1) / (to_ - from_)));
+  return changed([&](int k, int d) {
+    double h = -HUGE_VAL;
+    for (int i = std::max(0, k - n); i <= std::min(heights() - 1, k + n); ++i) h = std::max(h, support_[i][d]);
+    return h;
+  });
+}
+
+Wrap Wrap::blended(const std::vector<Vec2>& other, const std::function<double(double)>& share) const {
+  return changed([&](int k, int d) {
+    const double w = share(heightOf(k));
+    return (1 - w) * support_[k][d] + w * supportOf(other, directionOf(d, directions));
+  });
+}
+
+double Wrap::girth(double z) const { return ClosedCurve(section(z)).length(); }
+
 std::vector<Vec2> Wrap::section(double z) const {
   const int n = static_cast<int>(support_.size());
   const double at = std::clamp((z - from_) / (to_ - from_), 0.0, 1.0) * (n - 1);

@@ -1,6 +1,7 @@
 #pragma once
 /// Horizontal sections of a body, as a tape measure sees them: convex closed curves with their length.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,12 +26,36 @@ class Wrap {
  public:
   /// sections[k], not empty, belongs to the height from + k (to - from) / (count - 1).
   Wrap(const std::vector<std::vector<Vec2>>& sections, double from, double to);
+  /// Only hulls of the sections themselves, each at its height; where a section is empty nothing is there.
+  static Wrap plain(const std::vector<std::vector<Vec2>>& sections, double from, double to);
+
   /// The section as the polygon of its tangents, counterclockwise; from <= z <= to.
   std::vector<Vec2> section(double z) const;
+  /// Length of the section, the integral of the support over all directions (Cauchy).
+  double girth(double z) const;
+
+  /// Each section grown by a factor about a centre; each moved outward by a distance.
+  Wrap grown(double factor, const Vec2& centre) const;
+  Wrap offset(double distance) const;
+  /// Hulls of both wraps' sections; both have the same heights.
+  Wrap with(const Wrap& other) const;
+  /// At each height the hull of all sections within `reach` above and below.
+  Wrap widened(double reach) const;
+  /// (1 - share(z)) this + share(z) the section `other`, as supports (Minkowski).
+  Wrap blended(const std::vector<Vec2>& other, const std::function<double(double)>& share) const;
+
+  double from() const { return from_; }
+  double to() const { return to_; }
+  int heights() const { return static_cast<int>(support_.size()); }
 
  private:
+  Wrap() = default;
+  template <class F>
+  Wrap changed(const F& support) const;  ///< support(height's number, direction)
+  double heightOf(int k) const { return from_ + (to_ - from_) * k / (heights() - 1); }
+
   static constexpr int directions = 360;
-  double from_, to_;
+  double from_ = 0, to_ = 0;
   std::vector<std::vector<double>> support_;  ///< by height, then direction
 };
 

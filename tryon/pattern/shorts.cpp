@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "human/motion.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
+#include "tryon/pattern/form.hpp"
 #include "tryon/pattern/pattern.hpp"
 #include "tryon/pattern/section.hpp"
 
@@ -15,71 +15,31 @@ namespace {
 
 [[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 
+/// Below the waist edge the waist's ease goes over into that of the rest.
+constexpr double waist_band_m = 0.12;
+
 /// The body as the tape sees it, standing.
 class Drafted {
  public:
-  explicit Drafted(const Human& human) : human_(human) {
-    const Skeleton& s = human.skeleton;
-    const int thigh = s.link("thigh_left"), torso = s.link("torso");
-    if (thigh < 0 || s.link("thigh_right") < 0)
-      reject("garment.shorts", "needs a human with links thigh_left and thigh_right");
-    const Posture posture = standing(human);
-    median_y_ = posture.root.origin.y;
-    placements_ = placementsOf(human, linkPoses(s, posture.q, posture.root));
-    for (std::size_t i = 0; i < human.shapes.size(); ++i) {
-      const int link = human.shapes[i].link;
-      if (link == 0) pelvis_.push_back(i);
-      if (link == thigh) thigh_.push_back(i);
-      if (link == 0 || link == thigh || link == torso) trunk_.push_back(i);
-    }
-    if (pelvis_.empty() || thigh_.empty())
+  explicit Drafted(const BodyForm& form)
+      : form_(form),
+        thigh_(form.links({"thigh_left"}, "garment.shorts")),
+        trunk_(form.links({"torso", "thigh_left", "thigh_right"}, "garment.shorts")) {
+    trunk_.push_back(0);
+    if (!std::isfinite(form.lowest({0})) || !std::isfinite(form.lowest(thigh_)))
       reject("garment.shorts", "needs a human with a surface on the root link and on thigh_left");
   }
 
   /// Lowest point of the pelvis [m].
-  double pelvisBottom() const {
-    double lowest = HUGE_VAL;
-    for (const std::size_t i : pelvis_) {
-      const Placement& X = placements_[i];
-      if (const auto* e = std::get_if<Ellipsoid>(&human_.shapes[i].shape)) {
-        const Vec3 up = transposeTimes(X.rotation, {0, 0, 1});
-        const Vec3 a{e->semi_axes.x * up.x, e->semi_axes.y * up.y, e->semi_axes.z * up.z};
-        lowest = std::min(lowest, X.origin.z - X.scale * norm(a));
-      } else {
-        for (const Vec3& v : std::get<TriangleMesh>(human_.shapes[i].shape).vertices)
-          lowest = std::min(lowest, (X * v).z);
-      }
-    }
-    return lowest;
-  }
+  double pelvisBottom() const { return form_.lowest({0}); }
   /// The wrap of pelvis, torso and both thighs between two heights; the left half is mirrored.
-  Wrap trunk(double from, double to) const {
-    constexpr int heights = 65;
-    std::vector<std::vector<Vec2>> sections;
-    for (int k = 0; k < heights; ++k)
-      sections.push_back(hull(trunk_, from + (to - from) * k / (heights - 1), true, "rise_m"));
-    return Wrap(sections, from, to);
-  }
-  ClosedCurve leftThigh(double z) const { return ClosedCurve(hull(thigh_, z, false, "inseam_m")); }
-  double medianY() const { return median_y_; }
+  Wrap trunk(double from, double to) const { return form_.wrap(from, to, trunk_, "rise_m"); }
+  ClosedCurve leftThigh(double z) const { return ClosedCurve(form_.hull(z, thigh_, false, "inseam_m")); }
+  double medianY() const { return form_.medianY(); }
 
  private:
-  std::vector<Vec2> hull(const std::vector<std::size_t>& shapes, double z, bool mirrored, const char* key) const {
-    std::vector<Vec2> points;
-    for (const std::size_t i : shapes)
-      for (const Vec2& p : section(human_.shapes[i].shape, placements_[i], z)) {
-        points.push_back(p);
-        if (mirrored) points.push_back({p.x, 2 * median_y_ - p.y});
-      }
-    auto out = convexHull(std::move(points));
-    if (out.size() < 3) reject(key, "reaches the height " + std::to_string(z) + " m, where the body has no section");
-    return out;
-  }
-
-  const Human& human_;
-  std::vector<Placement> placements_;
-  std::vector<std::size_t> pelvis_, thigh_, trunk_;
-  double median_y_ = 0;
+  const BodyForm& form_;
+  Links thigh_, trunk_;
 };
 
 /// The left half of the shorts as surfaces of (s, t), both from 0 to 1.
@@ -138,7 +98,9 @@ class Draft {
   Tape tape(double t) const {
     const ClosedCurve body(trunk_.section(crotch_z_ + t * p_.rise_m));
     const Vec2 c{body.centroid().x, body_.medianY()};
-    const ClosedCurve grown = body.grown(1 + p_.ease, c);
+    const double below = std::clamp((1 - t) * p_.rise_m / waist_band_m, 0.0, 1.0);
+    const double waist = p_.waist_ease.value_or(p_.ease);
+    const ClosedCurve grown = body.grown(1 + waist + (p_.ease - waist) * below * below * (3 - 2 * below), c);
     const double front = grown.crossing(c, {1, 0}), half = 0.5 * grown.length();
     return {grown, front, half, grown.point(front).x, grown.point(front + half).x};
   }
@@ -210,7 +172,8 @@ void check(const ShortsPattern& p) {
   requirePositive("fork_m", p.fork_m);
   requirePositive("blend_m", p.blend_m);
   requireDegree(p.degree, 2);
-  if (!(p.ease > -0.5 && p.ease < 2)) reject("ease", std::to_string(p.ease) + ", must lie between -0.5 and 2");
+  for (const auto& [key, ease] : {std::pair{"ease", p.ease}, std::pair{"waist_ease", p.waist_ease.value_or(p.ease)}})
+    if (!(ease > -0.5 && ease < 2)) reject(key, std::to_string(ease) + ", must lie between -0.5 and 2");
   if (!(p.crotch_below_pelvis_m > -0.1 && p.crotch_below_pelvis_m < 0.2))
     reject("crotch_below_pelvis_m", std::to_string(p.crotch_below_pelvis_m) + ", must lie between -0.1 and 0.2");
   if (!(p.seam_stiffness_N >= 0) || !std::isfinite(p.seam_stiffness_N))
@@ -221,9 +184,11 @@ void check(const ShortsPattern& p) {
 
 }  // namespace
 
-Garment makeShorts(const ShortsPattern& p, const Human& human) {
+Garment makeShorts(const ShortsPattern& p, const Human& human) { return makeShorts(p, BodyForm(human)); }
+
+Garment makeShorts(const ShortsPattern& p, const BodyForm& form) {
   check(p);
-  const Drafted body(human);
+  const Drafted body(form);
   const Draft draft(p, body);
   const auto around = uniformKnots(p.degree, draft.around()), inside = uniformKnots(p.degree, draft.inner());
   const auto rise = uniformKnots(p.degree, draft.rise()), leg = uniformKnots(p.degree, draft.leg());
@@ -237,6 +202,8 @@ Garment makeShorts(const ShortsPattern& p, const Human& human) {
     g.patches.push_back(mirrored(*left, body.medianY()));
   }
   g.weft.assign(6, {0, 0, 1});
+  g.patch_names = {"trunk_left", "trunk_right", "outer_left", "outer_right", "inner_left", "inner_right"};
+  for (const char* name : {"waist", "hem_left", "hem_right"}) g.edges.push_back({name, shortsEdge(name)});
 
   using enum Side;
   const SeamKind C0 = SeamKind::C0, G1 = SeamKind::G1;

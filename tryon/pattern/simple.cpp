@@ -59,6 +59,7 @@ Garment makeSheet(const SheetPattern& s) {
   p.weights.assign(p.points.size(), 1);
   g.patches.push_back(std::move(p));
   g.weft.push_back(s.axis_u);
+  for (const char* name : {"u0", "u1", "v0", "v1"}) g.edges.push_back({name, sheetEdge(name)});
   return g;
 }
 
@@ -78,6 +79,7 @@ Garment makeDisc(const DiscPattern& d) {
   Garment g = makeSheet(
       {side, side, cells, cells, d.degree, d.center - (0.5 * side) * (d.axis_u + d.axis_v), d.axis_u, d.axis_v});
   g.name = "disc";
+  g.edges.clear();
   g.trims = {Trim{{circleLoop(g.patches[0], {0.5 * side, 0.5 * side}, d.radius_m, Keep::inside)}}};
   return g;
 }
@@ -135,6 +137,7 @@ Garment makeTube(const TubePattern& t) {
     averageSeam(g, seam, 0, 0);  // already so up to rounding; the two edges become equal to the bit
     g.seams.push_back(seam);
   }
+  for (const char* name : {"start", "end"}) g.edges.push_back({name, tubeEdge(t, name)});
   return g;
 }
 

@@ -1,0 +1,83 @@
+#pragma once
+/// What is worn over shorts: a belt and a shirt without sleeves (the armour of Zheng 2013, section 6.2), and a skirt.
+/// All are drafted on the standing body (x forward, y left, z up) over the garments that are already worn, symmetric
+/// about its median plane. Rows of control points of belt, wrap, panels and belly are horizontal; v runs upward and u
+/// so that normals point outward.
+
+#include <span>
+
+#include "core/sheet/garment.hpp"
+#include "tryon/pattern/form.hpp"
+
+namespace gambeson {
+
+/// A garment under the one that is drafted. Between two layers cloth keeps half the sum of their thicknesses, to the
+/// body its own.
+struct Worn {
+  const Garment* garment = nullptr;
+  double layer_m = 0;  ///< its thickness in contact
+};
+
+/// One patch, closed on itself by a G1 seam at the back.
+///
+/// At rest it is shorter than the curve that it lies on, the wrap of the body moved out by the layers, by the stretch
+/// lambda at which a strip of its width carries the tension:
+///   T = width thickness E lambda (lambda^2 - 1) / 2        (St. Venant-Kirchhoff, free to contract across)
+/// It then presses 2 pi T on a round, smooth waist: pressure per length T / R, R the radius of curvature, summed over a
+/// closed curve. It starts stretched further (Garment::placed), free of the layers below.
+struct BeltPattern {
+  double width_m = 0.05;
+  double tension_N = 2;
+  double below_waist_m = 0.01;  ///< upper edge below the edge "waist" of the layer under it; without one, the belt's
+                                ///< middle stands at the origin of the torso's frame
+  double cell_m = 0.022;
+  int degree = 2;
+  double gap_m = 0.0005;  ///< that it starts farther out than the layers ask for
+};
+/// `fabric` is the belt's, `layer_m` its thickness in contact.
+Garment makeBelt(const BeltPattern& pattern, const BodyForm& form, const Fabric& fabric, double layer_m,
+                 std::span<const Worn> under);
+/// The stretch at which a strip carries `tension_N`.
+double stretchAt(double tension_N, double width_m, const Fabric& fabric);
+
+/// Six patches without sleeves, all seams C0 with a rotational spring.
+///
+///   front      between the side edges of the wrap, from the hem up to the chest; the neckline is trimmed out of its
+///              upper edge
+///   back       from the upper edge of the wrap up to the shoulder blades
+///   strap_left, strap_right   over the shoulders, on parts of the upper edges of front and back
+///   side_wrap  from the front's left edge around the sides and the back to the front's right edge
+///   belly      hangs from the middle of the front's hem, over belt and shorts
+///
+/// Sections are those of the convex hull of torso, pelvis and thighs, grown by 1 + ease, and farther out where garments
+/// lie under it. Towards the upper edge they go over into the hull of chest and shoulders. A strap is a ribbon of
+/// constant width along a taut string over the shoulder.
+struct ShirtPattern {
+  double ease = 0.06;
+  double hem_above_waist_m = 0.01;  ///< above the edge "waist" of a layer under it, or the origin of the torso's frame
+  double top_below_shoulder_m = 0.02;  ///< upper edges of front and back below the shoulder joints
+  double wrap_share = 0.62;            ///< of the front's height that the side wrap has
+  double front_share = 0.36;           ///< of the girth that the front covers below
+  double strap_width_m = 0.0385;
+  double neck_width_m = 0.155;  ///< between the straps
+  double neck_depth_m = 0.07;
+  double margin_m = 0.025;  ///< between strap and armhole, on either panel
+  double belly_length_m = 0.15;
+  double belly_share = 0.75;  ///< of the front's width below
+  double cell_m = 0.022;
+  int degree = 2;
+  double gap_m = 0.001;  ///< more than the layers ask for
+  double seam_stiffness_N = 0.01;
+};
+Garment makeShirt(const ShirtPattern& pattern, const BodyForm& form, double layer_m, std::span<const Worn> under);
+
+/// Where the patches of the shirt stand in Garment::patches.
+enum ShirtPatch { front, back, strap_left, strap_right, side_wrap, belly };
+
+/// The hull of garments under a height range, moved out by half the sum of the thicknesses and `gap_m`; a height where
+/// nothing is worn has nothing. False where nothing is worn at all.
+bool wrapOf(std::span<const Worn> under, double layer_m, double gap_m, double from, double to, int heights, Wrap& out);
+/// Height of the edge "waist" of the garments, the outermost that has one; `otherwise` where none has.
+double waistOf(std::span<const Worn> under, double otherwise);
+
+}  // namespace gambeson

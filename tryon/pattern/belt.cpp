@@ -1,0 +1,105 @@
+// The belt; the law of its length is described in armour.hpp.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tryon/pattern/armour.hpp"
+#include "tryon/pattern/check.hpp"
+#include "tryon/pattern/fit.hpp"
+
+namespace gambeson {
+namespace {
+
+[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
+
+void check(const BeltPattern& p) {
+  requirePositive("width_m", p.width_m);
+  requirePositive("cell_m", p.cell_m);
+  requireDegree(p.degree, 2);
+  if (!(p.tension_N >= 0 && std::isfinite(p.tension_N))) reject("tension_N", "must not be negative");
+  if (!(p.gap_m >= 0 && std::isfinite(p.gap_m))) reject("gap_m", "must not be negative");
+  if (!std::isfinite(p.below_waist_m)) reject("below_waist_m", "must be finite");
+}
+
+int cellsFor(double length_m, double cell_m, int least) {
+  const double n = std::round(length_m / cell_m);
+  if (!(n <= 1000)) reject("cell_m", std::to_string(cell_m) + ", too small: more than 1000 cells along an edge");
+  return std::max(least, static_cast<int>(n));
+}
+
+/// Rings of a wrap as a closed patch, u from the centre back around the left... to the centre back again.
+NurbsPatch ring(const KnotVector& u, const KnotVector& v, const Wrap& wrap, double median_y) {
+  double last_z = HUGE_VAL, start = 0;
+  std::vector<ClosedCurve> row;
+  return interpolate(u, v, [&](double s, double t) {
+    const double z = wrap.from() + t * (wrap.to() - wrap.from());
+    if (z != last_z) {
+      row.assign(1, ClosedCurve(wrap.section(z)));
+      start = row[0].crossing({row[0].centroid().x, median_y}, {-1, 0});
+      last_z = z;
+    }
+    const Vec2 x = row[0].point(start + s * row[0].length());
+    return Vec3{x.x, x.y, z};
+  });
+}
+
+}  // namespace
+
+double stretchAt(double tension_N, double width_m, const Fabric& fabric) {
+  // The weft lies across the belt.
+  const double stiffness = width_m * fabric.thickness_m * fabric.young_warp_Pa;
+  if (!(stiffness > 0)) reject("fabric", "a belt needs a stiffness");
+  double lambda = 1;  // Newton on a convex function from its left: monotone after the first step
+  for (int k = 0; k < 50; ++k) {
+    const double f = stiffness * 0.5 * lambda * (lambda * lambda - 1) - tension_N;
+    lambda -= f / (stiffness * 0.5 * (3 * lambda * lambda - 1));
+  }
+  if (!(lambda < 1.5)) reject("tension_N", std::to_string(tension_N) + ", would stretch the belt by more than half");
+  return lambda;
+}
+
+Garment makeBelt(const BeltPattern& p, const BodyForm& form, const Fabric& fabric, double layer_m,
+                 std::span<const Worn> under) {
+  check(p);
+  const Links trunk = [&] {
+    Links l = form.links({"torso", "thigh_left", "thigh_right"}, "garment.belt");
+    l.push_back(0);
+    return l;
+  }();
+  const double middle = form.origin(form.links({"torso"}, "garment.belt")[0]).z;
+  const double top = waistOf(under, middle + 0.5 * p.width_m + p.below_waist_m) - p.below_waist_m;
+  constexpr int heights = 17;
+  const Wrap body = form.wrap(top - p.width_m, top, trunk, "width_m", heights);
+  // Each layer keeps half the sum to the next, the first its thickness to the body.
+  double out = layer_m, below = 0;
+  for (std::size_t k = 0; k < under.size(); ++k) {
+    out = (k == 0 ? under[k].layer_m : below + 0.5 * (under[k - 1].layer_m + under[k].layer_m));
+    below = out;
+  }
+  if (!under.empty()) out = below + 0.5 * (under.back().layer_m + layer_m);
+  const Wrap worn = body.offset(out);
+  const ClosedCurve ring_middle(worn.section(0.5 * (worn.from() + worn.to())));
+  const Vec2 centre{ring_middle.centroid().x, form.medianY()};
+  const double lambda = stretchAt(p.tension_N, p.width_m, fabric);
+  Wrap start = worn.offset(p.gap_m), layers = start;
+  if (wrapOf(under, layer_m, p.gap_m, start.from(), start.to(), heights, layers)) start = start.with(layers);
+
+  const auto u = uniformKnots(p.degree, cellsFor(ring_middle.length(), p.cell_m, 8));
+  const auto v = uniformKnots(p.degree, cellsFor(p.width_m, p.cell_m, 2));
+  Garment g;
+  g.name = "belt";
+  g.weft = {{0, 0, 1}};
+  g.patch_names = {"belt"};
+  g.edges = {{"lower", {{0, Side::v0}}}, {"upper", {{0, Side::v1}}}};
+  const Seam closing{{0, Side::u0}, {0, Side::u1}, SeamKind::G1, 0};
+  g.patches = {ring(u, v, start, form.medianY())};
+  averageSeam(g, closing, 0, 0);
+  g.placed = {g.patches[0].points};
+  g.patches = {ring(u, v, worn.grown(1 / lambda, centre), form.medianY())};
+  averageSeam(g, closing, 0, 0);
+  g.seams = {closing};
+  validate(g);
+  return g;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,105 @@
+#include "tryon/pattern/form.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "human/motion.hpp"
+
+namespace gambeson {
+namespace {
+
+[[noreturn]] void reject(const char* key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
+
+bool isOf(const Links& of, int link) { return std::find(of.begin(), of.end(), link) != of.end(); }
+
+/// x, y, z become z, x, y: a cut at constant y becomes a level, whose points are (z, x).
+Placement turned(const Placement& X) {
+  const auto cycle = [](const Vec3& v) { return Vec3{v.z, v.x, v.y}; };
+  return {{cycle(X.rotation.a), cycle(X.rotation.b), cycle(X.rotation.c)}, cycle(X.origin), X.scale};
+}
+
+}  // namespace
+
+BodyForm::BodyForm(const Human& human) : human_(human) {
+  const Posture posture = standing(human);
+  const std::vector<Pose> links = linkPoses(human.skeleton, posture.q, posture.root);
+  for (const Pose& X : links) origin_.push_back(X.origin);
+  placements_ = placementsOf(human, links);
+  median_y_ = posture.root.origin.y;
+}
+
+BodyForm::BodyForm(const Human& human, TriangleMesh skin, std::vector<int> segment) : BodyForm(human) {
+  if (segment.size() != skin.vertices.size())
+    reject("skin",
+           std::to_string(segment.size()) + " segments for " + std::to_string(skin.vertices.size()) + " vertices");
+  skin_ = std::move(skin);
+  segment_ = std::move(segment);
+}
+
+Links BodyForm::links(std::span<const char* const> names, const char* key) const {
+  Links out;
+  for (const char* name : names) {
+    out.push_back(human_.skeleton.link(name));
+    if (out.back() < 0) reject(key, std::string("needs a human with the link ") + name);
+  }
+  return out;
+}
+
+std::vector<Vec2> BodyForm::cut(double at, const Links& of, bool level) const {
+  std::vector<Vec2> out;
+  const auto add = [&](const Shape& shape, const Placement& X) {
+    for (const Vec2& p : section(shape, level ? X : turned(X), at)) out.push_back(level ? p : Vec2{p.y, p.x});
+  };
+  if (segment_.empty()) {
+    for (std::size_t i = 0; i < human_.shapes.size(); ++i)
+      if (isOf(of, human_.shapes[i].link)) add(human_.shapes[i].shape, placements_[i]);
+    return out;
+  }
+  TriangleMesh part;
+  part.vertices = skin_.vertices;
+  for (const auto& t : skin_.triangles)
+    if (isOf(of, segment_[t[0]]) && isOf(of, segment_[t[1]]) && isOf(of, segment_[t[2]])) part.triangles.push_back(t);
+  add(part, Placement{});
+  return out;
+}
+
+std::vector<Vec2> BodyForm::level(double z, const Links& of) const { return cut(z, of, true); }
+std::vector<Vec2> BodyForm::profile(double y, const Links& of) const { return cut(y, of, false); }
+
+double BodyForm::lowest(const Links& of) const {
+  double lowest = HUGE_VAL;
+  for (std::size_t v = 0; v < segment_.size(); ++v)
+    if (isOf(of, segment_[v])) lowest = std::min(lowest, skin_.vertices[v].z);
+  if (!segment_.empty()) return lowest;
+  for (std::size_t i = 0; i < human_.shapes.size(); ++i) {
+    if (!isOf(of, human_.shapes[i].link)) continue;
+    const Placement& X = placements_[i];
+    if (const auto* e = std::get_if<Ellipsoid>(&human_.shapes[i].shape)) {
+      const Vec3 up = transposeTimes(X.rotation, {0, 0, 1});
+      const Vec3 a{e->semi_axes.x * up.x, e->semi_axes.y * up.y, e->semi_axes.z * up.z};
+      lowest = std::min(lowest, X.origin.z - X.scale * norm(a));
+    } else {
+      for (const Vec3& v : std::get<TriangleMesh>(human_.shapes[i].shape).vertices)
+        lowest = std::min(lowest, (X * v).z);
+    }
+  }
+  return lowest;
+}
+
+std::vector<Vec2> BodyForm::hull(double z, const Links& of, bool mirrored, const char* key) const {
+  std::vector<Vec2> points = level(z, of);
+  if (mirrored)
+    for (std::size_t i = 0, n = points.size(); i < n; ++i) points.push_back({points[i].x, 2 * median_y_ - points[i].y});
+  std::vector<Vec2> out = convexHull(std::move(points));
+  if (out.size() < 3) reject(key, "reaches the height " + std::to_string(z) + " m, where the body has no section");
+  return out;
+}
+
+Wrap BodyForm::wrap(double from, double to, const Links& of, const char* key, int heights) const {
+  std::vector<std::vector<Vec2>> sections;
+  for (int k = 0; k < heights; ++k) sections.push_back(hull(from + (to - from) * k / (heights - 1), of, true, key));
+  return Wrap(sections, from, to);
+}
+
+}  // namespace gambeson

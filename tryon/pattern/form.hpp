@@ -1,0 +1,56 @@
+#pragma once
+/// The standing body as a pattern maker measures it: sections of the links that are asked for, whether the surface is a
+/// list of shapes on links or one closed skin whose vertices name their link.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "human/body.hpp"
+#include "tryon/pattern/section.hpp"
+
+namespace gambeson {
+
+/// Links by number.
+using Links = std::vector<int>;
+
+class BodyForm {
+ public:
+  /// The shapes of a human who stands (human/motion.hpp). `human` outlives the form.
+  explicit BodyForm(const Human& human);
+  /// A closed skin of the standing human in the world; `segment` is the link of each vertex. A triangle belongs to a
+  /// link only with all its vertices, so that sections of the trunk end where arms begin.
+  BodyForm(const Human& human, TriangleMesh skin, std::vector<int> segment);
+
+  /// The links of these names; throws InputError (key `key`) where one is missing.
+  Links links(std::span<const char* const> names, const char* key) const;
+  Links links(std::initializer_list<const char*> names, const char* key) const {
+    return links(std::span(names.begin(), names.size()), key);
+  }
+  /// Points of the surface of some links: at a height (x, y), and in a plane of constant y (x, z).
+  std::vector<Vec2> level(double z, const Links& of) const;
+  std::vector<Vec2> profile(double y, const Links& of) const;
+  /// Height of the lowest point [m]; infinite without a surface.
+  double lowest(const Links& of) const;
+  /// Hull of a level; mirrored about the median plane where asked. Throws InputError with `key` where there is none.
+  std::vector<Vec2> hull(double z, const Links& of, bool mirrored, const char* key) const;
+  /// The wrap between two heights of hulls, mirrored, at `heights` evenly spaced heights.
+  Wrap wrap(double from, double to, const Links& of, const char* key, int heights = 65) const;
+
+  /// Where a link's frame stands (the joint that carries it).
+  const Vec3& origin(int link) const { return origin_[link]; }
+  double medianY() const { return median_y_; }
+
+ private:
+  std::vector<Vec2> cut(double at, const Links& of, bool level) const;
+
+  const Human& human_;
+  std::vector<Placement> placements_;
+  std::vector<Vec3> origin_;
+  TriangleMesh skin_;
+  std::vector<int> segment_;  ///< empty: shapes
+  double median_y_ = 0;
+};
+
+}  // namespace gambeson

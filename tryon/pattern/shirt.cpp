@@ -1,0 +1,249 @@
+// The shirt; its layout is described in armour.hpp.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/sheet/part_seam.hpp"
+#include "tryon/pattern/armour.hpp"
+#include "tryon/pattern/check.hpp"
+#include "tryon/pattern/fit.hpp"
+#include "tryon/pattern/strap.hpp"
+
+namespace gambeson {
+namespace {
+
+[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
+
+void check(const ShirtPattern& p) {
+  for (const auto& [key, value] : {std::pair{"strap_width_m", p.strap_width_m},
+                                   std::pair{"neck_width_m", p.neck_width_m}, std::pair{"neck_depth_m", p.neck_depth_m},
+                                   std::pair{"belly_length_m", p.belly_length_m}, std::pair{"cell_m", p.cell_m}})
+    requirePositive(key, value);
+  requireDegree(p.degree, 2);
+  for (const auto& [key, value] : {std::pair{"wrap_share", p.wrap_share}, std::pair{"front_share", p.front_share},
+                                   std::pair{"belly_share", p.belly_share}})
+    if (!(value >= 0.1 && value <= 0.9)) reject(key, std::to_string(value) + ", must lie between 0.1 and 0.9");
+  if (!(p.ease > -0.5 && p.ease < 2)) reject("ease", std::to_string(p.ease) + ", must lie between -0.5 and 2");
+  for (const auto& [key, value] : {std::pair{"margin_m", p.margin_m}, std::pair{"gap_m", p.gap_m},
+                                   std::pair{"seam_stiffness_N", p.seam_stiffness_N}})
+    if (!(value >= 0 && std::isfinite(value))) reject(key, std::to_string(value) + ", must not be negative");
+  for (const auto& [key, value] :
+       {std::pair{"hem_above_waist_m", p.hem_above_waist_m}, std::pair{"top_below_shoulder_m", p.top_below_shoulder_m}})
+    if (!(value >= -0.1 && value <= 0.2)) reject(key, std::to_string(value) + ", must lie between -0.1 and 0.2");
+}
+
+int cellsFor(double length_m, double cell_m, int least) {
+  const double n = std::round(length_m / cell_m);
+  if (!(n <= 1000)) reject("cell_m", std::to_string(cell_m) + ", too small: more than 1000 cells along an edge");
+  return std::max(least, static_cast<int>(n));
+}
+
+/// A row at one height: the curve around, and where its centre front stands on it.
+struct Row {
+  ClosedCurve curve;
+  double front = 0;
+  Vec3 at(double s, double z) const {
+    const Vec2 x = curve.point(front + s);
+    return {x.x, x.y, z};
+  }
+};
+
+class Draft {
+ public:
+  Draft(const ShirtPattern& p, const BodyForm& form, double layer_m, std::span<const Worn> under)
+      : p_(p), form_(form), under_(under), sections_(makeSections(layer_m)) {
+    const double side = wrapTop() - hem_;
+    // Across the straps cells of one width; the front's and back's upper edges have the same.
+    strap_cells = std::max(2, static_cast<int>(std::ceil(p.strap_width_m / p.cell_m)));
+    const double cell = p.strap_width_m / strap_cells;
+    neck_half = std::max(2, static_cast<int>(std::round(0.5 * p.neck_width_m / cell)));
+    margin = static_cast<int>(std::round(p.margin_m / cell));
+    panel_cells = 2 * (neck_half + strap_cells + margin);
+    top_half_m = (neck_half + strap_cells + margin) * cell;
+
+    const double height = top_ - hem_;
+    front_up = cellsFor(height, p.cell_m, 4);
+    wrap_up = std::clamp(static_cast<int>(std::round(side / height * front_up)), 2, front_up - 2);
+    wrap_top_ = hem_ + height * wrap_up / front_up;
+    back_up = cellsFor(top_ - wrap_top_, p.cell_m, 2);
+    const double girth = row(0.5 * (hem_ + wrap_top_)).curve.length();
+    wrap_around = cellsFor((1 - p.front_share) * girth, p.cell_m, panel_cells + 2);
+    wrap_around += (wrap_around - panel_cells) % 2;  // the back in its middle
+    belly_across = cellsFor(p.belly_share * panel_cells, 1, 2);
+    belly_across -= (panel_cells - belly_across) % 2;
+    belly_up = cellsFor(p.belly_length_m, p.cell_m, 2);
+  }
+
+  Vec3 front(double s, double t) const {
+    const double z = hem_ + t * (top_ - hem_);
+    const Row& r = row(z);
+    const double low = 0.5 * p_.front_share * r.curve.length();
+    return r.at((2 * s - 1) * armhole(low, z), z);
+  }
+  Vec3 wrap(double s, double t) const {
+    const double z = hem_ + t * (wrap_top_ - hem_);
+    const Row& r = row(z);
+    const double half = 0.5 * p_.front_share * r.curve.length();
+    return r.at(half + s * (r.curve.length() - 2 * half), z);
+  }
+  Vec3 back(double s, double t) const {
+    const double z = wrap_top_ + t * (top_ - wrap_top_);
+    const Row& r = row(z);
+    const double around = (1 - p_.front_share) * r.curve.length();
+    const double low = 0.5 * around * panel_cells / wrap_around;
+    return r.at(0.5 * r.curve.length() + (2 * s - 1) * armhole(low, z), z);
+  }
+  /// Narrower by a fifth at its lower edge.
+  Vec3 belly(double s, double t) const {
+    const double z = hem_ - (1 - t) * p_.belly_length_m;
+    const Row& r = row(z);
+    const double half = 0.5 * p_.front_share * row(hem_).curve.length() * belly_across / panel_cells;
+    return r.at((2 * s - 1) * half * (0.8 + 0.2 * t), z);
+  }
+  double top() const { return top_; }
+
+  int strap_cells = 0, neck_half = 0, margin = 0, panel_cells = 0, front_up = 0, wrap_up = 0, back_up = 0,
+      wrap_around = 0, belly_across = 0, belly_up = 0;
+  double top_half_m = 0;
+
+ private:
+  double wrapTop() const { return hem_ + p_.wrap_share * (top_ - hem_); }
+
+  Wrap makeSections(double layer_m) {
+    const Links torso = form_.links({"torso"}, "garment.shirt");
+    const Links arms = form_.links({"torso", "upper_arm_left", "upper_arm_right"}, "garment.shirt");
+    Links trunk = form_.links({"torso", "thigh_left", "thigh_right"}, "garment.shirt");
+    trunk.push_back(0);
+    hem_ = waistOf(under_, form_.origin(torso[0]).z) + p_.hem_above_waist_m;
+    top_ = form_.origin(arms[1]).z - p_.top_below_shoulder_m;
+    if (!(top_ - hem_ > 0.1)) reject("garment.shirt", "the shoulders stand less than 10 cm above the hem");
+    wrap_top_ = wrapTop();
+    const double bottom = hem_ - p_.belly_length_m;
+    const int heights = 1 + 2 * static_cast<int>(std::ceil((top_ - bottom) / 0.01));
+    const Wrap body = form_.wrap(bottom, top_, trunk, "belly_length_m", heights);
+    const Vec2 centre{ClosedCurve(body.section(hem_)).centroid().x, form_.medianY()};
+    // Upward from the wrap the sections go over into the hull of chest and shoulders at the upper edges.
+    const std::vector<Vec2> shoulders = form_.hull(top_, arms, true, "top_below_shoulder_m");
+    const Wrap upper = body.blended(shoulders, [&](double z) {
+      const double x = std::clamp((z - wrap_top_) / (top_ - wrap_top_), 0.0, 1.0);
+      return x * x * (3 - 2 * x);
+    });
+    Wrap out = body.with(upper).grown(1 + p_.ease, centre).with(body.with(upper).offset(layer_m + p_.gap_m));
+    Wrap layers = out;
+    if (wrapOf(under_, layer_m, p_.gap_m, bottom, top_, heights, layers))
+      out = out.with(layers.widened(1.5 * p_.cell_m));
+    return out;
+  }
+  const Row& row(double z) const {
+    const auto found = rows_.find(z);
+    if (found != rows_.end()) return found->second;
+    Row r{ClosedCurve(sections_.section(z)), 0};
+    r.front = r.curve.crossing({r.curve.centroid().x, form_.medianY()}, {1, 0});
+    return rows_.emplace(z, std::move(r)).first->second;
+  }
+  /// Half the width of a panel: `low` beside the wrap, then along a parabola to the upper edge's.
+  double armhole(double low, double z) const {
+    const double x = std::clamp((top_ - z) / (top_ - wrap_top_), 0.0, 1.0);
+    return top_half_m + (low - top_half_m) * x * x;
+  }
+
+  const ShirtPattern& p_;
+  const BodyForm& form_;
+  std::span<const Worn> under_;
+  double hem_ = 0, top_ = 0, wrap_top_ = 0;
+  Wrap sections_;
+  mutable std::map<double, Row> rows_;
+};
+
+/// The edge a of a seam on a part of edge b takes the control points that hold it there.
+void fitPart(Garment& g, const Seam& seam) {
+  g.seams.push_back(seam);
+  const EdgePart part = partOf(g, static_cast<int>(g.seams.size()) - 1);
+  const NurbsPatch& b = g.patches[seam.b.patch];
+  NurbsPatch& a = g.patches[seam.a.patch];
+  const auto rb = edgeRow(b, seam.b), ra = edgeRow(a, seam.a);
+  for (std::size_t k = 0; k < ra.size(); ++k) {
+    Vec3 x{};
+    for (const auto& [i, w] : part.rows[k]) x += w * b.points[rb[i]];
+    a.points[ra[k]] = x;
+  }
+}
+
+/// A U cut out of the upper edge, between the straps' inner edges less half a cell on either side.
+Trim neckline(const Draft& d, const ShirtPattern& p, double height_m) {
+  const double half = (d.neck_half - 0.5) / d.panel_cells, low = 1 - p.neck_depth_m / height_m;
+  const KnotVector one{2, {0, 0, 0, 1, 1, 1}};
+  const double l = 0.5 - half, r = 0.5 + half;
+  // Clockwise, a hole: along the edge to the right, then down and around.
+  return Trim{{TrimLoop{line({l, 1}, {r, 1}),
+                        {one, {{r, 1}, {r, low}, {0.5, low}}, {1, 1, 1}},
+                        {one, {{0.5, low}, {l, low}, {l, 1}}, {1, 1, 1}}}}};
+}
+
+}  // namespace
+
+Garment makeShirt(const ShirtPattern& p, const BodyForm& form, double layer_m, std::span<const Worn> under) {
+  check(p);
+  const Draft d(p, form, layer_m, under);
+  const auto knots = [&](int cells) { return uniformKnots(p.degree, cells); };
+  Garment g;
+  g.name = "shirt";
+  g.patch_names = {"front", "back", "strap_left", "strap_right", "side_wrap", "belly"};
+  g.patches.resize(6);
+  g.weft.assign(6, {0, 0, 1});
+  const auto across = knots(d.panel_cells);
+  g.patches[front] = interpolate(across, knots(d.front_up), [&](double s, double t) { return d.front(s, t); });
+  g.patches[side_wrap] =
+      interpolate(knots(d.wrap_around), knots(d.wrap_up), [&](double s, double t) { return d.wrap(s, t); });
+  g.patches[back] = interpolate(across, knots(d.back_up), [&](double s, double t) { return d.back(s, t); });
+  g.patches[belly] =
+      interpolate(knots(d.belly_across), knots(d.belly_up), [&](double s, double t) { return d.belly(s, t); });
+
+  using enum Side;
+  const double k = p.seam_stiffness_N;
+  const SeamKind C0 = SeamKind::C0;
+  fitPart(g, {{side_wrap, u0}, {front, u1}, C0, k, 0});
+  fitPart(g, {{side_wrap, u1}, {front, u0}, C0, k, 0});
+  fitPart(g, {{back, v0}, {side_wrap, v1}, C0, k, (d.wrap_around - d.panel_cells) / 2});
+  fitPart(g, {{belly, v1}, {front, v0}, C0, k, (d.panel_cells - d.belly_across) / 2});
+
+  // The left strap between the outer cells of both upper edges; the right one is its mirror image.
+  const int inner = d.panel_cells / 2 + d.neck_half;
+  const auto upper = [&](ShirtPatch patch, double cell) {
+    return surfaceDerivatives(g.patches[patch], cell / d.panel_cells, 1)[0];
+  };
+  StrapLine line;
+  for (int i = 0; i <= StrapLine::lines; ++i) {
+    const double a = static_cast<double>(i) / StrapLine::lines;
+    line.front.push_back(upper(front, inner + a * d.strap_cells));
+    line.back.push_back(upper(back, d.panel_cells - inner - a * d.strap_cells));
+  }
+  line.width_m = p.strap_width_m;
+  line.clearance_m = layer_m + p.gap_m + 0.003;
+  const Strap strap(line, form);
+  const auto along = knots(cellsFor(strap.length(), p.cell_m, 4));
+  g.patches[strap_left] = interpolate(knots(d.strap_cells), along, [&](double s, double t) { return strap.at(s, t); });
+  g.patches[strap_right] = interpolate(knots(d.strap_cells), along, [&](double s, double t) {
+    const Vec3 x = strap.at(1 - s, t);
+    return Vec3{x.x, 2 * form.medianY() - x.y, x.z};
+  });
+  const int outer = d.margin;
+  fitPart(g, {{strap_left, v0}, {front, v1}, C0, k, inner});
+  fitPart(g, {{strap_left, v1, true}, {back, v1}, C0, k, outer});
+  fitPart(g, {{strap_right, v0}, {front, v1}, C0, k, outer});
+  fitPart(g, {{strap_right, v1, true}, {back, v1}, C0, k, inner});
+
+  g.trims.resize(6);
+  g.trims[front] =
+      neckline(d, p, norm(upper(front, 0.5 * d.panel_cells) - surfaceDerivatives(g.patches[front], 0.5, 0)[0]));
+  g.edges = {{"hem", {{front, v0}, {side_wrap, v0}}},
+             {"neck_front", {{front, v1}}},
+             {"neck_back", {{back, v1}}},
+             {"belly_hem", {{belly, v0}}}};
+  validate(g);
+  return g;
+}
+
+}  // namespace gambeson
