@@ -17,6 +17,7 @@
 #include "human/motion.hpp"
 #include "human/motion_file.hpp"
 #include "human/skin.hpp"
+#include "tryon/pattern/armour.hpp"
 
 namespace gambeson {
 
@@ -54,12 +55,18 @@ struct TubeGarment {
 
 /// Shorts drafted on the body of the case, six patches.
 struct ShortsGarment {
-  double inseam_m = 0.20;  ///< crotch to hem
-  double rise_m = 0.25;    ///< crotch to waist edge
-  double ease = 0.06;      ///< garment girth = (1 + ease) body girth
-  double cell_m = 0.02;    ///< wanted size of a cell
+  double inseam_m = 0.20;            ///< crotch to hem
+  double rise_m = 0.25;              ///< crotch to waist edge
+  double ease = 0.06;                ///< garment girth = (1 + ease) body girth
+  std::optional<double> waist_ease;  ///< of the waist edge, where it is another
+  double cell_m = 0.02;              ///< wanted size of a cell
   int degree = 2;
 };
+
+/// Drafted on the body of the case, over the garments before it (tryon/pattern/armour.hpp, where the defaults are).
+struct BeltGarment : BeltPattern {};
+struct ShirtGarment : ShirtPattern {};
+struct SkirtGarment : SkirtPattern {};
 
 /// A garment read from a file.
 struct FileGarment {
@@ -77,7 +84,9 @@ struct Stitching {
 
 struct GarmentCase {
   std::string name;  ///< where there are several: what supports and tables call it; unique
-  std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, FileGarment> shape;
+  std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, BeltGarment, ShirtGarment, SkirtGarment,
+               FileGarment>
+      shape;
   Vec3 position_m;               ///< moves the shape
   std::optional<Fabric> fabric;  ///< that of the case where absent
   /// Displacement of each control point along the normal, uniform in -amplitude .. amplitude, that the motion starts
@@ -156,7 +165,7 @@ struct ObstacleCase {
 // --- What holds it ----------------------------------------------------------------------------------------------
 
 /// An edge of a garment, which is named where there are several: by name (sheet: "u0" "u1" "v0" "v1"; tube: "start"
-/// "end"; shorts: "waist" "hem_left" "hem_right"), or, with an empty name, by patch and side.
+/// "end"; those that are drafted and files: as the garment says), or, with an empty name, by patch and side.
 struct EdgeCase {
   std::string garment;
   std::string name;

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "cases/any_case.hpp"
+#include "cases/draft.hpp"
 #include "cases/dress.hpp"
 #include "cases/fields.hpp"
 #include "cases/results_folder.hpp"
@@ -37,6 +38,12 @@ struct DressArguments {
   std::filesystem::path file, output;
   std::vector<std::string> overrides;
   int threads = 0;
+};
+
+struct DraftArguments {
+  std::filesystem::path file, garment_file;
+  std::vector<std::string> overrides;
+  std::string garment;
 };
 
 struct RenderArguments {
@@ -136,6 +143,20 @@ void addCheck(CLI::App& app, CheckArguments& a) {
       "  gambeson check my_case.json --full --set garment.shorts.ease=\"10 %\"\n"
       "  gambeson check --schema > case.schema.json\n\n"
       "Exit status: 0 the case is valid; 2 it is not, and the message says file, line, key and what is allowed.");
+}
+
+void addDraft(CLI::App& app, DraftArguments& a) {
+  CLI::App& draft = *app.add_subcommand(
+      "draft", "Writes a garment of a case, made on its human, as a file that can be edited and worn");
+  draft.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  draft.add_option("--garment", a.garment, "Its name in the case; not needed where there is only one")
+      ->type_name("NAME");
+  addOverrides(draft, a.overrides);
+  draft.add_option("-o,--output", a.garment_file, "Garment file to write (JSON)")->type_name("GARMENT")->required();
+  draft.footer(
+      "The file has patches, seams, trims and names of edges, but no fabric; {\"file\": {\"path\": ...}} in a case\n"
+      "wears it, with the same results to the bit.\n\n"
+      "Example:\n  gambeson draft cases/library/armour_stand.json --garment shirt -o shirt.json");
 }
 
 void addRender(CLI::App& app, RenderArguments& a) {
@@ -255,6 +276,14 @@ int check(const CheckArguments& a, std::ostream& out) {
   return done;
 }
 
+int draft(const DraftArguments& a, std::ostream& out) {
+  const AnyCase any = readAnyCase(a.file, a.overrides);
+  const auto* c = std::get_if<Case>(&any);
+  if (!c) throw InputError({a.file.string(), 0, ""}, "is a case of a structure; garments are made by those that wear");
+  draftToFile(*c, a.garment, a.garment_file, out);
+  return done;
+}
+
 int run(RunArguments& a) {
   if (a.device == "cuda")
     throw InputError({"command line", 0, "--device"}, "\"cuda\" is not in this build; allowed: auto or cpu");
@@ -331,12 +360,14 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   RunArguments run_arguments;
   CheckArguments check_arguments;
   DressArguments dress_arguments;
+  DraftArguments draft_arguments;
   RenderArguments render_arguments;
   ReportOptions report_options;
   verify::Options verify_options;
   addRun(app, run_arguments);
   addDress(app, dress_arguments);
   addCheck(app, check_arguments);
+  addDraft(app, draft_arguments);
   addRender(app, render_arguments);
   addReport(app, report_options);
   addVerify(app, verify_options);
@@ -351,7 +382,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       !command.starts_with('-') &&
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
     err << fmt::format(
-        "gambeson: there is no command \"{}\"; there are run, dress, check, render, report, verify, study and batch (see "
+        "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, verify, study and "
+        "batch (see "
         "gambeson --help)\n",
         command);
     return bad_input;
@@ -361,6 +393,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("run")) return run(run_arguments);
     if (app.got_subcommand("dress")) return dressCase(dress_arguments);
     if (app.got_subcommand("check")) return check(check_arguments, out);
+    if (app.got_subcommand("draft")) return draft(draft_arguments, out);
     if (app.got_subcommand("render")) return render(render_arguments);
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
     if (app.got_subcommand("study")) return studyCommand(study_arguments, out);

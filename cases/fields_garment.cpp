@@ -69,8 +69,65 @@ Object shortsTable() {
       .number("inseam", &S::inseam_m, "m", between(0.02, 0.6), "length of the inner leg, crotch to hem")
       .number("rise", &S::rise_m, "m", between(0.1, 0.5), "height of the waist edge above the crotch")
       .number("ease", &S::ease, "", between(0, 0.5), "how much wider than the body: girth = (1 + ease) body girth")
+      .number("waist_ease", &S::waist_ease, "", between(0, 0.5),
+              "ease of the waist edge, which goes over into the other within 12 cm below it; small under a belt")
+      .defaultsTo("ease")
       .number("cell", &S::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
       .integer("degree", &S::degree, 2, 5, "polynomial degree")
+      .build();
+}
+
+Object beltTable() {
+  using B = BeltGarment;
+  return Table<B>("Belt")
+      .number("width", &B::width_m, "m", between(0.01, 0.2), "height of the band")
+      .number("tension", &B::tension_N, "N", between(0, 100),
+              "of the belt on the waist, over the garments before it: the whole belt presses 2 pi times as much. It is "
+              "made shorter by the stretch at which it carries this")
+      .number("below_waist", &B::below_waist_m, "m", between(-0.2, 0.2),
+              "its upper edge below the edge \"waist\" of the garment under it")
+      .number("cell", &B::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
+      .integer("degree", &B::degree, 2, 5, "polynomial degree")
+      .number("gap", &B::gap_m, "m", between(0, 0.02), "that it starts farther out than the layers under it ask for")
+      .build();
+}
+
+Object shirtTable() {
+  using S = ShirtGarment;
+  return Table<S>("Shirt")
+      .number("ease", &S::ease, "", between(0, 0.5), "how much wider than the body: girth = (1 + ease) body girth")
+      .number("hem_above_waist", &S::hem_above_waist_m, "m", between(-0.1, 0.2),
+              "lower edge above the edge \"waist\" of a garment under it")
+      .number("top_below_shoulder", &S::top_below_shoulder_m, "m", between(-0.1, 0.2),
+              "upper edges of front and back below the shoulder joints")
+      .number("wrap_share", &S::wrap_share, "", between(0.1, 0.9), "height of the side wrap over that of the front")
+      .number("front_share", &S::front_share, "", between(0.1, 0.9), "part of the girth that the front covers below")
+      .number("strap_width", &S::strap_width_m, "m", between(0.01, 0.2), "width of a strap; there are four legs of it")
+      .number("neck_share", &S::neck_share, "", between(0.1, 0.9),
+              "distance between the straps over that of the shoulder joints, to whole cells")
+      .number("neck_depth", &S::neck_depth_m, "m", between(0.01, 0.3), "of the neckline below the front's upper edge")
+      .number("margin", &S::margin_m, "m", between(0, 0.1), "of the panels beside the straps, to whole cells")
+      .number("belly_length", &S::belly_length_m, "m", between(0.02, 0.5), "of the belly protector")
+      .number("belly_share", &S::belly_share, "", between(0.1, 0.9), "its width over that of the front")
+      .number("cell", &S::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
+      .integer("degree", &S::degree, 2, 5, "polynomial degree")
+      .number("gap", &S::gap_m, "m", between(0, 0.02), "farther out than the layers under it ask for")
+      .build();
+}
+
+Object skirtTable() {
+  using S = SkirtGarment;
+  return Table<S>("Skirt")
+      .number("length", &S::length_m, "m", between(0.1, 1.2), "from the waist down")
+      .number("ease", &S::ease, "", between(0, 0.5),
+              "how much wider than the body at the waist, and wider at least below")
+      .number("flare", &S::flare_rad, "rad", between(0, 1.2), "angle of its sides with the vertical")
+      .integer("cells_around", &S::cells_around, 16, 1000, "of all eight panels; a multiple of 8")
+      .integer("cells_along", &S::cells_along, 2, 1000, "from hem to waist")
+      .integer("degree", &S::degree, 2, 5, "polynomial degree")
+      .check([](const Place& p, const S& s) {
+        if (s.cells_around % 8 != 0) p.failAt("cells_around", "is not a multiple of 8; allowed: a multiple");
+      })
       .build();
 }
 
@@ -110,6 +167,16 @@ Object garmentTable() {
       .in("shape")
       .alternative<ShortsGarment>("shorts", &G::shape, shortsTable(),
                                   "shorts of six patches drafted on the human of the case")
+      .in("shape")
+      .alternative<BeltGarment>("belt", &G::shape, beltTable(),
+                                "a belt drafted on the human, over the garments before it")
+      .in("shape")
+      .alternative<ShirtGarment>("shirt", &G::shape, shirtTable(),
+                                 "a shirt without sleeves of six patches (front, back, strap_left, strap_right, "
+                                 "side_wrap, belly), drafted on the human over the garments before it")
+      .in("shape")
+      .alternative<SkirtGarment>("skirt", &G::shape, skirtTable(),
+                                 "a flared skirt of eight panels drafted on the human")
       .in("shape")
       .alternative<FileGarment>("file", &G::shape, fileTable(), "a garment from a file")
       .in("shape")

@@ -139,6 +139,9 @@ RecordingLayout recordingLayout(const Scenario& s) {
     skin.insert(skin.end(), joints.begin(), joints.end());
     layout.body_triangles = s.human->skin->rest.triangles;
   }
+  auto& regions = layout.tables["regions"] = window;
+  for (const std::string& name : s.contact_regions)
+    for (const char* part : {"_Jx_Ns", "_Jy_Ns", "_Jz_Ns", "_n_Ns", "_t_Ns"}) regions.push_back(name + part);
   auto& supports = layout.tables["supports"] = window;
   for (const SupportGroup& g : s.supports)
     for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(g.name + part);
@@ -210,6 +213,7 @@ Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
       writer_(writer),
       placed_(scenario),
       bodies_(scenario.bodies.size()),
+      regions_(scenario.contact_regions.size()),
       supports_(scenario.supports.size()),
       contact_(scenario.model->surface.size()),
       normal_(scenario.model->surface.size()),
@@ -239,6 +243,10 @@ void Recorder::observe(const State& before, const State& after, const StepReport
         give(scenario_.human->skin->segment[c.touched.vertex[k]], c.touched.weight[k]);
       skin_->add(c.touched, received, normal);
     }
+    Body& region = regions_[static_cast<std::size_t>(scenario_.contact_region[c.sample])];
+    region.force += received;
+    region.normal += normal;
+    region.tangential += tangential;
     contact_[c.sample] += c.impulse;
     normal_[c.sample] += normal;
   }
@@ -308,6 +316,12 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
     row.insert(row.end(), joints.begin(), joints.end());
     writer_.append(TableRow{"skin", row});
   }
+  row = head;
+  for (const Body& b : regions_) {
+    addVec(row, b.force);
+    row.insert(row.end(), {b.normal, b.tangential});
+  }
+  writer_.append(TableRow{"regions", row});
 
   // Drag at the window's end, on the body nearest to each sample.
   std::vector<Body> drag(bodies_.size());
@@ -363,6 +377,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   if (frame) appendFrame(state, window);
   if (skin_) skin_->clear();
   std::fill(bodies_.begin(), bodies_.end(), Body{});
+  std::fill(regions_.begin(), regions_.end(), Body{});
   std::fill(supports_.begin(), supports_.end(), Vec3{});
   std::fill(contact_.begin(), contact_.end(), Vec3{});
   std::fill(normal_.begin(), normal_.end(), 0.0);

@@ -6,6 +6,7 @@
 ///   bodies    per body <name>_Jx_Ns .. Jz (impulse received from the cloth), <name>_Lx_Nms .. Lz (its moment about the
 ///   body
 ///             frame's origin), <name>_n_Ns (sum of normal impulses), <name>_t_Ns (sum of tangential magnitudes)
+///   regions   per contact region of the scenario <name>_Jx_Ns .. Jz (impulse on the bodies), <name>_n_Ns, <name>_t_Ns
 ///   drag      per body <name>_Jx_Ns .. Lz_Nms: air drag on the cloth nearest to that body, as if the body carried it
 ///   supports  per support <name>_x_Ns .. z: impulse on the cloth; <name>_drop_m: mean sinking of the edge against its
 ///   link,
@@ -56,6 +57,7 @@ class Recorder {
   PlacedBodies placed_;
   std::optional<SkinLedger> skin_;
   std::vector<Body> bodies_;
+  std::vector<Body> regions_;  ///< without moments
   std::vector<Vec3> supports_;
   std::vector<Vec3> contact_;   ///< impulse per sample over the window
   std::vector<double> normal_;  ///< its normal part

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "cases/draft.hpp"
 #include "human/load.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
@@ -71,19 +74,21 @@ double motionDuration(const HumanCase& h, const Human& human) {
   return loadTrajectory(std::get<TrajectoryMotion>(h.motion).file, human)->duration();
 }
 
-Human readHuman(const HumanCase& h) {
-  if (!h.manikin.empty()) return makeManikin(h.manikin);
-  return h.body.empty() ? loadUrdf(h.urdf) : loadHuman(h.urdf, h.body);
-}
-
 /// A garment's file, and the patches of it that supports name.
 void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment, const FileGarment& file) {
-  const int patches = static_cast<int>(loadGarment(file.path).patches.size());
+  const Garment read = loadGarment(file.path);
+  const int patches = static_cast<int>(read.patches.size());
+  std::vector<std::string> names;
+  for (const NamedEdge& e : read.edges) names.push_back(e.name);
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, c.supports[i]);
-    if (edge.patch < patches || (!edge.garment.empty() && edge.garment != garment.name)) continue;
+    if (!edge.garment.empty() && edge.garment != garment.name) continue;
     const Place support = listItem(root, "supports", i);
     const Place kind = support.member(support.node.children.front());
+    if (!edge.name.empty() && std::find(names.begin(), names.end(), edge.name) == names.end())
+      kind.failAt("edge", fmt::format("\"{}\" is not an edge of this garment; allowed: {}patch and side, such as 2.u0",
+                                      edge.name, names.empty() ? "" : joined(names) + ", or "));
+    if (edge.patch < patches) continue;
     kind.failAt(kind.node.find("edge") ? "edge" : "patch",
                 fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
   }
@@ -94,7 +99,7 @@ void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garme
 void checkReferences(const Place& root, const Case& c) {
   double duration_s = c.time.duration_s.value_or(0);
   if (c.human) {
-    const Human human = readHuman(*c.human);
+    const Human human = skeletonOf(*c.human);
     checkJoints(root, c, human.skeleton);
     checkLinks(root, c, human.skeleton);
     const double motion_s = motionDuration(*c.human, human);
@@ -113,7 +118,7 @@ namespace gambeson {
 
 double plannedDuration(const Case& c) {
   if (c.time.duration_s || !c.human) return c.time.duration_s.value_or(0);
-  return schema::motionDuration(*c.human, schema::readHuman(*c.human));
+  return schema::motionDuration(*c.human, skeletonOf(*c.human));
 }
 
 }  // namespace gambeson

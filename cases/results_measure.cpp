@@ -262,6 +262,22 @@ void measureBodies(const Scenario& s, const Rows& rows, Measured& out) {
     out.contact.push_back({share, meanOf(rows, {share.link}, 6), meanOf(rows, {share.link}, 7)});
 }
 
+void measureRegions(const Scenario& s, const Rows& rows, Measured& out) {
+  for (std::size_t k = 0; k < s.contact_regions.size(); ++k) {
+    RegionMeasure m{s.contact_regions[k], {}, 0, 0};
+    double time = 0;
+    for (const auto& r : rows) {
+      const double* v = &r[2 + 5 * k];
+      m.mean_N += Vec3{v[0], v[1], v[2]};
+      m.normal_N += v[3];
+      m.friction_N += v[4];
+      time += r[1] - r[0];
+    }
+    if (time > 0) m.mean_N = m.mean_N / time, m.normal_N /= time, m.friction_N /= time;
+    out.contact_regions.push_back(m);
+  }
+}
+
 void measureSupports(const Scenario& s, const Rows& rows, Measured& out) {
   for (std::size_t g = 0; g < s.supports.size(); ++g) {
     SupportMeasure m;
@@ -346,6 +362,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   if (s.human)
     measureJoints(s, bodies, s.hasSkin() ? motionRows(recording, "skin") : Rows{},
                   restRows(s, recording, s.hasSkin() ? "skin" : "bodies"), out);
+  measureRegions(s, motionRows(recording, "regions"), out);
   measureSupports(s, motionRows(recording, "supports"), out);
   measureSteps(recording, out);
   out.limited = s.definition.strain_limit.has_value();

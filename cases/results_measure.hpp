@@ -61,6 +61,13 @@ struct BodyMeasure {
   double normal_N = 0, friction_N = 0;  ///< means of the sums of magnitudes; opposite pressures do not cancel here
 };
 
+/// What the bodies bear from one part of the garments.
+struct RegionMeasure {
+  std::string name;
+  Vec3 mean_N;                          ///< on the bodies
+  double normal_N = 0, friction_N = 0;  ///< means of the sums of magnitudes
+};
+
 /// How one body is touched in the last frame, seen from its origin: angles are from up, radii from the vertical axis.
 struct TouchMeasure {
   std::string body;
@@ -148,6 +155,7 @@ struct Measured {
   TorqueHistory added_segments, added_proximal, added_distal;
   std::vector<JointMeasure> joints;
   std::vector<BodyMeasure> contact;
+  std::vector<RegionMeasure> contact_regions;
   double peak_time_s = 0;  ///< of the largest added torque; without joints of the largest sum of contact forces
   std::vector<SupportMeasure> supports;
   std::vector<TouchMeasure> touch;  ///< of each body; empty without frames

@@ -170,6 +170,14 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                  {"hover_m", s.feet->hover_m}};
   if (const auto stairs = s.motion ? s.motion->stairs() : std::nullopt)
     j["stairs"] = {{"rise_m", stairs->rise_m}, {"tread_m", stairs->tread_m}};
+  j["contact_regions"] = Json::array();
+  for (const RegionMeasure& r : m.contact_regions)
+    j["contact_regions"].push_back({{"name", r.name},
+                                    {"mean_x_N", r.mean_N.x},
+                                    {"mean_y_N", r.mean_N.y},
+                                    {"mean_z_N", r.mean_N.z},
+                                    {"mean_normal_N", r.normal_N},
+                                    {"mean_friction_N", r.friction_N}});
   j["contact"] = Json::array();
   for (const BodyMeasure& b : m.contact)
     j["contact"].push_back({{"segment", b.contact.segment},

@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "cases/draft.hpp"
 #include "cases/dress.hpp"
 #include "cases/factors.hpp"
-#include "cases/structure_sheet.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/dynamics/step.hpp"
 #include "core/error.hpp"
 #include "core/sheet/layers.hpp"
 #include "human/blend.hpp"
 #include "human/load.hpp"
-#include "tryon/pattern/garment_file.hpp"
-#include "tryon/pattern/pattern.hpp"
 #include "tryon/projecting.hpp"
 #include "tryon/skin_projecting.hpp"
 #include "tryon/stitching.hpp"
@@ -89,103 +88,24 @@ class CaseStage : public Stage {
   }
 };
 
-TubePattern patternOf(const TubeGarment& t) {
-  return {t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start, t.axis, SeamKind::G1, 0};
-}
-
-Garment makeGarment(const Case& c, const GarmentCase& worn, const Human* human, std::vector<std::string>& names) {
-  Garment garment = std::visit(
-      Overloaded{
-          [&](const SheetGarment& s) {
-            return makeSheet({s.width_m, s.height_m, s.cells_u, s.cells_v, s.degree, s.corner, s.axis_u, s.axis_v});
-          },
-          [&](const DiscGarment& d) {
-            return makeDisc({d.radius_m, d.cells, d.degree, d.center, d.axis_u, d.axis_v});
-          },
-          [&](const TubeGarment& t) { return makeTube(patternOf(t)); },
-          [&](const ShortsGarment& s) {
-            ShortsPattern pattern;
-            pattern.inseam_m = s.inseam_m;
-            pattern.rise_m = s.rise_m;
-            pattern.ease = s.ease;
-            pattern.cell_m = s.cell_m;
-            pattern.degree = s.degree;
-            pattern.seam_stiffness_N = worn.seam_stiffness_N;
-            names = {"trunk_left", "trunk_right", "outer_left", "outer_right", "inner_left", "inner_right"};
-            return makeShorts(pattern, *human);
-          },
-          [&](const FileGarment& f) { return loadGarment(f.path); },
-      },
-      worn.shape);
-  if (names.empty())
-    for (std::size_t p = 0; p < garment.patches.size(); ++p) names.push_back("patch_" + std::to_string(p));
-  garment.fabric = fabricOf(c, worn);
-  for (NurbsPatch& patch : garment.patches)
-    for (Vec3& point : patch.points) point += worn.position_m;
-  if (worn.weft_angle_rad != 0)
-    for (std::size_t p = 0; p < garment.patches.size(); ++p) {
-      const NurbsPatch& patch = garment.patches[p];
-      const auto d =
-          surfaceDerivatives(patch, 0.5 * (patch.u.front() + patch.u.back()), 0.5 * (patch.v.front() + patch.v.back()));
-      garment.weft[p] = rotationAbout(normalized(cross(d[1], d[2])), worn.weft_angle_rad) * garment.weft[p];
-    }
-  return garment;
-}
-
-/// All garments of the case as one, and the first patch of each, with the number of patches at the end.
-/// `noise`: displacement of each control point at the start.
-Garment joinGarments(const Case& c, const Human* human, Scenario& s, std::vector<int>& first,
-                     std::vector<Vec3>& noise) {
-  std::vector<Garment> garments;
-  first = {0};
-  for (const GarmentCase& worn : c.garments) {
-    std::vector<std::string> names;
-    garments.push_back(makeGarment(c, worn, human, names));
-    if (worn.noise_m > 0) {
-      const std::vector<Vec3> own = noiseOf(Sheet{garments.back()}, {worn.noise_m, worn.noise_seed, 0, 0, false});
-      noise.insert(noise.end(), own.begin(), own.end());
-    } else {
-      noise.resize(noise.size() + static_cast<std::size_t>(controlOffsets(garments.back()).back()));
-    }
-    for (const std::string& name : names)
-      s.patch_names.push_back(c.garments.size() == 1 ? name : names.size() == 1 ? worn.name : worn.name + " " + name);
-    s.samples_per_cell.insert(s.samples_per_cell.end(), names.size(), worn.samples_per_cell);
-    const std::string& fabric = garments.back().fabric.name;
-    if (std::find(s.fabric_names.begin(), s.fabric_names.end(), fabric) == s.fabric_names.end())
-      s.fabric_names.push_back(fabric);
-    first.push_back(first.back() + static_cast<int>(names.size()));
-  }
-  return garments.size() == 1 ? garments[0] : joinLayers(garments);
-}
-
-/// The garment without its seams, springs in their place, and the panels moved off the body (as `noise`).
+/// The garment without its seams, springs in their place, and the panels moved off the body (as `start`).
 void standPanelsApart(const Stitching& law, const std::vector<int>& samples_per_cell, Garment& garment,
-                      std::vector<Vec3>& noise, std::vector<Stitch>& stitches) {
+                      std::vector<Vec3>& start, std::vector<Stitch>& stitches) {
   const std::vector<Vec3> offsets = panelOffsets(garment, law.offset_m);
   const std::vector<int> first = controlOffsets(garment);
   for (std::size_t p = 0; p < offsets.size(); ++p)
-    for (int i = first[p]; i < first[p + 1]; ++i) noise[static_cast<std::size_t>(i)] += offsets[p];
+    for (int i = first[p]; i < first[p + 1]; ++i) start[static_cast<std::size_t>(i)] += offsets[p];
   const Garment open = unsewn(garment);
   stitches = stitchesOf(garment, buildSurface(open, buildFreeMap(open), samples_per_cell),
                         {law.stiffness_N_per_m2, law.damping_kg_per_m_s});
   garment = open;
 }
 
-std::vector<PatchEdge> edgesOf(const Case& c, const GarmentCase& garment, const EdgeCase& e) {
+std::vector<PatchEdge> edgesOf(const Case& c, const std::vector<NamedEdge>& known, const EdgeCase& e) {
   if (e.name.empty()) return {{e.patch, e.side, false}};
-  return std::visit(Overloaded{
-                        [&](const SheetGarment&) { return sheetEdge(e.name); },
-                        [&](const DiscGarment&) -> std::vector<PatchEdge> {
-                          throw InputError({c.file.string(), 0, "supports"}, "a disc has no edges to hold");
-                        },
-                        [&](const TubeGarment& t) { return tubeEdge(patternOf(t), e.name); },
-                        [&](const ShortsGarment&) { return shortsEdge(e.name); },
-                        [&](const FileGarment&) -> std::vector<PatchEdge> {
-                          throw InputError({c.file.string(), 0, "supports"},
-                                           "edge \"" + e.name + "\": name the patch and side of a garment file's edge");
-                        },
-                    },
-                    garment.shape);
+  for (const NamedEdge& edge : known)
+    if (edge.name == e.name) return edge.edges;
+  throw InputError({c.file.string(), 0, "supports"}, "the garment has no edge \"" + e.name + "\"");
 }
 
 Shape shapeOf(const ObstacleCase& o, Placement& at) {
@@ -267,9 +187,10 @@ void noteDefects(const MeshObstacle& file, const std::string& name, const Obstac
   if (!defects.empty()) notes.push_back("obstacle " + name + " (" + file.file.filename().string() + ") " + defects);
 }
 
-/// `first`: the first patch of each garment.
-void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first, const Surface& surface,
-                 const Human* human, ModelOptions& options, std::vector<SupportGroup>& groups) {
+/// `first`: the first patch of each garment; `known`: its named edges.
+void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first,
+                 const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
+                 ModelOptions& options, std::vector<SupportGroup>& groups) {
   for (const SupportCase& support : c.supports) {
     SupportGroup group;
     const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
@@ -279,7 +200,7 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
     const std::string of = c.garments.size() == 1 ? "" : edge.garment + " ";
     const std::string name = of + (edge.name.empty() ? "edge of patch " + std::to_string(edge.patch) : edge.name);
     std::vector<PatchEdge> edges;
-    if (!std::holds_alternative<PinnedSupport>(support)) edges = edgesOf(c, c.garments[worn], edge);
+    if (!std::holds_alternative<PinnedSupport>(support)) edges = edgesOf(c, known[worn], edge);
     for (PatchEdge& e : edges) {
       if (e.patch >= first[worn + 1] - first[worn])
         throw InputError({c.file.string(), 0, "supports"}, "patch " + std::to_string(e.patch) +
@@ -334,6 +255,34 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
       }
     }
     groups.push_back(std::move(group));
+  }
+}
+
+/// Fills `contact_regions` and `contact_region`; `q`: the control points at the start.
+void nameContactRegions(Scenario& s, const Garment& garment, const std::vector<Garment>& garments,
+                        const std::vector<int>& first, const std::vector<Vec3>& q) {
+  const Surface& surface = s.model->surface;
+  std::vector<Vec3> x(static_cast<std::size_t>(surface.size()));
+  surface.W.multiply<Vec3>(q, x);
+  s.contact_regions = s.patch_names;
+  s.contact_region = surface.patch;
+  for (std::size_t k = 0; k < garments.size(); ++k) {
+    if (garments[k].name != "belt") continue;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (surface.patch[i] >= first[k] && surface.patch[i] < first[k + 1])
+        low = std::min(low, x[i].z), high = std::max(high, x[i].z);
+    const int region = static_cast<int>(s.contact_regions.size());
+    s.contact_regions.push_back("under " + s.patch_names[static_cast<std::size_t>(first[k])]);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (garment.layerOf(surface.patch[i]) < static_cast<int>(k) && x[i].z >= low && x[i].z <= high)
+        s.contact_region[i] = region;
+  }
+  for (const SupportGroup& group : s.supports) {
+    if (group.springs.empty()) continue;
+    for (const int i : group.samples)
+      s.contact_region[static_cast<std::size_t>(i)] = static_cast<int>(s.contact_regions.size());
+    s.contact_regions.push_back(group.name);
   }
 }
 
@@ -398,10 +347,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   std::vector<Obstacle> obstacles;
   double duration = c.time.duration_s.value_or(0);
   if (c.human) {
-    s->human = c.human->manikin.empty()
-                   ? (c.human->body.empty() ? loadUrdf(c.human->urdf) : loadHuman(c.human->urdf, c.human->body))
-                   : makeManikin(c.human->manikin);
-    if (c.human->skin) s->human->skin = std::make_shared<const Skin>(makeSkin(*s->human, *c.human->skin));
+    s->human = humanOf(*c.human);
     std::visit(Overloaded{
                    [&](const StandMotion& m) {
                      class Standing : public Motion {
@@ -456,17 +402,30 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   }
 
   const Human* human = s->human ? &*s->human : nullptr;
-  std::vector<int> first;
-  std::vector<Vec3> noise;
-  Garment garment = joinGarments(c, human, *s, first, noise);
+  const std::vector<Garment> garments = draftGarments(c, human);
+  std::vector<int> first{0};
+  std::vector<std::vector<NamedEdge>> edges;
+  for (std::size_t k = 0; k < garments.size(); ++k) {
+    const Garment& g = garments[k];
+    const std::string& name = c.garments[k].name;
+    for (const std::string& part : g.patch_names)
+      s->patch_names.push_back(garments.size() == 1 ? part : g.patches.size() == 1 ? name : name + " " + part);
+    s->samples_per_cell.insert(s->samples_per_cell.end(), g.patches.size(), c.garments[k].samples_per_cell);
+    if (std::find(s->fabric_names.begin(), s->fabric_names.end(), g.fabric.name) == s->fabric_names.end())
+      s->fabric_names.push_back(g.fabric.name);
+    first.push_back(first.back() + static_cast<int>(g.patches.size()));
+    edges.push_back(g.edges);
+  }
+  std::vector<Vec3> start = startDisplacements(c, garments);
+  Garment garment = garments.size() == 1 ? garments[0] : joinLayers(garments);
   scaleSeams(garment, written.factors);
   ModelOptions options;
-  if (panels) standPanelsApart(*c.garments[0].stitching, s->samples_per_cell, garment, noise, options.stitches);
+  if (panels) standPanelsApart(*c.garments[0].stitching, s->samples_per_cell, garment, start, options.stitches);
   options.patch_samples_per_cell = s->samples_per_cell;
   options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
-  addSupports(c, garment, first, buildSurface(garment, buildFreeMap(garment), s->samples_per_cell), human, options,
-              s->supports);
+  addSupports(c, garment, first, edges, buildSurface(garment, buildFreeMap(garment), s->samples_per_cell), human,
+              options, s->supports);
   if (const auto& limit = c.strain_limit) options.strain_limit = limitOf(*limit);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
@@ -475,9 +434,14 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
                                   c.contact.max_iterations,      c.contact.compliance_m_per_Pa};
   s->model = buildModel(garment, options, environment, contact, std::move(obstacles));
 
-  if (std::any_of(noise.begin(), noise.end(), [](const Vec3& n) { return n != Vec3{}; }))
+  if (std::any_of(start.begin(), start.end(), [](const Vec3& n) { return n != Vec3{}; }))
     for (std::size_t i = 0; i < s->model->map.home.size(); ++i)
-      s->noise_m.push_back(s->model->held[i] ? Vec3{} : noise[static_cast<std::size_t>(s->model->map.home[i])]);
+      s->shift_m.push_back(s->model->held[i] ? Vec3{} : start[static_cast<std::size_t>(s->model->map.home[i])]);
+
+  std::vector<Vec3> at_start;
+  for (const NurbsPatch& p : garment.patches) at_start.insert(at_start.end(), p.points.begin(), p.points.end());
+  for (std::size_t i = 0; i < at_start.size(); ++i) at_start[i] += start[i];
+  nameContactRegions(*s, garment, garments, first, at_start);
 
   const bool project = c.dressing.projecting && human && !c.dressing.layer_by_layer && c.dressing.from.empty();
   const double grow = project ? c.dressing.projecting->grow_s : 0, settle = human ? c.dressing.settle_s : 0;
@@ -491,9 +455,8 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
     stage->dressed = dressed.posture;
   }
   if (project) {
-    std::vector<Vec3> Q, X(s->model->surface.size());
-    for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
-    s->model->surface.W.multiply<Vec3>(Q, X);
+    std::vector<Vec3> X(s->model->surface.size());
+    s->model->surface.W.multiply<Vec3>(at_start, X);
     const Posture posture = s->motion->at(0);
     const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
     const double clearance = c.dressing.projecting->clearance_m;
@@ -512,12 +475,12 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
 
 State startOf(const Scenario& s, StepWork& work) {
   State state = initialState(*s.model, *s.stage, s.start_s, work);
-  if (s.noise_m.empty() && s.start_m.empty()) return state;
+  if (s.shift_m.empty() && s.start_m.empty()) return state;
   const std::vector<Vec3> drafted = state.anchors;
   if (!s.start_m.empty())
     state.p = s.start_m;
   else
-    for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.noise_m[i];
+    for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.shift_m[i];
   attachSprings(*s.model, *s.stage, state, work);
   if (!s.start_m.empty()) hangSprings(*s.model, *s.stage, drafted, state, work);
   return state;

@@ -37,9 +37,13 @@ struct Scenario {
   std::vector<int> samples_per_cell;      ///< of the patches
   std::vector<SupportGroup> supports;
   std::optional<FootReport> feet;  ///< whether they could stand; none without feet
-  std::vector<std::string> notes;  ///< what a user should know of the case before its results
-  std::vector<Vec3> start_m;       ///< where the free points start; empty: where they are drafted
-  std::vector<Vec3> noise_m;       ///< of the free points at the start; empty: none
+  /// Where contact with bodies is told apart: the patches, then what lies under a belt, then edges on springs. A sample
+  /// belongs to the last of these that holds it.
+  std::vector<std::string> contact_regions;
+  std::vector<int> contact_region;  ///< of the samples
+  std::vector<std::string> notes;   ///< what a user should know of the case before its results
+  std::vector<Vec3> start_m;        ///< where the free points start; empty: where they are drafted
+  std::vector<Vec3> shift_m;        ///< of the free points at the start, from the rest shapes; empty: none
   double start_s = 0, end_s = 0;
 
   /// Where the origin of each body's frame stands.
@@ -53,8 +57,8 @@ struct Scenario {
 /// What a foot report says, as a sentence without its full stop.
 std::string feetText(const FootReport& feet);
 
-/// What a run starts from: where the garments are drafted, with their noise, or where they were put on. Springs are
-/// anchored where they are drafted.
+/// What a run starts from: the rest shapes, or where garments are placed, with their noise, or where they were put on.
+/// Springs are anchored where they are drafted.
 State startOf(const Scenario& scenario, StepWork& work);
 
 /// Throws InputError (with the case's file) where the case cannot be built, RunError where the body cannot be freed.

@@ -32,7 +32,7 @@ struct BeltPattern {
                                 ///< middle stands at the origin of the torso's frame
   double cell_m = 0.022;
   int degree = 2;
-  double gap_m = 0.0005;  ///< that it starts farther out than the layers ask for
+  double gap_m = 0.001;  ///< that it starts farther out than the layers ask for
 };
 /// `fabric` is the belt's, `layer_m` its thickness in contact.
 Garment makeBelt(const BeltPattern& pattern, const BodyForm& form, const Fabric& fabric, double layer_m,
@@ -56,13 +56,13 @@ struct ShirtPattern {
   double ease = 0.06;
   double hem_above_waist_m = 0.01;  ///< above the edge "waist" of a layer under it, or the origin of the torso's frame
   double top_below_shoulder_m = 0.02;  ///< upper edges of front and back below the shoulder joints
-  double wrap_share = 0.62;            ///< of the front's height that the side wrap has
+  double wrap_share = 0.66;            ///< of the front's height that the side wrap has
   double front_share = 0.36;           ///< of the girth that the front covers below
   double strap_width_m = 0.0385;
-  double neck_width_m = 0.155;  ///< between the straps
+  double neck_share = 0.44;  ///< distance between the straps over that of the shoulder joints
   double neck_depth_m = 0.07;
   double margin_m = 0.025;  ///< between strap and armhole, on either panel
-  double belly_length_m = 0.15;
+  double belly_length_m = 0.17;
   double belly_share = 0.75;  ///< of the front's width below
   double cell_m = 0.022;
   int degree = 2;
@@ -73,6 +73,19 @@ Garment makeShirt(const ShirtPattern& pattern, const BodyForm& form, double laye
 
 /// Where the patches of the shirt stand in Garment::patches.
 enum ShirtPatch { front, back, strap_left, strap_right, side_wrap, belly };
+
+/// A flared skirt of eight equal panels, joined by G1 seams: a cone from the waist (the edge "waist" of a layer under
+/// it, or the origin of the torso's frame) down, and wider where body or layers ask for it (Zheng 2013, section 3.7.4:
+/// eight quadratic patches with 960 control points).
+struct SkirtPattern {
+  double length_m = 0.5;
+  double ease = 0.04;      ///< at the waist
+  double flare_rad = 0.3;  ///< of its sides against the vertical
+  int cells_around = 64, cells_along = 10;
+  int degree = 2;
+  double gap_m = 0.001;
+};
+Garment makeSkirt(const SkirtPattern& pattern, const BodyForm& form, double layer_m, std::span<const Worn> under);
 
 /// The hull of garments under a height range, moved out by half the sum of the thicknesses and `gap_m`; a height where
 /// nothing is worn has nothing. False where nothing is worn at all.

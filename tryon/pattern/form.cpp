@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "human/motion.hpp"
+#include "human/skin.hpp"
 
 namespace gambeson {
 namespace {
@@ -27,6 +28,10 @@ BodyForm::BodyForm(const Human& human) : human_(human) {
   for (const Pose& X : links) origin_.push_back(X.origin);
   placements_ = placementsOf(human, links);
   median_y_ = posture.root.origin.y;
+  if (!human.skin) return;
+  skin_ = human.skin->rest;
+  segment_ = human.skin->segment;
+  skinPositions(*human.skin, links, skin_.vertices);
 }
 
 BodyForm::BodyForm(const Human& human, TriangleMesh skin, std::vector<int> segment) : BodyForm(human) {

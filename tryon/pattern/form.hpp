@@ -17,7 +17,7 @@ using Links = std::vector<int>;
 
 class BodyForm {
  public:
-  /// The shapes of a human who stands (human/motion.hpp). `human` outlives the form.
+  /// The skin of a human who stands (human/motion.hpp), or the shapes of one without. `human` outlives the form.
   explicit BodyForm(const Human& human);
   /// A closed skin of the standing human in the world; `segment` is the link of each vertex. A triangle belongs to a
   /// link only with all its vertices, so that sections of the trunk end where arms begin.

@@ -82,21 +82,62 @@ struct Node {
   }
 };
 
+std::vector<Vec3> readPoints(const Node& points) {
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Node point = points.at(i);
+    out.push_back(point.vec());
+    for (int c = 0; c < 3; ++c)
+      if (!(std::abs(out.back()[c]) <= largest_coordinate_m))
+        reject(point.key, shown(point.json) + " is not within 1000 m");
+  }
+  return out;
+}
+
+NurbsCurve readCurve(const Node& n) {
+  n.requireKeys({"degree", "knots", "points"}, {"weights"});
+  NurbsCurve c;
+  c.knots = {n.at("degree").integer(), n.at("knots").numbers()};
+  const Node points = n.at("points");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::vector<double> uv = points.at(i).numbers();
+    if (uv.size() != 2) reject(points.at(i).key, shown(points.at(i).json) + ", must be two numbers, u and v");
+    c.points.push_back({uv[0], uv[1]});
+  }
+  c.weights = n.has("weights") ? n.at("weights").numbers() : std::vector<double>(c.points.size(), 1.0);
+  try {
+    validate(c);
+  } catch (const InputError& e) {
+    reject(n.path(e.where().key), e.reason());
+  }
+  return c;
+}
+
+Trim readTrim(const Node& n) {
+  n.requireKeys({"loops"}, {"points_per_piece", "unused_fraction"});
+  Trim t;
+  const Node loops = n.at("loops");
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    t.loops.emplace_back();
+    const Node curves = loops.at(i);
+    for (std::size_t k = 0; k < curves.size(); ++k) t.loops.back().push_back(readCurve(curves.at(k)));
+  }
+  if (n.has("points_per_piece")) t.points_per_piece = n.at("points_per_piece").integer();
+  if (t.points_per_piece > 20) reject(n.path("points_per_piece"), "must be 0 to 20");
+  if (n.has("unused_fraction")) t.unused_fraction = n.at("unused_fraction").number();
+  if (!(t.unused_fraction > 0 && t.unused_fraction < 1))
+    reject(n.path("unused_fraction"), std::to_string(t.unused_fraction) + ", must lie between 0 and 1");
+  return t;
+}
+
 NurbsPatch readPatch(const Node& n) {
-  n.requireKeys({"degree", "knots_u", "knots_v", "weft", "points_m"}, {"weights"});
+  n.requireKeys({"degree", "knots_u", "knots_v", "weft", "points_m"}, {"name", "weights", "placed_m", "trim"});
   const Node degree = n.at("degree");
   if (degree.size() != 2) reject(degree.key, shown(degree.json) + ", must be two whole numbers, of u and of v");
   NurbsPatch p;
   p.u = {degree.at(std::size_t{0}).integer(), n.at("knots_u").numbers()};
   p.v = {degree.at(1).integer(), n.at("knots_v").numbers()};
-  const Node points = n.at("points_m");
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Node point = points.at(i);
-    p.points.push_back(point.vec());
-    for (int c = 0; c < 3; ++c)
-      if (!(std::abs(p.points.back()[c]) <= largest_coordinate_m))
-        reject(point.key, shown(point.json) + " is not within 1000 m");
-  }
+  p.points = readPoints(n.at("points_m"));
   p.weights = n.has("weights") ? n.at("weights").numbers() : std::vector<double>(p.points.size(), 1.0);
   return p;
 }
@@ -114,18 +155,19 @@ PatchEdge readEdge(const Node& n) {
 }
 
 Seam readSeam(const Node& n) {
-  n.requireKeys({"a", "b", "kind"}, {"stiffness_N"});
-  Seam s{readEdge(n.at("a")), readEdge(n.at("b")), SeamKind::G1, 0};
+  n.requireKeys({"a", "b", "kind"}, {"stiffness_N", "first_cell"});
+  Seam s{readEdge(n.at("a")), readEdge(n.at("b")), SeamKind::G1};
   const std::string kind = n.at("kind").text();
   if (kind != "G1" && kind != "C0") reject(n.path("kind"), "\"" + kind + "\", must be \"G1\" or \"C0\"");
   s.kind = kind == "G1" ? SeamKind::G1 : SeamKind::C0;
   if (n.has("stiffness_N")) s.stiffness_N = n.at("stiffness_N").number();
+  if (n.has("first_cell")) s.first_cell = n.at("first_cell").integer();
   return s;
 }
 
 Garment readGarment(const Json& json) {
   const Node root{json, ""};
-  root.requireKeys({"format", "name", "patches", "seams"});
+  root.requireKeys({"format", "name", "patches", "seams"}, {"edges"});
   if (root.at("format").text() != format_name)
     reject("format", shown(json.at("format")) + ", must be \"" + format_name + "\"");
   Garment g;
@@ -133,14 +175,58 @@ Garment readGarment(const Json& json) {
   const Node patches = root.at("patches"), seams = root.at("seams");
   for (std::size_t i = 0; i < patches.size(); ++i) {
     g.patches.push_back(readPatch(patches.at(i)));
-    g.weft.push_back(patches.at(i).at("weft").vec());
+    const Node patch = patches.at(i);
+    g.weft.push_back(patch.at("weft").vec());
+    g.patch_names.push_back(patch.has("name") ? patch.at("name").text() : "patch_" + std::to_string(i));
+    if (std::find(g.patch_names.begin(), g.patch_names.end() - 1, g.patch_names.back()) != g.patch_names.end() - 1)
+      reject(patch.path("name"), "\"" + g.patch_names.back() + "\" names two patches");
+    g.placed.push_back(patch.has("placed_m") ? readPoints(patch.at("placed_m")) : std::vector<Vec3>{});
+    g.trims.push_back(patch.has("trim") ? readTrim(patch.at("trim")) : Trim{});
   }
+  if (std::all_of(g.placed.begin(), g.placed.end(), [](const auto& p) { return p.empty(); })) g.placed.clear();
+  if (std::all_of(g.trims.begin(), g.trims.end(), [](const Trim& t) { return t.loops.empty(); })) g.trims.clear();
   for (std::size_t i = 0; i < seams.size(); ++i) g.seams.push_back(readSeam(seams.at(i)));
+  if (!root.has("edges")) return g;
+  const Node edges = root.at("edges");
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Node n = edges.at(i);
+    n.requireKeys({"name", "of"});
+    NamedEdge e{n.at("name").text(), {}};
+    for (const NamedEdge& other : g.edges)
+      if (other.name == e.name) reject(n.path("name"), "\"" + e.name + "\" names two edges");
+    for (std::size_t k = 0; k < n.at("of").size(); ++k) e.edges.push_back(readEdge(n.at("of").at(k)));
+    if (e.edges.empty()) reject(n.path("of"), "is empty; must name at least one edge");
+    g.edges.push_back(std::move(e));
+  }
   return g;
 }
 
 std::string list(const std::vector<double>& x) { return Json(x).dump(); }
 std::string list(const Vec3& x) { return Json{x.x, x.y, x.z}.dump(); }
+std::string list(const std::vector<Vec3>& x) {
+  std::string s = "[";
+  for (std::size_t i = 0; i < x.size(); ++i) s += (i ? ",\n    " : "\n    ") + list(x[i]);
+  return s + "]";
+}
+std::string curve(const NurbsCurve& c) {
+  Json points = Json::array();
+  for (const Vec2& p : c.points) points.push_back({p.x, p.y});
+  std::string s = "{\"degree\": " + std::to_string(c.knots.degree) + ", \"knots\": " + list(c.knots.knots) +
+                  ", \"points\": " + points.dump();
+  if (std::any_of(c.weights.begin(), c.weights.end(), [](double w) { return w != 1; }))
+    s += ", \"weights\": " + list(c.weights);
+  return s + "}";
+}
+std::string trim(const Trim& t) {
+  std::string s = "{\"points_per_piece\": " + std::to_string(t.points_per_piece) +
+                  ", \"unused_fraction\": " + Json(t.unused_fraction).dump() + ", \"loops\": [";
+  for (std::size_t i = 0; i < t.loops.size(); ++i) {
+    s += i ? ",\n    [" : "\n    [";
+    for (std::size_t k = 0; k < t.loops[i].size(); ++k) s += (k ? ",\n     " : "") + curve(t.loops[i][k]);
+    s += "]";
+  }
+  return s + "]}";
+}
 std::string edge(const PatchEdge& e) {
   std::string s =
       "{\"patch\": " + std::to_string(e.patch) + ", \"side\": \"" + side_names[static_cast<int>(e.side)] + "\"";
@@ -187,22 +273,32 @@ void writeGarment(const Garment& g, const std::filesystem::path& path) {
   out << "{\"format\": \"" << format_name << "\",\n \"name\": " << Json(g.name).dump() << ",\n \"patches\": [";
   for (std::size_t n = 0; n < g.patches.size(); ++n) {
     const NurbsPatch& p = g.patches[n];
-    out << (n ? ",\n" : "\n") << "  {\"degree\": [" << p.u.degree << ", " << p.v.degree
-        << "],\n   \"knots_u\": " << list(p.u.knots) << ",\n   \"knots_v\": " << list(p.v.knots)
-        << ",\n   \"weft\": " << list(g.weft[n]) << ",\n   \"points_m\": [";
-    for (std::size_t i = 0; i < p.points.size(); ++i) out << (i ? ",\n    " : "\n    ") << list(p.points[i]);
-    out << "]";
+    out << (n ? ",\n" : "\n") << "  {";
+    if (!g.patch_names.empty()) out << "\"name\": " << Json(g.patch_names[n]).dump() << ", ";
+    out << "\"degree\": [" << p.u.degree << ", " << p.v.degree << "],\n   \"knots_u\": " << list(p.u.knots)
+        << ",\n   \"knots_v\": " << list(p.v.knots) << ",\n   \"weft\": " << list(g.weft[n])
+        << ",\n   \"points_m\": " << list(p.points);
     if (std::any_of(p.weights.begin(), p.weights.end(), [](double w) { return w != 1; }))
       out << ",\n   \"weights\": " << list(p.weights);
+    if (!g.placed.empty() && !g.placed[n].empty()) out << ",\n   \"placed_m\": " << list(g.placed[n]);
+    if (!g.trims.empty() && !g.trims[n].loops.empty()) out << ",\n   \"trim\": " << trim(g.trims[n]);
     out << "}";
   }
   out << "],\n \"seams\": [";
   for (std::size_t n = 0; n < g.seams.size(); ++n) {
     const Seam& s = g.seams[n];
     out << (n ? ",\n" : "\n") << "  {\"a\": " << edge(s.a) << ", \"b\": " << edge(s.b) << ", \"kind\": \""
-        << (s.kind == SeamKind::G1 ? "G1" : "C0") << "\", \"stiffness_N\": " << Json(s.stiffness_N).dump() << "}";
+        << (s.kind == SeamKind::G1 ? "G1" : "C0") << "\", \"stiffness_N\": " << Json(s.stiffness_N).dump();
+    if (s.onPart()) out << ", \"first_cell\": " << s.first_cell;
+    out << "}";
   }
-  out << "]}\n";
+  out << "]";
+  for (std::size_t n = 0; n < g.edges.size(); ++n) {
+    out << (n ? ",\n" : ",\n \"edges\": [\n") << "  {\"name\": " << Json(g.edges[n].name).dump() << ", \"of\": [";
+    for (std::size_t k = 0; k < g.edges[n].edges.size(); ++k) out << (k ? ", " : "") << edge(g.edges[n].edges[k]);
+    out << "]}";
+  }
+  out << (g.edges.empty() ? "}\n" : "]}\n");
   writeFileAtomically(path, out.str());
 }
 

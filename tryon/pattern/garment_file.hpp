@@ -6,10 +6,17 @@
 ///                 "knots_u": [...], "knots_v": [...],
 ///                 "weft": [0, 0, 1],                 projected on the surface
 ///                 "points_m": [[x, y, z], ...],      u runs fastest
-///                 "weights": [...]}],                optional: all 1
+///                 "name": "front",                   what tables call it, optional: patch_0, patch_1, ...
+///                 "weights": [...],                  optional: all 1
+///                 "placed_m": [[x, y, z], ...],      optional: where it starts, if not at rest
+///                 "trim": {"loops": [[{"degree": 1, "knots": [...], "points": [[u, v], ...], "weights": [...]},
+///                                     ...]],         closed chains of curves; clockwise: a hole
+///                          "points_per_piece": 0, "unused_fraction": 0.01}}],   both optional (core/nurbs/trim.hpp)
 ///    "seams": [{"a": {"patch": 0, "side": "u0", "reversed": false}, "b": {...},   reversed is optional
 ///               "kind": "G1",                        or "C0"
-///               "stiffness_N": 0}]}                  rotational spring [N m/(m rad)], optional
+///               "stiffness_N": 0,                    rotational spring [N m/(m rad)], optional
+///               "first_cell": 3}],                   optional: the whole of a on a part of b, from this cell of b on
+///    "edges": [{"name": "waist", "of": [{"patch": 0, "side": "v1"}, ...]}]}   what supports may name, optional
 /// Unknown keys are errors.
 
 #include <filesystem>

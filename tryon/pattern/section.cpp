@@ -135,6 +135,10 @@ Wrap Wrap::offset(double distance) const {
   return changed([&](int k, int d) { return support_[k][d] + distance; });
 }
 
+Wrap Wrap::raised(const std::function<double(double)>& distance) const {
+  return changed([&](int k, int d) { return support_[k][d] + distance(heightOf(k)); });
+}
+
 Wrap Wrap::with(const Wrap& other) const {
   assert(other.heights() == heights() && other.from_ == from_ && other.to_ == to_);
   return changed([&](int k, int d) { return std::max(support_[k][d], other.support_[k][d]); });

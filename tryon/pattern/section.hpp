@@ -37,6 +37,8 @@ class Wrap {
   /// Each section grown by a factor about a centre; each moved outward by a distance.
   Wrap grown(double factor, const Vec2& centre) const;
   Wrap offset(double distance) const;
+  /// Each moved outward by a distance of its height.
+  Wrap raised(const std::function<double(double)>& distance) const;
   /// Hulls of both wraps' sections; both have the same heights.
   Wrap with(const Wrap& other) const;
   /// At each height the hull of all sections within `reach` above and below.

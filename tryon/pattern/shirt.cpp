@@ -17,13 +17,13 @@ namespace {
 [[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 
 void check(const ShirtPattern& p) {
-  for (const auto& [key, value] : {std::pair{"strap_width_m", p.strap_width_m},
-                                   std::pair{"neck_width_m", p.neck_width_m}, std::pair{"neck_depth_m", p.neck_depth_m},
-                                   std::pair{"belly_length_m", p.belly_length_m}, std::pair{"cell_m", p.cell_m}})
+  for (const auto& [key, value] :
+       {std::pair{"strap_width_m", p.strap_width_m}, std::pair{"neck_depth_m", p.neck_depth_m},
+        std::pair{"belly_length_m", p.belly_length_m}, std::pair{"cell_m", p.cell_m}})
     requirePositive(key, value);
   requireDegree(p.degree, 2);
   for (const auto& [key, value] : {std::pair{"wrap_share", p.wrap_share}, std::pair{"front_share", p.front_share},
-                                   std::pair{"belly_share", p.belly_share}})
+                                   std::pair{"belly_share", p.belly_share}, std::pair{"neck_share", p.neck_share}})
     if (!(value >= 0.1 && value <= 0.9)) reject(key, std::to_string(value) + ", must lie between 0.1 and 0.9");
   if (!(p.ease > -0.5 && p.ease < 2)) reject("ease", std::to_string(p.ease) + ", must lie between -0.5 and 2");
   for (const auto& [key, value] : {std::pair{"margin_m", p.margin_m}, std::pair{"gap_m", p.gap_m},
@@ -58,7 +58,9 @@ class Draft {
     // Across the straps cells of one width; the front's and back's upper edges have the same.
     strap_cells = std::max(2, static_cast<int>(std::ceil(p.strap_width_m / p.cell_m)));
     const double cell = p.strap_width_m / strap_cells;
-    neck_half = std::max(2, static_cast<int>(std::round(0.5 * p.neck_width_m / cell)));
+    const double shoulder =
+        std::abs(form.origin(form.links({"upper_arm_left"}, "garment.shirt")[0]).y - form.medianY());
+    neck_half = std::max(2, static_cast<int>(std::round(p.neck_share * shoulder / cell)));
     margin = static_cast<int>(std::round(p.margin_m / cell));
     panel_cells = 2 * (neck_half + strap_cells + margin);
     top_half_m = (neck_half + strap_cells + margin) * cell;

@@ -17,7 +17,7 @@ double sideways(const std::vector<Vec3>& end, double width) {
 }  // namespace
 
 Strap::Strap(const StrapLine& line, const BodyForm& form) : line_(line) {
-  const Links torso = form.links({"torso"}, "garment.shirt");
+  const Links torso = form.links({"torso", "upper_arm_left"}, "garment.shirt");  // the shoulder is the arm's
   const Vec3 &front = line.front[StrapLine::lines / 2], &back = line.back[StrapLine::lines / 2];
   const double lowest = std::max(front.z, back.z);
   const double across = 0.5 * (sideways(line.front, line.width_m) + sideways(line.back, line.width_m));

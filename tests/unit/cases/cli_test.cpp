@@ -106,7 +106,8 @@ TEST(Command, BadInputExitsWithTwo) {
   folder.write("truncated.json", example.substr(0, 300));
   const std::array<std::pair<std::string, std::string>, 18> cases{{
       {"", "gambeson run cases/library/shorts_walk.json"},
-      {"dance", "there is no command \"dance\"; there are run, dress, check, render, report, verify, study and batch"},
+      {"dance",
+       "there is no command \"dance\"; there are run, dress, check, draft, render, report, verify, study and batch"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},

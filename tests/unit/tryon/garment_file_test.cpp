@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "human/load.hpp"
+#include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/pattern.hpp"
 
 namespace gambeson {
@@ -76,6 +78,74 @@ TEST_F(GarmentFile, ComesBackToTheBit) {
       EXPECT_EQ((h.seams[n].*e).reversed, (g.seams[n].*e).reversed);
     }
   }
+}
+
+TEST_F(GarmentFile, KeepsTrimsPartsPlacesAndNames) {
+  const Human human = makeManikin("male_p50");
+  const BodyForm form(human);
+  Fabric fabric;
+  fabric.thickness_m = 2.29e-3;
+  fabric.young_warp_Pa = 1.44e6;
+  for (const Garment& g : {makeShirt({}, form, 3e-3, {}), makeBelt({}, form, fabric, 2.29e-3, {})}) {
+    writeGarment(g, path);
+    const Garment h = loadGarment(path);
+    for (std::size_t n = 0; n < g.patches.size(); ++n) EXPECT_TRUE(h.patches[n].points == g.patches[n].points);
+    EXPECT_EQ(h.patch_names, g.patch_names);
+    EXPECT_TRUE(h.placed == g.placed);
+    ASSERT_EQ(h.seams.size(), g.seams.size());
+    for (std::size_t n = 0; n < g.seams.size(); ++n) EXPECT_EQ(h.seams[n].first_cell, g.seams[n].first_cell);
+    ASSERT_EQ(h.edges.size(), g.edges.size());
+    for (std::size_t n = 0; n < g.edges.size(); ++n) {
+      EXPECT_EQ(h.edges[n].name, g.edges[n].name);
+      ASSERT_EQ(h.edges[n].edges.size(), g.edges[n].edges.size());
+      for (std::size_t k = 0; k < g.edges[n].edges.size(); ++k)
+        EXPECT_EQ(h.edges[n].edges[k].side, g.edges[n].edges[k].side);
+    }
+    ASSERT_EQ(h.trims.size(), g.trims.size());
+    for (std::size_t n = 0; n < g.trims.size(); ++n) {
+      ASSERT_EQ(h.trims[n].loops.size(), g.trims[n].loops.size());
+      for (std::size_t l = 0; l < g.trims[n].loops.size(); ++l)
+        for (std::size_t k = 0; k < g.trims[n].loops[l].size(); ++k) {
+          const NurbsCurve &a = h.trims[n].loops[l][k], &b = g.trims[n].loops[l][k];
+          EXPECT_EQ(a.knots, b.knots);
+          ASSERT_EQ(a.points.size(), b.points.size());
+          for (std::size_t i = 0; i < a.points.size(); ++i)
+            EXPECT_TRUE(a.points[i].x == b.points[i].x && a.points[i].y == b.points[i].y);
+          EXPECT_EQ(a.weights, b.weights);
+        }
+    }
+    // What is written again is the same file.
+    std::ifstream first_in(path);
+    const std::string first((std::istreambuf_iterator<char>(first_in)), {});
+    writeGarment(h, path);
+    std::ifstream again_in(path);
+    EXPECT_EQ(std::string((std::istreambuf_iterator<char>(again_in)), {}), first);
+  }
+}
+
+TEST_F(GarmentFile, NamesWhatIsWrongWithTrimsPartsAndNames) {
+  const Human human = makeManikin("male_p50");
+  writeGarment(makeShirt({}, BodyForm(human), 3e-3, {}), path);
+  std::ifstream in(path);
+  const Json shirt = Json::parse(in);
+  const auto key = [&](const std::function<void(Json&)>& damage) {
+    Json j = shirt;
+    damage(j);
+    return failure(j.dump()).key;
+  };
+  EXPECT_EQ(key([](Json& j) { j["patches"][1]["name"] = "front"; }), "patches[1].name");
+  EXPECT_EQ(key([](Json& j) { j["patches"][1]["placed_m"] = Json::array({{0, 0, 0}}); }), "patches[1].placed_m");
+  EXPECT_EQ(key([](Json& j) { j["patches"][0]["trim"]["loops"][0][1]["points"][0] = {0.5}; }),
+            "patches[0].trim.loops[0][1].points[0]");
+  EXPECT_EQ(key([](Json& j) { j["patches"][0]["trim"]["loops"][0][1]["degree"] = 7; }),
+            "patches[0].trim.loops[0][1].knots");
+  EXPECT_EQ(key([](Json& j) { j["patches"][0]["trim"]["unused_fraction"] = 2; }), "patches[0].trim.unused_fraction");
+  EXPECT_EQ(key([](Json& j) { j["seams"][0]["first_cell"] = -1; }), "seams[0].first_cell");
+  EXPECT_EQ(key([](Json& j) { j["seams"][0]["first_cell"] = 1000; }), "seams[0]");
+  EXPECT_EQ(key([](Json& j) { j["seams"][2]["first_cell"] = 1; }), "seams[2]");  // elsewhere
+  EXPECT_EQ(key([](Json& j) { j["edges"][0]["of"] = Json::array(); }), "edges[0].of");
+  EXPECT_EQ(key([](Json& j) { j["edges"][1]["name"] = "hem"; }), "edges[1].name");
+  EXPECT_EQ(key([](Json& j) { j["edges"][0]["of"][0]["patch"] = 6; }), "edges[0]");
 }
 
 TEST_F(GarmentFile, KeepsWeights) {

@@ -1,0 +1,153 @@
+#include "cases/draft.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <ostream>
+
+#include "cases/factors.hpp"
+#include "cases/schema.hpp"
+#include "cases/structure_sheet.hpp"
+#include "core/error.hpp"
+#include "core/sheet/seams.hpp"
+#include "core/sheet/surface.hpp"
+#include "human/load.hpp"
+#include "human/skin.hpp"
+#include "tryon/pattern/garment_file.hpp"
+#include "tryon/pattern/pattern.hpp"
+
+namespace gambeson {
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+double layerOf(const Case& c, const GarmentCase& worn) {
+  return c.contact.layer_m.value_or(fabricOf(c, worn).thickness_m);
+}
+
+/// `form` is null without a human.
+Garment makeGarment(const Case& c, const GarmentCase& worn, const BodyForm* form, std::span<const Worn> under) {
+  const double layer = layerOf(c, worn);
+  Garment garment = std::visit(
+      Overloaded{
+          [&](const SheetGarment& s) {
+            return makeSheet({s.width_m, s.height_m, s.cells_u, s.cells_v, s.degree, s.corner, s.axis_u, s.axis_v});
+          },
+          [&](const DiscGarment& d) {
+            return makeDisc({d.radius_m, d.cells, d.degree, d.center, d.axis_u, d.axis_v});
+          },
+          [&](const TubeGarment& t) {
+            return makeTube({t.radius_m, t.length_m, t.cells_around, t.cells_along, t.degree, t.patches, t.start,
+                             t.axis, SeamKind::G1, 0});
+          },
+          [&](const ShortsGarment& s) {
+            ShortsPattern pattern;
+            pattern.inseam_m = s.inseam_m;
+            pattern.rise_m = s.rise_m;
+            pattern.ease = s.ease;
+            pattern.waist_ease = s.waist_ease;
+            pattern.cell_m = s.cell_m;
+            pattern.degree = s.degree;
+            pattern.seam_stiffness_N = worn.seam_stiffness_N;
+            return makeShorts(pattern, *form);
+          },
+          [&](const BeltGarment& b) { return makeBelt(b, *form, fabricOf(c, worn), layer, under); },
+          [&](ShirtGarment s) {
+            s.seam_stiffness_N = worn.seam_stiffness_N;
+            return makeShirt(s, *form, layer, under);
+          },
+          [&](const SkirtGarment& s) { return makeSkirt(s, *form, layer, under); },
+          [&](const FileGarment& f) { return loadGarment(f.path); },
+      },
+      worn.shape);
+  for (std::size_t p = garment.patch_names.size(); p < garment.patches.size(); ++p)
+    garment.patch_names.push_back("patch_" + std::to_string(p));
+  garment.fabric = fabricOf(c, worn);
+  for (NurbsPatch& patch : garment.patches)
+    for (Vec3& point : patch.points) point += worn.position_m;
+  for (auto& points : garment.placed)
+    for (Vec3& point : points) point += worn.position_m;
+  if (worn.weft_angle_rad != 0)
+    for (std::size_t p = 0; p < garment.patches.size(); ++p) {
+      const NurbsPatch& patch = garment.patches[p];
+      const auto d =
+          surfaceDerivatives(patch, 0.5 * (patch.u.front() + patch.u.back()), 0.5 * (patch.v.front() + patch.v.back()));
+      garment.weft[p] = rotationAbout(normalized(cross(d[1], d[2])), worn.weft_angle_rad) * garment.weft[p];
+    }
+  return garment;
+}
+
+}  // namespace
+
+Human skeletonOf(const HumanCase& h) {
+  if (!h.manikin.empty()) return makeManikin(h.manikin);
+  return h.body.empty() ? loadUrdf(h.urdf) : loadHuman(h.urdf, h.body);
+}
+
+Human humanOf(const HumanCase& h) {
+  Human human = skeletonOf(h);
+  if (h.skin) human.skin = std::make_shared<const Skin>(makeSkin(human, *h.skin));
+  return human;
+}
+
+std::vector<Garment> draftGarments(const Case& c, const Human* human) {
+  std::optional<BodyForm> form;
+  if (human) form.emplace(*human);
+  std::vector<Garment> garments;
+  garments.reserve(c.garments.size());  // those above point to those below
+  std::vector<Worn> under;
+  for (const GarmentCase& worn : c.garments) {
+    garments.push_back(makeGarment(c, worn, form ? &*form : nullptr, under));
+    under.push_back({&garments.back(), layerOf(c, worn)});
+  }
+  return garments;
+}
+
+std::vector<Vec3> startDisplacements(const Case& c, const std::vector<Garment>& garments) {
+  std::vector<Vec3> out;
+  for (std::size_t k = 0; k < garments.size(); ++k) {
+    const Garment& g = garments[k];
+    std::vector<Vec3> own(static_cast<std::size_t>(controlOffsets(g).back()));
+    if (c.garments[k].noise_m > 0)
+      own = noiseOf(Sheet{g}, {c.garments[k].noise_m, c.garments[k].noise_seed, 0, 0, false});
+    std::size_t at = 0;
+    for (std::size_t p = 0; p < g.patches.size(); ++p)
+      for (std::size_t i = 0; i < g.patches[p].points.size(); ++i, ++at)
+        if (!g.placed.empty() && !g.placed[p].empty()) own[at] += g.placed[p][i] - g.patches[p].points[i];
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  return out;
+}
+
+void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, std::ostream& out) {
+  std::vector<std::string> names;
+  for (const GarmentCase& g : c.garments) names.push_back(g.name);
+  std::size_t k = 0;
+  if (name.empty()) {
+    if (names.size() > 1)
+      throw InputError({"command line", 0, "--garment"},
+                       "is required where there are several garments; allowed: " + schema::joined(names));
+  } else {
+    while (k < names.size() && names[k] != name) ++k;
+    if (k == names.size())
+      throw InputError({"command line", 0, "--garment"},
+                       fmt::format("there is no garment \"{}\"; allowed: {}", name, schema::joined(names)));
+  }
+  std::optional<Human> human;
+  if (c.human) human = humanOf(*c.human);
+  const Case made = withFactors(c);
+  const Garment g = draftGarments(made, human ? &*human : nullptr)[k];
+  writeGarment(g, file);
+  double area = 0, mass = 0;
+  for (const double a : controlAreas(g)) area += a;
+  for (const double m : controlMasses(g)) mass += m;
+  out << fmt::format("{}: {} patches, {} control points, {:.4f} m^2, {:.3f} kg\n", g.name, g.patches.size(),
+                     controlOffsets(g).back(), area, mass);
+}
+
+}  // namespace gambeson

@@ -1,0 +1,98 @@
+// The armour of the library: counts and mass of its two meshes, and the same results from its files.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "cases/cli.hpp"
+#include "cases/draft.hpp"
+#include "cases/scenario.hpp"
+#include "core/error.hpp"
+#include "core/sheet/seams.hpp"
+#include "core/sheet/surface.hpp"
+
+namespace gambeson {
+namespace {
+
+const std::filesystem::path file =
+    std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases" / "library" / "armour_stand.json";
+const std::vector<std::string> fine{"garments[0].shorts.cell=13.6 mm", "garments[1].belt.cell=12.8 mm",
+                                    "garments[2].shirt.cell=12.8 mm"};
+
+struct Drafts {
+  Human human;
+  std::vector<Garment> garments;
+  explicit Drafts(const Case& c) : human(humanOf(*c.human)), garments(draftGarments(c, &human)) {}
+  int points() const {
+    int n = 0;
+    for (const Garment& g : garments) n += controlOffsets(g).back();
+    return n;
+  }
+};
+
+TEST(ArmourCase, HasTheThesisCountsAndMass) {
+  // Zheng 2013, sections 6.2 and 6.4: 6,308 and 1,932 control points, 13 patches, 1.43 kg of upper body armour.
+  const Drafts coarse(readCase(file)), many(readCase(file, fine));
+  EXPECT_NEAR(coarse.points(), 1932, 0.02 * 1932);
+  EXPECT_NEAR(many.points(), 6308, 0.02 * 6308);
+  for (const Drafts* d : {&coarse, &many}) {
+    EXPECT_EQ(d->garments[0].patches.size(), 6u);
+    EXPECT_EQ(d->garments[1].patches.size(), 1u);
+    EXPECT_EQ(d->garments[2].patches.size(), 6u);
+    double mass = 0;
+    for (const double m : controlMasses(d->garments[2])) mass += m;
+    EXPECT_NEAR(mass, 1.43, 0.05 * 1.43);
+    for (const Garment& g : d->garments)
+      for (const NurbsPatch& p : g.patches) EXPECT_TRUE(p.u.degree == 2 && p.v.degree == 2);
+  }
+}
+
+TEST(ArmourCase, FilesOfItsGarmentsAreTheSameArmour) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "armour_files";
+  std::filesystem::create_directories(folder);
+  const Case c = readCase(file);
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  std::string worn = text.str();
+  for (const std::string name : {"shorts", "belt", "shirt"}) {
+    const std::string out = (folder / (name + ".json")).string(), in_case = file.string();
+    const char* command[]{"gambeson", "draft", in_case.c_str(), "--garment", name.c_str(), "-o", out.c_str()};
+    std::ostringstream said, wrong;
+    ASSERT_EQ(runCommand(7, command, said, wrong), 0) << wrong.str();
+    EXPECT_NE(said.str().find("control points"), std::string::npos);
+    const std::size_t at = worn.find("\"" + name + "\": {"), end = worn.find('}', at);
+    worn.replace(at, end + 1 - at, "\"file\": {\"path\": \"" + name + ".json\"}");
+  }
+  std::ofstream(folder / "worn.json") << worn;
+  const auto a = buildScenario(c), b = buildScenario(readCase(folder / "worn.json"));
+  EXPECT_EQ(a->patch_names, b->patch_names);
+  EXPECT_EQ(a->model->mass_kg, b->model->mass_kg);
+  EXPECT_EQ(a->model->area_m2, b->model->area_m2);
+  ASSERT_EQ(a->start_m.size(), b->start_m.size());
+  StepWork wa, wb;
+  const State sa = startOf(*a, wa), sb = startOf(*b, wb);
+  EXPECT_TRUE(sa.p == sb.p);
+  EXPECT_TRUE(sa.a == sb.a);
+  EXPECT_TRUE(sa.anchors == sb.anchors);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ArmourCase, DraftNamesWhatIsWrong) {
+  const auto said = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"gambeson", "draft", file.string(), "-o", "/nonexistent/x.json"});
+    std::vector<const char*> command;
+    for (const std::string& s : more) command.push_back(s.c_str());
+    std::ostringstream out, err;
+    EXPECT_NE(runCommand(static_cast<int>(command.size()), command.data(), out, err), 0);
+    return err.str();
+  };
+  EXPECT_NE(said({}).find("--garment"), std::string::npos);
+  EXPECT_NE(said({"--garment", "hat"}).find("shorts, belt"), std::string::npos);
+  EXPECT_NE(said({"--garment", "shirt", "--set", "garments[2].shirt.ease=-1"}).find("ease"), std::string::npos);
+  EXPECT_NE(said({"--garment", "belt", "--set", "garments[1].belt.tension=1 km"}).find("tension"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gambeson
