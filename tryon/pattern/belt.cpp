@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/sheet/surface.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
@@ -69,7 +70,7 @@ Garment makeBelt(const BeltPattern& p, const BodyForm& form, const Fabric& fabri
   const double middle = form.origin(form.links({"torso"}, "garment.belt")[0]).z;
   const double top = waistOf(under, middle + 0.5 * p.width_m + p.below_waist_m) - p.below_waist_m;
   constexpr int heights = 17;
-  const Wrap body = form.wrap(top - p.width_m, top, trunk, "width_m", heights);
+  const Wrap body = form.wrap(top - p.width_m, top, trunk, "below_waist_m", heights);
   // Each layer keeps half the sum to the next, the first its thickness to the body.
   double out = layer_m, below = 0;
   for (std::size_t k = 0; k < under.size(); ++k) {
@@ -78,9 +79,9 @@ Garment makeBelt(const BeltPattern& p, const BodyForm& form, const Fabric& fabri
   }
   if (!under.empty()) out = below + 0.5 * (under.back().layer_m + layer_m);
   const Wrap worn = body.offset(out);
-  const ClosedCurve ring_middle(worn.section(0.5 * (worn.from() + worn.to())));
+  const double middle_z = 0.5 * (worn.from() + worn.to());
+  const ClosedCurve ring_middle(worn.section(middle_z));
   const Vec2 centre{ring_middle.centroid().x, form.medianY()};
-  const double lambda = stretchAt(p.tension_N, p.width_m, fabric);
   Wrap start = worn.offset(p.gap_m), layers = start;
   if (wrapOf(under, layer_m, p.gap_m, start.from(), start.to(), heights, layers)) start = start.with(layers);
 
@@ -95,6 +96,10 @@ Garment makeBelt(const BeltPattern& p, const BodyForm& form, const Fabric& fabri
   g.patches = {ring(u, v, start, form.medianY())};
   averageSeam(g, closing, 0, 0);
   g.placed = {g.patches[0].points};
+  // On hips it is a cone, wider along its slope than upright.
+  double area = 0;
+  for (const double a : controlAreas(g)) area += a;
+  const double lambda = stretchAt(p.tension_N, area / ClosedCurve(start.section(middle_z)).length(), fabric);
   g.patches = {ring(u, v, worn.grown(1 / lambda, centre), form.medianY())};
   averageSeam(g, closing, 0, 0);
   g.seams = {closing};

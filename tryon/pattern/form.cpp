@@ -23,6 +23,7 @@ Placement turned(const Placement& X) {
 }  // namespace
 
 BodyForm::BodyForm(const Human& human) : human_(human) {
+  if (human.shapes.empty()) return;  // no surface: links() names what is missing, or hull()
   const Posture posture = standing(human);
   const std::vector<Pose> links = linkPoses(human.skeleton, posture.q, posture.root);
   for (const Pose& X : links) origin_.push_back(X.origin);

@@ -200,7 +200,13 @@ double ClosedCurve::crossing(const Vec2& origin, const Vec2& direction) const {
   const auto side = [&](const Vec2& p) { return direction.x * (p.y - origin.y) - direction.y * (p.x - origin.x); };
   for (std::size_t i = 1; i < points_.size(); ++i) {
     const double a = side(points_[i - 1]), b = side(points_[i]);
-    if (a < 0 && b >= 0) return at_[i - 1] + a / (a - b) * (at_[i] - at_[i - 1]);
+    if (!(a < 0 && b >= 0)) continue;
+    // Where tangents meet in a corner the polygon can step back by rounding, also opposite the ray.
+    const double t = a / (a - b);
+    const Vec2 x{points_[i - 1].x + t * (points_[i].x - points_[i - 1].x),
+                 points_[i - 1].y + t * (points_[i].y - points_[i - 1].y)};
+    if (direction.x * (x.x - origin.x) + direction.y * (x.y - origin.y) > 0)
+      return at_[i - 1] + t * (at_[i] - at_[i - 1]);
   }
   return 0;  // only for an origin outside
 }

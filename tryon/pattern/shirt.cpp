@@ -53,8 +53,7 @@ struct Row {
 class Draft {
  public:
   Draft(const ShirtPattern& p, const BodyForm& form, double layer_m, std::span<const Worn> under)
-      : p_(p), form_(form), under_(under), sections_(makeSections(layer_m)) {
-    const double side = wrapTop() - hem_;
+      : p_(p), form_(form), under_(under), sections_(standUp(layer_m)) {
     // Across the straps cells of one width; the front's and back's upper edges have the same.
     strap_cells = std::max(2, static_cast<int>(std::ceil(p.strap_width_m / p.cell_m)));
     const double cell = p.strap_width_m / strap_cells;
@@ -65,10 +64,6 @@ class Draft {
     panel_cells = 2 * (neck_half + strap_cells + margin);
     top_half_m = (neck_half + strap_cells + margin) * cell;
 
-    const double height = top_ - hem_;
-    front_up = cellsFor(height, p.cell_m, 4);
-    wrap_up = std::clamp(static_cast<int>(std::round(side / height * front_up)), 2, front_up - 2);
-    wrap_top_ = hem_ + height * wrap_up / front_up;
     back_up = cellsFor(top_ - wrap_top_, p.cell_m, 2);
     const double girth = row(0.5 * (hem_ + wrap_top_)).curve.length();
     wrap_around = cellsFor((1 - p.front_share) * girth, p.cell_m, panel_cells + 2);
@@ -111,32 +106,55 @@ class Draft {
   double top_half_m = 0;
 
  private:
-  double wrapTop() const { return hem_ + p_.wrap_share * (top_ - hem_); }
-
-  Wrap makeSections(double layer_m) {
+  /// Sets the heights and the cells along them: the wrap ends a row below the arms' insides where these are in the way
+  /// of its width.
+  Wrap standUp(double layer_m) {
     const Links torso = form_.links({"torso"}, "garment.shirt");
     const Links arms = form_.links({"torso", "upper_arm_left", "upper_arm_right"}, "garment.shirt");
     Links trunk = form_.links({"torso", "thigh_left", "thigh_right"}, "garment.shirt");
     trunk.push_back(0);
     hem_ = waistOf(under_, form_.origin(torso[0]).z) + p_.hem_above_waist_m;
     top_ = form_.origin(arms[1]).z - p_.top_below_shoulder_m;
-    if (!(top_ - hem_ > 0.1)) reject("garment.shirt", "the shoulders stand less than 10 cm above the hem");
-    wrap_top_ = wrapTop();
+    const double height = top_ - hem_;
+    if (!(height > 0.1)) reject("garment.shirt", "the shoulders stand less than 10 cm above the hem");
+    if (!(p_.neck_depth_m <= 0.9 * height))
+      reject("neck_depth_m",
+             std::to_string(p_.neck_depth_m) + ", must leave a tenth of the front's " + std::to_string(height) + " m");
+    front_up = cellsFor(height, p_.cell_m, 4);
+    wrap_up = std::clamp(static_cast<int>(std::round(p_.wrap_share * front_up)), 2, front_up - 2);
     const double bottom = hem_ - p_.belly_length_m;
     const int heights = 1 + 2 * static_cast<int>(std::ceil((top_ - bottom) / 0.01));
     const Wrap body = form_.wrap(bottom, top_, trunk, "belly_length_m", heights);
     const Vec2 centre{ClosedCurve(body.section(hem_)).centroid().x, form_.medianY()};
-    // Upward from the wrap the sections go over into the hull of chest and shoulders at the upper edges.
     const std::vector<Vec2> shoulders = form_.hull(top_, arms, true, "top_below_shoulder_m");
-    const Wrap upper = body.blended(shoulders, [&](double z) {
-      const double x = std::clamp((z - wrap_top_) / (top_ - wrap_top_), 0.0, 1.0);
-      return x * x * (3 - 2 * x);
-    });
-    Wrap out = body.with(upper).grown(1 + p_.ease, centre).with(body.with(upper).offset(layer_m + p_.gap_m));
-    Wrap layers = out;
-    if (wrapOf(under_, layer_m, p_.gap_m, bottom, top_, heights, layers))
-      out = out.with(layers.widened(1.5 * p_.cell_m));
-    return out;
+    const double cut = p_.cell_m * p_.cell_m / 0.8;  // by a spline of such cells off a body of 10 cm
+    Wrap layers = body;
+    const bool over = wrapOf(under_, layer_m, p_.gap_m, bottom, top_, heights, layers);
+    for (;; --wrap_up) {
+      wrap_top_ = hem_ + height * wrap_up / front_up;
+      // Upward from the wrap the sections go over into the hull of chest and shoulders at the upper edges.
+      const Wrap upper = body.with(body.blended(shoulders, [&](double z) {
+        const double x = std::clamp((z - wrap_top_) / (top_ - wrap_top_), 0.0, 1.0);
+        return x * x * (3 - 2 * x);
+      }));
+      Wrap out = upper.grown(1 + p_.ease, centre).with(upper.offset(layer_m + p_.gap_m + cut));
+      if (over) out = out.with(layers.widened(1.5 * p_.cell_m));
+      if (clearOfArms(out, layer_m)) return out;
+      if (wrap_up == 2) reject("ease", std::to_string(p_.ease) + ", leaves no room between chest and arms");
+    }
+  }
+  /// Whether the wrap keeps its distance from the insides of the arms, as the body stands.
+  bool clearOfArms(const Wrap& out, double layer_m) const {
+    const Links arm = form_.links({"upper_arm_left", "forearm_left", "hand_left"}, "garment.shirt");
+    constexpr int heights = 60;
+    for (int k = 0; k <= heights; ++k) {
+      const double z = hem_ + (wrap_top_ - hem_) * k / heights;
+      double widest = -HUGE_VAL, inside = HUGE_VAL;
+      for (const Vec2& p : out.section(z)) widest = std::max(widest, p.y);
+      for (const Vec2& p : form_.level(z, arm)) inside = std::min(inside, p.y);
+      if (!(widest + layer_m + p_.gap_m <= inside)) return false;
+    }
+    return true;
   }
   const Row& row(double z) const {
     const auto found = rows_.find(z);

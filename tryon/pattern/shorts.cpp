@@ -17,6 +17,9 @@ namespace {
 
 /// Below the waist edge the waist's ease goes over into that of the rest.
 constexpr double waist_band_m = 0.12;
+/// What the fork and the rows below it keep from thigh and pelvis along rays from their middles, besides what a spline
+/// of cells cuts off a round of 10 cm.
+constexpr double body_gap_m = 0.002;
 
 /// The body as the tape sees it, standing.
 class Drafted {
@@ -36,6 +39,13 @@ class Drafted {
   Wrap trunk(double from, double to) const { return form_.wrap(from, to, trunk_, "rise_m"); }
   ClosedCurve leftThigh(double z) const { return ClosedCurve(form_.hull(z, thigh_, false, "inseam_m")); }
   double medianY() const { return form_.medianY(); }
+  /// Pelvis, whose middle stands on the median plane, and left thigh, where they are.
+  std::vector<ClosedCurve> underFork(double z) const {
+    std::vector<ClosedCurve> out;
+    if (z > pelvisBottom()) out.emplace_back(form_.hull(z, {0}, true, "rise_m"));
+    if (!form_.level(z, thigh_).empty()) out.push_back(leftThigh(z));
+    return out;
+  }
 
  private:
   const BodyForm& form_;
@@ -109,6 +119,8 @@ class Draft {
   std::vector<Vec2> halfSection(double t) const {
     const Tape around = tape(t);
     const double up = std::max(0.0, 1 - t * p_.rise_m / p_.fork_m);
+    const std::vector<ClosedCurve> bodies =
+        up > 0 ? body_.underFork(crotch_z_ + t * p_.rise_m) : std::vector<ClosedCurve>{};
     constexpr int n = 720;
     std::vector<Vec2> out;
     for (int k = 0; k <= n; ++k) {
@@ -117,7 +129,10 @@ class Draft {
       const double y = std::min(1.0, (x.y - body_.medianY()) / notch_half_width_);
       const double pull = (1 - p_.gusset_share) * std::pow(std::cos(0.5 * std::numbers::pi * y) * up, 2);
       const double middle = 0.5 * (around.front_x + around.back_x);
-      out.push_back({x.x + pull * (middle - x.x), x.y});
+      Vec2 drawn{x.x + pull * (middle - x.x), x.y};
+      if (pull > 0 && p_.ease > 0)
+        for (const auto& body : bodies) drawn = movedOut(drawn, body, 0);
+      out.push_back(drawn);
     }
     return out;
   }
@@ -138,9 +153,25 @@ class Draft {
     return {x.x, x.y, z};
   }
   /// The fork's outline at the top goes over into the thigh's section, with a slope there and without one below.
+  /// Points of two outlines that face each other on different rays cut the corner between them; they are moved out to
+  /// where the thigh leaves room.
   Vec3 blend(const Vec3& top, const Vec3& leg, double t) const {
     const double q = std::max(0.0, 1 - (1 - t) * p_.inseam_m / p_.blend_m), w = q * q;
-    return {leg.x + w * (top.x - leg.x), leg.y + w * (top.y - leg.y), leg.z};
+    const Vec3 x{leg.x + w * (top.x - leg.x), leg.y + w * (top.y - leg.y), leg.z};
+    if (w == 0 || t == 1 || !(p_.ease > 0)) return x;
+    const Vec2 out = movedOut({x.x, x.y}, body_.leftThigh(x.z), q);
+    return {out.x, out.y, x.z};
+  }
+  /// Moved out along the ray from the middle of a section of the body, unless it keeps the gap already. The gap is not
+  /// more than the ease gives to legs where `share` is 0.
+  Vec2 movedOut(const Vec2& x, const ClosedCurve& body, double share) const {
+    const Vec2 c = body.centroid(), ray{x.x - c.x, x.y - c.y};
+    const Vec2 skin = body.point(body.crossing(c, ray));
+    const double radius = std::hypot(skin.x - c.x, skin.y - c.y);
+    const double leg_gap = p_.ease * radius, wanted = body_gap_m + p_.cell_m * p_.cell_m / 0.8;
+    const double gap = std::min(wanted, leg_gap + std::max(0.0, wanted - leg_gap) * share);
+    const double grow = (radius + gap) / std::hypot(ray.x, ray.y);
+    return grow > 1 ? Vec2{c.x + grow * ray.x, c.y + grow * ray.y} : x;
   }
 
   const ShortsPattern& p_;

@@ -23,23 +23,30 @@ Strap::Strap(const StrapLine& line, const BodyForm& form) : line_(line) {
   const double across = 0.5 * (sideways(line.front, line.width_m) + sideways(line.back, line.width_m));
   const double slope = std::sqrt(line.width_m * line.width_m - across * across);
 
-  // Support of the profiles, each seen from the middle line: h(angle) = max over the lines of h_y + (a - 1/2) m.
-  std::vector<std::vector<Vec2>> profiles;
-  for (int i = 0; i <= StrapLine::lines; ++i) {
-    const double y = 0.5 * (line.front[i].y + line.back[i].y);
+  // Support of the profiles, each seen from the middle line: h(angle) = max over the lines of h_y + (a - 1/2) m. About
+  // every line a ball of the clearance rolls over the body: profiles beside it ask for less.
+  struct Profile {
     std::vector<Vec2> points;
-    for (const Vec2& p : form.profile(y, torso))
-      if (p.y > lowest) points.push_back(p);
-    profiles.push_back(std::move(points));
-  }
+    double further = 0;
+  };
+  std::vector<Profile> profiles;
+  constexpr int beside = 4;
+  for (int i = 0; i <= StrapLine::lines; ++i)
+    for (int k = -beside; k <= beside; ++k) {
+      const double aside = line.clearance_m * k / (beside + 0.5);
+      Profile profile{{},
+                      std::sqrt(line.clearance_m * line.clearance_m - aside * aside) +
+                          (static_cast<double>(i) / StrapLine::lines - 0.5) * slope};
+      for (const Vec2& p : form.profile(0.5 * (line.front[i].y + line.back[i].y) + aside, torso))
+        if (p.y > lowest) profile.points.push_back(p);
+      profiles.push_back(std::move(profile));
+    }
   constexpr int directions = 180;  // upper half plane: from forward over up to backward
   std::vector<double> support(directions + 1, -HUGE_VAL);
   for (int d = 0; d <= directions; ++d) {
     const double angle = std::numbers::pi * d / directions, c = std::cos(angle), s = std::sin(angle);
-    for (int i = 0; i <= StrapLine::lines; ++i)
-      for (const Vec2& p : profiles[i])
-        support[d] = std::max(support[d], c * p.x + s * p.y + line.clearance_m +
-                                              (static_cast<double>(i) / StrapLine::lines - 0.5) * slope);
+    for (const Profile& profile : profiles)
+      for (const Vec2& p : profile.points) support[d] = std::max(support[d], c * p.x + s * p.y + profile.further);
   }
   std::vector<Vec2> points{{front.x, front.z}, {back.x, back.z}};
   const double step = std::numbers::pi / directions;
@@ -95,8 +102,17 @@ Vec3 Strap::at(double s, double t) const {
   constexpr double blend = 0.05;  // [m]
   const double from_front = std::max(0.0, 1 - t * length() / blend),
                from_back = std::max(0.0, 1 - (1 - t) * length() / blend);
-  return ribbon(s, t) + from_front * from_front * (end(line_.front) - ribbon(s, 0)) +
-         from_back * from_back * (end(line_.back) - ribbon(s, 1));
+  const double to_front = from_front * from_front, to_back = from_back * from_back;
+  const auto blended = [&](double side, const Vec3& front, const Vec3& back) {
+    return ribbon(side, t) + to_front * (front - ribbon(side, 0)) + to_back * (back - ribbon(side, 1));
+  };
+  // Directions that turn do not add up to the width; the cross line is given its length again.
+  const Vec3 inner = blended(0, line_.front.front(), line_.back.front()),
+             outer = blended(1, line_.front.back(), line_.back.back());
+  const double width = line_.width_m + to_front * (norm(line_.front.back() - line_.front.front()) - line_.width_m) +
+                       to_back * (norm(line_.back.back() - line_.back.front()) - line_.width_m);
+  const Vec3 middle = 0.5 * (inner + outer);
+  return middle + width / norm(outer - inner) * (blended(s, end(line_.front), end(line_.back)) - middle);
 }
 
 }  // namespace gambeson
