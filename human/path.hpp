@@ -2,7 +2,10 @@
 /// A value over equal steps of time with its rates; cubic Hermite between (C¹).
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
+
+#include "core/math/vec.hpp"
 
 namespace gambeson {
 
@@ -18,6 +21,21 @@ struct HermitePath {
            step_s * (u * w * w * v[i] - u * u * w * v[i + 1]);
   }
 };
+
+/// The way from x at `begin` with velocity(t), over `length`: Simpson's rule over steps of about 2 ms, at least 16.
+template <class Velocity>
+HermitePath<Vec3> integrated(double begin, double length, Vec3 x, const Velocity& velocity) {
+  const int n = std::max(16, static_cast<int>(std::ceil(length / 0.002)));
+  HermitePath<Vec3> path{length / n, {x}, {velocity(begin)}};
+  for (int i = 0; i < n; ++i) {
+    const double t = begin + (i + 1) * path.step_s;
+    const Vec3 middle = velocity(t - 0.5 * path.step_s), end = velocity(t);
+    x += path.step_s / 6 * (path.v.back() + 4 * middle + end);
+    path.x.push_back(x);
+    path.v.push_back(end);
+  }
+  return path;
+}
 
 /// Rates at the nodes by central differences of fourth order (second next to the ends), one-sided of second order at
 /// the ends. At least three values.

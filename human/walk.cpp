@@ -141,18 +141,8 @@ class Walk final : public Motion {
     return v;
   }
 
-  /// Simpson's rule over steps of about 2 ms.
-  HermitePath<Vec3> integrate(double begin, double length, Vec3 x) const {
-    const int n = std::max(16, static_cast<int>(std::ceil(length / 0.002)));
-    HermitePath<Vec3> path{length / n, {x}, {velocityAt(begin)}};
-    for (int i = 0; i < n; ++i) {
-      const double t = begin + (i + 1) * path.step_s;
-      const Vec3 middle = velocityAt(t - 0.5 * path.step_s), end = velocityAt(t);
-      x += path.step_s / 6 * (path.v.back() + 4 * middle + end);
-      path.x.push_back(x);
-      path.v.push_back(end);
-    }
-    return path;
+  HermitePath<Vec3> integrate(double begin, double length, const Vec3& x) const {
+    return integrated(begin, length, x, [this](double t) { return velocityAt(t); });
   }
 
   Human human_;
