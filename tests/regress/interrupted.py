@@ -3,9 +3,10 @@
 
     interrupted.py [GAMBESON] CASE
 
-The moments come from a fixed seed and scale with the time that computing takes here. The first are very early, so that
-runs die before their first checkpoint too. A chain of kills and resumptions ends when all is computed; its results are
-compared, and the next kills begin with a new run.
+The moments come from a fixed seed and scale with the time that a whole run takes here. The first are very early, so that
+runs die before their first checkpoint too; the others leave time to draft the garment again before anything is computed.
+A chain of kills and resumptions ends when all is computed; its results are compared, and the next kills begin with a new
+run.
 """
 
 import json
@@ -29,7 +30,7 @@ def main():
         reached, chain = [], 0
         while len(reached) < KILLS:
             cut = f"cut{chain}"
-            delay = chance.uniform(0.01, 0.05 if len(reached) < 4 else 0.5) * (0.15 + computing_s)
+            delay = chance.uniform(*((0.01, 0.05) if len(reached) < 4 else (0.2, 0.9))) * (0.15 + computing_s)
             process = subprocess.Popen(command("run", case, "--out", folder / cut, "--resume", "--threads", 2),
                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
             try:
