@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "cases/factors.hpp"
+#include "cases/overloaded.hpp"
 #include "cases/schema.hpp"
 #include "cases/structure_sheet.hpp"
 #include "core/error.hpp"
@@ -18,13 +19,6 @@
 
 namespace gambeson {
 namespace {
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;
 
 double layerOf(const Case& c, const GarmentCase& worn) {
   return c.contact.layer_m.value_or(fabricOf(c, worn).thickness_m);

@@ -9,6 +9,7 @@
 #include "cases/draft.hpp"
 #include "cases/dress.hpp"
 #include "cases/factors.hpp"
+#include "cases/overloaded.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/dynamics/step.hpp"
 #include "core/error.hpp"
@@ -21,13 +22,6 @@
 
 namespace gambeson {
 namespace {
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;
 
 /// Feet of our own motions slip and sink by a centimetre or two at most.
 bool plausible(const FootReport& f) { return f.slip_m < 0.05 && f.penetration_m < 0.02 && f.hover_m < 0.02; }

@@ -144,7 +144,7 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
 
   std::vector<Stand> stands;
   std::vector<Outcome> outcomes(s.variants.size());
-  std::vector<std::size_t> todo;
+  std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const Variant& v = s.variants[i];
     stands.push_back(o.resume ? standOf(o.out / v.folder, v.identity) : Stand::fresh);
@@ -152,9 +152,9 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
     if (stands.back() == Stand::done)
       outcomes[i].good = true;
     else
-      todo.push_back(i);
+      waiting.push_back(i);
   }
-  if (o.slurm && todo.empty()) {
+  if (o.slurm && waiting.empty()) {
     out << "all variants are done: the same command without --engine compares them\n";
     return 0;
   }
@@ -162,30 +162,30 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
     writeFileAtomically(o.out / "study.slurm", slurmScript(s, o, stands));
     out << fmt::format(
         "{0} of {1} variants to do: sbatch {2}\nThen compare: the same command with --resume and without --engine\n",
-        todo.size(), s.variants.size(), (o.out / "study.slurm").string());
+        waiting.size(), s.variants.size(), (o.out / "study.slurm").string());
     return 0;
   }
-  const int parallel = std::clamp(o.jobs > 0 ? o.jobs : threads, 1, std::max(1, static_cast<int>(todo.size())));
+  const int parallel = std::clamp(o.jobs > 0 ? o.jobs : threads, 1, std::max(1, static_cast<int>(waiting.size())));
   const int each = std::max(1, threads / parallel);
   // Those interrupted first: they are nearest to their end.
-  std::stable_partition(todo.begin(), todo.end(), [&](std::size_t i) { return stands[i] == Stand::interrupted; });
+  std::stable_partition(waiting.begin(), waiting.end(), [&](std::size_t i) { return stands[i] == Stand::interrupted; });
   std::vector<Job> jobs;
   std::vector<double> checkpoints;
-  for (const std::size_t i : todo) {
+  for (const std::size_t i : waiting) {
     jobs.push_back({commandOf(s.variants[i], o, each, stands[i]), o.out / "logs" / (s.variants[i].folder + ".log")});
     checkpoints.push_back(checkpointsOf(s.variants[i].definition));
   }
-  if (todo.size() < s.variants.size())
-    out << fmt::format("{} of {} variants are done already\n", s.variants.size() - todo.size(), s.variants.size())
+  if (waiting.size() < s.variants.size())
+    out << fmt::format("{} of {} variants are done already\n", s.variants.size() - waiting.size(), s.variants.size())
         << std::flush;
   bool whole = true;
   {
-    Line line(s.variants.size(), s.variants.size() - todo.size());
+    Line line(s.variants.size(), s.variants.size() - waiting.size());
     Pool pool;
     pool.parallel = parallel;
     pool.ended = [&](std::size_t job, const Ended& e) {
-      const Variant& v = s.variants[todo[job]];
-      outcomes[todo[job]] = {e.good, e.why};
+      const Variant& v = s.variants[waiting[job]];
+      outcomes[waiting[job]] = {e.good, e.why};
       line.ended();
       line.clear();
       out << (e.good ? fmt::format("done    {}  {}\n", v.folder, durationText(e.seconds))
@@ -196,7 +196,7 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
       std::vector<double> parts;
       for (const std::size_t job : running) {
         const double n = checkpoints[job];
-        parts.push_back(n > 0 ? std::min(1.0, closedSegments(o.out / s.variants[todo[job]].folder) / n) : 0);
+        parts.push_back(n > 0 ? std::min(1.0, closedSegments(o.out / s.variants[waiting[job]].folder) / n) : 0);
       }
       line.update(parts);
     };
