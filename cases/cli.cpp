@@ -98,8 +98,9 @@ void addRun(CLI::App& app, RunArguments& a) {
       ->type_name("DEVICE")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}).description(""));
   run.footer(
-      "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, collisions.csv,\n"
-      "stress.csv, snapshots/ (pictures) and frames.xdmf (the recording, for ParaView). Static, dynamic and modal "
+      "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, zones.csv,\n"
+      "collisions.csv, stress.csv, snapshots/ (pictures) and frames.xdmf (the recording, for ParaView). Static, "
+      "dynamic and modal "
       "cases\n"
       "leave path.csv (points and edges of each step) and shape.csv (the last shape) in place of the three tables.\n\n"
       "Examples:\n"

@@ -124,11 +124,13 @@ RecordingLayout recordingLayout(const Scenario& s) {
   layout.metadata = writeCase(s.definition);
   layout.triangles = s.model->surface.triangles;
   const std::vector<std::string> window{"start_s", "end_s"};
-  auto &bodies = layout.tables["bodies"] = window, &drag = layout.tables["drag"] = window;
+  auto &bodies = layout.tables["bodies"] = window, &drag = layout.tables["drag"] = window,
+       &pressing = layout.tables["normal"] = window;
   for (const std::string& name : s.bodies) {
     for (const char* part : {"_Jx_Ns", "_Jy_Ns", "_Jz_Ns", "_Lx_Nms", "_Ly_Nms", "_Lz_Nms"}) {
       bodies.push_back(name + part);
       drag.push_back(name + part);
+      pressing.push_back(name + part);
     }
     bodies.push_back(name + "_n_Ns");
     bodies.push_back(name + "_t_Ns");
@@ -142,6 +144,9 @@ RecordingLayout recordingLayout(const Scenario& s) {
   auto& regions = layout.tables["regions"] = window;
   for (const std::string& name : s.contact_regions)
     for (const char* part : {"_Jx_Ns", "_Jy_Ns", "_Jz_Ns", "_n_Ns", "_t_Ns"}) regions.push_back(name + part);
+  auto& zones = layout.tables["body_zones"] = window;
+  const std::vector<std::string> sums = ZoneLedger::columns(s);
+  zones.insert(zones.end(), sums.begin(), sums.end());
   auto& supports = layout.tables["supports"] = window;
   for (const SupportGroup& g : s.supports)
     for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(g.name + part);
@@ -212,6 +217,7 @@ Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
       stress_(scenario.model->shell),
       writer_(writer),
       placed_(scenario),
+      zones_(scenario),
       bodies_(scenario.bodies.size()),
       regions_(scenario.contact_regions.size()),
       supports_(scenario.supports.size()),
@@ -233,6 +239,8 @@ void Recorder::observe(const State& before, const State& after, const StepReport
       Body& body = bodies_[to];
       body.force += part * received;
       body.moment += cross(c.point - poses[to].origin, part * received);
+      body.pressing += (-part * normal) * c.normal;
+      body.pressing_moment += cross(c.point - poses[to].origin, (-part * normal) * c.normal);
       body.normal += part * normal;
       body.tangential += part * tangential;
     };
@@ -241,8 +249,9 @@ void Recorder::observe(const State& before, const State& after, const StepReport
     } else {
       for (int k = 0; k < 3 && c.touched.vertex[k] >= 0; ++k)
         give(scenario_.human->skin->segment[c.touched.vertex[k]], c.touched.weight[k]);
-      skin_->add(c.touched, received, normal);
+      skin_->add(c.touched, received, -normal * c.normal);
     }
+    zones_.add(c, poses);
     Body& region = regions_[static_cast<std::size_t>(scenario_.contact_region[c.sample])];
     region.force += received;
     region.normal += normal;
@@ -310,6 +319,15 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
     row.insert(row.end(), {b.normal, b.tangential});
   }
   writer_.append(TableRow{"bodies", row});
+  row = head;
+  for (const Body& b : bodies_) {
+    addVec(row, b.pressing);
+    addVec(row, b.pressing_moment);
+  }
+  writer_.append(TableRow{"normal", row});
+  row = head;
+  row.insert(row.end(), zones_.row().begin(), zones_.row().end());
+  writer_.append(TableRow{"body_zones", row});
   if (skin_) {
     row = head;
     const std::vector<double> joints = skin_->row(0.5 * (start_s + state.time_s));
@@ -376,6 +394,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
 
   if (frame) appendFrame(state, window);
   if (skin_) skin_->clear();
+  zones_.clear();
   std::fill(bodies_.begin(), bodies_.end(), Body{});
   std::fill(regions_.begin(), regions_.end(), Body{});
   std::fill(supports_.begin(), supports_.end(), Vec3{});

@@ -7,6 +7,8 @@
 ///   body
 ///             frame's origin), <name>_n_Ns (sum of normal impulses), <name>_t_Ns (sum of tangential magnitudes)
 ///   regions   per contact region of the scenario <name>_Jx_Ns .. Jz (impulse on the bodies), <name>_n_Ns, <name>_t_Ns
+///   normal    per body <name>_Jx_Ns .. Lz_Nms: the part of `bodies` that presses; the rest rubs
+///   body_zones  what each part of the body gets from each garment (cases/zone_ledger.hpp)
 ///   drag      per body <name>_Jx_Ns .. Lz_Nms: air drag on the cloth nearest to that body, as if the body carried it
 ///   supports  per support <name>_x_Ns .. z: impulse on the cloth; <name>_drop_m: mean sinking of the edge against its
 ///   link,
@@ -21,6 +23,7 @@
 #include "cases/placed_bodies.hpp"
 #include "cases/scenario.hpp"
 #include "cases/skin_ledger.hpp"
+#include "cases/zone_ledger.hpp"
 #include "core/io/recording.hpp"
 #include "core/sheet/stress_field.hpp"
 
@@ -46,6 +49,7 @@ class Recorder {
  private:
   struct Body {
     Vec3 force, moment;
+    Vec3 pressing, pressing_moment;  ///< their normal parts
     double normal = 0, tangential = 0;
   };
   void appendFrame(const State& state, double window_s);
@@ -55,6 +59,7 @@ class Recorder {
   StressField stress_;
   RecordingWriter& writer_;
   PlacedBodies placed_;
+  ZoneLedger zones_;
   std::optional<SkinLedger> skin_;
   std::vector<Body> bodies_;
   std::vector<Body> regions_;  ///< without moments

@@ -113,12 +113,14 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   m.surface_depth = surfaceDepth(s, recording);
   writeSummary(s, recording, m, facts, dir / "summary.json");
   if (s.human) {
-    std::vector<TorqueVariant> variants;
+    std::vector<TorqueVariant> variants{{"friction", &m.added_friction}};
     if (s.hasSkin())
-      variants = {{"segments", &m.added_segments}, {"proximal", &m.added_proximal}, {"distal", &m.added_distal}};
+      variants.insert(variants.end(),
+                      {{"segments", &m.added_segments}, {"proximal", &m.added_proximal}, {"distal", &m.added_distal}});
     writeTorques(dir / "torques.csv", s.human->skeleton, m.added, variants);
   }
   writeContact(dir / "contact.csv", m.bodies, m.windows);
+  writeZones(dir / "zones.csv", m.zones);
   writeCollisions(dir / "collisions.csv", m.steps.collisions);
   if (!m.touch.empty()) writeLatitude(dir / "latitude.csv", m.touch);
   writeStress(dir / "stress.csv", m.regions, m.frames);

@@ -151,8 +151,9 @@ std::optional<double> naturalMoment(const Scenario& s, const JointMeasure& m, co
 }
 
 /// `skin`: of the table of that name, empty without a skin; `rest` of that table too where there is one, else of
-/// bodies.
-void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const Rows& rest, Measured& out) {
+/// bodies; `pressing`: the normal parts.
+void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const Rows& rest,
+                   const std::vector<ContactWindow>& pressing, Measured& out) {
   const Skeleton& skeleton = s.human->skeleton;
   std::vector<int> joints;
   for (const std::string& name : s.definition.analysis.joints) {
@@ -170,6 +171,10 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
     out.added = addedTorques(s, out.windows, joints);
   }
   out.added_drag = addedTorques(s, out.drag, joints);
+  out.added_friction = s.hasSkin() ? skinTorques(s, skin, joints, 4) : addedTorques(s, pressing, joints);
+  for (std::size_t w = 0; w < out.added_friction.value.size(); ++w)
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      out.added_friction.value[w][j] = out.added.value[w][j] - out.added_friction.value[w][j];
   const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
                                                                                : TorqueCounting::distal_segment;
   const auto& time = out.added.time_s;
@@ -189,7 +194,7 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
     m.name = skeleton.joints[static_cast<std::size_t>(j)].name;
     m.prismatic = skeleton.joints[static_cast<std::size_t>(j)].type == JointType::prismatic;
     splitName(m);
-    const std::vector<double> tau = out.added.of(j), drag = out.added_drag.of(j);
+    const std::vector<double> tau = out.added.of(j), drag = out.added_drag.of(j), friction = out.added_friction.of(j);
     m.peak = peakOf(std::span(time).subspan(first), std::span(tau).subspan(first));
     m.rms = rms(std::span(tau).subspan(first));
     if (s.hasSkin()) {
@@ -209,7 +214,8 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
     }
     if (first > 0) m.lead_in_peak = peakOf(std::span(time).first(first), std::span(tau).first(first));
     for (std::size_t w = 0; w < time.size(); ++w)
-      if (time[w] == m.peak.time_s) m.drag_at_peak = drag[w];
+      if (time[w] == m.peak.time_s) m.drag_at_peak = drag[w], m.friction_at_peak = friction[w];
+    m.friction_rms = rms(std::span(friction).subspan(first));
     const auto q = [&](double t) { return s.motion->at(t).q[static_cast<std::size_t>(j)]; };
     constexpr double h = 1e-3;
     m.position_at_peak = q(m.peak.time_s);
@@ -361,7 +367,9 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   measureBodies(s, bodies, out);
   if (s.human)
     measureJoints(s, bodies, s.hasSkin() ? motionRows(recording, "skin") : Rows{},
-                  restRows(s, recording, s.hasSkin() ? "skin" : "bodies"), out);
+                  restRows(s, recording, s.hasSkin() ? "skin" : "bodies"),
+                  windowsOf(motionRows(recording, "normal"), s.bodies.size(), 6), out);
+  measureZones(s, recording, out);
   measureRegions(s, motionRows(recording, "regions"), out);
   measureSupports(s, motionRows(recording, "supports"), out);
   measureSteps(recording, out);

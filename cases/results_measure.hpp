@@ -43,6 +43,7 @@ struct JointMeasure {
   double rms = 0;
   std::optional<double> standing;                 ///< mean over the last 0.1 s before the motion: dressed, at rest
   double drag_at_peak = 0;                        ///< part of the peak that air drag has, in the unit of the peak
+  double friction_at_peak = 0, friction_rms = 0;  ///< of the contact's tangential part; the rest is of what presses
   double position_at_peak = 0, rate_at_peak = 0;  ///< of the joint [rad, rad/s or m, m/s]
   std::optional<SegmentsMeasure> segments;
   std::optional<double> natural_Nm;     ///< peak moment of the task without the garment
@@ -66,6 +67,28 @@ struct RegionMeasure {
   std::string name;
   Vec3 mean_N;                          ///< on the bodies
   double normal_N = 0, friction_N = 0;  ///< means of the sums of magnitudes
+};
+
+/// Sums of magnitudes over contacts, which opposite pressures do not cancel, of a window or in the mean over time.
+struct ZoneForce {
+  double force_N = 0, normal_N = 0, friction_N = 0;
+  ZoneForce& operator+=(const ZoneForce& o) {
+    force_N += o.force_N, normal_N += o.normal_N, friction_N += o.friction_N;
+    return *this;
+  }
+};
+
+/// What the parts of the body bear (zoneNames), from Measured::counted_from_s on.
+struct ZonesMeasure {
+  std::vector<std::string> names;
+  std::vector<ContactGroup> groups;
+  std::vector<std::vector<ZoneForce>> mean;  ///< [group][zone], over time
+  std::vector<double> time_s;                ///< of the windows of the motion, and in each [zone]
+  std::vector<std::vector<ZoneForce>> all, free;
+
+  /// In the mean, of the zones that are called `zone` or "<zone>_left" and "<zone>_right" ("": of all); `free`: without
+  /// belt and edges on springs. A zone that the body lacks bears nothing.
+  ZoneForce of(const std::string& zone, bool free_only) const;
 };
 
 /// How one body is touched in the last frame, seen from its origin: angles are from up, radii from the vertical axis.
@@ -153,9 +176,11 @@ struct Measured {
   TorqueHistory added, added_drag;
   /// Of a skin, by segments, and with the border moved (SkinLedger); without a skin they have no windows.
   TorqueHistory added_segments, added_proximal, added_distal;
+  TorqueHistory added_friction;  ///< the part of `added` that friction has
   std::vector<JointMeasure> joints;
   std::vector<BodyMeasure> contact;
   std::vector<RegionMeasure> contact_regions;
+  ZonesMeasure zones;
   double peak_time_s = 0;  ///< of the largest added torque; without joints of the largest sum of contact forces
   std::vector<SupportMeasure> supports;
   std::vector<TouchMeasure> touch;  ///< of each body; empty without frames
@@ -176,6 +201,8 @@ Measured measure(const Scenario& scenario, const RecordingReader& recording);
 // Its parts (results_steps.cpp): the table "steps", and the frames.
 void measureSteps(const RecordingReader& recording, Measured& out);
 void measureFrames(const RecordingReader& recording, Measured& out);
+/// Of results_zones.cpp; after the joints, which say from when on windows count.
+void measureZones(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of results_touch.cpp.
 void measureTouch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 

@@ -35,7 +35,10 @@ void addJoints(const Measured& m, ReportInput& in) {
     summary.cause = causeOf(j, m.strides);
     summary.rms_Nm = j.rms;
     if (j.natural_Nm) summary.natural_percent = 100 * std::abs(j.peak.value) / *j.natural_Nm;
-    if (j.peak.value != 0) summary.drag_percent = 100 * j.drag_at_peak / j.peak.value;
+    if (j.peak.value != 0) {
+      summary.drag_percent = 100 * j.drag_at_peak / j.peak.value;
+      summary.friction_percent = 100 * j.friction_at_peak / j.peak.value;
+    }
     in.joints.push_back(std::move(summary));
   }
 }
@@ -74,7 +77,7 @@ void addPlots(const Measured& m, ReportInput& in) {
   }
 }
 
-void addContact(const Measured& m, ReportInput& in) {
+void addContact(const Measured& m, bool chart_too, ReportInput& in) {
   BarChart chart{"Share of each segment in the contact",
                  "%",
                  "Of the impulse of the contact force over the motion; segments that nothing touched are left out.",
@@ -96,7 +99,7 @@ void addContact(const Measured& m, ReportInput& in) {
                           b->contact.mean_N, Cell(100 * b->contact.share), b->normal_N, b->friction_N});
     table.rows.back()[2].number = true;
   }
-  if (!chart.bars.empty()) in.contact_charts.push_back(std::move(chart));
+  if (chart_too && !chart.bars.empty()) in.contact_charts.push_back(std::move(chart));
   in.contact_tables.push_back(std::move(table));
 }
 
@@ -201,7 +204,8 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
   addJoints(m, in);
   addPlots(m, in);
-  if (!m.contact.empty()) addContact(m, in);
+  if (s.human) addZones(m, in);
+  if (!m.contact.empty()) addContact(m, !s.human, in);
   addCollisions(m, in);
   if (m.joints.empty()) in.outcome = outcomeOf(m);
   addStress(m, in);

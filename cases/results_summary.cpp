@@ -36,6 +36,9 @@ Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides) {
                         {"border_2cm_distal" + unit, g->border_distal}};
   if (m.standing) j["standing" + unit] = *m.standing;
   j["drag_at_peak" + unit] = m.drag_at_peak;
+  j["friction_at_peak" + unit] = m.friction_at_peak;
+  j["friction_rms" + unit] = m.friction_rms;
+  if (m.peak.value != 0) j["friction_share_at_peak"] = m.friction_at_peak / m.peak.value;
   j["joint_at_peak"] = m.position_at_peak;
   j["joint_rate_at_peak"] = m.rate_at_peak;
   if (m.natural_Nm) {
@@ -117,6 +120,42 @@ Json collisionsJson(const Measured& m) {
   return j;
 }
 
+/// Time means of sums of magnitudes; ratios of what nothing presses on are left out.
+Json zonesJson(const ZonesMeasure& m) {
+  Json j{{"rows", Json::array()}};
+  for (std::size_t g = 0; g < m.groups.size(); ++g)
+    for (std::size_t z = 0; z < m.names.size(); ++z)
+      if (const ZoneForce& f = m.mean[g][z]; f.force_N > 0)
+        j["rows"].push_back({{"zone", m.names[z]},
+                             {"layer", m.groups[g].layer},
+                             {"press", m.groups[g].press == Press::belt   ? "belt"
+                                       : m.groups[g].press == Press::held ? "springs"
+                                                                          : "free"},
+                             {"force_N", f.force_N},
+                             {"normal_N", f.normal_N},
+                             {"friction_N", f.friction_N}});
+  std::vector<std::string> zones = m.names;
+  for (const std::string& name : m.names)
+    if (name.ends_with("_left")) zones.push_back(name.substr(0, name.size() - 5));  // both sides
+  for (const bool free : {false, true}) {
+    Json& of = j[free ? "without_belt_and_springs" : "all"];
+    const ZoneForce total = m.of("", free);
+    of["sum"] = {{"force_N", total.force_N}, {"normal_N", total.normal_N}, {"friction_N", total.friction_N}};
+    for (const std::string& zone : zones) {
+      const ZoneForce f = m.of(zone, free);
+      of[zone] = {{"force_N", f.force_N}, {"normal_N", f.normal_N}, {"friction_N", f.friction_N}};
+      if (total.normal_N > 0) of[zone]["normal_share"] = f.normal_N / total.normal_N;
+    }
+    const ZoneForce shoulder = m.of("shoulder", free), thigh = m.of("thigh", free);
+    const double left = m.of("shoulder_left", free).force_N;
+    if (total.normal_N > 0)
+      of["normal_share_of_shoulder_and_thigh"] = (shoulder.normal_N + thigh.normal_N) / total.normal_N;
+    if (shoulder.force_N > 0) of["thigh_to_shoulder"] = thigh.force_N / shoulder.force_N;
+    if (left > 0) of["right_to_left_shoulder"] = m.of("shoulder_right", free).force_N / left;
+  }
+  return j;
+}
+
 Json auditJson(const Measured& m) {
   Json all = Json::array();
   for (const AuditCheck& c : auditOf(m))
@@ -178,6 +217,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                                     {"mean_z_N", r.mean_N.z},
                                     {"mean_normal_N", r.normal_N},
                                     {"mean_friction_N", r.friction_N}});
+  j["body_zones"] = zonesJson(m.zones);
   j["contact"] = Json::array();
   for (const BodyMeasure& b : m.contact)
     j["contact"].push_back({{"segment", b.contact.segment},

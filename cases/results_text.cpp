@@ -10,6 +10,7 @@
 #include "cases/results_write.hpp"
 #include "core/material/bending.hpp"
 #include "human/units.hpp"
+#include "human/zones.hpp"
 
 namespace gambeson {
 namespace {
@@ -166,6 +167,10 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
           "each vertex belongs to the link of its largest weight), and the same with the segments' border moved by 2 "
           "cm "
           "towards the trunk (NAME_proximal_Nm) and away from it (NAME_distal_Nm).");
+    if (const BodyZones zones(*s.human); std::ranges::count(zones.names(), "waist"))
+      say("Parts of the body: a shoulder is the trunk above the level of the armpits on that side, and the top of the "
+          "upper arm down to the armpit; the waist is the lower 40 % of the trunk from the lumbar joint up to the "
+          "shoulder joints, the chest what lies between; hips are the pelvis.");
     if (std::holds_alternative<WalkOptions>(c.human->motion))
       say("Walking is prescribed: joint angles of healthy adults at natural speed (Bovi et al. 2011), closed to a "
           "period and equal on both sides. "

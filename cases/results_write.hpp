@@ -24,6 +24,13 @@ void addCollisions(const Measured& measured, ReportInput& in);
 /// Replaces DIR/collisions.csv: what collided, window by window. The smallest gap is 0 where nothing was near.
 void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows);
 
+/// Replaces DIR/zones.csv: what each part of the body bears over the motion, all of it, what presses and what rubs, and
+/// without belt and edges on springs.
+void writeZones(const std::filesystem::path& csv, const ZonesMeasure& zones);
+
+/// Which parts of the body bear the garment, for the page; nothing where nothing touches.
+void addZones(const Measured& measured, ReportInput& in);
+
 /// Replaces DIR/latitude.csv: pressure and touching area of each body in bands up to the angle from up (seen from the
 /// body's origin), and the normal force within, in the last frame.
 void writeLatitude(const std::filesystem::path& csv, const std::vector<TouchMeasure>& touch);

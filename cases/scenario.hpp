@@ -22,6 +22,15 @@ struct SupportGroup {
   int anchor = -1;           ///< frame of the springs
 };
 
+/// Contact of one garment with bodies: freely, in a belt's press (of the belt itself, and of what lies under it), or of
+/// an edge on springs, which pull it onto the body.
+enum class Press { free, belt, held };
+struct ContactGroup {
+  std::string layer;  ///< the garment's name
+  Press press = Press::free;
+  bool operator==(const ContactGroup&) const = default;
+};
+
 /// Constant after it is built. Time 0 is where the motion starts; dressing and settling lie before it.
 struct Scenario {
   Case definition;
@@ -41,9 +50,11 @@ struct Scenario {
   /// belongs to the last of these that holds it.
   std::vector<std::string> contact_regions;
   std::vector<int> contact_region;  ///< of the samples
-  std::vector<std::string> notes;   ///< what a user should know of the case before its results
-  std::vector<Vec3> start_m;        ///< where the free points start; empty: where they are drafted
-  std::vector<Vec3> shift_m;        ///< of the free points at the start, from the rest shapes; empty: none
+  std::vector<ContactGroup> contact_groups;
+  std::vector<int> contact_group;  ///< of the samples
+  std::vector<std::string> notes;  ///< what a user should know of the case before its results
+  std::vector<Vec3> start_m;       ///< where the free points start; empty: where they are drafted
+  std::vector<Vec3> shift_m;       ///< of the free points at the start, from the rest shapes; empty: none
   double start_s = 0, end_s = 0;
 
   /// Where the origin of each body's frame stands.

@@ -59,6 +59,7 @@ SkinLedger::SkinLedger(const Scenario& scenario)
     : scenario_(scenario),
       skin_(*scenario.human->skin),
       received_(skin_.rest.vertices.size()),
+      pressing_(skin_.rest.vertices.size()),
       normal_(skin_.rest.vertices.size(), 0) {
   const Human& human = *scenario.human;
   const std::size_t links = human.skeleton.links.size(), vertices = skin_.rest.vertices.size();
@@ -96,16 +97,17 @@ std::vector<std::string> SkinLedger::columns(const Scenario& scenario) {
   const Skeleton& skeleton = scenario.human->skeleton;
   for (const int j : movingJoints(skeleton)) {
     const Joint& joint = skeleton.joints[static_cast<std::size_t>(j)];
-    for (const char* what : {"", "_segments", "_proximal", "_distal"})
+    for (const char* what : {"", "_segments", "_proximal", "_distal", "_normal"})
       names.push_back(joint.name + what + (joint.type == JointType::prismatic ? "_Ns" : "_Nms"));
   }
   return names;
 }
 
-void SkinLedger::add(const MaterialPoint& touched, const Vec3& received, double normal) {
+void SkinLedger::add(const MaterialPoint& touched, const Vec3& received, const Vec3& pressing) {
   for (std::size_t k = 0; k < 3 && touched.vertex[k] >= 0; ++k) {
     received_[static_cast<std::size_t>(touched.vertex[k])] += touched.weight[k] * received;
-    normal_[static_cast<std::size_t>(touched.vertex[k])] += touched.weight[k] * normal;
+    pressing_[static_cast<std::size_t>(touched.vertex[k])] += touched.weight[k] * pressing;
+    normal_[static_cast<std::size_t>(touched.vertex[k])] += touched.weight[k] * norm(pressing);
   }
 }
 
@@ -143,25 +145,30 @@ std::vector<double> SkinLedger::row(double middle_s) const {
     moved(-kDifference, less);
     const Pose X_WJ = X_WL[static_cast<std::size_t>(joint.parent)] * joint.X_PJ;
     const Vec3 axis = X_WJ.rotation * joint.axis;
-    double generalised = 0, segments = 0, proximal = 0, distal = 0;
+    double generalised = 0, normal = 0, segments = 0, proximal = 0, distal = 0;
     for (const int vertex : touched) {
       const auto v = static_cast<std::size_t>(vertex);
       const Vec3& J = received_[v];
       const Vec3 way = more[v] - less[v];
-      if (way != Vec3{}) generalised += share(f, vertex) * dot(J, way) / (2 * kDifference);
+      if (way != Vec3{}) {
+        const double part = share(f, vertex) / (2 * kDifference);
+        generalised += part * dot(J, way);
+        normal += part * dot(pressing_[v], way);
+      }
       if (!f.segments[v] && !f.proximal[v]) continue;
       const double tau = joint.type == JointType::prismatic ? dot(axis, J) : dot(axis, cross(x[v] - X_WJ.origin, J));
       if (f.segments[v]) segments += tau;
       if (f.proximal[v]) proximal += tau;
       if (f.distally[v]) distal += tau;
     }
-    out.insert(out.end(), {generalised, segments, proximal, distal});
+    out.insert(out.end(), {generalised, segments, proximal, distal, normal});
   }
   return out;
 }
 
 void SkinLedger::clear() {
   std::fill(received_.begin(), received_.end(), Vec3{});
+  std::fill(pressing_.begin(), pressing_.end(), Vec3{});
   std::fill(normal_.begin(), normal_.end(), 0.0);
 }
 

@@ -11,7 +11,7 @@
 /// Beside it stands the sum over segments, as for bodies of shapes: each vertex belongs whole to the link of its
 /// largest weight, and the moments about the joint of those that are distal are added; and the same with the border
 /// between what is distal and what is not moved along the skin by 2 cm towards the trunk and away from it, which tells
-/// how much that border decides.
+/// how much that border decides. Last, the generalised force of the normal parts alone: what presses, without friction.
 
 #include "cases/scenario.hpp"
 
@@ -23,19 +23,20 @@ class SkinLedger {
   explicit SkinLedger(const Scenario& scenario);
 
   /// Columns of the table "skin" after start_s and end_s: for each moving joint NAME_Nms (generalised),
-  /// NAME_segments_Nms (by largest weight), NAME_proximal_Nms and NAME_distal_Nms (border moved); N s for prismatic
-  /// ones. Of the contact on the skin: the wearer adds the opposite.
+  /// NAME_segments_Nms (by largest weight), NAME_proximal_Nms and NAME_distal_Nms (border moved), NAME_normal_Nms; N s
+  /// for prismatic ones. Of the contact on the skin: the wearer adds the opposite.
   static std::vector<std::string> columns(const Scenario& scenario);
-  static constexpr int kPerJoint = 4;
+  static constexpr int kPerJoint = 5;
   static constexpr double kBorder_m = 0.02;
 
-  void add(const MaterialPoint& touched, const Vec3& received, double normal);
+  /// `pressing`: the normal part of what is received.
+  void add(const MaterialPoint& touched, const Vec3& received, const Vec3& pressing);
   /// The row of a window, at its middle.
   std::vector<double> row(double middle_s) const;
   void clear();
 
   const std::vector<Vec3>& received() const { return received_; }  ///< of each vertex [N s]
-  const std::vector<double>& normal() const { return normal_; }
+  const std::vector<double>& normal() const { return normal_; }    ///< sums of magnitudes
 
  private:
   struct JointFacts {
@@ -49,7 +50,7 @@ class SkinLedger {
   const Scenario& scenario_;
   const Skin& skin_;
   std::vector<JointFacts> joints_;
-  std::vector<Vec3> received_;
+  std::vector<Vec3> received_, pressing_;
   std::vector<double> normal_;
 };
 

@@ -75,6 +75,7 @@ std::string answers(const ReportInput& in, const JointSummary& j) {
   list += item("Cause", j.cause.empty() ? "not known" : j.cause);
   list += item("Share of the natural moment", j.natural_percent ? shareOf(j) + (in.task.empty() ? "" : " in " + in.task)
                                                                 : "not known: this task has no reference moment");
+  if (j.friction_percent) list += item("Part of it from friction", percent(*j.friction_percent));
   if (j.drag_percent) list += item("Part of it from air drag", percent(*j.drag_percent));
   return element("dl", list, " class=\"answers\"");
 }
@@ -133,6 +134,7 @@ std::string joints(const ReportInput& in) {
                  j.natural_percent ? "" : " class=\"soft\"");
     c += element("p",
                  prose("root mean square " + formatNumber(j.rms_Nm) + " Nm" +
+                       (j.friction_percent ? "; friction " + percent(*j.friction_percent) + " of the peak" : "") +
                        (j.drag_percent ? "; air drag " + percent(*j.drag_percent) + " of the peak" : "")),
                  " class=\"soft\"");
     cards += element("div", c, " class=\"card " + escape(j.side) + "\"");
@@ -142,12 +144,12 @@ std::string joints(const ReportInput& in) {
     Table all{"All joints",
               "",
               {"joint", "peak [Nm]", "at [s]", "during", "root mean square [Nm]", "of the natural moment [%]",
-               "from air drag [%]"},
+               "from friction [%]", "from air drag [%]"},
               {}};
     const auto optional = [](const std::optional<double>& v) { return v ? Cell(*v, 2) : Cell("not known"); };
     for (const auto* j : order)
       all.rows.push_back({jointName(*j), j->peak_Nm, j->peak_time_s, j->cause, j->rms_Nm, optional(j->natural_percent),
-                          optional(j->drag_percent)});
+                          optional(j->friction_percent), optional(j->drag_percent)});
     out += element("div", tableOf(all), " class=\"charts\"");
   }
   return out;
@@ -289,8 +291,9 @@ std::string formatReport(const ReportInput& in) {
     body += sectionOf("torques", "Torque over time", "Dotted vertical lines mark the strides.",
                       charts(each(in.torques, lineChart)));
   if (!in.contact_charts.empty() || !in.contact_tables.empty())
-    body += sectionOf("contact", "Where the garment presses", "Contact force of the cloth on each body segment.",
-                      charts(each(in.contact_charts, barChart) + each(in.contact_tables, tableOf)));
+    body += sectionOf("contact", "Where the garment presses", "Contact force of the cloth on the body.",
+                      charts(each(in.contact_charts, barChart) + each(in.contact_plots, lineChart) +
+                             each(in.contact_tables, tableOf)));
   if (!in.collision_plots.empty() || !in.collision_tables.empty())
     body += sectionOf("collisions", "What met what",
                       "Cloth with bodies and cloth with cloth, window by window; the numbers stand in collisions.csv.",

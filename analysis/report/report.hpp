@@ -31,8 +31,9 @@ struct JointSummary {
   double peak_time_s = 0;
   std::string cause;  ///< completes "during ...": "hip flexion (swing)"; empty where not known
   double rms_Nm = 0;
-  std::optional<double> natural_percent;  ///< of the natural moment of this joint in this task, at its peak
-  std::optional<double> drag_percent;     ///< the part of the peak that air drag on the cloth has
+  std::optional<double> natural_percent;     ///< of the natural moment of this joint in this task, at its peak
+  std::optional<double> drag_percent;        ///< the part of the peak that air drag on the cloth has
+  std::optional<double> friction_percent{};  ///< and the part that the friction of contact has
 };
 
 enum class Tone { left, right, third, fourth };  ///< colours; left and right are the same in every plot
@@ -103,6 +104,7 @@ struct ReportInput {
   std::vector<Plot> torques;
   std::vector<BarChart> contact_charts;
   std::vector<Table> contact_tables, stress_tables, support_tables;
+  std::vector<Plot> contact_plots;
   std::vector<Plot> collision_plots;  ///< what met what, window by window
   std::vector<Table> collision_tables;
   std::vector<Picture> pictures;  ///< the first stands beside the headline

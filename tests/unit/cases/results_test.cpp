@@ -13,6 +13,7 @@
 #include "cases/recorder.hpp"
 #include "cases/results_write.hpp"
 #include "cases/run.hpp"
+#include "cases/zone_ledger.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
 
@@ -59,6 +60,14 @@ void record(const Scenario& s, const std::filesystem::path& dir, std::size_t win
     const double start = 0.01 * (static_cast<double>(w) - 1), J = 0.01 * (w == 0 ? 100 : forces[w - 1]);
     row("bodies", start,
         {{"forearm_Jz_Ns", -J}, {"forearm_Ly_Nms", lever_m * J}, {"forearm_n_Ns", 2 * J}, {"forearm_t_Ns", J}});
+    row("normal", start, {{"forearm_Jz_Ns", -0.75 * J}, {"forearm_Ly_Nms", 0.75 * lever_m * J}});
+    const std::string layer = groupName(s.contact_groups.at(0));
+    row("body_zones", start,
+        {{layer + " on forearm_Ns", 2 * J},
+         {layer + " on forearm_n_Ns", 1.5 * J},
+         {layer + " on forearm_t_Ns", 0.5 * J},
+         {layer + " on upper_arm_Ns", J},
+         {layer + " on upper_arm_n_Ns", 0.5 * J}});
     row("drag", start, {{"forearm_Jz_Ns", -0.25 * J}, {"forearm_Ly_Nms", 0.25 * lever_m * J}});
     row("supports", start, {{"start held_z_Ns", 0.02}});
     // The energy rises by 2 J a window, of which contact and drag explain 3 - 1.5.
@@ -120,6 +129,18 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   EXPECT_NEAR(elbow.at("friction_mean_N").get<double>(), 9.0 / 5, 1e-12);
   EXPECT_FALSE(elbow.contains("percent_of_natural"));  // no task
 
+  // What does not press rubs: a quarter.
+  EXPECT_NEAR(elbow.at("friction_at_peak_Nm").get<double>(), 0.075, 1e-12);
+  EXPECT_NEAR(elbow.at("friction_share_at_peak").get<double>(), 0.25, 1e-12);
+  EXPECT_NEAR(elbow.at("friction_rms_Nm").get<double>(), 0.025 * std::sqrt(19.0 / 5), 1e-12);
+  for (const char* which : {"all", "without_belt_and_springs"}) {
+    const auto& zones = j.at("body_zones").at(which);
+    EXPECT_NEAR(zones.at("forearm").at("force_N").get<double>(), 2 * 1.8, 1e-12);
+    EXPECT_NEAR(zones.at("forearm").at("friction_N").get<double>(), 0.5 * 1.8, 1e-12);
+    EXPECT_NEAR(zones.at("forearm").at("normal_share").get<double>(), 0.75, 1e-12);
+    EXPECT_NEAR(zones.at("sum").at("force_N").get<double>(), 3 * 1.8, 1e-12);
+  }
+
   const auto& forearm = j.at("contact")[1];
   EXPECT_EQ(forearm.at("segment"), "forearm");
   EXPECT_NEAR(forearm.at("peak_N").get<double>(), 3, 1e-12);
@@ -148,7 +169,7 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   EXPECT_EQ(j.at("case_hash"), caseIdentity(s->definition));
 
   const std::string torques = content(folder.path() / "torques.csv");
-  EXPECT_EQ(torques.substr(0, torques.find('\n')), "time_s,elbow_flexion_Nm");
+  EXPECT_EQ(torques.substr(0, torques.find('\n')), "time_s,elbow_flexion_Nm,elbow_flexion_friction_Nm");
   EXPECT_EQ(std::count(torques.begin(), torques.end(), '\n'), 6);
   double t = 0, tau = 0;
   ASSERT_EQ(std::sscanf(torques.c_str() + torques.find('\n') + 1, "%lf,%lf", &t, &tau), 2);
@@ -164,8 +185,9 @@ TEST(Results, ReportSaysWhatWasMeasured) {
   const std::string page = content(folder.path() / "report.html");
   for (const char* text :
        {"Peak added elbow (flexion) torque", "0.300 Nm", "0.03 s", "flexion of the elbow against the garment",
-        "degrees of flexion", "Cloth rests on bodies with its samples", "data:image/png;base64,", "governed by the bending term",
-        "start held", "avx"})
+        "degrees of flexion", "Cloth rests on bodies with its samples", "data:image/png;base64,",
+        "governed by the bending term", "start held", "avx", "Which parts of the body bear the garment",
+        "Force on the body over time", "Part of it from friction"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_EQ(page.find("The run stopped"), std::string::npos);
   EXPECT_EQ(content(folder.path() / "snapshots/01_stress_peak_left.png").substr(1, 3), "PNG");

@@ -78,7 +78,7 @@ TEST_F(OnASkin, ARigidSkinHasTheTorquesOfItsSegments) {
         links[l].force_Ns += weights[i] * J;
         links[l].moment_Nms += cross(x[v] - X_WL[l].origin, weights[i] * J);
       }
-      ledger.add(p, J, 1);
+      ledger.add(p, J, {0, 0, 1});
     }
     const std::vector<int> joints = movingJoints(s->human->skeleton);
     const std::vector<double> expected =
@@ -114,7 +114,7 @@ TEST_F(OnASkin, TheGeneralisedForceIsTheWorkOfTheForces) {
     force[v] = {normal(rng), normal(rng), normal(rng)};
     MaterialPoint p;
     p.add(static_cast<int>(v), 1);
-    ledger.add(p, force[v], 1);
+    ledger.add(p, force[v], -0.5 * force[v]);
   }
   const Posture posture = s->motion->at(middle);
   const std::vector<double> row = ledger.row(middle);
@@ -132,6 +132,7 @@ TEST_F(OnASkin, TheGeneralisedForceIsTheWorkOfTheForces) {
     };
     const double tau = (8 * (work(turn) - work(-turn)) - (work(2 * turn) - work(-2 * turn))) / (12 * turn);
     EXPECT_NEAR(row[SkinLedger::kPerJoint * j], tau, 1e-4 + 1e-4 * std::abs(tau)) << j;
+    EXPECT_NEAR(row[SkinLedger::kPerJoint * j + 4], -0.5 * tau, 1e-4 + 1e-4 * std::abs(tau)) << j;  // the pressing part
     compared += std::abs(tau) > 0.1;
   }
   EXPECT_GT(compared, 6);
@@ -161,7 +162,7 @@ TEST_F(OnASkin, TheBorderOfASegmentDecidesWithin2Centimetres) {
         ledger.clear();
         MaterialPoint p;
         p.add(v, 1);
-        ledger.add(p, {1, 0, 0}, 1);
+        ledger.add(p, {1, 0, 0}, {});
         const std::vector<double> row = ledger.row(0);
         const double* r = &row[SkinLedger::kPerJoint * column];
         EXPECT_EQ(r[1] != 0, v == a);
