@@ -8,6 +8,7 @@
 #include "cases/any_case.hpp"
 #include "cases/draft.hpp"
 #include "cases/dress.hpp"
+#include "cases/export.hpp"
 #include "cases/fields.hpp"
 #include "cases/results_folder.hpp"
 #include "cases/run.hpp"
@@ -49,6 +50,11 @@ struct DraftArguments {
 struct RenderArguments {
   RenderOptions options;
   std::string field = "stress", time = "end", view = "front_right", size = "1280x960";
+};
+
+struct ExportArguments {
+  ExportOptions options;
+  std::string time = "end";
 };
 
 struct StudyArguments {
@@ -194,6 +200,34 @@ void addReport(CLI::App& app, ReportOptions& options) {
   report.footer("Example:\n  gambeson report results/shorts_walk -o shorts.html");
 }
 
+void addExport(CLI::App& app, ExportArguments& a) {
+  CLI::App& command = *app.add_subcommand("export", "Writes recorded results for other programs: CAD and OpenSim");
+  command.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
+  command
+      .add_option("--iges", a.options.iges,
+                  "The garment at one time as NURBS surfaces with their trimming: IGES 5.3, in millimetres, as "
+                  "recorded (single precision)")
+      ->type_name("FILE");
+  command
+      .add_option("--time", a.time, "Of --iges: a time such as 1.2 or \"1200 ms\", peak (largest joint torque) or end")
+      ->type_name("TIME")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--opensim", a.options.opensim,
+          "What the cloth does to the body, window by window: OpenSim's ExternalLoads PREFIX.xml and their data "
+          "PREFIX.mot, in ground (x forward, y up)")
+      ->type_name("PREFIX");
+  command.footer(
+      "Forces act at the origins of the body's links (joint centres) with their moments about these. Links of our "
+      "manikins\n"
+      "are called as the bodies of gait2392 and Rajagopal's model: thigh_left is femur_l.\n\n"
+      "Examples:\n"
+      "  gambeson export results/shorts_walk --iges shorts.igs --time peak\n"
+      "  gambeson export results/shorts_walk --opensim loads/shorts\n\n"
+      "Exit status: 0 done; 1 the results could not be written; 2 something in the input is wrong.");
+}
+
 void addVerify(CLI::App& app, verify::Options& o) {
   CLI::App& command =
       *app.add_subcommand("verify", "Runs published references: measured against reference, tolerance, on one page");
@@ -318,6 +352,19 @@ int dressCase(const DressArguments& a) {
   return done;
 }
 
+/// A time as pictures take it.
+int exportCommand(ExportArguments& a) {
+  JsonNode node;
+  node.type = JsonNode::Type::object;
+  overrideValue(node, "time", a.time);
+  PictureCase picture;
+  const std::string none;
+  schema::readObject(schema::pictureTable(), {node, "", none}, &picture);
+  a.options.when = picture.when;
+  a.options.time_s = picture.time_s;
+  return exportResults(a.options);
+}
+
 /// A picture's options go through the same table as the pictures of a case.
 int render(RenderArguments& a) {
   JsonNode node;
@@ -364,6 +411,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   DraftArguments draft_arguments;
   RenderArguments render_arguments;
   ReportOptions report_options;
+  ExportArguments export_arguments;
   verify::Options verify_options;
   addRun(app, run_arguments);
   addDress(app, dress_arguments);
@@ -371,6 +419,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addDraft(app, draft_arguments);
   addRender(app, render_arguments);
   addReport(app, report_options);
+  addExport(app, export_arguments);
   addVerify(app, verify_options);
   StudyArguments study_arguments, batch_arguments;
   addStudy(app, study_arguments);
@@ -383,8 +432,9 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       !command.starts_with('-') &&
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
     err << fmt::format(
-        "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, verify, study and "
-        "batch (see "
+        "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, export, verify, "
+        "study "
+        "and batch (see "
         "gambeson --help)\n",
         command);
     return bad_input;
@@ -396,6 +446,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("check")) return check(check_arguments, out);
     if (app.got_subcommand("draft")) return draft(draft_arguments, out);
     if (app.got_subcommand("render")) return render(render_arguments);
+    if (app.got_subcommand("export")) return exportCommand(export_arguments);
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
     if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
     if (app.got_subcommand("batch"))

@@ -118,11 +118,29 @@ const std::vector<std::string>& stepColumns() {
   return names;
 }
 
+namespace {
+
+PatchLayout patchLayout(const std::string& name, const NurbsPatch& p, const Trim* trim) {
+  PatchLayout layout{name, p.u.degree, p.v.degree, p.u.knots, p.v.knots, p.weights, {}};
+  for (std::size_t l = 0; trim && l < trim->loops.size(); ++l)
+    for (const NurbsCurve& c : trim->loops[l]) {
+      layout.trims.push_back({static_cast<int>(l), c.knots.degree, c.knots.knots, {}, c.weights});
+      for (const Vec2& uv : c.points) layout.trims.back().points.insert(layout.trims.back().points.end(), {uv.x, uv.y});
+    }
+  return layout;
+}
+
+}  // namespace
+
 RecordingLayout recordingLayout(const Scenario& s) {
   RecordingLayout layout;
   layout.identity = caseIdentity(s.definition) + " " + s.model->shell.kernels().name;
   layout.metadata = writeCase(s.definition);
   layout.triangles = s.model->surface.triangles;
+  const Garment& garment = s.model->shell.garment();
+  for (std::size_t p = 0; p < garment.patches.size(); ++p)
+    layout.patches.push_back(
+        patchLayout(s.patch_names[p], garment.patches[p], garment.trims.empty() ? nullptr : &garment.trims[p]));
   const std::vector<std::string> window{"start_s", "end_s"};
   auto &bodies = layout.tables["bodies"] = window, &drag = layout.tables["drag"] = window,
        &pressing = layout.tables["normal"] = window;

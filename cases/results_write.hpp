@@ -31,6 +31,10 @@ void writeZones(const std::filesystem::path& csv, const ZonesMeasure& zones);
 /// Which parts of the body bear the garment, for the page; nothing where nothing touches.
 void addZones(const Measured& measured, ReportInput& in);
 
+/// Replaces PREFIX.xml and PREFIX.mot: what the cloth does to the human, as OpenSim's ExternalLoads
+/// (analysis/opensim.hpp).
+void writeOpenSim(const Scenario& scenario, const Measured& measured, const std::filesystem::path& prefix);
+
 /// Replaces DIR/latitude.csv: pressure and touching area of each body in bands up to the angle from up (seen from the
 /// body's origin), and the normal force within, in the last frame.
 void writeLatitude(const std::filesystem::path& csv, const std::vector<TouchMeasure>& touch);

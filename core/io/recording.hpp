@@ -42,6 +42,22 @@ struct Checkpoint {
   std::map<std::string, std::vector<std::int64_t>> integers;
 };
 
+/// A NURBS surface but for its control points, which each frame has (control_fields, one patch after the other, u
+/// fastest).
+struct PatchLayout {
+  struct Curve {
+    int loop = 0;  ///< that it is part of; the curves of a loop follow each other
+    int degree = 1;
+    std::vector<double> knots, points, weights;  ///< points: u and v of each
+    bool operator==(const Curve&) const = default;
+  };
+  std::string name;
+  int degree_u = 0, degree_v = 0;
+  std::vector<double> knots_u, knots_v, weights;
+  std::vector<Curve> trims;
+  bool operator==(const PatchLayout&) const = default;
+};
+
 /// What stays constant over a run. `metadata` is free text (JSON) that readers get back; `identity` is what a resumed
 /// run must match (the case hash).
 struct RecordingLayout {
@@ -50,6 +66,7 @@ struct RecordingLayout {
   std::vector<std::array<int, 3>> triangles;               ///< of samples
   std::map<std::string, std::vector<std::string>> tables;  ///< columns (with units in the names) of each table
   std::vector<std::array<int, 3>> body_triangles{};        ///< of the vertices of a body that deforms, or none
+  std::vector<PatchLayout> patches{};
 };
 
 /// Whether a writer has made a recording in a directory, with or without closed segments.

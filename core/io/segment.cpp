@@ -53,6 +53,8 @@ bool holds(const hdf5::File& file, const std::string& group, const std::string& 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::string numbered(std::size_t k) { return fmt::format("{:06}", k); }
+
 std::size_t rowsOf(const Field& field) {
   if (field.components < 1 || field.data.size() % static_cast<std::size_t>(field.components) != 0)
     throw std::logic_error("field " + field.name + " has a broken last row");
@@ -92,6 +94,29 @@ std::string layoutImage(const RecordingLayout& layout) {
   if (!layout.body_triangles.empty()) put("/body_triangles", layout.body_triangles);
   file.group("/tables");
   for (const auto& [table, columns] : layout.tables) file.texts("/tables/" + hdf5::linkName(table), columns);
+  if (!layout.patches.empty()) file.group("/patches");
+  for (std::size_t p = 0; p < layout.patches.size(); ++p) {
+    const PatchLayout& patch = layout.patches[p];
+    const std::string at = "/patches/" + numbered(p);
+    file.group(at);
+    file.attribute(at, "name", patch.name);
+    file.attribute(at, "degree_u", patch.degree_u);
+    file.attribute(at, "degree_v", patch.degree_v);
+    file.array(at + "/knots_u", patch.knots_u);
+    file.array(at + "/knots_v", patch.knots_v);
+    file.array(at + "/weights", patch.weights);
+    file.group(at + "/curves");
+    for (std::size_t c = 0; c < patch.trims.size(); ++c) {
+      const PatchLayout::Curve& curve = patch.trims[c];
+      const std::string of = at + "/curves/" + numbered(c);
+      file.group(of);
+      file.attribute(of, "degree", curve.degree);
+      file.attribute(of, "loop", curve.loop);
+      file.array(of + "/knots", curve.knots);
+      file.array(of + "/points", curve.points, 2);
+      file.array(of + "/weights", curve.weights);
+    }
+  }
   return file.finish();
 }
 
@@ -122,6 +147,25 @@ RecordingLayout readLayout(const fs::path& directory) {
     if (holds(file, "/", "body_triangles")) triangles("/body_triangles", layout.body_triangles);
     for (const auto& name : file.names("/tables"))
       layout.tables[hdf5::fromLinkName(name)] = file.texts("/tables/" + name);
+    if (holds(file, "/", "patches"))
+      for (const auto& p : file.names("/patches")) {
+        const std::string of = "/patches/" + p;
+        PatchLayout patch{file.textAttribute(of, "name"),
+                          static_cast<int>(file.intAttribute(of, "degree_u")),
+                          static_cast<int>(file.intAttribute(of, "degree_v")),
+                          file.doubles(of + "/knots_u").values,
+                          file.doubles(of + "/knots_v").values,
+                          file.doubles(of + "/weights").values,
+                          {}};
+        for (const auto& c : file.names(of + "/curves")) {
+          const std::string curve = of + "/curves/" + c;
+          patch.trims.push_back({static_cast<int>(file.intAttribute(curve, "loop")),
+                                 static_cast<int>(file.intAttribute(curve, "degree")),
+                                 file.doubles(curve + "/knots").values, file.doubles(curve + "/points").values,
+                                 file.doubles(curve + "/weights").values});
+        }
+        layout.patches.push_back(std::move(patch));
+      }
     return layout;
   });
 }

@@ -5,6 +5,10 @@
 ///     DIR/frames/layout.h5             what stays constant; its presence makes DIR a recording
 ///     DIR/frames/segment_000000.h5 ... closed segments, numbered from 0 without gaps
 ///
+/// The layout holds  /identity  /metadata  /triangles  /body_triangles  /tables/TABLE (names of columns)
+/// /patches/000000/{knots_u, knots_v, weights, curves/000000/{knots, points, weights}}  with the attributes name,
+/// degree_u, degree_v of a patch and degree, loop of a curve (a trimming loop's, in the patch's parameters).
+///
 /// A segment holds  /times  /frames/000000/{positions, vertices, samples/FIELD, controls/FIELD, body/FIELD}  (numbered
 /// through; body only where one deforms)
 /// /tables/TABLE  /checkpoint/{time, reals/NAME, integers/NAME}.  Names are encoded by hdf5::linkName.

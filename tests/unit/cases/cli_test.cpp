@@ -107,7 +107,7 @@ TEST(Command, BadInputExitsWithTwo) {
   const std::array<std::pair<std::string, std::string>, 18> cases{{
       {"", "gambeson run cases/library/shorts_walk.json"},
       {"dance",
-       "there is no command \"dance\"; there are run, dress, check, draft, render, report, verify, study and batch"},
+       "there is no command \"dance\"; there are run, dress, check, draft, render, report, export, verify, study and batch"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},

@@ -33,6 +33,15 @@ RecordingLayout someLayout() {
   RecordingLayout layout{"case-0123abcd", R"({"title": "Größe \"M\""})", {}, {}};
   for (int i = 0; i + 2 < kSamples; ++i) layout.triangles.push_back({i, i + 1, i + 2});
   for (int i = 0; i + 2 < kBody; ++i) layout.body_triangles.push_back({i + 2, i + 1, i});
+  layout.patches = {
+      {"front/left", 2, 1, {0, 0, 0, 1, 1, 1}, {0, 0, 0.5, 1, 1}, std::vector<double>(9, 1), {}},
+      {"",
+       1,
+       1,
+       {0, 0, 1, 1},
+       {0, 0, 1, 1},
+       {1, 0.5, 1, 1},
+       {{0, 1, {0, 0, 1, 1}, {0.1, 0.1, 0.9, 0.1}, {1, 1}}, {0, 1, {0, 0, 2, 2}, {0.9, 0.1, 0.1, 0.1}, {1, 2}}}}};
   layout.tables = {{"contact", {"time_s", "thigh/left_Ns"}}, {"empty", {"time_s"}}};
   return layout;
 }
@@ -148,6 +157,8 @@ TEST_F(RecordingTest, ReadsBackEveryBit) {
   EXPECT_EQ(reader.layout().identity, expected.identity);
   EXPECT_EQ(reader.layout().metadata, expected.metadata);
   EXPECT_EQ(reader.layout().triangles, expected.triangles);
+  EXPECT_EQ(reader.layout().body_triangles, expected.body_triangles);
+  EXPECT_EQ(reader.layout().patches, expected.patches);
   EXPECT_EQ(reader.layout().tables, expected.tables);
   EXPECT_TRUE(reader.table("empty").empty());
   EXPECT_THROW(reader.table("absent"), std::out_of_range);
