@@ -6,13 +6,14 @@
 namespace gambeson {
 namespace {
 
-/// By trial on the drape over a sphere (tests/bench/README.md): of the values tried, between half and four times these,
-/// none was quicker beyond the noise. They decide what a step costs, never what it finds.
-constexpr double kSteps = 5;    ///< like the one that a list is made for
-constexpr double kTremors = 3;  ///< ways off the path, in units of what is usual in a step
+/// By trial on the drape over a sphere (tests/bench/README.md). They decide what a step costs, never what it finds.
+constexpr int kWindow = 4;       ///< steps, about as many as a list serves
+constexpr double kMemory = 16;   ///< steps of which corrections and strays are means
+constexpr double kStrays = 4;    ///< ways off the path, in units of what is usual at the end of a window
+constexpr double kHorizon = 8;   ///< steps like the one that a list is made for
+constexpr double kChanges = 10;  ///< of gradients, in units of that step's
 constexpr double kLeastSlack_m = 1e-4;
 constexpr double kLeastChange = 0.2;  ///< of gradients
-constexpr double kMemory = 16;        ///< steps of which drift and tremor are means
 
 /// Positions that agree to this have gradients that agree to a part in a million of kLeastChange on edges of 0.1 mm.
 constexpr double kSame_m = 1e-12;
@@ -25,22 +26,48 @@ bool within(std::span<const double> moved, std::span<const double> slack) {
 
 }  // namespace
 
+/// What the step that has passed tells.
+void CandidateList::learn(double passed_s, double now_s, std::span<const Vec3> x) {
+  const double share = 1 / std::min(kMemory, static_cast<double>(++steps_));
+  for (std::size_t i = 0; i < told_.size(); ++i)
+    correction_[i] += share * ((x[i] - x0_[i]) / passed_s - told_[i] - correction_[i]);
+  if (window_steps_ < 0 || ++window_steps_ < kWindow) return;
+  const double t = now_s - window_s_, window_share = std::max(kWindow / kMemory, 1.0 / ++windows_);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    strays2_[i] += window_share * (norm2(x[i] - window_at_[i] - t * window_velocity_[i]) - strays2_[i]);
+  window_steps_ = -1;
+}
+
 void CandidateList::begin(double start_s, double end_s, std::span<const Vec3> x0) {
-  const double passed = start_s - start_s_;
   if (x0_.size() != x0.size()) {
-    drift_.assign(x0.size(), {});
-    tremor2_.assign(x0.size(), 0.0);
-  } else if (passed > 0) {
-    for (std::size_t i = 0; i < x0.size(); ++i) {
-      const Vec3 change = (x0[i] - x0_[i]) / passed - drift_[i];
-      drift_[i] += (1 / kMemory) * change;
-      tremor2_[i] += (1 / kMemory) * (norm2(change) - tremor2_[i]);
-    }
+    correction_.assign(x0.size(), {});
+    strays2_.assign(x0.size(), 0.0);
+    steps_ = windows_ = 0;
+    window_steps_ = -1;
+  } else if (start_s > start_s_) {
+    learn(start_s - start_s_, start_s, x0);
   }
+  told_.clear();
   x0_.assign(x0.begin(), x0.end());
   start_s_ = start_s;
   end_s_ = end_s;
   start_moved_.clear();
+}
+
+/// Of the first end that a step is told of, as it would be without contact.
+void CandidateList::expect(std::span<const Vec3> x1) {
+  const double dt = end_s_ - start_s_;
+  told_.resize(x0_.size());
+  expected_.resize(x0_.size());
+  for (std::size_t i = 0; i < x0_.size(); ++i) {
+    told_[i] = (x1[i] - x0_[i]) / dt;
+    expected_[i] = told_[i] + correction_[i];
+  }
+  if (window_steps_ >= 0) return;
+  window_at_ = x0_;
+  window_velocity_ = expected_;
+  window_s_ = start_s_;
+  window_steps_ = 0;
 }
 
 void CandidateList::leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const {
@@ -72,14 +99,15 @@ void CandidateList::make(const ContactMesh& mesh, const PairCollector& collector
                          std::span<const Vec3> x1) {
   const double dt = end_s_ - start_s_;
   listed_s_ = start_s_;
-  horizon_s_ = kSteps * dt;
+  horizon_s_ = kHorizon * dt;
   listed_at_ = x0_;
-  listed_velocity_ = drift_;
+  listed_velocity_ = expected_;
   slack_m_.resize(x0_.size());
+  // Where this step leaves the paths, it may do so once more.
   for (std::size_t i = 0; i < x0_.size(); ++i)
-    slack_m_[i] = kLeastSlack_m + kTremors * dt * std::sqrt(tremor2_[i]) + 2 * norm(x1[i] - x0_[i] - dt * drift_[i]);
+    slack_m_[i] = kLeastSlack_m + kStrays * std::sqrt(strays2_[i]) + 2 * norm(x1[i] - x0_[i] - dt * expected_[i]);
   tree_.gradientChanges(mesh, x0_, x1, change_);
-  for (double& c : change_) c = std::max(kSteps * c, kLeastChange);
+  for (double& c : change_) c = std::max(kChanges * c, kLeastChange);
   const ListedMotion motion{listed_at_, listed_velocity_, slack_m_, horizon_s_};
   tree_.refit(mesh, motion, change_);
   collector.collect(mesh, tree_, motion, rules, pairs_);
@@ -91,6 +119,7 @@ void CandidateList::make(const ContactMesh& mesh, const PairCollector& collector
 
 void CandidateList::cover(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules,
                           std::span<const Vec3> x1) {
+  if (told_.empty()) expect(x1);
   if (!holds(x1)) make(mesh, collector, rules, x1);
   for (std::size_t i = 0; i < moved_.size(); ++i) moved_[i] = std::max(moved_[i], start_moved_[i]);
   edge_moved_.resize(mesh.edges.size());

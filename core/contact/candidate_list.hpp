@@ -8,8 +8,9 @@
 
 namespace gambeson {
 
-/// A list is made for a motion (ListedMotion): each vertex goes on with the mean velocity of its last steps, and may
-/// leave that path by a few times the way that it trembles in a step. As long as all vertices and all gradients do
+/// A list is made for a motion (ListedMotion): each vertex goes on with the velocity that the step is told of first,
+/// put right by what contact made of it in the last steps, and may leave that path by a few times the way by which it
+/// left such paths before. As long as all vertices and all gradients do
 /// that, the list is complete, and each pair on it has a lower bound of its distance that costs two subtractions. Both
 /// ends of the straight paths of a step are checked, and so all between. What a query finds does not depend on when its
 /// list was made.
@@ -36,6 +37,8 @@ class CandidateList {
   int builds() const { return builds_; }  ///< so far
 
  private:
+  void learn(double passed_s, double now_s, std::span<const Vec3> x);
+  void expect(std::span<const Vec3> x1);
   bool holds(std::span<const Vec3> x1);
   void make(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules, std::span<const Vec3> x1);
   void leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const;
@@ -45,8 +48,14 @@ class CandidateList {
   CandidatePairs pairs_;
   std::vector<Vec3> x0_;  ///< of this step
   double start_s_ = 0, end_s_ = 0;
-  std::vector<Vec3> drift_;      ///< mean velocity of the last steps [m/s], for paths
-  std::vector<double> tremor2_;  ///< mean square of what the velocity differs from it by
+  // How the vertices move. Now and then a window of some steps is opened, to see how far off their paths they are then.
+  std::vector<Vec3> told_, expected_;  ///< velocity of this step as it was told of first [m/s], and put right
+  std::vector<Vec3> correction_;       ///< what the velocities of the last steps differed from `told_` by, in the mean
+  std::vector<double> strays2_;        ///< mean square of the distance from the path at the end of a window [m^2]
+  std::vector<Vec3> window_at_, window_velocity_;
+  double window_s_ = 0;
+  int steps_ = 0, windows_ = 0;  ///< that have taught
+  int window_steps_ = -1;        ///< so far; -1: none is open
   // What the list was made for.
   std::vector<Vec3> listed_at_, listed_velocity_;
   std::vector<double> slack_m_, change_;
