@@ -244,7 +244,8 @@ struct TimeCase {
 };
 
 enum class PictureTime { at, peak, end };
-enum class PictureField { plain, stress, pressure, strain };
+/// body_pressure: on the body, without the garment, the largest over the motion at each place.
+enum class PictureField { plain, stress, pressure, strain, body_pressure };
 
 struct PictureCase {
   PictureTime when = PictureTime::end;
@@ -270,6 +271,26 @@ struct AnalysisCase {
   Task task = Task::none;
 };
 
+/// Pressure on one part of the body: up to `amber` in the mean over time at the place that bears most it is green, from
+/// `red` on, or above `peak` at any time, red.
+struct ComfortLimit {
+  double amber_Pa = 2000, red_Pa = 4270, peak_Pa = 9810;
+};
+
+/// What a wearer accepts. Defaults are suggestions for a first look, not a standard:
+/// shoulders     14 kPa where a strap irritates the skin (Holewijn 1990), 7 half of it, 20 kPa a limit of straps
+///               (Stevenson, Bryant 2004)
+/// waist         4.67 kPa (35 mmHg) where waistbands are called uncomfortable (Sen'i Gakkaishi 47(6):282, 1991)
+/// others        4.27 kPa (32 mmHg) closes capillaries (Landis 1930), 9.81 kPa (100 gf/cm^2) where garments hurt
+///               (Denton 1972), 2 kPa (20 gf/cm^2) comfortable (Denton)
+/// effort        no published limit was found; those of human/data/effort_limits.json
+struct ComfortCase {
+  ComfortLimit shoulder{7000, 14000, 20000}, chest, waist{2000, 4670, 9810}, hips, thigh, arm, other;
+  double wear_s = 1800;                           ///< time over which the dose is taken
+  double sensor_m = 0.03;                         ///< width over which pressure is averaged
+  double effort_amber = 0.05, effort_red = 0.15;  ///< added torque, of the natural moment
+};
+
 // --- The case ---------------------------------------------------------------------------------------------------
 
 struct Case {
@@ -288,6 +309,7 @@ struct Case {
   TimeCase time;
   OutputCase output;
   AnalysisCase analysis;
+  ComfortCase comfort;
 
   std::filesystem::path file;          ///< where it was read
   std::vector<std::string> overrides;  ///< "path=value" of the command line

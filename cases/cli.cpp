@@ -170,8 +170,10 @@ void addRender(CLI::App& app, RenderArguments& a) {
   CLI::App& render = *app.add_subcommand("render", "Takes a picture of recorded results");
   render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
   render
-      .add_option("--field", a.field,
-                  "What the colours show: stress (of a mode: its displacement), pressure, strain or plain")
+      .add_option(
+          "--field", a.field,
+          "What the colours show: stress (of a mode: its displacement), pressure, strain, body_pressure (the bare "
+          "body: the largest pressure of the motion) or plain")
       ->type_name("FIELD")
       ->capture_default_str();
   render

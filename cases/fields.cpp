@@ -212,6 +212,8 @@ Object makeCaseTable() {
       .object("time", &C::time, timeTable(), "how long, and in which steps")
       .object("output", &C::output, outputTable(), "what is recorded and pictured")
       .object("analysis", &C::analysis, analysisTable(), "which torques, and compared with what")
+      .object("comfort", &C::comfort, comfortTable(),
+              "what a wearer accepts; suggestions for a first look, to be replaced by the limits of one's own field")
       .build();
 }
 

@@ -17,6 +17,7 @@ Object obstacleTable();     ///< ObstacleCase
 Object supportTable();      ///< SupportCase
 Object pictureTable();      ///< PictureCase
 Object outputTable();       ///< OutputCase
+Object comfortTable();      ///< ComfortCase
 Object strainLimitTable();  ///< StrainLimitCase, of structures too
 
 }  // namespace gambeson::schema

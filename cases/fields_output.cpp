@@ -45,9 +45,10 @@ Object pictureTable() {
               std::vector<std::pair<std::string, PictureField>>{{"stress", PictureField::stress},
                                                                 {"pressure", PictureField::pressure},
                                                                 {"strain", PictureField::strain},
+                                                                {"body_pressure", PictureField::body_pressure},
                                                                 {"plain", PictureField::plain}},
-              "what the colours show: first principal stress resultant, contact pressure, first principal strain, or "
-              "nothing")
+              "what the colours show: first principal stress resultant, contact pressure, first principal strain; on "
+              "the bare body the largest pressure of the motion; or nothing")
       .choice("view", &P::view, views, "where the picture is taken from")
       .integer("width", &P::width, 64, 8192, "pixels")
       .integer("height", &P::height, 64, 8192, "pixels")

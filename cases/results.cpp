@@ -20,10 +20,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string pictureName(std::size_t number, const PictureCase& p, double time_s) {
-  const char* field = p.field == PictureField::stress     ? "stress"
-                      : p.field == PictureField::pressure ? "pressure"
-                      : p.field == PictureField::strain   ? "strain"
-                                                          : "plain";
+  const char* field = p.field == PictureField::stress          ? "stress"
+                      : p.field == PictureField::pressure      ? "pressure"
+                      : p.field == PictureField::strain        ? "strain"
+                      : p.field == PictureField::body_pressure ? "body_pressure"
+                                                               : "plain";
   const std::string when = p.when == PictureTime::peak  ? "peak"
                            : p.when == PictureTime::end ? "end"
                                                         : fmt::format("{:.0f}ms", 1e3 * time_s);
@@ -50,6 +51,16 @@ std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& reco
     }
   }
   return pictures;
+}
+
+std::vector<Picture> takeBodyPictures(const Scenario& s, const Measured& m, const std::filesystem::path& folder,
+                                      std::vector<std::string>& failures) {
+  try {
+    return takeBodyPictures(s, m, folder);
+  } catch (const RunError& e) {
+    failures.push_back(fmt::format("The pictures of the body could not be drawn: {}", e.what()));
+    return {};
+  }
 }
 
 std::filesystem::path temporaryFolder() {
@@ -127,6 +138,7 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   std::vector<std::string> failures;
   const std::vector<Picture> pictures = takePictures(s, recording, m, dir / "snapshots", failures);
   ReportInput in = reportInput(s, m, facts, recording.layout().identity, pictures);
+  in.comfort_pictures = takeBodyPictures(s, m, dir / "snapshots", failures);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, dir / "report.html");
   for (const AuditCheck& c : in.audit)
@@ -154,6 +166,7 @@ int reportResults(const ReportOptions& o) {
   std::vector<std::string> failures;
   const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder, failures);
   ReportInput in = reportInput(*scenario, m, readRunFacts(o.results), recording.layout().identity, pictures);
+  in.comfort_pictures = takeBodyPictures(*scenario, m, folder, failures);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, o.html);
   std::filesystem::remove_all(folder);

@@ -179,10 +179,7 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
                                                                                : TorqueCounting::distal_segment;
   const auto& time = out.added.time_s;
   std::size_t first = 0;  // window that counts
-  if (out.strides && !out.windows.empty() &&
-      out.windows.back().end_s > out.strides->start_s + out.strides->time_s - 1e-9)
-    while (time[first] < out.strides->start_s) ++first;
-  if (first > 0) out.counted_from_s = out.strides->start_s;
+  while (first < time.size() && time[first] < out.counted_from_s) ++first;
   const std::vector<std::vector<double>> standing = standingTorques(s, rest, joints);
   std::vector<double> held;  // moments that hold the aim still
   if (const auto* aim = std::get_if<AimOptions>(&s.definition.human->motion);
@@ -356,6 +353,13 @@ std::vector<LayerMeasure> layersOf(const Scenario& s) {
   return layers;
 }
 
+double countedFrom(const Scenario& s, const RecordingReader& recording) {
+  const std::optional<Strides> strides = stridesOf(s.definition);
+  const Rows rows = recording.table("bodies");
+  const bool whole = strides && !rows.empty() && rows.back()[1] > strides->start_s + strides->time_s - 1e-9;
+  return whole ? strides->start_s : 0;
+}
+
 Regions regionsOf(const Scenario& s) { return {s.patch_names, s.model->surface.patch, s.model->surface.area_m2}; }
 
 Measured measure(const Scenario& s, const RecordingReader& recording) {
@@ -364,12 +368,14 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   const Rows bodies = motionRows(recording, "bodies");
   out.windows = windowsOf(bodies, s.bodies.size(), 8);
   out.drag = windowsOf(motionRows(recording, "drag"), s.bodies.size(), 6);
+  out.counted_from_s = countedFrom(s, recording);
   measureBodies(s, bodies, out);
   if (s.human)
     measureJoints(s, bodies, s.hasSkin() ? motionRows(recording, "skin") : Rows{},
                   restRows(s, recording, s.hasSkin() ? "skin" : "bodies"),
                   windowsOf(motionRows(recording, "normal"), s.bodies.size(), 6), out);
   measureZones(s, recording, out);
+  if (s.human) measureComfort(s, recording, out);
   measureRegions(s, motionRows(recording, "regions"), out);
   measureSupports(s, motionRows(recording, "supports"), out);
   measureSteps(recording, out);

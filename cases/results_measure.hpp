@@ -3,12 +3,16 @@
 /// start at time 0 or later, frames after it), dressing and settling do not, unless a name says otherwise.
 
 #include <array>
+#include <cmath>
+#include <memory>
 #include <optional>
 
+#include "analysis/compare.hpp"
 #include "analysis/contact_table.hpp"
 #include "analysis/series.hpp"
 #include "analysis/stress.hpp"
 #include "analysis/torque.hpp"
+#include "cases/body_map.hpp"
 #include "cases/scenario.hpp"
 #include "core/io/recording.hpp"
 
@@ -56,6 +60,11 @@ struct JointMeasure {
   std::optional<Likeness> other_side;     ///< left, half a stride later, against this right
 };
 
+/// The added torque against the task's own moment; the joint has one.
+inline Light effortOf(const ComfortCase& c, const JointMeasure& m) {
+  return lightOf(std::abs(m.peak.value) / *m.natural_Nm, c.effort_amber, c.effort_red);
+}
+
 /// Of one body beside its ContactShare.
 struct BodyMeasure {
   ContactShare contact;
@@ -89,6 +98,21 @@ struct ZonesMeasure {
   /// In the mean, of the zones that are called `zone` or "<zone>_left" and "<zone>_right" ("": of all); `free`: without
   /// belt and edges on springs. A zone that the body lacks bears nothing.
   ZoneForce of(const std::string& zone, bool free_only) const;
+};
+
+/// Pressure on one part of the body, from Measured::counted_from_s on, of the places that bear most.
+struct ComfortMeasure {
+  std::string zone;
+  ComfortLimit limit;
+  double mean_Pa = 0;                   ///< over time, at the place where that is largest
+  double peak_Pa = 0, peak_time_s = 0;  ///< at any place and time
+  double amber_m2 = 0;                  ///< area whose mean lies above amber
+  double dose_kPa_min = 0;              ///< mean_Pa over the time that the case says it is worn
+  Light light() const {
+    return mean_Pa > limit.red_Pa || peak_Pa > limit.peak_Pa ? Light::red
+           : mean_Pa > limit.amber_Pa                        ? Light::amber
+                                                             : Light::green;
+  }
 };
 
 /// How one body is touched in the last frame, seen from its origin: angles are from up, radii from the vertical axis.
@@ -181,6 +205,9 @@ struct Measured {
   std::vector<BodyMeasure> contact;
   std::vector<RegionMeasure> contact_regions;
   ZonesMeasure zones;
+  std::vector<ComfortMeasure> comfort;  ///< of the parts that are touched
+  std::shared_ptr<const BodyMap> body;  ///< with its loads; null without a human
+  BodyLoads body_loads;
   double peak_time_s = 0;  ///< of the largest added torque; without joints of the largest sum of contact forces
   std::vector<SupportMeasure> supports;
   std::vector<TouchMeasure> touch;  ///< of each body; empty without frames
@@ -201,6 +228,8 @@ Measured measure(const Scenario& scenario, const RecordingReader& recording);
 // Its parts (results_steps.cpp): the table "steps", and the frames.
 void measureSteps(const RecordingReader& recording, Measured& out);
 void measureFrames(const RecordingReader& recording, Measured& out);
+/// Of results_comfort.cpp; after the joints too.
+void measureComfort(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of results_zones.cpp; after the joints, which say from when on windows count.
 void measureZones(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of results_touch.cpp.
@@ -209,5 +238,8 @@ void measureTouch(const Scenario& scenario, const RecordingReader& recording, Me
 /// The field of a frame by name; throws RunError where the frame has none.
 const Field& fieldOf(const Frame& frame, const std::string& name);
 Regions regionsOf(const Scenario& scenario);
+/// From when on torques, forces and pressures count: the strides' start where the last of them was recorded to its end,
+/// else 0.
+double countedFrom(const Scenario& scenario, const RecordingReader& recording);
 
 }  // namespace gambeson

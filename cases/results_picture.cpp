@@ -10,6 +10,7 @@
 
 #include "analysis/render/camera.hpp"
 #include "analysis/render/shapes.hpp"
+#include "cases/body_map.hpp"
 #include "cases/placed_bodies.hpp"
 #include "cases/results_write.hpp"
 #include "core/error.hpp"
@@ -43,6 +44,8 @@ FieldWords wordsOf(PictureField field) {
       return {"pressure", "Contact pressure [Pa]", "contact pressure", 1};
     case PictureField::strain:
       return {"strain", "First principal strain [%]", "strain of the fabric", 100};
+    case PictureField::body_pressure:
+      return {"", "Largest pressure on the body [kPa]", "largest pressure on the body", 1e-3};
     case PictureField::plain:
       break;
   }
@@ -125,6 +128,12 @@ double roundedUp(double value) {
 
 double fieldRange(const Scenario& s, const RecordingReader& recording, PictureField field) {
   if (field == PictureField::plain) return 0;
+  if (field == PictureField::body_pressure) {
+    if (!s.human) throw RunError("there is no human whose body bears pressure");
+    const BodyMap map(s, s.definition.comfort.sensor_m);
+    const BodyLoads loads = bodyLoads(map, recording, countedFrom(s, recording));
+    return 1e3 * roundedUp(1e-3 * *std::max_element(loads.peak_Pa.begin(), loads.peak_Pa.end()));
+  }
   const FieldWords words = wordsOf(field);
   std::vector<double> values, weights;
   for (const bool motion : {true, false}) {
@@ -144,6 +153,9 @@ std::string captionOf(const PictureCase& picture, double time_s) {
   std::replace(view.begin(), view.end(), '_', ' ');
   std::string what = wordsOf(picture.field).word;
   what[0] = static_cast<char>(what[0] - 'a' + 'A');
+  if (picture.field == PictureField::body_pressure)
+    return fmt::format("{}, at each place over the motion, seen from {}{}; posture at {:.2f} s", what,
+                       picture.view == View::above ? "" : "the ", view, time_s);
   return fmt::format("{} at {:.2f} s{}, seen from {}{}", what, time_s,
                      picture.when == PictureTime::peak ? " (the peak)" : "", picture.view == View::above ? "" : "the ",
                      view);
@@ -160,8 +172,41 @@ int frameOf(const RecordingReader& recording, const Measured& m, const PictureCa
   return best;
 }
 
+void renderBody(const Scenario& s, const BodyMap& map, const BodyLoads& loads, double time_s,
+                const PictureCase& picture, double high_Pa, const std::filesystem::path& png) {
+  Scene scene;
+  std::size_t v = 0;
+  std::vector<Vec3> touched;
+  for (TriangleMesh& mesh : map.meshes(time_s)) {
+    RenderMesh body{std::move(mesh.vertices), std::move(mesh.triangles), {}, body_color, false, {}};
+    for (const Vec3& x : body.vertices) {
+      const double p = loads.peak_Pa[v++];
+      body.scalars.push_back(p > 0 ? 1e-3 * p : std::numeric_limits<double>::quiet_NaN());
+      if (p > 0) touched.push_back(x);
+    }
+    scene.meshes.push_back(std::move(body));
+  }
+  const FieldWords words = wordsOf(PictureField::body_pressure);
+  scene.bar = ColorBar{words.title, 0, 1e-3 * high_Pa};
+  if (!touched.empty()) {
+    const std::array<Vec3, 2> box = boxOf(touched, 0);
+    scene.focus = boxOf(touched, 0.06 * norm(box[1] - box[0]));
+  }
+  scene.title = s.definition.name;
+  scene.subtitle = captionOf(picture, time_s);
+  scene.view = picture.view;
+  scene.up = upOf(s);
+  writePng(render(scene, picture.width, picture.height), png);
+}
+
 void renderFrame(const Scenario& s, const RecordingReader& recording, int index, const PictureCase& picture,
                  double high, const std::filesystem::path& png) {
+  if (picture.field == PictureField::body_pressure) {
+    if (!s.human) throw RunError("there is no human whose body bears pressure");
+    const BodyMap map(s, s.definition.comfort.sensor_m);
+    renderBody(s, map, bodyLoads(map, recording, countedFrom(s, recording)), recording.time(index), picture, high, png);
+    return;
+  }
   const Frame frame = recording.frame(index);
   const std::vector<Vec3> x = positionsOf(frame);
   const FieldWords words = wordsOf(picture.field);

@@ -24,7 +24,7 @@ std::string capital(std::string s) {
   return s;
 }
 
-void addJoints(const Measured& m, ReportInput& in) {
+void addJoints(const Scenario& s, const Measured& m, ReportInput& in) {
   for (const JointMeasure& j : m.joints) {
     if (j.prismatic) continue;
     JointSummary summary;
@@ -34,7 +34,10 @@ void addJoints(const Measured& m, ReportInput& in) {
     summary.peak_time_s = j.peak.time_s;
     summary.cause = causeOf(j, m.strides);
     summary.rms_Nm = j.rms;
-    if (j.natural_Nm) summary.natural_percent = 100 * std::abs(j.peak.value) / *j.natural_Nm;
+    if (j.natural_Nm) {
+      summary.natural_percent = 100 * std::abs(j.peak.value) / *j.natural_Nm;
+      summary.light = nameOf(effortOf(s.definition.comfort, j));
+    }
     if (j.peak.value != 0) {
       summary.drag_percent = 100 * j.drag_at_peak / j.peak.value;
       summary.friction_percent = 100 * j.friction_at_peak / j.peak.value;
@@ -202,10 +205,11 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
                     m.recorded_end_s, s.end_s));
   for (const std::string& note : s.notes) in.warnings.push_back("Note: " + note + ".");
   if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
-  addJoints(m, in);
+  addJoints(s, m, in);
   addPlots(m, in);
   if (s.human) addZones(m, in);
   if (!m.contact.empty()) addContact(m, !s.human, in);
+  addComfort(s, m, in);
   addCollisions(m, in);
   if (m.joints.empty()) in.outcome = outcomeOf(m);
   addStress(m, in);

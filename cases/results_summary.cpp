@@ -21,7 +21,7 @@ Json likeness(const Likeness& l) {
           {"samples", l.samples}};
 }
 
-Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides) {
+Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides, const ComfortCase& comfort) {
   const std::string unit = m.prismatic ? "_N" : "_Nm";
   Json j{{"joint", m.name}, {"side", m.side}};
   j["peak" + unit] = m.peak.value;
@@ -44,6 +44,7 @@ Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides) {
   if (m.natural_Nm) {
     j["natural_peak_Nm"] = *m.natural_Nm;
     j["percent_of_natural"] = 100 * std::abs(m.peak.value) / *m.natural_Nm;
+    j["effort"] = nameOf(effortOf(comfort, m));
   }
   j["normal_mean_N"] = m.normal_N;
   j["friction_mean_N"] = m.friction_N;
@@ -198,7 +199,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   j["samples"] = s.model->surface.size();
   j["sign"] = signRule();
   j["joints"] = Json::array();
-  for (const JointMeasure& joint : m.joints) j["joints"].push_back(jointJson(joint, m.strides));
+  for (const JointMeasure& joint : m.joints) j["joints"].push_back(jointJson(joint, m.strides, s.definition.comfort));
   if (const JointMeasure* top = m.highest()) j["highest"] = top->name;
   if (m.strides)
     j["strides"] = {{"start_s", m.strides->start_s}, {"time_s", m.strides->time_s}, {"count", m.strides->count}};
@@ -218,6 +219,12 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                                     {"mean_normal_N", r.normal_N},
                                     {"mean_friction_N", r.friction_N}});
   j["body_zones"] = zonesJson(m.zones);
+  j["comfort"] = Json::object();
+  for (const ComfortMeasure& c : m.comfort)
+    j["comfort"][c.zone] = {
+        {"light", nameOf(c.light())},   {"mean_Pa", c.mean_Pa},           {"peak_Pa", c.peak_Pa},
+        {"peak_time_s", c.peak_time_s}, {"dose_kPa_min", c.dose_kPa_min}, {"above_amber_m2", c.amber_m2},
+        {"amber_Pa", c.limit.amber_Pa}, {"red_Pa", c.limit.red_Pa},       {"peak_limit_Pa", c.limit.peak_Pa}};
   j["contact"] = Json::array();
   for (const BodyMeasure& b : m.contact)
     j["contact"].push_back({{"segment", b.contact.segment},

@@ -35,6 +35,18 @@ void addZones(const Measured& measured, ReportInput& in);
 /// (analysis/opensim.hpp).
 void writeOpenSim(const Scenario& scenario, const Measured& measured, const std::filesystem::path& prefix);
 
+/// Pressure on the body against comfort limits, for the page; nothing where nothing touches a human.
+void addComfort(const Scenario& scenario, const Measured& measured, ReportInput& in);
+
+/// The largest pressure of the motion on the bare body, from two sides, into `folder`; none where nothing touches a
+/// human. Throws RunError.
+std::vector<Picture> takeBodyPictures(const Scenario& scenario, const Measured& measured,
+                                      const std::filesystem::path& folder);
+
+/// One such picture, colours from 0 to `high_Pa`.
+void renderBody(const Scenario& scenario, const BodyMap& map, const BodyLoads& loads, double time_s,
+                const PictureCase& picture, double high_Pa, const std::filesystem::path& png);
+
 /// Replaces DIR/latitude.csv: pressure and touching area of each body in bands up to the angle from up (seen from the
 /// body's origin), and the normal force within, in the last frame.
 void writeLatitude(const std::filesystem::path& csv, const std::vector<TouchMeasure>& touch);

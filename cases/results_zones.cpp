@@ -11,11 +11,6 @@
 namespace gambeson {
 namespace {
 
-std::string spoken(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 bool fits(const std::string& name, const std::string& zone) {
   return zone.empty() || name == zone || name == zone + "_left" || name == zone + "_right";
 }
@@ -99,7 +94,7 @@ void addZones(const Measured& measured, ReportInput& in) {
                  {}};
   for (const std::size_t z : order)
     if (const double f = freely(z).normal_N; f > 0)
-      chart.bars.push_back({spoken(m.names[z]), 100 * f / total.normal_N});
+      chart.bars.push_back({spokenZone(m.names[z]), 100 * f / total.normal_N});
   std::stable_sort(chart.bars.begin(), chart.bars.end(), [](const Bar& a, const Bar& b) { return a.value > b.value; });
   if (!chart.bars.empty()) in.contact_charts.push_back(std::move(chart));
 
@@ -117,7 +112,7 @@ void addZones(const Measured& measured, ReportInput& in) {
     for (std::size_t g = 0; g < m.groups.size(); ++g) table.rows.back().push_back(of(g));
   };
   for (const std::size_t z : order)
-    add(spoken(m.names[z]), freely(z), [&](std::size_t g) { return m.mean[g][z].force_N; });
+    add(spokenZone(m.names[z]), freely(z), [&](std::size_t g) { return m.mean[g][z].force_N; });
   add("sum", total, [&](std::size_t g) {
     double sum = 0;
     for (const ZoneForce& f : m.mean[g]) sum += f.force_N;
@@ -144,7 +139,7 @@ void addZones(const Measured& measured, ReportInput& in) {
   });
   if (parts.size() > 4) parts.resize(4);
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    Series series{spoken(parts[k]), "N", m.time_s, {}, static_cast<Tone>(k)};
+    Series series{spokenZone(parts[k]), "N", m.time_s, {}, static_cast<Tone>(k)};
     for (const auto& window : m.free) {
       double sum = 0;
       for (std::size_t z = 0; z < m.names.size(); ++z)

@@ -346,7 +346,7 @@ bool holdsStructure(const std::filesystem::path& results) {
 
 int renderStructureResults(const RenderOptions& o) {
   const StructureCase c = readStructureCase(o.results / "case.json");
-  if (o.field == PictureField::pressure)
+  if (o.field == PictureField::pressure || o.field == PictureField::body_pressure)
     throw InputError({"command line", 0, "--field"},
                      "there is no contact pressure here; allowed: stress, strain or plain");
   if (o.when == PictureTime::peak)

@@ -8,6 +8,13 @@ std::string groupName(const ContactGroup& g) {
   return g.layer + (g.press == Press::belt ? " in the belt's press" : g.press == Press::held ? " on springs" : "");
 }
 
+std::string spokenZone(std::string zone) {
+  for (const std::string side : {"left", "right"})
+    if (zone.ends_with("_" + side)) zone = side + " " + zone.substr(0, zone.size() - side.size() - 1);
+  std::replace(zone.begin(), zone.end(), '_', ' ');
+  return zone;
+}
+
 std::vector<std::string> zoneNames(const Scenario& s) {
   std::vector<std::string> names;
   if (s.human) names = BodyZones(*s.human).names();

@@ -37,6 +37,9 @@ class ZoneLedger {
   std::vector<double> sums_;
 };
 
+/// "thigh_right" is the right thigh.
+std::string spokenZone(std::string zone);
+
 /// How the page and the columns call a group.
 std::string groupName(const ContactGroup& group);
 

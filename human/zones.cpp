@@ -56,9 +56,13 @@ int BodyZones::add(const std::string& name) {
 
 BodyZones::BodyZones(const Human& human) : zone_(human.skeleton.links.size(), -1) {
   const Skeleton& skeleton = human.skeleton;
+  std::vector<char> surfaced(skeleton.links.size(), 0);
+  for (const BodyShape& s : human.shapes) surfaced[static_cast<std::size_t>(s.link)] = 1;
+  if (human.skin)
+    for (const int l : human.skin->segment) surfaced[static_cast<std::size_t>(l)] = 1;
   std::set<int> links;
-  for (const BodyShape& s : human.shapes) links.insert(s.link);
-  if (human.skin) links.insert(human.skin->segment.begin(), human.skin->segment.end());
+  for (std::size_t l = 0; l < surfaced.size(); ++l)
+    if (surfaced[l]) links.insert(static_cast<int>(l));
   const int torso = skeleton.link("torso");
   arm_[0] = skeleton.link("upper_arm_left");
   arm_[1] = skeleton.link("upper_arm_right");

@@ -65,6 +65,11 @@ std::string shareOf(const JointSummary& j) {
   return j.natural_percent ? percent(*j.natural_percent) + " of the natural " + j.joint + " moment" : "";
 }
 
+/// Tells its colour in a word too.
+std::string lightOf(const std::string& light) {
+  return element("span", "\u25cf " + escape(light), " class=\"light " + escape(light) + "\"");
+}
+
 std::string answers(const ReportInput& in, const JointSummary& j) {
   const auto item = [](const std::string& q, const std::string& a) {
     return element("dt", escape(q)) + element("dd", prose(a));
@@ -130,7 +135,9 @@ std::string joints(const ReportInput& in) {
            element("p", prose("at " + seconds(j.peak_time_s) + (j.cause.empty() ? "" : ", during " + j.cause)));
     else
       c += notice("The peak is " + formatNumber(j.peak_Nm) + ".");
-    c += element("p", prose(j.natural_percent ? shareOf(j) : "share of a natural moment: not known"),
+    c += element("p",
+                 prose(j.natural_percent ? shareOf(j) : "share of a natural moment: not known") +
+                     (j.light.empty() ? "" : " " + lightOf(j.light)),
                  j.natural_percent ? "" : " class=\"soft\"");
     c += element("p",
                  prose("root mean square " + formatNumber(j.rms_Nm) + " Nm" +
@@ -199,7 +206,8 @@ std::string tableOf(const Table& t) {
     std::string cells;
     for (std::size_t c = 0; c < row.size(); ++c)
       cells += c == 0 ? element("th", escape(row[c].text), " scope=\"row\"")
-                      : element("td", escape(row[c].text), row[c].number ? " class=\"number\"" : "");
+                      : element("td", row[c].light.empty() ? escape(row[c].text) : lightOf(row[c].light),
+                                row[c].number ? " class=\"number\"" : "");
     body += element("tr", cells);
   }
   std::string out = element(
@@ -257,6 +265,12 @@ std::string pageOf(const std::string& title, const std::string& description, con
              " lang=\"en\"");
 }
 
+Cell Cell::signal(const std::string& light) {
+  Cell c(light);
+  c.light = light;
+  return c;
+}
+
 Cell::Cell(double v, int digits) : text(formatNumber(v, digits)), number(true) {}
 
 const JointSummary* highestJoint(const ReportInput& input) {
@@ -294,6 +308,12 @@ std::string formatReport(const ReportInput& in) {
     body += sectionOf("contact", "Where the garment presses", "Contact force of the cloth on the body.",
                       charts(each(in.contact_charts, barChart) + each(in.contact_plots, lineChart) +
                              each(in.contact_tables, tableOf)));
+  if (!in.comfort_tables.empty())
+    body += sectionOf(
+        "comfort", "How it feels", in.comfort,
+        (in.comfort_pictures.empty() ? ""
+                                     : element("div", each(in.comfort_pictures, figureOf), " class=\"pictures\"")) +
+            element("div", each(in.comfort_tables, tableOf), " class=\"wide\""));
   if (!in.collision_plots.empty() || !in.collision_tables.empty())
     body += sectionOf("collisions", "What met what",
                       "Cloth with bodies and cloth with cloth, window by window; the numbers stand in collisions.csv.",

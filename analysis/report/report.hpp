@@ -19,8 +19,11 @@ struct Cell {
   Cell(std::string t) : text(std::move(t)) {}
   Cell(const char* t) : text(t) {}
   Cell(double v, int digits = 3);
+  /// A traffic light: "green", "amber" or "red".
+  static Cell signal(const std::string& light);
   std::string text;
   bool number = false;
+  std::string light{};
 };
 
 /// What one joint pays. Absent values show as "not known".
@@ -34,6 +37,7 @@ struct JointSummary {
   std::optional<double> natural_percent;     ///< of the natural moment of this joint in this task, at its peak
   std::optional<double> drag_percent;        ///< the part of the peak that air drag on the cloth has
   std::optional<double> friction_percent{};  ///< and the part that the friction of contact has
+  std::string light{};                       ///< of natural_percent: "green", "amber" or "red"; empty where not judged
 };
 
 enum class Tone { left, right, third, fourth };  ///< colours; left and right are the same in every plot
@@ -105,6 +109,9 @@ struct ReportInput {
   std::vector<BarChart> contact_charts;
   std::vector<Table> contact_tables, stress_tables, support_tables;
   std::vector<Plot> contact_plots;
+  std::string comfort;  ///< in a sentence; empty where nothing is judged
+  std::vector<Table> comfort_tables;
+  std::vector<Picture> comfort_pictures;
   std::vector<Plot> collision_plots;  ///< what met what, window by window
   std::vector<Table> collision_tables;
   std::vector<Picture> pictures;  ///< the first stands beside the headline

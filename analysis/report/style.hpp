@@ -32,6 +32,7 @@ dl.answers dd { margin:0; font-weight:600; } dl.answers .reason { font-weight:40
 .card .big small { font-size:1rem; font-weight:600; }
 .card h3 { margin:0; } .card h3 .tag { float:right; font-size:.75rem; font-weight:600; color:var(--accent); border:1px solid var(--accent); border-radius:99px; padding:0 8px; }
 .card p { margin:0; font-size:.95rem; } .card p.soft { color:var(--soft); }
+.wide { margin-top:14px; }
 .charts { display:grid; grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); gap:16px; margin-top:14px; align-items:start; }
 figure.chart, .panel { margin:0; background:var(--paper); border:1px solid var(--line); border-radius:10px; padding:16px; min-width:0; }
 figure.chart figcaption, .panel .caption { font-size:.9rem; color:var(--soft); margin:6px 0 0; }
