@@ -42,7 +42,22 @@ JointNumbers jointOf(const Json& j) {
   n.natural_Nm = optional(j, "natural_peak_Nm");
   n.normal_N = j.at("normal_mean_N").get<double>();
   n.friction_N = j.at("friction_mean_N").get<double>();
+  n.friction_Nm = optional(j, "friction_at_peak" + unit);
   return n;
+}
+
+void readZones(const Json& rows, RunNumbers& run) {
+  for (const Json& r : rows) {
+    if (r.at("press") != "free") continue;
+    std::string zone = r.at("zone").get<std::string>();
+    for (const std::string side : {"_left", "_right"})
+      if (zone.ends_with(side)) zone.resize(zone.size() - side.size());
+    auto at = std::find_if(run.zones.begin(), run.zones.end(), [&](const ZoneNumbers& z) { return z.zone == zone; });
+    if (at == run.zones.end()) at = run.zones.insert(at, {zone, 0, 0, 0});
+    at->force_N += r.at("force_N").get<double>();
+    at->normal_N += r.at("normal_N").get<double>();
+    at->friction_N += r.at("friction_N").get<double>();
+  }
 }
 
 void readCurves(const std::filesystem::path& csv, RunNumbers& run) {
@@ -100,6 +115,22 @@ const JointNumbers* RunNumbers::joint(const std::string& name) const {
   return nullptr;
 }
 
+const ComfortNumbers* RunNumbers::leastComfortable() const {
+  const auto rank = [](const ComfortNumbers& c) { return c.light == "red" ? 2 : c.light == "amber" ? 1 : 0; };
+  const ComfortNumbers* worst = nullptr;
+  for (const ComfortNumbers& c : comfort)
+    if (!worst || rank(c) > rank(*worst) ||
+        (rank(c) == rank(*worst) && c.mean_Pa / c.red_Pa > worst->mean_Pa / worst->red_Pa))
+      worst = &c;
+  return worst;
+}
+
+double RunNumbers::pressing_N() const {
+  double sum = 0;
+  for (const ZoneNumbers& z : zones) sum += z.normal_N;
+  return sum;
+}
+
 RunNumbers readRun(const std::filesystem::path& folder) {
   RunNumbers run;
   try {
@@ -124,6 +155,11 @@ RunNumbers readRun(const std::filesystem::path& folder) {
       run.contact.push_back({c.at("segment").get<std::string>(), c.at("share").get<double>(),
                              c.at("mean_N").get<double>(), c.at("peak_N").get<double>(),
                              c.at("normal_mean_N").get<double>(), c.at("friction_mean_N").get<double>()});
+    readZones(j.at("body_zones").at("rows"), run);
+    for (const auto& [zone, k] : j.at("comfort").items())
+      run.comfort.push_back({zone, k.at("light").get<std::string>(), k.at("mean_Pa").get<double>(),
+                             k.at("peak_Pa").get<double>(), k.at("red_Pa").get<double>(),
+                             k.at("dose_kPa_min").get<double>()});
     for (const Json& s : j.at("stress"))
       run.stress.push_back({s.at("region").get<std::string>(), s.at("p50_N_per_m").get<double>(),
                             s.at("p95_N_per_m").get<double>(), s.at("p99_N_per_m").get<double>(),

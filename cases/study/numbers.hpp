@@ -16,6 +16,7 @@ struct JointNumbers {
   std::optional<double> standing_Nm;                ///< dressed at rest before the motion
   std::optional<double> natural_Nm;                 ///< peak moment of the task without the garment
   double normal_N = 0, friction_N = 0;              ///< mean sums of magnitudes of what counts at the joint
+  std::optional<double> friction_Nm;                ///< the part of the peak that friction has
   std::vector<double> torque_Nm;                    ///< at RunNumbers::time_s
 
   std::optional<double> part() const;  ///< |peak| of the natural moment
@@ -32,6 +33,18 @@ struct LayerNumbers {
 struct ContactNumbers {
   std::string segment;
   double share = 0, mean_N = 0, peak_N = 0, normal_N = 0, friction_N = 0;
+};
+
+/// A part of the body, both sides together, without belt and edges on springs.
+struct ZoneNumbers {
+  std::string zone;
+  double force_N = 0, normal_N = 0, friction_N = 0;  ///< means of the sums of magnitudes
+};
+
+/// Pressure on a part of the body against what the case calls comfortable.
+struct ComfortNumbers {
+  std::string zone, light;
+  double mean_Pa = 0, peak_Pa = 0, red_Pa = 0, dose_kPa_min = 0;
 };
 
 struct StressNumbers {
@@ -55,6 +68,8 @@ struct RunNumbers {
   std::vector<JointNumbers> joints;
   std::vector<double> time_s;
   std::vector<ContactNumbers> contact;
+  std::vector<ZoneNumbers> zones;
+  std::vector<ComfortNumbers> comfort;
   std::vector<StressNumbers> stress;
   double largest_strain = 0;
   std::vector<CheckNumbers> checks;
@@ -64,6 +79,9 @@ struct RunNumbers {
   /// The joint of the largest |peak|, null without joints that turn.
   const JointNumbers* highest() const;
   const JointNumbers* joint(const std::string& name) const;
+  /// The part of the body that is furthest from comfortable, null where nothing presses on one.
+  const ComfortNumbers* leastComfortable() const;
+  double pressing_N() const;  ///< of all zones
 };
 
 /// Reads summary.json and torques.csv of a run's folder; a run of a structure has no joints. What cannot be read makes

@@ -14,6 +14,7 @@
 #include "analysis/ticks.hpp"
 #include "cases/factors.hpp"
 #include "cases/study/compare.hpp"
+#include "cases/zone_ledger.hpp"
 
 namespace gambeson::study {
 namespace {
@@ -58,6 +59,9 @@ std::string htmlTable(const std::string& title, const std::vector<std::string>& 
                  " class=\"panel\"");
 }
 
+std::string lightOf(const std::string& light) {
+  return element("span", "\u25cf " + escape(light), " class=\"light " + escape(light) + "\"");
+}
 std::string lightOf(Light light) {
   if (light == Light::unknown) return "not known";
   return element("span", std::string("\u25cf ") + nameOf(light), std::string(" class=\"light ") + nameOf(light) + "\"");
@@ -302,45 +306,55 @@ std::string elasticities(const Comparison& c) {
 }
 
 std::string forces(const Study& s, const Comparison& c) {
-  std::vector<std::vector<Html>> split;
-  std::set<std::string> segments;
-  for (const Group& g : c.groups)
-    for (const std::size_t i : g.members) {
-      const JointNumbers* j = c.runs[i].good ? c.runs[i].joint(g.joint) : nullptr;
-      if (!j) continue;
-      const double both = j->normal_N + j->friction_N;
-      split.push_back({escape(s.variants[i].label), escape(j->label), Html(j->normal_N), Html(j->friction_N),
-                       Html(both > 0 ? 100 * j->friction_N / both : std::nan(""), 2)});
-      for (const ContactNumbers& b : c.runs[i].contact)
-        if (b.share > 0.005) segments.insert(b.segment);
-    }
-  std::string out =
-      htmlTable("Pressing and friction",
-                {"variant", "beyond the joint", "pressing, mean [N]", "friction, mean [N]", "friction [%]"}, split,
-                "Sums of the magnitudes of the forces on the segments that count for the joint. The recording keeps "
-                "the torque of both together: "
-                "it is not split.");
-  std::vector<std::vector<Html>> shares;
-  std::vector<std::string> columns{"variant"};
-  for (std::string name : segments) {
-    std::replace(name.begin(), name.end(), '_', ' ');
-    columns.push_back(name + " [%]");
-  }
+  std::vector<std::vector<Html>> split, shares, comfort;
+  std::set<std::string> zones;
   for (const Group& g : c.groups)
     for (const std::size_t i : g.members) {
       if (!c.runs[i].good) continue;
-      std::vector<Html> row{escape(s.variants[i].label)};
-      for (const std::string& name : segments) {
-        double share = 0;
-        for (const ContactNumbers& b : c.runs[i].contact)
-          if (b.segment == name) share = b.share;
-        row.emplace_back(100 * share, 2);
+      const double all = c.runs[i].pressing_N();
+      for (const ZoneNumbers& z : c.runs[i].zones)
+        if (z.normal_N > 0.005 * all) zones.insert(z.zone);
+      if (const ComfortNumbers* k = c.runs[i].leastComfortable())
+        comfort.push_back({escape(s.variants[i].label), lightOf(k->light), escape(spokenZone(k->zone)),
+                           Html(1e-3 * k->mean_Pa), Html(1e-3 * k->red_Pa), Html(1e-3 * k->peak_Pa),
+                           Html(k->dose_kPa_min)});
+      const JointNumbers* j = c.runs[i].joint(g.joint);
+      if (!j) continue;
+      split.push_back({escape(s.variants[i].label), escape(j->label), Html(j->normal_N), Html(j->friction_N),
+                       Html(std::abs(j->peak_Nm)),
+                       Html(j->friction_Nm && j->peak_Nm != 0 ? 100 * *j->friction_Nm / j->peak_Nm : std::nan(""), 2)});
+    }
+  std::string out = htmlTable(
+      "Pressing and friction",
+      {"variant", "joint", "pressing, mean [N]", "friction, mean [N]", "peak torque [Nm]", "of it by friction [%]"},
+      split,
+      "Forces: sums of magnitudes on the segments that count for the joint. Torque: what the tangential "
+      "parts of the contact forces have in it when it peaks; a negative share is of the other sense.");
+  std::vector<std::string> columns{"variant", "pressing, sum [N]"};
+  for (const std::string& zone : zones) columns.push_back(spokenZone(zone) + " [%]");
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members) {
+      if (!c.runs[i].good) continue;
+      const double all = c.runs[i].pressing_N();
+      std::vector<Html> row{escape(s.variants[i].label), Html(all)};
+      for (const std::string& name : zones) {
+        double part = 0;
+        for (const ZoneNumbers& z : c.runs[i].zones)
+          if (z.zone == name) part = z.normal_N;
+        row.emplace_back(all > 0 ? 100 * part / all : 0, 2);
       }
       shares.push_back(std::move(row));
     }
-  if (!segments.empty())
-    out += htmlTable("Share of each segment in the contact", columns, shares,
-                     "Segments with less than 0.5 % everywhere are left out.");
+  if (!zones.empty())
+    out += htmlTable("Which parts of the body bear the garment", columns, shares,
+                     "Shares of the mean force that presses, both sides together, without belt and edges on springs. "
+                     "Parts with less than 0.5 % everywhere are left out.");
+  if (!comfort.empty())
+    out +=
+        htmlTable("Comfort: the part of the body that is furthest from comfortable",
+                  {"variant", "verdict", "part", "mean [kPa]", "limit [kPa]", "peak [kPa]", "dose [kPa min]"}, comfort,
+                  "Pressure where it is largest, against the limits of the case. Each variant\u2019s own report "
+                  "has all parts, and pictures.");
   return charts(out);
 }
 

@@ -78,10 +78,16 @@ std::string variantsTable(const Study& s, const Comparison& c) {
   for (const std::string& l : layers) row.push_back(fmt::format("{}_mass_kg", l.empty() ? "garment" : l));
   row.insert(row.end(), {"mass_kg", "highest_joint"});
   for (const std::string& j : joints)
-    for (const char* what : {"peak_Nm", "peak_time_s", "rms_Nm", "standing_Nm", "peak_above_standing_Nm", "of_natural",
-                             "peak_ratio", "rms_ratio", "correlation", "normal_mean_N", "friction_mean_N"})
+    for (const char* what :
+         {"peak_Nm", "peak_time_s", "rms_Nm", "standing_Nm", "peak_above_standing_Nm", "of_natural", "peak_ratio",
+          "rms_ratio", "correlation", "normal_mean_N", "friction_mean_N", "friction_at_peak_Nm"})
       row.push_back(fmt::format("{}_{}", j, what));
   for (const std::string& b : segments) row.push_back(fmt::format("{}_contact_share", b));
+  const auto zones = namesOf(c.runs, [](const RunNumbers& r, auto add) {
+    for (const auto& z : r.zones) add(z.zone);
+  });
+  for (const std::string& z : zones) row.push_back(fmt::format("{}_pressing_N", z));
+  row.insert(row.end(), {"least_comfortable", "comfort", "pressure_mean_Pa", "pressure_peak_Pa"});
   row.insert(row.end(), {"stress_region", "stress_p50_N_per_m", "stress_p95_N_per_m", "stress_p99_N_per_m",
                          "stress_max_N_per_m", "largest_strain", "failing_checks"});
   const std::size_t columns = row.size();
@@ -107,14 +113,14 @@ std::string variantsTable(const Study& s, const Comparison& c) {
         const JointNumbers* j = r.joint(name);
         const JointRatio* ratio = ratioOf(c, i, name);
         if (!j) {
-          row.resize(row.size() + 11);
+          row.resize(row.size() + 12);
           continue;
         }
         row.insert(row.end(),
                    {cell(j->peak_Nm), cell(j->peak_time_s), cell(j->rms_Nm), cell(j->standing_Nm),
                     cell(peakAboveStanding(r, *j)), cell(j->part()), ratio ? cell(ratio->peak) : std::string(),
                     ratio ? cell(ratio->rms) : std::string(), ratio ? cell(ratio->likeness.correlation) : std::string(),
-                    cell(j->normal_N), cell(j->friction_N)});
+                    cell(j->normal_N), cell(j->friction_N), cell(j->friction_Nm)});
       }
       for (const std::string& name : segments) {
         std::optional<double> share;
@@ -122,6 +128,15 @@ std::string variantsTable(const Study& s, const Comparison& c) {
           if (b.segment == name) share = b.share;
         row.push_back(cell(share));
       }
+      for (const std::string& name : zones) {
+        std::optional<double> pressing;
+        for (const ZoneNumbers& z : r.zones)
+          if (z.zone == name) pressing = z.normal_N;
+        row.push_back(cell(pressing));
+      }
+      const ComfortNumbers* least = r.leastComfortable();
+      row.insert(row.end(), {least ? least->zone : "", least ? least->light : "", least ? cell(least->mean_Pa) : "",
+                             least ? cell(least->peak_Pa) : ""});
       const StressNumbers top = highestStress(r);
       std::string failing;
       for (const CheckNumbers& k : r.checks)
@@ -180,7 +195,8 @@ Json variantJson(const Study& s, const Comparison& c, std::size_t i) {
            {"peak_above_standing_Nm", number(peakAboveStanding(r, joint))},
            {"of_natural", number(joint.part())},
            {"normal_mean_N", joint.normal_N},
-           {"friction_mean_N", joint.friction_N}};
+           {"friction_mean_N", joint.friction_N},
+           {"friction_at_peak_Nm", number(joint.friction_Nm)}};
     if (const JointRatio* ratio = ratioOf(c, i, joint.name)) {
       n["peak_ratio"] = number(ratio->peak);
       n["rms_ratio"] = number(ratio->rms);
@@ -189,6 +205,15 @@ Json variantJson(const Study& s, const Comparison& c, std::size_t i) {
     }
     j["joints"].push_back(n);
   }
+  for (const ZoneNumbers& z : r.zones)
+    j["body_zones"].push_back(
+        {{"zone", z.zone}, {"force_N", z.force_N}, {"normal_N", z.normal_N}, {"friction_N", z.friction_N}});
+  if (const ComfortNumbers* k = r.leastComfortable())
+    j["least_comfortable"] = {{"zone", k->zone},
+                              {"light", k->light},
+                              {"mean_Pa", k->mean_Pa},
+                              {"peak_Pa", k->peak_Pa},
+                              {"dose_kPa_min", k->dose_kPa_min}};
   for (const CheckNumbers& k : r.checks)
     if (!k.holds) j["failing_checks"].push_back(k.name);
   return j;

@@ -13,6 +13,7 @@
 #include "cases/recorder.hpp"
 #include "cases/results_write.hpp"
 #include "cases/run.hpp"
+#include "cases/study/numbers.hpp"
 #include "cases/zone_ledger.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
@@ -167,6 +168,15 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   EXPECT_EQ(j.at("stress")[0].at("max_time_s").get<double>(), 0.04);
   EXPECT_EQ(j.at("timings").at("wall_s"), 12.5);
   EXPECT_EQ(j.at("case_hash"), caseIdentity(s->definition));
+
+  // As a study reads it.
+  const study::RunNumbers read = study::readRun(folder.path());
+  ASSERT_TRUE(read.good) << read.why;
+  EXPECT_NEAR(read.joints.at(0).friction_Nm.value(), 0.075, 1e-12);
+  ASSERT_EQ(read.zones.size(), 2u);
+  EXPECT_NEAR(read.pressing_N(), 2 * 1.8, 1e-12);
+  ASSERT_NE(read.leastComfortable(), nullptr);
+  EXPECT_EQ(read.leastComfortable()->light, "green");
 
   const std::string torques = content(folder.path() / "torques.csv");
   EXPECT_EQ(torques.substr(0, torques.find('\n')), "time_s,elbow_flexion_Nm,elbow_flexion_friction_Nm");
