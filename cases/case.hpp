@@ -14,6 +14,8 @@
 #include "core/material/fabric.hpp"
 #include "core/math/vec.hpp"
 #include "core/sheet/garment.hpp"
+#include "human/character.hpp"
+#include "human/mesh_sequence.hpp"
 #include "human/motion.hpp"
 #include "human/motion_file.hpp"
 #include "human/skin.hpp"
@@ -112,10 +114,11 @@ struct StandMotion {
   double duration_s = 1;
 };
 
-/// Either a manikin by name or a URDF with a body file (which may be empty: the URDF's own geometry then).
+/// A manikin by name, a URDF with a body file (which may be empty: the URDF's own geometry then), or a character.
 struct HumanCase {
   std::string manikin;
   std::filesystem::path urdf, body;
+  std::optional<CharacterOptions> character;
   std::optional<SkinOptions> skin;  ///< around the manikin; where absent, its ellipsoids are the surface
   std::variant<StandMotion, WalkOptions, StairOptions, AimOptions, TrajectoryMotion, MotionFileOptions> motion;
 };
@@ -156,9 +159,12 @@ struct MeshObstacle {
   Vec3 position_m;
 };
 
+/// A body as snapshots of its surface.
+struct SequenceObstacle : SequenceOptions {};
+
 struct ObstacleCase {
   std::string name;  ///< also the segment that forces are counted under; unique
-  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle> shape;
+  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle, SequenceObstacle> shape;
   Vec3 velocity_m_per_s;
 };
 

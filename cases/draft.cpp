@@ -78,13 +78,14 @@ Garment makeGarment(const Case& c, const GarmentCase& worn, const BodyForm* form
 
 }  // namespace
 
-Human skeletonOf(const HumanCase& h) {
+Human skeletonOf(const HumanCase& h, CharacterReport* character) {
   if (!h.manikin.empty()) return makeManikin(h.manikin);
+  if (h.character) return loadCharacter(*h.character, character);
   return h.body.empty() ? loadUrdf(h.urdf) : loadHuman(h.urdf, h.body);
 }
 
-Human humanOf(const HumanCase& h) {
-  Human human = skeletonOf(h);
+Human humanOf(const HumanCase& h, CharacterReport* character) {
+  Human human = skeletonOf(h, character);
   if (h.skin) human.skin = std::make_shared<const Skin>(makeSkin(human, *h.skin));
   return human;
 }

@@ -8,9 +8,10 @@
 
 namespace gambeson {
 
-/// With the skin that the case asks for; `skeletonOf` is quicker and leaves it out.
-Human humanOf(const HumanCase& human);
-Human skeletonOf(const HumanCase& human);
+/// With the skin that the case asks for; `skeletonOf` is quicker and leaves it out (a character has it all the same).
+/// `character` tells what was found in a character's file.
+Human humanOf(const HumanCase& human, CharacterReport* character = nullptr);
+Human skeletonOf(const HumanCase& human, CharacterReport* character = nullptr);
 
 /// One garment each, in the case's order, in place (`position`, `weft_angle`), with fabrics and patch names. Those that
 /// are drafted lie over those before them. `human` is null where the case has none.

@@ -1,21 +1,23 @@
 #include "cases/case.hpp"
 #include "cases/fields.hpp"
 #include "cases/table.hpp"
+#include "human/manikin.hpp"
 
 namespace gambeson::schema {
 namespace {
 
 /// A map by its name, or the path of one against the case's folder.
-Field mapField() {
+Field mapField(const std::string& doc, const std::string& note) {
   Field f;
   f.key = "map";
   f.kind = Kind::text;
-  f.doc =
-      "what its joints, bones or markers are in our human: gait2392, rajagopal, snu_woody, makehuman, "
-      "gait2392_markers, "
-      "joint_centres, or a file of one's own";
-  f.default_note = "that which goes with the names in the file";
+  f.doc = doc;
+  f.default_note = note;
   return f;
+}
+std::string readMap(const Place& p) {
+  const std::string word = readText(p);
+  return word.find_first_of("./") == std::string::npos ? word : readPath(p).string();
 }
 
 Object motionFileTable() {
@@ -26,11 +28,10 @@ Object motionFileTable() {
       .path("model", &M::model, "the subject's scaled OpenSim model (.osim): where markers sit and joints are")
       .defaultsTo("none; markers that are not at joints need it")
       .custom(
-          mapField(),
-          [](const Place& p, M& m) {
-            const std::string word = readText(p);
-            m.map = word.find_first_of("./") == std::string::npos ? word : readPath(p).string();
-          },
+          mapField("what its joints, bones or markers are in our human: gait2392, rajagopal, snu_woody, makehuman, "
+                   "makehuman_default, unreal, mixamo, gait2392_markers, joint_centres, or a file of one's own",
+                   "that which goes with the names in the file"),
+          [](const Place& p, M& m) { m.map = readMap(p); },
           [](const M& m) { return m.map.empty() ? std::nullopt : std::optional(nodeOf(m.map)); })
       .number("from", &M::from_s, "s", between(-1e6, 1e6), "begin of the window in the file's own time")
       .defaultsTo("its first instant")
@@ -59,6 +60,39 @@ Object motionFileTable() {
       .number("hips_apart", &M::hips_apart_rad, "rad", between(-0.6, 0.6),
               "abduction of the hips held on top of the recorded one, where our thighs are thicker than the subject's")
       .number("arms_apart", &M::arms_apart_rad, "rad", between(-1.6, 1.6), "likewise of the shoulders")
+      .build();
+}
+
+Object characterTable() {
+  using C = CharacterOptions;
+  std::vector<std::pair<std::string, std::string>> manikins;
+  for (const std::string& name : manikinNames()) manikins.emplace_back(name, name);
+  return Table<C>("Character")
+      .path("file", &C::file, "a skinned character (.gltf, .glb, .fbx), or MakeHuman's base mesh (.obj)")
+      .required()
+      .path("skeleton", &C::skeleton, "skeleton (.mhskel) that goes with MakeHuman's mesh")
+      .path("weights", &C::weights, "weights (.mhw) that go with MakeHuman's mesh")
+      .list("targets", &C::targets,
+            Table<MorphTarget>("Morph target")
+                .path("file", &MorphTarget::file, "one of MakeHuman's (.target)")
+                .required()
+                .number("share", &MorphTarget::share, "", between(-10, 10), "how much of it is added")
+                .build(),
+            "morphs of MakeHuman's mesh")
+      .custom(
+          mapField("what its bones are in our human: unreal, mixamo, makehuman_default, or a joint map of one's own "
+                   "(\"reads\": \"bones\")",
+                   "that which goes with the names of its bones"),
+          [](const Place& p, C& c) { c.map = readMap(p); },
+          [](const C& c) { return c.map.empty() ? std::nullopt : std::optional(nodeOf(c.map)); })
+      .choice("like", &C::like, manikins, "the manikin whose limits of joints and shares of mass it takes")
+      .number("height", &C::height_m, "m", between(0.5, 3), "it is scaled to, in the pose of the file")
+      .defaultsTo("as the file has it")
+      .flag("switch_off_folds", &C::folds_off,
+            "where the skin folds into itself at some time of the motion, cloth does not touch it at all; the area is "
+            "told either way")
+      .number("mass", &C::mass_kg, "kg", aboveTo(0, 500), "of the whole body")
+      .defaultsTo("its volume at 1000 kg/m^3")
       .build();
 }
 
@@ -136,12 +170,13 @@ Object motionTable() {
 Object humanTable() {
   using H = HumanCase;
   std::vector<std::pair<std::string, std::string>> manikins;
-  for (const char* name : {"male_p5", "male_p50", "male_p95", "female_p5", "female_p50", "female_p95"})
-    manikins.emplace_back(name, name);
+  for (const std::string& name : manikinNames()) manikins.emplace_back(name, name);
   return Table<H>("Human")
       .choice("manikin", &H::manikin, manikins, "one of our own humans, by sex and percentile of stature")
       .in("who")
       .path("urdf", &H::urdf, "skeleton of a human of your own")
+      .in("who")
+      .object("character", &H::character, characterTable(), "a skinned character from a file, in any pose")
       .in("who")
       .oneOf("who", true)
       .path("body", &H::body, "body file that goes with urdf: ellipsoids per link")
@@ -156,7 +191,8 @@ Object humanTable() {
       .object("motion", &H::motion, motionTable(), "what the human does")
       .required()
       .check([](const Place& p, const H& h) {
-        if (h.skin && h.manikin.empty()) p.failAt("skin", "is made around a manikin, not around a body of your own");
+        if (h.skin && h.manikin.empty())
+          p.failAt("skin", "is made around a manikin, not around a body of your own or a character");
         if (h.urdf.empty() && !h.body.empty()) p.failAt("body", "goes with \"urdf\"; a manikin has its own body");
       })
       .build();

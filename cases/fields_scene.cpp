@@ -74,6 +74,30 @@ Object meshTable() {
       .build();
 }
 
+Object sequenceTable() {
+  using S = SequenceObstacle;
+  Field folder;
+  folder.key = "folder";
+  folder.kind = Kind::path;
+  folder.doc =
+      "of mesh files (OBJ, PLY, STL or glTF), one for each frame, in the order of the numbers in their names: one mesh "
+      "whose vertices move";
+  return Table<S>("Sequence of meshes")
+      .custom(
+          folder, [](const Place& p, S& o) { o.folder = readFolder(p); },
+          [](const S& o) { return std::optional(nodeOf(o.folder.string())); })
+      .required()
+      .number("rate", &S::rate_Hz, "Hz", aboveTo(0, 1e5), "frames per second")
+      .number("scale", &S::scale, "", aboveTo(0, 1e6), "metres per unit of the files")
+      .number("begin", &S::begin_s, "s", between(-1e4, 1e4),
+              "when the first frame is there; it starts at rest from it, and ends at rest in the last")
+      .text("forward", &S::forward, "axis of the files that points along our x, such as z or -y; with up")
+      .defaultsTo("x")
+      .text("up", &S::up, "axis of the files that points along our z; with forward")
+      .defaultsTo("z")
+      .build();
+}
+
 /// "waist", or "2.u0" for side u0 of patch 2.
 const std::vector<std::string> side_names{"u0", "u1", "v0", "v1"};
 
@@ -132,6 +156,8 @@ Object obstacleTable() {
       .alternative<TorusObstacle>("torus", &O::shape, torusTable(), "a ring")
       .in("shape")
       .alternative<MeshObstacle>("mesh", &O::shape, meshTable(), "triangles from a file")
+      .in("shape")
+      .alternative<SequenceObstacle>("sequence", &O::shape, sequenceTable(), "a surface that deforms, frame by frame")
       .in("shape")
       .oneOf("shape", true)
       .vector("velocity", &O::velocity_m_per_s, "m/s", between(-100, 100), "constant velocity")

@@ -107,8 +107,10 @@ void checkReferences(const Place& root, const Case& c) {
   }
   for (const GarmentCase& g : c.garments)
     if (const auto* file = std::get_if<FileGarment>(&g.shape)) checkGarmentFile(root, c, g, *file);
-  for (const ObstacleCase& o : c.obstacles)
+  for (const ObstacleCase& o : c.obstacles) {
     if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) loadMesh(mesh->file, mesh->scale);
+    if (const auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) MeshSequence{*sequence};
+  }
   checkPictures(root, c, duration_s);
 }
 

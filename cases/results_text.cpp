@@ -150,7 +150,12 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
   if (const std::string factors = factorsText(s.definition.factors); !factors.empty())
     say("Factors on what the case says: " + factors + ". What stands below has them in it.");
   if (s.human) {
-    if (s.hasSkin())
+    if (c.human->character)
+      say(fmt::format(
+          "The body is the skin of {}: its bones' weights blend the motions of the links linearly. Limits of "
+          "joints and shares of mass are those of {}; its mass is {:.1f} kg. Flesh does not give way.",
+          c.human->character->file.filename().string(), c.human->character->like, s.human->mass_kg));
+    else if (s.hasSkin())
       say("The body is a closed skin drawn around a manikin of ellipsoids (sizes from ANSUR II (2012), masses from de "
           "Leva 1996, offsets of joints from Rajagopal et al. 2016), which bends with the joints. Flesh does not give "
           "way.");

@@ -1,6 +1,7 @@
 #include "cases/scenario.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,8 @@
 #include "core/sheet/layers.hpp"
 #include "human/blend.hpp"
 #include "human/load.hpp"
+#include "human/mesh_sequence.hpp"
+#include "human/skin_overlap.hpp"
 #include "tryon/projecting.hpp"
 #include "tryon/skin_projecting.hpp"
 #include "tryon/stitching.hpp"
@@ -38,6 +41,8 @@ class CaseStage : public Stage {
   double start_s = 0;
   std::vector<Placement> fixed;
   std::vector<Vec3> fixed_velocity;
+  std::vector<std::unique_ptr<const MeshSequence>> sequence;  ///< as `fixed`; null for those that do not deform
+  int first_fixed = 0;                                        ///< obstacle
   Vec3 air_velocity;
   double air_ramp_s = 0;
 
@@ -54,7 +59,8 @@ class CaseStage : public Stage {
     }
     for (std::size_t k = 0; k < fixed.size(); ++k) {
       obstacles[at] = fixed[k];
-      obstacles[at++].origin += t * fixed_velocity[k];
+      if (!sequence[k]) obstacles[at].origin += t * fixed_velocity[k];
+      ++at;
     }
   }
 
@@ -66,7 +72,13 @@ class CaseStage : public Stage {
     return blend(*dressed, first, x * x * x * (10 + x * (6 * x - 15)));
   }
 
-  void vertices(int, double t, std::span<Vec3> x) const override {
+  void vertices(int obstacle, double t, std::span<Vec3> x) const override {
+    if (obstacle >= first_fixed) {
+      const auto k = static_cast<std::size_t>(obstacle - first_fixed);
+      sequence[k]->at(t, x);
+      for (Vec3& p : x) p += t * fixed_velocity[k];
+      return;
+    }
     const Posture posture = postureAt(t);
     skinPositions(*human->skin, linkPoses(human->skeleton, posture.q, posture.root), x);
     if (shrunk_skin.empty() || !(t < grow_start_s + grow_s)) return;
@@ -166,6 +178,7 @@ Shape shapeOf(const ObstacleCase& o, Placement& at) {
             at.origin = m.position_m;
             return loadMesh(m.file, m.scale);
           },
+          [&](const SequenceObstacle&) -> Shape { return TriangleMesh{}; },  // MeshSequence has it
       },
       o.shape);
 }
@@ -179,6 +192,19 @@ void noteDefects(const MeshObstacle& file, const std::string& name, const Obstac
     throw InputError({file.file.string(), 0, ""}, "the mesh of obstacle " + name + ": " + e.reason());
   }
   if (!defects.empty()) notes.push_back("obstacle " + name + " (" + file.file.filename().string() + ") " + defects);
+}
+
+void noteSequence(const SequenceObstacle& file, const MeshSequence& sequence, const std::string& name,
+                  std::vector<std::string>& notes) {
+  std::string defects;
+  try {
+    defects = meshDefects(meshTopology(sequence.first()));
+  } catch (const InputError& e) {
+    throw InputError({file.folder.string(), 0, ""}, "the mesh of obstacle " + name + ": " + e.reason());
+  }
+  notes.push_back(fmt::format("obstacle {} ({}): {} frames from {:.3f} to {:.3f} s, {} triangles{}", name,
+                              file.folder.filename().string(), sequence.frames(), file.begin_s, sequence.end_s(),
+                              sequence.triangles().size(), defects.empty() ? "" : "; it " + defects));
 }
 
 /// `first`: the first patch of each garment; `known`: its named edges.
@@ -356,6 +382,36 @@ double readRecorded(const MotionFileOptions& m, Scenario& s) {
   return notes.window_s;
 }
 
+void noteCharacter(const CharacterOptions& options, const CharacterReport& found, std::vector<std::string>& notes) {
+  const std::string file = options.file.filename().string();
+  notes.push_back(fmt::format(
+      "character {}: bones as in the map {}, {}-pose (arms {:.0f} degrees from hanging down), {:.3f} m tall, {:.1f} "
+      "litres",
+      file, found.map, found.pose, found.arms_deg, found.height_m, 1000 * found.volume_m3));
+  for (const std::string& note : found.notes) notes.push_back(fmt::format("character {}: {}", file, note));
+}
+
+/// Says where the skin passes through itself, and switches it off there where asked. Our own motions keep our own skins
+/// from it (tests/unit/human/skin_fold_test.cpp).
+void noteFolds(const HumanCase& human, Scenario& s) {
+  constexpr double every_s = 0.05;
+  const OverlapOfMotion o = overlapOf(*s.human, *s.motion, every_s);
+  if (o.folded == 0) return;
+  std::string note = fmt::format(
+      "the skin passes through itself at {} of {} instants of the motion, with at most {:.1f} cm^2 (at {:.2f} s), at "
+      "{}",
+      o.folded, o.instants, 1e4 * o.largest_m2, o.largest_time_s, fmt::join(o.links, ", "));
+  if (human.character && human.character->folds_off) {
+    Skin skin = *s.human->skin;
+    skin.off = o.triangles;
+    s.human->skin = std::make_shared<const Skin>(std::move(skin));
+    note += fmt::format("; {:.1f} cm^2 are switched off", 1e4 * o.area_m2);
+  } else if (std::holds_alternative<MotionFileOptions>(human.motion)) {
+    note += "; hips_apart and arms_apart hold the limbs apart";
+  }
+  s.notes.push_back(note);
+}
+
 std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   auto s = std::make_unique<Scenario>();
   s->definition = written;
@@ -364,7 +420,9 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   std::vector<Obstacle> obstacles;
   double duration = c.time.duration_s.value_or(0);
   if (c.human) {
-    s->human = humanOf(*c.human);
+    CharacterReport character;
+    s->human = humanOf(*c.human, &character);
+    if (c.human->character) noteCharacter(*c.human->character, character, s->notes);
     std::visit(Overloaded{
                    [&](const StandMotion& m) {
                      class Standing : public Motion {
@@ -393,6 +451,9 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
                },
                c.human->motion);
     if (!c.time.duration_s) duration = s->motion->duration();
+    const bool own_motion = !std::holds_alternative<MotionFileOptions>(c.human->motion) &&
+                            !std::holds_alternative<TrajectoryMotion>(c.human->motion);
+    if (s->human->skin && !(own_motion && c.human->skin)) noteFolds(*c.human, *s);
     s->feet = footReport(*s->human, *s->motion);
     const bool told = std::holds_alternative<MotionFileOptions>(c.human->motion);  // by its own reader
     if (s->feet && !told && !plausible(*s->feet))
@@ -408,9 +469,17 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   }
   stage->air_velocity = c.air.with_pelvis ? s->mean_velocity_m_per_s : c.air.velocity_m_per_s;
   if (!c.air.with_pelvis) stage->air_ramp_s = 0;
+  stage->first_fixed = static_cast<int>(obstacles.size());
   for (const ObstacleCase& o : c.obstacles) {
     Placement at;
-    obstacles.push_back({shapeOf(o, at), o.name});
+    stage->sequence.push_back(nullptr);
+    if (const auto* frames = std::get_if<SequenceObstacle>(&o.shape)) {
+      stage->sequence.back() = std::make_unique<const MeshSequence>(*frames);
+      obstacles.push_back({stage->sequence.back()->first(), o.name, true});
+      noteSequence(*frames, *stage->sequence.back(), o.name, s->notes);
+    } else {
+      obstacles.push_back({shapeOf(o, at), o.name});
+    }
     if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) noteDefects(*mesh, o.name, obstacles.back(), s->notes);
     stage->fixed.push_back(at);
     stage->fixed_velocity.push_back(o.velocity_m_per_s);

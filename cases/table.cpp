@@ -51,7 +51,9 @@ Vec3 readDirection(const Place& place) {
   return normalized(v);
 }
 
-std::filesystem::path readPath(const Place& place) {
+namespace {
+
+std::filesystem::path readExisting(const Place& place, std::filesystem::file_status& status) {
   const std::string& text = readText(place);
   if (text.find('\0') != std::string::npos || text.size() > 4000) place.fail("this is not the name of a file");
   const bool from_command_line = place.node.line == 0;
@@ -59,11 +61,26 @@ std::filesystem::path readPath(const Place& place) {
       from_command_line ? std::filesystem::current_path() : std::filesystem::absolute(place.file).parent_path();
   const std::filesystem::path path = (base / text).lexically_normal();
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
+  status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::none)
     place.fail(path.string() + " cannot be read: " + error.message());
   if (!std::filesystem::exists(status)) place.fail("there is no file " + path.string());
+  return path;
+}
+
+}  // namespace
+
+std::filesystem::path readPath(const Place& place) {
+  std::filesystem::file_status status;
+  std::filesystem::path path = readExisting(place, status);
   if (!std::filesystem::is_regular_file(status)) place.fail(path.string() + " is not a file");
+  return path;
+}
+
+std::filesystem::path readFolder(const Place& place) {
+  std::filesystem::file_status status;
+  std::filesystem::path path = readExisting(place, status);
+  if (!std::filesystem::is_directory(status)) place.fail(path.string() + " is not a folder");
   return path;
 }
 

@@ -26,6 +26,8 @@ Vec3 readVector(const Place& place, const std::string& unit, const Range& range)
 Vec3 readDirection(const Place& place);
 /// A path to a file that exists, made absolute: against the case's folder, or the current one from the command line.
 std::filesystem::path readPath(const Place& place);
+/// The same of a folder.
+std::filesystem::path readFolder(const Place& place);
 
 template <class M>
 inline constexpr bool is_optional = false;

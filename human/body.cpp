@@ -6,7 +6,15 @@ namespace gambeson {
 
 std::vector<Obstacle> obstaclesOf(const Human& human) {
   std::vector<Obstacle> obstacles;
-  if (human.skin) return {{human.skin->rest, "skin", true}};
+  if (human.skin) {
+    TriangleMesh mesh = human.skin->rest;
+    if (!human.skin->off.empty()) {
+      mesh.triangles.clear();
+      for (std::size_t t = 0; t < human.skin->off.size(); ++t)
+        if (!human.skin->off[t]) mesh.triangles.push_back(human.skin->rest.triangles[t]);
+    }
+    return {{std::move(mesh), "skin", true}};
+  }
   for (const BodyShape& s : human.shapes) obstacles.push_back({s.shape, human.skeleton.links[s.link].name});
   return obstacles;
 }

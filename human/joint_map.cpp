@@ -172,6 +172,9 @@ const std::vector<std::pair<std::string, std::string_view>>& shipped() {
       {"rajagopal", data::map_rajagopal},
       {"snu_woody", data::map_snu_woody},
       {"makehuman", data::map_makehuman},
+      {"makehuman_default", data::map_makehuman_default},
+      {"unreal", data::map_unreal},
+      {"mixamo", data::map_mixamo},
       {"gait2392_markers", data::map_gait2392_markers},
       {"joint_centres", data::map_joint_centres}};
   return all;

@@ -40,7 +40,8 @@ LimbJoints limbJoints(const Skeleton& skeleton);
 std::array<double, 3> threeAngles(const Mat3& R, const std::array<Vec3, 3>& axes);
 
 /// What of the hinge's axis is taken from LimbDirections::hinge: the axis is along upper x lower + share * hinge.
-/// upper x lower is the sine of the bend long: at a knee bent by more than 6 degrees the two bones decide. An elbow
+/// upper x lower is the sine of the bend long: at a knee bent by more than 6 degrees the two bones decide, as far as
+/// their plane agrees with the hinge (a knee that is a little overstretched turns the thigh no other way). An elbow
 /// never is straight in motion, and nothing else shows how the arm is twisted.
 inline constexpr double knee_share = 0.1, elbow_share = 0.01;
 

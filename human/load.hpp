@@ -17,6 +17,8 @@ Human loadHuman(const std::filesystem::path& urdf, const std::filesystem::path& 
 
 /// The triangles of a mesh file (OBJ, PLY, STL, glTF) in metres times `scale`, welded; throws InputError.
 TriangleMesh loadMesh(const std::filesystem::path& file, double scale = 1);
+/// The same as the file has them: vertices at one place stay apart, in the file's order.
+TriangleMesh loadTriangles(const std::filesystem::path& file, double scale = 1);
 
 /// Our own manikin by name (male_p5 ... female_p95), generated from the facts in human/data.
 Human makeManikin(const std::string& name);

@@ -72,7 +72,7 @@ double signedVolume(const TriangleMesh& m) {
 
 }  // namespace
 
-TriangleMesh loadMesh(const std::filesystem::path& file, double scale) {
+TriangleMesh loadTriangles(const std::filesystem::path& file, double scale) {
   const auto fail = [&](const std::string& key, const std::string& reason) {
     throw InputError({file.string(), 0, key}, reason);
   };
@@ -138,8 +138,12 @@ TriangleMesh loadMesh(const std::filesystem::path& file, double scale) {
   } catch (const std::exception& e) {
     fail("", std::string("cannot be read: ") + e.what());
   }
-  TriangleMesh mesh = welded(all);
-  if (mesh.triangles.empty()) fail("", "holds no triangle with an area");
+  return all;
+}
+
+TriangleMesh loadMesh(const std::filesystem::path& file, double scale) {
+  TriangleMesh mesh = welded(loadTriangles(file, scale));
+  if (mesh.triangles.empty()) throw InputError({file.string(), 0, ""}, "holds no triangle with an area");
   if (isClosed(mesh) && signedVolume(mesh) < 0)
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;

@@ -52,6 +52,7 @@ struct Skin {
   std::vector<int> first, link;  ///< links of vertex v: link[first[v]] .. link[first[v + 1] - 1], ascending
   std::vector<double> weight;    ///< as `link`
   std::vector<int> segment;      ///< of each vertex: the link of largest weight
+  std::vector<char> off;         ///< triangles of `rest` that cloth does not touch; empty: none
   std::vector<SkinBend> bends;   ///< a child's bend stands before its parent's
   std::vector<SkinRun> runs;     ///< all vertices, in order
   std::vector<SkinCrease> creases;

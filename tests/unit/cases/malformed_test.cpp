@@ -23,7 +23,7 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {", \"kappa0\": \"30 1/m\"", "", 13, "fabric.bending.kappa0", "is required for the law zheng"},
           {"\"contact\": {\"friction\": 0.2},", "", 1, "contact", "is required"},
           {", \"link\": \"pelvis\"", "", 25, "supports[1].springs.link", "is required"},
-          {"\"manikin\": \"male_p50\",", "", 15, "human", "one of manikin or urdf is required"},
+          {"\"manikin\": \"male_p50\",", "", 15, "human", "one of manikin, urdf or character is required"},
           {"{\"walk\": {\"strides\": 1}}", "{}", 17, "human.motion",
            "one of stand, walk, stairs, aim, trajectory or file is required"},
           // Fields that exclude each other.
