@@ -4,18 +4,17 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace gambeson {
 namespace {
-constexpr int kObstacleLeaf = 2;
 constexpr int kHullCells = 16;  ///< hulls of so few cells are looked at cell by cell
 }  // namespace
 
 ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts, std::span<const ChartCorners> corners,
                          std::span<const TriangleRange> obstacles, std::span<const Vec3> x)
     : charts_(std::move(charts)) {
-  boxes_.resize(mesh.triangles.size());
   for (const ChartCorners& c : corners) {
     const double a = c[1].x - c[0].x, b = c[1].y - c[0].y, d = c[2].x - c[0].x, e = c[2].y - c[0].y;
     const double area2 = a * e - b * d;
@@ -23,68 +22,97 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
   }
   for (std::size_t k = 0; k < charts_.size(); ++k) {
     cells_.emplace_back(charts_[k].whole.size());
-    roots_.push_back(buildChart(static_cast<int>(k), {0, 0}, charts_[k].cells, corners));
+    roots_.push_back(buildChart(mesh, static_cast<int>(k), {0, 0}, charts_[k].cells, corners));
   }
   findSides(mesh, corners);
+  parts_.shrink_to_fit();
   std::vector<Vec3> centres;
   for (const auto& [a, b, c] : mesh.triangles) centres.push_back(x[a] + x[b] + x[c]);
   for (const TriangleRange& range : obstacles) {
-    const int first = static_cast<int>(order_.size());
-    for (int t = range.first; t < range.end; ++t) order_.push_back(t);
-    if (range.first < range.end) roots_.push_back(buildObstacle(first, static_cast<int>(order_.size()), centres));
+    std::vector<int> triangles(range.end - range.first);
+    std::iota(triangles.begin(), triangles.end(), range.first);
+    if (!triangles.empty()) roots_.push_back(buildObstacle(mesh, triangles, centres));
   }
+  for (const TriangleRange& range : obstacles)
+    for (int t = range.first; t < range.end; ++t)
+      for (int v : mesh.triangles[t]) first_obstacle_vertex_ = std::min(first_obstacle_vertex_, v);
+  boxes_.resize(nodes_.size());
 }
 
-int ContactTree::buildChart(int chart, std::array<int, 2> begin, std::array<int, 2> end,
+/// Two triangles with a common edge: its ends become opposite corners.
+void ContactTree::addTile(const ContactMesh& mesh, int first, int second) {
+  const auto& [a, b, c] = mesh.triangles[first];
+  Tile tile{{first, second}, {a, b, c, c}};
+  if (second >= 0) {
+    const auto& other = mesh.triangles[second];
+    const auto common = [&](int v) { return std::find(other.begin(), other.end(), v) != other.end(); };
+    // The corner that is not common goes first.
+    tile.vertex = !common(a) ? std::array{a, b, a, c} : !common(b) ? std::array{b, c, b, a} : std::array{c, a, c, b};
+    for (int v : other)
+      if (v != a && v != b && v != c) tile.vertex[2] = v;
+  }
+  tiles_.push_back(tile);
+}
+
+int ContactTree::buildChart(const ContactMesh& mesh, int chart, std::array<int, 2> begin, std::array<int, 2> end,
                             std::span<const ChartCorners> corners) {
   const int at = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
+  parts_.emplace_back();
   const GridChart& c = charts_[chart];
   Node node;
+  Part part;
   node.chart = chart;
-  std::copy_n(begin.begin(), 2, node.begin);
-  std::copy_n(end.begin(), 2, node.end);
+  std::copy_n(begin.begin(), 2, part.begin);
+  std::copy_n(end.begin(), 2, part.end);
   const int axis = end[0] - begin[0] >= end[1] - begin[1] ? 0 : 1;
   if (end[axis] - begin[axis] <= 1) {
     const int cell = begin[0] + c.cells[0] * begin[1];
-    node.first = static_cast<int>(order_.size());
-    node.count = static_cast<int>(c.triangles[cell].size());
+    const std::span<const int> triangles = c.triangles[cell];
+    node.first = static_cast<int>(tiles_.size());
     node.whole = c.whole[cell];
-    order_.insert(order_.end(), c.triangles[cell].begin(), c.triangles[cell].end());
-    for (int t : c.triangles[cell])
-      for (const Vec2& corner : corners[t]) node.rest.add(Vec3{corner.x, corner.y, 0});
+    if (node.whole)
+      addTile(mesh, triangles[0], triangles[1]);
+    else
+      for (int t : triangles) addTile(mesh, t, -1);
+    node.count = static_cast<int>(tiles_.size()) - node.first;
+    for (int t : triangles)
+      for (const Vec2& corner : corners[t]) part.rest.add(Vec3{corner.x, corner.y, 0});
   } else {
     const int middle = begin[axis] + (end[axis] - begin[axis]) / 2;
     std::array<int, 2> left_end = end, right_begin = begin;
     left_end[axis] = right_begin[axis] = middle;
-    node.left = buildChart(chart, begin, left_end, corners);
-    node.right = buildChart(chart, right_begin, end, corners);
-    node.rest = nodes_[node.left].rest;
-    node.rest.add(nodes_[node.right].rest);
+    node.left = buildChart(mesh, chart, begin, left_end, corners);
+    node.right = buildChart(mesh, chart, right_begin, end, corners);
+    part.rest = parts_[node.left].rest;
+    part.rest.add(parts_[node.right].rest);
     node.whole = nodes_[node.left].whole && nodes_[node.right].whole;
   }
   nodes_[at] = node;
+  parts_[at] = part;
   return at;
 }
 
-int ContactTree::buildObstacle(int first, int end, std::span<const Vec3> centres) {
+int ContactTree::buildObstacle(const ContactMesh& mesh, std::span<int> triangles, std::span<const Vec3> centres) {
   const int at = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
   Node node;
-  if (end - first <= kObstacleLeaf) {
-    node.first = first;
-    node.count = end - first;
+  if (triangles.size() == 1) {
+    node.first = static_cast<int>(tiles_.size());
+    node.count = 1;
+    addTile(mesh, triangles[0], -1);
   } else {
     Box box;
-    for (int k = first; k < end; ++k) box.add(centres[order_[k]]);
+    for (int t : triangles) box.add(centres[t]);
     const Vec3 h = box.halfSize();
     const int axis = h.x >= h.y && h.x >= h.z ? 0 : h.y >= h.z ? 1 : 2;
-    const int middle = first + (end - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
-      return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
-    });
-    node.left = buildObstacle(first, middle, centres);
-    node.right = buildObstacle(middle, end, centres);
+    const std::size_t middle = triangles.size() / 2;
+    std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(middle), triangles.end(),
+                     [&](int a, int b) {
+                       return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
+                     });
+    node.left = buildObstacle(mesh, triangles.first(middle), centres);
+    node.right = buildObstacle(mesh, triangles.subspan(middle), centres);
   }
   nodes_[at] = node;
   return at;
@@ -98,14 +126,16 @@ ContactTree::Gradient ContactTree::gradient(const ContactMesh& mesh, int triangl
 }
 
 namespace {
-double distance(const Vec3& s, const Vec3& t) { return std::sqrt(norm2(s) + norm2(t)); }
+Four single(const Vec3& v) {
+  return Four{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+}
 }  // namespace
 
 ContactTree::Cluster ContactTree::cellCluster(std::span<const int> triangles, std::span<const double> change) const {
   const Gradient &a = gradients_[triangles[0]], &b = gradients_[triangles[1]];
-  const double spread = 0.5 * distance(a.s - b.s, a.t - b.t);
-  return {{0.5 * (a.s + b.s), 0.5 * (a.t + b.t)},
-          spread + (change.empty() ? 0 : std::max(change[triangles[0]], change[triangles[1]]))};
+  Cluster out = merge({single(a.s), single(a.t), 0}, {single(b.s), single(b.t), 0});
+  if (!change.empty()) out.spread += static_cast<float>(std::max(change[triangles[0]], change[triangles[1]]));
+  return out;
 }
 
 void ContactTree::gradientChanges(const ContactMesh& mesh, std::span<const Vec3> x0, std::span<const Vec3> x1,
@@ -113,7 +143,7 @@ void ContactTree::gradientChanges(const ContactMesh& mesh, std::span<const Vec3>
   out.resize(inverse_.size());
   for (std::size_t t = 0; t < inverse_.size(); ++t) {
     const Gradient a = gradient(mesh, static_cast<int>(t), x0), b = gradient(mesh, static_cast<int>(t), x1);
-    out[t] = distance(b.s - a.s, b.t - a.t);
+    out[t] = std::sqrt(norm2(b.s - a.s) + norm2(b.t - a.t));
   }
 }
 
@@ -125,9 +155,9 @@ void ContactTree::findSides(const ContactMesh& mesh, std::span<const ChartCorner
     float length;
   };
   std::vector<Found> found;
-  for (const Node& n : nodes_)
-    for (int k = n.whole && n.left < 0 ? n.first : n.first + n.count; k < n.first + n.count; ++k) {
-      const int t = order_[k];
+  for (const Tile& tile : tiles_)
+    for (int t : tile.triangle) {
+      if (tile.triangle[1] < 0) continue;
       for (int i = 0; i < 3; ++i) {
         const Vec2 along{corners[t][(i + 1) % 3].x - corners[t][i].x, corners[t][(i + 1) % 3].y - corners[t][i].y};
         const double length = std::max(std::abs(along.x), std::abs(along.y));
@@ -178,67 +208,98 @@ bool ContactTree::gradientsHold(std::span<const Vec3> x) const {
 
 ContactTree::Cluster ContactTree::merge(const Cluster& a, const Cluster& b) {
   Cluster out;
-  out.mean = {0.5 * (a.mean.s + b.mean.s), 0.5 * (a.mean.t + b.mean.t)};
-  out.spread = std::max(a.spread, b.spread) + 0.5 * distance(a.mean.s - b.mean.s, a.mean.t - b.mean.t);
+  out.s = all(0.5f) * (a.s + b.s), out.t = all(0.5f) * (a.t + b.t);
+  out.spread = std::max(a.spread, b.spread) + 0.5f * distance(a, b);
   return out;
 }
 
-void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion, std::span<const double> change) {
-  gradients_.resize(inverse_.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    boxes_[t] = {};
-    for (int v : mesh.triangles[t]) boxes_[t].add(MovingBox(motion, v));
-    if (t < gradients_.size()) gradients_[t] = gradient(mesh, static_cast<int>(t), motion.x);
+/// Points and boxes of the vertices; whether any vertex of an obstacle moved or may move otherwise than before.
+bool ContactTree::placePoints(const ListedMotion& motion) {
+  const std::size_t n = motion.x.size();
+  const bool known = vertex_boxes_.size() == n;
+  vertex_boxes_.resize(n);
+  points_.resize(n);
+  if (n == 0) return false;
+  const Vec3 origin = motion.x[0];
+  bool changed = !known;
+  Four far{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const MovingBox box(motion, static_cast<int>(i));
+    changed = changed || (static_cast<int>(i) >= first_obstacle_vertex_ && !(box == vertex_boxes_[i]));
+    vertex_boxes_[i] = box;
+    const Vec3 now = motion.x[i] - origin, then = now + motion.horizon_s * motion.velocity(static_cast<int>(i));
+    MovingPoint& p = points_[i];
+    p.now = single(now);
+    p.then = single(then);
+    far = most(far, most(most(p.now, -p.now), most(p.then, -p.then)));
   }
+  // Each coordinate is off by 2^-24 of itself, a sum of three products by four times that; two of them make a distance.
+  shape_error_m_ = 2e-6f * mostOf(far)[0] + 1e-9f;
+  return changed;
+}
+
+void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion, std::span<const double> change) {
+  const bool obstacles_changed = placePoints(motion);
+  gradients_.resize(inverse_.size());
+  for (std::size_t t = 0; t < gradients_.size(); ++t) gradients_[t] = gradient(mesh, static_cast<int>(t), motion.x);
   watchSides(motion.x, change);
-  for (std::size_t i = nodes_.size(); i-- > 0;) {
-    Node& n = nodes_[i];
-    n.box = {};
+  for (std::size_t i = obstacles_changed ? nodes_.size() : parts_.size(); i-- > 0;) {
+    const Node& n = nodes_[i];
+    MovingBox& box = boxes_[i];
     if (n.left >= 0) {
-      n.box = nodes_[n.left].box;
-      n.box.add(nodes_[n.right].box);
-      if (n.whole) n.cluster = merge(nodes_[n.left].cluster, nodes_[n.right].cluster);
+      box = boxes_[n.left];
+      box.add(boxes_[n.right]);
+      if (n.whole) parts_[i].cluster = merge(parts_[n.left].cluster, parts_[n.right].cluster);
       continue;
     }
-    for (int k = n.first; k < n.first + n.count; ++k) n.box.add(boxes_[order_[k]]);
+    box = {};
+    for (int k = n.first; k < n.first + n.count; ++k) box.add(boxOf(tiles_[k].vertex));
     if (!n.whole) continue;
-    n.cluster = cellCluster({order_.data() + n.first, 2}, change);
-    cells_[n.chart][n.begin[0] + charts_[n.chart].cells[0] * n.begin[1]] = n.cluster;
+    Part& part = parts_[i];
+    part.cluster = cellCluster(tiles_[n.first].triangle, change);
+    cells_[n.chart][part.begin[0] + charts_[n.chart].cells[0] * part.begin[1]] = part.cluster;
   }
 }
 
-double ContactTree::certifiedBound(const Cluster& cluster) {
-  const Vec3 &s = cluster.mean.s, &t = cluster.mean.t;
-  const double ss = norm2(s), tt = norm2(t), st = dot(s, t);
-  const double half = 0.5 * (ss + tt), root = std::sqrt(0.25 * (ss - tt) * (ss - tt) + st * st);
-  const double largest = std::sqrt(half + root), least2 = std::max(0.0, half - root);
-  // A part in a thousand for the rounding of all this, far more than it is.
-  return largest > 0 ? (0.999 * least2 - largest * cluster.spread) / largest : 0;
+/// c >= least, without dividing.
+bool ContactTree::certifies(const Cluster& cluster, double least) {
+  const double ss = TileShape::dot(cluster.s, cluster.s), tt = TileShape::dot(cluster.t, cluster.t);
+  // A part in a thousand, and a part in a hundred thousand of the largest, for the rounding of all this: far more than
+  // it is.
+  const double half = 0.5 * (ss + tt), needed = least + 1.001 * cluster.spread + 1e-5 * std::sqrt(2 * half);
+  if (!(half > needed * needed)) return false;  // s1 >= c + R, and s2 no more than s1
+  const double st = TileShape::dot(cluster.s, cluster.t);
+  const double root = std::sqrt(0.25 * (ss - tt) * (ss - tt) + st * st), least2 = 0.999 * (half - root);
+  return least2 > 0 && least2 * least2 >= (half + root) * needed * needed;
 }
 
-double ContactTree::hullBound(const Node& a, const Node& b) const {
+bool ContactTree::hullCertifies(int ia, int ib, double least) const {
+  const Part &a = parts_[ia], &b = parts_[ib];
   const int i0 = std::min(a.begin[0], b.begin[0]), i1 = std::max(a.end[0], b.end[0]);
   const int j0 = std::min(a.begin[1], b.begin[1]), j1 = std::max(a.end[1], b.end[1]);
   const long cells = static_cast<long>(i1 - i0) * (j1 - j0);
-  const auto count = [](const Node& n) { return static_cast<long>(n.end[0] - n.begin[0]) * (n.end[1] - n.begin[1]); };
-  if (a.whole && b.whole && cells == count(a) + count(b)) return certifiedBound(merge(a.cluster, b.cluster));
-  if (cells > kHullCells) return -1;
-  const GridChart& chart = charts_[a.chart];
-  const std::vector<Cluster>& clusters = cells_[a.chart];
+  const auto count = [](const Part& n) { return static_cast<long>(n.end[0] - n.begin[0]) * (n.end[1] - n.begin[1]); };
+  if (nodes_[ia].whole && nodes_[ib].whole && cells == count(a) + count(b))
+    return certifies(merge(a.cluster, b.cluster), least);
+  if (cells > kHullCells) return false;
+  const GridChart& chart = charts_[nodes_[ia].chart];
+  const std::vector<Cluster>& clusters = cells_[nodes_[ia].chart];
   Cluster hull;
   for (int j = j0; j < j1; ++j)
     for (int i = i0; i < i1; ++i) {
       const int cell = i + chart.cells[0] * j;
-      if (!chart.whole[cell]) return -1;
-      hull.mean.s += (1.0 / cells) * clusters[cell].mean.s;
-      hull.mean.t += (1.0 / cells) * clusters[cell].mean.t;
+      if (!chart.whole[cell]) return false;
+      hull.s += clusters[cell].s;
+      hull.t += clusters[cell].t;
     }
+  const Four share = all(1.0f / static_cast<float>(cells));
+  hull.s *= share, hull.t *= share;
   for (int j = j0; j < j1; ++j)
     for (int i = i0; i < i1; ++i) {
       const Cluster& c = clusters[i + chart.cells[0] * j];
-      hull.spread = std::max(hull.spread, c.spread + distance(c.mean.s - hull.mean.s, c.mean.t - hull.mean.t));
+      hull.spread = std::max(hull.spread, c.spread + distance(c, hull));
     }
-  return certifiedBound(hull);
+  return certifies(hull, least);
 }
 
 }  // namespace gambeson

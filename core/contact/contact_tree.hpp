@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "core/contact/box.hpp"
 #include "core/contact/contact_mesh.hpp"
 #include "core/contact/moving_box.hpp"
+#include "core/contact/tile.hpp"
 #include "core/math/vec.hpp"
 
 namespace gambeson {
@@ -66,8 +68,9 @@ class ContactTree {
   /// column by more than 1/sqrt(2) of it.
   bool gradientsHold(std::span<const Vec3> x) const;
 
-  /// Calls visit(a, b) once for every two triangles, not both of obstacles, whose boxes may meet, except those of a
-  /// part of cloth with c >= `least`.
+  /// Calls visit(a, b, covered) once for every two tiles, not both of obstacles, whose boxes may meet, except those of
+  /// a part of cloth with c >= `least`; a == b: for the two triangles of a tile. Tiles for which covered() holds need
+  /// not be looked at either; it takes a while to tell.
   template <class Visit>
   void pairs(const PairRules& rules, Visit&& visit) const {
     Traversal<Visit> t{*this, rules.margin_m, rules.least, roundUp(rules.margin_m), visit};
@@ -79,24 +82,42 @@ class ContactTree {
   }
 
   bool empty() const { return nodes_.empty(); }
-  const MovingBox& box(int triangle) const { return boxes_[triangle]; }
+  std::span<const Tile> tiles() const { return tiles_; }
+  const MovingBox& vertexBox(int vertex) const { return vertex_boxes_[vertex]; }
+  template <std::size_t N>
+  MovingBox boxOf(const std::array<int, N>& vertices) const {
+    MovingBox box = vertex_boxes_[vertices[0]];
+    for (std::size_t k = 1; k < N; ++k) box.add(vertex_boxes_[vertices[k]]);
+    return box;
+  }
+  TileShape shape(int tile) const {
+    const auto& v = tiles_[tile].vertex;
+    return {points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]], tiles_[tile].triangle[1] >= 0};
+  }
+  /// Of the vertices.
+  std::span<const MovingPoint> points() const { return points_; }
+  /// Distances from shapes and points are off by no more.
+  float shapeError_m() const { return shape_error_m_; }
 
  private:
   struct Gradient {
     Vec3 s, t;  ///< columns: dx/dX1, dx/dX2
   };
-  /// Gradients within `spread` (Frobenius) of `mean`.
+  /// Gradients within `spread` (Frobenius) of the one with columns s and t. In single precision: these are numbers
+  /// about 1, and what a millionth of them does is in `certifies`.
   struct Cluster {
-    Gradient mean;
-    double spread = 0;
+    Four s{}, t{};
+    float spread = 0;
   };
   struct Node {
-    MovingBox box;
     int left = -1, right = -1;  ///< children, after their parent; -1 in leaves
-    int first = 0, count = 0;   ///< triangles order_[first, first + count) of a leaf
+    int first = 0, count = 0;   ///< tiles of a leaf
     int chart = -1;             ///< of cloth
-    int begin[2]{}, end[2]{};   ///< cells of the rectangle
     bool whole = false;         ///< all cells are
+  };
+  /// Of cloth: what is asked less often.
+  struct Part {
+    int begin[2]{}, end[2]{};  ///< cells of the rectangle
     Cluster cluster;
     Box rest;  ///< of the rectangle in the chart's plane
   };
@@ -109,30 +130,31 @@ class ContactTree {
 
     void within(int at) {
       const Node& n = tree.nodes_[at];
-      if (n.whole && certifiedBound(n.cluster) >= least) return;
+      if (n.whole && certifies(tree.parts_[at].cluster, least)) return;
       if (n.left < 0) {
-        for (int i = n.first; i < n.first + n.count; ++i)
-          for (int j = i + 1; j < n.first + n.count; ++j) emit(tree.order_[i], tree.order_[j]);
+        const auto never = [] { return false; };
+        for (int i = n.first; i < n.first + n.count; ++i) {
+          if (tree.tiles_[i].triangle[1] >= 0) visit(i, i, never);
+          for (int j = i + 1; j < n.first + n.count; ++j) emit(i, j, never);
+        }
         return;
       }
       within(n.left);
       within(n.right);
       between(n.left, n.right, n.whole);
     }
-    /// `asked`: their hull has no certificate.
     void between(int ia, int ib, bool asked = false) {
+      if (mayMeet(tree.boxes_[ia], tree.boxes_[ib], reach)) near(ia, ib, asked);
+    }
+    /// Two nodes whose boxes may meet. `asked`: their hull has no certificate.
+    void near(int ia, int ib, bool asked) {
       const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
-      if (!mayMeet(a.box, b.box, reach)) return;
-      // Points whose distance at rest is D are at least c D apart.
-      if (!asked && a.chart >= 0 && a.chart == b.chart &&
-          tree.hullBound(a, b) >= std::min(least, margin / restDistance(a.rest, b.rest)))
-        return;
       if (a.left < 0 && b.left < 0) {
-        for (int i = a.first; i < a.first + a.count; ++i)
-          for (int j = b.first; j < b.first + b.count; ++j) emit(tree.order_[i], tree.order_[j]);
+        leaves(ia, ib, asked);
         return;
       }
-      if (b.left < 0 || (a.left >= 0 && a.box.size2() >= b.box.size2())) {
+      if (covered(ia, ib, asked)) return;
+      if (b.left < 0 || (a.left >= 0 && tree.boxes_[ia].size2() >= tree.boxes_[ib].size2())) {
         between(a.left, ib);
         between(a.right, ib);
       } else {
@@ -140,29 +162,58 @@ class ContactTree {
         between(ia, b.right);
       }
     }
-    void emit(int a, int b) {
-      if (mayMeet(tree.boxes_[a], tree.boxes_[b], reach)) visit(a, b);
+    /// Points whose distance at rest is D are at least c D apart.
+    bool covered(int ia, int ib, bool asked) const {
+      if (asked || tree.nodes_[ia].chart < 0 || tree.nodes_[ia].chart != tree.nodes_[ib].chart) return false;
+      const double rest = restDistance(tree.parts_[ia].rest, tree.parts_[ib].rest);
+      return tree.hullCertifies(ia, ib, least * rest > margin ? margin / rest : least);
+    }
+    [[gnu::noinline]] void leaves(int ia, int ib, bool asked) {
+      const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
+      if (a.count == 1 && b.count == 1) {
+        visit(a.first, b.first, [&] { return covered(ia, ib, asked); });
+        return;
+      }
+      if (covered(ia, ib, asked)) return;
+      for (int i = a.first; i < a.first + a.count; ++i)
+        for (int j = b.first; j < b.first + b.count; ++j) emit(i, j, [] { return false; });
+    }
+    template <class Covered>
+    void emit(int i, int j, Covered&& covered) {
+      if (mayMeet(tree.boxOf(tree.tiles_[i].vertex), tree.boxOf(tree.tiles_[j].vertex), reach)) visit(i, j, covered);
     }
   };
 
-  int buildChart(int chart, std::array<int, 2> begin, std::array<int, 2> end, std::span<const ChartCorners> corners);
-  int buildObstacle(int first, int end, std::span<const Vec3> centres);
+  int buildChart(const ContactMesh& mesh, int chart, std::array<int, 2> begin, std::array<int, 2> end,
+                 std::span<const ChartCorners> corners);
+  int buildObstacle(const ContactMesh& mesh, std::span<int> triangles, std::span<const Vec3> centres);
+  void addTile(const ContactMesh& mesh, int first, int second);
+  bool placePoints(const ListedMotion& motion);
   Gradient gradient(const ContactMesh& mesh, int triangle, std::span<const Vec3> x) const;
   Cluster cellCluster(std::span<const int> triangles, std::span<const double> change) const;
   void findSides(const ContactMesh& mesh, std::span<const ChartCorners> corners);
   void watchSides(std::span<const Vec3> x, std::span<const double> change);
-  static double certifiedBound(const Cluster& cluster);
+  static bool certifies(const Cluster& cluster, double least);
   static Cluster merge(const Cluster& a, const Cluster& b);
-  double hullBound(const Node& a, const Node& b) const;
+  static float distance(const Cluster& a, const Cluster& b) {
+    const Four s = a.s - b.s, t = a.t - b.t;
+    return std::sqrt(TileShape::dot(s, s) + TileShape::dot(t, t));
+  }
+  bool hullCertifies(int ia, int ib, double least) const;
   static double restDistance(const Box& a, const Box& b) {
     return norm(maximum(maximum(b.lo - a.hi, a.lo - b.hi), Vec3{}));
   }
 
   std::vector<GridChart> charts_;
   std::vector<Node> nodes_;
-  std::vector<int> roots_;           ///< of the charts, then of the obstacles
-  std::vector<int> order_;           ///< triangles, leaf by leaf
-  std::vector<MovingBox> boxes_;     ///< of each triangle
+  std::vector<MovingBox> boxes_;  ///< of the nodes
+  std::vector<Part> parts_;       ///< of the nodes of cloth, which come first
+  std::vector<int> roots_;        ///< of the charts, then of the obstacles
+  std::vector<Tile> tiles_;       ///< leaf by leaf
+  std::vector<MovingBox> vertex_boxes_;
+  std::vector<MovingPoint> points_;  ///< the vertices
+  float shape_error_m_ = 0;
+  int first_obstacle_vertex_ = std::numeric_limits<int>::max();
   std::vector<Gradient> gradients_;  ///< at the last refit, of each triangle of cloth
   struct Side {
     int a = 0, b = 0;

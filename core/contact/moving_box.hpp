@@ -1,14 +1,11 @@
 #pragma once
 /// Boxes of points that move, in single precision, rounded outwards: most of a search for pairs is comparing them.
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include <cmath>
 #include <limits>
 #include <span>
 
+#include "core/contact/four.hpp"
 #include "core/math/vec.hpp"
 
 namespace gambeson {
@@ -45,6 +42,10 @@ class MovingBox {
     way_lo_ = least(way_lo_, b.way_lo_), way_hi_ = most(way_hi_, b.way_hi_);
   }
 
+  bool operator==(const MovingBox& b) const {
+    return !any((lo_ != b.lo_) | (hi_ != b.hi_) | (way_lo_ != b.way_lo_) | (way_hi_ != b.way_hi_));
+  }
+
   /// Squared diagonal of the box of points.
   float size2() const {
     const Four d = hi_ - lo_;
@@ -61,18 +62,6 @@ class MovingBox {
   }
 
  private:
-  using Four = float __attribute__((vector_size(16)));
-  using Mask = int __attribute__((vector_size(16)));
-  // One instruction each where the compiler makes three of the comparison.
-#ifdef __SSE2__
-  static Four least(const Four& a, const Four& b) { return _mm_min_ps(a, b); }
-  static Four most(const Four& a, const Four& b) { return _mm_max_ps(a, b); }
-  static bool any(const Mask& m) { return _mm_movemask_ps(reinterpret_cast<Four>(m)) != 0; }
-#else
-  static Four least(const Four& a, const Four& b) { return a < b ? a : b; }
-  static Four most(const Four& a, const Four& b) { return a > b ? a : b; }
-  static bool any(const Mask& m) { return m[0] | m[1] | m[2] | m[3]; }
-#endif
   static constexpr float kFar = std::numeric_limits<float>::infinity();
 
   Four lo_{kFar, kFar, kFar, kFar}, hi_{-kFar, -kFar, -kFar, -kFar}, way_lo_ = lo_, way_hi_ = hi_;

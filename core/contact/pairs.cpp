@@ -6,45 +6,150 @@
 #include <limits>
 #include <utility>
 
-#include "core/contact/segment_pair.hpp"
-#include "core/contact/triangle.hpp"
+#include "core/contact/four_pairs.hpp"
 
 namespace gambeson {
 namespace {
 
-/// Two primitives by their corners: each corner of the first stays on its side of a direction from the second.
-template <std::size_t A, std::size_t B>
-Apart apart(const ListedMotion& m, const std::array<int, A>& a, const std::array<int, B>& b, const Vec3& way) {
-  const double length = norm(way);
-  if (!(length > 0)) return {0, std::numeric_limits<float>::infinity()};
-  const Vec3 n = way / length;
-  double gap = std::numeric_limits<double>::infinity(), closing = -gap;
-  std::array<double, B> at, speed;
-  for (std::size_t k = 0; k < B; ++k) at[k] = dot(n, m.x[b[k]] - m.x[a[0]]), speed[k] = dot(n, m.velocity(b[k]));
-  for (int i : a) {
-    const double x = dot(n, m.x[i] - m.x[a[0]]), v = dot(n, m.velocity(i));
-    for (std::size_t k = 0; k < B; ++k) gap = std::min(gap, x - at[k]), closing = std::max(closing, speed[k] - v);
-  }
-  // Rounded to the safe side, of a float too.
-  return {static_cast<float>(gap - 1e-6 * std::abs(gap) - 1e-9),
-          static_cast<float>(closing + 1e-6 * std::abs(closing))};
-}
+constexpr unsigned char kAllBlunt = 63;
 
-/// A lower bound of how far all corners of b stay on one side of the plane of a until the horizon, slack apart.
-double beyondPlane(const ListedMotion& m, const std::array<int, 3>& a, const std::array<int, 3>& b) {
-  const Vec3 n = cross(m.x[a[1]] - m.x[a[0]], m.x[a[2]] - m.x[a[0]]);
-  const double size = norm(n);
-  if (!(size > 0)) return 0;
-  const Vec3 at{dot(n, m.x[b[0]] - m.x[a[0]]), dot(n, m.x[b[1]] - m.x[a[0]]), dot(n, m.x[b[2]] - m.x[a[0]])};
-  const double above = std::min({at.x, at.y, at.z}), below = -std::max({at.x, at.y, at.z});
-  if (above <= 0 && below <= 0) return 0;
-  const Vec3 s{dot(n, m.velocity(a[0])), dot(n, m.velocity(a[1])), dot(n, m.velocity(a[2]))};
-  const Vec3 t{dot(n, m.velocity(b[0])), dot(n, m.velocity(b[1])), dot(n, m.velocity(b[2]))};
-  const Vec3 then = at + m.horizon_s * t;
-  const double last = above > 0 ? std::min({then.x, then.y, then.z}) - m.horizon_s * std::max({s.x, s.y, s.z})
-                                : m.horizon_s * std::min({s.x, s.y, s.z}) - std::max({then.x, then.y, then.z});
-  return std::min(std::max(above, below), last) / size * (1 - 1e-6) - 1e-9;
-}
+/// Pairs whose boxes may meet, looked at four at a time. A: corners of the first primitive.
+template <int A>
+class Batch {
+ public:
+  Batch(const ContactTree& tree, double horizon_s) : tree_(tree), horizon_s_(horizon_s) {}
+
+  /// found(a, b, apart) for those that may come within their margins.
+  template <class Found>
+  void add(int a, int b, const std::array<int, 4>& vertex, double margin_m, Found&& found) {
+    pair_[count_] = {a, b};
+    vertex_[count_] = vertex;
+    margin_m_[count_] = margin_m;
+    if (++count_ == 4) look(found);
+  }
+  template <class Found>
+  void look(Found&& found) {
+    if (count_ == 0) return;
+    for (int k = count_; k < 4; ++k) vertex_[k] = vertex_[0];
+    const FourGaps gaps = gapsOf<A>(tree_.points(), vertex_);
+    for (int k = 0; k < count_; ++k) {
+      const float now = gaps.now[k] - tree_.shapeError_m(), then = gaps.then[k] - tree_.shapeError_m();
+      if (std::min(now, then) > margin_m_[k]) continue;
+      // Gaps along a direction are the least of functions linear in time, and so lie above their chords.
+      const double closing = horizon_s_ > 0 ? (static_cast<double>(now) - then) / horizon_s_ : 0;
+      found(pair_[k][0], pair_[k][1], Apart{now, static_cast<float>(closing + 1e-6 * std::abs(closing))});
+    }
+    count_ = 0;
+  }
+
+ private:
+  const ContactTree& tree_;
+  double horizon_s_;
+  int count_ = 0;
+  std::array<std::array<int, 2>, 4> pair_;
+  std::array<std::array<int, 4>, 4> vertex_;
+  std::array<double, 4> margin_m_;
+};
+
+/// n or -n, which points along `way`.
+Four facing(const Four& n, const Four& way) { return TileShape::dot(n, way) < 0 ? -n : n; }
+
+/// The search between the primitives of two tiles that nothing has separated.
+class Primitives {
+  auto foundPoint() {
+    return [this](int v, int t, const Apart& gap) { out_.points.push_back({v, t, gap}); };
+  }
+  auto foundEdges() {
+    return [this](int e, int f, const Apart& gap) { out_.edges.push_back({e, f, gap}); };
+  }
+
+ public:
+  Primitives(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
+             std::span<const unsigned char> owned, std::span<const unsigned char> blunt, CandidatePairs& out)
+      : mesh_(mesh), tree_(tree), motion_(motion), rules_(rules), owned_(owned), blunt_(blunt), out_(out) {}
+  /// What waits.
+  void finish() {
+    points_.look(foundPoint());
+    edges_.look(foundEdges());
+  }
+
+  /// `beyond`: that far apart the two are, but for what they may leave their paths by.
+  void point(int a, int k, int t, const MovingBox& box, double beyond) {
+    const bool blunt = blunt_[a] & (1 << k);
+    const int v = mesh_.triangles[a][k];
+    const std::array<int, 3>& c = mesh_.triangles[t];
+    const double margin = marginOf(blunt) + motion_.slack(v) + slackOf(c);
+    if (beyond > margin || v == c[0] || v == c[1] || v == c[2]) return;
+    if (!mayMeet(tree_.vertexBox(v), box, reachOf(blunt))) return;
+    points_.add(v, t, {v, c[0], c[1], c[2]}, margin, foundPoint());
+  }
+  void points(int a, int t, const MovingBox& box, double beyond) {
+    for (int k = 0; k < 3; ++k)
+      if (owned_[a] & (1 << k)) point(a, k, t, box, beyond);
+  }
+
+  /// Edge k of triangle a against those of a triangle b.
+  void edges(int a, int k, int b, const MovingBox& box, double beyond) {
+    const int e = mesh_.face_edges[a][k];
+    const std::array<int, 2>& v = mesh_.edges[e];
+    const double slack = slackOf(v);
+    for (int l = 0; l < 3; ++l) {
+      if (!(owned_[b] & (8 << l))) continue;
+      const int f = mesh_.face_edges[b][l];
+      const bool blunt = (blunt_[a] & (8 << k)) || (blunt_[b] & (8 << l));
+      const std::array<int, 2>& y = mesh_.edges[f];
+      const double margin = marginOf(blunt) + slack + slackOf(y);
+      if (beyond > margin || v[0] == y[0] || v[0] == y[1] || v[1] == y[0] || v[1] == y[1]) continue;
+      if (!mayMeet(box, tree_.boxOf(y), reachOf(blunt))) continue;
+      edges_.add(std::min(e, f), std::max(e, f), {v[0], v[1], y[0], y[1]}, margin, foundEdges());
+    }
+  }
+
+  /// All of a with all of b.
+  void between(std::span<const int> as, std::span<const int> bs, double beyond) {
+    MovingBox of_b;
+    for (int b : bs) {
+      if (b < 0) continue;
+      const MovingBox box = tree_.boxOf(mesh_.triangles[b]);
+      of_b.add(box);
+      for (int a : as)
+        if (a >= 0) points(a, b, box, beyond);
+    }
+    for (int a : as) {
+      if (a < 0) continue;
+      const MovingBox box = tree_.boxOf(mesh_.triangles[a]);
+      for (int b : bs)
+        if (b >= 0) points(b, a, box, beyond);
+      for (int k = 0; k < 3; ++k) {
+        if (!(owned_[a] & (8 << k))) continue;
+        const MovingBox edge = tree_.boxOf(mesh_.edges[mesh_.face_edges[a][k]]);
+        if (!mayMeet(edge, of_b, wide_reach_)) continue;
+        for (int b : bs)
+          if (b >= 0) edges(a, k, b, edge, beyond);
+      }
+    }
+  }
+
+ private:
+  double marginOf(bool blunt) const { return blunt ? rules_.blunt_margin_m : rules_.margin_m; }
+  float reachOf(bool blunt) const { return blunt ? narrow_reach_ : wide_reach_; }
+  template <std::size_t N>
+  double slackOf(const std::array<int, N>& vertices) const {
+    double most = 0;
+    for (int v : vertices) most = std::max(most, motion_.slack(v));
+    return most;
+  }
+
+  const ContactMesh& mesh_;
+  const ContactTree& tree_;
+  const ListedMotion& motion_;
+  const PairRules& rules_;
+  std::span<const unsigned char> owned_, blunt_;
+  CandidatePairs& out_;
+  Batch<1> points_{tree_, motion_.horizon_s};
+  Batch<2> edges_{tree_, motion_.horizon_s};
+  const float wide_reach_ = roundUp(rules_.margin_m), narrow_reach_ = roundUp(rules_.blunt_margin_m);
+};
 
 }  // namespace
 
@@ -63,71 +168,63 @@ PairCollector::PairCollector(const ContactMesh& mesh, const BluntFeatures& blunt
 
 void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion,
                             const PairRules& rules, CandidatePairs& out) const {
-  const std::span<const Vec3> x = motion.x;
-  const double wide = rules.margin_m, narrow = rules.blunt_margin_m;
-  const float wide_reach = roundUp(wide), narrow_reach = roundUp(narrow);
   out.points.clear();
   out.edges.clear();
-  out.vertex_box.resize(mesh.vertex_count);
-  for (int i = 0; i < mesh.vertex_count; ++i) out.vertex_box[i] = MovingBox(motion, i);
-  out.edge_box.resize(mesh.edges.size());
-  out.edge_slack.resize(mesh.edges.size());
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const auto& [v, w] = mesh.edges[e];
-    out.edge_box[e] = out.vertex_box[v];
-    out.edge_box[e].add(out.vertex_box[w]);
-    out.edge_slack[e] = std::max(motion.slack(v), motion.slack(w));
-  }
-  out.triangle_slack.resize(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [u, v, w] = mesh.triangles[t];
-    out.triangle_slack[t] = std::max({motion.slack(u), motion.slack(v), motion.slack(w)});
-  }
-  // `beyond`: that far apart a and b are, but for what they may leave their paths by.
-  const auto pointsAgainst = [&](int a, int b, double beyond) {
-    for (int k = 0; k < 3; ++k) {
-      if (!(owned_[a] & (1 << k))) continue;
-      const bool blunt = blunt_[a] & (1 << k);
-      const double margin = (blunt ? narrow : wide) + motion.slack(mesh.triangles[a][k]) + out.triangle_slack[b];
-      if (beyond > margin) continue;
-      const std::array<int, 1> v{mesh.triangles[a][k]};
-      const std::array<int, 3>& t = mesh.triangles[b];
-      if (v[0] == t[0] || v[0] == t[1] || v[0] == t[2]) continue;
-      if (!mayMeet(out.vertex_box[v[0]], tree.box(b), blunt ? narrow_reach : wide_reach)) continue;
-      const Vec3 way = x[v[0]] - closestOnTriangle({x[t[0]], x[t[1]], x[t[2]]}, x[v[0]]).position;
-      const Apart gap = apart(motion, v, t, way);
-      if (!(gap.within(0, motion.horizon_s) > margin)) out.points.push_back({v[0], b, gap});
+  const std::span<const Tile> tiles = tree.tiles();
+  out.shapes.resize(tiles.size());
+  out.slacks.resize(tiles.size());
+  out.shaped.assign(tiles.size(), 0);
+  const auto shape = [&](int i) -> const TileShape& {
+    if (!std::exchange(out.shaped[i], 1)) {
+      out.shapes[i] = tree.shape(i);
+      out.slacks[i] = 0;
+      for (int v : tiles[i].vertex) out.slacks[i] = std::max(out.slacks[i], motion.slack(v));
     }
+    return out.shapes[i];
   };
-  tree.pairs(rules, [&](int a, int b) {
-    const double slack = out.triangle_slack[a] + out.triangle_slack[b];
-    double beyond = beyondPlane(motion, mesh.triangles[a], mesh.triangles[b]);
-    if (beyond > wide + slack) return;
-    beyond = std::max(beyond, beyondPlane(motion, mesh.triangles[b], mesh.triangles[a]));
-    if (beyond > wide + slack) return;
-    pointsAgainst(a, b, beyond);
-    pointsAgainst(b, a, beyond);
-    for (int k = 0; k < 3; ++k) {
-      if (!(owned_[a] & (8 << k))) continue;
-      const int e = mesh.face_edges[a][k];
-      const std::array<int, 2>& v = mesh.edges[e];
-      const MovingBox& box = out.edge_box[e];
-      for (int l = 0; l < 3; ++l) {
-        if (!(owned_[b] & (8 << l))) continue;
-        const int f = mesh.face_edges[b][l];
-        const bool blunt = (blunt_[a] & (8 << k)) || (blunt_[b] & (8 << l));
-        const double margin = (blunt ? narrow : wide) + out.edge_slack[e] + out.edge_slack[f];
-        if (beyond > margin) continue;
-        const std::array<int, 2>& y = mesh.edges[f];
-        if (v[0] == y[0] || v[0] == y[1] || v[1] == y[0] || v[1] == y[1]) continue;
-        if (!mayMeet(box, out.edge_box[f], blunt ? narrow_reach : wide_reach)) continue;
-        const SegmentPair near = nearestOnSegments(x[v[0]], x[v[1]], x[y[0]], x[y[1]]);
-        const Vec3 way = x[v[0]] + near.s * (x[v[1]] - x[v[0]]) - x[y[0]] - near.t * (x[y[1]] - x[y[0]]);
-        const Apart gap = apart(motion, v, y, way);
-        if (!(gap.within(0, motion.horizon_s) > margin)) out.edges.push_back({std::min(e, f), std::max(e, f), gap});
-      }
+  const double error = tree.shapeError_m();
+  Primitives primitives(mesh, tree, motion, rules, owned_, blunt_, out);
+  tree.pairs(rules, [&](int i, int j, auto&& covered) {
+    const std::span<const int> as = tiles[i].triangle, bs = tiles[j].triangle;
+    if (i == j) {
+      primitives.between(as.first(1), as.last(1), 0);
+      return;
     }
+    const TileShape &a = shape(i), &b = shape(j);
+    const double slack = out.slacks[i] + out.slacks[j], far = rules.margin_m + slack;
+    const auto certain = [&](const Four& gap) { return leastOf(gap)[0] * (1 - 1e-6) - error; };
+    const Four way = a.centre - b.centre;
+    if (bs[1] < 0 && blunt_[bs[0]] == kAllBlunt) {
+      // A body carries samples on its faces; all else of it meets in impacts only.
+      const double near = rules.blunt_margin_m + slack;
+      const Four corners = beyond(a, b, facing(b.normal, way));
+      double gap = certain(corners);
+      if (gap > far) return;
+      if (!(gap > near)) gap = std::max(gap, certain(beyond(a, b, TileShape::unit(way))));
+      if (!(gap > near)) gap = std::max(gap, certain(beyond(a, b, facing(a.normal, way))));
+      if (gap > far) return;
+      if (!(gap > near)) {
+        primitives.between(as, bs, gap);
+        return;
+      }
+      const MovingBox box = tree.boxOf(mesh.triangles[bs[0]]);
+      for (int t : as)
+        for (int k = 0; t >= 0 && k < 3; ++k) {
+          if (!(owned_[t] & (1 << k))) continue;
+          const auto at = std::find(tiles[i].vertex.begin(), tiles[i].vertex.end(), mesh.triangles[t][k]);
+          const float height = corners[at - tiles[i].vertex.begin()];
+          primitives.point(t, k, bs[0], box, std::max(gap, certain(all(height))));
+        }
+      return;
+    }
+    // Parts of one sheet side by side, then layers.
+    double gap = certain(beyond(a, b, TileShape::unit(way)));
+    if (gap > far) return;
+    gap = std::max(gap, certain(beyond(a, b, facing(b.normal, way))));
+    if (gap > far || covered()) return;
+    primitives.between(as, bs, gap);
   });
+  primitives.finish();
   std::sort(out.points.begin(), out.points.end());
 }
 

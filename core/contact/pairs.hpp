@@ -35,10 +35,12 @@ struct EdgeEdge {
   bool operator==(const EdgeEdge& o) const { return (*this <=> o) == 0; }
 };
 struct CandidatePairs {
-  std::vector<PointTriangle> points;            ///< ascending
-  std::vector<EdgeEdge> edges;                  ///< in no order
-  std::vector<MovingBox> vertex_box, edge_box;  ///< scratch
-  std::vector<double> edge_slack, triangle_slack;
+  std::vector<PointTriangle> points;  ///< ascending
+  std::vector<EdgeEdge> edges;        ///< in no order
+  // Scratch: of each tile, where it was asked for.
+  std::vector<TileShape> shapes;
+  std::vector<double> slacks;
+  std::vector<char> shaped;
 };
 
 /// What has no persistent contacts of its own (1) and matters to a list only within PairRules::blunt_margin_m: vertices
