@@ -9,12 +9,15 @@
 namespace gambeson {
 namespace {
 
-/// The surface at `fineness` points where the samples have one, along each direction: rows of basis functions.
+/// The surface at `fineness` points where the samples have one, along each direction, less what is trimmed off: rows of
+/// basis functions.
 SparseRows finerSurface(const Garment& garment, int fineness, const std::vector<int>& samples_per_cell) {
   SparseRows rows;
-  int first = 0, p = 0;
-  for (const NurbsPatch& patch : garment.patches) {
-    const int per_cell = fineness * std::max(1, samples_per_cell[p++]);  // 0: Greville points, one per cell
+  int first = 0;
+  for (std::size_t p = 0; p < garment.patches.size(); ++p) {
+    const NurbsPatch& patch = garment.patches[p];
+    const int per_cell = fineness * std::max(1, samples_per_cell[p]);  // 0: Greville points, one per cell
+    const bool trimmed = p < garment.trims.size() && !garment.trims[p].loops.empty();
     const auto parameters = [&](const KnotVector& knots) {
       const std::vector<double> ends = breakpoints(knots);
       std::vector<double> at;
@@ -25,6 +28,7 @@ SparseRows finerSurface(const Garment& garment, int fineness, const std::vector<
     };
     for (const double v : parameters(patch.v))
       for (const double u : parameters(patch.u)) {
+        if (trimmed && !isKept(patch, garment.trims[p], {u, v})) continue;
         const SurfaceBasis basis = surfaceBasis(patch, u, v);
         for (std::size_t k = 0; k < basis.columns.size(); ++k) rows.add(first + basis.columns[k], basis.values[0][k]);
         rows.endRow();

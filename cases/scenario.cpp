@@ -37,8 +37,8 @@ class CaseStage : public Stage {
   std::vector<Placement> shrunk;  ///< of the human's shapes, empty without projecting
   std::vector<Vec3> shrunk_skin;  ///< of the human's skin, the same
   double grow_start_s = 0, grow_s = 0;
-  std::optional<Posture> dressed;  ///< posture that the garments were put on in, left from start_s on
-  double start_s = 0;
+  std::optional<Posture> dressed;  ///< posture that the garments are put on in, left from settle_start_s on
+  double settle_start_s = 0;
   std::vector<Placement> fixed;
   std::vector<Vec3> fixed_velocity;
   std::vector<std::unique_ptr<const MeshSequence>> sequence;  ///< as `fixed`; null for those that do not deform
@@ -67,8 +67,8 @@ class CaseStage : public Stage {
   /// From the posture of dressing into that in which the motion starts, in the first two thirds of the time to settle.
   Posture postureAt(double t) const {
     const Posture first = motion->at(std::max(t, 0.0));
-    if (!dressed || t >= 0 || !(start_s < 0)) return first;
-    const double x = std::clamp(1.5 * (t - start_s) / -start_s, 0.0, 1.0);
+    if (!dressed || t >= 0 || !(settle_start_s < 0)) return first;
+    const double x = std::clamp(1.5 * (t - settle_start_s) / -settle_start_s, 0.0, 1.0);
     return blend(*dressed, first, x * x * x * (10 + x * (6 * x - 15)));
   }
 
@@ -93,6 +93,12 @@ class CaseStage : public Stage {
     return (x * x * (3 - 2 * x)) * air_velocity;
   }
 };
+
+/// Drafted on the human's measures.
+bool isDrafted(const GarmentCase& g) {
+  return std::holds_alternative<ShortsGarment>(g.shape) || std::holds_alternative<BeltGarment>(g.shape) ||
+         std::holds_alternative<ShirtGarment>(g.shape) || std::holds_alternative<SkirtGarment>(g.shape);
+}
 
 /// The garment without its seams, springs in their place, and the panels moved off the body (as `start`).
 void standPanelsApart(const Stitching& law, const std::vector<int>& samples_per_cell, Garment& garment,
@@ -533,17 +539,20 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   const double grow = project ? c.dressing.projecting->grow_s : 0, settle = human ? c.dressing.settle_s : 0;
   s->start_s = -(grow + settle);
   s->end_s = duration;
-  stage->start_s = stage->grow_start_s = s->start_s;
+  stage->grow_start_s = s->start_s;
   stage->grow_s = grow;
+  stage->settle_start_s = -settle;
   if (!c.dressing.from.empty()) {
     const Dressed dressed = readDressed(c.dressing.from);
     wear(*s, dressed);
     stage->dressed = dressed.posture;
+  } else if (settle > 0 && std::any_of(c.garments.begin(), c.garments.end(), isDrafted)) {
+    stage->dressed = standing(*s->human);  // which the garments are drafted for
   }
   if (project) {
     std::vector<Vec3> X(s->model->surface.size());
     s->model->surface.W.multiply<Vec3>(at_start, X);
-    const Posture posture = s->motion->at(0);
+    const Posture posture = stage->postureAt(s->start_s);
     const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
     const double clearance = c.dressing.projecting->clearance_m;
     if (human->skin) {
