@@ -60,6 +60,9 @@ Object fabricTable() {
       .defaultsTo("young / (2 (1 + poisson)); required where young is not given")
       .number("poisson", &F::poisson, "", {.low = 0, .high = 1, .high_open = true},
               "contraction along the warp under tension along the weft; poisson^2 young_warp < young_weft")
+      .number("jam_area", &F::jam_area, "", {.low = 0, .high = 1, .high_open = true},
+              "area ratio below which cloth pressed together in its plane jams instead of giving way "
+              "(core/material/jamming.hpp); 0: never")
       .object("bending", &F::bending, bendingTable(), "resistance to bending")
       .required()
       .build();
@@ -88,6 +91,7 @@ Fabric resolveFabric(const Place& place, const FabricInput& in) {
     f.shear_Pa = *in.shear_Pa;
   }
   f.poisson = in.poisson;
+  f.jam_area = in.jam_area;
   // The elasticity matrix of eq. 2.13 is positive definite only so.
   if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa))
     place.failAt("poisson", fmt::format("{} is out of range; allowed: below sqrt(young_weft / young_warp) = {:.4g}",
@@ -135,6 +139,7 @@ FabricInput restoreFabric(const Fabric& f) {
   in.young_warp_Pa = f.young_warp_Pa;
   in.shear_Pa = f.shear_Pa;
   in.poisson = f.poisson;
+  in.jam_area = f.jam_area;
   in.bending.law = f.bending_law;
   in.bending.rigidity_weft_Nm = f.bending_weft_Nm;
   in.bending.rigidity_warp_Nm = f.bending_warp_Nm;

@@ -27,6 +27,7 @@ struct FabricInput {
   std::optional<double> density_kg_per_m3, surface_density_kg_per_m2;
   std::optional<double> young_Pa, young_weft_Pa, young_warp_Pa, shear_Pa;
   double poisson = 0;
+  double jam_area = 0.7;
   BendingInput bending;
 };
 

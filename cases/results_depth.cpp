@@ -18,6 +18,8 @@ SparseRows finerSurface(const Garment& garment, int fineness, const std::vector<
     const NurbsPatch& patch = garment.patches[p];
     const int per_cell = fineness * std::max(1, samples_per_cell[p]);  // 0: Greville points, one per cell
     const bool trimmed = p < garment.trims.size() && !garment.trims[p].loops.empty();
+    // Just inside of the patch's border, for a loop may run along it.
+    const auto inward = [](const KnotVector& k, double at) { return at + 1e-6 * (0.5 * (k.front() + k.back()) - at); };
     const auto parameters = [&](const KnotVector& knots) {
       const std::vector<double> ends = breakpoints(knots);
       std::vector<double> at;
@@ -28,7 +30,7 @@ SparseRows finerSurface(const Garment& garment, int fineness, const std::vector<
     };
     for (const double v : parameters(patch.v))
       for (const double u : parameters(patch.u)) {
-        if (trimmed && !isKept(patch, garment.trims[p], {u, v})) continue;
+        if (trimmed && !isKept(patch, garment.trims[p], {inward(patch.u, u), inward(patch.v, v)})) continue;
         const SurfaceBasis basis = surfaceBasis(patch, u, v);
         for (std::size_t k = 0; k < basis.columns.size(); ++k) rows.add(first + basis.columns[k], basis.values[0][k]);
         rows.endRow();

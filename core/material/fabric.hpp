@@ -35,6 +35,8 @@ struct Fabric {
   /// No compression: the membrane's energy is relaxed to its tension field (core/material/tension_field.hpp). Not with
   /// a laminate whose B is not zero.
   bool tension_field = false;
+  /// Area ratio J0 below which the membrane jams (core/material/jamming.hpp); 0: never. Not with a tension field.
+  double jam_area = 0;
 
   bool operator==(const Fabric&) const = default;
 

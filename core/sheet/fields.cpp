@@ -35,9 +35,9 @@ const PatchFields* fieldsOf(const Garment& g, int patch) { return g.fields.empty
 Fabric mixture(const Fabric& a, const Fabric& b, double w) {
   Fabric f = a;
   const auto mix = [&](double in_a, double in_b) { return (1 - w) * in_a + w * in_b; };
-  for (double Fabric::*member :
-       {&Fabric::thickness_m, &Fabric::density_kg_per_m3, &Fabric::shear_Pa, &Fabric::bending_weft_Nm,
-        &Fabric::bending_warp_Nm, &Fabric::kappa0_per_m, &Fabric::kappa_regular_per_m, &Fabric::twist_Nm})
+  for (double Fabric::*member : {&Fabric::thickness_m, &Fabric::density_kg_per_m3, &Fabric::shear_Pa,
+                                 &Fabric::bending_weft_Nm, &Fabric::bending_warp_Nm, &Fabric::kappa0_per_m,
+                                 &Fabric::kappa_regular_per_m, &Fabric::twist_Nm, &Fabric::jam_area})
     f.*member = mix(a.*member, b.*member);
   const auto stiffness = [](const Fabric& g) {
     const double s = 1 - g.poisson * g.poisson * g.young_warp_Pa / g.young_weft_Pa;

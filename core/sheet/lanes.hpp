@@ -11,6 +11,7 @@
 #include <emmintrin.h>
 #endif
 
+#include "core/material/jamming.hpp"
 #include "core/sheet/shell_kernel.hpp"
 
 #define GAMBESON_CONCAT2(a, b) a##b
@@ -98,7 +99,7 @@ inline V moment(V k, double b0, double k0, double kr, V& energy) {
 
 /// PointLaw, in lanes.
 struct LawLanes {
-  V A[6], B[6], D[6], kappa0, kappa_regular, tension;
+  V A[6], B[6], D[6], kappa0, kappa_regular, tension, jam, jam_s;
 };
 static_assert(sizeof(LawLanes) == kLawDoubles * sizeof(V));
 
@@ -117,7 +118,7 @@ inline void leaveOut(const ShellLaw& law, LawLanes& l) {
     l.D[1] *= steep;
     l.kappa0 = l.tension = V{};
   }
-  if (!law.membrane) l.tension = V{};
+  if (!law.membrane) l.tension = l.jam = V{};
 }
 
 inline void constantLaw(const ShellLaw& law, LawLanes& l) {
@@ -164,6 +165,25 @@ inline V momentLanes(V k, V b0, V k0, V kr, V& energy, V& slope) {
   return m;
 }
 
+/// core/material/jamming.hpp, in lanes: adds to n, to the energy and to the slope of n (in the order of Voigt).
+template <bool kEnergy, bool kSlope>
+inline void addJam(V k, V s0, const V* e, V* n, V& energy, V* slope) {
+  const V a = 1.0 + 2.0 * e[0], b = 1.0 + 2.0 * e[1], det = a * b - e[2] * e[2];
+  const V s = det > jam_least_s ? det : splat(jam_least_s), inv = 1.0 / s;
+  const V ratio = s0 * inv, r = ratio > 1.0 ? ratio - 1.0 : V{};
+  const V push = -0.25 * k * r * ratio * inv;  // dW/ds
+  const V grad[3] = {2.0 * b, 2.0 * a, -2.0 * e[2]};
+  for (int i = 0; i < 3; ++i) n[i] += push * grad[i];
+  if constexpr (kEnergy) energy += 0.125 * k * (r * r);
+  if constexpr (kSlope) {
+    const V steep = ratio > 1.0 ? 0.25 * k * ratio * inv * inv * (ratio + 2.0 * r) : V{};  // d2W/ds2
+    constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+    for (int i = 0; i < 6; ++i) slope[i] += steep * grad[row[i]] * grad[column[i]];
+    slope[3] += 4.0 * push;
+    slope[2] -= 2.0 * push;
+  }
+}
+
 /// The general law: strain e = (E11, E22, 2 E12), curvature change k = (k11, k22, 2 k12), to n, m and the energy per
 /// area. With kSlope A and D of `l` become the slopes of n and m.
 template <bool kEnergy, bool kSlope, class Lanes>
@@ -182,6 +202,11 @@ inline void generalLaw(const ShellLaw& law, Lanes& l, const V* e, const V* k, V*
       for (int i = 0; i < 6; ++i) l.A[i] = slope[i];
   }
   if constexpr (kEnergy) energy += membrane;
+  if (law.jams) {
+    V* slope = nullptr;
+    if constexpr (kSlope) slope = l.A;
+    addJam<kEnergy, kSlope>(l.jam, l.jam_s, e, n, energy, slope);
+  }
   V coupled[3]{};
   addSymmetric(l.B, e, coupled);
   if constexpr (kEnergy) energy += coupled[0] * k[0] + coupled[1] * k[1] + coupled[2] * k[2];
@@ -215,6 +240,8 @@ struct FabricLaw {
     n[1] = law.d3 * e[0] + law.d2 * e[1];
     n[2] = law.d4 * e[2];
     if constexpr (kEnergy) energy += 0.5 * (n[0] * e[0] + n[1] * e[1] + n[2] * e[2]);
+    if (law.jams && law.membrane)
+      addJam<kEnergy, false>(splat(law.point.jam_N_per_m), splat(law.point.jam_s), e, n, energy, nullptr);
     m[0] = moment<kEnergy>(k[0], law.bending_weft, law.kappa0, law.kappa_regular, energy);
     m[1] = moment<kEnergy>(k[1], law.bending_warp, law.kappa0, law.kappa_regular, energy);
     m[2] = law.twist * k[2];

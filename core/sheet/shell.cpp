@@ -41,6 +41,7 @@ ShellLaw blockLaw(const Garment& garment, bool varies) {
     const ShellLaw more = shellLaw(other);
     law.zheng |= more.zheng;
     law.tension |= more.tension;
+    law.jams |= more.jams;
   }
   return law;
 }

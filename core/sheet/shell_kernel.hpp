@@ -13,16 +13,19 @@ namespace gambeson {
 
 /// The general law at a point: n = A e + B k, m = B e + D k (core/material/section.hpp), with eq. 2.14 for the moments
 /// of weft and warp where kappa0 > 0 (B0 in D11 and D22, the twist rigidity in D33), with the membrane relaxed to its
-/// tension field where `tension` is not 0.
+/// tension field where `tension` is not 0, and jamming (core/material/jamming.hpp) with `jam_N_per_m` below the square
+/// `jam_s` of an area ratio.
 struct PointLaw {
   Section section;
   double kappa0 = 0, kappa_regular = 0;
   double tension = 0;
+  double jam_N_per_m = 0, jam_s = 0;
 };
 constexpr int kShareDoubles = 33;  ///< of the ties at a Gauss point, and of the correction of the mean
 constexpr int kMeanDoubles = 75;   ///< of a cell's correction of the mean
 constexpr int kMaxTies = 8;        ///< Gauss points per direction of a cell with assumed strains
-constexpr int kLawDoubles = 21;    ///< A, B, D, kappa0, kappa_regular, tension: a PointLaw as the kernels read it
+constexpr int kLawDoubles =
+    23;  ///< A, B, D, kappa0, kappa_regular, tension, jam_N_per_m, jam_s: a PointLaw as the kernels read it
 static_assert(sizeof(PointLaw) == kLawDoubles * sizeof(double));
 
 /// Cells of one degree pair and one quadrature rule, packed for vectors of `lanes` doubles. All arrays run
@@ -73,7 +76,7 @@ struct ShellLaw {
   /// not enough.
   PointLaw point;
   bool general = false;
-  bool zheng = false, tension = false;  ///< whether any point follows eq. 2.14, is a tension field
+  bool zheng = false, tension = false, jams = false;  ///< whether any point follows eq. 2.14, is a tension field, jams
   /// What is left out, as in ShellTerms: of the general law in the kernel, of the numbers above by the caller.
   bool membrane = true, bending = true, steepest = false;
 };

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/material/bending.hpp"
+#include "core/material/jamming.hpp"
 #include "core/material/tension_field.hpp"
 
 namespace gambeson {
@@ -13,6 +14,8 @@ void checkFabric(const Fabric& f, const char* where) {
   const auto reject = [&](const std::string& key, const std::string& reason) {
     throw InputError({"", 0, std::string(where) + "." + key}, reason);
   };
+  if (!(f.jam_area >= 0 && f.jam_area < 1)) reject("jam_area", "must be >= 0 and < 1");
+  if (f.jam_area > 0 && f.tension_field) reject("jam_area", "is not possible for a tension field");
   if (!f.plies.empty()) {
     Section section;
     try {
@@ -46,14 +49,20 @@ void checkFabric(const Fabric& f, const char* where) {
 PointLaw pointLaw(const Fabric& f) {
   PointLaw law;
   law.tension = f.tension_field ? 1 : 0;
+  const auto jam = [&] {
+    law.jam_s = f.jam_area * f.jam_area;
+    law.jam_N_per_m = f.jam_area > 0 ? jamStiffness(law.section.A) : 0;
+  };
   if (!f.plies.empty()) {
     law.section = laminate(f.plies);
+    jam();
     return law;
   }
   const double nu21 = f.poisson * f.young_warp_Pa / f.young_weft_Pa, h = f.thickness_m;
   const double scale = h / (1 - f.poisson * nu21);
   Voigt &A = law.section.A, &D = law.section.D;
   A = {f.young_weft_Pa * scale, f.young_warp_Pa * scale, f.shear_Pa * h, f.poisson * (f.young_warp_Pa * scale), 0, 0};
+  jam();
   if (f.bending_law == BendingLaw::consistent) {
     for (int i = 0; i < 6; ++i) D[i] = A[i] * h * h / 12;
     return law;
@@ -81,6 +90,7 @@ ShellLaw shellLaw(const Fabric& f) {
   law.kappa_regular = law.point.kappa_regular;
   law.zheng = law.kappa0 > 0;
   law.tension = f.tension_field;
+  law.jams = f.jam_area > 0;
   law.general = !f.plies.empty() || f.tension_field || f.bending_law == BendingLaw::consistent;
   return law;
 }
@@ -101,6 +111,13 @@ PointResultants resultants(const PointLaw& law, const double* e, const double* k
     for (int i = 0; i < 3; ++i) r.n[i] = field.n[i];
   } else {
     times(law.section.A, e, r.n);
+  }
+  const double s = std::max(jam_least_s, (1 + 2 * e[0]) * (1 + 2 * e[1]) - e[2] * e[2]);
+  if (s < law.jam_s) {
+    const double push = -0.25 * law.jam_N_per_m * (law.jam_s / s - 1) * law.jam_s / (s * s);
+    r.n[0] += push * 2 * (1 + 2 * e[1]);
+    r.n[1] += push * 2 * (1 + 2 * e[0]);
+    r.n[2] += push * -2 * e[2];
   }
   times(law.section.B, k, r.n);
   times(law.section.B, e, r.m);
