@@ -5,11 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
 #include "human/joint_map.hpp"
+#include "human/skin_overlap.hpp"
 #include "unit/human/character_body.hpp"
 #include "unit/human/files.hpp"
 
@@ -115,6 +117,33 @@ TEST(Character, IsScaledTurnedAndPutOnTheGround) {
                     h.skin->bind[h.skeleton.link("foot_left")].origin;
   EXPECT_GT(left.y, 0.5);
   EXPECT_GT(toes.x, 0.09);
+}
+
+/// A coarse skin bound in a T-pose folds where the arms hang down; what does so at any instant is not touched at all,
+/// the rest is as it was.
+TEST(Character, WhatFoldsCanBeSwitchedOff) {
+  const Folder folder;
+  Human h = loaded(folder, body(true));
+  const auto walk = makeWalk(h, {});
+  const OverlapOfMotion o = overlapOf(h, *walk, 0.2);
+  const auto off = std::count(o.triangles.begin(), o.triangles.end(), 1);
+  ASSERT_GT(off, 0);
+  EXPECT_LE(o.folded, o.instants);
+  EXPECT_GE(o.area_m2, 0.5 * o.largest_m2);  // in the T-pose, where the armpits are stretched
+  EXPECT_FALSE(o.links.empty());
+  Skin skin = *h.skin;
+  skin.off = o.triangles;
+  const std::size_t all = skin.rest.triangles.size();
+  h.skin = std::make_shared<const Skin>(std::move(skin));
+  const Obstacle obstacle = obstaclesOf(h)[0];
+  const auto& left = std::get<TriangleMesh>(obstacle.shape);
+  EXPECT_EQ(left.triangles.size() + static_cast<std::size_t>(off), all);
+  EXPECT_EQ(left.vertices.size(), h.skin->rest.vertices.size());  // numbers of vertices stay
+  for (std::size_t t = 0; t < all; ++t) {
+    const bool there =
+        std::find(left.triangles.begin(), left.triangles.end(), h.skin->rest.triangles[t]) != left.triangles.end();
+    EXPECT_EQ(there, !o.triangles[t]);
+  }
 }
 
 TEST(Character, ClipsOfManyRigsNameTheirBonesInTheMapsThatShip) {
