@@ -239,6 +239,11 @@ void addVerify(CLI::App& app, verify::Options& o) {
   command.add_flag("--quick", o.quick, "Only the quick half");
   command.add_option("--dir", o.dir, "Folder of the references [tests/verify]")->type_name("DIR");
   command.add_option("--out", o.out, "Folder for the results [results/verify]")->type_name("DIR");
+  command
+      .add_option("--results", o.results,
+                  "Takes runs from here (DIR/REFERENCE/RUN or DIR/RUN) that are complete and of the same case, instead "
+                  "of running them; runs that were interrupted in the folder of --out go on")
+      ->type_name("DIR");
   command.add_option("--jobs", o.jobs, "Runs at a time, of one thread each; 0 for one on each core [0]")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
@@ -246,7 +251,8 @@ void addVerify(CLI::App& app, verify::Options& o) {
       "Leaves in DIR: verify.html (start here), verify.json and a folder for each run.\n\n"
       "Examples:\n"
       "  gambeson verify --quick\n"
-      "  gambeson verify --filter 'sze_3_4*' --out results/hemisphere\n\n"
+      "  gambeson verify --filter 'sze_3_4*' --out results/hemisphere\n"
+      "  gambeson verify --filter armour --out results/armour --results results/armour\n\n"
       "Exit status: 0 all references passed; 1 some failed; 2 something in the input is wrong.");
 }
 

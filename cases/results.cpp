@@ -122,6 +122,7 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   const RunFacts facts = readRunFacts(dir);
   Measured m = measure(s, recording);
   m.surface_depth = surfaceDepth(s, recording);
+  measureCloth(s, recording, m);
   writeSummary(s, recording, m, facts, dir / "summary.json");
   if (s.human) {
     std::vector<TorqueVariant> variants{{"friction", &m.added_friction}};
@@ -132,6 +133,7 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   }
   writeContact(dir / "contact.csv", m.bodies, m.windows);
   writeZones(dir / "zones.csv", m.zones);
+  writeCloth(dir, s, m);
   writeCollisions(dir / "collisions.csv", m.steps.collisions);
   if (!m.touch.empty()) writeLatitude(dir / "latitude.csv", m.touch);
   writeStress(dir / "stress.csv", m.regions, m.frames);

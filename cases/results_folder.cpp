@@ -16,9 +16,9 @@ namespace gambeson {
 namespace {
 
 /// Files of a run beside its recording, as they stand in the results folder.
-constexpr std::array kFiles{"case.json",   "run.json",       "summary.json", "torques.csv",
-                            "contact.csv", "collisions.csv", "latitude.csv", "stress.csv",
-                            "path.csv",    "shape.csv",      "report.html"};
+constexpr std::array kFiles{"case.json",      "run.json",     "summary.json", "torques.csv", "contact.csv",
+                            "collisions.csv", "latitude.csv", "stress.csv",   "zones.csv",   "patches.csv",
+                            "straps.csv",     "path.csv",     "shape.csv",    "report.html"};
 
 }  // namespace
 

@@ -78,11 +78,13 @@ struct RegionMeasure {
   double normal_N = 0, friction_N = 0;  ///< means of the sums of magnitudes
 };
 
-/// Sums of magnitudes over contacts, which opposite pressures do not cancel, of a window or in the mean over time.
+/// Sums of magnitudes over contacts, which opposite pressures do not cancel, of a window or in the mean over time; and
+/// the sum of the forces on the body, in which they do.
 struct ZoneForce {
   double force_N = 0, normal_N = 0, friction_N = 0;
+  Vec3 resultant_N;
   ZoneForce& operator+=(const ZoneForce& o) {
-    force_N += o.force_N, normal_N += o.normal_N, friction_N += o.friction_N;
+    force_N += o.force_N, normal_N += o.normal_N, friction_N += o.friction_N, resultant_N += o.resultant_N;
     return *this;
   }
 };
@@ -94,10 +96,14 @@ struct ZonesMeasure {
   std::vector<std::vector<ZoneForce>> mean;  ///< [group][zone], over time
   std::vector<double> time_s;                ///< of the windows of the motion, and in each [zone]
   std::vector<std::vector<ZoneForce>> all, free;
+  /// Time means of the norm of each zone's resultant, of all and of what presses freely.
+  std::vector<double> mean_resultant_N, mean_free_resultant_N;
 
   /// In the mean, of the zones that are called `zone` or "<zone>_left" and "<zone>_right" ("": of all); `free`: without
   /// belt and edges on springs. A zone that the body lacks bears nothing.
   ZoneForce of(const std::string& zone, bool free_only) const;
+  /// Sum of the means of the norms of the resultants of those zones.
+  double resultantOf(const std::string& zone, bool free_only) const;
 };
 
 /// Pressure on one part of the body, from Measured::counted_from_s on, of the places that bear most.
@@ -191,6 +197,37 @@ struct LayerMeasure {
 };
 std::vector<LayerMeasure> layersOf(const Scenario& scenario);
 
+/// Of one patch in one frame: the first principal stress resultant, and how it is bent. NaN where there is no such
+/// sample.
+struct PatchMeasure {
+  double inner_p95_N_per_m = 0, inner_max_N_per_m = 0;  ///< without the cells at free edges (analysis/sheet_cells.hpp)
+  double clear_max_N_per_m = 0;                         ///< without the cells at re-entrant corners
+  double curvature_rms_1_per_m = 0;                     ///< root of the mean of k11^2 + k22^2 + 2 k12^2
+};
+
+/// What the straps carry (tryon/strap_cut.hpp); without cuts where there are none, or strains are limited.
+struct StrapsMeasure {
+  struct Cut {
+    std::string name;  ///< "shirt strap_left start"
+    double width_m = 0;
+  };
+  struct At {
+    double time_s = 0;
+    std::vector<Vec3> pull_N;          ///< of each cut, on what hangs from it
+    Vec3 weight_N, contact_N;          ///< of the straps' garment but the straps' middles; of bodies on it
+    Vec3 all_weight_N, all_contact_N;  ///< the same of all garments: what cloth does to cloth cancels
+    Vec3 supports_N;                   ///< on all garments
+  };
+  std::vector<Cut> cuts;
+  std::vector<At> at;  ///< the frames of the motion
+  At mean;             ///< of those that count
+  double width_m() const {
+    double sum = 0;
+    for (const Cut& c : cuts) sum += c.width_m;
+    return sum;
+  }
+};
+
 struct Measured {
   double recorded_end_s = 0;
   double counted_from_s = 0;  ///< peaks and mean squares of torques count from here on
@@ -208,6 +245,9 @@ struct Measured {
   std::vector<ComfortMeasure> comfort;  ///< of the parts that are touched
   std::shared_ptr<const BodyMap> body;  ///< with its loads; null without a human
   BodyLoads body_loads;
+  std::vector<double> cloth_time_s;              ///< of the frames of the motion
+  std::vector<std::vector<PatchMeasure>> cloth;  ///< [frame][patch]
+  StrapsMeasure straps;
   double peak_time_s = 0;  ///< of the largest added torque; without joints of the largest sum of contact forces
   std::vector<SupportMeasure> supports;
   std::vector<TouchMeasure> touch;  ///< of each body; empty without frames
@@ -232,6 +272,8 @@ void measureFrames(const RecordingReader& recording, Measured& out);
 void measureComfort(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of results_zones.cpp; after the joints, which say from when on windows count.
 void measureZones(const Scenario& scenario, const RecordingReader& recording, Measured& out);
+/// Of results_cloth.cpp: costs seconds; after the joints.
+void measureCloth(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of results_touch.cpp.
 void measureTouch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 

@@ -144,7 +144,10 @@ Json zonesJson(const ZonesMeasure& m) {
     of["sum"] = {{"force_N", total.force_N}, {"normal_N", total.normal_N}, {"friction_N", total.friction_N}};
     for (const std::string& zone : zones) {
       const ZoneForce f = m.of(zone, free);
-      of[zone] = {{"force_N", f.force_N}, {"normal_N", f.normal_N}, {"friction_N", f.friction_N}};
+      of[zone] = {{"force_N", f.force_N},
+                  {"normal_N", f.normal_N},
+                  {"friction_N", f.friction_N},
+                  {"mean_resultant_N", m.resultantOf(zone, free)}};
       if (total.normal_N > 0) of[zone]["normal_share"] = f.normal_N / total.normal_N;
     }
     const ZoneForce shoulder = m.of("shoulder", free), thigh = m.of("thigh", free);
@@ -153,7 +156,39 @@ Json zonesJson(const ZonesMeasure& m) {
       of["normal_share_of_shoulder_and_thigh"] = (shoulder.normal_N + thigh.normal_N) / total.normal_N;
     if (shoulder.force_N > 0) of["thigh_to_shoulder"] = thigh.force_N / shoulder.force_N;
     if (left > 0) of["right_to_left_shoulder"] = m.of("shoulder_right", free).force_N / left;
+    // Of each side's resultant: what pushes it, without what squeezes it.
+    const double push = m.resultantOf("shoulder", free), push_left = m.resultantOf("shoulder_left", free);
+    if (push > 0) of["thigh_to_shoulder_resultants"] = m.resultantOf("thigh", free) / push;
+    if (push_left > 0) of["right_to_left_shoulder_resultants"] = m.resultantOf("shoulder_right", free) / push_left;
   }
+  return j;
+}
+
+/// Means over the frames that count; "up" is against gravity.
+Json strapsJson(const StrapsMeasure& m, const Vec3& gravity) {
+  const double g = norm(gravity);
+  if (m.cuts.empty() || !(g > 0)) return nullptr;
+  const Vec3 up = -gravity / g;
+  Json j{{"cuts", Json::array()}};
+  double pull = 0;
+  for (std::size_t c = 0; c < m.cuts.size() && c < m.mean.pull_N.size(); ++c) {
+    const Vec3& f = m.mean.pull_N[c];
+    pull += dot(f, up);
+    j["cuts"].push_back({{"cut", m.cuts[c].name}, {"width_m", m.cuts[c].width_m}, {"pull_N", Json{f.x, f.y, f.z}}});
+  }
+  const double weight = -dot(m.mean.weight_N, up), contact = dot(m.mean.contact_N, up);
+  j["width_m"] = m.width_m();
+  j["pull_up_N"] = pull;
+  j["weight_below_N"] = weight;
+  j["contact_below_up_N"] = contact;
+  // What the other garments bear of the straps' garment.
+  j["weight_on_cloth_below_N"] = weight - pull - contact;
+  const double all = -dot(m.mean.all_weight_N, up);
+  j["all_weight_below_N"] = all;
+  j["all_contact_below_up_N"] = dot(m.mean.all_contact_N, up);
+  j["supports_up_N"] = dot(m.mean.supports_N, up);
+  if (weight > 0) j["balance_error"] = (pull + dot(m.mean.all_contact_N + m.mean.supports_N, up) - all) / weight;
+  if (m.width_m() > 0) j["pull_up_N_per_m"] = pull / m.width_m();
   return j;
 }
 
@@ -225,6 +260,8 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
         {"light", nameOf(c.light())},   {"mean_Pa", c.mean_Pa},           {"peak_Pa", c.peak_Pa},
         {"peak_time_s", c.peak_time_s}, {"dose_kPa_min", c.dose_kPa_min}, {"above_amber_m2", c.amber_m2},
         {"amber_Pa", c.limit.amber_Pa}, {"red_Pa", c.limit.red_Pa},       {"peak_limit_Pa", c.limit.peak_Pa}};
+  if (Json straps = strapsJson(m.straps, s.model->environment.gravity_m_per_s2); !straps.is_null())
+    j["straps"] = std::move(straps);
   j["contact"] = Json::array();
   for (const BodyMeasure& b : m.contact)
     j["contact"].push_back({{"segment", b.contact.segment},

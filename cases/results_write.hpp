@@ -28,6 +28,10 @@ void writeCollisions(const std::filesystem::path& csv, std::span<const Collision
 /// without belt and edges on springs.
 void writeZones(const std::filesystem::path& csv, const ZonesMeasure& zones);
 
+/// Replaces DIR/patches.csv: stress away from free edges and from re-entrant corners, and curvature, of each patch in
+/// each frame of the motion; and, where there are straps, DIR/straps.csv: what they carry.
+void writeCloth(const std::filesystem::path& dir, const Scenario& scenario, const Measured& measured);
+
 /// Which parts of the body bear the garment, for the page; nothing where nothing touches.
 void addZones(const Measured& measured, ReportInput& in);
 

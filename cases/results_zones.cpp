@@ -6,6 +6,7 @@
 
 #include "cases/results_write.hpp"
 #include "cases/zone_ledger.hpp"
+#include "core/error.hpp"
 #include "core/io/csv.hpp"
 
 namespace gambeson {
@@ -25,14 +26,25 @@ ZoneForce ZonesMeasure::of(const std::string& zone, bool free_only) const {
   return sum;
 }
 
+double ZonesMeasure::resultantOf(const std::string& zone, bool free_only) const {
+  double sum = 0;
+  for (std::size_t z = 0; z < names.size(); ++z)
+    if (fits(names[z], zone)) sum += (free_only ? mean_free_resultant_N : mean_resultant_N)[z];
+  return sum;
+}
+
 void measureZones(const Scenario& s, const RecordingReader& recording, Measured& out) {
   ZonesMeasure& m = out.zones;
   m.names = zoneNames(s);
   m.groups = s.contact_groups;
   m.mean.assign(m.groups.size(), std::vector<ZoneForce>(m.names.size()));
+  m.mean_resultant_N.assign(m.names.size(), 0);
+  m.mean_free_resultant_N.assign(m.names.size(), 0);
   double counted_s = 0;
   for (const auto& r : recording.table("body_zones")) {
     if (r[0] < -1e-9) continue;
+    if (r.size() != 2 + ZoneLedger::kParts * m.groups.size() * m.names.size())
+      throw RunError("the recording tells the contact of body zones in another form: it is of another version");
     const double dt = r[1] - r[0];
     const bool counts = r[0] > out.counted_from_s - 1e-9;
     if (counts) counted_s += dt;
@@ -42,28 +54,37 @@ void measureZones(const Scenario& s, const RecordingReader& recording, Measured&
     for (std::size_t g = 0; g < m.groups.size(); ++g)
       for (std::size_t z = 0; z < m.names.size(); ++z) {
         const double* v = &r[2 + ZoneLedger::kParts * (g * m.names.size() + z)];
-        const ZoneForce f{v[0] / dt, v[1] / dt, v[2] / dt};
+        const ZoneForce f{v[0] / dt, v[1] / dt, v[2] / dt, Vec3{v[3], v[4], v[5]} / dt};
         m.all.back()[z] += f;
         if (m.groups[g].press == Press::free) m.free.back()[z] += f;
-        if (counts) m.mean[g][z] += {v[0], v[1], v[2]};
+        if (counts) m.mean[g][z] += {v[0], v[1], v[2], {v[3], v[4], v[5]}};
       }
+    for (std::size_t z = 0; counts && z < m.names.size(); ++z) {
+      m.mean_resultant_N[z] += dt * norm(m.all.back()[z].resultant_N);
+      m.mean_free_resultant_N[z] += dt * norm(m.free.back()[z].resultant_N);
+    }
   }
-  if (counted_s > 0)
-    for (auto& zones : m.mean)
-      for (ZoneForce& f : zones) f = {f.force_N / counted_s, f.normal_N / counted_s, f.friction_N / counted_s};
+  if (!(counted_s > 0)) return;
+  for (auto& zones : m.mean)
+    for (ZoneForce& f : zones)
+      f = {f.force_N / counted_s, f.normal_N / counted_s, f.friction_N / counted_s, f.resultant_N / counted_s};
+  for (auto* means : {&m.mean_resultant_N, &m.mean_free_resultant_N})
+    for (double& f : *means) f /= counted_s;
 }
 
 void writeZones(const std::filesystem::path& csv, const ZonesMeasure& m) {
   std::vector<std::string> columns{"time_s"};
   for (const std::string& name : m.names)
     columns.insert(columns.end(),
-                   {name + "_N", name + "_normal_N", name + "_friction_N", name + "_without_belt_and_springs_N"});
+                   {name + "_N", name + "_normal_N", name + "_friction_N", name + "_without_belt_and_springs_N",
+                    name + "_resultant_N", name + "_resultant_without_belt_and_springs_N"});
   std::vector<std::vector<double>> rows;
   for (std::size_t w = 0; w < m.time_s.size(); ++w) {
     rows.push_back({m.time_s[w]});
     for (std::size_t z = 0; z < m.names.size(); ++z) {
       const ZoneForce& f = m.all[w][z];
-      rows.back().insert(rows.back().end(), {f.force_N, f.normal_N, f.friction_N, m.free[w][z].force_N});
+      rows.back().insert(rows.back().end(), {f.force_N, f.normal_N, f.friction_N, m.free[w][z].force_N,
+                                             norm(f.resultant_N), norm(m.free[w][z].resultant_N)});
     }
   }
   writeCsv(csv, columns, rows);

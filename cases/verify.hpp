@@ -39,6 +39,16 @@ struct Quantity {
   double convert(double x) const { return scale * x + offset; }
 };
 
+/// A course in time of a run: columns of a table whose first column is the time, joined row by row.
+struct History {
+  enum class Of { sum, mean, largest };
+  std::string run, table = "torques.csv";
+  std::vector<std::string> columns;
+  Of of = Of::sum;
+  double scale = 1;
+  std::optional<double> from_s, to_s;  ///< instead of the check's
+};
+
 /// A column of a run's table beside a column of the reference's table.
 struct Pair {
   std::string column, reference;
@@ -47,8 +57,12 @@ struct Pair {
 
 /// Compares; what the members mean depends on the kind.
 struct Check {
-  enum class Kind { value, curve, table, rate, waves, wrinkles };
+  enum class Kind { value, history, curve, table, rate, waves, wrinkles };
   Kind kind = Kind::value;
+  /// Of a list of claims: which one, and how much hangs on it. Only what must hold is gated.
+  enum class Priority { none, must, should, nice };
+  std::string item;
+  Priority priority = Priority::none;
   std::string quantity, unit;  ///< what is measured, in words
   std::string note;            ///< on the page: where the tolerance comes from, why it is not gated
   bool gated = true;
@@ -57,6 +71,26 @@ struct Check {
   Quantity of;
   std::optional<Quantity> minus, over;
   std::optional<double> reference, relative, absolute, at_least, at_most;
+  std::optional<double> period;  ///< the difference is taken to the nearest whole number of these
+
+  // history: of `first` and `second` at the times of `first` from `from_s` to `to_s`, `second` shift_s later
+  enum class Course {
+    correlation,    ///< Pearson's
+    difference,     ///< RMS of their difference over the peak of `first`
+    rank,           ///< Spearman's, of `first` with time
+    peak,           ///< max |first|
+    peak_ratio,     ///< max |first| / max |second|
+    peak_time,      ///< of max |first|, of max second the time later: first - second
+    mean,           ///< of `first`
+    mean_ratio,     ///< mean of `first` / mean of `second`
+    growth,         ///< |first| at to_s / |first| at from_s
+    last_ratio,     ///< |first| / |second| at to_s
+    other_at_peak,  ///< |second| / |first| where |first| is largest
+    greater_share,  ///< part of the times at which first > second
+  };
+  Course course = Course::peak;
+  std::optional<History> first, second;
+  double shift_s = 0, from_s = 0, to_s = 0;
 
   // curve and table
   std::string run;
@@ -102,6 +136,7 @@ struct Reference {
   std::filesystem::path file;
   std::string id, title, group, source, doc;
   bool quick = false;
+  bool on_demand = false;  ///< runs only where a filter names it: it takes an hour
   JsonNode inline_case;
   std::filesystem::path case_file;
   ReferenceTable table;
@@ -126,6 +161,7 @@ struct Outcome {
   std::string why;  ///< empty: it succeeded
   double seconds = 0;
   std::filesystem::path folder;
+  bool kept = false;  ///< an earlier run was taken as it is
 };
 
 /// The numbers of the runs of one reference. Throw RunError where there is no such number.
@@ -139,6 +175,7 @@ class RunNumbers {
 /// One line of verify.json. Absent: there is no number, `note` says why.
 struct Result {
   std::string id, source, quantity, unit;
+  std::string item, priority;  ///< of a list of claims, or empty
   std::optional<double> measured, reference, tolerance;
   bool passed = false, gated = true;
   bool other_run = false;  ///< of a run named in `also`: the page shows it as convergence
@@ -224,11 +261,20 @@ std::vector<Outcome> runJobs(const std::vector<Job>& jobs, int parallel,
 
 struct Options {
   std::filesystem::path dir = "tests/verify", out = "results/verify";
+  std::filesystem::path results;     ///< where runs are looked for that need not be repeated; empty: nowhere
   std::vector<std::string> filters;  ///< shell patterns of ids; empty: all
   int jobs = 0;                      ///< 0: one for each core
   bool quick = false;
   std::string binary = "/proc/self/exe";  ///< the command that runs a case
 };
+
+/// Identity (caseIdentity) of a run's case with its values set; nothing for a case of structures, or one that cannot be
+/// read (its run says why).
+std::optional<std::string> caseHash(const Reference& reference, const Run& run);
+/// Wall time of the run that `folder` holds, where it is of that case and came to its planned end.
+std::optional<double> completeRun(const std::filesystem::path& folder, const std::string& hash);
+/// Whether `folder` holds the recording of a run of that case.
+bool interruptedRun(const std::filesystem::path& folder, const std::optional<std::string>& hash);
 
 /// References of the folder that the options choose, by id. Throws InputError: no such folder, nothing chosen.
 std::vector<Reference> chooseReferences(const Options& options);

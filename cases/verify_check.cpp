@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/history.hpp"
 #include "cases/schema.hpp"
 #include "cases/verify.hpp"
 #include "core/error.hpp"
@@ -123,7 +124,11 @@ Result resultOf(const Reference& reference, const Check& c, const std::string& r
   r.quantity = gated || run.empty() ? c.quantity : c.quantity + " (" + run + ")";
   const bool deviation = c.kind == Check::Kind::curve || c.kind == Check::Kind::table;
   r.unit = deviation && c.unit.empty() ? "of the largest" : c.unit;
-  r.gated = gated && c.gated;
+  r.item = c.item;
+  if (c.priority == Check::Priority::must) r.priority = "must";
+  if (c.priority == Check::Priority::should) r.priority = "should";
+  if (c.priority == Check::Priority::nice) r.priority = "nice";
+  r.gated = gated && c.gated && (c.priority == Check::Priority::none || c.priority == Check::Priority::must);
   r.note = c.note;
   return r;
 }
@@ -156,8 +161,84 @@ double valueOf(const Check& c, const std::string& instead, const RunNumbers& num
   };
   double v = number(c.of);
   if (c.minus) v -= number(*c.minus);
+  if (c.period) v = wrapped(v, *c.period);
   if (c.over) v /= number(*c.over);
   return v;
+}
+
+Course courseOf(const History& h, const RunNumbers& numbers) {
+  const Numbers& t = numbers.table(h.run, h.table);
+  Course course;
+  std::vector<std::size_t> at;
+  for (const std::string& name : h.columns) at.push_back(t.find(name));
+  for (const auto& row : t.rows) {
+    course.time_s.push_back(row.front());
+    double v = h.of == History::Of::largest ? -std::numeric_limits<double>::infinity() : 0;
+    for (const std::size_t c : at)
+      if (h.of != History::Of::largest)
+        v += row[c];
+      else if (!(v >= row[c]))  // a NaN wins
+        v = row[c];
+    if (h.of == History::Of::mean) v /= static_cast<double>(at.size());
+    course.value.push_back(h.scale * v);
+  }
+  return course;
+}
+
+double measureOf(const Check& c, const RunNumbers& numbers, Shown& shown) {
+  const auto part = [&](const History& h) {
+    return within(courseOf(h, numbers), h.from_s.value_or(c.from_s), h.to_s.value_or(c.to_s));
+  };
+  Course a = part(*c.first), b;
+  const auto show = [&](const History& h, const Course& x) {
+    shown.measured.push_back({h.run + ": " + schema::joined(h.columns), x.time_s, x.value});
+  };
+  show(*c.first, a);
+  if (c.second) {
+    switch (c.course) {
+      case Check::Course::peak_ratio:
+      case Check::Course::mean_ratio:
+      case Check::Course::peak_time:
+      case Check::Course::last_ratio:
+        b = part(*c.second);
+        break;
+      default:
+        b = resampled(courseOf(*c.second, numbers), a, c.shift_s);
+        b = within(b, a.time_s.front(), a.time_s.back());
+    }
+    show(*c.second, b);
+  }
+  switch (c.course) {
+    case Check::Course::correlation:
+      return correlation(a.value, b.value);
+    case Check::Course::difference:
+      return differenceOverPeak(a.value, b.value);
+    case Check::Course::rank:
+      return rankCorrelation(a.time_s, a.value);
+    case Check::Course::peak:
+      return largestOf(a.value).value;
+    case Check::Course::peak_ratio:
+      return largestOf(a.value).value / largestOf(b.value).value;
+    case Check::Course::peak_time: {
+      const auto most = std::max_element(b.value.begin(), b.value.end()) - b.value.begin();
+      return a.time_s[largestOf(a.value).at] - b.time_s[static_cast<std::size_t>(most)];
+    }
+    case Check::Course::mean:
+      return meanOf(a.value);
+    case Check::Course::mean_ratio:
+      return meanOf(a.value) / meanOf(b.value);
+    case Check::Course::growth:
+      return std::abs(a.value.back() / a.value.front());
+    case Check::Course::last_ratio:
+      return std::abs(a.value.back() / b.value.back());
+    case Check::Course::other_at_peak: {
+      const Largest most = largestOf(a.value);
+      return std::abs(b.value[most.at]) / most.value;
+    }
+    case Check::Course::greater_share:
+      return greaterShare(a.value, b.value);
+  }
+  return 0;
 }
 
 /// Judges the gated run, then the others in the order in which they are written (coarse to fine), so that the page
@@ -289,6 +370,16 @@ void judgeRate(const Reference& reference, const Check& c, const RunNumbers& num
   out.shown = std::move(shown);
 }
 
+void judgeHistory(const Reference& reference, const Check& c, const RunNumbers& numbers, Judged& out) {
+  Shown shown;
+  shown.title = c.item.empty() ? c.quantity : c.item + ": " + c.quantity;
+  shown.x_name = "time [s]";
+  shown.y_name = c.unit;
+  out.results.push_back(
+      attempt(resultOf(reference, c, "", true), [&](Result& r) { decide(c, measureOf(c, numbers, shown), r); }));
+  if (!shown.measured.empty()) out.shown = std::move(shown);
+}
+
 /// Number of crests of a closed profile, or mean distance of the crests of an open one.
 void judgeWaves(const Reference& reference, const Check& c, const RunNumbers& numbers, Judged& out) {
   Shown shown;
@@ -370,6 +461,9 @@ Judged judge(const Reference& reference, const Check& check, const RunNumbers& n
             decide(check, valueOf(check, gated ? "" : run, numbers), r);
           },
           out);
+      break;
+    case Check::Kind::history:
+      judgeHistory(reference, check, numbers, out);
       break;
     case Check::Kind::curve:
     case Check::Kind::table:

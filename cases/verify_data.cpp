@@ -88,6 +88,9 @@ class Files : public RunNumbers {
         need(c.of, c.kind == Check::Kind::rate ? c.runs : c.also);
         if (c.minus) need(*c.minus, c.also);
         if (c.over) need(*c.over, c.also);
+      } else if (c.kind == Check::Kind::history) {
+        for (const auto* h : {&c.first, &c.second})
+          if (*h) loadTable((*h)->run, (*h)->table);
       } else {
         if (!c.run.empty()) loadTable(c.run, c.file);
         for (const auto* runs : {&c.also, &c.runs, &c.reference_runs})

@@ -71,6 +71,8 @@ std::string resultTable(const Verified& v) {
   for (const Result& r : v.results()) {
     if (r.other_run) continue;
     std::string what = escape(r.quantity);
+    if (!r.item.empty())
+      what = element("b", escape(r.item)) + (r.priority.empty() ? "" : " (" + escape(r.priority) + ")") + ": " + what;
     if (!r.note.empty()) what += "<br><span class=\"soft\">" + escape(r.note) + "</span>";
     const std::string none = r.gated ? "none" : "";  // to be compared with
     rows += element("tr", cell(verdict(r)) + cell(what) + cell(escape(r.unit)) + cell(numberText(r.measured), true) +

@@ -119,6 +119,46 @@ schema::Object reportedTable(const std::string& title, const std::string& column
       .build();
 }
 
+schema::Object historyTable() {
+  using H = History;
+  return Fields<H>("History")
+      .text("run", &H::run, "the run that it is taken from")
+      .required()
+      .text("table", &H::table, "file of the table; its first column is the time")
+      .texts("columns", &H::columns, "columns of the table")
+      .required()
+      .choice("join", &H::of,
+              std::vector<std::pair<std::string, H::Of>>{
+                  {"sum", H::Of::sum}, {"mean", H::Of::mean}, {"largest", H::Of::largest}},
+              "how several columns become one course")
+      .number("scale", &H::scale, "", schema::any(), "the course is multiplied by it")
+      .number("from", &H::from_s, "s", schema::any(), "first time, instead of the check's")
+      .number("to", &H::to_s, "s", schema::any(), "last time, instead of the check's")
+      .build();
+}
+
+const std::vector<std::pair<std::string, Check::Course>>& courses() {
+  using C = Check::Course;
+  static const std::vector<std::pair<std::string, C>> names{{"correlation", C::correlation},
+                                                            {"difference", C::difference},
+                                                            {"rank", C::rank},
+                                                            {"peak", C::peak},
+                                                            {"peak_ratio", C::peak_ratio},
+                                                            {"peak_time", C::peak_time},
+                                                            {"mean", C::mean},
+                                                            {"mean_ratio", C::mean_ratio},
+                                                            {"growth", C::growth},
+                                                            {"last_ratio", C::last_ratio},
+                                                            {"other_at_peak", C::other_at_peak},
+                                                            {"greater_share", C::greater_share}};
+  return names;
+}
+
+bool ofOne(Check::Course c) {
+  using C = Check::Course;
+  return c == C::rank || c == C::peak || c == C::mean || c == C::growth;
+}
+
 struct KindRule {
   std::string name;
   Check::Kind kind;
@@ -130,7 +170,11 @@ const std::vector<KindRule>& kinds() {
       {"value",
        Check::Kind::value,
        {"of"},
-       {"minus", "over", "reference", "relative", "absolute", "at_least", "at_most", "also"}},
+       {"minus", "over", "period", "reference", "relative", "absolute", "at_least", "at_most", "also"}},
+      {"history",
+       Check::Kind::history,
+       {"course", "first", "from", "to"},
+       {"second", "shift", "reference", "relative", "absolute", "at_least", "at_most"}},
       {"curve", Check::Kind::curve, {"run", "x", "y", "bound"}, {"also", "table", "reported"}},
       {"table", Check::Kind::table, {"run", "x", "y", "bound"}, {"also", "table", "reported", "interpolated"}},
       {"rate",
@@ -173,11 +217,23 @@ schema::Object checkTable() {
   t.text("quantity", &C::quantity, "what is measured, in words").required();
   t.text("unit", &C::unit, "unit of the number");
   t.text("note", &C::note, "said on the page beside the result");
+  t.text("item", &C::item, "claim of a list that the check belongs to");
+  t.choice("priority", &C::priority,
+           std::vector<std::pair<std::string, C::Priority>>{
+               {"must", C::Priority::must}, {"should", C::Priority::should}, {"nice", C::Priority::nice}},
+           "of the claim: what must hold is gated, the rest is reported");
   boolean(t, "gated", &C::gated, "false: reported, a deviation is no failure");
   t.object("of", &C::of, quantityTable(), "the number");
   t.object("minus", &C::minus, quantityTable(), "subtracted from it");
   t.object("over", &C::over, quantityTable(), "divides it");
   const schema::Range tolerance = schema::above(0);
+  optionalNumber(t, "period", &C::period, "the difference is taken to the nearest whole number of these", tolerance);
+  t.choice("course", &C::course, courses(), "what is taken of the histories");
+  t.object("first", &C::first, historyTable(), "a course in time");
+  t.object("second", &C::second, historyTable(), "another");
+  t.number("shift", &C::shift_s, "s", schema::any(), "`second` is taken this much later");
+  t.number("from", &C::from_s, "s", schema::any(), "first time");
+  t.number("to", &C::to_s, "s", schema::any(), "last time");
   optionalNumber(t, "reference", &C::reference, "the published number");
   optionalNumber(t, "relative", &C::relative, "tolerance as a part of the reference", tolerance);
   optionalNumber(t, "absolute", &C::absolute, "tolerance in the unit of the number", tolerance);
@@ -224,10 +280,17 @@ schema::Object checkTable() {
       const auto in = [&](const std::vector<std::string>& v) {
         return std::find(v.begin(), v.end(), n.key) != v.end();
       };
-      if (!in({"kind", "quantity", "unit", "note", "gated"}) && !in(rule->needs) && !in(rule->allows))
+      if (!in({"kind", "quantity", "unit", "note", "gated", "item", "priority"}) && !in(rule->needs) &&
+          !in(rule->allows))
         p.failAt(n.key, fmt::format("is not for a check of kind {}", rule->name));
     }
     if (c.kind != C::Kind::curve && c.kind != C::Kind::table) checkGoal(p, c);
+    if (c.kind == C::Kind::history) {
+      if (ofOne(c.course) && c.second) p.failAt("second", "this course is of one history");
+      if (!ofOne(c.course) && !c.second) p.fail("this course needs second");
+      if (!(c.to_s > c.from_s)) p.failAt("to", "must be later than from");
+    }
+    if (c.priority != C::Priority::none && c.item.empty()) p.failAt("priority", "goes with item");
     if (c.kind == C::Kind::waves && c.run.empty() == c.runs.empty()) p.fail("needs one of run and runs");
     if (c.kind == C::Kind::waves && c.runs.empty() && !c.reference_runs.empty())
       p.failAt("reference_runs", "goes with runs");
@@ -329,6 +392,8 @@ void checkNames(const Place& p, const Reference& r) {
     };
     if (c.kind == Check::Kind::value) quantity("of", c.of);
     if (c.kind == Check::Kind::rate && !c.of.runs.empty()) place.failAt("of", "takes its runs from the check");
+    if (c.first) known("first", c.first->run);
+    if (c.second) known("second", c.second->run);
     if (c.minus) quantity("minus", *c.minus);
     if (c.over) quantity("over", *c.over);
     if (c.kind == Check::Kind::curve || c.kind == Check::Kind::table) {
@@ -349,6 +414,7 @@ schema::Object referenceTable() {
   t.text("source", &R::source, "where the published numbers are from").required();
   t.text("doc", &R::doc, "problem, mesh, what is compared and why the tolerance is what it is").required();
   boolean(t, "quick", &R::quick, "belongs to the quick half");
+  boolean(t, "on_demand", &R::on_demand, "runs only where a filter names it");
   t.custom(
       field("case", Kind::path, "case of the runs: a file, or the case itself"),
       [](const Place& p, R& r) { readCase(p, r.case_file, r.inline_case); }, unwritten);

@@ -97,12 +97,25 @@ Outcome runJob(const Job& job) {
   return o;
 }
 
+/// The outcome of a run that is complete already, looked for where the options say.
+std::optional<Outcome> keptRun(const Reference& reference, const Run& run, const Options& options) {
+  if (options.results.empty()) return {};
+  const auto hash = caseHash(reference, run);
+  if (!hash) return {};
+  for (const std::filesystem::path& folder : {options.results / reference.id / run.name, options.results / run.name}) {
+    const auto seconds = completeRun(folder, *hash);
+    if (seconds) return Outcome{"", *seconds, std::filesystem::absolute(folder), true};
+  }
+  return {};
+}
+
 /// The job of a run. A case that is written in the reference becomes a file beside the results, values set, so that it
-/// can be run again by hand.
+/// can be run again by hand. A run of the same case that was interrupted there goes on where the options ask for it.
 Job jobOf(const Reference& reference, const Run& run, const Options& options) {
   const std::filesystem::path base = options.out / reference.id, folder = base / run.name;
   std::error_code error;
-  std::filesystem::remove_all(folder, error);
+  const bool goes_on = !options.results.empty() && interruptedRun(folder, caseHash(reference, run));
+  if (!goes_on) std::filesystem::remove_all(folder, error);
   std::filesystem::create_directories(folder, error);
   if (error) throw RunError(fmt::format("{}: {}", folder.string(), error.message()));
   const bool own = !run.file.empty() || run.inline_case.type != JsonNode::Type::null;
@@ -127,6 +140,7 @@ Job jobOf(const Reference& reference, const Run& run, const Options& options) {
           base / (run.name + ".log"),
           folder,
           run.limit_s};
+  if (goes_on) job.command.emplace_back("--resume");
   job.command.insert(job.command.end(), changes.begin(), changes.end());
   return job;
 }
@@ -135,18 +149,36 @@ std::string commandOf(const Options& o) {
   std::string s = "gambeson verify";
   for (const std::string& f : o.filters) s += " --filter '" + f + "'";
   if (o.quick) s += " --quick";
+  if (!o.results.empty()) s += " --results " + o.results.string();
   return s + fmt::format(" --dir {} --jobs {}", o.dir.string(), o.jobs);
+}
+
+/// " (0.33 within 0.12)", " (at least 0.9)".
+std::string goalText(const Result& r) {
+  if (!r.reference) return "";
+  if (r.tolerance) return fmt::format(" ({:.4g} within {:.3g})", *r.reference, *r.tolerance);
+  return fmt::format(" ({} {:.4g})", r.note.starts_with("at least") ? "at least" : "at most", *r.reference);
 }
 
 /// "passed  sze_3_1  4 of 4 checks, largest deviation 12 % of its tolerance, 3 s"
 void say(std::ostream& out, const Verified& v) {
   int gated = 0, good = 0;
   std::string failures;
+  std::string claims;
   for (const Result& r : v.results()) {
+    if (!r.item.empty())
+      claims += fmt::format("    {:<8} {:<7} {:<6} {}: {}{}\n", r.item, r.priority,
+                            !r.measured ? "none"
+                            : r.passed  ? "holds"
+                            : r.gated   ? "FAILED"
+                                        : "off",
+                            r.quantity, r.measured ? fmt::format("{:.4g}", *r.measured) : r.note,
+                            r.measured ? goalText(r) : "");
     if (!r.gated) continue;
     ++gated;
     good += r.passed;
     // A run that failed is said once, not again with every number that it does not give.
+    if (!r.item.empty()) continue;  // said among the claims
     if (r.passed || (!r.measured && r.note.starts_with("run ") && r.note.find(" failed: ") != std::string::npos))
       continue;
     failures += fmt::format("    {}: ", r.quantity);
@@ -156,7 +188,7 @@ void say(std::ostream& out, const Verified& v) {
     failures += (r.note.empty() ? "" : " (" + r.note + ")") + "\n";
   }
   out << fmt::format("{}  {}  {} of {} checks, {}\n{}", v.passed() ? "passed" : "FAILED", v.reference.id, good, gated,
-                     durationText(v.seconds), failures)
+                     durationText(v.seconds), claims + failures)
       << std::flush;
 }
 
@@ -193,10 +225,12 @@ std::vector<Reference> chooseReferences(const Options& options) {
   std::vector<Reference> chosen;
   for (const auto& file : files) {
     const std::string id = file.stem().string();
+    const bool named = !options.filters.empty();
     bool wanted = options.filters.empty();
     for (const std::string& f : options.filters) wanted = wanted || fnmatch(f.c_str(), id.c_str(), 0) == 0;
     if (!wanted) continue;
     Reference r = readReference(file);
+    if (r.on_demand && !named) continue;
     if (!options.quick || r.quick) chosen.push_back(std::move(r));
   }
   if (chosen.empty())
@@ -213,6 +247,8 @@ std::string formatJson(const std::vector<Verified>& all) {
     for (const Result& r : v.results()) {
       Json j{{"id", r.id},
              {"source", r.source},
+             {"item", r.item},
+             {"priority", r.priority},
              {"quantity", r.quantity},
              {"unit", r.unit},
              {"measured", number(r.measured)},
@@ -243,14 +279,26 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
   std::vector<std::vector<Outcome>> outcomes;
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < references.size(); ++i) {
-    for (std::size_t k = references[i].runs.size(); k-- > 0;) owner.emplace_back(i, k);
     outcomes.emplace_back(references[i].runs.size());
-    missing.push_back(references[i].runs.size());
+    missing.push_back(0);
+    for (std::size_t k = references[i].runs.size(); k-- > 0;) {
+      if (auto kept = keptRun(references[i], references[i].runs[k], options)) {
+        outcomes[i][k] = *kept;
+        continue;
+      }
+      owner.emplace_back(i, k);
+      ++missing[i];
+    }
   }
   std::stable_partition(owner.begin(), owner.end(), [&](const auto& o) { return !references[o.first].quick; });
   std::vector<Job> jobs;
   for (const auto& [i, k] : owner) jobs.push_back(jobOf(references[i], references[i].runs[k], options));
   std::vector<std::optional<Verified>> verified(references.size());
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (missing[i] > 0) continue;
+    verified[i] = assess(references[i], outcomes[i]);
+    say(out, *verified[i]);
+  }
   {
     const bool terminal = isatty(STDERR_FILENO) != 0;
     std::size_t finished = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// What each part of the body gets from each garment in a window: sums of magnitudes over steps and contacts, which
-/// opposite pressures do not cancel.
+/// opposite pressures do not cancel, and the sum of the vectors, in which they do.
 
 #include <optional>
 
@@ -17,9 +17,10 @@ class ZoneLedger {
  public:
   explicit ZoneLedger(const Scenario& scenario);
 
-  static constexpr int kParts = 3;  ///< sum of |J|, of its normal part, of its tangential magnitude
+  /// Sum of |J|, of its normal part, of its tangential magnitude; then of J itself, on the body, in world axes.
+  static constexpr int kParts = 6;
   /// Columns of the table "body_zones" after start_s and end_s: for each group of the scenario and each zone
-  /// "<layer>[ in the belt's press| on springs] on <zone>" _Ns, _n_Ns, _t_Ns.
+  /// "<layer>[ in the belt's press| on springs] on <zone>" _Ns, _n_Ns, _t_Ns, _Jx_Ns, _Jy_Ns, _Jz_Ns.
   static std::vector<std::string> columns(const Scenario& scenario);
 
   /// `X_WB`: the frames of the scenario's bodies when the contact acted.
@@ -28,7 +29,7 @@ class ZoneLedger {
   void clear();
 
  private:
-  void give(int group, int zone, double share, double size, double normal, double tangential);
+  void give(int group, int zone, double share, const ContactImpulse& contact);
 
   const Scenario& scenario_;
   std::optional<BodyZones> zones_;

@@ -67,6 +67,8 @@ void record(const Scenario& s, const std::filesystem::path& dir, std::size_t win
         {{layer + " on forearm_Ns", 2 * J},
          {layer + " on forearm_n_Ns", 1.5 * J},
          {layer + " on forearm_t_Ns", 0.5 * J},
+         {layer + " on forearm_Jx_Ns", 0.6 * J},
+         {layer + " on forearm_Jz_Ns", (w % 2 == 0 ? 0.8 : -0.8) * J},
          {layer + " on upper_arm_Ns", J},
          {layer + " on upper_arm_n_Ns", 0.5 * J}});
     row("drag", start, {{"forearm_Jz_Ns", -0.25 * J}, {"forearm_Ly_Nms", 0.25 * lever_m * J}});
@@ -138,6 +140,7 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
     const auto& zones = j.at("body_zones").at(which);
     EXPECT_NEAR(zones.at("forearm").at("force_N").get<double>(), 2 * 1.8, 1e-12);
     EXPECT_NEAR(zones.at("forearm").at("friction_N").get<double>(), 0.5 * 1.8, 1e-12);
+    EXPECT_NEAR(zones.at("forearm").at("mean_resultant_N").get<double>(), 1.8, 1e-12);  // of norms: it turns
     EXPECT_NEAR(zones.at("forearm").at("normal_share").get<double>(), 0.75, 1e-12);
     EXPECT_NEAR(zones.at("sum").at("force_N").get<double>(), 3 * 1.8, 1e-12);
   }

@@ -1,0 +1,120 @@
+#include "tryon/strap_cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/sheet/shell_kernel.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr double kThick_m = 2e-3, kYoung_Pa = 1.44e6, kWidth_m = 0.05;
+
+Fabric cloth() {
+  Fabric f;
+  f.thickness_m = kThick_m;
+  f.density_kg_per_m3 = 1440;
+  f.young_weft_Pa = f.young_warp_Pa = kYoung_Pa;
+  f.shear_Pa = kYoung_Pa / 2;
+  f.bending_law = BendingLaw::linear;
+  f.bending_weft_Nm = f.bending_warp_Nm = 4e-3;
+  return f;
+}
+
+NurbsPatch strip(double from_m, double to_m) {
+  NurbsPatch p{uniformKnots(2, 2), uniformKnots(2, 6), {}, {}};
+  for (const double v : grevillePoints(p.v))
+    for (const double u : grevillePoints(p.u)) p.points.push_back({kWidth_m * u, from_m + (to_m - from_m) * v, 0});
+  p.weights.assign(p.points.size(), 1);
+  return p;
+}
+
+/// Front, strap and back in a row, and another garment's patch.
+Garment strapped() {
+  Garment g;
+  g.fabric = cloth();
+  g.patches = {strip(0, 0.2), strip(0.2, 0.4), strip(0.4, 0.6), strip(0, 0.6)};
+  g.weft.assign(4, {1, 0, 0});
+  g.layer = {0, 0, 0, 1};
+  g.seams = {{{0, Side::v1}, {1, Side::v0}, SeamKind::C0, 0.01}, {{1, Side::v1}, {2, Side::v0}, SeamKind::C0, 0.01}};
+  return g;
+}
+const std::vector<std::string> names{"shirt front", "shirt strap_left", "shirt back", "belt strap"};
+
+std::vector<Vec3> controls(const Garment& g) {
+  std::vector<Vec3> q;
+  for (const NurbsPatch& p : g.patches) q.insert(q.end(), p.points.begin(), p.points.end());
+  return q;
+}
+
+TEST(StrapCut, IsWhereAStrapIsSewn) {
+  const std::vector<StrapCut> cuts = strapCuts(strapped(), names);
+  ASSERT_EQ(cuts.size(), 2u);  // the belt's strap is not sewn
+  EXPECT_EQ(cuts[0].patch, 1);
+  EXPECT_TRUE(cuts[0].along_v && !cuts[0].at_end && cuts[1].at_end);
+  EXPECT_NEAR(cuts[0].width_m, kWidth_m, 1e-12);
+  Garment one_end = strapped();
+  one_end.seams.pop_back();
+  EXPECT_TRUE(strapCuts(one_end, names).empty());
+}
+
+// A stretch of 1 + e along the strap, no Poisson's ratio: n = E h (e + e^2/2) (second Piola-Kirchhoff), and the force
+// over the cut (1 + e) n times its width at rest.
+TEST(StrapCut, AUniformPullIsItsWidthTimesTheResultant) {
+  const Garment g = strapped();
+  const Shell shell(g, widestKernels());
+  std::vector<Vec3> q = controls(g);
+  const double e = 0.02, pull = kWidth_m * (1 + e) * kYoung_Pa * kThick_m * (e + e * e / 2);
+  for (Vec3& x : q) x.y *= 1 + e;
+  ShellWork work;
+  const std::vector<Vec3> f = strapPulls(shell, q, strapCuts(g, names), work);
+  EXPECT_NEAR(f[0].y, pull, 1e-9 * pull);   // the front is pulled up the strap
+  EXPECT_NEAR(f[1].y, -pull, 1e-9 * pull);  // the back down it
+  EXPECT_NEAR(f[0].x, 0, 1e-9 * pull);
+  EXPECT_NEAR(f[0].z, 0, 1e-9 * pull);
+}
+
+// Whatever the state: the internal forces of all cells and seams on what lies beyond the cuts are the pulls, nothing
+// else; so that its equation of motion closes with them.
+TEST(StrapCut, PullsAreAllThatTheInternalForcesDoToWhatHangs) {
+  const Garment g = strapped();
+  const Shell shell(g, widestKernels());
+  std::vector<Vec3> q = controls(g);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> noise(-2e-3, 2e-3);
+  for (Vec3& x : q) x += Vec3{noise(random), noise(random), noise(random)};
+  // Joined edges move together.
+  for (int i = 0; i < 4; ++i) {
+    q[32 + i] = q[28 + i];
+    q[64 + i] = q[60 + i];
+  }
+  ShellWork work;
+  const std::vector<StrapCut> cuts = strapCuts(g, names);
+  const std::vector<double> w = weightsBelow(g, cuts, false);
+  std::vector<Vec3> f(q.size());
+  shell.force(q, f, work);
+  Vec3 hanging{}, pulls{};
+  double size = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) hanging += w[i] * f[i], size += norm(f[i]);
+  for (const Vec3& p : strapPulls(shell, q, cuts, work)) pulls += p;
+  EXPECT_GT(norm(pulls), 1e-4 * size);
+  EXPECT_LT(norm(hanging - pulls), 1e-10 * size);
+}
+
+TEST(StrapCut, WhatHangs) {
+  const Garment g = strapped();
+  const std::vector<double> w = weightsBelow(g, strapCuts(g, names), true),
+                            all = weightsBelow(g, strapCuts(g, names), false);
+  ASSERT_EQ(w.size(), 128u);
+  for (int i = 0; i < 128; ++i) EXPECT_EQ(all[i], i < 96 ? w[i] : 1) << i;
+  for (int i = 0; i < 32; ++i) {
+    EXPECT_EQ(w[i], 1) << i;
+    EXPECT_EQ(w[64 + i], 1) << i;
+    EXPECT_EQ(w[96 + i], 0) << i;
+    EXPECT_EQ(w[32 + i], i < 8 || i >= 24 ? 1 : 0) << i;
+  }
+}
+
+}  // namespace
+}  // namespace gambeson
