@@ -87,7 +87,7 @@ bool CandidateList::holds(std::span<const Vec3> x1) {
   if (listed_at_.size() != x0_.size() || start_s_ < listed_s_ || end_s_ > listed_s_ + horizon_s_) return false;
   if (start_moved_.empty()) {
     leavePath(x0_, start_s_, start_moved_);
-    if (!within(start_moved_, slack_m_) || !startHolds()) return false;
+    if (!within(start_moved_, slack_m_) || !startHolds() || !bluntness_.holds(x0_)) return false;
   }
   leavePath(x1, end_s_, moved_);
   if (!within(moved_, slack_m_) || !tree_.gradientsHold(x1)) return false;
@@ -110,7 +110,8 @@ void CandidateList::make(const ContactMesh& mesh, const PairCollector& collector
   for (double& c : change_) c = std::max(kChanges * c, kLeastChange);
   const ListedMotion motion{listed_at_, listed_velocity_, slack_m_, horizon_s_};
   tree_.refit(mesh, motion, change_);
-  collector.collect(mesh, tree_, motion, rules, pairs_);
+  if (!bluntness_.empty()) bluntness_.ask(mesh, motion, tree_.reachOfCloth(rules));
+  collector.collect(mesh, tree_, motion, rules, pairs_, bluntness_.empty() ? nullptr : &bluntness_.features());
   start_moved_.assign(x0_.size(), 0);
   leavePath(x1, end_s_, moved_);
   last_end_.clear();

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/bluntness.hpp"
 #include "core/contact/pairs.hpp"
 
 namespace gambeson {
@@ -17,7 +18,9 @@ namespace gambeson {
 class CandidateList {
  public:
   CandidateList() = default;
-  explicit CandidateList(ContactTree tree) : tree_(std::move(tree)) {}
+  /// `bluntness`: of bodies that deform; what is blunt for as long as the list lasts matters to it like BluntFeatures.
+  explicit CandidateList(ContactTree tree, Bluntness bluntness = {})
+      : tree_(std::move(tree)), bluntness_(std::move(bluntness)) {}
 
   bool empty() const { return tree_.empty(); }
 
@@ -45,6 +48,7 @@ class CandidateList {
   bool startHolds() const;
 
   ContactTree tree_;
+  Bluntness bluntness_;
   CandidatePairs pairs_;
   std::vector<Vec3> x0_;  ///< of this step
   double start_s_ = 0, end_s_ = 0;

@@ -261,6 +261,12 @@ void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion, std
   }
 }
 
+Box ContactTree::reachOfCloth(const PairRules& rules) const {
+  Box box;
+  for (std::size_t k = 0; k < charts_.size(); ++k) box.add(boxes_[roots_[k]].points());
+  return box.grown(rules.margin_m);
+}
+
 /// c >= least, without dividing.
 bool ContactTree::certifies(const Cluster& cluster, double least) {
   const double ss = TileShape::dot(cluster.s, cluster.s), tt = TileShape::dot(cluster.t, cluster.t);
@@ -300,6 +306,56 @@ bool ContactTree::hullCertifies(int ia, int ib, double least) const {
       hull.spread = std::max(hull.spread, c.spread + distance(c, hull));
     }
   return certifies(hull, least);
+}
+
+/// Points whose distance at rest is D are at least c D apart.
+bool ContactTree::coveredBetween(int ia, int ib, double margin_m, double least) const {
+  if (nodes_[ia].chart < 0 || nodes_[ia].chart != nodes_[ib].chart) return false;
+  const double rest = restDistance(parts_[ia].rest, parts_[ib].rest);
+  return hullCertifies(ia, ib, least * rest > margin_m ? margin_m / rest : least);
+}
+
+std::vector<ContactTree::Search> ContactTree::searches(const PairRules& rules, int parts) const {
+  std::vector<Search> found, next;
+  const int charts = static_cast<int>(charts_.size()), roots = static_cast<int>(roots_.size());
+  for (int i = 0; i < charts; ++i) {
+    if (rules.cloth_with_cloth) found.push_back({roots_[i], -1, false});
+    for (int j = rules.cloth_with_cloth ? i + 1 : charts; j < roots; ++j)
+      found.push_back({roots_[i], roots_[j], false});
+  }
+  // What Traversal does first, level by level.
+  const float reach = roundUp(rules.margin_m);
+  bool opened = true;
+  while (opened && static_cast<int>(found.size()) < parts) {
+    opened = false;
+    next.clear();
+    for (const Search& s : found) {
+      const Node& a = nodes_[s.a];
+      if (s.b < 0) {
+        if (a.left < 0) {
+          next.push_back(s);
+        } else if (!a.whole || !certifies(parts_[s.a].cluster, rules.least)) {
+          next.insert(next.end(), {{a.left, -1, false}, {a.right, -1, false}, {a.left, a.right, a.whole}});
+          opened = true;
+        }
+        continue;
+      }
+      const Node& b = nodes_[s.b];
+      if (!mayMeet(boxes_[s.a], boxes_[s.b], reach)) continue;
+      if (a.left < 0 && b.left < 0) {
+        next.push_back(s);
+        continue;
+      }
+      if (!s.asked && coveredBetween(s.a, s.b, rules.margin_m, rules.least)) continue;
+      if (opensFirst(s.a, s.b))
+        next.insert(next.end(), {{a.left, s.b, false}, {a.right, s.b, false}});
+      else
+        next.insert(next.end(), {{s.a, b.left, false}, {s.a, b.right, false}});
+      opened = true;
+    }
+    found.swap(next);
+  }
+  return found;
 }
 
 }  // namespace gambeson

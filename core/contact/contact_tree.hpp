@@ -68,18 +68,29 @@ class ContactTree {
   /// column by more than 1/sqrt(2) of it.
   bool gradientsHold(std::span<const Vec3> x) const;
 
+  /// A part of a search for pairs: within a node, or between two.
+  struct Search {
+    int a = 0, b = -1;   ///< nodes; -1: within a
+    bool asked = false;  ///< their hull has no certificate
+  };
+  /// The search in parts, at least `parts` of them where there is that much to search. One after the other, they visit
+  /// the same pairs in the same order however many there are.
+  std::vector<Search> searches(const PairRules& rules, int parts) const;
+
   /// Calls visit(a, b, covered) once for every two tiles, not both of obstacles, whose boxes may meet, except those of
   /// a part of cloth with c >= `least`; a == b: for the two triangles of a tile. Tiles for which covered() holds need
   /// not be looked at either; it takes a while to tell.
   template <class Visit>
-  void pairs(const PairRules& rules, Visit&& visit) const {
+  void pairs(const PairRules& rules, const Search& search, Visit&& visit) const {
     Traversal<Visit> t{*this, rules.margin_m, rules.least, roundUp(rules.margin_m), visit};
-    const int charts = static_cast<int>(charts_.size()), roots = static_cast<int>(roots_.size());
-    for (int i = 0; i < charts; ++i) {
-      if (rules.cloth_with_cloth) t.within(roots_[i]);
-      for (int j = rules.cloth_with_cloth ? i + 1 : charts; j < roots; ++j) t.between(roots_[i], roots_[j]);
-    }
+    if (search.b < 0)
+      t.within(search.a);
+    else
+      t.between(search.a, search.b, search.asked);
   }
+
+  /// All of the cloth within the motion, and what comes within the margin of it.
+  Box reachOfCloth(const PairRules& rules) const;
 
   bool empty() const { return nodes_.empty(); }
   std::span<const Tile> tiles() const { return tiles_; }
@@ -154,7 +165,7 @@ class ContactTree {
         return;
       }
       if (covered(ia, ib, asked)) return;
-      if (b.left < 0 || (a.left >= 0 && tree.boxes_[ia].size2() >= tree.boxes_[ib].size2())) {
+      if (tree.opensFirst(ia, ib)) {
         between(a.left, ib);
         between(a.right, ib);
       } else {
@@ -162,12 +173,7 @@ class ContactTree {
         between(ia, b.right);
       }
     }
-    /// Points whose distance at rest is D are at least c D apart.
-    bool covered(int ia, int ib, bool asked) const {
-      if (asked || tree.nodes_[ia].chart < 0 || tree.nodes_[ia].chart != tree.nodes_[ib].chart) return false;
-      const double rest = restDistance(tree.parts_[ia].rest, tree.parts_[ib].rest);
-      return tree.hullCertifies(ia, ib, least * rest > margin ? margin / rest : least);
-    }
+    bool covered(int ia, int ib, bool asked) const { return !asked && tree.coveredBetween(ia, ib, margin, least); }
     [[gnu::noinline]] void leaves(int ia, int ib, bool asked) {
       const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
       if (a.count == 1 && b.count == 1) {
@@ -200,6 +206,12 @@ class ContactTree {
     return std::sqrt(TileShape::dot(s, s) + TileShape::dot(t, t));
   }
   bool hullCertifies(int ia, int ib, double least) const;
+  bool coveredBetween(int ia, int ib, double margin_m, double least) const;
+  /// Of two nodes, not both leaves: the first is the one to look into.
+  bool opensFirst(int ia, int ib) const {
+    const Node &a = nodes_[ia], &b = nodes_[ib];
+    return b.left < 0 || (a.left >= 0 && boxes_[ia].size2() >= boxes_[ib].size2());
+  }
   static double restDistance(const Box& a, const Box& b) {
     return norm(maximum(maximum(b.lo - a.hi, a.lo - b.hi), Vec3{}));
   }

@@ -1,10 +1,12 @@
 #pragma once
 /// Boxes of points that move, in single precision, rounded outwards: most of a search for pairs is comparing them.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 
+#include "core/contact/box.hpp"
 #include "core/contact/four.hpp"
 #include "core/math/vec.hpp"
 
@@ -44,6 +46,16 @@ class MovingBox {
 
   bool operator==(const MovingBox& b) const {
     return !any((lo_ != b.lo_) | (hi_ != b.hi_) | (way_lo_ != b.way_lo_) | (way_hi_ != b.way_hi_));
+  }
+
+  /// The box of points and of their ways.
+  Box points() const {
+    Box box;
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = lo_[k] + std::min(0.0f, way_lo_[k]);
+      box.hi[k] = hi_[k] + std::max(0.0f, way_hi_[k]);
+    }
+    return box;
   }
 
   /// Squared diagonal of the box of points.

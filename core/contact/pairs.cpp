@@ -1,5 +1,7 @@
 #include "core/contact/pairs.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +14,9 @@ namespace gambeson {
 namespace {
 
 constexpr unsigned char kAllBlunt = 63;
+constexpr int kMany = 4096;      ///< from which on threads share the work
+constexpr int kManyTiles = 256;  ///< likewise of a search
+constexpr int kParts = 64;       ///< of a search, for each thread
 
 /// Pairs whose boxes may meet, looked at four at a time. A: corners of the first primitive.
 template <int A>
@@ -65,7 +70,7 @@ class Primitives {
 
  public:
   Primitives(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
-             std::span<const unsigned char> owned, std::span<const unsigned char> blunt, CandidatePairs& out)
+             std::span<const unsigned char> owned, std::span<const unsigned char> blunt, CandidatePairs::Share& out)
       : mesh_(mesh), tree_(tree), motion_(motion), rules_(rules), owned_(owned), blunt_(blunt), out_(out) {}
   /// What waits.
   void finish() {
@@ -105,6 +110,59 @@ class Primitives {
     }
   }
 
+  /// Two tiles whose boxes may meet; i == j: the two triangles of one.
+  template <class Covered>
+  void tiles(int i, int j, Covered&& covered) {
+    const std::span<const Tile> tiles = tree_.tiles();
+    const std::span<const int> as = tiles[i].triangle, bs = tiles[j].triangle;
+    if (i == j) {
+      between(as.first(1), as.last(1), 0);
+      return;
+    }
+    const TileShape &a = shape(i), &b = shape(j);
+    const double slack = out_.slacks[i] + out_.slacks[j], far = rules_.margin_m + slack;
+    const auto certain = [&](const Four& gap) { return leastOf(gap)[0] * (1 - 1e-6) - tree_.shapeError_m(); };
+    const Four way = a.centre - b.centre;
+    if (bs[1] < 0 && blunt_[bs[0]] == kAllBlunt) {
+      // A body carries samples on its faces; all else of it meets in impacts only.
+      const double near = rules_.blunt_margin_m + slack;
+      const Four corners = beyond(a, b, facing(b.normal, way));
+      double gap = certain(corners);
+      if (gap > far) return;
+      if (!(gap > near)) gap = std::max(gap, certain(beyond(a, b, TileShape::unit(way))));
+      if (!(gap > near)) gap = std::max(gap, certain(beyond(a, b, facing(a.normal, way))));
+      if (gap > far) return;
+      if (!(gap > near)) {
+        between(as, bs, gap);
+        return;
+      }
+      const MovingBox box = tree_.boxOf(mesh_.triangles[bs[0]]);
+      for (int t : as)
+        for (int k = 0; t >= 0 && k < 3; ++k) {
+          if (!(owned_[t] & (1 << k))) continue;
+          const auto at = std::find(tiles[i].vertex.begin(), tiles[i].vertex.end(), mesh_.triangles[t][k]);
+          const float height = corners[at - tiles[i].vertex.begin()];
+          point(t, k, bs[0], box, std::max(gap, certain(all(height))));
+        }
+      return;
+    }
+    // Parts of one sheet side by side, then layers.
+    double gap = certain(beyond(a, b, TileShape::unit(way)));
+    if (gap > far) return;
+    gap = std::max(gap, certain(beyond(a, b, facing(b.normal, way))));
+    if (gap > far || covered()) return;
+    between(as, bs, gap);
+  }
+
+ private:
+  const TileShape& shape(int i) {
+    if (!std::exchange(out_.shaped[i], 1)) {
+      out_.shapes[i] = tree_.shape(i);
+      out_.slacks[i] = slackOf(tree_.tiles()[i].vertex);
+    }
+    return out_.shapes[i];
+  }
+
   /// All of a with all of b.
   void between(std::span<const int> as, std::span<const int> bs, double beyond) {
     MovingBox of_b;
@@ -130,7 +188,6 @@ class Primitives {
     }
   }
 
- private:
   double marginOf(bool blunt) const { return blunt ? rules_.blunt_margin_m : rules_.margin_m; }
   float reachOf(bool blunt) const { return blunt ? narrow_reach_ : wide_reach_; }
   template <std::size_t N>
@@ -145,11 +202,25 @@ class Primitives {
   const ListedMotion& motion_;
   const PairRules& rules_;
   std::span<const unsigned char> owned_, blunt_;
-  CandidatePairs& out_;
+  CandidatePairs::Share& out_;
   Batch<1> points_{tree_, motion_.horizon_s};
   Batch<2> edges_{tree_, motion_.horizon_s};
   const float wide_reach_ = roundUp(rules_.margin_m), narrow_reach_ = roundUp(rules_.blunt_margin_m);
 };
+
+/// By vertex, then triangle.
+void sortPoints(int vertex_count, CandidatePairs& out) {
+  out.points.resize(out.unsorted.size());
+  std::vector<int>& first = out.first_of_vertex;
+  first.assign(vertex_count + 1, 0);
+  for (const PointTriangle& p : out.unsorted) ++first[p.vertex + 1];
+  for (int v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
+  for (const PointTriangle& p : out.unsorted) out.points[first[p.vertex]++] = p;
+    // Of each vertex the first now is where it ends.
+#pragma omp parallel for schedule(static) if (vertex_count > kMany)
+  for (int v = 0; v < vertex_count; ++v)
+    std::sort(out.points.begin() + (v > 0 ? first[v - 1] : 0), out.points.begin() + first[v]);
+}
 
 }  // namespace
 
@@ -167,65 +238,68 @@ PairCollector::PairCollector(const ContactMesh& mesh, const BluntFeatures& blunt
 }
 
 void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion,
-                            const PairRules& rules, CandidatePairs& out) const {
-  out.points.clear();
-  out.edges.clear();
-  const std::span<const Tile> tiles = tree.tiles();
-  out.shapes.resize(tiles.size());
-  out.slacks.resize(tiles.size());
-  out.shaped.assign(tiles.size(), 0);
-  const auto shape = [&](int i) -> const TileShape& {
-    if (!std::exchange(out.shaped[i], 1)) {
-      out.shapes[i] = tree.shape(i);
-      out.slacks[i] = 0;
-      for (int v : tiles[i].vertex) out.slacks[i] = std::max(out.slacks[i], motion.slack(v));
+                            const PairRules& rules, CandidatePairs& out, const BluntFeatures* also_blunt) const {
+  std::span<const unsigned char> blunt = blunt_;
+  if (also_blunt) {
+    out.blunt.resize(blunt_.size());
+    const int n = static_cast<int>(blunt_.size());
+#pragma omp parallel for schedule(static) if (n > kMany)
+    for (int t = 0; t < n; ++t) {
+      unsigned char bits = blunt_[t];
+      for (int k = 0; k < 3; ++k)
+        bits |= static_cast<unsigned char>((also_blunt->vertex[mesh.triangles[t][k]] ? 1 << k : 0) |
+                                           (also_blunt->edge[mesh.face_edges[t][k]] ? 8 << k : 0));
+      // What a triangle does not own does not come up with it.
+      out.blunt[t] = bits == 0 ? bits : static_cast<unsigned char>(bits | (kAllBlunt & ~owned_[t]));
     }
-    return out.shapes[i];
-  };
-  const double error = tree.shapeError_m();
-  Primitives primitives(mesh, tree, motion, rules, owned_, blunt_, out);
-  tree.pairs(rules, [&](int i, int j, auto&& covered) {
-    const std::span<const int> as = tiles[i].triangle, bs = tiles[j].triangle;
-    if (i == j) {
-      primitives.between(as.first(1), as.last(1), 0);
-      return;
+    blunt = out.blunt;
+  }
+  const int tile_count = static_cast<int>(tree.tiles().size()),
+            threads = tile_count > kManyTiles ? omp_get_max_threads() : 1;
+  const std::vector<ContactTree::Search> searches = tree.searches(rules, threads > 1 ? kParts * threads : 1);
+  const int count = static_cast<int>(searches.size());
+  out.found.assign(count, {});
+  if (static_cast<int>(out.shares.size()) < threads) out.shares.resize(threads);
+#pragma omp parallel num_threads(threads)
+  {
+    const int me = omp_get_thread_num();
+    CandidatePairs::Share& share = out.shares[me];
+    share.points.clear();
+    share.edges.clear();
+    share.shapes.resize(tile_count);
+    share.slacks.resize(tile_count);
+    share.shaped.assign(tile_count, 0);
+    Primitives primitives(mesh, tree, motion, rules, owned_, blunt, share);
+#pragma omp for schedule(dynamic)
+    for (int k = 0; k < count; ++k) {
+      CandidatePairs::Found& found = out.found[k];
+      found.share = me;
+      found.first_point = share.points.size();
+      found.first_edge = share.edges.size();
+      tree.pairs(rules, searches[k], [&](int i, int j, auto&& covered) { primitives.tiles(i, j, covered); });
+      primitives.finish();
+      found.end_point = share.points.size();
+      found.end_edge = share.edges.size();
     }
-    const TileShape &a = shape(i), &b = shape(j);
-    const double slack = out.slacks[i] + out.slacks[j], far = rules.margin_m + slack;
-    const auto certain = [&](const Four& gap) { return leastOf(gap)[0] * (1 - 1e-6) - error; };
-    const Four way = a.centre - b.centre;
-    if (bs[1] < 0 && blunt_[bs[0]] == kAllBlunt) {
-      // A body carries samples on its faces; all else of it meets in impacts only.
-      const double near = rules.blunt_margin_m + slack;
-      const Four corners = beyond(a, b, facing(b.normal, way));
-      double gap = certain(corners);
-      if (gap > far) return;
-      if (!(gap > near)) gap = std::max(gap, certain(beyond(a, b, TileShape::unit(way))));
-      if (!(gap > near)) gap = std::max(gap, certain(beyond(a, b, facing(a.normal, way))));
-      if (gap > far) return;
-      if (!(gap > near)) {
-        primitives.between(as, bs, gap);
-        return;
-      }
-      const MovingBox box = tree.boxOf(mesh.triangles[bs[0]]);
-      for (int t : as)
-        for (int k = 0; t >= 0 && k < 3; ++k) {
-          if (!(owned_[t] & (1 << k))) continue;
-          const auto at = std::find(tiles[i].vertex.begin(), tiles[i].vertex.end(), mesh.triangles[t][k]);
-          const float height = corners[at - tiles[i].vertex.begin()];
-          primitives.point(t, k, bs[0], box, std::max(gap, certain(all(height))));
-        }
-      return;
-    }
-    // Parts of one sheet side by side, then layers.
-    double gap = certain(beyond(a, b, TileShape::unit(way)));
-    if (gap > far) return;
-    gap = std::max(gap, certain(beyond(a, b, facing(b.normal, way))));
-    if (gap > far || covered()) return;
-    primitives.between(as, bs, gap);
-  });
-  primitives.finish();
-  std::sort(out.points.begin(), out.points.end());
+  }
+  std::size_t points = 0, edges = 0;
+  for (CandidatePairs::Found& f : out.found) {
+    f.points_at = points;
+    f.edges_at = edges;
+    points += f.end_point - f.first_point;
+    edges += f.end_edge - f.first_edge;
+  }
+  out.unsorted.resize(points);
+  out.edges.resize(edges);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int k = 0; k < count; ++k) {
+    const CandidatePairs::Found& f = out.found[k];
+    const CandidatePairs::Share& share = out.shares[f.share];
+    std::copy(share.points.begin() + f.first_point, share.points.begin() + f.end_point,
+              out.unsorted.begin() + f.points_at);
+    std::copy(share.edges.begin() + f.first_edge, share.edges.begin() + f.end_edge, out.edges.begin() + f.edges_at);
+  }
+  sortPoints(mesh.vertex_count, out);
 }
 
 }  // namespace gambeson

@@ -36,11 +36,27 @@ struct EdgeEdge {
 };
 struct CandidatePairs {
   std::vector<PointTriangle> points;  ///< ascending
-  std::vector<EdgeEdge> edges;        ///< in no order
-  // Scratch: of each tile, where it was asked for.
-  std::vector<TileShape> shapes;
-  std::vector<double> slacks;
-  std::vector<char> shaped;
+  std::vector<EdgeEdge> edges;        ///< in an order that depends on the tree alone
+  /// Scratch of one thread.
+  struct Share {
+    std::vector<PointTriangle> points;
+    std::vector<EdgeEdge> edges;
+    // Of each tile, where it was asked for.
+    std::vector<TileShape> shapes;
+    std::vector<double> slacks;
+    std::vector<char> shaped;
+  };
+  /// What a part of the search has found, and where that stands in the end.
+  struct Found {
+    int share = 0;
+    std::size_t first_point = 0, end_point = 0, first_edge = 0, end_edge = 0;
+    std::size_t points_at = 0, edges_at = 0;
+  };
+  std::vector<Share> shares;
+  std::vector<Found> found;
+  std::vector<PointTriangle> unsorted;
+  std::vector<int> first_of_vertex;
+  std::vector<unsigned char> blunt;  ///< of each triangle, as in PairCollector
 };
 
 /// What has no persistent contacts of its own (1) and matters to a list only within PairRules::blunt_margin_m: vertices
@@ -57,9 +73,10 @@ class PairCollector {
   explicit PairCollector(const ContactMesh& mesh, const BluntFeatures& blunt = {});
 
   /// Of ContactTree::pairs, the primitives that may come within their margin of each other in the motion that the tree
-  /// was fitted to; those that share a vertex are not pairs.
+  /// was fitted to; those that share a vertex are not pairs. `also_blunt`: for as long as the list lasts, flags of all
+  /// vertices and edges.
   void collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
-               CandidatePairs& out) const;
+               CandidatePairs& out, const BluntFeatures* also_blunt = nullptr) const;
 
  private:
   std::vector<unsigned char> owned_;  ///< of a triangle: bits 0 to 2 its corners, bits 3 to 5 its edges

@@ -144,6 +144,9 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
   }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
   m.collector = PairCollector(m.mesh, bluntFeatures(m));
+  std::vector<char> deforms;
+  for (int body : m.body_of_vertex) deforms.push_back(body >= 0 && m.bodies[body].deforms);
+  m.bluntness = Bluntness(m.mesh, deforms);
   return m;
 }
 
@@ -246,7 +249,7 @@ void placeVertices(const CollisionModel& m, double time_s, double dt, std::span<
       w.x1[body.first_vertex + k] = obstacles.end[body.obstacle] * body.local[k];
     }
   }
-  if (w.list.empty()) w.list = CandidateList(m.tree);
+  if (w.list.empty()) w.list = CandidateList(m.tree, m.bluntness);
   w.list.begin(time_s, time_s + dt, w.x0);
 }
 

@@ -29,7 +29,8 @@ struct CollisionModel {
   std::vector<Body> bodies;
   std::vector<int> body_of_vertex;  ///< -1: cloth
   PairCollector collector;
-  ContactTree tree;  ///< as built; a step fits a copy
+  ContactTree tree;     ///< as built; a step fits a copy
+  Bluntness bluntness;  ///< likewise
   double largest_thickness_m = 0;
   /// Distance over distance at rest from which parts of the cloth have neither contacts nor impacts with each other.
   double least = 1;

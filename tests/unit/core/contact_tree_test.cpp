@@ -2,6 +2,7 @@
 #include "core/contact/candidate_list.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <random>
@@ -174,6 +175,33 @@ TEST_F(TreeTest, EveryPairComesOnceAndSharesNoVertex) {
   EXPECT_LE(found.edges.size(), edges + edges / 100 + 8);
 }
 
+/// The same pairs in the same order, whichever threads found them.
+TEST_F(TreeTest, AnyNumberOfThreadsMakesTheSameList) {
+  std::mt19937 random(17);
+  std::normal_distribution<double> noise;
+  std::vector<Vec3> x = rest;
+  for (int i = 0; i < cloth; ++i)
+    x[i] = rolled(rest[i], 0.03, 0.002) + 2e-4 * Vec3{noise(random), noise(random), noise(random)};
+  const ListedMotion motion{x, {}, {}, 0};
+  tree.refit(mesh, motion, {});
+  const int before = omp_get_max_threads();
+  std::vector<CandidatePairs> found;
+  for (int threads : {1, 2, 3, 8}) {
+    omp_set_num_threads(threads);
+    found.emplace_back();
+    collector.collect(mesh, tree, motion, {0.004, 0.3, true}, found.back());
+  }
+  omp_set_num_threads(before);
+  EXPECT_GT(found[0].points.size(), 500u);
+  EXPECT_TRUE(std::ranges::is_sorted(found[0].points));
+  for (const CandidatePairs& f : found) {
+    EXPECT_EQ(f.points, found[0].points);
+    EXPECT_EQ(f.edges, found[0].edges);
+    for (std::size_t k = 0; k < f.points.size(); ++k)
+      ASSERT_EQ(f.points[k].apart.gap_m, found[0].points[k].apart.gap_m);
+  }
+}
+
 /// Of a blunt body's vertices and edges what comes within their own, smaller margin is on the list; all else within the
 /// wide one: cloth vertices against the body's faces, sharp edges and corners of the body against cloth.
 TEST_F(TreeTest, BluntFeaturesAreListedWithinTheirOwnMargin) {
@@ -201,7 +229,11 @@ TEST_F(TreeTest, BluntFeaturesAreListedWithinTheirOwnMargin) {
     CandidatePairs found;
     collector.collect(mesh, tree, motion, rules, found);
     listed_without += found.points.size() + found.edges.size();
-    with_blunt.collect(mesh, tree, motion, rules, found);
+    // Blunt always, or for this list.
+    if (trial % 2)
+      with_blunt.collect(mesh, tree, motion, rules, found);
+    else
+      collector.collect(mesh, tree, motion, rules, found, &blunt);
     listed += found.points.size() + found.edges.size();
     std::ranges::sort(found.edges);
     for (const std::vector<Vec3>* at : {&x, &end}) {
