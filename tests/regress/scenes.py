@@ -31,7 +31,7 @@ def scenes():
     found = []
     for file in sorted((SOURCE / "cases/library").glob("*.json")):
         case = json.loads(file.read_text())
-        if "fabric" in case and "kind" not in case:
+        if ("fabric" in case or "garments" in case) and "kind" not in case:
             found.append(file)
     first = {name: k for k, name in enumerate(LONG_FIRST)}
     return sorted(found, key=lambda f: (first.get(f.stem, len(first)), f.stem))

@@ -18,7 +18,7 @@ UNTIL = {"sphere_drape": "0.4 s", "stack_of_ten": "0.1 s", "stack_mixed": "0.1 s
 def library():
     for file in sorted((SOURCE / "cases/library").glob("*.json")):
         case = json.loads(file.read_text())
-        if "kind" in case or "fabric" in case:
+        if "kind" in case or "fabric" in case or "garments" in case:
             yield file
 
 
@@ -38,9 +38,9 @@ def main():
         return
     failures = []
     wanted = sys.argv[3:]
-    for case in library():
-        if wanted and case.stem not in wanted:
-            continue
+    cases = [c for c in library() if not wanted or c.stem in wanted]
+    check(len(cases) == len(wanted) or not wanted, f"not all of {wanted} are cases of the library")
+    for case in cases:
         options = []
         if case.stem in UNTIL:  # pictures may be later than that
             options = ["--set", f"time.duration={UNTIL[case.stem]}", "--set", 'output.pictures=[{"time": "end"}]']
