@@ -59,6 +59,7 @@ struct TubeGarment {
 struct ShortsGarment {
   double inseam_m = 0.20;            ///< crotch to hem
   double rise_m = 0.25;              ///< crotch to waist edge
+  double crotch_ease_m = 0.010;      ///< the body's crotch to that of the shorts
   double ease = 0.06;                ///< garment girth = (1 + ease) body girth
   std::optional<double> waist_ease;  ///< of the waist edge, where it is another
   double cell_m = 0.02;              ///< wanted size of a cell

@@ -67,7 +67,11 @@ Object shortsTable() {
   using S = ShortsGarment;
   return Table<S>("Shorts")
       .number("inseam", &S::inseam_m, "m", between(0.02, 0.6), "length of the inner leg, crotch to hem")
-      .number("rise", &S::rise_m, "m", between(0.1, 0.5), "height of the waist edge above the crotch")
+      .number("rise", &S::rise_m, "m", between(0.1, 0.5), "height of the waist edge above the crotch of the shorts")
+      .number(
+          "crotch_ease", &S::crotch_ease_m, "m", between(0, 0.08),
+          "how far the crotch of the shorts lies under the body's: room for the thighs to rise without pulling at the "
+          "waist; a longer rise keeps the waist edge where it was")
       .number("ease", &S::ease, "", between(0, 0.5), "how much wider than the body: girth = (1 + ease) body girth")
       .number("waist_ease", &S::waist_ease, "", between(0, 0.5),
               "ease of the waist edge, which goes over into the other within 12 cm below it; small under a belt")

@@ -73,10 +73,8 @@ struct Cloth {
     const std::vector<float>& stress = fieldOf(frame, "stress").data;
     std::vector<double> bend(stress.size());
 #pragma omp parallel for schedule(static)
-    for (int i = 0; i < surface.size(); ++i) {
-      const Vec3 k = s.model->shell.curvatureAt(surface.patch[i], surface.parameters[i], q);
-      bend[i] = std::sqrt(k.x * k.x + k.y * k.y + 2 * k.z * k.z);
-    }
+    for (int i = 0; i < surface.size(); ++i)
+      bend[i] = s.model->shell.bendAt(surface.patch[i], surface.parameters[i], q);
     const int patches = static_cast<int>(s.patch_names.size());
     const std::vector<double> curvature = regionRms(surface.patch, surface.area_m2, bend, patches);
     std::vector<PatchMeasure> out(s.patch_names.size());

@@ -241,14 +241,20 @@ struct Shell::Frame {
   std::array<Vec3, 6> rest{}, now{};  ///< derivatives in the parameters, as SurfaceBasis
 };
 
-Shell::Frame Shell::frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
+std::array<std::array<Vec3, 6>, 2> Shell::derivativesAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   const SurfaceBasis basis = surfaceBasis(garment_.patches[patch], uv.x, uv.y);
-  Frame frame;
+  std::array<std::array<Vec3, 6>, 2> d{};
   for (std::size_t k = 0; k < basis.columns.size(); ++k)
     for (int m = 1; m < 6; ++m) {
-      frame.rest[m] += basis.values[m][k] * garment_.patches[patch].points[basis.columns[k]];
-      frame.now[m] += basis.values[m][k] * q[offsets_[patch] + basis.columns[k]];
+      d[0][m] += basis.values[m][k] * garment_.patches[patch].points[basis.columns[k]];
+      d[1][m] += basis.values[m][k] * q[offsets_[patch] + basis.columns[k]];
     }
+  return d;
+}
+
+Shell::Frame Shell::frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
+  const auto [rest, now] = derivativesAt(patch, uv, q);
+  Frame frame{{}, rest, now};
   frame.G = restFrame(frame.rest[1], frame.rest[2], garment_.weft[patch], fibreAngleAt(garment_, patch, uv));
   return frame;
 }
@@ -286,6 +292,12 @@ Vec3 Shell::curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   const Frame frame = frameAt(patch, uv, q);
   const auto& d = frame.now;
   return curvature(frame.G, d[1], d[2], d[3], d[4], d[5]);
+}
+
+double Shell::bendAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
+  const auto [rest, d] = derivativesAt(patch, uv, q);
+  const Vec3 k = curvature(restFrame(rest[1], rest[2], rest[1], 0), d[1], d[2], d[3], d[4], d[5]);
+  return std::sqrt(k.x * k.x + k.y * k.y + 2 * k.z * k.z);
 }
 
 }  // namespace gambeson

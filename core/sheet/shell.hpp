@@ -77,6 +77,9 @@ class Shell {
   ShellState stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   /// Physical curvature (weft, warp, twist) at a point of a patch, the rest curvature not subtracted [1/m].
   Vec3 curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  /// Norm of the physical curvature, sqrt(k11² + k22² + 2 k12²) [1/m]: the same in every frame of the rest surface, so
+  /// also where that stands across the weft.
+  double bendAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
 
   const KernelSet& kernels() const { return *kernels_; }
   long gaussPoints() const { return gauss_points_; }
@@ -90,6 +93,8 @@ class Shell {
 
  private:
   struct Frame;
+  /// Of the rest surface and of q: derivatives in the parameters, as SurfaceBasis has them, the point itself left out.
+  std::array<std::array<Vec3, 6>, 2> derivativesAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   Frame frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
 
   Garment garment_;

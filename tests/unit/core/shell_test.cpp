@@ -210,6 +210,18 @@ TEST(ShellStress, StretchAtThirtyDegreesToTheWeft) {
   EXPECT_NEAR(-right.y, nxy, 1e-12);
 }
 
+/// A parabola from (1, 0) over (1, 1) to (0, 1): at its end, where the weft is normal to it, kappa = 1/2; at the
+/// start too, by symmetry.
+TEST(ShellBending, NormIsThereWhereTheWeftIsNormalToTheSheet) {
+  NurbsPatch s{uniformKnots(2, 1), uniformKnots(2, 1), {}, std::vector<double>(9, 1)};
+  for (double y : {0.0, 0.5, 1.0})
+    for (const Vec3& x : {Vec3{1, y, 0}, Vec3{1, y, 1}, Vec3{0, y, 1}}) s.points.push_back(x);
+  const Shell shell(garmentOf({s}, {}, plainFabric(BendingLaw::linear), {0, 0, 1}), widestKernels());
+  EXPECT_THROW(shell.curvatureAt(0, {1, 0.5}, s.points), InputError);
+  EXPECT_NEAR(shell.bendAt(0, {1, 0.5}, s.points), 0.5, 1e-12);
+  EXPECT_NEAR(shell.bendAt(0, {0, 0.5}, s.points), 0.5, 1e-12);
+}
+
 /// Small z = (a X^2 + 2 b X Y + c Y^2) / 2 over a unit square has the curvatures a, b, c; at 30 degrees to the grid
 /// they turn as a tensor. Energy per area: the law's of the weft and warp curvature, and 1/2 (2 m12 kappa12), m12 =
 /// twist * 2 kappa12.
@@ -234,6 +246,8 @@ TEST(ShellBending, EnergyOfAConstantCurvature) {
     EXPECT_NEAR(kappa.x, k11, 1e-6 * a);
     EXPECT_NEAR(kappa.y, k22, 1e-6 * a);
     EXPECT_NEAR(kappa.z, k12, 1e-6 * a);
+    const double bend = std::sqrt(a * a + 2 * b * b + c * c);  // does not depend on the weft
+    EXPECT_NEAR(shell.bendAt(0, {0.4, 0.7}, bent.points), bend, 1e-6 * a);
     const auto density = [&](double k, double B) {
       return law == BendingLaw::linear ? 0.5 * B * k * k : zhengEnergy(k, B, f.kappa0_per_m, f.kappa_regular_per_m);
     };
