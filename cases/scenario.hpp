@@ -7,20 +7,13 @@
 #include <vector>
 
 #include "cases/case.hpp"
+#include "cases/supports.hpp"
 #include "core/dynamics/advance.hpp"
 #include "human/body.hpp"
 #include "human/foot_report.hpp"
 #include "human/motion.hpp"
 
 namespace gambeson {
-
-/// What holds the garment, by name, as the supports table lists it.
-struct SupportGroup {
-  std::string name;          ///< "waist springs to pelvis", "fixed start"
-  std::vector<int> springs;  ///< indices in Model::springs; empty for held control points
-  std::vector<int> samples;  ///< of the supported edge
-  int anchor = -1;           ///< frame of the springs
-};
 
 /// Contact of one garment with bodies: freely, in a belt's press (of the belt itself, and of what lies under it), or of
 /// an edge on springs, which pull it onto the body.

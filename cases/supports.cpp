@@ -1,0 +1,89 @@
+#include "cases/supports.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+std::vector<PatchEdge> edgesOf(const Case& c, const std::vector<NamedEdge>& known, const EdgeCase& e) {
+  if (e.name.empty()) return {{e.patch, e.side, false}};
+  for (const NamedEdge& edge : known)
+    if (edge.name == e.name) return edge.edges;
+  throw InputError({c.file.string(), 0, "supports"}, "the garment has no edge \"" + e.name + "\"");
+}
+
+}  // namespace
+
+void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first,
+                 const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
+                 ModelOptions& options, std::vector<SupportGroup>& groups) {
+  for (const SupportCase& support : c.supports) {
+    SupportGroup group;
+    const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
+    std::size_t worn = 0;
+    if (!edge.garment.empty())
+      while (c.garments[worn].name != edge.garment) ++worn;
+    const std::string of = c.garments.size() == 1 ? "" : edge.garment + " ";
+    const std::string name = of + (edge.name.empty() ? "edge of patch " + std::to_string(edge.patch) : edge.name);
+    std::vector<PatchEdge> edges;
+    if (!std::holds_alternative<PinnedSupport>(support)) edges = edgesOf(c, known[worn], edge);
+    for (PatchEdge& e : edges) {
+      if (e.patch >= first[worn + 1] - first[worn])
+        throw InputError({c.file.string(), 0, "supports"}, "patch " + std::to_string(e.patch) +
+                                                               " does not exist; the garment has " +
+                                                               std::to_string(first[worn + 1] - first[worn]));
+      e.patch += first[worn];
+      for (int s : edgeSamples(surface, e))
+        if (std::find(group.samples.begin(), group.samples.end(), s) == group.samples.end()) group.samples.push_back(s);
+    }
+    if (const auto* pinned = std::get_if<PinnedSupport>(&support)) {
+      const int p = edge.patch + first[worn];
+      const NurbsPatch& patch = garment.patches[p];
+      const auto at = [](const KnotVector& k, double part) { return k.front() + part * (k.back() - k.front()); };
+      const SurfaceBasis basis = surfaceBasis(patch, at(patch.u, pinned->s), at(patch.v, pinned->t));
+      group.name = of + "point held";
+      for (std::size_t k = 0; k < basis.columns.size(); ++k)
+        if (basis.values[0][k] > 1e-12)
+          options.held_control_points.push_back(controlOffsets(garment)[p] + basis.columns[k]);
+    } else if (const auto* fixed = std::get_if<FixedSupport>(&support)) {
+      group.name = name + " held";
+      for (const PatchEdge& e : edges) {
+        const EdgeColumns columns = edgeColumns(garment, e);
+        options.held_control_points.insert(options.held_control_points.end(), columns.edge.begin(), columns.edge.end());
+        if (fixed->rows > 1)
+          options.held_control_points.insert(options.held_control_points.end(), columns.inner.begin(),
+                                             columns.inner.end());
+      }
+    } else {
+      const auto& springs = std::get<SpringSupport>(support);
+      group.name = name + " springs to " + springs.link;
+      group.anchor = human->skeleton.link(springs.link);
+      if (group.anchor < 0)
+        throw InputError({c.file.string(), 0, "supports.springs.link"},
+                         "the human has no link \"" + springs.link + "\"");
+      // Each sample answers for half of the edge to either neighbour.
+      std::vector<double> length(surface.size(), 0);
+      std::vector<Vec3> Q;
+      for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
+      std::vector<Vec3> X(surface.size());
+      surface.W.multiply<Vec3>(Q, X);
+      for (const PatchEdge& e : edges) {
+        const std::vector<int> at = edgeSamples(surface, e);
+        for (std::size_t k = 0; k + 1 < at.size(); ++k) {
+          const double half = 0.5 * norm(X[at[k + 1]] - X[at[k]]);
+          length[at[k]] += half;
+          length[at[k + 1]] += half;
+        }
+      }
+      for (int s : group.samples) {
+        group.springs.push_back(static_cast<int>(options.springs.size()));
+        options.springs.push_back({s, group.anchor, springs.stiffness_N_per_m2 * length[s]});
+      }
+    }
+    groups.push_back(std::move(group));
+  }
+}
+
+}  // namespace gambeson

@@ -1,0 +1,30 @@
+#pragma once
+/// What holds the garments of a case: points and edges held, edges on springs.
+
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "core/dynamics/model.hpp"
+#include "core/sheet/garment.hpp"
+#include "core/sheet/surface.hpp"
+#include "human/body.hpp"
+
+namespace gambeson {
+
+/// What holds the garment, by name, as the supports table lists it.
+struct SupportGroup {
+  std::string name;          ///< "waist springs to pelvis", "fixed start"
+  std::vector<int> springs;  ///< indices in Model::springs; empty for held control points
+  std::vector<int> samples;  ///< of the supported edge
+  int anchor = -1;           ///< frame of the springs
+};
+
+/// Adds held control points and springs to `options`, and a group for each support of the case. `first`: the first
+/// patch of each garment in `garment`; `known`: its named edges; `human` may be null. Throws InputError for an edge, a
+/// patch or a link that is not there.
+void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first,
+                 const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
+                 ModelOptions& options, std::vector<SupportGroup>& groups);
+
+}  // namespace gambeson
