@@ -12,16 +12,40 @@ constexpr double kMemory = 16;   ///< steps of which corrections and strays are 
 constexpr double kStrays = 4;    ///< ways off the path, in units of what is usual at the end of a window
 constexpr double kHorizon = 8;   ///< steps like the one that a list is made for
 constexpr double kChanges = 10;  ///< of gradients, in units of that step's
-constexpr double kLeastSlack_m = 1e-4;
-constexpr double kLeastChange = 0.2;  ///< of gradients
+constexpr double kLeastSlack_m = 1e-4, kLeastSlack = 0.08;  ///< and of the margin: some vertex does what it never did
+constexpr double kBodySlack_m = 2e-5;                       ///< for bodies, whose motions are smooth
+constexpr double kLeastChange = 0.2;                        ///< of gradients
 
 /// Positions that agree to this have gradients that agree to a part in a million of kLeastChange on edges of 0.1 mm.
 constexpr double kSame_m = 1e-12;
 
+constexpr int kMany = 8192;  ///< vertices or more, from which on threads share the work
+
+/// Calls f(i) for all i below n.
+template <class F>
+void each(std::size_t n, F&& f) {
+  const int count = static_cast<int>(n);
+#pragma omp parallel for schedule(static) if (count > kMany)
+  for (int i = 0; i < count; ++i) f(i);
+}
+
+/// f(i) for all i below n.
+template <class F>
+bool allOf(std::size_t n, F&& f) {
+  const int count = static_cast<int>(n);
+  if (count <= kMany) {
+    for (int i = 0; i < count; ++i)
+      if (!f(i)) return false;
+    return true;
+  }
+  int fail = 0;
+#pragma omp parallel for schedule(static) reduction(+ : fail)
+  for (int i = 0; i < count; ++i) fail += !f(i);
+  return fail == 0;
+}
+
 bool within(std::span<const double> moved, std::span<const double> slack) {
-  for (std::size_t i = 0; i < moved.size(); ++i)
-    if (!(moved[i] <= slack[i])) return false;
-  return true;
+  return allOf(moved.size(), [&](int i) { return moved[i] <= slack[i]; });
 }
 
 }  // namespace
@@ -29,12 +53,13 @@ bool within(std::span<const double> moved, std::span<const double> slack) {
 /// What the step that has passed tells.
 void CandidateList::learn(double passed_s, double now_s, std::span<const Vec3> x) {
   const double share = 1 / std::min(kMemory, static_cast<double>(++steps_));
-  for (std::size_t i = 0; i < told_.size(); ++i)
-    correction_[i] += share * ((x[i] - x0_[i]) / passed_s - told_[i] - correction_[i]);
+  each(told_.size(),
+       [&](int i) { correction_[i] += share * ((x[i] - x0_[i]) / passed_s - told_[i] - correction_[i]); });
   if (window_steps_ < 0 || ++window_steps_ < kWindow) return;
   const double t = now_s - window_s_, window_share = std::max(kWindow / kMemory, 1.0 / ++windows_);
-  for (std::size_t i = 0; i < x.size(); ++i)
+  each(x.size(), [&](int i) {
     strays2_[i] += window_share * (norm2(x[i] - window_at_[i] - t * window_velocity_[i]) - strays2_[i]);
+  });
   window_steps_ = -1;
 }
 
@@ -59,10 +84,10 @@ void CandidateList::expect(std::span<const Vec3> x1) {
   const double dt = end_s_ - start_s_;
   told_.resize(x0_.size());
   expected_.resize(x0_.size());
-  for (std::size_t i = 0; i < x0_.size(); ++i) {
+  each(x0_.size(), [&](int i) {
     told_[i] = (x1[i] - x0_[i]) / dt;
     expected_[i] = told_[i] + correction_[i];
-  }
+  });
   if (window_steps_ >= 0) return;
   window_at_ = x0_;
   window_velocity_ = expected_;
@@ -73,14 +98,13 @@ void CandidateList::expect(std::span<const Vec3> x1) {
 void CandidateList::leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const {
   const double t = time_s - listed_s_;
   out.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) out[i] = norm(x[i] - listed_at_[i] - t * listed_velocity_[i]);
+  each(x.size(), [&](int i) { out[i] = norm(x[i] - listed_at_[i] - t * listed_velocity_[i]); });
 }
 
 /// The gradients do at x0, which most often is where the last step was found to end.
 bool CandidateList::startHolds() const {
-  bool same = last_end_.size() == x0_.size();
-  for (std::size_t i = 0; same && i < x0_.size(); ++i) same = norm2(x0_[i] - last_end_[i]) < kSame_m * kSame_m;
-  return same || tree_.gradientsHold(x0_);
+  const auto same = [&](int i) { return norm2(x0_[i] - last_end_[i]) < kSame_m * kSame_m; };
+  return (last_end_.size() == x0_.size() && allOf(x0_.size(), same)) || tree_.gradientsHold(x0_);
 }
 
 bool CandidateList::holds(std::span<const Vec3> x1) {
@@ -104,8 +128,12 @@ void CandidateList::make(const ContactMesh& mesh, const PairCollector& collector
   listed_velocity_ = expected_;
   slack_m_.resize(x0_.size());
   // Where this step leaves the paths, it may do so once more.
-  for (std::size_t i = 0; i < x0_.size(); ++i)
-    slack_m_[i] = kLeastSlack_m + kStrays * std::sqrt(strays2_[i]) + 2 * norm(x1[i] - x0_[i] - dt * expected_[i]);
+  const int first_of_bodies = tree_.firstObstacleVertex();
+  const double least = std::max(kLeastSlack_m, kLeastSlack * rules.margin_m);
+  each(x0_.size(), [&](int i) {
+    slack_m_[i] = (i < first_of_bodies ? least : kBodySlack_m) + kStrays * std::sqrt(strays2_[i]) +
+                  2 * norm(x1[i] - x0_[i] - dt * expected_[i]);
+  });
   tree_.gradientChanges(mesh, x0_, x1, change_);
   for (double& c : change_) c = std::max(kChanges * c, kLeastChange);
   const ListedMotion motion{listed_at_, listed_velocity_, slack_m_, horizon_s_};
@@ -122,15 +150,15 @@ void CandidateList::cover(const ContactMesh& mesh, const PairCollector& collecto
                           std::span<const Vec3> x1) {
   if (told_.empty()) expect(x1);
   if (!holds(x1)) make(mesh, collector, rules, x1);
-  for (std::size_t i = 0; i < moved_.size(); ++i) moved_[i] = std::max(moved_[i], start_moved_[i]);
+  each(moved_.size(), [&](int i) { moved_[i] = std::max(moved_[i], start_moved_[i]); });
   edge_moved_.resize(mesh.edges.size());
-  for (std::size_t e = 0; e < edge_moved_.size(); ++e)
-    edge_moved_[e] = std::max(moved_[mesh.edges[e][0]], moved_[mesh.edges[e][1]]);
+  each(edge_moved_.size(),
+       [&](int e) { edge_moved_[e] = std::max(moved_[mesh.edges[e][0]], moved_[mesh.edges[e][1]]); });
   triangle_moved_.resize(mesh.triangles.size());
-  for (std::size_t t = 0; t < triangle_moved_.size(); ++t) {
+  each(triangle_moved_.size(), [&](int t) {
     const auto& [a, b, c] = mesh.triangles[t];
     triangle_moved_[t] = std::max({moved_[a], moved_[b], moved_[c]});
-  }
+  });
 }
 
 }  // namespace gambeson

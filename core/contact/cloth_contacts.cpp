@@ -6,11 +6,13 @@
 
 #include "core/contact/segment_pair.hpp"
 #include "core/contact/triangle.hpp"
+#include "core/math/in_order.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr double kSharp = 0.05;  ///< sine of the angle by which the faces of an edge bend away
+constexpr int kMany = 1024;      ///< pairs, from which on threads share the work
 
 class Search {
  public:
@@ -181,8 +183,12 @@ void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const Candi
                    std::span<const Vec3> x0, std::span<const Vec3> x1, std::vector<ClothContactPoint>& out) {
   out.clear();
   const Search search(mesh, facts, x0, x1);
-  for (const PointTriangle& pair : pairs.points) search.sampleOn(pair, out);
-  for (const EdgeEdge& pair : pairs.edges) search.edgeOn(pair, out);
+  appendInOrder(static_cast<int>(pairs.points.size()), kMany, out, [&](int first, int end, auto& list) {
+    for (int k = first; k < end; ++k) search.sampleOn(pairs.points[k], list);
+  });
+  appendInOrder(static_cast<int>(pairs.edges.size()), kMany, out, [&](int first, int end, auto& list) {
+    for (int k = first; k < end; ++k) search.edgeOn(pairs.edges[k], list);
+  });
   const auto key = [](const ClothContactPoint& p) {
     return std::tuple(-p.contact.obstacle, p.contact.sample, p.contact.feature);
   };

@@ -9,6 +9,8 @@
 
 namespace gambeson {
 namespace {
+constexpr int kMany = 4096;     ///< from which on threads share the work
+constexpr int kGroup = 1024;    ///< nodes
 constexpr int kHullCells = 16;  ///< hulls of so few cells are looked at cell by cell
 }  // namespace
 
@@ -37,6 +39,22 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
     for (int t = range.first; t < range.end; ++t)
       for (int v : mesh.triangles[t]) first_obstacle_vertex_ = std::min(first_obstacle_vertex_, v);
   boxes_.resize(nodes_.size());
+  findGroups();
+}
+
+/// A node's descendants follow it without a gap.
+void ContactTree::findGroups() {
+  std::vector<int> end(nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;)
+    end[i] = nodes_[i].left < 0 ? static_cast<int>(i) + 1 : end[nodes_[i].right];
+  for (int i = 0; i < static_cast<int>(nodes_.size());) {
+    if (end[i] - i > kGroup) {
+      above_.push_back(i++);
+      continue;
+    }
+    groups_.push_back({i, end[i]});
+    i = end[i];
+  }
 }
 
 /// Two triangles with a common edge: its ends become opposite corners.
@@ -141,8 +159,10 @@ ContactTree::Cluster ContactTree::cellCluster(std::span<const int> triangles, st
 void ContactTree::gradientChanges(const ContactMesh& mesh, std::span<const Vec3> x0, std::span<const Vec3> x1,
                                   std::vector<double>& out) const {
   out.resize(inverse_.size());
-  for (std::size_t t = 0; t < inverse_.size(); ++t) {
-    const Gradient a = gradient(mesh, static_cast<int>(t), x0), b = gradient(mesh, static_cast<int>(t), x1);
+  const int n = static_cast<int>(inverse_.size());
+#pragma omp parallel for schedule(static) if (n > kMany)
+  for (int t = 0; t < n; ++t) {
+    const Gradient a = gradient(mesh, t, x0), b = gradient(mesh, t, x1);
     out[t] = std::sqrt(norm2(b.s - a.s) + norm2(b.t - a.t));
   }
 }
@@ -176,34 +196,49 @@ void ContactTree::findSides(const ContactMesh& mesh, std::span<const ChartCorner
     triangle_sides_[f.triangle][f.axis] = static_cast<int>(sides_.size()) - 1;
   }
   sides_then_.resize(sides_.size());
+  std::vector<std::vector<int>> triangles(sides_.size());
+  for (std::size_t t = 0; t < triangle_sides_.size(); ++t)
+    for (int k : triangle_sides_[t])
+      if (k >= 0) triangles[k].push_back(static_cast<int>(t));
+  for (const std::vector<int>& of_side : triangles) {
+    side_triangles_.items.insert(side_triangles_.items.end(), of_side.begin(), of_side.end());
+    side_triangles_.first.push_back(static_cast<int>(side_triangles_.items.size()));
+  }
 }
 
 /// Each column may change by 1/sqrt(2) of what the triangle may.
 void ContactTree::watchSides(std::span<const Vec3> x, std::span<const double> change) {
-  for (std::size_t k = 0; k < sides_.size(); ++k) {
+  const int n = static_cast<int>(sides_.size());
+#pragma omp parallel for schedule(static) if (n > kMany)
+  for (int k = 0; k < n; ++k) {
     const Vec3 d = x[sides_[k].b] - x[sides_[k].a];
-    sides_then_[k] = {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
-                      std::numeric_limits<float>::infinity()};
-  }
-  for (std::size_t t = 0; t < triangle_sides_.size(); ++t)
-    for (int k : triangle_sides_[t]) {
-      if (k < 0) continue;
+    float most2 = std::numeric_limits<float>::infinity();
+    for (int t : side_triangles_[k]) {
       // Less by the rounding of all this: that of the sides is 1e-7 of them.
       const float most = (0.7071f * static_cast<float>(change.empty() ? 0 : change[t]) - 1e-5f) * sides_[k].length_m;
-      sides_then_[k].most2 = std::min(sides_then_[k].most2, most > 0 ? most * most : -1.0f);
+      most2 = std::min(most2, most > 0 ? most * most : -1.0f);
     }
+    sides_then_[k] = {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), most2};
+  }
 }
 
 bool ContactTree::gradientsHold(std::span<const Vec3> x) const {
-  bool hold = true;
-  for (std::size_t k = 0; k < sides_.size() && hold; ++k) {
+  const int n = static_cast<int>(sides_.size());
+  const auto holds = [&](int k) {
     const SideThen& then = sides_then_[k];
     const Vec3 d = x[sides_[k].b] - x[sides_[k].a];
     const float dx = static_cast<float>(d.x) - then.x, dy = static_cast<float>(d.y) - then.y,
                 dz = static_cast<float>(d.z) - then.z;
-    hold = dx * dx + dy * dy + dz * dz <= then.most2;
+    return dx * dx + dy * dy + dz * dz <= then.most2;
+  };
+  int fail = 0;
+  if (n > kMany) {
+#pragma omp parallel for schedule(static) reduction(+ : fail)
+    for (int k = 0; k < n; ++k) fail += !holds(k);
+  } else {
+    for (int k = 0; k < n && fail == 0; ++k) fail = !holds(k);
   }
-  return hold;
+  return fail == 0;
 }
 
 ContactTree::Cluster ContactTree::merge(const Cluster& a, const Cluster& b) {
@@ -221,44 +256,62 @@ bool ContactTree::placePoints(const ListedMotion& motion) {
   points_.resize(n);
   if (n == 0) return false;
   const Vec3 origin = motion.x[0];
-  bool changed = !known;
+  const int count = static_cast<int>(n);
+  int changes = !known;
   Four far{};
-  for (std::size_t i = 0; i < n; ++i) {
-    const MovingBox box(motion, static_cast<int>(i));
-    changed = changed || (static_cast<int>(i) >= first_obstacle_vertex_ && !(box == vertex_boxes_[i]));
-    vertex_boxes_[i] = box;
-    const Vec3 now = motion.x[i] - origin, then = now + motion.horizon_s * motion.velocity(static_cast<int>(i));
-    MovingPoint& p = points_[i];
-    p.now = single(now);
-    p.then = single(then);
-    far = most(far, most(most(p.now, -p.now), most(p.then, -p.then)));
+#pragma omp parallel if (count > kMany) reduction(+ : changes)
+  {
+    Four mine{};
+#pragma omp for schedule(static)
+    for (int i = 0; i < count; ++i) {
+      const MovingBox box(motion, i);
+      changes += i >= first_obstacle_vertex_ && !(box == vertex_boxes_[i]);
+      vertex_boxes_[i] = box;
+      const Vec3 now = motion.x[i] - origin, then = now + motion.horizon_s * motion.velocity(i);
+      MovingPoint& p = points_[i];
+      p.now = single(now);
+      p.then = single(then);
+      mine = most(mine, most(most(p.now, -p.now), most(p.then, -p.then)));
+    }
+#pragma omp critical
+    far = most(far, mine);
   }
   // Each coordinate is off by 2^-24 of itself, a sum of three products by four times that; two of them make a distance.
   shape_error_m_ = 2e-6f * mostOf(far)[0] + 1e-9f;
-  return changed;
+  return changes > 0;
 }
 
 void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion, std::span<const double> change) {
   const bool obstacles_changed = placePoints(motion);
   gradients_.resize(inverse_.size());
-  for (std::size_t t = 0; t < gradients_.size(); ++t) gradients_[t] = gradient(mesh, static_cast<int>(t), motion.x);
+  const int triangles = static_cast<int>(inverse_.size()), groups = static_cast<int>(groups_.size());
+#pragma omp parallel for schedule(static) if (triangles > kMany)
+  for (int t = 0; t < triangles; ++t) gradients_[t] = gradient(mesh, t, motion.x);
   watchSides(motion.x, change);
-  for (std::size_t i = obstacles_changed ? nodes_.size() : parts_.size(); i-- > 0;) {
-    const Node& n = nodes_[i];
-    MovingBox& box = boxes_[i];
-    if (n.left >= 0) {
-      box = boxes_[n.left];
-      box.add(boxes_[n.right]);
-      if (n.whole) parts_[i].cluster = merge(parts_[n.left].cluster, parts_[n.right].cluster);
-      continue;
-    }
-    box = {};
-    for (int k = n.first; k < n.first + n.count; ++k) box.add(boxOf(tiles_[k].vertex));
-    if (!n.whole) continue;
-    Part& part = parts_[i];
-    part.cluster = cellCluster(tiles_[n.first].triangle, change);
-    cells_[n.chart][part.begin[0] + charts_[n.chart].cells[0] * part.begin[1]] = part.cluster;
+  const int end = static_cast<int>(obstacles_changed ? nodes_.size() : parts_.size());
+#pragma omp parallel for schedule(dynamic) if (end > kMany)
+  for (int g = 0; g < groups; ++g)
+    for (int i = std::min(groups_[g][1], end); i-- > groups_[g][0];) refitNode(i, change);
+  for (std::size_t k = above_.size(); k-- > 0;)
+    if (above_[k] < end) refitNode(above_[k], change);
+}
+
+/// After its children.
+void ContactTree::refitNode(std::size_t i, std::span<const double> change) {
+  const Node& n = nodes_[i];
+  MovingBox& box = boxes_[i];
+  if (n.left >= 0) {
+    box = boxes_[n.left];
+    box.add(boxes_[n.right]);
+    if (n.whole) parts_[i].cluster = merge(parts_[n.left].cluster, parts_[n.right].cluster);
+    return;
   }
+  box = {};
+  for (int k = n.first; k < n.first + n.count; ++k) box.add(boxOf(tiles_[k].vertex));
+  if (!n.whole) return;
+  Part& part = parts_[i];
+  part.cluster = cellCluster(tiles_[n.first].triangle, change);
+  cells_[n.chart][part.begin[0] + charts_[n.chart].cells[0] * part.begin[1]] = part.cluster;
 }
 
 Box ContactTree::reachOfCloth(const PairRules& rules) const {

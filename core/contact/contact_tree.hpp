@@ -105,6 +105,8 @@ class ContactTree {
     const auto& v = tiles_[tile].vertex;
     return {points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]], tiles_[tile].triangle[1] >= 0};
   }
+  /// Vertices from this one on are the obstacles'.
+  int firstObstacleVertex() const { return first_obstacle_vertex_; }
   /// Of the vertices.
   std::span<const MovingPoint> points() const { return points_; }
   /// Distances from shapes and points are off by no more.
@@ -195,6 +197,8 @@ class ContactTree {
   int buildObstacle(const ContactMesh& mesh, std::span<int> triangles, std::span<const Vec3> centres);
   void addTile(const ContactMesh& mesh, int first, int second);
   bool placePoints(const ListedMotion& motion);
+  void findGroups();
+  void refitNode(std::size_t i, std::span<const double> change);
   Gradient gradient(const ContactMesh& mesh, int triangle, std::span<const Vec3> x) const;
   Cluster cellCluster(std::span<const int> triangles, std::span<const double> change) const;
   void findSides(const ContactMesh& mesh, std::span<const ChartCorners> corners);
@@ -218,10 +222,12 @@ class ContactTree {
 
   std::vector<GridChart> charts_;
   std::vector<Node> nodes_;
-  std::vector<MovingBox> boxes_;  ///< of the nodes
-  std::vector<Part> parts_;       ///< of the nodes of cloth, which come first
-  std::vector<int> roots_;        ///< of the charts, then of the obstacles
-  std::vector<Tile> tiles_;       ///< leaf by leaf
+  std::vector<MovingBox> boxes_;            ///< of the nodes
+  std::vector<Part> parts_;                 ///< of the nodes of cloth, which come first
+  std::vector<int> roots_;                  ///< of the charts, then of the obstacles
+  std::vector<std::array<int, 2>> groups_;  ///< nodes [first, end) under one, of a size that a thread takes at once
+  std::vector<int> above_;                  ///< the other nodes, ascending
+  std::vector<Tile> tiles_;                 ///< leaf by leaf
   std::vector<MovingBox> vertex_boxes_;
   std::vector<MovingPoint> points_;  ///< the vertices
   float shape_error_m_ = 0;
@@ -238,6 +244,7 @@ class ContactTree {
   std::vector<Side> sides_;  ///< of whole cells, each once
   std::vector<SideThen> sides_then_;
   std::vector<std::array<int, 2>> triangle_sides_;  ///< of each triangle of cloth; -1 in cells that are cut
+  Lists side_triangles_;                            ///< and the triangles of each side
   std::vector<std::array<double, 4>> inverse_;      ///< of the reference edges of each triangle of a whole cell
   std::vector<std::vector<Cluster>> cells_;         ///< of each cell of each chart
 };

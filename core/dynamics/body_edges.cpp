@@ -7,20 +7,21 @@
 #include "core/contact/segment_pair.hpp"
 #include "core/contact/sharp.hpp"
 #include "core/contact/triangle.hpp"
+#include "core/math/in_order.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr double kAway = 1e-3;  ///< of faces from the cloth: else they are nearer than the edge
 constexpr double kInside = 1e-6;
+constexpr int kMany = 1024;  ///< pairs, from which on threads share the work
 
 class Search {
  public:
-  Search(const CollisionModel& m, double dt, std::span<const char> inside, const CollisionWork& w,
-         std::vector<ContactRow>& rows)
-      : m_(m), dt_(dt), inside_(inside), w_(w), rows_(rows), x_(w.x0) {}
+  Search(const CollisionModel& m, double dt, std::span<const char> inside, const CollisionWork& w)
+      : m_(m), dt_(dt), inside_(inside), w_(w), x_(w.x0) {}
 
-  void cornerOn(const PointTriangle& pair) {
+  void cornerOn(const PointTriangle& pair, std::vector<ContactRow>& rows) const {
     const int v = pair.vertex;
     const std::array<int, 3>& t = m_.mesh.triangles[pair.triangle];
     if (!m_.sharp_corner[v] || m_.body_of_vertex[t[0]] >= 0) return;
@@ -34,10 +35,10 @@ class Search {
     const Vec3 u = corner[1] - corner[0], s = corner[2] - corner[0], r = foot.position - corner[0], n = cross(u, s);
     const double b = dot(cross(r, s), n) / norm2(n), c = dot(cross(u, r), n) / norm2(n);
     add(std::array{t[0], t[1], t[2]}, std::array{1 - b - c, b, c}, std::array{v}, std::array{1.0}, way / gap, gap,
-        {0, v, pair.triangle}, v);
+        {0, v, pair.triangle}, v, rows);
   }
 
-  void edgeOn(const EdgeEdge& pair) {
+  void edgeOn(const EdgeEdge& pair, std::vector<ContactRow>& rows) const {
     const bool a_is_body = m_.body_of_vertex[m_.mesh.edges[pair.a][0]] >= 0;
     const bool b_is_body = m_.body_of_vertex[m_.mesh.edges[pair.b][0]] >= 0;
     if (a_is_body == b_is_body) return;
@@ -52,7 +53,7 @@ class Search {
     const double gap = norm(way);
     if (!(gap > 0) || !edgeIsNearest(body, way / gap)) return;
     add(c, std::array{1 - near.s, near.s}, e, std::array{1 - near.t, near.t}, way / gap, gap, {1, pair.a, pair.b},
-        m_.mesh.vertex_count + body);
+        m_.mesh.vertex_count + body, rows);
   }
 
  private:
@@ -89,7 +90,7 @@ class Search {
   template <std::size_t N, std::size_t M>
   void add(const std::array<int, N>& cloth, const std::array<double, N>& weight, const std::array<int, M>& body,
            const std::array<double, M>& body_weight, const Vec3& normal, double gap, const std::array<int, 3>& pair,
-           int feature) {
+           int feature, std::vector<ContactRow>& rows) const {
     ContactRow row;
     row.pair = pair;
     row.contact.normal = normal;
@@ -111,14 +112,13 @@ class Search {
       touch(m_, body[k], body_weight[k], row.contact);
     }
     way -= dt_ * row.body_velocity;
-    if (comesWithin(contactReach(thickness), gap * normal, way)) rows_.push_back(row);
+    if (comesWithin(contactReach(thickness), gap * normal, way)) rows.push_back(row);
   }
 
   const CollisionModel& m_;
   double dt_;
   std::span<const char> inside_;
   const CollisionWork& w_;
-  std::vector<ContactRow>& rows_;
   std::span<const Vec3> x_;
 };
 
@@ -140,9 +140,13 @@ void bodyEdgeRows(const CollisionModel& m, double dt, std::span<const char> insi
                   std::vector<ContactRow>& rows) {
   rows.clear();
   if (m.bodies.empty()) return;
-  Search search(m, dt, inside, w, rows);
-  for (const PointTriangle& pair : w.near.points) search.cornerOn(pair);
-  for (const EdgeEdge& pair : w.near.edges) search.edgeOn(pair);
+  const Search search(m, dt, inside, w);
+  appendInOrder(static_cast<int>(w.near.points.size()), kMany, rows, [&](int first, int end, auto& list) {
+    for (int k = first; k < end; ++k) search.cornerOn(w.near.points[k], list);
+  });
+  appendInOrder(static_cast<int>(w.near.edges.size()), kMany, rows, [&](int first, int end, auto& list) {
+    for (int k = first; k < end; ++k) search.edgeOn(w.near.edges[k], list);
+  });
   const auto key = [](const ContactRow& r) {
     return std::tuple(r.contact.sample, r.contact.obstacle, r.contact.feature, r.pair);
   };

@@ -1,6 +1,7 @@
 #include "core/dynamics/collisions.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -9,11 +10,13 @@
 #include "core/contact/certified_impact.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/dynamics/body_edges.hpp"
+#include "core/math/in_order.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr double kSeparation_m = 1e-6;
+constexpr int kMany = 4096;  ///< pairs, from which on threads share the work
 
 PairRules rulesOf(const CollisionModel& m) {
   return {std::max(contactReach(m.largest_thickness_m), 2 * kSeparation_m), m.least, m.self, 2 * kSeparation_m};
@@ -215,6 +218,7 @@ void keepOutside(const CollisionModel& m, double time_s, std::span<const Vec3> x
   if (w.x0.size() == static_cast<std::size_t>(m.mesh.vertex_count)) {
     if (isAt(w.start_s, w.x0)) return;
     if (isAt(w.end_s, w.x1)) {
+      if (std::all_of(w.tangle.begin(), w.tangle.end(), [](Tangle t) { return t == Tangle::kFree; })) return;
       for (const PointTriangle& p : w.list.pairs().points) {
         if (p.triangle < m.cloth_triangles || w.list.apart(p) > 0 || w.tangle[p.vertex] == Tangle::kFree) continue;
         const CollisionModel::Body& body = m.bodies[m.body_of_vertex[m.mesh.triangles[p.triangle][0]]];
@@ -270,8 +274,14 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   if (!m.self && m.bodies.empty()) return;
   w.list.cover(m.mesh, m.collector, rulesOf(m), w.x1);
   const double reach = contactReach(m.largest_thickness_m);
-  for (const PointTriangle& p : w.list.pairs().points) {
-    if (!(w.list.apart(p) < reach)) continue;
+  const std::span<const PointTriangle> points = w.list.pairs().points;
+  const std::span<const EdgeEdge> edges = w.list.pairs().edges;
+  w.near_points.clear();
+  appendInOrder(static_cast<int>(points.size()), kMany, w.near_points, [&](int first, int end, auto& list) {
+    for (int k = first; k < end; ++k)
+      if (w.list.apart(points[k]) < reach) list.push_back(points[k]);
+  });
+  for (const PointTriangle& p : w.near_points) {
     if (p.triangle < m.cloth_triangles) {
       w.near.points.push_back(p);
     } else {
@@ -281,8 +291,10 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
     }
   }
   for (int v = 0; v < m.cloth.cloth_vertices; ++v) w.near_bodies.first[v + 1] += w.near_bodies.first[v];
-  for (const EdgeEdge& p : w.list.pairs().edges)
-    if (w.list.apart(p) < reach) w.near.edges.push_back(p);
+  appendInOrder(static_cast<int>(edges.size()), kMany, w.near.edges, [&](int first, int end, auto& list) {
+    for (int k = first; k < end; ++k)
+      if (w.list.apart(edges[k]) < reach) list.push_back(edges[k]);
+  });
 }
 
 void dropUnreached(const CollisionModel& m, const ObstacleMotion& obstacles, const CollisionWork& w,
@@ -317,7 +329,8 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
     box.add(path(m.mesh.edges[e][1]));
     return box;
   };
-  const auto ask = [&](PairHit hit, const std::array<int, 4>& vertex) {
+  std::atomic<int> touching = 0, capped = 0;
+  const auto ask = [&](PairHit hit, const std::array<int, 4>& vertex, std::vector<PairHit>& found) {
     bool cloth_inside = false, body = false;
     for (int v : vertex) {
       if (m.body_of_vertex[v] >= 0)
@@ -338,32 +351,42 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
     if (!first(kSeparation_m)) return;
     const double start = hit.edges ? edgeEdgeGap(x0) : pointTriangleGap(x0);
     if (!(start > 0)) {  // no side to stay on
-      ++w.report.touching;
+      ++touching;
       return;
     }
     const auto at = first(std::min(kSeparation_m, 0.1 * start));
     if (!at) return;
-    w.report.capped += at->capped;
+    capped += at->capped;
     hit.time = at->time;
     hit.row = rowOf(m, w, hit, x0, x1, vertex, *at, dt);
-    hits.push_back(hit);
+    found.push_back(hit);
   };
-  for (const PointTriangle& p : w.list.pairs().points) {
-    if (w.list.apart(p) > 2 * kSeparation_m) continue;
-    const auto& [a, b, c] = m.mesh.triangles[p.triangle];
-    Box triangle = path(a);
-    triangle.add(path(b));
-    triangle.add(path(c));
-    if (!overlap(path(p.vertex).grown(2 * kSeparation_m), triangle)) continue;
-    ask({false, p.vertex, p.triangle, 0, {}}, {p.vertex, a, b, c});
-  }
-  for (const EdgeEdge& p : w.list.pairs().edges) {
-    if (w.list.apart(p) > 2 * kSeparation_m || !overlap(edgePath(p.a).grown(2 * kSeparation_m), edgePath(p.b)))
-      continue;
-    const auto [a, b] = m.mesh.edges[p.a];
-    const auto [c, d] = m.mesh.edges[p.b];
-    ask({true, p.a, p.b, 0, {}}, {a, b, c, d});
-  }
+  const std::span<const PointTriangle> points = w.list.pairs().points;
+  const std::span<const EdgeEdge> edges = w.list.pairs().edges;
+  appendInOrder(static_cast<int>(points.size()), kMany, hits, [&](int first, int end, std::vector<PairHit>& found) {
+    for (int k = first; k < end; ++k) {
+      const PointTriangle& p = points[k];
+      if (w.list.apart(p) > 2 * kSeparation_m) continue;
+      const auto& [a, b, c] = m.mesh.triangles[p.triangle];
+      Box triangle = path(a);
+      triangle.add(path(b));
+      triangle.add(path(c));
+      if (!overlap(path(p.vertex).grown(2 * kSeparation_m), triangle)) continue;
+      ask({false, p.vertex, p.triangle, 0, {}}, {p.vertex, a, b, c}, found);
+    }
+  });
+  appendInOrder(static_cast<int>(edges.size()), kMany, hits, [&](int first, int end, std::vector<PairHit>& found) {
+    for (int k = first; k < end; ++k) {
+      const EdgeEdge& p = edges[k];
+      if (w.list.apart(p) > 2 * kSeparation_m || !overlap(edgePath(p.a).grown(2 * kSeparation_m), edgePath(p.b)))
+        continue;
+      const auto [a, b] = m.mesh.edges[p.a];
+      const auto [c, d] = m.mesh.edges[p.b];
+      ask({true, p.a, p.b, 0, {}}, {a, b, c, d}, found);
+    }
+  });
+  w.report.touching += touching;
+  w.report.capped += capped;
   std::sort(hits.begin(), hits.end(), [](const PairHit& p, const PairHit& q) {
     return std::tie(p.edges, p.a, p.b) < std::tie(q.edges, q.a, q.b);
   });

@@ -68,9 +68,10 @@ struct CollisionReport {
 struct CollisionWork {
   CandidateList list;
   double start_s = 0, end_s = 0;
-  std::vector<Vec3> x0, x1;    ///< of this step
-  CandidatePairs near;         ///< of the list, what may come within reach of a contact
-  MeshCandidates near_bodies;  ///< and triangles of bodies, by sample
+  std::vector<Vec3> x0, x1;                ///< of this step
+  CandidatePairs near;                     ///< of the list, what may come within reach of a contact
+  MeshCandidates near_bodies;              ///< and triangles of bodies, by sample
+  std::vector<PointTriangle> near_points;  ///< both
   std::vector<ClothContactPoint> points;
   std::vector<Tangle> tangle;  ///< of each vertex in this step
   CollisionReport report;
