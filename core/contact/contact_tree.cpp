@@ -42,6 +42,25 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
   findGroups();
 }
 
+void ContactTree::setShares(std::span<const double> share_m) {
+  tile_share_m_.clear();
+  node_share_m_.clear();
+  const std::span<const double> cloth = share_m.first(std::min<std::size_t>(share_m.size(), first_obstacle_vertex_));
+  if (std::all_of(cloth.begin(), cloth.end(), [&](double s) { return s == cloth[0]; })) return;
+  tile_share_m_.assign(tiles_.size(), -1);
+  node_share_m_.assign(nodes_.size(), -1);
+  for (std::size_t k = 0; k < tiles_.size(); ++k)
+    for (int v : tiles_[k].vertex)
+      if (v < first_obstacle_vertex_) tile_share_m_[k] = std::max(tile_share_m_[k], roundUp(share_m[v]));
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    const Node& n = nodes_[i];
+    if (n.left >= 0)
+      node_share_m_[i] = std::max(node_share_m_[n.left], node_share_m_[n.right]);
+    else
+      for (int k = n.first; k < n.first + n.count; ++k) node_share_m_[i] = std::max(node_share_m_[i], tile_share_m_[k]);
+  }
+}
+
 /// A node's descendants follow it without a gap.
 void ContactTree::findGroups() {
   std::vector<int> end(nodes_.size());
@@ -377,7 +396,7 @@ std::vector<ContactTree::Search> ContactTree::searches(const PairRules& rules, i
       found.push_back({roots_[i], roots_[j], false});
   }
   // What Traversal does first, level by level.
-  const float reach = roundUp(rules.margin_m);
+  const float widest = roundUp(rules.margin_m);
   bool opened = true;
   while (opened && static_cast<int>(found.size()) < parts) {
     opened = false;
@@ -394,7 +413,7 @@ std::vector<ContactTree::Search> ContactTree::searches(const PairRules& rules, i
         continue;
       }
       const Node& b = nodes_[s.b];
-      if (!mayMeet(boxes_[s.a], boxes_[s.b], reach)) continue;
+      if (!mayMeet(boxes_[s.a], boxes_[s.b], reachOf(rules, widest, s.a, s.b))) continue;
       if (a.left < 0 && b.left < 0) {
         next.push_back(s);
         continue;

@@ -57,6 +57,15 @@ class ContactTree {
   ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts, std::span<const ChartCorners> corners,
               std::span<const TriangleRange> obstacles, std::span<const Vec3> x);
 
+  /// Thin cloth has a margin of its own: two primitives of cloth matter only within the sum of their vertices' largest
+  /// shares, one of cloth and one of an obstacle within twice the former's, and never beyond PairRules::margin_m.
+  /// `share_m` of each vertex; of obstacles they do not count. Where all are the same they make no difference.
+  void setShares(std::span<const double> share_m);
+  /// The margin between two tiles.
+  double marginOf(const PairRules& rules, int tile_a, int tile_b) const {
+    return tile_share_m_.empty() ? rules.margin_m : shared(rules, tile_share_m_[tile_a], tile_share_m_[tile_b]);
+  }
+
   /// Boxes and certificates of a motion, good for as long as all vertices do what it says and no gradient moves from
   /// where it is at x by more than `change` of its triangle of cloth (empty: zero).
   void refit(const ContactMesh& mesh, const ListedMotion& motion, std::span<const double> change);
@@ -82,7 +91,7 @@ class ContactTree {
   /// not be looked at either; it takes a while to tell.
   template <class Visit>
   void pairs(const PairRules& rules, const Search& search, Visit&& visit) const {
-    Traversal<Visit> t{*this, rules.margin_m, rules.least, roundUp(rules.margin_m), visit};
+    Traversal<Visit> t{*this, rules, rules.margin_m, rules.least, roundUp(rules.margin_m), visit};
     if (search.b < 0)
       t.within(search.a);
     else
@@ -137,6 +146,7 @@ class ContactTree {
   template <class Visit>
   struct Traversal {
     const ContactTree& tree;
+    const PairRules& rules;
     double margin, least;
     float reach;  ///< the margin for boxes
     Visit& visit;
@@ -157,7 +167,7 @@ class ContactTree {
       between(n.left, n.right, n.whole);
     }
     void between(int ia, int ib, bool asked = false) {
-      if (mayMeet(tree.boxes_[ia], tree.boxes_[ib], reach)) near(ia, ib, asked);
+      if (mayMeet(tree.boxes_[ia], tree.boxes_[ib], tree.reachOf(rules, reach, ia, ib))) near(ia, ib, asked);
     }
     /// Two nodes whose boxes may meet. `asked`: their hull has no certificate.
     void near(int ia, int ib, bool asked) {
@@ -210,6 +220,16 @@ class ContactTree {
     return std::sqrt(TileShape::dot(s, s) + TileShape::dot(t, t));
   }
   bool hullCertifies(int ia, int ib, double least) const;
+  static double shared(const PairRules& rules, float a, float b) {
+    const double sum = a < 0 ? 2.0 * b : b < 0 ? 2.0 * a : static_cast<double>(a) + b;
+    return std::clamp(sum, rules.blunt_margin_m, rules.margin_m);
+  }
+  /// For boxes of nodes, rounded up. `widest`: PairRules::margin_m, so rounded.
+  float reachOf(const PairRules& rules, float widest, int ia, int ib) const {
+    if (node_share_m_.empty()) return widest;
+    const float a = node_share_m_[ia], b = node_share_m_[ib], sum = a < 0 ? b + b : b < 0 ? a + a : a + b;
+    return std::clamp(sum * 1.000001f, static_cast<float>(rules.blunt_margin_m) * 1.000001f, widest);
+  }
   bool coveredBetween(int ia, int ib, double margin_m, double least) const;
   /// Of two nodes, not both leaves: the first is the one to look into.
   bool opensFirst(int ia, int ib) const {
@@ -228,6 +248,7 @@ class ContactTree {
   std::vector<std::array<int, 2>> groups_;  ///< nodes [first, end) under one, of a size that a thread takes at once
   std::vector<int> above_;                  ///< the other nodes, ascending
   std::vector<Tile> tiles_;                 ///< leaf by leaf
+  std::vector<float> node_share_m_, tile_share_m_;  ///< the largest of their vertices; -1: of obstacles
   std::vector<MovingBox> vertex_boxes_;
   std::vector<MovingPoint> points_;  ///< the vertices
   float shape_error_m_ = 0;

@@ -115,12 +115,14 @@ class Primitives {
   void tiles(int i, int j, Covered&& covered) {
     const std::span<const Tile> tiles = tree_.tiles();
     const std::span<const int> as = tiles[i].triangle, bs = tiles[j].triangle;
+    wide_margin_m_ = tree_.marginOf(rules_, i, j);
+    wide_reach_ = roundUp(wide_margin_m_);
     if (i == j) {
       between(as.first(1), as.last(1), 0);
       return;
     }
     const TileShape &a = shape(i), &b = shape(j);
-    const double slack = out_.slacks[i] + out_.slacks[j], far = rules_.margin_m + slack;
+    const double slack = out_.slacks[i] + out_.slacks[j], far = wide_margin_m_ + slack;
     const auto certain = [&](const Four& gap) { return leastOf(gap)[0] * (1 - 1e-6) - tree_.shapeError_m(); };
     const Four way = a.centre - b.centre;
     if (bs[1] < 0 && blunt_[bs[0]] == kAllBlunt) {
@@ -188,7 +190,7 @@ class Primitives {
     }
   }
 
-  double marginOf(bool blunt) const { return blunt ? rules_.blunt_margin_m : rules_.margin_m; }
+  double marginOf(bool blunt) const { return blunt ? rules_.blunt_margin_m : wide_margin_m_; }
   float reachOf(bool blunt) const { return blunt ? narrow_reach_ : wide_reach_; }
   template <std::size_t N>
   double slackOf(const std::array<int, N>& vertices) const {
@@ -205,7 +207,9 @@ class Primitives {
   CandidatePairs::Share& out_;
   Batch<1> points_{tree_, motion_.horizon_s};
   Batch<2> edges_{tree_, motion_.horizon_s};
-  const float wide_reach_ = roundUp(rules_.margin_m), narrow_reach_ = roundUp(rules_.blunt_margin_m);
+  const float narrow_reach_ = roundUp(rules_.blunt_margin_m);
+  double wide_margin_m_ = 0;  ///< of the two tiles that are looked at
+  float wide_reach_ = 0;
 };
 
 /// By vertex, then triangle.

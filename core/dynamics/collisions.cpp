@@ -146,6 +146,9 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
     m.layer_of_vertex.resize(x.size(), -1);
   }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
+  std::vector<double> shares(m.mesh.vertex_count, 0);
+  for (std::size_t v = 0; v < m.cloth.thickness_m.size(); ++v) shares[v] = 0.5 * contactReach(m.cloth.thickness_m[v]);
+  m.tree.setShares(shares);
   m.collector = PairCollector(m.mesh, bluntFeatures(m));
   std::vector<char> deforms;
   for (int body : m.body_of_vertex) deforms.push_back(body >= 0 && m.bodies[body].deforms);

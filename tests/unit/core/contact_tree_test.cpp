@@ -202,6 +202,69 @@ TEST_F(TreeTest, AnyNumberOfThreadsMakesTheSameList) {
   }
 }
 
+/// Thick cloth over thin cloth and a body: what comes within the margin of its own is on the list, thin cloth lists
+/// less.
+TEST_F(TreeTest, ThinClothHasAMarginOfItsOwn) {
+  std::mt19937 random(19);
+  std::normal_distribution<double> noise;
+  std::vector<double> share(rest.size(), 0);
+  for (int v = 0; v < cloth; ++v) share[v] = rest[v].y < 0.15 ? 0.001 : 0.004;
+  ContactTree thin = tree;
+  thin.setShares(share);
+  const PairRules rules{0.008, 0, true, 1e-4};
+  std::size_t listed = 0, listed_without = 0;
+  int asked_cloth = 0, asked_body = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    std::vector<Vec3> x = rest;
+    for (int i = 0; i < cloth; ++i)
+      x[i] = rolled(rest[i], 0.03, 0.006) + 5e-4 * Vec3{noise(random), noise(random), noise(random)};
+    for (std::size_t i = cloth; i < x.size(); ++i) x[i] += Vec3{-0.2, 0.01 * trial, 0.005 * trial};
+    const ListedMotion motion{x, {}, {}, 0};
+    tree.refit(mesh, motion, {});
+    thin.refit(mesh, motion, {});
+    CandidatePairs found;
+    collector.collect(mesh, tree, motion, rules, found);
+    listed_without += found.points.size() + found.edges.size();
+    collector.collect(mesh, thin, motion, rules, found);
+    listed += found.points.size() + found.edges.size();
+    std::ranges::sort(found.edges);
+    const auto marginOf = [&](std::initializer_list<int> a, std::initializer_list<int> b) {
+      const auto most = [&](std::initializer_list<int> vertices) {
+        double s = -1;
+        for (int v : vertices) s = std::max(s, v < cloth ? share[v] : -1);
+        return s;
+      };
+      return most(a) < 0 ? 2 * most(b) : most(b) < 0 ? 2 * most(a) : most(a) + most(b);
+    };
+    for (int v = 0; v < mesh.vertex_count; ++v)
+      for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        const bool body = v >= cloth || t >= cloth_triangles;
+        if (v == a || v == b || v == c || (v >= cloth && t >= cloth_triangles)) continue;
+        const double margin = marginOf({v}, {a, b, c});
+        if (closestOnTriangle({x[a], x[b], x[c]}, x[v]).dist2_m2 > margin * margin) continue;
+        // With `least` 0 the certificate leaves out nothing but parts that are certainly apart by the margin.
+        if (!body && norm(rest[v] - rest[a]) < 0.06) continue;
+        ++(body ? asked_body : asked_cloth);
+        ASSERT_TRUE(std::ranges::binary_search(found.points, PointTriangle{v, t, {}})) << trial << " " << v << " " << t;
+      }
+    for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e)
+      for (int f = e + 1; f < static_cast<int>(mesh.edges.size()); ++f) {
+        const auto [a, b] = mesh.edges[e];
+        const auto [c, d] = mesh.edges[f];
+        if (a >= cloth || a == c || a == d || b == c || b == d) continue;
+        if (c < cloth && norm(rest[a] - rest[c]) < 0.06) continue;
+        if (norm(x[a] - x[c]) > 0.06 && c < cloth) continue;
+        const double margin = marginOf({a, b}, {c, d});
+        if (nearestOnSegments(x[a], x[b], x[c], x[d]).dist2_m2 > margin * margin) continue;
+        ASSERT_TRUE(std::ranges::binary_search(found.edges, EdgeEdge{e, f})) << trial << " " << e << " " << f;
+      }
+  }
+  EXPECT_GT(asked_cloth, 100);
+  EXPECT_GT(asked_body, 20);
+  EXPECT_LT(listed, 0.8 * listed_without);
+}
+
 /// Of a blunt body's vertices and edges what comes within their own, smaller margin is on the list; all else within the
 /// wide one: cloth vertices against the body's faces, sharp edges and corners of the body against cloth.
 TEST_F(TreeTest, BluntFeaturesAreListedWithinTheirOwnMargin) {
