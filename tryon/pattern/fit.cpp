@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 
 namespace gambeson {
 namespace {
@@ -21,14 +22,19 @@ Eigen::PartialPivLU<Eigen::MatrixXd> collocation(const KnotVector& k) {
 }  // namespace
 
 NurbsPatch interpolate(const KnotVector& u, const KnotVector& v, const std::function<Vec3(double, double)>& surface) {
-  NurbsPatch out{u, v, {}, {}};
   const auto gu = grevillePoints(u), gv = grevillePoints(v);
+  std::vector<Vec3> data;
+  for (const double t : gv)
+    for (const double s : gu) data.push_back(surface(s, t));
+  return interpolate(u, v, data);
+}
+
+NurbsPatch interpolate(const KnotVector& u, const KnotVector& v, const std::vector<Vec3>& data) {
+  NurbsPatch out{u, v, {}, {}};
+  assert(data.size() == static_cast<std::size_t>(out.size()));
   const auto lu = collocation(u), lv = collocation(v);
   out.points.resize(out.size());
   out.weights.assign(out.size(), 1);
-  std::vector<Vec3> data(out.size());
-  for (int j = 0; j < v.count(); ++j)
-    for (int i = 0; i < u.count(); ++i) data[out.index(i, j)] = surface(gu[i], gv[j]);
   for (int d = 0; d < 3; ++d) {
     Eigen::MatrixXd m(u.count(), v.count());
     for (int j = 0; j < v.count(); ++j)

@@ -10,6 +10,8 @@ namespace gambeson {
 /// The polynomial patch that meets `surface` at its Greville points, u and v from 0 to 1. Well conditioned for degrees
 /// up to 9.
 NurbsPatch interpolate(const KnotVector& u, const KnotVector& v, const std::function<Vec3(double, double)>& surface);
+/// The same for what stands at the Greville points, u fastest.
+NurbsPatch interpolate(const KnotVector& u, const KnotVector& v, const std::vector<Vec3>& data);
 
 /// The control points of an edge, in the order of `edge`; row 0 is the edge, row 1 the row beside it, and so on.
 std::vector<int> edgeRow(const NurbsPatch& patch, const PatchEdge& edge, int row = 0);

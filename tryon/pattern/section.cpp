@@ -223,6 +223,8 @@ Vec2 ClosedCurve::centroid() const {
   return {o.x + x / area, o.y + y / area};
 }
 
+double ClosedCurve::extent(const Vec2& direction) const { return supportOf(points_, direction); }
+
 ClosedCurve ClosedCurve::grown(double factor, const Vec2& centre) const {
   std::vector<Vec2> out(points_.begin(), points_.end() - 1);
   for (Vec2& p : out) p = {centre.x + factor * (p.x - centre.x), centre.y + factor * (p.y - centre.y)};

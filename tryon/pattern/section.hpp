@@ -73,6 +73,8 @@ class ClosedCurve {
   double crossing(const Vec2& origin, const Vec2& direction) const;
   /// Centroid of the area.
   Vec2 centroid() const;
+  /// How far it reaches along a direction: the largest direction . x.
+  double extent(const Vec2& direction) const;
   /// Grown by a factor about a centre.
   ClosedCurve grown(double factor, const Vec2& centre) const;
 

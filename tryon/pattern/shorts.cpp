@@ -18,8 +18,19 @@ namespace {
 /// Below the waist edge the waist's ease goes over into that of the rest.
 constexpr double waist_band_m = 0.12;
 /// What the fork and the rows below it keep from thigh and pelvis along rays from their middles, besides what a spline
-/// of cells cuts off a round of 10 cm.
+/// of cells cuts off a round of 10 cm; and what a leg keeps from the median plane, where thighs leave as much.
 constexpr double body_gap_m = 0.002;
+/// What the trunk's surface keeps between the points that it is drawn through.
+constexpr double clear_m = 0.0005;
+/// Between heights where that is looked at: skins from files have creases.
+constexpr double level_m = 0.0015;
+
+/// A section of pelvis or thigh.
+struct Outline {
+  ClosedCurve curve;
+  Vec2 middle;
+  double nearest = 0;  ///< y up to which points may be moved towards the other leg
+};
 
 /// The body as the tape sees it, standing.
 class Drafted {
@@ -39,12 +50,23 @@ class Drafted {
   Wrap trunk(double from, double to) const { return form_.wrap(from, to, trunk_, "rise_m"); }
   ClosedCurve leftThigh(double z) const { return ClosedCurve(form_.hull(z, thigh_, false, "inseam_m")); }
   double medianY() const { return form_.medianY(); }
-  /// Pelvis, whose middle stands on the median plane, and left thigh, where they are.
-  std::vector<ClosedCurve> underFork(double z) const {
-    std::vector<ClosedCurve> out;
-    if (z > pelvisBottom()) out.emplace_back(form_.hull(z, {0}, true, "rise_m"));
-    if (!form_.level(z, thigh_).empty()) out.push_back(leftThigh(z));
+  /// Hulls of the pelvis, whose middle stands on the median plane, and of the left thigh, where they have a section.
+  std::vector<Outline> underFork(double z) const {
+    std::vector<Vec2> pelvis = form_.level(z, {0});
+    for (std::size_t i = 0, n = pelvis.size(); i < n; ++i) pelvis.push_back({pelvis[i].x, 2 * medianY() - pelvis[i].y});
+    std::vector<Outline> out;
+    for (std::vector<Vec2> points : {convexHull(std::move(pelvis)), convexHull(form_.level(z, thigh_))})
+      if (points.size() >= 3) out.push_back(outline(ClosedCurve(std::move(points))));
     return out;
+  }
+  Outline outline(const ClosedCurve& body) const { return {body, body.centroid(), medianY() + innerRoom(body)}; }
+  /// A thigh's distance from the median plane.
+  double inside(const ClosedCurve& thigh) const { return -thigh.extent({0, -1}) - medianY(); }
+  /// What its leg leaves of that to the other leg: the gap, half of it all where thighs are near. None for what passes
+  /// through the plane.
+  double innerRoom(const ClosedCurve& body) const {
+    const double room = inside(body);
+    return room > 0 ? std::min(body_gap_m, 0.5 * room) : -HUGE_VAL;
   }
 
  private:
@@ -90,6 +112,49 @@ class Draft {
     const Vec2 &a = section[i - 1], &b = section[i];
     return {a.x + f * (b.x - a.x), a.y + f * (b.y - a.y), crotch_z_ + t * p_.rise_m};
   }
+  /// The patch through `trunk`. Between the points that it goes through a spline cuts off what stands out on the body
+  /// in less than the 10 cm that the gap allows for: there these points are moved out, until it is clear. What still
+  /// passes through the body after that is left to virtual projecting.
+  NurbsPatch trunkPatch(const KnotVector& u, const KnotVector& v) const {
+    const auto gu = grevillePoints(u), gv = grevillePoints(v);
+    std::vector<Vec3> data;
+    for (const double t : gv)
+      for (const double s : gu) data.push_back(trunk(s, t));
+    NurbsPatch patch = withSmoothCentres(interpolate(u, v, data));
+    constexpr int rounds = 10;
+    const int nu = u.count(), around = 4 * trunk_cells_[0], rows = static_cast<int>(std::ceil(p_.rise_m / level_m));
+    std::vector<std::vector<Outline>> bodies;
+    for (int k = 0; k <= rows; ++k) bodies.push_back(underTrunk(static_cast<double>(k) / rows));
+    for (int round = 0; round < rounds; ++round) {
+      std::vector<Vec2> moves(data.size());
+      bool clear = true;
+      for (int k = 0; k <= rows; ++k)
+        for (int l = 0; l <= around; ++l) {
+          const double s = static_cast<double>(l) / around, t = static_cast<double>(k) / rows;
+          const Vec3 x = surfaceDerivatives(patch, s, t)[0];
+          Vec2 out{x.x, x.y};
+          for (const Outline& body : bodies[k])
+            out = movedOut(out, body, [&](double radius) { return std::min(clear_m, easeAt(t) * radius); });
+          const Vec2 move{out.x - x.x, out.y - x.y};
+          if (move.x == 0 && move.y == 0) continue;
+          clear = false;
+          for (int j = 0; j < v.count(); ++j)
+            for (int i = 0; i < nu; ++i) {
+              if (std::abs(gu[i] - s) * trunk_cells_[0] > 1 || std::abs(gv[j] - t) * trunk_cells_[1] > 1) continue;
+              Vec2& most = moves[i + nu * j];
+              if (std::hypot(move.x, move.y) > std::hypot(most.x, most.y)) most = move;
+            }
+        }
+      if (clear) break;
+      for (std::size_t n = 0; n < data.size(); ++n) {
+        const int i = static_cast<int>(n) % nu;
+        data[n].x += moves[n].x;
+        if (i > 0 && i < nu - 1) data[n].y += moves[n].y;
+      }
+      patch = withSmoothCentres(interpolate(u, v, data));
+    }
+    return patch;
+  }
   /// s from the front leg line around the outside to the back leg line, t from the hem up to the trunk.
   Vec3 outer(double s, double t) const { return blend(trunk(s, 0), legPoint(s * share(), t), t); }
   /// s from the back leg line around the inside to the front leg line, t from the hem up to the gusset line.
@@ -105,22 +170,32 @@ class Draft {
     double front = 0, half = 0;  ///< arc length where the centre front stands, and to the centre back
     double front_x = 0, back_x = 0;
   };
+  double easeAt(double t) const {
+    const double below = std::clamp((1 - t) * p_.rise_m / waist_band_m, 0.0, 1.0);
+    const double waist = p_.waist_ease.value_or(p_.ease);
+    return waist + (p_.ease - waist) * below * below * (3 - 2 * below);
+  }
   Tape tape(double t) const {
     const ClosedCurve body(trunk_.section(crotch_z_ + t * p_.rise_m));
     const Vec2 c{body.centroid().x, body_.medianY()};
-    const double below = std::clamp((1 - t) * p_.rise_m / waist_band_m, 0.0, 1.0);
-    const double waist = p_.waist_ease.value_or(p_.ease);
-    const ClosedCurve grown = body.grown(1 + waist + (p_.ease - waist) * below * below * (3 - 2 * below), c);
+    const ClosedCurve grown = body.grown(1 + easeAt(t), c);
     const double front = grown.crossing(c, {1, 0}), half = 0.5 * grown.length();
     return {grown, front, half, grown.point(front).x, grown.point(front + half).x};
+  }
+  /// What the trunk goes around at its row t: none where it is drafted smaller than that.
+  std::vector<Outline> underTrunk(double t) const {
+    const double z = crotch_z_ + t * p_.rise_m;
+    if (!(easeAt(t) > 0)) return {};
+    if (z < crotch_z_ + p_.fork_m) return body_.underFork(z);
+    return {body_.outline(ClosedCurve(trunk_.section(z)))};
   }
   /// The trunk's section with the fork, from centre front to centre back: the tape, drawn towards the middle by a bell
   /// across and a parabola upward, both flat where they end, so that the section mirrors without a kink.
   std::vector<Vec2> halfSection(double t) const {
     const Tape around = tape(t);
     const double up = std::max(0.0, 1 - t * p_.rise_m / p_.fork_m);
-    const std::vector<ClosedCurve> bodies =
-        up > 0 ? body_.underFork(crotch_z_ + t * p_.rise_m) : std::vector<ClosedCurve>{};
+    const std::vector<Outline> bodies = up > 0 ? body_.underFork(crotch_z_ + t * p_.rise_m) : std::vector<Outline>{};
+    const double wanted_gap = wantedGap();
     constexpr int n = 720;
     std::vector<Vec2> out;
     for (int k = 0; k <= n; ++k) {
@@ -131,7 +206,8 @@ class Draft {
       const double middle = 0.5 * (around.front_x + around.back_x);
       Vec2 drawn{x.x + pull * (middle - x.x), x.y};
       if (pull > 0 && p_.ease > 0)
-        for (const auto& body : bodies) drawn = movedOut(drawn, body, 0);
+        for (const Outline& body : bodies)
+          drawn = movedOut(drawn, body, [&](double radius) { return std::min(wanted_gap, p_.ease * radius); });
       out.push_back(drawn);
     }
     return out;
@@ -143,11 +219,20 @@ class Draft {
   }
   /// Share of the outer leg in the leg's girth: cells of the same length on both sides of the leg lines.
   double share() const { return static_cast<double>(around()) / (around() + inner()); }
+  /// Grown by the ease about the thigh's middle or, where that would take it nearer to the median plane than the leg's
+  /// room, about a point c so much farther inside: y -> c + (1 + ease) (y - c). Either has the same length.
+  ClosedCurve legTape(const ClosedCurve& thigh) const {
+    Vec2 c = thigh.centroid();
+    const double room = body_.innerRoom(thigh);
+    if (p_.ease > 0 && std::isfinite(room))
+      c.y = std::min(c.y, body_.medianY() + ((1 + p_.ease) * body_.inside(thigh) - room) / p_.ease);
+    return thigh.grown(1 + p_.ease, c);
+  }
   /// The thigh's tape by the fraction of its length, from the front leg line, outside first.
   Vec3 legPoint(double fraction, double t) const {
     const double z = crotch_z_ - (1 - t) * p_.inseam_m;
     const ClosedCurve body = body_.leftThigh(z);
-    const ClosedCurve tape = body.grown(1 + p_.ease, body.centroid());
+    const ClosedCurve tape = legTape(body);
     const double innermost = tape.crossing(body.centroid(), {0, -1});
     const Vec2 x = tape.point(innermost + (fraction + 0.5 * (1 - share())) * tape.length());
     return {x.x, x.y, z};
@@ -159,19 +244,32 @@ class Draft {
     const double q = std::max(0.0, 1 - (1 - t) * p_.inseam_m / p_.blend_m), w = q * q;
     const Vec3 x{leg.x + w * (top.x - leg.x), leg.y + w * (top.y - leg.y), leg.z};
     if (w == 0 || t == 1 || !(p_.ease > 0)) return x;
-    const Vec2 out = movedOut({x.x, x.y}, body_.leftThigh(x.z), q);
+    const Vec2 out = movedOut({x.x, x.y}, body_.outline(body_.leftThigh(x.z)), [&](double radius) {
+      const double eased = p_.ease * radius;  // not more where q is 0
+      return std::min(wantedGap(), eased + std::max(0.0, wantedGap() - eased) * q);
+    });
     return {out.x, out.y, x.z};
   }
-  /// Moved out along the ray from the middle of a section of the body, unless it keeps the gap already. The gap is not
-  /// more than the ease gives to legs where `share` is 0.
-  Vec2 movedOut(const Vec2& x, const ClosedCurve& body, double share) const {
-    const Vec2 c = body.centroid(), ray{x.x - c.x, x.y - c.y};
-    const Vec2 skin = body.point(body.crossing(c, ray));
+  double wantedGap() const { return body_gap_m + p_.cell_m * p_.cell_m / 0.8; }
+  /// Moved out along the ray from the middle of a section of the body, unless it keeps `gap(radius of the body there)`
+  /// already; never past where the other leg has its room.
+  template <class Gap>
+  static Vec2 movedOut(const Vec2& x, const Outline& body, const Gap& gap) {
+    const Vec2 c = body.middle, ray{x.x - c.x, x.y - c.y};
+    const Vec2 skin = body.curve.point(body.curve.crossing(c, ray));
     const double radius = std::hypot(skin.x - c.x, skin.y - c.y);
-    const double leg_gap = p_.ease * radius, wanted = body_gap_m + p_.cell_m * p_.cell_m / 0.8;
-    const double gap = std::min(wanted, leg_gap + std::max(0.0, wanted - leg_gap) * share);
-    const double grow = (radius + gap) / std::hypot(ray.x, ray.y);
+    double grow = (radius + gap(radius)) / std::hypot(ray.x, ray.y);
+    if (c.y + grow * ray.y < body.nearest) grow = (body.nearest - c.y) / ray.y;
     return grow > 1 ? Vec2{c.x + grow * ray.x, c.y + grow * ray.y} : x;
+  }
+  /// The centre lines as the seams there make them: with the points beside them straight across the median plane.
+  NurbsPatch withSmoothCentres(NurbsPatch p) const {
+    for (const auto& [edge, beside] : {std::pair{0, 1}, std::pair{p.u.count() - 1, p.u.count() - 2}})
+      for (int j = 1; j < p.v.count(); ++j) {
+        const Vec3& x = p.points[p.index(beside, j)];
+        p.points[p.index(edge, j)] = {x.x, body_.medianY(), x.z};
+      }
+    return p;
   }
 
   const ShortsPattern& p_;
@@ -223,7 +321,7 @@ Garment makeShorts(const ShortsPattern& p, const BodyForm& form) {
   const Draft draft(p, body);
   const auto around = uniformKnots(p.degree, draft.around()), inside = uniformKnots(p.degree, draft.inner());
   const auto rise = uniformKnots(p.degree, draft.rise()), leg = uniformKnots(p.degree, draft.leg());
-  const auto trunk = interpolate(around, rise, [&](double s, double t) { return draft.trunk(s, t); });
+  const auto trunk = draft.trunkPatch(around, rise);
   const auto outer = interpolate(around, leg, [&](double s, double t) { return draft.outer(s, t); });
   const auto inner = interpolate(inside, leg, [&](double s, double t) { return draft.inner(s, t); });
   Garment g;

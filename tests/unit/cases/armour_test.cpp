@@ -8,9 +8,12 @@
 #include "cases/cli.hpp"
 #include "cases/draft.hpp"
 #include "cases/scenario.hpp"
+#include "core/dynamics/deforming.hpp"
 #include "core/error.hpp"
 #include "core/sheet/seams.hpp"
 #include "core/sheet/surface.hpp"
+#include "exact/scene_intersections.hpp"
+#include "unit/human/files.hpp"
 
 namespace gambeson {
 namespace {
@@ -45,6 +48,36 @@ TEST(ArmourCase, HasTheThesisCountsAndMass) {
     EXPECT_NEAR(mass, 1.43, 0.05 * 1.43);
     for (const Garment& g : d->garments)
       for (const NurbsPatch& p : g.patches) EXPECT_TRUE(p.u.degree == 2 && p.v.degree == 2);
+  }
+}
+
+TEST(ArmourCase, StartsClearOfPublicCharacters) {
+  const std::filesystem::path folder = test::dataFolder() / "real" / "body";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
+  CharacterOptions male, makehuman;
+  male.file = folder / "quaternius_Superhero_Male_FullBody.gltf";
+  makehuman.file = folder / "makehuman_base.obj";
+  makehuman.skeleton = folder / "makehuman_default.mhskel";
+  makehuman.weights = folder / "makehuman_default_weights.mhw";
+  makehuman.targets = {{folder / "makehuman_caucasian_male_young.target"},
+                       {folder / "makehuman_male_maxmuscle_averageweight.target"}};
+  for (const CharacterOptions& character : {male, makehuman}) {
+    Case c = readCase(file);
+    c.human->manikin.clear();
+    c.human->skin.reset();
+    c.human->character = character;
+    const auto s = buildScenario(c);
+    StepWork work;
+    const State start = startOf(*s, work);
+    EXPECT_TRUE(exact::SceneIntersections(*s->model, *s->stage).at(start).none()) << character.file;
+    std::vector<Vec3> x(static_cast<std::size_t>(s->model->surface.size()));
+    s->model->surface.WT.multiply<Vec3>(start.p, x);
+    const DeformedVertices skin = deformedVertices(*s->model, *s->stage, start.time_s);
+    DeformedSurfaces surfaces(s->model->obstacles);
+    surfaces.move(skin);
+    double least = HUGE_VAL;
+    for (const Vec3& y : x) least = std::min(least, s->model->proximity->nearest(0, y, surfaces).gap_m);
+    EXPECT_GT(least, 0) << character.file;
   }
 }
 

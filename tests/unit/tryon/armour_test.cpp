@@ -45,10 +45,11 @@ struct Armour {
   BeltPattern belt_pattern;
 
   explicit Armour(const char* manikin, double ease = 0.06, double cell_m = 0.026)
-      : human(makeManikin(manikin)), form(human) {
+      : Armour(makeManikin(manikin), ease, ease, cell_m) {}
+  Armour(Human wearer, double ease, double shorts_ease, double cell_m) : human(std::move(wearer)), form(human) {
     ShortsPattern s;
     s.cell_m = 0.03;
-    s.ease = ease;
+    s.ease = shorts_ease;
     s.waist_ease = 0.01;
     shorts = makeShorts(s, form);
     shorts.fabric = soft(shorts_layer);
@@ -77,7 +78,8 @@ std::vector<Vec3> startOf(const Garment& g) {
 struct Sampled {
   Surface surface;
   std::vector<Vec3> x;
-  explicit Sampled(const Garment& g) : surface(buildSurface(g, buildFreeMap(g), 2)), x(surface.size()) {
+  explicit Sampled(const Garment& g, int per_cell = 2)
+      : surface(buildSurface(g, buildFreeMap(g), per_cell)), x(surface.size()) {
     surface.W.multiply<Vec3>(startOf(g), x);
   }
   TriangleMesh mesh() const { return {x, surface.triangles}; }
@@ -180,6 +182,55 @@ TEST_P(ArmourOn, StrapLegsAddUpTo15cm) {
   EXPECT_NEAR(sum, 0.154, 0.002);
 }
 
+/// A manikin in its closed skin, and the skin as it stands.
+struct Skinned {
+  Human human;
+  TriangleMesh skin;
+  explicit Skinned(const char* manikin) : human(makeManikin(manikin)) {
+    human.skin = std::make_shared<Skin>(makeSkin(human));
+    skin = {std::vector<Vec3>(human.skin->rest.vertices.size()), human.skin->rest.triangles};
+    const Posture p = standing(human);
+    skinPositions(*human.skin, linkPoses(human.skeleton, p.q, p.root), skin.vertices);
+  }
+};
+
+TEST_P(ArmourOn, StartsClearOfTheSkinThatItIsDraftedOn) {
+  // As in the library: shorts wide enough to reach the other leg's where thighs are near (12 %).
+  const Skinned wearer(GetParam());
+  const Armour a(wearer.human, 0.06, 0.12, 0.026);
+  const std::vector<Garment> all{a.shorts, a.belt, a.shirt};
+  const Sampled s(joinLayers(all), 3);
+  std::vector<Vec3> x = s.x;
+  std::vector<std::array<int, 3>> triangles = s.surface.triangles;
+  const int first = static_cast<int>(x.size());
+  x.insert(x.end(), wearer.skin.vertices.begin(), wearer.skin.vertices.end());
+  for (const auto& [i, j, k] : wearer.skin.triangles) triangles.push_back({first + i, first + j, first + k});
+  EXPECT_EQ(findCrossings(contactMesh(static_cast<int>(x.size()), triangles), x).size(), 0u);
+  const std::vector<Obstacle> skin{{wearer.skin, "skin"}};
+  const ProximityQuery query(skin);
+  double least = HUGE_VAL;  // between the samples as well
+  for (const Garment& g : all)
+    for (const Vec3& y : Sampled(g, 6).x) least = std::min(least, query.signedDistance(0, Placement{}, y));
+  EXPECT_GT(least, 0);
+  double legs = 0;
+  for (const ShirtPatch strap : {strap_left, strap_right})
+    legs += edgeToEdge(a.shirt.patches[strap], 0.2) + edgeToEdge(a.shirt.patches[strap], 0.8);
+  EXPECT_NEAR(legs, 0.154, 0.002);
+}
+
+TEST_P(ArmourOn, ShirtsAreLikeTheirWearersInSize) {
+  // Area over girth times height, against the default man's: one cut for all.
+  const auto share = [](const char* manikin) {
+    const Armour a(manikin);
+    double area = 0;
+    for (const double c : controlAreas(a.shirt)) area += c;
+    const double hem = a.shirt.patches[front].points[0].z, top = surfaceDerivatives(a.shirt.patches[front], 0, 1)[0].z;
+    const Links trunk = a.form.links({"torso", "pelvis", "thigh_left", "thigh_right"}, "");
+    return area / (a.form.wrap(hem, top, trunk, "", 65).girth(0.5 * (hem + top)) * (top - hem));
+  };
+  EXPECT_NEAR(share(GetParam()) / share("male_p50"), 1, 0.12);
+}
+
 TEST_P(ArmourOn, IsItsOwnMirrorImageWithNormalsOutward) {
   const Armour a(GetParam());
   for (const auto& [left, right] : {std::pair{front, front}, std::pair{back, back}, std::pair{side_wrap, side_wrap},
@@ -252,21 +303,15 @@ TEST(Shirt, WeighsWhatItsThicknessSays) {
 }
 
 TEST(Shirt, IsDraftedOnASkinAsWell) {
-  Human human = makeManikin("male_p50");
-  const BodyForm shapes(human);
-  human.skin = std::make_shared<Skin>(makeSkin(human));
-  const BodyForm form(human);
+  const Skinned wearer("male_p50");
+  const BodyForm form(wearer.human);
   // Arms are not part of the chest.
   const Links torso = form.links({"torso"}, "");
   for (const Vec2& p : form.level(1.2, torso)) EXPECT_LT(std::abs(p.y), 0.2);
   ShirtPattern pattern;
   pattern.cell_m = 0.026;
-  const Garment g = makeShirt(pattern, form, shirt_layer, {});
-  const Sampled s(g);
-  std::vector<Vec3> x(human.skin->rest.vertices.size());
-  const Posture p = standing(human);
-  skinPositions(*human.skin, linkPoses(human.skeleton, p.q, p.root), x);
-  const std::vector<Obstacle> skin{{TriangleMesh{x, human.skin->rest.triangles}, "skin"}};
+  const Sampled s(makeShirt(pattern, form, shirt_layer, {}));
+  const std::vector<Obstacle> skin{{wearer.skin, "skin"}};
   const ProximityQuery query(skin);
   double least = HUGE_VAL;
   for (const Vec3& y : s.x) least = std::min(least, query.signedDistance(0, Placement{}, y));

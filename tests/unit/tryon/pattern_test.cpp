@@ -334,6 +334,23 @@ TEST_P(Shorts, LegsStayOnTheirSides) {
         EXPECT_GT(surfaceDerivatives(garment.patches[n], i / 60.0, j / 40.0)[0].y, 0) << n << " " << i << " " << j;
 }
 
+TEST_P(Shorts, WideLegsKeepTheirGirthAndTheirSides) {
+  for (const double ease : {0.12, 0.25}) {
+    ShortsPattern wide = pattern;
+    wide.ease = ease;
+    const Garment g = makeShorts(wide, human);
+    for (const double v : {0.0, 0.25, 0.45})  // below the blend
+      EXPECT_NEAR(girth(g, {outer_left, inner_left}, v) / girth(garment, {outer_left, inner_left}, v),
+                  (1 + ease) / 1.06, 0.002)
+          << v;
+    double least = HUGE_VAL;
+    for (int i = 0; i <= 60; ++i)
+      for (int j = 0; j < 40; ++j)
+        least = std::min(least, surfaceDerivatives(g.patches[inner_left], i / 60.0, j / 40.0)[0].y);
+    EXPECT_GT(least, 0) << ease;
+  }
+}
+
 TEST_P(Shorts, IsItsOwnMirrorImage) {
   for (const int n : {trunk_left, outer_left, inner_left}) {
     const NurbsPatch &l = garment.patches[n], &r = garment.patches[n + 1];
@@ -345,7 +362,8 @@ TEST_P(Shorts, IsItsOwnMirrorImage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Manikins, Shorts, testing::Values("male_p50", "female_p50", "male_p95"));
+INSTANTIATE_TEST_SUITE_P(Manikins, Shorts,
+                         testing::Values("male_p5", "male_p50", "male_p95", "female_p5", "female_p50", "female_p95"));
 
 TEST(ShortsDraft, HigherDegreesKeepSeamsAndGirths) {
   const Human human = makeManikin("male_p50");
