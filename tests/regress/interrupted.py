@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A run killed (SIGKILL) at 20 random moments and resumed leaves the same bits as one left alone.
 
-    interrupted.py [GAMBESON] CASE
+    interrupted.py [GAMBESON] CASE [OPTION...]    options of the run, such as --set
 
 The moments come from a fixed seed and scale with the time that a whole run takes here. The first are very early, so that
 runs die before their first checkpoint too; the others leave time to draft the garment again before anything is computed.
@@ -20,10 +20,10 @@ KILLS = 20
 
 
 def main():
-    case = HERE / sys.argv[2]
+    case, options = HERE / sys.argv[2], sys.argv[3:]
     chance = random.Random(20130331)
     with Folder() as folder:
-        run_case(case, folder / "whole", "--threads", 1)
+        run_case(case, folder / "whole", "--threads", 1, *options)
         computing_s = json.loads((folder / "whole/run.json").read_text())["wall_s"]
         segments = lambda name: len(list((folder / name).glob("frames/segment_*.h5")))
         complete = segments("whole")
@@ -31,7 +31,7 @@ def main():
         while len(reached) < KILLS:
             cut = f"cut{chain}"
             delay = chance.uniform(*((0.01, 0.05) if len(reached) < 4 else (0.2, 0.9))) * (0.15 + computing_s)
-            process = subprocess.Popen(command("run", case, "--out", folder / cut, "--resume", "--threads", 2),
+            process = subprocess.Popen(command("run", case, "--out", folder / cut, "--resume", "--threads", 2, *options),
                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
             try:
                 process.wait(delay)
@@ -42,7 +42,7 @@ def main():
             errors = process.communicate()[1].decode()
             check(process.returncode in (0, -9), f"resumed run failed: {errors}")
             if segments(cut) == complete or len(reached) == KILLS:
-                run_case(case, folder / cut, "--resume", "--threads", 2)
+                run_case(case, folder / cut, "--resume", "--threads", 2, *options)
                 same_results(folder / "whole", folder / cut, f"chain {chain}, killed and resumed")
                 chain += 1
         check(0 in reached, f"no run died before its first checkpoint: {reached}")

@@ -81,6 +81,19 @@ TEST(ArmourCase, StartsClearOfPublicCharacters) {
   }
 }
 
+/// Zheng 2013, table 5.2: 1,616 control points, rho = 0.1177 kg/m^2, k / rho = 5000 m^2/s^2, k = 2.5 k_shear; cases (a)
+/// and (c) of its description: 50.
+TEST(ArmourDrape, HasTheSizesOfTheThesis) {
+  const auto s = buildScenario(readCase(file.parent_path() / "armour_drape.json"));
+  EXPECT_NEAR(s->model->shell.controlCount(), 1616, 0.005 * 1616);
+  EXPECT_EQ(s->model->shell.garment().patches.size(), 13u);
+  const Fabric& f = s->definition.fabric;
+  for (const double rho : s->model->density_kg_per_m2) ASSERT_NEAR(rho, 0.1177, 1e-6);
+  EXPECT_NEAR(f.young_weft_Pa * f.thickness() / 0.1177, 5000, 1e-6 * 5000);
+  EXPECT_NEAR(f.young_warp_Pa / f.shear_Pa, 2.5, 1e-12);
+  EXPECT_NEAR(5000 * f.thickness() / 0.1177, 50, 1e-6 * 50);
+}
+
 TEST(ArmourCase, FilesOfItsGarmentsAreTheSameArmour) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "armour_files";
   std::filesystem::create_directories(folder);
