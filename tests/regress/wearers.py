@@ -141,7 +141,7 @@ def main():
     parser.add_argument("names", nargs="*")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--walk", action="store_true")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     todo, absent = wearers(options.walk)
     if options.names:
         todo = {n: h for n, h in todo.items() if n in options.names}
