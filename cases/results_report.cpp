@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "analysis/ticks.hpp"
+#include "cases/check_words.hpp"
 #include "cases/results_write.hpp"
 
 namespace gambeson {
@@ -216,6 +217,8 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   addSupports(m, in);
   in.pictures = pictures;
   in.audit = auditOf(m);
+  for (AuditCheck& c : in.audit)
+    if (!c.holds()) c.meaning += ". " + checkWords(c.name, c.value, c.unit).means;
   in.assumptions = assumptionsOf(s);
   const auto [hash, kernels] = identityParts(identity);
   in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->shell.controlCount(),

@@ -11,26 +11,6 @@
 namespace gambeson::study {
 namespace {
 
-/// "walking, friction 0.3": the levels of a variant on all axes but those in `without`.
-std::string settingOf(const Study& s, const Variant& v, const std::vector<int>& without) {
-  std::string label;
-  for (std::size_t a = 0; a < s.axes.size(); ++a) {
-    if (std::find(without.begin(), without.end(), static_cast<int>(a)) != without.end()) continue;
-    const Axis& axis = s.axes[a];
-    if (axis.levels.size() < 2) continue;
-    const Level& level = axis.levels[static_cast<std::size_t>(v.levels[a])];
-    label += (label.empty() ? "" : ", ") + level.name;
-  }
-  return label;
-}
-
-/// Where all variants are single ones, their labels stand for levels.
-std::string nameOf(const Study& s, const Comparison& c, const Variant& v) {
-  if (c.main_axis < 0) return v.label;
-  const Axis& axis = s.axes[static_cast<std::size_t>(c.main_axis)];
-  return axis.levels[static_cast<std::size_t>(v.levels[static_cast<std::size_t>(c.main_axis)])].name;
-}
-
 void findAxes(const Study& s, Comparison& c) {
   for (const int a : s.compared)
     if (c.main_axis < 0 || (s.axes[static_cast<std::size_t>(a)].role == Role::thickness &&
@@ -52,6 +32,32 @@ bool onMainMesh(const Comparison& c, const Variant& v) {
   return c.mesh_axis < 0 || c.mesh_level < 0 || v.levels[static_cast<std::size_t>(c.mesh_axis)] == c.mesh_level;
 }
 
+/// The joint that decides, and those that have a fifth of the largest torque in one of the runs or are not green.
+std::vector<std::string> jointsThatMatter(const Study& s, const Comparison& c, const Group& g) {
+  struct Most {
+    std::string name;
+    double part = -1, peak_Nm = 0;
+  };
+  std::vector<Most> all;
+  for (const std::size_t i : g.members)
+    for (const JointNumbers& j : c.runs[i].joints) {
+      if (j.prismatic || !j.applies() || !std::isfinite(j.peak_Nm)) continue;
+      auto at = std::find_if(all.begin(), all.end(), [&](const Most& m) { return m.name == j.name; });
+      if (at == all.end()) at = all.insert(at, {j.name});
+      at->part = std::max(at->part, j.part().value_or(-1));
+      at->peak_Nm = std::max(at->peak_Nm, std::abs(j.peak_Nm));
+    }
+  std::stable_sort(all.begin(), all.end(), [](const Most& a, const Most& b) {
+    return a.part != b.part ? a.part > b.part : a.peak_Nm > b.peak_Nm;
+  });
+  double largest = 0;
+  for (const Most& m : all) largest = std::max(largest, m.peak_Nm);
+  std::vector<std::string> names;
+  for (const Most& m : all)
+    if (names.empty() || m.part >= s.limits.green || m.peak_Nm >= 0.2 * largest) names.push_back(m.name);
+  return names;
+}
+
 void findGroups(const Study& s, Comparison& c) {
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const Variant& v = s.variants[i];
@@ -60,15 +66,11 @@ void findGroups(const Study& s, Comparison& c) {
     Group* group = nullptr;
     for (Group& g : c.groups)
       if (g.label == label) group = &g;
-    if (!group) group = &c.groups.emplace_back(Group{label, {}, -1, ""});
+    if (!group) group = &c.groups.emplace_back(Group{label, {}, -1, {}});
     group->members.push_back(i);
     if (v.baseline == static_cast<int>(i)) group->baseline = v.baseline;
   }
-  for (Group& g : c.groups) {
-    const RunNumbers* run = g.baseline >= 0 ? &c.runs[static_cast<std::size_t>(g.baseline)] : nullptr;
-    for (std::size_t k = 0; k < g.members.size() && (!run || !run->good); ++k) run = &c.runs[g.members[k]];
-    if (run && run->highest()) g.joint = run->highest()->name;
-  }
+  for (Group& g : c.groups) g.joints = jointsThatMatter(s, c, g);
 }
 
 void findRatios(const Study& s, Comparison& c) {
@@ -216,111 +218,95 @@ void findElasticities(const Study& s, Comparison& c) {
   }
 }
 
-/// Every mesh against the finest, all else the same.
+/// The run of a variant's case on the finest mesh: of the mesh's axis, or of a variant that is said to be finer.
+const Variant* finestOf(const Study& s, const Comparison& c, const Variant& v) {
+  for (const Variant& w : s.variants)
+    if (w.finer && w.levels == v.levels && c.runs[static_cast<std::size_t>(&w - s.variants.data())].good) return &w;
+  if (onMainMesh(c, v)) return nullptr;
+  std::vector<int> levels = v.levels;
+  levels[static_cast<std::size_t>(c.mesh_axis)] = c.mesh_level;
+  for (const Variant& w : s.variants)
+    if (w.grid && w.levels == levels) return &w;
+  return nullptr;
+}
+
 void compareMeshes(const Study& s, Comparison& c) {
-  if (c.mesh_axis < 0 || c.mesh_level < 0) return;
-  const auto m = static_cast<std::size_t>(c.mesh_axis);
   constexpr double settled_s = 0.2;  // Zheng 2013, fig. 6.11: the histories agree but for the start
+  std::map<int, double> largest;     // of each level
+  const auto weight = [](const JointNumbers& j) { return j.natural_Nm && *j.natural_Nm > 0 ? 1 / *j.natural_Nm : 1; };
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const Variant& v = s.variants[i];
-    if (!v.grid || !c.runs[i].good || onMainMesh(c, v)) continue;
-    std::vector<int> levels = v.levels;
-    levels[m] = c.mesh_level;
-    for (std::size_t k = 0; k < s.variants.size(); ++k) {
-      const RunNumbers &coarse = c.runs[i], &fine = c.runs[k];
-      if (!s.variants[k].grid || s.variants[k].levels != levels || !fine.good || !fine.highest()) continue;
-      const JointNumbers& f = *fine.highest();
-      const JointNumbers* of = coarse.joint(f.name);
-      if (!of) continue;
-      MeshRow row;
-      row.setting = settingOf(s, v, {c.mesh_axis});
-      row.joint = f.label;
-      if (c.main_axis >= 0) row.level = v.levels[static_cast<std::size_t>(c.main_axis)];
-      row.coarse_points = coarse.control_points;
-      row.fine_points = fine.control_points;
-      row.coarse_Nm = of->peak_Nm;
-      row.fine_Nm = f.peak_Nm;
-      row.difference = std::abs(of->peak_Nm) / std::abs(f.peak_Nm) - 1;
-      const Likeness like = compareShifted(fine.time_s, f.torque_Nm, of->torque_Nm, 0, settled_s, 1e300);
-      row.history = coarse.time_s == fine.time_s ? like.rms_difference / std::abs(f.peak_Nm) : std::nan("");
-      c.meshes.push_back(row);
-    }
+    const Variant* w = v.grid ? finestOf(s, c, v) : nullptr;
+    if (!w) continue;
+    const RunNumbers &coarse = c.runs[i], &fine = c.runs[static_cast<std::size_t>(w - s.variants.data())];
+    if (!coarse.good || !fine.good || !fine.decisive()) continue;
+    const JointNumbers& f = *fine.decisive();
+    const JointNumbers* of = coarse.joint(f.name);
+    if (!of) continue;
+    MeshRow row;
+    row.setting = settingOf(s, v, {c.mesh_axis});
+    row.joint = f.label;
+    if (c.main_axis >= 0) row.level = v.levels[static_cast<std::size_t>(c.main_axis)];
+    row.coarse_points = coarse.control_points;
+    row.fine_points = fine.control_points;
+    row.coarse_Nm = of->peak_Nm;
+    row.fine_Nm = f.peak_Nm;
+    row.difference = std::abs(of->peak_Nm) / std::abs(f.peak_Nm) - 1;
+    const Likeness like = compareShifted(fine.time_s, f.torque_Nm, of->torque_Nm, 0, settled_s, 1e300);
+    row.history = coarse.time_s == fine.time_s ? like.rms_difference / std::abs(f.peak_Nm) : std::nan("");
+    row.error = weight(f) * std::abs(std::abs(of->peak_Nm) - std::abs(f.peak_Nm));
+    largest[row.level] = std::max(largest[row.level], weight(f) * std::abs(f.peak_Nm));
+    c.meshes.push_back(row);
   }
+  // What a motion that costs next to nothing is off by decides nothing.
+  for (MeshRow& m : c.meshes) m.error /= largest[m.level];
 }
 
-/// The joint that decides in a run: of the largest part of its natural moment, or of the largest torque where none is
-/// known.
-const JointNumbers* decisive(const RunNumbers& run) {
-  const JointNumbers* best = nullptr;
-  for (const JointNumbers& j : run.joints)
-    if (!j.prismatic && j.part() && (!best || *j.part() > *best->part())) best = &j;
-  return best ? best : run.highest();
-}
-
-void findVerdict(const Study& s, Comparison& c) {
-  VerdictInput& in = c.input;
-  const Axis* axis = c.main_axis >= 0 ? &s.axes[static_cast<std::size_t>(c.main_axis)] : nullptr;
-  in.what = axis ? axis->name : "variant";
-  in.sized = axis && axis->role == Role::thickness && axis->levels[0].number;
-  in.green = s.limits.green;
-  in.red = s.limits.red;
-  const std::size_t levels = axis ? axis->levels.size() : s.variants.size();
-  std::vector<std::size_t> order;
-  for (std::size_t l = 0; l < levels; ++l) order.push_back(l);
-  if (in.sized)
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return *axis->levels[a].number < *axis->levels[b].number; });
-  for (const std::size_t l : order) {
-    Option option;
-    bool any = false;
-    for (const Group& g : c.groups) {
-      const RunNumbers* base = g.baseline >= 0 && c.runs[static_cast<std::size_t>(g.baseline)].good
-                                   ? &c.runs[static_cast<std::size_t>(g.baseline)]
-                                   : nullptr;
-      for (const std::size_t i : g.members) {
-        const Variant& v = s.variants[i];
-        if (axis ? v.levels[static_cast<std::size_t>(c.main_axis)] != static_cast<int>(l) : i != l) continue;
-        any = true;
-        option.name = nameOf(s, c, v);
-        if (in.sized) option.size = axis->levels[l].number;
-        if (v.baseline == static_cast<int>(i)) in.baseline = static_cast<int>(in.options.size());
-        const JointNumbers* j = c.runs[i].good ? decisive(c.runs[i]) : nullptr;
-        if (!j) {
-          option.missing = true;
-          continue;
-        }
-        Option::Cost cost{g.label, j->label, std::abs(j->peak_Nm), j->part(), {}};
-        if (base && base->highest() && base->highest()->peak_Nm != 0)
-          cost.ratio = std::abs(c.runs[i].highest()->peak_Nm) / std::abs(base->highest()->peak_Nm);
-        option.costs.push_back(cost);
-      }
-    }
-    if (any) in.options.push_back(std::move(option));
+/// The joint that decides for what is taken comes first in its motion.
+void decideFirst(Comparison& c) {
+  if (c.verdict.take < 0) return;
+  for (Group& g : c.groups) {
+    const Option::Cost* worst = worstCost(c.input.options[static_cast<std::size_t>(c.verdict.take)], &g.label);
+    const auto decides = [&](const std::string& name) {
+      return std::any_of(g.members.begin(), g.members.end(), [&](std::size_t i) {
+        const JointNumbers* j = c.runs[i].joint(name);
+        return j && j->label == worst->joint;
+      });
+    };
+    if (worst) std::stable_partition(g.joints.begin(), g.joints.end(), decides);
   }
-  // Of the largest torque of the same level: what a motion that costs next to nothing is off by decides nothing.
-  std::map<int, double> largest;
-  for (const MeshRow& m : c.meshes) largest[m.level] = std::max(largest[m.level], std::abs(m.fine_Nm));
-  for (const MeshRow& m : c.meshes) {
-    const double error = std::abs(std::abs(m.coarse_Nm) - std::abs(m.fine_Nm)) / largest[m.level];
-    if (std::isfinite(error)) in.mesh_error = std::max(in.mesh_error.value_or(0), error);
-  }
-  if (in.sized)
-    for (const Group& g : c.groups) {
-      if (g.members.empty()) continue;
-      const std::string setting = settingOf(s, s.variants[g.members[0]], {c.main_axis});
-      for (const AxisExponent& e : c.exponents)
-        if (e.axis == axis->name && e.setting == setting && e.joint == "the highest" && e.quantity == "peak")
-          in.exponents.push_back({g.label, e.law});
-    }
-  for (const RunNumbers& r : c.runs) {
-    if (!r.good) continue;
-    ++in.checked_runs;
-    in.failing_checks += r.failing() > 0;
-  }
-  c.verdict = verdictOf(in);
 }
 
 }  // namespace
+
+std::string settingOf(const Study& s, const Variant& v, const std::vector<int>& without) {
+  std::string label;
+  for (std::size_t a = 0; a < s.axes.size(); ++a) {
+    if (std::find(without.begin(), without.end(), static_cast<int>(a)) != without.end()) continue;
+    const Axis& axis = s.axes[a];
+    if (axis.levels.size() < 2) continue;
+    const Level& level = axis.levels[static_cast<std::size_t>(v.levels[a])];
+    label += (label.empty() ? "" : ", ") + level.name;
+  }
+  return label;
+}
+
+std::string memberName(const Study& s, const Comparison& c, std::size_t i) {
+  if (c.main_axis < 0) return s.variants[i].label;
+  const auto a = static_cast<std::size_t>(c.main_axis);
+  return s.axes[a].levels[static_cast<std::size_t>(s.variants[i].levels[a])].name;
+}
+
+std::size_t memberOrder(const Study& s, const Comparison& c, std::size_t i) {
+  std::size_t place = i, base = static_cast<std::size_t>(std::max(0, s.variants[i].baseline));
+  if (c.main_axis >= 0) {
+    const auto a = static_cast<std::size_t>(c.main_axis);
+    place = static_cast<std::size_t>(s.variants[i].levels[a]);
+    for (std::size_t k = 0; k < s.compared.size(); ++k)
+      if (s.compared[k] == c.main_axis) base = static_cast<std::size_t>(s.baseline[k]);
+  }
+  return place == base ? 0 : place < base ? place + 1 : place;
+}
 
 std::optional<double> peakAboveStanding(const RunNumbers& run, const JointNumbers& j) {
   if (!j.standing_Nm) return {};
@@ -334,7 +320,7 @@ Comparison compare(const Study& s, std::vector<RunNumbers> runs) {
   Comparison c;
   c.runs = std::move(runs);
   for (const RunNumbers& r : c.runs) {
-    const JointNumbers* j = r.good ? decisive(r) : nullptr;
+    const JointNumbers* j = r.good ? r.decisive() : nullptr;
     c.lights.push_back(lightOf(j ? j->part() : std::nullopt, s.limits.green, s.limits.red));
   }
   findAxes(s, c);
@@ -343,7 +329,9 @@ Comparison compare(const Study& s, std::vector<RunNumbers> runs) {
   findExponents(s, c);
   findElasticities(s, c);
   compareMeshes(s, c);
-  findVerdict(s, c);
+  c.input = verdictInput(s, c);
+  c.verdict = verdictOf(c.input);
+  decideFirst(c);
   return c;
 }
 

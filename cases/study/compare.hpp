@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/compare.hpp"
 #include "analysis/series.hpp"
+#include "analysis/verdict.hpp"
 #include "cases/study/numbers.hpp"
 #include "cases/study/run.hpp"
 
@@ -25,7 +25,8 @@ struct Group {
   std::string label;                 ///< the levels of the other axes, the mesh left out: "walking"
   std::vector<std::size_t> members;  ///< on the finest mesh, in the order of the axis; of good runs and bad
   int baseline = -1;                 ///< variant; -1: none
-  std::string joint;                 ///< of the baseline's largest torque
+  std::vector<std::string> joints;   ///< those that matter, the one that decides first
+  std::string joint() const { return joints.empty() ? "" : joints[0]; }
 };
 
 /// An exponent of a torque along an axis whose levels are numbers.
@@ -41,12 +42,14 @@ struct ElasticityRow {
   std::optional<double> measured;  ///< exponent of the thickness, of the same case, joint and quantity
 };
 
+/// A run against the same on the finest mesh.
 struct MeshRow {
   std::string setting, joint;
   int level = -1;  ///< on the main axis
   int coarse_points = 0, fine_points = 0;
   double coarse_Nm = 0, fine_Nm = 0;  ///< peaks
   double difference = 0;              ///< of the peaks, relative to the fine one
+  double error = 0;                   ///< of the peaks, relative to the largest torque of the same level
   double history = 0;                 ///< RMS difference after 0.2 s, of the fine peak
 };
 
@@ -73,6 +76,13 @@ std::optional<double> peakAboveStanding(const RunNumbers& run, const JointNumber
 void compareVariants(const Study& study, const std::vector<Outcome>& outcomes, const std::filesystem::path& out);
 
 // Its parts.
+/// "walking, friction 0.3": the levels of a variant on all axes but those in `without`.
+std::string settingOf(const Study& study, const Variant& variant, const std::vector<int>& without);
+/// The level of a variant on the main axis; without one the variant's own label.
+std::string memberName(const Study& study, const Comparison& c, std::size_t variant);
+/// The order of a variant's level on the main axis, the baseline's first: what it is drawn like everywhere.
+std::size_t memberOrder(const Study& study, const Comparison& c, std::size_t variant);
+VerdictInput verdictInput(const Study& study, const Comparison& c);
 void writeStudyTables(const Study& study, const Comparison& c, const std::filesystem::path& out);
 /// A picture per member and wish, all of one wish at one time of their group and in the same colours.
 struct SidePicture {

@@ -67,6 +67,9 @@ schema::Object extraTable() {
   rawField(table, "at", &E::at, "object axis: label; the levels that it starts from",
            "the baseline; of an axis that the baseline does not name, the first level");
   rawField(table, "set", &E::set, "object path: value; what is changed there", "required");
+  table.flag("finer", &E::finer,
+             "what is changed is the mesh alone, to a finer one: the difference to the variant with the same levels is "
+             "the error bar of the verdict");
   return table.build();
 }
 
@@ -107,9 +110,11 @@ schema::Object makeStudyTable() {
               "adds the ten variants that tell how much of the torque is due to bending, membrane, weight, inertia and "
               "drag, at each combination of the axes that are not factors (those stay at the baseline)")
       .defaultsTo("none");
-  rawField(table, "baseline", &S::baseline,
-           "object axis: label; variants are compared along these axes with the variant that has these levels",
-           "factors: the level 1; without one, the first level of the first axis");
+  rawField(
+      table, "baseline", &S::baseline,
+      "object axis: label; variants are compared along these axes with the variant that has these levels; a motion "
+      "is compared with itself, so that an axis of motions counts only where it is named alone",
+      "factors: the level 1; without one, the first level of the first axis that is neither mesh nor motion");
   table.object("limits", &S::limits, limitsTable(), "traffic light of added torques")
       .defaultsTo("green 5 %, red 15 %: human/data/effort_limits.json")
       .list("pictures", &S::pictures, schema::pictureTable(),

@@ -15,6 +15,7 @@ struct AxisInput {
 struct ExtraInput {
   std::string label;
   JsonNode at, set;
+  bool finer = false;
 };
 struct ElasticityInput {
   double step = 0.1;

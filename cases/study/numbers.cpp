@@ -92,6 +92,8 @@ std::optional<double> JointNumbers::part() const {
   return natural_Nm && *natural_Nm > 0 ? std::optional(std::abs(peak_Nm) / *natural_Nm) : std::nullopt;
 }
 
+double ComfortNumbers::part_of_limit() const { return std::max(mean_Pa / red_Pa, peak_Pa / peak_limit_Pa); }
+
 double RunNumbers::mass_kg() const {
   double m = 0;
   for (const LayerNumbers& l : layers) m += l.mass_kg;
@@ -109,6 +111,26 @@ const JointNumbers* RunNumbers::highest() const {
   return best;
 }
 
+const JointNumbers* RunNumbers::decisive() const {
+  const JointNumbers* best = nullptr;
+  for (const JointNumbers& j : joints)
+    if (!j.prismatic && j.part() && (!best || *j.part() > *best->part())) best = &j;
+  return best ? best : highest();
+}
+
+double RunNumbers::thinnest_mm() const {
+  double least = 0;
+  for (const LayerNumbers& l : layers) least = least > 0 ? std::min(least, 1e3 * l.thickness_m) : 1e3 * l.thickness_m;
+  return least;
+}
+
+double RunNumbers::sinking_mm() const {
+  double most = std::nan("");
+  for (const CheckNumbers& c : checks)
+    if (c.name.starts_with("Sinking") && c.unit == "mm") most = std::fmax(most, c.value);
+  return most;
+}
+
 const JointNumbers* RunNumbers::joint(const std::string& name) const {
   for (const JointNumbers& j : joints)
     if (j.name == name) return &j;
@@ -119,8 +141,7 @@ const ComfortNumbers* RunNumbers::leastComfortable() const {
   const auto rank = [](const ComfortNumbers& c) { return c.light == "red" ? 2 : c.light == "amber" ? 1 : 0; };
   const ComfortNumbers* worst = nullptr;
   for (const ComfortNumbers& c : comfort)
-    if (!worst || rank(c) > rank(*worst) ||
-        (rank(c) == rank(*worst) && c.mean_Pa / c.red_Pa > worst->mean_Pa / worst->red_Pa))
+    if (!worst || rank(c) > rank(*worst) || (rank(c) == rank(*worst) && c.part_of_limit() > worst->part_of_limit()))
       worst = &c;
   return worst;
 }
@@ -159,7 +180,7 @@ RunNumbers readRun(const std::filesystem::path& folder) {
     for (const auto& [zone, k] : j.at("comfort").items())
       run.comfort.push_back({zone, k.at("light").get<std::string>(), k.at("mean_Pa").get<double>(),
                              k.at("peak_Pa").get<double>(), k.at("red_Pa").get<double>(),
-                             k.at("dose_kPa_min").get<double>()});
+                             k.at("peak_limit_Pa").get<double>(), k.at("dose_kPa_min").get<double>()});
     for (const Json& s : j.at("stress"))
       run.stress.push_back({s.at("region").get<std::string>(), s.at("p50_N_per_m").get<double>(),
                             s.at("p95_N_per_m").get<double>(), s.at("p99_N_per_m").get<double>(),

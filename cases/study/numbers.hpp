@@ -44,7 +44,9 @@ struct ZoneNumbers {
 /// Pressure on a part of the body against what the case calls comfortable.
 struct ComfortNumbers {
   std::string zone, light;
-  double mean_Pa = 0, peak_Pa = 0, red_Pa = 0, dose_kPa_min = 0;
+  double mean_Pa = 0, peak_Pa = 0, red_Pa = 0, peak_limit_Pa = 0, dose_kPa_min = 0;
+  /// Of the limit that is nearest or furthest surpassed: of the mean over time, or of the peak.
+  double part_of_limit() const;
 };
 
 struct StressNumbers {
@@ -76,8 +78,12 @@ struct RunNumbers {
 
   double mass_kg() const;
   int failing() const;
+  double thinnest_mm() const;  ///< layer, 0 without one
+  double sinking_mm() const;   ///< of the edge on springs that sinks most, NaN without one
   /// The joint of the largest |peak|, null without joints that turn.
   const JointNumbers* highest() const;
+  /// The joint that decides: of the largest part of its natural moment, or of the largest torque where none is known.
+  const JointNumbers* decisive() const;
   const JointNumbers* joint(const std::string& name) const;
   /// The part of the body that is furthest from comfortable, null where nothing presses on one.
   const ComfortNumbers* leastComfortable() const;

@@ -172,7 +172,10 @@ void findBaseline(const Place& root, const StudyInput& in, Study& s) {
     const Place place = root.member(*root.node.find("baseline"));
     const auto levels = levelsAt(place, s);
     if (levels.empty()) place.fail("is empty; allowed: at least one axis: label");
+    const bool all_motions =
+        std::all_of(levels.begin(), levels.end(), [&](const auto& l) { return s.axes[l.first].role == Role::motion; });
     for (const auto& [axis, level] : levels) {
+      if (s.axes[axis].role == Role::motion && !all_motions) continue;
       s.compared.push_back(static_cast<int>(axis));
       s.baseline.push_back(level);
     }
@@ -185,8 +188,9 @@ void findBaseline(const Place& root, const StudyInput& in, Study& s) {
         s.baseline.push_back(static_cast<int>(l));
       }
   if (!s.compared.empty() || s.axes.empty()) return;
-  std::size_t first = 0;  // the mesh is no design
-  while (first + 1 < s.axes.size() && s.axes[first].role == Role::mesh) ++first;
+  std::size_t first = 0;  // neither mesh nor motion is a design
+  while (first < s.axes.size() && (s.axes[first].role == Role::mesh || s.axes[first].role == Role::motion)) ++first;
+  if (first == s.axes.size()) first = 0;
   s.compared = {static_cast<int>(first)};
   s.baseline = {0};
 }
@@ -369,6 +373,7 @@ Study readStudy(const std::filesystem::path& file) {
       for (const auto& [axis, level] : levelsAt(at.member(*at.node.find("at")), s)) levels[axis] = level;
     if (!at.node.find("set")) at.failAt("set", "is required: object path: value");
     maker.add(levels, settingsOf(at.member(*at.node.find("set"))), in.variants[i].label, at);
+    s.variants.back().finer = in.variants[i].finer;
   }
   if (in.elasticities) addElasticities(place, *in.elasticities, maker, s);
   linkBaselines(s);

@@ -41,6 +41,7 @@ struct Variant {
   std::string label;        ///< as people read it: "thickness 0.5, walking"
   std::vector<int> levels;  ///< of each axis
   bool grid = false;        ///< of the axes alone, nothing else set
+  bool finer = false;       ///< as the variant of the axes with its levels, on a finer mesh
   int baseline = -1;        ///< the variant that it is compared with; -1: none
   AnyCase definition;
   std::string identity;       ///< caseIdentity

@@ -240,10 +240,22 @@ std::string studyJson(const Study& s, const Comparison& c) {
   j["verdict"] = {{"take", v.take >= 0 ? Json(c.input.options[static_cast<std::size_t>(v.take)].name) : Json(nullptr)},
                   {"light", nameOf(v.light)},
                   {"sentence", v.sentence},
+                  {"layers", v.layers},
+                  {"enough", v.enough},
+                  {"estimate", v.estimate},
                   {"why", v.why},
-                  {"sure", v.sure},
+                  {"comfort", v.comfort},
+                  {"comfort_light", nameOf(v.comfort_light)},
+                  {"choice", v.choice},
+                  {"choice_is_sure", v.surety == Surety::yes      ? "yes"
+                                     : v.surety == Surety::fairly ? "fairly"
+                                                                  : "no"},
+                  {"numbers", v.numbers},
                   {"mesh_error", number(c.input.mesh_error)},
+                  {"next_costs_times", number(v.order)},
                   {"holds_up_to", number(v.holds_up_to)}};
+  for (const auto& d : c.input.doubts)
+    j["verdict"]["failing_checks"].push_back({{"what", d.text}, {"touches_the_order", d.order}});
   j["limits"] = {{"green_below", s.limits.green}, {"red_above", s.limits.red}, {"source", s.limits.source}};
   for (const AxisExponent& e : c.exponents)
     j["exponents"].push_back({{"axis", e.axis},

@@ -1,0 +1,98 @@
+#pragma once
+/// Which variant of a garment to take, whether it is good enough, and how sure that is: in sentences. Pure functions of
+/// numbers.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/compare.hpp"
+
+namespace gambeson {
+
+/// One level of what is compared, as a designer may choose it.
+struct Option {
+  std::string name;            ///< "thickness 0.75"
+  std::optional<double> size;  ///< thickness, where it is one
+  struct Layer {
+    std::string name;
+    double thickness_m = 0;
+  };
+  std::vector<Layer> layers;
+  struct Cost {
+    std::string motion;           ///< empty where there is one only
+    std::string joint;            ///< "left hip (flexion)"
+    double peak_Nm = 0;           ///< size of the largest added torque
+    std::optional<double> part;   ///< of the natural moment
+    std::optional<double> ratio;  ///< of the peak of the baseline, same motion and joint
+  };
+  std::vector<Cost> costs;  ///< of each motion and joint that matters
+  /// Pressure on the part of the body that is furthest from comfortable in a motion.
+  struct Comfort {
+    std::string motion, part;
+    Light light = Light::unknown;
+    double mean_Pa = 0, limit_Pa = 0;       ///< over time, where it presses most
+    double peak_Pa = 0, peak_limit_Pa = 0;  ///< at any time
+    /// Of the limit that is nearest or furthest surpassed.
+    double part_of_limit() const;
+  };
+  std::vector<Comfort> comforts;  ///< of each motion
+  bool missing = false;           ///< a run of it failed
+};
+
+struct VerdictInput {
+  std::string what;             ///< "thickness"
+  bool sized = false;           ///< options are sizes of which more protects more: the thickest that is green is wanted
+  std::vector<Option> options;  ///< with sizes: rising
+  int baseline = -1;
+  double green = 0, red = 0;
+  /// Relative difference of a peak between the coarse and the fine mesh, the largest; nothing: one mesh only.
+  std::optional<double> mesh_error;
+  std::string mesh_where;  ///< the runs that tell it: "thickness 1, walking"
+  struct Exponent {
+    std::string motion, joint;
+    PowerLaw peak, rms;
+  };
+  std::vector<Exponent> exponents;  ///< of the sizes, for motions and joints as in the costs
+  /// A check that fails in some of the runs.
+  struct Doubt {
+    std::string text;    ///< completes a sentence: "energy is not kept within 5.9 % (1 run)"
+    bool order = false;  ///< may turn the order of the options; else it touches the sizes of the torques alone
+  };
+  std::vector<Doubt> doubts;
+  int failing_runs = 0, checked_runs = 0;  ///< with checks that fail, of how many
+};
+
+/// The cost that decides: the largest part of a natural moment, or without one the largest peak; in one motion or in
+/// all. Null without costs.
+const Option::Cost* worstCost(const Option& option, const std::string* motion = nullptr);
+
+/// A size at which the option taken would cost a limit, by the exponents: never beyond three times the studied range.
+struct SizeFor {
+  double size = 0, low = 0, high = 0;  ///< with its exponent, and with those of its joint in all motions
+  std::string motion, joint;           ///< what decides
+};
+enum class NoSize { none, no_exponent, too_far };
+/// The largest size whose every cost is below `limit`; `why` says why there is none.
+std::optional<SizeFor> sizeFor(const VerdictInput& input, int option, double limit, NoSize& why);
+
+enum class Surety { no, fairly, yes };
+
+struct Verdict {
+  int take = -1;  ///< option; -1: none can be named
+  Light light = Light::unknown;
+  std::string sentence;  ///< which one to take
+  std::string layers;    ///< how thick its layers are, where sizes are compared: "shirt 1.56 mm, belt 1.15 mm"
+  std::string enough;    ///< whether that is good enough, against the limits
+  std::string estimate;  ///< which size would be; empty where the question does not arise
+  std::string why;
+  std::string comfort;  ///< empty where no pressure is judged
+  Light comfort_light = Light::unknown;
+  Surety surety = Surety::no;         ///< of the choice
+  std::string choice, numbers;        ///< how sure the choice is, and how exact the numbers are
+  std::optional<double> order;        ///< the next costs that many times as much, where each is worst
+  std::optional<double> holds_up_to;  ///< relative error of all torques up to which choice and light stay
+};
+Verdict verdictOf(const VerdictInput& input);
+
+}  // namespace gambeson

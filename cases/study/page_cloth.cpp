@@ -1,0 +1,144 @@
+/// The garment on its wearer: pressure, layers, fit, stress.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "analysis/report/html.hpp"
+#include "analysis/ticks.hpp"
+#include "cases/study/page_parts.hpp"
+#include "cases/zone_ledger.hpp"
+
+namespace gambeson::study {
+
+using html::element;
+using html::escape;
+
+std::string forcesOf(const Study& s, const Comparison& c) {
+  std::vector<std::vector<Html>> split, shares, comfort;
+  std::set<std::string> zones;
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members)
+      for (const ZoneNumbers& z : c.runs[i].zones)
+        if (z.normal_N > 0.005 * c.runs[i].pressing_N()) zones.insert(z.zone);
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members) {
+      const RunNumbers& r = c.runs[i];
+      if (!r.good) continue;
+      const std::string label = escape(s.variants[i].label);
+      if (const ComfortNumbers* k = r.leastComfortable())
+        comfort.push_back({label, lightOf(k->light), escape(spokenZone(k->zone)), Html(1e-3 * k->mean_Pa),
+                           Html(1e-3 * k->red_Pa), Html(1e-3 * k->peak_Pa), Html(1e-3 * k->peak_limit_Pa),
+                           Html(k->dose_kPa_min)});
+      const double all = r.pressing_N();
+      if (!zones.empty()) {
+        std::vector<Html> row{label, Html(all)};
+        for (const std::string& name : zones) {
+          double part = 0;
+          for (const ZoneNumbers& z : r.zones)
+            if (z.zone == name) part = z.normal_N;
+          row.emplace_back(all > 0 ? 100 * part / all : 0, 2);
+        }
+        shares.push_back(std::move(row));
+      }
+      if (const JointNumbers* j = r.joint(g.joint()))
+        split.push_back(
+            {label, escape(j->label), Html(j->normal_N), Html(j->friction_N), Html(std::abs(j->peak_Nm)),
+             Html(j->friction_Nm && j->peak_Nm != 0 ? 100 * *j->friction_Nm / j->peak_Nm : std::nan(""), 2)});
+    }
+  std::vector<std::string> columns{"variant", "pressing, sum [N]"};
+  for (const std::string& zone : zones) columns.push_back(spokenZone(zone) + " [%]");
+  std::string out;
+  if (!comfort.empty())
+    out += htmlTable("Comfort: the part of the body that is furthest from comfortable",
+                     {"variant", "verdict", "part", "mean [kPa]", "limit [kPa]", "peak [kPa]", "limit of peaks [kPa]",
+                      "dose [kPa min]"},
+                     comfort,
+                     "Pressure where it is largest, against the limits of the case: red where the mean over time or "
+                     "the peak is above its limit. Each variant\u2019s own report has all parts, and pictures.");
+  if (!shares.empty())
+    out += htmlTable("Which parts of the body bear the garment", columns, shares,
+                     "Shares of the mean force that presses, both sides together, without belt and edges on springs. "
+                     "Parts with less than 0.5 % everywhere are left out. Shares of the segments are in variants.csv.");
+  if (!split.empty())
+    out += htmlTable(
+        "Pressing and friction at the joint that decides",
+        {"variant", "joint", "pressing, mean [N]", "friction, mean [N]", "peak torque [Nm]", "of it by friction [%]"},
+        split,
+        "Forces: sums of magnitudes on the segments that count for the joint. Torque: what the tangential "
+        "parts of the contact forces have in it when it peaks; a negative share is of the other sense.");
+  return out.empty() ? "" : element("div", out, " class=\"charts single\"");
+}
+
+std::string layersOf(const Study& s, const Comparison& c) {
+  std::vector<std::string> names;
+  for (const RunNumbers& r : c.runs)
+    for (const LayerNumbers& l : r.layers)
+      if (std::find(names.begin(), names.end(), l.name) == names.end()) names.push_back(l.name);
+  if (names.empty()) return "";
+  std::vector<std::string> columns{"variant"};
+  for (const std::string& n : names) columns.push_back(n.empty() ? "the garment" : n);
+  columns.insert(columns.end(), {"all [kg]", "cloth [m\u00b2]", "control points"});
+  // What is the same in all motions is told once.
+  std::vector<std::pair<std::string, std::vector<std::vector<Html>>>> levels;
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    const RunNumbers& r = c.runs[i];
+    if (!r.good || !s.variants[i].grid || r.layers.empty()) continue;
+    std::vector<Html> row{escape(s.variants[i].label)};
+    double area = 0;
+    for (const std::string& n : names) {
+      std::string cell = "\u2013";
+      for (const LayerNumbers& l : r.layers)
+        if (l.name == n)
+          cell = escape(formatNumber(1e3 * l.thickness_m) + " mm, " + formatNumber(l.mass_kg) + " kg"),
+          area += l.area_m2;
+      row.push_back(Html::aligned(cell));
+    }
+    row.insert(row.end(), {Html(r.mass_kg()), Html(area), Html(r.control_points)});
+    const std::string name = memberName(s, c, i);
+    auto at = std::find_if(levels.begin(), levels.end(), [&](const auto& l) { return l.first == name; });
+    if (at == levels.end()) at = levels.insert(at, {name, {}});
+    at->second.push_back(std::move(row));
+  }
+  std::vector<std::vector<Html>> rows;
+  for (auto& [name, all] : levels) {
+    const bool same = std::all_of(all.begin(), all.end(), [&](const auto& row) {
+      return std::equal(row.begin() + 1, row.end(), all[0].begin() + 1,
+                        [](const Html& a, const Html& b) { return a.html == b.html; });
+    });
+    if (same) all.resize(1), all[0][0] = Html(escape(name));
+    rows.insert(rows.end(), all.begin(), all.end());
+  }
+  return charts(htmlTable("Thickness and mass of each layer", columns, rows, ""));
+}
+
+std::string clothOf(const Study& s, const Comparison& c) {
+  std::vector<std::vector<Html>> fit;
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members) {
+      const RunNumbers& r = c.runs[i];
+      if (!r.good || r.layers.empty()) continue;
+      const StressNumbers* top = nullptr;
+      for (const StressNumbers& n : r.stress)
+        if (!top || n.p99_N_per_m > top->p99_N_per_m) top = &n;
+      std::string region = top ? top->region : "\u2013", wearer = "\u2013";
+      std::replace(region.begin(), region.end(), '_', ' ');
+      if (const auto* k = std::get_if<Case>(&s.variants[i].definition); k && k->human)
+        wearer = k->human->character ? k->human->character->file.stem().string()
+                                     : (k->human->manikin.empty() ? "own" : k->human->manikin);
+      fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * r.largest_strain), Html(r.sinking_mm(), 2),
+                     Html(r.pressing_N()), escape(region), Html(top ? top->p50_N_per_m : std::nan("")),
+                     Html(top ? top->p99_N_per_m : std::nan("")), Html(top ? top->max_N_per_m : std::nan(""))});
+    }
+  if (fit.empty()) return "";
+  return charts(htmlTable("Fit, and what the fabric carries",
+                          {"variant", "wearer", "largest strain [%]", "edge on springs sinks [mm]", "presses [N]",
+                           "patch that carries most", "median [N/m]", "p99 [N/m]", "largest [N/m]"},
+                          fit,
+                          "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the "
+                          "mean. Stress: first principal resultant; percentiles by area over the motion."));
+}
+
+}  // namespace gambeson::study

@@ -1,0 +1,52 @@
+#pragma once
+/// The parts of a study's page: all HTML; empty where there is nothing to show.
+
+#include <string>
+#include <vector>
+
+#include "cases/study/compare.hpp"
+
+namespace gambeson::study {
+
+/// A cell of HTML, or a number.
+struct Html {
+  Html(std::string h) : html(std::move(h)) {}
+  /// A count.
+  Html(int n) : html(std::to_string(n)), number(true) {}
+  Html(double v, int digits = 3);
+  Html(const std::optional<double>& v, int digits = 3);
+  /// HTML that stands where numbers do.
+  static Html aligned(std::string h);
+  /// The first cell of a row that heads those below it.
+  static Html heading(std::string h);
+  std::string html;
+  bool number = false, heads = false;
+};
+
+/// As tableOf, with cells that are HTML; the first names the row.
+std::string htmlTable(const std::string& title, const std::vector<std::string>& columns,
+                      const std::vector<std::vector<Html>>& rows, const std::string& caption);
+std::string charts(const std::string& body);
+/// Shown when it is asked for.
+std::string folded(const std::string& summary, const std::string& body);
+std::string lightOf(Light light);
+std::string lightOf(const std::string& light);
+std::string percent(const std::optional<double>& part);
+std::string linkTo(const Variant& variant, const std::string& text);
+
+// page_torque.cpp
+std::string payOf(const Study& study, const Comparison& c);
+std::string curvesOf(const Study& study, const Comparison& c);
+std::string lawsOf(const Study& study, const Comparison& c);
+std::string elasticitiesOf(const Comparison& c);
+std::string standingOf(const Study& study, const Comparison& c);
+std::string meshesOf(const Comparison& c);
+// page_cloth.cpp
+std::string forcesOf(const Study& study, const Comparison& c);
+std::string layersOf(const Study& study, const Comparison& c);
+std::string clothOf(const Study& study, const Comparison& c);
+// page_trust.cpp
+std::string checksOf(const Study& study, const Comparison& c);
+std::string leftOutOf(const Study& study, const Comparison& c);
+
+}  // namespace gambeson::study

@@ -1,0 +1,345 @@
+/// Torques of the variants: what each joint pays, curves, ratios, exponents, elasticities, standing, meshes.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/report/chart.hpp"
+#include "analysis/report/html.hpp"
+#include "analysis/report/xy_chart.hpp"
+#include "analysis/ticks.hpp"
+#include "cases/study/page_parts.hpp"
+#include "cases/zone_ledger.hpp"
+
+namespace gambeson::study {
+namespace {
+
+using html::element;
+using html::escape;
+
+const JointRatio* ratioOf(const Comparison& c, std::size_t i, const std::string& joint) {
+  for (const JointRatio& r : c.ratios[i])
+    if (r.joint == joint) return &r;
+  return nullptr;
+}
+
+bool isBaseline(const Study& s, std::size_t i) { return s.variants[i].baseline == static_cast<int>(i); }
+
+std::string named(const std::string& setting, const std::string& joint) {
+  return setting.empty() ? joint : setting + ", " + joint;
+}
+
+/// Labels of the joints that matter somewhere.
+bool matters(const Comparison& c, const std::string& label) {
+  for (const Group& g : c.groups)
+    for (const std::string& name : g.joints)
+      for (const std::size_t i : g.members)
+        if (const JointNumbers* j = c.runs[i].joint(name); j && j->label == label) return true;
+  return false;
+}
+
+/// One joint of one run, in two lines.
+Html payment(const Study& s, const Comparison& c, std::size_t i, const JointNumbers& j) {
+  std::string first =
+      j.part() ? escape(percent(j.part())) + " " + lightOf(gambeson::lightOf(j.part(), s.limits.green, s.limits.red))
+               : "";
+  std::string second = formatNumber(std::abs(j.peak_Nm)) + (j.prismatic ? " N" : " Nm");
+  if (const JointRatio* r = ratioOf(c, i, j.name); r && !isBaseline(s, i) && std::isfinite(r->peak))
+    second += ", \u00d7" + formatNumber(r->peak, 2);
+  return Html::aligned(first + (first.empty() ? "" : "<br>") + element("small", escape(second)));
+}
+
+}  // namespace
+
+std::string payOf(const Study& s, const Comparison& c) {
+  std::vector<std::pair<std::string, std::string>> joints;  // names and labels
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members)
+      for (const JointNumbers& j : c.runs[i].joints)
+        if (std::find(g.joints.begin(), g.joints.end(), j.name) != g.joints.end() &&
+            std::none_of(joints.begin(), joints.end(), [&](const auto& k) { return k.first == j.name; }))
+          joints.emplace_back(j.name, j.label);
+  std::vector<std::string> columns{"variant (its own report)"};
+  for (const auto& [name, label] : joints) columns.push_back(label);
+  columns.insert(columns.end(), {"mass [kg]", "least comfortable", "failing checks"});
+  const auto rowOf = [&](std::size_t i, const std::string& name) {
+    const Variant& v = s.variants[i];
+    const RunNumbers& r = c.runs[i];
+    std::string below;
+    for (const LayerNumbers& l : r.layers)
+      if (c.input.sized) below += (below.empty() ? "" : " / ") + formatNumber(1e3 * l.thickness_m);
+    if (!below.empty()) below = "<br>" + element("small", escape(below + " mm"), " class=\"q\"");
+    const char* base = isBaseline(s, i) ? " <small>baseline</small>" : "";
+    std::vector<Html> row{r.good ? linkTo(v, name) + base + below
+                                 : escape(name) + " <span class=\"bad\">\u2717 failed</span>"};
+    for (const auto& [joint, label] : joints) {
+      const JointNumbers* j = r.good ? r.joint(joint) : nullptr;
+      row.push_back(j ? payment(s, c, i, *j) : Html::aligned("\u2013"));
+    }
+    row.push_back(r.good && r.mass_kg() > 0 ? Html(r.mass_kg()) : Html(std::nan("")));
+    const ComfortNumbers* k = r.leastComfortable();
+    row.push_back(k ? Html(escape(spokenZone(k->zone)) + " " + lightOf(k->light)) : Html(std::string("\u2013")));
+    row.push_back(r.failing() > 0 ? Html(r.failing())
+                                  : Html::aligned(r.good ? "<span class=\"good\">\u2713</span>" : "\u2013"));
+    return row;
+  };
+  std::vector<std::vector<Html>> rows, others;
+  for (const Group& g : c.groups) {
+    if (c.groups.size() > 1 || !g.label.empty()) {
+      std::vector<Html> heading{Html::heading(escape(g.label))};
+      for (const auto& [name, label] : joints) {
+        std::optional<double> natural;
+        for (const std::size_t i : g.members)
+          if (const JointNumbers* j = c.runs[i].joint(name); j && !natural) natural = j->natural_Nm;
+        heading.push_back(Html::aligned(natural ? element("small", escape("natural " + formatNumber(*natural) + " Nm"))
+                                                : std::string()));
+      }
+      heading.insert(heading.end(), 3, Html(std::string()));
+      rows.push_back(heading);
+    }
+    for (const std::size_t i : g.members) rows.push_back(rowOf(i, memberName(s, c, i)));
+  }
+  for (std::size_t i = 0; i < s.variants.size(); ++i)
+    if (std::none_of(c.groups.begin(), c.groups.end(), [&](const Group& g) {
+          return std::find(g.members.begin(), g.members.end(), i) != g.members.end();
+        }))
+      others.push_back(rowOf(i, s.variants[i].label));
+  const std::string caption =
+      joints.empty() ? ""
+                     : "Joints that matter: the one that decides, those that are not green somewhere, and those with a "
+                       "fifth of the largest torque. All joints are in variants.csv.";
+  std::string out = charts(htmlTable(s.file.empty() ? "All runs" : "All variants", columns, rows, caption));
+  if (!others.empty())
+    out += folded(fmt::format("{} more runs, beside the variants compared", others.size()),
+                  charts(htmlTable("Further runs", columns, others, "")));
+  return out;
+}
+
+std::string curvesOf(const Study& s, const Comparison& c) {
+  constexpr std::size_t most = 3;  // lines beside the baseline's that can be told apart
+  std::string open, more;
+  for (const Group& g : c.groups) {
+    std::size_t last = 0;
+    std::string highest;
+    double peak_Nm = 0, decides_Nm = 0;
+    for (const std::size_t i : g.members) {
+      last = std::max(last, memberOrder(s, c, i));
+      if (const JointNumbers* top = c.runs[i].highest(); top && std::abs(top->peak_Nm) > peak_Nm)
+        highest = top->name, peak_Nm = std::abs(top->peak_Nm);
+      if (const JointNumbers* j = c.runs[i].joint(g.joint())) decides_Nm = std::max(decides_Nm, std::abs(j->peak_Nm));
+    }
+    if (peak_Nm < 1.1 * decides_Nm) highest = g.joint();  // as good as the same
+    for (const std::string& name : g.joints)
+      for (std::size_t from = 1; from <= std::max<std::size_t>(last, 1); from += most) {
+        Plot plot;
+        for (const std::size_t i : g.members) {
+          const JointNumbers* j = c.runs[i].joint(name);
+          const std::size_t order = memberOrder(s, c, i);
+          if (!j || (order != 0 && (order < from || order >= from + most))) continue;
+          plot.title = named(g.label, j->label);
+          plot.mark_from_s = c.runs[i].counted_from_s;
+          plot.series.push_back({memberName(s, c, i), "Nm", c.runs[i].time_s, j->torque_Nm,
+                                 static_cast<Tone>(order == 0 ? 0 : 1 + (order - 1) % most)});
+        }
+        std::stable_sort(plot.series.begin(), plot.series.end(),
+                         [](const Series& a, const Series& b) { return a.tone < b.tone; });
+        if (!plot.series.empty()) (name == g.joint() || name == highest ? open : more) += lineChart(plot);
+      }
+  }
+  if (open.empty()) return "";
+  return charts(open) + (more.empty() ? "" : folded("The other joints that matter", charts(more)));
+}
+
+namespace {
+
+/// Along one axis, of one joint in one setting.
+struct Law {
+  std::string axis, setting, joint;
+  const AxisExponent *peak = nullptr, *rms = nullptr;
+};
+
+std::vector<Law> lawsThatMatter(const Comparison& c) {
+  std::vector<Law> laws;
+  for (const AxisExponent& e : c.exponents) {
+    if (!matters(c, e.joint)) continue;
+    auto at = std::find_if(laws.begin(), laws.end(), [&](const Law& l) {
+      return l.axis == e.axis && l.setting == e.setting && l.joint == e.joint;
+    });
+    if (at == laws.end()) at = laws.insert(at, {e.axis, e.setting, e.joint});
+    (e.quantity == "peak" ? at->peak : at->rms) = &e;
+  }
+  return laws;
+}
+
+std::vector<Html> exponentCells(const Law* l, bool neighbours) {
+  const auto cell = [](const AxisExponent* e) { return e ? Html(e->law.exponent) : Html(std::nan("")); };
+  std::vector<Html> cells{cell(l ? l->peak : nullptr), cell(l ? l->rms : nullptr)};
+  if (neighbours)
+    cells.push_back(
+        Html::aligned(l && l->peak && l->peak->law.points > 2
+                          ? escape(formatNumber(l->peak->law.lowest) + " to " + formatNumber(l->peak->law.highest))
+                          : "\u2013"));
+  return cells;
+}
+
+/// A line per motion, of the joint that decides, along every axis with three levels or more: two are a straight line.
+std::string lawPlots(const Comparison& c, const std::vector<Law>& laws) {
+  std::map<std::string, XyPlot> plots;
+  for (const Law& l : laws) {
+    const bool decides = std::any_of(c.groups.begin(), c.groups.end(), [&](const Group& g) {
+      return std::any_of(g.members.begin(), g.members.end(), [&](std::size_t i) {
+        const JointNumbers* j = c.runs[i].joint(g.joint());
+        return j && j->label == l.joint;
+      });
+    });
+    if (!l.peak || l.peak->law.points < 3 || !decides) continue;
+    XyPlot& plot = plots[l.axis];
+    if (plot.series.empty())
+      plot = {"Peak over " + l.axis,
+              "Both axes logarithmic: a power law is a straight line.",
+              l.axis,
+              "peak [Nm]",
+              {},
+              true};
+    plot.series.push_back({named(l.setting, l.joint), l.peak->x, l.peak->y});
+  }
+  std::string out;
+  for (const auto& [axis, plot] : plots) out += xyChart(plot);
+  return out;
+}
+
+}  // namespace
+
+std::string lawsOf(const Study& s, const Comparison& c) {
+  const std::vector<Law> laws = lawsThatMatter(c);
+  const bool neighbours =
+      std::any_of(laws.begin(), laws.end(), [](const Law& l) { return l.peak && l.peak->law.points > 2; });
+  const std::string main = c.main_axis >= 0 ? s.axes[static_cast<std::size_t>(c.main_axis)].name : "";
+  std::vector<std::string> levels;  // but the baseline's
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members)
+      if (!isBaseline(s, i) && !c.ratios[i].empty() &&
+          std::find(levels.begin(), levels.end(), memberName(s, c, i)) == levels.end())
+        levels.push_back(memberName(s, c, i));
+  std::vector<std::string> columns{"joint"};
+  for (const std::string& l : levels)
+    for (const char* what : {"peak", "RMS", "correlation"}) columns.push_back(l + ": " + what);
+  bool any_law = false;
+  for (const Law& l : laws) any_law = any_law || l.axis == main;
+  if (any_law) columns.insert(columns.end(), {"exponent of the peak", "of the RMS"});
+  if (any_law && neighbours) columns.push_back("peak, between neighbours");
+  std::vector<std::vector<Html>> rows, others;
+  for (const Group& g : c.groups) {
+    if (!g.label.empty() && !g.joints.empty()) {
+      rows.push_back({Html::heading(escape(g.label))});
+      rows.back().resize(columns.size(), Html(std::string()));
+    }
+    for (const std::string& name : g.joints) {
+      std::vector<Html> row{Html(std::string())};
+      for (const std::string& level : levels) {
+        const JointRatio* r = nullptr;
+        for (const std::size_t i : g.members)
+          if (memberName(s, c, i) == level) r = ratioOf(c, i, name);
+        row.push_back(r ? Html(r->peak) : Html(std::nan("")));
+        row.push_back(r ? Html(r->rms) : Html(std::nan("")));
+        row.push_back(r ? Html(r->likeness.correlation) : Html(std::nan("")));
+      }
+      std::string label;
+      for (const std::size_t i : g.members)
+        if (const JointNumbers* j = c.runs[i].joint(name)) label = j->label;
+      row[0] = escape(label);
+      if (any_law) {
+        const Law* law = nullptr;
+        for (const Law& l : laws)
+          if (l.axis == main && l.joint == label && l.setting == settingOf(s, s.variants[g.members[0]], {c.main_axis}))
+            law = &l;
+        for (Html& cell : exponentCells(law, neighbours)) row.push_back(std::move(cell));
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  for (const Law& l : laws) {
+    if (l.axis == main) continue;
+    others.push_back({escape(named(l.axis + (l.setting.empty() ? "" : ": " + l.setting), l.joint))});
+    for (Html& cell : exponentCells(&l, neighbours)) others.back().push_back(std::move(cell));
+  }
+  std::string out;
+  if (columns.size() > 1 && !rows.empty())
+    out += htmlTable(
+        "Against the baseline, same motion and joint", columns, rows,
+        fmt::format("Peak and root mean square (RMS): ratios of sizes. Correlation of the histories: 1 for the same "
+                    "course in time.{}",
+                    !any_law     ? ""
+                    : neighbours ? " Exponent: d ln(torque) / d ln(level), a straight line through the logarithms; the "
+                                   "range between neighbours shows how far it is from a power law."
+                                 : " Exponent: d ln(torque) / d ln(level), of two points, so that how far it is from a "
+                                   "power law cannot be seen."));
+  if (!others.empty()) {
+    std::vector<std::string> heads{"axis and joint", "exponent of the peak", "of the RMS"};
+    if (neighbours) heads.push_back("peak, between neighbours");
+    out += htmlTable("Along other axes: d ln(torque) / d ln(level)", heads, others, "");
+  }
+  out = lawPlots(c, laws) + out;
+  return out.empty() ? "" : element("div", out, " class=\"charts single\"");
+}
+
+std::string elasticitiesOf(const Comparison& c) {
+  std::vector<std::vector<Html>> rows;
+  for (const ElasticityRow& e : c.elasticities) {
+    if (!matters(c, e.joint)) continue;
+    const auto sum = e.e.sum(), predicted = e.e.thicknessExponent();
+    rows.push_back({escape(named(e.setting, e.joint)), std::string(e.quantity), Html(e.e.bending), Html(e.e.membrane),
+                    Html(e.e.weight), Html(e.e.inertia), Html(e.e.drag), Html(sum),
+                    Html(sum ? 1 - *sum : std::nan(""), 2), Html(predicted), Html(e.measured),
+                    predicted && e.measured ? Html(*e.measured - *predicted, 2) : Html(std::nan(""))});
+  }
+  if (rows.empty()) return "";
+  return charts(htmlTable("By how many per cent the torque changes with one per cent of ...",
+                          {"torque", "of", "bending", "membrane", "weight", "inertia", "drag", "sum", "rest",
+                           "thickness: predicted", "measured", "difference"},
+                          rows,
+                          "Central differences of the logarithms. The rest, 1 - sum, is carried by what is none of the "
+                          "five: above all springs of supports, which do not change with the cloth. Predicted exponent "
+                          "of the thickness: membrane + weight + inertia + 3 bending."));
+}
+
+std::string standingOf(const Study& s, const Comparison& c) {
+  std::vector<std::vector<Html>> rows;
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members) {
+      const JointNumbers* j = c.runs[i].good ? c.runs[i].joint(g.joint()) : nullptr;
+      if (!j || !j->standing_Nm) continue;
+      const auto above = peakAboveStanding(c.runs[i], *j);
+      std::optional<double> ratio, base_above;
+      if (g.baseline >= 0)
+        if (const JointNumbers* b = c.runs[static_cast<std::size_t>(g.baseline)].joint(g.joint()))
+          base_above = peakAboveStanding(c.runs[static_cast<std::size_t>(g.baseline)], *b);
+      if (base_above && above && *base_above > 0) ratio = *above / *base_above;
+      rows.push_back({escape(s.variants[i].label), escape(j->label), Html(*j->standing_Nm, 2),
+                      Html(std::abs(j->peak_Nm)), Html(above), Html(ratio, 2)});
+    }
+  if (rows.empty()) return "";
+  return charts(htmlTable("Standing as the baseline",
+                          {"variant", "joint that decides", "standing [Nm]", "peak [Nm]", "peak above standing [Nm]",
+                           "ratio to the baseline\u2019s"},
+                          rows,
+                          "Standing: the mean torque of the last 0.1 s before the motion, dressed and settled. Above "
+                          "standing: that torque subtracted from the history."));
+}
+
+std::string meshesOf(const Comparison& c) {
+  std::vector<std::vector<Html>> rows;
+  for (const MeshRow& m : c.meshes)
+    rows.push_back({escape(named(m.setting, m.joint)), Html(m.coarse_points), Html(m.fine_points),
+                    Html(std::abs(m.coarse_Nm)), Html(std::abs(m.fine_Nm)), Html(100 * m.difference, 2),
+                    Html(100 * m.history, 2)});
+  if (rows.empty()) return "";
+  return charts(htmlTable("Coarse against fine",
+                          {"variant", "control points, coarse", "fine", "peak, coarse [Nm]", "fine [Nm]",
+                           "difference [%]", "histories differ [% of the peak]"},
+                          rows, "Histories: root mean square of the difference from 0.2 s on, of the fine peak."));
+}
+
+}  // namespace gambeson::study

@@ -1,0 +1,130 @@
+/// What the verdict is made of, from the runs.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cases/check_words.hpp"
+#include "cases/study/compare.hpp"
+#include "cases/zone_ledger.hpp"
+
+namespace gambeson::study {
+namespace {
+
+Light lightNamed(const std::string& name) {
+  for (const Light light : {Light::green, Light::amber, Light::red})
+    if (name == nameOf(light)) return light;
+  return Light::unknown;
+}
+
+/// What one run adds to its option.
+void addRun(const Comparison& c, const Group& g, std::size_t i, Option& option) {
+  const RunNumbers& run = c.runs[i];
+  if (option.layers.empty())
+    for (const LayerNumbers& l : run.layers) option.layers.push_back({l.name, l.thickness_m});
+  for (const std::string& name : g.joints) {
+    const JointNumbers* j = run.joint(name);
+    if (!j) continue;
+    Option::Cost cost{g.label, j->label, std::abs(j->peak_Nm), j->part(), {}};
+    for (const JointRatio& r : c.ratios[i])
+      if (r.joint == name && std::isfinite(r.peak)) cost.ratio = r.peak;
+    option.costs.push_back(cost);
+  }
+  if (const ComfortNumbers* k = run.leastComfortable())
+    option.comforts.push_back(
+        {g.label, spokenZone(k->zone), lightNamed(k->light), k->mean_Pa, k->red_Pa, k->peak_Pa, k->peak_limit_Pa});
+}
+
+/// Of all joints and motions that the options cost.
+void addExponents(const Study& s, const Comparison& c, VerdictInput& in) {
+  const auto find = [&](const Group& g, const std::string& joint, const char* quantity) -> const AxisExponent* {
+    const std::string setting = settingOf(s, s.variants[g.members[0]], {c.main_axis});
+    for (const AxisExponent& e : c.exponents)
+      if (e.axis == in.what && e.setting == setting && e.joint == joint && e.quantity == quantity) return &e;
+    return nullptr;
+  };
+  for (const Group& g : c.groups)
+    for (const std::string& name : g.joints) {
+      std::string label;
+      for (const std::size_t i : g.members)
+        if (const JointNumbers* j = c.runs[i].joint(name)) label = j->label;
+      const AxisExponent *peak = find(g, label, "peak"), *rms = find(g, label, "RMS");
+      if (peak && rms) in.exponents.push_back({g.label, label, peak->law, rms->law});
+    }
+}
+
+void addDoubts(const Comparison& c, VerdictInput& in) {
+  struct Worst {
+    CheckNumbers check;
+    int runs = 0;
+  };
+  std::vector<Worst> all;
+  for (const RunNumbers& r : c.runs) {
+    if (!r.good) continue;
+    ++in.checked_runs;
+    in.failing_runs += r.failing() > 0;
+    for (const CheckNumbers& k : r.checks) {
+      if (k.holds) continue;
+      auto at = std::find_if(all.begin(), all.end(), [&](const Worst& w) { return w.check.name == k.name; });
+      if (at == all.end()) at = all.insert(at, {k, 0});
+      if (!(k.value <= at->check.value)) at->check.value = k.value;
+      ++at->runs;
+    }
+  }
+  for (const Worst& w : all) {
+    const CheckWords words = checkWords(w.check.name, w.check.value, w.check.unit);
+    in.doubts.push_back({fmt::format("{} ({} {})", words.wrong, w.runs, w.runs == 1 ? "run" : "runs"), words.order});
+  }
+}
+
+void addMeshError(const Comparison& c, VerdictInput& in) {
+  std::vector<std::string> where;
+  for (const MeshRow& m : c.meshes) {
+    if (!std::isfinite(m.error)) continue;
+    in.mesh_error = std::max(in.mesh_error.value_or(0), m.error);
+    where.push_back(m.setting);
+  }
+  in.mesh_where = where.size() == 1 ? where[0] : where.empty() ? "" : fmt::format("{} pairs of runs", where.size());
+}
+
+}  // namespace
+
+VerdictInput verdictInput(const Study& s, const Comparison& c) {
+  VerdictInput in;
+  const Axis* axis = c.main_axis >= 0 ? &s.axes[static_cast<std::size_t>(c.main_axis)] : nullptr;
+  in.what = axis ? axis->name : "variant";
+  in.sized = axis && axis->role == Role::thickness && axis->levels[0].number;
+  in.green = s.limits.green;
+  in.red = s.limits.red;
+  std::vector<std::size_t> order(axis ? axis->levels.size() : s.variants.size());
+  for (std::size_t l = 0; l < order.size(); ++l) order[l] = l;
+  if (in.sized)
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return *axis->levels[a].number < *axis->levels[b].number; });
+  for (const std::size_t l : order) {
+    Option option;
+    bool any = false;
+    for (const Group& g : c.groups)
+      for (const std::size_t i : g.members) {
+        const Variant& v = s.variants[i];
+        if (axis ? v.levels[static_cast<std::size_t>(c.main_axis)] != static_cast<int>(l) : i != l) continue;
+        any = true;
+        option.name = memberName(s, c, i);
+        if (in.sized) option.size = axis->levels[l].number;
+        if (v.baseline == static_cast<int>(i)) in.baseline = static_cast<int>(in.options.size());
+        if (c.runs[i].good && c.runs[i].decisive())
+          addRun(c, g, i, option);
+        else
+          option.missing = true;
+      }
+    if (any) in.options.push_back(std::move(option));
+  }
+  addMeshError(c, in);
+  if (in.sized) addExponents(s, c, in);
+  addDoubts(c, in);
+  return in;
+}
+
+}  // namespace gambeson::study

@@ -1,0 +1,252 @@
+/// What the verdict says of synthetic tables.
+
+#include "analysis/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gambeson {
+namespace {
+
+const char* const hip = "right hip (flexion)";
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Three thicknesses in two motions; `parts` of the natural moment in the worse one, stairs.
+VerdictInput table(std::vector<double> parts) {
+  VerdictInput in;
+  in.what = "thickness";
+  in.sized = true;
+  in.baseline = 2;
+  in.green = 0.05;
+  in.red = 0.15;
+  in.checked_runs = 6;
+  const char* names[]{"thickness 0.5", "thickness 0.75", "thickness 1"};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Option o;
+    o.name = names[i];
+    o.size = 0.5 + 0.25 * static_cast<double>(i);
+    o.layers = {{"shirt", 3e-3 * *o.size}, {"pad", 0.01}};
+    o.costs = {{"walking", "left hip (flexion)", 40 * parts[i], 0.8 * parts[i], parts[i] / parts.back()},
+               {"stairs", hip, 50 * parts[i], parts[i], parts[i] / parts.back()}};
+    in.options.push_back(o);
+  }
+  return in;
+}
+
+/// Of the joint that decides: in stairs, and elsewhere.
+void addLaw(VerdictInput& in, double exponent, double elsewhere) {
+  const auto law = [](double n) { return PowerLaw{n, 0, n, n, 3}; };
+  in.exponents = {{"stairs", hip, law(exponent), law(exponent)},
+                  {"walking", hip, law(elsewhere), law(elsewhere)},
+                  {"walking", "left hip (flexion)", law(9), law(9)}};
+}
+
+TEST(Verdict, TakesTheThickestThatStaysGreen) {
+  const Verdict v = verdictOf(table({0.02, 0.04, 0.08}));
+  EXPECT_EQ(v.take, 1);
+  EXPECT_EQ(v.light, Light::green);
+  EXPECT_EQ(v.sentence, "Take thickness 0.75: the thickest that stays green in all 2 motions.");
+  EXPECT_EQ(v.layers, "shirt 2.25 mm, pad 10.0 mm");
+  EXPECT_EQ(
+      v.enough,
+      "Good enough: at most 2.00 Nm at the right hip (flexion), 4 % of its natural 50.0 Nm (stairs): green, below "
+      "5 %. The next, thickness 1, costs 4.00 Nm at the right hip (flexion), 8 % of its natural 50.0 Nm (stairs): "
+      "amber.");
+  EXPECT_EQ(v.estimate, "");
+  // 0.04 reaches 0.05 with +25 %; 0.08 falls below with -37.5 %.
+  ASSERT_TRUE(v.holds_up_to);
+  EXPECT_NEAR(*v.holds_up_to, 0.25, 1e-9);
+  EXPECT_TRUE(has(v.why, "the peak torque of thickness 0.5 is 0.25 (walking), 0.25 (stairs) of that of thickness 1."))
+      << v.why;
+  EXPECT_TRUE(has(v.choice, "as long as the torques are right within 25 %")) << v.choice;
+  EXPECT_EQ(v.surety, Surety::fairly);
+  EXPECT_EQ(v.numbers,
+            "No error bar: the study has one mesh, so what a finer one would change is not known. All checks of all "
+            "runs hold.");
+}
+
+TEST(Verdict, TheMarginMayComeFromTheOneNotTaken) {
+  const Verdict v = verdictOf(table({0.01, 0.02, 0.055}));
+  EXPECT_EQ(v.take, 1);
+  EXPECT_NEAR(*v.holds_up_to, 1 - 0.05 / 0.055, 1e-9);
+  EXPECT_TRUE(has(v.sentence, "green in all 2 motions, though only just")) << v.sentence;
+  EXPECT_TRUE(has(v.choice, "A narrow margin")) << v.choice;
+  EXPECT_EQ(v.surety, Surety::no);
+}
+
+/// One sentence takes one of them, another says whether that is enough: never "take none" beside "take 0.5".
+TEST(Verdict, TakesTheBestOfThoseThatAreNotGoodEnough) {
+  const Verdict v = verdictOf(table({0.2, 0.3, 0.4}));
+  EXPECT_EQ(v.take, 0);
+  EXPECT_EQ(v.light, Light::red);
+  EXPECT_EQ(v.sentence, "Take thickness 0.5: of the 3 studied it costs the wearer least.");
+  EXPECT_TRUE(has(v.enough, "Not good enough as it is: up to 10.0 Nm")) << v.enough;
+  // The next, 0.75, costs 1.5 times as much.
+  EXPECT_NEAR(*v.order, 1.5, 1e-12);
+  EXPECT_TRUE(has(v.choice, "Thickness 0.75 costs 1.5 times as much where each is worst, and more at each of the 2"))
+      << v.choice;
+  EXPECT_EQ(v.surety, Surety::fairly);
+  // Red up to 0.15 / 0.2: 25 %.
+  EXPECT_TRUE(has(v.numbers, "It stays red as long as the torques are right within 25 %")) << v.numbers;
+  EXPECT_TRUE(has(v.estimate, "cannot be said: how the torque goes with it is not known")) << v.estimate;
+  EXPECT_TRUE(has(verdictOf(table({0.07, 0.09, 0.2})).enough, "amber, between 5 % and 15 %"));
+}
+
+/// t = 0.5 (limit / part)^(1/n): with n = 2 from 0.2 to 0.15 it is 0.5 sqrt(0.75) = 0.433, with 1 it is 0.375; to 0.05
+/// it is 0.25 and 0.125.
+TEST(Verdict, SaysWhichThicknessWouldDo) {
+  VerdictInput in = table({0.2, 0.3, 0.4});
+  addLaw(in, 2, 1);
+  NoSize why{};
+  const auto red = sizeFor(in, 0, in.red, why);
+  ASSERT_TRUE(red);
+  EXPECT_NEAR(red->size, 0.5 * std::sqrt(0.75), 1e-12);
+  EXPECT_NEAR(red->low, 0.375, 1e-12);
+  EXPECT_NEAR(red->high, 0.5 * std::sqrt(0.75), 1e-12);
+  EXPECT_EQ(red->motion, "stairs");
+  const auto green = sizeFor(in, 0, in.green, why);
+  ASSERT_TRUE(green);
+  EXPECT_NEAR(green->size, 0.25, 1e-12);
+  const Verdict v = verdictOf(in);
+  // The pad does not go with the thickness and is not told.
+  EXPECT_EQ(
+      v.estimate,
+      "About thickness 0.43 (shirt 1.30 mm) would bring it down to amber (range 0.37 to 0.43). About thickness "
+      "0.25 (shirt 0.750 mm) would bring it down to green (range 0.12 to 0.25). Extrapolated, not run: by how the "
+      "peak that decides, at the right hip (flexion) (stairs), goes with the thickness. The range is that of the "
+      "exponents of this joint in all motions.");
+}
+
+TEST(Verdict, TheJointThatNeedsTheThinnestDecides) {
+  VerdictInput in = table({0.2, 0.3, 0.4});
+  // In walking 0.16 of the natural moment, but hardly less when thinner: 0.5 (0.15 / 0.16)^(1 / 0.2) = 0.362.
+  addLaw(in, 2, 2);
+  in.exponents[2].peak.exponent = 0.2;
+  NoSize why{};
+  const auto red = sizeFor(in, 0, in.red, why);
+  ASSERT_TRUE(red);
+  EXPECT_EQ(red->motion, "walking");
+  EXPECT_NEAR(red->size, 0.5 * std::pow(0.15 / 0.16, 5), 1e-12);
+}
+
+/// 0.5 (0.05 / 0.2)^(1 / 0.9) = 0.107, less than a third of 0.5: too far to be said.
+TEST(Verdict, DoesNotExtrapolateFar) {
+  VerdictInput in = table({0.2, 0.3, 0.4});
+  addLaw(in, 0.9, 1);
+  in.exponents.pop_back();
+  in.exponents.push_back({"walking", "left hip (flexion)", {0.9, 0, 0.9, 0.9, 3}, {0.9, 0, 0.9, 0.9, 3}});
+  NoSize why{};
+  EXPECT_FALSE(sizeFor(in, 0, in.green, why));
+  EXPECT_EQ(why, NoSize::too_far);
+  EXPECT_TRUE(has(verdictOf(in).estimate, "green cannot be said from this study: it lies more than a factor 3"))
+      << verdictOf(in).estimate;
+  // A torque that does not fall with the thickness has no thickness that would do.
+  for (auto& e : in.exponents) e.peak.exponent = -0.1;
+  EXPECT_FALSE(sizeFor(in, 0, in.red, why));
+  EXPECT_EQ(why, NoSize::no_exponent);
+}
+
+TEST(Verdict, SaysHowSureThatIs) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  in.mesh_error = 0.06;
+  in.mesh_where = "walking, thickness 1";
+  EXPECT_TRUE(has(verdictOf(in).choice, "Coarse and fine mesh differ by less, 6 %.")) << verdictOf(in).choice;
+  EXPECT_EQ(verdictOf(in).surety, Surety::yes);
+  EXPECT_TRUE(has(verdictOf(in).numbers, "Error bar of the peaks: 6 % either way")) << verdictOf(in).numbers;
+  EXPECT_TRUE(has(verdictOf(in).numbers, "(walking, thickness 1)"));
+  in.mesh_error = 0.3;
+  EXPECT_TRUE(has(verdictOf(in).choice, "differ by 30 %: too much to be sure"));
+  EXPECT_EQ(verdictOf(in).surety, Surety::no);
+}
+
+/// One of two torques may be off upwards, the other downwards: 1.5 is safe with 19 %, (1.19 / 0.81 = 1.47), not
+/// with 21.
+TEST(Verdict, TheOrderIsSafeWhereBothMayBeOff) {
+  VerdictInput in = table({0.2, 0.3, 0.4});
+  in.mesh_error = 0.19;
+  EXPECT_EQ(verdictOf(in).surety, Surety::yes);
+  in.mesh_error = 0.21;
+  EXPECT_EQ(verdictOf(in).surety, Surety::no);
+}
+
+TEST(Verdict, FailingChecksTouchTheSizesOrTheOrder) {
+  VerdictInput in = table({0.2, 0.3, 0.4});
+  in.failing_runs = 2;
+  in.doubts = {{"energy is lost (2 runs)", false}};
+  Verdict v = verdictOf(in);
+  EXPECT_EQ(v.surety, Surety::fairly);
+  EXPECT_TRUE(
+      has(v.numbers, "Checks fail in 2 of 6 runs: that makes the sizes of the torques less sure, not their order"))
+      << v.numbers;
+  in.doubts.push_back({"contacts may be missed (1 run)", true});
+  v = verdictOf(in);
+  EXPECT_EQ(v.surety, Surety::no);
+  EXPECT_TRUE(has(v.choice, "But contacts may be missed (1 run): that may turn the order.")) << v.choice;
+  EXPECT_FALSE(has(v.numbers, "not their order")) << v.numbers;
+}
+
+TEST(Verdict, SaysHowTheTorqueGoesWithTheThickness) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  in.exponents = {{"stairs", hip, {1.6, 0.05, 1.4, 1.8, 3}, {1.6, 0.05, 1.4, 1.8, 3}}};
+  EXPECT_TRUE(has(verdictOf(in).why, "to the power 1.6 with 1.4 to 1.8 between neighbours (stairs)"))
+      << verdictOf(in).why;
+}
+
+TEST(Verdict, ComfortIsSaidAndWhetherTheThicknessMatters) {
+  VerdictInput in = table({0.2, 0.3, 0.4});
+  for (Option& o : in.options)
+    o.comforts = {{"walking", "chest", Light::green, 500, 4270, 1000, 9810},
+                  {"stairs", "waist", Light::red, 25300 + 400 * *o.size, 4670, 101e3, 9810}};
+  Verdict v = verdictOf(in);
+  EXPECT_EQ(v.comfort_light, Light::red);
+  EXPECT_EQ(v.comfort,
+            "Not comfortable: on the waist (stairs) 25.5 kPa in the mean (limit 4.67 kPa), 101 kPa at the peak (limit "
+            "9.81 kPa). With thickness 0.75 it is 25.6 kPa: the thickness hardly matters here. With thickness 1 it is "
+            "25.7 kPa: the thickness hardly matters here.");
+  in.options[2].comforts[1].mean_Pa = 60e3;
+  EXPECT_TRUE(verdictOf(in).comfort.ends_with("With thickness 1 it is 60.0 kPa.")) << verdictOf(in).comfort;
+  for (Option& o : in.options) o.comforts.resize(1);
+  v = verdictOf(in);
+  EXPECT_EQ(v.comfort_light, Light::green);
+  EXPECT_TRUE(v.comfort.starts_with("Comfortable: on the chest (walking) 0.500 kPa in the mean")) << v.comfort;
+}
+
+TEST(Verdict, WithoutNaturalMomentsItSaysWhatCostsLeast) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  for (Option& o : in.options)
+    for (Option::Cost& c : o.costs) c.part.reset();
+  const Verdict v = verdictOf(in);
+  EXPECT_EQ(v.take, 0);
+  EXPECT_EQ(v.light, Light::unknown);
+  EXPECT_TRUE(has(v.sentence, "Take thickness 0.5: of the 3 studied it costs the wearer least.")) << v.sentence;
+  EXPECT_TRUE(has(v.enough, "no natural moment")) << v.enough;
+  EXPECT_FALSE(v.holds_up_to);
+}
+
+TEST(Verdict, MissingRunsAreNotTakenAndAreSaid) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  in.options[1].missing = true;
+  const Verdict v = verdictOf(in);
+  EXPECT_EQ(v.take, 0);
+  EXPECT_TRUE(has(v.choice, "1 of 3 are missing because runs failed")) << v.choice;
+  EXPECT_EQ(v.surety, Surety::no);
+  for (Option& o : in.options) o.missing = true;
+  EXPECT_EQ(verdictOf(in).take, -1);
+  EXPECT_TRUE(has(verdictOf(in).sentence, "No verdict"));
+}
+
+/// Cuts, say, have no size: the one that costs least is taken.
+TEST(Verdict, WithoutSizesTheCheapestIsTaken) {
+  VerdictInput in = table({0.04, 0.02, 0.03});
+  in.sized = false;
+  for (Option& o : in.options) o.size.reset();
+  const Verdict v = verdictOf(in);
+  EXPECT_EQ(v.take, 1);
+  EXPECT_TRUE(has(v.sentence, "it costs the wearer least")) << v.sentence;
+  EXPECT_TRUE(has(v.choice, "Thickness 1 costs 1.5 times as much")) << v.choice;
+}
+
+}  // namespace
+}  // namespace gambeson
