@@ -196,18 +196,19 @@ std::string estimateOf(const VerdictInput& in, const Verdict& v) {
 }
 
 std::string whyOf(const VerdictInput& in, const Verdict& v) {
-  std::string why;
-  const auto say = [&](const std::string& s) { why += (why.empty() ? "" : " ") + s; };
+  std::string ratios;
   for (const Option& o : in.options) {
     if (o.missing || in.baseline < 0 || &o == &at(in, in.baseline)) continue;
-    std::string ratios;
+    std::string all;
     for (const std::string& m : motionsOf(o))
       if (const Option::Cost* c = worstCost(o, &m); c->ratio)
-        ratios += (ratios.empty() ? "" : ", ") + formatNumber(*c->ratio, 2) + bracketed(m);
-    if (!ratios.empty())
-      say(fmt::format("Where it counts most, the peak torque of {} is {} of that of {}.", o.name, ratios,
-                      at(in, in.baseline).name));
+        all += (all.empty() ? "" : ", ") + formatNumber(*c->ratio, 2) + bracketed(m);
+    if (!all.empty()) ratios += fmt::format("{}{} has {}", ratios.empty() ? "" : "; ", o.name, all);
   }
+  std::string why;
+  const auto say = [&](const std::string& s) { why += (why.empty() ? "" : " ") + s; };
+  if (!ratios.empty())
+    say(fmt::format("Of the peak torque of {}, where it counts most, {}.", at(in, in.baseline).name, ratios));
   std::string laws;
   for (const std::string& m : motionsOf(at(in, v.take)))
     if (const auto* e = exponentOf(in, *worstCost(at(in, v.take), &m)))
@@ -218,7 +219,7 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
               bracketed(m);
   if (!laws.empty())
     say(fmt::format(
-        "It goes with the {} to the power {}. Stretch, weight and inertia alone would give 1, bending alone "
+        "The torque goes with the {} to the power {}. Stretch, weight and inertia alone would give 1, bending alone "
         "3, and what does not depend on it, such as drag and springs that hold the garment, 0.",
         in.what, laws));
   return why;

@@ -286,7 +286,9 @@ void addStudy(CLI::App& app, StudyArguments& a) {
   command.footer(
       "Leaves in DIR: report.html (start here), study.json (all numbers), variants.csv (a row for each variant), "
       "curves.csv\n"
-      "(torques over time), pictures/, logs/, and a folder with the run of each variant.\n\n"
+      "(torques over time), exponents.csv, elasticities.csv, meshes.csv, pictures/, logs/, and a folder with the run "
+      "of\n"
+      "each variant.\n\n"
       "Examples:\n"
       "  gambeson study cases/library/shorts_thickness.study.json\n"
       "  gambeson study my.study.json --out results/mine --jobs 4 --resume\n\n"

@@ -7,6 +7,25 @@
 #include "analysis/ticks.hpp"
 
 namespace gambeson::html {
+namespace {
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isAlpha(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// The length of a quantity ("1.83 Nm") that starts here, 0 where none does.
+std::size_t quantityAt(std::string_view text) {
+  std::size_t n = 0;
+  while (n < text.size() && (isDigit(text[n]) || (n > 0 && text[n] == '.'))) ++n;
+  if (n == 0 || n >= text.size() || text[n] != ' ') return 0;
+  for (const std::string_view unit : {"Nm", "N/m", "N", "kPa", "Pa", "%", "s", "kg", "mm", "m"}) {
+    const std::size_t end = n + 1 + unit.size();
+    if (text.substr(n + 1, unit.size()) == unit && (end >= text.size() || !(isAlpha(text[end]) || isDigit(text[end]))))
+      return end;
+  }
+  return 0;
+}
+
+}  // namespace
 
 std::string escape(std::string_view text) {
   std::string out;
@@ -30,6 +49,20 @@ std::string escape(std::string_view text) {
       default:
         out += c;
     }
+  return out;
+}
+
+std::string prose(const std::string& text) {
+  const std::string safe = escape(text);
+  std::string out;
+  for (std::size_t i = 0; i < safe.size();) {
+    const bool inside = i > 0 && (isDigit(safe[i - 1]) || isAlpha(safe[i - 1]) || safe[i - 1] == '.');
+    const std::size_t n = inside ? 0 : quantityAt(std::string_view(safe).substr(i));
+    if (n > 0)
+      out += "<span class=\"q\">" + safe.substr(i, n) + "</span>", i += n;
+    else
+      out += safe[i++];
+  }
   return out;
 }
 

@@ -9,6 +9,9 @@ namespace gambeson::html {
 /// & < > " ' as entities, for text and for attribute values in quotes.
 std::string escape(std::string_view text);
 
+/// Escaped text in which a number and its unit stay on one line.
+std::string prose(const std::string& text);
+
 /// RFC 4648, section 4, with padding.
 std::string base64(std::string_view bytes);
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
-#include <string_view>
 
 #include "analysis/report/chart.hpp"
 #include "analysis/report/html.hpp"
@@ -21,6 +20,7 @@ namespace {
 using html::element;
 using html::escape;
 using html::notice;
+using html::prose;
 using html::seconds;
 
 std::string percent(double p) { return (p > 0 && p < 0.1 ? "less than 0.1" : formatNumber(p, 2)) + " %"; }
@@ -28,36 +28,6 @@ std::string percent(double p) { return (p > 0 && p < 0.1 ? "less than 0.1" : for
 std::string capital(std::string s) {
   if (!s.empty() && s[0] >= 'a' && s[0] <= 'z') s[0] = static_cast<char>(s[0] - 'a' + 'A');
   return s;
-}
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isAlpha(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-/// The length of a quantity ("1.83 Nm") that starts here, 0 where none does.
-std::size_t quantityAt(std::string_view text) {
-  std::size_t n = 0;
-  while (n < text.size() && (isDigit(text[n]) || (n > 0 && text[n] == '.'))) ++n;
-  if (n == 0 || n >= text.size() || text[n] != ' ') return 0;
-  for (const std::string_view unit : {"Nm", "N/m", "N", "Pa", "%", "s", "m"}) {
-    const std::size_t end = n + 1 + unit.size();
-    if (text.substr(n + 1, unit.size()) == unit && (end >= text.size() || !(isAlpha(text[end]) || isDigit(text[end]))))
-      return end;
-  }
-  return 0;
-}
-
-/// Escaped text in which a number and its unit stay on one line.
-std::string prose(const std::string& text) {
-  const std::string safe = escape(text);
-  std::string out;
-  for (std::size_t i = 0; i < safe.size();) {
-    const bool inside = i > 0 && (isDigit(safe[i - 1]) || isAlpha(safe[i - 1]) || safe[i - 1] == '.');
-    const std::size_t n = inside ? 0 : quantityAt(std::string_view(safe).substr(i));
-    if (n > 0)
-      out += "<span class=\"q\">" + safe.substr(i, n) + "</span>", i += n;
-    else
-      out += safe[i++];
-  }
-  return out;
 }
 /// Prose never shows a minus: the page speaks of sizes.
 double sizeOf(const JointSummary& j) { return std::abs(j.peak_Nm); }

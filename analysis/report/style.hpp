@@ -32,7 +32,7 @@ dl.answers dd { margin:0; font-weight:600; } dl.answers .reason { font-weight:40
 .card .big small { font-size:1rem; font-weight:600; }
 .card h3 { margin:0; } .card h3 .tag { float:right; font-size:.75rem; font-weight:600; color:var(--accent); border:1px solid var(--accent); border-radius:99px; padding:0 8px; }
 .card p { margin:0; font-size:.95rem; } .card p.soft { color:var(--soft); }
-.cards.reasons { grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); } .cards.reasons .card { border-top-color:var(--accent); } .cards.reasons p { margin-top:6px; }
+.cards.reasons { grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); } .cards.reasons .card:first-child:nth-last-child(odd) { grid-column:1 / -1; } .cards.reasons .card { border-top-color:var(--accent); } .cards.reasons p { margin-top:6px; }
 .wide { margin-top:14px; }
 .charts { display:grid; grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); gap:16px; margin-top:14px; align-items:start; }
 figure.chart, .panel { margin:0; background:var(--paper); border:1px solid var(--line); border-radius:10px; padding:16px; min-width:0; }
@@ -54,7 +54,7 @@ th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font
 .pictures { display:grid; grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); gap:16px; margin-top:14px; align-items:start; }
 .pictures figure { margin:0; background:var(--paper); border:1px solid var(--line); border-radius:10px; overflow:hidden; }
 .pictures img { display:block; width:100%; height:auto; } .pictures figcaption { padding:10px 16px 14px; font-size:.95rem; }
-.charts.single { grid-template-columns:minmax(0,1fr); }
+.charts > figure.chart:only-child { max-width:640px; } .charts.single { grid-template-columns:minmax(0,1fr); }
 .judged { margin:0 0 10px; padding:10px 14px; border-radius:10px; border-left:5px solid #8d95a3; background:#f1f3f6; } .judged strong { margin-right:8px; }
 .judged.green { border-color:var(--good); background:#e9f5ee; } .judged.green strong { color:var(--good); }
 .judged.amber { border-color:#c98500; background:#fff6df; } .judged.amber strong { color:#8a5300; }

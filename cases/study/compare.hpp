@@ -71,8 +71,8 @@ Comparison compare(const Study& study, std::vector<RunNumbers> runs);
 /// Largest |torque - standing| where torques count; nothing where the garment did not stand before.
 std::optional<double> peakAboveStanding(const RunNumbers& run, const JointNumbers& joint);
 
-/// Reads what the runs left, compares, and writes study.json, variants.csv, curves.csv, pictures/ and report.html. The
-/// bytes depend on the runs' results alone.
+/// Reads what the runs left, compares, and writes study.json, its tables as CSV, pictures/ and report.html. The bytes
+/// depend on the runs' results alone.
 void compareVariants(const Study& study, const std::vector<Outcome>& outcomes, const std::filesystem::path& out);
 
 // Its parts.

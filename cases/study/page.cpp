@@ -14,6 +14,7 @@ namespace gambeson::study {
 
 using html::element;
 using html::escape;
+using html::prose;
 
 Html::Html(double v, int digits) : html(std::isfinite(v) ? formatNumber(v, digits) : "\u2013"), number(true) {}
 Html::Html(const std::optional<double>& v, int digits) : Html(v.value_or(std::nan("")), digits) {}
@@ -76,7 +77,7 @@ namespace {
 
 std::string judged(Light light, const std::string& text) {
   if (text.empty()) return "";
-  return element("p", element("strong", "\u25cf", " aria-hidden=\"true\"") + escape(text),
+  return element("p", element("strong", "\u25cf", " aria-hidden=\"true\"") + prose(text),
                  std::string(" class=\"judged ") + (light == Light::unknown ? "unknown" : nameOf(light)) + "\"");
 }
 
@@ -95,7 +96,7 @@ std::string takenOf(const Study& s, const Comparison& c) {
     if (!mass && memberName(s, c, i) == o.name) mass = c.runs[i].mass_kg();
     if (!base && s.variants[i].baseline == static_cast<int>(i)) base = c.runs[i].mass_kg();
   }
-  if (!c.verdict.layers.empty()) list += item("Layers", escape(c.verdict.layers));
+  if (!c.verdict.layers.empty()) list += item("Layers", prose(c.verdict.layers));
   if (mass && *mass > 0)
     list += item("Weighs", base && *base != *mass
                                ? fmt::format("{} kg instead of {} kg", formatNumber(*mass), formatNumber(*base))
@@ -107,7 +108,7 @@ std::string takenOf(const Study& s, const Comparison& c) {
                                          formatNumber(worst->peak_Nm), worst->joint);
     list += item(g.label.empty() ? "Costs" : fmt::format("Costs, {}", g.label),
                  fmt::format("{} {}", lightOf(gambeson::lightOf(worst->part, s.limits.green, s.limits.red)),
-                             element("span", escape(what), " class=\"reason\"")));
+                             element("span", prose(what), " class=\"reason\"")));
   }
   return element("dl", list, " class=\"answers\"");
 }
@@ -115,12 +116,12 @@ std::string takenOf(const Study& s, const Comparison& c) {
 std::string card(const std::string& title, const std::string& text, const std::string& after = "") {
   return text.empty()
              ? ""
-             : element("div", element("h3", escape(title)) + element("p", escape(text)) + after, " class=\"card\"");
+             : element("div", element("h3", escape(title)) + element("p", prose(text)) + after, " class=\"card\"");
 }
 
 std::string headline(const Study& s, const Comparison& c, const std::vector<SidePicture>& pictures) {
   const Verdict& v = c.verdict;
-  std::string words = element("p", escape(v.sentence), " class=\"sentence\"");
+  std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
   words += judged(v.light, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
   std::string body = element("div", words, " class=\"words\"");
   // The one taken, in the motion that decides.
@@ -145,7 +146,7 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
                   percent(s.limits.green), percent(s.limits.red), s.limits.source)),
               " class=\"meaning\"");
   std::string doubts;
-  for (const auto& d : c.input.doubts) doubts += element("li", escape(d.text));
+  for (const auto& d : c.input.doubts) doubts += element("li", prose(d.text));
   const char* surety[]{"not sure", "fairly sure", "sure"};
   const std::string cards =
       card("Why this one", v.why) + card("Thinner still?", v.estimate) +

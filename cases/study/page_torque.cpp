@@ -112,8 +112,9 @@ std::string payOf(const Study& s, const Comparison& c) {
                        "fifth of the largest torque. All joints are in variants.csv.";
   std::string out = charts(htmlTable(s.file.empty() ? "All runs" : "All variants", columns, rows, caption));
   if (!others.empty())
-    out += folded(fmt::format("{} more runs, beside the variants compared", others.size()),
-                  charts(htmlTable("Further runs", columns, others, "")));
+    out += folded(
+        fmt::format("{} more {}, beside the variants compared", others.size(), others.size() == 1 ? "run" : "runs"),
+        charts(htmlTable("Further runs", columns, others, "")));
   return out;
 }
 
@@ -281,8 +282,8 @@ std::string lawsOf(const Study& s, const Comparison& c) {
     if (neighbours) heads.push_back("peak, between neighbours");
     out += htmlTable("Along other axes: d ln(torque) / d ln(level)", heads, others, "");
   }
-  out = lawPlots(c, laws) + out;
-  return out.empty() ? "" : element("div", out, " class=\"charts single\"");
+  const std::string plots = lawPlots(c, laws);
+  return (plots.empty() ? "" : charts(plots)) + (out.empty() ? "" : element("div", out, " class=\"charts single\""));
 }
 
 std::string elasticitiesOf(const Comparison& c) {

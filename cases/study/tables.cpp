@@ -1,4 +1,4 @@
-/// study.json, variants.csv, curves.csv
+/// study.json and the tables as CSV
 
 #include <fmt/format.h>
 
@@ -75,7 +75,9 @@ std::string variantsTable(const Study& s, const Comparison& c) {
   std::vector<std::string> row{"variant", "status"};
   for (const Axis& a : s.axes) row.push_back(a.name);
   row.insert(row.end(), {"baseline", "control_points"});
-  for (const std::string& l : layers) row.push_back(fmt::format("{}_mass_kg", l.empty() ? "garment" : l));
+  for (const std::string& l : layers)
+    for (const char* what : {"thickness_m", "mass_kg"})
+      row.push_back(fmt::format("{}_{}", l.empty() ? "garment" : l, what));
   row.insert(row.end(), {"mass_kg", "highest_joint"});
   for (const std::string& j : joints)
     for (const char* what :
@@ -87,7 +89,8 @@ std::string variantsTable(const Study& s, const Comparison& c) {
     for (const auto& z : r.zones) add(z.zone);
   });
   for (const std::string& z : zones) row.push_back(fmt::format("{}_pressing_N", z));
-  row.insert(row.end(), {"least_comfortable", "comfort", "pressure_mean_Pa", "pressure_peak_Pa"});
+  row.insert(row.end(), {"least_comfortable", "comfort", "pressure_mean_Pa", "limit_mean_Pa", "pressure_peak_Pa",
+                         "limit_peak_Pa", "dose_kPa_min"});
   row.insert(row.end(), {"stress_region", "stress_p50_N_per_m", "stress_p95_N_per_m", "stress_p99_N_per_m",
                          "stress_max_N_per_m", "largest_strain", "failing_checks"});
   const std::size_t columns = row.size();
@@ -102,10 +105,10 @@ std::string variantsTable(const Study& s, const Comparison& c) {
     if (r.good) {
       row.push_back(std::to_string(r.control_points));
       for (const std::string& name : layers) {
-        std::optional<double> mass;
+        std::optional<double> thickness, mass;
         for (const LayerNumbers& l : r.layers)
-          if (l.name == name) mass = l.mass_kg;
-        row.push_back(cell(mass));
+          if (l.name == name) thickness = l.thickness_m, mass = l.mass_kg;
+        row.insert(row.end(), {cell(thickness), cell(mass)});
       }
       row.push_back(cell(r.mass_kg()));
       row.push_back(r.highest() ? r.highest()->name : std::string());
@@ -136,7 +139,8 @@ std::string variantsTable(const Study& s, const Comparison& c) {
       }
       const ComfortNumbers* least = r.leastComfortable();
       row.insert(row.end(), {least ? least->zone : "", least ? least->light : "", least ? cell(least->mean_Pa) : "",
-                             least ? cell(least->peak_Pa) : ""});
+                             least ? cell(least->red_Pa) : "", least ? cell(least->peak_Pa) : "",
+                             least ? cell(least->peak_limit_Pa) : "", least ? cell(least->dose_kPa_min) : ""});
       const StressNumbers top = highestStress(r);
       std::string failing;
       for (const CheckNumbers& k : r.checks)
@@ -166,6 +170,34 @@ std::string curvesTable(const Study& s, const Comparison& c) {
       }
       out += csvRow(row);
     }
+  return out;
+}
+
+std::string exponentsTable(const Comparison& c) {
+  std::string out = csvRow({"axis", "setting", "joint", "quantity", "exponent", "standard_error",
+                            "lowest_between_neighbours", "highest_between_neighbours", "points"});
+  for (const AxisExponent& e : c.exponents)
+    out += csvRow({e.axis, e.setting, e.joint, e.quantity, cell(e.law.exponent), cell(e.law.standard_error),
+                   cell(e.law.lowest), cell(e.law.highest), std::to_string(e.law.points)});
+  return out;
+}
+
+std::string elasticitiesTable(const Comparison& c) {
+  std::string out = csvRow({"setting", "joint", "quantity", "bending", "membrane", "weight", "inertia", "drag", "sum",
+                            "predicted_thickness_exponent", "measured_thickness_exponent"});
+  for (const ElasticityRow& e : c.elasticities)
+    out +=
+        csvRow({e.setting, e.joint, e.quantity, cell(e.e.bending), cell(e.e.membrane), cell(e.e.weight),
+                cell(e.e.inertia), cell(e.e.drag), cell(e.e.sum()), cell(e.e.thicknessExponent()), cell(e.measured)});
+  return out;
+}
+
+std::string meshesTable(const Comparison& c) {
+  std::string out = csvRow({"setting", "joint", "coarse_control_points", "fine_control_points", "coarse_peak_Nm",
+                            "fine_peak_Nm", "peak_difference_ratio", "history_difference_of_peak"});
+  for (const MeshRow& m : c.meshes)
+    out += csvRow({m.setting, m.joint, std::to_string(m.coarse_points), std::to_string(m.fine_points),
+                   cell(m.coarse_Nm), cell(m.fine_Nm), cell(m.difference), cell(m.history)});
   return out;
 }
 
@@ -287,6 +319,9 @@ std::string studyJson(const Study& s, const Comparison& c) {
 void writeStudyTables(const Study& s, const Comparison& c, const std::filesystem::path& out) {
   writeFileAtomically(out / "variants.csv", variantsTable(s, c));
   writeFileAtomically(out / "curves.csv", curvesTable(s, c));
+  writeFileAtomically(out / "exponents.csv", exponentsTable(c));
+  writeFileAtomically(out / "elasticities.csv", elasticitiesTable(c));
+  writeFileAtomically(out / "meshes.csv", meshesTable(c));
   writeFileAtomically(out / "study.json", studyJson(s, c));
 }
 

@@ -58,8 +58,9 @@ TEST(Verdict, TakesTheThickestThatStaysGreen) {
   // 0.04 reaches 0.05 with +25 %; 0.08 falls below with -37.5 %.
   ASSERT_TRUE(v.holds_up_to);
   EXPECT_NEAR(*v.holds_up_to, 0.25, 1e-9);
-  EXPECT_TRUE(has(v.why, "the peak torque of thickness 0.5 is 0.25 (walking), 0.25 (stairs) of that of thickness 1."))
-      << v.why;
+  EXPECT_EQ(v.why,
+            "Of the peak torque of thickness 1, where it counts most, thickness 0.5 has 0.25 (walking), 0.25 (stairs); "
+            "thickness 0.75 has 0.50 (walking), 0.50 (stairs).");
   EXPECT_TRUE(has(v.choice, "as long as the torques are right within 25 %")) << v.choice;
   EXPECT_EQ(v.surety, Surety::fairly);
   EXPECT_EQ(v.numbers,
