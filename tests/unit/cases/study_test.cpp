@@ -332,6 +332,9 @@ TEST(Study, TheLightIsThatOfTheJointThatDecides) {
   const std::string page = studyPage(s, c, {}, {});
   EXPECT_NE(page.find("left hip (flexion)"), std::string::npos);
   EXPECT_EQ(page.find("left hip (rotation)"), std::string::npos);
+  // Nor is it left out where its torque is small and all is green.
+  for (RunNumbers& r : runs) r.joints[0].natural_Nm = 1e4, r.joints[2].peak_Nm *= 0.2, r.joints[2].natural_Nm = 100;
+  EXPECT_EQ(compare(s, runs).groups[0].joints, (std::vector<std::string>{"hip_flexion_right", "hip_flexion_left"}));
 }
 
 TEST(Study, FailingChecksAreToldInWords) {
