@@ -332,9 +332,8 @@ std::string numbersOf(const VerdictInput& in, const Verdict& v) {
                     percent(*v.holds_up_to)));
   if (in.failing_runs == 0 && in.checked_runs > 0) say("All checks of all runs hold.");
   if (in.failing_runs > 0) {
-    const bool order = std::any_of(in.doubts.begin(), in.doubts.end(), [](const auto& d) { return d.order; });
     say(fmt::format("Checks fail in {} of {} runs{}.", in.failing_runs, in.checked_runs,
-                    order ? "" : ": that makes the sizes of the torques less sure, not their order"));
+                    v.surety == Surety::no ? "" : ": that makes the sizes of the torques less sure than their order"));
   }
   return s;
 }

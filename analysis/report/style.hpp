@@ -61,7 +61,7 @@ th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font
 .judged.red { border-color:var(--bad); background:#fdecec; } .judged.red strong { color:var(--bad); }
 .judged + .answers { margin-top:18px; }
 tr.group th, tr.group td { background:var(--ground); } tr.group th { padding-left:8px; font-weight:600; } td small, th small { color:var(--soft); font-size:.86rem; font-weight:400; }
-ul.plain { list-style:none; margin:0; padding:0; }
+ul.plain { list-style:none; margin:0; padding:0; min-width:16.5rem; } ul.plain li + li { margin-top:4px; }
 details { margin-top:14px; } summary { cursor:pointer; color:var(--accent); font-weight:600; }
 .notice { background:#fff6df; border:1px solid #d8b25a; border-radius:8px; padding:8px 12px; margin:10px 0 0; color:#5c4300; font-size:.95rem; }
 .alarm { background:#fdecec; border:2px solid var(--bad); border-radius:10px; padding:12px 16px; margin:16px 0 0; color:#6d1010; font-weight:600; }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "analysis/ticks.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::study {
@@ -122,6 +123,12 @@ double RunNumbers::thinnest_mm() const {
   double least = 0;
   for (const LayerNumbers& l : layers) least = least > 0 ? std::min(least, 1e3 * l.thickness_m) : 1e3 * l.thickness_m;
   return least;
+}
+
+std::string RunNumbers::heldAgainst(const std::string& check) const {
+  return check.starts_with("Penetration") && thinnest_mm() > 0
+             ? fmt::format(", thinnest cloth {} mm", formatNumber(thinnest_mm(), 2))
+             : "";
 }
 
 double RunNumbers::sinking_mm() const {

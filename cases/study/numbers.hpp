@@ -79,6 +79,8 @@ struct RunNumbers {
   double mass_kg() const;
   int failing() const;
   double thinnest_mm() const;  ///< layer, 0 without one
+  /// What the value of a check is to be held against, ", thinnest cloth 0.38 mm" for depths; else empty.
+  std::string heldAgainst(const std::string& check) const;
   double sinking_mm() const;   ///< of the edge on springs that sinks most, NaN without one
   /// The joint of the largest |peak|, null without joints that turn.
   const JointNumbers* highest() const;

@@ -31,21 +31,18 @@ std::string checksOf(const Study& s, const Comparison& c) {
       for (const CheckNumbers& k : c.runs[i].checks) {
         if (k.holds || k.name != name) continue;
         const std::string unit = k.unit.empty() ? "" : " " + k.unit;
-        std::string beside;
-        if (name.starts_with("Penetration") && c.runs[i].thinnest_mm() > 0)
-          beside = fmt::format(", thinnest cloth {} mm", formatNumber(c.runs[i].thinnest_mm(), 2));
-        runs += element(
-            "li", linkTo(s.variants[i], s.variants[i].label) + escape(": " + formatNumber(k.value, 2) + unit + beside));
+        runs += element("li", html::prose(formatNumber(k.value, 2) + unit + c.runs[i].heldAgainst(name)) + "<br>" +
+                                  linkTo(s.variants[i], s.variants[i].label));
         if (worst.name.empty() || !(k.value <= worst.value)) worst = k;
       }
     const CheckWords words = checkWords(name, worst.value, worst.unit);
     rows.push_back({escape(name), element("ul", runs, " class=\"plain\""),
                     Html::aligned(escape(formatNumber(worst.limit, 2) + (worst.unit.empty() ? "" : " ") + worst.unit)),
                     escape(words.means),
-                    std::string(words.order ? "<span class=\"bad\">the order and the sizes</span>" : "the sizes")});
+                    std::string(words.order ? "<span class=\"bad\">order and sizes</span>" : "sizes")});
   }
   return charts(htmlTable(
-      "Checks that fail", {"check", "where, and how much", "allowed", "what that means for the torques", "touches"},
+      "Checks that fail", {"check", "how much, and where", "allowed", "what that means for the torques", "touches"},
       rows,
       fmt::format("{} of {} runs; the others hold all checks. The order: which variant costs less. The sizes: how much "
                   "it costs.",

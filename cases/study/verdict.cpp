@@ -58,6 +58,7 @@ void addExponents(const Study& s, const Comparison& c, VerdictInput& in) {
 void addDoubts(const Comparison& c, VerdictInput& in) {
   struct Worst {
     CheckNumbers check;
+    std::string beside;
     int runs = 0;
   };
   std::vector<Worst> all;
@@ -68,14 +69,15 @@ void addDoubts(const Comparison& c, VerdictInput& in) {
     for (const CheckNumbers& k : r.checks) {
       if (k.holds) continue;
       auto at = std::find_if(all.begin(), all.end(), [&](const Worst& w) { return w.check.name == k.name; });
-      if (at == all.end()) at = all.insert(at, {k, 0});
-      if (!(k.value <= at->check.value)) at->check.value = k.value;
+      if (at == all.end()) at = all.insert(at, {k, r.heldAgainst(k.name)});
+      if (!(k.value <= at->check.value)) at->check.value = k.value, at->beside = r.heldAgainst(k.name);
       ++at->runs;
     }
   }
   for (const Worst& w : all) {
     const CheckWords words = checkWords(w.check.name, w.check.value, w.check.unit);
-    in.doubts.push_back({fmt::format("{} ({} {})", words.wrong, w.runs, w.runs == 1 ? "run" : "runs"), words.order});
+    in.doubts.push_back(
+        {fmt::format("{}{} ({} {})", words.wrong, w.beside, w.runs, w.runs == 1 ? "run" : "runs"), words.order});
   }
 }
 

@@ -179,13 +179,13 @@ TEST(Verdict, FailingChecksTouchTheSizesOrTheOrder) {
   Verdict v = verdictOf(in);
   EXPECT_EQ(v.surety, Surety::fairly);
   EXPECT_TRUE(
-      has(v.numbers, "Checks fail in 2 of 6 runs: that makes the sizes of the torques less sure, not their order"))
+      has(v.numbers, "Checks fail in 2 of 6 runs: that makes the sizes of the torques less sure than their order"))
       << v.numbers;
   in.doubts.push_back({"contacts may be missed (1 run)", true});
   v = verdictOf(in);
   EXPECT_EQ(v.surety, Surety::no);
   EXPECT_TRUE(has(v.choice, "But contacts may be missed (1 run): that may turn the order.")) << v.choice;
-  EXPECT_FALSE(has(v.numbers, "not their order")) << v.numbers;
+  EXPECT_FALSE(has(v.numbers, "than their order")) << v.numbers;
 }
 
 TEST(Verdict, SaysHowTheTorqueGoesWithTheThickness) {

@@ -344,12 +344,13 @@ TEST(Study, FailingChecksAreToldInWords) {
   runs[1].checks = {{"Penetration between samples", 0.4, 0.2, "mm", false}};
   Comparison c = compare(s, runs);
   ASSERT_EQ(c.input.doubts.size(), 1u);
-  EXPECT_EQ(c.input.doubts[0].text, "between its contact points the cloth dips up to 0.40 mm into the skin (2 runs)");
+  EXPECT_EQ(c.input.doubts[0].text,
+            "between its contact points the cloth dips up to 0.40 mm into the skin, thinnest cloth 1.0 mm (2 runs)");
   EXPECT_FALSE(c.input.doubts[0].order);
   EXPECT_EQ(c.input.failing_runs, 2);
   std::string page = studyPage(s, c, {}, {});
   EXPECT_EQ(page.find("role=\"alert\""), std::string::npos);  // it does not touch the order
-  EXPECT_NE(page.find("0.30 mm, thinnest cloth 0.50 mm"), std::string::npos);
+  EXPECT_NE(page.find(", thinnest cloth <span class=\"q\">0.50 mm</span>"), std::string::npos);
   runs[0].checks[0] = {"Momentum", 1, 1e-9, "", false};
   c = compare(s, runs);
   EXPECT_EQ(c.verdict.surety, Surety::no);
