@@ -195,9 +195,11 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
     if (!what.empty()) body += sectionOf(id, title, lead, what);
   };
   if (!batch) body += headline(s, c, pictures);
-  section("pay", batch ? "The runs" : "What each joint pays",
-          "Peak of the added torque in per cent of the joint\u2019s natural moment, in Nm, and as a multiple of the "
-          "baseline\u2019s in the same motion.",
+  const bool joints = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.highest(); });
+  section("pay", batch || !joints ? "The runs" : "What each joint pays",
+          joints ? "Peak of the added torque in per cent of the joint\u2019s natural moment, and in Nm; \u00d7: as a "
+                   "multiple of the baseline\u2019s in the same motion."
+                 : "",
           payOf(s, c));
   if (!batch) {
     section("curves", "Torque over time", "Each level has one colour throughout.", curvesOf(s, c));

@@ -16,6 +16,40 @@ namespace gambeson::study {
 using html::element;
 using html::escape;
 
+namespace {
+
+/// Of the contact force, by the links of the skeleton.
+std::string segmentsOf(const Study& s, const Comparison& c) {
+  std::vector<std::string> names, columns{"variant"};
+  for (const RunNumbers& r : c.runs)
+    for (const ContactNumbers& b : r.contact)
+      if (b.share > 0.005 && std::find(names.begin(), names.end(), b.segment) == names.end())
+        names.push_back(b.segment);
+  if (names.empty()) return "";
+  for (const std::string& n : names) {
+    columns.push_back(n + " [%]");
+    std::replace(columns.back().begin(), columns.back().end(), '_', ' ');
+  }
+  std::vector<std::vector<Html>> rows;
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members) {
+      if (!c.runs[i].good) continue;
+      rows.push_back({escape(s.variants[i].label)});
+      for (const std::string& n : names) {
+        double share = 0;
+        for (const ContactNumbers& b : c.runs[i].contact)
+          if (b.segment == n) share = b.share;
+        rows.back().emplace_back(100 * share, 2);
+      }
+    }
+  return folded("Shares of the segments of the body",
+                charts(htmlTable("Contact by segments", columns, rows,
+                                 "Shares of the mean contact force. Segments with less than 0.5 % everywhere are left "
+                                 "out.")));
+}
+
+}  // namespace
+
 std::string forcesOf(const Study& s, const Comparison& c) {
   std::vector<std::vector<Html>> split, shares, comfort;
   std::set<std::string> zones;
@@ -61,7 +95,7 @@ std::string forcesOf(const Study& s, const Comparison& c) {
   if (!shares.empty())
     out += htmlTable("Which parts of the body bear the garment", columns, shares,
                      "Shares of the mean force that presses, both sides together, without belt and edges on springs. "
-                     "Parts with less than 0.5 % everywhere are left out. Shares of the segments are in variants.csv.");
+                     "Parts with less than 0.5 % everywhere are left out.");
   if (!split.empty())
     out += htmlTable(
         "Pressing and friction at the joint that decides",
@@ -69,7 +103,7 @@ std::string forcesOf(const Study& s, const Comparison& c) {
         split,
         "Forces: sums of magnitudes on the segments that count for the joint. Torque: what the tangential "
         "parts of the contact forces have in it when it peaks; a negative share is of the other sense.");
-  return out.empty() ? "" : element("div", out, " class=\"charts single\"");
+  return out.empty() ? "" : element("div", out, " class=\"charts single\"") + segmentsOf(s, c);
 }
 
 std::string layersOf(const Study& s, const Comparison& c) {
