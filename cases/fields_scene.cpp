@@ -190,7 +190,8 @@ Object supportTable() {
       .in("support")
       .alternative<SpringSupport>("springs", self, springs.build(),
                                   "an edge tied by elastic springs to a link of the human, so that it hangs where it "
-                                  "was drafted; their reactions are reported apart")
+                                  "was drafted; above a skin they act along it only: contact is what presses; their "
+                                  "reactions are reported apart")
       .in("support")
       .alternative<PinnedSupport>("pinned", self, pinned.build(),
                                   "a point that stays where it is in the world: the control points that shape it")

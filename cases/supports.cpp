@@ -1,8 +1,12 @@
 #include "cases/supports.hpp"
 
 #include <algorithm>
+#include <limits>
 
+#include "core/contact/triangle.hpp"
 #include "core/error.hpp"
+#include "human/motion.hpp"
+#include "human/skin.hpp"
 
 namespace gambeson {
 namespace {
@@ -12,6 +16,28 @@ std::vector<PatchEdge> edgesOf(const Case& c, const std::vector<NamedEdge>& know
   for (const NamedEdge& edge : known)
     if (edge.name == e.name) return edge.edges;
   throw InputError({c.file.string(), 0, "supports"}, "the garment has no edge \"" + e.name + "\"");
+}
+
+std::array<int, 3> nearestTriangle(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x,
+                                   const Vec3& p) {
+  double best2 = std::numeric_limits<double>::infinity();
+  std::array<int, 3> best{};
+  for (const auto& t : triangles) {
+    const double dist2 = closestOnTriangle({x[t[0]], x[t[1]], x[t[2]]}, p).dist2_m2;
+    if (dist2 < best2) {
+      best2 = dist2;
+      best = t;
+    }
+  }
+  return best;
+}
+
+/// The human's skin as he stands, which garments are drafted for.
+std::vector<Vec3> standingSkin(const Human& human) {
+  const Posture p = standing(human);
+  std::vector<Vec3> x(human.skin->rest.vertices.size());
+  skinPositions(*human.skin, linkPoses(human.skeleton, p.q, p.root), x);
+  return x;
 }
 
 }  // namespace
@@ -77,9 +103,16 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
           length[at[k + 1]] += half;
         }
       }
+      std::vector<Vec3> skin;
+      if (human->skin) skin = standingSkin(*human);
       for (int s : group.samples) {
         group.springs.push_back(static_cast<int>(options.springs.size()));
-        options.springs.push_back({s, group.anchor, springs.stiffness_N_per_m2 * length[s]});
+        SpringSupportPoint spring{s, group.anchor, springs.stiffness_N_per_m2 * length[s]};
+        if (human->skin) {
+          spring.obstacle = 0;  // the skin, a human's only one
+          spring.triangle = nearestTriangle(human->skin->rest.triangles, skin, X[s]);
+        }
+        options.springs.push_back(spring);
       }
     }
     groups.push_back(std::move(group));

@@ -12,6 +12,10 @@
 namespace gambeson {
 namespace {
 
+/// Height of the iliac crest above the hip, in lengths of the thigh: iliocristale at 1.061 m (ANSUR II, men, median),
+/// hip of male_p50 at 0.898 m, thigh 0.409 m.
+constexpr double kIliacCrest = 0.4;
+
 /// 0 to 1 over [-1, 1], linear between quadratic ends: slope 1/1.6 in the middle, continuous. Little steeper than a
 /// straight line, since a fold's inside must not overtake itself (skin_bend.cpp).
 double shareProfile(double s) {
@@ -231,10 +235,15 @@ class Maker {
       // inside needs.
       const double away = std::hypot(x.x - r.centre.x, x.y - pelvis.y);
       const double width = std::min(0.03 + 1.0 * away, r.half_width_m);
+      // The skin over the iliac crest and above does not turn with the thigh: on the trunk's side of the plane the
+      // region ends below it, u = -1, also at the sides, where the plane has risen towards it.
+      const double crest_m = kIliacCrest * norm(at("thigh_left") - at("shank_left"));
+      const double room = std::clamp((crest_m - (x.z - r.centre.z)) * -r.normal.z - s, 0.3 * width, width);
+      const double t = std::max(0.0, -s), u = s > 0 ? s / width : -t / width - (1 / room - 1 / width) * t * t / room;
       // Both thighs pull at the skin between them, less and less down the legs.
       const double below = (r.centre.z - x.z) / r.half_width_m,
                    between_m = 0.07 - 0.055 * smoothStep((below - 0.4) / 0.8);
-      return shareProfile(s / width) * smoothStep(0.5 + 0.5 * r.side * towards_left_[v] / between_m);
+      return shareProfile(u) * smoothStep(0.5 + 0.5 * r.side * towards_left_[v] / between_m);
     }
     if (r.side != 0 && r.side * (x.y - pelvis.y) <= 0) return 0;
     const double u = s / r.half_width_m;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/contact/contact_rows.hpp"
 
@@ -17,7 +18,8 @@ namespace {
 #endif
 using Quad = ContactWork::Quad;
 typedef double V4 __attribute__((vector_size(32)));
-constexpr int kChunk = 64;  ///< rows whose sums are taken together
+constexpr int kChunk = 64;    ///< rows whose sums are taken together
+constexpr int kLarge = 1024;  ///< rows of an island that all threads share
 inline const V4& quad(const Quad& q) { return *reinterpret_cast<const V4*>(&q); }
 inline V4& quad(Quad& q) { return *reinterpret_cast<V4*>(&q); }
 
@@ -134,61 +136,103 @@ void startIteration(ContactWork& w) {
   moveFreePoints(w, 0, static_cast<int>(w.free_points.size()));
 }
 
-void iterate(double goal, int last_iteration, ContactSequence& sequence, ContactWork& w) {
-  const int n = static_cast<int>(w.order.size()), sample_count = static_cast<int>(w.samples.size()),
-            free_count = static_cast<int>(w.free_points.size()), chunks = (n + kChunk - 1) / kChunk;
-  w.largest2.assign(chunks, 0);
-  w.against.assign(chunks, 0);
-  const ContactSequence start = sequence;
-  // Every thread takes every decision, from the same sums in the same order.
-#pragma omp parallel if (n > 1024)
-  {
-    ContactSequence now = start;
-    now.done = false;
-    const auto last = [&](int chunk) { return std::min(n, (chunk + 1) * kChunk); };
-    const auto largest = [&] {
-      double most2 = 0;
-      for (double l : w.largest2) most2 = std::max(most2, l);
-      return std::sqrt(most2);
-    };
-    for (; now.iterations < last_iteration && !now.done; ++now.iterations) {
-#pragma omp for schedule(static)
-      for (int k = 0; k < n; k += kChunk) extrapolate(w, now.beta, k, std::min(n, k + kChunk));
-#pragma omp for schedule(static)
-      for (int s = 0; s < sample_count; s += kChunk) gatherImpulses(w, s, std::min(sample_count, s + kChunk));
-#pragma omp for schedule(static)
-      for (int f = 0; f < free_count; f += kChunk) moveFreePoints(w, f, std::min(free_count, f + kChunk));
-#pragma omp for schedule(static)
-      for (int s = 0; s < sample_count; s += kChunk) moveSamples(w, s, std::min(sample_count, s + kChunk));
-#pragma omp for schedule(static)
-      for (int chunk = 0; chunk < chunks; ++chunk)
-        projectRows(w, false, chunk * kChunk, last(chunk), w.largest2[chunk], w.against[chunk]);
-      now.residual_m_per_s = largest();
-      double against = 0;
-      for (double a : w.against) against += a;
-      if (now.residual_m_per_s <= goal || now.iterations + 1 == last_iteration) {
-        // Longer steps than rho show a residual that is too small where the cone cuts it.
-#pragma omp barrier
-#pragma omp for schedule(static)
-        for (int chunk = 0; chunk < chunks; ++chunk) {
-          double unused;
-          projectRows(w, true, chunk * kChunk, last(chunk), w.largest2[chunk], unused);
-        }
-        now.residual_m_per_s = largest();
-        now.done = now.residual_m_per_s <= goal;
-      }
-      if (against > 0) {
-        now.momentum = 1;
-        now.beta = 0;
-      } else {
-        const double next = 0.5 * (1 + std::sqrt(1 + 4 * now.momentum * now.momentum));
-        now.beta = (now.momentum - 1) / next;
-        now.momentum = next;
-      }
-    }
-#pragma omp master
-    sequence = now;
+void moveDone(const ContactWork::Island& island, ContactWork& w) {
+  for (int k = island.row; k < island.row_end; ++k) w.point[k] = w.candidate[k];
+  gatherImpulses(w, island.sample, island.sample_end);
+  moveFreePoints(w, island.free_point, island.free_end);
+}
+
+namespace {
+
+using Island = ContactWork::Island;
+
+/// After a step whose product with the gradient is `against`.
+void advance(double against, Island& island) {
+  if (against > 0) {
+    island.momentum = 0.5 * (1 + island.momentum);
+    island.beta = 0;
+  } else {
+    const double next = 0.5 * (1 + std::sqrt(1 + 4 * island.momentum * island.momentum));
+    island.beta = (island.momentum - 1) / next;
+    island.momentum = next;
   }
+}
+
+/// Visits a range in chunks: by the calling thread alone, or by all of a parallel region.
+struct Alone {
+  template <class Visit>
+  void operator()(int begin, int end, const Visit& visit) const {
+    for (int k = begin; k < end; k += kChunk) visit(k, std::min(end, k + kChunk));
+  }
+  void wait() const {}
+};
+struct Together {
+  template <class Visit>
+  void operator()(int begin, int end, const Visit& visit) const {
+#pragma omp for schedule(static)
+    for (int k = begin; k < end; k += kChunk) visit(k, std::min(end, k + kChunk));
+  }
+  void wait() const {
+#pragma omp barrier
+  }
+};
+
+/// Together, every thread takes every decision, from the same sums in the same order.
+template <class EachRange>
+void iterateIsland(double goal, int last_iteration, Island& now, ContactWork& w, const EachRange& each) {
+  const int chunks = (now.row_end - now.row + kChunk - 1) / kChunk;
+  double* const largest2 = w.largest2.data() + now.chunk;
+  double* const against = w.against.data() + now.chunk;
+  const auto project = [&](bool exact) {
+    each(now.row, now.row_end, [&](int k, int end) {
+      const int chunk = (k - now.row) / kChunk;
+      double unused;
+      projectRows(w, exact, k, end, largest2[chunk], exact ? unused : against[chunk]);
+    });
+    double most2 = 0;
+    for (int c = 0; c < chunks; ++c) most2 = std::max(most2, largest2[c]);
+    return std::sqrt(most2);
+  };
+  for (; now.iterations < last_iteration && !now.done; ++now.iterations) {
+    each(now.row, now.row_end, [&](int k, int end) { extrapolate(w, now.beta, k, end); });
+    each(now.sample, now.sample_end, [&](int s, int end) { gatherImpulses(w, s, end); });
+    each(now.free_point, now.free_end, [&](int f, int end) { moveFreePoints(w, f, end); });
+    each(now.sample, now.sample_end, [&](int s, int end) { moveSamples(w, s, end); });
+    now.residual_m_per_s = project(false);
+    double sum = 0;
+    for (int c = 0; c < chunks; ++c) sum += against[c];
+    if (now.residual_m_per_s <= goal || now.iterations + 1 == last_iteration) {
+      // Longer steps than rho show a residual that is too small where the cone cuts it.
+      each.wait();
+      now.residual_m_per_s = project(true);
+      now.done = now.residual_m_per_s <= goal;
+    }
+    advance(sum, now);
+  }
+}
+
+}  // namespace
+
+void iterate(double goal, int last, ContactWork& w) {
+  const auto size = [&](int i) { return w.islands[i].row_end - w.islands[i].row; };
+  w.by_size.resize(w.islands.size());
+  std::iota(w.by_size.begin(), w.by_size.end(), 0);
+  std::stable_sort(w.by_size.begin(), w.by_size.end(), [&](int a, int b) { return size(a) > size(b); });
+  const int count = static_cast<int>(w.islands.size());
+  int large = 0;
+  for (; large < count && size(w.by_size[large]) > kLarge; ++large) {
+    Island& island = w.islands[w.by_size[large]];
+#pragma omp parallel
+    {
+      Island mine = island;
+#pragma omp barrier
+      iterateIsland(goal, last, mine, w, Together{});
+#pragma omp master
+      island = mine;
+    }
+  }
+#pragma omp parallel for schedule(dynamic, 1) if (w.order.size() > kLarge / 4)
+  for (int i = large; i < count; ++i) iterateIsland(goal, last, w.islands[w.by_size[i]], w, Alone{});
 }
 
 }  // namespace gambeson

@@ -50,6 +50,25 @@ void touched(std::span<const ContactRow> rows, const SparseRows& WT, ContactWork
   w.columns = transpose(w.rows);
 }
 
+/// Ranges of the islands in the samples and free points, which come in the order of the rows.
+void rangeIslands(ContactWork& w) {
+  int sample = 0, free_point = 0, chunk = 0;
+  for (ContactWork::Island& island : w.islands) {
+    island.sample = sample;
+    island.free_point = free_point;
+    island.chunk = chunk;
+    for (int e = w.stencils.offsets[island.row]; e < w.stencils.offsets[island.row_end]; ++e)
+      sample = std::max(sample, w.stencils.columns[e] + 1);
+    for (int e = w.rows.offsets[island.sample]; e < w.rows.offsets[sample]; ++e)
+      free_point = std::max(free_point, w.rows.columns[e] + 1);
+    island.sample_end = sample;
+    island.free_end = free_point;
+    chunk += island.row_end - island.row;  // at least as many as there are
+  }
+  w.largest2.resize(chunk);
+  w.against.resize(chunk);
+}
+
 /// The rows that each sample has on cloth, by sample: w.first_on_cloth and w.on_cloth.
 void listOnCloth(std::span<const ContactRow> rows, int samples, ContactWork& w) {
   const auto each = [&](const auto& visit) {
@@ -109,9 +128,59 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
   }
 }
 
+void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+                 ContactWork& w) {
+  w.tied_to.resize(WT.column_count, -1);
+  const auto root = [&](int f) {
+    while (w.tied_to[f] != f) f = w.tied_to[f] = w.tied_to[w.tied_to[f]];
+    return f;
+  };
+  // Of each row one free point; rows that move none are no rows of the iteration.
+  const auto points = [&](int i, const auto& visit) {
+    const Stencil& stencil = rows[i].stencil;
+    for (int k = 0; k < stencil.count; ++k)
+      for (int e = WT.offsets[stencil.sample[k]]; e < WT.offsets[stencil.sample[k] + 1]; ++e)
+        if (inverse_mass[WT.columns[e]] > 0) visit(WT.columns[e]);
+  };
+  for (int i : w.order) points(i, [&](int f) { w.tied_to[f] = f; });
+  std::vector<int>& of = w.island_of;  // first a free point of the row, then its island
+  of.resize(w.order.size());
+  for (std::size_t k = 0; k < w.order.size(); ++k) {
+    int first = -1;
+    points(w.order[k], [&](int f) {
+      f = root(f);
+      if (first >= 0) w.tied_to[std::max(first, f)] = std::min(first, f);
+      first = first < 0 ? f : std::min(first, f);
+    });
+    of[k] = first;
+  }
+  w.islands.clear();
+  w.number.resize(WT.column_count);
+  for (int f : of) w.number[root(f)] = -1;
+  for (int& f : of) {
+    int& number = w.number[root(f)];
+    if (number < 0) {
+      number = static_cast<int>(w.islands.size());
+      w.islands.emplace_back();
+    }
+    f = number;
+    ++w.islands[f].row_end;
+  }
+  int begin = 0;
+  for (ContactWork::Island& island : w.islands) {
+    island.row = begin;
+    begin += island.row_end;
+    island.row_end = island.row;  // grows as the rows come
+  }
+  w.unsorted = w.order;
+  for (std::size_t k = 0; k < of.size(); ++k) w.order[w.islands[of[k]].row_end++] = w.unsorted[k];
+}
+
 void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
               std::span<const double> density, double friction, std::span<const Vec3> velocity, ContactWork& w) {
+  findIslands(rows, WT, inverse_mass, w);
   touched(rows, WT, w);
+  rangeIslands(w);
   const int n = static_cast<int>(w.order.size()), samples = static_cast<int>(w.samples.size()),
             free_count = static_cast<int>(w.free_points.size());
   w.facts.resize(n);

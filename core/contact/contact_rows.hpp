@@ -32,6 +32,10 @@ inline double slopeOf(const ContactRow& row, std::span<const double> density) {
 void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> area,
                 std::span<const double> inverse_mass, ContactWork& work);
 
+/// Sorts work.order by islands, and counts them in work.islands; they keep the order of their first rows.
+void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+                 ContactWork& work);
+
 /// Restricts W_T to the samples and free points that the rows of work.order touch; everything of the iteration that
 /// follows from the rows, and its arrays at their sizes.
 void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,

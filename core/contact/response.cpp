@@ -73,20 +73,40 @@ double leftOut(const Problem& p, ContactWork& w) {
   return std::sqrt(most2);
 }
 
-/// Takes in what w.joins marks; the others keep their place in the iteration.
+/// Takes in what w.joins marks. The others keep their place in the iteration; islands that grow together go on with the
+/// least momentum of them.
 void join(const Problem& p, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
   w.kept_candidate.assign(n, {});
   w.kept_previous.assign(n, {});
-  for (std::size_t k = 0; k < w.order.size(); ++k) {
-    w.kept_candidate[w.order[k]] = w.candidate[k];
-    w.kept_previous[w.order[k]] = w.previous[k];
-  }
+  w.kept_island.assign(n, -1);
+  for (std::size_t i = 0; i < w.islands.size(); ++i)
+    for (int k = w.islands[i].row; k < w.islands[i].row_end; ++k) {
+      w.kept_candidate[w.order[k]] = w.candidate[k];
+      w.kept_previous[w.order[k]] = w.previous[k];
+      w.kept_island[w.order[k]] = static_cast<int>(i);
+    }
+  w.kept_islands = w.islands;
   for (int i = 0; i < n; ++i) w.in[i] = w.in[i] || w.joins[i];
   choose(p, w);
-  for (std::size_t k = 0; k < w.order.size(); ++k) {
-    w.candidate[k] = w.kept_candidate[w.order[k]];
-    w.previous[k] = w.kept_previous[w.order[k]];
+  for (ContactWork::Island& island : w.islands) {
+    const ContactWork::Island* slowest = nullptr;
+    bool same = true;
+    for (int k = island.row; k < island.row_end; ++k) {
+      w.candidate[k] = w.kept_candidate[w.order[k]];
+      w.previous[k] = w.kept_previous[w.order[k]];
+      const int kept = w.kept_island[w.order[k]];
+      const ContactWork::Island* old = kept < 0 ? nullptr : &w.kept_islands[kept];
+      same = same && old && (!slowest || slowest == old);
+      if (old && (!slowest || old->momentum < slowest->momentum)) slowest = old;
+    }
+    if (!slowest) continue;
+    island.beta = slowest->beta;
+    island.momentum = slowest->momentum;
+    island.iterations = slowest->iterations;
+    island.residual_m_per_s = slowest->residual_m_per_s;
+    island.done = same && slowest->done;
+    if (island.done) moveDone(island, w);
   }
   largestBounds(w);
 }
@@ -109,14 +129,17 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
 }
 
 ContactSolve solve(const Problem& p, double goal, int max_iterations, ContactWork& w) {
-  ContactSequence sequence;
   ContactSolve report;
-  for (int check = kFirstCheck;; check = 2 * sequence.iterations) {
-    iterate(goal, std::min(check, max_iterations), sequence, w);
-    report.residual_m_per_s = std::max(sequence.residual_m_per_s, leftOut(p, w));
-    report.iterations = sequence.iterations;
-    report.converged = sequence.done && report.residual_m_per_s <= goal;
-    if (report.converged || sequence.iterations >= max_iterations) return report;
+  for (int check = std::min(kFirstCheck, max_iterations);; check = std::min(2 * check, max_iterations)) {
+    iterate(goal, check, w);
+    report.residual_m_per_s = leftOut(p, w);
+    report.converged = report.residual_m_per_s <= goal;
+    for (const ContactWork::Island& island : w.islands) {
+      report.residual_m_per_s = std::max(report.residual_m_per_s, island.residual_m_per_s);
+      report.iterations = std::max(report.iterations, island.iterations);
+      report.converged = report.converged && island.done;
+    }
+    if (report.converged || check >= max_iterations) return report;
     if (anyJoins(w)) join(p, w);
   }
 }

@@ -83,7 +83,21 @@ struct ContactWork {
   std::vector<int> on_body;                   ///< contacts of each sample of the cloth with bodies
   std::vector<int> first_on_cloth, on_cloth;  ///< rows of each sample on cloth
 
-  std::vector<int> order;  ///< rows in the order of the iteration
+  /// Rows that no point of the cloth that can move ties to the others: each island is a solve of its own, and iterates
+  /// only until it is done. Ranges of `order`, of `samples` and of `free_points`.
+  struct Island {
+    int row = 0, row_end = 0, sample = 0, sample_end = 0, free_point = 0, free_end = 0, chunk = 0;
+    double beta = 0, momentum = 1;  ///< of Nesterov's sequence
+    int iterations = 0;
+    double residual_m_per_s = 0;
+    bool done = false;
+  };
+  std::vector<Island> islands, kept_islands;
+  std::vector<int> kept_island;  ///< of all rows; -1 for one that was not iterated on
+  std::vector<int> tied_to;      ///< of all free points, a forest
+  std::vector<int> island_of, number, unsorted, by_size;
+
+  std::vector<int> order;  ///< rows in the order of the iteration, by island
   std::vector<int> samples, sample_slot, free_points, free_slot;
   SparseRows rows, columns;        ///< samples x free points and back
   SparseRows stencils, of_sample;  ///< rows x samples and back, with weights
@@ -105,7 +119,8 @@ struct ContactWork {
   std::vector<Quad> kept_candidate, kept_previous;  ///< of all rows, while the rows change
   std::vector<Quad> impulse, velocity;              ///< of samples
   std::vector<Quad> base, moved;                    ///< of free points
-  std::vector<double> inverse_mass, largest2, against;
+  std::vector<double> inverse_mass;
+  std::vector<double> largest2, against;  ///< of the islands' chunks of rows
 };
 
 /// The least normal velocity of eq. 3.15 to 3.18 as one unilateral condition. With g the gap and delta the layer,
@@ -143,7 +158,8 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 /// Unknowns are impulses per area (tractions times dt): lambda = a tau, with the consistent areas a. In these unknowns
 /// the operator is bounded by 1/rho because W_Tᵀ a = m/rho, so that projected gradient steps of length rho (surface
 /// density, kg/m^2) are stable, independent of the mesh, and keep the pressure a smooth field over the surface also
-/// where samples outnumber control points; Nesterov's acceleration with restart. Only rows that carry something count
+/// where samples outnumber control points; Nesterov's acceleration with restart, of each island of rows by itself. Only
+/// rows that carry something count
 /// in that bound: where they cover part of a neighbourhood, the row sum D_s = sum_j (W_T M^-1 W_T^T)_sj a_j over them
 /// is less than 1/rho and the step is 1/D_s (the operator's entries are not negative, so that D - W_T M^-1 W_T^T a has
 /// no negative eigenvalue). The residual is |tau - proj(tau - rho r)|/rho [m/s] whatever the steps were.

@@ -1,6 +1,7 @@
 #pragma once
 /// The constant model of a run, its state, and what a step reports.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -30,11 +31,15 @@ class Stage {
   virtual Vec3 air(double) const { return {}; }
 };
 
-/// An elastic spring from a sample to a point fixed in an anchor frame; force = -stiffness (x - anchor).
+/// An elastic spring from a sample to a point fixed in an anchor frame; force = -stiffness (x - anchor). Above an
+/// obstacle that deforms it acts along that only, without its part along the normal of the given triangle: a waistband
+/// is held by the hips' bones, and what lifts the skin under it lifts the band.
 struct SpringSupportPoint {
   int sample = 0;
   int anchor = 0;  ///< frame
   double stiffness_N_per_m = 0;
+  int obstacle = -1;              ///< that deforms, or none
+  std::array<int, 3> triangle{};  ///< its vertices
 };
 
 struct Environment {

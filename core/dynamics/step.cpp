@@ -30,14 +30,61 @@ void internalForce(const Model& m, std::span<const Vec3> p, std::vector<Vec3>& o
   m.map.Tt.multiply<Vec3>(w.f, out);
 }
 
+/// What the springs hang on at one instant.
+struct AnchorFrames {
+  std::span<const Placement> of_stage;
+  const DeformedVertices& vertices;
+
+  /// Of the obstacle under the spring, unit; 0 where there is none.
+  Vec3 normal(const SpringSupportPoint& spring) const {
+    if (spring.obstacle < 0) return {};
+    const std::vector<Vec3>& x = vertices[spring.obstacle];
+    const Vec3 a = x[spring.triangle[0]];
+    return normalized(cross(x[spring.triangle[1]] - a, x[spring.triangle[2]] - a));
+  }
+};
+
+/// The frames at an instant of no step.
+struct AnchorInstant {
+  std::vector<Placement> of_stage;
+  DeformedVertices vertices;
+
+  AnchorInstant(const Model& m, const Stage& stage, double time_s) : of_stage(m.anchor_count) {
+    std::vector<Placement> obstacles(m.obstacles.size());
+    stage.placements(time_s, obstacles, of_stage);
+    for (const SpringSupportPoint& s : m.springs)
+      if (s.obstacle >= 0 && vertices.empty()) vertices = deformedVertices(m, stage, time_s);
+  }
+  AnchorFrames frames() const { return {of_stage, vertices}; }
+};
+
 /// Forces of the springs [N]; anchors stand as `frames` say.
-void springForces(const Model& m, const State& s, std::span<const Placement> frames, std::vector<Vec3>& forces) {
+void springForces(const Model& m, const State& s, const AnchorFrames& frames, std::vector<Vec3>& forces) {
   forces.resize(m.springs.size());
   for (std::size_t k = 0; k < m.springs.size(); ++k) {
     const SpringSupportPoint& spring = m.springs[k];
-    forces[k] =
-        -spring.stiffness_N_per_m * (sampleAt(m.surface.WT, spring.sample, s.p) - frames[spring.anchor] * s.anchors[k]);
+    const Vec3 from = sampleAt(m.surface.WT, spring.sample, s.p) - frames.of_stage[spring.anchor] * s.anchors[k],
+               n = frames.normal(spring);
+    forces[k] = -spring.stiffness_N_per_m * (from - dot(from, n) * n);
   }
+}
+
+/// Work that the motion of anchors and normals does on the springs in a step [J]: with the energy k/2 |P d|² of the
+/// displacement d, P = I - n nᵀ, it is the integral of -k (P d) . da - k (d . n) (d . dn).
+double springWork(const Model& m, const State& in, const State& out, const AnchorFrames& before,
+                  const AnchorFrames& after, std::span<const Vec3> impulses, double dt) {
+  double work = 0;
+  for (std::size_t k = 0; k < m.springs.size(); ++k) {
+    const SpringSupportPoint& spring = m.springs[k];
+    const Vec3 a0 = before.of_stage[spring.anchor] * in.anchors[k], a1 = after.of_stage[spring.anchor] * in.anchors[k];
+    work += dot(impulses[k], a1 - a0) / dt;
+    if (spring.obstacle < 0) continue;
+    const Vec3 n0 = before.normal(spring), n1 = after.normal(spring),
+               d0 = sampleAt(m.surface.WT, spring.sample, in.p) - a0,
+               d1 = sampleAt(m.surface.WT, spring.sample, out.p) - a1;
+    work -= 0.5 * spring.stiffness_N_per_m * (dot(d0, n0) * dot(d0, n1 - n0) + dot(d1, n1) * dot(d1, n1 - n0));
+  }
+  return work;
 }
 
 /// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit
@@ -45,9 +92,8 @@ void springForces(const Model& m, const State& s, std::span<const Placement> fra
 /// With strain limits v = half_velocity + half_step (a + pulled), `pulled` being the limits' acceleration in the last
 /// step (empty: none): the limits' force acts all the time though its impulse comes once a step, and without its half
 /// cloth that hangs still would have the velocity half_step a, on which drag would act.
-void accelerate(const Model& m, std::span<const Placement> anchor_frames, const Vec3& air,
-                std::span<const Vec3> half_velocity, std::span<const Vec3> pulled, double half_step_s, State& s,
-                StepWork& w) {
+void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& air, std::span<const Vec3> half_velocity,
+                std::span<const Vec3> pulled, double half_step_s, State& s, StepWork& w) {
   const int n = m.freeCount();
   internalForce(m, s.p, s.a, w);
   addStitchForces(m.stitches, m.surface.WT, s.p, s.a);
@@ -120,27 +166,22 @@ State initialState(const Model& model, const Stage& stage, double time_s, StepWo
 }
 
 void attachSprings(const Model& model, const Stage& stage, State& state, StepWork& work) {
-  work.start.resize(model.obstacles.size());
-  work.anchors_start.resize(model.anchor_count);
-  stage.placements(state.time_s, work.start, work.anchors_start);
-  state.anchors.clear();
+  const AnchorInstant at(model, stage, state.time_s);
+  std::vector<Vec3> anchors;
   for (std::size_t k = 0; k < model.springs.size(); ++k) {
     const SpringSupportPoint& spring = model.springs[k];
-    state.anchors.push_back(toLocal(work.anchors_start[spring.anchor],
-                                    sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m[k]));
+    anchors.push_back(toLocal(at.of_stage[spring.anchor],
+                              sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m[k]));
   }
-  const std::vector<Vec3> anchors = std::move(state.anchors);
   hangSprings(model, stage, anchors, state, work);
 }
 
 void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> anchors, State& state, StepWork& work) {
-  work.start.resize(model.obstacles.size());
-  work.anchors_start.resize(model.anchor_count);
-  stage.placements(state.time_s, work.start, work.anchors_start);
+  const AnchorInstant at(model, stage, state.time_s);
   state.anchors.assign(anchors.begin(), anchors.end());
   const std::vector<Vec3> v = state.v;
   state.limit_J.clear();
-  accelerate(model, work.anchors_start, stage.air(state.time_s), v, {}, 0, state, work);
+  accelerate(model, at.frames(), stage.air(state.time_s), v, {}, 0, state, work);
 }
 
 StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
@@ -190,19 +231,17 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   clock.lap(w.times.other);
   out.anchors = in.anchors;
   std::vector<Vec3>& spring_mean = w.spring_impulses;
-  springForces(m, in, w.anchors_start, spring_mean);
+  const AnchorFrames before{w.anchors_start, w.deforming.start}, after{w.anchors_end, w.deforming.end};
+  springForces(m, in, before, spring_mean);
   out.limit_J.clear();
   if (m.strain_limit.mode != LimitMode::none) limitMultipliers(m.strain_rows, out.p, dt, out.limit_J, w.limit);
   const Vec3 held_after = limitAccelerations(m, out, w.pulled_after, w.limit);
-  accelerate(m, w.anchors_end, air1, w.velocity, w.pulled_after, half, out, w);
+  accelerate(m, after, air1, w.velocity, w.pulled_after, half, out, w);
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
-    const SpringSupportPoint& s = m.springs[k];
-    const Vec3 anchor_velocity =
-        (w.anchors_end[s.anchor] * in.anchors[k] - w.anchors_start[s.anchor] * in.anchors[k]) / dt;
-    report.work.supports += dot(spring_mean[k], anchor_velocity);
     report.momentum.scale += norm(spring_mean[k]);
   }
+  report.work.supports += springWork(m, in, out, before, after, spring_mean, dt);
 
   clock.lap(w.times.force);
   keepWarm(m, dt, w, out.warm);
@@ -273,10 +312,7 @@ Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w)
     e.gravity -= m.mass_kg[i] * dot(m.environment.gravity_m_per_s2, s.p[i]);
     if (!m.dead_force_N.empty()) e.dead -= dot(m.dead_force_N[i], s.p[i]);
   }
-  w.start.resize(m.obstacles.size());
-  w.anchors_start.resize(m.anchor_count);
-  stage.placements(s.time_s, w.start, w.anchors_start);
-  springForces(m, s, w.anchors_start, w.spring_force);
+  springForces(m, s, AnchorInstant(m, stage, s.time_s).frames(), w.spring_force);
   for (std::size_t k = 0; k < m.springs.size(); ++k)
     e.springs += 0.5 * norm2(w.spring_force[k]) / m.springs[k].stiffness_N_per_m;
   e.springs += stitchEnergy(m.stitches, m.surface.WT, s.p);

@@ -27,11 +27,11 @@ class OneBody : public Stage {
  public:
   TriangleMesh mesh;
   Way way;
-  std::function<Placement(double)> rigid;
+  std::function<Placement(double)> rigid, frame;  ///< `frame`: that springs hang on
 
   void placements(double t, std::span<Placement> obstacles, std::span<Placement> anchors) const override {
     obstacles[0] = rigid ? rigid(t) : Placement{};
-    for (Placement& a : anchors) a = {};
+    for (Placement& a : anchors) a = frame ? frame(t) : Placement{};
   }
   void vertices(int, double t, std::span<Vec3> x) const override {
     for (std::size_t v = 0; v < x.size(); ++v) x[v] = way(mesh.vertices[v], t);
@@ -46,11 +46,14 @@ struct Scene {
   Frequency frequency;
 
   Scene(const Garment& g, const TriangleMesh& mesh, Way way, const Vec3& gravity = {0, 0, -9.81}, double friction = 0.3,
-        std::function<Placement(double)> rigid = {}) {
+        std::function<Placement(double)> rigid = {}, const ModelOptions& options = {},
+        std::function<Placement(double)> frame = {}) {
     stage.mesh = mesh;
     stage.way = std::move(way);
     stage.rigid = std::move(rigid);
-    model = buildModel(g, {}, {gravity, 0.288}, {1.2e-3, friction, 0.01, 1e-3, 4000}, {{mesh, "body", !stage.rigid}});
+    stage.frame = std::move(frame);
+    model =
+        buildModel(g, options, {gravity, 0.288}, {1.2e-3, friction, 0.01, 1e-3, 4000}, {{mesh, "body", !stage.rigid}});
     state = initialState(*model, stage, 0, work);
   }
   void run(double until, const StepObserver& observe = {}) {
@@ -157,6 +160,67 @@ TEST(Deforming, ARigidMotionGivesTheSameContactsAsAPlacement) {
   }
   EXPECT_GT(contacts, 200);
   for (std::size_t i = 0; i < next.p.size(); ++i) EXPECT_LT(norm(deforming.state.p[i] - rigid.state.p[i]), 1e-10);
+}
+
+/// Springs above a body that deforms: the force has no part along its normal and is the gradient of the energy, and
+/// what the anchors' and the normals' motion does is the work that the energy of a closed system grows by.
+TEST(Deforming, SpringsActAlongTheBodyUnderThem) {
+  const Garment g = sheetAt(6, 0.2, {0, 0, 0.3});
+  const TriangleMesh body = plate(4, 0.5);
+  const auto at = [](double t) {
+    return Placement{rotationAbout(normalized(Vec3{1, 2, 3}), 30 * t * t), {0.1 * t, 0, 3 * t * t}, 1};
+  };
+  ModelOptions options;
+  options.anchor_count = 1;
+  for (int k = 0; k < 4; ++k)
+    options.springs.push_back({std::array{0, 12, 156, 168}[k], 0, 2.0 + k, 0, body.triangles[3 + 5 * k]});
+  const auto scene = [&] {
+    return Scene(
+        g, body, [&](const Vec3& x, double t) { return at(t) * x; }, {}, 0.3, {}, options,
+        [](double t) {
+          return Placement{rotationAbout({0, 1, 0}, 4 * t), {0.2 * t, 0.1 * t, 0.3 * t}, 1};
+        });
+  };
+
+  Scene s = scene();
+  s.state.time_s = 0.05;  // the anchors have gone on, in all directions
+  hangSprings(*s.model, s.stage, s.state.anchors, s.state, s.work);
+  const Vec3 normal = at(0.05).rotation * Vec3{0, 0, 1};
+  Vec3 sum{};
+  for (const Vec3& f : s.work.spring_force) {
+    EXPECT_GT(norm(f), 1e-3);
+    EXPECT_LT(std::abs(dot(f, normal)), 1e-12);
+    sum += f;
+  }
+  const double off = 1e-5;
+  for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    const auto energy = [&](double h) {
+      State moved = s.state;
+      for (Vec3& p : moved.p) p += h * d;
+      return energyOf(*s.model, s.stage, moved, s.work).springs;
+    };
+    EXPECT_NEAR(dot(sum, d), -(energy(off) - energy(-off)) / (2 * off), 1e-8);
+  }
+
+  const auto error = [&](double dt) {
+    Scene m = scene();
+    m.model->environment.drag_kg_per_m2s = 0;
+    std::fill(m.model->drag_kg_per_s.begin(), m.model->drag_kg_per_s.end(), 0.0);
+    const double before = energyOf(*m.model, m.stage, m.state, m.work).total();
+    double work = 0;
+    State next;
+    for (int i = 0; i < std::lround(0.1 / dt); ++i) {
+      const StepReport r = step(*m.model, m.stage, m.state, dt, next, m.work);
+      EXPECT_EQ(r.failure, StepFailure::none) << r.why;
+      work += r.work.supports;
+      std::swap(m.state, next);
+    }
+    EXPECT_GT(work, 1e-4);
+    return std::abs(energyOf(*m.model, m.stage, m.state, m.work).total() - before - work) / work;
+  };
+  const double coarse = error(2e-4), fine = error(1e-4);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_LT(fine, 0.4 * coarse);
 }
 
 TEST(Deforming, ASheetStaysOnAPlateThatBends) {

@@ -198,6 +198,52 @@ TEST(Response, EachSideOfASampleStandsForHalfItsAreaWhateverTheNumberOfFeet) {
   EXPECT_EQ(work.area_of, (std::vector<double>{1, 1, 1, 3 + 4, 2, 2}));
 }
 
+/// A problem beside another one that shares no point with it: the rows of both, in turn.
+Problem beside(const Problem& a, const Problem& b) {
+  Problem p = a;
+  const int samples = a.W.rows(), columns = a.W.column_count;
+  p.W.column_count += b.W.column_count;
+  for (int s = 0; s < b.W.rows(); ++s) {
+    for (int k = b.W.offsets[s]; k < b.W.offsets[s + 1]; ++k) p.W.add(columns + b.W.columns[k], b.W.values[k]);
+    p.W.endRow();
+  }
+  p.area.insert(p.area.end(), b.area.begin(), b.area.end());
+  p.mass.insert(p.mass.end(), b.mass.begin(), b.mass.end());
+  p.velocity.insert(p.velocity.end(), b.velocity.begin(), b.velocity.end());
+  p.rows.clear();
+  for (std::size_t i = 0; i < std::max(a.rows.size(), b.rows.size()); ++i) {
+    if (i < a.rows.size()) p.rows.push_back(a.rows[i]);
+    if (i >= b.rows.size()) continue;
+    p.rows.push_back(b.rows[i]);
+    p.rows.back().contact.sample += samples;
+    p.rows.back().stencil.sample[0] += samples;
+  }
+  return p;
+}
+
+/// Two regions of contact that no point ties together are solves of their own, to the last bit: neither waits for the
+/// other, nor shares its restarts. A held point that both touch ties nothing.
+TEST(Response, IslandsAreSolvedAsIfAlone) {
+  for (const bool held : {false, true}) {
+    Problem one = twoSamples({0, 0, -20}, {0, 0, 0}), other = twoSamples({0.3, 0, -2}, {0, 0.1, -1});
+    one.velocity[1] = {0, 0, -0.5};
+    one.rows[1] = row(1, {0, 0, -1}, 0);
+    Problem both = beside(one, other);
+    if (held) {  // the first point of the first, the last of the second
+      both.W.columns.back() = 0;
+      both.mass[0] = one.mass[0] = other.mass[2] = 0;
+      both.velocity[0] = one.velocity[0] = other.velocity[2] = {};
+    }
+    const ContactSolve a = one.solve(), b = other.solve(), together = both.solve();
+    ASSERT_TRUE(a.converged && b.converged && together.converged);
+    ASSERT_NE(a.iterations, b.iterations);
+    EXPECT_EQ(together.iterations, std::max(a.iterations, b.iterations));
+    EXPECT_EQ(together.residual_m_per_s, std::max(a.residual_m_per_s, b.residual_m_per_s));
+    EXPECT_EQ(both.impulses,
+              (std::vector<Vec3>{one.impulses[0], other.impulses[0], one.impulses[1], other.impulses[1]}));
+  }
+}
+
 TEST(Response, AContactOnHeldPointsAloneMovesNothingAndLeavesTheOthersAlone) {
   Problem p = twoSamples({0, 0, -2}, {});
   p.mass[1] = p.mass[2] = 0;  // held
