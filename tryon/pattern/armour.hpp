@@ -50,8 +50,8 @@ double stretchAt(double tension_N, double width_m, const Fabric& fabric);
 ///   belly      hangs from the middle of the front's hem, over belt and shorts
 ///
 /// Sections are those of the convex hull of torso, pelvis and thighs, grown by 1 + ease, and farther out where garments
-/// lie under it. Towards the upper edge they go over into the hull of chest and shoulders. A strap is a ribbon of
-/// constant width along a taut string over the shoulder.
+/// lie under it. Towards the upper edge they go over into the hull of chest and shoulders. A strap is a straight
+/// strip that lies evenly on the slope of the shoulder (tryon/pattern/strap.hpp).
 struct ShirtPattern {
   double ease = 0.06;
   double hem_above_waist_m = 0.01;  ///< above the edge "waist" of a layer under it, or the origin of the torso's frame

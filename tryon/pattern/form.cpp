@@ -14,9 +14,13 @@ namespace {
 
 bool isOf(const Links& of, int link) { return std::find(of.begin(), of.end(), link) != of.end(); }
 
-/// x, y, z become z, x, y: a cut at constant y becomes a level, whose points are (z, x).
-Placement turned(const Placement& X) {
-  const auto cycle = [](const Vec3& v) { return Vec3{v.z, v.x, v.y}; };
+/// Leans by `lean` about x (form.hpp), then x, y, z become z, x, y: a cut at constant y becomes a level, whose points
+/// are (z, x).
+Placement turned(const Placement& X, double lean) {
+  const auto cycle = [lean](const Vec3& v) {
+    const Vec3 w = leaned(v, lean);
+    return Vec3{w.z, w.x, w.y};
+  };
   return {{cycle(X.rotation.a), cycle(X.rotation.b), cycle(X.rotation.c)}, cycle(X.origin), X.scale};
 }
 
@@ -52,10 +56,15 @@ Links BodyForm::links(std::span<const char* const> names, const char* key) const
   return out;
 }
 
-std::vector<Vec2> BodyForm::cut(double at, const Links& of, bool level) const {
+Vec3 leaned(const Vec3& x, double lean_rad) {
+  const double c = std::cos(lean_rad), s = std::sin(lean_rad);
+  return {x.x, c * x.y - s * x.z, s * x.y + c * x.z};
+}
+
+std::vector<Vec2> BodyForm::cut(double at, const Links& of, const double* lean) const {
   std::vector<Vec2> out;
   const auto add = [&](const Shape& shape, const Placement& X) {
-    for (const Vec2& p : section(shape, level ? X : turned(X), at)) out.push_back(level ? p : Vec2{p.y, p.x});
+    for (const Vec2& p : section(shape, lean ? turned(X, *lean) : X, at)) out.push_back(lean ? Vec2{p.y, p.x} : p);
   };
   if (segment_.empty()) {
     for (std::size_t i = 0; i < human_.shapes.size(); ++i)
@@ -70,8 +79,8 @@ std::vector<Vec2> BodyForm::cut(double at, const Links& of, bool level) const {
   return out;
 }
 
-std::vector<Vec2> BodyForm::level(double z, const Links& of) const { return cut(z, of, true); }
-std::vector<Vec2> BodyForm::profile(double y, const Links& of) const { return cut(y, of, false); }
+std::vector<Vec2> BodyForm::level(double z, const Links& of) const { return cut(z, of, nullptr); }
+std::vector<Vec2> BodyForm::profile(double y, const Links& of, double lean_rad) const { return cut(y, of, &lean_rad); }
 
 double BodyForm::lowest(const Links& of) const {
   double lowest = HUGE_VAL;

@@ -15,6 +15,9 @@ namespace gambeson {
 /// Links by number.
 using Links = std::vector<int>;
 
+/// In axes turned about x: planes of constant y lean outward at the left by `lean_rad` as they go up.
+Vec3 leaned(const Vec3& x, double lean_rad);
+
 class BodyForm {
  public:
   /// The skin of a human who stands (human/motion.hpp), or the shapes of one without. `human` outlives the form.
@@ -28,9 +31,9 @@ class BodyForm {
   Links links(std::initializer_list<const char*> names, const char* key) const {
     return links(std::span(names.begin(), names.size()), key);
   }
-  /// Points of the surface of some links: at a height (x, y), and in a plane of constant y (x, z).
+  /// Points of the surface of some links: at a height (x, y), and in a plane of constant y (x, z), both leaned().
   std::vector<Vec2> level(double z, const Links& of) const;
-  std::vector<Vec2> profile(double y, const Links& of) const;
+  std::vector<Vec2> profile(double y, const Links& of, double lean_rad = 0) const;
   /// Height of the lowest point [m]; infinite without a surface.
   double lowest(const Links& of) const;
   /// Hull of a level; mirrored about the median plane where asked. Throws InputError with `key` where there is none.
@@ -43,7 +46,8 @@ class BodyForm {
   double medianY() const { return median_y_; }
 
  private:
-  std::vector<Vec2> cut(double at, const Links& of, bool level) const;
+  /// A level, or a profile where a lean is given.
+  std::vector<Vec2> cut(double at, const Links& of, const double* lean) const;
 
   const Human& human_;
   std::vector<Placement> placements_;
