@@ -243,7 +243,8 @@ Garment makeShirt(const ShirtPattern& p, const BodyForm& form, double layer_m, s
   line.width_m = p.strap_width_m;
   line.clearance_m = layer_m + p.gap_m + 0.003;
   const Strap strap(line, form);
-  const auto along = knots(cellsFor(strap.length(), p.cell_m, 4));
+  // A tenth shorter along it: it bends over the shoulder.
+  const auto along = knots(cellsFor(strap.length(), 0.9 * p.cell_m, 4));
   g.patches[strap_left] = interpolate(knots(d.strap_cells), along, [&](double s, double t) { return strap.at(s, t); });
   g.patches[strap_right] = interpolate(knots(d.strap_cells), along, [&](double s, double t) {
     const Vec3 x = strap.at(1 - s, t);

@@ -17,9 +17,9 @@ StrapLine leaned(StrapLine line, double lean) {
   return line;
 }
 
-/// How much of the end's own direction is left at a distance from it [m]: it fades out over 8 cm.
+/// How much of the end's own direction is left at a distance from it [m]: it fades out over 4.5 cm.
 double fade(double distance_m) {
-  const double x = std::max(0.0, 1 - distance_m / 0.08);
+  const double x = std::max(0.0, 1 - distance_m / 0.045);
   return x * x * (3 - 2 * x);
 }
 
