@@ -120,7 +120,7 @@ std::string sentenceOf(const VerdictInput& in, const Verdict& v) {
   const auto count = std::count_if(in.options.begin(), in.options.end(), usable);
   const std::string& name = o.name;
   if (v.light != Light::green || !in.sized)
-    return count > 1 ? fmt::format("Take {}: of the {} studied it costs the wearer least.", name, count)
+    return count > 1 ? fmt::format("Take {}: of the {} studied it adds the least torque.", name, count)
                      : fmt::format("Take {}: there is nothing to compare it with.", name);
   const std::size_t known = static_cast<std::size_t>(
       std::count_if(o.costs.begin(), o.costs.end(), [](const auto& c) { return c.part.has_value(); }));
@@ -259,6 +259,14 @@ std::string comfortOf(const VerdictInput& in, const Verdict& v) {
       text += fmt::format(" With {} it is {}{}.", o.name, kPa(told_mean ? k.mean_Pa : k.peak_Pa),
                           std::abs(change - 1) < kNarrow ? fmt::format(": the {} hardly matters here", in.what) : "");
     }
+  // Motions in which the one taken presses worse than another: least torque need not be most comfortable.
+  for (const Option::Comfort& mine : at(in, v.take).comforts)
+    for (const Option& o : in.options)
+      for (const Option::Comfort& k : o.comforts)
+        if (&o != &at(in, v.take) && k.motion == mine.motion && k.light < mine.light)
+          text += fmt::format(" Less comfortable than {}{}: {} on the {} ({}) against {} on the {} ({}).", o.name,
+                              bracketed(mine.motion), kPa(mine.peak_Pa), mine.part, nameOf(mine.light), kPa(k.peak_Pa),
+                              k.part, nameOf(k.light));
   return text;
 }
 
@@ -327,9 +335,10 @@ std::string numbersOf(const VerdictInput& in, const Verdict& v) {
                     short2(100 * *in.mesh_error), in.mesh_where.empty() ? "" : " (" + in.mesh_where + ")"));
   else
     say("No error bar: the study has one mesh, so what a finer one would change is not known.");
-  if (v.holds_up_to && (v.light == Light::amber || v.light == Light::red))
-    say(fmt::format("It stays {} as long as the torques are right within {}.", nameOf(v.light),
-                    percent(*v.holds_up_to)));
+  if (v.holds_up_to && v.light == Light::red)
+    say(fmt::format("It is not red only if the true torque is more than {} smaller.", percent(*v.holds_up_to)));
+  if (v.holds_up_to && v.light == Light::amber)
+    say(fmt::format("It stays amber as long as the torques are right within {}.", percent(*v.holds_up_to)));
   if (in.failing_runs == 0 && in.checked_runs > 0) say("All checks of all runs hold.");
   if (in.failing_runs > 0) {
     say(fmt::format("Checks fail in {} of {} runs{}.", in.failing_runs, in.checked_runs,

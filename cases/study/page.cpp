@@ -123,6 +123,8 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   const Verdict& v = c.verdict;
   std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
   words += judged(v.light, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
+  words +=
+      element("p", "Effort and comfort only: what protects enough is not part of this study.", " class=\"meaning\"");
   std::string body = element("div", words, " class=\"words\"");
   // The one taken, in the motion that decides.
   const SidePicture* shown = nullptr;
@@ -142,7 +144,7 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
                   "Added torque is what the garment\u2019s contact forces do about a joint: the wearer\u2019s "
                   "muscles supply it on top of what the movement needs, or are spared it. The natural moment is the "
                   "largest that the joint needs for the movement without the garment. Green: below {} of it, red: "
-                  "above {} ({}). What protects enough is not part of this study.",
+                  "above {} ({}).",
                   percent(s.limits.green), percent(s.limits.red), s.limits.source)),
               " class=\"meaning\"");
   std::string doubts;

@@ -82,7 +82,7 @@ TEST(Verdict, TakesTheBestOfThoseThatAreNotGoodEnough) {
   const Verdict v = verdictOf(table({0.2, 0.3, 0.4}));
   EXPECT_EQ(v.take, 0);
   EXPECT_EQ(v.light, Light::red);
-  EXPECT_EQ(v.sentence, "Take thickness 0.5: of the 3 studied it costs the wearer least.");
+  EXPECT_EQ(v.sentence, "Take thickness 0.5: of the 3 studied it adds the least torque.");
   EXPECT_TRUE(has(v.enough, "Not good enough as it is: up to 10.0 Nm")) << v.enough;
   // The next, 0.75, costs 1.5 times as much.
   EXPECT_NEAR(*v.order, 1.5, 1e-12);
@@ -90,7 +90,7 @@ TEST(Verdict, TakesTheBestOfThoseThatAreNotGoodEnough) {
       << v.choice;
   EXPECT_EQ(v.surety, Surety::fairly);
   // Red up to 0.15 / 0.2: 25 %.
-  EXPECT_TRUE(has(v.numbers, "It stays red as long as the torques are right within 25 %")) << v.numbers;
+  EXPECT_TRUE(has(v.numbers, "It is not red only if the true torque is more than 25 % smaller")) << v.numbers;
   EXPECT_TRUE(has(v.estimate, "cannot be said: how the torque goes with it is not known")) << v.estimate;
   EXPECT_TRUE(has(verdictOf(table({0.07, 0.09, 0.2})).enough, "amber, between 5 % and 15 %"));
 }
@@ -208,6 +208,13 @@ TEST(Verdict, ComfortIsSaidAndWhetherTheThicknessMatters) {
             "25.7 kPa: the thickness hardly matters here.");
   in.options[2].comforts[1].mean_Pa = 60e3;
   EXPECT_TRUE(verdictOf(in).comfort.ends_with("With thickness 1 it is 60.0 kPa.")) << verdictOf(in).comfort;
+  // Where it is worse than another although that costs more.
+  in.options[0].comforts[0] = {"walking", "left thigh", Light::amber, 3000, 4270, 9000, 9810};
+  EXPECT_TRUE(has(verdictOf(in).comfort,
+                  "Less comfortable than thickness 1 (walking): 9.00 kPa on the left thigh "
+                  "(amber) against 1.00 kPa on the chest (green)."))
+      << verdictOf(in).comfort;
+  in.options[0].comforts[0] = in.options[1].comforts[0];
   for (Option& o : in.options) o.comforts.resize(1);
   v = verdictOf(in);
   EXPECT_EQ(v.comfort_light, Light::green);
@@ -221,7 +228,7 @@ TEST(Verdict, WithoutNaturalMomentsItSaysWhatCostsLeast) {
   const Verdict v = verdictOf(in);
   EXPECT_EQ(v.take, 0);
   EXPECT_EQ(v.light, Light::unknown);
-  EXPECT_TRUE(has(v.sentence, "Take thickness 0.5: of the 3 studied it costs the wearer least.")) << v.sentence;
+  EXPECT_TRUE(has(v.sentence, "Take thickness 0.5: of the 3 studied it adds the least torque.")) << v.sentence;
   EXPECT_TRUE(has(v.enough, "no natural moment")) << v.enough;
   EXPECT_FALSE(v.holds_up_to);
 }
@@ -245,7 +252,7 @@ TEST(Verdict, WithoutSizesTheCheapestIsTaken) {
   for (Option& o : in.options) o.size.reset();
   const Verdict v = verdictOf(in);
   EXPECT_EQ(v.take, 1);
-  EXPECT_TRUE(has(v.sentence, "it costs the wearer least")) << v.sentence;
+  EXPECT_TRUE(has(v.sentence, "it adds the least torque")) << v.sentence;
   EXPECT_TRUE(has(v.choice, "Thickness 1 costs 1.5 times as much")) << v.choice;
 }
 
