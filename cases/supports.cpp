@@ -23,6 +23,7 @@ std::array<int, 3> nearestTriangle(const std::vector<std::array<int, 3>>& triang
   double best2 = std::numeric_limits<double>::infinity();
   std::array<int, 3> best{};
   for (const auto& t : triangles) {
+    if (!(norm2(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) > 0)) continue;  // has no normal
     const double dist2 = closestOnTriangle({x[t[0]], x[t[1]], x[t[2]]}, p).dist2_m2;
     if (dist2 < best2) {
       best2 = dist2;

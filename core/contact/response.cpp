@@ -89,6 +89,7 @@ void join(const Problem& p, ContactWork& w) {
   w.kept_islands = w.islands;
   for (int i = 0; i < n; ++i) w.in[i] = w.in[i] || w.joins[i];
   choose(p, w);
+  largestBounds(w);  // before velocities are set: it works in their arrays
   for (ContactWork::Island& island : w.islands) {
     const ContactWork::Island* slowest = nullptr;
     bool same = true;
@@ -108,7 +109,6 @@ void join(const Problem& p, ContactWork& w) {
     island.done = same && slowest->done;
     if (island.done) moveDone(island, w);
   }
-  largestBounds(w);
 }
 
 bool anyJoins(const ContactWork& w) { return std::find(w.joins.begin(), w.joins.end(), 1) != w.joins.end(); }
