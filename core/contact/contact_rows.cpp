@@ -135,7 +135,7 @@ void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::sp
     while (w.tied_to[f] != f) f = w.tied_to[f] = w.tied_to[w.tied_to[f]];
     return f;
   };
-  // Of each row one free point; rows that move none are no rows of the iteration.
+  // The points of a row that can move; a row without any is no row of the iteration.
   const auto points = [&](int i, const auto& visit) {
     const Stencil& stencil = rows[i].stencil;
     for (int k = 0; k < stencil.count; ++k)
