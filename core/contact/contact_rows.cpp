@@ -135,12 +135,20 @@ void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::sp
     while (w.tied_to[f] != f) f = w.tied_to[f] = w.tied_to[w.tied_to[f]];
     return f;
   };
-  // The points of a row that can move; a row without any is no row of the iteration.
+  // The points of a row that can move, and one of each sample that has none: it ties the rows that touch this sample,
+  // which is gathered with one island.
   const auto points = [&](int i, const auto& visit) {
     const Stencil& stencil = rows[i].stencil;
-    for (int k = 0; k < stencil.count; ++k)
-      for (int e = WT.offsets[stencil.sample[k]]; e < WT.offsets[stencil.sample[k] + 1]; ++e)
-        if (inverse_mass[WT.columns[e]] > 0) visit(WT.columns[e]);
+    for (int k = 0; k < stencil.count; ++k) {
+      const int first = WT.offsets[stencil.sample[k]], end = WT.offsets[stencil.sample[k] + 1];
+      bool moves = false;
+      for (int e = first; e < end; ++e) {
+        if (!(inverse_mass[WT.columns[e]] > 0)) continue;
+        visit(WT.columns[e]);
+        moves = true;
+      }
+      if (!moves) visit(WT.columns[first]);
+    }
   };
   for (int i : w.order) points(i, [&](int f) { w.tied_to[f] = f; });
   std::vector<int>& of = w.island_of;  // first a free point of the row, then its island

@@ -20,6 +20,7 @@ struct Contact {
   double gap_m = 0;
   Vec3 local;
   MaterialPoint touched;  ///< the same of an obstacle that deforms, whose frame is the world's
+  double clearance_m = 0;  ///< what the cloth between the samples asks for (findClearances); 0: nothing
 };
 
 /// Triangles of meshes that a sample may touch, by sample: items[first[s], first[s + 1]). Where there are none the

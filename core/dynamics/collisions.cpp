@@ -18,8 +18,13 @@ namespace {
 constexpr double kSeparation_m = 1e-6;
 constexpr int kMany = 4096;  ///< pairs, from which on threads share the work
 
+/// Within which cloth of a thickness has contacts, where there are bodies.
+double reachOfBodies(const CollisionModel& m, double thickness_m) {
+  return contactReach(m.bodies.empty() ? thickness_m : std::max(thickness_m, kLargestClearance_m));
+}
+
 PairRules rulesOf(const CollisionModel& m) {
-  return {std::max(contactReach(m.largest_thickness_m), 2 * kSeparation_m), m.least, m.self, 2 * kSeparation_m};
+  return {std::max(reachOfBodies(m, m.largest_thickness_m), 2 * kSeparation_m), m.least, m.self, 2 * kSeparation_m};
 }
 
 /// Samples are carried by the faces of bodies, and cloth by what is sharp; all else meets only in impacts.
@@ -147,7 +152,7 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
   }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
   std::vector<double> shares(m.mesh.vertex_count, 0);
-  for (std::size_t v = 0; v < m.cloth.thickness_m.size(); ++v) shares[v] = 0.5 * contactReach(m.cloth.thickness_m[v]);
+  for (std::size_t v = 0; v < m.cloth.thickness_m.size(); ++v) shares[v] = 0.5 * reachOfBodies(m, m.cloth.thickness_m[v]);
   m.tree.setShares(shares);
   m.collector = PairCollector(m.mesh, bluntFeatures(m));
   std::vector<char> deforms;
@@ -276,7 +281,7 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   w.near_bodies.items.clear();
   if (!m.self && m.bodies.empty()) return;
   w.list.cover(m.mesh, m.collector, rulesOf(m), w.x1);
-  const double reach = contactReach(m.largest_thickness_m);
+  const double reach = reachOfBodies(m, m.largest_thickness_m);
   const std::span<const PointTriangle> points = w.list.pairs().points;
   const std::span<const EdgeEdge> edges = w.list.pairs().edges;
   w.near_points.clear();
@@ -303,10 +308,10 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
 void dropUnreached(const CollisionModel& m, const ObstacleMotion& obstacles, const CollisionWork& w,
                    std::vector<Contact>& near) {
   std::erase_if(near, [&](const Contact& c) {
-    if (!m.is_mesh[c.obstacle] || !(c.gap_m > 0)) return false;
+    if (!(c.gap_m > 0)) return false;
     const Vec3 from = c.gap_m * c.normal;
     const Vec3 way = w.x1[c.sample] - w.x0[c.sample] - wayOfBody(m, obstacles, c);
-    return !comesWithin(contactReach(m.cloth.thickness_m[c.sample]), from, way);
+    return !comesWithin(contactReach(std::max(m.cloth.thickness_m[c.sample], c.clearance_m)), from, way);
   });
 }
 

@@ -101,7 +101,7 @@ void touch(const CollisionModel& model, int vertex, double weight, Contact& cont
 /// Where the point of a body that a contact touches goes during the step.
 Vec3 wayOfBody(const CollisionModel& model, const ObstacleMotion& obstacles, const Contact& contact);
 
-/// Leaves out contacts with meshes outside of the reach of contacts all the way from x0 to x1.
+/// Leaves out contacts with bodies outside of the reach of contacts all the way from x0 to x1.
 void dropUnreached(const CollisionModel& model, const ObstacleMotion& obstacles, const CollisionWork& work,
                    std::vector<Contact>& near);
 

@@ -46,6 +46,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
   std::vector<int> per_cell = options.patch_samples_per_cell;
   if (per_cell.empty()) per_cell.assign(garment.patches.size(), options.samples_per_cell);
   Surface surface = buildSurface(garment, map, per_cell);
+  Bulges bulges = buildBulges(garment, surface, per_cell);
   const int n = map.T.column_count;
   std::vector<double> control_area = controlAreas(garment), area(n), mass(n), inverse(n);
   map.Tt.multiply<double>(control_area, area);
@@ -81,6 +82,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 {},
                                                 netEdges(garment),
                                                 options.stitches,
+                                                std::move(bulges),
                                                 {}});
   std::vector<int> layer;
   for (int s = 0; s < model->surface.size(); ++s) {

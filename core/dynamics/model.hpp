@@ -16,6 +16,7 @@
 #include "core/dynamics/resonance.hpp"
 #include "core/dynamics/stitch.hpp"
 #include "core/dynamics/strain_limit.hpp"
+#include "core/sheet/bulge.hpp"
 #include "core/sheet/shell.hpp"
 
 namespace gambeson {
@@ -72,6 +73,7 @@ struct Model {
   StrainRows strain_rows;    ///< without points where strain is not limited
   std::vector<NetEdge> net;  ///< of the patches' control points
   std::vector<Stitch> stitches;
+  Bulges bulges;
   std::vector<double> drag_kg_per_s;  ///< of the free points: eta times area, and what damps stitches
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }

@@ -12,12 +12,12 @@ namespace {
 constexpr int kRounds = 8;  ///< of solves
 constexpr int kZoneRounds = 12;
 
-/// The distance that a contact restores: half the sum of both sides' thicknesses, at a body that of the cloth. Weights
-/// of a side add up to 1.
+/// The distance that a contact restores: half the sum of both sides' thicknesses, at a body that of the cloth, and no
+/// less than keeps the cloth between the samples out of it. Weights of a side add up to 1.
 double layerOf(const Model& m, const ContactRow& row) {
   double sum = 0;
   for (int k = 0; k < row.stencil.count; ++k) sum += std::abs(row.stencil.weight[k]) * m.layer_m[row.stencil.sample[k]];
-  return row.contact.obstacle >= 0 ? sum : 0.5 * sum;
+  return row.contact.obstacle >= 0 ? std::max(sum, row.contact.clearance_m) : 0.5 * sum;
 }
 
 /// Mass per area of the cloth on the side that the normal points to, whose weights add up to 1. Contact::sample does
@@ -309,6 +309,22 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
                    [](const WarmContact& a, const WarmContact& b) { return key(a) < key(b); });
 }
 
+namespace {
+
+/// Of the contacts with bodies w.near: where the surface stands out farther between the samples than half of the layer,
+/// the other half lies between it and the body. So much is left for the edges of bodies made of triangles, which
+/// samples on their faces straddle.
+void findClearances(const Model& m, StepWork& w) {
+  const int n = static_cast<int>(w.near.size());
+#pragma omp parallel for schedule(static) if (n > 512)
+  for (int k = 0; k < n; ++k) {
+    Contact& c = w.near[k];
+    c.clearance_m = std::min(kLargestClearance_m, m.bulges.beside(c.sample, -c.normal, w.x0) + 0.5 * m.layer_m[c.sample]);
+  }
+}
+
+}  // namespace
+
 bool resolveContacts(const Model& m, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w) {
   const int samples = m.surface.size();
   w.zones.clear();
@@ -317,13 +333,14 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   w.reach.resize(samples);
   w.x1.resize(samples);
   for (int s = 0; s < samples; ++s) {
-    w.reach[s] = 1.1 * m.layer_m[s] + dt * norm(w.sample_velocity[s]);
+    w.reach[s] = contactReach(std::max(m.layer_m[s], kLargestClearance_m)) + dt * norm(w.sample_velocity[s]);
     w.x1[s] = w.x0[s] + dt * w.sample_velocity[s];
   }
   placeVertices(m.collisions, in.time_s, dt, w.x0, motionOf(w), w.collisions);
   moveVertices(w.x1, w.collisions);
   listNear(m.collisions, w.collisions);
   m.proximity->near(w.start, w.end, w.x0, w.reach, w.near, &w.collisions.near_bodies, &w.deforming.surfaces);
+  findClearances(m, w);
   dropUnreached(m.collisions, motionOf(w), w.collisions, w.near);
   w.inside.assign(samples, 0);
   for (const Contact& c : w.near) {

@@ -13,16 +13,6 @@
 namespace gambeson {
 namespace {
 
-std::vector<double> sampleParameters(const KnotVector& knots, int per_cell) {
-  if (per_cell == 0) return grevillePoints(knots);
-  const std::vector<double> ends = breakpoints(knots);
-  std::vector<double> at;
-  for (std::size_t c = 0; c + 1 < ends.size(); ++c)
-    for (int k = 0; k < per_cell; ++k) at.push_back(ends[c] + (ends[c + 1] - ends[c]) * k / per_cell);
-  at.push_back(ends.back());
-  return at;
-}
-
 /// Indices of the samples along an edge in a grid of nu x nv, in the edge's sense.
 std::vector<int> gridEdge(int nu, int nv, const PatchEdge& e) {
   std::vector<int> at;
@@ -155,6 +145,16 @@ std::vector<double> integrate(const Garment& garment, const auto& weight) {
 }
 
 }  // namespace
+
+std::vector<double> sampleParameters(const KnotVector& knots, int per_cell) {
+  if (per_cell == 0) return grevillePoints(knots);
+  const std::vector<double> ends = breakpoints(knots);
+  std::vector<double> at;
+  for (std::size_t c = 0; c + 1 < ends.size(); ++c)
+    for (int k = 0; k < per_cell; ++k) at.push_back(ends[c] + (ends[c + 1] - ends[c]) * k / per_cell);
+  at.push_back(ends.back());
+  return at;
+}
 
 std::vector<double> controlAreas(const Garment& garment) {
   return integrate(garment, [](int, Vec2) { return 1.0; });

@@ -41,6 +41,9 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell);
 /// With a number for each patch.
 Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const int> per_cell);
 
+/// Along one direction of a patch, as buildSurface takes them.
+std::vector<double> sampleParameters(const KnotVector& knots, int per_cell);
+
 /// ∫ N dA at rest for each control point [m^2].
 std::vector<double> controlAreas(const Garment& garment);
 /// ∫ rho N dA with the surface density of each point [kg].

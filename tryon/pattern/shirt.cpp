@@ -243,8 +243,8 @@ Garment makeShirt(const ShirtPattern& p, const BodyForm& form, double layer_m, s
   line.width_m = p.strap_width_m;
   line.clearance_m = layer_m + p.gap_m + 0.003;
   const Strap strap(line, form);
-  // A tenth shorter along it: it bends over the shoulder.
-  const auto along = knots(cellsFor(strap.length(), 0.9 * p.cell_m, 4));
+  // Along it no cell is longer than a spline can have that follows a small man's shoulder.
+  const auto along = knots(cellsFor(strap.length(), std::min(p.cell_m, 0.0234), 4));
   g.patches[strap_left] = interpolate(knots(d.strap_cells), along, [&](double s, double t) { return strap.at(s, t); });
   g.patches[strap_right] = interpolate(knots(d.strap_cells), along, [&](double s, double t) {
     const Vec3 x = strap.at(1 - s, t);

@@ -20,7 +20,7 @@ namespace {
 
 const std::filesystem::path file =
     std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases" / "library" / "armour_stand.json";
-const std::vector<std::string> fine{"garments[0].shorts.cell=13 mm", "garments[1].belt.cell=12.9 mm",
+const std::vector<std::string> fine{"garments[0].shorts.cell=12.7 mm", "garments[1].belt.cell=12.9 mm",
                                     "garments[2].shirt.cell=12.9 mm"};
 
 struct Drafts {
