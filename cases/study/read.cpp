@@ -92,6 +92,7 @@ Axis axisOf(const Place& place, const AxisInput& in) {
   if (axis.name.empty()) place.failAt("name", "is required where sets are given");
   axis.unit = in.unit;
   axis.role = roleOf(in, axis.name);
+  axis.multiple = in.path.starts_with("factors.");
   const std::string key = sets ? "sets" : "values";
   const JsonNode& list = sets ? in.sets : in.values;
   const Place at = place.member(*place.node.find(key));
@@ -109,9 +110,10 @@ Axis axisOf(const Place& place, const AxisInput& in) {
       place.failAt("labels", "is required: what no number, text or flag names needs a label for each level");
     const std::string name = in.labels.empty() ? axis.name + "_" + level.label : level.label;
     level.folder = safe(name);
-    level.name = !in.labels.empty()
-                     ? level.label
-                     : fmt::format("{} {}{}{}", axis.name, level.label, axis.unit.empty() ? "" : " ", axis.unit);
+    // A factor is a multiple, and read as such: "thickness x 0.5" is no length.
+    level.name = !in.labels.empty() ? level.label
+                                    : fmt::format("{} {}{}{}{}", axis.name, axis.multiple ? "x " : "", level.label,
+                                                  axis.unit.empty() ? "" : " ", axis.unit);
     if (level.label.size() > 60) at.item(i).fail("its label is longer than 60 characters; give shorter labels");
     const Place where = in.labels.empty() ? at.item(i) : place.member(*place.node.find("labels")).item(i);
     if (const auto [other, fresh] = folders.insert({level.folder, level.label}); !fresh)
@@ -236,16 +238,12 @@ class Maker {
     } catch (const InputError& e) {
       throw InputError(e.where(), fmt::format("{} (variant {})", e.reason(), v.label));
     }
+    introduce(v);
     identify(v);
     study_.variants.push_back(std::move(v));
   }
 
   static void identify(Variant& v) {
-    std::visit(
-        [&](auto& c) {
-          if (!v.label.empty()) c.name += ": " + v.label;
-        },
-        v.definition);
     v.identity = std::visit([](const auto& c) { return caseIdentity(c); }, v.definition);
     if (const auto* c = std::get_if<Case>(&v.definition)) {
       Case rest = *c;
@@ -256,6 +254,20 @@ class Maker {
   }
 
  private:
+  /// The name and description of the case tell its own motion, which a variant may replace: a variant has the study's.
+  void introduce(Variant& v) const {
+    const bool ends = study_.name.ends_with('?') || study_.name.ends_with('!') || study_.name.ends_with('.');
+    std::string label = v.label;
+    if (ends && !label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+    std::visit(
+        [&](auto& c) {
+          c.name = study_.name + (ends ? " " : ": ") + label;
+          c.description = fmt::format("One run of the study \"{}\".{}{}", study_.name,
+                                      study_.description.empty() ? "" : " ", study_.description);
+        },
+        v.definition);
+  }
+
   const Place& place_;
   const StudyInput& in_;
   Study& study_;
@@ -394,9 +406,7 @@ Study batchOf(const std::vector<std::filesystem::path>& cases) {
                        fmt::format("has the same name as {}; allowed: cases whose files have names of their own",
                                    other->second.string()));
     v.definition = readAnyCase(file);
-    const std::string label = std::exchange(v.label, "");
     Maker::identify(v);
-    v.label = label;
     s.variants.push_back(std::move(v));
   }
   return s;

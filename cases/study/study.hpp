@@ -20,7 +20,7 @@ struct Setting {
 
 struct Level {
   std::string label;
-  std::string name;    ///< as people read it: the label where the study gives one, else with the axis: "thickness 0.5"
+  std::string name;    ///< as people read it: the label where the study gives one, else with the axis: "thickness x 0.5"
   std::string folder;  ///< what it adds to a variant's folder
   std::vector<Setting> set;
   std::optional<double> number;  ///< where all levels of the axis are numbers, of one unit
@@ -32,13 +32,14 @@ enum class Role { other, thickness, mesh, motion };
 struct Axis {
   std::string name, unit;
   Role role = Role::other;
+  bool multiple = false;  ///< levels are factors on what the case says
   std::vector<Level> levels;
 };
 
 /// One run.
 struct Variant {
   std::string folder;       ///< within the study's
-  std::string label;        ///< as people read it: "thickness 0.5, walking"
+  std::string label;        ///< as people read it: "thickness x 0.5, walking"
   std::vector<int> levels;  ///< of each axis
   bool grid = false;        ///< of the axes alone, nothing else set
   bool finer = false;       ///< as the variant of the axes with its levels, on a finer mesh

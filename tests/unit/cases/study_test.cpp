@@ -53,12 +53,14 @@ TEST(Study, AxesMakeAGridAndTheRestIsAdded) {
   EXPECT_EQ(s.axes[1].role, Role::mesh);
   EXPECT_EQ(s.variants.size(), 12u + 1 + 20);  // the grid, the extra one, five factors twice at two levels of slip
   const Variant& v = variant(s, "thickness_0.75__fine__rough");
-  EXPECT_EQ(v.label, "thickness 0.75, fine, rough");
+  EXPECT_EQ(v.label, "thickness x 0.75, fine, rough");
   const Case& c = std::get<Case>(v.definition);
   EXPECT_EQ(c.factors.thickness, 0.75);
   EXPECT_EQ(std::get<SheetGarment>(c.garments[0].shape).cells_v, 3);
   EXPECT_EQ(c.contact.friction, 0.4);
-  EXPECT_EQ(c.name, "cloth: thickness 0.75, fine, rough");
+  // Its own title and not the case's: a variant may do something else than the case.
+  EXPECT_EQ(c.name, "thin and thick: thickness x 0.75, fine, rough");
+  EXPECT_EQ(c.description, "One run of the study \"thin and thick\".");
   // The baseline is found: thickness 1, everything else its own.
   EXPECT_EQ(s.variants[static_cast<std::size_t>(v.baseline)].folder, "thickness_1__fine__rough");
   const Variant& slow = variant(s, "thickness_1__coarse__rough__slow");
@@ -70,6 +72,13 @@ TEST(Study, AxesMakeAGridAndTheRestIsAdded) {
   EXPECT_EQ(light.rest_identity, variant(s, "thickness_0.5__coarse__smooth").rest_identity);
   EXPECT_NE(light.rest_identity, variant(s, "thickness_0.5__coarse__rough").rest_identity);
   EXPECT_NE(light.identity, variant(s, "thickness_1__coarse__smooth").identity);
+}
+
+TEST(Study, AQuestionIsATitleOfItsOwn) {
+  const Study s = read(replaced(good, "\"thin and thick\",", "\"How thick?\", \"description\": \"Which one?\","));
+  const Case& c = std::get<Case>(variant(s, "thickness_1__fine__rough").definition);
+  EXPECT_EQ(c.name, "How thick? Thickness x 1, fine, rough");
+  EXPECT_EQ(c.description, "One run of the study \"How thick?\". Which one?");
 }
 
 TEST(Study, FilesOfValuesAreFoundBesideTheStudy) {
@@ -98,7 +107,7 @@ TEST(Study, MalformedOnesAreRefusedWithTheirPlace) {
       {"[0.5, 0.75, 1]", "[]", ":5: axes[0].values: ", "empty"},
       {"[0.5, 0.75, 1]", "0.5", ":5: axes[0].values: ", "expected a list"},
       {"[0.5, 0.75, 1]", "[0.5, -1]",
-       ":5: factors.thickness: ", "allowed: >= 0.01 and <= 100 (variant thickness -1, coarse, smooth)"},
+       ":5: factors.thickness: ", "allowed: >= 0.01 and <= 100 (variant thickness x -1, coarse, smooth)"},
       {"[0.5, 0.75, 1]", "[0.5, \"thick\"]", ":5: factors.thickness: ", "thick"},
       {"[0.5, 0.75, 1]", "[0.5, 0.5]", ":5: axes[0].values[1]: ", "name two levels alike"},
       {"[0.5, 0.75, 1]", "[{\"a\": 1}]", ":5: axes[0].labels: ", "is required"},
@@ -221,7 +230,7 @@ TEST(Study, ComparesWhatItsRunsLeft) {
   EXPECT_NEAR(*c.input.mesh_error, 1 - 1 / 1.05, 1e-12);
   ASSERT_EQ(c.input.options.size(), 3u);
   EXPECT_EQ(c.verdict.take, 0);
-  EXPECT_EQ(c.input.options[0].name, "thickness 0.5");
+  EXPECT_EQ(c.input.options[0].name, "thickness x 0.5");
   EXPECT_EQ(c.input.baseline, 2);
   ASSERT_EQ(c.input.exponents.size(), 2u);
   EXPECT_EQ(c.input.exponents[0].motion, "smooth");
@@ -278,12 +287,12 @@ TEST(Study, AFinerRunGivesTheErrorBar) {
   EXPECT_TRUE(variant(s, "stairs__thickness_1__fine").finer);
   const Comparison c = compare(s, numbersOf(s));
   ASSERT_EQ(c.meshes.size(), 1u);
-  EXPECT_EQ(c.meshes[0].setting, "stairs, thickness 1");
+  EXPECT_EQ(c.meshes[0].setting, "stairs, thickness x 1");
   EXPECT_EQ(c.meshes[0].coarse_points, 16);
   EXPECT_EQ(c.meshes[0].fine_points, 25);
   EXPECT_NEAR(c.meshes[0].difference, 1 / 1.05 - 1, 1e-12);
   EXPECT_NEAR(*c.input.mesh_error, 1 - 1 / 1.05, 1e-12);
-  EXPECT_EQ(c.input.mesh_where, "stairs, thickness 1");
+  EXPECT_EQ(c.input.mesh_where, "stairs, thickness x 1");
   // It is no option of its own.
   EXPECT_EQ(c.input.options.size(), 2u);
   EXPECT_EQ(c.groups[1].members.size(), 2u);
@@ -299,10 +308,10 @@ TEST(Study, ALevelLooksTheSameEverywhere) {
     EXPECT_EQ(memberOrder(s, c, i), s.variants[i].levels[1] == 1 ? 0u : s.variants[i].levels[1] == 0 ? 1u : 2u);
   const std::string page = studyPage(s, c, {}, {});
   std::size_t charts = 0;
-  for (std::size_t at = 0; (at = page.find("data-name=\"thickness ", at)) != std::string::npos; ++at, ++charts) {
+  for (std::size_t at = 0; (at = page.find("data-name=\"thickness x ", at)) != std::string::npos; ++at, ++charts) {
     const std::string path = page.substr(page.rfind('<', at), at - page.rfind('<', at) + 40);
-    const char* wanted = path.find("\"thickness 1\"") != std::string::npos     ? "left"
-                         : path.find("\"thickness 0.5\"") != std::string::npos ? "right"
+    const char* wanted = path.find("\"thickness x 1\"") != std::string::npos     ? "left"
+                         : path.find("\"thickness x 0.5\"") != std::string::npos ? "right"
                                                                                : "third";
     EXPECT_NE(path.find(std::string("series ") + wanted), std::string::npos) << path;
   }
@@ -387,7 +396,7 @@ TEST(Study, FailedRunsAreLeftOutAndSaid) {
   EXPECT_TRUE(c.input.options[0].missing);
   EXPECT_NE(c.verdict.take, 0);
   const std::string page = studyPage(s, c, {}, {});
-  EXPECT_NE(page.find("thickness 0.5, fine, smooth failed: it &lt;broke&gt;"), std::string::npos);
+  EXPECT_NE(page.find("thickness x 0.5, fine, smooth failed: it &lt;broke&gt;"), std::string::npos);
   EXPECT_NE(page.find("elbow: not applicable"), std::string::npos);
   EXPECT_NE(page.find("href=\"thickness_1__fine__smooth/report.html\""), std::string::npos);
   EXPECT_EQ(page.find("nan"), std::string::npos);
