@@ -53,7 +53,7 @@ std::vector<StressSummary> summarizeStress(const Regions& regions, std::span<con
   std::vector<StressSummary> summaries;
   for (std::size_t r = 0; r < regions.names.size(); ++r) {
     StressSummary s;
-    std::vector<double> values, weights;
+    std::vector<double> values, strains, weights;
     for (const StressFrame& f : frames) {
       if (f.stress_N_per_m.size() != regions.region.size() || f.strain.size() != regions.region.size())
         throw std::logic_error("a stress frame needs one value per sample");
@@ -65,6 +65,7 @@ std::vector<StressSummary> summarizeStress(const Regions& regions, std::span<con
         if (values.empty() || stress > s.max_N_per_m) s.max_N_per_m = stress, s.max_time_s = f.time_s;
         if (values.empty() || strain > s.max_strain) s.max_strain = strain, s.max_strain_time_s = f.time_s;
         values.push_back(stress);
+        strains.push_back(strain);
         weights.push_back(regions.area_m2[i]);
       }
     }
@@ -73,6 +74,7 @@ std::vector<StressSummary> summarizeStress(const Regions& regions, std::span<con
     s.p50_N_per_m = p[0];
     s.p95_N_per_m = p[1];
     s.p99_N_per_m = p[2];
+    s.p99_strain = weightedPercentile(strains, weights, 0.99);
     summaries.push_back(s);
   }
   return summaries;

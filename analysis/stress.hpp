@@ -21,11 +21,12 @@ struct StressFrame {
   std::vector<float> stress_N_per_m, strain;
 };
 
-/// Percentiles by area: p95 is the least stress that 95 % of the area does not exceed.
+/// Percentiles by area: p95 is the least stress (p99_strain: the least strain) that 95 % (99 %) of the area does not
+/// exceed.
 struct StressSummary {
   double p50_N_per_m = 0, p95_N_per_m = 0, p99_N_per_m = 0;
   double max_N_per_m = 0, max_time_s = 0;
-  double max_strain = 0, max_strain_time_s = 0;
+  double p99_strain = 0, max_strain = 0, max_strain_time_s = 0;
 };
 
 /// The least of `values` such that those not above it hold at least `fraction` (in [0, 1]) of the weight; without

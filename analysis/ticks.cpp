@@ -76,4 +76,12 @@ std::string formatNumber(double value, int digits) {
   return withMinus(fmt::format("{:.0f}", std::round(value / unit) * unit));
 }
 
+std::string formatBrief(double value, int digits) {
+  std::string s = formatNumber(value, digits);
+  if (s.find('.') == std::string::npos) return s;
+  while (s.back() == '0') s.pop_back();
+  if (s.back() == '.') s.pop_back();
+  return s;
+}
+
 }  // namespace gambeson

@@ -24,4 +24,7 @@ Ticks niceTicks(double low, double high, int target);
 /// U+2212 as the minus sign; "not a number" and "infinite" for what is not finite.
 std::string formatNumber(double value, int digits = 3);
 
+/// The same without zeros at its end: 5, not 5.00.
+std::string formatBrief(double value, int digits = 3);
+
 }  // namespace gambeson

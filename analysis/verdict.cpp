@@ -11,15 +11,7 @@
 namespace gambeson {
 namespace {
 
-/// Without zeros at the end: 5 %, not 5.0 %.
-std::string short2(double x) {
-  std::string s = formatNumber(x, 2);
-  if (s.find('.') == std::string::npos) return s;
-  while (s.back() == '0') s.pop_back();
-  if (s.back() == '.') s.pop_back();
-  return s;
-}
-std::string percent(double part) { return short2(100 * part) + " %"; }
+std::string percent(double part) { return formatBrief(100 * part, 2) + " %"; }
 
 const Option& at(const VerdictInput& in, int i) { return in.options[static_cast<std::size_t>(i)]; }
 
@@ -174,8 +166,8 @@ std::string estimateOf(const VerdictInput& in, const Verdict& v) {
     NoSize why = NoSize::none;
     const auto s = sizeFor(in, v.take, light == Light::amber ? in.red : in.green, why);
     if (s) {
-      say(sizes, fmt::format("About {} {}{} would bring it down to {} (range {} to {}).", in.what,
-                             formatNumber(s->size, 2), bracketed(layersAt(in, v.take, s->size)), nameOf(light),
+      say(sizes, fmt::format("About {} {}{}{} would bring it down to {} (range {} to {}).", in.what,
+                             in.multiple ? "x " : "", formatNumber(s->size, 2), bracketed(layersAt(in, v.take, s->size)), nameOf(light),
                              formatNumber(s->low, 2), formatNumber(s->high, 2)));
       how = fmt::format(
           "Extrapolated, not run: by how the peak that decides, at the {}{}, goes with the {}. The range "
@@ -203,24 +195,28 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
     for (const std::string& m : motionsOf(o))
       if (const Option::Cost* c = worstCost(o, &m); c->ratio)
         all += (all.empty() ? "" : ", ") + formatNumber(*c->ratio, 2) + bracketed(m);
-    if (!all.empty()) ratios += fmt::format("{}{} has {}", ratios.empty() ? "" : "; ", o.name, all);
+    if (!all.empty()) ratios += fmt::format("{}with {} it is {}", ratios.empty() ? "" : "; ", o.name, all);
   }
   std::string why;
   const auto say = [&](const std::string& s) { why += (why.empty() ? "" : " ") + s; };
   if (!ratios.empty())
-    say(fmt::format("Of the peak torque of {}, where it counts most, {}.", at(in, in.baseline).name, ratios));
+    say(fmt::format("Peak torque, where it counts most, as a multiple of that with {}: {}.",
+                    at(in, in.baseline).name, ratios));
   std::string laws;
   for (const std::string& m : motionsOf(at(in, v.take)))
-    if (const auto* e = exponentOf(in, *worstCost(at(in, v.take), &m)))
+    if (const auto* e = exponentOf(in, *worstCost(at(in, v.take), &m))) {
+      const std::string range = e->peak.points > 2
+                                    ? fmt::format("{} to {} from one {} to the next", formatNumber(e->peak.lowest, 2),
+                                                  formatNumber(e->peak.highest, 2), in.what)
+                                    : "";
       laws += (laws.empty() ? "" : ", ") + formatNumber(e->peak.exponent, 2) +
-              (e->peak.points > 2 ? fmt::format(" with {} to {} between neighbours", formatNumber(e->peak.lowest, 2),
-                                                formatNumber(e->peak.highest, 2))
-                                  : "") +
-              bracketed(m);
+              bracketed(m + (m.empty() || range.empty() ? "" : "; ") + range);
+    }
   if (!laws.empty())
     say(fmt::format(
-        "The torque goes with the {} to the power {}. Stretch, weight and inertia alone would give 1, bending alone "
-        "3, and what does not depend on it, such as drag and springs that hold the garment, 0.",
+        "The torque goes with the {} to the power {}. With power 1, half of it leaves half of the torque: so do the "
+        "fabric\u2019s stretch, its weight and its inertia. Its bending stiffness alone would give 3, and 0 what does not "
+        "depend on it, such as air drag and springs that hold the garment.",
         in.what, laws));
   return why;
 }
@@ -270,6 +266,26 @@ std::string comfortOf(const VerdictInput& in, const Verdict& v) {
   return text;
 }
 
+/// In how many joints and motions `more` costs more than `taken`, and where it does not.
+std::string comparedOf(const Option& taken, const Option& more, bool one_motion) {
+  int less = 0, both = 0;
+  std::string others;
+  for (const Option::Cost& c : taken.costs) {
+    const Option::Cost* k = costAt(more, c.motion, c.joint);
+    if (!k) continue;
+    ++both;
+    if (c.peak_Nm < k->peak_Nm) {
+      ++less;
+      continue;
+    }
+    others += fmt::format("{}{}{}: {} Nm against {} Nm", others.empty() ? "" : "; ", c.joint,
+                          one_motion ? "" : ", " + c.motion, formatNumber(k->peak_Nm, 2), formatNumber(c.peak_Nm, 2));
+  }
+  const std::string all = fmt::format("{} {} on this page", both, one_motion ? "joints" : "pairs of joint and motion");
+  if (less == both) return fmt::format("It costs more in all {}.", all);
+  return fmt::format("It costs more in {} of the {}; not at {}.", less, all, others);
+}
+
 void judgeChoice(const VerdictInput& in, Verdict& v) {
   const auto say = [&](const std::string& s) { v.choice += (v.choice.empty() ? "" : " ") + s; };
   const auto missing = std::count_if(in.options.begin(), in.options.end(), [](const Option& o) { return o.missing; });
@@ -290,14 +306,10 @@ void judgeChoice(const VerdictInput& in, Verdict& v) {
     if (next) {
       v.order = factorOf(at(in, v.take), *next);
       margin = *v.order - 1;
-      int less = 0, both = 0;
-      for (const Option::Cost& c : at(in, v.take).costs)
-        if (const Option::Cost* k = costAt(*next, c.motion, c.joint)) ++both, less += c.peak_Nm < k->peak_Nm;
-      say(fmt::format(
-          "{} costs {} times as much where each is worst, and more at {} of the {} joints and motions "
-          "compared. To turn the order, the torques of one would have to be wrong against the other by that "
-          "factor.",
-          next->name, formatNumber(*v.order, 2), less == both ? "each" : std::to_string(less), both));
+      const bool one_motion = motionsOf(at(in, v.take)).size() < 2;
+      say(fmt::format("{} costs {} times as much, each where it costs most. {} To turn the order, the torques of one "
+                      "would have to be wrong against the other by that factor.",
+                      next->name, formatNumber(*v.order, 2), comparedOf(at(in, v.take), *next, one_motion)));
       v.choice[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(v.choice[0])));
     }
   }
@@ -332,7 +344,7 @@ std::string numbersOf(const VerdictInput& in, const Verdict& v) {
   const auto say = [&](const std::string& text) { s += (s.empty() ? "" : " ") + text; };
   if (in.mesh_error)
     say(fmt::format("Error bar of the peaks: {} % either way, the difference of coarse and fine mesh{}.",
-                    short2(100 * *in.mesh_error), in.mesh_where.empty() ? "" : " (" + in.mesh_where + ")"));
+                    formatBrief(100 * *in.mesh_error, 2), in.mesh_where.empty() ? "" : " (" + in.mesh_where + ")"));
   else
     say("No error bar: the study has one mesh, so what a finer one would change is not known.");
   if (v.holds_up_to && v.light == Light::red)

@@ -12,7 +12,7 @@ namespace gambeson {
 
 /// One level of what is compared, as a designer may choose it.
 struct Option {
-  std::string name;            ///< "thickness 0.75"
+  std::string name;            ///< "thickness x 0.75"
   std::optional<double> size;  ///< thickness, where it is one
   struct Layer {
     std::string name;
@@ -42,13 +42,14 @@ struct Option {
 
 struct VerdictInput {
   std::string what;             ///< "thickness"
+  bool multiple = false;        ///< its sizes are factors on the design: "thickness x 0.5"
   bool sized = false;           ///< options are sizes of which more protects more: the thickest that is green is wanted
   std::vector<Option> options;  ///< with sizes: rising
   int baseline = -1;
   double green = 0, red = 0;
   /// Relative difference of a peak between the coarse and the fine mesh, the largest; nothing: one mesh only.
   std::optional<double> mesh_error;
-  std::string mesh_where;  ///< the runs that tell it: "thickness 1, walking"
+  std::string mesh_where;  ///< the runs that tell it: "thickness x 1, walking"
   struct Exponent {
     std::string motion, joint;
     PowerLaw peak, rms;

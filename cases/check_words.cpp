@@ -6,8 +6,10 @@
 
 namespace gambeson {
 
-CheckWords checkWords(const std::string& check, double value, const std::string& unit) {
-  const std::string much = formatNumber(value, 2) + (unit.empty() ? "" : " ") + unit;
+CheckWords checkWords(const std::string& check, double value, double limit, const std::string& unit) {
+  const auto withUnit = [&](double x) { return formatNumber(x, 2) + (unit.empty() ? "" : " ") + unit; };
+  const std::string much = withUnit(value) + (limit > 0 ? " (allowed: " + withUnit(limit) + ")" : "");
+  const std::string count = fmt::format("{:.0f}", value);
   if (check == "Momentum")
     return {"the forces on cloth and body do not balance",
             "The body does not receive what the cloth gives: the torques are not those of this cloth. Do not use them.",
@@ -30,13 +32,13 @@ CheckWords checkWords(const std::string& check, double value, const std::string&
             "the energy check bounds what it does over the motion.",
             false};
   if (check == "Intersections")
-    return {fmt::format("cloth passes through cloth at {} places at the end", much),
+    return {fmt::format("cloth passes through cloth at {} places at the end", count),
             "Layers bear on each other in the wrong order there: forces between them are wrong.", true};
   if (check == "Movement")
     return {fmt::format("cloth goes up to {} in one step", much),
             "Contacts may have been missed on the way: forces may be wrong anywhere.", true};
   if (check == "Pinched")
-    return {fmt::format("{} times a point of the cloth was squeezed between two bodies and let through", much),
+    return {fmt::format("{} times a point of the cloth was squeezed between two bodies and let through", count),
             "Forces at those places and times are not known; elsewhere they are.", false};
   if (check == "Strain limit")
     return {fmt::format("threads stretch more than their limit in {} of the steps", much),
@@ -45,8 +47,9 @@ CheckWords checkWords(const std::string& check, double value, const std::string&
     return {fmt::format("an edge on springs slides {} along the body", much),
             "The garment hangs lower than it was made to: the torques are those of a garment that slipped.", false};
   if (check.starts_with("Repeatability, shape"))
-    return {fmt::format("the second stride is not like the first (correlation {} instead of 1)",
-                        formatNumber(1 - value, 2)),
+    return {fmt::format("the second stride is not like the first (correlation {}, 1 for the same course; allowed: at "
+                        "least {})",
+                        formatNumber(1 - value, 2), formatNumber(1 - limit, 2)),
             "The garment has not found its place yet: peaks depend on how it was put on.", false};
   if (check.starts_with("Repeatability, size"))
     return {fmt::format("the second stride differs from the first by {}", much),

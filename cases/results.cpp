@@ -36,20 +36,30 @@ std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& reco
                                   const std::filesystem::path& folder, std::vector<std::string>& failures) {
   std::vector<Picture> pictures;
   std::filesystem::create_directories(folder);
-  std::map<PictureField, double> ranges;
-  for (const PictureCase& picture : s.definition.output.pictures) {
-    std::string name;
-    try {
-      const int frame = frameOf(recording, m, picture);
-      const double time = recording.time(frame);
-      name = pictureName(pictures.size() + 1, picture, time);
-      if (!ranges.contains(picture.field)) ranges[picture.field] = fieldRange(s, recording, picture.field);
-      renderFrame(s, recording, frame, picture, ranges[picture.field], folder / name);
-      pictures.push_back({folder / name, captionOf(picture, time), ""});
-    } catch (const RunError& e) {
-      failures.push_back(fmt::format("The picture {} could not be drawn: {}", name, e.what()));
+  // Arrows have one scale in all of them, and each field has one range of colours.
+  std::map<PictureField, double> highest;
+  PictureScale scale;
+  for (const bool draw : {false, true})
+    for (const PictureCase& picture : s.definition.output.pictures) {
+      std::string name;
+      try {
+        const int frame = frameOf(recording, m, picture);
+        if (!draw) {
+          if (!highest.contains(picture.field)) highest[picture.field] = fieldRange(s, recording, picture.field);
+          const PictureScale own = scaleOf(s, recording, frame, picture.field);
+          highest[picture.field] = std::max(highest[picture.field], own.high);
+          scale.include(own);
+          continue;
+        }
+        const double time = recording.time(frame);
+        name = pictureName(pictures.size() + 1, picture, time);
+        scale.high = highest[picture.field];
+        renderFrame(s, recording, frame, picture, scale, folder / name);
+        pictures.push_back({folder / name, captionOf(picture, time), ""});
+      } catch (const RunError& e) {
+        if (draw) failures.push_back(fmt::format("The picture {} could not be drawn: {}", name, e.what()));
+      }
     }
-  }
   return pictures;
 }
 
@@ -155,7 +165,9 @@ int renderResults(const RenderOptions& o) {
   const RecordingReader recording(o.results);
   const PictureCase picture{o.when, o.time_s, o.field, o.view, o.width, o.height};
   const int frame = frameOf(recording, measure(*scenario, recording), picture);
-  renderFrame(*scenario, recording, frame, picture, fieldRange(*scenario, recording, o.field), o.png);
+  PictureScale scale = scaleOf(*scenario, recording, frame, o.field);
+  scale.high = std::max(scale.high, fieldRange(*scenario, recording, o.field));
+  renderFrame(*scenario, recording, frame, picture, scale, o.png);
   return 0;
 }
 

@@ -37,8 +37,22 @@ std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir);
 /// none), rounded up to a number that reads well. 0 for a field at rest and for `plain`.
 double fieldRange(const Scenario& scenario, const RecordingReader& recording, PictureField field);
 
-/// Draws one frame as `picture` asks (its time is not looked at), colours from 0 to `high`.
+/// What pictures that stand side by side have in common, so that the same colour is the same value and the same length
+/// the same force.
+struct PictureScale {
+  double high = 0;    ///< top of the colour bar
+  double most_N = 0;  ///< force of the longest arrow; 0: no arrows
+  double size_m = 0;  ///< of the garment, what arrows and margins are measured by
+  Vec3 box_m;         ///< that the picture frames, around the garment's middle
+  /// The larger of both in everything.
+  void include(const PictureScale& other);
+};
+
+/// Of one frame alone: colours up to the 99th percentile by area, rounded up as that of fieldRange.
+PictureScale scaleOf(const Scenario& scenario, const RecordingReader& recording, int frame, PictureField field);
+
+/// Draws one frame as `picture` asks (its time is not looked at). Colours begin at 0.
 void renderFrame(const Scenario& scenario, const RecordingReader& recording, int frame, const PictureCase& picture,
-                 double high, const std::filesystem::path& png);
+                 const PictureScale& scale, const std::filesystem::path& png);
 
 }  // namespace gambeson

@@ -7,7 +7,6 @@
 #include "cases/factors.hpp"
 #include "cases/skin_ledger.hpp"
 #include "core/error.hpp"
-#include "human/inverse_statics.hpp"
 #include "human/task_moments.hpp"
 #include "human/walk_curves.hpp"
 
@@ -133,9 +132,8 @@ std::vector<std::vector<double>> standingTorques(const Scenario& s, const Rows& 
   return torques;
 }
 
-/// The task's own peak moment at a joint; `held`: per joint the moments that hold the aim still. Throws InputError
-/// where the published data have no such joint.
-std::optional<double> naturalMoment(const Scenario& s, const JointMeasure& m, const std::vector<double>& held) {
+/// The task's own peak moment at a joint. Throws InputError where the published data have no such joint.
+std::optional<double> naturalMoment(const Scenario& s, const JointMeasure& m) {
   switch (s.definition.analysis.task) {
     case Task::none:
       return {};
@@ -146,8 +144,7 @@ std::optional<double> naturalMoment(const Scenario& s, const JointMeasure& m, co
     case Task::aiming:
       break;
   }
-  const double moment = std::abs(held[static_cast<std::size_t>(m.joint)]);
-  return moment > 0 ? std::optional(moment) : std::nullopt;
+  return m.held && m.held->moment_Nm != 0 ? std::optional(std::abs(m.held->moment_Nm)) : std::nullopt;
 }
 
 /// `skin`: of the table of that name, empty without a skin; `rest` of that table too where there is one, else of
@@ -181,7 +178,7 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
   std::size_t first = 0;  // window that counts
   while (first < time.size() && time[first] < out.counted_from_s) ++first;
   const std::vector<std::vector<double>> standing = standingTorques(s, rest, joints);
-  std::vector<double> held;  // moments that hold the aim still
+  std::vector<StaticMoment> held;  // of the aim
   if (const auto* aim = std::get_if<AimOptions>(&s.definition.human->motion);
       aim && s.definition.analysis.task == Task::aiming)
     held = peakStaticMoments(*s.human, *s.motion, rifleInHands(*s.human, aim->rifle_mass_kg));
@@ -217,9 +214,10 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
     constexpr double h = 1e-3;
     m.position_at_peak = q(m.peak.time_s);
     m.rate_at_peak = (q(m.peak.time_s + h) - q(m.peak.time_s - h)) / (2 * h);
+    if (!held.empty()) m.held = held[static_cast<std::size_t>(j)];
     if (s.definition.analysis.task != Task::none) {
       try {
-        m.natural_Nm = naturalMoment(s, m, held);
+        m.natural_Nm = naturalMoment(s, m);
       } catch (const InputError&) {  // the published data have no such joint; the page says "not known"
       }
     }

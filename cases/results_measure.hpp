@@ -15,6 +15,7 @@
 #include "cases/body_map.hpp"
 #include "cases/scenario.hpp"
 #include "core/io/recording.hpp"
+#include "human/inverse_statics.hpp"
 
 namespace gambeson {
 
@@ -51,6 +52,7 @@ struct JointMeasure {
   double position_at_peak = 0, rate_at_peak = 0;  ///< of the joint [rad, rad/s or m, m/s]
   std::optional<SegmentsMeasure> segments;
   std::optional<double> natural_Nm;     ///< peak moment of the task without the garment
+  std::optional<StaticMoment> held;     ///< where that is of holding still: what makes it
   double normal_N = 0, friction_N = 0;  ///< mean sums of magnitudes over the counted bodies
   std::optional<double> phase_at_peak,
       phase_of_highest;                   ///< of the peak, and of the largest joint value, in its side's stride

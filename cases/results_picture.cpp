@@ -10,6 +10,7 @@
 
 #include "analysis/render/camera.hpp"
 #include "analysis/render/shapes.hpp"
+#include "analysis/ticks.hpp"
 #include "cases/body_map.hpp"
 #include "cases/placed_bodies.hpp"
 #include "cases/results_write.hpp"
@@ -39,11 +40,11 @@ struct FieldWords {
 FieldWords wordsOf(PictureField field) {
   switch (field) {
     case PictureField::stress:
-      return {"stress", "First principal stress resultant [N/m]", "stress in the fabric", 1};
+      return {"stress", "Stress in the fabric: largest pull [N/m]", "stress in the fabric", 1};
     case PictureField::pressure:
       return {"pressure", "Contact pressure [Pa]", "contact pressure", 1};
     case PictureField::strain:
-      return {"strain", "First principal strain [%]", "strain of the fabric", 100};
+      return {"strain", "Largest stretch of the fabric [%]", "stretch of the fabric", 100};
     case PictureField::body_pressure:
       return {"", "Largest pressure on the body [kPa]", "largest pressure on the body", 1e-3};
     case PictureField::plain:
@@ -100,20 +101,31 @@ std::vector<Cluster> clustersOf(const PlacedBodies& placed, const Frame& frame, 
   return clusters;
 }
 
-/// Arrows end where the body is pushed, so that they stay outside of it.
-void addArrows(Scene& scene, const std::vector<Cluster>& clusters, double longest_m) {
+double mostOf(const std::vector<Cluster>& clusters) {
   double most = 0;
   for (const Cluster& c : clusters) most = std::max(most, norm(c.force));
-  if (!(most > 0)) return;
-  const double legend_N = roundedUp(0.5 * most), m_per_N = longest_m / most;
+  return most;
+}
+
+/// Arrows end where the body is pushed, so that they stay outside of it; one of `most_N` is `longest_m` long.
+void addArrows(Scene& scene, const std::vector<Cluster>& clusters, double most_N, double longest_m) {
+  if (!(most_N > 0)) return;
+  const double legend_N = roundedUp(0.5 * most_N), m_per_N = longest_m / most_N;
   const Vec3 towards = axesOf(scene.view, scene.up).towards;
   for (const Cluster& c : clusters) {
-    if (norm(c.force) < least_arrow * most || dot(c.force, towards) > far_side * norm(c.force)) continue;
+    if (norm(c.force) < least_arrow * most_N || dot(c.force, towards) > far_side * norm(c.force)) continue;
     const Vec3 tip = c.moment_of_size / c.size;
     scene.arrows.push_back({tip - m_per_N * c.force, tip, arrow_color});
   }
-  scene.arrow_legend = fmt::format("{:g} N on the body, summed over {:g} cm", legend_N, 100 * arrow_cell_m);
+  scene.arrow_legend = fmt::format("{0:g} N on {1:g} x {1:g} cm of body", legend_N, 100 * arrow_cell_m);
   scene.arrow_legend_length_m = legend_N * m_per_N;
+}
+
+/// Beyond the garment on every side.
+double marginOf(double size_m) { return 0.06 * size_m; }
+
+double percentile99(const std::vector<double>& values, const std::vector<double>& areas, double unit) {
+  return values.empty() ? 0 : roundedUp(unit * weightedPercentile(values, areas, 0.99)) / unit;
 }
 
 }  // namespace
@@ -145,7 +157,34 @@ double fieldRange(const Scenario& s, const RecordingReader& recording, PictureFi
     }
     if (!values.empty()) break;
   }
-  return values.empty() ? 0 : roundedUp(words.scale * weightedPercentile(values, weights, 0.99)) / words.scale;
+  return percentile99(values, weights, words.scale);
+}
+
+void PictureScale::include(const PictureScale& other) {
+  high = std::max(high, other.high);
+  most_N = std::max(most_N, other.most_N);
+  size_m = std::max(size_m, other.size_m);
+  for (int c = 0; c < 3; ++c) box_m[c] = std::max(box_m[c], other.box_m[c]);
+}
+
+PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int index, PictureField field) {
+  PictureScale scale;
+  if (field == PictureField::body_pressure) return scale;  // of the whole motion: fieldRange
+  const Frame frame = recording.frame(index);
+  const std::vector<Vec3> x = positionsOf(frame);
+  const std::array<Vec3, 2> garment = boxOf(x, 0);
+  scale.size_m = norm(garment[1] - garment[0]);
+  const double margin_m = marginOf(scale.size_m);
+  scale.box_m = garment[1] - garment[0] + 2 * Vec3{margin_m, margin_m, margin_m};
+  PlacedBodies placed(s);
+  placed.moveTo(frame.time_s);
+  scale.most_N = mostOf(clustersOf(placed, frame, x));
+  if (field == PictureField::plain) return scale;
+  const FieldWords words = wordsOf(field);
+  std::vector<double> values;
+  for (const float v : fieldOf(frame, words.field).data) values.push_back(v);
+  scale.high = percentile99(values, s.model->surface.area_m2, words.scale);
+  return scale;
 }
 
 std::string captionOf(const PictureCase& picture, double time_s) {
@@ -200,11 +239,12 @@ void renderBody(const Scenario& s, const BodyMap& map, const BodyLoads& loads, d
 }
 
 void renderFrame(const Scenario& s, const RecordingReader& recording, int index, const PictureCase& picture,
-                 double high, const std::filesystem::path& png) {
+                 const PictureScale& scale, const std::filesystem::path& png) {
   if (picture.field == PictureField::body_pressure) {
     if (!s.human) throw RunError("there is no human whose body bears pressure");
     const BodyMap map(s, s.definition.comfort.sensor_m);
-    renderBody(s, map, bodyLoads(map, recording, countedFrom(s, recording)), recording.time(index), picture, high, png);
+    renderBody(s, map, bodyLoads(map, recording, countedFrom(s, recording)), recording.time(index), picture, scale.high,
+               png);
     return;
   }
   const Frame frame = recording.frame(index);
@@ -220,7 +260,8 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   std::vector<double> scalars;
   if (picture.field != PictureField::plain) {
     for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
-    scene.bar = ColorBar{words.title, 0, words.scale * high};
+    const double most = *std::max_element(scalars.begin(), scalars.end());
+    scene.bar = ColorBar{fmt::format("{}; here up to {}", words.title, formatBrief(most, 2)), 0, words.scale * scale.high};
   }
   // A mesh for each layer, with its samples alone.
   const Surface& surface = s.model->surface;
@@ -245,9 +286,9 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   }
   for (auto& [layer, cloth] : layers) scene.meshes.push_back(std::move(cloth));
   const std::array<Vec3, 2> garment = boxOf(x, 0);
-  const double size = norm(garment[1] - garment[0]);
-  addArrows(scene, clustersOf(placed, frame, x), 0.14 * size);
-  scene.focus = boxOf(x, 0.06 * size);
+  const Vec3 middle = 0.5 * (garment[0] + garment[1]);
+  addArrows(scene, clustersOf(placed, frame, x), scale.most_N, 0.14 * scale.size_m);
+  scene.focus = {middle - 0.5 * scale.box_m, middle + 0.5 * scale.box_m};
   scene.title = s.definition.name;
   scene.subtitle = captionOf(picture, frame.time_s);
   scene.view = picture.view;

@@ -9,6 +9,7 @@
 
 #include "analysis/ticks.hpp"
 #include "cases/check_words.hpp"
+#include "cases/joint_words.hpp"
 #include "cases/results_write.hpp"
 
 namespace gambeson {
@@ -59,23 +60,22 @@ void addPlots(const Measured& m, ReportInput& in) {
     if (std::find(titles.begin(), titles.end(), titleOf(j)) == titles.end()) titles.push_back(titleOf(j));
   for (const std::string& title : titles) {
     Plot plot{capital(title),
-              "Positive: the wearer must push towards positive joint values (flexion, adduction, internal rotation).",
+              "",
               {},
               marks,
               true};
     std::string unit = "Nm";
+    const JointMeasure* highest = nullptr;
     for (const JointMeasure& j : m.joints)
       if (titleOf(j) == title) {
+        if (!highest || std::abs(j.peak.value) > std::abs(highest->peak.value)) highest = &j;
         unit = j.prismatic ? "N" : "Nm";
         plot.series.push_back(
             {j.side.empty() ? j.name : j.side, unit, m.added.time_s, m.added.of(j.joint), toneOf(j.side)});
       }
-    for (const JointMeasure& j : m.joints)
-      if (j.lead_in_peak) {
-        plot.mark_from_s = m.strides->start_s;
-        plot.caption += " The lead-in before the first stride is shown but not counted.";
-        break;
-      }
+    plot.caption = signOf(highest->movement);
+    if (!highest->prismatic) plot.peak_note = nameOf(pushOf(highest->peak.value, highest->rate_at_peak));
+    plot.mark_from_s = m.counted_from_s;
     plot.title += unit == "N" ? ": added force" : ": added torque";
     in.torques.push_back(std::move(plot));
   }
@@ -107,17 +107,19 @@ void addContact(const Measured& m, bool chart_too, ReportInput& in) {
   in.contact_tables.push_back(std::move(table));
 }
 
-void addStress(const Measured& m, ReportInput& in) {
-  Table table{"First principal stress resultant and strain per region",
-              "Percentiles by area over all frames of the motion: 95 % of the area carries at most p95.",
-              {"region", "median [N/m]", "p95 [N/m]", "p99 [N/m]", "largest [N/m]", "at [s]", "largest strain [%]"},
+void addStress(const Scenario& s, const Measured& m, ReportInput& in) {
+  Table table{"Stress (the largest pull, per metre of width) and stretch of each patch",
+              "By area over all frames of the motion: 95 % of a patch carries at most p95, 99 % at most p99. " +
+                  stretchMeaning(s.definition),
+              {"patch", "median [N/m]", "p95 [N/m]", "p99 [N/m]", "largest [N/m]", "at [s]", "stretch, p99 [%]",
+               "largest [%]"},
               {}};
   for (std::size_t r = 0; r < m.stress.size(); ++r) {
-    const StressSummary& s = m.stress[r];
+    const StressSummary& k = m.stress[r];
     std::string name = m.regions.names[r];
     std::replace(name.begin(), name.end(), '_', ' ');
-    table.rows.push_back({name, s.p50_N_per_m, s.p95_N_per_m, s.p99_N_per_m, s.max_N_per_m,
-                          Cell(fmt::format("{:.2f}", s.max_time_s)), 100 * s.max_strain});
+    table.rows.push_back({name, k.p50_N_per_m, k.p95_N_per_m, k.p99_N_per_m, k.max_N_per_m,
+                          Cell(fmt::format("{:.2f}", k.max_time_s)), 100 * k.p99_strain, 100 * k.max_strain});
     table.rows.back()[5].number = true;
   }
   in.stress_tables.push_back(std::move(table));
@@ -213,12 +215,16 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   addComfort(s, m, in);
   addCollisions(m, in);
   if (m.joints.empty()) in.outcome = outcomeOf(m);
-  addStress(m, in);
+  addStress(s, m, in);
   addSupports(m, in);
   in.pictures = pictures;
   in.audit = auditOf(m);
   for (AuditCheck& c : in.audit)
-    if (!c.holds()) c.meaning += ". " + checkWords(c.name, c.value, c.unit).means;
+    if (!c.holds()) {
+      const CheckWords words = checkWords(c.name, c.value, c.limit, c.unit);
+      c.wrong = words.wrong;
+      c.meaning += ". " + words.means;
+    }
   in.assumptions = assumptionsOf(s);
   const auto [hash, kernels] = identityParts(identity);
   in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->shell.controlCount(),
@@ -227,11 +233,12 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
               {"Smallest time step",
                fmt::format("{}; governed by the {} term", duration(m.steps.shortest_s), m.steps.governing)},
               {"Mean time step", duration(m.steps.mean_s)},
-              {"Largest strain",
+              {"Largest stretch",
                [&] {
-                 double e = 0;
-                 for (const StressSummary& r : m.stress) e = std::max(e, r.max_strain);
-                 return formatNumber(100 * e) + " %";
+                 double e = 0, most = 0;
+                 for (const StressSummary& r : m.stress) e = std::max(e, r.max_strain), most = std::max(most, r.p99_strain);
+                 return fmt::format("{} %; 99 % of every patch stays below {} %", formatNumber(100 * e),
+                                    formatNumber(100 * most));
                }()},
               {"Computed in", fmt::format("{}; threads: {}; kernels: {}{}", duration(facts.wall_s), facts.threads,
                                           kernels, facts.resumed ? "; resumed, the time is of the last part" : "")},

@@ -45,6 +45,8 @@ Json jointJson(const JointMeasure& m, const std::optional<Strides>& strides, con
     j["natural_peak_Nm"] = *m.natural_Nm;
     j["percent_of_natural"] = 100 * std::abs(m.peak.value) / *m.natural_Nm;
     j["effort"] = nameOf(effortOf(comfort, m));
+    if (m.held && m.held->foot_part > 0)
+      j["natural_is_held"] = {{"foot_share_of_weight", m.held->foot_part}, {"lever_m", m.held->lever_m}};
   }
   j["normal_mean_N"] = m.normal_N;
   j["friction_mean_N"] = m.friction_N;
@@ -70,6 +72,7 @@ Json stressJson(const Measured& m) {
                    {"p99_N_per_m", s.p99_N_per_m},
                    {"max_N_per_m", s.max_N_per_m},
                    {"max_time_s", s.max_time_s},
+                   {"p99_strain", s.p99_strain},
                    {"max_strain", s.max_strain},
                    {"max_strain_time_s", s.max_strain_time_s}});
   }

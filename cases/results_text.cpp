@@ -7,45 +7,20 @@
 
 #include "analysis/ticks.hpp"
 #include "cases/factors.hpp"
+#include "cases/joint_words.hpp"
 #include "cases/results_write.hpp"
 #include "core/material/bending.hpp"
 #include "human/units.hpp"
 #include "human/zones.hpp"
 
 namespace gambeson {
-namespace {
-
-/// "flexes" for a rising flexion, "extends" for a falling one; the nouns of either side and of the way there.
-struct Words {
-  const char *rises, *falls, *above, *below, *to_above, *to_below;
-};
-Words wordsOf(const std::string& movement) {
-  if (movement == "flexion") return {"flexes", "extends", "flexion", "extension", "flexion", "extension"};
-  if (movement == "adduction") return {"adducts", "abducts", "adduction", "abduction", "adduction", "abduction"};
-  if (movement == "abduction") return {"abducts", "adducts", "abduction", "adduction", "abduction", "adduction"};
-  if (movement == "rotation")
-    return {"turns inwards",     "turns outwards",    "internal rotation",
-            "external rotation", "internal rotation", "external rotation"};
-  return {"moves to higher joint values",
-          "moves to lower joint values",
-          "the joint value",
-          "minus the joint value",
-          "motion",
-          "motion"};
-}
-
-/// Below this a joint counts as at rest [rad/s].
-constexpr double still_rad_per_s = 0.02;
-
-}  // namespace
 
 std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides) {
   if (m.prismatic || m.peak.value == 0) return "";
-  const Words words = wordsOf(m.movement);
-  const bool still = std::abs(m.rate_at_peak) < still_rad_per_s;
-  const char* who = still                                        ? ""
-                    : (m.peak.value > 0) == (m.rate_at_peak > 0) ? " against the garment"
-                                                                 : " with the garment's push";
+  const MovementWords words = movementWords(m.movement);
+  const Push push = pushOf(m.peak.value, m.rate_at_peak);
+  const bool still = push == Push::held;
+  const char* who = still ? "" : push == Push::against ? " against the garment" : " with the garment's push";
   std::string text;
   if (strides && !m.side.empty())
     text = (m.phase_at_peak
@@ -73,6 +48,15 @@ std::string signRule() {
          "contact forces about the joint axis. Positive: the wearer must push towards positive joint values (flexion, "
          "adduction, internal "
          "rotation).";
+}
+
+std::string stretchMeaning(const Case& c) {
+  return fmt::format(
+      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m. {} The fabric\u2019s law is a straight line, which its "
+      "source takes for strains below 2 % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real fabric may "
+      "be stiffer. A largest value far above what 99 % of the cloth stays below is that of single spots, at corners and "
+      "seams.",
+      c.strain_limit ? "The case limits that of weft and warp." : "The case sets no limit to it.");
 }
 
 std::vector<AuditCheck> auditOf(const Measured& m) {
@@ -205,17 +189,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
         fmt::format("Torques are impulses over windows of {} ms, not filtered; the garment's weight and inertia enter "
                     "only through its contact.",
                     formatNumber(1e3 * c.output.window_s)));
-    if (c.analysis.task == Task::natural_walk)
-      say("Natural moments are the peaks of net joint moments in level walking of healthy adults (Bovi et al. 2011), "
-          "scaled with body mass.");
-    if (c.analysis.task == Task::aiming)
-      say("Natural moments are the largest that hold the motion's postures still, with the rifle's weight in the "
-          "hands: "
-          "inverse statics from segment masses, over the times when both feet stand. The feet share the weight in "
-          "proportion to where the centre of mass projects between them.");
-    if (c.analysis.task == Task::natural_stairs)
-      say("Natural moments are the peaks of net joint moments in stair ascent of healthy adults (Bovi et al. 2011), "
-          "scaled with body mass.");
+    if (const std::string natural = naturalMeaning(c.analysis.task); !natural.empty()) say(natural);
   }
   if (const auto strides = stridesOf(c))
     say(

@@ -64,6 +64,9 @@ std::string signRule();
 /// Holds or fails, with limits.
 std::vector<AuditCheck> auditOf(const Measured& measured);
 
+/// What a stretch of the fabric means, and up to where its law holds.
+std::string stretchMeaning(const Case& c);
+
 /// What a reader must know before trusting the numbers.
 std::vector<std::string> assumptionsOf(const Scenario& scenario);
 

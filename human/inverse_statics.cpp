@@ -11,6 +11,13 @@ namespace {
 
 constexpr double gravity_m_per_s2 = 9.81;
 
+/// The moment of a force about a joint's axis; of a sliding joint the force along it.
+double aboutJoint(const Joint& joint, std::span<const Pose> X_WL, const Vec3& x_W, const Vec3& force) {
+  const Pose X_WJ = X_WL[joint.parent] * joint.X_PJ;
+  const Vec3 axis = X_WJ.rotation * joint.axis;
+  return joint.type == JointType::prismatic ? dot(axis, force) : dot(axis, cross(x_W - X_WJ.origin, force));
+}
+
 }  // namespace
 
 Vec3 centreOfMass(const Human& human, std::span<const Pose> X_WL, std::span<const CarriedMass> carried) {
@@ -76,11 +83,8 @@ std::vector<double> jointMoments(const Human& human, std::span<const Pose> X_WL,
   for (std::size_t j = 0; j < s.joints.size(); ++j) {
     const Joint& joint = s.joints[j];
     if (joint.type == JointType::fixed || joint.mimic_of) continue;
-    const Pose X_WJ = X_WL[joint.parent] * joint.X_PJ;
-    const Vec3 axis = X_WJ.rotation * joint.axis;
     for (const Force& f : forces)
-      if (s.isDistal(f.link, joint.child))
-        tau[j] -= joint.type == JointType::prismatic ? dot(axis, f.f) : dot(axis, cross(f.x - X_WJ.origin, f.f));
+      if (s.isDistal(f.link, joint.child)) tau[j] -= aboutJoint(joint, X_WL, f.x, f.f);
   }
   return tau;
 }
@@ -95,18 +99,27 @@ std::vector<CarriedMass> rifleInHands(const Human& human, double mass_kg) {
   return out;
 }
 
-std::vector<double> peakStaticMoments(const Human& human, const Motion& motion, std::span<const CarriedMass> carried) {
-  std::vector<double> peak(human.skeleton.joints.size(), 0.0);
+std::vector<StaticMoment> peakStaticMoments(const Human& human, const Motion& motion,
+                                            std::span<const CarriedMass> carried) {
+  const Skeleton& skeleton = human.skeleton;
+  std::vector<StaticMoment> peak(skeleton.joints.size());
   bool stood = false;
   for (int i = 0; i <= 100; ++i) {
     const Posture p = motion.at(motion.duration() * i / 100);
-    const auto X = linkPoses(human.skeleton, p.q, p.root);
+    const auto X = linkPoses(skeleton, p.q, p.root);
     const GroundReaction ground = groundReaction(human, X, carried);
     if (ground.feet.size() < 2) continue;
     stood = true;
     const auto tau = jointMoments(human, X, carried, ground);
-    for (std::size_t j = 0; j < tau.size(); ++j)
-      if (std::abs(tau[j]) > std::abs(peak[j])) peak[j] = tau[j];
+    for (std::size_t j = 0; j < tau.size(); ++j) {
+      if (!(std::abs(tau[j]) > std::abs(peak[j].moment_Nm))) continue;
+      peak[j] = {tau[j], 0, 0};
+      for (const GroundReaction::Foot& f : ground.feet) {
+        if (!skeleton.isDistal(f.link, skeleton.joints[j].child) || !(f.force_N > 0)) continue;
+        peak[j].foot_part = f.force_N / (ground.feet[0].force_N + ground.feet[1].force_N);
+        peak[j].lever_m = std::abs(aboutJoint(skeleton.joints[j], X, f.centre_W, {0, 0, 1}));
+      }
+    }
   }
   if (!stood)
     throw InputError({"", 0, "human.motion"}, "never has both feet on the ground, so nothing can be held still");

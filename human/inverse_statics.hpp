@@ -48,8 +48,16 @@ std::vector<double> jointMoments(const Human& human, std::span<const Pose> link_
 /// hand_left and hand_right.
 std::vector<CarriedMass> rifleInHands(const Human& human, double mass_kg);
 
-/// Per joint the moment of largest size that holds the postures of a motion still [N m], signed, over the times when
-/// both feet stand (a still body cannot step), every hundredth of the motion. Throws InputError where they never do.
-std::vector<double> peakStaticMoments(const Human& human, const Motion& motion, std::span<const CarriedMass> carried);
+/// What holds one joint of a posture still.
+struct StaticMoment {
+  double moment_Nm = 0;  ///< signed
+  double foot_part = 0;  ///< of the weight, on the foot beyond the joint; 0 where there is none
+  double lever_m = 0;    ///< at which the ground's force on that foot passes the joint's axis
+};
+
+/// Per joint the moment of largest size that holds the postures of a motion still, over the times when both feet stand
+/// (a still body cannot step), every hundredth of the motion. Throws InputError where they never do.
+std::vector<StaticMoment> peakStaticMoments(const Human& human, const Motion& motion,
+                                            std::span<const CarriedMass> carried);
 
 }  // namespace gambeson

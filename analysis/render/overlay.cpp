@@ -126,16 +126,25 @@ void drawOverlay(Image& image, const Scene& scene, const Overlay& o, const Fonts
     };
     if (beyond.below) pointed(r.left - gap, -1, colors.front());
     if (beyond.above) pointed(r.right + gap, 1, colors.back());
+    const auto label = [&](double x, const std::string& words) {
+      fonts.small.draw(image, x - 0.5 * fonts.small.width(words), r.bottom + 10 * u + 0.85 * fonts.small.size(), words,
+                       kInk);
+    };
     const Ticks ticks =
         niceTicks(bar.low, bar.high, std::clamp(static_cast<int>(r.width() / (5.2 * fonts.small.size())), 2, 6));
     for (const double value : ticks.values) {
       const double x = r.left + (value - bar.low) / (bar.high - bar.low) * r.width();
       const double w = std::max(1.0, std::round(1.3 * u)), left = std::round(x - 0.5 * w);
       fillRect(image, left, r.bottom, left + w, r.bottom + 6 * u, kSoftInk);
-      const std::string label = ticks.label(value);
-      fonts.small.draw(image, x - 0.5 * fonts.small.width(label), r.bottom + 10 * u + 0.85 * fonts.small.size(), label,
-                       kInk);
+      // What would run into the mark of an end gives way to it.
+      const bool lower = value - bar.low < bar.high - value;
+      const double from_end = lower ? value - bar.low : bar.high - value;
+      if ((lower ? beyond.below : beyond.above) && from_end < 0.11 * (bar.high - bar.low)) continue;
+      label(x, ticks.label(value));
     }
+    // The ends say that there is more beyond.
+    if (beyond.below) label(r.left, "\u2264 " + formatBrief(bar.low));
+    if (beyond.above) label(r.right, "\u2265 " + formatBrief(bar.high));
   }
   if (hasLegend(scene))
     fonts.text.draw(image, o.legend.left, o.legend.top + fonts.text.size(), scene.arrow_legend, kInk);

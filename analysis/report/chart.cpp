@@ -102,12 +102,24 @@ std::pair<std::size_t, std::size_t> peakOf(const std::vector<const Series*>& ser
   return best;
 }
 
-std::string peakMark(const Series& s, std::size_t i, const Frame& f) {
-  const double x = f.x(s.time_s[i]), y = f.y(s.values[i]), half = 105;  // of the label's width, about
-  const char* anchor = x < kLeft + half ? "start" : x > kWidth - kRight - half ? "end" : "middle";
-  const std::string label = "peak " + formatNumber(s.values[i]) + " " + s.unit + " at " + html::seconds(s.time_s[i]);
+std::string peakMark(const Series& s, std::size_t i, const Frame& f, const std::string& note) {
+  const double x = f.x(s.time_s[i]), y = f.y(s.values[i]);
+  const std::string label = "peak " + formatNumber(s.values[i]) + " " + s.unit + " at " + html::seconds(s.time_s[i]) +
+                            (note.empty() ? "" : ", " + note);
+  // Where the middle of it would run over an end of the axis, it stands beside that end.
+  const double half = std::min(4.4 * static_cast<double>(label.size()), 0.5 * (kWidth - kRight - kLeft));
+  const double at = std::clamp(x, kLeft + half, kWidth - kRight - half);
   return fmt::format("<circle class=\"peak {}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"5\"/>", nameOf(s.tone), x, y) +
-         text(x, s.values[i] >= 0 ? y - 11 : y + 22, label, anchor, " class=\"peak-label\"");
+         text(at, s.values[i] >= 0 ? y - 11 : y + 22, label, "middle", " class=\"peak-label\"");
+}
+
+/// The start that is not judged.
+std::string uncounted(double until_s, const Frame& f) {
+  const double width = f.x(until_s) - kLeft;
+  const std::string label = width > 84 ? "not counted" : "";
+  return fmt::format("<rect class=\"uncounted\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", kLeft,
+                     kTop, width, kHeight - kBottom - kTop) +
+         text(kLeft + 0.5 * width, kHeight - kBottom - 6, label, "middle", " class=\"uncounted-label\"");
 }
 
 std::string legend(const std::vector<const Series*>& series) {
@@ -170,6 +182,8 @@ std::string lineChart(const Plot& plot) {
       "{:.9g}\" data-unit=\"{}\">",
       kWidth, kHeight, escape(plot.title + " over time. Largest magnitude: " + peak + "."), kLeft, kWidth - kRight,
       kHeight - kBottom, kTop, f.t.low, f.t.high, f.v.low, f.v.high, escape(shown[0]->unit));
+  const bool starts_later = plot.mark_from_s > f.t.low && plot.mark_from_s < f.t.high;
+  if (starts_later) svg += uncounted(plot.mark_from_s, f);
   svg += axes(f, shown[0]->unit);
   for (const TimeMark& m : plot.marks) {
     if (!(m.time_s >= f.t.low && m.time_s <= f.t.high)) continue;
@@ -180,9 +194,13 @@ std::string lineChart(const Plot& plot) {
     svg += text(late ? x - 3 : x + 3, kTop - 6, m.label, late ? "end" : "start", " class=\"mark-label\"");
   }
   for (const Series* s : shown) svg += path(*s, f);
-  if (plot.mark_peak) svg += peakMark(*shown[k], i, f);
+  if (plot.mark_peak) svg += peakMark(*shown[k], i, f, plot.peak_note);
   svg += legend(shown) + "</svg>\n";
-  return figure(plot.title, svg + notices, plot.caption);
+  std::string caption = plot.caption;
+  if (starts_later)
+    caption += fmt::format("{}Counted is what comes from {} on; the shaded start before it is shown but not judged.",
+                           caption.empty() ? "" : " ", html::seconds(plot.mark_from_s));
+  return figure(plot.title, svg + notices, caption);
 }
 
 std::string barChart(const BarChart& chart) {

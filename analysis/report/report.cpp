@@ -60,8 +60,9 @@ std::string headline(const ReportInput& in) {
   if (const JointSummary* j = highestJoint(in)) {
     words += answers(in, *j);
     words += element("p",
-                     "Added torque is what the garment\u2019s contact forces do about a joint: the wearer\u2019s "
-                     "muscles supply it on top of what the movement needs without the garment, or are spared it.",
+                     "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles "
+                     "must give as much against it, on top of what the movement needs. Where the garment pushes the way "
+                     "the joint moves, they are spared it.",
                      " class=\"meaning\"");
   }
   std::string body = element("div", words, " class=\"words\"");
@@ -74,12 +75,18 @@ std::string headline(const ReportInput& in) {
 std::string alarms(const ReportInput& in) {
   std::string out;
   for (const auto& w : in.warnings) out += element("p", escape(w), " class=\"alarm\" role=\"alert\"");
-  const auto failed = std::count_if(in.audit.begin(), in.audit.end(), [](const AuditCheck& c) { return !c.holds(); });
+  int failed = 0;
+  std::string wrong;
+  for (const AuditCheck& c : in.audit) {
+    if (c.holds()) continue;
+    ++failed;
+    if (!c.wrong.empty()) wrong += (wrong.empty() ? ": " : "; ") + c.wrong;
+  }
   if (failed > 0)
     out += element("p",
-                   fmt::format("{} of {} checks of this run {}: do not rely on its numbers before you know why. See <a "
-                               "href=\"#audit\">the audit</a>.",
-                               failed, in.audit.size(), failed == 1 ? "fails" : "fail"),
+                   fmt::format("{} of {} checks of this run {}{}. Do not rely on its numbers before you know what that "
+                               "does to them: <a href=\"#audit\">the checks</a>.",
+                               failed, in.audit.size(), failed == 1 ? "fails" : "fail", escape(wrong)),
                    " class=\"alarm\" role=\"alert\"");
   return out;
 }

@@ -62,7 +62,8 @@ struct Plot {
   std::vector<Series> series;
   std::vector<TimeMark> marks;
   bool mark_peak = true;        ///< the largest magnitude of all series
-  double mark_from_s = -1e300;  ///< from here on: what comes before is shown but not judged
+  double mark_from_s = -1e300;  ///< from here on: what comes before is shaded, shown but not judged
+  std::string peak_note{};      ///< completes the mark: "against the motion"
 };
 
 struct Bar {
@@ -95,6 +96,7 @@ struct AuditCheck {
   double value = 0, limit = 0;
   std::string unit;
   std::string meaning;  ///< what is compared with what
+  std::string wrong{};  ///< where it fails, what that is in plain words; completes a sentence
   bool holds() const { return value <= limit && -value <= limit; }
 };
 

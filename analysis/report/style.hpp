@@ -39,6 +39,7 @@ figure.chart, .panel { margin:0; background:var(--paper); border:1px solid var(-
 figure.chart figcaption, .panel .caption { font-size:.9rem; color:var(--soft); margin:6px 0 0; }
 svg { display:block; width:100%; height:auto; font:14px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; fill:var(--ink); overflow:visible; }
 svg .grid { stroke:#e4e7ec; } svg .zero { stroke:#8d95a3; } svg .axis, svg .mark-label { fill:var(--soft); } svg .mark-label { font-size:12px; }
+svg .uncounted { fill:#e9ecf1; } svg .uncounted-label { fill:var(--soft); font-size:12px; }
 svg .mark { stroke:#8d95a3; stroke-dasharray:3 4; } svg .peak-label { font-weight:600; paint-order:stroke; stroke:#fff; stroke-width:4px; }
 svg .series { fill:none; stroke-width:2.2; stroke-linejoin:round; }
 svg .left { stroke:var(--left); } svg .right { stroke:var(--right); stroke-dasharray:7 2.5; } svg .third { stroke:var(--third); } svg .fourth { stroke:var(--fourth); stroke-dasharray:2 3; }

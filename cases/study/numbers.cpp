@@ -34,13 +34,20 @@ JointNumbers jointOf(const Json& j) {
   JointNumbers n;
   n.name = j.at("joint").get<std::string>();
   n.label = labelOf(n.name, j.at("side").get<std::string>());
+  if (const std::size_t cut = n.label.find('('); cut != std::string::npos)
+    n.movement = n.label.substr(cut + 1, n.label.size() - cut - 2);
   n.prismatic = j.contains("peak_N");
   const std::string unit = n.prismatic ? "_N" : "_Nm";
   n.peak_Nm = j.at("peak" + unit).get<double>();
   n.peak_time_s = j.at("peak_time_s").get<double>();
   n.rms_Nm = j.at("rms" + unit).get<double>();
   n.standing_Nm = optional(j, "standing" + unit);
+  n.rate_at_peak = j.at("joint_rate_at_peak").get<double>();
   n.natural_Nm = optional(j, "natural_peak_Nm");
+  if (j.contains("natural_is_held")) {
+    n.foot_part = optional(j.at("natural_is_held"), "foot_share_of_weight");
+    n.lever_m = optional(j.at("natural_is_held"), "lever_m");
+  }
   n.normal_N = j.at("normal_mean_N").get<double>();
   n.friction_N = j.at("friction_mean_N").get<double>();
   n.friction_Nm = optional(j, "friction_at_peak" + unit);
@@ -119,6 +126,12 @@ const JointNumbers* RunNumbers::decisive() const {
   return best ? best : highest();
 }
 
+double RunNumbers::p99_strain() const {
+  double most = std::nan("");
+  for (const StressNumbers& s : stress) most = std::fmax(most, s.p99_strain);
+  return most;
+}
+
 double RunNumbers::thinnest_mm() const {
   double least = 0;
   for (const LayerNumbers& l : layers) least = least > 0 ? std::min(least, 1e3 * l.thickness_m) : 1e3 * l.thickness_m;
@@ -191,7 +204,8 @@ RunNumbers readRun(const std::filesystem::path& folder) {
     for (const Json& s : j.at("stress"))
       run.stress.push_back({s.at("region").get<std::string>(), s.at("p50_N_per_m").get<double>(),
                             s.at("p95_N_per_m").get<double>(), s.at("p99_N_per_m").get<double>(),
-                            s.at("max_N_per_m").get<double>(), s.at("max_strain").get<double>()});
+                            s.at("max_N_per_m").get<double>(), optional(s, "p99_strain").value_or(std::nan("")),
+                            s.at("max_strain").get<double>()});
     for (const Json& c : j.at("audit"))
       run.checks.push_back({c.at("check").get<std::string>(),
                             c.at("value").is_number() ? c.at("value").get<double>() : std::nan(""),

@@ -11,10 +11,13 @@ namespace gambeson::study {
 struct JointNumbers {
   std::string name;   ///< "hip_flexion_left"
   std::string label;  ///< "left hip (flexion)"
+  std::string movement;  ///< "flexion", empty where the name has none
   bool prismatic = false;
   double peak_Nm = 0, peak_time_s = 0, rms_Nm = 0;  ///< of the added torque; the peak is signed
+  double rate_at_peak = 0;                          ///< of the joint [rad/s]
   std::optional<double> standing_Nm;                ///< dressed at rest before the motion
   std::optional<double> natural_Nm;                 ///< peak moment of the task without the garment
+  std::optional<double> foot_part, lever_m;         ///< of a natural moment of holding still: StaticMoment
   double normal_N = 0, friction_N = 0;              ///< mean sums of magnitudes of what counts at the joint
   std::optional<double> friction_Nm;                ///< the part of the peak that friction has
   std::vector<double> torque_Nm;                    ///< at RunNumbers::time_s
@@ -51,7 +54,7 @@ struct ComfortNumbers {
 
 struct StressNumbers {
   std::string region;
-  double p50_N_per_m = 0, p95_N_per_m = 0, p99_N_per_m = 0, max_N_per_m = 0, max_strain = 0;
+  double p50_N_per_m = 0, p95_N_per_m = 0, p99_N_per_m = 0, max_N_per_m = 0, p99_strain = 0, max_strain = 0;
 };
 
 struct CheckNumbers {
@@ -74,6 +77,7 @@ struct RunNumbers {
   std::vector<ComfortNumbers> comfort;
   std::vector<StressNumbers> stress;
   double largest_strain = 0;
+  double p99_strain() const;  ///< of the region where it is largest: 99 % of its area stretches no further
   std::vector<CheckNumbers> checks;
 
   double mass_kg() const;

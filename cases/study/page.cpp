@@ -73,6 +73,22 @@ std::string linkTo(const Variant& v, const std::string& text) {
   return element("a", escape(text), " href=\"" + escape(v.folder) + "/report.html\"");
 }
 
+std::string multiplesOf(const Study& s) {
+  std::string text;
+  for (const Axis& a : s.axes) {
+    if (!a.multiple || a.levels.size() < 2) continue;
+    const auto least = std::min_element(a.levels.begin(), a.levels.end(), [](const Level& x, const Level& y) {
+      return x.number.value_or(1) < y.number.value_or(1);
+    });
+    if (!least->number) continue;
+    text += fmt::format("{}\u201c{} x {}\u201d is no measure but a multiple: {} times the {} that the garment was designed "
+                        "with{}; x 1 is the design.",
+                        text.empty() ? "" : " ", a.name, least->label, least->label, a.name,
+                        a.role == Role::thickness ? ", in every layer" : "");
+  }
+  return text;
+}
+
 namespace {
 
 std::string judged(Light light, const std::string& text) {
@@ -123,8 +139,9 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   const Verdict& v = c.verdict;
   std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
   words += judged(v.light, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
-  words +=
-      element("p", "Effort and comfort only: what protects enough is not part of this study.", " class=\"meaning\"");
+  for (const std::string& note :
+       {multiplesOf(s), std::string("Effort and comfort only: what protects enough is not part of this study.")})
+    if (!note.empty()) words += element("p", prose(note), " class=\"meaning\"");
   std::string body = element("div", words, " class=\"words\"");
   // The one taken, in the motion that decides.
   const SidePicture* shown = nullptr;
@@ -141,10 +158,10 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   const std::string meaning =
       element("p",
               escape(fmt::format(
-                  "Added torque is what the garment\u2019s contact forces do about a joint: the wearer\u2019s "
-                  "muscles supply it on top of what the movement needs, or are spared it. The natural moment is the "
-                  "largest that the joint needs for the movement without the garment. Green: below {} of it, red: "
-                  "above {} ({}).",
+                  "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles must "
+                  "give as much against it, on top of what the movement needs. Where the garment pushes the way the "
+                  "joint moves, they are spared it. Natural moment: the largest that the joint needs for the movement "
+                  "without the garment. Green: below {} of it, red: above {} ({}).",
                   percent(s.limits.green), percent(s.limits.red), s.limits.source)),
               " class=\"meaning\"");
   std::string doubts;
@@ -199,13 +216,13 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   if (!batch) body += headline(s, c, pictures);
   const bool joints = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.highest(); });
   section("pay", batch || !joints ? "The runs" : "What each joint pays",
-          joints ? "Peak of the added torque in per cent of the joint\u2019s natural moment, and in Nm; \u00d7: as a "
-                   "multiple of the baseline\u2019s in the same motion."
+          joints ? "The largest added torque: in per cent of the joint\u2019s natural moment, in Nm, and as a part of that "
+                   "of the baseline, the variant that the others are compared with, in the same motion."
                  : "",
           payOf(s, c));
   if (!batch) {
-    section("curves", "Torque over time", "Each level has one colour throughout.", curvesOf(s, c));
-    section("laws", "How the torque follows the numbers", "", lawsOf(s, c));
+    section("curves", "Added torque over time", "Each variant has one colour throughout.", curvesOf(s, c));
+    section("laws", "How the torque changes with what varies", "", lawsOf(s, c));
     section("elasticities", "What the torque is made of", "", elasticitiesOf(c));
     section("meshes", "Coarse and fine", "What the error bar of the verdict comes from.", meshesOf(c));
     section("standing", "Standing and moving", "", standingOf(s, c));
@@ -214,7 +231,9 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   section("layers", "The layers", "", layersOf(s, c));
   section("cloth", "How it sits", "", clothOf(s, c));
   if (!pictures.empty())
-    section("pictures", "Side by side", "All of a motion at the same time, and all in the same colours.",
+    section("pictures", "Side by side", "Of each motion all variants at the same time. The same colour means the same value, and arrows of the same "
+            "length the same force, in all pictures. Colours end at a value that 99 % of the cloth stays below in every "
+            "picture; the pointed end of the bar stands for what is above.",
             pairs(s, pictures));
   section("checks", "Checks", "Every run checks itself, step by step.", checksOf(s, c));
   section("assumptions", "What was left out and assumed", "", leftOutOf(s, c));

@@ -8,6 +8,7 @@
 
 #include "analysis/report/html.hpp"
 #include "analysis/ticks.hpp"
+#include "cases/results_write.hpp"
 #include "cases/study/page_parts.hpp"
 #include "cases/zone_ledger.hpp"
 
@@ -114,7 +115,7 @@ std::string layersOf(const Study& s, const Comparison& c) {
   if (names.empty()) return "";
   std::vector<std::string> columns{"variant"};
   for (const std::string& n : names) columns.push_back(n.empty() ? "the garment" : n);
-  columns.insert(columns.end(), {"all [kg]", "cloth [m\u00b2]", "control points"});
+  columns.insert(columns.end(), {"all [kg]", "cloth [m\u00b2]", "points of the mesh"});
   // What is the same in all motions is told once.
   std::vector<std::pair<std::string, std::vector<std::vector<Html>>>> levels;
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
@@ -150,6 +151,7 @@ std::string layersOf(const Study& s, const Comparison& c) {
 
 std::string clothOf(const Study& s, const Comparison& c) {
   std::vector<std::vector<Html>> fit;
+  std::string stretch;
   for (const Group& g : c.groups)
     for (const std::size_t i : g.members) {
       const RunNumbers& r = c.runs[i];
@@ -159,20 +161,23 @@ std::string clothOf(const Study& s, const Comparison& c) {
         if (!top || n.p99_N_per_m > top->p99_N_per_m) top = &n;
       std::string region = top ? top->region : "\u2013", wearer = "\u2013";
       std::replace(region.begin(), region.end(), '_', ' ');
-      if (const auto* k = std::get_if<Case>(&s.variants[i].definition); k && k->human)
+      const auto* k = std::get_if<Case>(&s.variants[i].definition);
+      if (k && stretch.empty()) stretch = stretchMeaning(*k);
+      if (k && k->human)
         wearer = k->human->character ? k->human->character->file.stem().string()
                                      : (k->human->manikin.empty() ? "own" : k->human->manikin);
-      fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * r.largest_strain), Html(r.sinking_mm(), 2),
+      fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * r.p99_strain()), Html(100 * r.largest_strain), Html(r.sinking_mm(), 2),
                      Html(r.pressing_N()), escape(region), Html(top ? top->p50_N_per_m : std::nan("")),
                      Html(top ? top->p99_N_per_m : std::nan("")), Html(top ? top->max_N_per_m : std::nan(""))});
     }
   if (fit.empty()) return "";
-  return charts(htmlTable("Fit, and what the fabric carries",
-                          {"variant", "wearer", "largest strain [%]", "edge on springs sinks [mm]", "presses [N]",
-                           "patch that carries most", "median [N/m]", "p99 [N/m]", "largest [N/m]"},
-                          fit,
-                          "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the "
-                          "mean. Stress: first principal resultant; percentiles by area over the motion."));
+  return charts(htmlTable(
+      "Fit, and what the fabric carries",
+      {"variant", "wearer", "stretch, 99 % below [%]", "largest [%]", "edge on springs sinks [mm]", "presses [N]",
+       "patch that is pulled most", "half of it below [N/m]", "99 % below [N/m]", "largest [N/m]"},
+      fit,
+      "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the mean. Pull: the stress "
+      "in the fabric, per metre of width, over the area of that patch and the motion. " + stretch));
 }
 
 }  // namespace gambeson::study

@@ -34,6 +34,9 @@ std::string lightOf(const std::string& light);
 std::string percent(const std::optional<double>& part);
 std::string linkTo(const Variant& variant, const std::string& text);
 
+/// What "thickness x 0.5" means; empty where no axis is one of factors.
+std::string multiplesOf(const Study& study);
+
 // page_torque.cpp
 std::string payOf(const Study& study, const Comparison& c);
 std::string curvesOf(const Study& study, const Comparison& c);

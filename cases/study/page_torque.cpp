@@ -10,6 +10,7 @@
 #include "analysis/report/html.hpp"
 #include "analysis/report/xy_chart.hpp"
 #include "analysis/ticks.hpp"
+#include "cases/joint_words.hpp"
 #include "cases/study/page_parts.hpp"
 #include "cases/zone_ledger.hpp"
 
@@ -47,8 +48,57 @@ Html payment(const Study& s, const Comparison& c, std::size_t i, const JointNumb
                : "";
   std::string second = formatNumber(std::abs(j.peak_Nm)) + (j.prismatic ? " N" : " Nm");
   if (const JointRatio* r = ratioOf(c, i, j.name); r && !isBaseline(s, i) && std::isfinite(r->peak))
-    second += ", \u00d7" + formatNumber(r->peak, 2);
-  return Html::aligned(first + (first.empty() ? "" : "<br>") + element("small", escape(second)));
+    second += ", " + formatNumber(r->peak, 2) + " of the baseline\u2019s";
+  if (!j.prismatic) second += std::string("<br>") + nameOf(pushOf(j.peak_Nm, j.rate_at_peak));
+  return Html::aligned(first + (first.empty() ? "" : "<br>") + element("small", second));
+}
+
+/// The natural moment of a joint in a motion, and where it is of holding still what makes it.
+Html naturalOf(const Comparison& c, const Group& g, const std::string& joint) {
+  for (const std::size_t i : g.members) {
+    const JointNumbers* j = c.runs[i].joint(joint);
+    if (!j || !j->natural_Nm) continue;
+    std::string text = "natural " + escape(formatNumber(*j->natural_Nm)) + " Nm";
+    if (j->foot_part && j->lever_m)
+      text += fmt::format("<br>{} of the weight on this foot,<br>{} cm off the joint", percent(j->foot_part),
+                          formatNumber(100 * *j->lever_m, 2));
+    return Html::aligned(element("small", text));
+  }
+  return Html::aligned("");
+}
+
+/// Tells how the numbers of the table of payments are meant.
+std::string readingOf(const Study& s, const Comparison& c) {
+  std::string list;
+  const auto say = [&](const std::string& text) { list += element("li", escape(text)); };
+  const std::string& multiples = multiplesOf(s);
+  if (!multiples.empty()) say(multiples);
+  std::string counted;
+  bool lead_in = false;
+  for (const Group& g : c.groups)
+    for (const std::size_t i : g.members)
+      if (const RunNumbers& r = c.runs[i]; r.good && !r.time_s.empty()) {
+        lead_in = lead_in || r.counted_from_s > 0;
+        counted += fmt::format("{}{}from {}", counted.empty() ? "" : "; ", g.label.empty() ? "" : g.label + " ",
+                               r.counted_from_s > 0 ? html::seconds(r.counted_from_s) + " on" : "the start");
+        break;
+      }
+  if (lead_in)
+    say("Peak: the largest added torque of either sense once the motion repeats itself (" + counted +
+        "). Before that the wearer gets going from standing: the curves show it, the numbers leave it out.");
+  say("Against the motion: when its torque peaks, the garment hinders, and the muscles must turn the joint against it. "
+      "With the motion: it then turns the joint the way it goes, which helps unless the muscles are braking.");
+  std::vector<std::string> told;
+  for (const Group& g : c.groups) {
+    const auto* k = std::get_if<Case>(&s.variants[g.members[0]].definition);
+    const std::string natural = k ? naturalMeaning(k->analysis.task) : "";
+    if (natural.empty() || std::find(told.begin(), told.end(), natural) != told.end()) continue;
+    told.push_back(natural);
+    say((g.label.empty() ? "" : g.label + ": ") + natural);
+  }
+  say("Shown are the joint that decides (the largest share of its natural moment), those that are not green somewhere, "
+      "and those with a fifth of the largest torque. All joints are in variants.csv.");
+  return element("ul", list, " class=\"assumptions\"");
 }
 
 }  // namespace
@@ -89,13 +139,7 @@ std::string payOf(const Study& s, const Comparison& c) {
   for (const Group& g : c.groups) {
     if (c.groups.size() > 1 || !g.label.empty()) {
       std::vector<Html> heading{Html::heading(escape(g.label))};
-      for (const auto& [name, label] : joints) {
-        std::optional<double> natural;
-        for (const std::size_t i : g.members)
-          if (const JointNumbers* j = c.runs[i].joint(name); j && !natural) natural = j->natural_Nm;
-        heading.push_back(Html::aligned(natural ? element("small", escape("natural " + formatNumber(*natural) + " Nm"))
-                                                : std::string()));
-      }
+      for (const auto& [name, label] : joints) heading.push_back(naturalOf(c, g, name));
       heading.insert(heading.end(), 3, Html(std::string()));
       rows.push_back(heading);
     }
@@ -106,11 +150,8 @@ std::string payOf(const Study& s, const Comparison& c) {
           return std::find(g.members.begin(), g.members.end(), i) != g.members.end();
         }))
       others.push_back(rowOf(i, s.variants[i].label));
-  const std::string caption =
-      joints.empty() ? ""
-                     : "Joints that matter: the one that decides, those that are not green somewhere, and those with a "
-                       "fifth of the largest torque. All joints are in variants.csv.";
-  std::string out = charts(htmlTable(s.file.empty() ? "All runs" : "All variants", columns, rows, caption));
+  std::string out = charts(htmlTable(s.file.empty() ? "All runs" : "All variants", columns, rows, ""));
+  if (!joints.empty()) out += readingOf(s, c);
   if (!others.empty())
     out += folded(
         fmt::format("{} more {}, beside the variants compared", others.size(), others.size() == 1 ? "run" : "runs"),
@@ -135,12 +176,16 @@ std::string curvesOf(const Study& s, const Comparison& c) {
     for (const std::string& name : g.joints)
       for (std::size_t from = 1; from <= std::max<std::size_t>(last, 1); from += most) {
         Plot plot;
+        const JointNumbers* most_of = nullptr;
         for (const std::size_t i : g.members) {
           const JointNumbers* j = c.runs[i].joint(name);
           const std::size_t order = memberOrder(s, c, i);
           if (!j || (order != 0 && (order < from || order >= from + most))) continue;
           plot.title = named(g.label, j->label);
           plot.mark_from_s = c.runs[i].counted_from_s;
+          plot.caption = signOf(j->movement);
+          if (!most_of || std::abs(j->peak_Nm) > std::abs(most_of->peak_Nm)) most_of = j;
+          plot.peak_note = nameOf(pushOf(most_of->peak_Nm, most_of->rate_at_peak));
           plot.series.push_back({memberName(s, c, i), "Nm", c.runs[i].time_s, j->torque_Nm,
                                  static_cast<Tone>(order == 0 ? 0 : 1 + (order - 1) % most)});
         }
@@ -185,8 +230,12 @@ std::vector<Html> exponentCells(const Law* l, bool neighbours) {
   return cells;
 }
 
+bool isMultiple(const Study& s, const std::string& axis) {
+  return std::any_of(s.axes.begin(), s.axes.end(), [&](const Axis& a) { return a.name == axis && a.multiple; });
+}
+
 /// A line per motion, of the joint that decides, along every axis with three levels or more: two are a straight line.
-std::string lawPlots(const Comparison& c, const std::vector<Law>& laws) {
+std::string lawPlots(const Study& s, const Comparison& c, const std::vector<Law>& laws) {
   std::map<std::string, XyPlot> plots;
   for (const Law& l : laws) {
     const bool decides = std::any_of(c.groups.begin(), c.groups.end(), [&](const Group& g) {
@@ -198,9 +247,9 @@ std::string lawPlots(const Comparison& c, const std::vector<Law>& laws) {
     if (!l.peak || l.peak->law.points < 3 || !decides) continue;
     XyPlot& plot = plots[l.axis];
     if (plot.series.empty())
-      plot = {"Peak over " + l.axis,
-              "Both axes logarithmic: a power law is a straight line.",
-              l.axis,
+      plot = {"Peak torque over " + l.axis,
+              "Both axes are logarithmic, so that a power of the " + l.axis + " is a straight line.",
+              l.axis + (isMultiple(s, l.axis) ? ", as a multiple of the design\u2019s" : ""),
               "peak [Nm]",
               {},
               true};
@@ -226,11 +275,11 @@ std::string lawsOf(const Study& s, const Comparison& c) {
         levels.push_back(memberName(s, c, i));
   std::vector<std::string> columns{"joint"};
   for (const std::string& l : levels)
-    for (const char* what : {"peak", "RMS", "correlation"}) columns.push_back(l + ": " + what);
+    for (const char* what : {"peak", "mean square", "same course"}) columns.push_back(l + ": " + what);
   bool any_law = false;
   for (const Law& l : laws) any_law = any_law || l.axis == main;
-  if (any_law) columns.insert(columns.end(), {"exponent of the peak", "of the RMS"});
-  if (any_law && neighbours) columns.push_back("peak, between neighbours");
+  if (any_law) columns.insert(columns.end(), {"exponent of the peak", "of the mean square"});
+  if (any_law && neighbours) columns.push_back("of the peak, from level to level");
   std::vector<std::vector<Html>> rows, others;
   for (const Group& g : c.groups) {
     if (!g.label.empty() && !g.joints.empty()) {
@@ -269,20 +318,21 @@ std::string lawsOf(const Study& s, const Comparison& c) {
   std::string out;
   if (columns.size() > 1 && !rows.empty())
     out += htmlTable(
-        "Against the baseline, same motion and joint", columns, rows,
-        fmt::format("Peak and root mean square (RMS): ratios of sizes. Correlation of the histories: 1 for the same "
-                    "course in time.{}",
-                    !any_law     ? ""
-                    : neighbours ? " Exponent: d ln(torque) / d ln(level), a straight line through the logarithms; the "
-                                   "range between neighbours shows how far it is from a power law."
-                                 : " Exponent: d ln(torque) / d ln(level), of two points, so that how far it is from a "
-                                   "power law cannot be seen."));
+        "As a multiple of the baseline\u2019s, same motion and joint", columns, rows,
+        fmt::format("Peak: of the largest torques. Mean square: of the root mean squares over the time that counts. Same "
+                    "course: the correlation of the two curves, 1 where they rise and fall alike.{}",
+                    any_law ? " Exponent n: the torque goes with the " + main +
+                                  " to the power n. With 1, half of it leaves half of the torque, with 3 an eighth, with "
+                                  "0 all. " +
+                                  (neighbours ? "How much it varies from level to level shows how far that is from a law."
+                                              : "It is of two points: that it holds between or beyond them is not shown.")
+                            : ""));
   if (!others.empty()) {
-    std::vector<std::string> heads{"axis and joint", "exponent of the peak", "of the RMS"};
-    if (neighbours) heads.push_back("peak, between neighbours");
-    out += htmlTable("Along other axes: d ln(torque) / d ln(level)", heads, others, "");
+    std::vector<std::string> heads{"axis and joint", "exponent of the peak", "of the mean square"};
+    if (neighbours) heads.push_back("of the peak, from level to level");
+    out += htmlTable("Exponents along the other axes", heads, others, "");
   }
-  const std::string plots = lawPlots(c, laws);
+  const std::string plots = lawPlots(s, c, laws);
   return (plots.empty() ? "" : charts(plots)) + (out.empty() ? "" : element("div", out, " class=\"charts single\""));
 }
 
@@ -299,11 +349,12 @@ std::string elasticitiesOf(const Comparison& c) {
   if (rows.empty()) return "";
   return charts(htmlTable("By how many per cent the torque changes with one per cent of ...",
                           {"torque", "of", "bending", "membrane", "weight", "inertia", "drag", "sum", "rest",
-                           "thickness: predicted", "measured", "difference"},
+                           "exponent of thickness: predicted", "measured", "difference"},
                           rows,
-                          "Central differences of the logarithms. The rest, 1 - sum, is carried by what is none of the "
-                          "five: above all springs of supports, which do not change with the cloth. Predicted exponent "
-                          "of the thickness: membrane + weight + inertia + 3 bending."));
+                          "Each is found from two runs, one with a little less of it and one with a little more. Where "
+                          "they do not sum to 1, the rest is carried by what is none of the five: above all springs of "
+                          "supports, which do not change with the cloth. The exponent of the thickness that follows is "
+                          "membrane + weight + inertia + 3 bending; beside it the one that was measured."));
 }
 
 std::string standingOf(const Study& s, const Comparison& c) {
@@ -322,12 +373,12 @@ std::string standingOf(const Study& s, const Comparison& c) {
                       Html(std::abs(j->peak_Nm)), Html(above), Html(ratio, 2)});
     }
   if (rows.empty()) return "";
-  return charts(htmlTable("Standing as the baseline",
-                          {"variant", "joint that decides", "standing [Nm]", "peak [Nm]", "peak above standing [Nm]",
-                           "ratio to the baseline\u2019s"},
+  return charts(htmlTable("What standing still costs already, and what moving adds",
+                          {"variant", "joint that decides", "standing [Nm]", "peak [Nm]",
+                           "largest distance from standing [Nm]", "of the baseline\u2019s"},
                           rows,
-                          "Standing: the mean torque of the last 0.1 s before the motion, dressed and settled. Above "
-                          "standing: that torque subtracted from the history."));
+                          "Standing: the mean torque of the last 0.1 s before the motion, dressed and at rest. Distance "
+                          "from standing: how far the torque goes from that value, up or down."));
 }
 
 std::string meshesOf(const Comparison& c) {
@@ -338,9 +389,11 @@ std::string meshesOf(const Comparison& c) {
                     Html(100 * m.history, 2)});
   if (rows.empty()) return "";
   return charts(htmlTable("Coarse against fine",
-                          {"variant", "control points, coarse", "fine", "peak, coarse [Nm]", "fine [Nm]",
-                           "difference [%]", "histories differ [% of the peak]"},
-                          rows, "Histories: root mean square of the difference from 0.2 s on, of the fine peak."));
+                          {"variant", "points of the mesh, coarse", "fine", "peak, coarse [Nm]", "fine [Nm]",
+                           "difference [%]", "curves differ [% of the peak]"},
+                          rows,
+                          "The same garment computed with fewer and with more points. Curves: root mean square of the "
+                          "difference from 0.2 s on, of the fine peak."));
 }
 
 }  // namespace gambeson::study

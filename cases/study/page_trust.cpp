@@ -35,7 +35,7 @@ std::string checksOf(const Study& s, const Comparison& c) {
                                   linkTo(s.variants[i], s.variants[i].label));
         if (worst.name.empty() || !(k.value <= worst.value)) worst = k;
       }
-    const CheckWords words = checkWords(name, worst.value, worst.unit);
+    const CheckWords words = checkWords(name, worst.value, worst.limit, worst.unit);
     rows.push_back({escape(name), element("ul", runs, " class=\"plain\""),
                     Html::aligned(escape(formatNumber(worst.limit, 2) + (worst.unit.empty() ? "" : " ") + worst.unit)),
                     escape(words.means),

@@ -33,8 +33,8 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
   std::error_code error;
   std::filesystem::remove_all(folder, error);
   std::filesystem::create_directories(folder);
-  // One range of a field for all groups, so that motions can be compared as well.
-  std::vector<double> ranges(s.pictures.size(), 0);
+  // One scale for all groups, so that motions can be compared as well.
+  std::vector<PictureScale> scales(s.pictures.size());
   for (const bool draw : {false, true})
     for (const Group& g : c.groups)
       for (const std::size_t i : g.members) {
@@ -45,15 +45,16 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
           const RecordingReader recording(out / v.folder);
           for (std::size_t w = 0; w < s.pictures.size(); ++w) {
             PictureCase wish = s.pictures[w];
-            if (!draw) {
-              ranges[w] = std::max(ranges[w], fieldRange(*scenario, recording, wish.field));
-              continue;
-            }
             wish.time_s = timeOf(g, c, wish);
             wish.when = PictureTime::at;
             const int frame = frameOf(recording, {}, wish);
+            if (!draw) {
+              scales[w].include(scaleOf(*scenario, recording, frame, wish.field));
+              scales[w].high = std::max(scales[w].high, fieldRange(*scenario, recording, wish.field));
+              continue;
+            }
             const std::filesystem::path png = folder / fmt::format("{}_{:02d}.png", v.folder, w + 1);
-            renderFrame(*scenario, recording, frame, wish, ranges[w], png);
+            renderFrame(*scenario, recording, frame, wish, scales[w], png);
             pictures.push_back({i, w, png, v.label + ". " + captionOf(wish, recording.time(frame))});
           }
         } catch (const std::runtime_error& e) {

@@ -75,7 +75,7 @@ void addDoubts(const Comparison& c, VerdictInput& in) {
     }
   }
   for (const Worst& w : all) {
-    const CheckWords words = checkWords(w.check.name, w.check.value, w.check.unit);
+    const CheckWords words = checkWords(w.check.name, w.check.value, w.check.limit, w.check.unit);
     in.doubts.push_back(
         {fmt::format("{}{} ({} {})", words.wrong, w.beside, w.runs, w.runs == 1 ? "run" : "runs"), words.order});
   }
@@ -97,6 +97,7 @@ VerdictInput verdictInput(const Study& s, const Comparison& c) {
   VerdictInput in;
   const Axis* axis = c.main_axis >= 0 ? &s.axes[static_cast<std::size_t>(c.main_axis)] : nullptr;
   in.what = axis ? axis->name : "variant";
+  in.multiple = axis && axis->multiple;
   in.sized = axis && axis->role == Role::thickness && axis->levels[0].number;
   in.green = s.limits.green;
   in.red = s.limits.red;

@@ -183,9 +183,9 @@ TEST(Report, FailedCheckAndWarningStandAtTheTop) {
   EXPECT_FALSE(has(formatReport(in), "class=\"alarm\""));
   in.warnings = {"The run stopped at 1.2 s."};
   in.audit.push_back({"energy", NAN, 0.01, "", ""});
-  in.audit.push_back({"sign", -2, 1, "", ""});
+  in.audit.push_back({"sign", -2, 1, "", "", "it is <lost>"});
   const std::string page = formatReport(in);
-  EXPECT_TRUE(has(seen(page), "2 of 3 checks of this run fail"));
+  EXPECT_TRUE(has(seen(page), "2 of 3 checks of this run fail: it is &lt;lost&gt;. Do not rely"));
   EXPECT_LT(page.find("The run stopped at 1.2 s."), page.find("Peak added torque"));
   EXPECT_EQ(count(page, "\u2717 fails"), 2u);
   EXPECT_EQ(count(page, "\u2713 holds"), 1u);
@@ -236,6 +236,24 @@ TEST(Chart, PointsStandWhereTheAxesSay) {
   EXPECT_NEAR(t0 + (x - x0) / (x1 - x0) * (t1 - t0), 1, 0.01);
   EXPECT_NEAR(v0 + (y - y0) / (y1 - y0) * (v1 - v0), 2, 0.01);
   EXPECT_TRUE(has(svg, "peak 2.00 Nm at 1.00 s"));
+}
+
+/// What comes before the window that counts is shaded, and a higher point there is not the peak.
+TEST(Chart, TheStartThatIsNotCountedIsShadedAndSaid) {
+  Plot plot{"T", "Sign.", {{"a", "Nm", {0, 1, 2, 3, 4}, {0, 9, 1, -2, 0}, Tone::third}}, {}, true};
+  EXPECT_TRUE(has(lineChart(plot), "peak 9.00 Nm at 1.00 s"));
+  EXPECT_FALSE(has(lineChart(plot), "uncounted"));
+  plot.mark_from_s = 2;
+  plot.peak_note = "against the motion";
+  const std::string svg = lineChart(plot);
+  EXPECT_TRUE(has(svg, "peak \u22122.00 Nm at 3.00 s, against the motion")) << svg;
+  std::istringstream frame(quoted(svg, "data-frame=\"").at(0));
+  double x0, x1;
+  frame >> x0 >> x1;
+  const auto shaded = svg.find("<rect class=\"uncounted\"");
+  ASSERT_NE(shaded, std::string::npos);
+  EXPECT_NEAR(std::stod(quoted(svg.substr(shaded), " width=\"").at(0)), 0.5 * (x1 - x0), 0.1);
+  EXPECT_TRUE(has(svg, "Sign. Counted is what comes from 2.00 s on; the shaded start before it is shown but not judged."));
 }
 
 TEST(Chart, NanInterruptsTheLineAndIsCounted) {

@@ -61,5 +61,13 @@ TEST(Numbers, HaveSignificantDigits) {
   EXPECT_EQ(formatNumber(-std::numeric_limits<double>::infinity()), "\u2212infinite");
 }
 
+TEST(Ticks, BriefNumbersHaveNoZerosAtTheEnd) {
+  EXPECT_EQ(formatBrief(5, 2), "5");
+  EXPECT_EQ(formatBrief(80), "80");
+  EXPECT_EQ(formatBrief(0.25), "0.25");
+  EXPECT_EQ(formatBrief(1200), "1200");
+  EXPECT_EQ(formatBrief(0), "0");
+}
+
 }  // namespace
 }  // namespace gambeson

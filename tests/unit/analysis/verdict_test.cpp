@@ -17,12 +17,12 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 VerdictInput table(std::vector<double> parts) {
   VerdictInput in;
   in.what = "thickness";
-  in.sized = true;
+  in.sized = in.multiple = true;
   in.baseline = 2;
   in.green = 0.05;
   in.red = 0.15;
   in.checked_runs = 6;
-  const char* names[]{"thickness 0.5", "thickness 0.75", "thickness 1"};
+  const char* names[]{"thickness x 0.5", "thickness x 0.75", "thickness x 1"};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     Option o;
     o.name = names[i];
@@ -47,20 +47,20 @@ TEST(Verdict, TakesTheThickestThatStaysGreen) {
   const Verdict v = verdictOf(table({0.02, 0.04, 0.08}));
   EXPECT_EQ(v.take, 1);
   EXPECT_EQ(v.light, Light::green);
-  EXPECT_EQ(v.sentence, "Take thickness 0.75: the thickest that stays green in all 2 motions.");
+  EXPECT_EQ(v.sentence, "Take thickness x 0.75: the thickest that stays green in all 2 motions.");
   EXPECT_EQ(v.layers, "shirt 2.25 mm, pad 10.0 mm");
   EXPECT_EQ(
       v.enough,
       "Good enough: at most 2.00 Nm at the right hip (flexion), 4 % of its natural 50.0 Nm (stairs): green, below "
-      "5 %. The next, thickness 1, costs 4.00 Nm at the right hip (flexion), 8 % of its natural 50.0 Nm (stairs): "
+      "5 %. The next, thickness x 1, costs 4.00 Nm at the right hip (flexion), 8 % of its natural 50.0 Nm (stairs): "
       "amber.");
   EXPECT_EQ(v.estimate, "");
   // 0.04 reaches 0.05 with +25 %; 0.08 falls below with -37.5 %.
   ASSERT_TRUE(v.holds_up_to);
   EXPECT_NEAR(*v.holds_up_to, 0.25, 1e-9);
   EXPECT_EQ(v.why,
-            "Of the peak torque of thickness 1, where it counts most, thickness 0.5 has 0.25 (walking), 0.25 (stairs); "
-            "thickness 0.75 has 0.50 (walking), 0.50 (stairs).");
+            "Peak torque, where it counts most, as a multiple of that with thickness x 1: with thickness x 0.5 it is "
+            "0.25 (walking), 0.25 (stairs); with thickness x 0.75 it is 0.50 (walking), 0.50 (stairs).");
   EXPECT_TRUE(has(v.choice, "as long as the torques are right within 25 %")) << v.choice;
   EXPECT_EQ(v.surety, Surety::fairly);
   EXPECT_EQ(v.numbers,
@@ -82,7 +82,7 @@ TEST(Verdict, TakesTheBestOfThoseThatAreNotGoodEnough) {
   const Verdict v = verdictOf(table({0.2, 0.3, 0.4}));
   EXPECT_EQ(v.take, 0);
   EXPECT_EQ(v.light, Light::red);
-  EXPECT_EQ(v.sentence, "Take thickness 0.5: of the 3 studied it adds the least torque.");
+  EXPECT_EQ(v.sentence, "Take thickness x 0.5: of the 3 studied it adds the least torque.");
   EXPECT_TRUE(has(v.enough, "Not good enough as it is: up to 10.0 Nm")) << v.enough;
   // The next, 0.75, costs 1.5 times as much.
   EXPECT_NEAR(*v.order, 1.5, 1e-12);
@@ -114,8 +114,8 @@ TEST(Verdict, SaysWhichThicknessWouldDo) {
   // The pad does not go with the thickness and is not told.
   EXPECT_EQ(
       v.estimate,
-      "About thickness 0.43 (shirt 1.30 mm) would bring it down to amber (range 0.37 to 0.43). About thickness "
-      "0.25 (shirt 0.750 mm) would bring it down to green (range 0.12 to 0.25). Extrapolated, not run: by how the "
+      "About thickness x 0.43 (shirt 1.30 mm) would bring it down to amber (range 0.37 to 0.43). About thickness "
+      "x 0.25 (shirt 0.750 mm) would bring it down to green (range 0.12 to 0.25). Extrapolated, not run: by how the "
       "peak that decides, at the right hip (flexion) (stairs), goes with the thickness. The range is that of the "
       "exponents of this joint in all motions.");
 }
@@ -152,11 +152,11 @@ TEST(Verdict, DoesNotExtrapolateFar) {
 TEST(Verdict, SaysHowSureThatIs) {
   VerdictInput in = table({0.02, 0.04, 0.08});
   in.mesh_error = 0.06;
-  in.mesh_where = "walking, thickness 1";
+  in.mesh_where = "walking, thickness x 1";
   EXPECT_TRUE(has(verdictOf(in).choice, "Coarse and fine mesh differ by less, 6 %.")) << verdictOf(in).choice;
   EXPECT_EQ(verdictOf(in).surety, Surety::yes);
   EXPECT_TRUE(has(verdictOf(in).numbers, "Error bar of the peaks: 6 % either way")) << verdictOf(in).numbers;
-  EXPECT_TRUE(has(verdictOf(in).numbers, "(walking, thickness 1)"));
+  EXPECT_TRUE(has(verdictOf(in).numbers, "(walking, thickness x 1)"));
   in.mesh_error = 0.3;
   EXPECT_TRUE(has(verdictOf(in).choice, "differ by 30 %: too much to be sure"));
   EXPECT_EQ(verdictOf(in).surety, Surety::no);
@@ -170,6 +170,18 @@ TEST(Verdict, TheOrderIsSafeWhereBothMayBeOff) {
   EXPECT_EQ(verdictOf(in).surety, Surety::yes);
   in.mesh_error = 0.21;
   EXPECT_EQ(verdictOf(in).surety, Surety::no);
+}
+
+/// What the order does not hold for is named.
+TEST(Verdict, ExceptionsToTheOrderAreNamed) {
+  VerdictInput in = table({0.2, 0.3, 0.4});
+  EXPECT_TRUE(has(verdictOf(in).choice, "It costs more in all 2 pairs of joint and motion on this page."))
+      << verdictOf(in).choice;
+  in.options[1].costs[0].peak_Nm = 7.9;  // 8 Nm with the thinnest
+  EXPECT_TRUE(has(verdictOf(in).choice,
+                  "It costs more in 1 of the 2 pairs of joint and motion on this page; not at left hip (flexion), "
+                  "walking: 7.9 Nm against 8.0 Nm."))
+      << verdictOf(in).choice;
 }
 
 TEST(Verdict, FailingChecksTouchTheSizesOrTheOrder) {
@@ -191,7 +203,7 @@ TEST(Verdict, FailingChecksTouchTheSizesOrTheOrder) {
 TEST(Verdict, SaysHowTheTorqueGoesWithTheThickness) {
   VerdictInput in = table({0.02, 0.04, 0.08});
   in.exponents = {{"stairs", hip, {1.6, 0.05, 1.4, 1.8, 3}, {1.6, 0.05, 1.4, 1.8, 3}}};
-  EXPECT_TRUE(has(verdictOf(in).why, "to the power 1.6 with 1.4 to 1.8 between neighbours (stairs)"))
+  EXPECT_TRUE(has(verdictOf(in).why, "to the power 1.6 (stairs; 1.4 to 1.8 from one thickness to the next)"))
       << verdictOf(in).why;
 }
 
@@ -204,14 +216,14 @@ TEST(Verdict, ComfortIsSaidAndWhetherTheThicknessMatters) {
   EXPECT_EQ(v.comfort_light, Light::red);
   EXPECT_EQ(v.comfort,
             "Not comfortable: on the waist (stairs) 25.5 kPa in the mean (limit 4.67 kPa), 101 kPa at the peak (limit "
-            "9.81 kPa). With thickness 0.75 it is 25.6 kPa: the thickness hardly matters here. With thickness 1 it is "
+            "9.81 kPa). With thickness x 0.75 it is 25.6 kPa: the thickness hardly matters here. With thickness x 1 it is "
             "25.7 kPa: the thickness hardly matters here.");
   in.options[2].comforts[1].mean_Pa = 60e3;
-  EXPECT_TRUE(verdictOf(in).comfort.ends_with("With thickness 1 it is 60.0 kPa.")) << verdictOf(in).comfort;
+  EXPECT_TRUE(verdictOf(in).comfort.ends_with("With thickness x 1 it is 60.0 kPa.")) << verdictOf(in).comfort;
   // Where it is worse than another although that costs more.
   in.options[0].comforts[0] = {"walking", "left thigh", Light::amber, 3000, 4270, 9000, 9810};
   EXPECT_TRUE(has(verdictOf(in).comfort,
-                  "Less comfortable than thickness 1 (walking): 9.00 kPa on the left thigh "
+                  "Less comfortable than thickness x 1 (walking): 9.00 kPa on the left thigh "
                   "(amber) against 1.00 kPa on the chest (green)."))
       << verdictOf(in).comfort;
   in.options[0].comforts[0] = in.options[1].comforts[0];
@@ -228,7 +240,7 @@ TEST(Verdict, WithoutNaturalMomentsItSaysWhatCostsLeast) {
   const Verdict v = verdictOf(in);
   EXPECT_EQ(v.take, 0);
   EXPECT_EQ(v.light, Light::unknown);
-  EXPECT_TRUE(has(v.sentence, "Take thickness 0.5: of the 3 studied it adds the least torque.")) << v.sentence;
+  EXPECT_TRUE(has(v.sentence, "Take thickness x 0.5: of the 3 studied it adds the least torque.")) << v.sentence;
   EXPECT_TRUE(has(v.enough, "no natural moment")) << v.enough;
   EXPECT_FALSE(v.holds_up_to);
 }
@@ -253,7 +265,7 @@ TEST(Verdict, WithoutSizesTheCheapestIsTaken) {
   const Verdict v = verdictOf(in);
   EXPECT_EQ(v.take, 1);
   EXPECT_TRUE(has(v.sentence, "it adds the least torque")) << v.sentence;
-  EXPECT_TRUE(has(v.choice, "Thickness 1 costs 1.5 times as much")) << v.choice;
+  EXPECT_TRUE(has(v.choice, "Thickness x 1 costs 1.5 times as much")) << v.choice;
 }
 
 }  // namespace

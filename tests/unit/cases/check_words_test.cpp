@@ -24,12 +24,20 @@ TEST(CheckWords, EveryCheckOfARunHasThem) {
   m.joints = {joint};
   const auto checks = auditOf(m);
   EXPECT_EQ(checks.size(), 12u);
-  const std::string unknown = checkWords("no such check", 1, "").means;
+  const std::string unknown = checkWords("no such check", 1, 0, "").means;
   for (const AuditCheck& c : checks) {
-    EXPECT_NE(checkWords(c.name, 1, c.unit).means, unknown) << c.name;
-    EXPECT_FALSE(checkWords(c.name, 1, c.unit).wrong.empty());
+    EXPECT_NE(checkWords(c.name, 1, c.limit, c.unit).means, unknown) << c.name;
+    EXPECT_FALSE(checkWords(c.name, 1, c.limit, c.unit).wrong.empty());
   }
-  EXPECT_TRUE(checkWords("no such check", 1, "").order);  // what is not known spoils everything
+  EXPECT_TRUE(checkWords("no such check", 1, 0, "").order);  // what is not known spoils everything
+}
+
+TEST(CheckWords, SayWhatIsAllowed) {
+  EXPECT_EQ(checkWords("Penetration", 0.51, 0.2, "mm").wrong,
+            "contact points of the cloth lie up to 0.51 mm (allowed: 0.20 mm) inside the body");
+  EXPECT_NE(checkWords("Repeatability, shape", 0.1, 0.05, "").wrong.find("allowed: at least 0.95"), std::string::npos);
+  // Where nothing is allowed there is nothing to say.
+  EXPECT_EQ(checkWords("Intersections", 3, 0, "").wrong, "cloth passes through cloth at 3 places at the end");
 }
 
 }  // namespace

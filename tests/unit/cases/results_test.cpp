@@ -178,6 +178,9 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   EXPECT_NEAR(read.joints.at(0).friction_Nm.value(), 0.075, 1e-12);
   ASSERT_EQ(read.zones.size(), 2u);
   EXPECT_NEAR(read.pressing_N(), 2 * 1.8, 1e-12);
+  EXPECT_EQ(read.joints[0].movement, "flexion");
+  EXPECT_GT(read.joints[0].rate_at_peak, 0.02);  // the elbow flexes against the cloth
+  EXPECT_NEAR(read.p99_strain(), 10, 1e-6);
   ASSERT_NE(read.leastComfortable(), nullptr);
   EXPECT_EQ(read.leastComfortable()->light, "green");
 
@@ -200,10 +203,32 @@ TEST(Results, ReportSaysWhatWasMeasured) {
        {"Peak added elbow (flexion) torque", "0.300 Nm", "0.03 s", "flexion of the elbow against the garment",
         "degrees of flexion", "Cloth rests on bodies with its samples", "data:image/png;base64,",
         "governed by the bending term", "start held", "avx", "Which parts of the body bear the garment",
-        "Force on the body over time", "Part of it from friction"})
+        "Force on the body over time", "Part of it from friction", "Nm at 0.03 s, against the motion",
+        "hinders while the joint flexes", "strains below 2 %"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_EQ(page.find("The run stopped"), std::string::npos);
   EXPECT_EQ(content(folder.path() / "snapshots/01_stress_peak_left.png").substr(1, 3), "PNG");
+}
+
+TEST(Results, PicturesSideBySideTakeTheLargerScale) {
+  const Folder folder;
+  const auto s = buildScenario(sleeve());
+  record(*s, folder.path());
+  const RecordingReader recording(folder.path());
+  PictureScale scale = scaleOf(*s, recording, 2, PictureField::stress);
+  EXPECT_NEAR(scale.most_N, 1, 1e-12);  // one sample alone is pushed
+  EXPECT_EQ(scale.high, 10);
+  EXPECT_NEAR(scale.box_m.y, 0.12 + 2 * 0.06 * scale.size_m, 1e-3);
+  // Colours reach to what the frame itself has, whatever the rest of the motion.
+  const PictureScale stressed = scaleOf(*s, recording, 4, PictureField::stress);
+  EXPECT_GT(stressed.high, stress_high);
+  PictureScale other{1, 7, 0.1, {0, 9, 0}};
+  other.include(stressed);
+  EXPECT_EQ(other.high, stressed.high);
+  EXPECT_EQ(other.most_N, 7);
+  EXPECT_EQ(other.size_m, stressed.size_m);
+  EXPECT_EQ(other.box_m.x, stressed.box_m.x);
+  EXPECT_EQ(other.box_m.y, 9);
 }
 
 TEST(Results, SameRecordingSameBytes) {

@@ -354,7 +354,8 @@ TEST(Study, FailingChecksAreToldInWords) {
   Comparison c = compare(s, runs);
   ASSERT_EQ(c.input.doubts.size(), 1u);
   EXPECT_EQ(c.input.doubts[0].text,
-            "between its contact points the cloth dips up to 0.40 mm into the skin, thinnest cloth 1.0 mm (2 runs)");
+            "between its contact points the cloth dips up to 0.40 mm (allowed: 0.20 mm) into the skin, thinnest cloth 1.0 mm "
+            "(2 runs)");
   EXPECT_FALSE(c.input.doubts[0].order);
   EXPECT_EQ(c.input.failing_runs, 2);
   std::string page = studyPage(s, c, {}, {});
