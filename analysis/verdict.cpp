@@ -214,9 +214,9 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
     }
   if (!laws.empty())
     say(fmt::format(
-        "The torque goes with the {} to the power {}. With power 1, half of it leaves half of the torque: so do the "
-        "fabric\u2019s stretch, its weight and its inertia. Its bending stiffness alone would give 3, and 0 what does not "
-        "depend on it, such as air drag and springs that hold the garment.",
+        "The torque goes with the {0} to the power {1}: with power 1, half the {0} would leave half of the torque. The "
+        "fabric\u2019s stretch, weight and inertia alone give 1, its bending stiffness alone 3, and what does not depend "
+        "on the {0}, such as air drag and springs that hold the garment, 0.",
         in.what, laws));
   return why;
 }

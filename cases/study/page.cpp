@@ -33,6 +33,11 @@ Html Html::heading(std::string h) {
 std::string htmlTable(const std::string& title, const std::vector<std::string>& columns,
                       const std::vector<std::vector<Html>>& rows, const std::string& caption) {
   std::string head, body;
+  // "thickness x 0.5" stays on one line.
+  const auto together = [](std::string name) {
+    for (std::size_t at = 0; (at = name.find(" x ", at)) != std::string::npos; ++at) name.replace(at, 3, " x&nbsp;");
+    return name;
+  };
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const bool number =
         k > 0 && std::any_of(rows.begin(), rows.end(), [&](const auto& r) { return k < r.size() && r[k].number; });
@@ -41,7 +46,7 @@ std::string htmlTable(const std::string& title, const std::vector<std::string>& 
   for (const auto& row : rows) {
     std::string cells;
     for (std::size_t k = 0; k < row.size(); ++k)
-      cells += k == 0 ? element("th", row[k].html, " scope=\"row\"")
+      cells += k == 0 ? element("th", together(row[k].html), " scope=\"row\"")
                       : element("td", row[k].html, row[k].number ? " class=\"number\"" : "");
     body += element("tr", cells, row[0].heads ? " class=\"group\"" : "");
   }
@@ -81,10 +86,10 @@ std::string multiplesOf(const Study& s) {
       return x.number.value_or(1) < y.number.value_or(1);
     });
     if (!least->number) continue;
-    text += fmt::format("{}\u201c{} x {}\u201d is no measure but a multiple: {} times the {} that the garment was designed "
-                        "with{}; x 1 is the design.",
+    text += fmt::format("{}\u201c{} x {}\u201d means {} times the {} that the garment was designed with{}; x 1 is the "
+                        "design.",
                         text.empty() ? "" : " ", a.name, least->label, least->label, a.name,
-                        a.role == Role::thickness ? ", in every layer" : "");
+                        a.role == Role::thickness ? ", in every layer, and is no measure in mm" : "");
   }
   return text;
 }

@@ -48,7 +48,7 @@ Html payment(const Study& s, const Comparison& c, std::size_t i, const JointNumb
                : "";
   std::string second = formatNumber(std::abs(j.peak_Nm)) + (j.prismatic ? " N" : " Nm");
   if (const JointRatio* r = ratioOf(c, i, j.name); r && !isBaseline(s, i) && std::isfinite(r->peak))
-    second += ", " + formatNumber(r->peak, 2) + " of the baseline\u2019s";
+    second += "<br>" + formatNumber(r->peak, 2) + " of the baseline\u2019s";
   if (!j.prismatic) second += std::string("<br>") + nameOf(pushOf(j.peak_Nm, j.rate_at_peak));
   return Html::aligned(first + (first.empty() ? "" : "<br>") + element("small", second));
 }
@@ -71,8 +71,6 @@ Html naturalOf(const Comparison& c, const Group& g, const std::string& joint) {
 std::string readingOf(const Study& s, const Comparison& c) {
   std::string list;
   const auto say = [&](const std::string& text) { list += element("li", escape(text)); };
-  const std::string& multiples = multiplesOf(s);
-  if (!multiples.empty()) say(multiples);
   std::string counted;
   bool lead_in = false;
   for (const Group& g : c.groups)
@@ -137,9 +135,10 @@ std::string payOf(const Study& s, const Comparison& c) {
   };
   std::vector<std::vector<Html>> rows, others;
   for (const Group& g : c.groups) {
-    if (c.groups.size() > 1 || !g.label.empty()) {
-      std::vector<Html> heading{Html::heading(escape(g.label))};
-      for (const auto& [name, label] : joints) heading.push_back(naturalOf(c, g, name));
+    std::vector<Html> heading{Html::heading(escape(g.label))};
+    for (const auto& [name, label] : joints) heading.push_back(naturalOf(c, g, name));
+    const bool any = std::any_of(heading.begin(), heading.end(), [](const Html& h) { return !h.html.empty(); });
+    if (c.groups.size() > 1 || any) {
       heading.insert(heading.end(), 3, Html(std::string()));
       rows.push_back(heading);
     }

@@ -86,7 +86,7 @@ TEST(Verdict, TakesTheBestOfThoseThatAreNotGoodEnough) {
   EXPECT_TRUE(has(v.enough, "Not good enough as it is: up to 10.0 Nm")) << v.enough;
   // The next, 0.75, costs 1.5 times as much.
   EXPECT_NEAR(*v.order, 1.5, 1e-12);
-  EXPECT_TRUE(has(v.choice, "Thickness 0.75 costs 1.5 times as much where each is worst, and more at each of the 2"))
+  EXPECT_TRUE(has(v.choice, "Thickness x 0.75 costs 1.5 times as much, each where it costs most. It costs more in all 2"))
       << v.choice;
   EXPECT_EQ(v.surety, Surety::fairly);
   // Red up to 0.15 / 0.2: 25 %.
