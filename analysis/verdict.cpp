@@ -166,9 +166,10 @@ std::string estimateOf(const VerdictInput& in, const Verdict& v) {
     NoSize why = NoSize::none;
     const auto s = sizeFor(in, v.take, light == Light::amber ? in.red : in.green, why);
     if (s) {
-      say(sizes, fmt::format("About {} {}{}{} would bring it down to {} (range {} to {}).", in.what,
-                             in.multiple ? "x " : "", formatNumber(s->size, 2), bracketed(layersAt(in, v.take, s->size)), nameOf(light),
-                             formatNumber(s->low, 2), formatNumber(s->high, 2)));
+      say(sizes,
+          fmt::format("About {} {}{}{} would bring it down to {} (range {} to {}).", in.what, in.multiple ? "x " : "",
+                      formatNumber(s->size, 2), bracketed(layersAt(in, v.take, s->size)), nameOf(light),
+                      formatNumber(s->low, 2), formatNumber(s->high, 2)));
       how = fmt::format(
           "Extrapolated, not run: by how the peak that decides, at the {}{}, goes with the {}. The range "
           "is that of the exponents of this joint in all motions.",
@@ -200,8 +201,8 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
   std::string why;
   const auto say = [&](const std::string& s) { why += (why.empty() ? "" : " ") + s; };
   if (!ratios.empty())
-    say(fmt::format("Peak torque, where it counts most, as a multiple of that with {}: {}.",
-                    at(in, in.baseline).name, ratios));
+    say(fmt::format("Peak torque, where it counts most, as a multiple of that with {}: {}.", at(in, in.baseline).name,
+                    ratios));
   std::string laws;
   for (const std::string& m : motionsOf(at(in, v.take)))
     if (const auto* e = exponentOf(in, *worstCost(at(in, v.take), &m))) {
@@ -215,7 +216,8 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
   if (!laws.empty())
     say(fmt::format(
         "The torque goes with the {0} to the power {1}: with power 1, half the {0} would leave half of the torque. The "
-        "fabric\u2019s stretch, weight and inertia alone give 1, its bending stiffness alone 3, and what does not depend "
+        "fabric\u2019s stretch, weight and inertia alone give 1, its bending stiffness alone 3, and what does not "
+        "depend "
         "on the {0}, such as air drag and springs that hold the garment, 0.",
         in.what, laws));
   return why;
@@ -307,7 +309,8 @@ void judgeChoice(const VerdictInput& in, Verdict& v) {
       v.order = factorOf(at(in, v.take), *next);
       margin = *v.order - 1;
       const bool one_motion = motionsOf(at(in, v.take)).size() < 2;
-      say(fmt::format("{} costs {} times as much, each where it costs most. {} To turn the order, the torques of one "
+      say(
+          fmt::format("{} costs {} times as much, each where it costs most. {} To turn the order, the torques of one "
                       "would have to be wrong against the other by that factor.",
                       next->name, formatNumber(*v.order, 2), comparedOf(at(in, v.take), *next, one_motion)));
       v.choice[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(v.choice[0])));

@@ -6,8 +6,8 @@
 namespace gambeson {
 
 struct CheckWords {
-  std::string wrong;  ///< completes "it is found that ...", with the measured value and what is allowed
-  std::string means;  ///< for the torques, as a sentence
+  std::string wrong;   ///< completes "it is found that ...", with the measured value and what is allowed
+  std::string means;   ///< for the torques, as a sentence
   bool order = false;  ///< variants may come out in the wrong order; else the sizes of the torques are less sure
 };
 

@@ -261,7 +261,8 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   if (picture.field != PictureField::plain) {
     for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
     const double most = *std::max_element(scalars.begin(), scalars.end());
-    scene.bar = ColorBar{fmt::format("{}; here up to {}", words.title, formatBrief(most, 2)), 0, words.scale * scale.high};
+    scene.bar =
+        ColorBar{fmt::format("{}; here up to {}", words.title, formatBrief(most, 2)), 0, words.scale * scale.high};
   }
   // A mesh for each layer, with its samples alone.
   const Surface& surface = s.model->surface;

@@ -59,11 +59,7 @@ void addPlots(const Measured& m, ReportInput& in) {
   for (const JointMeasure& j : m.joints)
     if (std::find(titles.begin(), titles.end(), titleOf(j)) == titles.end()) titles.push_back(titleOf(j));
   for (const std::string& title : titles) {
-    Plot plot{capital(title),
-              "",
-              {},
-              marks,
-              true};
+    Plot plot{capital(title), "", {}, marks, true};
     std::string unit = "Nm";
     const JointMeasure* highest = nullptr;
     for (const JointMeasure& j : m.joints)
@@ -108,12 +104,12 @@ void addContact(const Measured& m, bool chart_too, ReportInput& in) {
 }
 
 void addStress(const Scenario& s, const Measured& m, ReportInput& in) {
-  Table table{"Stress (the largest pull, per metre of width) and stretch of each patch",
-              "By area over all frames of the motion: 95 % of a patch carries at most p95, 99 % at most p99. " +
-                  stretchMeaning(s.definition),
-              {"patch", "median [N/m]", "p95 [N/m]", "p99 [N/m]", "largest [N/m]", "at [s]", "stretch, p99 [%]",
-               "largest [%]"},
-              {}};
+  Table table{
+      "Stress (the largest pull, per metre of width) and stretch of each patch",
+      "By area over all frames of the motion: 95 % of a patch carries at most p95, 99 % at most p99. " +
+          stretchMeaning(s.definition),
+      {"patch", "median [N/m]", "p95 [N/m]", "p99 [N/m]", "largest [N/m]", "at [s]", "stretch, p99 [%]", "largest [%]"},
+      {}};
   for (std::size_t r = 0; r < m.stress.size(); ++r) {
     const StressSummary& k = m.stress[r];
     std::string name = m.regions.names[r];
@@ -236,7 +232,8 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
               {"Largest stretch",
                [&] {
                  double e = 0, most = 0;
-                 for (const StressSummary& r : m.stress) e = std::max(e, r.max_strain), most = std::max(most, r.p99_strain);
+                 for (const StressSummary& r : m.stress)
+                   e = std::max(e, r.max_strain), most = std::max(most, r.p99_strain);
                  return fmt::format("{} %; 99 % of every patch stays below {} %", formatNumber(100 * e),
                                     formatNumber(100 * most));
                }()},

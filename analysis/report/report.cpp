@@ -59,11 +59,12 @@ std::string headline(const ReportInput& in) {
   std::string words = element("p", prose(headlineOf(in)), " class=\"sentence\"");
   if (const JointSummary* j = highestJoint(in)) {
     words += answers(in, *j);
-    words += element("p",
-                     "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles "
-                     "must give as much against it, on top of what the movement needs. Where the garment pushes the way "
-                     "the joint moves, they are spared it.",
-                     " class=\"meaning\"");
+    words +=
+        element("p",
+                "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles "
+                "must give as much against it, on top of what the movement needs. Where the garment pushes the way "
+                "the joint moves, they are spared it.",
+                " class=\"meaning\"");
   }
   std::string body = element("div", words, " class=\"words\"");
   if (!in.pictures.empty()) body += figureOf(in.pictures.front());

@@ -9,8 +9,8 @@
 namespace gambeson::study {
 
 struct JointNumbers {
-  std::string name;   ///< "hip_flexion_left"
-  std::string label;  ///< "left hip (flexion)"
+  std::string name;      ///< "hip_flexion_left"
+  std::string label;     ///< "left hip (flexion)"
   std::string movement;  ///< "flexion", empty where the name has none
   bool prismatic = false;
   double peak_Nm = 0, peak_time_s = 0, rms_Nm = 0;  ///< of the added torque; the peak is signed
@@ -85,7 +85,7 @@ struct RunNumbers {
   double thinnest_mm() const;  ///< layer, 0 without one
   /// What the value of a check is to be held against, ", thinnest cloth 0.38 mm" for depths; else empty.
   std::string heldAgainst(const std::string& check) const;
-  double sinking_mm() const;   ///< of the edge on springs that sinks most, NaN without one
+  double sinking_mm() const;  ///< of the edge on springs that sinks most, NaN without one
   /// The joint of the largest |peak|, null without joints that turn.
   const JointNumbers* highest() const;
   /// The joint that decides: of the largest part of its natural moment, or of the largest torque where none is known.

@@ -86,10 +86,11 @@ std::string multiplesOf(const Study& s) {
       return x.number.value_or(1) < y.number.value_or(1);
     });
     if (!least->number) continue;
-    text += fmt::format("{}\u201c{} x {}\u201d means {} times the {} that the garment was designed with{}; x 1 is the "
-                        "design.",
-                        text.empty() ? "" : " ", a.name, least->label, least->label, a.name,
-                        a.role == Role::thickness ? ", in every layer, and is no measure in mm" : "");
+    text += fmt::format(
+        "{}\u201c{} x {}\u201d means {} times the {} that the garment was designed with{}; x 1 is the "
+        "design.",
+        text.empty() ? "" : " ", a.name, least->label, least->label, a.name,
+        a.role == Role::thickness ? ", in every layer, and is no measure in mm" : "");
   }
   return text;
 }
@@ -160,15 +161,15 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
           shown = &p;
   }
   if (shown) body += figureOf({shown->png, shown->caption, ""});
-  const std::string meaning =
-      element("p",
-              escape(fmt::format(
-                  "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles must "
-                  "give as much against it, on top of what the movement needs. Where the garment pushes the way the "
-                  "joint moves, they are spared it. Natural moment: the largest that the joint needs for the movement "
-                  "without the garment. Green: below {} of it, red: above {} ({}).",
-                  percent(s.limits.green), percent(s.limits.red), s.limits.source)),
-              " class=\"meaning\"");
+  const std::string meaning = element(
+      "p",
+      escape(fmt::format(
+          "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles must "
+          "give as much against it, on top of what the movement needs. Where the garment pushes the way the "
+          "joint moves, they are spared it. Natural moment: the largest that the joint needs for the movement "
+          "without the garment. Green: below {} of it, red: above {} ({}).",
+          percent(s.limits.green), percent(s.limits.red), s.limits.source)),
+      " class=\"meaning\"");
   std::string doubts;
   for (const auto& d : c.input.doubts) doubts += element("li", prose(d.text));
   const char* surety[]{"not sure", "fairly sure", "sure"};
@@ -220,11 +221,12 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   };
   if (!batch) body += headline(s, c, pictures);
   const bool joints = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.highest(); });
-  section("pay", batch || !joints ? "The runs" : "What each joint pays",
-          joints ? "The largest added torque: in per cent of the joint\u2019s natural moment, in Nm, and as a part of that "
-                   "of the baseline, the variant that the others are compared with, in the same motion."
-                 : "",
-          payOf(s, c));
+  section(
+      "pay", batch || !joints ? "The runs" : "What each joint pays",
+      joints ? "The largest added torque: in per cent of the joint\u2019s natural moment, in Nm, and as a part of that "
+               "of the baseline, the variant that the others are compared with, in the same motion."
+             : "",
+      payOf(s, c));
   if (!batch) {
     section("curves", "Added torque over time", "Each variant has one colour throughout.", curvesOf(s, c));
     section("laws", "How the torque changes with what varies", "", lawsOf(s, c));
@@ -236,10 +238,12 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   section("layers", "The layers", "", layersOf(s, c));
   section("cloth", "How it sits", "", clothOf(s, c));
   if (!pictures.empty())
-    section("pictures", "Side by side", "Of each motion all variants at the same time. The same colour means the same value, and arrows of the same "
-            "length the same force, in all pictures. Colours end at a value that 99 % of the cloth stays below in every "
-            "picture; the pointed end of the bar stands for what is above.",
-            pairs(s, pictures));
+    section(
+        "pictures", "Side by side",
+        "Of each motion all variants at the same time. The same colour means the same value, and arrows of the same "
+        "length the same force, in all pictures. Colours end at a value that 99 % of the cloth stays below in every "
+        "picture; the pointed end of the bar stands for what is above.",
+        pairs(s, pictures));
   section("checks", "Checks", "Every run checks itself, step by step.", checksOf(s, c));
   section("assumptions", "What was left out and assumed", "", leftOutOf(s, c));
   return pageOf(s.name, s.description, batch ? s.name : c.verdict.sentence, body);

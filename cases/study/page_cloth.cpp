@@ -166,9 +166,10 @@ std::string clothOf(const Study& s, const Comparison& c) {
       if (k && k->human)
         wearer = k->human->character ? k->human->character->file.stem().string()
                                      : (k->human->manikin.empty() ? "own" : k->human->manikin);
-      fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * r.p99_strain()), Html(100 * r.largest_strain), Html(r.sinking_mm(), 2),
-                     Html(r.pressing_N()), escape(region), Html(top ? top->p50_N_per_m : std::nan("")),
-                     Html(top ? top->p99_N_per_m : std::nan("")), Html(top ? top->max_N_per_m : std::nan(""))});
+      fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * r.p99_strain()),
+                     Html(100 * r.largest_strain), Html(r.sinking_mm(), 2), Html(r.pressing_N()), escape(region),
+                     Html(top ? top->p50_N_per_m : std::nan("")), Html(top ? top->p99_N_per_m : std::nan("")),
+                     Html(top ? top->max_N_per_m : std::nan(""))});
     }
   if (fit.empty()) return "";
   return charts(htmlTable(
@@ -176,8 +177,10 @@ std::string clothOf(const Study& s, const Comparison& c) {
       {"variant", "wearer", "stretch, 99 % below [%]", "largest [%]", "edge on springs sinks [mm]", "presses [N]",
        "patch that is pulled most", "half of it below [N/m]", "99 % below [N/m]", "largest [N/m]"},
       fit,
-      "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the mean. Pull: the stress "
-      "in the fabric, per metre of width, over the area of that patch and the motion. " + stretch));
+      "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the mean. Pull: the "
+      "stress "
+      "in the fabric, per metre of width, over the area of that patch and the motion. " +
+          stretch));
 }
 
 }  // namespace gambeson::study

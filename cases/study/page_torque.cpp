@@ -318,14 +318,15 @@ std::string lawsOf(const Study& s, const Comparison& c) {
   if (columns.size() > 1 && !rows.empty())
     out += htmlTable(
         "As a multiple of the baseline\u2019s, same motion and joint", columns, rows,
-        fmt::format("Peak: of the largest torques. Mean square: of the root mean squares over the time that counts. Same "
-                    "course: the correlation of the two curves, 1 where they rise and fall alike.{}",
-                    any_law ? " Exponent n: the torque goes with the " + main +
-                                  " to the power n. With 1, half of it leaves half of the torque, with 3 an eighth, with "
-                                  "0 all. " +
-                                  (neighbours ? "How much it varies from level to level shows how far that is from a law."
-                                              : "It is of two points: that it holds between or beyond them is not shown.")
-                            : ""));
+        fmt::format(
+            "Peak: of the largest torques. Mean square: of the root mean squares over the time that counts. Same "
+            "course: the correlation of the two curves, 1 where they rise and fall alike.{}",
+            any_law ? " Exponent n: the torque goes with the " + main +
+                          " to the power n. With 1, half of it leaves half of the torque, with 3 an eighth, with "
+                          "0 all. " +
+                          (neighbours ? "How much it varies from level to level shows how far that is from a law."
+                                      : "It is of two points: that it holds between or beyond them is not shown.")
+                    : ""));
   if (!others.empty()) {
     std::vector<std::string> heads{"axis and joint", "exponent of the peak", "of the mean square"};
     if (neighbours) heads.push_back("of the peak, from level to level");
@@ -372,12 +373,13 @@ std::string standingOf(const Study& s, const Comparison& c) {
                       Html(std::abs(j->peak_Nm)), Html(above), Html(ratio, 2)});
     }
   if (rows.empty()) return "";
-  return charts(htmlTable("What standing still costs already, and what moving adds",
-                          {"variant", "joint that decides", "standing [Nm]", "peak [Nm]",
-                           "largest distance from standing [Nm]", "of the baseline\u2019s"},
-                          rows,
-                          "Standing: the mean torque of the last 0.1 s before the motion, dressed and at rest. Distance "
-                          "from standing: how far the torque goes from that value, up or down."));
+  return charts(
+      htmlTable("What standing still costs already, and what moving adds",
+                {"variant", "joint that decides", "standing [Nm]", "peak [Nm]", "largest distance from standing [Nm]",
+                 "of the baseline\u2019s"},
+                rows,
+                "Standing: the mean torque of the last 0.1 s before the motion, dressed and at rest. Distance "
+                "from standing: how far the torque goes from that value, up or down."));
 }
 
 std::string meshesOf(const Comparison& c) {

@@ -20,7 +20,7 @@ struct Setting {
 
 struct Level {
   std::string label;
-  std::string name;    ///< as people read it: the label where the study gives one, else with the axis: "thickness x 0.5"
+  std::string name;  ///< as people read it: the label where the study gives one, else with the axis: "thickness x 0.5"
   std::string folder;  ///< what it adds to a variant's folder
   std::vector<Setting> set;
   std::optional<double> number;  ///< where all levels of the axis are numbers, of one unit

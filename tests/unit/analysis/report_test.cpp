@@ -253,7 +253,8 @@ TEST(Chart, TheStartThatIsNotCountedIsShadedAndSaid) {
   const auto shaded = svg.find("<rect class=\"uncounted\"");
   ASSERT_NE(shaded, std::string::npos);
   EXPECT_NEAR(std::stod(quoted(svg.substr(shaded), " width=\"").at(0)), 0.5 * (x1 - x0), 0.1);
-  EXPECT_TRUE(has(svg, "Sign. Counted is what comes from 2.00 s on; the shaded start before it is shown but not judged."));
+  EXPECT_TRUE(
+      has(svg, "Sign. Counted is what comes from 2.00 s on; the shaded start before it is shown but not judged."));
 }
 
 TEST(Chart, NanInterruptsTheLineAndIsCounted) {

@@ -86,7 +86,8 @@ TEST(Verdict, TakesTheBestOfThoseThatAreNotGoodEnough) {
   EXPECT_TRUE(has(v.enough, "Not good enough as it is: up to 10.0 Nm")) << v.enough;
   // The next, 0.75, costs 1.5 times as much.
   EXPECT_NEAR(*v.order, 1.5, 1e-12);
-  EXPECT_TRUE(has(v.choice, "Thickness x 0.75 costs 1.5 times as much, each where it costs most. It costs more in all 2"))
+  EXPECT_TRUE(
+      has(v.choice, "Thickness x 0.75 costs 1.5 times as much, each where it costs most. It costs more in all 2"))
       << v.choice;
   EXPECT_EQ(v.surety, Surety::fairly);
   // Red up to 0.15 / 0.2: 25 %.
@@ -214,10 +215,11 @@ TEST(Verdict, ComfortIsSaidAndWhetherTheThicknessMatters) {
                   {"stairs", "waist", Light::red, 25300 + 400 * *o.size, 4670, 101e3, 9810}};
   Verdict v = verdictOf(in);
   EXPECT_EQ(v.comfort_light, Light::red);
-  EXPECT_EQ(v.comfort,
-            "Not comfortable: on the waist (stairs) 25.5 kPa in the mean (limit 4.67 kPa), 101 kPa at the peak (limit "
-            "9.81 kPa). With thickness x 0.75 it is 25.6 kPa: the thickness hardly matters here. With thickness x 1 it is "
-            "25.7 kPa: the thickness hardly matters here.");
+  EXPECT_EQ(
+      v.comfort,
+      "Not comfortable: on the waist (stairs) 25.5 kPa in the mean (limit 4.67 kPa), 101 kPa at the peak (limit "
+      "9.81 kPa). With thickness x 0.75 it is 25.6 kPa: the thickness hardly matters here. With thickness x 1 it is "
+      "25.7 kPa: the thickness hardly matters here.");
   in.options[2].comforts[1].mean_Pa = 60e3;
   EXPECT_TRUE(verdictOf(in).comfort.ends_with("With thickness x 1 it is 60.0 kPa.")) << verdictOf(in).comfort;
   // Where it is worse than another although that costs more.

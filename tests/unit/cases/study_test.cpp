@@ -312,7 +312,7 @@ TEST(Study, ALevelLooksTheSameEverywhere) {
     const std::string path = page.substr(page.rfind('<', at), at - page.rfind('<', at) + 40);
     const char* wanted = path.find("\"thickness x 1\"") != std::string::npos     ? "left"
                          : path.find("\"thickness x 0.5\"") != std::string::npos ? "right"
-                                                                               : "third";
+                                                                                 : "third";
     EXPECT_NE(path.find(std::string("series ") + wanted), std::string::npos) << path;
   }
   EXPECT_EQ(charts, 6u);
@@ -346,6 +346,32 @@ TEST(Study, TheLightIsThatOfTheJointThatDecides) {
   EXPECT_EQ(compare(s, runs).groups[0].joints, (std::vector<std::string>{"hip_flexion_right", "hip_flexion_left"}));
 }
 
+/// What a reader must know to read the numbers stands beside them.
+TEST(Study, ThePageSaysHowItsNumbersAreMeant) {
+  const Study s = read(motions);
+  std::vector<RunNumbers> runs = numbersOf(s);
+  for (RunNumbers& r : runs) {
+    JointNumbers& j = r.joints[0];
+    r.counted_from_s = 0.2;
+    j.movement = "flexion";
+    j.rate_at_peak = j.peak_Nm > 0 ? 1 : -1;
+    j.foot_part = 0.63;
+    j.lever_m = 0.28;
+    r.stress = {{"trunk", 1, 2, 3, 4, 0.031, 0.46}, {"leg", 1, 2, 3, 4, 0.02, 0.1}};
+  }
+  EXPECT_EQ(runs[0].p99_strain(), 0.031);
+  const std::string page = studyPage(s, compare(s, runs), {}, {});
+  for (const char* text :
+       {"means 0.5 times the thickness that the garment was designed with, in every layer",
+        "(walking from 0.20 s on; stairs from 0.20 s on)", "the shaded start before it is shown but not judged",
+        "natural 100 Nm<br>63 % of the weight on this foot,<br>28 cm off the joint", "<br>against the motion</small>",
+        ", against the motion</text>", "hinders while the joint flexes", "The case sets no limit to it"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(page.find("with the motion</"), std::string::npos);
+  for (RunNumbers& r : runs) r.joints[0].rate_at_peak *= -1;
+  EXPECT_NE(studyPage(s, compare(s, runs), {}, {}).find("<br>with the motion</small>"), std::string::npos);
+}
+
 TEST(Study, FailingChecksAreToldInWords) {
   const Study s = read(motions);
   std::vector<RunNumbers> runs = numbersOf(s);
@@ -353,9 +379,10 @@ TEST(Study, FailingChecksAreToldInWords) {
   runs[1].checks = {{"Penetration between samples", 0.4, 0.2, "mm", false}};
   Comparison c = compare(s, runs);
   ASSERT_EQ(c.input.doubts.size(), 1u);
-  EXPECT_EQ(c.input.doubts[0].text,
-            "between its contact points the cloth dips up to 0.40 mm (allowed: 0.20 mm) into the skin, thinnest cloth 1.0 mm "
-            "(2 runs)");
+  EXPECT_EQ(
+      c.input.doubts[0].text,
+      "between its contact points the cloth dips up to 0.40 mm (allowed: 0.20 mm) into the skin, thinnest cloth 1.0 mm "
+      "(2 runs)");
   EXPECT_FALSE(c.input.doubts[0].order);
   EXPECT_EQ(c.input.failing_runs, 2);
   std::string page = studyPage(s, c, {}, {});
