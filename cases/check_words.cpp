@@ -7,7 +7,10 @@
 namespace gambeson {
 
 CheckWords checkWords(const std::string& check, double value, double limit, const std::string& unit) {
-  const auto withUnit = [&](double x) { return formatNumber(x, 2) + (unit.empty() ? "" : " ") + unit; };
+  // As many digits as tell the two apart.
+  int digits = 2;
+  while (digits < 5 && value != limit && formatNumber(value, digits) == formatNumber(limit, digits)) ++digits;
+  const auto withUnit = [&](double x) { return formatNumber(x, digits) + (unit.empty() ? "" : " ") + unit; };
   const std::string much = withUnit(value) + (limit > 0 ? " (allowed: " + withUnit(limit) + ")" : "");
   const std::string count = fmt::format("{:.0f}", value);
   if (check == "Momentum")

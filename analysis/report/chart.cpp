@@ -116,7 +116,7 @@ std::string peakMark(const Series& s, std::size_t i, const Frame& f, const std::
 /// The start that is not judged.
 std::string uncounted(double until_s, const Frame& f) {
   const double width = f.x(until_s) - kLeft;
-  const std::string label = width > 84 ? "not counted" : "";
+  const std::string label = width > 72 ? "not counted" : "";
   return fmt::format("<rect class=\"uncounted\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", kLeft,
                      kTop, width, kHeight - kBottom - kTop) +
          text(kLeft + 0.5 * width, kHeight - kBottom - 6, label, "middle", " class=\"uncounted-label\"");

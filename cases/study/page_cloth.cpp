@@ -177,7 +177,8 @@ std::string clothOf(const Study& s, const Comparison& c) {
       {"variant", "wearer", "stretch, 99 % below [%]", "largest [%]", "edge on springs sinks [mm]", "presses [N]",
        "patch that is pulled most", "half of it below [N/m]", "99 % below [N/m]", "largest [N/m]"},
       fit,
-      "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the mean. Pull: the "
+      "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the mean; 99 % is of "
+      "the patch that stretches most. Pull: the "
       "stress "
       "in the fabric, per metre of width, over the area of that patch and the motion. " +
           stretch));

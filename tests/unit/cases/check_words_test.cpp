@@ -36,6 +36,7 @@ TEST(CheckWords, SayWhatIsAllowed) {
   EXPECT_EQ(checkWords("Penetration", 0.51, 0.2, "mm").wrong,
             "contact points of the cloth lie up to 0.51 mm (allowed: 0.20 mm) inside the body");
   EXPECT_NE(checkWords("Repeatability, shape", 0.1, 0.05, "").wrong.find("allowed: at least 0.95"), std::string::npos);
+  EXPECT_NE(checkWords("Contact solver", 1.04, 1, "%").wrong.find("1.04 % (allowed: 1.00 %)"), std::string::npos);
   // Where nothing is allowed there is nothing to say.
   EXPECT_EQ(checkWords("Intersections", 3, 0, "").wrong, "cloth passes through cloth at 3 places at the end");
 }
