@@ -283,7 +283,7 @@ std::string comparedOf(const Option& taken, const Option& more, bool one_motion)
     others += fmt::format("{}{}{}: {} Nm against {} Nm", others.empty() ? "" : "; ", c.joint,
                           one_motion ? "" : ", " + c.motion, formatNumber(k->peak_Nm, 2), formatNumber(c.peak_Nm, 2));
   }
-  const std::string all = fmt::format("{} {} on this page", both, one_motion ? "joints" : "pairs of joint and motion");
+  const std::string all = fmt::format("{} {} that matter", both, one_motion ? "joints" : "pairs of joint and motion");
   if (less == both) return fmt::format("It costs more in all {}.", all);
   return fmt::format("It costs more in {} of the {}; not at {}.", less, all, others);
 }

@@ -60,7 +60,7 @@ Html naturalOf(const Comparison& c, const Group& g, const std::string& joint) {
     if (!j || !j->natural_Nm) continue;
     std::string text = "natural " + escape(formatNumber(*j->natural_Nm)) + " Nm";
     if (j->foot_part && j->lever_m)
-      text += fmt::format("<br>{} of the weight on this foot,<br>{} cm off the joint", percent(j->foot_part),
+      text += fmt::format("<br>foot bears {},<br>{} cm off the joint", percent(j->foot_part),
                           formatNumber(100 * *j->lever_m, 2));
     return Html::aligned(element("small", text));
   }
@@ -92,7 +92,12 @@ std::string readingOf(const Study& s, const Comparison& c) {
     const std::string natural = k ? naturalMeaning(k->analysis.task) : "";
     if (natural.empty() || std::find(told.begin(), told.end(), natural) != told.end()) continue;
     told.push_back(natural);
-    say((g.label.empty() ? "" : g.label + ": ") + natural);
+    const JointNumbers* j = c.runs[g.members[0]].joint(g.joint());
+    say((g.label.empty() ? "" : g.label + ": ") + natural +
+        (j && j->foot_part
+             ? " Under each: the part of the weight on that foot, and how far from the joint the ground\u2019s "
+               "force on it passes."
+             : ""));
   }
   say("Shown are the joint that decides (the largest share of its natural moment), those that are not green somewhere, "
       "and those with a fifth of the largest torque. All joints are in variants.csv.");

@@ -176,11 +176,11 @@ TEST(Verdict, TheOrderIsSafeWhereBothMayBeOff) {
 /// What the order does not hold for is named.
 TEST(Verdict, ExceptionsToTheOrderAreNamed) {
   VerdictInput in = table({0.2, 0.3, 0.4});
-  EXPECT_TRUE(has(verdictOf(in).choice, "It costs more in all 2 pairs of joint and motion on this page."))
+  EXPECT_TRUE(has(verdictOf(in).choice, "It costs more in all 2 pairs of joint and motion that matter."))
       << verdictOf(in).choice;
   in.options[1].costs[0].peak_Nm = 7.9;  // 8 Nm with the thinnest
   EXPECT_TRUE(has(verdictOf(in).choice,
-                  "It costs more in 1 of the 2 pairs of joint and motion on this page; not at left hip (flexion), "
+                  "It costs more in 1 of the 2 pairs of joint and motion that matter; not at left hip (flexion), "
                   "walking: 7.9 Nm against 8.0 Nm."))
       << verdictOf(in).choice;
 }
