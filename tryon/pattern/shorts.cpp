@@ -24,6 +24,8 @@ constexpr double body_gap_m = 0.002;
 constexpr double clear_m = 0.0005;
 /// Between heights where that is looked at: skins from files have creases.
 constexpr double level_m = 0.0015;
+/// And along a row: corners of a coarse skin stand between wider steps.
+constexpr int looks_per_cell = 16;
 
 /// A section of pelvis or thigh.
 struct Outline {
@@ -122,7 +124,8 @@ class Draft {
       for (const double s : gu) data.push_back(trunk(s, t));
     NurbsPatch patch = withSmoothCentres(interpolate(u, v, data));
     constexpr int rounds = 10;
-    const int nu = u.count(), around = 4 * trunk_cells_[0], rows = static_cast<int>(std::ceil(p_.rise_m / level_m));
+    const int nu = u.count(), around = looks_per_cell * trunk_cells_[0];
+    const int rows = static_cast<int>(std::ceil(p_.rise_m / level_m));
     std::vector<std::vector<Outline>> bodies;
     for (int k = 0; k <= rows; ++k) bodies.push_back(underTrunk(static_cast<double>(k) / rows));
     for (int round = 0; round < rounds; ++round) {
