@@ -5,6 +5,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -19,6 +20,8 @@ namespace {
 constexpr std::array kFiles{"case.json",      "run.json",     "summary.json", "torques.csv", "contact.csv",
                             "collisions.csv", "latitude.csv", "stress.csv",   "zones.csv",   "patches.csv",
                             "straps.csv",     "path.csv",     "shape.csv",    "report.html"};
+/// What stays when these and the recording's layout are gone, as a run begins that replaces an earlier one.
+constexpr std::array kBegun{"frames", "frames.xdmf", "snapshots", "dressed.json"};
 
 }  // namespace
 
@@ -40,6 +43,14 @@ void prepareResultsFolder(const std::filesystem::path& out) {
           "holds a file {} and no recording: it is not the folder of an earlier run, and this run would overwrite it; "
           "allowed: a new folder, or one of an earlier run",
           name));
+}
+
+bool holdsOnlyABegunRun(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error) || holdsRecording(folder)) return false;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    if (std::find(kBegun.begin(), kBegun.end(), it->path().filename()) == kBegun.end()) return false;
+  return !error;
 }
 
 void removeEarlierResults(const std::filesystem::path& out) {

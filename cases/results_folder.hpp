@@ -10,6 +10,9 @@ namespace gambeson {
 /// case.json. Throws InputError.
 void prepareResultsFolder(const std::filesystem::path& out);
 
+/// Whether nothing stands in the folder but what a run leaves that was killed before its recording began.
+bool holdsOnlyABegunRun(const std::filesystem::path& folder);
+
 /// What an earlier run left beside its recording must not be taken for results of this one.
 void removeEarlierResults(const std::filesystem::path& out);
 

@@ -14,6 +14,7 @@
 
 #include "cases/progress.hpp"
 #include "cases/references.hpp"
+#include "cases/results_folder.hpp"
 #include "cases/study/compare.hpp"
 #include "cases/study/pool.hpp"
 #include "core/error.hpp"
@@ -51,18 +52,16 @@ void prepareFolder(const std::filesystem::path& out) {
   }
 }
 
-/// A folder of a variant that is neither empty nor of a run is not ours to fill.
+/// A folder of a variant that holds anything but a run, finished, cut or only begun, is not ours to fill.
 void refuseForeign(const Study& s, const std::filesystem::path& out) {
   for (const Variant& v : s.variants) {
     const std::filesystem::path folder = out / v.folder;
     std::error_code error;
-    if (!std::filesystem::exists(folder, error) || holdsRecording(folder)) continue;
-    if (!std::filesystem::is_directory(folder, error) || !std::filesystem::is_empty(folder, error))
-      throw InputError(
-          {"command line", 0, "--out"},
-          fmt::format("{} is in the way of the variant {}: it holds no run; allowed: a new folder, or that "
-                      "of an earlier study",
-                      folder.string(), v.label));
+    if (!std::filesystem::exists(folder, error) || holdsRecording(folder) || holdsOnlyABegunRun(folder)) continue;
+    throw InputError({"command line", 0, "--out"},
+                     fmt::format("{} is in the way of the variant {}: it holds no run; allowed: a new folder, or that "
+                                 "of an earlier study",
+                                 folder.string(), v.label));
   }
 }
 

@@ -149,10 +149,11 @@ def refused(folder):
     check(done.returncode == 2 and "a.study.json:" in done.stderr and "factors.thickness" in done.stderr, f"{done.returncode} {done.stderr}")
     check(not (folder / "out").exists(), "a study with a bad variant left something")
     file = study(folder)
-    (folder / "out/thickness_1__slick").mkdir(parents=True)
-    (folder / "out/thickness_1__slick/notes.txt").write_text("mine")
+    (folder / "out/thickness_1__slick/frames").mkdir(parents=True)  # of a run killed early, which is not in the way
+    (folder / "out/thickness_1__rough").mkdir(parents=True)
+    (folder / "out/thickness_1__rough/notes.txt").write_text("mine")
     done = run("study", file, "--out", folder / "out")
-    check(done.returncode == 2 and "is in the way" in done.stderr, f"{done.returncode} {done.stderr}")
+    check(done.returncode == 2 and "rough is in the way" in done.stderr, f"{done.returncode} {done.stderr}")
     done = run("study", file, "--out", folder / "script", "--engine", "slurm", "--jobs", 2, "--threads", 1)
     check(done.returncode == 0 and "sbatch" in done.stdout, f"{done.stdout} {done.stderr}")
     # One task of the array, as the queue would start it.
