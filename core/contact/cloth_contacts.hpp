@@ -28,9 +28,9 @@ struct ClothContactPoint {
 
 /// Distance within which contacts between cloth of this thickness are kept, and the distance at rest within which
 /// points of one layer are neighbours.
-inline double contactReach(double layer_m) { return 1.1 * layer_m; }
+constexpr double contactReach(double layer_m) { return 1.1 * layer_m; }
 /// The most that the cloth between the samples asks for as distance of these from a body.
-constexpr double kLargestClearance_m = 1e-3;
+constexpr double kLargestClearance_m = 1.5e-3;
 inline double neighbourDistance(double layer_m) { return 2 * layer_m; }
 
 /// A point that moves straight by `way` comes less than `reach` from the origin, starting at `from`.

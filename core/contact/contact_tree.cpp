@@ -42,16 +42,16 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
   findGroups();
 }
 
-void ContactTree::setShares(std::span<const double> share_m) {
+void ContactTree::setShares(std::span<const float> share_m) {
   tile_share_m_.clear();
   node_share_m_.clear();
-  const std::span<const double> cloth = share_m.first(std::min<std::size_t>(share_m.size(), first_obstacle_vertex_));
-  if (std::all_of(cloth.begin(), cloth.end(), [&](double s) { return s == cloth[0]; })) return;
+  const std::span<const float> cloth = share_m.first(std::min<std::size_t>(share_m.size(), first_obstacle_vertex_));
+  if (std::all_of(cloth.begin(), cloth.end(), [&](float s) { return s == cloth[0]; })) return;
   tile_share_m_.assign(tiles_.size(), -1);
   node_share_m_.assign(nodes_.size(), -1);
   for (std::size_t k = 0; k < tiles_.size(); ++k)
     for (int v : tiles_[k].vertex)
-      if (v < first_obstacle_vertex_) tile_share_m_[k] = std::max(tile_share_m_[k], roundUp(share_m[v]));
+      if (v < first_obstacle_vertex_) tile_share_m_[k] = std::max(tile_share_m_[k], share_m[v]);
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& n = nodes_[i];
     if (n.left >= 0)

@@ -38,6 +38,7 @@ struct PairRules {
   double least = 0;              ///< nor do parts of one cloth with a certificate c (ContactTree) of at least this
   bool cloth_with_cloth = true;  ///< or with obstacles only
   double blunt_margin_m = 0;     ///< the margin of pairs with something blunt (BluntFeatures), no more than margin_m
+  double obstacle_margin_m = 0;  ///< the least of other pairs with an obstacle, no more than margin_m
 };
 
 /// The tree. Cloth is bisected in its grids, so that a node is a rectangle of cells; obstacles by their centres, once.
@@ -58,9 +59,10 @@ class ContactTree {
               std::span<const TriangleRange> obstacles, std::span<const Vec3> x);
 
   /// Thin cloth has a margin of its own: two primitives of cloth matter only within the sum of their vertices' largest
-  /// shares, one of cloth and one of an obstacle within twice the former's, and never beyond PairRules::margin_m.
+  /// shares, one of cloth and one of an obstacle within twice the former's or PairRules::obstacle_margin_m, and never
+  /// beyond PairRules::margin_m.
   /// `share_m` of each vertex; of obstacles they do not count. Where all are the same they make no difference.
-  void setShares(std::span<const double> share_m);
+  void setShares(std::span<const float> share_m);
   /// The margin between two tiles.
   double marginOf(const PairRules& rules, int tile_a, int tile_b) const {
     return tile_share_m_.empty() ? rules.margin_m : shared(rules, tile_share_m_[tile_a], tile_share_m_[tile_b]);
@@ -221,14 +223,14 @@ class ContactTree {
   }
   bool hullCertifies(int ia, int ib, double least) const;
   static double shared(const PairRules& rules, float a, float b) {
-    const double sum = a < 0 ? 2.0 * b : b < 0 ? 2.0 * a : static_cast<double>(a) + b;
+    const bool obstacle = a < 0 || b < 0;
+    const double sum = obstacle ? std::max(2.0 * std::max(a, b), rules.obstacle_margin_m) : static_cast<double>(a) + b;
     return std::clamp(sum, rules.blunt_margin_m, rules.margin_m);
   }
   /// For boxes of nodes, rounded up. `widest`: PairRules::margin_m, so rounded.
   float reachOf(const PairRules& rules, float widest, int ia, int ib) const {
-    if (node_share_m_.empty()) return widest;
-    const float a = node_share_m_[ia], b = node_share_m_[ib], sum = a < 0 ? b + b : b < 0 ? a + a : a + b;
-    return std::clamp(sum * 1.000001f, static_cast<float>(rules.blunt_margin_m) * 1.000001f, widest);
+    return node_share_m_.empty() ? widest
+                                 : 1.000001f * static_cast<float>(shared(rules, node_share_m_[ia], node_share_m_[ib]));
   }
   bool coveredBetween(int ia, int ib, double margin_m, double least) const;
   /// Of two nodes, not both leaves: the first is the one to look into.

@@ -18,13 +18,30 @@ namespace {
 constexpr double kSeparation_m = 1e-6;
 constexpr int kMany = 4096;  ///< pairs, from which on threads share the work
 
-/// Within which cloth of a thickness has contacts, where there are bodies.
-double reachOfBodies(const CollisionModel& m, double thickness_m) {
-  return contactReach(m.bodies.empty() ? thickness_m : std::max(thickness_m, kLargestClearance_m));
-}
+/// What samples of cloth may keep from a body, whatever their thickness.
+constexpr double kBodyReach_m = contactReach(kLargestClearance_m);
 
 PairRules rulesOf(const CollisionModel& m) {
-  return {std::max(reachOfBodies(m, m.largest_thickness_m), 2 * kSeparation_m), m.least, m.self, 2 * kSeparation_m};
+  const double body = m.bodies.empty() ? 0 : kBodyReach_m;
+  return {std::max({contactReach(m.largest_thickness_m), body, 2 * kSeparation_m}), m.least, m.self, 2 * kSeparation_m,
+          body};
+}
+
+/// Within which two primitives have contacts, of their shares (CollisionModel).
+double reachOf(float a, float b) {
+  return a < 0 || b < 0 ? std::max(2.0 * std::max(a, b), kBodyReach_m) : static_cast<double>(a) + b;
+}
+
+/// Of each primitive, the largest share of its vertices.
+template <class Primitives>
+std::vector<float> largestShares(const Primitives& primitives, std::span<const float> share_m) {
+  std::vector<float> out;
+  for (const auto& vertices : primitives) {
+    float most = -1;
+    for (int v : vertices) most = std::max(most, share_m[v]);
+    out.push_back(most);
+  }
+  return out;
 }
 
 /// Samples are carried by the faces of bodies, and cloth by what is sharp; all else meets only in impacts.
@@ -151,9 +168,12 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
     m.layer_of_vertex.resize(x.size(), -1);
   }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
-  std::vector<double> shares(m.mesh.vertex_count, 0);
-  for (std::size_t v = 0; v < m.cloth.thickness_m.size(); ++v) shares[v] = 0.5 * reachOfBodies(m, m.cloth.thickness_m[v]);
-  m.tree.setShares(shares);
+  m.vertex_share_m.assign(m.mesh.vertex_count, -1);
+  for (std::size_t v = 0; v < m.cloth.thickness_m.size(); ++v)
+    m.vertex_share_m[v] = roundUp(0.5 * contactReach(m.cloth.thickness_m[v]));
+  m.edge_share_m = largestShares(m.mesh.edges, m.vertex_share_m);
+  m.triangle_share_m = largestShares(m.mesh.triangles, m.vertex_share_m);
+  m.tree.setShares(m.vertex_share_m);
   m.collector = PairCollector(m.mesh, bluntFeatures(m));
   std::vector<char> deforms;
   for (int body : m.body_of_vertex) deforms.push_back(body >= 0 && m.bodies[body].deforms);
@@ -281,13 +301,13 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   w.near_bodies.items.clear();
   if (!m.self && m.bodies.empty()) return;
   w.list.cover(m.mesh, m.collector, rulesOf(m), w.x1);
-  const double reach = reachOfBodies(m, m.largest_thickness_m);
   const std::span<const PointTriangle> points = w.list.pairs().points;
   const std::span<const EdgeEdge> edges = w.list.pairs().edges;
   w.near_points.clear();
   appendInOrder(static_cast<int>(points.size()), kMany, w.near_points, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
-      if (w.list.apart(points[k]) < reach) list.push_back(points[k]);
+      if (w.list.apart(points[k]) < reachOf(m.vertex_share_m[points[k].vertex], m.triangle_share_m[points[k].triangle]))
+        list.push_back(points[k]);
   });
   for (const PointTriangle& p : w.near_points) {
     if (p.triangle < m.cloth_triangles) {
@@ -301,7 +321,8 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   for (int v = 0; v < m.cloth.cloth_vertices; ++v) w.near_bodies.first[v + 1] += w.near_bodies.first[v];
   appendInOrder(static_cast<int>(edges.size()), kMany, w.near.edges, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
-      if (w.list.apart(edges[k]) < reach) list.push_back(edges[k]);
+      if (w.list.apart(edges[k]) < reachOf(m.edge_share_m[edges[k].a], m.edge_share_m[edges[k].b]))
+        list.push_back(edges[k]);
   });
 }
 

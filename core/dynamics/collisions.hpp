@@ -32,6 +32,9 @@ struct CollisionModel {
   ContactTree tree;     ///< as built; a step fits a copy
   Bluntness bluntness;  ///< likewise
   double largest_thickness_m = 0;
+  /// Half of contactReach of their thickness, rounded up: primitives of cloth have contacts within the sum of theirs.
+  /// Of bodies -1.
+  std::vector<float> vertex_share_m, edge_share_m, triangle_share_m;
   /// Distance over distance at rest from which parts of the cloth have neither contacts nor impacts with each other.
   double least = 1;
   bool self = true;                            ///< cloth meets cloth

@@ -311,15 +311,15 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
 
 namespace {
 
-/// Of the contacts with bodies w.near: where the surface stands out farther between the samples than half of the layer,
-/// the other half lies between it and the body. So much is left for the edges of bodies made of triangles, which
-/// samples on their faces straddle.
+/// Of the contacts with bodies w.near: the layer lies between the body and the surface where this stands out farthest
+/// between the samples. That leaves room for the edges of bodies made of triangles too, which samples on their faces
+/// straddle.
 void findClearances(const Model& m, StepWork& w) {
   const int n = static_cast<int>(w.near.size());
 #pragma omp parallel for schedule(static) if (n > 512)
   for (int k = 0; k < n; ++k) {
     Contact& c = w.near[k];
-    c.clearance_m = std::min(kLargestClearance_m, m.bulges.beside(c.sample, -c.normal, w.x0) + 0.5 * m.layer_m[c.sample]);
+    c.clearance_m = std::min(kLargestClearance_m, m.bulges.beside(c.sample, -c.normal, w.x0) + m.layer_m[c.sample]);
   }
 }
 
