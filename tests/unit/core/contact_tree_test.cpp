@@ -211,7 +211,7 @@ TEST_F(TreeTest, ThinClothHasAMarginOfItsOwn) {
   for (int v = 0; v < cloth; ++v) share[v] = rest[v].y < 0.15 ? 0.001f : 0.004f;
   ContactTree thin = tree;
   thin.setShares(share);
-  const PairRules rules{0.008, 0, true, 1e-4, 0.003};
+  const PairRules rules{0.008, 0, true, 1e-4, 0.005};
   std::size_t listed = 0, listed_without = 0;
   int asked_cloth = 0, asked_body = 0;
   for (int trial = 0; trial < 10; ++trial) {
