@@ -54,10 +54,9 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
   std::vector<Contact> inside;
   PlacedBodies placed(s);
   // Without triangles to look at, only whether a point is inside of a mesh is asked, and of points that were outside
-  // and have gone less than their distance since not even that. What deforms keeps no distances.
+  // and have gone less than their distance since not even that.
   MeshCandidates known;
   known.first.assign(n + 1, 0);
-  MeshCandidates* const candidates = placed.surfaces()->empty() ? &known : nullptr;
   for (int k = 0; k < recording.frameCount(); ++k) {
     if (!(recording.time(k) > 1e-9)) continue;
     const Frame frame = recording.frame(k);
@@ -70,7 +69,8 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
       q[i] = {field->data[3 * i], field->data[3 * i + 1], field->data[3 * i + 2]};
     W.multiply<Vec3>(q, x);
     placed.moveTo(frame.time_s);
-    s.model->proximity->near(placed.placements(), placed.placements(), x, reach, inside, candidates, placed.surfaces());
+    std::fill(known.outside_of.begin(), known.outside_of.end(), 0);  // what deforms keeps no distances
+    s.model->proximity->near(placed.placements(), placed.placements(), x, reach, inside, &known, placed.surfaces());
     for (const Contact& c : inside)
       if (-c.gap_m > depth.deepest_m) depth.deepest_m = -c.gap_m, depth.time_s = frame.time_s;
   }

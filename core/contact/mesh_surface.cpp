@@ -182,23 +182,24 @@ MeshPoint MeshSurface::signedFoot(const Vec3& p, const Vec3& foot, int feature) 
   return m;
 }
 
+/// Of features that are equally near the first counts.
+void MeshSurface::lookAt(int t, const Vec3& p, Nearest& best) const {
+  if (topology_.collapsed(t)) return;
+  const auto& c = topology_.triangles[t];
+  const TrianglePoint q = closestOnTriangle({x_[c[0]], x_[c[1]], x_[c[2]]}, p);
+  if (!(q.dist2_m2 <= best.dist2_m2)) return;
+  const int feature = q.feature == kFace    ? t
+                      : q.feature >= kEdge0 ? topology_.edgeFeature(topology_.face_edges[t][q.feature - kEdge0])
+                                            : topology_.vertexFeature(c[q.feature]);
+  if (q.dist2_m2 == best.dist2_m2 && best.feature >= 0 && best.feature < feature) return;
+  best = {q.dist2_m2, q.position, feature};
+}
+
 std::optional<MeshPoint> MeshSurface::nearest(const Vec3& p, double radius) const {
-  double best2 = radius * radius;
-  TrianglePoint best;
-  int best_feature = -1;
-  tree_.nearest(p, best2, [&](int t, double& limit2) {
-    if (topology_.collapsed(t)) return;
-    const auto& c = topology_.triangles[t];
-    const TrianglePoint q = closestOnTriangle({x_[c[0]], x_[c[1]], x_[c[2]]}, p);
-    if (!(q.dist2_m2 <= limit2)) return;
-    const int feature = q.feature == kFace    ? t
-                        : q.feature >= kEdge0 ? topology_.edgeFeature(topology_.face_edges[t][q.feature - kEdge0])
-                                              : topology_.vertexFeature(c[q.feature]);
-    if (q.dist2_m2 == limit2 && best_feature >= 0 && best_feature < feature) return;
-    best = q, best_feature = feature, limit2 = q.dist2_m2;
-  });
-  if (best_feature < 0) return std::nullopt;
-  return signedFoot(p, best.position, best_feature);
+  Nearest best{radius * radius};
+  tree_.nearest(p, best.dist2_m2, [&](int t, double&) { lookAt(t, p, best); });
+  if (best.feature < 0) return std::nullopt;
+  return signedFoot(p, best.position, best.feature);
 }
 
 /// Along the edge, and no face of the edge under p.
@@ -253,7 +254,7 @@ void MeshSurface::touching(const Vec3& p, double radius, std::vector<MeshPoint>&
   const std::size_t begin = out.size();
   bool seen = false;
   tree_.within(p, radius, [&](int t) { seen = faceFeet(t, p, radius, out) || seen; });
-  chooseFeet(p, radius, seen, false, begin, out);
+  chooseFeet(p, radius, seen, begin, out);
 }
 
 void MeshSurface::touching(const Vec3& p, double radius, std::span<const int> triangles, std::vector<MeshPoint>& out,
@@ -261,20 +262,27 @@ void MeshSurface::touching(const Vec3& p, double radius, std::span<const int> tr
   const std::size_t begin = out.size();
   bool seen = false;
   for (int t : triangles) seen = faceFeet(t, p, radius, out) || seen;
-  chooseFeet(p, radius, seen, outside, begin, out);
+  if (!outside || out.size() > begin) {
+    chooseFeet(p, radius, seen, begin, out);
+  } else if (seen) {
+    // Beside all that is near, or a minimum that the predicates lost to rounding.
+    Nearest best{radius * radius};
+    for (int t : triangles) lookAt(t, p, best);
+    if (best.feature >= 0) out.push_back(signedFoot(p, best.position, best.feature));
+  }
 }
 
-std::optional<MeshPoint> MeshSurface::wayOut(const Vec3& p) const {
+std::optional<MeshPoint> MeshSurface::wayOut(const Vec3& p, double within_m) const {
   if (!topology_.closed || boxDistance2(tree_.bounds(), p) > 0 || inside_.at(p) == InsideGrid::Cell::outside)
     return std::nullopt;
-  return nearest(p, std::numeric_limits<double>::infinity());
+  return nearest(p, within_m);
 }
 
 /// Of the minima found from `begin`, those that p touches.
-void MeshSurface::chooseFeet(const Vec3& p, double radius, bool seen, bool outside, std::size_t begin,
+void MeshSurface::chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin,
                              std::vector<MeshPoint>& out) const {
   const auto found = out.begin() + static_cast<std::ptrdiff_t>(begin);
-  const bool maybe_deep = !outside && topology_.closed && boxDistance2(tree_.bounds(), p) == 0;
+  const bool maybe_deep = topology_.closed && boxDistance2(tree_.bounds(), p) == 0;
   if (found == out.end()) {
     if (!seen && (!maybe_deep || inside_.at(p) == InsideGrid::Cell::outside)) return;
     // Deep inside, or a minimum that the predicates lost to rounding.

@@ -1,6 +1,7 @@
 #pragma once
 /// Distance queries on a triangle mesh in its own frame: nearest feature, local minima of the distance, first entry.
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -53,8 +54,9 @@ class MeshSurface {
   void touching(const Vec3& p, double radius, std::span<const int> triangles, std::vector<MeshPoint>& out,
                 bool outside = false) const;
 
-  /// The nearest point, where p may be inside of a closed mesh; empty where it is surely not.
-  std::optional<MeshPoint> wayOut(const Vec3& p) const;
+  /// The nearest point, where p may be inside of a closed mesh; empty where it is surely not. `within_m`: some point of
+  /// the surface is known to be no farther.
+  std::optional<MeshPoint> wayOut(const Vec3& p, double within_m = std::numeric_limits<double>::infinity()) const;
 
   /// The foot's point as weights of the vertices of its triangle, edge or corner.
   MaterialPoint material(const MeshPoint& foot) const;
@@ -84,7 +86,14 @@ class MeshSurface {
   bool edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const;
   bool vertexIsMinimum(int v, const Vec3& p) const;
   bool faceFeet(int t, const Vec3& p, double radius, std::vector<MeshPoint>& out) const;
-  void chooseFeet(const Vec3& p, double radius, bool seen, bool outside, std::size_t begin,
+  /// The nearest of the points that were looked at.
+  struct Nearest {
+    double dist2_m2;  ///< beyond it nothing counts
+    Vec3 position{};
+    int feature = -1;
+  };
+  void lookAt(int t, const Vec3& p, Nearest& best) const;
+  void chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin,
                   std::vector<MeshPoint>& out) const;
 
   MeshTopology topology_;

@@ -96,6 +96,21 @@ void collect(int blocks, std::vector<Contact>& out, Append&& append) {
   for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
 }
 
+/// Whether points one after the other, each near the last, are inside of a mesh: not as long as they are nearer to a
+/// point that is not than the surface is, and where they have to ask, the last foot tells how near the surface is.
+struct Beside {
+  Vec3 at, foot;
+  double clear_m = -1;  ///< `at` is outside by so much; negative: nothing is known yet
+
+  void wayOut(const MeshSurface& surface, const Vec3& p, std::vector<MeshPoint>& inside) {
+    if (norm(p - at) < clear_m) return;
+    const auto near = clear_m < 0 ? surface.wayOut(p) : surface.wayOut(p, norm(p - foot) * kSlack + 1e-9);
+    if (!near) return;
+    if (!(near->distance_m > 0)) inside.push_back(*near);
+    *this = {p, near->position, std::max(0.0, near->distance_m) * (1 - 1e-9)};
+  }
+};
+
 }  // namespace
 
 struct ProximityQuery::Impl {
@@ -144,6 +159,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
     for (int o = 0; o < n_obstacles; ++o)
       if (overlap(block, box[o])) candidates.push_back(o);
     if (candidates.empty()) return;
+    std::vector<Beside> beside(n_obstacles);
     for (int i = first; i < last; ++i) {
       for (int o : candidates) {
         const double r = reach_m[i] * kSlack;
@@ -167,8 +183,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
             if (!triangles.empty()) {
               surface.touching(x[i], limit_m, triangles, feet, outside);
             } else if (!outside) {
-              const auto foot = surface.wayOut(x[i]);
-              if (foot && !(foot->distance_m > 0)) feet.push_back(*foot);
+              beside[o].wayOut(surface, x[i], feet);
             }
             outside = std::all_of(feet.begin(), feet.end(), [](const MeshPoint& f) { return f.distance_m > 0; });
           } else {

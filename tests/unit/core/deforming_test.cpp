@@ -366,6 +366,44 @@ TEST(Deforming, WhatIsKnownToBeOutsideIs) {
 }
 
 /// Cloth that did not come there on its own way is asked anew where it is.
+/// Points one after the other, along lines that pass through a tube and along its skin, which is how a finer surface is
+/// asked about: the same are inside, and as deep, as where each is asked for itself.
+TEST(Deforming, PointsInARowAreInsideWhereEachAloneIs) {
+  const TriangleMesh skin = tube(0.04, 0.3, 24, 20);
+  const std::vector<Obstacle> obstacles{{skin, "tube", true}};
+  const ProximityQuery query(obstacles);
+  DeformedSurfaces surfaces(obstacles);
+  DeformedVertices at(1);
+  for (const Vec3& X : skin.vertices) at[0].push_back(bentTube(X, 0.13));
+  surfaces.move(at);
+  std::vector<Vec3> x;
+  for (int line = 0; line < 60; ++line)
+    for (int k = 0; k <= 80; ++k) {
+      const double s = k / 40.0 - 1, angle = 0.37 * line, r = line % 2 ? 0.04 + 0.004 * std::sin(0.4 * k) : 0.09 * s;
+      x.push_back(bentTube({0.2 * (line % 2 ? s : 0.013 * line - 0.4), r * std::cos(angle), r * std::sin(angle)}, 0.13));
+    }
+  const Placement none;
+  const auto depths = [&](std::span<const Vec3> points) {
+    MeshCandidates nothing_near;
+    nothing_near.first.assign(points.size() + 1, 0);
+    const std::vector<double> reach(points.size(), 0);
+    std::vector<Contact> inside;
+    query.near({&none, 1}, {&none, 1}, points, reach, inside, &nothing_near, &surfaces);
+    std::vector<double> out(points.size(), 0);
+    for (const Contact& c : inside) out[c.sample] = c.gap_m;
+    return out;
+  };
+  const std::vector<double> together = depths(x);
+  int inside = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double alone = depths({&x[i], 1})[0];
+    ASSERT_NEAR(together[i], alone, 1e-15) << i;
+    inside += alone < 0;
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_LT(inside, static_cast<int>(x.size()) - 1000);
+}
+
 TEST(Deforming, ClothPutInsideOfABodyIsFoundThere) {
   Scene s(
       sheetAt(6, 0.02, {0.045, 0.045, 0.045}), testing_shapes::sphere(0.05, 3),
