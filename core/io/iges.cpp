@@ -9,6 +9,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/nurbs/trim_arcs.hpp"
+#include "core/nurbs/trim_notches.hpp"
 
 namespace gambeson {
 namespace {
@@ -233,7 +234,9 @@ void add(File& file, const IgesSurface& s, double tolerance_m) {
     file.add(128, "00000000", name, named(surface128(s.patch)));
     return;
   }
-  const TrimBoundary boundary = trimBoundary(s.patch, s.trim);
+  // Wires of a face must not touch.
+  const Trim trim = withoutNotches(s.patch, s.trim);
+  const TrimBoundary boundary = trimBoundary(s.patch, trim);
   const int surface = file.add(128, "00010000", name, surface128(s.patch));
   struct Outline {
     int loop;  ///< -1: the patch's own border
@@ -242,16 +245,16 @@ void add(File& file, const IgesSurface& s, double tolerance_m) {
   };
   std::vector<Outline> outlines;
   if (boundary.rectangle_is_outline) outlines.push_back({-1, std::numeric_limits<double>::infinity(), {}});
-  for (std::size_t l = 0; l < s.trim.loops.size(); ++l)
+  for (std::size_t l = 0; l < trim.loops.size(); ++l)
     if (boundary.signed_area[l] > 0) outlines.push_back({static_cast<int>(l), boundary.signed_area[l], {}});
-  for (std::size_t l = 0; l < s.trim.loops.size(); ++l) {
+  for (std::size_t l = 0; l < trim.loops.size(); ++l) {
     if (boundary.signed_area[l] > 0) continue;
-    const NurbsCurve& c = s.trim.loops[l][0];
+    const NurbsCurve& c = trim.loops[l][0];
     const Vec2 inside = curvePoint(c, c.knots.front()).point;
     Outline* least = nullptr;
     for (Outline& o : outlines) {
       const bool holds = o.loop < 0 || [&] {
-        const TrimBoundary alone = trimBoundary(s.patch, {{s.trim.loops[static_cast<std::size_t>(o.loop)]}});
+        const TrimBoundary alone = trimBoundary(s.patch, {{trim.loops[static_cast<std::size_t>(o.loop)]}});
         return alone.winding(inside) > 0;
       }();
       if (holds && (!least || o.area < least->area)) least = &o;
@@ -261,7 +264,7 @@ void add(File& file, const IgesSurface& s, double tolerance_m) {
   }
   for (const Outline& o : outlines) {
     const auto loop = [&](int l) {
-      return loop142(file, s.patch, surface, s.trim.loops[static_cast<std::size_t>(l)], tolerance_m);
+      return loop142(file, s.patch, surface, trim.loops[static_cast<std::size_t>(l)], tolerance_m);
     };
     const int outer = o.loop < 0 ? 0 : loop(o.loop);
     std::vector<int> inner;

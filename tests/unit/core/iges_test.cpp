@@ -227,6 +227,13 @@ TEST(Iges, HolesWithoutAnOutlineStandInTheBorderAndOutlinesStandApart) {
       EXPECT_EQ(e.integer(3), 0);
     }
   EXPECT_EQ(count(hole, 144), 1);
+  // A notch is no hole: wires of a face do not touch.
+  const std::vector<Vec2> corners{{0.4, 1}, {0.6, 1}, {0.5, 0.8}};
+  for (const auto& [pointer, e] : readIges(igesText("n", {{"n", patch, {{polygon(corners)}}}})))
+    if (e.type == 144) {
+      EXPECT_EQ(e.integer(1), 1);
+      EXPECT_EQ(e.integer(2), 0);
+    }
   // A piece, and another with a hole.
   const Trim two{{{circle({0.25, 0.5}, 0.2, 0.4, false)},
                   {circle({0.75, 0.5}, 0.2, 0.4, false)},
