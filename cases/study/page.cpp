@@ -242,7 +242,7 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
         "pictures", "Side by side",
         "Of each motion all variants at the same time. The same colour means the same value, and arrows of the same "
         "length the same force, in all pictures. Colours end at a value that 99 % of the cloth stays below in every "
-        "picture; the pointed end of the bar stands for what is above.",
+        "picture; a pointed end of the bar stands for what lies beyond it.",
         pairs(s, pictures));
   section("checks", "Checks", "Every run checks itself, step by step.", checksOf(s, c));
   section("assumptions", "What was left out and assumed", "", leftOutOf(s, c));
