@@ -93,8 +93,7 @@ class MeshSurface {
     int feature = -1;
   };
   void lookAt(int t, const Vec3& p, Nearest& best) const;
-  void chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin,
-                  std::vector<MeshPoint>& out) const;
+  void chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin, std::vector<MeshPoint>& out) const;
 
   MeshTopology topology_;
   std::vector<Vec3> x_;                        ///< positions

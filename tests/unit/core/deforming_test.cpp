@@ -380,7 +380,8 @@ TEST(Deforming, PointsInARowAreInsideWhereEachAloneIs) {
   for (int line = 0; line < 60; ++line)
     for (int k = 0; k <= 80; ++k) {
       const double s = k / 40.0 - 1, angle = 0.37 * line, r = line % 2 ? 0.04 + 0.004 * std::sin(0.4 * k) : 0.09 * s;
-      x.push_back(bentTube({0.2 * (line % 2 ? s : 0.013 * line - 0.4), r * std::cos(angle), r * std::sin(angle)}, 0.13));
+      x.push_back(
+          bentTube({0.2 * (line % 2 ? s : 0.013 * line - 0.4), r * std::cos(angle), r * std::sin(angle)}, 0.13));
     }
   const Placement none;
   const auto depths = [&](std::span<const Vec3> points) {
