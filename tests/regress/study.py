@@ -56,11 +56,26 @@ def children(pid):
     return found
 
 
-def gone(pid):
+def state(pid):
+    """R, S, D, T (stopped), Z (ended, its parent has not asked yet); Z too where there is none."""
     try:
-        return open(f"/proc/{pid}/stat").read().rsplit(")", 1)[1].split()[0] == "Z"
+        return open(f"/proc/{pid}/stat").read().rsplit(")", 1)[1].split()[0]
     except OSError:
+        return "Z"
+
+
+def killed(pid):
+    """Kills a run by SIGKILL; False where it had ended by itself. Only one that stands still has surely not."""
+    try:
+        os.kill(pid, signal.SIGSTOP)
+        while state(pid) not in "TZ":
+            time.sleep(0.001)
+        if state(pid) == "Z":
+            return False
+        os.kill(pid, signal.SIGKILL)
         return True
+    except ProcessLookupError:
+        return False
 
 
 def interrupted(folder):
@@ -79,8 +94,7 @@ def interrupted(folder):
             process.wait(chance.uniform(0.02, 0.5) * took_s)
         except subprocess.TimeoutExpired:
             runs = children(process.pid)
-            if k % 3 == 2 and runs:
-                os.kill(chance.choice(runs), signal.SIGKILL)
+            if k % 3 == 2 and runs and killed(chance.choice(runs)):
                 check(process.wait() == 1, "a run was killed, and the study did not say so")
                 check("ended by signal 9" in (folder / "cut/report.html").read_text(), "the page does not say which run was killed")
             elif k % 3 == 1:
@@ -94,7 +108,7 @@ def interrupted(folder):
                 process.wait()
             died += 1
             deadline = time.monotonic() + 20
-            while not all(gone(r) for r in runs):
+            while not all(state(r) == "Z" for r in runs):
                 check(time.monotonic() < deadline, "runs outlived their study")
                 time.sleep(0.02)
     last = run("study", file, "--out", folder / "cut", "--resume", "--jobs", 2, "--threads", 2)
