@@ -9,17 +9,12 @@ namespace {
 /// By trial on the drape over a sphere (tests/bench/README.md). They decide what a step costs, never what it finds.
 constexpr int kWindow = 4;       ///< steps, about as many as a list serves
 constexpr double kMemory = 16;   ///< steps of which corrections and strays are means
-constexpr double kStrays = 4;    ///< ways off the path, in units of what is usual at the end of a window
-constexpr double kHorizon = 8;   ///< steps like the one that a list is made for
-constexpr double kChanges = 10;  ///< of gradients, in units of that step's
-constexpr double kLeastSlack_m = 1e-4, kLeastSlack = 0.08;  ///< and of the margin: some vertex does what it never did
-constexpr double kBodySlack_m = 2e-5;                       ///< for bodies, whose motions are smooth
-constexpr double kLeastChange = 0.2;                        ///< of gradients
-
-/// Positions that agree to this have gradients that agree to a part in a million of kLeastChange on edges of 0.1 mm.
-constexpr double kSame_m = 1e-12;
-
-constexpr int kMany = 8192;  ///< vertices or more, from which on threads share the work
+constexpr double kStrays = 3;    ///< ways off the path, in units of what is usual at the end of a window
+constexpr double kHorizon = 10;  ///< steps like the one that a list is made for
+constexpr double kLeastSlack_m = 1e-4, kLeastSlack = 0.04;  ///< and of the margin: some vertex does what it never did
+constexpr double kBodySlack_m = 4e-5;                       ///< for bodies, whose motions are smooth
+constexpr int kMended = 64;                                 ///< one in so many vertices of cloth at a time
+constexpr int kMany = 8192;                                 ///< vertices or more, from which on threads share the work
 
 /// Calls f(i) for all i below n.
 template <class F>
@@ -101,55 +96,69 @@ void CandidateList::leavePath(std::span<const Vec3> x, double time_s, std::vecto
   each(x.size(), [&](int i) { out[i] = norm(x[i] - listed_at_[i] - t * listed_velocity_[i]); });
 }
 
-/// The gradients do at x0, which most often is where the last step was found to end.
-bool CandidateList::startHolds() const {
-  const auto same = [&](int i) { return norm2(x0_[i] - last_end_[i]) < kSame_m * kSame_m; };
-  return (last_end_.size() == x0_.size() && allOf(x0_.size(), same)) || tree_.gradientsHold(x0_);
-}
-
+/// But for vertices of cloth that stray.
 bool CandidateList::holds(std::span<const Vec3> x1) {
   if (listed_at_.size() != x0_.size() || start_s_ < listed_s_ || end_s_ > listed_s_ + horizon_s_) return false;
   if (start_moved_.empty()) {
     leavePath(x0_, start_s_, start_moved_);
-    if (!within(start_moved_, slack_m_) || !startHolds() || !bluntness_.holds(x0_)) return false;
+    if (!bluntness_.holds(x0_)) return false;
   }
   leavePath(x1, end_s_, moved_);
-  if (!within(moved_, slack_m_) || !tree_.gradientsHold(x1)) return false;
-  last_end_.assign(x1.begin(), x1.end());
+  return true;
+}
+
+/// Where this step leaves the paths, a vertex may do so once more.
+double CandidateList::slackFor(int vertex, double least, std::span<const Vec3> x1) const {
+  return least + kStrays * std::sqrt(strays2_[vertex]) +
+         2 * norm(x1[vertex] - x0_[vertex] - (end_s_ - start_s_) * expected_[vertex]);
+}
+
+/// New paths for vertices that stray, where these are few and of cloth.
+bool CandidateList::mend(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules,
+                         std::span<const Vec3> x1) {
+  if (within(start_moved_, slack_m_) && within(moved_, slack_m_)) return true;
+  const int cloth = std::min<int>(tree_.firstObstacleVertex(), static_cast<int>(x0_.size()));
+  strays_.clear();
+  for (int i = 0; i < static_cast<int>(x0_.size()); ++i) {
+    if (start_moved_[i] <= slack_m_[i] && moved_[i] <= slack_m_[i]) continue;
+    if (i >= cloth || kMended * std::ssize(strays_) >= cloth) return false;
+    strays_.push_back(i);
+  }
+  for (int i : strays_) {
+    listed_velocity_[i] = expected_[i];
+    listed_at_[i] = x0_[i] - (start_s_ - listed_s_) * expected_[i];
+    slack_m_[i] = slackFor(i, slack_m_[i], x1);
+    start_moved_[i] = 0;
+    moved_[i] = norm(x1[i] - x0_[i] - (end_s_ - start_s_) * expected_[i]);
+  }
+  tree_.refitSome(mesh, listedMotion(), strays_);
+  collector.mend(mesh, tree_, listedMotion(), rules, pairs_);
+  ++mends_;
   return true;
 }
 
 void CandidateList::make(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules,
                          std::span<const Vec3> x1) {
-  const double dt = end_s_ - start_s_;
   listed_s_ = start_s_;
-  horizon_s_ = kHorizon * dt;
+  horizon_s_ = kHorizon * (end_s_ - start_s_);
   listed_at_ = x0_;
   listed_velocity_ = expected_;
   slack_m_.resize(x0_.size());
-  // Where this step leaves the paths, it may do so once more.
   const int first_of_bodies = tree_.firstObstacleVertex();
   const double least = std::max(kLeastSlack_m, kLeastSlack * rules.margin_m);
-  each(x0_.size(), [&](int i) {
-    slack_m_[i] = (i < first_of_bodies ? least : kBodySlack_m) + kStrays * std::sqrt(strays2_[i]) +
-                  2 * norm(x1[i] - x0_[i] - dt * expected_[i]);
-  });
-  tree_.gradientChanges(mesh, x0_, x1, change_);
-  for (double& c : change_) c = std::max(kChanges * c, kLeastChange);
-  const ListedMotion motion{listed_at_, listed_velocity_, slack_m_, horizon_s_};
-  tree_.refit(mesh, motion, change_);
-  if (!bluntness_.empty()) bluntness_.ask(mesh, motion, tree_.reachOfCloth(rules));
-  collector.collect(mesh, tree_, motion, rules, pairs_, bluntness_.empty() ? nullptr : &bluntness_.features());
+  each(x0_.size(), [&](int i) { slack_m_[i] = slackFor(i, i < first_of_bodies ? least : kBodySlack_m, x1); });
+  tree_.refit(mesh, listedMotion());
+  if (!bluntness_.empty()) bluntness_.ask(mesh, listedMotion(), tree_.reachOfCloth(rules));
+  collector.collect(mesh, tree_, listedMotion(), rules, pairs_, bluntness_.empty() ? nullptr : &bluntness_.features());
   start_moved_.assign(x0_.size(), 0);
   leavePath(x1, end_s_, moved_);
-  last_end_.clear();
   ++builds_;
 }
 
 void CandidateList::cover(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules,
                           std::span<const Vec3> x1) {
   if (told_.empty()) expect(x1);
-  if (!holds(x1)) make(mesh, collector, rules, x1);
+  if (!holds(x1) || !mend(mesh, collector, rules, x1)) make(mesh, collector, rules, x1);
   each(moved_.size(), [&](int i) { moved_[i] = std::max(moved_[i], start_moved_[i]); });
   edge_moved_.resize(mesh.edges.size());
   each(edge_moved_.size(),

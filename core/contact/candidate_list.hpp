@@ -11,10 +11,11 @@ namespace gambeson {
 
 /// A list is made for a motion (ListedMotion): each vertex goes on with the velocity that the step is told of first,
 /// put right by what contact made of it in the last steps, and may leave that path by a few times the way by which it
-/// left such paths before. As long as all vertices and all gradients do
-/// that, the list is complete, and each pair on it has a lower bound of its distance that costs two subtractions. Both
-/// ends of the straight paths of a step are checked, and so all between. What a query finds does not depend on when its
-/// list was made.
+/// left such paths before. As long as all vertices do that, the list is
+/// complete, and each pair on it has a lower bound of its distance that costs two subtractions. Where a few vertices of
+/// cloth stray farther they are given new paths, from there on, and the list is mended around them. Both ends of the
+/// straight paths of a step are checked, and so all between. What a query finds does not depend on when its list was
+/// made or mended.
 class CandidateList {
  public:
   CandidateList() = default;
@@ -38,14 +39,17 @@ class CandidateList {
     return p.apart.within(start_s_ - listed_s_, end_s_ - listed_s_) - edge_moved_[p.a] - edge_moved_[p.b];
   }
   int builds() const { return builds_; }  ///< so far
+  int mends() const { return mends_; }    ///< likewise
 
  private:
   void learn(double passed_s, double now_s, std::span<const Vec3> x);
   void expect(std::span<const Vec3> x1);
   bool holds(std::span<const Vec3> x1);
+  bool mend(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules, std::span<const Vec3> x1);
+  double slackFor(int vertex, double least, std::span<const Vec3> x1) const;
+  ListedMotion listedMotion() const { return {listed_at_, listed_velocity_, slack_m_, horizon_s_}; }
   void make(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules, std::span<const Vec3> x1);
   void leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const;
-  bool startHolds() const;
 
   ContactTree tree_;
   Bluntness bluntness_;
@@ -62,12 +66,12 @@ class CandidateList {
   int window_steps_ = -1;        ///< so far; -1: none is open
   // What the list was made for.
   std::vector<Vec3> listed_at_, listed_velocity_;
-  std::vector<double> slack_m_, change_;
+  std::vector<double> slack_m_;
   double listed_s_ = 0, horizon_s_ = 0;
   // How far each vertex is off its path: at x0 (empty: not looked at yet), and the most in this step.
   std::vector<double> start_moved_, moved_, edge_moved_, triangle_moved_;
-  std::vector<Vec3> last_end_;  ///< the last x1 that was found to hold
-  int builds_ = 0;
+  std::vector<int> strays_;  ///< scratch
+  int builds_ = 0, mends_ = 0;
 };
 
 }  // namespace gambeson

@@ -18,7 +18,7 @@ namespace {
 #endif
 using Quad = ContactWork::Quad;
 typedef double V4 __attribute__((vector_size(32)));
-constexpr int kChunk = 64;    ///< rows whose sums are taken together
+constexpr int kChunk = 64;   ///< rows whose sums are taken together
 constexpr int kLarge = 256;  ///< rows of an island that all threads share
 inline const V4& quad(const Quad& q) { return *reinterpret_cast<const V4*>(&q); }
 inline V4& quad(Quad& q) { return *reinterpret_cast<V4*>(&q); }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 namespace gambeson {
 namespace {
@@ -26,7 +26,8 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
     cells_.emplace_back(charts_[k].whole.size());
     roots_.push_back(buildChart(mesh, static_cast<int>(k), {0, 0}, charts_[k].cells, corners));
   }
-  findSides(mesh, corners);
+  findApart(corners);
+  findLeaves(static_cast<int>(corners.size()));
   parts_.shrink_to_fit();
   std::vector<Vec3> centres;
   for (const auto& [a, b, c] : mesh.triangles) centres.push_back(x[a] + x[b] + x[c]);
@@ -59,6 +60,32 @@ void ContactTree::setShares(std::span<const float> share_m) {
     else
       for (int k = n.first; k < n.first + n.count; ++k) node_share_m_[i] = std::max(node_share_m_[i], tile_share_m_[k]);
   }
+}
+
+/// Of the cloth, which alone there is so far.
+void ContactTree::findLeaves(int triangles) {
+  parent_.assign(nodes_.size(), -1);
+  touched_.assign(nodes_.size(), 0);
+  leaf_of_.assign(triangles, -1);
+  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
+    const Node& n = nodes_[i];
+    if (n.left >= 0) parent_[n.left] = parent_[n.right] = i;
+    for (int k = n.first; k < n.first + n.count; ++k)
+      for (int t : tiles_[k].triangle)
+        if (t >= 0) leaf_of_[t] = i;
+  }
+}
+
+/// As far as a corner of the cell is from its diagonal.
+void ContactTree::findApart(std::span<const ChartCorners> corners) {
+  for (const GridChart& chart : charts_)
+    for (int cell = 0; cell < chart.triangles.size(); ++cell) {
+      if (!chart.whole[cell]) continue;
+      Box box;
+      for (const Vec2& corner : corners[chart.triangles[cell][0]]) box.add(Vec3{corner.x, corner.y, 0});
+      const double a = box.hi.x - box.lo.x, b = box.hi.y - box.lo.y;
+      apart_m_ = std::min(apart_m_, a * b / std::hypot(a, b));
+    }
 }
 
 /// A node's descendants follow it without a gap.
@@ -155,109 +182,25 @@ int ContactTree::buildObstacle(const ContactMesh& mesh, std::span<int> triangles
   return at;
 }
 
-ContactTree::Gradient ContactTree::gradient(const ContactMesh& mesh, int triangle, std::span<const Vec3> x) const {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  const auto& [ia, ib, ic, id] = inverse_[triangle];
-  const Vec3 e = x[b] - x[a], f = x[c] - x[a];
-  return {ia * e + ib * f, ic * e + id * f};
-}
-
 namespace {
 Four single(const Vec3& v) {
   return Four{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
 }  // namespace
 
-ContactTree::Cluster ContactTree::cellCluster(std::span<const int> triangles, std::span<const double> change) const {
+ContactTree::Gradient ContactTree::gradient(const ContactMesh& mesh, int triangle, const ListedMotion& m) const {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const auto& [ia, ib, ic, id] = inverse_[triangle];
+  const Vec3 e = m.x[b] - m.x[a], f = m.x[c] - m.x[a];
+  const double half = 0.5 * m.horizon_s;
+  const Vec3 de = half * (m.velocity(b) - m.velocity(a)), df = half * (m.velocity(c) - m.velocity(a));
+  const double change = std::sqrt(norm2(ia * de + ib * df) + norm2(ic * de + id * df));
+  return {single(ia * (e + de) + ib * (f + df)), single(ic * (e + de) + id * (f + df)), static_cast<float>(change)};
+}
+
+ContactTree::Cluster ContactTree::cellCluster(std::span<const int> triangles) const {
   const Gradient &a = gradients_[triangles[0]], &b = gradients_[triangles[1]];
-  Cluster out = merge({single(a.s), single(a.t), 0}, {single(b.s), single(b.t), 0});
-  if (!change.empty()) out.spread += static_cast<float>(std::max(change[triangles[0]], change[triangles[1]]));
-  return out;
-}
-
-void ContactTree::gradientChanges(const ContactMesh& mesh, std::span<const Vec3> x0, std::span<const Vec3> x1,
-                                  std::vector<double>& out) const {
-  out.resize(inverse_.size());
-  const int n = static_cast<int>(inverse_.size());
-#pragma omp parallel for schedule(static) if (n > kMany)
-  for (int t = 0; t < n; ++t) {
-    const Gradient a = gradient(mesh, t, x0), b = gradient(mesh, t, x1);
-    out[t] = std::sqrt(norm2(b.s - a.s) + norm2(b.t - a.t));
-  }
-}
-
-/// The sides of cells along the axes: the columns of F are their quotients by their lengths at rest.
-void ContactTree::findSides(const ContactMesh& mesh, std::span<const ChartCorners> corners) {
-  triangle_sides_.assign(corners.size(), {-1, -1});
-  struct Found {
-    int a, b, triangle, axis;
-    float length;
-  };
-  std::vector<Found> found;
-  for (const Tile& tile : tiles_)
-    for (int t : tile.triangle) {
-      if (tile.triangle[1] < 0) continue;
-      for (int i = 0; i < 3; ++i) {
-        const Vec2 along{corners[t][(i + 1) % 3].x - corners[t][i].x, corners[t][(i + 1) % 3].y - corners[t][i].y};
-        const double length = std::max(std::abs(along.x), std::abs(along.y));
-        if (std::min(std::abs(along.x), std::abs(along.y)) > 1e-9 * length) continue;  // the diagonal
-        const auto [v, w] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
-        found.push_back({v, w, t, along.x == 0 || std::abs(along.x) < std::abs(along.y), static_cast<float>(length)});
-      }
-    }
-  std::sort(found.begin(), found.end(), [](const Found& p, const Found& q) {
-    return std::tie(p.a, p.b, p.length, p.triangle) < std::tie(q.a, q.b, q.length, q.triangle);
-  });
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const Found& f = found[k];
-    if (k == 0 || f.a != found[k - 1].a || f.b != found[k - 1].b || f.length != found[k - 1].length)
-      sides_.push_back({f.a, f.b, f.length});
-    triangle_sides_[f.triangle][f.axis] = static_cast<int>(sides_.size()) - 1;
-  }
-  sides_then_.resize(sides_.size());
-  std::vector<std::vector<int>> triangles(sides_.size());
-  for (std::size_t t = 0; t < triangle_sides_.size(); ++t)
-    for (int k : triangle_sides_[t])
-      if (k >= 0) triangles[k].push_back(static_cast<int>(t));
-  for (const std::vector<int>& of_side : triangles) {
-    side_triangles_.items.insert(side_triangles_.items.end(), of_side.begin(), of_side.end());
-    side_triangles_.first.push_back(static_cast<int>(side_triangles_.items.size()));
-  }
-}
-
-/// Each column may change by 1/sqrt(2) of what the triangle may.
-void ContactTree::watchSides(std::span<const Vec3> x, std::span<const double> change) {
-  const int n = static_cast<int>(sides_.size());
-#pragma omp parallel for schedule(static) if (n > kMany)
-  for (int k = 0; k < n; ++k) {
-    const Vec3 d = x[sides_[k].b] - x[sides_[k].a];
-    float most2 = std::numeric_limits<float>::infinity();
-    for (int t : side_triangles_[k]) {
-      // Less by the rounding of all this: that of the sides is 1e-7 of them.
-      const float most = (0.7071f * static_cast<float>(change.empty() ? 0 : change[t]) - 1e-5f) * sides_[k].length_m;
-      most2 = std::min(most2, most > 0 ? most * most : -1.0f);
-    }
-    sides_then_[k] = {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), most2};
-  }
-}
-
-bool ContactTree::gradientsHold(std::span<const Vec3> x) const {
-  const int n = static_cast<int>(sides_.size());
-  const auto holds = [&](int k) {
-    const SideThen& then = sides_then_[k];
-    const Vec3 d = x[sides_[k].b] - x[sides_[k].a];
-    const float dx = static_cast<float>(d.x) - then.x, dy = static_cast<float>(d.y) - then.y,
-                dz = static_cast<float>(d.z) - then.z;
-    return dx * dx + dy * dy + dz * dz <= then.most2;
-  };
-  int fail = 0;
-  if (n > kMany) {
-#pragma omp parallel for schedule(static) reduction(+ : fail)
-    for (int k = 0; k < n; ++k) fail += !holds(k);
-  } else {
-    for (int k = 0; k < n && fail == 0; ++k) fail = !holds(k);
-  }
-  return fail == 0;
+  return merge({a.s, a.t, a.change}, {b.s, b.t, b.change});
 }
 
 ContactTree::Cluster ContactTree::merge(const Cluster& a, const Cluster& b) {
@@ -273,64 +216,102 @@ bool ContactTree::placePoints(const ListedMotion& motion) {
   const bool known = vertex_boxes_.size() == n;
   vertex_boxes_.resize(n);
   points_.resize(n);
+  off_m_.assign(n, 0);
+  shape_error_m_ = 0;
   if (n == 0) return false;
-  const Vec3 origin = motion.x[0];
+  origin_ = motion.x[0];
   const int count = static_cast<int>(n);
   int changes = !known;
-  Four far{};
-#pragma omp parallel if (count > kMany) reduction(+ : changes)
-  {
-    Four mine{};
-#pragma omp for schedule(static)
-    for (int i = 0; i < count; ++i) {
-      const MovingBox box(motion, i);
-      changes += i >= first_obstacle_vertex_ && !(box == vertex_boxes_[i]);
-      vertex_boxes_[i] = box;
-      const Vec3 now = motion.x[i] - origin, then = now + motion.horizon_s * motion.velocity(i);
-      MovingPoint& p = points_[i];
-      p.now = single(now);
-      p.then = single(then);
-      mine = most(mine, most(most(p.now, -p.now), most(p.then, -p.then)));
-    }
-#pragma omp critical
-    far = most(far, mine);
+  float error = 0;
+#pragma omp parallel for schedule(static) if (count > kMany) reduction(+ : changes) reduction(max : error)
+  for (int i = 0; i < count; ++i) {
+    const MovingBox before = vertex_boxes_[i];
+    placePoint(motion, i);
+    changes += i >= first_obstacle_vertex_ && !(vertex_boxes_[i] == before);
+    error = std::max(error, shapeError(points_[i]));
   }
-  // Each coordinate is off by 2^-24 of itself, a sum of three products by four times that; two of them make a distance.
-  shape_error_m_ = 2e-6f * mostOf(far)[0] + 1e-9f;
+  shape_error_m_ = error;
   return changes > 0;
 }
 
-void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion, std::span<const double> change) {
+void ContactTree::placePoint(const ListedMotion& motion, int vertex) {
+  vertex_boxes_[vertex] = MovingBox(motion, vertex);
+  const Vec3 now = motion.x[vertex] - origin_;
+  points_[vertex] = {single(now), single(now + motion.horizon_s * motion.velocity(vertex))};
+}
+
+/// Each coordinate is off by 2^-24 of itself, a sum of three products by four times that; two of them make a distance.
+float ContactTree::shapeError(const MovingPoint& p) {
+  return 2e-6f * mostOf(most(most(p.now, -p.now), most(p.then, -p.then)))[0] + 1e-9f;
+}
+
+void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion) {
   const bool obstacles_changed = placePoints(motion);
   gradients_.resize(inverse_.size());
   const int triangles = static_cast<int>(inverse_.size()), groups = static_cast<int>(groups_.size());
 #pragma omp parallel for schedule(static) if (triangles > kMany)
-  for (int t = 0; t < triangles; ++t) gradients_[t] = gradient(mesh, t, motion.x);
-  watchSides(motion.x, change);
+  for (int t = 0; t < triangles; ++t) gradients_[t] = gradient(mesh, t, motion);
   const int end = static_cast<int>(obstacles_changed ? nodes_.size() : parts_.size());
 #pragma omp parallel for schedule(dynamic) if (end > kMany)
   for (int g = 0; g < groups; ++g)
-    for (int i = std::min(groups_[g][1], end); i-- > groups_[g][0];) refitNode(i, change);
+    for (int i = std::min(groups_[g][1], end); i-- > groups_[g][0];) refitNode(i, motion);
   for (std::size_t k = above_.size(); k-- > 0;)
-    if (above_[k] < end) refitNode(above_[k], change);
+    if (above_[k] < end) refitNode(above_[k], motion);
 }
 
 /// After its children.
-void ContactTree::refitNode(std::size_t i, std::span<const double> change) {
+void ContactTree::refitNode(int i, const ListedMotion& motion) {
   const Node& n = nodes_[i];
-  MovingBox& box = boxes_[i];
-  if (n.left >= 0) {
-    box = boxes_[n.left];
-    box.add(boxes_[n.right]);
-    if (n.whole) parts_[i].cluster = merge(parts_[n.left].cluster, parts_[n.right].cluster);
+  if (n.left < 0) {
+    refitLeaf(i, motion);
+    if (!n.whole) return;
+    Part& part = parts_[i];
+    part.cluster = cellCluster(tiles_[n.first].triangle);
+    cells_[n.chart][part.begin[0] + charts_[n.chart].cells[0] * part.begin[1]] = part.cluster;
     return;
   }
-  box = {};
-  for (int k = n.first; k < n.first + n.count; ++k) box.add(boxOf(tiles_[k].vertex));
-  if (!n.whole) return;
-  Part& part = parts_[i];
-  part.cluster = cellCluster(tiles_[n.first].triangle, change);
-  cells_[n.chart][part.begin[0] + charts_[n.chart].cells[0] * part.begin[1]] = part.cluster;
+  boxes_[i] = boxes_[n.left];
+  boxes_[i].add(boxes_[n.right]);
+  if (n.chart < 0) return;
+  parts_[i].aside_m = std::max(parts_[n.left].aside_m, parts_[n.right].aside_m);
+  if (n.whole) parts_[i].cluster = merge(parts_[n.left].cluster, parts_[n.right].cluster);
+}
+
+/// What vertices may do.
+void ContactTree::refitLeaf(int i, const ListedMotion& motion) {
+  const Node& n = nodes_[i];
+  boxes_[i] = {};
+  for (int k = n.first; k < n.first + n.count; ++k) boxes_[i].add(boxOf(tiles_[k].vertex));
+  if (n.chart < 0) return;
+  float& aside = parts_[i].aside_m;
+  aside = 0;
+  for (int k = n.first; k < n.first + n.count; ++k)
+    for (int v : tiles_[k].vertex) aside = std::max(aside, roundUp(off_m_[v] + motion.slack(v)));
+}
+
+void ContactTree::refitSome(const ContactMesh& mesh, const ListedMotion& motion, std::span<const int> vertices) {
+  for (int leaf : touched_leaves_) touched_[leaf] = 0;
+  touched_leaves_.clear();
+  for (int v : vertices) {
+    const MovingPoint before = points_[v];
+    placePoint(motion, v);
+    const auto far2 = [](const Four& d) { return TileShape::dot(d, d); };
+    const float off2 = std::max(far2(points_[v].now - before.now), far2(points_[v].then - before.then));
+    const float error = std::max(shapeError(before), shapeError(points_[v]));
+    off_m_[v] = roundUp(off_m_[v] + 1.000001 * std::sqrt(off2) + error);
+    shape_error_m_ = std::max(shape_error_m_, error);
+    for (int t : mesh.vertex_faces[v])
+      if (!std::exchange(touched_[leaf_of_[t]], 1)) touched_leaves_.push_back(leaf_of_[t]);
+  }
+  std::sort(touched_leaves_.begin(), touched_leaves_.end());
+  for (int leaf : touched_leaves_) {
+    refitLeaf(leaf, motion);
+    // Those above hold what was there too: that is no less.
+    for (int i = parent_[leaf]; i >= 0; i = parent_[i]) {
+      boxes_[i].add(boxes_[leaf]);
+      parts_[i].aside_m = std::max(parts_[i].aside_m, parts_[leaf].aside_m);
+    }
+  }
 }
 
 Box ContactTree::reachOfCloth(const PairRules& rules) const {
@@ -339,11 +320,10 @@ Box ContactTree::reachOfCloth(const PairRules& rules) const {
   return box.grown(rules.margin_m);
 }
 
-/// c >= least, without dividing.
 bool ContactTree::certifies(const Cluster& cluster, double least) {
   const double ss = TileShape::dot(cluster.s, cluster.s), tt = TileShape::dot(cluster.t, cluster.t);
-  // A part in a thousand, and a part in a hundred thousand of the largest, for the rounding of all this: far more than
-  // it is.
+  // Without dividing. A part in a thousand, and a part in a hundred thousand of the largest, for the rounding of all
+  // this: far more than it is.
   const double half = 0.5 * (ss + tt), needed = least + 1.001 * cluster.spread + 1e-5 * std::sqrt(2 * half);
   if (!(half > needed * needed)) return false;  // s1 >= c + R, and s2 no more than s1
   const double st = TileShape::dot(cluster.s, cluster.t);
@@ -380,18 +360,30 @@ bool ContactTree::hullCertifies(int ia, int ib, double least) const {
   return certifies(hull, least);
 }
 
-/// Points whose distance at rest is D are at least c D apart.
+/// Points whose distance at rest is D, at least `rest`, are c D apart on their paths: enough are those that are farther
+/// apart than the margin, or than the share `least` of D.
 bool ContactTree::coveredBetween(int ia, int ib, double margin_m, double least) const {
   if (nodes_[ia].chart < 0 || nodes_[ia].chart != nodes_[ib].chart) return false;
-  const double rest = restDistance(parts_[ia].rest, parts_[ib].rest);
-  return hullCertifies(ia, ib, least * rest > margin_m ? margin_m / rest : least);
+  const Part &a = parts_[ia], &b = parts_[ib];
+  const double rest = std::max(restDistance(a.rest, b.rest), apart_m_);
+  return hullCertifies(ia, ib, std::min(least, margin_m / rest) + (static_cast<double>(a.aside_m) + b.aside_m) / rest);
+}
+
+bool ContactTree::certifiedWithin(int node, double margin_m, double least) const {
+  return certifies(parts_[node].cluster, std::min(least, margin_m / apart_m_) + 2.0 * parts_[node].aside_m / apart_m_);
+}
+
+std::vector<ContactTree::Search> ContactTree::searchesOfTouched() const {
+  std::vector<Search> found;
+  for (int leaf : touched_leaves_) found.push_back({leaf, Search::kAround, false});
+  return found;
 }
 
 std::vector<ContactTree::Search> ContactTree::searches(const PairRules& rules, int parts) const {
   std::vector<Search> found, next;
   const int charts = static_cast<int>(charts_.size()), roots = static_cast<int>(roots_.size());
   for (int i = 0; i < charts; ++i) {
-    if (rules.cloth_with_cloth) found.push_back({roots_[i], -1, false});
+    if (rules.cloth_with_cloth) found.push_back({roots_[i]});
     for (int j = rules.cloth_with_cloth ? i + 1 : charts; j < roots; ++j)
       found.push_back({roots_[i], roots_[j], false});
   }
@@ -406,19 +398,20 @@ std::vector<ContactTree::Search> ContactTree::searches(const PairRules& rules, i
       if (s.b < 0) {
         if (a.left < 0) {
           next.push_back(s);
-        } else if (!a.whole || !certifies(parts_[s.a].cluster, rules.least)) {
-          next.insert(next.end(), {{a.left, -1, false}, {a.right, -1, false}, {a.left, a.right, a.whole}});
+        } else if (!a.whole || !certifiedWithin(s.a, reachOf(rules, widest, s.a, s.a), rules.least)) {
+          next.insert(next.end(), {{a.left}, {a.right}, {a.left, a.right, a.whole}});
           opened = true;
         }
         continue;
       }
       const Node& b = nodes_[s.b];
-      if (!mayMeet(boxes_[s.a], boxes_[s.b], reachOf(rules, widest, s.a, s.b))) continue;
+      const float reach = reachOf(rules, widest, s.a, s.b);
+      if (!mayMeet(boxes_[s.a], boxes_[s.b], reach)) continue;
       if (a.left < 0 && b.left < 0) {
         next.push_back(s);
         continue;
       }
-      if (!s.asked && coveredBetween(s.a, s.b, rules.margin_m, rules.least)) continue;
+      if (!s.asked && coveredBetween(s.a, s.b, reach, rules.least)) continue;
       if (opensFirst(s.a, s.b))
         next.insert(next.end(), {{a.left, s.b, false}, {a.right, s.b, false}});
       else

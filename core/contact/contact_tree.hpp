@@ -34,8 +34,8 @@ struct TriangleRange {
 
 /// Which pairs matter.
 struct PairRules {
-  double margin_m = 0;           ///< what comes no nearer does not
-  double least = 0;              ///< nor do parts of one cloth with a certificate c (ContactTree) of at least this
+  double margin_m = 0;  ///< what comes no nearer does not
+  double least = 0;     ///< nor what stays this share of its distance at rest apart, in one cloth (ContactTree)
   bool cloth_with_cloth = true;  ///< or with obstacles only
   double blunt_margin_m = 0;     ///< the margin of pairs with something blunt (BluntFeatures), no more than margin_m
   double obstacle_margin_m = 0;  ///< the least of other pairs with an obstacle, no more than margin_m
@@ -44,12 +44,13 @@ struct PairRules {
 /// The tree. Cloth is bisected in its grids, so that a node is a rectangle of cells; obstacles by their centres, once.
 ///
 /// Certificate. Let X be reference coordinates in a convex part of a chart (a rectangle of whole cells) and F the
-/// gradient of the piecewise linear surface x(X), constant in a triangle. If all F of the part lie within R of a matrix
-/// M (3 x 2, singular values s1 >= s2) in the spectral norm, then for any two of its points, because Mᵀx is a strictly
+/// gradient of the piecewise linear surface p(X), constant in a triangle. If all F of the part lie within R of a matrix
+/// M (3 x 2, singular values s1 >= s2) in the spectral norm, then for any two of its points, because Mᵀp is a strictly
 /// monotone map there,
-///   |x(X) - x(Y)| >= c |X - Y|,  c = (s2² - s1 R)/s1.
-/// With c > 0 the part neither touches itself nor passes through itself. Where no F moves by more than e, c falls by no
-/// more than e; on straight paths the farthest F is that of one of the ends.
+///   |p(X) - p(Y)| >= c |X - Y|,  c = (s2² - s1 R)/s1.
+/// p are the paths of a motion (ListedMotion): F is linear in time, and so within half of its whole change of what it
+/// is half way. Cloth that is within a distance a of its path at X and b at Y stays c |X - Y| - a - b apart there,
+/// whatever the rest of it does: a certificate lasts for as long as its points keep to their paths.
 class ContactTree {
  public:
   ContactTree() = default;
@@ -68,40 +69,47 @@ class ContactTree {
     return tile_share_m_.empty() ? rules.margin_m : shared(rules, tile_share_m_[tile_a], tile_share_m_[tile_b]);
   }
 
-  /// Boxes and certificates of a motion, good for as long as all vertices do what it says and no gradient moves from
-  /// where it is at x by more than `change` of its triangle of cloth (empty: zero).
-  void refit(const ContactMesh& mesh, const ListedMotion& motion, std::span<const double> change);
+  /// Boxes and certificates of a motion, good for as long as all vertices do what it says.
+  void refit(const ContactMesh& mesh, const ListedMotion& motion);
+  /// Where some vertices of cloth do otherwise than at the last refit: `motion` says what, and is as it was for all
+  /// others. Their leaves are `touched` until the next call. Certificates stay those of the paths of the last refit,
+  /// which these vertices are off by so much more.
+  void refitSome(const ContactMesh& mesh, const ListedMotion& motion, std::span<const int> vertices);
+  bool touched(int triangle) const { return triangle < std::ssize(leaf_of_) && touched_[leaf_of_[triangle]]; }
 
-  /// Frobenius norm of F(x1) - F(x0) of each triangle of cloth.
-  void gradientChanges(const ContactMesh& mesh, std::span<const Vec3> x0, std::span<const Vec3> x1,
-                       std::vector<double>& out) const;
-  /// No gradient at x differs by more than its `change` from the last refit, of those that certificates count on: no
-  /// column by more than 1/sqrt(2) of it.
-  bool gradientsHold(std::span<const Vec3> x) const;
-
-  /// A part of a search for pairs: within a node, or between two.
+  /// A part of a search for pairs: within a node, between two, or between a leaf of cloth and all that there is.
   struct Search {
-    int a = 0, b = -1;   ///< nodes; -1: within a
-    bool asked = false;  ///< their hull has no certificate
+    int a = 0, b = kWithin;  ///< nodes
+    bool asked = false;      ///< their hull has no certificate
+
+    static constexpr int kWithin = -1, kAround = -2;
   };
   /// The search in parts, at least `parts` of them where there is that much to search. One after the other, they visit
   /// the same pairs in the same order however many there are.
   std::vector<Search> searches(const PairRules& rules, int parts) const;
+  /// Those of the leaves that are touched, with all tiles; two touched ones come up once.
+  std::vector<Search> searchesOfTouched() const;
 
   /// Calls visit(a, b, covered) once for every two tiles, not both of obstacles, whose boxes may meet, except those of
-  /// a part of cloth with c >= `least`; a == b: for the two triangles of a tile. Tiles for which covered() holds need
-  /// not be looked at either; it takes a while to tell.
+  /// which a certificate says that they do not matter; a == b: for the two triangles of a tile. Tiles for which
+  /// covered() holds need not be looked at either; it takes a while to tell.
   template <class Visit>
   void pairs(const PairRules& rules, const Search& search, Visit&& visit) const {
-    Traversal<Visit> t{*this, rules, rules.margin_m, rules.least, roundUp(rules.margin_m), visit};
-    if (search.b < 0)
+    Traversal<Visit> t{*this, rules, roundUp(rules.margin_m), visit};
+    if (search.b == Search::kWithin)
       t.within(search.a);
+    else if (search.b == Search::kAround)
+      t.around(search.a);
     else
       t.between(search.a, search.b, search.asked);
   }
 
   /// All of the cloth within the motion, and what comes within the margin of it.
   Box reachOfCloth(const PairRules& rules) const;
+
+  /// Primitives of whole cells without a common vertex are at least that far apart at rest; infinite where there are
+  /// none.
+  double apartAtRest() const { return apart_m_; }
 
   bool empty() const { return nodes_.empty(); }
   std::span<const Tile> tiles() const { return tiles_; }
@@ -124,8 +132,10 @@ class ContactTree {
   float shapeError_m() const { return shape_error_m_; }
 
  private:
+  /// Half way through a motion, and what it changes until then.
   struct Gradient {
-    Vec3 s, t;  ///< columns: dx/dX1, dx/dX2
+    Four s{}, t{};  ///< columns: dp/dX1, dp/dX2
+    float change = 0;
   };
   /// Gradients within `spread` (Frobenius) of the one with columns s and t. In single precision: these are numbers
   /// about 1, and what a millionth of them does is in `certifies`.
@@ -143,19 +153,20 @@ class ContactTree {
   struct Part {
     int begin[2]{}, end[2]{};  ///< cells of the rectangle
     Cluster cluster;
-    Box rest;  ///< of the rectangle in the chart's plane
+    float aside_m = 0;  ///< no vertex is farther off its path
+    Box rest;           ///< of the rectangle in the chart's plane
   };
   template <class Visit>
   struct Traversal {
     const ContactTree& tree;
     const PairRules& rules;
-    double margin, least;
     float reach;  ///< the margin for boxes
     Visit& visit;
+    int around_leaf = -1;  ///< that is searched around
 
     void within(int at) {
       const Node& n = tree.nodes_[at];
-      if (n.whole && certifies(tree.parts_[at].cluster, least)) return;
+      if (n.whole && tree.certifiedWithin(at, reachOf(at, at), rules.least)) return;
       if (n.left < 0) {
         const auto never = [] { return false; };
         for (int i = n.first; i < n.first + n.count; ++i) {
@@ -168,8 +179,36 @@ class ContactTree {
       within(n.right);
       between(n.left, n.right, n.whole);
     }
+    /// A touched leaf and all else.
+    void around(int leaf) {
+      const int charts = static_cast<int>(tree.charts_.size()), mine = tree.nodes_[leaf].chart;
+      for (int k = 0; k < static_cast<int>(tree.roots_.size()); ++k) {
+        if (k < charts && !rules.cloth_with_cloth) continue;
+        if (k == mine)
+          alongTo(leaf, tree.roots_[k]);
+        else
+          inOrder(leaf, tree.roots_[k]);
+      }
+    }
+    /// A leaf and all else under `at`, which is above it.
+    void alongTo(int leaf, int at) {
+      while (at != leaf) {
+        const Node& n = tree.nodes_[at];
+        if (n.whole && tree.certifiedWithin(at, reachOf(at, at), rules.least)) return;
+        const bool on_right = leaf >= n.right;
+        inOrder(leaf, on_right ? n.left : n.right);
+        at = on_right ? n.right : n.left;
+      }
+      within(leaf);
+    }
+    /// As the whole search has them: the earlier one first.
+    void inOrder(int leaf, int other) {
+      around_leaf = leaf;
+      between(std::min(leaf, other), std::max(leaf, other));
+      around_leaf = -1;
+    }
     void between(int ia, int ib, bool asked = false) {
-      if (mayMeet(tree.boxes_[ia], tree.boxes_[ib], tree.reachOf(rules, reach, ia, ib))) near(ia, ib, asked);
+      if (mayMeet(tree.boxes_[ia], tree.boxes_[ib], reachOf(ia, ib))) near(ia, ib, asked);
     }
     /// Two nodes whose boxes may meet. `asked`: their hull has no certificate.
     void near(int ia, int ib, bool asked) {
@@ -187,8 +226,12 @@ class ContactTree {
         between(ia, b.right);
       }
     }
-    bool covered(int ia, int ib, bool asked) const { return !asked && tree.coveredBetween(ia, ib, margin, least); }
+    bool covered(int ia, int ib, bool asked) const {
+      return !asked && tree.coveredBetween(ia, ib, reachOf(ia, ib), rules.least);
+    }
+    float reachOf(int ia, int ib) const { return tree.reachOf(rules, reach, ia, ib); }
     [[gnu::noinline]] void leaves(int ia, int ib, bool asked) {
+      if (around_leaf >= 0 && tree.comesLater(around_leaf, ia == around_leaf ? ib : ia)) return;
       const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
       if (a.count == 1 && b.count == 1) {
         visit(a.first, b.first, [&] { return covered(ia, ib, asked); });
@@ -209,13 +252,18 @@ class ContactTree {
   int buildObstacle(const ContactMesh& mesh, std::span<int> triangles, std::span<const Vec3> centres);
   void addTile(const ContactMesh& mesh, int first, int second);
   bool placePoints(const ListedMotion& motion);
+  void placePoint(const ListedMotion& motion, int vertex);
+  static float shapeError(const MovingPoint& p);
   void findGroups();
-  void refitNode(std::size_t i, std::span<const double> change);
-  Gradient gradient(const ContactMesh& mesh, int triangle, std::span<const Vec3> x) const;
-  Cluster cellCluster(std::span<const int> triangles, std::span<const double> change) const;
-  void findSides(const ContactMesh& mesh, std::span<const ChartCorners> corners);
-  void watchSides(std::span<const Vec3> x, std::span<const double> change);
+  void findLeaves(int triangles);
+  void findApart(std::span<const ChartCorners> corners);
+  void refitNode(int i, const ListedMotion& motion);
+  void refitLeaf(int i, const ListedMotion& motion);
+  Gradient gradient(const ContactMesh& mesh, int triangle, const ListedMotion& motion) const;
+  Cluster cellCluster(std::span<const int> triangles) const;
+  /// c >= least.
   static bool certifies(const Cluster& cluster, double least);
+  bool certifiedWithin(int node, double margin_m, double least) const;
   static Cluster merge(const Cluster& a, const Cluster& b);
   static float distance(const Cluster& a, const Cluster& b) {
     const Four s = a.s - b.s, t = a.t - b.t;
@@ -233,6 +281,8 @@ class ContactTree {
                                  : 1.000001f * static_cast<float>(shared(rules, node_share_m_[ia], node_share_m_[ib]));
   }
   bool coveredBetween(int ia, int ib, double margin_m, double least) const;
+  /// Two touched leaves come up with the first of them.
+  bool comesLater(int leaf, int other) const { return other < leaf && touched_[other]; }
   /// Of two nodes, not both leaves: the first is the one to look into.
   bool opensFirst(int ia, int ib) const {
     const Node &a = nodes_[ia], &b = nodes_[ib];
@@ -250,26 +300,20 @@ class ContactTree {
   std::vector<std::array<int, 2>> groups_;  ///< nodes [first, end) under one, of a size that a thread takes at once
   std::vector<int> above_;                  ///< the other nodes, ascending
   std::vector<Tile> tiles_;                 ///< leaf by leaf
+  std::vector<int> parent_, leaf_of_;       ///< of the nodes of cloth, and of its triangles
+  std::vector<char> touched_;               ///< of the nodes of cloth
+  std::vector<int> touched_leaves_;         ///< ascending
   std::vector<float> node_share_m_, tile_share_m_;  ///< the largest of their vertices; -1: of obstacles
   std::vector<MovingBox> vertex_boxes_;
   std::vector<MovingPoint> points_;  ///< the vertices
+  Vec3 origin_;                      ///< of `points_`
+  std::vector<float> off_m_;         ///< of each vertex of cloth: its path, from that of the last refit
   float shape_error_m_ = 0;
   int first_obstacle_vertex_ = std::numeric_limits<int>::max();
-  std::vector<Gradient> gradients_;  ///< at the last refit, of each triangle of cloth
-  struct Side {
-    int a = 0, b = 0;
-    float length_m = 0;  ///< at rest
-  };
-  struct SideThen {
-    float x = 0, y = 0, z = 0;  ///< from a to b at the last refit
-    float most2 = 0;            ///< squared change that is allowed for
-  };
-  std::vector<Side> sides_;  ///< of whole cells, each once
-  std::vector<SideThen> sides_then_;
-  std::vector<std::array<int, 2>> triangle_sides_;  ///< of each triangle of cloth; -1 in cells that are cut
-  Lists side_triangles_;                            ///< and the triangles of each side
-  std::vector<std::array<double, 4>> inverse_;      ///< of the reference edges of each triangle of a whole cell
-  std::vector<std::vector<Cluster>> cells_;         ///< of each cell of each chart
+  std::vector<Gradient> gradients_;             ///< of each triangle of cloth
+  std::vector<std::array<double, 4>> inverse_;  ///< of the reference edges of each triangle of a whole cell
+  std::vector<std::vector<Cluster>> cells_;     ///< of each cell of each chart
+  double apart_m_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace gambeson

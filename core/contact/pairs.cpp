@@ -16,6 +16,7 @@ namespace {
 constexpr unsigned char kAllBlunt = 63;
 constexpr int kMany = 4096;      ///< from which on threads share the work
 constexpr int kManyTiles = 256;  ///< likewise of a search
+constexpr int kManyLeaves = 16;  ///< and of one around some leaves
 constexpr int kParts = 64;       ///< of a search, for each thread
 
 /// Pairs whose boxes may meet, looked at four at a time. A: corners of the first primitive.
@@ -231,11 +232,19 @@ void sortPoints(int vertex_count, CandidatePairs& out) {
 PairCollector::PairCollector(const ContactMesh& mesh, const BluntFeatures& blunt) : owned_(mesh.triangles.size(), 0) {
   std::vector<char> vertex_taken(mesh.vertex_count, 0), edge_taken(mesh.edges.size(), 0);
   blunt_.resize(mesh.triangles.size(), 0);
+  vertex_owner_.resize(mesh.vertex_count);
+  edge_owner_.resize(mesh.edges.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const int vertex = mesh.triangles[t][k], edge = mesh.face_edges[t][k];
-      if (!std::exchange(vertex_taken[vertex], 1)) owned_[t] |= 1 << k;
-      if (!std::exchange(edge_taken[edge], 1)) owned_[t] |= 8 << k;
+      if (!std::exchange(vertex_taken[vertex], 1)) {
+        owned_[t] |= 1 << k;
+        vertex_owner_[vertex] = static_cast<int>(t);
+      }
+      if (!std::exchange(edge_taken[edge], 1)) {
+        owned_[t] |= 8 << k;
+        edge_owner_[edge] = static_cast<int>(t);
+      }
       if (!blunt.vertex.empty() && blunt.vertex[vertex]) blunt_[t] |= 1 << k;
       if (!blunt.edge.empty() && blunt.edge[edge]) blunt_[t] |= 8 << k;
     }
@@ -243,7 +252,7 @@ PairCollector::PairCollector(const ContactMesh& mesh, const BluntFeatures& blunt
 
 void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion,
                             const PairRules& rules, CandidatePairs& out, const BluntFeatures* also_blunt) const {
-  std::span<const unsigned char> blunt = blunt_;
+  out.blunt.clear();
   if (also_blunt) {
     out.blunt.resize(blunt_.size());
     const int n = static_cast<int>(blunt_.size());
@@ -256,12 +265,34 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
       // What a triangle does not own does not come up with it.
       out.blunt[t] = bits == 0 ? bits : static_cast<unsigned char>(bits | (kAllBlunt & ~owned_[t]));
     }
-    blunt = out.blunt;
   }
-  const int tile_count = static_cast<int>(tree.tiles().size()),
-            threads = tile_count > kManyTiles ? omp_get_max_threads() : 1;
-  const std::vector<ContactTree::Search> searches = tree.searches(rules, threads > 1 ? kParts * threads : 1);
-  const int count = static_cast<int>(searches.size());
+  const int threads = std::ssize(tree.tiles()) > kManyTiles ? omp_get_max_threads() : 1;
+  out.edges.clear();
+  search(mesh, tree, motion, rules, tree.searches(rules, threads > 1 ? kParts * threads : 1), threads, out);
+  sortPoints(mesh.vertex_count, out);
+}
+
+void PairCollector::mend(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion,
+                         const PairRules& rules, CandidatePairs& out) const {
+  std::erase_if(out.points, [&](const PointTriangle& p) {
+    return tree.touched(p.triangle) || tree.touched(vertex_owner_[p.vertex]);
+  });
+  std::erase_if(out.edges,
+                [&](const EdgeEdge& p) { return tree.touched(edge_owner_[p.a]) || tree.touched(edge_owner_[p.b]); });
+  const std::vector<ContactTree::Search> searches = tree.searchesOfTouched();
+  search(mesh, tree, motion, rules, searches, std::ssize(searches) > kManyLeaves ? omp_get_max_threads() : 1, out);
+  std::sort(out.unsorted.begin(), out.unsorted.end());
+  const std::ptrdiff_t kept = std::ssize(out.points);
+  out.points.insert(out.points.end(), out.unsorted.begin(), out.unsorted.end());
+  std::inplace_merge(out.points.begin(), out.points.begin() + kept, out.points.end());
+}
+
+/// Of the points all that they find, in out.unsorted; edges go behind those that are there.
+void PairCollector::search(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion,
+                           const PairRules& rules, std::span<const ContactTree::Search> searches, int threads,
+                           CandidatePairs& out) const {
+  const std::span<const unsigned char> blunt = out.blunt.empty() ? blunt_ : out.blunt;
+  const int count = static_cast<int>(searches.size()), tile_count = static_cast<int>(tree.tiles().size());
   out.found.assign(count, {});
   if (static_cast<int>(out.shares.size()) < threads) out.shares.resize(threads);
 #pragma omp parallel num_threads(threads)
@@ -286,7 +317,7 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
       found.end_edge = share.edges.size();
     }
   }
-  std::size_t points = 0, edges = 0;
+  std::size_t points = 0, edges = out.edges.size();
   for (CandidatePairs::Found& f : out.found) {
     f.points_at = points;
     f.edges_at = edges;
@@ -303,7 +334,6 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
               out.unsorted.begin() + f.points_at);
     std::copy(share.edges.begin() + f.first_edge, share.edges.begin() + f.end_edge, out.edges.begin() + f.edges_at);
   }
-  sortPoints(mesh.vertex_count, out);
 }
 
 }  // namespace gambeson

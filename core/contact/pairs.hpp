@@ -36,7 +36,7 @@ struct EdgeEdge {
 };
 struct CandidatePairs {
   std::vector<PointTriangle> points;  ///< ascending
-  std::vector<EdgeEdge> edges;        ///< in an order that depends on the tree alone
+  std::vector<EdgeEdge> edges;        ///< in an order that does not depend on the number of threads
   /// Scratch of one thread.
   struct Share {
     std::vector<PointTriangle> points;
@@ -56,7 +56,7 @@ struct CandidatePairs {
   std::vector<Found> found;
   std::vector<PointTriangle> unsorted;
   std::vector<int> first_of_vertex;
-  std::vector<unsigned char> blunt;  ///< of each triangle, as in PairCollector
+  std::vector<unsigned char> blunt;  ///< of each triangle, as in PairCollector; empty: as there
 };
 
 /// What has no persistent contacts of its own (1) and matters to a list only within PairRules::blunt_margin_m: vertices
@@ -77,10 +77,18 @@ class PairCollector {
   /// vertices and edges.
   void collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
                CandidatePairs& out, const BluntFeatures* also_blunt = nullptr) const;
+  /// What is on the list of the last `collect`, put right where the tree has been touched since (refitSome). The flags
+  /// are those of that call.
+  void mend(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
+            CandidatePairs& out) const;
 
  private:
+  void search(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
+              std::span<const ContactTree::Search> searches, int threads, CandidatePairs& out) const;
+
   std::vector<unsigned char> owned_;  ///< of a triangle: bits 0 to 2 its corners, bits 3 to 5 its edges
   std::vector<unsigned char> blunt_;  ///< likewise
+  std::vector<int> vertex_owner_, edge_owner_;
 };
 
 }  // namespace gambeson

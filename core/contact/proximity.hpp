@@ -19,7 +19,7 @@ struct Contact {
   Vec3 normal;
   double gap_m = 0;
   Vec3 local;
-  MaterialPoint touched;  ///< the same of an obstacle that deforms, whose frame is the world's
+  MaterialPoint touched;   ///< the same of an obstacle that deforms, whose frame is the world's
   double clearance_m = 0;  ///< what the cloth between the samples asks for (findClearances); 0: nothing
 };
 

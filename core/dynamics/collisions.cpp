@@ -148,17 +148,6 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
   m.mesh = contactMesh(static_cast<int>(x.size()), triangles);
   markSharp(m, x);
   const SurfaceCharts charts = surfaceCharts(surface, rest);
-  // Primitives of a whole cell without a common vertex are at least as far apart at rest as a corner from the diagonal.
-  double apart = std::numeric_limits<double>::infinity();
-  for (const GridChart& chart : charts.charts)
-    for (int cell = 0; cell < chart.triangles.size(); ++cell) {
-      if (!chart.whole[cell]) continue;
-      Box box;
-      for (const Vec2& corner : charts.corners[chart.triangles[cell][0]]) box.add(Vec3{corner.x, corner.y, 0});
-      const double a = box.hi.x - box.lo.x, b = box.hi.y - box.lo.y;
-      apart = std::min(apart, a * b / std::hypot(a, b));
-    }
-  m.least = contactReach(m.largest_thickness_m) / std::max(apart, neighbourDistance(m.largest_thickness_m));
   for (int body : m.body_of_vertex) m.is_body.push_back(body >= 0);
   for (const Obstacle& o : obstacles) m.is_mesh.push_back(std::holds_alternative<TriangleMesh>(o.shape));
   const bool layered =
@@ -168,6 +157,8 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
     m.layer_of_vertex.resize(x.size(), -1);
   }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
+  m.least = contactReach(m.largest_thickness_m) /
+            std::max(m.tree.apartAtRest(), neighbourDistance(m.largest_thickness_m));
   m.vertex_share_m.assign(m.mesh.vertex_count, -1);
   for (std::size_t v = 0; v < m.cloth.thickness_m.size(); ++v)
     m.vertex_share_m[v] = roundUp(0.5 * contactReach(m.cloth.thickness_m[v]));

@@ -48,7 +48,7 @@ TEST_P(FramesTest, EveryTruePairIsOnTheList) {
   std::vector<Vec3> velocity(vertices);
   for (int i = 0; i < vertices; ++i) velocity[i] = end.vertices[i] - start.vertices[i];
   const ListedMotion motion{start.vertices, velocity, {}, 1};
-  tree.refit(mesh, motion, {});
+  tree.refit(mesh, motion);
   CandidatePairs found;
   PairCollector(mesh).collect(mesh, tree, motion, {2e-6, 1, true}, found);
   std::ranges::sort(found.edges);
