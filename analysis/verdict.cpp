@@ -36,9 +36,11 @@ Light optionLight(const Option& o, const VerdictInput& in, double error = 0) {
 
 std::string bracketed(const std::string& text) { return text.empty() ? "" : " (" + text + ")"; }
 
-std::string costText(const Option::Cost& c) {
+std::string costText(const Option::Cost& c, const VerdictInput& in) {
   std::string s = formatNumber(c.peak_Nm) + " Nm at the " + c.joint;
-  if (c.part) s += ", " + percent(*c.part) + " of its natural " + formatNumber(c.peak_Nm / *c.part) + " Nm";
+  if (c.part)
+    s += ", " + percentBeside(*c.part, in.green, in.red) + " of its natural " + formatNumber(c.peak_Nm / *c.part) +
+         " Nm";
   return s + bracketed(c.motion);
 }
 
@@ -131,9 +133,25 @@ std::string sentenceOf(const VerdictInput& in, const Verdict& v) {
                   : fmt::format("Take {}: the thickest that stays green{}{}.", name, where, just);
 }
 
+/// Where a joint decides because hardly anything is asked of it, the other side tells what a leg pays that bears more.
+std::string smallMoment(const Option& o, const Option::Cost& c, const VerdictInput& in) {
+  constexpr double kFar = 3;
+  const bool right = c.joint.starts_with("right ");
+  if (!c.lever_m || !c.part || !(right || c.joint.starts_with("left "))) return "";
+  const std::string other = right ? "left " + c.joint.substr(6) : "right " + c.joint.substr(5);
+  const Option::Cost* k = costAt(o, c.motion, other);
+  if (!k || !k->part || !(*k->part > 0) || k->peak_Nm / *k->part < kFar * c.peak_Nm / *c.part) return "";
+  return fmt::format(
+      " That moment is small because the ground\u2019s force on this foot passes only {} cm off the joint: at the {}, "
+      "{} Nm of natural {} Nm are {}.",
+      formatNumber(100 * *c.lever_m, 2), other, formatNumber(k->peak_Nm), formatNumber(k->peak_Nm / *k->part),
+      percentBeside(*k->part, in.green, in.red));
+}
+
 std::string enoughOf(const VerdictInput& in, const Verdict& v) {
   const Option& o = at(in, v.take);
-  const std::string cost = costText(*worstCost(o));
+  const std::string small = smallMoment(o, *worstCost(o), in);
+  const std::string cost = costText(*worstCost(o), in);
   std::string text;
   switch (v.light) {
     case Light::green:
@@ -142,13 +160,14 @@ std::string enoughOf(const VerdictInput& in, const Verdict& v) {
         for (std::size_t i = static_cast<std::size_t>(v.take) + 1; i < in.options.size(); ++i)
           if (usable(in.options[i]))
             return text + fmt::format(" The next, {}, costs {}: {}.", in.options[i].name,
-                                      costText(*worstCost(in.options[i])), nameOf(optionLight(in.options[i], in)));
+                                      costText(*worstCost(in.options[i]), in), nameOf(optionLight(in.options[i], in)));
       return text;
     case Light::amber:
       return fmt::format("Not free of burden: up to {}: amber, between {} and {}.", cost, percent(in.green),
-                         percent(in.red));
+                         percent(in.red)) +
+             small;
     case Light::red:
-      return fmt::format("Not good enough as it is: up to {}: red, above {}.", cost, percent(in.red));
+      return fmt::format("Not good enough as it is: up to {}: red, above {}.", cost, percent(in.red)) + small;
     case Light::unknown:
       break;
   }
@@ -354,6 +373,21 @@ std::string numbersOf(const VerdictInput& in, const Verdict& v) {
     say(fmt::format("It is not red only if the true torque is more than {} smaller.", percent(*v.holds_up_to)));
   if (v.holds_up_to && v.light == Light::amber)
     say(fmt::format("It stays amber as long as the torques are right within {}.", percent(*v.holds_up_to)));
+  // A peak at the very end may not have been the last word.
+  for (const std::string& m : v.take < 0 ? std::vector<std::string>{} : motionsOf(at(in, v.take))) {
+    constexpr double kEnd = 0.95;
+    const Option::Cost& c = *worstCost(at(in, v.take), &m);
+    if (c.end_s > 0 && c.peak_s >= kEnd * c.end_s)
+      say(
+          fmt::format("{} the torque of the {} is largest at {} s, where the run ends ({} s): it may have gone on to "
+                      "grow.",
+                      m.empty() ? "Here" : "In " + m, c.joint, formatNumber(c.peak_s), formatNumber(c.end_s)));
+  }
+  if (in.stretch && in.stretch->largest > in.stretch->meant_for)
+    say(
+        fmt::format("Fabric stretches by up to {} (99 % of it by less than {}), and its law is meant for less than {}: "
+                    "beyond that its stress is extrapolated.",
+                    percent(in.stretch->largest), percent(in.stretch->most), percent(in.stretch->meant_for)));
   if (in.failing_runs == 0 && in.checked_runs > 0) say("All checks of all runs hold.");
   if (in.failing_runs > 0) {
     say(fmt::format("Checks fail in {} of {} runs{}.", in.failing_runs, in.checked_runs,
@@ -363,6 +397,13 @@ std::string numbersOf(const VerdictInput& in, const Verdict& v) {
 }
 
 }  // namespace
+
+std::string percentBeside(double part, double green, double red) {
+  int digits = 2;
+  const auto as = [&](double p) { return formatBrief(100 * p, digits); };
+  while (digits < 5 && ((part != green && as(part) == as(green)) || (part != red && as(part) == as(red)))) ++digits;
+  return as(part) + " %";
+}
 
 const Option::Cost* worstCost(const Option& o, const std::string* motion) {
   const Option::Cost* worst = nullptr;

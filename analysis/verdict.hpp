@@ -25,6 +25,9 @@ struct Option {
     double peak_Nm = 0;           ///< size of the largest added torque
     std::optional<double> part;   ///< of the natural moment
     std::optional<double> ratio;  ///< of the peak of the baseline, same motion and joint
+    /// Of a natural moment of holding still: how far from the joint the ground's force on the foot passes.
+    std::optional<double> lever_m = {};
+    double peak_s = 0, end_s = 0;  ///< when it comes, and where the run ends
   };
   std::vector<Cost> costs;  ///< of each motion and joint that matters
   /// Pressure on the part of the body that is furthest from comfortable in a motion.
@@ -61,8 +64,18 @@ struct VerdictInput {
     bool order = false;  ///< may turn the order of the options; else it touches the sizes of the torques alone
   };
   std::vector<Doubt> doubts;
+  /// Where cloth stretches beyond what its law is meant for: how far, the largest of all runs.
+  struct Stretch {
+    double meant_for = 0;  ///< the law holds below
+    double most = 0;       ///< 99 % of the patch that stretches most stays below
+    double largest = 0;    ///< of single spots
+  };
+  std::optional<Stretch> stretch;
   int failing_runs = 0, checked_runs = 0;  ///< with checks that fail, of how many
 };
+
+/// "5 %", with as many digits as tell on which side of the limits it is: "5.04 %".
+std::string percentBeside(double part, double green, double red);
 
 /// The cost that decides: the largest part of a natural moment, or without one the largest peak; in one motion or in
 /// all. Null without costs.

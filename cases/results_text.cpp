@@ -53,13 +53,10 @@ std::string signRule() {
 std::string stretchMeaning(const Case& c) {
   return fmt::format(
       "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m. {} The fabric\u2019s law is a straight line, which "
-      "its "
-      "source takes for strains below 2 % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real "
-      "fabric may "
-      "be stiffer. A largest value far above what 99 % of the cloth stays below is that of single spots, at corners "
-      "and "
-      "seams.",
-      c.strain_limit ? "The case limits that of weft and warp." : "The case sets no limit to it.");
+      "its source takes for strains below {} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real "
+      "fabric may be stiffer. A largest value far above what 99 % of the cloth stays below is that of single spots, at "
+      "corners and seams.",
+      c.strain_limit ? "The case limits that of weft and warp." : "The case sets no limit to it.", 100 * kStrainOfLaw);
 }
 
 std::vector<AuditCheck> auditOf(const Measured& m) {

@@ -66,6 +66,8 @@ std::vector<AuditCheck> auditOf(const Measured& measured);
 
 /// What a stretch of the fabric means, and up to where its law holds.
 std::string stretchMeaning(const Case& c);
+/// Strain below which the source of the fabric's law takes it to be a straight line (Zheng 2013, eq. 2.13).
+constexpr double kStrainOfLaw = 0.02;
 
 /// What a reader must know before trusting the numbers.
 std::vector<std::string> assumptionsOf(const Scenario& scenario);

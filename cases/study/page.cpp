@@ -126,8 +126,9 @@ std::string takenOf(const Study& s, const Comparison& c) {
   for (const Group& g : c.groups) {
     const Option::Cost* worst = worstCost(o, &g.label);
     if (!worst) continue;
-    const std::string what = fmt::format("{}{} Nm, {}", worst->part ? percent(worst->part) + " of natural: " : "",
-                                         formatNumber(worst->peak_Nm), worst->joint);
+    const std::string what = fmt::format(
+        "{}{} Nm, {}", worst->part ? percentBeside(*worst->part, s.limits.green, s.limits.red) + " of natural: " : "",
+        formatNumber(worst->peak_Nm), worst->joint);
     list += item(g.label.empty() ? "Costs" : fmt::format("Costs, {}", g.label),
                  fmt::format("{} {}", lightOf(gambeson::lightOf(worst->part, s.limits.green, s.limits.red)),
                              element("span", prose(what), " class=\"reason\"")));

@@ -43,10 +43,12 @@ std::string segmentsOf(const Study& s, const Comparison& c) {
         rows.back().emplace_back(100 * share, 2);
       }
     }
-  return folded("Shares of the segments of the body",
-                charts(htmlTable("Contact by segments", columns, rows,
-                                 "Shares of the mean contact force. Segments with less than 0.5 % everywhere are left "
-                                 "out.")));
+  return folded(
+      "Shares of the segments of the body",
+      charts(htmlTable("Contact by segments", columns, rows,
+                       "Shares of the mean contact force of the links of the skeleton, with belt and edges on "
+                       "springs: what these press, which the parts of the body above leave out, is mostly the "
+                       "pelvis\u2019s. Segments with less than 0.5 % everywhere are left out.")));
 }
 
 }  // namespace

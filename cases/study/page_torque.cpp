@@ -43,9 +43,9 @@ bool matters(const Comparison& c, const std::string& label) {
 
 /// One joint of one run, in two lines.
 Html payment(const Study& s, const Comparison& c, std::size_t i, const JointNumbers& j) {
-  std::string first =
-      j.part() ? escape(percent(j.part())) + " " + lightOf(gambeson::lightOf(j.part(), s.limits.green, s.limits.red))
-               : "";
+  std::string first = j.part() ? escape(percentBeside(*j.part(), s.limits.green, s.limits.red)) + " " +
+                                     lightOf(gambeson::lightOf(j.part(), s.limits.green, s.limits.red))
+                               : "";
   std::string second = formatNumber(std::abs(j.peak_Nm)) + (j.prismatic ? " N" : " Nm");
   if (const JointRatio* r = ratioOf(c, i, j.name); r && !isBaseline(s, i) && std::isfinite(r->peak))
     second += "<br>" + formatNumber(r->peak, 2) + " of the baseline\u2019s";
@@ -122,7 +122,8 @@ std::string payOf(const Study& s, const Comparison& c) {
     const RunNumbers& r = c.runs[i];
     std::string below;
     for (const LayerNumbers& l : r.layers)
-      if (c.input.sized) below += (below.empty() ? "" : " / ") + formatNumber(1e3 * l.thickness_m);
+      if (c.input.sized)
+        below += (below.empty() ? "" : ", ") + l.name + (l.name.empty() ? "" : " ") + formatNumber(1e3 * l.thickness_m);
     if (!below.empty()) below = "<br>" + element("small", escape(below + " mm"), " class=\"q\"");
     const char* base = isBaseline(s, i) ? " <small>baseline</small>" : "";
     std::vector<Html> row{r.good ? linkTo(v, name) + base + below

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "cases/check_words.hpp"
+#include "cases/results_write.hpp"
 #include "cases/study/compare.hpp"
 #include "cases/zone_ledger.hpp"
 
@@ -27,7 +28,8 @@ void addRun(const Comparison& c, const Group& g, std::size_t i, Option& option) 
   for (const std::string& name : g.joints) {
     const JointNumbers* j = run.joint(name);
     if (!j) continue;
-    Option::Cost cost{g.label, j->label, std::abs(j->peak_Nm), j->part(), {}};
+    Option::Cost cost{g.label, j->label,   std::abs(j->peak_Nm), j->part(),
+                      {},      j->lever_m, j->peak_time_s,       run.recorded_to_s};
     for (const JointRatio& r : c.ratios[i])
       if (r.joint == name && std::isfinite(r.peak)) cost.ratio = r.peak;
     option.costs.push_back(cost);
@@ -81,6 +83,17 @@ void addDoubts(const Comparison& c, VerdictInput& in) {
   }
 }
 
+/// Of all runs that are good.
+void addStretch(const Comparison& c, VerdictInput& in) {
+  VerdictInput::Stretch most{kStrainOfLaw, 0, 0};
+  for (const RunNumbers& r : c.runs) {
+    if (!r.good) continue;
+    most.most = std::fmax(most.most, r.p99_strain());
+    most.largest = std::fmax(most.largest, r.largest_strain);
+  }
+  in.stretch = most;
+}
+
 void addMeshError(const Comparison& c, VerdictInput& in) {
   std::vector<std::string> where;
   for (const MeshRow& m : c.meshes) {
@@ -127,6 +140,7 @@ VerdictInput verdictInput(const Study& s, const Comparison& c) {
   addMeshError(c, in);
   if (in.sized) addExponents(s, c, in);
   addDoubts(c, in);
+  addStretch(c, in);
   return in;
 }
 

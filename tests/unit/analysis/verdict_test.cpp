@@ -270,5 +270,50 @@ TEST(Verdict, WithoutSizesTheCheapestIsTaken) {
   EXPECT_TRUE(has(v.choice, "Thickness x 1 costs 1.5 times as much")) << v.choice;
 }
 
+TEST(Verdict, ASmallNaturalMomentIsExplainedByTheOtherSide) {
+  VerdictInput in = table({0.2, 0.3, 0.4});
+  for (Option& o : in.options) {
+    o.costs[1].lever_m = 0.0091;
+    o.costs.push_back(
+        {"stairs", "left hip (flexion)", 60 * o.costs[1].part.value(), 0.2 * o.costs[1].part.value(), {}});
+  }
+  EXPECT_EQ(
+      verdictOf(in).enough,
+      "Not good enough as it is: up to 10.0 Nm at the right hip (flexion), 20 % of its natural 50.0 Nm (stairs): "
+      "red, above 15 %. That moment is small because the ground\u2019s force on this foot passes only 0.91 cm off "
+      "the joint: at the left hip (flexion), 12.0 Nm of natural 300 Nm are 4 %.");
+  in.options[0].costs[2].peak_Nm = 4;  // of natural 100 Nm: no great difference
+  EXPECT_FALSE(has(verdictOf(in).enough, "That moment is small"));
+}
+
+TEST(Verdict, TellsWhatIsExtrapolatedAndWhatTheEndCutsOff) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  for (Option& o : in.options) o.costs[1].peak_s = 1.48, o.costs[1].end_s = 1.5;
+  in.stretch = {0.02, 0.13, 0.395};
+  const std::string numbers = verdictOf(in).numbers;
+  EXPECT_TRUE(
+      has(numbers,
+          "In stairs the torque of the right hip (flexion) is largest at 1.48 s, where the run ends (1.50 s): it "
+          "may have gone on to grow."))
+      << numbers;
+  EXPECT_TRUE(has(numbers,
+                  "Fabric stretches by up to 40 % (99 % of it by less than 13 %), and its law is meant for less than 2 "
+                  "%: beyond that its stress is extrapolated."))
+      << numbers;
+  in.stretch->largest = 0.019;
+  for (Option& o : in.options) o.costs[1].peak_s = 1.3;
+  EXPECT_FALSE(has(verdictOf(in).numbers, "stretches"));
+  EXPECT_FALSE(has(verdictOf(in).numbers, "where the run ends"));
+}
+
+TEST(Verdict, PercentagesTellTheirSideOfALimit) {
+  EXPECT_EQ(percentBeside(0.052, 0.05, 0.15), "5.2 %");
+  EXPECT_EQ(percentBeside(0.05, 0.05, 0.15), "5 %");
+  EXPECT_EQ(percentBeside(0.0504, 0.05, 0.15), "5.04 %");
+  EXPECT_EQ(percentBeside(0.04996, 0.05, 0.15), "4.996 %");
+  EXPECT_EQ(percentBeside(0.1497, 0.05, 0.15), "14.97 %");
+  EXPECT_EQ(percentBeside(0.39, 0.05, 0.15), "39 %");
+}
+
 }  // namespace
 }  // namespace gambeson
