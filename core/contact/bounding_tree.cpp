@@ -4,6 +4,9 @@
 #include <numeric>
 
 namespace gambeson {
+namespace {
+constexpr int kMany = 4096;  ///< nodes, from which on threads share the work
+}
 
 BoundingTree::BoundingTree(std::span<const Box> primitives, int leaf_size) {
   assert(leaf_size > 0);
@@ -54,15 +57,19 @@ BoundingTree::BoundingTree(std::span<const Box> primitives, int leaf_size) {
 
 void BoundingTree::refit(std::span<const Box> primitives) {
   assert(primitives.size() == order_.size());
+  const int count = static_cast<int>(nodes_.size());
+#pragma omp parallel for schedule(static) if (count > kMany)
+  for (int i = 0; i < count; ++i) {
+    Node& n = nodes_[i];
+    if (n.count == 0) continue;
+    n.box = Box{};
+    for (int k = n.first; k < n.first + n.count; ++k) n.box.add(primitives[order_[k]]);
+  }
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& n = nodes_[i];
-    n.box = Box{};
-    if (n.count > 0) {
-      for (int k = n.first; k < n.first + n.count; ++k) n.box.add(primitives[order_[k]]);
-    } else {
-      n.box.add(nodes_[n.first].box);
-      n.box.add(nodes_[n.first + 1].box);
-    }
+    if (n.count > 0) continue;
+    n.box = nodes_[n.first].box;
+    n.box.add(nodes_[n.first + 1].box);
   }
 }
 

@@ -157,8 +157,8 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
     m.layer_of_vertex.resize(x.size(), -1);
   }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
-  m.least = contactReach(m.largest_thickness_m) /
-            std::max(m.tree.apartAtRest(), neighbourDistance(m.largest_thickness_m));
+  m.least =
+      contactReach(m.largest_thickness_m) / std::max(m.tree.apartAtRest(), neighbourDistance(m.largest_thickness_m));
   m.vertex_share_m.assign(m.mesh.vertex_count, -1);
   for (std::size_t v = 0; v < m.cloth.thickness_m.size(); ++v)
     m.vertex_share_m[v] = roundUp(0.5 * contactReach(m.cloth.thickness_m[v]));
@@ -319,12 +319,20 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
 
 void dropUnreached(const CollisionModel& m, const ObstacleMotion& obstacles, const CollisionWork& w,
                    std::vector<Contact>& near) {
-  std::erase_if(near, [&](const Contact& c) {
-    if (!(c.gap_m > 0)) return false;
+  const int n = static_cast<int>(near.size());
+  std::vector<char> reached(near.size(), 1);
+#pragma omp parallel for schedule(static) if (n > kMany)
+  for (int k = 0; k < n; ++k) {
+    const Contact& c = near[k];
+    if (!(c.gap_m > 0)) continue;
     const Vec3 from = c.gap_m * c.normal;
     const Vec3 way = w.x1[c.sample] - w.x0[c.sample] - wayOfBody(m, obstacles, c);
-    return !comesWithin(contactReach(std::max(m.cloth.thickness_m[c.sample], c.clearance_m)), from, way);
-  });
+    reached[k] = comesWithin(contactReach(std::max(m.cloth.thickness_m[c.sample], c.clearance_m)), from, way);
+  }
+  std::size_t kept = 0;
+  for (int k = 0; k < n; ++k)
+    if (reached[k]) near[kept++] = near[k];
+  near.resize(kept);
 }
 
 void nearCloth(const CollisionModel& m, CollisionWork& w) {

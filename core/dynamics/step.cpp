@@ -13,6 +13,8 @@ namespace {
 /// scale, some 500 times the rounding of a velocity.
 constexpr double kScaleFloor = 1e-4, kWeight_m_per_s2 = 9.81;
 
+constexpr int kMany = 4096;  ///< samples, from which on threads share the work
+
 Vec3 sum(std::span<const Vec3> values) {
   Vec3 s{};
   for (const Vec3& v : values) s += v;
@@ -226,8 +228,11 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   for (int i = 0; i < n; ++i) out.p[i] = in.p[i] + dt * w.velocity[i];
   if (!allFinite(out.p)) return notFinite("a position is not finite");
   samplePositions(m, out.p, w.x1);
-  for (int s = 0; s < m.surface.size(); ++s)
-    report.largest_way = std::max(report.largest_way, norm(w.x1[s] - w.x0[s]) / m.cell_m[s]);
+  const int samples = m.surface.size();
+  double largest_way = 0;
+#pragma omp parallel for schedule(static) reduction(max : largest_way) if (samples > kMany)
+  for (int s = 0; s < samples; ++s) largest_way = std::max(largest_way, norm(w.x1[s] - w.x0[s]) / m.cell_m[s]);
+  report.largest_way = largest_way;
   clock.lap(w.times.other);
   out.anchors = in.anchors;
   std::vector<Vec3>& spring_mean = w.spring_impulses;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kRounds = 8;  ///< of solves
 constexpr int kZoneRounds = 12;
+constexpr int kMany = 4096;  ///< samples or rows, from which on threads share the work
 
 /// The distance that a contact restores: half the sum of both sides' thicknesses, at a body that of the cloth, and no
 /// less than keeps the cloth between the samples out of it. Weights of a side add up to 1.
@@ -47,10 +48,30 @@ auto key(const auto& c) {
 
 ObstacleMotion motionOf(const StepWork& w) { return {w.start, w.end, w.deforming.start, w.deforming.end}; }
 
+/// Rows of the persistent contacts, as the lists come.
+void listRows(const Model& m, double dt, StepWork& w) {
+  const int near = static_cast<int>(w.near.size()), points = static_cast<int>(w.collisions.points.size());
+  w.rows.resize(w.near.size() + w.collisions.points.size() + w.edge_rows.size());
+#pragma omp parallel for schedule(static) if (near > kMany)
+  for (int k = 0; k < near; ++k)
+    w.rows[k] = bodyRow(w.near[k], wayOfBody(m.collisions, motionOf(w), w.near[k]) / dt, 0, false);
+#pragma omp parallel for schedule(static) if (points > kMany)
+  for (int k = 0; k < points; ++k) {
+    const ClothContactPoint& p = w.collisions.points[k];
+    ContactRow& row = w.rows[near + k];
+    row = {};
+    row.contact = p.contact;
+    row.stencil = p.stencil;
+    row.partner = p.partner;
+  }
+  std::copy(w.edge_rows.begin(), w.edge_rows.end(), w.rows.begin() + near + points);
+}
+
 /// Rows of the persistent contacts with their warm tractions.
 void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
-  w.rows.clear();
-  w.warm.clear();
+  listRows(m, dt, w);
+  const int n = static_cast<int>(w.rows.size());
+  w.warm.resize(n);
   const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
   std::size_t at = 0;
   // The sample's feet move from feature to feature, and there may be one or several of them: a new one starts from what
@@ -73,29 +94,18 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     mean.mean_Pa /= count;
     return mean;
   };
-  const auto add = [&](ContactRow row) {
+  for (int k = 0; k < n; ++k) {
+    ContactRow& row = w.rows[k];
     while (at < in.warm.size() && key(in.warm[at]) < key(row.contact)) ++at;
     const bool known = at < in.warm.size() && key(in.warm[at]) == key(row.contact);
     WarmContact warm;
     if (known) warm = in.warm[at];
     if (!known && row.contact.obstacle == kSampleOnCloth) warm = around(row.contact);
-    w.warm.push_back(scale * warm.traction);
+    w.warm[k] = scale * warm.traction;
     row.mean_Pa = warm.mean_Pa;
-    setPersistent(m, dt, w.warm.back(), row);
-    w.rows.push_back(row);
-  };
-  for (const Contact& c : w.near) {
-    const Vec3 body = wayOfBody(m.collisions, motionOf(w), c) / dt;
-    add(bodyRow(c, body, 0, false));
   }
-  for (const ClothContactPoint& p : w.collisions.points) {
-    ContactRow row;
-    row.contact = p.contact;
-    row.stencil = p.stencil;
-    row.partner = p.partner;
-    add(row);
-  }
-  for (const ContactRow& row : w.edge_rows) add(row);
+#pragma omp parallel for schedule(static) if (n > kMany)
+  for (int k = 0; k < n; ++k) setPersistent(m, dt, w.warm[k], w.rows[k]);
 }
 
 /// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for half of k delta more each round: bodies are
@@ -215,7 +225,9 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Ste
 bool anyImpact(const Model& m, double dt, StepWork& w) {
   w.x1.resize(m.surface.size());
   m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
-  for (int s = 0; s < m.surface.size(); ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
+  const int samples = m.surface.size();
+#pragma omp parallel for schedule(static) if (samples > kMany)
+  for (int s = 0; s < samples; ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
   m.proximity->impacts(w.start, w.end, w.x0, w.x1, w.hits);
   std::erase_if(w.hits, [&](const Contact& hit) { return w.collisions.tangle[hit.sample] != Tangle::kFree; });
   moveVertices(w.x1, w.collisions);
@@ -332,6 +344,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   m.surface.WT.multiply<Vec3>(w.predictor, w.sample_velocity);
   w.reach.resize(samples);
   w.x1.resize(samples);
+#pragma omp parallel for schedule(static) if (samples > kMany)
   for (int s = 0; s < samples; ++s) {
     w.reach[s] = contactReach(std::max(m.layer_m[s], kLargestClearance_m)) + dt * norm(w.sample_velocity[s]);
     w.x1[s] = w.x0[s] + dt * w.sample_velocity[s];

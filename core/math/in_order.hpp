@@ -19,15 +19,19 @@ void appendInOrder(int n, int many, std::vector<T>& out, Append&& append) {
     return;
   }
   const int parts = kParts * threads;
-  std::vector<std::vector<T>> lists(parts);
+  static thread_local std::vector<std::vector<T>> kept;  // for its memory
+  std::vector<std::vector<T>>& lists = kept;
+  if (static_cast<int>(lists.size()) < parts) lists.resize(parts);
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (int k = 0; k < parts; ++k)
+  for (int k = 0; k < parts; ++k) {
+    lists[k].clear();
     append(static_cast<int>(static_cast<long>(n) * k / parts), static_cast<int>(static_cast<long>(n) * (k + 1) / parts),
            lists[k]);
+  }
   std::size_t size = out.size();
-  for (const auto& list : lists) size += list.size();
+  for (int k = 0; k < parts; ++k) size += lists[k].size();
   out.reserve(size);
-  for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
+  for (int k = 0; k < parts; ++k) out.insert(out.end(), lists[k].begin(), lists[k].end());
 }
 
 }  // namespace gambeson
