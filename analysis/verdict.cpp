@@ -373,15 +373,15 @@ std::string numbersOf(const VerdictInput& in, const Verdict& v) {
     say(fmt::format("It is not red only if the true torque is more than {} smaller.", percent(*v.holds_up_to)));
   if (v.holds_up_to && v.light == Light::amber)
     say(fmt::format("It stays amber as long as the torques are right within {}.", percent(*v.holds_up_to)));
-  // A peak at the very end may not have been the last word.
+  // What is held, or still grows.
   for (const std::string& m : v.take < 0 ? std::vector<std::string>{} : motionsOf(at(in, v.take))) {
-    constexpr double kEnd = 0.95;
+    constexpr double kHigh = 0.9;
     const Option::Cost& c = *worstCost(at(in, v.take), &m);
-    if (c.end_s > 0 && c.peak_s >= kEnd * c.end_s)
+    if (c.end_part >= kHigh)
       say(
-          fmt::format("{} the torque of the {} is largest at {} s, where the run ends ({} s): it may have gone on to "
-                      "grow.",
-                      m.empty() ? "Here" : "In " + m, c.joint, formatNumber(c.peak_s), formatNumber(c.end_s)));
+          fmt::format("{} the torque of the {} is at {} of its largest value when the run ends: what going on would "
+                      "cost is not known.",
+                      m.empty() ? "Here" : "In " + m, c.joint, percent(c.end_part)));
   }
   if (in.stretch && in.stretch->largest > in.stretch->meant_for)
     say(

@@ -27,7 +27,7 @@ struct Option {
     std::optional<double> ratio;  ///< of the peak of the baseline, same motion and joint
     /// Of a natural moment of holding still: how far from the joint the ground's force on the foot passes.
     std::optional<double> lever_m = {};
-    double peak_s = 0, end_s = 0;  ///< when it comes, and where the run ends
+    double end_part = 0;  ///< of the peak: what is left of it when the run ends
   };
   std::vector<Cost> costs;  ///< of each motion and joint that matters
   /// Pressure on the part of the body that is furthest from comfortable in a motion.

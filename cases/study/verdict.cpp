@@ -28,8 +28,8 @@ void addRun(const Comparison& c, const Group& g, std::size_t i, Option& option) 
   for (const std::string& name : g.joints) {
     const JointNumbers* j = run.joint(name);
     if (!j) continue;
-    Option::Cost cost{g.label, j->label,   std::abs(j->peak_Nm), j->part(),
-                      {},      j->lever_m, j->peak_time_s,       run.recorded_to_s};
+    Option::Cost cost{g.label, j->label, std::abs(j->peak_Nm), j->part(), {}, j->lever_m};
+    if (j->peak_Nm != 0 && !j->torque_Nm.empty()) cost.end_part = std::abs(j->torque_Nm.back() / j->peak_Nm);
     for (const JointRatio& r : c.ratios[i])
       if (r.joint == name && std::isfinite(r.peak)) cost.ratio = r.peak;
     option.costs.push_back(cost);
