@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -16,6 +17,8 @@ namespace {
 using schema::Place;
 
 constexpr std::size_t most_variants = 2000;
+
+[[noreturn]] void tooMany(const Place& at) { at.fail("more than 2,000 variants; allowed: at most 2,000 together"); }
 
 // --- From the fields to axes ------------------------------------------------------------------------------------
 
@@ -231,7 +234,7 @@ class Maker {
       at.fail(fmt::format("a variant cannot be called \"{}\"; allowed: another label", v.label));
     if (!folders_.insert(v.folder).second)
       at.fail(fmt::format("there are two variants {}; allowed: labels that differ", v.label));
-    if (study_.variants.size() >= most_variants) at.fail(fmt::format("more than {} variants", most_variants));
+    if (study_.variants.size() >= most_variants) tooMany(at);
     try {
       for (const Setting& s : all) overrideValue(root, s.path, s.value, place_.file);
       v.definition = readAnyCase(root, in_.file);
@@ -276,8 +279,13 @@ class Maker {
   std::set<std::string> folders_;
 };
 
-/// All combinations of levels of the axes, the last axis fastest.
-std::vector<std::vector<int>> combinations(const std::vector<std::vector<int>>& choices) {
+/// All combinations of levels of the axes, the last axis fastest, each for `runs` variants. Counted first: they may be
+/// too many to be built.
+std::vector<std::vector<int>> combinations(const std::vector<std::vector<int>>& choices, std::size_t runs,
+                                           const Place& at) {
+  std::size_t count = runs;
+  for (const std::vector<int>& choice : choices)
+    if ((count *= choice.size()) > most_variants) tooMany(at);
   std::vector<std::vector<int>> all{{}};
   for (const std::vector<int>& choice : choices) {
     std::vector<std::vector<int>> next;
@@ -287,7 +295,6 @@ std::vector<std::vector<int>> combinations(const std::vector<std::vector<int>>& 
         next.back().push_back(level);
       }
     all = std::move(next);
-    if (all.size() > most_variants) break;
   }
   return all;
 }
@@ -327,9 +334,11 @@ void addElasticities(const Place& root, const ElasticityInput& in, Maker& maker,
         choices[axis].push_back(levelNamed(at.item(i), s.axes[axis], child.children[i]));
     }
   }
-  for (const auto& levels : combinations(choices))
-    for (const char* factor : {"bending", "membrane", "weight", "inertia", "drag"})
-      for (const double value : {1 - in.step, 1 + in.step}) {
+  const std::array<const char*, 5> factors{"bending", "membrane", "weight", "inertia", "drag"};
+  const std::array<double, 2> values{1 - in.step, 1 + in.step};
+  for (const auto& levels : combinations(choices, factors.size() * values.size(), place))
+    for (const char* factor : factors)
+      for (const double value : values) {
         JsonNode node = schema::nodeOf(value);
         node.line = place.node.line;
         maker.add(levels, {{fmt::format("factors.{}", factor), node}}, fmt::format("{} x {:g}", factor, value), place);
@@ -375,7 +384,7 @@ Study readStudy(const std::filesystem::path& file) {
   Maker maker(place, in, s);
   if (!s.axes.empty()) {
     const Place axes = place.member(*root.find("axes"));
-    for (const auto& levels : combinations(allLevels(s))) maker.add(levels, {}, "", axes);
+    for (const auto& levels : combinations(allLevels(s), 1, axes)) maker.add(levels, {}, "", axes);
   }
   for (std::size_t i = 0; i < in.variants.size(); ++i) {
     const Place at = place.member(*root.find("variants")).item(i);

@@ -188,6 +188,28 @@ std::vector<RunNumbers> numbersOf(const Study& s) {
   return runs;
 }
 
+TEST(Study, TooManyVariantsAreRefusedBeforeTheyAreBuilt) {
+  const auto refused = [](const std::vector<int>& levels, const std::string& more, const std::string& where) {
+    std::string axes;
+    for (std::size_t a = 0; a < levels.size(); ++a) {
+      std::string values;
+      for (int l = 0; l < levels[a]; ++l) values += (l ? ", " : "") + std::to_string(0.1 + 0.01 * l);
+      axes += std::string(a ? ", " : "") + R"({"name": "a)" + std::to_string(a) +
+              R"(", "path": "contact.friction", "values": [)" + values + "]}";
+    }
+    try {
+      read(R"({"name": "many", "case": "cloth.json",)" + more + "\n\"axes\": [" + axes + "]}");
+      ADD_FAILURE() << "not refused: " << levels.size() << " axes";
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.where().key, where);
+      EXPECT_NE(e.reason().find("more than 2,000 variants"), std::string::npos) << e.what();
+    }
+  };
+  for (const auto& [axes, levels] : {std::pair{12, 2}, {6, 5}, {8, 3}, {20, 2}, {5, 7}, {64, 2}, {2, 45}})
+    refused(std::vector<int>(static_cast<std::size_t>(axes), levels), "", "axes");
+  refused({2, 101}, R"("elasticities": {"step": 0.1},)", "elasticities");
+}
+
 TEST(Study, ComparesWhatItsRunsLeft) {
   const Study s = read(good);
   const Comparison c = compare(s, numbersOf(s));
