@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/carried_error.hpp"
+
 namespace gambeson {
 namespace {
 
@@ -447,14 +449,17 @@ void Recorder::appendFrame(const State& state, double window) {
   StressField::More more;
   if (!limits.empty()) more = [&](int patch, Vec2 uv) { return limitStressAt(m.strain_rows, limits, patch, uv); };
   const std::vector<StressField::Sample> means = stress_.means(m.shell, q, more);
+  CarriedError error;
 #pragma omp parallel for schedule(static)
-  for (int s = 0; s < n; ++s) {
-    const ShellStress stress = stress_.at(m.shell, q, m.surface.patch[s], m.surface.parameters[s], means, more);
-    s1.data[s] = static_cast<float>(stress.principal1_N_per_m);
-    s2.data[s] = static_cast<float>(stress.principal2_N_per_m);
-    e1.data[s] = static_cast<float>(stress.strain1);
-    e2.data[s] = static_cast<float>(stress.strain2);
-  }
+  for (int s = 0; s < n; ++s)
+    error.guard(s, [&] {
+      const ShellStress stress = stress_.at(m.shell, q, m.surface.patch[s], m.surface.parameters[s], means, more);
+      s1.data[s] = static_cast<float>(stress.principal1_N_per_m);
+      s2.data[s] = static_cast<float>(stress.principal2_N_per_m);
+      e1.data[s] = static_cast<float>(stress.strain1);
+      e2.data[s] = static_cast<float>(stress.strain2);
+    });
+  error.rethrow();
   frame.sample_fields = {velocity, contact, pressure, s1, s2, e1, e2};
   frame.control_fields = {Field{"position", "m", 3, floats(q)}};
   if (skin_) addSkin(state, window, frame);

@@ -10,6 +10,7 @@
 #include "cases/results_write.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
+#include "core/math/carried_error.hpp"
 #include "tryon/strap_cut.hpp"
 
 namespace gambeson {
@@ -72,9 +73,11 @@ struct Cloth {
     const Surface& surface = s.model->surface;
     const std::vector<float>& stress = fieldOf(frame, "stress").data;
     std::vector<double> bend(stress.size());
+    CarriedError error;
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < surface.size(); ++i)
-      bend[i] = s.model->shell.bendAt(surface.patch[i], surface.parameters[i], q);
+      error.guard(i, [&] { bend[i] = s.model->shell.bendAt(surface.patch[i], surface.parameters[i], q); });
+    error.rethrow();
     const int patches = static_cast<int>(s.patch_names.size());
     const std::vector<double> curvature = regionRms(surface.patch, surface.area_m2, bend, patches);
     std::vector<PatchMeasure> out(s.patch_names.size());

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/dynamics/structure_system.hpp"
+#include "core/math/carried_error.hpp"
 #include "core/sheet/trim_mesh.hpp"
 
 namespace gambeson {
@@ -366,9 +367,8 @@ MeshShape shapeOf(const StructureModel& model, const ShapeMesh& mesh, const Meas
   shape.x.resize(mesh.uv.size());
   shape.normal.resize(mesh.uv.size());
   shape.stress.resize(mesh.uv.size());
-#pragma omp parallel for schedule(static)
-  for (int i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+  CarriedError error;
+  const auto sample = [&](std::size_t k) {
     const auto patch = static_cast<std::size_t>(mesh.patch[k]);
     const SurfaceBasis basis = surfaceBasis(g.patches[patch], mesh.uv[k].x, mesh.uv[k].y);
     Vec3 du, dv;
@@ -382,7 +382,10 @@ MeshShape shapeOf(const StructureModel& model, const ShapeMesh& mesh, const Meas
     const Vec3 a = cross(du, dv);
     shape.normal[k] = norm(a) > 0 ? normalized(a) : Vec3{0, 0, 1};
     shape.stress[k] = stresses.at(mesh.patch[k], mesh.uv[k]);
-  }
+  };
+#pragma omp parallel for schedule(static)
+  for (int i = 0; i < n; ++i) error.guard(i, [&] { sample(static_cast<std::size_t>(i)); });
+  error.rethrow();
   return shape;
 }
 

@@ -241,6 +241,29 @@ struct Shell::Frame {
   std::array<Vec3, 6> rest{}, now{};  ///< derivatives in the parameters, as SurfaceBasis
 };
 
+namespace {
+
+/// The rest surface has an area there, and the weft (where not null) does not stand across it.
+bool isFramed(const std::array<Vec3, 6>& rest, const Vec3* weft) {
+  const Vec3 normal = cross(rest[1], rest[2]);
+  const double area = norm(normal);
+  if (!(area > 1e-10 * std::max(norm2(rest[1]), norm2(rest[2])))) return false;
+  if (!weft) return true;
+  const Vec3 n = normal / area;
+  return norm(*weft - dot(*weft, n) * n) > 1e-6 * norm(*weft);
+}
+
+/// A share of the way to the middle of the cell.
+Vec2 towardsMiddle(const NurbsPatch& p, Vec2 uv, double share) {
+  const auto moved = [&](const KnotVector& k, double t) {
+    const auto span = static_cast<std::size_t>(findSpan(k, t));
+    return t + share * (0.5 * (k.knots[span] + k.knots[span + 1]) - t);
+  };
+  return share > 0 ? Vec2{moved(p.u, uv.x), moved(p.v, uv.y)} : uv;
+}
+
+}  // namespace
+
 std::array<std::array<Vec3, 6>, 2> Shell::derivativesAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   const SurfaceBasis basis = surfaceBasis(garment_.patches[patch], uv.x, uv.y);
   std::array<std::array<Vec3, 6>, 2> d{};
@@ -252,10 +275,18 @@ std::array<std::array<Vec3, 6>, 2> Shell::derivativesAt(int patch, Vec2 uv, std:
   return d;
 }
 
+/// Where the rest surface has no frame (at a pole; at the corner of a patch whose edges run on there in one line, as on
+/// a disc of nine points; where it stands across the weft) the frame is that beside it: a tenth of the way to the
+/// middle of the cell, or in its middle.
 Shell::Frame Shell::frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
-  const auto [rest, now] = derivativesAt(patch, uv, q);
-  Frame frame{{}, rest, now};
-  frame.G = restFrame(frame.rest[1], frame.rest[2], garment_.weft[patch], fibreAngleAt(garment_, patch, uv));
+  const Vec3& weft = garment_.weft[patch];
+  Frame frame;
+  for (const double share : {0.0, 0.1, 1.0}) {
+    const auto [rest, now] = derivativesAt(patch, towardsMiddle(garment_.patches[patch], uv, share), q);
+    frame.rest = rest, frame.now = now;
+    if (isFramed(rest, &weft)) break;
+  }
+  frame.G = restFrame(frame.rest[1], frame.rest[2], weft, fibreAngleAt(garment_, patch, uv));
   return frame;
 }
 
@@ -295,7 +326,11 @@ Vec3 Shell::curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
 }
 
 double Shell::bendAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
-  const auto [rest, d] = derivativesAt(patch, uv, q);
+  const NurbsPatch& p = garment_.patches[patch];
+  std::array<std::array<Vec3, 6>, 2> both{};
+  for (const double share : {0.0, 0.1, 1.0})
+    if (both = derivativesAt(patch, towardsMiddle(p, uv, share), q); isFramed(both[0], nullptr)) break;
+  const auto& [rest, d] = both;
   const Vec3 k = curvature(restFrame(rest[1], rest[2], rest[1], 0), d[1], d[2], d[3], d[4], d[5]);
   return std::sqrt(k.x * k.x + k.y * k.y + 2 * k.z * k.z);
 }

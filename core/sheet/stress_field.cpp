@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/math/carried_error.hpp"
 #include "core/sheet/fields.hpp"
 #include "core/sheet/seams.hpp"
 
@@ -132,11 +133,12 @@ std::vector<StressField::Sample> StressField::means(const Shell& shell, std::spa
                                                     const More& more) const {
   std::vector<Sample> all(cells_.size());
   const long count = static_cast<long>(all.size());
+  CarriedError error;
 #pragma omp parallel for schedule(static)
-  for (long k = 0; k < count; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    all[i] = meanOf(shell, q, cells_[i], more);
-  }
+  for (long k = 0; k < count; ++k)
+    error.guard(
+        k, [&] { all[static_cast<std::size_t>(k)] = meanOf(shell, q, cells_[static_cast<std::size_t>(k)], more); });
+  error.rethrow();
   return all;
 }
 

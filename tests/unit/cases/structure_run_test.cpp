@@ -52,6 +52,62 @@ std::vector<std::string> with(std::vector<std::string> more) {
   return more;
 }
 
+std::vector<std::vector<double>> rowsOf(const std::filesystem::path& csv) {
+  std::istringstream lines(content(csv));
+  std::vector<std::vector<double>> rows;
+  std::string line, cell;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    rows.emplace_back();
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+/// A disc of nine points: at the four corners of its patch the edges run on in one line, and the surface has no area.
+TEST(StructureRun, ADiscOfNinePointsHasStressAtItsCorners) {
+  const Folder folder;
+  const auto file = folder.write("disc.json", R"json({"kind": "static", "name": "disc",
+    "sheet": {"nurbs": {"patches": [{"degree": [2, 2], "knots_u": [0, 0, 0, 1, 1, 1], "knots_v": [0, 0, 0, 1, 1, 1],
+      "points": [[-0.07071067811865477, -0.07071067811865477, 0], [0, -0.1414213562373095, 0],
+                 [0.07071067811865477, -0.07071067811865477, 0], [-0.1414213562373095, 0, 0], [0, 0, 0],
+                 [0.1414213562373095, 0, 0], [-0.07071067811865477, 0.07071067811865477, 0],
+                 [0, 0.1414213562373095, 0], [0.07071067811865477, 0.07071067811865477, 0]],
+      "weights": [1, 0.7071067811865476, 1, 0.7071067811865476, 1, 0.7071067811865476, 1, 0.7071067811865476, 1]}]},
+      "degree": 3, "split": 4},
+    "material": {"isotropic": {"young": "1 GPa", "poisson": 0.3, "thickness": "1 mm"}},
+    "supports": [{"edge": "u0", "hold": "z"}, {"edge": "u1", "hold": "z"}, {"edge": "v0", "hold": "z"},
+                 {"edge": "v1", "hold": "z"}, {"point": [0.5, 0.5], "hold": "xy"}, {"point": [0, 0.5], "hold": "y"}],
+    "loads": [{"edge": "u0", "moment_per_length": 0.001}, {"edge": "u1", "moment_per_length": 0.001},
+              {"edge": "v0", "moment_per_length": 0.001}, {"edge": "v1", "moment_per_length": 0.001}],
+    "solver": {"linear": true},
+    "output": {"points": [{"name": "corner", "point": [0, 0]}, {"name": "centre", "point": [0.5, 0.5]}],
+               "shapes": "none", "pictures": []}})json");
+  const auto t = runTable(readStructureCase(file), folder.path() / "out");
+  for (const char* column : {"corner_n1_N_per_m", "corner_e1"})
+    EXPECT_TRUE(std::isfinite(t.at(column).back())) << column;
+  for (const auto& row : rowsOf(folder.path() / "out/shape.csv"))
+    for (const double x : row) EXPECT_TRUE(std::isfinite(x));
+}
+
+/// Half a cylinder whose weft, along its middle, stands across it at both ends.
+TEST(StructureRun, AWeftAcrossTheSheetAtAnEdgeDoesNotEndTheProgram) {
+  const Folder folder;
+  const auto file = folder.write("arch.json", R"json({"kind": "static", "name": "arch",
+    "sheet": {"nurbs": {"patches": [{"degree": [2, 1], "knots_u": [0, 0, 0, 0.5, 0.5, 1, 1, 1], "knots_v": [0, 0, 1, 1],
+      "points": [[-1, 0, 0], [-1, 0, 1], [0, 0, 1], [1, 0, 1], [1, 0, 0],
+                 [-1, 1, 0], [-1, 1, 1], [0, 1, 1], [1, 1, 1], [1, 1, 0]],
+      "weights": [1, 0.7071067811865476, 1, 0.7071067811865476, 1, 1, 0.7071067811865476, 1, 0.7071067811865476, 1]}]},
+      "degree": 2, "split": 3, "weft": [1, 0, 0]},
+    "material": {"isotropic": {"young": "1 GPa", "poisson": 0.3, "thickness": "1 cm"}},
+    "supports": [{"edge": "u0", "hold": "xyz"}, {"edge": "u1", "hold": "xyz"}],
+    "loads": [{"force_per_area": [0, 0, -10]}], "solver": {"linear": true},
+    "output": {"shapes": "none", "pictures": []}})json");
+  runTable(readStructureCase(file), folder.path() / "out");
+  for (const auto& row : rowsOf(folder.path() / "out/shape.csv"))
+    for (const double x : row) EXPECT_TRUE(std::isfinite(x));
+}
+
 /// The inextensible elastica at P L^2/(E I) = 2 and 4 (theta'' = -(P L^2/EI) cos theta, DOP853 to 1e-12): the strip
 /// itself stretches by 3e-5. Its root carries force and moment.
 TEST(StructureRun, CantileverFollowsTheElastica) {
