@@ -25,6 +25,17 @@ int threadsAsked(int argc, char** argv, int cores) {
   return asked && std::atoi(asked) > 0 ? std::atoi(asked) : cores;
 }
 
+/// OpenMP takes any number from the environment, and faults where a machine cannot start so many threads. A list has
+/// one number for each level of nesting.
+bool tooManyThreads() {
+  constexpr long most = 4096;  // as --threads
+  const char* asked = std::getenv("OMP_NUM_THREADS");
+  if (!asked || std::strtol(asked, nullptr, 10) <= most) return false;
+  std::cerr << "environment: OMP_NUM_THREADS: \"" << std::string_view(asked).substr(0, 40)
+            << "\" is out of range; allowed: 1 to " << most << '\n';
+  return true;
+}
+
 /// Tasks that run or want to, besides this one; as many as there are cores where that is not known.
 int othersRunning(int cores) {
   std::ifstream file("/proc/stat");
@@ -54,6 +65,7 @@ void waitPatiently(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (tooManyThreads()) return 2;
   waitPatiently(argc, argv);
   return gambeson::runCommand(argc, argv, std::cout, std::cerr);
 }

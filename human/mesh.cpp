@@ -1,25 +1,20 @@
 /// Mesh files through assimp. Of its formats these five are let in: others (OFF, say) believe any count in a header.
 
 #include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <assimp/Importer.hpp>
-#include <cctype>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "core/error.hpp"
+#include "core/io/apart.hpp"
 #include "human/load.hpp"
-#include "human/ply_check.hpp"
-#include "human/read_text.hpp"
+#include "human/scene_import.hpp"
 
 namespace gambeson {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{512} << 20;
 constexpr double largest_coordinate_m = 1000;
 
 /// Vertices at the same place become one, in the order of their first appearance; triangles that have lost a corner or
@@ -55,19 +50,53 @@ bool isClosed(const TriangleMesh& m) {
   });
 }
 
-/// Triangulating a mesh some of whose faces have no corner ends the program in an assertion of assimp: refused before
-/// it.
-void checkFaces(const aiScene& scene, const std::string& file) {
-  for (unsigned k = 0; k < scene.mNumMeshes; ++k)
-    for (unsigned i = 0; i < scene.mMeshes[k]->mNumFaces; ++i)
-      if (scene.mMeshes[k]->mFaces[i].mNumIndices == 0)
-        throw InputError({file, 0, fmt::format("face {} of part {}", i, k)}, "has no corner");
-}
-
 double signedVolume(const TriangleMesh& m) {
   double v = 0;
   for (const auto& t : m.triangles) v += dot(m.vertices[t[0]], cross(m.vertices[t[1]], m.vertices[t[2]])) / 6;
   return v;
+}
+
+TriangleMesh importTriangles(const std::filesystem::path& file, double scale) {
+  const auto fail = [&](const std::string& key, const std::string& reason) {
+    throw InputError({file.string(), 0, key}, reason);
+  };
+  Assimp::Importer importer;
+  importScene(importer, file);
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                                          aiComponent_COLORS | aiComponent_TEXCOORDS |
+                                                          aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+                                                          aiComponent_TEXTURES | aiComponent_LIGHTS |
+                                                          aiComponent_CAMERAS | aiComponent_MATERIALS);
+  const aiScene& scene = processScene(
+      importer,
+      aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices, file);
+  TriangleMesh all;
+  for (unsigned k = 0; k < scene.mNumMeshes; ++k) {
+    const aiMesh& mesh = *scene.mMeshes[k];
+    const int first = static_cast<int>(all.vertices.size());
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiVector3D& p = mesh.mVertices[i];
+      const Vec3 x = scale * Vec3{p.x, p.y, p.z};
+      for (int c = 0; c < 3; ++c)
+        if (!(std::abs(x[c]) <= largest_coordinate_m))
+          fail(fmt::format("vertex {}", all.vertices.size()),
+               fmt::format("coordinate {} m is not within {} m", x[c], largest_coordinate_m));
+      all.vertices.push_back(x);
+    }
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+      const aiFace& face = mesh.mFaces[i];
+      if (face.mNumIndices != 3) continue;  // points and lines
+      std::array<int, 3> t{};
+      for (int c = 0; c < 3; ++c) {
+        if (face.mIndices[c] >= mesh.mNumVertices)
+          fail(fmt::format("face {}", all.triangles.size()),
+               fmt::format("names vertex {} of {}", face.mIndices[c], mesh.mNumVertices));
+        t[c] = first + static_cast<int>(face.mIndices[c]);
+      }
+      all.triangles.push_back(t);
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -77,68 +106,18 @@ TriangleMesh loadTriangles(const std::filesystem::path& file, double scale) {
     throw InputError({file.string(), 0, key}, reason);
   };
   if (!(scale > 0 && std::isfinite(scale))) fail("scale", fmt::format("{} is not allowed: > 0", scale));
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::array<const char*, 5> known{".obj", ".ply", ".stl", ".gltf", ".glb"};
-  if (std::find(known.begin(), known.end(), extension) == known.end())
+  if (std::find(known.begin(), known.end(), extensionOf(file)) == known.end())
     fail("", "meshes are read from .obj, .ply, .stl, .gltf, .glb");
-  const std::string text = readText(file, largest_file);
-  if (extension == ".ply") checkPly(text, file.string());
-
-  TriangleMesh all;
-  try {
-    Assimp::Importer importer;
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                                            aiComponent_COLORS | aiComponent_TEXCOORDS |
-                                                            aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                                            aiComponent_TEXTURES | aiComponent_LIGHTS |
-                                                            aiComponent_CAMERAS | aiComponent_MATERIALS);
-    const unsigned validate = aiProcess_ValidateDataStructure;
-    const unsigned steps =
-        aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices;
-    // glTF may name other files beside it; the rest is read from memory, ended by a newline that
-    // importers look for (but STL, whose length tells binary from text).
-    const bool alone = !extension.starts_with(".gl");
-    const std::string ended = extension == ".stl" ? text : text + "\n";
-    const aiScene* scene =
-        alone ? importer.ReadFileFromMemory(ended.data(), ended.size(), validate, extension.c_str() + 1)
-              : importer.ReadFile(file.string(), validate);
-    if (!scene) fail("", importer.GetErrorString());
-    checkFaces(*scene, file.string());
-    scene = importer.ApplyPostProcessing(steps);
-    if (!scene) fail("", importer.GetErrorString());
-    for (unsigned k = 0; k < scene->mNumMeshes; ++k) {
-      const aiMesh& mesh = *scene->mMeshes[k];
-      const int first = static_cast<int>(all.vertices.size());
-      for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-        const aiVector3D& p = mesh.mVertices[i];
-        const Vec3 x = scale * Vec3{p.x, p.y, p.z};
-        for (int c = 0; c < 3; ++c)
-          if (!(std::abs(x[c]) <= largest_coordinate_m))
-            fail(fmt::format("vertex {}", all.vertices.size()),
-                 fmt::format("coordinate {} m is not within {} m", x[c], largest_coordinate_m));
-        all.vertices.push_back(x);
-      }
-      for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-        const aiFace& face = mesh.mFaces[i];
-        if (face.mNumIndices != 3) continue;  // points and lines
-        std::array<int, 3> t{};
-        for (int c = 0; c < 3; ++c) {
-          if (face.mIndices[c] >= mesh.mNumVertices)
-            fail(fmt::format("face {}", all.triangles.size()),
-                 fmt::format("names vertex {} of {}", face.mIndices[c], mesh.mNumVertices));
-          t[c] = first + static_cast<int>(face.mIndices[c]);
-        }
-        all.triangles.push_back(t);
-      }
-    }
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& e) {
-    fail("", std::string("cannot be read: ") + e.what());
-  }
-  return all;
+  BytesIn in = readApart(file, limitsFor(file), [&](BytesOut& out) {
+    const TriangleMesh mesh = importTriangles(file, scale);
+    out.put(mesh.vertices);
+    out.put(mesh.triangles);
+  });
+  TriangleMesh mesh;
+  in.get(mesh.vertices);
+  in.get(mesh.triangles);
+  return mesh;
 }
 
 TriangleMesh loadMesh(const std::filesystem::path& file, double scale) {

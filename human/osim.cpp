@@ -14,7 +14,7 @@
 namespace gambeson {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{64} << 20;
+constexpr std::uintmax_t largest_file = std::uintmax_t{32} << 20;
 
 struct Reader {
   std::string file;

@@ -2,24 +2,20 @@
 /// binding, so its inverse has the bone's joint where the mesh is.
 
 #include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <assimp/Importer.hpp>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include "core/error.hpp"
-#include "human/read_text.hpp"
+#include "core/io/apart.hpp"
 #include "human/rigged_mesh.hpp"
+#include "human/scene_import.hpp"
 
 namespace gambeson {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{512} << 20;
 constexpr double cm = 0.01;
 
 Vec3 originOf(const aiMatrix4x4& m) { return {m.a4, m.b4, m.c4}; }
@@ -123,52 +119,63 @@ int RiggedMesh::find(const std::string& name) const {
   return -1;
 }
 
-RiggedMesh readRiggedScene(const std::filesystem::path& file) {
+namespace {
+
+RiggedMesh importRigged(const std::filesystem::path& file) {
   Reader r;
   r.out.file = file.string();
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".gltf" && extension != ".glb" && extension != ".fbx")
-    r.fail("",
-           "characters are read from .gltf, .glb and .fbx, or from MakeHuman's .obj with \"skeleton\" and "
-           "\"weights\"");
-  readText(file, largest_file);  // missing, a folder, too large
-  try {
-    Assimp::Importer importer;
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = importer.ReadFile(file.string(), aiProcess_ValidateDataStructure);
-    if (!scene) r.fail("", importer.GetErrorString());
-    for (unsigned k = 0; k < scene->mNumMeshes; ++k)
-      for (unsigned i = 0; i < scene->mMeshes[k]->mNumFaces; ++i)
-        if (scene->mMeshes[k]->mFaces[i].mNumIndices == 0)
-          r.fail(fmt::format("face {} of part {}", i, k), "has no corner");
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
-    if (!scene) r.fail("", importer.GetErrorString());
-    std::string left_out;
-    for (unsigned k = 0; k < scene->mNumMeshes; ++k)
-      if (scene->mMeshes[k]->HasBones())
-        r.take(*scene->mMeshes[k]);
-      else
-        left_out += std::string(left_out.empty() ? "" : ", ") + "'" + scene->mMeshes[k]->mName.C_Str() + "'";
-    if (r.out.mesh.triangles.empty())
-      r.fail("", "has no skeleton: none of its meshes is bound to bones (" +
-                     (left_out.empty() ? std::string("it has no mesh") : left_out) + ")");
-    if (!left_out.empty()) r.out.notes.push_back("meshes without bones were left out: " + left_out);
-    if (extension == ".fbx") {
-      r.out.unit_m = cm;
-      if (double in_cm = 1; scene->mMetaData && scene->mMetaData->Get("UnitScaleFactor", in_cm))
-        r.out.unit_m = cm * in_cm;
-    }
-    r.walk(*scene->mRootNode, {}, -1);
-    r.placeBones();
-    r.weigh();
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& e) {
-    r.fail("", std::string("cannot be read: ") + e.what());
+  Assimp::Importer importer;
+  importScene(importer, file);
+  const aiScene& scene = processScene(importer, aiProcess_Triangulate | aiProcess_SortByPType, file);
+  std::string left_out;
+  for (unsigned k = 0; k < scene.mNumMeshes; ++k)
+    if (scene.mMeshes[k]->HasBones())
+      r.take(*scene.mMeshes[k]);
+    else
+      left_out += std::string(left_out.empty() ? "" : ", ") + "'" + scene.mMeshes[k]->mName.C_Str() + "'";
+  if (r.out.mesh.triangles.empty())
+    r.fail("", "has no skeleton: none of its meshes is bound to bones (" +
+                   (left_out.empty() ? std::string("it has no mesh") : left_out) + ")");
+  if (!left_out.empty()) r.out.notes.push_back("meshes without bones were left out: " + left_out);
+  if (extensionOf(file) == ".fbx") {
+    r.out.unit_m = cm;
+    if (double in_cm = 1; scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", in_cm)) r.out.unit_m = cm * in_cm;
   }
+  r.walk(*scene.mRootNode, {}, -1);
+  r.placeBones();
+  r.weigh();
   if (r.out.bone.empty()) r.fail("", "has no weights: no vertex is bound to a bone");
   return std::move(r.out);
+}
+
+}  // namespace
+
+RiggedMesh readRiggedScene(const std::filesystem::path& file) {
+  const std::string extension = extensionOf(file);
+  if (extension != ".gltf" && extension != ".glb" && extension != ".fbx")
+    throw InputError({file.string(), 0, ""},
+                     "characters are read from .gltf, .glb and .fbx, or from MakeHuman's .obj with \"skeleton\" and "
+                     "\"weights\"");
+  BytesIn in = readApart(file, limitsFor(file), [&](BytesOut& out) {
+    const RiggedMesh m = importRigged(file);
+    out.put(m.unit_m);
+    out.put(m.mesh.vertices), out.put(m.mesh.triangles);
+    out.put(m.bones.size());
+    for (const RiggedBone& b : m.bones) out.put(b.name), out.put(b.parent), out.put(b.head);
+    out.put(m.first), out.put(m.bone), out.put(m.weight), out.put(m.notes);
+  });
+  RiggedMesh m;
+  m.file = file.string();
+  in.get(m.unit_m);
+  in.get(m.mesh.vertices), in.get(m.mesh.triangles);
+  std::size_t bones = 0;
+  in.get(bones);
+  for (std::size_t b = 0; b < bones; ++b) {
+    RiggedBone& bone = m.bones.emplace_back();
+    in.get(bone.name), in.get(bone.parent), in.get(bone.head);
+  }
+  in.get(m.first), in.get(m.bone), in.get(m.weight), in.get(m.notes);
+  return m;
 }
 
 }  // namespace gambeson

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/io/apart.hpp"
 #include "human/ground.hpp"
 #include "human/load.hpp"
 #include "human/read_text.hpp"
@@ -19,7 +20,7 @@
 namespace gambeson {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{64} << 20;
+constexpr std::uintmax_t largest_file = std::uintmax_t{16} << 20;
 
 /// Collects what urdfdom would print, while it lives.
 class UrdfdomMessages : public console_bridge::OutputHandler {
@@ -148,6 +149,14 @@ Human loadUrdf(const std::filesystem::path& urdf) {
   parseXml(document, text, file);
   const UrdfOrder order = checkUrdf(document, file);
 
+  // Whatever urdfdom makes of it happens to another process first.
+  readApart(urdf, limitsFor(urdf), [&](BytesOut&) {
+    UrdfdomMessages dropped;
+    try {
+      urdf::parseURDF(text);
+    } catch (const std::exception&) {  // said below
+    }
+  });
   UrdfdomMessages messages;
   urdf::ModelInterfaceSharedPtr model;
   try {

@@ -9,12 +9,14 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/io/apart.hpp"
 #include "human/read_text.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr int deepest = 32;
+constexpr std::size_t most_links = 2000;
 constexpr double largest = 1e6;  ///< of any length [m], angle [rad] or mass [kg]
 
 enum class Kind { text, name, number, positive, not_negative, triple, sizes };
@@ -229,6 +231,8 @@ void parseXml(TiXmlDocument& document, const std::string& text, const std::strin
     }
     if (depth > deepest) throw InputError({file, line, ""}, fmt::format("is nested deeper than {} elements", deepest));
   }
+  // Whatever tinyxml makes of it happens to another process first.
+  readApart(file, limitsFor(file), [&](BytesOut&) { TiXmlDocument().Parse(text.c_str()); });
   document.Parse(text.c_str());
   if (document.Error())
     throw InputError({file, document.ErrorRow(), ""}, std::string("is not XML: ") + document.ErrorDesc());
@@ -253,6 +257,8 @@ UrdfOrder checkUrdf(const TiXmlDocument& document, const std::string& file) {
   for (const TiXmlElement* l = robot.FirstChildElement("link"); l; l = l->NextSiblingElement("link"))
     if (const auto [at, fresh] = links.try_emplace(l->Attribute("name"), l); !fresh)
       check.fail(*l, fmt::format("the name stands already in line {}", at->second->Row()));
+    else if (links.size() > most_links)
+      check.fail(*l, fmt::format("is one link too many: at most {} are read", most_links));
   std::map<std::string, std::vector<const TiXmlElement*>> below;
   for (const TiXmlElement* j = robot.FirstChildElement("joint"); j; j = j->NextSiblingElement("joint")) {
     check.joint(*j);

@@ -53,6 +53,19 @@ TEST(Command, CheckAcceptsTheLibrary) {
 
 /// Meshes with holes, fins and triangles that face the wrong way: what is taken is said, what is refused names the
 /// place.
+TEST(Command, MoreThreadsThanCanStartAreRefused) {
+  const Folder folder;
+  folder.write("example.json", example);
+  for (const char* asked : {"100000", "99999999999999999999", "5000,2"}) {
+    setenv("OMP_NUM_THREADS", asked, 1);
+    const Outcome o = gambeson(folder, "check example.json");
+    unsetenv("OMP_NUM_THREADS");
+    EXPECT_EQ(o.status, 2) << asked;
+    EXPECT_EQ(o.err.find("environment: OMP_NUM_THREADS: \"" + std::string(asked)), 0u) << o.err;
+    EXPECT_NE(o.err.find("allowed: 1 to 4096"), std::string::npos) << o.err;
+  }
+}
+
 TEST(Command, RunSaysWhatIsWrongWithAMesh) {
   const Folder folder;
   // A tetrahedron about the origin, its lid left out, a fin added, or a face turned.
@@ -107,7 +120,8 @@ TEST(Command, BadInputExitsWithTwo) {
   const std::array<std::pair<std::string, std::string>, 18> cases{{
       {"", "gambeson run cases/library/shorts_walk.json"},
       {"dance",
-       "there is no command \"dance\"; there are run, dress, check, draft, render, report, export, verify, study and batch"},
+       "there is no command \"dance\"; there are run, dress, check, draft, render, report, export, verify, study and "
+       "batch"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,6 +135,84 @@ TEST(Mesh, RefusesWhatIsMalformed) {
   // scale
   for (const double s : {0.0, -1.0, std::nan(""), double{INFINITY}})
     EXPECT_THROW(loadMesh(folder.write("a.obj", tetrahedron), s), InputError);
+}
+
+/// A glTF whose one triangle lies in `buffer`; `more` stands before its end.
+std::string gltf(const std::string& buffer, const std::string& nodes, const std::string& more = "") {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" + nodes +
+         R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": ")" +
+         buffer + R"(", "byteLength": 36}])" + more + "}";
+}
+const std::string node = R"({"mesh": 0})";
+
+/// A binary glTF of one chunk.
+std::string glb(const std::string& json) {
+  std::string text = "glTF";
+  const std::string padded = json + std::string((4 - json.size() % 4) % 4, ' ');
+  for (const std::size_t n : {std::size_t{2}, padded.size() + 20, padded.size(), std::size_t{0x4E4F534A}}) {
+    const auto word = static_cast<std::uint32_t>(n);
+    text.append(reinterpret_cast<const char*>(&word), 4);
+  }
+  return text + padded;
+}
+
+TEST(Mesh, TrianglesOfGltfAreInBuffersBesideIt) {
+  const Folder folder;
+  const float x[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  folder.write("a.bin", std::string(reinterpret_cast<const char*>(x), sizeof x));
+  EXPECT_EQ(loadMesh(folder.write("a.gltf", gltf("a.bin", node))).triangles.size(), 1u);
+}
+
+/// The parser and the walk over nodes call themselves for each level: 200,000 of them ended the program.
+TEST(Mesh, DeepGltfIsRefused) {
+  const Folder folder;
+  const auto refused = [](const std::filesystem::path& file, const char* words) {
+    expectRefused([](const auto& f) { loadMesh(f); }, file, 0, words);
+  };
+  const int deep = 200000;
+  const std::string nested = R"(, "extras": )" + std::string(deep, '[') + std::string(deep, ']');
+  const float x[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  folder.write("a.bin", std::string(reinterpret_cast<const char*>(x), sizeof x));
+  refused(folder.write("a.gltf", gltf("a.bin", node, nested)), "nested deeper than 64 levels");
+  refused(folder.write("a.glb", glb(gltf("a.bin", node, nested))), "nested deeper than 64 levels");
+  std::string chain;
+  for (int k = 1; k < deep; ++k) chain += "{\"children\": [" + std::to_string(k) + "]},";
+  refused(folder.write("a.gltf", gltf("a.bin", chain + node)), "cannot be read");
+}
+
+/// A FIFO as a buffer waited for its other end for ever.
+TEST(Mesh, OnlyRegularFilesOfASizeAreRead) {
+  const Folder folder;
+  const auto refused = [&](const std::string& buffer, const char* named, const char* words) {
+    try {
+      loadMesh(folder.write("a.gltf", gltf(buffer, node)));
+      ADD_FAILURE() << buffer;
+    } catch (const InputError& e) {
+      EXPECT_NE(e.where().file.find(named), std::string::npos) << e.what();
+      EXPECT_NE(e.reason().find(words), std::string::npos) << e.what();
+    }
+  };
+  ASSERT_EQ(mkfifo((folder.path / "pipe.bin").c_str(), 0600), 0);
+  refused("pipe.bin", "pipe.bin", "not a regular file");
+  const auto sparse = [&](const char* name) {
+    const std::filesystem::path file = folder.write(name, "x");
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 30);
+    return file;
+  };
+  sparse("sparse.bin");
+  refused("sparse.bin", "sparse.bin", "at most 268435456 are read");
+  for (const char* name : {"sparse.obj", "sparse.stl", "sparse.ply", "sparse.gltf", "sparse.glb"})
+    expectRefused([](const auto& f) { loadMesh(f); }, sparse(name), 0, "at most 268435456 are read");
+}
+
+/// Counts that only a header claims.
+TEST(Mesh, AnEnormousAccessorIsRefused) {
+  const Folder folder;
+  const std::string huge =
+      replaced(replaced(gltf("a.bin", node), "\"bufferView\": 0, ", ""), "\"count\": 3", "\"count\": 400000000");
+  expectRefused([](const auto& f) { loadMesh(f); }, folder.write("a.gltf", huge), 0, "");
 }
 
 }  // namespace

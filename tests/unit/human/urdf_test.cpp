@@ -276,6 +276,18 @@ TEST(Urdf, RefusesEnormousNesting) {
   expectRefused(loadUrdf, folder.write("deep.urdf", deep), 2, "nested deeper");
 }
 
+/// Links that hang from each other call each other as they are read and destroyed.
+TEST(Urdf, RefusesEnormousChains) {
+  const Folder folder;
+  std::string chain = "<robot name=\"a\"><link name=\"l0\"/>";
+  for (int k = 1; k < 100000; ++k) {
+    const std::string n = std::to_string(k), above = std::to_string(k - 1);
+    chain += "<link name=\"l" + n + "\"/><joint name=\"j" + n + "\" type=\"fixed\"><parent link=\"l" + above +
+             "\"/><child link=\"l" + n + "\"/></joint>";
+  }
+  expectRefused([](const auto& f) { loadUrdf(f); }, folder.write("a.urdf", chain + "</robot>"), 0, "one link too many");
+}
+
 TEST(Urdf, RefusesABadMeshByTheMeshsName) {
   const Folder folder;
   folder.write("m.stl", "solid nothing\nendsolid nothing\n");
