@@ -61,7 +61,7 @@ TEST(Command, MoreThreadsThanCanStartAreRefused) {
     const Outcome o = gambeson(folder, "check example.json");
     unsetenv("OMP_NUM_THREADS");
     EXPECT_EQ(o.status, 2) << asked;
-    EXPECT_EQ(o.err.find("environment: OMP_NUM_THREADS: \"" + std::string(asked)), 0u) << o.err;
+    EXPECT_NE(o.err.find("environment: OMP_NUM_THREADS: \"" + std::string(asked)), std::string::npos) << o.err;
     EXPECT_NE(o.err.find("allowed: 1 to 4096"), std::string::npos) << o.err;
   }
 }
