@@ -283,6 +283,11 @@ std::vector<Reference> chooseReferences(const Options& options);
 int runVerify(const Options& options, std::ostream& out);
 
 std::string formatJson(const std::vector<Verified>& all);
-std::string formatPage(const std::vector<Verified>& all, const std::string& command, double wall_s);
+/// A page beside this one, and its title.
+struct PageLink {
+  std::string file, title;
+};
+std::string formatPage(const std::vector<Verified>& all, const std::string& command, double wall_s,
+                       const std::vector<PageLink>& pages = {});
 
 }  // namespace gambeson::verify

@@ -210,7 +210,8 @@ std::string tile(const std::string& kind, int count, const std::string& what) {
 
 }  // namespace
 
-std::string formatPage(const std::vector<Verified>& all, const std::string& command, double wall_s) {
+std::string formatPage(const std::vector<Verified>& all, const std::string& command, double wall_s,
+                       const std::vector<PageLink>& pages) {
   int passed = 0, checks = 0, checks_failed = 0, reported = 0;
   std::vector<std::string> groups;
   for (const Verified& v : all) {
@@ -226,6 +227,8 @@ std::string formatPage(const std::vector<Verified>& all, const std::string& comm
                   tile("", checks, "gated checks") + tile(checks_failed ? "bad" : "", checks_failed, "of them failed") +
                   tile("", reported, "numbers reported, not gated"),
               " class=\"tiles\"");
+  for (const PageLink& p : pages)
+    body += element("p", fmt::format("<a href=\"{}\">{}</a>", escape(p.file), escape(p.title)), " class=\"doc\"");
   body += overview(all, groups);
   for (const std::string& g : groups) {
     body += element("h2", escape(g.empty() ? "References" : g));

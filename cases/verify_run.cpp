@@ -23,6 +23,7 @@
 #include "cases/run_log.hpp"
 #include "cases/schema.hpp"
 #include "cases/verify.hpp"
+#include "cases/verify_examples.hpp"
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
 
@@ -192,6 +193,44 @@ void say(std::ostream& out, const Verified& v) {
       << std::flush;
 }
 
+/// A reference that this call does not run, where an earlier one left all its runs in the same folder (or where
+/// --results says).
+std::optional<Verified> keptReference(const Options& options, const std::string& id) {
+  const Reference reference = readReference(options.dir / (id + ".json"));
+  Options earlier = options;
+  if (earlier.results.empty()) earlier.results = options.out;
+  std::vector<Outcome> outcomes;
+  for (const Run& run : reference.runs) {
+    auto kept = keptRun(reference, run, earlier);
+    if (!kept) return {};
+    outcomes.push_back(std::move(*kept));
+  }
+  return assess(reference, outcomes);
+}
+
+/// Writes the page of each work that a reference of this call belongs to.
+std::vector<PageLink> writeWorks(const std::vector<Work>& works, const std::vector<Verified>& all,
+                                 const Options& options) {
+  std::vector<PageLink> pages;
+  for (const Work& work : works) {
+    std::vector<Verified> done;
+    std::vector<std::string> others;
+    for (const std::string& id : referencesOf(work)) {
+      const auto v = std::find_if(all.begin(), all.end(), [&](const Verified& x) { return x.reference.id == id; });
+      if (v != all.end())
+        done.push_back(*v);
+      else
+        others.push_back(id);
+    }
+    if (done.empty()) continue;
+    for (const std::string& id : others)
+      if (auto kept = keptReference(options, id)) done.push_back(std::move(*kept));
+    pages.push_back({work.id + ".html", work.title});
+    writeFileAtomically(options.out / pages.back().file, formatWork(work, done, commandOf(options)));
+  }
+  return pages;
+}
+
 }  // namespace
 
 std::vector<Outcome> runJobs(const std::vector<Job>& jobs, int parallel,
@@ -268,6 +307,7 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
   if (options.jobs < 1) options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const Clock::time_point begin = Clock::now();
   const std::vector<Reference> references = chooseReferences(options);
+  const std::vector<Work> works = readWorks(options.dir);
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) throw RunError(fmt::format("{}: {}", options.out.string(), error.message()));
@@ -321,7 +361,8 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
   for (auto& v : verified) all.push_back(std::move(*v));
   const double wall_s = secondsSince(begin);
   writeFileAtomically(options.out / "verify.json", formatJson(all));
-  writeFileAtomically(options.out / "verify.html", formatPage(all, commandOf(options), wall_s));
+  const std::vector<PageLink> pages = writeWorks(works, all, options);
+  writeFileAtomically(options.out / "verify.html", formatPage(all, commandOf(options), wall_s, pages));
   int passed = 0;
   for (const Verified& v : all) passed += v.passed();
   out << fmt::format("{} of {} references passed, {}: {}\n", passed, all.size(), durationText(wall_s),
