@@ -14,8 +14,15 @@ namespace {
 /// Between looks at how far the seams are closed [s].
 constexpr double look_s = 0.01;
 
+/// Of garments that are put on by themselves, which what is under them does not hold yet.
+constexpr double holding_friction = 1;
+
+/// Without weight, and held where it is: a belt that is drafted over shorts slides off the bare body, by its weight and
+/// by its tension.
 Case alone(const Case& c, std::size_t g) {
   Case one = c;
+  one.gravity_m_per_s2 = {};
+  one.contact.friction = std::max(one.contact.friction, holding_friction);
   one.garments = {c.garments[g]};
   one.supports.clear();
   for (const SupportCase& support : c.supports) {
@@ -48,14 +55,13 @@ State settled(const Scenario& s, bool* tangled) {
 }
 
 /// The control points of the sewn garment, closed by springs.
-std::vector<Vec3> closePanels(const Case& one) {
+std::vector<Vec3> closePanels(const Case& one, const Case& whole, std::size_t garment) {
   const Stitching& law = *one.garments[0].stitching;
   Case floating = one;
-  floating.gravity_m_per_s2 = {};
   floating.supports.clear();
   floating.dressing.projecting.reset();
   floating.dressing.settle_s = law.within_s;
-  const std::unique_ptr<Scenario> panels = buildPanels(floating);
+  const std::unique_ptr<Scenario> panels = buildPanels(floating, whole, garment);
   const Model& m = *panels->model;
   StepWork work;
   State state = startOf(*panels, work);
@@ -84,10 +90,10 @@ Dressed putOnApart(const Case& c) {
     std::vector<Vec3> closed;
     try {
       if (stitched) {
-        closed = closePanels(one);
+        closed = closePanels(one, c, g);
         one.dressing.projecting.reset();
       }
-      const std::unique_ptr<Scenario> s = buildScenario(one);
+      const std::unique_ptr<Scenario> s = buildAlone(one, c, g);
       if (stitched) s->start_m = sew(s->model->map, closed);
       const State state = settled(*s, nullptr);
       Dressed worn = dressedOf(*s, state);
@@ -130,6 +136,11 @@ void wear(Scenario& s, const Dressed& dressed) {
   s.start_m = sew(s.model->map, q);
 }
 
+void putOn(Scenario& s) {
+  const DressingCase& dressing = s.definition.dressing;
+  if (dressing.layer_by_layer && dressing.from.empty()) wear(s, putOnApart(s.definition));
+}
+
 Dressed dressedOf(const Scenario& s, const State& state) {
   const Case& c = s.definition;
   Dressed dressed;
@@ -169,8 +180,9 @@ Dressed wearTogether(const Case& c, const Dressed& apart) {
 }
 
 Dressed dress(const Case& c) {
-  if (c.dressing.layer_by_layer && c.dressing.from.empty()) return wearTogether(c, putOnApart(c));
-  return freed(*buildScenario(c));
+  const std::unique_ptr<Scenario> s = buildScenario(c);
+  putOn(*s);
+  return freed(*s);
 }
 
 }  // namespace gambeson

@@ -8,12 +8,16 @@
 namespace gambeson {
 
 /// Puts on each garment of the case alone: by virtual stitching where it says so, otherwise by virtual projecting (or
-/// as drafted, where the case has none), and lets it settle. In the posture in which the motion starts. Throws RunError
-/// naming the garment that cannot be put on.
+/// as drafted, where the case has none), and lets it settle there, without weight and held by friction. In the posture
+/// in which the motion starts. Throws RunError naming the garment that cannot be put on.
 Dressed putOnApart(const Case& c);
 
 /// The scenario starts with the garments as dressed. Throws InputError where these are other garments or another body.
 void wear(Scenario& scenario, const Dressed& dressed);
+
+/// Garments that are put on one by one (dressing.layer_by_layer) are, and the scenario starts with them; others start
+/// as the scenario was built.
+void putOn(Scenario& scenario);
 
 /// What is worn now, at a time up to 0.
 Dressed dressedOf(const Scenario& scenario, const State& state);

@@ -57,7 +57,7 @@ int runCase(const Case& c, const RunOptions& options) {
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
   if (!resume) writeFileAtomically(options.out / "case.json", writeCase(c));
-  if (!resume && c.dressing.layer_by_layer && c.dressing.from.empty()) wear(*scenario, putOnApart(c));
+  if (!resume) putOn(*scenario);
   state = resume ? stateOf(checkpoint, frequency) : startOf(*scenario, work);
 
   const Windows windows(scenario->start_s, scenario->end_s, c.output.window_s);

@@ -224,7 +224,20 @@ void addObstacles(const Case& c, Scenario& s, CaseStage& stage, std::vector<Obst
   }
 }
 
-std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
+/// Of a case's garments the only one that a scenario has; all of them where `of` is null.
+struct Only {
+  const Case* of = nullptr;
+  std::size_t garment = 0;
+  bool panels = false;
+};
+
+/// What is drafted over other garments is drafted over them also where it is put on by itself: it is the same garment.
+std::vector<Garment> draftOf(const Case& c, const Only& only, const Human* human) {
+  if (!only.of) return draftGarments(c, human);
+  return {std::move(draftGarments(withFactors(*only.of), human)[only.garment])};
+}
+
+std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   auto s = std::make_unique<Scenario>();
   s->definition = written;
   const Case c = withFactors(written);
@@ -236,7 +249,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   addObstacles(c, *s, *stage, obstacles);
 
   const Human* human = s->human ? &*s->human : nullptr;
-  const std::vector<Garment> garments = draftGarments(c, human);
+  const std::vector<Garment> garments = draftOf(c, only, human);
   std::vector<int> first{0};
   std::vector<std::vector<NamedEdge>> edges;
   for (std::size_t k = 0; k < garments.size(); ++k) {
@@ -254,7 +267,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, bool panels) {
   Garment garment = garments.size() == 1 ? garments[0] : joinLayers(garments);
   scaleSeams(garment, written.factors);
   ModelOptions options;
-  if (panels) standPanelsApart(*c.garments[0].stitching, s->samples_per_cell, garment, start, options.stitches);
+  if (only.panels) standPanelsApart(*c.garments[0].stitching, s->samples_per_cell, garment, start, options.stitches);
   options.patch_samples_per_cell = s->samples_per_cell;
   options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
@@ -326,9 +339,9 @@ State startOf(const Scenario& s, StepWork& work) {
 namespace {
 
 /// What only building shows to be wrong (a pattern that does not fit the body, say) is said with the case's name.
-std::unique_ptr<Scenario> build(const Case& c, bool panels) {
+std::unique_ptr<Scenario> build(const Case& c, const Only& only) {
   try {
-    return buildUnnamed(c, panels);
+    return buildUnnamed(c, only);
   } catch (const InputError& e) {
     if (!e.where().file.empty()) throw;
     throw InputError({c.file.string(), e.where().line, e.where().key}, e.reason());
@@ -337,12 +350,16 @@ std::unique_ptr<Scenario> build(const Case& c, bool panels) {
 
 }  // namespace
 
-std::unique_ptr<Scenario> buildScenario(const Case& c) { return build(c, false); }
+std::unique_ptr<Scenario> buildScenario(const Case& c) { return build(c, {}); }
 
-std::unique_ptr<Scenario> buildPanels(const Case& c) {
-  if (c.garments.size() != 1 || !c.garments[0].stitching)
-    throw InputError({c.file.string(), 0, "stitching"}, "panels are those of one garment that is to be stitched");
-  return build(c, true);
+std::unique_ptr<Scenario> buildAlone(const Case& one, const Case& whole, std::size_t garment) {
+  return build(one, {&whole, garment});
+}
+
+std::unique_ptr<Scenario> buildPanels(const Case& one, const Case& whole, std::size_t garment) {
+  if (one.garments.size() != 1 || !one.garments[0].stitching)
+    throw InputError({one.file.string(), 0, "stitching"}, "panels are those of one garment that is to be stitched");
+  return build(one, {&whole, garment, true});
 }
 
 }  // namespace gambeson

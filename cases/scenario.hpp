@@ -67,8 +67,10 @@ State startOf(const Scenario& scenario, StepWork& work);
 
 /// Throws InputError (with the case's file) where the case cannot be built, RunError where the body cannot be freed.
 std::unique_ptr<Scenario> buildScenario(const Case& c);
-/// The only garment of the case with its panels apart and springs along its seams (virtual stitching), without weight
-/// or supports, beside the body that stands as at time 0. Ends at 0.
-std::unique_ptr<Scenario> buildPanels(const Case& c);
+/// A case of one garment, which is drafted as garment `garment` of `whole`: over those before it, which it has not on.
+std::unique_ptr<Scenario> buildAlone(const Case& one, const Case& whole, std::size_t garment);
+/// The same with its panels apart and springs along its seams (virtual stitching), beside the body that stands as at
+/// time 0. Ends at 0. Throws InputError where the garment is not to be stitched.
+std::unique_ptr<Scenario> buildPanels(const Case& one, const Case& whole, std::size_t garment);
 
 }  // namespace gambeson

@@ -22,6 +22,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "cases/dress.hpp"
 #include "cases/recorder.hpp"
 #include "cases/scenario.hpp"
 #include "cases/windows.hpp"
@@ -234,6 +235,7 @@ int check(int argc, char** argv) {
   if (results && !options.again && !options.numbers.empty()) throw InputError({}, "--numbers needs --again");
   if (results && options.every_step && !options.again) throw InputError({}, "--every-step needs --again");
   const auto scenario = buildScenario(readCase(results ? options.path / "case.json" : options.path, options.overrides));
+  if (!results || options.again) putOn(*scenario);
   if (!results) {
     Looker look(*scenario, options);
     return checkAgain(*scenario, nullptr, options, look);
