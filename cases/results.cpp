@@ -95,6 +95,8 @@ void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
                {"kernels", f.kernels},
                {"wall_s", f.wall_s},
                {"resumed", f.resumed},
+               {"searches", f.searches},
+               {"searched_steps_s", f.searched_steps_s},
                {"phases", phases},
                {"windows", f.windows_s}};
   writeFileAtomically(dir / "run.json", j.dump(2) + "\n");
@@ -112,6 +114,8 @@ RunFacts readRunFacts(const std::filesystem::path& dir) {
     f.kernels = j.at("kernels").get<std::string>();
     f.wall_s = j.at("wall_s").get<double>();
     f.resumed = j.at("resumed").get<bool>();
+    f.searches = j.value("searches", 0L);
+    f.searched_steps_s = j.value("searched_steps_s", 0.0);
     f.windows_s = j.at("windows").get<std::vector<std::vector<double>>>();
     for (const Json& p : j.at("phases"))
       f.phases_s.emplace_back(p.at("phase").get<std::string>(), p.at("seconds").get<double>());

@@ -19,6 +19,8 @@ struct RunFacts {
   double wall_s = 0;
   std::vector<std::pair<std::string, double>> phases_s;
   bool resumed = false;
+  long searches = 0;            ///< steps that looked for intersections
+  double searched_steps_s = 0;  ///< their time, all phases
   /// Of each window, those of a resumed run's last part: start, end, time of each phase [s].
   std::vector<std::vector<double>> windows_s{};
 };

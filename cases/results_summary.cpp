@@ -79,6 +79,24 @@ Json stressJson(const Measured& m) {
   return all;
 }
 
+/// Zheng 2013, table 4.1: means over the steps that looked for intersections.
+Json searchesJson(const RunFacts& f) {
+  const auto phase = [&](const char* name) {
+    for (const auto& [of, seconds] : f.phases_s)
+      if (of == name) return seconds;
+    return 0.0;
+  };
+  const double finding = phase("finding intersections"), freeing = phase("freeing intersections");
+  const auto mean_ms = [&](double seconds) { return 1e3 * seconds / static_cast<double>(f.searches); };
+  Json j{{"steps", f.searches},
+         {"step_ms", mean_ms(f.searched_steps_s)},
+         {"finding_ms", mean_ms(finding)},
+         {"freeing_ms", mean_ms(freeing)}};
+  if (finding + freeing > 0) j["share_of_freeing"] = freeing / (finding + freeing);
+  if (f.searched_steps_s > 0) j["share_of_the_step"] = (finding + freeing) / f.searched_steps_s;
+  return j;
+}
+
 Json collisionsJson(const Measured& m) {
   CollisionWindow all;
   all.smallest_gap_m = std::numeric_limits<double>::infinity();
@@ -344,6 +362,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                   {"resumed", facts.resumed},
                   {"phases_s", phases},
                   {"windows", {{"columns", columns}, {"rows", facts.windows_s}}}};
+  if (facts.searches > 0) j["timings"]["intersections"] = searchesJson(facts);
   writeFileAtomically(file, j.dump(2) + "\n");
 }
 

@@ -21,9 +21,14 @@ namespace {
 
 /// The phases that a page names; limits of strain only where the case has them.
 std::vector<std::pair<std::string, double>> phasesOf(const PhaseTimes& t, bool limited) {
-  std::vector<std::pair<std::string, double>> phases{{"body motion", t.stage},        {"finding contacts", t.proximity},
-                                                     {"solving contacts", t.contact}, {"finding impacts", t.impact},
-                                                     {"cloth forces", t.force},       {"other", t.other}};
+  std::vector<std::pair<std::string, double>> phases{{"body motion", t.stage},
+                                                     {"finding contacts", t.proximity},
+                                                     {"solving contacts", t.contact},
+                                                     {"finding impacts", t.impact},
+                                                     {"finding intersections", t.tangles},
+                                                     {"freeing intersections", t.freeing},
+                                                     {"cloth forces", t.force},
+                                                     {"other", t.other}};
   if (limited) phases.insert(phases.end() - 1, {"limiting strain", t.limit});
   return phases;
 }
@@ -101,6 +106,8 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
   facts.phases_s = phasesOf(work.times, c.strain_limit.has_value());
   facts.windows_s = std::move(windows_s);
+  facts.searches = work.times.searches;
+  facts.searched_steps_s = work.times.searched_steps;
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
   writeResults(*scenario, options.out);

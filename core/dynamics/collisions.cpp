@@ -172,11 +172,19 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
   return m;
 }
 
-int findTangles(const CollisionModel& m, bool search, double dt, CollisionWork& w, std::vector<ContactRow>& restoring) {
+bool mayTangle(const CollisionModel& m) { return m.self || !m.bodies.empty(); }
+
+std::vector<Contour> findTangles(const CollisionModel& m, const CollisionWork& w) {
+  return traceContours(m.mesh, w.x0, findCrossings(m.mesh, w.x0, m.is_body));
+}
+
+void freeTangles(const CollisionModel& m, std::vector<Contour> contours, double dt, CollisionWork& w,
+                 std::vector<ContactRow>& restoring) {
   restoring.clear();
   w.tangle.assign(m.mesh.vertex_count, Tangle::kFree);
-  if (!search || (!m.self && m.bodies.empty())) return 0;
-  const std::vector<Untangling> found = untangle(m.mesh, w.x0, m.layer_of_vertex, m.is_body, m.untangling);
+  if (contours.empty()) return;
+  const std::vector<Untangling> found =
+      untangleContours(m.mesh, w.x0, std::move(contours), m.layer_of_vertex, m.untangling);
   w.tangle = tangledVertices(m.mesh, found);
   for (const Untangling& u : found)
     for (const RestoringRow& r : restoringRows(m.mesh, u)) {
@@ -202,7 +210,6 @@ int findTangles(const CollisionModel& m, bool search, double dt, CollisionWork& 
       row.contact.sample = row.stencil.sample[0];
       restoring.push_back(row);
     }
-  return static_cast<int>(found.size());
 }
 
 void touch(const CollisionModel& m, int vertex, double weight, Contact& contact) {

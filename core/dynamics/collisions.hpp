@@ -108,10 +108,14 @@ Vec3 wayOfBody(const CollisionModel& model, const ObstacleMotion& obstacles, con
 void dropUnreached(const CollisionModel& model, const ObstacleMotion& obstacles, const CollisionWork& work,
                    std::vector<Contact>& near);
 
-/// Looks for intersections at work.x0 and writes what frees them (chapter 4): the points of each contour are asked for
-/// the restoring speed. Sets work.tangle. Returns the number of contours. Without `search` there are none.
-int findTangles(const CollisionModel& model, bool search, double dt_s, CollisionWork& work,
-                std::vector<ContactRow>& restoring);
+/// The intersections at work.x0 (chapter 4): contours along which the mesh passes through itself. There may be some
+/// only where cloth touches cloth or there are bodies of triangles.
+bool mayTangle(const CollisionModel& model);
+std::vector<Contour> findTangles(const CollisionModel& model, const CollisionWork& work);
+
+/// What frees them: the points of each contour are asked for the restoring speed. Sets work.tangle.
+void freeTangles(const CollisionModel& model, std::vector<Contour> contours, double dt_s, CollisionWork& work,
+                 std::vector<ContactRow>& restoring);
 
 /// Persistent contacts of cloth with cloth at work.x0 among work.near (cloth_contacts.hpp); samples may move to x1.
 /// Those of tangled samples are left out: their side is not the right one.

@@ -174,6 +174,7 @@ struct StepReport {
   int cuts = 0;                ///< times that the step was cut or halved before it worked
   int pinched = 0;             ///< samples whose impacts were let pass
   int intersections = 0;       ///< contours at the start of the step
+  bool searched = false;       ///< for them
   int inside = 0;              ///< samples inside of meshes at the start of the step
   double smallest_gap_m = 0;   ///< of the persistent contacts; negative inside bodies; the largest double where none
   double deepest_m = 0;        ///< largest penetration of a sample at the start of the step, 0 if none
@@ -183,6 +184,10 @@ struct StepReport {
 /// Wall time of the phases of the steps so far [s].
 struct PhaseTimes {
   double stage = 0, proximity = 0, contact = 0, impact = 0, force = 0, limit = 0, other = 0;
+  double tangles = 0, freeing = 0;  ///< finding intersections, and what frees them (its solve is among the contacts')
+  /// Of all, the steps that looked for intersections: how many, and how long they took.
+  long searches = 0;
+  double searched_steps = 0;
 };
 
 /// Scratch of a step, and the impulses of the last one (read by the recorder).

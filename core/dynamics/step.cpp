@@ -191,7 +191,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   const double half = 0.5 * dt;
   StepReport report;
   report.step_s = dt;
-  StopWatch clock;
+  StopWatch clock, whole;
   w.start.resize(m.obstacles.size());
   w.end.resize(m.obstacles.size());
   w.anchors_start.resize(m.anchor_count);
@@ -305,6 +305,10 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   audit.scale += norm(audit.drag) + half * (norm(in.sums.held) + norm(out.sums.held));
   audit.scale = std::max(audit.scale, kScaleFloor * floor);
   clock.lap(w.times.other);
+  if (report.searched) {
+    ++w.times.searches;
+    whole.lap(w.times.searched_steps);
+  }
   return report;
 }
 

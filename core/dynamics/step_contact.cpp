@@ -363,7 +363,14 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
       if (std::holds_alternative<TriangleMesh>(m.obstacles[c.obstacle].shape)) ++report.inside;
     }
   }
-  report.intersections = findTangles(m.collisions, in.tangled || !in.pinched.empty(), dt, w.collisions, w.restoring);
+  clock.lap(w.times.proximity);
+  std::vector<Contour> contours;
+  report.searched = (in.tangled || !in.pinched.empty()) && mayTangle(m.collisions);
+  if (report.searched) contours = findTangles(m.collisions, w.collisions);
+  report.intersections = static_cast<int>(contours.size());
+  clock.lap(w.times.tangles);
+  freeTangles(m.collisions, std::move(contours), dt, w.collisions, w.restoring);
+  clock.lap(w.times.freeing);
   report.pinched = static_cast<int>(in.pinched.size());
   for (int s : in.pinched) w.collisions.tangle[s] = Tangle::kBeside;
   nearCloth(m.collisions, w.collisions);

@@ -263,14 +263,34 @@ TEST(Results, PartialRunSaysSo) {
   EXPECT_NE(content(folder.path() / "report.html").find("The run stopped at 0.02 s of 0.05 s"), std::string::npos);
 }
 
+/// Zheng 2013, table 4.1: means over the steps that looked.
+TEST(Results, WhatAStepTakesToFindAndFreeIntersections) {
+  const Folder folder;
+  const auto s = buildScenario(sleeve());
+  record(*s, folder.path());
+  writeRunFacts({1, "", "", 4, {{"finding intersections", 0.35}, {"freeing intersections", 0.05}}, false, 20, 3.2},
+                folder.path());
+  writeResults(*s, folder.path());
+  const auto timings = nlohmann::json::parse(content(folder.path() / "summary.json")).at("timings");
+  const auto& j = timings.at("intersections");
+  EXPECT_EQ(j.at("steps"), 20);
+  EXPECT_NEAR(j.at("step_ms").get<double>(), 160, 1e-9);
+  EXPECT_NEAR(j.at("finding_ms").get<double>(), 17.5, 1e-9);
+  EXPECT_NEAR(j.at("freeing_ms").get<double>(), 2.5, 1e-9);
+  EXPECT_NEAR(j.at("share_of_freeing").get<double>(), 0.125, 1e-9);
+  EXPECT_NEAR(j.at("share_of_the_step").get<double>(), 0.125, 1e-9);
+}
+
 TEST(Results, FactsSurviveAndDamageIsNamed) {
   const Folder folder;
-  writeRunFacts({3, "avx2", "9.9", 1.25, {{"b", 2}, {"a", 1}}, true}, folder.path());
+  writeRunFacts({3, "avx2", "9.9", 1.25, {{"b", 2}, {"a", 1}}, true, 7, 0.5}, folder.path());
   const RunFacts f = readRunFacts(folder.path());
   EXPECT_EQ(f.threads, 3);
   EXPECT_EQ(f.version, "9.9");
   EXPECT_EQ(f.phases_s, (std::vector<std::pair<std::string, double>>{{"b", 2}, {"a", 1}}));
   EXPECT_TRUE(f.resumed);
+  EXPECT_EQ(f.searches, 7);
+  EXPECT_EQ(f.searched_steps_s, 0.5);
   folder.write("run.json", "{\"version\": ");
   EXPECT_THROW(readRunFacts(folder.path()), InputError);
   EXPECT_THROW(scenarioOfResults(folder.path()), InputError);

@@ -132,10 +132,18 @@ TEST(SelfContact, CrossedStripsComeFree) {
   EXPECT_EQ(crossings(m), 0);
   EXPECT_LT(step * 3e-4, 0.3);
   EXPECT_GT(restored, 0);
+  // What that took is known apart from the rest (table 4.1 of the thesis), and only of steps that looked.
+  const PhaseTimes times = m.work.times;
+  EXPECT_EQ(times.searches, step);
+  EXPECT_GT(times.tangles, 0);
+  EXPECT_GT(times.freeing, 0);
+  EXPECT_GT(times.searched_steps, times.tangles + times.freeing);
   for (int s = 0; s < 50; ++s) {
     ASSERT_EQ(m.step(3e-4).failure, StepFailure::none);
     ASSERT_EQ(crossings(m), 0);
   }
+  EXPECT_EQ(m.work.times.searches, times.searches);
+  EXPECT_EQ(m.work.times.searched_steps, times.searched_steps);
 }
 
 TEST(Zones, RigidMotionKeepsMomentaAndNeverAddsEnergy) {
