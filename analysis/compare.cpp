@@ -68,6 +68,8 @@ const char* nameOf(Light light) {
   switch (light) {
     case Light::green:
       return "green";
+    case Light::doubtful:
+      return "doubtful";
     case Light::amber:
       return "amber";
     case Light::red:
@@ -76,6 +78,12 @@ const char* nameOf(Light light) {
       break;
   }
   return "not known";
+}
+
+Light lightNamed(const std::string& name) {
+  for (const Light light : {Light::green, Light::doubtful, Light::amber, Light::red})
+    if (name == nameOf(light)) return light;
+  return Light::unknown;
 }
 
 }  // namespace gambeson

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 namespace gambeson {
 
@@ -31,9 +32,12 @@ struct Elasticities {
   std::optional<double> thicknessExponent() const;
 };
 
-enum class Light { unknown, green, amber, red };
+/// Doubtful: it would be green, but for what its number stands on (analysis/trust.hpp).
+enum class Light { unknown, green, doubtful, amber, red };
 /// Of a part of the natural moment; NaN is unknown.
 Light lightOf(std::optional<double> part, double green, double red);
 const char* nameOf(Light light);
+/// Of such a name; unknown for any other.
+Light lightNamed(const std::string& name);
 
 }  // namespace gambeson

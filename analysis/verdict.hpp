@@ -6,13 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "analysis/compare.hpp"
+#include "analysis/trust.hpp"
 
 namespace gambeson {
 
-/// One level of what is compared, as a designer may choose it.
+/// What the levels of an axis of a study are.
+enum class Role { other, thickness, mesh, motion, wearer, size, material, friction, fit };
+/// Whether one of the levels is taken. Wearers, sizes, motions and frictions all occur: of them the worst counts.
+bool isChosen(Role role);
+
+/// One level of what is compared.
 struct Option {
-  std::string name;            ///< "thickness x 0.75"
+  std::string name;            ///< "thickness x 0.75", "male_p95"
   std::optional<double> size;  ///< thickness, where it is one
   struct Layer {
     std::string name;
@@ -41,10 +46,13 @@ struct Option {
   };
   std::vector<Comfort> comforts;  ///< of each motion
   bool missing = false;           ///< a run of it failed
+  bool untouched = false;         ///< in a run of it the garment touches nothing that a joint moves
 };
 
 struct VerdictInput {
   std::string what;             ///< "thickness"
+  Role role = Role::other;      ///< of what is compared
+  Role setting = Role::motion;  ///< what Option::Cost::motion names; other: several things together
   bool multiple = false;        ///< its sizes are factors on the design: "thickness x 0.5"
   bool sized = false;           ///< options are sizes of which more protects more: the thickest that is green is wanted
   std::vector<Option> options;  ///< with sizes: rising
@@ -64,15 +72,13 @@ struct VerdictInput {
     bool order = false;  ///< may turn the order of the options; else it touches the sizes of the torques alone
   };
   std::vector<Doubt> doubts;
-  /// Where cloth stretches beyond what its law is meant for: how far, the largest of all runs.
-  struct Stretch {
-    double meant_for = 0;  ///< the law holds below
-    double most = 0;       ///< 99 % of the patch that stretches most stays below
-    double largest = 0;    ///< of single spots
-  };
-  std::optional<Stretch> stretch;
+  std::optional<Stretch> stretch;          ///< the worst of all runs
   int failing_runs = 0, checked_runs = 0;  ///< with checks that fail, of how many
+  double sensor_m = 0;                     ///< width over which comfort takes the mean of the pressure; 0: not known
 };
+
+/// Of all its runs together.
+Trust trustOf(const VerdictInput& input);
 
 /// "5 %", with as many digits as tell on which side of the limits it is: "5.04 %".
 std::string percentBeside(double part, double green, double red);
@@ -93,12 +99,15 @@ std::optional<SizeFor> sizeFor(const VerdictInput& input, int option, double lim
 enum class Surety { no, fairly, yes };
 
 struct Verdict {
-  int take = -1;  ///< option; -1: none can be named
-  Light light = Light::unknown;
-  std::string sentence;  ///< which one to take
-  std::string layers;    ///< how thick its layers are, where sizes are compared: "shirt 1.56 mm, belt 1.15 mm"
-  std::string enough;    ///< whether that is good enough, against the limits
-  std::string estimate;  ///< which size would be; empty where the question does not arise
+  int take = -1;                 ///< option: the one taken, or where none is chosen the worst; -1: none can be named
+  bool chosen = true;            ///< isChosen
+  Light light = Light::unknown;  ///< of the torque, by its number alone
+  Light cover = Light::unknown;  ///< what the page may show
+  std::string doubt;             ///< why a green number is no green page; completes a sentence
+  std::string sentence;          ///< which one to take, or how the worst fares
+  std::string layers;            ///< how thick its layers are, where sizes are compared: "shirt 1.56 mm, belt 1.15 mm"
+  std::string enough;            ///< whether that is good enough, against the limits
+  std::string estimate;          ///< which size would be; empty where the question does not arise
   std::string why;
   std::string comfort;  ///< empty where no pressure is judged
   Light comfort_light = Light::unknown;

@@ -85,13 +85,19 @@ struct Stitching {
   double within_s = 3;               ///< by then they must be
 };
 
+/// A fabric, and how far it may be stretched: what no force depends on, but the verdict.
+struct FabricCase : Fabric {
+  std::optional<double> limit_strain_weft, limit_strain_warp;  ///< Green-Lagrange strains; absent: those of the law
+  bool operator==(const FabricCase&) const = default;
+};
+
 struct GarmentCase {
   std::string name;  ///< where there are several: what supports and tables call it; unique
   std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, BeltGarment, ShirtGarment, SkirtGarment,
                FileGarment>
       shape;
-  Vec3 position_m;               ///< moves the shape
-  std::optional<Fabric> fabric;  ///< that of the case where absent
+  Vec3 position_m;                   ///< moves the shape
+  std::optional<FabricCase> fabric;  ///< that of the case where absent
   /// Displacement of each control point along the normal, uniform in -amplitude .. amplitude, that the motion starts
   /// from; the rest shape has none.
   double noise_m = 0;
@@ -304,7 +310,7 @@ struct Case {
   std::string name, description;
   Vec3 gravity_m_per_s2{0, 0, -9.81};
   std::vector<GarmentCase> garments;  ///< innermost first, at least one
-  Fabric fabric;                      ///< of garments without one of their own
+  FabricCase fabric;                  ///< of garments without one of their own
   std::optional<HumanCase> human;
   std::vector<ObstacleCase> obstacles;
   std::vector<SupportCase> supports;
@@ -322,7 +328,7 @@ struct Case {
   std::vector<std::string> overrides;  ///< "path=value" of the command line
 };
 
-inline const Fabric& fabricOf(const Case& c, const GarmentCase& g) { return g.fabric ? *g.fabric : c.fabric; }
+inline const FabricCase& fabricOf(const Case& c, const GarmentCase& g) { return g.fabric ? *g.fabric : c.fabric; }
 
 /// Reads and checks a case file. `overrides` ("fabric.thickness=0.4 mm") replace or add values before the checks.
 /// Relative paths in the file resolve against its folder, those of overrides against the current folder.

@@ -49,6 +49,12 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
   if (check.starts_with("Sinking"))
     return {fmt::format("an edge on springs slides {} along the body", much),
             "The garment hangs lower than it was made to: the torques are those of a garment that slipped.", false};
+  if (check.starts_with("Slipping"))
+    return {fmt::format("{} slips down the body by {}",
+                        check.size() > 10 ? check.substr(10) : std::string("the garment"), much),
+            "It is not worn as it was made to: the torques are those of a garment that falls off. Hold it by supports, "
+            "or cut it closer.",
+            true};
   if (check.starts_with("Repeatability, shape"))
     return {fmt::format("the second stride is not like the first (correlation {}, 1 for the same course; allowed: at "
                         "least {})",

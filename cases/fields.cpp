@@ -121,6 +121,7 @@ Object analysisTable() {
                                                         {"natural_stairs", Task::natural_stairs},
                                                         {"aiming", Task::aiming}},
               "natural moments that torques are compared with")
+      .defaultsTo("by the motion: natural_walk for walk, natural_stairs for stairs, aiming for aim, else none")
       .build();
 }
 

@@ -63,13 +63,21 @@ Object fabricTable() {
       .number("jam_area", &F::jam_area, "", {.low = 0, .high = 1, .high_open = true},
               "area ratio below which cloth pressed together in its plane jams instead of giving way "
               "(core/material/jamming.hpp); 0: never")
+      .number("limit_strain", &F::limit_strain, "", aboveTo(0, 10),
+              "Green-Lagrange strain (as the reports give stretch) up to which the fabric may be stretched along weft "
+              "and warp, say where it stiffens, stays stretched or tears: beyond it no verdict is green")
+      .defaultsTo("none: the range of the law, 2 % (Zheng 2013, eq. 2.13)")
+      .number("limit_strain_weft", &F::limit_strain_weft, "", aboveTo(0, 10), "the same, along the weft alone")
+      .defaultsTo("limit_strain")
+      .number("limit_strain_warp", &F::limit_strain_warp, "", aboveTo(0, 10), "the same, along the warp alone")
+      .defaultsTo("limit_strain")
       .object("bending", &F::bending, bendingTable(), "resistance to bending")
       .required()
       .build();
 }
 
-Fabric resolveFabric(const Place& place, const FabricInput& in) {
-  Fabric f;
+FabricCase resolveFabric(const Place& place, const FabricInput& in) {
+  FabricCase f;
   f.name = in.name;
   f.thickness_m = in.thickness_m;
   f.density_kg_per_m3 = in.density_kg_per_m3 ? *in.density_kg_per_m3 : *in.surface_density_kg_per_m2 / in.thickness_m;
@@ -96,6 +104,13 @@ Fabric resolveFabric(const Place& place, const FabricInput& in) {
   if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa))
     place.failAt("poisson", fmt::format("{} is out of range; allowed: below sqrt(young_weft / young_warp) = {:.4g}",
                                         f.poisson, std::sqrt(f.young_weft_Pa / f.young_warp_Pa)));
+
+  for (const auto& [key, given] :
+       {std::pair("limit_strain_weft", in.limit_strain_weft), std::pair("limit_strain_warp", in.limit_strain_warp)})
+    if (given && in.limit_strain)
+      place.failAt(key, "excludes \"limit_strain\"; give limit_strain, or limit_strain_weft and limit_strain_warp");
+  f.limit_strain_weft = in.limit_strain ? in.limit_strain : in.limit_strain_weft;
+  f.limit_strain_warp = in.limit_strain ? in.limit_strain : in.limit_strain_warp;
 
   const JsonNode* bending_node = place.node.find("bending");
   const Place bending = place.member(*bending_node);
@@ -130,7 +145,7 @@ Fabric resolveFabric(const Place& place, const FabricInput& in) {
   return f;
 }
 
-FabricInput restoreFabric(const Fabric& f) {
+FabricInput restoreFabric(const FabricCase& f) {
   FabricInput in;
   in.name = f.name;
   in.thickness_m = f.thickness_m;
@@ -140,6 +155,8 @@ FabricInput restoreFabric(const Fabric& f) {
   in.shear_Pa = f.shear_Pa;
   in.poisson = f.poisson;
   in.jam_area = f.jam_area;
+  in.limit_strain_weft = f.limit_strain_weft;
+  in.limit_strain_warp = f.limit_strain_warp;
   in.bending.law = f.bending_law;
   in.bending.rigidity_weft_Nm = f.bending_weft_Nm;
   in.bending.rigidity_warp_Nm = f.bending_warp_Nm;

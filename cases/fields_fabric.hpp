@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "cases/case.hpp"
 #include "cases/schema.hpp"
-#include "core/material/fabric.hpp"
 
 namespace gambeson::schema {
 
@@ -28,12 +28,13 @@ struct FabricInput {
   std::optional<double> young_Pa, young_weft_Pa, young_warp_Pa, shear_Pa;
   double poisson = 0;
   double jam_area = 0.7;
+  std::optional<double> limit_strain, limit_strain_weft, limit_strain_warp;
   BendingInput bending;
 };
 
 /// The fabric that the input says; `place` is that of the fabric in the file, for the rules between fields.
-Fabric resolveFabric(const Place& place, const FabricInput& in);
+FabricCase resolveFabric(const Place& place, const FabricInput& in);
 /// The input, written out in full, that resolves to the fabric.
-FabricInput restoreFabric(const Fabric& fabric);
+FabricInput restoreFabric(const FabricCase& fabric);
 
 }  // namespace gambeson::schema

@@ -55,7 +55,7 @@ std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& reco
         name = pictureName(pictures.size() + 1, picture, time);
         scale.high = highest[picture.field];
         renderFrame(s, recording, frame, picture, scale, folder / name);
-        pictures.push_back({folder / name, captionOf(picture, time), ""});
+        pictures.push_back({folder / name, captionOf(picture, time, s.definition.comfort.sensor_m), ""});
       } catch (const RunError& e) {
         if (draw) failures.push_back(fmt::format("The picture {} could not be drawn: {}", name, e.what()));
       }
@@ -134,8 +134,7 @@ std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir) {
 void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   const RecordingReader recording(dir);
   const RunFacts facts = readRunFacts(dir);
-  Measured m = measure(s, recording);
-  m.surface_depth = surfaceDepth(s, recording);
+  Measured m = measureAll(s, recording);
   measureCloth(s, recording, m);
   writeSummary(s, recording, m, facts, dir / "summary.json");
   if (s.human) {
@@ -178,8 +177,7 @@ int renderResults(const RenderOptions& o) {
 int reportResults(const ReportOptions& o) {
   const auto scenario = scenarioOfResults(o.results);
   const RecordingReader recording(o.results);
-  Measured m = measure(*scenario, recording);
-  m.surface_depth = surfaceDepth(*scenario, recording);
+  const Measured m = measureAll(*scenario, recording);
   const std::filesystem::path folder = temporaryFolder();
   std::vector<std::string> failures;
   const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder, failures);

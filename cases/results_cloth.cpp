@@ -14,7 +14,6 @@
 #include "tryon/strap_cut.hpp"
 
 namespace gambeson {
-namespace {
 
 std::vector<Vec3> vectorsOf(const std::vector<float>& v) {
   std::vector<Vec3> out(v.size() / 3);
@@ -27,6 +26,8 @@ std::vector<Vec3> controlsOf(const Frame& frame) {
     if (f.name == "position") return vectorsOf(f.data);
   throw RunError("the recording has no control points");
 }
+
+namespace {
 
 std::vector<Vec3> restControls(const Garment& g) {
   std::vector<Vec3> q;

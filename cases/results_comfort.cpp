@@ -43,9 +43,11 @@ void measureComfort(const Scenario& s, const RecordingReader& recording, Measure
 void addComfort(const Scenario& s, const Measured& m, ReportInput& in) {
   if (m.comfort.empty()) return;
   const ComfortCase& c = s.definition.comfort;
+  const Trust trust = trustOf(in);
   Table table{
       "Pressure on the body against comfort limits",
-      fmt::format("Pressure over {:g} mm, about what a sensor shows. Mean: over time, where it is largest; the dose "
+      fmt::format("Pressure: the mean over {:g} mm, about what a sensor shows; single contact points press harder. "
+                  "Mean: over time, where it is largest; the dose "
                   "is that over {:g} min, as if the motion went on. Green: the mean is at most the comfortable "
                   "pressure; red: it is above the limit, or the peak above the limit of peaks. The limits are "
                   "suggestions; a case sets its own under \"comfort\".",
@@ -60,7 +62,7 @@ void addComfort(const Scenario& s, const Measured& m, ReportInput& in) {
     return a->mean_Pa / a->limit.red_Pa > b->mean_Pa / b->limit.red_Pa;
   });
   for (const ComfortMeasure* z : order) {
-    table.rows.push_back({spokenZone(z->zone), Cell::signal(nameOf(z->light())), 1e-3 * z->mean_Pa,
+    table.rows.push_back({spokenZone(z->zone), Cell::signal(nameOf(shownLight(z->light(), trust))), 1e-3 * z->mean_Pa,
                           1e-3 * z->limit.amber_Pa, 1e-3 * z->limit.red_Pa, 1e-3 * z->peak_Pa,
                           Cell(fmt::format("{:.2f}", z->peak_time_s)), 1e-3 * z->limit.peak_Pa, z->dose_kPa_min,
                           1e4 * z->amber_m2});
@@ -70,7 +72,8 @@ void addComfort(const Scenario& s, const Measured& m, ReportInput& in) {
   const auto kPa = [](double Pa) { return formatNumber(1e-3 * Pa) + " kPa"; };
   in.comfort =
       worst.light() == Light::green
-          ? fmt::format("Comfortable everywhere: closest to its limit is the {} ({} in the mean, {} allowed).",
+          ? fmt::format("{}: closest to its limit is the {} ({} in the mean, {} allowed).",
+                        trust.whole() ? "Comfortable everywhere" : "Comfortable by numbers that are in doubt",
                         spokenZone(worst.zone), kPa(worst.mean_Pa), kPa(worst.limit.amber_Pa))
       : worst.peak_Pa > worst.limit.peak_Pa
           ? fmt::format("The {} is red: {} at {:.2f} s, more than the limit of peaks, {}.", spokenZone(worst.zone),
@@ -94,7 +97,7 @@ std::vector<Picture> takeBodyPictures(const Scenario& s, const Measured& m, cons
     const std::filesystem::path png =
         folder / fmt::format("body_pressure_{}.png", viewNames()[static_cast<std::size_t>(view)]);
     renderBody(s, *m.body, m.body_loads, m.peak_time_s, picture, high, png);
-    pictures.push_back({png, captionOf(picture, m.peak_time_s), ""});
+    pictures.push_back({png, captionOf(picture, m.peak_time_s, s.definition.comfort.sensor_m), ""});
   }
   return pictures;
 }

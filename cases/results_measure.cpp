@@ -220,6 +220,7 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
         m.natural_Nm = naturalMoment(s, m);
       } catch (const InputError&) {  // the published data have no such joint; the page says "not known"
       }
+      if (m.natural_Nm && !(*m.natural_Nm > 0)) m.natural_Nm.reset();
     }
     const std::vector<int> counted = countedLinks(*s.human, j, counting);
     m.normal_N = meanOf(rows, counted, 6);
@@ -321,7 +322,7 @@ std::optional<Strides> stridesOf(const Case& c) {
 const JointMeasure* Measured::highest() const {
   const JointMeasure* best = nullptr;
   for (const JointMeasure& m : joints)
-    if (!m.prismatic && (!best || std::abs(m.peak.value) > std::abs(best->peak.value))) best = &m;
+    if (!m.prismatic && isTouched(m) && (!best || std::abs(m.peak.value) > std::abs(best->peak.value))) best = &m;
   return best;
 }
 
@@ -376,6 +377,8 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   if (s.human) measureComfort(s, recording, out);
   measureRegions(s, motionRows(recording, "regions"), out);
   measureSupports(s, motionRows(recording, "supports"), out);
+  for (const LayerMeasure& l : layersOf(s)) out.cloth_kg += l.mass_kg;
+  out.energy.negligible = 0.5 * out.cloth_kg * 1e-12;
   measureSteps(recording, out);
   out.limited = s.definition.strain_limit.has_value();
   out.regions = regionsOf(s);
@@ -392,6 +395,14 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
     }
   }
   return out;
+}
+
+Measured measureAll(const Scenario& s, const RecordingReader& recording) {
+  Measured m = measure(s, recording);
+  m.surface_depth = surfaceDepth(s, recording);
+  measureStretch(s, recording, m);
+  measureFalls(s, recording, m);
+  return m;
 }
 
 }  // namespace gambeson

@@ -12,6 +12,7 @@
 #include "analysis/series.hpp"
 #include "analysis/stress.hpp"
 #include "analysis/torque.hpp"
+#include "analysis/trust.hpp"
 #include "cases/body_map.hpp"
 #include "cases/scenario.hpp"
 #include "core/io/recording.hpp"
@@ -61,6 +62,9 @@ struct JointMeasure {
   std::optional<Likeness> second_stride;  ///< against the first
   std::optional<Likeness> other_side;     ///< left, half a stride later, against this right
 };
+
+/// Whether the garment touches anything that the joint moves: else there is no torque to speak of.
+inline bool isTouched(const JointMeasure& m) { return m.peak.value != 0 || m.normal_N != 0; }
 
 /// The added torque against the task's own moment; the joint has one.
 inline Light effortOf(const ComfortCase& c, const JointMeasure& m) {
@@ -173,9 +177,11 @@ struct StepMeasure {
 struct EnergyMeasure {
   double change = 0, contact = 0, friction = 0, separation = 0, restoring = 0, drag = 0, supports = 0, limit = 0,
          absolute = 0;
+  /// Below it a sum of works is rounding: what moves the cloth's mass at a micrometre per second.
+  double negligible = 0;
   double dissipated = 0;  ///< by friction, inelastic impact and drag
   double drift() const { return change - (contact + drag + supports + limit); }
-  double relative() const { return absolute > 0 ? drift() / absolute : 0; }
+  double relative() const { return absolute > negligible ? drift() / absolute : 0; }
 };
 
 /// As the recording stores it, in single precision.
@@ -230,6 +236,16 @@ struct StrapsMeasure {
   }
 };
 
+/// Strain below which the source of the fabric's law takes it to be a straight line (Zheng 2013, eq. 2.13).
+constexpr double kStrainOfLaw = 0.02;
+
+/// How far a garment falls in world's up against a part of the body, in the mean over its area, from where it lay when
+/// the recording begins: against the part that it goes with best, of those that it lay on.
+struct FallMeasure {
+  std::string garment;  ///< empty where there is one only
+  double largest_m = 0, time_s = 0;
+};
+
 struct Measured {
   double recorded_end_s = 0;
   double counted_from_s = 0;  ///< peaks and mean squares of torques count from here on
@@ -256,16 +272,21 @@ struct Measured {
   Regions regions;
   std::vector<StressFrame> frames;
   std::vector<StressSummary> stress;
+  std::vector<Stretch> stretch;    ///< of each garment, against what its fabric is meant for
+  std::vector<FallMeasure> falls;  ///< of each garment that a human wears
   StepMeasure steps;
   EnergyMeasure energy;
+  double cloth_kg = 0;                        ///< mass of all garments
   bool limited = false;                       ///< whether the case limits strain
   std::optional<SurfaceDepth> surface_depth;  ///< costs seconds: only where asked for
   std::optional<RecordedRange> recorded;
 
-  const JointMeasure* highest() const;  ///< null without joints
+  const JointMeasure* highest() const;  ///< of joints that turn and that the garment touches something beyond; or null
 };
 
 Measured measure(const Scenario& scenario, const RecordingReader& recording);
+/// With what costs seconds: SurfaceDepth, Stretch and FallMeasure, for summary and page.
+Measured measureAll(const Scenario& scenario, const RecordingReader& recording);
 
 // Its parts (results_steps.cpp): the table "steps", and the frames.
 void measureSteps(const RecordingReader& recording, Measured& out);
@@ -276,11 +297,17 @@ void measureComfort(const Scenario& scenario, const RecordingReader& recording, 
 void measureZones(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of results_cloth.cpp: costs seconds; after the joints.
 void measureCloth(const Scenario& scenario, const RecordingReader& recording, Measured& out);
+/// Of results_fit.cpp: cost seconds; after the frames.
+void measureStretch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
+void measureFalls(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of results_touch.cpp.
 void measureTouch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 
 /// The field of a frame by name; throws RunError where the frame has none.
 const Field& fieldOf(const Frame& frame, const std::string& name);
+/// Three numbers each; and where a frame's control points stand.
+std::vector<Vec3> vectorsOf(const std::vector<float>& numbers);
+std::vector<Vec3> controlsOf(const Frame& frame);
 Regions regionsOf(const Scenario& scenario);
 /// From when on torques, forces and pressures count: the strides' start where the last of them was recorded to its end,
 /// else 0.

@@ -42,11 +42,11 @@ FieldWords wordsOf(PictureField field) {
     case PictureField::stress:
       return {"stress", "Stress in the fabric: largest pull [N/m]", "stress in the fabric", 1};
     case PictureField::pressure:
-      return {"pressure", "Contact pressure [Pa]", "contact pressure", 1};
+      return {"pressure", "Contact pressure of single points [kPa]", "contact pressure of single points", 1e-3};
     case PictureField::strain:
       return {"strain", "Largest stretch of the fabric [%]", "stretch of the fabric", 100};
     case PictureField::body_pressure:
-      return {"", "Largest pressure on the body [kPa]", "largest pressure on the body", 1e-3};
+      return {"", "Largest pressure on the body, mean over {:g} mm [kPa]", "largest pressure on the body", 1e-3};
     case PictureField::plain:
       break;
   }
@@ -187,14 +187,16 @@ PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int in
   return scale;
 }
 
-std::string captionOf(const PictureCase& picture, double time_s) {
+std::string captionOf(const PictureCase& picture, double time_s, double sensor_m) {
   std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
   std::replace(view.begin(), view.end(), '_', ' ');
   std::string what = wordsOf(picture.field).word;
   what[0] = static_cast<char>(what[0] - 'a' + 'A');
   if (picture.field == PictureField::body_pressure)
-    return fmt::format("{}, at each place over the motion, seen from {}{}; posture at {:.2f} s", what,
-                       picture.view == View::above ? "" : "the ", view, time_s);
+    return fmt::format("{} (the mean over {:g} mm), at each place over the motion, seen from {}{}; posture at {:.2f} s",
+                       what, 1e3 * sensor_m, picture.view == View::above ? "" : "the ", view, time_s);
+  if (picture.field == PictureField::pressure)
+    what += fmt::format(" (comfort goes by the mean over {:g} mm)", 1e3 * sensor_m);
   return fmt::format("{} at {:.2f} s{}, seen from {}{}", what, time_s,
                      picture.when == PictureTime::peak ? " (the peak)" : "", picture.view == View::above ? "" : "the ",
                      view);
@@ -226,13 +228,13 @@ void renderBody(const Scenario& s, const BodyMap& map, const BodyLoads& loads, d
     scene.meshes.push_back(std::move(body));
   }
   const FieldWords words = wordsOf(PictureField::body_pressure);
-  scene.bar = ColorBar{words.title, 0, 1e-3 * high_Pa};
+  scene.bar = ColorBar{fmt::format(fmt::runtime(words.title), 1e3 * s.definition.comfort.sensor_m), 0, 1e-3 * high_Pa};
   if (!touched.empty()) {
     const std::array<Vec3, 2> box = boxOf(touched, 0);
     scene.focus = boxOf(touched, 0.06 * norm(box[1] - box[0]));
   }
   scene.title = s.definition.name;
-  scene.subtitle = captionOf(picture, time_s);
+  scene.subtitle = captionOf(picture, time_s, s.definition.comfort.sensor_m);
   scene.view = picture.view;
   scene.up = upOf(s);
   writePng(render(scene, picture.width, picture.height), png);
@@ -291,7 +293,7 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   addArrows(scene, clustersOf(placed, frame, x), scale.most_N, 0.14 * scale.size_m);
   scene.focus = {middle - 0.5 * scale.box_m, middle + 0.5 * scale.box_m};
   scene.title = s.definition.name;
-  scene.subtitle = captionOf(picture, frame.time_s);
+  scene.subtitle = captionOf(picture, frame.time_s, s.definition.comfort.sensor_m);
   scene.view = picture.view;
   scene.up = upOf(s);
   writePng(render(scene, picture.width, picture.height), png);

@@ -27,8 +27,9 @@ std::string capital(std::string s) {
 }
 
 void addJoints(const Scenario& s, const Measured& m, ReportInput& in) {
+  const Trust trust = trustOf(in);
   for (const JointMeasure& j : m.joints) {
-    if (j.prismatic) continue;
+    if (j.prismatic || !isTouched(j)) continue;
     JointSummary summary;
     summary.joint = j.movement.empty() ? j.part : j.part + " (" + j.movement + ")";
     summary.side = j.side;
@@ -38,7 +39,9 @@ void addJoints(const Scenario& s, const Measured& m, ReportInput& in) {
     summary.rms_Nm = j.rms;
     if (j.natural_Nm) {
       summary.natural_percent = 100 * std::abs(j.peak.value) / *j.natural_Nm;
-      summary.light = nameOf(effortOf(s.definition.comfort, j));
+      summary.natural_Nm = *j.natural_Nm;
+      if (const Light light = shownLight(effortOf(s.definition.comfort, j), trust); light != Light::unknown)
+        summary.light = nameOf(light);
     }
     if (j.peak.value != 0) {
       summary.drag_percent = 100 * j.drag_at_peak / j.peak.value;
@@ -57,13 +60,14 @@ void addPlots(const Measured& m, ReportInput& in) {
           {m.strides->start_s + k * m.strides->time_s, k < m.strides->count ? fmt::format("stride {}", k + 1) : "end"});
   std::vector<std::string> titles;
   for (const JointMeasure& j : m.joints)
-    if (std::find(titles.begin(), titles.end(), titleOf(j)) == titles.end()) titles.push_back(titleOf(j));
+    if (isTouched(j) && std::find(titles.begin(), titles.end(), titleOf(j)) == titles.end())
+      titles.push_back(titleOf(j));
   for (const std::string& title : titles) {
     Plot plot{capital(title), "", {}, marks, true};
     std::string unit = "Nm";
     const JointMeasure* highest = nullptr;
     for (const JointMeasure& j : m.joints)
-      if (titleOf(j) == title) {
+      if (isTouched(j) && titleOf(j) == title) {
         if (!highest || std::abs(j.peak.value) > std::abs(highest->peak.value)) highest = &j;
         unit = j.prismatic ? "N" : "Nm";
         plot.series.push_back(
@@ -156,7 +160,15 @@ void addRepeatability(const Measured& m, ReportInput& in) {
   if (!table.rows.empty()) in.fact_tables.push_back(std::move(table));
 }
 
-/// What a run without a wearer shows.
+/// Joints beyond which the garment touches nothing; empty where there are none.
+std::string untouchedOf(const Measured& m) {
+  std::string names;
+  for (const JointMeasure& j : m.joints)
+    if (!isTouched(j)) names += (names.empty() ? "" : ", ") + titleOf(j) + (j.side.empty() ? "" : " " + j.side);
+  return names;
+}
+
+/// What a run without torques shows.
 std::string outcomeOf(const Measured& m) {
   const BodyMeasure* top = nullptr;
   for (const BodyMeasure& b : m.contact)
@@ -204,24 +216,31 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
                     m.recorded_end_s, s.end_s));
   for (const std::string& note : s.notes) in.warnings.push_back("Note: " + note + ".");
   if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
+  in.audit = auditOf(m);
+  for (AuditCheck& c : in.audit)
+    if (!c.holds()) {
+      const CheckWords words = checkWords(c.name, c.value, c.limit, c.unit);
+      c.wrong = words.wrong;
+      c.spoils = words.order;
+      c.meaning += ". " + words.means;
+    }
+  in.stretch = m.stretch;
   addJoints(s, m, in);
   addPlots(m, in);
   if (s.human) addZones(m, in);
   if (!m.contact.empty()) addContact(m, !s.human, in);
   addComfort(s, m, in);
   addCollisions(m, in);
-  if (m.joints.empty()) in.outcome = outcomeOf(m);
+  if (in.joints.empty())
+    in.outcome = m.joints.empty() || m.windows.empty()
+                     ? outcomeOf(m)
+                     : "The garment touches nothing that a joint moves: no torque tells what it costs. " + outcomeOf(m);
   addStress(s, m, in);
   addSupports(m, in);
   in.pictures = pictures;
-  in.audit = auditOf(m);
-  for (AuditCheck& c : in.audit)
-    if (!c.holds()) {
-      const CheckWords words = checkWords(c.name, c.value, c.limit, c.unit);
-      c.wrong = words.wrong;
-      c.meaning += ". " + words.means;
-    }
   in.assumptions = assumptionsOf(s);
+  if (const std::string names = untouchedOf(m); !names.empty())
+    in.assumptions.push_back("Left out, as the garment touches nothing that they move: " + names + ".");
   const auto [hash, kernels] = identityParts(identity);
   in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->shell.controlCount(),
                                       s.model->surface.size(), fmt::join(s.fabric_names, ", "))},

@@ -351,6 +351,15 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
          m.steps.steps > 0 ? static_cast<double>(m.steps.projections) / static_cast<double>(m.steps.steps) : 0},
         {"unconverged_steps", m.steps.unlimited},
         {"work_J", m.energy.limit}};
+  j["stretch"] = Json::array();
+  for (const Stretch& k : m.stretch)
+    j["stretch"].push_back({{"garment", k.garment},
+                            {"along", k.along},
+                            {"limit", k.limit},
+                            {"stated", k.stated},
+                            {"p99_strain", k.most},
+                            {"max_strain", k.largest},
+                            {"holds", k.holds()}});
   j["audit"] = auditJson(m);
   if (m.recorded) j["recording"] = recordedJson(*m.recorded);
   Json phases = Json::object();

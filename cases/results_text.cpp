@@ -90,6 +90,10 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
     checks.push_back(
         {"Penetration between samples", 1e3 * m.surface_depth->deepest_m, 0.2, "mm",
          "the deepest point of the cloth's surface, evaluated four times finer than the samples, at every frame"});
+  for (const FallMeasure& f : m.falls)
+    checks.push_back({f.garment.empty() ? "Slipping" : "Slipping, " + f.garment, 1e3 * f.largest_m, 50, "mm",
+                      "mean fall of the garment since the recording began, against the part of the body that it goes "
+                      "with best; the largest"});
   for (const SupportMeasure& s : m.supports)
     if (s.springs)
       checks.push_back({"Sinking, " + s.name, 1e3 * s.largest_drop_m, 20, "mm",
@@ -202,9 +206,9 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
   say("The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and orthotropic "
       "(Zheng 2013, eq. 2.13).");
   if (c.strain_limit) say(limitInWords(*c.strain_limit, "the window"));
-  std::vector<Fabric> said;
+  std::vector<FabricCase> said;
   for (const GarmentCase& g : c.garments) {
-    const Fabric& f = fabricOf(c, g);
+    const FabricCase& f = fabricOf(c, g);
     if (std::find(said.begin(), said.end(), f) != said.end()) continue;
     said.push_back(f);
     const bool one = std::all_of(c.garments.begin(), c.garments.end(),

@@ -66,8 +66,6 @@ std::vector<AuditCheck> auditOf(const Measured& measured);
 
 /// What a stretch of the fabric means, and up to where its law holds.
 std::string stretchMeaning(const Case& c);
-/// Strain below which the source of the fabric's law takes it to be a straight line (Zheng 2013, eq. 2.13).
-constexpr double kStrainOfLaw = 0.02;
 
 /// What a reader must know before trusting the numbers.
 std::vector<std::string> assumptionsOf(const Scenario& scenario);
@@ -78,8 +76,9 @@ ReportInput reportInput(const Scenario& scenario, const Measured& measured, cons
 /// The frame nearest to what the picture asks for.
 int frameOf(const RecordingReader& recording, const Measured& measured, const PictureCase& picture);
 
-/// "stress at 1.24 s, seen from front_right"
-std::string captionOf(const PictureCase& picture, double time_s);
+/// "Stress in the fabric at 1.24 s, seen from the front right"; of pressures over which width they are a mean,
+/// ComfortCase::sensor_m on the body.
+std::string captionOf(const PictureCase& picture, double time_s, double sensor_m);
 
 /// Case hash and kernels of a recording's identity.
 std::pair<std::string, std::string> identityParts(const std::string& identity);

@@ -145,6 +145,14 @@ void checkWithoutHuman(const Place& root, Case& c) {
     failAt(root, {"analysis", "joints"}, "joints are those of a human, and the case has none");
 }
 
+/// The task whose natural moments a motion is compared with, where the case does not say.
+Task taskOf(const HumanCase& human) {
+  if (std::holds_alternative<WalkOptions>(human.motion)) return Task::natural_walk;
+  if (std::holds_alternative<StairOptions>(human.motion)) return Task::natural_stairs;
+  if (std::holds_alternative<AimOptions>(human.motion)) return Task::aiming;
+  return Task::none;
+}
+
 }  // namespace
 
 void applyRules(const Place& root, Case& c) {
@@ -155,6 +163,8 @@ void applyRules(const Place& root, Case& c) {
   if (!c.human) checkWithoutHuman(root, c);
   checkSupports(root, c);
   checkObstacles(root, c);
+  const JsonNode* analysis = root.node.find("analysis");
+  if (c.human && !(analysis && analysis->find("task"))) c.analysis.task = taskOf(*c.human);
   if (c.analysis.task == Task::natural_walk && !(c.human && std::holds_alternative<WalkOptions>(c.human->motion)))
     failAt(root, {"analysis", "task"}, "natural_walk compares with walking, and the human does not walk");
   if (c.analysis.task == Task::natural_stairs && !(c.human && std::holds_alternative<StairOptions>(c.human->motion)))

@@ -106,12 +106,15 @@ Object materialTable() {
           [table = fabric.object](const Place& p, M& m) {
             FabricInput in;
             readObject(*table, p, &in);
-            m.law = resolveFabric(p, in);
+            for (const char* key : {"limit_strain", "limit_strain_weft", "limit_strain_warp"})
+              if (p.node.find(key))
+                p.failAt(key, "is what a verdict on a garment asks for; a structure has none: remove it");
+            m.law = static_cast<const Fabric&>(resolveFabric(p, in));
           },
           [table = fabric.object](const M& m) -> std::optional<JsonNode> {
             const Fabric* f = std::get_if<Fabric>(&m.law);
             if (!f) return std::nullopt;
-            const FabricInput in = restoreFabric(*f);
+            const FabricInput in = restoreFabric(FabricCase{*f, {}, {}});
             return writeObject(*table, &in);
           })
       .in("law")

@@ -32,7 +32,9 @@ std::string capital(std::string s) {
 /// Prose never shows a minus: the page speaks of sizes.
 double sizeOf(const JointSummary& j) { return std::abs(j.peak_Nm); }
 std::string shareOf(const JointSummary& j) {
-  return j.natural_percent ? percent(*j.natural_percent) + " of the natural " + j.joint + " moment" : "";
+  return j.natural_percent ? percent(*j.natural_percent) + " of the natural " + j.joint + " moment" +
+                                 (j.natural_Nm ? " of " + formatNumber(*j.natural_Nm) + " Nm" : "")
+                           : "";
 }
 
 /// Tells its colour in a word too.
@@ -76,19 +78,20 @@ std::string headline(const ReportInput& in) {
 std::string alarms(const ReportInput& in) {
   std::string out;
   for (const auto& w : in.warnings) out += element("p", escape(w), " class=\"alarm\" role=\"alert\"");
-  int failed = 0;
+  const Trust trust = trustOf(in);
   std::string wrong;
   for (const AuditCheck& c : in.audit) {
     if (c.holds()) continue;
-    ++failed;
     if (!c.wrong.empty()) wrong += (wrong.empty() ? ": " : "; ") + c.wrong;
   }
-  if (failed > 0)
+  if (!trust.reliable())
     out += element("p",
                    fmt::format("{} of {} checks of this run {}{}. Do not rely on its numbers before you know what that "
                                "does to them: <a href=\"#audit\">the checks</a>.",
-                               failed, in.audit.size(), failed == 1 ? "fails" : "fail", escape(wrong)),
+                               trust.failing, in.audit.size(), trust.failing == 1 ? "fails" : "fail", escape(wrong)),
                    " class=\"alarm\" role=\"alert\"");
+  if (const Stretch* worst = worstOf(in.stretch); trust.stretched > 0)
+    out += notice(sentenceOf(*worst) + " No light of this page is green for that.");
   return out;
 }
 
@@ -251,6 +254,13 @@ Cell Cell::signal(const std::string& light) {
 
 Cell::Cell(double v, int digits) : text(formatNumber(v, digits)), number(true) {}
 
+Trust trustOf(const ReportInput& input) {
+  Trust trust;
+  for (const AuditCheck& c : input.audit) trust.check(c.holds(), c.spoils);
+  for (const Stretch& s : input.stretch) trust.stretch(s);
+  return trust;
+}
+
 const JointSummary* highestJoint(const ReportInput& input) {
   const JointSummary* best = nullptr;
   for (const auto& j : input.joints)
@@ -264,7 +274,8 @@ std::string headlineOf(const ReportInput& input) {
   if (!j)
     return input.joints.empty() ? "This run measured no joint torques."
                                 : "No joint torque of this run is a finite number.";
-  std::string s = fmt::format("Peak added {} torque: {} Nm", j->joint, formatNumber(sizeOf(*j)));
+  std::string s = trustOf(input).spoiling > 0 ? "Not to be relied on: peak" : "Peak";
+  s += fmt::format(" added {} torque: {} Nm", j->joint, formatNumber(sizeOf(*j)));
   if (!j->side.empty()) s += ", " + j->side + " side";
   s += ", at " + seconds(j->peak_time_s);
   if (!j->cause.empty()) s += ", during " + j->cause;

@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/trust.hpp"
+
 namespace gambeson {
 
 /// A text, or a number that the page rounds to `digits` significant digits.
@@ -35,9 +37,10 @@ struct JointSummary {
   std::string cause;  ///< completes "during ...": "hip flexion (swing)"; empty where not known
   double rms_Nm = 0;
   std::optional<double> natural_percent;     ///< of the natural moment of this joint in this task, at its peak
+  std::optional<double> natural_Nm{};        ///< that moment, of this wearer
   std::optional<double> drag_percent;        ///< the part of the peak that air drag on the cloth has
   std::optional<double> friction_percent{};  ///< and the part that the friction of contact has
-  std::string light{};                       ///< of natural_percent: "green", "amber" or "red"; empty where not judged
+  std::string light{};                       ///< of natural_percent, as shownLight has it; empty where not judged
 };
 
 enum class Tone { left, right, third, fourth };  ///< colours; left and right are the same in every plot
@@ -97,6 +100,7 @@ struct AuditCheck {
   std::string unit;
   std::string meaning;  ///< what is compared with what
   std::string wrong{};  ///< where it fails, what that is in plain words; completes a sentence
+  bool spoils = false;  ///< where it fails, none of the numbers can be used
   bool holds() const { return value <= limit && -value <= limit; }
 };
 
@@ -118,11 +122,15 @@ struct ReportInput {
   std::vector<Table> collision_tables;
   std::vector<Picture> pictures;  ///< the first stands beside the headline
   std::vector<AuditCheck> audit;
+  std::vector<Stretch> stretch;  ///< of the fabrics, against what they are meant for
   std::vector<std::string> assumptions;
   std::vector<std::pair<std::string, std::string>> facts;  ///< "Smallest time step", "12.3 µs (governed by bending)"
   std::vector<Table> fact_tables;                          ///< timings per phase
   std::vector<Plot> fact_plots;                            ///< the same over time
 };
+
+/// What its lights stand on.
+Trust trustOf(const ReportInput& input);
 
 /// The joint with the largest |peak|; null where no peak is finite.
 const JointSummary* highestJoint(const ReportInput& input);

@@ -58,7 +58,7 @@ th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font
 .charts > figure.chart:only-child { max-width:640px; } .charts.single { grid-template-columns:minmax(0,1fr); }
 .judged { margin:0 0 10px; padding:10px 14px; border-radius:10px; border-left:5px solid #8d95a3; background:#f1f3f6; } .judged strong { margin-right:8px; }
 .judged.green { border-color:var(--good); background:#e9f5ee; } .judged.green strong { color:var(--good); }
-.judged.amber { border-color:#c98500; background:#fff6df; } .judged.amber strong { color:#8a5300; }
+.judged.amber, .judged.doubtful { border-color:#c98500; background:#fff6df; } .judged.amber strong, .judged.doubtful strong { color:#8a5300; }
 .judged.red { border-color:var(--bad); background:#fdecec; } .judged.red strong { color:var(--bad); }
 .judged + .answers { margin-top:18px; }
 tr.group th, tr.group td { background:var(--ground); } tr.group th { padding-left:8px; font-weight:600; } td small, th small { color:var(--soft); font-size:.86rem; font-weight:400; }
@@ -66,7 +66,7 @@ ul.plain { list-style:none; margin:0; padding:0; min-width:16.5rem; } ul.plain l
 details { margin-top:14px; } summary { cursor:pointer; color:var(--accent); font-weight:600; }
 .notice { background:#fff6df; border:1px solid #d8b25a; border-radius:8px; padding:8px 12px; margin:10px 0 0; color:#5c4300; font-size:.95rem; }
 .alarm { background:#fdecec; border:2px solid var(--bad); border-radius:10px; padding:12px 16px; margin:16px 0 0; color:#6d1010; font-weight:600; }
-.light { font-weight:700; white-space:nowrap; } .light.green { color:var(--good); } .light.amber { color:#8a5300; } .light.red { color:var(--bad); }
+.light { font-weight:700; white-space:nowrap; } .light.green { color:var(--good); } .light.amber, .light.doubtful { color:#8a5300; } .light.red { color:var(--bad); }
 .good, .bad { font-weight:700; white-space:nowrap; } .good { color:var(--good); } .bad { color:var(--bad); }
 ul.assumptions { margin:10px 0 0; padding-left:22px; columns:2 420px; column-gap:36px; } ul.assumptions li { break-inside:avoid; margin-bottom:6px; }
 footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }

@@ -12,9 +12,11 @@ namespace gambeson::study {
 namespace {
 
 void findAxes(const Study& s, Comparison& c) {
+  // Of the axes that are compared a thickness, else the first; of meshes the finest is judged, and none is a variant.
+  const auto role = [&](int a) { return s.axes[static_cast<std::size_t>(a)].role; };
   for (const int a : s.compared)
-    if (c.main_axis < 0 || (s.axes[static_cast<std::size_t>(a)].role == Role::thickness &&
-                            s.axes[static_cast<std::size_t>(c.main_axis)].role != Role::thickness))
+    if (role(a) != Role::mesh &&
+        (c.main_axis < 0 || (role(a) == Role::thickness && role(c.main_axis) != Role::thickness)))
       c.main_axis = a;
   for (std::size_t a = 0; a < s.axes.size(); ++a)
     if (s.axes[a].role == Role::mesh && s.axes[a].levels.size() > 1 && static_cast<int>(a) != c.main_axis)
@@ -291,6 +293,14 @@ std::string settingOf(const Study& s, const Variant& v, const std::vector<int>& 
   return label;
 }
 
+const JointRatio* ratioOf(const Comparison& c, std::size_t i, const std::string& joint) {
+  for (const JointRatio& r : c.ratios[i])
+    if (r.joint == joint) return &r;
+  return nullptr;
+}
+
+bool isBaseline(const Study& s, std::size_t i) { return s.variants[i].baseline == static_cast<int>(i); }
+
 std::string memberName(const Study& s, const Comparison& c, std::size_t i) {
   if (c.main_axis < 0) return s.variants[i].label;
   const auto a = static_cast<std::size_t>(c.main_axis);
@@ -321,7 +331,7 @@ Comparison compare(const Study& s, std::vector<RunNumbers> runs) {
   c.runs = std::move(runs);
   for (const RunNumbers& r : c.runs) {
     const JointNumbers* j = r.good ? r.decisive() : nullptr;
-    c.lights.push_back(lightOf(j ? j->part() : std::nullopt, s.limits.green, s.limits.red));
+    c.lights.push_back(shownLight(lightOf(j ? j->part() : std::nullopt, s.limits.green, s.limits.red), r.trust()));
   }
   findAxes(s, c);
   findGroups(s, c);

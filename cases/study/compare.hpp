@@ -56,7 +56,7 @@ struct MeshRow {
 struct Comparison {
   std::vector<RunNumbers> runs;                 ///< of the variants
   std::vector<std::vector<JointRatio>> ratios;  ///< of the variants, empty without baseline
-  std::vector<Light> lights;
+  std::vector<Light> lights;                    ///< of the variants, as their own pages show them
   int main_axis = -1, mesh_axis = -1, mesh_level = -1;
   std::vector<Group> groups;
   std::vector<AxisExponent> exponents;
@@ -76,6 +76,10 @@ std::optional<double> peakAboveStanding(const RunNumbers& run, const JointNumber
 void compareVariants(const Study& study, const std::vector<Outcome>& outcomes, const std::filesystem::path& out);
 
 // Its parts.
+/// A joint of a variant against its baseline's; null without one.
+const JointRatio* ratioOf(const Comparison& c, std::size_t variant, const std::string& joint);
+/// Whether others are compared with this variant.
+bool isBaseline(const Study& study, std::size_t variant);
 /// "walking, friction 0.3": the levels of a variant on all axes but those in `without`.
 std::string settingOf(const Study& study, const Variant& variant, const std::vector<int>& without);
 /// The level of a variant on the main axis; without one the variant's own label.

@@ -31,6 +31,12 @@ void rawField(Table<T>& table, const std::string& key, JsonNode T::*member, cons
       });
 }
 
+std::vector<std::pair<std::string, std::optional<Role>>> roleChoices() {
+  std::vector<std::pair<std::string, std::optional<Role>>> all;
+  for (const auto& [name, role] : roleNames()) all.emplace_back(name, role);
+  return all;
+}
+
 schema::Object axisTable() {
   using A = AxisInput;
   Table<A> table("Axis");
@@ -48,15 +54,14 @@ schema::Object axisTable() {
       .defaultsTo("the values; required with sets, and where values are objects or lists")
       .text("unit", &A::unit, "shown beside values that are numbers")
       .choice(
-          "role", &A::role,
-          std::vector<std::pair<std::string, std::optional<Role>>>{
-              {"thickness", Role::thickness}, {"mesh", Role::mesh}, {"motion", Role::motion}, {"other", Role::other}},
-          "what the levels are: thicknesses, of which the verdict takes one; meshes, coarse and fine, whose difference "
-          "is "
-          "the verdict's error; motions")
+          "role", &A::role, roleChoices(),
+          "what the levels are: thicknesses, materials, fits or other designs, of which the verdict takes one; "
+          "wearers, sizes, motions or frictions, which all occur, so that the worst counts; meshes, coarse and fine, "
+          "whose difference is the verdict's error")
       .defaultsTo(
-          "by the path (factors.thickness, fabric.thickness; cell, cells_...; human.motion) or the name (thickness, "
-          "mesh, motion)");
+          "by the name where it is one of these, else by the paths (factors.thickness, fabric.thickness: thickness; "
+          "fabric: material; cell, cells_...: mesh; human.motion: motion; human.manikin and the like: wearer; "
+          "contact.friction: friction; measures of a drafted garment, such as garment.shorts.ease: fit)");
   return table.build();
 }
 
@@ -112,9 +117,11 @@ schema::Object makeStudyTable() {
       .defaultsTo("none");
   rawField(
       table, "baseline", &S::baseline,
-      "object axis: label; variants are compared along these axes with the variant that has these levels; a motion "
-      "is compared with itself, so that an axis of motions counts only where it is named alone",
-      "factors: the level 1; without one, the first level of the first axis that is neither mesh nor motion");
+      "object axis: label; variants are compared along these axes with the variant that has these levels; what is not "
+      "chosen (motion, wearer, size, friction) is compared with itself, so that such an axis counts only where no "
+      "design is named",
+      "factors: the level 1; without one, the first level of the first axis that is a design, else of the first of "
+      "wearers, sizes or frictions, else of motions");
   table.object("limits", &S::limits, limitsTable(), "traffic light of added torques")
       .defaultsTo("green 5 %, red 15 %: human/data/effort_limits.json")
       .list("pictures", &S::pictures, schema::pictureTable(),
@@ -125,6 +132,14 @@ schema::Object makeStudyTable() {
 }
 
 }  // namespace
+
+const std::vector<std::pair<std::string, Role>>& roleNames() {
+  static const std::vector<std::pair<std::string, Role>> names{
+      {"thickness", Role::thickness}, {"mesh", Role::mesh}, {"motion", Role::motion},
+      {"wearer", Role::wearer},       {"size", Role::size}, {"material", Role::material},
+      {"friction", Role::friction},   {"fit", Role::fit},   {"other", Role::other}};
+  return names;
+}
 
 Limits publishedLimits() {
   const auto facts = nlohmann::json::parse(data::effort_limits);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "analysis/ticks.hpp"
+#include "cases/check_words.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::study {
@@ -115,15 +116,24 @@ int RunNumbers::failing() const {
 const JointNumbers* RunNumbers::highest() const {
   const JointNumbers* best = nullptr;
   for (const JointNumbers& j : joints)
-    if (!j.prismatic && std::isfinite(j.peak_Nm) && (!best || std::abs(j.peak_Nm) > std::abs(best->peak_Nm))) best = &j;
+    if (!j.prismatic && j.applies() && std::isfinite(j.peak_Nm) &&
+        (!best || std::abs(j.peak_Nm) > std::abs(best->peak_Nm)))
+      best = &j;
   return best;
 }
 
 const JointNumbers* RunNumbers::decisive() const {
   const JointNumbers* best = nullptr;
   for (const JointNumbers& j : joints)
-    if (!j.prismatic && j.part() && (!best || *j.part() > *best->part())) best = &j;
+    if (!j.prismatic && j.applies() && j.part() && (!best || *j.part() > *best->part())) best = &j;
   return best ? best : highest();
+}
+
+Trust RunNumbers::trust() const {
+  Trust t;
+  for (const CheckNumbers& c : checks) t.check(c.holds, checkWords(c.name, c.value, c.limit, c.unit).order);
+  for (const Stretch& s : stretch) t.stretch(s);
+  return t;
 }
 
 double RunNumbers::p99_strain() const {
@@ -206,6 +216,10 @@ RunNumbers readRun(const std::filesystem::path& folder) {
                             s.at("p95_N_per_m").get<double>(), s.at("p99_N_per_m").get<double>(),
                             s.at("max_N_per_m").get<double>(), optional(s, "p99_strain").value_or(std::nan("")),
                             s.at("max_strain").get<double>()});
+    for (const Json& s : j.at("stretch"))
+      run.stretch.push_back({s.at("limit").get<double>(), s.at("p99_strain").get<double>(),
+                             s.at("max_strain").get<double>(), s.at("stated").get<bool>(),
+                             s.at("garment").get<std::string>(), s.at("along").get<std::string>()});
     for (const Json& c : j.at("audit"))
       run.checks.push_back({c.at("check").get<std::string>(),
                             c.at("value").is_number() ? c.at("value").get<double>() : std::nan(""),

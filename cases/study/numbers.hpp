@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/trust.hpp"
+
 namespace gambeson::study {
 
 struct JointNumbers {
@@ -77,16 +79,19 @@ struct RunNumbers {
   std::vector<ComfortNumbers> comfort;
   std::vector<StressNumbers> stress;
   double largest_strain = 0;
-  double p99_strain() const;  ///< of the region where it is largest: 99 % of its area stretches no further
+  double p99_strain() const;     ///< of the region where it is largest: 99 % of its area stretches no further
+  std::vector<Stretch> stretch;  ///< of its fabrics, against what they are meant for
   std::vector<CheckNumbers> checks;
 
   double mass_kg() const;
   int failing() const;
+  /// As its own page trusts it.
+  Trust trust() const;
   double thinnest_mm() const;  ///< layer, 0 without one
   /// What the value of a check is to be held against, ", thinnest cloth 0.38 mm" for depths; else empty.
   std::string heldAgainst(const std::string& check) const;
   double sinking_mm() const;  ///< of the edge on springs that sinks most, NaN without one
-  /// The joint of the largest |peak|, null without joints that turn.
+  /// The joint of the largest |peak|, null without joints that turn and that the garment touches something beyond.
   const JointNumbers* highest() const;
   /// The joint that decides: of the largest part of its natural moment, or of the largest torque where none is known.
   const JointNumbers* decisive() const;

@@ -69,6 +69,10 @@ std::string lightOf(const std::string& light) {
 }
 std::string lightOf(Light light) { return light == Light::unknown ? "not known" : lightOf(std::string(nameOf(light))); }
 
+std::string lightOf(const Study& s, const RunNumbers& run, const std::optional<double>& part) {
+  return lightOf(shownLight(gambeson::lightOf(part, s.limits.green, s.limits.red), run.trust()));
+}
+
 std::string percent(const std::optional<double>& part) {
   if (!part || !std::isfinite(*part)) return "not known";
   return *part < 0.995 ? fmt::format("{:.2g} %", 100 * *part) : fmt::format("{:.0f} %", 100 * *part);
@@ -107,9 +111,35 @@ std::string item(const std::string& question, const std::string& html) {
   return element("dt", escape(question)) + element("dd", html);
 }
 
+/// "4 % of natural 52.0 Nm: 2.08 Nm, left hip (flexion)" with its light.
+std::string costOf(const Study& s, const Comparison& c, const Option::Cost& worst) {
+  const std::string share =
+      worst.part ? fmt::format("{} of natural {} Nm: ", percentBeside(*worst.part, s.limits.green, s.limits.red),
+                               formatNumber(worst.peak_Nm / *worst.part))
+                 : "";
+  const Light light = shownLight(gambeson::lightOf(worst.part, s.limits.green, s.limits.red), trustOf(c.input));
+  return fmt::format("{} {}", lightOf(light),
+                     element("span", prose(fmt::format("{}{} Nm, {}", share, formatNumber(worst.peak_Nm), worst.joint)),
+                             " class=\"reason\""));
+}
+
+/// Where none is taken: each, with its own natural moments.
+std::string eachOf(const Study& s, const Comparison& c) {
+  std::string list;
+  for (const Option& o : c.input.options) {
+    std::string costs;
+    for (const Group& g : c.groups)
+      if (const Option::Cost* worst = worstCost(o, &g.label))
+        costs += (costs.empty() ? "" : "<br>") + (g.label.empty() ? "" : escape(g.label) + ": ") + costOf(s, c, *worst);
+    list += item(o.name, costs.empty() ? (o.untouched ? "touches nothing that a joint moves" : "not known") : costs);
+  }
+  return element("dl", list, " class=\"answers\"");
+}
+
 /// Of the option taken: what it is, and what it costs in each motion.
 std::string takenOf(const Study& s, const Comparison& c) {
   if (c.verdict.take < 0) return "";
+  if (!c.verdict.chosen) return eachOf(s, c);
   std::string list;
   const Option& o = c.input.options[static_cast<std::size_t>(c.verdict.take)];
   std::optional<double> mass, base;
@@ -126,12 +156,7 @@ std::string takenOf(const Study& s, const Comparison& c) {
   for (const Group& g : c.groups) {
     const Option::Cost* worst = worstCost(o, &g.label);
     if (!worst) continue;
-    const std::string what = fmt::format(
-        "{}{} Nm, {}", worst->part ? percentBeside(*worst->part, s.limits.green, s.limits.red) + " of natural: " : "",
-        formatNumber(worst->peak_Nm), worst->joint);
-    list += item(g.label.empty() ? "Costs" : fmt::format("Costs, {}", g.label),
-                 fmt::format("{} {}", lightOf(gambeson::lightOf(worst->part, s.limits.green, s.limits.red)),
-                             element("span", prose(what), " class=\"reason\"")));
+    list += item(g.label.empty() ? "Costs" : fmt::format("Costs, {}", g.label), costOf(s, c, *worst));
   }
   return element("dl", list, " class=\"answers\"");
 }
@@ -145,7 +170,7 @@ std::string card(const std::string& title, const std::string& text, const std::s
 std::string headline(const Study& s, const Comparison& c, const std::vector<SidePicture>& pictures) {
   const Verdict& v = c.verdict;
   std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
-  words += judged(v.light, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
+  words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
   for (const std::string& note :
        {multiplesOf(s), std::string("Effort and comfort only: what protects enough is not part of this study.")})
     if (!note.empty()) words += element("p", prose(note), " class=\"meaning\"");
@@ -168,15 +193,16 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
           "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles must "
           "give as much against it, on top of what the movement needs. Where the garment pushes the way the "
           "joint moves, they are spared it. Natural moment: the largest that the joint needs for the movement "
-          "without the garment. Green: below {} of it, red: above {} ({}).",
+          "without the garment. Green: below {} of it, red: above {} ({}). Doubtful: green by its number, but a check "
+          "of a run fails, or the fabric stretches beyond what it is meant for.",
           percent(s.limits.green), percent(s.limits.red), s.limits.source)),
       " class=\"meaning\"");
   std::string doubts;
   for (const auto& d : c.input.doubts) doubts += element("li", prose(d.text));
   const char* surety[]{"not sure", "fairly sure", "sure"};
   const std::string cards =
-      card("Why this one", v.why) + card("Thinner still?", v.estimate) +
-      card(fmt::format("Which one: {}", surety[static_cast<int>(v.surety)]), v.choice) +
+      card(v.chosen ? "Why this one" : "How they differ", v.why) + card("Thinner still?", v.estimate) +
+      card(fmt::format("{}: {}", v.chosen ? "Which one" : "The worst", surety[static_cast<int>(v.surety)]), v.choice) +
       card(c.input.mesh_error ? fmt::format("How much: \u00b1 {}", percent(c.input.mesh_error))
                               : std::string("How much: no error bar"),
            v.numbers,

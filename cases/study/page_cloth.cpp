@@ -51,6 +51,11 @@ std::string segmentsOf(const Study& s, const Comparison& c) {
                        "pelvis\u2019s. Segments with less than 0.5 % everywhere are left out.")));
 }
 
+/// Over which width pressure is a mean.
+std::string pressureOf(const Comparison& c) {
+  return c.input.sensor_m > 0 ? fmt::format("Pressure, the mean over {:g} mm", 1e3 * c.input.sensor_m) : "Pressure";
+}
+
 }  // namespace
 
 std::string forcesOf(const Study& s, const Comparison& c) {
@@ -66,9 +71,9 @@ std::string forcesOf(const Study& s, const Comparison& c) {
       if (!r.good) continue;
       const std::string label = escape(s.variants[i].label);
       if (const ComfortNumbers* k = r.leastComfortable())
-        comfort.push_back({label, lightOf(k->light), escape(spokenZone(k->zone)), Html(1e-3 * k->mean_Pa),
-                           Html(1e-3 * k->red_Pa), Html(1e-3 * k->peak_Pa), Html(1e-3 * k->peak_limit_Pa),
-                           Html(k->dose_kPa_min)});
+        comfort.push_back({label, lightOf(shownLight(lightNamed(k->light), r.trust())), escape(spokenZone(k->zone)),
+                           Html(1e-3 * k->mean_Pa), Html(1e-3 * k->red_Pa), Html(1e-3 * k->peak_Pa),
+                           Html(1e-3 * k->peak_limit_Pa), Html(k->dose_kPa_min)});
       const double all = r.pressing_N();
       if (!zones.empty()) {
         std::vector<Html> row{label, Html(all)};
@@ -89,12 +94,14 @@ std::string forcesOf(const Study& s, const Comparison& c) {
   for (const std::string& zone : zones) columns.push_back(spokenZone(zone) + " [%]");
   std::string out;
   if (!comfort.empty())
-    out += htmlTable("Comfort: the part of the body that is furthest from comfortable",
-                     {"variant", "verdict", "part", "mean [kPa]", "limit [kPa]", "peak [kPa]", "limit of peaks [kPa]",
-                      "dose [kPa min]"},
-                     comfort,
-                     "Pressure where it is largest, against the limits of the case: red where the mean over time or "
-                     "the peak is above its limit. Each variant\u2019s own report has all parts, and pictures.");
+    out += htmlTable(
+        "Comfort: the part of the body that is furthest from comfortable",
+        {"variant", "verdict", "part", "mean [kPa]", "limit [kPa]", "peak [kPa]", "limit of peaks [kPa]",
+         "dose [kPa min]"},
+        comfort,
+        pressureOf(c) +
+            ", where it is largest, against the limits of the case: red where the mean over "
+            "time or the peak is above its limit. Each variant\u2019s own report has all parts, and pictures.");
   if (!shares.empty())
     out += htmlTable("Which parts of the body bear the garment", columns, shares,
                      "Shares of the mean force that presses, both sides together, without belt and edges on springs. "
@@ -159,8 +166,11 @@ std::string clothOf(const Study& s, const Comparison& c) {
       const RunNumbers& r = c.runs[i];
       if (!r.good || r.layers.empty()) continue;
       const StressNumbers* top = nullptr;
-      for (const StressNumbers& n : r.stress)
+      double most = std::nan("");  // of all patches, as the pictures have it
+      for (const StressNumbers& n : r.stress) {
         if (!top || n.p99_N_per_m > top->p99_N_per_m) top = &n;
+        most = std::fmax(most, n.max_N_per_m);
+      }
       std::string region = top ? top->region : "\u2013", wearer = "\u2013";
       std::replace(region.begin(), region.end(), '_', ' ');
       const auto* k = std::get_if<Case>(&s.variants[i].definition);
@@ -171,18 +181,18 @@ std::string clothOf(const Study& s, const Comparison& c) {
       fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * r.p99_strain()),
                      Html(100 * r.largest_strain), Html(r.sinking_mm(), 2), Html(r.pressing_N()), escape(region),
                      Html(top ? top->p50_N_per_m : std::nan("")), Html(top ? top->p99_N_per_m : std::nan("")),
-                     Html(top ? top->max_N_per_m : std::nan(""))});
+                     Html(most)});
     }
   if (fit.empty()) return "";
   return charts(htmlTable(
       "Fit, and what the fabric carries",
       {"variant", "wearer", "stretch, 99 % below [%]", "largest [%]", "edge on springs sinks [mm]", "presses [N]",
-       "patch that is pulled most", "half of it below [N/m]", "99 % below [N/m]", "largest [N/m]"},
+       "patch that is pulled most", "half of it below [N/m]", "99 % of it below [N/m]",
+       "single spots of any patch, up to [N/m]"},
       fit,
       "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the mean; 99 % is of "
-      "the patch that stretches most. Pull: the "
-      "stress "
-      "in the fabric, per metre of width, over the area of that patch and the motion. " +
+      "the patch that stretches most. Pull: the stress in the fabric, per metre of width, over the area of the patch "
+      "of which 99 % stays below the most, and over the motion; single spots, at corners and seams, of any patch. " +
           stretch));
 }
 

@@ -31,14 +31,17 @@ std::string charts(const std::string& body);
 std::string folded(const std::string& summary, const std::string& body);
 std::string lightOf(Light light);
 std::string lightOf(const std::string& light);
+/// The light of a part of a natural moment, as far as the run that it is of is trusted.
+std::string lightOf(const Study& study, const RunNumbers& run, const std::optional<double>& part);
 std::string percent(const std::optional<double>& part);
 std::string linkTo(const Variant& variant, const std::string& text);
 
 /// What "thickness x 0.5" means; empty where no axis is one of factors.
 std::string multiplesOf(const Study& study);
 
-// page_torque.cpp
+// page_pay.cpp
 std::string payOf(const Study& study, const Comparison& c);
+// page_torque.cpp
 std::string curvesOf(const Study& study, const Comparison& c);
 std::string lawsOf(const Study& study, const Comparison& c);
 std::string elasticitiesOf(const Comparison& c);

@@ -1,4 +1,4 @@
-/// Torques of the variants: what each joint pays, curves, ratios, exponents, elasticities, standing, meshes.
+/// Torques of the variants: curves, ratios, exponents, elasticities, standing, meshes.
 
 #include <fmt/format.h>
 
@@ -20,14 +20,6 @@ namespace {
 using html::element;
 using html::escape;
 
-const JointRatio* ratioOf(const Comparison& c, std::size_t i, const std::string& joint) {
-  for (const JointRatio& r : c.ratios[i])
-    if (r.joint == joint) return &r;
-  return nullptr;
-}
-
-bool isBaseline(const Study& s, std::size_t i) { return s.variants[i].baseline == static_cast<int>(i); }
-
 std::string named(const std::string& setting, const std::string& joint) {
   return setting.empty() ? joint : setting + ", " + joint;
 }
@@ -41,128 +33,7 @@ bool matters(const Comparison& c, const std::string& label) {
   return false;
 }
 
-/// One joint of one run, in two lines.
-Html payment(const Study& s, const Comparison& c, std::size_t i, const JointNumbers& j) {
-  std::string first = j.part() ? escape(percentBeside(*j.part(), s.limits.green, s.limits.red)) + " " +
-                                     lightOf(gambeson::lightOf(j.part(), s.limits.green, s.limits.red))
-                               : "";
-  std::string second = formatNumber(std::abs(j.peak_Nm)) + (j.prismatic ? " N" : " Nm");
-  if (const JointRatio* r = ratioOf(c, i, j.name); r && !isBaseline(s, i) && std::isfinite(r->peak))
-    second += "<br>" + formatNumber(r->peak, 2) + " of the baseline\u2019s";
-  if (!j.prismatic) second += std::string("<br>") + nameOf(pushOf(j.peak_Nm, j.rate_at_peak));
-  return Html::aligned(first + (first.empty() ? "" : "<br>") + element("small", second));
-}
-
-/// The natural moment of a joint in a motion, and where it is of holding still what makes it.
-Html naturalOf(const Comparison& c, const Group& g, const std::string& joint) {
-  for (const std::size_t i : g.members) {
-    const JointNumbers* j = c.runs[i].joint(joint);
-    if (!j || !j->natural_Nm) continue;
-    std::string text = "natural " + escape(formatNumber(*j->natural_Nm)) + " Nm";
-    if (j->foot_part && j->lever_m)
-      text += fmt::format("<br>foot bears {},<br>{} cm off the joint", percent(j->foot_part),
-                          formatNumber(100 * *j->lever_m, 2));
-    return Html::aligned(element("small", text));
-  }
-  return Html::aligned("");
-}
-
-/// Tells how the numbers of the table of payments are meant.
-std::string readingOf(const Study& s, const Comparison& c) {
-  std::string list;
-  const auto say = [&](const std::string& text) { list += element("li", escape(text)); };
-  std::string counted;
-  bool lead_in = false;
-  for (const Group& g : c.groups)
-    for (const std::size_t i : g.members)
-      if (const RunNumbers& r = c.runs[i]; r.good && !r.time_s.empty()) {
-        lead_in = lead_in || r.counted_from_s > 0;
-        counted += fmt::format("{}{}from {}", counted.empty() ? "" : "; ", g.label.empty() ? "" : g.label + " ",
-                               r.counted_from_s > 0 ? html::seconds(r.counted_from_s) + " on" : "the start");
-        break;
-      }
-  if (lead_in)
-    say("Peak: the largest added torque of either sense once the motion repeats itself (" + counted +
-        "). Before that the wearer gets going from standing: the curves show it, the numbers leave it out.");
-  say("Against the motion: when its torque peaks, the garment hinders, and the muscles must turn the joint against it. "
-      "With the motion: it then turns the joint the way it goes, which helps unless the muscles are braking.");
-  std::vector<std::string> told;
-  for (const Group& g : c.groups) {
-    const auto* k = std::get_if<Case>(&s.variants[g.members[0]].definition);
-    const std::string natural = k ? naturalMeaning(k->analysis.task) : "";
-    if (natural.empty() || std::find(told.begin(), told.end(), natural) != told.end()) continue;
-    told.push_back(natural);
-    const JointNumbers* j = c.runs[g.members[0]].joint(g.joint());
-    say((g.label.empty() ? "" : g.label + ": ") + natural +
-        (j && j->foot_part
-             ? " Under each: the part of the weight on that foot, and how far from the joint the ground\u2019s "
-               "force on it passes."
-             : ""));
-  }
-  say("Shown are the joint that decides (the largest share of its natural moment), those that are not green somewhere, "
-      "and those with a fifth of the largest torque. All joints are in variants.csv.");
-  return element("ul", list, " class=\"assumptions\"");
-}
-
 }  // namespace
-
-std::string payOf(const Study& s, const Comparison& c) {
-  std::vector<std::pair<std::string, std::string>> joints;  // names and labels
-  for (const Group& g : c.groups)
-    for (const std::size_t i : g.members)
-      for (const JointNumbers& j : c.runs[i].joints)
-        if (std::find(g.joints.begin(), g.joints.end(), j.name) != g.joints.end() &&
-            std::none_of(joints.begin(), joints.end(), [&](const auto& k) { return k.first == j.name; }))
-          joints.emplace_back(j.name, j.label);
-  std::vector<std::string> columns{"variant (its own report)"};
-  for (const auto& [name, label] : joints) columns.push_back(label);
-  columns.insert(columns.end(), {"mass [kg]", "least comfortable", "failing checks"});
-  const auto rowOf = [&](std::size_t i, const std::string& name) {
-    const Variant& v = s.variants[i];
-    const RunNumbers& r = c.runs[i];
-    std::string below;
-    for (const LayerNumbers& l : r.layers)
-      if (c.input.sized)
-        below += (below.empty() ? "" : ", ") + l.name + (l.name.empty() ? "" : " ") + formatNumber(1e3 * l.thickness_m);
-    if (!below.empty()) below = "<br>" + element("small", escape(below + " mm"), " class=\"q\"");
-    const char* base = isBaseline(s, i) ? " <small>baseline</small>" : "";
-    std::vector<Html> row{r.good ? linkTo(v, name) + base + below
-                                 : escape(name) + " <span class=\"bad\">\u2717 failed</span>"};
-    for (const auto& [joint, label] : joints) {
-      const JointNumbers* j = r.good ? r.joint(joint) : nullptr;
-      row.push_back(j ? payment(s, c, i, *j) : Html::aligned("\u2013"));
-    }
-    row.push_back(r.good && r.mass_kg() > 0 ? Html(r.mass_kg()) : Html(std::nan("")));
-    const ComfortNumbers* k = r.leastComfortable();
-    row.push_back(k ? Html(escape(spokenZone(k->zone)) + " " + lightOf(k->light)) : Html(std::string("\u2013")));
-    row.push_back(r.failing() > 0 ? Html(r.failing())
-                                  : Html::aligned(r.good ? "<span class=\"good\">\u2713</span>" : "\u2013"));
-    return row;
-  };
-  std::vector<std::vector<Html>> rows, others;
-  for (const Group& g : c.groups) {
-    std::vector<Html> heading{Html::heading(escape(g.label))};
-    for (const auto& [name, label] : joints) heading.push_back(naturalOf(c, g, name));
-    const bool any = std::any_of(heading.begin(), heading.end(), [](const Html& h) { return !h.html.empty(); });
-    if (c.groups.size() > 1 || any) {
-      heading.insert(heading.end(), 3, Html(std::string()));
-      rows.push_back(heading);
-    }
-    for (const std::size_t i : g.members) rows.push_back(rowOf(i, memberName(s, c, i)));
-  }
-  for (std::size_t i = 0; i < s.variants.size(); ++i)
-    if (std::none_of(c.groups.begin(), c.groups.end(), [&](const Group& g) {
-          return std::find(g.members.begin(), g.members.end(), i) != g.members.end();
-        }))
-      others.push_back(rowOf(i, s.variants[i].label));
-  std::string out = charts(htmlTable(s.file.empty() ? "All runs" : "All variants", columns, rows, ""));
-  if (!joints.empty()) out += readingOf(s, c);
-  if (!others.empty())
-    out += folded(
-        fmt::format("{} more {}, beside the variants compared", others.size(), others.size() == 1 ? "run" : "runs"),
-        charts(htmlTable("Further runs", columns, others, "")));
-  return out;
-}
 
 std::string curvesOf(const Study& s, const Comparison& c) {
   constexpr std::size_t most = 3;  // lines beside the baseline's that can be told apart

@@ -55,7 +55,10 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
             }
             const std::filesystem::path png = folder / fmt::format("{}_{:02d}.png", v.folder, w + 1);
             renderFrame(*scenario, recording, frame, wish, scales[w], png);
-            pictures.push_back({i, w, png, v.label + ". " + captionOf(wish, recording.time(frame))});
+            pictures.push_back(
+                {i, w, png,
+                 v.label + ". " +
+                     captionOf(wish, recording.time(frame), std::get<Case>(v.definition).comfort.sensor_m)});
           }
         } catch (const std::runtime_error& e) {
           if (draw) failures.push_back(fmt::format("A picture of {} could not be drawn: {}", v.label, e.what()));

@@ -54,13 +54,34 @@ std::vector<Setting> settingsOf(const Place& place) {
   return all;
 }
 
-Role roleOf(const AxisInput& in, const std::string& name) {
-  if (in.role) return *in.role;
-  const std::string last = in.path.substr(in.path.rfind('.') + 1);
-  if (name == "thickness" || last == "thickness") return Role::thickness;
-  if (name == "mesh" || last == "cell" || last.starts_with("cells")) return Role::mesh;
-  if (name == "motion" || in.path.starts_with("human.motion")) return Role::motion;
+/// What a value of the case is about.
+Role roleOfPath(const std::string& path) {
+  const std::string last = path.substr(path.rfind('.') + 1), within = "." + path + ".";
+  const auto in = [&](const std::string& part) { return within.find("." + part + ".") != std::string::npos; };
+  if (last == "thickness") return Role::thickness;
+  if (last == "cell" || last.starts_with("cells")) return Role::mesh;
+  if (path.starts_with("human.motion")) return Role::motion;
+  if (path == "human" || path.starts_with("human.")) return Role::wearer;
+  if (in("fabric")) return Role::material;
+  if (path == "contact.friction") return Role::friction;
+  // A measure of the garment, "garment.shorts.ease": not how finely it is computed.
+  for (const char* shape : {"sheet", "disc", "tube", "shorts", "belt", "shirt", "skirt"})
+    if (path.starts_with("garment") && in(shape) && last != "degree") return Role::fit;
   return Role::other;
+}
+
+/// The role that is given, else that of the name, else that of the paths where those that have one agree.
+Role roleOf(const AxisInput& in, const std::string& name, const Axis& axis) {
+  if (in.role) return *in.role;
+  for (const auto& [role, text] : roleNames())
+    if (name == role && text != Role::other) return text;
+  std::set<Role> roles;
+  for (const Level& level : axis.levels)
+    for (const Setting& s : level.set)
+      if (const Role role = roleOfPath(s.path); role != Role::other) roles.insert(role);
+  // A garment that goes with its wearer is worn by who it fits.
+  if (roles.contains(Role::wearer)) return Role::wearer;
+  return roles.size() == 1 ? *roles.begin() : Role::other;
 }
 
 /// Numbers of the levels where all are plain numbers, or all are numbers with one and the same unit.
@@ -94,7 +115,6 @@ Axis axisOf(const Place& place, const AxisInput& in) {
   axis.name = in.name.empty() ? in.path.substr(in.path.rfind('.') + 1) : in.name;
   if (axis.name.empty()) place.failAt("name", "is required where sets are given");
   axis.unit = in.unit;
-  axis.role = roleOf(in, axis.name);
   axis.multiple = in.path.starts_with("factors.");
   const std::string key = sets ? "sets" : "values";
   const JsonNode& list = sets ? in.sets : in.values;
@@ -129,6 +149,7 @@ Axis axisOf(const Place& place, const AxisInput& in) {
     axis.levels.push_back(std::move(level));
   }
   if (!sets) findNumbers(axis, list);
+  axis.role = roleOf(in, axis.name, axis);
   return axis;
 }
 
@@ -177,10 +198,11 @@ void findBaseline(const Place& root, const StudyInput& in, Study& s) {
     const Place place = root.member(*root.node.find("baseline"));
     const auto levels = levelsAt(place, s);
     if (levels.empty()) place.fail("is empty; allowed: at least one axis: label");
-    const bool all_motions =
-        std::all_of(levels.begin(), levels.end(), [&](const auto& l) { return s.axes[l.first].role == Role::motion; });
+    // What is not chosen is compared with itself: a motion with the same motion, a wearer with himself.
+    int best = 3;
+    for (const auto& [axis, level] : levels) best = std::min(best, rankOf(s.axes[axis].role));
     for (const auto& [axis, level] : levels) {
-      if (s.axes[axis].role == Role::motion && !all_motions) continue;
+      if (rankOf(s.axes[axis].role) > best && rankOf(s.axes[axis].role) < 3) continue;
       s.compared.push_back(static_cast<int>(axis));
       s.baseline.push_back(level);
     }
@@ -193,10 +215,9 @@ void findBaseline(const Place& root, const StudyInput& in, Study& s) {
         s.baseline.push_back(static_cast<int>(l));
       }
   if (!s.compared.empty() || s.axes.empty()) return;
-  std::size_t first = 0;  // neither mesh nor motion is a design
-  while (first < s.axes.size() && (s.axes[first].role == Role::mesh || s.axes[first].role == Role::motion)) ++first;
-  if (first == s.axes.size()) first = 0;
-  s.compared = {static_cast<int>(first)};
+  const auto first = std::min_element(s.axes.begin(), s.axes.end(),
+                                      [](const Axis& a, const Axis& b) { return rankOf(a.role) < rankOf(b.role); });
+  s.compared = {static_cast<int>(first - s.axes.begin())};
   s.baseline = {0};
 }
 

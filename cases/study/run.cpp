@@ -14,9 +14,11 @@
 
 #include "cases/progress.hpp"
 #include "cases/references.hpp"
+#include "cases/results.hpp"
 #include "cases/results_folder.hpp"
 #include "cases/study/compare.hpp"
 #include "cases/study/pool.hpp"
+#include "cases/study/time_left.hpp"
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/recording.hpp"
@@ -80,35 +82,41 @@ std::vector<std::string> commandOf(const Variant& v, const Options& o, int threa
 /// One line for all, and on what is no terminal a line for each variant that ends.
 class Line {
  public:
-  Line(std::size_t all, std::size_t kept)
-      : all_(all), done_(kept), kept_(kept), terminal_(isatty(STDERR_FILENO) != 0) {}
+  explicit Line(int parallel) : parallel_(parallel), terminal_(isatty(STDERR_FILENO) != 0) {}
   ~Line() { clear(); }
   void clear() {
     if (drawn_) std::fputs("\r\033[K", stderr);
     drawn_ = false;
   }
-  void ended() { ++done_; }
-  /// `parts`: of the runs under way.
-  void update(const std::vector<double>& parts) {
+  void update(const std::vector<RunTime>& runs) {
     if (!terminal_) return;
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < std::chrono::milliseconds(200)) return;
     last_ = now;
-    double sum = static_cast<double>(done_);
-    for (const double p : parts) sum += p;
-    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-    const std::string left =
-        progressLine("", sum, static_cast<double>(all_), static_cast<double>(kept_), elapsed_s, "");
-    std::fprintf(stderr, "\r\033[K%zu of %zu variants done, %zu running %s", done_, all_, parts.size(), left.c_str());
+    std::size_t done = 0, running = 0;
+    for (const RunTime& r : runs) done += r.done, running += !r.done && r.running_s >= 0;
+    const std::optional<double> left_s = timeLeft(runs, parallel_);
+    const std::string left = left_s ? fmt::format(", {} left", durationText(*left_s)) : "";
+    std::fprintf(stderr, "\r\033[K%zu of %zu variants done, %zu running%s", done, runs.size(), running, left.c_str());
     std::fflush(stderr);
     drawn_ = true;
   }
 
  private:
-  std::size_t all_, done_, kept_;
+  int parallel_;
   bool terminal_, drawn_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// What a run that is done took; nothing where another number of threads did it, or only its end is known.
+std::optional<double> tookBefore(const std::filesystem::path& folder, int threads) {
+  try {
+    const RunFacts f = readRunFacts(folder);
+    return f.wall_s > 0 && f.threads == threads && !f.resumed ? std::optional(f.wall_s) : std::nullopt;
+  } catch (const InputError&) {
+    return {};
+  }
+}
 
 }  // namespace
 
@@ -179,25 +187,40 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
         << std::flush;
   bool whole = true;
   {
-    Line line(s.variants.size(), s.variants.size() - waiting.size());
+    Line line(parallel);
+    std::vector<RunTime> times;
+    for (std::size_t i = 0; i < s.variants.size(); ++i) {
+      const bool done = stands[i] == Stand::done;
+      times.push_back(
+          {s.variants[i].levels, done, done ? tookBefore(o.out / s.variants[i].folder, each) : std::nullopt});
+    }
+    std::vector<std::chrono::steady_clock::time_point> started(s.variants.size());
     Pool pool;
     pool.parallel = parallel;
     pool.ended = [&](std::size_t job, const Ended& e) {
       const Variant& v = s.variants[waiting[job]];
       outcomes[waiting[job]] = {e.good, e.why};
-      line.ended();
+      RunTime& time = times[waiting[job]];
+      time.done = true;
+      // What went on from a checkpoint, or failed, does not tell how long a whole one takes.
+      if (e.good && stands[waiting[job]] == Stand::fresh) time.took_s = e.seconds;
       line.clear();
       out << (e.good ? fmt::format("done    {}  {}\n", v.folder, durationText(e.seconds))
                      : fmt::format("FAILED  {}  {}\n", v.folder, e.why))
           << std::flush;
     };
     pool.watch = [&](const std::vector<std::size_t>& running) {
-      std::vector<double> parts;
+      const auto now = std::chrono::steady_clock::now();
       for (const std::size_t job : running) {
+        RunTime& time = times[waiting[job]];
+        auto& start = started[waiting[job]];
         const double n = checkpoints[job];
-        parts.push_back(n > 0 ? std::min(1.0, closedSegments(o.out / s.variants[waiting[job]].folder) / n) : 0);
+        const double part = n > 0 ? std::min(1.0, closedSegments(o.out / s.variants[waiting[job]].folder) / n) : 0;
+        if (time.running_s < 0) start = now, time.from = part;
+        time.running_s = std::chrono::duration<double>(now - start).count();
+        time.part = part;
       }
-      line.update(parts);
+      line.update(times);
     };
     whole = runJobs(jobs, pool, signals, lock.descriptor());
   }

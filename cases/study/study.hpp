@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/verdict.hpp"
 #include "cases/any_case.hpp"
 #include "cases/schema.hpp"
 
@@ -26,13 +27,10 @@ struct Level {
   std::optional<double> number;  ///< where all levels of the axis are numbers, of one unit
 };
 
-/// What an axis is about, which decides how its levels are compared.
-enum class Role { other, thickness, mesh, motion };
-
 struct Axis {
   std::string name, unit;
-  Role role = Role::other;
-  bool multiple = false;  ///< levels are factors on what the case says
+  Role role = Role::other;  ///< what it is about, which decides how its levels are compared
+  bool multiple = false;    ///< levels are factors on what the case says
   std::vector<Level> levels;
 };
 

@@ -47,12 +47,6 @@ std::vector<std::string> namesOf(const std::vector<RunNumbers>& runs, Each each)
   return names;
 }
 
-const JointRatio* ratioOf(const Comparison& c, std::size_t i, const std::string& joint) {
-  for (const JointRatio& r : c.ratios[i])
-    if (r.joint == joint) return &r;
-  return nullptr;
-}
-
 /// Percentiles of the region that carries the most.
 StressNumbers highestStress(const RunNumbers& run) {
   StressNumbers top;
@@ -269,8 +263,12 @@ Json elasticityJson(const ElasticityRow& e) {
 std::string studyJson(const Study& s, const Comparison& c) {
   Json j{{"name", s.name}, {"version", GAMBESON_VERSION}};
   const Verdict& v = c.verdict;
-  j["verdict"] = {{"take", v.take >= 0 ? Json(c.input.options[static_cast<std::size_t>(v.take)].name) : Json(nullptr)},
-                  {"light", nameOf(v.light)},
+  const Json named = v.take >= 0 ? Json(c.input.options[static_cast<std::size_t>(v.take)].name) : Json(nullptr);
+  j["verdict"] = {{"take", v.chosen ? named : Json(nullptr)},
+                  {"worst", v.chosen ? Json(nullptr) : named},
+                  {"light", nameOf(v.cover)},
+                  {"light_of_torque", nameOf(v.light)},
+                  {"doubt", v.doubt},
                   {"sentence", v.sentence},
                   {"layers", v.layers},
                   {"enough", v.enough},

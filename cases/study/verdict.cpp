@@ -14,12 +14,6 @@
 namespace gambeson::study {
 namespace {
 
-Light lightNamed(const std::string& name) {
-  for (const Light light : {Light::green, Light::amber, Light::red})
-    if (name == nameOf(light)) return light;
-  return Light::unknown;
-}
-
 /// What one run adds to its option.
 void addRun(const Comparison& c, const Group& g, std::size_t i, Option& option) {
   const RunNumbers& run = c.runs[i];
@@ -83,15 +77,21 @@ void addDoubts(const Comparison& c, VerdictInput& in) {
   }
 }
 
-/// Of all runs that are good.
+/// The worst of all runs that are good.
 void addStretch(const Comparison& c, VerdictInput& in) {
-  VerdictInput::Stretch most{kStrainOfLaw, 0, 0};
-  for (const RunNumbers& r : c.runs) {
-    if (!r.good) continue;
-    most.most = std::fmax(most.most, r.p99_strain());
-    most.largest = std::fmax(most.largest, r.largest_strain);
-  }
-  in.stretch = most;
+  std::vector<Stretch> all;
+  for (const RunNumbers& r : c.runs)
+    if (r.good) all.insert(all.end(), r.stretch.begin(), r.stretch.end());
+  if (const Stretch* worst = worstOf(all)) in.stretch = *worst;
+}
+
+/// What the groups differ in.
+Role settingRole(const Study& s, const Comparison& c) {
+  std::vector<Role> roles;
+  for (std::size_t a = 0; a < s.axes.size(); ++a)
+    if (static_cast<int>(a) != c.main_axis && static_cast<int>(a) != c.mesh_axis && s.axes[a].levels.size() > 1)
+      roles.push_back(s.axes[a].role);
+  return roles.size() == 1 ? roles[0] : Role::other;
 }
 
 void addMeshError(const Comparison& c, VerdictInput& in) {
@@ -110,6 +110,8 @@ VerdictInput verdictInput(const Study& s, const Comparison& c) {
   VerdictInput in;
   const Axis* axis = c.main_axis >= 0 ? &s.axes[static_cast<std::size_t>(c.main_axis)] : nullptr;
   in.what = axis ? axis->name : "variant";
+  in.role = axis ? axis->role : Role::other;
+  in.setting = settingRole(s, c);
   in.multiple = axis && axis->multiple;
   in.sized = axis && axis->role == Role::thickness && axis->levels[0].number;
   in.green = s.limits.green;
@@ -130,8 +132,12 @@ VerdictInput verdictInput(const Study& s, const Comparison& c) {
         option.name = memberName(s, c, i);
         if (in.sized) option.size = axis->levels[l].number;
         if (v.baseline == static_cast<int>(i)) in.baseline = static_cast<int>(in.options.size());
+        if (const auto* k = std::get_if<Case>(&v.definition); k && !(in.sensor_m > 0))
+          in.sensor_m = k->comfort.sensor_m;
         if (c.runs[i].good && c.runs[i].decisive())
           addRun(c, g, i, option);
+        else if (c.runs[i].good && !c.runs[i].joints.empty())
+          option.untouched = true;
         else
           option.missing = true;
       }

@@ -142,8 +142,9 @@ std::vector<StressField::Sample> StressField::means(const Shell& shell, std::spa
   return all;
 }
 
-ShellStress StressField::at(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
-                            std::span<const Sample> means, const More& more) const {
+std::pair<StressField::Sample, int> StressField::shownAt(const Shell& shell, std::span<const Vec3> q, int patch,
+                                                         Vec2 uv, std::span<const Sample> means,
+                                                         const More& more) const {
   const Grid& grid = grids_[static_cast<std::size_t>(patch)];
   const int nu = static_cast<int>(grid.u.size()) - 1, nv = static_cast<int>(grid.v.size()) - 1;
   const auto cellAt = [&](int i, int j) {
@@ -181,8 +182,21 @@ ShellStress StressField::at(const Shell& shell, std::span<const Vec3> q, int pat
     add(sum, 1, sampleAt(shell, q, patch, uv, more));
     ++cells;
   }
+  return {sum, cells};
+}
+
+ShellStress StressField::at(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
+                            std::span<const Sample> means, const More& more) const {
+  const auto [sum, cells] = shownAt(shell, q, patch, uv, means, more);
   const auto stress = principal(sum.stress), strain = principal(sum.strain);
   return {stress[0] / cells, stress[1] / cells, strain[0] / cells, strain[1] / cells};
+}
+
+PlaneTensor StressField::strainAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
+                                  std::span<const Sample> means) const {
+  const auto [sum, cells] = shownAt(shell, q, patch, uv, means, {});
+  const PlaneTensor E = turnedBack(sum.strain, -fibreAngleAt(shell.garment(), patch, uv));
+  return {E.t11 / cells, E.t22 / cells, E.t12 / cells};
 }
 
 }  // namespace gambeson

@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/sheet/cells.hpp"
@@ -41,6 +42,9 @@ class StressField {
   /// At a place; where `means` are empty those that are needed are taken.
   ShellStress at(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv, std::span<const Sample> means,
                  const More& more = {}) const;
+  /// Green-Lagrange strain along the fabric's weft and warp, and between them, of the same means.
+  PlaneTensor strainAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
+                       std::span<const Sample> means) const;
 
  private:
   struct Grid {
@@ -58,6 +62,9 @@ class StressField {
     std::vector<Point> points;
   };
   static Sample sampleAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv, const More& more);
+  /// The sum of what the cells at a place show there, and of how many.
+  std::pair<Sample, int> shownAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
+                                 std::span<const Sample> means, const More& more) const;
   Sample meanOf(const Shell& shell, std::span<const Vec3> q, const Cell& cell, const More& more) const;
 
   std::vector<Grid> grids_;  ///< of patches

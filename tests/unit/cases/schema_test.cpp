@@ -125,6 +125,42 @@ TEST(Case, IdentityFollowsWhatMatters) {
   EXPECT_NE(here, caseIdentity(readCase(folder.path() / "sleeve_flex.json")));
 }
 
+TEST(Case, LimitsOfStrainAreOfTheFabric) {
+  const Folder folder;
+  const auto read = [&](const std::string& limits) {
+    return readCase(
+        folder.write("example.json", replaced(example, "\"poisson\": 0.3,", "\"poisson\": 0.3, " + limits)));
+  };
+  EXPECT_FALSE(read("").fabric.limit_strain_weft);
+  const Case both = read("\"limit_strain\": \"15 %\",");
+  EXPECT_DOUBLE_EQ(*both.fabric.limit_strain_weft, 0.15);
+  EXPECT_DOUBLE_EQ(*both.fabric.limit_strain_warp, 0.15);
+  const Case weft = read("\"limit_strain_weft\": 0.1,");
+  EXPECT_DOUBLE_EQ(*weft.fabric.limit_strain_weft, 0.1);
+  EXPECT_FALSE(weft.fabric.limit_strain_warp);
+  EXPECT_EQ(readCase(folder.write("again.json", writeCase(weft))).fabric, weft.fabric);
+  // What is not stated leaves recordings from before as they are.
+  EXPECT_EQ(writeCase(read("")).find("limit_strain"), std::string::npos);
+  EXPECT_THROW(read("\"limit_strain\": 0.1, \"limit_strain_warp\": 0.2,"), InputError);
+  EXPECT_THROW(read("\"limit_strain\": 0,"), InputError);
+}
+
+/// Torques of a motion are compared with its own natural moments, unless the case says otherwise.
+TEST(Case, TheTaskFollowsFromTheMotion) {
+  const std::filesystem::path library = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library";
+  const std::string shorts = (library / "shorts_walk.json").string();
+  const auto task = [&](const std::string& motion, const std::string& said = "") {
+    std::vector<std::string> set{"human.motion=" + motion, "analysis={\"counting\": \"all_distal\"" + said + "}",
+                                 "air.velocity=[0, 0, 0]"};
+    return readCase(shorts, set).analysis.task;
+  };
+  EXPECT_EQ(task(R"({"walk": {"strides": 1}})"), Task::natural_walk);
+  EXPECT_EQ(task(R"({"stairs": {"strides": 2}})"), Task::natural_stairs);
+  EXPECT_EQ(task(R"({"aim": {"duration": "1.5 s", "rifle": "3.5 kg"}})"), Task::aiming);
+  EXPECT_EQ(task(R"({"stand": {"duration": "1 s"}})"), Task::none);
+  EXPECT_EQ(task(R"({"walk": {"strides": 1}})", ", \"task\": \"none\""), Task::none);
+}
+
 /// Calls f(object, path) for an object of the table and all below it.
 template <class F>
 void forObjects(const schema::Object& object, const std::string& path, F f) {

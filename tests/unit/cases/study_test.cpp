@@ -94,6 +94,43 @@ TEST(Study, FilesOfValuesAreFoundBesideTheStudy) {
             folder.path() / "studies/ball.obj");
 }
 
+/// An axis is about what it changes, unless its name or its role says otherwise.
+TEST(Study, RolesFollowFromPaths) {
+  const Folder folder;
+  folder.write("shorts.json", R"({"name": "shorts", "garment": {"shorts": {"cell": "60 mm"}},
+    "fabric": {"thickness": "1 mm", "density": "500 kg/m^3", "young": "1 MPa", "poisson": 0.3,
+               "bending": {"law": "linear", "rigidity": "1e-4 N m"}},
+    "human": {"manikin": "male_p50", "motion": {"stand": {"duration": "1 s"}}}, "contact": {"friction": 0.3}})");
+  const auto role = [&](const std::string& axis) {
+    return readStudy(folder.write("a.study.json", R"({"name": "a", "case": "shorts.json", "axes": [{)" + axis + "}]}"))
+        .axes[0]
+        .role;
+  };
+  EXPECT_EQ(role(R"("path": "human.manikin", "values": ["male_p05", "male_p95"])"), Role::wearer);
+  EXPECT_EQ(role(R"("path": "fabric.thickness", "values": ["1 mm", "2 mm"])"), Role::thickness);
+  EXPECT_EQ(role(R"("path": "factors.thickness", "values": [1, 2])"), Role::thickness);
+  EXPECT_EQ(role(R"("path": "fabric.young", "values": ["1 MPa", "2 MPa"])"), Role::material);
+  EXPECT_EQ(role(R"("path": "fabric.bending.rigidity", "values": [1e-4, 2e-4])"), Role::material);
+  EXPECT_EQ(role(R"("path": "contact.friction", "values": [0.1, 0.3])"), Role::friction);
+  EXPECT_EQ(role(R"("path": "garment.shorts.ease", "values": ["2 %", "6 %"])"), Role::fit);
+  EXPECT_EQ(role(R"("path": "garment.shorts.inseam", "values": ["10 cm", "15 cm"])"), Role::fit);
+  EXPECT_EQ(role(R"("path": "garment.shorts.cell", "values": ["60 mm", "50 mm"])"), Role::mesh);
+  EXPECT_EQ(role(R"("path": "human.motion.stand.duration", "values": [1, 2])"), Role::motion);
+  EXPECT_EQ(role(R"("path": "contact.tolerance", "values": [1e-3, 1e-4])"), Role::other);
+  EXPECT_EQ(role(R"("name": "size", "path": "garment.shorts.ease", "values": ["2 %", "6 %"])"), Role::size);
+  EXPECT_EQ(role(R"("path": "garment.shorts.ease", "values": ["2 %", "6 %"], "role": "size")"), Role::size);
+  // Where several values go together: those that mean something; a garment that goes with its wearer is no choice.
+  EXPECT_EQ(role(R"("name": "who", "labels": ["a", "b"], "sets": [
+    {"human.manikin": "male_p05", "time.max_step": 1e-3}, {"human.manikin": "male_p95"}])"),
+            Role::wearer);
+  EXPECT_EQ(role(R"("name": "who", "labels": ["a", "b"], "sets": [
+    {"human.manikin": "male_p05", "garment.shorts.ease": "4 %"}, {"human.manikin": "male_p95"}])"),
+            Role::wearer);
+  EXPECT_EQ(role(R"("name": "what", "labels": ["a", "b"], "sets": [
+    {"fabric.young": "1 MPa", "contact.friction": 0.2}, {"fabric.young": "2 MPa"}])"),
+            Role::other);
+}
+
 struct Bad {
   const char *from, *to;  ///< what is replaced in the good file
   const char* where;      ///< how the message goes on after the file's name
@@ -450,6 +487,19 @@ TEST(Study, FailedRunsAreLeftOutAndSaid) {
   EXPECT_NE(page.find("elbow: not applicable"), std::string::npos);
   EXPECT_NE(page.find("href=\"thickness_1__fine__smooth/report.html\""), std::string::npos);
   EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+/// Two meshes alone are no choice: the fine one is judged.
+TEST(Study, AMeshIsNeverTaken) {
+  const Study s = read(R"({"name": "mesh", "case": "cloth.json", "axes": [
+    {"name": "mesh", "labels": ["coarse", "fine"], "sets": [{"garment.sheet.cells_u": 2, "garment.sheet.cells_v": 2},
+                                                           {"garment.sheet.cells_u": 3, "garment.sheet.cells_v": 3}]}]})");
+  const Comparison c = compare(s, numbersOf(s));
+  EXPECT_EQ(c.main_axis, -1);
+  EXPECT_EQ(c.mesh_axis, 0);
+  EXPECT_EQ(c.verdict.sentence.find("Take"), std::string::npos) << c.verdict.sentence;
+  EXPECT_TRUE(c.input.mesh_error);
+  EXPECT_EQ(c.input.options.size(), 1u);
 }
 
 TEST(Study, TablesHaveOneRowPerVariant) {

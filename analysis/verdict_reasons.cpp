@@ -1,0 +1,238 @@
+/// Why, how comfortable, which size would be, and how sure all that is.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/ticks.hpp"
+#include "analysis/verdict_parts.hpp"
+
+namespace gambeson::verdict {
+
+std::string estimateOf(const VerdictInput& in, const Verdict& v) {
+  if (!in.sized || !v.chosen || (v.light != Light::amber && v.light != Light::red)) return "";
+  std::string sizes, how, not_known;
+  const auto say = [](std::string& text, const std::string& s) { text += (text.empty() ? "" : " ") + s; };
+  for (const Light light : {Light::amber, Light::green}) {
+    if (light == v.light) continue;
+    NoSize why = NoSize::none;
+    const auto s = sizeFor(in, v.take, light == Light::amber ? in.red : in.green, why);
+    if (s) {
+      say(sizes,
+          fmt::format("About {} {}{}{} would bring it down to {} (range {} to {}).", in.what, in.multiple ? "x " : "",
+                      formatNumber(s->size, 2), bracketed(layersAt(in, v.take, s->size)), nameOf(light),
+                      formatNumber(s->low, 2), formatNumber(s->high, 2)));
+      how = fmt::format(
+          "Extrapolated, not run: by how the peak that decides, at the {}{}, goes with the {}. The range "
+          "is that of the exponents of this joint in all motions.",
+          s->joint, bracketed(s->motion), in.what);
+    } else if (why == NoSize::too_far) {
+      say(not_known, fmt::format("Which {} would be {} cannot be said from this study: it lies more than a factor 3 "
+                                 "outside of its range.",
+                                 in.what, nameOf(light)));
+    } else if (not_known.empty()) {
+      say(not_known, fmt::format("Which {} would be {} cannot be said: how the torque goes with it is not known.",
+                                 in.what, nameOf(light)));
+    }
+  }
+  for (const std::string& s : {how, not_known})
+    if (!s.empty()) say(sizes, s);
+  return sizes;
+}
+
+std::string whyOf(const VerdictInput& in, const Verdict& v) {
+  std::string ratios;
+  for (const Option& o : in.options) {
+    if (o.missing || in.baseline < 0 || &o == &at(in, in.baseline)) continue;
+    std::string all;
+    for (const std::string& m : motionsOf(o))
+      if (const Option::Cost* c = worstCost(o, &m); c->ratio)
+        all += (all.empty() ? "" : ", ") + formatNumber(*c->ratio, 2) + bracketed(m);
+    if (!all.empty())
+      ratios += fmt::format("{}{} {} it is {}", ratios.empty() ? "" : "; ", wordsOf(in.role).before, o.name, all);
+  }
+  std::string why;
+  const auto say = [&](const std::string& s) { why += (why.empty() ? "" : " ") + s; };
+  if (!ratios.empty())
+    say(fmt::format("Peak torque, where it counts most, as a multiple of that {} {}: {}.", wordsOf(in.role).before,
+                    at(in, in.baseline).name, ratios));
+  std::string laws;
+  for (const std::string& m : motionsOf(at(in, v.take)))
+    if (const auto* e = exponentOf(in, *worstCost(at(in, v.take), &m))) {
+      const std::string range = e->peak.points > 2
+                                    ? fmt::format("{} to {} from one {} to the next", formatNumber(e->peak.lowest, 2),
+                                                  formatNumber(e->peak.highest, 2), in.what)
+                                    : "";
+      laws += (laws.empty() ? "" : ", ") + formatNumber(e->peak.exponent, 2) +
+              bracketed(m + (m.empty() || range.empty() ? "" : "; ") + range);
+    }
+  if (!laws.empty())
+    say(fmt::format(
+        "The torque goes with the {0} to the power {1}: with power 1, half the {0} would leave half of the torque. The "
+        "fabric\u2019s stretch, weight and inertia alone give 1, its bending stiffness alone 3, and what does not "
+        "depend "
+        "on the {0}, such as air drag and springs that hold the garment, 0.",
+        in.what, laws));
+  return why;
+}
+
+namespace {
+
+std::string kPa(double Pa) { return formatNumber(1e-3 * Pa) + " kPa"; }
+
+/// Which of its two limits a pressure is told by.
+bool toldByMean(const Option::Comfort& c) {
+  return c.mean_Pa > c.limit_Pa || c.mean_Pa / c.limit_Pa >= c.peak_Pa / c.peak_limit_Pa;
+}
+
+/// "10.1 kPa at the peak (limit 9.81 kPa)"; both limits where both are surpassed, else the one that is nearer.
+std::string pressureText(const Option::Comfort& c) {
+  const std::string mean = fmt::format("{} in the mean (limit {})", kPa(c.mean_Pa), kPa(c.limit_Pa)),
+                    peak = fmt::format("{} at the peak (limit {})", kPa(c.peak_Pa), kPa(c.peak_limit_Pa));
+  if (c.mean_Pa > c.limit_Pa && c.peak_Pa > c.peak_limit_Pa) return mean + ", " + peak;
+  return toldByMean(c) ? mean : peak;
+}
+
+/// In how many joints and motions `more` costs more than `taken`, and where it does not.
+std::string comparedOf(const Option& taken, const Option& more, bool one_motion) {
+  int less = 0, both = 0;
+  std::string others;
+  for (const Option::Cost& c : taken.costs) {
+    const Option::Cost* k = costAt(more, c.motion, c.joint);
+    if (!k) continue;
+    ++both;
+    if (c.peak_Nm < k->peak_Nm) {
+      ++less;
+      continue;
+    }
+    others += fmt::format("{}{}{}: {} Nm against {} Nm", others.empty() ? "" : "; ", c.joint,
+                          one_motion ? "" : ", " + c.motion, formatNumber(k->peak_Nm, 2), formatNumber(c.peak_Nm, 2));
+  }
+  const std::string all = fmt::format("{} {} that matter", both, one_motion ? "joints" : "pairs of joint and motion");
+  if (less == both) return fmt::format("It costs more in all {}.", all);
+  return fmt::format("It costs more in {} of the {}; not at {}.", less, all, others);
+}
+
+}  // namespace
+
+std::string comfortOf(const VerdictInput& in, const Verdict& v) {
+  const auto [option, c] = leastComfortable(in, v);
+  if (!c) return "";
+  const RoleWords words = wordsOf(in.role);
+  const std::string at_what = (v.chosen ? "" : option->name + (c->motion.empty() ? "" : ", ")) + c->motion;
+  std::string text = fmt::format("{}: on the {}{} {}.",
+                                 c->light == Light::red     ? "Not comfortable"
+                                 : c->light == Light::amber ? "Not quite comfortable"
+                                                            : "Comfortable",
+                                 c->part, bracketed(at_what), pressureText(*c));
+  if (in.sensor_m > 0) text += fmt::format(" Pressure is the mean over {:g} mm.", 1e3 * in.sensor_m);
+  for (const Option& o : in.options)
+    for (const Option::Comfort& k : o.comforts) {
+      if (&o == option || k.motion != c->motion || k.part != c->part) continue;
+      const bool by_mean = toldByMean(*c);
+      const double change = by_mean ? k.mean_Pa / c->mean_Pa : k.peak_Pa / c->peak_Pa;
+      const std::string same =
+          fmt::format(": the {} hardly matters here", in.role == Role::other ? in.what : words.one);
+      text += fmt::format(" {} {} it is {}{}.", capital(words.before), o.name, kPa(by_mean ? k.mean_Pa : k.peak_Pa),
+                          std::abs(change - 1) < kNarrow ? same : "");
+    }
+  if (!v.chosen) return text;
+  // Motions in which the one taken presses worse than another: least torque need not be most comfortable.
+  for (const Option::Comfort& mine : option->comforts)
+    for (const Option& o : in.options)
+      for (const Option::Comfort& k : o.comforts)
+        if (&o != option && k.motion == mine.motion && k.light < mine.light)
+          text += fmt::format(" Less comfortable than {}{}: {} on the {} ({}) against {} on the {} ({}).", o.name,
+                              bracketed(mine.motion), kPa(mine.peak_Pa), mine.part, nameOf(mine.light), kPa(k.peak_Pa),
+                              k.part, nameOf(k.light));
+  return text;
+}
+
+namespace {
+
+/// Of what is not taken: which is worst, by how much, and what its light stands.
+void sayWorst(const VerdictInput& in, Verdict& v) {
+  const auto say = [&](const std::string& s) { v.choice += (v.choice.empty() ? "" : " ") + s; };
+  const Option &worst = at(in, v.take), *next = nullptr, *least = nullptr;
+  for (const Option& o : in.options) {
+    if (&o == &worst || !isUsable(o) || worstCost(o)->part.has_value() != worstCost(worst)->part.has_value()) continue;
+    if (!next || factorOf(*next, o) > 1) next = &o;
+    if (!least || factorOf(o, *least) > 1) least = &o;
+  }
+  if (next) {
+    v.order = factorOf(*next, worst);
+    const char* what = worstCost(worst)->part ? "large a share of the natural moment" : "large a torque";
+    say(fmt::format("{} {} {} times as {} as {}, the next{}.", worst.name, wordsOf(in.role).costs,
+                    formatNumber(*v.order, 2), what, next->name,
+                    least != next ? fmt::format(", and {} times that of {}, the least",
+                                                formatNumber(factorOf(*least, worst), 2), least->name)
+                                  : ""));
+    v.choice = capital(v.choice);
+  }
+  if (v.holds_up_to)
+    say(fmt::format("Its light stays {}as long as the torques are right within {}.",
+                    *v.holds_up_to < kNarrow ? "only " : "", percent(*v.holds_up_to)));
+}
+
+}  // namespace
+
+void judgeChoice(const VerdictInput& in, Verdict& v) {
+  const auto say = [&](const std::string& s) { v.choice += (v.choice.empty() ? "" : " ") + s; };
+  const auto missing = std::count_if(in.options.begin(), in.options.end(), [](const Option& o) { return o.missing; });
+  // By how much the torques may be wrong before another one is taken: all together where limits decide, one against the
+  // other where the order does.
+  std::optional<double> margin;
+  if (in.sized && v.light == Light::green) {
+    margin = v.holds_up_to;
+    if (margin)
+      say(fmt::format("It stays the answer {}as long as the torques are right within {}.",
+                      *margin < kNarrow ? "only " : "", percent(*margin)));
+  } else if (!v.chosen) {
+    sayWorst(in, v);
+    margin = v.light == Light::unknown ? v.order ? std::optional(*v.order - 1) : std::nullopt : v.holds_up_to;
+  } else {
+    const Option* next = nullptr;
+    for (const Option& o : in.options)
+      if (&o != &at(in, v.take) && isUsable(o) &&
+          (!next || factorOf(at(in, v.take), o) < factorOf(at(in, v.take), *next)))
+        next = &o;
+    if (next) {
+      v.order = factorOf(at(in, v.take), *next);
+      margin = *v.order - 1;
+      const bool one_motion = motionsOf(at(in, v.take)).size() < 2;
+      say(
+          fmt::format("{} costs {} times as much, each where it costs most. {} To turn the order, the torques of one "
+                      "would have to be wrong against the other by that factor.",
+                      next->name, formatNumber(*v.order, 2), comparedOf(at(in, v.take), *next, one_motion)));
+      v.choice = capital(v.choice);
+    }
+  }
+  // Of two torques one may be off by it upwards, the other downwards.
+  const double e = in.mesh_error.value_or(0);
+  const double needed = v.order && (v.chosen || v.light == Light::unknown) ? (1 + e) / std::max(1 - e, 1e-9) - 1 : e;
+  v.surety = margin && *margin >= kNarrow ? Surety::fairly : Surety::no;
+  if (!margin) v.surety = in.options.size() > 1 && v.light == Light::green ? Surety::fairly : Surety::no;
+  if (in.mesh_error && margin) {
+    v.surety = *margin > needed ? Surety::yes : Surety::no;
+    say(v.surety == Surety::yes
+            ? fmt::format("Coarse and fine mesh differ by less, {}.", percent(*in.mesh_error))
+            : fmt::format("Coarse and fine mesh differ by {}: too much to be sure.", percent(*in.mesh_error)));
+  } else if (margin && *margin < kNarrow) {
+    say(v.chosen ? "A narrow margin: compare with a finer mesh before you decide."
+                 : "A narrow margin: compare with a finer mesh.");
+  } else if (margin) {
+    say("No finer mesh was run to confirm it.");
+  }
+  if (missing > 0) {
+    say(fmt::format("{} of {} are missing because runs failed.", missing, in.options.size()));
+    v.surety = Surety::no;
+  }
+  for (const auto& d : in.doubts)
+    if (d.order) {
+      say(fmt::format("But {}: that may turn the order{}.", d.text, v.chosen ? "" : ", and the lights"));
+      v.surety = Surety::no;
+    }
+}
+
+}  // namespace gambeson::verdict
