@@ -274,7 +274,13 @@ std::string headlineOf(const ReportInput& input) {
   if (!j)
     return input.joints.empty() ? "This run measured no joint torques."
                                 : "No joint torque of this run is a finite number.";
-  std::string s = trustOf(input).spoiling > 0 ? "Not to be relied on: peak" : "Peak";
+  // What leaves none of the numbers comes before them.
+  std::string s = "Peak";
+  for (const AuditCheck& c : input.audit)
+    if (!c.holds() && c.spoils) {
+      s = fmt::format("Not to be relied on{}: peak", c.wrong.empty() ? "" : ", as " + c.wrong);
+      break;
+    }
   s += fmt::format(" added {} torque: {} Nm", j->joint, formatNumber(sizeOf(*j)));
   if (!j->side.empty()) s += ", " + j->side + " side";
   s += ", at " + seconds(j->peak_time_s);

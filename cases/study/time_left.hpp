@@ -9,11 +9,11 @@ namespace gambeson::study {
 
 /// One run of a study, as far as it is.
 struct RunTime {
-  std::vector<int> levels;       ///< of each axis
-  bool done = false;             ///< or failed: nothing is left of it
-  std::optional<double> took_s;  ///< of one that is done, with as many threads as the others have
-  double running_s = -1;         ///< since it started; negative: it waits
-  double from = 0, part = 0;     ///< parts of it that were recorded when it went on, and are now
+  std::vector<int> levels;         ///< of each axis
+  bool done = false;               ///< or failed: nothing is left of it
+  std::optional<double> took_s{};  ///< of one that is done, with as many threads as the others have
+  double running_s = -1;           ///< since it started; negative: it waits
+  double from = 0, part = 0;       ///< parts of it that were recorded when it went on, and are now
 };
 
 /// Seconds until all are done, `parallel` at a time, in their order. One under way goes on as fast as it went; one that

@@ -63,9 +63,9 @@ ReportInput example() {
   in.title = "Shorts <walking> & \"more\"";
   in.description = "A man walks.";
   in.task = "walking at natural speed";
-  in.joints = {{"knee", "left", 0.021, 0.93, "", 0.0071, {}, {}},
-               {"hip", "right", -1.8349, 1.2432, "hip flexion (swing)", 0.6123, 3.31, 4.24},
-               {"hip", "left", 1.79, 1.79, "hip flexion (swing)", 0.605, 3.2, {}}};
+  in.joints = {{"knee", "left", 0.021, 0.93, "", 0.0071, {}, {}, {}},
+               {"hip", "right", -1.8349, 1.2432, "hip flexion (swing)", 0.6123, 3.31, {}, 4.24},
+               {"hip", "left", 1.79, 1.79, "hip flexion (swing)", 0.605, 3.2, {}, {}}};
   Plot plot;
   plot.title = "Hip flexion torque";
   plot.series = {wave("left", 120, Tone::left), wave("right", 120, Tone::right)};
@@ -101,11 +101,34 @@ TEST(Report, HeadlineNamesTorqueSideTimeCauseAndShare) {
             "Peak added hip torque: 1.83 Nm, right side, at 1.24 s, during hip flexion (swing); 3.3 % of the natural "
             "hip moment.");
   ReportInput bare;
-  bare.joints = {{"elbow", "", 0.5, 2.0, "", 0.1, {}, {}}};
+  bare.joints = {{"elbow", "", 0.5, 2.0, "", 0.1, {}, {}, {}}};
   EXPECT_EQ(headlineOf(bare), "Peak added elbow torque: 0.500 Nm, at 2.00 s.");
   bare.joints[0].peak_Nm = NAN;
   EXPECT_EQ(headlineOf(bare), "No joint torque of this run is a finite number.");
   EXPECT_EQ(headlineOf({}), "This run measured no joint torques.");
+}
+
+/// A torque of a garment that fell off is no headline of its own.
+TEST(Report, WhatSpoilsTheNumbersComesBeforeThem) {
+  ReportInput in = example();
+  in.audit.push_back({"Slipping", 740, 50, "mm", "", "the garment slips down the body by 740 mm", true});
+  EXPECT_TRUE(headlineOf(in).starts_with(
+      "Not to be relied on, as the garment slips down the body by 740 mm: peak added hip torque: 1.83 Nm"))
+      << headlineOf(in);
+  in.audit.back().value = 40;
+  EXPECT_TRUE(headlineOf(in).starts_with("Peak added hip torque"));
+}
+
+TEST(Report, StretchBeyondTheFabricsRangeIsSaidAtTheTop) {
+  ReportInput in = example();
+  in.stretch = {{0.15, 0.21, 0.73, true, "", "weft"}};
+  EXPECT_FALSE(trustOf(in).whole());
+  EXPECT_TRUE(trustOf(in).reliable());
+  EXPECT_NE(formatReport(in).find("stretches by up to 73 % along its weft"), std::string::npos);
+  in.stretch[0].largest = 0.1;
+  EXPECT_EQ(formatReport(in).find("stretches by"), std::string::npos);
+  in.joints[1].natural_Nm = 55.4;
+  EXPECT_NE(headlineOf(in).find("3.3 % of the natural hip moment of 55.4 Nm"), std::string::npos) << headlineOf(in);
 }
 
 TEST(Report, HighestJointIsTheLargestMagnitudeAndNeverNan) {
@@ -208,7 +231,7 @@ TEST(Report, MissingPartsSaySo) {
 
 TEST(Report, MoreJointsThanCardsGetATable) {
   ReportInput in = example();
-  for (int i = 0; i < 5; ++i) in.joints.push_back({"ankle", "left", 0.001 * i, 0.1, "", 0, {}, {}});
+  for (int i = 0; i < 5; ++i) in.joints.push_back({"ankle", "left", 0.001 * i, 0.1, "", 0, {}, {}, {}});
   const std::string page = formatReport(in);
   EXPECT_EQ(count(page, "<div class=\"card "), 6u);
   EXPECT_TRUE(has(page, "All joints"));

@@ -106,7 +106,7 @@ TEST(Study, RolesFollowFromPaths) {
         .axes[0]
         .role;
   };
-  EXPECT_EQ(role(R"("path": "human.manikin", "values": ["male_p05", "male_p95"])"), Role::wearer);
+  EXPECT_EQ(role(R"("path": "human.manikin", "values": ["male_p5", "male_p95"])"), Role::wearer);
   EXPECT_EQ(role(R"("path": "fabric.thickness", "values": ["1 mm", "2 mm"])"), Role::thickness);
   EXPECT_EQ(role(R"("path": "factors.thickness", "values": [1, 2])"), Role::thickness);
   EXPECT_EQ(role(R"("path": "fabric.young", "values": ["1 MPa", "2 MPa"])"), Role::material);
@@ -121,10 +121,10 @@ TEST(Study, RolesFollowFromPaths) {
   EXPECT_EQ(role(R"("path": "garment.shorts.ease", "values": ["2 %", "6 %"], "role": "size")"), Role::size);
   // Where several values go together: those that mean something; a garment that goes with its wearer is no choice.
   EXPECT_EQ(role(R"("name": "who", "labels": ["a", "b"], "sets": [
-    {"human.manikin": "male_p05", "time.max_step": 1e-3}, {"human.manikin": "male_p95"}])"),
+    {"human.manikin": "male_p5", "time.max_step": 1e-3}, {"human.manikin": "male_p95"}])"),
             Role::wearer);
   EXPECT_EQ(role(R"("name": "who", "labels": ["a", "b"], "sets": [
-    {"human.manikin": "male_p05", "garment.shorts.ease": "4 %"}, {"human.manikin": "male_p95"}])"),
+    {"human.manikin": "male_p5", "garment.shorts.ease": "4 %"}, {"human.manikin": "male_p95"}])"),
             Role::wearer);
   EXPECT_EQ(role(R"("name": "what", "labels": ["a", "b"], "sets": [
     {"fabric.young": "1 MPa", "contact.friction": 0.2}, {"fabric.young": "2 MPa"}])"),
