@@ -183,7 +183,7 @@ Object humanTable() {
       .defaultsTo("the geometry in the URDF")
       .object("skin", &H::skin,
               Table<SkinOptions>("Skin")
-                  .number("cell", &SkinOptions::cell_m, "m", between(0.006, 0.04), "edges where garments lie")
+                  .number("cell", &SkinOptions::cell_m, "m", between(0.006, 0.05), "edges where garments lie")
                   .number("crease_gap", &SkinOptions::crease_gap_m, "m", between(0, 0.02),
                           "what stays between the two sides of a fold, at hips, knees, elbows and shoulders")
                   .build(),

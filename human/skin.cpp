@@ -307,7 +307,7 @@ void check(const char* key, double value, bool good, const char* allowed) {
 }  // namespace
 
 Skin makeSkin(const Human& human, const SkinOptions& o) {
-  check("cell_m", o.cell_m, o.cell_m >= 0.006 && o.cell_m <= 0.04, "0.006 to 0.04");
+  check("cell_m", o.cell_m, o.cell_m >= 0.006 && o.cell_m <= 0.05, "0.006 to 0.05");
   check("crease_gap_m", o.crease_gap_m, o.crease_gap_m >= 0 && o.crease_gap_m <= 0.02, "0 to 0.02");
   return Maker(human, o).take();
 }

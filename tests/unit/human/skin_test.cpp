@@ -86,6 +86,8 @@ TEST(Skin, ReadsBackFromItsFile) {
 }
 
 TEST(Skin, RefusesOptionsAndBodiesThatItCannotServe) {
+  EXPECT_NO_THROW(makeSkin(human(), {.cell_m = 0.05}));  // as coarse as the body of Zheng 2013, section 3.7.4
+  EXPECT_THROW(makeSkin(human(), {.cell_m = 0.051}), InputError);
   EXPECT_THROW(makeSkin(human(), {.cell_m = 0}), InputError);
   EXPECT_THROW(makeSkin(human(), {.cell_m = std::nan("")}), InputError);
   EXPECT_THROW(makeSkin(human(), {.crease_gap_m = -1e-3}), InputError);
