@@ -124,7 +124,8 @@ std::string comfortOf(const VerdictInput& in, const Verdict& v) {
   std::string text = fmt::format("{}: on the {}{} {}.",
                                  c->light == Light::red     ? "Not comfortable"
                                  : c->light == Light::amber ? "Not quite comfortable"
-                                                            : "Comfortable",
+                                 : trustOf(in).whole()      ? "Comfortable"
+                                                            : "Comfortable by numbers that are in doubt",
                                  c->part, bracketed(at_what), pressureText(*c));
   if (in.sensor_m > 0) text += fmt::format(" Pressure is the mean over {:g} mm.", 1e3 * in.sensor_m);
   for (const Option& o : in.options)
@@ -226,6 +227,11 @@ void judgeChoice(const VerdictInput& in, Verdict& v) {
   }
   if (missing > 0) {
     say(fmt::format("{} of {} are missing because runs failed.", missing, in.options.size()));
+    v.surety = Surety::no;
+  }
+  // Where limits decide, so do the sizes of the torques.
+  if (in.failing_runs > 0 && ((in.sized && v.light == Light::green) || !v.chosen)) {
+    say("The checks that fail touch the sizes of the torques, and with them which of them are low enough.");
     v.surety = Surety::no;
   }
   for (const auto& d : in.doubts)

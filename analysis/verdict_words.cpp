@@ -167,6 +167,8 @@ std::string enoughOf(const VerdictInput& in, const Verdict& v) {
   const std::string cost = costText(worst, in);
   // Of one that is taken "at most ..."; of the worst "male_p95 pays ...".
   const auto up = [&](const char* bound) { return (v.chosen ? bound : whoPays(in, o)) + " " + cost; };
+  if (trustOf(in).spoiling > 0)
+    return fmt::format("Not judged, as {}. Its numbers would say: {}.", spoilingOf(in), up("up to"));
   std::string text;
   switch (v.light) {
     case Light::green:

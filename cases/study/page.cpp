@@ -69,8 +69,10 @@ std::string lightOf(const std::string& light) {
 }
 std::string lightOf(Light light) { return light == Light::unknown ? "not known" : lightOf(std::string(nameOf(light))); }
 
-std::string lightOf(const Study& s, const RunNumbers& run, const std::optional<double>& part) {
-  return lightOf(shownLight(gambeson::lightOf(part, s.limits.green, s.limits.red), run.trust()));
+std::string lightOf(const Study& s, const Trust& trust, const std::optional<double>& part) {
+  // A share is known there, and no light is shown for it.
+  if (part && trust.spoiling > 0) return "not judged";
+  return lightOf(shownLight(gambeson::lightOf(part, s.limits.green, s.limits.red), trust));
 }
 
 std::string percent(const std::optional<double>& part) {
@@ -117,8 +119,7 @@ std::string costOf(const Study& s, const Comparison& c, const Option::Cost& wors
       worst.part ? fmt::format("{} of natural {} Nm: ", percentBeside(*worst.part, s.limits.green, s.limits.red),
                                formatNumber(worst.peak_Nm / *worst.part))
                  : "";
-  const Light light = shownLight(gambeson::lightOf(worst.part, s.limits.green, s.limits.red), trustOf(c.input));
-  return fmt::format("{} {}", lightOf(light),
+  return fmt::format("{} {}", lightOf(s, trustOf(c.input), worst.part),
                      element("span", prose(fmt::format("{}{} Nm, {}", share, formatNumber(worst.peak_Nm), worst.joint)),
                              " class=\"reason\""));
 }

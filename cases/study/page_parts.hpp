@@ -32,7 +32,7 @@ std::string folded(const std::string& summary, const std::string& body);
 std::string lightOf(Light light);
 std::string lightOf(const std::string& light);
 /// The light of a part of a natural moment, as far as the run that it is of is trusted.
-std::string lightOf(const Study& study, const RunNumbers& run, const std::optional<double>& part);
+std::string lightOf(const Study& study, const Trust& trust, const std::optional<double>& part);
 std::string percent(const std::optional<double>& part);
 std::string linkTo(const Variant& variant, const std::string& text);
 

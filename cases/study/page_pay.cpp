@@ -31,9 +31,9 @@ std::optional<double> sharedNatural(const Comparison& c, const Group& g, const s
 
 /// One joint of one run, in two lines; with its natural moment where that is its own.
 Html payment(const Study& s, const Comparison& c, std::size_t i, const JointNumbers& j, bool own_natural) {
-  std::string first =
-      j.part() ? escape(percentBeside(*j.part(), s.limits.green, s.limits.red)) + " " + lightOf(s, c.runs[i], j.part())
-               : "";
+  std::string first = j.part() ? escape(percentBeside(*j.part(), s.limits.green, s.limits.red)) + " " +
+                                     lightOf(s, c.runs[i].trust(), j.part())
+                               : "";
   std::string second = formatNumber(std::abs(j.peak_Nm)) + (j.prismatic ? " N" : " Nm");
   if (own_natural && j.natural_Nm) second += "<br>of natural " + formatNumber(*j.natural_Nm) + " Nm";
   if (const JointRatio* r = ratioOf(c, i, j.name); r && !isBaseline(s, i) && std::isfinite(r->peak))

@@ -201,6 +201,54 @@ TEST(Verdict, FailingChecksTouchTheSizesOrTheOrder) {
   EXPECT_FALSE(has(v.numbers, "than their order")) << v.numbers;
 }
 
+/// The thickest that is low enough is a matter of sizes: a check that touches them touches the choice.
+TEST(Verdict, FailingChecksTouchAChoiceThatLimitsMake) {
+  VerdictInput in = table({0.02, 0.04, 0.08});
+  in.mesh_error = 0.06;
+  in.failing_runs = 1;
+  in.doubts = {{"energy is lost (1 run)", false}};
+  for (Option& o : in.options) o.comforts = {{"walking", "chest", Light::green, 500, 4270, 1000, 9810}};
+  const Verdict v = verdictOf(in);
+  EXPECT_EQ(v.light, Light::green);
+  EXPECT_EQ(v.cover, Light::doubtful);
+  EXPECT_EQ(v.doubt, "checks fail in 1 of 6 runs");
+  EXPECT_EQ(v.surety, Surety::no);
+  EXPECT_TRUE(has(v.choice, "The checks that fail touch the sizes of the torques")) << v.choice;
+  EXPECT_EQ(v.comfort_light, Light::doubtful);
+  EXPECT_TRUE(v.comfort.starts_with("Comfortable by numbers that are in doubt: on the chest")) << v.comfort;
+  EXPECT_TRUE(has(v.enough, "By its torque it would be good enough")) << v.enough;
+}
+
+/// Of what is not chosen the worst decides, by its share of its own natural moment, and all of them are counted.
+TEST(Verdict, OfWearersTheWorstIsTheVerdict) {
+  VerdictInput in = table({0.08, 0.16, 0.02});
+  in.sized = in.multiple = false;
+  in.role = Role::wearer;
+  in.options[1].costs[1].peak_Nm = 0.1;  // of a natural moment that is small
+  Verdict v = verdictOf(in);
+  EXPECT_FALSE(v.chosen);
+  EXPECT_EQ(v.take, 1);
+  EXPECT_EQ(v.cover, Light::red);
+  EXPECT_EQ(v.sentence, "Red for 1 of 3 wearers: thickness x 0.75 pays most.");
+  EXPECT_TRUE(
+      v.choice.starts_with("Thickness x 0.75 pays 2.0 times as large a share of the natural moment as "
+                           "thickness x 0.5, the next, and 8.0 times that of thickness x 1, the least."))
+      << v.choice;
+  EXPECT_EQ(v.estimate, "");
+  EXPECT_EQ(v.layers, "");
+  // One of whom nothing is known leaves no green.
+  for (Option& o : in.options)
+    for (Option::Cost& c : o.costs) c.part = 0.01;
+  EXPECT_EQ(verdictOf(in).cover, Light::green);
+  in.options[2].missing = true;
+  v = verdictOf(in);
+  EXPECT_EQ(v.cover, Light::doubtful);
+  EXPECT_TRUE(has(v.sentence, "of thickness x 1 nothing is known, as a run failed")) << v.sentence;
+  in.options[2].missing = false;
+  for (Option::Cost& c : in.options[2].costs) c.part.reset();
+  EXPECT_TRUE(has(verdictOf(in).sentence, "no natural moment is known of thickness x 1")) << verdictOf(in).sentence;
+}
+
 TEST(Verdict, SaysHowTheTorqueGoesWithTheThickness) {
   VerdictInput in = table({0.02, 0.04, 0.08});
   in.exponents = {{"stairs", hip, {1.6, 0.05, 1.4, 1.8, 3}, {1.6, 0.05, 1.4, 1.8, 3}}};

@@ -187,6 +187,7 @@ TEST(VerdictPages, EachSaysWhatItsRunsHold) {
     EXPECT_EQ(colour, story.colour) << c.verdict.enough;
     EXPECT_NE(page.find("class=\"judged " + colour + "\""), std::string::npos);
     EXPECT_EQ(page.find("nan"), std::string::npos);
+    EXPECT_EQ(page.find("not judged") != std::string::npos, trustOf(c.input).spoiling > 0);
     EXPECT_EQ(page.find("<th>left elbow (flexion)"), std::string::npos);
     // Nothing is green that stands on runs in doubt.
     if (!trustOf(c.input).whole()) {
