@@ -85,6 +85,8 @@ namespace {
 
 /// From further away cloth is not worn at the start.
 constexpr double worn_within_m = 0.1;
+/// A garment that is put on may come down by so much until it finds its hold, as a skirt does on the hips.
+constexpr double finds_hold_m = 0.1;
 
 }  // namespace
 
@@ -112,9 +114,10 @@ void measureFalls(const Scenario& s, const RecordingReader& recording, Measured&
   }
   for (std::size_t l = 0; l < layers; ++l)
     if (worn[l] > 0.5 * area[l]) out.falls.push_back({nameOf(s, l), 0, 0});
+  std::vector<double> put_on(layers, 0);  // fall until the motion starts
   for (int k = 0; k < recording.frameCount(); ++k) {
     const Frame frame = recording.frame(k);
-    if (!(frame.time_s > 1e-9)) continue;
+    const bool moving = frame.time_s > 1e-9;
     const std::vector<Vec3> x = vectorsOf(frame.positions);
     const std::vector<Pose> now = s.bodyPoses(frame.time_s);
     std::size_t at = 0;
@@ -133,7 +136,12 @@ void measureFalls(const Scenario& s, const RecordingReader& recording, Measured&
         least = std::min(least, sum / area[l]);
       }
       FallMeasure& fall = out.falls[at++];
-      if (least > fall.largest_m) fall.largest_m = least, fall.time_s = frame.time_s;
+      if (!moving) {
+        put_on[l] = std::max(0.0, least);
+        continue;
+      }
+      const double counts = least - put_on[l] + std::max(0.0, put_on[l] - finds_hold_m);
+      if (counts > fall.largest_m) fall.largest_m = counts, fall.time_s = frame.time_s;
     }
   }
 }

@@ -239,8 +239,8 @@ struct StrapsMeasure {
 /// Strain below which the source of the fabric's law takes it to be a straight line (Zheng 2013, eq. 2.13).
 constexpr double kStrainOfLaw = 0.02;
 
-/// How far a garment falls in world's up against a part of the body, in the mean over its area, from where it lay when
-/// the recording begins: against the part that it goes with best, of those that it lay on.
+/// How far a garment falls along gravity, in the mean over its area, against the part of the body that it goes with
+/// best, of those that it lay on when the recording began: in the motion, and while it is put on by more than 0.1 m.
 struct FallMeasure {
   std::string garment;  ///< empty where there is one only
   double largest_m = 0, time_s = 0;

@@ -91,9 +91,10 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
         {"Penetration between samples", 1e3 * m.surface_depth->deepest_m, 0.2, "mm",
          "the deepest point of the cloth's surface, evaluated four times finer than the samples, at every frame"});
   for (const FallMeasure& f : m.falls)
-    checks.push_back({f.garment.empty() ? "Slipping" : "Slipping, " + f.garment, 1e3 * f.largest_m, 50, "mm",
-                      "mean fall of the garment since the recording began, against the part of the body that it goes "
-                      "with best; the largest"});
+    checks.push_back(
+        {f.garment.empty() ? "Slipping" : "Slipping, " + f.garment, 1e3 * f.largest_m, 50, "mm",
+         "mean fall of the garment in the motion, against the part of the body that it goes with best, and "
+         "by what it came down further than 100 mm while it was put on; the largest"});
   for (const SupportMeasure& s : m.supports)
     if (s.springs)
       checks.push_back({"Sinking, " + s.name, 1e3 * s.largest_drop_m, 20, "mm",

@@ -132,6 +132,24 @@ TEST(Fit, AGarmentThatFallsFailsItsCheck) {
   }
 }
 
+/// Until the motion starts a garment may come down by 0.1 m: a skirt finds the hips so.
+TEST(Fit, AGarmentMayComeDownWhileItIsPutOn) {
+  const Folder folder;
+  const auto s =
+      buildScenario(readCase(folder.write("shorts.json", with(shorts, R"({"walk": {"lead_in": "0.3 s", "strides": 1}})",
+                                                              R"({"stand": {"duration": "1 s"}})"))));
+  for (const auto& [down_m, counts_m] : {std::pair(0.09, 0.0), std::pair(0.16, 0.06)}) {
+    const std::filesystem::path dir = folder.path() / std::to_string(down_m);
+    record(*s, dir, {-0.4, -0.2, 0, 0.5}, [&](double t, const Vec3& p) {
+      return p - Vec3{0, 0, t > -0.3 ? down_m : 0};
+    });
+    Measured m;
+    measureFalls(*s, RecordingReader(dir), m);
+    ASSERT_EQ(m.falls.size(), 1u);
+    EXPECT_NEAR(m.falls[0].largest_m, counts_m, 1e-6);
+  }
+}
+
 /// Works of rounding are no works: without gravity, at rest, nothing is unaccounted for.
 TEST(Fit, WorksOfRoundingAreNoWorks) {
   EnergyMeasure e;
