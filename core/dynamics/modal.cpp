@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/dynamics/newton.hpp"
 #include "core/dynamics/system.hpp"
 #include "core/error.hpp"
+#include "core/math/exact_solve.hpp"
 #include "core/math/lanczos.hpp"
 
 namespace gambeson {
@@ -20,6 +22,15 @@ double largestRatio(const SymmetricMatrix& K, const SymmetricMatrix& M) {
     most = std::max(most, std::abs(K.values[K.offsets[c]]) / m);
   }
   return most;
+}
+
+/// eps |s|^T |K| |s|.
+double roundingOf(const SymmetricMatrix& K, std::span<const double> s) {
+  double sum = 0;
+  for (int c = 0; c < K.size; ++c)
+    for (int k = K.offsets[c]; k < K.offsets[c + 1]; ++k)
+      sum += (K.rows[k] == c ? 1 : 2) * std::abs(K.values[k] * s[c] * s[K.rows[k]]);
+  return std::numeric_limits<double>::epsilon() * sum;
 }
 
 void keepInOrder(std::vector<RitzPair>& found, RitzPair pair) {
@@ -56,22 +67,28 @@ std::vector<Mode> lowestModes(System& system, std::span<const double> y, double 
   const LinearOperator mass = [&](std::span<const double> x, std::span<double> out) { multiply(M, x, out); };
   const LinearOperator inverse = [&](std::span<const double> x, std::span<double> out) {
     multiply(M, x, scratch);
-    factor.solve(scratch, out);
+    solveExactly(shifted, factor, scratch, out);
   };
-  /// omega^2 of a shape, and how well it is one.
+  const std::vector<double> nothing(n, 0.0);
+  /// omega^2 of a shape.
   const auto rayleigh = [&](const std::vector<double>& shape) {
-    multiply(K, shape, Ks);
+    residualOf(K, shape, nothing, Ks);
     multiply(M, shape, Ms);
-    const double lambda = dot(shape, Ks) / dot(shape, Ms), size = norm(Ks) + std::abs(sigma) * norm(Ms);
-    for (int i = 0; i < n; ++i) Ks[i] -= lambda * Ms[i];
-    return std::pair(lambda, norm(Ks) / size);
+    return -dot(shape, Ks) / dot(shape, Ms);
   };
-  constexpr double kTolerance = 1e-11;
+  /// How well it is one.
+  const auto residual = [&](const std::vector<double>& shape, double lambda) {
+    inverse(shape, Ks);
+    for (int i = 0; i < n; ++i) Ks[i] = shape[i] - (lambda - sigma) * Ks[i];
+    multiply(M, Ks, Ms);
+    return std::sqrt(std::max(0.0, dot(Ks, Ms)));
+  };
+  constexpr double kTolerance = 1e-11, kResidual = 1e-6;
   // Where there are rigid modes, 1/sigma would drown the others' 1/(omega^2 - sigma): a shift of their own size.
   if (sigma == first_shift) {
     double least = 0;
     for (const RitzPair& pair : lanczosLargest(inverse, mass, scatteredVector(n, 1), {}, {std::min(n, 10), 1e-6, n})) {
-      const double lambda = rayleigh(pair.vector).first;
+      const double lambda = rayleigh(pair.vector);
       if (lambda > -10 * first_shift && (least == 0 || lambda < least)) least = lambda;
     }
     if (least > 0 && !shiftTo(-least)) throw RunError("modes: the stiffness matrix is not symmetric positive");
@@ -90,7 +107,7 @@ std::vector<Mode> lowestModes(System& system, std::span<const double> y, double 
     }
     bool any = false;
     for (RitzPair& pair : pairs)
-      if (rayleigh(pair.vector).second <= 1e-4) any = true, keepInOrder(found, std::move(pair));
+      if (residual(pair.vector, rayleigh(pair.vector)) <= kResidual) any = true, keepInOrder(found, std::move(pair));
     if (!any) throw RunError("modes: Lanczos did not converge in " + std::to_string(options.most_steps) + " steps");
   }
 
@@ -98,9 +115,10 @@ std::vector<Mode> lowestModes(System& system, std::span<const double> y, double 
   for (int k = 0; k < std::min(count, static_cast<int>(found.size())); ++k) {
     Mode mode;
     mode.shape = std::move(found[k].vector);
-    auto [lambda, residual] = rayleigh(mode.shape);
-    mode.residual = residual;
+    double lambda = rayleigh(mode.shape);
+    mode.residual = residual(mode.shape, lambda);
     if (sigma != 0 && std::abs(lambda) <= -1e-3 * first_shift) lambda = 0;
+    if (lambda != 0) mode.rounding = roundingOf(K, mode.shape) / std::abs(lambda);
     mode.omega_rad_per_s = lambda < 0 ? -std::sqrt(-lambda) : std::sqrt(lambda);
     modes.push_back(std::move(mode));
   }

@@ -8,7 +8,14 @@ namespace gambeson {
 struct Mode {
   double omega_rad_per_s = 0;  ///< negative where the equilibrium is unstable: -sqrt(-omega^2)
   std::vector<double> shape;   ///< unknowns, mass-normalised
-  double residual = 0;         ///< |K s - omega^2 M s| / (|K s| + |sigma| |M s|), sigma the shift
+  /// |s - (omega^2 - sigma) (K - sigma M)^-1 M s| in M's norm, sigma the shift: some eigenvalue is no farther from
+  /// omega^2 than this part of its distance from sigma (Parlett 1998, section 4.5, for the inverse). |K s - omega^2 M
+  /// s| would tell nothing of thin sheets: a rounding of s in the plane, times the membrane's stiffness, drowns
+  /// bending.
+  double residual = 0;
+  /// eps |s|^T |K| |s| / omega^2: what the rounding of K's own entries leaves open of omega^2 at most, relative; 0 of
+  /// rigid modes.
+  double rounding = 0;
 };
 
 /// The lowest `count` modes of K s = omega^2 M s at y (empty: at rest) and time t, by shift-and-invert Lanczos with
