@@ -128,7 +128,7 @@ DynamicReport integrateImplicit(System& system, const DynamicOptions& o, Dynamic
     return position == total ? o.end_s : start + span * static_cast<double>(position) / static_cast<double>(total);
   };
   long position = 0, step = units;
-  NewtonOptions newton{o.iterations, o.tolerance, 0, system.length(), false};
+  NewtonOptions newton{o.iterations, o.tolerance, 0, system.reach(), false};
   while (position < total) {
     const double h = timeAt(position + step) - state.time_s;
     if (system.hasStiffnessDamping() && report.steps > 0) system.damping(state.y, state.time_s, o.lumped_mass, true, D);

@@ -44,7 +44,7 @@ NewtonOptions newtonOptions(const System& system, const StaticOptions& options, 
   n.iterations = options.iterations;
   n.tolerance = options.tolerance;
   n.least_force = 1e-3 * state.largest_force;
-  n.length_m = system.length();
+  n.length_m = system.reach();
   return n;
 }
 
@@ -131,7 +131,7 @@ bool startPath(System& system, const StaticOptions& options, PathState& state, S
   std::vector<double> g(n), dy(n);
   const double force = system.residual(state.y, 0, g);
   system.stiffness(state.y, 0, state.K);
-  if (norm(g) > std::max(options.tolerance * force, roundingForce(state.K, system.length()))) {
+  if (norm(g) > std::max(options.tolerance * force, roundingForce(state.K, system.reach()))) {
     requireHeld(system, state, g, 0, report);
     if (state.raised) {
       state.solver.solve(g, dy);

@@ -15,9 +15,10 @@ struct StaticOptions {
   int iterations = 30;      ///< Newton iterations of a step
   double tolerance = 1e-8;  ///< of the residual's norm against that of the forces that balance (loads, reactions)
   bool arc_length =
-      false;             ///< Crisfield's cylindrical arc length; `steps` then sets the first step, 1/steps of the load
-  int max_points = 200;  ///< of the path, arc length only
-  double stop_factor = 1;  ///< arc length ends where the factor first reaches this, or at max_points
+      false;  ///< Crisfield's cylindrical arc length; `steps` then sets the first step, 1/steps of the load
+  double largest_arc_m = 0;  ///< arc length only: no unknown is to move farther in a step; 0: as the path curves
+  int max_points = 200;      ///< of the path, arc length only
+  double stop_factor = 1;    ///< arc length ends where the factor first reaches this, or at max_points
 };
 
 /// A converged point of the path.
@@ -35,7 +36,13 @@ struct StaticPoint {
   /// less, even next to a limit point or a bifurcation (like the root of the load: 1/8). Not looked at: moves of less
   /// than 1e-4 of the structure's length, and a first step of less than 1/5 of what the start's tangent predicted (a
   /// slack sheet stiffens).
+  ///
+  /// Arc length: the path between the last point and this one may not be the short way that their tangents say, and no
+  /// shorter arc mended that (core/dynamics/arc_length.cpp).
   bool jumped = false;
+  // Arc length only, of the way from the last point to this one.
+  bool limit_point = false;  ///< the factor turned
+  bool bifurcation = false;  ///< the tangent's negative pivots changed and the factor did not turn, or the reverse
 };
 
 struct StaticReport {

@@ -48,6 +48,8 @@ StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends)
   for (const Vec3& x : structure.rest)
     for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], x[d]), high[d] = std::max(high[d], x[d]);
   length_ = norm(high - low);
+  reach_ = length_;
+  for (const Vec3& x : structure.rest) reach_ = std::max(reach_, norm(x));
   K_ = structure.tangent.pattern();
   K_.values.resize(9 * K_.columns.size());
   q_.resize(structure.rest.size());

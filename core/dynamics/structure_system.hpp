@@ -18,6 +18,7 @@ class StructureSystem : public System {
   void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) override;
   void change(std::span<const double> y, double t0, double t1, std::span<double> dg) override;
   double length() const override { return length_; }
+  double reach() const override { return reach_; }
   std::string describe(std::span<const double> motion) const override;
   void mass(bool lumped, SymmetricMatrix& M) override;
   void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
@@ -33,7 +34,7 @@ class StructureSystem : public System {
   const Structure& structure_;
   std::unique_ptr<MotionLimit> limit_;
   ProgramEnds ends_;
-  double length_ = 0;
+  double length_ = 0, reach_ = 0;
   ShellWork work_;
   BlockMatrix K_;
   std::vector<double> at_y_;  ///< where K_ is

@@ -23,8 +23,11 @@ class System {
   virtual void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) = 0;
   /// How g changes from t0 to t1 with y held: loads exactly, moving supports to first order (through the stiffness).
   virtual void change(std::span<const double> y, double t0, double t1, std::span<double> dg) = 0;
-  /// A length of the structure [m]: what rounding of positions is measured by.
+  /// A length of the structure [m].
   virtual double length() const { return 1; }
+  /// How large its coordinates are [m], at least `length`: positions, strains and forces are rounded in proportion to
+  /// them, however small the structure is that stands there.
+  virtual double reach() const { return length(); }
   /// In words: what moves in a motion of the unknowns that meets no stiffness.
   virtual std::string describe(std::span<const double> motion) const = 0;
 

@@ -242,6 +242,72 @@ TEST(StaticPath, ArcLengthDoesNotTurnBackAtASharpSnapBack) {
     }
 }
 
+/// Soft at first, then a snap: u/1000 + u^2 (1 - u)^2 + u^4/50 climbs 0.064, falls and climbs again. The tangent at the
+/// start, and so the first arc of any number of steps, is a hundred times too long.
+TEST(StaticPath, ArcLengthStepsOverNoSnapHoweverSoftTheStart) {
+  const auto f = [](double u) { return u / 1000 + u * u * (1 - u) * (1 - u) + u * u * u * u / 50; };
+  SmallSystem s(1);
+  s.force = [f](const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, f(y(0))); };
+  s.tangent = [](const Eigen::VectorXd& y) {
+    const double u = y(0);
+    return Eigen::MatrixXd::Constant(1, 1, 1e-3 + 2 * u * (1 - u) * (1 - 2 * u) + 0.08 * u * u * u);
+  };
+  s.load = [](double t) { return Eigen::VectorXd::Constant(1, 0.2 * t); };
+  for (const int steps : {1, 3, 10, 30, 100}) {
+    const auto points = follow(s, {.steps = steps, .arc_length = true, .max_points = 500});
+    double peak = 0, valley = 1;
+    int limits = 0;
+    for (const StaticPoint& p : points) {
+      EXPECT_NEAR(f(p.y[0]), 0.2 * p.factor, 1e-8);
+      EXPECT_FALSE(p.jumped);
+      limits += p.limit_point;
+      if (p.y[0] < 0.7) peak = std::max(peak, 0.2 * p.factor);
+      if (p.y[0] > 0.7) valley = std::min(valley, 0.2 * p.factor);
+    }
+    EXPECT_EQ(limits, 2) << steps;
+    EXPECT_NEAR(peak, 0.06447, 0.002) << steps;
+    EXPECT_NEAR(valley, 0.02083, 0.002) << steps;
+  }
+}
+
+/// What an arc may move at most can be said.
+TEST(StaticPath, ArcsAreNoLongerThanAsked) {
+  SmallSystem s = cubicSpring(0.01, 3);
+  double before = 0;
+  const auto points = follow(s, {.steps = 1, .arc_length = true, .largest_arc_m = 0.05});
+  EXPECT_GT(points.size(), 50u);
+  for (const StaticPoint& p : points) {
+    EXPECT_LE(p.y[0] - before, 0.05 * 1.001);
+    before = p.y[0];
+  }
+}
+
+/// A path that splits: the tangent changes its sign where the factor goes on.
+TEST(StaticPath, ArcLengthSaysWhatItPassed) {
+  SmallSystem s(2);  // y0 - y1^2/2 = t, (0.55 - y0) y1 = 0
+  s.force = [](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+    return Eigen::Vector2d(y(0) - 0.5 * y(1) * y(1), (0.55 - y(0)) * y(1));
+  };
+  s.tangent = [](const Eigen::VectorXd& y) -> Eigen::MatrixXd {
+    return Eigen::Matrix2d{{1, -y(1)}, {-y(1), 0.55 - y(0)}};
+  };
+  s.load = [](double t) -> Eigen::VectorXd { return Eigen::Vector2d(t, 0); };
+  int passed = 0, limits = 0;
+  double at = 0, last = 0;
+  for (const StaticPoint& p : follow(s, {.steps = 10, .arc_length = true})) {
+    passed += p.bifurcation;
+    limits += p.limit_point;
+    if (p.bifurcation) {
+      EXPECT_TRUE(last <= 0.55 && p.factor >= 0.55) << last << " " << p.factor;
+    }
+    last = p.factor;
+    at = p.y[1];
+  }
+  EXPECT_EQ(passed, 1);
+  EXPECT_EQ(limits, 0);
+  EXPECT_EQ(at, 0);
+}
+
 /// A stiffening bar string, flat at first: the first whole Newton step overshoots the far side by orders of magnitude.
 TEST(StaticPath, AHardSpringNeedsTheLineSearchOrHalving) {
   SmallSystem s = cubicSpring(1e8, 1000);

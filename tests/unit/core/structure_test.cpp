@@ -302,7 +302,7 @@ TEST(Structure, NewtonConvergesQuadraticallyOnAShell) {
   EquilibriumAt at(system, 0.1);
   NewtonOptions options;
   options.tolerance = 1e-12;
-  options.length_m = system.length();
+  options.length_m = system.reach();
   const NewtonReport n = solveNewton(at, options, state.y, state.K, state.solver);
   ASSERT_TRUE(n.converged);
   // The last step above rounding: from below 1e-2 the residual falls at least to 100 times its square.
@@ -315,26 +315,60 @@ TEST(Structure, NewtonConvergesQuadraticallyOnAShell) {
   EXPECT_GE(pairs, 1);
 }
 
-/// Sze 2004, section 3.8, thickness 12.7: straight edges hinged, central force up to 3000; a quarter of it. The path
-/// rises to P/Pmax 0.742 near w = 11, falls to 0.173 near w = 19.5 and rises again (Abaqus S4R).
-TEST(Structure, HingedRoofPassesItsLimitPointsByArcLength) {
+/// A quarter of the hinged roof of Sze 2004, section 3.8: u from the crown to the hinge, v from the middle, `shift`
+/// away from its axis.
+NurbsPatch roofPatch(int degree, int cells, const Vec3& shift = {}) {
   const double R = 2540, theta = 0.1, L = 254;
-  NurbsPatch p{uniformKnots(2, 1), uniformKnots(1, 1), {}, {}};  // u from the crown to the hinge, v from the middle
+  NurbsPatch p{uniformKnots(2, 1), uniformKnots(1, 1), {}, {}};
   for (int j : {0, 1})
     for (int i : {0, 1, 2}) {
       const double a = i * theta / 2, r = i == 1 ? R / std::cos(theta / 2) : R;
-      p.points.push_back({r * std::sin(a), j * L, r * std::cos(a)});
+      p.points.push_back(shift + Vec3{r * std::sin(a), j * L, r * std::cos(a)});
       p.weights.push_back(i == 1 ? std::cos(theta / 2) : 1);
     }
-  p = elevateDegree(elevateDegree(p, Direction::u, 1), Direction::v, 2);
-  const std::vector<double> knots{0.25, 0.5, 0.75};
-  p = insertKnots(insertKnots(p, Direction::u, knots), Direction::v, knots);
-  const Garment g = garmentOf({p}, {}, isotropic(3102.75, 0.3, 12.7), {0, 1, 0});
-  StructureOptions o;
-  o.constraints = all(symmetryEdge(g, {0, Side::u0}, {1, 0, 0}), symmetryEdge(g, {0, Side::v0}, {0, 1, 0}),
-                      supportEdge(g, {0, Side::u1}, kAxes));
-  o.dead = {{pointForce(g, 0, {0, 0}, {0, 0, -3000.0 / 4})}};
-  const auto s = buildStructure(g, o);
+  p = elevateDegree(elevateDegree(p, Direction::u, degree - 2), Direction::v, degree - 1);
+  std::vector<double> knots;
+  for (int k = 1; k < cells; ++k) knots.push_back(static_cast<double>(k) / cells);
+  return insertKnots(insertKnots(p, Direction::u, knots), Direction::v, knots);
+}
+
+/// That roof, its straight edges hinged, under a force of 3000 in its middle.
+struct Roof {
+  std::unique_ptr<Structure> structure;
+  explicit Roof(double thickness, int degree = 3, int cells = 4, const Vec3& shift = {}) {
+    const Garment g = garmentOf({roofPatch(degree, cells, shift)}, {}, isotropic(3102.75, 0.3, thickness), {0, 1, 0});
+    StructureOptions o;
+    o.constraints = all(symmetryEdge(g, {0, Side::u0}, {1, 0, 0}), symmetryEdge(g, {0, Side::v0}, {0, 1, 0}),
+                        supportEdge(g, {0, Side::u1}, kAxes));
+    o.dead = {{pointForce(g, 0, {0, 0}, {0, 0, -3000.0 / 4})}};
+    structure = buildStructure(g, o);
+  }
+};
+
+/// At rest without loads all that is out of balance is rounding: below its estimate on every mesh and wherever the
+/// coordinates' origin is, and the estimate is not far above, since it ends iterations.
+TEST(Structure, RoundingAtRestIsBelowItsEstimateAndNear) {
+  for (const int degree : {2, 3, 4})
+    for (const double away : {-2540.0, 0.0, 1e5})
+      for (const int cells : {4, 8, 12, 14, 16, 20, 24}) {
+        const Roof roof(12.7, degree, cells, {0, 0, away});
+        StructureSystem system(*roof.structure, ProgramEnds::extended);
+        PathState state(system);
+        std::vector<double> r(state.y.size());
+        system.residual(state.y, 0, r);
+        system.stiffness(state.y, 0, state.K);
+        const double estimate = roundingForce(state.K, system.reach());
+        EXPECT_LT(norm(r), estimate) << degree << " " << cells << " " << away;
+        EXPECT_GT(norm(r), 0.01 * estimate) << degree << " " << cells << " " << away;
+      }
+}
+
+/// Sze 2004, section 3.8, thickness 12.7: straight edges hinged, central force up to 3000; a quarter of it. The path
+/// rises to P/Pmax 0.742 near w = 11, falls to 0.173 near w = 19.5 and rises again (Abaqus S4R).
+TEST(Structure, HingedRoofPassesItsLimitPointsByArcLength) {
+  const double R = 2540;
+  const Roof roof(12.7);
+  const auto& s = roof.structure;
   double peak = 0, valley = 1, peak_at = 0, valley_at = 0, last_w = 0;
   bool unstable = false;
   const StaticReport r = solveStatic(*s, {.steps = 20, .arc_length = true}, [&](const StaticPoint& point) {
@@ -352,6 +386,75 @@ TEST(Structure, HingedRoofPassesItsLimitPointsByArcLength) {
   EXPECT_NEAR(peak_at, 11, 0.7);
   EXPECT_NEAR(valley, 0.173, 0.01);
   EXPECT_NEAR(valley_at, 19.5, 0.7);
+}
+
+/// The same, half as thick, turns back in displacement too: two limit points of the load, two of the displacement. The
+/// default arcs miss none, and a straight line between their points nowhere leaves the path of fine arcs by more than
+/// 2 % of the largest load.
+TEST(Structure, ThinRoofsPathIsTheSameForAnyFirstArc) {
+  struct At {
+    double w, factor;
+  };
+  const Roof roof(6.35);
+  const auto follow = [&](int steps, int& limits) {
+    std::vector<At> path{{0, 0}};
+    const StaticReport r = solveStatic(*roof.structure, {.steps = steps, .arc_length = true, .max_points = 2000},
+                                       [&](const StaticPoint& p) {
+                                         const Vec3 x = controlPoints(*roof.structure, p.y, p.factor)[0];
+                                         path.push_back({2540 - x.z, p.factor});
+                                         limits += p.limit_point;
+                                         EXPECT_FALSE(p.jumped);
+                                         EXPECT_FALSE(p.bifurcation);
+                                         return true;
+                                       });
+    EXPECT_TRUE(r.reached) << r.why;
+    return path;
+  };
+  int limits = 0;
+  const std::vector<At> fine = follow(400, limits);
+  EXPECT_EQ(limits, 2);
+  double largest = 0;  // before the path rises for good
+  for (const At& p : fine)
+    if (p.w < 17) largest = std::max(largest, p.factor);
+  for (const int steps : {1, 3, 10, 40}) {
+    limits = 0;
+    const std::vector<At> path = follow(steps, limits);
+    EXPECT_EQ(limits, 2) << steps;
+    // Distance of the fine points from the polygon, with the load in parts of its largest and w in parts of 17.
+    double worst = 0;
+    for (const At& p : fine) {
+      if (p.factor > largest) continue;
+      double nearest = 1e9;
+      for (std::size_t k = 1; k < path.size(); ++k) {
+        const auto at = [&](const At& x) { return Vec3{x.w / 17, x.factor / largest, 0}; };
+        const Vec3 d = at(path[k]) - at(path[k - 1]), q = at(p) - at(path[k - 1]);
+        const double t = std::clamp(dot(q, d) / dot(d, d), 0.0, 1.0);
+        nearest = std::min(nearest, norm(q - t * d));
+      }
+      worst = std::max(worst, nearest);
+    }
+    EXPECT_LT(worst, 0.02) << steps;
+  }
+}
+
+/// A ruler, clamped at one end: bending is 1e-11 of the membrane. omega = 1.8751^2, 4.6941^2 sqrt(E h^2/(12 rho))/L^2.
+TEST(Structure, SlenderStripsHaveTheirFrequencies) {
+  for (const auto& [length, width, h] : {std::array{1.0, 0.05, 1e-3}, {1.0, 1.0, 1e-4}, {1.0, 0.01, 1e-5}}) {
+    const double E = 7e10, rho = 2700;
+    const Garment g =
+        garmentOf({flatPatch(uniformKnots(3, 24), uniformKnots(3, 3), length, width)}, {}, isotropic(E, 0, h, rho));
+    StructureOptions o;
+    o.constraints = all(supportEdge(g, {0, Side::u0}, kAxes), clampRotation(g, {0, Side::u0}));
+    const auto s = buildStructure(g, o);
+    const auto modes = naturalModes(*s, {}, 0, 6);
+    ASSERT_EQ(modes.size(), 6u);
+    const double c = std::sqrt(E * h * h / (12 * rho)) / (length * length);
+    EXPECT_NEAR(modes[0].omega_rad_per_s, 3.516015 * c, 2e-4 * 3.516015 * c);
+    for (const Mode& m : modes) {
+      EXPECT_LT(m.residual, 1e-9);
+      EXPECT_LT(m.rounding, 1e-5);
+    }
+  }
 }
 
 /// omega = pi^2 (m^2 + n^2)/a^2 sqrt(D/(rho h)), D = E h^3/(12 (1 - nu^2)): the second is double.
