@@ -42,12 +42,17 @@ Object staticSolverTable() {
   return table
       .flag("arc_length", statics(&StaticOptions::arc_length),
             "follows the path through limit points, where the load must fall (snap-through)")
+      .number("largest_arc", statics(&StaticOptions::largest_arc_m), "m", between(0, 1e9),
+              "arc length: no control point moves farther in a step; 0: as far as the path is nearly straight, and at "
+              "most four times the first step")
       .integer("max_points", statics(&StaticOptions::max_points), 1, 1000000, "points of the path, arc length only")
       .number("stop_factor", statics(&StaticOptions::stop_factor), "", between(-1e6, 1e6),
               "arc length ends where the factor first reaches this")
       .check([](const Place& p, const StructureCase& c) {
         if (c.statics.linear && c.statics.arc_length) p.failAt("arc_length", "contradicts linear; give one of them");
         const StaticOptions standard;
+        if (!c.statics.arc_length && c.statics.largest_arc_m != standard.largest_arc_m)
+          p.failAt("largest_arc", "goes with \"arc_length\": true");
         if (!c.statics.arc_length && c.statics.max_points != standard.max_points)
           p.failAt("max_points", "goes with \"arc_length\": true");
         if (!c.statics.arc_length && c.statics.stop_factor != standard.stop_factor)

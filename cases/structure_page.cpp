@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/html.hpp"
@@ -30,6 +31,11 @@ Json summaryOf(const std::filesystem::path& file) {
   } catch (const nlohmann::json::exception& e) {
     throw InputError({file.string(), 0, ""}, e.what());
   }
+}
+
+/// What is not finite is null in the file.
+double numberOf(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
 PathTable tableFrom(const std::filesystem::path& file) {
@@ -138,7 +144,7 @@ std::string placesTable(const Json& summary) {
     for (const Json& place : summary.at(list)) {
       std::vector<Cell> row{Cell(place.at("name").get<std::string>())};
       for (std::size_t k = 1; k < table.columns.size(); ++k)
-        row.push_back(place.contains(table.columns[k]) ? Cell(place.at(table.columns[k]).get<double>(), 5) : Cell(""));
+        row.push_back(place.contains(table.columns[k]) ? Cell(numberOf(place.at(table.columns[k])), 5) : Cell(""));
       table.rows.push_back(std::move(row));
     }
     out += tableOf(table);
@@ -153,8 +159,8 @@ std::string modesTable(const Json& summary) {
               {}};
   int k = 0;
   for (const Json& m : summary.at("modes"))
-    table.rows.push_back({Cell(std::to_string(++k)), Cell(m.at("frequency_Hz").get<double>(), 6),
-                          Cell(m.at("omega_rad_per_s").get<double>(), 6), Cell(m.at("residual").get<double>(), 2)});
+    table.rows.push_back({Cell(std::to_string(++k)), Cell(numberOf(m.at("frequency_Hz")), 6),
+                          Cell(numberOf(m.at("omega_rad_per_s")), 6), Cell(numberOf(m.at("residual")), 2)});
   return tableOf(table);
 }
 
@@ -163,18 +169,17 @@ std::string sentenceOf(const StructureCase& c, const Json& s) {
   if (c.kind == StructureKind::modal) {
     if (s.at("modes").empty()) return "No frequency was found.";
     return fmt::format("The lowest natural frequency is {} Hz.",
-                       formatNumber(s.at("modes")[0].at("frequency_Hz").get<double>(), 5));
+                       formatNumber(numberOf(s.at("modes")[0].at("frequency_Hz")), 5));
   }
-  const std::string moved = formatNumber(s.at("largest_displacement_m").get<double>(), 4);
+  const std::string moved = formatNumber(numberOf(s.at("largest_displacement_m")), 4);
   if (c.kind == StructureKind::dynamics)
-    return fmt::format("At {} s the largest displacement is {} m.", formatNumber(s.at("time_s").get<double>(), 4),
-                       moved);
+    return fmt::format("At {} s the largest displacement is {} m.", formatNumber(numberOf(s.at("time_s")), 4), moved);
   std::string text = fmt::format("At load factor {} the largest displacement is {} m",
-                                 formatNumber(s.at("factor").get<double>(), 4), moved);
+                                 formatNumber(numberOf(s.at("factor")), 4), moved);
   if (c.output.points.size() == 1 && !s.at("points").empty()) {
     const Json& p = s.at("points")[0];
     if (p.contains("ux_m")) {
-      const double u[] = {p.at("ux_m").get<double>(), p.at("uy_m").get<double>(), p.at("uz_m").get<double>()};
+      const double u[] = {numberOf(p.at("ux_m")), numberOf(p.at("uy_m")), numberOf(p.at("uz_m"))};
       const double most = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
       const auto shown = [&](double v) { return formatNumber(std::abs(v) > kRounding * most ? v : 0, 4); };
       text +=
@@ -227,13 +232,41 @@ std::vector<std::string> assumptionsOf(const StructureCase& c) {
   return a;
 }
 
+std::vector<AuditCheck> checksOf(const Json& s) {
+  std::vector<AuditCheck> checks;
+  if (s.contains("checks"))
+    for (const Json& k : s.at("checks"))
+      checks.push_back({k.at("check").get<std::string>(), numberOf(k.at("value")), numberOf(k.at("limit")),
+                        k.at("unit").get<std::string>(), k.at("meaning").get<std::string>(),
+                        k.at("wrong").get<std::string>()});
+  return checks;
+}
+
+/// What a path by arc length went by.
+std::string passedOf(const Json& arc) {
+  Table t{"What the path passed", "", {"", "how many", "before the points at load factor"}, {}};
+  for (const auto& [key, name] :
+       {std::pair("limit_points", "limit points: the load turned"),
+        std::pair("bifurcations", "bifurcations: another path branches off, which was not followed"),
+        std::pair("unknown_before", "places where the path bends more than the arcs could follow")}) {
+    std::string at;
+    for (const Json& factor : arc.at(key)) at += (at.empty() ? "" : ", ") + formatNumber(numberOf(factor), 4);
+    t.rows.push_back({Cell(name), Cell(std::to_string(arc.at(key).size())), Cell(at)});
+  }
+  return sectionOf(
+      "passed", "What the path passed",
+      "Arcs are made so short that a straight line between two points misses little of the path. Where that did "
+      "not succeed the last row says so: a limit point may lie there unseen.",
+      element("div", tableOf(t), " class=\"charts\""));
+}
+
 std::string factsTable(const Json& s) {
   Table t{"The run", "", {"fact", "value"}, {}};
   const auto number = [&](const char* key, const char* name, const char* unit) {
     if (!s.contains(key)) return;
     const Json& value = s.at(key);
     t.rows.push_back(
-        {Cell(name), Cell(value.is_number_integer() ? value.dump() : formatNumber(value.get<double>(), 5) + unit)});
+        {Cell(name), Cell(value.is_number_integer() ? value.dump() : formatNumber(numberOf(value), 5) + unit)});
   };
   number("patches", "Patches", "");
   number("control_points", "Control points", "");
@@ -247,16 +280,16 @@ std::string factsTable(const Json& s) {
     for (const auto& [where, threads] : s.at("thread_strain").items())
       for (const auto& [thread, values] : threads.items())
         t.rows.push_back({Cell(fmt::format("Strain of the {} at {} points: largest, mean at the end", thread, where)),
-                          Cell(formatNumber(values.at("largest").get<double>(), 3) + ", " +
-                               formatNumber(values.at("mean").get<double>(), 3))});
+                          Cell(formatNumber(numberOf(values.at("largest")), 3) + ", " +
+                               formatNumber(numberOf(values.at("mean")), 3))});
   if (s.contains("strain_limit"))
     for (const auto& [key, value] : s.at("strain_limit").items())
-      t.rows.push_back({Cell("Strain limit: " + key), Cell(formatNumber(value.get<double>(), 3))});
+      t.rows.push_back({Cell("Strain limit: " + key), Cell(formatNumber(numberOf(value), 3))});
   for (const auto& [key, value] : s.at("solver").items())
     if (value != 0) t.rows.push_back({Cell("Solver: " + key), Cell(value.dump())});
   t.rows.push_back(
       {Cell("Computed in"),
-       Cell(fmt::format("{} s; threads: {}; kernels: {}", formatNumber(s.at("timings").at("wall_s").get<double>()),
+       Cell(fmt::format("{} s; threads: {}; kernels: {}", formatNumber(numberOf(s.at("timings").at("wall_s"))),
                         s.at("timings").at("threads").dump(), s.at("kernels").get<std::string>()))});
   t.rows.push_back({Cell("Gambeson"), Cell(s.at("version").get<std::string>())});
   t.rows.push_back({Cell("Case hash"), Cell(s.at("case_hash").get<std::string>())});
@@ -276,20 +309,22 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
                     escape("The run did not reach its end: " + s.at("why").get<std::string>() +
                            ". What follows is what converged before."),
                     " class=\"alarm\" role=\"alert\"");
-  if (s.contains("jumps") && s.at("jumps").get<int>() > 0)
+  const std::vector<AuditCheck> checks = checksOf(s);
+  body += alarmOf(checks);
+  if (s.contains("jumps") && s.at("jumps").get<int>() > 0 && !s.contains("arc_length"))
     body += html::notice(
         "A load step went over a limit point and landed on a stable state beyond it (column \"jumped\" of path.csv): "
         "the path between is not known. \"arc_length\": true follows it.");
-  if (s.contains("rounded_residual") && s.at("rounded_residual").get<double>() > 1e-6)
+  if (s.contains("rounded_residual") && numberOf(s.at("rounded_residual")) > 1e-6)
     body += html::notice(fmt::format(
         "Rounding kept the forces of some points (column \"rounded\" of path.csv) from balancing within the tolerance: "
         "up to {} of them is left, since the loads are small beside the stiffness.",
-        formatNumber(s.at("rounded_residual").get<double>(), 2)));
+        formatNumber(numberOf(s.at("rounded_residual")), 2)));
   if (s.contains("strain_limit") && s.at("strain_limit").at("unconverged_steps").get<long>() > 0)
     body += html::notice(fmt::format(
         "{} of {} steps did not reach the strain limit within its tolerance; the strain missed it by up to {}.",
         s.at("strain_limit").at("unconverged_steps").dump(), s.at("solver").at("steps").dump(),
-        formatNumber(s.at("strain_limit").at("largest_residual").get<double>())));
+        formatNumber(numberOf(s.at("strain_limit").at("largest_residual")))));
   const std::string sentence = sentenceOf(c, s);
   std::string head = element("div", element("p", escape(sentence), " class=\"sentence\""), " class=\"words\"");
   if (!pictures.empty()) head += figureOf(pictures.front());
@@ -299,8 +334,7 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
   if (c.kind == StructureKind::modal) {
     body += sectionOf("modes", "Frequencies", "", charts(modesTable(s)));
   } else {
-    const double size = std::sqrt(s.at("area_m2").get<double>()),
-                 force = s.at("largest_stress_N_per_m").get<double>() * size;
+    const double size = std::sqrt(numberOf(s.at("area_m2"))), force = numberOf(s.at("largest_stress_N_per_m")) * size;
     body += sectionOf("path", c.kind == StructureKind::statics ? "The path" : "The motion",
                       "All numbers are in path.csv.", charts(plots(c, path, force, force * size) + placesTable(s)));
   }
@@ -309,6 +343,9 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
     for (std::size_t k = 1; k < pictures.size(); ++k) more += figureOf(pictures[k]);
     body += sectionOf("pictures", "Pictures", "", element("div", more, " class=\"pictures\""));
   }
+  if (s.contains("arc_length")) body += passedOf(s.at("arc_length"));
+  if (!checks.empty())
+    body += sectionOf("audit", "Why to trust these numbers", "", charts(auditTableOf(checks, "Checks of this run")));
   std::string assumed;
   for (const std::string& a : assumptionsOf(c)) assumed += element("li", escape(a));
   body += sectionOf("assumptions", "What was assumed", "", element("ul", assumed, " class=\"assumptions\""));

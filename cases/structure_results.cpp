@@ -86,7 +86,8 @@ void writeShapeTable(const ShapeMesh& mesh, const MeshShape& shape, const std::f
 
 void writeStructureSummary(const StructureCase& c, const StructureModel& model, const PathTable& path,
                            const std::vector<ModeRow>& modes, const MeasuredState& last, const ShapeMesh& mesh,
-                           const MeshShape& shape, const StructureFacts& facts, const std::filesystem::path& file) {
+                           const MeshShape& shape, const StructureFacts& facts, const std::vector<AuditCheck>& checks,
+                           const std::filesystem::path& file) {
   const Structure& s = *model.structure;
   Json j{{"name", c.name},
          {"kind", kindName(c.kind)},
@@ -108,7 +109,8 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     for (const ModeRow& m : modes)
       list.push_back({{"omega_rad_per_s", m.omega_rad_per_s},
                       {"frequency_Hz", m.omega_rad_per_s / (2 * std::numbers::pi)},
-                      {"residual", m.residual}});
+                      {"residual", m.residual},
+                      {"rounding", m.rounding}});
     j["modes"] = list;
   } else {
     // The largest component is what codes give that look at their vector of unknowns.
@@ -127,6 +129,10 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     if (c.kind == StructureKind::statics) {
       j["jumps"] = facts.jumps;
       j["rounded_residual"] = facts.rounded;
+      if (c.statics.arc_length)
+        j["arc_length"] = {{"limit_points", facts.limit_points},
+                           {"bifurcations", facts.bifurcations},
+                           {"unknown_before", facts.jumped_at}};
     }
     j["strain_energy_J"] = last.strain_energy_J;
     j["largest_displacement_m"] = displacement;
@@ -167,6 +173,15 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     audit["momentum_gap_over_impulses"] = part(a.largestMomentumGap(), a.impulses());
     j["audit"] = audit;
   }
+  j["checks"] = Json::array();
+  for (const AuditCheck& k : checks)
+    j["checks"].push_back({{"check", k.name},
+                           {"value", k.value},
+                           {"limit", k.limit},
+                           {"unit", k.unit},
+                           {"holds", k.holds()},
+                           {"meaning", k.meaning},
+                           {"wrong", k.holds() ? "" : k.wrong}});
   j["solver"] = {{c.kind == StructureKind::dynamics ? "steps" : "points", facts.points},
                  {"iterations", facts.iterations},
                  {"factorisations", facts.factorisations}};

@@ -25,7 +25,8 @@ struct StructureFacts {
   bool finished = false;
   std::string why;  ///< else
   long points = 0, factorisations = 0, iterations = 0;
-  int jumps = 0;       ///< of load steps over limit points
+  int jumps = 0;  ///< of load steps over limit points; of arc length: where the path bent too much for the arcs
+  std::vector<double> limit_points, bifurcations, jumped_at;  ///< of arc length: the factors of the points after them
   double rounded = 0;  ///< largest relative residual of points that rounding kept above the tolerance; 0: none
   long projections = 0, limits_missed = 0;  ///< of strain limits, and steps that did not reach the tolerance
   double limit_residual = 0;                ///< the largest after a step
@@ -35,7 +36,7 @@ struct StructureFacts {
 };
 
 struct ModeRow {
-  double omega_rad_per_s = 0, residual = 0;
+  double omega_rad_per_s = 0, residual = 0, rounding = 0;
 };
 
 /// Frame number `index` (frames count up, factors of a path need not).
@@ -50,7 +51,8 @@ void writeShapeTable(const ShapeMesh& mesh, const MeshShape& shape, const std::f
 /// summary.json; all but "timings" is decided by the case alone.
 void writeStructureSummary(const StructureCase& c, const StructureModel& model, const PathTable& path,
                            const std::vector<ModeRow>& modes, const MeasuredState& last, const ShapeMesh& mesh,
-                           const MeshShape& shape, const StructureFacts& facts, const std::filesystem::path& json);
+                           const MeshShape& shape, const StructureFacts& facts, const std::vector<AuditCheck>& checks,
+                           const std::filesystem::path& json);
 
 /// A picture of a frame, colours from 0 to the largest value of the frame.
 void renderStructure(const StructureCase& c, const RecordingLayout& layout, const Frame& frame,

@@ -10,6 +10,7 @@
 #include "cases/any_case.hpp"
 #include "cases/progress.hpp"
 #include "cases/results_folder.hpp"
+#include "cases/structure_checks.hpp"
 #include "cases/structure_results.hpp"
 #include "cases/structure_strains.hpp"
 #include "core/dynamics/modal.hpp"
@@ -79,11 +80,16 @@ class Run {
     if (frames_ > 0) writer_->closeSegment({});
     writeCsv(out_ / "path.csv", path.columns, path.rows);
     writeShapeTable(mesh_, shape, out_ / "shape.csv");
-    writeStructureSummary(c_, model_, path, modes, last_, mesh_, shape, facts, out_ / "summary.json");
+    const std::vector<AuditCheck> checks = structureChecks(c_, model_, path, modes, last_, shape, facts);
+    writeStructureSummary(c_, model_, path, modes, last_, mesh_, shape, facts, checks, out_ / "summary.json");
     std::vector<std::string> failures;
     const std::vector<Picture> pictures = takeStructurePictures(c_, out_, out_ / "snapshots", failures);
     writeStructurePage(c_, out_, pictures, out_ / "report.html");
     if (!facts.finished) throw RunError(fmt::format("{}\nWhat converged before is in {}", facts.why, out_.string()));
+    if (!checks.front().holds())
+      throw RunError(fmt::format("{}\nThe report is in {}", checks.front().wrong, out_.string()));
+    for (const AuditCheck& k : checks)
+      if (!k.holds()) fmt::print(stderr, "A check fails: {}\n", k.wrong);
     if (!failures.empty())
       throw RunError(failures.front() + " (the numbers and the report are in " + out_.string() + ")");
   }
@@ -144,6 +150,9 @@ void runStatic(const StructureCase& c, Run& run) {
                                         state.strain_energy_J});
                         if (p.rounded) run.facts.rounded = std::max(run.facts.rounded, p.residual);
                         run.facts.jumps += p.jumped ? 1 : 0;
+                        if (c.statics.arc_length && p.jumped) run.facts.jumped_at.push_back(p.factor);
+                        if (p.limit_point) run.facts.limit_points.push_back(p.factor);
+                        if (p.bifurcation) run.facts.bifurcations.push_back(p.factor);
                         ++run.facts.points;
                         run.facts.iterations += p.iterations;
                         progress.update(std::abs(p.factor), "loading");
@@ -310,7 +319,7 @@ void runModal(const StructureCase& c, Run& run) {
     for (std::size_t k = 0; k < modes.size(); ++k) {
       MeasuredState state = measureMode(s, y, factor, modes[k].shape, 0.1 * norm(high - low));
       state.at = static_cast<double>(k + 1);
-      run.modes.push_back({modes[k].omega_rad_per_s, modes[k].residual});
+      run.modes.push_back({modes[k].omega_rad_per_s, modes[k].residual, modes[k].rounding});
       run.add(state, {state.at, modes[k].omega_rad_per_s, modes[k].omega_rad_per_s / (2 * std::numbers::pi),
                       modes[k].residual});
       if (c.output.shapes == ShapesKept::last) run.keep(state);

@@ -8,6 +8,10 @@
 namespace gambeson {
 
 std::string tableOf(const Table& table);
+/// What fails, in one paragraph for the top of the page, and the table that it points to (#audit); empty where all
+/// hold.
+std::string alarmOf(const std::vector<AuditCheck>& checks);
+std::string auditTableOf(const std::vector<AuditCheck>& checks, const std::string& caption);
 std::string figureOf(const Picture& picture);
 /// A section with a heading; `lead` is text, `body` HTML.
 std::string sectionOf(const std::string& id, const std::string& title, const std::string& lead,

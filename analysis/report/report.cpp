@@ -79,17 +79,7 @@ std::string alarms(const ReportInput& in) {
   std::string out;
   for (const auto& w : in.warnings) out += element("p", escape(w), " class=\"alarm\" role=\"alert\"");
   const Trust trust = trustOf(in);
-  std::string wrong;
-  for (const AuditCheck& c : in.audit) {
-    if (c.holds()) continue;
-    if (!c.wrong.empty()) wrong += (wrong.empty() ? ": " : "; ") + c.wrong;
-  }
-  if (!trust.reliable())
-    out += element("p",
-                   fmt::format("{} of {} checks of this run {}{}. Do not rely on its numbers before you know what that "
-                               "does to them: <a href=\"#audit\">the checks</a>.",
-                               trust.failing, in.audit.size(), trust.failing == 1 ? "fails" : "fail", escape(wrong)),
-                   " class=\"alarm\" role=\"alert\"");
+  if (!trust.reliable()) out += alarmOf(in.audit);
   if (const Stretch* worst = worstOf(in.stretch); trust.stretched > 0)
     out += notice(sentenceOf(*worst) + " No light of this page is green for that.");
   return out;
@@ -141,27 +131,6 @@ std::string joints(const ReportInput& in) {
     out += element("div", tableOf(all), " class=\"charts\"");
   }
   return out;
-}
-
-std::string audit(const ReportInput& in) {
-  std::string rows;
-  for (const auto& c : in.audit)
-    rows += element("tr", element("th", escape(c.name), " scope=\"row\"") + element("td", escape(c.meaning)) +
-                              element("td", escape(formatNumber(c.value, 2) + " " + c.unit), " class=\"number\"") +
-                              element("td", escape(formatNumber(c.limit, 2) + " " + c.unit), " class=\"number\"") +
-                              element("td", c.holds() ? "<span class=\"good\">\u2713 holds</span>"
-                                                      : "<span class=\"bad\">\u2717 fails</span>"));
-  const std::string head =
-      element("tr", element("th", "check", " scope=\"col\"") + element("th", "what is compared", " scope=\"col\"") +
-                        element("th", "measured", " scope=\"col\" class=\"number\"") +
-                        element("th", "allowed", " scope=\"col\" class=\"number\"") +
-                        element("th", "verdict", " scope=\"col\""));
-  return element("div",
-                 element("div",
-                         element("table", element("caption", "Checks of every step") + element("thead", head) +
-                                              element("tbody", rows)),
-                         " class=\"scroll\""),
-                 " class=\"panel\"");
 }
 
 template <class Item, class Show>
@@ -252,6 +221,43 @@ Cell Cell::signal(const std::string& light) {
   return c;
 }
 
+std::string alarmOf(const std::vector<AuditCheck>& checks) {
+  int failed = 0;
+  std::string wrong;
+  for (const AuditCheck& c : checks) {
+    if (c.holds()) continue;
+    ++failed;
+    if (!c.wrong.empty()) wrong += (wrong.empty() ? ": " : "; ") + c.wrong;
+  }
+  if (failed == 0) return "";
+  return element("p",
+                 fmt::format("{} of {} checks of this run {}{}. Do not rely on its numbers before you know what that "
+                             "does to them: <a href=\"#audit\">the checks</a>.",
+                             failed, checks.size(), failed == 1 ? "fails" : "fail", escape(wrong)),
+                 " class=\"alarm\" role=\"alert\"");
+}
+
+std::string auditTableOf(const std::vector<AuditCheck>& checks, const std::string& caption) {
+  std::string rows;
+  for (const AuditCheck& c : checks)
+    rows += element("tr", element("th", escape(c.name), " scope=\"row\"") + element("td", escape(c.meaning)) +
+                              element("td", escape(formatNumber(c.value, 2) + " " + c.unit), " class=\"number\"") +
+                              element("td", escape(formatNumber(c.limit, 2) + " " + c.unit), " class=\"number\"") +
+                              element("td", c.holds() ? "<span class=\"good\">\u2713 holds</span>"
+                                                      : "<span class=\"bad\">\u2717 fails</span>"));
+  const std::string head =
+      element("tr", element("th", "check", " scope=\"col\"") + element("th", "what is compared", " scope=\"col\"") +
+                        element("th", "measured", " scope=\"col\" class=\"number\"") +
+                        element("th", "allowed", " scope=\"col\" class=\"number\"") +
+                        element("th", "verdict", " scope=\"col\""));
+  return element(
+      "div",
+      element("div",
+              element("table", element("caption", escape(caption)) + element("thead", head) + element("tbody", rows)),
+              " class=\"scroll\""),
+      " class=\"panel\"");
+}
+
 Cell::Cell(double v, int digits) : text(formatNumber(v, digits)), number(true) {}
 
 Trust trustOf(const ReportInput& input) {
@@ -323,8 +329,9 @@ std::string formatReport(const ReportInput& in) {
     body += sectionOf("supports", "What holds the garment",
                       "Reactions of the supports are reported apart and are part of no joint torque.",
                       charts(each(in.support_tables, tableOf)));
-  body += sectionOf("audit", "Why to trust these numbers", "",
-                    in.audit.empty() ? notice("This run was not audited.") : charts(audit(in)));
+  body += sectionOf(
+      "audit", "Why to trust these numbers", "",
+      in.audit.empty() ? notice("This run was not audited.") : charts(auditTableOf(in.audit, "Checks of every step")));
   body += sectionOf("assumptions", "What was assumed", "",
                     in.assumptions.empty()
                         ? notice("The assumptions of this run were not recorded.")
