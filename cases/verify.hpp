@@ -64,8 +64,11 @@ struct Check {
   std::string item;
   Priority priority = Priority::none;
   std::string quantity, unit;  ///< what is measured, in words
-  std::string note;            ///< on the page: where the tolerance comes from, why it is not gated
+  std::string note;            ///< on the page: where the tolerance comes from
+  std::string why;             ///< of what is reported only: why; empty: as the reference says
   bool gated = true;
+  /// Whether a deviation is a failure: nothing of a list of claims but what must hold.
+  bool gates() const { return gated && (priority == Priority::none || priority == Priority::must); }
 
   // value: (of - minus) / over
   Quantity of;
@@ -135,6 +138,7 @@ struct ReferenceTable {
 struct Reference {
   std::filesystem::path file;
   std::string id, title, group, source, doc;
+  std::string why;  ///< why checks are reported only that do not say it themselves
   bool quick = false;
   bool on_demand = false;  ///< runs only where a filter names it: it takes an hour
   JsonNode inline_case;
@@ -180,7 +184,7 @@ struct Result {
   bool passed = false, gated = true;
   bool other_run = false;  ///< of a run named in `also`: the page shows it as convergence
   double seconds = 0;
-  std::string note;
+  std::string note, why;
 };
 
 /// Points of a check for the page: measured lines and reference points.
@@ -243,6 +247,8 @@ struct Verified {
   double seconds = 0;             ///< of its runs together
   std::vector<Result> results() const;
   bool passed() const;
+  /// Whether anything could fail: runs apart, a reference that only reports passes whatever it measures.
+  bool gates() const;
 };
 
 /// Judges all checks; runs that failed are failures of their own.

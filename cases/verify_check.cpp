@@ -128,8 +128,9 @@ Result resultOf(const Reference& reference, const Check& c, const std::string& r
   if (c.priority == Check::Priority::must) r.priority = "must";
   if (c.priority == Check::Priority::should) r.priority = "should";
   if (c.priority == Check::Priority::nice) r.priority = "nice";
-  r.gated = gated && c.gated && (c.priority == Check::Priority::none || c.priority == Check::Priority::must);
+  r.gated = gated && c.gates();
   r.note = c.note;
+  if (!c.gates()) r.why = c.why.empty() ? reference.why : c.why;
   return r;
 }
 

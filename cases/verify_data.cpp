@@ -1,6 +1,7 @@
 /// What a run left, as the checks read it.
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <charconv>
 #include <fstream>
@@ -195,6 +196,10 @@ std::vector<Result> Verified::results() const {
   for (const Judged& j : judged) all.insert(all.end(), j.results.begin(), j.results.end());
   for (Result& r : all) r.seconds = seconds;
   return all;
+}
+
+bool Verified::gates() const {
+  return std::any_of(reference.checks.begin(), reference.checks.end(), [](const Check& c) { return c.gates(); });
 }
 
 bool Verified::passed() const {

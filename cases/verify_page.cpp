@@ -74,6 +74,8 @@ std::string resultTable(const Verified& v) {
     if (!r.item.empty())
       what = element("b", escape(r.item)) + (r.priority.empty() ? "" : " (" + escape(r.priority) + ")") + ": " + what;
     if (!r.note.empty()) what += "<br><span class=\"soft\">" + escape(r.note) + "</span>";
+    if (!r.why.empty() && r.why != v.reference.why)
+      what += "<br><span class=\"soft\">Reported only: " + escape(r.why) + "</span>";
     const std::string none = r.gated ? "none" : "";  // to be compared with
     rows += element("tr", cell(verdict(r)) + cell(what) + cell(escape(r.unit)) + cell(numberText(r.measured), true) +
                               cell(numberText(r.reference, 6, none), true) +
@@ -149,6 +151,32 @@ std::string reproduce(const Verified& v) {
   return element("details", element("summary", "Runs and their results") + element("ul", list));
 }
 
+std::string statusOf(const Verified& v) {
+  if (!v.passed()) return "<span class=\"bad\">FAILED</span>";
+  return v.gates() ? "<span class=\"good\">passed</span>" : "<span class=\"soft\">gates nothing</span>";
+}
+
+/// At the top: what cannot fail here.
+std::string reportsOnly(const std::vector<Verified>& all) {
+  std::string list;
+  for (const Verified& v : all) {
+    if (v.gates()) continue;
+    int off = 0, reported = 0;
+    for (const Result& r : v.results())
+      if (!r.other_run) ++reported, off += !r.passed;
+    list += element("li", fmt::format("<a href=\"#{}\">{}</a>: {} of {} numbers are off{}", escape(v.reference.id),
+                                      escape(v.reference.title), off, reported,
+                                      v.reference.why.empty() ? "" : ". " + escape(v.reference.why)));
+  }
+  if (list.empty()) return "";
+  return element("div",
+                 element("p",
+                         "These references gate nothing: their numbers are shown, and none of them can fail this "
+                         "page, however far off it is.") +
+                     element("ul", list),
+                 " class=\"alarm\" role=\"alert\"");
+}
+
 std::string section(const Verified& v) {
   std::string charts, tables, rows;
   for (std::size_t i = 0; i < v.judged.size(); ++i) {
@@ -158,12 +186,15 @@ std::string section(const Verified& v) {
     tables += convergenceTable(j, c);
     if (j.shown) rows += rowTable(*j.shown);
   }
-  const std::string status = v.passed() ? "<span class=\"good\">passed</span>" : "<span class=\"bad\">FAILED</span>";
   return element("section",
-                 element("h3", escape(v.reference.title) + " " + status, " class=\"title\"") +
+                 element("h3", escape(v.reference.title) + " " + statusOf(v), " class=\"title\"") +
                      element("p", escape("Source: " + v.reference.source), " class=\"source\"") +
-                     element("p", escape(v.reference.doc), " class=\"doc\"") + resultTable(v) +
-                     (charts.empty() ? "" : element("div", charts, " class=\"charts\"")) + tables + rows + reproduce(v),
+                     element("p", escape(v.reference.doc), " class=\"doc\"") +
+                     (v.reference.why.empty()
+                          ? ""
+                          : element("p", escape("What is reported only: " + v.reference.why), " class=\"doc\"")) +
+                     resultTable(v) + (charts.empty() ? "" : element("div", charts, " class=\"charts\"")) + tables +
+                     rows + reproduce(v),
                  fmt::format(" class=\"reference\" id=\"{}\"", escape(v.reference.id)));
 }
 
@@ -184,9 +215,9 @@ std::string overview(const std::vector<Verified>& all, const std::vector<std::st
         if (r.gated && used(r) && (!worst || *used(r) > *used(*worst))) worst = &r;
       }
       rows += element(
-          "tr", cell(v.passed() ? "<span class=\"good\">passed</span>" : "<span class=\"bad\">FAILED</span>") +
+          "tr", cell(statusOf(v)) +
                     cell(fmt::format("<a href=\"#{}\">{}</a>", escape(v.reference.id), escape(v.reference.title))) +
-                    cell(fmt::format("{} of {}", good, gated), true) +
+                    cell(gated ? fmt::format("{} of {}", good, gated) : "none is gated", true) +
                     cell(reported ? fmt::format("{}", reported) : "", true) +
                     cell(missing ? "<span class=\"bad\">no number</span>"
                          : worst ? meter(*worst)
@@ -212,16 +243,17 @@ std::string tile(const std::string& kind, int count, const std::string& what) {
 
 std::string formatPage(const std::vector<Verified>& all, const std::string& command, double wall_s,
                        const std::vector<PageLink>& pages) {
-  int passed = 0, checks = 0, checks_failed = 0, reported = 0;
+  int passed = 0, failed = 0, checks = 0, checks_failed = 0, reported = 0;
   std::vector<std::string> groups;
   for (const Verified& v : all) {
-    passed += v.passed();
+    passed += v.gates() && v.passed();
+    failed += !v.passed();
     for (const Result& r : v.results())
       checks += r.gated, checks_failed += r.gated && !r.passed, reported += !r.gated && !r.other_run;
     if (std::find(groups.begin(), groups.end(), v.reference.group) == groups.end()) groups.push_back(v.reference.group);
   }
-  const int failed = static_cast<int>(all.size()) - passed;
   std::string body =
+      reportsOnly(all) +
       element("div",
               tile("good", passed, "references passed") + tile(failed ? "bad" : "", failed, "references failed") +
                   tile("", checks, "gated checks") + tile(checks_failed ? "bad" : "", checks_failed, "of them failed") +

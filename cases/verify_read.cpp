@@ -217,6 +217,7 @@ schema::Object checkTable() {
   t.text("quantity", &C::quantity, "what is measured, in words").required();
   t.text("unit", &C::unit, "unit of the number");
   t.text("note", &C::note, "said on the page beside the result");
+  t.text("why", &C::why, "of what is reported only: why; required unless the reference says it for all");
   t.text("item", &C::item, "claim of a list that the check belongs to");
   t.choice("priority", &C::priority,
            std::vector<std::pair<std::string, C::Priority>>{
@@ -280,7 +281,7 @@ schema::Object checkTable() {
       const auto in = [&](const std::vector<std::string>& v) {
         return std::find(v.begin(), v.end(), n.key) != v.end();
       };
-      if (!in({"kind", "quantity", "unit", "note", "gated", "item", "priority"}) && !in(rule->needs) &&
+      if (!in({"kind", "quantity", "unit", "note", "why", "gated", "item", "priority"}) && !in(rule->needs) &&
           !in(rule->allows))
         p.failAt(n.key, fmt::format("is not for a check of kind {}", rule->name));
     }
@@ -382,6 +383,9 @@ void checkNames(const Place& p, const Reference& r) {
         place.failAt(key, fmt::format("there is no column \"{}\" in the reference's table; there are: {}", name,
                                       schema::joined(all)));
     };
+    if (c.gates() && !c.why.empty()) place.failAt("why", "is for what is reported only, and this check is gated");
+    if (!c.gates() && c.why.empty() && r.why.empty())
+      place.fail("is reported only and says nowhere why: give why here, or in the reference for all such checks");
     for (const std::string& run : c.also) known("also", run);
     for (const std::string& run : c.runs) known("runs", run);
     for (const std::string& run : c.reference_runs) known("reference_runs", run);
@@ -413,6 +417,7 @@ schema::Object referenceTable() {
   t.text("group", &R::group, "heading that it stands under");
   t.text("source", &R::source, "where the published numbers are from").required();
   t.text("doc", &R::doc, "problem, mesh, what is compared and why the tolerance is what it is").required();
+  t.text("why", &R::why, "why checks are reported only that do not say it themselves");
   boolean(t, "quick", &R::quick, "belongs to the quick half");
   boolean(t, "on_demand", &R::on_demand, "runs only where a filter names it");
   t.custom(

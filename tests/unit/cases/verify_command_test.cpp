@@ -114,9 +114,57 @@ TEST_F(VerifyCommand, AWrongNumberFails) {
   EXPECT_NE(out.str().find("FAILED  tip"), std::string::npos);
   EXPECT_NE(content("verify.html").find("FAILED"), std::string::npos);
   // Reported, it does not count.
-  write("tip", replaced(reference_text, "\"reference\": 2.5", "\"gated\": false, \"reference\": 2.6"));
+  write("tip", replaced(reference_text, "\"reference\": 2.5", R"("gated": false, "why": "a slip", "reference": 2.6)"));
   EXPECT_EQ(runVerify(options, out), 0);
   EXPECT_FALSE(written()[0].at("passed").get<bool>());
+  EXPECT_EQ(written()[0].at("why"), "a slip");
+  EXPECT_NE(content("verify.html").find("Reported only: a slip"), std::string::npos);
+}
+
+/// A reference whose checks are all reported cannot fail: neither the console nor the page calls that passed.
+TEST_F(VerifyCommand, WhatGatesNothingSaysSo) {
+  const std::string first = replaced(reference_text, "\"reference\": 2.5", R"("gated": false, "reference": 2.6)"),
+                    all = replaced(replaced(first, "\"kind\": \"table\",", R"("kind": "table", "gated": false,)"),
+                                   R"("quick": true)", R"("quick": true, "why": "it only looks")");
+  write("tip", all);
+  write("top", replaced(reference_text, R"("id": "tip")", R"("id": "top")"));
+  EXPECT_EQ(runVerify(options, out), 0);
+  EXPECT_NE(out.str().find("reported  tip  gates nothing: 1 of 2 numbers are off"), std::string::npos) << out.str();
+  EXPECT_EQ(out.str().find("passed  tip"), std::string::npos);
+  EXPECT_NE(out.str().find("1 of 1 references passed (tip gate nothing"), std::string::npos) << out.str();
+  const std::string page = content("verify.html");
+  const std::size_t banner = page.find("These references gate nothing"), overview = page.find("<table");
+  ASSERT_NE(banner, std::string::npos);
+  EXPECT_LT(banner, overview);
+  EXPECT_NE(page.find("none is gated"), std::string::npos);
+  EXPECT_NE(page.find("it only looks"), std::string::npos);
+  // With one check gated there is no such banner.
+  write("tip", replaced(first, "\"gated\": false", R"("gated": false, "why": "it only looks")"));
+  EXPECT_EQ(runVerify(options, out), 0);
+  EXPECT_EQ(content("verify.html").find("These references gate nothing"), std::string::npos);
+  // A run that fails is a failure even so.
+  write("tip", replaced(all, "\"static.steps\": 8", "\"static.steps\": 666"));
+  EXPECT_EQ(runVerify(options, out), 1);
+}
+
+TEST_F(VerifyCommand, WhatIsReportedOnlySaysWhy) {
+  const auto messageOf = [&](const std::string& text) {
+    write("tip", text);
+    try {
+      readReference(options.dir / "tip.json");
+    } catch (const InputError& e) {
+      return e.where().key + ": " + e.reason();
+    }
+    return std::string();
+  };
+  const std::string silent = replaced(reference_text, "\"unit\": \"m\"", R"("gated": false)");
+  EXPECT_NE(messageOf(silent).find("checks[0]: is reported only and says nowhere why"), std::string::npos)
+      << messageOf(silent);
+  EXPECT_EQ(messageOf(replaced(silent, "\"gated\": false", R"("gated": false, "why": "here")")), "");
+  EXPECT_EQ(messageOf(replaced(silent, R"("quick": true)", R"("why": "there")")), "");
+  for (const char* claim : {R"("item": "A", "priority": "should")", R"("item": "A", "priority": "nice")"})
+    EXPECT_NE(messageOf(replaced(reference_text, "\"unit\": \"m\"", claim)), "") << claim;
+  EXPECT_NE(messageOf(replaced(reference_text, "\"unit\": \"m\"", R"("why": "gated all the same")")), "");
 }
 
 TEST_F(VerifyCommand, ARunThatFailsSaysWhy) {
