@@ -13,12 +13,21 @@ constexpr int kRounds = 8;  ///< of solves
 constexpr int kZoneRounds = 12;
 constexpr int kMany = 4096;  ///< samples or rows, from which on threads share the work
 
-/// The distance that a contact restores: half the sum of both sides' thicknesses, at a body that of the cloth, and no
-/// less than keeps the cloth between the samples out of it. Weights of a side add up to 1.
-double layerOf(const Model& m, const ContactRow& row) {
+/// The sum of both sides' thicknesses; weights of a side add up to 1, a body has none.
+double clothLayer(const Model& m, const ContactRow& row) {
   double sum = 0;
   for (int k = 0; k < row.stencil.count; ++k) sum += std::abs(row.stencil.weight[k]) * m.layer_m[row.stencil.sample[k]];
+  return sum;
+}
+/// The distance that a contact restores: half the sum of both sides' thicknesses, at a body that of the cloth, and no
+/// less than keeps the cloth between the samples out of it.
+double layerOf(const Model& m, const ContactRow& row) {
+  const double sum = clothLayer(m, row);
   return row.contact.obstacle >= 0 ? std::max(sum, row.contact.clearance_m) : 0.5 * sum;
+}
+/// How far the cloth between the samples stands out from them towards the body: its gap is so much smaller than theirs.
+double standsOut(const Model& m, const ContactRow& row) {
+  return row.contact.obstacle >= 0 ? std::max(0.0, row.contact.clearance_m - clothLayer(m, row)) : 0;
 }
 
 /// Mass per area of the cloth on the side that the normal points to, whose weights add up to 1. Contact::sample does
@@ -377,7 +386,8 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   bodyEdgeRows(m.collisions, dt, w.inside, w.collisions, w.edge_rows);
   persistentRows(m, in, dt, w);
   report.smallest_gap_m = std::numeric_limits<double>::max();
-  for (const ContactRow& row : w.rows) report.smallest_gap_m = std::min(report.smallest_gap_m, row.contact.gap_m);
+  for (const ContactRow& row : w.rows)
+    report.smallest_gap_m = std::min(report.smallest_gap_m, row.contact.gap_m - standsOut(m, row));
   w.rows.insert(w.rows.end(), w.restoring.begin(), w.restoring.end());
   w.warm.resize(w.rows.size());
   report.contacts = static_cast<int>(w.rows.size() - w.restoring.size());
