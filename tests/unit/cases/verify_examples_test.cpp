@@ -24,7 +24,7 @@ const std::string tip = R"json({
   "runs": [{"name": "only"}],
   "checks": [
     {"kind": "value", "quantity": "height", "unit": "m", "of": {"run": "only", "summary": "height"}, "reference": 2, "relative": 0.01},
-    {"kind": "value", "quantity": "width", "unit": "m", "of": {"run": "only", "summary": "width"}, "reference": 2, "relative": 0.01, "gated": false},
+    {"kind": "value", "quantity": "width", "unit": "m", "of": {"run": "only", "summary": "width"}, "reference": 2, "relative": 0.01, "gated": false, "why": "a guess"},
     {"kind": "value", "quantity": "depth", "unit": "m", "of": {"run": "only", "summary": "width"}, "reference": 2, "relative": 0.01}
   ]
 })json";
