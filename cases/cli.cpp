@@ -149,7 +149,9 @@ void addCheck(CLI::App& app, CheckArguments& a) {
       "  gambeson check my_case.json\n"
       "  gambeson check my_case.json --full --set garment.shorts.ease=\"10 %\"\n"
       "  gambeson check --schema > case.schema.json\n\n"
-      "Exit status: 0 the case is valid; 2 it is not, and the message says file, line, key and what is allowed.");
+      "Exit status: 0 the case is valid: all that a run starts from was built; 1 the body cannot be freed of the "
+      "garment; 2 it "
+      "is not valid, and the message says file, line, key and what is allowed.");
 }
 
 void addDraft(CLI::App& app, DraftArguments& a) {
@@ -308,6 +310,15 @@ void addBatch(CLI::App& app, StudyArguments& a) {
       "Exit status: 0 all cases are done; 1 some failed; 2 something in the input is wrong, and nothing ran.");
 }
 
+/// Builds what a run of the case starts from: a case that is valid can be run.
+void checkBuild(const AnyCase& any) {
+  useThreads(0);
+  if (const auto* structure = std::get_if<StructureCase>(&any))
+    checkStructure(*structure);
+  else
+    checkRun(std::get<Case>(any));
+}
+
 int check(const CheckArguments& a, std::ostream& out) {
   if (a.schema) out << caseSchema();
   if (a.doc) out << caseFields();
@@ -316,6 +327,7 @@ int check(const CheckArguments& a, std::ostream& out) {
     throw InputError({"command line", 0, "CASE"}, "is required: the case file to check");
   }
   const AnyCase any = readAnyCase(a.file, a.overrides);
+  checkBuild(any);
   out << (a.full ? std::visit([](const auto& c) { return writeCase(c); }, any)
                  : fmt::format("{}: valid\n", a.file.string()));
   return done;
@@ -347,7 +359,10 @@ int studyCommand(StudyArguments& a, std::ostream& out) {
   a.options.slurm = a.engine == "slurm";
   const study::Study s = study::readStudy(a.file);
   if (!a.check) return study::runStudy(s, a.options, out);
-  for (const study::Variant& v : s.variants) out << v.folder << '\n';
+  for (const study::Variant& v : s.variants) {
+    checkBuild(v.definition);
+    out << v.folder << '\n';
+  }
   out << fmt::format("{}: valid, {} variants\n", a.file.string(), s.variants.size());
   return done;
 }

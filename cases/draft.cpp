@@ -2,15 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <ostream>
 
 #include "cases/factors.hpp"
 #include "cases/overloaded.hpp"
+#include "cases/places.hpp"
 #include "cases/schema.hpp"
 #include "cases/structure_sheet.hpp"
 #include "core/error.hpp"
 #include "core/sheet/seams.hpp"
+#include "core/sheet/shell_law.hpp"
 #include "core/sheet/surface.hpp"
 #include "human/load.hpp"
 #include "human/skin.hpp"
@@ -19,6 +23,45 @@
 
 namespace gambeson {
 namespace {
+
+constexpr double least_area_m2 = 1e-8;
+
+/// How the case calls a shape.
+const char* wordOf(const decltype(GarmentCase::shape)& shape) {
+  static constexpr std::array words{"sheet", "disc", "tube", "shorts", "belt", "shirt", "skirt", "file"};
+  return words[shape.index()];
+}
+
+/// Cells that a shape is known to get before it is made; 0 for what is drafted on the body or read.
+long cellsOf(const decltype(GarmentCase::shape)& shape) {
+  return std::visit(Overloaded{[](const SheetGarment& s) { return long{s.cells_u} * s.cells_v; },
+                               [](const DiscGarment& d) { return long{d.cells} * d.cells; },
+                               [](const TubeGarment& t) { return long{t.cells_around} * t.cells_along; },
+                               [](const SkirtGarment& s) { return long{s.cells_around} * s.cells_along; },
+                               [](const auto&) { return long{0}; }},
+                    shape);
+}
+long cellsOf(const Garment& g) {
+  long cells = 0;
+  for (const NurbsPatch& p : g.patches)
+    cells += static_cast<long>((breakpoints(p.u).size() - 1) * (breakpoints(p.v).size() - 1));
+  return cells;
+}
+
+/// Cells and contact samples of all garments: about 25 kB each cell of four samples.
+struct ClothSize {
+  long cells = 0, samples = 0;
+
+  void add(long more, int samples_per_cell, const std::string& key) {
+    cells += more;
+    samples += more * std::max(1, samples_per_cell * samples_per_cell);
+    if (cells > 40000 || samples > 160000)
+      throw InputError({"", 0, key},
+                       fmt::format("makes {} cells with {} contact samples of the garments so far; allowed: at "
+                                   "most 40,000 cells and 160,000 samples together",
+                                   cells, samples));
+  }
+};
 
 double layerOf(const Case& c, const GarmentCase& worn) {
   return c.contact.layer_m.value_or(fabricOf(c, worn).thickness_m);
@@ -97,8 +140,19 @@ std::vector<Garment> draftGarments(const Case& c, const Human* human) {
   std::vector<Garment> garments;
   garments.reserve(c.garments.size());  // those above point to those below
   std::vector<Worn> under;
-  for (const GarmentCase& worn : c.garments) {
-    garments.push_back(makeGarment(c, worn, form ? &*form : nullptr, under));
+  ClothSize size;
+  for (std::size_t k = 0; k < c.garments.size(); ++k) {
+    const GarmentCase& worn = c.garments[k];
+    const std::string at = fmt::format("garments[{}]", k), shape = at + "." + wordOf(worn.shape);
+    underKey(worn.fabric ? at + ".fabric" : "fabric", [&] { checkFabric(fabricOf(c, worn), "fabric"); });
+    ClothSize(size).add(cellsOf(worn.shape), worn.samples_per_cell, shape);
+    garments.push_back(underKey(shape, [&] { return makeGarment(c, worn, form ? &*form : nullptr, under); }));
+    size.add(cellsOf(garments.back()), worn.samples_per_cell, shape);
+    double area = 0;
+    for (const double a : underKey(shape, [&] { return controlAreas(garments.back()); })) area += a;
+    if (!(area >= least_area_m2))
+      throw InputError({"", 0, shape},
+                       fmt::format("has an area of {:.3g} m^2; allowed: at least {:g} m^2", area, least_area_m2));
     under.push_back({&garments.back(), layerOf(c, worn)});
   }
   return garments;

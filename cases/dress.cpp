@@ -54,14 +54,19 @@ State settled(const Scenario& s, bool* tangled) {
   return state;
 }
 
-/// The control points of the sewn garment, closed by springs.
-std::vector<Vec3> closePanels(const Case& one, const Case& whole, std::size_t garment) {
-  const Stitching& law = *one.garments[0].stitching;
+/// The garment as its panels are closed: without supports, beside the body.
+std::unique_ptr<Scenario> floatingPanels(const Case& one, const Case& whole, std::size_t garment) {
   Case floating = one;
   floating.supports.clear();
   floating.dressing.projecting.reset();
-  floating.dressing.settle_s = law.within_s;
-  const std::unique_ptr<Scenario> panels = buildPanels(floating, whole, garment);
+  floating.dressing.settle_s = one.garments[0].stitching->within_s;
+  return buildPanels(floating, whole, garment);
+}
+
+/// The control points of the sewn garment, closed by springs.
+std::vector<Vec3> closePanels(const Case& one, const Case& whole, std::size_t garment) {
+  const Stitching& law = *one.garments[0].stitching;
+  const std::unique_ptr<Scenario> panels = floatingPanels(one, whole, garment);
   const Model& m = *panels->model;
   StepWork work;
   State state = startOf(*panels, work);
@@ -105,6 +110,17 @@ Dressed putOnApart(const Case& c) {
     }
   }
   return dressed;
+}
+
+void buildApart(const Case& c) {
+  for (std::size_t g = 0; g < c.garments.size(); ++g) {
+    Case one = alone(c, g);
+    if (one.garments[0].stitching) {
+      floatingPanels(one, c, g);
+      one.dressing.projecting.reset();
+    }
+    buildAlone(one, c, g);
+  }
 }
 
 void wear(Scenario& s, const Dressed& dressed) {

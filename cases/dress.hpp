@@ -11,6 +11,8 @@ namespace gambeson {
 /// as drafted, where the case has none), and lets it settle there, without weight and held by friction. In the posture
 /// in which the motion starts. Throws RunError naming the garment that cannot be put on.
 Dressed putOnApart(const Case& c);
+/// Builds what putOnApart starts from, with the same errors, and lets it go.
+void buildApart(const Case& c);
 
 /// The scenario starts with the garments as dressed. Throws InputError where these are other garments or another body.
 void wear(Scenario& scenario, const Dressed& dressed);

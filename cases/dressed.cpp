@@ -1,12 +1,12 @@
 #include "cases/dressed.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cases/fingerprint.hpp"
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
+#include "human/read_text.hpp"
 
 namespace gambeson {
 namespace {
@@ -15,6 +15,15 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* format_name = "gambeson dressed 1";
 constexpr double largest_coordinate_m = 1000;
+constexpr std::uintmax_t largest_file = std::uintmax_t{32} << 20;
+constexpr int deepest = 16;
+
+Json parsed(const std::string& text) {
+  return Json::parse(text, [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > deepest) throw InputError({"", 0, ""}, "is nested deeper than " + std::to_string(deepest) + " levels");
+    return true;
+  });
+}
 
 Json listOf(const Vec3& v) { return {v.x, v.y, v.z}; }
 
@@ -61,6 +70,11 @@ Dressed dressedOf(const Json& j) {
   for (std::size_t c = 0; c < 3; ++c)
     *columns[c] = {numberOf(rotation[c], "posture.rotation"), numberOf(rotation[3 + c], "posture.rotation"),
                    numberOf(rotation[6 + c], "posture.rotation")};
+  const Mat3& R = d.posture.root.rotation;
+  const Mat3 unit = transpose(R) * R;
+  for (const double error : {norm(unit.a - Vec3{1, 0, 0}), norm(unit.b - Vec3{0, 1, 0}), norm(unit.c - Vec3{0, 0, 1}),
+                             std::abs(dot(R.a, cross(R.b, R.c)) - 1)})
+    if (!(error < 1e-6)) throw InputError({"", 0, "posture.rotation"}, "must turn: three unit vectors at right angles");
   const Json& garments = listIn(j, "garments", "");
   for (std::size_t g = 0; g < garments.size(); ++g) {
     const std::string at = "garments[" + std::to_string(g) + "].";
@@ -105,10 +119,9 @@ void writeDressed(const Dressed& d, const std::filesystem::path& file) {
 }
 
 Dressed readDressed(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened");
+  const std::string text = readText(file, largest_file);
   try {
-    return dressedOf(Json::parse(stream));
+    return dressedOf(parsed(text));
   } catch (const nlohmann::json::exception& e) {
     throw InputError({file.string(), 0, ""}, e.what());
   } catch (const InputError& e) {

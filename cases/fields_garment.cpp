@@ -66,7 +66,7 @@ Object tubeTable() {
 Object shortsTable() {
   using S = ShortsGarment;
   return Table<S>("Shorts")
-      .number("inseam", &S::inseam_m, "m", between(0.02, 0.6), "length of the inner leg, crotch to hem")
+      .number("inseam", &S::inseam_m, "m", between(0.08, 0.6), "length of the inner leg, crotch to hem, above the knee")
       .number("rise", &S::rise_m, "m", between(0.1, 0.5), "height of the waist edge above the crotch of the shorts")
       .number(
           "crotch_ease", &S::crotch_ease_m, "m", between(0, 0.08),
@@ -194,8 +194,10 @@ Object garmentTable() {
               "rest shape has none")
       .integer("noise_seed", &G::noise_seed, 0, 1000000000,
                "another seed gives another pattern, the same on every machine")
-      .integer("samples_per_cell", &G::samples_per_cell, 0, 8,
-               "contact samples along the edge of a cell; 0: one per control point (Greville points)")
+      .integer(
+          "samples_per_cell", &G::samples_per_cell, 0, 8,
+          "contact samples along the edge of a cell; 0: one per control point (Greville points). All garments together "
+          "have at most 40,000 cells and 160,000 samples")
       .number("seam_stiffness", &G::seam_stiffness_N, "N/rad", between(0, 1e4),
               "rotational spring of seams that meet at an angle: moment per length and angle")
       .number("weft_angle", &G::weft_angle_rad, "rad", between(-3.2, 3.2),

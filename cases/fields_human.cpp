@@ -29,7 +29,8 @@ Object motionFileTable() {
       .defaultsTo("none; markers that are not at joints need it")
       .custom(
           mapField("what its joints, bones or markers are in our human: gait2392, rajagopal, snu_woody, makehuman, "
-                   "makehuman_default, unreal, mixamo, gait2392_markers, joint_centres, or a file of one's own",
+                   "makehuman_default, unreal, mixamo, gait2392_markers, joint_centres, or a file of one's own "
+                   "(human/data/MAPS.md)",
                    "that which goes with the names in the file"),
           [](const Place& p, M& m) { m.map = readMap(p); },
           [](const M& m) { return m.map.empty() ? std::nullopt : std::optional(nodeOf(m.map)); })
@@ -81,7 +82,7 @@ Object characterTable() {
             "morphs of MakeHuman's mesh")
       .custom(
           mapField("what its bones are in our human: unreal, mixamo, makehuman_default, or a joint map of one's own "
-                   "(\"reads\": \"bones\")",
+                   "(\"reads\": \"bones\"; human/data/MAPS.md)",
                    "that which goes with the names of its bones"),
           [](const Place& p, C& c) { c.map = readMap(p); },
           [](const C& c) { return c.map.empty() ? std::nullopt : std::optional(nodeOf(c.map)); })

@@ -38,7 +38,24 @@ std::string phaseName(const Scenario& s, double time_s) {
   return time_s < -s.definition.dressing.settle_s ? "dressing" : "settling";
 }
 
+/// A recorded motion knows nothing of how thick our limbs are.
+const char* limbsHint(const Case& c) {
+  return c.human && std::holds_alternative<MotionFileOptions>(c.human->motion)
+             ? "; where limbs meet or a limb meets the trunk, cloth between them is crushed: hips_apart and arms_apart "
+               "of the "
+               "motion hold them apart"
+             : "";
+}
+
 }  // namespace
+
+void checkRun(const Case& c) {
+  const std::unique_ptr<Scenario> scenario = buildScenario(c);
+  recordingLayout(*scenario);
+  StepWork work;
+  startOf(*scenario, work);
+  if (c.dressing.layer_by_layer && c.dressing.from.empty()) buildApart(c);
+}
 
 int runCase(const Case& c, const RunOptions& options) {
   const auto clock_start = std::chrono::steady_clock::now();
@@ -94,8 +111,8 @@ int runCase(const Case& c, const RunOptions& options) {
         progress.update(state.time_s - scenario->start_s, phaseName(*scenario, state.time_s));
       }
     } catch (const RunError& e) {
-      throw RunError(fmt::format("{} ({})\nThe results up to the last checkpoint are in {}", e.what(),
-                                 phaseName(*scenario, state.time_s), options.out.string()));
+      throw RunError(fmt::format("{} ({}{})\nThe results up to the last checkpoint are in {}", e.what(),
+                                 phaseName(*scenario, state.time_s), limbsHint(c), options.out.string()));
     }
   }
 

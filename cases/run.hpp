@@ -31,6 +31,10 @@ struct ReportOptions {
   std::filesystem::path html;
 };
 
+/// Builds what a run starts from, with the same errors, and lets it go: the scenario, each garment that is put on by
+/// itself, the state at the start.
+void checkRun(const Case& c);
+
 int runCase(const Case& c, const RunOptions& options);
 int renderResults(const RenderOptions& options);
 int reportResults(const ReportOptions& options);

@@ -13,6 +13,7 @@
 #include "cases/factors.hpp"
 #include "cases/obstacle_shape.hpp"
 #include "cases/overloaded.hpp"
+#include "cases/places.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/dynamics/step.hpp"
 #include "core/error.hpp"
@@ -170,23 +171,26 @@ class Standing : public Motion {
 /// The human of the case and his motion; returns his obstacles.
 std::vector<Obstacle> addHuman(const Case& c, Scenario& s, CaseStage& stage) {
   CharacterReport character;
-  s.human = humanOf(*c.human, &character);
+  s.human = underKey("human", [&] { return humanOf(*c.human, &character); });
   if (c.human->character) noteCharacter(*c.human->character, character, s.notes);
-  std::visit(Overloaded{
-                 [&](const StandMotion& m) { s.motion = std::make_unique<Standing>(standing(*s.human), m.duration_s); },
-                 [&](const WalkOptions& w) {
-                   s.motion = makeWalk(*s.human, w, &s.mean_velocity_m_per_s);
-                   stage.air_ramp_s = w.stand_s + w.lead_in_s;
-                 },
-                 [&](const StairOptions& o) {
-                   s.motion = makeStairs(*s.human, o, &s.mean_velocity_m_per_s);
-                   stage.air_ramp_s = o.stand_s + o.lead_in_s;
-                 },
-                 [&](const AimOptions& o) { s.motion = makeAim(*s.human, o); },
-                 [&](const TrajectoryMotion& t) { s.motion = loadTrajectory(t.file, *s.human); },
-                 [&](const MotionFileOptions& m) { stage.air_ramp_s = readRecorded(m, s); },
-             },
-             c.human->motion);
+  underKey("human.motion", [&] {
+    std::visit(
+        Overloaded{
+            [&](const StandMotion& m) { s.motion = std::make_unique<Standing>(standing(*s.human), m.duration_s); },
+            [&](const WalkOptions& w) {
+              s.motion = makeWalk(*s.human, w, &s.mean_velocity_m_per_s);
+              stage.air_ramp_s = w.stand_s + w.lead_in_s;
+            },
+            [&](const StairOptions& o) {
+              s.motion = makeStairs(*s.human, o, &s.mean_velocity_m_per_s);
+              stage.air_ramp_s = o.stand_s + o.lead_in_s;
+            },
+            [&](const AimOptions& o) { s.motion = makeAim(*s.human, o); },
+            [&](const TrajectoryMotion& t) { s.motion = loadTrajectory(t.file, *s.human); },
+            [&](const MotionFileOptions& m) { stage.air_ramp_s = readRecorded(m, s); },
+        },
+        c.human->motion);
+  });
   const bool own_motion = !std::holds_alternative<MotionFileOptions>(c.human->motion) &&
                           !std::holds_alternative<TrajectoryMotion>(c.human->motion);
   if (s.human->skin && !(own_motion && c.human->skin)) noteFolds(*c.human, s);
@@ -206,7 +210,9 @@ std::vector<Obstacle> addHuman(const Case& c, Scenario& s, CaseStage& stage) {
 /// The case's own obstacles, after those of the human.
 void addObstacles(const Case& c, Scenario& s, CaseStage& stage, std::vector<Obstacle>& obstacles) {
   stage.first_fixed = static_cast<int>(obstacles.size());
-  for (const ObstacleCase& o : c.obstacles) {
+  for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
+    const ObstacleCase& o = c.obstacles[k];
+    const std::string key = fmt::format("obstacles[{}]", k);
     Placement at;
     stage.sequence.push_back(nullptr);
     if (const auto* frames = std::get_if<SequenceObstacle>(&o.shape)) {
@@ -214,7 +220,7 @@ void addObstacles(const Case& c, Scenario& s, CaseStage& stage, std::vector<Obst
       obstacles.push_back({stage.sequence.back()->first(), o.name, true});
       noteSequence(*frames, *stage.sequence.back(), o.name, s.notes);
     } else {
-      obstacles.push_back({shapeOf(o, at), o.name});
+      obstacles.push_back({underKey(key, [&] { return shapeOf(o, at); }), o.name});
     }
     if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) noteDefects(*mesh, o.name, obstacles.back(), s.notes);
     stage.fixed.push_back(at);
@@ -235,6 +241,20 @@ struct Only {
 std::vector<Garment> draftOf(const Case& c, const Only& only, const Human* human) {
   if (!only.of) return draftGarments(c, human);
   return {std::move(draftGarments(withFactors(*only.of), human)[only.garment])};
+}
+
+/// Runs f; an InputError of it about the cloth as a whole is said at the garment, where there is one, or at garments.
+template <class F>
+auto underGarments(const Case& c, const Only& only, F f) {
+  const std::string key = c.garments.size() == 1 ? fmt::format("garments[{}]", only.garment) : "garments";
+  try {
+    return f();
+  } catch (const InputError& e) {
+    const std::string& inner = e.where().key;
+    if (!e.where().file.empty() || inner.starts_with("strain_limit")) throw;
+    const bool sampling = inner == "sampling" && c.garments.size() == 1;
+    throw InputError({"", 0, sampling ? key + ".samples_per_cell" : keyUnder(key, inner)}, e.reason());
+  }
 }
 
 std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
@@ -271,15 +291,17 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   options.patch_samples_per_cell = s->samples_per_cell;
   options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
-  addSupports(c, garment, first, edges, buildSurface(garment, buildFreeMap(garment), s->samples_per_cell), human,
-              options, s->supports);
+  const Surface surface =
+      underGarments(c, only, [&] { return buildSurface(garment, buildFreeMap(garment), s->samples_per_cell); });
+  addSupports(c, garment, first, edges, surface, human, options, s->supports);
   if (const auto& limit = c.strain_limit) options.strain_limit = limitOf(*limit);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
   const ContactParameters contact{c.contact.layer_m.value_or(0), c.contact.friction,
                                   c.contact.relaxation_s,        c.contact.tolerance * (g > 0 ? g : 9.81),
                                   c.contact.max_iterations,      c.contact.compliance_m_per_Pa};
-  s->model = buildModel(garment, options, environment, contact, std::move(obstacles));
+  s->model =
+      underGarments(c, only, [&] { return buildModel(garment, options, environment, contact, std::move(obstacles)); });
 
   if (std::any_of(start.begin(), start.end(), [](const Vec3& n) { return n != Vec3{}; }))
     for (std::size_t i = 0; i < s->model->map.home.size(); ++i)
@@ -338,13 +360,12 @@ State startOf(const Scenario& s, StepWork& work) {
 
 namespace {
 
-/// What only building shows to be wrong (a pattern that does not fit the body, say) is said with the case's name.
+/// What only building shows to be wrong (a pattern that does not fit the body, say) is said at its place in the case.
 std::unique_ptr<Scenario> build(const Case& c, const Only& only) {
   try {
     return buildUnnamed(c, only);
   } catch (const InputError& e) {
-    if (!e.where().file.empty()) throw;
-    throw InputError({c.file.string(), e.where().line, e.where().key}, e.reason());
+    sayInCase(c.file, c.overrides, e);
   }
 }
 

@@ -5,40 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/places.hpp"
 #include "cases/structure_build.hpp"
 #include "cases/structure_fields.hpp"
 #include "core/dynamics/thread_points.hpp"
 #include "core/error.hpp"
+#include "core/sheet/shell_law.hpp"
 
 namespace gambeson::schema {
 namespace {
 
 Place memberOf(const Place& parent, const std::string& key) { return parent.member(*parent.node.find(key)); }
 Place itemOf(const Place& parent, const std::string& list, std::size_t i) { return memberOf(parent, list).item(i); }
-
-/// Says an error of the parts behind the door at the deepest place of its key that the file has.
-[[noreturn]] void sayAt(const Place& root, const InputError& e) {
-  std::string key = e.where().key;
-  const JsonNode* node = &root.node;
-  std::string path;
-  while (!key.empty()) {
-    std::size_t end = key.find_first_of(".[", key[0] == '[' ? 1 : 0);
-    const std::string step = key.substr(0, end);
-    const JsonNode* next = nullptr;
-    if (step[0] == '[') {
-      const std::size_t i = std::stoul(step.substr(1));
-      if (node->type == JsonNode::Type::list && i < node->children.size()) next = &node->children[i];
-    } else {
-      next = node->find(step);
-    }
-    if (!next) break;
-    node = next;
-    path += (step[0] == '[' || path.empty() ? "" : ".") + step;
-    key = end == std::string::npos ? "" : key.substr(end + (key[end] == '.' ? 1 : 0));
-  }
-  // What the file does not hold is part of the words.
-  Place{*node, path, root.file}.fail(key.empty() || key == "sheet" ? e.reason() : key + ": " + e.reason());
-}
 
 bool isBuilt(const SheetCase& s) {
   return !std::holds_alternative<NurbsShape>(s.shape) && !std::holds_alternative<SheetFile>(s.shape);
@@ -99,6 +77,12 @@ void checkMaterial(const Place& place, const StructureCase& c, const MaterialCas
     }
     if (size_b > 1e-9 * std::sqrt(size_a * size_d))
       place.failAt("tension_field", "is not possible for a laminate that couples membrane and bending (B is not 0)");
+  }
+  try {
+    checkFabric(fabricOf(m));
+  } catch (const InputError& e) {  // "fabric.jam_area"
+    const std::string key = keyUnder(law.path, e.where().key.substr(e.where().key.find('.') + 1));
+    law.failAt(key.substr(law.path.size() + 1), e.reason());
   }
 }
 
@@ -205,7 +189,6 @@ void applyStructureRules(const Place& root, StructureCase& c) {
     const DofMap dofs = buildDofMap(map, o.constraints, static_cast<int>(o.programs.size()));
     if (dofs.unknowns() == 0) root.failAt("supports", "hold everything: nothing is left to move");
   } catch (const InputError& e) {
-    if (!e.where().file.empty()) throw;
     sayAt(root, e);
   }
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cases/any_case.hpp"
+#include "cases/places.hpp"
 #include "cases/progress.hpp"
 #include "cases/results_folder.hpp"
 #include "cases/structure_checks.hpp"
@@ -26,47 +27,59 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// All that is built before anything is solved. Throws InputError with the place in the case's file.
+struct BuiltStructure {
+  StructureModel model;
+  std::optional<Probes> probes;  ///< refer to the model
+  ShapeMesh mesh;
+
+  explicit BuiltStructure(const StructureCase& c) {
+    try {
+      model = buildModel(c);
+      probes.emplace(c, model, optionsOf(c, model.sheet));
+      mesh = shapeMesh(model.sheet.garment, c.output.samples_per_cell);
+    } catch (const InputError& e) {
+      sayInCase(c.file, c.overrides, e);
+    }
+  }
+  BuiltStructure(const BuiltStructure&) = delete;
+  BuiltStructure& operator=(const BuiltStructure&) = delete;
+};
+
 /// What a run gathers on its way.
 class Run {
  public:
   Run(const StructureCase& c, const RunOptions& options) : c_(c), out_(options.out) {
     prepareResultsFolder(out_);
-    try {
-      model_ = buildModel(c);
-      probes_.emplace(c, model_, optionsOf(c, model_.sheet));
-      mesh_ = shapeMesh(model_.sheet.garment, c.output.samples_per_cell);
-    } catch (const InputError& e) {
-      if (!e.where().file.empty()) throw;
-      throw InputError({c.file.string(), 0, e.where().key}, e.reason());
-    }
+    built_.emplace(c);
     if (holdsRecording(out_)) removeEarlierResults(out_);
     RecordingLayout layout;
-    layout.identity = caseIdentity(c) + " " + model_.structure->shell.kernels().name;
+    layout.identity = caseIdentity(c) + " " + built_->model.structure->shell.kernels().name;
     layout.metadata = writeCase(c);
-    layout.triangles = mesh_.triangles;
+    layout.triangles = built_->mesh.triangles;
     writer_.emplace(RecordingWriter::create(out_, layout));
     writeFileAtomically(out_ / "case.json", writeCase(c));
     facts.build_s = since(start_);
   }
 
-  const Structure& structure() const { return *model_.structure; }
-  const StructureModel& model() const { return model_; }
+  const Structure& structure() const { return *built_->model.structure; }
+  const StructureModel& model() const { return built_->model; }
 
   /// A row of the table: `lead`, then the probes' values.
   void add(const MeasuredState& state, std::vector<double> lead) {
-    const std::vector<double> values = probes_->values(state);
+    const std::vector<double> values = built_->probes->values(state);
     lead.insert(lead.end(), values.begin(), values.end());
     path.rows.push_back(std::move(lead));
     last_ = state;
     if (c_.output.shapes == ShapesKept::all) keep(state);
   }
   void columns(std::vector<std::string> lead) {
-    lead.insert(lead.end(), probes_->columns().begin(), probes_->columns().end());
+    lead.insert(lead.end(), built_->probes->columns().begin(), built_->probes->columns().end());
     path.columns = std::move(lead);
   }
   /// A whole shape for ParaView and the pictures.
   void keep(const MeasuredState& state) {
-    writer_->append(frameOf(shapeOf(model_, mesh_, state), frames_++, state.at));
+    writer_->append(frameOf(shapeOf(built_->model, built_->mesh, state), frames_++, state.at));
   }
 
   /// Everything that is left; `failures` of pictures do not stop it.
@@ -75,13 +88,14 @@ class Run {
     facts.solve_s = facts.wall_s - facts.build_s;
     facts.threads = omp_get_max_threads();
     if (last_.q.empty()) last_ = measureRest();
-    const MeshShape shape = shapeOf(model_, mesh_, last_);
+    const MeshShape shape = shapeOf(built_->model, built_->mesh, last_);
     if (frames_ == 0 && c_.output.shapes != ShapesKept::none) keep(last_);
     if (frames_ > 0) writer_->closeSegment({});
     writeCsv(out_ / "path.csv", path.columns, path.rows);
-    writeShapeTable(mesh_, shape, out_ / "shape.csv");
-    const std::vector<AuditCheck> checks = structureChecks(c_, model_, path, modes, last_, shape, facts);
-    writeStructureSummary(c_, model_, path, modes, last_, mesh_, shape, facts, checks, out_ / "summary.json");
+    writeShapeTable(built_->mesh, shape, out_ / "shape.csv");
+    const std::vector<AuditCheck> checks = structureChecks(c_, built_->model, path, modes, last_, shape, facts);
+    writeStructureSummary(c_, built_->model, path, modes, last_, built_->mesh, shape, facts, checks,
+                          out_ / "summary.json");
     std::vector<std::string> failures;
     const std::vector<Picture> pictures = takeStructurePictures(c_, out_, out_ / "snapshots", failures);
     writeStructurePage(c_, out_, pictures, out_ / "report.html");
@@ -108,9 +122,7 @@ class Run {
   const StructureCase& c_;
   std::filesystem::path out_;
   Clock::time_point start_ = Clock::now();
-  StructureModel model_;
-  std::optional<Probes> probes_;
-  ShapeMesh mesh_;
+  std::optional<BuiltStructure> built_;
   std::optional<RecordingWriter> writer_;
   int frames_ = 0;
   MeasuredState last_;
@@ -328,6 +340,11 @@ void runModal(const StructureCase& c, Run& run) {
 }
 
 }  // namespace
+
+void checkStructure(const StructureCase& c) {
+  const BuiltStructure built(c);
+  caseIdentity(c);
+}
 
 int runStructure(const StructureCase& c, const RunOptions& options) {
   if (options.resume)

@@ -6,6 +6,9 @@
 
 namespace gambeson {
 
+/// Builds what a run starts from, with the same errors, and lets it go.
+void checkStructure(const StructureCase& c);
+
 /// As runCase. Throws RunError where the run fails; what converged before is in the folder.
 int runStructure(const StructureCase& c, const RunOptions& options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cases/places.hpp"
 #include "core/contact/triangle.hpp"
 #include "core/error.hpp"
 #include "human/motion.hpp"
@@ -11,11 +12,11 @@
 namespace gambeson {
 namespace {
 
-std::vector<PatchEdge> edgesOf(const Case& c, const std::vector<NamedEdge>& known, const EdgeCase& e) {
+std::vector<PatchEdge> edgesOf(const std::vector<NamedEdge>& known, const EdgeCase& e) {
   if (e.name.empty()) return {{e.patch, e.side, false}};
   for (const NamedEdge& edge : known)
     if (edge.name == e.name) return edge.edges;
-  throw InputError({c.file.string(), 0, "supports"}, "the garment has no edge \"" + e.name + "\"");
+  throw InputError({"", 0, "edge"}, "the garment has no edge \"" + e.name + "\"");
 }
 
 std::array<int, 3> nearestTriangle(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x,
@@ -46,7 +47,7 @@ std::vector<Vec3> standingSkin(const Human& human) {
 void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first,
                  const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
                  ModelOptions& options, std::vector<SupportGroup>& groups) {
-  for (const SupportCase& support : c.supports) {
+  const auto add = [&](const SupportCase& support) {
     SupportGroup group;
     const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
     std::size_t worn = 0;
@@ -55,12 +56,11 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
     const std::string of = c.garments.size() == 1 ? "" : edge.garment + " ";
     const std::string name = of + (edge.name.empty() ? "edge of patch " + std::to_string(edge.patch) : edge.name);
     std::vector<PatchEdge> edges;
-    if (!std::holds_alternative<PinnedSupport>(support)) edges = edgesOf(c, known[worn], edge);
+    if (!std::holds_alternative<PinnedSupport>(support)) edges = edgesOf(known[worn], edge);
     for (PatchEdge& e : edges) {
       if (e.patch >= first[worn + 1] - first[worn])
-        throw InputError({c.file.string(), 0, "supports"}, "patch " + std::to_string(e.patch) +
-                                                               " does not exist; the garment has " +
-                                                               std::to_string(first[worn + 1] - first[worn]));
+        throw InputError({"", 0, "edge"}, "patch " + std::to_string(e.patch) + " does not exist; the garment has " +
+                                              std::to_string(first[worn + 1] - first[worn]));
       e.patch += first[worn];
       for (int s : edgeSamples(surface, e))
         if (std::find(group.samples.begin(), group.samples.end(), s) == group.samples.end()) group.samples.push_back(s);
@@ -87,9 +87,7 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
       const auto& springs = std::get<SpringSupport>(support);
       group.name = name + " springs to " + springs.link;
       group.anchor = human->skeleton.link(springs.link);
-      if (group.anchor < 0)
-        throw InputError({c.file.string(), 0, "supports.springs.link"},
-                         "the human has no link \"" + springs.link + "\"");
+      if (group.anchor < 0) throw InputError({"", 0, "link"}, "the human has no link \"" + springs.link + "\"");
       // Each sample answers for half of the edge to either neighbour.
       std::vector<double> length(surface.size(), 0);
       std::vector<Vec3> Q;
@@ -117,7 +115,10 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
       }
     }
     groups.push_back(std::move(group));
-  }
+  };
+  const char* const kinds[] = {"fixed", "springs", "pinned"};
+  for (std::size_t i = 0; i < c.supports.size(); ++i)
+    underKey("supports[" + std::to_string(i) + "]." + kinds[c.supports[i].index()], [&] { add(c.supports[i]); });
 }
 
 }  // namespace gambeson

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -16,9 +17,15 @@ namespace {
 
 constexpr std::size_t most_joints = 10000;
 constexpr int deepest = 200;
-constexpr double most_frames = 1e7;
 
-/// Reads one word after another; lines matter only for messages and in MOTION.
+std::string lower(std::string_view text) {
+  std::string s(text);
+  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return s;
+}
+
+/// Reads one word after another; words of the format may stand in any case; lines matter only for messages and in
+/// MOTION.
 struct Words {
   TextLines& lines;
   std::vector<std::string_view> words;
@@ -33,7 +40,7 @@ struct Words {
   }
   void expect(std::string_view word) {
     const std::string_view got = next(std::string(word).c_str());
-    if (got != word) lines.fail(fmt::format("'{}' stands where '{}' should", got.substr(0, 40), word));
+    if (lower(got) != lower(word)) lines.fail(fmt::format("'{}' stands where '{}' should", got.substr(0, 40), word));
   }
   double number(const char* what) { return lines.number(next(what), at, what); }
 };
@@ -53,18 +60,19 @@ class HierarchyReader {
     w_.expect("OFFSET");
     for (int k = 0; k < 3; ++k) clip_.joints[me].offset[k] = w_.number("OFFSET");
     for (;;) {
-      const std::string_view word = w_.next("}");
+      const std::string_view written = w_.next("}");
+      const std::string word = lower(written);
       if (word == "}") return;
-      if (end_site) w_.lines.fail(fmt::format("'{}' stands in an end site", word.substr(0, 40)));
-      if (word == "CHANNELS") {
+      if (end_site) w_.lines.fail(fmt::format("'{}' stands in an end site", written.substr(0, 40)));
+      if (word == "channels") {
         readChannels(clip_.joints[me], name);
-      } else if (word == "JOINT") {
+      } else if (word == "joint") {
         joint(me, std::string(w_.next("a name")), false, depth + 1);
-      } else if (word == "End") {
+      } else if (word == "end") {
         w_.expect("Site");
         joint(me, "", true, depth + 1);
       } else {
-        w_.lines.fail(fmt::format("'{}' is not known here: CHANNELS, JOINT, End Site or }}", word.substr(0, 40)));
+        w_.lines.fail(fmt::format("'{}' is not known here: CHANNELS, JOINT, End Site or }}", written.substr(0, 40)));
       }
     }
   }
@@ -75,11 +83,11 @@ class HierarchyReader {
     const double n = w_.number("CHANNELS");
     if (!(n >= 1 && n <= 6) || n != std::floor(n))
       w_.lines.fail(fmt::format("{} channels are not allowed: 1 to 6", n), name);
-    const std::array<std::string_view, 6> known{"Xposition", "Yposition", "Zposition",
-                                                "Xrotation", "Yrotation", "Zrotation"};
+    const std::array<std::string_view, 6> known{"xposition", "yposition", "zposition",
+                                                "xrotation", "yrotation", "zrotation"};
     for (int k = 0; k < static_cast<int>(n); ++k) {
       const std::string_view word = w_.next("a channel");
-      const auto found = std::find(known.begin(), known.end(), word);
+      const auto found = std::find(known.begin(), known.end(), lower(word));
       if (found == known.end()) w_.lines.fail(fmt::format("'{}' is no channel", word.substr(0, 40)), name);
       const int c = static_cast<int>(found - known.begin());
       if (std::find(j.channels.begin(), j.channels.end(), c) != j.channels.end())
@@ -103,20 +111,26 @@ int BvhClip::joint(const std::string& name) const {
   return -1;
 }
 
+int BvhClip::endSite(int joint) const {
+  for (int i = 0; i < static_cast<int>(joints.size()); ++i)
+    if (joints[i].parent == joint && joints[i].name.empty()) return i;
+  return -1;
+}
+
 BvhClip readBvh(const std::filesystem::path& file) {
   TextLines lines(file);
   BvhClip clip;
   clip.file = file.string();
   Words w{lines, {}};
-  if (w.next("HIERARCHY") != "HIERARCHY") lines.fail("is no BVH file: it does not start with HIERARCHY");
+  if (lower(w.next("HIERARCHY")) != "hierarchy") lines.fail("is no BVH file: it does not start with HIERARCHY");
   w.expect("ROOT");
   HierarchyReader hierarchy(w, clip);
   hierarchy.joint(-1, std::string(w.next("a name")), false, 0);
   w.expect("MOTION");
   w.expect("Frames:");
   const double frames = w.number("Frames:");
-  if (!(frames >= 1 && frames <= most_frames))
-    lines.fail(fmt::format("{} is not allowed: 1 to 1e7", frames), "Frames:");
+  if (!(frames >= 1 && frames <= static_cast<double>(most_rows)))
+    lines.fail(fmt::format("{} is not allowed: 1 to {}", frames, most_rows), "Frames:");
   w.expect("Frame");
   w.expect("Time:");
   clip.frame_time_s = w.number("Frame Time:");
@@ -127,7 +141,10 @@ BvhClip readBvh(const std::filesystem::path& file) {
     const auto cells = lines.words();
     if (static_cast<int>(cells.size()) != hierarchy.channels())
       lines.fail(fmt::format("has {} values; there are {} channels", cells.size(), hierarchy.channels()));
+    if (clip.frames.size() >= most_rows)
+      lines.fail(fmt::format("is one frame too many: at most {} are read", most_rows));
     auto& row = clip.frames.emplace_back();
+    row.reserve(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k) row.push_back(lines.number(cells[k], k + 1, "channel"));
   }
   if (clip.frames.empty()) lines.fail("holds no frame");

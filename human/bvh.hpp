@@ -27,6 +27,7 @@ struct BvhClip {
   std::vector<std::string> notes;
 
   int joint(const std::string& name) const;  ///< -1 where there is none
+  int endSite(int joint) const;              ///< that hangs from it; -1 where there is none
 };
 
 /// Throws InputError with file and line.

@@ -17,6 +17,13 @@ int need(const BvhClip& clip, const std::string& name, const std::string& map) {
   return j;
 }
 
+/// Where a foot's bone ends: at its joint, or, where the file has none, at the end site of the one where it begins.
+int toesOf(const BvhClip& clip, const std::array<Points, 2>& foot, const std::string& map) {
+  if (clip.joint(foot[1].front()) < 0)
+    if (const int end = clip.endSite(need(clip, foot[0].front(), map)); end >= 0) return end;
+  return need(clip, foot[1].front(), map);
+}
+
 Vec3 across(const Vec3& v, const Vec3& unit) { return v - dot(v, unit) * unit; }
 
 /// A frame whose third column is `up` and whose second is near `left`.
@@ -89,7 +96,7 @@ BodyDirections boneDirections(const BvhClip& clip, const JointMap& map, const st
     // The sole is flat in the rest pose: the foot's bone, level, turned as its joint.
     const auto* foot = bone("foot");
     Vec3 toes{};
-    for (int j = need(clip, (*foot)[1].front(), map.name); j != need(clip, (*foot)[0].front(), map.name);
+    for (int j = toesOf(clip, *foot, map.name); j != need(clip, (*foot)[0].front(), map.name);
          j = clip.joints[j].parent) {
       if (clip.joints[j].parent < 0)
         throw InputError({clip.file, 0, (*foot)[1].front()}, "does not hang from " + (*foot)[0].front());

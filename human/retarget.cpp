@@ -8,12 +8,15 @@
 
 #include "core/error.hpp"
 #include "human/foot_ground.hpp"
+#include "human/text_lines.hpp"
 #include "human/units.hpp"
 
 namespace gambeson {
 namespace {
 
-constexpr double run_up_s = 0.03;  ///< time constant of the motion continued backwards where the file has nothing
+constexpr double run_up_s = 0.03;   ///< time constant of the motion continued backwards where the file has nothing
+constexpr double run_up_rad = 0.3;  ///< and at most so far
+constexpr double jump_rad = 0.6, jump_rad_per_s = 30;  ///< turns beyond both from one frame to the next are no motion
 constexpr double lead_step_s = 0.005;
 constexpr double settle_s = 0.08;  ///< width of the Gaussian over which the feet's height over the ground is evened out
 constexpr double stride_s = 1.2;   ///< headings are means over about a stride
@@ -48,7 +51,10 @@ class Source {
   double last() const { return t_.back(); }
   double at(std::size_t k, double t) const {
     const MotionColumn& c = columns_[k];
-    if (t < first()) return c.x[0] - c.slope[0] * run_up_s * (1 - std::exp((t - first()) / run_up_s));
+    if (t < first()) {
+      const double tau = k < joints_ || k >= joints_ + 3 ? runUp(c.slope[0]) : run_up_s;
+      return c.x[0] - c.slope[0] * tau * (1 - std::exp((t - first()) / tau));
+    }
     const std::size_t i =
         std::clamp<std::size_t>(static_cast<std::size_t>(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin()), 1,
                                 t_.size() - 1) -
@@ -57,6 +63,9 @@ class Source {
     return w * w * (1 + 2 * u) * c.x[i] + u * u * (1 + 2 * w) * c.x[i + 1] +
            h * u * w * (w * c.slope[i] - u * c.slope[i + 1]);
   }
+  /// Time constant of an angle that is continued backwards: it goes on by no more than run_up_rad. (A file that starts
+  /// with a pose apart, a T say, jumps from its first frame to its second.)
+  static double runUp(double slope) { return std::min(run_up_s, run_up_rad / std::max(std::abs(slope), 1e-300)); }
   Vec3 hips(double t) const { return {at(joints_, t), at(joints_ + 1, t), at(joints_ + 2, t)}; }
   Vec3 turn(double t) const { return {at(joints_ + 3, t), at(joints_ + 4, t), at(joints_ + 5, t)}; }
   std::vector<double> q(double t) const {
@@ -171,11 +180,14 @@ std::vector<double> heightsOnGround(const Human& human, const std::vector<Row>& 
 /// Gaussian means over settle_s at each row.
 std::vector<double> evened(const std::vector<Row>& rows, const std::vector<double>& x) {
   std::vector<double> out;
+  std::size_t begin = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     double sum = 0, weight = 0;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
+    while (rows[begin].time < rows[i].time - 5 * settle_s) ++begin;
+    for (std::size_t k = begin; k < rows.size(); ++k) {
       const double d = (rows[k].time - rows[i].time) / settle_s;
-      if (std::abs(d) > 4) continue;
+      if (d > 4) break;
+      if (d < -4) continue;
       const double width = rows[std::min(k + 1, rows.size() - 1)].time - rows[k > 0 ? k - 1 : 0].time;
       const double w = width * std::exp(-0.5 * d * d);
       sum += w * x[k], weight += w;
@@ -209,6 +221,9 @@ struct Retargeter {
     from = o.from_s.value_or(source.first()), to = o.to_s.value_or(source.last());
     check("from", from), check("to", to);
     from = std::max(from, source.first()), to = std::min(to, source.last());
+    if (!((to - from) * o.slower <= longest_s))
+      throw InputError({r.file, 0, "to"}, fmt::format("the motion takes {:g} s; allowed: at most {:g} s",
+                                                      (to - from) * o.slower, longest_s));
     if (!(to - from > 1e-3))
       throw InputError({r.file, 0, "to"}, fmt::format("{} s does not come after \"from\", {} s", to, from));
   }
@@ -355,6 +370,26 @@ struct Retargeter {
     return makeSampledMotion(std::move(times), std::move(columns), stand);
   }
 
+  /// A pose apart, at the beginning of a file most often, is not part of the motion.
+  void noteJumps() {
+    double most = 0, after = 0;
+    std::string which;
+    for (std::size_t i = 1; i < r.times.size(); ++i) {
+      if (r.times[i - 1] < from - 1e-9 || r.times[i] > to + 1e-9) continue;
+      for (std::size_t j = 0; j < r.driven.size(); ++j) {
+        const double turn = std::abs(r.q[i][j] - r.q[i - 1][j]);
+        if (!r.driven[j] || turn < jump_rad || turn < jump_rad_per_s * (r.times[i] - r.times[i - 1]) || turn <= most)
+          continue;
+        most = turn, after = r.times[i], which = human.skeleton.joints[j].name;
+      }
+    }
+    if (most > 0)
+      notes.lines.push_back(fmt::format(
+          "{} jumps by {:.0f} degrees from one frame to the next, up to {:g} s: a pose apart from the motion? "
+          "\"from\": {:g} begins after it",
+          which, most / rad_per_deg, after, after));
+  }
+
   void noteLimits(const std::vector<Row>& rows) {
     for (const Row& row : rows)
       for (std::size_t j = 0; j < row.q.size(); ++j) {
@@ -370,6 +405,9 @@ struct Retargeter {
 
 Recording repeated(const Recording& r, int times, const Human& human) {
   if (times == 1) return r;
+  if (static_cast<double>(r.times.size()) * times > static_cast<double>(most_rows))
+    throw InputError({r.file, 0, "repeat"}, fmt::format("{} frames {} times are too many; allowed: at most {} together",
+                                                        r.times.size(), times, most_rows));
   Recording out = r;
   const std::size_t n = r.times.size() - 1;
   const double period = r.times[n] - r.times[0];
@@ -427,6 +465,7 @@ std::unique_ptr<Motion> retarget(const Recording& recording, const Human& human,
   x.path(rows, headings);
   x.heights(rows);
   x.noteLimits(rows);
+  x.noteJumps();
   notes.from_s = x.from, notes.to_s = x.to, notes.window_s = o.stand_s + o.lead_in_s;
   auto motion = x.motion(rows);
   notes.feet = feetOnGround(human, *motion, notes.window_s);

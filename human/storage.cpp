@@ -22,6 +22,7 @@ std::string lower(std::string_view text) {
 /// What the header says.
 struct Header {
   std::optional<bool> in_degrees;
+  bool simm = false;  ///< of SIMM's kind, whose angles are in degrees where nothing is said
   std::optional<double> rows, columns;
 };
 
@@ -43,8 +44,17 @@ void readHeaderLine(const TextLines& lines, Header& h) {
   const auto words = lines.words();
   double n = 0;
   if (equals == std::string::npos && words.size() == 2) key = lower(words[0]), value = words[1];
+  h.simm = h.simm || key == "datarows" || key == "datacolumns";
   if ((key == "nrows" || key == "datarows") && parseNumber(value, n)) h.rows = n;
   if ((key == "ncolumns" || key == "datacolumns") && parseNumber(value, n)) h.columns = n;
+}
+
+/// OpenSim 4 calls a coordinate by its path in the model: "/jointset/hip_r/hip_flexion_r/value" is hip_flexion_r.
+std::string_view coordinateOf(std::string_view label) {
+  constexpr std::string_view value = "/value";
+  if (!label.starts_with('/') || !label.ends_with(value)) return label;
+  label.remove_suffix(value.size());
+  return label.substr(label.rfind('/') + 1);
 }
 
 }  // namespace
@@ -68,6 +78,10 @@ StorageTable readStorage(const std::filesystem::path& file) {
       readHeaderLine(lines, header);
   }
   if (!ended) throw InputError({table.file, 0, ""}, "is no OpenSim table: it has no line 'endheader'");
+  if (!header.in_degrees && header.simm) {
+    header.in_degrees = true;
+    table.notes.emplace_back("the header does not say in what its angles are: degrees, as in SIMM's motions");
+  }
   if (!header.in_degrees)
     lines.fail("the header does not say in what its angles are: add inDegrees=yes or inDegrees=no", "inDegrees");
   table.in_degrees = *header.in_degrees;
@@ -77,8 +91,9 @@ StorageTable readStorage(const std::filesystem::path& file) {
   if (labels.size() < 2) lines.fail("names nothing but time");
   std::set<std::string_view> seen;
   for (std::size_t k = 1; k < labels.size(); ++k) {
-    if (!seen.insert(labels[k]).second) lines.fail("stands twice", std::string(labels[k]));
-    table.names.emplace_back(labels[k]);
+    const std::string_view name = coordinateOf(labels[k]);
+    if (name.empty() || !seen.insert(name).second) lines.fail("stands twice", std::string(labels[k]));
+    table.names.emplace_back(name);
   }
   table.columns.resize(table.names.size());
   while (lines.nextFull()) {

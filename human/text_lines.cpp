@@ -10,7 +10,7 @@
 namespace gambeson {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{256} << 20;
+constexpr std::uintmax_t largest_file = std::uintmax_t{128} << 20;
 constexpr std::string_view blank = " \t\r";
 
 }  // namespace
@@ -70,6 +70,7 @@ double TextLines::number(std::string_view cell, std::size_t column, std::string_
 }
 
 void checkNextTime(const TextLines& lines, const std::vector<double>& before, double t) {
+  if (before.size() >= most_rows) lines.fail(fmt::format("is one row too many: at most {} are read", most_rows));
   if (!before.empty() && !(t > before.back()))
     lines.fail(fmt::format("{} does not come after {}", t, before.back()), "time");
   if (!(std::abs(t) <= 1e6)) lines.fail(fmt::format("{} is beyond 1e6 s", t), "time");

@@ -33,7 +33,11 @@ class TextLines {
   int line_ = 0;
 };
 
-/// Time stamps must ascend and stay within 1e6 s.
+/// The most frames of a recorded motion that are read, and the longest that one is played [s].
+constexpr std::size_t most_rows = 300000;
+constexpr double longest_s = 3600;
+
+/// Time stamps must ascend and stay within 1e6 s; there are at most `most_rows`.
 void checkNextTime(const TextLines& lines, const std::vector<double>& before, double t);
 
 }  // namespace gambeson

@@ -11,12 +11,13 @@
 #include "core/error.hpp"
 #include "human/curve.hpp"
 #include "human/read_text.hpp"
+#include "human/text_lines.hpp"
 #include "human/units.hpp"
 
 namespace gambeson {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{256} << 20;
+constexpr std::uintmax_t largest_file = std::uintmax_t{128} << 20;
 constexpr double largest_distance_m = 1e5, largest_angle_rad = 1e4;  // of what has no limits
 
 struct Column : MotionColumn {
@@ -119,7 +120,9 @@ std::unique_ptr<Motion> loadTrajectory(const std::filesystem::path& csv, const H
       throw InputError(where(line, "time_s"), times.empty()
                                                   ? fmt::format("starts at {}, not at 0", t)
                                                   : fmt::format("{} does not come after {}", t, times.back()));
-    if (t > 1e6) throw InputError(where(line, "time_s"), fmt::format("{} is beyond 1e6", t));
+    if (t > longest_s) throw InputError(where(line, "time_s"), fmt::format("{} is beyond {} s", t, longest_s));
+    if (times.size() >= most_rows)
+      throw InputError(where(line, ""), fmt::format("is one row too many: at most {} are read", most_rows));
     times.push_back(t);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       Column& c = columns[k];

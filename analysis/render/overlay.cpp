@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "analysis/render/canvas.hpp"
 #include "analysis/ticks.hpp"
@@ -38,17 +39,27 @@ ColorBar effective(const ColorBar& bar) {
   return e;
 }
 
-Overlay layOut(const Scene& scene, const Fonts& fonts, int width, int height) {
+namespace {
+
+/// What of its texts a picture shows.
+struct Shown {
+  bool heading = true, legend = true, bar = true;
+};
+
+/// None where the picture has no room beside them.
+std::optional<Overlay> layOut(const Scene& scene, const Fonts& fonts, int width, int height, const Shown& shown) {
   Overlay o;
   const double u = o.unit = unitOf(width, height), m = o.margin = 34 * u;
-  const bool heading = !scene.title.empty() || !scene.subtitle.empty(), legend = hasLegend(scene),
-             bar = scene.bar.has_value();
+  const bool heading = shown.heading && (!scene.title.empty() || !scene.subtitle.empty()),
+             legend = shown.legend && hasLegend(scene), bar = shown.bar && scene.bar.has_value();
   o.free = {0, 0, double(width), double(height)};
   if (!heading && !legend && !bar) return o;
   o.wide = width > 1.15 * height;
   const double column = o.wide ? 0.30 * width : width - 2 * m;
-  o.title = fonts.title.wrap(scene.title, column);
-  o.subtitle = fonts.text.wrap(scene.subtitle, column);
+  if (heading) {
+    o.title = fonts.title.wrap(scene.title, column);
+    o.subtitle = fonts.text.wrap(scene.subtitle, column);
+  }
   const double title_h = kLine * fonts.title.size() * double(o.title.size()) +
                          kLine * fonts.text.size() * double(o.subtitle.size()) +
                          (o.title.empty() || o.subtitle.empty() ? 0 : 6 * u);
@@ -61,6 +72,7 @@ Overlay layOut(const Scene& scene, const Fonts& fonts, int width, int height) {
   if (bar) {
     o.bar_title = fonts.text.wrap(scene.bar->title, bar_w);
     o.bar = {m + inset, bottom - ticks_h - 18 * u, m + bar_w - inset, bottom - ticks_h};
+    if (!(o.bar.width() > 40 * u)) return std::nullopt;
     if (o.wide) bottom = o.bar.top - 14 * u - kLine * fonts.text.size() * double(o.bar_title.size()) - 26 * u;
   }
   const double legend_h = 2.4 * fonts.text.size();
@@ -77,10 +89,16 @@ Overlay layOut(const Scene& scene, const Fonts& fonts, int width, int height) {
     const double low = std::min(bar_top, legend ? o.legend.top : height);
     o.free = {m, heading ? o.block_title.bottom + 0.6 * m : m, width - m, (bar || legend) ? low - 0.6 * m : height - m};
   }
-  if (!(o.free.width() > 8) || !(o.free.height() > 8))
-    throw RunError("the picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                   " pixels has no room beside its texts");
+  if (!(o.free.width() > 8) || !(o.free.height() > 8)) return std::nullopt;
   return o;
+}
+
+}  // namespace
+
+Overlay layOut(const Scene& scene, const Fonts& fonts, int width, int height) {
+  for (const Shown& shown : {Shown{}, Shown{false, true, true}, Shown{false, false, true}})
+    if (const auto o = layOut(scene, fonts, width, height, shown)) return *o;
+  return *layOut(scene, fonts, width, height, {false, false, false});
 }
 
 float fadeAt(const Overlay& o, double x, double y) {
@@ -105,7 +123,7 @@ void drawOverlay(Image& image, const Scene& scene, const Overlay& o, const Fonts
     fonts.text.draw(image, o.block_title.left, y + fonts.text.size(), line, kSoftInk);
     y += kLine * fonts.text.size();
   }
-  if (scene.bar) {
+  if (scene.bar && o.bar.width() > 0) {
     const ColorBar bar = effective(*scene.bar);
     const PixelRect& r = o.bar;
     double line_y = r.top - 14 * u - kLine * fonts.text.size() * (double(o.bar_title.size()) - 1);
@@ -146,7 +164,7 @@ void drawOverlay(Image& image, const Scene& scene, const Overlay& o, const Fonts
     if (beyond.below) label(r.left, "\u2264 " + formatBrief(bar.low));
     if (beyond.above) label(r.right, "\u2265 " + formatBrief(bar.high));
   }
-  if (hasLegend(scene))
+  if (o.legend.width() > 0)
     fonts.text.draw(image, o.legend.left, o.legend.top + fonts.text.size(), scene.arrow_legend, kInk);
 }
 

@@ -34,17 +34,33 @@ void over(std::array<float, 3>& c, const unsigned char* p, const Linear& linear,
   }
 }
 
-Image compose(const Layers& layers, const Overlay& overlay, bool fade) {
+/// Rows of a picture, counted from above: those that are drawn at a time, and of them those that are shown.
+struct Strip {
+  int drawn_from = 0, drawn_to = 0, from = 0, to = 0;
+};
+
+/// Strips of at most some two million pixels, so that a large picture takes no more memory than a screen's; around what
+/// is shown, what shadows of corners and folds reach over. A picture as large as a screen is one strip.
+std::vector<Strip> stripsOf(int width, int height) {
+  constexpr int most_pixels = 2100000, margin = 64;
+  if (static_cast<long>(width) * height <= most_pixels) return {{0, height, 0, height}};
+  const int rows = std::max(192, most_pixels / width - 2 * margin);
+  std::vector<Strip> strips;
+  for (int from = 0; from < height; from += rows) {
+    const int to = std::min(height, from + rows);
+    strips.push_back({std::max(0, from - margin), std::min(height, to + margin), from, to});
+  }
+  return strips;
+}
+
+void compose(const Layers& layers, const Strip& strip, const Overlay& overlay, bool fade, Image& image) {
   constexpr float occlusion_strength = 0.75f;
   const Linear linear;
-  Image image;
-  image.width = layers.width, image.height = layers.height;
-  const std::size_t w = static_cast<std::size_t>(layers.width), h = static_cast<std::size_t>(layers.height);
-  image.rgb.resize(3 * w * h);
-  for (std::size_t y = 0; y < h; ++y) {
+  const std::size_t w = static_cast<std::size_t>(image.width), h = static_cast<std::size_t>(image.height);
+  for (auto y = static_cast<std::size_t>(strip.from); y < static_cast<std::size_t>(strip.to); ++y) {
     const Color paper = backgroundAt(double(y) / double(h));
     const std::array<float, 3> ground{linearOfSrgb(paper.r), linearOfSrgb(paper.g), linearOfSrgb(paper.b)};
-    const std::size_t row = h - 1 - y;  // the layers start below
+    const std::size_t row = static_cast<std::size_t>(strip.drawn_to) - 1 - y;  // the layers start below
     for (std::size_t x = 0; x < w; ++x) {
       const float open = float(layers.occlusion[4 * (row * w + x)]) / 255;
       const float darker = 1 - occlusion_strength * (1 - open);
@@ -62,7 +78,6 @@ Image compose(const Layers& layers, const Overlay& overlay, bool fade) {
             static_cast<unsigned char>(std::lround(255 * std::clamp(srgbOfLinear(sum[i]), 0.0f, 1.0f)));
     }
   }
-  return image;
 }
 
 Beyond beyondOf(const Scene& scene, const ColorBar& bar) {
@@ -112,7 +127,15 @@ Image render(const Scene& scene, int width, int height) {
   in.up_camera = {dot(axes.right, up), dot(axes.up, up), dot(axes.towards, up)};
   if (scene.ground_m) in.ground_m = *scene.ground_m - dot(up, in.camera.origin);
 
-  Image image = compose(drawLayers(in, width, height), overlay, scene.focus.has_value() || scene.ground_m.has_value());
+  Image image;
+  image.width = width, image.height = height;
+  image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const double centre = in.camera.center_y;
+  for (const Strip& strip : stripsOf(width, height)) {
+    in.camera.center_y = centre - strip.drawn_from;
+    compose(drawLayers(in, width, strip.drawn_to - strip.drawn_from), strip, overlay,
+            scene.focus.has_value() || scene.ground_m.has_value(), image);
+  }
   drawOverlay(image, scene, overlay, fonts, in.colors, scene.bar ? beyondOf(scene, bar) : Beyond{});
   return image;
 }

@@ -15,7 +15,8 @@ void checkFabric(const Fabric& f, const char* where) {
     throw InputError({"", 0, std::string(where) + "." + key}, reason);
   };
   if (!(f.jam_area >= 0 && f.jam_area < 1)) reject("jam_area", "must be >= 0 and < 1");
-  if (f.jam_area > 0 && f.tension_field) reject("jam_area", "is not possible for a tension field");
+  if (f.jam_area > 0 && f.tension_field)
+    reject("jam_area", "is not possible for a tension field, which carries no compression; allowed: 0");
   if (!f.plies.empty()) {
     Section section;
     try {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
+#include "human/read_text.hpp"
 #include "tryon/pattern/check.hpp"
 
 namespace gambeson {
@@ -17,7 +18,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* format_name = "gambeson garment 1";
-constexpr std::size_t most_bytes = 256u << 20;
+constexpr std::size_t most_bytes = 32u << 20;
 constexpr int deepest = 16;
 constexpr double largest_coordinate_m = 1000;  // as of meshes: far beyond any garment, near enough to keep its digits
 constexpr const char* side_names[] = {"u0", "u1", "v0", "v1"};
@@ -237,14 +238,7 @@ std::string edge(const PatchEdge& e) {
 
 Garment loadGarment(const std::filesystem::path& path) {
   const std::string file = path.string();
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw InputError({file, 0, ""}, "is not a readable file");
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (!in || std::filesystem::file_size(path) > most_bytes)
-    throw InputError({file, 0, ""}, in ? "is larger than 256 MiB" : "cannot be read");
-  text << in.rdbuf();
-  const std::string s = text.str();
+  const std::string s = readText(path, most_bytes);
   Json json;
   try {
     // Deeper nesting than a garment has would only overflow the stack where a value is shown.

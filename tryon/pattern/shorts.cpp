@@ -52,6 +52,7 @@ class Drafted {
   Wrap trunk(double from, double to) const { return form_.wrap(from, to, trunk_, "rise_m"); }
   ClosedCurve leftThigh(double z) const { return ClosedCurve(form_.hull(z, thigh_, false, "inseam_m")); }
   double medianY() const { return form_.medianY(); }
+  double thighBottom() const { return form_.lowest(thigh_); }
   /// Hulls of the pelvis, whose middle stands on the median plane, and of the left thigh, where they have a section.
   std::vector<Outline> underFork(double z) const {
     std::vector<Vec2> pelvis = form_.level(z, {0});
@@ -84,6 +85,9 @@ class Draft {
         body_(body),
         crotch_z_(body.pelvisBottom() - p.crotch_below_pelvis_m),
         trunk_(body.trunk(crotch_z_, crotch_z_ + p.rise_m)) {
+    if (const double most = crotch_z_ - body.thighBottom(); !(p.inseam_m < most))
+      reject("inseam_m", std::to_string(p.inseam_m) + ", reaches below the thighs, where the body has no section; " +
+                             "allowed: less than " + std::to_string(most));
     notch_half_width_ = body.leftThigh(crotch_z_).centroid().y - body.medianY();
     if (!(notch_half_width_ > 0)) reject("garment.shorts", "thigh_left does not stand on the left of the body");
 
@@ -311,7 +315,10 @@ void check(const ShortsPattern& p) {
   if (!(p.seam_stiffness_N >= 0) || !std::isfinite(p.seam_stiffness_N))
     reject("seam_stiffness_N", "must not be negative");
   if (!(p.fork_m <= p.rise_m)) reject("fork_m", "must not exceed rise_m");
-  if (!(p.blend_m <= p.inseam_m)) reject("blend_m", "must not exceed inseam_m");
+  if (!(p.blend_m <= p.inseam_m))
+    reject("inseam_m", std::to_string(p.inseam_m) +
+                           ", shorter than what legs need to go over from the fork to the thigh; " +
+                           "allowed: at least " + std::to_string(p.blend_m));
 }
 
 }  // namespace

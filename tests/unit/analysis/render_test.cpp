@@ -291,6 +291,44 @@ TEST(Render, RefusesWhatItCannotDraw) {
   EXPECT_THROW(render(scene, 100, 100), RunError);
 }
 
+/// Texts that leave the scene no room are left out, the heading first.
+TEST(Render, ASmallPictureIsDrawnWithoutItsTexts) {
+  Scene scene = focused(0.5);
+  scene.meshes = {sphere({0, 0, 0}, 0.4, kBlue)};
+  scene.title = "A title of some length that does not fit into a small picture at all";
+  scene.subtitle = "And what stands below it";
+  scene.bar = ColorBar{"Stress in the fabric: largest pull [N/m]; here up to 12", 0, 10};
+  for (const auto& [w, h] : {std::pair{64, 64}, {64, 400}, {400, 64}, {200, 200}, {16, 16}}) {
+    const Image image = render(scene, w, h);
+    EXPECT_EQ(image.rgb.size(), 3u * static_cast<unsigned>(w * h));
+    EXPECT_GT(countWhere(image, isBlue), 0) << w << " x " << h;
+  }
+  scene.title = std::string(3000, 'x');
+  EXPECT_GT(countWhere(render(scene, 640, 480), isBlue), 0);
+}
+
+/// Beyond two million pixels a picture is drawn in strips, which show what one picture of half the size does.
+TEST(Render, ALargePictureIsDrawnInStrips) {
+  Scene scene = focused(0.5);
+  scene.view = View::front_left;
+  scene.meshes = {sphere({0, 0, 0.1}, 0.3, kBlue), sphere({0.2, 0.1, -0.2}, 0.2, kGreen)};
+  scene.arrows = {{{0, 0.4, 0.4}, {0, 0, 0.4}, {0.8f, 0.1f, 0.1f}}};
+  scene.ground_m = -0.4;
+  constexpr int w = 820, h = 700;
+  const Image small = render(scene, w, h), large = render(scene, 2 * w, 2 * h);
+  ASSERT_GT(4 * w * h, 2100000);
+  double worst_row = 0;
+  for (int y = 0; y < h; ++y) {
+    double sum = 0;
+    for (int x = 0; x < w; ++x) {
+      const Rgb a = at(small, x, y), b = at(large, 2 * x, 2 * y), c = at(large, 2 * x + 1, 2 * y + 1);
+      sum += std::abs(a.r - (b.r + c.r) / 2) + std::abs(a.g - (b.g + c.g) / 2) + std::abs(a.b - (b.b + c.b) / 2);
+    }
+    worst_row = std::max(worst_row, sum / (3 * w));
+  }
+  EXPECT_LT(worst_row, 6);  // of 255; a strip in a wrong place is some 30 off
+}
+
 TEST(Render, SaysWhichPackageHasTheFont) {
   try {
     findFont(FontWeight::regular, {"/nonexistent"});

@@ -111,7 +111,7 @@ TEST_F(Bvh, MalformedFilesAreRefusedWithTheirLine) {
   const std::string motion = "MOTION\nFrames: 1\nFrame Time: 0.1\n";
   const std::string root = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n}\n";
   EXPECT_EQ(readBvh(folder.write("good.bvh", root + motion + "1\n")).frames.size(), 1u);
-  refused("hierarchy\n", 1, "does not start with HIERARCHY");
+  refused("order\n", 1, "does not start with HIERARCHY");
   refused("HIERARCHY\nROOT a\n{\nOFFSET 0 0\n}\n", 5, "not a finite number");
   refused("HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Wrotation\n}\n", 5, "is no channel");
   refused("HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 9 Xrotation\n}\n", 5, "1 to 6");
@@ -125,6 +125,55 @@ TEST_F(Bvh, MalformedFilesAreRefusedWithTheirLine) {
   refused(root + motion, 9, "holds no frame");
   refused("HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nJOINT a\n{\nOFFSET 0 0 0\n}\n}\n", 6,
           "stands twice");
+}
+
+const char* const still =
+    "MOTION\nFrames: 2\nFrame Time: 0.1\n10 95 -20 0 0 0 -30 50 0 0 0 0 0\n10 95 -20 0 0 0 -30 50 0 0 0 0 0\n";
+
+/// Words of the format and channels in any case; names as they are.
+TEST_F(Bvh, WordsStandInAnyCase) {
+  const std::string text = skeleton(1, {0, -1, 0}, still);
+  std::string other = text;
+  for (const auto& [from, to] : {std::pair{"HIERARCHY", "Hierarchy"},
+                                 {"ROOT", "Root"},
+                                 {"CHANNELS", "Channels"},
+                                 {"OFFSET", "offset"},
+                                 {"JOINT", "joint"},
+                                 {"Xposition", "XPOSITION"},
+                                 {"Zrotation", "zrotation"},
+                                 {"End Site", "END SITE"},
+                                 {"Frame Time:", "FRAME TIME:"}})
+    for (std::size_t at = 0; (at = other.find(from, at)) != std::string::npos;)
+      other.replace(at, std::string(from).size(), to), at += std::string(to).size();
+  ASSERT_NE(other, text);
+  EXPECT_EQ(read(other, 0.01).q, read(text, 0.01).q);
+}
+
+/// A foot that ends in an end site, where the map names a joint that the file lacks.
+TEST_F(Bvh, FeetMayEndInEndSites) {
+  const std::string text = skeleton(1, {0, -1, 0}, still);
+  std::string bare = text;
+  for (const char* side : {"R", "L"}) {
+    const std::string joint = std::string("JOINT toe") + side + "\n{\n";
+    const std::size_t at = bare.find(joint), site = bare.find("End Site\n{\n", at), end = bare.find("}\n}\n", site);
+    const std::string offset = bare.substr(at + joint.size(), site - at - joint.size());
+    bare.replace(at, end + 4 - at, "End Site\n{\n" + offset + "}\n");
+  }
+  EXPECT_EQ(read(bare, 0.01).q, read(text, 0.01).q);
+}
+
+/// The format of maps is written down where they are: every key of those that ship, and of one's own.
+TEST(JointMaps, EveryKeyIsDocumented) {
+  const std::filesystem::path folder = std::filesystem::path(GAMBESON_SOURCE_DIR) / "human/data";
+  std::ifstream stream(folder / "MAPS.md");
+  const std::string words(std::istreambuf_iterator<char>(stream), {});
+  ASSERT_FALSE(words.empty());
+  for (const char* key :
+       {"reads",    "has",           "lacks",   "forward",     "up",     "about",      "source",   "turns",
+        "position", "hips_m",        "joints",  "from",        "scale",  "offset_deg", "optional", "leg_m",
+        "unit_m",   "root_position", "pelvis",  "torso",       "head",   "bones",      "bodies",   "knee_scale",
+        "marker",   "side",          "markers", "coordinates", "points", "replaces",   "adds"})
+    EXPECT_NE(words.find(key), std::string::npos) << key;
 }
 
 }  // namespace

@@ -75,6 +75,52 @@ TEST_F(MotionFile, BetweenTheRowsItErrsByTheInterpolationOnly) {
   }
 }
 
+/// OpenSim 4 names coordinates by their paths; SIMM's headers do not say that angles are in degrees.
+TEST_F(MotionFile, NamesMayBePathsAndHeadersOld) {
+  const JointMap map = findJointMap("gait2392");
+  std::string text = test::motOf(*walk, human, map, from, to, true);
+  const StorageTable plain = readStorage(folder.write("plain.mot", text));
+  const std::size_t labels = text.find("\ntime") + 1, end = text.find('\n', labels);
+  std::string paths = "time";
+  for (const std::string& name : plain.names) paths += "\t/jointset/some_joint/" + name + "/value";
+  const StorageTable named = readStorage(folder.write("paths.sto", text.substr(0, labels) + paths + text.substr(end)));
+  EXPECT_EQ(named.names, plain.names);
+  EXPECT_EQ(named.columns, plain.columns);
+  const std::string simm = "name walk\ndatacolumns 7\ndatarows 7\notherdata 1\nrange 0 2\nendheader\n";
+  const StorageTable old = readStorage(folder.write("old.mot", simm + text.substr(labels)));
+  EXPECT_TRUE(old.in_degrees);
+  EXPECT_EQ(old.columns, plain.columns);
+  EXPECT_NE(old.notes.front().find("degrees, as in SIMM's motions"), std::string::npos);
+  // Without any of it nothing is guessed.
+  test::expectRefused([](const auto& f) { readStorage(f); },
+                      folder.write("none.sto", "walk\nversion=1\nendheader\n" + text.substr(labels)), 0, "inDegrees");
+}
+
+/// A file whose first frame is a pose apart jumps to its second: continued backwards at that speed, joints bent by
+/// hundreds of degrees in the lead-in.
+TEST_F(MotionFile, AFirstFrameApartIsNotContinued) {
+  std::string text = test::motOf(*walk, human, findJointMap("gait2392"), from, to, true);
+  const std::size_t first = text.find('\n', text.find("\ntime") + 1) + 1, second = text.find('\n', first);
+  std::string apart = text.substr(first, text.find('\t', first) - first);  // its time
+  for (const std::string& name : readStorage(folder.write("walk.mot", text)).names)
+    apart += name == "hip_flexion_r" ? "\t100" : name == "pelvis_ty" ? "\t0.95" : "\t0";
+  MotionFileOptions o;
+  o.path = folder.write("apart.mot", text.substr(0, first) + apart + text.substr(second));
+  o.map = "gait2392";
+  MotionFileNotes notes;
+  const auto motion = loadMotionFile(o, human, &notes);
+  EXPECT_LT(notes.beyond_limits_deg, 45);
+  bool said = false;
+  for (const std::string& line : notes.lines)
+    said = said || line.find("a pose apart from the motion?") != std::string::npos;
+  EXPECT_TRUE(said);
+  // The walk alone has no such jump.
+  o.path = folder.path / "walk.mot";
+  MotionFileNotes none;
+  loadMotionFile(o, human, &none);
+  for (const std::string& line : none.lines) EXPECT_EQ(line.find("a pose apart"), std::string::npos) << line;
+}
+
 TEST_F(MotionFile, ChoosesTheMapByTheKneesSign) {
   JointMap map = findJointMap("gait2392");
   MotionFileOptions o;
