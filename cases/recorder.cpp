@@ -184,6 +184,7 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
              {"anchors", doubles(s.anchors)},
              {"mode", doubles(s.mode)}};
   c.reals["limit"] = s.limit_J;
+  c.reals["pressed"] = doubles(s.pressed);
   c.reals["sums"] = doubles(std::vector<Vec3>{s.sums.drag, s.sums.springs, s.sums.held});
   c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s, f.largest_rad_per_s, f.membrane_share,
                         f.bending_share,       f.seam_share,  f.spring_share};
@@ -212,6 +213,7 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   s.anchors = vectors(c.reals.at("anchors"));
   s.mode = vectors(c.reals.at("mode"));
   s.limit_J = c.reals.at("limit");
+  s.pressed = vectors(c.reals.at("pressed"));
   const std::vector<Vec3> sums = vectors(c.reals.at("sums"));
   s.sums = {sums[0], sums[1], sums[2]};
   const std::vector<double>& control = c.reals.at("control");

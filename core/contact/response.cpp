@@ -161,13 +161,17 @@ double lastingPressure(double mean, double pressure, double dt, double density, 
   return mean - std::expm1(-dt / c.relaxation_s) * (std::min(pressure, countsAtMost(mean, density)) - mean);
 }
 
+double lastingShare(double mean, double pressure, double density) {
+  return pressure > 0 ? std::min(1.0, countsAtMost(mean, density) / pressure) : 0;
+}
+
 void layerUnder(double last, double dt, double density, const ContactParameters& c, ContactRow& row) {
   const double gap = row.contact.gap_m;
   row.target_m_per_s = persistentTarget(gap, dt, c);
   row.compliance = 0;
   if (!atLayer(gap, c.layer_m)) return;
   const double k = -std::expm1(-dt / c.relaxation_s), gives = k * c.compliance_m_per_Pa / dt;
-  const double counted = last > 0 ? std::min(1.0, countsAtMost(row.mean_Pa, density) / last) : row.mean_Pa > 0;
+  const double counted = last > 0 ? lastingShare(row.mean_Pa, last, density) : row.mean_Pa > 0;
   row.target_m_per_s -= gives * (1 - k) * row.mean_Pa;
   row.compliance = gives * k * counted / dt;
 }

@@ -140,6 +140,9 @@ inline bool atLayer(double gap_m, double layer_m) { return gap_m <= layer_m * (1
 double lastingPressure(double mean_Pa, double pressure_Pa, double dt_s, double density_kg_per_m2,
                        const ContactParameters& parameters);
 
+/// The part of a pressure that counts in that mean: 1 where it lasts, little in an impact. 0 where there is none.
+double lastingShare(double mean_Pa, double pressure_Pa, double density_kg_per_m2);
+
 /// A layer that gives way by c p_m under the pressure p_m that has lasted at the end of the step:
 ///   v_n >= k (delta - c p_m' - g)/dt,   p_m' = e p_m + (1 - e) s tau/dt,   e = exp(-dt/tau_r),
 /// tau the normal impulse per area that is solved for and s the part of it that lastingPressure counts, as in the last

@@ -121,6 +121,9 @@ struct State {
   bool tangled = true;          ///< cloth may pass through cloth or a mesh: look for intersections
   std::vector<int> pinched;     ///< samples that no step length frees: their impacts are let pass in the next step
   std::vector<double> limit_J;  ///< multipliers of the strain limits, mean of the last step (eq. 5.7)
+  /// Acceleration of the free points by contacts that press, in the last step (pressingAccelerations), of which v holds
+  /// the half step; empty: none [m/s^2].
+  std::vector<Vec3> pressed;
   // Step control.
   double frequency_rad_per_s = 0;  ///< estimate of the largest
   std::vector<Vec3> mode;          ///< its mode, warm start of the next estimate
@@ -130,13 +133,14 @@ struct State {
   double last_step_s = 0;
 };
 
-/// Momentum of the free points over one step [N s]: change = gravity + dead + drag + supports - obstacles.
+/// Momentum of the free points over one step [N s]: change = gravity + dead + drag + supports + pressing - obstacles.
 struct MomentumAudit {
   Vec3 change, gravity, drag;
   Vec3 supports;   ///< springs and what holds points, with the pull of strain limits on held points
   Vec3 dead;       ///< dead forces
   Vec3 obstacles;  ///< the obstacles' own ledger: what they received
-  double error() const { return norm(change - (gravity + dead + drag + supports - obstacles)); }
+  Vec3 pressing;   ///< by how much more of the contacts' next impulses the velocities hold in advance, State::pressed
+  double error() const { return norm(change - (gravity + dead + drag + supports + pressing - obstacles)); }
   /// Sum of the absolute impulses, the scale of `error`; at least what rounding is measured by (kScaleFloor in
   /// step.cpp).
   double scale = 0;
@@ -198,6 +202,7 @@ struct StepWork {
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;
   std::vector<Vec3> jerk, net_jerk;  ///< changes of acceleration: of the free points, of the control points
   std::vector<Vec3> limit_end, pulled_before, pulled_after;
+  std::vector<Vec3> lasting, sample_pressing;
   std::vector<double> reach;
   std::vector<Contact> near, hits;
   std::vector<PairHit> pair_hits;

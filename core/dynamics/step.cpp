@@ -91,11 +91,11 @@ double springWork(const Model& m, const State& in, const State& out, const Ancho
 
 /// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit
 /// there (eq. 3.13), v = half_velocity + half_step a. For an evaluation at a known velocity pass it with half_step 0.
-/// With strain limits v = half_velocity + half_step (a + pulled), `pulled` being the limits' acceleration in the last
-/// step (empty: none): the limits' force acts all the time though its impulse comes once a step, and without its half
-/// cloth that hangs still would have the velocity half_step a, on which drag would act.
+/// With strain limits or contacts v = half_velocity + half_step (a + lasting), `lasting` being their acceleration in
+/// the last step (empty: none): their force acts all the time though its impulse comes once a step, and without its
+/// half cloth that hangs or lies still would have the velocity half_step a, on which drag would act.
 void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& air, std::span<const Vec3> half_velocity,
-                std::span<const Vec3> pulled, double half_step_s, State& s, StepWork& w) {
+                std::span<const Vec3> lasting, double half_step_s, State& s, StepWork& w) {
   const int n = m.freeCount();
   internalForce(m, s.p, s.a, w);
   addStitchForces(m.stitches, m.surface.WT, s.p, s.a);
@@ -122,7 +122,7 @@ void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& a
       continue;
     }
     const double d = m.drag_kg_per_s[i];
-    const Vec3 start = pulled.empty() ? half_velocity[i] : half_velocity[i] + half_step_s * pulled[i];
+    const Vec3 start = lasting.empty() ? half_velocity[i] : half_velocity[i] + half_step_s * lasting[i];
     Vec3 f = s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 - d * (start - air);
     if (!m.dead_force_N.empty()) f += m.dead_force_N[i];
     s.a[i] = f / (m.mass_kg[i] + d * half_step_s);
@@ -146,6 +146,30 @@ Vec3 limitAccelerations(const Model& m, const State& s, std::vector<Vec3>& out, 
     out[i] *= -m.inverse_mass[i];
   }
   return held;
+}
+
+/// The accelerations of limits and contacts together.
+std::span<const Vec3> together(std::span<const Vec3> pulled, std::span<const Vec3> pressed, std::vector<Vec3>& sum) {
+  if (pulled.empty()) return pressed;
+  if (pressed.empty()) return pulled;
+  sum.resize(pulled.size());
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = pulled[i] + pressed[i];
+  return sum;
+}
+
+/// Work beyond that of its impulse I on the mean velocity u = (predictor + velocity)/2 - half a of a force that acts
+/// all the time though its impulse comes once a step [J]. With its accelerations c0 and c1 at the ends of the step, I =
+/// J + 2 half m c0: half m (c0 + c1) acts as the other forces do, on the way of the step, and J, what was not foreseen,
+/// at once on u; at rest both are nothing. `before`, `after`: empty or the accelerations.
+double lastingWork(const Model& m, std::span<const Vec3> before, std::span<const Vec3> after, const State& in,
+                   double half, const StepWork& w) {
+  double work = 0;
+  for (int i = 0; i < m.freeCount(); ++i) {
+    const Vec3 c0 = before.empty() ? Vec3{} : before[i], c1 = after.empty() ? Vec3{} : after[i];
+    work += (half * m.mass_kg[i]) *
+            (dot(c0 + c1, w.velocity[i]) - dot(c0, w.predictor[i] + w.velocity[i] - (2 * half) * in.a[i]));
+  }
+  return work;
 }
 
 }  // namespace
@@ -183,6 +207,7 @@ void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> a
   state.anchors.assign(anchors.begin(), anchors.end());
   const std::vector<Vec3> v = state.v;
   state.limit_J.clear();
+  state.pressed.clear();
   accelerate(model, at.frames(), stage.air(state.time_s), v, {}, 0, state, work);
 }
 
@@ -208,8 +233,9 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   w.predictor.resize(n);
   const Vec3 held_before = limitAccelerations(m, in, w.pulled_before, w.limit);
   for (int i = 0; i < n; ++i) w.predictor[i] = in.v[i] + half * in.a[i];
-  if (!w.pulled_before.empty())
-    for (int i = 0; i < n; ++i) w.predictor[i] -= half * w.pulled_before[i];  // this step's impulse comes in its place
+  const std::span<const Vec3> lasted = together(w.pulled_before, in.pressed, w.lasting);
+  if (!lasted.empty())
+    for (int i = 0; i < n; ++i) w.predictor[i] -= half * lasted[i];  // this step's impulses come in its place
   const auto notFinite = [&](const char* what) {
     report.failure = StepFailure::not_finite;
     report.why = what;
@@ -241,7 +267,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.limit_J.clear();
   if (m.strain_limit.mode != LimitMode::none) limitMultipliers(m.strain_rows, out.p, dt, out.limit_J, w.limit);
   const Vec3 held_after = limitAccelerations(m, out, w.pulled_after, w.limit);
-  accelerate(m, after, air1, w.velocity, w.pulled_after, half, out, w);
+  pressingAccelerations(m, dt, w, out.pressed);
+  accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half, out, w);
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
     report.momentum.scale += norm(spring_mean[k]);
@@ -274,14 +301,16 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
         continue;
       }
       report.work.limit += 0.5 * dot(impulse, w.predictor[i] + w.velocity[i] - dt * in.a[i]);
-      const double m_half = m.mass_kg[i] * half;
-      if (!w.pulled_before.empty()) {
-        const Vec3& c = w.pulled_before[i];
-        report.work.limit -= m_half * dot(c, in.v[i] - (0.5 * half) * c);
-      }
-      const Vec3& c = w.pulled_after[i];
-      report.work.limit += m_half * dot(c, out.v[i] - (0.5 * half) * c);
     }
+    report.work.limit += lastingWork(m, w.pulled_before, w.pulled_after, in, half, w);
+  }
+  if (!in.pressed.empty() || !out.pressed.empty()) {
+    report.work.contact += lastingWork(m, in.pressed, out.pressed, in, half, w);
+    for (int i = 0; i < n; ++i) {
+      if (!out.pressed.empty()) audit.pressing += (m.mass_kg[i] * half) * out.pressed[i];
+      if (!in.pressed.empty()) audit.pressing -= (m.mass_kg[i] * half) * in.pressed[i];
+    }
+    audit.scale += norm(audit.pressing);
   }
   double floor = 0;
   for (int i = 0; i < n; ++i) {

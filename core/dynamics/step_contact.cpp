@@ -330,6 +330,25 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
                    [](const WarmContact& a, const WarmContact& b) { return key(a) < key(b); });
 }
 
+void pressingAccelerations(const Model& m, double dt, StepWork& w, std::vector<Vec3>& pressed) {
+  pressed.clear();
+  for (std::size_t i = 0; i < w.rows.size(); ++i) {
+    const ContactRow& row = w.rows[i];
+    const Contact& c = row.contact;
+    if (row.impact || row.slippery || w.impulses[i] == Vec3{} || !atLayer(c.gap_m, layerOf(m, row))) continue;
+    if (pressed.empty()) {
+      pressed.resize(m.freeCount());
+      w.sample_pressing.assign(m.surface.size(), Vec3{});
+    }
+    const double share = lastingShare(row.mean_Pa, dot(w.warm[i], c.normal) / dt, densityOf(m, row.stencil));
+    for (int k = 0; k < row.stencil.count; ++k)
+      w.sample_pressing[row.stencil.sample[k]] += (share * row.stencil.weight[k]) * w.impulses[i];
+  }
+  if (pressed.empty()) return;
+  m.surface.WTt.multiply<Vec3>(w.sample_pressing, pressed);
+  for (int i = 0; i < m.freeCount(); ++i) pressed[i] *= m.inverse_mass[i] / dt;
+}
+
 namespace {
 
 /// Of the contacts with bodies w.near: the layer lies between the body and the surface where this stands out farthest

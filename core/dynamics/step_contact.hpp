@@ -44,6 +44,12 @@ bool resolveContacts(const Model& model, const State& in, double dt, StepReport&
 /// What the persistent contacts of the step leave to the next.
 void keepWarm(const Model& model, double dt, const StepWork& work, std::vector<WarmContact>& warm);
 
+/// What the step's contacts accelerate the free points by as a force that acts all the time [m/s^2]: of persistent rows
+/// that have come to their layer, friction with them, as much as lasts (lastingShare). Impacts, what stops a sample on
+/// its way to the layer and what frees intersections change velocities at once and are no part of it. Empty where
+/// nothing presses.
+void pressingAccelerations(const Model& model, double dt, StepWork& work, std::vector<Vec3>& pressed);
+
 /// Contact's part of the audit, and the impulses on bodies.
 void contactLedger(const Model& model, const State& in, double dt, StepReport& report, StepWork& w);
 
