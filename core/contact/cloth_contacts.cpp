@@ -47,7 +47,7 @@ class Search {
       return;
     const TrianglePoint foot = closestOnTriangle(corner, x_[v]);
     if (!(foot.dist2_m2 < far * far)) return;
-    if (foot.feature != kFace && !nearestAround(v, t, foot)) return;
+    if (foot.feature != kFace && (!nearestAround(v, t, foot) || besideBorder(v, t, foot))) return;
     const Vec3 w = barycentric(corner, foot.position);
     const double layer = 0.5 * (h[v] + w.x * h[a] + w.y * h[b] + w.z * h[c]);
     const Vec3 rest = w.x * facts_.rest[a] + w.y * facts_.rest[b] + w.z * facts_.rest[c];
@@ -149,6 +149,21 @@ class Search {
       if (other < t) return false;  // it answers for the feature
     }
     return true;
+  }
+  bool onBorder(int vertex) const {
+    const std::span<const int> edges = mesh_.vertex_edges[vertex];
+    return std::any_of(edges.begin(), edges.end(), [&](int e) { return mesh_.border(e); });
+  }
+  /// The foot is on the border of the other cloth, and inside of the sample's own cloth a point beside the sample is
+  /// nearer to it: not the sample meets the border, the border's own samples are carried by the faces around.
+  bool besideBorder(int v, int t, const TrianglePoint& foot) const {
+    const bool border = foot.feature >= kEdge0 ? mesh_.border(mesh_.face_edges[t][foot.feature - kEdge0])
+                                               : onBorder(mesh_.triangles[t][foot.feature]);
+    if (!border || onBorder(v)) return false;
+    const std::span<const int> own = mesh_.vertex_faces[v];
+    return std::any_of(own.begin(), own.end(), [&](int face) {
+      return closestOnTriangle(corners(face), foot.position).dist2_m2 < foot.dist2_m2 * (1 - 1e-12);
+    });
   }
   /// Vertex w is a local minimum of the distance to v, seen from v's triangles: v is nearest in all of them.
   bool nearestAround(int v, int w) const {

@@ -42,12 +42,14 @@ inline bool comesWithin(double reach, const Vec3& from, const Vec3& way) {
 /// Local minima of the distance between cloth and cloth at positions x0, where it is, or at the rate of the paths
 /// x0 -> x1 would become, less than 1.1 layers (Zheng 2013, section 3.2.1: the normal points from the foot to the
 /// sample, whatever the side). A sample against a triangle: feet on an edge or corner count only if no triangle there
-/// is nearer, and once for the feature. Edges against edges count only inside both and where both are sharp, that is
-/// where the faces of each bend away from the other by more than 3 degrees: flat cloth on flat cloth is carried by its
-/// samples alone, since all its edges are equally near. Neighbours along one layer are no contact: samples less than
-/// twice the layer from the foot, both at rest (a fold of the least radius, half the layer, joins points that are pi/2
-/// layers apart). Sorted by kind, then sample, then feature.
-/// `pairs` hold all that come as near as this.
+/// is nearer, and once for the feature; feet on a border only of samples that are nearest to it of their own cloth,
+/// too: a border that slides over cloth would meet each of its samples with a tilted normal, be lifted and slowed down
+/// there (two fabrics at 0.5 m/s: a tenth of mu m g), though its own samples already lie on that cloth's faces. Edges
+/// against edges count only inside both and where both are sharp, that is where the faces of each bend away from the
+/// other by more than 3 degrees: flat cloth on flat cloth is carried by its samples alone, since all its edges are
+/// equally near. Neighbours along one layer are no contact: samples less than twice the layer from the foot, both at
+/// rest (a fold of the least radius, half the layer, joins points that are pi/2 layers apart). Sorted by kind, then
+/// sample, then feature. `pairs` hold all that come as near as this.
 void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const CandidatePairs& pairs,
                    std::span<const Vec3> x0, std::span<const Vec3> x1, std::vector<ClothContactPoint>& out);
 

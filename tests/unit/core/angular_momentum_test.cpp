@@ -33,11 +33,13 @@ Motion twoSheets(double gap, double tilt, double friction, const Vec3& v) {
   return m;
 }
 
+/// By the impulses that were given: without the halves of the next ones that velocities hold in advance.
 Vec3 angular(const Motion& m, double* scale = nullptr) {
   Vec3 l{};
   if (scale) *scale = 0;
   for (int i = 0; i < m.model->freeCount(); ++i) {
-    const Vec3 moment = m.model->mass_kg[i] * cross(m.state.p[i], m.state.v[i]);
+    const Vec3 ahead = m.state.pressed.empty() ? Vec3{} : (0.5 * m.state.last_step_s) * m.state.pressed[i];
+    const Vec3 moment = m.model->mass_kg[i] * cross(m.state.p[i], m.state.v[i] - ahead);
     l += moment;
     if (scale) *scale += norm(moment);
   }
