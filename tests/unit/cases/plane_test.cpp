@@ -58,7 +58,7 @@ Landing land(const Case& c) {
   const auto watch = [&](const State& before, const State& after, const StepReport& r, const StepWork& w,
                          const Frequency&) {
     l.audit(r);
-    // The velocity with which the positions moved: state.v has half a step of gravity in it that contact takes next.
+    // The velocity with which the positions moved, at the middle of the step.
     const Vec3 v = (centreOfMass(m, after) - centreOfMass(m, before)) / r.step_s;
     const double now = after.time_s - 0.5 * r.step_s;
     if (!w.contact_impulses.empty()) ++touched;
