@@ -94,7 +94,7 @@ BodyMap::BodyMap(const Scenario& s, double sensor_m) : scenario_(s) {
   for (std::size_t o = 0; o < s.model->obstacles.size(); ++o) {
     const int body = s.body_of_obstacle[o];
     if (body >= links) continue;
-    Part part{static_cast<int>(o), static_cast<int>(zone_.size()), {}};
+    Part part{static_cast<int>(o), static_cast<int>(zone_.size()), {}, {}};
     if (body < 0) {
       part.mesh = s.human->skin->rest;
       zone_ = zones.ofSkin(*s.human->skin);
@@ -102,6 +102,7 @@ BodyMap::BodyMap(const Scenario& s, double sensor_m) : scenario_(s) {
       const Shape& shape = s.model->obstacles[o].shape;
       const auto* e = std::get_if<Ellipsoid>(&shape);
       part.mesh = e ? ellipsoidMesh(e->semi_axes, kCell_m) : refined(std::get<TriangleMesh>(shape), kCell_m);
+      part.surface.emplace(part.mesh);
       // Shapes of a human stand in the order of its obstacles (obstaclesOf).
       const Pose& X_LS = s.human->shapes[o].X_LS;
       for (const Vec3& p : part.mesh.vertices) zone_.push_back(zones.of(body, X_LS * p));
@@ -140,16 +141,6 @@ BodyMap::BodyMap(const Scenario& s, double sensor_m) : scenario_(s) {
   }
 }
 
-int BodyMap::nearest(const Part& part, const Vec3& p) const {
-  int best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t v = 0; v < part.mesh.vertices.size(); ++v) {
-    const Vec3 d = part.mesh.vertices[v] - p;
-    if (const double d2 = dot(d, d); d2 < least) least = d2, best = static_cast<int>(v);
-  }
-  return best;
-}
-
 std::vector<double> BodyMap::pressure(const Frame& frame) const {
   std::vector<double> force(size(), 0), area = area_;
   if (scenario_.hasSkin()) {
@@ -167,6 +158,7 @@ std::vector<double> BodyMap::pressure(const Frame& frame) const {
     for (std::size_t v = 0; v < size(); ++v) force[v] = given->data[v] * area[v];
   } else {
     const Field& given = fieldOf(frame, "pressure");
+    const std::vector<double> sample_area = sampleAreas(scenario_, frame);
     const Model& m = *scenario_.model;
     const std::vector<Placement> at = scenario_.obstaclePlacements(frame.time_s);
     for (std::size_t i = 0; i < given.data.size(); ++i) {
@@ -181,7 +173,12 @@ std::vector<double> BodyMap::pressure(const Frame& frame) const {
         if (part.obstacle == body) {
           const Placement& X = at[static_cast<std::size_t>(body)];
           const Vec3 local = transpose(X.rotation) * (x - X.origin) / X.scale;
-          force[static_cast<std::size_t>(part.first + nearest(part, local))] += given.data[i] * m.surface.area_m2[i];
+          const auto foot = part.surface->nearest(local, std::numeric_limits<double>::infinity());
+          const MaterialPoint at_foot = part.surface->material(foot.value());
+          for (std::size_t k = 0; k < 3; ++k)
+            if (at_foot.vertex[k] >= 0)
+              force[static_cast<std::size_t>(part.first + at_foot.vertex[k])] +=
+                  at_foot.weight[k] * given.data[i] * sample_area[i];
         }
     }
   }

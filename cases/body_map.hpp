@@ -2,13 +2,18 @@
 /// The pressure on the body itself, place by place: of a skin its vertices, of other bodies the vertices of meshes laid
 /// on their shapes. Places are material: they move with the body, so that what they bear can be followed over time.
 
+#include <optional>
+
 #include "cases/scenario.hpp"
+#include "core/contact/mesh_surface.hpp"
 #include "core/io/recording.hpp"
 
 namespace gambeson {
 
 /// What a sensor of this width would show: at each vertex the normal force over the area of all vertices within half
-/// the width (along straight lines, facing the same way, on the same shape, at rest).
+/// the width (along straight lines, facing the same way, on the same shape, at rest). Areas are those of the body now;
+/// a sample's force goes to the corners of the triangle at its foot by their weights there, as the triangle's area goes
+/// to its corners, so that an even pressure is shown as it is.
 class BodyMap {
  public:
   static constexpr double kCell_m = 0.012;  ///< edges of the meshes laid on shapes, at most
@@ -28,9 +33,9 @@ class BodyMap {
  private:
   struct Part {
     int obstacle = 0, first = 0;
-    TriangleMesh mesh;  ///< in the body's frame, or the skin at rest
+    TriangleMesh mesh;                   ///< in the body's frame, or the skin at rest
+    std::optional<MeshSurface> surface;  ///< of it; not of a skin
   };
-  int nearest(const Part& part, const Vec3& p) const;
 
   const Scenario& scenario_;
   std::vector<Part> parts_;

@@ -47,7 +47,8 @@ Object pictureTable() {
                                                                 {"strain", PictureField::strain},
                                                                 {"body_pressure", PictureField::body_pressure},
                                                                 {"plain", PictureField::plain}},
-              "what the colours show: first principal stress resultant, contact pressure, first principal strain; on "
+              "what the colours show: first principal stress resultant, contact pressure (over the cloth's "
+              "area as stretched), first principal strain; on "
               "the bare body the largest pressure of the motion; or nothing")
       .choice("view", &P::view, views, "where the picture is taken from")
       .integer("width", &P::width, 64, 8192, "pixels")

@@ -426,6 +426,16 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   std::fill(steps_.begin(), steps_.end(), 0.0);
 }
 
+namespace {
+
+/// Area now over area at rest, sqrt((1 + 2 E1) (1 + 2 E2)) of the principal Green-Lagrange strains. Cloth is crushed
+/// to a tenth of its length at most.
+double areaRatio(const ShellStress& s) {
+  return std::sqrt(std::max(1 + 2 * s.strain1, 0.01) * std::max(1 + 2 * s.strain2, 0.01));
+}
+
+}  // namespace
+
 void Recorder::appendFrame(const State& state, double window) {
   const Model& m = *scenario_.model;
   const int n = m.surface.size();
@@ -438,11 +448,10 @@ void Recorder::appendFrame(const State& state, double window) {
   frame.positions = floats(x);
   Field velocity{"velocity", "m/s", 3, floats(v)}, contact{"contact_force", "N", 3, {}},
       pressure{"pressure", "Pa", 1, {}};
-  for (int s = 0; s < n; ++s) {
-    force[s] = contact_[s] / window;
-    pressure.data.push_back(static_cast<float>(normal_[s] / (m.surface.area_m2[s] * window)));
-  }
+  for (int s = 0; s < n; ++s) force[s] = contact_[s] / window;
   contact.data = floats(force);
+  pressure.data.resize(n);
+  Field area{"area", "m^2", 1, std::vector<float>(n)};
   Field s1{"stress", "N/m", 1, std::vector<float>(n)}, s2{"stress_second", "N/m", 1, std::vector<float>(n)};
   Field e1{"strain", "1", 1, std::vector<float>(n)}, e2{"strain_second", "1", 1, std::vector<float>(n)};
   // Strain limits pull in impulses, one a step: like the contact forces, the mean over the window.
@@ -460,9 +469,12 @@ void Recorder::appendFrame(const State& state, double window) {
       s2.data[s] = static_cast<float>(stress.principal2_N_per_m);
       e1.data[s] = static_cast<float>(stress.strain1);
       e2.data[s] = static_cast<float>(stress.strain2);
+      const double now_m2 = m.surface.area_m2[s] * areaRatio(stress);
+      area.data[s] = static_cast<float>(now_m2);
+      pressure.data[s] = static_cast<float>(normal_[s] / (now_m2 * window));
     });
   error.rethrow();
-  frame.sample_fields = {velocity, contact, pressure, s1, s2, e1, e2};
+  frame.sample_fields = {velocity, contact, pressure, area, s1, s2, e1, e2};
   frame.control_fields = {Field{"position", "m", 3, floats(q)}};
   if (skin_) addSkin(state, window, frame);
   writer_.append(std::move(frame));

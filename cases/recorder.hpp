@@ -14,7 +14,9 @@
 ///   link,
 ///             from where the springs were attached
 ///   skin      where the human has a skin: what its contact is at the joints (cases/skin_ledger.hpp)
-/// Frames of a human with a skin also hold the skin's vertices, the contact force on each and the pressure on it.
+/// Frames hold of each sample the mean contact force over the window, the pressure (sum of the normal forces over the
+/// sample's area as it is at the window's end, stretched) and that area; stress and strain. Those of a human with a
+/// skin also hold the skin's vertices, the contact force on each and the pressure on it, over the skin's own area then.
 ///   steps     what the steps of the window reported (columns: stepColumns())
 
 #include <optional>

@@ -44,17 +44,17 @@ void addComfort(const Scenario& s, const Measured& m, ReportInput& in) {
   if (m.comfort.empty()) return;
   const ComfortCase& c = s.definition.comfort;
   const Trust trust = trustOf(in);
-  Table table{
-      "Pressure on the body against comfort limits",
-      fmt::format("Pressure: the mean over {:g} mm, about what a sensor shows; single contact points press harder. "
-                  "Mean: over time, where it is largest; the dose "
-                  "is that over {:g} min, as if the motion went on. Green: the mean is at most the comfortable "
-                  "pressure; red: it is above the limit, or the peak above the limit of peaks. The limits are "
-                  "suggestions; a case sets its own under \"comfort\".",
-                  1e3 * c.sensor_m, c.wear_s / 60),
-      {"part", "verdict", "mean [kPa]", "comfortable [kPa]", "limit [kPa]", "peak [kPa]", "at [s]",
-       "limit of peaks [kPa]", "dose [kPa min]", "above comfortable [cm\u00b2]"},
-      {}};
+  Table table{"Pressure on the body against comfort limits",
+              fmt::format("Pressure: force by the area as it is, over {:g} mm, about what a sensor shows; single "
+                          "contact points press harder. "
+                          "Mean: over time, where it is largest; the dose "
+                          "is that over {:g} min, as if the motion went on. Green: the mean is at most the comfortable "
+                          "pressure; red: it is above the limit, or the peak above the limit of peaks. The limits are "
+                          "suggestions; a case sets its own under \"comfort\".",
+                          1e3 * c.sensor_m, c.wear_s / 60),
+              {"part", "verdict", "mean [kPa]", "comfortable [kPa]", "limit [kPa]", "peak [kPa]", "at [s]",
+               "limit of peaks [kPa]", "dose [kPa min]", "above comfortable [cm\u00b2]"},
+              {}};
   std::vector<const ComfortMeasure*> order;
   for (const ComfortMeasure& z : m.comfort) order.push_back(&z);
   std::stable_sort(order.begin(), order.end(), [](auto* a, auto* b) {

@@ -332,6 +332,12 @@ const Field& fieldOf(const Frame& frame, const std::string& name) {
   throw RunError("the recording has no field \"" + name + "\"");
 }
 
+std::vector<double> sampleAreas(const Scenario& s, const Frame& frame) {
+  for (const Field& f : frame.sample_fields)
+    if (f.name == "area") return {f.data.begin(), f.data.end()};
+  return s.model->surface.area_m2;
+}
+
 std::vector<LayerMeasure> layersOf(const Scenario& s) {
   std::vector<LayerMeasure> layers;
   const Case effective = withFactors(s.definition);

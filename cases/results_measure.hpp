@@ -308,6 +308,9 @@ const Field& fieldOf(const Frame& frame, const std::string& name);
 /// Three numbers each; and where a frame's control points stand.
 std::vector<Vec3> vectorsOf(const std::vector<float>& numbers);
 std::vector<Vec3> controlsOf(const Frame& frame);
+/// Areas of the samples as they are in the frame [m^2], of which its pressures are forces. Recordings from before have
+/// none: their pressures are over the areas at rest, which are returned.
+std::vector<double> sampleAreas(const Scenario& s, const Frame& frame);
 Regions regionsOf(const Scenario& scenario);
 /// From when on torques, forces and pressures count: the strides' start where the last of them was recorded to its end,
 /// else 0.

@@ -21,6 +21,7 @@ void measureTouch(const Scenario& s, const RecordingReader& recording, Measured&
   const Model& m = *s.model;
   const Frame frame = recording.frame(recording.frameCount() - 1);
   const Field& pressure = fieldOf(frame, "pressure");
+  const std::vector<double> area = sampleAreas(s, frame);
   PlacedBodies placed(s);
   placed.moveTo(frame.time_s);
   const std::vector<Pose> poses = s.bodyPoses(frame.time_s);
@@ -32,7 +33,7 @@ void measureTouch(const Scenario& s, const RecordingReader& recording, Measured&
     const auto [nearest, least] = placed.nearest(x);
     if (nearest < 0) continue;
     const auto body = static_cast<std::size_t>(nearest);
-    const double force = pressure.data[k] * m.surface.area_m2[k];
+    const double force = pressure.data[k] * area[k];
     const bool near = least < 1.01 * m.layer_m[k];
     if (!near && force == 0) continue;
     TouchMeasure& t = out.touch[body];
@@ -45,8 +46,8 @@ void measureTouch(const Scenario& s, const RecordingReader& recording, Measured&
     t.force_radius_m += force * radius * radius;
     t.band_N[band] += force;
     if (!near) continue;
-    t.area_m2 += m.surface.area_m2[k];
-    t.band_m2[band] += m.surface.area_m2[k];
+    t.area_m2 += area[k];
+    t.band_m2[band] += area[k];
   }
   for (TouchMeasure& t : out.touch) t.force_radius_m = t.normal_N > 0 ? std::sqrt(t.force_radius_m / t.normal_N) : 0;
 }

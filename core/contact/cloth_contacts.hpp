@@ -42,9 +42,7 @@ inline bool comesWithin(double reach, const Vec3& from, const Vec3& way) {
 /// Local minima of the distance between cloth and cloth at positions x0, where it is, or at the rate of the paths
 /// x0 -> x1 would become, less than 1.1 layers (Zheng 2013, section 3.2.1: the normal points from the foot to the
 /// sample, whatever the side). A sample against a triangle: feet on an edge or corner count only if no triangle there
-/// is nearer, and once for the feature; feet on a border only of samples that are nearest to it of their own cloth,
-/// too: a border that slides over cloth would meet each of its samples with a tilted normal, be lifted and slowed down
-/// there (two fabrics at 0.5 m/s: a tenth of mu m g), though its own samples already lie on that cloth's faces. Edges
+/// is nearer, and once for the feature; on a border only if nothing beside the sample is nearer to them, either. Edges
 /// against edges count only inside both and where both are sharp, that is where the faces of each bend away from the
 /// other by more than 3 degrees: flat cloth on flat cloth is carried by its samples alone, since all its edges are
 /// equally near. Neighbours along one layer are no contact: samples less than twice the layer from the foot, both at
