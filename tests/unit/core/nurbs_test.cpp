@@ -211,8 +211,14 @@ TEST(Refine, KnotInsertionIntoUnclampedKnots) {
   NurbsPatch s = wavyPatch(3, 1);
   s.u.knots = {0, 0.1, 0.25, 0.5, 0.7, 1, 1.1, 1.3, 1.4, 1.7, 2};
   validate(s);
-  EXPECT_LT(largestChange(s, insertKnot(s, Direction::u, 0.6, 2)), 1e-13);
-  EXPECT_LT(largestChange(s, elevateDegree(s, Direction::u)), 1e-13);
+  const NurbsPatch inserted = insertKnot(s, Direction::u, 0.6, 2), elevated = elevateDegree(s, Direction::u);
+  EXPECT_EQ(std::count(inserted.u.knots.begin(), inserted.u.knots.end(), 0.6), 2);
+  EXPECT_EQ(inserted.u.count(), s.u.count() + 2);
+  EXPECT_EQ(inserted.points.size(), s.points.size() + static_cast<std::size_t>(2 * s.v.count()));
+  EXPECT_LT(largestChange(s, inserted), 1e-13);
+  EXPECT_EQ(elevated.u.degree, s.u.degree + 1);
+  EXPECT_GT(elevated.points.size(), s.points.size());
+  EXPECT_LT(largestChange(s, elevated), 1e-13);
 }
 
 TEST(Refine, InsertionToFullMultiplicityPutsAControlPointOnTheSurface) {
