@@ -163,9 +163,9 @@ TEST(ComfortOnShapes, TheForceOfASampleFallsWhereItIs) {
 /// area at rest and however the samples lie between the places.
 TEST(ComfortOnShapes, AnEvenPressureIsShownAsItIs) {
   const Folder folder;
-  std::ofstream(folder.path() / "cylinder.urdf") << R"(<robot name="c"><link name="trunk"><collision>
+  std::ofstream(folder.path() / "cylinder.urdf") << R"(<robot name="c"><link name="trunk"><visual>
     <origin xyz="0 0 0.05" rpy="0 1.5707963267948966 0"/><geometry><cylinder radius="0.05" length="0.4"/></geometry>
-    </collision></link><link name="tip"/><joint name="bend" type="revolute"><parent link="trunk"/><child link="tip"/>
+    </visual></link><link name="tip"/><joint name="bend" type="revolute"><parent link="trunk"/><child link="tip"/>
     <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="0" velocity="0"/></joint></robot>)";
   std::ofstream(folder.path() / "sleeve.json") << R"({"name": "sleeve", "gravity": [0, 0, 0],
     "garment": {"tube": {"radius": 0.045, "length": 0.2, "cells_around": 24, "cells_along": 12, "start": [-0.1, 0, 0.05],
@@ -210,9 +210,9 @@ TEST(ComfortOnShapes, AnEvenPressureIsShownAsItIs) {
       ++at;
     }
   std::printf("[ measured ] %.0f to %.0f Pa of 1500\n", low, high);
-  // The cloth lies a layer above the body: 1 %. The body's facets have a little less area than the cylinder.
-  EXPECT_GT(low, 0.96 * 1500);
-  EXPECT_LT(high, 1.06 * 1500);
+  // The rim of the sensor cuts between samples 6 to 8 mm apart, of which 13 lie under it.
+  EXPECT_GT(low, 0.87 * 1500);
+  EXPECT_LT(high, 1.13 * 1500);
 }
 
 TEST(ComfortLimits, OfEffortAreTheStudys) {
