@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/render/render.hpp"
+#include "cases/patch_fields_case.hpp"
 #include "cases/strain_limit_case.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/vec.hpp"
@@ -96,8 +97,10 @@ struct GarmentCase {
   std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, BeltGarment, ShirtGarment, SkirtGarment,
                FileGarment>
       shape;
-  Vec3 position_m;                   ///< moves the shape
-  std::optional<FabricCase> fabric;  ///< that of the case where absent
+  Vec3 position_m;                        ///< moves the shape
+  std::optional<FabricCase> fabric;       ///< that of the case where absent
+  std::vector<FabricCase> other_fabrics;  ///< what material fields choose from, beside the fabric
+  std::vector<FieldsCase> fields;         ///< thickness, fibre angle and material over its patches
   /// Displacement of each control point along the normal, uniform in -amplitude .. amplitude, that the motion starts
   /// from; the rest shape has none.
   double noise_m = 0;
@@ -258,7 +261,7 @@ struct TimeCase {
 
 enum class PictureTime { at, peak, end };
 /// body_pressure: on the body, without the garment, the largest over the motion at each place.
-enum class PictureField { plain, stress, pressure, strain, body_pressure };
+enum class PictureField { plain, stress, pressure, strain, thickness, body_pressure };
 
 struct PictureCase {
   PictureTime when = PictureTime::end;
@@ -328,6 +331,10 @@ struct Case {
   std::vector<std::string> overrides;  ///< "path=value" of the command line
 };
 
+/// As the shell takes them, without what the verdict asks of them.
+inline std::vector<Fabric> otherFabrics(const GarmentCase& g) {
+  return {g.other_fabrics.begin(), g.other_fabrics.end()};
+}
 inline const FabricCase& fabricOf(const Case& c, const GarmentCase& g) { return g.fabric ? *g.fabric : c.fabric; }
 
 /// Reads and checks a case file. `overrides` ("fabric.thickness=0.4 mm") replace or add values before the checks.

@@ -63,8 +63,9 @@ struct ClothSize {
   }
 };
 
+/// What the garment keeps from others where it is thickest.
 double layerOf(const Case& c, const GarmentCase& worn) {
-  return c.contact.layer_m.value_or(fabricOf(c, worn).thickness_m);
+  return c.contact.layer_m.value_or(largestThickness(fabricOf(c, worn), otherFabrics(worn), worn.fields));
 }
 
 /// `form` is null without a human.
@@ -106,6 +107,8 @@ Garment makeGarment(const Case& c, const GarmentCase& worn, const BodyForm* form
   for (std::size_t p = garment.patch_names.size(); p < garment.patches.size(); ++p)
     garment.patch_names.push_back("patch_" + std::to_string(p));
   garment.fabric = fabricOf(c, worn);
+  garment.other_fabrics = otherFabrics(worn);
+  applyFields(worn.fields, garment);
   for (NurbsPatch& patch : garment.patches)
     for (Vec3& point : patch.points) point += worn.position_m;
   for (auto& points : garment.placed)

@@ -29,8 +29,10 @@ Case withFactors(const Case& c) {
   Case out = c;
   const FactorsCase& f = c.factors;
   scale(out.fabric, f);
-  for (GarmentCase& g : out.garments)
+  for (GarmentCase& g : out.garments) {
     if (g.fabric) scale(*g.fabric, f);
+    for (Fabric& other : g.other_fabrics) scale(other, f);
+  }
   if (out.contact.layer_m) *out.contact.layer_m *= f.thickness;
   out.gravity_m_per_s2 = (f.weight / f.inertia) * out.gravity_m_per_s2;
   out.air.drag_kg_per_m2s *= f.drag;

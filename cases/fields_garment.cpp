@@ -1,6 +1,7 @@
 #include "cases/case.hpp"
 #include "cases/fields.hpp"
 #include "cases/fields_fabric.hpp"
+#include "cases/structure_fields.hpp"
 #include "cases/table.hpp"
 
 namespace gambeson::schema {
@@ -157,6 +158,16 @@ Object stitchingTable() {
       .build();
 }
 
+/// A list that is not written where it is empty, so that the case of a plain garment says nothing of it.
+Field listOf(const std::string& key, Object item, const std::string& doc) {
+  Field f;
+  f.key = key;
+  f.kind = Kind::list;
+  f.doc = doc;
+  f.object = std::make_shared<const Object>(std::move(item));
+  return f;
+}
+
 }  // namespace
 
 Object garmentTable() {
@@ -189,6 +200,42 @@ Object garmentTable() {
       .converted<FabricInput>("fabric", &G::fabric, fabricTable(), resolveFabric, restoreFabric,
                               "what this garment is made of")
       .defaultsTo("the case's fabric")
+      .custom(
+          listOf("other_fabrics", fabricTable(), "what a material field chooses from"),
+          [table = fabricTable()](const Place& p, G& g) {
+            if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
+            for (std::size_t i = 0; i < p.node.children.size(); ++i) {
+              FabricInput in;
+              const Place item = p.item(i);
+              readObject(table, item, &in);
+              g.other_fabrics.push_back(resolveFabric(item, in));
+            }
+          },
+          [table = fabricTable()](const G& g) -> std::optional<JsonNode> {
+            if (g.other_fabrics.empty()) return std::nullopt;
+            JsonNode list = emptyList();
+            for (const FabricCase& f : g.other_fabrics) {
+              const FabricInput in = restoreFabric(f);
+              list.children.push_back(writeObject(table, &in));
+            }
+            return list;
+          })
+      .defaultsTo("none")
+      .custom(
+          listOf("fields", fieldsTable(FieldsOf::garment),
+                 "thickness, fibre angle and material that vary over its patches; seams keep their springs"),
+          [table = fieldsTable(FieldsOf::garment)](const Place& p, G& g) {
+            if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
+            for (std::size_t i = 0; i < p.node.children.size(); ++i)
+              readObject(table, p.item(i), &g.fields.emplace_back());
+          },
+          [table = fieldsTable(FieldsOf::garment)](const G& g) -> std::optional<JsonNode> {
+            if (g.fields.empty()) return std::nullopt;
+            JsonNode list = emptyList();
+            for (const FieldsCase& f : g.fields) list.children.push_back(writeObject(table, &f));
+            return list;
+          })
+      .defaultsTo("none")
       .number("noise", &G::noise_m, "m", between(0, 0.1),
               "largest displacement along the normal, control point by control point, that the motion starts from; the "
               "rest shape has none")

@@ -45,10 +45,11 @@ Object pictureTable() {
               std::vector<std::pair<std::string, PictureField>>{{"stress", PictureField::stress},
                                                                 {"pressure", PictureField::pressure},
                                                                 {"strain", PictureField::strain},
+                                                                {"thickness", PictureField::thickness},
                                                                 {"body_pressure", PictureField::body_pressure},
                                                                 {"plain", PictureField::plain}},
               "what the colours show: first principal stress resultant, contact pressure (over the cloth's "
-              "area as stretched), first principal strain; on "
+              "area as stretched), first principal strain, thickness at rest; on "
               "the bare body the largest pressure of the motion; or nothing")
       .choice("view", &P::view, views, "where the picture is taken from")
       .integer("width", &P::width, 64, 8192, "pixels")

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/draft.hpp"
+#include "core/error.hpp"
 #include "human/load.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
@@ -76,7 +77,16 @@ double motionDuration(const HumanCase& h, const Human& human) {
 
 /// A garment's file, and the patches of it that supports name.
 void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment, const FileGarment& file) {
-  const Garment read = loadGarment(file.path);
+  Garment read = loadGarment(file.path);
+  try {
+    applyFields(garment.fields, read);
+  } catch (const InputError& e) {
+    const std::size_t i = std::stoul(e.where().key.substr(std::string("fields[").size()));
+    const JsonNode* list = root.node.find("garments");
+    const auto k = static_cast<std::size_t>(&garment - c.garments.data());
+    const Place place = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
+    listItem(place, "fields", i).failAt("patch", e.reason());
+  }
   const int patches = static_cast<int>(read.patches.size());
   std::vector<std::string> names;
   for (const NamedEdge& e : read.edges) names.push_back(e.name);

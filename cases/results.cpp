@@ -23,6 +23,7 @@ std::string pictureName(std::size_t number, const PictureCase& p, double time_s)
   const char* field = p.field == PictureField::stress          ? "stress"
                       : p.field == PictureField::pressure      ? "pressure"
                       : p.field == PictureField::strain        ? "strain"
+                      : p.field == PictureField::thickness     ? "thickness"
                       : p.field == PictureField::body_pressure ? "body_pressure"
                                                                : "plain";
   const std::string when = p.when == PictureTime::peak  ? "peak"

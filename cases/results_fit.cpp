@@ -54,24 +54,34 @@ std::array<std::vector<StressSummary>, 2> directedStrains(const Scenario& s, con
   return {summarizeStress(regions, frames[0]), summarizeStress(regions, frames[1])};
 }
 
+/// How far the garment may stretch in one direction; where it is of several fabrics, the one that stands least. Nothing
+/// where none of them says.
+std::optional<double> limitOf(const Case& c, const GarmentCase& g, std::optional<double> FabricCase::*limit) {
+  std::optional<double> least = fabricOf(c, g).*limit;
+  for (const FabricCase& other : g.other_fabrics)
+    if (least || other.*limit) least = std::min(least.value_or(kStrainOfLaw), (other.*limit).value_or(kStrainOfLaw));
+  return least;
+}
+
 }  // namespace
 
 void measureStretch(const Scenario& s, const RecordingReader& recording, Measured& out) {
   if (out.stress.empty()) return;
   const Case& c = s.definition;
   const bool stated = std::any_of(c.garments.begin(), c.garments.end(), [&](const GarmentCase& g) {
-    return fabricOf(c, g).limit_strain_weft || fabricOf(c, g).limit_strain_warp;
+    return limitOf(c, g, &FabricCase::limit_strain_weft) || limitOf(c, g, &FabricCase::limit_strain_warp);
   });
   std::array<std::vector<StressSummary>, 2> directed;
   if (stated) directed = directedStrains(s, recording, out.regions);
   for (std::size_t layer = 0; layer < c.garments.size(); ++layer) {
-    const FabricCase& fabric = fabricOf(c, c.garments[layer]);
-    if (!fabric.limit_strain_weft && !fabric.limit_strain_warp) {
+    const GarmentCase& garment = c.garments[layer];
+    const std::optional<double> limits[]{limitOf(c, garment, &FabricCase::limit_strain_weft),
+                                         limitOf(c, garment, &FabricCase::limit_strain_warp)};
+    if (!limits[0] && !limits[1]) {
       out.stretch.push_back(largestOf(s, out.stress, layer));
       out.stretch.back().limit = kStrainOfLaw;
       continue;
     }
-    const std::optional<double> limits[]{fabric.limit_strain_weft, fabric.limit_strain_warp};
     for (std::size_t d = 0; d < 2; ++d) {
       out.stretch.push_back(largestOf(s, directed[d], layer));
       out.stretch.back().limit = limits[d].value_or(kStrainOfLaw);

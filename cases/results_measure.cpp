@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "cases/factors.hpp"
@@ -338,15 +339,40 @@ std::vector<double> sampleAreas(const Scenario& s, const Frame& frame) {
   return s.model->surface.area_m2;
 }
 
+std::vector<double> thicknessOf(const Scenario& s) {
+  const Garment& garment = s.model->shell.garment();
+  const Surface& surface = s.model->surface;
+  std::vector<double> thickness;
+  for (std::size_t i = 0; i < surface.area_m2.size(); ++i)
+    thickness.push_back(fabricAt(garment, surface.patch[i], surface.parameters[i]).thickness());
+  return thickness;
+}
+
 std::vector<LayerMeasure> layersOf(const Scenario& s) {
   std::vector<LayerMeasure> layers;
   const Case effective = withFactors(s.definition);
   for (const GarmentCase& g : effective.garments) {
     const Fabric& fabric = fabricOf(effective, g);
-    layers.push_back({g.name, fabric.name, 0, 0, fabric.thickness(), 0});
+    const double h = fabric.thickness();
+    layers.push_back({g.name, fabric.name, 0, 0, h, 0, h, h});
   }
   const Garment& garment = s.model->shell.garment();
   const Surface& surface = s.model->surface;
+  const std::vector<double> thickness = thicknessOf(s);
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    if (effective.garments[k].fields.empty()) continue;
+    double area = 0, volume = 0, least = std::numeric_limits<double>::infinity(), largest = 0;
+    for (std::size_t i = 0; i < thickness.size(); ++i) {
+      if (garment.layerOf(surface.patch[i]) != static_cast<int>(k)) continue;
+      area += surface.area_m2[i];
+      volume += surface.area_m2[i] * thickness[i];
+      least = std::min(least, thickness[i]);
+      largest = std::max(largest, thickness[i]);
+    }
+    layers[k].thickness_m = volume / area;
+    layers[k].least_thickness_m = least;
+    layers[k].largest_thickness_m = largest;
+  }
   for (std::size_t i = 0; i < surface.area_m2.size(); ++i) {
     LayerMeasure& l = layers[static_cast<std::size_t>(garment.layerOf(surface.patch[i]))];
     l.area_m2 += surface.area_m2[i];

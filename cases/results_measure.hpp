@@ -200,10 +200,14 @@ SurfaceDepth surfaceDepth(const Scenario& scenario, const RecordingReader& recor
 /// One garment of the case, a layer.
 struct LayerMeasure {
   std::string name, fabric;
-  double mass_kg = 0, area_m2 = 0, thickness_m = 0;
+  double mass_kg = 0, area_m2 = 0, thickness_m = 0;  ///< the mean where it varies
   int control_points = 0;
+  double least_thickness_m = 0, largest_thickness_m = 0;
+  bool varies() const { return largest_thickness_m > least_thickness_m; }
 };
 std::vector<LayerMeasure> layersOf(const Scenario& scenario);
+/// Of the cloth at each sample [m].
+std::vector<double> thicknessOf(const Scenario& scenario);
 
 /// Of one patch in one frame: the first principal stress resultant, and how it is bent. NaN where there is no such
 /// sample.

@@ -45,6 +45,8 @@ FieldWords wordsOf(PictureField field) {
       return {"pressure", "Contact pressure of single points [kPa]", "contact pressure of single points", 1e-3};
     case PictureField::strain:
       return {"strain", "Largest stretch of the fabric [%]", "stretch of the fabric", 100};
+    case PictureField::thickness:
+      return {"", "Thickness of the cloth at rest [mm]", "thickness of the cloth", 1e3};
     case PictureField::body_pressure:
       return {"", "Largest pressure on the body, mean over {:g} mm [kPa]", "largest pressure on the body", 1e-3};
     case PictureField::plain:
@@ -128,6 +130,11 @@ double percentile99(const std::vector<double>& values, const std::vector<double>
   return values.empty() ? 0 : roundedUp(unit * weightedPercentile(values, areas, 0.99)) / unit;
 }
 
+/// A small thick part is what a picture of the thickness is for, so the colours reach the largest.
+double largestShown(const std::vector<double>& values, double unit) {
+  return values.empty() ? 0 : roundedUp(unit * *std::max_element(values.begin(), values.end())) / unit;
+}
+
 }  // namespace
 
 double roundedUp(double value) {
@@ -147,6 +154,7 @@ double fieldRange(const Scenario& s, const RecordingReader& recording, PictureFi
     return 1e3 * roundedUp(1e-3 * *std::max_element(loads.peak_Pa.begin(), loads.peak_Pa.end()));
   }
   const FieldWords words = wordsOf(field);
+  if (field == PictureField::thickness) return largestShown(thicknessOf(s), words.scale);
   std::vector<double> values, weights;
   for (const bool motion : {true, false}) {
     for (int k = 0; k < recording.frameCount(); ++k) {
@@ -181,6 +189,10 @@ PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int in
   scale.most_N = mostOf(clustersOf(placed, frame, x));
   if (field == PictureField::plain) return scale;
   const FieldWords words = wordsOf(field);
+  if (field == PictureField::thickness) {
+    scale.high = largestShown(thicknessOf(s), words.scale);
+    return scale;
+  }
   std::vector<double> values;
   for (const float v : fieldOf(frame, words.field).data) values.push_back(v);
   scale.high = percentile99(values, s.model->surface.area_m2, words.scale);
@@ -261,7 +273,10 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
         placed.placements()[o], body_color));
   std::vector<double> scalars;
   if (picture.field != PictureField::plain) {
-    for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
+    if (picture.field == PictureField::thickness)
+      for (const double h : thicknessOf(s)) scalars.push_back(words.scale * h);
+    else
+      for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
     const double most = *std::max_element(scalars.begin(), scalars.end());
     scene.bar =
         ColorBar{fmt::format("{}; here up to {}", words.title, formatBrief(most, 2)), 0, words.scale * scale.high};

@@ -243,13 +243,12 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   j["factors"] = {{"thickness", f.thickness}, {"bending", f.bending}, {"membrane", f.membrane},
                   {"weight", f.weight},       {"inertia", f.inertia}, {"drag", f.drag}};
   j["garments"] = Json::array();
-  for (const LayerMeasure& l : layersOf(s))
-    j["garments"].push_back({{"garment", l.name},
-                             {"fabric", l.fabric},
-                             {"mass_kg", l.mass_kg},
-                             {"area_m2", l.area_m2},
-                             {"thickness_m", l.thickness_m},
-                             {"control_points", l.control_points}});
+  for (const LayerMeasure& l : layersOf(s)) {
+    Json layer{{"garment", l.name},    {"fabric", l.fabric},           {"mass_kg", l.mass_kg},
+               {"area_m2", l.area_m2}, {"thickness_m", l.thickness_m}, {"control_points", l.control_points}};
+    if (l.varies()) layer["thickness_range_m"] = {l.least_thickness_m, l.largest_thickness_m};
+    j["garments"].push_back(std::move(layer));
+  }
   j["counted_from_s"] = m.counted_from_s;
   j["control_points"] = s.model->shell.controlCount();
   j["samples"] = s.model->surface.size();

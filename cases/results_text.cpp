@@ -216,6 +216,18 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
                                  [&](const GarmentCase& other) { return fabricOf(c, other) == f; });
     sayFabric(one ? "" : fmt::format("Fabric of {}: ", g.name), f, list);
   }
+  for (const GarmentCase& g : c.garments)
+    for (std::size_t k = 0; k < g.other_fabrics.size(); ++k)
+      sayFabric(fmt::format("Fabric {} of the material field{}: ", k + 1, g.name.empty() ? "" : " of " + g.name),
+                g.other_fabrics[k], list);
+  for (const LayerMeasure& l : layersOf(s))
+    if (l.varies())
+      say(
+          fmt::format("{} varies from {} to {} mm, {} mm in the mean over its area: mass, membrane and the "
+                      "distance kept in contact follow it in proportion, bending with its cube.",
+                      l.name.empty() ? "The cloth's thickness" : fmt::format("The thickness of {}", l.name),
+                      formatNumber(1e3 * l.least_thickness_m), formatNumber(1e3 * l.largest_thickness_m),
+                      formatNumber(1e3 * l.thickness_m)));
   if (c.air.drag_kg_per_m2s > 0)
     say(fmt::format("Air drag is linear, {} kg/(m² s) times the velocity relative to the air, which {}.",
                     formatNumber(c.air.drag_kg_per_m2s),

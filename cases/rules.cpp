@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "core/error.hpp"
+#include "tryon/pattern/pattern.hpp"
+
 namespace gambeson::schema {
 namespace {
 
@@ -53,14 +56,17 @@ const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase
                                                                                     : joined(names)));
 }
 
-/// Patches of the garment; 0 where only its file knows.
-int patchCount(const GarmentCase& g) {
-  if (std::holds_alternative<SheetGarment>(g.shape) || std::holds_alternative<DiscGarment>(g.shape)) return 1;
-  if (const auto* tube = std::get_if<TubeGarment>(&g.shape)) return tube->patches;
-  if (std::holds_alternative<ShortsGarment>(g.shape) || std::holds_alternative<ShirtGarment>(g.shape)) return 6;
-  if (std::holds_alternative<BeltGarment>(g.shape)) return 1;
-  if (std::holds_alternative<SkirtGarment>(g.shape)) return 8;
-  return 0;
+/// Patches of the garment by name; none where only its file knows.
+std::vector<std::string> patchNames(const GarmentCase& g) {
+  if (std::holds_alternative<ShortsGarment>(g.shape)) return shortsPatchNames();
+  if (std::holds_alternative<ShirtGarment>(g.shape)) return shirtPatchNames();
+  if (std::holds_alternative<BeltGarment>(g.shape)) return beltPatchNames();
+  if (std::holds_alternative<SkirtGarment>(g.shape)) return skirtPatchNames();
+  if (std::holds_alternative<FileGarment>(g.shape)) return {};
+  const auto* tube = std::get_if<TubeGarment>(&g.shape);
+  std::vector<std::string> names;
+  for (int k = 0; k < (tube ? tube->patches : 1); ++k) names.push_back(fmt::format("patch_{}", k));
+  return names;
 }
 
 void checkEdge(const Place& support, const Case& c, const EdgeCase& edge) {
@@ -73,7 +79,7 @@ void checkEdge(const Place& support, const Case& c, const EdgeCase& edge) {
                                          names.empty() ? "patch and side, such as 2.u0" : joined(names)));
     return;
   }
-  const int patches = patchCount(garment);
+  const int patches = static_cast<int>(patchNames(garment).size());
   if (patches > 0 && edge.patch >= patches)
     support.failAt(support.node.find("edge") ? "edge" : "patch",
                    fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
@@ -95,6 +101,45 @@ Place garmentPlace(const Place& root, std::size_t i) {
   return list ? root.member(*list).item(i) : root.member(*root.node.find("garment"));
 }
 
+/// At the part of the garment that the error's key names ("fields[0].thickness.values"), as far as it is written.
+[[noreturn]] void failInside(const Place& place, const std::string& key, const std::string& reason) {
+  const std::size_t end = key.find_first_of(".[");
+  if (end == std::string::npos) place.failAt(key, reason);
+  const JsonNode* child = place.node.find(key.substr(0, end));
+  if (!child) place.failAt(key, reason);
+  const Place inside = place.member(*child);
+  if (key[end] == '.') failInside(inside, key.substr(end + 1), reason);
+  const std::size_t close = key.find(']', end);
+  const Place item = inside.item(std::stoul(key.substr(end + 1)));
+  if (close + 1 >= key.size()) item.fail(reason);
+  failInside(item, key.substr(close + 2), reason);
+}
+
+void checkFieldsOf(const Place& place, const Case& c, const GarmentCase& g) {
+  for (std::size_t i = 0; i < g.fields.size(); ++i) {
+    try {
+      checkFields(g.fields[i], fabricOf(c, g), otherFabrics(g));
+    } catch (const InputError& e) {
+      failInside(place, fmt::format("fields[{}].{}", i, e.where().key), e.reason());
+    }
+  }
+  if (!g.other_fabrics.empty() &&
+      std::none_of(g.fields.begin(), g.fields.end(), [](const FieldsCase& f) { return f.fields.material.has_value(); }))
+    place.failAt("other_fabrics", "is of no use: no material field of this garment chooses from it");
+  const auto* belt = std::get_if<BeltGarment>(&g.shape);
+  if (belt && belt->tension_N > 0 && !g.fields.empty())
+    place.failAt("fields", "a belt's length follows from its tension and one fabric; allowed: with tension 0 N");
+  if (std::holds_alternative<FileGarment>(g.shape)) return;  // its file knows (cases/references.cpp)
+  Garment patches;
+  patches.patch_names = patchNames(g);
+  patches.patches.resize(patches.patch_names.size());
+  try {
+    applyFields(g.fields, patches);
+  } catch (const InputError& e) {
+    failInside(place, e.where().key, e.reason());
+  }
+}
+
 void checkGarments(const Place& root, const Case& c) {
   std::set<std::string> names;
   bool all_own = true;
@@ -110,6 +155,7 @@ void checkGarments(const Place& root, const Case& c) {
                                        std::pair{std::holds_alternative<ShirtGarment>(g.shape), "shirt"},
                                        std::pair{std::holds_alternative<SkirtGarment>(g.shape), "skirt"}})
       if (drafted && !c.human) place.failAt(key, fmt::format("a {} is drafted on a human, and the case has none", key));
+    checkFieldsOf(place, c, g);
     all_own = all_own && g.fabric;
     if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())
       place.failAt("stitching", "needs dressing.layer_by_layer: each garment is then put on by itself");

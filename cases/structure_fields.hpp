@@ -18,6 +18,8 @@ Object structureLoadTable();                      ///< StructureLoad
 Object staticSolverTable();                       ///< StructureCase
 Object dynamicSolverTable();                      ///< StructureCase
 Object modalSolverTable();                        ///< StructureCase
+enum class FieldsOf { sheet, garment };
+Object fieldsTable(FieldsOf of);                  ///< FieldsCase
 Object noiseTable();                              ///< NoiseCase
 Object structureOutputTable(StructureKind kind);  ///< StructureOutput
 

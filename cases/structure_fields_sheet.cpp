@@ -7,66 +7,6 @@ namespace {
 
 using namespace sheet;
 
-Object patchFieldTable(const std::string& unit, const Range& range, const std::string& title) {
-  using F = PatchField;
-  Field values =
-      fieldOf("values", Kind::rows, unit, range, "rows along v of values along u; each count at least degree + 1");
-  values.required = true;
-  return Table<F>(title)
-      .integer("degree", &F::degree, 0, 3,
-               "between the values: 0 constant by rectangle, 1 bilinear, 2 and 3 smooth (B-spline coefficients)")
-      .custom(
-          values,
-          [unit, range](const Place& p, F& f) {
-            if (p.node.type != JsonNode::Type::list || p.node.children.empty())
-              p.fail("expected a list of rows of numbers, not " + describe(p.node));
-            f.values.clear();
-            f.count_v = static_cast<int>(p.node.children.size());
-            for (std::size_t i = 0; i < p.node.children.size(); ++i) {
-              const std::vector<double> row = readNumbers(p.item(i), unit, range);
-              if (i == 0) f.count_u = static_cast<int>(row.size());
-              if (static_cast<int>(row.size()) != f.count_u)
-                p.item(i).fail(
-                    fmt::format("has {} values, the first row {}; allowed: the same", row.size(), f.count_u));
-              f.values.insert(f.values.end(), row.begin(), row.end());
-            }
-          },
-          [](const F& f) {
-            JsonNode list = emptyList();
-            const std::size_t n = static_cast<std::size_t>(f.count_u);
-            for (std::size_t j = 0; j * n + n <= f.values.size(); ++j)
-              list.children.push_back(nodeOfList(
-                  {f.values.begin() + static_cast<long>(j * n), f.values.begin() + static_cast<long>(j * n + n)}));
-            return std::optional(list);
-          })
-      .check([](const Place& p, const F& f) {
-        if (f.count_u < f.degree + 1 || f.count_v < f.degree + 1)
-          p.failAt("values", fmt::format("{} x {} values are too few for degree {}; allowed: at least {} x {}",
-                                         f.count_u, f.count_v, f.degree, f.degree + 1, f.degree + 1));
-      })
-      .build();
-}
-
-Object fieldsTable() {
-  using F = FieldsCase;
-  const auto thickness = [](auto& f) -> auto& { return f.fields.thickness; };
-  const auto angle = [](auto& f) -> auto& { return f.fields.fibre_angle; };
-  const auto material = [](auto& f) -> auto& { return f.fields.material; };
-  return Table<F>("Fields over a patch")
-      .integer("patch", &F::patch, 0, 10000, "which patch; pieces of a built shape are counted along u, then along v")
-      .object("thickness", thickness, patchFieldTable("", aboveTo(0, 100), "Thickness field"),
-              "thickness as a multiple of the material's")
-      .defaultsTo("the material's")
-      .object("fibre_angle", angle, patchFieldTable("rad", between(-7, 7), "Fibre angle field"),
-              "turns the weft about the normal")
-      .defaultsTo("none")
-      .object("material", material, patchFieldTable("", between(0, 1000), "Material field"),
-              "0: the material, k: other_materials[k - 1]; between whole numbers the stiffness (in plane stress), "
-              "thickness, density and bending rigidities of the two are mixed linearly")
-      .defaultsTo("the material everywhere")
-      .build();
-}
-
 template <class Get>
 void addKnots(Table<SheetCase>& table, const std::string& key, Get get, const std::string& along) {
   Field f = fieldOf(key, Kind::numbers, "", between(0, 1),
@@ -141,7 +81,7 @@ Object structureSheetTable() {
                "integration points each way on the pieces of cut cells; 0: degree + 1")
       .number("trim_unused", &S::trim_unused, "", between(0, 0.5),
               "control points with less than this part of their area inside follow their neighbours")
-      .list("fields", &S::fields, fieldsTable(), "thickness, fibre angle and material that vary over a patch")
+      .list("fields", &S::fields, fieldsTable(FieldsOf::sheet), "thickness, fibre angle and material that vary over a patch")
       .object("imperfection", &S::imperfection, noiseTable(), "deviation of the stress-free shape along its normal")
       .defaultsTo("none")
       .choice("cell_rule", &S::rule,

@@ -375,6 +375,9 @@ int renderStructureResults(const RenderOptions& o) {
   if (o.field == PictureField::pressure || o.field == PictureField::body_pressure)
     throw InputError({"command line", 0, "--field"},
                      "there is no contact pressure here; allowed: stress, strain or plain");
+  if (o.field == PictureField::thickness)
+    throw InputError({"command line", 0, "--field"},
+                     "pictures of structures do not show their thickness; allowed: stress, strain or plain");
   if (o.when == PictureTime::peak)
     throw InputError({"command line", 0, "--time"},
                      "there is no peak here; allowed: end, or a frame's load factor, time or mode");

@@ -145,19 +145,10 @@ bool isFlat(const SheetCase& c) {
   return std::holds_alternative<PlateShape>(c.shape) || std::holds_alternative<AnnulusShape>(c.shape);
 }
 
-void applyFields(const SheetCase& c, Garment& g) {
+void layFields(const SheetCase& c, Garment& g) {
   const bool turned = c.weft_angle_rad != 0;
-  if (!c.fields.empty() || (turned && !isFlat(c))) g.fields.resize(g.patches.size());
-  for (std::size_t i = 0; i < c.fields.size(); ++i) {
-    const FieldsCase& f = c.fields[i];
-    if (f.patch >= static_cast<int>(g.patches.size()))
-      reject(fmt::format("fields[{}].patch", i),
-             fmt::format("there is no patch {}; allowed: 0 to {}", f.patch, g.patches.size() - 1));
-    for (std::size_t k = 0; k < i; ++k)
-      if (c.fields[k].patch == f.patch)
-        reject(fmt::format("fields[{}].patch", i), fmt::format("patch {} has fields already", f.patch));
-    g.fields[static_cast<std::size_t>(f.patch)] = f.fields;
-  }
+  applyFields(c.fields, g);
+  if (turned && !isFlat(c)) g.fields.resize(g.patches.size());
   if (!turned) return;
   if (isFlat(c)) {
     const std::array<Vec3, 6> x =
@@ -238,7 +229,7 @@ Sheet buildSheet(const SheetCase& c) {
   std::visit(Builder{c, sheet}, c.shape);
   Garment& g = sheet.garment;
   if (c.weft) std::fill(g.weft.begin(), g.weft.end(), *c.weft);
-  applyFields(c, g);
+  layFields(c, g);
   applyTrim(c, g);
   if (c.imperfection) {
     const std::vector<Vec3> d = noiseOf(sheet, *c.imperfection);

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "cases/patch_fields_case.hpp"
 #include "core/sheet/garment.hpp"
 #include "core/sheet/seams.hpp"
 #include "core/sheet/shell.hpp"
@@ -110,11 +111,6 @@ struct NoiseCase {
   /// u, or of v, with random phases and sizes, the same on all meshes; the largest value is the amplitude.
   int from = 0, to = 0;
   bool along_v = false;
-};
-
-struct FieldsCase {
-  int patch = 0;
-  PatchFields fields;
 };
 
 struct SheetCase {

@@ -73,6 +73,14 @@ Garment makeShirt(const ShirtPattern& pattern, const BodyForm& form, double laye
 
 /// Where the patches of the shirt stand in Garment::patches.
 enum ShirtPatch { front, back, strap_left, strap_right, side_wrap, belly };
+/// Their names, and those of the patches of belt and skirt.
+inline std::vector<std::string> shirtPatchNames() {
+  return {"front", "back", "strap_left", "strap_right", "side_wrap", "belly"};
+}
+inline std::vector<std::string> beltPatchNames() { return {"belt"}; }
+inline std::vector<std::string> skirtPatchNames() {
+  return {"panel_0", "panel_1", "panel_2", "panel_3", "panel_4", "panel_5", "panel_6", "panel_7"};
+}
 
 /// A flared skirt of eight equal panels, joined by G1 seams: a cone from the waist (the edge "waist" of a layer under
 /// it, or the origin of the torso's frame) down, and wider where body or layers ask for it (Zheng 2013, section 3.7.4:

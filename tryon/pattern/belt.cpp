@@ -90,7 +90,7 @@ Garment makeBelt(const BeltPattern& p, const BodyForm& form, const Fabric& fabri
   Garment g;
   g.name = "belt";
   g.weft = {{0, 0, 1}};
-  g.patch_names = {"belt"};
+  g.patch_names = beltPatchNames();
   g.edges = {{"lower", {{0, Side::v0}}}, {"upper", {{0, Side::v1}}}};
   const Seam closing{{0, Side::u0}, {0, Side::u1}, SeamKind::G1, 0};
   g.patches = {ring(u, v, start, form.medianY())};

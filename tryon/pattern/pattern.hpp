@@ -83,6 +83,10 @@ Garment makeShorts(const ShortsPattern& pattern, const BodyForm& form);
 
 /// Where the patches of the shorts stand in Garment::patches.
 enum ShortsPatch { trunk_left, trunk_right, outer_left, outer_right, inner_left, inner_right };
+/// Their names.
+inline std::vector<std::string> shortsPatchNames() {
+  return {"trunk_left", "trunk_right", "outer_left", "outer_right", "inner_left", "inner_right"};
+}
 
 /// The free edges by name. Sheet: u0, u1, v0, v1; tube: start, end; shorts: waist, hem_left, hem_right. Throws
 /// InputError for other names.

@@ -210,7 +210,7 @@ Garment makeShirt(const ShirtPattern& p, const BodyForm& form, double layer_m, s
   const auto knots = [&](int cells) { return uniformKnots(p.degree, cells); };
   Garment g;
   g.name = "shirt";
-  g.patch_names = {"front", "back", "strap_left", "strap_right", "side_wrap", "belly"};
+  g.patch_names = shirtPatchNames();
   g.patches.resize(6);
   g.weft.assign(6, {0, 0, 1});
   const auto across = knots(d.panel_cells);

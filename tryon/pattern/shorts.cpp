@@ -341,7 +341,7 @@ Garment makeShorts(const ShortsPattern& p, const BodyForm& form) {
     g.patches.push_back(mirrored(*left, body.medianY()));
   }
   g.weft.assign(6, {0, 0, 1});
-  g.patch_names = {"trunk_left", "trunk_right", "outer_left", "outer_right", "inner_left", "inner_right"};
+  g.patch_names = shortsPatchNames();
   for (const char* name : {"waist", "hem_left", "hem_right"}) g.edges.push_back({name, shortsEdge(name)});
 
   using enum Side;

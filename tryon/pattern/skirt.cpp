@@ -67,7 +67,7 @@ Garment makeSkirt(const SkirtPattern& p, const BodyForm& form, double layer_m, s
       return Vec3{x.x, x.y, z};
     }));
     g.weft.push_back({0, 0, 1});
-    g.patch_names.push_back("panel_" + std::to_string(n));
+    g.patch_names.push_back(skirtPatchNames()[static_cast<std::size_t>(n)]);
     upper.edges.push_back({n, Side::v1});
     lower.edges.push_back({n, Side::v0});
   }
