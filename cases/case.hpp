@@ -80,8 +80,8 @@ struct FileGarment {
 /// Virtual stitching, Zheng 2013, section 6.3: the panels start apart, and springs along the seams close them.
 struct Stitching {
   double offset_m = 0.05;            ///< of the panels from where they are drafted
-  double stiffness_N_per_m2 = 1000;  ///< k of eq. 6.2, per length of seam
-  double damping_kg_per_m_s = 2;     ///< eta of eq. 6.2, per length of seam
+  double stiffness_N_per_m2 = 4000;  ///< k of eq. 6.2, per length of seam
+  double damping_kg_per_m_s = 50;    ///< eta of eq. 6.2, per length of seam
   double close_m = 0.005;            ///< the panels are sewn once no pair is further apart
   double within_s = 3;               ///< by then they must be
 };

@@ -131,6 +131,23 @@ TEST(Dress, ABeltStaysWhereItIsWornUntilThereAreShortsUnderIt) {
   EXPECT_NEAR(height(putOnApart(belted).garments[1].points_m), height(drafted[1].patches[0].points), 0.005);
 }
 
+/// Springs that are too soft and hardly damped let the panels flap: they were 10.8 mm apart then.
+TEST(Dress, AShirtOfArmourIsStitchedWithTheDefaults) {
+  const Folder folder;
+  const Case c = readCase(folder.write("case.json", R"json({
+  "name": "stitched",
+  "garments": [{"name": "shirt", "shirt": {"cell": "38 mm"}, "stitching": {"within": "0.2 s"}}],
+  "fabric": {
+    "thickness": "3.11 mm", "density": "1440 kg/m^3", "young": "1.44 MPa",
+    "bending": {"law": "zheng", "rigidity": "0.00371 N m", "kappa0": "30 1/m"}
+  },
+  "human": {"manikin": "male_p50", "motion": {"stand": {"duration": "0.02 s"}}},
+  "contact": {"friction": 0.2},
+  "dressing": {"layer_by_layer": true, "settle": "0.5 ms"}
+})json"));
+  EXPECT_NO_THROW(putOnApart(c));
+}
+
 TEST(Dress, PanelsThatDoNotCloseAreReported) {
   const Folder folder;
   const Case c = readCase(folder.write("case.json", worn), {"garments[1].stitching.within=0.02"});
