@@ -178,6 +178,13 @@ class Draft {
 };
 
 /// The edge a of a seam on a part of edge b takes the control points that hold it there.
+///
+/// These seams are C0 with a rotational spring, where the thesis joins the patches of its armour by the G1 map of
+/// section 2.3. Each of the eight ends inside of an edge: straps, belly and back are narrower than what they are sewn
+/// to, and the front is higher than the wrap. The map ties the points beside a seam to those across it; where a seam
+/// ends, the long edge goes on with points that have nobody across, and one and the same point would be tied and free
+/// (partOf refuses it). Straps and belly moreover leave the front at an angle at rest, which G1 excludes; only the
+/// wrap's sides and the back go on smoothly. What a sewn edge resists to folding is the spring's (seam_stiffness).
 void fitPart(Garment& g, const Seam& seam) {
   g.seams.push_back(seam);
   const EdgePart part = partOf(g, static_cast<int>(g.seams.size()) - 1);
