@@ -20,7 +20,8 @@ import time
 from common import SOURCE, UNTOUCHED, Folder, check
 
 TANGLED = {"tangle_closed", "tangle_half", "tangle_open", "tangle_sleeve", "nested_tubes"}
-FREE_BY_S = 0.3
+PUT_ON_TANGLED = {"armour_projected", "armour_tangled"}
+FREE_BY_S = {**{name: 0.3 for name in TANGLED}, **{name: 0 for name in PUT_ON_TANGLED}}  # before the motion starts
 EVERY_STEP = TANGLED | {"flag", "sphere_drape", "vertical_drape"}
 SHORT = ["tangle_half", "tangle_open"]
 LONG_FIRST = ["shorts_walk", "sphere_drape", "stack_mixed", "stack_of_ten", "pedestal_soft"]
@@ -40,8 +41,8 @@ def scenes():
 def look(checker, case, folder):
     numbers = folder / f"{case.stem}.json"
     arguments = [checker, str(case), "--numbers", str(numbers), "--name", "1"]
-    if case.stem in TANGLED:
-        arguments += ["--free-by", str(FREE_BY_S)]
+    if case.stem in FREE_BY_S:
+        arguments += ["--free-by", str(FREE_BY_S[case.stem])]
     if case.stem in EVERY_STEP:
         arguments.append("--every-step")
     begin = time.monotonic()
