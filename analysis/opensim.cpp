@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "analysis/report/html.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 
@@ -96,8 +96,8 @@ void writeExternalLoads(const std::filesystem::path& prefix, const std::string& 
         "      </ExternalForce>\n",
         body);
   }
-  writeFileAtomically(mot, table);
-  writeFileAtomically(xml, fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n"
+  writeOwnFile(mot, table);
+  writeOwnFile(xml, fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n"
                                        "<OpenSimDocument Version=\"40000\">\n"
                                        "  <ExternalLoads name=\"{}\">\n"
                                        "    <objects>\n{}    </objects>\n"

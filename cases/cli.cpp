@@ -3,13 +3,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <ostream>
+#include <sstream>
 
 #include "cases/any_case.hpp"
 #include "cases/draft.hpp"
 #include "cases/dress.hpp"
 #include "cases/export.hpp"
 #include "cases/fields.hpp"
+#include "cases/inputs.hpp"
+#include "cases/message.hpp"
 #include "cases/results_folder.hpp"
 #include "cases/run.hpp"
 #include "cases/structure_run.hpp"
@@ -64,6 +70,17 @@ struct StudyArguments {
   bool check = false;
   study::Options options;
 };
+
+/// A file whose name says what is in it. Throws InputError ("command line", option).
+void checkEnding(const std::filesystem::path& file, const std::string& option,
+                 const std::vector<std::string>& allowed) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (std::find(allowed.begin(), allowed.end(), ending) == allowed.end())
+    throw InputError({"command line", 0, option},
+                     fmt::format("\"{}\" does not end as what is written; allowed: a name that ends in {}",
+                                 file.string(), schema::joined(allowed)));
+}
 
 /// A blank line between what a command does and how it is used.
 class HelpText : public CLI::Formatter {
@@ -188,7 +205,7 @@ void addRender(CLI::App& app, RenderArguments& a) {
       ->type_name("VIEW")
       ->capture_default_str();
   render.add_option("--size", a.size, "Pixels, width x height")->type_name("WxH")->capture_default_str();
-  render.add_option("-o,--output", a.options.png, "Picture to write (PNG)")->type_name("PNG")->required();
+  render.add_option("-o,--output", a.options.png, "Picture to write (.png)")->type_name("PNG")->required();
   render.footer(
       "Examples:\n"
       "  gambeson render results/shorts_walk -o peak.png --time peak\n"
@@ -198,7 +215,7 @@ void addRender(CLI::App& app, RenderArguments& a) {
 void addReport(CLI::App& app, ReportOptions& options) {
   CLI::App& report = *app.add_subcommand("report", "Writes the report page of recorded results again");
   report.add_option("RESULTS", options.results, "Folder that gambeson run left")->type_name("")->required();
-  report.add_option("-o,--output", options.html, "Page to write: one HTML file that needs no other")
+  report.add_option("-o,--output", options.html, "Page to write: one file (.html) that needs no other")
       ->type_name("HTML")
       ->required();
   report.footer("Example:\n  gambeson report results/shorts_walk -o shorts.html");
@@ -208,9 +225,10 @@ void addExport(CLI::App& app, ExportArguments& a) {
   CLI::App& command = *app.add_subcommand("export", "Writes recorded results for other programs: CAD and OpenSim");
   command.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
   command
-      .add_option("--iges", a.options.iges,
-                  "The garment at one time as NURBS surfaces with their trimming: IGES 5.3, in millimetres, as "
-                  "recorded (single precision)")
+      .add_option(
+          "--iges", a.options.iges,
+          "The garment at one time as NURBS surfaces with their trimming: IGES 5.3 (.igs, .iges), in millimetres, as "
+          "recorded (single precision)")
       ->type_name("FILE");
   command
       .add_option("--time", a.time, "Of --iges: a time such as 1.2 or \"1200 ms\", peak (largest joint torque) or end")
@@ -337,6 +355,7 @@ int draft(const DraftArguments& a, std::ostream& out) {
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is a case of a structure; garments are made by those that wear");
+  checkOutput(a.garment_file, "--output", inputsOf(any));
   draftToFile(*c, a.garment, a.garment_file, out);
   return done;
 }
@@ -346,6 +365,7 @@ int run(RunArguments& a) {
     throw InputError({"command line", 0, "--device"}, "\"cuda\" is not in this build; allowed: auto or cpu");
   const AnyCase any = readAnyCase(a.file, a.overrides);
   if (a.options.out.empty()) a.options.out = std::filesystem::path("results") / a.file.stem();
+  checkPath(std::filesystem::absolute(a.options.out), "--out");
   if (const auto* structure = std::get_if<StructureCase>(&any)) return runStructure(*structure, a.options);
   return runCase(std::get<Case>(any), a.options);
 }
@@ -371,6 +391,7 @@ int dressCase(const DressArguments& a) {
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c || !c->human) throw InputError({a.file.string(), 0, "human"}, "is required: whom to dress");
+  checkOutput(a.output, "--output", inputsOf(any));
   useThreads(a.threads);
   writeDressed(dress(*c), a.output);
   fmt::print("Dressed: {}\n", a.output.string());
@@ -379,6 +400,7 @@ int dressCase(const DressArguments& a) {
 
 /// A time as pictures take it.
 int exportCommand(ExportArguments& a) {
+  if (!a.options.iges.empty()) checkEnding(a.options.iges, "--iges", {".igs", ".iges"});
   JsonNode node;
   node.type = JsonNode::Type::object;
   overrideValue(node, "time", a.time);
@@ -387,11 +409,16 @@ int exportCommand(ExportArguments& a) {
   schema::readObject(schema::pictureTable(), {node, "", none}, &picture);
   a.options.when = picture.when;
   a.options.time_s = picture.time_s;
+  const Paths recorded = recordedFiles(a.options.results);
+  if (!a.options.iges.empty()) checkOutput(a.options.iges, "--iges", recorded);
+  if (!a.options.opensim.empty())
+    for (const char* ending : {".xml", ".mot"}) checkOutput(a.options.opensim.string() + ending, "--opensim", recorded);
   return exportResults(a.options);
 }
 
 /// A picture's options go through the same table as the pictures of a case.
 int render(RenderArguments& a) {
+  checkEnding(a.options.png, "--output", {".png"});
   JsonNode node;
   node.type = JsonNode::Type::object;
   overrideValue(node, "field", a.field);
@@ -412,6 +439,7 @@ int render(RenderArguments& a) {
   a.options.view = picture.view;
   a.options.width = picture.width;
   a.options.height = picture.height;
+  checkOutput(a.options.png, "--output", recordedFiles(a.options.results));
   return holdsStructure(a.options.results) ? renderStructureResults(a.options) : renderResults(a.options);
 }
 
@@ -449,6 +477,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   StudyArguments study_arguments, batch_arguments;
   addStudy(app, study_arguments);
   addBatch(app, batch_arguments);
+  std::string subject;  // what the command works on, for messages that name no file themselves
+  const auto failure = [&](const std::string& text) { err << messageText(text) << '\n'; };
   if (argc < 2) {
     err << app.help();
     return bad_input;
@@ -456,16 +486,42 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   if (const std::string command = argv[1];
       !command.starts_with('-') &&
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
-    err << fmt::format(
+    failure(fmt::format(
         "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, export, verify, "
         "study "
         "and batch (see "
-        "gambeson --help)\n",
-        command);
+        "gambeson --help)",
+        command.substr(0, 80)));
     return bad_input;
   }
-  try {
+  const auto perform = [&] {
     app.parse(argc, argv);
+    for (const auto& [path, option] : std::initializer_list<std::pair<const std::filesystem::path&, const char*>>{
+             {run_arguments.file, "CASE"},
+             {run_arguments.options.out, "--out"},
+             {check_arguments.file, "CASE"},
+             {dress_arguments.file, "CASE"},
+             {dress_arguments.output, "--output"},
+             {draft_arguments.file, "CASE"},
+             {draft_arguments.garment_file, "--output"},
+             {render_arguments.options.results, "RESULTS"},
+             {render_arguments.options.png, "--output"},
+             {report_options.results, "RESULTS"},
+             {report_options.html, "--output"},
+             {export_arguments.options.results, "RESULTS"},
+             {export_arguments.options.iges, "--iges"},
+             {export_arguments.options.opensim, "--opensim"},
+             {verify_options.dir, "--dir"},
+             {verify_options.out, "--out"},
+             {verify_options.results, "--results"},
+             {study_arguments.file, "STUDY"},
+             {study_arguments.options.out, "--out"},
+             {batch_arguments.options.out, "--out"}}) {
+      checkPath(path, option);
+      const std::string_view name = option;
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS")) subject = path.string();
+    }
+    for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
     if (app.got_subcommand("run")) return run(run_arguments);
     if (app.got_subcommand("dress")) return dressCase(dress_arguments);
     if (app.got_subcommand("check")) return check(check_arguments, out);
@@ -476,17 +532,37 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
     if (app.got_subcommand("batch"))
       return study::runStudy(study::batchOf(batch_arguments.cases), batch_arguments.options, out);
+    checkEnding(report_options.html, "--output", {".html", ".htm"});
+    checkOutput(report_options.html, "--output", recordedFiles(report_options.results));
     return holdsStructure(report_options.results) ? reportStructureResults(report_options)
                                                   : reportResults(report_options);
+  };
+  int status = failed;
+  try {
+    status = perform();
   } catch (const CLI::ParseError& e) {
-    return app.exit(e, out, err) == 0 ? done : bad_input;
+    std::ostringstream text;
+    status = app.exit(e, out, text) == 0 ? done : bad_input;
+    std::string said = text.str();
+    while (said.ends_with('\n')) said.pop_back();
+    if (!said.empty()) failure(said);
   } catch (const InputError& e) {
-    err << e.what() << '\n';
-    return bad_input;
+    std::string text = e.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    failure(text);
+    status = bad_input;
+  } catch (const RunError& e) {
+    failure(fmt::format("gambeson failed: {}", e.what()));
   } catch (const std::exception& e) {
-    err << "gambeson failed: " << e.what() << '\n';
-    return failed;
+    failure(fmt::format("gambeson failed: {}{}{}", subject, subject.empty() ? "" : ": ", jsonReason(e.what())));
   }
+  // What was asked for on the standard output has to arrive there.
+  out.flush();
+  if (status == done && (!out || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+    failure("gambeson failed: the standard output cannot be written");
+    status = failed;
+  }
+  return status;
 }
 
 }  // namespace gambeson

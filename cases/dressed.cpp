@@ -4,8 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/fingerprint.hpp"
+#include "cases/message.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 #include "human/read_text.hpp"
 
 namespace gambeson {
@@ -115,7 +116,7 @@ void writeDressed(const Dressed& d, const std::filesystem::path& file) {
       {"body", d.body},
       {"posture", {{"joints", d.posture.q}, {"origin_m", listOf(d.posture.root.origin)}, {"rotation", rotation}}},
       {"garments", std::move(garments)}};
-  writeFileAtomically(file, j.dump() + "\n");
+  writeOwnFile(file, j.dump() + "\n");
 }
 
 Dressed readDressed(const std::filesystem::path& file) {
@@ -123,7 +124,7 @@ Dressed readDressed(const std::filesystem::path& file) {
   try {
     return dressedOf(parsed(text));
   } catch (const nlohmann::json::exception& e) {
-    throw InputError({file.string(), 0, ""}, e.what());
+    throw InputError({file.string(), 0, ""}, jsonReason(e.what()));
   } catch (const InputError& e) {
     throw InputError({file.string(), 0, e.where().key}, e.reason());
   }

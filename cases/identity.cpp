@@ -1,16 +1,56 @@
 #include "cases/case.hpp"
 #include "cases/fingerprint.hpp"
+#include "cases/inputs.hpp"
 
 namespace gambeson {
 
 namespace {
 
 /// A joint map that is a file, not one that ships.
-void addMap(Fingerprint& hash, std::string& map) {
+template <class Take>
+void takeMap(std::string& map, Take take) {
   std::filesystem::path file = map;
   if (!file.is_absolute()) return;
-  hash.addFile(file);
+  take(file);
   map = file.string();
+}
+
+/// Calls `take` with the path of every file that the case names, empty ones too; it may put another in its place.
+template <class Take>
+void eachFile(Case& named, Take take) {
+  for (GarmentCase& g : named.garments)
+    if (auto* file = std::get_if<FileGarment>(&g.shape)) take(file->path);
+  if (named.human) {
+    take(named.human->urdf);
+    take(named.human->body);
+    if (auto& character = named.human->character) {
+      for (std::filesystem::path file : filesBeside(character->file)) take(file);
+      take(character->file);
+      take(character->skeleton);
+      take(character->weights);
+      for (MorphTarget& t : character->targets) take(t.file);
+      takeMap(character->map, take);
+    }
+    if (auto* trajectory = std::get_if<TrajectoryMotion>(&named.human->motion)) take(trajectory->file);
+    if (auto* recorded = std::get_if<MotionFileOptions>(&named.human->motion)) {
+      take(recorded->path);
+      take(recorded->model);
+      takeMap(recorded->map, take);
+    }
+  }
+  take(named.dressing.from);
+  for (ObstacleCase& o : named.obstacles)
+    if (auto* mesh = std::get_if<MeshObstacle>(&o.shape)) {
+      take(mesh->file);
+    } else if (auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) {
+      for (std::filesystem::path file : framesIn(sequence->folder)) take(file);
+      sequence->folder = sequence->folder.filename();
+    }
+}
+
+template <class Take>
+void eachFile(StructureCase& named, Take take) {
+  if (auto* file = std::get_if<SheetFile>(&named.sheet.shape)) take(file->path);
 }
 
 }  // namespace
@@ -18,36 +58,30 @@ void addMap(Fingerprint& hash, std::string& map) {
 std::string caseIdentity(const Case& c) {
   Fingerprint hash;
   Case named = c;
-  for (GarmentCase& g : named.garments)
-    if (auto* file = std::get_if<FileGarment>(&g.shape)) hash.addFile(file->path);
-  if (named.human) {
-    hash.addFile(named.human->urdf);
-    hash.addFile(named.human->body);
-    if (auto& character = named.human->character) {
-      for (std::filesystem::path file : filesBeside(character->file)) hash.addFile(file);
-      hash.addFile(character->file);
-      hash.addFile(character->skeleton);
-      hash.addFile(character->weights);
-      for (MorphTarget& t : character->targets) hash.addFile(t.file);
-      addMap(hash, character->map);
-    }
-    if (auto* trajectory = std::get_if<TrajectoryMotion>(&named.human->motion)) hash.addFile(trajectory->file);
-    if (auto* recorded = std::get_if<MotionFileOptions>(&named.human->motion)) {
-      hash.addFile(recorded->path);
-      hash.addFile(recorded->model);
-      addMap(hash, recorded->map);
-    }
-  }
-  hash.addFile(named.dressing.from);
-  for (ObstacleCase& o : named.obstacles)
-    if (auto* mesh = std::get_if<MeshObstacle>(&o.shape)) {
-      hash.addFile(mesh->file);
-    } else if (auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) {
-      for (std::filesystem::path file : framesIn(sequence->folder)) hash.addFile(file);
-      sequence->folder = sequence->folder.filename();
-    }
+  eachFile(named, [&](std::filesystem::path& file) { hash.addFile(file); });
   hash.add(writeCase(named));
   return hash.text();
+}
+
+std::string caseIdentity(const StructureCase& c) {
+  Fingerprint hash;
+  StructureCase named = c;
+  eachFile(named, [&](std::filesystem::path& file) { hash.addFile(file); });
+  hash.add(writeCase(named));
+  return hash.text();
+}
+
+std::vector<std::filesystem::path> inputsOf(const AnyCase& any) {
+  std::vector<std::filesystem::path> files;
+  std::visit(
+      [&](auto named) {
+        files.push_back(named.file);
+        eachFile(named, [&](std::filesystem::path& file) {
+          if (!file.empty()) files.push_back(file);
+        });
+      },
+      any);
+  return files;
 }
 
 }  // namespace gambeson

@@ -9,10 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/tables.hpp"
+#include "cases/json_at.hpp"
+#include "cases/message.hpp"
 #include "cases/results_write.hpp"
 #include "cases/run.hpp"
+#include "cases/temporary_folder.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -74,13 +77,6 @@ std::vector<Picture> takeBodyPictures(const Scenario& s, const Measured& m, cons
   }
 }
 
-std::filesystem::path temporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "gambeson_XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw RunError("no folder can be made in " + std::filesystem::temp_directory_path().string());
-  return name;
-}
-
 }  // namespace
 
 std::pair<std::string, std::string> identityParts(const std::string& identity) {
@@ -100,7 +96,7 @@ void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
                {"searched_steps_s", f.searched_steps_s},
                {"phases", phases},
                {"windows", f.windows_s}};
-  writeFileAtomically(dir / "run.json", j.dump(2) + "\n");
+  writeOwnFile(dir / "run.json", j.dump(2) + "\n");
 }
 
 RunFacts readRunFacts(const std::filesystem::path& dir) {
@@ -109,19 +105,24 @@ RunFacts readRunFacts(const std::filesystem::path& dir) {
   std::ifstream stream(file);
   if (!stream) return f;
   try {
-    const Json j = Json::parse(stream);
-    f.version = j.at("version").get<std::string>();
-    f.threads = j.at("threads").get<int>();
-    f.kernels = j.at("kernels").get<std::string>();
-    f.wall_s = j.at("wall_s").get<double>();
-    f.resumed = j.at("resumed").get<bool>();
-    f.searches = j.value("searches", 0L);
-    f.searched_steps_s = j.value("searched_steps_s", 0.0);
-    f.windows_s = j.at("windows").get<std::vector<std::vector<double>>>();
-    for (const Json& p : j.at("phases"))
-      f.phases_s.emplace_back(p.at("phase").get<std::string>(), p.at("seconds").get<double>());
-  } catch (const nlohmann::json::exception& e) {
+    const auto parsed = nlohmann::json::parse(stream);
+    const JsonAt j(parsed);
+    f.version = j.at("version").text();
+    f.threads = j.at("threads").integer();
+    f.kernels = j.at("kernels").text();
+    f.wall_s = j.at("wall_s").number();
+    f.resumed = j.at("resumed").flag();
+    if (j.contains("searches")) f.searches = j.at("searches").integer();
+    if (j.contains("searched_steps_s")) f.searched_steps_s = j.at("searched_steps_s").number();
+    for (const JsonAt& window : j.at("windows").list())
+      for (f.windows_s.emplace_back(); const JsonAt& number : window.list())
+        f.windows_s.back().push_back(number.number());
+    for (const JsonAt& p : j.at("phases").list())
+      f.phases_s.emplace_back(p.at("phase").text(), p.at("seconds").number());
+  } catch (const JsonAt::Error& e) {
     throw InputError({file.string(), 0, ""}, e.what());
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError({file.string(), 0, ""}, jsonReason(e.what()));
   }
   return f;
 }
@@ -179,14 +180,13 @@ int reportResults(const ReportOptions& o) {
   const auto scenario = scenarioOfResults(o.results);
   const RecordingReader recording(o.results);
   const Measured m = measureAll(*scenario, recording);
-  const std::filesystem::path folder = temporaryFolder();
+  const TemporaryFolder folder;
   std::vector<std::string> failures;
-  const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder, failures);
+  const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder.path(), failures);
   ReportInput in = reportInput(*scenario, m, readRunFacts(o.results), recording.layout().identity, pictures);
-  in.comfort_pictures = takeBodyPictures(*scenario, m, folder, failures);
+  in.comfort_pictures = takeBodyPictures(*scenario, m, folder.path(), failures);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, o.html);
-  std::filesystem::remove_all(folder);
   if (!failures.empty()) throw RunError(failures.front() + " (the report is " + o.html.string() + ")");
   return 0;
 }

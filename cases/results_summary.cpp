@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/results_write.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -371,7 +371,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                   {"phases_s", phases},
                   {"windows", {{"columns", columns}, {"rows", facts.windows_s}}}};
   if (facts.searches > 0) j["timings"]["intersections"] = searchesJson(facts);
-  writeFileAtomically(file, j.dump(2) + "\n");
+  writeOwnFile(file, j.dump(2) + "\n");
 }
 
 }  // namespace gambeson

@@ -8,13 +8,16 @@
 #include <filesystem>
 
 #include "cases/dress.hpp"
+#include "cases/inputs.hpp"
 #include "cases/progress.hpp"
 #include "cases/recorder.hpp"
+#include "cases/recording_size.hpp"
 #include "cases/results.hpp"
 #include "cases/results_folder.hpp"
+#include "cases/stop_message.hpp"
 #include "cases/windows.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -60,8 +63,12 @@ void checkRun(const Case& c) {
 int runCase(const Case& c, const RunOptions& options) {
   const auto clock_start = std::chrono::steady_clock::now();
   useThreads(options.threads);
-  prepareResultsFolder(options.out);
-  const bool resume = options.resume && closedSegments(options.out) > 0;
+  const ResultsFolder folder(options.out, inputsOf(c), options.resume);
+  const bool resume = folder.resumes();
+  const StopMessage stopped(
+      fmt::format("stopped by a signal. What is recorded up to the last checkpoint stays in {}: the same command with "
+                  "--resume goes on from there",
+                  options.out.string()));
   if (options.resume && !resume)
     fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
@@ -73,12 +80,14 @@ int runCase(const Case& c, const RunOptions& options) {
   Frequency frequency;
   Checkpoint checkpoint;
   const RecordingLayout layout = recordingLayout(*scenario);
-  // The case is written once there is a recording and before its first segment: a folder that holds one of these files
-  // holds a recording, whenever the run is killed, and a recording with a segment has its case.
-  if (!resume && holdsRecording(options.out)) removeEarlierResults(options.out);
+  if (const std::string note = sizeNote(recordingSize(*scenario, layout).bytes, freeBytes(options.out)); !note.empty())
+    fmt::print(stderr, "note: {}\n", note);
+  // The case is written once there is a recording and before its first segment: a recording with a segment has its
+  // case, whenever the run is killed.
+  if (!resume) removeEarlierResults(options.out);
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
-  if (!resume) writeFileAtomically(options.out / "case.json", writeCase(c));
+  if (!resume) writeOwnFile(options.out / "case.json", writeCase(c));
   if (!resume) putOn(*scenario);
   state = resume ? stateOf(checkpoint, frequency) : startOf(*scenario, work);
 

@@ -2,6 +2,8 @@
 
 #include <fstream>
 
+#include "cases/message.hpp"
+
 namespace gambeson {
 
 std::string lastMessage(const std::filesystem::path& log) {
@@ -15,8 +17,7 @@ std::string lastMessage(const std::filesystem::path& log) {
     message = message || begins;
     last = message && !begins ? last + "; " + line : line;
   }
-  if (last.size() > 600) last.resize(600), last += "...";
-  return last;
+  return messageText(last);
 }
 
 }  // namespace gambeson

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cases/message.hpp"
 #include "cases/units.hpp"
 #include "core/error.hpp"
 
@@ -157,6 +158,10 @@ const std::string& readText(const Place& place) {
   if (place.node.type != JsonNode::Type::text)
     place.fail(fmt::format("expected a text in quotes, not {}", describe(place.node)));
   if (place.node.text.empty()) place.fail("the text is empty");
+  // Names, labels and paths have no control characters; what is prose may have several lines.
+  const std::string_view key = std::string_view(place.path).substr(place.path.rfind('.') + 1);
+  const bool prose = key == "description" || key == "doc" || key == "note" || key == "source";
+  if (const std::string why = unfitText(place.node.text, prose); !why.empty()) place.fail(why);
   return place.node.text;
 }
 

@@ -20,6 +20,24 @@ as_root() {
   fi
 }
 
+# apt_get WORD...: apt-get as root, waiting up to ten minutes (apt_wait_s seconds) for another one that runs. Its own option waits for the
+# lock of packages alone; for that of the lists it is asked again.
+apt_wait_s=600
+apt_get() {
+  local said status until=$((SECONDS + apt_wait_s))
+  said=$(mktemp)
+  while true; do
+    status=0
+    as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get -o DPkg::Lock::Timeout="$apt_wait_s" -q "$@" 2>"$said" || status=$?
+    cat "$said" >&2
+    if [ "$status" -eq 0 ] || [ "$SECONDS" -ge "$until" ] || ! grep -q 'Could not get lock\|Unable to lock' "$said"; then break; fi
+    echo "Another apt is running: waiting for it" >&2
+    sleep "${apt_pause_s:-5}"
+  done
+  rm -f "$said"
+  return "$status"
+}
+
 # install_packages NAME...: those of them that are not there yet.
 install_packages() {
   local missing=() name
@@ -32,8 +50,8 @@ install_packages() {
     return 1
   fi
   echo "Installing: ${missing[*]}"
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+  apt_get update
+  apt_get install -y --no-install-recommends "${missing[@]}"
 }
 
 # build_release [TARGET...]: configures and builds, everything where no target is named. As many compilers at once as there are

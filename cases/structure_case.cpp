@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "cases/any_case.hpp"
-#include "cases/fingerprint.hpp"
 #include "cases/structure_fields.hpp"
 #include "core/error.hpp"
 
@@ -32,14 +31,6 @@ StructureCase readStructureCase(const std::filesystem::path& file, const std::ve
 
 std::string writeCase(const StructureCase& c) {
   return schema::toText(schema::writeObject(schema::structureTable(c.kind), &c)) + "\n";
-}
-
-std::string caseIdentity(const StructureCase& c) {
-  Fingerprint hash;
-  StructureCase named = c;
-  if (auto* file = std::get_if<SheetFile>(&named.sheet.shape)) hash.addFile(file->path);
-  hash.add(writeCase(named));
-  return hash.text();
 }
 
 }  // namespace gambeson

@@ -14,7 +14,8 @@
 #include "analysis/ticks.hpp"
 #include "cases/structure_results.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/csv_text.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -43,20 +44,10 @@ PathTable tableFrom(const std::filesystem::path& file) {
   if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened");
   PathTable table;
   std::string line;
-  const auto split = [](const std::string& text) {
-    std::vector<std::string> parts{""};
-    for (const char c : text) {
-      if (c == ',')
-        parts.emplace_back();
-      else
-        parts.back() += c;
-    }
-    return parts;
-  };
-  if (std::getline(stream, line)) table.columns = split(line);
+  if (std::getline(stream, line)) table.columns = csvCells(line);
   while (std::getline(stream, line)) {
     std::vector<double> row;
-    for (const std::string& part : split(line)) row.push_back(std::strtod(part.c_str(), nullptr));
+    for (const std::string& part : csvCells(line)) row.push_back(std::strtod(part.c_str(), nullptr));
     if (row.size() != table.columns.size()) throw InputError({file.string(), 0, ""}, "a row has another length");
     table.rows.push_back(std::move(row));
   }
@@ -350,7 +341,7 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
   for (const std::string& a : assumptionsOf(c)) assumed += element("li", escape(a));
   body += sectionOf("assumptions", "What was assumed", "", element("ul", assumed, " class=\"assumptions\""));
   body += sectionOf("run", "How it was computed", "", charts(factsTable(s)));
-  writeFileAtomically(file, pageOf(c.name, c.description, sentence, body));
+  writeOwnFile(file, pageOf(c.name, c.description, sentence, body));
 }
 
 }  // namespace gambeson

@@ -10,8 +10,8 @@
 #include "cases/structure_run.hpp"
 #include "cases/structure_strains.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
 #include "core/io/csv.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -187,7 +187,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
                  {"factorisations", facts.factorisations}};
   j["timings"] = {
       {"wall_s", facts.wall_s}, {"build_s", facts.build_s}, {"solve_s", facts.solve_s}, {"threads", facts.threads}};
-  writeFileAtomically(file, j.dump(2) + "\n");
+  writeOwnFile(file, j.dump(2) + "\n");
 }
 
 }  // namespace gambeson

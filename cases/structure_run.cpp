@@ -8,17 +8,21 @@
 #include <cmath>
 
 #include "cases/any_case.hpp"
+#include "cases/inputs.hpp"
 #include "cases/places.hpp"
 #include "cases/progress.hpp"
+#include "cases/recording_size.hpp"
 #include "cases/results_folder.hpp"
+#include "cases/stop_message.hpp"
 #include "cases/structure_checks.hpp"
 #include "cases/structure_results.hpp"
 #include "cases/structure_strains.hpp"
+#include "cases/temporary_folder.hpp"
 #include "core/dynamics/modal.hpp"
 #include "core/dynamics/structure_system.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
 #include "core/io/csv.hpp"
+#include "core/io/own_file.hpp"
 #include "core/sheet/constraint.hpp"
 
 namespace gambeson {
@@ -49,16 +53,15 @@ struct BuiltStructure {
 /// What a run gathers on its way.
 class Run {
  public:
-  Run(const StructureCase& c, const RunOptions& options) : c_(c), out_(options.out) {
-    prepareResultsFolder(out_);
+  Run(const StructureCase& c, const RunOptions& options) : c_(c), out_(options.out), folder_(out_, inputsOf(c), false) {
     built_.emplace(c);
-    if (holdsRecording(out_)) removeEarlierResults(out_);
+    removeEarlierResults(out_);
     RecordingLayout layout;
     layout.identity = caseIdentity(c) + " " + built_->model.structure->shell.kernels().name;
     layout.metadata = writeCase(c);
     layout.triangles = built_->mesh.triangles;
     writer_.emplace(RecordingWriter::create(out_, layout));
-    writeFileAtomically(out_ / "case.json", writeCase(c));
+    writeOwnFile(out_ / "case.json", writeCase(c));
     facts.build_s = since(start_);
   }
 
@@ -76,6 +79,15 @@ class Run {
   void columns(std::vector<std::string> lead) {
     lead.insert(lead.end(), built_->probes->columns().begin(), built_->probes->columns().end());
     path.columns = std::move(lead);
+  }
+  /// Says how much so many rows are going to take where that is much: all of them are recorded at the end.
+  void foretell(double rows) const {
+    constexpr double per_vertex = 14;
+    const double shapes = c_.output.shapes == ShapesKept::all ? rows : 1;
+    const double bytes = 4 * per_vertex * static_cast<double>(built_->mesh.uv.size()) * shapes +
+                         16 * static_cast<double>(path.columns.size()) * rows;
+    if (const std::string note = sizeNote(bytes, freeBytes(out_)); !note.empty())
+      fmt::print(stderr, "note: {}\n", note);
   }
   /// A whole shape for ParaView and the pictures.
   void keep(const MeasuredState& state) {
@@ -121,6 +133,7 @@ class Run {
 
   const StructureCase& c_;
   std::filesystem::path out_;
+  ResultsFolder folder_;
   Clock::time_point start_ = Clock::now();
   std::optional<BuiltStructure> built_;
   std::optional<RecordingWriter> writer_;
@@ -148,6 +161,7 @@ void solve(const StaticReport& report, StructureFacts& facts) {
 void runStatic(const StructureCase& c, Run& run) {
   run.columns({"factor", "iterations", "residual", "negative_pivots", "jumped", "rounded", "strain_energy_J"});
   const Structure& s = run.structure();
+  run.foretell(c.statics.steps + 1.0);
   Progress progress(1, 0, stderr, "");
   // The start of every path, so that tables and plots have it.
   const std::vector<double> rest(static_cast<std::size_t>(s.dofs.unknowns()), 0.0);
@@ -259,6 +273,7 @@ void runDynamic(const StructureCase& c, Run& run) {
   run.columns(std::move(lead));
   const bool lumped = c.dynamics.lumped_mass || c.dynamics.scheme == TimeScheme::explicit_verlet;
   const double interval = c.output.interval_s.value_or(c.dynamics.end_s / 100);
+  run.foretell(std::ceil(c.dynamics.end_s / interval) + 1);
   Progress progress(c.dynamics.end_s);
   DynamicState state = startOf(c, run);
   long rows = 0;
@@ -351,6 +366,7 @@ int runStructure(const StructureCase& c, const RunOptions& options) {
     throw InputError({"command line", 0, "--resume"},
                      "is not possible for static, dynamic and modal cases: they start from the beginning");
   useThreads(options.threads);
+  const StopMessage stopped("stopped by a signal; a structure starts from the beginning when it is run again");
   Run run(c, options);
   if (c.kind == StructureKind::statics)
     runStatic(c, run);
@@ -403,13 +419,10 @@ int renderStructureResults(const RenderOptions& o) {
 
 int reportStructureResults(const ReportOptions& o) {
   const StructureCase c = readStructureCase(o.results / "case.json");
-  std::string name = (std::filesystem::temp_directory_path() / "gambeson_XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw RunError("no folder can be made in " + std::filesystem::temp_directory_path().string());
+  const TemporaryFolder folder;
   std::vector<std::string> failures;
-  const std::vector<Picture> pictures = takeStructurePictures(c, o.results, name, failures);
+  const std::vector<Picture> pictures = takeStructurePictures(c, o.results, folder.path(), failures);
   writeStructurePage(c, o.results, pictures, o.html);
-  std::filesystem::remove_all(name);
   if (!failures.empty()) throw RunError(failures.front() + " (the report is " + o.html.string() + ")");
   return 0;
 }

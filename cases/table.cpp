@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cases/message.hpp"
+
 namespace gambeson::schema {
 
 JsonNode nodeOf(double x) {
@@ -55,11 +57,12 @@ namespace {
 
 std::filesystem::path readExisting(const Place& place, std::filesystem::file_status& status) {
   const std::string& text = readText(place);
-  if (text.find('\0') != std::string::npos || text.size() > 4000) place.fail("this is not the name of a file");
+  if (text.size() > 4000) place.fail("this is not the name of a file");
   const bool from_command_line = place.node.line == 0;
   const std::filesystem::path base =
       from_command_line ? std::filesystem::current_path() : std::filesystem::absolute(place.file).parent_path();
   const std::filesystem::path path = (base / text).lexically_normal();
+  if (const std::string why = unfitText(path.string()); !why.empty()) place.fail("the folder of the file " + why);
   std::error_code error;
   status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::none)

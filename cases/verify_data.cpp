@@ -12,29 +12,12 @@
 
 #include "cases/verify.hpp"
 #include "core/error.hpp"
+#include "core/io/csv_text.hpp"
 
 namespace gambeson::verify {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-/// Fields of a line of CSV (RFC 4180; no line breaks within quotes).
-std::vector<std::string> splitLine(std::string_view line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
-      fields.back() += line[++i];
-    else if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      fields.emplace_back();
-    else if (c != '\r')
-      fields.back() += c;
-  }
-  return fields;
-}
 
 double numberOf(const std::string& text) {
   double v = not_a_number;
@@ -161,7 +144,7 @@ Numbers parseCsv(std::string_view text, const std::string& name) {
     text.remove_prefix(std::min(end + 1, text.size()));
     ++line;
     if (row.empty() || row == "\r") continue;
-    const std::vector<std::string> fields = splitLine(row);
+    const std::vector<std::string> fields = csvCells(row);
     if (t.columns.empty()) {
       t.columns = fields;
       continue;

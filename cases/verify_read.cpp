@@ -66,6 +66,20 @@ void boolean(Fields<T>& fields, const std::string& key, Get get, const std::stri
       field(key, Kind::choice, doc), [=](const Place& p, T& t) { std::invoke(get, t) = readBoolean(p); }, unwritten);
 }
 
+/// A table is a file of the run's own folder, called by its bare name.
+template <class T, class Get>
+void tableName(Fields<T>& t, Get get, const std::string& doc) {
+  t.custom(
+      field("table", Kind::text, doc),
+      [get](const Place& p, T& target) {
+        const std::string& name = schema::readText(p);
+        if (name.find_first_of("/\\") != std::string::npos || name.starts_with('.'))
+          p.fail(describe(p.node) + " is no file of a run's folder; allowed: a name such as path.csv, without folders");
+        std::invoke(get, target) = name;
+      },
+      unwritten);
+}
+
 schema::Object quantityTable() {
   using Q = Quantity;
   Fields<Q> t("Quantity");
@@ -85,7 +99,7 @@ schema::Object quantityTable() {
            "how the numbers of several runs become one");
   t.text("summary", &Q::summary, "path of a number in summary.json");
   t.text("column", &Q::column, "column of a table");
-  t.text("table", &Q::table, "file of the table");
+  tableName(t, &Q::table, "file of the table");
   t.text("along", &Q::along, "column in which `at` is looked up; the first where absent");
   optionalNumber(t, "at", &Q::at, "row to take, between rows linearly; the last where absent");
   t.number("scale", &Q::scale, "", schema::any(), "the number is multiplied by it");
@@ -121,10 +135,10 @@ schema::Object reportedTable(const std::string& title, const std::string& column
 
 schema::Object historyTable() {
   using H = History;
-  return Fields<H>("History")
-      .text("run", &H::run, "the run that it is taken from")
+  Fields<H> t("History");
+  tableName(t, &H::table, "file of the table; its first column is the time");
+  return t.text("run", &H::run, "the run that it is taken from")
       .required()
-      .text("table", &H::table, "file of the table; its first column is the time")
       .texts("columns", &H::columns, "columns of the table")
       .required()
       .choice("join", &H::of,
@@ -244,7 +258,7 @@ schema::Object checkTable() {
   t.custom(
       field("also", Kind::text_list, "other runs that are reported: coarser meshes"),
       [](const Place& p, C& c) { c.also = readTexts(p); }, unwritten);
-  t.text("table", &C::file, "table of the run");
+  tableName(t, &C::file, "table of the run");
   t.object("x", &C::x, pairTable(), "abscissa; of a table check: where the rows are compared");
   t.object("y", &C::y, pairTable(), "ordinate; of a table check: what is compared");
   t.number("bound", &C::bound, "", tolerance, "largest deviation, as a part of the reference column's largest value");
@@ -367,6 +381,8 @@ void checkNames(const Place& p, const Reference& r) {
     if (!runs.insert(run.name).second) place.failAt("name", fmt::format("\"{}\" is the name of two runs", run.name));
     if (run.name.find_first_of("/\\") != std::string::npos || run.name.starts_with('.'))
       place.failAt("name", "is the name of a folder too: no slashes, no dot at its start");
+    if (run.name.ends_with(".log") || run.name.ends_with(".json"))
+      place.failAt("name", "is the name of a folder beside files of that ending: another one");
     if (run.file.empty() && run.inline_case.type == JsonNode::Type::null && r.case_file.empty() &&
         r.inline_case.type == JsonNode::Type::null)
       place.fail("has no case, and the reference has none either");

@@ -1,102 +1,39 @@
 /// Runs references as processes of the command itself, a pool of them, and writes what came of it.
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fnmatch.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <thread>
 
+#include "cases/folder_lock.hpp"
+#include "cases/message.hpp"
+#include "cases/process_pool.hpp"
 #include "cases/progress.hpp"
-#include "cases/run_log.hpp"
+#include "cases/results_folder.hpp"
 #include "cases/schema.hpp"
+#include "cases/shell_word.hpp"
 #include "cases/verify.hpp"
 #include "cases/verify_examples.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson::verify {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char *kNumbers = "verify.json", *kPage = "verify.html";
+
+std::string pageOf(const Work& work) { return work.id + ".html"; }
+
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// The environment with one OpenMP thread, whatever the user has set.
-std::vector<std::string> environmentOfRuns() {
-  std::vector<std::string> all{"OMP_NUM_THREADS=1"};
-  for (char** e = environ; *e; ++e)
-    if (!std::string_view(*e).starts_with("OMP_NUM_THREADS=")) all.emplace_back(*e);
-  return all;
-}
-
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-  std::vector<char*> p;
-  for (std::string& t : texts) p.push_back(t.data());
-  p.push_back(nullptr);
-  return p;
-}
-
-/// Starts a process whose output goes to `log`; throws RunError.
-pid_t start(const Job& job) {
-  std::vector<std::string> command = job.command, environment = environmentOfRuns();
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, job.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t pid = -1;
-  const int error =
-      posix_spawn(&pid, command[0].c_str(), &actions, nullptr, pointers(command).data(), pointers(environment).data());
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw RunError(fmt::format("{} cannot be started: {}", command[0], std::strerror(error)));
-  return pid;
-}
-
-Outcome runJob(const Job& job) {
-  const Clock::time_point begin = Clock::now();
-  Outcome o{"", 0, job.folder};
-  try {
-    const pid_t pid = start(job);
-    int status = 0;
-    bool late = false;
-    for (pid_t got = 0; got == 0;) {
-      got = waitpid(pid, &status, WNOHANG);
-      if (got < 0) throw RunError(fmt::format("the run was lost: {}", std::strerror(errno)));
-      if (got > 0) break;
-      if (secondsSince(begin) > job.limit_s) {
-        late = true;
-        kill(pid, SIGKILL);
-        waitpid(pid, &status, 0);
-        break;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    const std::string said = lastMessage(job.log);
-    if (late)
-      o.why = fmt::format("stopped after {:.0f} s, its limit", job.limit_s);
-    else if (WIFSIGNALED(status))
-      o.why = fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-    else if (WEXITSTATUS(status) != 0)
-      o.why = said.empty() ? fmt::format("exit status {}, without a message", WEXITSTATUS(status)) : said;
-  } catch (const std::exception& e) {
-    o.why = e.what();
-  }
-  o.seconds = secondsSince(begin);
-  return o;
-}
 
 /// The outcome of a run that is complete already, looked for where the options say.
 std::optional<Outcome> keptRun(const Reference& reference, const Run& run, const Options& options) {
@@ -110,22 +47,68 @@ std::optional<Outcome> keptRun(const Reference& reference, const Run& run, const
   return {};
 }
 
-/// The job of a run. A case that is written in the reference becomes a file beside the results, values set, so that it
-/// can be run again by hand. A run of the same case that was interrupted there goes on where the options ask for it.
-Job jobOf(const Reference& reference, const Run& run, const Options& options) {
-  const std::filesystem::path base = options.out / reference.id, folder = base / run.name;
+/// Where things of a run stand.
+struct RunFiles {
+  std::filesystem::path folder, log;
+  std::filesystem::path written_case;  ///< of a case that is written in the reference; else empty
+};
+
+RunFiles filesOf(const Reference& reference, const Run& run, const Options& options) {
+  const std::filesystem::path base = options.out / reference.id;
+  const bool own = !run.file.empty() || run.inline_case.type != JsonNode::Type::null;
+  const bool inline_case = (own ? run.file : reference.case_file).empty();
+  return {base / run.name, base / (run.name + ".log"), inline_case ? base / (run.name + ".json") : ""};
+}
+
+/// Whether a run of the same case that was interrupted there is to go on.
+bool goesOn(const Reference& reference, const Run& run, const Options& options) {
+  return !options.results.empty() && interruptedRun(options.out / reference.id / run.name, caseHash(reference, run));
+}
+
+/// All that would be written, before anything is made or computed: files of others and inputs are refused (InputError).
+void checkFolder(const std::vector<Reference>& references, const std::vector<Work>& works,
+                 const std::vector<std::pair<std::size_t, std::size_t>>& runs, const Options& options) {
   std::error_code error;
-  const bool goes_on = !options.results.empty() && interruptedRun(folder, caseHash(reference, run));
-  if (!goes_on) std::filesystem::remove_all(folder, error);
-  std::filesystem::create_directories(folder, error);
-  if (error) throw RunError(fmt::format("{}: {}", folder.string(), error.message()));
+  for (const Reference& r : references)
+    if (r.id == kNumbers || r.id == kPage ||
+        std::any_of(works.begin(), works.end(), [&](const Work& w) { return r.id == pageOf(w); }))
+      throw InputError({r.file.string(), 0, "id"}, "the results have a file of that name; allowed: another name");
+  if (!std::filesystem::exists(options.out, error)) return;
+  if (!std::filesystem::is_directory(options.out, error))
+    throw InputError({"command line", 0, "--out"}, options.out.string() + " is not a folder");
+  Paths inputs;
+  for (const Reference& r : references) {
+    inputs.insert(inputs.end(), {r.file, r.case_file});
+    for (const Run& run : r.runs) inputs.push_back(run.file);
+  }
+  std::erase_if(inputs, [](const std::filesystem::path& p) { return p.empty(); });
+  for (const char* name : {kNumbers, kPage}) requireFreeOf(options.out / name, inputs, "--out");
+  for (const Work& work : works) requireFreeOf(options.out / pageOf(work), inputs, "--out");
+  for (const auto& [i, k] : runs) {
+    const Reference& reference = references[i];
+    const RunFiles files = filesOf(reference, reference.runs[k], options);
+    requireFolder(options.out / reference.id);
+    requireFolder(files.folder);
+    requireFreeOf(files.log, inputs, "--out");
+    if (!files.written_case.empty()) requireFreeOf(files.written_case, inputs, "--out");
+    checkResultsFolder(files.folder, inputs, goesOn(reference, reference.runs[k], options));
+  }
+}
+
+/// The process of a run. A case that is written in the reference becomes a file beside the results, values set, so that
+/// it can be run again by hand.
+Process processOf(const Reference& reference, const Run& run, const Options& options) {
+  const RunFiles files = filesOf(reference, run, options);
+  const bool goes_on = goesOn(reference, run, options);
+  makeFolder(files.folder);
+  if (!goes_on) removeEarlierResults(files.folder);  // nor are they taken where the run never begins
   const bool own = !run.file.empty() || run.inline_case.type != JsonNode::Type::null;
   const std::filesystem::path& file = own ? run.file : reference.case_file;
   JsonNode inline_case = own ? run.inline_case : reference.inline_case;
   std::vector<std::string> changes;
   std::filesystem::path written = file;
   if (file.empty()) {
-    written = base / (run.name + ".json");
+    written = files.written_case;
     for (const auto& [path, value] : run.changes) {
       try {
         overrideValue(inline_case, path, value);
@@ -133,25 +116,25 @@ Job jobOf(const Reference& reference, const Run& run, const Options& options) {
         throw InputError({reference.file.string(), 0, "runs." + run.name + ".set." + path}, e.reason());
       }
     }
-    writeFileAtomically(written, schema::toText(inline_case) + "\n");
+    writeOwnFile(written, schema::toText(inline_case) + "\n");
   } else {
     for (const auto& [path, value] : run.changes) changes.insert(changes.end(), {"--set", path + "=" + value});
   }
-  Job job{{options.binary, "run", written.string(), "--out", folder.string(), "--threads", "1"},
-          base / (run.name + ".log"),
-          folder,
-          run.limit_s};
-  if (goes_on) job.command.emplace_back("--resume");
-  job.command.insert(job.command.end(), changes.begin(), changes.end());
-  return job;
+  claimFile(files.log);
+  Process process{{options.binary, "run", written.string(), "--out", files.folder.string(), "--threads", "1"},
+                  files.log,
+                  run.limit_s};
+  if (goes_on) process.command.emplace_back("--resume");
+  process.command.insert(process.command.end(), changes.begin(), changes.end());
+  return process;
 }
 
 std::string commandOf(const Options& o) {
   std::string s = "gambeson verify";
-  for (const std::string& f : o.filters) s += " --filter '" + f + "'";
+  for (const std::string& f : o.filters) s += " --filter " + shellWord(f);
   if (o.quick) s += " --quick";
-  if (!o.results.empty()) s += " --results " + o.results.string();
-  return s + fmt::format(" --dir {} --jobs {}", o.dir.string(), o.jobs);
+  if (!o.results.empty()) s += " --results " + shellWord(o.results.string());
+  return s + fmt::format(" --dir {} --jobs {}", shellWord(o.dir.string()), o.jobs);
 }
 
 /// " (0.33 within 0.12)", " (at least 0.9)".
@@ -235,31 +218,13 @@ std::vector<PageLink> writeWorks(const std::vector<Work>& works, const std::vect
     if (done.empty()) continue;
     for (const std::string& id : others)
       if (auto kept = keptReference(options, id)) done.push_back(std::move(*kept));
-    pages.push_back({work.id + ".html", work.title});
-    writeFileAtomically(options.out / pages.back().file, formatWork(work, done, commandOf(options)));
+    pages.push_back({pageOf(work), work.title});
+    writeOwnFile(options.out / pages.back().file, formatWork(work, done, commandOf(options)));
   }
   return pages;
 }
 
 }  // namespace
-
-std::vector<Outcome> runJobs(const std::vector<Job>& jobs, int parallel,
-                             const std::function<void(std::size_t, const Outcome&)>& done) {
-  std::vector<Outcome> outcomes(jobs.size());
-  std::atomic<std::size_t> next{0};
-  std::mutex reporting;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      outcomes[i] = runJob(jobs[i]);
-      const std::lock_guard lock(reporting);
-      done(i, outcomes[i]);
-    }
-  };
-  std::vector<std::jthread> pool;
-  for (int k = 0; k < parallel && static_cast<std::size_t>(k) < jobs.size(); ++k) pool.emplace_back(work);
-  pool.clear();
-  return outcomes;
-}
 
 std::vector<Reference> chooseReferences(const Options& options) {
   std::error_code error;
@@ -317,12 +282,11 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
   Options options = chosen_options;
   if (options.jobs < 1) options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const Clock::time_point begin = Clock::now();
+  const Signals signals;
   const std::vector<Reference> references = chooseReferences(options);
   const std::vector<Work> works = readWorks(options.dir);
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error) throw RunError(fmt::format("{}: {}", options.out.string(), error.message()));
-  options.out = std::filesystem::absolute(options.out);
+  options.out = std::filesystem::absolute(options.out).lexically_normal();
+  checkPath(options.out, "--out");
 
   // The long half starts first, and of each reference its last run, the finest mesh: so that no long run is left alone
   // at the end.
@@ -342,8 +306,12 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
     }
   }
   std::stable_partition(owner.begin(), owner.end(), [&](const auto& o) { return !references[o.first].quick; });
-  std::vector<Job> jobs;
-  for (const auto& [i, k] : owner) jobs.push_back(jobOf(references[i], references[i].runs[k], options));
+  checkFolder(references, works, owner, options);
+  makeFolder(options.out);
+  const FolderLock lock(options.out);
+  checkFolder(references, works, owner, options);  // what another command has left meanwhile
+  std::vector<Process> jobs;
+  for (const auto& [i, k] : owner) jobs.push_back(processOf(references[i], references[i].runs[k], options));
   std::vector<std::optional<Verified>> verified(references.size());
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (missing[i] > 0) continue;
@@ -353,9 +321,12 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
   {
     const bool terminal = isatty(STDERR_FILENO) != 0;
     std::size_t finished = 0;
-    runJobs(jobs, options.jobs, [&](std::size_t job, const Outcome& o) {
+    ProcessPool pool;
+    pool.parallel = options.jobs;
+    pool.environment = {"OMP_NUM_THREADS=1"};
+    pool.ended = [&](std::size_t job, const Ended& e) {
       const auto [i, k] = owner[job];
-      outcomes[i][k] = o;
+      outcomes[i][k] = {e.why, e.seconds, filesOf(references[i], references[i].runs[k], options).folder};
       ++finished;
       if (terminal) std::fputs("\r\033[K", stderr);
       if (--missing[i] == 0) {
@@ -366,14 +337,17 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
       const double left_s =
           secondsSince(begin) * (static_cast<double>(jobs.size()) / static_cast<double>(finished) - 1);
       std::fprintf(stderr, "%zu of %zu runs, about %s left", finished, jobs.size(), durationText(left_s).c_str());
-    });
+    };
+    if (!runProcesses(jobs, pool, signals, lock.descriptor()))
+      throw RunError("stopped by a signal; nothing was compared. Runs that were done stay in " + options.out.string() +
+                     ", and --results with that folder takes them");
   }
   std::vector<Verified> all;
   for (auto& v : verified) all.push_back(std::move(*v));
   const double wall_s = secondsSince(begin);
-  writeFileAtomically(options.out / "verify.json", formatJson(all));
+  writeOwnFile(options.out / kNumbers, formatJson(all));
   const std::vector<PageLink> pages = writeWorks(works, all, options);
-  writeFileAtomically(options.out / "verify.html", formatPage(all, commandOf(options), wall_s, pages));
+  writeOwnFile(options.out / kPage, formatPage(all, commandOf(options), wall_s, pages));
   int passed = 0, gating = 0, failed = 0;
   std::string rest;
   for (const Verified& v : all) {
@@ -384,7 +358,7 @@ int runVerify(const Options& chosen_options, std::ostream& out) {
   }
   out << fmt::format("{} of {} references passed{}, {}: {}\n", passed, gating,
                      rest.empty() ? "" : " (" + rest + " gate nothing: they report)", durationText(wall_s),
-                     (options.out / "verify.html").string());
+                     (options.out / kPage).string());
   return failed == 0 ? 0 : 1;
 }
 

@@ -94,7 +94,8 @@ std::unique_ptr<Motion> loadTrajectory(const std::filesystem::path& csv, const H
     if (blank > 0) throw InputError(where(blank, ""), "is blank");
     const auto cell = cells(row);
     if (line == 1) {
-      if (cell[0] != "time_s") throw InputError(where(1, std::string(cell[0])), "the first column must be time_s");
+      // What stands there is not repeated: any file may have been named.
+      if (cell[0] != "time_s") throw InputError(where(1, "column 1"), "the first column must be time_s");
       if (cell.size() < 2) throw InputError(where(1, ""), "names no joint");
       std::set<std::pair<int, int>> seen;
       for (std::size_t k = 1; k < cell.size(); ++k) {

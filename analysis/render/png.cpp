@@ -5,7 +5,7 @@
 
 #include "analysis/render/render.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -44,6 +44,6 @@ std::string encodePng(const Image& image) {
   return bytes;
 }
 
-void writePng(const Image& image, const std::filesystem::path& file) { writeFileAtomically(file, encodePng(image)); }
+void writePng(const Image& image, const std::filesystem::path& file) { writeOwnFile(file, encodePng(image)); }
 
 }  // namespace gambeson

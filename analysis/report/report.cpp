@@ -12,7 +12,7 @@
 #include "analysis/report/parts.hpp"
 #include "analysis/report/style.hpp"
 #include "analysis/ticks.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -348,7 +348,7 @@ std::string formatReport(const ReportInput& in) {
 }
 
 void writeReport(const ReportInput& input, const std::filesystem::path& html) {
-  writeFileAtomically(html, formatReport(input));
+  writeOwnFile(html, formatReport(input));
 }
 
 }  // namespace gambeson

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "core/io/atomic_file.hpp"
+#include "cases/study/files.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson::study {
 namespace {
@@ -371,7 +372,7 @@ void compareVariants(const Study& s, const std::vector<Outcome>& outcomes, const
   std::vector<std::string> failures;
   const std::vector<SidePicture> pictures = takeSidePictures(s, c, out, failures);
   writeStudyTables(s, c, out);
-  writeFileAtomically(out / "report.html", studyPage(s, c, pictures, failures));
+  writeOwnFile(out / files::report, studyPage(s, c, pictures, failures));
 }
 
 }  // namespace gambeson::study

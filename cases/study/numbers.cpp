@@ -6,16 +6,18 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "analysis/ticks.hpp"
 #include "cases/check_words.hpp"
+#include "cases/json_at.hpp"
+#include "cases/message.hpp"
 #include "core/error.hpp"
+#include "core/io/csv_text.hpp"
 
 namespace gambeson::study {
 namespace {
 
-using Json = nlohmann::json;
+using Json = JsonAt;
 
 /// "hip_flexion_left": "left hip (flexion)".
 std::string labelOf(const std::string& joint, const std::string& side) {
@@ -28,62 +30,61 @@ std::string labelOf(const std::string& joint, const std::string& side) {
 }
 
 std::optional<double> optional(const Json& j, const std::string& key) {
-  return j.contains(key) && j.at(key).is_number() ? std::optional(j.at(key).get<double>()) : std::nullopt;
+  return j.contains(key) && j.at(key).is_number() ? std::optional(j.at(key).number()) : std::nullopt;
 }
 
 JointNumbers jointOf(const Json& j) {
   JointNumbers n;
-  n.name = j.at("joint").get<std::string>();
-  n.label = labelOf(n.name, j.at("side").get<std::string>());
+  n.name = j.at("joint").text();
+  n.label = labelOf(n.name, j.at("side").text());
   if (const std::size_t cut = n.label.find('('); cut != std::string::npos)
     n.movement = n.label.substr(cut + 1, n.label.size() - cut - 2);
   n.prismatic = j.contains("peak_N");
   const std::string unit = n.prismatic ? "_N" : "_Nm";
-  n.peak_Nm = j.at("peak" + unit).get<double>();
-  n.peak_time_s = j.at("peak_time_s").get<double>();
-  n.rms_Nm = j.at("rms" + unit).get<double>();
+  n.peak_Nm = j.at("peak" + unit).number();
+  n.peak_time_s = j.at("peak_time_s").number();
+  n.rms_Nm = j.at("rms" + unit).number();
   n.standing_Nm = optional(j, "standing" + unit);
-  n.rate_at_peak = j.at("joint_rate_at_peak").get<double>();
+  n.rate_at_peak = j.at("joint_rate_at_peak").number();
   n.natural_Nm = optional(j, "natural_peak_Nm");
   if (j.contains("natural_is_held")) {
     n.foot_part = optional(j.at("natural_is_held"), "foot_share_of_weight");
     n.lever_m = optional(j.at("natural_is_held"), "lever_m");
   }
-  n.normal_N = j.at("normal_mean_N").get<double>();
-  n.friction_N = j.at("friction_mean_N").get<double>();
+  n.normal_N = j.at("normal_mean_N").number();
+  n.friction_N = j.at("friction_mean_N").number();
   n.friction_Nm = optional(j, "friction_at_peak" + unit);
   return n;
 }
 
 void readZones(const Json& rows, RunNumbers& run) {
-  for (const Json& r : rows) {
-    if (r.at("press") != "free") continue;
-    std::string zone = r.at("zone").get<std::string>();
+  for (const Json& r : rows.list()) {
+    if (r.at("press").text() != "free") continue;
+    std::string zone = r.at("zone").text();
     for (const std::string side : {"_left", "_right"})
       if (zone.ends_with(side)) zone.resize(zone.size() - side.size());
     auto at = std::find_if(run.zones.begin(), run.zones.end(), [&](const ZoneNumbers& z) { return z.zone == zone; });
     if (at == run.zones.end()) at = run.zones.insert(at, {zone, 0, 0, 0});
-    at->force_N += r.at("force_N").get<double>();
-    at->normal_N += r.at("normal_N").get<double>();
-    at->friction_N += r.at("friction_N").get<double>();
+    at->force_N += r.at("force_N").number();
+    at->normal_N += r.at("normal_N").number();
+    at->friction_N += r.at("friction_N").number();
   }
 }
 
 void readCurves(const std::filesystem::path& csv, RunNumbers& run) {
   std::ifstream stream(csv);
-  std::string line, word;
+  std::string line;
   if (!std::getline(stream, line)) throw RunError(csv.string() + " cannot be read");
   std::vector<JointNumbers*> column;
-  std::istringstream head(line);
-  while (std::getline(head, word, ',')) {
+  for (const std::string& name : csvCells(line)) {
     column.push_back(nullptr);
     for (JointNumbers& j : run.joints)
-      if (word == j.name + (j.prismatic ? "_N" : "_Nm")) column.back() = &j;
+      if (name == j.name + (j.prismatic ? "_N" : "_Nm")) column.back() = &j;
   }
   while (std::getline(stream, line)) {
-    std::istringstream row(line);
-    for (std::size_t c = 0; std::getline(row, word, ',') && c < column.size(); ++c) {
-      const double value = std::strtod(word.c_str(), nullptr);
+    const std::vector<std::string> row = csvCells(line);
+    for (std::size_t c = 0; c < row.size() && c < column.size(); ++c) {
+      const double value = std::strtod(row[c].c_str(), nullptr);
       if (c == 0)
         run.time_s.push_back(value);
       else if (column[c])
@@ -187,48 +188,47 @@ RunNumbers readRun(const std::filesystem::path& folder) {
   try {
     std::ifstream stream(folder / "summary.json");
     if (!stream) throw RunError((folder / "summary.json").string() + " cannot be read");
-    const Json j = Json::parse(stream);
+    const auto parsed = nlohmann::json::parse(stream);
+    const Json j(parsed);
     if (!j.contains("joints")) {  // a structure: its own page says what there is
       run.good = true;
       return run;
     }
-    run.recorded_to_s = j.at("recorded_to_s").get<double>();
-    run.planned_to_s = j.at("planned_to_s").get<double>();
-    run.counted_from_s = j.at("counted_from_s").get<double>();
-    run.control_points = j.at("control_points").get<int>();
-    run.largest_strain = j.at("largest_strain").get<double>();
-    for (const Json& l : j.at("garments"))
-      run.layers.push_back({l.at("garment").get<std::string>(), l.at("mass_kg").get<double>(),
-                            l.at("area_m2").get<double>(), l.at("thickness_m").get<double>(),
-                            l.at("control_points").get<int>()});
-    for (const Json& joint : j.at("joints")) run.joints.push_back(jointOf(joint));
-    for (const Json& c : j.at("contact"))
-      run.contact.push_back({c.at("segment").get<std::string>(), c.at("share").get<double>(),
-                             c.at("mean_N").get<double>(), c.at("peak_N").get<double>(),
-                             c.at("normal_mean_N").get<double>(), c.at("friction_mean_N").get<double>()});
+    run.recorded_to_s = j.at("recorded_to_s").number();
+    run.planned_to_s = j.at("planned_to_s").number();
+    run.counted_from_s = j.at("counted_from_s").number();
+    run.control_points = j.at("control_points").integer();
+    run.largest_strain = j.at("largest_strain").number();
+    for (const Json& l : j.at("garments").list())
+      run.layers.push_back({l.at("garment").text(), l.at("mass_kg").number(), l.at("area_m2").number(),
+                            l.at("thickness_m").number(), l.at("control_points").integer()});
+    for (const Json& joint : j.at("joints").list()) run.joints.push_back(jointOf(joint));
+    for (const Json& c : j.at("contact").list())
+      run.contact.push_back({c.at("segment").text(), c.at("share").number(), c.at("mean_N").number(),
+                             c.at("peak_N").number(), c.at("normal_mean_N").number(),
+                             c.at("friction_mean_N").number()});
     readZones(j.at("body_zones").at("rows"), run);
     for (const auto& [zone, k] : j.at("comfort").items())
-      run.comfort.push_back({zone, k.at("light").get<std::string>(), k.at("mean_Pa").get<double>(),
-                             k.at("peak_Pa").get<double>(), k.at("red_Pa").get<double>(),
-                             k.at("peak_limit_Pa").get<double>(), k.at("dose_kPa_min").get<double>()});
-    for (const Json& s : j.at("stress"))
-      run.stress.push_back({s.at("region").get<std::string>(), s.at("p50_N_per_m").get<double>(),
-                            s.at("p95_N_per_m").get<double>(), s.at("p99_N_per_m").get<double>(),
-                            s.at("max_N_per_m").get<double>(), optional(s, "p99_strain").value_or(std::nan("")),
-                            s.at("max_strain").get<double>()});
-    for (const Json& s : j.at("stretch"))
-      run.stretch.push_back({s.at("limit").get<double>(), s.at("p99_strain").get<double>(),
-                             s.at("max_strain").get<double>(), s.at("stated").get<bool>(),
-                             s.at("garment").get<std::string>(), s.at("along").get<std::string>()});
-    for (const Json& c : j.at("audit"))
-      run.checks.push_back({c.at("check").get<std::string>(),
-                            c.at("value").is_number() ? c.at("value").get<double>() : std::nan(""),
-                            c.at("limit").get<double>(), c.at("unit").get<std::string>(), c.at("holds").get<bool>()});
+      run.comfort.push_back({zone, k.at("light").text(), k.at("mean_Pa").number(), k.at("peak_Pa").number(),
+                             k.at("red_Pa").number(), k.at("peak_limit_Pa").number(), k.at("dose_kPa_min").number()});
+    for (const Json& s : j.at("stress").list())
+      run.stress.push_back({s.at("region").text(), s.at("p50_N_per_m").number(), s.at("p95_N_per_m").number(),
+                            s.at("p99_N_per_m").number(), s.at("max_N_per_m").number(),
+                            optional(s, "p99_strain").value_or(std::nan("")), s.at("max_strain").number()});
+    for (const Json& s : j.at("stretch").list())
+      run.stretch.push_back({s.at("limit").number(), s.at("p99_strain").number(), s.at("max_strain").number(),
+                             s.at("stated").flag(), s.at("garment").text(), s.at("along").text()});
+    for (const Json& c : j.at("audit").list())
+      run.checks.push_back({c.at("check").text(), c.at("value").is_number() ? c.at("value").number() : std::nan(""),
+                            c.at("limit").number(), c.at("unit").text(), c.at("holds").flag()});
     if (!run.joints.empty()) readCurves(folder / "torques.csv", run);
     run.good = true;
-  } catch (const Json::exception& e) {
+  } catch (const Json::Error& e) {
     run = {};
     run.why = fmt::format("{}: {}", (folder / "summary.json").string(), e.what());
+  } catch (const nlohmann::json::exception& e) {
+    run = {};
+    run.why = fmt::format("{}: {}", (folder / "summary.json").string(), jsonReason(e.what()));
   } catch (const RunError& e) {
     run = {};
     run.why = e.what();

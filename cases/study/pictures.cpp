@@ -8,7 +8,9 @@
 #include "cases/results.hpp"
 #include "cases/results_write.hpp"
 #include "cases/study/compare.hpp"
+#include "cases/study/files.hpp"
 #include "core/error.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson::study {
 namespace {
@@ -29,10 +31,9 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
                                           std::vector<std::string>& failures) {
   std::vector<SidePicture> pictures;
   if (s.pictures.empty()) return pictures;
-  const std::filesystem::path folder = out / "pictures";
-  std::error_code error;
-  std::filesystem::remove_all(folder, error);
+  const std::filesystem::path folder = out / files::pictures;
   std::filesystem::create_directories(folder);
+  for (const std::filesystem::path& earlier : ownFiles(folder)) removeOwnFile(earlier);
   // One scale for all groups, so that motions can be compared as well.
   std::vector<PictureScale> scales(s.pictures.size());
   for (const bool draw : {false, true})
@@ -53,7 +54,7 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
               scales[w].high = std::max(scales[w].high, fieldRange(*scenario, recording, wish.field));
               continue;
             }
-            const std::filesystem::path png = folder / fmt::format("{}_{:02d}.png", v.folder, w + 1);
+            const std::filesystem::path png = folder / files::pictureName(v.folder, w);
             renderFrame(*scenario, recording, frame, wish, scales[w], png);
             pictures.push_back(
                 {i, w, png,

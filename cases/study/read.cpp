@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "cases/study/files.hpp"
 #include "cases/study/input.hpp"
 #include "cases/table.hpp"
 #include "core/error.hpp"
@@ -249,10 +250,7 @@ class Maker {
       v.folder += (v.folder.empty() ? "" : "__") + safe(extra_label);
       v.label += (v.label.empty() ? "" : ", ") + extra_label;
     }
-    if (v.folder.size() > 200)
-      at.fail(fmt::format("the folder of the variant {} has a name longer than 200 characters", v.label));
-    if (v.folder == "." || v.folder == ".." || v.folder == "cases" || v.folder == "logs" || v.folder == "pictures")
-      at.fail(fmt::format("a variant cannot be called \"{}\"; allowed: another label", v.label));
+    if (const std::string why = files::unfitFolder(v.folder); !why.empty()) at.fail(fmt::format("a variant {}", why));
     if (!folders_.insert(v.folder).second)
       at.fail(fmt::format("there are two variants {}; allowed: labels that differ", v.label));
     if (study_.variants.size() >= most_variants) tooMany(at);
@@ -431,6 +429,8 @@ Study batchOf(const std::vector<std::filesystem::path>& cases) {
     Variant v;
     v.folder = v.label = safe(file.stem().string());
     v.grid = true;
+    if (const std::string why = files::unfitFolder(v.folder); !why.empty())
+      throw InputError({"command line", 0, file.string()}, fmt::format("a case {}", why));
     if (const auto [other, fresh] = seen.insert({v.folder, file}); !fresh)
       throw InputError({"command line", 0, file.string()},
                        fmt::format("has the same name as {}; allowed: cases whose files have names of their own",

@@ -12,15 +12,20 @@
 #include <ostream>
 #include <set>
 
+#include "cases/folder_lock.hpp"
+#include "cases/inputs.hpp"
+#include "cases/message.hpp"
+#include "cases/process_pool.hpp"
 #include "cases/progress.hpp"
 #include "cases/references.hpp"
 #include "cases/results.hpp"
 #include "cases/results_folder.hpp"
+#include "cases/shell_word.hpp"
 #include "cases/study/compare.hpp"
-#include "cases/study/pool.hpp"
+#include "cases/study/files.hpp"
 #include "cases/study/time_left.hpp"
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 #include "core/io/recording.hpp"
 #include "core/sheet/shell_kernel.hpp"
 
@@ -33,7 +38,7 @@ int machineThreads() {
 }
 
 std::filesystem::path caseFile(const std::filesystem::path& out, const Variant& v) {
-  return out / "cases" / (v.folder + ".json");
+  return out / files::cases / (v.folder + ".json");
 }
 
 /// Checkpoints that a whole run leaves, about; 0 where that is not known (structures).
@@ -44,26 +49,49 @@ double checkpointsOf(const AnyCase& any) {
   return 1 + (dressing + plannedDuration(*c)) / c->output.checkpoint_s;
 }
 
-void prepareFolder(const std::filesystem::path& out) {
-  std::error_code error;
-  for (const auto& folder : {out, out / "cases", out / "logs"}) {
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      throw InputError({"command line", 0, "--out"},
-                       fmt::format("{} cannot be made: {}", folder.string(), error.message()));
-  }
+std::filesystem::path logFile(const std::filesystem::path& out, const Variant& v) {
+  return out / files::logs / (v.folder + ".log");
+}
+
+std::vector<Stand> standsOf(const Study& s, const Options& o) {
+  std::vector<Stand> stands;
+  for (const Variant& v : s.variants) stands.push_back(o.resume ? standOf(o.out / v.folder, v.identity) : Stand::fresh);
+  return stands;
 }
 
 /// A folder of a variant that holds anything but a run, finished, cut or only begun, is not ours to fill.
-void refuseForeign(const Study& s, const std::filesystem::path& out) {
-  for (const Variant& v : s.variants) {
-    const std::filesystem::path folder = out / v.folder;
-    std::error_code error;
-    if (!std::filesystem::exists(folder, error) || holdsRecording(folder) || holdsOnlyABegunRun(folder)) continue;
-    throw InputError({"command line", 0, "--out"},
-                     fmt::format("{} is in the way of the variant {}: it holds no run; allowed: a new folder, or that "
-                                 "of an earlier study",
-                                 folder.string(), v.label));
+void refuseForeign(const std::filesystem::path& folder, const Variant& v) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error) || holdsRecording(folder) || holdsOnlyABegunRun(folder)) return;
+  throw InputError({"command line", 0, "--out"},
+                   fmt::format("{} is in the way of the variant {}: it holds no run; allowed: a new folder, or that "
+                               "of an earlier study",
+                               folder.string(), v.label));
+}
+
+/// All that the study and its runs would write, before anything is made or computed: files of others and inputs are
+/// refused (InputError).
+void checkFolder(const Study& s, const Options& o, const std::vector<Stand>& stands) {
+  std::error_code error;
+  if (!std::filesystem::exists(o.out, error)) return;
+  if (!std::filesystem::is_directory(o.out, error))
+    throw InputError({"command line", 0, "--out"}, o.out.string() + " is not a folder");
+  Paths inputs{s.file};
+  for (const Variant& v : s.variants) std::visit([&](const auto& c) { inputs.push_back(c.file); }, v.definition);
+  std::sort(inputs.begin(), inputs.end());
+  inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
+  for (const std::string_view name : files::written) requireFreeOf(o.out / name, inputs, "--out");
+  for (const std::string_view name : files::folders) requireFolder(o.out / name);
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    const Variant& v = s.variants[i];
+    requireFolder(o.out / v.folder);
+    requireFreeOf(caseFile(o.out, v), inputs, "--out");
+    requireFreeOf(logFile(o.out, v), inputs, "--out");
+    for (std::size_t w = 0; w < s.pictures.size(); ++w)
+      requireFreeOf(o.out / files::pictures / files::pictureName(v.folder, w), inputs, "--out");
+    if (stands[i] == Stand::done) continue;
+    checkResultsFolder(o.out / v.folder, inputsOf(v.definition), stands[i] == Stand::interrupted);
+    refuseForeign(o.out / v.folder, v);
   }
 }
 
@@ -143,43 +171,46 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
   const auto begin = std::chrono::steady_clock::now();
   Options o = chosen;
   const Signals signals;
-  prepareFolder(o.out);
   o.out = std::filesystem::absolute(o.out).lexically_normal();
+  checkPath(o.out, "--out");
+  checkFolder(s, o, standsOf(s, o));
+  for (const auto& folder : {o.out, o.out / files::cases, o.out / files::logs}) makeFolder(folder);
   const FolderLock lock(o.out);
-  refuseForeign(s, o.out);
+  const std::vector<Stand> stands = standsOf(s, o);
+  checkFolder(s, o, stands);  // what another command has left meanwhile
   const int threads = o.threads > 0 ? o.threads : machineThreads();
 
-  std::vector<Stand> stands;
   std::vector<Outcome> outcomes(s.variants.size());
   std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const Variant& v = s.variants[i];
-    stands.push_back(o.resume ? standOf(o.out / v.folder, v.identity) : Stand::fresh);
-    writeFileAtomically(caseFile(o.out, v), std::visit([](const auto& c) { return writeCase(c); }, v.definition));
-    if (stands.back() == Stand::done)
+    writeOwnFile(caseFile(o.out, v), std::visit([](const auto& c) { return writeCase(c); }, v.definition));
+    if (stands[i] == Stand::done) {
       outcomes[i].good = true;
-    else
+    } else {
       waiting.push_back(i);
+      claimFile(logFile(o.out, v));
+    }
   }
   if (o.slurm && waiting.empty()) {
     out << "all variants are done: the same command without --engine compares them\n";
     return 0;
   }
   if (o.slurm) {
-    writeFileAtomically(o.out / "study.slurm", slurmScript(s, o, stands));
+    writeOwnFile(o.out / files::script, slurmScript(s, o, stands));
     out << fmt::format(
         "{0} of {1} variants to do: sbatch {2}\nThen compare: the same command with --resume and without --engine\n",
-        waiting.size(), s.variants.size(), (o.out / "study.slurm").string());
+        waiting.size(), s.variants.size(), shellWord((o.out / files::script).string()));
     return 0;
   }
   const int parallel = std::clamp(o.jobs > 0 ? o.jobs : threads, 1, std::max(1, static_cast<int>(waiting.size())));
   const int each = std::max(1, threads / parallel);
   // Those interrupted first: they are nearest to their end.
   std::stable_partition(waiting.begin(), waiting.end(), [&](std::size_t i) { return stands[i] == Stand::interrupted; });
-  std::vector<Job> jobs;
+  std::vector<Process> jobs;
   std::vector<double> checkpoints;
   for (const std::size_t i : waiting) {
-    jobs.push_back({commandOf(s.variants[i], o, each, stands[i]), o.out / "logs" / (s.variants[i].folder + ".log")});
+    jobs.push_back({commandOf(s.variants[i], o, each, stands[i]), logFile(o.out, s.variants[i])});
     checkpoints.push_back(checkpointsOf(s.variants[i].definition));
   }
   if (waiting.size() < s.variants.size())
@@ -195,7 +226,7 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
           {s.variants[i].levels, done, done ? tookBefore(o.out / s.variants[i].folder, each) : std::nullopt});
     }
     std::vector<std::chrono::steady_clock::time_point> started(s.variants.size());
-    Pool pool;
+    ProcessPool pool;
     pool.parallel = parallel;
     pool.ended = [&](std::size_t job, const Ended& e) {
       const Variant& v = s.variants[waiting[job]];
@@ -222,7 +253,7 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
       }
       line.update(times);
     };
-    whole = runJobs(jobs, pool, signals, lock.descriptor());
+    whole = runProcesses(jobs, pool, signals, lock.descriptor());
   }
   if (!whole)
     throw RunError(
@@ -232,36 +263,8 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
   for (const Outcome& v : outcomes) failures += !v.good;
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (failures > 0) out << fmt::format("{} of {} variants failed: the report says why\n", failures, s.variants.size());
-  out << fmt::format("Report, after {}: {}\n", durationText(wall_s), (o.out / "report.html").string());
+  out << fmt::format("Report, after {}: {}\n", durationText(wall_s), (o.out / files::report).string());
   return failures > 0 ? 1 : 0;
-}
-
-std::string slurmScript(const Study& s, const Options& o, const std::vector<Stand>& stands) {
-  std::string folders, again;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < s.variants.size(); ++i) {
-    if (stands[i] == Stand::done) continue;
-    folders += " '" + s.variants[i].folder + "'";
-    again += stands[i] == Stand::interrupted ? " --resume" : " ''";
-    ++count;
-  }
-  const std::string limit = o.jobs > 0 ? fmt::format("%{}", o.jobs) : "";
-  std::error_code error;
-  const std::filesystem::path binary = std::filesystem::canonical(o.binary, error);
-  return fmt::format(
-      "#!/usr/bin/env bash\n"
-      "# {} variants, each a job of its own. When all are done, compare them: gambeson study ... --out ... --resume\n"
-      "#SBATCH --array=0-{}{}\n"
-      "#SBATCH --cpus-per-task={}\n"
-      "#SBATCH --output='{}/logs/slurm_%a.log'\n"
-      "folders=({})\n"
-      "again=({})\n"
-      "i=$SLURM_ARRAY_TASK_ID\n"
-      "exec '{}' run '{}'/cases/\"${{folders[i]}}\".json --out '{}'/\"${{folders[i]}}\" --threads "
-      "\"$SLURM_CPUS_PER_TASK\" "
-      "${{again[i]}}\n",
-      count, count > 0 ? count - 1 : 0, limit, std::max(1, o.threads), o.out.string(), folders, again,
-      error ? o.binary : binary.string(), o.out.string(), o.out.string());
 }
 
 }  // namespace gambeson::study

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/study/compare.hpp"
-#include "core/io/atomic_file.hpp"
+#include "cases/study/files.hpp"
+#include "core/io/csv_text.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson::study {
 namespace {
@@ -17,21 +19,11 @@ using Json = nlohmann::ordered_json;
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json number(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }
 
-/// A line of a table; cells are quoted where they need to be, and empty for what is not known.
+/// A line of a table; empty cells for what is not known.
 std::string csvRow(const std::vector<std::string>& cells) {
   std::string line;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    if (k > 0) line += ',';
-    if (cells[k].find_first_of(",\"\n") == std::string::npos) {
-      line += cells[k];
-      continue;
-    }
-    line += '"';
-    for (const char c : cells[k]) line.append(c == '"' ? 2 : 1, c);
-    line += '"';
-  }
-  line += '\n';
-  return line;
+  for (std::size_t k = 0; k < cells.size(); ++k) line.append(k > 0 ? "," : "").append(csvText(cells[k]));
+  return line.append(1, '\n');
 }
 std::string cell(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
 std::string cell(const std::optional<double>& x) { return x ? cell(*x) : ""; }
@@ -315,12 +307,12 @@ std::string studyJson(const Study& s, const Comparison& c) {
 }  // namespace
 
 void writeStudyTables(const Study& s, const Comparison& c, const std::filesystem::path& out) {
-  writeFileAtomically(out / "variants.csv", variantsTable(s, c));
-  writeFileAtomically(out / "curves.csv", curvesTable(s, c));
-  writeFileAtomically(out / "exponents.csv", exponentsTable(c));
-  writeFileAtomically(out / "elasticities.csv", elasticitiesTable(c));
-  writeFileAtomically(out / "meshes.csv", meshesTable(c));
-  writeFileAtomically(out / "study.json", studyJson(s, c));
+  writeOwnFile(out / files::variants, variantsTable(s, c));
+  writeOwnFile(out / files::curves, curvesTable(s, c));
+  writeOwnFile(out / files::exponents, exponentsTable(c));
+  writeOwnFile(out / files::elasticities, elasticitiesTable(c));
+  writeOwnFile(out / files::meshes, meshesTable(c));
+  writeOwnFile(out / files::numbers, studyJson(s, c));
 }
 
 }  // namespace gambeson::study

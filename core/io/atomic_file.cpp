@@ -43,7 +43,8 @@ class Descriptor {
 };
 
 void writeAll(const fs::path& path, std::string_view content) {
-  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC, "create");
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) fail("remove", path, errno);  // of a writer that was killed
+  Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, "create");
   while (!content.empty()) {
     const ssize_t n = ::write(file.get(), content.data(), content.size());
     if (n < 0 && errno == EINTR) continue;

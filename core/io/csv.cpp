@@ -1,22 +1,23 @@
 #include "core/io/csv.hpp"
+#include "core/io/csv_text.hpp"
+#include "core/io/own_file.hpp"
 
 #include <charconv>
 #include <stdexcept>
 
-#include "core/io/atomic_file.hpp"
-
 namespace gambeson {
 namespace {
 
-/// RFC 4180: quoted where the text holds a comma, a quote or a line break; quotes doubled.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string s = "\"";
-  for (const char c : text) {
-    if (c == '"') s += '"';
-    s += c;
-  }
-  return s + '"';
+/// What a spreadsheet would take for a formula.
+bool beginsLikeAFormula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@\t\r\n").find(text[0]) != std::string_view::npos;
+}
+
+bool isNumber(std::string_view text) {
+  if (!text.empty() && text[0] == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return !text.empty() && error != std::errc::invalid_argument && end == text.data() + text.size();
 }
 
 void appendNumber(std::string& s, double value) {
@@ -43,11 +44,42 @@ std::string shortest(double value) {
   return s;
 }
 
+std::string csvText(const std::string& text) {
+  std::string safe = text;
+  if (beginsLikeAFormula(text) && !isNumber(text)) safe.insert(safe.begin(), '\'');
+  if (safe.find_first_of(",\"\r\n") == std::string::npos) return safe;
+  std::string s = "\"";
+  for (const char c : safe) {
+    if (c == '"') s += '"';
+    s += c;
+  }
+  return s + '"';
+}
+
+std::vector<std::string> csvCells(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else if (c != '\r')
+      cells.back() += c;
+  }
+  for (std::string& cell : cells)
+    if (cell.starts_with('\'') && beginsLikeAFormula(std::string_view(cell).substr(1))) cell.erase(0, 1);
+  return cells;
+}
+
 std::string formatCsv(const std::vector<std::string>& columns, const std::vector<std::vector<double>>& rows) {
   std::string s;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i > 0) s += ',';
-    s += quoted(columns[i]);
+    s += csvText(columns[i]);
   }
   s += '\n';
   for (const auto& row : rows) appendRow(s, row, columns.size(), false);
@@ -57,14 +89,14 @@ std::string formatCsv(const std::vector<std::string>& columns, const std::vector
 std::string formatCsv(const std::string& label_column, const std::vector<std::string>& labels,
                       const std::vector<std::string>& columns, const std::vector<std::vector<double>>& rows) {
   if (labels.size() != rows.size()) throw std::logic_error("a CSV table needs one label per row");
-  std::string s = quoted(label_column);
+  std::string s = csvText(label_column);
   for (const auto& column : columns) {
     s += ',';
-    s += quoted(column);
+    s += csvText(column);
   }
   s += '\n';
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    s += quoted(labels[r]);
+    s += csvText(labels[r]);
     appendRow(s, rows[r], columns.size(), true);
   }
   return s;
@@ -72,7 +104,7 @@ std::string formatCsv(const std::string& label_column, const std::vector<std::st
 
 void writeCsv(const std::filesystem::path& path, const std::vector<std::string>& columns,
               const std::vector<std::vector<double>>& rows) {
-  writeFileAtomically(path, formatCsv(columns, rows));
+  writeOwnFile(path, formatCsv(columns, rows));
 }
 
 }  // namespace gambeson

@@ -1,4 +1,5 @@
 #include "core/io/iges.hpp"
+#include "core/io/own_file.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/io/atomic_file.hpp"
 #include "core/nurbs/trim_arcs.hpp"
 #include "core/nurbs/trim_notches.hpp"
 
@@ -288,7 +288,7 @@ std::string igesText(const std::string& title, const std::vector<IgesSurface>& s
 }
 
 void writeIges(const std::filesystem::path& path, const std::string& title, const std::vector<IgesSurface>& surfaces) {
-  writeFileAtomically(path, igesText(title, surfaces));
+  writeOwnFile(path, igesText(title, surfaces));
 }
 
 }  // namespace gambeson

@@ -3,27 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 #include "core/io/segment.hpp"
+#include "core/io/segment_name.hpp"
 #include "core/io/xdmf.hpp"
 
 namespace gambeson {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// N where `name` is "segment_N.h5" as segmentPath writes it.
-std::optional<int> segmentIndex(const std::string& name) {
-  constexpr std::string_view head = "segment_", tail = ".h5";
-  if (name.size() < head.size() + tail.size() + 6 || !name.starts_with(head) || !name.ends_with(tail)) return {};
-  const std::string digits = name.substr(head.size(), name.size() - head.size() - tail.size());
-  if (digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos) return {};
-  return std::stoi(digits);
-}
 
 fs::path sidecarPath(const fs::path& directory) { return directory / "frames.xdmf"; }
 
@@ -40,10 +32,19 @@ void removeUnfinished(const fs::path& directory) {
   const std::string suffix(kUnfinishedSuffix);
   removeFiles(directory / "frames", [&](const std::string& name) {
     if (!name.ends_with(suffix)) return false;
-    const std::string whole = name.substr(0, name.size() - suffix.size());
-    return whole == "layout.h5" || segmentIndex(whole);
+    return isRecorded(name.substr(0, name.size() - suffix.size()));
   });
   fs::remove(sidecarPath(directory) += suffix);
+}
+
+/// Throws InputError where a new recording would replace what this program did not write there.
+void refuseForeign(const fs::path& directory) {
+  const fs::path frames = directory / "frames";
+  std::error_code error;
+  if (fs::is_symlink(frames, error)) throw InputError(at(frames), "is a symbolic link, which is not followed");
+  requireFree(sidecarPath(directory), {"", 0, ""});
+  for (fs::directory_iterator it(frames, error), end; !error && it != end; it.increment(error))
+    if (isRecorded(it->path().filename().string())) requireFree(it->path(), {"", 0, ""});
 }
 
 /// The error of the file system or of HDF5 while writing, as a RunError.
@@ -89,8 +90,8 @@ struct RecordingWriter::Impl {
     return *open;
   }
   void writeSidecar() const {
-    writeFileAtomically(sidecarPath(directory),
-                        xdmfSidecar(layout.triangles.size(), layout.body_triangles.size(), infos, segment_ends));
+    writeOwnFile(sidecarPath(directory),
+                 xdmfSidecar(layout.triangles.size(), layout.body_triangles.size(), infos, segment_ends));
   }
 };
 
@@ -104,6 +105,7 @@ RecordingWriter RecordingWriter::create(const fs::path& directory, const Recordi
   impl->layout = layout;
   writing(directory, [&] {
     const fs::path frames = directory / "frames";
+    refuseForeign(directory);
     fs::create_directories(frames);
     // The layout goes first: without it the directory is no recording, however far the removal gets.
     fs::remove(layoutPath(directory));
@@ -113,7 +115,7 @@ RecordingWriter RecordingWriter::create(const fs::path& directory, const Recordi
     fs::remove(sidecarPath(directory));
     syncDirectory(frames);
     syncDirectory(directory);
-    writeFileAtomically(layoutPath(directory), layoutImage(layout));
+    writeOwnFile(layoutPath(directory), layoutImage(layout));
   });
   return RecordingWriter(std::move(impl));
 }
@@ -158,7 +160,7 @@ void RecordingWriter::append(TableRow row) {
 void RecordingWriter::closeSegment(const Checkpoint& checkpoint) {
   writing(impl_->directory, [&] {
     const int index = static_cast<int>(impl_->segment_ends.size());
-    writeFileAtomically(segmentPath(impl_->directory, index), impl_->segment().finish(checkpoint));
+    writeOwnFile(segmentPath(impl_->directory, index), impl_->segment().finish(checkpoint));
     impl_->segment_ends.push_back(static_cast<int>(impl_->infos.size()));
     impl_->open.reset();
     impl_->writeSidecar();

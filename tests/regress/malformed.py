@@ -150,7 +150,7 @@ def all_bad():
         body("units", swap("84.6", '"84.6 kg"'), ": mass_kg", "without a unit"),
         table("units", swap("elbow_flexion_rad", "elbow_flexion"), ":1: column 3 'elbow_flexion'", "unit"),
         table("units", swap("elbow_flexion_rad", "elbow_flexion_m"), ":1: column 3", "turns"),
-        table("units", swap("time_s", "time_ms"), ":1: time_ms", "time_s"),
+        table("units", swap("time_s", "time_ms"), ":1: column 1", "time_s"),
         cloth("units", swap("[1, 0, 0], [0, 1, 0]", '["1 m", 0, 0], [0, 1, 0]'), ": patches[0].points_m[1][0]", "number"),
         # range
         case("range", swap('"1 mm"', '"-1 mm"'), ":7: fabric.thickness", "out of range"),

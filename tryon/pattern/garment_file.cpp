@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/io/atomic_file.hpp"
+#include "core/io/own_file.hpp"
 #include "human/read_text.hpp"
 #include "tryon/pattern/check.hpp"
 
@@ -293,7 +293,7 @@ void writeGarment(const Garment& g, const std::filesystem::path& path) {
     out << "]}";
   }
   out << (g.edges.empty() ? "}\n" : "]}\n");
-  writeFileAtomically(path, out.str());
+  writeOwnFile(path, out.str());
 }
 
 }  // namespace gambeson

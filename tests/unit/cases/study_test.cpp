@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "cases/study/compare.hpp"
+#include "cases/study/files.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
 
@@ -169,6 +172,8 @@ TEST(Study, MalformedOnesAreRefusedWithTheirPlace) {
       {"\"label\": \"slow\"", "\"label\": \"slow\", \"finer\": 2", ":10: variants[0].finer: ", "true or false"},
       {"\"axes\"", "\"axis\"", ":4: axis: ", "did you mean \"axes\"?"},
       {"\"garment.sheet.cells_u\": 3", "\"garment.disc.cells\": 3", ":7: garment.disc: ", "excludes"},
+      {"[\"smooth\", \"rough\"]", "[\"smooth\", \"a\\u001b[31m\"]", ":8: axes[2].labels[1]: ", "control character"},
+      {"\"label\": \"slow\"", "\"label\": \"slow\\n#SBATCH\"", ":10: variants[0].label: ", "control character"},
   };
   EXPECT_NO_THROW(read(good));
   for (const Bad& bad : bads) {
@@ -531,9 +536,69 @@ TEST(Study, ScriptsForSlurmHaveTheVariantsThatAreNotDone) {
   o.threads = 4;
   const std::string script = slurmScript(s, o, {Stand::done, Stand::interrupted, Stand::fresh});
   EXPECT_NE(script.find("--array=0-1%2"), std::string::npos) << script;
-  EXPECT_NE(script.find("folders=( 'thickness_0.5__coarse__rough' 'thickness_0.5__fine__smooth')"), std::string::npos)
+  EXPECT_NE(script.find("folders=( thickness_0.5__coarse__rough thickness_0.5__fine__smooth)"), std::string::npos)
       << script;
   EXPECT_NE(script.find("again=( --resume '')"), std::string::npos) << script;
+}
+
+/// What a study or a batch writes itself is no name of a variant: said before anything runs.
+TEST(Study, NamesOfItsOwnFilesAreTaken) {
+  const std::string one =
+      R"({"name": "s", "case": "cloth.json", "variants": [{"label": "NAME", "set": {"contact.friction": 0.2}}]})";
+  const Folder folder;
+  for (const std::string name :
+       {"report.html", "study.json", "variants.csv", "curves.csv", "exponents.csv", "elasticities.csv", "meshes.csv",
+        "study.slurm", "cases", "logs", "pictures", "Cases", "REPORT.html", ".", "..", ".lock", ".gambeson"}) {
+    SCOPED_TRACE(name);
+    try {
+      read(replaced(one, "NAME", name));
+      ADD_FAILURE() << "was taken";
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("cannot be called \"" + name + "\""), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("a.study.json:1: variants[0]"), std::string::npos) << e.what();
+    }
+    if (name[0] != '.') {
+      EXPECT_THROW(batchOf({folder.write(name + ".json", cloth)}), InputError);
+    }
+  }
+  EXPECT_NO_THROW(read(replaced(one, "NAME", "case")));
+  // What is written is on the list: nothing else is left in the folder.
+  const Study s = read(good);
+  const Folder tables;
+  writeStudyTables(s, compare(s, numbersOf(s)), tables.path());
+  for (const auto& entry : std::filesystem::directory_iterator(tables.path())) {
+    EXPECT_FALSE(files::unfitFolder(entry.path().filename().string()).empty()) << entry.path();
+  }
+}
+
+/// bash is given the script of a study whose paths and names mean something to it.
+TEST(Study, AScriptHasPathsAsTheyAre) {
+  const Folder folder;
+  Study s = read(good);
+  s.variants.resize(1);
+  Options o;
+  o.out = folder.path() / "x'$(touch F)'\"`touch G` o'brien";
+  std::filesystem::create_directories(o.out / "logs");
+  o.binary = folder.write("fake program", "#!/bin/sh\nprintf '%s|' \"$@\" > \"$4.arguments\"\n").string();
+  std::filesystem::permissions(o.binary, std::filesystem::perms::owner_all);
+  folder.write("script", slurmScript(s, o, {Stand::interrupted}));
+  ASSERT_EQ(
+      std::system(
+          ("cd '" + folder.path().string() + "' && SLURM_ARRAY_TASK_ID=0 SLURM_CPUS_PER_TASK=3 bash script").c_str()),
+      0);
+  std::ifstream said((o.out / s.variants[0].folder).string() + ".arguments");
+  const std::string out = o.out.string(), name = s.variants[0].folder;
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(said), {}),
+            "run|" + out + "/cases/" + name + ".json|--out|" + out + "/" + name + "|--threads|3|--resume|");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "F"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "G"));
+  // What the queue itself reads has no text of the user's.
+  std::istringstream lines(slurmScript(s, o, {Stand::fresh}));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#SBATCH")) {
+      EXPECT_EQ(line.find('\''), std::string::npos) << line;
+    }
+  }
 }
 
 TEST(Study, BatchesRefuseTwoOfOneName) {

@@ -9,6 +9,7 @@
 
 #include "cases/cli.hpp"
 #include "core/error.hpp"
+#include "core/io/own_file.hpp"
 #include "example.hpp"
 
 namespace gambeson::verify {
@@ -58,6 +59,12 @@ class VerifyCommand : public testing::Test {
     std::filesystem::create_directories(options.dir);
   }
   void write(const std::string& name, const std::string& text) { folder.write("references/" + name + ".json", text); }
+  /// Writes a file that the fake left again, as the program does.
+  void asTheProgram(const std::string& name) const {
+    const std::string text = content(name);
+    std::filesystem::remove(options.out / name);
+    writeOwnFile(options.out / name, text);
+  }
   nlohmann::json written() const {
     std::ifstream stream(options.out / "verify.json");
     return nlohmann::json::parse(stream);
@@ -113,6 +120,7 @@ TEST_F(VerifyCommand, AWrongNumberFails) {
   EXPECT_FALSE(written()[0].at("passed").get<bool>());
   EXPECT_NE(out.str().find("FAILED  tip"), std::string::npos);
   EXPECT_NE(content("verify.html").find("FAILED"), std::string::npos);
+  std::filesystem::remove_all(options.out);
   // Reported, it does not count.
   write("tip", replaced(reference_text, "\"reference\": 2.5", R"("gated": false, "why": "a slip", "reference": 2.6)"));
   EXPECT_EQ(runVerify(options, out), 0);
@@ -172,6 +180,7 @@ TEST_F(VerifyCommand, ARunThatFailsSaysWhy) {
       {{"666", "step 3: the residual grows"}, {"667", "ended by signal 9"}}};
   for (const auto& [steps, why] : ways) {
     write("tip", replaced(reference_text, "\"static.steps\": 8", std::string("\"static.steps\": ") + steps));
+    std::filesystem::remove_all(options.out);
     EXPECT_EQ(runVerify(options, out), 1);
     const auto all = written();
     EXPECT_EQ(all[0].at("quantity"), "run fine");
@@ -197,6 +206,12 @@ TEST_F(VerifyCommand, AMissingBinaryFails) {
 TEST_F(VerifyCommand, OldResultsAreNotTakenForNewOnes) {
   write("tip", reference_text);
   ASSERT_EQ(runVerify(options, out), 0);
+  // What stands there was not written by the program: it is refused, and stays.
+  EXPECT_THROW(runVerify(options, out), InputError);
+  EXPECT_TRUE(std::filesystem::exists(options.out / "tip/fine/summary.json"));
+  for (const char* run : {"fine", "coarse"})
+    for (const char* file : {"case.json", "summary.json", "path.csv"})
+      asTheProgram(std::string("tip/") + run + "/" + file);
   write("tip", replaced(reference_text, "\"static.steps\": 8", "\"static.steps\": 666"));
   ASSERT_EQ(runVerify(options, out), 1);
   EXPECT_FALSE(std::filesystem::exists(options.out / "tip/fine/summary.json"));
@@ -249,6 +264,10 @@ TEST_F(VerifyCommand, MalformedReferencesAreBadInput) {
       {"\"case\": {\"static\": {\"steps\": 4}}", "\"case\": \"none.json\"", "there is no file"},
       {"\"set\": {\"static.steps\": 8}", "\"set\": 3", "expected an object"},
       {"\"doc\": \"Nothing to say.\",", "", "doc: is required"},
+      {"\"run\": \"fine\", \"also\"", "\"table\": \"../../../etc/passwd\", \"run\": \"fine\", \"also\"",
+       "without folders"},
+      {"\"run\": \"fine\", \"also\"", "\"table\": \"/etc/passwd\", \"run\": \"fine\", \"also\"", "without folders"},
+      {"\"summary\": \"points.tip.w[1]\"", "\"column\": \"a\", \"table\": \"../fine/path.csv\"", "without folders"},
   };
   for (const Wrong& w : all) {
     write("tip", replaced(reference_text, w.from, w.to));

@@ -17,6 +17,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "core/io/own_file.hpp"
 
 // The HDF5 library (1.10.8) does not free its buffer where a damaged chunk fails to inflate; our own leaks still count.
 extern "C" const char* __lsan_default_suppressions();
@@ -103,7 +104,8 @@ void spill(const fs::path& file, const std::string& bytes) { std::ofstream(file,
 std::map<std::string, std::string> contentOf(const fs::path& directory) {
   std::map<std::string, std::string> content;
   for (const auto& entry : fs::recursive_directory_iterator(directory))
-    if (entry.is_regular_file()) content[fs::relative(entry.path(), directory).string()] = slurp(entry.path());
+    if (entry.is_regular_file() && entry.path().filename() != kOwnFiles)
+      content[fs::relative(entry.path(), directory).string()] = slurp(entry.path());
   return content;
 }
 
@@ -202,11 +204,11 @@ TEST_F(RecordingTest, SegmentsWithoutFramesKeepRowsAndCheckpoint) {
 TEST_F(RecordingTest, CreateRemovesOnlyAnEarlierRecording) {
   recordAll(dir / "r", 8);
   spill(dir / "r" / "frames" / "notes.txt", "mine");
-  spill(dir / "r" / "frames" / "segment_000009.h5.tmp", "half");
+  spill(dir / "r" / "frames" / "segment_000009.h5.gambeson.tmp", "half");
   recordAll(dir / "r", 2);
   expectSame(RecordingReader(dir / "r"), 2);
   EXPECT_FALSE(fs::exists(segment(1)));
-  EXPECT_FALSE(fs::exists(dir / "r" / "frames" / "segment_000009.h5.tmp"));
+  EXPECT_FALSE(fs::exists(dir / "r" / "frames" / "segment_000009.h5.gambeson.tmp"));
   EXPECT_EQ(slurp(dir / "r" / "frames" / "notes.txt"), "mine");
 }
 
@@ -292,8 +294,8 @@ TEST_F(RecordingTest, ResumeCleansUpAndCatchesUp) {
   recordAll(dir / "whole", 9);
   recordAll(dir / "r", 6);
   const std::string bytes = slurp(segment(1));
-  spill(segment(2) += ".tmp", bytes.substr(0, bytes.size() / 2));
-  spill(dir / "r" / "frames.xdmf.tmp", "<Xdm");
+  spill(segment(2) += ".gambeson.tmp", bytes.substr(0, bytes.size() / 2));
+  spill(dir / "r" / "frames.xdmf.gambeson.tmp", "<Xdm");
   fs::remove(dir / "r" / "frames.xdmf");
   expectSame(RecordingReader(dir / "r"), 6);
   Checkpoint checkpoint;

@@ -1,0 +1,25 @@
+#pragma once
+/// Texts that others wrote, as a terminal may show them.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace gambeson {
+
+/// A message as the command prints it: at most 390 bytes, its middle left out where it is longer (the place stands at
+/// the start, what is allowed at the end). What a terminal would act on (control characters) and bytes that are no
+/// UTF-8 are written as \x1b; line breaks stay.
+std::string messageText(std::string_view text);
+
+/// Why a text cannot be a name or a path: empty where it can. Control characters (line breaks, escapes of terminals,
+/// zero bytes) and bytes that are no UTF-8 are refused; `lines`: line breaks and tabs are allowed.
+std::string unfitText(std::string_view text, bool lines = false);
+
+/// A path of the command line. Throws InputError ("command line", option) where unfitText does not like it.
+void checkPath(const std::filesystem::path& path, const std::string& option);
+
+/// What nlohmann's parser or one of its values complains about, without "[json.exception...]": the key and the reason.
+std::string jsonReason(std::string_view what);
+
+}  // namespace gambeson
