@@ -23,7 +23,7 @@ const std::string worn = R"json({
                                "start": [-0.01, 0, 1.0], "axis": [0, 0, 1]}},
     {"name": "outer", "tube": {"radius": "0.18 m", "length": "0.14 m", "cells_around": 16, "cells_along": 4, "patches": 4,
                                "start": [-0.01, 0, 0.98], "axis": [0, 0, 1]},
-     "position": ["6 mm", "4 mm", 0], "stitching": {"offset": "2 cm", "stiffness": "2000 N/m^2"}}
+     "position": ["6 mm", "4 mm", 0], "stitching": {"offset": "2 cm", "stiffness": "2000 N/m^2", "damping": "2 kg/(m s)"}}
   ],
   "fabric": {
     "thickness": "1 mm", "density": "1440 kg/m^3", "young": "0.5 MPa",
