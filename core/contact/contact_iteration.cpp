@@ -59,6 +59,24 @@ GAMBESON_WIDE void moveFreePoints(ContactWork& w, int begin, int end) {
   }
 }
 
+/// What holds the points takes its part of their change.
+void holdFreePoints(ContactWork& w) {
+  if (!w.hold) return;
+  for (std::size_t f = 0; f < w.free_points.size(); ++f) {
+    const double *now = w.moved[f].lane, *base = w.base[f].lane;
+    w.change[w.free_points[f]] = {now[0] - base[0], now[1] - base[1], now[2] - base[2]};
+  }
+  w.hold->hold(w.change);
+  for (std::size_t f = 0; f < w.free_points.size(); ++f) {
+    double* const now = w.moved[f].lane;
+    const double* const base = w.base[f].lane;
+    const Vec3& d = w.change[w.free_points[f]];
+    now[0] = base[0] + d.x;
+    now[1] = base[1] + d.y;
+    now[2] = base[2] + d.z;
+  }
+}
+
 GAMBESON_WIDE void moveSamples(ContactWork& w, int begin, int end) {
   for (int s = begin; s < end; ++s) {
     V4 v{};
@@ -134,12 +152,14 @@ void startIteration(ContactWork& w) {
     w.candidate[k] = w.previous[k] = w.point[k] = quadOf(w.traction[k], w.traction[k] == Vec3{} ? 0.0 : 1.0);
   gatherImpulses(w, 0, static_cast<int>(w.samples.size()));
   moveFreePoints(w, 0, static_cast<int>(w.free_points.size()));
+  holdFreePoints(w);
 }
 
 void moveDone(const ContactWork::Island& island, ContactWork& w) {
   for (int k = island.row; k < island.row_end; ++k) w.point[k] = w.candidate[k];
   gatherImpulses(w, island.sample, island.sample_end);
   moveFreePoints(w, island.free_point, island.free_end);
+  holdFreePoints(w);
 }
 
 namespace {
@@ -197,6 +217,7 @@ void iterateIsland(double goal, int last_iteration, Island& now, ContactWork& w,
     each(now.row, now.row_end, [&](int k, int end) { extrapolate(w, now.beta, k, end); });
     each(now.sample, now.sample_end, [&](int s, int end) { gatherImpulses(w, s, end); });
     each(now.free_point, now.free_end, [&](int f, int end) { moveFreePoints(w, f, end); });
+    holdFreePoints(w);
     each(now.sample, now.sample_end, [&](int s, int end) { moveSamples(w, s, end); });
     now.residual_m_per_s = project(false);
     double sum = 0;
@@ -220,7 +241,7 @@ void iterate(double goal, int last, ContactWork& w) {
   std::stable_sort(w.by_size.begin(), w.by_size.end(), [&](int a, int b) { return size(a) > size(b); });
   const int count = static_cast<int>(w.islands.size());
   int large = 0;
-  for (; large < count && size(w.by_size[large]) > kLarge; ++large) {
+  for (; large < count && size(w.by_size[large]) > kLarge && !w.hold; ++large) {
     Island& island = w.islands[w.by_size[large]];
 #pragma omp parallel
     {

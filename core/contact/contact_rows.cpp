@@ -46,6 +46,12 @@ void touched(std::span<const ContactRow> rows, const SparseRows& WT, ContactWork
     }
     w.rows.endRow();
   }
+  if (w.hold)  // which moves them all
+    for (int f = 0; f < WT.column_count; ++f)
+      if (w.free_slot[f] < 0) {
+        w.free_slot[f] = static_cast<int>(w.free_points.size());
+        w.free_points.push_back(f);
+      }
   w.rows.column_count = static_cast<int>(w.free_points.size());
   w.columns = transpose(w.rows);
 }
@@ -62,6 +68,7 @@ void rangeIslands(ContactWork& w) {
     for (int e = w.rows.offsets[island.sample]; e < w.rows.offsets[sample]; ++e)
       free_point = std::max(free_point, w.rows.columns[e] + 1);
     island.sample_end = sample;
+    if (w.hold) free_point = static_cast<int>(w.free_points.size());
     island.free_end = free_point;
     chunk += island.row_end - island.row;  // at least as many as there are
   }
@@ -130,6 +137,11 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
 
 void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                  ContactWork& w) {
+  if (w.hold) {
+    w.islands.assign(w.order.empty() ? 0 : 1, {});
+    if (!w.islands.empty()) w.islands[0].row_end = static_cast<int>(w.order.size());
+    return;
+  }
   w.tied_to.resize(WT.column_count, -1);
   const auto root = [&](int f) {
     while (w.tied_to[f] != f) f = w.tied_to[f] = w.tied_to[w.tied_to[f]];
@@ -200,6 +212,7 @@ void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<
   w.free_velocity.resize(free_count);
   w.base.resize(free_count);
   w.moved.resize(free_count);
+  if (w.hold) w.change.assign(velocity.size(), Vec3{});
   w.inverse_mass.resize(free_count);
   for (int k = 0; k < n; ++k) {
     const ContactRow& row = rows[w.order[k]];

@@ -179,8 +179,9 @@ void layerUnder(double last, double dt, double density, const ContactParameters&
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                            std::span<const double> area, std::span<const double> density, const ContactParameters& c,
                            double dt, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
-                           ContactWork& w) {
+                           ContactWork& w, const MotionHold* hold) {
   impulses.assign(rows.size(), {});
+  w.hold = hold;
   if (rows.empty()) return {};
   const Problem problem{rows, WT, inverse_mass, density, velocity, c.friction};
   sortRows(rows, w);
@@ -198,12 +199,15 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
     for (int e = w.stencils.offsets[k]; e < w.stencils.offsets[k + 1]; ++e)
       w.sample_impulse[w.stencils.columns[e]] += w.stencils.values[e] * impulses[i];
   }
+  w.change.assign(velocity.size(), Vec3{});
   for (std::size_t f = 0; f < w.free_points.size(); ++f) {
     Vec3 sum{};
     for (int k = w.columns.offsets[f]; k < w.columns.offsets[f + 1]; ++k)
       sum += w.columns.values[k] * w.sample_impulse[w.columns.columns[k]];
-    velocity[w.free_points[f]] += inverse_mass[w.free_points[f]] * sum;
+    w.change[w.free_points[f]] = inverse_mass[w.free_points[f]] * sum;
   }
+  if (hold) hold->hold(w.change);
+  for (int f : w.free_points) velocity[f] += w.change[f];
   return report;
 }
 

@@ -71,6 +71,15 @@ struct ContactSolve {
   bool yielded = false;  ///< the rows contradicted each other; the rest is of rows that give way (step_contact.cpp)
 };
 
+/// What else holds the points of the cloth while contacts are solved, strain limits say: velocities M^-1 i of impulses i
+/// on the free points become P i with a symmetric 0 <= P <= M^-1, so that bounds of M^-1 are bounds of P.
+class MotionHold {
+ public:
+  virtual ~MotionHold() = default;
+  /// `change`: of all free points, M^-1 i in, P i out.
+  virtual void hold(std::span<Vec3> change) const = 0;
+};
+
 /// Scratch of solveContacts. The rows that are iterated on are some of all; what is said of rows is of these, in
 /// their order, where it does not say otherwise.
 struct ContactWork {
@@ -121,6 +130,8 @@ struct ContactWork {
   std::vector<Quad> base, moved;                    ///< of free points
   std::vector<double> inverse_mass;
   std::vector<double> largest2, against;  ///< of the islands' chunks of rows
+  const MotionHold* hold = nullptr;       ///< ties all rows to each other: there is one island, of all free points
+  std::vector<Vec3> change;               ///< of all free points, for `hold`
 };
 
 /// The least normal velocity of eq. 3.15 to 3.18 as one unilateral condition. With g the gap and delta the layer,
@@ -172,6 +183,8 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 /// Rows that carry nothing are left out while they are not penetrated; the residual is that of all rows.
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
+/// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem.
+///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
 /// kg/m^2];
 /// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the
@@ -179,6 +192,7 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                            std::span<const double> area, std::span<const double> density,
                            const ContactParameters& parameters, double dt_s, std::span<Vec3> velocity,
-                           std::span<Vec3> warm, std::vector<Vec3>& impulses, ContactWork& work);
+                           std::span<Vec3> warm, std::vector<Vec3>& impulses, ContactWork& work,
+                           const MotionHold* hold = nullptr);
 
 }  // namespace gambeson

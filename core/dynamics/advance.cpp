@@ -11,6 +11,7 @@ namespace {
 constexpr int kColdIterations = 40, kWarmIterations = 8;
 constexpr double kPinched = 64;  ///< part of a step below which samples count as pinched
 constexpr int kMostCuts = 200;
+constexpr double kLimitPieces = 8;  ///< a step in which strain limits and contacts do not agree is cut down to its 8th
 /// Each estimate is of the stiffness at one moment. Steps that follow it up and down gain energy (a crumpled sheet
 /// without drag 25 times its own in 0.4 s), so what is used stays near the largest of late.
 constexpr double kFall = 0.995;
@@ -53,7 +54,11 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     for (int cuts = 0;; ++cuts) {
       report = step(model, stage, state, dt, next, work);
       report.cuts = cuts;
-      if (report.failure == StepFailure::none) break;
+      if (report.failure == StepFailure::none) {
+        if (report.limit.solved || 0.5 * dt < whole / kLimitPieces) break;
+        dt *= 0.5;
+        continue;
+      }
       const bool impact = report.failure == StepFailure::impact && report.earliest_impact < 1;
       if (impact && dt <= whole / kPinched && state.pinched != work.stuck) {
         state.pinched = work.stuck;  // no step is short enough: let them pass, and free them afterwards

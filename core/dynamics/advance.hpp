@@ -19,7 +19,7 @@ using StepObserver =
     std::function<void(const State& before, const State& after, const StepReport&, const StepWork&, const Frequency&)>;
 
 /// Advances `state` to `until_s` exactly, in equal steps between estimates. A step that fails is tried again at half
-/// its length; throws RunError saying why where that does not help. `frequency` carries the last estimate.
+/// its length, one in which strain limits and contacts do not agree down to an eighth; throws RunError saying why where that does not help. `frequency` carries the last estimate.
 void advance(const Model& model, const Stage& stage, const StepControl& control, double until_s, State& state,
              Frequency& frequency, StepWork& work, const StepObserver& observe);
 

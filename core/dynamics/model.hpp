@@ -201,7 +201,7 @@ struct StepWork {
   LimitWork limit;
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;
   std::vector<Vec3> jerk, net_jerk;  ///< changes of acceleration: of the free points, of the control points
-  std::vector<Vec3> limit_end, pulled_before, pulled_after;
+  std::vector<Vec3> limit_end, moved, sample_impulse, pulled_before, pulled_after;
   std::vector<Vec3> lasting, sample_pressing;
   std::vector<double> reach;
   std::vector<Contact> near, hits;

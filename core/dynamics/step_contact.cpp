@@ -174,15 +174,15 @@ void yield(const Model& m, ContactRow& row) {
 }
 
 /// w.velocity after the contacts w.rows.
-void solveRows(const Model& m, double dt, StepReport& report, StepWork& w) {
+void solveRows(const Model& m, double dt, const MotionHold* hold, StepReport& report, StepWork& w) {
   const auto solve = [&](std::span<const ContactRow> rows) {
     return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt,
-                         w.velocity, w.warm, w.impulses, w.contact);
+                         w.velocity, w.warm, w.impulses, w.contact, hold);
   };
   w.unsolved = w.velocity;
   report.contact = solve(w.rows);
   report.contact.yielded = contradict(report.contact, dt);
-  if (!report.contact.yielded) return;
+  if (!report.contact.yielded || hold) return;  // limits yield before contacts do
   w.yielding = w.rows;
   for (ContactRow& row : w.yielding) yield(m, row);
   w.velocity = w.unsolved;
@@ -193,42 +193,79 @@ void solveRows(const Model& m, double dt, StepReport& report, StepWork& w) {
   report.contact.yielded = true;
 }
 
-/// Velocities of the half step after contacts and strain limits, in turn until both hold; w.rows stay what they are.
+/// What the contacts' impulses alone do to the free points [m/s].
+void contactChange(const Model& m, StepWork& w, std::vector<Vec3>& change) {
+  w.sample_impulse.assign(m.surface.size(), Vec3{});
+  for (std::size_t i = 0; i < w.rows.size(); ++i)
+    for (int k = 0; k < w.rows[i].stencil.count; ++k)
+      w.sample_impulse[w.rows[i].stencil.sample[k]] += w.rows[i].stencil.weight[k] * w.impulses[i];
+  m.surface.WTt.multiply<Vec3>(w.sample_impulse, change);
+  for (int i = 0; i < m.freeCount(); ++i) change[i] *= m.inverse_mass[i];
+}
+
+/// Velocities of the half step after contacts and strain limits; w.rows stay what they are. Each turn projects the
+/// strains with the contacts' impulses as they are, then solves for the contacts while the limits go along
+/// (StrainHold): what is left over is of second order in the step. Where the two contradict each other contacts have
+/// the last word, and the report says that the step is not solved.
 void solveVelocities(const Model& m, const State& in, double dt, bool first, StepReport& report, StopWatch& clock,
                      StepWork& w) {
-  const auto contacts = [&] {
-    solveRows(m, dt, report, w);
-    clock.lap(w.times.contact);
-  };
   const StrainLimit& limit = m.strain_limit;
   if (limit.mode == LimitMode::none) {
     w.velocity = w.predictor;
-    contacts();
+    solveRows(m, dt, nullptr, report, w);
+    clock.lap(w.times.contact);
     return;
   }
   const int n = m.freeCount();
-  std::vector<Vec3>& end = w.limit_end;
+  std::vector<Vec3>&end = w.limit_end, &change = w.limit.contact_change;
   end.resize(n);
-  const auto limited = [&](int i) { return w.predictor[i] - (m.inverse_mass[i] / dt) * w.limit.pull[i]; };
   w.velocity.resize(n);
-  for (int turn = 1;; ++turn) {
-    for (int i = 0; i < n; ++i) end[i] = in.p[i] + dt * (limited(i) + w.limit.contact_change[i]);
-    projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit);
-    ++report.limit.rounds;
-    clock.lap(w.times.limit);
-    for (int i = 0; i < n; ++i) w.velocity[i] = limited(i);
-    contacts();
-    if (w.rows.empty()) return;
+  const auto move = [&] {  // with the impulses of limits and contacts as they are
     for (int i = 0; i < n; ++i) {
-      w.limit.contact_change[i] = w.velocity[i] - limited(i);
+      w.velocity[i] = w.predictor[i] - (m.inverse_mass[i] / dt) * w.limit.pull[i] + change[i];
       end[i] = in.p[i] + dt * w.velocity[i];
     }
-    report.limit.residual = limitResidual(m.strain_rows, limit, end, w.limit);
-    report.limit.converged = report.limit.residual <= limit.tolerance;
+  };
+  bool pulls = true;
+  for (int turn = 1;; ++turn) {
+    move();
+    projectStrain(m.strain_rows, limit, (first && turn == 1 && limit.always) || !pulls, end, report.limit, w.limit);
+    ++report.limit.rounds;
+    clock.lap(w.times.limit);
+    if (w.rows.empty()) {
+      w.impulses.clear();
+      move();
+      break;
+    }
+    StrainHold hold(m.strain_rows, limit, end, report.limit, w.limit);
+    w.moved = change;
+    hold.hold(w.moved);
+    move();
+    for (int i = 0; i < n; ++i) w.velocity[i] -= w.moved[i];  // as without contacts
+    w.moved = change;
+    solveRows(m, dt, &hold, report, w);
+    contactChange(m, w, change);
+    for (int i = 0; i < n; ++i) w.moved[i] = dt * (change[i] - w.moved[i]);
+    pulls = hold.follow(w.moved);
+    move();
+    clock.lap(w.times.contact);
+    report.limit.solved = unrestored(m.strain_rows, limit, end, w.limit) <= limit.tolerance && pulls;
     clock.lap(w.times.limit);
     // A residual that is not finite shows in the velocities.
-    if (report.limit.converged || turn == limit.max_rounds || !std::isfinite(report.limit.residual)) return;
+    if ((report.limit.solved && report.contact.converged) || !allFinite(end)) break;
+    if (turn < limit.max_rounds) continue;
+    report.limit.solved = false;
+    if (!report.contact.converged) {
+      for (int i = 0; i < n; ++i) w.velocity[i] -= change[i];
+      solveRows(m, dt, nullptr, report, w);
+      contactChange(m, w, change);
+      move();
+    }
+    break;
   }
+  report.limit.residual = limitResidual(m.strain_rows, limit, end, w.limit);
+  report.limit.converged = report.limit.residual <= limit.tolerance;
+  clock.lap(w.times.limit);
 }
 
 /// What would pass through what with w.velocity: w.hits and w.pair_hits.
@@ -447,6 +484,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   report.cloth_contacts = static_cast<int>(w.collisions.points.size());
   clock.lap(w.times.proximity);
   startProjection(m.strain_rows, in.limit_J, w.limit);
+  leaveStrain(m.strain_rows, m.strain_limit, in.p, dt, w.limit);
   for (int round = 1;; ++round) {
     solveVelocities(m, in, dt, round == 1, report, clock, w);
     if (!allFinite(w.velocity)) {

@@ -12,11 +12,23 @@ namespace {
 
 constexpr double kRegular = 1e-4;  ///< of the diagonal, see the header
 constexpr double kLargestTurn = 0.5;
+constexpr double kTurnOfFactor = 0.05;  ///< of an F D, from which on the matrix is made anew
 
 void constraints(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> e, std::vector<double>& C) {
   const double at = limit.mode == LimitMode::upper_limit ? limit.limit : 0;
   C.resize(rows.rows());
   for (int i = 0; i < rows.rows(); ++i) C[i] = rows.live[i] ? strainOf(e[i]) - at : 0;
+}
+
+void leaveOut(std::span<const double> left, std::vector<double>& C) {
+  for (std::size_t i = 0; i < left.size(); ++i) C[i] -= left[i];
+}
+
+/// Largest change of an F D.
+double turnOf(std::span<const Vec3> e, std::span<const Vec3> before) {
+  double most2 = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) most2 = std::max(most2, norm2(e[i] - before[i]));
+  return std::sqrt(most2);
 }
 
 double residualOf(const StrainRows& rows, const StrainLimit& limit, std::span<const double> C) {
@@ -53,6 +65,17 @@ class Projection {
   Projection(const StrainRows& rows, const StrainLimit& limit, LimitReport& report, LimitWork& work)
       : rows_(rows), limit_(limit), report_(report), w_(work) {
     if (!w_.factor) w_.factor = std::make_unique<SymmetricFactor>(rows.S);
+  }
+
+  void assembleHere() {
+    assemble(rows_, w_.e, w_.A);
+    w_.factored_e = w_.e;
+  }
+
+  /// Factorises the rows that pull at w.e.
+  bool factoriseHere() {
+    assembleHere();
+    return limit_.mode == LimitMode::equality ? factorise(w_.A) : factoriseActive();
   }
 
   /// New total multipliers into w.solution. `fresh`: A has changed since the last factorisation.
@@ -146,6 +169,7 @@ void checkLimit(const StrainLimit& limit) {
   if (!(limit.tolerance >= 1e-10)) reject("tolerance", "must be >= 1e-10");
   if (!(limit.max_projections > 0)) reject("max_projections", "must be > 0");
   if (!(limit.max_rounds > 0)) reject("max_rounds", "must be > 0");
+  if (!(limit.restore_per_s > 0)) reject("restore_per_s", "must be > 0");
 }
 
 void startProjection(const StrainRows& rows, std::span<const double> warm, LimitWork& w) {
@@ -156,7 +180,19 @@ void startProjection(const StrainRows& rows, std::span<const double> warm, Limit
   w.contact_change.assign(rows.B.column_count, {});
   w.active.assign(rows.rows(), 0);
   w.factored_active.clear();
+  w.factored_e.clear();
+  w.left.clear();
   for (std::size_t i = 0; i < warm.size(); ++i) w.active[i] = rows.live[i] && warm[i] > 0;
+}
+
+void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, double dt, LimitWork& w) {
+  strainVectors(rows, p, w.e);
+  constraints(rows, limit, w.e, w.left);
+  w.left_tolerance = 0.5 * limit.restore_per_s * dt;
+  for (double& c : w.left) {
+    const double size = std::abs(c), rest = std::max(0.0, size - limit.restore_per_s * dt);
+    c = size <= 0.5 * limit.tolerance ? 0 : c > 0 ? rest : limit.mode == LimitMode::equality ? -rest : 0;
+  }
 }
 
 void limitMultipliers(const StrainRows& rows, std::span<const Vec3> p, double dt, std::vector<double>& lambda,
@@ -175,25 +211,42 @@ double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span
   return residualOf(rows, limit, w.C);
 }
 
+double unrestored(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& w) {
+  const double all = limitResidual(rows, limit, p, w);
+  if (all <= limit.tolerance || w.left.empty()) {
+    leaveOut(w.left, w.C);
+    return all;
+  }
+  const auto size = [&](double c) { return limit.mode == LimitMode::upper_limit ? std::max(c, 0.0) : std::abs(c); };
+  double most = 0;
+  for (int i = 0; i < rows.rows(); ++i) {
+    const double beyond = size(w.C[i]) - std::abs(w.left[i]);
+    if (!rows.live[i]) continue;
+    if (!(size(w.C[i]) <= limit.tolerance || beyond <= w.left_tolerance)) most = std::max(most, limit.tolerance + beyond);
+    w.C[i] -= w.left[i];
+  }
+  return std::isfinite(all) ? most : all;
+}
+
 void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_least_once, std::span<Vec3> p,
                    LimitReport& report, LimitWork& w) {
   const int n = rows.rows();
   Projection projection(rows, limit, report, w);
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration) {
-    const double residual = report.residual = limitResidual(rows, limit, p, w);
-    report.converged = residual <= limit.tolerance;
+    const double residual = report.residual = unrestored(rows, limit, p, w);
+    report.converged = report.solved = residual <= limit.tolerance;
     if (!std::isfinite(residual)) return;
     const bool wanted = iteration == 0 && at_least_once && residual > 0;
     if (report.converged && !wanted) break;
     if (iteration == limit.max_projections) break;
-    const bool fresh = iteration == 0 || residual > 0.25 * before;
-    if (fresh) assemble(rows, w.e, w.A);
+    const bool fresh = iteration == 0 || residual > 0.25 * before || turnOf(w.e, w.factored_e) > kTurnOfFactor;
+    if (fresh) projection.assembleHere();
     if (limit.mode == LimitMode::upper_limit)
       for (int i = 0; i < n; ++i)
         if (rows.live[i] && w.C[i] > 0) w.active[i] = 1;
     if (!projection.solve(fresh)) {
-      report.converged = false;
+      report.converged = report.solved = false;
       break;
     }
     before = residual;
@@ -228,6 +281,60 @@ void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_lea
   }
   report.active =
       static_cast<int>(std::count_if(w.multiplier.begin(), w.multiplier.end(), [](double x) { return x != 0; }));
+}
+
+StrainHold::StrainHold(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitReport& report,
+                       LimitWork& work)
+    : rows_(rows), w_(work) {
+  if (!w_.factored_e.empty()) return;
+  strainVectors(rows, p, w_.e);
+  Projection(rows, limit, report, w_).factoriseHere();
+}
+
+void StrainHold::multipliersOf(std::span<const Vec3> change) const {
+  const int n = rows_.rows();
+  strainVectors(rows_, change, w_.e_next);
+  w_.right.resize(n);
+  w_.solution.resize(n);
+  for (int i = 0; i < n; ++i) {
+    const bool pulls = rows_.live[i] && (w_.factored_active.empty() || w_.factored_active[i]);
+    w_.right[i] = pulls ? dot(w_.factored_e[i], w_.e_next[i]) : 0;
+  }
+  w_.factor->solveOnce(w_.right, w_.solution);
+}
+
+void StrainHold::hold(std::span<Vec3> change) const {
+  if (!w_.factor->solvable()) return;
+  multipliersOf(change);
+  const int n = rows_.rows();
+  w_.scaled.resize(n);
+  for (int i = 0; i < n; ++i) w_.scaled[i] = w_.solution[i] * w_.factored_e[i];
+  w_.end.resize(change.size());
+  rows_.Bt.multiply<Vec3>(w_.scaled, w_.end);
+  w_.velocity.resize(change.size());
+  applyMobility(rows_.mobility, w_.end, w_.velocity);
+  for (std::size_t k = 0; k < change.size(); ++k) change[k] -= w_.velocity[k];
+}
+
+bool StrainHold::follow(std::span<const Vec3> moved) {
+  if (!w_.factor->solvable()) return true;
+  multipliersOf(moved);
+  const int n = rows_.rows();
+  w_.scaled.resize(n);
+  bool pushes = false;
+  double largest = 0;
+  for (int i = 0; i < n; ++i) {
+    w_.multiplier[i] += w_.solution[i];
+    largest = std::max(largest, std::abs(w_.multiplier[i]));
+    w_.scaled[i] = w_.solution[i] * w_.factored_e[i];
+    w_.force[i] += w_.scaled[i];
+  }
+  if (!w_.factored_active.empty())
+    for (int i = 0; i < n; ++i) pushes = pushes || w_.multiplier[i] < -1e-9 * largest;
+  w_.end.resize(moved.size());
+  rows_.Bt.multiply<Vec3>(w_.scaled, w_.end);
+  for (std::size_t k = 0; k < moved.size(); ++k) w_.pull[k] += w_.end[k];
+  return !pushes;
 }
 
 }  // namespace gambeson

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/response.hpp"
 #include "core/dynamics/strain_points.hpp"
 
 namespace gambeson {
@@ -21,8 +22,13 @@ struct StrainLimit {
   /// Project at least once in a step (upper_limit: where any C > 0), so that multipliers are those of a constraint that
   /// holds and not of one that is met now and then. The thesis ends as soon as the tolerance is met.
   bool always = true;
-  int max_rounds = 12;  ///< of contacts and projections in turn
+  int max_rounds = 4;  ///< of projections and contacts
   LimitPoints points = LimitPoints::vertices;
+  /// Strain that a step begins with is taken back by at most this much a second (Zheng 2013 takes all of it back at
+  /// once). It is there where cloth starts stretched or contacts have had their way, and the velocities of a step that
+  /// takes back some percent at once are those of a blow: 1 % of a cell of 25 mm in a millisecond is 0.25 m/s. 1 /s
+  /// draws a belt together by 0.15 m/s, and is far above what a step leaves by itself.
+  double restore_per_s = 1;
 };
 
 /// Throws InputError (key strain_limit.KEY).
@@ -32,9 +38,12 @@ void checkLimit(const StrainLimit& limit);
 struct LimitReport {
   int projections = 0, factorisations = 0;
   int active = 0;       ///< rows that pull
-  int rounds = 0;       ///< of contacts and projections in turn
+  int rounds = 0;       ///< of projections and contacts
   double residual = 0;  ///< max |C| (upper_limit: max C, at least 0) at the end of the step, after the contacts
-  bool converged = true;
+  bool converged = true;  ///< residual <= tolerance
+  /// Whether limits and contacts agree on the step: strains are within tolerance of what was to be left of them, and
+  /// the contacts are solved. A shorter step turns threads less (by its square); advance tries that.
+  bool solved = true;
 };
 
 /// Scratch of projectStrain, and its result: `multiplier` is dt^2 lambda of each row [kg m^2], `pull` the sum of
@@ -46,12 +55,20 @@ struct LimitWork {
   std::vector<Vec3> e, e_next, scaled, pull, force, end;
   std::vector<double> C, solution, right, moved;
   std::vector<char> active, factored_active;
+  std::vector<double> left;     ///< of each row, strain beyond its limit that this step is to leave; empty: none
+  double left_tolerance = 0;    ///< by which more may be left
+  std::vector<Vec3> factored_e;  ///< F D of all rows where the matrix was made; empty: not in this step
   std::vector<double> multiplier;
   std::vector<Vec3> velocity, contact_change;
 };
 
 /// Starts a step: no multipliers, no pull. `warm` holds last step's multipliers (empty: none).
 void startProjection(const StrainRows& rows, std::span<const double> warm, LimitWork& work);
+
+/// A step of dt from the positions p leaves of each strain beyond its limit what restore_per_s cannot take back, and
+/// nothing of one within half of the tolerance.
+void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, double dt_s,
+                 LimitWork& work);
 
 /// The multipliers whose forces J^T lambda at the positions p are those of the step [J]: F D of the iterates is longer
 /// than at the end, by what one step stretches, so that the plain sum of dlambda says too little.
@@ -60,11 +77,15 @@ void limitMultipliers(const StrainRows& rows, std::span<const Vec3> p, double dt
 
 /// max |C| over the rows that a free point changes (upper_limit: max C, at least 0).
 double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& work);
+/// The same where it is within tolerance or the step has nothing to leave; else the tolerance and what the worst strain
+/// goes beyond both it and what the step is to leave of it, 0 where none does. Sets work.C, what is to be taken back.
+double unrestored(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& work);
 
 /// Moves the positions p on the constraints by eq. 5.21 and 5.22,
 ///   (J M^-1 J^T) dt^2 dlambda = C,   dp = - M^-1 J^T dt^2 dlambda,
-/// until the residual is within tolerance; adds to work.multiplier and work.pull, and to the report.
-/// The matrix is factorised at the first iterate and again where the residual has not fallen by a factor of 4.
+/// until the residual (unrestored) is within tolerance; adds to work.multiplier and work.pull, and to the report.
+/// The matrix is factorised at the first iterate and again where the residual has not fallen by a factor of 4, or where some F D has
+/// changed by more than a twentieth since.
 /// The diagonal is raised by 1e-4 S_ii. Redundant rows (a line of points between two held edges, say) would make the
 /// matrix singular; and multipliers that alternate from point to point move the cloth so little that a step's own
 /// second-order stretch (omega dt)^2/2 would call up tensions a thousand times those of the load, whose chatter feeds
@@ -80,5 +101,27 @@ double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span
 /// annihilate translations and, about p, rotations: momentum is kept where nothing is held.
 void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_least_once, std::span<Vec3> p,
                    LimitReport& report, LimitWork& work);
+
+/// The limits as contacts see them: with S = J M^-1 J^T (its diagonal raised as above) at the last factorisation of the
+/// step and J the rows that pull, impulses i move the free points by
+///   P i = M^-1 i - M^-1 J^T S^-1 J M^-1 i,   0 <= P <= M^-1:
+/// whatever the contacts do, the limits take back what of it would stretch threads. Contacts and limits are one problem
+/// so, in which the limits' part is solved directly in each iteration.
+class StrainHold : public MotionHold {
+ public:
+  /// Factorises at the positions p where nothing was factorised in this step.
+  StrainHold(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitReport& report,
+             LimitWork& work);
+  void hold(std::span<Vec3> change) const override;
+  /// What the limits do while the contacts move the free points by dp = `moved` [m]: adds to work.multiplier, force and
+  /// pull. False where a row of an upper limit would push.
+  bool follow(std::span<const Vec3> moved);
+
+ private:
+  void multipliersOf(std::span<const Vec3> change) const;  ///< into work.solution
+
+  const StrainRows& rows_;
+  LimitWork& w_;
+};
 
 }  // namespace gambeson

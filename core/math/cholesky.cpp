@@ -208,6 +208,13 @@ int SymmetricFactor::weakestUnknown() const { return self_->weakest; }
 double SymmetricFactor::smallestPivot() const { return self_->smallest; }
 bool SymmetricFactor::solvable() const { return self_->valid != nullptr || self_->matrix.size == 0; }
 
+void SymmetricFactor::solveOnce(std::span<const double> b, std::span<double> x) const {
+  assert(solvable());
+  if (self_->matrix.size == 0) return;
+  const OneThread one_thread;
+  self_->solveOnce(b, x);
+}
+
 void SymmetricFactor::solve(std::span<const double> b, std::span<double> x) const {
   Implementation& s = *self_;
   assert(solvable());

@@ -334,6 +334,111 @@ TEST(LimitedStep, ContactAndLimitsHoldTogether) {
   }
 }
 
+/// A ring that its threads hold slides onto a cone and hangs there: it is carried by normal forces that its tension
+/// presses out, so that contacts and limits oppose each other along nearly one direction. Solved in turn, each undoes
+/// most of what the other did: most steps miss, and friction then holds the stretched ring.
+TEST(LimitedStep, ARingThatSlidesOntoAConeKeepsItsLength) {
+  Garment g = garmentOf({halfTube(0), halfTube(kPi)}, {{{0, Side::u1}, {1, Side::u0}}, {{1, Side::u1}, {0, Side::u0}}},
+                        sheetFabric(), {0, 0, 1});
+  for (NurbsPatch& patch : g.patches)
+    for (Vec3& x : patch.points) x = {0.1 * x.x, 0.1 * x.y, 0.03 * x.z};
+  // The flank of a long ellipsoid, 94 mm in radius at the lower edge of the ring (98 mm), with a slope of 0.26.
+  const Ellipsoid cone{{0.14, 0.14, 0.6}};
+  for (LimitMode mode : {LimitMode::equality, LimitMode::upper_limit}) {
+    ModelOptions o;
+    o.strain_limit = {mode, 0, 0.01};
+    Motion m(g, {{0, 0, -9.81}, 0.3}, {1e-3, 0.8, 0.01, 1e-2, 4000}, o, {{cone, "cone"}}, {{{}, {0, 0, -0.4446}, 1}});
+    int missed = 0, unsolved = 0, rounds = 0, touching = 0;
+    double residual = 0;
+    for (int s = 0; s < 300; ++s) {
+      const StepReport r = m.step(5e-4);
+      ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+      missed += !r.limit.converged;
+      unsolved += !r.limit.solved || !r.contact.converged;
+      rounds += r.limit.rounds;
+      touching += !m.work.contact_impulses.empty();
+      residual = std::max(residual, r.limit.residual);
+      EXPECT_LT(r.momentum.error(), 1e-12 * r.momentum.scale);
+    }
+    double fall = 0;
+    for (const Vec3& v : m.state.v) fall = std::max(fall, norm(v));
+    std::printf("[ measured ] %d steps in contact, missed %d, unsolved %d, %.2f rounds a step, residual %.4f, %.3g m/s\n",
+                touching, missed, unsolved, rounds / 300.0, residual, fall);
+    EXPECT_LT(fall, 0.2);
+    EXPECT_GT(touching, 150);
+    EXPECT_EQ(missed, 0);
+    EXPECT_EQ(unsolved, 0);
+    EXPECT_LT(rounds, 450);
+  }
+}
+
+/// Cloth that starts stretched by 5 % is drawn together at the rate of restore_per_s, not in one blow.
+TEST(LimitedStep, StrainThatIsThereIsTakenBackSlowly) {
+  ModelOptions o;
+  o.strain_limit = {LimitMode::equality, 0, 1e-3};
+  Motion m(squareSheet(6, 0.2, 0), {{0, 0, 0}, 0.1}, {}, o);
+  for (Vec3& x : m.state.p) x *= std::sqrt(1.1);  // E = 0.05
+  m.restart();
+  const double dt = 1e-3;
+  double before = 0.05;
+  for (int s = 0; s < 40; ++s) {
+    const StepReport r = m.step(dt);
+    EXPECT_TRUE(r.limit.solved);
+    EXPECT_EQ(r.limit.converged, r.limit.residual <= 1e-3);
+    EXPECT_NEAR(r.limit.residual, before - dt, 2e-4);
+    before = r.limit.residual;
+    // The farthest point is 0.14 m from the middle: (dE/dt)/(1 + 2 E) of it, with what inertia adds in a few steps.
+    for (const Vec3& v : m.state.v) EXPECT_LT(norm(v), 0.2);
+  }
+  for (int s = 0; s < 20; ++s) EXPECT_EQ(m.step(dt).failure, StepFailure::none);
+  EXPECT_LT(limitResidual(m.model->strain_rows, m.model->strain_limit, m.state.p, m.work.limit), 1e-3);
+}
+
+/// P of StrainHold: symmetric, between 0 and M^-1, and stretches no thread.
+TEST(LimitedStep, WhatLimitsLeaveOfAnImpulse) {
+  Motion m = corners(100, {LimitMode::equality, 0, 1e-3});
+  for (int s = 0; s < 50; ++s) EXPECT_EQ(m.step(2e-3).failure, StepFailure::none);
+  const StrainRows& rows = m.model->strain_rows;
+  LimitWork work;
+  LimitReport report;
+  startProjection(rows, {}, work);
+  const StrainHold hold(rows, m.model->strain_limit, m.state.p, report, work);
+  const int n = m.model->freeCount();
+  std::vector<Vec3> a(n), b(n), Pa, Pb;
+  for (int i = 0; i < n; ++i) {
+    a[i] = 1e-3 * Vec3{std::sin(3.0 * i), std::cos(5.0 * i), std::sin(7.0 * i + 1)};
+    b[i] = 1e-3 * Vec3{std::cos(2.0 * i), std::sin(11.0 * i), std::cos(13.0 * i + 2)};
+  }
+  const auto moved = [&](const std::vector<Vec3>& impulse) {
+    std::vector<Vec3> v(n);
+    for (int i = 0; i < n; ++i) v[i] = m.model->inverse_mass[i] * impulse[i];
+    return v;
+  };
+  const auto product = [&](const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
+    double sum = 0;
+    for (int i = 0; i < n; ++i) sum += dot(x[i], y[i]);
+    return sum;
+  };
+  hold.hold(Pa = moved(a));
+  hold.hold(Pb = moved(b));
+  const double free = product(a, moved(a)), left = product(a, Pa);
+  std::printf("[ measured ] of %.3g J the limits leave %.3g\n", free, left);
+  EXPECT_NEAR(product(b, Pa), product(a, Pb), 1e-10 * free);
+  EXPECT_GT(left, 0.05 * free);
+  EXPECT_LT(left, 0.95 * free);
+  std::vector<Vec3> e, change, start;
+  strainVectors(rows, m.state.p, e);
+  strainVectors(rows, Pa, change);
+  strainVectors(rows, moved(a), start);
+  double stretch = 0, before = 0;
+  for (int i = 0; i < rows.rows(); ++i) {
+    if (!rows.live[i]) continue;
+    stretch = std::max(stretch, std::abs(dot(e[i], change[i])));
+    before = std::max(before, std::abs(dot(e[i], start[i])));
+  }
+  EXPECT_LT(stretch, 2e-3 * before);  // what the raised diagonal leaves
+}
+
 /// What the limits do shows in the energy: its change is their work with that of the drag, to the order of the step.
 TEST(LimitedStep, TheirWorkIsInTheAudit) {
   Motion m = corners(100, {LimitMode::equality, 0, 1e-4});
