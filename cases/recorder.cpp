@@ -186,6 +186,7 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
   c.reals["limit"] = s.limit_J;
   c.reals["pressed"] = doubles(s.pressed);
   c.reals["sums"] = doubles(std::vector<Vec3>{s.sums.drag, s.sums.springs, s.sums.held});
+  c.reals["held"] = doubles(s.held_N);
   c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s, f.largest_rad_per_s, f.membrane_share,
                         f.bending_share,       f.seam_share,  f.spring_share};
   c.reals["swing"] = {s.swing, s.share};
@@ -216,6 +217,7 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   s.pressed = vectors(c.reals.at("pressed"));
   const std::vector<Vec3> sums = vectors(c.reals.at("sums"));
   s.sums = {sums[0], sums[1], sums[2]};
+  s.held_N = vectors(c.reals.at("held"));
   const std::vector<double>& control = c.reals.at("control");
   s.frequency_rad_per_s = control[0];
   s.last_step_s = control[1];
@@ -283,11 +285,7 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   }
   for (std::size_t g = 0; g < scenario_.supports.size(); ++g) {
     for (int k : scenario_.supports[g].springs) supports_[g] += work.spring_impulses[k];
-    if (scenario_.supports[g].springs.empty()) {
-      Vec3 springs{};
-      for (const Vec3& i : work.spring_impulses) springs += i;
-      supports_[g] += r.momentum.supports - springs;
-    }
+    for (const auto& [k, part] : scenario_.supports[g].held) supports_[g] += part * work.held_impulses[k];
   }
   const bool first = steps_[kSteps] == 0;
   const auto most = [&](Column c, double value) { steps_[c] = first ? value : std::max(steps_[c], value); };

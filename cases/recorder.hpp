@@ -10,7 +10,8 @@
 ///   normal    per body <name>_Jx_Ns .. Lz_Nms: the part of `bodies` that presses; the rest rubs
 ///   body_zones  what each part of the body gets from each garment (cases/zone_ledger.hpp)
 ///   drag      per body <name>_Jx_Ns .. Lz_Nms: air drag on the cloth nearest to that body, as if the body carried it
-///   supports  per support <name>_x_Ns .. z: impulse on the cloth; <name>_drop_m: mean sinking of the edge against its
+///   supports  per support <name>_x_Ns .. z: impulse on the cloth, of a held edge on its own points too (their weight
+///             and inertia are its); <name>_drop_m: mean sinking of the edge against its
 ///   link,
 ///             from where the springs were attached
 ///   skin      where the human has a skin: what its contact is at the joints (cases/skin_ledger.hpp)

@@ -323,6 +323,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   s->model =
       underGarments(c, only, [&] { return buildModel(garment, options, environment, contact, std::move(obstacles)); });
   noteCoarseness(c, garments, first, *s);
+  findHeldPoints(*s->model, s->supports);
 
   if (std::any_of(start.begin(), start.end(), [](const Vec3& n) { return n != Vec3{}; }))
     for (std::size_t i = 0; i < s->model->map.home.size(); ++i)

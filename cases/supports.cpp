@@ -1,5 +1,7 @@
 #include "cases/supports.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -11,6 +13,8 @@
 
 namespace gambeson {
 namespace {
+
+constexpr const char* kSides[] = {"u0", "u1", "v0", "v1"};
 
 std::vector<PatchEdge> edgesOf(const std::vector<NamedEdge>& known, const EdgeCase& e) {
   if (e.name.empty()) return {{e.patch, e.side, false}};
@@ -54,7 +58,9 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
     if (!edge.garment.empty())
       while (c.garments[worn].name != edge.garment) ++worn;
     const std::string of = c.garments.size() == 1 ? "" : edge.garment + " ";
-    const std::string name = of + (edge.name.empty() ? "edge of patch " + std::to_string(edge.patch) : edge.name);
+    const std::string name =
+        of + (edge.name.empty() ? fmt::format("edge {} of patch {}", kSides[static_cast<int>(edge.side)], edge.patch)
+                                : edge.name);
     std::vector<PatchEdge> edges;
     if (!std::holds_alternative<PinnedSupport>(support)) edges = edgesOf(known[worn], edge);
     for (PatchEdge& e : edges) {
@@ -70,18 +76,16 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
       const NurbsPatch& patch = garment.patches[p];
       const auto at = [](const KnotVector& k, double part) { return k.front() + part * (k.back() - k.front()); };
       const SurfaceBasis basis = surfaceBasis(patch, at(patch.u, pinned->s), at(patch.v, pinned->t));
-      group.name = of + "point held";
+      group.name = of + fmt::format("point ({:.3g}, {:.3g}) held", pinned->s, pinned->t);
       for (std::size_t k = 0; k < basis.columns.size(); ++k)
-        if (basis.values[0][k] > 1e-12)
-          options.held_control_points.push_back(controlOffsets(garment)[p] + basis.columns[k]);
+        if (basis.values[0][k] > 1e-12) group.control_points.push_back(controlOffsets(garment)[p] + basis.columns[k]);
     } else if (const auto* fixed = std::get_if<FixedSupport>(&support)) {
       group.name = name + " held";
       for (const PatchEdge& e : edges) {
         const EdgeColumns columns = edgeColumns(garment, e);
-        options.held_control_points.insert(options.held_control_points.end(), columns.edge.begin(), columns.edge.end());
+        group.control_points.insert(group.control_points.end(), columns.edge.begin(), columns.edge.end());
         if (fixed->rows > 1)
-          options.held_control_points.insert(options.held_control_points.end(), columns.inner.begin(),
-                                             columns.inner.end());
+          group.control_points.insert(group.control_points.end(), columns.inner.begin(), columns.inner.end());
       }
     } else {
       const auto& springs = std::get<SpringSupport>(support);
@@ -114,11 +118,32 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
         options.springs.push_back(spring);
       }
     }
+    options.held_control_points.insert(options.held_control_points.end(), group.control_points.begin(),
+                                       group.control_points.end());
     groups.push_back(std::move(group));
   };
   const char* const kinds[] = {"fixed", "springs", "pinned"};
   for (std::size_t i = 0; i < c.supports.size(); ++i)
     underKey("supports[" + std::to_string(i) + "]." + kinds[c.supports[i].index()], [&] { add(c.supports[i]); });
+}
+
+void findHeldPoints(const Model& m, std::vector<SupportGroup>& groups) {
+  std::vector<int> holders(m.held_points.size(), 0);
+  for (SupportGroup& group : groups) {
+    std::vector<int> points;
+    for (int c : group.control_points)
+      points.insert(points.end(), m.map.T.columns.begin() + m.map.T.offsets[c],
+                    m.map.T.columns.begin() + m.map.T.offsets[c + 1]);
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    for (int p : points) {
+      const auto at = std::lower_bound(m.held_points.begin(), m.held_points.end(), p) - m.held_points.begin();
+      ++holders[static_cast<std::size_t>(at)];
+      group.held.emplace_back(static_cast<int>(at), 0);
+    }
+  }
+  for (SupportGroup& group : groups)
+    for (auto& [point, part] : group.held) part = 1.0 / holders[static_cast<std::size_t>(point)];
 }
 
 }  // namespace gambeson

@@ -2,6 +2,7 @@
 /// What holds the garments of a case: points and edges held, edges on springs.
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -14,8 +15,12 @@ namespace gambeson {
 
 /// What holds the garment, by name, as the supports table lists it.
 struct SupportGroup {
-  std::string name;          ///< "waist springs to pelvis", "fixed start"
-  std::vector<int> springs;  ///< indices in Model::springs; empty for held control points
+  std::string name;                 ///< "waist springs to pelvis", "fixed start"
+  std::vector<int> springs;         ///< indices in Model::springs; empty for held control points
+  std::vector<int> control_points;  ///< held
+  /// Of the held points, the index in Model::held_points and the part of its force: a point that several supports hold
+  /// is shared equally.
+  std::vector<std::pair<int, double>> held;
   std::vector<int> samples;  ///< of the supported edge
   int anchor = -1;           ///< frame of the springs
 };
@@ -26,5 +31,7 @@ struct SupportGroup {
 void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first,
                  const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
                  ModelOptions& options, std::vector<SupportGroup>& groups);
+/// Finds what the groups hold in the model that was built with those options.
+void findHeldPoints(const Model& model, std::vector<SupportGroup>& groups);
 
 }  // namespace gambeson

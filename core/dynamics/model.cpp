@@ -69,6 +69,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 {},
                                                 {},
                                                 {},
+                                                {},
                                                 environment,
                                                 contact,
                                                 std::move(obstacles),
@@ -84,6 +85,8 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
                                                 options.stitches,
                                                 std::move(bulges),
                                                 {}});
+  for (int i = 0; i < n; ++i)
+    if (model->held[i]) model->held_points.push_back(i);
   std::vector<int> layer;
   for (int s = 0; s < model->surface.size(); ++s) {
     const int patch = model->surface.patch[s];

@@ -55,6 +55,7 @@ struct Model {
   Surface surface;
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
   std::vector<char> held;                              ///< free points that do not move
+  std::vector<int> held_points;                        ///< these, ascending
   std::vector<double> density_kg_per_m2;               ///< of the samples
   std::vector<double> cell_m;   ///< of the samples: the shorter side of their cell at rest, through its middle
   std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
@@ -117,6 +118,7 @@ struct State {
   std::vector<Vec3> p, v, a;  ///< free points: position, velocity, acceleration without contact
   std::vector<Vec3> anchors;  ///< of each spring, in its anchor frame
   ForceSums sums;             ///< at this time
+  std::vector<Vec3> held_N;   ///< force on each of Model::held_points that keeps it still, without limits and contact
   std::vector<WarmContact> warm;
   bool tangled = true;          ///< cloth may pass through cloth or a mesh: look for intersections
   std::vector<int> pinched;     ///< samples that no step length frees: their impacts are let pass in the next step
@@ -218,7 +220,9 @@ struct StepWork {
   DeformingWork deforming;
   std::vector<ContactImpulse> contact_impulses;  ///< of the last step
   std::vector<Vec3> spring_impulses;             ///< of the last step, on the cloth, one per spring [N s]
-  PhaseTimes times;                              ///< summed over the steps
+  /// Of the last step, on each of Model::held_points by what holds it, with that point's own weight [N s].
+  std::vector<Vec3> held_impulses;
+  PhaseTimes times;  ///< summed over the steps
 };
 
 }  // namespace gambeson

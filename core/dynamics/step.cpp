@@ -102,6 +102,11 @@ void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& a
   springForces(m, s, anchor_frames, w.spring_force);
   s.sums = {};
   s.sums.springs = sum(w.spring_force);
+  s.held_N.clear();
+  const auto deadForce = [&](int i) { return m.dead_force_N.empty() ? Vec3{} : m.dead_force_N[i]; };
+  for (const int i : m.held_points)
+    s.held_N.push_back(
+        -(s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 + m.drag_kg_per_s[i] * air + deadForce(i)));
   for (std::size_t k = 0; k < m.springs.size(); ++k) {
     const int sample = m.springs[k].sample;
     for (int e = m.surface.WT.offsets[sample]; e < m.surface.WT.offsets[sample + 1]; ++e) {
@@ -109,6 +114,7 @@ void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& a
       const Vec3 f = m.surface.WT.values[e] * w.spring_force[k];
       if (m.held[i]) {
         s.sums.springs -= f;  // taken by what holds the point
+        s.held_N[heldSlot(m, i)] -= f;
       } else {
         s.a[i] += f;
       }
@@ -131,20 +137,18 @@ void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& a
   }
 }
 
-/// Accelerations - M^-1 J^T lambda of the strain limits at s [m/s^2], and their sum of forces on held points [N]. Empty
-/// where nothing pulls.
-Vec3 limitAccelerations(const Model& m, const State& s, std::vector<Vec3>& out, LimitWork& w) {
+/// Accelerations - M^-1 J^T lambda of the strain limits at s [m/s^2], and their forces on held points [N]. Empty where
+/// nothing pulls.
+std::vector<Vec3> limitAccelerations(const Model& m, const State& s, std::vector<Vec3>& out, LimitWork& w) {
   out.clear();
   if (s.limit_J.empty()) return {};
   strainVectors(m.strain_rows, s.p, w.e);
   for (std::size_t i = 0; i < w.e.size(); ++i) w.e[i] *= s.limit_J[i];
   out.resize(m.freeCount());
   m.strain_rows.Bt.multiply<Vec3>(w.e, out);
-  Vec3 held{};
-  for (int i = 0; i < m.freeCount(); ++i) {
-    if (m.held[i]) held -= out[i];
-    out[i] *= -m.inverse_mass[i];
-  }
+  std::vector<Vec3> held;
+  for (const int i : m.held_points) held.push_back(-out[i]);
+  for (int i = 0; i < m.freeCount(); ++i) out[i] *= -m.inverse_mass[i];
   return held;
 }
 
@@ -231,7 +235,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 
   // 1.1 Predictor, eq. 3.11.
   w.predictor.resize(n);
-  const Vec3 held_before = limitAccelerations(m, in, w.pulled_before, w.limit);
+  const std::vector<Vec3> held_before = limitAccelerations(m, in, w.pulled_before, w.limit);
   for (int i = 0; i < n; ++i) w.predictor[i] = in.v[i] + half * in.a[i];
   const std::span<const Vec3> lasted = together(w.pulled_before, in.pressed, w.lasting);
   if (!lasted.empty())
@@ -266,7 +270,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   springForces(m, in, before, spring_mean);
   out.limit_J.clear();
   if (m.strain_limit.mode != LimitMode::none) limitMultipliers(m.strain_rows, out.p, dt, out.limit_J, w.limit);
-  const Vec3 held_after = limitAccelerations(m, out, w.pulled_after, w.limit);
+  const std::vector<Vec3> held_after = limitAccelerations(m, out, w.pulled_after, w.limit);
   pressingAccelerations(m, dt, w, out.pressed);
   accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half, out, w);
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
@@ -289,10 +293,18 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 
   // The audit, each term from its own source.
   MomentumAudit& audit = report.momentum;
+  w.held_impulses.assign(m.held_points.size(), Vec3{});
+  for (std::size_t k = 0; k < w.held_impulses.size(); ++k) w.held_impulses[k] = half * (in.held_N[k] + out.held_N[k]);
   contactLedger(m, in, dt, report, w);
   if (m.strain_limit.mode != LimitMode::none) {
-    audit.supports -= half * (held_after - held_before);
-    audit.scale += half * (norm(held_after) + norm(held_before));
+    const Vec3 pull_after = sum(held_after), pull_before = sum(held_before);
+    audit.supports -= half * (pull_after - pull_before);
+    audit.scale += half * (norm(pull_after) + norm(pull_before));
+    for (std::size_t k = 0; k < w.held_impulses.size(); ++k) {
+      w.held_impulses[k] += w.limit.pull[m.held_points[k]] / dt;
+      if (!held_after.empty()) w.held_impulses[k] -= half * held_after[k];
+      if (!held_before.empty()) w.held_impulses[k] += half * held_before[k];
+    }
     for (int i = 0; i < n; ++i) {
       const Vec3 impulse = -w.limit.pull[i] / dt;
       if (m.held[i]) {

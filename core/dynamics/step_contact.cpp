@@ -540,7 +540,10 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
             {s, c.obstacle, c.feature, share, c.normal, w.start[c.obstacle] * c.local, c.touched});
       if (body) report.momentum.obstacles -= share;
       for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
-        if (m.held[WT.columns[k]]) report.momentum.supports -= WT.values[k] * share;
+        if (const int point = WT.columns[k]; m.held[point]) {
+          report.momentum.supports -= WT.values[k] * share;
+          w.held_impulses[heldSlot(m, point)] -= WT.values[k] * share;
+        }
       mean += (0.5 * row.stencil.weight[j]) *
               (sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, in.a));
     }
@@ -555,7 +558,10 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
     if (!row.slippery) report.work.dissipated += separation - dot(impulse, mean - row.body_velocity);
   }
   // What zones take from the cloth goes to what they move with.
-  for (const ImpactZone& zone : w.zones)
+  for (const ImpactZone& zone : w.zones) {
+    std::vector<std::size_t> held;
+    for (int i : zone.points)
+      if (m.held[i]) held.push_back(heldSlot(m, i));
     for (int i : zone.points) {
       if (m.held[i]) continue;
       const Vec3 impulse = m.mass_kg[i] * w.zone_change[i];
@@ -571,10 +577,12 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
         w.contact_impulses.push_back(
             {sample, zone.body, 0, impulse, impulse / size, point, nearestTouched(m, zone, point, w)});
         report.momentum.obstacles -= impulse;
-      } else if (std::any_of(zone.points.begin(), zone.points.end(), [&](int k) { return m.held[k]; })) {
+      } else if (!held.empty()) {
         report.momentum.supports += impulse;
+        for (const std::size_t k : held) w.held_impulses[k] += impulse / static_cast<double>(held.size());
       }
     }
+  }
 }
 
 }  // namespace gambeson

@@ -2,6 +2,7 @@
 /// The contact part of a step: from the predicted velocities to those with which nothing passes through anything.
 /// Internal to core/dynamics.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <span>
@@ -27,6 +28,12 @@ inline Vec3 sampleAt(const SparseRows& WT, int sample, std::span<const Vec3> val
   Vec3 s{};
   for (int k = WT.offsets[sample]; k < WT.offsets[sample + 1]; ++k) s += WT.values[k] * values[WT.columns[k]];
   return s;
+}
+
+/// Where Model::held_points has the free point `i`, which is held.
+inline std::size_t heldSlot(const Model& m, int i) {
+  return static_cast<std::size_t>(std::lower_bound(m.held_points.begin(), m.held_points.end(), i) -
+                                  m.held_points.begin());
 }
 
 inline bool allFinite(std::span<const Vec3> values) {

@@ -70,7 +70,7 @@ TEST(LayeredCase, ScenarioHasEachGarmentWithItsOwnSamplesFabricAndSupports) {
   ASSERT_EQ(s->supports.size(), 2u);
   EXPECT_EQ(s->supports[0].name, "inner start held");
   EXPECT_EQ(s->supports[0].samples.size(), 24u);
-  EXPECT_EQ(s->supports[1].name, "outer edge of patch 0 held");
+  EXPECT_EQ(s->supports[1].name, "outer edge v1 of patch 0 held");
   for (int sample : s->supports[1].samples) EXPECT_EQ(surface.patch[sample], 3);
   double mean = 0;  // of the inner tube about its axis: moved
   for (const Vec3& p : g.patches[0].points) mean += p.z;
@@ -164,7 +164,7 @@ TEST(LayeredCase, PinnedPointStaysAndTorusIsARing) {
                R"("obstacles": [{"name": "ring", "torus": {"radius": "40 mm", "tube": "5 mm", "center": [0, 1, 0],
                  "axis": [1, 1, 0], "segments": 200, "rings": 60}}], "contact")");
   const auto s = buildScenario(readCase(folder.write("case.json", pinned)));
-  EXPECT_EQ(s->supports[1].name, "outer point held");
+  EXPECT_EQ(s->supports[1].name, "outer point (0.5, 0.25) held");
   // 8 cells of degree 2: the point lies on knots both ways, so four control points shape it.
   const int outer = controlOffsets(s->model->shell.garment())[3];
   int held = 0;
