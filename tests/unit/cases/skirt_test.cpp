@@ -27,7 +27,8 @@ TEST(SkirtDrape, HasTheSizesOfTheThesis) {
 TEST(SkirtDrape, TheHipsCarryIt) {
   SceneRun scene(libraryCase("skirt_drape",
                              {"garment.skirt.cells_around=32", "garment.skirt.cells_along=6", "human.skin.cell=0.02",
-                              "dressing.projecting.grow=0.1", "time.duration=0.3", "time.step_safety=0.9"}));
+                              "dressing.settle=0", "dressing.projecting={\"clearance\": \"5 mm\", \"grow\": \"0.1 s\"}",
+                              "time.duration=0.3"}));
   AuditWatch audit;
   double carried = 0, from_s = 0.2, deepest = 0;
   scene.run(0.3,
