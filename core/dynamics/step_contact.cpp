@@ -204,7 +204,7 @@ void contactChange(const Model& m, StepWork& w, std::vector<Vec3>& change) {
 }
 
 /// Velocities of the half step after contacts and strain limits; w.rows stay what they are. Each turn projects the
-/// strains with the contacts' impulses as they are, then solves for the contacts while the limits go along
+/// strains with the contacts' impulses as they are, then solves for the contacts while limits of equality go along
 /// (StrainHold): what is left over is of second order in the step. Where the two contradict each other contacts have
 /// the last word, and the report says that the step is not solved.
 void solveVelocities(const Model& m, const State& in, double dt, bool first, StepReport& report, StopWatch& clock,
@@ -226,10 +226,19 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Ste
       end[i] = in.p[i] + dt * w.velocity[i];
     }
   };
-  bool pulls = true;
+  // Threads that may slacken pull only: the linear problem with contacts is no longer one that a factor solves. Limits
+  // of that kind and contacts take turns.
+  const bool together = limit.mode == LimitMode::equality;
+  const int most_turns = together ? limit.max_rounds : limit.max_turns;
+  const auto contactsAlone = [&] {
+    for (int i = 0; i < n; ++i) w.velocity[i] -= change[i];
+    solveRows(m, dt, nullptr, report, w);
+    contactChange(m, w, change);
+    move();
+  };
   for (int turn = 1;; ++turn) {
     move();
-    projectStrain(m.strain_rows, limit, (first && turn == 1 && limit.always) || !pulls, end, report.limit, w.limit);
+    projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit);
     ++report.limit.rounds;
     clock.lap(w.times.limit);
     if (w.rows.empty()) {
@@ -237,30 +246,30 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Ste
       move();
       break;
     }
-    StrainHold hold(m.strain_rows, limit, end, report.limit, w.limit);
-    w.moved = change;
-    hold.hold(w.moved);
+    clock.lap(w.times.limit);
     move();
-    for (int i = 0; i < n; ++i) w.velocity[i] -= w.moved[i];  // as without contacts
-    w.moved = change;
-    solveRows(m, dt, &hold, report, w);
-    contactChange(m, w, change);
-    for (int i = 0; i < n; ++i) w.moved[i] = dt * (change[i] - w.moved[i]);
-    pulls = hold.follow(w.moved);
-    move();
+    if (together) {
+      StrainHold hold(m.strain_rows, limit, end, report.limit, w.limit);
+      w.moved = change;
+      hold.hold(w.moved);
+      for (int i = 0; i < n; ++i) w.velocity[i] -= w.moved[i];  // as without contacts
+      w.moved = change;
+      solveRows(m, dt, &hold, report, w);
+      contactChange(m, w, change);
+      for (int i = 0; i < n; ++i) w.moved[i] = dt * (change[i] - w.moved[i]);
+      hold.follow(w.moved);
+      move();
+    } else {
+      contactsAlone();
+    }
     clock.lap(w.times.contact);
-    report.limit.solved = unrestored(m.strain_rows, limit, end, w.limit) <= limit.tolerance && pulls;
+    report.limit.solved = unrestored(m.strain_rows, limit, end, w.limit) <= limit.tolerance;
     clock.lap(w.times.limit);
     // A residual that is not finite shows in the velocities.
     if ((report.limit.solved && report.contact.converged) || !allFinite(end)) break;
-    if (turn < limit.max_rounds) continue;
+    if (turn < most_turns) continue;
     report.limit.solved = false;
-    if (!report.contact.converged) {
-      for (int i = 0; i < n; ++i) w.velocity[i] -= change[i];
-      solveRows(m, dt, nullptr, report, w);
-      contactChange(m, w, change);
-      move();
-    }
+    if (together && !report.contact.converged) contactsAlone();
     break;
   }
   report.limit.residual = limitResidual(m.strain_rows, limit, end, w.limit);

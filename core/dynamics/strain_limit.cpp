@@ -72,10 +72,9 @@ class Projection {
     w_.factored_e = w_.e;
   }
 
-  /// Factorises the rows that pull at w.e.
-  bool factoriseHere() {
+  void factoriseHere() {
     assembleHere();
-    return limit_.mode == LimitMode::equality ? factorise(w_.A) : factoriseActive();
+    factorise(w_.A);
   }
 
   /// New total multipliers into w.solution. `fresh`: A has changed since the last factorisation.
@@ -297,8 +296,7 @@ void StrainHold::multipliersOf(std::span<const Vec3> change) const {
   w_.right.resize(n);
   w_.solution.resize(n);
   for (int i = 0; i < n; ++i) {
-    const bool pulls = rows_.live[i] && (w_.factored_active.empty() || w_.factored_active[i]);
-    w_.right[i] = pulls ? dot(w_.factored_e[i], w_.e_next[i]) : 0;
+    w_.right[i] = rows_.live[i] ? dot(w_.factored_e[i], w_.e_next[i]) : 0;
   }
   w_.factor->solveOnce(w_.right, w_.solution);
 }
@@ -316,25 +314,19 @@ void StrainHold::hold(std::span<Vec3> change) const {
   for (std::size_t k = 0; k < change.size(); ++k) change[k] -= w_.velocity[k];
 }
 
-bool StrainHold::follow(std::span<const Vec3> moved) {
-  if (!w_.factor->solvable()) return true;
+void StrainHold::follow(std::span<const Vec3> moved) {
+  if (!w_.factor->solvable()) return;
   multipliersOf(moved);
   const int n = rows_.rows();
   w_.scaled.resize(n);
-  bool pushes = false;
-  double largest = 0;
   for (int i = 0; i < n; ++i) {
     w_.multiplier[i] += w_.solution[i];
-    largest = std::max(largest, std::abs(w_.multiplier[i]));
     w_.scaled[i] = w_.solution[i] * w_.factored_e[i];
     w_.force[i] += w_.scaled[i];
   }
-  if (!w_.factored_active.empty())
-    for (int i = 0; i < n; ++i) pushes = pushes || w_.multiplier[i] < -1e-9 * largest;
   w_.end.resize(moved.size());
   rows_.Bt.multiply<Vec3>(w_.scaled, w_.end);
   for (std::size_t k = 0; k < moved.size(); ++k) w_.pull[k] += w_.end[k];
-  return !pushes;
 }
 
 }  // namespace gambeson

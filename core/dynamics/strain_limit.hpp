@@ -22,7 +22,8 @@ struct StrainLimit {
   /// Project at least once in a step (upper_limit: where any C > 0), so that multipliers are those of a constraint that
   /// holds and not of one that is met now and then. The thesis ends as soon as the tolerance is met.
   bool always = true;
-  int max_rounds = 4;  ///< of projections and contacts
+  int max_rounds = 4;                     ///< of projections, and contacts solved together with limits of equality
+  static constexpr int max_turns = 12;    ///< of projections and contacts by themselves, upper limits
   LimitPoints points = LimitPoints::vertices;
   /// Strain that a step begins with is taken back by at most this much a second (Zheng 2013 takes all of it back at
   /// once). It is there where cloth starts stretched or contacts have had their way, and the velocities of a step that
@@ -102,8 +103,8 @@ double unrestored(const StrainRows& rows, const StrainLimit& limit, std::span<co
 void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_least_once, std::span<Vec3> p,
                    LimitReport& report, LimitWork& work);
 
-/// The limits as contacts see them: with S = J M^-1 J^T (its diagonal raised as above) at the last factorisation of the
-/// step and J the rows that pull, impulses i move the free points by
+/// Limits of equality as contacts see them: with S = J M^-1 J^T (its diagonal raised as above) at the last factorisation of the
+/// step and J their gradients, impulses i move the free points by
 ///   P i = M^-1 i - M^-1 J^T S^-1 J M^-1 i,   0 <= P <= M^-1:
 /// whatever the contacts do, the limits take back what of it would stretch threads. Contacts and limits are one problem
 /// so, in which the limits' part is solved directly in each iteration.
@@ -114,8 +115,8 @@ class StrainHold : public MotionHold {
              LimitWork& work);
   void hold(std::span<Vec3> change) const override;
   /// What the limits do while the contacts move the free points by dp = `moved` [m]: adds to work.multiplier, force and
-  /// pull. False where a row of an upper limit would push.
-  bool follow(std::span<const Vec3> moved);
+  /// pull.
+  void follow(std::span<const Vec3> moved);
 
  private:
   void multipliersOf(std::span<const Vec3> change) const;  ///< into work.solution

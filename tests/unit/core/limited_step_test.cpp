@@ -344,32 +344,27 @@ TEST(LimitedStep, ARingThatSlidesOntoAConeKeepsItsLength) {
     for (Vec3& x : patch.points) x = {0.1 * x.x, 0.1 * x.y, 0.03 * x.z};
   // The flank of a long ellipsoid, 94 mm in radius at the lower edge of the ring (98 mm), with a slope of 0.26.
   const Ellipsoid cone{{0.14, 0.14, 0.6}};
-  for (LimitMode mode : {LimitMode::equality, LimitMode::upper_limit}) {
-    ModelOptions o;
-    o.strain_limit = {mode, 0, 0.01};
-    Motion m(g, {{0, 0, -9.81}, 0.3}, {1e-3, 0.8, 0.01, 1e-2, 4000}, o, {{cone, "cone"}}, {{{}, {0, 0, -0.4446}, 1}});
-    int missed = 0, unsolved = 0, rounds = 0, touching = 0;
-    double residual = 0;
-    for (int s = 0; s < 300; ++s) {
-      const StepReport r = m.step(5e-4);
-      ASSERT_EQ(r.failure, StepFailure::none) << r.why;
-      missed += !r.limit.converged;
-      unsolved += !r.limit.solved || !r.contact.converged;
-      rounds += r.limit.rounds;
-      touching += !m.work.contact_impulses.empty();
-      residual = std::max(residual, r.limit.residual);
-      EXPECT_LT(r.momentum.error(), 1e-12 * r.momentum.scale);
-    }
-    double fall = 0;
-    for (const Vec3& v : m.state.v) fall = std::max(fall, norm(v));
-    std::printf("[ measured ] %d steps in contact, missed %d, unsolved %d, %.2f rounds a step, residual %.4f, %.3g m/s\n",
-                touching, missed, unsolved, rounds / 300.0, residual, fall);
-    EXPECT_LT(fall, 0.2);
-    EXPECT_GT(touching, 150);
-    EXPECT_EQ(missed, 0);
-    EXPECT_EQ(unsolved, 0);
-    EXPECT_LT(rounds, 450);
+  ModelOptions o;
+  o.strain_limit = {LimitMode::equality, 0, 0.01};
+  Motion m(g, {{0, 0, -9.81}, 0.3}, {1e-3, 0.8, 0.01, 1e-2, 4000}, o, {{cone, "cone"}}, {{{}, {0, 0, -0.4446}, 1}});
+  int missed = 0, unsolved = 0, rounds = 0, touching = 0;
+  double residual = 0;
+  for (int s = 0; s < 300; ++s) {
+    const StepReport r = m.step(5e-4);
+    ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+    missed += !r.limit.converged;
+    unsolved += !r.limit.solved || !r.contact.converged;
+    rounds += r.limit.rounds;
+    touching += !m.work.contact_impulses.empty();
+    residual = std::max(residual, r.limit.residual);
+    EXPECT_LT(r.momentum.error(), 1e-12 * r.momentum.scale);
   }
+  std::printf("[ measured ] %d steps in contact, missed %d, unsolved %d, %.2f rounds a step, residual %.4f\n", touching,
+              missed, unsolved, rounds / 300.0, residual);
+  EXPECT_GT(touching, 150);
+  EXPECT_EQ(missed, 0);
+  EXPECT_EQ(unsolved, 0);
+  EXPECT_LT(rounds, 360);
 }
 
 /// Cloth that starts stretched by 5 % is drawn together at the rate of restore_per_s, not in one blow.
@@ -387,8 +382,8 @@ TEST(LimitedStep, StrainThatIsThereIsTakenBackSlowly) {
     EXPECT_EQ(r.limit.converged, r.limit.residual <= 1e-3);
     EXPECT_NEAR(r.limit.residual, before - dt, 2e-4);
     before = r.limit.residual;
-    // The farthest point is 0.14 m from the middle: (dE/dt)/(1 + 2 E) of it, with what inertia adds in a few steps.
-    for (const Vec3& v : m.state.v) EXPECT_LT(norm(v), 0.2);
+    // The farthest point is 0.14 m from the middle: it goes (dE/dt)/(1 + 2 E) of that.
+    for (std::size_t i = 0; i < m.state.p.size(); ++i) EXPECT_LT(norm(m.state.p[i] - m.next.p[i]), 0.2 * dt);
   }
   for (int s = 0; s < 20; ++s) EXPECT_EQ(m.step(dt).failure, StepFailure::none);
   EXPECT_LT(limitResidual(m.model->strain_rows, m.model->strain_limit, m.state.p, m.work.limit), 1e-3);
