@@ -355,7 +355,6 @@ int draft(const DraftArguments& a, std::ostream& out) {
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is a case of a structure; garments are made by those that wear");
-  checkOutput(a.garment_file, "--output", inputsOf(any));
   draftToFile(*c, a.garment, a.garment_file, out);
   return done;
 }

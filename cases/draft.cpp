@@ -8,7 +8,9 @@
 #include <ostream>
 
 #include "cases/factors.hpp"
+#include "cases/inputs.hpp"
 #include "cases/overloaded.hpp"
+#include "cases/results_folder.hpp"
 #include "cases/places.hpp"
 #include "cases/schema.hpp"
 #include "cases/structure_sheet.hpp"
@@ -191,6 +193,7 @@ void draftToFile(const Case& c, const std::string& name, const std::filesystem::
       throw InputError({"command line", 0, "--garment"},
                        fmt::format("there is no garment \"{}\"; allowed: {}", name, schema::joined(names)));
   }
+  checkOutput(file, "--output", inputsOf(c));
   std::optional<Human> human;
   if (c.human) human = humanOf(*c.human);
   const Case made = withFactors(c);

@@ -112,7 +112,8 @@ TEST_F(Export, WhatCannotBeWrittenIsSaid) {
   EXPECT_EQ(command({"export", (folder_->path() / "none").c_str(), "--iges", "x.igs"}, &error), 2);
   EXPECT_EQ(command({"export", results_.c_str(), "--iges", "x.igs", "--time", "noon"}, &error), 2);
   EXPECT_NE(error.find("time"), std::string::npos) << error;
-  EXPECT_EQ(command({"export", results_.c_str(), "--iges", "/nowhere/at/all/x.igs"}, &error), 1);
+  EXPECT_EQ(command({"export", results_.c_str(), "--iges", "/nowhere/at/all/x.igs"}, &error), 2);
+  EXPECT_NE(error.find("--iges: there is no folder /nowhere/at/all"), std::string::npos) << error;
 }
 
 }  // namespace
