@@ -6,7 +6,6 @@
 /// itself: what is verified is what the user gets.
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -253,17 +252,6 @@ struct Verified {
 
 /// Judges all checks; runs that failed are failures of their own.
 Verified assess(const Reference& reference, const std::vector<Outcome>& outcomes);
-
-/// A run to do, as a process.
-struct Job {
-  std::vector<std::string> command;
-  std::filesystem::path log;  ///< takes its output
-  std::filesystem::path folder;
-  double limit_s = 0;
-};
-/// Runs all jobs, `parallel` at a time, each told to use one thread; calls `done` (never two at a time) after each.
-std::vector<Outcome> runJobs(const std::vector<Job>& jobs, int parallel,
-                             const std::function<void(std::size_t, const Outcome&)>& done);
 
 struct Options {
   std::filesystem::path dir = "tests/verify", out = "results/verify";
