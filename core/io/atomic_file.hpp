@@ -6,8 +6,8 @@
 
 namespace gambeson {
 
-/// What an unfinished write leaves beside its target: the target's name with this suffix. A file of such a name is
-/// taken for one, and removed by the next write; it is never written through where it is a link.
+/// What an unfinished write leaves beside its target: the target's name with this suffix. A file of such a name is taken
+/// for one, and removed by the next write; it is never written through where it is a link.
 inline constexpr std::string_view kUnfinishedSuffix = ".gambeson.tmp";
 
 /// Replaces `path` by `content`: writes a temporary file beside it, fsyncs it, renames it over `path`, fsyncs the

@@ -2,11 +2,11 @@
 /// Files that this program writes, and the rule that it replaces no others.
 ///
 /// Every folder that something is written into has a list, `.gambeson`: one line for each file, its size and a hash of
-/// its content, entered (and on the disk) before the file is put into its place. A file is our own where it is a
-/// regular file, is listed there and has a content that is listed. So what a user put there, edited or linked is never
-/// ours, whatever it is called and whenever the program was killed; a copied folder, list and all, stays ours. A folder
-/// without a list (of a version before there were lists, say) holds nothing of ours. Removing a list is safe: then
-/// nothing there is replaced any more.
+/// its content, entered (and on the disk) before the file is put into its place. A file is our own where it is a regular
+/// file, is listed there and has a content that is listed. So what a user put there, edited or linked is never ours,
+/// whatever it is called and whenever the program was killed; a copied folder, list and all, stays ours. A folder without
+/// a list (of a version before there were lists, say) holds nothing of ours. Removing a list is safe: then nothing there
+/// is replaced any more.
 
 #include <filesystem>
 #include <string>
