@@ -31,6 +31,7 @@ class GarmentFile : public testing::Test {
     t.patches = 2;
     t.cells_around = 6;
     t.cells_along = 1;
+    std::filesystem::remove(path);
     writeGarment(makeTube(t), path);
     std::ifstream in(path);
     return Json::parse(in);
