@@ -10,6 +10,14 @@ namespace gambeson {
 StrainLimit limitOf(const StrainLimitCase& c) {
   StrainLimit limit{c.mode, c.limit.value_or(0), c.tolerance, c.max_projections};
   limit.points = c.points;
+  if (c.stiffness_N_per_m) limit.stiffness_N_per_m = *c.stiffness_N_per_m;
+  return limit;
+}
+
+StrainLimit wornLimit(const StrainLimitCase& c) {
+  constexpr double kTensionAtTolerance_N_per_m = 100;
+  StrainLimit limit = limitOf(c);
+  if (!c.stiffness_N_per_m) limit.stiffness_N_per_m = kTensionAtTolerance_N_per_m / c.tolerance;
   return limit;
 }
 
@@ -41,6 +49,9 @@ Object strainLimitTable() {
       .number("tolerance", &S::tolerance, "", between(1e-5, 0.05),
               "strain by which points may miss it at the end of a step; much smaller ones cost projections and stir up "
               "the tensions, which take up what a step turns the threads")
+      .number("stiffness", &S::stiffness_N_per_m, "N/m", between(100, 1e9),
+              "threads that the limit holds resist as springs of this stiffness per width; yarns have 10 to 100 kN/m")
+      .defaultsTo("worn: 100 N/m over the tolerance; structures: threads do not yield")
       .integer("max_projections", &S::max_projections, 1, 1000, "projections in a row before a step counts as failed")
       .choice(
           "points", &S::points,

@@ -314,7 +314,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   const Surface surface =
       underGarments(c, only, [&] { return buildSurface(garment, buildFreeMap(garment), s->samples_per_cell); });
   addSupports(c, garment, first, edges, surface, human, options, s->supports);
-  if (const auto& limit = c.strain_limit) options.strain_limit = limitOf(*limit);
+  if (const auto& limit = c.strain_limit) options.strain_limit = wornLimit(*limit);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
   const ContactParameters contact{c.contact.layer_m.value_or(0), c.contact.friction,

@@ -62,15 +62,16 @@ GAMBESON_WIDE void moveFreePoints(ContactWork& w, int begin, int end) {
 /// What holds the points takes its part of their change.
 void holdFreePoints(ContactWork& w) {
   if (!w.hold) return;
+  w.change.resize(w.free_points.size());
   for (std::size_t f = 0; f < w.free_points.size(); ++f) {
     const double *now = w.moved[f].lane, *base = w.base[f].lane;
-    w.change[w.free_points[f]] = {now[0] - base[0], now[1] - base[1], now[2] - base[2]};
+    w.change[f] = {now[0] - base[0], now[1] - base[1], now[2] - base[2]};
   }
-  w.hold->hold(w.change);
+  w.hold->holdTouched(w.change);
   for (std::size_t f = 0; f < w.free_points.size(); ++f) {
     double* const now = w.moved[f].lane;
     const double* const base = w.base[f].lane;
-    const Vec3& d = w.change[w.free_points[f]];
+    const Vec3& d = w.change[f];
     now[0] = base[0] + d.x;
     now[1] = base[1] + d.y;
     now[2] = base[2] + d.z;

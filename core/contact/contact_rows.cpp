@@ -46,12 +46,7 @@ void touched(std::span<const ContactRow> rows, const SparseRows& WT, ContactWork
     }
     w.rows.endRow();
   }
-  if (w.hold)  // which moves them all
-    for (int f = 0; f < WT.column_count; ++f)
-      if (w.free_slot[f] < 0) {
-        w.free_slot[f] = static_cast<int>(w.free_points.size());
-        w.free_points.push_back(f);
-      }
+  if (w.hold) w.hold->touch(w.free_points);
   w.rows.column_count = static_cast<int>(w.free_points.size());
   w.columns = transpose(w.rows);
 }
@@ -68,7 +63,6 @@ void rangeIslands(ContactWork& w) {
     for (int e = w.rows.offsets[island.sample]; e < w.rows.offsets[sample]; ++e)
       free_point = std::max(free_point, w.rows.columns[e] + 1);
     island.sample_end = sample;
-    if (w.hold) free_point = static_cast<int>(w.free_points.size());
     island.free_end = free_point;
     chunk += island.row_end - island.row;  // at least as many as there are
   }
@@ -212,7 +206,6 @@ void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<
   w.free_velocity.resize(free_count);
   w.base.resize(free_count);
   w.moved.resize(free_count);
-  if (w.hold) w.change.assign(velocity.size(), Vec3{});
   w.inverse_mass.resize(free_count);
   for (int k = 0; k < n; ++k) {
     const ContactRow& row = rows[w.order[k]];

@@ -13,7 +13,8 @@ namespace {
 /// Of a pressure, in its mean over the relaxation time.
 double countsAtMost(double mean_Pa, double density) { return 2 * mean_Pa + 9.81 * density; }
 
-constexpr int kFirstCheck = 10;  ///< iterations before the rows that are left out are looked at; doubled each time
+constexpr double kOfLargest = 2e-4;  ///< see solveContacts
+constexpr int kFirstCheck = 10;      ///< iterations before the rows that are left out are looked at; doubled each time
 
 /// What one solve is given.
 struct Problem {
@@ -38,6 +39,18 @@ void choose(const Problem& p, ContactWork& w) {
   for (int i : w.sorted)
     if (w.in[i]) w.order.push_back(i);
   restrict(p.rows, p.WT, p.inverse_mass, p.density, p.friction, p.velocity, w);
+}
+
+/// What the samples' impulses do to all free points, w.change.
+void changeOfAll(std::span<const double> inverse_mass, ContactWork& w) {
+  w.change.assign(inverse_mass.size(), Vec3{});
+  for (std::size_t f = 0; f < w.free_points.size(); ++f) {
+    Vec3 sum{};
+    for (int k = w.columns.offsets[f]; k < w.columns.offsets[f + 1]; ++k)
+      sum += w.columns.values[k] * w.sample_impulse[w.columns.columns[k]];
+    w.change[w.free_points[f]] = inverse_mass[w.free_points[f]] * sum;
+  }
+  if (w.hold) w.hold->hold(w.change);
 }
 
 /// Looks at the rows that are left out, at the velocities w.moved: the largest residual among them; those that would be
@@ -113,12 +126,12 @@ void join(const Problem& p, ContactWork& w) {
 
 bool anyJoins(const ContactWork& w) { return std::find(w.joins.begin(), w.joins.end(), 1) != w.joins.end(); }
 
-/// The rows that carried something and those that would be penetrated with what they carried; the iteration stands at
-/// its start.
+/// The rows that carried something and those that would be penetrated with what they carried, all rows that a hold ties
+/// together; the iteration stands at its start.
 void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
   w.in.resize(n);
-  for (int i = 0; i < n; ++i) w.in[i] = w.area_of[i] > 0 && !(warm[i] == Vec3{});
+  for (int i = 0; i < n; ++i) w.in[i] = w.area_of[i] > 0 && (w.hold || !(warm[i] == Vec3{}));
   choose(p, w);
   smoothWarm(p.rows, warm, w);
   for (std::size_t k = 0; k < w.order.size(); ++k)
@@ -179,7 +192,7 @@ void layerUnder(double last, double dt, double density, const ContactParameters&
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                            std::span<const double> area, std::span<const double> density, const ContactParameters& c,
                            double dt, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
-                           ContactWork& w, const MotionHold* hold) {
+                           ContactWork& w, MotionHold* hold) {
   impulses.assign(rows.size(), {});
   w.hold = hold;
   if (rows.empty()) return {};
@@ -187,7 +200,11 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   sortRows(rows, w);
   shareAreas(rows, WT, area, inverse_mass, w);
   begin(problem, warm, w);
-  const ContactSolve report = solve(problem, c.tolerance_m_per_s2 * dt, c.max_iterations, w);
+  double goal = c.tolerance_m_per_s2 * dt;
+  if (hold)
+    for (std::size_t k = 0; k < w.order.size(); ++k)
+      goal = std::max(goal, kOfLargest * w.facts[k].slope * norm(w.traction[k]));
+  const ContactSolve report = solve(problem, goal, c.max_iterations, w);
 
   std::fill(warm.begin(), warm.end(), Vec3{});
   w.sample_impulse.assign(w.samples.size(), Vec3{});
@@ -199,15 +216,11 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
     for (int e = w.stencils.offsets[k]; e < w.stencils.offsets[k + 1]; ++e)
       w.sample_impulse[w.stencils.columns[e]] += w.stencils.values[e] * impulses[i];
   }
-  w.change.assign(velocity.size(), Vec3{});
-  for (std::size_t f = 0; f < w.free_points.size(); ++f) {
-    Vec3 sum{};
-    for (int k = w.columns.offsets[f]; k < w.columns.offsets[f + 1]; ++k)
-      sum += w.columns.values[k] * w.sample_impulse[w.columns.columns[k]];
-    w.change[w.free_points[f]] = inverse_mass[w.free_points[f]] * sum;
-  }
-  if (hold) hold->hold(w.change);
-  for (int f : w.free_points) velocity[f] += w.change[f];
+  changeOfAll(inverse_mass, w);
+  if (hold)
+    for (std::size_t f = 0; f < velocity.size(); ++f) velocity[f] += w.change[f];
+  else
+    for (int f : w.free_points) velocity[f] += w.change[f];
   return report;
 }
 

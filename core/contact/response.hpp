@@ -78,6 +78,10 @@ class MotionHold {
   virtual ~MotionHold() = default;
   /// `change`: of all free points, M^-1 i in, P i out.
   virtual void hold(std::span<Vec3> change) const = 0;
+  /// The same where impulses act on some points alone and only their changes matter: sets which (free points), and holds
+  /// these, in their order.
+  virtual void touch(std::span<const int> points) = 0;
+  virtual void holdTouched(std::span<Vec3> change) const = 0;
 };
 
 /// Scratch of solveContacts. The rows that are iterated on are some of all; what is said of rows is of these, in
@@ -130,8 +134,8 @@ struct ContactWork {
   std::vector<Quad> base, moved;                    ///< of free points
   std::vector<double> inverse_mass;
   std::vector<double> largest2, against;  ///< of the islands' chunks of rows
-  const MotionHold* hold = nullptr;       ///< ties all rows to each other: there is one island, of all free points
-  std::vector<Vec3> change;               ///< of all free points, for `hold`
+  MotionHold* hold = nullptr;             ///< ties all rows to each other: there is one island
+  std::vector<Vec3> change;               ///< of the free points that the rows touch, or of all, for `hold`
 };
 
 /// The least normal velocity of eq. 3.15 to 3.18 as one unilateral condition. With g the gap and delta the layer,
@@ -183,7 +187,9 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 /// Rows that carry nothing are left out while they are not penetrated; the residual is that of all rows.
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
-/// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem.
+/// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem. Impulses may then
+/// be thousands of times what stops the cloth by itself (a ring that takes no stretch, on a body); a solve is done at
+/// 2e-4 of the largest where that is more than the tolerance.
 ///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
 /// kg/m^2];
@@ -193,6 +199,6 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
                            std::span<const double> area, std::span<const double> density,
                            const ContactParameters& parameters, double dt_s, std::span<Vec3> velocity,
                            std::span<Vec3> warm, std::vector<Vec3>& impulses, ContactWork& work,
-                           const MotionHold* hold = nullptr);
+                           MotionHold* hold = nullptr);
 
 }  // namespace gambeson

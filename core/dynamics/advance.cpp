@@ -18,6 +18,7 @@ constexpr double kFall = 0.995;
 /// Steps until the next estimate, times the swing: cloth that swings far changes its stiffness as far. From a swing of
 /// kCrumpling on cells collapse, and one mode may take over from another between two estimates.
 constexpr double kStepsAtSwing = 6, kCrumpling = 0.5;
+constexpr double kTensionStep = 1;  ///< times the frequency of threads across their tension, the longest step
 constexpr int kSoonest = 10;  ///< steps between estimates because of the shown frequency
 
 /// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
@@ -45,7 +46,9 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     }
     const double omega = std::max(state.frequency_rad_per_s, 1e-300);
     const double share = std::min(control.safety, state.share > 0 ? state.share : kFirstShare);
-    const double longest = std::min(control.max_step_s, share * 2 / omega);
+    double longest = std::min(control.max_step_s, share * 2 / omega);
+    if (const double swing = tensionFrequency(model.strain_rows, state.limit_J); swing > 0)
+      longest = std::min(longest, kTensionStep / swing);
     const double left = until - state.time_s;
     const double pieces = std::ceil(left / longest * (1 - 1e-12));
     double dt = pieces <= 1 ? left : left / pieces;

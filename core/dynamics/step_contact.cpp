@@ -174,7 +174,7 @@ void yield(const Model& m, ContactRow& row) {
 }
 
 /// w.velocity after the contacts w.rows.
-void solveRows(const Model& m, double dt, const MotionHold* hold, StepReport& report, StepWork& w) {
+void solveRows(const Model& m, double dt, MotionHold* hold, StepReport& report, StepWork& w) {
   const auto solve = [&](std::span<const ContactRow> rows) {
     return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt,
                          w.velocity, w.warm, w.impulses, w.contact, hold);
@@ -238,16 +238,17 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Ste
   };
   for (int turn = 1;; ++turn) {
     move();
-    projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit);
+    // The first turn solves both where the step would go without them, at once: a tension and the contacts that bear it
+    // move the cloth far one by one, and hardly together.
+    const int most = together && turn == 1 && !w.rows.empty() ? 1 : limit.max_projections;
+    projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit, most);
     ++report.limit.rounds;
     clock.lap(w.times.limit);
+    move();
     if (w.rows.empty()) {
       w.impulses.clear();
-      move();
       break;
     }
-    clock.lap(w.times.limit);
-    move();
     if (together) {
       StrainHold hold(m.strain_rows, limit, end, report.limit, w.limit);
       w.moved = change;
@@ -263,7 +264,7 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Ste
       contactsAlone();
     }
     clock.lap(w.times.contact);
-    report.limit.solved = unrestored(m.strain_rows, limit, end, w.limit) <= limit.tolerance;
+    report.limit.solved = unrestored(m.strain_rows, limit, end, w.limit) <= unrestoredTolerance(limit, w.limit);
     clock.lap(w.times.limit);
     // A residual that is not finite shows in the velocities.
     if ((report.limit.solved && report.contact.converged) || !allFinite(end)) break;
@@ -493,7 +494,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   report.cloth_contacts = static_cast<int>(w.collisions.points.size());
   clock.lap(w.times.proximity);
   startProjection(m.strain_rows, in.limit_J, w.limit);
-  leaveStrain(m.strain_rows, m.strain_limit, in.p, dt, w.limit);
+  leaveStrain(m.strain_rows, m.strain_limit, in.p, in.limit_J, dt, w.limit);
   for (int round = 1;; ++round) {
     solveVelocities(m, in, dt, round == 1, report, clock, w);
     if (!allFinite(w.velocity)) {

@@ -20,10 +20,6 @@ void constraints(const StrainRows& rows, const StrainLimit& limit, std::span<con
   for (int i = 0; i < rows.rows(); ++i) C[i] = rows.live[i] ? strainOf(e[i]) - at : 0;
 }
 
-void leaveOut(std::span<const double> left, std::vector<double>& C) {
-  for (std::size_t i = 0; i < left.size(); ++i) C[i] -= left[i];
-}
-
 /// Largest change of an F D.
 double turnOf(std::span<const Vec3> e, std::span<const Vec3> before) {
   double most2 = 0;
@@ -41,14 +37,15 @@ double residualOf(const StrainRows& rows, const StrainLimit& limit, std::span<co
   return most;
 }
 
-/// J M^-1 J^T at e.
-void assemble(const StrainRows& rows, std::span<const Vec3> e, SymmetricMatrix& A) {
+/// J M^-1 J^T at e, and what threads yield.
+void assemble(const StrainRows& rows, std::span<const Vec3> e, std::span<const double> yields, SymmetricMatrix& A) {
   if (A.size != rows.S.size) A = rows.S;
   for (int c = 0; c < A.size; ++c)
     for (int k = A.offsets[c]; k < A.offsets[c + 1]; ++k) {
       const int r = A.rows[k];
       if (!rows.live[c]) continue;  // alone, 1
-      A.values[k] = rows.S.values[k] * (r == c ? kRegular : 0);
+      A.values[k] = r == c ? rows.S.values[k] * kRegular : 0;
+      if (r == c && !yields.empty()) A.values[k] += yields[c];
       if (rows.tensors.empty()) {
         A.values[k] += rows.S.values[k] * dot(e[c], e[r]);
       } else {
@@ -68,7 +65,7 @@ class Projection {
   }
 
   void assembleHere() {
-    assemble(rows_, w_.e, w_.A);
+    assemble(rows_, w_.e, w_.yields, w_.A);
     w_.factored_e = w_.e;
   }
 
@@ -83,7 +80,10 @@ class Projection {
  private:
   bool solveEquality(bool fresh) {
     if (fresh && !factorise(w_.A)) return false;
-    w_.factor->solve(w_.C, w_.solution);
+    if (w_.yields.empty())
+      w_.factor->solve(w_.C, w_.solution);
+    else
+      w_.factor->solveOnce(w_.C, w_.solution);  // far from singular
     for (int i = 0; i < rows_.rows(); ++i) w_.solution[i] += w_.multiplier[i];
     return true;
   }
@@ -169,6 +169,7 @@ void checkLimit(const StrainLimit& limit) {
   if (!(limit.max_projections > 0)) reject("max_projections", "must be > 0");
   if (!(limit.max_rounds > 0)) reject("max_rounds", "must be > 0");
   if (!(limit.restore_per_s > 0)) reject("restore_per_s", "must be > 0");
+  if (!(limit.stiffness_N_per_m > 0)) reject("stiffness", "must be > 0");
 }
 
 void startProjection(const StrainRows& rows, std::span<const double> warm, LimitWork& w) {
@@ -181,13 +182,24 @@ void startProjection(const StrainRows& rows, std::span<const double> warm, Limit
   w.factored_active.clear();
   w.factored_e.clear();
   w.left.clear();
+  w.yields.clear();
   for (std::size_t i = 0; i < warm.size(); ++i) w.active[i] = rows.live[i] && warm[i] > 0;
 }
 
-void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, double dt, LimitWork& w) {
+void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p,
+                 std::span<const double> warm_J, double dt, LimitWork& w) {
   strainVectors(rows, p, w.e);
   constraints(rows, limit, w.e, w.left);
-  w.left_tolerance = 0.5 * limit.restore_per_s * dt;
+  if (std::isfinite(limit.stiffness_N_per_m)) {
+    // A point of hardly any area has no thread worth the name; some compliance keeps the matrix sound.
+    const double least = 1e-6 * *std::max_element(rows.area_m2.begin(), rows.area_m2.end());
+    w.yields.resize(rows.rows());
+    for (int i = 0; i < rows.rows(); ++i) {
+      const double yields_J = 1 / (limit.stiffness_N_per_m * std::max(least, rows.area_m2[i]));
+      w.yields[i] = yields_J / (dt * dt);
+      if (!warm_J.empty()) w.left[i] -= yields_J * warm_J[i];
+    }
+  }
   for (double& c : w.left) {
     const double size = std::abs(c), rest = std::max(0.0, size - limit.restore_per_s * dt);
     c = size <= 0.5 * limit.tolerance ? 0 : c > 0 ? rest : limit.mode == LimitMode::equality ? -rest : 0;
@@ -211,34 +223,45 @@ double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span
 }
 
 double unrestored(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& w) {
-  const double all = limitResidual(rows, limit, p, w);
-  if (all <= limit.tolerance || w.left.empty()) {
-    leaveOut(w.left, w.C);
-    return all;
+  strainVectors(rows, p, w.e);
+  constraints(rows, limit, w.e, w.C);
+  for (std::size_t i = 0; i < w.left.size(); ++i) w.C[i] -= w.left[i];
+  for (std::size_t i = 0; i < w.yields.size(); ++i) w.C[i] -= w.yields[i] * w.multiplier[i];
+  return residualOf(rows, limit, w.C);
+}
+
+double unrestoredTolerance(const StrainLimit& limit, const LimitWork& w) {
+  return w.left.empty() ? limit.tolerance : 0.05 * limit.tolerance;
+}
+
+double tensionFrequency(const StrainRows& rows, std::span<const double> lambda) {
+  if (lambda.empty()) return 0;
+  std::vector<double> sum(rows.B.column_count, 0.0);
+  for (int r = 0; r < rows.rows(); ++r) {
+    if (!(lambda[r] > 0)) continue;
+    double size = 0;
+    for (int k = rows.B.offsets[r]; k < rows.B.offsets[r + 1]; ++k) size += std::abs(rows.B.values[k]);
+    for (int k = rows.B.offsets[r]; k < rows.B.offsets[r + 1]; ++k)
+      sum[rows.B.columns[k]] += lambda[r] * size * std::abs(rows.B.values[k]);
   }
-  const auto size = [&](double c) { return limit.mode == LimitMode::upper_limit ? std::max(c, 0.0) : std::abs(c); };
   double most = 0;
-  for (int i = 0; i < rows.rows(); ++i) {
-    const double beyond = size(w.C[i]) - std::abs(w.left[i]);
-    if (!rows.live[i]) continue;
-    if (!(size(w.C[i]) <= limit.tolerance || beyond <= w.left_tolerance)) most = std::max(most, limit.tolerance + beyond);
-    w.C[i] -= w.left[i];
-  }
-  return std::isfinite(all) ? most : all;
+  for (std::size_t i = 0; i < sum.size(); ++i) most = std::max(most, sum[i] * rows.mobility.inverse_mass[i]);
+  return std::sqrt(most);
 }
 
 void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_least_once, std::span<Vec3> p,
-                   LimitReport& report, LimitWork& w) {
+                   LimitReport& report, LimitWork& w, int most) {
   const int n = rows.rows();
+  const double tolerance = unrestoredTolerance(limit, w);
   Projection projection(rows, limit, report, w);
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration) {
     const double residual = report.residual = unrestored(rows, limit, p, w);
-    report.converged = report.solved = residual <= limit.tolerance;
+    report.converged = report.solved = residual <= tolerance;
     if (!std::isfinite(residual)) return;
     const bool wanted = iteration == 0 && at_least_once && residual > 0;
     if (report.converged && !wanted) break;
-    if (iteration == limit.max_projections) break;
+    if (iteration == std::min(most, limit.max_projections)) break;
     const bool fresh = iteration == 0 || residual > 0.25 * before || turnOf(w.e, w.factored_e) > kTurnOfFactor;
     if (fresh) projection.assembleHere();
     if (limit.mode == LimitMode::upper_limit)
@@ -312,6 +335,45 @@ void StrainHold::hold(std::span<Vec3> change) const {
   w_.velocity.resize(change.size());
   applyMobility(rows_.mobility, w_.end, w_.velocity);
   for (std::size_t k = 0; k < change.size(); ++k) change[k] -= w_.velocity[k];
+}
+
+void StrainHold::touch(std::span<const int> points) {
+  rows_of_touched_.clear();
+  inverse_mass_.clear();
+  touched_t_ = {};
+  std::vector<int>& slot = w_.slot;
+  slot.assign(rows_.rows(), -1);
+  for (const int point : points) {
+    inverse_mass_.push_back(rows_.mobility.inverse_mass[point]);
+    for (int k = rows_.Bt.offsets[point]; k < rows_.Bt.offsets[point + 1]; ++k) {
+      const int row = rows_.Bt.columns[k];
+      if (!rows_.live[row]) continue;
+      if (slot[row] < 0) {
+        slot[row] = static_cast<int>(rows_of_touched_.size());
+        rows_of_touched_.push_back(row);
+      }
+      touched_t_.add(slot[row], rows_.Bt.values[k]);
+    }
+    touched_t_.endRow();
+  }
+  touched_t_.column_count = static_cast<int>(rows_of_touched_.size());
+  touched_ = transpose(touched_t_);
+  w_.factor->want(rows_of_touched_);
+}
+
+void StrainHold::holdTouched(std::span<Vec3> change) const {
+  if (!w_.factor->solvable()) return;
+  const std::size_t n = rows_of_touched_.size();
+  stretch_.resize(n);
+  right_.resize(n);
+  multiplier_.resize(n);
+  given_.resize(change.size());
+  touched_.multiply<Vec3>(change, stretch_);
+  for (std::size_t k = 0; k < n; ++k) right_[k] = dot(w_.factored_e[rows_of_touched_[k]], stretch_[k]);
+  w_.factor->solveWanted(right_, multiplier_);
+  for (std::size_t k = 0; k < n; ++k) stretch_[k] = multiplier_[k] * w_.factored_e[rows_of_touched_[k]];
+  touched_t_.multiply<Vec3>(stretch_, given_);
+  for (std::size_t k = 0; k < change.size(); ++k) change[k] -= inverse_mass_[k] * given_[k];
 }
 
 void StrainHold::follow(std::span<const Vec3> moved) {

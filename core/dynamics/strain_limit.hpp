@@ -1,6 +1,7 @@
 #pragma once
 /// Strain limiting by fast projection (Zheng 2013, sections 5.2 and 5.3; Goldenthal et al. 2007).
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,7 +23,7 @@ struct StrainLimit {
   /// Project at least once in a step (upper_limit: where any C > 0), so that multipliers are those of a constraint that
   /// holds and not of one that is met now and then. The thesis ends as soon as the tolerance is met.
   bool always = true;
-  int max_rounds = 4;                     ///< of projections, and contacts solved together with limits of equality
+  int max_rounds = 6;                     ///< of projections, and contacts solved together with limits of equality
   static constexpr int max_turns = 12;    ///< of projections and contacts by themselves, upper limits
   LimitPoints points = LimitPoints::vertices;
   /// Strain that a step begins with is taken back by at most this much a second (Zheng 2013 takes all of it back at
@@ -30,6 +31,11 @@ struct StrainLimit {
   /// takes back some percent at once are those of a blow: 1 % of a cell of 25 mm in a millisecond is 0.25 m/s. 1 /s
   /// draws a belt together by 0.15 m/s, and is far above what a step leaves by itself.
   double restore_per_s = 1;
+  /// k: threads that a limit holds resist as springs, with the tension k C [N/m] that the step ends with (implicit, so
+  /// that it sets no bound to the step); infinity: whatever it takes. Yarns have 1e4 to 1e5 N/m. What holds cloth and
+  /// pushes it may contradict each other (a ring that is too tight for the body that it slides onto): threads that
+  /// do not yield then end in tensions without bound, and their strain creeps from step to step.
+  double stiffness_N_per_m = std::numeric_limits<double>::infinity();
 };
 
 /// Throws InputError (key strain_limit.KEY).
@@ -56,8 +62,9 @@ struct LimitWork {
   std::vector<Vec3> e, e_next, scaled, pull, force, end;
   std::vector<double> C, solution, right, moved;
   std::vector<char> active, factored_active;
+  std::vector<int> slot;
   std::vector<double> left;     ///< of each row, strain beyond its limit that this step is to leave; empty: none
-  double left_tolerance = 0;    ///< by which more may be left
+  std::vector<double> yields;   ///< of each row, 1/(k a dt^2) [1/(kg m^2)]: its part of C over its multiplier; empty: 0
   std::vector<Vec3> factored_e;  ///< F D of all rows where the matrix was made; empty: not in this step
   std::vector<double> multiplier;
   std::vector<Vec3> velocity, contact_change;
@@ -67,9 +74,10 @@ struct LimitWork {
 void startProjection(const StrainRows& rows, std::span<const double> warm, LimitWork& work);
 
 /// A step of dt from the positions p leaves of each strain beyond its limit what restore_per_s cannot take back, and
-/// nothing of one within half of the tolerance.
-void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, double dt_s,
-                 LimitWork& work);
+/// nothing of one within half of the tolerance. What a thread yields under the multipliers of the last step `warm_J` is
+/// no part of it. Sets work.yields.
+void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p,
+                 std::span<const double> warm_J, double dt_s, LimitWork& work);
 
 /// The multipliers whose forces J^T lambda at the positions p are those of the step [J]: F D of the iterates is longer
 /// than at the end, by what one step stretches, so that the plain sum of dlambda says too little.
@@ -78,13 +86,21 @@ void limitMultipliers(const StrainRows& rows, std::span<const Vec3> p, double dt
 
 /// max |C| over the rows that a free point changes (upper_limit: max C, at least 0).
 double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& work);
-/// The same where it is within tolerance or the step has nothing to leave; else the tolerance and what the worst strain
-/// goes beyond both it and what the step is to leave of it, 0 where none does. Sets work.C, what is to be taken back.
+/// The same of C less what the step is to leave and what its tension makes of it: what is to be taken back, work.C.
 double unrestored(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& work);
+/// The tolerance of unrestored: that of the strain; where steps leave some, a twentieth of it, so that the rest does not
+/// add up to strain from step to step.
+double unrestoredTolerance(const StrainLimit& limit, const LimitWork& work);
+
+/// The largest angular frequency of threads that swing across their tension, a bound from the sums of rows of M^-1 B^T
+/// diag(lambda) B [rad/s]; multipliers of the last step [J]. Tensions act along threads as they are at one moment of a
+/// step: where they turn too far in it, its ends swing and the tension feeds them.
+double tensionFrequency(const StrainRows& rows, std::span<const double> lambda_J);
 
 /// Moves the positions p on the constraints by eq. 5.21 and 5.22,
 ///   (J M^-1 J^T) dt^2 dlambda = C,   dp = - M^-1 J^T dt^2 dlambda,
-/// until the residual (unrestored) is within tolerance; adds to work.multiplier and work.pull, and to the report.
+/// until the residual (unrestored) is within tolerance, `most` times at most; adds to work.multiplier and work.pull, and to
+/// the report. Threads that yield have C less what their tension stands for, and 1/(k a dt^2) on the diagonal.
 /// The matrix is factorised at the first iterate and again where the residual has not fallen by a factor of 4, or where some F D has
 /// changed by more than a twentieth since.
 /// The diagonal is raised by 1e-4 S_ii. Redundant rows (a line of points between two held edges, say) would make the
@@ -101,7 +117,7 @@ double unrestored(const StrainRows& rows, const StrainLimit& limit, std::span<co
 /// definite matrices; multipliers of earlier iterates may fall to zero again, so that points are released. Rows of J
 /// annihilate translations and, about p, rotations: momentum is kept where nothing is held.
 void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_least_once, std::span<Vec3> p,
-                   LimitReport& report, LimitWork& work);
+                   LimitReport& report, LimitWork& work, int most = std::numeric_limits<int>::max());
 
 /// Limits of equality as contacts see them: with S = J M^-1 J^T (its diagonal raised as above) at the last factorisation of the
 /// step and J their gradients, impulses i move the free points by
@@ -114,6 +130,8 @@ class StrainHold : public MotionHold {
   StrainHold(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitReport& report,
              LimitWork& work);
   void hold(std::span<Vec3> change) const override;
+  void touch(std::span<const int> points) override;
+  void holdTouched(std::span<Vec3> change) const override;
   /// What the limits do while the contacts move the free points by dp = `moved` [m]: adds to work.multiplier, force and
   /// pull.
   void follow(std::span<const Vec3> moved);
@@ -123,6 +141,12 @@ class StrainHold : public MotionHold {
 
   const StrainRows& rows_;
   LimitWork& w_;
+  // Of the touched points and the rows that they change.
+  SparseRows touched_, touched_t_;    ///< rows x points and back, of B
+  std::vector<int> rows_of_touched_;  ///< of touched_
+  std::vector<double> inverse_mass_;
+  mutable std::vector<Vec3> stretch_, given_;
+  mutable std::vector<double> right_, multiplier_;
 };
 
 }  // namespace gambeson

@@ -3,6 +3,8 @@
 #include <cholmod.h>
 #include <omp.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -41,6 +43,10 @@ struct SymmetricFactor::Implementation {
   int weakest = 0;
   double weakest_ratio = 0;
   double smallest = 0;
+  std::vector<int> wanted;   ///< unknowns
+  std::vector<int> place;    ///< of each wanted unknown in the factor's order
+  std::vector<int> reached;  ///< supernodes, ascending
+  std::vector<double> y, below;
 
   Implementation() {
     cholmod_start(&common);
@@ -110,6 +116,66 @@ struct SymmetricFactor::Implementation {
     const auto* perm = static_cast<const int*>(simplicial->Perm);
     const auto* x = static_cast<const double*>(simplicial->x);
     for (std::size_t j = 0; j < simplicial->n; ++j) pivot(perm[j], x[p[j]], diagonal(perm[j]));
+  }
+
+  /// The supernodes on the ways from the wanted unknowns to the root of the elimination tree.
+  void reach() {
+    const auto* super = static_cast<const int*>(supernodal->super);
+    const auto* pi = static_cast<const int*>(supernodal->pi);
+    const auto* rows = static_cast<const int*>(supernodal->s);
+    const auto* perm = static_cast<const int*>(supernodal->Perm);
+    const int count = static_cast<int>(supernodal->nsuper), n = static_cast<int>(supernodal->n);
+    std::vector<int> place_of(n), node_of(n);
+    for (int s = 0; s < count; ++s)
+      for (int j = super[s]; j < super[s + 1]; ++j) place_of[perm[j]] = j, node_of[j] = s;
+    place.clear();
+    std::vector<char> marked(count, 0);
+    for (const int unknown : wanted) {
+      place.push_back(place_of[unknown]);
+      for (int s = node_of[place.back()]; !marked[s];) {
+        marked[s] = 1;
+        const int columns = super[s + 1] - super[s];
+        if (pi[s + 1] - pi[s] > columns) s = node_of[rows[pi[s] + columns]];
+      }
+    }
+    reached.clear();
+    for (int s = 0; s < count; ++s)
+      if (marked[s]) reached.push_back(s);
+    y.assign(n, 0.0);
+    below.resize(n);
+  }
+
+  /// Only blocks of the reached supernodes: columns of L below the diagonal block lie at rows of reached ones too.
+  void solveReached(std::span<const double> b, std::span<double> x) {
+    using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+    const auto* super = static_cast<const int*>(supernodal->super);
+    const auto* pi = static_cast<const int*>(supernodal->pi);
+    const auto* px = static_cast<const int*>(supernodal->px);
+    const auto* all_rows = static_cast<const int*>(supernodal->s);
+    const auto* values = static_cast<const double*>(supernodal->x);
+    for (const int s : reached) std::fill(y.begin() + super[s], y.begin() + super[s + 1], 0.0);
+    for (std::size_t k = 0; k < place.size(); ++k) y[place[k]] = b[k];
+    const auto visit = [&](int s, const auto& work) {
+      const int columns = super[s + 1] - super[s], rows = pi[s + 1] - pi[s], rest = rows - columns;
+      const double* at = values + px[s];
+      work(Block(at, columns, columns, Eigen::OuterStride<>(rows)),
+           Block(at + columns, rest, columns, Eigen::OuterStride<>(rows)),
+           Eigen::Map<Eigen::VectorXd>(y.data() + super[s], columns), Eigen::Map<Eigen::VectorXd>(below.data(), rest),
+           all_rows + pi[s] + columns);
+    };
+    for (const int s : reached)
+      visit(s, [&](const Block& L, const Block& R, auto here, auto there, const int* rows) {
+        L.triangularView<Eigen::Lower>().solveInPlace(here);
+        there.noalias() = R * here;
+        for (int i = 0; i < there.size(); ++i) y[rows[i]] -= there[i];
+      });
+    for (auto s = reached.rbegin(); s != reached.rend(); ++s)
+      visit(*s, [&](const Block& L, const Block& R, auto here, auto there, const int* rows) {
+        for (int i = 0; i < there.size(); ++i) there[i] = y[rows[i]];
+        here.noalias() -= R.transpose() * there;
+        L.transpose().triangularView<Eigen::Upper>().solveInPlace(here);
+      });
+    for (std::size_t k = 0; k < place.size(); ++k) x[k] = y[place[k]];
   }
 
   void solveOnce(std::span<const double> b, std::span<double> x) {
@@ -213,6 +279,24 @@ void SymmetricFactor::solveOnce(std::span<const double> b, std::span<double> x) 
   if (self_->matrix.size == 0) return;
   const OneThread one_thread;
   self_->solveOnce(b, x);
+}
+
+void SymmetricFactor::want(std::span<const int> unknowns) {
+  self_->wanted.assign(unknowns.begin(), unknowns.end());
+  self_->reach();
+}
+
+void SymmetricFactor::solveWanted(std::span<const double> b, std::span<double> x) const {
+  Implementation& s = *self_;
+  assert(solvable());
+  if (s.valid == s.supernodal) {
+    s.solveReached(b, x);
+    return;
+  }
+  std::vector<double> right(s.matrix.size, 0.0), all(s.matrix.size);
+  for (std::size_t k = 0; k < s.wanted.size(); ++k) right[s.wanted[k]] = b[k];
+  solveOnce(right, all);
+  for (std::size_t k = 0; k < s.wanted.size(); ++k) x[k] = all[s.wanted[k]];
 }
 
 void SymmetricFactor::solve(std::span<const double> b, std::span<double> x) const {

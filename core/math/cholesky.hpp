@@ -46,6 +46,12 @@ class SymmetricFactor {
   /// The same without refinement, in half of the time.
   void solveOnce(std::span<const double> b, std::span<double> x) const;
 
+  /// The unknowns that solveWanted is about, until the next call.
+  void want(std::span<const int> unknowns);
+  /// solveOnce where b is zero but at the wanted unknowns and x matters there alone: b and x hold these, in their order.
+  /// Visits the columns of the factor that they reach.
+  void solveWanted(std::span<const double> b, std::span<double> x) const;
+
  private:
   struct Implementation;
   std::unique_ptr<Implementation> self_;
