@@ -13,6 +13,8 @@ struct PowerLaw {
   double standard_error = 0;       ///< of the exponent; NaN for two points, which no line can miss
   double lowest = 0, highest = 0;  ///< exponents between neighbouring points: the law's spread
   int points = 0;
+  /// The curve rises somewhere and falls elsewhere: no power describes it.
+  bool turns() const { return points > 2 && lowest < -0.05 && highest > 0.05; }
 };
 /// Nothing where there are less than two points, where x repeats alone, or where a value is not above 0 and finite.
 std::optional<PowerLaw> fitPowerLaw(std::span<const double> x, std::span<const double> y);

@@ -92,12 +92,15 @@ std::string path(const Series& s, const Frame& f) {
 }
 
 /// The place of the largest magnitude: series and index.
-std::pair<std::size_t, std::size_t> peakOf(const std::vector<const Series*>& series, double from_s) {
+std::pair<std::size_t, std::size_t> peakOf(const std::vector<const Series*>& series, double from_s,
+                                           const std::string& of) {
   std::pair<std::size_t, std::size_t> best{0, 0};
   double most = -1;
+  const bool one = std::any_of(series.begin(), series.end(), [&](const Series* s) { return s->name == of; });
   for (std::size_t k = 0; k < series.size(); ++k)
     for (std::size_t i = 0; i < series[k]->values.size(); ++i)
-      if (drawn(*series[k], i) && series[k]->time_s[i] >= from_s && std::abs(series[k]->values[i]) > most)
+      if ((!one || series[k]->name == of) && drawn(*series[k], i) && series[k]->time_s[i] >= from_s &&
+          std::abs(series[k]->values[i]) > most)
         most = std::abs(series[k]->values[i]), best = {k, i};
   return best;
 }
@@ -122,15 +125,32 @@ std::string uncounted(double until_s, const Frame& f) {
          text(kLeft + 0.5 * width, kHeight - kBottom - 6, label, "middle", " class=\"uncounted-label\"");
 }
 
-std::string legend(const std::vector<const Series*>& series) {
+/// Rows of lines with their names, the last at the top of the plot and the others above it; a name starts where its
+/// line ends, however wide the letters of the reader's font are.
+std::string legend(const std::vector<const Series*>& series, double& above) {
+  constexpr double line = 20, gap = 6, between = 14, letter = 8.2, row_height = 19, left = kLeft + 10;
+  const auto width = [&](const Series* s) { return line + gap + letter * static_cast<double>(s->name.size()); };
+  std::vector<std::vector<const Series*>> rows;
+  double used = 0;
+  for (const Series* s : series) {
+    if (rows.empty() || left + used + between + width(s) > kWidth - kRight) rows.emplace_back(), used = -between;
+    rows.back().push_back(s);
+    used += between + width(s);
+  }
   std::string out;
-  double x = kWidth - kRight;
-  for (auto it = series.rbegin(); it != series.rend(); ++it) {
-    const double w = 7.4 * static_cast<double>((*it)->name.size());
-    out += text(x, 15, (*it)->name, "end");
-    out += fmt::format("<line class=\"series {}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"10.5\" y2=\"10.5\"/>",
-                       nameOf((*it)->tone), x - w - 26, x - w - 6);
-    x -= w + 40;
+  above = row_height * static_cast<double>(std::max<std::size_t>(rows.size(), 1) - 1);
+  double y = 15 - above;
+  for (const auto& row : rows) {
+    double x = kWidth - kRight + between;
+    for (const Series* s : row) x -= between + width(s);
+    x = std::max(x, left);
+    for (const Series* s : row) {
+      out += fmt::format("<line class=\"series {}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>",
+                         nameOf(s->tone), x, x + line, y - 4.5, y - 4.5);
+      out += text(x + line + gap, y, s->name, "start");
+      x += width(s) + between;
+    }
+    y += row_height;
   }
   return out;
 }
@@ -174,14 +194,16 @@ std::string lineChart(const Plot& plot) {
   if (f.v.high > 0) f.v.high += room;
   if (f.v.low < 0) f.v.low -= room;
 
-  const auto [k, i] = peakOf(shown, plot.mark_from_s);
+  const auto [k, i] = peakOf(shown, plot.mark_from_s, plot.mark_of);
   const std::string peak = fmt::format("{} {} at {} ({})", formatNumber(shown[k]->values[i]), shown[k]->unit,
                                        html::seconds(shown[k]->time_s[i]), shown[k]->name);
+  double above = 0;
+  const std::string key = legend(shown, above);
   std::string svg = fmt::format(
-      "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" data-frame=\"{} {} {} {} {:.9g} {:.9g} {:.9g} "
+      "<svg viewBox=\"0 {:g} {} {:g}\" role=\"img\" aria-label=\"{}\" data-frame=\"{} {} {} {} {:.9g} {:.9g} {:.9g} "
       "{:.9g}\" data-unit=\"{}\">",
-      kWidth, kHeight, escape(plot.title + " over time. Largest magnitude: " + peak + "."), kLeft, kWidth - kRight,
-      kHeight - kBottom, kTop, f.t.low, f.t.high, f.v.low, f.v.high, escape(shown[0]->unit));
+      -above, kWidth, kHeight + above, escape(plot.title + " over time. Largest magnitude: " + peak + "."), kLeft,
+      kWidth - kRight, kHeight - kBottom, kTop, f.t.low, f.t.high, f.v.low, f.v.high, escape(shown[0]->unit));
   const bool starts_later = plot.mark_from_s > f.t.low && plot.mark_from_s < f.t.high;
   if (starts_later) svg += uncounted(plot.mark_from_s, f);
   svg += axes(f, shown[0]->unit);
@@ -195,7 +217,7 @@ std::string lineChart(const Plot& plot) {
   }
   for (const Series* s : shown) svg += path(*s, f);
   if (plot.mark_peak) svg += peakMark(*shown[k], i, f, plot.peak_note);
-  svg += legend(shown) + "</svg>\n";
+  svg += key + "</svg>\n";
   std::string caption = plot.caption;
   if (starts_later)
     caption += fmt::format("{}Counted is what comes from {} on; the shaded start before it is shown but not judged.",

@@ -64,7 +64,8 @@ struct Plot {
   std::string title, caption;
   std::vector<Series> series;
   std::vector<TimeMark> marks;
-  bool mark_peak = true;        ///< the largest magnitude of all series
+  bool mark_peak = true;        ///< the largest magnitude of all series, or of the one named
+  std::string mark_of{};        ///< the name of a series; empty, or of none that is shown: of all
   double mark_from_s = -1e300;  ///< from here on: what comes before is shaded, shown but not judged
   std::string peak_note{};      ///< completes the mark: "against the motion"
 };

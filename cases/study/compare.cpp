@@ -125,11 +125,13 @@ std::string jointLabel(const RunNumbers& run, const std::string& joint) {
   return joint.empty() ? "the highest" : run.joint(joint)->label;
 }
 
-/// Along every axis of numbers, all other levels kept.
+/// Along every axis of numbers, all other levels kept. Materials that have names are read as names, not as the number
+/// that stands behind each.
 void findExponents(const Study& s, Comparison& c) {
   for (std::size_t a = 0; a < s.axes.size(); ++a) {
     const Axis& axis = s.axes[a];
     if (axis.role == Role::mesh || axis.levels.size() < 2 || !axis.levels[0].number) continue;
+    if (axis.labelled && axis.role != Role::thickness) continue;
     std::map<std::vector<int>, std::vector<std::size_t>> lines;
     std::vector<std::vector<int>> order;
     for (std::size_t i = 0; i < s.variants.size(); ++i) {

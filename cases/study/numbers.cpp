@@ -37,8 +37,6 @@ JointNumbers jointOf(const Json& j) {
   JointNumbers n;
   n.name = j.at("joint").text();
   n.label = labelOf(n.name, j.at("side").text());
-  if (const std::size_t cut = n.label.find('('); cut != std::string::npos)
-    n.movement = n.label.substr(cut + 1, n.label.size() - cut - 2);
   n.prismatic = j.contains("peak_N");
   const std::string unit = n.prismatic ? "_N" : "_Nm";
   n.peak_Nm = j.at("peak" + unit).number();
@@ -98,6 +96,11 @@ void readCurves(const std::filesystem::path& csv, RunNumbers& run) {
 
 }  // namespace
 
+std::string JointNumbers::movement() const {
+  const std::size_t cut = label.find('(');
+  return cut == std::string::npos ? "" : label.substr(cut + 1, label.size() - cut - 2);
+}
+
 std::optional<double> JointNumbers::part() const {
   return natural_Nm && *natural_Nm > 0 ? std::optional(std::abs(peak_Nm) / *natural_Nm) : std::nullopt;
 }
@@ -141,6 +144,10 @@ double RunNumbers::p99_strain() const {
   double most = std::nan("");
   for (const StressNumbers& s : stress) most = std::fmax(most, s.p99_strain);
   return most;
+}
+
+bool RunNumbers::natural() const {
+  return std::any_of(joints.begin(), joints.end(), [](const JointNumbers& j) { return j.part().has_value(); });
 }
 
 double RunNumbers::thinnest_mm() const {

@@ -11,9 +11,8 @@
 namespace gambeson::study {
 
 struct JointNumbers {
-  std::string name;      ///< "hip_flexion_left"
-  std::string label;     ///< "left hip (flexion)"
-  std::string movement;  ///< "flexion", empty where the name has none
+  std::string name;   ///< "hip_flexion_left"
+  std::string label;  ///< "left hip (flexion)"
   bool prismatic = false;
   double peak_Nm = 0, peak_time_s = 0, rms_Nm = 0;  ///< of the added torque; the peak is signed
   double rate_at_peak = 0;                          ///< of the joint [rad/s]
@@ -24,6 +23,7 @@ struct JointNumbers {
   std::optional<double> friction_Nm;                ///< the part of the peak that friction has
   std::vector<double> torque_Nm;                    ///< at RunNumbers::time_s
 
+  std::string movement() const;        ///< of the label: "flexion"; empty where it has none
   std::optional<double> part() const;  ///< |peak| of the natural moment
   /// Nothing touches what lies beyond the joint: no sleeves, no torque.
   bool applies() const { return peak_Nm != 0 || normal_N != 0; }
@@ -81,6 +81,7 @@ struct RunNumbers {
   double largest_strain = 0;
   double p99_strain() const;     ///< of the region where it is largest: 99 % of its area stretches no further
   std::vector<Stretch> stretch;  ///< of its fabrics, against what they are meant for
+  bool natural() const;          ///< the natural moment of a joint is known
   std::vector<CheckNumbers> checks;
 
   double mass_kg() const;

@@ -37,6 +37,9 @@ bool matters(const Comparison& c, const std::string& label) {
 
 std::string curvesOf(const Study& s, const Comparison& c) {
   constexpr std::size_t most = 3;  // lines beside the baseline's that can be told apart
+  // The peak that is marked is that of the one that the verdict names.
+  const std::string named_one =
+      c.verdict.take >= 0 ? c.input.options[static_cast<std::size_t>(c.verdict.take)].name : "";
   std::string open, more;
   for (const Group& g : c.groups) {
     std::size_t last = 0;
@@ -52,21 +55,26 @@ std::string curvesOf(const Study& s, const Comparison& c) {
     for (const std::string& name : g.joints)
       for (std::size_t from = 1; from <= std::max<std::size_t>(last, 1); from += most) {
         Plot plot;
-        const JointNumbers* most_of = nullptr;
+        bool has_named = false;
+        const JointNumbers* marked = nullptr;
+        plot.mark_of = named_one;
         for (const std::size_t i : g.members) {
           const JointNumbers* j = c.runs[i].joint(name);
           const std::size_t order = memberOrder(s, c, i);
           if (!j || (order != 0 && (order < from || order >= from + most))) continue;
           plot.title = named(g.label, j->label);
           plot.mark_from_s = c.runs[i].counted_from_s;
-          plot.caption = signOf(j->movement);
-          if (!most_of || std::abs(j->peak_Nm) > std::abs(most_of->peak_Nm)) most_of = j;
-          plot.peak_note = nameOf(pushOf(most_of->peak_Nm, most_of->rate_at_peak));
+          plot.caption = signOf(j->movement());
+          const bool is_named = memberName(s, c, i) == named_one;
+          has_named = has_named || is_named;
+          if (is_named || (!has_named && (!marked || std::abs(j->peak_Nm) > std::abs(marked->peak_Nm)))) marked = j;
+          plot.peak_note = nameOf(pushOf(marked->peak_Nm, marked->rate_at_peak));
           plot.series.push_back({memberName(s, c, i), "Nm", c.runs[i].time_s, j->torque_Nm,
                                  static_cast<Tone>(order == 0 ? 0 : 1 + (order - 1) % most)});
         }
         std::stable_sort(plot.series.begin(), plot.series.end(),
                          [](const Series& a, const Series& b) { return a.tone < b.tone; });
+        if (has_named && plot.series.size() > 1) plot.caption += " Marked is the peak of " + named_one + ".";
         if (!plot.series.empty()) (name == g.joint() || name == highest ? open : more) += lineChart(plot);
       }
   }
@@ -80,6 +88,8 @@ namespace {
 struct Law {
   std::string axis, setting, joint;
   const AxisExponent *peak = nullptr, *rms = nullptr;
+  /// A power describes one of its curves.
+  bool isPower() const { return (peak && !peak->law.turns()) || (rms && !rms->law.turns()); }
 };
 
 std::vector<Law> lawsThatMatter(const Comparison& c) {
@@ -96,11 +106,11 @@ std::vector<Law> lawsThatMatter(const Comparison& c) {
 }
 
 std::vector<Html> exponentCells(const Law* l, bool neighbours) {
-  const auto cell = [](const AxisExponent* e) { return e ? Html(e->law.exponent) : Html(std::nan("")); };
+  const auto cell = [](const AxisExponent* e) { return Html(e && !e->law.turns() ? e->law.exponent : std::nan("")); };
   std::vector<Html> cells{cell(l ? l->peak : nullptr), cell(l ? l->rms : nullptr)};
   if (neighbours)
     cells.push_back(
-        Html::aligned(l && l->peak && l->peak->law.points > 2
+        Html::aligned(l && l->peak && l->peak->law.points > 2 && !l->peak->law.turns()
                           ? escape(formatNumber(l->peak->law.lowest) + " to " + formatNumber(l->peak->law.highest))
                           : "\u2013"));
   return cells;
@@ -124,7 +134,8 @@ std::string lawPlots(const Study& s, const Comparison& c, const std::vector<Law>
     XyPlot& plot = plots[l.axis];
     if (plot.series.empty())
       plot = {"Peak torque over " + l.axis,
-              "Both axes are logarithmic, so that a power of the " + l.axis + " is a straight line.",
+              "Both axes are logarithmic" +
+                  (l.peak->law.turns() ? "." : ", so that a power of the " + l.axis + " is a straight line."),
               l.axis + (isMultiple(s, l.axis) ? ", as a multiple of the design\u2019s" : ""),
               "peak [Nm]",
               {},
@@ -140,8 +151,8 @@ std::string lawPlots(const Study& s, const Comparison& c, const std::vector<Law>
 
 std::string lawsOf(const Study& s, const Comparison& c) {
   const std::vector<Law> laws = lawsThatMatter(c);
-  const bool neighbours =
-      std::any_of(laws.begin(), laws.end(), [](const Law& l) { return l.peak && l.peak->law.points > 2; });
+  const bool neighbours = std::any_of(
+      laws.begin(), laws.end(), [](const Law& l) { return l.peak && l.peak->law.points > 2 && !l.peak->law.turns(); });
   const std::string main = c.main_axis >= 0 ? s.axes[static_cast<std::size_t>(c.main_axis)].name : "";
   std::vector<std::string> levels;  // but the baseline's
   for (const Group& g : c.groups)
@@ -153,7 +164,7 @@ std::string lawsOf(const Study& s, const Comparison& c) {
   for (const std::string& l : levels)
     for (const char* what : {"peak", "mean square", "same course"}) columns.push_back(l + ": " + what);
   bool any_law = false;
-  for (const Law& l : laws) any_law = any_law || l.axis == main;
+  for (const Law& l : laws) any_law = any_law || (l.axis == main && l.isPower());
   if (any_law) columns.insert(columns.end(), {"exponent of the peak", "of the mean square"});
   if (any_law && neighbours) columns.push_back("of the peak, from level to level");
   std::vector<std::vector<Html>> rows, others;
@@ -187,7 +198,7 @@ std::string lawsOf(const Study& s, const Comparison& c) {
     }
   }
   for (const Law& l : laws) {
-    if (l.axis == main) continue;
+    if (l.axis == main || !l.isPower()) continue;
     others.push_back({escape(named(l.axis + (l.setting.empty() ? "" : ": " + l.setting), l.joint))});
     for (Html& cell : exponentCells(&l, neighbours)) others.back().push_back(std::move(cell));
   }

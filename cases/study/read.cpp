@@ -117,6 +117,7 @@ Axis axisOf(const Place& place, const AxisInput& in) {
   if (axis.name.empty()) place.failAt("name", "is required where sets are given");
   axis.unit = in.unit;
   axis.multiple = in.path.starts_with("factors.");
+  axis.labelled = !in.labels.empty();
   const std::string key = sets ? "sets" : "values";
   const JsonNode& list = sets ? in.sets : in.values;
   const Place at = place.member(*place.node.find(key));

@@ -31,6 +31,7 @@ struct Axis {
   std::string name, unit;
   Role role = Role::other;  ///< what it is about, which decides how its levels are compared
   bool multiple = false;    ///< levels are factors on what the case says
+  bool labelled = false;    ///< the study names its levels itself
   std::vector<Level> levels;
 };
 

@@ -41,6 +41,13 @@ TEST(Compare, WhatIsNoPowerLawShowsASpread) {
 }
 
 /// Least squares by hand: ln y = 0, 1, 1 over ln x = 0, 1, 2 has slope 1/2, residuals -1/6, 1/3, -1/6.
+/// A curve that falls and rises again is no power; one that is level but for a little is the power 0.
+TEST(Compare, ACurveThatTurnsIsNoPower) {
+  EXPECT_TRUE(fitPowerLaw(std::vector{1.0, 2.0, 4.0}, std::vector{2.0, 1.0, 1.5})->turns());
+  EXPECT_FALSE(fitPowerLaw(std::vector{1.0, 2.0, 4.0}, std::vector{1.0, 1.5, 4.0})->turns());
+  EXPECT_FALSE(fitPowerLaw(std::vector{1.0, 2.0, 4.0}, std::vector{1.0, 1.01, 1.0})->turns());
+}
+
 TEST(Compare, LeastSquaresAndItsErrorByHand) {
   const double e = std::exp(1.0);
   const auto law = fitPowerLaw(std::vector{1.0, e, e * e}, std::vector{1.0, e, e});

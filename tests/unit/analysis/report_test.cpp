@@ -280,6 +280,32 @@ TEST(Chart, TheStartThatIsNotCountedIsShadedAndSaid) {
       has(svg, "Sign. Counted is what comes from 2.00 s on; the shaded start before it is shown but not judged."));
 }
 
+/// A name begins where its line has ended, and what has no room beside the others has a row of its own above them.
+TEST(Chart, NamesStandClearOfTheirLines) {
+  Plot plot{"hip", "", {wave("thickness x 0.75", 20, Tone::left), wave("thickness x 0.5", 20, Tone::right)}, {}};
+  plot.series.push_back(wave("thickness x 0.25", 20, Tone::third));
+  const std::string svg = lineChart(plot);
+  for (const Series& s : plot.series) {
+    const auto name = svg.find(">" + s.name + "</text>"), text = svg.rfind("<text x=\"", name),
+               line = svg.rfind(" x2=\"", text);
+    ASSERT_NE(name, std::string::npos);
+    EXPECT_TRUE(has(svg.substr(text, name - text), "text-anchor=\"start\""));
+    EXPECT_GE(std::stod(svg.substr(text + 9)), std::stod(svg.substr(line + 5)) + 4);
+    EXPECT_LE(std::stod(svg.substr(text + 9)) + 8.2 * static_cast<double>(s.name.size()), 500);
+  }
+  EXPECT_TRUE(has(svg, "viewBox=\"0 -19 500 319\"")) << svg.substr(0, 200);
+}
+
+/// The peak of the series that is named, though another is higher; of all where none has that name.
+TEST(Chart, MarksThePeakOfTheSeriesNamed) {
+  Plot plot{"hip", "", {{"low", "Nm", {0, 1}, {1, 2}}, {"high", "Nm", {0, 1}, {5, 9}}}, {}};
+  EXPECT_TRUE(has(lineChart(plot), "peak 9.00 Nm at 1.00 s"));
+  plot.mark_of = "low";
+  EXPECT_TRUE(has(lineChart(plot), "peak 2.00 Nm at 1.00 s"));
+  plot.mark_of = "another";
+  EXPECT_TRUE(has(lineChart(plot), "peak 9.00 Nm at 1.00 s"));
+}
+
 TEST(Chart, NanInterruptsTheLineAndIsCounted) {
   Plot plot{"T", "", {wave("right", 30, Tone::right)}, {}, true};
   plot.series[0].values[10] = NAN;

@@ -178,7 +178,7 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   EXPECT_NEAR(read.joints.at(0).friction_Nm.value(), 0.075, 1e-12);
   ASSERT_EQ(read.zones.size(), 2u);
   EXPECT_NEAR(read.pressing_N(), 2 * 1.8, 1e-12);
-  EXPECT_EQ(read.joints[0].movement, "flexion");
+  EXPECT_EQ(read.joints[0].movement(), "flexion");
   EXPECT_GT(read.joints[0].rate_at_peak, 0.02);  // the elbow flexes against the cloth
   EXPECT_NEAR(read.p99_strain(), 10, 1e-6);
   ASSERT_NE(read.leastComfortable(), nullptr);

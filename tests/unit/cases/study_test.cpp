@@ -417,7 +417,7 @@ TEST(Study, ThePageSaysHowItsNumbersAreMeant) {
   for (RunNumbers& r : runs) {
     JointNumbers& j = r.joints[0];
     r.counted_from_s = 0.2;
-    j.movement = "flexion";
+    j.label = "left hip (flexion)";
     j.rate_at_peak = j.peak_Nm > 0 ? 1 : -1;
     j.foot_part = 0.63;
     j.lever_m = 0.28;

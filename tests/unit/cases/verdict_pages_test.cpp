@@ -41,7 +41,6 @@ JointNumbers joint(const std::string& name, const std::string& label, double nat
   JointNumbers j;
   j.name = name;
   j.label = label;
-  j.movement = "flexion";
   j.natural_Nm = natural_Nm;
   j.normal_N = 12;
   j.friction_N = 2;
