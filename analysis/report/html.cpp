@@ -87,6 +87,18 @@ std::string element(std::string_view name, std::string_view content, std::string
   return out;
 }
 
+std::string tablePanel(std::string_view title, std::string_view rows, std::string_view after) {
+  const std::string table = element("table", element("caption", element("span", escape(title))) + std::string(rows));
+  return element("div", element("div", table, " class=\"scroll\" tabindex=\"0\"") + std::string(after),
+                 " class=\"panel\"");
+}
+
+std::string markOf(std::string_view light) { return light == "doubtful" ? "\u25d0" : "\u25cf"; }
+
+std::string lightOf(std::string_view light) {
+  return element("span", markOf(light) + " " + escape(light), " class=\"light " + escape(light) + "\"");
+}
+
 std::string notice(std::string_view text) { return element("p", escape(text), " class=\"notice\""); }
 
 std::string seconds(double time_s) {

@@ -19,6 +19,7 @@ namespace {
 
 using html::element;
 using html::escape;
+using html::lightOf;
 using html::notice;
 using html::prose;
 using html::seconds;
@@ -35,11 +36,6 @@ std::string shareOf(const JointSummary& j) {
   return j.natural_percent ? percent(*j.natural_percent) + " of the natural " + j.joint + " moment" +
                                  (j.natural_Nm ? " of " + formatNumber(*j.natural_Nm) + " Nm" : "")
                            : "";
-}
-
-/// Tells its colour in a word too.
-std::string lightOf(const std::string& light) {
-  return element("span", "\u25cf " + escape(light), " class=\"light " + escape(light) + "\"");
 }
 
 std::string answers(const ReportInput& in, const JointSummary& j) {
@@ -160,11 +156,10 @@ std::string tableOf(const Table& t) {
                                 row[c].number ? " class=\"number\"" : "");
     body += element("tr", cells);
   }
-  std::string out = element(
-      "table", element("caption", escape(t.title)) + element("thead", element("tr", head)) + element("tbody", body));
-  if (t.rows.empty()) out += notice("There are no rows.");
-  if (!t.caption.empty()) out += element("p", escape(t.caption), " class=\"caption\"");
-  return element("div", element("div", out, " class=\"scroll\""), " class=\"panel\"");
+  std::string after;
+  if (t.rows.empty()) after += notice("There are no rows.");
+  if (!t.caption.empty()) after += element("p", escape(t.caption), " class=\"caption\"");
+  return html::tablePanel(t.title, element("thead", element("tr", head)) + element("tbody", body), after);
 }
 
 std::string figureOf(const Picture& p) {
@@ -250,12 +245,7 @@ std::string auditTableOf(const std::vector<AuditCheck>& checks, const std::strin
                         element("th", "measured", " scope=\"col\" class=\"number\"") +
                         element("th", "allowed", " scope=\"col\" class=\"number\"") +
                         element("th", "verdict", " scope=\"col\""));
-  return element(
-      "div",
-      element("div",
-              element("table", element("caption", escape(caption)) + element("thead", head) + element("tbody", rows)),
-              " class=\"scroll\""),
-      " class=\"panel\"");
+  return html::tablePanel(caption, element("thead", head) + element("tbody", rows));
 }
 
 Cell::Cell(double v, int digits) : text(formatNumber(v, digits)), number(true) {}

@@ -5,7 +5,7 @@ namespace gambeson::report {
 
 inline constexpr const char* kStyle = R"css(
 :root { --ink:#1b1f27; --soft:#555d6b; --line:#d9dde4; --paper:#ffffff; --ground:#f5f6f8; --accent:#3a2d86; --left:#1668b0; --right:#c04a0f;
-  --third:#00796b; --fourth:#6b4c9a; --good:#1b6e3c; --bad:#a61b1b; }
+  --third:#a3246b; --fourth:#6b4c9a; --good:#1b6e3c; --bad:#a61b1b; --doubt:#655847; }
 * { box-sizing:border-box; }
 body { margin:0; background:var(--ground); color:var(--ink); font:16px/1.5 system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; }
 main, header.page { max-width:1120px; margin:0 auto; padding:0 20px; }
@@ -26,7 +26,7 @@ dl.answers dt { color:var(--soft); }
 dl.answers dd { margin:0; font-weight:600; } dl.answers .reason { font-weight:400; }
 .meaning { margin:18px 0 0; padding-top:14px; border-top:1px solid var(--line); color:var(--soft); font-size:.95rem; }
 .cards { display:grid; grid-template-columns:repeat(auto-fill,minmax(235px,1fr)); gap:14px; margin-top:14px; }
-.card { background:var(--paper); border:1px solid var(--line); border-top:4px solid var(--third); border-radius:10px; padding:14px 16px; }
+.card { background:var(--paper); border:1px solid var(--line); border-top:4px solid var(--accent); border-radius:10px; padding:14px 16px; }
 .card.left { border-top-color:var(--left); } .card.right { border-top-color:var(--right); }
 .card .big { font-size:1.9rem; font-weight:700; line-height:1.15; margin:2px 0 6px; }
 .card .big small { font-size:1rem; font-weight:600; }
@@ -43,12 +43,14 @@ svg .uncounted { fill:#e9ecf1; } svg .uncounted-label { fill:var(--soft); font-s
 svg .mark { stroke:#8d95a3; stroke-dasharray:3 4; } svg .peak-label { font-weight:600; paint-order:stroke; stroke:#fff; stroke-width:4px; }
 svg .series { fill:none; stroke-width:2.2; stroke-linejoin:round; }
 svg .left { stroke:var(--left); } svg .right { stroke:var(--right); stroke-dasharray:7 2.5; } svg .third { stroke:var(--third); } svg .fourth { stroke:var(--fourth); stroke-dasharray:2 3; }
-svg .peak { fill:#fff; stroke-width:2.4; stroke-dasharray:none; } svg .bar { fill:var(--third); } svg .value { font-weight:600; }
+svg .peak { fill:#fff; stroke-width:2.4; stroke-dasharray:none; } svg .bar { fill:var(--accent); } svg .value { font-weight:600; }
 svg .published { fill:#fff; fill-opacity:.75; stroke:var(--ink); stroke-width:1.3; }
 svg .cursor { stroke:var(--ink); stroke-width:1; } svg .readout { font-weight:600; font-size:13px; paint-order:stroke; stroke:#fff; stroke-width:5px; }
-.scroll { overflow-x:auto; } .q { white-space:nowrap; }
+.scroll { overflow-x:auto; container-type:inline-size; background:linear-gradient(90deg,var(--paper) 40%,transparent) 0 0/48px 100% no-repeat local, linear-gradient(270deg,var(--paper) 40%,transparent) 100% 0/48px 100% no-repeat local, linear-gradient(90deg,#0003,transparent) 0 0/16px 100% no-repeat scroll, linear-gradient(270deg,#0003,transparent) 100% 0/16px 100% no-repeat scroll; }
+.panel.more::before { content:"More columns: scroll the table sideways \2192"; display:block; margin-bottom:6px; font-size:.88rem; font-weight:600; color:var(--accent); } .panel.more th:first-child { position:sticky; left:0; z-index:1; background:var(--paper); border-right:1px solid var(--line); padding-right:8px; max-width:min(45vw,16rem); } .panel.more th:first-child + * { padding-left:8px; } .panel.more tr.group th:first-child { background:var(--ground); }
+.q { white-space:nowrap; }
 table { border-collapse:collapse; width:100%; font-size:.95rem; }
-caption { text-align:left; font-weight:600; padding-bottom:6px; }
+caption { text-align:left; font-weight:600; padding-bottom:6px; } caption span { position:sticky; left:0; display:inline-block; max-width:calc(100vw - 48px); max-width:100cqw; }
 th, td { text-align:left; padding:6px 12px 6px 0; border-bottom:1px solid var(--line); vertical-align:top; }
 thead th { font-weight:600; color:var(--soft); font-size:.88rem; border-bottom-color:#aab1bd; }
 th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font-variant-numeric:tabular-nums; white-space:nowrap; } thead th.number { white-space:normal; }
@@ -58,26 +60,29 @@ th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font
 .charts > figure.chart:only-child { max-width:640px; } .charts.single { grid-template-columns:minmax(0,1fr); }
 .judged { margin:0 0 10px; padding:10px 14px; border-radius:10px; border-left:5px solid #8d95a3; background:#f1f3f6; } .judged strong { margin-right:8px; }
 .judged.green { border-color:var(--good); background:#e9f5ee; } .judged.green strong { color:var(--good); }
-.judged.amber, .judged.doubtful { border-color:#c98500; background:#fff6df; } .judged.amber strong, .judged.doubtful strong { color:#8a5300; }
+.judged.amber { border-color:#c98500; background:#fff6df; } .judged.amber strong { color:#8a5300; }
+.judged.doubtful { border-color:var(--doubt); background:repeating-linear-gradient(135deg,#f5f2ed 0 9px,#eae5dc 9px 18px); } .judged.doubtful strong { color:var(--doubt); }
 .judged.red { border-color:var(--bad); background:#fdecec; } .judged.red strong { color:var(--bad); }
 .judged + .answers { margin-top:18px; }
 tr.group th, tr.group td { background:var(--ground); } tr.group th { padding-left:8px; font-weight:600; } td small, th small { color:var(--soft); font-size:.86rem; font-weight:400; }
-ul.plain { list-style:none; margin:0; padding:0; min-width:16.5rem; } ul.plain li + li { margin-top:4px; }
+.sentences { min-width:min(15rem,55vw); } ul.plain { list-style:none; margin:0; padding:0; min-width:min(16.5rem,50vw); } ul.plain li + li { margin-top:4px; }
 details { margin-top:14px; } summary { cursor:pointer; color:var(--accent); font-weight:600; }
 .notice { background:#fff6df; border:1px solid #d8b25a; border-radius:8px; padding:8px 12px; margin:10px 0 0; color:#5c4300; font-size:.95rem; }
 .alarm { background:#fdecec; border:2px solid var(--bad); border-radius:10px; padding:12px 16px; margin:16px 0 0; color:#6d1010; font-weight:600; }
-.light { font-weight:700; white-space:nowrap; } .light.green { color:var(--good); } .light.amber, .light.doubtful { color:#8a5300; } .light.red { color:var(--bad); }
+.light { font-weight:700; white-space:nowrap; } .light.green { color:var(--good); } .light.amber { color:#8a5300; } .light.doubtful { color:var(--doubt); } .light.unknown { color:var(--soft); } .light.red { color:var(--bad); }
 .good, .bad { font-weight:700; white-space:nowrap; } .good { color:var(--good); } .bad { color:var(--bad); }
 ul.assumptions { margin:10px 0 0; padding-left:22px; columns:2 420px; column-gap:36px; } ul.assumptions li { break-inside:avoid; margin-bottom:6px; }
 footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }
 @media (min-width:900px) { .headline.pictured { grid-template-columns:minmax(0,1fr) minmax(0,1fr); } .headline.pictured figure { display:flex; flex-direction:column; background:#f9fafa; border-left:1px solid var(--line); } .headline img { flex:1; min-height:0; height:100%; } }
 @media (max-width:560px) { main, header.page { padding-left:12px; padding-right:12px; } .headline .words { padding:18px 16px; } .headline .sentence { font-size:1.25rem; } dl.answers { grid-template-columns:minmax(0,1fr); gap:0; } dl.answers dd { margin-bottom:8px; } figure.chart, .panel { padding:12px 10px; } }
 @media print { @page { margin:14mm; } html { font-size:11px; } body { background:#fff; font-size:1rem; } h2 + p { break-after:avoid; } dl.answers { grid-template-columns:minmax(0,.7fr) minmax(0,1fr); } .cards { gap:8px; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page { padding-top:0; } h2 { break-after:avoid; margin-top:26px; }
-  figure, .card, .panel, .headline, tr { break-inside:avoid; } .headline.pictured { grid-template-columns:1fr 1fr; } .cards { grid-template-columns:repeat(4,1fr); } .card { padding:8px 10px; } .charts, .pictures { grid-template-columns:1fr 1fr; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
+  figure, .card, .panel, .headline, tr { break-inside:avoid; } .headline.pictured { grid-template-columns:1fr 1fr; } .cards { grid-template-columns:repeat(4,1fr); } .card { padding:8px 10px; } .charts, .pictures { grid-template-columns:1fr 1fr; } .panel.more::before { display:none; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
 )css";
 
-/// Values under the pointer, read back from the drawn paths.
+/// A sign where a table is wider than its place; values under the pointer, read back from the drawn paths.
 inline constexpr const char* kScript = R"js(
+const fit = () => document.querySelectorAll('.scroll').forEach(s => s.parentNode.classList.toggle('more', s.scrollWidth > s.clientWidth + 1));
+fit(); addEventListener('resize', fit); addEventListener('toggle', fit, true);
 document.querySelectorAll('svg[data-frame]').forEach(svg => {
   const [x0, x1, y0, y1, t0, t1, v0, v1] = svg.dataset.frame.split(' ').map(Number);
   const make = (name, cls) => { const e = document.createElementNS(svg.namespaceURI, name); e.setAttribute('class', cls); svg.appendChild(e); return e; };
