@@ -111,7 +111,7 @@ void addStress(const Scenario& s, const Measured& m, ReportInput& in) {
   Table table{
       "Stress (the largest pull, per metre of width) and stretch of each patch",
       "By area over all frames of the motion: 95 % of a patch carries at most p95, 99 % at most p99. " +
-          stretchMeaning(s.definition),
+          stretchMeaning(s.definition, m.stretch),
       {"patch", "median [N/m]", "p95 [N/m]", "p99 [N/m]", "largest [N/m]", "at [s]", "stretch, p99 [%]", "largest [%]"},
       {}};
   for (std::size_t r = 0; r < m.stress.size(); ++r) {

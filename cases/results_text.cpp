@@ -50,13 +50,25 @@ std::string signRule() {
          "rotation).";
 }
 
-std::string stretchMeaning(const Case& c) {
+std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
+  std::vector<std::string> stated;
+  for (const Stretch& s : measured) {
+    if (!s.stated) continue;
+    const std::string text = fmt::format("{:g} %{}{}", 100 * s.limit, s.along.empty() ? "" : " along the " + s.along,
+                                         s.garment.empty() ? "" : " of " + s.garment);
+    if (std::find(stated.begin(), stated.end(), text) == stated.end()) stated.push_back(text);
+  }
   return fmt::format(
-      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m. {} The fabric\u2019s law is a straight line, which "
+      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m. {}{} The fabric\u2019s law is a straight line, which "
       "its source takes for strains below {} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real "
       "fabric may be stiffer. A largest value far above what 99 % of the cloth stays below is that of single spots, at "
       "corners and seams.",
-      c.strain_limit ? "The case limits that of weft and warp." : "The case sets no limit to it.", 100 * kStrainOfLaw);
+      stated.empty() ? "The case does not state how far its fabric may stretch, so that the range of its law counts."
+                     : fmt::format("The case states how far its fabric may stretch, and that limit counts: less than "
+                                   "{}.",
+                                   fmt::join(stated, ", ")),
+      c.strain_limit ? " The computation holds the strain of weft and warp to a limit of its own." : "",
+      100 * kStrainOfLaw);
 }
 
 std::vector<AuditCheck> auditOf(const Measured& m) {

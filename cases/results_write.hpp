@@ -65,7 +65,7 @@ std::string signRule();
 std::vector<AuditCheck> auditOf(const Measured& measured);
 
 /// What a stretch of the fabric means, and up to where its law holds.
-std::string stretchMeaning(const Case& c);
+std::string stretchMeaning(const Case& c, std::span<const Stretch> measured);
 
 /// What a reader must know before trusting the numbers.
 std::vector<std::string> assumptionsOf(const Scenario& scenario);

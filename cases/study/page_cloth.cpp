@@ -158,6 +158,17 @@ std::string layersOf(const Study& s, const Comparison& c) {
   return charts(htmlTable("Thickness and mass of each layer", columns, rows, ""));
 }
 
+namespace {
+
+/// "15 (weft)"
+Html limitOf(const Stretch* s) {
+  if (!s) return Html::aligned("\u2013");
+  const std::string of = !s->stated ? "its law" : s->along;
+  return Html::aligned(escape(fmt::format("{:g}{}", 100 * s->limit, of.empty() ? "" : " (" + of + ")")));
+}
+
+}  // namespace
+
 std::string clothOf(const Study& s, const Comparison& c) {
   std::vector<std::vector<Html>> fit;
   std::string stretch;
@@ -165,6 +176,8 @@ std::string clothOf(const Study& s, const Comparison& c) {
     for (const std::size_t i : g.members) {
       const RunNumbers& r = c.runs[i];
       if (!r.good || r.layers.empty()) continue;
+      // As the verdict has it: that which goes furthest beyond its limit.
+      const Stretch* worst = worstOf(r.stretch);
       const StressNumbers* top = nullptr;
       double most = std::nan("");  // of all patches, as the pictures have it
       for (const StressNumbers& n : r.stress) {
@@ -174,24 +187,25 @@ std::string clothOf(const Study& s, const Comparison& c) {
       std::string region = top ? top->region : "\u2013", wearer = "\u2013";
       std::replace(region.begin(), region.end(), '_', ' ');
       const auto* k = std::get_if<Case>(&s.variants[i].definition);
-      if (k && stretch.empty()) stretch = stretchMeaning(*k);
+      if (k && stretch.empty()) stretch = stretchMeaning(*k, r.stretch);
       if (k && k->human)
         wearer = k->human->character ? k->human->character->file.stem().string()
                                      : (k->human->manikin.empty() ? "own" : k->human->manikin);
-      fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * r.p99_strain()),
-                     Html(100 * r.largest_strain), Html(r.sinking_mm(), 2), Html(r.pressing_N()), escape(region),
-                     Html(top ? top->p50_N_per_m : std::nan("")), Html(top ? top->p99_N_per_m : std::nan("")),
-                     Html(most)});
+      fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * (worst ? worst->most : r.p99_strain())),
+                     Html(100 * (worst ? worst->largest : r.largest_strain)), limitOf(worst), Html(r.sinking_mm(), 2),
+                     Html(r.pressing_N()), escape(region), Html(top ? top->p50_N_per_m : std::nan("")),
+                     Html(top ? top->p99_N_per_m : std::nan("")), Html(most)});
     }
   if (fit.empty()) return "";
   return charts(htmlTable(
       "Fit, and what the fabric carries",
-      {"variant", "wearer", "stretch, 99 % below [%]", "largest [%]", "edge on springs sinks [mm]", "presses [N]",
-       "patch that is pulled most", "half of it below [N/m]", "99 % of it below [N/m]",
-       "single spots of any patch, up to [N/m]"},
+      {"variant", "wearer", "stretch, 99 % below [%]", "largest [%]", "meant for less than [%]",
+       "edge on springs sinks [mm]", "presses [N]", "patch that is pulled most", "half of it below [N/m]",
+       "99 % of it below [N/m]", "single spots of any patch, up to [N/m]"},
       fit,
       "Fit: how far the garment stretches and slides on its wearer, and how hard it presses in the mean; 99 % is of "
-      "the patch that stretches most. Pull: the stress in the fabric, per metre of width, over the area of the patch "
+      "the patch that stretches most, in the direction named. Pull: the stress in the fabric, per metre of width, over "
+      "the area of the patch "
       "of which 99 % stays below the most, and over the motion; single spots, at corners and seams, of any patch. " +
           stretch));
 }
