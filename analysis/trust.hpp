@@ -35,6 +35,7 @@ struct Trust {
   int stretched = 0;  ///< fabrics beyond their range
   void check(bool holds, bool spoils) { failing += !holds, spoiling += !holds && spoils; }
   void stretch(const Stretch& s) { stretched += !s.holds(); }
+  void add(const Trust& t) { failing += t.failing, spoiling += t.spoiling, stretched += t.stretched; }
   /// No check says not to rely on the numbers.
   bool reliable() const { return failing == 0; }
   bool whole() const { return reliable() && stretched == 0; }

@@ -19,6 +19,10 @@ std::string capital(std::string text) {
   return text;
 }
 
+std::string opening(const std::string& text, const VerdictInput& in) {
+  return text.starts_with(in.what) ? capital(text) : text;
+}
+
 std::vector<std::string> motionsOf(const Option& o) {
   std::vector<std::string> all;
   for (const Option::Cost& c : o.costs)
@@ -38,6 +42,14 @@ std::string costText(const Option::Cost& c, const VerdictInput& in) {
     s += ", " + percentBeside(*c.part, in.green, in.red) + " of its natural " + formatNumber(c.peak_Nm / *c.part) +
          " Nm";
   return s + bracketed(c.motion);
+}
+
+std::string whoStretches(const Stretch& s) {
+  return s.garment.empty() ? "the fabric stretches" : fmt::format("the fabric of {} stretches", s.garment);
+}
+
+std::string meantFor(const Stretch& s) {
+  return fmt::format("the {} that {} is meant for", percent(s.limit), s.stated ? "it" : "its law");
 }
 
 bool isUsable(const Option& o) { return !o.missing && worstCost(o); }
@@ -157,6 +169,14 @@ Trust trustOf(const VerdictInput& in) {
   return t;
 }
 
+std::string placeOf(const WrongRuns& runs, const VerdictInput& in) {
+  const std::size_t count = runs.names.size();
+  if (count == 0) return "";
+  if (count > 1 && static_cast<int>(count) == in.checked_runs) return fmt::format("in all {} runs", count);
+  return count == 1 ? fmt::format("in the run {}", runs.names[0])
+                    : fmt::format("in {} of {} runs", count, in.checked_runs);
+}
+
 std::string percentBeside(double part, double green, double red) {
   int digits = 2;
   const auto as = [&](double p) { return formatBrief(100 * p, digits); };
@@ -239,14 +259,16 @@ Verdict verdictOf(const VerdictInput& in) {
   v.sentence = sentenceOf(in, v);
   if (const auto& size = at(in, v.take).size; v.chosen && size) v.layers = layersAt(in, v.take, *size);
   v.enough = enoughOf(in, v);
-  v.estimate = estimateOf(in, v);
-  v.why = whyOf(in, v);
+  if (trust.spoiling == 0) {
+    v.estimate = estimateOf(in, v);
+    v.why = whyOf(in, v);
+  }
   v.comfort = comfortOf(in, v);
   if (const auto least = leastComfortable(in, v); least.comfort) {
     v.comfort_light = shownLight(least.comfort->light, trust);
     if (v.comfort_light == Light::green && !v.doubt.empty()) v.comfort_light = Light::doubtful;
   }
-  judgeChoice(in, v);
+  if (trust.spoiling == 0) judgeChoice(in, v);
   v.numbers = numbersOf(in, v);
   return v;
 }

@@ -47,6 +47,13 @@ struct Option {
   std::vector<Comfort> comforts;  ///< of each motion
   bool missing = false;           ///< a run of it failed
   bool untouched = false;         ///< in a run of it the garment touches nothing that a joint moves
+  Trust trust = {};               ///< of its runs together
+};
+
+/// Runs in which something is wrong.
+struct WrongRuns {
+  std::vector<std::string> names;
+  std::vector<int> options;  ///< of each run; -1: none that is compared
 };
 
 struct VerdictInput {
@@ -68,17 +75,24 @@ struct VerdictInput {
   std::vector<Exponent> exponents;  ///< of the sizes, for motions and joints as in the costs
   /// A check that fails in some of the runs.
   struct Doubt {
-    std::string text;    ///< completes a sentence: "energy is not kept within 5.9 % (1 run)"
+    std::string text;    ///< completes a sentence: "energy is not kept within 5.9 %"
     bool order = false;  ///< may turn the order of the options; else it touches the sizes of the torques alone
+    std::string check = {};
+    WrongRuns runs = {};
   };
   std::vector<Doubt> doubts;
   std::optional<Stretch> stretch;          ///< the worst of all runs
+  WrongRuns stretched;                     ///< beyond what the fabric is meant for
+  double law_strain = 0;                   ///< below it the source of the fabric's law takes that law; 0: not known
   int failing_runs = 0, checked_runs = 0;  ///< with checks that fail, of how many
   double sensor_m = 0;                     ///< width over which comfort takes the mean of the pressure; 0: not known
 };
 
 /// Of all its runs together.
 Trust trustOf(const VerdictInput& input);
+
+/// "in all 3 runs", "in the run thickness x 0.75", "in 2 of 6 runs"; empty where the runs are not known.
+std::string placeOf(const WrongRuns& runs, const VerdictInput& input);
 
 /// "5 %", with as many digits as tell on which side of the limits it is: "5.04 %".
 std::string percentBeside(double part, double green, double red);
@@ -108,8 +122,8 @@ struct Verdict {
   std::string layers;            ///< how thick its layers are, where sizes are compared: "shirt 1.56 mm, belt 1.15 mm"
   std::string enough;            ///< whether that is good enough, against the limits
   std::string estimate;          ///< which size would be; empty where the question does not arise
-  std::string why;
-  std::string comfort;  ///< empty where no pressure is judged
+  std::string why;               ///< empty, as choice and estimate are, where no number can be relied on
+  std::string comfort;           ///< empty where no pressure is judged
   Light comfort_light = Light::unknown;
   Surety surety = Surety::no;         ///< of the choice
   std::string choice, numbers;        ///< how sure the choice is, and how exact the numbers are

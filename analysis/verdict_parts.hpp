@@ -18,6 +18,8 @@ std::string percent(double part);
 /// " (text)", empty for an empty text.
 std::string bracketed(const std::string& text);
 std::string capital(std::string text);
+/// Opens a sentence with an option: names that a study gives its levels itself are kept as they are.
+std::string opening(const std::string& text, const VerdictInput& in);
 std::vector<std::string> motionsOf(const Option& option);
 const Option::Cost* costAt(const Option& option, const std::string& motion, const std::string& joint);
 /// "2.00 Nm at the left hip (flexion), 4 % of its natural 50.0 Nm (stairs)"
@@ -41,6 +43,11 @@ struct LeastComfortable {
   const Option::Comfort* comfort = nullptr;
 };
 LeastComfortable leastComfortable(const VerdictInput& in, const Verdict& v);
+
+/// "the fabric stretches", "the fabric of shirt stretches"
+std::string whoStretches(const Stretch& s);
+/// "the 15 % that it is meant for", "the 2 % that its law is meant for"
+std::string meantFor(const Stretch& s);
 
 // verdict_words.cpp: of a verdict whose option, light and margin are known.
 std::string doubtOf(const VerdictInput& in, const Verdict& v);

@@ -55,11 +55,11 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
   std::string why;
   const auto say = [&](const std::string& s) { why += (why.empty() ? "" : " ") + s; };
   if (!ratios.empty())
-    say(fmt::format("Peak torque, where it counts most, as a multiple of that {} {}: {}.", wordsOf(in.role).before,
-                    at(in, in.baseline).name, ratios));
+    say(fmt::format("Peak torque in Nm, where it counts most, as a multiple of that {} {}: {}.",
+                    wordsOf(in.role).before, at(in, in.baseline).name, ratios));
   std::string laws;
   for (const std::string& m : motionsOf(at(in, v.take)))
-    if (const auto* e = exponentOf(in, *worstCost(at(in, v.take), &m))) {
+    if (const auto* e = exponentOf(in, *worstCost(at(in, v.take), &m)); e && !e->peak.turns()) {
       const std::string range = e->peak.points > 2
                                     ? fmt::format("{} to {} from one {} to the next", formatNumber(e->peak.lowest, 2),
                                                   formatNumber(e->peak.highest, 2), in.what)
@@ -94,7 +94,7 @@ std::string pressureText(const Option::Comfort& c) {
   return toldByMean(c) ? mean : peak;
 }
 
-/// In how many joints and motions `more` costs more than `taken`, and where it does not.
+/// In how many joints and motions the torque of `more` is larger than that of `taken`, and where it is not.
 std::string comparedOf(const Option& taken, const Option& more, bool one_motion) {
   int less = 0, both = 0;
   std::string others;
@@ -110,8 +110,18 @@ std::string comparedOf(const Option& taken, const Option& more, bool one_motion)
                           one_motion ? "" : ", " + c.motion, formatNumber(k->peak_Nm, 2), formatNumber(c.peak_Nm, 2));
   }
   const std::string all = fmt::format("{} {} that matter", both, one_motion ? "joints" : "pairs of joint and motion");
-  if (less == both) return fmt::format("It costs more in all {}.", all);
-  return fmt::format("It costs more in {} of the {}; not at {}.", less, all, others);
+  if (less == both) return fmt::format("Its torque is larger in all {}.", all);
+  return fmt::format("Its torque is larger in {} of the {}; not at {}.", less, all, others);
+}
+
+/// All options press like this one in its motion.
+bool alikeEverywhere(const VerdictInput& in, const Option::Comfort& c) {
+  const auto alike = [&](const Option& o) {
+    return std::any_of(o.comforts.begin(), o.comforts.end(), [&](const Option::Comfort& k) {
+      return k.motion == c.motion && k.part == c.part && k.light == c.light && pressureText(k) == pressureText(c);
+    });
+  };
+  return in.options.size() > 1 && std::all_of(in.options.begin(), in.options.end(), alike);
 }
 
 }  // namespace
@@ -120,24 +130,29 @@ std::string comfortOf(const VerdictInput& in, const Verdict& v) {
   const auto [option, c] = leastComfortable(in, v);
   if (!c) return "";
   const RoleWords words = wordsOf(in.role);
-  const std::string at_what = (v.chosen ? "" : option->name + (c->motion.empty() ? "" : ", ")) + c->motion;
+  if (trustOf(in).spoiling > 0) return "Comfort: not judged.";
+  const bool alike = alikeEverywhere(in, *c);
+  const bool named = !v.chosen && !alike;
+  const std::string at_what = (named ? option->name + (c->motion.empty() ? "" : ", ") : "") + c->motion;
   std::string text = fmt::format("{}: on the {}{} {}.",
                                  c->light == Light::red     ? "Not comfortable"
                                  : c->light == Light::amber ? "Not quite comfortable"
                                  : trustOf(in).whole()      ? "Comfortable"
-                                                            : "Comfortable by numbers that are in doubt",
+                                                            : "Comfortable, with doubt",
                                  c->part, bracketed(at_what), pressureText(*c));
+  if (alike) text += fmt::format(" It is the same {} all {} {}.", words.before, in.options.size(), words.many);
   if (in.sensor_m > 0) text += fmt::format(" Pressure is the mean over {:g} mm.", 1e3 * in.sensor_m);
-  for (const Option& o : in.options)
-    for (const Option::Comfort& k : o.comforts) {
-      if (&o == option || k.motion != c->motion || k.part != c->part) continue;
-      const bool by_mean = toldByMean(*c);
-      const double change = by_mean ? k.mean_Pa / c->mean_Pa : k.peak_Pa / c->peak_Pa;
-      const std::string same =
-          fmt::format(": the {} hardly matters here", in.role == Role::other ? in.what : words.one);
-      text += fmt::format(" {} {} it is {}{}.", capital(words.before), o.name, kPa(by_mean ? k.mean_Pa : k.peak_Pa),
-                          std::abs(change - 1) < kNarrow ? same : "");
-    }
+  if (!alike)
+    for (const Option& o : in.options)
+      for (const Option::Comfort& k : o.comforts) {
+        if (&o == option || k.motion != c->motion || k.part != c->part) continue;
+        const bool by_mean = toldByMean(*c);
+        const double change = by_mean ? k.mean_Pa / c->mean_Pa : k.peak_Pa / c->peak_Pa;
+        const std::string same =
+            fmt::format(": the {} hardly matters here", in.role == Role::other ? in.what : words.one);
+        text += fmt::format(" {} {} it is {}{}.", capital(words.before), o.name, kPa(by_mean ? k.mean_Pa : k.peak_Pa),
+                            std::abs(change - 1) < kNarrow ? same : "");
+      }
   if (!v.chosen) return text;
   // Motions in which the one taken presses worse than another: least torque need not be most comfortable.
   for (const Option::Comfort& mine : option->comforts)
@@ -152,6 +167,11 @@ std::string comfortOf(const VerdictInput& in, const Verdict& v) {
 
 namespace {
 
+/// What options are compared by.
+const char* unitOf(const Option& a, const Option& b) {
+  return worstCost(a)->part && worstCost(b)->part ? "large a share of the natural moment" : "large a torque";
+}
+
 /// Of what is not taken: which is worst, by how much, and what its light stands.
 void sayWorst(const VerdictInput& in, Verdict& v) {
   const auto say = [&](const std::string& s) { v.choice += (v.choice.empty() ? "" : " ") + s; };
@@ -163,13 +183,13 @@ void sayWorst(const VerdictInput& in, Verdict& v) {
   }
   if (next) {
     v.order = factorOf(*next, worst);
-    const char* what = worstCost(worst)->part ? "large a share of the natural moment" : "large a torque";
+    const char* what = unitOf(worst, *next);
     say(fmt::format("{} {} {} times as {} as {}, the next{}.", worst.name, wordsOf(in.role).costs,
                     formatNumber(*v.order, 2), what, next->name,
                     least != next ? fmt::format(", and {} times that of {}, the least",
                                                 formatNumber(factorOf(*least, worst), 2), least->name)
                                   : ""));
-    v.choice = capital(v.choice);
+    v.choice = opening(v.choice, in);
   }
   if (v.holds_up_to)
     say(fmt::format("Its light stays {}as long as the torques are right within {}.",
@@ -203,10 +223,11 @@ void judgeChoice(const VerdictInput& in, Verdict& v) {
       margin = *v.order - 1;
       const bool one_motion = motionsOf(at(in, v.take)).size() < 2;
       say(
-          fmt::format("{} costs {} times as much, each where it costs most. {} To turn the order, the torques of one "
+          fmt::format("{} costs {} times as {}, each where it costs most. {} To turn the order, the torques of one "
                       "would have to be wrong against the other by that factor.",
-                      next->name, formatNumber(*v.order, 2), comparedOf(at(in, v.take), *next, one_motion)));
-      v.choice = capital(v.choice);
+                      next->name, formatNumber(*v.order, 2), unitOf(at(in, v.take), *next),
+                      comparedOf(at(in, v.take), *next, one_motion)));
+      v.choice = opening(v.choice, in);
     }
   }
   // Of two torques one may be off by it upwards, the other downwards.
@@ -230,15 +251,18 @@ void judgeChoice(const VerdictInput& in, Verdict& v) {
     v.surety = Surety::no;
   }
   // Where limits decide, so do the sizes of the torques.
-  if (in.failing_runs > 0 && ((in.sized && v.light == Light::green) || !v.chosen)) {
+  const bool limits_decide = (in.sized && v.light == Light::green) || !v.chosen;
+  if (in.failing_runs > 0 && limits_decide) {
     say("The checks that fail touch the sizes of the torques, and with them which of them are low enough.");
     v.surety = Surety::no;
   }
-  for (const auto& d : in.doubts)
-    if (d.order) {
-      say(fmt::format("But {}: that may turn the order{}.", d.text, v.chosen ? "" : ", and the lights"));
-      v.surety = Surety::no;
-    }
+  if (in.stretch && !in.stretch->holds()) {
+    const std::string place = placeOf(in.stretched, in);
+    say(fmt::format("{} further than {}{}: that touches the sizes of the torques{}.",
+                    capital(whoStretches(*in.stretch)), meantFor(*in.stretch), place.empty() ? "" : " " + place,
+                    limits_decide ? ", and with them which of them are low enough" : ""));
+    v.surety = limits_decide ? Surety::no : std::min(v.surety, Surety::fairly);
+  }
 }
 
 }  // namespace gambeson::verdict

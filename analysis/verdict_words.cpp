@@ -86,13 +86,13 @@ std::string worstSentence(const VerdictInput& in, const Verdict& v) {
   const long all = usableCount(in), alike = std::count_if(in.options.begin(), in.options.end(), [&](const Option&k) {
                                       return isUsable(k) && optionLight(k, in) == v.light;
                                     });
-  const std::string who = all > 1 ? whoPays(in, o) + " most" : o.name;
+  const std::string who = all > 1 ? whoPays(in, o) + " the largest share of the natural moment" : o.name;
   if (v.light == Light::unknown)
-    return capital(all > 1 ? fmt::format("{} of the {} {} studied: whether that is too much is not known.", who, all,
-                                         wordsOf(in.role).many)
-                           : fmt::format("{}: whether its torque is too much is not known.", who));
+    return all > 1 ? fmt::format("Of the {} {} studied {} the largest torque: whether that is too much is not known.",
+                                 all, wordsOf(in.role).many, whoPays(in, o))
+                   : fmt::format("{}: whether its torque is too much is not known.", who);
   if (v.light == Light::green && v.cover != Light::green)
-    return fmt::format("Low torque {}, with doubt: {}. {}.", amongOf(in.role, alike, all), v.doubt, capital(who));
+    return fmt::format("Low torque {}, with doubt: {}. {}.", amongOf(in.role, alike, all), v.doubt, opening(who, in));
   const char* just = v.light == Light::green && v.holds_up_to && *v.holds_up_to < kNarrow ? ", though only just" : "";
   return fmt::format("{} {}{}: {}.", capital(nameOf(v.light)), amongOf(in.role, alike, all), just, who);
 }
@@ -100,8 +100,53 @@ std::string worstSentence(const VerdictInput& in, const Verdict& v) {
 /// The worst check that leaves none of the numbers; empty without one.
 std::string spoilingOf(const VerdictInput& in) {
   for (const auto& d : in.doubts)
-    if (d.order) return d.text;
+    if (d.order) {
+      const std::string place = placeOf(d.runs, in);
+      return d.text + (place.empty() ? "" : " " + place);
+    }
   return "";
+}
+
+/// placeOf, as seen from the one taken: "in its run", "in the run thickness x 1, not in its own".
+std::string placeBeside(const WrongRuns& runs, const VerdictInput& in, const Verdict& v) {
+  const std::string place = placeOf(runs, in);
+  const auto count = static_cast<int>(runs.names.size());
+  if (!v.chosen || count == in.checked_runs || count == 0) return place;
+  const auto own = std::count(runs.options.begin(), runs.options.end(), v.take);
+  if (count > 1) return place + (own > 0 ? ", its own among them" : ", none of them its own");
+  if (own == 0) return place + ", not in its own";
+  return motionsOf(at(in, v.take)).size() > 1 ? "in its run " + runs.names[0] : "in its run";
+}
+
+/// "the check Energy fails in its run: 7.5 % of the work is unaccounted for"; more than two are counted.
+std::string failuresOf(const VerdictInput& in, const Verdict& v) {
+  constexpr std::size_t most = 2;
+  std::string all;
+  for (std::size_t i = 0; i < in.doubts.size(); ++i) {
+    const auto& d = in.doubts[i];
+    if (d.check.empty()) return fmt::format("checks fail in {} of {} runs", in.failing_runs, in.checked_runs);
+    if (i < most)
+      all += fmt::format("{}the check {} fails {}: {}", i > 0 ? "; " : "", d.check, placeBeside(d.runs, in, v), d.text);
+  }
+  if (in.doubts.size() == most + 1) all += "; and one more check fails";
+  if (in.doubts.size() > most + 1) all += fmt::format("; and {} more checks fail", in.doubts.size() - most);
+  return all;
+}
+
+/// Where what is taken is in doubt itself: another that is green and without doubt, the thickest of sizes, else the one
+/// that costs least. Empty without one.
+std::string withoutDoubt(const VerdictInput& in, const Verdict& v) {
+  if (!v.chosen || at(in, v.take).trust.whole()) return "";
+  const Option* best = nullptr;
+  for (const Option& o : in.options)
+    if (isUsable(o) && o.trust.whole() && optionLight(o, in) == Light::green &&
+        (!best || in.sized || factorOf(o, *best) > 1))
+      best = &o;
+  if (!best) return "";
+  const bool stretched = in.stretch && !in.stretch->holds();
+  return fmt::format(" {}: {} is green and all its checks hold{}.",
+                     trustOf(in).spoiling > 0 ? "Of the others" : "Without doubt", best->name,
+                     stretched ? ", and its fabric stretches no further than it is meant for" : "");
 }
 
 }  // namespace
@@ -109,10 +154,12 @@ std::string spoilingOf(const VerdictInput& in) {
 std::string doubtOf(const VerdictInput& in, const Verdict& v) {
   std::string all;
   const auto say = [&](const std::string& s) { all += (all.empty() ? "" : "; ") + s; };
-  if (in.failing_runs > 0) say(fmt::format("checks fail in {} of {} runs", in.failing_runs, in.checked_runs));
-  if (in.stretch && !in.stretch->holds())
-    say(fmt::format("the fabric stretches by up to {}, and {} is meant for less than {}", percent(in.stretch->largest),
-                    in.stretch->stated ? "it" : "its law", percent(in.stretch->limit)));
+  if (in.failing_runs > 0) say(failuresOf(in, v));
+  if (in.stretch && !in.stretch->holds()) {
+    const std::string place = placeBeside(in.stretched, in, v);
+    say(fmt::format("{}{} further than {}: up to {}", place + (place.empty() ? "" : " "), whoStretches(*in.stretch),
+                    meantFor(*in.stretch), percent(in.stretch->largest)));
+  }
   std::string missing, untouched, unknown;
   for (const Option& o : in.options) {
     if (o.missing) missing += (missing.empty() ? "" : ", ") + o.name;
@@ -130,20 +177,21 @@ std::string sentenceOf(const VerdictInput& in, const Verdict& v) {
   const Option& o = at(in, v.take);
   const std::string& name = o.name;
   if (const std::string spoiled = spoilingOf(in); !spoiled.empty())
-    return v.chosen
-               ? fmt::format("Choose none yet: {}. By numbers that cannot be relied on it would be {}.", spoiled, name)
-               : fmt::format("No verdict yet: {}. By numbers that cannot be relied on {} most.", spoiled,
-                             whoPays(in, o));
+    return v.chosen ? fmt::format("Choose none yet: {}.{}", spoiled, withoutDoubt(in, v))
+                    : fmt::format("No verdict yet: {}.", spoiled);
   if (!v.chosen) return worstSentence(in, v);
   const long count = usableCount(in);
   const bool doubtful = v.light == Light::green && v.cover != Light::green;
   if (v.light != Light::green || !in.sized) {
-    const std::string doubt = doubtful ? " With doubt: " + v.doubt + "." : "";
-    return (count > 1
-                ? fmt::format(
-                      "Take {}: of the {} {}studied it adds the least torque.", name, count,
-                      in.role == Role::material || in.role == Role::fit ? std::string(wordsOf(in.role).many) + " " : "")
-                : fmt::format("Only {} was studied: there is nothing to compare it with.", name)) +
+    const std::string doubt = doubtful ? " With doubt: " + v.doubt + "." + withoutDoubt(in, v) : "";
+    const std::string many =
+        in.role == Role::material || in.role == Role::fit ? std::string(wordsOf(in.role).many) + " " : "";
+    // The best of them is no answer where it is not good enough itself.
+    if (v.light == Light::red)
+      return count > 1 ? fmt::format("None of the {} {}is good enough: {} adds the least torque.", count, many, name)
+                       : fmt::format("Not good enough: {}, the only one studied.", name);
+    return (count > 1 ? fmt::format("Take {}: of the {} {}studied it adds the least torque.", name, count, many)
+                      : fmt::format("Only {} was studied: there is nothing to compare it with.", name)) +
            doubt;
   }
   bool thickest = true;
@@ -151,10 +199,11 @@ std::string sentenceOf(const VerdictInput& in, const Verdict& v) {
     thickest = thickest && !isUsable(in.options[i]);
   const std::string where = everywhereOf(in, o);
   if (doubtful)
-    return thickest ? fmt::format("Take {}, with doubt: the thickest studied, and its torque is low enough{}, but {}.",
-                                  name, where, v.doubt)
-                    : fmt::format("Take {}, with doubt: the thickest whose torque is low enough{}, but {}.", name,
-                                  where, v.doubt);
+    return (thickest ? fmt::format("Take {}, with doubt: the thickest studied, and its torque is low enough{}, but {}.",
+                                   name, where, v.doubt)
+                     : fmt::format("Take {}, with doubt: the thickest whose torque is low enough{}, but {}.", name,
+                                   where, v.doubt)) +
+           withoutDoubt(in, v);
   const char* just = v.holds_up_to && *v.holds_up_to < kNarrow ? ", though only just" : "";
   return thickest ? fmt::format("Take {}: the thickest studied, and green{}{}.", name, where, just)
                   : fmt::format("Take {}: the thickest that stays green{}{}.", name, where, just);
@@ -168,14 +217,17 @@ std::string enoughOf(const VerdictInput& in, const Verdict& v) {
   // Of one that is taken "at most ..."; of the worst "male_p95 pays ...".
   const auto up = [&](const char* bound) { return (v.chosen ? bound : whoPays(in, o)) + " " + cost; };
   if (trustOf(in).spoiling > 0)
-    return fmt::format("Not judged, as {}. Its numbers would say: {}.", spoilingOf(in), up("up to"));
+    return fmt::format("Not judged. By numbers that cannot be relied on {}: {}.",
+                       v.chosen ? "it would be " + o.name : "the worst is this", up("up to"));
   std::string text;
   switch (v.light) {
     case Light::green:
       text = v.cover == Light::green
                  ? fmt::format("Good enough: {}: green, below {}.", up("at most"), percent(in.green))
-                 : fmt::format("By its torque it would be good enough: {}, below {}. But {}: that is no green.",
-                               up("at most"), percent(in.green), v.doubt);
+                 : fmt::format(
+                       "By its torque it would be good enough: {}, below {}; with the doubt above that is no "
+                       "green.",
+                       up("at most"), percent(in.green));
       if (in.sized)
         for (std::size_t i = static_cast<std::size_t>(v.take) + 1; i < in.options.size(); ++i)
           if (isUsable(in.options[i]))
@@ -198,7 +250,7 @@ std::string enoughOf(const VerdictInput& in, const Verdict& v) {
                   : fmt::format(
                         "Whether that is good enough cannot be said: no natural moment of this task is known. "
                         "{} {}.",
-                        capital(whoPays(in, o)), cost);
+                        opening(whoPays(in, o), in), cost);
 }
 
 std::string numbersOf(const VerdictInput& in, const Verdict& v) {
@@ -209,9 +261,10 @@ std::string numbersOf(const VerdictInput& in, const Verdict& v) {
                     formatBrief(100 * *in.mesh_error, 2), in.mesh_where.empty() ? "" : " (" + in.mesh_where + ")"));
   else
     say("No error bar: the study has one mesh, so what a finer one would change is not known.");
-  if (v.holds_up_to && v.light == Light::red)
+  const bool judged = trustOf(in).spoiling == 0;
+  if (judged && v.holds_up_to && v.light == Light::red)
     say(fmt::format("It is not red only if the true torque is more than {} smaller.", percent(*v.holds_up_to)));
-  if (v.holds_up_to && v.light == Light::amber)
+  if (judged && v.holds_up_to && v.light == Light::amber)
     say(fmt::format("It stays amber as long as the torques are right within {}.", percent(*v.holds_up_to)));
   // What is held, or still grows.
   for (const std::string& m : v.take < 0 ? std::vector<std::string>{} : motionsOf(at(in, v.take))) {
@@ -223,12 +276,20 @@ std::string numbersOf(const VerdictInput& in, const Verdict& v) {
                       "cost is not known.",
                       m.empty() ? "Here" : "In " + m, c.joint, percent(c.end_part)));
   }
-  if (in.stretch && !in.stretch->holds()) say(gambeson::sentenceOf(*in.stretch));
   if (in.failing_runs == 0 && in.checked_runs > 0) say("All checks of all runs hold.");
   if (in.failing_runs > 0) {
     say(fmt::format("Checks fail in {} of {} runs{}.", in.failing_runs, in.checked_runs,
                     v.surety == Surety::no ? "" : ": that makes the sizes of the torques less sure than their order"));
   }
+  // A limit that the case states counts, though the law of the fabric ends before it.
+  if (in.stretch && in.stretch->stated && in.stretch->holds() && in.law_strain > 0 &&
+      in.stretch->largest > in.law_strain)
+    say(
+        fmt::format("{} by up to {}, less than {}, and that limit counts; its law is taken for strains below {}, and "
+                    "continued beyond.",
+                    capital(whoStretches(*in.stretch)), percent(in.stretch->largest), meantFor(*in.stretch),
+                    percent(in.law_strain)));
+  if (in.stretch && !in.stretch->holds()) say(gambeson::sentenceOf(*in.stretch));
   return s;
 }
 

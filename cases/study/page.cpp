@@ -50,12 +50,8 @@ std::string htmlTable(const std::string& title, const std::vector<std::string>& 
                       : element("td", row[k].html, row[k].number ? " class=\"number\"" : "");
     body += element("tr", cells, row[0].heads ? " class=\"group\"" : "");
   }
-  const std::string table = element(
-      "table", element("caption", escape(title)) + element("thead", element("tr", head)) + element("tbody", body));
-  return element("div",
-                 element("div", table, " class=\"scroll\"") +
-                     (caption.empty() ? "" : element("p", escape(caption), " class=\"caption\"")),
-                 " class=\"panel\"");
+  return html::tablePanel(title, element("thead", element("tr", head)) + element("tbody", body),
+                          caption.empty() ? "" : element("p", escape(caption), " class=\"caption\""));
 }
 
 std::string charts(const std::string& body) { return element("div", body, " class=\"charts\""); }
@@ -64,15 +60,23 @@ std::string folded(const std::string& summary, const std::string& body) {
   return element("details", element("summary", escape(summary)) + body);
 }
 
-std::string lightOf(const std::string& light) {
-  return element("span", "\u25cf " + escape(light), " class=\"light " + escape(light) + "\"");
+std::string lightOf(const std::string& light) { return html::lightOf(light); }
+std::string lightOf(Light light) {
+  return light == Light::unknown ? element("span", "not known", " class=\"light unknown\"")
+                                 : html::lightOf(nameOf(light));
 }
-std::string lightOf(Light light) { return light == Light::unknown ? "not known" : lightOf(std::string(nameOf(light))); }
+std::string lightOf(Light by_number, const Trust& trust) {
+  // A number is known there, and no light is shown for it.
+  if (trust.spoiling > 0) return element("span", "not judged", " class=\"light unknown\"");
+  return lightOf(shownLight(by_number, trust));
+}
 
 std::string lightOf(const Study& s, const Trust& trust, const std::optional<double>& part) {
-  // A share is known there, and no light is shown for it.
-  if (part && trust.spoiling > 0) return "not judged";
-  return lightOf(shownLight(gambeson::lightOf(part, s.limits.green, s.limits.red), trust));
+  return lightOf(gambeson::lightOf(part, s.limits.green, s.limits.red), trust);
+}
+
+bool anyNatural(const Comparison& c) {
+  return std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.natural(); });
 }
 
 std::string percent(const std::optional<double>& part) {
@@ -105,8 +109,9 @@ namespace {
 
 std::string judged(Light light, const std::string& text) {
   if (text.empty()) return "";
-  return element("p", element("strong", "\u25cf", " aria-hidden=\"true\"") + prose(text),
-                 std::string(" class=\"judged ") + (light == Light::unknown ? "unknown" : nameOf(light)) + "\"");
+  const std::string name = light == Light::unknown ? "unknown" : nameOf(light);
+  return element("p", element("strong", html::markOf(name), " aria-hidden=\"true\"") + prose(text),
+                 " class=\"judged " + name + "\"");
 }
 
 std::string item(const std::string& question, const std::string& html) {
@@ -139,7 +144,7 @@ std::string eachOf(const Study& s, const Comparison& c) {
 
 /// Of the option taken: what it is, and what it costs in each motion.
 std::string takenOf(const Study& s, const Comparison& c) {
-  if (c.verdict.take < 0) return "";
+  if (c.verdict.take < 0 || trustOf(c.input).spoiling > 0) return "";
   if (!c.verdict.chosen) return eachOf(s, c);
   std::string list;
   const Option& o = c.input.options[static_cast<std::size_t>(c.verdict.take)];
@@ -168,6 +173,26 @@ std::string card(const std::string& title, const std::string& text, const std::s
              : element("div", element("h3", escape(title)) + element("p", prose(text)) + after, " class=\"card\"");
 }
 
+/// What the words of the verdict mean, with every word of the lights.
+std::string meaningOf(const Study& s, const Comparison& c) {
+  std::string text =
+      "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles must give as "
+      "much against it, on top of what the movement needs. Where the garment pushes the way the joint moves, they are "
+      "spared it. ";
+  if (anyNatural(c))
+    text += fmt::format(
+        "Natural moment: the largest that the joint needs for the movement without the garment. Green: the added "
+        "torque is below {0} of it. Amber: between {0} and {1}. Red: above {1} ({2}). Not known: of that joint no "
+        "natural moment is known. ",
+        percent(s.limits.green), percent(s.limits.red), s.limits.source);
+  else
+    text += "No natural moment of this task is known: torques have no light, and the lights are those of comfort. ";
+  text +=
+      "Doubtful: green by its number, but a check of a run fails, or the fabric stretches further than it is meant "
+      "for. Not judged: a check fails that leaves none of the numbers.";
+  return element("p", escape(text), " class=\"meaning\"");
+}
+
 std::string headline(const Study& s, const Comparison& c, const std::vector<SidePicture>& pictures) {
   const Verdict& v = c.verdict;
   std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
@@ -188,21 +213,13 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
           shown = &p;
   }
   if (shown) body += figureOf({shown->png, shown->caption, ""});
-  const std::string meaning = element(
-      "p",
-      escape(fmt::format(
-          "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles must "
-          "give as much against it, on top of what the movement needs. Where the garment pushes the way the "
-          "joint moves, they are spared it. Natural moment: the largest that the joint needs for the movement "
-          "without the garment. Green: below {} of it, red: above {} ({}). Doubtful: green by its number, but a check "
-          "of a run fails, or the fabric stretches beyond what it is meant for.",
-          percent(s.limits.green), percent(s.limits.red), s.limits.source)),
-      " class=\"meaning\"");
   std::string doubts;
-  for (const auto& d : c.input.doubts) doubts += element("li", prose(d.text));
+  for (const auto& d : c.input.doubts)
+    doubts += element("li", prose(fmt::format("{}, {}", d.check, placeOf(d.runs, c.input))));
   const char* surety[]{"not sure", "fairly sure", "sure"};
   const std::string cards =
-      card(v.chosen ? "Why this one" : "How they differ", v.why) + card("Thinner still?", v.estimate) +
+      card(v.chosen && v.light != Light::red ? "Why this one" : "How they differ", v.why) +
+      card("Thinner still?", v.estimate) +
       card(fmt::format("{}: {}", v.chosen ? "Which one" : "The worst", surety[static_cast<int>(v.surety)]), v.choice) +
       card(c.input.mesh_error ? fmt::format("How much: \u00b1 {}", percent(c.input.mesh_error))
                               : std::string("How much: no error bar"),
@@ -211,7 +228,7 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   return element("section", body,
                  shown ? " class=\"headline pictured\" aria-label=\"The verdict\""
                        : " class=\"headline\" aria-label=\"The verdict\"") +
-         element("div", cards, " class=\"cards reasons\"") + meaning;
+         element("div", cards, " class=\"cards reasons\"") + meaningOf(s, c);
 }
 
 std::string alarms(const Study& s, const Comparison& c, const std::vector<std::string>& failures) {
@@ -221,7 +238,8 @@ std::string alarms(const Study& s, const Comparison& c, const std::vector<std::s
     if (!c.runs[i].good) alarm(escape(fmt::format("The variant {} failed: {}", s.variants[i].label, c.runs[i].why)));
   for (const auto& d : c.input.doubts)
     if (d.order)
-      alarm(escape("Do not rely on this page before you know why: " + d.text + ".") +
+      alarm(escape(fmt::format("Do not rely on this page before you know why the check {} fails {}.", d.check,
+                               placeOf(d.runs, c.input))) +
             " <a href=\"#checks\">What that means</a>");
   for (const std::string& f : failures) alarm(escape(f));
   return out;
@@ -249,10 +267,12 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   };
   if (!batch) body += headline(s, c, pictures);
   const bool joints = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.highest(); });
+  const std::string shares = anyNatural(c) ? ": in per cent of the joint\u2019s natural moment, in Nm," : " in Nm,";
   section(
       "pay", batch || !joints ? "The runs" : "What each joint pays",
-      joints ? "The largest added torque: in per cent of the joint\u2019s natural moment, in Nm, and as a part of that "
-               "of the baseline, the variant that the others are compared with, in the same motion."
+      joints ? "The largest added torque" + shares +
+                   " and as a part of that of the baseline, the variant that the others are compared with, in the same "
+                   "motion."
              : "",
       payOf(s, c));
   if (!batch) {

@@ -31,10 +31,15 @@ std::string charts(const std::string& body);
 std::string folded(const std::string& summary, const std::string& body);
 std::string lightOf(Light light);
 std::string lightOf(const std::string& light);
+/// The light of a number, as far as the run that it is of is trusted.
+std::string lightOf(Light by_number, const Trust& trust);
 /// The light of a part of a natural moment, as far as the run that it is of is trusted.
 std::string lightOf(const Study& study, const Trust& trust, const std::optional<double>& part);
 std::string percent(const std::optional<double>& part);
 std::string linkTo(const Variant& variant, const std::string& text);
+
+/// A run knows the natural moment of a joint.
+bool anyNatural(const Comparison& c);
 
 /// What "thickness x 0.5" means; empty where no axis is one of factors.
 std::string multiplesOf(const Study& study);

@@ -79,7 +79,9 @@ std::string readingOf(const Study& s, const Comparison& c) {
   std::vector<std::string> told;
   for (const Group& g : c.groups) {
     const auto* k = std::get_if<Case>(&s.variants[g.members[0]].definition);
-    const std::string natural = k ? naturalMeaning(k->analysis.task) : "";
+    const bool known =
+        std::any_of(g.members.begin(), g.members.end(), [&](std::size_t i) { return c.runs[i].natural(); });
+    const std::string natural = k && known ? naturalMeaning(k->analysis.task) : "";
     if (natural.empty() || std::find(told.begin(), told.end(), natural) != told.end()) continue;
     told.push_back(natural);
     const JointNumbers* j = c.runs[g.members[0]].joint(g.joint());
@@ -89,7 +91,9 @@ std::string readingOf(const Study& s, const Comparison& c) {
                "force on it passes."
              : ""));
   }
-  say("Shown are the joint that decides (the largest share of its natural moment), those that are not green somewhere, "
+  say(std::string("Shown are the joint that decides (") +
+      (anyNatural(c) ? "the largest share of its natural moment), those that are not green somewhere, "
+                     : "of the largest torque) ") +
       "and those with a fifth of the largest torque. Joints beyond which the garment touches nothing are left out. All "
       "are in variants.csv.");
   return element("ul", list, " class=\"assumptions\"");
@@ -139,9 +143,10 @@ std::string payOf(const Study& s, const Comparison& c) {
   const Joints all = jointsShown(c);
   Joints joints = all;
   if (joints.size() > most_columns) joints.resize(most_columns);
-  std::vector<std::string> columns{"variant (its own report)"};
+  // What leaves a row in doubt stands beside its name, in sight on a narrow page too.
+  std::vector<std::string> columns{"variant (its own report)", "failing checks"};
   for (const auto& [name, label] : joints) columns.push_back(label);
-  columns.insert(columns.end(), {"mass [kg]", "least comfortable", "failing checks"});
+  columns.insert(columns.end(), {"mass [kg]", "least comfortable"});
   const auto rowOf = [&](std::size_t i, const std::string& name, const Group* g) {
     const Variant& v = s.variants[i];
     const RunNumbers& r = c.runs[i];
@@ -153,6 +158,9 @@ std::string payOf(const Study& s, const Comparison& c) {
     const char* base = isBaseline(s, i) ? " <small>baseline</small>" : "";
     std::vector<Html> row{r.good ? linkTo(v, name) + base + below
                                  : escape(name) + " <span class=\"bad\">\u2717 failed</span>"};
+    row.push_back(Html::aligned(!r.good           ? "\u2013"
+                                : r.failing() > 0 ? fmt::format("<span class=\"bad\">\u2717 {}</span>", r.failing())
+                                                  : "<span class=\"good\">\u2713</span>"));
     for (const auto& [joint, label] : joints) {
       const JointNumbers* j = r.good ? r.joint(joint) : nullptr;
       row.push_back(j && j->applies() ? payment(s, c, i, *j, !g || !sharedNatural(c, *g, joint))
@@ -160,19 +168,17 @@ std::string payOf(const Study& s, const Comparison& c) {
     }
     row.push_back(r.good && r.mass_kg() > 0 ? Html(r.mass_kg()) : Html(std::nan("")));
     const ComfortNumbers* k = r.leastComfortable();
-    row.push_back(k ? Html(escape(spokenZone(k->zone)) + " " + lightOf(shownLight(lightNamed(k->light), r.trust())))
+    row.push_back(k ? Html(escape(spokenZone(k->zone)) + " " + lightOf(lightNamed(k->light), r.trust()))
                     : Html(std::string("\u2013")));
-    row.push_back(r.failing() > 0 ? Html(r.failing())
-                                  : Html::aligned(r.good ? "<span class=\"good\">\u2713</span>" : "\u2013"));
     return row;
   };
   std::vector<std::vector<Html>> rows, others;
   for (const Group& g : c.groups) {
-    std::vector<Html> heading{Html::heading(escape(g.label))};
+    std::vector<Html> heading{Html::heading(escape(g.label)), Html(std::string())};
     for (const auto& [name, label] : joints) heading.push_back(naturalOf(c, g, name));
     const bool any = std::any_of(heading.begin(), heading.end(), [](const Html& h) { return !h.html.empty(); });
     if (c.groups.size() > 1 || any) {
-      heading.insert(heading.end(), 3, Html(std::string()));
+      heading.insert(heading.end(), 2, Html(std::string()));
       rows.push_back(heading);
     }
     for (const std::size_t i : g.members) rows.push_back(rowOf(i, memberName(s, c, i), &g));

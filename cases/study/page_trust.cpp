@@ -38,20 +38,22 @@ std::string checksOf(const Study& s, const Comparison& c) {
     const CheckWords words = checkWords(name, worst.value, worst.limit, worst.unit);
     rows.push_back({escape(name), element("ul", runs, " class=\"plain\""),
                     Html::aligned(escape(formatNumber(worst.limit, 2) + (worst.unit.empty() ? "" : " ") + worst.unit)),
-                    escape(words.means),
+                    element("div", escape(words.means), " class=\"sentences\""),
                     std::string(words.order ? "<span class=\"bad\">order and sizes</span>" : "sizes")});
   }
   return charts(htmlTable(
       "Checks that fail", {"check", "how much, and where", "allowed", "what that means for the torques", "touches"},
       rows,
-      fmt::format("{} of {} runs; the others hold all checks. The order: which variant costs less. The sizes: how much "
-                  "it costs.",
-                  c.input.failing_runs, c.input.checked_runs)));
+      fmt::format(
+          "{} The order: which variant costs less. The sizes: how much it costs.",
+          c.input.failing_runs < c.input.checked_runs
+              ? fmt::format("{} of {} runs; the others hold all checks.", c.input.failing_runs, c.input.checked_runs)
+              : fmt::format("None of the {} runs holds all checks.", c.input.checked_runs))));
 }
 
 namespace {
 
-/// Joints that the garment does not reach, and the elbow without sleeves.
+/// Joints that the garment does not reach, and the elbow without sleeves: one line for all.
 std::string idleJoints(const Study& s, const Comparison& c) {
   std::set<std::string> reported, idle;
   bool elbow = false, touched = false, human = false;
@@ -66,13 +68,12 @@ std::string idleJoints(const Study& s, const Comparison& c) {
   }
   for (const Variant& v : s.variants)
     if (const auto* k = std::get_if<Case>(&v.definition)) human = human || k->human.has_value();
-  std::string out;
+  std::string all;
+  const auto add = [&](const std::string& j) { all += (all.empty() ? "" : ", ") + j; };
   for (const std::string& j : idle)
-    if (!reported.contains(j))
-      out += element("li", escape(j + ": not applicable, the garment touches nothing beyond this joint"));
-  if (human && !elbow && !touched)
-    out += element("li", "elbow: not applicable without sleeves: nothing touches the forearms");
-  return out;
+    if (!reported.contains(j)) add(j);
+  if (human && !elbow && !touched) add("elbow");
+  return all.empty() ? "" : element("li", escape("joints beyond which the garment touches nothing: " + all));
 }
 
 std::string switchedOffIn(const Study& s) {

@@ -277,7 +277,8 @@ std::string studyJson(const Study& s, const Comparison& c) {
                   {"next_costs_times", number(v.order)},
                   {"holds_up_to", number(v.holds_up_to)}};
   for (const auto& d : c.input.doubts)
-    j["verdict"]["failing_checks"].push_back({{"what", d.text}, {"touches_the_order", d.order}});
+    j["verdict"]["failing_checks"].push_back(
+        {{"check", d.check}, {"what", d.text}, {"runs", d.runs.names}, {"touches_the_order", d.order}});
   j["limits"] = {{"green_below", s.limits.green}, {"red_above", s.limits.red}, {"source", s.limits.source}};
   for (const AxisExponent& e : c.exponents)
     j["exponents"].push_back({{"axis", e.axis},

@@ -51,37 +51,49 @@ void addExponents(const Study& s, const Comparison& c, VerdictInput& in) {
     }
 }
 
-void addDoubts(const Comparison& c, VerdictInput& in) {
+/// Of each variant the option that its run belongs to; -1: none.
+using OptionOf = std::vector<int>;
+
+void addRun(const Study& s, const OptionOf& option, std::size_t i, WrongRuns& runs) {
+  runs.names.push_back(s.variants[i].label);
+  runs.options.push_back(option[i]);
+}
+
+void addDoubts(const Study& s, const Comparison& c, const OptionOf& option, VerdictInput& in) {
   struct Worst {
     CheckNumbers check;
     std::string beside;
-    int runs = 0;
+    WrongRuns runs;
   };
   std::vector<Worst> all;
-  for (const RunNumbers& r : c.runs) {
+  for (std::size_t i = 0; i < c.runs.size(); ++i) {
+    const RunNumbers& r = c.runs[i];
     if (!r.good) continue;
     ++in.checked_runs;
     in.failing_runs += r.failing() > 0;
     for (const CheckNumbers& k : r.checks) {
       if (k.holds) continue;
       auto at = std::find_if(all.begin(), all.end(), [&](const Worst& w) { return w.check.name == k.name; });
-      if (at == all.end()) at = all.insert(at, {k, r.heldAgainst(k.name)});
+      if (at == all.end()) at = all.insert(at, {k, r.heldAgainst(k.name), {}});
       if (!(k.value <= at->check.value)) at->check.value = k.value, at->beside = r.heldAgainst(k.name);
-      ++at->runs;
+      addRun(s, option, i, at->runs);
     }
   }
   for (const Worst& w : all) {
     const CheckWords words = checkWords(w.check.name, w.check.value, w.check.limit, w.check.unit);
-    in.doubts.push_back(
-        {fmt::format("{}{} ({} {})", words.wrong, w.beside, w.runs, w.runs == 1 ? "run" : "runs"), words.order});
+    in.doubts.push_back({words.wrong + w.beside, words.order, w.check.name, w.runs});
   }
 }
 
 /// The worst of all runs that are good.
-void addStretch(const Comparison& c, VerdictInput& in) {
+void addStretch(const Study& s, const Comparison& c, const OptionOf& option, VerdictInput& in) {
   std::vector<Stretch> all;
-  for (const RunNumbers& r : c.runs)
-    if (r.good) all.insert(all.end(), r.stretch.begin(), r.stretch.end());
+  for (std::size_t i = 0; i < c.runs.size(); ++i) {
+    if (!c.runs[i].good) continue;
+    all.insert(all.end(), c.runs[i].stretch.begin(), c.runs[i].stretch.end());
+    if (c.runs[i].trust().stretched > 0) addRun(s, option, i, in.stretched);
+  }
+  in.law_strain = kStrainOfLaw;
   if (const Stretch* worst = worstOf(all)) in.stretch = *worst;
 }
 
@@ -121,13 +133,18 @@ VerdictInput verdictInput(const Study& s, const Comparison& c) {
   if (in.sized)
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return *axis->levels[a].number < *axis->levels[b].number; });
+  OptionOf option_of(s.variants.size(), -1);
   for (const std::size_t l : order) {
     Option option;
     bool any = false;
+    const auto belongs = [&](std::size_t i) {
+      const Variant& v = s.variants[i];
+      return axis ? v.levels[static_cast<std::size_t>(c.main_axis)] == static_cast<int>(l) : i == l;
+    };
     for (const Group& g : c.groups)
       for (const std::size_t i : g.members) {
         const Variant& v = s.variants[i];
-        if (axis ? v.levels[static_cast<std::size_t>(c.main_axis)] != static_cast<int>(l) : i != l) continue;
+        if (!belongs(i)) continue;
         any = true;
         option.name = memberName(s, c, i);
         if (in.sized) option.size = axis->levels[l].number;
@@ -141,12 +158,19 @@ VerdictInput verdictInput(const Study& s, const Comparison& c) {
         else
           option.missing = true;
       }
-    if (any) in.options.push_back(std::move(option));
+    if (!any) continue;
+    // On every mesh.
+    for (std::size_t i = 0; i < s.variants.size(); ++i) {
+      if (!(s.variants[i].grid || s.variants[i].finer) || !belongs(i)) continue;
+      option_of[i] = static_cast<int>(in.options.size());
+      if (c.runs[i].good) option.trust.add(c.runs[i].trust());
+    }
+    in.options.push_back(std::move(option));
   }
   addMeshError(c, in);
   if (in.sized) addExponents(s, c, in);
-  addDoubts(c, in);
-  addStretch(c, in);
+  addDoubts(s, c, option_of, in);
+  addStretch(s, c, option_of, in);
   return in;
 }
 
