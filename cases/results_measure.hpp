@@ -169,8 +169,10 @@ struct StepMeasure {
   double deepest_m = 0, deepest_time_s = 0;  ///< of a sample, in the motion
   double mean_iterations = 0;
   std::vector<CollisionWindow> collisions;
-  long projections = 0, unlimited = 0;  ///< strain limits: projections, and steps that they did not hold in
-  double largest_limit_residual = 0;    ///< of the strain
+  long projections = 0;                 ///< of strain limits
+  long limited = 0, unlimited = 0;      ///< steps after settling, and those of them in which limits did not hold
+  double largest_limit_residual = 0;    ///< of the strain, after settling
+  double largest_limit_residual_settling = 0;
 };
 
 /// Change of the total energy from the end of the first window of the motion, against the works since [J].

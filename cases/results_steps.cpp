@@ -31,8 +31,13 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     m.unconverged += std::lround(at("unconverged_steps"));
     m.yielded += std::lround(at("yielded_steps"));
     m.projections += std::lround(at("projections"));
-    m.unlimited += std::lround(at("unlimited_steps"));
-    m.largest_limit_residual = std::max(m.largest_limit_residual, at("largest_limit_residual"));
+    // While cloth settles, what it starts stretched by is taken back slowly.
+    double& residual = r[0] < -1e-9 ? m.largest_limit_residual_settling : m.largest_limit_residual;
+    residual = std::max(residual, at("largest_limit_residual"));
+    if (r[0] >= -1e-9) {
+      m.limited += std::lround(at("steps"));
+      m.unlimited += std::lround(at("unlimited_steps"));
+    }
     m.impacts += std::lround(at("impacts"));
     const auto count = [&](const char* name) { return std::lround(at(name)); };
     m.collisions.push_back({r[0], r[1], count("most_contacts"), count("most_cloth_contacts"), count("impacts"),

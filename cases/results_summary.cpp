@@ -345,9 +345,11 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   if (m.limited)
     j["strain_limit"] = {
         {"largest_residual", m.steps.largest_limit_residual},
+        {"largest_residual_settling", m.steps.largest_limit_residual_settling},
         {"projections", m.steps.projections},
         {"projections_per_step",
          m.steps.steps > 0 ? static_cast<double>(m.steps.projections) / static_cast<double>(m.steps.steps) : 0},
+        {"steps", m.steps.limited},
         {"unconverged_steps", m.steps.unlimited},
         {"work_J", m.energy.limit}};
   j["stretch"] = Json::array();

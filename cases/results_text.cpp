@@ -96,8 +96,10 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
   if (m.limited)
     checks.push_back(
         {"Strain limit",
-         m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unlimited) / static_cast<double>(m.steps.steps) : 0, 1,
-         "%", "share of the steps at whose end a thread missed its strain by more than the tolerance of the case"});
+         m.steps.limited > 0 ? 100.0 * static_cast<double>(m.steps.unlimited) / static_cast<double>(m.steps.limited) : 0,
+         1, "%",
+         "share of the steps after settling at whose end a thread missed its strain by more than the tolerance of the "
+         "case"});
   if (m.surface_depth)
     checks.push_back(
         {"Penetration between samples", 1e3 * m.surface_depth->deepest_m, 0.2, "mm",

@@ -47,8 +47,10 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     const double omega = std::max(state.frequency_rad_per_s, 1e-300);
     const double share = std::min(control.safety, state.share > 0 ? state.share : kFirstShare);
     double longest = std::min(control.max_step_s, share * 2 / omega);
-    if (const double swing = tensionFrequency(model.strain_rows, state.limit_J); swing > 0)
-      longest = std::min(longest, kTensionStep / swing);
+    // Threads that do not yield take what tension a step needs of them, more the shorter it is.
+    if (std::isfinite(model.strain_limit.stiffness_N_per_m))
+      if (const double across = tensionFrequency(model.strain_rows, state.limit_J); across > 0)
+        longest = std::min(longest, kTensionStep / across);
     const double left = until - state.time_s;
     const double pieces = std::ceil(left / longest * (1 - 1e-12));
     double dt = pieces <= 1 ? left : left / pieces;

@@ -188,17 +188,16 @@ void startProjection(const StrainRows& rows, std::span<const double> warm, Limit
 
 void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p,
                  std::span<const double> warm_J, double dt, LimitWork& w) {
+  if (!std::isfinite(limit.stiffness_N_per_m)) return;
   strainVectors(rows, p, w.e);
   constraints(rows, limit, w.e, w.left);
-  if (std::isfinite(limit.stiffness_N_per_m)) {
-    // A point of hardly any area has no thread worth the name; some compliance keeps the matrix sound.
-    const double least = 1e-6 * *std::max_element(rows.area_m2.begin(), rows.area_m2.end());
-    w.yields.resize(rows.rows());
-    for (int i = 0; i < rows.rows(); ++i) {
-      const double yields_J = 1 / (limit.stiffness_N_per_m * std::max(least, rows.area_m2[i]));
-      w.yields[i] = yields_J / (dt * dt);
-      if (!warm_J.empty()) w.left[i] -= yields_J * warm_J[i];
-    }
+  // Crossings of a trimming loop may stand for next to no area; their threads hold all the same.
+  const double least = 0.1 * *std::max_element(rows.area_m2.begin(), rows.area_m2.end());
+  w.yields.resize(rows.rows());
+  for (int i = 0; i < rows.rows(); ++i) {
+    const double yields_J = 1 / (limit.stiffness_N_per_m * std::max(least, rows.area_m2[i]));
+    w.yields[i] = yields_J / (dt * dt);
+    if (!warm_J.empty()) w.left[i] -= yields_J * warm_J[i];
   }
   for (double& c : w.left) {
     const double size = std::abs(c), rest = std::max(0.0, size - limit.restore_per_s * dt);

@@ -26,8 +26,8 @@ struct StrainLimit {
   int max_rounds = 6;                     ///< of projections, and contacts solved together with limits of equality
   static constexpr int max_turns = 12;    ///< of projections and contacts by themselves, upper limits
   LimitPoints points = LimitPoints::vertices;
-  /// Strain that a step begins with is taken back by at most this much a second (Zheng 2013 takes all of it back at
-  /// once). It is there where cloth starts stretched or contacts have had their way, and the velocities of a step that
+  /// Strain that a step begins with is taken back by at most this much a second where threads yield (Zheng 2013 takes
+  /// all of it back at once, as threads do that do not). It is there where cloth starts stretched or contacts have had their way, and the velocities of a step that
   /// takes back some percent at once are those of a blow: 1 % of a cell of 25 mm in a millisecond is 0.25 m/s. 1 /s
   /// draws a belt together by 0.15 m/s, and is far above what a step leaves by itself.
   double restore_per_s = 1;
@@ -73,9 +73,9 @@ struct LimitWork {
 /// Starts a step: no multipliers, no pull. `warm` holds last step's multipliers (empty: none).
 void startProjection(const StrainRows& rows, std::span<const double> warm, LimitWork& work);
 
-/// A step of dt from the positions p leaves of each strain beyond its limit what restore_per_s cannot take back, and
-/// nothing of one within half of the tolerance. What a thread yields under the multipliers of the last step `warm_J` is
-/// no part of it. Sets work.yields.
+/// Where threads yield, a step of dt from the positions p leaves of each strain beyond its limit what restore_per_s
+/// cannot take back, and nothing of one within half of the tolerance. What a thread yields under the multipliers of the
+/// last step `warm_J` is no part of it. Sets work.left and work.yields.
 void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p,
                  std::span<const double> warm_J, double dt_s, LimitWork& work);
 
@@ -88,8 +88,8 @@ void limitMultipliers(const StrainRows& rows, std::span<const Vec3> p, double dt
 double limitResidual(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& work);
 /// The same of C less what the step is to leave and what its tension makes of it: what is to be taken back, work.C.
 double unrestored(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p, LimitWork& work);
-/// The tolerance of unrestored: that of the strain; where steps leave some, a twentieth of it, so that the rest does not
-/// add up to strain from step to step.
+/// The tolerance of unrestored: that of the strain; where threads yield a twentieth of it, so that the rest does not add
+/// up to strain from step to step.
 double unrestoredTolerance(const StrainLimit& limit, const LimitWork& work);
 
 /// The largest angular frequency of threads that swing across their tension, a bound from the sums of rows of M^-1 B^T

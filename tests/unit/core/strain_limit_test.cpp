@@ -339,6 +339,66 @@ TEST(Projection, ReachesTheToleranceAndKeepsTheMomentum) {
   }
 }
 
+/// Threads that yield end with the strain of springs, T = k C, whatever the step: C = lambda/(k a).
+TEST(Projection, ThreadsThatYieldAreSprings) {
+  for (LimitMode mode : {LimitMode::equality, LimitMode::upper_limit}) {
+    Net net(seamed());
+    net.shake(0.03);
+    const double dt = 1e-3;
+    StrainLimit limit{mode, 0.01, 1e-9};
+    limit.stiffness_N_per_m = 2000;
+    limit.restore_per_s = 1e6;  // leaves none
+    LimitWork work;
+    LimitReport report;
+    startProjection(net.rows, {}, work);
+    leaveStrain(net.rows, limit, net.p, {}, dt, work);
+    projectStrain(net.rows, limit, true, net.p, report, work);
+    EXPECT_TRUE(report.converged);
+    const double largest = *std::max_element(net.rows.area_m2.begin(), net.rows.area_m2.end());
+    std::vector<Vec3> e;
+    strainVectors(net.rows, net.p, e);
+    double worst = 0, most = 0;
+    for (int i = 0; i < net.rows.rows(); ++i) {
+      const double C = strainOf(e[i]) - (mode == LimitMode::equality ? 0 : limit.limit);
+      const double area = std::max(net.rows.area_m2[i], 0.1 * largest);
+      const double spring = work.multiplier[i] / (dt * dt * area * limit.stiffness_N_per_m);
+      if (mode == LimitMode::upper_limit && work.multiplier[i] == 0) {
+        EXPECT_LT(C, 1e-9);
+        continue;
+      }
+      worst = std::max(worst, std::abs(C - spring));
+      most = std::max(most, std::abs(spring));
+    }
+    EXPECT_LT(worst, 1e-9);
+    EXPECT_GT(most, 1e-3);
+  }
+}
+
+/// Against the largest eigenvalue of M^-1 B^T diag(lambda) B, by powers; threads that are pushed do not count.
+TEST(StrainRows, TensionFrequencyBoundsTheSwingOfThreads) {
+  Net net(seamed());
+  std::vector<double> lambda(net.rows.rows());
+  for (std::size_t i = 0; i < lambda.size(); ++i) lambda[i] = i % 3 == 0 ? -1.0 : 1e-3 * (1 + i % 5);
+  const int n = net.rows.B.column_count;
+  std::vector<double> x(n), stretched(lambda.size()), force(n);
+  for (int k = 0; k < n; ++k) x[k] = std::sin(1.7 * k + 0.3);
+  double value = 0;
+  for (int turn = 0; turn < 3000; ++turn) {
+    net.rows.B.multiply<double>(x, stretched);
+    for (std::size_t i = 0; i < lambda.size(); ++i) stretched[i] *= std::max(0.0, lambda[i]);
+    net.rows.Bt.multiply<double>(stretched, force);
+    double size = 0;
+    for (int k = 0; k < n; ++k) size = std::max(size, std::abs(force[k] *= net.inverse[k]));
+    value = size;
+    for (int k = 0; k < n; ++k) x[k] = force[k] / size;
+  }
+  const double bound = tensionFrequency(net.rows, lambda);
+  std::printf("[ measured ] frequency %.5g, bound %.5g rad/s\n", std::sqrt(value), bound);
+  EXPECT_GE(bound, std::sqrt(value));
+  EXPECT_LT(bound, 2 * std::sqrt(value));
+  EXPECT_EQ(tensionFrequency(net.rows, {}), 0);
+}
+
 /// One projection: the impulses have no moment about the positions at which their gradients were taken.
 TEST(Projection, KeepsTheAngularMomentum) {
   Net net(seamed());
