@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <map>
+
 #include "analysis/ticks.hpp"
 #include "cases/fields.hpp"
 #include "cases/strain_limit_case.hpp"
@@ -22,6 +24,10 @@ StrainLimit wornLimit(const StrainLimitCase& c) {
 }
 
 std::string limitInWords(const StrainLimitCase& c, const std::string& mean) {
+  static const std::map<LimitPoints, const char*> words{{LimitPoints::vertices, "the vertices of the knot mesh"},
+                                                        {LimitPoints::threads, "points of each thread's own"},
+                                                        {LimitPoints::gauss, "four Gauss points of each cell"},
+                                                        {LimitPoints::centres, "the middle of each cell"}};
   const std::string held =
       c.mode == LimitMode::equality
           ? "Weft and warp keep their length"
@@ -30,7 +36,7 @@ std::string limitInWords(const StrainLimitCase& c, const std::string& mean) {
       "{} by projection at {} (Zheng 2013, chapter 5); stress includes what that takes, as "
       "a "
       "mean over {}.",
-      held, c.points == LimitPoints::vertices ? "the vertices of the knot mesh" : "points of each thread's own", mean);
+      held, words.at(c.points), mean);
 }
 
 namespace schema {
@@ -56,11 +62,14 @@ Object strainLimitTable() {
       .choice(
           "points", &S::points,
           std::vector<std::pair<std::string, LimitPoints>>{{"vertices", LimitPoints::vertices},
-                                                           {"threads", LimitPoints::threads}},
+                                                           {"threads", LimitPoints::threads},
+                                                           {"gauss", LimitPoints::gauss},
+                                                           {"centres", LimitPoints::centres}},
           "vertices: of the knot mesh (Zheng 2013, 5.4), on any sheet; they miss a motion that alternates across the "
           "threads, what loads do on it the fabric carries. threads: Greville points of each thread's strain, which "
           "miss none and give smooth stress on any number of cells; for whole patches of degree 2 or more whose "
-          "threads follow their knot lines")
+          "threads follow their knot lines. gauss and centres, 2 x 2 points of each cell and one: for comparison on "
+          "whole patches (Zheng 2013, 5.4): the first lock, the second lets cells hourglass")
       .check([](const Place& p, const S& s) {
         if (s.mode == LimitMode::upper_limit && !s.limit)
           p.failAt("limit", "is required for upper_limit: the largest strain");

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/dynamics/thread_points.hpp"
+#include "core/error.hpp"
 #include "core/sheet/cells.hpp"
 
 namespace gambeson {
@@ -15,11 +16,24 @@ namespace {
 struct Place {
   Vec2 uv;
   int point = -1;
+  double area_m2 = 0;  ///< of a point of a cell's rule
 };
 
 double restArea(const NurbsPatch& patch, const CellPoint& at) {
   const auto d = surfaceDerivatives(patch, at.u, at.v);
   return norm(cross(d[1], d[2])) * at.weight;
+}
+
+/// Points of the cells' rules, cell by cell.
+std::vector<Place> gaussPlaces(const Garment& garment, int patch_index, std::span<const SheetCell> cells, int across) {
+  if (isTrimmed(garment, patch_index))
+    throw InputError({"", 0, "strain_limit.points"}, "points of cells are for patches that are not trimmed");
+  std::vector<Place> places;
+  for (const SheetCell& cell : cells)
+    if (cell.patch == patch_index)
+      for (const CellPoint& at : cellRule(cell, across, across))
+        places.push_back({{at.u, at.v}, -1, restArea(garment.patches[patch_index], at)});
+  return places;
 }
 
 int intervalOf(const std::vector<double>& ends, double t) {
@@ -147,6 +161,17 @@ CellShare shareOf(const NurbsPatch& patch, const SheetCell& cell, const std::vec
   return share;
 }
 
+/// Each place of a cell's rule stands for its part of the cell.
+CellShare shareOfRule(std::span<const Place> places) {
+  CellShare share;
+  share.kept = true;
+  for (const Place& place : places) {
+    share.area += place.area_m2;
+    share.points[place.point] += place.area_m2;
+  }
+  return share;
+}
+
 /// The value at a vertex from those of cells near it, as weights: the mean of four cells that meet there, else the
 /// value of the plane through the cells of the two rings around it that exist, else their mean.
 std::vector<std::pair<int, double>> vertexRow(const StrainRows::Grid& g, const std::vector<CellShare>& cells, int i,
@@ -222,14 +247,16 @@ void applyMobility(const Mobility& mobility, std::span<const Vec3> impulse, std:
 namespace {
 
 /// Constraints at places that weft and warp share, and the way from multipliers to cells to vertices.
-void addVertices(const Garment& garment, const FreeMap& map, StrainRows& s) {
+void addSharedPoints(const Garment& garment, const FreeMap& map, LimitPoints kind, StrainRows& s) {
+  const std::vector<SheetCell> sheet_cells = sheetCells(garment);
+  const int across = kind == LimitPoints::gauss ? 2 : kind == LimitPoints::centres ? 1 : 0;
   const std::vector<int> offsets = controlOffsets(garment);
   const int patch_count = static_cast<int>(garment.patches.size());
   std::vector<std::vector<Place>> places(patch_count);
   RowTable table;
   std::map<std::array<int, 2>, int> point_of;
   for (int p = 0; p < patch_count; ++p) {
-    places[p] = placesOf(garment, p, s.grids[p]);
+    places[p] = across > 0 ? gaussPlaces(garment, p, sheet_cells, across) : placesOf(garment, p, s.grids[p]);
     for (Place& place : places[p]) {
       const PointRows rows = rowsAt(garment, map, offsets[p], p, place.uv);
       const std::array<int, 2> row{table.find(rows, 1, s.B), table.find(rows, 2, s.B)};
@@ -245,11 +272,19 @@ void addVertices(const Garment& garment, const FreeMap& map, StrainRows& s) {
     cells[p].resize((s.grids[p].us.size() - 1) * (s.grids[p].vs.size() - 1));
     first_cell.push_back(first_cell.back() + static_cast<int>(cells[p].size()));
   }
-  for (const SheetCell& cell : sheetCells(garment)) {
+  std::vector<std::size_t> of_rules(patch_count, 0);  // places of cells that were visited
+  for (const SheetCell& cell : sheet_cells) {
     const StrainRows::Grid& g = s.grids[cell.patch];
     const int at = intervalOf(g.us, 0.5 * (cell.u0 + cell.u1)) +
                    (static_cast<int>(g.us.size()) - 1) * intervalOf(g.vs, 0.5 * (cell.v0 + cell.v1));
-    cells[cell.patch][at] = shareOf(garment.patches[cell.patch], cell, places[cell.patch]);
+    if (across > 0) {
+      const std::span<const Place> all = places[cell.patch];
+      std::size_t& first = of_rules[cell.patch];
+      cells[cell.patch][at] = shareOfRule(all.subspan(first, static_cast<std::size_t>(across * across)));
+      first += static_cast<std::size_t>(across * across);
+    } else {
+      cells[cell.patch][at] = shareOf(garment.patches[cell.patch], cell, places[cell.patch]);
+    }
     for (const auto& [point, area] : cells[cell.patch][at].points) s.points[point].area_m2 += area;
   }
   s.area_m2.assign(s.rows(), 0.0);
@@ -353,10 +388,10 @@ StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, Mobility 
     s.grids.push_back({breakpoints(patch.u), breakpoints(patch.v), vertices});
     vertices += static_cast<int>(s.grids.back().us.size() * s.grids.back().vs.size());
   }
-  if (points == LimitPoints::vertices)
-    addVertices(garment, map, s);
-  else
+  if (points == LimitPoints::threads)
     addThreadPoints(garment, map, s);
+  else
+    addSharedPoints(garment, map, points, s);
   s.Bt = transpose(s.B);
   if (s.mobility.P.rows() == 0)
     addMobility(s);

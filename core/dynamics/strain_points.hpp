@@ -29,7 +29,12 @@ namespace gambeson {
 /// (the vertices, for smooth quadratics) and those of the patch across it. As many points as coefficients: no motion of
 /// that kind is left and none is held twice, multipliers over areas are the stress without alternation on any number of
 /// cells. Asks for whole, smooth patches of degree 2 or more whose threads follow their knot lines.
-enum class LimitPoints { vertices, threads };
+///
+/// gauss, centres: 2 x 2 Gauss points a cell, or one; for comparison. Zheng 2013, section 5.4, rejects both: 8 strains a
+/// cell against 3 coordinates of a control point lock, since a quadratic cell cannot bend and keep the length of that
+/// many threads; one point a cell does not see control points that move to and fro from one to the next along the thread
+/// (hourglass). For whole patches.
+enum class LimitPoints { vertices, threads, gauss, centres };
 
 /// A constraint point.
 struct StrainPoint {

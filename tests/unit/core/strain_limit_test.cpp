@@ -183,6 +183,39 @@ TEST(StrainRows, VerticesMissAMotionThatPointsOfThreadsSee) {
   }
 }
 
+/// Zheng 2013, 5.4. Control points that move to and fro along the thread strain no middle of a cell, and the vertices most
+/// of all; the four points of a cell hold more strains than the sheet has coordinates.
+TEST(StrainRows, PointsOfCellsHourglassOrLock) {
+  const Garment g = squareSheet(10, 1, 0);
+  const FreeMap map = buildFreeMap(g);
+  const NurbsPatch& patch = g.patches[0];
+  std::vector<Vec3> motion(map.home.size());
+  for (std::size_t k = 0; k < motion.size(); ++k) motion[k].x = map.home[k] % patch.u.count() % 2 ? 1 : -1;
+  const std::vector<double> inverse(motion.size(), 1.0);
+  const auto strained = [&](LimitPoints points) {
+    const StrainRows rows = buildStrainRows(g, map, {inverse, {}}, points);
+    std::vector<Vec3> change;
+    strainVectors(rows, motion, change);
+    double most = 0, area = 0;
+    for (const StrainPoint& p : rows.points) {
+      area += p.area_m2;
+      if (p.uv.x > 0.25 && p.uv.x < 0.75 && p.row[0] >= 0) most = std::max(most, norm(change[p.row[0]]));
+    }
+    EXPECT_NEAR(area, points == LimitPoints::threads ? 2 : 1, 1e-12);
+    return std::pair(most, rows.rows());
+  };
+  const auto [vertices, vertex_rows] = strained(LimitPoints::vertices);
+  const auto [centres, centre_rows] = strained(LimitPoints::centres);
+  const auto [gauss, gauss_rows] = strained(LimitPoints::gauss);
+  EXPECT_NEAR(vertices, 20, 1e-9);  // 2 over a cell of 0.1 m
+  EXPECT_LT(centres, 1e-9);
+  EXPECT_GT(gauss, 5);
+  EXPECT_EQ(centre_rows, 200);
+  EXPECT_EQ(gauss_rows, 800);
+  EXPECT_GT(gauss_rows, 3 * static_cast<int>(motion.size()));
+  EXPECT_LT(vertex_rows, 2 * static_cast<int>(motion.size()));
+}
+
 /// As many rows as the strains have coefficients; areas of each thread sum to the sheet's and are positive; a linear
 /// field of stress comes back exactly at the vertices. Weft along u or along v, seams, cubic patches.
 TEST(StrainRows, PointsOfThreadsIntegrateTheirSplines) {
