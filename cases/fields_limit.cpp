@@ -6,12 +6,14 @@
 #include "cases/fields.hpp"
 #include "cases/strain_limit_case.hpp"
 #include "cases/table.hpp"
+#include "core/error.hpp"
 
 namespace gambeson {
 
 StrainLimit limitOf(const StrainLimitCase& c) {
   StrainLimit limit{c.mode, c.limit.value_or(0), c.tolerance, c.max_projections};
   limit.points = c.points;
+  limit.method = c.method;
   if (c.stiffness_N_per_m) limit.stiffness_N_per_m = *c.stiffness_N_per_m;
   return limit;
 }
@@ -19,6 +21,8 @@ StrainLimit limitOf(const StrainLimitCase& c) {
 StrainLimit wornLimit(const StrainLimitCase& c) {
   constexpr double kTensionAtTolerance_N_per_m = 100;
   StrainLimit limit = limitOf(c);
+  if (c.method != LimitMethod::fast)
+    throw InputError({"", 0, "strain_limit.method"}, "closest is for structures; cloth that is worn takes fast");
   if (!c.stiffness_N_per_m) limit.stiffness_N_per_m = kTensionAtTolerance_N_per_m / c.tolerance;
   return limit;
 }
@@ -70,7 +74,14 @@ Object strainLimitTable() {
           "miss none and give smooth stress on any number of cells; for whole patches of degree 2 or more whose "
           "threads follow their knot lines. gauss and centres, 2 x 2 points of each cell and one: for comparison on "
           "whole patches (Zheng 2013, 5.4): the first lock, the second lets cells hourglass")
+      .choice("method", &S::method,
+              std::vector<std::pair<std::string, LimitMethod>>{{"fast", LimitMethod::fast},
+                                                               {"closest", LimitMethod::closest}},
+              "fast: fast projection (Zheng 2013, eq. 5.21). closest: the whole Newton iteration to the closest point on "
+              "the constraints (eq. 5.15), slower; for comparison, of structures, mode equality")
       .check([](const Place& p, const S& s) {
+        if (s.method == LimitMethod::closest && s.mode != LimitMode::equality)
+          p.failAt("method", "closest goes with mode equality");
         if (s.mode == LimitMode::upper_limit && !s.limit)
           p.failAt("limit", "is required for upper_limit: the largest strain");
         if (s.mode == LimitMode::equality && s.limit)

@@ -434,6 +434,7 @@ Measured measureAll(const Scenario& s, const RecordingReader& recording) {
   m.surface_depth = surfaceDepth(s, recording);
   measureStretch(s, recording, m);
   measureFalls(s, recording, m);
+  measureLayerOrder(s, recording, m);
   return m;
 }
 

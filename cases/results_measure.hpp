@@ -252,6 +252,13 @@ struct FallMeasure {
   double largest_m = 0, time_s = 0;
 };
 
+/// The share of a garment that lies inside of one that belongs under it, by area, of what of it has that one within 30 mm
+/// along its normal; the largest of up to 40 frames of the motion. Such layers need not cross.
+struct LayerOrderMeasure {
+  std::string lower, higher;
+  double largest = 0, time_s = 0;
+};
+
 struct Measured {
   double recorded_end_s = 0;
   double counted_from_s = 0;  ///< peaks and mean squares of torques count from here on
@@ -280,6 +287,7 @@ struct Measured {
   std::vector<StressSummary> stress;
   std::vector<Stretch> stretch;    ///< of each garment, against what its fabric is meant for
   std::vector<FallMeasure> falls;  ///< of each garment that a human wears
+  std::vector<LayerOrderMeasure> layer_order;  ///< of each two garments that a human wears
   StepMeasure steps;
   EnergyMeasure energy;
   double cloth_kg = 0;                        ///< mass of all garments
@@ -291,7 +299,7 @@ struct Measured {
 };
 
 Measured measure(const Scenario& scenario, const RecordingReader& recording);
-/// With what costs seconds: SurfaceDepth, Stretch and FallMeasure, for summary and page.
+/// With what costs seconds: SurfaceDepth, Stretch, FallMeasure and LayerOrderMeasure, for summary and page.
 Measured measureAll(const Scenario& scenario, const RecordingReader& recording);
 
 // Its parts (results_steps.cpp): the table "steps", and the frames.
@@ -306,6 +314,8 @@ void measureCloth(const Scenario& scenario, const RecordingReader& recording, Me
 /// Of results_fit.cpp: cost seconds; after the frames.
 void measureStretch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 void measureFalls(const Scenario& scenario, const RecordingReader& recording, Measured& out);
+/// Of results_layers.cpp: costs seconds.
+void measureLayerOrder(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of results_touch.cpp.
 void measureTouch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 

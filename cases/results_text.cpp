@@ -109,6 +109,10 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
         {f.garment.empty() ? "Slipping" : "Slipping, " + f.garment, 1e3 * f.largest_m, 50, "mm",
          "mean fall of the garment in the motion, against the part of the body that it goes with best, and "
          "by what it came down further than 100 mm while it was put on; the largest"});
+  for (const LayerOrderMeasure& l : m.layer_order)
+    checks.push_back({"Layer order, " + l.higher + " over " + l.lower, 100 * l.largest, 25, "%",
+                      "the share of the upper garment that lies inside of the lower one, of what of it has that one "
+                      "within 30 mm; the largest over the motion"});
   for (const SupportMeasure& s : m.supports)
     if (s.springs)
       checks.push_back({"Sinking, " + s.name, 1e3 * s.largest_drop_m, 20, "mm",

@@ -16,6 +16,7 @@ struct StrainLimitCase {
   double tolerance = 2e-3;      ///< of the strain
   int max_projections = 40;     ///< of one pass
   LimitPoints points = LimitPoints::vertices;
+  LimitMethod method = LimitMethod::fast;
 };
 
 /// Of cloth that is worn, whose threads yield where the case does not say by how much: a tension of 100 N/m uses up the

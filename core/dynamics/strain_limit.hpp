@@ -15,6 +15,9 @@ namespace gambeson {
 /// so that cloth may shorten freely and is only held where it would stretch beyond the limit.
 enum class LimitMode { none, equality, upper_limit };
 
+/// fast: eq. 5.21 and 5.22. closest: the whole Newton iteration, eq. 5.15 and 5.16 (projectClosest).
+enum class LimitMethod { fast, closest };
+
 struct StrainLimit {
   LimitMode mode = LimitMode::none;
   double limit = 0;         ///< upper_limit: the largest Green-Lagrange strain, >= 0
@@ -26,6 +29,7 @@ struct StrainLimit {
   int max_rounds = 6;                     ///< of projections, and contacts solved together with limits of equality
   static constexpr int max_turns = 12;    ///< of projections and contacts by themselves, upper limits
   LimitPoints points = LimitPoints::vertices;
+  LimitMethod method = LimitMethod::fast;
   /// Strain that a step begins with is taken back by at most this much a second where threads yield (Zheng 2013 takes
   /// all of it back at once, as threads do that do not). It is there where cloth starts stretched or contacts have had their way, and the velocities of a step that
   /// takes back some percent at once are those of a blow: 1 % of a cell of 25 mm in a millisecond is 0.25 m/s. 1 /s

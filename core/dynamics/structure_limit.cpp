@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/closest_projection.hpp"
 #include "core/dynamics/structure_system.hpp"
 #include "core/dynamics/time_integration.hpp"
 #include "core/error.hpp"
@@ -73,7 +74,10 @@ class StructureMotionLimit : public MotionLimit {
     LimitReport report;
     std::vector<Vec3> p = freePoints(s_, y, t);
     startProjection(limit_.rows, multiplier_J, work_);
-    projectStrain(limit_.rows, limit_.limit, limit_.limit.always, p, report, work_);
+    if (limit_.limit.method == LimitMethod::closest)
+      projectClosest(limit_.rows, limit_.limit, p, report, work_);
+    else
+      projectStrain(limit_.rows, limit_.limit, limit_.limit.always, p, report, work_);
     limitMultipliers(limit_.rows, p, dt, multiplier_J, work_);
     release(work_.pull, change);
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += change[i] = -change[i];

@@ -20,7 +20,7 @@ import time
 from common import SOURCE, UNTOUCHED, Folder, check
 
 TANGLED = {"tangle_closed", "tangle_half", "tangle_open", "tangle_sleeve", "nested_tubes"}
-PUT_ON_TANGLED = {"armour_projected", "armour_tangled"}
+PUT_ON_TANGLED = {"armour_projected", "armour_stitched", "armour_tangled"}
 FREE_BY_S = {**{name: 0.3 for name in TANGLED}, **{name: 0 for name in PUT_ON_TANGLED}}  # before the motion starts
 EVERY_STEP = TANGLED | {"flag", "sphere_drape", "vertical_drape"}
 SHORT = ["tangle_half", "tangle_open"]

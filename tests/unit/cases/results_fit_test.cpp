@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cases/recorder.hpp"
@@ -129,6 +130,44 @@ TEST(Fit, AGarmentThatFallsFailsItsCheck) {
     const AuditCheck* check = checkOf(checks, "Slipping");
     ASSERT_TRUE(check);
     EXPECT_EQ(check->holds(), fallen_m == 0);
+  }
+}
+
+/// Shorts over shorts: as they are drafted the upper ones lie outside; blown up under them, the lower ones do, though
+/// nothing crosses.
+TEST(Fit, AGarmentInsideOfOneThatBelongsUnderItFailsItsCheck) {
+  const Folder folder;
+  const std::string two = with(shorts, R"("garment": {"shorts": {"cell": "60 mm"}})",
+                               R"("garments": [{"name": "inner", "shorts": {"cell": "60 mm"}},
+                                               {"name": "outer", "shorts": {"cell": "60 mm"}}])");
+  const auto s = buildScenario(readCase(folder.write("two.json", two)));
+  const Surface& surface = s->model->surface;
+  const std::vector<Pose> poses = s->bodyPoses(0);
+  const Vec3 middle = poses[static_cast<std::size_t>(s->human->skeleton.link("pelvis"))].origin;
+  for (const bool wrong : {false, true}) {
+    const std::filesystem::path dir = folder.path() / (wrong ? "wrong" : "right");
+    // Samples come component by component, those of the inner shorts first, then the control points.
+    const auto inner = std::count_if(surface.patch.begin(), surface.patch.end(),
+                                     [&](int p) { return s->model->shell.garment().layerOf(p) == 0; });
+    const long calls = 3L * (surface.size() + s->model->shell.controlCount());
+    long at = 0;
+    record(*s, dir, {0, 0.4}, [&](double t, const Vec3& p) {
+      const bool lower = at++ % calls / 3 < inner;
+      const Vec3 radial{p.x - middle.x, p.y - middle.y, 0};
+      return wrong && t > 0.2 && lower ? p + 0.015 / norm(radial) * radial : p;
+    });
+    Measured m;
+    measureLayerOrder(*s, RecordingReader(dir), m);
+    ASSERT_EQ(m.layer_order.size(), 1u);
+    std::printf("[ measured ] %.1f %% of the upper shorts lie inside\n", 100 * m.layer_order[0].largest);
+    const auto checks = auditOf(m);
+    const AuditCheck* check = checkOf(checks, "Layer order, outer over inner");
+    ASSERT_TRUE(check);
+    EXPECT_EQ(check->holds(), !wrong);
+    if (wrong)
+      EXPECT_EQ(m.layer_order[0].time_s, 0.4);
+    else
+      EXPECT_LT(m.layer_order[0].largest, 0.02);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <random>
 
+#include "core/dynamics/closest_projection.hpp"
 #include "core/dynamics/strain_limit.hpp"
 #include "core/error.hpp"
 #include "motion_shapes.hpp"
@@ -430,6 +431,50 @@ TEST(StrainRows, TensionFrequencyBoundsTheSwingOfThreads) {
   EXPECT_GE(bound, std::sqrt(value));
   EXPECT_LT(bound, 2 * std::sqrt(value));
   EXPECT_EQ(tensionFrequency(net.rows, {}), 0);
+}
+
+/// Eq. 5.15: C = 0 with the move -M^-1 J^T mu of the gradients at the end, so that no other point on the constraints is
+/// closer; fast projection comes near it and is farther. Momentum is kept.
+TEST(Projection, ClosestPointIsTheClosest) {
+  Net net(seamed());
+  net.shake(0.03);
+  const std::vector<Vec3> start = net.p;
+  StrainLimit limit{LimitMode::equality, 0, 1e-10};
+  const auto distance = [&](const std::vector<Vec3>& p) {
+    double sum = 0;
+    for (std::size_t k = 0; k < p.size(); ++k) sum += norm2(p[k] - start[k]) / net.inverse[k];
+    return sum;
+  };
+  LimitWork fast_work, work;
+  LimitReport fast, report;
+  std::vector<Vec3> fast_p = start, p = start;
+  startProjection(net.rows, {}, fast_work);
+  projectStrain(net.rows, limit, true, fast_p, fast, fast_work);
+  startProjection(net.rows, {}, work);
+  projectClosest(net.rows, limit, p, report, work);
+  EXPECT_TRUE(fast.converged && report.converged);
+  EXPECT_LT(report.projections, 15);
+  std::vector<Vec3> e, forces(p.size());
+  strainVectors(net.rows, p, e);
+  for (int i = 0; i < net.rows.rows(); ++i) {
+    EXPECT_LT(std::abs(strainOf(e[i])), 1e-10);
+    e[i] *= work.multiplier[i];
+  }
+  net.rows.Bt.multiply<Vec3>(e, forces);
+  double residual = 0, size = 0;
+  std::vector<Vec3> moved;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    moved.push_back(p[k] - start[k]);
+    residual = std::max(residual, norm(moved[k] / net.inverse[k] + forces[k]));
+    size = std::max(size, norm(forces[k]));
+  }
+  std::printf("[ measured ] closest %.8g, fast %.8g, equilibrium within %.2g\n", distance(p), distance(fast_p),
+              residual / size);
+  EXPECT_LT(residual, 1e-6 * size);
+  EXPECT_LT(distance(p), distance(fast_p) * (1 - 1e-6));
+  EXPECT_GT(distance(p), 0.8 * distance(fast_p));
+  EXPECT_LT(norm(momentum(net.inverse, moved)), 1e-12 * size);
+  EXPECT_THROW(projectClosest(net.rows, {LimitMode::upper_limit, 0, 1e-9}, p, report, work), InputError);
 }
 
 /// One projection: the impulses have no moment about the positions at which their gradients were taken.
