@@ -79,8 +79,8 @@ double wrongShare(const Scenario& s, const Layers& layers, std::size_t lower, st
       if (p.dist2_m2 < least2) least2 = p.dist2_m2, nearest = p.position, any = true;
     });
     const double rises = sign * dot(x[i] - nearest, n[i]);
-    // Beside an edge of the lower garment it has none on either side.
-    if (!any || std::abs(rises) < 0.5 * std::sqrt(best2)) continue;
+    // Beside an edge of the lower garment it has none on either side, nor where both are in one place.
+    if (!any || std::abs(rises) < std::max(1e-5, 0.5 * std::sqrt(best2))) continue;
     (rises > 0 ? behind : in_front) += s.model->surface.area_m2[i];
   }
   return behind + in_front > least_covered_m2 ? in_front / (behind + in_front) : 0;

@@ -8,7 +8,7 @@
 #include "cases/places.hpp"
 #include "cases/structure_build.hpp"
 #include "cases/structure_fields.hpp"
-#include "core/dynamics/thread_points.hpp"
+#include "core/dynamics/structure_limit.hpp"
 #include "core/error.hpp"
 #include "core/sheet/shell_law.hpp"
 
@@ -184,10 +184,10 @@ void applyStructureRules(const Place& root, StructureCase& c) {
     checkOutput(root, c, sheet);
     const StructureOptions o = optionsOf(c, sheet);
     const FreeMap map = buildFreeMap(sheet.garment);
-    if (o.strain_limit.points == LimitPoints::threads)
-      for (int p = 0; p < static_cast<int>(sheet.garment.patches.size()); ++p) threadGrids(sheet.garment, map, p);
     const DofMap dofs = buildDofMap(map, o.constraints, static_cast<int>(o.programs.size()));
     if (dofs.unknowns() == 0) root.failAt("supports", "hold everything: nothing is left to move");
+    if (o.strain_limit.mode != LimitMode::none)
+      buildStructureLimit(sheet.garment, map, dofs, std::vector<double>(map.home.size(), 1.0), o.strain_limit);
   } catch (const InputError& e) {
     sayAt(root, e);
   }

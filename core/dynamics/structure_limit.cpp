@@ -110,6 +110,8 @@ StructureLimit buildStructureLimit(const Garment& garment, const FreeMap& map, c
   checkLimit(limit);
   SparseRows release = releaseOf(dofs, lumped_kg);
   Mobility mobility = mobilityOf(multiply(dofs.C, release));
+  if (limit.method == LimitMethod::closest && mobility.P.rows() > 0)
+    throw InputError({"", 0, "strain_limit.method"}, "closest goes with supports that hold points whole");
   return {limit, buildStrainRows(garment, map, std::move(mobility), limit.points), std::move(release)};
 }
 
