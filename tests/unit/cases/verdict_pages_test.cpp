@@ -384,8 +384,8 @@ TEST(VerdictPages, ComfortThatIsAlikeIsToldOnce) {
   const Study s = studyOf(story);
   const std::string comfort = compared(s, story).verdict.comfort;
   EXPECT_TRUE(
-      comfort.starts_with("Comfortable: on the left thigh 3.00 kPa at the peak (limit 9.81 kPa). It is the "
-                          "same at all 3 frictions."))
+      comfort.starts_with("Comfortable: on the left thigh 3.00 kPa at the peak (limit 9.81 kPa). The pressure is "
+                          "the same at all 3 frictions."))
       << comfort;
   EXPECT_FALSE(has(comfort, "friction 0.")) << comfort;
 }
