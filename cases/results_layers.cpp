@@ -59,9 +59,11 @@ std::vector<double> outward(const Scenario& s, const Layers& layers, const Frame
   return away;
 }
 
-/// The share of the higher garment that has the lower one in front of it, of what has it on either side.
+/// The share of the higher garment that has the lower one in front of it, of what has it on either side. In front is
+/// what shows its inner side: where the body folds, belly against thigh, a higher garment also has the outer side of a
+/// lower one before it.
 double wrongShare(const Scenario& s, const Layers& layers, std::size_t lower, std::size_t higher,
-                  const std::vector<Vec3>& x, const std::vector<Vec3>& n, double sign) {
+                  const std::vector<Vec3>& x, const std::vector<Vec3>& n, const std::vector<double>& sign) {
   const std::vector<std::array<int, 3>>& under = layers.triangles[lower];
   std::vector<Box> boxes(under.size());
   for (std::size_t t = 0; t < under.size(); ++t)
@@ -70,18 +72,22 @@ double wrongShare(const Scenario& s, const Layers& layers, std::size_t lower, st
   double behind = 0, in_front = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (layers.of_sample[i] != higher) continue;
-    Vec3 nearest = x[i];
+    Vec3 nearest = x[i], outer{};
     double best2 = reach_m * reach_m;
     bool any = false;
     tree.nearest(x[i], best2, [&](int t, double& least2) {
       const std::array<int, 3>& c = under[static_cast<std::size_t>(t)];
       const TrianglePoint p = closestOnTriangle({x[c[0]], x[c[1]], x[c[2]]}, x[i]);
-      if (p.dist2_m2 < least2) least2 = p.dist2_m2, nearest = p.position, any = true;
+      if (!(p.dist2_m2 < least2)) return;
+      least2 = p.dist2_m2;
+      nearest = p.position;
+      outer = sign[lower] * cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]]);
+      any = true;
     });
-    const double rises = sign * dot(x[i] - nearest, n[i]);
+    const double rises = sign[higher] * dot(x[i] - nearest, n[i]);
     // Beside an edge of the lower garment it has none on either side, nor where both are in one place.
     if (!any || std::abs(rises) < std::max(1e-5, 0.5 * std::sqrt(best2))) continue;
-    (rises > 0 ? behind : in_front) += s.model->surface.area_m2[i];
+    (rises > 0 || dot(x[i] - nearest, outer) > 0 ? behind : in_front) += s.model->surface.area_m2[i];
   }
   return behind + in_front > least_covered_m2 ? in_front / (behind + in_front) : 0;
 }
@@ -105,7 +111,7 @@ void measureLayerOrder(const Scenario& s, const RecordingReader& recording, Meas
     for (std::size_t higher = 1; higher < count; ++higher)
       for (std::size_t lower = 0; lower < higher; ++lower) {
         LayerOrderMeasure& m = out.layer_order[at++];
-        const double wrong = wrongShare(s, layers, lower, higher, x, n, sign[higher]);
+        const double wrong = wrongShare(s, layers, lower, higher, x, n, sign);
         if (wrong > m.largest) m.largest = wrong, m.time_s = frame.time_s;
       }
   }

@@ -13,6 +13,13 @@ namespace {
 /// Of a pressure, in its mean over the relaxation time.
 double countsAtMost(double mean_Pa, double density) { return 2 * mean_Pa + 9.81 * density; }
 
+/// The part of a pressure that no impact makes: what is beyond that of cloth stopped from 5 m/s in the step. Cloth is
+/// jammed there, in a fold.
+double beyondImpact(double pressure_Pa, double dt, double density) {
+  constexpr double kFast_mps = 5;
+  return std::max(0.0, 1 - density * kFast_mps / (dt * pressure_Pa));
+}
+
 constexpr double kOfLargest = 2e-4;  ///< see solveContacts
 constexpr int kFirstCheck = 10;      ///< iterations before the rows that are left out are looked at; doubled each time
 
@@ -184,7 +191,8 @@ void layerUnder(double last, double dt, double density, const ContactParameters&
   row.compliance = 0;
   if (!atLayer(gap, c.layer_m)) return;
   const double k = -std::expm1(-dt / c.relaxation_s), gives = k * c.compliance_m_per_Pa / dt;
-  const double counted = last > 0 ? lastingShare(row.mean_Pa, last, density) : row.mean_Pa > 0;
+  const double counted =
+      last > 0 ? std::max(lastingShare(row.mean_Pa, last, density), beyondImpact(last, dt, density)) : row.mean_Pa > 0;
   row.target_m_per_s -= gives * (1 - k) * row.mean_Pa;
   row.compliance = gives * k * counted / dt;
 }

@@ -160,9 +160,9 @@ double lastingShare(double mean_Pa, double pressure_Pa, double density_kg_per_m2
 
 /// A layer that gives way by c p_m under the pressure p_m that has lasted at the end of the step:
 ///   v_n >= k (delta - c p_m' - g)/dt,   p_m' = e p_m + (1 - e) s tau/dt,   e = exp(-dt/tau_r),
-/// tau the normal impulse per area that is solved for and s the part of it that lastingPressure counts, as in the last
-/// step (`last_Pa`, 0 at once after a contact has begun). Sets the row's target and compliance; beyond the layer it is
-/// persistentTarget. Cloth pressed flat has c about 1e-7 m/Pa.
+/// tau the normal impulse per area that is solved for and s the part of it that lastingPressure counts, or that is beyond
+/// an impact at 5 m/s (rho 5 m/s / dt: cloth jammed in a fold), as in the last step (`last_Pa`, 0 after a contact has
+/// begun). Sets target and compliance of the row; beyond the layer persistentTarget. Cloth has c about 1e-7 m/Pa.
 /// A rigid layer (c = 0) bears a strip that is stretched over a round body on the few samples that stand highest, by
 /// nanometres, because a smooth surface cannot follow the body to the last of them. Which ones changes from step to
 /// step; the impulses stir up vibrations along the strip as fast as it slides, and samples that stick for moments

@@ -163,34 +163,61 @@ bool contradict(const ContactSolve& solve, double dt) {
   return !solve.converged && !(solve.residual_m_per_s <= kFar_m_per_s2 * dt);
 }
 
-/// Gives way by a hundredth of what the row's own impulse would move the cloth at it, B 1/rho in the mean:
-/// contradicting rows then share what they miss in proportion to their impulses. These are bounded (by a hundred times
-/// what stops the cloth), the solve converges, and no more energy enters than what bodies and targets do: with D(tau) =
-/// tau.A.tau/2 + tau.(v - target) + |yield| <= D(0) = 0, the work tau.(v + A tau/2) is at most tau.target.
-void yield(const Model& m, ContactRow& row) {
-  constexpr double kShare = 0.01;
+/// Rows give way by this part of what their own impulse would move the cloth at them, B 1/rho in the mean: contradicting
+/// rows then share what they miss in proportion to their impulses. These are bounded (by 1/part of what stops the
+/// cloth), the solve converges, and no more energy enters than what bodies and targets do: with D(tau) = tau.A.tau/2 +
+/// tau.(v - target) + |yield| <= D(0) = 0, the work tau.(v + A tau/2) is at most tau.target.
+struct Yield {
+  static constexpr double kLittle = 1e-4;  ///< cloth jammed in a fold: no more than 10 of 1,000 kPa move to the neighbours
+  static constexpr double kMuch = 1e-2;    ///< cloth between bodies that close on it
+  double part = 0;                         ///< that is needed in this step
+};
+
+/// What a row of compliance zero would yield per impulse if it gave way altogether: B 1/rho [m/s per N s/m^2].
+double givesPerImpulse(const Model& m, const ContactRow& row) {
+  double sum = 0;
   for (int k = 0; k < row.stencil.count; ++k)
-    row.compliance += kShare * std::abs(row.stencil.weight[k]) / m.density_kg_per_m2[row.stencil.sample[k]];
+    sum += std::abs(row.stencil.weight[k]) / m.density_kg_per_m2[row.stencil.sample[k]];
+  return sum;
 }
 
-/// w.velocity after the contacts w.rows.
-void solveRows(const Model& m, double dt, MotionHold* hold, StepReport& report, StepWork& w) {
+/// Whether rows that yield by `part` miss more than what restores half of their layer in the relaxation time: then
+/// nothing less than cloth that is pierced contradicts.
+bool missTooMuch(const Model& m, double part, const StepWork& w) {
+  for (std::size_t i = 0; i < w.rows.size(); ++i)
+    if (part * givesPerImpulse(m, w.rows[i]) * dot(w.warm[i], w.rows[i].contact.normal) >
+        layerOf(m, w.rows[i]) / (2 * m.contact.relaxation_s))
+      return true;
+  return false;
+}
+
+/// w.velocity after the contacts w.rows, which yield as they did before in this step.
+void solveRows(const Model& m, double dt, MotionHold* hold, Yield& yield, StepReport& report, StepWork& w) {
   const auto solve = [&](std::span<const ContactRow> rows) {
     return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt,
                          w.velocity, w.warm, w.impulses, w.contact, hold);
   };
   w.unsolved = w.velocity;
-  report.contact = solve(w.rows);
-  report.contact.yielded = contradict(report.contact, dt);
-  if (!report.contact.yielded || hold) return;  // limits yield before contacts do
-  w.yielding = w.rows;
-  for (ContactRow& row : w.yielding) yield(m, row);
-  w.velocity = w.unsolved;
-  std::fill(w.warm.begin(), w.warm.end(), Vec3{});
-  const int before = report.contact.iterations;
-  report.contact = solve(w.yielding);
-  report.contact.iterations += before;
-  report.contact.yielded = true;
+  int before = 0;
+  if (yield.part == 0 || hold) {
+    report.contact = solve(w.rows);
+    if (!contradict(report.contact, dt) || hold) return;  // limits yield before contacts do
+    before = report.contact.iterations;
+    yield.part = Yield::kLittle;
+    std::fill(w.warm.begin(), w.warm.end(), Vec3{});
+  }
+  for (;;) {
+    w.yielding = w.rows;
+    for (ContactRow& row : w.yielding) row.compliance += yield.part * givesPerImpulse(m, row);
+    w.velocity = w.unsolved;
+    report.contact = solve(w.yielding);
+    report.contact.iterations += before;
+    report.contact.yielded = true;
+    if (yield.part == Yield::kMuch || !(missTooMuch(m, yield.part, w) || contradict(report.contact, dt))) return;
+    before = report.contact.iterations;
+    yield.part = Yield::kMuch;
+    std::fill(w.warm.begin(), w.warm.end(), Vec3{});
+  }
 }
 
 /// What the contacts' impulses alone do to the free points [m/s].
@@ -207,12 +234,12 @@ void contactChange(const Model& m, StepWork& w, std::vector<Vec3>& change) {
 /// strains with the contacts' impulses as they are, then solves for the contacts while limits of equality go along
 /// (StrainHold): what is left over is of second order in the step. Where the two contradict each other contacts have
 /// the last word, and the report says that the step is not solved.
-void solveVelocities(const Model& m, const State& in, double dt, bool first, StepReport& report, StopWatch& clock,
-                     StepWork& w) {
+void solveVelocities(const Model& m, const State& in, double dt, bool first, Yield& yield, StepReport& report,
+                     StopWatch& clock, StepWork& w) {
   const StrainLimit& limit = m.strain_limit;
   if (limit.mode == LimitMode::none) {
     w.velocity = w.predictor;
-    solveRows(m, dt, nullptr, report, w);
+    solveRows(m, dt, nullptr, yield, report, w);
     clock.lap(w.times.contact);
     return;
   }
@@ -232,7 +259,7 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Ste
   const int most_turns = together ? limit.max_rounds : limit.max_turns;
   const auto contactsAlone = [&] {
     for (int i = 0; i < n; ++i) w.velocity[i] -= change[i];
-    solveRows(m, dt, nullptr, report, w);
+    solveRows(m, dt, nullptr, yield, report, w);
     contactChange(m, w, change);
     move();
   };
@@ -255,7 +282,7 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Ste
       hold.hold(w.moved);
       for (int i = 0; i < n; ++i) w.velocity[i] -= w.moved[i];  // as without contacts
       w.moved = change;
-      solveRows(m, dt, &hold, report, w);
+      solveRows(m, dt, &hold, yield, report, w);
       contactChange(m, w, change);
       for (int i = 0; i < n; ++i) w.moved[i] = dt * (change[i] - w.moved[i]);
       hold.follow(w.moved);
@@ -495,8 +522,9 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   clock.lap(w.times.proximity);
   startProjection(m.strain_rows, in.limit_J, w.limit);
   leaveStrain(m.strain_rows, m.strain_limit, in.p, in.limit_J, dt, w.limit);
+  Yield yield;
   for (int round = 1;; ++round) {
-    solveVelocities(m, in, dt, round == 1, report, clock, w);
+    solveVelocities(m, in, dt, round == 1, yield, report, clock, w);
     if (!allFinite(w.velocity)) {
       report.failure = StepFailure::not_finite;
       report.why = "a velocity is not finite after the contacts";

@@ -289,6 +289,22 @@ TEST(Response, AnImpactHardlyCompressesTheLayer) {
   EXPECT_NEAR(after, (1 - std::exp(-0.1)) * 9.81 * rho, 1e-12);
 }
 
+/// Cloth jammed in a fold changes hands from sample to sample, and no pressure of a sample lasts: what no impact makes
+/// compresses the layer at once, by c k of itself in a step.
+TEST(Response, ClothThatIsJammedCompressesTheLayerAtOnce) {
+  ContactParameters c{1e-3, 0.3, 0.01};
+  c.compliance_m_per_Pa = 1e-8;
+  const double impact = rho * 5 / dt, k = 1 - std::exp(-dt / 0.01), full = k * k * 1e-8 / (dt * dt);
+  ContactRow r = row(0, {0, 0, 1}, 0);
+  r.contact.gap_m = 1e-3;
+  const auto complianceAt = [&](double pressure) {
+    layerUnder(pressure, dt, rho, c, r);
+    return r.compliance;
+  };
+  EXPECT_NEAR(complianceAt(10 * impact), 0.9 * full, 1e-12 * full);
+  EXPECT_NEAR(complianceAt(impact), 9.81 * rho / impact * full, 1e-12 * full);  // counts as a weight
+}
+
 TEST(Response, ALayerUnderALastingPressureRestsThinnerByItsCompliance) {
   ContactParameters c{1e-3, 0.3, 0.01};
   c.compliance_m_per_Pa = 1e-8;
