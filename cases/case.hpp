@@ -219,7 +219,7 @@ struct ContactCase {
   double relaxation_s = 0.01;  ///< tau in k = 1 - exp(-dt/tau) of the separation correction
   double compliance_m_per_Pa = 1e-9;
   double tolerance = 1e-3;  ///< residual of the contacts of a step, of g dt
-  int max_iterations = 4000;
+  int max_iterations = 8000;
 };
 
 struct AirCase {

@@ -16,7 +16,7 @@ struct ContactParameters {
   double friction = 0;      ///< Coulomb's mu
   double relaxation_s = 0;  ///< tau: the correction of the distance takes this time, k = 1 - exp(-dt/tau) of eq. 3.17
   double tolerance_m_per_s2 = 1e-2;  ///< a solve is done at a residual velocity of this times dt
-  int max_iterations = 4000;
+  int max_iterations = 8000;
   double compliance_m_per_Pa = 1e-9;  ///< c: how much a pressure that lasts compresses the layer
 };
 

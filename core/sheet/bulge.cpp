@@ -102,10 +102,9 @@ Bulges buildBulges(const Garment& garment, const Surface& surface, std::span<con
           for (const Term& t : {Term{a, twist}, Term{b, -twist}, Term{c, twist}, Term{d, -twist}}) terms.push_back(t);
           builder.add(from, to, std::move(terms));
         };
-        if ((i + j) % 2 == 0)
-          diagonal(a, c, -0.25);
-        else
-          diagonal(b, d, 0.25);
+        // Both, whichever of them is an edge of the triangles: the middle stands out beside all four corners.
+        diagonal(a, c, -0.25);
+        diagonal(b, d, 0.25);
       }
   }
   return builder.done();

@@ -7,7 +7,7 @@
 
 namespace gambeson {
 
-/// Along an edge of length h in the parameter, and along the diagonals of the grid of samples, the surface's middle less
+/// Along an edge of length h in the parameter, and along both diagonals of the grid of samples, the surface's middle less
 /// the mean of the ends:
 ///     d = -h^2/8 x_uu;  -h_u^2/8 x_uu - h_v^2/8 x_vv -+ h_u h_v/4 x_uv,
 /// by differences of samples, of the same cell where it has three along the edge: exact for quadratic surfaces, and to
