@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/tables.hpp"
+#include "cases/check_words.hpp"
 #include "cases/json_at.hpp"
 #include "cases/message.hpp"
 #include "cases/results_write.hpp"
@@ -159,9 +160,7 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, dir / "report.html");
   for (const AuditCheck& c : in.audit)
-    if (!c.holds())
-      fmt::print(stderr, "check not met: {} {:.4g}{}{} (allowed {:.4g}): {}\n", c.name, c.value,
-                 c.unit.empty() ? "" : " ", c.unit, c.limit, c.meaning);
+    if (!c.holds()) fmt::print(stderr, "{}\n", messageText(notMet(c.name, c.value, c.limit, c.unit)));
   if (!failures.empty()) throw RunError(failures.front() + " (the numbers and the report are in " + dir.string() + ")");
 }
 

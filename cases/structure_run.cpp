@@ -9,6 +9,7 @@
 
 #include "cases/any_case.hpp"
 #include "cases/inputs.hpp"
+#include "cases/message.hpp"
 #include "cases/places.hpp"
 #include "cases/progress.hpp"
 #include "cases/recording_size.hpp"
@@ -110,7 +111,7 @@ class Run {
     const double bytes = 4 * per_vertex * static_cast<double>(built_->mesh.uv.size()) * shapes +
                          16 * static_cast<double>(path.columns.size()) * rows;
     if (const std::string note = sizeNote(bytes, freeBytes(out_)); !note.empty())
-      fmt::print(stderr, "note: {}\n", note);
+      sayNote(note);
   }
   /// A whole shape for ParaView and the pictures.
   void keep(const MeasuredState& state) {
@@ -138,7 +139,7 @@ class Run {
     if (!checks.front().holds())
       throw RunError(fmt::format("{}\nThe report is in {}", checks.front().wrong, out_.string()));
     for (const AuditCheck& k : checks)
-      if (!k.holds()) fmt::print(stderr, "A check fails: {}\n", k.wrong);
+      if (!k.holds()) fmt::print(stderr, "{}\n", messageText("A check fails: " + k.wrong));
     if (!failures.empty())
       throw RunError(failures.front() + " (the numbers and the report are in " + out_.string() + ")");
   }

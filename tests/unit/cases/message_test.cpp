@@ -36,6 +36,15 @@ Said command(const std::vector<std::string>& words) {
   return {status, out.str(), err.str()};
 }
 
+TEST(Message, NotesAreMessagesToo) {
+  testing::internal::CaptureStderr();
+  sayNote("obstacle " + std::string(3000, 'b') + "\x1b[31m: 3 frames");
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_LE(said.size(), 400u);
+  EXPECT_TRUE(said.starts_with("note: obstacle bbb")) << said;
+  EXPECT_TRUE(said.ends_with("\\x1b[31m: 3 frames\n")) << said;
+}
+
 TEST(Message, IsShortAndKeepsItsPlaceAndItsEnd) {
   EXPECT_EQ(messageText("a.json:3: key: 5 is out of range"), "a.json:3: key: 5 is out of range");
   const std::string text = messageText("a.json:3: key: " + std::string(5 << 20, 'x') + " is no number; allowed: > 0");
