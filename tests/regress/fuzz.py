@@ -147,8 +147,9 @@ def one(kind, number, seed, keep):
             answer = call(["run", kind.main, "--out", "out", "--threads", "1"], folder, LONGEST_S)
             if answer.status == 2:
                 fault = "is accepted by check, refused by run"
-            elif answer.status not in (0, 1, -24, -9) and answer.in_time:  # a run may take its time
-                fault = "as a run " + (wrong(answer, LONGEST_S) or "")
+            elif answer.status not in (-24, -9) and answer.in_time:  # a run may take its time
+                fault = wrong(answer, float("inf"))
+                fault = fault and "as a run " + fault
         if fault and keep:
             kept = keep / f"{kind.name}_{number}"
             shutil.rmtree(kept, ignore_errors=True)
