@@ -191,6 +191,21 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   ASSERT_EQ(std::sscanf(torques.c_str() + torques.find('\n') + 1, "%lf,%lf", &t, &tau), 2);
   EXPECT_NEAR(t, 0.005, 1e-12);
   EXPECT_NEAR(tau, 0.1, 1e-12);
+
+  // What was damaged since is no number, and no joint.
+  const auto damaged = [&](const char* file, const std::string& from, const std::string& to, const char* words) {
+    const std::string whole = content(folder.path() / file);
+    const std::size_t at = whole.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    folder.write(file, std::string(whole).replace(at, from.size(), to));
+    const study::RunNumbers bad = study::readRun(folder.path());
+    folder.write(file, whole);
+    EXPECT_FALSE(bad.good) << words;
+    EXPECT_NE(bad.why.find(file), std::string::npos) << bad.why;
+    EXPECT_NE(bad.why.find(words), std::string::npos) << bad.why;
+  };
+  damaged("torques.csv", "\n0.005", "\nx.005", "\"x.005\" is no number");
+  damaged("summary.json", R"("side": "")", R"("side": "right hand side")", "is not one of the side");
 }
 
 TEST(Results, ReportSaysWhatWasMeasured) {
