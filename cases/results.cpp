@@ -120,6 +120,10 @@ RunFacts readRunFacts(const std::filesystem::path& dir) {
         f.windows_s.back().push_back(number.number());
     for (const JsonAt& p : j.at("phases").list())
       f.phases_s.emplace_back(p.at("phase").text(), p.at("seconds").number());
+    for (std::size_t k = 0; k < f.windows_s.size(); ++k)
+      if (f.windows_s[k].size() != 2 + f.phases_s.size())
+        throw JsonAt::Error(fmt::format("windows[{}]: must be {} numbers: from, to and the time of each phase", k,
+                                        2 + f.phases_s.size()));
   } catch (const JsonAt::Error& e) {
     throw InputError({file.string(), 0, ""}, e.what());
   } catch (const nlohmann::json::exception& e) {

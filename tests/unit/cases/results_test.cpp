@@ -306,6 +306,17 @@ TEST(Results, FactsSurviveAndDamageIsNamed) {
   EXPECT_TRUE(f.resumed);
   EXPECT_EQ(f.searches, 7);
   EXPECT_EQ(f.searched_steps_s, 0.5);
+  const std::string windows = "\"windows\": ";
+  const std::string whole = content(folder.path() / "run.json");
+  const auto taken = [&](const std::string& rows) {
+    const std::size_t at = whole.find(windows) + windows.size();
+    folder.write("run.json", std::string(whole).replace(at, whole.find_first_of(",}\n", at) - at, rows));
+    readRunFacts(folder.path());
+  };
+  EXPECT_NO_THROW(taken("[[0, 1, 0.5, 0.5], [1, 2, 1, 0.5]]"));
+  for (const char* rows :
+       {"[[]]", "[null]", "[[0]]", "[[0, 1, 0.5, 0.5], [1, 2, 1]]", "[[0, 1, 2, 3, 4]]", "[[0, 1, null, 3]]"})
+    EXPECT_THROW(taken(rows), InputError) << rows;
   folder.write("run.json", "{\"version\": ");
   EXPECT_THROW(readRunFacts(folder.path()), InputError);
   EXPECT_THROW(scenarioOfResults(folder.path()), InputError);
