@@ -184,6 +184,11 @@ TEST(Message, DamagedFilesAreNamedWithTheKey) {
     EXPECT_NE(what.find("run.json: threads: must be a whole number, is string"), std::string::npos) << what;
     EXPECT_EQ(what.find("json.exception"), std::string::npos) << what;
   }
+  for (const char* threads : {"4294967297", "-4294967297", "18446744073709551615"}) {
+    folder.write("run.json", std::string(R"({"version": "1", "kernels": "", "wall_s": 1, "resumed": false, )") +
+                                 R"("windows": [], "phases": [], "threads": )" + threads + "}");
+    EXPECT_THROW(readRunFacts(folder.path()), InputError) << threads;
+  }
   folder.write("summary.json", R"({"joints": [], "recorded_to_s": 1, "planned_to_s": null})");
   const study::RunNumbers run = study::readRun(folder.path());
   EXPECT_FALSE(run.good);
