@@ -72,4 +72,9 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
   return {fmt::format("the check \"{}\" fails", check), "See the run\u2019s own report.", true};
 }
 
+std::string notMet(const std::string& check, double value, double limit, const std::string& unit) {
+  return fmt::format("check not met: {} {:.4g}{}{} (allowed {:.4g}): {}", check, value, unit.empty() ? "" : " ", unit,
+                     limit, checkWords(check, value, limit, unit).means);
+}
+
 }  // namespace gambeson

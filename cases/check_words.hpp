@@ -14,4 +14,7 @@ struct CheckWords {
 /// By the name that auditOf gives. One that is not known here is taken to spoil everything.
 CheckWords checkWords(const std::string& check, double value, double limit, const std::string& unit);
 
+/// What a run says on the standard error of a check that fails; the report says more.
+std::string notMet(const std::string& check, double value, double limit, const std::string& unit);
+
 }  // namespace gambeson

@@ -1,6 +1,7 @@
 #pragma once
 /// JSON that a run left, read with the place of each value, so that what is damaged is named.
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -48,7 +49,10 @@ class JsonAt {
     return value_->get<double>();
   }
   int integer() const {
+    constexpr int most = std::numeric_limits<int>::max();
     if (!value_->is_number_integer()) wrong("a whole number");
+    if (const double x = value_->get<double>(); !(x >= -most && x <= most))
+      throw Error(path_ + ": must be at most " + std::to_string(most) + ", is " + value_->dump());
     return value_->get<int>();
   }
   bool flag() const {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -62,6 +64,8 @@ std::string messageText(std::string_view text) {
   const std::size_t head = boundary(most_bytes - kept_at_end - left_out.size() - 3);
   return shown.substr(0, head).append(left_out).append(shown.substr(boundary(shown.size() - kept_at_end)));
 }
+
+void sayNote(const std::string& note) { fmt::print(stderr, "{}\n", messageText("note: " + note)); }
 
 std::string unfitText(std::string_view text, bool lines) {
   for (std::size_t at = 0; at < text.size();) {

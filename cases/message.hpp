@@ -12,6 +12,9 @@ namespace gambeson {
 /// UTF-8 are written as \x1b; line breaks stay.
 std::string messageText(std::string_view text);
 
+/// A note on the standard error, as messageText has it. Names that the input gives stand in notes.
+void sayNote(const std::string& note);
+
 /// Why a text cannot be a name or a path: empty where it can. Control characters (line breaks, escapes of terminals,
 /// zero bytes) and bytes that are no UTF-8 are refused; `lines`: line breaks and tabs are allowed.
 std::string unfitText(std::string_view text, bool lines = false);

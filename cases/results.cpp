@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/tables.hpp"
+#include "cases/check_words.hpp"
 #include "cases/json_at.hpp"
 #include "cases/message.hpp"
 #include "cases/results_write.hpp"
@@ -119,6 +120,10 @@ RunFacts readRunFacts(const std::filesystem::path& dir) {
         f.windows_s.back().push_back(number.number());
     for (const JsonAt& p : j.at("phases").list())
       f.phases_s.emplace_back(p.at("phase").text(), p.at("seconds").number());
+    for (std::size_t k = 0; k < f.windows_s.size(); ++k)
+      if (f.windows_s[k].size() != 2 + f.phases_s.size())
+        throw JsonAt::Error(fmt::format("windows[{}]: must be {} numbers: from, to and the time of each phase", k,
+                                        2 + f.phases_s.size()));
   } catch (const JsonAt::Error& e) {
     throw InputError({file.string(), 0, ""}, e.what());
   } catch (const nlohmann::json::exception& e) {
@@ -159,9 +164,7 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, dir / "report.html");
   for (const AuditCheck& c : in.audit)
-    if (!c.holds())
-      fmt::print(stderr, "check not met: {} {:.4g}{}{} (allowed {:.4g}): {}\n", c.name, c.value,
-                 c.unit.empty() ? "" : " ", c.unit, c.limit, c.meaning);
+    if (!c.holds()) fmt::print(stderr, "{}\n", messageText(notMet(c.name, c.value, c.limit, c.unit)));
   if (!failures.empty()) throw RunError(failures.front() + " (the numbers and the report are in " + dir.string() + ")");
 }
 

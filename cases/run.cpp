@@ -9,6 +9,7 @@
 
 #include "cases/dress.hpp"
 #include "cases/inputs.hpp"
+#include "cases/message.hpp"
 #include "cases/progress.hpp"
 #include "cases/recorder.hpp"
 #include "cases/recording_size.hpp"
@@ -73,7 +74,7 @@ int runCase(const Case& c, const RunOptions& options) {
     fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   const Model& model = *scenario->model;
-  for (const std::string& note : scenario->notes) fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& note : scenario->notes) sayNote(note);
 
   StepWork work;
   State state;
@@ -81,7 +82,7 @@ int runCase(const Case& c, const RunOptions& options) {
   Checkpoint checkpoint;
   const RecordingLayout layout = recordingLayout(*scenario);
   if (const std::string note = sizeNote(recordingSize(*scenario, layout).bytes, freeBytes(options.out)); !note.empty())
-    fmt::print(stderr, "note: {}\n", note);
+    sayNote(note);
   // The case is written once there is a recording and before its first segment: a recording with a segment has its
   // case, whenever the run is killed.
   if (!resume) removeEarlierResults(options.out);

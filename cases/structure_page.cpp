@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -12,6 +13,7 @@
 #include "analysis/report/parts.hpp"
 #include "analysis/report/xy_chart.hpp"
 #include "analysis/ticks.hpp"
+#include "cases/message.hpp"
 #include "cases/structure_results.hpp"
 #include "core/error.hpp"
 #include "core/io/csv_text.hpp"
@@ -30,7 +32,7 @@ Json summaryOf(const std::filesystem::path& file) {
   try {
     return Json::parse(stream);
   } catch (const nlohmann::json::exception& e) {
-    throw InputError({file.string(), 0, ""}, e.what());
+    throw InputError({file.string(), 0, ""}, jsonReason(e.what()));
   }
 }
 
@@ -47,7 +49,11 @@ PathTable tableFrom(const std::filesystem::path& file) {
   if (std::getline(stream, line)) table.columns = csvCells(line);
   while (std::getline(stream, line)) {
     std::vector<double> row;
-    for (const std::string& part : csvCells(line)) row.push_back(std::strtod(part.c_str(), nullptr));
+    for (const std::string& part : csvCells(line)) {
+      const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), row.emplace_back());
+      if (error != std::errc() || end != part.data() + part.size())
+        throw InputError({file.string(), static_cast<int>(table.rows.size()) + 2, ""}, "\"" + part + "\" is no number");
+    }
     if (row.size() != table.columns.size()) throw InputError({file.string(), 0, ""}, "a row has another length");
     table.rows.push_back(std::move(row));
   }
@@ -287,12 +293,8 @@ std::string factsTable(const Json& s) {
   return tableOf(t);
 }
 
-}  // namespace
-
-void writeStructurePage(const StructureCase& c, const std::filesystem::path& results,
-                        const std::vector<Picture>& pictures, const std::filesystem::path& file) {
-  const Json s = summaryOf(results / "summary.json");
-  const PathTable path = tableFrom(results / "path.csv");
+std::string structurePage(const StructureCase& c, const Json& s, const PathTable& path,
+                          const std::vector<Picture>& pictures) {
   const auto charts = [](const std::string& body) { return element("div", body, " class=\"charts\""); };
   std::string body;
   if (!s.at("finished").get<bool>())
@@ -341,7 +343,23 @@ void writeStructurePage(const StructureCase& c, const std::filesystem::path& res
   for (const std::string& a : assumptionsOf(c)) assumed += element("li", escape(a));
   body += sectionOf("assumptions", "What was assumed", "", element("ul", assumed, " class=\"assumptions\""));
   body += sectionOf("run", "How it was computed", "", charts(factsTable(s)));
-  writeOwnFile(file, pageOf(c.name, c.description, sentence, body));
+  return pageOf(c.name, c.description, sentence, body);
+}
+
+}  // namespace
+
+void writeStructurePage(const StructureCase& c, const std::filesystem::path& results,
+                        const std::vector<Picture>& pictures, const std::filesystem::path& file) {
+  const std::filesystem::path summary = results / "summary.json";
+  const Json s = summaryOf(summary);
+  const PathTable path = tableFrom(results / "path.csv");
+  std::string page;
+  try {
+    page = structurePage(c, s, path, pictures);
+  } catch (const nlohmann::json::exception& e) {  // a value of another type than a run writes
+    throw InputError({summary.string(), 0, ""}, jsonReason(e.what()));
+  }
+  writeOwnFile(file, page);
 }
 
 }  // namespace gambeson

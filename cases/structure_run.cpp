@@ -9,6 +9,7 @@
 
 #include "cases/any_case.hpp"
 #include "cases/inputs.hpp"
+#include "cases/message.hpp"
 #include "cases/places.hpp"
 #include "cases/progress.hpp"
 #include "cases/recording_size.hpp"
@@ -20,6 +21,7 @@
 #include "cases/temporary_folder.hpp"
 #include "core/dynamics/modal.hpp"
 #include "core/dynamics/structure_system.hpp"
+#include "core/dynamics/time_integration.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/own_file.hpp"
@@ -31,6 +33,27 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// Whoever divides by the mass needs one that is positive; densities and thicknesses near zero round to none.
+void requireMass(const StructureCase& c, const Structure& s) {
+  if (c.kind == StructureKind::statics) return;
+  const bool modal = c.kind == StructureKind::modal,
+             explicit_steps = !modal && c.dynamics.scheme == TimeScheme::explicit_verlet;
+  StructureSystem system(s, ProgramEnds::constant);
+  SymmetricMatrix M = system.pattern();
+  system.mass(modal ? c.modal.lumped_mass : explicit_steps || c.dynamics.lumped_mass, M);
+  bool positive = true;
+  for (int k = 0; k < M.size; ++k) positive = positive && M.values[static_cast<std::size_t>(M.offsets[k])] > 0;
+  // Modes need no more; steps take the factor.
+  if (positive && !modal) {
+    const SymmetricMatrix taken = explicit_steps ? withoutZeros(M) : M;
+    positive = SymmetricFactor(taken).factorise(taken) == Definiteness::positive;
+  }
+  if (!positive)
+    throw InputError({"", 0, "material"},
+                     "a control point has no mass to speak of; allowed: a density and a thickness "
+                     "that give it one");
+}
+
 /// All that is built before anything is solved. Throws InputError with the place in the case's file.
 struct BuiltStructure {
   StructureModel model;
@@ -40,6 +63,7 @@ struct BuiltStructure {
   explicit BuiltStructure(const StructureCase& c) {
     try {
       model = buildModel(c);
+      requireMass(c, *model.structure);
       probes.emplace(c, model, optionsOf(c, model.sheet));
       mesh = shapeMesh(model.sheet.garment, c.output.samples_per_cell);
     } catch (const InputError& e) {
@@ -87,7 +111,7 @@ class Run {
     const double bytes = 4 * per_vertex * static_cast<double>(built_->mesh.uv.size()) * shapes +
                          16 * static_cast<double>(path.columns.size()) * rows;
     if (const std::string note = sizeNote(bytes, freeBytes(out_)); !note.empty())
-      fmt::print(stderr, "note: {}\n", note);
+      sayNote(note);
   }
   /// A whole shape for ParaView and the pictures.
   void keep(const MeasuredState& state) {
@@ -115,7 +139,7 @@ class Run {
     if (!checks.front().holds())
       throw RunError(fmt::format("{}\nThe report is in {}", checks.front().wrong, out_.string()));
     for (const AuditCheck& k : checks)
-      if (!k.holds()) fmt::print(stderr, "A check fails: {}\n", k.wrong);
+      if (!k.holds()) fmt::print(stderr, "{}\n", messageText("A check fails: " + k.wrong));
     if (!failures.empty())
       throw RunError(failures.front() + " (the numbers and the report are in " + out_.string() + ")");
   }

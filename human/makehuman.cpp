@@ -35,10 +35,11 @@ void readBase(const MakeHumanFiles& files, RiggedMesh& out) {
     } else if (words[0] == "f" && group == files.group) {
       std::vector<int> corners;
       for (std::size_t k = 1; k < words.size(); ++k) {
-        const auto v = static_cast<int>(lines.number(words[k].substr(0, words[k].find('/')), k + 1, "f"));
-        if (v < 1 || v > static_cast<int>(out.mesh.vertices.size()))
-          lines.fail(fmt::format("names vertex {} of {}", v, out.mesh.vertices.size()));
-        corners.push_back(v - 1);
+        const std::string_view name = words[k].substr(0, words[k].find('/'));
+        const double v = lines.number(name, k + 1, "f");
+        if (!(v >= 1 && v <= static_cast<double>(out.mesh.vertices.size()) && v == std::floor(v)))
+          lines.fail(fmt::format("names vertex {} of {}", name.substr(0, 40), out.mesh.vertices.size()));
+        corners.push_back(static_cast<int>(v) - 1);
       }
       if (corners.size() < 3) lines.fail("a face needs three corners");
       // A quad is cut along its shorter diagonal.
@@ -75,7 +76,9 @@ void readBones(const MakeHumanFiles& files, RiggedMesh& out) {
   for (const char* key : {"bones", "joints"})
     if (!root.is_object() || !root.contains(key) || !root.at(key).is_object() || root.at(key).empty())
       r.fail(key, "is missing: a skeleton of MakeHuman has \"bones\" and \"joints\"");
+  std::map<std::string, Vec3> heads;
   const auto headOf = [&](const std::string& bone, const std::string& joint) {
+    if (const auto known = heads.find(joint); known != heads.end()) return known->second;
     const std::string at = "joints." + joint;
     if (!root.at("joints").contains(joint)) r.fail("bones." + bone + ".head", "there is no joint '" + joint + "'");
     const Json& ids = root.at("joints").at(joint);
@@ -86,33 +89,47 @@ void readBones(const MakeHumanFiles& files, RiggedMesh& out) {
         r.fail(fmt::format("{}[{}]", at, i), fmt::format("is no vertex of {}", out.file));
       sum += out.mesh.vertices[ids[i].get<std::size_t>()];
     }
-    return sum / static_cast<double>(ids.size());
+    return heads[joint] = sum / static_cast<double>(ids.size());
   };
-  // Parents first: bones whose parent is placed, until all are.
-  std::map<std::string, int> number;
-  std::size_t before = 1;
-  while (number.size() != before) {
-    before = number.size();
-    for (const auto& [name, bone] : root.at("bones").items()) {
-      if (number.contains(name)) continue;
-      const std::string at = "bones." + name;
-      if (!bone.is_object() || !bone.contains("head") || !bone.contains("parent"))
-        r.fail(at, "needs \"head\" and \"parent\"");
-      int parent = -1;
-      if (!bone.at("parent").is_null()) {
-        const auto p = number.find(r.text(bone.at("parent"), at + ".parent"));
-        if (p == number.end()) continue;
-        parent = p->second;
-      }
-      number[name] = static_cast<int>(out.bones.size());
-      out.bones.push_back({name, parent, headOf(name, r.text(bone.at("head"), at + ".head"))});
-    }
+  struct Bone {
+    std::string parent, head;  ///< no parent: the root
+    int round = -1;
+    bool open = false;
+  };
+  std::map<std::string, Bone> bones;
+  for (const auto& [name, bone] : root.at("bones").items()) {
+    const std::string at = "bones." + name;
+    if (!bone.is_object() || !bone.contains("head") || !bone.contains("parent"))
+      r.fail(at, "needs \"head\" and \"parent\"");
+    Bone& b = bones[name];
+    b.head = r.text(bone.at("head"), at + ".head");
+    if (bone.at("parent").is_null()) continue;
+    b.parent = r.text(bone.at("parent"), at + ".parent");
+    if (!root.at("bones").contains(b.parent)) r.fail(at + ".parent", "there is no bone '" + b.parent + "'");
   }
-  for (const auto& [name, bone] : root.at("bones").items())
-    if (!number.contains(name))
-      if (const auto parent = bone.at("parent").get<std::string>(); !root.at("bones").contains(parent))
-        r.fail("bones." + name + ".parent", "there is no bone '" + parent + "'");
-  if (number.size() < root.at("bones").size()) r.fail("bones", "some hang from each other in a circle");
+  // Parents first: rounds through the bones by name, each of which takes those whose parent it or one before it has.
+  std::map<int, std::vector<std::string>> rounds;
+  for (auto& [name, bone] : bones) {
+    std::vector<std::pair<const std::string, Bone>*> chain;
+    for (auto at = bones.find(name); at->second.round < 0; at = bones.find(at->second.parent)) {
+      if (at->second.open) r.fail("bones", "some hang from each other in a circle");
+      at->second.open = true;
+      chain.push_back(&*at);
+      if (at->second.parent.empty()) break;
+    }
+    for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
+      auto& [own, b] = **at;
+      b.round = b.parent.empty() ? 0 : bones.at(b.parent).round + (own < b.parent ? 1 : 0);
+    }
+    rounds[bone.round].push_back(name);
+  }
+  std::map<std::string, int> number;
+  for (const auto& [round, names] : rounds)
+    for (const std::string& name : names) {
+      const Bone& b = bones.at(name);
+      number[name] = static_cast<int>(out.bones.size());
+      out.bones.push_back({name, b.parent.empty() ? -1 : number.at(b.parent), headOf(name, b.head)});
+    }
 }
 
 void readWeights(const MakeHumanFiles& files, RiggedMesh& out) {
@@ -120,11 +137,14 @@ void readWeights(const MakeHumanFiles& files, RiggedMesh& out) {
   const Json root = r.parse(readText(files.weights, largest_json));
   if (!root.is_object() || !root.contains("weights") || !root.at("weights").is_object())
     r.fail("weights", "is missing");
+  std::map<std::string, int> number;
+  for (std::size_t b = 0; b < out.bones.size(); ++b) number.emplace(out.bones[b].name, static_cast<int>(b));
   std::vector<std::vector<std::pair<int, double>>> of(out.mesh.vertices.size());
   for (const auto& [name, list] : root.at("weights").items()) {
     const std::string at = "weights." + name;
-    const int b = out.find(name);
-    if (b < 0) r.fail(at, "there is no such bone in " + files.skeleton.string());
+    const auto found = number.find(name);
+    if (found == number.end()) r.fail(at, "there is no such bone in " + files.skeleton.string());
+    const int b = found->second;
     if (!list.is_array()) r.fail(at, "must be a list of pairs of vertex and weight");
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Json& p = list[i];

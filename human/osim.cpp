@@ -44,6 +44,11 @@ struct Reader {
     }
     return out;
   }
+  double one(const TiXmlElement& e) const {
+    const auto v = numbers(e);
+    if (v.size() != 1) fail(e, fmt::format("has {} numbers, not 1", v.size()));
+    return v[0];
+  }
   Vec3 triple(const TiXmlElement& e) const {
     const auto v = numbers(e);
     if (v.size() != 3) fail(e, fmt::format("has {} numbers, not 3", v.size()));
@@ -61,7 +66,7 @@ struct Reader {
       const TiXmlElement* inner = f.FirstChildElement();
       return inner ? function(*inner) : OsimFunction{{0}, {0}, 0};
     }
-    if (kind == "Constant") return {{0}, {numbers(child(f, "value")).at(0)}, 0};
+    if (kind == "Constant") return {{0}, {one(child(f, "value"))}, 0};
     if (kind == "LinearFunction") {
       const auto c = numbers(child(f, "coefficients"));
       if (c.size() != 2) fail(f, "needs two coefficients");
@@ -70,7 +75,7 @@ struct Reader {
     if (kind == "MultiplierFunction") {
       OsimFunction inner = function(child(f, "function"));
       const TiXmlElement* scale = f.FirstChildElement("scale");
-      const double s = scale ? numbers(*scale).at(0) : 1;
+      const double s = scale ? one(*scale) : 1;
       for (double& y : inner.y) y *= s;
       inner.slope *= s;
       return inner;
@@ -157,7 +162,8 @@ double OsimFunction::at(double value) const {
   if (x.size() == 1) return y[0] + slope * value;
   const std::size_t i = std::clamp<std::size_t>(
       static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), value) - x.begin()), 1, x.size() - 1);
-  const double u = std::clamp((value - x[i - 1]) / (x[i] - x[i - 1]), 0.0, 1.0);
+  const double width = x[i] - x[i - 1];  // 0: a step
+  const double u = width > 0 ? std::clamp((value - x[i - 1]) / width, 0.0, 1.0) : 1;
   return (1 - u) * y[i - 1] + u * y[i];
 }
 

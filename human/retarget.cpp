@@ -23,6 +23,7 @@ constexpr double stride_s = 1.2;   ///< headings are means over about a stride
 constexpr double alike_m = 0.003;  ///< feet less apart in height than some of these share the weight
 constexpr double still_share = 0.3;  ///< hips that make less than this share of the feet's way stay in place
 constexpr double closure_rad = 15 * rad_per_deg;
+constexpr double farthest_m = 1e5, most_turned_rad = 1e5;  ///< beyond them a body is nowhere
 
 double smootherStep(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -255,6 +256,19 @@ struct Retargeter {
     return headings;
   }
 
+  /// Numbers without measure, and rates between frames that overflow, are no motion.
+  void requirePlaces(const std::vector<Row>& rows) const {
+    for (const Row& row : rows) {
+      const bool turned =
+          std::all_of(row.q.begin(), row.q.end(), [](double q) { return std::abs(q) <= most_turned_rad; });
+      if (!turned || !(norm(row.turn) <= most_turned_rad) || !(norm(row.origin) <= farthest_m))
+        throw InputError({r.file, 0, ""},
+                         fmt::format("near {:g} s of the file the body is nowhere: values are too large, "
+                                     "or change too much between rows",
+                                     std::clamp(row.source, source.first(), source.last())));
+    }
+  }
+
   /// The way that the feet make in the window against that of the hips: where the hips stay behind it is a treadmill;
   /// where the subject's legs are not known it gives the scale.
   void compareTravel(const std::vector<Row>& rows, const std::vector<double>& headings) {
@@ -461,9 +475,11 @@ std::unique_ptr<Motion> retarget(const Recording& recording, const Human& human,
   x.window();
   auto rows = rowsOf(r, o, x.from, x.to);
   const auto headings = x.postures(rows);
+  x.requirePlaces(rows);
   x.compareTravel(rows, headings);
   x.path(rows, headings);
   x.heights(rows);
+  x.requirePlaces(rows);
   x.noteLimits(rows);
   x.noteJumps();
   notes.from_s = x.from, notes.to_s = x.to, notes.window_s = o.stand_s + o.lead_in_s;

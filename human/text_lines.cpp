@@ -69,10 +69,15 @@ double TextLines::number(std::string_view cell, std::size_t column, std::string_
   return value;
 }
 
+std::string notAfter(double t, double before) {
+  if (!(t > before)) return fmt::format("{} does not come after {}", t, before);
+  return t - before >= nearest_s ? "" : fmt::format("{} comes less than {} s after {}", t, nearest_s, before);
+}
+
 void checkNextTime(const TextLines& lines, const std::vector<double>& before, double t) {
   if (before.size() >= most_rows) lines.fail(fmt::format("is one row too many: at most {} are read", most_rows));
-  if (!before.empty() && !(t > before.back()))
-    lines.fail(fmt::format("{} does not come after {}", t, before.back()), "time");
+  if (!before.empty())
+    if (const std::string why = notAfter(t, before.back()); !why.empty()) lines.fail(why, "time");
   if (!(std::abs(t) <= 1e6)) lines.fail(fmt::format("{} is beyond 1e6 s", t), "time");
 }
 

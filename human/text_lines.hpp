@@ -36,6 +36,11 @@ class TextLines {
 /// The most frames of a recorded motion that are read, and the longest that one is played [s].
 constexpr std::size_t most_rows = 300000;
 constexpr double longest_s = 3600;
+/// Frames nearer to each other than this are none [s]: their rates are no numbers.
+constexpr double nearest_s = 1e-9;
+
+/// Why `t` cannot be the time after `before`; empty where it can.
+std::string notAfter(double t, double before);
 
 /// Time stamps must ascend and stay within 1e6 s; there are at most `most_rows`.
 void checkNextTime(const TextLines& lines, const std::vector<double>& before, double t);

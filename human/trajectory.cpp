@@ -117,10 +117,10 @@ std::unique_ptr<Motion> loadTrajectory(const std::filesystem::path& csv, const H
       return value;
     };
     const double t = number(0, "time_s");
-    if (times.empty() ? t != 0 : !(t > times.back()))
-      throw InputError(where(line, "time_s"), times.empty()
-                                                  ? fmt::format("starts at {}, not at 0", t)
-                                                  : fmt::format("{} does not come after {}", t, times.back()));
+    const std::string why = !times.empty() ? notAfter(t, times.back())
+                            : t != 0       ? fmt::format("starts at {}, not at 0", t)
+                                           : "";
+    if (!why.empty()) throw InputError(where(line, "time_s"), why);
     if (t > longest_s) throw InputError(where(line, "time_s"), fmt::format("{} is beyond {} s", t, longest_s));
     if (times.size() >= most_rows)
       throw InputError(where(line, ""), fmt::format("is one row too many: at most {} are read", most_rows));

@@ -360,7 +360,7 @@ std::vector<std::string> switchedOff(const Case& c) {
   return off;
 }
 
-void compareVariants(const Study& s, const std::vector<Outcome>& outcomes, const std::filesystem::path& out) {
+void compareVariants(const Study& s, std::vector<Outcome>& outcomes, const std::filesystem::path& out) {
   std::vector<RunNumbers> runs;
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     RunNumbers run;
@@ -368,6 +368,7 @@ void compareVariants(const Study& s, const std::vector<Outcome>& outcomes, const
       run = readRun(out / s.variants[i].folder);
     else
       run.why = outcomes[i].why;
+    if (!run.good) outcomes[i] = {false, run.why};
     runs.push_back(std::move(run));
   }
   const Comparison c = compare(s, std::move(runs));

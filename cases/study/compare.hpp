@@ -72,8 +72,8 @@ Comparison compare(const Study& study, std::vector<RunNumbers> runs);
 std::optional<double> peakAboveStanding(const RunNumbers& run, const JointNumbers& joint);
 
 /// Reads what the runs left, compares, and writes study.json, its tables as CSV, pictures/ and report.html. The bytes
-/// depend on the runs' results alone.
-void compareVariants(const Study& study, const std::vector<Outcome>& outcomes, const std::filesystem::path& out);
+/// depend on the runs' results alone. Outcomes of runs whose results cannot be read become bad.
+void compareVariants(const Study& study, std::vector<Outcome>& outcomes, const std::filesystem::path& out);
 
 // Its parts.
 /// A joint of a variant against its baseline's; null without one.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,8 @@ std::optional<double> optional(const Json& j, const std::string& key) {
 JointNumbers jointOf(const Json& j) {
   JointNumbers n;
   n.name = j.at("joint").text();
+  if (const std::string side = j.at("side").text(); !side.empty() && !n.name.ends_with("_" + side))
+    throw Json::Error("the joint \"" + n.name + "\" is not one of the side \"" + side + "\"");
   n.label = labelOf(n.name, j.at("side").text());
   n.prismatic = j.contains("peak_N");
   const std::string unit = n.prismatic ? "_N" : "_Nm";
@@ -82,7 +85,10 @@ void readCurves(const std::filesystem::path& csv, RunNumbers& run) {
   while (std::getline(stream, line)) {
     const std::vector<std::string> row = csvCells(line);
     for (std::size_t c = 0; c < row.size() && c < column.size(); ++c) {
-      const double value = std::strtod(row[c].c_str(), nullptr);
+      double value = 0;
+      const auto [end, error] = std::from_chars(row[c].data(), row[c].data() + row[c].size(), value);
+      if (error != std::errc() || end != row[c].data() + row[c].size())
+        throw RunError(fmt::format("{}: \"{}\" is no number", csv.string(), row[c]));
       if (c == 0)
         run.time_s.push_back(value);
       else if (column[c])

@@ -258,7 +258,11 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
   if (!whole)
     throw RunError(
         fmt::format("stopped by a signal; what is done stands in {}, and --resume goes on from there", o.out.string()));
+  const std::vector<Outcome> ran = outcomes;
   compareVariants(s, outcomes, o.out);
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    if (ran[i].good && !outcomes[i].good)
+      out << fmt::format("FAILED  {}  {}\n", s.variants[i].folder, messageText(outcomes[i].why));
   std::size_t failures = 0;
   for (const Outcome& v : outcomes) failures += !v.good;
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

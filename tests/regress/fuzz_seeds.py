@@ -1,10 +1,12 @@
 """Small good files of every kind that the program reads, for fuzz.py to break: one scene for each kind."""
 
+import functools
 import json
 import math
 import struct
 
-from common import SOURCE
+import fuzz_bodies
+from common import SOURCE, Folder, run
 
 LIBRARY = SOURCE / "cases/library"
 
@@ -85,8 +87,7 @@ def gltf(uri):
             "bufferViews": [{"buffer": 0, "byteLength": len(points)}], "buffers": [buffer]}, points
 
 
-def glb():
-    scene, points = gltf("")
+def glb(scene, points):
     text = json.dumps(scene).encode()
     text += b" " * (-len(text) % 4)
     points += b"\0" * (-len(points) % 4)
@@ -176,12 +177,53 @@ def wearing(garment):
     return CLOTH[:start] + f'"garment": {garment},' + CLOTH[end:]
 
 
-class Kind:
-    """One file to break among those beside it, and the commands that read it."""
+CHARACTER = '"character": {"file": "%s"%s}, "motion": {"stand": {"duration": "20 ms"}}'
+MAKEHUMAN = ', "skeleton": "a.mhskel", "weights": "a.mhw", "targets": [{"file": "wide.target", "share": 0.5}]'
+MANIKIN = '"manikin": "male_p50", "motion": {"stand": {"duration": "10 ms"}}'
+SEQUENCE = ('"obstacles": [{"name": "ball", "sequence": {"folder": "frames", "rate": "100 Hz", "scale": 0.1}}], '
+            '"supports": [{"fixed": {"edge": "v1"}}],')
+SLIP = {"name": "slip", "case": "cloth.json", "axes": [{"path": "contact.friction", "values": [0, 1], "labels": ["0", "1"]}], "pictures": []}
+STRIP = {"id": "strip", "title": "a strip", "source": "closed form", "doc": "none", "quick": True, "why": "an example", "case": {
+    "kind": "static", "name": "strip", "sheet": {"plate": {"width": 10, "height": 1}, "degree": 3, "cells_u": 4, "cells_v": 1},
+    "material": {"isotropic": {"young": 1.2e6, "poisson": 0, "thickness": 0.1}}, "supports": [{"edge": "u0", "hold": "xyz", "clamp": True}],
+    "loads": [{"edge": "u1", "force": [0, 0, 1]}], "solver": {"steps": 4}, "output": {"points": [{"name": "tip", "point": [1, 0.5]}], "pictures": []}},
+    "table": {"columns": ["part", "rise"], "rows": [[0.25, 0.66], [0.5, 1.31], [1, 2.49]]},
+    "runs": [{"name": "a"}, {"name": "c", "set": {"sheet.cells_u": 5}}, {"name": "b", "set": {"sheet.cells_u": 6}, "time_limit": "1 min"}], "checks": [
+        {"kind": "curve", "quantity": "rise", "run": "b", "also": ["a"], "x": {"column": "tip_uz_m", "reference": "rise"},
+         "y": {"column": "factor", "reference": "part"}, "bound": 0.3},
+        {"kind": "table", "quantity": "rise by rows", "run": "b", "x": {"column": "factor", "reference": "part"},
+         "y": {"column": "tip_uz_m", "reference": "rise", "scale": 1}, "bound": 0.3},
+        {"kind": "value", "quantity": "tip", "unit": "m", "of": {"runs": ["a", "b"], "reduce": "mean", "column": "tip_uz_m", "along": "factor", "at": 0.6},
+         "minus": {"run": "a", "column": "tip_uz_m", "at": 0.5}, "at_least": 0},
+        {"kind": "rate", "quantity": "order", "of": {"column": "tip_uz_m"}, "runs": ["a", "c", "b"], "sizes": [0.5, 0.25, 0.125], "reference": 2.5, "absolute": 100},
+        {"kind": "history", "quantity": "likeness", "course": "correlation", "first": {"run": "a", "table": "path.csv", "columns": ["tip_uz_m"]},
+         "second": {"run": "b", "table": "path.csv", "columns": ["tip_uz_m"]}, "from": 0.3, "to": 0.9, "at_least": 0.5}]}
+EXAMPLES = {"id": "work", "title": "a work", "source": "nobody", "examples": [
+    {"section": "1.2", "title": "a plate", "figures": ["3"], "tables": ["4"], "cases": ["../../case.json"], "doc": "none", "statements": [
+        {"where": "table 4", "published": "1.8", "reference": "plate", "quantity": "area"}, {"where": "text", "published": "flat", "without": "none"}]}]}
 
-    def __init__(self, name, broken, files, main="case.json", run=False, command=None):
-        self.name, self.broken, self.files, self.main, self.run = name, broken, files, main, run
+
+class Kind:
+    """One file to break among those beside it, and the commands that read it. `made`: a command that makes more files of those before the
+    first of them is broken."""
+
+    def __init__(self, name, broken, files, main="case.json", run=False, command=None, made=None):
+        self.name, self.broken, self.given, self.main, self.run = name, broken, files, main, run
         self.command = command or ["check", main]
+        self.made = made
+
+    @functools.cached_property
+    def files(self):
+        if not self.made:
+            return self.given
+        with Folder() as folder:
+            for name, content in self.given.items():
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                (folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+            done = run(*self.made, cwd=folder)
+            if done.returncode != 0:
+                raise RuntimeError(f"{self.name}: {' '.join(self.made)} gave {done.returncode}: {done.stderr}")
+            return {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*")) if f.is_file()}
 
 
 def kinds():
@@ -191,14 +233,36 @@ def kinds():
     recorded = lambda file, more="": {"case.json": CLOTH % (HUMAN % (RECORDED % (file, more)))}
     mesh = lambda file, content, **more: {"case.json": CLOTH % (OBSTACLE % file), file: content, **more}
     scene, points = gltf("a.bin")
-    joint_map = (SOURCE / "human/data/map_gait2392.json").read_text()
-    bones_map = (SOURCE / "human/data/map_snu_woody.json").read_text()
+    body, body_points = fuzz_bodies.character_gltf("a.bin")
+    character = lambda file, more="", **files: {"case.json": CLOTH % (HUMAN % (CHARACTER % (file, more))), **files}
+    base, skeleton, weights, target = fuzz_bodies.makehuman()
+    on_makehuman = character("a.obj", MAKEHUMAN, **{"a.obj": base, "a.mhskel": skeleton, "a.mhw": weights, "wide.target": target})
+    on_subject = {**recorded("walk.trc", ', "model": "a.osim"'), "walk.trc": fuzz_bodies.trc_of_subject()}
+    marker_map = (SOURCE / "human/data/map_gait2392_markers.json").read_text()
+    frames = {f"frames/{k}.obj": OBJ.replace("0 0 1", f"0 0 {1 + 0.1 * k:g}").replace("v 0", "v 10") for k in range(3)}
+    sequence = {"case.json": CLOTH % SEQUENCE, **frames}
+    dressed_case = CLOTH % (HUMAN % MANIKIN)
+    dressed = dict(main="dressed_case.json", made=["dress", "case.json", "-o", "dressed.json"])
+    on_dressed = {"case.json": dressed_case, "dressed_case.json": dressed_case.replace('"settle": 0', '"settle": 0, "from": "dressed.json"')}
+    on_ball = CLOTH % '"supports": [{"fixed": {"edge": "v1"}}], "obstacles": [{"name": "ball", "sphere": {"radius": "5 cm"}}],'
+    results = lambda name, broken, case, *command: Kind(name, broken, {"case.json": case}, made=["run", "case.json", "--out", "out", "--threads", "1"],
+                                                         command=command)
+    studied_case = dressed_case.replace('"contact"', '"analysis": {"joints": ["hip_flexion_left"]},\n  "contact"')
+    studying = ["study", "a.study.json", "--out", "out", "--threads", "1"]
+    studied = lambda name, broken: Kind(name, "out/1/" + broken, {"a.study.json": json.dumps(SLIP), "cloth.json": studied_case}, made=studying,
+                                        command=[*studying, "--resume"])
     reference = json.dumps({
         "id": "plate", "title": "a plate", "group": "g", "source": "closed form", "doc": "none", "quick": True, "case": json.loads(PLATE),
         "runs": [{"name": "a", "set": {"sheet.cells_u": 5}}, {"name": "b"}],
         "checks": [{"kind": "value", "quantity": "area", "unit": "m^2", "of": {"run": "a", "summary": "area_m2"}, "reference": 1.8, "relative": 0.2}]}, indent=1)
+    verifying = ["verify", "--dir", "refs", "--out", "verified", "--filter", "*", "--jobs", "1"]
+    kept = json.dumps({**json.loads(reference), "id": "cloth", "case": json.loads(on_ball), "runs": [{"name": "a"}], "checks": [
+        {"kind": "value", "quantity": "time", "unit": "s", "of": {"run": "a", "summary": "recorded_to_s"}, "reference": 0.01, "relative": 0.1},
+        {"kind": "value", "quantity": "push", "unit": "N", "of": {"run": "a", "table": "contact.csv", "column": "ball_x_N", "at": 0.005}, "at_least": -10}]})
+    joint_map = (SOURCE / "human/data/map_gait2392.json").read_text()
+    bones_map = (SOURCE / "human/data/map_snu_woody.json").read_text()
     return [
-        Kind("case", "case.json", {"case.json": CLOTH % '"supports": [{"fixed": {"edge": "v1"}}], "obstacles": [{"name": "ball", "sphere": {"radius": "5 cm"}}],'}, run=True),
+        Kind("case", "case.json", {"case.json": on_ball}, run=True),
         Kind("case_human", "case.json", on_arm, run=True),
         Kind("case_garments", "case.json", {"case.json": (LIBRARY / "stack_mixed.json").read_text()}),
         Kind("static", "case.json", {"case.json": PLATE}, run=True),
@@ -210,17 +274,67 @@ def kinds():
         Kind("urdf", "arm.urdf", on_arm, run=True),
         Kind("body", "body.json", on_arm, run=True),
         Kind("csv", "flex.csv", on_arm, run=True),
-        Kind("mot", "walk.mot", {**recorded("walk.mot"), "walk.mot": mot()}),
-        Kind("sto", "walk.sto", {**recorded("walk.sto"), "walk.sto": sto()}),
-        Kind("bvh", "walk.bvh", {**recorded("walk.bvh"), "walk.bvh": bvh()}),
-        Kind("trc", "walk.trc", {**recorded("walk.trc"), "walk.trc": trc()}),
-        Kind("map_coordinates", "map.json", {**recorded("walk.mot", ', "map": "map.json"'), "walk.mot": mot(), "map.json": joint_map}),
-        Kind("map_bones", "map.json", {**recorded("walk.bvh", ', "map": "map.json"'), "walk.bvh": bvh(), "map.json": bones_map}),
+        Kind("mot", "walk.mot", {**recorded("walk.mot"), "walk.mot": mot()}, run=True),
+        Kind("sto", "walk.sto", {**recorded("walk.sto"), "walk.sto": sto()}, run=True),
+        Kind("bvh", "walk.bvh", {**recorded("walk.bvh"), "walk.bvh": bvh()}, run=True),
+        Kind("trc", "walk.trc", {**recorded("walk.trc"), "walk.trc": trc()}, run=True),
+        Kind("map_coordinates", "map.json", {**recorded("walk.mot", ', "map": "map.json"'), "walk.mot": mot(), "map.json": joint_map}, run=True),
+        Kind("map_bones", "map.json", {**recorded("walk.bvh", ', "map": "map.json"'), "walk.bvh": bvh(), "map.json": bones_map}, run=True),
         Kind("obj", "a.obj", mesh("a.obj", OBJ), run=True),
-        Kind("ply", "a.ply", mesh("a.ply", PLY)),
-        Kind("stl", "a.stl", mesh("a.stl", stl())),
-        Kind("gltf", "a.gltf", mesh("a.gltf", json.dumps(scene), **{"a.bin": points})),
-        Kind("gltf_buffer", "a.bin", mesh("a.gltf", json.dumps(scene), **{"a.bin": points})),
-        Kind("glb", "a.glb", mesh("a.glb", glb())),
-        Kind("verify", "refs/plate.json", {"refs/plate.json": reference}, command=["verify", "--dir", "refs", "--out", "verified", "--filter", "*"]),
+        Kind("ply", "a.ply", mesh("a.ply", PLY), run=True),
+        Kind("stl", "a.stl", mesh("a.stl", stl()), run=True),
+        Kind("gltf", "a.gltf", mesh("a.gltf", json.dumps(scene), **{"a.bin": points}), run=True),
+        Kind("gltf_buffer", "a.bin", mesh("a.gltf", json.dumps(scene), **{"a.bin": points}), run=True),
+        Kind("glb", "a.glb", mesh("a.glb", glb(*gltf(""))), run=True),
+        Kind("verify", "refs/plate.json", {"refs/plate.json": reference}, command=verifying),
+        Kind("osim", "a.osim", {**on_subject, "a.osim": fuzz_bodies.osim()}, run=True),
+        Kind("osim_joints", "a.osim", {**on_subject, "a.osim": fuzz_bodies.osim_joints()}, run=True),
+        Kind("trc_subject", "walk.trc", {**on_subject, "a.osim": fuzz_bodies.osim()}, run=True),
+        Kind("map_markers", "map.json", {**recorded("walk.trc", ', "model": "a.osim", "map": "map.json"'), "walk.trc": on_subject["walk.trc"],
+                                         "a.osim": fuzz_bodies.osim(), "map.json": marker_map}, run=True),
+        Kind("map_points", "map.json", {**recorded("walk.trc", ', "map": "map.json"'), "walk.trc": trc(),
+                                        "map.json": (SOURCE / "human/data/map_joint_centres.json").read_text()}, run=True),
+        Kind("case_recorded", "case.json", {**recorded("walk.mot", ', "from": 0.1, "to": "0.5 s", "stand": 0.1, "lead_in": "0.2 s", "slower": 2, "scale": 1, '
+                                                       '"floor": 0, "forward": "x", "up": "y", "heading": "keep", "travel": "file"'), "walk.mot": mot()}, run=True),
+        Kind("character", "a.gltf", character("a.gltf", **{"a.gltf": json.dumps(body), "a.bin": body_points}), run=True),
+        Kind("character_buffer", "a.bin", character("a.gltf", **{"a.gltf": json.dumps(body), "a.bin": body_points}), run=True),
+        Kind("character_glb", "a.glb", character("a.glb", **{"a.glb": glb(*fuzz_bodies.character_gltf(""))}), run=True),
+        Kind("character_fbx", "a.fbx", character("a.fbx", **{"a.fbx": fuzz_bodies.character_fbx()}), run=True),
+        Kind("case_character", "case.json", character("a.gltf", ', "like": "male_p50", "height": 1.8, "mass": 80, "switch_off_folds": true',
+                                                      **{"a.gltf": json.dumps(body), "a.bin": body_points}), run=True),
+        Kind("makehuman", "a.obj", on_makehuman, run=True),
+        Kind("makehuman_bones", "a.mhskel", on_makehuman, run=True),
+        Kind("makehuman_weights", "a.mhw", on_makehuman, run=True),
+        Kind("makehuman_target", "wide.target", on_makehuman, run=True),
+        Kind("sequence", "frames/1.obj", sequence, run=True),
+        Kind("sequence_first", "frames/0.obj", sequence, run=True),
+        Kind("case_sequence", "case.json", sequence, run=True),
+        Kind("static_file", "cloth.json", {"case.json": json.dumps({**json.loads(PLATE), "sheet": {"file": {"path": "cloth.json"}},
+                                                                    "loads": [{"gravity": [0, 0, -0.1]}],
+                                                                    "supports": [{"edge": "0.u0", "hold": "xyz"}], "output": {"pictures": []}}),
+                                           "cloth.json": GARMENT}, run=True),
+        Kind("draft", "cloth.json", {"case.json": wearing('{"file": {"path": "cloth.json"}}') % "", "cloth.json": GARMENT},
+             command=["draft", "case.json", "-o", "drafted.json"]),
+        Kind("dress", "case.json", {"case.json": dressed_case}, command=["dress", "case.json", "-o", "dressed.json", "--threads", "1"]),
+        Kind("dressed", "dressed.json", on_dressed, run=True, **dressed),
+        Kind("batch", "case.json", {"case.json": on_ball}, command=["batch", "case.json", "--out", "out", "--threads", "1"]),
+        Kind("examples", "refs/examples/work.json", {"refs/plate.json": reference, "refs/examples/work.json": json.dumps(EXAMPLES, indent=1), "case.json": PLATE},
+             command=verifying),
+        results("resume_segment", "out/frames/segment_000001.h5", on_ball, "run", "case.json", "--out", "out", "--threads", "1", "--resume"),
+        results("resume_layout", "out/frames/layout.h5", on_ball, "run", "case.json", "--out", "out", "--threads", "1", "--resume"),
+        results("resume_list", "out/.gambeson", on_ball, "run", "case.json", "--out", "out", "--threads", "1", "--resume"),
+        results("report_segment", "out/frames/segment_000001.h5", on_ball, "report", "out", "-o", "page.html"),
+        results("report_case", "out/case.json", on_ball, "report", "out", "-o", "page.html"),
+        results("report_facts", "out/run.json", on_ball, "report", "out", "-o", "page.html"),
+        results("report_summary", "out/summary.json", PLATE, "report", "out", "-o", "page.html"),
+        results("report_path", "out/path.csv", PLATE, "report", "out", "-o", "page.html"),
+        results("render_layout", "out/frames/layout.h5", on_ball, "render", "out", "-o", "a.png", "--size", "160x120"),
+        results("report_human", "out/frames/segment_000001.h5", dressed_case, "report", "out", "-o", "page.html"),
+        results("export_layout", "out/frames/layout.h5", dressed_case, "export", "out", "--iges", "a.igs", "--opensim", "loads"),
+        results("export_segment", "out/frames/segment_000001.h5", dressed_case, "export", "out", "--iges", "a.igs", "--opensim", "loads"),
+        studied("study_summary", "summary.json"),
+        studied("study_torques", "torques.csv"),
+        Kind("verify_checks", "refs/strip.json", {"refs/strip.json": json.dumps(STRIP, indent=1)}, command=verifying),
+        Kind("verify_kept", "verified/cloth/a/summary.json", {"refs/cloth.json": kept}, made=verifying, command=[*verifying, "--results", "verified"]),
+        Kind("verify_table", "verified/cloth/a/contact.csv", {"refs/cloth.json": kept}, made=verifying, command=[*verifying, "--results", "verified"]),
     ]

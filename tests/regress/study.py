@@ -131,6 +131,12 @@ def interrupted(folder):
     check(changed.returncode == 0 and "2 of 4 variants are done already" in changed.stdout, f"{changed.stdout} {changed.stderr}")
     again = {p for p, t in stamps.items() if p.stat().st_mtime_ns != t}
     check({p.parent.name for p in again} == {"thickness_0.5__rough", "thickness_1__rough"}, f"other runs ran again: {again}")
+    # Results that cannot be read are none.
+    summary = sorted(stamps)[0]
+    summary.write_text(summary.read_text().replace('"control_points": ', '"control_points": "many", "counted": ', 1))
+    damaged = run("study", file, "--out", folder / "cut", "--resume")
+    check(damaged.returncode == 1 and "1 of 4 variants failed" in damaged.stdout and "control_points: must be a whole number" in damaged.stdout,
+          f"{damaged.returncode} {damaged.stdout} {damaged.stderr}")
     print(f"{died} interruptions, {len(whole)} files, {sum(map(len, whole.values()))} bytes, all the same")
 
 

@@ -127,5 +127,33 @@ TEST(CheckBuilds, WhatARunOfAStructureRefuses) {
   expectSaid([&] { readStructureCase(file); }, file, 14, "material.fabric.jam_area", "tension field");
 }
 
+/// What divides by the mass refuses a sheet without any, and so does what checks the case.
+TEST(CheckBuilds, AStructureWithoutMass) {
+  const Folder folder;
+  const std::string strip = R"({
+  "kind": "KIND", "name": "strip", "sheet": {"plate": {"width": 2, "height": 1}, "cells_u": 2, "cells_v": 2},
+  "material": {"isotropic": {"young": "1 MPa", "poisson": 0.3, "thickness": THICKNESS, "density": DENSITY}},
+  "supports": [{"edge": "u0", "hold": "xyz"}], "solver": {SOLVER}, "output": {"pictures": []}
+})";
+  const auto read = [&](const char* kind, const char* solver, const char* thickness, const char* density) {
+    std::string text = strip;
+    for (const auto& [word, value] :
+         {std::pair{"KIND", kind}, {"SOLVER", solver}, {"THICKNESS", thickness}, {"DENSITY", density}})
+      text = replaced(text, word, value);
+    return readStructureCase(folder.write("strip.json", text));
+  };
+  for (const auto& [kind, solver] : {std::pair{"dynamic", R"("scheme": "explicit", "end": "5 ms")"},
+                                     {"dynamic", R"("step": "1 ms", "end": "5 ms")"},
+                                     {"dynamic", R"("step": "1 ms", "end": "5 ms", "mass": "lumped")"},
+                                     {"modal", R"("count": 1)"},
+                                     {"modal", R"("count": 1, "mass": "lumped")"}}) {
+    EXPECT_NO_THROW(checkStructure(read(kind, solver, "1e-3", "1000"))) << solver;
+    const StructureCase c = read(kind, solver, "1e-3", "1e-322");
+    expectSaid([&] { checkStructure(c); }, c.file, 3, "material", "no mass");
+    expectSaid([&] { runStructure(c, {.out = folder.path() / "out", .threads = 1}); }, c.file, 3, "material",
+               "no mass");
+  }
+}
+
 }  // namespace
 }  // namespace gambeson

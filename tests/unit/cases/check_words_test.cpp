@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cases/message.hpp"
 #include "cases/results_write.hpp"
 
 namespace gambeson {
@@ -22,12 +23,15 @@ TEST(CheckWords, EveryCheckOfARunHasThem) {
   joint.second_stride.emplace();
   joint.second_stride->samples = 1;
   m.joints = {joint};
+  m.layer_order = {{"shirt", "trousers", 1}};
   const auto checks = auditOf(m);
-  EXPECT_EQ(checks.size(), 12u);
+  EXPECT_EQ(checks.size(), 13u);
   const std::string unknown = checkWords("no such check", 1, 0, "").means;
   for (const AuditCheck& c : checks) {
     EXPECT_NE(checkWords(c.name, 1, c.limit, c.unit).means, unknown) << c.name;
     EXPECT_FALSE(checkWords(c.name, 1, c.limit, c.unit).wrong.empty());
+    const std::string said = notMet(c.name, 12345.678, c.limit, c.unit);
+    EXPECT_EQ(messageText(said), said) << "is too long for a message";
   }
   EXPECT_TRUE(checkWords("no such check", 1, 0, "").order);  // what is not known spoils everything
 }

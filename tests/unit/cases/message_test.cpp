@@ -36,6 +36,15 @@ Said command(const std::vector<std::string>& words) {
   return {status, out.str(), err.str()};
 }
 
+TEST(Message, NotesAreMessagesToo) {
+  testing::internal::CaptureStderr();
+  sayNote("obstacle " + std::string(3000, 'b') + "\x1b[31m: 3 frames");
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_LE(said.size(), 400u);
+  EXPECT_TRUE(said.starts_with("note: obstacle bbb")) << said;
+  EXPECT_TRUE(said.ends_with("\\x1b[31m: 3 frames\n")) << said;
+}
+
 TEST(Message, IsShortAndKeepsItsPlaceAndItsEnd) {
   EXPECT_EQ(messageText("a.json:3: key: 5 is out of range"), "a.json:3: key: 5 is out of range");
   const std::string text = messageText("a.json:3: key: " + std::string(5 << 20, 'x') + " is no number; allowed: > 0");
@@ -174,6 +183,11 @@ TEST(Message, DamagedFilesAreNamedWithTheKey) {
     EXPECT_NE(what.find("run.json"), std::string::npos) << what;
     EXPECT_NE(what.find("run.json: threads: must be a whole number, is string"), std::string::npos) << what;
     EXPECT_EQ(what.find("json.exception"), std::string::npos) << what;
+  }
+  for (const char* threads : {"4294967297", "-4294967297", "18446744073709551615"}) {
+    folder.write("run.json", std::string(R"({"version": "1", "kernels": "", "wall_s": 1, "resumed": false, )") +
+                                 R"("windows": [], "phases": [], "threads": )" + threads + "}");
+    EXPECT_THROW(readRunFacts(folder.path()), InputError) << threads;
   }
   folder.write("summary.json", R"({"joints": [], "recorded_to_s": 1, "planned_to_s": null})");
   const study::RunNumbers run = study::readRun(folder.path());

@@ -191,6 +191,21 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   ASSERT_EQ(std::sscanf(torques.c_str() + torques.find('\n') + 1, "%lf,%lf", &t, &tau), 2);
   EXPECT_NEAR(t, 0.005, 1e-12);
   EXPECT_NEAR(tau, 0.1, 1e-12);
+
+  // What was damaged since is no number, and no joint.
+  const auto damaged = [&](const char* file, const std::string& from, const std::string& to, const char* words) {
+    const std::string whole = content(folder.path() / file);
+    const std::size_t at = whole.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    folder.write(file, std::string(whole).replace(at, from.size(), to));
+    const study::RunNumbers bad = study::readRun(folder.path());
+    folder.write(file, whole);
+    EXPECT_FALSE(bad.good) << words;
+    EXPECT_NE(bad.why.find(file), std::string::npos) << bad.why;
+    EXPECT_NE(bad.why.find(words), std::string::npos) << bad.why;
+  };
+  damaged("torques.csv", "\n0.005", "\nx.005", "is no number");
+  damaged("summary.json", R"("side": "")", R"("side": "right hand side")", "is not one of the side");
 }
 
 TEST(Results, ReportSaysWhatWasMeasured) {
@@ -291,6 +306,17 @@ TEST(Results, FactsSurviveAndDamageIsNamed) {
   EXPECT_TRUE(f.resumed);
   EXPECT_EQ(f.searches, 7);
   EXPECT_EQ(f.searched_steps_s, 0.5);
+  const std::string windows = "\"windows\": ";
+  const std::string whole = content(folder.path() / "run.json");
+  const auto taken = [&](const std::string& rows) {
+    const std::size_t at = whole.find(windows) + windows.size();
+    folder.write("run.json", std::string(whole).replace(at, whole.find_first_of(",}\n", at) - at, rows));
+    readRunFacts(folder.path());
+  };
+  EXPECT_NO_THROW(taken("[[0, 1, 0.5, 0.5], [1, 2, 1, 0.5]]"));
+  for (const char* rows :
+       {"[[]]", "[null]", "[[0]]", "[[0, 1, 0.5, 0.5], [1, 2, 1]]", "[[0, 1, 2, 3, 4]]", "[[0, 1, null, 3]]"})
+    EXPECT_THROW(taken(rows), InputError) << rows;
   folder.write("run.json", "{\"version\": ");
   EXPECT_THROW(readRunFacts(folder.path()), InputError);
   EXPECT_THROW(scenarioOfResults(folder.path()), InputError);

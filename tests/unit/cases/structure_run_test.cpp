@@ -339,6 +339,26 @@ TEST(StructureRun, PicturesAndReport) {
   ASSERT_TRUE(holdsStructure(folder.path() / "out"));
   EXPECT_EQ(reportStructureResults({folder.path() / "out", folder.path() / "again.html"}), 0);
   EXPECT_EQ(content(folder.path() / "again.html"), page);
+  // What was damaged since is named.
+  const auto damaged = [&](const char* file, const std::string& from, const std::string& to) {
+    const std::string whole = content(folder.path() / "out" / file);
+    const std::size_t at = whole.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    folder.write(std::string("out/") + file, std::string(whole).replace(at, from.size(), to));
+    try {
+      reportStructureResults({folder.path() / "out", folder.path() / "again.html"});
+      ADD_FAILURE() << file << " was taken";
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.where().file, (folder.path() / "out" / file).string());
+      EXPECT_EQ(e.reason().find("json.exception"), std::string::npos) << e.reason();
+    }
+    folder.write(std::string("out/") + file, whole);
+  };
+  damaged("summary.json", "\"finished\": true", "\"finished\": null");
+  damaged("summary.json", "\"points\": [", "\"points\": [null, ");
+  damaged("summary.json", "{", "");
+  damaged("path.csv", "\n0,", "\nx,");
+  damaged("path.csv", "\n0,", "\n,");
   RenderOptions render;
   render.results = folder.path() / "out";
   render.png = folder.path() / "half.png";

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "core/contact/mesh_topology.hpp"
@@ -293,6 +294,27 @@ TEST_F(MakeHumanFile, SaysWhatIsWrong) {
   refused(o.file, "group: has no faces in the group 'body'");
   o.file = folder.write("d.obj", "v 0 0 0\nv 1 0 0\ng body\nf 1 2 3\n");
   refused(o.file, "names vertex 3 of 2", 4);
+  for (const char* corner : {"1.5", "0", "-1", "1e300", "4294967297"}) {
+    o.file = folder.write("e.obj", fmt::format("v 0 0 0\nv 1 0 0\nv 0 1 0\ng body\nf {}/1 2/1 3/1\n", corner));
+    refused(o.file, fmt::format("names vertex {} of 3", corner), 5);
+  }
+}
+
+/// Bones hang from each other against the order of their names, and all of them start at one joint.
+TEST_F(MakeHumanFile, LongChainsOfBonesTakeNoLongerThanTheirFile) {
+  constexpr int count = 30000;
+  std::string chain = "{\"bones\": {";
+  for (int b = 0; b < count; ++b)
+    chain += fmt::format("\"b{:05}\": {{\"head\": \"j0\", \"parent\": \"{}\"}},\n", b,
+                         b + 1 < count ? fmt::format("b{:05}", b + 1) : "root");
+  o.skeleton = folder.write("chain.mhskel", test::replaced(skeleton_text, "{\"bones\": {", chain));
+  const auto start = std::chrono::steady_clock::now();
+  const Human with = loadCharacter(o);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10);
+  o.skeleton = folder.write("plain.mhskel", skeleton_text);
+  const Human without = loadCharacter(o);
+  for (std::size_t j = 0; j < with.skeleton.joints.size(); ++j)
+    EXPECT_EQ(with.skeleton.joints[j].X_PJ.origin, without.skeleton.joints[j].X_PJ.origin);
 }
 
 /// The public characters: sizes as their files have them; a walk leaves the feet on the ground.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "files.hpp"
 #include "human/curve.hpp"
@@ -73,6 +74,29 @@ TEST_F(MotionFile, BetweenTheRowsItErrsByTheInterpolationOnly) {
     ASSERT_NEAR(a.root.origin.y, way.y, bound);
     ASSERT_NEAR(a.root.origin.z, b.root.origin.z, bound);
   }
+}
+
+/// A body that is carried or turned without measure, or so fast that no number says how fast, is refused with its file.
+TEST_F(MotionFile, NowhereIsNoPlace) {
+  const std::string text = test::motOf(*walk, human, findJointMap("gait2392"), from, 0.7, true);
+  const std::size_t first = text.find('\n', text.find("\ntime") + 1) + 1, end = text.find('\n', first);
+  const std::vector<std::string> names = readStorage(folder.write("walk.mot", text)).names;
+  MotionFileOptions o;
+  o.map = "gait2392";
+  const auto refused = [&](const std::string& name, const std::string& value, const char* words) {
+    std::istringstream cells(text.substr(first, end - first));
+    std::string row, cell;
+    for (std::size_t k = 0; std::getline(cells, cell, '\t'); ++k)
+      row += (k == 0 ? "" : "\t") + (name == (k == 0 ? "time" : names[k - 1]) ? value : cell);
+    o.path = folder.write("far.mot", text.substr(0, first) + row + text.substr(end));
+    test::expectRefused([&](const auto&) { loadMotionFile(o, human); }, o.path, 0, words);
+  };
+  for (const char* value : {"1e7", "-1e300", "1e308"})
+    for (const char* name : {"pelvis_tx", "pelvis_ty", "pelvis_tz"})
+      refused(name, value, "the body is nowhere");
+  refused("time", "0.50999999999", "comes less than 1e-09 s after");
+  o.path = folder.write("near.mot", test::motOf(*walk, human, findJointMap("gait2392"), from, 0.7, true));
+  EXPECT_NO_THROW(loadMotionFile(o, human));
 }
 
 /// OpenSim 4 names coordinates by their paths; SIMM's headers do not say that angles are in degrees.

@@ -95,6 +95,22 @@ TEST(MotionMalformed, ModelsWindowsAndOtherFiles) {
       "<OpenSimDocument><Model><BodySet><objects/></BodySet><MarkerSet><objects><Marker name=\"m\"><body>b</body>"
       "<location>0 0 0</location></Marker></objects></MarkerSet></Model></OpenSimDocument>",
       "that is not there");
+  // A function without its number, and a step between two points.
+  const std::string moved =
+      "<OpenSimDocument><Model><BodySet><objects><Body name=\"a\"/><Body name=\"b\"><Joint><CustomJoint><parent_body>a"
+      "</parent_body><location_in_parent>0 0 0</location_in_parent><SpatialTransform><TransformAxis "
+      "name=\"translation1\">"
+      "<axis>1 0 0</axis>FUNCTION</TransformAxis></SpatialTransform></CustomJoint></Joint></Body></objects></BodySet>"
+      "</Model></OpenSimDocument>";
+  const auto by = [&](const char* function) { return test::replaced(moved, "FUNCTION", function); };
+  osim(by("<Constant><value/></Constant>"), "has 0 numbers, not 1");
+  osim(by("<Constant><value>1 2</value></Constant>"), "has 2 numbers, not 1");
+  osim(by("<MultiplierFunction><function><Constant><value>1</value></Constant></function><scale> </scale>"
+          "</MultiplierFunction>"),
+       "has 0 numbers, not 1");
+  const OsimModel model = readOsim(folder.write("step.osim", by("<SimmSpline><x>-1 0 0</x><y>1 2 3</y></SimmSpline>")));
+  EXPECT_EQ(model.body("b").originAt(0), (Vec3{3, 0, 0}));
+  EXPECT_EQ(model.body("b").originAt(-0.5), (Vec3{1.5, 0, 0}));
   MotionFileOptions o;
   const auto refused = [&](const std::string& name, const std::string& text, const char* words) {
     o.path = folder.write(name, text);

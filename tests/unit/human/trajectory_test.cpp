@@ -101,6 +101,7 @@ TEST_F(Trajectory, RefusesWhatIsMalformed) {
   refused("time_s,knee_flexion_right_deg\n0,-1\n1,12\n", 2, "outside");
   refused("time_s,root_x_m\n0,0\n1,0\n1,0\n", 4, "does not come after");
   refused("time_s,root_x_m\n0,0\n2,0\n1,0\n", 4, "does not come after");
+  refused("time_s,root_x_m\n0,0\n1e-320,1\n1,0\n", 3, "comes less than 1e-09 s after 0");
   refused("time_s,root_x_m\n1,0\n2,0\n", 2, "not at 0");
   refused("time_s,root_x_m\n-1,0\n2,0\n", 2, "not at 0");
   // NaN
