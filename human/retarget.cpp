@@ -289,6 +289,9 @@ struct Retargeter {
     if (o.scale || r.leg_m > 0) return;
     if (!stays && norm(hips) > 0.3) {
       notes.scale = dot(feet, hips) / norm2(hips);
+      if (!(std::abs(notes.scale) >= 1e-3))
+        throw InputError({r.file, 0, ""}, fmt::format("the body is nowhere: its feet go {:.3g} m and its pelvis {:.3g}",
+                                                      norm(feet), norm(hips)));
       notes.lines.push_back(fmt::format("scale {:.3f}, by the way that the feet make", notes.scale));
     } else if (r.model_leg_m > 0) {
       notes.scale = legOf(human) / r.model_leg_m;

@@ -89,6 +89,7 @@ TEST_F(MotionFile, NowhereIsNoPlace) {
     for (std::size_t k = 0; std::getline(cells, cell, '\t'); ++k)
       row += (k == 0 ? "" : "\t") + (name == (k == 0 ? "time" : names[k - 1]) ? value : cell);
     o.path = folder.write("far.mot", text.substr(0, first) + row + text.substr(end));
+    SCOPED_TRACE(name + " " + value);
     test::expectRefused([&](const auto&) { loadMotionFile(o, human); }, o.path, 0, words);
   };
   for (const char* value : {"1e7", "-1e300", "1e308"})
