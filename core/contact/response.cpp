@@ -20,7 +20,8 @@ double beyondImpact(double pressure_Pa, double dt, double density) {
   return std::max(0.0, 1 - density * kFast_mps / (dt * pressure_Pa));
 }
 
-constexpr double kOfLargest = 2e-4;  ///< see solveContacts
+// Of the largest impulse, see solveContacts: with a hold, and without, where the goal is at most so many tolerances.
+constexpr double kOfLargestHeld = 2e-4, kOfLargest = 1e-7, kMostTolerances = 10;
 constexpr int kFirstCheck = 10;      ///< iterations before the rows that are left out are looked at; doubled each time
 
 /// What one solve is given.
@@ -209,9 +210,10 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   shareAreas(rows, WT, area, inverse_mass, w);
   begin(problem, warm, w);
   double goal = c.tolerance_m_per_s2 * dt;
-  if (hold)
-    for (std::size_t k = 0; k < w.order.size(); ++k)
-      goal = std::max(goal, kOfLargest * w.facts[k].slope * norm(w.traction[k]));
+  double largest = 0;
+  for (std::size_t k = 0; k < w.order.size(); ++k)
+    largest = std::max(largest, w.facts[k].slope * norm(w.traction[k]));
+  goal = std::max(goal, hold ? kOfLargestHeld * largest : std::min(kOfLargest * largest, kMostTolerances * goal));
   const ContactSolve report = solve(problem, goal, c.max_iterations, w);
 
   std::fill(warm.begin(), warm.end(), Vec3{});
