@@ -465,9 +465,11 @@ void findClearances(const Model& m, StepWork& w) {
   for (int k = 0; k < n; ++k) {
     Contact& c = w.near[k];
     double keep = m.layer_m[c.sample];
-    if (const auto* e = std::get_if<Ellipsoid>(&m.obstacles[c.obstacle].shape))
+    // Ellipsoids are asked for along the edges of the triangles; diagonals across them take in the way along the body.
+    const auto* e = std::get_if<Ellipsoid>(&m.obstacles[c.obstacle].shape);
+    if (e)
       keep = std::max(keep, standOut(*e, w.start[c.obstacle], c, keep, m.collisions.mesh, w.x0) + kLag * keep);
-    c.clearance_m = std::min(kLargestClearance_m, m.bulges.beside(c.sample, -c.normal, w.x0) + keep);
+    c.clearance_m = std::min(kLargestClearance_m, m.bulges.beside(c.sample, -c.normal, w.x0, !e) + keep);
   }
 }
 

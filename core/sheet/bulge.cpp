@@ -34,20 +34,20 @@ class Builder {
  public:
   explicit Builder(int samples) : ends_(samples) { out_.middle.column_count = samples; }
 
-  void add(int a, int b, Terms terms) {
+  void add(int a, int b, Terms terms, bool edge = true) {
     std::sort(terms.begin(), terms.end(), [](const Term& s, const Term& t) { return s.sample < t.sample; });
     for (std::size_t k = 0; k < terms.size(); ++k) {
       double weight = terms[k].weight;
       for (; k + 1 < terms.size() && terms[k + 1].sample == terms[k].sample; ++k) weight += terms[k + 1].weight;
       out_.middle.add(terms[k].sample, weight);
     }
-    for (int end : {a, b}) ends_[end].push_back(out_.middle.rows());
+    for (int end : {a, b}) ends_[end].push_back({out_.middle.rows(), edge ? 1.0 : 0.0});
     out_.middle.endRow();
   }
   Bulges done() {
     out_.of_sample.column_count = out_.middle.rows();
-    for (const std::vector<int>& edges : ends_) {
-      for (int edge : edges) out_.of_sample.add(edge, 1);
+    for (const Terms& rows : ends_) {
+      for (const Term& t : rows) out_.of_sample.add(t.sample, t.weight);
       out_.of_sample.endRow();
     }
     return std::move(out_);
@@ -55,14 +55,15 @@ class Builder {
 
  private:
   Bulges out_;
-  std::vector<std::vector<int>> ends_;
+  std::vector<Terms> ends_;  ///< rows, and whether they are edges
 };
 
 }  // namespace
 
-double Bulges::beside(int sample, const Vec3& direction, std::span<const Vec3> x) const {
+double Bulges::beside(int sample, const Vec3& direction, std::span<const Vec3> x, bool across) const {
   double most = 0;
   for (int e = of_sample.offsets[sample]; e < of_sample.offsets[sample + 1]; ++e) {
+    if (!across && of_sample.values[e] == 0) continue;
     const int row = of_sample.columns[e];
     double out = 0;
     for (int k = middle.offsets[row]; k < middle.offsets[row + 1]; ++k)
@@ -97,14 +98,14 @@ Bulges buildBulges(const Garment& garment, const Surface& surface, std::span<con
         }
         if (!whole) continue;
         const int a = sample(i, j), b = sample(i + 1, j), c = sample(i + 1, j + 1), d = sample(i, j + 1);
-        const auto diagonal = [&](int from, int to, double twist) {
+        const auto diagonal = [&](int from, int to, double twist, bool edge) {
           Terms terms = middle;
           for (const Term& t : {Term{a, twist}, Term{b, -twist}, Term{c, twist}, Term{d, -twist}}) terms.push_back(t);
-          builder.add(from, to, std::move(terms));
+          builder.add(from, to, std::move(terms), edge);
         };
-        // Both, whichever of them is an edge of the triangles: the middle stands out beside all four corners.
-        diagonal(a, c, -0.25);
-        diagonal(b, d, 0.25);
+        const bool first = (i + j) % 2 == 0;  // is an edge of the triangles
+        diagonal(a, c, -0.25, first);
+        diagonal(b, d, 0.25, !first);
       }
   }
   return builder.done();

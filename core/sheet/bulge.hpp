@@ -7,18 +7,19 @@
 
 namespace gambeson {
 
-/// Along an edge of length h in the parameter, and along both diagonals of the grid of samples, the surface's middle less
+/// Along an edge of length h in the parameter, and along the diagonals of the grid of samples, the surface's middle less
 /// the mean of the ends:
 ///     d = -h^2/8 x_uu;  -h_u^2/8 x_uu - h_v^2/8 x_vv -+ h_u h_v/4 x_uv,
 /// by differences of samples, of the same cell where it has three along the edge: exact for quadratic surfaces, and to
-/// O(h^4) for others. Rows over the samples; rows `of_sample` list the edges and diagonals that end at each. What
-/// trimming leaves no grid of has none.
+/// O(h^4) for others. Rows over the samples; rows `of_sample` list the edges and diagonals that end at each: 1 for
+/// edges of the surface's triangles, 0 for the diagonals across them. What trimming leaves no grid of has none.
 struct Bulges {
   SparseRows middle;
   SparseRows of_sample;
 
-  /// How far the surface beside a sample stands out in a direction (unit), at most; 0 where it does not [m].
-  double beside(int sample, const Vec3& direction, std::span<const Vec3> x) const;
+  /// How far the surface beside a sample stands out in a direction (unit), at most; 0 where it does not [m]. `across`:
+  /// in the middle of four samples too, beside those that no edge of a triangle leads to it from.
+  double beside(int sample, const Vec3& direction, std::span<const Vec3> x, bool across = true) const;
 };
 
 /// `surface`: of the garment, with these samples per cell.
