@@ -69,6 +69,22 @@ TEST(Bulge, OfQuadraticSurfacesIsExact) {
   }
 }
 
+/// z = c x y: only the middle of four samples stands out. No diagonal of the triangles ends at every other sample.
+TEST(Bulge, OfTwistIsSeenFromAllFourCorners) {
+  const double c = 3;
+  const Garment g = sheetOver(0.3, 0.2, 4, 0, 0, c, plainFabric());
+  const Surface s = buildSurface(g, buildFreeMap(g), 3);
+  const Bulges bulges = buildBulges(g, s, std::vector<int>{3});
+  const std::vector<Vec3> x = positions(s.W, g);
+  const double out = c * (0.3 / 12) * (0.2 / 9) / 4;
+  const int with = s.patch_grid[0][1 + s.patch_grid_size[0][0]], without = with + 1;
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_NEAR(bulges.beside(with, {0, 0, side}, x), out, 1e-15);
+    EXPECT_NEAR(bulges.beside(without, {0, 0, side}, x), out, 1e-15);
+    EXPECT_NEAR(bulges.beside(without, {0, 0, side}, x, false), 0, 1e-15);
+  }
+}
+
 /// Cloth hangs in a trough whose lowest line lies in the middle between samples; a box of triangles comes from below.
 /// What stands out there is more than the thickness, and the surface stays out of the box.
 TEST(Bulge, KeepsTheClothBetweenTheSamplesOutOfABody) {
