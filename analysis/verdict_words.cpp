@@ -144,8 +144,8 @@ std::string withoutDoubt(const VerdictInput& in, const Verdict& v) {
       best = &o;
   if (!best) return "";
   const bool stretched = in.stretch && !in.stretch->holds();
-  return fmt::format(" {}: {} is green and all its checks hold{}.",
-                     trustOf(in).spoiling > 0 ? "Of the others" : "Without doubt", best->name,
+  return fmt::format(" {} {} is green and all its checks hold{}.",
+                     trustOf(in).spoiling > 0 ? "Of the others" : "Whoever wants no doubt takes another:", best->name,
                      stretched ? ", and its fabric stretches no further than it is meant for" : "");
 }
 

@@ -58,11 +58,17 @@ std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
                                          s.garment.empty() ? "" : " of " + s.garment);
     if (std::find(stated.begin(), stated.end(), text) == stated.end()) stated.push_back(text);
   }
+  double most = 0;
+  for (const Stretch& s : measured) most = std::max(most, s.largest);
+  // The strain is no longer the elongation: (1 + e)^2 = 1 + 2 E.
+  const std::string large =
+      most > 0.1 ? fmt::format(", {:.0f} % are {:.0f} cm", 100 * most, 100 * (std::sqrt(1 + 2 * most) - 1)) : "";
   return fmt::format(
-      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m. {}{} The fabric\u2019s law is a straight line, which "
+      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} The fabric\u2019s law is a straight line, which "
       "its source takes for strains below {} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real "
       "fabric may be stiffer. A largest value far above what 99 % of the cloth stays below is that of single spots, at "
       "corners and seams.",
+      large,
       stated.empty() ? "The case does not state how far its fabric may stretch, so that the range of its law counts."
                      : fmt::format("The case states how far its fabric may stretch, and that limit counts: less than "
                                    "{}.",
@@ -83,7 +89,8 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
        "the deepest point of the cloth's samples inside the body, over the motion"},
       {"Contact solver",
        m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
-       "%", "share of the steps whose contacts were not solved to the tolerance of the case"}};
+       "%", "share of the steps whose contacts were not solved to the tolerance of the case, or to a ten-millionth of the "
+       "largest impulse where cloth is jammed"}};
   double pinched = 0;
   for (const CollisionWindow& w : m.steps.collisions) pinched += static_cast<double>(w.pinched);
   checks.push_back({"Intersections",

@@ -218,7 +218,7 @@ TEST(Verdict, FailingChecksTouchAChoiceThatLimitsMake) {
   EXPECT_EQ(v.light, Light::green);
   EXPECT_EQ(v.cover, Light::doubtful);
   EXPECT_EQ(v.doubt, "the check Energy fails in its run thickness x 0.75, walking: energy is lost");
-  EXPECT_TRUE(v.sentence.ends_with("Without doubt: thickness x 0.5 is green and all its checks hold.")) << v.sentence;
+  EXPECT_TRUE(v.sentence.ends_with("Whoever wants no doubt takes another: thickness x 0.5 is green and all its checks hold.")) << v.sentence;
   EXPECT_EQ(v.surety, Surety::no);
   EXPECT_TRUE(has(v.choice, "The checks that fail touch the sizes of the torques")) << v.choice;
   EXPECT_EQ(v.comfort_light, Light::doubtful);
