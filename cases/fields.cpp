@@ -24,7 +24,7 @@ Object contactTable() {
               "body to the nanometre, it spreads the pressure over them (cloth pressed flat has about 1e-7 m/Pa)")
       .number("tolerance", &C::tolerance, "", aboveTo(0, 0.1),
               "residual velocity to which the contacts of a step are solved together, as a part of what gravity adds "
-              "in the step; in folds that are jammed 1e-7 of the largest impulse counts, up to ten times this")
+              "in the step; in folds that are jammed 1e-6 of the largest impulse counts, up to ten times this")
       .integer("max_iterations", &C::max_iterations, 1, 100000, "iterations before a step counts as failed")
       .build();
 }

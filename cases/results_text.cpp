@@ -89,7 +89,7 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
        "the deepest point of the cloth's samples inside the body, over the motion"},
       {"Contact solver",
        m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
-       "%", "share of the steps whose contacts were not solved to the tolerance of the case, or to a ten-millionth of the "
+       "%", "share of the steps whose contacts were not solved to the tolerance of the case, or to a millionth of the "
        "largest impulse where cloth is jammed"}};
   double pinched = 0;
   for (const CollisionWindow& w : m.steps.collisions) pinched += static_cast<double>(w.pinched);

@@ -21,7 +21,7 @@ double beyondImpact(double pressure_Pa, double dt, double density) {
 }
 
 // Of the largest impulse, see solveContacts: with a hold, and without, where the goal is at most so many tolerances.
-constexpr double kOfLargestHeld = 2e-4, kOfLargest = 1e-7, kMostTolerances = 10;
+constexpr double kOfLargestHeld = 2e-4, kOfLargest = 1e-6, kMostTolerances = 10;
 constexpr int kFirstCheck = 10;      ///< iterations before the rows that are left out are looked at; doubled each time
 
 /// What one solve is given.

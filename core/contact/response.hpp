@@ -189,7 +189,7 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 ///
 /// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem. Impulses may then
 /// be thousands of times what stops the cloth by itself (a ring that takes no stretch, on a body); a solve is done at
-/// 2e-4 of the largest where that is more than the tolerance. Without a hold at 1e-7, and ten tolerances at most.
+/// 2e-4 of the largest where that is more than the tolerance. Without a hold at 1e-6, and ten tolerances at most.
 ///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
 /// kg/m^2];

@@ -382,10 +382,10 @@ TEST(Response, ClaimedResidualIsTheMeasuredOne) {
   }
 }
 
-/// A solve that starts with impulses of I/rho ends at 1e-7 I/rho, or at ten tolerances.
-TEST(Response, LargeImpulsesAreSolvedToTheirSeventhDigit) {
+/// A solve that starts with impulses of I/rho ends at 1e-6 I/rho, or at ten tolerances.
+TEST(Response, LargeImpulsesAreSolvedToTheirSixthDigit) {
   constexpr double tolerance = 1e-4;
-  for (const auto& [start, tolerances] : {std::pair(1e3, 1.0), std::pair(5e3, 5.0), std::pair(1e6, 10.0)}) {
+  for (const auto& [start, tolerances] : {std::pair(1e2, 1.0), std::pair(5e2, 5.0), std::pair(1e6, 10.0)}) {
     Problem p = sheetOnBumps(tolerance);
     const ContactSolve solve = p.solve({0, 0, start * rho * dt});
     ASSERT_TRUE(solve.converged);
