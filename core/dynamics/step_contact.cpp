@@ -159,7 +159,7 @@ void addImpact(const Model& m, const PairHit& hit, double dt, int round, StepWor
 /// as grow without bound from step to step, the impulses of both sides grow with each iteration, and the residual stays
 /// far above the tolerance.
 bool contradict(const ContactSolve& solve, double dt) {
-  constexpr double kFar_m_per_s2 = 1;  // a tenth of what gravity adds in a step; the tolerance is a hundredth of it
+  constexpr double kFar_m_per_s2 = 1;  // a tenth of what gravity adds in a step; solves end at a hundredth to a tenth of it
   return !solve.converged && !(solve.residual_m_per_s <= kFar_m_per_s2 * dt);
 }
 
