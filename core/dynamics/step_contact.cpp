@@ -159,12 +159,12 @@ void addImpact(const Model& m, const PairHit& hit, double dt, int round, StepWor
 /// as grow without bound from step to step, the impulses of both sides grow with each iteration, and the residual stays
 /// far above the tolerance.
 bool contradict(const ContactSolve& solve, double dt) {
-  constexpr double kFar_m_per_s2 = 1;  // a tenth of what gravity adds in a step; solves end at a hundredth to a tenth of it
+  constexpr double kFar_m_per_s2 = 1;  // a tenth of gravity; solves end at a hundredth to a tenth of it
   return !solve.converged && !(solve.residual_m_per_s <= kFar_m_per_s2 * dt);
 }
 
-/// Rows give way by this part of what their own impulse would move the cloth at them, B 1/rho in the mean: contradicting
-/// rows then share what they miss in proportion to their impulses. These are bounded (by 1/part of what stops the
+/// Rows give way by this part of what their own impulse would move the cloth at them, B 1/rho in the mean:
+/// contradicting rows then share what they miss in proportion to their impulses. These are bounded (by 1/part of what stops the
 /// cloth), the solve converges, and no more energy enters than what bodies and targets do: with D(tau) = tau.A.tau/2 +
 /// tau.(v - target) + |yield| <= D(0) = 0, the work tau.(v + A tau/2) is at most tau.target.
 struct Yield {
