@@ -14,9 +14,13 @@
 namespace gambeson {
 namespace {
 
+constexpr std::size_t kMostTriangles = 100000;  ///< of a body: what a picture can use
+
 TriangleMesh ellipsoidMesh(const Vec3& a, double cell_m) {
+  constexpr double most_rings = 158;  // 4 rings (rings - 1) triangles
   const double widest = std::max({a.x, a.y, a.z});
-  const int rings = std::max(6, static_cast<int>(std::ceil(M_PI * widest / cell_m))), around = 2 * rings;
+  const int rings = static_cast<int>(std::clamp(std::ceil(M_PI * widest / cell_m), 6.0, most_rings));
+  const int around = 2 * rings;
   TriangleMesh mesh;
   mesh.vertices.push_back({0, 0, a.z});
   for (int r = 1; r < rings; ++r)
@@ -39,9 +43,8 @@ TriangleMesh ellipsoidMesh(const Vec3& a, double cell_m) {
   return mesh;
 }
 
-/// Each triangle in four until no edge is longer than the cell, up to a size that a picture can use.
+/// Each triangle in four until no edge is longer than the cell.
 TriangleMesh refined(TriangleMesh mesh, double cell_m) {
-  constexpr std::size_t most = 100000;
   const auto longest = [&] {
     double l = 0;
     for (const auto& t : mesh.triangles)
@@ -50,7 +53,7 @@ TriangleMesh refined(TriangleMesh mesh, double cell_m) {
                              mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])]));
     return l;
   };
-  while (longest() > cell_m && 4 * mesh.triangles.size() <= most) {
+  while (longest() > cell_m && 4 * mesh.triangles.size() <= kMostTriangles) {
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
       const auto [at, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));

@@ -124,8 +124,9 @@ Object skirtTable() {
   using S = SkirtGarment;
   return Table<S>("Skirt")
       .number("length", &S::length_m, "m", between(0.1, 1.2), "from the waist down")
-      .number("ease", &S::ease, "", between(0, 0.5),
-              "how much wider than the body at the waist, and wider at least below")
+      .number("ease", &S::ease, "", between(-0.3, 0.5),
+              "how much wider than the body at the waist, and wider at least below; below 0: narrower, for cloth that "
+              "stretches")
       .number("flare", &S::flare_rad, "rad", between(0, 1.2), "angle of its sides with the vertical")
       .integer("cells_around", &S::cells_around, 16, 1000, "of all eight panels; a multiple of 8")
       .integer("cells_along", &S::cells_along, 2, 1000, "from hem to waist")

@@ -30,7 +30,7 @@ struct ClothContactPoint {
 /// points of one layer are neighbours.
 constexpr double contactReach(double layer_m) { return 1.1 * layer_m; }
 /// The most that the cloth between the samples asks for as distance of these from a body.
-constexpr double kLargestClearance_m = 1.5e-3;
+constexpr double kLargestClearance_m = 2.5e-3;
 inline double neighbourDistance(double layer_m) { return 2 * layer_m; }
 
 /// A point that moves straight by `way` comes less than `reach` from the origin, starting at `from`.

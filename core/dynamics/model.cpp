@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/sheet/evened_masses.hpp"
 
 namespace gambeson {
 namespace {
@@ -50,7 +51,9 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
   const int n = map.T.column_count;
   std::vector<double> control_area = controlAreas(garment), area(n), mass(n), inverse(n);
   map.Tt.multiply<double>(control_area, area);
-  map.Tt.multiply<double>(controlMasses(garment), mass);
+  constexpr double kLeastShare = 0.25;  // of the untrimmed mass, where threads pull
+  const bool threads = options.strain_limit.mode != LimitMode::none;
+  map.Tt.multiply<double>(threads ? evenedMasses(garment, kLeastShare) : controlMasses(garment), mass);
   std::vector<char> held(n, 0);
   for (int c : options.held_control_points)
     for (int k = map.T.offsets[c]; k < map.T.offsets[c + 1]; ++k) held[map.T.columns[k]] = 1;
@@ -105,7 +108,7 @@ std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& op
     model->dead_force_N.resize(n);
     model->map.Tt.multiply<Vec3>(options.dead_force_N, model->dead_force_N);
   }
-  if (options.strain_limit.mode != LimitMode::none) {
+  if (threads) {
     checkLimit(options.strain_limit);
     model->strain_rows = buildStrainRows(garment, model->map, {model->inverse_mass, {}}, options.strain_limit.points);
   }

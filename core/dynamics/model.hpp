@@ -207,6 +207,7 @@ struct StepWork {
   std::vector<Vec3> lasting, sample_pressing;
   std::vector<double> reach;
   std::vector<Contact> near, hits;
+  std::vector<int> near_first;  ///< of each sample in `near`, sorted by sample
   std::vector<PairHit> pair_hits;
   std::vector<char> inside;  ///< samples that are behind a body's surface
   std::vector<ContactRow> restoring, edge_rows;

@@ -6,6 +6,7 @@
 
 #include "core/contact/ellipsoid.hpp"
 #include "core/dynamics/body_edges.hpp"
+#include "core/dynamics/clearance.hpp"
 
 namespace gambeson {
 namespace {
@@ -430,49 +431,6 @@ void pressingAccelerations(const Model& m, double dt, StepWork& w, std::vector<V
   m.surface.WTt.multiply<Vec3>(w.sample_pressing, pressed);
   for (int i = 0; i < m.freeCount(); ++i) pressed[i] *= m.inverse_mass[i] / dt;
 }
-
-namespace {
-
-/// By how much the middles of the cloth's edges at a sample that touches an ellipsoid are nearer to it than the sample,
-/// where they are nearer than the mean of both ends at most by that; 0 where none is [m]. About h^2/8 of the curvature,
-/// sum_i (d_i/e_i)^2/(8 |g|) with g_i = p_i/e_i^2 at the foot p; asked for exactly where that is half of `least_m`.
-double standOut(const Ellipsoid& shape, const Placement& X, const Contact& c, double least_m, const ContactMesh& mesh,
-                std::span<const Vec3> x) {
-  const EllipsoidMetric metric = ellipsoidMetric(shape);
-  const Vec3 at = toLocal(X, x[c.sample]);
-  const double slope =
-      norm({c.local.x * metric.inverse2.x, c.local.y * metric.inverse2.y, c.local.z * metric.inverse2.z});
-  const auto gap = [&](const Vec3& p) { return X.scale * closestOnEllipsoid(metric, p).distance_m; };
-  double most = 0;
-  for (int edge : mesh.vertex_edges[c.sample]) {
-    const auto [a, b] = mesh.edges[edge];
-    const Vec3 end = toLocal(X, x[a == c.sample ? b : a]), d = end - at;
-    const double about = norm2({d.x * metric.inverse.x, d.y * metric.inverse.y, d.z * metric.inverse.z}) / (8 * slope);
-    if (!(X.scale * about > 0.5 * least_m)) continue;
-    most = std::max(most, std::min(c.gap_m, 0.5 * (c.gap_m + gap(end))) - gap(0.5 * (at + end)));
-  }
-  return most;
-}
-
-/// Of the contacts with bodies w.near: the layer lies between the body and the surface where this stands out farthest
-/// between the samples. That leaves room for the edges of bodies made of triangles too, which samples on their faces
-/// straddle. The triangles of the cloth clear ellipsoids by a tenth of the layer, which is for what contacts lag by.
-void findClearances(const Model& m, StepWork& w) {
-  constexpr double kLag = 0.1;
-  const int n = static_cast<int>(w.near.size());
-#pragma omp parallel for schedule(static) if (n > 512)
-  for (int k = 0; k < n; ++k) {
-    Contact& c = w.near[k];
-    double keep = m.layer_m[c.sample];
-    // Ellipsoids are asked for along the edges of the triangles; diagonals across them take in the way along the body.
-    const auto* e = std::get_if<Ellipsoid>(&m.obstacles[c.obstacle].shape);
-    if (e)
-      keep = std::max(keep, standOut(*e, w.start[c.obstacle], c, keep, m.collisions.mesh, w.x0) + kLag * keep);
-    c.clearance_m = std::min(kLargestClearance_m, m.bulges.beside(c.sample, -c.normal, w.x0, !e) + keep);
-  }
-}
-
-}  // namespace
 
 bool resolveContacts(const Model& m, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w) {
   const int samples = m.surface.size();

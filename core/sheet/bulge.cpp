@@ -41,6 +41,7 @@ class Builder {
       for (; k + 1 < terms.size() && terms[k + 1].sample == terms[k].sample; ++k) weight += terms[k + 1].weight;
       out_.middle.add(terms[k].sample, weight);
     }
+    out_.ends.push_back({a, b});
     for (int end : {a, b}) ends_[end].push_back({out_.middle.rows(), edge ? 1.0 : 0.0});
     out_.middle.endRow();
   }

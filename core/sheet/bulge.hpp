@@ -1,7 +1,9 @@
 #pragma once
 /// How far cloth stands out between its samples.
 
+#include <array>
 #include <span>
+#include <vector>
 
 #include "core/sheet/surface.hpp"
 
@@ -16,7 +18,14 @@ namespace gambeson {
 struct Bulges {
   SparseRows middle;
   SparseRows of_sample;
+  std::vector<std::array<int, 2>> ends;  ///< samples of each edge and diagonal
 
+  /// Of one edge or diagonal [m].
+  Vec3 at(int row, std::span<const Vec3> x) const {
+    Vec3 out{};
+    for (int k = middle.offsets[row]; k < middle.offsets[row + 1]; ++k) out += middle.values[k] * x[middle.columns[k]];
+    return out;
+  }
   /// How far the surface beside a sample stands out in a direction (unit), at most; 0 where it does not [m]. `across`:
   /// in the middle of four samples too, beside those that no edge of a triangle leads to it from.
   double beside(int sample, const Vec3& direction, std::span<const Vec3> x, bool across = true) const;

@@ -134,6 +134,19 @@ TEST_F(Comfort, MeansPeaksDosesAndLights) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "body_pressure_front_right.png"));
 }
 
+/// An ellipsoid of metres, as a mistyped file has it, takes no more memory than a picture can use.
+TEST(ComfortOnShapes, AShapeOfMetresHasNoMillionPlaces) {
+  auto s = buildScenario(readCase(GAMBESON_SOURCE_DIR "/cases/library/sleeve_flex.json",
+                                  {"garment.tube.cells_around=8", "garment.tube.cells_along=4"}));
+  const std::size_t as_it_is = BodyMap(*s, 0.03).size();
+  auto* ellipsoid = std::get_if<Ellipsoid>(&s->model->obstacles[0].shape);
+  ASSERT_NE(ellipsoid, nullptr);
+  ellipsoid->semi_axes = {1.9, 0.0588, 0.0588};
+  const std::size_t size = BodyMap(*s, 0.03).size();
+  EXPECT_GT(size, as_it_is);
+  EXPECT_LT(size, as_it_is + 50000);
+}
+
 /// On ellipsoids: a sample's force falls on the shape that it is nearest to, where it is.
 TEST(ComfortOnShapes, TheForceOfASampleFallsWhereItIs) {
   const auto s = buildScenario(readCase(GAMBESON_SOURCE_DIR "/cases/library/sleeve_flex.json",

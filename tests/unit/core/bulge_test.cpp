@@ -85,9 +85,14 @@ TEST(Bulge, OfTwistIsSeenFromAllFourCorners) {
   }
 }
 
-/// Cloth hangs in a trough whose lowest line lies in the middle between samples; a box of triangles comes from below.
-/// What stands out there is more than the thickness, and the surface stays out of the box.
-TEST(Bulge, KeepsTheClothBetweenTheSamplesOutOfABody) {
+struct Lowered {
+  double lowest = HUGE_VAL;  ///< point of the surface above the body, in the middle across [m]
+  double bulge = 0, carried = 0;
+};
+
+/// Cloth hangs in a trough whose lowest line, x = 0, lies in the middle between samples, 2 mm above a body whose top is
+/// at `top(x)`; this comes from below.
+Lowered troughOn(const TriangleMesh& body, const auto& top) {
   Fabric fabric = sheetFabric();
   fabric.thickness_m = 0.3e-3;
   fabric.density_kg_per_m3 = 1000;
@@ -98,31 +103,45 @@ TEST(Bulge, KeepsTheClothBetweenTheSamplesOutOfABody) {
   const NurbsPatch& patch = g.patches[0];
   for (int j = 0; j < patch.v.count(); ++j)
     for (int i : {0, patch.u.count() - 1}) o.held_control_points.push_back(patch.index(i, j));
-  Motion m(g, {{0, 0, -9.81}, 0.8}, {0, 0.3, 0.01, 1e-2, 400}, o, {{testing_shapes::box({0.1, 0.1, 0.05}), "box"}}, {},
-           {{0, 0, 0.02}});
+  Motion m(g, {{0, 0, -9.81}, 0.8}, {0, 0.3, 0.01, 1e-2, 400}, o, {{body, "body"}}, {}, {{0, 0, 0.02}});
   Frequency frequency;
-  double lowest = HUGE_VAL, bulge = 0, carried = 0;
+  Lowered out;
   std::vector<Vec3> q(m.model->map.T.rows()), x;
   advance(*m.model, m.stage, {0.7, 1e-3}, 0.15, m.state, frequency, m.work,
           [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
-            carried -= r.momentum.obstacles.z;
+            out.carried -= r.momentum.obstacles.z;
             m.model->map.T.multiply<Vec3>(after.p, q);
             for (int i = 0; i <= 200; ++i) {
               const SurfaceBasis basis = surfaceBasis(patch, i / 200.0, 0.5);
-              double z = -0.05 - 0.02 * after.time_s;
-              for (std::size_t k = 0; k < basis.columns.size(); ++k) z += basis.values[0][k] * q[basis.columns[k]].z;
-              lowest = std::min(lowest, z);
+              Vec3 at;
+              for (std::size_t k = 0; k < basis.columns.size(); ++k) at += basis.values[0][k] * q[basis.columns[k]];
+              out.lowest = std::min(out.lowest, at.z - top(at.x) - 0.02 * after.time_s);
             }
             samplePositions(*m.model, after.p, x);
             for (int s = 0; s < m.model->surface.size(); ++s)
-              if (carried != 0) bulge = std::max(bulge, m.model->bulges.beside(s, {0, 0, -1}, x));
+              if (out.carried != 0) out.bulge = std::max(out.bulge, m.model->bulges.beside(s, {0, 0, -1}, x));
           });
-  std::printf("[ measured ] lowest point %.3f mm above the box, at most %.3f mm below the samples beside it\n",
-              1e3 * lowest, 1e3 * bulge);
-  EXPECT_GT(std::abs(carried), 1e-6);
-  EXPECT_GT(bulge, 2 * fabric.thickness_m);
-  EXPECT_GT(lowest, -1e-5);
-  EXPECT_LT(lowest, fabric.thickness_m);
+  std::printf("[ measured ] lowest point %.3f mm above the body, at most %.3f mm below the samples beside it\n",
+              1e3 * out.lowest, 1e3 * out.bulge);
+  EXPECT_GT(std::abs(out.carried), 1e-6);
+  EXPECT_GT(out.bulge, 2 * fabric.thickness_m);
+  EXPECT_LT(out.lowest, fabric.thickness_m);
+  return out;
+}
+
+/// What stands out there is more than the thickness, and the surface stays out of the box.
+TEST(Bulge, KeepsTheClothBetweenTheSamplesOutOfABody) {
+  const Lowered on = troughOn(testing_shapes::box({0.1, 0.1, 0.05}), [](double) { return 0.05; });
+  EXPECT_GT(on.lowest, -1e-5);
+}
+
+/// A ridge of 165 degrees under the lowest line: the samples beside it have their feet on its two faces, 0.6 mm lower.
+TEST(Bulge, KeepsTheClothBetweenTheSamplesOutOfARidge) {
+  const double slope = std::tan(M_PI / 24), w = 0.1, low = 0.05 - w * slope;
+  const TriangleMesh roof{{{-w, -w, low}, {w, -w, low}, {0, -w, 0.05}, {-w, w, low}, {w, w, low}, {0, w, 0.05}},
+                          {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {0, 2, 5}, {0, 5, 3}, {1, 4, 5}, {1, 5, 2}}};
+  const Lowered on = troughOn(roof, [&](double x) { return 0.05 - slope * std::abs(x); });
+  EXPECT_GT(on.lowest, -1e-5);
 }
 
 }  // namespace
