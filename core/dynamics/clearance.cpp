@@ -33,7 +33,8 @@ double standOut(const Ellipsoid& shape, const Placement& X, const Contact& c, do
 /// The same at a body of triangles, which bends between the samples: it lies below the tangent planes at the feet of
 /// both ends, so that the surface between these, x(t) = (1 - t) a + t b + 4 t (1 - t) bulge, is
 ///     g(t) >= max((x - p_a).n_a, (x - p_b).n_b)
-/// away from it, where it is convex there. Looked at in the quarters of each edge and diagonal.
+/// away from it, where it is convex there. Looked at in the quarters of each edge and diagonal. Contacts farther than
+/// all clearances are left out: which of them are known depends on the lists of candidates.
 double standOut(const Bulges& bulges, const Contact& c, std::span<const Contact> near, std::span<const int> first,
                 std::span<const Vec3> x) {
   constexpr double kParallel = 1 - 1e-9;  // of normals: Bulges::beside tells the same of one plane
@@ -45,6 +46,7 @@ double standOut(const Bulges& bulges, const Contact& c, std::span<const Contact>
     for (int j = first[other]; j < first[other + 1]; ++j) {
       const Contact& d = near[j];
       if (d.obstacle != c.obstacle || dot(c.normal, d.normal) > kParallel) continue;
+      if (!(d.gap_m < contactReach(kLargestClearance_m))) continue;
       const Vec3 way = x[other] - x[c.sample], bulge = bulges.at(row, x);
       for (const double t : {0.25, 0.5, 0.75}) {
         const Vec3 from = t * way + (4 * t * (1 - t)) * bulge;

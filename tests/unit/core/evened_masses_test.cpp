@@ -24,9 +24,9 @@ TEST(EvenedMasses, LeaveNoSliverAndThePatchItsMass) {
   Garment g = garmentOf({patch}, {}, plainFabric());
   const std::vector<double> whole = controlMasses(g);
   EXPECT_EQ(evenedMasses(g, 0.25), whole);  // nothing is trimmed
-  g.trims = {{{circleLoop(patch, {0.5, 0.5}, 0.32, Keep::outside)}, 12}};
+  g.trims = {{{circleLoop(patch, {0.5, 0.5}, 0.42, Keep::outside)}, 12}};
   const std::vector<double> trimmed = controlMasses(g), evened = evenedMasses(g, 0.25);
-  EXPECT_NEAR(sum(evened), sum(trimmed), 1e-15 * sum(trimmed));
+  EXPECT_NEAR(sum(evened), sum(trimmed), 1e-14 * sum(trimmed));
   double least = HUGE_VAL, was = HUGE_VAL, change = 0;
   int gone = 0;
   for (std::size_t c = 0; c < whole.size(); ++c) {
@@ -43,7 +43,7 @@ TEST(EvenedMasses, LeaveNoSliverAndThePatchItsMass) {
   EXPECT_LT(was, 0.05);
   EXPECT_GT(least, 0.25 * (1 - change) * (1 - 1e-12));
   EXPECT_GT(change, 0);
-  EXPECT_LT(change, 0.1);
+  EXPECT_LT(change, 0.2);
 }
 
 }  // namespace
