@@ -43,6 +43,16 @@ SparseRows finerSurface(const Garment& garment, int fineness, const std::vector<
 
 }  // namespace
 
+std::vector<Vec3> controlPointsOf(const Frame& frame, std::size_t count) {
+  const auto field = std::find_if(frame.control_fields.begin(), frame.control_fields.end(),
+                                  [](const Field& f) { return f.name == "position"; });
+  if (field == frame.control_fields.end() || field->data.size() != 3 * count)
+    throw RunError("the recording has no control points that fit the garment");
+  std::vector<Vec3> q(count);
+  for (std::size_t i = 0; i < count; ++i) q[i] = {field->data[3 * i], field->data[3 * i + 1], field->data[3 * i + 2]};
+  return q;
+}
+
 SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
   constexpr int fineness = 4;
   const SparseRows W = finerSurface(s.model->shell.garment(), fineness, s.samples_per_cell);
@@ -60,13 +70,7 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
   for (int k = 0; k < recording.frameCount(); ++k) {
     if (!(recording.time(k) > 1e-9)) continue;
     const Frame frame = recording.frame(k);
-    const auto field = std::find_if(frame.control_fields.begin(), frame.control_fields.end(),
-                                    [](const Field& f) { return f.name == "position"; });
-    if (field == frame.control_fields.end() || field->data.size() != 3 * static_cast<std::size_t>(W.column_count))
-      throw RunError("the recording has no control points that fit the garment");
-    std::vector<Vec3> q(static_cast<std::size_t>(W.column_count));
-    for (std::size_t i = 0; i < q.size(); ++i)
-      q[i] = {field->data[3 * i], field->data[3 * i + 1], field->data[3 * i + 2]};
+    const std::vector<Vec3> q = controlPointsOf(frame, static_cast<std::size_t>(W.column_count));
     W.multiply<Vec3>(q, x);
     placed.moveTo(frame.time_s);
     std::fill(known.outside_of.begin(), known.outside_of.end(), 0);  // what deforms keeps no distances

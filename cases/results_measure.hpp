@@ -198,6 +198,8 @@ struct SurfaceDepth {
   int points = 0;
 };
 SurfaceDepth surfaceDepth(const Scenario& scenario, const RecordingReader& recording);
+/// The control points of a frame. Throws RunError where they are not `count`.
+std::vector<Vec3> controlPointsOf(const Frame& frame, std::size_t count);
 
 /// One garment of the case, a layer.
 struct LayerMeasure {
@@ -293,6 +295,8 @@ struct Measured {
   double cloth_kg = 0;                        ///< mass of all garments
   bool limited = false;                       ///< whether the case limits strain
   std::optional<SurfaceDepth> surface_depth;  ///< costs seconds: only where asked for
+  /// Of each frame of the motion, ThreadStrains::columns: only where asked for.
+  std::vector<std::vector<double>> thread_strains;
   std::optional<RecordedRange> recorded;
 
   const JointMeasure* highest() const;  ///< of joints that turn and that the garment touches something beyond; or null

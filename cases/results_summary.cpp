@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/results_write.hpp"
+#include "cases/thread_strains.hpp"
 #include "core/io/own_file.hpp"
 
 namespace gambeson {
@@ -307,6 +308,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   double strain = 0;
   for (const StressSummary& r : m.stress) strain = std::max(strain, r.max_strain);
   j["largest_strain"] = strain;
+  if (!m.thread_strains.empty()) j["thread_strain"] = threadStrainSummary(m.thread_strains);
   j["deepest_penetration_m"] = m.steps.deepest_m;
   j["deepest_penetration_time_s"] = m.steps.deepest_time_s;
   if (m.surface_depth)

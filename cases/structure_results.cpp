@@ -8,7 +8,7 @@
 
 #include "cases/self_crossings.hpp"
 #include "cases/structure_run.hpp"
-#include "cases/structure_strains.hpp"
+#include "cases/thread_strains.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/own_file.hpp"
@@ -150,7 +150,10 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     j["edges"] = Json::array();
     for (const OutputEdge& e : c.output.edges) j["edges"].push_back(valuesOf(path, e.name));
   }
-  if (!path.rows.empty() && c.output.thread_strains) j["thread_strain"] = threadStrainSummary(path);
+  if (!path.rows.empty() && c.output.thread_strains) {
+    const auto first = std::find(path.columns.begin(), path.columns.end(), ThreadStrains::columns().front());
+    j["thread_strain"] = threadStrainSummary(path.rows, static_cast<std::size_t>(first - path.columns.begin()));
+  }
   if (c.strain_limit)
     j["strain_limit"] = {
         {"largest_residual", facts.limit_residual},

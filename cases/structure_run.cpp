@@ -17,8 +17,8 @@
 #include "cases/stop_message.hpp"
 #include "cases/structure_checks.hpp"
 #include "cases/structure_results.hpp"
-#include "cases/structure_strains.hpp"
 #include "cases/temporary_folder.hpp"
+#include "cases/thread_strains.hpp"
 #include "core/dynamics/modal.hpp"
 #include "core/dynamics/structure_system.hpp"
 #include "core/dynamics/time_integration.hpp"
@@ -291,7 +291,7 @@ void runDynamic(const StructureCase& c, Run& run) {
   const Structure& s = run.structure();
   std::optional<ThreadStrains> strains;
   if (c.output.thread_strains) {
-    strains.emplace(s);
+    strains.emplace(s.shell, s.map);
     lead.insert(lead.end(), ThreadStrains::columns().begin(), ThreadStrains::columns().end());
   }
   run.columns(std::move(lead));

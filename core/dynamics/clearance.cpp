@@ -60,10 +60,11 @@ double standOut(const Bulges& bulges, const Contact& c, std::span<const Contact>
 
 }  // namespace
 
-/// That leaves room for the edges of bodies made of triangles too, which samples on their faces straddle. The triangles
-/// of the cloth clear ellipsoids by a tenth of the layer, which is for what contacts lag by.
+/// That leaves room for the edges of bodies made of triangles too, which samples on their faces straddle. Where bodies
+/// bend between the samples the cloth clears them by a part of the layer, which is for what contacts lag by: all of it
+/// would lift cloth off all that is round.
 void findClearances(const Model& m, StepWork& w) {
-  constexpr double kLag = 0.1;
+  constexpr double kLag = 0.1, kLagAtSkin = 0.3;
   const int n = static_cast<int>(w.near.size());
   std::vector<int>& first = w.near_first;
   first.assign(m.surface.size() + 1, 0);
@@ -73,13 +74,15 @@ void findClearances(const Model& m, StepWork& w) {
   for (int k = 0; k < n; ++k) {
     Contact& c = w.near[k];
     const double layer = m.layer_m[c.sample];
-    double keep = layer;
     // Ellipsoids are asked for along the edges of the triangles; diagonals across them take in the way along the body.
-    const auto* e = std::get_if<Ellipsoid>(&m.obstacles[c.obstacle].shape);
-    if (e) keep = std::max(keep, standOut(*e, w.start[c.obstacle], c, keep, m.collisions.mesh, w.x0) + kLag * keep);
-    double out = m.bulges.beside(c.sample, -c.normal, w.x0, !e);
-    if (!e) out = std::max(out, standOut(m.bulges, c, w.near, first, w.x0));
-    c.clearance_m = std::min(kLargestClearance_m, out + keep);
+    if (const auto* e = std::get_if<Ellipsoid>(&m.obstacles[c.obstacle].shape)) {
+      const double out = standOut(*e, w.start[c.obstacle], c, layer, m.collisions.mesh, w.x0);
+      c.clearance_m = m.bulges.beside(c.sample, -c.normal, w.x0, false) + std::max(layer, out + kLag * layer);
+    } else {
+      const double out = standOut(m.bulges, c, w.near, first, w.x0);
+      c.clearance_m = std::max(m.bulges.beside(c.sample, -c.normal, w.x0) + layer, out + kLagAtSkin * layer);
+    }
+    c.clearance_m = std::min(kLargestClearance_m, c.clearance_m);
   }
 }
 

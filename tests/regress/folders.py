@@ -57,6 +57,16 @@ def finished_and_changed(folder):
           "pictures of the run before are left")
 
 
+def put_on_anew(folder):
+    """A dressed state is of the last run: one without dressing has none."""
+    out = folder / "out"
+    worn = ("--threads", 1, "--set", "time.duration=10 ms", "--set", "dressing.settle=10 ms", "--set", "output.pictures=[]")
+    run_case(HERE / "shorts.json", out, *worn)
+    check((out / "dressed.json").exists(), "a run that dresses leaves no dressed state")
+    run_case(CASE, out, *SHORT)
+    check(not (out / "dressed.json").exists(), "the dressed state of the run before is left")
+
+
 def keeps_others(folder):
     """A folder with other things in it keeps them; names that the run would overwrite are refused."""
     out = folder / "mine"
@@ -105,6 +115,7 @@ def inputs_and_others(folder):
     cloth = CASE.read_text()
     case = lambda name: (folder / name).parent.mkdir(parents=True, exist_ok=True) or (folder / name).write_text(cloth) and name
     text = lambda name: (folder / name).parent.mkdir(parents=True, exist_ok=True) or (folder / name).write_text("mine") and name
+    copy_of = lambda name: shutil.copy(HERE / name, folder / name) and name
     study = {"name": "s", "case": "sphere.json", "axes": [{"path": "contact.friction", "values": [0.1, 0.3]}]}
     case("sphere.json")
     (folder / "a.study.json").write_text(json.dumps(study))
@@ -129,8 +140,10 @@ def inputs_and_others(folder):
         (["draft", "sphere.json", "-o", "sphere.json"], "sphere.json"),
         (["draft", "sphere.json", "-o", text("drafted.json")], "drafted.json"),
         (["dress", str(HERE / "shorts.json"), "-o", text("dressed.json")], "dressed.json"),
+        (["dress", copy_of("shorts.json"), "-o", "shorts.json"], "shorts.json"),
         (["render", "R", "-o", text("a.png")], "a.png"),
         (["report", "R", "-o", text("a.html")], "a.html"),
+        (["report", "R", "-o", "R/case.json"], "R/case.json"),
         (["export", "R", "--iges", text("a.igs")], "a.igs"),
         (["export", "R", "--opensim", "walk"], text("walk.mot")),
         (["run", "R/case.json", "--out", "R"], "R/case.json"),
@@ -168,6 +181,27 @@ def one_at_a_time(folder):
     finally:
         for process in started:
             process.kill()
+
+
+def batches_and_studies_wait(folder):
+    """`batch` and `study` have the folder to themselves as `run` has."""
+    (folder / "a.study.json").write_text(json.dumps(
+        {"name": "s", "case": str(CASE), "axes": [{"path": "contact.friction", "values": [0.1, 0.3]}]}))
+    long = json.loads(CASE.read_text())
+    long["time"]["duration"] = 100
+    (folder / "long.json").write_text(json.dumps(long))
+    begin = lambda out: subprocess.Popen(command("batch", folder / "long.json", "--out", out, "--threads", 1), stdin=subprocess.DEVNULL,
+                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    for words in (["batch", CASE], ["study", folder / "a.study.json"]):
+        out = folder / ("beside_" + words[0])
+        first = begin(out)
+        try:
+            while not list(out.glob("*/frames/segment_000000.h5")) and first.poll() is None:
+                time.sleep(0.02)
+            refused(run(*words, "--out", out), "--out", "another command")
+        finally:
+            first.send_signal(signal.SIGTERM)
+            first.wait(timeout=20)
 
 
 def take_turns(out, begin):
@@ -221,7 +255,7 @@ def main():
         keeps_others(folder)
         links(folder)
         cannot_write(folder)
-    for test in (inputs_and_others, one_at_a_time):
+    for test in (inputs_and_others, put_on_anew, one_at_a_time, batches_and_studies_wait):
         with Folder() as folder:
             test(folder)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The coarse armour and the coarse shorts on everyone who can wear them: shorts, belt and shirt put on and worn
 standing by the six manikins with their skins and by the public characters, each drafted on its wearer, and the shorts
-worn through a stride of the public recordings.
+worn through a stride of the public recordings, on a skin and on ellipsoids.
 
     wearers.py GAMBESON CROSSINGS_CHECK [--jobs N] [--walk] [NAME...]
 
@@ -38,7 +38,7 @@ def recorded(name, **options):
 
 
 MANIKINS = ("male_p5", "male_p50", "male_p95", "female_p5", "female_p50", "female_p95")
-RECORDED = ("mot", "mot_full_body", "trc", "bvh")
+RECORDED = ("mot", "mot_full_body", "trc", "bvh", "bvh_low", "bvh_clip")
 CHARACTERS = {"gltf": MALE, "makehuman": MAKEHUMAN}
 
 
@@ -57,10 +57,14 @@ def wearers(walk):
                  hips_apart="3 deg", arms_apart="10 deg",
                  model=str(DATA / "human" / "opensim_subject01_gait2392_scaled.osim")),
         recorded("snu_woody_walk_normal_straight.bvh", **{"from": 3, "to": 4.6}, hips_apart="4 deg",
-                 arms_apart="12 deg"))
+                 arms_apart="12 deg"),
+        recorded("snu_woody_low_walk.bvh", **{"from": 2, "to": 3.8}, hips_apart="4 deg", arms_apart="12 deg"),
+        recorded("makehuman_walk1.bvh", slower=1.8, travel="feet", hips_apart="4 deg", arms_apart="12 deg"))
     absent = []
     if MOTION.exists():
-        out |= {n: {"manikin": "male_p50", "skin": {"cell": "14 mm"}, "motion": m} for n, m in zip(RECORDED, motions)}
+        for name, motion in zip(RECORDED, motions):
+            out[name] = {"manikin": "male_p50", "skin": {"cell": "14 mm"}, "motion": motion}
+            out[name + "_ellipsoids"] = {"manikin": "male_p50", "motion": motion}
     else:
         absent += RECORDED
     if BODY.exists():

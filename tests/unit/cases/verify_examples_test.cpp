@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -164,11 +165,13 @@ TEST(VerifyExamplesShipped, ZhengIsWhole) {
     sections.insert(e.section);
     for (const std::string& f : e.figures) EXPECT_TRUE(figures.insert(f).second) << f << " stands there twice";
     for (const std::string& t : e.tables) EXPECT_TRUE(tables.insert(t).second) << t << " stands there twice";
-    // A table is compared number by number: some statement speaks of it.
+    // A table is compared number by number.
+    const std::map<std::string, int> numbers{{"2.1", 1}, {"4.1", 3}, {"5.1", 12}, {"5.2", 12}, {"5.3", 12}};
     for (const std::string& t : e.tables) {
-      bool said = false;
-      for (const Statement& s : e.statements) said = said || s.where.find("table " + t) != std::string::npos;
-      EXPECT_TRUE(said) << "nothing is said of table " << t;
+      int compared = 0;
+      for (const Statement& s : e.statements)
+        compared += s.where.find("table " + t) != std::string::npos && !s.reference.empty();
+      EXPECT_GE(compared, numbers.at(t)) << "table " << t;
     }
   }
   EXPECT_EQ(sections,

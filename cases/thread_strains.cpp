@@ -1,4 +1,4 @@
-#include "cases/structure_strains.hpp"
+#include "cases/thread_strains.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,11 +28,12 @@ struct Sum {
 
 }  // namespace
 
-ThreadStrains::ThreadStrains(const Structure& s)
-    : structure_(s),
-      rows_(buildStrainRows(s.shell.garment(), s.map, {std::vector<double>(s.map.home.size(), 1.0), {}})) {
-  for (const SheetCell& cell : sheetCells(s.shell.garment())) {
-    const NurbsPatch& patch = s.shell.garment().patches[static_cast<std::size_t>(cell.patch)];
+ThreadStrains::ThreadStrains(const Shell& shell, const FreeMap& map)
+    : shell_(shell),
+      map_(map),
+      rows_(buildStrainRows(shell.garment(), map, {std::vector<double>(map.home.size(), 1.0), {}})) {
+  for (const SheetCell& cell : sheetCells(shell.garment())) {
+    const NurbsPatch& patch = shell.garment().patches[static_cast<std::size_t>(cell.patch)];
     for (const CellPoint& point : cellRule(cell, patch.u.degree, patch.v.degree))
       gauss_.emplace_back(cell.patch, Vec2{point.u, point.v});
   }
@@ -50,15 +51,15 @@ const std::vector<std::string>& ThreadStrains::columns() {
 }
 
 std::vector<double> ThreadStrains::values(const std::vector<Vec3>& q) const {
-  std::vector<Vec3> p(structure_.map.home.size()), e;
-  for (std::size_t k = 0; k < p.size(); ++k) p[k] = q[static_cast<std::size_t>(structure_.map.home[k])];
+  std::vector<Vec3> p(map_.home.size()), e;
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] = q[static_cast<std::size_t>(map_.home[k])];
   strainVectors(rows_, p, e);
   Sum vertex, gauss;
   for (const StrainPoint& point : rows_.points)
     vertex.add(strainOf(e[static_cast<std::size_t>(point.row[0])]),
                strainOf(e[static_cast<std::size_t>(point.row[1])]));
   for (const auto& [patch, uv] : gauss_) {
-    const Vec3 strain = structure_.shell.stateAt(patch, uv, q).strain;
+    const Vec3 strain = shell_.stateAt(patch, uv, q).strain;
     gauss.add(strain.x, strain.y);
   }
   std::vector<double> row;
@@ -67,18 +68,15 @@ std::vector<double> ThreadStrains::values(const std::vector<Vec3>& q) const {
   return row;
 }
 
-nlohmann::ordered_json threadStrainSummary(const PathTable& path) {
+nlohmann::ordered_json threadStrainSummary(const std::vector<std::vector<double>>& rows, std::size_t first) {
   nlohmann::ordered_json j;
+  std::size_t at = first;
   for (const char* place : places)
     for (const char* thread : threads) {
-      const std::string name = std::string(place) + "_" + thread;
-      const auto column = [&](const std::string& what) {
-        return static_cast<std::size_t>(std::find(path.columns.begin(), path.columns.end(), name + what) -
-                                        path.columns.begin());
-      };
       double most = -0.5;
-      for (const auto& row : path.rows) most = std::max(most, row[column("_max")]);
-      j[place][thread] = {{"largest", most}, {"mean", path.rows.back()[column("_mean")]}};
+      for (const auto& row : rows) most = std::max(most, row[at]);
+      j[place][thread] = {{"largest", most}, {"mean", rows.back()[at + 1]}};
+      at += 2;
     }
   return j;
 }
