@@ -52,7 +52,9 @@ Object strainLimitTable() {
               std::vector<std::pair<std::string, LimitMode>>{{"upper_limit", LimitMode::upper_limit},
                                                              {"equality", LimitMode::equality}},
               "upper_limit: threads may slacken, and hold where they would stretch beyond the limit; equality: threads "
-              "keep their length (Zheng 2013, eq. 5.6)")
+              "keep their length (Zheng 2013, eq. 5.6). Equalities and contacts of a step are one problem; upper limits "
+              "and contacts are solved in turn, and where both are tight steps may miss the tolerance, which a check "
+              "counts")
       .required()
       .number("limit", &S::limit, "", between(0, 1), "largest Green-Lagrange strain along weft and warp")
       .defaultsTo("required for upper_limit; not allowed for equality")

@@ -59,7 +59,7 @@ def wearers(walk):
         recorded("snu_woody_walk_normal_straight.bvh", **{"from": 3, "to": 4.6}, hips_apart="4 deg",
                  arms_apart="12 deg"),
         recorded("snu_woody_low_walk.bvh", **{"from": 2, "to": 3.8}, hips_apart="4 deg", arms_apart="12 deg"),
-        recorded("makehuman_walk1.bvh", slower=1.8, travel="feet", hips_apart="4 deg", arms_apart="12 deg"))
+        recorded("makehuman_walk1.bvh", slower=1.8, travel="feet", hips_apart="8 deg", arms_apart="12 deg"))
     absent = []
     if MOTION.exists():
         for name, motion in zip(RECORDED, motions):
@@ -88,7 +88,10 @@ def case(name, human):
     made = json.loads((SOURCE / "cases/library/shorts_walk_skin.json").read_text())
     made |= {"name": name, "human": human, "output": output}
     # Three samples per cell: with two the cloth bulges up to 0.8 mm into a walking body between them.
-    made["garment"] = {"shorts": {"inseam": "20 cm", "ease": "6 %", "cell": "26.5 mm"}, "samples_per_cell": 3}
+    crouches = "low_walk" in human["motion"].get("file", {}).get("path", "")
+    made["garment"] = {"shorts": {"inseam": "20 cm", "ease": "12 %" if crouches else "6 %", "cell": "26.5 mm"}, "samples_per_cell": 3}
+    if crouches:  # the seat needs room, and the waist a band: it is drawn down by 6 cm else
+        made["supports"] = [{"springs": {"edge": "waist", "stiffness": "8000 N/m^2", "link": "pelvis"}}]
     made["air"] = {"drag": "4 kg/(m^2 s)", "velocity": "pelvis_mean"}
     made["analysis"] = {"joints": ["hip_flexion_left", "hip_flexion_right"], "counting": "all_distal"}
     return made
