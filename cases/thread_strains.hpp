@@ -1,6 +1,7 @@
 #pragma once
-/// Strains of weft and warp over a sheet or garments: at the vertices of the knot mesh, where limits act, and at Gauss points.
-/// Where a strain is taken matters: at a held corner the vertex stretches several times as far as the points beside it.
+/// Strains of weft and warp over a sheet or garments: at the vertices of the knot mesh, where limits act, and at Gauss
+/// points. Where a strain is taken matters: at a held corner the vertex stretches several times as far as the points
+/// beside it.
 
 #include <nlohmann/json.hpp>
 
@@ -29,8 +30,8 @@ class ThreadStrains {
   std::vector<std::pair<int, Vec2>> gauss_;  ///< patch, parameters
 };
 
-/// {vertex: {weft: {largest: over the rows, mean: of the last row}, ...}, ...} of rows of values, one or more, that begin
-/// in column `first`.
+/// {vertex: {weft: {largest: over the rows, mean: of the last row}, ...}, ...} of rows of values, one or more, that
+/// begin in column `first`.
 nlohmann::ordered_json threadStrainSummary(const std::vector<std::vector<double>>& rows, std::size_t first = 0);
 
 }  // namespace gambeson

@@ -41,6 +41,35 @@ TEST(Command, HelpForNewcomers) {
   EXPECT_NE(gambeson(folder, "--version").out.find("gambeson 0."), std::string::npos);
 }
 
+/// 0 for help, 2 for what is wrong in the input, which is said; whatever the command.
+TEST(Command, StatusesAreAlike) {
+  const Folder folder;
+  for (const char* subcommand :
+       {"run", "dress", "check", "draft", "render", "report", "export", "verify", "study", "batch"}) {
+    SCOPED_TRACE(subcommand);
+    EXPECT_EQ(gambeson(folder, std::string(subcommand) + " --help").status, 0);
+    for (const char* wrong : {"--nonsense", "absent.json", ""}) {
+      const Outcome o = gambeson(folder, std::string(subcommand) + " " + wrong);
+      EXPECT_EQ(o.status, 2) << wrong;
+      EXPECT_FALSE(o.err.empty()) << wrong;
+    }
+  }
+  EXPECT_EQ(gambeson(folder, "nonsense").status, 2);
+}
+
+/// Drafted trousers end above the knee: `check` says what `run` would.
+TEST(Command, ShortsThatReachTooFarAreRefusedByCheck) {
+  const Folder folder;
+  for (const char* inseam : {"7.9 cm", "60 cm"}) {
+    const Outcome o = gambeson(folder,
+                               "check '" GAMBESON_SOURCE_DIR
+                               "/cases/library/shorts_walk.json' --set 'garment.shorts.inseam=" +
+                                   std::string(inseam) + "'");
+    EXPECT_EQ(o.status, 2) << inseam;
+    EXPECT_NE(o.err.find("garment.shorts.inseam"), std::string::npos) << o.err;
+  }
+}
+
 TEST(Command, CheckAcceptsTheLibrary) {
   const Folder folder;
   for (const char* name : {"shorts_walk", "shorts_stairs", "sleeve_flex", "inclined_plane", "sphere_drape", "flag",

@@ -116,7 +116,8 @@ TEST(Pressure, IsForceByPresentArea) {
 /// Loads beyond all measure end in a message and exit 1, with the report of what there is.
 TEST(StructureRuns, WhatIsNotFiniteIsNoSuccess) {
   const Folder folder;
-  const StructureCase c = readStructureCase(library / "cantilever.json", {"loads[0].force=[0, 0, 1e15]", "output.pictures=[]"});
+  const StructureCase c =
+      readStructureCase(library / "cantilever.json", {"loads[0].force=[0, 0, 1e15]", "output.pictures=[]"});
   try {
     runStructure(c, {folder.path() / "out", 1});
     FAIL() << "runs";
