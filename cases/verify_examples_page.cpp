@@ -77,6 +77,13 @@ std::string goal(const Result& r) {
   return fmt::format("{} {}", r.note.starts_with("at least") ? "at least" : "at most", number(*r.reference, r.unit));
 }
 
+/// A bound's note begins with its kind, which the goal says.
+std::string noteOf(const Result& r) {
+  for (const std::string bound : {"at least", "at most"})
+    if (!r.tolerance && r.note.starts_with(bound)) return r.note.substr(std::min(r.note.size(), bound.size() + 2));
+  return r.note;
+}
+
 std::string ours(const Statement& s, const Beside& b) {
   if (b.standing == Standing::none) return escape(s.without);
   std::string text;
@@ -93,7 +100,8 @@ std::string ours(const Statement& s, const Beside& b) {
     text = escape(fmt::format("not run this time: gambeson verify --filter {}", s.reference));
   }
   text += "<br><span class=\"soft\">" + escape(s.quantity) + "</span>";
-  if (b.result && !b.result->note.empty()) text += "<br><span class=\"soft\">" + escape(b.result->note) + "</span>";
+  const std::string note = b.result ? noteOf(*b.result) : "";
+  if (!note.empty()) text += "<br><span class=\"soft\">" + escape(note) + "</span>";
   return text;
 }
 

@@ -95,6 +95,16 @@ TEST_F(VerifyExamples, PageSaysWhatStandsBesideEachStatement) {
   EXPECT_EQ(page.find("http"), std::string::npos);
 }
 
+TEST_F(VerifyExamples, ABoundIsSaidOnce) {
+  Verified v = measured(1.9, 2, 2, folder.path() / "tip.json");
+  Result& height = v.judged[0].results[0];
+  height.tolerance.reset();
+  height.note = "at most; of all frames";
+  const std::string page = formatWork(readWork(write(book)), {v}, "gambeson verify");
+  EXPECT_NE(page.find("(at most 2 m)"), std::string::npos);
+  EXPECT_NE(page.find(">of all frames<"), std::string::npos);
+}
+
 TEST_F(VerifyExamples, ReferencesThatDidNotRunSayHow) {
   const Work work = readWork(write(book));
   const std::string page = formatWork(work, {}, "gambeson verify");
