@@ -165,9 +165,9 @@ bool contradict(const ContactSolve& solve, double dt) {
 }
 
 /// Rows give way by this part of what their own impulse would move the cloth at them, B 1/rho in the mean:
-/// contradicting rows then share what they miss in proportion to their impulses. These are bounded (by 1/part of what stops the
-/// cloth), the solve converges, and no more energy enters than what bodies and targets do: with D(tau) = tau.A.tau/2 +
-/// tau.(v - target) + |yield| <= D(0) = 0, the work tau.(v + A tau/2) is at most tau.target.
+/// contradicting rows then share what they miss in proportion to their impulses. These are bounded (by 1/part of what
+/// stops the cloth), the solve converges, and no more energy enters than what bodies and targets do: with D(tau) =
+/// tau.A.tau/2 + tau.(v - target) + |yield| <= D(0) = 0, the work tau.(v + A tau/2) is at most tau.target.
 struct Yield {
   static constexpr double kLittle = 1e-4;  ///< cloth jammed in a fold, which bears 8 % less then (a third with much)
   static constexpr double kMuch = 1e-2;    ///< cloth between bodies that close on it

@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "content.hpp"
 #include "example.hpp"
 
 namespace gambeson {
@@ -15,11 +16,6 @@ struct Outcome {
   int status = -1;
   std::string out, err;
 };
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
 
 Outcome gambeson(const Folder& folder, const std::string& arguments) {
   const std::filesystem::path out = folder.path() / "stdout", err = folder.path() / "stderr";

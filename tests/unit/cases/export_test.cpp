@@ -9,6 +9,7 @@
 
 #include "cases/cli.hpp"
 #include "cases/results.hpp"
+#include "content.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
 #include "human/storage.hpp"
@@ -22,11 +23,6 @@ int command(std::vector<const char*> words, std::string* error = nullptr) {
   const int status = runCommand(static_cast<int>(words.size()), words.data(), out, err);
   if (error) *error = err.str();
   return status;
-}
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// The library's arm in a coarse sleeve, for a few hundredths of a second.

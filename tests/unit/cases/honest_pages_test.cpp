@@ -11,6 +11,7 @@
 #include "cases/results_write.hpp"
 #include "cases/run.hpp"
 #include "cases/structure_run.hpp"
+#include "content.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
 #include "human/manikin.hpp"
@@ -19,11 +20,6 @@ namespace gambeson {
 namespace {
 
 const std::filesystem::path library = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library";
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
 
 TEST(Captions, SayOverWhatAPressureIsTheMean) {
   PictureCase picture;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/structure_run.hpp"
+#include "content.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
 
@@ -15,11 +16,6 @@ namespace gambeson {
 namespace {
 
 const std::filesystem::path library = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library";
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
 
 struct Ran {
   nlohmann::json summary;

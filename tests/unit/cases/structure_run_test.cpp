@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "cases/structure_run.hpp"
+#include "content.hpp"
 #include "core/error.hpp"
 #include "structure_example.hpp"
 
@@ -19,11 +20,6 @@ namespace gambeson {
 namespace {
 
 const std::filesystem::path library = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library";
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
 
 /// Runs and gives path.csv by columns.
 std::map<std::string, std::vector<double>> runTable(const StructureCase& c, const std::filesystem::path& out,

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/run.hpp"
+#include "content.hpp"
 #include "example.hpp"
 #include "scene.hpp"
 
@@ -25,11 +26,6 @@ const std::string strip = R"json({
   "time": {"duration": 1.5},
   "output": {"frame": "100 ms", "pictures": []}
 })json";
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
 
 /// Two ends of the same strip pull against each other and carry half of its weight each.
 TEST(Supports, EachHeldEdgeShowsItsOwnForce) {
