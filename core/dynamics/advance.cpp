@@ -18,7 +18,6 @@ constexpr double kFall = 0.995;
 /// Steps until the next estimate, times the swing: cloth that swings far changes its stiffness as far. From a swing of
 /// kCrumpling on cells collapse, and one mode may take over from another between two estimates.
 constexpr double kStepsAtSwing = 6, kCrumpling = 0.5;
-constexpr double kTensionStep = 1;  ///< times the frequency of threads across their tension, the longest step
 constexpr int kSoonest = 10;  ///< steps between estimates because of the shown frequency
 
 /// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
@@ -46,11 +45,11 @@ void advance(const Model& model, const Stage& stage, const StepControl& control,
     }
     const double omega = std::max(state.frequency_rad_per_s, 1e-300);
     const double share = std::min(control.safety, state.share > 0 ? state.share : kFirstShare);
-    double longest = std::min(control.max_step_s, share * 2 / omega);
-    // Threads that do not yield take what tension a step needs of them, more the shorter it is.
-    if (std::isfinite(model.strain_limit.stiffness_N_per_m))
-      if (const double across = tensionFrequency(model.strain_rows, state.limit_J); across > 0)
-        longest = std::min(longest, kTensionStep / across);
+    // Threads that do not yield take what tension a step needs of them, more the shorter it is: these say nothing.
+    const double across = std::isfinite(model.strain_limit.stiffness_N_per_m)
+                              ? tensionFrequency(model.strain_rows, state.limit_J)
+                              : 0;
+    const double longest = std::min(control.max_step_s, share * 2 / std::hypot(omega, across));
     const double left = until - state.time_s;
     const double pieces = std::ceil(left / longest * (1 - 1e-12));
     double dt = pieces <= 1 ? left : left / pieces;

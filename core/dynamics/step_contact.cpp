@@ -414,16 +414,19 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
 }
 
 void pressingAccelerations(const Model& m, double dt, StepWork& w, std::vector<Vec3>& pressed) {
+  const bool limited = m.strain_limit.mode != LimitMode::none;
   pressed.clear();
   for (std::size_t i = 0; i < w.rows.size(); ++i) {
     const ContactRow& row = w.rows[i];
     const Contact& c = row.contact;
-    if (row.impact || row.slippery || w.impulses[i] == Vec3{} || !atLayer(c.gap_m, layerOf(m, row))) continue;
+    if (row.impact || row.slippery || w.impulses[i] == Vec3{}) continue;
+    if (!limited && !atLayer(c.gap_m, layerOf(m, row))) continue;
     if (pressed.empty()) {
       pressed.resize(m.freeCount());
       w.sample_pressing.assign(m.surface.size(), Vec3{});
     }
-    const double share = lastingShare(row.mean_Pa, dot(w.warm[i], c.normal) / dt, densityOf(m, row.stencil));
+    const double share =
+        limited ? 1 : lastingShare(row.mean_Pa, dot(w.warm[i], c.normal) / dt, densityOf(m, row.stencil));
     for (int k = 0; k < row.stencil.count; ++k)
       w.sample_pressing[row.stencil.sample[k]] += (share * row.stencil.weight[k]) * w.impulses[i];
   }

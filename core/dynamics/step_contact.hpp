@@ -53,8 +53,9 @@ void keepWarm(const Model& model, double dt, const StepWork& work, std::vector<W
 
 /// What the step's contacts accelerate the free points by as a force that acts all the time [m/s^2]: of persistent rows
 /// that have come to their layer, friction with them, as much as lasts (lastingShare). Impacts, what stops a sample on
-/// its way to the layer and what frees intersections change velocities at once and are no part of it. Empty where
-/// nothing presses.
+/// its way to the layer and what frees intersections change velocities at once and are no part of it. Where threads are
+/// limited their tensions and the contacts that bear them are solved as one and balance as one, though they pass from
+/// sample to sample: then all persistent rows count, as all tensions do. Empty where nothing presses.
 void pressingAccelerations(const Model& model, double dt, StepWork& work, std::vector<Vec3>& pressed);
 
 /// Contact's part of the audit, and the impulses on bodies.

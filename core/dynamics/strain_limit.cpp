@@ -27,6 +27,9 @@ double turnOf(std::span<const Vec3> e, std::span<const Vec3> before) {
   return std::sqrt(most2);
 }
 
+/// F D of all rows that the threads pull along at the iterate.
+const std::vector<Vec3>& pullsAlong(const LimitWork& w) { return w.along.empty() ? w.e : w.along; }
+
 double residualOf(const StrainRows& rows, const StrainLimit& limit, std::span<const double> C) {
   double most = 0;
   for (int i = 0; i < rows.rows(); ++i) {
@@ -65,8 +68,8 @@ class Projection {
   }
 
   void assembleHere() {
-    assemble(rows_, w_.e, w_.yields, w_.A);
-    w_.factored_e = w_.e;
+    assemble(rows_, pullsAlong(w_), w_.yields, w_.A);
+    w_.factored_e = pullsAlong(w_);
   }
 
   void factoriseHere() {
@@ -183,6 +186,7 @@ void startProjection(const StrainRows& rows, std::span<const double> warm, Limit
   w.factored_e.clear();
   w.left.clear();
   w.yields.clear();
+  w.along.clear();
   for (std::size_t i = 0; i < warm.size(); ++i) w.active[i] = rows.live[i] && warm[i] > 0;
 }
 
@@ -190,6 +194,7 @@ void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<con
                  std::span<const double> warm_J, double dt, LimitWork& w) {
   if (!std::isfinite(limit.stiffness_N_per_m)) return;
   strainVectors(rows, p, w.e);
+  w.along = w.e;
   constraints(rows, limit, w.e, w.left);
   // Crossings of a trimming loop may stand for next to no area; their threads hold all the same.
   const double least = 0.1 * *std::max_element(rows.area_m2.begin(), rows.area_m2.end());
@@ -253,6 +258,7 @@ void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_lea
   const int n = rows.rows();
   const double tolerance = unrestoredTolerance(limit, w);
   Projection projection(rows, limit, report, w);
+  const std::vector<Vec3>& along = pullsAlong(w);
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration) {
     const double residual = report.residual = unrestored(rows, limit, p, w);
@@ -261,7 +267,9 @@ void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_lea
     const bool wanted = iteration == 0 && at_least_once && residual > 0;
     if (report.converged && !wanted) break;
     if (iteration == std::min(most, limit.max_projections)) break;
-    const bool fresh = iteration == 0 || residual > 0.25 * before || turnOf(w.e, w.factored_e) > kTurnOfFactor;
+    const bool fresh = w.along.empty() ? iteration == 0 || residual > 0.25 * before ||
+                                             turnOf(w.e, w.factored_e) > kTurnOfFactor
+                                       : w.factored_e.empty();
     if (fresh) projection.assembleHere();
     if (limit.mode == LimitMode::upper_limit)
       for (int i = 0; i < n; ++i)
@@ -275,7 +283,7 @@ void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_lea
     // The step in multipliers, shortened where it turns the cloth too far for the linearisation.
     const auto moveBy = [&](double part) {
       w.scaled.resize(n);
-      for (int i = 0; i < n; ++i) w.scaled[i] = (part * (w.solution[i] - w.multiplier[i])) * w.e[i];
+      for (int i = 0; i < n; ++i) w.scaled[i] = (part * (w.solution[i] - w.multiplier[i])) * along[i];
       w.end.resize(p.size());
       rows.Bt.multiply<Vec3>(w.scaled, w.end);
     };

@@ -69,6 +69,7 @@ struct LimitWork {
   std::vector<int> slot;
   std::vector<double> left;     ///< of each row, strain beyond its limit that this step is to leave; empty: none
   std::vector<double> yields;   ///< of each row, 1/(k a dt^2) [1/(kg m^2)]: its part of C over its multiplier; empty: 0
+  std::vector<Vec3> along;       ///< F D of all rows that threads pull along in this step; empty: of each iterate
   std::vector<Vec3> factored_e;  ///< F D of all rows where the matrix was made; empty: not in this step
   std::vector<double> multiplier;
   std::vector<Vec3> velocity, contact_change;
@@ -79,7 +80,10 @@ void startProjection(const StrainRows& rows, std::span<const double> warm, Limit
 
 /// Where threads yield, a step of dt from the positions p leaves of each strain beyond its limit what restore_per_s
 /// cannot take back, and nothing of one within half of the tolerance. What a thread yields under the multipliers of the
-/// last step `warm_J` is no part of it. Sets work.left and work.yields.
+/// last step `warm_J` is no part of it. Such threads pull along where they lie at the start of the step (SHAKE, Ryckaert,
+/// Ciccotti and Berendsen, J. Comput. Phys. 23, 1977), as the forces of velocity Verlet do: what swings across their
+/// tension keeps its energy then and is stable up to omega dt = 2. Along the iterates (eq. 5.21) it is damped, and stable
+/// up to 1.15. Sets work.left, work.yields and work.along.
 void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p,
                  std::span<const double> warm_J, double dt_s, LimitWork& work);
 
@@ -97,16 +101,15 @@ double unrestored(const StrainRows& rows, const StrainLimit& limit, std::span<co
 double unrestoredTolerance(const StrainLimit& limit, const LimitWork& work);
 
 /// The largest angular frequency of threads that swing across their tension, a bound from the sums of rows of M^-1 B^T
-/// diag(lambda) B [rad/s]; multipliers of the last step [J]. Tensions act along threads as they are at one moment of a
-/// step: where they turn too far in it, its ends swing and the tension feeds them.
+/// diag(lambda) B [rad/s]; multipliers of the last step [J]. It bounds the step as the cloth's own frequency does.
 double tensionFrequency(const StrainRows& rows, std::span<const double> lambda_J);
 
 /// Moves the positions p on the constraints by eq. 5.21 and 5.22,
 ///   (J M^-1 J^T) dt^2 dlambda = C,   dp = - M^-1 J^T dt^2 dlambda,
-/// until the residual (unrestored) is within tolerance, `most` times at most; adds to work.multiplier and work.pull, and to
+/// J at the iterates, or along work.along, until the residual (unrestored) is within tolerance, `most` times at most; adds to work.multiplier and work.pull, and to
 /// the report. Threads that yield have C less what their tension stands for, and 1/(k a dt^2) on the diagonal.
-/// The matrix is factorised at the first iterate and again where the residual has not fallen by a factor of 4, or where some F D has
-/// changed by more than a twentieth since.
+/// The matrix is factorised at the first iterate and again where the residual has not fallen by a factor of 4, or where
+/// some F D has changed by more than a twentieth since; once in a step for threads that yield, whose directions stay.
 /// The diagonal is raised by 1e-4 S_ii. Redundant rows (a line of points between two held edges, say) would make the
 /// matrix singular; and multipliers that alternate from point to point move the cloth so little that a step's own
 /// second-order stretch (omega dt)^2/2 would call up tensions a thousand times those of the load, whose chatter feeds
