@@ -367,11 +367,13 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   m.surface.WT.multiply<Vec3>(state.p, x);
   m.surface.WT.multiply<Vec3>(state.v, v);
   if (m.environment.drag_kg_per_m2s > 0 && !m.obstacles.empty()) {
-    placed_.moveTo(state.time_s);
     const Vec3 air = scenario_.stage->air(state.time_s);
-    std::vector<int> nearest(x.size());
+    std::vector<int> nearest(x.size(), 0);
+    if (bodies_.size() > 1) {
+      placed_.moveTo(state.time_s);
 #pragma omp parallel for schedule(static)
-    for (int s = 0; s < m.surface.size(); ++s) nearest[s] = placed_.nearest(x[s]).body;
+      for (int s = 0; s < m.surface.size(); ++s) nearest[s] = placed_.nearest(x[s]).body;
+    }
     for (int s = 0; s < m.surface.size(); ++s) {
       const Vec3 f = (-m.environment.drag_kg_per_m2s * m.surface.area_m2[s] * window) * (v[s] - air);
       drag[nearest[s]].force += f;

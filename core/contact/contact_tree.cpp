@@ -47,7 +47,8 @@ void ContactTree::setShares(std::span<const float> share_m) {
   tile_share_m_.clear();
   node_share_m_.clear();
   const std::span<const float> cloth = share_m.first(std::min<std::size_t>(share_m.size(), first_obstacle_vertex_));
-  if (std::all_of(cloth.begin(), cloth.end(), [&](float s) { return s == cloth[0]; })) return;
+  const bool obstacles = roots_.size() > charts_.size();
+  if (!obstacles && std::all_of(cloth.begin(), cloth.end(), [&](float s) { return s == cloth[0]; })) return;
   tile_share_m_.assign(tiles_.size(), -1);
   node_share_m_.assign(nodes_.size(), -1);
   for (std::size_t k = 0; k < tiles_.size(); ++k)

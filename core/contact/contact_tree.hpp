@@ -62,7 +62,7 @@ class ContactTree {
   /// Thin cloth has a margin of its own: two primitives of cloth matter only within the sum of their vertices' largest
   /// shares, one of cloth and one of an obstacle within twice the former's or PairRules::obstacle_margin_m, and never
   /// beyond PairRules::margin_m.
-  /// `share_m` of each vertex; of obstacles they do not count. Where all are the same they make no difference.
+  /// `share_m` of each vertex; of obstacles they do not count.
   void setShares(std::span<const float> share_m);
   /// The margin between two tiles.
   double marginOf(const PairRules& rules, int tile_a, int tile_b) const {
