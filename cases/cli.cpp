@@ -18,6 +18,7 @@
 #include "cases/message.hpp"
 #include "cases/results_folder.hpp"
 #include "cases/run.hpp"
+#include "cases/stop_message.hpp"
 #include "cases/structure_run.hpp"
 #include "cases/study/run.hpp"
 #include "cases/verify.hpp"
@@ -392,6 +393,8 @@ int dressCase(const DressArguments& a) {
   if (!c || !c->human) throw InputError({a.file.string(), 0, "human"}, "is required: whom to dress");
   checkOutput(a.output, "--output", inputsOf(any));
   useThreads(a.threads);
+  const StopMessage stopped(
+      "stopped by a signal; nothing is written, and dressing starts from the beginning when it is run again");
   writeDressed(dress(*c), a.output);
   fmt::print("Dressed: {}\n", a.output.string());
   return done;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdio>
 
 #include "core/error.hpp"
@@ -9,7 +10,7 @@
 namespace gambeson {
 namespace {
 
-constexpr std::size_t most_bytes = 390, kept_at_end = 130;
+constexpr std::size_t most_bytes = 390, kept_at_end = 130, most_quoted = 80;
 constexpr std::string_view left_out = " [...] ";
 
 /// Bytes of the character that `text` begins with, 0 where that is no UTF-8. (Unicode 15, table 3-7.)
@@ -34,9 +35,43 @@ bool isControl(std::string_view character) {
   return a < 0x20 || a == 0x7f || (a == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0);
 }
 
+/// The text with no more than the first bytes of what it quotes. An apostrophe after a letter opens no quotation, one
+/// before a letter closes none.
+std::string shortQuotations(std::string_view text) {
+  const auto isLetter = [&](std::size_t at) {
+    return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
+  };
+  const auto closing = [&](std::size_t from) {
+    std::size_t at = text.find('\'', from);
+    while (at != std::string_view::npos && isLetter(at + 1)) at = text.find('\'', at + 1);
+    return at;
+  };
+  std::string out;
+  std::size_t at = 0;
+  for (std::size_t open = text.find('\''); open != std::string_view::npos; open = text.find('\'', open)) {
+    const bool opens = open == 0 || !isLetter(open - 1);
+    const std::size_t end = opens ? closing(open + 1) : std::string_view::npos;
+    if (end == std::string_view::npos) {
+      if (opens) break;
+      ++open;
+      continue;
+    }
+    if (end - open - 1 > most_quoted) {
+      std::size_t kept = open + 1 + most_quoted;
+      while ((static_cast<unsigned char>(text[kept]) & 0xc0) == 0x80) --kept;
+      out.append(text.substr(at, kept - at)).append("[...]");
+      at = end;
+    }
+    open = end + 1;
+  }
+  return out.append(text.substr(at));
+}
+
 }  // namespace
 
-std::string messageText(std::string_view text) {
+std::string messageText(std::string_view whole) {
+  const std::string shorter = shortQuotations(whole);
+  std::string_view text = shorter;
   // Beyond this nothing is shown: the parts that are kept come from the first and the last bytes alone.
   std::string shown;
   const auto add = [&](std::string_view part) {

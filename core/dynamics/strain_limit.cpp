@@ -332,7 +332,8 @@ void StrainHold::multipliersOf(std::span<const Vec3> change) const {
 }
 
 void StrainHold::hold(std::span<Vec3> change) const {
-  if (!w_.factor->solvable()) return;
+  const auto rests = [](const Vec3& d) { return d == Vec3{}; };
+  if (!w_.factor->solvable() || std::all_of(change.begin(), change.end(), rests)) return;
   multipliersOf(change);
   const int n = rows_.rows();
   w_.scaled.resize(n);

@@ -56,6 +56,20 @@ def verify_ends_its_runs(folder):
             time.sleep(0.02)
 
 
+def dress_says_that_it_was_stopped(folder):
+    case = json.loads((SOURCE / "cases/library/armour_stitched.json").read_text())
+    (folder / "slow.json").write_text(json.dumps(case))
+    for number in (signal.SIGTERM, signal.SIGINT):
+        dress = subprocess.Popen(command("dress", folder / "slow.json", "-o", folder / "on.json"), stdin=subprocess.DEVNULL,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        check(dress.poll() is None, f"dress ended by itself: {dress.stderr.read() if dress.poll() is not None else ''}")
+        dress.send_signal(number)
+        said = dress.communicate(timeout=20)[1]
+        check(dress.returncode == 1 and "stopped by a signal" in said, f"{dress.returncode}: {said}")
+        check(not (folder / "on.json").exists(), "half a dressed state is left")
+
+
 def a_report_leaves_nothing(folder):
     """In the folder for temporary files, where it cannot be written."""
     check(run("run", CASE, "--out", folder / "out", "--set", "time.duration=20 ms").returncode == 0, "no results")
@@ -119,7 +133,7 @@ def set_up_waits(folder):
 
 
 def main():
-    for test in (set_up_waits, what_cannot_be_said_is_no_success, a_report_leaves_nothing, much_is_said_before, verify_ends_its_runs):
+    for test in (set_up_waits, what_cannot_be_said_is_no_success, a_report_leaves_nothing, dress_says_that_it_was_stopped, much_is_said_before, verify_ends_its_runs):
         with Folder() as folder:
             test(folder)
             print(test.__name__, "good")

@@ -57,6 +57,22 @@ TEST(Message, IsShortAndKeepsItsPlaceAndItsEnd) {
   EXPECT_TRUE(unfitText(messageText(umlauts)).empty());
 }
 
+TEST(Message, OfWhatIsQuotedTheFirstCharactersAreShown) {
+  const std::string text =
+      messageText("walk.mot:12: the line '" + std::string(300, 'y') + "' is no row; the file's columns are 3");
+  EXPECT_EQ(text, "walk.mot:12: the line '" + std::string(80, 'y') + "[...]' is no row; the file's columns are 3");
+  const std::string two = messageText("'" + std::string(81, 'a') + "' and '" + std::string(80, 'b') + "'");
+  EXPECT_EQ(two, "'" + std::string(80, 'a') + "[...]' and '" + std::string(80, 'b') + "'");
+  // Apostrophes quote nothing, nor does one that nothing closes; what is quoted may hold apostrophes.
+  const std::string apostrophes = "the body's name is " + std::string(90, 'c') + ", the garment's another's";
+  EXPECT_EQ(messageText(apostrophes), apostrophes);
+  EXPECT_EQ(messageText("'" + std::string(100, 'd')), "'" + std::string(100, 'd'));
+  EXPECT_EQ(messageText("'it's " + std::string(100, 'e') + "'"), "'it's " + std::string(75, 'e') + "[...]'");
+  std::string umlauts;
+  for (int i = 0; i < 60; ++i) umlauts += "x\xc3\xa4";
+  EXPECT_TRUE(unfitText(messageText("'" + umlauts + "'")).empty());
+}
+
 TEST(Message, ATerminalIsToldNothing) {
   EXPECT_EQ(messageText("a\x1b[31mb\x07\x7f\r" + std::string(1, '\0')), "a\\x1b[31mb\\x07\\x7f\\x0d\\x00");
   EXPECT_EQ(messageText("\xc2\x9b"
