@@ -16,7 +16,7 @@ namespace gambeson {
 /// to its corners, so that an even pressure is shown as it is.
 class BodyMap {
  public:
-  static constexpr double kCell_m = 0.012;  ///< edges of the meshes laid on shapes, at most, as far as 100,000 triangles go
+  static constexpr double kCell_m = 0.012;  ///< edges of meshes laid on shapes, at most, up to 100,000 triangles
 
   /// Of the human's body alone; the scenario has one.
   BodyMap(const Scenario& scenario, double sensor_m);

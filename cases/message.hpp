@@ -8,8 +8,8 @@
 namespace gambeson {
 
 /// A message as the command prints it: of what it quotes ('...') the first 80 bytes, and at most 390 bytes in all, its
-/// middle left out where it is longer (the place stands at the start, what is allowed at the end). What a terminal would act on (control characters) and bytes that are no
-/// UTF-8 are written as \x1b; line breaks stay.
+/// middle left out where it is longer (the place stands at the start, what is allowed at the end). What a terminal
+/// would act on (control characters) and bytes that are no UTF-8 are written as \x1b; line breaks stay.
 std::string messageText(std::string_view text);
 
 /// A note on the standard error, as messageText has it. Names that the input gives stand in notes.

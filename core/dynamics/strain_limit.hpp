@@ -31,9 +31,10 @@ struct StrainLimit {
   LimitPoints points = LimitPoints::vertices;
   LimitMethod method = LimitMethod::fast;
   /// Strain that a step begins with is taken back by at most this much a second where threads yield (Zheng 2013 takes
-  /// all of it back at once, as threads do that do not). It is there where cloth starts stretched or contacts have had their way, and the velocities of a step that
-  /// takes back some percent at once are those of a blow: 1 % of a cell of 25 mm in a millisecond is 0.25 m/s. 1 /s
-  /// draws a belt together by 0.15 m/s, and is far above what a step leaves by itself.
+  /// all of it back at once, as threads do that do not). It is there where cloth starts stretched or contacts have had
+  /// their way, and the velocities of a step that takes back some percent at once are those of a blow: 1 % of a cell of
+  /// 25 mm in a millisecond is 0.25 m/s. 1 /s draws a belt together by 0.15 m/s, and is far above what a step leaves by
+  /// itself.
   double restore_per_s = 1;
   /// k: threads that a limit holds resist as springs, with the tension k C [N/m] that the step ends with (implicit, so
   /// that it sets no bound to the step); infinity: whatever it takes. Yarns have 1e4 to 1e5 N/m. What holds cloth and
@@ -80,10 +81,10 @@ void startProjection(const StrainRows& rows, std::span<const double> warm, Limit
 
 /// Where threads yield, a step of dt from the positions p leaves of each strain beyond its limit what restore_per_s
 /// cannot take back, and nothing of one within half of the tolerance. What a thread yields under the multipliers of the
-/// last step `warm_J` is no part of it. Such threads pull along where they lie at the start of the step (SHAKE, Ryckaert,
-/// Ciccotti and Berendsen, J. Comput. Phys. 23, 1977), as the forces of velocity Verlet do: what swings across their
-/// tension keeps its energy then and is stable up to omega dt = 2. Along the iterates (eq. 5.21) it is damped, and stable
-/// up to 1.15. Sets work.left, work.yields and work.along.
+/// last step `warm_J` is no part of it. Such threads pull along where they lie at the start of the step (SHAKE,
+/// Ryckaert, Ciccotti and Berendsen, J. Comput. Phys. 23, 1977), as the forces of velocity Verlet do: what swings
+/// across their tension keeps its energy then and is stable up to omega dt = 2. Along the iterates (eq. 5.21) it is
+/// damped, and stable up to 1.15. Sets work.left, work.yields and work.along.
 void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<const Vec3> p,
                  std::span<const double> warm_J, double dt_s, LimitWork& work);
 
@@ -106,8 +107,9 @@ double tensionFrequency(const StrainRows& rows, std::span<const double> lambda_J
 
 /// Moves the positions p on the constraints by eq. 5.21 and 5.22,
 ///   (J M^-1 J^T) dt^2 dlambda = C,   dp = - M^-1 J^T dt^2 dlambda,
-/// J at the iterates, or along work.along, until the residual (unrestored) is within tolerance, `most` times at most; adds to work.multiplier and work.pull, and to
-/// the report. Threads that yield have C less what their tension stands for, and 1/(k a dt^2) on the diagonal.
+/// J at the iterates, or along work.along, until the residual (unrestored) is within tolerance, `most` times at most;
+/// adds to work.multiplier and work.pull, and to the report. Threads that yield have C less what their tension stands
+/// for, and 1/(k a dt^2) on the diagonal.
 /// The matrix is factorised at the first iterate and again where the residual has not fallen by a factor of 4, or where
 /// some F D has changed by more than a twentieth since; once in a step for threads that yield, whose directions stay.
 /// The diagonal is raised by 1e-4 S_ii. Redundant rows (a line of points between two held edges, say) would make the
@@ -126,8 +128,8 @@ double tensionFrequency(const StrainRows& rows, std::span<const double> lambda_J
 void projectStrain(const StrainRows& rows, const StrainLimit& limit, bool at_least_once, std::span<Vec3> p,
                    LimitReport& report, LimitWork& work, int most = std::numeric_limits<int>::max());
 
-/// Limits of equality as contacts see them: with S = J M^-1 J^T (its diagonal raised as above) at the last factorisation of the
-/// step and J their gradients, impulses i move the free points by
+/// Limits of equality as contacts see them: with S = J M^-1 J^T (its diagonal raised as above) at the last
+/// factorisation of the step and J their gradients, impulses i move the free points by
 ///   P i = M^-1 i - M^-1 J^T S^-1 J M^-1 i,   0 <= P <= M^-1:
 /// whatever the contacts do, the limits take back what of it would stretch threads. Contacts and limits are one problem
 /// so, in which the limits' part is solved directly in each iteration.

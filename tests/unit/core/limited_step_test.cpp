@@ -68,8 +68,8 @@ TEST(LimitedStep, MomentumBalancesWithContactsHoldsSpringsAndDeadForces) {
   }
 }
 
-/// A free sheet keeps its momentum exactly, and its angular momentum to the order of the step; where threads yield, which
-/// pull along where they lie at the start of the step, exactly too.
+/// A free sheet keeps its momentum exactly, and its angular momentum to the order of the step; where threads yield,
+/// which pull along where they lie at the start of the step, exactly too.
 TEST(LimitedStep, AFreeSheetKeepsItsMomenta) {
   const auto drift = [](double dt, double stiffness = std::numeric_limits<double>::infinity()) {
     ModelOptions o;
@@ -96,7 +96,8 @@ TEST(LimitedStep, AFreeSheetKeepsItsMomenta) {
     return norm(after.second - before.second) / norm(before.second);
   };
   const double coarse = drift(1e-3), fine = drift(2.5e-4), yielding = drift(1e-3, 1e4);
-  std::printf("[ measured ] angular momentum drifts by %.3g and %.3g, of threads that yield %.3g\n", coarse, fine, yielding);
+  std::printf("[ measured ] angular momentum drifts by %.3g and %.3g, of threads that yield %.3g\n", coarse, fine,
+              yielding);
   EXPECT_LT(coarse, 0.02);
   EXPECT_LT(fine, 0.5 * coarse);
   EXPECT_LT(yielding, 1e-12);
@@ -436,9 +437,10 @@ TEST(LimitedStep, ARingThatIsTooTightYieldsByItsTension) {
     }
     for (std::size_t i = 0; i < m.state.limit_J.size(); ++i)
       tension = std::max(tension, std::abs(m.state.limit_J[i]) / m.model->strain_rows.area_m2[i]);
-    std::printf("[ measured ] k %.0g N/m: strain %.4f at most, %.4f at the end, tension %.1f N/m, %.2f rounds a step, "
-                "energy off by %.2g J in a step at rest, of works of %.2g J\n",
-                stiffness, largest, last, tension, rounds / 800.0, off, works);
+    std::printf(
+        "[ measured ] k %.0g N/m: strain %.4f at most, %.4f at the end, tension %.1f N/m, %.2f rounds a step, "
+        "energy off by %.2g J in a step at rest, of works of %.2g J\n",
+        stiffness, largest, last, tension, rounds / 800.0, off, works);
     EXPECT_LT(off, 4e-5 * works);  // tensions and the contacts that bear them are in the velocities alike
     EXPECT_EQ(unsolved, 0);
     EXPECT_GT(last, 1e-4);
