@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/dynamics/model.hpp"
+#include "core/motion/model.hpp"
 #include "human/body.hpp"
 #include "human/mesh_sequence.hpp"
 #include "human/motion.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/sheet/garment.hpp"
+#include "core/cloth/shell/garment.hpp"
 
 namespace gambeson {
 

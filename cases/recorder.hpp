@@ -27,8 +27,8 @@
 #include "cases/scenario.hpp"
 #include "cases/skin_ledger.hpp"
 #include "cases/zone_ledger.hpp"
+#include "core/cloth/shell/stress_field.hpp"
 #include "core/io/recording.hpp"
-#include "core/sheet/stress_field.hpp"
 
 namespace gambeson {
 

@@ -8,7 +8,7 @@
 #include "cases/placed_bodies.hpp"
 #include "cases/results_measure.hpp"
 #include "cases/thread_strains.hpp"
-#include "core/sheet/stress_field.hpp"
+#include "core/cloth/shell/stress_field.hpp"
 
 namespace gambeson {
 namespace {
@@ -72,8 +72,8 @@ void measureStretch(const Scenario& s, const RecordingReader& recording, Measure
   const ThreadStrains strains(s.model->shell, s.model->map);
   for (int k = 0; k < recording.frameCount(); ++k)
     if (recording.time(k) > 1e-9)
-      out.thread_strains.push_back(strains.values(
-          controlPointsOf(recording.frame(k), static_cast<std::size_t>(s.model->shell.controlCount()))));
+      out.thread_strains.push_back(
+          strains.values(controlPointsOf(recording.frame(k), static_cast<std::size_t>(s.model->shell.controlCount()))));
   const bool stated = std::any_of(c.garments.begin(), c.garments.end(), [&](const GarmentCase& g) {
     return limitOf(c, g, &FabricCase::limit_strain_weft) || limitOf(c, g, &FabricCase::limit_strain_warp);
   });

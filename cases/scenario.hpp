@@ -8,7 +8,7 @@
 
 #include "cases/case.hpp"
 #include "cases/supports.hpp"
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 #include "human/body.hpp"
 #include "human/foot_report.hpp"
 #include "human/motion.hpp"

@@ -4,17 +4,17 @@
 #include <optional>
 #include <string>
 
-#include "core/dynamics/strain_limit.hpp"
+#include "core/motion/strain_limit.hpp"
 
 namespace gambeson {
 
-/// Strain limiting of weft and warp by projection (core/dynamics/strain_limit.hpp).
+/// Strain limiting of weft and warp by projection (core/motion/strain_limit.hpp).
 struct StrainLimitCase {
   LimitMode mode = LimitMode::upper_limit;
-  std::optional<double> limit;  ///< Green-Lagrange strain, of upper_limit alone
+  std::optional<double> limit;              ///< Green-Lagrange strain, of upper_limit alone
   std::optional<double> stiffness_N_per_m;  ///< of threads that the limit holds
-  double tolerance = 2e-3;      ///< of the strain
-  int max_projections = 40;     ///< of one pass
+  double tolerance = 2e-3;                  ///< of the strain
+  int max_projections = 40;                 ///< of one pass
   LimitPoints points = LimitPoints::vertices;
   LimitMethod method = LimitMethod::fast;
 };

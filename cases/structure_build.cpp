@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/cloth/shell/supports.hpp"
 #include "core/error.hpp"
-#include "core/sheet/supports.hpp"
 
 namespace gambeson {
 namespace {

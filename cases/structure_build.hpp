@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "cases/structure_case.hpp"
-#include "core/dynamics/structure.hpp"
-#include "core/sheet/stress_field.hpp"
+#include "core/cloth/shell/stress_field.hpp"
+#include "core/statics/structure.hpp"
 
 namespace gambeson {
 

@@ -14,8 +14,8 @@
 #include "analysis/render/render.hpp"
 #include "cases/strain_limit_case.hpp"
 #include "cases/structure_sheet.hpp"
-#include "core/dynamics/implicit.hpp"
-#include "core/dynamics/statics.hpp"
+#include "core/motion/implicit.hpp"
+#include "core/statics/statics.hpp"
 
 namespace gambeson {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "core/dynamics/structure_system.hpp"
+#include "core/cloth/shell/trim_mesh.hpp"
 #include "core/math/carried_error.hpp"
-#include "core/sheet/trim_mesh.hpp"
+#include "core/statics/structure_system.hpp"
 
 namespace gambeson {
 namespace {

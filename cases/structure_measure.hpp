@@ -29,8 +29,8 @@ MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool
 MeasuredState measureMode(const Structure& s, std::span<const double> y, double factor, std::span<const double> shape,
                           double amplitude_m);
 
-/// Resultants and strains of a state (core/sheet/stress_field.hpp); of small displacements by their derivative at rest.
-/// Lives no longer than the model.
+/// Resultants and strains of a state (core/cloth/shell/stress_field.hpp); of small displacements by their derivative at
+/// rest. Lives no longer than the model.
 class StressState {
  public:
   /// `everywhere`: the means of all cells are taken at once, for many places.

@@ -9,8 +9,8 @@
 
 #include "analysis/report/report.hpp"
 #include "cases/structure_measure.hpp"
-#include "core/dynamics/motion_audit.hpp"
 #include "core/io/recording.hpp"
+#include "core/motion/motion_audit.hpp"
 
 namespace gambeson {
 

@@ -8,9 +8,9 @@
 #include "cases/places.hpp"
 #include "cases/structure_build.hpp"
 #include "cases/structure_fields.hpp"
-#include "core/dynamics/structure_limit.hpp"
+#include "core/cloth/shell/shell_law.hpp"
 #include "core/error.hpp"
-#include "core/sheet/shell_law.hpp"
+#include "core/statics/structure_limit.hpp"
 
 namespace gambeson::schema {
 namespace {

@@ -19,13 +19,13 @@
 #include "cases/structure_results.hpp"
 #include "cases/temporary_folder.hpp"
 #include "cases/thread_strains.hpp"
-#include "core/dynamics/modal.hpp"
-#include "core/dynamics/structure_system.hpp"
-#include "core/dynamics/time_integration.hpp"
+#include "core/cloth/constraint.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/own_file.hpp"
-#include "core/sheet/constraint.hpp"
+#include "core/motion/time_integration.hpp"
+#include "core/statics/modal.hpp"
+#include "core/statics/structure_system.hpp"
 
 namespace gambeson {
 namespace {
@@ -110,8 +110,7 @@ class Run {
     const double shapes = c_.output.shapes == ShapesKept::all ? rows : 1;
     const double bytes = 4 * per_vertex * static_cast<double>(built_->mesh.uv.size()) * shapes +
                          16 * static_cast<double>(path.columns.size()) * rows;
-    if (const std::string note = sizeNote(bytes, freeBytes(out_)); !note.empty())
-      sayNote(note);
+    if (const std::string note = sizeNote(bytes, freeBytes(out_)); !note.empty()) sayNote(note);
   }
   /// A whole shape for ParaView and the pictures.
   void keep(const MeasuredState& state) {

@@ -7,9 +7,9 @@
 #include <cstdio>
 
 #include "cases/structure_shapes.hpp"
+#include "core/cloth/shell/trim_loops.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
-#include "core/sheet/trim_loops.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "cases/patch_fields_case.hpp"
-#include "core/sheet/garment.hpp"
-#include "core/sheet/seams.hpp"
-#include "core/sheet/shell.hpp"
+#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/shell/shell.hpp"
 
 namespace gambeson {
 

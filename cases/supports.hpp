@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cases/case.hpp"
-#include "core/dynamics/model.hpp"
-#include "core/sheet/garment.hpp"
-#include "core/sheet/surface.hpp"
+#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/shell/surface.hpp"
+#include "core/motion/model.hpp"
 #include "human/body.hpp"
 
 namespace gambeson {

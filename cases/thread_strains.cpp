@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sheet/cells.hpp"
+#include "core/cloth/shell/cells.hpp"
 
 namespace gambeson {
 namespace {

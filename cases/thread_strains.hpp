@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/dynamics/strain_points.hpp"
-#include "core/sheet/shell.hpp"
+#include "core/cloth/shell/shell.hpp"
+#include "core/motion/strain_points.hpp"
 
 namespace gambeson {
 

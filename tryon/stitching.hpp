@@ -1,14 +1,14 @@
 #pragma once
 /// Virtual stitching (Zheng 2013, section 6.3): the panels of a garment stand around the body without touching it,
-/// springs along the pairs of edges that belong together close them (core/dynamics/stitch.hpp), then they are sewn.
+/// springs along the pairs of edges that belong together close them (core/motion/stitch.hpp), then they are sewn.
 ///
 /// The garment is drafted sewn, around the body. Panels are what seams join; unsewn, each keeps its rest shape.
 
 #include <span>
 #include <vector>
 
-#include "core/dynamics/stitch.hpp"
-#include "core/sheet/surface.hpp"
+#include "core/cloth/shell/surface.hpp"
+#include "core/motion/stitch.hpp"
 
 namespace gambeson {
 

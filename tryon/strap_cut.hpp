@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/sheet/shell.hpp"
+#include "core/cloth/shell/shell.hpp"
 
 namespace gambeson {
 

@@ -24,10 +24,10 @@
 #include "cases/study/compare.hpp"
 #include "cases/study/files.hpp"
 #include "cases/study/time_left.hpp"
+#include "core/cloth/shell/shell_kernel.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
 #include "core/io/recording.hpp"
-#include "core/sheet/shell_kernel.hpp"
 
 namespace gambeson::study {
 namespace {

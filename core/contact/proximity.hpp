@@ -63,7 +63,7 @@ class ProximityQuery {
   /// Trajectory impact (section 3.3.1): samples whose path x0 -> x1 (straight, against the moving obstacle) enters an
   /// ellipsoid from outside, with the normal and material point at the first time of contact, gap_m the separation at
   /// the start along that normal. Sorted as above; one per (sample, obstacle). Meshes are not asked: their triangles
-  /// take part in the search of core/dynamics/collisions.hpp.
+  /// take part in the search of core/motion/collisions.hpp.
   void impacts(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x0,
                std::span<const Vec3> x1, std::vector<Contact>& out) const;
 

@@ -9,7 +9,7 @@
 #include "bench_sheet.hpp"
 #include "bench_table.hpp"
 #include "bench_time.hpp"
-#include "core/sheet/shell.hpp"
+#include "core/cloth/shell/shell.hpp"
 
 namespace gambeson {
 namespace {

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "bench_time.hpp"
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 
 namespace gambeson {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "bench_table.hpp"
 #include "cases/scenario.hpp"
-#include "core/dynamics/step.hpp"
+#include "core/motion/step.hpp"
 
 namespace gambeson {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "bench_sheet.hpp"
 #include "bench_time.hpp"
-#include "core/dynamics/reduction.hpp"
-#include "core/sheet/supports.hpp"
-#include "core/sheet/tangent.hpp"
+#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/tangent.hpp"
+#include "core/statics/reduction.hpp"
 
 namespace gambeson {
 namespace {

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "core/contact/scene_check.hpp"
-#include "core/dynamics/step.hpp"
+#include "core/motion/step.hpp"
 
 namespace gambeson::exact {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/dynamics/model.hpp"
+#include "core/motion/model.hpp"
 #include "exact/intersections.hpp"
 
 namespace gambeson::exact {

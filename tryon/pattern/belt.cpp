@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "core/sheet/surface.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloth/shell/part_seam.hpp"
 #include "core/error.hpp"
-#include "core/sheet/part_seam.hpp"
 #include "tryon/pattern/fit.hpp"
 
 namespace gambeson {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/sheet/garment.hpp"
+#include "core/cloth/shell/garment.hpp"
 
 namespace gambeson {
 

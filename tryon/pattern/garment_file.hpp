@@ -21,7 +21,7 @@
 
 #include <filesystem>
 
-#include "core/sheet/garment.hpp"
+#include "core/cloth/shell/garment.hpp"
 
 namespace gambeson {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <numbers>
 
+#include "core/cloth/shell/part_seam.hpp"
 #include "core/error.hpp"
-#include "core/sheet/part_seam.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"

@@ -3,8 +3,8 @@
 #include <complex>
 #include <numbers>
 
+#include "core/cloth/shell/trim_loops.hpp"
 #include "core/error.hpp"
-#include "core/sheet/trim_loops.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
 #include "tryon/pattern/pattern.hpp"

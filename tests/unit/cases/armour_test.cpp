@@ -8,10 +8,10 @@
 #include "cases/cli.hpp"
 #include "cases/draft.hpp"
 #include "cases/scenario.hpp"
-#include "core/dynamics/deforming.hpp"
+#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "core/sheet/seams.hpp"
-#include "core/sheet/surface.hpp"
+#include "core/motion/deforming.hpp"
 #include "exact/scene_intersections.hpp"
 #include "unit/human/files.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "cases/scenario.hpp"
 #include "core/contact/scene_check.hpp"
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 
 namespace gambeson {
 

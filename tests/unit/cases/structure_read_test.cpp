@@ -7,8 +7,8 @@
 
 #include "cases/any_case.hpp"
 #include "cases/structure_build.hpp"
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "core/sheet/surface.hpp"
 #include "structure_example.hpp"
 
 namespace gambeson {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Dense>
 
-#include "core/dynamics/statics.hpp"
-#include "core/sheet/supports.hpp"
-#include "core/sheet/tangent.hpp"
+#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/tangent.hpp"
+#include "core/statics/statics.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

@@ -1,6 +1,6 @@
 /// How far cloth stands out between its samples, and that it stays out of bodies there.
 
-#include "core/sheet/bulge.hpp"
+#include "core/cloth/shell/bulge.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 #include "mesh_shapes.hpp"
 #include "motion_shapes.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

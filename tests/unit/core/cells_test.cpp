@@ -1,10 +1,10 @@
 // Cells of a garment and their quadrature.
-#include "core/sheet/cells.hpp"
+#include "core/cloth/shell/cells.hpp"
 
 #include <gtest/gtest.h>
 
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "core/sheet/surface.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/dynamics/advance.hpp"
-#include "core/sheet/layers.hpp"
+#include "core/cloth/shell/layers.hpp"
+#include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

@@ -1,6 +1,6 @@
 /// Elimination of linear supports: hand cases, and the property that every y satisfies every equation.
 
-#include "core/sheet/constraint.hpp"
+#include "core/cloth/constraint.hpp"
 
 #include <gtest/gtest.h>
 

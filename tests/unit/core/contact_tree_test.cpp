@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <random>
 
+#include "core/cloth/constraint.hpp"
+#include "core/cloth/surface_charts.hpp"
 #include "core/contact/certified_impact.hpp"
 #include "core/contact/pairs.hpp"
 #include "core/contact/segment_pair.hpp"
 #include "core/contact/triangle.hpp"
-#include "core/sheet/constraint.hpp"
-#include "core/sheet/surface_charts.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

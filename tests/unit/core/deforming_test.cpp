@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <functional>
 
-#include "core/dynamics/advance.hpp"
 #include "core/error.hpp"
+#include "core/motion/advance.hpp"
 #include "exact/scene_intersections.hpp"
 #include "mesh_shapes.hpp"
 #include "motion_shapes.hpp"

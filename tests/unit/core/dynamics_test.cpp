@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/dynamics/advance.hpp"
 #include "core/error.hpp"
+#include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "core/contact/scene_check.hpp"
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 #include "exact/scene_intersections.hpp"
 #include "motion_shapes.hpp"
 

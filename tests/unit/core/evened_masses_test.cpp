@@ -1,6 +1,6 @@
 /// Masses for cloth whose threads are limited.
 
-#include "core/sheet/evened_masses.hpp"
+#include "core/cloth/shell/evened_masses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/sheet/surface.hpp"
-#include "core/sheet/trim_loops.hpp"
+#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/shell/trim_loops.hpp"
 #include "trim_shapes.hpp"
 
 namespace gambeson {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "core/dynamics/implicit.hpp"
-#include "core/dynamics/statics.hpp"
-#include "core/sheet/supports.hpp"
+#include "core/cloth/shell/supports.hpp"
+#include "core/motion/implicit.hpp"
+#include "core/statics/statics.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/shell/shell_law.hpp"
 #include "core/error.hpp"
-#include "core/sheet/garment.hpp"
-#include "core/sheet/shell_law.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

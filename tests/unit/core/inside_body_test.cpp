@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "core/contact/crossing.hpp"
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 #include "mesh_shapes.hpp"
 #include "motion_shapes.hpp"
 

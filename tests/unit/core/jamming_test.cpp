@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/cloth/shell/shell_law.hpp"
+#include "core/cloth/shell/tangent.hpp"
 #include "core/error.hpp"
-#include "core/sheet/shell_law.hpp"
-#include "core/sheet/tangent.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/dynamics/advance.hpp"
-#include "core/sheet/loads.hpp"
+#include "core/cloth/shell/loads.hpp"
+#include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

@@ -1,13 +1,13 @@
 // Loads: totals against closed forms, virtual work against finite differences, stiffness of those that follow.
-#include "core/sheet/loads.hpp"
+#include "core/cloth/shell/loads.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 
+#include "core/cloth/shell/edge.hpp"
 #include "core/error.hpp"
-#include "core/sheet/edge.hpp"
 #include "sheet_cylinder.hpp"
 
 namespace gambeson {

@@ -1,6 +1,6 @@
 /// Natural modes of chains with closed forms: supported, free, repeated, unstable.
 
-#include "core/dynamics/modal.hpp"
+#include "core/statics/modal.hpp"
 
 #include <gtest/gtest.h>
 

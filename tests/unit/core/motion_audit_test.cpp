@@ -1,8 +1,8 @@
-#include "core/dynamics/motion_audit.hpp"
+#include "core/motion/motion_audit.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/sheet/supports.hpp"
+#include "core/cloth/shell/supports.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

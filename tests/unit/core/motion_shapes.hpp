@@ -1,11 +1,11 @@
 #pragma once
-/// Sheets in motion for the tests of core/dynamics.
+/// Sheets in motion for the tests of core/motion.
 
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "core/dynamics/step.hpp"
+#include "core/motion/step.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson::shapes {

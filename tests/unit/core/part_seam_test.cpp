@@ -1,5 +1,5 @@
 // A short edge sewn to a part of a long one, exactly.
-#include "core/sheet/part_seam.hpp"
+#include "core/cloth/shell/part_seam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <functional>
 #include <random>
 
-#include "core/dynamics/model.hpp"
+#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
+#include "core/motion/model.hpp"
 #include "core/nurbs/curve.hpp"
-#include "core/sheet/seams.hpp"
-#include "core/sheet/surface.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

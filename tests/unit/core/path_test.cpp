@@ -1,6 +1,6 @@
 /// Equilibrium paths of systems with closed forms: cubic spring, von Mises truss with limit points and snap-back.
 
-#include "core/dynamics/path.hpp"
+#include "core/statics/path.hpp"
 
 #include <gtest/gtest.h>
 

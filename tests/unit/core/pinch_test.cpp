@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "core/contact/crossing.hpp"
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

@@ -1,13 +1,13 @@
 /// The reduction Cᵀ K C against dense algebra, for selections, slanted supports, ties and chains.
 
-#include "core/dynamics/reduction.hpp"
+#include "core/statics/reduction.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <random>
 
-#include "core/sheet/constraint.hpp"
+#include "core/cloth/constraint.hpp"
 
 namespace gambeson {
 namespace {

@@ -1,5 +1,5 @@
 /// A step below the stable one may still gain energy: velocity Verlet's resonance of third order, at omega dt =
-/// sqrt(3), with modes whose stiffness depends on their amplitude (core/dynamics/resonance.hpp has the sources).
+/// sqrt(3), with modes whose stiffness depends on their amplitude (core/motion/resonance.hpp has the sources).
 /// Contact off, no gravity, no drag: nothing but the integration changes the energy.
 
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <random>
 
-#include "core/dynamics/advance.hpp"
 #include "core/error.hpp"
+#include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

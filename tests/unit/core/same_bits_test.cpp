@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/dynamics/advance.hpp"
+#include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

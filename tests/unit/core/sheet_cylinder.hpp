@@ -1,5 +1,5 @@
 #pragma once
-/// An exact rational piece of a cylinder for the tests of core/sheet.
+/// An exact rational piece of a cylinder for the tests of core/cloth.
 
 #include "sheet_shapes.hpp"
 

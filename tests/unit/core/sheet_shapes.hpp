@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes of cloth for the tests of core/sheet.
+/// Shapes of cloth for the tests of core/cloth.
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
+#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/shell/shell.hpp"
 #include "core/nurbs/nurbs.hpp"
-#include "core/sheet/garment.hpp"
-#include "core/sheet/seams.hpp"
-#include "core/sheet/shell.hpp"
 
 namespace gambeson::shapes {
 

@@ -1,8 +1,8 @@
 // Laws at the points of the shell: sections, tension fields, fields over a patch, cut cells, and what queries say.
 #include <gtest/gtest.h>
 
+#include "core/cloth/shell/tangent.hpp"
 #include "core/error.hpp"
-#include "core/sheet/tangent.hpp"
 #include "sheet_shapes.hpp"
 #include "trim_shapes.hpp"
 

@@ -1,5 +1,5 @@
 // The Kirchhoff-Love shell: force against energy, rigid motion, balance, patch test, stress. Zheng 2013, section 2.2.
-#include "core/sheet/shell.hpp"
+#include "core/cloth/shell/shell.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/system.hpp"
 #include "core/math/vec.hpp"
+#include "core/statics/system.hpp"
 
 namespace gambeson::shapes {
 

@@ -1,5 +1,5 @@
 // Springs of virtual stitching, Zheng 2013, eq. 6.2 and 6.3.
-#include "core/dynamics/stitch.hpp"
+#include "core/motion/stitch.hpp"
 
 #include <gtest/gtest.h>
 

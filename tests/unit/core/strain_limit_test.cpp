@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <random>
 
-#include "core/dynamics/closest_projection.hpp"
-#include "core/dynamics/strain_limit.hpp"
 #include "core/error.hpp"
+#include "core/motion/closest_projection.hpp"
+#include "core/motion/strain_limit.hpp"
 #include "strain_net.hpp"
 #include "trim_shapes.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/dynamics/strain_rows.hpp"
+#include "core/motion/strain_rows.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson::shapes {

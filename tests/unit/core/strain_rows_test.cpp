@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <random>
 
-#include "core/dynamics/strain_limit.hpp"
 #include "core/error.hpp"
+#include "core/motion/strain_limit.hpp"
 #include "strain_net.hpp"
 #include "trim_shapes.hpp"
 

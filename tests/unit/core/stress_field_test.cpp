@@ -1,11 +1,11 @@
 /// Stress as it is shown: of a sheet that bends, where the strain at single points is locking and not stress.
 
-#include "core/sheet/stress_field.hpp"
+#include "core/cloth/shell/stress_field.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/statics.hpp"
-#include "core/sheet/supports.hpp"
+#include "core/cloth/shell/supports.hpp"
+#include "core/statics/statics.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

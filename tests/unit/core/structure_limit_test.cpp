@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <random>
 
-#include "core/dynamics/implicit.hpp"
-#include "core/dynamics/modal.hpp"
-#include "core/dynamics/statics.hpp"
-#include "core/dynamics/structure_system.hpp"
+#include "core/cloth/shell/loads.hpp"
+#include "core/cloth/shell/supports.hpp"
 #include "core/error.hpp"
-#include "core/sheet/loads.hpp"
-#include "core/sheet/supports.hpp"
+#include "core/motion/implicit.hpp"
+#include "core/statics/modal.hpp"
+#include "core/statics/statics.hpp"
+#include "core/statics/structure_system.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

@@ -1,18 +1,18 @@
 /// Structures of real sheets: mass, reactions, mechanisms, and static, modal and dynamic references.
 
-#include "core/dynamics/structure.hpp"
+#include "core/statics/structure.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "core/dynamics/implicit.hpp"
-#include "core/dynamics/modal.hpp"
-#include "core/dynamics/path.hpp"
-#include "core/dynamics/structure_system.hpp"
+#include "core/cloth/shell/supports.hpp"
 #include "core/error.hpp"
-#include "core/sheet/supports.hpp"
+#include "core/motion/implicit.hpp"
+#include "core/statics/modal.hpp"
+#include "core/statics/path.hpp"
+#include "core/statics/structure_system.hpp"
 #include "sheet_shapes.hpp"
 
 namespace gambeson {

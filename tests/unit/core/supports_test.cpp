@@ -1,13 +1,13 @@
 // Supports: which motions they take and which they leave, exactly, on curved, rational and skewed patches.
-#include "core/sheet/supports.hpp"
+#include "core/cloth/shell/supports.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 
+#include "core/cloth/shell/edge.hpp"
 #include "core/error.hpp"
-#include "core/sheet/edge.hpp"
 #include "sheet_cylinder.hpp"
 
 namespace gambeson {

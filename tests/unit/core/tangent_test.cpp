@@ -1,5 +1,5 @@
 // The consistent tangent: the derivative of the force, symmetric, blind to rigid motion, the same bits for any threads.
-#include "core/sheet/tangent.hpp"
+#include "core/cloth/shell/tangent.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

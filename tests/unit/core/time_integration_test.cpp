@@ -1,6 +1,6 @@
 /// Newmark, generalised-alpha and explicit steps on oscillators with closed forms.
 
-#include "core/dynamics/time_integration.hpp"
+#include "core/motion/time_integration.hpp"
 
 #include <gtest/gtest.h>
 

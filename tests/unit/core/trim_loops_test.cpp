@@ -1,11 +1,11 @@
 /// Loops in lengths.
 
-#include "core/sheet/trim_loops.hpp"
+#include "core/cloth/shell/trim_loops.hpp"
 
 #include <gtest/gtest.h>
 
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "core/sheet/surface.hpp"
 #include "trim_shapes.hpp"
 
 namespace gambeson {

@@ -5,10 +5,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/cloth/shell/cells.hpp"
+#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/shell/trim_map.hpp"
 #include "core/error.hpp"
-#include "core/sheet/cells.hpp"
-#include "core/sheet/surface.hpp"
-#include "core/sheet/trim_map.hpp"
 #include "trim_shapes.hpp"
 
 namespace gambeson {

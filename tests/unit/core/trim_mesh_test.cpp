@@ -1,6 +1,6 @@
 /// Triangles and samples of trimmed patches: the outline is the loop, nothing overlaps, areas are consistent.
 
-#include "core/sheet/trim_mesh.hpp"
+#include "core/cloth/shell/trim_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "core/sheet/surface.hpp"
 #include "trim_shapes.hpp"
 
 namespace gambeson {

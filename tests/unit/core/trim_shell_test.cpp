@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include "core/dynamics/model.hpp"
-#include "core/dynamics/step.hpp"
-#include "core/sheet/shell.hpp"
-#include "core/sheet/trim_map.hpp"
+#include "core/cloth/shell/shell.hpp"
+#include "core/cloth/shell/trim_map.hpp"
+#include "core/motion/model.hpp"
+#include "core/motion/step.hpp"
 #include "trim_shapes.hpp"
 
 namespace gambeson {
@@ -180,7 +180,7 @@ class Still : public Stage {
 
 TEST(TrimShell, TheModelsStepIsThatOfTheUntrimmedSheet) {
   // The same sheet with a hole that moves through a cell; a fabric whose step the membrane governs, and one that
-  // bending governs. The step is 2 / omega (core/dynamics/step.hpp).
+  // bending governs. The step is 2 / omega (core/motion/step.hpp).
   for (int p : {2, 3})
     for (bool stiff_bending : {false, true}) {
       Fabric fabric = plainFabric();

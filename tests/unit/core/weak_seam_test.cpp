@@ -1,15 +1,15 @@
 // Weak seams: patches whose edges do not match (after Herrema et al. 2019), and the stiffness of hinges.
-#include "core/sheet/weak_seam.hpp"
+#include "core/cloth/shell/weak_seam.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 
+#include "core/cloth/shell/hinge.hpp"
+#include "core/cloth/shell/loads.hpp"
+#include "core/cloth/shell/tangent.hpp"
 #include "core/error.hpp"
-#include "core/sheet/hinge.hpp"
-#include "core/sheet/loads.hpp"
-#include "core/sheet/tangent.hpp"
 #include "sheet_cylinder.hpp"
 
 namespace gambeson {

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloth/shell/layers.hpp"
+#include "core/cloth/shell/shell.hpp"
+#include "core/cloth/shell/surface.hpp"
 #include "core/contact/crossing.hpp"
 #include "core/contact/proximity.hpp"
 #include "core/error.hpp"
-#include "core/sheet/layers.hpp"
-#include "core/sheet/shell.hpp"
-#include "core/sheet/surface.hpp"
 #include "human/load.hpp"
 #include "human/motion.hpp"
 #include "human/skin.hpp"

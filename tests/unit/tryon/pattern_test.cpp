@@ -9,8 +9,8 @@
 #include <map>
 #include <numbers>
 
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "core/sheet/surface.hpp"
 #include "human/load.hpp"
 #include "human/motion.hpp"
 #include "tryon/pattern/check.hpp"

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/sheet/shell_kernel.hpp"
+#include "core/cloth/shell/shell_kernel.hpp"
 
 namespace gambeson {
 namespace {

@@ -1,0 +1,18 @@
+#pragma once
+/// Adds the stiffness of an element on control points to a matrix on free points.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/cloth/shell/seams.hpp"
+#include "core/math/block_matrix.hpp"
+
+namespace gambeson {
+
+/// K += Tᵀ S T with S = (B + Bᵀ)/2; B is given by 3 x 3 blocks (row by row), blocks[I * n + J] between the control
+/// points columns[I] and columns[J]. Every pair of free points of the element is in the pattern of K.
+void addSymmetrised(const FreeMap& map, std::span<const int> columns, std::span<const std::array<double, 9>> blocks,
+                    BlockMatrix& K);
+
+}  // namespace gambeson

@@ -1,0 +1,122 @@
+#pragma once
+/// The NURBS Kirchhoff-Love sheet (Zheng 2013, section 2.2): force, energy and stress of a garment.
+
+#include <span>
+#include <vector>
+
+#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/shell/shell_kernel.hpp"
+#include "core/cloth/shell/shell_law.hpp"
+#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/shell/weak_seam.hpp"
+
+namespace gambeson {
+
+/// Which parts of the force to evaluate. `steepest` replaces eq. 2.14 by the linear law of its steepest slope: what the
+/// stable time step must allow for.
+struct ShellTerms {
+  bool membrane = true, bending = true, seams = true;
+  bool steepest = false;
+};
+
+/// Scratch of Shell::force and Tangent::assemble; nobody else reads it.
+struct ShellWork {
+  AlignedVector<double> slots;
+  AlignedVector<double> lane_energy;
+  AlignedVector<double> tangent_slots;
+};
+
+/// Resultants and strain at one point, in the physical basis of the cloth.
+struct ShellStress {
+  double principal1_N_per_m = 0, principal2_N_per_m = 0;  ///< true (Cauchy) resultants, first >= second
+  double strain1 = 0, strain2 = 0;                        ///< principal Green-Lagrange strains, first >= second
+};
+
+/// All that the law sees and says at one point, in the physical basis (weft, warp, shear or twist) of the rest surface:
+/// Green-Lagrange strains (E11, E22, 2 E12), changes of curvature (k11, k22, 2 k12) [1/m], their conjugates n [N/m]
+/// (second Piola-Kirchhoff) and m [N].
+struct ShellState {
+  Vec3 strain, curvature_change, n, m;
+};
+
+/// Cells of one kind, packed, and where their shares of the force lie in ShellWork::slots.
+struct ShellPart {
+  ShellBlock block;
+  ShellLaw law;
+  long first_slot = 0;
+  int cell_count = 0;  ///< the rest of the last group are copies without area
+};
+
+/// How quadratic cells are integrated; other degrees, and what trimming leaves of a cell, always take the full rule of
+/// degree + 1 points in each direction. Quadratic cells lock in bending under it.
+///   automatic: 2 x 2 points; three across a patch of one cell (or of cells that meet in double knots only), where two
+///              miss a mode; 3 x 3 on trimmed patches
+///   full:      3 x 3 points
+///   assumed:   assumed strains (core/cloth/shell/assumed.hpp): free of locking for any thickness, less accurate where
+///              membrane stress governs the bending (wrinkles, hanging strips)
+enum class CellRule { automatic, full, assumed };
+
+class Shell {
+ public:
+  /// `gauss_extra` points more than degree + 1 in each direction. Throws InputError on bad geometry or fabric.
+  Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra = 0, CellRule rule = CellRule::automatic);
+
+  int controlCount() const { return control_count_; }
+  /// f = - dE/dq on the control points [N]; `energy` [J] where not null. The same bits for any number of threads.
+  void force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy = nullptr,
+             const ShellTerms& terms = {}) const;
+  /// The first part of `force` alone: each cell's own share, written to work.slots and not yet summed on the control
+  /// points.
+  void cellForces(std::span<const Vec3> q, ShellWork& work, double* energy = nullptr,
+                  const ShellTerms& terms = {}) const;
+  /// Stress and strain at a point of a patch.
+  /// `more_N_per_m` is added to the second Piola-Kirchhoff resultants along weft and warp (of strain limits, say).
+  ShellStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m = {}) const;
+  /// Strains and resultants at a point of a patch.
+  ShellState stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  /// Physical curvature (weft, warp, twist) at a point of a patch, the rest curvature not subtracted [1/m].
+  Vec3 curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  /// Norm of the physical curvature, sqrt(k11² + k22² + 2 k12²) [1/m]: the same in every frame of the rest surface, so
+  /// also where that stands across the weft.
+  double bendAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+
+  const KernelSet& kernels() const { return *kernels_; }
+  long gaussPoints() const { return gauss_points_; }
+  const Garment& garment() const { return garment_; }
+
+  const std::vector<ShellPart>& parts() const { return parts_; }
+  /// The springs along seams, without those that the map T holds.
+  const std::vector<HingePoint>& hinges() const { return hinges_; }
+  /// What holds weak seams together.
+  const std::vector<GapPoint>& gaps() const { return gaps_; }
+
+ private:
+  struct Frame;
+  /// Of the rest surface and of q: derivatives in the parameters, as SurfaceBasis has them, the point itself left out.
+  std::array<std::array<Vec3, 6>, 2> derivativesAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  Frame frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+
+  Garment garment_;
+  const KernelSet* kernels_;
+  std::vector<int> offsets_;
+  int control_count_ = 0;
+  long gauss_points_ = 0;
+  std::vector<ShellPart> parts_;
+  std::vector<HingePoint> hinges_;
+  long hinge_slot_ = 0;             ///< first slot of the hinges
+  std::vector<long> hinge_offset_;  ///< of each hinge, in columns
+  std::vector<GapPoint> gaps_;
+  long gap_slot_ = 0;  ///< first slot of the gaps
+  std::vector<long> gap_offset_;
+  long slot_count_ = 0;
+  /// Where each control point's contributions lie: slot of x; y and z follow at the stride of the slot's part.
+  std::vector<long> gather_offsets_;
+  std::vector<long> gather_slots_;
+  std::vector<int> gather_strides_;
+};
+
+/// A part's law with what `terms` leave out.
+ShellLaw withTerms(ShellLaw law, const ShellTerms& terms);
+
+}  // namespace gambeson

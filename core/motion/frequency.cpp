@@ -1,0 +1,140 @@
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstdint>
+
+#include "core/motion/step.hpp"
+
+namespace gambeson {
+namespace {
+
+/// A fixed number in (-1, 1) for each index, so that a start vector is never blind to a mode.
+double scatter(std::uint64_t i) {
+  i += 0x9e3779b97f4a7c15ULL;
+  i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  i = (i ^ (i >> 27)) * 0x94d049bb133111ebULL;
+  return static_cast<double>((i ^ (i >> 31)) >> 11) / 4503599627370496.0 - 1.0;
+}
+
+/// K y for the parts that `terms` names, by a difference of the force over a displacement of at most 0.1 micrometre.
+class Stiffness {
+ public:
+  Stiffness(const Model& model, std::span<const Vec3> p, StepWork& work) : m_(model), p_(p), w_(work) {}
+
+  void apply(std::span<const Vec3> y, ShellTerms terms, bool springs, std::vector<Vec3>& out) {
+    terms.steepest = true;
+    double largest = 0;
+    for (const Vec3& v : y) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double epsilon = 1e-7 / largest;
+    shifted_.resize(p_.size());
+    for (int side : {-1, 1}) {
+      for (std::size_t i = 0; i < p_.size(); ++i) shifted_[i] = p_[i] + (side * epsilon) * y[i];
+      w_.q.resize(m_.shell.controlCount());
+      w_.f.resize(m_.shell.controlCount());
+      m_.map.T.multiply<Vec3>(shifted_, w_.q);
+      m_.shell.force(w_.q, w_.f, w_.shell, nullptr, terms);
+      std::vector<Vec3>& f = side < 0 ? before_ : after_;
+      f.resize(p_.size());
+      m_.map.Tt.multiply<Vec3>(w_.f, f);
+    }
+    out.resize(p_.size());
+    for (std::size_t i = 0; i < p_.size(); ++i) out[i] = (before_[i] - after_[i]) / (2 * epsilon);
+    if (springs) {
+      negative_.assign(p_.size(), {});
+      addStitchForces(m_.stitches, m_.surface.WT, y, negative_);
+      for (std::size_t i = 0; i < p_.size(); ++i) out[i] -= negative_[i];
+      for (const SpringSupportPoint& s : m_.springs) {
+        Vec3 x{};
+        const SparseRows& WT = m_.surface.WT;
+        for (int k = WT.offsets[s.sample]; k < WT.offsets[s.sample + 1]; ++k) x += WT.values[k] * y[WT.columns[k]];
+        for (int k = WT.offsets[s.sample]; k < WT.offsets[s.sample + 1]; ++k)
+          out[WT.columns[k]] += (WT.values[k] * s.stiffness_N_per_m) * x;
+      }
+    }
+  }
+
+ private:
+  const Model& m_;
+  std::span<const Vec3> p_;
+  StepWork& w_;
+  std::vector<Vec3> shifted_, before_, after_, negative_;
+};
+
+double inner(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double s = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) s += dot(a[i], b[i]);
+  return s;
+}
+
+}  // namespace
+
+const char* Frequency::governing() const {
+  if (membrane_share >= bending_share && membrane_share >= seam_share && membrane_share >= spring_share)
+    return "membrane";
+  if (bending_share >= seam_share && bending_share >= spring_share) return "bending";
+  return seam_share >= spring_share ? "seam" : "spring";
+}
+
+Frequency largestFrequency(const Model& m, const Stage&, State& state, int iterations, StepWork& work) {
+  const int n = m.freeCount();
+  std::vector<double> root(n);
+  for (int i = 0; i < n; ++i) root[i] = std::sqrt(m.inverse_mass[i]);
+  Stiffness stiffness(m, state.p, work);
+  std::vector<std::vector<Vec3>> basis;
+  std::vector<double> diagonal, off;
+  std::vector<Vec3> y(n), Ky;
+  {
+    std::vector<Vec3> start(n);
+    const bool warm = static_cast<int>(state.mode.size()) == n;
+    double size = 0;
+    for (int i = 0; i < n; ++i) {
+      const Vec3 noise{scatter(3 * i), scatter(3 * i + 1), scatter(3 * i + 2)};
+      start[i] = warm ? state.mode[i] + (0.1 / std::sqrt(n)) * noise : noise;
+      if (m.held[i]) start[i] = {};
+      size += norm2(start[i]);
+    }
+    for (Vec3& v : start) v *= 1 / std::sqrt(size);
+    basis.push_back(std::move(start));
+  }
+  for (int k = 0; k < iterations; ++k) {
+    for (int i = 0; i < n; ++i) y[i] = root[i] * basis[k][i];
+    stiffness.apply(y, {}, true, Ky);
+    for (int i = 0; i < n; ++i) Ky[i] *= root[i];
+    diagonal.push_back(inner(basis[k], Ky));
+    for (int pass = 0; pass < 2; ++pass)
+      for (const auto& b : basis) {
+        const double overlap = inner(b, Ky);
+        for (int i = 0; i < n; ++i) Ky[i] -= overlap * b[i];
+      }
+    const double size = std::sqrt(inner(Ky, Ky));
+    if (!(size > 1e-9 * std::abs(diagonal.front())) || k + 1 == iterations) break;
+    off.push_back(size);
+    for (Vec3& v : Ky) v *= 1 / size;
+    basis.push_back(Ky);
+  }
+  const int size = static_cast<int>(diagonal.size());
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(size, size);
+  for (int k = 0; k < size; ++k) {
+    T(k, k) = diagonal[k];
+    if (k + 1 < size) T(k, k + 1) = T(k + 1, k) = off[k];
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(T);
+  const double largest = solver.eigenvalues()(size - 1);
+  state.mode.assign(n, {});
+  for (int k = 0; k < size; ++k)
+    for (int i = 0; i < n; ++i) state.mode[i] += solver.eigenvectors()(k, size - 1) * basis[k][i];
+
+  Frequency f;
+  f.largest_rad_per_s = std::sqrt(std::max(largest, 0.0));
+  for (int i = 0; i < n; ++i) y[i] = root[i] * state.mode[i];
+  const auto share = [&](ShellTerms terms, bool springs) {
+    stiffness.apply(y, terms, springs, Ky);
+    return inner(y, Ky) / largest;
+  };
+  f.membrane_share = share({true, false, false}, false);
+  f.bending_share = share({false, true, false}, false);
+  f.seam_share = share({false, false, true}, false);
+  f.spring_share = share({false, false, false}, true);
+  return f;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,192 @@
+/// Newmark's method and the generalised-alpha method (Chung and Hulbert 1993) with Newton's method.
+///
+///   M ((1 - am) a1 + am a0) + D ((1 - af) v1 + af v0) + (1 - af) g(y1, t1) + af g(y0, t0) = 0
+///   y1 = y0 + h v0 + h^2 ((1/2 - beta) a0 + beta a1),   v1 = v0 + h ((1 - gamma) a0 + gamma a1)
+///
+/// am = af = 0 is Newmark; am = (2 r - 1)/(r + 1), af = r/(r + 1), gamma = 1/2 - am + af, beta = (1 - am + af)^2/4 with
+/// r the spectral radius at infinite frequency. Both are of second order (Newmark for gamma = 1/2). The stiffness part
+/// of Rayleigh's damping takes K where the step starts: of second order where K is constant, else the damping itself is
+/// of first order.
+
+#include "core/motion/implicit.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/motion/time_integration.hpp"
+#include "core/statics/newton.hpp"
+
+namespace gambeson {
+namespace {
+
+struct Scheme {
+  double beta, gamma, am, af;
+};
+
+Scheme schemeOf(const DynamicOptions& o) {
+  if (o.scheme == TimeScheme::newmark) {
+    if (!(o.beta > 0)) throw InputError({"", 0, "beta"}, "must be > 0");
+    if (!(o.gamma >= 0.5)) throw InputError({"", 0, "gamma"}, "must be >= 1/2: below, the scheme feeds energy in");
+    return {o.beta, o.gamma, 0, 0};
+  }
+  const double r = o.spectral_radius;
+  if (!(r >= 0 && r <= 1)) throw InputError({"", 0, "spectral_radius"}, "must be 0 to 1");
+  const double am = (2 * r - 1) / (r + 1), af = r / (r + 1);
+  return {(1 - am + af) * (1 - am + af) / 4, 0.5 - am + af, am, af};
+}
+
+/// The equations of one step, in y1.
+class Step : public Equations {
+ public:
+  Step(System& system, const Scheme& scheme, const SymmetricMatrix& M, const SymmetricMatrix& D,
+       const DynamicState& from, std::span<const double> g0, double h, bool lumped)
+      : system_(system), scheme_(scheme), M_(M), D_(D), from_(from), h_(h), known_(g0.begin(), g0.end()) {
+    for (double& v : known_) v *= scheme.af;
+    std::vector<double> support(known_.size());
+    system.supportForce(from.time_s + (1 - scheme.af) * h, h, lumped, support);
+    for (std::size_t i = 0; i < known_.size(); ++i) known_[i] += support[i];
+  }
+
+  /// v and a at the end, of y1.
+  void kinematics(std::span<const double> y1, std::vector<double>& v1, std::vector<double>& a1) const {
+    v1.resize(y1.size());
+    a1.resize(y1.size());
+    for (std::size_t i = 0; i < y1.size(); ++i) {
+      a1[i] = (y1[i] - from_.y[i] - h_ * from_.v[i]) / (scheme_.beta * h_ * h_) - (0.5 / scheme_.beta - 1) * from_.a[i];
+      v1[i] = from_.v[i] + h_ * ((1 - scheme_.gamma) * from_.a[i] + scheme_.gamma * a1[i]);
+    }
+  }
+
+  double residual(std::span<const double> y1, std::span<double> r) override {
+    const std::size_t n = y1.size();
+    const double am = scheme_.am, af = scheme_.af;
+    kinematics(y1, v_, a_);
+    for (std::size_t i = 0; i < n; ++i) {
+      a_[i] = (1 - am) * a_[i] + am * from_.a[i];
+      v_[i] = (1 - af) * v_[i] + af * from_.v[i];
+    }
+    inertia_.resize(n);
+    damping_.resize(n);
+    multiply(M_, a_, inertia_);
+    multiply(D_, v_, damping_);
+    double size = system_.residual(y1, from_.time_s + h_, r);
+    for (std::size_t i = 0; i < n; ++i) r[i] = (1 - af) * r[i] + known_[i] + inertia_[i] + damping_[i];
+    return std::max({size, norm(inertia_), norm(damping_), norm(known_)});
+  }
+
+  void tangent(std::span<const double> y1, SymmetricMatrix& K) override {
+    system_.stiffness(y1, from_.time_s + h_, K);
+    const double m = (1 - scheme_.am) / (scheme_.beta * h_ * h_), f = 1 - scheme_.af,
+                 d = f * scheme_.gamma / (scheme_.beta * h_);
+    for (std::size_t k = 0; k < K.values.size(); ++k)
+      K.values[k] = f * K.values[k] + d * D_.values[k] + m * M_.values[k];
+  }
+
+ private:
+  System& system_;
+  const Scheme& scheme_;
+  const SymmetricMatrix &M_, &D_;
+  const DynamicState& from_;
+  double h_;
+  std::vector<double> known_, v_, a_, inertia_, damping_;
+};
+
+constexpr int kHalvings = 12;
+
+}  // namespace
+
+DynamicReport integrateImplicit(System& system, const DynamicOptions& o, DynamicState& state,
+                                const DynamicObserver& observe) {
+  const Scheme scheme = schemeOf(o);
+  if (!(o.step_s > 0)) throw InputError({"", 0, "step_s"}, "must be > 0");
+  const std::size_t n = state.y.size();
+  SymmetricMatrix K = system.pattern(), M = K, D = K;
+  for (SymmetricMatrix* m : {&K, &M, &D}) m->values.assign(m->rows.size(), 0.0);
+  system.mass(o.lumped_mass, M);
+  system.damping(state.y, state.time_s, o.lumped_mass, true, D);
+  std::vector<double> g(n), f(n), trial;
+  double largest = 0;
+  DynamicReport report;
+  SymmetricFactor factor(K);
+  {  // the acceleration at the start
+    largest = system.residual(state.y, state.time_s, g);
+    system.supportForce(state.time_s, o.step_s, o.lumped_mass, f);
+    std::vector<double> damping(n);
+    multiply(D, state.v, damping);
+    for (std::size_t i = 0; i < n; ++i) f[i] = -(f[i] + g[i] + damping[i]);
+    if (factor.factorise(M) != Definiteness::positive) throw InputError({"", 0, "mass"}, "is not positive");
+    ++report.factorisations;
+    factor.solve(f, state.a);
+  }
+  const double start = state.time_s, span = o.end_s - start;
+  const long count = std::max(1L, static_cast<long>(std::ceil(span / o.step_s - 1e-6)));
+  constexpr long units = 1L << kHalvings;
+  const long total = count * units;
+  const auto timeAt = [&](long position) {
+    return position == total ? o.end_s : start + span * static_cast<double>(position) / static_cast<double>(total);
+  };
+  long position = 0, step = units;
+  NewtonOptions newton{o.iterations, o.tolerance, 0, system.reach(), false};
+  while (position < total) {
+    const double h = timeAt(position + step) - state.time_s;
+    if (system.hasStiffnessDamping() && report.steps > 0) system.damping(state.y, state.time_s, o.lumped_mass, true, D);
+    Step equations(system, scheme, M, D, state, g, h, o.lumped_mass);
+    newton.least_force = 1e-6 * largest;
+    NewtonReport result;
+    for (const bool careful : {false, true}) {
+      trial = state.y;
+      if (!careful)
+        for (std::size_t i = 0; i < n; ++i) trial[i] += h * state.v[i] + 0.5 * h * h * state.a[i];
+      newton.line_search = careful;
+      result = solveNewton(equations, newton, trial, K, factor);
+      report.factorisations += result.factorisations;
+      report.iterations += result.iterations;
+      if (result.converged) break;
+    }
+    if (!result.converged) {
+      if (step > 1) {
+        step /= 2;
+        continue;
+      }
+      report.why = fmt::format(
+          "time {:.6g} s: Newton's residual is {:.2e} of the forces after {} iterations with a step of {:.2e} s, "
+          "halved {} "
+          "times; likeliest cause: {}. The last accepted state is at {:.6g} s",
+          state.time_s, result.residual, result.iterations, h, kHalvings,
+          !result.finite ? "forces that are not finite (a cell collapses)" : "a law or a contact that is not smooth",
+          state.time_s);
+      return report;
+    }
+    std::vector<double> v, a;
+    equations.kinematics(trial, v, a);
+    state.y.swap(trial);
+    state.v.swap(v);
+    state.a.swap(a);
+    position += step;
+    state.time_s = timeAt(position);
+    largest = std::max(largest, system.residual(state.y, state.time_s, g));
+    ++report.steps;
+    if (!observe(state)) return report;
+    while (step < units && position % (2 * step) == 0 && result.iterations <= o.iterations / 2) step *= 2;
+  }
+  report.reached = true;
+  return report;
+}
+
+DynamicReport integrate(System& system, const DynamicOptions& o, DynamicState& state, const DynamicObserver& observe) {
+  const std::size_t n = static_cast<std::size_t>(system.size());
+  for (std::vector<double>* part : {&state.y, &state.v, &state.a}) {
+    if (part->empty()) part->assign(n, 0.0);
+    if (part->size() != n) throw InputError({"", 0, "state"}, fmt::format("{} unknowns, expected {}", part->size(), n));
+  }
+  if (!(o.end_s > state.time_s)) throw InputError({"", 0, "end_s"}, "must be after the start");
+  if (!(o.tolerance > 0) || o.iterations < 1) throw InputError({"", 0, "tolerance"}, "must be > 0");
+  if (o.scheme != TimeScheme::explicit_verlet && system.limit())
+    throw InputError({"", 0, "strain_limit"}, "goes with explicit steps alone");
+  return o.scheme == TimeScheme::explicit_verlet ? integrateExplicit(system, o, state, observe)
+                                                 : integrateImplicit(system, o, state, observe);
+}
+
+}  // namespace gambeson

@@ -1,0 +1,229 @@
+#pragma once
+/// The constant model of a run, its state, and what a step reports.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/cloth/shell/bulge.hpp"
+#include "core/cloth/shell/shell.hpp"
+#include "core/contact/proximity.hpp"
+#include "core/contact/response.hpp"
+#include "core/contact/zones.hpp"
+#include "core/motion/collisions.hpp"
+#include "core/motion/deforming.hpp"
+#include "core/motion/resonance.hpp"
+#include "core/motion/stitch.hpp"
+#include "core/motion/strain_limit.hpp"
+
+namespace gambeson {
+
+/// What is prescribed over time: where the obstacles and the frames that supports hang on stand.
+class Stage {
+ public:
+  virtual ~Stage() = default;
+  virtual void placements(double time_s, std::span<Placement> obstacles, std::span<Placement> anchors) const = 0;
+  /// Where the vertices of an obstacle that deforms are, in the world. A motion with continuous velocity.
+  virtual void vertices(int obstacle, double time_s, std::span<Vec3> x) const;
+  /// Velocity of the air, for the drag [m/s].
+  virtual Vec3 air(double) const { return {}; }
+};
+
+/// An elastic spring from a sample to a point fixed in an anchor frame; force = -stiffness (x - anchor). Above an
+/// obstacle that deforms it acts along that only, without its part along the normal of the given triangle: a waistband
+/// is held by the hips' bones, and what lifts the skin under it lifts the band.
+struct SpringSupportPoint {
+  int sample = 0;
+  int anchor = 0;  ///< frame
+  double stiffness_N_per_m = 0;
+  int obstacle = -1;              ///< that deforms, or none
+  std::array<int, 3> triangle{};  ///< its vertices
+};
+
+struct Environment {
+  Vec3 gravity_m_per_s2{0, 0, -9.81};
+  double drag_kg_per_m2s = 0;  ///< eta: force per area -eta (v - air), Zheng 2013, section 2.2.3
+};
+
+/// Constant after it is built.
+struct Model {
+  Shell shell;
+  FreeMap map;
+  Surface surface;
+  std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
+  std::vector<char> held;                              ///< free points that do not move
+  std::vector<int> held_points;                        ///< these, ascending
+  std::vector<double> density_kg_per_m2;               ///< of the samples
+  std::vector<double> cell_m;   ///< of the samples: the shorter side of their cell at rest, through its middle
+  std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
+  Environment environment;
+  ContactParameters contact;
+  std::vector<Obstacle> obstacles;
+  std::unique_ptr<ProximityQuery> proximity;
+  CollisionModel collisions;
+  std::vector<SpringSupportPoint> springs;
+  int anchor_count = 0;
+  /// How far above its sample each spring is anchored, so that the springs of a layer carry it where they were
+  /// attached: -g M / sum k, M the mass of the layer [m].
+  std::vector<Vec3> spring_rise_m;
+  std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
+  StrainLimit strain_limit;
+  StrainRows strain_rows;    ///< without points where strain is not limited
+  std::vector<NetEdge> net;  ///< of the patches' control points
+  std::vector<Stitch> stitches;
+  Bulges bulges;
+  std::vector<double> drag_kg_per_s;  ///< of the free points: eta times area, and what damps stitches
+
+  int freeCount() const { return static_cast<int>(mass_kg.size()); }
+};
+
+struct ModelOptions {
+  int samples_per_cell = 2;
+  std::vector<int> patch_samples_per_cell;  ///< of each patch, in place of samples_per_cell; or empty
+  int gauss_extra = 0;
+  CellRule cell_rule = CellRule::automatic;
+  std::vector<int> held_control_points;
+  std::vector<SpringSupportPoint> springs;
+  int anchor_count = 0;
+  std::vector<Vec3> dead_force_N;  ///< per control point, such as edgeForce gives; empty: none
+  StrainLimit strain_limit;
+  bool self_contact = true;  ///< cloth touches cloth
+  std::vector<Stitch> stitches;
+  const KernelSet* kernels = nullptr;  ///< the widest where null
+};
+
+/// contact.layer_m = 0: each sample keeps the thickness of its fabric. Throws InputError.
+std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& options, const Environment& environment,
+                                  const ContactParameters& contact, std::vector<Obstacle> obstacles);
+
+/// Sums over the free points of the forces that are not internal [N].
+struct ForceSums {
+  Vec3 drag, springs,
+      held;  ///< `held`: what held points exert on the free ones, minus the internal force of their rows
+};
+
+/// What a contact leaves to the next step.
+struct WarmContact {
+  int sample = 0, obstacle = 0, feature = 0;
+  Vec3 traction;       ///< impulse per area that the next solve starts from [N s/m^2]
+  double mean_Pa = 0;  ///< pressure that has lasted (lastingPressure)
+};
+
+/// All that the next step depends on.
+struct State {
+  double time_s = 0;
+  std::vector<Vec3> p, v, a;  ///< free points: position, velocity, acceleration without contact
+  std::vector<Vec3> anchors;  ///< of each spring, in its anchor frame
+  ForceSums sums;             ///< at this time
+  std::vector<Vec3> held_N;   ///< force on each of Model::held_points that keeps it still, without limits and contact
+  std::vector<WarmContact> warm;
+  bool tangled = true;          ///< cloth may pass through cloth or a mesh: look for intersections
+  std::vector<int> pinched;     ///< samples that no step length frees: their impacts are let pass in the next step
+  std::vector<double> limit_J;  ///< multipliers of the strain limits, mean of the last step (eq. 5.7)
+  /// Acceleration of the free points by contacts that press, in the last step (pressingAccelerations), of which v holds
+  /// the half step; empty: none [m/s^2].
+  std::vector<Vec3> pressed;
+  // Step control.
+  double frequency_rad_per_s = 0;  ///< estimate of the largest
+  std::vector<Vec3> mode;          ///< its mode, warm start of the next estimate
+  int steps_to_estimate = 0;
+  double swing = 0;  ///< of the highest modes, its peaks held for a while (core/motion/resonance.hpp)
+  double share = 0;  ///< of the stable step that this swing allows; 0 where there was no step yet
+  double last_step_s = 0;
+};
+
+/// Momentum of the free points over one step [N s]: change = gravity + dead + drag + supports + pressing - obstacles.
+struct MomentumAudit {
+  Vec3 change, gravity, drag;
+  Vec3 supports;   ///< springs and what holds points, with the pull of strain limits on held points
+  Vec3 dead;       ///< dead forces
+  Vec3 obstacles;  ///< the obstacles' own ledger: what they received
+  Vec3 pressing;   ///< by how much more of the contacts' next impulses the velocities hold in advance, State::pressed
+  double error() const { return norm(change - (gravity + dead + drag + supports + pressing - obstacles)); }
+  /// Sum of the absolute impulses, the scale of `error`; at least what rounding is measured by (kScaleFloor in
+  /// step.cpp).
+  double scale = 0;
+};
+
+/// Work over one step [J].
+struct WorkAudit {
+  double contact = 0;     ///< of the contact impulses on the cloth
+  double separation = 0;  ///< part of it: what restoring the layer's distance adds
+  double restoring = 0;   ///< part of it: what freeing intersections adds (section 4.3)
+  double friction = 0;    ///< part of it: tangential
+  double drag = 0, supports = 0;
+  double limit = 0;  ///< of the strain limits' impulses on the free points
+  /// Lost to friction, inelastic impact and drag, at least 0: works relative to the bodies and the air, without what
+  /// separation and restoring add.
+  double dissipated = 0;
+};
+
+enum class StepFailure { none, not_finite, impact };
+
+struct StepReport {
+  StepFailure failure = StepFailure::none;
+  std::string why;
+  double step_s = 0;
+  MomentumAudit momentum;
+  WorkAudit work;
+  ContactSolve contact;
+  LimitReport limit;
+  int contacts = 0;        ///< persistent, with bodies and of cloth with cloth
+  int cloth_contacts = 0;  ///< those of cloth with cloth
+  int impacts = 0;         ///< pairs that would have passed through each other after the first solve
+  int impact_rounds = 0;
+  int zones = 0;               ///< rigid impact zones
+  double earliest_impact = 1;  ///< of the step, where it failed for impacts
+  int cuts = 0;                ///< times that the step was cut or halved before it worked
+  int pinched = 0;             ///< samples whose impacts were let pass
+  int intersections = 0;       ///< contours at the start of the step
+  bool searched = false;       ///< for them
+  int inside = 0;              ///< samples inside of meshes at the start of the step
+  double smallest_gap_m = 0;   ///< of the persistent contacts; negative inside bodies; the largest double where none
+  double deepest_m = 0;        ///< largest penetration of a sample at the start of the step, 0 if none
+  double largest_way = 0;      ///< of a sample during the step, in sides of its cell (Model::cell_m)
+};
+
+/// Wall time of the phases of the steps so far [s].
+struct PhaseTimes {
+  double stage = 0, proximity = 0, contact = 0, impact = 0, force = 0, limit = 0, other = 0;
+  double tangles = 0, freeing = 0;  ///< finding intersections, and what frees them (its solve is among the contacts')
+  /// Of all, the steps that looked for intersections: how many, and how long they took.
+  long searches = 0;
+  double searched_steps = 0;
+};
+
+/// Scratch of a step, and the impulses of the last one (read by the recorder).
+struct StepWork {
+  ShellWork shell;
+  ContactWork contact;
+  LimitWork limit;
+  std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;
+  std::vector<Vec3> jerk, net_jerk;  ///< changes of acceleration: of the free points, of the control points
+  std::vector<Vec3> limit_end, moved, sample_impulse, pulled_before, pulled_after;
+  std::vector<Vec3> lasting, sample_pressing;
+  std::vector<double> reach;
+  std::vector<Contact> near, hits;
+  std::vector<int> near_first;  ///< of each sample in `near`, sorted by sample
+  std::vector<PairHit> pair_hits;
+  std::vector<char> inside;  ///< samples that are behind a body's surface
+  std::vector<ContactRow> restoring, edge_rows;
+  std::vector<int> stuck;  ///< samples of the pairs that no zone kept apart, where the step failed for impacts
+  CollisionWork collisions;
+  std::vector<ImpactZone> zones;  ///< of the last step
+  std::vector<Vec3> zone_change;  ///< velocity of each free point that they added, where there are zones
+  std::vector<ContactRow> rows, yielding;
+  std::vector<Vec3> unsolved;  ///< velocities before the contacts
+  std::vector<Placement> start, end, anchors_start, anchors_end;
+  DeformingWork deforming;
+  std::vector<ContactImpulse> contact_impulses;  ///< of the last step
+  std::vector<Vec3> spring_impulses;             ///< of the last step, on the cloth, one per spring [N s]
+  /// Of the last step, on each of Model::held_points by what holds it, with that point's own weight [N s].
+  std::vector<Vec3> held_impulses;
+  PhaseTimes times;  ///< summed over the steps
+};
+
+}  // namespace gambeson

@@ -1,0 +1,372 @@
+#include "core/motion/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/step_contact.hpp"
+
+namespace gambeson {
+namespace {
+
+/// Where hardly anything acts from outside, velocities and internal forces still round: the scale of the momentum's
+/// error is at least this part of the momenta of all points and of what a weight would add. At the limit of 1e-9 of the
+/// scale, some 500 times the rounding of a velocity.
+constexpr double kScaleFloor = 1e-4, kWeight_m_per_s2 = 9.81;
+
+constexpr int kMany = 4096;  ///< samples, from which on threads share the work
+
+Vec3 sum(std::span<const Vec3> values) {
+  Vec3 s{};
+  for (const Vec3& v : values) s += v;
+  return s;
+}
+
+/// Internal force on the free points, Tᵀ f(T p), into work.f's place `out`.
+void internalForce(const Model& m, std::span<const Vec3> p, std::vector<Vec3>& out, StepWork& w,
+                   double* energy = nullptr, const ShellTerms& terms = {}) {
+  w.q.resize(m.shell.controlCount());
+  w.f.resize(m.shell.controlCount());
+  out.resize(m.freeCount());
+  m.map.T.multiply<Vec3>(p, w.q);
+  m.shell.force(w.q, w.f, w.shell, energy, terms);
+  m.map.Tt.multiply<Vec3>(w.f, out);
+}
+
+/// What the springs hang on at one instant.
+struct AnchorFrames {
+  std::span<const Placement> of_stage;
+  const DeformedVertices& vertices;
+
+  /// Of the obstacle under the spring, unit; 0 where there is none.
+  Vec3 normal(const SpringSupportPoint& spring) const {
+    if (spring.obstacle < 0) return {};
+    const std::vector<Vec3>& x = vertices[spring.obstacle];
+    const Vec3 a = x[spring.triangle[0]];
+    return normalized(cross(x[spring.triangle[1]] - a, x[spring.triangle[2]] - a));
+  }
+};
+
+/// The frames at an instant of no step.
+struct AnchorInstant {
+  std::vector<Placement> of_stage;
+  DeformedVertices vertices;
+
+  AnchorInstant(const Model& m, const Stage& stage, double time_s) : of_stage(m.anchor_count) {
+    std::vector<Placement> obstacles(m.obstacles.size());
+    stage.placements(time_s, obstacles, of_stage);
+    for (const SpringSupportPoint& s : m.springs)
+      if (s.obstacle >= 0 && vertices.empty()) vertices = deformedVertices(m, stage, time_s);
+  }
+  AnchorFrames frames() const { return {of_stage, vertices}; }
+};
+
+/// Forces of the springs [N]; anchors stand as `frames` say.
+void springForces(const Model& m, const State& s, const AnchorFrames& frames, std::vector<Vec3>& forces) {
+  forces.resize(m.springs.size());
+  for (std::size_t k = 0; k < m.springs.size(); ++k) {
+    const SpringSupportPoint& spring = m.springs[k];
+    const Vec3 from = sampleAt(m.surface.WT, spring.sample, s.p) - frames.of_stage[spring.anchor] * s.anchors[k],
+               n = frames.normal(spring);
+    forces[k] = -spring.stiffness_N_per_m * (from - dot(from, n) * n);
+  }
+}
+
+/// Work that the motion of anchors and normals does on the springs in a step [J]: with the energy k/2 |P d|² of the
+/// displacement d, P = I - n nᵀ, it is the integral of -k (P d) . da - k (d . n) (d . dn).
+double springWork(const Model& m, const State& in, const State& out, const AnchorFrames& before,
+                  const AnchorFrames& after, std::span<const Vec3> impulses, double dt) {
+  double work = 0;
+  for (std::size_t k = 0; k < m.springs.size(); ++k) {
+    const SpringSupportPoint& spring = m.springs[k];
+    const Vec3 a0 = before.of_stage[spring.anchor] * in.anchors[k], a1 = after.of_stage[spring.anchor] * in.anchors[k];
+    work += dot(impulses[k], a1 - a0) / dt;
+    if (spring.obstacle < 0) continue;
+    const Vec3 n0 = before.normal(spring), n1 = after.normal(spring),
+               d0 = sampleAt(m.surface.WT, spring.sample, in.p) - a0,
+               d1 = sampleAt(m.surface.WT, spring.sample, out.p) - a1;
+    work -= 0.5 * spring.stiffness_N_per_m * (dot(d0, n0) * dot(d0, n1 - n0) + dot(d1, n1) * dot(d1, n1 - n0));
+  }
+  return work;
+}
+
+/// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit
+/// there (eq. 3.13), v = half_velocity + half_step a. For an evaluation at a known velocity pass it with half_step 0.
+/// With strain limits or contacts v = half_velocity + half_step (a + lasting), `lasting` being their acceleration in
+/// the last step (empty: none): their force acts all the time though its impulse comes once a step, and without its
+/// half cloth that hangs or lies still would have the velocity half_step a, on which drag would act.
+void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& air, std::span<const Vec3> half_velocity,
+                std::span<const Vec3> lasting, double half_step_s, State& s, StepWork& w) {
+  const int n = m.freeCount();
+  internalForce(m, s.p, s.a, w);
+  addStitchForces(m.stitches, m.surface.WT, s.p, s.a);
+  springForces(m, s, anchor_frames, w.spring_force);
+  s.sums = {};
+  s.sums.springs = sum(w.spring_force);
+  s.held_N.clear();
+  const auto deadForce = [&](int i) { return m.dead_force_N.empty() ? Vec3{} : m.dead_force_N[i]; };
+  for (const int i : m.held_points)
+    s.held_N.push_back(
+        -(s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 + m.drag_kg_per_s[i] * air + deadForce(i)));
+  for (std::size_t k = 0; k < m.springs.size(); ++k) {
+    const int sample = m.springs[k].sample;
+    for (int e = m.surface.WT.offsets[sample]; e < m.surface.WT.offsets[sample + 1]; ++e) {
+      const int i = m.surface.WT.columns[e];
+      const Vec3 f = m.surface.WT.values[e] * w.spring_force[k];
+      if (m.held[i]) {
+        s.sums.springs -= f;  // taken by what holds the point
+        s.held_N[heldSlot(m, i)] -= f;
+      } else {
+        s.a[i] += f;
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    if (m.held[i]) {
+      s.sums.held -= s.a[i];
+      s.a[i] = {};
+      s.v[i] = {};
+      continue;
+    }
+    const double d = m.drag_kg_per_s[i];
+    const Vec3 start = lasting.empty() ? half_velocity[i] : half_velocity[i] + half_step_s * lasting[i];
+    Vec3 f = s.a[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2 - d * (start - air);
+    if (!m.dead_force_N.empty()) f += m.dead_force_N[i];
+    s.a[i] = f / (m.mass_kg[i] + d * half_step_s);
+    s.v[i] = start + half_step_s * s.a[i];
+    s.sums.drag -= d * (s.v[i] - air);
+  }
+}
+
+/// Accelerations - M^-1 J^T lambda of the strain limits at s [m/s^2], and their forces on held points [N]. Empty where
+/// nothing pulls.
+std::vector<Vec3> limitAccelerations(const Model& m, const State& s, std::vector<Vec3>& out, LimitWork& w) {
+  out.clear();
+  if (s.limit_J.empty()) return {};
+  strainVectors(m.strain_rows, s.p, w.e);
+  for (std::size_t i = 0; i < w.e.size(); ++i) w.e[i] *= s.limit_J[i];
+  out.resize(m.freeCount());
+  m.strain_rows.Bt.multiply<Vec3>(w.e, out);
+  std::vector<Vec3> held;
+  for (const int i : m.held_points) held.push_back(-out[i]);
+  for (int i = 0; i < m.freeCount(); ++i) out[i] *= -m.inverse_mass[i];
+  return held;
+}
+
+/// The accelerations of limits and contacts together.
+std::span<const Vec3> together(std::span<const Vec3> pulled, std::span<const Vec3> pressed, std::vector<Vec3>& sum) {
+  if (pulled.empty()) return pressed;
+  if (pressed.empty()) return pulled;
+  sum.resize(pulled.size());
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = pulled[i] + pressed[i];
+  return sum;
+}
+
+/// Work beyond that of its impulse I on the mean velocity u = (predictor + velocity)/2 - half a of a force that acts
+/// all the time though its impulse comes once a step [J]. With its accelerations c0 and c1 at the ends of the step, I =
+/// J + 2 half m c0: half m (c0 + c1) acts as the other forces do, on the way of the step, and J, what was not foreseen,
+/// at once on u; at rest both are nothing. `before`, `after`: empty or the accelerations.
+double lastingWork(const Model& m, std::span<const Vec3> before, std::span<const Vec3> after, const State& in,
+                   double half, const StepWork& w) {
+  double work = 0;
+  for (int i = 0; i < m.freeCount(); ++i) {
+    const Vec3 c0 = before.empty() ? Vec3{} : before[i], c1 = after.empty() ? Vec3{} : after[i];
+    work += (half * m.mass_kg[i]) *
+            (dot(c0 + c1, w.velocity[i]) - dot(c0, w.predictor[i] + w.velocity[i] - (2 * half) * in.a[i]));
+  }
+  return work;
+}
+
+}  // namespace
+
+void samplePositions(const Model& model, std::span<const Vec3> p, std::vector<Vec3>& x) {
+  x.resize(model.surface.size());
+  model.surface.WT.multiply<Vec3>(p, x);
+}
+
+State initialState(const Model& model, const Stage& stage, double time_s, StepWork& work) {
+  State s;
+  s.time_s = time_s;
+  std::vector<Vec3> Q;
+  for (const NurbsPatch& patch : model.shell.garment().patches)
+    Q.insert(Q.end(), patch.points.begin(), patch.points.end());
+  for (int home : model.map.home) s.p.push_back(Q[home]);
+  s.v.assign(s.p.size(), {});
+  attachSprings(model, stage, s, work);
+  return s;
+}
+
+void attachSprings(const Model& model, const Stage& stage, State& state, StepWork& work) {
+  const AnchorInstant at(model, stage, state.time_s);
+  std::vector<Vec3> anchors;
+  for (std::size_t k = 0; k < model.springs.size(); ++k) {
+    const SpringSupportPoint& spring = model.springs[k];
+    anchors.push_back(toLocal(at.of_stage[spring.anchor],
+                              sampleAt(model.surface.WT, spring.sample, state.p) + model.spring_rise_m[k]));
+  }
+  hangSprings(model, stage, anchors, state, work);
+}
+
+void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> anchors, State& state, StepWork& work) {
+  const AnchorInstant at(model, stage, state.time_s);
+  state.anchors.assign(anchors.begin(), anchors.end());
+  const std::vector<Vec3> v = state.v;
+  state.limit_J.clear();
+  state.pressed.clear();
+  accelerate(model, at.frames(), stage.air(state.time_s), v, {}, 0, state, work);
+}
+
+StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
+  const int n = m.freeCount();
+  const double half = 0.5 * dt;
+  StepReport report;
+  report.step_s = dt;
+  StopWatch clock, whole;
+  w.start.resize(m.obstacles.size());
+  w.end.resize(m.obstacles.size());
+  w.anchors_start.resize(m.anchor_count);
+  w.anchors_end.resize(m.anchor_count);
+  stage.placements(in.time_s, w.start, w.anchors_start);
+  stage.placements(in.time_s + dt, w.end, w.anchors_end);
+
+  placeDeforming(m, stage, in.time_s, in.time_s + dt, w.deforming);
+
+  const Vec3 air0 = stage.air(in.time_s), air1 = stage.air(in.time_s + dt);
+  clock.lap(w.times.stage);
+
+  // 1.1 Predictor, eq. 3.11.
+  w.predictor.resize(n);
+  const std::vector<Vec3> held_before = limitAccelerations(m, in, w.pulled_before, w.limit);
+  for (int i = 0; i < n; ++i) w.predictor[i] = in.v[i] + half * in.a[i];
+  const std::span<const Vec3> lasted = together(w.pulled_before, in.pressed, w.lasting);
+  if (!lasted.empty())
+    for (int i = 0; i < n; ++i) w.predictor[i] -= half * lasted[i];  // this step's impulses come in its place
+  const auto notFinite = [&](const char* what) {
+    report.failure = StepFailure::not_finite;
+    report.why = what;
+    return report;
+  };
+  if (!allFinite(w.predictor)) return notFinite("a velocity is not finite");
+
+  // 1.2 Contact and impact, eq. 3.12.
+  samplePositions(m, in.p, w.x0);
+  if (!resolveContacts(m, in, dt, report, clock, w)) return report;
+
+  // 1.2 continued: positions; 2. acceleration and velocity, eq. 3.13.
+  out.time_s = in.time_s + dt;
+  out.p.resize(n);
+  out.v.resize(n);
+  for (int i = 0; i < n; ++i) out.p[i] = in.p[i] + dt * w.velocity[i];
+  if (!allFinite(out.p)) return notFinite("a position is not finite");
+  samplePositions(m, out.p, w.x1);
+  const int samples = m.surface.size();
+  double largest_way = 0;
+#pragma omp parallel for schedule(static) reduction(max : largest_way) if (samples > kMany)
+  for (int s = 0; s < samples; ++s) largest_way = std::max(largest_way, norm(w.x1[s] - w.x0[s]) / m.cell_m[s]);
+  report.largest_way = largest_way;
+  clock.lap(w.times.other);
+  out.anchors = in.anchors;
+  std::vector<Vec3>& spring_mean = w.spring_impulses;
+  const AnchorFrames before{w.anchors_start, w.deforming.start}, after{w.anchors_end, w.deforming.end};
+  springForces(m, in, before, spring_mean);
+  out.limit_J.clear();
+  if (m.strain_limit.mode != LimitMode::none) limitMultipliers(m.strain_rows, out.p, dt, out.limit_J, w.limit);
+  const std::vector<Vec3> held_after = limitAccelerations(m, out, w.pulled_after, w.limit);
+  pressingAccelerations(m, dt, w, out.pressed);
+  accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half, out, w);
+  for (std::size_t k = 0; k < spring_mean.size(); ++k) {
+    spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
+    report.momentum.scale += norm(spring_mean[k]);
+  }
+  report.work.supports += springWork(m, in, out, before, after, spring_mean, dt);
+
+  clock.lap(w.times.force);
+  keepWarm(m, dt, w, out.warm);
+  // Cloth wholly inside of a mesh crosses nothing until it comes out.
+  out.tangled = report.intersections > 0 || report.pinched > 0 || report.inside > 0;
+  out.pinched.clear();
+  out.frequency_rad_per_s = in.frequency_rad_per_s;
+  out.mode = in.mode;
+  out.steps_to_estimate = in.steps_to_estimate;
+  out.swing = in.swing;
+  out.share = in.share;
+  out.last_step_s = dt;
+
+  // The audit, each term from its own source.
+  MomentumAudit& audit = report.momentum;
+  w.held_impulses.assign(m.held_points.size(), Vec3{});
+  for (std::size_t k = 0; k < w.held_impulses.size(); ++k) w.held_impulses[k] = half * (in.held_N[k] + out.held_N[k]);
+  contactLedger(m, in, dt, report, w);
+  if (m.strain_limit.mode != LimitMode::none) {
+    const Vec3 pull_after = sum(held_after), pull_before = sum(held_before);
+    audit.supports -= half * (pull_after - pull_before);
+    audit.scale += half * (norm(pull_after) + norm(pull_before));
+    for (std::size_t k = 0; k < w.held_impulses.size(); ++k) {
+      w.held_impulses[k] += w.limit.pull[m.held_points[k]] / dt;
+      if (!held_after.empty()) w.held_impulses[k] -= half * held_after[k];
+      if (!held_before.empty()) w.held_impulses[k] += half * held_before[k];
+    }
+    for (int i = 0; i < n; ++i) {
+      const Vec3 impulse = -w.limit.pull[i] / dt;
+      if (m.held[i]) {
+        audit.supports -= impulse;
+        audit.scale += norm(impulse);
+        continue;
+      }
+      report.work.limit += 0.5 * dot(impulse, w.predictor[i] + w.velocity[i] - dt * in.a[i]);
+    }
+    report.work.limit += lastingWork(m, w.pulled_before, w.pulled_after, in, half, w);
+  }
+  if (!in.pressed.empty() || !out.pressed.empty()) {
+    report.work.contact += lastingWork(m, in.pressed, out.pressed, in, half, w);
+    for (int i = 0; i < n; ++i) {
+      if (!out.pressed.empty()) audit.pressing += (m.mass_kg[i] * half) * out.pressed[i];
+      if (!in.pressed.empty()) audit.pressing -= (m.mass_kg[i] * half) * in.pressed[i];
+    }
+    audit.scale += norm(audit.pressing);
+  }
+  double floor = 0;
+  for (int i = 0; i < n; ++i) {
+    if (m.held[i]) continue;
+    floor += m.mass_kg[i] * (norm(out.v[i]) + kWeight_m_per_s2 * dt);
+    if (!m.dead_force_N.empty()) {
+      audit.dead += dt * m.dead_force_N[i];
+      audit.scale += dt * norm(m.dead_force_N[i]);
+    }
+    audit.change += m.mass_kg[i] * (out.v[i] - in.v[i]);
+    audit.scale += m.mass_kg[i] * norm(out.v[i] - in.v[i]);  // internal forces cancel in the sum, not in its rounding
+    audit.gravity += (m.mass_kg[i] * dt) * m.environment.gravity_m_per_s2;
+    audit.scale += m.mass_kg[i] * dt * norm(m.environment.gravity_m_per_s2);
+    const double d = m.drag_kg_per_s[i];
+    const Vec3 &v0 = in.v[i], &v1 = out.v[i];
+    report.work.drag -= half * d * (dot(v0 - air0, v0) + dot(v1 - air1, v1));
+    report.work.dissipated += half * d * (norm2(v0 - air0) + norm2(v1 - air1));
+  }
+  audit.drag = half * (in.sums.drag + out.sums.drag);
+  audit.supports += half * (in.sums.springs + in.sums.held + out.sums.springs + out.sums.held);
+  audit.scale += norm(audit.drag) + half * (norm(in.sums.held) + norm(out.sums.held));
+  audit.scale = std::max(audit.scale, kScaleFloor * floor);
+  clock.lap(w.times.other);
+  if (report.searched) {
+    ++w.times.searches;
+    whole.lap(w.times.searched_steps);
+  }
+  return report;
+}
+
+Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w) {
+  Energy e;
+  internalForce(m, s.p, w.sample_force, w, &e.internal);
+  for (int i = 0; i < m.freeCount(); ++i) {
+    if (m.held[i]) continue;
+    e.kinetic += 0.5 * m.mass_kg[i] * norm2(s.v[i]);
+    e.gravity -= m.mass_kg[i] * dot(m.environment.gravity_m_per_s2, s.p[i]);
+    if (!m.dead_force_N.empty()) e.dead -= dot(m.dead_force_N[i], s.p[i]);
+  }
+  springForces(m, s, AnchorInstant(m, stage, s.time_s).frames(), w.spring_force);
+  for (std::size_t k = 0; k < m.springs.size(); ++k)
+    e.springs += 0.5 * norm2(w.spring_force[k]) / m.springs[k].stiffness_N_per_m;
+  e.springs += stitchEnergy(m.stitches, m.surface.WT, s.p);
+  return e;
+}
+
+}  // namespace gambeson

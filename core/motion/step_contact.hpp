@@ -1,0 +1,64 @@
+#pragma once
+/// The contact part of a step: from the predicted velocities to those with which nothing passes through anything.
+/// Internal to core/motion.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <span>
+
+#include "core/motion/model.hpp"
+
+namespace gambeson {
+
+/// Adds the time since the last lap to a phase.
+class StopWatch {
+ public:
+  void lap(double& phase) {
+    const auto now = std::chrono::steady_clock::now();
+    phase += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+inline Vec3 sampleAt(const SparseRows& WT, int sample, std::span<const Vec3> values) {
+  Vec3 s{};
+  for (int k = WT.offsets[sample]; k < WT.offsets[sample + 1]; ++k) s += WT.values[k] * values[WT.columns[k]];
+  return s;
+}
+
+/// Where Model::held_points has the free point `i`, which is held.
+inline std::size_t heldSlot(const Model& m, int i) {
+  return static_cast<std::size_t>(std::lower_bound(m.held_points.begin(), m.held_points.end(), i) -
+                                  m.held_points.begin());
+}
+
+inline bool allFinite(std::span<const Vec3> values) {
+  double zero = 0;
+  for (const Vec3& v : values) zero += 0 * (v.x + v.y + v.z);  // NaN from the first infinity or NaN on
+  return zero == 0;
+}
+
+/// Reads w.predictor, w.x0, w.start, w.end; leaves w.velocity, w.rows with w.impulses and w.warm, and w.zone_impulses.
+/// In turn: contacts and impacts found so far solved together; paths tested; what would still pass joins them. After
+/// some rounds what is left moves in rigid zones. False where that does not do either: report.earliest_impact is the
+/// part of the step up to which nothing touches.
+bool resolveContacts(const Model& model, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w);
+
+/// What the persistent contacts of the step leave to the next.
+void keepWarm(const Model& model, double dt, const StepWork& work, std::vector<WarmContact>& warm);
+
+/// What the step's contacts accelerate the free points by as a force that acts all the time [m/s^2]: of persistent rows
+/// that have come to their layer, friction with them, as much as lasts (lastingShare). Impacts, what stops a sample on
+/// its way to the layer and what frees intersections change velocities at once and are no part of it. Where threads are
+/// limited their tensions and the contacts that bear them are solved as one and balance as one, though they pass from
+/// sample to sample: then all persistent rows count, as all tensions do. Empty where nothing presses.
+void pressingAccelerations(const Model& model, double dt, StepWork& work, std::vector<Vec3>& pressed);
+
+/// Contact's part of the audit, and the impulses on bodies.
+void contactLedger(const Model& model, const State& in, double dt, StepReport& report, StepWork& w);
+
+}  // namespace gambeson

@@ -1,0 +1,70 @@
+#pragma once
+/// A sheet with supports and loads: what the static, implicit and modal solvers see.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/cloth/constraint.hpp"
+#include "core/cloth/shell/loads.hpp"
+#include "core/cloth/shell/shell.hpp"
+#include "core/cloth/shell/tangent.hpp"
+#include "core/math/cholesky.hpp"
+#include "core/statics/reduction.hpp"
+#include "core/statics/structure_limit.hpp"
+
+namespace gambeson {
+
+/// A factor over time (or over the load factor, in statics), linear between its points, constant beyond.
+struct Program {
+  std::vector<double> at, value;
+  double operator()(double t) const;
+  /// As a load path sees it that leaves 0 to 1 (limit points, snap-backs): beyond both its points and 0 to 1 it goes on
+  /// with its slope there.
+  double extended(double factor) const;
+};
+
+/// How programs go on beyond their ends: constant (time), or with their slope (a load path).
+enum class ProgramEnds { constant, extended };
+
+/// Constant after it is built. Unknowns y: displacements that satisfy the supports, u = C y + shifts (DofMap); control
+/// points q = rest + T u.
+struct Structure {
+  Shell shell;
+  FreeMap map;
+  DofMap dofs;
+  Loads loads;
+  std::vector<Program> programs;
+  Tangent tangent;                  ///< assembles on the free points
+  Reduction reduction;              ///< of the tangent to the unknowns
+  std::vector<Vec3> rest;           ///< control points
+  std::vector<DeadLoad> dead;       ///< part of `loads`: those with a potential
+  std::vector<double> lumped_kg;    ///< row sums, of the free points
+  SparseRows consistent_kg;         ///< ∫ rho N N dA on the free points
+  double rayleigh_mass_per_s = 0;   ///< a in C = a M + b K
+  double rayleigh_stiffness_s = 0;  ///< b
+  double drag_kg_per_m2s = 0;       ///< Zheng 2013, section 2.2.3
+  std::vector<double> area_m2;      ///< ∫ N dA of the free points
+  /// Of explicit steps. Its force is no part of what equilibrium and implicit steps see: they refuse it.
+  std::optional<StructureLimit> limit;
+};
+
+struct StructureOptions {
+  std::vector<LinearConstraint> constraints;
+  std::vector<DeadLoad> dead;
+  std::vector<PressureLoad> pressure;
+  std::vector<EdgeMoment> moments;
+  std::vector<Program> programs;  ///< none: one, from 0 at 0 to 1 at 1
+  double rayleigh_mass_per_s = 0, rayleigh_stiffness_s = 0, drag_kg_per_m2s = 0;
+  StrainLimit strain_limit;
+  CellRule cell_rule = CellRule::automatic;
+  int gauss_extra = 0;
+  const KernelSet* kernels = nullptr;  ///< the widest where null
+};
+
+/// Throws InputError.
+std::unique_ptr<Structure> buildStructure(const Garment& garment, const StructureOptions& options);
+
+}  // namespace gambeson

@@ -1,0 +1,56 @@
+#pragma once
+/// A structure as the solvers' system.
+
+#include <vector>
+
+#include "core/statics/structure.hpp"
+#include "core/statics/system.hpp"
+
+namespace gambeson {
+
+class StructureSystem : public System {
+ public:
+  StructureSystem(const Structure& structure, ProgramEnds ends);
+
+  int size() const override { return structure_.dofs.unknowns(); }
+  const SymmetricMatrix& pattern() const override { return structure_.reduction.pattern(); }
+  double residual(std::span<const double> y, double t, std::span<double> g) override;
+  void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) override;
+  void change(std::span<const double> y, double t0, double t1, std::span<double> dg) override;
+  double length() const override { return length_; }
+  double reach() const override { return reach_; }
+  std::string describe(std::span<const double> motion) const override;
+  void mass(bool lumped, SymmetricMatrix& M) override;
+  void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
+  bool hasStiffnessDamping() const override { return structure_.rayleigh_stiffness_s > 0; }
+  void supportForce(double t, double dt, bool lumped, std::span<double> f) override;
+  MotionLimit* limit() override { return limit_.get(); }
+
+ private:
+  void place(std::span<const double> y, double t);  ///< sets value_ and q_
+  void assemble(std::span<const double> y, double t);
+  BlockMatrix massBlocks(bool lumped) const;
+
+  const Structure& structure_;
+  std::unique_ptr<MotionLimit> limit_;
+  ProgramEnds ends_;
+  double length_ = 0, reach_ = 0;
+  ShellWork work_;
+  BlockMatrix K_;
+  std::vector<double> at_y_;  ///< where K_ is
+  double at_t_ = 0;
+  std::vector<double> value_, u_, damping_u_;
+  std::vector<Vec3> q_, f_, external_, free_;
+  BlockMatrix damping_K_;
+};
+
+std::vector<double> programValues(const Structure& structure, double t, ProgramEnds ends);
+/// Displacements of the free points, u = C y + shifts.
+std::vector<double> freeDisplacements(const Structure& structure, std::span<const double> y,
+                                      std::span<const double> value);
+
+/// In words, what a motion moves that meets no stiffness: rigid motions that the supports allow, else the place where
+/// it is largest.
+std::string describeMotion(const Structure& structure, std::span<const double> motion);
+
+}  // namespace gambeson

@@ -1,0 +1,48 @@
+#pragma once
+/// What the solvers see of a structure: forces and their derivatives in the unknowns y. Scratch lives in the system, so
+/// each solver makes its own.
+
+#include <span>
+#include <string>
+
+#include "core/math/cholesky.hpp"
+#include "core/motion/motion_limit.hpp"
+
+namespace gambeson {
+
+/// Equilibrium is g(y, t) = 0 with g = f_int - f_ext; t is the time, or the load factor in statics.
+class System {
+ public:
+  virtual ~System() = default;
+  virtual int size() const = 0;
+  /// The pattern that all matrices of the system share.
+  virtual const SymmetricMatrix& pattern() const = 0;
+  /// Writes g; returns the size of the forces that balance in it (loads, reactions), what a residual is small against.
+  virtual double residual(std::span<const double> y, double t, std::span<double> g) = 0;
+  /// K = dg/dy. `steepest`: every law at its steepest slope, what an explicit step must allow for.
+  virtual void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) = 0;
+  /// How g changes from t0 to t1 with y held: loads exactly, moving supports to first order (through the stiffness).
+  virtual void change(std::span<const double> y, double t0, double t1, std::span<double> dg) = 0;
+  /// A length of the structure [m].
+  virtual double length() const { return 1; }
+  /// How large its coordinates are [m], at least `length`: positions, strains and forces are rounded in proportion to
+  /// them, however small the structure is that stands there.
+  virtual double reach() const { return length(); }
+  /// In words: what moves in a motion of the unknowns that meets no stiffness.
+  virtual std::string describe(std::span<const double> motion) const = 0;
+
+  // Dynamics: M a + D v + g(y, t) + (inertia and damping of moving supports) = 0.
+  virtual void mass(bool lumped, SymmetricMatrix& M) = 0;
+  /// D = a M + b K(y, t) + drag; without its stiffness part where `stiffness_part` is false.
+  virtual void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) = 0;
+  virtual bool hasStiffnessDamping() const { return false; }
+  /// Forces of the inertia and damping of what supports move, from central differences of their programs over dt; the
+  /// damping is that of the last call of `damping`.
+  virtual void supportForce(double /*t*/, double /*dt*/, bool /*lumped*/, std::span<double> f) {
+    for (double& v : f) v = 0;
+  }
+  /// What holds at the end of explicit steps beside the supports; null: nothing.
+  virtual MotionLimit* limit() { return nullptr; }
+};
+
+}  // namespace gambeson
