@@ -56,11 +56,12 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
             "or cut it closer.",
             true};
   if (check.starts_with("Layer order, "))
-    return {fmt::format("{}: {} of the upper garment lies inside of the lower one", check.substr(13), much),
-            "The layers are worn in the wrong order there and cross nowhere, so nothing brings them out: the torques are "
-            "those of another outfit. Put them on together (dressing.projecting without layer_by_layer), or place the "
-            "upper one higher.",
-            true};
+    return {
+        fmt::format("{}: {} of the upper garment lies inside of the lower one", check.substr(13), much),
+        "The layers are worn in the wrong order there and cross nowhere, so nothing brings them out: the torques are "
+        "those of another outfit. Put them on together (dressing.projecting without layer_by_layer), or place the "
+        "upper one higher.",
+        true};
   if (check.starts_with("Repeatability, shape"))
     return {fmt::format("the second stride is not like the first (correlation {}, 1 for the same course; allowed: at "
                         "least {})",

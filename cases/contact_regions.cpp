@@ -7,12 +7,12 @@ namespace gambeson {
 namespace {
 
 /// From the regions; `press` of each.
-void groupContact(Scenario& s, const Garment& garment, const std::vector<std::string>& layers,
-                  const std::vector<Press>& press) {
+void groupContact(Scenario& s, const std::vector<std::string>& layers, const std::vector<Press>& press) {
   for (std::size_t i = 0; i < s.contact_region.size(); ++i) {
     const int patch = s.model->surface.patch[i];
-    const ContactGroup group{layers[static_cast<std::size_t>(garment.layerOf(patch))],
-                             press[static_cast<std::size_t>(s.contact_region[i])]};
+    const ContactGroup group{
+        layers[static_cast<std::size_t>(s.model->cloth->patches()[static_cast<std::size_t>(patch)].garment)],
+        press[static_cast<std::size_t>(s.contact_region[i])]};
     const auto at = std::find(s.contact_groups.begin(), s.contact_groups.end(), group);
     s.contact_group.push_back(static_cast<int>(at - s.contact_groups.begin()));
     if (at == s.contact_groups.end()) s.contact_groups.push_back(group);
@@ -21,8 +21,8 @@ void groupContact(Scenario& s, const Garment& garment, const std::vector<std::st
 
 }  // namespace
 
-void nameContactRegions(Scenario& s, const Garment& garment, const std::vector<Garment>& garments,
-                        const std::vector<int>& first, const std::vector<Vec3>& q) {
+void nameContactRegions(Scenario& s, const std::vector<Garment>& garments, const std::vector<int>& first,
+                        const std::vector<Vec3>& q) {
   const Surface& surface = s.model->surface;
   std::vector<Vec3> x(static_cast<std::size_t>(surface.size()));
   surface.W.multiply<Vec3>(q, x);
@@ -45,7 +45,8 @@ void nameContactRegions(Scenario& s, const Garment& garment, const std::vector<G
     press.push_back(Press::belt);
     s.contact_regions.push_back("under " + s.patch_names[static_cast<std::size_t>(first[k])]);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (garment.layerOf(surface.patch[i]) < static_cast<int>(k) && x[i].z >= low && x[i].z <= high)
+      if (s.model->cloth->patches()[static_cast<std::size_t>(surface.patch[i])].garment < static_cast<int>(k) &&
+          x[i].z >= low && x[i].z <= high)
         s.contact_region[i] = region;
   }
   for (const SupportGroup& group : s.supports) {
@@ -55,7 +56,7 @@ void nameContactRegions(Scenario& s, const Garment& garment, const std::vector<G
     s.contact_regions.push_back(group.name);
     press.push_back(Press::held);
   }
-  groupContact(s, garment, layers, press);
+  groupContact(s, layers, press);
 }
 
 }  // namespace gambeson

@@ -35,8 +35,8 @@ Case alone(const Case& c, std::size_t g) {
 }
 
 std::vector<Vec3> controlPoints(const Scenario& s, const State& state) {
-  std::vector<Vec3> q(s.model->map.T.rows());
-  s.model->map.T.multiply<Vec3>(state.p, q);
+  std::vector<Vec3> q(s.model->cloth->map().T.rows());
+  s.model->cloth->map().T.multiply<Vec3>(state.p, q);
   return q;
 }
 
@@ -99,7 +99,7 @@ Dressed putOnApart(const Case& c) {
         one.dressing.projecting.reset();
       }
       const std::unique_ptr<Scenario> s = buildAlone(one, c, g);
-      if (stitched) s->start_m = sew(s->model->map, closed);
+      if (stitched) s->start_m = sew(s->model->cloth->map(), closed);
       const State state = settled(*s, nullptr);
       Dressed worn = dressedOf(*s, state);
       dressed.body = worn.body;
@@ -131,8 +131,7 @@ void wear(Scenario& s, const Dressed& dressed) {
   if (dressed.posture.q.size() != s.human->skeleton.joints.size()) fail("has a posture of another skeleton");
   if (dressed.garments.size() != c.garments.size())
     fail(fmt::format("holds {} garments, the case {}", dressed.garments.size(), c.garments.size()));
-  const Garment& garment = s.model->shell.garment();
-  const std::vector<int> first = controlOffsets(garment);
+  const std::vector<ClothPatch>& patches = s.model->cloth->patches();
   std::vector<Vec3> q;
   std::size_t patch = 0;
   for (std::size_t g = 0; g < c.garments.size(); ++g) {
@@ -140,16 +139,14 @@ void wear(Scenario& s, const Dressed& dressed) {
     if (worn.name != c.garments[g].name)
       fail(fmt::format("garment {} is \"{}\", in the case \"{}\"", g + 1, worn.name, c.garments[g].name));
     std::size_t points = 0;
-    while (patch < garment.patches.size() && garment.layerOf(static_cast<int>(patch)) == static_cast<int>(g)) {
-      points += static_cast<std::size_t>(first[patch + 1] - first[patch]);
-      ++patch;
-    }
+    for (; patch < patches.size() && patches[patch].garment == static_cast<int>(g); ++patch)
+      points += static_cast<std::size_t>(patches[patch].end_point - patches[patch].first_point);
     if (points != worn.points_m.size())
       fail(fmt::format("the garment \"{}\" has {} control points, in the case {}", worn.name, worn.points_m.size(),
                        points));
     q.insert(q.end(), worn.points_m.begin(), worn.points_m.end());
   }
-  s.start_m = sew(s.model->map, q);
+  s.start_m = sew(s.model->cloth->map(), q);
 }
 
 void putOn(Scenario& s) {
@@ -163,13 +160,10 @@ Dressed dressedOf(const Scenario& s, const State& state) {
   dressed.body = bodyFingerprint(*c.human);
   dressed.posture = s.motion->at(0);
   const std::vector<Vec3> q = controlPoints(s, state);
-  const Garment& garment = s.model->shell.garment();
-  const std::vector<int> first = controlOffsets(garment);
   for (const GarmentCase& g : c.garments) dressed.garments.push_back({g.name, {}});
-  for (std::size_t p = 0; p < garment.patches.size(); ++p) {
-    std::vector<Vec3>& points =
-        dressed.garments[static_cast<std::size_t>(garment.layerOf(static_cast<int>(p)))].points_m;
-    points.insert(points.end(), q.begin() + first[p], q.begin() + first[p + 1]);
+  for (const ClothPatch& p : s.model->cloth->patches()) {
+    std::vector<Vec3>& points = dressed.garments[static_cast<std::size_t>(p.garment)].points_m;
+    points.insert(points.end(), q.begin() + p.first_point, q.begin() + p.end_point);
   }
   return dressed;
 }

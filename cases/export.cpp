@@ -11,23 +11,40 @@
 namespace gambeson {
 namespace {
 
-/// The garment's patches where a frame has their control points.
-std::vector<IgesSurface> surfacesOf(const Scenario& s, const Frame& frame) {
-  const Garment& garment = s.model->shell.garment();
-  std::vector<IgesSurface> surfaces;
+NurbsPatch patchOf(const PatchLayout& layout) {
+  return {{layout.degree_u, layout.knots_u}, {layout.degree_v, layout.knots_v}, {}, layout.weights};
+}
+
+Trim trimOf(const PatchLayout& layout) {
+  Trim trim;
+  for (const PatchLayout::Curve& c : layout.trims) {
+    trim.loops.resize(static_cast<std::size_t>(c.loop) + 1);
+    NurbsCurve curve{{c.degree, c.knots}, {}, c.weights};
+    for (std::size_t k = 0; k + 1 < c.points.size(); k += 2) curve.points.push_back({c.points[k], c.points[k + 1]});
+    trim.loops.back().push_back(std::move(curve));
+  }
+  return trim;
+}
+
+/// The recorded patches where a frame has their control points.
+std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& frame) {
+  if (layout.patches.empty())
+    throw InputError({"command line", 0, "--iges"}, "needs cloth of NURBS patches; this run has none");
   const Field* position = nullptr;
   for (const Field& f : frame.control_fields)
     if (f.name == "position") position = &f;
-  if (!position || position->data.size() != 3 * static_cast<std::size_t>(s.model->shell.controlCount()))
-    throw RunError("the recording's frames have no control points of this garment");
+  std::vector<IgesSurface> surfaces;
   std::size_t at = 0;
-  for (std::size_t p = 0; p < garment.patches.size(); ++p) {
-    IgesSurface surface{s.patch_names[p], garment.patches[p], garment.trims.empty() ? Trim{} : garment.trims[p]};
-    for (Vec3& x : surface.patch.points) {
+  for (const PatchLayout& p : layout.patches) {
+    surfaces.push_back({p.name, patchOf(p), trimOf(p)});
+    NurbsPatch& patch = surfaces.back().patch;
+    patch.points.resize(static_cast<std::size_t>(patch.size()));
+    if (!position || position->data.size() < at + 3 * patch.points.size())
+      throw RunError("the recording's frames have no control points of its patches");
+    for (Vec3& x : patch.points) {
       x = {position->data[at], position->data[at + 1], position->data[at + 2]};
       at += 3;
     }
-    surfaces.push_back(std::move(surface));
   }
   return surfaces;
 }
@@ -43,7 +60,7 @@ int exportResults(const ExportOptions& o) {
   if (!o.iges.empty()) {
     const int frame = frameOf(recording, measured, {o.when, o.time_s});
     writeIges(o.iges, fmt::format("{}, {:.3f} s", scenario->definition.name, recording.time(frame)),
-              surfacesOf(*scenario, recording.frame(frame)));
+              surfacesOf(recording.layout(), recording.frame(frame)));
     fmt::print("{}: the garment at {:.3f} s, {} surfaces\n", o.iges.string(), recording.time(frame),
                scenario->patch_names.size());
   }

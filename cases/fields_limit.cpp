@@ -48,13 +48,14 @@ namespace schema {
 Object strainLimitTable() {
   using S = StrainLimitCase;
   return Table<S>("Strain limit")
-      .choice("mode", &S::mode,
-              std::vector<std::pair<std::string, LimitMode>>{{"upper_limit", LimitMode::upper_limit},
-                                                             {"equality", LimitMode::equality}},
-              "upper_limit: threads may slacken, and hold where they would stretch beyond the limit; equality: threads "
-              "keep their length (Zheng 2013, eq. 5.6). Equalities and contacts of a step are one problem; upper limits "
-              "and contacts are solved in turn, and where both are tight steps may miss the tolerance, which a check "
-              "counts")
+      .choice(
+          "mode", &S::mode,
+          std::vector<std::pair<std::string, LimitMode>>{{"upper_limit", LimitMode::upper_limit},
+                                                         {"equality", LimitMode::equality}},
+          "upper_limit: threads may slacken, and hold where they would stretch beyond the limit; equality: threads "
+          "keep their length (Zheng 2013, eq. 5.6). Equalities and contacts of a step are one problem; upper limits "
+          "and contacts are solved in turn, and where both are tight steps may miss the tolerance, which a check "
+          "counts")
       .required()
       .number("limit", &S::limit, "", between(0, 1), "largest Green-Lagrange strain along weft and warp")
       .defaultsTo("required for upper_limit; not allowed for equality")
@@ -76,11 +77,12 @@ Object strainLimitTable() {
           "miss none and give smooth stress on any number of cells; for whole patches of degree 2 or more whose "
           "threads follow their knot lines. gauss and centres, 2 x 2 points of each cell and one: for comparison on "
           "whole patches (Zheng 2013, 5.4): the first lock, the second lets cells hourglass")
-      .choice("method", &S::method,
-              std::vector<std::pair<std::string, LimitMethod>>{{"fast", LimitMethod::fast},
-                                                               {"closest", LimitMethod::closest}},
-              "fast: fast projection (Zheng 2013, eq. 5.21). closest: the whole Newton iteration to the closest point on "
-              "the constraints (eq. 5.15), slower; for comparison, of structures, mode equality")
+      .choice(
+          "method", &S::method,
+          std::vector<std::pair<std::string, LimitMethod>>{{"fast", LimitMethod::fast},
+                                                           {"closest", LimitMethod::closest}},
+          "fast: fast projection (Zheng 2013, eq. 5.21). closest: the whole Newton iteration to the closest point on "
+          "the constraints (eq. 5.15), slower; for comparison, of structures, mode equality")
       .check([](const Place& p, const S& s) {
         if (s.method == LimitMethod::closest && s.mode != LimitMode::equality)
           p.failAt("method", "closest goes with mode equality");

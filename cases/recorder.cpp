@@ -120,29 +120,13 @@ const std::vector<std::string>& stepColumns() {
   return names;
 }
 
-namespace {
-
-PatchLayout patchLayout(const std::string& name, const NurbsPatch& p, const Trim* trim) {
-  PatchLayout layout{name, p.u.degree, p.v.degree, p.u.knots, p.v.knots, p.weights, {}};
-  for (std::size_t l = 0; trim && l < trim->loops.size(); ++l)
-    for (const NurbsCurve& c : trim->loops[l]) {
-      layout.trims.push_back({static_cast<int>(l), c.knots.degree, c.knots.knots, {}, c.weights});
-      for (const Vec2& uv : c.points) layout.trims.back().points.insert(layout.trims.back().points.end(), {uv.x, uv.y});
-    }
-  return layout;
-}
-
-}  // namespace
-
 RecordingLayout recordingLayout(const Scenario& s) {
   RecordingLayout layout;
-  layout.identity = caseIdentity(s.definition) + " " + s.model->shell.kernels().name;
+  layout.identity = caseIdentity(s.definition) + " " + s.model->cloth->kernels();
   layout.metadata = writeCase(s.definition);
   layout.triangles = s.model->surface.triangles;
-  const Garment& garment = s.model->shell.garment();
-  for (std::size_t p = 0; p < garment.patches.size(); ++p)
-    layout.patches.push_back(
-        patchLayout(s.patch_names[p], garment.patches[p], garment.trims.empty() ? nullptr : &garment.trims[p]));
+  layout.patches = s.model->cloth->geometry();
+  for (std::size_t p = 0; p < layout.patches.size(); ++p) layout.patches[p].name = s.patch_names[p];
   const std::vector<std::string> window{"start_s", "end_s"};
   auto &bodies = layout.tables["bodies"] = window, &drag = layout.tables["drag"] = window,
        &pressing = layout.tables["normal"] = window;
@@ -238,7 +222,7 @@ State stateOf(const Checkpoint& c, Frequency& f) {
 
 Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
     : scenario_(scenario),
-      stress_(scenario.model->shell),
+      stress_(scenario.model->cloth->stress()),
       writer_(writer),
       placed_(scenario),
       zones_(scenario),
@@ -430,7 +414,7 @@ namespace {
 
 /// Area now over area at rest, sqrt((1 + 2 E1) (1 + 2 E2)) of the principal Green-Lagrange strains. Cloth is crushed
 /// to a tenth of its length at most.
-double areaRatio(const ShellStress& s) {
+double areaRatio(const PrincipalStress& s) {
   return std::sqrt(std::max(1 + 2 * s.strain1, 0.01) * std::max(1 + 2 * s.strain2, 0.01));
 }
 
@@ -441,10 +425,10 @@ void Recorder::appendFrame(const State& state, double window) {
   const int n = m.surface.size();
   Frame frame;
   frame.time_s = state.time_s;
-  std::vector<Vec3> x(n), v(n), q(m.shell.controlCount()), force(n);
+  std::vector<Vec3> x(n), v(n), q(m.cloth->points()), force(n);
   m.surface.WT.multiply<Vec3>(state.p, x);
   m.surface.WT.multiply<Vec3>(state.v, v);
-  m.map.T.multiply<Vec3>(state.p, q);
+  m.cloth->map().T.multiply<Vec3>(state.p, q);
   frame.positions = floats(x);
   Field velocity{"velocity", "m/s", 3, floats(v)}, contact{"contact_force", "N", 3, {}},
       pressure{"pressure", "Pa", 1, {}};
@@ -457,14 +441,16 @@ void Recorder::appendFrame(const State& state, double window) {
   // Strain limits pull in impulses, one a step: like the contact forces, the mean over the window.
   for (double& l : limit_) l /= window;
   const std::vector<Vec2> limits = limit_.empty() ? std::vector<Vec2>{} : limitStress(m.strain_rows, limit_);
-  StressField::More more;
-  if (!limits.empty()) more = [&](int patch, Vec2 uv) { return limitStressAt(m.strain_rows, limits, patch, uv); };
-  const std::vector<StressField::Sample> means = stress_.means(m.shell, q, more);
+  StressView::More more;
+  if (!limits.empty())
+    more = [&](int patch, Vec2 uv) { return m.cloth->limitStressAt(m.strain_rows, limits, patch, uv); };
+  const ClothState at(q);
+  const std::vector<StressView::Sample> means = stress_->means(at, more);
   CarriedError error;
 #pragma omp parallel for schedule(static)
   for (int s = 0; s < n; ++s)
     error.guard(s, [&] {
-      const ShellStress stress = stress_.at(m.shell, q, m.surface.patch[s], m.surface.parameters[s], means, more);
+      const PrincipalStress stress = stress_->at(at, m.surface.patch[s], m.surface.parameters[s], means, more);
       s1.data[s] = static_cast<float>(stress.principal1_N_per_m);
       s2.data[s] = static_cast<float>(stress.principal2_N_per_m);
       e1.data[s] = static_cast<float>(stress.strain1);

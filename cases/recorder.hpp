@@ -27,7 +27,7 @@
 #include "cases/scenario.hpp"
 #include "cases/skin_ledger.hpp"
 #include "cases/zone_ledger.hpp"
-#include "core/cloth/shell/stress_field.hpp"
+#include "core/cloth/stress.hpp"
 #include "core/io/recording.hpp"
 
 namespace gambeson {
@@ -59,7 +59,7 @@ class Recorder {
   void addSkin(const State& state, double window_s, Frame& frame) const;
 
   const Scenario& scenario_;
-  StressField stress_;
+  std::unique_ptr<const StressView> stress_;
   RecordingWriter& writer_;
   PlacedBodies placed_;
   ZoneLedger zones_;

@@ -34,7 +34,7 @@ RecordingSize recordingSize(const Scenario& s, const RecordingLayout& layout) {
   double columns = 0, vertices = 0;
   for (const auto& [table, names] : layout.tables) columns += static_cast<double>(names.size());
   if (!layout.body_triangles.empty()) vertices = 0.5 * static_cast<double>(layout.body_triangles.size());  // Euler
-  const double points = s.model->shell.controlCount(), samples = static_cast<double>(s.model->surface.area_m2.size());
+  const double points = s.model->cloth->points(), samples = static_cast<double>(s.model->surface.area_m2.size());
   size.bytes = 8 * columns * size.windows +
                4 * (per_sample * samples + per_point * points + per_vertex * vertices) * size.frames +
                8 * per_point_checkpoint * points * size.checkpoints;

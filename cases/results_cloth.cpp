@@ -29,12 +29,6 @@ std::vector<Vec3> controlsOf(const Frame& frame) {
 
 namespace {
 
-std::vector<Vec3> restControls(const Garment& g) {
-  std::vector<Vec3> q;
-  for (const NurbsPatch& p : g.patches) q.insert(q.end(), p.points.begin(), p.points.end());
-  return q;
-}
-
 /// Half an eighth of a turn more than straight: outlines of trimmed edges are polygons.
 constexpr double kReentrant = 1.125 * std::numbers::pi;
 
@@ -50,15 +44,15 @@ std::vector<int> cellsOf(const Scenario& s) {
   return cells;
 }
 
-struct Cloth {
+struct Areas {
   const Scenario& s;
   std::vector<Vec3> rest_m;  ///< of the samples
   std::vector<double> inner_m2, clear_m2;
 
-  explicit Cloth(const Scenario& scenario) : s(scenario) {
+  explicit Areas(const Scenario& scenario) : s(scenario) {
     const Surface& surface = s.model->surface;
     rest_m.resize(static_cast<std::size_t>(surface.size()));
-    surface.W.multiply<Vec3>(restControls(s.model->shell.garment()), rest_m);
+    surface.W.multiply<Vec3>(s.model->cloth->rest(), rest_m);
     const std::vector<int> cells = cellsOf(s);
     const SheetMesh mesh{surface.triangles, surface.triangle_patch, cells, rest_m};
     const std::vector<char> inner = innerSamples(mesh), clear = clearOfCorners(mesh, kReentrant);
@@ -77,7 +71,7 @@ struct Cloth {
     CarriedError error;
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < surface.size(); ++i)
-      error.guard(i, [&] { bend[i] = s.model->shell.bendAt(surface.patch[i], surface.parameters[i], q); });
+      error.guard(i, [&] { bend[i] = s.model->cloth->bendAt(q, surface.patch[i], surface.parameters[i]); });
     error.rethrow();
     const int patches = static_cast<int>(s.patch_names.size());
     const std::vector<double> curvature = regionRms(surface.patch, surface.area_m2, bend, patches);
@@ -143,13 +137,13 @@ void divide(StrapsMeasure::At& sum, double n) {
 }  // namespace
 
 void measureCloth(const Scenario& s, const RecordingReader& recording, Measured& out) {
-  const Cloth cloth(s);
-  const Garment& garment = s.model->shell.garment();
+  const Areas areas(s);
+  const Cloth& cloth = *s.model->cloth;
   const std::vector<StrapCut> cuts =
-      s.definition.strain_limit ? std::vector<StrapCut>{} : strapCuts(garment, s.patch_names);
-  const std::vector<double> own = weightsBelow(garment, cuts, true), all = weightsBelow(garment, cuts, false);
+      s.definition.strain_limit ? std::vector<StrapCut>{} : strapCuts(cloth, s.patch_names);
+  const std::vector<double> own = weightsBelow(cloth, cuts, true), all = weightsBelow(cloth, cuts, false);
   const std::vector<std::vector<double>> supports = recording.table("supports");
-  ShellWork work;
+  ClothWork work;
   for (const StrapCut& cut : cuts)
     out.straps.cuts.push_back(
         {s.patch_names[static_cast<std::size_t>(cut.patch)] + (cut.at_end ? " end" : " start"), cut.width_m});
@@ -160,11 +154,11 @@ void measureCloth(const Scenario& s, const RecordingReader& recording, Measured&
     const Frame frame = recording.frame(k);
     const std::vector<Vec3> q = controlsOf(frame);
     out.cloth_time_s.push_back(frame.time_s);
-    out.cloth.push_back(cloth.patchesOf(frame, q));
+    out.cloth.push_back(areas.patchesOf(frame, q));
     if (cuts.empty()) continue;
     StrapsMeasure::At at;
     at.time_s = frame.time_s;
-    at.pull_N = strapPulls(s.model->shell, q, cuts, work);
+    at.pull_N = strapPulls(cloth, q, cuts, work);
     addBelow(s, frame, own, at.weight_N, at.contact_N);
     addBelow(s, frame, all, at.all_weight_N, at.all_contact_N);
     at.supports_N = supportsAt(supports, frame.time_s);

@@ -7,42 +7,6 @@
 #include "core/error.hpp"
 
 namespace gambeson {
-namespace {
-
-/// The surface at `fineness` points where the samples have one, along each direction, less what is trimmed off: rows of
-/// basis functions.
-SparseRows finerSurface(const Garment& garment, int fineness, const std::vector<int>& samples_per_cell) {
-  SparseRows rows;
-  int first = 0;
-  for (std::size_t p = 0; p < garment.patches.size(); ++p) {
-    const NurbsPatch& patch = garment.patches[p];
-    const int per_cell = fineness * std::max(1, samples_per_cell[p]);  // 0: Greville points, one per cell
-    const bool trimmed = p < garment.trims.size() && !garment.trims[p].loops.empty();
-    // Just inside of the patch's border, for a loop may run along it.
-    const auto inward = [](const KnotVector& k, double at) { return at + 1e-6 * (0.5 * (k.front() + k.back()) - at); };
-    const auto parameters = [&](const KnotVector& knots) {
-      const std::vector<double> ends = breakpoints(knots);
-      std::vector<double> at;
-      for (std::size_t c = 0; c + 1 < ends.size(); ++c)
-        for (int i = 0; i < per_cell; ++i) at.push_back(ends[c] + (ends[c + 1] - ends[c]) * i / per_cell);
-      at.push_back(ends.back());
-      return at;
-    };
-    for (const double v : parameters(patch.v))
-      for (const double u : parameters(patch.u)) {
-        if (trimmed && !isKept(patch, garment.trims[p], {inward(patch.u, u), inward(patch.v, v)})) continue;
-        const SurfaceBasis basis = surfaceBasis(patch, u, v);
-        for (std::size_t k = 0; k < basis.columns.size(); ++k) rows.add(first + basis.columns[k], basis.values[0][k]);
-        rows.endRow();
-      }
-    first += patch.size();
-  }
-  rows.column_count = first;
-  return rows;
-}
-
-}  // namespace
-
 std::vector<Vec3> controlPointsOf(const Frame& frame, std::size_t count) {
   const auto field = std::find_if(frame.control_fields.begin(), frame.control_fields.end(),
                                   [](const Field& f) { return f.name == "position"; });
@@ -55,7 +19,7 @@ std::vector<Vec3> controlPointsOf(const Frame& frame, std::size_t count) {
 
 SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
   constexpr int fineness = 4;
-  const SparseRows W = finerSurface(s.model->shell.garment(), fineness, s.samples_per_cell);
+  const SparseRows W = s.model->cloth->finer(fineness, s.samples_per_cell);
   const auto n = static_cast<std::size_t>(W.rows());
   SurfaceDepth depth;
   depth.points = W.rows();

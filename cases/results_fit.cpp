@@ -8,7 +8,6 @@
 #include "cases/placed_bodies.hpp"
 #include "cases/results_measure.hpp"
 #include "cases/thread_strains.hpp"
-#include "core/cloth/shell/stress_field.hpp"
 
 namespace gambeson {
 namespace {
@@ -22,7 +21,7 @@ std::string nameOf(const Scenario& s, std::size_t layer) {
 Stretch largestOf(const Scenario& s, const std::vector<StressSummary>& patches, std::size_t layer) {
   Stretch most;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    if (s.model->shell.garment().layerOf(static_cast<int>(p)) != static_cast<int>(layer)) continue;
+    if (s.model->cloth->patches()[p].garment != static_cast<int>(layer)) continue;
     // Not std::max: a NaN must win.
     if (!(patches[p].p99_strain <= most.most)) most.most = patches[p].p99_strain;
     if (!(patches[p].max_strain <= most.largest)) most.largest = patches[p].max_strain;
@@ -35,18 +34,18 @@ Stretch largestOf(const Scenario& s, const std::vector<StressSummary>& patches, 
 std::array<std::vector<StressSummary>, 2> directedStrains(const Scenario& s, const RecordingReader& recording,
                                                           const Regions& regions) {
   const Surface& surface = s.model->surface;
-  const StressField field(s.model->shell);
+  const std::unique_ptr<StressView> field = s.model->cloth->stress();
   std::array<std::vector<StressFrame>, 2> frames;
   for (int k = 0; k < recording.frameCount(); ++k) {
     if (!(recording.time(k) > 1e-9)) continue;
     const Frame frame = recording.frame(k);
     const std::vector<Vec3> q = controlsOf(frame);
-    const std::vector<StressField::Sample> means = field.means(s.model->shell, q);
+    const std::vector<StressView::Sample> means = field->means(q);
     std::array<std::vector<float>, 2> strain;
     for (auto& direction : strain) direction.resize(static_cast<std::size_t>(surface.size()));
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < surface.size(); ++i) {
-      const PlaneTensor E = field.strainAt(s.model->shell, q, surface.patch[i], surface.parameters[i], means);
+      const PlaneTensor E = field->strainAt(q, surface.patch[i], surface.parameters[i], means);
       strain[0][static_cast<std::size_t>(i)] = static_cast<float>(E.t11);
       strain[1][static_cast<std::size_t>(i)] = static_cast<float>(E.t22);
     }
@@ -69,11 +68,11 @@ std::optional<double> limitOf(const Case& c, const GarmentCase& g, std::optional
 void measureStretch(const Scenario& s, const RecordingReader& recording, Measured& out) {
   if (out.stress.empty()) return;
   const Case& c = s.definition;
-  const ThreadStrains strains(s.model->shell, s.model->map);
+  const ThreadStrains strains(*s.model->cloth);
   for (int k = 0; k < recording.frameCount(); ++k)
     if (recording.time(k) > 1e-9)
       out.thread_strains.push_back(
-          strains.values(controlPointsOf(recording.frame(k), static_cast<std::size_t>(s.model->shell.controlCount()))));
+          strains.values(controlPointsOf(recording.frame(k), static_cast<std::size_t>(s.model->cloth->points()))));
   const bool stated = std::any_of(c.garments.begin(), c.garments.end(), [&](const GarmentCase& g) {
     return limitOf(c, g, &FabricCase::limit_strain_weft) || limitOf(c, g, &FabricCase::limit_strain_warp);
   });
@@ -121,7 +120,7 @@ void measureFalls(const Scenario& s, const RecordingReader& recording, Measured&
   std::vector<std::vector<char>> lies(layers, std::vector<char>(links, 0));
   std::vector<std::size_t> layer(x0.size());
   for (std::size_t i = 0; i < x0.size(); ++i) {
-    layer[i] = static_cast<std::size_t>(s.model->shell.garment().layerOf(surface.patch[i]));
+    layer[i] = static_cast<std::size_t>(s.model->cloth->patches()[static_cast<std::size_t>(surface.patch[i])].garment);
     area[layer[i]] += surface.area_m2[i];
     const PlacedBodies::Nearest near = placed.nearest(x0[i]);
     if (near.body < 0 || near.body >= static_cast<int>(links) || !(near.distance_m < worn_within_m)) continue;

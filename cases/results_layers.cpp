@@ -12,9 +12,9 @@
 namespace gambeson {
 namespace {
 
-constexpr double reach_m = 0.03;          ///< cloth that is farther does not lie on cloth
+constexpr double reach_m = 0.03;           ///< cloth that is farther does not lie on cloth
 constexpr double least_covered_m2 = 2e-3;  ///< garments that touch along an edge only have no order
-constexpr int most_looks = 40;            ///< frames that are looked at
+constexpr int most_looks = 40;             ///< frames that are looked at
 
 /// Of each layer, by the triangles of the surface.
 struct Layers {
@@ -26,7 +26,8 @@ Layers trianglesByLayer(const Scenario& s) {
   const Surface& surface = s.model->surface;
   Layers layers;
   for (int i = 0; i < surface.size(); ++i)
-    layers.of_sample.push_back(static_cast<std::size_t>(s.model->shell.garment().layerOf(surface.patch[i])));
+    layers.of_sample.push_back(
+        static_cast<std::size_t>(s.model->cloth->patches()[static_cast<std::size_t>(surface.patch[i])].garment));
   layers.triangles.resize(s.definition.garments.size());
   for (const std::array<int, 3>& t : surface.triangles)
     layers.triangles[layers.of_sample[static_cast<std::size_t>(t[0])]].push_back(t);

@@ -340,11 +340,10 @@ std::vector<double> sampleAreas(const Scenario& s, const Frame& frame) {
 }
 
 std::vector<double> thicknessOf(const Scenario& s) {
-  const Garment& garment = s.model->shell.garment();
   const Surface& surface = s.model->surface;
   std::vector<double> thickness;
   for (std::size_t i = 0; i < surface.area_m2.size(); ++i)
-    thickness.push_back(fabricAt(garment, surface.patch[i], surface.parameters[i]).thickness());
+    thickness.push_back(s.model->cloth->fabricAt(surface.patch[i], surface.parameters[i]).thickness());
   return thickness;
 }
 
@@ -356,14 +355,17 @@ std::vector<LayerMeasure> layersOf(const Scenario& s) {
     const double h = fabric.thickness();
     layers.push_back({g.name, fabric.name, 0, 0, h, 0, h, h});
   }
-  const Garment& garment = s.model->shell.garment();
+  const std::vector<ClothPatch>& patches = s.model->cloth->patches();
   const Surface& surface = s.model->surface;
   const std::vector<double> thickness = thicknessOf(s);
+  const auto layerOf = [&](std::size_t sample) {
+    return static_cast<std::size_t>(patches[static_cast<std::size_t>(surface.patch[sample])].garment);
+  };
   for (std::size_t k = 0; k < layers.size(); ++k) {
     if (effective.garments[k].fields.empty()) continue;
     double area = 0, volume = 0, least = std::numeric_limits<double>::infinity(), largest = 0;
     for (std::size_t i = 0; i < thickness.size(); ++i) {
-      if (garment.layerOf(surface.patch[i]) != static_cast<int>(k)) continue;
+      if (layerOf(i) != k) continue;
       area += surface.area_m2[i];
       volume += surface.area_m2[i] * thickness[i];
       least = std::min(least, thickness[i]);
@@ -374,13 +376,12 @@ std::vector<LayerMeasure> layersOf(const Scenario& s) {
     layers[k].largest_thickness_m = largest;
   }
   for (std::size_t i = 0; i < surface.area_m2.size(); ++i) {
-    LayerMeasure& l = layers[static_cast<std::size_t>(garment.layerOf(surface.patch[i]))];
+    LayerMeasure& l = layers[layerOf(i)];
     l.area_m2 += surface.area_m2[i];
     l.mass_kg += surface.area_m2[i] * s.model->density_kg_per_m2[i];
   }
-  for (std::size_t p = 0; p < garment.patches.size(); ++p)
-    layers[static_cast<std::size_t>(garment.layerOf(static_cast<int>(p)))].control_points +=
-        static_cast<int>(garment.patches[p].points.size());
+  for (const ClothPatch& p : patches)
+    layers[static_cast<std::size_t>(p.garment)].control_points += p.end_point - p.first_point;
   return layers;
 }
 

@@ -286,7 +286,7 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   std::map<int, RenderMesh> layers;
   std::vector<int> at(x.size(), -1);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const int layer = s.model->shell.garment().layerOf(surface.triangle_patch[t]);
+    const int layer = s.model->cloth->patches()[static_cast<std::size_t>(surface.triangle_patch[t])].garment;
     RenderMesh& cloth = layers[layer];
     cloth.color = cloth_colors[static_cast<std::size_t>(layer) % cloth_colors.size()];
     cloth.edges = true;

@@ -242,7 +242,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   if (const std::string names = untouchedOf(m); !names.empty())
     in.assumptions.push_back("Left out, as the garment touches nothing that they move: " + names + ".");
   const auto [hash, kernels] = identityParts(identity);
-  in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->shell.controlCount(),
+  in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->cloth->points(),
                                       s.model->surface.size(), fmt::join(s.fabric_names, ", "))},
               {"Steps", std::to_string(m.steps.steps)},
               {"Smallest time step",

@@ -251,7 +251,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
     j["garments"].push_back(std::move(layer));
   }
   j["counted_from_s"] = m.counted_from_s;
-  j["control_points"] = s.model->shell.controlCount();
+  j["control_points"] = s.model->cloth->points();
   j["samples"] = s.model->surface.size();
   j["sign"] = signRule();
   j["joints"] = Json::array();

@@ -128,7 +128,7 @@ int runCase(const Case& c, const RunOptions& options) {
 
   RunFacts facts;
   facts.threads = omp_get_max_threads();
-  facts.kernels = model.shell.kernels().name;
+  facts.kernels = model.cloth->kernels();
   facts.resumed = resume;
   facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
   facts.phases_s = phasesOf(work.times, c.strain_limit.has_value());

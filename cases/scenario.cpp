@@ -15,6 +15,8 @@
 #include "cases/overloaded.hpp"
 #include "cases/places.hpp"
 #include "core/cloth/shell/layers.hpp"
+#include "core/cloth/shell/nurbs_shell.hpp"
+#include "core/cloth/shell/surface.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
 #include "core/material/coarseness.hpp"
@@ -311,28 +313,28 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   options.patch_samples_per_cell = s->samples_per_cell;
   options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
-  const Surface surface =
-      underGarments(c, only, [&] { return buildSurface(garment, buildFreeMap(garment), s->samples_per_cell); });
-  addSupports(c, garment, first, edges, surface, human, options, s->supports);
+  auto cloth = underGarments(c, only, [&] { return std::make_unique<const NurbsShell>(garment); });
+  const Surface surface = underGarments(c, only, [&] { return cloth->surface(s->samples_per_cell); });
+  addSupports(c, *cloth, first, edges, surface, human, options, s->supports);
   if (const auto& limit = c.strain_limit) options.strain_limit = wornLimit(*limit);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
   const ContactParameters contact{c.contact.layer_m.value_or(0), c.contact.friction,
                                   c.contact.relaxation_s,        c.contact.tolerance * (g > 0 ? g : 9.81),
                                   c.contact.max_iterations,      c.contact.compliance_m_per_Pa};
-  s->model =
-      underGarments(c, only, [&] { return buildModel(garment, options, environment, contact, std::move(obstacles)); });
+  s->model = underGarments(
+      c, only, [&] { return buildModel(std::move(cloth), options, environment, contact, std::move(obstacles)); });
   noteCoarseness(c, garments, first, *s);
   findHeldPoints(*s->model, s->supports);
 
   if (std::any_of(start.begin(), start.end(), [](const Vec3& n) { return n != Vec3{}; }))
-    for (std::size_t i = 0; i < s->model->map.home.size(); ++i)
-      s->shift_m.push_back(s->model->held[i] ? Vec3{} : start[static_cast<std::size_t>(s->model->map.home[i])]);
+    for (std::size_t i = 0; i < s->model->cloth->map().home.size(); ++i)
+      s->shift_m.push_back(s->model->held[i] ? Vec3{}
+                                             : start[static_cast<std::size_t>(s->model->cloth->map().home[i])]);
 
-  std::vector<Vec3> at_start;
-  for (const NurbsPatch& p : garment.patches) at_start.insert(at_start.end(), p.points.begin(), p.points.end());
+  std::vector<Vec3> at_start = s->model->cloth->rest();
   for (std::size_t i = 0; i < at_start.size(); ++i) at_start[i] += start[i];
-  nameContactRegions(*s, garment, garments, first, at_start);
+  nameContactRegions(*s, garments, first, at_start);
 
   const bool project = c.dressing.projecting && human && !c.dressing.layer_by_layer && c.dressing.from.empty();
   const double grow = project ? c.dressing.projecting->grow_s : 0, settle = human ? c.dressing.settle_s : 0;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/nurbs_shell.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -27,8 +27,8 @@ int programIndex(const StructureCase& c, const std::string& name) {
 }
 
 /// The direction of hold that is not any other's: a motion is split over the held directions.
-std::vector<LinearConstraint> supportOf(const StructureCase& c, const Sheet& sheet, const StructureSupport& s) {
-  const Garment& g = sheet.garment;
+std::vector<LinearConstraint> supportOf(const StructureCase& c, const Sheet& sheet, const Mounting& mounting,
+                                        const StructureSupport& s) {
   std::vector<LinearConstraint> all;
   const auto add = [&](std::vector<LinearConstraint> more) {
     all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -37,14 +37,14 @@ std::vector<LinearConstraint> supportOf(const StructureCase& c, const Sheet& she
   if (s.move_m) motion = {*s.move_m, programIndex(c, s.program)};
   if (const auto* point = std::get_if<PointAt>(&s.where)) {
     const auto [patch, uv] = locate(sheet, *point);
-    add(supportPoint(g, patch, uv, s.hold, motion));
+    add(mounting.holdPlace(patch, uv, s.hold, motion));
     return all;
   }
   for (const PatchEdge& e : edgesOf(sheet, std::get<EdgeAt>(s.where))) {
-    if (!s.hold.empty()) add(supportEdge(g, e, s.hold, motion));
-    if (s.clamp) add(clampRotation(g, e));
-    if (s.symmetry) add(symmetryEdge(g, e, *s.symmetry));
-    if (s.tie) add(tieEdge(g, e, *s.tie));
+    if (!s.hold.empty()) add(mounting.holdEdge(e, s.hold, motion));
+    if (s.clamp) add(mounting.clampEdge(e));
+    if (s.symmetry) add(mounting.mirrorEdge(e, *s.symmetry));
+    if (s.tie) add(mounting.tieEdge(e, *s.tie));
   }
   return all;
 }
@@ -58,10 +58,11 @@ void addForce(StructureOptions& o, std::vector<Vec3> force, int program) {
   o.dead.push_back({std::move(force), program});
 }
 
-void addLoad(const StructureCase& c, const Sheet& sheet, const StructureLoad& l, StructureOptions& o) {
-  const Garment& g = sheet.garment;
+void addLoad(const StructureCase& c, const Sheet& sheet, const Cloth& cloth, const StructureLoad& l,
+             StructureOptions& o) {
+  const Mounting& mounting = cloth.mounting();
   const int program = programIndex(c, l.program);
-  const int patches = static_cast<int>(g.patches.size());
+  const int patches = static_cast<int>(cloth.patches().size());
   if (l.patch && *l.patch >= patches)
     throw InputError({"", 0, "patch"}, fmt::format("there is no patch {}; allowed: 0 to {}", *l.patch, patches - 1));
   const auto forPatches = [&](auto f) {
@@ -74,13 +75,13 @@ void addLoad(const StructureCase& c, const Sheet& sheet, const StructureLoad& l,
     case LoadSort::force:
       if (const auto* point = std::get_if<PointAt>(&l.where)) {
         const auto [patch, uv] = locate(sheet, *point);
-        addForce(o, pointForce(g, patch, uv, l.vector), program);
+        addForce(o, mounting.placeForce(patch, uv, l.vector), program);
       } else {
-        for (const PatchEdge& e : edge()) addForce(o, edgeForce(g, e, l.vector / length()), program);
+        for (const PatchEdge& e : edge()) addForce(o, mounting.edgeForce(e, l.vector / length()), program);
       }
       break;
     case LoadSort::force_per_length:
-      for (const PatchEdge& e : edge()) addForce(o, edgeForce(g, e, l.vector), program);
+      for (const PatchEdge& e : edge()) addForce(o, mounting.edgeForce(e, l.vector), program);
       break;
     case LoadSort::moment:
     case LoadSort::moment_per_length:
@@ -88,13 +89,13 @@ void addLoad(const StructureCase& c, const Sheet& sheet, const StructureLoad& l,
         o.moments.push_back({e, l.sort == LoadSort::moment ? l.amount / length() : l.amount, program});
       break;
     case LoadSort::force_per_area:
-      forPatches([&](int k) { addForce(o, surfaceForce(g, k, l.vector), program); });
+      forPatches([&](int k) { addForce(o, mounting.surfaceForce(k, l.vector), program); });
       break;
     case LoadSort::pressure:
       forPatches([&](int k) { o.pressure.push_back({k, l.amount, program}); });
       break;
     case LoadSort::gravity:
-      addForce(o, weightForce(g, l.vector), program);
+      addForce(o, mounting.weightForce(l.vector), program);
       break;
   }
 }
@@ -130,7 +131,11 @@ Sheet sheetOf(const StructureCase& c) {
   return sheet;
 }
 
-StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet) {
+std::unique_ptr<const Cloth> clothOf(const StructureCase& c, const Sheet& sheet) {
+  return std::make_unique<NurbsShell>(sheet.garment, ShellOptions{c.sheet.gauss_extra, c.sheet.rule, nullptr});
+}
+
+StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet, const Cloth& cloth) {
   StructureOptions o;
   // Static: the load factor. Else: on from the start.
   if (c.kind == StructureKind::dynamics)
@@ -140,7 +145,7 @@ StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet) {
   for (const NamedProgram& p : c.programs) o.programs.push_back({p.at, p.value});
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const std::string key = fmt::format("supports[{}]", i);
-    std::vector<LinearConstraint> more = at(key, [&] { return supportOf(c, sheet, c.supports[i]); });
+    std::vector<LinearConstraint> more = at(key, [&] { return supportOf(c, sheet, cloth.mounting(), c.supports[i]); });
     for (LinearConstraint& l : more) {
       l.name = key;
       o.constraints.push_back(std::move(l));
@@ -148,13 +153,11 @@ StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet) {
   }
   if (withLoads(c))
     for (std::size_t i = 0; i < c.loads.size(); ++i)
-      at(fmt::format("loads[{}]", i), [&] { addLoad(c, sheet, c.loads[i], o); });
+      at(fmt::format("loads[{}]", i), [&] { addLoad(c, sheet, cloth, c.loads[i], o); });
   o.rayleigh_mass_per_s = c.damping.mass_per_s;
   o.rayleigh_stiffness_s = c.damping.stiffness_s;
   o.drag_kg_per_m2s = c.damping.drag_kg_per_m2s;
   if (c.strain_limit) o.strain_limit = limitOf(*c.strain_limit);
-  o.cell_rule = c.sheet.rule;
-  o.gauss_extra = c.sheet.gauss_extra;
   return o;
 }
 

@@ -32,7 +32,7 @@ AuditCheck finiteCheck(const PathTable& path, const MeshShape& shape) {
   const auto look = [&](double v) { count += !std::isfinite(v); };
   for (const auto& row : path.rows) std::for_each(row.begin(), row.end(), look);
   for (const Vec3& x : shape.x) look(x.x + x.y + x.z);
-  for (const ShellStress& s : shape.stress)
+  for (const PrincipalStress& s : shape.stress)
     for (double v : {s.principal1_N_per_m, s.principal2_N_per_m, s.strain1, s.strain2}) look(v);
   return {"Finite numbers",
           static_cast<double>(count),
@@ -87,7 +87,7 @@ bool isFabric(const MaterialCase& m) { return std::holds_alternative<Fabric>(m.l
 AuditCheck strainCheck(const StructureCase& c, const MeshShape& shape) {
   const bool fabric = isFabric(c.material) || std::any_of(c.other_materials.begin(), c.other_materials.end(), isFabric);
   std::vector<double> strains;
-  for (const ShellStress& s : shape.stress) {
+  for (const PrincipalStress& s : shape.stress) {
     strains.push_back(s.strain1);
     if (!c.material.tension_field) strains.push_back(-s.strain2);
   }
@@ -112,7 +112,7 @@ double largestMove(const StructureCase& c) {
 }
 
 AuditCheck sizeCheck(const StructureCase& c, const StructureModel& model, const MeasuredState& last) {
-  const std::vector<Vec3>& rest = model.structure->rest;
+  const std::vector<Vec3>& rest = model.structure->cloth->rest();
   Vec3 low = rest.front(), high = low;
   double moved = 0;
   for (std::size_t k = 0; k < rest.size(); ++k) {

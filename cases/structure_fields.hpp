@@ -11,13 +11,13 @@ const Object& structureTable(StructureKind kind);
 const std::vector<std::pair<std::string, StructureKind>>& structureKinds();
 
 // Its parts.
-Object structureSheetTable();                     ///< SheetCase
-Object materialTable();                           ///< MaterialCase
-Object structureSupportTable();                   ///< StructureSupport
-Object structureLoadTable();                      ///< StructureLoad
-Object staticSolverTable();                       ///< StructureCase
-Object dynamicSolverTable();                      ///< StructureCase
-Object modalSolverTable();                        ///< StructureCase
+Object structureSheetTable();    ///< SheetCase
+Object materialTable();          ///< MaterialCase
+Object structureSupportTable();  ///< StructureSupport
+Object structureLoadTable();     ///< StructureLoad
+Object staticSolverTable();      ///< StructureCase
+Object dynamicSolverTable();     ///< StructureCase
+Object modalSolverTable();       ///< StructureCase
 enum class FieldsOf { sheet, garment };
 Object fieldsTable(FieldsOf of);                  ///< FieldsCase
 Object noiseTable();                              ///< NoiseCase

@@ -81,7 +81,8 @@ Object structureSheetTable() {
                "integration points each way on the pieces of cut cells; 0: degree + 1")
       .number("trim_unused", &S::trim_unused, "", between(0, 0.5),
               "control points with less than this part of their area inside follow their neighbours")
-      .list("fields", &S::fields, fieldsTable(FieldsOf::sheet), "thickness, fibre angle and material that vary over a patch")
+      .list("fields", &S::fields, fieldsTable(FieldsOf::sheet),
+            "thickness, fibre angle and material that vary over a patch")
       .object("imperfection", &S::imperfection, noiseTable(), "deviation of the stress-free shape along its normal")
       .defaultsTo("none")
       .choice("cell_rule", &S::rule,

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "core/cloth/shell/trim_mesh.hpp"
 #include "core/math/carried_error.hpp"
 #include "core/statics/structure_system.hpp"
 
@@ -34,23 +33,23 @@ double sizeOf(std::span<const Vec3> v) {
 }
 
 std::vector<Vec3> restPlus(const Structure& s, const std::vector<double>& u, double scale) {
-  std::vector<Vec3> q(s.rest.size());
-  s.map.T.multiply<Vec3>(asPoints(u), q);
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] = s.rest[i] + scale * q[i];
+  std::vector<Vec3> q(s.cloth->rest().size());
+  s.cloth->map().T.multiply<Vec3>(asPoints(u), q);
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = s.cloth->rest()[i] + scale * q[i];
   return q;
 }
 
 std::vector<Vec3> pulledBack(const Structure& s, const std::vector<Vec3>& f) {
-  std::vector<Vec3> free(s.map.home.size());
-  s.map.Tt.multiply<Vec3>(f, free);
+  std::vector<Vec3> free(s.cloth->map().home.size());
+  s.cloth->map().Tt.multiply<Vec3>(f, free);
   return free;
 }
 
 /// The elastic stiffness at rest times displacements of the free points [N].
 std::vector<Vec3> linearForce(const Structure& s, const std::vector<double>& u) {
-  BlockMatrix K = s.tangent.pattern();
-  ShellWork work;
-  s.tangent.assemble(s.shell, s.rest, work, K);
+  BlockMatrix K = s.tangent->pattern();
+  ClothWork work;
+  s.tangent->assemble(s.cloth->rest(), work, K);
   std::vector<double> f(u.size());
   multiply(K, u, f);
   const std::span<const Vec3> points = asPoints(f);
@@ -99,8 +98,8 @@ MeasuredState measureStatic(const Structure& s, std::span<const double> y, doubl
   m.reaction_N = linearForce(s, u);
   const std::span<const Vec3> points = asPoints(u);
   for (std::size_t f = 0; f < points.size(); ++f) m.strain_energy_J += 0.5 * dot(points[f], m.reaction_N[f]);
-  std::vector<Vec3> external(s.rest.size());
-  s.loads.add(s.rest, programs, external);
+  std::vector<Vec3> external(s.cloth->rest().size());
+  s.loads.add(s.cloth->rest(), programs, external);
   const std::vector<Vec3> load = pulledBack(s, external);
   for (std::size_t f = 0; f < load.size(); ++f) m.reaction_N[f] -= load[f];
   return m;
@@ -128,10 +127,11 @@ MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool
   for (std::size_t f = 0; f < force.size(); ++f)
     m.reaction_N[f] += force[f] + s.drag_kg_per_m2s * s.area_m2[f] * velocity[f];
   if (s.rayleigh_stiffness_s > 0) {
-    BlockMatrix K = s.tangent.pattern();
-    ShellWork work;
-    s.tangent.assemble(s.shell, m.q, work, K);
-    if (s.loads.follow()) s.loads.addStiffness(m.q, programValues(s, state.time_s, ProgramEnds::constant), s.map, K);
+    BlockMatrix K = s.tangent->pattern();
+    ClothWork work;
+    s.tangent->assemble(m.q, work, K);
+    if (s.loads.follow())
+      s.loads.addStiffness(m.q, programValues(s, state.time_s, ProgramEnds::constant), s.cloth->map(), K);
     std::vector<double> damping(v.size());
     multiply(K, v, damping);
     for (std::size_t f = 0; f < force.size(); ++f) m.reaction_N[f] += s.rayleigh_stiffness_s * asPoints(damping)[f];
@@ -146,8 +146,8 @@ MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool
     for (std::size_t f = 0; f < pull.size(); ++f) m.reaction_N[f] += s.lumped_kg[f] * asPoints(moved)[f] - pull[f];
     m.limit_N_per_m = limitStress(s.limit->rows, state.limit_J);
   }
-  m.velocity.resize(s.rest.size());
-  s.map.T.multiply<Vec3>(velocity, m.velocity);
+  m.velocity.resize(s.cloth->rest().size());
+  s.cloth->map().T.multiply<Vec3>(velocity, m.velocity);
   return m;
 }
 
@@ -157,9 +157,9 @@ MeasuredState measureMode(const Structure& s, std::span<const double> y, double 
   m.small = true;
   const std::vector<double> u = freeDisplacements(s, shape, std::vector<double>(s.programs.size(), 0.0));
   std::vector<Vec3> d = restPlus(s, u, 1);
-  for (std::size_t i = 0; i < d.size(); ++i) d[i] -= s.rest[i];
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] -= s.cloth->rest()[i];
   const double most = largest(d);
-  m.q = y.empty() ? s.rest : controlPoints(s, y, factor, ProgramEnds::extended);
+  m.q = y.empty() ? s.cloth->rest() : controlPoints(s, y, factor, ProgramEnds::extended);
   for (std::size_t i = 0; i < d.size(); ++i) m.q[i] += (most > 0 ? amplitude_m / most : 0) * d[i];
   return m;
 }
@@ -170,21 +170,23 @@ StressState::StressState(const StructureModel& model, const MeasuredState& state
   if (state.small) {
     // Principal values are homogeneous of degree one in small displacements: taken from a part of them so small that
     // the quadratic terms are below 1e-5 of the linear ones.
-    for (std::size_t i = 0; i < q_.size(); ++i) q_[i] -= structure.rest[i];
+    for (std::size_t i = 0; i < q_.size(); ++i) q_[i] -= structure.cloth->rest()[i];
     const double most = largest(q_);
-    part_ = most > 0 ? std::min(1.0, 1e-7 * sizeOf(structure.rest) / most) : 1;
-    for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = structure.rest[i] + part_ * q_[i];
+    part_ = most > 0 ? std::min(1.0, 1e-7 * sizeOf(structure.cloth->rest()) / most) : 1;
+    for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = structure.cloth->rest()[i] + part_ * q_[i];
   }
-  if (everywhere) means_ = model.stress->means(structure.shell, q_, more());
+  if (everywhere) means_ = model.stress->means(q_, more());
 }
 
-StressField::More StressState::more() const {
+StressView::More StressState::more() const {
   if (limit_.empty()) return {};
-  return [this](int patch, Vec2 uv) { return limitStressAt(model_.structure->limit->rows, limit_, patch, uv); };
+  return [this](int patch, Vec2 uv) {
+    return model_.structure->cloth->limitStressAt(model_.structure->limit->rows, limit_, patch, uv);
+  };
 }
 
-ShellStress StressState::at(int patch, Vec2 uv) const {
-  ShellStress stress = model_.stress->at(model_.structure->shell, q_, patch, uv, means_, more());
+PrincipalStress StressState::at(int patch, Vec2 uv) const {
+  PrincipalStress stress = model_.stress->at(q_, patch, uv, means_, more());
   stress.principal1_N_per_m /= part_;
   stress.principal2_N_per_m /= part_;
   stress.strain1 /= part_;
@@ -197,12 +199,12 @@ Probes::Probes(const StructureCase& c, const StructureModel& model, const Struct
       structure_(model.structure.get()),
       with_velocity_(c.kind == StructureKind::dynamics),
       displacements_only_(c.kind == StructureKind::modal) {
-  const Garment& g = model.sheet.garment;
   const Structure& s = *structure_;
-  const std::vector<int> offsets = controlOffsets(g);
+  const Mounting& mounting = s.cloth->mounting();
   // Free points that a control point moves.
   const auto freeOf = [&](int control, std::set<int>& into) {
-    for (int e = s.map.T.offsets[control]; e < s.map.T.offsets[control + 1]; ++e) into.insert(s.map.T.columns[e]);
+    for (int e = s.cloth->map().T.offsets[control]; e < s.cloth->map().T.offsets[control + 1]; ++e)
+      into.insert(s.cloth->map().T.columns[e]);
   };
   // A support that moves several points as one pushes on all of them: between them its forces are inner ones.
   std::vector<std::set<int>> ties;
@@ -222,14 +224,12 @@ Probes::Probes(const StructureCase& c, const StructureModel& model, const Struct
   for (const OutputPoint& p : c.output.points) {
     PointProbe probe;
     std::tie(probe.patch, probe.uv) = locate(model.sheet, p.where);
-    const SurfaceBasis basis = surfaceBasis(g.patches[static_cast<std::size_t>(probe.patch)], probe.uv.x, probe.uv.y);
+    const PlaceRow at = mounting.place(probe.patch, probe.uv);
     std::set<int> free;
-    for (std::size_t k = 0; k < basis.columns.size(); ++k) {
-      const int control = offsets[static_cast<std::size_t>(probe.patch)] + basis.columns[k];
-      const double value = basis.values[0][k];
-      if (value == 0) continue;
-      probe.control.emplace_back(control, value);
-      freeOf(control, free);
+    for (std::size_t k = 0; k < at.columns.size(); ++k) {
+      if (at.value[k] == 0) continue;
+      probe.control.emplace_back(at.columns[k], at.value[k]);
+      freeOf(at.columns[k], free);
     }
     withTies(free);
     probe.free.assign(free.begin(), free.end());
@@ -242,17 +242,17 @@ Probes::Probes(const StructureCase& c, const StructureModel& model, const Struct
   }
   for (const OutputEdge& e : c.output.edges) {
     EdgeProbe probe;
-    probe.weight.assign(static_cast<std::size_t>(offsets.back()), 0.0);
+    probe.weight.assign(static_cast<std::size_t>(s.cloth->points()), 0.0);
     std::set<int> on_edge, of_this, of_others;
     double length = 0;
     const std::vector<PatchEdge> edges = edgesOf(model.sheet, e.where);
     for (const PatchEdge& edge : edges) {
-      const std::vector<Vec3> line = edgeForce(g, edge, {1, 0, 0});
+      const std::vector<Vec3> line = mounting.edgeForce(edge, {1, 0, 0});
       for (std::size_t k = 0; k < line.size(); ++k) {
         probe.weight[k] += line[k].x;
         length += line[k].x;
       }
-      for (const int control : edgeColumns(g, edge).edge) freeOf(control, on_edge);
+      for (const int control : mounting.edgePoints(edge)) freeOf(control, on_edge);
     }
     for (double& w : probe.weight) w /= length;
     // A clamp pushes on the row beside the edge as well; what another support holds there is not the edge's.
@@ -284,7 +284,7 @@ std::vector<double> Probes::values(const MeasuredState& state) const {
     Vec3 u, v, r;
     for (const auto& [control, value] : p.control) {
       const auto k = static_cast<std::size_t>(control);
-      u += value * (state.q[k] - s.rest[k]);
+      u += value * (state.q[k] - s.cloth->rest()[k]);
       if (!state.velocity.empty()) v += value * state.velocity[k];
     }
     // A force F at the point is N F on the control points, and N sums to 1.
@@ -293,21 +293,21 @@ std::vector<double> Probes::values(const MeasuredState& state) const {
     addVector(row, u);
     if (with_velocity_) addVector(row, v);
     if (displacements_only_) continue;
-    const ShellStress stress = stresses.at(p.patch, p.uv);
+    const PrincipalStress stress = stresses.at(p.patch, p.uv);
     row.insert(row.end(), {stress.principal1_N_per_m, stress.principal2_N_per_m, stress.strain1, stress.strain2});
     addVector(row, r);
   }
   for (const EdgeProbe& e : edges_) {
     Vec3 u, middle, force, moment;
     for (std::size_t k = 0; k < e.weight.size(); ++k) {
-      u += e.weight[k] * (state.q[k] - s.rest[k]);
-      middle += e.weight[k] * (state.small ? s.rest[k] : state.q[k]);
+      u += e.weight[k] * (state.q[k] - s.cloth->rest()[k]);
+      middle += e.weight[k] * (state.small ? s.cloth->rest()[k] : state.q[k]);
     }
     for (const int f : e.free) {
-      const auto home = static_cast<std::size_t>(s.map.home[static_cast<std::size_t>(f)]);
+      const auto home = static_cast<std::size_t>(s.cloth->map().home[static_cast<std::size_t>(f)]);
       const Vec3& r = state.reaction_N[static_cast<std::size_t>(f)];
       force += r;
-      moment += cross((state.small ? s.rest[home] : state.q[home]) - middle, r);
+      moment += cross((state.small ? s.cloth->rest()[home] : state.q[home]) - middle, r);
     }
     addVector(row, u);
     addVector(row, force);
@@ -316,50 +316,8 @@ std::vector<double> Probes::values(const MeasuredState& state) const {
   return row;
 }
 
-ShapeMesh shapeMesh(const Garment& g, int means_per_cell) {
-  ShapeMesh mesh;
-  const auto sampled = [&](const KnotVector& k) {
-    const std::vector<double> ends = breakpoints(k);
-    std::vector<double> t;
-    for (std::size_t s = 0; s + 1 < ends.size(); ++s)
-      for (int i = 0; i < means_per_cell; ++i) t.push_back(ends[s] + (ends[s + 1] - ends[s]) * i / means_per_cell);
-    t.push_back(ends.back());
-    return t;
-  };
-  for (std::size_t p = 0; p < g.patches.size(); ++p) {
-    const NurbsPatch& patch = g.patches[p];
-    const std::vector<double> us = sampled(patch.u), vs = sampled(patch.v);
-    const bool trimmed = !g.trims.empty() && !g.trims[p].loops.empty();
-    const auto point = [&](Vec2 uv) {
-      mesh.patch.push_back(static_cast<int>(p));
-      mesh.uv.push_back(uv);
-      mesh.fraction.push_back({(uv.x - patch.u.front()) / (patch.u.back() - patch.u.front()),
-                               (uv.y - patch.v.front()) / (patch.v.back() - patch.v.front())});
-    };
-    if (trimmed) {
-      const int first = static_cast<int>(mesh.uv.size());
-      const TrimMesh cut = trimMesh(patch, g.trims[p], us, vs);
-      for (const Vec2& uv : cut.uv) point(uv);
-      for (const auto& t : cut.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      continue;
-    }
-    const int first = static_cast<int>(mesh.uv.size()), across = static_cast<int>(us.size());
-    for (const double v : vs)
-      for (const double u : us) point({u, v});
-    for (int j = 0; j + 1 < static_cast<int>(vs.size()); ++j)
-      for (int i = 0; i + 1 < across; ++i) {
-        const int k = first + i + across * j;
-        mesh.triangles.push_back({k, k + 1, k + across + 1});
-        mesh.triangles.push_back({k, k + across + 1, k + across});
-      }
-  }
-  return mesh;
-}
-
-MeshShape shapeOf(const StructureModel& model, const ShapeMesh& mesh, const MeasuredState& state) {
+MeshShape shapeOf(const StructureModel& model, const PlaceMesh& mesh, const MeasuredState& state) {
   const Structure& s = *model.structure;
-  const Garment& g = s.shell.garment();
-  const std::vector<int> offsets = controlOffsets(g);
   const int n = static_cast<int>(mesh.uv.size());
   const StressState stresses(model, state, true);
   MeshShape shape;
@@ -369,17 +327,10 @@ MeshShape shapeOf(const StructureModel& model, const ShapeMesh& mesh, const Meas
   shape.stress.resize(mesh.uv.size());
   CarriedError error;
   const auto sample = [&](std::size_t k) {
-    const auto patch = static_cast<std::size_t>(mesh.patch[k]);
-    const SurfaceBasis basis = surfaceBasis(g.patches[patch], mesh.uv[k].x, mesh.uv[k].y);
-    Vec3 du, dv;
-    for (std::size_t b = 0; b < basis.columns.size(); ++b) {
-      const auto c = static_cast<std::size_t>(offsets[patch] + basis.columns[b]);
-      shape.rest[k] += basis.values[0][b] * s.rest[c];
-      shape.x[k] += basis.values[0][b] * state.q[c];
-      du += basis.values[1][b] * state.q[c];
-      dv += basis.values[2][b] * state.q[c];
-    }
-    const Vec3 a = cross(du, dv);
+    const PlaceRow at = s.cloth->mounting().place(mesh.patch[k], mesh.uv[k]);
+    shape.rest[k] = combine(at.columns, at.value, s.cloth->rest());
+    shape.x[k] = combine(at.columns, at.value, state.q);
+    const Vec3 a = cross(combine(at.columns, at.d1, state.q), combine(at.columns, at.d2, state.q));
     shape.normal[k] = norm(a) > 0 ? normalized(a) : Vec3{0, 0, 1};
     shape.stress[k] = stresses.at(mesh.patch[k], mesh.uv[k]);
   };

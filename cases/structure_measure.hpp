@@ -29,19 +29,19 @@ MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool
 MeasuredState measureMode(const Structure& s, std::span<const double> y, double factor, std::span<const double> shape,
                           double amplitude_m);
 
-/// Resultants and strains of a state (core/cloth/shell/stress_field.hpp); of small displacements by their derivative at
+/// Resultants and strains of a state (core/cloth/stress.hpp); of small displacements by their derivative at
 /// rest. Lives no longer than the model.
 class StressState {
  public:
   /// `everywhere`: the means of all cells are taken at once, for many places.
   StressState(const StructureModel& model, const MeasuredState& state, bool everywhere);
-  ShellStress at(int patch, Vec2 uv) const;
+  PrincipalStress at(int patch, Vec2 uv) const;
 
  private:
-  StressField::More more() const;
+  StressView::More more() const;
 
   const StructureModel& model_;
-  std::vector<StressField::Sample> means_;
+  std::vector<StressView::Sample> means_;
   std::vector<Vec3> q_;
   std::vector<Vec2> limit_;
   double part_ = 1;  ///< of the displacements, in q_
@@ -62,7 +62,7 @@ class Probes {
   struct PointProbe {
     int patch = 0;
     Vec2 uv;
-    std::vector<std::pair<int, double>> control;  ///< basis values
+    std::vector<std::pair<int, double>> control;  ///< points and their parts of the place
     std::vector<int> free;                        ///< whose reactions count
   };
   struct EdgeProbe {
@@ -77,20 +77,11 @@ class Probes {
   std::vector<std::string> columns_;
 };
 
-/// Points on the whole sheet with triangles between them, for pictures, tables and ParaView.
-struct ShapeMesh {
-  std::vector<int> patch;
-  std::vector<Vec2> uv;  ///< parameters
-  std::vector<Vec2> fraction;
-  std::vector<std::array<int, 3>> triangles;
-};
-ShapeMesh shapeMesh(const Garment& garment, int means_per_cell);
-
 /// Values at the points of a mesh.
 struct MeshShape {
   std::vector<Vec3> rest, x, normal;
-  std::vector<ShellStress> stress;
+  std::vector<PrincipalStress> stress;
 };
-MeshShape shapeOf(const StructureModel& model, const ShapeMesh& mesh, const MeasuredState& state);
+MeshShape shapeOf(const StructureModel& model, const PlaceMesh& mesh, const MeasuredState& state);
 
 }  // namespace gambeson

@@ -2,13 +2,19 @@
 
 namespace gambeson {
 
-StructureModel buildModel(const StructureCase& c) {
+StructureModel buildModel(const StructureCase& c, StructureOptions& options) {
   StructureModel m;
   m.sheet = sheetOf(c);
-  const StructureOptions options = optionsOf(c, m.sheet);
-  m.structure = buildStructure(m.sheet.garment, options);
-  m.stress = std::make_unique<StressField>(m.structure->shell);
+  std::unique_ptr<const Cloth> cloth = clothOf(c, m.sheet);
+  options = optionsOf(c, m.sheet, *cloth);
+  m.structure = buildStructure(std::move(cloth), options);
+  m.stress = m.structure->cloth->stress();
   return m;
+}
+
+StructureModel buildModel(const StructureCase& c) {
+  StructureOptions options;
+  return buildModel(c, options);
 }
 
 }  // namespace gambeson

@@ -73,7 +73,7 @@ double frameValue(const Frame& frame) {
   return 0;
 }
 
-void writeShapeTable(const ShapeMesh& mesh, const MeshShape& shape, const std::filesystem::path& csv) {
+void writeShapeTable(const PlaceMesh& mesh, const MeshShape& shape, const std::filesystem::path& csv) {
   std::vector<std::vector<double>> rows;
   for (std::size_t k = 0; k < mesh.uv.size(); ++k)
     rows.push_back({static_cast<double>(mesh.patch[k]), mesh.fraction[k].x, mesh.fraction[k].y, shape.rest[k].x,
@@ -85,7 +85,7 @@ void writeShapeTable(const ShapeMesh& mesh, const MeshShape& shape, const std::f
 }
 
 void writeStructureSummary(const StructureCase& c, const StructureModel& model, const PathTable& path,
-                           const std::vector<ModeRow>& modes, const MeasuredState& last, const ShapeMesh& mesh,
+                           const std::vector<ModeRow>& modes, const MeasuredState& last, const PlaceMesh& mesh,
                            const MeshShape& shape, const StructureFacts& facts, const std::vector<AuditCheck>& checks,
                            const std::filesystem::path& file) {
   const Structure& s = *model.structure;
@@ -93,14 +93,14 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
          {"kind", kindName(c.kind)},
          {"version", GAMBESON_VERSION},
          {"case_hash", caseIdentity(c)},
-         {"kernels", s.shell.kernels().name},
+         {"kernels", s.cloth->kernels()},
          {"finished", facts.finished}};
   if (!facts.finished) j["why"] = facts.why;
   double area = 0, mass = 0;
   for (const double a : s.area_m2) area += a;
   for (const double m : s.lumped_kg) mass += m;
-  j["patches"] = model.sheet.garment.patches.size();
-  j["control_points"] = s.shell.controlCount();
+  j["patches"] = s.cloth->patches().size();
+  j["control_points"] = s.cloth->points();
   j["unknowns"] = s.dofs.unknowns();
   j["area_m2"] = area;
   if (mass > 0) j["mass_kg"] = mass;  // a static case may have no density
@@ -116,7 +116,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     // The largest component is what codes give that look at their vector of unknowns.
     double control = 0, component = 0, displacement = 0, stress = 0, strain = 0;
     for (std::size_t k = 0; k < last.q.size(); ++k) {
-      const Vec3 u = last.q[k] - s.rest[k];
+      const Vec3 u = last.q[k] - s.cloth->rest()[k];
       control = std::max(control, norm(u));
       component = std::max({component, std::abs(u.x), std::abs(u.y), std::abs(u.z)});
     }

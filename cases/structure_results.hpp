@@ -46,11 +46,11 @@ Frame frameOf(const MeshShape& shape, int index, double at);
 double frameValue(const Frame& frame);
 
 /// shape.csv: patch, u, v (fractions), rest X_m ... and current x_m ... of the mesh.
-void writeShapeTable(const ShapeMesh& mesh, const MeshShape& shape, const std::filesystem::path& csv);
+void writeShapeTable(const PlaceMesh& mesh, const MeshShape& shape, const std::filesystem::path& csv);
 
 /// summary.json; all but "timings" is decided by the case alone.
 void writeStructureSummary(const StructureCase& c, const StructureModel& model, const PathTable& path,
-                           const std::vector<ModeRow>& modes, const MeasuredState& last, const ShapeMesh& mesh,
+                           const std::vector<ModeRow>& modes, const MeasuredState& last, const PlaceMesh& mesh,
                            const MeshShape& shape, const StructureFacts& facts, const std::vector<AuditCheck>& checks,
                            const std::filesystem::path& json);
 

@@ -182,12 +182,12 @@ void applyStructureRules(const Place& root, StructureCase& c) {
     const Sheet sheet = sheetOf(c);
     checkPlaces(root, c, sheet);
     checkOutput(root, c, sheet);
-    const StructureOptions o = optionsOf(c, sheet);
-    const FreeMap map = buildFreeMap(sheet.garment);
-    const DofMap dofs = buildDofMap(map, o.constraints, static_cast<int>(o.programs.size()));
+    const std::unique_ptr<const Cloth> cloth = clothOf(c, sheet);
+    const StructureOptions o = optionsOf(c, sheet, *cloth);
+    const DofMap dofs = buildDofMap(cloth->map(), o.constraints, static_cast<int>(o.programs.size()));
     if (dofs.unknowns() == 0) root.failAt("supports", "hold everything: nothing is left to move");
     if (o.strain_limit.mode != LimitMode::none)
-      buildStructureLimit(sheet.garment, map, dofs, std::vector<double>(map.home.size(), 1.0), o.strain_limit);
+      buildStructureLimit(*cloth, dofs, std::vector<double>(cloth->map().home.size(), 1.0), o.strain_limit);
   } catch (const InputError& e) {
     sayAt(root, e);
   }

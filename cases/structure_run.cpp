@@ -58,14 +58,15 @@ void requireMass(const StructureCase& c, const Structure& s) {
 struct BuiltStructure {
   StructureModel model;
   std::optional<Probes> probes;  ///< refer to the model
-  ShapeMesh mesh;
+  PlaceMesh mesh;
 
   explicit BuiltStructure(const StructureCase& c) {
     try {
-      model = buildModel(c);
+      StructureOptions options;
+      model = buildModel(c, options);
       requireMass(c, *model.structure);
-      probes.emplace(c, model, optionsOf(c, model.sheet));
-      mesh = shapeMesh(model.sheet.garment, c.output.samples_per_cell);
+      probes.emplace(c, model, options);
+      mesh = model.structure->cloth->placeMesh(c.output.samples_per_cell);
     } catch (const InputError& e) {
       sayInCase(c.file, c.overrides, e);
     }
@@ -81,7 +82,7 @@ class Run {
     built_.emplace(c);
     removeEarlierResults(out_);
     RecordingLayout layout;
-    layout.identity = caseIdentity(c) + " " + built_->model.structure->shell.kernels().name;
+    layout.identity = caseIdentity(c) + " " + built_->model.structure->cloth->kernels();
     layout.metadata = writeCase(c);
     layout.triangles = built_->mesh.triangles;
     writer_.emplace(RecordingWriter::create(out_, layout));
@@ -150,7 +151,7 @@ class Run {
  private:
   MeasuredState measureRest() const {
     MeasuredState state;
-    state.q = structure().rest;
+    state.q = structure().cloth->rest();
     return state;
   }
 
@@ -241,7 +242,7 @@ DynamicState startOf(const StructureCase& c, const Run& run) {
   state.a.assign(n, 0.0);
   const auto onFree = [&](auto value) {
     std::vector<double> u;
-    for (std::size_t f = 0; f < s.map.home.size(); ++f) {
+    for (std::size_t f = 0; f < s.cloth->map().home.size(); ++f) {
       const Vec3 d = value(f);
       u.insert(u.end(), {d.x, d.y, d.z});
     }
@@ -249,7 +250,7 @@ DynamicState startOf(const StructureCase& c, const Run& run) {
   };
   if (c.initial.noise) {
     const std::vector<Vec3> noise = noiseOf(run.model().sheet, *c.initial.noise);
-    state.y = onFree([&](std::size_t f) { return noise[static_cast<std::size_t>(s.map.home[f])]; });
+    state.y = onFree([&](std::size_t f) { return noise[static_cast<std::size_t>(s.cloth->map().home[f])]; });
   }
   if (norm(c.initial.velocity_m_per_s) > 0) state.v = onFree([&](std::size_t) { return c.initial.velocity_m_per_s; });
   return state;
@@ -290,7 +291,7 @@ void runDynamic(const StructureCase& c, Run& run) {
   const Structure& s = run.structure();
   std::optional<ThreadStrains> strains;
   if (c.output.thread_strains) {
-    strains.emplace(s.shell, s.map);
+    strains.emplace(*s.cloth);
     lead.insert(lead.end(), ThreadStrains::columns().begin(), ThreadStrains::columns().end());
   }
   run.columns(std::move(lead));
@@ -360,8 +361,8 @@ void runModal(const StructureCase& c, Run& run) {
       if (!run.facts.finished) return;
     }
     const std::vector<Mode> modes = naturalModes(s, y, factor, c.modal.count, c.modal.lumped_mass);
-    Vec3 low = s.rest[0], high = s.rest[0];
-    for (const Vec3& x : s.rest)
+    Vec3 low = s.cloth->rest()[0], high = s.cloth->rest()[0];
+    for (const Vec3& x : s.cloth->rest())
       for (int k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], x[k]);
         high[k] = std::max(high[k], x[k]);

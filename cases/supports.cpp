@@ -48,7 +48,7 @@ std::vector<Vec3> standingSkin(const Human& human) {
 
 }  // namespace
 
-void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first,
+void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& first,
                  const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
                  ModelOptions& options, std::vector<SupportGroup>& groups) {
   const auto add = [&](const SupportCase& support) {
@@ -73,19 +73,18 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
     }
     if (const auto* pinned = std::get_if<PinnedSupport>(&support)) {
       const int p = edge.patch + first[worn];
-      const NurbsPatch& patch = garment.patches[p];
-      const auto at = [](const KnotVector& k, double part) { return k.front() + part * (k.back() - k.front()); };
-      const SurfaceBasis basis = surfaceBasis(patch, at(patch.u, pinned->s), at(patch.v, pinned->t));
+      const ClothPatch& patch = cloth.patches()[static_cast<std::size_t>(p)];
+      const auto at = [](double from, double to, double part) { return from + part * (to - from); };
+      const PlaceRow row = cloth.mounting().place(
+          p, {at(patch.low.x, patch.high.x, pinned->s), at(patch.low.y, patch.high.y, pinned->t)});
       group.name = of + fmt::format("point ({:.3g}, {:.3g}) held", pinned->s, pinned->t);
-      for (std::size_t k = 0; k < basis.columns.size(); ++k)
-        if (basis.values[0][k] > 1e-12) group.control_points.push_back(controlOffsets(garment)[p] + basis.columns[k]);
+      for (std::size_t k = 0; k < row.columns.size(); ++k)
+        if (row.value[k] > 1e-12) group.control_points.push_back(row.columns[k]);
     } else if (const auto* fixed = std::get_if<FixedSupport>(&support)) {
       group.name = name + " held";
       for (const PatchEdge& e : edges) {
-        const EdgeColumns columns = edgeColumns(garment, e);
-        group.control_points.insert(group.control_points.end(), columns.edge.begin(), columns.edge.end());
-        if (fixed->rows > 1)
-          group.control_points.insert(group.control_points.end(), columns.inner.begin(), columns.inner.end());
+        const std::vector<int> points = cloth.mounting().edgePoints(e, fixed->rows);
+        group.control_points.insert(group.control_points.end(), points.begin(), points.end());
       }
     } else {
       const auto& springs = std::get<SpringSupport>(support);
@@ -94,10 +93,8 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
       if (group.anchor < 0) throw InputError({"", 0, "link"}, "the human has no link \"" + springs.link + "\"");
       // Each sample answers for half of the edge to either neighbour.
       std::vector<double> length(surface.size(), 0);
-      std::vector<Vec3> Q;
-      for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
       std::vector<Vec3> X(surface.size());
-      surface.W.multiply<Vec3>(Q, X);
+      surface.W.multiply<Vec3>(cloth.rest(), X);
       for (const PatchEdge& e : edges) {
         const std::vector<int> at = edgeSamples(surface, e);
         for (std::size_t k = 0; k + 1 < at.size(); ++k) {
@@ -128,12 +125,12 @@ void addSupports(const Case& c, const Garment& garment, const std::vector<int>& 
 }
 
 void findHeldPoints(const Model& m, std::vector<SupportGroup>& groups) {
+  const SparseRows& T = m.cloth->map().T;
   std::vector<int> holders(m.held_points.size(), 0);
   for (SupportGroup& group : groups) {
     std::vector<int> points;
     for (int c : group.control_points)
-      points.insert(points.end(), m.map.T.columns.begin() + m.map.T.offsets[c],
-                    m.map.T.columns.begin() + m.map.T.offsets[c + 1]);
+      points.insert(points.end(), T.columns.begin() + T.offsets[c], T.columns.begin() + T.offsets[c + 1]);
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     for (int p : points) {

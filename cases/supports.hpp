@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "cases/case.hpp"
-#include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/cloth.hpp"
 #include "core/motion/model.hpp"
 #include "human/body.hpp"
 
@@ -26,9 +25,9 @@ struct SupportGroup {
 };
 
 /// Adds held control points and springs to `options`, and a group for each support of the case. `first`: the first
-/// patch of each garment in `garment`; `known`: its named edges; `human` may be null. Throws InputError for an edge, a
+/// patch of each garment in `cloth`; `known`: its named edges; `human` may be null. Throws InputError for an edge, a
 /// patch or a link that is not there.
-void addSupports(const Case& c, const Garment& garment, const std::vector<int>& first,
+void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& first,
                  const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
                  ModelOptions& options, std::vector<SupportGroup>& groups);
 /// Finds what the groups hold in the model that was built with those options.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cloth/shell/cells.hpp"
-
 namespace gambeson {
 namespace {
 
@@ -28,16 +26,10 @@ struct Sum {
 
 }  // namespace
 
-ThreadStrains::ThreadStrains(const Shell& shell, const FreeMap& map)
-    : shell_(shell),
-      map_(map),
-      rows_(buildStrainRows(shell.garment(), map, {std::vector<double>(map.home.size(), 1.0), {}})) {
-  for (const SheetCell& cell : sheetCells(shell.garment())) {
-    const NurbsPatch& patch = shell.garment().patches[static_cast<std::size_t>(cell.patch)];
-    for (const CellPoint& point : cellRule(cell, patch.u.degree, patch.v.degree))
-      gauss_.emplace_back(cell.patch, Vec2{point.u, point.v});
-  }
-}
+ThreadStrains::ThreadStrains(const Cloth& cloth)
+    : cloth_(cloth),
+      rows_(cloth.strainRows({std::vector<double>(cloth.map().home.size(), 1.0), {}})),
+      gauss_(cloth.lawPlaces()) {}
 
 const std::vector<std::string>& ThreadStrains::columns() {
   static const std::vector<std::string> names = [] {
@@ -51,15 +43,15 @@ const std::vector<std::string>& ThreadStrains::columns() {
 }
 
 std::vector<double> ThreadStrains::values(const std::vector<Vec3>& q) const {
-  std::vector<Vec3> p(map_.home.size()), e;
-  for (std::size_t k = 0; k < p.size(); ++k) p[k] = q[static_cast<std::size_t>(map_.home[k])];
+  std::vector<Vec3> p(cloth_.map().home.size()), e;
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] = q[static_cast<std::size_t>(cloth_.map().home[k])];
   strainVectors(rows_, p, e);
   Sum vertex, gauss;
   for (const StrainPoint& point : rows_.points)
     vertex.add(strainOf(e[static_cast<std::size_t>(point.row[0])]),
                strainOf(e[static_cast<std::size_t>(point.row[1])]));
   for (const auto& [patch, uv] : gauss_) {
-    const Vec3 strain = shell_.stateAt(patch, uv, q).strain;
+    const Vec3 strain = cloth_.stateAt(q, patch, uv).strain;
     gauss.add(strain.x, strain.y);
   }
   std::vector<double> row;

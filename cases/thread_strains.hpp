@@ -9,25 +9,23 @@
 #include <utility>
 #include <vector>
 
-#include "core/cloth/shell/shell.hpp"
-#include "core/motion/strain_points.hpp"
+#include "core/cloth/cloth.hpp"
 
 namespace gambeson {
 
-/// Lives no longer than the shell and the map.
+/// Lives no longer than the cloth.
 class ThreadStrains {
  public:
-  ThreadStrains(const Shell& shell, const FreeMap& map);
+  explicit ThreadStrains(const Cloth& cloth);
   /// PLACE_THREAD_max (the largest stretch) and PLACE_THREAD_mean (of the absolute strain over the points) of vertex
   /// and gauss, weft and warp.
   static const std::vector<std::string>& columns();
   std::vector<double> values(const std::vector<Vec3>& control_points) const;
 
  private:
-  const Shell& shell_;
-  const FreeMap& map_;
+  const Cloth& cloth_;
   StrainRows rows_;
-  std::vector<std::pair<int, Vec2>> gauss_;  ///< patch, parameters
+  std::vector<std::pair<int, Vec2>> gauss_;
 };
 
 /// {vertex: {weft: {largest: over the rows, mean: of the last row}, ...}, ...} of rows of values, one or more, that

@@ -1,45 +1,26 @@
 #include "tryon/strap_cut.hpp"
 
+#include <algorithm>
+
 namespace gambeson {
 namespace {
 
-constexpr int kRows = 2;  ///< of control points beyond a cut
+constexpr int kRows = 2;  ///< of points beyond a cut
 
-struct Grid {
-  int first = 0, nu = 0, nv = 0;
-  int at(int i, int j) const { return first + i + nu * j; }
-};
-
-std::vector<Grid> gridsOf(const Garment& g) {
-  std::vector<Grid> grids;
-  int first = 0;
-  for (const NurbsPatch& p : g.patches) {
-    grids.push_back({first, p.u.count(), p.v.count()});
-    first += grids.back().nu * grids.back().nv;
-  }
-  return grids;
-}
-
-/// Calls f(control point) for each point of the strap beyond the cut.
-template <class F>
-void forBeyond(const Grid& grid, const StrapCut& cut, F f) {
-  const int along = cut.along_v ? grid.nv : grid.nu, across = cut.along_v ? grid.nu : grid.nv;
-  for (int r = 0; r < kRows; ++r)
-    for (int i = 0; i < across; ++i) {
-      const int row = cut.at_end ? along - 1 - r : r;
-      f(cut.along_v ? grid.at(i, row) : grid.at(row, i));
-    }
-}
-
-double lengthOf(const NurbsPatch& p, const StrapCut& cut) {
+/// Of the edge at rest.
+double lengthOf(const Cloth& cloth, const PatchEdge& edge) {
   constexpr int kPieces = 64;
+  const ClothPatch& patch = cloth.patches()[static_cast<std::size_t>(edge.patch)];
+  const bool along_u = edge.side == Side::v0 || edge.side == Side::v1,
+             at_end = edge.side == Side::u1 || edge.side == Side::v1;
   double length = 0;
   Vec3 last{};
   for (int k = 0; k <= kPieces; ++k) {
     const double s = static_cast<double>(k) / kPieces;
-    const auto on = [&](const KnotVector& n) { return (1 - s) * n.front() + s * n.back(); };
-    const Vec3 x = cut.along_v ? surfaceDerivatives(p, on(p.u), cut.at_end ? p.v.back() : p.v.front())[0]
-                               : surfaceDerivatives(p, cut.at_end ? p.u.back() : p.u.front(), on(p.v))[0];
+    const Vec2 uv = along_u ? Vec2{(1 - s) * patch.low.x + s * patch.high.x, at_end ? patch.high.y : patch.low.y}
+                            : Vec2{at_end ? patch.high.x : patch.low.x, (1 - s) * patch.low.y + s * patch.high.y};
+    const PlaceRow row = cloth.mounting().place(edge.patch, uv);
+    const Vec3 x = combine(row.columns, row.value, cloth.rest());
     if (k > 0) length += norm(x - last);
     last = x;
   }
@@ -48,48 +29,46 @@ double lengthOf(const NurbsPatch& p, const StrapCut& cut) {
 
 }  // namespace
 
-std::vector<StrapCut> strapCuts(const Garment& g, std::span<const std::string> names) {
+std::vector<StrapCut> strapCuts(const Cloth& cloth, std::span<const std::string> names) {
   std::vector<StrapCut> cuts;
-  for (std::size_t p = 0; p < g.patches.size(); ++p) {
+  for (std::size_t p = 0; p < cloth.patches().size(); ++p) {
     if (!names[p].substr(names[p].rfind(' ') + 1).starts_with("strap")) continue;
-    bool sewn[4]{};
-    for (const Seam& s : g.seams)
-      for (const PatchEdge& e : {s.a, s.b})
-        if (e.patch == static_cast<int>(p)) sewn[static_cast<int>(e.side)] = true;
-    const bool along_u = sewn[0] && sewn[1], along_v = sewn[2] && sewn[3];
-    const NurbsPatch& patch = g.patches[p];
-    if (along_u == along_v || (along_v ? patch.v : patch.u).count() < 2 * kRows + 1) continue;
-    for (const bool end : {false, true}) {
-      cuts.push_back({static_cast<int>(p), along_v, end, 0});
-      cuts.back().width_m = lengthOf(patch, cuts.back());
-    }
+    const ClothPatch& patch = cloth.patches()[p];
+    const bool along_u = patch.sewn[0] && patch.sewn[1], along_v = patch.sewn[2] && patch.sewn[3];
+    if (along_u == along_v) continue;
+    const int index = static_cast<int>(p);
+    const PatchEdge edges[] = {{index, along_v ? Side::v0 : Side::u0}, {index, along_v ? Side::v1 : Side::u1}};
+    std::vector<int> beyond[] = {cloth.mounting().edgePoints(edges[0], kRows),
+                                 cloth.mounting().edgePoints(edges[1], kRows)};
+    if (static_cast<int>(beyond[0].size() + beyond[1].size()) >= patch.end_point - patch.first_point) continue;
+    for (const bool end : {false, true})
+      cuts.push_back({index, end, lengthOf(cloth, edges[end]), std::move(beyond[end])});
   }
   return cuts;
 }
 
-std::vector<double> weightsBelow(const Garment& g, std::span<const StrapCut> cuts, bool own) {
-  const std::vector<Grid> grids = gridsOf(g);
-  std::vector<double> w(grids.empty() ? 0 : static_cast<std::size_t>(grids.back().at(0, grids.back().nv)), 0);
-  const auto fill = [&](const Grid& grid, double value) {
-    for (int k = 0; k < grid.nu * grid.nv; ++k) w[static_cast<std::size_t>(grid.first + k)] = value;
+std::vector<double> weightsBelow(const Cloth& cloth, std::span<const StrapCut> cuts, bool own) {
+  std::vector<double> w(static_cast<std::size_t>(cloth.points()), 0);
+  const auto patch = [&](const StrapCut& cut) { return cloth.patches()[static_cast<std::size_t>(cut.patch)]; };
+  const auto fill = [&](const ClothPatch& p, double value) {
+    std::fill(w.begin() + p.first_point, w.begin() + p.end_point, value);
   };
   for (const StrapCut& cut : cuts)
-    for (std::size_t p = 0; p < grids.size(); ++p)
-      if (!own || g.layerOf(static_cast<int>(p)) == g.layerOf(cut.patch)) fill(grids[p], 1);
-  for (const StrapCut& cut : cuts) fill(grids[static_cast<std::size_t>(cut.patch)], 0);
+    for (const ClothPatch& p : cloth.patches())
+      if (!own || p.garment == patch(cut).garment) fill(p, 1);
+  for (const StrapCut& cut : cuts) fill(patch(cut), 0);
   for (const StrapCut& cut : cuts)
-    forBeyond(grids[static_cast<std::size_t>(cut.patch)], cut, [&](int i) { w[static_cast<std::size_t>(i)] = 1; });
+    for (const int i : cut.beyond) w[static_cast<std::size_t>(i)] = 1;
   return w;
 }
 
-std::vector<Vec3> strapPulls(const Shell& shell, std::span<const Vec3> q, std::span<const StrapCut> cuts,
-                             ShellWork& work) {
-  std::vector<Vec3> f(q.size()), pulls;
-  shell.force(q, f, work, nullptr, {.membrane = true, .bending = true, .seams = false});
-  const std::vector<Grid> grids = gridsOf(shell.garment());
+std::vector<Vec3> strapPulls(const Cloth& cloth, const ClothState& state, std::span<const StrapCut> cuts,
+                             ClothWork& work) {
+  std::vector<Vec3> f(state.q.size()), pulls;
+  cloth.force(state, {f, {}, {}, nullptr}, work, {.membrane = true, .bending = true, .seams = false});
   for (const StrapCut& cut : cuts) {
     Vec3 sum{};
-    forBeyond(grids[static_cast<std::size_t>(cut.patch)], cut, [&](int i) { sum += f[static_cast<std::size_t>(i)]; });
+    for (const int i : cut.beyond) sum += f[static_cast<std::size_t>(i)];
     pulls.push_back(sum);
   }
   return pulls;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/free_map.hpp"
 #include "core/math/sparse.hpp"
 
 namespace gambeson {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/surface.hpp"
 #include "core/contact/contact_tree.hpp"
 
 namespace gambeson {

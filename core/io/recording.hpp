@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/io/patch_layout.hpp"
+
 namespace gambeson {
 
 /// Values at the samples or control points of one frame, single precision: data[i * components + c].
@@ -40,22 +42,6 @@ struct Checkpoint {
   double time_s = 0;
   std::map<std::string, std::vector<double>> reals;
   std::map<std::string, std::vector<std::int64_t>> integers;
-};
-
-/// A NURBS surface but for its control points, which each frame has (control_fields, one patch after the other, u
-/// fastest).
-struct PatchLayout {
-  struct Curve {
-    int loop = 0;  ///< that it is part of; the curves of a loop follow each other
-    int degree = 1;
-    std::vector<double> knots, points, weights;  ///< points: u and v of each
-    bool operator==(const Curve&) const = default;
-  };
-  std::string name;
-  int degree_u = 0, degree_v = 0;
-  std::vector<double> knots_u, knots_v, weights;
-  std::vector<Curve> trims;
-  bool operator==(const PatchLayout&) const = default;
 };
 
 /// What stays constant over a run. `metadata` is free text (JSON) that readers get back; `identity` is what a resumed

@@ -5,6 +5,12 @@
 
 namespace gambeson {
 
+Vec3 combine(const std::vector<int>& columns, const std::vector<double>& row, std::span<const Vec3> q) {
+  Vec3 sum{};
+  for (std::size_t k = 0; k < columns.size(); ++k) sum += row[k] * q[columns[k]];
+  return sum;
+}
+
 SparseRows transpose(const SparseRows& a) {
   SparseRows t;
   t.column_count = a.rows();

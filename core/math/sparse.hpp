@@ -35,6 +35,9 @@ struct SparseRows {
   }
 };
 
+/// sum_k row[k] q[columns[k]].
+Vec3 combine(const std::vector<int>& columns, const std::vector<double>& row, std::span<const Vec3> q);
+
 SparseRows transpose(const SparseRows& a);
 /// The product A B; entries of a row in ascending column order, exact zeros dropped.
 SparseRows multiply(const SparseRows& a, const SparseRows& b);

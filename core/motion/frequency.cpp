@@ -20,7 +20,7 @@ class Stiffness {
  public:
   Stiffness(const Model& model, std::span<const Vec3> p, StepWork& work) : m_(model), p_(p), w_(work) {}
 
-  void apply(std::span<const Vec3> y, ShellTerms terms, bool springs, std::vector<Vec3>& out) {
+  void apply(std::span<const Vec3> y, ForceTerms terms, bool springs, std::vector<Vec3>& out) {
     terms.steepest = true;
     double largest = 0;
     for (const Vec3& v : y) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -28,13 +28,13 @@ class Stiffness {
     shifted_.resize(p_.size());
     for (int side : {-1, 1}) {
       for (std::size_t i = 0; i < p_.size(); ++i) shifted_[i] = p_[i] + (side * epsilon) * y[i];
-      w_.q.resize(m_.shell.controlCount());
-      w_.f.resize(m_.shell.controlCount());
-      m_.map.T.multiply<Vec3>(shifted_, w_.q);
-      m_.shell.force(w_.q, w_.f, w_.shell, nullptr, terms);
+      w_.q.resize(m_.cloth->points());
+      w_.f.resize(m_.cloth->points());
+      m_.cloth->map().T.multiply<Vec3>(shifted_, w_.q);
+      m_.cloth->force(w_.q, w_.f, w_.cloth, nullptr, terms);
       std::vector<Vec3>& f = side < 0 ? before_ : after_;
       f.resize(p_.size());
-      m_.map.Tt.multiply<Vec3>(w_.f, f);
+      m_.cloth->map().Tt.multiply<Vec3>(w_.f, f);
     }
     out.resize(p_.size());
     for (std::size_t i = 0; i < p_.size(); ++i) out[i] = (before_[i] - after_[i]) / (2 * epsilon);
@@ -126,7 +126,7 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
   Frequency f;
   f.largest_rad_per_s = std::sqrt(std::max(largest, 0.0));
   for (int i = 0; i < n; ++i) y[i] = root[i] * state.mode[i];
-  const auto share = [&](ShellTerms terms, bool springs) {
+  const auto share = [&](ForceTerms terms, bool springs) {
     stiffness.apply(y, terms, springs, Ky);
     return inner(y, Ky) / largest;
   };

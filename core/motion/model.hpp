@@ -8,14 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "core/cloth/shell/bulge.hpp"
-#include "core/cloth/shell/shell.hpp"
+#include "core/cloth/cloth.hpp"
 #include "core/contact/proximity.hpp"
 #include "core/contact/response.hpp"
 #include "core/contact/zones.hpp"
 #include "core/motion/collisions.hpp"
 #include "core/motion/deforming.hpp"
-#include "core/motion/resonance.hpp"
 #include "core/motion/stitch.hpp"
 #include "core/motion/strain_limit.hpp"
 
@@ -50,9 +48,9 @@ struct Environment {
 
 /// Constant after it is built.
 struct Model {
-  Shell shell;
-  FreeMap map;
+  std::unique_ptr<const Cloth> cloth;
   Surface surface;
+  Bulges bulges;
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
   std::vector<char> held;                              ///< free points that do not move
   std::vector<int> held_points;                        ///< these, ascending
@@ -71,10 +69,9 @@ struct Model {
   std::vector<Vec3> spring_rise_m;
   std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
   StrainLimit strain_limit;
-  StrainRows strain_rows;    ///< without points where strain is not limited
-  std::vector<NetEdge> net;  ///< of the patches' control points
+  StrainRows strain_rows;  ///< without points where strain is not limited
+  std::vector<NetEdge> net;
   std::vector<Stitch> stitches;
-  Bulges bulges;
   std::vector<double> drag_kg_per_s;  ///< of the free points: eta times area, and what damps stitches
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
@@ -83,8 +80,6 @@ struct Model {
 struct ModelOptions {
   int samples_per_cell = 2;
   std::vector<int> patch_samples_per_cell;  ///< of each patch, in place of samples_per_cell; or empty
-  int gauss_extra = 0;
-  CellRule cell_rule = CellRule::automatic;
   std::vector<int> held_control_points;
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;
@@ -92,12 +87,12 @@ struct ModelOptions {
   StrainLimit strain_limit;
   bool self_contact = true;  ///< cloth touches cloth
   std::vector<Stitch> stitches;
-  const KernelSet* kernels = nullptr;  ///< the widest where null
 };
 
 /// contact.layer_m = 0: each sample keeps the thickness of its fabric. Throws InputError.
-std::unique_ptr<Model> buildModel(const Garment& garment, const ModelOptions& options, const Environment& environment,
-                                  const ContactParameters& contact, std::vector<Obstacle> obstacles);
+std::unique_ptr<Model> buildModel(std::unique_ptr<const Cloth> cloth, const ModelOptions& options,
+                                  const Environment& environment, const ContactParameters& contact,
+                                  std::vector<Obstacle> obstacles);
 
 /// Sums over the free points of the forces that are not internal [N].
 struct ForceSums {
@@ -198,7 +193,7 @@ struct PhaseTimes {
 
 /// Scratch of a step, and the impulses of the last one (read by the recorder).
 struct StepWork {
-  ShellWork shell;
+  ClothWork cloth;
   ContactWork contact;
   LimitWork limit;
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;

@@ -64,9 +64,9 @@ MotionAudit::Moment MotionAudit::at(const DynamicState& state) const {
   std::vector<Vec3> external(q.size());
   s.loads.add(q, value, external);
   m.load.resize(n);
-  s.map.Tt.multiply<Vec3>(external, m.load);
+  s.cloth->map().Tt.multiply<Vec3>(external, m.load);
   m.support.resize(n);
-  s.map.Tt.multiply<Vec3>(reactions(s, state.y, t), m.support);
+  s.cloth->map().Tt.multiply<Vec3>(reactions(s, state.y, t), m.support);
   m.damping.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     m.damping[i] = s.rayleigh_mass_per_s * Mv[i] + s.drag_kg_per_m2s * s.area_m2[i] * v[i];

@@ -19,29 +19,11 @@ constexpr Level kLevels[] = {{0.025, kFirstShare}, {0.12, 0.75}, {0.2, 0.7}};
 constexpr double kCalmAgain = 0.6;  ///< part of a level's swing below which the step may be longer again
 }  // namespace
 
-std::vector<NetEdge> netEdges(const Garment& garment) {
-  std::vector<NetEdge> edges;
-  int offset = 0;
-  for (const NurbsPatch& patch : garment.patches) {
-    const auto add = [&](int a, int b) {
-      const double length2 = norm2(patch.points[b] - patch.points[a]);
-      if (length2 > 0) edges.push_back({offset + a, offset + b, 1 / length2});
-    };
-    for (int j = 0; j < patch.v.count(); ++j)
-      for (int i = 0; i < patch.u.count(); ++i) {
-        if (i + 1 < patch.u.count()) add(patch.index(i, j), patch.index(i + 1, j));
-        if (j + 1 < patch.v.count()) add(patch.index(i, j), patch.index(i, j + 1));
-      }
-    offset += patch.size();
-  }
-  return edges;
-}
-
 double swing(const Model& m, const State& before, const State& after, double dt, double omega, StepWork& w) {
   w.jerk.resize(m.freeCount());
-  w.net_jerk.resize(m.shell.controlCount());
+  w.net_jerk.resize(m.cloth->points());
   for (int i = 0; i < m.freeCount(); ++i) w.jerk[i] = after.a[i] - before.a[i];
-  m.map.T.multiply<Vec3>(w.jerk, w.net_jerk);
+  m.cloth->map().T.multiply<Vec3>(w.jerk, w.net_jerk);
   double most = 0;
   for (const NetEdge& e : m.net)
     most = std::max(most, norm2(w.net_jerk[e.second] - w.net_jerk[e.first]) * e.per_length2);

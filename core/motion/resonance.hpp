@@ -11,22 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
-
 namespace gambeson {
 
 struct Model;
 struct State;
 struct StepWork;
-
-/// Two neighbours in the control net of a patch.
-struct NetEdge {
-  int first = 0, second = 0;  ///< control points
-  double per_length2 = 0;     ///< 1 / (length at rest)^2 [1/m^2]
-};
-
-/// Those of all patches, without edges of no length.
-std::vector<NetEdge> netEdges(const Garment& garment);
 
 /// Amplitude of the highest modes as a strain: the largest difference of displacement over an edge of the control net,
 /// by the length of the edge. In one step the acceleration of a mode of frequency omega changes by omega dt times its

@@ -23,13 +23,13 @@ Vec3 sum(std::span<const Vec3> values) {
 
 /// Internal force on the free points, Tᵀ f(T p), into work.f's place `out`.
 void internalForce(const Model& m, std::span<const Vec3> p, std::vector<Vec3>& out, StepWork& w,
-                   double* energy = nullptr, const ShellTerms& terms = {}) {
-  w.q.resize(m.shell.controlCount());
-  w.f.resize(m.shell.controlCount());
+                   double* energy = nullptr, const ForceTerms& terms = {}) {
+  w.q.resize(m.cloth->points());
+  w.f.resize(m.cloth->points());
   out.resize(m.freeCount());
-  m.map.T.multiply<Vec3>(p, w.q);
-  m.shell.force(w.q, w.f, w.shell, energy, terms);
-  m.map.Tt.multiply<Vec3>(w.f, out);
+  m.cloth->map().T.multiply<Vec3>(p, w.q);
+  m.cloth->force(w.q, w.f, w.cloth, energy, terms);
+  m.cloth->map().Tt.multiply<Vec3>(w.f, out);
 }
 
 /// What the springs hang on at one instant.
@@ -186,10 +186,7 @@ void samplePositions(const Model& model, std::span<const Vec3> p, std::vector<Ve
 State initialState(const Model& model, const Stage& stage, double time_s, StepWork& work) {
   State s;
   s.time_s = time_s;
-  std::vector<Vec3> Q;
-  for (const NurbsPatch& patch : model.shell.garment().patches)
-    Q.insert(Q.end(), patch.points.begin(), patch.points.end());
-  for (int home : model.map.home) s.p.push_back(Q[home]);
+  for (int home : model.cloth->map().home) s.p.push_back(model.cloth->rest()[home]);
   s.v.assign(s.p.size(), {});
   attachSprings(model, stage, s, work);
   return s;

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/cloth/strain_rows.hpp"
 #include "core/contact/response.hpp"
-#include "core/motion/strain_points.hpp"
 
 namespace gambeson {
 

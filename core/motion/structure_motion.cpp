@@ -42,7 +42,7 @@ DynamicEnergy energyOf(const Structure& s, const DynamicState& state, bool lumpe
   const std::vector<Vec3> q = controlPoints(s, state.y, t);
   for (const DeadLoad& load : s.dead)
     for (std::size_t i = 0; i < q.size(); ++i)
-      energy.external -= s.programs[load.program](t) * dot(load.force_N[i], q[i] - s.rest[i]);
+      energy.external -= s.programs[load.program](t) * dot(load.force_N[i], q[i] - s.cloth->rest()[i]);
   return energy;
 }
 

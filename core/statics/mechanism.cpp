@@ -29,8 +29,8 @@ std::string axisText(const Vec3& v) {
 std::vector<Rigid> freeRigidMotions(const Structure& s, const Vec3& center, double length) {
   const SparseRows& C = s.dofs.C;
   Eigen::MatrixXd R(C.rows(), 6);
-  for (std::size_t p = 0; p < s.map.home.size(); ++p) {
-    const Vec3 x = (s.rest[s.map.home[p]] - center) / length;
+  for (std::size_t p = 0; p < s.cloth->map().home.size(); ++p) {
+    const Vec3 x = (s.cloth->rest()[s.cloth->map().home[p]] - center) / length;
     for (int d = 0; d < 3; ++d) {
       Vec3 axis{};
       axis[d] = 1;
@@ -75,9 +75,9 @@ std::vector<Rigid> freeRigidMotions(const Structure& s, const Vec3& center, doub
 }  // namespace
 
 std::string describeMotion(const Structure& s, std::span<const double> motion) {
-  Vec3 center{}, low = s.rest.front(), high = low;
-  for (const Vec3& x : s.rest) {
-    center += x / static_cast<double>(s.rest.size());
+  Vec3 center{}, low = s.cloth->rest().front(), high = low;
+  for (const Vec3& x : s.cloth->rest()) {
+    center += x / static_cast<double>(s.cloth->rest().size());
     for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], x[d]), high[d] = std::max(high[d], x[d]);
   }
   const double length = norm(high - low);
@@ -99,15 +99,9 @@ std::string describeMotion(const Structure& s, std::span<const double> motion) {
   const auto at = [&](std::size_t p) { return Vec3{u[3 * p], u[3 * p + 1], u[3 * p + 2]}; };
   for (std::size_t p = 0; 3 * p < u.size(); ++p)
     if (norm(at(p)) > norm(at(most))) most = p;
-  const std::vector<int> offsets = controlOffsets(s.shell.garment());
-  const int control = s.map.home[most];
-  int patch = 0;
-  while (offsets[patch + 1] <= control) ++patch;
-  const int columns = s.shell.garment().patches[patch].u.count(), local = control - offsets[patch];
-  return fmt::format(
-      "the supports hold it as a whole, but control point ({}, {}) of patch {}, at {} m, moves along {} without "
-      "resistance",
-      local % columns, local / columns, patch, vectorText(s.rest[control]), axisText(normalized(at(most))));
+  const int point = s.cloth->map().home[most];
+  return fmt::format("the supports hold it as a whole, but {}, at {} m, moves along {} without resistance",
+                     s.cloth->describePoint(point), vectorText(s.cloth->rest()[point]), axisText(normalized(at(most))));
 }
 
 }  // namespace gambeson

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cloth/shell/cells.hpp"
-#include "core/cloth/shell/fields.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -44,62 +42,9 @@ void checkPrograms(const std::vector<Program>& programs) {
   }
 }
 
-/// The rest mass of the control points: ∫ rho N N dA, and ∫ N dA.
-struct MassIntegral {
-  SparseRows mass;
-  std::vector<double> area;
-};
-
-MassIntegral integrateMass(const Garment& g) {
-  const std::vector<int> offsets = controlOffsets(g);
-  std::vector<std::vector<std::pair<int, double>>> rows(offsets.back());
-  MassIntegral m;
-  m.area.assign(offsets.back(), 0.0);
-  std::vector<double> local;
-  for (const SheetCell& cell : sheetCells(g)) {
-    const NurbsPatch& patch = g.patches[cell.patch];
-    std::vector<int> columns;
-    for (const CellPoint& point : cellRule(cell, patch.u.degree + 1, patch.v.degree + 1)) {
-      const SurfaceBasis basis = surfaceBasis(patch, point.u, point.v);
-      const std::size_t n = basis.columns.size();
-      if (columns.empty()) columns = basis.columns, local.assign(n * n, 0.0);
-      Vec3 A1{}, A2{};
-      for (std::size_t k = 0; k < n; ++k) {
-        A1 += basis.values[1][k] * patch.points[basis.columns[k]];
-        A2 += basis.values[2][k] * patch.points[basis.columns[k]];
-      }
-      const double dA = norm(cross(A1, A2)) * point.weight;
-      const double dm = surfaceDensityAt(g, cell.patch, {point.u, point.v}) * dA;
-      for (std::size_t i = 0; i < n; ++i) {
-        m.area[offsets[cell.patch] + columns[i]] += basis.values[0][i] * dA;
-        for (std::size_t j = 0; j < n; ++j) local[i * n + j] += basis.values[0][i] * basis.values[0][j] * dm;
-      }
-    }
-    const std::size_t n = columns.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      auto& row = rows[offsets[cell.patch] + columns[i]];
-      for (std::size_t j = 0; j < n; ++j) {
-        const int column = offsets[cell.patch] + columns[j];
-        const auto at =
-            std::lower_bound(row.begin(), row.end(), column, [](const auto& entry, int c) { return entry.first < c; });
-        if (at != row.end() && at->first == column)
-          at->second += local[i * n + j];
-        else
-          row.insert(at, {column, local[i * n + j]});
-      }
-    }
-  }
-  m.mass.column_count = offsets.back();
-  for (const auto& row : rows) {
-    for (const auto& [column, value] : row) m.mass.add(column, value);
-    m.mass.endRow();
-  }
-  return m;
-}
-
 }  // namespace
 
-std::unique_ptr<Structure> buildStructure(const Garment& garment, const StructureOptions& o) {
+std::unique_ptr<Structure> buildStructure(std::unique_ptr<const Cloth> cloth, const StructureOptions& o) {
   std::vector<Program> programs = o.programs;
   if (programs.empty()) programs.push_back({{0, 1}, {0, 1}});
   checkPrograms(programs);
@@ -116,27 +61,22 @@ std::unique_ptr<Structure> buildStructure(const Garment& garment, const Structur
   if (!(o.rayleigh_stiffness_s >= 0)) throw InputError({"", 0, "rayleigh_stiffness_s"}, "must be >= 0");
   if (!(o.drag_kg_per_m2s >= 0)) throw InputError({"", 0, "drag_kg_per_m2s"}, "must be >= 0");
 
-  Shell shell(garment, o.kernels ? *o.kernels : widestKernels(), o.gauss_extra, o.cell_rule);
-  FreeMap map = buildFreeMap(garment);
+  const FreeMap& map = cloth->map();
   DofMap dofs = buildDofMap(map, o.constraints, count);
-  Loads loads(garment, o.dead, o.pressure, o.moments);
-  Tangent tangent(shell, map);
-  Reduction reduction(tangent.pattern(), dofs.C);
-  std::vector<Vec3> rest;
-  for (const NurbsPatch& p : garment.patches) rest.insert(rest.end(), p.points.begin(), p.points.end());
-
-  const MassIntegral integral = integrateMass(garment);
-  SparseRows consistent = multiply(multiply(map.Tt, integral.mass), map.T);
+  Loads loads(cloth->mounting(), cloth->points(), o.dead, o.pressure, o.moments);
+  std::unique_ptr<const ClothTangent> tangent = cloth->tangent();
+  Reduction reduction(tangent->pattern(), dofs.C);
+  SparseRows consistent = multiply(multiply(map.Tt, cloth->consistentMass()), map.T);
   std::vector<double> lumped(map.home.size()), area(map.home.size());
   const std::vector<double> ones(map.home.size(), 1.0);
   consistent.multiply<double>(ones, lumped);
-  map.Tt.multiply<double>(integral.area, area);
+  map.Tt.multiply<double>(cloth->areas(), area);
   std::optional<StructureLimit> limit;
-  if (o.strain_limit.mode != LimitMode::none) limit = buildStructureLimit(garment, map, dofs, lumped, o.strain_limit);
-  return std::make_unique<Structure>(Structure{
-      std::move(shell), std::move(map), std::move(dofs), std::move(loads), std::move(programs), std::move(tangent),
-      std::move(reduction), std::move(rest), o.dead, std::move(lumped), std::move(consistent), o.rayleigh_mass_per_s,
-      o.rayleigh_stiffness_s, o.drag_kg_per_m2s, std::move(area), std::move(limit)});
+  if (o.strain_limit.mode != LimitMode::none) limit = buildStructureLimit(*cloth, dofs, lumped, o.strain_limit);
+  return std::make_unique<Structure>(Structure{std::move(cloth), std::move(dofs), std::move(loads), std::move(programs),
+                                               std::move(tangent), std::move(reduction), o.dead, std::move(lumped),
+                                               std::move(consistent), o.rayleigh_mass_per_s, o.rayleigh_stiffness_s,
+                                               o.drag_kg_per_m2s, std::move(area), std::move(limit)});
 }
 
 }  // namespace gambeson

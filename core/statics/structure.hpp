@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/cloth/cloth.hpp"
 #include "core/cloth/constraint.hpp"
-#include "core/cloth/shell/loads.hpp"
-#include "core/cloth/shell/shell.hpp"
-#include "core/cloth/shell/tangent.hpp"
 #include "core/math/cholesky.hpp"
 #include "core/statics/reduction.hpp"
 #include "core/statics/structure_limit.hpp"
@@ -29,17 +27,15 @@ struct Program {
 /// How programs go on beyond their ends: constant (time), or with their slope (a load path).
 enum class ProgramEnds { constant, extended };
 
-/// Constant after it is built. Unknowns y: displacements that satisfy the supports, u = C y + shifts (DofMap); control
-/// points q = rest + T u.
+/// Constant after it is built. Unknowns y: displacements that satisfy the supports, u = C y + shifts (DofMap); points
+/// q = rest + T u.
 struct Structure {
-  Shell shell;
-  FreeMap map;
+  std::unique_ptr<const Cloth> cloth;
   DofMap dofs;
   Loads loads;
   std::vector<Program> programs;
-  Tangent tangent;                  ///< assembles on the free points
+  std::unique_ptr<const ClothTangent> tangent;
   Reduction reduction;              ///< of the tangent to the unknowns
-  std::vector<Vec3> rest;           ///< control points
   std::vector<DeadLoad> dead;       ///< part of `loads`: those with a potential
   std::vector<double> lumped_kg;    ///< row sums, of the free points
   SparseRows consistent_kg;         ///< ∫ rho N N dA on the free points
@@ -59,12 +55,9 @@ struct StructureOptions {
   std::vector<Program> programs;  ///< none: one, from 0 at 0 to 1 at 1
   double rayleigh_mass_per_s = 0, rayleigh_stiffness_s = 0, drag_kg_per_m2s = 0;
   StrainLimit strain_limit;
-  CellRule cell_rule = CellRule::automatic;
-  int gauss_extra = 0;
-  const KernelSet* kernels = nullptr;  ///< the widest where null
 };
 
 /// Throws InputError.
-std::unique_ptr<Structure> buildStructure(const Garment& garment, const StructureOptions& options);
+std::unique_ptr<Structure> buildStructure(std::unique_ptr<const Cloth> cloth, const StructureOptions& options);
 
 }  // namespace gambeson

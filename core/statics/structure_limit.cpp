@@ -105,14 +105,14 @@ class StructureMotionLimit : public MotionLimit {
 
 }  // namespace
 
-StructureLimit buildStructureLimit(const Garment& garment, const FreeMap& map, const DofMap& dofs,
-                                   std::span<const double> lumped_kg, const StrainLimit& limit) {
+StructureLimit buildStructureLimit(const Cloth& cloth, const DofMap& dofs, std::span<const double> lumped_kg,
+                                   const StrainLimit& limit) {
   checkLimit(limit);
   SparseRows release = releaseOf(dofs, lumped_kg);
   Mobility mobility = mobilityOf(multiply(dofs.C, release));
   if (limit.method == LimitMethod::closest && mobility.P.rows() > 0)
     throw InputError({"", 0, "strain_limit.method"}, "closest goes with supports that hold points whole");
-  return {limit, buildStrainRows(garment, map, std::move(mobility), limit.points), std::move(release)};
+  return {limit, cloth.strainRows(std::move(mobility), limit.points), std::move(release)};
 }
 
 std::unique_ptr<MotionLimit> motionLimit(const Structure& s) {
@@ -133,8 +133,9 @@ void limitForce(const StrainRows& rows, std::span<const Vec3> p, std::span<const
 
 std::vector<Vec3> freePoints(const Structure& s, std::span<const double> y, double t) {
   const std::vector<double> u = freeDisplacements(s, y, programValues(s, t, ProgramEnds::constant));
-  std::vector<Vec3> p(s.map.home.size());
-  for (std::size_t k = 0; k < p.size(); ++k) p[k] = s.rest[s.map.home[k]] + Vec3{u[3 * k], u[3 * k + 1], u[3 * k + 2]};
+  std::vector<Vec3> p(s.cloth->map().home.size());
+  for (std::size_t k = 0; k < p.size(); ++k)
+    p[k] = s.cloth->rest()[s.cloth->map().home[k]] + Vec3{u[3 * k], u[3 * k + 1], u[3 * k + 2]};
   return p;
 }
 

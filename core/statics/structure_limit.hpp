@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "core/cloth/cloth.hpp"
 #include "core/cloth/constraint.hpp"
 #include "core/motion/motion_limit.hpp"
 
@@ -19,8 +20,8 @@ struct StructureLimit {
 };
 
 /// Throws InputError.
-StructureLimit buildStructureLimit(const Garment& garment, const FreeMap& map, const DofMap& dofs,
-                                   std::span<const double> lumped_kg, const StrainLimit& limit);
+StructureLimit buildStructureLimit(const Cloth& cloth, const DofMap& dofs, std::span<const double> lumped_kg,
+                                   const StrainLimit& limit);
 
 /// Null where the structure has no limits. Lives no longer than the structure.
 std::unique_ptr<MotionLimit> motionLimit(const Structure& structure);

@@ -44,39 +44,39 @@ std::vector<double> freeDisplacements(const Structure& s, std::span<const double
 
 StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends)
     : structure_(structure), limit_(motionLimit(structure)), ends_(ends) {
-  Vec3 low = structure.rest.front(), high = low;
-  for (const Vec3& x : structure.rest)
+  Vec3 low = structure.cloth->rest().front(), high = low;
+  for (const Vec3& x : structure.cloth->rest())
     for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], x[d]), high[d] = std::max(high[d], x[d]);
   length_ = norm(high - low);
   reach_ = length_;
-  for (const Vec3& x : structure.rest) reach_ = std::max(reach_, norm(x));
-  K_ = structure.tangent.pattern();
+  for (const Vec3& x : structure.cloth->rest()) reach_ = std::max(reach_, norm(x));
+  K_ = structure.tangent->pattern();
   K_.values.resize(9 * K_.columns.size());
-  q_.resize(structure.rest.size());
+  q_.resize(structure.cloth->rest().size());
   f_.resize(q_.size());
   external_.resize(q_.size());
-  free_.resize(structure.map.home.size());
+  free_.resize(structure.cloth->map().home.size());
 }
 
 void StructureSystem::place(std::span<const double> y, double t) {
   value_ = programValues(structure_, t, ends_);
   u_ = freeDisplacements(structure_, y, value_);
   const std::span<const Vec3> u(reinterpret_cast<const Vec3*>(u_.data()), u_.size() / 3);
-  structure_.map.T.multiply<Vec3>(u, q_);
-  for (std::size_t i = 0; i < q_.size(); ++i) q_[i] += structure_.rest[i];
+  structure_.cloth->map().T.multiply<Vec3>(u, q_);
+  for (std::size_t i = 0; i < q_.size(); ++i) q_[i] += structure_.cloth->rest()[i];
 }
 
 double StructureSystem::residual(std::span<const double> y, double t, std::span<double> g) {
   place(y, t);
-  structure_.shell.force(q_, f_, work_);
+  structure_.cloth->force(q_, f_, work_);
   std::fill(external_.begin(), external_.end(), Vec3{});
   structure_.loads.add(q_, value_, external_);
-  structure_.map.Tt.multiply<Vec3>(f_, free_);
+  structure_.cloth->map().Tt.multiply<Vec3>(f_, free_);
   double size = sizeOf(free_);
   for (std::size_t i = 0; i < f_.size(); ++i) f_[i] += external_[i];
-  structure_.map.Tt.multiply<Vec3>(external_, free_);
+  structure_.cloth->map().Tt.multiply<Vec3>(external_, free_);
   size = std::max(size, sizeOf(free_));
-  structure_.map.Tt.multiply<Vec3>(f_, free_);
+  structure_.cloth->map().Tt.multiply<Vec3>(f_, free_);
   structure_.dofs.Ct.multiply<double>(flat(free_), g);
   for (double& v : g) v = -v;
   return size;
@@ -85,8 +85,8 @@ double StructureSystem::residual(std::span<const double> y, double t, std::span<
 void StructureSystem::assemble(std::span<const double> y, double t) {
   if (at_t_ == t && std::equal(y.begin(), y.end(), at_y_.begin(), at_y_.end())) return;
   place(y, t);
-  structure_.tangent.assemble(structure_.shell, q_, work_, K_);
-  if (structure_.loads.follow()) structure_.loads.addStiffness(q_, value_, structure_.map, K_);
+  structure_.tangent->assemble(q_, work_, K_);
+  if (structure_.loads.follow()) structure_.loads.addStiffness(q_, value_, structure_.cloth->map(), K_);
   at_y_.assign(y.begin(), y.end());
   at_t_ = t;
 }
@@ -94,9 +94,9 @@ void StructureSystem::assemble(std::span<const double> y, double t) {
 void StructureSystem::stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest) {
   if (steepest) {
     place(y, t);
-    ShellTerms terms;
+    ForceTerms terms;
     terms.steepest = true;
-    structure_.tangent.assemble(structure_.shell, q_, work_, K_, terms);
+    structure_.tangent->assemble(q_, work_, K_, terms);
     at_y_.clear();
   } else {
     assemble(y, t);
@@ -118,7 +118,7 @@ void StructureSystem::change(std::span<const double> y, double t0, double t1, st
   place(y, t0);
   std::fill(external_.begin(), external_.end(), Vec3{});
   structure_.loads.add(q_, difference, external_);
-  structure_.map.Tt.multiply<Vec3>(external_, free_);
+  structure_.cloth->map().Tt.multiply<Vec3>(external_, free_);
   const std::span<const double> external = flat(free_);
   for (std::size_t i = 0; i < force.size(); ++i) force[i] -= external[i];
   structure_.dofs.Ct.multiply<double>(force, dg);
@@ -129,7 +129,7 @@ std::string StructureSystem::describe(std::span<const double> motion) const {
 }
 
 BlockMatrix StructureSystem::massBlocks(bool lumped) const {
-  BlockMatrix M = structure_.tangent.pattern();
+  BlockMatrix M = structure_.tangent->pattern();
   M.values.assign(9 * M.columns.size(), 0.0);
   const auto set = [&](long k, double m) {
     for (int d = 0; d < 3; ++d) M.values[9 * k + 4 * d] = m;

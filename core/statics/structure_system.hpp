@@ -35,7 +35,7 @@ class StructureSystem : public System {
   std::unique_ptr<MotionLimit> limit_;
   ProgramEnds ends_;
   double length_ = 0, reach_ = 0;
-  ShellWork work_;
+  ClothWork work_;
   BlockMatrix K_;
   std::vector<double> at_y_;  ///< where K_ is
   double at_t_ = 0;

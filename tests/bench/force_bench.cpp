@@ -45,7 +45,7 @@ void SheetForce(benchmark::State& state) {
   static const Shell shell(garment, widestKernels());
   const std::vector<Vec3> q = bench::displaced(garment);
   std::vector<Vec3> f(q.size());
-  ShellWork work;
+  ClothWork work;
   const int threads = static_cast<int>(state.range(0)), before = omp_get_max_threads();
   omp_set_num_threads(threads);
   const double flop = kFlopPerPoint * static_cast<double>(shell.gaussPoints());

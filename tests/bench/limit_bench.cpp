@@ -10,10 +10,13 @@
 #include <numbers>
 
 #include "bench_time.hpp"
+#include "core/cloth/shell/nurbs_shell.hpp"
 #include "core/motion/advance.hpp"
 
 namespace gambeson {
 namespace {
+
+const ShellOptions kFull{.rule = CellRule::full};
 
 class Still : public Stage {
  public:
@@ -52,9 +55,8 @@ Swing swing(int cells, double k_over_rho, const StrainLimit& limit) {
   ModelOptions o;
   o.held_control_points = {g.patches[0].index(0, 0), g.patches[0].index(cells + 1, 0)};
   o.strain_limit = limit;
-  o.cell_rule = CellRule::full;
-  const auto model = buildModel(g, o, {{0, 0, -9.8}, 0.351}, {}, {});
-  const StrainRows rows = buildStrainRows(g, model->map, {model->inverse_mass, {}});
+  const auto model = buildModel(std::make_unique<NurbsShell>(g, kFull), o, {{0, 0, -9.8}, 0.351}, {}, {});
+  const StrainRows rows = model->cloth->strainRows({model->inverse_mass, {}});
   const Still stage;
   StepWork work;
   State state = initialState(*model, stage, 0, work);
@@ -143,16 +145,15 @@ void Projection(benchmark::State& state) {
   const Garment g = sheet(cells, 100);
   ModelOptions o;
   o.held_control_points = {g.patches[0].index(0, 0), g.patches[0].index(cells + 1, 0)};
-  o.cell_rule = CellRule::full;
   o.strain_limit = what == 2 ? StrainLimit{LimitMode::upper_limit, 0.005, 1e-3} : StrainLimit{LimitMode::equality, 0};
   if (what == 0) o.strain_limit.max_projections = 1;
-  const auto model = buildModel(g, o, {}, {}, {});
+  const auto model = buildModel(std::make_unique<NurbsShell>(g, kFull), o, {}, {}, {});
   const StrainRows& rows = model->strain_rows;
   const std::vector<Vec3> start = stretched(g);
   std::vector<Vec3> p, f(start.size());
-  ShellWork shell_work;
-  model->shell.force(start, f, shell_work);
-  const double force_s = bench::medianOf(5, [&] { model->shell.force(start, f, shell_work); });
+  ClothWork shell_work;
+  model->cloth->force(start, f, shell_work);
+  const double force_s = bench::medianOf(5, [&] { model->cloth->force(start, f, shell_work); });
   LimitWork work;
   LimitReport report;
   const auto project = [&] {

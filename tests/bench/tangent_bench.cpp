@@ -6,7 +6,7 @@
 
 #include "bench_sheet.hpp"
 #include "bench_time.hpp"
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
 #include "core/cloth/shell/tangent.hpp"
 #include "core/statics/reduction.hpp"
 
@@ -31,7 +31,7 @@ void ShellCell(benchmark::State& state) {
   const Shell shell(garment, widestKernels(), 0, state.range(4) == 2 ? CellRule::automatic : CellRule::full);
   const FreeMap map = buildFreeMap(garment);
   const std::vector<Vec3> q = bench::displaced(garment);
-  ShellWork work;
+  ClothWork work;
   const int before = omp_get_max_threads();
   omp_set_num_threads(1);
   const double count = static_cast<double>(cells) * cells;
@@ -74,7 +74,7 @@ void Factorisation(benchmark::State& state) {
   for (LinearConstraint& c : clampRotation(garment, edge)) held.push_back(std::move(c));
   const DofMap dofs = buildDofMap(map, held, 0);
   omp_set_num_threads(1);
-  ShellWork work;
+  ClothWork work;
   BlockMatrix K;
   const Tangent tangent(shell, map);
   tangent.assemble(shell, garment.patches[0].points, work, K);

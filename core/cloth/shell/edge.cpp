@@ -15,11 +15,6 @@ bool acrossIsU(Side side) { return side == Side::u0 || side == Side::u1; }
 bool isFar(Side side) { return side == Side::u1 || side == Side::v1; }
 }  // namespace
 
-std::string edgeName(const PatchEdge& edge) {
-  constexpr const char* names[] = {"u0", "u1", "v0", "v1"};
-  return std::string("edge ") + names[static_cast<int>(edge.side)] + " of patch " + std::to_string(edge.patch);
-}
-
 void checkEdge(const Garment& garment, const PatchEdge& edge, const std::string& key) {
   if (edge.patch < 0 || edge.patch >= static_cast<int>(garment.patches.size()))
     throw InputError({"", 0, key}, "patch " + std::to_string(edge.patch) + " does not exist");
@@ -127,12 +122,6 @@ std::vector<EdgePoint> edgePoints(const Garment& garment, const PatchEdge& edge,
     }
   if (!(length > 0)) throw InputError({"", 0, edgeName(edge)}, "the edge has no length at rest");
   return points;
-}
-
-Vec3 combine(const std::vector<int>& columns, const std::vector<double>& row, std::span<const Vec3> q) {
-  Vec3 sum{};
-  for (std::size_t k = 0; k < columns.size(); ++k) sum += row[k] * q[columns[k]];
-  return sum;
 }
 
 std::vector<Vec3> restControls(const Garment& garment) {

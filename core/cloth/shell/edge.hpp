@@ -10,8 +10,6 @@
 
 namespace gambeson {
 
-/// "edge v0 of patch 2", for messages.
-std::string edgeName(const PatchEdge& edge);
 /// Throws InputError (key `key`) unless the patch exists and its knots are clamped: then the edge is a curve of its own
 /// row of control points, and the cross derivative there depends on that row and the next alone.
 void checkEdge(const Garment& garment, const PatchEdge& edge, const std::string& key);
@@ -49,8 +47,6 @@ struct EdgePoint {
 /// arc length is no polynomial. Throws InputError where the edge has no length.
 std::vector<EdgePoint> edgePoints(const Garment& garment, const PatchEdge& edge, int per_cell = 0);
 
-/// sum_k row[k] q[columns[k]].
-Vec3 combine(const std::vector<int>& columns, const std::vector<double>& row, std::span<const Vec3> q);
 /// All control points at rest, patch after patch.
 std::vector<Vec3> restControls(const Garment& garment);
 

@@ -4,20 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "core/cloth/patch_edge.hpp"
 #include "core/cloth/shell/fields.hpp"
 #include "core/material/fabric.hpp"
 #include "core/nurbs/trim.hpp"
 
 namespace gambeson {
-
-enum class Side { u0, u1, v0, v1 };
-
-/// One edge of a patch. `reversed` runs it against its parameter.
-struct PatchEdge {
-  int patch = 0;
-  Side side = Side::u0;
-  bool reversed = false;
-};
 
 /// C0: positions joined; G1: tangents joined as well through the map T (Zheng 2013, eq. 2.35), which needs a rest
 /// geometry that is G1 with a constant ratio. At the end of a G1 seam where other than two patches (on the border) or
@@ -45,12 +37,6 @@ struct WeakSeam {
   SeamKind kind = SeamKind::G1;
   double stiffness_N = 0;
   double factor = 1e3;  ///< penalty over the stiffness of a cell
-};
-
-/// Edges that supports and studies call by one name.
-struct NamedEdge {
-  std::string name;
-  std::vector<PatchEdge> edges;
 };
 
 /// Cloth at rest: one garment, or several worn over each other (core/cloth/shell/layers.hpp). The weft direction at a

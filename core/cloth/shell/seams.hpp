@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "core/cloth/free_map.hpp"
 #include "core/cloth/shell/garment.hpp"
-#include "core/math/sparse.hpp"
 
 namespace gambeson {
 
@@ -17,19 +17,12 @@ struct EdgeColumns {
 };
 EdgeColumns edgeColumns(const Garment& garment, const PatchEdge& edge);
 
-/// q = T p, positions only: joined edges are one point, an edge on a part of another is a combination of its points;
-/// the middle column of a G1 seam is
+/// The map from free to all control points. Joined edges are one point, an edge on a part of another is a combination
+/// of its points; the middle column of a G1 seam is
 ///   q_edge = (q_b + c' q_a) / (1 + c'),   Zheng 2013, eq. 2.35,
-/// with c' from the rest geometry. Rows sum to 1. The corner control point of a G1 seam where other than two patches
-/// (on the border) or four (inside) meet stays free.
-struct FreeMap {
-  SparseRows T;           ///< control points x free points
-  SparseRows Tt;          ///< its transpose
-  std::vector<int> home;  ///< of each free point: the control point that it is
-};
-
-/// Throws InputError (key names the seam) where edges do not match, where the rest geometry is not G1 with a constant
-/// ratio, or where two seams contradict each other.
+/// with c' from the rest geometry. The corner control point of a G1 seam where other than two patches (on the border)
+/// or four (inside) meet stays free. Throws InputError (key names the seam) where edges do not match, where the rest
+/// geometry is not G1 with a constant ratio, or where two seams contradict each other.
 FreeMap buildFreeMap(const Garment& garment);
 
 /// One quadrature point of a rotational spring. `t`, `a`, `b` are derivative rows at the point: along the edge, into

@@ -89,7 +89,7 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
     kinds[kind].push_back(std::move(cell));
   }
   const int L = kernels.lanes;
-  std::vector<std::vector<std::pair<long, int>>> gather(control_count_);
+  gather_ = SlotGather(control_count_);
   for (auto& [kind, cells] : kinds) {
     if (kind.scattered) sortByPoints(cells);
     ShellPart part{packBlock(garment, offsets_, kind, cells, L, gauss_extra), blockLaw(garment, kind.varies),
@@ -99,7 +99,7 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
     for (long at = 0; at < static_cast<long>(cells.size()); ++at)
       for (int k = 0; k < nn; ++k) {
         const long place = (at / L) * nn + k;
-        gather[b.nodes[place * L + at % L]].push_back({part.first_slot + place * 3 * L + at % L, L});
+        gather_.add(b.nodes[place * L + at % L], part.first_slot + place * 3 * L + at % L, L);
       }
     for (const SheetCell& cell : cells)
       gauss_points_ += cell.cut ? static_cast<long>(cell.points.size()) : long{b.gu} * b.gv;
@@ -131,27 +131,20 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   for (const HingePoint& h : hinges_) {
     hinge_offset_.push_back((slot_count_ - hinge_slot_) / 3);
     for (std::size_t k = 0; k < h.columns.size(); ++k)
-      gather[h.columns[k]].push_back({slot_count_ + 3 * static_cast<long>(k), 1});
+      gather_.add(h.columns[k], slot_count_ + 3 * static_cast<long>(k), 1);
     slot_count_ += 3 * static_cast<long>(h.columns.size());
   }
   gap_slot_ = slot_count_;
   for (const GapPoint& point : gaps_) {
     gap_offset_.push_back((slot_count_ - gap_slot_) / 3);
     for (std::size_t k = 0; k < point.columns.size(); ++k)
-      gather[point.columns[k]].push_back({slot_count_ + 3 * static_cast<long>(k), 1});
+      gather_.add(point.columns[k], slot_count_ + 3 * static_cast<long>(k), 1);
     slot_count_ += 3 * static_cast<long>(point.columns.size());
   }
-  gather_offsets_.push_back(0);
-  for (const auto& list : gather) {
-    for (const auto& [slot, stride] : list) {
-      gather_slots_.push_back(slot);
-      gather_strides_.push_back(stride);
-    }
-    gather_offsets_.push_back(static_cast<long>(gather_slots_.size()));
-  }
+  gather_.close();
 }
 
-ShellLaw withTerms(ShellLaw law, const ShellTerms& terms) {
+ShellLaw withTerms(ShellLaw law, const ForceTerms& terms) {
   law.membrane = terms.membrane;
   law.bending = terms.bending;
   law.steepest = terms.steepest;
@@ -165,7 +158,7 @@ ShellLaw withTerms(ShellLaw law, const ShellTerms& terms) {
   return law;
 }
 
-void Shell::cellForces(std::span<const Vec3> q, ShellWork& work, double* energy, const ShellTerms& terms) const {
+void Shell::cellForces(std::span<const Vec3> q, ClothWork& work, double* energy, const ForceTerms& terms) const {
   work.slots.resize(slot_count_);
   double total = 0;
   const bool cells = terms.membrane || terms.bending;
@@ -182,8 +175,8 @@ void Shell::cellForces(std::span<const Vec3> q, ShellWork& work, double* energy,
   if (energy) *energy = total;
 }
 
-void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy,
-                  const ShellTerms& terms) const {
+void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy,
+                  const ForceTerms& terms) const {
   double total = 0;
   cellForces(q, work, energy ? &total : nullptr, terms);
   const int hinge_count = static_cast<int>(hinges_.size());
@@ -223,17 +216,7 @@ void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, d
   }
   for (double e : gap_energy) total += e;
   if (energy) *energy = total;
-#pragma omp parallel for schedule(static) if (control_count_ > 512)
-  for (int i = 0; i < control_count_; ++i) {
-    Vec3 sum{};
-    for (long k = gather_offsets_[i]; k < gather_offsets_[i + 1]; ++k) {
-      const double* slot = work.slots.data() + gather_slots_[k];
-      sum.x += slot[0];
-      sum.y += slot[gather_strides_[k]];
-      sum.z += slot[2 * gather_strides_[k]];
-    }
-    f[i] = -sum;
-  }
+  gather_.negativeSum(work.slots.data(), f);
 }
 
 struct Shell::Frame {
@@ -290,7 +273,7 @@ Shell::Frame Shell::frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   return frame;
 }
 
-ShellState Shell::stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
+PointState Shell::stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   const Frame frame = frameAt(patch, uv, q);
   const RestFrame& G = frame.G;
   const Vec3 e1 = G.G11 * frame.now[1] + G.G21 * frame.now[2], e2 = G.G12 * frame.now[1] + G.G22 * frame.now[2];
@@ -299,7 +282,7 @@ ShellState Shell::stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   Vec3 change = bent(frame.now);
   if (hasRestCurvature(fabric)) change -= bent(frame.rest);
   change.z *= 2;
-  ShellState state{{0.5 * (norm2(e1) - 1), 0.5 * (norm2(e2) - 1), dot(e1, e2)}, change, {}, {}};
+  PointState state{{0.5 * (norm2(e1) - 1), 0.5 * (norm2(e2) - 1), dot(e1, e2)}, change, {}, {}};
   const double e[3] = {state.strain.x, state.strain.y, state.strain.z}, k[3] = {change.x, change.y, change.z};
   const PointResultants r = resultants(pointLaw(fabric), e, k);
   state.n = {r.n[0], r.n[1], r.n[2]};
@@ -307,7 +290,7 @@ ShellState Shell::stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   return state;
 }
 
-ShellStress Shell::stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m) const {
+PrincipalStress Shell::stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m) const {
   const auto [e, change, of_strain, m] = stateAt(patch, uv, q);
   const Vec3 n = of_strain + Vec3{more_N_per_m.x, more_N_per_m.y, 0};
   const double E11 = e.x, E22 = e.y, E12 = 0.5 * e.z, C11 = 2 * E11 + 1, C22 = 2 * E22 + 1, C12 = 2 * E12;

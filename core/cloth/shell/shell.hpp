@@ -4,43 +4,19 @@
 #include <span>
 #include <vector>
 
+#include "core/cloth/cloth_state.hpp"
 #include "core/cloth/shell/garment.hpp"
 #include "core/cloth/shell/seams.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
 #include "core/cloth/shell/shell_law.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/cloth/shell/weak_seam.hpp"
+#include "core/cloth/slot_gather.hpp"
+#include "core/cloth/stress.hpp"
 
 namespace gambeson {
 
-/// Which parts of the force to evaluate. `steepest` replaces eq. 2.14 by the linear law of its steepest slope: what the
-/// stable time step must allow for.
-struct ShellTerms {
-  bool membrane = true, bending = true, seams = true;
-  bool steepest = false;
-};
-
-/// Scratch of Shell::force and Tangent::assemble; nobody else reads it.
-struct ShellWork {
-  AlignedVector<double> slots;
-  AlignedVector<double> lane_energy;
-  AlignedVector<double> tangent_slots;
-};
-
-/// Resultants and strain at one point, in the physical basis of the cloth.
-struct ShellStress {
-  double principal1_N_per_m = 0, principal2_N_per_m = 0;  ///< true (Cauchy) resultants, first >= second
-  double strain1 = 0, strain2 = 0;                        ///< principal Green-Lagrange strains, first >= second
-};
-
-/// All that the law sees and says at one point, in the physical basis (weft, warp, shear or twist) of the rest surface:
-/// Green-Lagrange strains (E11, E22, 2 E12), changes of curvature (k11, k22, 2 k12) [1/m], their conjugates n [N/m]
-/// (second Piola-Kirchhoff) and m [N].
-struct ShellState {
-  Vec3 strain, curvature_change, n, m;
-};
-
-/// Cells of one kind, packed, and where their shares of the force lie in ShellWork::slots.
+/// Cells of one kind, packed, and where their shares of the force lie in ClothWork::slots.
 struct ShellPart {
   ShellBlock block;
   ShellLaw law;
@@ -64,17 +40,17 @@ class Shell {
 
   int controlCount() const { return control_count_; }
   /// f = - dE/dq on the control points [N]; `energy` [J] where not null. The same bits for any number of threads.
-  void force(std::span<const Vec3> q, std::span<Vec3> f, ShellWork& work, double* energy = nullptr,
-             const ShellTerms& terms = {}) const;
+  void force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy = nullptr,
+             const ForceTerms& terms = {}) const;
   /// The first part of `force` alone: each cell's own share, written to work.slots and not yet summed on the control
   /// points.
-  void cellForces(std::span<const Vec3> q, ShellWork& work, double* energy = nullptr,
-                  const ShellTerms& terms = {}) const;
+  void cellForces(std::span<const Vec3> q, ClothWork& work, double* energy = nullptr,
+                  const ForceTerms& terms = {}) const;
   /// Stress and strain at a point of a patch.
   /// `more_N_per_m` is added to the second Piola-Kirchhoff resultants along weft and warp (of strain limits, say).
-  ShellStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m = {}) const;
+  PrincipalStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m = {}) const;
   /// Strains and resultants at a point of a patch.
-  ShellState stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  PointState stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   /// Physical curvature (weft, warp, twist) at a point of a patch, the rest curvature not subtracted [1/m].
   Vec3 curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   /// Norm of the physical curvature, sqrt(k11² + k22² + 2 k12²) [1/m]: the same in every frame of the rest surface, so
@@ -110,13 +86,10 @@ class Shell {
   long gap_slot_ = 0;  ///< first slot of the gaps
   std::vector<long> gap_offset_;
   long slot_count_ = 0;
-  /// Where each control point's contributions lie: slot of x; y and z follow at the stride of the slot's part.
-  std::vector<long> gather_offsets_;
-  std::vector<long> gather_slots_;
-  std::vector<int> gather_strides_;
+  SlotGather gather_;
 };
 
 /// A part's law with what `terms` leave out.
-ShellLaw withTerms(ShellLaw law, const ShellTerms& terms);
+ShellLaw withTerms(ShellLaw law, const ForceTerms& terms);
 
 }  // namespace gambeson

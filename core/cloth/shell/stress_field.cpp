@@ -71,7 +71,7 @@ std::vector<Rule> rulesOf(const Shell& shell) {
 
 }  // namespace
 
-StressField::StressField(const Shell& shell) {
+StressField::StressField(const Shell& shell) : shell_(shell) {
   const Garment& g = shell.garment();
   const std::vector<Rule> rules = rulesOf(shell);
   for (const NurbsPatch& p : g.patches) {
@@ -105,9 +105,8 @@ StressField::StressField(const Shell& shell) {
 }
 
 /// With C = 2 E + 1 and U its root, the Cauchy resultants F n F^T / J are U n U / J, turned.
-StressField::Sample StressField::sampleAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
-                                          const More& more) {
-  const ShellState state = shell.stateAt(patch, uv, q);
+StressField::Sample StressField::sampleAt(std::span<const Vec3> q, int patch, Vec2 uv, const More& more) const {
+  const PointState state = shell_.stateAt(patch, uv, q);
   Vec2 extra{};
   if (more) extra = more(patch, uv);
   const PlaneTensor E{state.strain.x, state.strain.y, 0.5 * state.strain.z};
@@ -118,33 +117,30 @@ StressField::Sample StressField::sampleAt(const Shell& shell, std::span<const Ve
   const double a11 = U11 * n11 + U12 * n12, a12 = U11 * n12 + U12 * n22, a21 = U12 * n11 + U22 * n12,
                a22 = U12 * n12 + U22 * n22;
   const PlaneTensor T{(a11 * U11 + a12 * U12) / J, (a21 * U12 + a22 * U22) / J, (a11 * U12 + a12 * U22) / J};
-  const double angle = fibreAngleAt(shell.garment(), patch, uv);
+  const double angle = fibreAngleAt(shell_.garment(), patch, uv);
   return {turnedBack(T, angle), turnedBack(E, angle)};
 }
 
-StressField::Sample StressField::meanOf(const Shell& shell, std::span<const Vec3> q, const Cell& cell,
-                                        const More& more) const {
+StressField::Sample StressField::meanOf(std::span<const Vec3> q, const Cell& cell, const More& more) const {
   Sample sum;
-  for (const Point& p : cell.points) add(sum, p.weight, sampleAt(shell, q, cell.patch, p.uv, more));
+  for (const Point& p : cell.points) add(sum, p.weight, sampleAt(q, cell.patch, p.uv, more));
   return sum;
 }
 
-std::vector<StressField::Sample> StressField::means(const Shell& shell, std::span<const Vec3> q,
-                                                    const More& more) const {
+std::vector<StressField::Sample> StressField::means(const ClothState& state, const More& more) const {
   std::vector<Sample> all(cells_.size());
   const long count = static_cast<long>(all.size());
   CarriedError error;
 #pragma omp parallel for schedule(static)
   for (long k = 0; k < count; ++k)
-    error.guard(
-        k, [&] { all[static_cast<std::size_t>(k)] = meanOf(shell, q, cells_[static_cast<std::size_t>(k)], more); });
+    error.guard(k,
+                [&] { all[static_cast<std::size_t>(k)] = meanOf(state.q, cells_[static_cast<std::size_t>(k)], more); });
   error.rethrow();
   return all;
 }
 
-std::pair<StressField::Sample, int> StressField::shownAt(const Shell& shell, std::span<const Vec3> q, int patch,
-                                                         Vec2 uv, std::span<const Sample> means,
-                                                         const More& more) const {
+std::pair<StressField::Sample, int> StressField::shownAt(std::span<const Vec3> q, int patch, Vec2 uv,
+                                                         std::span<const Sample> means, const More& more) const {
   const Grid& grid = grids_[static_cast<std::size_t>(patch)];
   const int nu = static_cast<int>(grid.u.size()) - 1, nv = static_cast<int>(grid.v.size()) - 1;
   const auto cellAt = [&](int i, int j) {
@@ -152,7 +148,7 @@ std::pair<StressField::Sample, int> StressField::shownAt(const Shell& shell, std
   };
   const auto mean = [&](int cell) {
     const auto k = static_cast<std::size_t>(cell);
-    return means.empty() ? meanOf(shell, q, cells_[k], more) : means[k];
+    return means.empty() ? meanOf(q, cells_[k], more) : means[k];
   };
   const auto us = cellsAt(grid.u, uv.x), vs = cellsAt(grid.v, uv.y);
   Sample sum;
@@ -179,23 +175,22 @@ std::pair<StressField::Sample, int> StressField::shownAt(const Shell& shell, std
       if (both != 0) add(sum, both, mean(cellAt(a, b)));
     }
   if (here || cells == 0) {  // or no cell at all: beyond a trimming curve by rounding
-    add(sum, 1, sampleAt(shell, q, patch, uv, more));
+    add(sum, 1, sampleAt(q, patch, uv, more));
     ++cells;
   }
   return {sum, cells};
 }
 
-ShellStress StressField::at(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
-                            std::span<const Sample> means, const More& more) const {
-  const auto [sum, cells] = shownAt(shell, q, patch, uv, means, more);
+PrincipalStress StressField::at(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means,
+                                const More& more) const {
+  const auto [sum, cells] = shownAt(state.q, patch, uv, means, more);
   const auto stress = principal(sum.stress), strain = principal(sum.strain);
   return {stress[0] / cells, stress[1] / cells, strain[0] / cells, strain[1] / cells};
 }
 
-PlaneTensor StressField::strainAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
-                                  std::span<const Sample> means) const {
-  const auto [sum, cells] = shownAt(shell, q, patch, uv, means, {});
-  const PlaneTensor E = turnedBack(sum.strain, -fibreAngleAt(shell.garment(), patch, uv));
+PlaneTensor StressField::strainAt(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means) const {
+  const auto [sum, cells] = shownAt(state.q, patch, uv, means, {});
+  const PlaneTensor E = turnedBack(sum.strain, -fibreAngleAt(shell_.garment(), patch, uv));
   return {E.t11 / cells, E.t22 / cells, E.t12 / cells};
 }
 

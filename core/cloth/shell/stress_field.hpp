@@ -1,5 +1,5 @@
 #pragma once
-/// Stress and strain as pictures and tables show them.
+/// Stress and strain of a NURBS sheet as pictures and tables show them.
 ///
 /// The strain of a thin sheet of quadratic cells that bends swings within each cell about the true membrane strain, by
 /// (curvature times cell)^2: times a membrane's stiffness that is far more than the stress. The mean over a cell, taken
@@ -9,42 +9,24 @@
 /// (core/cloth/shell/assumed.hpp) the mean is over the corners, where these are tied.
 /// Cut cells, and patches of other degrees, take stress and strain where they are asked.
 
-#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "core/cloth/shell/cells.hpp"
 #include "core/cloth/shell/shell.hpp"
+#include "core/cloth/stress.hpp"
 
 namespace gambeson {
 
-/// Symmetric, in the basis (weft, warp) of the rest surface, the weft not turned by a fibre angle: so it is continuous
-/// where that is not.
-struct PlaneTensor {
-  double t11 = 0, t22 = 0, t12 = 0;
-};
-
-class StressField {
+class StressField : public StressView {
  public:
-  /// Keeps no hold of the shell.
   explicit StressField(const Shell& shell);
 
-  /// What is added to the second Piola-Kirchhoff resultants along weft and warp at a place (by strain limits).
-  using More = std::function<Vec2(int patch, Vec2 uv)>;
-
-  /// True (Cauchy) resultants, turned back with the sheet's rotation, and Green-Lagrange strains.
-  struct Sample {
-    PlaneTensor stress, strain;
-  };
-  /// The means of all cells in a state, for `at`.
-  std::vector<Sample> means(const Shell& shell, std::span<const Vec3> q, const More& more = {}) const;
-  /// At a place; where `means` are empty those that are needed are taken.
-  ShellStress at(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv, std::span<const Sample> means,
-                 const More& more = {}) const;
-  /// Green-Lagrange strain along the fabric's weft and warp, and between them, of the same means.
-  PlaneTensor strainAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
-                       std::span<const Sample> means) const;
+  std::vector<Sample> means(const ClothState& state, const More& more) const override;
+  PrincipalStress at(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means,
+                     const More& more) const override;
+  PlaneTensor strainAt(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means) const override;
 
  private:
   struct Grid {
@@ -61,12 +43,13 @@ class StressField {
     int patch;
     std::vector<Point> points;
   };
-  static Sample sampleAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv, const More& more);
+  Sample sampleAt(std::span<const Vec3> q, int patch, Vec2 uv, const More& more) const;
   /// The sum of what the cells at a place show there, and of how many.
-  std::pair<Sample, int> shownAt(const Shell& shell, std::span<const Vec3> q, int patch, Vec2 uv,
-                                 std::span<const Sample> means, const More& more) const;
-  Sample meanOf(const Shell& shell, std::span<const Vec3> q, const Cell& cell, const More& more) const;
+  std::pair<Sample, int> shownAt(std::span<const Vec3> q, int patch, Vec2 uv, std::span<const Sample> means,
+                                 const More& more) const;
+  Sample meanOf(std::span<const Vec3> q, const Cell& cell, const More& more) const;
 
+  const Shell& shell_;
   std::vector<Grid> grids_;  ///< of patches
   std::vector<Cell> cells_;
 };

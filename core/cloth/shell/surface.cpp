@@ -13,31 +13,6 @@
 namespace gambeson {
 namespace {
 
-/// Indices of the samples along an edge in a grid of nu x nv, in the edge's sense.
-std::vector<int> gridEdge(int nu, int nv, const PatchEdge& e) {
-  std::vector<int> at;
-  const bool along_v = e.side == Side::u0 || e.side == Side::u1;
-  const int n = along_v ? nv : nu;
-  for (int k = 0; k < n; ++k) {
-    const int t = e.reversed ? n - 1 - k : k;
-    switch (e.side) {
-      case Side::u0:
-        at.push_back(nu * t);
-        break;
-      case Side::u1:
-        at.push_back(nu - 1 + nu * t);
-        break;
-      case Side::v0:
-        at.push_back(t);
-        break;
-      case Side::v1:
-        at.push_back(t + nu * (nv - 1));
-        break;
-    }
-  }
-  return at;
-}
-
 /// Which sides (u0, u1, v0, v1) of a patch are joined to others.
 std::array<bool, 4> joinedSides(const Garment& garment, int patch) {
   std::array<bool, 4> joined{};
@@ -299,17 +274,6 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const
                            ") would carry the area " + std::to_string(s.area_m2[i]) +
                            " m^2; choose another number of samples per cell");
   return s;
-}
-
-std::vector<int> edgeSamples(const Surface& surface, const PatchEdge& edge) {
-  const auto [nu, nv] = surface.patch_grid_size[edge.patch];
-  std::vector<int> at = gridEdge(nu, nv, edge);
-  for (int& i : at) i = surface.patch_grid[edge.patch][i];
-  if (surface.edge_samples.empty() || surface.edge_samples[edge.patch].empty()) return at;
-  // A trimmed patch: what is left of the edge, with the points where loops meet it.
-  at = surface.edge_samples[edge.patch][static_cast<int>(edge.side)];
-  if (edge.reversed) std::reverse(at.begin(), at.end());
-  return at;
 }
 
 }  // namespace gambeson

@@ -130,8 +130,8 @@ void Tangent::addSeamBatches(const FreeMap& map, Batch::Kind kind,
   }
 }
 
-void Tangent::assemble(const Shell& shell, std::span<const Vec3> q, ShellWork& work, BlockMatrix& K,
-                       const ShellTerms& terms) const {
+void Tangent::assemble(const Shell& shell, std::span<const Vec3> q, ClothWork& work, BlockMatrix& K,
+                       const ForceTerms& terms) const {
   if (K.columns.size() != pattern_.columns.size() || K.offsets != pattern_.offsets) K = pattern_;
   std::fill(K.values.begin(), K.values.end(), 0.0);
   long most = 0;

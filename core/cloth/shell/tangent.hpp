@@ -16,8 +16,8 @@ class Tangent {
   /// Every pair of free points that share a cell (or a seam point) is in the pattern.
   const BlockMatrix& pattern() const { return pattern_; }
   /// Writes K at the control points q. `terms` as in Shell::force. `shell` is the one of the constructor.
-  void assemble(const Shell& shell, std::span<const Vec3> q, ShellWork& work, BlockMatrix& K,
-                const ShellTerms& terms = {}) const;
+  void assemble(const Shell& shell, std::span<const Vec3> q, ClothWork& work, BlockMatrix& K,
+                const ForceTerms& terms = {}) const;
 
  private:
   /// Groups of one part of the shell, or points of its seams.
@@ -30,7 +30,7 @@ class Tangent {
   };
   /// A pair's share of a block of K.
   struct Source {
-    int slot = 0;  ///< first of nine values in ShellWork::tangent_slots
+    int slot = 0;  ///< first of nine values in ClothWork::tangent_slots
     bool transposed = false;
     double weight = 0;  ///< product of the entries of T
   };

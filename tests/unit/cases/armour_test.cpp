@@ -14,6 +14,7 @@
 #include "core/motion/deforming.hpp"
 #include "exact/scene_intersections.hpp"
 #include "unit/human/files.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -85,8 +86,8 @@ TEST(ArmourCase, StartsClearOfPublicCharacters) {
 /// and (c) of its description: 50.
 TEST(ArmourDrape, HasTheSizesOfTheThesis) {
   const auto s = buildScenario(readCase(file.parent_path() / "armour_drape.json"));
-  EXPECT_NEAR(s->model->shell.controlCount(), 1616, 0.005 * 1616);
-  EXPECT_EQ(s->model->shell.garment().patches.size(), 13u);
+  EXPECT_NEAR(s->model->cloth->points(), 1616, 0.005 * 1616);
+  EXPECT_EQ(shellOf(*s->model).garment().patches.size(), 13u);
   const Fabric& f = s->definition.fabric;
   for (const double rho : s->model->density_kg_per_m2) ASSERT_NEAR(rho, 0.1177, 1e-6);
   EXPECT_NEAR(f.young_weft_Pa * f.thickness() / 0.1177, 5000, 1e-6 * 5000);

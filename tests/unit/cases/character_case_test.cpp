@@ -4,6 +4,7 @@
 
 #include "cases/draft.hpp"
 #include "cases/scenario.hpp"
+#include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
 #include "unit/human/character_body.hpp"

@@ -52,8 +52,8 @@ TEST(Dress, PanelsAreSewnAndLayersComeFreeOfEachOther) {
   // Sewn: all control points come from the seams' map.
   const auto s = buildScenario(c);
   wear(*s, apart);
-  std::vector<Vec3> q(static_cast<std::size_t>(s->model->map.T.rows())), given;
-  s->model->map.T.multiply<Vec3>(s->start_m, q);
+  std::vector<Vec3> q(static_cast<std::size_t>(s->model->cloth->map().T.rows())), given;
+  s->model->cloth->map().T.multiply<Vec3>(s->start_m, q);
   for (const DressedGarment& g : apart.garments) given.insert(given.end(), g.points_m.begin(), g.points_m.end());
   ASSERT_EQ(q.size(), given.size());
   for (std::size_t i = 0; i < q.size(); ++i) EXPECT_LT(norm(q[i] - given[i]), 1e-9);

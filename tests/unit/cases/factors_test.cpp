@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "example.hpp"
 #include "scene.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -45,12 +46,12 @@ Case folded(const std::vector<std::string>& overrides = {}) {
 std::vector<Vec3> forceOf(const Model& m) {
   std::mt19937 random(7);  // its numbers, unlike those of distributions, are the same everywhere
   std::vector<Vec3> q;
-  for (const NurbsPatch& p : m.shell.garment().patches) q.insert(q.end(), p.points.begin(), p.points.end());
+  for (const NurbsPatch& p : shellOf(m).garment().patches) q.insert(q.end(), p.points.begin(), p.points.end());
   for (Vec3& x : q)
     for (int c = 0; c < 3; ++c) x[c] += 4e-3 * (static_cast<double>(random()) / 4294967295.0 - 0.5);
   std::vector<Vec3> f(q.size());
-  ShellWork work;
-  m.shell.force(q, f, work);
+  ClothWork work;
+  m.cloth->force(q, f, work);
   return f;
 }
 

@@ -8,6 +8,7 @@
 #include "cases/results_measure.hpp"
 #include "malformed.hpp"
 #include "scene.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -170,7 +171,7 @@ TEST(GarmentFields, PatchesByName) {
       {R"(garment.fields=[{"thickness": {"degree": 0, "values": [[1]]}}, {"patch": "outer_left", "thickness": {"degree": 0, "values": [[2]]}}])",
        "garment.shorts.cell=44 mm"});
   const SceneRun scene(c);
-  const Garment& g = scene.model.shell.garment();
+  const Garment& g = shellOf(scene.model).garment();
   for (int i = 0; i < scene.model.surface.size(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const bool left = g.patch_names[static_cast<std::size_t>(scene.model.surface.patch[at])] == "outer_left";

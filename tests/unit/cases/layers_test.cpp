@@ -4,6 +4,7 @@
 
 #include "cases/scenario.hpp"
 #include "malformed.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -55,7 +56,7 @@ TEST(LayeredCase, IsReadAndWrittenAsItIs) {
 TEST(LayeredCase, ScenarioHasEachGarmentWithItsOwnSamplesFabricAndSupports) {
   const Folder folder;
   const auto s = buildScenario(readCase(folder.write("case.json", layered)));
-  const Garment& g = s->model->shell.garment();
+  const Garment& g = shellOf(*s->model).garment();
   EXPECT_EQ(g.layer, (std::vector<int>{0, 0, 0, 1}));
   EXPECT_EQ(s->patch_names, (std::vector<std::string>{"inner patch_0", "inner patch_1", "inner patch_2", "outer"}));
   EXPECT_EQ(s->fabric_names, (std::vector<std::string>{"shirt", "felt"}));
@@ -141,7 +142,7 @@ TEST(LayeredCase, NoiseMovesTheStartAndNotTheRestShape) {
   double largest = 0;
   for (std::size_t i = 0; i < a.p.size(); ++i) {
     const Vec3 moved = b.p[i] - a.p[i];
-    const bool outer = plain->model->map.home[i] >= controlOffsets(plain->model->shell.garment())[3];
+    const bool outer = plain->model->cloth->map().home[i] >= controlOffsets(shellOf(*plain->model).garment())[3];
     if (!outer || plain->model->held[i]) {
       EXPECT_EQ(moved, Vec3{}) << i;
     }
@@ -166,9 +167,10 @@ TEST(LayeredCase, PinnedPointStaysAndTorusIsARing) {
   const auto s = buildScenario(readCase(folder.write("case.json", pinned)));
   EXPECT_EQ(s->supports[1].name, "outer point (0.5, 0.25) held");
   // 8 cells of degree 2: the point lies on knots both ways, so four control points shape it.
-  const int outer = controlOffsets(s->model->shell.garment())[3];
+  const int outer = controlOffsets(shellOf(*s->model).garment())[3];
   int held = 0;
-  for (std::size_t i = 0; i < s->model->held.size(); ++i) held += s->model->held[i] && s->model->map.home[i] >= outer;
+  for (std::size_t i = 0; i < s->model->held.size(); ++i)
+    held += s->model->held[i] && s->model->cloth->map().home[i] >= outer;
   EXPECT_EQ(held, 4);
   const TriangleMesh& ring = std::get<TriangleMesh>(s->model->obstacles[0].shape);
   double volume = 0;  // 2 pi^2 R r^2, the normals outward

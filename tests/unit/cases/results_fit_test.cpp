@@ -9,6 +9,7 @@
 #include "cases/recorder.hpp"
 #include "cases/results_write.hpp"
 #include "example.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -21,9 +22,9 @@ void record(const Scenario& s, const std::filesystem::path& dir, const std::vect
   const State start = startOf(s, work);
   const Model& m = *s.model;
   const auto n = static_cast<std::size_t>(m.surface.size());
-  std::vector<Vec3> x(n), q(static_cast<std::size_t>(m.shell.controlCount()));
+  std::vector<Vec3> x(n), q(static_cast<std::size_t>(m.cloth->points()));
   m.surface.WT.multiply<Vec3>(start.p, x);
-  m.map.T.multiply<Vec3>(start.p, q);
+  m.cloth->map().T.multiply<Vec3>(start.p, q);
   for (const double t : times) {
     Frame frame;
     frame.time_s = t;
@@ -151,8 +152,8 @@ struct TwoShorts {
     const Surface& surface = scenario->model->surface;
     // Samples come component by component, those of the inner shorts first, then the control points.
     const auto inner = std::count_if(surface.patch.begin(), surface.patch.end(),
-                                     [&](int p) { return scenario->model->shell.garment().layerOf(p) == 0; });
-    const long calls = 3L * (surface.size() + scenario->model->shell.controlCount());
+                                     [&](int p) { return shellOf(*scenario->model).garment().layerOf(p) == 0; });
+    const long calls = 3L * (surface.size() + scenario->model->cloth->points());
     long at = 0;
     record(*scenario, folder.path() / "out", {0, 0.4}, [&](double t, const Vec3& p) {
       const bool lower = at++ % calls / 3 < inner;

@@ -102,7 +102,7 @@ void record(const Scenario& s, const std::filesystem::path& dir, std::size_t win
     if (w == 0) frame.sample_fields[3].data[0] = 1000;  // dressing counts in the recording's range alone
     if (w == 4) frame.sample_fields[3].data[1] = stress_high;
     Field control{"position", "m", 3, {}};
-    for (int i = 0; i < s.model->shell.controlCount(); ++i)
+    for (int i = 0; i < s.model->cloth->points(); ++i)
       for (const double v : {0.125, 0.0, 0.0570 - depth_m}) control.data.push_back(static_cast<float>(v));
     frame.control_fields = {control};
     writer.append(std::move(frame));

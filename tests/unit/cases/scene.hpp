@@ -13,6 +13,7 @@
 #include "cases/scenario.hpp"
 #include "core/contact/scene_check.hpp"
 #include "core/motion/advance.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 
@@ -65,11 +66,11 @@ inline Vec3 centreOfMass(const Model& m, const State& s) {
 
 /// The surface at `per_cell` points along each edge of each cell, joined to triangles.
 inline TriangleMesh denseSurface(const Model& m, const State& s, int per_cell) {
-  std::vector<Vec3> q(m.shell.controlCount());
-  m.map.T.multiply<Vec3>(s.p, q);
+  std::vector<Vec3> q(m.cloth->points());
+  m.cloth->map().T.multiply<Vec3>(s.p, q);
   TriangleMesh mesh;
   std::size_t offset = 0;
-  for (const NurbsPatch& patch : m.shell.garment().patches) {
+  for (const NurbsPatch& patch : shellOf(m).garment().patches) {
     const auto grid = [&](const KnotVector& k) {
       const std::vector<double> ends = breakpoints(k);
       std::vector<double> at;

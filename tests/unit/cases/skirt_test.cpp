@@ -5,14 +5,15 @@
 #include <cmath>
 
 #include "scene.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
 
 TEST(SkirtDrape, HasTheSizesOfTheThesis) {
   const auto s = buildScenario(libraryCase("skirt_drape"));
-  EXPECT_EQ(s->model->shell.controlCount(), 960);
-  EXPECT_EQ(s->model->shell.garment().patches.size(), 8u);
+  EXPECT_EQ(s->model->cloth->points(), 960);
+  EXPECT_EQ(shellOf(*s->model).garment().patches.size(), 8u);
   EXPECT_NEAR(static_cast<double>(s->human->skin->rest.triangles.size()) / 17068, 1, 0.03);
   const Fabric& f = s->definition.fabric;
   // rho = 0.118 kg/m^2, k / rho = 3000 m^2/s^2, k = 2.5 k_shear; the cases (a) and (c) of its description: 50.
@@ -25,10 +26,10 @@ TEST(SkirtDrape, HasTheSizesOfTheThesis) {
 
 /// Coarser and dressed faster than in the library: the hips carry the weight, and nothing passes.
 TEST(SkirtDrape, TheHipsCarryIt) {
-  SceneRun scene(libraryCase("skirt_drape",
-                             {"garment.skirt.cells_around=32", "garment.skirt.cells_along=6", "human.skin.cell=0.02",
-                              "dressing.settle=0", "dressing.projecting={\"clearance\": \"5 mm\", \"grow\": \"0.1 s\"}",
-                              "time.duration=0.3"}));
+  SceneRun scene(libraryCase(
+      "skirt_drape",
+      {"garment.skirt.cells_around=32", "garment.skirt.cells_along=6", "human.skin.cell=0.02", "dressing.settle=0",
+       "dressing.projecting={\"clearance\": \"5 mm\", \"grow\": \"0.1 s\"}", "time.duration=0.3"}));
   AuditWatch audit;
   double carried = 0, from_s = 0.2, deepest = 0;
   scene.run(0.3,

@@ -84,7 +84,7 @@ TEST(StructureChecks, WhatMovesFartherThanItCanIsNoResult) {
 TEST(StructureChecks, WhatIsNotFiniteFailsTheRun) {
   const StructureCase c = readStructureCase(library / "cantilever.json", {"sheet.cells_u=4", "sheet.cells_v=1"});
   const StructureModel model = buildModel(c);
-  const ShapeMesh mesh = shapeMesh(model.sheet.garment, 1);
+  const PlaceMesh mesh = model.structure->cloth->placeMesh(1);
   const MeasuredState rest = measureStatic(
       *model.structure, std::vector<double>(static_cast<std::size_t>(model.structure->dofs.unknowns())), 0, false);
   PathTable path{{"factor", "residual"}, {{0, 0}, {1, 1e-9}}};
@@ -102,9 +102,9 @@ TEST(StructureChecks, WhatIsNotFiniteFailsTheRun) {
 TEST(StructureChecks, EnergyThatAppearsIsSeen) {
   const StructureCase c = readStructureCase(library / "flag_dynamic.json", {"sheet.cells_u=4", "sheet.cells_v=4"});
   const StructureModel model = buildModel(c);
-  const ShapeMesh mesh = shapeMesh(model.sheet.garment, 1);
+  const PlaceMesh mesh = model.structure->cloth->placeMesh(1);
   MeasuredState rest;
-  rest.q = model.structure->rest;
+  rest.q = model.structure->cloth->rest();
   PathTable path{{"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"},
                  {{0, 0, 0, 0, 0}, {1, 6, 1, -10, -3}, {2, 7, 1, -11, -3}}};
   const auto energy = [&] {

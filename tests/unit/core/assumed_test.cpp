@@ -5,10 +5,11 @@
 
 #include <Eigen/Dense>
 
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
 #include "core/cloth/shell/tangent.hpp"
 #include "core/statics/statics.hpp"
 #include "sheet_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -19,7 +20,7 @@ Eigen::VectorXd spectrum(const Garment& g, CellRule rule, double stretch_x = 1) 
   const Shell shell(g, widestKernels(), 0, rule);
   const FreeMap map = buildFreeMap(g);
   const Tangent tangent(shell, map);
-  ShellWork work;
+  ClothWork work;
   BlockMatrix K;
   std::vector<Vec3> q = restPoints(g);
   for (Vec3& x : q) x.x *= stretch_x;
@@ -119,8 +120,7 @@ double tipOfCantilever(double thickness, CellRule rule, int cells_across = 3) {
   const double EI = 1.2e6 * thickness * thickness * thickness / 12;
   options.programs = {{{0, 1}, {0, 1}}};
   options.dead = {{edgeForce(g, end, {0, 0, 4 * EI / 100}), 0}};
-  options.cell_rule = rule;
-  const auto structure = buildStructure(g, options);
+  const auto structure = buildStructure(g, options, {.rule = rule});
   double tip = 0;
   StaticOptions steps;
   steps.steps = 8;

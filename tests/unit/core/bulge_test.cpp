@@ -106,11 +106,11 @@ Lowered troughOn(const TriangleMesh& body, const auto& top) {
   Motion m(g, {{0, 0, -9.81}, 0.8}, {0, 0.3, 0.01, 1e-2, 400}, o, {{body, "body"}}, {}, {{0, 0, 0.02}});
   Frequency frequency;
   Lowered out;
-  std::vector<Vec3> q(m.model->map.T.rows()), x;
+  std::vector<Vec3> q(m.model->cloth->map().T.rows()), x;
   advance(*m.model, m.stage, {0.7, 1e-3}, 0.15, m.state, frequency, m.work,
           [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
             out.carried -= r.momentum.obstacles.z;
-            m.model->map.T.multiply<Vec3>(after.p, q);
+            m.model->cloth->map().T.multiply<Vec3>(after.p, q);
             for (int i = 0; i <= 200; ++i) {
               const SurfaceBasis basis = surfaceBasis(patch, i / 200.0, 0.5);
               Vec3 at;

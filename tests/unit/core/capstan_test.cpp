@@ -7,6 +7,7 @@
 
 #include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {

@@ -14,6 +14,7 @@
 #include "exact/scene_intersections.hpp"
 #include "mesh_shapes.hpp"
 #include "motion_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {

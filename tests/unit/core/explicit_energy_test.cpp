@@ -4,10 +4,11 @@
 
 #include <cmath>
 
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
 #include "core/motion/implicit.hpp"
 #include "core/statics/statics.hpp"
 #include "sheet_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {

@@ -80,7 +80,7 @@ TEST_P(JammedShell, ForceAndTangentAreDerivatives) {
   std::vector<Vec3> p = deformedFree(g, map, 0.02);
   for (Vec3& x : p) x = {0.75 * x.x, 0.72 * x.y, 0.75 * x.z};
   const Tangent tangent(shell, map);
-  ShellWork work;
+  ClothWork work;
   BlockMatrix K;
   tangent.assemble(shell, controlsOf(map, p), work, K, {});
   const auto f = onFree(map, forceOn(shell, controlsOf(map, p)));

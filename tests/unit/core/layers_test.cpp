@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "motion_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -39,7 +40,7 @@ std::vector<Vec3> forceOf(const Garment& g, const std::vector<Vec3>& shift, doub
   std::vector<Vec3> q, f(shell.controlCount());
   for (const NurbsPatch& p : g.patches) q.insert(q.end(), p.points.begin(), p.points.end());
   for (std::size_t i = 0; i < q.size(); ++i) q[i] += shift[i];
-  ShellWork work;
+  ClothWork work;
   shell.force(q, f, work, &energy);
   return f;
 }

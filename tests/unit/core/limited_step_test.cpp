@@ -7,9 +7,10 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/cloth/shell/loads.hpp"
+#include "core/cloth/shell/shell_loads.hpp"
 #include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -155,8 +156,7 @@ Motion corners(double k_over_rho, const StrainLimit& limit, CellRule rule = Cell
   ModelOptions o;
   o.held_control_points = {g.patches[0].index(0, 0), g.patches[0].index(9, 0)};
   o.strain_limit = limit;
-  o.cell_rule = rule;
-  return Motion(g, {{0, 0, -9.8}, 0.351}, {}, o);
+  return Motion(g, {{0, 0, -9.8}, 0.351}, {}, o, {}, {}, {}, {.rule = rule});
 }
 
 struct Stretch {
@@ -167,7 +167,8 @@ struct Stretch {
 };
 Stretch swing(double k_over_rho, const StrainLimit& limit, CellRule rule = CellRule::full) {
   Motion m = corners(k_over_rho, limit, rule);
-  const StrainRows rows = buildStrainRows(m.model->shell.garment(), m.model->map, {m.model->inverse_mass, {}});
+  const StrainRows rows =
+      buildStrainRows(shellOf(*m.model).garment(), m.model->cloth->map(), {m.model->inverse_mass, {}});
   Frequency frequency;
   Stretch s;
   std::vector<Vec3> e;
@@ -180,12 +181,12 @@ Stretch swing(double k_over_rho, const StrainLimit& limit, CellRule rule = CellR
             for (const Vec3& d : e) s.most = std::max(s.most, strainOf(d));
           });
   for (const Vec3& d : e) s.average += std::abs(strainOf(d)) / rows.rows();
-  std::vector<Vec3> q(m.model->shell.controlCount());
-  m.model->map.T.multiply<Vec3>(m.state.p, q);
+  std::vector<Vec3> q(m.model->cloth->points());
+  m.model->cloth->map().T.multiply<Vec3>(m.state.p, q);
   for (int j = 0; j < 16; ++j)
     for (int i = 0; i < 16; ++i) {
       const auto at = [](int k) { return (k / 2 + (k % 2 ? 0.7886751 : 0.2113249)) / 8; };
-      s.gauss = std::max(s.gauss, m.model->shell.stressAt(0, {at(i), at(j)}, q).strain1);
+      s.gauss = std::max(s.gauss, shellOf(*m.model).elements().stressAt(0, {at(i), at(j)}, q).strain1);
     }
   s.last_frequency = frequency.largest_rad_per_s;
   return s;
@@ -275,7 +276,7 @@ Pulled pull(LimitMode mode, int cells, LimitPoints points = LimitPoints::vertice
         pulled.raw.push_back(m.state.limit_J[rows.points[i].row[1]] / rows.points[i].area_m2);
   }
   NurbsPatch now = patch;
-  m.model->map.T.multiply<Vec3>(m.state.p, now.points);
+  m.model->cloth->map().T.multiply<Vec3>(m.state.p, now.points);
   const auto nominal = [&](double u, double v) {
     const double stretch = norm(surfaceDerivatives(now, u, v)[2]) / norm(surfaceDerivatives(patch, u, v)[2]);
     const double S = 10 * 0.5 * (stretch * stretch - 1) + (field.empty() ? 0 : limitStressAt(rows, field, 0, {u, v}).y);

@@ -1,5 +1,5 @@
 // Loads: totals against closed forms, virtual work against finite differences, stiffness of those that follow.
-#include "core/cloth/shell/loads.hpp"
+#include "core/cloth/shell/shell_loads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include "core/cloth/shell/edge.hpp"
 #include "core/error.hpp"
 #include "sheet_cylinder.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -91,7 +92,7 @@ TEST(Loads, PointForceActsAtItsPoint) {
 TEST(Loads, DeadLoadFollowsItsProgram) {
   const Garment g = cylinder();
   const auto force = surfaceForce(g, 0, {0, 0, 1});
-  const Loads loads(g, {{force, 1}}, {}, {});
+  const Loads loads = loadsOf(g, {{force, 1}}, {}, {});
   EXPECT_EQ(loads.programs(), 2);
   EXPECT_FALSE(loads.follow());
   std::vector<Vec3> f(force.size());
@@ -102,7 +103,7 @@ TEST(Loads, DeadLoadFollowsItsProgram) {
 // Pressure on a curved surface gives p times the projected area: R L towards x and y for a quarter, 2 R L for a half.
 TEST(Loads, PressureGivesTheProjectedArea) {
   const Garment g = cylinder();
-  const Loads loads(g, {}, {{0, 3.0, 0}}, {});
+  const Loads loads = loadsOf(g, {}, {{0, 3.0, 0}}, {});
   EXPECT_TRUE(loads.follow());
   const auto f = forceOf(loads, restPoints(g));
   const double projected = 3 * kRadius * kLength;
@@ -128,7 +129,7 @@ TEST(Loads, PressureIsTheGradientOfTheVolumeInsideAHeldBoundary) {
     const NurbsPatch patch = curvedPatch(p, q, false);
     const Garment g = garmentOf({patch}, {}, plainFabric());
     const auto x = deformedFree(g, buildFreeMap(g), 0.03);
-    const auto f = forceOf(Loads(g, {}, {{0, 2.0, 0}}, {}), x);
+    const auto f = forceOf(loadsOf(g, {}, {{0, 2.0, 0}}, {}), x);
     for (int i = 1; i + 1 < patch.u.count(); ++i)
       for (int axis = 0; axis < 3; ++axis) {
         const int at = patch.index(i, 1);
@@ -191,17 +192,17 @@ void expectSymmetricPart(const Garment& g, const Loads& loads) {
 
 TEST(Loads, PressureStiffnessAgainstDifferences) {
   const Garment one = garmentOf({curvedPatch(3, 2, true)}, {}, plainFabric());
-  expectSymmetricPart(one, Loads(one, {}, {{0, 2.0, 0}}, {}));
+  expectSymmetricPart(one, loadsOf(one, {}, {{0, 2.0, 0}}, {}));
   const Garment four = fourPatches(2, 2, false, SeamKind::G1, 0, plainFabric());
-  expectSymmetricPart(four, Loads(four, {}, garmentPressure(four, 2.0), {}));
+  expectSymmetricPart(four, loadsOf(four, {}, garmentPressure(four, 2.0), {}));
 }
 
 TEST(Loads, MomentStiffnessAgainstDifferences) {
   const Garment one = garmentOf({curvedPatch(3, 2, true)}, {}, plainFabric());
   for (Side side : {Side::u0, Side::u1, Side::v0, Side::v1})
-    expectSymmetricPart(one, Loads(one, {}, {}, {{{0, side, side == Side::u1}, 1.5, 0}}));
+    expectSymmetricPart(one, loadsOf(one, {}, {}, {{{0, side, side == Side::u1}, 1.5, 0}}));
   const Garment four = fourPatches(2, 3, false, SeamKind::G1, 0, plainFabric());
-  expectSymmetricPart(four, Loads(four, {}, {}, {{{1, Side::u1}, 1.5, 0}, {{3, Side::u1}, 1.5, 0}}));
+  expectSymmetricPart(four, loadsOf(four, {}, {}, {{{1, Side::u1}, 1.5, 0}, {{3, Side::u1}, 1.5, 0}}));
 }
 
 // Inside a held boundary pressure has a potential: nothing is lost by taking the symmetric part.
@@ -209,7 +210,7 @@ TEST(Loads, PressureStiffnessIsWholeInsideAHeldBoundary) {
   const Garment g = garmentOf({curvedPatch(3, 2, false)}, {}, plainFabric());
   const FreeMap map = buildFreeMap(g);
   const auto p = deformedFree(g, map, 0.02);
-  const Loads loads(g, {}, {{0, 2.0, 0}}, {});
+  const Loads loads = loadsOf(g, {}, {{0, 2.0, 0}}, {});
   BlockMatrix K = fullPattern(map.T.column_count);
   loads.addStiffness(p, kOne, map, K);
   const Eigen::MatrixXd ours = dense(K), fd = differences(loads, map, p, 1e-3);  // quadratic in q: exact
@@ -231,7 +232,7 @@ TEST(Loads, MomentWorksOnTheTurnOfTheNormal) {
   const FreeMap map = buildFreeMap(g);
   const auto q = deformedFree(g, map, 0.02), moved = deformedFree(g, map, 0.02, 9);
   for (const PatchEdge edge : {PatchEdge{0, Side::u0}, {0, Side::u1}, {0, Side::v0}, {0, Side::v1, true}}) {
-    const auto f = forceOf(Loads(g, {}, {}, {{edge, 1.5, 0}}), q);
+    const auto f = forceOf(loadsOf(g, {}, {}, {{edge, 1.5, 0}}), q);
     const double step = 1e-5;
     std::vector<Vec3> d(q.size()), plus = q, minus = q;
     double work = 0, reference = 0;
@@ -256,13 +257,13 @@ TEST(Loads, MomentWorksOnTheTurnOfTheNormal) {
 // A moment adds no force, and the moment m ∫ t ds over the rest length: here along a straight edge of a bent sheet.
 TEST(Loads, MomentAddsAMomentAndNoForce) {
   const Garment g = cylinder();
-  const auto f = forceOf(Loads(g, {}, {}, {{{0, Side::u1}, 2.5, 0}}), restPoints(g));
+  const auto f = forceOf(loadsOf(g, {}, {}, {{{0, Side::u1}, 2.5, 0}}), restPoints(g));
   expectVec(total(f), {}, 1e-13);
   expectVec(totalMoment(f, restPoints(g)), {0, 0, 2.5 * kLength}, 1e-12);
-  const auto back = forceOf(Loads(g, {}, {}, {{{0, Side::u1, true}, 2.5, 0}}), restPoints(g));
+  const auto back = forceOf(loadsOf(g, {}, {}, {{{0, Side::u1, true}, 2.5, 0}}), restPoints(g));
   expectVec(totalMoment(back, restPoints(g)), {0, 0, -2.5 * kLength}, 1e-12);
   // Around the arc the tangents add up to the chord.
-  const auto arc = forceOf(Loads(g, {}, {}, {{{0, Side::v0}, 2.5, 0}}), restPoints(g));
+  const auto arc = forceOf(loadsOf(g, {}, {}, {{{0, Side::v0}, 2.5, 0}}), restPoints(g));
   expectVec(totalMoment(arc, restPoints(g)), {-2.5 * kRadius, 2.5 * kRadius, 0}, 1e-9);
 }
 
@@ -286,7 +287,7 @@ TEST(Loads, ConstantMomentPatchTest) {
         q[patch.index(i, j)].z = 0.5 * kappa * length * length * sum / (p * (p - 1) / 2.0);
       }
     const double m = g.fabric.bending_weft_Nm * kappa;
-    const Loads loads(g, {}, {}, {{{0, Side::u0}, m, 0}, {{0, Side::u1, true}, m, 0}});
+    const Loads loads = loadsOf(g, {}, {}, {{{0, Side::u0}, m, 0}, {{0, Side::u1, true}, m, 0}});
     const auto load = forceOf(loads, q), inner = forceOn(shell, q);
     double size = 0, worst = 0;
     for (std::size_t i = 0; i < q.size(); ++i) {
@@ -313,17 +314,17 @@ TEST(Loads, TrimmedPatchCarriesWhatIsLeft) {
   // First moment about y: the trapezium from x = 0.6 - 0.4 y to 2, less the hole at x = 1.4.
   const double first = 0.5 * (4 - (0.36 - 0.24 + 0.16 / 3)) - 1.4 * hole;
   EXPECT_NEAR(totalMoment(f, restPoints(g)).y, -3 * first, 1e-6);
-  const Loads loads(g, {}, {{0, 3.0, 0}}, {});
+  const Loads loads = loadsOf(g, {}, {{0, 3.0, 0}}, {});
   expectVec(total(forceOf(loads, restPoints(g))), {0, 0, 3 * area}, 1e-6);
   // Edges: what is left of them.
   expectVec(total(edgeForce(g, {0, Side::v0}, {1, 0, 0})), {1.4, 0, 0}, 1e-12);
   expectVec(total(edgeForce(g, {0, Side::v1}, {1, 0, 0})), {1.8, 0, 0}, 1e-12);
   expectVec(total(edgeForce(g, {0, Side::u1}, {1, 0, 0})), {1, 0, 0}, 1e-12);
-  const auto moment = forceOf(Loads(g, {}, {}, {{{0, Side::v0}, 2.0, 0}}), restPoints(g));
+  const auto moment = forceOf(loadsOf(g, {}, {}, {{{0, Side::v0}, 2.0, 0}}), restPoints(g));
   EXPECT_NEAR(totalMoment(moment, restPoints(g)).x, 2.8, 1e-12);
   EXPECT_THROW(edgeForce(g, {0, Side::u0}, {1, 0, 0}), InputError);   // cut away
   EXPECT_THROW(pointForce(g, 0, {0.7, 0.5}, {1, 0, 0}), InputError);  // in the hole
-  EXPECT_THROW(Loads(g, {}, {}, {{{0, Side::u0}, 1.0, 0}}), InputError);
+  EXPECT_THROW(loadsOf(g, {}, {}, {{{0, Side::u0}, 1.0, 0}}), InputError);
 }
 
 TEST(Loads, BadInputIsRefused) {
@@ -335,12 +336,12 @@ TEST(Loads, BadInputIsRefused) {
   EXPECT_THROW(pointForce(g, 0, {1.01, 0.5}, {1, 0, 0}), InputError);
   EXPECT_THROW(pointForce(g, 0, {nan, 0.5}, {1, 0, 0}), InputError);
   EXPECT_THROW(weightForce(g, {0, nan, 0}), InputError);
-  EXPECT_THROW(Loads(g, {{{Vec3{}}, 0}}, {}, {}), InputError);  // too few forces
-  EXPECT_THROW(Loads(g, {{surfaceForce(g, 0, {1, 0, 0}), -1}}, {}, {}), InputError);
-  EXPECT_THROW(Loads(g, {}, {{2, 1.0, 0}}, {}), InputError);
-  EXPECT_THROW(Loads(g, {}, {{0, nan, 0}}, {}), InputError);
-  EXPECT_THROW(Loads(g, {}, {}, {{{0, Side::u0}, nan, 0}}), InputError);
-  EXPECT_THROW(Loads(g, {}, {}, {{{7, Side::u0}, 1, 0}}), InputError);
+  EXPECT_THROW(loadsOf(g, {{{Vec3{}}, 0}}, {}, {}), InputError);  // too few forces
+  EXPECT_THROW(loadsOf(g, {{surfaceForce(g, 0, {1, 0, 0}), -1}}, {}, {}), InputError);
+  EXPECT_THROW(loadsOf(g, {}, {{2, 1.0, 0}}, {}), InputError);
+  EXPECT_THROW(loadsOf(g, {}, {{0, nan, 0}}, {}), InputError);
+  EXPECT_THROW(loadsOf(g, {}, {}, {{{0, Side::u0}, nan, 0}}), InputError);
+  EXPECT_THROW(loadsOf(g, {}, {}, {{{7, Side::u0}, 1, 0}}), InputError);
   Garment collapsed = g;  // an edge without length
   NurbsPatch& patch = collapsed.patches[0];
   for (int i = 0; i < patch.u.count(); ++i) patch.points[patch.index(i, 0)] = {0, 0, 0};

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
 #include "motion_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/motion/step.hpp"
 #include "sheet_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson::shapes {
 
@@ -55,12 +56,13 @@ struct Motion {
   State state, next;
 
   Motion(const Garment& g, const Environment& e, const ContactParameters& c = {}, const ModelOptions& o = {},
-         std::vector<Obstacle> obstacles = {}, std::vector<Placement> at = {}, std::vector<Vec3> velocity = {}) {
+         std::vector<Obstacle> obstacles = {}, std::vector<Placement> at = {}, std::vector<Vec3> velocity = {},
+         const ShellOptions& shell = {}) {
     velocity.resize(obstacles.size());
     at.resize(obstacles.size());
     stage.at = std::move(at);
     stage.velocity = std::move(velocity);
-    model = buildModel(g, o, e, c, std::move(obstacles));
+    model = buildModel(g, o, e, c, std::move(obstacles), shell);
     state = initialState(*model, stage, 0, work);
   }
 

@@ -9,6 +9,7 @@
 #include "core/contact/crossing.hpp"
 #include "core/motion/advance.hpp"
 #include "motion_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/motion/advance.hpp"
+#include "core/motion/resonance.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson {

@@ -221,8 +221,8 @@ inline std::vector<Vec3> controlsOf(const FreeMap& map, const std::vector<Vec3>&
 }
 
 inline std::vector<Vec3> forceOn(const Shell& shell, const std::vector<Vec3>& q, double* energy = nullptr,
-                                 const ShellTerms& terms = {}) {
-  ShellWork work;
+                                 const ForceTerms& terms = {}) {
+  ClothWork work;
   std::vector<Vec3> f(q.size());
   shell.force(q, f, work, energy, terms);
   return f;

@@ -23,7 +23,7 @@ Answer answerOf(const Garment& g, double size = 0.03) {
   const Shell shell(g, widestKernels());
   Answer a;
   a.force = forceOn(shell, q, &a.energy);
-  ShellWork work;
+  ClothWork work;
   Tangent(shell, map).assemble(shell, q, work, a.K);
   return a;
 }
@@ -88,7 +88,7 @@ TEST(ShellSection, StatesAtAPoint) {
   const Shell shell(g, widestKernels());
   std::vector<Vec3> q = restPoints(g);
   for (Vec3& x : q) x = {1.02 * x.x, 0.99 * x.y + 0.01 * x.x, x.z};
-  const ShellState s = shell.stateAt(0, {0.3, 0.6}, q);
+  const PointState s = shell.stateAt(0, {0.3, 0.6}, q);
   const double E11 = 0.5 * (1.02 * 1.02 + 0.01 * 0.01 - 1), E22 = 0.5 * (0.99 * 0.99 - 1), g12 = 0.99 * 0.01;
   EXPECT_NEAR(s.strain.x, E11, 1e-14);
   EXPECT_NEAR(s.strain.y, E22, 1e-14);
@@ -156,7 +156,7 @@ TEST(ShellSection, TensionFieldOfASheet) {
   forceOn(shell, q, &energy);
   const double e = 0.5 * (1.21 - 1);
   EXPECT_NEAR(energy, 0.5 * f.young_weft_Pa * f.thickness_m * e * e, 1e-12);
-  const ShellStress stress = shell.stressAt(0, {0.4, 0.4}, q);
+  const PrincipalStress stress = shell.stressAt(0, {0.4, 0.4}, q);
   EXPECT_NEAR(stress.principal2_N_per_m, 0, 1e-12);
   EXPECT_NEAR(stress.principal1_N_per_m, f.young_weft_Pa * f.thickness_m * e * 1.1 / 0.8, 1e-12);
 }

@@ -139,9 +139,9 @@ TEST(ShellPatchTest, PolynomialPatchesPassExactly) {
     const Shell shell(g, widestKernels());
     std::vector<Vec3> x = restPoints(g);
     for (Vec3& y : x) y = strained(y);
-    const ShellStress first = shell.stressAt(0, {0.1, 0.1}, x);
+    const PrincipalStress first = shell.stressAt(0, {0.1, 0.1}, x);
     for (Vec2 uv : {Vec2{0.3, 0.4}, Vec2{0.5, 0.5}, Vec2{0.93, 0.21}, Vec2{1, 1}}) {
-      const ShellStress s = shell.stressAt(0, uv, x);
+      const PrincipalStress s = shell.stressAt(0, uv, x);
       EXPECT_NEAR(s.principal1_N_per_m, first.principal1_N_per_m, 1e-10 * first.principal1_N_per_m);
       EXPECT_NEAR(s.principal2_N_per_m, first.principal2_N_per_m, 1e-10 * first.principal1_N_per_m);
       EXPECT_NEAR(s.strain1, first.strain1, 1e-12);
@@ -175,7 +175,7 @@ TEST(ShellStress, UniaxialTensionAlongTheWeft) {
   const double l1 = std::sqrt(1 + 2 * E11), l2 = std::sqrt(1 + 2 * E22);
   std::vector<Vec3> x = restPoints(g);
   for (Vec3& y : x) y = {0, l1 * y.x, l2 * y.y};
-  const ShellStress s = Shell(g, widestKernels()).stressAt(0, {0.3, 0.8}, x);
+  const PrincipalStress s = Shell(g, widestKernels()).stressAt(0, {0.3, 0.8}, x);
   // Second Piola-Kirchhoff Y_weft E11 h; Cauchy: times l1^2/(l1 l2).
   EXPECT_NEAR(s.principal1_N_per_m, f.young_weft_Pa * E11 * f.thickness_m * l1 / l2, 1e-12);
   EXPECT_NEAR(s.principal2_N_per_m, 0, 1e-12);
@@ -199,7 +199,7 @@ TEST(ShellStress, StretchAtThirtyDegreesToTheWeft) {
   const double nxy = c * s * (na - nb) + (c * c - s * s) * nab;
   const double sxx = l * nxx, syy = nyy / l, sxy = nxy;
   const double mean = 0.5 * (sxx + syy), radius = std::hypot(0.5 * (sxx - syy), sxy);
-  const ShellStress stress = Shell(g, widestKernels()).stressAt(0, {0.6, 0.2}, x);
+  const PrincipalStress stress = Shell(g, widestKernels()).stressAt(0, {0.6, 0.2}, x);
   EXPECT_NEAR(stress.principal1_N_per_m, mean + radius, 1e-12);
   EXPECT_NEAR(stress.principal2_N_per_m, mean - radius, 1e-12);
   // The virtual work of delta x = X e is the first Piola-Kirchhoff resultant of the cuts x = const, times the area 1.

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/motion/strain_rows.hpp"
+#include "core/cloth/shell/strain_points.hpp"
 #include "motion_shapes.hpp"
 
 namespace gambeson::shapes {

@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
 #include "core/statics/statics.hpp"
 #include "sheet_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -31,12 +32,12 @@ TEST(StressField, ShowsAUniformStateAsItIs) {
         for (const Vec3& X : restPoints(g)) q.push_back(1.2 * X.x * e1 + (0.9 * X.y + 0.1 * X.x) * e2);
         const Shell shell(g, widestKernels());
         const StressField field(shell);
-        const auto means = field.means(shell, q);
+        const auto means = field.means(q, {});
         for (double u : {0.0, 0.1, 0.2, 0.35, 0.93, 1.0})
           for (double v : {0.0, 0.25, 0.3, 1.0}) {
-            const ShellStress exact = shell.stressAt(0, {u, v}, q);
-            for (const auto& some : {means, {}}) {
-              const ShellStress shown = field.at(shell, q, 0, {u, v}, some);
+            const PrincipalStress exact = shell.stressAt(0, {u, v}, q);
+            for (const auto& some : {means, decltype(means){}}) {
+              const PrincipalStress shown = field.at(q, 0, {u, v}, some, {});
               EXPECT_NEAR(shown.principal1_N_per_m, exact.principal1_N_per_m, 1e-12);
               EXPECT_NEAR(shown.principal2_N_per_m, exact.principal2_N_per_m, 1e-12);
               EXPECT_NEAR(shown.strain1, exact.strain1, 1e-13);
@@ -69,16 +70,15 @@ TEST(StressField, AHangingStripPullsWithTheWeightBelow) {
     for (LinearConstraint& c : clampRotation(g, clamp)) o.constraints.push_back(std::move(c));
     o.programs = {{{0, 1}, {0, 1}}};
     o.dead = {{weightForce(g, {0, 0, -10}), 0}};
-    o.cell_rule = rule;
-    const auto s = buildStructure(g, o);
+    const auto s = buildStructure(g, o, {.rule = rule});
     std::vector<Vec3> q;
     const StaticReport report = solveStatic(*s, {.steps = 20}, [&](const StaticPoint& p) {
       q = controlPoints(*s, p.y, p.factor);
       return true;
     });
     ASSERT_TRUE(report.reached) << report.why;
-    const StressField field(s->shell);
-    const auto means = field.means(s->shell, q);
+    const StressField field(shellOf(*s).elements());
+    const auto means = field.means(q, {});
     // The clamp's two cells do not resolve its bend, and the pull there is the smaller of the principal values.
     double shown_off = 0, point_off = 0, far_off = 0;
     for (int k = 0; k <= 400; ++k) {
@@ -88,13 +88,13 @@ TEST(StressField, AHangingStripPullsWithTheWeightBelow) {
       for (std::size_t i = 0; i < basis.columns.size(); ++i) along += basis.values[1][i] * q[basis.columns[i]];
       const double exact = 5 * (1 - a) * -normalized(along).z;
       const Vec2 uv{u, 0.5 * g.patches[0].v.back()};
-      const ShellStress shown = field.at(s->shell, q, 0, uv, means);
+      const PrincipalStress shown = field.at(q, 0, uv, means, {});
       const double n = std::abs(shown.principal1_N_per_m) > std::abs(shown.principal2_N_per_m)
                            ? shown.principal1_N_per_m
                            : shown.principal2_N_per_m;
       if (a < 0.0625) continue;
       shown_off = std::max(shown_off, std::abs(n - exact));
-      point_off = std::max(point_off, std::abs(s->shell.stateAt(0, uv, q).n.x - exact));
+      point_off = std::max(point_off, std::abs(shellOf(*s).elements().stateAt(0, uv, q).n.x - exact));
       if (a > 0.25) far_off = std::max(far_off, std::abs(n - exact));
     }
     printf("rule %d: shown off by %.3f N/m (%.3f beyond a quarter), single points by %.1f, of 5\n",

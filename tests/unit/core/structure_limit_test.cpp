@@ -7,14 +7,15 @@
 #include <cstdio>
 #include <random>
 
-#include "core/cloth/shell/loads.hpp"
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/shell_loads.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
 #include "core/error.hpp"
 #include "core/motion/implicit.hpp"
 #include "core/statics/modal.hpp"
 #include "core/statics/statics.hpp"
 #include "core/statics/structure_system.hpp"
 #include "motion_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -190,11 +191,12 @@ TEST(StructureLimit, ComponentsAndTiesHoldTogetherWithTheLimits) {
       EXPECT_LT(energy, 1e-6);  // it starts at 0 and the sheet weighs 0.13 N
       const std::vector<Vec3> q = controlPoints(*s, state.y, state.time_s);
       double moved = 0;
-      for (std::size_t i = 0; i < q.size(); ++i) moved = std::max(moved, norm(q[i] - s->rest[i]));
+      for (std::size_t i = 0; i < q.size(); ++i) moved = std::max(moved, norm(q[i] - s->cloth->rest()[i]));
       EXPECT_GT(moved, 0.05);
       for (const LinearConstraint& l : with.options.constraints) {
         double sum = 0;
-        for (const auto& [control, coefficient] : l.terms) sum += dot(coefficient, q[control] - s->rest[control]);
+        for (const auto& [control, coefficient] : l.terms)
+          sum += dot(coefficient, q[control] - s->cloth->rest()[control]);
         EXPECT_NEAR(sum, 0, 1e-12);
       }
     }
@@ -213,7 +215,7 @@ TEST(StructureLimit, FollowsMovingSupports) {
   ASSERT_TRUE(r.reached) << r.why;
   EXPECT_EQ(r.limits_missed, 0);
   const std::vector<Vec3> q = controlPoints(*s, state.y, state.time_s);
-  EXPECT_NEAR(norm(q[0] - s->rest[0] - Vec3{0, 0.1, 0.1}), 0, 1e-12);
+  EXPECT_NEAR(norm(q[0] - s->cloth->rest()[0] - Vec3{0, 0.1, 0.1}), 0, 1e-12);
   EXPECT_LE(r.limit_residual, 1e-3);
 }
 

@@ -7,13 +7,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
 #include "core/error.hpp"
 #include "core/motion/implicit.hpp"
 #include "core/statics/modal.hpp"
 #include "core/statics/path.hpp"
 #include "core/statics/structure_system.hpp"
 #include "sheet_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -63,8 +64,8 @@ TEST(Structure, MassIsThatOfTheSheet) {
   EXPECT_NEAR(std::accumulate(s->lumped_kg.begin(), s->lumped_kg.end(), 0.0), mass, 1e-12);
   EXPECT_NEAR(std::accumulate(s->area_m2.begin(), s->area_m2.end(), 0.0), 10, 1e-12);
   // xT M x = ∫ rho h x^2 dA = rho h L^3/3: a cubic basis reproduces x.
-  std::vector<double> x, Mx(s->map.home.size());
-  for (int i : s->map.home) x.push_back(s->rest[i].x);
+  std::vector<double> x, Mx(s->cloth->map().home.size());
+  for (int i : s->cloth->map().home) x.push_back(s->cloth->rest()[i].x);
   s->consistent_kg.multiply<double>(x, Mx);
   EXPECT_NEAR(std::inner_product(x.begin(), x.end(), Mx.begin(), 0.0), 0.1 * 1000 / 3, 1e-9);
 }

@@ -38,7 +38,7 @@ double largest(const std::vector<std::vector<double>>& m) {
 
 struct Options {
   const KernelSet* kernels = &widestKernels();
-  ShellTerms terms;
+  ForceTerms terms;
   double size = 0.02, step = 2e-4;
 };
 
@@ -48,7 +48,7 @@ double tangentError(const Garment& g, const Options& o = {}) {
   const FreeMap map = buildFreeMap(g);
   const Tangent tangent(shell, map);
   std::vector<Vec3> p = deformedFree(g, map, o.size);
-  ShellWork work;
+  ClothWork work;
   BlockMatrix K;
   tangent.assemble(shell, controlsOf(map, p), work, K, o.terms);
   const auto full = dense(K);
@@ -159,8 +159,8 @@ TEST(Tangent, FollowsEquation214OnEachBranch) {
 
 TEST(Tangent, TakesTheSameTermsAsTheForce) {
   const Garment g = fourPatches(2, 2, false, SeamKind::C0, 0.4, plainFabric(BendingLaw::zheng));
-  for (const ShellTerms& terms : {ShellTerms{true, false, false, false}, ShellTerms{false, true, false, true},
-                                  ShellTerms{false, false, true, false}, ShellTerms{true, true, true, true}}) {
+  for (const ForceTerms& terms : {ForceTerms{true, false, false, false}, ForceTerms{false, true, false, true},
+                                  ForceTerms{false, false, true, false}, ForceTerms{true, true, true, true}}) {
     Options o;
     o.terms = terms;
     EXPECT_LT(tangentError(g, o), 1e-8);
@@ -217,7 +217,7 @@ TEST(Tangent, EveryInstructionSetGivesTheSame) {
   std::vector<double> reference;
   for (const KernelSet* kernels : availableKernels()) {
     const Shell shell(g, *kernels);
-    ShellWork work;
+    ClothWork work;
     BlockMatrix K;
     Tangent(shell, map).assemble(shell, q, work, K);
     if (reference.empty()) reference.assign(K.values.begin(), K.values.end());
@@ -234,7 +234,7 @@ TEST(Tangent, RigidMotionCostsNothingAtRest) {
     const Garment g = fourPatches(2, 3, true, SeamKind::C0, 0.4, fabric);
     const FreeMap map = buildFreeMap(g);
     const Shell shell(g, widestKernels());
-    ShellWork work;
+    ClothWork work;
     BlockMatrix K;
     Tangent(shell, map).assemble(shell, restPoints(g), work, K);
     const auto full = dense(K);
@@ -262,7 +262,7 @@ TEST(Tangent, DiagonalBlocksAreSymmetric) {
   const Garment g = fourPatches(2, 2, true, SeamKind::C0, 0.4, unsymmetricLaminate());
   const FreeMap map = buildFreeMap(g);
   const Shell shell(g, widestKernels());
-  ShellWork work;
+  ClothWork work;
   BlockMatrix K;
   Tangent(shell, map).assemble(shell, controlsOf(map, deformedFree(g, map, 0.05)), work, K);
   const double most = largest(dense(K));
@@ -288,7 +288,7 @@ TEST(Tangent, TheSameBitsForOneAndTwoThreads) {
   BlockMatrix K[2];
   for (int n : {1, 2}) {
     omp_set_num_threads(n);
-    ShellWork work;
+    ClothWork work;
     tangent.assemble(shell, q, work, K[n - 1]);
   }
   omp_set_num_threads(threads);

@@ -11,6 +11,7 @@
 #include "core/motion/model.hpp"
 #include "core/motion/step.hpp"
 #include "trim_shapes.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -51,7 +52,7 @@ TEST(TrimShell, RigidMotionsMakeNoForce) {
     const FreeMap map = buildFreeMap(g);
     ASSERT_LT(map.T.column_count, map.T.rows());
     const Shell shell(g, widestKernels());
-    ShellWork work;
+    ClothWork work;
     std::vector<Vec3> f(map.T.rows()), pushed(map.T.rows());
     const Mat3 R = rotationAbout(normalized(Vec3{1, 2, -1}), 1.1);
     shell.force(controls(g, map, [&](Vec3 X) { return R * X + Vec3{0.3, -2, 1}; }), f, work);
@@ -73,7 +74,7 @@ TEST(TrimShell, UniformStrainLoadsTheRimAsItsTractions) {
     const auto q = controls(g, map, [&](Vec3 X) { return X.x * a1 + X.y * a2; });
     const Vec3 n = shell.stateAt(0, {0.4, 0.5}, q).n;
     const Vec3 P1 = n.x * a1 + n.z * a2, P2 = n.z * a1 + n.y * a2;  // first Piola-Kirchhoff columns
-    ShellWork work;
+    ClothWork work;
     std::vector<Vec3> f(map.T.rows()), expected(map.T.rows());
     shell.force(q, f, work);
     const Quadrature rule = gaussLegendre(40);
@@ -129,7 +130,7 @@ TEST(TrimShell, ForceIsTheGradientOfTheEnergy) {
   const Garment g = trimmedGarment(unitPatch(2, 5), {{circle({0.53, 0.47}, 0.24, 0.29, true)}}, plainFabric());
   const FreeMap map = buildFreeMap(g);
   const Shell shell(g, widestKernels());
-  ShellWork work;
+  ClothWork work;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> d(-1, 1);
   const auto q = controls(g, map, [&](Vec3 X) { return X + 0.02 * Vec3{d(random), d(random), d(random)}; });
@@ -163,7 +164,7 @@ TEST(TrimShell, MirroredHolesGiveMirroredForces) {
     const Vec3 x = field({1 - X.x, X.y, X.z});
     return Vec3{1 - x.x, x.y, x.z};
   });
-  ShellWork work;
+  ClothWork work;
   std::vector<Vec3> fa(qa.size()), fb(qb.size());
   Shell(a, widestKernels()).force(qa, fa, work);
   Shell(b, widestKernels()).force(qb, fb, work);

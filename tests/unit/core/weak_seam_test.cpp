@@ -7,10 +7,11 @@
 #include <limits>
 
 #include "core/cloth/shell/hinge.hpp"
-#include "core/cloth/shell/loads.hpp"
+#include "core/cloth/shell/shell_loads.hpp"
 #include "core/cloth/shell/tangent.hpp"
 #include "core/error.hpp"
 #include "sheet_cylinder.hpp"
+#include "unit/shell_of.hpp"
 
 namespace gambeson {
 namespace {
@@ -158,7 +159,7 @@ StripErrors strip(double factor, double scale) {
   g.weak_seams = {{{0, Side::u1}, {1, Side::u0}, SeamKind::G1, 0, factor}};
   const Shell shell(g, widestKernels());
   const auto q = restPoints(g);
-  ShellWork work;
+  ClothWork work;
   BlockMatrix blocks;
   Tangent(shell, buildFreeMap(g)).assemble(shell, q, work, blocks);  // no strong seams: all control points are free
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * blocks.rows(), 3 * blocks.rows());
@@ -171,7 +172,7 @@ StripErrors strip(double factor, double scale) {
 
   const auto stretch = edgeForce(g, {1, Side::u1}, {1, 0, 0});
   std::vector<Vec3> bend(q.size());
-  Loads(g, {}, {}, {{{1, Side::u1, true}, 1.0, 0}}).add(q, std::vector{1.0}, bend);
+  loadsOf(g, {}, {}, {{{1, Side::u1, true}, 1.0, 0}}).add(q, std::vector{1.0}, bend);
   const int n = static_cast<int>(q.size());
   Eigen::MatrixXd f(3 * n, 2);
   for (int i = 0; i < n; ++i)

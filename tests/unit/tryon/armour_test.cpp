@@ -268,7 +268,7 @@ TEST(Belt, CarriesItsTensionOnTheWaist) {
     belt.fabric = soft(belt_layer);
     belt.fabric.bending_weft_Nm = belt.fabric.bending_warp_Nm = 1e-9;
     const Shell shell(belt, widestKernels());
-    ShellWork work;
+    ClothWork work;
     const NurbsPatch& p = belt.patches[0];
     const double length = edgeToEdge(p, 0.5);
     double area = 0;

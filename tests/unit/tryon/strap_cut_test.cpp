@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/cloth/shell/shell_kernel.hpp"
+#include "core/cloth/shell/nurbs_shell.hpp"
 
 namespace gambeson {
 namespace {
@@ -49,26 +49,30 @@ std::vector<Vec3> controls(const Garment& g) {
 }
 
 TEST(StrapCut, IsWhereAStrapIsSewn) {
-  const std::vector<StrapCut> cuts = strapCuts(strapped(), names);
+  const std::vector<StrapCut> cuts = strapCuts(NurbsShell(strapped()), names);
   ASSERT_EQ(cuts.size(), 2u);  // the belt's strap is not sewn
   EXPECT_EQ(cuts[0].patch, 1);
-  EXPECT_TRUE(cuts[0].along_v && !cuts[0].at_end && cuts[1].at_end);
+  EXPECT_TRUE(!cuts[0].at_end && cuts[1].at_end);
+  std::vector<int> first_rows;
+  for (int i = 32; i < 40; ++i) first_rows.push_back(i);
+  EXPECT_EQ(cuts[0].beyond, first_rows);
+  EXPECT_EQ(cuts[1].beyond, (std::vector<int>{60, 61, 62, 63, 56, 57, 58, 59}));
   EXPECT_NEAR(cuts[0].width_m, kWidth_m, 1e-12);
   Garment one_end = strapped();
   one_end.seams.pop_back();
-  EXPECT_TRUE(strapCuts(one_end, names).empty());
+  EXPECT_TRUE(strapCuts(NurbsShell(one_end), names).empty());
 }
 
 // A stretch of 1 + e along the strap, no Poisson's ratio: n = E h (e + e^2/2) (second Piola-Kirchhoff), and the force
 // over the cut (1 + e) n times its width at rest.
 TEST(StrapCut, AUniformPullIsItsWidthTimesTheResultant) {
   const Garment g = strapped();
-  const Shell shell(g, widestKernels());
+  const NurbsShell shell(g);
   std::vector<Vec3> q = controls(g);
   const double e = 0.02, pull = kWidth_m * (1 + e) * kYoung_Pa * kThick_m * (e + e * e / 2);
   for (Vec3& x : q) x.y *= 1 + e;
-  ShellWork work;
-  const std::vector<Vec3> f = strapPulls(shell, q, strapCuts(g, names), work);
+  ClothWork work;
+  const std::vector<Vec3> f = strapPulls(shell, q, strapCuts(shell, names), work);
   EXPECT_NEAR(f[0].y, pull, 1e-9 * pull);   // the front is pulled up the strap
   EXPECT_NEAR(f[1].y, -pull, 1e-9 * pull);  // the back down it
   EXPECT_NEAR(f[0].x, 0, 1e-9 * pull);
@@ -79,7 +83,7 @@ TEST(StrapCut, AUniformPullIsItsWidthTimesTheResultant) {
 // else; so that its equation of motion closes with them.
 TEST(StrapCut, PullsAreAllThatTheInternalForcesDoToWhatHangs) {
   const Garment g = strapped();
-  const Shell shell(g, widestKernels());
+  const NurbsShell shell(g);
   std::vector<Vec3> q = controls(g);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> noise(-2e-3, 2e-3);
@@ -89,9 +93,9 @@ TEST(StrapCut, PullsAreAllThatTheInternalForcesDoToWhatHangs) {
     q[32 + i] = q[28 + i];
     q[64 + i] = q[60 + i];
   }
-  ShellWork work;
-  const std::vector<StrapCut> cuts = strapCuts(g, names);
-  const std::vector<double> w = weightsBelow(g, cuts, false);
+  ClothWork work;
+  const std::vector<StrapCut> cuts = strapCuts(shell, names);
+  const std::vector<double> w = weightsBelow(shell, cuts, false);
   std::vector<Vec3> f(q.size());
   shell.force(q, f, work);
   Vec3 hanging{}, pulls{};
@@ -103,7 +107,7 @@ TEST(StrapCut, PullsAreAllThatTheInternalForcesDoToWhatHangs) {
 }
 
 TEST(StrapCut, WhatHangs) {
-  const Garment g = strapped();
+  const NurbsShell g(strapped());
   const std::vector<double> w = weightsBelow(g, strapCuts(g, names), true),
                             all = weightsBelow(g, strapCuts(g, names), false);
   ASSERT_EQ(w.size(), 128u);

@@ -1,9 +1,10 @@
-#include "core/cloth/shell/supports.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/cloth/shell/edge.hpp"
+#include "core/cloth/shell/seams.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

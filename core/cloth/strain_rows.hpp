@@ -1,15 +1,14 @@
 #pragma once
-/// Where strain is limited: the points, their strains as functions of the free points, and the stress that the
-/// multipliers stand for (Zheng 2013, sections 5.4 and 5.5).
+/// Where strain is limited: the strains as functions of the free points, and the stress that the multipliers stand for
+/// (Zheng 2013, sections 5.4 and 5.5).
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/seams.hpp"
 #include "core/math/cholesky.hpp"
 #include "core/math/sparse.hpp"
+#include "core/math/vec.hpp"
 
 namespace gambeson {
 
@@ -82,28 +81,16 @@ struct StrainRows {
   int rows() const { return B.rows(); }
 };
 
-/// Each patch has the strains of its own vertices, so that both sides of a seam are held: across a C0 seam they differ.
-/// Strains that are the same function of the free points (along a seam; all of a G1 seam whose threads run on) are one
-/// row, and points that share both rows are one. On trimmed patches vertices
-/// outside are left out, and crossings of loops with knot lines are added unless they lie within 5 % of a cell of
-/// another point, whose strain says the same.
-StrainRows buildStrainRows(const Garment& garment, const FreeMap& map, Mobility mobility,
-                           LimitPoints points = LimitPoints::vertices);
+/// Completes rows whose points, B, area_m2, mobility and fields are there: the transpose, S and what is live.
+void completeRows(StrainRows& rows);
 
 /// F D of all rows.
 void strainVectors(const StrainRows& rows, std::span<const Vec3> p, std::vector<Vec3>& e);
 /// (|F D|^2 - 1)/2.
 inline double strainOf(const Vec3& e) { return 0.5 * (norm2(e) - 1); }
 
-/// Eq. 5.23: the resultants (n_weft, n_warp) [N/m], second Piola-Kirchhoff, that go with the multipliers of the rows
-/// (in the mean of a step) [J], at the vertices of all patches. Points of threads: the multiplier over the area, linear
-/// between the points. Vertices: a multiplier over its area alternates from point to
-/// point, since the sums over points do not integrate exactly. So each cell takes its share of the multipliers of its
-/// corners over its area (that is its one Gauss point; points that share a row have it by their areas), which keeps the
-/// integral, and the field is extended from the cells to the vertices: mean of four inside, fitted plane at borders. A
-/// linear field is kept exactly.
+/// The field of resultants (n_weft, n_warp) [N/m], second Piola-Kirchhoff, that go with the multipliers of the rows (in
+/// the mean of a step) [J], eq. 5.23.
 std::vector<Vec2> limitStress(const StrainRows& rows, std::span<const double> multiplier_J);
-/// The field of limitStress at a point of a patch, bilinear in each cell.
-Vec2 limitStressAt(const StrainRows& rows, std::span<const Vec2> field, int patch, Vec2 uv);
 
 }  // namespace gambeson

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/free_blocks.hpp"
+#include "core/cloth/free_blocks.hpp"
 
 #include <cassert>
 

@@ -1,4 +1,4 @@
-#include "core/motion/strain_rows.hpp"
+#include "core/cloth/shell/point_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

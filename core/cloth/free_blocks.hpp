@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/free_map.hpp"
 #include "core/math/block_matrix.hpp"
 
 namespace gambeson {

@@ -1,5 +1,5 @@
 #pragma once
-/// Supports of a sheet as linear constraints: easy to state, exact for a rotation-free shell.
+/// Supports of a NURBS sheet as linear constraints: easy to state, exact for a rotation-free shell.
 ///
 /// All act on control points, so each holds for the whole edge and not only at some of its points. Common supports:
 ///   hinged edge       supportEdge, three directions: held, free to turn about itself
@@ -12,15 +12,10 @@
 /// buildDofMap where they agree. Of a trimmed edge, the control points are held whose basis functions reach what is
 /// left of it.
 
-#include "core/cloth/constraint.hpp"
+#include "core/cloth/mounting.hpp"
+#include "core/cloth/shell/garment.hpp"
 
 namespace gambeson {
-
-/// A motion that a support prescribes: displacement at program value 1 [m].
-struct Prescribed {
-  Vec3 displacement_m;
-  int program = -1;
-};
 
 /// Holds (or moves) the components of an edge along `directions` (unit vectors; three orthogonal ones hold it whole).
 /// Exact at every point of the edge, as the basis sums to 1.

@@ -1,0 +1,145 @@
+#pragma once
+/// A cloth as the engine, the recorder and the pages see it. Each kind of cloth is a folder beside this file.
+///
+/// A cloth has points q [m], of which those that move freely determine the others (FreeMap), and inner unknowns:
+/// numbers that no surface sample sees (rotations of edges, directors of a shell). Contact, pictures and tables see its
+/// surface samples, x = W q. Its laws may remember: their history is a list of doubles whose size and meaning the cloth
+/// owns. A force is a function of the state and of the committed history; the history that it would leave is written
+/// aside and becomes the committed one when a step is accepted, never before.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/cloth/bulge.hpp"
+#include "core/cloth/cloth_state.hpp"
+#include "core/cloth/free_map.hpp"
+#include "core/cloth/mounting.hpp"
+#include "core/cloth/strain_rows.hpp"
+#include "core/cloth/stress.hpp"
+#include "core/cloth/surface.hpp"
+#include "core/io/patch_layout.hpp"
+#include "core/material/fabric.hpp"
+#include "core/math/block_matrix.hpp"
+
+namespace gambeson {
+
+/// A patch of a cloth: what has parameters (u, v) of its own.
+struct ClothPatch {
+  std::string name;                    ///< of the garment's draft; may be empty
+  int garment = 0;                     ///< that it belongs to, 0 innermost
+  int first_point = 0, end_point = 0;  ///< its points
+  Vec2 low, high;                      ///< its range of parameters
+  std::array<bool, 4> sewn{};          ///< whether its sides u0, u1, v0, v1 are joined to others
+};
+
+/// Two neighbours among the points of a patch.
+struct NetEdge {
+  int first = 0, second = 0;  ///< points
+  double per_length2 = 0;     ///< 1 / (length at rest)^2 [1/m^2]
+};
+
+/// The exact stiffness of a cloth on its free points. Lives no longer than its cloth.
+class ClothTangent {
+ public:
+  virtual ~ClothTangent() = default;
+  /// Every pair of free points that share an element is in the pattern.
+  virtual const BlockMatrix& pattern() const = 0;
+  /// Writes K = Tᵀ (d2E/dq2) T, symmetric, with the slopes of the laws at this history. The same bits for any number of
+  /// threads.
+  virtual void assemble(const ClothState& state, ClothWork& work, BlockMatrix& K,
+                        const ForceTerms& terms = {}) const = 0;
+};
+
+class Cloth {
+ public:
+  virtual ~Cloth() = default;
+
+  // What it is made of.
+  int points() const { return static_cast<int>(rest().size()); }
+  virtual const std::vector<Vec3>& rest() const = 0;  ///< positions of all points at rest [m]
+  virtual const FreeMap& map() const = 0;
+  virtual const std::vector<ClothPatch>& patches() const = 0;
+  /// What its elements are called and counted as: "1,234 control points" (for pages).
+  virtual std::string pointName() const = 0;
+  /// The instruction set that its elements are computed with.
+  virtual std::string kernels() const = 0;
+  /// Where a point is, in words: "control point (2, 3) of patch 0".
+  virtual std::string describePoint(int point) const = 0;
+
+  // What contact, pictures and tables see.
+  /// `per_cell`: of each patch, samples along each edge of a cell.
+  virtual Surface surface(std::span<const int> per_cell) const = 0;
+  /// How far the cloth stands out between the samples of that surface.
+  virtual Bulges bulges(const Surface& surface, std::span<const int> per_cell) const = 0;
+  /// Positions between the samples of that surface, `fineness` times as many along each edge of a cell.
+  virtual SparseRows finer(int fineness, std::span<const int> per_cell) const = 0;
+  /// `per_cell` places along each edge of a cell.
+  virtual PlaceMesh placeMesh(int per_cell) const = 0;
+  virtual Fabric fabricAt(int patch, Vec2 uv) const = 0;
+  virtual double cellAt(int patch, Vec2 uv) const = 0;  ///< the shorter side of the cell at a place [m]
+  virtual std::vector<NetEdge> net() const = 0;
+  /// The patches as NURBS, for files that hold such; empty for other cloths.
+  virtual std::vector<PatchLayout> geometry() const { return {}; }
+
+  // Mass, of all points.
+  virtual std::vector<double> areas() const = 0;   ///< ∫ N dA at rest [m^2]
+  virtual std::vector<double> masses() const = 0;  ///< ∫ rho N dA [kg]
+  /// The same in sum, but that no point bears less than `share` of what it would on a cloth without cuts.
+  virtual std::vector<double> evenedMasses(double share) const { return static_cast<void>(share), masses(); }
+  virtual SparseRows consistentMass() const = 0;  ///< ∫ rho N N dA [kg]
+
+  // Forces.
+  /// f = - dE/dq, and what else `out` asks for. The same bits for any number of threads.
+  virtual void force(const ClothState& state, const ClothForce& out, ClothWork& work,
+                     const ForceTerms& terms = {}) const = 0;
+  virtual std::unique_ptr<ClothTangent> tangent() const = 0;
+
+  // What its laws remember.
+  virtual std::size_t historySize() const { return 0; }
+  /// Of cloth that is new. The span has historySize() doubles.
+  virtual void startHistory(std::span<double> history) const { static_cast<void>(history); }
+
+  // Unknowns that no sample sees. Their rates may be fewer than their values (directors).
+  virtual std::size_t innerValues() const { return 0; }
+  virtual std::size_t innerRates() const { return 0; }
+  virtual void startInner(std::span<double> value) const { static_cast<void>(value); }
+  /// Of each rate [kg m^2, where the rate is an angular velocity].
+  virtual void innerMasses(std::span<double> mass) const { static_cast<void>(mass); }
+  /// Where values go with these rates in time dt: value + dt rate, but on their manifold.
+  virtual void advance(std::span<const double> value, std::span<const double> rate, double dt_s,
+                       std::span<double> out) const {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = value[i] + dt_s * rate[i];
+  }
+
+  // Strain and stress.
+  virtual std::unique_ptr<StressView> stress() const = 0;
+  virtual PointState stateAt(const ClothState& state, int patch, Vec2 uv) const = 0;
+  /// Norm of the physical curvature, sqrt(k11² + k22² + 2 k12²) [1/m].
+  virtual double bendAt(const ClothState& state, int patch, Vec2 uv) const = 0;
+  /// Places where the laws are evaluated, for statistics of strain.
+  virtual std::vector<std::pair<int, Vec2>> lawPlaces() const = 0;
+  /// Whether a fabric without moment when flat is bent at rest, by more than 1e-6 over the length [m].
+  virtual bool springsAtRest(double length_m) const = 0;
+
+  // Limits of strain. Throws InputError where this cloth cannot be limited at these points.
+  virtual StrainRows strainRows(Mobility mobility, LimitPoints points = LimitPoints::vertices) const = 0;
+  /// A field of limitStress at a place.
+  virtual Vec2 limitStressAt(const StrainRows& rows, std::span<const Vec2> field, int patch, Vec2 uv) const = 0;
+
+  // Supports and loads.
+  virtual const Mounting& mounting() const = 0;
+
+  /// The force alone, and the energy stored.
+  void force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy = nullptr,
+             const ForceTerms& terms = {}) const {
+    ClothEnergy both;
+    force(ClothState(q), {f, {}, {}, energy ? &both : nullptr}, work, terms);
+    if (energy) *energy = both.stored;
+  }
+};
+
+}  // namespace gambeson

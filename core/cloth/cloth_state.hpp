@@ -1,0 +1,51 @@
+#pragma once
+/// A cloth at one instant, and what an evaluation of its forces writes.
+
+#include <span>
+#include <vector>
+
+#include "core/math/aligned.hpp"
+#include "core/math/vec.hpp"
+
+namespace gambeson {
+
+/// Where a cloth is and what its laws remember.
+struct ClothState {
+  std::span<const Vec3> q;          ///< all points [m]
+  std::span<const double> inner;    ///< values of the inner unknowns; empty where there are none
+  std::span<const double> history;  ///< committed; empty where laws remember nothing
+
+  ClothState() = default;
+  ClothState(std::span<const Vec3> points) : q(points) {}     // NOLINT: a cloth without inner unknowns and history
+  ClothState(const std::vector<Vec3>& points) : q(points) {}  // NOLINT
+  ClothState(std::span<const Vec3> points, std::span<const double> inner_values, std::span<const double> committed)
+      : q(points), inner(inner_values), history(committed) {}
+};
+
+/// Which parts of the force to evaluate. `steepest` takes each law at its steepest slope, without history: what the
+/// stable time step must allow for.
+struct ForceTerms {
+  bool membrane = true, bending = true, seams = true;
+  bool steepest = false;
+};
+
+/// Energy of a cloth [J]: what it holds, and what its laws have lost since their history was committed.
+struct ClothEnergy {
+  double stored = 0, lost = 0;
+};
+
+/// What an evaluation writes.
+struct ClothForce {
+  std::span<Vec3> points;     ///< - dE/dq [N]
+  std::span<double> inner;    ///< conjugate to the rates of the inner unknowns
+  std::span<double> history;  ///< what the laws would remember; empty: not asked
+  ClothEnergy* energy = nullptr;
+};
+
+/// Scratch of a cloth; nobody else reads it.
+struct ClothWork {
+  AlignedVector<double> slots, lane_energy, tangent_slots;
+  std::vector<ClothWork> parts;  ///< of cloths that are made of several
+};
+
+}  // namespace gambeson

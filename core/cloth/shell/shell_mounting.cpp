@@ -1,0 +1,83 @@
+#include "core/cloth/shell/shell_mounting.hpp"
+
+#include <algorithm>
+
+#include "core/cloth/shell/edge.hpp"
+#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/shell/shell_loads.hpp"
+#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/surface.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+class ShellMounting : public Mounting {
+ public:
+  explicit ShellMounting(const Garment& garment) : g_(garment) {}
+
+  PlaceRow place(int patch, Vec2 uv) const override {
+    if (patch < 0 || patch >= static_cast<int>(g_.patches.size()))
+      throw InputError({"", 0, "patch"}, "patch " + std::to_string(patch) + " does not exist");
+    SurfaceBasis basis = surfaceBasis(g_.patches[static_cast<std::size_t>(patch)], uv.x, uv.y);
+    const int first = controlOffsets(g_)[static_cast<std::size_t>(patch)];
+    for (int& column : basis.columns) column += first;
+    return {std::move(basis.columns), std::move(basis.values[0]), std::move(basis.values[1]),
+            std::move(basis.values[2])};
+  }
+  std::vector<int> edgePoints(const PatchEdge& edge, int rows) const override {
+    checkEdge(g_, edge, edgeName(edge));
+    const NurbsPatch& patch = g_.patches[static_cast<std::size_t>(edge.patch)];
+    const int first = controlOffsets(g_)[static_cast<std::size_t>(edge.patch)];
+    const bool across_u = edge.side == Side::u0 || edge.side == Side::u1;
+    const int inward = (across_u ? 1 : patch.u.count()) * (edge.side == Side::u0 || edge.side == Side::v0 ? 1 : -1);
+    std::vector<int> points;
+    for (int r = 0; r < std::min(rows, acrossKnots(patch, edge.side).count()); ++r)
+      for (const int k : gridEdge(patch.u.count(), patch.v.count(), edge)) points.push_back(first + k + r * inward);
+    return points;
+  }
+  std::vector<LinearConstraint> holdEdge(const PatchEdge& edge, std::span<const Vec3> directions,
+                                         const Prescribed& motion) const override {
+    return supportEdge(g_, edge, directions, motion);
+  }
+  std::vector<LinearConstraint> holdPlace(int patch, Vec2 uv, std::span<const Vec3> directions,
+                                          const Prescribed& motion) const override {
+    return supportPoint(g_, patch, uv, directions, motion);
+  }
+  std::vector<LinearConstraint> clampEdge(const PatchEdge& edge) const override { return clampRotation(g_, edge); }
+  std::vector<LinearConstraint> mirrorEdge(const PatchEdge& edge, const Vec3& normal) const override {
+    return symmetryEdge(g_, edge, normal);
+  }
+  std::vector<LinearConstraint> tieEdge(const PatchEdge& edge, const Vec3& direction) const override {
+    return gambeson::tieEdge(g_, edge, direction);
+  }
+  std::vector<Vec3> edgeForce(const PatchEdge& edge, const Vec3& force_N_per_m) const override {
+    return gambeson::edgeForce(g_, edge, force_N_per_m);
+  }
+  std::vector<Vec3> surfaceForce(int patch, const Vec3& force_N_per_m2) const override {
+    return gambeson::surfaceForce(g_, patch, force_N_per_m2);
+  }
+  std::vector<Vec3> placeForce(int patch, Vec2 uv, const Vec3& force_N) const override {
+    return pointForce(g_, patch, uv, force_N);
+  }
+  std::vector<Vec3> weightForce(const Vec3& gravity_m_per_s2) const override {
+    return gambeson::weightForce(g_, gravity_m_per_s2);
+  }
+  std::vector<FollowingLoad> pressure(int patch, double pressure_Pa) const override {
+    return pressureOn(g_, patch, pressure_Pa);
+  }
+  std::vector<FollowingLoad> edgeMoment(const PatchEdge& edge, double moment_N) const override {
+    return edgeMomentOn(g_, edge, moment_N);
+  }
+
+ private:
+  const Garment& g_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Mounting> shellMounting(const Garment& garment) {
+  return std::make_unique<ShellMounting>(garment);
+}
+
+}  // namespace gambeson
