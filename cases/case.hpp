@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/render/render.hpp"
+#include "cases/cloth_model.hpp"
 #include "cases/patch_fields_case.hpp"
 #include "cases/strain_limit_case.hpp"
 #include "core/cloth/shell/garment.hpp"
@@ -77,6 +78,13 @@ struct FileGarment {
   std::filesystem::path path;
 };
 
+/// A garment of triangles read from a mesh.
+struct MeshGarment {
+  std::filesystem::path path;
+  MeshRest rest = MeshRest::fabric;
+  double unit_m = 1, uv_unit_m = 1;  ///< length of a unit of the file, and of its uv
+};
+
 /// Virtual stitching, Zheng 2013, section 6.3: the panels start apart, and springs along the seams close them.
 struct Stitching {
   double offset_m = 0.05;            ///< of the panels from where they are drafted
@@ -95,8 +103,9 @@ struct FabricCase : Fabric {
 struct GarmentCase {
   std::string name;  ///< where there are several: what supports and tables call it; unique
   std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, BeltGarment, ShirtGarment, SkirtGarment,
-               FileGarment>
+               FileGarment, MeshGarment>
       shape;
+  ClothModel cloth;
   Vec3 position_m;                        ///< moves the shape
   std::optional<FabricCase> fabric;       ///< that of the case where absent
   std::vector<FabricCase> other_fabrics;  ///< what material fields choose from, beside the fabric

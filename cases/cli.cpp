@@ -52,6 +52,7 @@ struct DraftArguments {
   std::filesystem::path file, garment_file;
   std::vector<std::string> overrides;
   std::string garment;
+  bool obj = false;
 };
 
 struct RenderArguments {
@@ -179,10 +180,14 @@ void addDraft(CLI::App& app, DraftArguments& a) {
   draft.add_option("--garment", a.garment, "Its name in the case; not needed where there is only one")
       ->type_name("NAME");
   addOverrides(draft, a.overrides);
-  draft.add_option("-o,--output", a.garment_file, "Garment file to write (JSON)")->type_name("GARMENT")->required();
+  draft.add_flag("--obj", a.obj, "Writes it as a mesh of triangles (OBJ) in place of its patches");
+  draft.add_option("-o,--output", a.garment_file, "Garment file to write (JSON, or OBJ)")
+      ->type_name("GARMENT")
+      ->required();
   draft.footer(
       "The file has patches, seams, trims and names of edges, but no fabric; {\"file\": {\"path\": ...}} in a case\n"
-      "wears it, with the same results to the bit.\n\n"
+      "wears it, with the same results to the bit. With --obj it has the triangles that the garment is made of with\n"
+      "\"model\": \"triangles\" (and its \"mesh\"); {\"mesh_file\": {\"path\": ...}} wears these.\n\n"
       "Example:\n  gambeson draft cases/library/armour_stand.json --garment shirt -o shirt.json");
 }
 
@@ -356,7 +361,7 @@ int draft(const DraftArguments& a, std::ostream& out) {
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is a case of a structure; garments are made by those that wear");
-  draftToFile(*c, a.garment, a.garment_file, out);
+  draftToFile(*c, a.garment, a.garment_file, a.obj, out);
   return done;
 }
 

@@ -17,7 +17,9 @@
 #include "core/cloth/shell/seams.hpp"
 #include "core/cloth/shell/shell_law.hpp"
 #include "core/cloth/shell/surface.hpp"
+#include "core/cloth/triangles/obj_mesh.hpp"
 #include "core/error.hpp"
+#include "core/io/own_file.hpp"
 #include "human/load.hpp"
 #include "human/skin.hpp"
 #include "tryon/pattern/garment_file.hpp"
@@ -30,7 +32,7 @@ constexpr double least_area_m2 = 1e-8;
 
 /// How the case calls a shape.
 const char* wordOf(const decltype(GarmentCase::shape)& shape) {
-  static constexpr std::array words{"sheet", "disc", "tube", "shorts", "belt", "shirt", "skirt", "file"};
+  static constexpr std::array words{"sheet", "disc", "tube", "shorts", "belt", "shirt", "skirt", "file", "mesh_file"};
   return words[shape.index()];
 }
 
@@ -104,6 +106,12 @@ Garment makeGarment(const Case& c, const GarmentCase& worn, const BodyForm* form
           },
           [&](const SkirtGarment& s) { return makeSkirt(s, *form, layer, under); },
           [&](const FileGarment& f) { return loadGarment(f.path); },
+          [&](const MeshGarment& m) {
+            Garment mesh;  // of no patches: its cloth reads the file
+            mesh.name = "mesh";
+            mesh.patch_names = readObj(m.path).patch_names;
+            return mesh;
+          },
       },
       worn.shape);
   for (std::size_t p = garment.patch_names.size(); p < garment.patches.size(); ++p)
@@ -153,6 +161,7 @@ std::vector<Garment> draftGarments(const Case& c, const Human* human) {
     ClothSize(size).add(cellsOf(worn.shape), worn.samples_per_cell, shape);
     garments.push_back(underKey(shape, [&] { return makeGarment(c, worn, form ? &*form : nullptr, under); }));
     size.add(cellsOf(garments.back()), worn.samples_per_cell, shape);
+    if (std::holds_alternative<MeshGarment>(worn.shape)) continue;
     double area = 0;
     for (const double a : underKey(shape, [&] { return controlAreas(garments.back()); })) area += a;
     if (!(area >= least_area_m2))
@@ -179,7 +188,8 @@ std::vector<Vec3> startDisplacements(const Case& c, const std::vector<Garment>& 
   return out;
 }
 
-void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, std::ostream& out) {
+void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, bool as_mesh,
+                 std::ostream& out) {
   std::vector<std::string> names;
   for (const GarmentCase& g : c.garments) names.push_back(g.name);
   std::size_t k = 0;
@@ -198,6 +208,16 @@ void draftToFile(const Case& c, const std::string& name, const std::filesystem::
   if (c.human) human = humanOf(*c.human);
   const Case made = withFactors(c);
   const Garment g = draftGarments(made, human ? &*human : nullptr)[k];
+  if (std::holds_alternative<MeshGarment>(c.garments[k].shape))
+    throw InputError({c.file.string(), 0, fmt::format("garments[{}].mesh_file", k)},
+                     "is a mesh already; drafts are written");
+  if (as_mesh) {
+    const TriangleGarment t = triangleGarment(g, c.garments[k].cloth.mesh);
+    writeOwnFile(file, objText(t.mesh, g.name));
+    out << fmt::format("{}: {} patches, {} vertices, {} triangles\n", g.name, t.mesh.patch_names.size(),
+                       t.mesh.vertices.size(), t.mesh.triangles.size());
+    return;
+  }
   writeGarment(g, file);
   double area = 0, mass = 0;
   for (const double a : controlAreas(g)) area += a;

@@ -20,7 +20,9 @@ std::vector<Garment> draftGarments(const Case& c, const Human* human);
 /// Displacement of every control point from rest at the start: where it is placed, and noise.
 std::vector<Vec3> startDisplacements(const Case& c, const std::vector<Garment>& garments);
 
-/// Writes the garment of this name (or the only one) as a file and says on `out` what it is. Throws InputError.
-void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, std::ostream& out);
+/// Writes the garment of this name (or the only one) as a file, or as a mesh of triangles, and says on `out` what it
+/// is. Throws InputError.
+void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, bool as_mesh,
+                 std::ostream& out);
 
 }  // namespace gambeson

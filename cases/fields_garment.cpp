@@ -1,5 +1,6 @@
 #include "cases/case.hpp"
 #include "cases/fields.hpp"
+#include "cases/fields_cloth.hpp"
 #include "cases/fields_fabric.hpp"
 #include "cases/structure_fields.hpp"
 #include "cases/table.hpp"
@@ -137,6 +138,28 @@ Object skirtTable() {
       .build();
 }
 
+Object meshFileTable() {
+  using M = MeshGarment;
+  return Table<M>("Mesh file")
+      .path("path", &M::path,
+            "an OBJ file, relative to the case's folder: groups are patches, lines of a group \"edge NAME PATCH\" are "
+            "edges "
+            "that supports may name; vertices at one place are one")
+      .required()
+      .choice("rest", &M::rest,
+              std::vector<std::pair<std::string, MeshRest>>{
+                  {"fabric", MeshRest::fabric}, {"shape", MeshRest::shape}, {"uv", MeshRest::flat}},
+              "how the cloth lies without stress. fabric: as the mesh stands, its hinges flat unless the fabric's "
+              "bending.rest is "
+              "\"shape\", as a draft does; shape: as the mesh stands, its hinges with the mesh's angles (collars, "
+              "pleats). In both "
+              "uv turns the threads alone, weft where u grows. uv: flat, as the mesh's uv says")
+      .number("unit", &M::unit_m, "m", between(1e-6, 1e3), "length of a unit of the file")
+      .number("uv_unit", &M::uv_unit_m, "m", between(1e-6, 1e3),
+              "length of a unit of uv, where the cloth lies as uv says")
+      .build();
+}
+
 Object fileTable() {
   return Table<FileGarment>("Garment file")
       .path("path", &FileGarment::path, "file with patches and seams, relative to the case's folder")
@@ -196,7 +219,15 @@ Object garmentTable() {
       .in("shape")
       .alternative<FileGarment>("file", &G::shape, fileTable(), "a garment from a file")
       .in("shape")
+      .alternative<MeshGarment>("mesh_file", &G::shape, meshFileTable(), "a garment of triangles from a mesh")
+      .in("shape")
       .oneOf("shape", true)
+      .choice(
+          "model", [](auto& g) -> auto& { return g.cloth.kind; }, clothKinds(), clothKindDoc())
+      .unwritten()
+      .choice(
+          "mesh", [](auto& g) -> auto& { return g.cloth.mesh; }, meshKinds(), meshKindDoc())
+      .unwritten()
       .vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
       .converted<FabricInput>("fabric", &G::fabric, fabricTable(), resolveFabric, restoreFabric,
                               "what this garment is made of")
@@ -256,6 +287,9 @@ Object garmentTable() {
               "virtual stitching: the panels start apart and springs along the seams close them; needs "
               "dressing.layer_by_layer")
       .defaultsTo("none: drafted sewn, put on by projecting")
+      .check([](const Place& p, G& g) {
+        if (std::holds_alternative<MeshGarment>(g.shape) && !p.node.find("model")) g.cloth.kind = ClothKind::triangles;
+      })
       .build();
 }
 

@@ -174,6 +174,12 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
   c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s, f.largest_rad_per_s, f.membrane_share,
                         f.bending_share,       f.seam_share,  f.spring_share};
   c.reals["swing"] = {s.swing, s.share};
+  if (!s.history.empty()) c.reals["history"] = s.history;
+  if (!s.inner.empty()) {
+    c.reals["inner"] = s.inner;
+    c.reals["inner_rate"] = s.inner_rate;
+    c.reals["inner_acceleration"] = s.inner_acceleration;
+  }
   c.integers["steps_to_estimate"] = {s.steps_to_estimate};
   c.integers["tangled"] = {s.tangled};
   c.integers["pinched"].assign(s.pinched.begin(), s.pinched.end());
@@ -198,6 +204,13 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   s.anchors = vectors(c.reals.at("anchors"));
   s.mode = vectors(c.reals.at("mode"));
   s.limit_J = c.reals.at("limit");
+  const auto ifThere = [&](const char* name) {
+    return c.reals.contains(name) ? c.reals.at(name) : std::vector<double>{};
+  };
+  s.history = ifThere("history");
+  s.inner = ifThere("inner");
+  s.inner_rate = ifThere("inner_rate");
+  s.inner_acceleration = ifThere("inner_acceleration");
   s.pressed = vectors(c.reals.at("pressed"));
   const std::vector<Vec3> sums = vectors(c.reals.at("sums"));
   s.sums = {sums[0], sums[1], sums[2]};

@@ -1,4 +1,5 @@
 #include "cases/references.hpp"
+#include "core/cloth/triangles/obj_mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -75,21 +76,9 @@ double motionDuration(const HumanCase& h, const Human& human) {
   return loadTrajectory(std::get<TrajectoryMotion>(h.motion).file, human)->duration();
 }
 
-/// A garment's file, and the patches of it that supports name.
-void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment, const FileGarment& file) {
-  Garment read = loadGarment(file.path);
-  try {
-    applyFields(garment.fields, read);
-  } catch (const InputError& e) {
-    const std::size_t i = std::stoul(e.where().key.substr(std::string("fields[").size()));
-    const JsonNode* list = root.node.find("garments");
-    const auto k = static_cast<std::size_t>(&garment - c.garments.data());
-    const Place place = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
-    listItem(place, "fields", i).failAt("patch", e.reason());
-  }
-  const int patches = static_cast<int>(read.patches.size());
-  std::vector<std::string> names;
-  for (const NamedEdge& e : read.edges) names.push_back(e.name);
+/// What supports name of a garment with these patches and edges.
+void checkSupportsOf(const Place& root, const Case& c, const GarmentCase& garment, int patches,
+                     const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, c.supports[i]);
     if (!edge.garment.empty() && edge.garment != garment.name) continue;
@@ -104,6 +93,34 @@ void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garme
   }
 }
 
+/// A garment's file, and the patches of it that supports name.
+void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment, const FileGarment& file) {
+  Garment read = loadGarment(file.path);
+  try {
+    applyFields(garment.fields, read);
+  } catch (const InputError& e) {
+    const std::size_t i = std::stoul(e.where().key.substr(std::string("fields[").size()));
+    const JsonNode* list = root.node.find("garments");
+    const auto k = static_cast<std::size_t>(&garment - c.garments.data());
+    const Place place = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
+    listItem(place, "fields", i).failAt("patch", e.reason());
+  }
+  std::vector<std::string> names;
+  for (const NamedEdge& e : read.edges) names.push_back(e.name);
+  checkSupportsOf(root, c, garment, static_cast<int>(read.patches.size()), names);
+}
+
+void checkMeshFile(const Place& root, const Case& c, const GarmentCase& garment, const MeshGarment& file) {
+  const ClothMesh mesh = readObj(file.path);
+  if (file.rest == MeshRest::flat && mesh.uv.empty())
+    throw InputError(
+        {file.path.string(), 0, "rest"},
+        "the mesh has no uv coordinates to lie flat by; allowed: \"rest\": \"shape\", or vt at all corners");
+  std::vector<std::string> names;
+  for (const NamedEdge& e : namedEdges(mesh)) names.push_back(e.name);
+  checkSupportsOf(root, c, garment, static_cast<int>(mesh.patch_names.size()), names);
+}
+
 }  // namespace
 
 void checkReferences(const Place& root, const Case& c) {
@@ -116,7 +133,10 @@ void checkReferences(const Place& root, const Case& c) {
     duration_s = c.time.duration_s.value_or(motion_s);
   }
   for (const GarmentCase& g : c.garments)
-    if (const auto* file = std::get_if<FileGarment>(&g.shape)) checkGarmentFile(root, c, g, *file);
+    if (const auto* file = std::get_if<FileGarment>(&g.shape))
+      checkGarmentFile(root, c, g, *file);
+    else if (const auto* mesh = std::get_if<MeshGarment>(&g.shape))
+      checkMeshFile(root, c, g, *mesh);
   for (const ObstacleCase& o : c.obstacles) {
     if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) loadMesh(mesh->file, mesh->scale);
     if (const auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) MeshSequence{*sequence};

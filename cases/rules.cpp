@@ -56,13 +56,18 @@ const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase
                                                                                     : joined(names)));
 }
 
+/// From a file, which alone knows its patches and edges.
+bool isRead(const GarmentCase& g) {
+  return std::holds_alternative<FileGarment>(g.shape) || std::holds_alternative<MeshGarment>(g.shape);
+}
+
 /// Patches of the garment by name; none where only its file knows.
 std::vector<std::string> patchNames(const GarmentCase& g) {
   if (std::holds_alternative<ShortsGarment>(g.shape)) return shortsPatchNames();
   if (std::holds_alternative<ShirtGarment>(g.shape)) return shirtPatchNames();
   if (std::holds_alternative<BeltGarment>(g.shape)) return beltPatchNames();
   if (std::holds_alternative<SkirtGarment>(g.shape)) return skirtPatchNames();
-  if (std::holds_alternative<FileGarment>(g.shape)) return {};
+  if (isRead(g)) return {};
   const auto* tube = std::get_if<TubeGarment>(&g.shape);
   std::vector<std::string> names;
   for (int k = 0; k < (tube ? tube->patches : 1); ++k) names.push_back(fmt::format("patch_{}", k));
@@ -72,7 +77,7 @@ std::vector<std::string> patchNames(const GarmentCase& g) {
 void checkEdge(const Place& support, const Case& c, const EdgeCase& edge) {
   const GarmentCase& garment = *garmentOf(support, c, edge);
   if (!edge.name.empty()) {
-    if (std::holds_alternative<FileGarment>(garment.shape)) return;  // its file knows (cases/references.cpp)
+    if (isRead(garment)) return;  // its file knows (cases/references.cpp)
     const std::vector<std::string> names = edgeNames(garment);
     if (std::find(names.begin(), names.end(), edge.name) == names.end())
       support.failAt("edge", fmt::format("\"{}\" is not an edge of this garment; allowed: {}", edge.name,
@@ -115,6 +120,27 @@ Place garmentPlace(const Place& root, std::size_t i) {
   failInside(item, key.substr(close + 2), reason);
 }
 
+/// Keys that its kind of cloth has no use for.
+void checkModel(const Place& place, const Case& c, const GarmentCase& g) {
+  const bool mesh_file = std::holds_alternative<MeshGarment>(g.shape);
+  const auto refuse = [&](const char* key, const char* reason) {
+    if (place.node.find(key)) place.failAt(key, reason);
+  };
+  if (mesh_file && g.cloth.kind == ClothKind::nurbs)
+    place.failAt("model", "a mesh_file is cloth of triangles; allowed: \"triangles\"");
+  if (mesh_file || g.cloth.kind == ClothKind::nurbs)
+    refuse("mesh", mesh_file ? "is for drafts; a mesh_file is a mesh already" : "is for \"model\": \"triangles\"");
+  if (g.cloth.kind == ClothKind::nurbs) return;
+  refuse("samples_per_cell", "is for \"model\": \"nurbs\"; the samples of triangles are their vertices");
+  if (c.strain_limit && wornLimit(*c.strain_limit).mode == LimitMode::equality)
+    place.failAt(
+        "model",
+        "triangles lock where their threads keep their lengths; allowed: strain_limit with a limit, or \"nurbs\"");
+  if (!mesh_file) return;
+  for (const char* key : {"fields", "other_fabrics", "noise", "noise_seed", "stitching", "seam_stiffness"})
+    refuse(key, "is for drafted garments, not for a mesh_file");
+}
+
 void checkFieldsOf(const Place& place, const Case& c, const GarmentCase& g) {
   for (std::size_t i = 0; i < g.fields.size(); ++i) {
     try {
@@ -129,7 +155,7 @@ void checkFieldsOf(const Place& place, const Case& c, const GarmentCase& g) {
   const auto* belt = std::get_if<BeltGarment>(&g.shape);
   if (belt && belt->tension_N > 0 && !g.fields.empty())
     place.failAt("fields", "a belt's length follows from its tension and one fabric; allowed: with tension 0 N");
-  if (std::holds_alternative<FileGarment>(g.shape)) return;  // its file knows (cases/references.cpp)
+  if (isRead(g)) return;  // its file knows (cases/references.cpp)
   Garment patches;
   patches.patch_names = patchNames(g);
   patches.patches.resize(patches.patch_names.size());
@@ -155,6 +181,7 @@ void checkGarments(const Place& root, const Case& c) {
                                        std::pair{std::holds_alternative<ShirtGarment>(g.shape), "shirt"},
                                        std::pair{std::holds_alternative<SkirtGarment>(g.shape), "skirt"}})
       if (drafted && !c.human) place.failAt(key, fmt::format("a {} is drafted on a human, and the case has none", key));
+    checkModel(place, c, g);
     checkFieldsOf(place, c, g);
     all_own = all_own && g.fabric;
     if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())

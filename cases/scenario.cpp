@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cases/case_stage.hpp"
+#include "cases/cloth_draft.hpp"
 #include "cases/contact_regions.hpp"
 #include "cases/draft.hpp"
 #include "cases/dress.hpp"
@@ -14,9 +15,6 @@
 #include "cases/obstacle_shape.hpp"
 #include "cases/overloaded.hpp"
 #include "cases/places.hpp"
-#include "core/cloth/shell/layers.hpp"
-#include "core/cloth/shell/nurbs_shell.hpp"
-#include "core/cloth/shell/surface.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
 #include "core/material/coarseness.hpp"
@@ -26,7 +24,6 @@
 #include "human/skin_overlap.hpp"
 #include "tryon/projecting.hpp"
 #include "tryon/skin_projecting.hpp"
-#include "tryon/stitching.hpp"
 
 namespace gambeson {
 namespace {
@@ -38,19 +35,6 @@ bool plausible(const FootReport& f) { return f.slip_m < 0.05 && f.penetration_m 
 bool isDrafted(const GarmentCase& g) {
   return std::holds_alternative<ShortsGarment>(g.shape) || std::holds_alternative<BeltGarment>(g.shape) ||
          std::holds_alternative<ShirtGarment>(g.shape) || std::holds_alternative<SkirtGarment>(g.shape);
-}
-
-/// The garment without its seams, springs in their place, and the panels moved off the body (as `start`).
-void standPanelsApart(const Stitching& law, const std::vector<int>& samples_per_cell, Garment& garment,
-                      std::vector<Vec3>& start, std::vector<Stitch>& stitches) {
-  const std::vector<Vec3> offsets = panelOffsets(garment, law.offset_m);
-  const std::vector<int> first = controlOffsets(garment);
-  for (std::size_t p = 0; p < offsets.size(); ++p)
-    for (int i = first[p]; i < first[p + 1]; ++i) start[static_cast<std::size_t>(i)] += offsets[p];
-  const Garment open = unsewn(garment);
-  stitches = stitchesOf(garment, buildSurface(open, buildFreeMap(open), samples_per_cell),
-                        {law.stiffness_N_per_m2, law.damping_kg_per_m_s});
-  garment = open;
 }
 
 void noteDefects(const MeshObstacle& file, const std::string& name, const Obstacle& obstacle,
@@ -293,29 +277,25 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   const Human* human = s->human ? &*s->human : nullptr;
   const std::vector<Garment> garments = draftOf(c, only, human);
   std::vector<int> first{0};
-  std::vector<std::vector<NamedEdge>> edges;
   for (std::size_t k = 0; k < garments.size(); ++k) {
     const Garment& g = garments[k];
     const std::string& name = c.garments[k].name;
     for (const std::string& part : g.patch_names)
-      s->patch_names.push_back(garments.size() == 1 ? part : g.patches.size() == 1 ? name : name + " " + part);
-    s->samples_per_cell.insert(s->samples_per_cell.end(), g.patches.size(), c.garments[k].samples_per_cell);
+      s->patch_names.push_back(garments.size() == 1 ? part : g.patch_names.size() == 1 ? name : name + " " + part);
     if (std::find(s->fabric_names.begin(), s->fabric_names.end(), g.fabric.name) == s->fabric_names.end())
       s->fabric_names.push_back(g.fabric.name);
-    first.push_back(first.back() + static_cast<int>(g.patches.size()));
-    edges.push_back(g.edges);
+    first.push_back(first.back() + static_cast<int>(g.patch_names.size()));
   }
-  std::vector<Vec3> start = startDisplacements(c, garments);
-  Garment garment = garments.size() == 1 ? garments[0] : joinLayers(garments);
-  scaleSeams(garment, written.factors);
+  ClothDraft draft = underGarments(c, only, [&] { return clothOf(c, written.factors, garments, only.panels); });
+  s->samples_per_cell = draft.samples_per_cell;
+  const std::vector<Vec3>& start = draft.start_m;
   ModelOptions options;
-  if (only.panels) standPanelsApart(*c.garments[0].stitching, s->samples_per_cell, garment, start, options.stitches);
+  options.stitches = std::move(draft.stitches);
   options.patch_samples_per_cell = s->samples_per_cell;
   options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
-  auto cloth = underGarments(c, only, [&] { return std::make_unique<const NurbsShell>(garment); });
-  const Surface surface = underGarments(c, only, [&] { return cloth->surface(s->samples_per_cell); });
-  addSupports(c, *cloth, first, edges, surface, human, options, s->supports);
+  const Surface surface = underGarments(c, only, [&] { return draft.cloth->surface(s->samples_per_cell); });
+  addSupports(c, *draft.cloth, first, draft.edges, surface, human, options, s->supports);
   if (const auto& limit = c.strain_limit) options.strain_limit = wornLimit(*limit);
   Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   const double g = norm(c.gravity_m_per_s2);
@@ -323,7 +303,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
                                   c.contact.relaxation_s,        c.contact.tolerance * (g > 0 ? g : 9.81),
                                   c.contact.max_iterations,      c.contact.compliance_m_per_Pa};
   s->model = underGarments(
-      c, only, [&] { return buildModel(std::move(cloth), options, environment, contact, std::move(obstacles)); });
+      c, only, [&] { return buildModel(std::move(draft.cloth), options, environment, contact, std::move(obstacles)); });
   noteCoarseness(c, garments, first, *s);
   findHeldPoints(*s->model, s->supports);
 

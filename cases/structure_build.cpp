@@ -27,8 +27,9 @@ int programIndex(const StructureCase& c, const std::string& name) {
 }
 
 /// The direction of hold that is not any other's: a motion is split over the held directions.
-std::vector<LinearConstraint> supportOf(const StructureCase& c, const Sheet& sheet, const Mounting& mounting,
+std::vector<LinearConstraint> supportOf(const StructureCase& c, const Sheet& sheet, const Cloth& cloth,
                                         const StructureSupport& s) {
+  const Mounting& mounting = cloth.mounting();
   std::vector<LinearConstraint> all;
   const auto add = [&](std::vector<LinearConstraint> more) {
     all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -37,7 +38,7 @@ std::vector<LinearConstraint> supportOf(const StructureCase& c, const Sheet& she
   if (s.move_m) motion = {*s.move_m, programIndex(c, s.program)};
   if (const auto* point = std::get_if<PointAt>(&s.where)) {
     const auto [patch, uv] = locate(sheet, *point);
-    add(mounting.holdPlace(patch, uv, s.hold, motion));
+    add(mounting.holdPlace(patch, cloth.placeOfDraft(patch, uv), s.hold, motion));
     return all;
   }
   for (const PatchEdge& e : edgesOf(sheet, std::get<EdgeAt>(s.where))) {
@@ -75,7 +76,7 @@ void addLoad(const StructureCase& c, const Sheet& sheet, const Cloth& cloth, con
     case LoadSort::force:
       if (const auto* point = std::get_if<PointAt>(&l.where)) {
         const auto [patch, uv] = locate(sheet, *point);
-        addForce(o, mounting.placeForce(patch, uv, l.vector), program);
+        addForce(o, mounting.placeForce(patch, cloth.placeOfDraft(patch, uv), l.vector), program);
       } else {
         for (const PatchEdge& e : edge()) addForce(o, mounting.edgeForce(e, l.vector / length()), program);
       }
@@ -132,7 +133,13 @@ Sheet sheetOf(const StructureCase& c) {
 }
 
 std::unique_ptr<const Cloth> clothOf(const StructureCase& c, const Sheet& sheet) {
-  return std::make_unique<NurbsShell>(sheet.garment, ShellOptions{c.sheet.gauss_extra, c.sheet.rule, nullptr});
+  if (c.sheet.cloth.kind == ClothKind::nurbs)
+    return std::make_unique<NurbsShell>(sheet.garment, ShellOptions{c.sheet.gauss_extra, c.sheet.rule, nullptr});
+  return at("sheet.mesh", [&] {
+    std::vector<TriangleGarment> garments;
+    garments.push_back(triangleGarment(sheet.garment, c.sheet.cloth.mesh));
+    return std::make_unique<TriangleCloth>(std::move(garments));
+  });
 }
 
 StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet, const Cloth& cloth) {
@@ -145,7 +152,7 @@ StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet, const Clo
   for (const NamedProgram& p : c.programs) o.programs.push_back({p.at, p.value});
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const std::string key = fmt::format("supports[{}]", i);
-    std::vector<LinearConstraint> more = at(key, [&] { return supportOf(c, sheet, cloth.mounting(), c.supports[i]); });
+    std::vector<LinearConstraint> more = at(key, [&] { return supportOf(c, sheet, cloth, c.supports[i]); });
     for (LinearConstraint& l : more) {
       l.name = key;
       o.constraints.push_back(std::move(l));

@@ -1,4 +1,5 @@
 #include "cases/structure_fields_sheet.hpp"
+#include "cases/fields_cloth.hpp"
 
 #include <fmt/format.h>
 
@@ -92,6 +93,12 @@ Object structureSheetTable() {
               "but 3 across a patch of a single cell, and 3 x 3 on trimmed patches; assumed: strains taken at the "
               "knots, free of locking but less accurate for wrinkles. Other degrees: degree + 1")
       .integer("gauss_extra", &S::gauss_extra, 0, 5, "more integration points each way than the rule takes")
+      .choice(
+          "model", [](auto& s) -> auto& { return s.cloth.kind; }, clothKinds(), clothKindDoc())
+      .unwritten()
+      .choice(
+          "mesh", [](auto& s) -> auto& { return s.cloth.mesh; }, meshKinds(), meshKindDoc())
+      .unwritten()
       .build();
 }
 

@@ -224,6 +224,7 @@ Probes::Probes(const StructureCase& c, const StructureModel& model, const Struct
   for (const OutputPoint& p : c.output.points) {
     PointProbe probe;
     std::tie(probe.patch, probe.uv) = locate(model.sheet, p.where);
+    probe.uv = s.cloth->placeOfDraft(probe.patch, probe.uv);
     const PlaceRow at = mounting.place(probe.patch, probe.uv);
     std::set<int> free;
     for (std::size_t k = 0; k < at.columns.size(); ++k) {

@@ -249,7 +249,7 @@ DynamicState startOf(const StructureCase& c, const Run& run) {
     return unknownsOf(s, u);
   };
   if (c.initial.noise) {
-    const std::vector<Vec3> noise = noiseOf(run.model().sheet, *c.initial.noise);
+    const std::vector<Vec3> noise = s.cloth->fromDraft(noiseOf(run.model().sheet, *c.initial.noise));
     state.y = onFree([&](std::size_t f) { return noise[static_cast<std::size_t>(s.cloth->map().home[f])]; });
   }
   if (norm(c.initial.velocity_m_per_s) > 0) state.v = onFree([&](std::size_t) { return c.initial.velocity_m_per_s; });

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "cases/cloth_model.hpp"
 #include "cases/patch_fields_case.hpp"
 #include "core/cloth/shell/garment.hpp"
 #include "core/cloth/shell/seams.hpp"
@@ -130,6 +131,7 @@ struct SheetCase {
   std::optional<NoiseCase> imperfection;  ///< part of the rest shape
   CellRule rule = CellRule::automatic;
   int gauss_extra = 0;
+  ClothModel cloth;
 };
 
 /// How patches lie: a grid of count_u x count_v patches (patch i + count_u j), or loose ones.

@@ -2,6 +2,8 @@
 /// Builds one object of the field table for a plain struct T. Defaults are not written again: they are those of T
 /// itself. Members are named by anything that std::invoke takes: &T::member, a lambda, std::identity for T itself.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <type_traits>
@@ -225,6 +227,19 @@ class Table {
   }
   Table& defaultsTo(const std::string& note) {
     object_.fields.back().default_note = note;
+    return *this;
+  }
+  /// A choice or a number that is not written where it is the default, so that cases that do without it stay as they
+  /// are.
+  Table& unwritten() {
+    Field& f = object_.fields.back();
+    const T defaults{};
+    const std::optional<JsonNode> usual = f.write(&defaults);
+    f.default_note = f.kind == Kind::choice ? usual->text : fmt::format("{:g}", usual->number);
+    f.write = [write = f.write, usual](const void* t) -> std::optional<JsonNode> {
+      const std::optional<JsonNode> node = write(t);
+      return node && (node->text != usual->text || node->number != usual->number) ? node : std::nullopt;
+    };
     return *this;
   }
   Table& in(const std::string& group) {

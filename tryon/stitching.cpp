@@ -8,13 +8,6 @@
 namespace gambeson {
 namespace {
 
-std::vector<Vec3> restSamples(const Garment& garment, const Surface& surface) {
-  std::vector<Vec3> Q, X(surface.size());
-  for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
-  surface.W.multiply<Vec3>(Q, X);
-  return X;
-}
-
 /// Mean of the normals over the area of a patch, at the middle points of 32 x 32 parts of its parameters.
 Vec3 meanNormal(const NurbsPatch& patch) {
   constexpr int n = 32;
@@ -51,8 +44,10 @@ std::vector<Vec3> panelOffsets(const Garment& garment, double distance_m, double
   return offsets;
 }
 
-std::vector<Stitch> stitchesOf(const Garment& garment, const Surface& surface, const StitchLaw& law) {
-  const std::vector<Vec3> X = restSamples(garment, surface);
+std::vector<Stitch> stitchesOf(const Garment& garment, const Cloth& cloth, const Surface& surface,
+                               const StitchLaw& law) {
+  std::vector<Vec3> X(static_cast<std::size_t>(surface.size()));
+  surface.W.multiply<Vec3>(cloth.rest(), X);
   std::vector<Stitch> stitches;
   const auto join = [&](const PatchEdge& a, const PatchEdge& b) {
     const std::vector<int> from = edgeSamples(surface, a), to = edgeSamples(surface, b);

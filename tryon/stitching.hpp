@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/cloth.hpp"
+#include "core/cloth/shell/garment.hpp"
 #include "core/motion/stitch.hpp"
 
 namespace gambeson {
@@ -25,9 +26,10 @@ struct StitchLaw {
   double damping_kg_per_m_s = 1;     ///< eta, per length of seam
 };
 /// One spring from every sample along edge a of each seam (also weak ones) to the sample of edge b that is nearest to
-/// it at rest, with the length of seam that it answers for: half of that to either neighbour. `surface` is that of the
-/// unsewn garment.
-std::vector<Stitch> stitchesOf(const Garment& garment, const Surface& surface, const StitchLaw& law);
+/// it at rest, with the length of seam that it answers for: half of that to either neighbour. `cloth` and `surface` are
+/// those of the unsewn garment.
+std::vector<Stitch> stitchesOf(const Garment& garment, const Cloth& cloth, const Surface& surface,
+                               const StitchLaw& law);
 
 /// The free points of the sewn garment nearest to where the unsewn control points are: p that minimises |T p - q|^2.
 std::vector<Vec3> sew(const FreeMap& sewn, std::span<const Vec3> q);

@@ -7,26 +7,6 @@ namespace {
 
 constexpr int kRows = 2;  ///< of points beyond a cut
 
-/// Of the edge at rest.
-double lengthOf(const Cloth& cloth, const PatchEdge& edge) {
-  constexpr int kPieces = 64;
-  const ClothPatch& patch = cloth.patches()[static_cast<std::size_t>(edge.patch)];
-  const bool along_u = edge.side == Side::v0 || edge.side == Side::v1,
-             at_end = edge.side == Side::u1 || edge.side == Side::v1;
-  double length = 0;
-  Vec3 last{};
-  for (int k = 0; k <= kPieces; ++k) {
-    const double s = static_cast<double>(k) / kPieces;
-    const Vec2 uv = along_u ? Vec2{(1 - s) * patch.low.x + s * patch.high.x, at_end ? patch.high.y : patch.low.y}
-                            : Vec2{at_end ? patch.high.x : patch.low.x, (1 - s) * patch.low.y + s * patch.high.y};
-    const PlaceRow row = cloth.mounting().place(edge.patch, uv);
-    const Vec3 x = combine(row.columns, row.value, cloth.rest());
-    if (k > 0) length += norm(x - last);
-    last = x;
-  }
-  return length;
-}
-
 }  // namespace
 
 std::vector<StrapCut> strapCuts(const Cloth& cloth, std::span<const std::string> names) {
@@ -42,7 +22,7 @@ std::vector<StrapCut> strapCuts(const Cloth& cloth, std::span<const std::string>
                                  cloth.mounting().edgePoints(edges[1], kRows)};
     if (static_cast<int>(beyond[0].size() + beyond[1].size()) >= patch.end_point - patch.first_point) continue;
     for (const bool end : {false, true})
-      cuts.push_back({index, end, lengthOf(cloth, edges[end]), std::move(beyond[end])});
+      cuts.push_back({index, end, cloth.mounting().edgeLength(edges[end]), std::move(beyond[end])});
   }
   return cuts;
 }

@@ -70,6 +70,12 @@ class Cloth {
   /// Where a point is, in words: "control point (2, 3) of patch 0".
   virtual std::string describePoint(int point) const = 0;
 
+  /// A place of a patch: what a draft's parameters (u, v) are there. Throws InputError where the patch was not drafted.
+  virtual Vec2 placeOfDraft(int patch, Vec2 uv) const = 0;
+  virtual int draftPoints() const = 0;  ///< control points of the drafts
+  /// Displacements of all points where the control points of the drafts, one after the other, move so.
+  virtual std::vector<Vec3> fromDraft(std::span<const Vec3> control) const = 0;
+
   // What contact, pictures and tables see.
   /// `per_cell`: of each patch, samples along each edge of a cell.
   virtual Surface surface(std::span<const int> per_cell) const = 0;

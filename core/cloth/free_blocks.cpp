@@ -1,5 +1,7 @@
 #include "core/cloth/free_blocks.hpp"
 
+#include <algorithm>
+
 #include <cassert>
 
 namespace gambeson {
@@ -25,6 +27,39 @@ void addSymmetrised(const FreeMap& map, std::span<const int> columns, std::span<
           for (int k = 0; k < 9; ++k) out[k] += w * s[k];
         }
     }
+}
+
+namespace {
+
+/// Free points that the points of an element hang on.
+std::vector<int> freePointsOf(const FreeMap& map, const std::vector<int>& nodes) {
+  std::vector<int> points;
+  for (int node : nodes)
+    for (int e = map.T.offsets[node]; e < map.T.offsets[node + 1]; ++e) points.push_back(map.T.columns[e]);
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+}  // namespace
+
+BlockMatrix blockPattern(const FreeMap& map, const std::vector<std::vector<int>>& elements) {
+  std::vector<std::vector<int>> rows(static_cast<std::size_t>(map.T.column_count));
+  for (int r = 0; r < map.T.column_count; ++r) rows[r].push_back(r);
+  for (const std::vector<int>& nodes : elements) {
+    const std::vector<int> points = freePointsOf(map, nodes);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      rows[points[i]].insert(rows[points[i]].end(), points.begin() + static_cast<long>(i) + 1, points.end());
+  }
+  BlockMatrix K;
+  for (std::vector<int>& row : rows) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    K.columns.insert(K.columns.end(), row.begin(), row.end());
+    K.offsets.push_back(static_cast<long>(K.columns.size()));
+  }
+  K.values.assign(9 * K.columns.size(), 0.0);
+  return K;
 }
 
 }  // namespace gambeson

@@ -15,4 +15,7 @@ namespace gambeson {
 void addSymmetrised(const FreeMap& map, std::span<const int> columns, std::span<const std::array<double, 9>> blocks,
                     BlockMatrix& K);
 
+/// The pattern of elements on these points: every pair of free points that share one.
+BlockMatrix blockPattern(const FreeMap& map, const std::vector<std::vector<int>>& elements);
+
 }  // namespace gambeson

@@ -2,6 +2,7 @@
 /// How supports and loads take hold of a cloth.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/cloth/constraint.hpp"
@@ -22,6 +23,14 @@ struct PlaceRow {
   std::vector<double> value, d1, d2;
 };
 
+/// Throws InputError (key `name`) unless directions are unit vectors, one or more, and a motion is finite and has a
+/// program.
+void checkSupport(const std::string& name, std::span<const Vec3> directions, const Prescribed& motion);
+/// An equation without terms yet; its program counts only where it moves something.
+LinearConstraint supportEquation(const std::string& name, const Vec3& direction, const Prescribed& motion);
+/// Throws InputError (key `name`) unless the vector is finite.
+void checkFiniteLoad(const Vec3& v, const char* name);
+
 /// What each kind of cloth says of its places and edges, for the supports and loads of a structure. All throw
 /// InputError where there is no such patch, place or edge. Lives no longer than its cloth.
 class Mounting {
@@ -31,6 +40,7 @@ class Mounting {
   virtual PlaceRow place(int patch, Vec2 uv) const = 0;
   /// The points that hold an edge, and the rows of them beside it into the patch; the whole patch where it has no more.
   virtual std::vector<int> edgePoints(const PatchEdge& edge, int rows = 1) const = 0;
+  virtual double edgeLength(const PatchEdge& edge) const = 0;  ///< at rest [m]
 
   /// Holds (or moves) the components of an edge along `directions` (unit vectors; three orthogonal ones hold it whole).
   virtual std::vector<LinearConstraint> holdEdge(const PatchEdge& edge, std::span<const Vec3> directions,

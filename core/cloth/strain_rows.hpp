@@ -78,6 +78,8 @@ struct StrainRows {
   /// Resultants of weft and warp at the vertices of all patches [N/m] from multipliers of rows [J].
   std::array<SparseRows, 2> field_of_row;
 
+  std::vector<StrainRows> parts;  ///< of a cloth that is made of several: what each has of its own, but for S
+
   int rows() const { return B.rows(); }
 };
 

@@ -42,6 +42,7 @@ class StressView {
   struct Sample {
     PlaneTensor stress, strain;
   };
+  virtual std::size_t cells() const = 0;  ///< how many means there are
   /// Of all cells in a state, for `at` and `strainAt`.
   virtual std::vector<Sample> means(const ClothState& state, const More& more = {}) const = 0;
   /// At a place; where `means` are empty those that are needed are taken.

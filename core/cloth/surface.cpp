@@ -34,13 +34,16 @@ std::vector<int> gridEdge(int nu, int nv, const PatchEdge& e) {
 }
 
 std::vector<int> edgeSamples(const Surface& surface, const PatchEdge& edge) {
+  const auto side = static_cast<std::size_t>(edge.side);
+  if (!surface.edge_samples.empty() && side < surface.edge_samples[edge.patch].size()) {
+    // No grid, or a trimmed patch: what is left of the edge, with the points where loops meet it.
+    std::vector<int> at = surface.edge_samples[edge.patch][side];
+    if (edge.reversed) std::reverse(at.begin(), at.end());
+    return at;
+  }
   const auto [nu, nv] = surface.patch_grid_size[edge.patch];
   std::vector<int> at = gridEdge(nu, nv, edge);
   for (int& i : at) i = surface.patch_grid[edge.patch][i];
-  if (surface.edge_samples.empty() || surface.edge_samples[edge.patch].empty()) return at;
-  // A trimmed patch: what is left of the edge, with the points where loops meet it.
-  at = surface.edge_samples[edge.patch][static_cast<int>(edge.side)];
-  if (edge.reversed) std::reverse(at.begin(), at.end());
   return at;
 }
 

@@ -21,12 +21,15 @@ struct Surface {
   std::vector<double> area_m2;
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> triangle_patch;  ///< ascending
-  std::vector<int> triangle_cell;   ///< i + (size_u - 1) j of its patch's grid; where trimmed that of its centroid
-  std::vector<int> patch;           ///< of each sample
-  std::vector<Vec2> parameters;     ///< (u, v) of each sample in its patch
-  std::vector<std::vector<int>> patch_grid;  ///< samples of each patch, u fastest; -1 where trimming leaves none
+  /// i + (size_u - 1) j of its patch's grid; where trimmed that of its centroid; without a grid its number.
+  std::vector<int> triangle_cell;
+  std::vector<int> patch;        ///< of each sample
+  std::vector<Vec2> parameters;  ///< (u, v) of each sample in its patch
+  /// Samples of each patch, u fastest; -1 where trimming leaves none; empty where a patch has no grid.
+  std::vector<std::vector<int>> patch_grid;
   std::vector<std::array<int, 2>> patch_grid_size;
-  /// Of each trimmed patch: the samples on its sides u0, u1, v0, v1, ascending in the parameter; empty of others.
+  /// Of patches that are trimmed or have no grid: the samples on each of their sides (u0, u1, v0, v1 first), ascending
+  /// in the parameter; empty of others.
   std::vector<std::vector<std::vector<int>>> edge_samples;
 
   int size() const { return static_cast<int>(area_m2.size()); }

@@ -24,6 +24,18 @@ std::vector<double> lines(const Surface& s, int patch, int along, std::span<cons
   return out;
 }
 
+/// The triangles of a patch from `t` on, one after the other: no two make a whole cell.
+GridChart withoutGrid(const Surface& s, int patch, std::size_t& t) {
+  GridChart chart;
+  for (; t < s.triangles.size() && s.triangle_patch[t] == patch; ++t) {
+    chart.triangles.items.push_back(static_cast<int>(t));
+    chart.triangles.first.push_back(static_cast<int>(chart.triangles.items.size()));
+    chart.whole.push_back(0);
+  }
+  chart.cells = {static_cast<int>(chart.whole.size()), 1};
+  return chart;
+}
+
 }  // namespace
 
 SurfaceCharts surfaceCharts(const Surface& s, std::span<const Vec3> rest) {
@@ -31,6 +43,10 @@ SurfaceCharts surfaceCharts(const Surface& s, std::span<const Vec3> rest) {
   out.corners.resize(s.triangles.size());
   std::size_t t = 0;
   for (int p = 0; p < static_cast<int>(s.patch_grid.size()); ++p) {
+    if (s.patch_grid[p].empty()) {
+      out.charts.push_back(withoutGrid(s, p, t));
+      continue;
+    }
     const auto [nu, nv] = s.patch_grid_size[p];
     const std::vector<double> u = lines(s, p, 0, rest), v = lines(s, p, 1, rest);
     GridChart chart;

@@ -18,7 +18,15 @@ double scatter(std::uint64_t i) {
 /// K y for the parts that `terms` names, by a difference of the force over a displacement of at most 0.1 micrometre.
 class Stiffness {
  public:
-  Stiffness(const Model& model, std::span<const Vec3> p, StepWork& work) : m_(model), p_(p), w_(work) {}
+  /// Vectors: a block for each free point, then the rates of the inner unknowns, three in a block.
+  Stiffness(const Model& model, const State& state, StepWork& work)
+      : m_(model),
+        p_(state.p),
+        inner_(state.inner),
+        w_(work),
+        blocks_(state.p.size() + (model.inner_mass.size() + 2) / 3) {}
+
+  std::size_t blocks() const { return blocks_; }
 
   void apply(std::span<const Vec3> y, ForceTerms terms, bool springs, std::vector<Vec3>& out) {
     terms.steepest = true;
@@ -26,21 +34,28 @@ class Stiffness {
     for (const Vec3& v : y) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     const double epsilon = 1e-7 / largest;
     shifted_.resize(p_.size());
+    inner_shifted_.resize(inner_.size());
+    inner_y_.resize(m_.inner_mass.size());
+    for (std::size_t k = 0; k < inner_y_.size(); ++k) inner_y_[k] = y[p_.size() + k / 3][static_cast<int>(k % 3)];
     for (int side : {-1, 1}) {
       for (std::size_t i = 0; i < p_.size(); ++i) shifted_[i] = p_[i] + (side * epsilon) * y[i];
       w_.q.resize(m_.cloth->points());
       w_.f.resize(m_.cloth->points());
       m_.cloth->map().T.multiply<Vec3>(shifted_, w_.q);
-      m_.cloth->force(w_.q, w_.f, w_.cloth, nullptr, terms);
+      m_.cloth->advance(inner_, inner_y_, side * epsilon, inner_shifted_);
+      w_.inner_force.resize(inner_y_.size());
+      m_.cloth->force({w_.q, inner_shifted_, {}}, {w_.f, w_.inner_force, {}, nullptr}, w_.cloth, terms);
       std::vector<Vec3>& f = side < 0 ? before_ : after_;
-      f.resize(p_.size());
-      m_.cloth->map().Tt.multiply<Vec3>(w_.f, f);
+      f.assign(blocks_, {});
+      m_.cloth->map().Tt.multiply<Vec3>(w_.f, std::span(f).first(p_.size()));
+      for (std::size_t k = 0; k < inner_y_.size(); ++k)
+        f[p_.size() + k / 3][static_cast<int>(k % 3)] = w_.inner_force[k];
     }
-    out.resize(p_.size());
-    for (std::size_t i = 0; i < p_.size(); ++i) out[i] = (before_[i] - after_[i]) / (2 * epsilon);
+    out.resize(blocks_);
+    for (std::size_t i = 0; i < blocks_; ++i) out[i] = (before_[i] - after_[i]) / (2 * epsilon);
     if (springs) {
       negative_.assign(p_.size(), {});
-      addStitchForces(m_.stitches, m_.surface.WT, y, negative_);
+      addStitchForces(m_.stitches, m_.surface.WT, y.first(p_.size()), negative_);
       for (std::size_t i = 0; i < p_.size(); ++i) out[i] -= negative_[i];
       for (const SpringSupportPoint& s : m_.springs) {
         Vec3 x{};
@@ -55,7 +70,10 @@ class Stiffness {
  private:
   const Model& m_;
   std::span<const Vec3> p_;
+  std::span<const double> inner_;
   StepWork& w_;
+  std::size_t blocks_;
+  std::vector<double> inner_shifted_, inner_y_;
   std::vector<Vec3> shifted_, before_, after_, negative_;
 };
 
@@ -75,10 +93,13 @@ const char* Frequency::governing() const {
 }
 
 Frequency largestFrequency(const Model& m, const Stage&, State& state, int iterations, StepWork& work) {
-  const int n = m.freeCount();
-  std::vector<double> root(n);
-  for (int i = 0; i < n; ++i) root[i] = std::sqrt(m.inverse_mass[i]);
-  Stiffness stiffness(m, state.p, work);
+  Stiffness stiffness(m, state, work);
+  const int points = m.freeCount(), n = static_cast<int>(stiffness.blocks());
+  std::vector<Vec3> root(n);  // of M^-1, by components
+  for (int i = 0; i < points; ++i) root[i] = std::sqrt(m.inverse_mass[i]) * Vec3{1, 1, 1};
+  for (std::size_t k = 0; k < m.inner_mass.size(); ++k)
+    root[points + static_cast<int>(k / 3)][static_cast<int>(k % 3)] = 1 / std::sqrt(m.inner_mass[k]);
+  const auto scaled = [&](int i, const Vec3& v) { return Vec3{root[i].x * v.x, root[i].y * v.y, root[i].z * v.z}; };
   std::vector<std::vector<Vec3>> basis;
   std::vector<double> diagonal, off;
   std::vector<Vec3> y(n), Ky;
@@ -89,16 +110,17 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
     for (int i = 0; i < n; ++i) {
       const Vec3 noise{scatter(3 * i), scatter(3 * i + 1), scatter(3 * i + 2)};
       start[i] = warm ? state.mode[i] + (0.1 / std::sqrt(n)) * noise : noise;
-      if (m.held[i]) start[i] = {};
+      for (int d = 0; d < 3; ++d)
+        if (root[i][d] == 0) start[i][d] = 0;  // held, or no unknown
       size += norm2(start[i]);
     }
     for (Vec3& v : start) v *= 1 / std::sqrt(size);
     basis.push_back(std::move(start));
   }
   for (int k = 0; k < iterations; ++k) {
-    for (int i = 0; i < n; ++i) y[i] = root[i] * basis[k][i];
+    for (int i = 0; i < n; ++i) y[i] = scaled(i, basis[k][i]);
     stiffness.apply(y, {}, true, Ky);
-    for (int i = 0; i < n; ++i) Ky[i] *= root[i];
+    for (int i = 0; i < n; ++i) Ky[i] = scaled(i, Ky[i]);
     diagonal.push_back(inner(basis[k], Ky));
     for (int pass = 0; pass < 2; ++pass)
       for (const auto& b : basis) {
@@ -125,7 +147,7 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
 
   Frequency f;
   f.largest_rad_per_s = std::sqrt(std::max(largest, 0.0));
-  for (int i = 0; i < n; ++i) y[i] = root[i] * state.mode[i];
+  for (int i = 0; i < n; ++i) y[i] = scaled(i, state.mode[i]);
   const auto share = [&](ForceTerms terms, bool springs) {
     stiffness.apply(y, terms, springs, Ky);
     return inner(y, Ky) / largest;

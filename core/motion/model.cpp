@@ -37,6 +37,10 @@ void addPoints(const ModelOptions& options, Model& m) {
   map.Tt.multiply<double>(threads ? m.cloth->evenedMasses(kLeastShare) : m.cloth->masses(), m.mass_kg);
   for (int c : options.held_control_points)
     for (int k = map.T.offsets[c]; k < map.T.offsets[c + 1]; ++k) m.held[map.T.columns[k]] = 1;
+  m.inner_mass.resize(m.cloth->innerRates());
+  m.cloth->innerMasses(m.inner_mass);
+  for (double mass : m.inner_mass)
+    if (!(mass > 0)) throw InputError({"", 0, "garment"}, "an inner unknown would carry no mass");
   for (int i = 0; i < n; ++i) {
     if (!(m.mass_kg[i] > 0)) throw InputError({"", 0, "garment"}, "a control point would carry no mass");
     m.inverse_mass.push_back(m.held[i] ? 0 : 1 / m.mass_kg[i]);

@@ -72,6 +72,7 @@ struct Model {
   StrainRows strain_rows;  ///< without points where strain is not limited
   std::vector<NetEdge> net;
   std::vector<Stitch> stitches;
+  std::vector<double> inner_mass;     ///< of the rates of the inner unknowns (Cloth::innerMasses)
   std::vector<double> drag_kg_per_s;  ///< of the free points: eta times area, and what damps stitches
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
@@ -111,6 +112,10 @@ struct WarmContact {
 struct State {
   double time_s = 0;
   std::vector<Vec3> p, v, a;  ///< free points: position, velocity, acceleration without contact
+  /// What the cloth's laws remember: committed by the step that ended here.
+  std::vector<double> history;
+  /// Unknowns that no sample sees: values, rates, and accelerations of these.
+  std::vector<double> inner, inner_rate, inner_acceleration;
   std::vector<Vec3> anchors;  ///< of each spring, in its anchor frame
   ForceSums sums;             ///< at this time
   std::vector<Vec3> held_N;   ///< force on each of Model::held_points that keeps it still, without limits and contact
@@ -151,8 +156,9 @@ struct WorkAudit {
   double friction = 0;    ///< part of it: tangential
   double drag = 0, supports = 0;
   double limit = 0;  ///< of the strain limits' impulses on the free points
-  /// Lost to friction, inelastic impact and drag, at least 0: works relative to the bodies and the air, without what
-  /// separation and restoring add.
+  double cloth = 0;  ///< lost in the cloth's own laws (hysteresis), at least 0
+  /// Lost to friction, inelastic impact, drag and in the cloth, at least 0: works relative to the bodies and the air,
+  /// without what separation and restoring add.
   double dissipated = 0;
 };
 
@@ -196,6 +202,7 @@ struct StepWork {
   ClothWork cloth;
   ContactWork contact;
   LimitWork limit;
+  std::vector<double> inner_force;
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;
   std::vector<Vec3> jerk, net_jerk;  ///< changes of acceleration: of the free points, of the control points
   std::vector<Vec3> limit_end, moved, sample_impulse, pulled_before, pulled_after;

@@ -21,14 +21,16 @@ Vec3 sum(std::span<const Vec3> values) {
   return s;
 }
 
-/// Internal force on the free points, Tᵀ f(T p), into work.f's place `out`.
-void internalForce(const Model& m, std::span<const Vec3> p, std::vector<Vec3>& out, StepWork& w,
-                   double* energy = nullptr, const ForceTerms& terms = {}) {
+/// Internal force at s on the free points, Tᵀ f(T p), into `out`, and on the inner unknowns, into work.inner_force,
+/// from the committed history; what laws would remember into `history` where that is not empty.
+void internalForce(const Model& m, const State& s, std::span<const double> committed, std::span<double> history,
+                   std::vector<Vec3>& out, StepWork& w, ClothEnergy* energy) {
   w.q.resize(m.cloth->points());
   w.f.resize(m.cloth->points());
+  w.inner_force.resize(m.inner_mass.size());
   out.resize(m.freeCount());
-  m.cloth->map().T.multiply<Vec3>(p, w.q);
-  m.cloth->force(w.q, w.f, w.cloth, energy, terms);
+  m.cloth->map().T.multiply<Vec3>(s.p, w.q);
+  m.cloth->force({w.q, s.inner, committed}, {w.f, w.inner_force, history, energy}, w.cloth);
   m.cloth->map().Tt.multiply<Vec3>(w.f, out);
 }
 
@@ -94,10 +96,21 @@ double springWork(const Model& m, const State& in, const State& out, const Ancho
 /// With strain limits or contacts v = half_velocity + half_step (a + lasting), `lasting` being their acceleration in
 /// the last step (empty: none): their force acts all the time though its impulse comes once a step, and without its
 /// half cloth that hangs or lies still would have the velocity half_step a, on which drag would act.
-void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& air, std::span<const Vec3> half_velocity,
-                std::span<const Vec3> lasting, double half_step_s, State& s, StepWork& w) {
+/// `committed`: null, to evaluate at s with the history that it has; else the history that the step began with, from
+/// which that of s is made. Returns what the cloth has lost in it [J].
+double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& air,
+                  std::span<const Vec3> half_velocity, std::span<const Vec3> lasting, double half_step_s,
+                  const std::vector<double>* committed, State& s, StepWork& w) {
   const int n = m.freeCount();
-  internalForce(m, s.p, s.a, w);
+  ClothEnergy energy;
+  const bool remembers = committed && !committed->empty();
+  if (remembers) s.history.resize(committed->size());
+  internalForce(m, s, remembers ? *committed : s.history,
+                remembers ? std::span<double>(s.history) : std::span<double>{}, s.a, w, remembers ? &energy : nullptr);
+  for (std::size_t i = 0; i < m.inner_mass.size(); ++i) {
+    s.inner_acceleration[i] = w.inner_force[i] / m.inner_mass[i];
+    s.inner_rate[i] += half_step_s * s.inner_acceleration[i];
+  }
   addStitchForces(m.stitches, m.surface.WT, s.p, s.a);
   springForces(m, s, anchor_frames, w.spring_force);
   s.sums = {};
@@ -135,6 +148,7 @@ void accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3& a
     s.v[i] = start + half_step_s * s.a[i];
     s.sums.drag -= d * (s.v[i] - air);
   }
+  return energy.lost;
 }
 
 /// Accelerations - M^-1 J^T lambda of the strain limits at s [m/s^2], and their forces on held points [N]. Empty where
@@ -188,6 +202,12 @@ State initialState(const Model& model, const Stage& stage, double time_s, StepWo
   s.time_s = time_s;
   for (int home : model.cloth->map().home) s.p.push_back(model.cloth->rest()[home]);
   s.v.assign(s.p.size(), {});
+  s.history.resize(model.cloth->historySize());
+  model.cloth->startHistory(s.history);
+  s.inner.resize(model.cloth->innerValues());
+  model.cloth->startInner(s.inner);
+  s.inner_rate.assign(model.inner_mass.size(), 0);
+  s.inner_acceleration.assign(model.inner_mass.size(), 0);
   attachSprings(model, stage, s, work);
   return s;
 }
@@ -209,7 +229,7 @@ void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> a
   const std::vector<Vec3> v = state.v;
   state.limit_J.clear();
   state.pressed.clear();
-  accelerate(model, at.frames(), stage.air(state.time_s), v, {}, 0, state, work);
+  accelerate(model, at.frames(), stage.air(state.time_s), v, {}, 0, nullptr, state, work);
 }
 
 StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
@@ -254,6 +274,11 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.v.resize(n);
   for (int i = 0; i < n; ++i) out.p[i] = in.p[i] + dt * w.velocity[i];
   if (!allFinite(out.p)) return notFinite("a position is not finite");
+  out.inner_rate = in.inner_rate;
+  for (std::size_t i = 0; i < out.inner_rate.size(); ++i) out.inner_rate[i] += half * in.inner_acceleration[i];
+  out.inner.resize(in.inner.size());
+  m.cloth->advance(in.inner, out.inner_rate, dt, out.inner);
+  out.inner_acceleration.resize(out.inner_rate.size());
   samplePositions(m, out.p, w.x1);
   const int samples = m.surface.size();
   double largest_way = 0;
@@ -269,7 +294,10 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   if (m.strain_limit.mode != LimitMode::none) limitMultipliers(m.strain_rows, out.p, dt, out.limit_J, w.limit);
   const std::vector<Vec3> held_after = limitAccelerations(m, out, w.pulled_after, w.limit);
   pressingAccelerations(m, dt, w, out.pressed);
-  accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half, out, w);
+  out.history.clear();
+  report.work.cloth = accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half,
+                                 &in.history, out, w);
+  report.work.dissipated += report.work.cloth;
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
     report.momentum.scale += norm(spring_mean[k]);
@@ -352,7 +380,11 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 
 Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w) {
   Energy e;
-  internalForce(m, s.p, w.sample_force, w, &e.internal);
+  ClothEnergy of_cloth;
+  internalForce(m, s, s.history, {}, w.sample_force, w, &of_cloth);
+  e.internal = of_cloth.stored;
+  for (std::size_t i = 0; i < m.inner_mass.size(); ++i)
+    e.kinetic += 0.5 * m.inner_mass[i] * s.inner_rate[i] * s.inner_rate[i];
   for (int i = 0; i < m.freeCount(); ++i) {
     if (m.held[i]) continue;
     e.kinetic += 0.5 * m.mass_kg[i] * norm2(s.v[i]);

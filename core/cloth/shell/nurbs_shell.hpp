@@ -31,6 +31,9 @@ class NurbsShell : public Cloth {
   std::string pointName() const override { return "control points"; }
   std::string kernels() const override { return shell_.kernels().name; }
   std::string describePoint(int point) const override;
+  Vec2 placeOfDraft(int, Vec2 uv) const override { return uv; }
+  int draftPoints() const override { return points(); }
+  std::vector<Vec3> fromDraft(std::span<const Vec3> control) const override { return {control.begin(), control.end()}; }
 
   Surface surface(std::span<const int> per_cell) const override;
   Bulges bulges(const Surface& surface, std::span<const int> per_cell) const override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloth/mounting.hpp"
 #include "core/cloth/shell/edge.hpp"
 #include "core/cloth/shell/fields.hpp"
 #include "core/cloth/shell/seams.hpp"
@@ -10,10 +11,6 @@
 
 namespace gambeson {
 namespace {
-
-void checkFinite(const Vec3& v, const char* key) {
-  if (!std::isfinite(v.x + v.y + v.z)) throw InputError({"", 0, key}, "must be finite");
-}
 
 void checkPatch(const Garment& garment, int patch, const char* key) {
   if (patch < 0 || patch >= static_cast<int>(garment.patches.size()))
@@ -43,7 +40,7 @@ std::vector<Vec3> zeroForce(const Garment& garment) { return std::vector<Vec3>(c
 
 std::vector<Vec3> edgeForce(const Garment& garment, const PatchEdge& edge, const Vec3& force_N_per_m) {
   checkEdge(garment, edge, "edge load");
-  checkFinite(force_N_per_m, "edge load");
+  checkFiniteLoad(force_N_per_m, "edge load");
   std::vector<Vec3> force = zeroForce(garment);
   for (const EdgePoint& point : edgePoints(garment, edge)) {
     const EdgeBasis basis = edgeBasis(garment, edge, point.t);
@@ -55,7 +52,7 @@ std::vector<Vec3> edgeForce(const Garment& garment, const PatchEdge& edge, const
 
 std::vector<Vec3> surfaceForce(const Garment& garment, int patch, const Vec3& force_N_per_m2) {
   checkPatch(garment, patch, "surface load");
-  checkFinite(force_N_per_m2, "surface load");
+  checkFiniteLoad(force_N_per_m2, "surface load");
   std::vector<Vec3> force = zeroForce(garment);
   addSurface(
       garment, patch, [&](Vec2) { return force_N_per_m2; }, force);
@@ -63,7 +60,7 @@ std::vector<Vec3> surfaceForce(const Garment& garment, int patch, const Vec3& fo
 }
 
 std::vector<Vec3> garmentForce(const Garment& garment, const Vec3& force_N_per_m2) {
-  checkFinite(force_N_per_m2, "surface load");
+  checkFiniteLoad(force_N_per_m2, "surface load");
   std::vector<Vec3> force = zeroForce(garment);
   for (int p = 0; p < static_cast<int>(garment.patches.size()); ++p)
     addSurface(
@@ -73,7 +70,7 @@ std::vector<Vec3> garmentForce(const Garment& garment, const Vec3& force_N_per_m
 
 std::vector<Vec3> pointForce(const Garment& garment, int patch, Vec2 uv, const Vec3& force_N) {
   checkPoint(garment, patch, uv, "point load");
-  checkFinite(force_N, "point load");
+  checkFiniteLoad(force_N, "point load");
   const SurfaceBasis basis = surfaceBasis(garment.patches[patch], uv.x, uv.y);
   const int offset = controlOffsets(garment)[patch];
   std::vector<Vec3> force = zeroForce(garment);
@@ -83,7 +80,7 @@ std::vector<Vec3> pointForce(const Garment& garment, int patch, Vec2 uv, const V
 }
 
 std::vector<Vec3> weightForce(const Garment& garment, const Vec3& gravity_m_per_s2) {
-  checkFinite(gravity_m_per_s2, "gravity");
+  checkFiniteLoad(gravity_m_per_s2, "gravity");
   std::vector<Vec3> force = zeroForce(garment);
   for (int p = 0; p < static_cast<int>(garment.patches.size()); ++p)
     addSurface(

@@ -36,6 +36,21 @@ class ShellMounting : public Mounting {
       for (const int k : gridEdge(patch.u.count(), patch.v.count(), edge)) points.push_back(first + k + r * inward);
     return points;
   }
+  double edgeLength(const PatchEdge& edge) const override {
+    constexpr int kPieces = 64;
+    const NurbsPatch& patch = g_.patches[static_cast<std::size_t>(edge.patch)];
+    const KnotVector& knots = alongKnots(patch, edge.side);
+    double length = 0;
+    Vec3 last{};
+    for (int k = 0; k <= kPieces; ++k) {
+      const double s = static_cast<double>(k) / kPieces;
+      const Vec2 at = edgeParameters(g_, edge, (1 - s) * knots.front() + s * knots.back());
+      const Vec3 x = surfaceDerivatives(patch, at.x, at.y)[0];
+      if (k > 0) length += norm(x - last);
+      last = x;
+    }
+    return length;
+  }
   std::vector<LinearConstraint> holdEdge(const PatchEdge& edge, std::span<const Vec3> directions,
                                          const Prescribed& motion) const override {
     return supportEdge(g_, edge, directions, motion);

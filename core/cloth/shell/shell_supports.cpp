@@ -14,16 +14,6 @@ namespace {
   throw InputError({"", 0, name}, reason);
 }
 
-void checkDirection(const std::string& name, const Vec3& d) {
-  if (!(std::abs(norm(d) - 1) <= 1e-6)) reject(name, "directions must be unit vectors");
-}
-
-void checkMotion(const std::string& name, const Prescribed& motion) {
-  if (!(std::isfinite(norm(motion.displacement_m)))) reject(name, "the prescribed displacement is not finite");
-  if (motion.program < 0 && norm(motion.displacement_m) > 0)
-    reject(name, "a prescribed displacement needs a program that says when it acts");
-}
-
 /// The control points of an edge, in the patch's own order, that trimming leaves.
 std::vector<int> keptRow(const Garment& garment, const PatchEdge& edge) {
   const EdgeColumns rows = edgeColumns(garment, {edge.patch, edge.side});
@@ -32,15 +22,6 @@ std::vector<int> keptRow(const Garment& garment, const PatchEdge& edge) {
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i]) out.push_back(rows.edge[i]);
   return out;
-}
-
-/// An equation without terms yet; its program counts only where it moves something.
-LinearConstraint equation(const std::string& name, const Vec3& direction, const Prescribed& motion) {
-  LinearConstraint c;
-  c.name = name;
-  c.amount_m = dot(direction, motion.displacement_m);
-  if (c.amount_m != 0) c.program = motion.program;
-  return c;
 }
 
 /// Rest geometry across an edge at one of its points.
@@ -109,7 +90,7 @@ void keepAcross(const Garment& garment, const PatchEdge& edge, const std::vector
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Vec3 d = direction(i);
     if (!kept[i] || norm2(d) == 0) continue;
-    LinearConstraint c = equation(name, d, {});
+    LinearConstraint c = supportEquation(name, d, {});
     if (by_points) {
       c.terms = {{rows.inner[i], d}, {rows.edge[i], -d}};
     } else {
@@ -126,14 +107,12 @@ std::vector<LinearConstraint> supportEdge(const Garment& garment, const PatchEdg
                                           std::span<const Vec3> directions, const Prescribed& motion) {
   const std::string name = "support of " + edgeName(edge);
   checkEdge(garment, edge, name);
-  checkMotion(name, motion);
-  if (directions.empty()) reject(name, "needs at least one direction");
+  checkSupport(name, directions, motion);
   std::vector<LinearConstraint> out;
   const std::vector<int> row = keptRow(garment, edge);
   for (const Vec3& d : directions) {
-    checkDirection(name, d);
     for (int control : row) {
-      out.push_back(equation(name, d, motion));
+      out.push_back(supportEquation(name, d, motion));
       out.back().terms = {{control, d}};
     }
   }
@@ -144,14 +123,12 @@ std::vector<LinearConstraint> supportPoint(const Garment& garment, int patch, Ve
                                            const Prescribed& motion) {
   const std::string name = "support of a point of patch " + std::to_string(patch);
   checkPoint(garment, patch, uv, name);
-  checkMotion(name, motion);
-  if (directions.empty()) reject(name, "needs at least one direction");
+  checkSupport(name, directions, motion);
   const SurfaceBasis basis = surfaceBasis(garment.patches[patch], uv.x, uv.y);
   const int offset = controlOffsets(garment)[patch];
   std::vector<LinearConstraint> out;
   for (const Vec3& d : directions) {
-    checkDirection(name, d);
-    out.push_back(equation(name, d, motion));
+    out.push_back(supportEquation(name, d, motion));
     for (std::size_t k = 0; k < basis.columns.size(); ++k)
       if (std::abs(basis.values[0][k]) > 1e-14)
         out.back().terms.emplace_back(offset + basis.columns[k], basis.values[0][k] * d);
@@ -179,7 +156,7 @@ std::vector<LinearConstraint> clampRotation(const Garment& garment, const PatchE
 std::vector<LinearConstraint> symmetryEdge(const Garment& garment, const PatchEdge& edge, const Vec3& normal) {
   const std::string name = "symmetry of " + edgeName(edge);
   checkEdge(garment, edge, name);
-  checkDirection(name, normal);
+  checkSupport(name, std::span(&normal, 1), {});
   const std::vector<Vec3> Q = restControls(garment);
   const EdgeColumns rows = edgeColumns(garment, edge);
   double length = 0;
@@ -205,11 +182,11 @@ std::vector<LinearConstraint> symmetryEdge(const Garment& garment, const PatchEd
 std::vector<LinearConstraint> tieEdge(const Garment& garment, const PatchEdge& edge, const Vec3& direction) {
   const std::string name = "tie of " + edgeName(edge);
   checkEdge(garment, edge, name);
-  checkDirection(name, direction);
+  checkSupport(name, std::span(&direction, 1), {});
   const std::vector<int> row = keptRow(garment, edge);
   std::vector<LinearConstraint> out;
   for (std::size_t i = 1; i < row.size(); ++i) {
-    out.push_back(equation(name, direction, {}));
+    out.push_back(supportEquation(name, direction, {}));
     out.back().terms = {{row[i], direction}, {row[0], -direction}};
   }
   return out;

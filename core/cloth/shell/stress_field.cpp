@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/cloth/plane_stress.hpp"
 #include "core/cloth/shell/fields.hpp"
 #include "core/cloth/shell/seams.hpp"
 #include "core/math/carried_error.hpp"
@@ -11,14 +12,9 @@
 namespace gambeson {
 namespace {
 
-void add(PlaneTensor& sum, double w, const PlaneTensor& t) {
-  sum.t11 += w * t.t11;
-  sum.t22 += w * t.t22;
-  sum.t12 += w * t.t12;
-}
 void add(StressField::Sample& sum, double w, const StressField::Sample& s) {
-  add(sum.stress, w, s.stress);
-  add(sum.strain, w, s.strain);
+  addScaled(sum.stress, w, s.stress);
+  addScaled(sum.strain, w, s.strain);
 }
 
 /// In the basis turned by - angle.
@@ -27,12 +23,6 @@ PlaneTensor turnedBack(const PlaneTensor& t, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * c * t.t11 + s * s * t.t22 - 2 * c * s * t.t12, s * s * t.t11 + c * c * t.t22 + 2 * c * s * t.t12,
           c * s * (t.t11 - t.t22) + (c * c - s * s) * t.t12};
-}
-
-/// Larger, smaller.
-std::array<double, 2> principal(const PlaneTensor& t) {
-  const double mean = 0.5 * (t.t11 + t.t22), radius = std::hypot(0.5 * (t.t11 - t.t22), t.t12);
-  return {mean + radius, mean - radius};
 }
 
 /// The cells whose closure holds t, first and last.
@@ -104,19 +94,12 @@ StressField::StressField(const Shell& shell) : shell_(shell) {
   }
 }
 
-/// With C = 2 E + 1 and U its root, the Cauchy resultants F n F^T / J are U n U / J, turned.
 StressField::Sample StressField::sampleAt(std::span<const Vec3> q, int patch, Vec2 uv, const More& more) const {
   const PointState state = shell_.stateAt(patch, uv, q);
   Vec2 extra{};
   if (more) extra = more(patch, uv);
-  const PlaneTensor E{state.strain.x, state.strain.y, 0.5 * state.strain.z};
-  const double n11 = state.n.x + extra.x, n22 = state.n.y + extra.y, n12 = state.n.z;
-  const double C11 = 2 * E.t11 + 1, C22 = 2 * E.t22 + 1, C12 = 2 * E.t12;
-  const double J = std::sqrt(C11 * C22 - C12 * C12), scale = 1 / std::sqrt(C11 + C22 + 2 * J);
-  const double U11 = scale * (C11 + J), U22 = scale * (C22 + J), U12 = scale * C12;
-  const double a11 = U11 * n11 + U12 * n12, a12 = U11 * n12 + U12 * n22, a21 = U12 * n11 + U22 * n12,
-               a22 = U12 * n12 + U22 * n22;
-  const PlaneTensor T{(a11 * U11 + a12 * U12) / J, (a21 * U12 + a22 * U22) / J, (a11 * U12 + a12 * U22) / J};
+  const PlaneTensor E{state.strain.x, state.strain.y, 0.5 * state.strain.z},
+      T = cauchyStress(state.strain, {state.n.x + extra.x, state.n.y + extra.y, state.n.z});
   const double angle = fibreAngleAt(shell_.garment(), patch, uv);
   return {turnedBack(T, angle), turnedBack(E, angle)};
 }
@@ -184,7 +167,7 @@ std::pair<StressField::Sample, int> StressField::shownAt(std::span<const Vec3> q
 PrincipalStress StressField::at(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means,
                                 const More& more) const {
   const auto [sum, cells] = shownAt(state.q, patch, uv, means, more);
-  const auto stress = principal(sum.stress), strain = principal(sum.strain);
+  const auto stress = principalValues(sum.stress), strain = principalValues(sum.strain);
   return {stress[0] / cells, stress[1] / cells, strain[0] / cells, strain[1] / cells};
 }
 

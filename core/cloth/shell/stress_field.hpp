@@ -23,6 +23,7 @@ class StressField : public StressView {
  public:
   explicit StressField(const Shell& shell);
 
+  std::size_t cells() const override { return cells_.size(); }
   std::vector<Sample> means(const ClothState& state, const More& more) const override;
   PrincipalStress at(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means,
                      const More& more) const override;

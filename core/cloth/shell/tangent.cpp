@@ -5,6 +5,7 @@
 #include <cassert>
 #include <tuple>
 
+#include "core/cloth/free_blocks.hpp"
 #include "core/cloth/shell/hinge.hpp"
 
 namespace gambeson {
@@ -12,16 +13,6 @@ namespace {
 
 /// Scratch of a batch: what stays in a core's second-level cache.
 constexpr long kBatchDoubles = 1 << 17;
-
-/// Free points that the control points of an element hang on.
-std::vector<int> freePoints(const FreeMap& map, const std::vector<int>& nodes) {
-  std::vector<int> points;
-  for (int node : nodes)
-    for (int e = map.T.offsets[node]; e < map.T.offsets[node + 1]; ++e) points.push_back(map.T.columns[e]);
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
 
 std::vector<int> nodesOf(const ShellBlock& b, int cell) {
   const int nn = b.nodeCount(), group = cell / b.lanes, lane = cell % b.lanes;
@@ -31,26 +22,12 @@ std::vector<int> nodesOf(const ShellBlock& b, int cell) {
 }
 
 BlockMatrix patternOf(const Shell& shell, const FreeMap& map) {
-  std::vector<std::vector<int>> rows(map.T.column_count);
-  for (int r = 0; r < map.T.column_count; ++r) rows[r].push_back(r);
-  const auto connect = [&](const std::vector<int>& nodes) {
-    const std::vector<int> points = freePoints(map, nodes);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      rows[points[i]].insert(rows[points[i]].end(), points.begin() + static_cast<long>(i) + 1, points.end());
-  };
+  std::vector<std::vector<int>> elements;
   for (const ShellPart& part : shell.parts())
-    for (int cell = 0; cell < part.cell_count; ++cell) connect(nodesOf(part.block, cell));
-  for (const HingePoint& h : shell.hinges()) connect(h.columns);
-  for (const GapPoint& g : shell.gaps()) connect(g.columns);
-  BlockMatrix K;
-  for (std::vector<int>& row : rows) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    K.columns.insert(K.columns.end(), row.begin(), row.end());
-    K.offsets.push_back(static_cast<long>(K.columns.size()));
-  }
-  K.values.assign(9 * K.columns.size(), 0.0);
-  return K;
+    for (int cell = 0; cell < part.cell_count; ++cell) elements.push_back(nodesOf(part.block, cell));
+  for (const HingePoint& h : shell.hinges()) elements.push_back(h.columns);
+  for (const GapPoint& g : shell.gaps()) elements.push_back(g.columns);
+  return blockPattern(map, elements);
 }
 
 }  // namespace

@@ -76,6 +76,12 @@ TEST(SphereDrape, CoarseSheetRestsWithItsWeightAndNothingPasses) {
   expectDraped(c, drape(c));
 }
 
+TEST(SphereDrape, CoarseSheetOfTrianglesRestsWithItsWeightAndNothingPasses) {
+  const Case c = libraryCase("sphere_drape", {"garment.sheet.cells_u=16", "garment.sheet.cells_v=16",
+                                              "garment.model=triangles", "time.duration=2 s"});
+  expectDraped(c, drape(c));
+}
+
 /// The library's case as it is; a minute of one core. Runs where GAMBESON_LONG is set.
 TEST(SphereDrape, LibraryCaseRestsWithItsWeightAndNothingPasses) {
   if (!std::getenv("GAMBESON_LONG")) GTEST_SKIP() << "a minute long: set GAMBESON_LONG to run it";

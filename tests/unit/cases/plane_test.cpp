@@ -169,6 +169,20 @@ TEST(InclinedPlane, SticksAboveTheAngleOfFriction) {
   }
 }
 
+// The same bounds for cloth of triangles.
+TEST(InclinedPlane, OfTriangles) {
+  for (const char* mesh : {"single", "equilateral"}) {
+    const std::vector<std::string> triangles{"garment.sheet.cells_u=8", "garment.sheet.cells_v=8",
+                                             "garment.model=triangles", std::string("garment.mesh=") + mesh};
+    const Case c = slope(k30, 0.2, triangles);
+    expectSliding(c, land(c), k30);
+    const Landing l = land(slope(k30, 1.05 * std::tan(k30), triangles));
+    EXPECT_NEAR(l.friction_Pa, 0.7053, 0.005 * 0.7053);
+    EXPECT_LT(std::abs(l.path_m), 1e-6);
+    EXPECT_LT(l.audit.worst, 1e-9);
+  }
+}
+
 TEST(InclinedPlane, SlidesBelowTheAngleOfFriction) {
   const Case c = slope(k30, 0.95 * std::tan(k30));
   const Landing l = land(c);

@@ -66,36 +66,15 @@ inline Vec3 centreOfMass(const Model& m, const State& s) {
 
 /// The surface at `per_cell` points along each edge of each cell, joined to triangles.
 inline TriangleMesh denseSurface(const Model& m, const State& s, int per_cell) {
-  std::vector<Vec3> q(m.cloth->points());
+  std::vector<Vec3> q(static_cast<std::size_t>(m.cloth->points()));
   m.cloth->map().T.multiply<Vec3>(s.p, q);
+  const PlaceMesh places = m.cloth->placeMesh(per_cell);
   TriangleMesh mesh;
-  std::size_t offset = 0;
-  for (const NurbsPatch& patch : shellOf(m).garment().patches) {
-    const auto grid = [&](const KnotVector& k) {
-      const std::vector<double> ends = breakpoints(k);
-      std::vector<double> at;
-      for (std::size_t c = 0; c + 1 < ends.size(); ++c)
-        for (int i = 0; i < per_cell; ++i) at.push_back(ends[c] + (ends[c + 1] - ends[c]) * i / per_cell);
-      at.push_back(ends.back());
-      return at;
-    };
-    const std::vector<double> us = grid(patch.u), vs = grid(patch.v);
-    const int first = static_cast<int>(mesh.vertices.size()), nu = static_cast<int>(us.size());
-    for (double v : vs)
-      for (double u : us) {
-        const SurfaceBasis b = surfaceBasis(patch, u, v);
-        Vec3 x{};
-        for (std::size_t k = 0; k < b.columns.size(); ++k) x += b.values[0][k] * q[offset + b.columns[k]];
-        mesh.vertices.push_back(x);
-      }
-    for (int j = 0; j + 1 < static_cast<int>(vs.size()); ++j)
-      for (int i = 0; i + 1 < nu; ++i) {
-        const int a = first + i + nu * j;
-        mesh.triangles.push_back({a, a + 1, a + nu + 1});
-        mesh.triangles.push_back({a, a + nu + 1, a + nu});
-      }
-    offset += patch.points.size();
+  for (std::size_t k = 0; k < places.uv.size(); ++k) {
+    const PlaceRow row = m.cloth->mounting().place(places.patch[k], places.uv[k]);
+    mesh.vertices.push_back(combine(row.columns, row.value, q));
   }
+  mesh.triangles = places.triangles;
   return mesh;
 }
 

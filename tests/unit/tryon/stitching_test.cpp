@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/cloth/shell/nurbs_shell.hpp"
 #include "tryon/pattern/pattern.hpp"
 
 namespace gambeson {
@@ -22,6 +23,8 @@ Garment tube() {
   Garment g = makeTube(t);
   g.fabric.density_kg_per_m3 = 1440;
   g.fabric.thickness_m = 1e-3;
+  g.fabric.young_weft_Pa = g.fabric.young_warp_Pa = g.fabric.shear_Pa = 1e6;
+  g.fabric.bending_law = BendingLaw::linear;
   return g;
 }
 
@@ -43,11 +46,11 @@ TEST(Stitching, PanelsMoveAlongTheirMeanNormal) {
 TEST(Stitching, EverySeamIsStitchedOverItsLength) {
   const Garment g = tube(), open = unsewn(g);
   EXPECT_TRUE(open.seams.empty());
-  const Surface surface = buildSurface(open, buildFreeMap(open), 2);
-  const std::vector<Stitch> stitches = stitchesOf(g, surface, {100, 3});
-  std::vector<Vec3> Q, X(surface.size());
-  for (const NurbsPatch& p : g.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
-  surface.W.multiply<Vec3>(Q, X);
+  const NurbsShell cloth(open);
+  const Surface surface = cloth.surface(std::vector<int>(4, 2));
+  const std::vector<Stitch> stitches = stitchesOf(g, cloth, surface, {100, 3});
+  std::vector<Vec3> X(surface.size());
+  surface.W.multiply<Vec3>(cloth.rest(), X);
   double stiffness = 0, damping = 0;
   for (const Stitch& s : stitches) {
     EXPECT_NE(surface.patch[s.a], surface.patch[s.b]);

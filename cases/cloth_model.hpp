@@ -1,0 +1,16 @@
+#pragma once
+/// Which kind of cloth a garment or a sheet is made into.
+
+#include "core/cloth/triangles/draft_mesh.hpp"
+
+namespace gambeson {
+
+enum class ClothKind { nurbs, triangles };
+
+/// `model` and `mesh` of a garment or a sheet.
+struct ClothModel {
+  ClothKind kind = ClothKind::nurbs;
+  MeshKind mesh = MeshKind::single;
+};
+
+}  // namespace gambeson

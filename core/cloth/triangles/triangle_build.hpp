@@ -1,0 +1,53 @@
+#pragma once
+/// From meshes of garments to points, patches, membranes and hinges.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/cloth/cloth.hpp"
+#include "core/cloth/triangles/cloth_mesh.hpp"
+#include "core/cloth/triangles/triangle_elements.hpp"
+#include "core/material/fabric.hpp"
+#include "core/math/sparse.hpp"
+
+namespace gambeson {
+
+/// How a garment of triangles lies at rest. fabric: as the mesh stands, hinges straight or with its angles as the
+/// fabric counts bending (hasRestCurvature); shape: as the mesh stands, hinges keep its angles; in both uv turns the
+/// threads alone. flat: as uv says, hinges straight.
+enum class MeshRest { fabric, shape, flat };
+
+/// One garment.
+struct TriangleGarment {
+  ClothMesh mesh;
+  MeshRest rest = MeshRest::fabric;
+  std::vector<Fabric> fabrics;  ///< one or more
+  std::vector<int> fabric;      ///< of each triangle; empty: the first
+  /// Of a draft: the parameters at each triangle's corners, their range in each patch, and the vertices as rows on the
+  /// draft's control points. Empty for a file.
+  std::vector<std::array<Vec2, 3>> draft;
+  std::vector<std::array<Vec2, 2>> range;
+  SparseRows of_control;
+};
+
+/// All garments, in turn.
+struct TriangleParts {
+  std::vector<Vec3> rest;  ///< points: each patch has its own, in the order in which its triangles name them
+  SparseRows T;            ///< points x vertices of the meshes
+  std::vector<ClothPatch> patches;
+  std::vector<char> drafted;                         ///< of each patch: whether it has parameters of a draft
+  std::vector<std::vector<std::vector<int>>> sides;  ///< of each patch: points of its sides (sideOfLine)
+  std::vector<std::array<int, 3>> triangles;         ///< by points, patch after patch
+  std::vector<int> first_triangle;                   ///< of each patch, and the end
+  std::vector<std::array<Vec2, 3>> draft;            ///< of each triangle; of garments without draft zeros
+  std::vector<Fabric> fabrics;
+  std::vector<int> fabric_of_triangle;
+  std::vector<MembraneTriangle> membranes;
+  std::vector<FoldHinge> hinges;  ///< in the order of the second triangle at an edge
+};
+
+/// Throws InputError on bad meshes, a garment without fabric, and uv that gives no threads or no flat shape.
+TriangleParts buildTriangles(std::span<const TriangleGarment> garments);
+
+}  // namespace gambeson

@@ -1,0 +1,356 @@
+#include "core/cloth/triangles/triangle_cloth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/cloth/free_blocks.hpp"
+#include "core/cloth/shell/shell_kernel.hpp"
+#include "core/cloth/triangles/triangle_mounting.hpp"
+#include "core/cloth/triangles/triangle_stress.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+class TriangleTangent : public ClothTangent {
+ public:
+  explicit TriangleTangent(const TriangleCloth& cloth) : cloth_(cloth) {
+    std::vector<std::vector<int>> elements;
+    for (const MembraneTriangle& t : cloth.elements().triangles())
+      elements.emplace_back(t.corner.begin(), t.corner.end());
+    for (const FoldHinge& h : cloth.elements().hinges()) elements.emplace_back(h.corner.begin(), h.corner.end());
+    pattern_ = blockPattern(cloth.map(), elements);
+  }
+  const BlockMatrix& pattern() const override { return pattern_; }
+  void assemble(const ClothState& state, ClothWork&, BlockMatrix& K, const ForceTerms& terms) const override {
+    if (K.columns.size() != pattern_.columns.size() || K.offsets != pattern_.offsets) K = pattern_;
+    std::fill(K.values.begin(), K.values.end(), 0.0);
+    std::vector<std::array<double, 9>> blocks;
+    const TriangleElements& e = cloth_.elements();
+    for (std::size_t k = 0; k < e.triangles().size(); ++k) {
+      e.membraneStiffness(static_cast<int>(k), state.q, terms, blocks);
+      addSymmetrised(cloth_.map(), e.triangles()[k].corner, blocks, K);
+    }
+    for (std::size_t k = 0; k < e.hinges().size(); ++k) {
+      e.hingeStiffness(static_cast<int>(k), state.q, terms, blocks);
+      addSymmetrised(cloth_.map(), e.hinges()[k].corner, blocks, K);
+    }
+  }
+
+ private:
+  const TriangleCloth& cloth_;
+  BlockMatrix pattern_;
+};
+
+}  // namespace
+
+TriangleCloth::TriangleCloth(std::vector<TriangleGarment> garments)
+    : garments_(std::move(garments)), parts_(buildTriangles(garments_)) {
+  map_.T = parts_.T;
+  map_.Tt = transpose(map_.T);
+  map_.home.assign(static_cast<std::size_t>(map_.T.column_count), -1);
+  for (int i = 0; i < map_.T.rows(); ++i) {
+    int& home = map_.home[static_cast<std::size_t>(freePoint(i))];
+    if (home < 0) home = i;
+  }
+  elements_ = TriangleElements(points(), std::move(parts_.membranes), std::move(parts_.hinges), parts_.fabrics);
+  mounting_ = triangleMounting(*this);
+}
+
+TriangleCloth::~TriangleCloth() = default;
+
+std::string TriangleCloth::kernels() const { return widestKernels().name; }
+
+std::string TriangleCloth::describePoint(int point) const {
+  int patch = 0;
+  while (parts_.patches[static_cast<std::size_t>(patch)].end_point <= point) ++patch;
+  return "vertex " + std::to_string(point - parts_.patches[static_cast<std::size_t>(patch)].first_point) +
+         " of patch " + std::to_string(patch);
+}
+
+namespace {
+
+Vec2 minus(const Vec2& a, const Vec2& b) { return {a.x - b.x, a.y - b.y}; }
+
+/// The barycentric coordinates of a point among three.
+std::array<double, 3> barycentric(const std::array<Vec2, 3>& at, const Vec2& p) {
+  const Vec2 a = minus(at[1], at[0]), b = minus(at[2], at[0]), d = minus(p, at[0]);
+  const double det = a.x * b.y - a.y * b.x, s = (d.x * b.y - d.y * b.x) / det, t = (a.x * d.y - a.y * d.x) / det;
+  return {1 - s - t, s, t};
+}
+
+}  // namespace
+
+Vec2 TriangleCloth::placeOfDraft(int patch, Vec2 uv) const {
+  if (!parts_.drafted[static_cast<std::size_t>(patch)])
+    throw InputError({"", 0, "patch"}, "a patch of a mesh file has no parameters; name an edge in their place");
+  // The triangle that it lies in, or else in least far outside of.
+  double best = -std::numeric_limits<double>::infinity();
+  Vec2 place;
+  const int first = firstTriangle(patch);
+  for (int t = first; t < firstTriangle(patch + 1); ++t) {
+    const auto w = barycentric(parts_.draft[static_cast<std::size_t>(t)], uv);
+    const double least = std::min({w[0], w[1], w[2]});
+    if (least > best + 1e-12) best = least, place = {2.0 * (t - first) + w[1], w[2]};
+  }
+  return place;
+}
+
+int TriangleCloth::draftPoints() const {
+  int sum = 0;
+  for (const TriangleGarment& g : garments_) sum += g.of_control.column_count;
+  return sum;
+}
+
+std::vector<Vec3> TriangleCloth::fromDraft(std::span<const Vec3> control) const {
+  std::vector<Vec3> of_vertex, out;
+  std::size_t first = 0;
+  for (const TriangleGarment& g : garments_) {
+    const auto columns = static_cast<std::size_t>(g.of_control.column_count);
+    std::vector<Vec3> own(g.mesh.vertices.size());
+    if (columns > 0) g.of_control.multiply<Vec3>(control.subspan(first, columns), own);
+    first += columns;
+    of_vertex.insert(of_vertex.end(), own.begin(), own.end());
+  }
+  for (int i = 0; i < points(); ++i) out.push_back(of_vertex[static_cast<std::size_t>(freePoint(i))]);
+  return out;
+}
+
+TriangleCloth::Located TriangleCloth::locate(int patch, Vec2 place) const {
+  const int first = firstTriangle(patch), count = firstTriangle(patch + 1) - first;
+  const int t = std::clamp(static_cast<int>(std::floor((place.x + 0.25) / 2)), 0, count - 1);
+  const double b = place.x - 2.0 * t, c = place.y;
+  return {first + t, {1 - b - c, b, c}};
+}
+
+const std::vector<int>& TriangleCloth::sidePoints(const PatchEdge& edge) const {
+  const auto side = static_cast<std::size_t>(edge.side);
+  if (edge.patch < 0 || edge.patch >= static_cast<int>(parts_.patches.size()) ||
+      side >= parts_.sides[static_cast<std::size_t>(edge.patch)].size() ||
+      parts_.sides[static_cast<std::size_t>(edge.patch)][side].empty())
+    throw InputError({"", 0, edgeName(edge)}, "the mesh has no such edge");
+  return parts_.sides[static_cast<std::size_t>(edge.patch)][side];
+}
+
+Surface TriangleCloth::surface(std::span<const int>) const {
+  Surface s;
+  const int n = map_.T.column_count;
+  s.W.column_count = points();
+  for (int i = 0; i < n; ++i) {
+    s.W.add(map_.home[static_cast<std::size_t>(i)], 1);
+    s.W.endRow();
+  }
+  s.WT = identityRows(n);
+  s.WTt = identityRows(n);
+  s.area_m2.resize(static_cast<std::size_t>(n));
+  map_.Tt.multiply<double>(areas(), s.area_m2);
+  s.patch.assign(static_cast<std::size_t>(n), -1);
+  s.parameters.resize(static_cast<std::size_t>(n));
+  for (int p = 0; p < static_cast<int>(parts_.patches.size()); ++p) {
+    const int first = firstTriangle(p);
+    for (int t = first; t < firstTriangle(p + 1); ++t) {
+      std::array<int, 3> corner{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int point = parts_.triangles[static_cast<std::size_t>(t)][k];
+        corner[k] = map_.T.columns[static_cast<std::size_t>(point)];
+        const auto sample = static_cast<std::size_t>(corner[k]);
+        // A sample belongs to the patch of its first point.
+        if (s.patch[sample] >= 0 || map_.home[sample] != point) continue;
+        s.patch[sample] = p;
+        s.parameters[sample] = {2.0 * (t - first) + (k == 1), k == 2 ? 1.0 : 0.0};
+      }
+      s.triangles.push_back(corner);
+      s.triangle_patch.push_back(p);
+      s.triangle_cell.push_back(t - first);
+    }
+    s.patch_grid.emplace_back();
+    s.patch_grid_size.push_back({firstTriangle(p + 1) - first + 1, 2});
+    s.edge_samples.emplace_back();
+    for (const std::vector<int>& side : parts_.sides[static_cast<std::size_t>(p)]) {
+      s.edge_samples.back().emplace_back();
+      for (int point : side) s.edge_samples.back().back().push_back(map_.T.columns[static_cast<std::size_t>(point)]);
+    }
+  }
+  return s;
+}
+
+Bulges TriangleCloth::bulges(const Surface& surface, std::span<const int>) const {
+  Bulges flat;
+  flat.middle.column_count = surface.size();
+  flat.of_sample.offsets.assign(static_cast<std::size_t>(surface.size()) + 1, 0);
+  return flat;
+}
+
+SparseRows TriangleCloth::finer(int fineness, std::span<const int>) const {
+  SparseRows rows;
+  rows.column_count = points();
+  for (const auto& t : parts_.triangles)
+    for (int j = 0; j <= fineness; ++j)
+      for (int i = 0; i + j <= fineness; ++i) {
+        const double b = static_cast<double>(i) / fineness, c = static_cast<double>(j) / fineness;
+        rows.add(t[0], 1 - b - c);
+        rows.add(t[1], b);
+        rows.add(t[2], c);
+        rows.endRow();
+      }
+  return rows;
+}
+
+PlaceMesh TriangleCloth::placeMesh(int) const {
+  PlaceMesh mesh;
+  for (int p = 0; p < static_cast<int>(parts_.patches.size()); ++p) {
+    const ClothPatch& patch = parts_.patches[static_cast<std::size_t>(p)];
+    const int first = firstTriangle(p), first_place = static_cast<int>(mesh.uv.size());
+    const auto count = static_cast<std::size_t>(patch.end_point - patch.first_point);
+    mesh.patch.insert(mesh.patch.end(), count, p);
+    mesh.uv.resize(mesh.uv.size() + count);
+    mesh.fraction.resize(mesh.uv.size());
+    std::vector<char> placed(count, 0);
+    for (int t = first; t < firstTriangle(p + 1); ++t) {
+      std::array<int, 3> corner{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int local = parts_.triangles[static_cast<std::size_t>(t)][k] - patch.first_point;
+        corner[k] = first_place + local;
+        if (placed[static_cast<std::size_t>(local)]) continue;
+        placed[static_cast<std::size_t>(local)] = 1;
+        mesh.uv[static_cast<std::size_t>(corner[k])] = {2.0 * (t - first) + (k == 1), k == 2 ? 1.0 : 0.0};
+        if (!parts_.drafted[static_cast<std::size_t>(p)]) continue;
+        const Vec2 at = parts_.draft[static_cast<std::size_t>(t)][k];
+        mesh.fraction[static_cast<std::size_t>(corner[k])] = {(at.x - patch.low.x) / (patch.high.x - patch.low.x),
+                                                              (at.y - patch.low.y) / (patch.high.y - patch.low.y)};
+      }
+      mesh.triangles.push_back(corner);
+    }
+  }
+  return mesh;
+}
+
+Fabric TriangleCloth::fabricAt(int patch, Vec2 uv) const {
+  return parts_.fabrics[static_cast<std::size_t>(
+      parts_.fabric_of_triangle[static_cast<std::size_t>(locate(patch, uv).triangle)])];
+}
+
+double TriangleCloth::cellAt(int patch, Vec2 uv) const {
+  const auto& t = parts_.triangles[static_cast<std::size_t>(locate(patch, uv).triangle)];
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k)
+    least = std::min(least, norm(parts_.rest[static_cast<std::size_t>(t[(k + 1) % 3])] -
+                                 parts_.rest[static_cast<std::size_t>(t[k])]));
+  return least;
+}
+
+std::vector<NetEdge> TriangleCloth::net() const {
+  std::vector<NetEdge> edges;
+  std::map<std::pair<int, int>, bool> seen;
+  for (const auto& t : parts_.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
+      if (!seen.emplace(std::pair(a, b), true).second) continue;
+      edges.push_back(
+          {a, b, 1 / norm2(parts_.rest[static_cast<std::size_t>(b)] - parts_.rest[static_cast<std::size_t>(a)])});
+    }
+  return edges;
+}
+
+std::vector<double> TriangleCloth::areas() const {
+  std::vector<double> area(parts_.rest.size(), 0);
+  for (const MembraneTriangle& t : elements_.triangles())
+    for (int c : t.corner) area[static_cast<std::size_t>(c)] += t.area_m2 / 3;
+  return area;
+}
+
+std::vector<double> TriangleCloth::masses() const {
+  std::vector<double> mass(parts_.rest.size(), 0);
+  for (const MembraneTriangle& t : elements_.triangles())
+    for (int c : t.corner)
+      mass[static_cast<std::size_t>(c)] +=
+          parts_.fabrics[static_cast<std::size_t>(t.law)].surfaceDensity() * t.area_m2 / 3;
+  return mass;
+}
+
+SparseRows TriangleCloth::consistentMass() const {
+  std::vector<std::map<int, double>> rows(parts_.rest.size());
+  for (const MembraneTriangle& t : elements_.triangles()) {
+    const double m = parts_.fabrics[static_cast<std::size_t>(t.law)].surfaceDensity() * t.area_m2 / 12;
+    for (int a : t.corner)
+      for (int b : t.corner) rows[static_cast<std::size_t>(a)][b] += a == b ? 2 * m : m;
+  }
+  SparseRows out;
+  out.column_count = points();
+  for (const auto& row : rows) {
+    for (const auto& [column, value] : row) out.add(column, value);
+    out.endRow();
+  }
+  return out;
+}
+
+void TriangleCloth::force(const ClothState& state, const ClothForce& out, ClothWork& work,
+                          const ForceTerms& terms) const {
+  elements_.force(state.q, out, work, terms);
+}
+
+std::unique_ptr<ClothTangent> TriangleCloth::tangent() const { return std::make_unique<TriangleTangent>(*this); }
+
+std::unique_ptr<StressView> TriangleCloth::stress() const { return std::make_unique<TriangleStress>(*this); }
+
+PointState TriangleCloth::stateAt(const ClothState& state, int patch, Vec2 uv) const {
+  return elements_.stateOf(locate(patch, uv).triangle, state.q);
+}
+
+double TriangleCloth::bendAt(const ClothState& state, int patch, Vec2 uv) const {
+  const Vec3 k = elements_.curvatureOf(locate(patch, uv).triangle, state.q, true);
+  return std::sqrt(k.x * k.x + k.y * k.y + 0.5 * k.z * k.z);
+}
+
+std::vector<std::pair<int, Vec2>> TriangleCloth::lawPlaces() const {
+  std::vector<std::pair<int, Vec2>> places;
+  for (int p = 0; p < static_cast<int>(parts_.patches.size()); ++p)
+    for (int t = 0; t < firstTriangle(p + 1) - firstTriangle(p); ++t)
+      places.emplace_back(p, Vec2{2.0 * t + 1.0 / 3, 1.0 / 3});
+  return places;
+}
+
+bool TriangleCloth::springsAtRest(double length_m) const {
+  const std::vector<FoldHinge>& hinges = elements_.hinges();
+  for (std::size_t k = 0; k < hinges.size(); ++k)
+    if (std::abs(elements_.curvature(static_cast<int>(k), parts_.rest)) * length_m > 1e-6) return true;
+  return false;
+}
+
+StrainRows TriangleCloth::strainRows(Mobility mobility, LimitPoints points) const {
+  if (points != LimitPoints::vertices)
+    throw InputError({"", 0, "strain_limit.points"}, "are for NURBS patches; triangles are limited each as a whole");
+  StrainRows s;
+  s.mobility = std::move(mobility);
+  s.B.column_count = map_.T.column_count;
+  const std::vector<MembraneTriangle>& triangles = elements_.triangles();
+  for (SparseRows& field : s.field_of_row) field.column_count = 2 * static_cast<int>(triangles.size());
+  for (int p = 0; p < static_cast<int>(parts_.patches.size()); ++p)
+    for (int k = firstTriangle(p); k < firstTriangle(p + 1); ++k) {
+      const MembraneTriangle& t = triangles[static_cast<std::size_t>(k)];
+      s.points.push_back({p, {2.0 * (k - firstTriangle(p)) + 1.0 / 3, 1.0 / 3}, t.area_m2, {2 * k, 2 * k + 1}});
+      for (int direction : {0, 1}) {
+        const auto part = [&](std::size_t c) { return direction == 0 ? t.g[c].x : t.g[c].y; };
+        std::map<int, double> row;
+        row[map_.T.columns[static_cast<std::size_t>(t.corner[0])]] -= part(0) + part(1);
+        row[map_.T.columns[static_cast<std::size_t>(t.corner[1])]] += part(0);
+        row[map_.T.columns[static_cast<std::size_t>(t.corner[2])]] += part(1);
+        for (const auto& [column, value] : row) s.B.add(column, value);
+        s.B.endRow();
+        s.area_m2.push_back(t.area_m2);
+        s.field_of_row[static_cast<std::size_t>(direction)].add(2 * k + direction, 1 / t.area_m2);
+        s.field_of_row[static_cast<std::size_t>(direction)].endRow();
+      }
+    }
+  completeRows(s);
+  return s;
+}
+
+Vec2 TriangleCloth::limitStressAt(const StrainRows&, std::span<const Vec2> field, int patch, Vec2 uv) const {
+  return field[static_cast<std::size_t>(locate(patch, uv).triangle)];
+}
+
+}  // namespace gambeson
