@@ -9,7 +9,7 @@
 #include "cases/placed_bodies.hpp"
 #include "cases/results_measure.hpp"
 #include "core/error.hpp"
-#include "human/zones.hpp"
+#include "human/body/zones.hpp"
 
 namespace gambeson {
 namespace {

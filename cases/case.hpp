@@ -15,11 +15,13 @@
 #include "core/cloth/shell/garment.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/vec.hpp"
-#include "human/character.hpp"
-#include "human/mesh_sequence.hpp"
-#include "human/motion.hpp"
-#include "human/motion_file.hpp"
-#include "human/skin.hpp"
+#include "human/body/mesh_sequence.hpp"
+#include "human/character/character.hpp"
+#include "human/motion/aim.hpp"
+#include "human/motion/stairs.hpp"
+#include "human/motion/walk.hpp"
+#include "human/recorded/motion_file.hpp"
+#include "human/skin/make_skin.hpp"
 #include "tryon/pattern/armour.hpp"
 
 namespace gambeson {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "human/blend.hpp"
+#include "human/body/skin.hpp"
+#include "human/motion/blend.hpp"
 #include "tryon/projecting.hpp"
 #include "tryon/skin_projecting.hpp"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/motion/model.hpp"
-#include "human/body.hpp"
-#include "human/mesh_sequence.hpp"
-#include "human/motion.hpp"
+#include "human/body/body.hpp"
+#include "human/body/mesh_sequence.hpp"
+#include "human/motion/motion.hpp"
 
 namespace gambeson {
 

@@ -18,8 +18,11 @@
 #include "core/cloth/shell/shell_law.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/skin.hpp"
+#include "human/body/body_file.hpp"
+#include "human/body/skin.hpp"
+#include "human/body/urdf.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/skin/make_skin.hpp"
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
 

@@ -4,7 +4,7 @@
 #include <iosfwd>
 
 #include "cases/case.hpp"
-#include "human/body.hpp"
+#include "human/body/body.hpp"
 
 namespace gambeson {
 

@@ -7,7 +7,7 @@
 #include "cases/message.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
-#include "human/read_text.hpp"
+#include "human/files/read_text.hpp"
 
 namespace gambeson {
 namespace {

@@ -1,7 +1,7 @@
 #include "cases/case.hpp"
 #include "cases/fields.hpp"
 #include "cases/table.hpp"
-#include "human/manikin.hpp"
+#include "human/manikin/manikin.hpp"
 
 namespace gambeson::schema {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cases/overloaded.hpp"
-#include "human/load.hpp"
+#include "human/files/mesh.hpp"
 
 namespace gambeson {
 

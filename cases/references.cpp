@@ -6,7 +6,8 @@
 
 #include "cases/draft.hpp"
 #include "core/error.hpp"
-#include "human/load.hpp"
+#include "human/files/mesh.hpp"
+#include "human/motion/trajectory.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson::schema {

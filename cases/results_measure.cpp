@@ -8,8 +8,8 @@
 #include "cases/factors.hpp"
 #include "cases/skin_ledger.hpp"
 #include "core/error.hpp"
-#include "human/task_moments.hpp"
-#include "human/walk_curves.hpp"
+#include "human/motion/task_moments.hpp"
+#include "human/motion/walk_curves.hpp"
 
 namespace gambeson {
 namespace {

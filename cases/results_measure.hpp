@@ -16,7 +16,7 @@
 #include "cases/body_map.hpp"
 #include "cases/scenario.hpp"
 #include "core/io/recording.hpp"
-#include "human/inverse_statics.hpp"
+#include "human/motion/inverse_statics.hpp"
 
 namespace gambeson {
 
@@ -169,9 +169,9 @@ struct StepMeasure {
   double deepest_m = 0, deepest_time_s = 0;  ///< of a sample, in the motion
   double mean_iterations = 0;
   std::vector<CollisionWindow> collisions;
-  long projections = 0;                 ///< of strain limits
-  long limited = 0, unlimited = 0;      ///< steps after settling, and those of them in which limits did not hold
-  double largest_limit_residual = 0;    ///< of the strain, after settling
+  long projections = 0;               ///< of strain limits
+  long limited = 0, unlimited = 0;    ///< steps after settling, and those of them in which limits did not hold
+  double largest_limit_residual = 0;  ///< of the strain, after settling
   double largest_limit_residual_settling = 0;
 };
 
@@ -254,8 +254,8 @@ struct FallMeasure {
   double largest_m = 0, time_s = 0;
 };
 
-/// The share of a garment that lies inside of one that belongs under it, by area, of what of it has that one within 30 mm
-/// along its normal; the largest of up to 40 frames of the motion. Such layers need not cross.
+/// The share of a garment that lies inside of one that belongs under it, by area, of what of it has that one within 30
+/// mm along its normal; the largest of up to 40 frames of the motion. Such layers need not cross.
 struct LayerOrderMeasure {
   std::string lower, higher;
   double largest = 0, time_s = 0;
@@ -287,8 +287,8 @@ struct Measured {
   Regions regions;
   std::vector<StressFrame> frames;
   std::vector<StressSummary> stress;
-  std::vector<Stretch> stretch;    ///< of each garment, against what its fabric is meant for
-  std::vector<FallMeasure> falls;  ///< of each garment that a human wears
+  std::vector<Stretch> stretch;                ///< of each garment, against what its fabric is meant for
+  std::vector<FallMeasure> falls;              ///< of each garment that a human wears
   std::vector<LayerOrderMeasure> layer_order;  ///< of each two garments that a human wears
   StepMeasure steps;
   EnergyMeasure energy;

@@ -10,8 +10,8 @@
 #include "cases/joint_words.hpp"
 #include "cases/results_write.hpp"
 #include "core/material/bending.hpp"
-#include "human/units.hpp"
-#include "human/zones.hpp"
+#include "human/body/zones.hpp"
+#include "human/files/units.hpp"
 
 namespace gambeson {
 
@@ -64,7 +64,8 @@ std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
   const std::string large =
       most > 0.1 ? fmt::format(", {:.0f} % are {:.0f} cm", 100 * most, 100 * (std::sqrt(1 + 2 * most) - 1)) : "";
   return fmt::format(
-      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} The fabric\u2019s law is a straight line, which "
+      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} The fabric\u2019s law is a straight line, "
+      "which "
       "its source takes for strains below {} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real "
       "fabric may be stiffer. A largest value far above what 99 % of the cloth stays below is that of single spots, at "
       "corners and seams.",
@@ -89,7 +90,8 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
        "the deepest point of the cloth's samples inside the body, over the motion"},
       {"Contact solver",
        m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
-       "%", "share of the steps whose contacts were not solved to the tolerance of the case, or to a millionth of the "
+       "%",
+       "share of the steps whose contacts were not solved to the tolerance of the case, or to a millionth of the "
        "largest impulse where cloth is jammed"}};
   double pinched = 0;
   for (const CollisionWindow& w : m.steps.collisions) pinched += static_cast<double>(w.pinched);
@@ -103,7 +105,8 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
   if (m.limited)
     checks.push_back(
         {"Strain limit",
-         m.steps.limited > 0 ? 100.0 * static_cast<double>(m.steps.unlimited) / static_cast<double>(m.steps.limited) : 0,
+         m.steps.limited > 0 ? 100.0 * static_cast<double>(m.steps.unlimited) / static_cast<double>(m.steps.limited)
+                             : 0,
          1, "%",
          "share of the steps after settling at whose end a thread missed its strain by more than the tolerance of the "
          "case"});

@@ -9,9 +9,9 @@
 #include "cases/case.hpp"
 #include "cases/supports.hpp"
 #include "core/motion/advance.hpp"
-#include "human/body.hpp"
-#include "human/foot_report.hpp"
-#include "human/motion.hpp"
+#include "human/body/body.hpp"
+#include "human/motion/foot_report.hpp"
+#include "human/motion/motion.hpp"
 
 namespace gambeson {
 

@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "analysis/torque.hpp"
+#include "human/body/skin.hpp"
 
 namespace gambeson {
 namespace {

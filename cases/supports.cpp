@@ -8,8 +8,9 @@
 #include "cases/places.hpp"
 #include "core/contact/triangle.hpp"
 #include "core/error.hpp"
-#include "human/motion.hpp"
-#include "human/skin.hpp"
+#include "human/body/skin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 
 namespace gambeson {
 namespace {

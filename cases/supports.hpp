@@ -9,7 +9,7 @@
 #include "core/cloth/shell/garment.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/motion/model.hpp"
-#include "human/body.hpp"
+#include "human/body/body.hpp"
 
 namespace gambeson {
 

@@ -6,7 +6,7 @@
 
 #include "cases/scenario.hpp"
 #include "core/contact/response.hpp"
-#include "human/zones.hpp"
+#include "human/body/zones.hpp"
 
 namespace gambeson {
 

@@ -7,7 +7,7 @@
 #include "cases/fields.hpp"
 #include "cases/study/input.hpp"
 #include "cases/table.hpp"
-#include "human/data.hpp"
+#include "human/files/data.hpp"
 
 namespace gambeson::study {
 namespace {

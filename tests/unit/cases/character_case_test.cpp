@@ -6,6 +6,7 @@
 #include "cases/scenario.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
+#include "human/skin/make_skin.hpp"
 #include "unit/human/character_body.hpp"
 
 namespace gambeson {

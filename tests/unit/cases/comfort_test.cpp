@@ -13,7 +13,7 @@
 #include "cases/study/study.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
-#include "human/zones.hpp"
+#include "human/body/zones.hpp"
 
 namespace gambeson {
 namespace {

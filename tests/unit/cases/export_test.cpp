@@ -12,7 +12,7 @@
 #include "content.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
-#include "human/storage.hpp"
+#include "human/recorded/storage.hpp"
 
 namespace gambeson {
 namespace {

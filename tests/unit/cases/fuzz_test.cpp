@@ -9,7 +9,7 @@
 #include "cases/any_case.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
-#include "human/load.hpp"
+#include "human/files/mesh.hpp"
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
 

@@ -14,7 +14,8 @@
 #include "content.hpp"
 #include "core/error.hpp"
 #include "example.hpp"
-#include "human/manikin.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/walk.hpp"
 
 namespace gambeson {
 namespace {
@@ -59,7 +60,8 @@ TEST(LegsThatMeet, AreSaidWithWhatHoldsThemApart) {
       "fabric": {"thickness": "1 mm", "surface_density": 0.2, "young": 1e5, "poisson": 0,
                  "bending": {"law": "linear", "rigidity": 1e-5}},
       "contact": {"friction": 0}, "human": {"manikin": "male_p50", "skin": {"cell": "43 mm"},
-                "motion": {"file": {"path": "walk.mot", "lead_in": 0, "hips_apart": ")" + apart + R"("}}}})");
+                "motion": {"file": {"path": "walk.mot", "lead_in": 0, "hips_apart": ")" +
+                                                    apart + R"("}}}})");
     const auto s = buildScenario(readCase(file));
     std::string all;
     for (const std::string& note : s->notes) all += note + "\n";

@@ -16,9 +16,8 @@
 #include "core/io/csv.hpp"
 #include "core/io/csv_text.hpp"
 #include "example.hpp"
-#include "human/load.hpp"
-#include "human/manikin.hpp"
-#include "human/motion.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/trajectory.hpp"
 
 namespace gambeson {
 namespace {

@@ -10,7 +10,9 @@
 #include <random>
 
 #include "analysis/torque.hpp"
-#include "human/load.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/walk.hpp"
+#include "human/skin/make_skin.hpp"
 
 namespace gambeson {
 namespace {

@@ -6,12 +6,14 @@
 
 #include "clearance.hpp"
 #include "core/error.hpp"
-#include "human/foot_report.hpp"
-#include "human/inverse_statics.hpp"
-#include "human/load.hpp"
-#include "human/manikin.hpp"
-#include "human/motion.hpp"
-#include "human/smooth_step.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/aim.hpp"
+#include "human/motion/foot_report.hpp"
+#include "human/motion/inverse_statics.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/smooth_step.hpp"
+#include "human/motion/stairs.hpp"
+#include "human/motion/walk.hpp"
 
 namespace gambeson {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "files.hpp"
-#include "human/load.hpp"
+#include "human/body/body_file.hpp"
 
 namespace gambeson {
 namespace {

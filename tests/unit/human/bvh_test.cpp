@@ -1,4 +1,4 @@
-#include "human/bvh.hpp"
+#include "human/recorded/bvh.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "files.hpp"
-#include "human/curve.hpp"
-#include "human/load.hpp"
-#include "human/motion_file.hpp"
-#include "human/recording.hpp"
-#include "human/units.hpp"
+#include "human/files/units.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/curve.hpp"
+#include "human/recorded/motion_file.hpp"
+#include "human/recorded/recording.hpp"
 
 namespace gambeson {
 namespace {

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "human/load.hpp"
-#include "human/motion.hpp"
-#include "human/skin.hpp"
-#include "human/units.hpp"
+#include "human/body/skin.hpp"
+#include "human/files/units.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
+#include "human/skin/make_skin.hpp"
 #include "unit/human/gltf.hpp"
 
 namespace gambeson::test {

@@ -1,7 +1,7 @@
 /// Characters from files: what is known of one that is made from our own manikin comes back, and real ones stand and
 /// walk.
 
-#include "human/character.hpp"
+#include "human/character/character.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,10 @@
 
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
-#include "human/joint_map.hpp"
-#include "human/skin_overlap.hpp"
+#include "human/motion/standing.hpp"
+#include "human/motion/walk.hpp"
+#include "human/skeleton/joint_map.hpp"
+#include "human/skin/overlap.hpp"
 #include "unit/human/character_body.hpp"
 #include "unit/human/files.hpp"
 

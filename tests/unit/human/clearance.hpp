@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "human/body.hpp"
+#include "human/body/body.hpp"
 
 namespace gambeson::test {
 

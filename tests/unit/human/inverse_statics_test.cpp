@@ -1,4 +1,4 @@
-#include "human/inverse_statics.hpp"
+#include "human/motion/inverse_statics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/manikin.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/standing.hpp"
 
 namespace gambeson {
 namespace {

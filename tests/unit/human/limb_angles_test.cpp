@@ -1,4 +1,4 @@
-#include "human/limb_angles.hpp"
+#include "human/skeleton/limb_angles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,11 @@
 #include <numbers>
 #include <random>
 
-#include "human/curve.hpp"
-#include "human/load.hpp"
-#include "human/motion.hpp"
-#include "human/units.hpp"
+#include "human/files/units.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/curve.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 
 namespace gambeson {
 namespace {

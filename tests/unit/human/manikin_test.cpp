@@ -1,4 +1,4 @@
-#include "human/manikin.hpp"
+#include "human/manikin/manikin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 
 #include "clearance.hpp"
 #include "core/error.hpp"
-#include "human/data.hpp"
-#include "human/ground.hpp"
-#include "human/load.hpp"
-#include "human/motion.hpp"
+#include "human/body/ground.hpp"
+#include "human/files/data.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 
 namespace gambeson {
 namespace {

@@ -1,6 +1,6 @@
 /// Snapshots of a surface: through the frames, continuous in velocity, at rest at both ends.
 
-#include "human/mesh_sequence.hpp"
+#include "human/body/mesh_sequence.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

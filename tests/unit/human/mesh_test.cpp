@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "files.hpp"
-#include "human/load.hpp"
+#include "human/files/mesh.hpp"
 
 namespace gambeson {
 namespace {

@@ -6,10 +6,11 @@
 #include <map>
 
 #include "files.hpp"
-#include "human/load.hpp"
-#include "human/motion_file.hpp"
-#include "human/recording.hpp"
-#include "human/units.hpp"
+#include "human/files/units.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/standing.hpp"
+#include "human/recorded/motion_file.hpp"
+#include "human/recorded/recording.hpp"
 
 namespace gambeson {
 namespace {

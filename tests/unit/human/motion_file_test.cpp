@@ -1,4 +1,4 @@
-#include "human/motion_file.hpp"
+#include "human/recorded/motion_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,11 @@
 #include <sstream>
 
 #include "files.hpp"
-#include "human/curve.hpp"
-#include "human/retarget.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/curve.hpp"
+#include "human/motion/standing.hpp"
+#include "human/motion/walk.hpp"
+#include "human/recorded/retarget.hpp"
 #include "recorded.hpp"
 
 namespace gambeson {
@@ -93,8 +96,7 @@ TEST_F(MotionFile, NowhereIsNoPlace) {
     test::expectRefused([&](const auto&) { loadMotionFile(o, human); }, o.path, 0, words);
   };
   for (const char* value : {"1e7", "-1e300", "1e308"})
-    for (const char* name : {"pelvis_tx", "pelvis_ty", "pelvis_tz"})
-      refused(name, value, "the body is nowhere");
+    for (const char* name : {"pelvis_tx", "pelvis_ty", "pelvis_tz"}) refused(name, value, "the body is nowhere");
   refused("time", "0.50999999999", "comes less than 1e-09 s after");
   o.path = folder.write("near.mot", test::motOf(*walk, human, findJointMap("gait2392"), from, 0.7, true));
   EXPECT_NO_THROW(loadMotionFile(o, human));

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "files.hpp"
-#include "human/joint_map.hpp"
-#include "human/load.hpp"
-#include "human/motion_file.hpp"
-#include "human/recording.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/recorded/motion_file.hpp"
+#include "human/recorded/recording.hpp"
+#include "human/skeleton/joint_map.hpp"
 
 namespace gambeson {
 namespace {

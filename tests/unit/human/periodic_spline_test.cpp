@@ -1,4 +1,4 @@
-#include "human/periodic_spline.hpp"
+#include "human/motion/periodic_spline.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <functional>
 #include <string>
 
-#include "human/load.hpp"
-#include "human/motion.hpp"
-#include "human/recording.hpp"
-#include "human/units.hpp"
+#include "human/body/body.hpp"
+#include "human/files/units.hpp"
+#include "human/motion/motion.hpp"
+#include "human/recorded/recording.hpp"
 
 namespace gambeson::test {
 

@@ -1,11 +1,11 @@
-#include "human/skeleton.hpp"
+#include "human/skeleton/skeleton.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "human/body.hpp"
-#include "human/load.hpp"
+#include "human/body/body.hpp"
+#include "human/manikin/manikin.hpp"
 
 namespace gambeson {
 namespace {

@@ -8,10 +8,12 @@
 #include <map>
 
 #include "exact/intersections.hpp"
-#include "human/load.hpp"
-#include "human/manikin.hpp"
-#include "human/motion.hpp"
-#include "human/skin.hpp"
+#include "human/body/skin.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
+#include "human/motion/walk.hpp"
+#include "human/skin/make_skin.hpp"
 #include "unit/human/skin_postures.hpp"
 
 namespace gambeson {

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "core/contact/mesh_topology.hpp"
-#include "human/load.hpp"
-#include "human/manikin.hpp"
-#include "human/skin.hpp"
+#include "human/body/skin.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/skin/make_skin.hpp"
 #include "unit/human/skin_postures.hpp"
 
 namespace gambeson {

@@ -1,6 +1,6 @@
 /// Where a surface has folded into itself: two blocks of one mesh of which one reaches into the other.
 
-#include "human/skin_overlap.hpp"
+#include "human/skin/overlap.hpp"
 
 #include <gtest/gtest.h>
 

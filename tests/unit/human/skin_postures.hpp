@@ -9,9 +9,10 @@
 
 #include "core/contact/contact_mesh.hpp"
 #include "core/contact/crossing.hpp"
-#include "human/motion.hpp"
-#include "human/skin.hpp"
-#include "human/units.hpp"
+#include "human/body/skin.hpp"
+#include "human/files/units.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 
 namespace gambeson {
 

@@ -1,6 +1,7 @@
 /// The skin at rest: a closed surface, and its weights.
 
-#include "human/skin.hpp"
+#include "human/body/skin.hpp"
+#include "human/skin/make_skin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,10 @@
 
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/motion.hpp"
+#include "human/files/mesh.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 #include "unit/human/files.hpp"
 
 namespace gambeson {

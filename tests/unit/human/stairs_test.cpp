@@ -6,10 +6,11 @@
 
 #include "clearance.hpp"
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/manikin.hpp"
-#include "human/motion.hpp"
-#include "human/walk_curves.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/stairs.hpp"
+#include "human/motion/standing.hpp"
+#include "human/motion/walk_curves.hpp"
 
 namespace gambeson {
 namespace {

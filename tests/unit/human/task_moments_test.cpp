@@ -1,4 +1,4 @@
-#include "human/task_moments.hpp"
+#include "human/motion/task_moments.hpp"
 
 #include <gtest/gtest.h>
 

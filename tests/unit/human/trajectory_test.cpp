@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include "files.hpp"
-#include "human/load.hpp"
-#include "human/motion.hpp"
-#include "human/units.hpp"
+#include "human/files/units.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
+#include "human/motion/trajectory.hpp"
 
 namespace gambeson {
 namespace {

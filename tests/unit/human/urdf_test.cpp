@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include "files.hpp"
-#include "human/load.hpp"
-#include "human/manikin.hpp"
-#include "human/motion.hpp"
+#include "human/body/body_file.hpp"
+#include "human/body/urdf.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 
 namespace gambeson {
 namespace {

@@ -1,15 +1,16 @@
 /// Parts of the body: landmarks of the manikins, both sides alike, the skin as the ellipsoids.
 
-#include "human/zones.hpp"
+#include "human/body/zones.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "human/load.hpp"
-#include "human/manikin.hpp"
-#include "human/skin.hpp"
+#include "human/body/body_file.hpp"
+#include "human/body/skin.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/skin/make_skin.hpp"
 
 namespace gambeson {
 namespace {

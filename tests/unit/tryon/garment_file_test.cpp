@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "human/load.hpp"
+#include "human/manikin/manikin.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/pattern.hpp"
 

@@ -11,8 +11,9 @@
 
 #include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/motion.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/section.hpp"
 

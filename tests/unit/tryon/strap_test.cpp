@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/skin.hpp"
+#include "human/body/skin.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/skin/make_skin.hpp"
 #include "tryon/pattern/armour.hpp"
 
 namespace gambeson {
