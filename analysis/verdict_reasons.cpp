@@ -1,4 +1,4 @@
-/// Why, how comfortable, which size would be, and how sure all that is.
+/// Detail of verdict_parts.hpp: why, how comfortable, which size would be, and how sure all that is.
 
 #include <fmt/format.h>
 

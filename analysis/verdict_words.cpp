@@ -1,4 +1,4 @@
-/// The sentences of a verdict: which one to take or how the worst fares, whether that is good enough, what is in doubt,
+/// Detail of verdict_parts.hpp: the sentences of a verdict: which one to take or how the worst fares, whether that is good enough, what is in doubt,
 /// and how exact the numbers are.
 
 #include <fmt/format.h>
