@@ -84,4 +84,12 @@ std::string formatBrief(double value, int digits) {
   return s;
 }
 
+double roundedUp(double value) {
+  if (!(value > 0)) return 0;
+  const double ten = std::pow(10, std::floor(std::log10(value)));
+  for (const double n : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (value <= n * ten * (1 + 1e-12)) return n * ten;
+  return 10 * ten;
+}
+
 }  // namespace gambeson

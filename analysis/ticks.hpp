@@ -27,4 +27,7 @@ std::string formatNumber(double value, int digits = 3);
 /// The same without zeros at its end: 5, not 5.00.
 std::string formatBrief(double value, int digits = 3);
 
+/// The value rounded up to 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten; 0 for what is not above 0.
+double roundedUp(double value);
+
 }  // namespace gambeson

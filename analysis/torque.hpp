@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "human/body.hpp"
-#include "human/motion.hpp"
+#include "human/body/body.hpp"
+#include "human/motion/motion.hpp"
 
 namespace gambeson {
 

@@ -1,4 +1,4 @@
-/// Why, how comfortable, which size would be, and how sure all that is.
+/// Detail of verdict_parts.hpp: why, how comfortable, which size would be, and how sure all that is.
 
 #include <fmt/format.h>
 
@@ -140,7 +140,8 @@ std::string comfortOf(const VerdictInput& in, const Verdict& v) {
                                  : trustOf(in).whole()      ? "Comfortable"
                                                             : "Comfortable, with doubt",
                                  c->part, bracketed(at_what), pressureText(*c));
-  if (alike) text += fmt::format(" The pressure is the same {} all {} {}.", words.before, in.options.size(), words.many);
+  if (alike)
+    text += fmt::format(" The pressure is the same {} all {} {}.", words.before, in.options.size(), words.many);
   if (in.sensor_m > 0) text += fmt::format(" Pressure is the mean over {:g} mm.", 1e3 * in.sensor_m);
   if (!alike)
     for (const Option& o : in.options)

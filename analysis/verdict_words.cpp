@@ -1,5 +1,5 @@
-/// The sentences of a verdict: which one to take or how the worst fares, whether that is good enough, what is in doubt,
-/// and how exact the numbers are.
+/// Detail of verdict_parts.hpp: the sentences of a verdict: which one to take or how the worst fares, whether that is
+/// good enough, what is in doubt, and how exact the numbers are.
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/manikin.hpp"
-#include "human/skin.hpp"
+#include "human/files/mesh.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/skin/make_skin.hpp"
 
 int main(int argc, char** argv) {
   using namespace gambeson;

@@ -6,6 +6,7 @@
 
 #include "core/contact/proximity.hpp"
 #include "core/error.hpp"
+#include "human/body/skin.hpp"
 #include "tryon/projecting.hpp"
 
 namespace gambeson {

@@ -11,7 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "human/skin.hpp"
+#include "human/body/body.hpp"
+#include "human/body/skin.hpp"
 
 namespace gambeson {
 

@@ -1,3 +1,5 @@
+/// Detail of render.hpp: pictures as PNG files.
+
 #include <png.h>
 
 #include <cassert>

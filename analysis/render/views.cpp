@@ -1,3 +1,5 @@
+/// Detail of render.hpp and camera.hpp: the views, and where they look from.
+
 #include <cassert>
 
 #include "analysis/render/camera.hpp"

@@ -1,13 +1,13 @@
-/// The fields of a study's file.
+/// Detail of input.hpp: the fields of a study's file.
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "cases/fields.hpp"
+#include "cases/input/table.hpp"
+#include "cases/runs/picture.hpp"
 #include "cases/study/input.hpp"
-#include "cases/table.hpp"
-#include "human/data.hpp"
+#include "human/files/data.hpp"
 
 namespace gambeson::study {
 namespace {

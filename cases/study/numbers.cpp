@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/ticks.hpp"
-#include "cases/check_words.hpp"
-#include "cases/json_at.hpp"
-#include "cases/message.hpp"
+#include "cases/input/json_at.hpp"
+#include "cases/input/message.hpp"
+#include "cases/wear/results/check_words.hpp"
 #include "core/error.hpp"
 #include "core/io/csv_text.hpp"
 

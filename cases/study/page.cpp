@@ -1,4 +1,4 @@
-/// The page of a study: the verdict first, then what it rests on.
+/// Detail of compare.hpp: the page of a study: the verdict first, then what it rests on.
 
 #include <fmt/format.h>
 

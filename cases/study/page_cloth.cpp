@@ -1,4 +1,4 @@
-/// The garment on its wearer: pressure, layers, fit, stress.
+/// Detail of page_parts.hpp: the garment on its wearer: pressure, layers, fit, stress.
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 
 #include "analysis/report/html.hpp"
 #include "analysis/ticks.hpp"
-#include "cases/results_write.hpp"
 #include "cases/study/page_parts.hpp"
-#include "cases/zone_ledger.hpp"
+#include "cases/wear/recording/zone_ledger.hpp"
+#include "cases/wear/results/write.hpp"
 
 namespace gambeson::study {
 

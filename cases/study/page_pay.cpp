@@ -1,4 +1,4 @@
-/// What each joint pays in each variant.
+/// Detail of page_parts.hpp: what each joint pays in each variant.
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 
 #include "analysis/report/html.hpp"
 #include "analysis/ticks.hpp"
-#include "cases/joint_words.hpp"
 #include "cases/study/page_parts.hpp"
-#include "cases/zone_ledger.hpp"
+#include "cases/wear/recording/zone_ledger.hpp"
+#include "cases/wear/results/joint_words.hpp"
 
 namespace gambeson::study {
 namespace {

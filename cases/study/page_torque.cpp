@@ -1,4 +1,4 @@
-/// Torques of the variants: curves, ratios, exponents, elasticities, standing, meshes.
+/// Detail of page_parts.hpp: torques of the variants: curves, ratios, exponents, elasticities, standing, meshes.
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "analysis/report/html.hpp"
 #include "analysis/report/xy_chart.hpp"
 #include "analysis/ticks.hpp"
-#include "cases/joint_words.hpp"
 #include "cases/study/page_parts.hpp"
-#include "cases/zone_ledger.hpp"
+#include "cases/wear/recording/zone_ledger.hpp"
+#include "cases/wear/results/joint_words.hpp"
 
 namespace gambeson::study {
 namespace {

@@ -1,4 +1,4 @@
-/// Why to trust the comparison: what checks that fail mean, and what was left out.
+/// Detail of page_parts.hpp: why to trust the comparison: what checks that fail mean, and what was left out.
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 
 #include "analysis/report/html.hpp"
 #include "analysis/ticks.hpp"
-#include "cases/check_words.hpp"
 #include "cases/study/page_parts.hpp"
+#include "cases/wear/results/check_words.hpp"
 
 namespace gambeson::study {
 

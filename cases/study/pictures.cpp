@@ -1,14 +1,14 @@
-/// Pictures of the variants side by side.
+/// Detail of compare.hpp: pictures of the variants side by side.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "cases/results.hpp"
-#include "cases/results_write.hpp"
 #include "cases/study/compare.hpp"
 #include "cases/study/files.hpp"
+#include "cases/wear/results/results.hpp"
+#include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
 

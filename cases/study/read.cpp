@@ -1,4 +1,4 @@
-/// From the file of a study to its variants.
+/// Detail of study.hpp: from the file of a study to its variants.
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
+#include "cases/input/table.hpp"
 #include "cases/study/files.hpp"
 #include "cases/study/input.hpp"
-#include "cases/table.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::study {

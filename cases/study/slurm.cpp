@@ -1,10 +1,10 @@
-/// The script of an array of jobs.
+/// Detail of run.hpp: the script of an array of jobs.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "cases/shell_word.hpp"
+#include "cases/runs/shell_word.hpp"
 #include "cases/study/files.hpp"
 #include "cases/study/run.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analysis/verdict.hpp"
-#include "cases/any_case.hpp"
-#include "cases/schema.hpp"
+#include "cases/input/schema.hpp"
+#include "cases/kinds/any_case.hpp"
 
 namespace gambeson::study {
 

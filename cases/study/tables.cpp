@@ -1,4 +1,4 @@
-/// study.json and the tables as CSV
+/// Detail of compare.hpp: study.json and the tables as CSV.
 
 #include <fmt/format.h>
 

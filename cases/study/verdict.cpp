@@ -1,4 +1,4 @@
-/// What the verdict is made of, from the runs.
+/// Detail of compare.hpp: what the verdict is made of, from the runs.
 
 #include <fmt/format.h>
 
@@ -6,10 +6,11 @@
 #include <cmath>
 #include <map>
 
-#include "cases/check_words.hpp"
-#include "cases/results_write.hpp"
+#include "cases/cloth/fabric.hpp"
 #include "cases/study/compare.hpp"
-#include "cases/zone_ledger.hpp"
+#include "cases/wear/recording/zone_ledger.hpp"
+#include "cases/wear/results/check_words.hpp"
+#include "cases/wear/results/write.hpp"
 
 namespace gambeson::study {
 namespace {

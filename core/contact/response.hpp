@@ -71,15 +71,15 @@ struct ContactSolve {
   bool yielded = false;  ///< the rows contradicted each other; the rest is of rows that give way (step_contact.cpp)
 };
 
-/// What else holds the points of the cloth while contacts are solved, strain limits say: velocities M^-1 i of impulses i
-/// on the free points become P i with a symmetric 0 <= P <= M^-1, so that bounds of M^-1 are bounds of P.
+/// What else holds the points of the cloth while contacts are solved, strain limits say: velocities M^-1 i of impulses
+/// i on the free points become P i with a symmetric 0 <= P <= M^-1, so that bounds of M^-1 are bounds of P.
 class MotionHold {
  public:
   virtual ~MotionHold() = default;
   /// `change`: of all free points, M^-1 i in, P i out.
   virtual void hold(std::span<Vec3> change) const = 0;
-  /// The same where impulses act on some points alone and only their changes matter: sets which (free points), and holds
-  /// these, in their order.
+  /// The same where impulses act on some points alone and only their changes matter: sets which (free points), and
+  /// holds these, in their order.
   virtual void touch(std::span<const int> points) = 0;
   virtual void holdTouched(std::span<Vec3> change) const = 0;
 };
@@ -160,13 +160,13 @@ double lastingShare(double mean_Pa, double pressure_Pa, double density_kg_per_m2
 
 /// A layer that gives way by c p_m under the pressure p_m that has lasted at the end of the step:
 ///   v_n >= k (delta - c p_m' - g)/dt,   p_m' = e p_m + (1 - e) s tau/dt,   e = exp(-dt/tau_r),
-/// tau the normal impulse per area that is solved for and s the part of it that lastingPressure counts, or that is beyond
-/// an impact at 5 m/s (rho 5 m/s / dt: cloth jammed in a fold), as in the last step (`last_Pa`, 0 after a contact has
-/// begun). Sets target and compliance of the row; beyond the layer persistentTarget. Cloth has c about 1e-7 m/Pa.
-/// A rigid layer (c = 0) bears a strip that is stretched over a round body on the few samples that stand highest, by
-/// nanometres, because a smooth surface cannot follow the body to the last of them. Which ones changes from step to
+/// tau the normal impulse per area that is solved for and s the part of it that lastingPressure counts, or that is
+/// beyond an impact at 5 m/s (rho 5 m/s / dt: cloth jammed in a fold), as in the last step (`last_Pa`, 0 after a
+/// contact has begun). Sets target and compliance of the row; beyond the layer persistentTarget. Cloth has c about 1e-7
+/// m/Pa. A rigid layer (c = 0) bears a strip that is stretched over a round body on the few samples that stand highest,
+/// by nanometres, because a smooth surface cannot follow the body to the last of them. Which ones changes from step to
 /// step; the impulses stir up vibrations along the strip as fast as it slides, and samples that stick for moments
-/// drag less than mu p (tests/unit/core/capstan_test.cpp).
+/// drag less than mu p (tests/unit/core/motion/capstan_test.cpp).
 void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const ContactParameters& parameters,
                 ContactRow& row);
 
@@ -187,9 +187,9 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 /// Rows that carry nothing are left out while they are not penetrated; the residual is that of all rows.
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
-/// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem. Impulses may then
-/// be thousands of times what stops the cloth by itself (a ring that takes no stretch, on a body); a solve is done at
-/// 2e-4 of the largest where that is more than the tolerance. Without a hold at 1e-6, and ten tolerances at most.
+/// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem. Impulses may
+/// then be thousands of times what stops the cloth by itself (a ring that takes no stretch, on a body); a solve is done
+/// at 2e-4 of the largest where that is more than the tolerance. Without a hold at 1e-6, and ten tolerances at most.
 ///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
 /// kg/m^2];

@@ -3,7 +3,7 @@
 #include <omp.h>
 
 #include "bench_table.hpp"
-#include "cases/scenario.hpp"
+#include "cases/wear/scene/scenario.hpp"
 #include "core/motion/step.hpp"
 
 namespace gambeson {

@@ -22,10 +22,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cases/dress.hpp"
-#include "cases/recorder.hpp"
-#include "cases/scenario.hpp"
-#include "cases/windows.hpp"
+#include "cases/wear/recording/recorder.hpp"
+#include "cases/wear/recording/windows.hpp"
+#include "cases/wear/run/dress.hpp"
+#include "cases/wear/scene/scenario.hpp"
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/recording.hpp"

@@ -1,4 +1,4 @@
-// The belt; the law of its length is described in armour.hpp.
+/// Detail of armour.hpp: the belt; the law of its length is described there.
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,5 @@
+/// Detail of pattern.hpp: edges by name.
+
 #include "core/error.hpp"
 #include "tryon/pattern/pattern.hpp"
 

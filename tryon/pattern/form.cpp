@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "human/motion.hpp"
-#include "human/skin.hpp"
+#include "human/body/skin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 
 namespace gambeson {
 namespace {

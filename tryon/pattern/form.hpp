@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "human/body.hpp"
+#include "human/body/body.hpp"
 #include "tryon/pattern/section.hpp"
 
 namespace gambeson {
@@ -20,7 +20,7 @@ Vec3 leaned(const Vec3& x, double lean_rad);
 
 class BodyForm {
  public:
-  /// The skin of a human who stands (human/motion.hpp), or the shapes of one without. `human` outlives the form.
+  /// The skin of a human who stands (human/motion/motion.hpp), or the shapes of one without. `human` outlives the form.
   explicit BodyForm(const Human& human);
   /// A closed skin of the standing human in the world; `segment` is the link of each vertex. A triangle belongs to a
   /// link only with all its vertices, so that sections of the trunk end where arms begin.

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
-#include "human/read_text.hpp"
+#include "human/files/read_text.hpp"
 #include "tryon/pattern/check.hpp"
 
 namespace gambeson {

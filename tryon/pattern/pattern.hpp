@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/cloth/shell/garment.hpp"
-#include "human/body.hpp"
+#include "human/body/body.hpp"
 #include "tryon/pattern/form.hpp"
 
 namespace gambeson {

@@ -1,4 +1,4 @@
-// The shirt; its layout is described in armour.hpp.
+/// Detail of armour.hpp: the shirt; its layout is described there.
 #include <algorithm>
 #include <cmath>
 #include <map>

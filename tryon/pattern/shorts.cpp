@@ -1,4 +1,4 @@
-// Shorts of six patches drafted on a body; the layout is described in pattern.hpp.
+/// Detail of pattern.hpp: shorts of six patches drafted on a body; the layout is described there.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-// The sheet, the disc and the tube.
+/// Detail of pattern.hpp: the sheet, the disc and the tube.
 #include <cmath>
 #include <complex>
 #include <numbers>

@@ -1,4 +1,4 @@
-// The skirt; described in armour.hpp.
+/// Detail of armour.hpp: the skirt; described there.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-// Garments under the one that is drafted.
+/// Detail of armour.hpp: garments under the one that is drafted.
 #include <algorithm>
 #include <cmath>
 

@@ -8,9 +8,10 @@
 #include <fstream>
 #include <random>
 
-#include "human/load.hpp"
-#include "human/motion.hpp"
-#include "human/storage.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/walk.hpp"
+#include "human/recorded/storage.hpp"
 
 namespace gambeson {
 namespace {

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <sstream>
 
-#include "cases/any_case.hpp"
+#include "cases/kinds/any_case.hpp"
 #include "core/error.hpp"
-#include "example.hpp"
-#include "human/load.hpp"
+#include "human/files/mesh.hpp"
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
+#include "unit/cases/example.hpp"
 
 namespace gambeson {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "cases/json.hpp"
+#include "cases/input/json.hpp"
 
 namespace gambeson {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cases/any_case.hpp"
+#include "cases/kinds/any_case.hpp"
 #include "core/error.hpp"
-#include "example.hpp"
+#include "unit/cases/example.hpp"
 
 namespace gambeson {
 

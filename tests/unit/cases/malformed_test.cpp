@@ -1,6 +1,6 @@
 /// Every way to get a case wrong says where and why.
 
-#include "malformed.hpp"
+#include "unit/cases/malformed.hpp"
 
 namespace gambeson {
 namespace {

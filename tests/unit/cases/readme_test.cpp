@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cases/any_case.hpp"
-#include "example.hpp"
+#include "cases/kinds/any_case.hpp"
+#include "unit/cases/example.hpp"
 
 namespace gambeson {
 namespace {

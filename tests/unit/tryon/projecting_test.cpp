@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/motion.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 #include "tryon/pattern/pattern.hpp"
 
 namespace gambeson {

@@ -9,8 +9,11 @@
 
 #include "core/contact/proximity.hpp"
 #include "core/error.hpp"
-#include "human/load.hpp"
-#include "human/motion.hpp"
+#include "human/body/skin.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
+#include "human/skin/make_skin.hpp"
 #include "tryon/pattern/pattern.hpp"
 
 namespace gambeson {

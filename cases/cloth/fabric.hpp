@@ -1,0 +1,19 @@
+#pragma once
+/// What cloth is made of, as a case has it.
+
+#include <optional>
+
+#include "core/material/fabric.hpp"
+
+namespace gambeson {
+
+/// A fabric, and how far it may be stretched: what no force depends on, but the verdict.
+struct FabricCase : Fabric {
+  std::optional<double> limit_strain_weft, limit_strain_warp;  ///< Green-Lagrange strains; absent: those of the law
+  bool operator==(const FabricCase&) const = default;
+};
+
+/// Strain below which the source of the fabric's law takes it to be a straight line (Zheng 2013, eq. 2.13).
+constexpr double kStrainOfLaw = 0.02;
+
+}  // namespace gambeson

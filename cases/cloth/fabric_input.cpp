@@ -1,0 +1,172 @@
+#include "cases/cloth/fabric_input.hpp"
+
+#include <fmt/format.h>
+
+#include "cases/cloth/fields.hpp"
+#include "cases/input/table.hpp"
+
+namespace gambeson::schema {
+namespace {
+
+Object bendingTable() {
+  using B = BendingInput;
+  return Table<B>("Bending")
+      .choice(
+          "law", &B::law,
+          std::vector<std::pair<std::string, BendingLaw>>{{"zheng", BendingLaw::zheng}, {"linear", BendingLaw::linear}},
+          "zheng: moment with an initial friction-like part, Zheng 2013, eq. 2.14; linear: moment = rigidity x "
+          "curvature")
+      .number("rigidity", &B::rigidity_Nm, "N m", between(0, 1e3),
+              "B0 of eq. 2.14, or the linear rigidity, per width of cloth, the same along weft and warp")
+      .defaultsTo("required, or rigidity_weft and rigidity_warp")
+      .number("rigidity_weft", &B::rigidity_weft_Nm, "N m", between(0, 1e3), "the same, bending along the weft")
+      .defaultsTo("rigidity")
+      .number("rigidity_warp", &B::rigidity_warp_Nm, "N m", between(0, 1e3), "the same, bending along the warp")
+      .defaultsTo("rigidity")
+      .number("kappa0", &B::kappa0_per_m, "1/m", aboveTo(0, 1e5), "kappa_0 of eq. 2.14, where the law turns linear")
+      .defaultsTo("required for the law zheng; not allowed for linear")
+      .number("regular_curvature", &B::regular_curvature_per_m, "1/m", aboveTo(0, 1e4),
+              "curvature below which the root of eq. 2.14, whose slope is infinite at 0, is smoothed")
+      .defaultsTo(fmt::format("{} 1/m for the law zheng; not allowed for linear", B::default_regular_curvature_per_m))
+      .number("twist", &B::twist_Nm, "N m", between(0, 1e3), "twist rigidity; the law of eq. 2.14 has none")
+      .choice("rest", &B::rest,
+              std::vector<std::pair<std::string, RestCurvature>>{{"zero", RestCurvature::zero},
+                                                                 {"shape", RestCurvature::shape}},
+              "curvature without moment: zero (flat cloth, sewn), or that of the garment's rest shape")
+      .build();
+}
+
+}  // namespace
+
+Object fabricTable() {
+  using F = FabricInput;
+  return Table<F>("Fabric")
+      .text("name", &F::name, "what the reports call it")
+      .number("thickness", &F::thickness_m, "m", aboveTo(0, 0.05), "thickness")
+      .required()
+      .number("density", &F::density_kg_per_m3, "kg/m^3", aboveTo(0, 3e4), "mass per volume")
+      .in("density")
+      .number("surface_density", &F::surface_density_kg_per_m2, "kg/m^2", aboveTo(0, 100),
+              "mass per area (also in gsm)")
+      .in("density")
+      .oneOf("density", true)
+      .number("young", &F::young_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus of isotropic cloth")
+      .defaultsTo("required, or young_weft, young_warp and shear")
+      .number("young_weft", &F::young_weft_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus along the weft")
+      .defaultsTo("young")
+      .number("young_warp", &F::young_warp_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus along the warp")
+      .defaultsTo("young")
+      .number("shear", &F::shear_Pa, "Pa", aboveTo(0, 1e12), "in-plane shear modulus")
+      .defaultsTo("young / (2 (1 + poisson)); required where young is not given")
+      .number("poisson", &F::poisson, "", {.low = 0, .high = 1, .high_open = true},
+              "contraction along the warp under tension along the weft; poisson^2 young_warp < young_weft")
+      .number("jam_area", &F::jam_area, "", {.low = 0, .high = 1, .high_open = true},
+              "area ratio below which cloth pressed together in its plane jams instead of giving way "
+              "(core/material/jamming.hpp); 0: never")
+      .number("limit_strain", &F::limit_strain, "", aboveTo(0, 10),
+              "Green-Lagrange strain (as the reports give stretch) up to which the fabric may be stretched along weft "
+              "and warp, say where it stiffens, stays stretched or tears: beyond it no verdict is green")
+      .defaultsTo("none: the range of the law, 2 % (Zheng 2013, eq. 2.13)")
+      .number("limit_strain_weft", &F::limit_strain_weft, "", aboveTo(0, 10), "the same, along the weft alone")
+      .defaultsTo("limit_strain")
+      .number("limit_strain_warp", &F::limit_strain_warp, "", aboveTo(0, 10), "the same, along the warp alone")
+      .defaultsTo("limit_strain")
+      .object("bending", &F::bending, bendingTable(), "resistance to bending")
+      .required()
+      .build();
+}
+
+FabricCase resolveFabric(const Place& place, const FabricInput& in) {
+  FabricCase f;
+  f.name = in.name;
+  f.thickness_m = in.thickness_m;
+  f.density_kg_per_m3 = in.density_kg_per_m3 ? *in.density_kg_per_m3 : *in.surface_density_kg_per_m2 / in.thickness_m;
+  if (in.young_Pa) {
+    for (const auto& [key, given] :
+         {std::pair("young_weft", in.young_weft_Pa), std::pair("young_warp", in.young_warp_Pa)})
+      if (given)
+        place.failAt(key, "excludes \"young\"; give young for isotropic cloth, or young_weft, young_warp and shear");
+    f.young_weft_Pa = f.young_warp_Pa = *in.young_Pa;
+    f.shear_Pa = in.shear_Pa.value_or(*in.young_Pa / (2 * (1 + in.poisson)));
+  } else {
+    if (!in.young_weft_Pa && !in.young_warp_Pa)
+      place.failAt("young", "is required: Young's modulus, or young_weft, young_warp and shear");
+    for (const auto& [key, given] : {std::pair("young_weft", in.young_weft_Pa),
+                                     std::pair("young_warp", in.young_warp_Pa), std::pair("shear", in.shear_Pa)})
+      if (!given) place.failAt(key, "is required where \"young\" is not given");
+    f.young_weft_Pa = *in.young_weft_Pa;
+    f.young_warp_Pa = *in.young_warp_Pa;
+    f.shear_Pa = *in.shear_Pa;
+  }
+  f.poisson = in.poisson;
+  f.jam_area = in.jam_area;
+  // The elasticity matrix of eq. 2.13 is positive definite only so.
+  if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa))
+    place.failAt("poisson", fmt::format("{} is out of range; allowed: below sqrt(young_weft / young_warp) = {:.4g}",
+                                        f.poisson, std::sqrt(f.young_weft_Pa / f.young_warp_Pa)));
+
+  for (const auto& [key, given] :
+       {std::pair("limit_strain_weft", in.limit_strain_weft), std::pair("limit_strain_warp", in.limit_strain_warp)})
+    if (given && in.limit_strain)
+      place.failAt(key, "excludes \"limit_strain\"; give limit_strain, or limit_strain_weft and limit_strain_warp");
+  f.limit_strain_weft = in.limit_strain ? in.limit_strain : in.limit_strain_weft;
+  f.limit_strain_warp = in.limit_strain ? in.limit_strain : in.limit_strain_warp;
+
+  const JsonNode* bending_node = place.node.find("bending");
+  const Place bending = place.member(*bending_node);
+  const BendingInput& b = in.bending;
+  f.bending_law = b.law;
+  if (b.rigidity_Nm) {
+    for (const auto& [key, given] :
+         {std::pair("rigidity_weft", b.rigidity_weft_Nm), std::pair("rigidity_warp", b.rigidity_warp_Nm)})
+      if (given) bending.failAt(key, "excludes \"rigidity\"; give rigidity, or rigidity_weft and rigidity_warp");
+    f.bending_weft_Nm = f.bending_warp_Nm = *b.rigidity_Nm;
+  } else {
+    if (!b.rigidity_weft_Nm && !b.rigidity_warp_Nm)
+      bending.failAt("rigidity", "is required: the bending rigidity, or rigidity_weft and rigidity_warp");
+    if (!b.rigidity_weft_Nm) bending.failAt("rigidity_weft", "is required where \"rigidity\" is not given");
+    if (!b.rigidity_warp_Nm) bending.failAt("rigidity_warp", "is required where \"rigidity\" is not given");
+    f.bending_weft_Nm = *b.rigidity_weft_Nm;
+    f.bending_warp_Nm = *b.rigidity_warp_Nm;
+  }
+  if (b.law == BendingLaw::zheng) {
+    if (!b.kappa0_per_m) bending.failAt("kappa0", "is required for the law zheng: the curvature where it turns linear");
+    f.kappa0_per_m = *b.kappa0_per_m;
+    f.kappa_regular_per_m = b.regular_curvature_per_m.value_or(BendingInput::default_regular_curvature_per_m);
+    if (!(f.kappa_regular_per_m <= f.kappa0_per_m))
+      bending.failAt("regular_curvature", fmt::format("{} 1/m is out of range; allowed: <= kappa0 = {} 1/m",
+                                                      f.kappa_regular_per_m, f.kappa0_per_m));
+  } else {
+    for (const char* key : {"kappa0", "regular_curvature"})
+      if (bending.node.find(key)) bending.failAt(key, "has no meaning for the law linear; remove it");
+  }
+  f.twist_Nm = b.twist_Nm;
+  f.rest_curvature_of_shape = b.rest == RestCurvature::shape;
+  return f;
+}
+
+FabricInput restoreFabric(const FabricCase& f) {
+  FabricInput in;
+  in.name = f.name;
+  in.thickness_m = f.thickness_m;
+  in.density_kg_per_m3 = f.density_kg_per_m3;
+  in.young_weft_Pa = f.young_weft_Pa;
+  in.young_warp_Pa = f.young_warp_Pa;
+  in.shear_Pa = f.shear_Pa;
+  in.poisson = f.poisson;
+  in.jam_area = f.jam_area;
+  in.limit_strain_weft = f.limit_strain_weft;
+  in.limit_strain_warp = f.limit_strain_warp;
+  in.bending.law = f.bending_law;
+  in.bending.rigidity_weft_Nm = f.bending_weft_Nm;
+  in.bending.rigidity_warp_Nm = f.bending_warp_Nm;
+  if (f.bending_law == BendingLaw::zheng) {
+    in.bending.kappa0_per_m = f.kappa0_per_m;
+    in.bending.regular_curvature_per_m = f.kappa_regular_per_m;
+  }
+  in.bending.twist_Nm = f.twist_Nm;
+  in.bending.rest = f.rest_curvature_of_shape ? RestCurvature::shape : RestCurvature::zero;
+  return in;
+}
+
+}  // namespace gambeson::schema

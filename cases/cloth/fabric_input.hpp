@@ -1,0 +1,40 @@
+#pragma once
+/// A fabric as a case file writes it: with the shorthand for isotropic cloth and with either density.
+
+#include <optional>
+#include <string>
+
+#include "cases/cloth/fabric.hpp"
+#include "cases/input/schema.hpp"
+
+namespace gambeson::schema {
+
+enum class RestCurvature { zero, shape };
+
+struct BendingInput {
+  BendingLaw law = BendingLaw::zheng;
+  std::optional<double> rigidity_Nm, rigidity_weft_Nm, rigidity_warp_Nm;
+  std::optional<double> kappa0_per_m;
+  std::optional<double> regular_curvature_per_m;
+  static constexpr double default_regular_curvature_per_m = 1;
+  double twist_Nm = 0;
+  RestCurvature rest = RestCurvature::zero;
+};
+
+struct FabricInput {
+  std::string name;
+  double thickness_m = 0;
+  std::optional<double> density_kg_per_m3, surface_density_kg_per_m2;
+  std::optional<double> young_Pa, young_weft_Pa, young_warp_Pa, shear_Pa;
+  double poisson = 0;
+  double jam_area = 0.7;
+  std::optional<double> limit_strain, limit_strain_weft, limit_strain_warp;
+  BendingInput bending;
+};
+
+/// The fabric that the input says; `place` is that of the fabric in the file, for the rules between fields.
+FabricCase resolveFabric(const Place& place, const FabricInput& in);
+/// The input, written out in full, that resolves to the fabric.
+FabricInput restoreFabric(const FabricCase& fabric);
+
+}  // namespace gambeson::schema

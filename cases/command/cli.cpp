@@ -1,0 +1,577 @@
+#include "cases/command/cli.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <ostream>
+#include <sstream>
+
+#include "cases/command/documents.hpp"
+#include "cases/input/message.hpp"
+#include "cases/kinds/any_case.hpp"
+#include "cases/runs/options.hpp"
+#include "cases/runs/picture.hpp"
+#include "cases/runs/results_folder.hpp"
+#include "cases/runs/stop_message.hpp"
+#include "cases/structure/run.hpp"
+#include "cases/study/run.hpp"
+#include "cases/verify/verify.hpp"
+#include "cases/wear/results/results.hpp"
+#include "cases/wear/run/draft.hpp"
+#include "cases/wear/run/dress.hpp"
+#include "cases/wear/run/export.hpp"
+#include "cases/wear/run/run.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr int done = 0, failed = 1, bad_input = 2;
+
+struct CheckArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  bool full = false, schema = false, doc = false;
+};
+
+struct RunArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  std::string device = "auto";
+  RunOptions options;
+};
+
+struct DressArguments {
+  std::filesystem::path file, output;
+  std::vector<std::string> overrides;
+  int threads = 0;
+};
+
+struct DraftArguments {
+  std::filesystem::path file, garment_file;
+  std::vector<std::string> overrides;
+  std::string garment;
+  bool obj = false;
+};
+
+struct RenderArguments {
+  RenderOptions options;
+  std::string field = "stress", time = "end", view = "front_right", size = "1280x960";
+};
+
+struct ExportArguments {
+  ExportOptions options;
+  std::string time = "end";
+};
+
+struct StudyArguments {
+  std::filesystem::path file;
+  std::vector<std::filesystem::path> cases;
+  std::string engine = "local";
+  bool check = false;
+  study::Options options;
+};
+
+/// A file whose name says what is in it. Throws InputError ("command line", option).
+void checkEnding(const std::filesystem::path& file, const std::string& option,
+                 const std::vector<std::string>& allowed) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (std::find(allowed.begin(), allowed.end(), ending) == allowed.end())
+    throw InputError({"command line", 0, option},
+                     fmt::format("\"{}\" does not end as what is written; allowed: a name that ends in {}",
+                                 file.string(), schema::joined(allowed)));
+}
+
+/// A blank line between what a command does and how it is used.
+class HelpText : public CLI::Formatter {
+ public:
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return "\n" + CLI::Formatter::make_usage(app, std::move(name));
+  }
+};
+
+void addOverrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command
+      .add_option("--set", overrides,
+                  "Replaces a value of the case, for instance fabric.thickness=\"0.4 mm\" or "
+                  "output.pictures[0].time=peak; may be given several times")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+void addRun(CLI::App& app, RunArguments& a) {
+  CLI::App& run =
+      *app.add_subcommand("run",
+                          "Runs a case: dresses the human, lets it move, measures, takes pictures, reports; or "
+                          "solves a static, dynamic or modal case of a structure");
+  run.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  run.add_option(
+         "--out", a.options.out,
+         "Folder for the results; an earlier run's results there are replaced [results/<name of the case file>]")
+      ->type_name("DIR");
+  run.add_option(
+         "--threads", a.options.threads,
+         "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  run.add_flag("--resume", a.options.resume,
+               "Continues an interrupted run of the same case, in the same folder, from its last checkpoint");
+  addOverrides(run, a.overrides);
+  run.add_option("--device", a.device, "Where to compute: auto or cpu, the same in this version [auto]")
+      ->type_name("DEVICE")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}).description(""));
+  run.footer(
+      "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, zones.csv,\n"
+      "collisions.csv, stress.csv, snapshots/ (pictures) and frames.xdmf (the recording, for ParaView). Static, "
+      "dynamic and modal "
+      "cases\n"
+      "leave path.csv (points and edges of each step) and shape.csv (the last shape) in place of the three tables.\n\n"
+      "Examples:\n"
+      "  gambeson run cases/library/shorts_walk.json\n"
+      "  gambeson run cases/library/shorts_walk.json --out results/thin --set fabric.thickness=\"0.4 mm\"\n"
+      "  gambeson run cases/library/sleeve_flex.json --set contact.friction=0.5\n"
+      "  gambeson run cases/library/cantilever.json --set sheet.cells_u=32\n\n"
+      "Exit status: 0 done; 1 the run failed, the message says why; 2 something in the input is wrong.");
+}
+
+void addDress(CLI::App& app, DressArguments& a) {
+  CLI::App& command =
+      *app.add_subcommand("dress", "Puts the garments of a case on its human, for many runs to start from");
+  command.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  command.add_option("-o,--output", a.output, "Dressed state to write (JSON)")->type_name("FILE")->required();
+  command
+      .add_option(
+          "--threads", a.threads,
+          "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The state does not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  addOverrides(command, a.overrides);
+  command.footer(
+      "Examples:\n"
+      "  gambeson dress armour.json -o dressed.json\n"
+      "  gambeson run armour.json --set dressing.from=dressed.json\n\n"
+      "Exit status: 0 done; 1 a garment could not be put on, the message says why; 2 something in the input is wrong.");
+}
+
+void addCheck(CLI::App& app, CheckArguments& a) {
+  CLI::App& check = *app.add_subcommand("check", "Checks a case without running it");
+  check.add_option("CASE", a.file, "Case file (JSON); not needed with --schema or --doc")->type_name("");
+  addOverrides(check, a.overrides);
+  check.add_flag("--full", a.full, "Prints the case with all defaults written out, in SI");
+  check.add_flag("--schema", a.schema,
+                 "Prints the JSON Schema of cases, for editors that complete and check while you write");
+  check.add_flag("--doc", a.doc, "Prints what every field of a case means (Markdown)");
+  check.footer(
+      "Examples:\n"
+      "  gambeson check my_case.json\n"
+      "  gambeson check my_case.json --full --set garment.shorts.ease=\"10 %\"\n"
+      "  gambeson check --schema > case.schema.json\n\n"
+      "Exit status: 0 the case is valid: all that a run starts from was built; 1 the body cannot be freed of the "
+      "garment; 2 it "
+      "is not valid, and the message says file, line, key and what is allowed.");
+}
+
+void addDraft(CLI::App& app, DraftArguments& a) {
+  CLI::App& draft = *app.add_subcommand(
+      "draft", "Writes a garment of a case, made on its human, as a file that can be edited and worn");
+  draft.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  draft.add_option("--garment", a.garment, "Its name in the case; not needed where there is only one")
+      ->type_name("NAME");
+  addOverrides(draft, a.overrides);
+  draft.add_flag("--obj", a.obj, "Writes it as a mesh of triangles (OBJ) in place of its patches");
+  draft.add_option("-o,--output", a.garment_file, "Garment file to write (JSON, or OBJ)")
+      ->type_name("GARMENT")
+      ->required();
+  draft.footer(
+      "The file has patches, seams, trims and names of edges, but no fabric; {\"file\": {\"path\": ...}} in a case\n"
+      "wears it, with the same results to the bit. With --obj it has the triangles that the garment is made of with\n"
+      "\"model\": \"triangles\" (and its \"mesh\"); {\"mesh_file\": {\"path\": ...}} wears these.\n\n"
+      "Example:\n  gambeson draft cases/library/armour_stand.json --garment shirt -o shirt.json");
+}
+
+void addRender(CLI::App& app, RenderArguments& a) {
+  CLI::App& render = *app.add_subcommand("render", "Takes a picture of recorded results");
+  render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
+  render
+      .add_option(
+          "--field", a.field,
+          "What the colours show: stress (of a mode: its displacement), pressure, strain, body_pressure (the bare "
+          "body: the largest pressure of the motion) or plain")
+      ->type_name("FIELD")
+      ->capture_default_str();
+  render
+      .add_option("--time", a.time,
+                  "A time such as 1.2 or \"1200 ms\" (static: a load factor, modal: a mode); or peak (largest joint "
+                  "torque) or end")
+      ->type_name("TIME")
+      ->capture_default_str();
+  render.add_option("--view", a.view, "From where: " + schema::joined(viewNames()))
+      ->type_name("VIEW")
+      ->capture_default_str();
+  render.add_option("--size", a.size, "Pixels, width x height")->type_name("WxH")->capture_default_str();
+  render.add_option("-o,--output", a.options.png, "Picture to write (.png)")->type_name("PNG")->required();
+  render.footer(
+      "Examples:\n"
+      "  gambeson render results/shorts_walk -o peak.png --time peak\n"
+      "  gambeson render results/shorts_walk -o back.png --field pressure --view back --time 1.35 --size 1920x1080");
+}
+
+void addReport(CLI::App& app, ReportOptions& options) {
+  CLI::App& report = *app.add_subcommand("report", "Writes the report page of recorded results again");
+  report.add_option("RESULTS", options.results, "Folder that gambeson run left")->type_name("")->required();
+  report.add_option("-o,--output", options.html, "Page to write: one file (.html) that needs no other")
+      ->type_name("HTML")
+      ->required();
+  report.footer("Example:\n  gambeson report results/shorts_walk -o shorts.html");
+}
+
+void addExport(CLI::App& app, ExportArguments& a) {
+  CLI::App& command = *app.add_subcommand("export", "Writes recorded results for other programs: CAD and OpenSim");
+  command.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
+  command
+      .add_option(
+          "--iges", a.options.iges,
+          "The garment at one time as NURBS surfaces with their trimming: IGES 5.3 (.igs, .iges), in millimetres, as "
+          "recorded (single precision)")
+      ->type_name("FILE");
+  command
+      .add_option("--time", a.time, "Of --iges: a time such as 1.2 or \"1200 ms\", peak (largest joint torque) or end")
+      ->type_name("TIME")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--opensim", a.options.opensim,
+          "What the cloth does to the body, window by window: OpenSim's ExternalLoads PREFIX.xml and their data "
+          "PREFIX.mot, in ground (x forward, y up)")
+      ->type_name("PREFIX");
+  command.footer(
+      "Forces act at the origins of the body's links (joint centres) with their moments about these. Links of our "
+      "manikins\n"
+      "are called as the bodies of gait2392 and Rajagopal's model: thigh_left is femur_l.\n\n"
+      "Examples:\n"
+      "  gambeson export results/shorts_walk --iges shorts.igs --time peak\n"
+      "  gambeson export results/shorts_walk --opensim loads/shorts\n\n"
+      "Exit status: 0 done; 1 the results could not be written; 2 something in the input is wrong.");
+}
+
+void addVerify(CLI::App& app, verify::Options& o) {
+  CLI::App& command =
+      *app.add_subcommand("verify", "Runs published references: measured against reference, tolerance, on one page");
+  command.add_option("--filter", o.filters, "Only references whose id fits the pattern, such as 'sze_*' [all]")
+      ->type_name("GLOB")
+      ->allow_extra_args(false);
+  command.add_flag("--quick", o.quick, "Only the quick half");
+  command.add_option("--dir", o.dir, "Folder of the references [tests/verify]")->type_name("DIR");
+  command.add_option("--out", o.out, "Folder for the results [results/verify]")->type_name("DIR");
+  command
+      .add_option("--results", o.results,
+                  "Takes runs from here (DIR/REFERENCE/RUN or DIR/RUN) that are complete and of the same case, instead "
+                  "of running them; runs that were interrupted in the folder of --out go on")
+      ->type_name("DIR");
+  command.add_option("--jobs", o.jobs, "Runs at a time, of one thread each; 0 for one on each core [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.footer(
+      "Leaves in DIR: verify.html (start here), verify.json and a folder for each run.\n\n"
+      "Examples:\n"
+      "  gambeson verify --quick\n"
+      "  gambeson verify --filter 'sze_3_4*' --out results/hemisphere\n"
+      "  gambeson verify --filter armour --out results/armour --results results/armour\n\n"
+      "Exit status: 0 all references passed; 1 some failed; 2 something in the input is wrong.");
+}
+
+void addJobs(CLI::App& command, study::Options& o) {
+  command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.add_option("--threads", o.threads, "Threads of all runs together, 0 for as many as the machine has [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.add_flag("--resume", o.resume,
+                   "Keeps runs that are done with the same case, continues those that were interrupted, and runs the "
+                   "others; without it all run again");
+}
+
+void addStudy(CLI::App& app, StudyArguments& a) {
+  CLI::App& command = *app.add_subcommand(
+      "study",
+      "Runs the variants of a case side by side and compares them: which one to take, why, and how sure that is");
+  command.add_option("STUDY", a.file, "Study file (JSON)")->type_name("")->required();
+  command.add_option("--out", a.options.out, "Folder for the results [results/<name of the study file>]")
+      ->type_name("DIR");
+  addJobs(command, a.options);
+  command
+      .add_option(
+          "--engine", a.engine,
+          "local: runs here; slurm: writes DIR/study.slurm, an array of jobs for sbatch, and runs nothing [local]")
+      ->type_name("ENGINE")
+      ->check(CLI::IsMember({"local", "slurm"}).description(""));
+  command.add_flag("--check", a.check, "Only checks the study and all its variants, and lists them");
+  command.footer(
+      "Leaves in DIR: report.html (start here), study.json (all numbers), variants.csv (a row for each variant), "
+      "curves.csv\n"
+      "(torques over time), exponents.csv, elasticities.csv, meshes.csv, pictures/, logs/, and a folder with the run "
+      "of\n"
+      "each variant.\n\n"
+      "Examples:\n"
+      "  gambeson study cases/library/shorts_thickness.study.json\n"
+      "  gambeson study my.study.json --out results/mine --jobs 4 --resume\n\n"
+      "Exit status: 0 all variants are done; 1 some failed, and the report compares the others; 2 something in the "
+      "input\n"
+      "of any variant is wrong, and nothing ran.");
+}
+
+void addBatch(CLI::App& app, StudyArguments& a) {
+  CLI::App& command =
+      *app.add_subcommand("batch", "Runs several cases as a study does, each in a folder named after its file");
+  command.add_option("CASE", a.cases, "Case files (JSON)")->type_name("")->required();
+  command.add_option("--out", a.options.out, "Folder for the results")->type_name("DIR")->required();
+  addJobs(command, a.options);
+  command.footer(
+      "Example:\n  gambeson batch cases/library/flag.json cases/library/stack_mixed.json --out results/cloth\n\n"
+      "Exit status: 0 all cases are done; 1 some failed; 2 something in the input is wrong, and nothing ran.");
+}
+
+/// Builds what a run of the case starts from: a case that is valid can be run.
+void checkBuild(const AnyCase& any) {
+  useThreads(0);
+  if (const auto* structure = std::get_if<StructureCase>(&any))
+    checkStructure(*structure);
+  else
+    checkRun(std::get<Case>(any));
+}
+
+int check(const CheckArguments& a, std::ostream& out) {
+  if (a.schema) out << caseSchema();
+  if (a.doc) out << caseFields();
+  if (a.file.empty()) {
+    if (a.schema || a.doc) return done;
+    throw InputError({"command line", 0, "CASE"}, "is required: the case file to check");
+  }
+  const AnyCase any = readAnyCase(a.file, a.overrides);
+  checkBuild(any);
+  out << (a.full ? std::visit([](const auto& c) { return writeCase(c); }, any)
+                 : fmt::format("{}: valid\n", a.file.string()));
+  return done;
+}
+
+int draft(const DraftArguments& a, std::ostream& out) {
+  const AnyCase any = readAnyCase(a.file, a.overrides);
+  const auto* c = std::get_if<Case>(&any);
+  if (!c) throw InputError({a.file.string(), 0, ""}, "is a case of a structure; garments are made by those that wear");
+  draftToFile(*c, a.garment, a.garment_file, a.obj, out);
+  return done;
+}
+
+int run(RunArguments& a) {
+  if (a.device == "cuda")
+    throw InputError({"command line", 0, "--device"}, "\"cuda\" is not in this build; allowed: auto or cpu");
+  const AnyCase any = readAnyCase(a.file, a.overrides);
+  if (a.options.out.empty()) a.options.out = std::filesystem::path("results") / a.file.stem();
+  checkPath(std::filesystem::absolute(a.options.out), "--out");
+  if (const auto* structure = std::get_if<StructureCase>(&any)) return runStructure(*structure, a.options);
+  return runCase(std::get<Case>(any), a.options);
+}
+
+int studyCommand(StudyArguments& a, std::ostream& out) {
+  if (a.options.out.empty()) {
+    std::string name = a.file.stem().string();
+    if (name.ends_with(".study")) name.resize(name.size() - 6);
+    a.options.out = std::filesystem::path("results") / name;
+  }
+  a.options.slurm = a.engine == "slurm";
+  const study::Study s = study::readStudy(a.file);
+  if (!a.check) return study::runStudy(s, a.options, out);
+  for (const study::Variant& v : s.variants) {
+    checkBuild(v.definition);
+    out << v.folder << '\n';
+  }
+  out << fmt::format("{}: valid, {} variants\n", a.file.string(), s.variants.size());
+  return done;
+}
+
+int dressCase(const DressArguments& a) {
+  const AnyCase any = readAnyCase(a.file, a.overrides);
+  const auto* c = std::get_if<Case>(&any);
+  if (!c || !c->human) throw InputError({a.file.string(), 0, "human"}, "is required: whom to dress");
+  checkOutput(a.output, "--output", inputsOf(any));
+  useThreads(a.threads);
+  const StopMessage stopped(
+      "stopped by a signal; nothing is written, and dressing starts from the beginning when it is run again");
+  writeDressed(dress(*c), a.output);
+  fmt::print("Dressed: {}\n", a.output.string());
+  return done;
+}
+
+/// A time as pictures take it.
+int exportCommand(ExportArguments& a) {
+  if (!a.options.iges.empty()) checkEnding(a.options.iges, "--iges", {".igs", ".iges"});
+  JsonNode node;
+  node.type = JsonNode::Type::object;
+  overrideValue(node, "time", a.time);
+  PictureCase picture;
+  const std::string none;
+  schema::readObject(schema::pictureTable(), {node, "", none}, &picture);
+  a.options.when = picture.when;
+  a.options.time_s = picture.time_s;
+  const Paths recorded = recordedFiles(a.options.results);
+  if (!a.options.iges.empty()) checkOutput(a.options.iges, "--iges", recorded);
+  if (!a.options.opensim.empty())
+    for (const char* ending : {".xml", ".mot"}) checkOutput(a.options.opensim.string() + ending, "--opensim", recorded);
+  return exportResults(a.options);
+}
+
+/// A picture's options go through the same table as the pictures of a case.
+int render(RenderArguments& a) {
+  checkEnding(a.options.png, "--output", {".png"});
+  JsonNode node;
+  node.type = JsonNode::Type::object;
+  overrideValue(node, "field", a.field);
+  overrideValue(node, "time", a.time);
+  overrideValue(node, "view", a.view);
+  const std::size_t x = a.size.find('x');
+  if (x == std::string::npos)
+    throw InputError({"command line", 0, "--size"},
+                     fmt::format("\"{}\" is not a size; allowed: such as 1280x960", a.size));
+  overrideValue(node, "width", a.size.substr(0, x));
+  overrideValue(node, "height", a.size.substr(x + 1));
+  PictureCase picture;
+  const std::string none;
+  schema::readObject(schema::pictureTable(), {node, "", none}, &picture);
+  a.options.field = picture.field;
+  a.options.when = picture.when;
+  a.options.time_s = picture.time_s;
+  a.options.view = picture.view;
+  a.options.width = picture.width;
+  a.options.height = picture.height;
+  checkOutput(a.options.png, "--output", recordedFiles(a.options.results));
+  return holdsStructure(a.options.results) ? renderStructureResults(a.options) : renderResults(a.options);
+}
+
+}  // namespace
+
+int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  CLI::App app{
+      "Gambeson: what a garment costs its wearer.\n\nDresses a digital human in cloth, lets it move, and measures the "
+      "joint torques that the garment adds.",
+      "gambeson"};
+  app.formatter(std::make_shared<HelpText>());
+  app.set_version_flag("--version", "gambeson " GAMBESON_VERSION, "Prints the version");
+  app.set_help_flag("-h,--help", "Prints this help");
+  app.require_subcommand(1);
+  app.footer(
+      "Start with:\n"
+      "  gambeson run cases/library/shorts_walk.json\n\n"
+      "gambeson SUBCOMMAND --help says more. The fields of a case: cases/FIELDS.md, or gambeson check --doc.");
+  RunArguments run_arguments;
+  CheckArguments check_arguments;
+  DressArguments dress_arguments;
+  DraftArguments draft_arguments;
+  RenderArguments render_arguments;
+  ReportOptions report_options;
+  ExportArguments export_arguments;
+  verify::Options verify_options;
+  addRun(app, run_arguments);
+  addDress(app, dress_arguments);
+  addCheck(app, check_arguments);
+  addDraft(app, draft_arguments);
+  addRender(app, render_arguments);
+  addReport(app, report_options);
+  addExport(app, export_arguments);
+  addVerify(app, verify_options);
+  StudyArguments study_arguments, batch_arguments;
+  addStudy(app, study_arguments);
+  addBatch(app, batch_arguments);
+  std::string subject;  // what the command works on, for messages that name no file themselves
+  const auto failure = [&](const std::string& text) { err << messageText(text) << '\n'; };
+  if (argc < 2) {
+    err << app.help();
+    return bad_input;
+  }
+  if (const std::string command = argv[1];
+      !command.starts_with('-') &&
+      app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
+    failure(fmt::format(
+        "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, export, verify, "
+        "study "
+        "and batch (see "
+        "gambeson --help)",
+        command.substr(0, 80)));
+    return bad_input;
+  }
+  const auto perform = [&] {
+    app.parse(argc, argv);
+    for (const auto& [path, option] : std::initializer_list<std::pair<const std::filesystem::path&, const char*>>{
+             {run_arguments.file, "CASE"},
+             {run_arguments.options.out, "--out"},
+             {check_arguments.file, "CASE"},
+             {dress_arguments.file, "CASE"},
+             {dress_arguments.output, "--output"},
+             {draft_arguments.file, "CASE"},
+             {draft_arguments.garment_file, "--output"},
+             {render_arguments.options.results, "RESULTS"},
+             {render_arguments.options.png, "--output"},
+             {report_options.results, "RESULTS"},
+             {report_options.html, "--output"},
+             {export_arguments.options.results, "RESULTS"},
+             {export_arguments.options.iges, "--iges"},
+             {export_arguments.options.opensim, "--opensim"},
+             {verify_options.dir, "--dir"},
+             {verify_options.out, "--out"},
+             {verify_options.results, "--results"},
+             {study_arguments.file, "STUDY"},
+             {study_arguments.options.out, "--out"},
+             {batch_arguments.options.out, "--out"}}) {
+      checkPath(path, option);
+      const std::string_view name = option;
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS")) subject = path.string();
+    }
+    for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
+    if (app.got_subcommand("run")) return run(run_arguments);
+    if (app.got_subcommand("dress")) return dressCase(dress_arguments);
+    if (app.got_subcommand("check")) return check(check_arguments, out);
+    if (app.got_subcommand("draft")) return draft(draft_arguments, out);
+    if (app.got_subcommand("render")) return render(render_arguments);
+    if (app.got_subcommand("export")) return exportCommand(export_arguments);
+    if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
+    if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
+    if (app.got_subcommand("batch"))
+      return study::runStudy(study::batchOf(batch_arguments.cases), batch_arguments.options, out);
+    checkEnding(report_options.html, "--output", {".html", ".htm"});
+    checkOutput(report_options.html, "--output", recordedFiles(report_options.results));
+    return holdsStructure(report_options.results) ? reportStructureResults(report_options)
+                                                  : reportResults(report_options);
+  };
+  int status = failed;
+  try {
+    status = perform();
+  } catch (const CLI::ParseError& e) {
+    std::ostringstream text;
+    status = app.exit(e, out, text) == 0 ? done : bad_input;
+    std::string said = text.str();
+    while (said.ends_with('\n')) said.pop_back();
+    if (!said.empty()) failure(said);
+  } catch (const InputError& e) {
+    std::string text = e.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    failure(text);
+    status = bad_input;
+  } catch (const RunError& e) {
+    failure(fmt::format("gambeson failed: {}", e.what()));
+  } catch (const std::exception& e) {
+    failure(fmt::format("gambeson failed: {}{}{}", subject, subject.empty() ? "" : ": ", jsonReason(e.what())));
+  }
+  // What was asked for on the standard output has to arrive there.
+  out.flush();
+  if (status == done && (!out || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+    failure("gambeson failed: the standard output cannot be written");
+    status = failed;
+  }
+  return status;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,11 @@
+#include "cases/command/documents.hpp"
+
+#include "cases/kinds/any_case.hpp"
+#include "cases/study/study.hpp"
+
+namespace gambeson {
+
+std::string caseSchema() { return schema::jsonSchema(kindsOfCase()); }
+std::string caseFields() { return schema::markdown(kindsOfCase()) + schema::chapter("Studies", study::studyTable()); }
+
+}  // namespace gambeson

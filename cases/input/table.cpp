@@ -1,0 +1,111 @@
+#include "cases/input/table.hpp"
+
+#include <cmath>
+
+#include "cases/input/message.hpp"
+
+namespace gambeson::schema {
+
+JsonNode nodeOf(double x) {
+  JsonNode n;
+  n.type = JsonNode::Type::number;
+  n.number = x;
+  return n;
+}
+
+JsonNode nodeOf(bool b) {
+  JsonNode n;
+  n.type = JsonNode::Type::boolean;
+  n.boolean = b;
+  return n;
+}
+
+JsonNode nodeOf(const std::string& s) {
+  JsonNode n;
+  n.type = JsonNode::Type::text;
+  n.text = s;
+  return n;
+}
+
+JsonNode nodeOf(const Vec3& v) {
+  JsonNode n = emptyList();
+  for (int i = 0; i < 3; ++i) n.children.push_back(nodeOf(v[i]));
+  return n;
+}
+
+JsonNode nodeOf(const Vec2& v) { return nodeOfList({v.x, v.y}); }
+
+JsonNode nodeOfList(const std::vector<double>& values) {
+  JsonNode n = emptyList();
+  for (const double v : values) n.children.push_back(nodeOf(v));
+  return n;
+}
+
+JsonNode emptyList() {
+  JsonNode n;
+  n.type = JsonNode::Type::list;
+  return n;
+}
+
+Vec2 readPair(const Place& place, const std::string& unit, const Range& range) {
+  if (place.node.type != JsonNode::Type::list || place.node.children.size() != 2)
+    place.fail("expected a list of two numbers [s, t], not " + describe(place.node));
+  return {readNumber(place.item(0), unit, range), readNumber(place.item(1), unit, range)};
+}
+
+std::vector<double> readNumbers(const Place& place, const std::string& unit, const Range& range) {
+  if (place.node.type != JsonNode::Type::list) place.fail("expected a list of numbers, not " + describe(place.node));
+  std::vector<double> values;
+  for (std::size_t i = 0; i < place.node.children.size(); ++i) values.push_back(readNumber(place.item(i), unit, range));
+  return values;
+}
+
+Vec3 readVector(const Place& place, const std::string& unit, const Range& range) {
+  if (place.node.type != JsonNode::Type::list || place.node.children.size() != 3)
+    place.fail("expected a list of three numbers [x, y, z], not " + describe(place.node));
+  Vec3 v;
+  for (int i = 0; i < 3; ++i) v[i] = readNumber(place.item(static_cast<std::size_t>(i)), unit, range);
+  return v;
+}
+
+Vec3 readDirection(const Place& place) {
+  const Vec3 v = readVector(place, "", between(-1e6, 1e6));
+  if (!(norm(v) > 1e-6)) place.fail("a direction cannot have the length 0; allowed: a length above 1e-6");
+  return normalized(v);
+}
+
+namespace {
+
+std::filesystem::path readExisting(const Place& place, std::filesystem::file_status& status) {
+  const std::string& text = readText(place);
+  if (text.size() > 4000) place.fail("this is not the name of a file");
+  const bool from_command_line = place.node.line == 0;
+  const std::filesystem::path base =
+      from_command_line ? std::filesystem::current_path() : std::filesystem::absolute(place.file).parent_path();
+  const std::filesystem::path path = (base / text).lexically_normal();
+  if (const std::string why = unfitText(path.string()); !why.empty()) place.fail("the folder of the file " + why);
+  std::error_code error;
+  status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::none)
+    place.fail(path.string() + " cannot be read: " + error.message());
+  if (!std::filesystem::exists(status)) place.fail("there is no file " + path.string());
+  return path;
+}
+
+}  // namespace
+
+std::filesystem::path readPath(const Place& place) {
+  std::filesystem::file_status status;
+  std::filesystem::path path = readExisting(place, status);
+  if (!std::filesystem::is_regular_file(status)) place.fail(path.string() + " is not a file");
+  return path;
+}
+
+std::filesystem::path readFolder(const Place& place) {
+  std::filesystem::file_status status;
+  std::filesystem::path path = readExisting(place, status);
+  if (!std::filesystem::is_directory(status)) place.fail(path.string() + " is not a folder");
+  return path;
+}
+
+}  // namespace gambeson::schema

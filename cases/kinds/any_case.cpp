@@ -1,0 +1,36 @@
+#include "cases/kinds/any_case.hpp"
+
+#include "cases/input/overrides.hpp"
+#include "cases/structure/fields.hpp"
+#include "cases/wear/case/fields.hpp"
+
+namespace gambeson {
+
+std::vector<schema::KindOfFile> kindsOfCase() {
+  std::vector<schema::KindOfFile> kinds{{"wear", &schema::caseTable()}};
+  for (const auto& [word, kind] : schema::structureKinds()) kinds.push_back({word, &schema::structureTable(kind)});
+  return kinds;
+}
+
+AnyCase readAnyCase(const JsonNode& root, const std::filesystem::path& file) {
+  const JsonNode* kind = root.find("kind");
+  if (!kind) return readCase(root, file);
+  std::vector<std::string> words;
+  for (const schema::KindOfFile& k : kindsOfCase()) words.push_back(k.kind);
+  const std::string name = file.string();
+  const schema::Place place{root, "", name};
+  if (schema::readChoice(place.member(*kind), words) == 0) return readCase(root, file);
+  return readStructureCase(root, file);
+}
+
+AnyCase readAnyCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  AnyCase any = readAnyCase(readCaseNode(file, overrides), file);
+  std::visit([&](auto& c) { c.overrides = overrides; }, any);
+  return any;
+}
+
+std::vector<std::filesystem::path> inputsOf(const AnyCase& any) {
+  return std::visit([](const auto& c) { return inputsOf(c); }, any);
+}
+
+}  // namespace gambeson

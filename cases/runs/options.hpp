@@ -1,0 +1,31 @@
+#pragma once
+/// What the command asks of a run of whatever kind, and of its results.
+
+#include <filesystem>
+
+#include "cases/runs/picture.hpp"
+
+namespace gambeson {
+
+struct RunOptions {
+  std::filesystem::path out;  ///< results folder
+  int threads = 0;            ///< 0: OMP_NUM_THREADS, or as many as the machine has
+  bool resume = false;        ///< continue what an interrupted run left in `out`
+};
+
+struct RenderOptions {
+  std::filesystem::path results;  ///< folder of a run
+  std::filesystem::path png;
+  PictureField field = PictureField::stress;
+  PictureTime when = PictureTime::end;
+  double time_s = 0;  ///< where `when` is `at`
+  View view = View::front_right;
+  int width = 1280, height = 960;
+};
+
+struct ReportOptions {
+  std::filesystem::path results;
+  std::filesystem::path html;
+};
+
+}  // namespace gambeson

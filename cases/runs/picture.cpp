@@ -1,0 +1,48 @@
+#include "cases/runs/picture.hpp"
+
+#include <cctype>
+
+#include "cases/input/table.hpp"
+
+namespace gambeson::schema {
+
+Object pictureTable() {
+  using P = PictureCase;
+  Field time = fieldOf("time", Kind::number, "s", between(0, 3600),
+                       "when: a time of the motion; peak: at the largest joint torque (contact force where there is no "
+                       "joint); end: the last frame");
+  time.choices = {"peak", "end"};
+  std::vector<std::pair<std::string, View>> views;
+  for (const std::string& name : viewNames()) views.emplace_back(name, *viewByName(name));
+  return Table<P>("Picture")
+      .custom(
+          time,
+          [time](const Place& p, P& picture) {
+            const bool word = p.node.type == JsonNode::Type::text && !p.node.text.empty() &&
+                              std::isalpha(static_cast<unsigned char>(p.node.text[0]));
+            picture.when =
+                word ? (readChoice(p, time.choices) == 0 ? PictureTime::peak : PictureTime::end) : PictureTime::at;
+            picture.time_s = word ? 0 : readNumber(p, time.unit, time.range);
+          },
+          [](const P& picture) {
+            return std::optional(picture.when == PictureTime::at     ? nodeOf(picture.time_s)
+                                 : picture.when == PictureTime::peak ? nodeOf(std::string("peak"))
+                                                                     : nodeOf(std::string("end")));
+          })
+      .choice("field", &P::field,
+              std::vector<std::pair<std::string, PictureField>>{{"stress", PictureField::stress},
+                                                                {"pressure", PictureField::pressure},
+                                                                {"strain", PictureField::strain},
+                                                                {"thickness", PictureField::thickness},
+                                                                {"body_pressure", PictureField::body_pressure},
+                                                                {"plain", PictureField::plain}},
+              "what the colours show: first principal stress resultant, contact pressure (over the cloth's "
+              "area as stretched), first principal strain, thickness at rest; on "
+              "the bare body the largest pressure of the motion; or nothing")
+      .choice("view", &P::view, views, "where the picture is taken from")
+      .integer("width", &P::width, 64, 8192, "pixels")
+      .integer("height", &P::height, 64, 8192, "pixels")
+      .build();
+}
+
+}  // namespace gambeson::schema

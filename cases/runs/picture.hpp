@@ -1,0 +1,26 @@
+#pragma once
+/// A picture of results, as cases, studies and the command ask for it.
+
+#include "analysis/render/render.hpp"
+#include "cases/input/schema.hpp"
+
+namespace gambeson {
+
+enum class PictureTime { at, peak, end };
+/// body_pressure: on the body, without the garment, the largest over the motion at each place.
+enum class PictureField { plain, stress, pressure, strain, thickness, body_pressure };
+
+struct PictureCase {
+  PictureTime when = PictureTime::end;
+  double time_s = 0;  ///< where `when` is `at`
+  PictureField field = PictureField::stress;
+  View view = View::front_right;
+  int width = 1280, height = 960;
+};
+
+namespace schema {
+
+Object pictureTable();  ///< PictureCase
+
+}  // namespace schema
+}  // namespace gambeson

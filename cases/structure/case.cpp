@@ -1,0 +1,36 @@
+#include "cases/structure/case.hpp"
+
+#include <fmt/format.h>
+
+#include "cases/input/overrides.hpp"
+#include "cases/structure/fields.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+
+StructureCase readStructureCase(const JsonNode& root, const std::filesystem::path& file) {
+  const std::string name = file.string();
+  const schema::Place place{root, "", name};
+  const JsonNode* word = root.find("kind");
+  std::vector<std::string> words;
+  for (const auto& [w, kind] : schema::structureKinds()) words.push_back(w);
+  if (!word) place.failAt("kind", "is required: " + schema::joined(words));
+  StructureCase c;
+  c.kind = schema::structureKinds()[schema::readChoice(place.member(*word), words)].second;
+  schema::readObject(schema::structureTable(c.kind), place, &c);
+  schema::applyStructureRules(place, c);
+  c.file = file;
+  return c;
+}
+
+StructureCase readStructureCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  StructureCase c = readStructureCase(readCaseNode(file, overrides), file);
+  c.overrides = overrides;
+  return c;
+}
+
+std::string writeCase(const StructureCase& c) {
+  return schema::toText(schema::writeObject(schema::structureTable(c.kind), &c)) + "\n";
+}
+
+}  // namespace gambeson

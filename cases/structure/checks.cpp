@@ -1,0 +1,172 @@
+#include "cases/structure/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/ticks.hpp"
+#include "cases/cloth/fabric.hpp"
+
+namespace gambeson {
+namespace {
+
+std::vector<double> columnOf(const PathTable& path, const std::string& name) {
+  const auto at = std::find(path.columns.begin(), path.columns.end(), name) - path.columns.begin();
+  std::vector<double> values;
+  if (at < static_cast<long>(path.columns.size()))
+    for (const auto& row : path.rows) values.push_back(row[static_cast<std::size_t>(at)]);
+  return values;
+}
+
+/// NaN where any is.
+double largestOf(const std::vector<double>& values) {
+  double most = 0;
+  for (double v : values)
+    if (!(v <= most)) most = v;
+  return most;
+}
+
+AuditCheck finiteCheck(const PathTable& path, const MeshShape& shape) {
+  long count = 0;
+  const auto look = [&](double v) { count += !std::isfinite(v); };
+  for (const auto& row : path.rows) std::for_each(row.begin(), row.end(), look);
+  for (const Vec3& x : shape.x) look(x.x + x.y + x.z);
+  for (const PrincipalStress& s : shape.stress)
+    for (double v : {s.principal1_N_per_m, s.principal2_N_per_m, s.strain1, s.strain2}) look(v);
+  return {"Finite numbers",
+          static_cast<double>(count),
+          0,
+          "",
+          "numbers of the result that are not finite",
+          fmt::format("{} numbers of the result are not finite, so that it is no state of this sheet", count)};
+}
+
+AuditCheck residualCheck(const StructureCase& c, const PathTable& path, const std::vector<ModeRow>& modes) {
+  if (c.kind == StructureKind::modal) {
+    double most = 0;
+    for (const ModeRow& m : modes) most = std::max(most, m.residual);
+    return {"Residual",
+            most,
+            1e-6,
+            "",
+            "how far, relative, a natural frequency's square may be from the nearest exact one of this mesh",
+            fmt::format("modes are known to {} only", formatNumber(most, 2))};
+  }
+  const double most = largestOf(columnOf(path, "residual"));
+  return {"Residual",
+          most,
+          std::max(c.statics.tolerance, 1e-6),
+          "",
+          "forces out of balance at a point of the path, of the forces that balance; the largest",
+          fmt::format("forces do not balance: up to {} of them is left", formatNumber(most, 2))};
+}
+
+/// Energy that appears: how far the total rises above what it was before. Damping and numerical damping lower it.
+AuditCheck energyCheck(const PathTable& path) {
+  const std::vector<double> kinetic = columnOf(path, "kinetic_energy_J"), strain = columnOf(path, "strain_energy_J"),
+                            loads = columnOf(path, "external_energy_J"), total = columnOf(path, "total_energy_J");
+  double lowest = total.empty() ? 0 : total.front(), rise = 0, size = 0;
+  for (std::size_t k = 0; k < total.size(); ++k) {
+    lowest = std::min(lowest, total[k]);
+    rise = std::isfinite(total[k]) ? std::max(rise, total[k] - lowest) : total[k];
+    size = std::max(size, std::abs(kinetic[k]) + std::abs(strain[k]) + std::abs(loads[k] - loads[0]));
+  }
+  const double part = rise == 0 ? 0 : 100 * rise / size;
+  return {"Energy",
+          part,
+          5,
+          "%",
+          "the largest rise of the total energy (kinetic, strain, less the work of the loads), of the largest sum of "
+          "its parts",
+          fmt::format("{} % of the energy appears from nowhere", formatNumber(part, 2))};
+}
+
+bool isFabric(const MaterialCase& m) { return std::holds_alternative<Fabric>(m.law); }
+
+AuditCheck strainCheck(const StructureCase& c, const MeshShape& shape) {
+  const bool fabric = isFabric(c.material) || std::any_of(c.other_materials.begin(), c.other_materials.end(), isFabric);
+  std::vector<double> strains;
+  for (const PrincipalStress& s : shape.stress) {
+    strains.push_back(s.strain1);
+    if (!c.material.tension_field) strains.push_back(-s.strain2);
+  }
+  const double most = 100 * largestOf(strains), limit = 100 * (fabric ? kStrainOfLaw : kStrainOfLinearLaw);
+  return {"Strain",
+          most,
+          limit,
+          "%",
+          fmt::format("the largest strain of the last shape{}, against the range in which {}",
+                      c.material.tension_field ? "" : " or compression",
+                      fabric ? "the source of the fabric's law takes it for a straight line (Zheng 2013, eq. 2.13)"
+                             : "laws that are linear in different measures of strain agree within 15 %"),
+          fmt::format("the sheet strains by up to {} %, beyond what its law is meant for: stress there is extrapolated",
+                      formatNumber(most, 2))};
+}
+
+double largestMove(const StructureCase& c) {
+  double most = 0;
+  for (const StructureSupport& s : c.supports)
+    if (s.move_m) most = std::max(most, norm(*s.move_m));
+  return most;
+}
+
+AuditCheck sizeCheck(const StructureCase& c, const StructureModel& model, const MeasuredState& last) {
+  const std::vector<Vec3>& rest = model.structure->cloth->rest();
+  Vec3 low = rest.front(), high = low;
+  double moved = 0;
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], rest[k][d]), high[d] = std::max(high[d], rest[k][d]);
+    const double u = norm(last.q[k] - rest[k]);
+    if (!(u <= moved)) moved = u;
+  }
+  const bool linear = c.kind == StructureKind::statics && c.statics.linear;
+  const double size = norm(high - low), part = moved / (size + largestMove(c));
+  const std::string times = formatNumber(part, 2);
+  return {"Size",
+          part,
+          linear ? 0.1 : 10.,
+          "",
+          linear ? "the largest displacement, of the sheet's size: a linear solution is that of small ones"
+                 : "the largest displacement, of the sheet's size and what supports move",
+          linear ? fmt::format("displacements are {} times the sheet's size, which a linear solution takes for small",
+                               times)
+                 : fmt::format("the sheet moves by {} times its size, although it is held", times)};
+}
+
+}  // namespace
+
+std::vector<AuditCheck> structureChecks(const StructureCase& c, const StructureModel& model, const PathTable& path,
+                                        const std::vector<ModeRow>& modes, const MeasuredState& last,
+                                        const MeshShape& shape, const StructureFacts& facts) {
+  std::vector<AuditCheck> checks{finiteCheck(path, shape)};
+  if (c.kind == StructureKind::dynamics) {
+    if (largestMove(c) == 0) checks.push_back(energyCheck(path));
+  } else {
+    checks.push_back(residualCheck(c, path, modes));
+  }
+  if (c.kind == StructureKind::modal) {
+    double most = 0;
+    for (const ModeRow& m : modes) most = std::max(most, m.rounding);
+    checks.push_back({"Rounding", 100 * most, 1, "%",
+                      "what the rounding of the stiffness leaves open of a natural frequency's square; the largest",
+                      fmt::format("rounding leaves open up to {} % of a frequency's square: the sheet is too thin, or "
+                                  "too far from the origin, for double precision",
+                                  formatNumber(100 * most, 2))});
+    return checks;
+  }
+  checks.push_back(strainCheck(c, shape));
+  if (!c.supports.empty()) checks.push_back(sizeCheck(c, model, last));
+  if (c.kind == StructureKind::statics && c.statics.arc_length)
+    checks.push_back({"Path", static_cast<double>(facts.jumps), 0, "",
+                      "places between two points of the path where it bends more than the arcs could follow",
+                      fmt::format("at {} places the path between two points is not known", facts.jumps)});
+  if (c.strain_limit && facts.points > 0)
+    checks.push_back({"Strain limit",
+                      100.0 * static_cast<double>(facts.limits_missed) / static_cast<double>(facts.points), 1, "%",
+                      "share of the steps at whose end the strain missed its limit by more than the tolerance",
+                      "the strain limit is not kept"});
+  return checks;
+}
+
+}  // namespace gambeson

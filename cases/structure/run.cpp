@@ -1,0 +1,453 @@
+#include "cases/structure/run.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "cases/cloth/thread_strains.hpp"
+#include "cases/input/message.hpp"
+#include "cases/input/overrides.hpp"
+#include "cases/input/places.hpp"
+#include "cases/runs/disk_space.hpp"
+#include "cases/runs/progress.hpp"
+#include "cases/runs/results_folder.hpp"
+#include "cases/runs/stop_message.hpp"
+#include "cases/runs/temporary_folder.hpp"
+#include "cases/structure/checks.hpp"
+#include "cases/structure/results.hpp"
+#include "core/cloth/constraint.hpp"
+#include "core/error.hpp"
+#include "core/io/csv.hpp"
+#include "core/io/own_file.hpp"
+#include "core/motion/time_integration.hpp"
+#include "core/statics/modal.hpp"
+#include "core/statics/structure_system.hpp"
+
+namespace gambeson {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Whoever divides by the mass needs one that is positive; densities and thicknesses near zero round to none.
+void requireMass(const StructureCase& c, const Structure& s) {
+  if (c.kind == StructureKind::statics) return;
+  const bool modal = c.kind == StructureKind::modal,
+             explicit_steps = !modal && c.dynamics.scheme == TimeScheme::explicit_verlet;
+  StructureSystem system(s, ProgramEnds::constant);
+  SymmetricMatrix M = system.pattern();
+  system.mass(modal ? c.modal.lumped_mass : explicit_steps || c.dynamics.lumped_mass, M);
+  bool positive = true;
+  for (int k = 0; k < M.size; ++k) positive = positive && M.values[static_cast<std::size_t>(M.offsets[k])] > 0;
+  // Modes need no more; steps take the factor.
+  if (positive && !modal) {
+    const SymmetricMatrix taken = explicit_steps ? withoutZeros(M) : M;
+    positive = SymmetricFactor(taken).factorise(taken) == Definiteness::positive;
+  }
+  if (!positive)
+    throw InputError({"", 0, "material"},
+                     "a control point has no mass to speak of; allowed: a density and a thickness "
+                     "that give it one");
+}
+
+/// All that is built before anything is solved. Throws InputError with the place in the case's file.
+struct BuiltStructure {
+  StructureModel model;
+  std::optional<Probes> probes;  ///< refer to the model
+  PlaceMesh mesh;
+
+  explicit BuiltStructure(const StructureCase& c) {
+    try {
+      StructureOptions options;
+      model = buildModel(c, options);
+      requireMass(c, *model.structure);
+      probes.emplace(c, model, options);
+      mesh = model.structure->cloth->placeMesh(c.output.samples_per_cell);
+    } catch (const InputError& e) {
+      sayInCase(c.file, c.overrides, e);
+    }
+  }
+  BuiltStructure(const BuiltStructure&) = delete;
+  BuiltStructure& operator=(const BuiltStructure&) = delete;
+};
+
+/// What a run gathers on its way.
+class Run {
+ public:
+  Run(const StructureCase& c, const RunOptions& options) : c_(c), out_(options.out), folder_(out_, inputsOf(c), false) {
+    built_.emplace(c);
+    removeEarlierResults(out_);
+    RecordingLayout layout;
+    layout.identity = caseIdentity(c) + " " + built_->model.structure->cloth->kernels();
+    layout.metadata = writeCase(c);
+    layout.triangles = built_->mesh.triangles;
+    writer_.emplace(RecordingWriter::create(out_, layout));
+    writeOwnFile(out_ / "case.json", writeCase(c));
+    facts.build_s = since(start_);
+  }
+
+  const Structure& structure() const { return *built_->model.structure; }
+  const StructureModel& model() const { return built_->model; }
+
+  /// A row of the table: `lead`, then the probes' values.
+  void add(const MeasuredState& state, std::vector<double> lead) {
+    const std::vector<double> values = built_->probes->values(state);
+    lead.insert(lead.end(), values.begin(), values.end());
+    path.rows.push_back(std::move(lead));
+    last_ = state;
+    if (c_.output.shapes == ShapesKept::all) keep(state);
+  }
+  void columns(std::vector<std::string> lead) {
+    lead.insert(lead.end(), built_->probes->columns().begin(), built_->probes->columns().end());
+    path.columns = std::move(lead);
+  }
+  /// Says how much so many rows are going to take where that is much: all of them are recorded at the end.
+  void foretell(double rows) const {
+    constexpr double per_vertex = 14;
+    const double shapes = c_.output.shapes == ShapesKept::all ? rows : 1;
+    const double bytes = 4 * per_vertex * static_cast<double>(built_->mesh.uv.size()) * shapes +
+                         16 * static_cast<double>(path.columns.size()) * rows;
+    if (const std::string note = sizeNote(bytes, freeBytes(out_)); !note.empty()) sayNote(note);
+  }
+  /// A whole shape for ParaView and the pictures.
+  void keep(const MeasuredState& state) {
+    writer_->append(frameOf(shapeOf(built_->model, built_->mesh, state), frames_++, state.at));
+  }
+
+  /// Everything that is left; `failures` of pictures do not stop it.
+  void finish() {
+    facts.wall_s = since(start_);
+    facts.solve_s = facts.wall_s - facts.build_s;
+    facts.threads = omp_get_max_threads();
+    if (last_.q.empty()) last_ = measureRest();
+    const MeshShape shape = shapeOf(built_->model, built_->mesh, last_);
+    if (frames_ == 0 && c_.output.shapes != ShapesKept::none) keep(last_);
+    if (frames_ > 0) writer_->closeSegment({});
+    writeCsv(out_ / "path.csv", path.columns, path.rows);
+    writeShapeTable(built_->mesh, shape, out_ / "shape.csv");
+    const std::vector<AuditCheck> checks = structureChecks(c_, built_->model, path, modes, last_, shape, facts);
+    writeStructureSummary(c_, built_->model, path, modes, last_, built_->mesh, shape, facts, checks,
+                          out_ / "summary.json");
+    std::vector<std::string> failures;
+    const std::vector<Picture> pictures = takeStructurePictures(c_, out_, out_ / "snapshots", failures);
+    writeStructurePage(c_, out_, pictures, out_ / "report.html");
+    if (!facts.finished) throw RunError(fmt::format("{}\nWhat converged before is in {}", facts.why, out_.string()));
+    if (!checks.front().holds())
+      throw RunError(fmt::format("{}\nThe report is in {}", checks.front().wrong, out_.string()));
+    for (const AuditCheck& k : checks)
+      if (!k.holds()) fmt::print(stderr, "{}\n", messageText("A check fails: " + k.wrong));
+    if (!failures.empty())
+      throw RunError(failures.front() + " (the numbers and the report are in " + out_.string() + ")");
+  }
+
+  StructureFacts facts;
+  PathTable path;
+  std::vector<ModeRow> modes;
+
+ private:
+  MeasuredState measureRest() const {
+    MeasuredState state;
+    state.q = structure().cloth->rest();
+    return state;
+  }
+
+  const StructureCase& c_;
+  std::filesystem::path out_;
+  ResultsFolder folder_;
+  Clock::time_point start_ = Clock::now();
+  std::optional<BuiltStructure> built_;
+  std::optional<RecordingWriter> writer_;
+  int frames_ = 0;
+  MeasuredState last_;
+};
+
+/// Runs f; what it throws as a failure of the run is kept for after the results.
+template <class F>
+void attempt(StructureFacts& facts, F f) {
+  try {
+    f();
+  } catch (const RunError& e) {
+    facts.finished = false;
+    facts.why = e.what();
+  }
+}
+
+void solve(const StaticReport& report, StructureFacts& facts) {
+  facts.finished = report.reached;
+  facts.why = report.why;
+  facts.factorisations = report.factorisations;
+}
+
+void runStatic(const StructureCase& c, Run& run) {
+  run.columns({"factor", "iterations", "residual", "negative_pivots", "jumped", "rounded", "strain_energy_J"});
+  const Structure& s = run.structure();
+  run.foretell(c.statics.steps + 1.0);
+  Progress progress(1, 0, stderr, "");
+  // The start of every path, so that tables and plots have it.
+  const std::vector<double> rest(static_cast<std::size_t>(s.dofs.unknowns()), 0.0);
+  const MeasuredState start = measureStatic(s, rest, 0, c.statics.linear);
+  run.add(start, {0, 0, 0, 0, 0, 0, start.strain_energy_J});
+  attempt(run.facts, [&] {
+    solve(solveStatic(s, c.statics,
+                      [&](const StaticPoint& p) {
+                        const MeasuredState state = measureStatic(s, p.y, p.factor, c.statics.linear);
+                        run.add(state, {p.factor, static_cast<double>(p.iterations), p.residual,
+                                        static_cast<double>(p.negative_pivots), p.jumped ? 1. : 0., p.rounded ? 1. : 0.,
+                                        state.strain_energy_J});
+                        if (p.rounded) run.facts.rounded = std::max(run.facts.rounded, p.residual);
+                        run.facts.jumps += p.jumped ? 1 : 0;
+                        if (c.statics.arc_length && p.jumped) run.facts.jumped_at.push_back(p.factor);
+                        if (p.limit_point) run.facts.limit_points.push_back(p.factor);
+                        if (p.bifurcation) run.facts.bifurcations.push_back(p.factor);
+                        ++run.facts.points;
+                        run.facts.iterations += p.iterations;
+                        progress.update(std::abs(p.factor), "loading");
+                        return true;
+                      }),
+          run.facts);
+  });
+}
+
+/// Unknowns of displacements of the free points, by least squares: C y = u.
+std::vector<double> unknownsOf(const Structure& s, const std::vector<double>& u) {
+  const SparseRows normal = multiply(s.dofs.Ct, s.dofs.C);
+  SymmetricMatrix m;
+  m.size = s.dofs.unknowns();
+  for (int column = 0; column < m.size; ++column) {
+    for (int k = normal.offsets[column]; k < normal.offsets[column + 1]; ++k)
+      if (normal.columns[k] >= column) {
+        m.rows.push_back(normal.columns[k]);
+        m.values.push_back(normal.values[k]);
+      }
+    m.offsets.push_back(static_cast<int>(m.rows.size()));
+  }
+  SymmetricFactor factor(m);
+  factor.factorise(m);
+  std::vector<double> right(static_cast<std::size_t>(m.size)), y(right.size());
+  s.dofs.Ct.multiply<double>(u, right);
+  factor.solve(right, y);
+  return y;
+}
+
+DynamicState startOf(const StructureCase& c, const Run& run) {
+  const Structure& s = run.structure();
+  DynamicState state;
+  const auto n = static_cast<std::size_t>(s.dofs.unknowns());
+  state.y.assign(n, 0.0);
+  state.v.assign(n, 0.0);
+  state.a.assign(n, 0.0);
+  const auto onFree = [&](auto value) {
+    std::vector<double> u;
+    for (std::size_t f = 0; f < s.cloth->map().home.size(); ++f) {
+      const Vec3 d = value(f);
+      u.insert(u.end(), {d.x, d.y, d.z});
+    }
+    return unknownsOf(s, u);
+  };
+  if (c.initial.noise) {
+    const std::vector<Vec3> noise = s.cloth->fromDraft(noiseOf(run.model().sheet, *c.initial.noise));
+    state.y = onFree([&](std::size_t f) { return noise[static_cast<std::size_t>(s.cloth->map().home[f])]; });
+  }
+  if (norm(c.initial.velocity_m_per_s) > 0) state.v = onFree([&](std::size_t) { return c.initial.velocity_m_per_s; });
+  return state;
+}
+
+/// Work of the loads since rest. Where all of them are constant it is that of the displacements; else it is summed over
+/// the steps, by the trapezium rule. (- F(t) . u is no potential where F changes with time.)
+class LoadWork {
+ public:
+  explicit LoadWork(const Structure& s) : s_(s), varies_(s.loads.follow()) {
+    for (const DeadLoad& load : s.dead) {
+      const std::vector<double>& value = s.programs[load.program].value;
+      varies_ = varies_ || std::any_of(value.begin(), value.end(), [&](double v) { return v != value[0]; });
+    }
+  }
+  /// After each step, and first at the start.
+  void follow(const DynamicState& state, bool lumped) {
+    const bool first = q_.empty();
+    if (!varies_ && !first) return;
+    std::vector<Vec3> q = controlPoints(s_, state.y, state.time_s), force(q.size());
+    s_.loads.add(q, programValues(s_, state.time_s, ProgramEnds::constant), force);
+    if (first) work_J_ = -energyOf(s_, state, lumped).external;
+    for (std::size_t i = 0; i < q_.size(); ++i) work_J_ += 0.5 * dot(force_[i] + force[i], q[i] - q_[i]);
+    q_ = std::move(q);
+    force_ = std::move(force);
+  }
+  double work_J(const DynamicEnergy& now) const { return varies_ ? work_J_ : -now.external; }
+
+ private:
+  const Structure& s_;
+  bool varies_;
+  std::vector<Vec3> q_, force_;
+  double work_J_ = 0;
+};
+
+void runDynamic(const StructureCase& c, Run& run) {
+  std::vector<std::string> lead{"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"};
+  const Structure& s = run.structure();
+  std::optional<ThreadStrains> strains;
+  if (c.output.thread_strains) {
+    strains.emplace(*s.cloth);
+    lead.insert(lead.end(), ThreadStrains::columns().begin(), ThreadStrains::columns().end());
+  }
+  run.columns(std::move(lead));
+  const bool lumped = c.dynamics.lumped_mass || c.dynamics.scheme == TimeScheme::explicit_verlet;
+  const double interval = c.output.interval_s.value_or(c.dynamics.end_s / 100);
+  run.foretell(std::ceil(c.dynamics.end_s / interval) + 1);
+  Progress progress(c.dynamics.end_s);
+  DynamicState state = startOf(c, run);
+  long rows = 0;
+  LoadWork work(s);
+  double step_s = 0;
+  const auto record = [&](const DynamicState& now) {
+    DynamicEnergy energy = energyOf(s, now, lumped);
+    energy.external = -work.work_J(energy);
+    std::vector<double> row{now.time_s, energy.kinetic, energy.internal, energy.external, energy.total()};
+    const MeasuredState state_now = measureDynamic(s, now, lumped, step_s);
+    if (strains) {
+      const std::vector<double> more = strains->values(state_now.q);
+      row.insert(row.end(), more.begin(), more.end());
+    }
+    run.add(state_now, std::move(row));
+    while (static_cast<double>(rows) * interval <= now.time_s * (1 + 1e-12)) ++rows;
+  };
+  if (c.output.audit) run.facts.audit.emplace(s, lumped);
+  attempt(run.facts, [&] {
+    work.follow(state, lumped);
+    record(state);
+    double before_s = state.time_s;
+    const DynamicReport report = solveDynamic(s, c.dynamics, state, [&](const DynamicState& now) {
+      work.follow(now, lumped);
+      step_s = now.time_s - before_s;
+      before_s = now.time_s;
+      if (now.time_s * (1 + 1e-12) >= static_cast<double>(rows) * interval || now.time_s >= c.dynamics.end_s)
+        record(now);
+      if (run.facts.audit) run.facts.audit->observe(now);
+      progress.update(now.time_s, "moving");
+      return true;
+    });
+    run.facts.finished = report.reached;
+    run.facts.why = report.why;
+    run.facts.points = report.steps;
+    run.facts.iterations = report.iterations;
+    run.facts.factorisations = report.factorisations;
+    run.facts.projections = report.projections;
+    run.facts.limits_missed = report.limits_missed;
+    run.facts.limit_residual = report.limit_residual;
+  });
+}
+
+void runModal(const StructureCase& c, Run& run) {
+  run.columns({"mode", "omega_rad_per_s", "frequency_Hz", "residual"});
+  const Structure& s = run.structure();
+  attempt(run.facts, [&] {
+    std::vector<double> y;
+    double factor = 0;
+    run.facts.finished = true;
+    if (c.modal.at_equilibrium) {
+      solve(solveStatic(s, c.statics,
+                        [&](const StaticPoint& p) {
+                          y = p.y;
+                          factor = p.factor;
+                          ++run.facts.points;
+                          run.facts.iterations += p.iterations;
+                          return true;
+                        }),
+            run.facts);
+      if (!run.facts.finished) return;
+    }
+    const std::vector<Mode> modes = naturalModes(s, y, factor, c.modal.count, c.modal.lumped_mass);
+    Vec3 low = s.cloth->rest()[0], high = s.cloth->rest()[0];
+    for (const Vec3& x : s.cloth->rest())
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], x[k]);
+        high[k] = std::max(high[k], x[k]);
+      }
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      MeasuredState state = measureMode(s, y, factor, modes[k].shape, 0.1 * norm(high - low));
+      state.at = static_cast<double>(k + 1);
+      run.modes.push_back({modes[k].omega_rad_per_s, modes[k].residual, modes[k].rounding});
+      run.add(state, {state.at, modes[k].omega_rad_per_s, modes[k].omega_rad_per_s / (2 * std::numbers::pi),
+                      modes[k].residual});
+      if (c.output.shapes == ShapesKept::last) run.keep(state);
+    }
+  });
+}
+
+}  // namespace
+
+void checkStructure(const StructureCase& c) {
+  const BuiltStructure built(c);
+  caseIdentity(c);
+}
+
+int runStructure(const StructureCase& c, const RunOptions& options) {
+  if (options.resume)
+    throw InputError({"command line", 0, "--resume"},
+                     "is not possible for static, dynamic and modal cases: they start from the beginning");
+  useThreads(options.threads);
+  const StopMessage stopped("stopped by a signal; a structure starts from the beginning when it is run again");
+  Run run(c, options);
+  if (c.kind == StructureKind::statics)
+    runStatic(c, run);
+  else if (c.kind == StructureKind::dynamics)
+    runDynamic(c, run);
+  else
+    runModal(c, run);
+  run.finish();
+  fmt::print("Report: {}\n", (options.out / "report.html").string());
+  return 0;
+}
+
+bool holdsStructure(const std::filesystem::path& results) {
+  if (!std::filesystem::exists(results / "case.json")) return false;
+  const JsonNode root = readCaseNode(results / "case.json", {});
+  const JsonNode* kind = root.find("kind");
+  return kind && kind->text != "wear";
+}
+
+int renderStructureResults(const RenderOptions& o) {
+  const StructureCase c = readStructureCase(o.results / "case.json");
+  if (o.field == PictureField::pressure || o.field == PictureField::body_pressure)
+    throw InputError({"command line", 0, "--field"},
+                     "there is no contact pressure here; allowed: stress, strain or plain");
+  if (o.field == PictureField::thickness)
+    throw InputError({"command line", 0, "--field"},
+                     "pictures of structures do not show their thickness; allowed: stress, strain or plain");
+  if (o.when == PictureTime::peak)
+    throw InputError({"command line", 0, "--time"},
+                     "there is no peak here; allowed: end, or a frame's load factor, time or mode");
+  const RecordingReader recording(o.results);
+  StructurePicture picture;
+  picture.field = o.field == PictureField::stress   ? StructureField::automatic
+                  : o.field == PictureField::strain ? StructureField::strain
+                                                    : StructureField::plain;
+  picture.view = o.view;
+  picture.width = o.width;
+  picture.height = o.height;
+  int best = recording.frameCount() - 1;
+  if (o.when == PictureTime::at) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < recording.frameCount(); ++k) {
+      const double at = frameValue(recording.frame(k));
+      if (std::abs(at - o.time_s) < least) least = std::abs(at - o.time_s), best = k;
+    }
+  }
+  renderStructure(c, recording.layout(), recording.frame(best), picture, o.png);
+  return 0;
+}
+
+int reportStructureResults(const ReportOptions& o) {
+  const StructureCase c = readStructureCase(o.results / "case.json");
+  const TemporaryFolder folder;
+  std::vector<std::string> failures;
+  const std::vector<Picture> pictures = takeStructurePictures(c, o.results, folder.path(), failures);
+  writeStructurePage(c, o.results, pictures, o.html);
+  if (!failures.empty()) throw RunError(failures.front() + " (the report is " + o.html.string() + ")");
+  return 0;
+}
+
+}  // namespace gambeson

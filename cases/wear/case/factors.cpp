@@ -1,0 +1,57 @@
+#include "cases/wear/case/factors.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+
+namespace gambeson {
+namespace {
+
+/// Of bending, twist and the springs along seams.
+double bendingScale(const FactorsCase& f) { return f.thickness * f.thickness * f.thickness * f.bending; }
+
+void scale(Fabric& fabric, const FactorsCase& f) {
+  assert(fabric.plies.empty() && fabric.bending_law != BendingLaw::consistent);  // those are fabrics of structures
+  const double t = f.thickness, bending = bendingScale(f);
+  fabric.thickness_m *= t;
+  fabric.density_kg_per_m3 *= f.inertia;
+  fabric.young_weft_Pa *= f.membrane;
+  fabric.young_warp_Pa *= f.membrane;
+  fabric.shear_Pa *= f.membrane;
+  fabric.bending_weft_Nm *= bending;
+  fabric.bending_warp_Nm *= bending;
+  fabric.twist_Nm *= bending;
+}
+
+}  // namespace
+
+Case withFactors(const Case& c) {
+  Case out = c;
+  const FactorsCase& f = c.factors;
+  scale(out.fabric, f);
+  for (GarmentCase& g : out.garments) {
+    if (g.fabric) scale(*g.fabric, f);
+    for (Fabric& other : g.other_fabrics) scale(other, f);
+  }
+  if (out.contact.layer_m) *out.contact.layer_m *= f.thickness;
+  out.gravity_m_per_s2 = (f.weight / f.inertia) * out.gravity_m_per_s2;
+  out.air.drag_kg_per_m2s *= f.drag;
+  out.factors = {};
+  return out;
+}
+
+void scaleSeams(Garment& garment, const FactorsCase& f) {
+  for (Seam& s : garment.seams) s.stiffness_N *= bendingScale(f);
+  for (WeakSeam& s : garment.weak_seams) s.stiffness_N *= bendingScale(f);
+}
+
+std::string factorsText(const FactorsCase& f) {
+  std::string s;
+  for (const auto& [name, value] :
+       {std::pair("thickness", f.thickness), std::pair("bending", f.bending), std::pair("membrane", f.membrane),
+        std::pair("weight", f.weight), std::pair("inertia", f.inertia), std::pair("drag", f.drag)})
+    if (value != 1) s += fmt::format("{}{} x {}", s.empty() ? "" : ", ", name, value);
+  return s;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,38 @@
+/// Detail of fields.hpp: the table of what is written and pictured.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cases/input/table.hpp"
+#include "cases/runs/picture.hpp"
+#include "cases/wear/case/case.hpp"
+#include "cases/wear/case/fields.hpp"
+
+namespace gambeson::schema {
+namespace {
+
+bool isMultiple(double a, double of) { return a >= of * (1 - 1e-9) && std::abs(a / of - std::round(a / of)) < 1e-6; }
+
+}  // namespace
+
+Object outputTable() {
+  using O = OutputCase;
+  return Table<O>("Output")
+      .number("window", &O::window_s, "s", between(1e-5, 0.01), "forces are impulses over this time, unfiltered")
+      .number("frame", &O::frame_s, "s", between(1e-5, 10), "time between recorded frames; a multiple of window")
+      .number("checkpoint", &O::checkpoint_s, "s", between(1e-5, 100),
+              "time between points from which an interrupted run resumes; a multiple of frame")
+      .list("pictures", &O::pictures, pictureTable(), "pictures to take")
+      .check([](const Place& p, const O& o) {
+        if (!isMultiple(o.frame_s, o.window_s))
+          p.failAt("frame",
+                   fmt::format("{} s is not a multiple of window = {} s; allowed: a multiple", o.frame_s, o.window_s));
+        if (!isMultiple(o.checkpoint_s, o.frame_s))
+          p.failAt("checkpoint", fmt::format("{} s is not a multiple of frame = {} s; allowed: a multiple",
+                                             o.checkpoint_s, o.frame_s));
+      })
+      .build();
+}
+
+}  // namespace gambeson::schema

@@ -1,0 +1,73 @@
+/// Detail of case.hpp: the files that a case names, and its hash.
+
+#include "cases/input/fingerprint.hpp"
+#include "cases/wear/case/case.hpp"
+
+namespace gambeson {
+
+namespace {
+
+/// A joint map that is a file, not one that ships.
+template <class Take>
+void takeMap(std::string& map, Take take) {
+  std::filesystem::path file = map;
+  if (!file.is_absolute()) return;
+  take(file);
+  map = file.string();
+}
+
+/// Calls `take` with the path of every file that the case names, empty ones too; it may put another in its place.
+template <class Take>
+void eachFile(Case& named, Take take) {
+  for (GarmentCase& g : named.garments) {
+    if (auto* file = std::get_if<FileGarment>(&g.shape)) take(file->path);
+    if (auto* mesh = std::get_if<MeshGarment>(&g.shape)) take(mesh->path);
+  }
+  if (named.human) {
+    take(named.human->urdf);
+    take(named.human->body);
+    if (auto& character = named.human->character) {
+      for (std::filesystem::path file : filesBeside(character->file)) take(file);
+      take(character->file);
+      take(character->skeleton);
+      take(character->weights);
+      for (MorphTarget& t : character->targets) take(t.file);
+      takeMap(character->map, take);
+    }
+    if (auto* trajectory = std::get_if<TrajectoryMotion>(&named.human->motion)) take(trajectory->file);
+    if (auto* recorded = std::get_if<MotionFileOptions>(&named.human->motion)) {
+      take(recorded->path);
+      take(recorded->model);
+      takeMap(recorded->map, take);
+    }
+  }
+  take(named.dressing.from);
+  for (ObstacleCase& o : named.obstacles)
+    if (auto* mesh = std::get_if<MeshObstacle>(&o.shape)) {
+      take(mesh->file);
+    } else if (auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) {
+      for (std::filesystem::path file : framesIn(sequence->folder)) take(file);
+      sequence->folder = sequence->folder.filename();
+    }
+}
+
+}  // namespace
+
+std::string caseIdentity(const Case& c) {
+  Fingerprint hash;
+  Case named = c;
+  eachFile(named, [&](std::filesystem::path& file) { hash.addFile(file); });
+  hash.add(writeCase(named));
+  return hash.text();
+}
+
+std::vector<std::filesystem::path> inputsOf(const Case& c) {
+  std::vector<std::filesystem::path> files{c.file};
+  Case named = c;
+  eachFile(named, [&](std::filesystem::path& file) {
+    if (!file.empty()) files.push_back(file);
+  });
+  return files;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,157 @@
+#include "cases/wear/case/references.hpp"
+#include "core/cloth/triangles/obj_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/wear/case/human.hpp"
+#include "core/error.hpp"
+#include "human/files/mesh.hpp"
+#include "human/motion/trajectory.hpp"
+#include "tryon/pattern/garment_file.hpp"
+
+namespace gambeson::schema {
+namespace {
+
+Place listItem(const Place& parent, const std::string& list, std::size_t i) {
+  return parent.member(*parent.node.find(list)).item(i);
+}
+
+/// "there is no joint "x"; did you mean "y"?" or what there is.
+std::string absent(const std::string& what, const std::string& name, const std::vector<std::string>& names) {
+  const std::string near = closest(name, names);
+  return fmt::format("the human has no {} \"{}\"; {}", what, name,
+                     near.empty() ? "allowed: " + joined(names) : fmt::format("did you mean \"{}\"?", near));
+}
+
+void checkJoints(const Place& root, const Case& c, const Skeleton& skeleton) {
+  std::vector<std::string> moving;
+  for (const Joint& j : skeleton.joints)
+    if (j.type != JointType::fixed) moving.push_back(j.name);
+  for (std::size_t i = 0; i < c.analysis.joints.size(); ++i) {
+    const std::string& name = c.analysis.joints[i];
+    const Place place = listItem(root.member(*root.node.find("analysis")), "joints", i);
+    const int joint = skeleton.joint(name);
+    if (joint < 0) place.fail(absent("joint", name, moving));
+    if (skeleton.joints[static_cast<std::size_t>(joint)].type == JointType::fixed)
+      place.fail(fmt::format("the joint \"{}\" is fixed; allowed: {}", name, joined(moving)));
+    for (std::size_t k = 0; k < i; ++k)
+      if (c.analysis.joints[k] == name) place.fail(fmt::format("\"{}\" is listed twice", name));
+  }
+}
+
+void checkLinks(const Place& root, const Case& c, const Skeleton& skeleton) {
+  std::vector<std::string> names;
+  for (const Link& l : skeleton.links) names.push_back(l.name);
+  for (std::size_t i = 0; i < c.supports.size(); ++i) {
+    const auto* springs = std::get_if<SpringSupport>(&c.supports[i]);
+    if (!springs || skeleton.link(springs->link) >= 0) continue;
+    const Place support = listItem(root, "supports", i);
+    support.member(*support.node.find("springs")).failAt("link", absent("link", springs->link, names));
+  }
+  for (std::size_t i = 0; i < c.obstacles.size(); ++i)
+    if (skeleton.link(c.obstacles[i].name) >= 0)
+      listItem(root, "obstacles", i)
+          .failAt("name",
+                  fmt::format("\"{}\" is also a link of the human; allowed: a name of its own", c.obstacles[i].name));
+}
+
+void checkPictures(const Place& root, const Case& c, double duration_s) {
+  for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
+    const PictureCase& p = c.output.pictures[i];
+    if (p.when == PictureTime::at && !(p.time_s <= duration_s * (1 + 1e-9)))
+      listItem(root.member(*root.node.find("output")), "pictures", i)
+          .failAt("time", fmt::format("{} s is out of range; allowed: 0 to {} s, peak or end", p.time_s, duration_s));
+  }
+}
+
+/// Time that the motion takes by itself.
+double motionDuration(const HumanCase& h, const Human& human) {
+  if (const auto* stand = std::get_if<StandMotion>(&h.motion)) return stand->duration_s;
+  if (const auto* walk = std::get_if<WalkOptions>(&h.motion)) return makeWalk(human, *walk)->duration();
+  if (const auto* recorded = std::get_if<MotionFileOptions>(&h.motion))
+    return loadMotionFile(*recorded, human)->duration();
+  if (const auto* stairs = std::get_if<StairOptions>(&h.motion)) return makeStairs(human, *stairs)->duration();
+  if (const auto* aim = std::get_if<AimOptions>(&h.motion)) return makeAim(human, *aim)->duration();
+  return loadTrajectory(std::get<TrajectoryMotion>(h.motion).file, human)->duration();
+}
+
+/// What supports name of a garment with these patches and edges.
+void checkSupportsOf(const Place& root, const Case& c, const GarmentCase& garment, int patches,
+                     const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < c.supports.size(); ++i) {
+    const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, c.supports[i]);
+    if (!edge.garment.empty() && edge.garment != garment.name) continue;
+    const Place support = listItem(root, "supports", i);
+    const Place kind = support.member(support.node.children.front());
+    if (!edge.name.empty() && std::find(names.begin(), names.end(), edge.name) == names.end())
+      kind.failAt("edge", fmt::format("\"{}\" is not an edge of this garment; allowed: {}patch and side, such as 2.u0",
+                                      edge.name, names.empty() ? "" : joined(names) + ", or "));
+    if (edge.patch < patches) continue;
+    kind.failAt(kind.node.find("edge") ? "edge" : "patch",
+                fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
+  }
+}
+
+/// A garment's file, and the patches of it that supports name.
+void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment, const FileGarment& file) {
+  Garment read = loadGarment(file.path);
+  try {
+    applyFields(garment.fields, read);
+  } catch (const InputError& e) {
+    const std::size_t i = std::stoul(e.where().key.substr(std::string("fields[").size()));
+    const JsonNode* list = root.node.find("garments");
+    const auto k = static_cast<std::size_t>(&garment - c.garments.data());
+    const Place place = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
+    listItem(place, "fields", i).failAt("patch", e.reason());
+  }
+  std::vector<std::string> names;
+  for (const NamedEdge& e : read.edges) names.push_back(e.name);
+  checkSupportsOf(root, c, garment, static_cast<int>(read.patches.size()), names);
+}
+
+void checkMeshFile(const Place& root, const Case& c, const GarmentCase& garment, const MeshGarment& file) {
+  const ClothMesh mesh = readObj(file.path);
+  if (file.rest == MeshRest::flat && mesh.uv.empty())
+    throw InputError(
+        {file.path.string(), 0, "rest"},
+        "the mesh has no uv coordinates to lie flat by; allowed: \"rest\": \"shape\", or vt at all corners");
+  std::vector<std::string> names;
+  for (const NamedEdge& e : namedEdges(mesh)) names.push_back(e.name);
+  checkSupportsOf(root, c, garment, static_cast<int>(mesh.patch_names.size()), names);
+}
+
+}  // namespace
+
+void checkReferences(const Place& root, const Case& c) {
+  double duration_s = c.time.duration_s.value_or(0);
+  if (c.human) {
+    const Human human = skeletonOf(*c.human);
+    checkJoints(root, c, human.skeleton);
+    checkLinks(root, c, human.skeleton);
+    const double motion_s = motionDuration(*c.human, human);
+    duration_s = c.time.duration_s.value_or(motion_s);
+  }
+  for (const GarmentCase& g : c.garments)
+    if (const auto* file = std::get_if<FileGarment>(&g.shape))
+      checkGarmentFile(root, c, g, *file);
+    else if (const auto* mesh = std::get_if<MeshGarment>(&g.shape))
+      checkMeshFile(root, c, g, *mesh);
+  for (const ObstacleCase& o : c.obstacles) {
+    if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) loadMesh(mesh->file, mesh->scale);
+    if (const auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) MeshSequence{*sequence};
+  }
+  checkPictures(root, c, duration_s);
+}
+
+}  // namespace gambeson::schema
+
+namespace gambeson {
+
+double plannedDuration(const Case& c) {
+  if (c.time.duration_s || !c.human) return c.time.duration_s.value_or(0);
+  return schema::motionDuration(*c.human, skeletonOf(*c.human));
+}
+
+}  // namespace gambeson

@@ -1,0 +1,249 @@
+#include "cases/wear/case/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.hpp"
+#include "tryon/pattern/pattern.hpp"
+
+namespace gambeson::schema {
+namespace {
+
+/// Complains at the deepest part of `keys` that is written.
+[[noreturn]] void failAt(const Place& place, std::initializer_list<std::string> keys, const std::string& reason) {
+  if (keys.size() == 1) place.failAt(*keys.begin(), reason);
+  const JsonNode* child = place.node.find(*keys.begin());
+  if (child) {
+    const std::vector<std::string> rest(keys.begin() + 1, keys.end());
+    const Place inner = place.member(*child);
+    if (rest.size() == 1) inner.failAt(rest[0], reason);
+    const JsonNode* next = inner.node.find(rest[0]);
+    if (next) inner.member(*next).failAt(rest[1], reason);
+    inner.failAt(rest[0], reason);
+  }
+  std::string path;
+  for (const std::string& k : keys) path += (path.empty() ? "" : ".") + k;
+  place.failAt(path, reason);
+}
+
+Place itemOf(const Place& root, const std::string& list, std::size_t i) {
+  return root.member(*root.node.find(list)).item(i);
+}
+
+std::vector<std::string> edgeNames(const GarmentCase& g) {
+  if (std::holds_alternative<SheetGarment>(g.shape)) return {"u0", "u1", "v0", "v1"};
+  if (std::holds_alternative<TubeGarment>(g.shape)) return {"start", "end"};
+  if (std::holds_alternative<ShortsGarment>(g.shape)) return {"waist", "hem_left", "hem_right"};
+  if (std::holds_alternative<BeltGarment>(g.shape)) return {"lower", "upper"};
+  if (std::holds_alternative<ShirtGarment>(g.shape)) return {"hem", "neck_front", "neck_back", "belly_hem"};
+  if (std::holds_alternative<SkirtGarment>(g.shape)) return {"waist", "hem"};
+  return {};
+}
+
+/// Whose edge it is.
+const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase& edge) {
+  std::vector<std::string> names;
+  for (const GarmentCase& g : c.garments) {
+    if (edge.garment.empty() ? c.garments.size() == 1 : g.name == edge.garment) return &g;
+    names.push_back(g.name);
+  }
+  support.failAt("garment", edge.garment.empty()
+                                ? "is required where there are several garments; allowed: " + joined(names)
+                                : fmt::format("there is no garment \"{}\"; allowed: {}", edge.garment,
+                                              names.size() == 1 && names[0].empty() ? "none, as there is only one"
+                                                                                    : joined(names)));
+}
+
+/// From a file, which alone knows its patches and edges.
+bool isRead(const GarmentCase& g) {
+  return std::holds_alternative<FileGarment>(g.shape) || std::holds_alternative<MeshGarment>(g.shape);
+}
+
+/// Patches of the garment by name; none where only its file knows.
+std::vector<std::string> patchNames(const GarmentCase& g) {
+  if (std::holds_alternative<ShortsGarment>(g.shape)) return shortsPatchNames();
+  if (std::holds_alternative<ShirtGarment>(g.shape)) return shirtPatchNames();
+  if (std::holds_alternative<BeltGarment>(g.shape)) return beltPatchNames();
+  if (std::holds_alternative<SkirtGarment>(g.shape)) return skirtPatchNames();
+  if (isRead(g)) return {};
+  const auto* tube = std::get_if<TubeGarment>(&g.shape);
+  std::vector<std::string> names;
+  for (int k = 0; k < (tube ? tube->patches : 1); ++k) names.push_back(fmt::format("patch_{}", k));
+  return names;
+}
+
+void checkEdge(const Place& support, const Case& c, const EdgeCase& edge) {
+  const GarmentCase& garment = *garmentOf(support, c, edge);
+  if (!edge.name.empty()) {
+    if (isRead(garment)) return;  // its file knows (cases/wear/case/references.cpp)
+    const std::vector<std::string> names = edgeNames(garment);
+    if (std::find(names.begin(), names.end(), edge.name) == names.end())
+      support.failAt("edge", fmt::format("\"{}\" is not an edge of this garment; allowed: {}", edge.name,
+                                         names.empty() ? "patch and side, such as 2.u0" : joined(names)));
+    return;
+  }
+  const int patches = static_cast<int>(patchNames(garment).size());
+  if (patches > 0 && edge.patch >= patches)
+    support.failAt(support.node.find("edge") ? "edge" : "patch",
+                   fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
+}
+
+void checkSupports(const Place& root, const Case& c) {
+  for (std::size_t i = 0; i < c.supports.size(); ++i) {
+    const Place place = itemOf(root, "supports", i);
+    const Place support = place.member(place.node.children.front());
+    std::visit([&](const auto& s) { checkEdge(support, c, s.edge); }, c.supports[i]);
+    if (std::holds_alternative<SpringSupport>(c.supports[i]) && !c.human)
+      support.failAt("link", "springs tie the garment to a human, and the case has none");
+  }
+}
+
+/// Garment i where it is written.
+Place garmentPlace(const Place& root, std::size_t i) {
+  const JsonNode* list = root.node.find("garments");
+  return list ? root.member(*list).item(i) : root.member(*root.node.find("garment"));
+}
+
+/// At the part of the garment that the error's key names ("fields[0].thickness.values"), as far as it is written.
+[[noreturn]] void failInside(const Place& place, const std::string& key, const std::string& reason) {
+  const std::size_t end = key.find_first_of(".[");
+  if (end == std::string::npos) place.failAt(key, reason);
+  const JsonNode* child = place.node.find(key.substr(0, end));
+  if (!child) place.failAt(key, reason);
+  const Place inside = place.member(*child);
+  if (key[end] == '.') failInside(inside, key.substr(end + 1), reason);
+  const std::size_t close = key.find(']', end);
+  const Place item = inside.item(std::stoul(key.substr(end + 1)));
+  if (close + 1 >= key.size()) item.fail(reason);
+  failInside(item, key.substr(close + 2), reason);
+}
+
+/// Keys that its kind of cloth has no use for.
+void checkModel(const Place& place, const Case& c, const GarmentCase& g) {
+  const bool mesh_file = std::holds_alternative<MeshGarment>(g.shape);
+  const auto refuse = [&](const char* key, const char* reason) {
+    if (place.node.find(key)) place.failAt(key, reason);
+  };
+  if (mesh_file && g.cloth.kind == ClothKind::nurbs)
+    place.failAt("model", "a mesh_file is cloth of triangles; allowed: \"triangles\"");
+  if (mesh_file || g.cloth.kind == ClothKind::nurbs)
+    refuse("mesh", mesh_file ? "is for drafts; a mesh_file is a mesh already" : "is for \"model\": \"triangles\"");
+  if (g.cloth.kind == ClothKind::nurbs) return;
+  refuse("samples_per_cell", "is for \"model\": \"nurbs\"; the samples of triangles are their vertices");
+  if (c.strain_limit && wornLimit(*c.strain_limit).mode == LimitMode::equality)
+    place.failAt(
+        "model",
+        "triangles lock where their threads keep their lengths; allowed: strain_limit with a limit, or \"nurbs\"");
+  if (!mesh_file) return;
+  for (const char* key : {"fields", "other_fabrics", "noise", "noise_seed", "stitching", "seam_stiffness"})
+    refuse(key, "is for drafted garments, not for a mesh_file");
+}
+
+void checkFieldsOf(const Place& place, const Case& c, const GarmentCase& g) {
+  for (std::size_t i = 0; i < g.fields.size(); ++i) {
+    try {
+      checkFields(g.fields[i], fabricOf(c, g), otherFabrics(g));
+    } catch (const InputError& e) {
+      failInside(place, fmt::format("fields[{}].{}", i, e.where().key), e.reason());
+    }
+  }
+  if (!g.other_fabrics.empty() &&
+      std::none_of(g.fields.begin(), g.fields.end(), [](const FieldsCase& f) { return f.fields.material.has_value(); }))
+    place.failAt("other_fabrics", "is of no use: no material field of this garment chooses from it");
+  const auto* belt = std::get_if<BeltGarment>(&g.shape);
+  if (belt && belt->tension_N > 0 && !g.fields.empty())
+    place.failAt("fields", "a belt's length follows from its tension and one fabric; allowed: with tension 0 N");
+  if (isRead(g)) return;  // its file knows (cases/wear/case/references.cpp)
+  Garment patches;
+  patches.patch_names = patchNames(g);
+  patches.patches.resize(patches.patch_names.size());
+  try {
+    applyFields(g.fields, patches);
+  } catch (const InputError& e) {
+    failInside(place, e.where().key, e.reason());
+  }
+}
+
+void checkGarments(const Place& root, const Case& c) {
+  std::set<std::string> names;
+  bool all_own = true;
+  for (std::size_t i = 0; i < c.garments.size(); ++i) {
+    const GarmentCase& g = c.garments[i];
+    const Place place = garmentPlace(root, i);
+    if (c.garments.size() > 1 && g.name.empty())
+      place.failAt("name", "is required where there are several garments: what supports and tables call it");
+    if (!names.insert(g.name).second)
+      place.failAt("name", fmt::format("\"{}\" names two garments; allowed: a name of its own", g.name));
+    for (const auto& [drafted, key] : {std::pair{std::holds_alternative<ShortsGarment>(g.shape), "shorts"},
+                                       std::pair{std::holds_alternative<BeltGarment>(g.shape), "belt"},
+                                       std::pair{std::holds_alternative<ShirtGarment>(g.shape), "shirt"},
+                                       std::pair{std::holds_alternative<SkirtGarment>(g.shape), "skirt"}})
+      if (drafted && !c.human) place.failAt(key, fmt::format("a {} is drafted on a human, and the case has none", key));
+    checkModel(place, c, g);
+    checkFieldsOf(place, c, g);
+    all_own = all_own && g.fabric;
+    if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())
+      place.failAt("stitching", "needs dressing.layer_by_layer: each garment is then put on by itself");
+  }
+  const bool common = root.node.find("fabric");
+  if (!common && !all_own)
+    root.failAt("fabric", "is required: what garments without a fabric of their own are made of");
+  if (common && all_own) root.failAt("fabric", "is of no use: every garment has a fabric of its own");
+}
+
+void checkObstacles(const Place& root, const Case& c) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < c.obstacles.size(); ++i)
+    if (!names.insert(c.obstacles[i].name).second)
+      itemOf(root, "obstacles", i)
+          .failAt("name", fmt::format("\"{}\" names two obstacles; allowed: a name of its own", c.obstacles[i].name));
+}
+
+void checkWithoutHuman(const Place& root, Case& c) {
+  if (!c.time.duration_s) failAt(root, {"time", "duration"}, "is required without a human; allowed: > 0 s");
+  if (c.air.with_pelvis) failAt(root, {"air", "velocity"}, "\"pelvis_mean\" needs a human, and the case has none");
+  if (c.dressing.projecting)
+    failAt(root, {"dressing", "projecting"}, "projecting dresses a human, and the case has none");
+  if (c.dressing.layer_by_layer)
+    failAt(root, {"dressing", "layer_by_layer"}, "garments are put on a human, and the case has none");
+  if (!c.dressing.from.empty())
+    failAt(root, {"dressing", "from"}, "a dressed state is one of a human, and the case has none");
+  const JsonNode* dressing = root.node.find("dressing");
+  if (dressing && dressing->find("settle") && c.dressing.settle_s > 0)
+    failAt(root, {"dressing", "settle"}, "a garment settles on a human, and the case has none");
+  c.dressing.settle_s = 0;
+  if (!c.analysis.joints.empty())
+    failAt(root, {"analysis", "joints"}, "joints are those of a human, and the case has none");
+}
+
+/// The task whose natural moments a motion is compared with, where the case does not say.
+Task taskOf(const HumanCase& human) {
+  if (std::holds_alternative<WalkOptions>(human.motion)) return Task::natural_walk;
+  if (std::holds_alternative<StairOptions>(human.motion)) return Task::natural_stairs;
+  if (std::holds_alternative<AimOptions>(human.motion)) return Task::aiming;
+  return Task::none;
+}
+
+}  // namespace
+
+void applyRules(const Place& root, Case& c) {
+  checkGarments(root, c);
+  if ((c.human || !c.obstacles.empty() || c.garments.size() > 1) && !root.node.find("contact"))
+    root.failAt("contact",
+                "is required where there is a human, an obstacle or a second garment: at least its friction");
+  if (!c.human) checkWithoutHuman(root, c);
+  checkSupports(root, c);
+  checkObstacles(root, c);
+  const JsonNode* analysis = root.node.find("analysis");
+  if (c.human && !(analysis && analysis->find("task"))) c.analysis.task = taskOf(*c.human);
+  if (c.analysis.task == Task::natural_walk && !(c.human && std::holds_alternative<WalkOptions>(c.human->motion)))
+    failAt(root, {"analysis", "task"}, "natural_walk compares with walking, and the human does not walk");
+  if (c.analysis.task == Task::natural_stairs && !(c.human && std::holds_alternative<StairOptions>(c.human->motion)))
+    failAt(root, {"analysis", "task"}, "natural_stairs compares with climbing stairs, and the human climbs none");
+  if (c.analysis.task == Task::aiming && !(c.human && std::holds_alternative<AimOptions>(c.human->motion)))
+    failAt(root, {"analysis", "task"}, "aiming compares with taking aim, and the human takes none");
+}
+
+}  // namespace gambeson::schema

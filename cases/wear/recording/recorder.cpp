@@ -1,0 +1,499 @@
+#include "cases/wear/recording/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/carried_error.hpp"
+
+namespace gambeson {
+namespace {
+
+/// Row of "steps": how each column is combined over the steps of a window.
+enum Column {
+  kSteps,
+  kShortest,
+  kLongest,
+  kContacts,
+  kClothContacts,
+  kImpacts,
+  kZones,
+  kCuts,
+  kPinched,
+  kIntersections,
+  kSmallestGap,
+  kIterations,
+  kUnconverged,
+  kYielded,
+  kResidual,
+  kMomentumError,
+  kDeepest,
+  kWay,
+  kWorkContact,
+  kWorkSeparation,
+  kWorkRestoring,
+  kWorkFriction,
+  kWorkDrag,
+  kWorkSupports,
+  kWorkLimit,
+  kDissipated,
+  kProjections,
+  kUnlimited,
+  kLimitResidual,
+  kKinetic,
+  kInternal,
+  kGravity,
+  kSprings,
+  kFrequency,
+  kMembrane,
+  kBending,
+  kSeam,
+  kSpringShare,
+  kColumns
+};
+
+void addVec(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x, v.y, v.z}); }
+
+std::vector<float> floats(std::span<const Vec3> values) {
+  std::vector<float> out;
+  out.reserve(3 * values.size());
+  for (const Vec3& v : values) {
+    out.push_back(static_cast<float>(v.x));
+    out.push_back(static_cast<float>(v.y));
+    out.push_back(static_cast<float>(v.z));
+  }
+  return out;
+}
+
+std::vector<double> doubles(std::span<const Vec3> values) {
+  std::vector<double> out;
+  for (const Vec3& v : values) out.insert(out.end(), {v.x, v.y, v.z});
+  return out;
+}
+
+std::vector<Vec3> vectors(const std::vector<double>& values) {
+  std::vector<Vec3> out(values.size() / 3);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  return out;
+}
+
+}  // namespace
+
+const std::vector<std::string>& stepColumns() {
+  static const std::vector<std::string> names{"steps",
+                                              "shortest_step_s",
+                                              "longest_step_s",
+                                              "most_contacts",
+                                              "most_cloth_contacts",
+                                              "impacts",
+                                              "zones",
+                                              "cut_steps",
+                                              "pinched",
+                                              "most_intersections",
+                                              "smallest_gap_m",
+                                              "iterations",
+                                              "unconverged_steps",
+                                              "yielded_steps",
+                                              "largest_residual_m_per_s",
+                                              "momentum_error",
+                                              "deepest_m",
+                                              "largest_way_cells",
+                                              "work_contact_J",
+                                              "work_separation_J",
+                                              "work_restoring_J",
+                                              "work_friction_J",
+                                              "work_drag_J",
+                                              "work_supports_J",
+                                              "work_limit_J",
+                                              "dissipated_J",
+                                              "projections",
+                                              "unlimited_steps",
+                                              "largest_limit_residual",
+                                              "kinetic_J",
+                                              "internal_J",
+                                              "gravity_J",
+                                              "springs_J",
+                                              "frequency_rad_per_s",
+                                              "membrane_share",
+                                              "bending_share",
+                                              "seam_share",
+                                              "spring_share"};
+  return names;
+}
+
+RecordingLayout recordingLayout(const Scenario& s) {
+  RecordingLayout layout;
+  layout.identity = caseIdentity(s.definition) + " " + s.model->cloth->kernels();
+  layout.metadata = writeCase(s.definition);
+  layout.triangles = s.model->surface.triangles;
+  layout.patches = s.model->cloth->geometry();
+  for (std::size_t p = 0; p < layout.patches.size(); ++p) layout.patches[p].name = s.patch_names[p];
+  const std::vector<std::string> window{"start_s", "end_s"};
+  auto &bodies = layout.tables["bodies"] = window, &drag = layout.tables["drag"] = window,
+       &pressing = layout.tables["normal"] = window;
+  for (const std::string& name : s.bodies) {
+    for (const char* part : {"_Jx_Ns", "_Jy_Ns", "_Jz_Ns", "_Lx_Nms", "_Ly_Nms", "_Lz_Nms"}) {
+      bodies.push_back(name + part);
+      drag.push_back(name + part);
+      pressing.push_back(name + part);
+    }
+    bodies.push_back(name + "_n_Ns");
+    bodies.push_back(name + "_t_Ns");
+  }
+  if (s.hasSkin()) {
+    auto& skin = layout.tables["skin"] = window;
+    const std::vector<std::string> joints = SkinLedger::columns(s);
+    skin.insert(skin.end(), joints.begin(), joints.end());
+    layout.body_triangles = s.human->skin->rest.triangles;
+  }
+  auto& regions = layout.tables["regions"] = window;
+  for (const std::string& name : s.contact_regions)
+    for (const char* part : {"_Jx_Ns", "_Jy_Ns", "_Jz_Ns", "_n_Ns", "_t_Ns"}) regions.push_back(name + part);
+  auto& zones = layout.tables["body_zones"] = window;
+  const std::vector<std::string> sums = ZoneLedger::columns(s);
+  zones.insert(zones.end(), sums.begin(), sums.end());
+  auto& supports = layout.tables["supports"] = window;
+  for (const SupportGroup& g : s.supports)
+    for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(g.name + part);
+  auto& steps = layout.tables["steps"] = window;
+  steps.insert(steps.end(), stepColumns().begin(), stepColumns().end());
+  return layout;
+}
+
+Checkpoint checkpointOf(const State& s, const Frequency& f) {
+  Checkpoint c;
+  c.time_s = s.time_s;
+  c.reals = {{"p", doubles(s.p)},
+             {"v", doubles(s.v)},
+             {"a", doubles(s.a)},
+             {"anchors", doubles(s.anchors)},
+             {"mode", doubles(s.mode)}};
+  c.reals["limit"] = s.limit_J;
+  c.reals["pressed"] = doubles(s.pressed);
+  c.reals["sums"] = doubles(std::vector<Vec3>{s.sums.drag, s.sums.springs, s.sums.held});
+  c.reals["held"] = doubles(s.held_N);
+  c.reals["control"] = {s.frequency_rad_per_s, s.last_step_s, f.largest_rad_per_s, f.membrane_share,
+                        f.bending_share,       f.seam_share,  f.spring_share};
+  c.reals["swing"] = {s.swing, s.share};
+  if (!s.history.empty()) c.reals["history"] = s.history;
+  if (!s.inner.empty()) {
+    c.reals["inner"] = s.inner;
+    c.reals["inner_rate"] = s.inner_rate;
+    c.reals["inner_acceleration"] = s.inner_acceleration;
+  }
+  c.integers["steps_to_estimate"] = {s.steps_to_estimate};
+  c.integers["tangled"] = {s.tangled};
+  c.integers["pinched"].assign(s.pinched.begin(), s.pinched.end());
+  std::vector<Vec3> traction;
+  auto& ids = c.integers["warm"];
+  auto& mean_Pa = c.reals["warm_mean"];
+  for (const WarmContact& w : s.warm) {
+    traction.push_back(w.traction);
+    mean_Pa.push_back(w.mean_Pa);
+    ids.insert(ids.end(), {w.sample, w.obstacle, w.feature});
+  }
+  c.reals["warm"] = doubles(traction);
+  return c;
+}
+
+State stateOf(const Checkpoint& c, Frequency& f) {
+  State s;
+  s.time_s = c.time_s;
+  s.p = vectors(c.reals.at("p"));
+  s.v = vectors(c.reals.at("v"));
+  s.a = vectors(c.reals.at("a"));
+  s.anchors = vectors(c.reals.at("anchors"));
+  s.mode = vectors(c.reals.at("mode"));
+  s.limit_J = c.reals.at("limit");
+  const auto ifThere = [&](const char* name) {
+    return c.reals.contains(name) ? c.reals.at(name) : std::vector<double>{};
+  };
+  s.history = ifThere("history");
+  s.inner = ifThere("inner");
+  s.inner_rate = ifThere("inner_rate");
+  s.inner_acceleration = ifThere("inner_acceleration");
+  s.pressed = vectors(c.reals.at("pressed"));
+  const std::vector<Vec3> sums = vectors(c.reals.at("sums"));
+  s.sums = {sums[0], sums[1], sums[2]};
+  s.held_N = vectors(c.reals.at("held"));
+  const std::vector<double>& control = c.reals.at("control");
+  s.frequency_rad_per_s = control[0];
+  s.last_step_s = control[1];
+  s.swing = c.reals.at("swing")[0];
+  s.share = c.reals.at("swing")[1];
+  f = {control[2], control[3], control[4], control[5], control[6]};
+  s.steps_to_estimate = static_cast<int>(c.integers.at("steps_to_estimate")[0]);
+  s.tangled = c.integers.at("tangled")[0] != 0;
+  for (const auto sample : c.integers.at("pinched")) s.pinched.push_back(static_cast<int>(sample));
+  const auto& ids = c.integers.at("warm");
+  const std::vector<Vec3> traction = vectors(c.reals.at("warm"));
+  const std::vector<double>& mean_Pa = c.reals.at("warm_mean");
+  for (std::size_t i = 0; i < traction.size(); ++i)
+    s.warm.push_back({static_cast<int>(ids[3 * i]), static_cast<int>(ids[3 * i + 1]), static_cast<int>(ids[3 * i + 2]),
+                      traction[i], mean_Pa[i]});
+  return s;
+}
+
+Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
+    : scenario_(scenario),
+      stress_(scenario.model->cloth->stress()),
+      writer_(writer),
+      placed_(scenario),
+      zones_(scenario),
+      bodies_(scenario.bodies.size()),
+      regions_(scenario.contact_regions.size()),
+      supports_(scenario.supports.size()),
+      contact_(scenario.model->surface.size()),
+      normal_(scenario.model->surface.size()),
+      limit_(scenario.model->strain_rows.rows(), 0),
+      steps_(kColumns, 0) {
+  if (scenario.hasSkin()) skin_.emplace(scenario);
+}
+
+void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepWork& work,
+                       const Frequency& f) {
+  // Moments about the body's origin at the middle of the step, where the impulse acts in the mean.
+  const std::vector<Pose> poses = scenario_.bodyPoses(0.5 * (before.time_s + after.time_s));
+  for (const ContactImpulse& c : work.contact_impulses) {
+    const Vec3 received = -c.impulse;
+    const double normal = dot(c.impulse, c.normal), tangential = norm(c.impulse - normal * c.normal);
+    const auto give = [&](int to, double part) {
+      Body& body = bodies_[to];
+      body.force += part * received;
+      body.moment += cross(c.point - poses[to].origin, part * received);
+      body.pressing += (-part * normal) * c.normal;
+      body.pressing_moment += cross(c.point - poses[to].origin, (-part * normal) * c.normal);
+      body.normal += part * normal;
+      body.tangential += part * tangential;
+    };
+    if (const int body = scenario_.body_of_obstacle[c.obstacle]; body >= 0) {
+      give(body, 1);
+    } else {
+      for (int k = 0; k < 3 && c.touched.vertex[k] >= 0; ++k)
+        give(scenario_.human->skin->segment[c.touched.vertex[k]], c.touched.weight[k]);
+      skin_->add(c.touched, received, -normal * c.normal);
+    }
+    zones_.add(c, poses);
+    Body& region = regions_[static_cast<std::size_t>(scenario_.contact_region[c.sample])];
+    region.force += received;
+    region.normal += normal;
+    region.tangential += tangential;
+    contact_[c.sample] += c.impulse;
+    normal_[c.sample] += normal;
+  }
+  for (std::size_t g = 0; g < scenario_.supports.size(); ++g) {
+    for (int k : scenario_.supports[g].springs) supports_[g] += work.spring_impulses[k];
+    for (const auto& [k, part] : scenario_.supports[g].held) supports_[g] += part * work.held_impulses[k];
+  }
+  const bool first = steps_[kSteps] == 0;
+  const auto most = [&](Column c, double value) { steps_[c] = first ? value : std::max(steps_[c], value); };
+  steps_[kShortest] = first ? r.step_s : std::min(steps_[kShortest], r.step_s);
+  most(kLongest, r.step_s);
+  most(kContacts, r.contacts);
+  most(kClothContacts, r.cloth_contacts);
+  most(kIntersections, r.intersections);
+  steps_[kSmallestGap] = first ? r.smallest_gap_m : std::min(steps_[kSmallestGap], r.smallest_gap_m);
+  steps_[kZones] += r.zones;
+  steps_[kCuts] += r.cuts > 0;
+  steps_[kPinched] += r.pinched;
+  most(kResidual, r.contact.residual_m_per_s);
+  most(kMomentumError, r.momentum.scale > 0 ? r.momentum.error() / r.momentum.scale : 0);
+  most(kDeepest, r.deepest_m);
+  most(kWay, r.largest_way);
+  steps_[kSteps] += 1;
+  steps_[kImpacts] += r.impacts;
+  steps_[kIterations] += r.contact.iterations;
+  steps_[kUnconverged] += r.contact.converged ? 0 : 1;
+  steps_[kYielded] += r.contact.yielded;
+  steps_[kWorkContact] += r.work.contact;
+  steps_[kWorkSeparation] += r.work.separation;
+  steps_[kWorkRestoring] += r.work.restoring;
+  steps_[kWorkFriction] += r.work.friction;
+  steps_[kWorkDrag] += r.work.drag;
+  steps_[kWorkSupports] += r.work.supports;
+  steps_[kWorkLimit] += r.work.limit;
+  steps_[kDissipated] += r.work.dissipated;
+  steps_[kProjections] += r.limit.projections;
+  steps_[kUnlimited] += r.limit.converged ? 0 : 1;
+  most(kLimitResidual, r.limit.residual);
+  for (std::size_t i = 0; i < limit_.size(); ++i) limit_[i] += r.step_s * after.limit_J[i];
+  steps_[kFrequency] = f.largest_rad_per_s;
+  steps_[kMembrane] = f.membrane_share;
+  steps_[kBending] = f.bending_share;
+  steps_[kSeam] = f.seam_share;
+  steps_[kSpringShare] = f.spring_share;
+}
+
+void Recorder::closeWindow(const State& state, double start_s, bool frame, StepWork& work) {
+  const Model& m = *scenario_.model;
+  const double window = state.time_s - start_s;
+  const std::vector<double> head{start_s, state.time_s};
+  const std::vector<Pose> poses = scenario_.bodyPoses(state.time_s);
+
+  std::vector<double> row = head;
+  for (const Body& b : bodies_) {
+    addVec(row, b.force);
+    addVec(row, b.moment);
+    row.insert(row.end(), {b.normal, b.tangential});
+  }
+  writer_.append(TableRow{"bodies", row});
+  row = head;
+  for (const Body& b : bodies_) {
+    addVec(row, b.pressing);
+    addVec(row, b.pressing_moment);
+  }
+  writer_.append(TableRow{"normal", row});
+  row = head;
+  row.insert(row.end(), zones_.row().begin(), zones_.row().end());
+  writer_.append(TableRow{"body_zones", row});
+  if (skin_) {
+    row = head;
+    const std::vector<double> joints = skin_->row(0.5 * (start_s + state.time_s));
+    row.insert(row.end(), joints.begin(), joints.end());
+    writer_.append(TableRow{"skin", row});
+  }
+  row = head;
+  for (const Body& b : regions_) {
+    addVec(row, b.force);
+    row.insert(row.end(), {b.normal, b.tangential});
+  }
+  writer_.append(TableRow{"regions", row});
+
+  // Drag at the window's end, on the body nearest to each sample.
+  std::vector<Body> drag(bodies_.size());
+  std::vector<Vec3> x(m.surface.size()), v(m.surface.size());
+  m.surface.WT.multiply<Vec3>(state.p, x);
+  m.surface.WT.multiply<Vec3>(state.v, v);
+  if (m.environment.drag_kg_per_m2s > 0 && !m.obstacles.empty()) {
+    const Vec3 air = scenario_.stage->air(state.time_s);
+    std::vector<int> nearest(x.size(), 0);
+    if (bodies_.size() > 1) {
+      placed_.moveTo(state.time_s);
+#pragma omp parallel for schedule(static)
+      for (int s = 0; s < m.surface.size(); ++s) nearest[s] = placed_.nearest(x[s]).body;
+    }
+    for (int s = 0; s < m.surface.size(); ++s) {
+      const Vec3 f = (-m.environment.drag_kg_per_m2s * m.surface.area_m2[s] * window) * (v[s] - air);
+      drag[nearest[s]].force += f;
+      drag[nearest[s]].moment += cross(x[s] - poses[nearest[s]].origin, f);
+    }
+  }
+  row = head;
+  for (const Body& b : drag) {
+    addVec(row, b.force);
+    addVec(row, b.moment);
+  }
+  writer_.append(TableRow{"drag", row});
+
+  row = head;
+  for (std::size_t g = 0; g < scenario_.supports.size(); ++g) {
+    addVec(row, supports_[g]);
+    double drop = 0;
+    const SupportGroup& group = scenario_.supports[g];
+    if (!group.springs.empty()) {
+      std::vector<Placement> obstacles(m.obstacles.size()), anchors(m.anchor_count);
+      scenario_.stage->placements(state.time_s, obstacles, anchors);
+      const double size = norm(m.environment.gravity_m_per_s2);
+      const Vec3 down = size > 0 ? m.environment.gravity_m_per_s2 / size : Vec3{};
+      for (int k : group.springs)
+        drop += dot(x[m.springs[k].sample] + m.spring_rise_m[k] - anchors[group.anchor] * state.anchors[k], down) /
+                static_cast<double>(group.springs.size());
+    }
+    row.push_back(drop);
+  }
+  writer_.append(TableRow{"supports", row});
+
+  const Energy energy = energyOf(m, *scenario_.stage, state, work);
+  steps_[kKinetic] = energy.kinetic;
+  steps_[kInternal] = energy.internal;
+  steps_[kGravity] = energy.gravity;
+  steps_[kSprings] = energy.springs;
+  row = head;
+  row.insert(row.end(), steps_.begin(), steps_.end());
+  writer_.append(TableRow{"steps", row});
+
+  if (frame) appendFrame(state, window);
+  if (skin_) skin_->clear();
+  zones_.clear();
+  std::fill(bodies_.begin(), bodies_.end(), Body{});
+  std::fill(regions_.begin(), regions_.end(), Body{});
+  std::fill(supports_.begin(), supports_.end(), Vec3{});
+  std::fill(contact_.begin(), contact_.end(), Vec3{});
+  std::fill(normal_.begin(), normal_.end(), 0.0);
+  std::fill(limit_.begin(), limit_.end(), 0.0);
+  std::fill(steps_.begin(), steps_.end(), 0.0);
+}
+
+namespace {
+
+/// Area now over area at rest, sqrt((1 + 2 E1) (1 + 2 E2)) of the principal Green-Lagrange strains. Cloth is crushed
+/// to a tenth of its length at most.
+double areaRatio(const PrincipalStress& s) {
+  return std::sqrt(std::max(1 + 2 * s.strain1, 0.01) * std::max(1 + 2 * s.strain2, 0.01));
+}
+
+}  // namespace
+
+void Recorder::appendFrame(const State& state, double window) {
+  const Model& m = *scenario_.model;
+  const int n = m.surface.size();
+  Frame frame;
+  frame.time_s = state.time_s;
+  std::vector<Vec3> x(n), v(n), q(m.cloth->points()), force(n);
+  m.surface.WT.multiply<Vec3>(state.p, x);
+  m.surface.WT.multiply<Vec3>(state.v, v);
+  m.cloth->map().T.multiply<Vec3>(state.p, q);
+  frame.positions = floats(x);
+  Field velocity{"velocity", "m/s", 3, floats(v)}, contact{"contact_force", "N", 3, {}},
+      pressure{"pressure", "Pa", 1, {}};
+  for (int s = 0; s < n; ++s) force[s] = contact_[s] / window;
+  contact.data = floats(force);
+  pressure.data.resize(n);
+  Field area{"area", "m^2", 1, std::vector<float>(n)};
+  Field s1{"stress", "N/m", 1, std::vector<float>(n)}, s2{"stress_second", "N/m", 1, std::vector<float>(n)};
+  Field e1{"strain", "1", 1, std::vector<float>(n)}, e2{"strain_second", "1", 1, std::vector<float>(n)};
+  // Strain limits pull in impulses, one a step: like the contact forces, the mean over the window.
+  for (double& l : limit_) l /= window;
+  const std::vector<Vec2> limits = limit_.empty() ? std::vector<Vec2>{} : limitStress(m.strain_rows, limit_);
+  StressView::More more;
+  if (!limits.empty())
+    more = [&](int patch, Vec2 uv) { return m.cloth->limitStressAt(m.strain_rows, limits, patch, uv); };
+  const ClothState at(q);
+  const std::vector<StressView::Sample> means = stress_->means(at, more);
+  CarriedError error;
+#pragma omp parallel for schedule(static)
+  for (int s = 0; s < n; ++s)
+    error.guard(s, [&] {
+      const PrincipalStress stress = stress_->at(at, m.surface.patch[s], m.surface.parameters[s], means, more);
+      s1.data[s] = static_cast<float>(stress.principal1_N_per_m);
+      s2.data[s] = static_cast<float>(stress.principal2_N_per_m);
+      e1.data[s] = static_cast<float>(stress.strain1);
+      e2.data[s] = static_cast<float>(stress.strain2);
+      const double now_m2 = m.surface.area_m2[s] * areaRatio(stress);
+      area.data[s] = static_cast<float>(now_m2);
+      pressure.data[s] = static_cast<float>(normal_[s] / (now_m2 * window));
+    });
+  error.rethrow();
+  frame.sample_fields = {velocity, contact, pressure, area, s1, s2, e1, e2};
+  frame.control_fields = {Field{"position", "m", 3, floats(q)}};
+  if (skin_) addSkin(state, window, frame);
+  writer_.append(std::move(frame));
+}
+
+/// Pressure: the normal force on a vertex over a third of the area of its triangles.
+void Recorder::addSkin(const State& state, double window, Frame& frame) const {
+  const std::vector<Vec3> x = deformedVertices(*scenario_.model, *scenario_.stage, state.time_s)[0];
+  std::vector<double> area(x.size(), 0);
+  for (const auto& t : scenario_.human->skin->rest.triangles) {
+    const double third = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 6;
+    for (int v : t) area[v] += third;
+  }
+  std::vector<Vec3> force(x.size());
+  Field pressure{"pressure", "Pa", 1, std::vector<float>(x.size())};
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    force[v] = skin_->received()[v] / window;
+    pressure.data[v] = static_cast<float>(area[v] > 0 ? skin_->normal()[v] / (area[v] * window) : 0);
+  }
+  frame.body_fields = {Field{"position", "m", 3, floats(x)}, Field{"contact_force", "N", 3, floats(force)}, pressure};
+}
+
+}  // namespace gambeson

@@ -1,0 +1,81 @@
+#include "cases/wear/results/check_words.hpp"
+
+#include <fmt/format.h>
+
+#include "analysis/ticks.hpp"
+
+namespace gambeson {
+
+CheckWords checkWords(const std::string& check, double value, double limit, const std::string& unit) {
+  // As many digits as tell the two apart.
+  int digits = 2;
+  while (digits < 5 && value != limit && formatNumber(value, digits) == formatNumber(limit, digits)) ++digits;
+  const auto withUnit = [&](double x) { return formatNumber(x, digits) + (unit.empty() ? "" : " ") + unit; };
+  const std::string much = withUnit(value) + (limit > 0 ? " (allowed: " + withUnit(limit) + ")" : "");
+  const std::string count = fmt::format("{:.0f}", value);
+  if (check == "Momentum")
+    return {"the forces on cloth and body do not balance",
+            "The body does not receive what the cloth gives: the torques are not those of this cloth. Do not use them.",
+            true};
+  if (check == "Energy")
+    return {fmt::format("{} of the work of all forces is unaccounted for", much),
+            "Averages of the torques over the motion may be off by about this share.", false};
+  if (check == "Penetration")
+    return {fmt::format("contact points of the cloth lie up to {} inside the body", much),
+            "Contact gave way there: pressing forces, and torques with them, are rather too small.", false};
+  if (check == "Penetration between samples")
+    return {fmt::format("between its contact points the cloth dips up to {} into the skin", much),
+            "Forces act at the contact points, which stay outside, so that no force is missing; but the cloth lies "
+            "this much too near to the body, which counts where it is as much as the cloth is thick. Finer cells or "
+            "more samples_per_cell lessen it.",
+            false};
+  if (check == "Contact solver")
+    return {fmt::format("contact forces are not solved to the tolerance in {} of the steps", much),
+            "Forces of those steps are approximate. Peaks that fall among them are less sure than root mean squares; "
+            "the energy check bounds what it does over the motion.",
+            false};
+  if (check == "Intersections")
+    return {fmt::format("cloth passes through cloth at {} places at the end", count),
+            "Layers bear on each other in the wrong order there: forces between them are wrong.", true};
+  if (check == "Movement")
+    return {fmt::format("cloth goes up to {} in one step", much),
+            "Contacts may have been missed on the way: forces may be wrong anywhere.", true};
+  if (check == "Pinched")
+    return {fmt::format("{} times a point of the cloth was squeezed between two bodies and let through", count),
+            "Forces at those places and times are not known; elsewhere they are.", false};
+  if (check == "Strain limit")
+    return {fmt::format("threads stretch more than their limit in {} of the steps", much),
+            "The cloth is softer than the case says: torques are rather too small.", false};
+  if (check.starts_with("Sinking"))
+    return {fmt::format("an edge on springs slides {} along the body", much),
+            "The garment hangs lower than it was made to: the torques are those of a garment that slipped.", false};
+  if (check.starts_with("Slipping"))
+    return {fmt::format("{} slips down the body by {}",
+                        check.size() > 10 ? check.substr(10) : std::string("the garment"), much),
+            "It is not worn as it was made to: the torques are those of a garment that falls off. Hold it by supports, "
+            "or cut it closer.",
+            true};
+  if (check.starts_with("Layer order, "))
+    return {
+        fmt::format("{}: {} of the upper garment lies inside of the lower one", check.substr(13), much),
+        "The layers are worn in the wrong order there and cross nowhere, so nothing brings them out: the torques are "
+        "those of another outfit. Put them on together (dressing.projecting without layer_by_layer), or place the "
+        "upper one higher.",
+        true};
+  if (check.starts_with("Repeatability, shape"))
+    return {fmt::format("the second stride is not like the first (correlation {}, 1 for the same course; allowed: at "
+                        "least {})",
+                        formatNumber(1 - value, 2), formatNumber(1 - limit, 2)),
+            "The garment has not found its place yet: peaks depend on how it was put on.", false};
+  if (check.starts_with("Repeatability, size"))
+    return {fmt::format("the second stride differs from the first by {}", much),
+            "The garment has not found its place yet: peaks are uncertain by about this much.", false};
+  return {fmt::format("the check \"{}\" fails", check), "See the run\u2019s own report.", true};
+}
+
+std::string notMet(const std::string& check, double value, double limit, const std::string& unit) {
+  return fmt::format("check not met: {} {:.4g}{}{} (allowed {:.4g}): {}", check, value, unit.empty() ? "" : " ", unit,
+                     limit, checkWords(check, value, limit, unit).means);
+}
+
+}  // namespace gambeson

@@ -1,0 +1,309 @@
+/// Detail of results.hpp: pictures of a recorded frame.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "analysis/render/camera.hpp"
+#include "analysis/render/shapes.hpp"
+#include "analysis/ticks.hpp"
+#include "cases/wear/results/body_map.hpp"
+#include "cases/wear/results/write.hpp"
+#include "cases/wear/scene/placed_bodies.hpp"
+#include "core/error.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr Color body_color{0.74f, 0.73f, 0.72f}, arrow_color{0.80f, 0.08f, 0.10f};
+/// Of the layers in turn.
+constexpr std::array<Color, 5> cloth_colors{Color{0.42f, 0.50f, 0.62f}, Color{0.76f, 0.57f, 0.35f},
+                                            Color{0.44f, 0.60f, 0.45f}, Color{0.62f, 0.45f, 0.56f},
+                                            Color{0.68f, 0.66f, 0.42f}};
+
+/// Arrows sum the forces of samples within cells of this size, so that they can be told apart.
+constexpr double arrow_cell_m = 0.05;
+/// Arrows shorter than this part of the longest are left out.
+constexpr double least_arrow = 0.06;
+/// Forces that point this much at the viewer press on the far side: the picture would show them through the body.
+constexpr double far_side = 0.3;
+
+struct FieldWords {
+  const char *field, *title, *word;
+  double scale;  ///< to the unit of the title
+};
+
+FieldWords wordsOf(PictureField field) {
+  switch (field) {
+    case PictureField::stress:
+      return {"stress", "Stress in the fabric: largest pull [N/m]", "stress in the fabric", 1};
+    case PictureField::pressure:
+      return {"pressure", "Contact pressure of single points [kPa]", "contact pressure of single points", 1e-3};
+    case PictureField::strain:
+      return {"strain", "Largest stretch of the fabric [%]", "stretch of the fabric", 100};
+    case PictureField::thickness:
+      return {"", "Thickness of the cloth at rest [mm]", "thickness of the cloth", 1e3};
+    case PictureField::body_pressure:
+      return {"", "Largest pressure on the body, mean over {:g} mm [kPa]", "largest pressure on the body", 1e-3};
+    case PictureField::plain:
+      break;
+  }
+  return {"", "", "the garment", 1};
+}
+
+std::vector<Vec3> positionsOf(const Frame& frame) {
+  std::vector<Vec3> x(frame.positions.size() / 3);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = {frame.positions[3 * i], frame.positions[3 * i + 1], frame.positions[3 * i + 2]};
+  return x;
+}
+
+Vec3 upOf(const Scenario& s) {
+  const Vec3 g = s.model->environment.gravity_m_per_s2;
+  return norm(g) > 0 ? -1.0 / norm(g) * g : Vec3{0, 0, 1};
+}
+
+std::array<Vec3, 2> boxOf(const std::vector<Vec3>& x, double margin_m) {
+  const double inf = std::numeric_limits<double>::infinity();
+  std::array<Vec3, 2> box{Vec3{inf, inf, inf}, Vec3{-inf, -inf, -inf}};
+  for (const Vec3& p : x)
+    for (int c = 0; c < 3; ++c) {
+      box[0][c] = std::min(box[0][c], p[c] - margin_m);
+      box[1][c] = std::max(box[1][c], p[c] + margin_m);
+    }
+  return box;
+}
+
+/// The force on the body of all samples in one cell near one body, where it acts in the mean.
+struct Cluster {
+  Vec3 force, moment_of_size;
+  double size = 0;
+};
+
+std::vector<Cluster> clustersOf(const PlacedBodies& placed, const Frame& frame, const std::vector<Vec3>& x) {
+  const Field& contact = fieldOf(frame, "contact_force");
+  std::map<std::array<int, 4>, Cluster> cells;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 force{-contact.data[3 * i], -contact.data[3 * i + 1], -contact.data[3 * i + 2]};
+    const double size = norm(force);
+    if (!(size > 0)) continue;
+    const int body = placed.nearest(x[i]).body;
+    const auto cell = [&](double v) { return static_cast<int>(std::floor(v / arrow_cell_m)); };
+    Cluster& cluster = cells[{body, cell(x[i].x), cell(x[i].y), cell(x[i].z)}];
+    cluster.force += force;
+    cluster.moment_of_size += size * x[i];
+    cluster.size += size;
+  }
+  std::vector<Cluster> clusters;
+  for (const auto& [key, cluster] : cells) clusters.push_back(cluster);
+  return clusters;
+}
+
+double mostOf(const std::vector<Cluster>& clusters) {
+  double most = 0;
+  for (const Cluster& c : clusters) most = std::max(most, norm(c.force));
+  return most;
+}
+
+/// Arrows end where the body is pushed, so that they stay outside of it; one of `most_N` is `longest_m` long.
+void addArrows(Scene& scene, const std::vector<Cluster>& clusters, double most_N, double longest_m) {
+  if (!(most_N > 0)) return;
+  const double legend_N = roundedUp(0.5 * most_N), m_per_N = longest_m / most_N;
+  const Vec3 towards = axesOf(scene.view, scene.up).towards;
+  for (const Cluster& c : clusters) {
+    if (norm(c.force) < least_arrow * most_N || dot(c.force, towards) > far_side * norm(c.force)) continue;
+    const Vec3 tip = c.moment_of_size / c.size;
+    scene.arrows.push_back({tip - m_per_N * c.force, tip, arrow_color});
+  }
+  scene.arrow_legend = fmt::format("{0:g} N on {1:g} x {1:g} cm of body", legend_N, 100 * arrow_cell_m);
+  scene.arrow_legend_length_m = legend_N * m_per_N;
+}
+
+/// Beyond the garment on every side.
+double marginOf(double size_m) { return 0.06 * size_m; }
+
+double percentile99(const std::vector<double>& values, const std::vector<double>& areas, double unit) {
+  return values.empty() ? 0 : roundedUp(unit * weightedPercentile(values, areas, 0.99)) / unit;
+}
+
+/// A small thick part is what a picture of the thickness is for, so the colours reach the largest.
+double largestShown(const std::vector<double>& values, double unit) {
+  return values.empty() ? 0 : roundedUp(unit * *std::max_element(values.begin(), values.end())) / unit;
+}
+
+}  // namespace
+
+double fieldRange(const Scenario& s, const RecordingReader& recording, PictureField field) {
+  if (field == PictureField::plain) return 0;
+  if (field == PictureField::body_pressure) {
+    if (!s.human) throw RunError("there is no human whose body bears pressure");
+    const BodyMap map(s, s.definition.comfort.sensor_m);
+    const BodyLoads loads = bodyLoads(map, recording, countedFrom(s, recording));
+    return 1e3 * roundedUp(1e-3 * *std::max_element(loads.peak_Pa.begin(), loads.peak_Pa.end()));
+  }
+  const FieldWords words = wordsOf(field);
+  if (field == PictureField::thickness) return largestShown(thicknessOf(s), words.scale);
+  std::vector<double> values, weights;
+  for (const bool motion : {true, false}) {
+    for (int k = 0; k < recording.frameCount(); ++k) {
+      if (motion && !(recording.time(k) > 1e-9)) continue;
+      const Frame frame = recording.frame(k);
+      for (const float v : fieldOf(frame, words.field).data) values.push_back(v);
+      weights.insert(weights.end(), s.model->surface.area_m2.begin(), s.model->surface.area_m2.end());
+    }
+    if (!values.empty()) break;
+  }
+  return percentile99(values, weights, words.scale);
+}
+
+void PictureScale::include(const PictureScale& other) {
+  high = std::max(high, other.high);
+  most_N = std::max(most_N, other.most_N);
+  size_m = std::max(size_m, other.size_m);
+  for (int c = 0; c < 3; ++c) box_m[c] = std::max(box_m[c], other.box_m[c]);
+}
+
+PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int index, PictureField field) {
+  PictureScale scale;
+  if (field == PictureField::body_pressure) return scale;  // of the whole motion: fieldRange
+  const Frame frame = recording.frame(index);
+  const std::vector<Vec3> x = positionsOf(frame);
+  const std::array<Vec3, 2> garment = boxOf(x, 0);
+  scale.size_m = norm(garment[1] - garment[0]);
+  const double margin_m = marginOf(scale.size_m);
+  scale.box_m = garment[1] - garment[0] + 2 * Vec3{margin_m, margin_m, margin_m};
+  PlacedBodies placed(s);
+  placed.moveTo(frame.time_s);
+  scale.most_N = mostOf(clustersOf(placed, frame, x));
+  if (field == PictureField::plain) return scale;
+  const FieldWords words = wordsOf(field);
+  if (field == PictureField::thickness) {
+    scale.high = largestShown(thicknessOf(s), words.scale);
+    return scale;
+  }
+  std::vector<double> values;
+  for (const float v : fieldOf(frame, words.field).data) values.push_back(v);
+  scale.high = percentile99(values, s.model->surface.area_m2, words.scale);
+  return scale;
+}
+
+std::string captionOf(const PictureCase& picture, double time_s, double sensor_m) {
+  std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
+  std::replace(view.begin(), view.end(), '_', ' ');
+  std::string what = wordsOf(picture.field).word;
+  what[0] = static_cast<char>(what[0] - 'a' + 'A');
+  if (picture.field == PictureField::body_pressure)
+    return fmt::format("{} (the mean over {:g} mm), at each place over the motion, seen from {}{}; posture at {:.2f} s",
+                       what, 1e3 * sensor_m, picture.view == View::above ? "" : "the ", view, time_s);
+  if (picture.field == PictureField::pressure)
+    what += fmt::format(" (comfort goes by the mean over {:g} mm)", 1e3 * sensor_m);
+  return fmt::format("{} at {:.2f} s{}, seen from {}{}", what, time_s,
+                     picture.when == PictureTime::peak ? " (the peak)" : "", picture.view == View::above ? "" : "the ",
+                     view);
+}
+
+int frameOf(const RecordingReader& recording, const Measured& m, const PictureCase& picture) {
+  const int count = recording.frameCount();
+  if (count == 0) throw RunError("the recording has no frames");
+  const double wanted = picture.when == PictureTime::at ? picture.time_s : m.peak_time_s;
+  if (picture.when == PictureTime::end) return count - 1;
+  int best = 0;
+  for (int k = 1; k < count; ++k)
+    if (std::abs(recording.time(k) - wanted) < std::abs(recording.time(best) - wanted)) best = k;
+  return best;
+}
+
+void renderBody(const Scenario& s, const BodyMap& map, const BodyLoads& loads, double time_s,
+                const PictureCase& picture, double high_Pa, const std::filesystem::path& png) {
+  Scene scene;
+  std::size_t v = 0;
+  std::vector<Vec3> touched;
+  for (TriangleMesh& mesh : map.meshes(time_s)) {
+    RenderMesh body{std::move(mesh.vertices), std::move(mesh.triangles), {}, body_color, false, {}};
+    for (const Vec3& x : body.vertices) {
+      const double p = loads.peak_Pa[v++];
+      body.scalars.push_back(p > 0 ? 1e-3 * p : std::numeric_limits<double>::quiet_NaN());
+      if (p > 0) touched.push_back(x);
+    }
+    scene.meshes.push_back(std::move(body));
+  }
+  const FieldWords words = wordsOf(PictureField::body_pressure);
+  scene.bar = ColorBar{fmt::format(fmt::runtime(words.title), 1e3 * s.definition.comfort.sensor_m), 0, 1e-3 * high_Pa};
+  if (!touched.empty()) {
+    const std::array<Vec3, 2> box = boxOf(touched, 0);
+    scene.focus = boxOf(touched, 0.06 * norm(box[1] - box[0]));
+  }
+  scene.title = s.definition.name;
+  scene.subtitle = captionOf(picture, time_s, s.definition.comfort.sensor_m);
+  scene.view = picture.view;
+  scene.up = upOf(s);
+  writePng(render(scene, picture.width, picture.height), png);
+}
+
+void renderFrame(const Scenario& s, const RecordingReader& recording, int index, const PictureCase& picture,
+                 const PictureScale& scale, const std::filesystem::path& png) {
+  if (picture.field == PictureField::body_pressure) {
+    if (!s.human) throw RunError("there is no human whose body bears pressure");
+    const BodyMap map(s, s.definition.comfort.sensor_m);
+    renderBody(s, map, bodyLoads(map, recording, countedFrom(s, recording)), recording.time(index), picture, scale.high,
+               png);
+    return;
+  }
+  const Frame frame = recording.frame(index);
+  const std::vector<Vec3> x = positionsOf(frame);
+  const FieldWords words = wordsOf(picture.field);
+  Scene scene;
+  PlacedBodies placed(s);
+  placed.moveTo(frame.time_s);
+  for (std::size_t o = 0; o < s.model->obstacles.size(); ++o)
+    scene.meshes.push_back(meshOf(
+        s.model->obstacles[o].deforms ? Shape(placed.deformedMesh(static_cast<int>(o))) : s.model->obstacles[o].shape,
+        placed.placements()[o], body_color));
+  std::vector<double> scalars;
+  if (picture.field != PictureField::plain) {
+    if (picture.field == PictureField::thickness)
+      for (const double h : thicknessOf(s)) scalars.push_back(words.scale * h);
+    else
+      for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
+    const double most = *std::max_element(scalars.begin(), scalars.end());
+    scene.bar =
+        ColorBar{fmt::format("{}; here up to {}", words.title, formatBrief(most, 2)), 0, words.scale * scale.high};
+  }
+  // A mesh for each layer, with its samples alone.
+  const Surface& surface = s.model->surface;
+  std::map<int, RenderMesh> layers;
+  std::vector<int> at(x.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const int layer = s.model->cloth->patches()[static_cast<std::size_t>(surface.triangle_patch[t])].garment;
+    RenderMesh& cloth = layers[layer];
+    cloth.color = cloth_colors[static_cast<std::size_t>(layer) % cloth_colors.size()];
+    cloth.edges = true;
+    std::array<int, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto sample = static_cast<std::size_t>(surface.triangles[t][k]);
+      if (at[sample] < 0) {
+        at[sample] = static_cast<int>(cloth.vertices.size());
+        cloth.vertices.push_back(x[sample]);
+        if (!scalars.empty()) cloth.scalars.push_back(scalars[sample]);
+      }
+      corners[k] = at[sample];
+    }
+    cloth.triangles.push_back(corners);
+  }
+  for (auto& [layer, cloth] : layers) scene.meshes.push_back(std::move(cloth));
+  const std::array<Vec3, 2> garment = boxOf(x, 0);
+  const Vec3 middle = 0.5 * (garment[0] + garment[1]);
+  addArrows(scene, clustersOf(placed, frame, x), scale.most_N, 0.14 * scale.size_m);
+  scene.focus = {middle - 0.5 * scale.box_m, middle + 0.5 * scale.box_m};
+  scene.title = s.definition.name;
+  scene.subtitle = captionOf(picture, frame.time_s, s.definition.comfort.sensor_m);
+  scene.view = picture.view;
+  scene.up = upOf(s);
+  writePng(render(scene, picture.width, picture.height), png);
+}
+
+}  // namespace gambeson

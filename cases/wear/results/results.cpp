@@ -1,0 +1,196 @@
+#include "cases/wear/results/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "analysis/tables.hpp"
+#include "cases/input/json_at.hpp"
+#include "cases/input/message.hpp"
+#include "cases/runs/temporary_folder.hpp"
+#include "cases/wear/results/check_words.hpp"
+#include "cases/wear/results/write.hpp"
+#include "core/error.hpp"
+#include "core/io/own_file.hpp"
+
+namespace gambeson {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string pictureName(std::size_t number, const PictureCase& p, double time_s) {
+  const char* field = p.field == PictureField::stress          ? "stress"
+                      : p.field == PictureField::pressure      ? "pressure"
+                      : p.field == PictureField::strain        ? "strain"
+                      : p.field == PictureField::thickness     ? "thickness"
+                      : p.field == PictureField::body_pressure ? "body_pressure"
+                                                               : "plain";
+  const std::string when = p.when == PictureTime::peak  ? "peak"
+                           : p.when == PictureTime::end ? "end"
+                                                        : fmt::format("{:.0f}ms", 1e3 * time_s);
+  return fmt::format("{:02d}_{}_{}_{}.png", number, field, when, viewNames()[static_cast<std::size_t>(p.view)]);
+}
+
+/// The case's pictures into `folder`. One that fails leaves its reason in `failures` and does not stop the others.
+std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& recording, const Measured& m,
+                                  const std::filesystem::path& folder, std::vector<std::string>& failures) {
+  std::vector<Picture> pictures;
+  std::filesystem::create_directories(folder);
+  // Arrows have one scale in all of them, and each field has one range of colours.
+  std::map<PictureField, double> highest;
+  PictureScale scale;
+  for (const bool draw : {false, true})
+    for (const PictureCase& picture : s.definition.output.pictures) {
+      std::string name;
+      try {
+        const int frame = frameOf(recording, m, picture);
+        if (!draw) {
+          if (!highest.contains(picture.field)) highest[picture.field] = fieldRange(s, recording, picture.field);
+          const PictureScale own = scaleOf(s, recording, frame, picture.field);
+          highest[picture.field] = std::max(highest[picture.field], own.high);
+          scale.include(own);
+          continue;
+        }
+        const double time = recording.time(frame);
+        name = pictureName(pictures.size() + 1, picture, time);
+        scale.high = highest[picture.field];
+        renderFrame(s, recording, frame, picture, scale, folder / name);
+        pictures.push_back({folder / name, captionOf(picture, time, s.definition.comfort.sensor_m), ""});
+      } catch (const RunError& e) {
+        if (draw) failures.push_back(fmt::format("The picture {} could not be drawn: {}", name, e.what()));
+      }
+    }
+  return pictures;
+}
+
+std::vector<Picture> takeBodyPictures(const Scenario& s, const Measured& m, const std::filesystem::path& folder,
+                                      std::vector<std::string>& failures) {
+  try {
+    return takeBodyPictures(s, m, folder);
+  } catch (const RunError& e) {
+    failures.push_back(fmt::format("The pictures of the body could not be drawn: {}", e.what()));
+    return {};
+  }
+}
+
+}  // namespace
+
+std::pair<std::string, std::string> identityParts(const std::string& identity) {
+  const std::size_t blank = identity.find(' ');
+  return {identity.substr(0, blank), blank == std::string::npos ? "" : identity.substr(blank + 1)};
+}
+
+void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
+  Json phases = Json::array();
+  for (const auto& [name, seconds] : f.phases_s) phases.push_back({{"phase", name}, {"seconds", seconds}});
+  const Json j{{"version", f.version.empty() ? GAMBESON_VERSION : f.version},
+               {"threads", f.threads},
+               {"kernels", f.kernels},
+               {"wall_s", f.wall_s},
+               {"resumed", f.resumed},
+               {"searches", f.searches},
+               {"searched_steps_s", f.searched_steps_s},
+               {"phases", phases},
+               {"windows", f.windows_s}};
+  writeOwnFile(dir / "run.json", j.dump(2) + "\n");
+}
+
+RunFacts readRunFacts(const std::filesystem::path& dir) {
+  RunFacts f;
+  const std::filesystem::path file = dir / "run.json";
+  std::ifstream stream(file);
+  if (!stream) return f;
+  try {
+    const auto parsed = nlohmann::json::parse(stream);
+    const JsonAt j(parsed);
+    f.version = j.at("version").text();
+    f.threads = j.at("threads").integer();
+    f.kernels = j.at("kernels").text();
+    f.wall_s = j.at("wall_s").number();
+    f.resumed = j.at("resumed").flag();
+    if (j.contains("searches")) f.searches = j.at("searches").integer();
+    if (j.contains("searched_steps_s")) f.searched_steps_s = j.at("searched_steps_s").number();
+    for (const JsonAt& window : j.at("windows").list())
+      for (f.windows_s.emplace_back(); const JsonAt& number : window.list())
+        f.windows_s.back().push_back(number.number());
+    for (const JsonAt& p : j.at("phases").list())
+      f.phases_s.emplace_back(p.at("phase").text(), p.at("seconds").number());
+    for (std::size_t k = 0; k < f.windows_s.size(); ++k)
+      if (f.windows_s[k].size() != 2 + f.phases_s.size())
+        throw JsonAt::Error(fmt::format("windows[{}]: must be {} numbers: from, to and the time of each phase", k,
+                                        2 + f.phases_s.size()));
+  } catch (const JsonAt::Error& e) {
+    throw InputError({file.string(), 0, ""}, e.what());
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError({file.string(), 0, ""}, jsonReason(e.what()));
+  }
+  return f;
+}
+
+std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir) {
+  if (!std::filesystem::exists(dir / "case.json"))
+    throw InputError({dir.string(), 0, ""}, "holds no results: there is no case.json as \"gambeson run\" leaves it");
+  return buildScenario(readCase(dir / "case.json"));
+}
+
+void writeResults(const Scenario& s, const std::filesystem::path& dir) {
+  const RecordingReader recording(dir);
+  const RunFacts facts = readRunFacts(dir);
+  Measured m = measureAll(s, recording);
+  measureCloth(s, recording, m);
+  writeSummary(s, recording, m, facts, dir / "summary.json");
+  if (s.human) {
+    std::vector<TorqueVariant> variants{{"friction", &m.added_friction}};
+    if (s.hasSkin())
+      variants.insert(variants.end(),
+                      {{"segments", &m.added_segments}, {"proximal", &m.added_proximal}, {"distal", &m.added_distal}});
+    writeTorques(dir / "torques.csv", s.human->skeleton, m.added, variants);
+  }
+  writeContact(dir / "contact.csv", m.bodies, m.windows);
+  writeZones(dir / "zones.csv", m.zones);
+  writeCloth(dir, s, m);
+  writeCollisions(dir / "collisions.csv", m.steps.collisions);
+  if (!m.touch.empty()) writeLatitude(dir / "latitude.csv", m.touch);
+  writeStress(dir / "stress.csv", m.regions, m.frames);
+  std::vector<std::string> failures;
+  const std::vector<Picture> pictures = takePictures(s, recording, m, dir / "snapshots", failures);
+  ReportInput in = reportInput(s, m, facts, recording.layout().identity, pictures);
+  in.comfort_pictures = takeBodyPictures(s, m, dir / "snapshots", failures);
+  in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
+  writeReport(in, dir / "report.html");
+  for (const AuditCheck& c : in.audit)
+    if (!c.holds()) fmt::print(stderr, "{}\n", messageText(notMet(c.name, c.value, c.limit, c.unit)));
+  if (!failures.empty()) throw RunError(failures.front() + " (the numbers and the report are in " + dir.string() + ")");
+}
+
+int renderResults(const RenderOptions& o) {
+  const auto scenario = scenarioOfResults(o.results);
+  const RecordingReader recording(o.results);
+  const PictureCase picture{o.when, o.time_s, o.field, o.view, o.width, o.height};
+  const int frame = frameOf(recording, measure(*scenario, recording), picture);
+  PictureScale scale = scaleOf(*scenario, recording, frame, o.field);
+  scale.high = std::max(scale.high, fieldRange(*scenario, recording, o.field));
+  renderFrame(*scenario, recording, frame, picture, scale, o.png);
+  return 0;
+}
+
+int reportResults(const ReportOptions& o) {
+  const auto scenario = scenarioOfResults(o.results);
+  const RecordingReader recording(o.results);
+  const Measured m = measureAll(*scenario, recording);
+  const TemporaryFolder folder;
+  std::vector<std::string> failures;
+  const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder.path(), failures);
+  ReportInput in = reportInput(*scenario, m, readRunFacts(o.results), recording.layout().identity, pictures);
+  in.comfort_pictures = takeBodyPictures(*scenario, m, folder.path(), failures);
+  in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
+  writeReport(in, o.html);
+  if (!failures.empty()) throw RunError(failures.front() + " (the report is " + o.html.string() + ")");
+  return 0;
+}
+
+}  // namespace gambeson

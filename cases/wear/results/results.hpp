@@ -1,0 +1,65 @@
+#pragma once
+/// Everything that a run leaves beside its recording: the numbers, tables, pictures and the report.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cases/runs/options.hpp"
+#include "cases/wear/scene/scenario.hpp"
+#include "core/io/recording.hpp"
+
+namespace gambeson {
+
+/// What the run knows of itself and the recording does not; DIR/run.json.
+struct RunFacts {
+  int threads = 0;
+  std::string kernels, version;  ///< this program's version is written where it is empty
+  double wall_s = 0;
+  std::vector<std::pair<std::string, double>> phases_s;
+  bool resumed = false;
+  long searches = 0;            ///< steps that looked for intersections
+  double searched_steps_s = 0;  ///< their time, all phases
+  /// Of each window, those of a resumed run's last part: start, end, time of each phase [s].
+  std::vector<std::vector<double>> windows_s{};
+};
+void writeRunFacts(const RunFacts& facts, const std::filesystem::path& dir);
+/// Throws InputError where DIR/run.json is damaged; a run that was killed left none: empty facts.
+RunFacts readRunFacts(const std::filesystem::path& dir);
+
+/// Reads DIR's recording and run.json; writes summary.json, the tables, the pictures and report.html. What the
+/// recording holds alone decides the bytes, but for the object "timings".
+void writeResults(const Scenario& scenario, const std::filesystem::path& dir);
+
+/// The scenario of a results folder, built again from its case.json. Throws InputError where that is missing.
+std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir);
+
+/// What `gambeson render` and `gambeson report` do with a results folder. Both return the exit status.
+int renderResults(const RenderOptions& options);
+int reportResults(const ReportOptions& options);
+
+/// Top of the colour bar of a field: the 99th percentile by area over the frames of the motion (all, where it has
+/// none), rounded up to a number that reads well. 0 for a field at rest and for `plain`.
+double fieldRange(const Scenario& scenario, const RecordingReader& recording, PictureField field);
+
+/// What pictures that stand side by side have in common, so that the same colour is the same value and the same length
+/// the same force.
+struct PictureScale {
+  double high = 0;    ///< top of the colour bar
+  double most_N = 0;  ///< force of the longest arrow; 0: no arrows
+  double size_m = 0;  ///< of the garment, what arrows and margins are measured by
+  Vec3 box_m;         ///< that the picture frames, around the garment's middle
+  /// The larger of both in everything.
+  void include(const PictureScale& other);
+};
+
+/// Of one frame alone: colours up to the 99th percentile by area, rounded up as that of fieldRange.
+PictureScale scaleOf(const Scenario& scenario, const RecordingReader& recording, int frame, PictureField field);
+
+/// Draws one frame as `picture` asks (its time is not looked at). Colours begin at 0.
+void renderFrame(const Scenario& scenario, const RecordingReader& recording, int frame, const PictureCase& picture,
+                 const PictureScale& scale, const std::filesystem::path& png);
+
+}  // namespace gambeson

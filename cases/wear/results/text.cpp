@@ -1,0 +1,276 @@
+/// Detail of write.hpp: the words of a report: causes, checks, assumptions.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/ticks.hpp"
+#include "cases/cloth/fabric.hpp"
+#include "cases/wear/case/factors.hpp"
+#include "cases/wear/results/joint_words.hpp"
+#include "cases/wear/results/write.hpp"
+#include "core/material/bending.hpp"
+#include "human/body/zones.hpp"
+#include "human/files/units.hpp"
+
+namespace gambeson {
+
+std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides) {
+  if (m.prismatic || m.peak.value == 0) return "";
+  const MovementWords words = movementWords(m.movement);
+  const Push push = pushOf(m.peak.value, m.rate_at_peak);
+  const bool still = push == Push::held;
+  const char* who = still ? "" : push == Push::against ? " against the garment" : " with the garment's push";
+  std::string text;
+  if (strides && !m.side.empty())
+    text = (m.phase_at_peak
+                ? fmt::format("{} ({:.0f} % of the stride)", *m.phase_at_peak < strides->foot_off ? "stance" : "swing",
+                              100 * *m.phase_at_peak)
+                : "the lead-in from standing") +
+           fmt::format(", while the {} {}{}", m.part,
+                       still                ? "is held"
+                       : m.rate_at_peak > 0 ? words.rises
+                                            : words.falls,
+                       who);
+  else
+    text = fmt::format("{} of the {}{}",
+                       still                ? "rest"
+                       : m.rate_at_peak > 0 ? words.to_above
+                                            : words.to_below,
+                       m.part, who);
+  const double degrees = m.position_at_peak / rad_per_deg;
+  return text + fmt::format(", at {:.0f} degrees of {}", std::abs(degrees), degrees >= 0 ? words.above : words.below);
+}
+
+std::string signRule() {
+  return "Added torque is what the wearer's muscles must give on top because of the garment: the opposite of the "
+         "torque of the cloth's "
+         "contact forces about the joint axis. Positive: the wearer must push towards positive joint values (flexion, "
+         "adduction, internal "
+         "rotation).";
+}
+
+std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
+  std::vector<std::string> stated;
+  for (const Stretch& s : measured) {
+    if (!s.stated) continue;
+    const std::string text = fmt::format("{:g} %{}{}", 100 * s.limit, s.along.empty() ? "" : " along the " + s.along,
+                                         s.garment.empty() ? "" : " of " + s.garment);
+    if (std::find(stated.begin(), stated.end(), text) == stated.end()) stated.push_back(text);
+  }
+  double most = 0;
+  for (const Stretch& s : measured) most = std::max(most, s.largest);
+  // The strain is no longer the elongation: (1 + e)^2 = 1 + 2 E.
+  const std::string large =
+      most > 0.1 ? fmt::format(", {:.0f} % are {:.0f} cm", 100 * most, 100 * (std::sqrt(1 + 2 * most) - 1)) : "";
+  return fmt::format(
+      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} The fabric\u2019s law is a straight line, "
+      "which "
+      "its source takes for strains below {} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real "
+      "fabric may be stiffer. A largest value far above what 99 % of the cloth stays below is that of single spots, at "
+      "corners and seams.",
+      large,
+      stated.empty() ? "The case does not state how far its fabric may stretch, so that the range of its law counts."
+                     : fmt::format("The case states how far its fabric may stretch, and that limit counts: less than "
+                                   "{}.",
+                                   fmt::join(stated, ", ")),
+      c.strain_limit ? " The computation holds the strain of weft and warp to a limit of its own." : "",
+      100 * kStrainOfLaw);
+}
+
+std::vector<AuditCheck> auditOf(const Measured& m) {
+  std::vector<AuditCheck> checks{
+      {"Momentum", m.steps.momentum_error, 1e-9, "",
+       "in every step: the cloth's change of momentum against gravity, drag, supports and what the body's own ledger "
+       "received; the largest"},
+      {"Energy", 100 * m.energy.relative(), 5, "%",
+       "over the motion: the change of the total energy against the works of contact, drag and supports, "
+       "of the sum of the absolute works"},
+      {"Penetration", 1e3 * m.steps.deepest_m, 0.2, "mm",
+       "the deepest point of the cloth's samples inside the body, over the motion"},
+      {"Contact solver",
+       m.steps.steps > 0 ? 100.0 * static_cast<double>(m.steps.unconverged) / static_cast<double>(m.steps.steps) : 0, 1,
+       "%",
+       "share of the steps whose contacts were not solved to the tolerance of the case, or to a millionth of the "
+       "largest impulse where cloth is jammed"}};
+  double pinched = 0;
+  for (const CollisionWindow& w : m.steps.collisions) pinched += static_cast<double>(w.pinched);
+  checks.push_back({"Intersections",
+                    m.steps.collisions.empty() ? 0 : static_cast<double>(m.steps.collisions.back().intersections), 0,
+                    "", "places where cloth passes through cloth or a mesh at the end"});
+  double way = 0;
+  for (const CollisionWindow& w : m.steps.collisions) way = std::max(way, w.way_cells);
+  checks.push_back({"Movement", way, 0.5, "cells", "the farthest that a sample of the cloth goes in a step"});
+  checks.push_back({"Pinched", pinched, 0, "", "samples between two obstacles whose impacts had to be let pass"});
+  if (m.limited)
+    checks.push_back(
+        {"Strain limit",
+         m.steps.limited > 0 ? 100.0 * static_cast<double>(m.steps.unlimited) / static_cast<double>(m.steps.limited)
+                             : 0,
+         1, "%",
+         "share of the steps after settling at whose end a thread missed its strain by more than the tolerance of the "
+         "case"});
+  if (m.surface_depth)
+    checks.push_back(
+        {"Penetration between samples", 1e3 * m.surface_depth->deepest_m, 0.2, "mm",
+         "the deepest point of the cloth's surface, evaluated four times finer than the samples, at every frame"});
+  for (const FallMeasure& f : m.falls)
+    checks.push_back(
+        {f.garment.empty() ? "Slipping" : "Slipping, " + f.garment, 1e3 * f.largest_m, 50, "mm",
+         "mean fall of the garment in the motion, against the part of the body that it goes with best, and "
+         "by what it came down further than 100 mm while it was put on; the largest"});
+  for (const LayerOrderMeasure& l : m.layer_order)
+    checks.push_back({"Layer order, " + l.higher + " over " + l.lower, 100 * l.largest, 25, "%",
+                      "the share of the upper garment that lies inside of the lower one, of what of it has that one "
+                      "within 30 mm; the largest over the motion"});
+  for (const SupportMeasure& s : m.supports)
+    if (s.springs)
+      checks.push_back({"Sinking, " + s.name, 1e3 * s.largest_drop_m, 20, "mm",
+                        "mean sinking of the supported edge against the body, the largest"});
+  if (const JointMeasure* top = m.highest(); top && top->second_stride && top->second_stride->samples > 0) {
+    const std::string joint = top->part + " " + top->movement + (top->side.empty() ? "" : ", " + top->side);
+    checks.push_back({"Repeatability, shape", 1 - top->second_stride->correlation, 0.05, "",
+                      "1 minus the correlation of the second stride's added torque with the first's (" + joint + ")"});
+    checks.push_back({"Repeatability, size", 100 * top->second_stride->relative, 10, "%",
+                      "RMS difference of the second stride from the first, of the first's RMS (" + joint + ")"});
+  }
+  return checks;
+}
+
+namespace {
+
+/// How a fabric bends; `of`: "" where there is only one.
+void sayFabric(const std::string& of, const Fabric& f, std::vector<std::string>& list) {
+  const auto say = [&](const std::string& text) { list.push_back(of + text); };
+  if (f.bending_law == BendingLaw::zheng)
+    say(
+        fmt::format("Bending follows Zheng 2013, eq. 2.14. Its root is replaced by a smooth cubic below a curvature of "
+                    "{} 1/m; the steepest slope is "
+                    "then {} N m (weft).",
+                    formatNumber(f.kappa_regular_per_m),
+                    formatNumber(zhengSteepest(f.bending_weft_Nm, f.kappa0_per_m, f.kappa_regular_per_m))));
+  else
+    say(fmt::format("Bending is linear, {} N m (weft).", formatNumber(f.bending_weft_Nm)));
+  say(f.rest_curvature_of_shape
+          ? "The fabric rests in its sewn shape: bending starts from that curvature."
+          : "The fabric is flat at rest (Zheng 2013): bending it around the body already costs moment.");
+  say(f.twist_Nm > 0 ? fmt::format("Twist stiffness {} N m.", formatNumber(f.twist_Nm))
+                     : "The fabric has no stiffness against twist (Zheng 2013).");
+}
+
+}  // namespace
+
+std::vector<std::string> assumptionsOf(const Scenario& s) {
+  const Case c = withFactors(s.definition);
+  std::vector<std::string> list;
+  const auto say = [&](std::string text) { list.push_back(std::move(text)); };
+  if (const std::string factors = factorsText(s.definition.factors); !factors.empty())
+    say("Factors on what the case says: " + factors + ". What stands below has them in it.");
+  if (s.human) {
+    if (c.human->character)
+      say(fmt::format(
+          "The body is the skin of {}: its bones' weights blend the motions of the links linearly. Limits of "
+          "joints and shares of mass are those of {}; its mass is {:.1f} kg. Flesh does not give way.",
+          c.human->character->file.filename().string(), c.human->character->like, s.human->mass_kg));
+    else if (s.hasSkin())
+      say("The body is a closed skin drawn around a manikin of ellipsoids (sizes from ANSUR II (2012), masses from de "
+          "Leva 1996, offsets of joints from Rajagopal et al. 2016), which bends with the joints. Flesh does not give "
+          "way.");
+    else if (!c.human->manikin.empty())
+      say("The body is a manikin of rigid ellipsoids: sizes from ANSUR II (2012), masses from de Leva 1996, offsets of "
+          "joints from Rajagopal et al. "
+          "2016. Flesh does not give way, and the thighs are flattened at the sides so that the legs clear each "
+          "other.");
+    else
+      say("The body is rigid: flesh does not give way.");
+    if (s.hasSkin())
+      say("A joint's torque is the generalised force of the contact on the skin: the sum over its vertices of force "
+          "times how the vertex moves with the joint. torques.csv also holds the sum over segments (NAME_segments_Nm: "
+          "each vertex belongs to the link of its largest weight), and the same with the segments' border moved by 2 "
+          "cm "
+          "towards the trunk (NAME_proximal_Nm) and away from it (NAME_distal_Nm).");
+    if (const BodyZones zones(*s.human); std::ranges::count(zones.names(), "waist"))
+      say("Parts of the body: a shoulder is the trunk above the level of the armpits on that side, and the top of the "
+          "upper arm down to the armpit; the waist is the lower 40 % of the trunk from the lumbar joint up to the "
+          "shoulder joints, the chest what lies between; hips are the pelvis.");
+    if (std::holds_alternative<WalkOptions>(c.human->motion))
+      say("Walking is prescribed: joint angles of healthy adults at natural speed (Bovi et al. 2011), closed to a "
+          "period and equal on both sides. "
+          "The wearer does not change gait because of the garment.");
+    else if (const auto stairs = s.motion->stairs())
+      say(
+          fmt::format("Climbing stairs is prescribed: hip angles of healthy adults (Bovi et al. 2011), whose swing is "
+                      "interpolated through published peaks because the recorded stride ended on a landing. The steps "
+                      "imply stairs of {:.0f} mm rise and {:.0f} mm tread; knees and ankles keep the feet on them. The "
+                      "wearer does not change gait because of the garment.",
+                      1e3 * stairs->rise_m, 1e3 * stairs->tread_m));
+    else if (std::holds_alternative<AimOptions>(c.human->motion))
+      say("Taking aim is prescribed: end posture after Zheng 2013, 6.6, hips and trunk with minimum jerk, knees, "
+          "ankles "
+          "and hip rotations such that the feet stand. The rifle loads the wearer, not the garment.");
+    else
+      say("The motion is prescribed: the wearer does not change it because of the garment.");
+    if (s.feet) {
+      std::string feet = feetText(*s.feet);
+      feet[0] = 'T';
+      say(feet + ".");
+    }
+    say(c.analysis.counting == Counting::all_distal
+            ? "A joint's torque counts the contact on every segment distal of it."
+            : "A joint's torque counts the contact on the segment next to it on the distal side (Man 2006).");
+    say(
+        fmt::format("Torques are impulses over windows of {} ms, not filtered; the garment's weight and inertia enter "
+                    "only through its contact.",
+                    formatNumber(1e3 * c.output.window_s)));
+    if (const std::string natural = naturalMeaning(c.analysis.task); !natural.empty()) say(natural);
+  }
+  if (const auto strides = stridesOf(c))
+    say(
+        fmt::format("Peaks and mean squares of torques count from the foot strike at {} s on; the lead-in before it is "
+                    "only drawn.",
+                    formatNumber(strides->start_s)));
+  if (!c.contact.self) say("Cloth does not touch cloth in this case: folds and layers may cross each other.");
+  say("Cloth rests on bodies with its samples, and on cloth with samples and sharp edges; what would pass through a "
+      "mesh or through cloth within a step is found for its triangles and edges.");
+  say("The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and orthotropic "
+      "(Zheng 2013, eq. 2.13).");
+  if (c.strain_limit) say(limitInWords(*c.strain_limit, "the window"));
+  std::vector<FabricCase> said;
+  for (const GarmentCase& g : c.garments) {
+    const FabricCase& f = fabricOf(c, g);
+    if (std::find(said.begin(), said.end(), f) != said.end()) continue;
+    said.push_back(f);
+    const bool one = std::all_of(c.garments.begin(), c.garments.end(),
+                                 [&](const GarmentCase& other) { return fabricOf(c, other) == f; });
+    sayFabric(one ? "" : fmt::format("Fabric of {}: ", g.name), f, list);
+  }
+  for (const GarmentCase& g : c.garments)
+    for (std::size_t k = 0; k < g.other_fabrics.size(); ++k)
+      sayFabric(fmt::format("Fabric {} of the material field{}: ", k + 1, g.name.empty() ? "" : " of " + g.name),
+                g.other_fabrics[k], list);
+  for (const LayerMeasure& l : layersOf(s))
+    if (l.varies())
+      say(
+          fmt::format("{} varies from {} to {} mm, {} mm in the mean over its area: mass, membrane and the "
+                      "distance kept in contact follow it in proportion, bending with its cube.",
+                      l.name.empty() ? "The cloth's thickness" : fmt::format("The thickness of {}", l.name),
+                      formatNumber(1e3 * l.least_thickness_m), formatNumber(1e3 * l.largest_thickness_m),
+                      formatNumber(1e3 * l.thickness_m)));
+  if (c.air.drag_kg_per_m2s > 0)
+    say(fmt::format("Air drag is linear, {} kg/(m² s) times the velocity relative to the air, which {}.",
+                    formatNumber(c.air.drag_kg_per_m2s),
+                    c.air.with_pelvis ? "moves with the pelvis's mean velocity" : "is that of the case"));
+  say(
+      fmt::format("Contact begins at {} and is restored with a relaxation time of {} ms; Coulomb "
+                  "friction {}, the same for sticking "
+                  "and sliding.",
+                  c.contact.layer_m ? fmt::format("a layer of {} mm", formatNumber(1e3 * *c.contact.layer_m))
+                                    : "the thickness of the cloth",
+                  formatNumber(1e3 * c.contact.relaxation_s), formatNumber(c.contact.friction)));
+  for (const SupportGroup& g : s.supports)
+    say("Support: " + g.name + ". Its reaction is reported apart and is part of no joint torque.");
+  return list;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,86 @@
+#pragma once
+/// The pieces of writeResults.
+
+#include "analysis/report/report.hpp"
+#include "cases/wear/results/measure.hpp"
+#include "cases/wear/results/results.hpp"
+
+namespace gambeson {
+
+/// Replaces DIR/summary.json atomically.
+void writeSummary(const Scenario& scenario, const RecordingReader& recording, const Measured& measured,
+                  const RunFacts& facts, const std::filesystem::path& json);
+
+/// What collided, window by window, as numbers.
+struct CollisionTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+CollisionTable collisionTable(std::span<const CollisionWindow> windows);
+
+/// Plots and a table of it for the page; nothing where nothing touches.
+void addCollisions(const Measured& measured, ReportInput& in);
+
+/// Replaces DIR/collisions.csv: what collided, window by window. The smallest gap is 0 where nothing was near.
+void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows);
+
+/// Replaces DIR/zones.csv: what each part of the body bears over the motion, all of it, what presses and what rubs, and
+/// without belt and edges on springs.
+void writeZones(const std::filesystem::path& csv, const ZonesMeasure& zones);
+
+/// Replaces DIR/patches.csv: stress away from free edges and from re-entrant corners, and curvature, of each patch in
+/// each frame of the motion; and, where there are straps, DIR/straps.csv: what they carry.
+void writeCloth(const std::filesystem::path& dir, const Scenario& scenario, const Measured& measured);
+
+/// Which parts of the body bear the garment, for the page; nothing where nothing touches.
+void addZones(const Measured& measured, ReportInput& in);
+
+/// Replaces PREFIX.xml and PREFIX.mot: what the cloth does to the human, as OpenSim's ExternalLoads
+/// (analysis/opensim.hpp).
+void writeOpenSim(const Scenario& scenario, const Measured& measured, const std::filesystem::path& prefix);
+
+/// Pressure on the body against comfort limits, for the page; nothing where nothing touches a human.
+void addComfort(const Scenario& scenario, const Measured& measured, ReportInput& in);
+
+/// The largest pressure of the motion on the bare body, from two sides, into `folder`; none where nothing touches a
+/// human. Throws RunError.
+std::vector<Picture> takeBodyPictures(const Scenario& scenario, const Measured& measured,
+                                      const std::filesystem::path& folder);
+
+/// One such picture, colours from 0 to `high_Pa`.
+void renderBody(const Scenario& scenario, const BodyMap& map, const BodyLoads& loads, double time_s,
+                const PictureCase& picture, double high_Pa, const std::filesystem::path& png);
+
+/// Replaces DIR/latitude.csv: pressure and touching area of each body in bands up to the angle from up (seen from the
+/// body's origin), and the normal force within, in the last frame.
+void writeLatitude(const std::filesystem::path& csv, const std::vector<TouchMeasure>& touch);
+
+/// "swing (80 % of the stride), while the hip flexes against the garment, at 23 degrees of flexion".
+std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides);
+
+/// Whose flexion and the like: what a positive added torque means.
+std::string signRule();
+
+/// Holds or fails, with limits.
+std::vector<AuditCheck> auditOf(const Measured& measured);
+
+/// What a stretch of the fabric means, and up to where its law holds.
+std::string stretchMeaning(const Case& c, std::span<const Stretch> measured);
+
+/// What a reader must know before trusting the numbers.
+std::vector<std::string> assumptionsOf(const Scenario& scenario);
+
+ReportInput reportInput(const Scenario& scenario, const Measured& measured, const RunFacts& facts,
+                        const std::string& identity, const std::vector<Picture>& pictures);
+
+/// The frame nearest to what the picture asks for.
+int frameOf(const RecordingReader& recording, const Measured& measured, const PictureCase& picture);
+
+/// "Stress in the fabric at 1.24 s, seen from the front right"; of pressures over which width they are a mean,
+/// ComfortCase::sensor_m on the body.
+std::string captionOf(const PictureCase& picture, double time_s, double sensor_m);
+
+/// Case hash and kernels of a recording's identity.
+std::pair<std::string, std::string> identityParts(const std::string& identity);
+
+}  // namespace gambeson

@@ -1,0 +1,147 @@
+#include "cases/wear/run/run.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "cases/input/message.hpp"
+#include "cases/runs/disk_space.hpp"
+#include "cases/runs/progress.hpp"
+#include "cases/runs/results_folder.hpp"
+#include "cases/runs/stop_message.hpp"
+#include "cases/wear/case/case.hpp"
+#include "cases/wear/recording/recorder.hpp"
+#include "cases/wear/recording/recording_size.hpp"
+#include "cases/wear/recording/windows.hpp"
+#include "cases/wear/results/results.hpp"
+#include "cases/wear/run/dress.hpp"
+#include "cases/wear/scene/worn.hpp"
+#include "core/error.hpp"
+#include "core/io/own_file.hpp"
+
+namespace gambeson {
+namespace {
+
+/// The phases that a page names; limits of strain only where the case has them.
+std::vector<std::pair<std::string, double>> phasesOf(const PhaseTimes& t, bool limited) {
+  std::vector<std::pair<std::string, double>> phases{{"body motion", t.stage},
+                                                     {"finding contacts", t.proximity},
+                                                     {"solving contacts", t.contact},
+                                                     {"finding impacts", t.impact},
+                                                     {"finding intersections", t.tangles},
+                                                     {"freeing intersections", t.freeing},
+                                                     {"cloth forces", t.force},
+                                                     {"other", t.other}};
+  if (limited) phases.insert(phases.end() - 1, {"limiting strain", t.limit});
+  return phases;
+}
+
+std::string phaseName(const Scenario& s, double time_s) {
+  if (time_s >= 0) return s.human ? "moving" : "running";
+  return time_s < -s.definition.dressing.settle_s ? "dressing" : "settling";
+}
+
+/// A recorded motion knows nothing of how thick our limbs are.
+const char* limbsHint(const Case& c) {
+  return c.human && std::holds_alternative<MotionFileOptions>(c.human->motion)
+             ? "; where limbs meet or a limb meets the trunk, cloth between them is crushed: hips_apart and arms_apart "
+               "of the "
+               "motion hold them apart"
+             : "";
+}
+
+}  // namespace
+
+void checkRun(const Case& c) {
+  const std::unique_ptr<Scenario> scenario = buildScenario(c);
+  recordingLayout(*scenario);
+  StepWork work;
+  startOf(*scenario, work);
+  if (c.dressing.layer_by_layer && c.dressing.from.empty()) buildApart(c);
+}
+
+int runCase(const Case& c, const RunOptions& options) {
+  const auto clock_start = std::chrono::steady_clock::now();
+  useThreads(options.threads);
+  const ResultsFolder folder(options.out, inputsOf(c), options.resume);
+  const bool resume = folder.resumes();
+  const StopMessage stopped(
+      fmt::format("stopped by a signal. What is recorded up to the last checkpoint stays in {}: the same command with "
+                  "--resume goes on from there",
+                  options.out.string()));
+  if (options.resume && !resume)
+    fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
+  const std::unique_ptr<Scenario> scenario = buildScenario(c);
+  const Model& model = *scenario->model;
+  for (const std::string& note : scenario->notes) sayNote(note);
+
+  StepWork work;
+  State state;
+  Frequency frequency;
+  Checkpoint checkpoint;
+  const RecordingLayout layout = recordingLayout(*scenario);
+  if (const std::string note = sizeNote(recordingSize(*scenario, layout).bytes, freeBytes(options.out)); !note.empty())
+    sayNote(note);
+  // The case is written once there is a recording and before its first segment: a recording with a segment has its
+  // case, whenever the run is killed.
+  if (!resume) removeEarlierResults(options.out);
+  RecordingWriter writer =
+      resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
+  if (!resume) writeOwnFile(options.out / "case.json", writeCase(c));
+  if (!resume) putOn(*scenario);
+  state = resume ? stateOf(checkpoint, frequency) : startOf(*scenario, work);
+
+  const Windows windows(scenario->start_s, scenario->end_s, c.output.window_s);
+  long k = 0;
+  while (k < windows.count() && windows.bound(k) < state.time_s) ++k;
+  Recorder recorder(*scenario, writer);
+  // A run that is killed early starts again from the start itself.
+  if (!resume) writer.closeSegment(checkpointOf(state, frequency));
+  const bool finished = k == windows.count();
+  const StepControl control{c.time.step_safety, c.time.max_step_s};
+  std::vector<std::vector<double>> windows_s;
+  auto before_s = phasesOf(work.times, c.strain_limit.has_value());
+  {
+    Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
+    try {
+      for (; k < windows.count(); ++k) {
+        advance(model, *scenario->stage, control, windows.bound(k + 1), state, frequency, work,
+                [&](const State& before, const State& after, const StepReport& report, const StepWork& w,
+                    const Frequency& f) { recorder.observe(before, after, report, w, f); });
+        auto after_s = phasesOf(work.times, c.strain_limit.has_value());
+        windows_s.push_back({windows.bound(k), state.time_s});
+        for (std::size_t p = 0; p < after_s.size(); ++p)
+          windows_s.back().push_back(after_s[p].second - before_s[p].second);
+        before_s = std::move(after_s);
+        recorder.closeWindow(state, windows.bound(k), windows.completes(k + 1, c.output.frame_s), work);
+        if (scenario->human && std::abs(state.time_s) < 1e-9)
+          writeDressed(dressedOf(*scenario, state), options.out / "dressed.json");
+        if (windows.completes(k + 1, c.output.checkpoint_s)) writer.closeSegment(checkpointOf(state, frequency));
+        progress.update(state.time_s - scenario->start_s, phaseName(*scenario, state.time_s));
+      }
+    } catch (const RunError& e) {
+      throw RunError(fmt::format("{} ({}{})\nThe results up to the last checkpoint are in {}", e.what(),
+                                 phaseName(*scenario, state.time_s), limbsHint(c), options.out.string()));
+    }
+  }
+
+  RunFacts facts;
+  facts.threads = omp_get_max_threads();
+  facts.kernels = model.cloth->kernels();
+  facts.resumed = resume;
+  facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
+  facts.phases_s = phasesOf(work.times, c.strain_limit.has_value());
+  facts.windows_s = std::move(windows_s);
+  facts.searches = work.times.searches;
+  facts.searched_steps_s = work.times.searched_steps;
+  // Resuming a finished run only writes its results again; what was measured of the run itself stays.
+  if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
+  writeResults(*scenario, options.out);
+  fmt::print("Report: {}\n", (options.out / "report.html").string());
+  return 0;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,57 @@
+#include "cases/wear/scene/stage.hpp"
+
+#include <algorithm>
+
+#include "human/body/skin.hpp"
+#include "human/motion/blend.hpp"
+#include "tryon/projecting.hpp"
+#include "tryon/skin_projecting.hpp"
+
+namespace gambeson {
+
+void CaseStage::placements(double t, std::span<Placement> obstacles, std::span<Placement> anchors) const {
+  std::size_t at = 0;
+  if (human) {
+    const Posture posture = postureAt(t);
+    const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
+    std::vector<Placement> body = obstaclePlacementsOf(*human, poses);
+    if (!shrunk.empty() && t < grow_start_s + grow_s)
+      body = placementsDuringGrowth(body, shrunk, (t - grow_start_s) / grow_s);
+    for (const Placement& p : body) obstacles[at++] = p;
+    for (std::size_t l = 0; l < anchors.size(); ++l) anchors[l] = {poses[l].rotation, poses[l].origin, 1};
+  }
+  for (std::size_t k = 0; k < fixed.size(); ++k) {
+    obstacles[at] = fixed[k];
+    if (!sequence[k]) obstacles[at].origin += t * fixed_velocity[k];
+    ++at;
+  }
+}
+
+Posture CaseStage::postureAt(double t) const {
+  const Posture first = motion->at(std::max(t, 0.0));
+  if (!dressed || t >= 0 || !(settle_start_s < 0)) return first;
+  const double x = std::clamp(1.5 * (t - settle_start_s) / -settle_start_s, 0.0, 1.0);
+  return blend(*dressed, first, x * x * x * (10 + x * (6 * x - 15)));
+}
+
+void CaseStage::vertices(int obstacle, double t, std::span<Vec3> x) const {
+  if (obstacle >= first_fixed) {
+    const auto k = static_cast<std::size_t>(obstacle - first_fixed);
+    sequence[k]->at(t, x);
+    for (Vec3& p : x) p += t * fixed_velocity[k];
+    return;
+  }
+  const Posture posture = postureAt(t);
+  skinPositions(*human->skin, linkPoses(human->skeleton, posture.q, posture.root), x);
+  if (shrunk_skin.empty() || !(t < grow_start_s + grow_s)) return;
+  const double w = grownPart((t - grow_start_s) / grow_s);
+  for (std::size_t v = 0; v < x.size(); ++v) x[v] = shrunk_skin[v] + w * (x[v] - shrunk_skin[v]);
+}
+
+Vec3 CaseStage::air(double t) const {
+  if (air_ramp_s <= 0) return air_velocity;
+  const double x = std::clamp(t / air_ramp_s, 0.0, 1.0);
+  return (x * x * (3 - 2 * x)) * air_velocity;
+}
+
+}  // namespace gambeson

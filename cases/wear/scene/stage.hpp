@@ -1,0 +1,41 @@
+#pragma once
+/// Bodies and air of a case over time.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/motion/model.hpp"
+#include "human/body/body.hpp"
+#include "human/body/mesh_sequence.hpp"
+#include "human/motion/motion.hpp"
+
+namespace gambeson {
+
+/// The human through dressing, settling and the motion, and the case's own obstacles.
+class CaseStage : public Stage {
+ public:
+  const Human* human = nullptr;
+  const Motion* motion = nullptr;
+  std::vector<Placement> shrunk;  ///< of the human's shapes, empty without projecting
+  std::vector<Vec3> shrunk_skin;  ///< of the human's skin, the same
+  double grow_start_s = 0, grow_s = 0;
+  std::optional<Posture> dressed;  ///< posture that the garments are put on in, left from settle_start_s on
+  double settle_start_s = 0;
+  std::vector<Placement> fixed;
+  std::vector<Vec3> fixed_velocity;
+  std::vector<std::unique_ptr<const MeshSequence>> sequence;  ///< as `fixed`; null for those that do not deform
+  int first_fixed = 0;                                        ///< obstacle
+  Vec3 air_velocity;
+  double air_ramp_s = 0;
+
+  void placements(double t, std::span<Placement> obstacles, std::span<Placement> anchors) const override;
+  void vertices(int obstacle, double t, std::span<Vec3> x) const override;
+  /// Starts with the motion, smoothly over the lead-in.
+  Vec3 air(double t) const override;
+  /// From the posture of dressing into that in which the motion starts, in the first two thirds of the time to settle.
+  Posture postureAt(double t) const;
+};
+
+}  // namespace gambeson

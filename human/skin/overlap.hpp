@@ -1,0 +1,31 @@
+#pragma once
+/// Where a skin has folded into itself.
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "human/motion/motion.hpp"
+
+namespace gambeson {
+
+/// Triangles of a closed surface that pass through others, and those whose outside lies within the body: what cloth
+/// could not touch without being inside.
+struct Overlap {
+  std::vector<char> triangles;
+  double area_m2 = 0;  ///< of these
+};
+Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x);
+
+/// The same over a motion, from its begin to its end.
+struct OverlapOfMotion {
+  std::vector<char> triangles;  ///< at any of the instants
+  double area_m2 = 0;           ///< of all these, in the skin's bind posture
+  int instants = 0, folded = 0;
+  double largest_m2 = 0, largest_time_s = 0;
+  std::vector<std::string> links;  ///< whose parts of the skin take part
+};
+OverlapOfMotion overlapOf(const Human& human, const Motion& motion, double step_s);
+
+}  // namespace gambeson

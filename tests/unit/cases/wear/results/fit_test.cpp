@@ -1,0 +1,237 @@
+/// How garments sit: stretch along weft and warp against the fabric's range, and falls against the body.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "cases/wear/recording/recorder.hpp"
+#include "cases/wear/results/write.hpp"
+#include "unit/cases/example.hpp"
+#include "unit/shell_of.hpp"
+
+namespace gambeson {
+namespace {
+
+/// Frames with the control points and samples where `moved` takes those of the start.
+template <class Moved>
+void record(const Scenario& s, const std::filesystem::path& dir, const std::vector<double>& times, Moved moved) {
+  RecordingWriter writer = RecordingWriter::create(dir, recordingLayout(s));
+  StepWork work;
+  const State start = startOf(s, work);
+  const Model& m = *s.model;
+  const auto n = static_cast<std::size_t>(m.surface.size());
+  std::vector<Vec3> x(n), q(static_cast<std::size_t>(m.cloth->points()));
+  m.surface.WT.multiply<Vec3>(start.p, x);
+  m.cloth->map().T.multiply<Vec3>(start.p, q);
+  for (const double t : times) {
+    Frame frame;
+    frame.time_s = t;
+    for (const Vec3& p : x)
+      for (int c = 0; c < 3; ++c) frame.positions.push_back(static_cast<float>(moved(t, p)[c]));
+    for (const auto& field : {"velocity", "contact_force"})
+      frame.sample_fields.push_back({field, "", 3, std::vector<float>(3 * n)});
+    for (const auto& field : {"pressure", "stress", "stress_second", "strain", "strain_second"})
+      frame.sample_fields.push_back({field, "", 1, std::vector<float>(n, 0.1F)});
+    Field control{"position", "m", 3, {}};
+    for (const Vec3& p : q)
+      for (int c = 0; c < 3; ++c) control.data.push_back(static_cast<float>(moved(t, p)[c]));
+    frame.control_fields = {control};
+    writer.append(std::move(frame));
+  }
+  writer.closeSegment(Checkpoint{times.back(), {}, {}});
+}
+
+const std::string cloth = R"({"name": "cloth",
+  "garment": {"sheet": {"width": "0.1 m", "height": "0.1 m", "cells_u": 3, "cells_v": 3}, "weft_angle": "ANGLE deg"},
+  "fabric": {"thickness": "1 mm", "density": "500 kg/m^3", "young": "1 MPa", "poisson": 0.3, "limit_strain_weft": "WEFT %",
+             "bending": {"law": "linear", "rigidity": "1e-4 N m"}},
+  "time": {"duration": 0.1}})";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// Stretched by a tenth along x and by a twentieth along y: E = (1.1^2 - 1) / 2 = 0.105, (1.05^2 - 1) / 2 = 0.05125.
+TEST(Fit, StretchIsToldAlongWeftAndWarp) {
+  const Folder folder;
+  for (const auto& [angle, weft, warp] : {std::tuple("0", 0.105, 0.05125), std::tuple("90", 0.05125, 0.105)}) {
+    const auto s = buildScenario(readCase(folder.write("cloth.json", with(with(cloth, "ANGLE", angle), "WEFT", "10"))));
+    const std::filesystem::path dir = folder.path() / angle;
+    record(*s, dir, {0, 0.02, 0.04}, [](double t, const Vec3& p) {
+      return t > 0.03 ? Vec3{1.1 * p.x, 1.05 * p.y, p.z} : p;  // once is enough
+    });
+    Measured m;
+    m.regions = regionsOf(*s);
+    const RecordingReader recording(dir);
+    measureFrames(recording, m);
+    measureStretch(*s, recording, m);
+    ASSERT_EQ(m.stretch.size(), 2u);
+    EXPECT_EQ(m.stretch[0].along, "weft");
+    EXPECT_NEAR(m.stretch[0].largest, weft, 2e-6);
+    EXPECT_NEAR(m.stretch[0].most, weft, 2e-6);
+    EXPECT_EQ(m.stretch[0].limit, 0.1);
+    EXPECT_TRUE(m.stretch[0].stated);
+    EXPECT_EQ(m.stretch[0].holds(), weft < 0.1);
+    // Where the fabric states none, that of its law.
+    EXPECT_EQ(m.stretch[1].along, "warp");
+    EXPECT_NEAR(m.stretch[1].largest, warp, 2e-6);
+    EXPECT_EQ(m.stretch[1].limit, kStrainOfLaw);
+    EXPECT_FALSE(m.stretch[1].stated);
+  }
+}
+
+TEST(Fit, WithoutALimitTheLawsOwnRangeHolds) {
+  const Folder folder;
+  const auto s = buildScenario(
+      readCase(folder.write("cloth.json", with(with(cloth, "ANGLE", "0"), R"("limit_strain_weft": "WEFT %",)", ""))));
+  record(*s, folder.path() / "out", {0, 0.02}, [](double, const Vec3& p) { return p; });
+  Measured m;
+  m.regions = regionsOf(*s);
+  const RecordingReader recording(folder.path() / "out");
+  measureFrames(recording, m);
+  measureStretch(*s, recording, m);
+  ASSERT_EQ(m.stretch.size(), 1u);
+  EXPECT_EQ(m.stretch[0].along, "");
+  EXPECT_NEAR(m.stretch[0].largest, 0.1, 1e-7);  // the recorded principal strain
+  EXPECT_EQ(m.stretch[0].limit, 0.02);
+  EXPECT_FALSE(m.stretch[0].holds());
+}
+
+const std::string shorts = R"({"name": "shorts", "garment": {"shorts": {"cell": "60 mm"}},
+  "fabric": {"thickness": "1 mm", "density": "500 kg/m^3", "young": "1 MPa", "poisson": 0.3,
+             "bending": {"law": "linear", "rigidity": "1e-4 N m"}},
+  "human": {"manikin": "male_p50", "motion": {"walk": {"lead_in": "0.3 s", "strides": 1}}},
+  "contact": {"friction": 0.3}, "dressing": {"settle": 0}})";
+
+const AuditCheck* checkOf(const std::vector<AuditCheck>& checks, const std::string& name) {
+  for (const AuditCheck& c : checks)
+    if (c.name == name) return &c;
+  return nullptr;
+}
+
+/// Shorts that go along with the pelvis stay on; 0.4 m below it they have fallen.
+TEST(Fit, AGarmentThatFallsFailsItsCheck) {
+  const Folder folder;
+  const auto s = buildScenario(readCase(folder.write("shorts.json", shorts)));
+  const int pelvis = s->human->skeleton.link("pelvis");
+  const Pose start = s->bodyPoses(0)[static_cast<std::size_t>(pelvis)];
+  for (const double fallen_m : {0.0, 0.4}) {
+    const std::filesystem::path dir = folder.path() / (fallen_m > 0 ? "fallen" : "worn");
+    record(*s, dir, {0, 0.4, 0.8}, [&](double t, const Vec3& p) {
+      const Pose now = s->bodyPoses(t)[static_cast<std::size_t>(pelvis)];
+      const Vec3 carried = now.rotation * transposeTimes(start.rotation, p - start.origin) + now.origin;
+      return carried - Vec3{0, 0, t > 0.5 ? fallen_m : 0};
+    });
+    Measured m;
+    measureFalls(*s, RecordingReader(dir), m);
+    ASSERT_EQ(m.falls.size(), 1u);
+    EXPECT_NEAR(m.falls[0].largest_m, fallen_m, fallen_m > 0 ? 0.05 : 1e-6);
+    const auto checks = auditOf(m);
+    const AuditCheck* check = checkOf(checks, "Slipping");
+    ASSERT_TRUE(check);
+    EXPECT_EQ(check->holds(), fallen_m == 0);
+  }
+}
+
+/// Shorts over shorts that are drafted in one place, in the second frame with either where a test wants it.
+struct TwoShorts {
+  Folder folder;
+  double front_m = 0;  ///< the foremost point of the first frame
+  std::unique_ptr<Scenario> scenario = buildScenario(
+      readCase(folder.write("two.json", with(shorts, R"("garment": {"shorts": {"cell": "60 mm"}})",
+                                             R"("garments": [{"name": "inner", "shorts": {"cell": "60 mm"}},
+                                                             {"name": "outer", "shorts": {"cell": "60 mm"}}])"))));
+  Vec3 middle() const {
+    const std::vector<Pose> poses = scenario->bodyPoses(0);
+    return poses[static_cast<std::size_t>(scenario->human->skeleton.link("pelvis"))].origin;
+  }
+  /// `place`: of a point of the lower shorts or of the upper ones.
+  Measured measured(const std::function<Vec3(bool lower, const Vec3& p)>& place) {
+    const Surface& surface = scenario->model->surface;
+    // Samples come component by component, those of the inner shorts first, then the control points.
+    const auto inner = std::count_if(surface.patch.begin(), surface.patch.end(),
+                                     [&](int p) { return shellOf(*scenario->model).garment().layerOf(p) == 0; });
+    const long calls = 3L * (surface.size() + scenario->model->cloth->points());
+    long at = 0;
+    record(*scenario, folder.path() / "out", {0, 0.4}, [&](double t, const Vec3& p) {
+      const bool lower = at++ % calls / 3 < inner;
+      if (t > 0.2) return place(lower, p);
+      front_m = std::max(front_m, p.x);
+      return p;
+    });
+    Measured m;
+    measureLayerOrder(*scenario, RecordingReader(folder.path() / "out"), m);
+    EXPECT_EQ(m.layer_order.size(), 1u);
+    std::printf("[ measured ] %.1f %% of the upper shorts lie inside\n", 100 * m.layer_order[0].largest);
+    return m;
+  }
+};
+
+/// With the upper ones blown up these lie outside, with the lower ones blown up the upper ones lie inside, though
+/// nothing crosses.
+TEST(Fit, AGarmentInsideOfOneThatBelongsUnderItFailsItsCheck) {
+  for (const bool wrong : {false, true}) {
+    TwoShorts two;
+    const Vec3 middle = two.middle();
+    const Measured m = two.measured([&](bool lower, const Vec3& p) {
+      const Vec3 radial{p.x - middle.x, p.y - middle.y, 0};
+      return lower == wrong ? p + 0.015 / norm(radial) * radial : p;
+    });
+    const auto checks = auditOf(m);
+    const AuditCheck* check = checkOf(checks, "Layer order, outer over inner");
+    ASSERT_TRUE(check);
+    EXPECT_EQ(check->holds(), !wrong);
+    // Seen from the pelvis the insides of the legs move to the other side of the cloth.
+    if (wrong)
+      EXPECT_GT(m.layer_order[0].largest, 0.7);
+    else
+      EXPECT_LT(m.layer_order[0].largest, 0.25);
+    EXPECT_EQ(m.layer_order[0].time_s, 0.4);
+  }
+}
+
+/// Where a body folds, belly against thigh, the upper garment has the outer side of the lower one before it: here the
+/// lower ones stand before the upper ones, turned to face them.
+TEST(Fit, TheOuterSideOfALowerGarmentMayLieBeforeAnUpperOne) {
+  TwoShorts two;
+  const Vec3 middle = two.middle();
+  const Measured m = two.measured([&](bool lower, const Vec3& p) {
+    return lower ? Vec3{2 * (two.front_m + 0.005) - p.x, 2 * middle.y - p.y, p.z} : p;
+  });
+  EXPECT_LT(m.layer_order[0].largest, 0.01);
+}
+
+/// Until the motion starts a garment may come down by 0.1 m: a skirt finds the hips so.
+TEST(Fit, AGarmentMayComeDownWhileItIsPutOn) {
+  const Folder folder;
+  const auto s =
+      buildScenario(readCase(folder.write("shorts.json", with(shorts, R"({"walk": {"lead_in": "0.3 s", "strides": 1}})",
+                                                              R"({"stand": {"duration": "1 s"}})"))));
+  for (const auto& [down_m, counts_m] : {std::pair(0.09, 0.0), std::pair(0.16, 0.06)}) {
+    const std::filesystem::path dir = folder.path() / std::to_string(down_m);
+    record(*s, dir, {-0.4, -0.2, 0, 0.5}, [&](double t, const Vec3& p) {
+      return p - Vec3{0, 0, t > -0.3 ? down_m : 0};
+    });
+    Measured m;
+    measureFalls(*s, RecordingReader(dir), m);
+    ASSERT_EQ(m.falls.size(), 1u);
+    EXPECT_NEAR(m.falls[0].largest_m, counts_m, 1e-6);
+  }
+}
+
+/// Works of rounding are no works: without gravity, at rest, nothing is unaccounted for.
+TEST(Fit, WorksOfRoundingAreNoWorks) {
+  EnergyMeasure e;
+  e.change = 5.6e-31;
+  e.absolute = 1e-31;
+  e.negligible = 0.5 * 0.3 * 1e-12;  // 0.3 kg at 1 um/s
+  EXPECT_EQ(e.relative(), 0);
+  e.change = 5.6e-9;
+  e.absolute = 1e-9;
+  EXPECT_NEAR(e.relative(), 5.6, 1e-9);
+}
+
+}  // namespace
+}  // namespace gambeson

@@ -1,0 +1,116 @@
+/// `gambeson export`: what other programs get is what the recording holds.
+
+#include "cases/wear/run/export.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cases/command/cli.hpp"
+#include "cases/wear/results/results.hpp"
+#include "core/error.hpp"
+#include "human/recorded/storage.hpp"
+#include "unit/cases/content.hpp"
+#include "unit/cases/example.hpp"
+
+namespace gambeson {
+namespace {
+
+int command(std::vector<const char*> words, std::string* error = nullptr) {
+  words.insert(words.begin(), "gambeson");
+  std::ostringstream out, err;
+  const int status = runCommand(static_cast<int>(words.size()), words.data(), out, err);
+  if (error) *error = err.str();
+  return status;
+}
+
+/// The library's arm in a coarse sleeve, for a few hundredths of a second.
+class Export : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new Folder;
+    results_ = (folder_->path() / "run").string();
+    ASSERT_EQ(command({"run", GAMBESON_SOURCE_DIR "/cases/library/sleeve_flex.json", "--out", results_.c_str(), "--set",
+                       "garment.tube.cells_around=8", "--set", "garment.tube.cells_along=4", "--set",
+                       "time.duration=0.06", "--set", "output.pictures=[]"}),
+              0);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static Folder* folder_;
+  static std::string results_;
+};
+Folder* Export::folder_ = nullptr;
+std::string Export::results_;
+
+TEST_F(Export, OpenSimGetsTheForcesOfTheLedger) {
+  const std::string prefix = (folder_->path() / "loads").string();
+  ASSERT_EQ(command({"export", results_.c_str(), "--opensim", prefix.c_str()}), 0);
+  const StorageTable table = readStorage(prefix + ".mot");
+  const RecordingReader recording(results_);
+  const auto& columns = recording.layout().tables.at("bodies");
+  std::size_t row = 0;
+  double most = 0;
+  for (const auto& r : recording.table("bodies")) {
+    if (r[0] < -1e-9) continue;
+    Vec3 ledger, file;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (columns[c].ends_with("_Jx_Ns")) ledger.x += r[c] / (r[1] - r[0]);
+      if (columns[c].ends_with("_Jy_Ns")) ledger.y += r[c] / (r[1] - r[0]);
+      if (columns[c].ends_with("_Jz_Ns")) ledger.z += r[c] / (r[1] - r[0]);
+    }
+    for (std::size_t c = 0; c < table.names.size(); ++c) {
+      if (table.names[c].ends_with("_force_vx")) file.x += table.columns[c][row];
+      if (table.names[c].ends_with("_force_vy")) file.z += table.columns[c][row];
+      if (table.names[c].ends_with("_force_vz")) file.y -= table.columns[c][row];
+    }
+    EXPECT_LT(norm(file - ledger), 1e-12);
+    most = std::max(most, norm(ledger));
+    ++row;
+  }
+  EXPECT_EQ(row, table.times.size());
+  EXPECT_GT(most, 0.01);  // the sleeve touched the arm
+}
+
+TEST_F(Export, CadGetsTheControlPointsOfTheFrame) {
+  const std::string iges = (folder_->path() / "sleeve.igs").string();
+  ASSERT_EQ(command({"export", results_.c_str(), "--iges", iges.c_str(), "--time", "end"}), 0);
+  const RecordingReader recording(results_);
+  const Frame frame = recording.frame(recording.frameCount() - 1);
+  // All numbers of the parameter section; the control points follow each other in one of them.
+  std::vector<double> numbers;
+  std::istringstream in(content(iges));
+  std::string data;
+  for (std::string line; std::getline(in, line);)
+    if (line[72] == 'P') data += line.substr(0, line.find_last_not_of(' ', 63) + 1);
+  for (char& c : data) c = c == ',' || c == ';' ? ' ' : c == 'D' ? 'E' : c;
+  std::istringstream words(data);
+  for (std::string word; words >> word;)
+    if (word.find('H') == std::string::npos) numbers.push_back(std::stod(word));
+  std::vector<double> expected;
+  for (const float x : frame.control_fields.at(0).data) expected.push_back(1e3 * static_cast<double>(x));
+  EXPECT_NE(std::search(numbers.begin(), numbers.end(), expected.begin(), expected.end(),
+                        [](double a, double b) { return std::abs(a - b) < 1e-9; }),
+            numbers.end());
+  // And the recording tells the rest of the surface.
+  ASSERT_EQ(recording.layout().patches.size(), 1u);
+  const PatchLayout& patch = recording.layout().patches[0];
+  EXPECT_EQ((patch.knots_u.size() - static_cast<std::size_t>(patch.degree_u) - 1) *
+                (patch.knots_v.size() - static_cast<std::size_t>(patch.degree_v) - 1) * 3,
+            expected.size());
+  EXPECT_EQ(patch.weights.size() * 3, expected.size());
+}
+
+TEST_F(Export, WhatCannotBeWrittenIsSaid) {
+  std::string error;
+  EXPECT_EQ(command({"export", results_.c_str()}, &error), 2);
+  EXPECT_NE(error.find("nothing to write"), std::string::npos) << error;
+  EXPECT_EQ(command({"export", (folder_->path() / "none").c_str(), "--iges", "x.igs"}, &error), 2);
+  EXPECT_EQ(command({"export", results_.c_str(), "--iges", "x.igs", "--time", "noon"}, &error), 2);
+  EXPECT_NE(error.find("time"), std::string::npos) << error;
+  EXPECT_EQ(command({"export", results_.c_str(), "--iges", "/nowhere/at/all/x.igs"}, &error), 2);
+  EXPECT_NE(error.find("--iges: there is no folder /nowhere/at/all"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace gambeson
