@@ -2,6 +2,7 @@
 
 #include "cases/input/fingerprint.hpp"
 #include "cases/wear/case/case.hpp"
+#include "cases/wear/case/garments/kind.hpp"
 
 namespace gambeson {
 
@@ -19,10 +20,7 @@ void takeMap(std::string& map, Take take) {
 /// Calls `take` with the path of every file that the case names, empty ones too; it may put another in its place.
 template <class Take>
 void eachFile(Case& named, Take take) {
-  for (GarmentCase& g : named.garments) {
-    if (auto* file = std::get_if<FileGarment>(&g.shape)) take(file->path);
-    if (auto* mesh = std::get_if<MeshGarment>(&g.shape)) take(mesh->path);
-  }
+  for (GarmentCase& g : named.garments) kindOf(g).files(g, take);
   if (named.human) {
     take(named.human->urdf);
     take(named.human->body);

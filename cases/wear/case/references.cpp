@@ -1,15 +1,14 @@
 #include "cases/wear/case/references.hpp"
-#include "core/cloth/triangles/obj_mesh.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/human.hpp"
 #include "core/error.hpp"
 #include "human/files/mesh.hpp"
 #include "human/motion/trajectory.hpp"
-#include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -95,8 +94,8 @@ void checkSupportsOf(const Place& root, const Case& c, const GarmentCase& garmen
 }
 
 /// A garment's file, and the patches of it that supports name.
-void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment, const FileGarment& file) {
-  Garment read = loadGarment(file.path);
+void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment) {
+  Garment read = kindOf(garment).look(garment);
   try {
     applyFields(garment.fields, read);
   } catch (const InputError& e) {
@@ -111,17 +110,6 @@ void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garme
   checkSupportsOf(root, c, garment, static_cast<int>(read.patches.size()), names);
 }
 
-void checkMeshFile(const Place& root, const Case& c, const GarmentCase& garment, const MeshGarment& file) {
-  const ClothMesh mesh = readObj(file.path);
-  if (file.rest == MeshRest::flat && mesh.uv.empty())
-    throw InputError(
-        {file.path.string(), 0, "rest"},
-        "the mesh has no uv coordinates to lie flat by; allowed: \"rest\": \"shape\", or vt at all corners");
-  std::vector<std::string> names;
-  for (const NamedEdge& e : namedEdges(mesh)) names.push_back(e.name);
-  checkSupportsOf(root, c, garment, static_cast<int>(mesh.patch_names.size()), names);
-}
-
 }  // namespace
 
 void checkReferences(const Place& root, const Case& c) {
@@ -134,10 +122,7 @@ void checkReferences(const Place& root, const Case& c) {
     duration_s = c.time.duration_s.value_or(motion_s);
   }
   for (const GarmentCase& g : c.garments)
-    if (const auto* file = std::get_if<FileGarment>(&g.shape))
-      checkGarmentFile(root, c, g, *file);
-    else if (const auto* mesh = std::get_if<MeshGarment>(&g.shape))
-      checkMeshFile(root, c, g, *mesh);
+    if (kindOf(g).isRead()) checkGarmentFile(root, c, g);
   for (const ObstacleCase& o : c.obstacles) {
     if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) loadMesh(mesh->file, mesh->scale);
     if (const auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) MeshSequence{*sequence};

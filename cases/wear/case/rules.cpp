@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "cases/wear/case/garments/kind.hpp"
 #include "core/error.hpp"
-#include "tryon/pattern/pattern.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -32,16 +32,6 @@ Place itemOf(const Place& root, const std::string& list, std::size_t i) {
   return root.member(*root.node.find(list)).item(i);
 }
 
-std::vector<std::string> edgeNames(const GarmentCase& g) {
-  if (std::holds_alternative<SheetGarment>(g.shape)) return {"u0", "u1", "v0", "v1"};
-  if (std::holds_alternative<TubeGarment>(g.shape)) return {"start", "end"};
-  if (std::holds_alternative<ShortsGarment>(g.shape)) return {"waist", "hem_left", "hem_right"};
-  if (std::holds_alternative<BeltGarment>(g.shape)) return {"lower", "upper"};
-  if (std::holds_alternative<ShirtGarment>(g.shape)) return {"hem", "neck_front", "neck_back", "belly_hem"};
-  if (std::holds_alternative<SkirtGarment>(g.shape)) return {"waist", "hem"};
-  return {};
-}
-
 /// Whose edge it is.
 const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase& edge) {
   std::vector<std::string> names;
@@ -56,36 +46,18 @@ const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase
                                                                                     : joined(names)));
 }
 
-/// From a file, which alone knows its patches and edges.
-bool isRead(const GarmentCase& g) {
-  return std::holds_alternative<FileGarment>(g.shape) || std::holds_alternative<MeshGarment>(g.shape);
-}
-
-/// Patches of the garment by name; none where only its file knows.
-std::vector<std::string> patchNames(const GarmentCase& g) {
-  if (std::holds_alternative<ShortsGarment>(g.shape)) return shortsPatchNames();
-  if (std::holds_alternative<ShirtGarment>(g.shape)) return shirtPatchNames();
-  if (std::holds_alternative<BeltGarment>(g.shape)) return beltPatchNames();
-  if (std::holds_alternative<SkirtGarment>(g.shape)) return skirtPatchNames();
-  if (isRead(g)) return {};
-  const auto* tube = std::get_if<TubeGarment>(&g.shape);
-  std::vector<std::string> names;
-  for (int k = 0; k < (tube ? tube->patches : 1); ++k) names.push_back(fmt::format("patch_{}", k));
-  return names;
-}
-
 void checkEdge(const Place& support, const Case& c, const EdgeCase& edge) {
   const GarmentCase& garment = *garmentOf(support, c, edge);
   if (!edge.name.empty()) {
-    if (isRead(garment)) return;  // its file knows (cases/wear/case/references.cpp)
-    const std::vector<std::string> names = edgeNames(garment);
+    if (kindOf(garment).isRead()) return;  // its file knows (cases/wear/case/references.cpp)
+    const std::vector<std::string> names = kindOf(garment).edges(garment);
     if (std::find(names.begin(), names.end(), edge.name) == names.end())
       support.failAt("edge", fmt::format("\"{}\" is not an edge of this garment; allowed: {}", edge.name,
                                          names.empty() ? "patch and side, such as 2.u0" : joined(names)));
     return;
   }
-  const int patches = static_cast<int>(patchNames(garment).size());
-  if (patches > 0 && edge.patch >= patches)
+  const int patches = static_cast<int>(kindOf(garment).patches(garment).size());
+  if (!kindOf(garment).isRead() && edge.patch >= patches)
     support.failAt(support.node.find("edge") ? "edge" : "patch",
                    fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
 }
@@ -122,23 +94,25 @@ Place garmentPlace(const Place& root, std::size_t i) {
 
 /// Keys that its kind of cloth has no use for.
 void checkModel(const Place& place, const Case& c, const GarmentCase& g) {
-  const bool mesh_file = std::holds_alternative<MeshGarment>(g.shape);
-  const auto refuse = [&](const char* key, const char* reason) {
+  const GarmentKind& kind = kindOf(g);
+  const auto refuse = [&](const char* key, const std::string& reason) {
     if (place.node.find(key)) place.failAt(key, reason);
   };
-  if (mesh_file && g.cloth.kind == ClothKind::nurbs)
-    place.failAt("model", "a mesh_file is cloth of triangles; allowed: \"triangles\"");
-  if (mesh_file || g.cloth.kind == ClothKind::nurbs)
-    refuse("mesh", mesh_file ? "is for drafts; a mesh_file is a mesh already" : "is for \"model\": \"triangles\"");
+  if (kind.isMesh() && g.cloth.kind == ClothKind::nurbs)
+    place.failAt("model", fmt::format("a {} is cloth of triangles; allowed: \"triangles\"", kind.word));
+  if (kind.isMesh())
+    refuse("mesh", fmt::format("is for drafts; a {} is a mesh already", kind.word));
+  else if (g.cloth.kind == ClothKind::nurbs)
+    refuse("mesh", "is for \"model\": \"triangles\"");
   if (g.cloth.kind == ClothKind::nurbs) return;
   refuse("samples_per_cell", "is for \"model\": \"nurbs\"; the samples of triangles are their vertices");
   if (c.strain_limit && wornLimit(*c.strain_limit).mode == LimitMode::equality)
     place.failAt(
         "model",
         "triangles lock where their threads keep their lengths; allowed: strain_limit with a limit, or \"nurbs\"");
-  if (!mesh_file) return;
+  if (!kind.isMesh()) return;
   for (const char* key : {"fields", "other_fabrics", "noise", "noise_seed", "stitching", "seam_stiffness"})
-    refuse(key, "is for drafted garments, not for a mesh_file");
+    refuse(key, fmt::format("is for drafted garments, not for a {}", kind.word));
 }
 
 void checkFieldsOf(const Place& place, const Case& c, const GarmentCase& g) {
@@ -152,12 +126,11 @@ void checkFieldsOf(const Place& place, const Case& c, const GarmentCase& g) {
   if (!g.other_fabrics.empty() &&
       std::none_of(g.fields.begin(), g.fields.end(), [](const FieldsCase& f) { return f.fields.material.has_value(); }))
     place.failAt("other_fabrics", "is of no use: no material field of this garment chooses from it");
-  const auto* belt = std::get_if<BeltGarment>(&g.shape);
-  if (belt && belt->tension_N > 0 && !g.fields.empty())
-    place.failAt("fields", "a belt's length follows from its tension and one fabric; allowed: with tension 0 N");
-  if (isRead(g)) return;  // its file knows (cases/wear/case/references.cpp)
+  const GarmentKind& kind = kindOf(g);
+  if (const std::string why = kind.fieldless(g); !why.empty() && !g.fields.empty()) place.failAt("fields", why);
+  if (kind.isRead()) return;  // its file knows (cases/wear/case/references.cpp)
   Garment patches;
-  patches.patch_names = patchNames(g);
+  patches.patch_names = kind.patches(g);
   patches.patches.resize(patches.patch_names.size());
   try {
     applyFields(g.fields, patches);
@@ -176,11 +149,9 @@ void checkGarments(const Place& root, const Case& c) {
       place.failAt("name", "is required where there are several garments: what supports and tables call it");
     if (!names.insert(g.name).second)
       place.failAt("name", fmt::format("\"{}\" names two garments; allowed: a name of its own", g.name));
-    for (const auto& [drafted, key] : {std::pair{std::holds_alternative<ShortsGarment>(g.shape), "shorts"},
-                                       std::pair{std::holds_alternative<BeltGarment>(g.shape), "belt"},
-                                       std::pair{std::holds_alternative<ShirtGarment>(g.shape), "shirt"},
-                                       std::pair{std::holds_alternative<SkirtGarment>(g.shape), "skirt"}})
-      if (drafted && !c.human) place.failAt(key, fmt::format("a {} is drafted on a human, and the case has none", key));
+    const GarmentKind& kind = kindOf(g);
+    if (kind.drafted && !c.human)
+      place.failAt(kind.word, fmt::format("a {} is drafted on a human, and the case has none", kind.word));
     checkModel(place, c, g);
     checkFieldsOf(place, c, g);
     all_own = all_own && g.fabric;

@@ -7,6 +7,7 @@
 #include "cases/input/schema.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/wear/case/factors.hpp"
+#include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "core/cloth/shell/surface.hpp"
@@ -37,8 +38,8 @@ void draftToFile(const Case& c, const std::string& name, const std::filesystem::
   if (c.human) human = humanOf(*c.human);
   const Case made = withFactors(c);
   const Garment g = draftGarments(made, human ? &*human : nullptr)[k];
-  if (std::holds_alternative<MeshGarment>(c.garments[k].shape))
-    throw InputError({c.file.string(), 0, fmt::format("garments[{}].mesh_file", k)},
+  if (const GarmentKind& kind = kindOf(c.garments[k]); kind.isMesh())
+    throw InputError({c.file.string(), 0, fmt::format("garments[{}].{}", k, kind.word)},
                      "is a mesh already; drafts are written");
   if (as_mesh) {
     const TriangleGarment t = triangleGarment(g, c.garments[k].cloth.mesh);

@@ -7,11 +7,11 @@
 
 #include "cases/input/places.hpp"
 #include "cases/wear/case/factors.hpp"
+#include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "core/cloth/joined_cloth.hpp"
 #include "core/cloth/shell/layers.hpp"
 #include "core/cloth/shell/nurbs_shell.hpp"
-#include "core/cloth/triangles/obj_mesh.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
 #include "core/error.hpp"
 #include "tryon/stitching.hpp"
@@ -19,21 +19,8 @@
 namespace gambeson {
 namespace {
 
-/// A mesh file as a garment of triangles.
-TriangleGarment readMesh(const GarmentCase& worn, const MeshGarment& file, const Fabric& fabric) {
-  TriangleGarment g;
-  g.mesh = readObj(file.path);
-  g.rest = file.rest;
-  g.fabrics = {fabric};
-  for (Vec3& x : g.mesh.vertices) x = file.unit_m * x + worn.position_m;
-  const double c = std::cos(worn.weft_angle_rad), s = std::sin(worn.weft_angle_rad);
-  for (auto& corners : g.mesh.uv)
-    for (Vec2& at : corners) at = {file.uv_unit_m * (c * at.x + s * at.y), file.uv_unit_m * (c * at.y - s * at.x)};
-  return g;
-}
-
 TriangleGarment trianglesOf(const GarmentCase& worn, const Garment& draft) {
-  if (const auto* file = std::get_if<MeshGarment>(&worn.shape)) return readMesh(worn, *file, draft.fabric);
+  if (kindOf(worn).isMesh()) return kindOf(worn).triangles(worn, draft.fabric);
   return triangleGarment(draft, worn.cloth.mesh);
 }
 
@@ -73,12 +60,7 @@ ClothDraft clothOf(const Case& c, const FactorsCase& written, const std::vector<
   }
   out.cloth = kinds.size() == 1 ? std::move(kinds[0]) : std::make_unique<JoinedCloth>(std::move(kinds));
   out.start_m = out.cloth->fromDraft(start);
-  out.edges.resize(drafts.size());
-  for (std::size_t k = 0; k < drafts.size(); ++k) {
-    const GarmentCase& worn = c.garments[k];
-    const auto* file = std::get_if<MeshGarment>(&worn.shape);
-    out.edges[k] = file ? namedEdges(readObj(file->path)) : drafts[k].edges;
-  }
+  for (const Garment& g : drafts) out.edges.push_back(g.edges);
   for (const ClothPatch& p : out.cloth->patches()) {
     const GarmentCase& worn = c.garments[static_cast<std::size_t>(p.garment)];
     out.samples_per_cell.push_back(worn.cloth.kind == ClothKind::nurbs ? worn.samples_per_cell : 1);

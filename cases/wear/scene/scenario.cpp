@@ -9,6 +9,7 @@
 #include "cases/input/overloaded.hpp"
 #include "cases/input/places.hpp"
 #include "cases/wear/case/factors.hpp"
+#include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/scene/cloth.hpp"
 #include "cases/wear/scene/contact_regions.hpp"
@@ -33,12 +34,6 @@ namespace {
 
 /// Feet of our own motions slip and sink by a centimetre or two at most.
 bool plausible(const FootReport& f) { return f.slip_m < 0.05 && f.penetration_m < 0.02 && f.hover_m < 0.02; }
-
-/// Drafted on the human's measures.
-bool isDrafted(const GarmentCase& g) {
-  return std::holds_alternative<ShortsGarment>(g.shape) || std::holds_alternative<BeltGarment>(g.shape) ||
-         std::holds_alternative<ShirtGarment>(g.shape) || std::holds_alternative<SkirtGarment>(g.shape);
-}
 
 void noteDefects(const MeshObstacle& file, const std::string& name, const Obstacle& obstacle,
                  std::vector<std::string>& notes) {
@@ -330,7 +325,8 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
     const Dressed dressed = readDressed(c.dressing.from);
     wear(*s, dressed);
     stage->dressed = dressed.posture;
-  } else if (settle > 0 && std::any_of(c.garments.begin(), c.garments.end(), isDrafted)) {
+  } else if (settle > 0 && std::any_of(c.garments.begin(), c.garments.end(),
+                                       [](const GarmentCase& worn) { return kindOf(worn).drafted; })) {
     stage->dressed = standing(*s->human);  // which the garments are drafted for
   }
   if (project) {

@@ -1,0 +1,65 @@
+#pragma once
+/// What kinds of garment differ in: a row for each, a file for each row. Who adds a kind adds its struct to GarmentCase
+/// (cases/wear/case/case.hpp), a file beside this one, and its row to the list in kind.cpp.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cases/wear/case/case.hpp"
+#include "core/cloth/triangles/triangle_cloth.hpp"
+#include "tryon/pattern/armour.hpp"
+#include "tryon/pattern/form.hpp"
+
+namespace gambeson {
+
+namespace schema {
+template <class T>
+class Table;
+}
+
+/// What a garment is made from.
+struct GarmentMaking {
+  const GarmentCase& worn;
+  const Fabric& fabric;
+  double layer_m = 0;              ///< that it keeps from others where it is thickest
+  const BodyForm* form = nullptr;  ///< null without a human
+  std::span<const Worn> under;     ///< the garments before it
+};
+
+/// All functions are of garments whose shape is of this kind.
+struct GarmentKind {
+  using Names = std::vector<std::string>;
+  using Take = std::function<void(std::filesystem::path&)>;
+
+  const char* word = "";  ///< its key in a case file
+  bool drafted = false;   ///< on the human, without whom it cannot be
+  /// Adds its key, with the table of what stands below it.
+  void (*addTo)(schema::Table<GarmentCase>& table) = nullptr;
+  /// Edges and patches that it has by name before it is made; of what is read only its file knows them.
+  Names (*edges)(const GarmentCase& g) = [](const GarmentCase&) { return Names{}; };
+  Names (*patches)(const GarmentCase& g) = [](const GarmentCase&) { return Names{"patch_0"}; };
+  /// Cells that it is known to get before it is made; 0 for what is drafted on the body or read.
+  long (*cells)(const GarmentCase& g) = [](const GarmentCase&) { return 0L; };
+  /// Why its patches can have no fields; empty where they can.
+  std::string (*fieldless)(const GarmentCase& g) = [](const GarmentCase&) { return std::string(); };
+  /// In place of its own (without `position` and `weft_angle`), without fabrics and fields.
+  Garment (*make)(const GarmentMaking& making) = nullptr;
+  /// Of what is read from a file: its patches and edges, for all that a case may name of them. Throws InputError where
+  /// the file is not well. Null: it is not read.
+  Garment (*look)(const GarmentCase& g) = nullptr;
+  /// Calls `take` with the path of each file that it is read from; `take` may put another in its place.
+  void (*files)(GarmentCase& g, const Take& take) = [](GarmentCase&, const Take&) {};
+  /// Of what is triangles from the start, and has no patches: they, in place. Null: patches are drafted.
+  TriangleGarment (*triangles)(const GarmentCase& g, const Fabric& fabric) = nullptr;
+
+  bool isRead() const { return look != nullptr; }
+  bool isMesh() const { return triangles != nullptr; }
+};
+
+/// In the order of the alternatives of GarmentCase::shape, which is that of the documentation.
+std::span<const GarmentKind* const> garmentKinds();
+const GarmentKind& kindOf(const GarmentCase& g);
+
+}  // namespace gambeson
