@@ -3,6 +3,7 @@
 #include "cases/input/fingerprint.hpp"
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/garments/kind.hpp"
+#include "cases/wear/case/motions/kind.hpp"
 
 namespace gambeson {
 
@@ -32,12 +33,7 @@ void eachFile(Case& named, Take take) {
       for (MorphTarget& t : character->targets) take(t.file);
       takeMap(character->map, take);
     }
-    if (auto* trajectory = std::get_if<TrajectoryMotion>(&named.human->motion)) take(trajectory->file);
-    if (auto* recorded = std::get_if<MotionFileOptions>(&named.human->motion)) {
-      take(recorded->path);
-      take(recorded->model);
-      takeMap(recorded->map, take);
-    }
+    kindOf(*named.human).files(named.human->motion, take, [&](std::string& map) { takeMap(map, take); });
   }
   take(named.dressing.from);
   for (ObstacleCase& o : named.obstacles)

@@ -6,9 +6,9 @@
 
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/human.hpp"
+#include "cases/wear/case/motions/kind.hpp"
 #include "core/error.hpp"
 #include "human/files/mesh.hpp"
-#include "human/motion/trajectory.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -63,17 +63,6 @@ void checkPictures(const Place& root, const Case& c, double duration_s) {
       listItem(root.member(*root.node.find("output")), "pictures", i)
           .failAt("time", fmt::format("{} s is out of range; allowed: 0 to {} s, peak or end", p.time_s, duration_s));
   }
-}
-
-/// Time that the motion takes by itself.
-double motionDuration(const HumanCase& h, const Human& human) {
-  if (const auto* stand = std::get_if<StandMotion>(&h.motion)) return stand->duration_s;
-  if (const auto* walk = std::get_if<WalkOptions>(&h.motion)) return makeWalk(human, *walk)->duration();
-  if (const auto* recorded = std::get_if<MotionFileOptions>(&h.motion))
-    return loadMotionFile(*recorded, human)->duration();
-  if (const auto* stairs = std::get_if<StairOptions>(&h.motion)) return makeStairs(human, *stairs)->duration();
-  if (const auto* aim = std::get_if<AimOptions>(&h.motion)) return makeAim(human, *aim)->duration();
-  return loadTrajectory(std::get<TrajectoryMotion>(h.motion).file, human)->duration();
 }
 
 /// What supports name of a garment with these patches and edges.
@@ -136,7 +125,7 @@ namespace gambeson {
 
 double plannedDuration(const Case& c) {
   if (c.time.duration_s || !c.human) return c.time.duration_s.value_or(0);
-  return schema::motionDuration(*c.human, skeletonOf(*c.human));
+  return motionDuration(*c.human, skeletonOf(*c.human));
 }
 
 }  // namespace gambeson

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cases/wear/case/garments/kind.hpp"
+#include "cases/wear/case/motions/kind.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::schema {
@@ -189,12 +190,14 @@ void checkWithoutHuman(const Place& root, Case& c) {
     failAt(root, {"analysis", "joints"}, "joints are those of a human, and the case has none");
 }
 
-/// The task whose natural moments a motion is compared with, where the case does not say.
-Task taskOf(const HumanCase& human) {
-  if (std::holds_alternative<WalkOptions>(human.motion)) return Task::natural_walk;
-  if (std::holds_alternative<StairOptions>(human.motion)) return Task::natural_stairs;
-  if (std::holds_alternative<AimOptions>(human.motion)) return Task::aiming;
-  return Task::none;
+/// Natural moments are those of what the human does.
+void checkTask(const Place& root, const Case& c) {
+  const Task task = c.analysis.task;
+  if (task == Task::none || (c.human && kindOf(*c.human).task == task)) return;
+  failAt(root, {"analysis", "task"},
+         task == Task::natural_walk     ? "natural_walk compares with walking, and the human does not walk"
+         : task == Task::natural_stairs ? "natural_stairs compares with climbing stairs, and the human climbs none"
+                                        : "aiming compares with taking aim, and the human takes none");
 }
 
 }  // namespace
@@ -208,13 +211,8 @@ void applyRules(const Place& root, Case& c) {
   checkSupports(root, c);
   checkObstacles(root, c);
   const JsonNode* analysis = root.node.find("analysis");
-  if (c.human && !(analysis && analysis->find("task"))) c.analysis.task = taskOf(*c.human);
-  if (c.analysis.task == Task::natural_walk && !(c.human && std::holds_alternative<WalkOptions>(c.human->motion)))
-    failAt(root, {"analysis", "task"}, "natural_walk compares with walking, and the human does not walk");
-  if (c.analysis.task == Task::natural_stairs && !(c.human && std::holds_alternative<StairOptions>(c.human->motion)))
-    failAt(root, {"analysis", "task"}, "natural_stairs compares with climbing stairs, and the human climbs none");
-  if (c.analysis.task == Task::aiming && !(c.human && std::holds_alternative<AimOptions>(c.human->motion)))
-    failAt(root, {"analysis", "task"}, "aiming compares with taking aim, and the human takes none");
+  if (c.human && !(analysis && analysis->find("task"))) c.analysis.task = kindOf(*c.human).task;
+  checkTask(root, c);
 }
 
 }  // namespace gambeson::schema

@@ -6,10 +6,10 @@
 #include <map>
 
 #include "cases/wear/case/factors.hpp"
+#include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/recording/skin_ledger.hpp"
 #include "core/error.hpp"
 #include "human/motion/task_moments.hpp"
-#include "human/motion/walk_curves.hpp"
 
 namespace gambeson {
 namespace {
@@ -180,9 +180,9 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
   while (first < time.size() && time[first] < out.counted_from_s) ++first;
   const std::vector<std::vector<double>> standing = standingTorques(s, rest, joints);
   std::vector<StaticMoment> held;  // of the aim
-  if (const auto* aim = std::get_if<AimOptions>(&s.definition.human->motion);
-      aim && s.definition.analysis.task == Task::aiming)
-    held = peakStaticMoments(*s.human, *s.motion, rifleInHands(*s.human, aim->rifle_mass_kg));
+  if (const auto kg = kindOf(*s.definition.human).carried_kg(s.definition.human->motion);
+      kg && s.definition.analysis.task == Task::aiming)
+    held = peakStaticMoments(*s.human, *s.motion, rifleInHands(*s.human, *kg));
   for (const int j : joints) {
     JointMeasure m;
     m.joint = j;
@@ -302,23 +302,6 @@ void measureSupports(const Scenario& s, const Rows& rows, Measured& out) {
 }
 
 }  // namespace
-
-double Strides::phase(double t_s, const std::string& side) const {
-  const double p = (t_s - start_s) / time_s + (side == "left" ? 0.5 : 0);
-  return p - std::floor(p);
-}
-
-std::optional<Strides> stridesOf(const Case& c) {
-  if (!c.human) return {};
-  if (const auto* stairs = std::get_if<StairOptions>(&c.human->motion))
-    return Strides{stairs->measuredFrom_s(), stairs->stride_time_s, stairs->strides - stairs->lead_in_strides, 0,
-                   stairAscent().foot_off};
-  const auto* walk = std::get_if<WalkOptions>(&c.human->motion);
-  if (!walk) return {};
-  const int count = static_cast<int>(walk->strideCount());
-  return Strides{walk->stand_s + walk->lead_in_s, walk->stride_time_s, count,
-                 (walk->strideCount() - count) * walk->stride_time_s, 0.5 + naturalWalk().double_support};
-}
 
 const JointMeasure* Measured::highest() const {
   const JointMeasure* best = nullptr;

@@ -14,24 +14,13 @@
 #include "analysis/torque.hpp"
 #include "analysis/trust.hpp"
 #include "cases/runs/frame_field.hpp"
+#include "cases/wear/case/strides.hpp"
 #include "cases/wear/results/body_map.hpp"
 #include "cases/wear/scene/scenario.hpp"
 #include "core/io/recording.hpp"
 #include "human/motion/inverse_statics.hpp"
 
 namespace gambeson {
-
-/// Strides of a walk or a climb, those that count: right foot strikes at start, start + time, ...
-struct Strides {
-  double start_s = 0, time_s = 0;
-  int count = 0;
-  double rest_s = 0;    ///< after the last whole stride, where paces are odd
-  double foot_off = 0;  ///< phase of a foot's own stride at which it leaves the ground
-  double end_s() const { return start_s + count * time_s + rest_s; }
-  /// Of the side's own stride, [0, 1), 0 at its foot strike; the left foot strikes half a stride after the right.
-  double phase(double t_s, const std::string& side) const;
-};
-std::optional<Strides> stridesOf(const Case& c);
 
 /// Of a skin, beside the generalised force: the added torque by segments (SkinLedger), when the generalised one peaks.
 struct SegmentsMeasure {

@@ -8,6 +8,7 @@
 #include "analysis/ticks.hpp"
 #include "cases/cloth/fabric.hpp"
 #include "cases/wear/case/factors.hpp"
+#include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/results/joint_words.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/material/bending.hpp"
@@ -194,23 +195,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
       say("Parts of the body: a shoulder is the trunk above the level of the armpits on that side, and the top of the "
           "upper arm down to the armpit; the waist is the lower 40 % of the trunk from the lumbar joint up to the "
           "shoulder joints, the chest what lies between; hips are the pelvis.");
-    if (std::holds_alternative<WalkOptions>(c.human->motion))
-      say("Walking is prescribed: joint angles of healthy adults at natural speed (Bovi et al. 2011), closed to a "
-          "period and equal on both sides. "
-          "The wearer does not change gait because of the garment.");
-    else if (const auto stairs = s.motion->stairs())
-      say(
-          fmt::format("Climbing stairs is prescribed: hip angles of healthy adults (Bovi et al. 2011), whose swing is "
-                      "interpolated through published peaks because the recorded stride ended on a landing. The steps "
-                      "imply stairs of {:.0f} mm rise and {:.0f} mm tread; knees and ankles keep the feet on them. The "
-                      "wearer does not change gait because of the garment.",
-                      1e3 * stairs->rise_m, 1e3 * stairs->tread_m));
-    else if (std::holds_alternative<AimOptions>(c.human->motion))
-      say("Taking aim is prescribed: end posture after Zheng 2013, 6.6, hips and trunk with minimum jerk, knees, "
-          "ankles "
-          "and hip rotations such that the feet stand. The rifle loads the wearer, not the garment.");
-    else
-      say("The motion is prescribed: the wearer does not change it because of the garment.");
+    say(kindOf(*c.human).assumption(*s.motion));
     if (s.feet) {
       std::string feet = feetText(*s.feet);
       feet[0] = 'T';

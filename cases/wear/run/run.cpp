@@ -13,6 +13,7 @@
 #include "cases/runs/results_folder.hpp"
 #include "cases/runs/stop_message.hpp"
 #include "cases/wear/case/case.hpp"
+#include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/recording/recording_size.hpp"
 #include "cases/wear/recording/windows.hpp"
@@ -46,7 +47,7 @@ std::string phaseName(const Scenario& s, double time_s) {
 
 /// A recorded motion knows nothing of how thick our limbs are.
 const char* limbsHint(const Case& c) {
-  return c.human && std::holds_alternative<MotionFileOptions>(c.human->motion)
+  return c.human && kindOf(*c.human).holds_apart
              ? "; where limbs meet or a limb meets the trunk, cloth between them is crushed: hips_apart and arms_apart "
                "of the "
                "motion hold them apart"

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cases/input/overloaded.hpp"
 #include "cases/input/places.hpp"
 #include "cases/wear/case/human.hpp"
+#include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/scene/obstacle_shape.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
 #include "human/body/mesh_sequence.hpp"
-#include "human/motion/standing.hpp"
-#include "human/motion/trajectory.hpp"
 #include "human/skin/overlap.hpp"
 
 namespace gambeson {
@@ -44,23 +42,6 @@ void noteSequence(const SequenceObstacle& file, const MeshSequence& sequence, co
                               sequence.triangles().size(), defects.empty() ? "" : "; it " + defects));
 }
 
-/// Reads a recorded motion, its mean velocity, and what a user should know of it; returns when its window begins.
-double readRecorded(const MotionFileOptions& m, Scenario& s) {
-  MotionFileNotes notes;
-  s.motion = loadMotionFile(m, *s.human, &notes);
-  const Vec3 way = s.motion->at(s.motion->duration()).root.origin - s.motion->at(notes.window_s).root.origin;
-  s.mean_velocity_m_per_s = Vec3{way.x, way.y, 0} / (s.motion->duration() - notes.window_s);
-  const std::string file = m.path.filename().string();
-  for (const std::string& line : notes.lines) s.notes.push_back(fmt::format("motion {}: {}", file, line));
-  if (notes.beyond_limits_deg > 5)
-    s.notes.push_back(fmt::format("motion {}: {} goes {:.0f} degrees beyond its limits", file, notes.beyond_joint,
-                                  notes.beyond_limits_deg));
-  s.notes.push_back(fmt::format(
-      "motion {}: feet at most {:.0f} mm below and {:.0f} mm above the ground, slip of carrying feet {:.2f} m/s RMS",
-      file, 1e3 * notes.feet.deepest_m, 1e3 * notes.feet.highest_m, notes.feet.slip_m_per_s));
-  return notes.window_s;
-}
-
 void noteCharacter(const CharacterOptions& options, const CharacterReport& found, std::vector<std::string>& notes) {
   const std::string file = options.file.filename().string();
   notes.push_back(fmt::format(
@@ -85,52 +66,27 @@ void noteFolds(const HumanCase& human, Scenario& s) {
     skin.off = o.triangles;
     s.human->skin = std::make_shared<const Skin>(std::move(skin));
     note += fmt::format("; {:.1f} cm^2 are switched off", 1e4 * o.area_m2);
-  } else if (std::holds_alternative<MotionFileOptions>(human.motion)) {
+  } else if (kindOf(human).holds_apart) {
     note += "; hips_apart and arms_apart hold the limbs apart";
   }
   s.notes.push_back(note);
 }
-
-class Standing : public Motion {
- public:
-  Standing(Posture p, double d) : posture_(std::move(p)), duration_(d) {}
-  double duration() const override { return duration_; }
-  Posture at(double) const override { return posture_; }
-
- private:
-  Posture posture_;
-  double duration_;
-};
 
 /// The human of the case and his motion; returns his obstacles.
 std::vector<Obstacle> addHuman(const Case& c, Scenario& s, CaseStage& stage) {
   CharacterReport character;
   s.human = underKey("human", [&] { return humanOf(*c.human, &character); });
   if (c.human->character) noteCharacter(*c.human->character, character, s.notes);
-  underKey("human.motion", [&] {
-    std::visit(
-        Overloaded{
-            [&](const StandMotion& m) { s.motion = std::make_unique<Standing>(standing(*s.human), m.duration_s); },
-            [&](const WalkOptions& w) {
-              s.motion = makeWalk(*s.human, w, &s.mean_velocity_m_per_s);
-              stage.air_ramp_s = w.stand_s + w.lead_in_s;
-            },
-            [&](const StairOptions& o) {
-              s.motion = makeStairs(*s.human, o, &s.mean_velocity_m_per_s);
-              stage.air_ramp_s = o.stand_s + o.lead_in_s;
-            },
-            [&](const AimOptions& o) { s.motion = makeAim(*s.human, o); },
-            [&](const TrajectoryMotion& t) { s.motion = loadTrajectory(t.file, *s.human); },
-            [&](const MotionFileOptions& m) { stage.air_ramp_s = readRecorded(m, s); },
-        },
-        c.human->motion);
-  });
-  const bool own_motion = !std::holds_alternative<MotionFileOptions>(c.human->motion) &&
-                          !std::holds_alternative<TrajectoryMotion>(c.human->motion);
-  if (s.human->skin && !(own_motion && c.human->skin)) noteFolds(*c.human, s);
+  const MotionKind& kind = kindOf(*c.human);
+  MadeMotion made = underKey("human.motion", [&] { return kind.make(c.human->motion, *s.human); });
+  s.motion = std::move(made.motion);
+  s.mean_velocity_m_per_s = made.mean_velocity_m_per_s;
+  stage.air_ramp_s = made.air_ramp_s;
+  s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
+  if (s.human->skin && !(kind.ours && c.human->skin)) noteFolds(*c.human, s);
   s.feet = footReport(*s.human, *s.motion);
-  const bool told = std::holds_alternative<MotionFileOptions>(c.human->motion);  // by its own reader
-  if (s.feet && !told && !plausible(*s.feet)) s.notes.push_back("the feet do not stand well: " + feetText(*s.feet));
+  if (s.feet && !kind.tells_feet && !plausible(*s.feet))
+    s.notes.push_back("the feet do not stand well: " + feetText(*s.feet));
   stage.human = &*s.human;
   stage.motion = s.motion.get();
   for (const Link& link : s.human->skeleton.links) s.bodies.push_back(link.name);
