@@ -4,6 +4,7 @@
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
+#include "cases/wear/case/obstacles/kind.hpp"
 
 namespace gambeson {
 
@@ -36,13 +37,7 @@ void eachFile(Case& named, Take take) {
     kindOf(*named.human).files(named.human->motion, take, [&](std::string& map) { takeMap(map, take); });
   }
   take(named.dressing.from);
-  for (ObstacleCase& o : named.obstacles)
-    if (auto* mesh = std::get_if<MeshObstacle>(&o.shape)) {
-      take(mesh->file);
-    } else if (auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) {
-      for (std::filesystem::path file : framesIn(sequence->folder)) take(file);
-      sequence->folder = sequence->folder.filename();
-    }
+  for (ObstacleCase& o : named.obstacles) kindOf(o).files(o, take);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
+#include "cases/wear/case/obstacles/kind.hpp"
 #include "core/error.hpp"
-#include "human/files/mesh.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -112,10 +112,7 @@ void checkReferences(const Place& root, const Case& c) {
   }
   for (const GarmentCase& g : c.garments)
     if (kindOf(g).isRead()) checkGarmentFile(root, c, g);
-  for (const ObstacleCase& o : c.obstacles) {
-    if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) loadMesh(mesh->file, mesh->scale);
-    if (const auto* sequence = std::get_if<SequenceObstacle>(&o.shape)) MeshSequence{*sequence};
-  }
+  for (const ObstacleCase& o : c.obstacles) kindOf(o).check(o);
   checkPictures(root, c, duration_s);
 }
 

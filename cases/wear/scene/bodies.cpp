@@ -6,10 +6,7 @@
 #include "cases/input/places.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
-#include "cases/wear/scene/obstacle_shape.hpp"
-#include "core/contact/mesh_topology.hpp"
-#include "core/error.hpp"
-#include "human/body/mesh_sequence.hpp"
+#include "cases/wear/case/obstacles/kind.hpp"
 #include "human/skin/overlap.hpp"
 
 namespace gambeson {
@@ -17,30 +14,6 @@ namespace {
 
 /// Feet of our own motions slip and sink by a centimetre or two at most.
 bool plausible(const FootReport& f) { return f.slip_m < 0.05 && f.penetration_m < 0.02 && f.hover_m < 0.02; }
-
-void noteDefects(const MeshObstacle& file, const std::string& name, const Obstacle& obstacle,
-                 std::vector<std::string>& notes) {
-  std::string defects;
-  try {
-    defects = meshDefects(meshTopology(std::get<TriangleMesh>(obstacle.shape)));
-  } catch (const InputError& e) {
-    throw InputError({file.file.string(), 0, ""}, "the mesh of obstacle " + name + ": " + e.reason());
-  }
-  if (!defects.empty()) notes.push_back("obstacle " + name + " (" + file.file.filename().string() + ") " + defects);
-}
-
-void noteSequence(const SequenceObstacle& file, const MeshSequence& sequence, const std::string& name,
-                  std::vector<std::string>& notes) {
-  std::string defects;
-  try {
-    defects = meshDefects(meshTopology(sequence.first()));
-  } catch (const InputError& e) {
-    throw InputError({file.folder.string(), 0, ""}, "the mesh of obstacle " + name + ": " + e.reason());
-  }
-  notes.push_back(fmt::format("obstacle {} ({}): {} frames from {:.3f} to {:.3f} s, {} triangles{}", name,
-                              file.folder.filename().string(), sequence.frames(), file.begin_s, sequence.end_s(),
-                              sequence.triangles().size(), defects.empty() ? "" : "; it " + defects));
-}
 
 void noteCharacter(const CharacterOptions& options, const CharacterReport& found, std::vector<std::string>& notes) {
   const std::string file = options.file.filename().string();
@@ -103,16 +76,12 @@ void addObstacles(const Case& c, Scenario& s, CaseStage& stage, std::vector<Obst
   for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
     const ObstacleCase& o = c.obstacles[k];
     const std::string key = fmt::format("obstacles[{}]", k);
+    MadeObstacle made = underKey(key, [&] { return kindOf(o).make(o); });
+    s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
+    obstacles.push_back({std::move(made.shape), o.name, made.sequence != nullptr});
+    stage.sequence.push_back(std::move(made.sequence));
     Placement at;
-    stage.sequence.push_back(nullptr);
-    if (const auto* frames = std::get_if<SequenceObstacle>(&o.shape)) {
-      stage.sequence.back() = std::make_unique<const MeshSequence>(*frames);
-      obstacles.push_back({stage.sequence.back()->first(), o.name, true});
-      noteSequence(*frames, *stage.sequence.back(), o.name, s.notes);
-    } else {
-      obstacles.push_back({underKey(key, [&] { return shapeOf(o, at); }), o.name});
-    }
-    if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape)) noteDefects(*mesh, o.name, obstacles.back(), s.notes);
+    at.origin = made.origin_m;
     stage.fixed.push_back(at);
     stage.fixed_velocity.push_back(o.velocity_m_per_s);
     s.body_of_obstacle.push_back(static_cast<int>(s.bodies.size()));

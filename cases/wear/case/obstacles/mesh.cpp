@@ -1,0 +1,50 @@
+/// Detail of kind.hpp: triangles from a file.
+
+#include "human/files/mesh.hpp"
+#include "cases/input/table.hpp"
+#include "cases/wear/case/obstacles/kind.hpp"
+
+namespace gambeson {
+namespace schema {
+namespace {
+
+const Range world = between(-1e3, 1e3);
+
+Object meshTable() {
+  using M = MeshObstacle;
+  return Table<M>("Mesh")
+      .path("file", &M::file, "OBJ, PLY, STL or glTF, relative to the case's folder")
+      .required()
+      .number("scale", &M::scale, "", aboveTo(0, 1e6), "metres per unit of the file")
+      .vector("position", &M::position_m, "m", world, "where the file's origin stands")
+      .build();
+}
+
+}  // namespace
+}  // namespace schema
+
+extern const ObstacleKind mesh_obstacle;
+const ObstacleKind mesh_obstacle{
+    .word = "mesh",
+    .addTo =
+        [](schema::Table<ObstacleCase>& table) {
+          table.alternative<MeshObstacle>("mesh", &ObstacleCase::shape, schema::meshTable(), "triangles from a file");
+        },
+    .make =
+        [](const ObstacleCase& o) {
+          const auto& m = std::get<MeshObstacle>(o.shape);
+          TriangleMesh mesh = loadMesh(m.file, m.scale);
+          std::vector<std::string> notes;
+          if (const std::string defects = defectsOf(mesh, o.name, m.file); !defects.empty())
+            notes.push_back("obstacle " + o.name + " (" + m.file.filename().string() + ") " + defects);
+          return MadeObstacle{std::move(mesh), m.position_m, nullptr, std::move(notes)};
+        },
+    .check =
+        [](const ObstacleCase& o) {
+          const auto& m = std::get<MeshObstacle>(o.shape);
+          loadMesh(m.file, m.scale);
+        },
+    .files = [](ObstacleCase& o, const ObstacleKind::Take& take) { take(std::get<MeshObstacle>(o.shape).file); },
+};
+
+}  // namespace gambeson
