@@ -8,6 +8,7 @@
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/case/obstacles/kind.hpp"
+#include "cases/wear/case/supports/kind.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::schema {
@@ -44,10 +45,11 @@ void checkLinks(const Place& root, const Case& c, const Skeleton& skeleton) {
   std::vector<std::string> names;
   for (const Link& l : skeleton.links) names.push_back(l.name);
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
-    const auto* springs = std::get_if<SpringSupport>(&c.supports[i]);
-    if (!springs || skeleton.link(springs->link) >= 0) continue;
+    const SupportKind& kind = kindOf(c.supports[i]);
+    const std::string* link = kind.link(c.supports[i]);
+    if (!link || skeleton.link(*link) >= 0) continue;
     const Place support = listItem(root, "supports", i);
-    support.member(*support.node.find("springs")).failAt("link", absent("link", springs->link, names));
+    support.member(*support.node.find(kind.word)).failAt("link", absent("link", *link, names));
   }
   for (std::size_t i = 0; i < c.obstacles.size(); ++i)
     if (skeleton.link(c.obstacles[i].name) >= 0)
@@ -69,7 +71,7 @@ void checkPictures(const Place& root, const Case& c, double duration_s) {
 void checkSupportsOf(const Place& root, const Case& c, const GarmentCase& garment, int patches,
                      const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
-    const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, c.supports[i]);
+    const EdgeCase& edge = edgeOf(c.supports[i]);
     if (!edge.garment.empty() && edge.garment != garment.name) continue;
     const Place support = listItem(root, "supports", i);
     const Place kind = support.member(support.node.children.front());

@@ -7,6 +7,7 @@
 
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
+#include "cases/wear/case/supports/kind.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::schema {
@@ -67,8 +68,8 @@ void checkSupports(const Place& root, const Case& c) {
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const Place place = itemOf(root, "supports", i);
     const Place support = place.member(place.node.children.front());
-    std::visit([&](const auto& s) { checkEdge(support, c, s.edge); }, c.supports[i]);
-    if (std::holds_alternative<SpringSupport>(c.supports[i]) && !c.human)
+    checkEdge(support, c, edgeOf(c.supports[i]));
+    if (kindOf(c.supports[i]).link(c.supports[i]) && !c.human)
       support.failAt("link", "springs tie the garment to a human, and the case has none");
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/wear/case/supports/kind.hpp"
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
 #include "tryon/stitching.hpp"
@@ -27,7 +28,7 @@ Case alone(const Case& c, std::size_t g) {
   one.garments = {c.garments[g]};
   one.supports.clear();
   for (const SupportCase& support : c.supports) {
-    const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
+    const EdgeCase& edge = edgeOf(support);
     if (edge.garment.empty() || edge.garment == c.garments[g].name) one.supports.push_back(support);
   }
   one.dressing.layer_by_layer = false;

@@ -3,14 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "cases/input/places.hpp"
-#include "core/contact/triangle.hpp"
 #include "core/error.hpp"
-#include "human/body/skin.hpp"
-#include "human/motion/motion.hpp"
-#include "human/motion/standing.hpp"
 
 namespace gambeson {
 namespace {
@@ -24,37 +19,15 @@ std::vector<PatchEdge> edgesOf(const std::vector<NamedEdge>& known, const EdgeCa
   throw InputError({"", 0, "edge"}, "the garment has no edge \"" + e.name + "\"");
 }
 
-std::array<int, 3> nearestTriangle(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x,
-                                   const Vec3& p) {
-  double best2 = std::numeric_limits<double>::infinity();
-  std::array<int, 3> best{};
-  for (const auto& t : triangles) {
-    if (!(norm2(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) > 0)) continue;  // has no normal
-    const double dist2 = closestOnTriangle({x[t[0]], x[t[1]], x[t[2]]}, p).dist2_m2;
-    if (dist2 < best2) {
-      best2 = dist2;
-      best = t;
-    }
-  }
-  return best;
-}
-
-/// The human's skin as he stands, which garments are drafted for.
-std::vector<Vec3> standingSkin(const Human& human) {
-  const Posture p = standing(human);
-  std::vector<Vec3> x(human.skin->rest.vertices.size());
-  skinPositions(*human.skin, linkPoses(human.skeleton, p.q, p.root), x);
-  return x;
-}
-
 }  // namespace
 
 void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& first,
                  const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
                  ModelOptions& options, std::vector<SupportGroup>& groups) {
   const auto add = [&](const SupportCase& support) {
+    const SupportKind& kind = kindOf(support);
     SupportGroup group;
-    const EdgeCase& edge = std::visit([](const auto& s) -> const EdgeCase& { return s.edge; }, support);
+    const EdgeCase& edge = edgeOf(support);
     std::size_t worn = 0;
     if (!edge.garment.empty())
       while (c.garments[worn].name != edge.garment) ++worn;
@@ -63,7 +36,7 @@ void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& firs
         of + (edge.name.empty() ? fmt::format("edge {} of patch {}", kSides[static_cast<int>(edge.side)], edge.patch)
                                 : edge.name);
     std::vector<PatchEdge> edges;
-    if (!std::holds_alternative<PinnedSupport>(support)) edges = edgesOf(known[worn], edge);
+    if (kind.on_edge) edges = edgesOf(known[worn], edge);
     for (PatchEdge& e : edges) {
       if (e.patch >= first[worn + 1] - first[worn])
         throw InputError({"", 0, "edge"}, "patch " + std::to_string(e.patch) + " does not exist; the garment has " +
@@ -72,57 +45,13 @@ void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& firs
       for (int s : edgeSamples(surface, e))
         if (std::find(group.samples.begin(), group.samples.end(), s) == group.samples.end()) group.samples.push_back(s);
     }
-    if (const auto* pinned = std::get_if<PinnedSupport>(&support)) {
-      const int p = edge.patch + first[worn];
-      const ClothPatch& patch = cloth.patches()[static_cast<std::size_t>(p)];
-      const auto at = [](double from, double to, double part) { return from + part * (to - from); };
-      const PlaceRow row = cloth.mounting().place(
-          p, {at(patch.low.x, patch.high.x, pinned->s), at(patch.low.y, patch.high.y, pinned->t)});
-      group.name = of + fmt::format("point ({:.3g}, {:.3g}) held", pinned->s, pinned->t);
-      for (std::size_t k = 0; k < row.columns.size(); ++k)
-        if (row.value[k] > 1e-12) group.control_points.push_back(row.columns[k]);
-    } else if (const auto* fixed = std::get_if<FixedSupport>(&support)) {
-      group.name = name + " held";
-      for (const PatchEdge& e : edges) {
-        const std::vector<int> points = cloth.mounting().edgePoints(e, fixed->rows);
-        group.control_points.insert(group.control_points.end(), points.begin(), points.end());
-      }
-    } else {
-      const auto& springs = std::get<SpringSupport>(support);
-      group.name = name + " springs to " + springs.link;
-      group.anchor = human->skeleton.link(springs.link);
-      if (group.anchor < 0) throw InputError({"", 0, "link"}, "the human has no link \"" + springs.link + "\"");
-      // Each sample answers for half of the edge to either neighbour.
-      std::vector<double> length(surface.size(), 0);
-      std::vector<Vec3> X(surface.size());
-      surface.W.multiply<Vec3>(cloth.rest(), X);
-      for (const PatchEdge& e : edges) {
-        const std::vector<int> at = edgeSamples(surface, e);
-        for (std::size_t k = 0; k + 1 < at.size(); ++k) {
-          const double half = 0.5 * norm(X[at[k + 1]] - X[at[k]]);
-          length[at[k]] += half;
-          length[at[k + 1]] += half;
-        }
-      }
-      std::vector<Vec3> skin;
-      if (human->skin) skin = standingSkin(*human);
-      for (int s : group.samples) {
-        group.springs.push_back(static_cast<int>(options.springs.size()));
-        SpringSupportPoint spring{s, group.anchor, springs.stiffness_N_per_m2 * length[s]};
-        if (human->skin) {
-          spring.obstacle = 0;  // the skin, a human's only one
-          spring.triangle = nearestTriangle(human->skin->rest.triangles, skin, X[s]);
-        }
-        options.springs.push_back(spring);
-      }
-    }
+    kind.hold(support, {cloth, surface, human, kind.on_edge ? name : of, edges, first[worn]}, options, group);
     options.held_control_points.insert(options.held_control_points.end(), group.control_points.begin(),
                                        group.control_points.end());
     groups.push_back(std::move(group));
   };
-  const char* const kinds[] = {"fixed", "springs", "pinned"};
   for (std::size_t i = 0; i < c.supports.size(); ++i)
-    underKey("supports[" + std::to_string(i) + "]." + kinds[c.supports[i].index()], [&] { add(c.supports[i]); });
+    underKey("supports[" + std::to_string(i) + "]." + kindOf(c.supports[i]).word, [&] { add(c.supports[i]); });
 }
 
 void findHeldPoints(const Model& m, std::vector<SupportGroup>& groups) {

@@ -1,28 +1,15 @@
 #pragma once
 /// What holds the garments of a case: points and edges held, edges on springs.
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "cases/wear/case/case.hpp"
+#include "cases/wear/case/supports/kind.hpp"
 #include "core/cloth/cloth.hpp"
 #include "core/motion/model.hpp"
 #include "human/body/body.hpp"
 
 namespace gambeson {
-
-/// What holds the garment, by name, as the supports table lists it.
-struct SupportGroup {
-  std::string name;                 ///< "waist springs to pelvis", "fixed start"
-  std::vector<int> springs;         ///< indices in Model::springs; empty for held control points
-  std::vector<int> control_points;  ///< held
-  /// Of the held points, the index in Model::held_points and the part of its force: a point that several supports hold
-  /// is shared equally.
-  std::vector<std::pair<int, double>> held;
-  std::vector<int> samples;  ///< of the supported edge
-  int anchor = -1;           ///< frame of the springs
-};
 
 /// Adds held control points and springs to `options`, and a group for each support of the case. `first`: the first
 /// patch of each garment in `cloth`; `known`: its named edges; `human` may be null. Throws InputError for an edge, a

@@ -1,0 +1,57 @@
+#pragma once
+/// The keys by which a support speaks of an edge.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "cases/input/table.hpp"
+#include "cases/wear/case/case.hpp"
+
+namespace gambeson::schema {
+
+/// "waist", or "2.u0" for side u0 of patch 2.
+inline const std::vector<std::string> side_names{"u0", "u1", "v0", "v1"};
+
+template <class S>
+void edgeField(Table<S>& table) {
+  table
+      .text(
+          "garment", [](auto& s) -> auto& { return s.edge.garment; }, "whose edge it is, by the garment's name")
+      .defaultsTo("the only garment; required where there are several");
+  Field f;
+  f.key = "edge";
+  f.kind = Kind::text;
+  f.required = true;
+  f.doc =
+      "which edge of the garment: waist, hem_left, hem_right of shorts; start, end of a tube; u0, u1, v0, v1 of a "
+      "sheet; or "
+      "patch and side, such as 2.u0";
+  table.custom(
+      f,
+      [](const Place& p, S& s) {
+        const std::string& text = readText(p);
+        const std::size_t dot_at = text.find('.');
+        if (dot_at == std::string::npos) {
+          s.edge.name = text;
+          return;
+        }
+        const std::string patch = text.substr(0, dot_at), side = text.substr(dot_at + 1);
+        const auto found = std::find(side_names.begin(), side_names.end(), side);
+        if (patch.empty() || patch.size() > 4 || patch.find_first_not_of("0123456789") != std::string::npos ||
+            found == side_names.end())
+          p.fail(describe(p.node) + " is not an edge; allowed: a name, or patch and side such as 2.u0");
+        s.edge.name.clear();
+        s.edge.patch = std::stoi(patch);
+        s.edge.side = static_cast<Side>(found - side_names.begin());
+      },
+      [](const S& s) {
+        return std::optional(nodeOf(
+            s.edge.name.empty() ? fmt::format("{}.{}", s.edge.patch, side_names[static_cast<std::size_t>(s.edge.side)])
+                                : s.edge.name));
+      });
+}
+
+}  // namespace gambeson::schema

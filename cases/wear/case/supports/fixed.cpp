@@ -1,0 +1,40 @@
+/// Detail of kind.hpp: an edge that stays where it is.
+
+#include <functional>
+
+#include "cases/wear/case/supports/fields_edge.hpp"
+#include "cases/wear/case/supports/kind.hpp"
+
+namespace gambeson {
+namespace schema {
+namespace {
+
+Object fixedTable() {
+  Table<FixedSupport> table("Fixed edge");
+  edgeField(table);
+  table.integer("rows", &FixedSupport::rows, 1, 2, "rows of control points held: 1 holds the edge, 2 also its slope");
+  return table.build();
+}
+
+}  // namespace
+}  // namespace schema
+
+extern const SupportKind fixed_support;
+const SupportKind fixed_support{
+    .word = "fixed",
+    .addTo =
+        [](schema::Table<SupportCase>& table) {
+          table.alternative<FixedSupport>("fixed", std::identity{}, schema::fixedTable(),
+                                          "an edge that stays where it is in the world");
+        },
+    .hold =
+        [](const SupportCase& support, const SupportPlace& place, ModelOptions&, SupportGroup& group) {
+          group.name = place.name + " held";
+          for (const PatchEdge& e : place.edges) {
+            const std::vector<int> points = place.cloth.mounting().edgePoints(e, std::get<FixedSupport>(support).rows);
+            group.control_points.insert(group.control_points.end(), points.begin(), points.end());
+          }
+        },
+};
+
+}  // namespace gambeson
