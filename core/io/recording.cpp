@@ -199,10 +199,11 @@ Frame RecordingReader::frame(int index) const {
   return impl_->segments[static_cast<std::size_t>(segment)].frame(index);
 }
 
-std::vector<std::vector<double>> RecordingReader::table(const std::string& name) const {
-  if (!impl_->layout.tables.contains(name)) throw std::out_of_range("the recording has no table " + name);
+RecordedTable RecordingReader::table(const std::string& name) const {
+  const auto columns = impl_->layout.tables.find(name);
+  if (columns == impl_->layout.tables.end()) throw RunError("the recording has no table " + name);
   const auto rows = impl_->rows.find(name);
-  return rows == impl_->rows.end() ? std::vector<std::vector<double>>{} : rows->second;
+  return {name, columns->second, rows == impl_->rows.end() ? std::vector<std::vector<double>>{} : rows->second};
 }
 
 int RecordingReader::checkpointCount() const { return static_cast<int>(impl_->segments.size()); }

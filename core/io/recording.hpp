@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/io/patch_layout.hpp"
+#include "core/io/recorded_table.hpp"
 
 namespace gambeson {
 
@@ -31,6 +32,13 @@ struct Frame {
   std::vector<Field> body_fields;
 };
 
+/// Values of one name, a list each of numbers, whole numbers and texts.
+struct Values {
+  std::vector<double> reals;
+  std::vector<std::int64_t> integers;
+  std::vector<std::string> texts;
+};
+
 /// A table with named columns, one row per window of the run, double precision: rows in the order of time.
 struct TableRow {
   std::string table;
@@ -45,7 +53,7 @@ struct Checkpoint {
 };
 
 /// What stays constant over a run. `metadata` is free text (JSON) that readers get back; `identity` is what a resumed
-/// run must match (the case hash).
+/// run must match (the case hash); `scene` holds by name whatever else readers need.
 struct RecordingLayout {
   std::string identity;
   std::string metadata;
@@ -53,10 +61,14 @@ struct RecordingLayout {
   std::map<std::string, std::vector<std::string>> tables;  ///< columns (with units in the names) of each table
   std::vector<std::array<int, 3>> body_triangles{};        ///< of the vertices of a body that deforms, or none
   std::vector<PatchLayout> patches{};
+  std::map<std::string, Values> scene{};
 };
 
 /// Whether a writer has made a recording in a directory, with or without closed segments.
 bool holdsRecording(const std::filesystem::path& directory);
+
+/// What stays constant in the recording of a directory. Throws InputError where there is none, or it is damaged.
+RecordingLayout readLayout(const std::filesystem::path& directory);
 
 /// The number of closed segments in a directory; 0 where there is no recording to resume (a run killed before its first
 /// checkpoint starts anew).
@@ -99,7 +111,7 @@ class RecordingReader {
   double time(int frame) const;
   Frame frame(int index) const;
   /// All rows of a table.
-  std::vector<std::vector<double>> table(const std::string& name) const;
+  RecordedTable table(const std::string& name) const;
   /// One at the end of each closed segment.
   int checkpointCount() const;
   Checkpoint checkpoint(int index) const;

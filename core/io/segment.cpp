@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLayoutFormat = "gambeson recording layout";
 constexpr const char* kSegmentFormat = "gambeson recording segment";
-constexpr std::int64_t kVersion = 1;
+constexpr std::int64_t kLayoutVersion = 2;  ///< 1 had no scene
+constexpr std::int64_t kSegmentVersion = 1;
 
 /// Runs `read` and turns what the file's content can provoke into an InputError that names the file.
 template <class F>
@@ -34,10 +35,12 @@ hdf5::File openFile(const fs::path& path) {
   return reading(path, [&] { return hdf5::File(path); });
 }
 
-void requireFormat(const hdf5::File& file, const char* format) {
+void requireFormat(const hdf5::File& file, const fs::path& path, const char* format, std::int64_t known) {
   if (file.textAttribute("/", "format") != format) throw hdf5::Error(std::string("not a ") + format);
-  if (const auto version = file.intAttribute("/", "version"); version != kVersion)
-    throw hdf5::Error(fmt::format("version {}; this program reads version {}", version, kVersion));
+  if (const auto version = file.intAttribute("/", "version"); version != known)
+    throw InputError(at(path), fmt::format("is of a recording in format {}, and this program reads format {}: run its "
+                                           "case again, or read it with the program that made it",
+                                           version, known));
 }
 
 std::size_t highestCorner(const std::vector<std::array<int, 3>>& triangles) {
@@ -82,7 +85,7 @@ std::string bodyPath(int frame, const std::string& field) {
 std::string layoutImage(const RecordingLayout& layout) {
   hdf5::Builder file;
   file.attribute("/", "format", kLayoutFormat);
-  file.attribute("/", "version", kVersion);
+  file.attribute("/", "version", kLayoutVersion);
   file.texts("/identity", {layout.identity});
   file.texts("/metadata", {layout.metadata});
   const auto put = [&](const char* name, const std::vector<std::array<int, 3>>& triangles) {
@@ -117,6 +120,14 @@ std::string layoutImage(const RecordingLayout& layout) {
       file.array(of + "/weights", curve.weights);
     }
   }
+  file.group("/scene");
+  for (const auto& [name, values] : layout.scene) {
+    const std::string of = "/scene/" + hdf5::linkName(name);
+    file.group(of);
+    if (!values.reals.empty()) file.array(of + "/reals", values.reals);
+    if (!values.integers.empty()) file.array(of + "/integers", values.integers);
+    if (!values.texts.empty()) file.texts(of + "/texts", values.texts);
+  }
   return file.finish();
 }
 
@@ -125,7 +136,7 @@ RecordingLayout readLayout(const fs::path& directory) {
   if (!fs::exists(path)) throw InputError(at(directory), "holds no recording (frames/layout.h5 is missing)");
   const hdf5::File file = openFile(path);
   return reading(path, [&] {
-    requireFormat(file, kLayoutFormat);
+    requireFormat(file, path, kLayoutFormat, kLayoutVersion);
     const auto one = [&](const std::string& name) {
       const auto texts = file.texts(name);
       if (texts.size() != 1) throw hdf5::Error(name + ": not one text");
@@ -166,6 +177,15 @@ RecordingLayout readLayout(const fs::path& directory) {
         }
         layout.patches.push_back(std::move(patch));
       }
+    for (const auto& name : file.names("/scene")) {
+      const std::string of = "/scene/" + name;
+      Values& values = layout.scene[hdf5::fromLinkName(name)];
+      for (const auto& kind : file.names(of)) {
+        if (kind == "reals") values.reals = file.doubles(of + "/reals").values;
+        if (kind == "integers") values.integers = file.longs(of + "/integers").values;
+        if (kind == "texts") values.texts = file.texts(of + "/texts");
+      }
+    }
     return layout;
   });
 }
@@ -173,7 +193,7 @@ RecordingLayout readLayout(const fs::path& directory) {
 SegmentBuilder::SegmentBuilder(const RecordingLayout& layout, int index, int first_frame)
     : layout_(&layout), first_frame_(first_frame) {
   file_.attribute("/", "format", kSegmentFormat);
-  file_.attribute("/", "version", kVersion);
+  file_.attribute("/", "version", kSegmentVersion);
   file_.texts("/identity", {layout.identity});
   file_.attribute("/", "index", index);
   file_.attribute("/", "first_frame", first_frame);
@@ -256,7 +276,7 @@ std::string SegmentBuilder::finish(const Checkpoint& checkpoint) {
 SegmentReader::SegmentReader(const fs::path& directory, const RecordingLayout& layout, int index, int first_frame)
     : path_(segmentPath(directory, index)), layout_(&layout), file_(openFile(path_)), first_frame_(first_frame) {
   reading(path_, [&] {
-    requireFormat(file_, kSegmentFormat);
+    requireFormat(file_, path_, kSegmentFormat, kSegmentVersion);
     if (const auto identity = file_.texts("/identity"); identity.size() != 1 || identity[0] != layout.identity)
       throw hdf5::Error("it belongs to another recording");
     if (file_.intAttribute("/", "index") != index || file_.intAttribute("/", "first_frame") != first_frame)

@@ -7,7 +7,8 @@
 ///
 /// The layout holds  /identity  /metadata  /triangles  /body_triangles  /tables/TABLE (names of columns)
 /// /patches/000000/{knots_u, knots_v, weights, curves/000000/{knots, points, weights}}  with the attributes name,
-/// degree_u, degree_v of a patch and degree, loop of a curve (a trimming loop's, in the patch's parameters).
+/// degree_u, degree_v of a patch and degree, loop of a curve (a trimming loop's, in the patch's parameters), and
+/// /scene/NAME/{reals, integers, texts}, those that are not empty.
 ///
 /// A segment holds  /times  /frames/000000/{positions, vertices, samples/FIELD, controls/FIELD, body/FIELD}  (numbered
 /// through; body only where one deforms)
@@ -45,7 +46,6 @@ std::string controlPath(int frame, const std::string& field);
 std::string bodyPath(int frame, const std::string& field);
 
 std::string layoutImage(const RecordingLayout& layout);
-RecordingLayout readLayout(const std::filesystem::path& directory);
 
 /// A segment in the making: appends go to memory, `finish` gives the bytes of the closed file.
 class SegmentBuilder {

@@ -83,7 +83,9 @@ std::vector<std::filesystem::path> framesIn(const std::filesystem::path& folder)
   return files;
 }
 
-MeshSequence::MeshSequence(const SequenceOptions& o) : rate_Hz_(o.rate_Hz), begin_s_(o.begin_s) {
+MeshSequence::MeshSequence(const SequenceOptions& o) {
+  snapshots_.rate_Hz = o.rate_Hz;
+  snapshots_.begin_s = o.begin_s;
   if (!(o.rate_Hz > 0 && std::isfinite(o.rate_Hz)))
     throw InputError({o.folder.string(), 0, "rate"}, fmt::format("{} is not allowed: > 0", o.rate_Hz));
   const Mat3 R = turnOf(o);
@@ -96,26 +98,27 @@ MeshSequence::MeshSequence(const SequenceOptions& o) : rate_Hz_(o.rate_Hz), begi
   std::vector<std::array<int, 3>> all;
   for (const auto& file : files) {
     TriangleMesh m = loadTriangles(file, o.scale);
-    if (frames_.empty()) all = m.triangles;
-    if (m.vertices.size() != (frames_.empty() ? m.vertices.size() : frames_[0].size()) || m.triangles != all)
+    if (snapshots_.frames.empty()) all = m.triangles;
+    if (m.vertices.size() != (snapshots_.frames.empty() ? m.vertices.size() : snapshots_.frames[0].size()) ||
+        m.triangles != all)
       throw InputError({file.string(), 0, ""},
                        fmt::format("has {} vertices and {} triangles, the first frame ({}) {} and {}: all frames must "
                                    "be one mesh that moves",
                                    m.vertices.size(), m.triangles.size(), files[0].filename().string(),
-                                   frames_[0].size(), all.size()));
+                                   snapshots_.frames[0].size(), all.size()));
     for (Vec3& x : m.vertices) x = R * x;
-    frames_.push_back(std::move(m.vertices));
+    snapshots_.frames.push_back(std::move(m.vertices));
   }
   // One vertex are those that are at one place in all frames.
-  std::vector<int> of(frames_[0].size(), 0), first;
+  std::vector<int> of(snapshots_.frames[0].size(), 0), first;
   const auto joined = [&] {
     std::vector<std::array<int, 3>> triangles;
     for (const auto& t : all) triangles.push_back({of[t[0]], of[t[1]], of[t[2]]});
     return triangles;
   };
   bool closed = false;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const auto& x = frames_[i];
+  for (std::size_t i = 0; i < snapshots_.frames.size(); ++i) {
+    const auto& x = snapshots_.frames[i];
     std::map<std::tuple<int, double, double, double>, int> known;
     first.clear();
     for (std::size_t v = 0; v < of.size(); ++v) {
@@ -137,31 +140,33 @@ MeshSequence::MeshSequence(const SequenceOptions& o) : rate_Hz_(o.rate_Hz), begi
       if (number[v] < 0) number[v] = static_cast<int>(source.size()), source.push_back(first[v]);
       v = number[v];
     }
-    triangles_.push_back(mine);
+    snapshots_.triangles.push_back(mine);
   }
-  if (triangles_.empty()) throw InputError({files[0].string(), 0, ""}, "holds no triangle with an area");
-  for (auto& x : frames_) {
+  if (snapshots_.triangles.empty()) throw InputError({files[0].string(), 0, ""}, "holds no triangle with an area");
+  for (auto& x : snapshots_.frames) {
     std::vector<Vec3> kept;
     for (const int v : source) kept.push_back(x[v]);
     x = std::move(kept);
   }
   double volume = 0;
-  const auto& x = frames_[0];
-  for (const auto& t : triangles_) volume += dot(x[t[0]] - x[0], cross(x[t[1]] - x[0], x[t[2]] - x[0]));
-  if (volume < 0 && isClosed(triangles_))
-    for (auto& t : triangles_) std::swap(t[1], t[2]);
+  const auto& x = snapshots_.frames[0];
+  for (const auto& t : snapshots_.triangles) volume += dot(x[t[0]] - x[0], cross(x[t[1]] - x[0], x[t[2]] - x[0]));
+  if (volume < 0 && isClosed(snapshots_.triangles))
+    for (auto& t : snapshots_.triangles) std::swap(t[1], t[2]);
 }
 
 void MeshSequence::at(double time_s, std::span<Vec3> x) const {
-  const double s = std::clamp((time_s - begin_s_) * rate_Hz_, 0.0, static_cast<double>(frames() - 1));
+  const double s =
+      std::clamp((time_s - snapshots_.begin_s) * snapshots_.rate_Hz, 0.0, static_cast<double>(frames() - 1));
   const int i = std::min(static_cast<int>(s), frames() - 2);
   const double u = s - i;
   // Cubic Hermite, h = 1: velocities (x_{i+1} - x_{i-1})/2, 0 at either end of the sequence.
   const double h00 = (1 + 2 * u) * (1 - u) * (1 - u), h10 = u * (1 - u) * (1 - u), h01 = u * u * (3 - 2 * u),
                h11 = u * u * (u - 1);
-  const auto &a = frames_[static_cast<std::size_t>(i)], &b = frames_[static_cast<std::size_t>(i) + 1];
-  const std::vector<Vec3>*before_a = i > 0 ? &frames_[static_cast<std::size_t>(i) - 1] : nullptr,
-        *after_b = i + 2 < frames() ? &frames_[static_cast<std::size_t>(i) + 2] : nullptr;
+  const auto &a = snapshots_.frames[static_cast<std::size_t>(i)],
+             &b = snapshots_.frames[static_cast<std::size_t>(i) + 1];
+  const std::vector<Vec3>*before_a = i > 0 ? &snapshots_.frames[static_cast<std::size_t>(i) - 1] : nullptr,
+        *after_b = i + 2 < frames() ? &snapshots_.frames[static_cast<std::size_t>(i) + 2] : nullptr;
   for (std::size_t v = 0; v < x.size(); ++v) {
     const Vec3 va = before_a ? 0.5 * (b[v] - (*before_a)[v]) : Vec3{},
                vb = after_b ? 0.5 * ((*after_b)[v] - a[v]) : Vec3{};

@@ -99,13 +99,19 @@ std::vector<CarriedMass> rifleInHands(const Human& human, double mass_kg) {
   return out;
 }
 
+std::vector<double> hundredthsOf(const Motion& motion) {
+  std::vector<double> times_s;
+  for (int i = 0; i <= 100; ++i) times_s.push_back(motion.duration() * i / 100);
+  return times_s;
+}
+
 std::vector<StaticMoment> peakStaticMoments(const Human& human, const Motion& motion,
                                             std::span<const CarriedMass> carried) {
   const Skeleton& skeleton = human.skeleton;
   std::vector<StaticMoment> peak(skeleton.joints.size());
   bool stood = false;
-  for (int i = 0; i <= 100; ++i) {
-    const Posture p = motion.at(motion.duration() * i / 100);
+  for (const double time_s : hundredthsOf(motion)) {
+    const Posture p = motion.at(time_s);
     const auto X = linkPoses(skeleton, p.q, p.root);
     const GroundReaction ground = groundReaction(human, X, carried);
     if (ground.feet.size() < 2) continue;

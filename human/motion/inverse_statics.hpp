@@ -55,8 +55,11 @@ struct StaticMoment {
   double lever_m = 0;    ///< at which the ground's force on that foot passes the joint's axis
 };
 
+/// Every hundredth of a motion, from 0 to its end [s].
+std::vector<double> hundredthsOf(const Motion& motion);
+
 /// Per joint the moment of largest size that holds the postures of a motion still, over the times when both feet stand
-/// (a still body cannot step), every hundredth of the motion. Throws InputError where they never do.
+/// (a still body cannot step), at the hundredths of the motion. Throws InputError where they never do.
 std::vector<StaticMoment> peakStaticMoments(const Human& human, const Motion& motion,
                                             std::span<const CarriedMass> carried);
 

@@ -44,6 +44,8 @@ RecordingLayout someLayout() {
        {1, 0.5, 1, 1},
        {{0, 1, {0, 0, 1, 1}, {0.1, 0.1, 0.9, 0.1}, {1, 1}}, {0, 1, {0, 0, 2, 2}, {0.9, 0.1, 0.1, 0.1}, {1, 2}}}}};
   layout.tables = {{"contact", {"time_s", "thigh/left_Ns"}}, {"empty", {"time_s"}}};
+  layout.scene = {{"body.mass", {{70.5, -0.0, std::numeric_limits<double>::infinity()}, {}, {}}},
+                  {"notes", {{}, {2}, {"a note", ""}}}};
   return layout;
 }
 
@@ -127,11 +129,13 @@ bool same(const Frame& a, const Frame& b) {
 void expectSame(const RecordingReader& reader, int frames) {
   ASSERT_EQ(reader.frameCount(), frames);
   const auto rows = reader.table("contact");
-  ASSERT_EQ(static_cast<int>(rows.size()), frames);
+  ASSERT_EQ(static_cast<int>(rows.rows()), frames);
   for (int f = 0; f < frames; ++f) {
     EXPECT_EQ(reader.time(f), 0.1 * f);
     EXPECT_TRUE(same(reader.frame(f), someFrame(f))) << "frame " << f;
-    EXPECT_EQ(rows[static_cast<std::size_t>(f)], someRow(f).values);
+    const auto row = static_cast<std::size_t>(f);
+    EXPECT_EQ(rows.column("time_s")[row], someRow(f).values[0]);
+    EXPECT_EQ(rows.column("thigh/left_Ns")[row], someRow(f).values[1]);
   }
 }
 
@@ -162,8 +166,16 @@ TEST_F(RecordingTest, ReadsBackEveryBit) {
   EXPECT_EQ(reader.layout().body_triangles, expected.body_triangles);
   EXPECT_EQ(reader.layout().patches, expected.patches);
   EXPECT_EQ(reader.layout().tables, expected.tables);
+  ASSERT_EQ(reader.layout().scene.size(), expected.scene.size());
+  for (const auto& [name, values] : expected.scene) {
+    const Values& read = reader.layout().scene.at(name);
+    EXPECT_EQ(read.reals, values.reals) << name;
+    EXPECT_EQ(read.integers, values.integers) << name;
+    EXPECT_EQ(read.texts, values.texts) << name;
+  }
   EXPECT_TRUE(reader.table("empty").empty());
-  EXPECT_THROW(reader.table("absent"), std::out_of_range);
+  EXPECT_THROW(reader.table("absent"), RunError);
+  EXPECT_THROW(reader.table("contact").column("thigh/right_Ns"), RunError);
   EXPECT_THROW(reader.frame(8), std::out_of_range);
   const Checkpoint c = reader.lastCheckpoint(), e = someCheckpoint(7);
   EXPECT_EQ(c.time_s, e.time_s);
@@ -174,6 +186,21 @@ TEST_F(RecordingTest, ReadsBackEveryBit) {
   for (int k = 0; k < reader.checkpointCount(); ++k)
     EXPECT_EQ(reader.checkpoint(k).time_s, someCheckpoint(std::min(8, (k + 1) * kFramesPerSegment) - 1).time_s);
   EXPECT_THROW(reader.checkpoint(reader.checkpointCount()), std::out_of_range);
+}
+
+/// Recordings from before hold no scene.
+TEST_F(RecordingTest, AnEarlierFormatIsRefusedInWords) {
+  recordAll(dir / "r", 3);
+  const std::filesystem::path layout = dir / "r/frames/layout.h5";
+  std::filesystem::copy_file(GAMBESON_SOURCE_DIR "/tests/unit/core/io/layout_of_format_1.h5", layout,
+                             std::filesystem::copy_options::overwrite_existing);
+  try {
+    const RecordingReader reader(dir / "r");
+    ADD_FAILURE() << "it was read";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.where().file, layout.string());
+    EXPECT_NE(std::string(e.what()).find("format 1, and this program reads format 2"), std::string::npos) << e.what();
+  }
 }
 
 TEST_F(RecordingTest, SameContentSameBytes) {
@@ -197,7 +224,7 @@ TEST_F(RecordingTest, SegmentsWithoutFramesKeepRowsAndCheckpoint) {
   writer.closeSegment(someCheckpoint(1));
   const RecordingReader reader(dir / "r");
   EXPECT_EQ(reader.frameCount(), 0);
-  EXPECT_EQ(reader.table("contact").size(), 1u);
+  EXPECT_EQ(reader.table("contact").rows(), 1u);
   EXPECT_EQ(reader.lastCheckpoint().integers.at("frame")[0], 1);
 }
 
