@@ -69,12 +69,12 @@ void Place::failAt(const std::string& key, const std::string& reason) const {
 }
 
 Place Place::member(const JsonNode& child) const {
-  return {child, (path.empty() ? "" : path + ".") + child.key, child.file ? *child.file : file};
+  return {child, (path.empty() ? "" : path + ".") + child.key, child.file ? *child.file : file, recorded};
 }
 
 Place Place::item(std::size_t index) const {
   const JsonNode& child = node.children[index];
-  return {child, fmt::format("{}[{}]", path, index), child.file ? *child.file : file};
+  return {child, fmt::format("{}[{}]", path, index), child.file ? *child.file : file, recorded};
 }
 
 const Field* Object::find(std::string_view key) const {

@@ -34,6 +34,7 @@ struct Place {
   const JsonNode& node;
   std::string path;         ///< "supports[0].springs.stiffness"
   const std::string& file;  ///< of the case
+  bool recorded = false;    ///< whether it is of a finished run: files that it names may be gone
 
   /// Throws InputError: file, line and key; "command line" where the value came from there.
   [[noreturn]] void fail(const std::string& reason) const;

@@ -76,7 +76,7 @@ Vec3 readDirection(const Place& place) {
 
 namespace {
 
-std::filesystem::path readExisting(const Place& place, std::filesystem::file_status& status) {
+std::filesystem::path readName(const Place& place) {
   const std::string& text = readText(place);
   if (text.size() > 4000) place.fail("this is not the name of a file");
   const bool from_command_line = place.node.line == 0;
@@ -84,6 +84,11 @@ std::filesystem::path readExisting(const Place& place, std::filesystem::file_sta
       from_command_line ? std::filesystem::current_path() : std::filesystem::absolute(place.file).parent_path();
   const std::filesystem::path path = (base / text).lexically_normal();
   if (const std::string why = unfitText(path.string()); !why.empty()) place.fail("the folder of the file " + why);
+  return path;
+}
+
+std::filesystem::path readExisting(const Place& place, std::filesystem::file_status& status) {
+  std::filesystem::path path = readName(place);
   std::error_code error;
   status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::none)
@@ -95,6 +100,7 @@ std::filesystem::path readExisting(const Place& place, std::filesystem::file_sta
 }  // namespace
 
 std::filesystem::path readPath(const Place& place) {
+  if (place.recorded) return readName(place);
   std::filesystem::file_status status;
   std::filesystem::path path = readExisting(place, status);
   if (!std::filesystem::is_regular_file(status)) place.fail(path.string() + " is not a file");
@@ -102,6 +108,7 @@ std::filesystem::path readPath(const Place& place) {
 }
 
 std::filesystem::path readFolder(const Place& place) {
+  if (place.recorded) return readName(place);
   std::filesystem::file_status status;
   std::filesystem::path path = readExisting(place, status);
   if (!std::filesystem::is_directory(status)) place.fail(path.string() + " is not a folder");

@@ -30,7 +30,8 @@ std::vector<double> readNumbers(const Place& place, const std::string& unit, con
 Vec3 readVector(const Place& place, const std::string& unit, const Range& range);
 /// A vector that is not zero, made unit.
 Vec3 readDirection(const Place& place);
-/// A path to a file that exists, made absolute: against the case's folder, or the current one from the command line.
+/// A path to a file that exists (or did, of a recorded case), made absolute: against the case's folder, or the current
+/// one from the command line.
 std::filesystem::path readPath(const Place& place);
 /// The same of a folder.
 std::filesystem::path readFolder(const Place& place);

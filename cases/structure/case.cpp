@@ -8,9 +8,11 @@
 
 namespace gambeson {
 
-StructureCase readStructureCase(const JsonNode& root, const std::filesystem::path& file) {
+namespace {
+
+StructureCase readWith(const JsonNode& root, const std::filesystem::path& file, bool recorded) {
   const std::string name = file.string();
-  const schema::Place place{root, "", name};
+  const schema::Place place{root, "", name, recorded};
   const JsonNode* word = root.find("kind");
   std::vector<std::string> words;
   for (const auto& [w, kind] : schema::structureKinds()) words.push_back(w);
@@ -18,9 +20,19 @@ StructureCase readStructureCase(const JsonNode& root, const std::filesystem::pat
   StructureCase c;
   c.kind = schema::structureKinds()[schema::readChoice(place.member(*word), words)].second;
   schema::readObject(schema::structureTable(c.kind), place, &c);
-  schema::applyStructureRules(place, c);
+  if (!recorded) schema::applyStructureRules(place, c);
   c.file = file;
   return c;
+}
+
+}  // namespace
+
+StructureCase readStructureCase(const JsonNode& root, const std::filesystem::path& file) {
+  return readWith(root, file, false);
+}
+
+StructureCase readRecordedStructureCase(const std::filesystem::path& file) {
+  return readWith(readCaseNode(file, {}), file, true);
 }
 
 StructureCase readStructureCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

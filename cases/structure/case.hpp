@@ -154,6 +154,8 @@ struct StructureCase {
 StructureCase readStructureCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 /// The same from a file already read, with values put in their places.
 StructureCase readStructureCase(const JsonNode& root, const std::filesystem::path& file);
+/// The case of a finished run, as writeCase left it: no file that it names is looked at, and nothing is built.
+StructureCase readRecordedStructureCase(const std::filesystem::path& file);
 /// The case written out in full as JSON; readStructureCase gives the same case back.
 std::string writeCase(const StructureCase& c);
 /// As caseIdentity of cases/wear/case/case.hpp.

@@ -13,6 +13,7 @@
 #include "cases/input/places.hpp"
 #include "cases/runs/disk_space.hpp"
 #include "cases/runs/progress.hpp"
+#include "cases/runs/recorded_case.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/runs/stop_message.hpp"
 #include "cases/runs/temporary_folder.hpp"
@@ -409,8 +410,18 @@ bool holdsStructure(const std::filesystem::path& results) {
   return kind && kind->text != "wear";
 }
 
+namespace {
+
+/// The case of a results folder.
+StructureCase recordedStructure(const std::filesystem::path& results) {
+  requireRecordedCase(results, readLayout(results));
+  return readRecordedStructureCase(caseFile(results));
+}
+
+}  // namespace
+
 int renderStructureResults(const RenderOptions& o) {
-  const StructureCase c = readStructureCase(o.results / "case.json");
+  const StructureCase c = recordedStructure(o.results);
   if (o.field == PictureField::pressure || o.field == PictureField::body_pressure)
     throw InputError({"command line", 0, "--field"},
                      "there is no contact pressure here; allowed: stress, strain or plain");
@@ -441,7 +452,7 @@ int renderStructureResults(const RenderOptions& o) {
 }
 
 int reportStructureResults(const ReportOptions& o) {
-  const StructureCase c = readStructureCase(o.results / "case.json");
+  const StructureCase c = recordedStructure(o.results);
   const TemporaryFolder folder;
   std::vector<std::string> failures;
   const std::vector<Picture> pictures = takeStructurePictures(c, o.results, folder.path(), failures);

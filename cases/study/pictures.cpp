@@ -42,8 +42,7 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
         if (!c.runs[i].good || !std::holds_alternative<Case>(s.variants[i].definition)) continue;
         const Variant& v = s.variants[i];
         try {
-          const auto scenario = buildScenario(std::get<Case>(v.definition));
-          const RecordingReader recording(out / v.folder);
+          const auto [recording, scenario, facts] = recordedRun(out / v.folder);
           for (std::size_t w = 0; w < s.pictures.size(); ++w) {
             PictureCase wish = s.pictures[w];
             wish.time_s = timeOf(g, c, wish);

@@ -8,16 +8,24 @@
 
 namespace gambeson {
 
-Case readCase(const JsonNode& root, const std::filesystem::path& file) {
+namespace {
+
+Case readWith(const JsonNode& root, const std::filesystem::path& file, bool recorded) {
   Case c;
   const std::string name = file.string();
-  const schema::Place place{root, "", name};
+  const schema::Place place{root, "", name, recorded};
   schema::readObject(schema::caseTable(), place, &c);
   schema::applyRules(place, c);
-  schema::checkReferences(place, c);
+  if (!recorded) schema::checkReferences(place, c);
   c.file = file;
   return c;
 }
+
+}  // namespace
+
+Case readCase(const JsonNode& root, const std::filesystem::path& file) { return readWith(root, file, false); }
+
+Case readRecordedCase(const std::filesystem::path& file) { return readWith(readCaseNode(file, {}), file, true); }
 
 Case readCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Case c = readCase(readCaseNode(file, overrides), file);

@@ -9,4 +9,10 @@ double Strides::phase(double t_s, const std::string& side) const {
   return p - std::floor(p);
 }
 
+std::vector<double> Strides::thousandths() const {
+  std::vector<double> times_s;
+  for (int i = 0; i < 1000; ++i) times_s.push_back(start_s + time_s * i / 1000);
+  return times_s;
+}
+
 }  // namespace gambeson

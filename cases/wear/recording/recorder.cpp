@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/wear/recording/recorded_scene.hpp"
 #include "core/math/carried_error.hpp"
 
 namespace gambeson {
@@ -120,6 +121,14 @@ const std::vector<std::string>& stepColumns() {
   return names;
 }
 
+std::vector<std::string> regionNames(const Scenario& s) { return toldApart(s.contact_regions); }
+
+std::vector<std::string> supportNames(const Scenario& s) {
+  std::vector<std::string> names;
+  for (const SupportGroup& g : s.supports) names.push_back(g.name);
+  return toldApart(names);
+}
+
 RecordingLayout recordingLayout(const Scenario& s) {
   RecordingLayout layout;
   layout.identity = caseIdentity(s.definition) + " " + s.model->cloth->kernels();
@@ -146,16 +155,17 @@ RecordingLayout recordingLayout(const Scenario& s) {
     layout.body_triangles = s.human->skin->rest.triangles;
   }
   auto& regions = layout.tables["regions"] = window;
-  for (const std::string& name : s.contact_regions)
+  for (const std::string& name : regionNames(s))
     for (const char* part : {"_Jx_Ns", "_Jy_Ns", "_Jz_Ns", "_n_Ns", "_t_Ns"}) regions.push_back(name + part);
   auto& zones = layout.tables["body_zones"] = window;
   const std::vector<std::string> sums = ZoneLedger::columns(s);
   zones.insert(zones.end(), sums.begin(), sums.end());
   auto& supports = layout.tables["supports"] = window;
-  for (const SupportGroup& g : s.supports)
-    for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(g.name + part);
+  for (const std::string& name : supportNames(s))
+    for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(name + part);
   auto& steps = layout.tables["steps"] = window;
   steps.insert(steps.end(), stepColumns().begin(), stepColumns().end());
+  layout.scene = sceneOf(s);
   return layout;
 }
 

@@ -35,6 +35,11 @@ namespace gambeson {
 /// Columns of the table "steps" after start_s and end_s.
 const std::vector<std::string>& stepColumns();
 
+/// What stands before the parts of a column's name in the tables "regions" and "supports": of each the name, and of
+/// what has the name of an earlier one its number behind it.
+std::vector<std::string> regionNames(const Scenario& scenario);
+std::vector<std::string> supportNames(const Scenario& scenario);
+
 RecordingLayout recordingLayout(const Scenario& scenario);
 
 Checkpoint checkpointOf(const State& state, const Frequency& frequency);

@@ -1,6 +1,7 @@
 #include "cases/wear/recording/skin_ledger.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <queue>
 
@@ -10,6 +11,8 @@
 namespace gambeson {
 namespace {
 
+/// What the table holds of a joint, in the order of row().
+constexpr std::array<const char*, SkinLedger::kPerJoint> kParts{"", "_segments", "_proximal", "_distal", "_normal"};
 constexpr double kDifference = 1e-4;  ///< of a joint's value [rad, m]: errors of 1e-8 of the radius
 
 /// Neighbours along the edges of the skin, with lengths in the bind posture.
@@ -93,14 +96,15 @@ SkinLedger::SkinLedger(const Scenario& scenario)
   }
 }
 
+std::string SkinLedger::column(const Scenario& scenario, int joint, const std::string& what) {
+  const Joint& j = scenario.human->skeleton.joints[static_cast<std::size_t>(joint)];
+  return j.name + what + (j.type == JointType::prismatic ? "_Ns" : "_Nms");
+}
+
 std::vector<std::string> SkinLedger::columns(const Scenario& scenario) {
   std::vector<std::string> names;
-  const Skeleton& skeleton = scenario.human->skeleton;
-  for (const int j : movingJoints(skeleton)) {
-    const Joint& joint = skeleton.joints[static_cast<std::size_t>(j)];
-    for (const char* what : {"", "_segments", "_proximal", "_distal", "_normal"})
-      names.push_back(joint.name + what + (joint.type == JointType::prismatic ? "_Ns" : "_Nms"));
-  }
+  for (const int j : movingJoints(scenario.human->skeleton))
+    for (const char* what : kParts) names.push_back(column(scenario, j, what));
   return names;
 }
 

@@ -27,6 +27,8 @@ class SkinLedger {
   /// for prismatic ones. Of the contact on the skin: the wearer adds the opposite.
   static std::vector<std::string> columns(const Scenario& scenario);
   static constexpr int kPerJoint = 5;
+  /// The column of a moving joint; `what`: "", "_segments", "_proximal", "_distal" or "_normal".
+  static std::string column(const Scenario& scenario, int joint, const std::string& what);
   static constexpr double kBorder_m = 0.02;
 
   /// `pressing`: the normal part of what is received.

@@ -1,6 +1,7 @@
 #include "cases/wear/recording/zone_ledger.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace gambeson {
 
@@ -13,6 +14,15 @@ std::string spokenZone(std::string zone) {
     if (zone.ends_with("_" + side)) zone = side + " " + zone.substr(0, zone.size() - side.size() - 1);
   std::replace(zone.begin(), zone.end(), '_', ' ');
   return zone;
+}
+
+std::vector<std::string> toldApart(std::vector<std::string> names) {
+  std::set<std::string> known;
+  for (std::string& name : names) {
+    const std::string given = name;
+    for (int k = 2; !known.insert(name).second; ++k) name = given + " " + std::to_string(k);
+  }
+  return names;
 }
 
 std::vector<std::string> zoneNames(const Scenario& s) {
@@ -29,12 +39,17 @@ ZoneLedger::ZoneLedger(const Scenario& s) : scenario_(s), count_(static_cast<int
   sums_.assign(static_cast<std::size_t>(kParts * count_) * s.contact_groups.size(), 0);
 }
 
+std::vector<std::string> ZoneLedger::names(const Scenario& s) {
+  std::vector<std::string> names;
+  for (const ContactGroup& g : s.contact_groups)
+    for (const std::string& zone : zoneNames(s)) names.push_back(groupName(g) + " on " + zone);
+  return toldApart(names);
+}
+
 std::vector<std::string> ZoneLedger::columns(const Scenario& s) {
   std::vector<std::string> columns;
-  for (const ContactGroup& g : s.contact_groups)
-    for (const std::string& zone : zoneNames(s))
-      for (const char* part : {"_Ns", "_n_Ns", "_t_Ns", "_Jx_Ns", "_Jy_Ns", "_Jz_Ns"})
-        columns.push_back(groupName(g) + " on " + zone + part);
+  for (const std::string& name : names(s))
+    for (const char* part : {"_Ns", "_n_Ns", "_t_Ns", "_Jx_Ns", "_Jy_Ns", "_Jz_Ns"}) columns.push_back(name + part);
   return columns;
 }
 

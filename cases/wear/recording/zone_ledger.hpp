@@ -10,6 +10,9 @@
 
 namespace gambeson {
 
+/// Names of which each is there once: one that an earlier one has already gets its number, "waist 2".
+std::vector<std::string> toldApart(std::vector<std::string> names);
+
 /// The zones of the human's body, then the case's obstacles.
 std::vector<std::string> zoneNames(const Scenario& scenario);
 
@@ -17,6 +20,8 @@ class ZoneLedger {
  public:
   explicit ZoneLedger(const Scenario& scenario);
 
+  /// What stands before the parts of a column's name: for each group and, in it, each zone.
+  static std::vector<std::string> names(const Scenario& scenario);
   /// Sum of |J|, of its normal part, of its tangential magnitude; then of J itself, on the body, in world axes.
   static constexpr int kParts = 6;
   /// Columns of the table "body_zones" after start_s and end_s: for each group of the scenario and each zone

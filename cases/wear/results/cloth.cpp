@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "analysis/sheet_cells.hpp"
+#include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/results/measure.hpp"
+#include "cases/wear/results/vector_columns.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
@@ -110,11 +112,13 @@ void addBelow(const Scenario& s, const Frame& frame, std::span<const double> bel
 }
 
 /// Of all supports, in the window that ends with the frame.
-Vec3 supportsAt(const std::vector<std::vector<double>>& rows, double time_s) {
-  for (const auto& r : rows) {
-    if (std::abs(r[1] - time_s) > 1e-6) continue;
+Vec3 supportsAt(const Scenario& s, const RecordedTable& table, double time_s) {
+  const std::vector<double>&start = table.column("start_s"), &end = table.column("end_s");
+  for (std::size_t w = 0; w < table.rows(); ++w) {
+    if (std::abs(end[w] - time_s) > 1e-6) continue;
     Vec3 sum{};
-    for (std::size_t c = 2; c + 3 < r.size(); c += 4) sum += Vec3{r[c], r[c + 1], r[c + 2]} / (r[1] - r[0]);
+    for (const std::string& name : supportNames(s))
+      sum += VectorColumns(table, name + "_", "_Ns")[w] / (end[w] - start[w]);
     return sum;
   }
   throw RunError("a frame of the recording is not at the end of a window");
@@ -143,7 +147,7 @@ void measureCloth(const Scenario& s, const RecordingReader& recording, Measured&
   const std::vector<StrapCut> cuts =
       s.definition.strain_limit ? std::vector<StrapCut>{} : strapCuts(cloth, s.patch_names);
   const std::vector<double> own = weightsBelow(cloth, cuts, true), all = weightsBelow(cloth, cuts, false);
-  const std::vector<std::vector<double>> supports = recording.table("supports");
+  const RecordedTable supports = recording.table("supports");
   ClothWork work;
   for (const StrapCut& cut : cuts)
     out.straps.cuts.push_back(
@@ -162,7 +166,7 @@ void measureCloth(const Scenario& s, const RecordingReader& recording, Measured&
     at.pull_N = strapPulls(cloth, q, cuts, work);
     addBelow(s, frame, own, at.weight_N, at.contact_N);
     addBelow(s, frame, all, at.all_weight_N, at.all_contact_N);
-    at.supports_N = supportsAt(supports, frame.time_s);
+    at.supports_N = supportsAt(s, supports, frame.time_s);
     straps.at.push_back(at);
     if (frame.time_s < out.counted_from_s - 1e-9) continue;
     ++count;

@@ -4,46 +4,55 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/case/motions/kind.hpp"
+#include "cases/wear/recording/recorded_motion.hpp"
+#include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/recording/skin_ledger.hpp"
+#include "cases/wear/results/vector_columns.hpp"
 #include "core/error.hpp"
 #include "human/motion/task_moments.hpp"
 
 namespace gambeson {
 namespace {
 
-using Rows = std::vector<std::vector<double>>;
-
 /// From one table, rows of windows that lie in the motion. The bounds were added up.
-Rows motionRows(const RecordingReader& recording, const std::string& table) {
-  Rows rows = recording.table(table);
-  std::erase_if(rows, [](const auto& r) { return r[0] < -1e-9; });
-  return rows;
+RecordedTable inMotion(const RecordingReader& recording, const std::string& table) {
+  const RecordedTable all = recording.table(table);
+  const std::vector<double>& start = all.column("start_s");
+  return all.where([&](std::size_t row) { return !(start[row] < -1e-9); });
 }
 
 /// Windows of a table in the last 0.1 s of settling, the motion's posture held; none where nothing settles.
-Rows restRows(const Scenario& s, const RecordingReader& recording, const std::string& table) {
+RecordedTable atRest(const Scenario& s, const RecordingReader& recording, const std::string& table) {
   const double from_s = -std::min(0.1, s.definition.dressing.settle_s) - 1e-9;
-  Rows rows = recording.table(table);
-  std::erase_if(rows, [&](const auto& r) { return r[0] < from_s || r[1] > 1e-9; });
-  return rows;
+  const RecordedTable all = recording.table(table);
+  const std::vector<double>&start = all.column("start_s"), &end = all.column("end_s");
+  return all.where([&](std::size_t row) { return !(start[row] < from_s || end[row] > 1e-9); });
 }
 
-/// Rows with `stride` columns per body, of which the first six are force and moment.
-std::vector<ContactWindow> windowsOf(const Rows& rows, std::size_t bodies, std::size_t stride) {
+/// Force and moment on each body.
+std::vector<ContactWindow> windowsOf(const RecordedTable& table, const std::vector<std::string>& bodies) {
+  const std::vector<double>&start = table.column("start_s"), &end = table.column("end_s");
   std::vector<ContactWindow> windows;
-  for (const auto& r : rows) {
-    ContactWindow w{r[0], r[1], {}};
-    for (std::size_t b = 0; b < bodies; ++b) {
-      const double* v = &r[2 + stride * b];
-      w.links.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}});
-    }
-    windows.push_back(std::move(w));
+  for (std::size_t w = 0; w < table.rows(); ++w) windows.push_back({start[w], end[w], {}});
+  for (const std::string& body : bodies) {
+    const VectorColumns force(table, body + "_J", "_Ns"), moment(table, body + "_L", "_Nms");
+    for (std::size_t w = 0; w < table.rows(); ++w) windows[w].links.push_back({force[w], moment[w]});
   }
   return windows;
 }
+
+/// Lengths of the windows of a table, and of all together.
+std::vector<double> lengthsOf(const RecordedTable& table) {
+  const std::vector<double>&start = table.column("start_s"), &end = table.column("end_s");
+  std::vector<double> lengths;
+  for (std::size_t w = 0; w < table.rows(); ++w) lengths.push_back(end[w] - start[w]);
+  return lengths;
+}
+double sumOf(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 /// The scenario's bodies come with the human's links first.
 TorqueHistory addedTorques(const Scenario& s, std::vector<ContactWindow> windows, std::span<const int> joints) {
@@ -57,18 +66,18 @@ TorqueHistory addedTorques(const Scenario& s, std::vector<ContactWindow> windows
 }
 
 /// One of the torques that the table "skin" holds of each joint, as the wearer adds it.
-TorqueHistory skinTorques(const Scenario& s, const Rows& rows, std::span<const int> joints, int which) {
+TorqueHistory skinTorques(const Scenario& s, const RecordedTable& skin, std::span<const int> joints,
+                          const std::string& which) {
   const std::vector<int> moving = movingJoints(s.human->skeleton);
+  const std::vector<double>&start = skin.column("start_s"), &end = skin.column("end_s");
   TorqueHistory history{{joints.begin(), joints.end()}, {}, {}};
-  for (const auto& r : rows) {
-    history.time_s.push_back(0.5 * (r[0] + r[1]));
-    history.value.emplace_back();
-    for (const int j : joints) {
-      const auto at = std::find(moving.begin(), moving.end(), j) - moving.begin();
-      history.value.back().push_back(
-          at < std::ssize(moving) ? -r[2 + static_cast<std::size_t>(SkinLedger::kPerJoint * at + which)] / (r[1] - r[0])
-                                  : 0);
-    }
+  for (std::size_t w = 0; w < skin.rows(); ++w) history.time_s.push_back(0.5 * (start[w] + end[w]));
+  history.value.resize(skin.rows());
+  for (const int j : joints) {
+    const bool moves = std::find(moving.begin(), moving.end(), j) != moving.end();
+    const std::vector<double>* impulse = moves ? &skin.column(SkinLedger::column(s, j, which)) : nullptr;
+    for (std::size_t w = 0; w < skin.rows(); ++w)
+      history.value[w].push_back(moves ? -(*impulse)[w] / (end[w] - start[w]) : 0);
   }
   return history;
 }
@@ -87,20 +96,21 @@ void splitName(JointMeasure& m) {
   std::replace(m.part.begin(), m.part.end(), '_', ' ');
 }
 
-double meanOf(const Rows& rows, const std::vector<int>& bodies, std::size_t part) {
-  double sum = 0, time = 0;
-  for (const auto& r : rows) {
-    time += r[1] - r[0];
-    for (const int b : bodies) sum += r[2 + 8 * static_cast<std::size_t>(b) + part];
-  }
+/// Mean over time of a part of the table "bodies", "_n_Ns" say, of some of the scenario's bodies together.
+double meanOf(const Scenario& s, const RecordedTable& table, const std::vector<int>& bodies, const std::string& part) {
+  std::vector<const std::vector<double>*> columns;
+  for (const int b : bodies) columns.push_back(&table.column(s.bodies[static_cast<std::size_t>(b)] + part));
+  double sum = 0;
+  for (std::size_t w = 0; w < table.rows(); ++w)
+    for (const std::vector<double>* column : columns) sum += (*column)[w];
+  const double time = sumOf(lengthsOf(table));
   return time > 0 ? sum / time : 0;
 }
 
 /// Phase of the largest joint value within the strides.
 double highestPhase(const Scenario& s, const Strides& strides, const JointMeasure& m) {
   double best = -std::numeric_limits<double>::infinity(), at = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const double t = strides.start_s + strides.time_s * i / 1000;
+  for (const double t : strides.thousandths()) {
     const double q = s.motion->at(t).q[static_cast<std::size_t>(m.joint)];
     if (q > best) best = q, at = t;
   }
@@ -109,18 +119,20 @@ double highestPhase(const Scenario& s, const Strides& strides, const JointMeasur
 
 /// The added torques of each joint in the windows of the last 0.1 s before the motion, all of one length; the posture
 /// is that of the motion's start.
-std::vector<std::vector<double>> standingTorques(const Scenario& s, const Rows& rest, const std::vector<int>& joints) {
+std::vector<std::vector<double>> standingTorques(const Scenario& s, const RecordedTable& rest,
+                                                 const std::vector<int>& joints) {
   std::vector<std::vector<double>> torques(joints.size());
   if (rest.empty()) return torques;
   if (s.hasSkin()) {
-    for (std::size_t w = 0; w < rest.size(); ++w) {
-      if (std::abs((rest[w][1] - rest[w][0]) - (rest.back()[1] - rest.back()[0])) > 1e-9) continue;
-      const TorqueHistory at = skinTorques(s, {rest[w]}, joints, 0);
-      for (std::size_t j = 0; j < joints.size(); ++j) torques[j].push_back(at.value[0][j]);
+    const std::vector<double> lengths = lengthsOf(rest);
+    const TorqueHistory all = skinTorques(s, rest, joints, "");
+    for (std::size_t w = 0; w < rest.rows(); ++w) {
+      if (std::abs(lengths[w] - lengths.back()) > 1e-9) continue;
+      for (std::size_t j = 0; j < joints.size(); ++j) torques[j].push_back(all.value[w][j]);
     }
     return torques;
   }
-  std::vector<ContactWindow> windows = windowsOf(rest, s.bodies.size(), 8);
+  std::vector<ContactWindow> windows = windowsOf(rest, s.bodies);
   const double length = windows.back().duration();
   const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
                                                                                : TorqueCounting::distal_segment;
@@ -148,10 +160,8 @@ std::optional<double> naturalMoment(const Scenario& s, const JointMeasure& m) {
   return m.held && m.held->moment_Nm != 0 ? std::optional(std::abs(m.held->moment_Nm)) : std::nullopt;
 }
 
-/// `skin`: of the table of that name, empty without a skin; `rest` of that table too where there is one, else of
-/// bodies; `pressing`: the normal parts.
-void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const Rows& rest,
-                   const std::vector<ContactWindow>& pressing, Measured& out) {
+/// `bodies`: of the motion.
+void measureJoints(const Scenario& s, const RecordingReader& recording, const RecordedTable& bodies, Measured& out) {
   const Skeleton& skeleton = s.human->skeleton;
   std::vector<int> joints;
   for (const std::string& name : s.definition.analysis.joints) {
@@ -161,15 +171,17 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
   }
   if (joints.empty()) joints = movingJoints(skeleton);
   if (s.hasSkin()) {
-    out.added = skinTorques(s, skin, joints, 0);
-    out.added_segments = skinTorques(s, skin, joints, 1);
-    out.added_proximal = skinTorques(s, skin, joints, 2);
-    out.added_distal = skinTorques(s, skin, joints, 3);
+    const RecordedTable skin = inMotion(recording, "skin");
+    out.added = skinTorques(s, skin, joints, "");
+    out.added_segments = skinTorques(s, skin, joints, "_segments");
+    out.added_proximal = skinTorques(s, skin, joints, "_proximal");
+    out.added_distal = skinTorques(s, skin, joints, "_distal");
+    out.added_friction = skinTorques(s, skin, joints, "_normal");
   } else {
     out.added = addedTorques(s, out.windows, joints);
+    out.added_friction = addedTorques(s, windowsOf(inMotion(recording, "normal"), s.bodies), joints);
   }
   out.added_drag = addedTorques(s, out.drag, joints);
-  out.added_friction = s.hasSkin() ? skinTorques(s, skin, joints, 4) : addedTorques(s, pressing, joints);
   for (std::size_t w = 0; w < out.added_friction.value.size(); ++w)
     for (std::size_t j = 0; j < joints.size(); ++j)
       out.added_friction.value[w][j] = out.added.value[w][j] - out.added_friction.value[w][j];
@@ -178,7 +190,8 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
   const auto& time = out.added.time_s;
   std::size_t first = 0;  // window that counts
   while (first < time.size() && time[first] < out.counted_from_s) ++first;
-  const std::vector<std::vector<double>> standing = standingTorques(s, rest, joints);
+  const std::vector<std::vector<double>> standing =
+      standingTorques(s, atRest(s, recording, s.hasSkin() ? "skin" : "bodies"), joints);
   std::vector<StaticMoment> held;  // of the aim
   if (const auto kg = kindOf(*s.definition.human).carried_kg(s.definition.human->motion);
       kg && s.definition.analysis.task == Task::aiming)
@@ -212,9 +225,8 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
       if (time[w] == m.peak.time_s) m.drag_at_peak = drag[w], m.friction_at_peak = friction[w];
     m.friction_rms = rms(std::span(friction).subspan(first));
     const auto q = [&](double t) { return s.motion->at(t).q[static_cast<std::size_t>(j)]; };
-    constexpr double h = 1e-3;
     m.position_at_peak = q(m.peak.time_s);
-    m.rate_at_peak = (q(m.peak.time_s + h) - q(m.peak.time_s - h)) / (2 * h);
+    m.rate_at_peak = (q(m.peak.time_s + kRate_s) - q(m.peak.time_s - kRate_s)) / (2 * kRate_s);
     if (!held.empty()) m.held = held[static_cast<std::size_t>(j)];
     if (s.definition.analysis.task != Task::none) {
       try {
@@ -224,8 +236,8 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
       if (m.natural_Nm && !(*m.natural_Nm > 0)) m.natural_Nm.reset();
     }
     const std::vector<int> counted = countedLinks(*s.human, j, counting);
-    m.normal_N = meanOf(rows, counted, 6);
-    m.friction_N = meanOf(rows, counted, 7);
+    m.normal_N = meanOf(s, bodies, counted, "_n_Ns");
+    m.friction_N = meanOf(s, bodies, counted, "_t_Ns");
     if (const auto& strides = out.strides) {
       const double T = strides->time_s, start = strides->start_s, end = strides->end_s();
       if (m.peak.time_s >= start) m.phase_at_peak = strides->phase(m.peak.time_s, m.side);
@@ -245,7 +257,7 @@ void measureJoints(const Scenario& s, const Rows& rows, const Rows& skin, const 
   }
 }
 
-void measureBodies(const Scenario& s, const Rows& rows, Measured& out) {
+void measureBodies(const Scenario& s, const RecordedTable& bodies, Measured& out) {
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     Link link;
     link.name = s.bodies[b];
@@ -262,40 +274,38 @@ void measureBodies(const Scenario& s, const Rows& rows, Measured& out) {
       out.bodies.shapes.push_back(
           {s.body_of_obstacle[o], s.model->obstacles[o].segment, s.model->obstacles[o].shape, {}});
   for (const ContactShare& share : contactShares(out.bodies, out.windows))
-    out.contact.push_back({share, meanOf(rows, {share.link}, 6), meanOf(rows, {share.link}, 7)});
+    out.contact.push_back({share, meanOf(s, bodies, {share.link}, "_n_Ns"), meanOf(s, bodies, {share.link}, "_t_Ns")});
 }
 
-void measureRegions(const Scenario& s, const Rows& rows, Measured& out) {
-  for (std::size_t k = 0; k < s.contact_regions.size(); ++k) {
-    RegionMeasure m{s.contact_regions[k], {}, 0, 0};
-    double time = 0;
-    for (const auto& r : rows) {
-      const double* v = &r[2 + 5 * k];
-      m.mean_N += Vec3{v[0], v[1], v[2]};
-      m.normal_N += v[3];
-      m.friction_N += v[4];
-      time += r[1] - r[0];
-    }
+void measureRegions(const Scenario& s, const RecordedTable& table, Measured& out) {
+  const std::vector<std::string> names = regionNames(s);
+  const double time = sumOf(lengthsOf(table));
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const VectorColumns impulse(table, names[k] + "_J", "_Ns");
+    RegionMeasure m{
+        s.contact_regions[k], {}, sumOf(table.column(names[k] + "_n_Ns")), sumOf(table.column(names[k] + "_t_Ns"))};
+    for (std::size_t w = 0; w < table.rows(); ++w) m.mean_N += impulse[w];
     if (time > 0) m.mean_N = m.mean_N / time, m.normal_N /= time, m.friction_N /= time;
     out.contact_regions.push_back(m);
   }
 }
 
-void measureSupports(const Scenario& s, const Rows& rows, Measured& out) {
-  for (std::size_t g = 0; g < s.supports.size(); ++g) {
+void measureSupports(const Scenario& s, const RecordedTable& table, Measured& out) {
+  const std::vector<std::string> names = supportNames(s);
+  const std::vector<double>&start = table.column("start_s"), &end = table.column("end_s");
+  const std::vector<double> lengths = lengthsOf(table);
+  const double time = sumOf(lengths);
+  for (std::size_t g = 0; g < names.size(); ++g) {
     SupportMeasure m;
     m.name = s.supports[g].name;
     m.springs = !s.supports[g].springs.empty();
-    double time = 0;
-    for (const auto& r : rows) {
-      const double* v = &r[2 + 4 * g];
-      const Vec3 impulse{v[0], v[1], v[2]};
-      const double dt = r[1] - r[0];
-      m.mean_N += impulse;
-      time += dt;
-      if (norm(impulse) / dt > m.peak_N) m.peak_N = norm(impulse) / dt, m.peak_time_s = 0.5 * (r[0] + r[1]);
-      m.largest_drop_m = std::max(m.largest_drop_m, v[3]);
+    const VectorColumns impulse(table, names[g] + "_", "_Ns");
+    for (std::size_t w = 0; w < table.rows(); ++w) {
+      m.mean_N += impulse[w];
+      const double force = norm(impulse[w]) / lengths[w];
+      if (force > m.peak_N) m.peak_N = force, m.peak_time_s = 0.5 * (start[w] + end[w]);
     }
+    for (const double drop : table.column(names[g] + "_drop_m")) m.largest_drop_m = std::max(m.largest_drop_m, drop);
     if (time > 0) m.mean_N = m.mean_N / time;
     out.supports.push_back(m);
   }
@@ -364,8 +374,9 @@ std::vector<LayerMeasure> layersOf(const Scenario& s) {
 
 double countedFrom(const Scenario& s, const RecordingReader& recording) {
   const std::optional<Strides> strides = stridesOf(s.definition);
-  const Rows rows = recording.table("bodies");
-  const bool whole = strides && !rows.empty() && rows.back()[1] > strides->start_s + strides->time_s - 1e-9;
+  const RecordedTable bodies = recording.table("bodies");
+  const bool whole =
+      strides && !bodies.empty() && bodies.column("end_s").back() > strides->start_s + strides->time_s - 1e-9;
   return whole ? strides->start_s : 0;
 }
 
@@ -374,19 +385,16 @@ Regions regionsOf(const Scenario& s) { return {s.patch_names, s.model->surface.p
 Measured measure(const Scenario& s, const RecordingReader& recording) {
   Measured out;
   out.strides = stridesOf(s.definition);
-  const Rows bodies = motionRows(recording, "bodies");
-  out.windows = windowsOf(bodies, s.bodies.size(), 8);
-  out.drag = windowsOf(motionRows(recording, "drag"), s.bodies.size(), 6);
+  const RecordedTable bodies = inMotion(recording, "bodies");
+  out.windows = windowsOf(bodies, s.bodies);
+  out.drag = windowsOf(inMotion(recording, "drag"), s.bodies);
   out.counted_from_s = countedFrom(s, recording);
   measureBodies(s, bodies, out);
-  if (s.human)
-    measureJoints(s, bodies, s.hasSkin() ? motionRows(recording, "skin") : Rows{},
-                  restRows(s, recording, s.hasSkin() ? "skin" : "bodies"),
-                  windowsOf(motionRows(recording, "normal"), s.bodies.size(), 6), out);
+  if (s.human) measureJoints(s, recording, bodies, out);
   measureZones(s, recording, out);
   if (s.human) measureComfort(s, recording, out);
-  measureRegions(s, motionRows(recording, "regions"), out);
-  measureSupports(s, motionRows(recording, "supports"), out);
+  measureRegions(s, inMotion(recording, "regions"), out);
+  measureSupports(s, inMotion(recording, "supports"), out);
   for (const LayerMeasure& l : layersOf(s)) out.cloth_kg += l.mass_kg;
   out.energy.negligible = 0.5 * out.cloth_kg * 1e-12;
   measureSteps(recording, out);

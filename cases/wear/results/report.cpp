@@ -275,13 +275,13 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
                      [&](std::size_t a, std::size_t b) { return facts.phases_s[a].second > facts.phases_s[b].second; });
     for (std::size_t k = 0; k < std::min<std::size_t>(3, order.size()); ++k) {
       Series series{facts.phases_s[order[k]].first, "ms", {}, {}, static_cast<Tone>(k)};
-      for (const auto& w : facts.windows_s) {
-        series.time_s.push_back(0.5 * (w[0] + w[1]));
-        series.values.push_back(1e3 * w[2 + order[k]]);
+      for (const WindowTimes& w : facts.windows) {
+        series.time_s.push_back(0.5 * (w.start_s + w.end_s));
+        series.values.push_back(1e3 * w.phases_s[order[k]]);
       }
       over_time.series.push_back(std::move(series));
     }
-    if (!facts.windows_s.empty()) in.fact_plots.push_back(std::move(over_time));
+    if (!facts.windows.empty()) in.fact_plots.push_back(std::move(over_time));
   }
   return in;
 }

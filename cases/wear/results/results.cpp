@@ -11,7 +11,9 @@
 #include "analysis/tables.hpp"
 #include "cases/input/json_at.hpp"
 #include "cases/input/message.hpp"
+#include "cases/runs/recorded_case.hpp"
 #include "cases/runs/temporary_folder.hpp"
+#include "cases/wear/recording/recorded_scene.hpp"
 #include "cases/wear/results/check_words.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
@@ -84,9 +86,17 @@ std::pair<std::string, std::string> identityParts(const std::string& identity) {
   return {identity.substr(0, blank), blank == std::string::npos ? "" : identity.substr(blank + 1)};
 }
 
+std::vector<double> WindowTimes::row() const {
+  std::vector<double> row{start_s, end_s};
+  row.insert(row.end(), phases_s.begin(), phases_s.end());
+  return row;
+}
+
 void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
   Json phases = Json::array();
   for (const auto& [name, seconds] : f.phases_s) phases.push_back({{"phase", name}, {"seconds", seconds}});
+  Json windows = Json::array();
+  for (const WindowTimes& w : f.windows) windows.push_back(w.row());
   const Json j{{"version", f.version.empty() ? GAMBESON_VERSION : f.version},
                {"threads", f.threads},
                {"kernels", f.kernels},
@@ -95,7 +105,8 @@ void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
                {"searches", f.searches},
                {"searched_steps_s", f.searched_steps_s},
                {"phases", phases},
-               {"windows", f.windows_s}};
+               {"windows", windows},
+               {"recording", f.recording}};
   writeOwnFile(dir / "run.json", j.dump(2) + "\n");
 }
 
@@ -114,15 +125,17 @@ RunFacts readRunFacts(const std::filesystem::path& dir) {
     f.resumed = j.at("resumed").flag();
     if (j.contains("searches")) f.searches = j.at("searches").integer();
     if (j.contains("searched_steps_s")) f.searched_steps_s = j.at("searched_steps_s").number();
-    for (const JsonAt& window : j.at("windows").list())
-      for (f.windows_s.emplace_back(); const JsonAt& number : window.list())
-        f.windows_s.back().push_back(number.number());
+    if (j.contains("recording")) f.recording = j.at("recording").text();
     for (const JsonAt& p : j.at("phases").list())
       f.phases_s.emplace_back(p.at("phase").text(), p.at("seconds").number());
-    for (std::size_t k = 0; k < f.windows_s.size(); ++k)
-      if (f.windows_s[k].size() != 2 + f.phases_s.size())
-        throw JsonAt::Error(fmt::format("windows[{}]: must be {} numbers: from, to and the time of each phase", k,
-                                        2 + f.phases_s.size()));
+    for (const JsonAt& window : j.at("windows").list()) {
+      std::vector<double> row;
+      for (const JsonAt& number : window.list()) row.push_back(number.number());
+      if (row.size() != 2 + f.phases_s.size())
+        throw JsonAt::Error(fmt::format("windows[{}]: must be {} numbers: from, to and the time of each phase",
+                                        f.windows.size(), 2 + f.phases_s.size()));
+      f.windows.push_back({row[0], row[1], {row.begin() + 2, row.end()}});
+    }
   } catch (const JsonAt::Error& e) {
     throw InputError({file.string(), 0, ""}, e.what());
   } catch (const nlohmann::json::exception& e) {
@@ -131,15 +144,22 @@ RunFacts readRunFacts(const std::filesystem::path& dir) {
   return f;
 }
 
-std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir) {
-  if (!std::filesystem::exists(dir / "case.json"))
-    throw InputError({dir.string(), 0, ""}, "holds no results: there is no case.json as \"gambeson run\" leaves it");
-  return buildScenario(readCase(dir / "case.json"));
+RecordedRun recordedRun(const std::filesystem::path& dir) {
+  const std::filesystem::path file = caseFile(dir);
+  RecordingReader recording(dir);
+  const RecordingLayout& layout = recording.layout();
+  requireRecordedCase(dir, layout);
+  RunFacts facts = readRunFacts(dir);
+  if (!facts.recording.empty() && facts.recording != layout.identity)
+    throw InputError({(dir / "run.json").string(), 0, "recording"},
+                     "is of another run than what was recorded in " + (dir / "frames").string());
+  std::unique_ptr<Scenario> scenario = scenarioOf(readRecordedCase(file), layout.scene, (dir / "frames").string());
+  return {std::move(recording), std::move(scenario), std::move(facts)};
 }
 
-void writeResults(const Scenario& s, const std::filesystem::path& dir) {
-  const RecordingReader recording(dir);
-  const RunFacts facts = readRunFacts(dir);
+void writeResults(const std::filesystem::path& dir) {
+  const auto [recording, scenario, facts] = recordedRun(dir);
+  const Scenario& s = *scenario;
   Measured m = measureAll(s, recording);
   measureCloth(s, recording, m);
   writeSummary(s, recording, m, facts, dir / "summary.json");
@@ -168,8 +188,7 @@ void writeResults(const Scenario& s, const std::filesystem::path& dir) {
 }
 
 int renderResults(const RenderOptions& o) {
-  const auto scenario = scenarioOfResults(o.results);
-  const RecordingReader recording(o.results);
+  const auto [recording, scenario, facts] = recordedRun(o.results);
   const PictureCase picture{o.when, o.time_s, o.field, o.view, o.width, o.height};
   const int frame = frameOf(recording, measure(*scenario, recording), picture);
   PictureScale scale = scaleOf(*scenario, recording, frame, o.field);
@@ -179,13 +198,12 @@ int renderResults(const RenderOptions& o) {
 }
 
 int reportResults(const ReportOptions& o) {
-  const auto scenario = scenarioOfResults(o.results);
-  const RecordingReader recording(o.results);
+  const auto [recording, scenario, facts] = recordedRun(o.results);
   const Measured m = measureAll(*scenario, recording);
   const TemporaryFolder folder;
   std::vector<std::string> failures;
   const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder.path(), failures);
-  ReportInput in = reportInput(*scenario, m, readRunFacts(o.results), recording.layout().identity, pictures);
+  ReportInput in = reportInput(*scenario, m, facts, recording.layout().identity, pictures);
   in.comfort_pictures = takeBodyPictures(*scenario, m, folder.path(), failures);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, o.html);

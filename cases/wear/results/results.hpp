@@ -13,6 +13,14 @@
 
 namespace gambeson {
 
+/// How long a window of a run took to compute.
+struct WindowTimes {
+  double start_s = 0, end_s = 0;  ///< of the window
+  std::vector<double> phases_s;   ///< of each phase
+  /// All numbers, as tables have them.
+  std::vector<double> row() const;
+};
+
 /// What the run knows of itself and the recording does not; DIR/run.json.
 struct RunFacts {
   int threads = 0;
@@ -20,10 +28,10 @@ struct RunFacts {
   double wall_s = 0;
   std::vector<std::pair<std::string, double>> phases_s;
   bool resumed = false;
-  long searches = 0;            ///< steps that looked for intersections
-  double searched_steps_s = 0;  ///< their time, all phases
-  /// Of each window, those of a resumed run's last part: start, end, time of each phase [s].
-  std::vector<std::vector<double>> windows_s{};
+  long searches = 0;                   ///< steps that looked for intersections
+  double searched_steps_s = 0;         ///< their time, all phases
+  std::vector<WindowTimes> windows{};  ///< those of a resumed run's last part
+  std::string recording{};             ///< identity of the recording that the run wrote
 };
 void writeRunFacts(const RunFacts& facts, const std::filesystem::path& dir);
 /// Throws InputError where DIR/run.json is damaged; a run that was killed left none: empty facts.
@@ -31,10 +39,17 @@ RunFacts readRunFacts(const std::filesystem::path& dir);
 
 /// Reads DIR's recording and run.json; writes summary.json, the tables, the pictures and report.html. What the
 /// recording holds alone decides the bytes, but for the object "timings".
-void writeResults(const Scenario& scenario, const std::filesystem::path& dir);
+void writeResults(const std::filesystem::path& dir);
 
-/// The scenario of a results folder, built again from its case.json. Throws InputError where that is missing.
-std::unique_ptr<Scenario> scenarioOfResults(const std::filesystem::path& dir);
+/// A run, finished or not, as its folder holds it. No file that its case names is looked at.
+struct RecordedRun {
+  RecordingReader recording;
+  std::unique_ptr<Scenario> scenario;
+  RunFacts facts;
+};
+/// Throws InputError where DIR/case.json or the recording is missing or damaged, or where one of these and DIR/run.json
+/// is of another run.
+RecordedRun recordedRun(const std::filesystem::path& dir);
 
 /// What `gambeson render` and `gambeson report` do with a results folder. Both return the exit status.
 int renderResults(const RenderOptions& options);

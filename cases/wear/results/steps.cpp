@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
-#include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
@@ -14,33 +12,32 @@
 namespace gambeson {
 
 void measureSteps(const RecordingReader& recording, Measured& out) {
-  std::map<std::string, std::size_t> column;
-  for (const std::string& name : stepColumns()) column.emplace(name, 2 + column.size());
   StepMeasure& m = out.steps;
   EnergyMeasure& e = out.energy;
   m.shortest_s = std::numeric_limits<double>::infinity();
   double time = 0, iterations = 0, first_energy = 0;
   bool moving = false;
-  for (const auto& r : recording.table("steps")) {
-    const auto at = [&](const char* name) { return r[column.at(name)]; };
-    out.recorded_end_s = r[1];
-    const double middle = 0.5 * (r[0] + r[1]);
-    time += r[1] - r[0];
+  const RecordedTable table = recording.table("steps");
+  for (std::size_t w = 0; w < table.rows(); ++w) {
+    const auto at = [&](const char* name) { return table.column(name)[w]; };
+    const double start = at("start_s"), end = at("end_s"), middle = 0.5 * (start + end);
+    out.recorded_end_s = end;
+    time += end - start;
     iterations += at("iterations");
     m.steps += std::lround(at("steps"));
     m.unconverged += std::lround(at("unconverged_steps"));
     m.yielded += std::lround(at("yielded_steps"));
     m.projections += std::lround(at("projections"));
     // While cloth settles, what it starts stretched by is taken back slowly.
-    double& residual = r[0] < -1e-9 ? m.largest_limit_residual_settling : m.largest_limit_residual;
+    double& residual = start < -1e-9 ? m.largest_limit_residual_settling : m.largest_limit_residual;
     residual = std::max(residual, at("largest_limit_residual"));
-    if (r[0] >= -1e-9) {
+    if (start >= -1e-9) {
       m.limited += std::lround(at("steps"));
       m.unlimited += std::lround(at("unlimited_steps"));
     }
     m.impacts += std::lround(at("impacts"));
     const auto count = [&](const char* name) { return std::lround(at(name)); };
-    m.collisions.push_back({r[0], r[1], count("most_contacts"), count("most_cloth_contacts"), count("impacts"),
+    m.collisions.push_back({start, end, count("most_contacts"), count("most_cloth_contacts"), count("impacts"),
                             count("zones"), count("cut_steps"), count("pinched"), count("most_intersections"),
                             at("smallest_gap_m"), at("largest_residual_m_per_s"),
                             at("iterations") / std::max(1.0, at("steps")), at("largest_way_cells")});
@@ -55,7 +52,7 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
       m.frequency_time_s = middle;
       m.shares = {at("membrane_share"), at("bending_share"), at("seam_share"), at("spring_share")};
     }
-    if (r[0] < -1e-9) continue;
+    if (start < -1e-9) continue;
     if (at("deepest_m") > m.deepest_m) m.deepest_m = at("deepest_m"), m.deepest_time_s = middle;
     const double energy = at("kinetic_J") + at("internal_J") + at("gravity_J") + at("springs_J");
     if (!moving) {

@@ -369,11 +369,13 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   for (const auto& [name, seconds] : facts.phases_s) phases[name] = seconds;
   Json columns{"start_s", "end_s"};
   for (const auto& phase : facts.phases_s) columns.push_back(phase.first);
+  Json windows = Json::array();
+  for (const WindowTimes& w : facts.windows) windows.push_back(w.row());
   j["timings"] = {{"wall_s", facts.wall_s},
                   {"threads", facts.threads},
                   {"resumed", facts.resumed},
                   {"phases_s", phases},
-                  {"windows", {{"columns", columns}, {"rows", facts.windows_s}}}};
+                  {"windows", {{"columns", columns}, {"rows", windows}}}};
   if (facts.searches > 0) j["timings"]["intersections"] = searchesJson(facts);
   writeOwnFile(file, j.dump(2) + "\n");
 }

@@ -6,12 +6,26 @@
 #include <algorithm>
 
 #include "cases/wear/recording/zone_ledger.hpp"
+#include "cases/wear/results/vector_columns.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 
 namespace gambeson {
 namespace {
+
+/// What a zone gets from a group of contacts: impulses.
+struct ZoneColumns {
+  const std::vector<double>&size, &normal, &friction;
+  VectorColumns resultant;
+
+  ZoneColumns(const RecordedTable& table, const std::string& name)
+      : size(table.column(name + "_Ns")),
+        normal(table.column(name + "_n_Ns")),
+        friction(table.column(name + "_t_Ns")),
+        resultant(table, name + "_J", "_Ns") {}
+  ZoneForce at(std::size_t row) const { return {size[row], normal[row], friction[row], resultant[row]}; }
+};
 
 bool fits(const std::string& name, const std::string& zone) {
   return zone.empty() || name == zone || name == zone + "_left" || name == zone + "_right";
@@ -42,23 +56,25 @@ void measureZones(const Scenario& s, const RecordingReader& recording, Measured&
   m.mean_resultant_N.assign(m.names.size(), 0);
   m.mean_free_resultant_N.assign(m.names.size(), 0);
   double counted_s = 0;
-  for (const auto& r : recording.table("body_zones")) {
-    if (r[0] < -1e-9) continue;
-    if (r.size() != 2 + ZoneLedger::kParts * m.groups.size() * m.names.size())
-      throw RunError("the recording tells the contact of body zones in another form: it is of another version");
-    const double dt = r[1] - r[0];
-    const bool counts = r[0] > out.counted_from_s - 1e-9;
+  const RecordedTable table = recording.table("body_zones");
+  const std::vector<double>&start = table.column("start_s"), &end = table.column("end_s");
+  std::vector<ZoneColumns> columns;
+  for (const std::string& name : ZoneLedger::names(s)) columns.emplace_back(table, name);
+  for (std::size_t w = 0; w < table.rows(); ++w) {
+    if (start[w] < -1e-9) continue;
+    const double dt = end[w] - start[w];
+    const bool counts = start[w] > out.counted_from_s - 1e-9;
     if (counts) counted_s += dt;
-    m.time_s.push_back(0.5 * (r[0] + r[1]));
+    m.time_s.push_back(0.5 * (start[w] + end[w]));
     m.all.emplace_back(m.names.size());
     m.free.emplace_back(m.names.size());
     for (std::size_t g = 0; g < m.groups.size(); ++g)
       for (std::size_t z = 0; z < m.names.size(); ++z) {
-        const double* v = &r[2 + ZoneLedger::kParts * (g * m.names.size() + z)];
-        const ZoneForce f{v[0] / dt, v[1] / dt, v[2] / dt, Vec3{v[3], v[4], v[5]} / dt};
+        const ZoneForce sum = columns[g * m.names.size() + z].at(w);
+        const ZoneForce f{sum.force_N / dt, sum.normal_N / dt, sum.friction_N / dt, sum.resultant_N / dt};
         m.all.back()[z] += f;
         if (m.groups[g].press == Press::free) m.free.back()[z] += f;
-        if (counts) m.mean[g][z] += {v[0], v[1], v[2], {v[3], v[4], v[5]}};
+        if (counts) m.mean[g][z] += sum;
       }
     for (std::size_t z = 0; counts && z < m.names.size(); ++z) {
       m.mean_resultant_N[z] += dt * norm(m.all.back()[z].resultant_N);

@@ -54,8 +54,7 @@ std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& 
 int exportResults(const ExportOptions& o) {
   if (o.iges.empty() && o.opensim.empty())
     throw InputError({"command line", 0, ""}, "nothing to write: give --iges FILE or --opensim PREFIX");
-  const auto scenario = scenarioOfResults(o.results);
-  const RecordingReader recording(o.results);
+  const auto [recording, scenario, facts] = recordedRun(o.results);
   const Measured measured = measure(*scenario, recording);
   if (!o.iges.empty()) {
     const int frame = frameOf(recording, measured, {o.when, o.time_s});

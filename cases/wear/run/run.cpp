@@ -10,6 +10,7 @@
 #include "cases/input/message.hpp"
 #include "cases/runs/disk_space.hpp"
 #include "cases/runs/progress.hpp"
+#include "cases/runs/recorded_case.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/runs/stop_message.hpp"
 #include "cases/wear/case/case.hpp"
@@ -91,7 +92,10 @@ int runCase(const Case& c, const RunOptions& options) {
   if (!resume) removeEarlierResults(options.out);
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
-  if (!resume) writeOwnFile(options.out / "case.json", writeCase(c));
+  if (resume)
+    requireRecordedCase(options.out, readLayout(options.out));
+  else
+    writeOwnFile(options.out / "case.json", writeCase(c));
   if (!resume) putOn(*scenario);
   state = resume ? stateOf(checkpoint, frequency) : startOf(*scenario, work);
 
@@ -103,7 +107,7 @@ int runCase(const Case& c, const RunOptions& options) {
   if (!resume) writer.closeSegment(checkpointOf(state, frequency));
   const bool finished = k == windows.count();
   const StepControl control{c.time.step_safety, c.time.max_step_s};
-  std::vector<std::vector<double>> windows_s;
+  std::vector<WindowTimes> times;
   auto before_s = phasesOf(work.times, c.strain_limit.has_value());
   {
     Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
@@ -113,9 +117,9 @@ int runCase(const Case& c, const RunOptions& options) {
                 [&](const State& before, const State& after, const StepReport& report, const StepWork& w,
                     const Frequency& f) { recorder.observe(before, after, report, w, f); });
         auto after_s = phasesOf(work.times, c.strain_limit.has_value());
-        windows_s.push_back({windows.bound(k), state.time_s});
+        times.push_back({windows.bound(k), state.time_s, {}});
         for (std::size_t p = 0; p < after_s.size(); ++p)
-          windows_s.back().push_back(after_s[p].second - before_s[p].second);
+          times.back().phases_s.push_back(after_s[p].second - before_s[p].second);
         before_s = std::move(after_s);
         recorder.closeWindow(state, windows.bound(k), windows.completes(k + 1, c.output.frame_s), work);
         if (scenario->human && std::abs(state.time_s) < 1e-9)
@@ -135,12 +139,13 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.resumed = resume;
   facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
   facts.phases_s = phasesOf(work.times, c.strain_limit.has_value());
-  facts.windows_s = std::move(windows_s);
+  facts.windows = std::move(times);
+  facts.recording = layout.identity;
   facts.searches = work.times.searches;
   facts.searched_steps_s = work.times.searched_steps;
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
-  writeResults(*scenario, options.out);
+  writeResults(options.out);
   fmt::print("Report: {}\n", (options.out / "report.html").string());
   return 0;
 }

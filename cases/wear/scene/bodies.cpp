@@ -26,7 +26,7 @@ void noteCharacter(const CharacterOptions& options, const CharacterReport& found
 
 /// Says where the skin passes through itself, and switches it off there where asked. Our own motions keep our own skins
 /// from it (tests/unit/human/skin/fold_test.cpp).
-void noteFolds(const HumanCase& human, Scenario& s) {
+void noteFolds(const HumanCase& human, MadeBodies& s) {
   constexpr double every_s = 0.05;
   const OverlapOfMotion o = overlapOf(*s.human, *s.motion, every_s);
   if (o.folded == 0) return;
@@ -45,8 +45,8 @@ void noteFolds(const HumanCase& human, Scenario& s) {
   s.notes.push_back(note);
 }
 
-/// The human of the case and his motion; returns his obstacles.
-std::vector<Obstacle> addHuman(const Case& c, Scenario& s, CaseStage& stage) {
+/// The human of the case and his motion.
+void makeHuman(const Case& c, MadeBodies& s) {
   CharacterReport character;
   s.human = underKey("human", [&] { return humanOf(*c.human, &character); });
   if (c.human->character) noteCharacter(*c.human->character, character, s.notes);
@@ -54,12 +54,16 @@ std::vector<Obstacle> addHuman(const Case& c, Scenario& s, CaseStage& stage) {
   MadeMotion made = underKey("human.motion", [&] { return kind.make(c.human->motion, *s.human); });
   s.motion = std::move(made.motion);
   s.mean_velocity_m_per_s = made.mean_velocity_m_per_s;
-  stage.air_ramp_s = made.air_ramp_s;
+  s.air_ramp_s = made.air_ramp_s;
   s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
   if (s.human->skin && !(kind.ours && c.human->skin)) noteFolds(*c.human, s);
   s.feet = footReport(*s.human, *s.motion);
   if (s.feet && !kind.tells_feet && !plausible(*s.feet))
     s.notes.push_back("the feet do not stand well: " + feetText(*s.feet));
+}
+
+/// Returns the obstacles of the scenario's human.
+std::vector<Obstacle> placeHuman(Scenario& s, CaseStage& stage) {
   stage.human = &*s.human;
   stage.motion = s.motion.get();
   for (const Link& link : s.human->skeleton.links) s.bodies.push_back(link.name);
@@ -71,17 +75,15 @@ std::vector<Obstacle> addHuman(const Case& c, Scenario& s, CaseStage& stage) {
 }
 
 /// The case's own obstacles, after those of the human.
-void addObstacles(const Case& c, Scenario& s, CaseStage& stage, std::vector<Obstacle>& obstacles) {
+void placeObstacles(const Case& c, std::vector<MadeObstacle> made, Scenario& s, CaseStage& stage,
+                    std::vector<Obstacle>& obstacles) {
   stage.first_fixed = static_cast<int>(obstacles.size());
   for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
     const ObstacleCase& o = c.obstacles[k];
-    const std::string key = fmt::format("obstacles[{}]", k);
-    MadeObstacle made = underKey(key, [&] { return kindOf(o).make(o); });
-    s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
-    obstacles.push_back({std::move(made.shape), o.name, made.sequence != nullptr});
-    stage.sequence.push_back(std::move(made.sequence));
+    obstacles.push_back({std::move(made[k].shape), o.name, made[k].sequence != nullptr});
+    stage.sequence.push_back(std::move(made[k].sequence));
     Placement at;
-    at.origin = made.origin_m;
+    at.origin = made[k].origin_m;
     stage.fixed.push_back(at);
     stage.fixed_velocity.push_back(o.velocity_m_per_s);
     s.body_of_obstacle.push_back(static_cast<int>(s.bodies.size()));
@@ -91,12 +93,30 @@ void addObstacles(const Case& c, Scenario& s, CaseStage& stage, std::vector<Obst
 
 }  // namespace
 
-std::vector<Obstacle> placeBodies(const Case& c, Scenario& s, CaseStage& stage) {
+MadeBodies makeBodies(const Case& c) {
+  MadeBodies made;
+  if (c.human) makeHuman(c, made);
+  for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
+    const ObstacleCase& o = c.obstacles[k];
+    made.obstacles.push_back(underKey(fmt::format("obstacles[{}]", k), [&] { return kindOf(o).make(o); }));
+    const std::vector<std::string>& notes = made.obstacles.back().notes;
+    made.notes.insert(made.notes.end(), notes.begin(), notes.end());
+  }
+  return made;
+}
+
+std::vector<Obstacle> placeBodies(const Case& c, MadeBodies made, Scenario& s, CaseStage& stage) {
+  s.human = std::move(made.human);
+  s.motion = std::move(made.motion);
+  s.mean_velocity_m_per_s = made.mean_velocity_m_per_s;
+  s.air_ramp_s = made.air_ramp_s;
+  s.feet = made.feet;
+  s.notes = std::move(made.notes);
   std::vector<Obstacle> obstacles;
-  if (c.human) obstacles = addHuman(c, s, stage);
+  if (s.human) obstacles = placeHuman(s, stage);
   stage.air_velocity = c.air.with_pelvis ? s.mean_velocity_m_per_s : c.air.velocity_m_per_s;
-  if (!c.air.with_pelvis) stage.air_ramp_s = 0;
-  addObstacles(c, s, stage, obstacles);
+  stage.air_ramp_s = c.air.with_pelvis ? s.air_ramp_s : 0;
+  placeObstacles(c, std::move(made.obstacles), s, stage, obstacles);
   return obstacles;
 }
 

@@ -1,16 +1,33 @@
 #pragma once
 /// Who and what the cloth of a case touches: the human with its motion, and the case's own obstacles.
 
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "cases/wear/case/obstacles/kind.hpp"
 #include "cases/wear/scene/scenario.hpp"
 #include "cases/wear/scene/stage.hpp"
 #include "core/contact/obstacle.hpp"
 
 namespace gambeson {
 
-/// Puts the bodies of the case into the scenario and on its stage, with the air about them and notes on what a user
-/// should know of them; returns the obstacles, those of the human first. Throws InputError with the case's keys.
-std::vector<Obstacle> placeBodies(const Case& c, Scenario& s, CaseStage& stage);
+/// All that is made of the case's words and files about bodies, and takes these no more.
+struct MadeBodies {
+  std::optional<Human> human;
+  std::unique_ptr<Motion> motion;  ///< null without a human
+  Vec3 mean_velocity_m_per_s;      ///< of the pelvis
+  double air_ramp_s = 0;           ///< in which air that goes along comes up to speed
+  std::optional<FootReport> feet;
+  std::vector<MadeObstacle> obstacles;  ///< of the case, in its order
+  std::vector<std::string> notes;       ///< what a user should know of them
+};
+/// Throws InputError with the case's keys.
+MadeBodies makeBodies(const Case& c);
+
+/// Puts the bodies into the scenario and on its stage, with the air about them; returns the obstacles, those of the
+/// human first.
+std::vector<Obstacle> placeBodies(const Case& c, MadeBodies made, Scenario& s, CaseStage& stage);
 
 }  // namespace gambeson

@@ -7,7 +7,6 @@
 
 #include "cases/input/places.hpp"
 #include "cases/wear/case/factors.hpp"
-#include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "core/cloth/joined_cloth.hpp"
 #include "core/cloth/shell/layers.hpp"
@@ -19,28 +18,26 @@
 namespace gambeson {
 namespace {
 
-TriangleGarment trianglesOf(const GarmentCase& worn, const Garment& draft) {
-  if (kindOf(worn).isMesh()) return kindOf(worn).triangles(worn, draft.fabric);
-  return triangleGarment(draft, worn.cloth.mesh);
-}
-
 /// Garments [from, end) of one kind.
-std::unique_ptr<const Cloth> clothOfKind(const Case& c, const std::vector<Garment>& drafts, std::size_t from,
+std::unique_ptr<const Cloth> clothOfKind(const Case& c, const std::vector<Garment>& drafts,
+                                         const std::vector<std::optional<TriangleGarment>>& meshes, std::size_t from,
                                          std::size_t end) {
   const std::span<const Garment> own = std::span(drafts).subspan(from, end - from);
   if (c.garments[from].cloth.kind == ClothKind::nurbs)
     return std::make_unique<NurbsShell>(own.size() == 1 ? own[0] : joinLayers(own));
   std::vector<TriangleGarment> garments;
   for (std::size_t k = from; k < end; ++k)
-    garments.push_back(underKey(fmt::format("garments[{}]", k), [&] { return trianglesOf(c.garments[k], drafts[k]); }));
+    garments.push_back(underKey(fmt::format("garments[{}]", k), [&] {
+      return meshes[k] ? *meshes[k] : triangleGarment(drafts[k], c.garments[k].cloth.mesh);
+    }));
   return std::make_unique<TriangleCloth>(std::move(garments));
 }
 
 }  // namespace
 
-ClothDraft clothOf(const Case& c, const FactorsCase& written, const std::vector<Garment>& garments, bool panels) {
+ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wardrobe, bool panels) {
   ClothDraft out;
-  std::vector<Garment> drafts = garments;
+  std::vector<Garment> drafts = wardrobe.drafts;
   std::vector<Vec3> start = startDisplacements(c, drafts);
   for (Garment& g : drafts) scaleSeams(g, written);
   const Garment sewn = drafts[0];
@@ -55,7 +52,7 @@ ClothDraft clothOf(const Case& c, const FactorsCase& written, const std::vector<
   for (std::size_t from = 0; from < drafts.size();) {
     std::size_t end = from + 1;
     while (end < drafts.size() && c.garments[end].cloth.kind == c.garments[from].cloth.kind) ++end;
-    kinds.push_back(clothOfKind(c, drafts, from, end));
+    kinds.push_back(clothOfKind(c, drafts, wardrobe.meshes, from, end));
     from = end;
   }
   out.cloth = kinds.size() == 1 ? std::move(kinds[0]) : std::make_unique<JoinedCloth>(std::move(kinds));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cases/wear/case/case.hpp"
+#include "cases/wear/scene/scenario.hpp"
 #include "core/cloth/cloth.hpp"
 #include "core/motion/stitch.hpp"
 
@@ -21,6 +22,6 @@ struct ClothDraft {
 
 /// `c`: with its factors; `written`: its factors as they stand, for the springs of seams. `panels`: the one garment
 /// without its seams, springs in their place, its panels moved off the body. Throws InputError with the garment's key.
-ClothDraft clothOf(const Case& c, const FactorsCase& written, const std::vector<Garment>& garments, bool panels);
+ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wardrobe, bool panels);
 
 }  // namespace gambeson

@@ -49,9 +49,7 @@ Garment makeGarment(const Case& c, const GarmentCase& worn, const BodyForm* form
   Garment garment = kindOf(worn).make({worn, fabricOf(c, worn), layerOf(c, worn), form, under});
   for (std::size_t p = garment.patch_names.size(); p < garment.patches.size(); ++p)
     garment.patch_names.push_back("patch_" + std::to_string(p));
-  garment.fabric = fabricOf(c, worn);
-  garment.other_fabrics = otherFabrics(worn);
-  applyFields(worn.fields, garment);
+  addFabric(c, worn, garment);
   for (NurbsPatch& patch : garment.patches)
     for (Vec3& point : patch.points) point += worn.position_m;
   for (auto& points : garment.placed)
@@ -67,6 +65,23 @@ Garment makeGarment(const Case& c, const GarmentCase& worn, const BodyForm* form
 }
 
 }  // namespace
+
+void addFabric(const Case& c, const GarmentCase& worn, Garment& garment) {
+  garment.fabric = fabricOf(c, worn);
+  garment.other_fabrics = otherFabrics(worn);
+  applyFields(worn.fields, garment);
+}
+
+std::vector<std::optional<TriangleGarment>> readMeshes(const Case& c, const std::vector<Garment>& drafts) {
+  std::vector<std::optional<TriangleGarment>> meshes(drafts.size());
+  for (std::size_t k = 0; k < drafts.size(); ++k) {
+    const GarmentCase& worn = c.garments[k];
+    if (kindOf(worn).isMesh())
+      meshes[k] =
+          underKey(fmt::format("garments[{}]", k), [&] { return kindOf(worn).triangles(worn, drafts[k].fabric); });
+  }
+  return meshes;
+}
 
 std::vector<Garment> draftGarments(const Case& c, const Human* human) {
   std::optional<BodyForm> form;

@@ -1,7 +1,11 @@
 #pragma once
 /// The garments of a case, made on its human: what a run sews together.
 
+#include <optional>
+#include <vector>
+
 #include "cases/wear/case/case.hpp"
+#include "core/cloth/triangles/triangle_cloth.hpp"
 #include "human/body/body.hpp"
 
 namespace gambeson {
@@ -9,6 +13,11 @@ namespace gambeson {
 /// One garment each, in the case's order, in place (`position`, `weft_angle`), with fabrics and patch names. Those that
 /// are drafted lie over those before them. `human` is null where the case has none.
 std::vector<Garment> draftGarments(const Case& c, const Human* human);
+/// Gives a garment the fabrics and fields that the case says of it.
+void addFabric(const Case& c, const GarmentCase& worn, Garment& garment);
+/// Of each garment that is a mesh from the start its triangles; `drafts`: of the same garments. Throws InputError with
+/// the garment's key.
+std::vector<std::optional<TriangleGarment>> readMeshes(const Case& c, const std::vector<Garment>& drafts);
 
 /// Displacement of every control point from rest at the start: where it is placed, and noise.
 std::vector<Vec3> startDisplacements(const Case& c, const std::vector<Garment>& garments);

@@ -66,9 +66,14 @@ struct Only {
 };
 
 /// What is drafted over other garments is drafted over them also where it is put on by itself: it is the same garment.
-std::vector<Garment> draftOf(const Case& c, const Only& only, const Human* human) {
-  if (!only.of) return draftGarments(c, human);
-  return {std::move(draftGarments(withFactors(*only.of), human)[only.garment])};
+Wardrobe makeGarments(const Case& c, const Only& only, const Human* human) {
+  Wardrobe made;
+  if (only.of)
+    made.drafts = {std::move(draftGarments(withFactors(*only.of), human)[only.garment])};
+  else
+    made.drafts = draftGarments(c, human);
+  made.meshes = readMeshes(c, made.drafts);
+  return made;
 }
 
 /// Runs f; an InputError of it about the cloth as a whole is said at the garment, where there is one, or at garments.
@@ -162,7 +167,7 @@ bool isProjected(const Case& c) {
   return c.dressing.projecting && c.human && !c.dressing.layer_by_layer && c.dressing.from.empty();
 }
 
-/// When growing, settling and the motion begin, and in which posture the garments are put on.
+/// When growing, settling and the motion begin.
 void planTimes(const Case& c, Scenario& s, CaseStage& stage) {
   const double grow = isProjected(c) ? c.dressing.projecting->grow_s : 0, settle = c.human ? c.dressing.settle_s : 0;
   s.start_s = -(grow + settle);
@@ -170,19 +175,24 @@ void planTimes(const Case& c, Scenario& s, CaseStage& stage) {
   stage.grow_start_s = s.start_s;
   stage.grow_s = grow;
   stage.settle_start_s = -settle;
+}
+
+/// What is worn at the start, and in which posture the garments are put on.
+void putOnAtStart(const Case& c, Scenario& s) {
   if (!c.dressing.from.empty()) {
     const Dressed dressed = readDressed(c.dressing.from);
     wear(s, dressed);
-    stage.dressed = dressed.posture;
-  } else if (settle > 0 && std::any_of(c.garments.begin(), c.garments.end(),
-                                       [](const GarmentCase& worn) { return kindOf(worn).drafted; })) {
-    stage.dressed = standing(*s.human);  // which the garments are drafted for
+    s.stage->dressed = dressed.posture;
+  } else if (s.stage->settle_start_s < 0 && std::any_of(c.garments.begin(), c.garments.end(),
+                                                        [](const GarmentCase& worn) { return kindOf(worn).drafted; })) {
+    s.stage->dressed = standing(*s.human);  // which the garments are drafted for
   }
 }
 
 /// Virtual projecting: the body as it starts, free of the cloth.
-void shrinkBody(const Case& c, const std::vector<Vec3>& at_start, const Scenario& s, CaseStage& stage) {
+void shrinkBody(const Case& c, const std::vector<Vec3>& at_start, Scenario& s) {
   const Human& human = *s.human;
+  CaseStage& stage = *s.stage;
   std::vector<Vec3> X(s.model->surface.size());
   s.model->surface.W.multiply<Vec3>(at_start, X);
   const Posture posture = stage.postureAt(s.start_s);
@@ -196,24 +206,39 @@ void shrinkBody(const Case& c, const std::vector<Vec3>& at_start, const Scenario
   }
 }
 
-std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
+/// A scenario that lacks the start of its run, and where the cloth's points lie at it.
+struct Assembled {
+  std::unique_ptr<Scenario> scenario;
+  std::vector<Vec3> at_start;
+};
+
+/// From what was made; `c`: with its factors. Reads no file.
+Assembled assemble(const Case& written, const Case& c, const Only& only, MadeBodies bodies, Wardrobe wardrobe) {
   auto s = std::make_unique<Scenario>();
   s->definition = written;
-  const Case c = withFactors(written);
-  auto stage = std::make_unique<CaseStage>();
-  std::vector<Obstacle> obstacles = placeBodies(c, *s, *stage);
-  const std::vector<Garment> garments = draftOf(c, only, s->human ? &*s->human : nullptr);
+  s->stage = std::make_unique<CaseStage>();
+  s->wardrobe = std::move(wardrobe);
+  std::vector<Obstacle> obstacles = placeBodies(c, std::move(bodies), *s, *s->stage);
+  const std::vector<Garment>& garments = s->wardrobe.drafts;
   const std::vector<int> first = nameParts(c, garments, *s);
-  ClothDraft draft = underGarments(c, only, [&] { return clothOf(c, written.factors, garments, only.panels); });
+  ClothDraft draft = underGarments(c, only, [&] { return clothOf(c, written.factors, s->wardrobe, only.panels); });
   const std::vector<Vec3> start = std::move(draft.start_m);
   buildModelOf(c, only, std::move(draft), first, std::move(obstacles), *s);
   noteCoarseness(c, garments, first, *s);
-  const std::vector<Vec3> at_start = placeCloth(start, *s);
+  std::vector<Vec3> at_start = placeCloth(start, *s);
   nameContactRegions(*s, garments, first, at_start);
-  planTimes(c, *s, *stage);
-  if (isProjected(c)) shrinkBody(c, at_start, *s, *stage);
-  s->stage = std::move(stage);
-  return s;
+  planTimes(c, *s, *s->stage);
+  return {std::move(s), std::move(at_start)};
+}
+
+std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
+  const Case c = withFactors(written);
+  MadeBodies bodies = makeBodies(c);
+  Wardrobe wardrobe = makeGarments(c, only, bodies.human ? &*bodies.human : nullptr);
+  auto [s, at_start] = assemble(written, c, only, std::move(bodies), std::move(wardrobe));
+  putOnAtStart(c, *s);
+  if (isProjected(c)) shrinkBody(c, at_start, *s);
+  return std::move(s);
 }
 
 }  // namespace
@@ -245,6 +270,18 @@ std::unique_ptr<Scenario> build(const Case& c, const Only& only) {
 }  // namespace
 
 std::unique_ptr<Scenario> buildScenario(const Case& c) { return build(c, {}); }
+
+std::unique_ptr<Scenario> buildRecorded(const Case& c, MadeBodies bodies, Wardrobe wardrobe) {
+  const Case effective = withFactors(c);
+  for (std::size_t k = 0; k < wardrobe.drafts.size(); ++k) {
+    addFabric(effective, effective.garments[k], wardrobe.drafts[k]);
+    if (wardrobe.meshes[k]) wardrobe.meshes[k]->fabrics = {wardrobe.drafts[k].fabric};
+  }
+  std::vector<std::string> notes = bodies.notes;
+  std::unique_ptr<Scenario> s = assemble(c, effective, {}, std::move(bodies), std::move(wardrobe)).scenario;
+  s->notes = std::move(notes);
+  return s;
+}
 
 std::unique_ptr<Scenario> buildAlone(const Case& one, const Case& whole, std::size_t garment) {
   return build(one, {&whole, garment});

@@ -7,13 +7,18 @@
 #include <vector>
 
 #include "cases/wear/case/case.hpp"
+#include "cases/wear/scene/stage.hpp"
 #include "cases/wear/scene/supports.hpp"
+#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/triangles/triangle_cloth.hpp"
 #include "core/motion/advance.hpp"
 #include "human/body/body.hpp"
 #include "human/motion/foot_report.hpp"
 #include "human/motion/motion.hpp"
 
 namespace gambeson {
+
+struct MadeBodies;  // cases/wear/scene/bodies.hpp
 
 /// Contact of one garment with bodies: freely, in a belt's press (of the belt itself, and of what lies under it), or of
 /// an edge on springs, which pull it onto the body.
@@ -24,14 +29,22 @@ struct ContactGroup {
   bool operator==(const ContactGroup&) const = default;
 };
 
+/// The garments of a case as they are made, before they are cloth: drafted or read, innermost first.
+struct Wardrobe {
+  std::vector<Garment> drafts;
+  std::vector<std::optional<TriangleGarment>> meshes;  ///< of each that is a mesh from the start
+};
+
 /// Constant after it is built. Time 0 is where the motion starts; dressing and settling lie before it.
 struct Scenario {
   Case definition;
   std::optional<Human> human;
   std::unique_ptr<Motion> motion;
   Vec3 mean_velocity_m_per_s;  ///< of the pelvis in walking and climbing
+  double air_ramp_s = 0;       ///< in which air that goes along with it comes up to speed
+  Wardrobe wardrobe;
   std::unique_ptr<Model> model;
-  std::unique_ptr<Stage> stage;
+  std::unique_ptr<CaseStage> stage;
   std::vector<std::string> bodies;        ///< links of the human, then the case's own obstacles
   std::vector<int> body_of_obstacle;      ///< index in `bodies`; -1: the human's skin, whose segments are links
   std::vector<std::string> patch_names;   ///< where there are several garments, each starts with its garment's
@@ -67,6 +80,9 @@ State startOf(const Scenario& scenario, StepWork& work);
 
 /// Throws InputError (with the case's file) where the case cannot be built, RunError where the body cannot be freed.
 std::unique_ptr<Scenario> buildScenario(const Case& c);
+/// The same of a recording: with the bodies and garments that were made for its run, and none made again. The body
+/// through dressing, which only a run works out, is not in it.
+std::unique_ptr<Scenario> buildRecorded(const Case& c, MadeBodies bodies, Wardrobe wardrobe);
 /// A case of one garment, which is drafted as garment `garment` of `whole`: over those before it, which it has not on.
 std::unique_ptr<Scenario> buildAlone(const Case& one, const Case& whole, std::size_t garment);
 /// The same with its panels apart and springs along its seams (virtual stitching), beside the body that stands as at

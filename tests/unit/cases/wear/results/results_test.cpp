@@ -118,7 +118,7 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
   const Folder folder;
   const auto s = buildScenario(sleeve());
   record(*s, folder.path());
-  writeResults(*s, folder.path());
+  writeResults(folder.path());
   const auto j = nlohmann::json::parse(content(folder.path() / "summary.json"));
 
   // The cloth pushes down, against flexion: the wearer must add as much towards flexion, 0.1 m times 3 N.
@@ -213,7 +213,7 @@ TEST(Results, ReportSaysWhatWasMeasured) {
   const Folder folder;
   const auto s = buildScenario(sleeve());
   record(*s, folder.path());
-  writeResults(*s, folder.path());
+  writeResults(folder.path());
   const std::string page = content(folder.path() / "report.html");
   for (const char* text :
        {"Peak added elbow (flexion) torque", "0.300 Nm", "0.03 s", "flexion of the elbow against the garment",
@@ -251,7 +251,7 @@ TEST(Results, SameRecordingSameBytes) {
   const Folder folder;
   const auto s = buildScenario(sleeve());
   record(*s, folder.path());
-  writeResults(*s, folder.path());
+  writeResults(folder.path());
   std::vector<std::string> first;
   const std::vector<std::string> names{"summary.json",
                                        "torques.csv",
@@ -261,7 +261,7 @@ TEST(Results, SameRecordingSameBytes) {
                                        "report.html",
                                        "snapshots/01_stress_peak_left.png"};
   for (const std::string& name : names) first.push_back(content(folder.path() / name));
-  writeResults(*scenarioOfResults(folder.path()), folder.path());
+  writeResults(folder.path());
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(content(folder.path() / names[i]), first[i]) << names[i];
   EXPECT_EQ(reportResults({folder.path(), folder.path() / "again.html"}), 0);
   EXPECT_EQ(content(folder.path() / "again.html"), first[5]);
@@ -272,7 +272,7 @@ TEST(Results, PartialRunSaysSo) {
   const auto s = buildScenario(sleeve());
   record(*s, folder.path(), 2);
   std::filesystem::remove(folder.path() / "run.json");  // as a killed run leaves it
-  writeResults(*s, folder.path());
+  writeResults(folder.path());
   const auto j = nlohmann::json::parse(content(folder.path() / "summary.json"));
   EXPECT_NEAR(j.at("recorded_to_s").get<double>(), 0.02, 1e-12);
   EXPECT_NEAR(j.at("joints")[0].at("peak_Nm").get<double>(), 0.2, 1e-12);
@@ -286,7 +286,7 @@ TEST(Results, WhatAStepTakesToFindAndFreeIntersections) {
   record(*s, folder.path());
   writeRunFacts({1, "", "", 4, {{"finding intersections", 0.35}, {"freeing intersections", 0.05}}, false, 20, 3.2},
                 folder.path());
-  writeResults(*s, folder.path());
+  writeResults(folder.path());
   const auto timings = nlohmann::json::parse(content(folder.path() / "summary.json")).at("timings");
   const auto& j = timings.at("intersections");
   EXPECT_EQ(j.at("steps"), 20);
@@ -320,7 +320,7 @@ TEST(Results, FactsSurviveAndDamageIsNamed) {
     EXPECT_THROW(taken(rows), InputError) << rows;
   folder.write("run.json", "{\"version\": ");
   EXPECT_THROW(readRunFacts(folder.path()), InputError);
-  EXPECT_THROW(scenarioOfResults(folder.path()), InputError);
+  EXPECT_THROW(recordedRun(folder.path()), InputError);
 }
 
 TEST(Results, RoundedUpReadsWell) {

@@ -48,16 +48,18 @@ TEST_F(Export, OpenSimGetsTheForcesOfTheLedger) {
   ASSERT_EQ(command({"export", results_.c_str(), "--opensim", prefix.c_str()}), 0);
   const StorageTable table = readStorage(prefix + ".mot");
   const RecordingReader recording(results_);
-  const auto& columns = recording.layout().tables.at("bodies");
+  const RecordedTable bodies = recording.table("bodies");
+  const std::vector<double>&start = bodies.column("start_s"), &end = bodies.column("end_s");
   std::size_t row = 0;
   double most = 0;
-  for (const auto& r : recording.table("bodies")) {
-    if (r[0] < -1e-9) continue;
+  for (std::size_t w = 0; w < bodies.rows(); ++w) {
+    if (start[w] < -1e-9) continue;
     Vec3 ledger, file;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      if (columns[c].ends_with("_Jx_Ns")) ledger.x += r[c] / (r[1] - r[0]);
-      if (columns[c].ends_with("_Jy_Ns")) ledger.y += r[c] / (r[1] - r[0]);
-      if (columns[c].ends_with("_Jz_Ns")) ledger.z += r[c] / (r[1] - r[0]);
+    for (const std::string& name : recording.layout().tables.at("bodies")) {
+      const double mean = bodies.column(name)[w] / (end[w] - start[w]);
+      if (name.ends_with("_Jx_Ns")) ledger.x += mean;
+      if (name.ends_with("_Jy_Ns")) ledger.y += mean;
+      if (name.ends_with("_Jz_Ns")) ledger.z += mean;
     }
     for (std::size_t c = 0; c < table.names.size(); ++c) {
       if (table.names[c].ends_with("_force_vx")) file.x += table.columns[c][row];
