@@ -15,8 +15,10 @@ Case readWith(const JsonNode& root, const std::filesystem::path& file, bool reco
   const std::string name = file.string();
   const schema::Place place{root, "", name, recorded};
   schema::readObject(schema::caseTable(), place, &c);
-  schema::applyRules(place, c);
-  if (!recorded) schema::checkReferences(place, c);
+  if (!recorded) {
+    schema::applyRules(place, c);
+    schema::checkReferences(place, c);
+  }
   c.file = file;
   return c;
 }

@@ -340,8 +340,8 @@ Case readCase(const std::filesystem::path& file, const std::vector<std::string>&
 /// The same from a file already read, with values put in their places.
 Case readCase(const JsonNode& root, const std::filesystem::path& file);
 
-/// The case of a finished run, as writeCase left it: files that it names may be gone or changed meanwhile, and none is
-/// looked at.
+/// The case of a finished run, as writeCase left it. It was checked before its run; files that it names may be gone or
+/// changed meanwhile, and none is looked at.
 Case readRecordedCase(const std::filesystem::path& file);
 
 /// The case written out in full as JSON, every default included; readCase gives the same case back.

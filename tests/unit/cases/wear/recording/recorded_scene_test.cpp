@@ -86,7 +86,8 @@ INSTANTIATE_TEST_SUITE_P(
                   std::vector<std::string>{"garment.shorts.cell=50 mm", "time.duration=0.1",
                                            R"(dressing.projecting={"clearance": "5 mm", "grow": "0.1 s"})"}),
         // A skin that is projected.
-        std::pair("skirt_tryon", std::vector<std::string>{"time.duration=0.05", "dressing.settle=50 ms"}),
+        std::pair("skirt_tryon", std::vector<std::string>{"time.duration=0.05", "dressing.settle=50 ms",
+                                                          "dressing.projecting.clearance=20 mm"}),
         // Drafts over drafts, a belt that starts stretched, cloth that bends from a posture of dressing to another.
         std::pair("armour_aim", std::vector<std::string>{"time.duration=0.05", "dressing.settle=50 ms"}),
         std::pair("stack_of_ten", std::vector<std::string>{"time.duration=0.05"})),

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -62,14 +63,13 @@ const std::string arm = R"json({"name": "arm",
 const std::string lift = R"json({"name": "lift",
   "garment": {"mesh_file": {"path": "square.obj"}, "model": "triangles"},
   "obstacles": [{"name": "lift", "sequence": {"folder": "frames", "rate": "50 Hz"}}],
-  "supports": [{"pinned": {"patch": 0, "at": [0.5, 0.5]}}],
   "time": {"duration": "50 ms"}, )json" + cloth + "}";
 const std::string strip = R"json({"kind": "static", "name": "strip",
   "sheet": {"file": {"path": "sleeve.json"}},
   "material": {"fabric": {"thickness": "1 mm", "density": 436, "young": "1 MPa", "poisson": 0,
                           "bending": {"law": "linear", "rigidity": "1e-4 N m"}}},
-  "supports": [{"edge": "start", "hold": "xyz"}], "loads": [{"gravity": [0, 0, -9.81]}],
-  "solver": {"steps": 1, "iterations": 100}})json";
+  "supports": [{"edge": "v0", "hold": "xyz"}], "loads": [{"gravity": [0, 0, -0.01]}],
+  "solver": {"linear": true}})json";
 // clang-format on
 
 /// Inputs in a folder of their own; results beside it.
@@ -89,8 +89,7 @@ class RecordingAlone : public testing::Test {
     folder_->write("in/arm.json", arm);
     folder_->write("in/lift.json", lift);
     folder_->write("in/strip.json", strip);
-    for (const char* name : {"arm", "lift"}) ASSERT_EQ(run(name, name), 0) << name;
-    command({"run", (in() / "strip.json").string(), "--out", (folder_->path() / "strip").string()});
+    for (const char* name : {"arm", "lift", "strip"}) ASSERT_EQ(run(name, name), 0) << name;
   }
   static void TearDownTestSuite() { delete folder_; }
 
@@ -99,7 +98,10 @@ class RecordingAlone : public testing::Test {
   static int run(const std::string& name, const std::string& out, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"run", (in() / (name + ".json")).string(), "--out", results(out).string()};
     words.insert(words.end(), more.begin(), more.end());
-    return command(words);
+    std::string error;
+    const int status = command(words, &error);
+    if (status != 0) std::fprintf(stderr, "%s", error.c_str());
+    return status;
   }
   /// What a command writes, by file; `status` must be what it gives.
   static std::map<std::string, std::string> written(const std::string& name, int status = 0) {
@@ -150,7 +152,7 @@ TEST_F(RecordingAlone, SameBytesWithoutTheFiles) {
     const auto before = written(name);
     EXPECT_GE(before.size(), 3u);
     const std::string page = content(results(name) / "report.html");
-    if (name != std::string("strip")) EXPECT_EQ(before.at("page.html"), page) << name;
+    EXPECT_EQ(before.at("page.html"), page) << name;
     const Elsewhere gone;
     EXPECT_EQ(written(name), before) << name;
   }
@@ -181,7 +183,7 @@ TEST_F(RecordingAlone, FramesOfAnotherCaseAreRefused) {
     const std::string other = std::string(name) + "_other";
     const fs::path frames = results(name) / "frames", aside = results(name) / "own_frames";
     run(name, other,
-        name == std::string("strip") ? std::vector<std::string>{"--set", "loads[0].gravity=[0,0,-9.8]"}
+        name == std::string("strip") ? std::vector<std::string>{"--set", "loads[0].gravity=[0,0,-0.02]"}
                                      : std::vector<std::string>{"--set", "contact.friction=0.2"});
     fs::rename(frames, aside);
     fs::copy(results(other) / "frames", frames);
@@ -200,9 +202,9 @@ TEST_F(RecordingAlone, FramesOfAnotherCaseAreRefused) {
 TEST_F(RecordingAlone, FramesOfTheSameCaseWithOtherFilesAreRefused) {
   const std::string sleeve = content(in() / "sleeve.json"), body = content(in() / "arm_body.json");
   std::string thicker = body;
-  const std::size_t at = thicker.find("0.04");
+  const std::size_t at = thicker.find("0.0588");
   ASSERT_NE(at, std::string::npos) << body;
-  thicker.replace(at, 4, "0.041");
+  thicker.replace(at, 6, "0.0592");
   folder_->write("in/arm_body.json", thicker);
   ASSERT_EQ(run("arm", "arm_thicker"), 0);
   folder_->write("in/arm_body.json", body);
