@@ -11,14 +11,6 @@
 namespace gambeson {
 namespace {
 
-std::vector<double> columnOf(const PathTable& path, const std::string& name) {
-  const auto at = std::find(path.columns.begin(), path.columns.end(), name) - path.columns.begin();
-  std::vector<double> values;
-  if (at < static_cast<long>(path.columns.size()))
-    for (const auto& row : path.rows) values.push_back(row[static_cast<std::size_t>(at)]);
-  return values;
-}
-
 /// NaN where any is.
 double largestOf(const std::vector<double>& values) {
   double most = 0;
@@ -53,7 +45,7 @@ AuditCheck residualCheck(const StructureCase& c, const PathTable& path, const st
             "how far, relative, a natural frequency's square may be from the nearest exact one of this mesh",
             fmt::format("modes are known to {} only", formatNumber(most, 2))};
   }
-  const double most = largestOf(columnOf(path, "residual"));
+  const double most = largestOf(path.column("residual"));
   return {"Residual",
           most,
           std::max(c.statics.tolerance, 1e-6),
@@ -64,8 +56,8 @@ AuditCheck residualCheck(const StructureCase& c, const PathTable& path, const st
 
 /// Energy that appears: how far the total rises above what it was before. Damping and numerical damping lower it.
 AuditCheck energyCheck(const PathTable& path) {
-  const std::vector<double> kinetic = columnOf(path, "kinetic_energy_J"), strain = columnOf(path, "strain_energy_J"),
-                            loads = columnOf(path, "external_energy_J"), total = columnOf(path, "total_energy_J");
+  const std::vector<double> kinetic = path.column("kinetic_energy_J"), strain = path.column("strain_energy_J"),
+                            loads = path.column("external_energy_J"), total = path.column("total_energy_J");
   double lowest = total.empty() ? 0 : total.front(), rise = 0, size = 0;
   for (std::size_t k = 0; k < total.size(); ++k) {
     lowest = std::min(lowest, total[k]);

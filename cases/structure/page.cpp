@@ -60,14 +60,6 @@ PathTable tableFrom(const std::filesystem::path& file) {
   return table;
 }
 
-std::vector<double> columnOf(const PathTable& t, const std::string& name) {
-  std::vector<double> values;
-  const auto at = std::find(t.columns.begin(), t.columns.end(), name) - t.columns.begin();
-  if (at < static_cast<long>(t.columns.size()))
-    for (const auto& row : t.rows) values.push_back(row[static_cast<std::size_t>(at)]);
-  return values;
-}
-
 double largest(const std::vector<double>& v) {
   double most = 0;
   for (const double x : v) most = std::max(most, std::abs(x));
@@ -82,7 +74,7 @@ constexpr double kRounding = 1e-9;
 std::string plots(const StructureCase& c, const PathTable& t, double force_N, double moment_Nm) {
   std::string out;
   const bool statics = c.kind == StructureKind::statics;
-  const std::vector<double> lead = columnOf(t, statics ? "factor" : "time_s");
+  const std::vector<double> lead = t.column(statics ? "factor" : "time_s");
   const auto plot = [&](const std::string& name, const char* letter, const std::string& unit, const std::string& what,
                         bool over) {
     XyPlot p{what + " of " + name,
@@ -95,9 +87,9 @@ std::string plots(const StructureCase& c, const PathTable& t, double force_N, do
              false};
     double most = letter[0] == 'r' ? force_N : letter[0] == 'm' ? moment_Nm : 0;
     for (const char* axis : {"x", "y", "z"})
-      most = std::max(most, largest(columnOf(t, name + "_" + letter + axis + "_" + unit)));
+      most = std::max(most, largest(t.column(name + "_" + letter + axis + "_" + unit)));
     for (const char* axis : {"x", "y", "z"}) {
-      const std::vector<double> values = columnOf(t, name + "_" + letter + axis + "_" + unit);
+      const std::vector<double> values = t.column(name + "_" + letter + axis + "_" + unit);
       // Components that are rounding beside the others are left out.
       if (values.empty() || !(largest(values) > kRounding * most)) continue;
       XySeries series{std::string(axis), over ? values : lead, over ? lead : values, false};
@@ -116,14 +108,14 @@ std::string plots(const StructureCase& c, const PathTable& t, double force_N, do
     for (const auto& [column, name] :
          {std::pair("kinetic_energy_J", "kinetic"), std::pair("strain_energy_J", "strain"),
           std::pair("external_energy_J", "of the loads"), std::pair("total_energy_J", "total")})
-      p.series.push_back({name, lead, columnOf(t, column), false});
+      p.series.push_back({name, lead, t.column(column), false});
     out += xyChart(p);
   } else {
     out += xyChart({"Strain energy",
                     "",
                     "load factor",
                     "strain energy [J]",
-                    {{"strain energy", lead, columnOf(t, "strain_energy_J"), false}},
+                    {{"strain energy", lead, t.column("strain_energy_J"), false}},
                     false});
   }
   return out;

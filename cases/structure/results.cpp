@@ -14,6 +14,15 @@
 #include "core/io/own_file.hpp"
 
 namespace gambeson {
+
+std::vector<double> PathTable::column(const std::string& name) const {
+  const auto at = std::find(columns.begin(), columns.end(), name) - columns.begin();
+  std::vector<double> values;
+  if (at < std::ssize(columns))
+    for (const auto& row : rows) values.push_back(row[static_cast<std::size_t>(at)]);
+  return values;
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -142,8 +151,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     j["largest_strain"] = strain;
     j["self_crossings"] = selfCrossings(shape.x, mesh.triangles);
     if (c.kind == StructureKind::dynamics && !path.rows.empty()) {
-      j["kinetic_energy_J"] = path.rows.back()[1];
-      j["total_energy_J"] = path.rows.back()[4];
+      for (const char* energy : {"kinetic_energy_J", "total_energy_J"}) j[energy] = path.column(energy).back();
     }
     j["points"] = Json::array();
     for (const OutputPoint& p : c.output.points) j["points"].push_back(valuesOf(path, p.name));

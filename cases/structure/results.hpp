@@ -18,6 +18,8 @@ namespace gambeson {
 struct PathTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
+  /// One value per row; empty where there is no such column.
+  std::vector<double> column(const std::string& name) const;
 };
 
 /// What the run knows of itself.

@@ -25,13 +25,15 @@ RecordingSize recordingSize(const Scenario& s, const RecordingLayout& layout) {
   size.windows = static_cast<double>(Windows(s.start_s, s.end_s, o.window_s).count());
   size.frames = std::floor(duration_s / o.frame_s) + 1;
   size.checkpoints = std::floor(duration_s / o.checkpoint_s) + 1;
-  double columns = 0, vertices = 0;
+  double columns = 0, vertices = 0, scene = 0;
   for (const auto& [table, names] : layout.tables) columns += static_cast<double>(names.size());
+  for (const auto& [name, values] : layout.scene)
+    scene += static_cast<double>(values.reals.size() + values.integers.size());
   if (!layout.body_triangles.empty()) vertices = 0.5 * static_cast<double>(layout.body_triangles.size());  // Euler
   const double points = s.model->cloth->points(), samples = static_cast<double>(s.model->surface.area_m2.size());
   size.bytes = 8 * columns * size.windows +
                4 * (per_sample * samples + per_point * points + per_vertex * vertices) * size.frames +
-               8 * per_point_checkpoint * points * size.checkpoints;
+               8 * per_point_checkpoint * points * size.checkpoints + 8 * scene;
   return size;
 }
 
