@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cases/wear/recording/recorded_scene.hpp"
+#include "core/error.hpp"
 #include "core/math/carried_error.hpp"
 
 namespace gambeson {
@@ -129,6 +131,22 @@ std::vector<std::string> supportNames(const Scenario& s) {
   return toldApart(names);
 }
 
+namespace {
+
+/// Readers take columns by their names. Throws InputError where two columns of a table would have one.
+void requireOwnNames(const RecordingLayout& layout, const std::filesystem::path& file) {
+  for (const auto& [table, columns] : layout.tables) {
+    std::set<std::string> known;
+    for (const std::string& name : columns)
+      if (!known.insert(name).second)
+        throw InputError({file.string(), 0, ""},
+                         "two columns of the recording's table " + table + " would be called \"" + name +
+                             "\"; allowed: names of garments, links, joints and obstacles that keep them apart");
+  }
+}
+
+}  // namespace
+
 RecordingLayout recordingLayout(const Scenario& s) {
   RecordingLayout layout;
   layout.identity = caseIdentity(s.definition) + " " + s.model->cloth->kernels();
@@ -165,6 +183,7 @@ RecordingLayout recordingLayout(const Scenario& s) {
     for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(name + part);
   auto& steps = layout.tables["steps"] = window;
   steps.insert(steps.end(), stepColumns().begin(), stepColumns().end());
+  requireOwnNames(layout, s.definition.file);
   layout.scene = sceneOf(s);
   return layout;
 }

@@ -115,6 +115,14 @@ TEST(RecordedScene, DamageIsNamed) {
   }
 }
 
+/// "x" with its part "_n_Ns", "x_n" with its part "_Ns".
+TEST(RecordedScene, ColumnsOfOneNameAreRefusedBeforeTheRun) {
+  const auto clash = buildScenario(libraryCase("stack_of_ten", {R"(obstacles=[
+      {"name": "x", "sphere": {"center": [0, 0, -1], "radius": 0.1}},
+      {"name": "x_n", "sphere": {"center": [0, 1, -1], "radius": 0.1}}])"}));
+  EXPECT_THROW(recordingLayout(*clash), InputError);
+}
+
 TEST(RecordedScene, NamesOfTablesAreToldApart) {
   EXPECT_EQ(toldApart({"a", "b", "a", "a 2", "a"}), (std::vector<std::string>{"a", "b", "a 2", "a 2 2", "a 3"}));
 }
