@@ -27,7 +27,7 @@ std::optional<double> elasticity(double low, double high, double y_low, double y
 struct Elasticities {
   std::optional<double> bending, membrane, weight, inertia, drag;
   bool complete() const { return bending && membrane && weight && inertia && drag; }
-  /// Of all five; nothing where one is missing.
+  /// The sum of all five; nothing where one is missing.
   std::optional<double> sum() const;
   /// The exponent of the thickness that they predict: membrane, weight and inertia go with t, bending with t^3, drag
   /// does not change. Nothing where one of them is missing.
@@ -36,10 +36,10 @@ struct Elasticities {
 
 /// Doubtful: it would be green, but for what its number stands on (analysis/trust.hpp).
 enum class Light { unknown, green, doubtful, amber, red };
-/// Of a part of the natural moment; NaN is unknown.
+/// The light that a part of the natural moment has; NaN is unknown.
 Light lightOf(std::optional<double> part, double green, double red);
 const char* nameOf(Light light);
-/// Of such a name; unknown for any other.
+/// The light of this name; unknown for any other name.
 Light lightNamed(const std::string& name);
 
 }  // namespace gambeson

@@ -37,7 +37,7 @@ struct Largest {
 };
 Largest largestOf(std::span<const double> a);
 
-/// Of the times; all of the same weight.
+/// The mean over the times, all of which have the same weight.
 double meanOf(std::span<const double> a);
 
 /// The part of the times at which a > b.

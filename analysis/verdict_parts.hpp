@@ -27,7 +27,7 @@ std::string costText(const Option::Cost& cost, const VerdictInput& in);
 /// No run of it failed, and it costs something.
 bool isUsable(const Option& option);
 long usableCount(const VerdictInput& in);
-/// By its torque alone, all torques off by a relative error.
+/// The light of an option by its torque alone, were all torques off by a relative error.
 Light optionLight(const Option& option, const VerdictInput& in, double error = 0);
 /// How many times as much `b` costs as `a`, where each is worst.
 double factorOf(const Option& a, const Option& b);

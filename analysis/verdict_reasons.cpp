@@ -114,7 +114,7 @@ std::string comparedOf(const Option& taken, const Option& more, bool one_motion)
   return fmt::format("Its torque is larger in {} of the {}; not at {}.", less, all, others);
 }
 
-/// All options press like this one in its motion.
+/// Whether all options press like this one in its motion.
 bool alikeEverywhere(const VerdictInput& in, const Option::Comfort& c) {
   const auto alike = [&](const Option& o) {
     return std::any_of(o.comforts.begin(), o.comforts.end(), [&](const Option::Comfort& k) {

@@ -80,7 +80,7 @@ std::string whoPays(const VerdictInput& in, const Option& o) {
   return fmt::format("{} {}", o.name, wordsOf(in.role).costs);
 }
 
-/// None is taken: how the worst fares, and how many fare like that.
+/// The sentence where no option is taken: how the worst fares, and how many fare like that.
 std::string worstSentence(const VerdictInput& in, const Verdict& v) {
   const Option& o = at(in, v.take);
   const long all = usableCount(in), alike = std::count_if(in.options.begin(), in.options.end(), [&](const Option&k) {

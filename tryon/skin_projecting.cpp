@@ -6,6 +6,7 @@
 
 #include "core/contact/proximity.hpp"
 #include "core/error.hpp"
+#include "core/math/parallel.hpp"
 #include "human/body/skin.hpp"
 #include "tryon/projecting.hpp"
 
@@ -65,13 +66,13 @@ class Shrinking {
   std::vector<Vec3> positions(const std::vector<double>& factor) const {
     std::vector<Vec3> x = standing_;
     const int n = static_cast<int>(x.size());
-#pragma omp parallel for schedule(static)
-    for (int v = 0; v < n; ++v)
+    forAll(Each::much, n, [&](int v) {
       for (int i = skin_.first[v]; i < skin_.first[v + 1]; ++i) {
         const auto l = static_cast<std::size_t>(skin_.link[i]);
         if (factor[l] < 1)
           x[v] += (skin_.weight[i] * (1 - factor[l])) * (axes_[l]->nearest(standing_[v]) - standing_[v]);
       }
+    });
     return x;
   }
 
@@ -81,8 +82,7 @@ class Shrinking {
     surfaces_.move(x);
     const int n = static_cast<int>(samples_.size());
     std::vector<Contact> near(samples_.size());
-#pragma omp parallel for schedule(static)
-    for (int s = 0; s < n; ++s) near[s] = query_.nearest(0, samples_[s], surfaces_);
+    forAll(Each::much, n, [&](int s) { near[s] = query_.nearest(0, samples_[s], surfaces_); });
     links.assign(axes_.size(), 0);
     bool any = false;
     std::vector<double> weight(axes_.size());

@@ -2,20 +2,118 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "analysis/ticks.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/input/table.hpp"
 
 namespace gambeson::schema {
 namespace {
 
+/// How case files write a bending law of core/material/laws, and how reports say it. A new law has its row in `rows`
+/// and its own keys in bendingTable.
+struct LawRow {
+  const char *name, *doc;
+  std::vector<std::string> keys;  ///< beside those that all laws have
+  /// `at` is the place of the bending in the file.
+  BendingLaw (*resolve)(const Place& at, const BendingInput& in, const GivenRigidities& given);
+  /// Writes the law's own keys; false: another row's law.
+  bool (*restore)(const BendingLaw& law, BendingInput& in);
+  std::string (*say)(const BendingLaw& law);
+};
+
+BendingLaw resolveZheng(const Place& at, const BendingInput& in, const GivenRigidities& given) {
+  if (!in.kappa0_per_m) at.failAt("kappa0", "is required for the law zheng: the curvature where it turns linear");
+  const ZhengBending law{given, *in.kappa0_per_m,
+                         in.regular_curvature_per_m.value_or(BendingInput::default_regular_curvature_per_m)};
+  if (!(law.kappa_regular_per_m <= law.kappa0_per_m))
+    at.failAt("regular_curvature", fmt::format("{} 1/m is out of range; allowed: <= kappa0 = {} 1/m",
+                                               law.kappa_regular_per_m, law.kappa0_per_m));
+  return law;
+}
+
+bool restoreZheng(const BendingLaw& law, BendingInput& in) {
+  const auto* zheng = std::get_if<ZhengBending>(&law);
+  if (!zheng) return false;
+  in.kappa0_per_m = zheng->kappa0_per_m;
+  in.regular_curvature_per_m = zheng->kappa_regular_per_m;
+  return true;
+}
+
+std::string sayZheng(const BendingLaw& law) {
+  const auto& zheng = std::get<ZhengBending>(law);
+  return fmt::format(
+      "Bending follows Zheng 2013, eq. 2.14. Its root is replaced by a smooth cubic below a curvature of {} 1/m; the "
+      "steepest slope is then {} N m (weft).",
+      formatNumber(zheng.kappa_regular_per_m), formatNumber(steepestSlope(zheng, zheng.weft_Nm)));
+}
+
+BendingLaw resolveStop(const Place& at, const BendingInput& in, const GivenRigidities& given) {
+  if (!in.yield_N)
+    at.failAt("yield_moment", "is required for the law stop: the moment per width that it never surpasses");
+  return StopBending{given, *in.yield_N};
+}
+
+bool restoreStop(const BendingLaw& law, BendingInput& in) {
+  const auto* stop = std::get_if<StopBending>(&law);
+  if (stop) in.yield_N = stop->yield_N;
+  return stop;
+}
+
+std::string sayStop(const BendingLaw& law) {
+  const auto& stop = std::get<StopBending>(law);
+  return fmt::format(
+      "Bending is linear, {} N m (weft), up to a moment of {} N; what is bent farther keeps a part of its fold.",
+      formatNumber(stop.weft_Nm), formatNumber(stop.yield_N));
+}
+
+BendingLaw resolveLinear(const Place&, const BendingInput&, const GivenRigidities& given) {
+  return LinearBending{given};
+}
+
+bool restoreLinear(const BendingLaw& law, BendingInput&) { return std::holds_alternative<LinearBending>(law); }
+
+std::string sayLinear(const BendingLaw& law) {
+  return fmt::format("Bending is linear, {} N m (weft).", formatNumber(std::get<LinearBending>(law).weft_Nm));
+}
+
+const std::vector<LawRow>& rows() {
+  static const std::vector<LawRow> all{
+      {"zheng",
+       "moment with an initial friction-like part, Zheng 2013, eq. 2.14",
+       {"kappa0", "regular_curvature"},
+       resolveZheng,
+       restoreZheng,
+       sayZheng},
+      {"linear", "moment = rigidity x curvature", {}, resolveLinear, restoreLinear, sayLinear},
+      {"stop",
+       "linear up to a yield moment, which it never surpasses: what is bent farther keeps a part of its fold",
+       {"yield_moment"},
+       resolveStop,
+       restoreStop,
+       sayStop}};
+  return all;
+}
+
+/// The row of a law. Solids have none: they are laws of structures.
+const LawRow& rowOf(const BendingLaw& law) {
+  BendingInput unused;
+  return *std::find_if(rows().begin(), rows().end(), [&](const LawRow& r) { return r.restore(law, unused); });
+}
+
 Object bendingTable() {
   using B = BendingInput;
+  std::vector<std::pair<std::string, std::string>> names;
+  std::string docs;
+  for (const LawRow& r : rows()) {
+    names.push_back({r.name, r.name});
+    docs += fmt::format("{}{}: {}", docs.empty() ? "" : "; ", r.name, r.doc);
+  }
   return Table<B>("Bending")
-      .choice(
-          "law", &B::law,
-          std::vector<std::pair<std::string, BendingLaw>>{{"zheng", BendingLaw::zheng}, {"linear", BendingLaw::linear}},
-          "zheng: moment with an initial friction-like part, Zheng 2013, eq. 2.14; linear: moment = rigidity x "
-          "curvature")
+      .choice("law", &B::law, names, docs)
       .number("rigidity", &B::rigidity_Nm, "N m", between(0, 1e3),
               "B0 of eq. 2.14, or the linear rigidity, per width of cloth, the same along weft and warp")
       .defaultsTo("required, or rigidity_weft and rigidity_warp")
@@ -24,10 +122,13 @@ Object bendingTable() {
       .number("rigidity_warp", &B::rigidity_warp_Nm, "N m", between(0, 1e3), "the same, bending along the warp")
       .defaultsTo("rigidity")
       .number("kappa0", &B::kappa0_per_m, "1/m", aboveTo(0, 1e5), "kappa_0 of eq. 2.14, where the law turns linear")
-      .defaultsTo("required for the law zheng; not allowed for linear")
+      .defaultsTo("required for the law zheng; for no other")
       .number("regular_curvature", &B::regular_curvature_per_m, "1/m", aboveTo(0, 1e4),
               "curvature below which the root of eq. 2.14, whose slope is infinite at 0, is smoothed")
-      .defaultsTo(fmt::format("{} 1/m for the law zheng; not allowed for linear", B::default_regular_curvature_per_m))
+      .defaultsTo(fmt::format("{} 1/m for the law zheng; for no other", B::default_regular_curvature_per_m))
+      .number("yield_moment", &B::yield_N, "N", aboveTo(0, 1e3),
+              "moment per width up to which the law stop is linear, along weft, along warp and of twist")
+      .defaultsTo("required for the law stop; for no other")
       .number("twist", &B::twist_Nm, "N m", between(0, 1e3), "twist rigidity; the law of eq. 2.14 has none")
       .choice("rest", &B::rest,
               std::vector<std::pair<std::string, RestCurvature>>{{"zero", RestCurvature::zero},
@@ -62,7 +163,7 @@ Object fabricTable() {
               "contraction along the warp under tension along the weft; poisson^2 young_warp < young_weft")
       .number("jam_area", &F::jam_area, "", {.low = 0, .high = 1, .high_open = true},
               "area ratio below which cloth pressed together in its plane jams instead of giving way "
-              "(core/material/jamming.hpp); 0: never")
+              "(core/material/laws/jamming.hpp); 0: never")
       .number("limit_strain", &F::limit_strain, "", aboveTo(0, 10),
               "Green-Lagrange strain (as the reports give stretch) up to which the fabric may be stretched along weft "
               "and warp, say where it stiffens, stays stretched or tears: beyond it no verdict is green")
@@ -115,35 +216,34 @@ FabricCase resolveFabric(const Place& place, const FabricInput& in) {
   const JsonNode* bending_node = place.node.find("bending");
   const Place bending = place.member(*bending_node);
   const BendingInput& b = in.bending;
-  f.bending_law = b.law;
+  GivenRigidities rigidities;
+  rigidities.twist_Nm = b.twist_Nm;
   if (b.rigidity_Nm) {
     for (const auto& [key, given] :
          {std::pair("rigidity_weft", b.rigidity_weft_Nm), std::pair("rigidity_warp", b.rigidity_warp_Nm)})
       if (given) bending.failAt(key, "excludes \"rigidity\"; give rigidity, or rigidity_weft and rigidity_warp");
-    f.bending_weft_Nm = f.bending_warp_Nm = *b.rigidity_Nm;
+    rigidities.weft_Nm = rigidities.warp_Nm = *b.rigidity_Nm;
   } else {
     if (!b.rigidity_weft_Nm && !b.rigidity_warp_Nm)
       bending.failAt("rigidity", "is required: the bending rigidity, or rigidity_weft and rigidity_warp");
     if (!b.rigidity_weft_Nm) bending.failAt("rigidity_weft", "is required where \"rigidity\" is not given");
     if (!b.rigidity_warp_Nm) bending.failAt("rigidity_warp", "is required where \"rigidity\" is not given");
-    f.bending_weft_Nm = *b.rigidity_weft_Nm;
-    f.bending_warp_Nm = *b.rigidity_warp_Nm;
+    rigidities.weft_Nm = *b.rigidity_weft_Nm;
+    rigidities.warp_Nm = *b.rigidity_warp_Nm;
   }
-  if (b.law == BendingLaw::zheng) {
-    if (!b.kappa0_per_m) bending.failAt("kappa0", "is required for the law zheng: the curvature where it turns linear");
-    f.kappa0_per_m = *b.kappa0_per_m;
-    f.kappa_regular_per_m = b.regular_curvature_per_m.value_or(BendingInput::default_regular_curvature_per_m);
-    if (!(f.kappa_regular_per_m <= f.kappa0_per_m))
-      bending.failAt("regular_curvature", fmt::format("{} 1/m is out of range; allowed: <= kappa0 = {} 1/m",
-                                                      f.kappa_regular_per_m, f.kappa0_per_m));
-  } else {
-    for (const char* key : {"kappa0", "regular_curvature"})
-      if (bending.node.find(key)) bending.failAt(key, "has no meaning for the law linear; remove it");
-  }
-  f.twist_Nm = b.twist_Nm;
+  const LawRow& row = *std::find_if(rows().begin(), rows().end(), [&](const LawRow& r) { return r.name == b.law; });
+  f.law = row.resolve(bending, b, rigidities);
+  for (const LawRow& other : rows())
+    for (const std::string& key : other.keys)
+      if (bending.node.find(key) && std::find(row.keys.begin(), row.keys.end(), key) == row.keys.end())
+        bending.failAt(key, fmt::format("has no meaning for the law {}; remove it", row.name));
   f.rest_curvature_of_shape = b.rest == RestCurvature::shape;
   return f;
 }
+
+std::string bendingName(const BendingLaw& law) { return givenRigidities(law) ? rowOf(law).name : ""; }
+
+std::string bendingInWords(const BendingLaw& law) { return rowOf(law).say(law); }
 
 FabricInput restoreFabric(const FabricCase& f) {
   FabricInput in;
@@ -157,14 +257,13 @@ FabricInput restoreFabric(const FabricCase& f) {
   in.jam_area = f.jam_area;
   in.limit_strain_weft = f.limit_strain_weft;
   in.limit_strain_warp = f.limit_strain_warp;
-  in.bending.law = f.bending_law;
-  in.bending.rigidity_weft_Nm = f.bending_weft_Nm;
-  in.bending.rigidity_warp_Nm = f.bending_warp_Nm;
-  if (f.bending_law == BendingLaw::zheng) {
-    in.bending.kappa0_per_m = f.kappa0_per_m;
-    in.bending.regular_curvature_per_m = f.kappa_regular_per_m;
-  }
-  in.bending.twist_Nm = f.twist_Nm;
+  const LawRow& row = rowOf(f.law);
+  const GivenRigidities& given = *givenRigidities(f.law);
+  in.bending.law = row.name;
+  in.bending.rigidity_weft_Nm = given.weft_Nm;
+  in.bending.rigidity_warp_Nm = given.warp_Nm;
+  in.bending.twist_Nm = given.twist_Nm;
+  row.restore(f.law, in.bending);
   in.bending.rest = f.rest_curvature_of_shape ? RestCurvature::shape : RestCurvature::zero;
   return in;
 }

@@ -12,11 +12,12 @@ namespace gambeson::schema {
 enum class RestCurvature { zero, shape };
 
 struct BendingInput {
-  BendingLaw law = BendingLaw::zheng;
+  std::string law = "zheng";  ///< one of the rows in fabric_input.cpp
   std::optional<double> rigidity_Nm, rigidity_weft_Nm, rigidity_warp_Nm;
   std::optional<double> kappa0_per_m;
   std::optional<double> regular_curvature_per_m;
   static constexpr double default_regular_curvature_per_m = 1;
+  std::optional<double> yield_N;
   double twist_Nm = 0;
   RestCurvature rest = RestCurvature::zero;
 };
@@ -34,6 +35,10 @@ struct FabricInput {
 
 /// The fabric that the input says; `place` is that of the fabric in the file, for the rules between fields.
 FabricCase resolveFabric(const Place& place, const FabricInput& in);
+/// What case files call the law; empty: a solid.
+std::string bendingName(const BendingLaw& law);
+/// How a fabric of a case file bends, for the report.
+std::string bendingInWords(const BendingLaw& law);
 /// The input, written out in full, that resolves to the fabric.
 FabricInput restoreFabric(const FabricCase& fabric);
 

@@ -25,9 +25,9 @@ struct ProcessPool {
   int parallel = 1;
   /// "NAME=value" that stand in place of what the environment has of that name.
   std::vector<std::string> environment;
-  /// After each process, in the order in which they end.
+  /// Called after each process, in the order in which they end.
   std::function<void(std::size_t process, const Ended&)> ended;
-  /// About twenty times a second, with those that run.
+  /// Called about twenty times a second, with the processes that run.
   std::function<void(const std::vector<std::size_t>& running)> watch;
 };
 

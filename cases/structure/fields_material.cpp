@@ -149,15 +149,14 @@ Fabric fabricOf(const MaterialCase& material) {
       return f;
     }
     Fabric operator()(const LaminateMaterial& m) const {
-      double thickness_m = 0;
-      for (const Ply& p : m.plies) thickness_m += p.thickness_m;
-      Fabric f = homogeneous(thickness_m, m.density_kg_per_m3);
+      const Laminate layered{m.plies};
+      Fabric f = homogeneous(layered.thickness_m(), m.density_kg_per_m3);
       // What the shell takes is the plies; these stand for reports only.
       f.young_weft_Pa = m.plies[0].young1_Pa;
       f.young_warp_Pa = m.plies[0].young2_Pa;
       f.shear_Pa = m.plies[0].shear_Pa;
       f.poisson = m.plies[0].poisson12;
-      f.plies = m.plies;
+      f.law = layered;
       return f;
     }
     Fabric operator()(const Fabric& m) const { return m; }
@@ -165,7 +164,7 @@ Fabric fabricOf(const MaterialCase& material) {
       Fabric f;
       f.thickness_m = thickness_m;
       f.density_kg_per_m3 = density.value_or(0);
-      f.bending_law = BendingLaw::consistent;
+      f.law = ConsistentBending{};
       f.rest_curvature_of_shape = true;
       return f;
     }

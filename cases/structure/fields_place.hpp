@@ -79,7 +79,7 @@ void addPoint(Table<T>& table) {
   table.in("where");
 }
 
-/// After addPoint.
+/// Adds the key "patch", which says on which patch the point lies; call after addPoint.
 template <class T>
 void addPatchOfPoint(Table<T>& table) {
   Field f;

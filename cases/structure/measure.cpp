@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/math/carried_error.hpp"
+#include "core/math/parallel.hpp"
 #include "core/statics/structure_system.hpp"
 
 namespace gambeson {
@@ -82,14 +83,15 @@ void addVector(std::vector<double>& values, const Vec3& v) { values.insert(value
 
 }  // namespace
 
-MeasuredState measureStatic(const Structure& s, std::span<const double> y, double factor, bool linear) {
+MeasuredState measureStatic(const Structure& s, std::span<const double> y, double factor, bool linear,
+                            std::span<const double> history) {
   MeasuredState m;
   m.at = factor;
   m.small = linear;
   if (!linear) {
     m.q = controlPoints(s, y, factor, ProgramEnds::extended);
-    m.reaction_N = pulledBack(s, reactions(s, y, factor, ProgramEnds::extended));
-    m.strain_energy_J = strainEnergy(s, y, factor, ProgramEnds::extended);
+    m.reaction_N = pulledBack(s, reactions(s, y, factor, ProgramEnds::extended, history));
+    m.strain_energy_J = strainEnergy(s, y, factor, ProgramEnds::extended, history);
     return m;
   }
   const std::vector<double> programs = programValues(s, factor, ProgramEnds::extended);
@@ -109,8 +111,8 @@ MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool
   MeasuredState m;
   m.at = state.time_s;
   m.q = controlPoints(s, state.y, state.time_s);
-  m.strain_energy_J = strainEnergy(s, state.y, state.time_s);
-  m.reaction_N = pulledBack(s, reactions(s, state.y, state.time_s));
+  m.strain_energy_J = strainEnergy(s, state.y, state.time_s, ProgramEnds::constant, state.history);
+  m.reaction_N = pulledBack(s, reactions(s, state.y, state.time_s, ProgramEnds::constant, state.history));
   ProgramRates rates = programRates(s, state.time_s, step_s > 0 ? step_s : 1e-6 * std::max(1e-3, state.time_s));
   if (!(step_s > 0)) rates.second.assign(rates.second.size(), 0.0);
   const std::vector<double> v = freeDisplacements(s, state.v, rates.first),
@@ -335,8 +337,7 @@ MeshShape shapeOf(const StructureModel& model, const PlaceMesh& mesh, const Meas
     shape.normal[k] = norm(a) > 0 ? normalized(a) : Vec3{0, 0, 1};
     shape.stress[k] = stresses.at(mesh.patch[k], mesh.uv[k]);
   };
-#pragma omp parallel for schedule(static)
-  for (int i = 0; i < n; ++i) error.guard(i, [&] { sample(static_cast<std::size_t>(i)); });
+  forAll(Each::much, n, [&](int i) { error.guard(i, [&] { sample(static_cast<std::size_t>(i)); }); });
   error.rethrow();
   return shape;
 }

@@ -21,8 +21,10 @@ struct MeasuredState {
   bool small = false;  ///< strains and forces are those of the linearised sheet
 };
 
-/// Of a static point. `linear`: forces, energy and stress are linear in the displacements.
-MeasuredState measureStatic(const Structure& s, std::span<const double> y, double factor, bool linear);
+/// Measures a point of a static path. `linear`: forces, energy and stress are linear in the displacements.
+/// `history`: committed there.
+MeasuredState measureStatic(const Structure& s, std::span<const double> y, double factor, bool linear,
+                            std::span<const double> history = {});
 /// `step_s`: of the last step, over which the motion of supports is differentiated as the solver does; 0: none yet.
 MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool lumped_mass, double step_s);
 /// The shape of a mode, its largest displacement `amplitude_m`.

@@ -13,6 +13,7 @@
 #include "analysis/report/parts.hpp"
 #include "analysis/report/xy_chart.hpp"
 #include "analysis/ticks.hpp"
+#include "cases/cloth/fabric_input.hpp"
 #include "cases/input/message.hpp"
 #include "cases/structure/results.hpp"
 #include "core/error.hpp"
@@ -179,8 +180,7 @@ std::string sentenceOf(const StructureCase& c, const Json& s) {
 }
 
 std::vector<std::string> assumptionsOf(const StructureCase& c) {
-  std::vector<std::string> a{
-      "Kirchhoff-Love sheet: thin, normals stay normal; strains of the reference surface are Green-Lagrange's."};
+  std::vector<std::string> a{inWords(c.sheet.cloth)};
   const bool linear = c.kind == StructureKind::statics && c.statics.linear;
   a.push_back(linear ? "Small displacements: forces, strains and stress are linear in them."
                      : "Displacements and rotations of any size.");
@@ -196,8 +196,8 @@ std::vector<std::string> assumptionsOf(const StructureCase& c) {
       return "Classical laminate: plies from the bottom (\u2212normal) to the top, angles from the weft towards the "
              "warp; the reference surface is at half of the thickness.";
     }
-    std::string operator()(const Fabric&) const {
-      return "Fabric: orthotropic membrane and a bending law of its own (Zheng 2013, eq. 2.13 and 2.14).";
+    std::string operator()(const Fabric& f) const {
+      return "Fabric: orthotropic membrane (Zheng 2013, eq. 2.13). " + schema::bendingInWords(f.law);
     }
   };
   a.push_back(std::visit(Law{}, c.material.law));

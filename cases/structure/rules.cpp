@@ -8,7 +8,7 @@
 #include "cases/input/places.hpp"
 #include "cases/structure/build.hpp"
 #include "cases/structure/fields.hpp"
-#include "core/cloth/shell/shell_law.hpp"
+#include "core/cloth/block_law.hpp"
 #include "core/error.hpp"
 #include "core/statics/structure_limit.hpp"
 

@@ -176,6 +176,9 @@ void attempt(StructureFacts& facts, F f) {
   }
 }
 
+/// Energy that laws with a memory have turned to heat since the start.
+constexpr const char* lost_column = "lost_energy_J";
+
 void solve(const StaticReport& report, StructureFacts& facts) {
   facts.finished = report.reached;
   facts.why = report.why;
@@ -183,21 +186,33 @@ void solve(const StaticReport& report, StructureFacts& facts) {
 }
 
 void runStatic(const StructureCase& c, Run& run) {
-  run.columns({"factor", "iterations", "residual", "negative_pivots", "jumped", "rounded", "strain_energy_J"});
   const Structure& s = run.structure();
+  const bool remembers = s.cloth->historySize() > 0;
+  std::vector<std::string> lead{"factor", "iterations", "residual",       "negative_pivots",
+                                "jumped", "rounded",    "strain_energy_J"};
+  if (remembers) lead.push_back(lost_column);
+  run.columns(std::move(lead));
   run.foretell(c.statics.steps + 1.0);
   Progress progress(1, 0, stderr, "");
   // The start of every path, so that tables and plots have it.
   const std::vector<double> rest(static_cast<std::size_t>(s.dofs.unknowns()), 0.0);
   const MeasuredState start = measureStatic(s, rest, 0, c.statics.linear);
-  run.add(start, {0, 0, 0, 0, 0, 0, start.strain_energy_J});
+  std::vector<double> first{0, 0, 0, 0, 0, 0, start.strain_energy_J};
+  if (remembers) first.push_back(0);
+  run.add(start, std::move(first));
   attempt(run.facts, [&] {
     solve(solveStatic(s, c.statics,
                       [&](const StaticPoint& p) {
-                        const MeasuredState state = measureStatic(s, p.y, p.factor, c.statics.linear);
-                        run.add(state, {p.factor, static_cast<double>(p.iterations), p.residual,
-                                        static_cast<double>(p.negative_pivots), p.jumped ? 1. : 0., p.rounded ? 1. : 0.,
-                                        state.strain_energy_J});
+                        const MeasuredState state = measureStatic(s, p.y, p.factor, c.statics.linear, p.history);
+                        std::vector<double> row{p.factor,
+                                                static_cast<double>(p.iterations),
+                                                p.residual,
+                                                static_cast<double>(p.negative_pivots),
+                                                p.jumped ? 1. : 0.,
+                                                p.rounded ? 1. : 0.,
+                                                state.strain_energy_J};
+                        if (remembers) row.push_back(p.lost_J);
+                        run.add(state, std::move(row));
                         if (p.rounded) run.facts.rounded = std::max(run.facts.rounded, p.residual);
                         run.facts.jumps += p.jumped ? 1 : 0;
                         if (c.statics.arc_length && p.jumped) run.facts.jumped_at.push_back(p.factor);
@@ -266,7 +281,7 @@ class LoadWork {
       varies_ = varies_ || std::any_of(value.begin(), value.end(), [&](double v) { return v != value[0]; });
     }
   }
-  /// After each step, and first at the start.
+  /// Call after each step, and once before the first.
   void follow(const DynamicState& state, bool lumped) {
     const bool first = q_.empty();
     if (!varies_ && !first) return;
@@ -289,6 +304,8 @@ class LoadWork {
 void runDynamic(const StructureCase& c, Run& run) {
   std::vector<std::string> lead{"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"};
   const Structure& s = run.structure();
+  const bool remembers = s.cloth->historySize() > 0;
+  if (remembers) lead.push_back(lost_column);
   std::optional<ThreadStrains> strains;
   if (c.output.thread_strains) {
     strains.emplace(*s.cloth);
@@ -307,6 +324,7 @@ void runDynamic(const StructureCase& c, Run& run) {
     DynamicEnergy energy = energyOf(s, now, lumped);
     energy.external = -work.work_J(energy);
     std::vector<double> row{now.time_s, energy.kinetic, energy.internal, energy.external, energy.total()};
+    if (remembers) row.push_back(now.lost_J);
     const MeasuredState state_now = measureDynamic(s, now, lumped, step_s);
     if (strains) {
       const std::vector<double> more = strains->values(state_now.q);
@@ -345,13 +363,14 @@ void runModal(const StructureCase& c, Run& run) {
   run.columns({"mode", "omega_rad_per_s", "frequency_Hz", "residual"});
   const Structure& s = run.structure();
   attempt(run.facts, [&] {
-    std::vector<double> y;
+    std::vector<double> y, history;
     double factor = 0;
     run.facts.finished = true;
     if (c.modal.at_equilibrium) {
       solve(solveStatic(s, c.statics,
                         [&](const StaticPoint& p) {
                           y = p.y;
+                          history = p.history;
                           factor = p.factor;
                           ++run.facts.points;
                           run.facts.iterations += p.iterations;
@@ -360,7 +379,7 @@ void runModal(const StructureCase& c, Run& run) {
             run.facts);
       if (!run.facts.finished) return;
     }
-    const std::vector<Mode> modes = naturalModes(s, y, factor, c.modal.count, c.modal.lumped_mass);
+    const std::vector<Mode> modes = naturalModes(s, y, factor, c.modal.count, c.modal.lumped_mass, history);
     Vec3 low = s.cloth->rest()[0], high = s.cloth->rest()[0];
     for (const Vec3& x : s.cloth->rest())
       for (int k = 0; k < 3; ++k) {

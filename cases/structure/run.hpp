@@ -9,7 +9,8 @@ namespace gambeson {
 /// Builds what a run starts from, with the same errors, and lets it go.
 void checkStructure(const StructureCase& c);
 
-/// As runCase. Throws RunError where the run fails; what converged before is in the folder.
+/// Runs the case into the folder of the options, as runCase does. Throws RunError where the run fails; what converged
+/// before is in the folder.
 int runStructure(const StructureCase& c, const RunOptions& options);
 
 /// Whether a results folder was left by runStructure.

@@ -125,8 +125,8 @@ std::string jointLabel(const RunNumbers& run, const std::string& joint) {
   return joint.empty() ? "the highest" : run.joint(joint)->label;
 }
 
-/// Along every axis of numbers, all other levels kept. Materials that have names are read as names, not as the number
-/// that stands behind each.
+/// Finds how torques change along every axis of numbers, all other levels kept. Materials that have names are read as
+/// names, not as the number that stands behind each.
 void findExponents(const Study& s, Comparison& c) {
   for (std::size_t a = 0; a < s.axes.size(); ++a) {
     const Axis& axis = s.axes[a];
@@ -161,7 +161,8 @@ void findExponents(const Study& s, Comparison& c) {
   }
 }
 
-/// Of cases that differ in factors alone: each factor's smallest and largest value beside 1.
+/// Finds the elasticities of cases that differ in factors alone, from each factor's smallest and largest value
+/// beside 1.
 void findElasticities(const Study& s, Comparison& c) {
   std::map<std::string, std::vector<std::size_t>> families;
   std::vector<std::string> order;

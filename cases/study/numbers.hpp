@@ -86,7 +86,7 @@ struct RunNumbers {
 
   double mass_kg() const;
   int failing() const;
-  /// As its own page trusts it.
+  /// How far the run is to be trusted, as its own page says.
   Trust trust() const;
   double thinnest_mm() const;  ///< layer, 0 without one
   /// What the value of a check is to be held against, ", thinnest cloth 0.38 mm" for depths; else empty.

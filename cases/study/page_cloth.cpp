@@ -19,7 +19,7 @@ using html::escape;
 
 namespace {
 
-/// Of the contact force, by the links of the skeleton.
+/// The table of the segments' shares of the contact force.
 std::string segmentsOf(const Study& s, const Comparison& c) {
   std::vector<std::string> names, columns{"variant"};
   for (const RunNumbers& r : c.runs)
@@ -51,7 +51,7 @@ std::string segmentsOf(const Study& s, const Comparison& c) {
                        "pelvis\u2019s. Segments with less than 0.5 % everywhere are left out.")));
 }
 
-/// Over which width pressure is a mean.
+/// "Pressure", with the width that it is a mean over.
 std::string pressureOf(const Comparison& c) {
   return c.input.sensor_m > 0 ? fmt::format("Pressure, the mean over {:g} mm", 1e3 * c.input.sensor_m) : "Pressure";
 }

@@ -101,7 +101,7 @@ std::string readingOf(const Study& s, const Comparison& c) {
 
 using Joints = std::vector<std::pair<std::string, std::string>>;  ///< names and labels
 
-/// Of the table of payments: those that decide in a group first.
+/// The joints that the table of payments shows, first those that decide in a group.
 Joints jointsShown(const Comparison& c) {
   Joints shown;
   const auto add = [&](const Group& g, const std::string& name) {

@@ -54,7 +54,7 @@ struct Limits {
   double green = 0, red = 0;
   std::string source;
 };
-/// Of human/data/effort_limits.json.
+/// The limits that human/data/effort_limits.json has.
 Limits publishedLimits();
 
 struct Study {

@@ -34,7 +34,7 @@ void addRun(const Comparison& c, const Group& g, std::size_t i, Option& option) 
         {g.label, spokenZone(k->zone), lightNamed(k->light), k->mean_Pa, k->red_Pa, k->peak_Pa, k->peak_limit_Pa});
 }
 
-/// Of all joints and motions that the options cost.
+/// Adds the exponents of all joints and motions that the options cost.
 void addExponents(const Study& s, const Comparison& c, VerdictInput& in) {
   const auto find = [&](const Group& g, const std::string& joint, const char* quantity) -> const AxisExponent* {
     const std::string setting = settingOf(s, s.variants[g.members[0]], {c.main_axis});

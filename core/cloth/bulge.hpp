@@ -21,7 +21,7 @@ struct Bulges {
   SparseRows of_sample;
   std::vector<std::array<int, 2>> ends;  ///< samples of each edge and diagonal
 
-  /// Of one edge or diagonal [m].
+  /// How far the surface's middle lies from the mean of the ends of one edge or diagonal [m].
   Vec3 at(int row, std::span<const Vec3> x) const {
     Vec3 out{};
     for (int k = middle.offsets[row]; k < middle.offsets[row + 1]; ++k) out += middle.values[k] * x[middle.columns[k]];

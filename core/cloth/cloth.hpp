@@ -77,13 +77,13 @@ class Cloth {
   virtual std::vector<Vec3> fromDraft(std::span<const Vec3> control) const = 0;
 
   // What contact, pictures and tables see.
-  /// `per_cell`: of each patch, samples along each edge of a cell.
+  /// The surface samples. `per_cell` has a number for each patch: samples along each edge of a cell.
   virtual Surface surface(std::span<const int> per_cell) const = 0;
   /// How far the cloth stands out between the samples of that surface.
   virtual Bulges bulges(const Surface& surface, std::span<const int> per_cell) const = 0;
   /// Positions between the samples of that surface, `fineness` times as many along each edge of a cell.
   virtual SparseRows finer(int fineness, std::span<const int> per_cell) const = 0;
-  /// `per_cell` places along each edge of a cell.
+  /// A mesh of places all over the cloth, `per_cell` of them along each edge of a cell.
   virtual PlaceMesh placeMesh(int per_cell) const = 0;
   virtual Fabric fabricAt(int patch, Vec2 uv) const = 0;
   virtual double cellAt(int patch, Vec2 uv) const = 0;  ///< the shorter side of the cell at a place [m]
@@ -94,7 +94,7 @@ class Cloth {
   // Mass, of all points.
   virtual std::vector<double> areas() const = 0;   ///< ∫ N dA at rest [m^2]
   virtual std::vector<double> masses() const = 0;  ///< ∫ rho N dA [kg]
-  /// The same in sum, but that no point bears less than `share` of what it would on a cloth without cuts.
+  /// Masses with the same sum, but no point bears less than `share` of what it would bear on a cloth without cuts.
   virtual std::vector<double> evenedMasses(double share) const { return static_cast<void>(share), masses(); }
   virtual SparseRows consistentMass() const = 0;  ///< ∫ rho N N dA [kg]
 
@@ -106,16 +106,20 @@ class Cloth {
 
   // What its laws remember.
   virtual std::size_t historySize() const { return 0; }
-  /// Of cloth that is new. The span has historySize() doubles.
+  /// Writes the history of cloth that is new. The span has historySize() doubles.
   virtual void startHistory(std::span<double> history) const { static_cast<void>(history); }
+
+  /// Patch and place of each point that remembers, in the order of the history, where all have equally many numbers:
+  /// what tells the numbers of one garment from those of another.
+  virtual std::vector<std::pair<int, Vec2>> historyPlaces() const { return {}; }
 
   // Unknowns that no sample sees. Their rates may be fewer than their values (directors).
   virtual std::size_t innerValues() const { return 0; }
   virtual std::size_t innerRates() const { return 0; }
   virtual void startInner(std::span<double> value) const { static_cast<void>(value); }
-  /// Of each rate [kg m^2, where the rate is an angular velocity].
+  /// Writes the mass of each rate [kg m^2, where the rate is an angular velocity].
   virtual void innerMasses(std::span<double> mass) const { static_cast<void>(mass); }
-  /// Where values go with these rates in time dt: value + dt rate, but on their manifold.
+  /// Writes where the values go with these rates in time dt: value + dt rate, but on their manifold.
   virtual void advance(std::span<const double> value, std::span<const double> rate, double dt_s,
                        std::span<double> out) const {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = value[i] + dt_s * rate[i];
@@ -133,7 +137,7 @@ class Cloth {
 
   // Limits of strain. Throws InputError where this cloth cannot be limited at these points.
   virtual StrainRows strainRows(Mobility mobility, LimitPoints points = LimitPoints::vertices) const = 0;
-  /// A field of limitStress at a place.
+  /// The stress of the strain limits at a place, from a field that limitStress made [N/m].
   virtual Vec2 limitStressAt(const StrainRows& rows, std::span<const Vec2> field, int patch, Vec2 uv) const = 0;
 
   // Supports and loads.

@@ -44,7 +44,7 @@ struct ClothForce {
 
 /// Scratch of a cloth; nobody else reads it.
 struct ClothWork {
-  AlignedVector<double> slots, lane_energy, tangent_slots;
+  AlignedVector<double> slots, lane_energy, lane_lost, tangent_slots;
   std::vector<ClothWork> parts;  ///< of cloths that are made of several
 };
 

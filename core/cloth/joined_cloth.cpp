@@ -400,6 +400,13 @@ void JoinedCloth::startHistory(std::span<double> history) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i]->startHistory(range(history, history_[i], history_[i + 1]));
 }
 
+std::vector<std::pair<int, Vec2>> JoinedCloth::historyPlaces() const {
+  std::vector<std::pair<int, Vec2>> all;
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    for (const auto& [patch, place] : parts_[i]->historyPlaces()) all.emplace_back(patch_[i] + patch, place);
+  return all;
+}
+
 void JoinedCloth::startInner(std::span<double> value) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i]->startInner(range(value, values_[i], values_[i + 1]));
 }

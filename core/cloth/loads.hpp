@@ -56,8 +56,8 @@ struct FollowingLoad {
 /// All loads of a structure. Programs give the factor of each load at a time.
 class Loads {
  public:
-  /// On a cloth of `points` points. Throws InputError where a patch, an edge or a program does not exist, or a number
-  /// is not finite.
+  /// Takes the loads of a cloth that has `points` points. Throws InputError where a patch, an edge or a program does
+  /// not exist, or a number is not finite.
   Loads(const Mounting& mounting, int points, std::vector<DeadLoad> dead, const std::vector<PressureLoad>& pressure,
         const std::vector<EdgeMoment>& moments);
   /// Adds the forces on the points to f. `value[k]` is program k's.

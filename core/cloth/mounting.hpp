@@ -48,7 +48,7 @@ class Mounting {
   /// Holds (or moves) a place along directions.
   virtual std::vector<LinearConstraint> holdPlace(int patch, Vec2 uv, std::span<const Vec3> directions,
                                                   const Prescribed& motion) const = 0;
-  /// No rotation of the sheet about the edge.
+  /// Equations that let the sheet not rotate about the edge.
   virtual std::vector<LinearConstraint> clampEdge(const PatchEdge& edge) const = 0;
   /// Mirror symmetry about the plane through the edge with unit normal `normal`.
   virtual std::vector<LinearConstraint> mirrorEdge(const PatchEdge& edge, const Vec3& normal) const = 0;

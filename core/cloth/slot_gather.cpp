@@ -1,4 +1,5 @@
 #include "core/cloth/slot_gather.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 
@@ -17,8 +18,7 @@ void SlotGather::close() {
 
 void SlotGather::negativeSum(const double* slots, std::span<Vec3> f) const {
   const int points = static_cast<int>(f.size());
-#pragma omp parallel for schedule(static) if (points > 512)
-  for (int i = 0; i < points; ++i) {
+  forAll(Each::row, points, [&](int i) {
     Vec3 sum{};
     for (long k = offsets_[i]; k < offsets_[i + 1]; ++k) {
       const double* slot = slots + slots_[k];
@@ -27,7 +27,7 @@ void SlotGather::negativeSum(const double* slots, std::span<Vec3> f) const {
       sum.z += slot[2 * strides_[k]];
     }
     f[i] = -sum;
-  }
+  });
 }
 
 }  // namespace gambeson

@@ -38,7 +38,7 @@ void addMobility(StrainRows& s) {
   }
 }
 
-/// The same with blocks B P B^T, component by component.
+/// As the function above, for a mobility that is a matrix: blocks B P B^T, component by component.
 void addMobilityTensors(StrainRows& s) {
   const SparseRows &B = s.B, &Bt = s.Bt, &P = s.mobility.P;
   s.S.size = B.rows();

@@ -43,12 +43,12 @@ class StressView {
     PlaneTensor stress, strain;
   };
   virtual std::size_t cells() const = 0;  ///< how many means there are
-  /// Of all cells in a state, for `at` and `strainAt`.
+  /// The means of stress and strain over each cell in a state; `at` and `strainAt` take them.
   virtual std::vector<Sample> means(const ClothState& state, const More& more = {}) const = 0;
-  /// At a place; where `means` are empty those that are needed are taken.
+  /// Principal values at a place. Where `means` is empty, the means that are needed are computed.
   virtual PrincipalStress at(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means,
                              const More& more = {}) const = 0;
-  /// Green-Lagrange strain along the fabric's weft and warp, and between them, of the same means.
+  /// Green-Lagrange strain at a place along the fabric's weft and warp, and between them, from the same means.
   virtual PlaneTensor strainAt(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means) const = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/contact/sharp.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -14,7 +15,6 @@ constexpr double kHorizons = 3;        ///< what counts as blunt is expected to 
 constexpr double kLeastRoom_m = 2e-5;  ///< and by more than this
 constexpr double kRounding = 1e-6;     ///< of sines, far more than it is
 constexpr int kMeans = 8;              ///< steps towards the shortest mean
-constexpr int kMany = 4096;            ///< from which on threads share the work
 
 }  // namespace
 
@@ -31,7 +31,7 @@ Bluntness::Bluntness(const ContactMesh& mesh, std::span<const char> deforms) {
   corner_room_m_.assign(mesh.vertex_count, kNever);
 }
 
-/// By which the vectors of all edges of its faces may change, so that it stays blunt; negative where it is not.
+/// How far the vectors of all edges of its faces may change while the edge stays blunt; negative where it is not.
 double Bluntness::edgeRoom(const ContactMesh& mesh, std::span<const Vec3> x, int edge) const {
   const std::span<const int> faces = mesh.edge_faces[edge];
   if (faces.size() != 2) return -1;
@@ -53,7 +53,8 @@ double Bluntness::edgeRoom(const ContactMesh& mesh, std::span<const Vec3> x, int
   return std::isfinite(room) ? room : -1;
 }
 
-/// Likewise of the edges that end at a vertex.
+/// How far the vectors of the edges that end at a vertex may change while its corner stays blunt; negative where it is
+/// not known to be.
 double Bluntness::cornerRoom(const ContactMesh& mesh, std::span<const Vec3> x, int vertex) const {
   const std::span<const int> around = mesh.vertex_edges[vertex];
   if (around.empty()) return -1;
@@ -87,17 +88,15 @@ double Bluntness::cornerRoom(const ContactMesh& mesh, std::span<const Vec3> x, i
 
 bool Bluntness::holds(std::span<const Vec3> x, std::span<const Vec3> velocity, double time_s) const {
   const int n = static_cast<int>(watched_.size());
-  int failed = 0;
-#pragma omp parallel for schedule(static) reduction(+ : failed) if (n > kMany)
-  for (int k = 0; k < n; ++k) {
+  const auto fails = [&](int k) {
     const Watch& w = watched_[k];
     Vec3 d = x[w.b] - x[w.a];
     if (!velocity.empty()) d += time_s * (velocity[w.b] - velocity[w.a]);
     const float dx = static_cast<float>(d.x) - w.x, dy = static_cast<float>(d.y) - w.y,
                 dz = static_cast<float>(d.z) - w.z;
-    failed += !(dx * dx + dy * dy + dz * dz <= w.most2);
-  }
-  return failed == 0;
+    return !(dx * dx + dy * dy + dz * dz <= w.most2);
+  };
+  return countOf(Each::value, n, fails) == 0;
 }
 
 void Bluntness::ask(const ContactMesh& mesh, const ListedMotion& motion, const Box& where) {
@@ -106,42 +105,36 @@ void Bluntness::ask(const ContactMesh& mesh, const ListedMotion& motion, const B
   const std::span<const Vec3> x = motion.x;
   const int edge_count = static_cast<int>(edges_.size()), vertex_count = static_cast<int>(vertices_.size());
   const auto inside = [&](int v) { return overlap(Box{x[v], x[v]}, where); };
-#pragma omp parallel if (edge_count > kMany)
-  {
-#pragma omp for schedule(static)
-    for (int k = 0; k < edge_count; ++k) {
-      const auto [a, b] = mesh.edges[edges_[k]];
-      way_m_[edges_[k]] = motion.horizon_s * norm(motion.velocity(b) - motion.velocity(a));
-    }
-    const auto lasts = [&](double room, double way) { return room > kHorizons * way + kLeastRoom_m; };
-#pragma omp for schedule(static)
-    for (int k = 0; k < edge_count; ++k) {
-      const int e = edges_[k];
-      edge_room_m_[e] = kNever;
-      features_.edge[e] = 0;
-      if (!inside(mesh.edges[e][0]) && !inside(mesh.edges[e][1])) continue;
-      const double room = edgeRoom(mesh, x, e);
-      double way = 0;
-      for (int t : mesh.edge_faces[e])
-        for (int f : mesh.face_edges[t]) way = std::max(way, way_m_[f]);
-      if (!lasts(room, way)) continue;
-      edge_room_m_[e] = room;
-      features_.edge[e] = 1;
-    }
-#pragma omp for schedule(static)
-    for (int k = 0; k < vertex_count; ++k) {
-      const int v = vertices_[k];
-      corner_room_m_[v] = kNever;
-      features_.vertex[v] = 0;
-      if (!inside(v)) continue;
-      const double room = cornerRoom(mesh, x, v);
-      double way = 0;
-      for (int e : mesh.vertex_edges[v]) way = std::max(way, way_m_[e]);
-      if (!lasts(room, way)) continue;
-      corner_room_m_[v] = room;
-      features_.vertex[v] = 1;
-    }
-  }
+  forAll(Each::row, edge_count, [&](int k) {
+    const auto [a, b] = mesh.edges[edges_[k]];
+    way_m_[edges_[k]] = motion.horizon_s * norm(motion.velocity(b) - motion.velocity(a));
+  });
+  const auto lasts = [&](double room, double way) { return room > kHorizons * way + kLeastRoom_m; };
+  forAll(Each::row, edge_count, [&](int k) {
+    const int e = edges_[k];
+    edge_room_m_[e] = kNever;
+    features_.edge[e] = 0;
+    if (!inside(mesh.edges[e][0]) && !inside(mesh.edges[e][1])) return;
+    const double room = edgeRoom(mesh, x, e);
+    double way = 0;
+    for (int t : mesh.edge_faces[e])
+      for (int f : mesh.face_edges[t]) way = std::max(way, way_m_[f]);
+    if (!lasts(room, way)) return;
+    edge_room_m_[e] = room;
+    features_.edge[e] = 1;
+  });
+  forAll(Each::row, vertex_count, [&](int k) {
+    const int v = vertices_[k];
+    corner_room_m_[v] = kNever;
+    features_.vertex[v] = 0;
+    if (!inside(v)) return;
+    const double room = cornerRoom(mesh, x, v);
+    double way = 0;
+    for (int e : mesh.vertex_edges[v]) way = std::max(way, way_m_[e]);
+    if (!lasts(room, way)) return;
+    corner_room_m_[v] = room;
+    features_.vertex[v] = 1;
+  });
   watched_.clear();
   for (int e : edges_) {
     const auto [a, b] = mesh.edges[e];

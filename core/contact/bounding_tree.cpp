@@ -1,12 +1,11 @@
 #include "core/contact/bounding_tree.hpp"
+#include "core/math/parallel.hpp"
 
 #include <cassert>
 #include <numeric>
 
 namespace gambeson {
-namespace {
-constexpr int kMany = 4096;  ///< nodes, from which on threads share the work
-}
+namespace {}
 
 BoundingTree::BoundingTree(std::span<const Box> primitives, int leaf_size) {
   assert(leaf_size > 0);
@@ -58,13 +57,12 @@ BoundingTree::BoundingTree(std::span<const Box> primitives, int leaf_size) {
 void BoundingTree::refit(std::span<const Box> primitives) {
   assert(primitives.size() == order_.size());
   const int count = static_cast<int>(nodes_.size());
-#pragma omp parallel for schedule(static) if (count > kMany)
-  for (int i = 0; i < count; ++i) {
+  forAll(Each::value, count, [&](int i) {
     Node& n = nodes_[i];
-    if (n.count == 0) continue;
+    if (n.count == 0) return;
     n.box = Box{};
     for (int k = n.first; k < n.first + n.count; ++k) n.box.add(primitives[order_[k]]);
-  }
+  });
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& n = nodes_[i];
     if (n.count > 0) continue;

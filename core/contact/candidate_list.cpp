@@ -1,4 +1,5 @@
 #include "core/contact/candidate_list.hpp"
+#include "core/math/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,8 @@
 namespace gambeson {
 namespace {
 
-/// By trial on the drape over a sphere (tests/bench/README.md). They decide what a step costs, never what it finds.
+/// These were found by trial on the drape over a sphere (tests/bench/README.md). They decide what a step costs, never
+/// what it finds.
 constexpr int kWindow = 4;       ///< steps, about as many as a list serves
 constexpr double kMemory = 16;   ///< steps of which corrections and strays are means
 constexpr double kStrays = 3;    ///< ways off the path, in units of what is usual at the end of a window
@@ -14,29 +16,24 @@ constexpr double kHorizon = 10;  ///< steps like the one that a list is made for
 constexpr double kLeastSlack_m = 1e-4, kLeastSlack = 0.04;  ///< and of the margin: some vertex does what it never did
 constexpr double kBodySlack_m = 4e-5;                       ///< for bodies, whose motions are smooth
 constexpr int kMended = 64;                                 ///< one in so many vertices of cloth at a time
-constexpr int kMany = 8192;                                 ///< vertices or more, from which on threads share the work
 
 /// Calls f(i) for all i below n.
 template <class F>
 void each(std::size_t n, F&& f) {
   const int count = static_cast<int>(n);
-#pragma omp parallel for schedule(static) if (count > kMany)
-  for (int i = 0; i < count; ++i) f(i);
+  forAll(Each::value, count, [&](int i) { f(i); });
 }
 
 /// f(i) for all i below n.
 template <class F>
 bool allOf(std::size_t n, F&& f) {
   const int count = static_cast<int>(n);
-  if (count <= kMany) {
+  if (count < static_cast<int>(Each::value)) {
     for (int i = 0; i < count; ++i)
       if (!f(i)) return false;
     return true;
   }
-  int fail = 0;
-#pragma omp parallel for schedule(static) reduction(+ : fail)
-  for (int i = 0; i < count; ++i) fail += !f(i);
-  return fail == 0;
+  return countOf(Each::value, count, [&](int i) { return !f(i); }) == 0;
 }
 
 bool within(std::span<const double> moved, std::span<const double> slack) {
@@ -96,7 +93,7 @@ void CandidateList::leavePath(std::span<const Vec3> x, double time_s, std::vecto
   each(x.size(), [&](int i) { out[i] = norm(x[i] - listed_at_[i] - t * listed_velocity_[i]); });
 }
 
-/// But for vertices of cloth that stray.
+/// Whether the list still holds for the step to x1, except for what its straying vertices of cloth ask for (mend).
 bool CandidateList::holds(std::span<const Vec3> x1) {
   if (listed_at_.size() != x0_.size() || start_s_ < listed_s_ || end_s_ > listed_s_ + horizon_s_) return false;
   if (start_moved_.empty()) {

@@ -6,13 +6,12 @@
 
 #include "core/contact/segment_pair.hpp"
 #include "core/contact/triangle.hpp"
-#include "core/math/in_order.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr double kSharp = 0.05;  ///< sine of the angle by which the faces of an edge bend away
-constexpr int kMany = 1024;      ///< pairs, from which on threads share the work
 
 class Search {
  public:
@@ -54,7 +53,8 @@ class Search {
     if (neighbours(v, a, rest - facts_.rest[v], layer)) return;
     ClothContactPoint p;
     p.contact.sample = v;
-    p.contact.obstacle = kSampleOnCloth;
+    p.contact.obstacle = -1;
+    p.contact.kind = ContactKind::sample_on_cloth;
     p.contact.feature = featureOf(t, foot.feature);
     // Two vertices that are nearest to each other are one contact.
     if (foot.feature < kEdge0 && nearestAround(mesh_.triangles[t][foot.feature], v)) {
@@ -94,7 +94,8 @@ class Search {
     if (neighbours(a, c, rest, layer)) return;
     ClothContactPoint out_point;
     out_point.contact.sample = pair.a;
-    out_point.contact.obstacle = kEdgeOnEdge;
+    out_point.contact.obstacle = -1;
+    out_point.contact.kind = ContactKind::edge_on_edge;
     out_point.contact.feature = pair.b;
     out_point.contact.gap_m = std::sqrt(near.dist2_m2);
     out_point.contact.normal = way;
@@ -156,8 +157,8 @@ class Search {
   }
   /// The foot is on the border of the other cloth, and inside of the sample's own cloth a point beside the sample is
   /// nearer to it: not the sample meets the border, whose own samples lie on the faces there. A border that slides over
-  /// cloth would meet each sample with a tilted normal just before it passes, and be lifted and slowed down (two fabrics
-  /// at 0.5 m/s: by a tenth of mu m g).
+  /// cloth would meet each sample with a tilted normal just before it passes, and be lifted and slowed down (two
+  /// fabrics at 0.5 m/s: by a tenth of mu m g).
   bool besideBorder(int v, int t, const TrianglePoint& foot) const {
     const bool border = foot.feature >= kEdge0 ? mesh_.border(mesh_.face_edges[t][foot.feature - kEdge0])
                                                : onBorder(mesh_.triangles[t][foot.feature]);
@@ -200,14 +201,14 @@ void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const Candi
                    std::span<const Vec3> x0, std::span<const Vec3> x1, std::vector<ClothContactPoint>& out) {
   out.clear();
   const Search search(mesh, facts, x0, x1);
-  appendInOrder(static_cast<int>(pairs.points.size()), kMany, out, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(pairs.points.size()), Each::row, out, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k) search.sampleOn(pairs.points[k], list);
   });
-  appendInOrder(static_cast<int>(pairs.edges.size()), kMany, out, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(pairs.edges.size()), Each::row, out, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k) search.edgeOn(pairs.edges[k], list);
   });
   const auto key = [](const ClothContactPoint& p) {
-    return std::tuple(-p.contact.obstacle, p.contact.sample, p.contact.feature);
+    return std::tuple(p.contact.kind, p.contact.sample, p.contact.feature);
   };
   std::sort(out.begin(), out.end(),
             [&](const ClothContactPoint& a, const ClothContactPoint& b) { return key(a) < key(b); });

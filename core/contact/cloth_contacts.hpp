@@ -20,7 +20,7 @@ struct ClothFacts {
 
 /// Where two surfaces touch, both ways of writing it: the least distance of a contact is `layer_m`.
 struct ClothContactPoint {
-  Contact contact;  ///< obstacle kSampleOnCloth or kEdgeOnEdge; the normal points to the sample, or to edge `sample`
+  Contact contact;  ///< sample_on_cloth or edge_on_edge; the normal points to the sample, or to edge `sample`
   Stencil stencil;
   double layer_m = 0;  ///< half the sum of the thicknesses
   int partner = -1;    ///< ContactRow::partner

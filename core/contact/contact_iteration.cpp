@@ -167,7 +167,7 @@ namespace {
 
 using Island = ContactWork::Island;
 
-/// After a step whose product with the gradient is `against`.
+/// Sets the momentum of the island's next step, after a step whose product with the gradient is `against`.
 void advance(double against, Island& island) {
   if (against > 0) {
     island.momentum = 0.5 * (1 + island.momentum);

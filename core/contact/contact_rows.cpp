@@ -74,7 +74,7 @@ void rangeIslands(ContactWork& w) {
 void listOnCloth(std::span<const ContactRow> rows, int samples, ContactWork& w) {
   const auto each = [&](const auto& visit) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].contact.obstacle != kSampleOnCloth) continue;
+      if (rows[i].contact.kind != ContactKind::sample_on_cloth) continue;
       visit(rows[i].contact.sample, static_cast<int>(i));
       if (rows[i].partner >= 0) visit(rows[i].partner, static_cast<int>(i));
     }
@@ -105,7 +105,7 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
   const int n = static_cast<int>(rows.size());
   w.on_body.assign(area.size(), 0);
   for (const ContactRow& row : rows)
-    if (row.contact.obstacle >= 0) ++w.on_body[row.contact.sample];
+    if (row.contact.onBody()) ++w.on_body[row.contact.sample];
   listOnCloth(rows, static_cast<int>(area.size()), w);
   w.area_of.resize(n);
   for (int i = 0; i < n; ++i) {
@@ -116,10 +116,11 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
       for (int e = WT.offsets[stencil.sample[k]]; e < WT.offsets[stencil.sample[k] + 1] && !moves; ++e)
         moves = WT.values[e] != 0 && inverse_mass[WT.columns[e]] > 0;
     double a = 0;
-    if (row.contact.obstacle == kEdgeOnEdge || row.contact.obstacle == kRestoring ||
-        (row.contact.obstacle >= 0 && stencil.count > 1)) {
+    const ContactKind kind = row.contact.kind;
+    if (kind == ContactKind::edge_on_edge || kind == ContactKind::restoring ||
+        (row.contact.onBody() && stencil.count > 1)) {
       for (int k = 0; k < stencil.count; ++k) a += 0.125 * std::abs(stencil.weight[k]) * area[stencil.sample[k]];
-    } else if (row.contact.obstacle == kSampleOnCloth) {
+    } else if (kind == ContactKind::sample_on_cloth) {
       a = 0.5 * area[row.contact.sample] / sharedBy(rows, row.contact.sample, row.contact.normal, w);
       if (row.partner >= 0) a += 0.5 * area[row.partner] / sharedBy(rows, row.partner, -row.contact.normal, w);
     } else {
@@ -230,8 +231,8 @@ void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, Co
     const auto smoothed = [&](int at) {
       const ContactRow& row = rows[w.order[at]];
       if (warm[w.order[at]] == Vec3{}) return false;
-      if (group == 0) return row.contact.obstacle >= 0 && row.stencil.count == 1;
-      return row.contact.obstacle == kSampleOnCloth && (dot(row.contact.normal, side) > 0) == (group == 1);
+      if (group == 0) return row.contact.onBody() && row.stencil.count == 1;
+      return row.contact.kind == ContactKind::sample_on_cloth && (dot(row.contact.normal, side) > 0) == (group == 1);
     };
     const auto part = [&](int at) {
       const Vec3& t = warm[w.order[at]];

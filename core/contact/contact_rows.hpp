@@ -5,17 +5,16 @@
 #include <span>
 
 #include "core/contact/response.hpp"
+#include "core/material/laws/friction.hpp"
 
 namespace gambeson {
 
-/// Onto the Coulomb cone of the row: normal part >= 0, tangential part within mu times it.
+/// Coulomb's law of the row: the traction cut to its cone.
 inline Vec3 project(const Vec3& traction, const Vec3& n, double mu) {
-  const double tn = dot(traction, n);
-  if (!(tn > 0)) return {};
-  Vec3 tangential = traction - tn * n;
-  const double size2 = norm2(tangential), limit = mu * tn;
-  if (size2 > limit * limit) tangential *= limit / std::sqrt(size2);
-  return tn * n + tangential;
+  const double normal[3] = {n.x, n.y, n.z}, trial[3] = {traction.x, traction.y, traction.z};
+  double cut[3];
+  coulombImpulse<only_resultants>(mu, normal, trial, cut);
+  return {cut[0], cut[1], cut[2]};
 }
 
 /// v_n - target = (v - drift) . normal.

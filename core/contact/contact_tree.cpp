@@ -1,4 +1,5 @@
 #include "core/contact/contact_tree.hpp"
+#include "core/math/parallel.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +10,6 @@
 
 namespace gambeson {
 namespace {
-constexpr int kMany = 4096;     ///< from which on threads share the work
 constexpr int kGroup = 1024;    ///< nodes
 constexpr int kHullCells = 16;  ///< hulls of so few cells are looked at cell by cell
 }  // namespace
@@ -63,7 +63,7 @@ void ContactTree::setShares(std::span<const float> share_m) {
   }
 }
 
-/// Of the cloth, which alone there is so far.
+/// Call before obstacles are added: nodes_ holds only cloth.
 void ContactTree::findLeaves(int triangles) {
   parent_.assign(nodes_.size(), -1);
   touched_.assign(nodes_.size(), 0);
@@ -136,7 +136,7 @@ int ContactTree::buildChart(const ContactMesh& mesh, int chart, std::array<int, 
     const std::span<const int> triangles = c.triangles[cell];
     node.first = static_cast<int>(tiles_.size());
     node.whole = c.whole[cell];
-    if (node.whole)
+    if (node.whole || (!c.has_grid && triangles.size() == 2))
       addTile(mesh, triangles[0], triangles[1]);
     else
       for (int t : triangles) addTile(mesh, t, -1);
@@ -222,17 +222,20 @@ bool ContactTree::placePoints(const ListedMotion& motion) {
   if (n == 0) return false;
   origin_ = motion.x[0];
   const int count = static_cast<int>(n);
-  int changes = !known;
-  float error = 0;
-#pragma omp parallel for schedule(static) if (count > kMany) reduction(+ : changes) reduction(max : error)
-  for (int i = 0; i < count; ++i) {
+  struct Placed {
+    bool changed = false;
+    float error = 0;
+  };
+  const auto place = [&](int i) {
     const MovingBox before = vertex_boxes_[i];
     placePoint(motion, i);
-    changes += i >= first_obstacle_vertex_ && !(vertex_boxes_[i] == before);
-    error = std::max(error, shapeError(points_[i]));
-  }
-  shape_error_m_ = error;
-  return changes > 0;
+    return Placed{i >= first_obstacle_vertex_ && !(vertex_boxes_[i] == before), shapeError(points_[i])};
+  };
+  const Placed all = joined(Each::value, count, Placed{!known, 0}, place, [](const Placed& a, const Placed& b) {
+    return Placed{a.changed || b.changed, std::max(a.error, b.error)};
+  });
+  shape_error_m_ = all.error;
+  return all.changed;
 }
 
 void ContactTree::placePoint(const ListedMotion& motion, int vertex) {
@@ -250,17 +253,16 @@ void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion) {
   const bool obstacles_changed = placePoints(motion);
   gradients_.resize(inverse_.size());
   const int triangles = static_cast<int>(inverse_.size()), groups = static_cast<int>(groups_.size());
-#pragma omp parallel for schedule(static) if (triangles > kMany)
-  for (int t = 0; t < triangles; ++t) gradients_[t] = gradient(mesh, t, motion);
+  forAll(Each::value, triangles, [&](int t) { gradients_[t] = gradient(mesh, t, motion); });
   const int end = static_cast<int>(obstacles_changed ? nodes_.size() : parts_.size());
-#pragma omp parallel for schedule(dynamic) if (end > kMany)
-  for (int g = 0; g < groups; ++g)
+  forAllUneven(Each::much, groups, [&](int g) {
     for (int i = std::min(groups_[g][1], end); i-- > groups_[g][0];) refitNode(i, motion);
+  });
   for (std::size_t k = above_.size(); k-- > 0;)
     if (above_[k] < end) refitNode(above_[k], motion);
 }
 
-/// After its children.
+/// Call after the children of the node are refitted.
 void ContactTree::refitNode(int i, const ListedMotion& motion) {
   const Node& n = nodes_[i];
   if (n.left < 0) {

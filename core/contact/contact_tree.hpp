@@ -18,10 +18,12 @@ namespace gambeson {
 
 /// The triangles of a patch in the rectangular grid of its samples. `whole` cells consist of two triangles between the
 /// cell's four corners; others (cut by trimming) hold what lies in them and are never certified.
+/// Without a grid the cells are one row, each a triangle or two with a common edge, near cells near each other in it.
 struct GridChart {
   std::array<int, 2> cells{0, 0};
   Lists triangles;          ///< of cell i + cells[0] j
   std::vector<char> whole;  ///< of each cell
+  bool has_grid = true;
 };
 
 /// Where the corners of a triangle lie in its chart's plane [m], counterclockwise: cells are rectangles there.
@@ -87,7 +89,7 @@ class ContactTree {
   /// The search in parts, at least `parts` of them where there is that much to search. One after the other, they visit
   /// the same pairs in the same order however many there are.
   std::vector<Search> searches(const PairRules& rules, int parts) const;
-  /// Those of the leaves that are touched, with all tiles; two touched ones come up once.
+  /// The searches of the touched leaves against all tiles. A pair of touched leaves comes up once.
   std::vector<Search> searchesOfTouched() const;
 
   /// Calls visit(a, b, covered) once for every two tiles, not both of obstacles, whose boxes may meet, except those of
@@ -126,7 +128,7 @@ class ContactTree {
   }
   /// Vertices from this one on are the obstacles'.
   int firstObstacleVertex() const { return first_obstacle_vertex_; }
-  /// Of the vertices.
+  /// Where each vertex of the mesh is, and where it goes: as of the last refit.
   std::span<const MovingPoint> points() const { return points_; }
   /// Distances from shapes and points are off by no more.
   float shapeError_m() const { return shape_error_m_; }
@@ -275,7 +277,7 @@ class ContactTree {
     const double sum = obstacle ? std::max(2.0 * std::max(a, b), rules.obstacle_margin_m) : static_cast<double>(a) + b;
     return std::clamp(sum, rules.blunt_margin_m, rules.margin_m);
   }
-  /// For boxes of nodes, rounded up. `widest`: PairRules::margin_m, so rounded.
+  /// The margin between two nodes, rounded up. `widest` is PairRules::margin_m, rounded up too.
   float reachOf(const PairRules& rules, float widest, int ia, int ib) const {
     return node_share_m_.empty() ? widest
                                  : 1.000001f * static_cast<float>(shared(rules, node_share_m_[ia], node_share_m_[ib]));

@@ -65,7 +65,7 @@ struct Subchain {
   Type type = kTwoEdges;
 };
 
-/// In the order of the contour; `surface` 0 or 1.
+/// The subchains of a contour on one of its surfaces (`surface` is 0 or 1), in the order of the contour.
 std::vector<Subchain> subchains(const Contour& contour, int surface);
 
 }  // namespace gambeson

@@ -207,7 +207,7 @@ class RegionFill {
     return true;
   }
 
-  /// One vertex: preferably on an edge that this contour crosses and no other does.
+  /// Labels one vertex to grow from: preferably on an edge that this contour crosses and no other does.
   void seed(const std::vector<int>& edges) {
     for (const bool alone : {true, false})
       for (int e : edges) {

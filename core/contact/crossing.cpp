@@ -6,6 +6,7 @@
 
 #include "core/contact/orientation.hpp"
 #include "core/error.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -56,8 +57,7 @@ std::vector<Crossing> findCrossings(const ContactMesh& mesh, std::span<const Vec
   constexpr int kChunk = 256;
   const int chunks = (edges + kChunk - 1) / kChunk;
   std::vector<std::vector<Crossing>> found(chunks);
-#pragma omp parallel for schedule(dynamic)
-  for (int chunk = 0; chunk < chunks; ++chunk) {
+  forAllUneven(Each::much, chunks, [&](int chunk) {
     std::vector<Box> edge_boxes;
     const int chunk_end = std::min(edges, (chunk + 1) * kChunk);
     for (int first = chunk * kChunk, end = first; first < chunk_end; first = end) {
@@ -78,7 +78,7 @@ std::vector<Crossing> findCrossings(const ContactMesh& mesh, std::span<const Vec
     std::sort(found[chunk].begin(), found[chunk].end(), [](const Crossing& p, const Crossing& q) {
       return p.edge != q.edge ? p.edge < q.edge : p.triangle < q.triangle;
     });
-  }
+  });
   std::vector<Crossing> out;
   for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
   return out;

@@ -24,7 +24,7 @@ class DeformedSurfaces {
   void move(const DeformedVertices& start, const DeformedVertices& end);
   void move(const DeformedVertices& at) { move(at, at); }
 
-  /// Of an obstacle that deforms.
+  /// The surface of an obstacle, which must be one that deforms.
   const MeshSurface& of(int obstacle) const { return *surfaces_[obstacle]; }
   double motion_m(int obstacle) const { return motion_[obstacle]; }
 

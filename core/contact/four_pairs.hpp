@@ -42,7 +42,7 @@ inline FourCorners gather(std::span<const MovingPoint> points, const std::array<
 namespace four {
 constexpr float kLeast = 1e-30f;  ///< in place of lengths that are 0
 inline Four clamped(const Four& t) { return least(most(t, all(0)), all(1)); }
-/// From the nearest point of the segment a, a + e to p.
+/// The vector to p from the nearest point of the segment from a to a + e.
 inline FourVec fromSegment(const FourVec& p, const FourVec& a, const FourVec& e) {
   const FourVec r = p - a;
   return r - clamped(dot(r, e) / most(dot(e, e), all(kLeast))) * e;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/contact/triangle.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 
@@ -14,7 +15,6 @@ namespace {
 
 /// Cells along the longest side: 4 mm for half a metre, at most 2 MB.
 constexpr int kGridResolution = 128;
-constexpr int kManyFaces = 2000;  ///< from which on threads share the work
 
 Vec3 unitOrZero(const Vec3& v) {
   const double l = norm(v);
@@ -24,11 +24,10 @@ Vec3 unitOrZero(const Vec3& v) {
 void triangleBoxes(std::span<const Vec3> x, std::span<const std::array<int, 3>> triangles, std::vector<Box>& boxes) {
   const int n = static_cast<int>(triangles.size());
   boxes.resize(triangles.size());
-#pragma omp parallel for schedule(static) if (n > kManyFaces)
-  for (int t = 0; t < n; ++t) {
+  forAll(Each::row, n, [&](int t) {
     boxes[t] = {};
     for (int i : triangles[t]) boxes[t].add(x[i]);
-  }
+  });
 }
 
 }  // namespace
@@ -89,15 +88,13 @@ void MeshSurface::place(std::span<const Vec3> vertices) {
   faces_.clear();
   std::vector<EdgeFrame> edges(n_edges);
   std::vector<Face> faces(n_faces);
-#pragma omp parallel for schedule(static) if (n_faces > kManyFaces)
-  for (int e = 0; e < n_edges; ++e) edges[e] = edgeOf(e);
-#pragma omp parallel for schedule(static) if (n_faces > kManyFaces)
-  for (int t = 0; t < n_faces; ++t) {
-    if (topology_.collapsed(t)) continue;
+  forAll(Each::row, n_edges, [&](int e) { edges[e] = edgeOf(e); });
+  forAll(Each::row, n_faces, [&](int t) {
+    if (topology_.collapsed(t)) return;
     Face& f = faces[t];
     f.normal = normalOf(t);
     for (int k = 0; k < 3; ++k) f.inward[k] = inwardOf(t, k, f.normal);
-  }
+  });
   edge_frames_ = std::move(edges);
   faces_ = std::move(faces);
 }
@@ -202,7 +199,8 @@ std::optional<MeshPoint> MeshSurface::nearest(const Vec3& p, double radius) cons
   return signedFoot(p, best.position, best.feature);
 }
 
-/// Along the edge, and no face of the edge under p.
+/// Whether the distance of p to the edge and its faces has its minimum on the edge: the foot of p lies within the edge,
+/// and p above none of the faces. Sets that foot.
 bool MeshSurface::edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const {
   const EdgeFrame f = edgeOf(e);
   const Vec3& a = x_[topology_.edges[e].v];
@@ -217,7 +215,8 @@ bool MeshSurface::edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const {
   return true;
 }
 
-/// No edge leads from the vertex towards p; the cone of a triangle is spanned by its edges, so no triangle does either.
+/// Whether the distance of p has its minimum around this vertex at the vertex: no edge leads from it towards p, and so
+/// no triangle does, whose cone its edges span.
 bool MeshSurface::vertexIsMinimum(int v, const Vec3& p) const {
   const Vec3 r = p - x_[v];
   for (int i = topology_.vertex_begin[v]; i < topology_.vertex_begin[v + 1]; ++i) {

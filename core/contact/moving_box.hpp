@@ -79,7 +79,7 @@ class MovingBox {
   Four lo_{kFar, kFar, kFar, kFar}, hi_{-kFar, -kFar, -kFar, -kFar}, way_lo_ = lo_, way_hi_ = hi_;
 };
 
-/// No less, in single precision.
+/// A single-precision number that is no less than x.
 inline float roundUp(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
 }  // namespace gambeson

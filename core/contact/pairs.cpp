@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "core/contact/four_pairs.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr unsigned char kAllBlunt = 63;
-constexpr int kMany = 4096;      ///< from which on threads share the work
 constexpr int kManyTiles = 256;  ///< likewise of a search
 constexpr int kManyLeaves = 16;  ///< and of one around some leaves
 constexpr int kParts = 64;       ///< of a search, for each thread
@@ -73,7 +73,7 @@ class Primitives {
   Primitives(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
              std::span<const unsigned char> owned, std::span<const unsigned char> blunt, CandidatePairs::Share& out)
       : mesh_(mesh), tree_(tree), motion_(motion), rules_(rules), owned_(owned), blunt_(blunt), out_(out) {}
-  /// What waits.
+  /// Looks at the pairs that still wait for a full vector of four.
   void finish() {
     points_.look(foundPoint());
     edges_.look(foundEdges());
@@ -166,7 +166,7 @@ class Primitives {
     return out_.shapes[i];
   }
 
-  /// All of a with all of b.
+  /// Looks at each primitive of the triangles `as` with each of the triangles `bs`.
   void between(std::span<const int> as, std::span<const int> bs, double beyond) {
     MovingBox of_b;
     for (int b : bs) {
@@ -213,7 +213,7 @@ class Primitives {
   float wide_reach_ = 0;
 };
 
-/// By vertex, then triangle.
+/// Moves out.unsorted to out.points, sorted by vertex and then by triangle, and fills out.first_of_vertex.
 void sortPoints(int vertex_count, CandidatePairs& out) {
   out.points.resize(out.unsorted.size());
   std::vector<int>& first = out.first_of_vertex;
@@ -221,10 +221,9 @@ void sortPoints(int vertex_count, CandidatePairs& out) {
   for (const PointTriangle& p : out.unsorted) ++first[p.vertex + 1];
   for (int v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
   for (const PointTriangle& p : out.unsorted) out.points[first[p.vertex]++] = p;
-    // Of each vertex the first now is where it ends.
-#pragma omp parallel for schedule(static) if (vertex_count > kMany)
-  for (int v = 0; v < vertex_count; ++v)
-    std::sort(out.points.begin() + (v > 0 ? first[v - 1] : 0), out.points.begin() + first[v]);
+  // Of each vertex the first now is where it ends.
+  forAll(Each::value, vertex_count,
+         [&](int v) { std::sort(out.points.begin() + (v > 0 ? first[v - 1] : 0), out.points.begin() + first[v]); });
 }
 
 }  // namespace
@@ -256,15 +255,14 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
   if (also_blunt) {
     out.blunt.resize(blunt_.size());
     const int n = static_cast<int>(blunt_.size());
-#pragma omp parallel for schedule(static) if (n > kMany)
-    for (int t = 0; t < n; ++t) {
+    forAll(Each::value, n, [&](int t) {
       unsigned char bits = blunt_[t];
       for (int k = 0; k < 3; ++k)
         bits |= static_cast<unsigned char>((also_blunt->vertex[mesh.triangles[t][k]] ? 1 << k : 0) |
                                            (also_blunt->edge[mesh.face_edges[t][k]] ? 8 << k : 0));
       // What a triangle does not own does not come up with it.
       out.blunt[t] = bits == 0 ? bits : static_cast<unsigned char>(bits | (kAllBlunt & ~owned_[t]));
-    }
+    });
   }
   const int threads = std::ssize(tree.tiles()) > kManyTiles ? omp_get_max_threads() : 1;
   out.edges.clear();
@@ -295,28 +293,26 @@ void PairCollector::search(const ContactMesh& mesh, const ContactTree& tree, con
   const int count = static_cast<int>(searches.size()), tile_count = static_cast<int>(tree.tiles().size());
   out.found.assign(count, {});
   if (static_cast<int>(out.shares.size()) < threads) out.shares.resize(threads);
-#pragma omp parallel num_threads(threads)
-  {
-    const int me = omp_get_thread_num();
+  const auto begin = [&](int me) {
     CandidatePairs::Share& share = out.shares[me];
     share.points.clear();
     share.edges.clear();
     share.shapes.resize(tile_count);
     share.slacks.resize(tile_count);
     share.shaped.assign(tile_count, 0);
-    Primitives primitives(mesh, tree, motion, rules, owned_, blunt, share);
-#pragma omp for schedule(dynamic)
-    for (int k = 0; k < count; ++k) {
-      CandidatePairs::Found& found = out.found[k];
-      found.share = me;
-      found.first_point = share.points.size();
-      found.first_edge = share.edges.size();
-      tree.pairs(rules, searches[k], [&](int i, int j, auto&& covered) { primitives.tiles(i, j, covered); });
-      primitives.finish();
-      found.end_point = share.points.size();
-      found.end_edge = share.edges.size();
-    }
-  }
+    return Primitives(mesh, tree, motion, rules, owned_, blunt, share);
+  };
+  forAllInTeam(threads, count, begin, [&](Primitives& primitives, int me, int k) {
+    const CandidatePairs::Share& share = out.shares[me];
+    CandidatePairs::Found& found = out.found[k];
+    found.share = me;
+    found.first_point = share.points.size();
+    found.first_edge = share.edges.size();
+    tree.pairs(rules, searches[k], [&](int i, int j, auto&& covered) { primitives.tiles(i, j, covered); });
+    primitives.finish();
+    found.end_point = share.points.size();
+    found.end_edge = share.edges.size();
+  });
   std::size_t points = 0, edges = out.edges.size();
   for (CandidatePairs::Found& f : out.found) {
     f.points_at = points;
@@ -326,14 +322,13 @@ void PairCollector::search(const ContactMesh& mesh, const ContactTree& tree, con
   }
   out.unsorted.resize(points);
   out.edges.resize(edges);
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (int k = 0; k < count; ++k) {
+  forAll(threads > 1 ? Each::much : Each::value, count, [&](int k) {
     const CandidatePairs::Found& f = out.found[k];
     const CandidatePairs::Share& share = out.shares[f.share];
     std::copy(share.points.begin() + f.first_point, share.points.begin() + f.end_point,
               out.unsorted.begin() + f.points_at);
     std::copy(share.edges.begin() + f.first_edge, share.edges.begin() + f.end_edge, out.edges.begin() + f.edges_at);
-  }
+  });
 }
 
 }  // namespace gambeson

@@ -15,7 +15,7 @@ namespace gambeson {
 struct Apart {
   float gap_m = 0, closing_m_per_s = 0;
 
-  /// Over times t in [t0, t1].
+  /// The least of this bound over the times t in [t0, t1].
   double within(double t0, double t1) const { return gap_m - closing_m_per_s * (closing_m_per_s > 0 ? t1 : t0); }
 };
 

@@ -1,7 +1,5 @@
 #include "core/contact/proximity.hpp"
 
-#include <omp.h>
-
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
@@ -9,6 +7,7 @@
 #include "core/contact/ellipsoid.hpp"
 #include "core/contact/mesh_surface.hpp"
 #include "core/error.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 
@@ -79,21 +78,13 @@ void requireFinite(std::span<const Vec3> x, const char* what) {
     if (!finite(x[i])) throw RunError(std::string(what) + " of sample " + std::to_string(i) + " is not finite");
 }
 
-/// Runs append(block, list) over all blocks. Each thread has a run of consecutive blocks, so that the lists joined in
-/// the order of the threads are in the order of the blocks, however many threads there are.
+/// Runs append(block, list) over all blocks, in their order.
 template <class Append>
 void collect(int blocks, std::vector<Contact>& out, Append&& append) {
   out.clear();
-  if (blocks == 0) return;
-  std::vector<std::vector<Contact>> lists(omp_get_max_threads());
-#pragma omp parallel if (blocks >= 8)
-  {
-    const int me = omp_get_thread_num();
-    std::vector<Contact>& mine = me == 0 ? out : lists[me];
-#pragma omp for schedule(static)
-    for (int b = 0; b < blocks; ++b) append(b, mine);
-  }
-  for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
+  appendInOrder(blocks, Each::much, out, [&](int first, int end, std::vector<Contact>& list) {
+    for (int b = first; b < end; ++b) append(b, list);
+  });
 }
 
 /// Whether points one after the other, each near the last, are inside of a mesh: not as long as they are nearer to a

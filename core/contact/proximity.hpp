@@ -10,17 +10,25 @@
 
 namespace gambeson {
 
+/// What touches what. A contact names its primitives by `sample` and `feature`: a sample of the cloth and the feature
+/// of the obstacle or of the cloth's mesh that it touches; the first point of an edge and what it touches on a body;
+/// two edges of the cloth; or an edge and the triangle that it passes through. In the order in which rows are solved.
+enum class ContactKind : int { sample_on_body, sample_on_cloth, edge_on_edge, restoring, edge_on_body };
+
 /// A sample near an obstacle. `normal` (unit, world) points from the obstacle to the cloth and `gap_m` is the signed
 /// distance at the time of the query (negative inside); `local` is the touched material point in the obstacle's frame.
 struct Contact {
   int sample = 0;
-  int obstacle = 0;
+  int obstacle = 0;  ///< -1: none, of cloth with cloth
   int feature = 0;  ///< which vertex, edge or face of a mesh (0 for an ellipsoid); identifies the contact between steps
   Vec3 normal;
   double gap_m = 0;
   Vec3 local;
   MaterialPoint touched;   ///< the same of an obstacle that deforms, whose frame is the world's
   double clearance_m = 0;  ///< what the cloth between the samples asks for (findClearances); 0: nothing
+  ContactKind kind = ContactKind::sample_on_body;
+
+  bool onBody() const { return obstacle >= 0; }
 };
 
 /// Triangles of meshes that a sample may touch, by sample: items[first[s], first[s + 1]). Where there are none the

@@ -6,6 +6,7 @@
 
 #include "core/contact/contact_iteration.hpp"
 #include "core/contact/contact_rows.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -22,7 +23,7 @@ double beyondImpact(double pressure_Pa, double dt, double density) {
 
 // Of the largest impulse, see solveContacts: with a hold, and without, where the goal is at most so many tolerances.
 constexpr double kOfLargestHeld = 2e-4, kOfLargest = 1e-6, kMostTolerances = 10;
-constexpr int kFirstCheck = 10;      ///< iterations before the rows that are left out are looked at; doubled each time
+constexpr int kFirstCheck = 10;  ///< iterations before the rows that are left out are looked at; doubled each time
 
 /// What one solve is given.
 struct Problem {
@@ -67,9 +68,8 @@ double leftOut(const Problem& p, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
   w.joins.assign(n, 0);
   w.left_out.assign(n, 0);
-#pragma omp parallel for schedule(static) if (n > 1024)
-  for (int i = 0; i < n; ++i) {
-    if (w.in[i] || w.area_of[i] == 0) continue;
+  forAll(Each::row, n, [&](int i) {
+    if (w.in[i] || w.area_of[i] == 0) return;
     const ContactRow& row = p.rows[i];
     Vec3 v = -driftOf(row);
     for (int j = 0; j < row.stencil.count; ++j) {
@@ -85,10 +85,10 @@ double leftOut(const Problem& p, ContactWork& w) {
         }
       }
     }
-    if (!(dot(v, row.contact.normal) < 0)) continue;
+    if (!(dot(v, row.contact.normal) < 0)) return;
     w.joins[i] = 1;
     w.left_out[i] = norm2(project(-v, row.contact.normal, row.slippery ? 0 : p.friction));
-  }
+  });
   double most2 = 0;
   for (double l : w.left_out) most2 = std::max(most2, l);
   return std::sqrt(most2);
@@ -211,8 +211,7 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   begin(problem, warm, w);
   double goal = c.tolerance_m_per_s2 * dt;
   double largest = 0;
-  for (std::size_t k = 0; k < w.order.size(); ++k)
-    largest = std::max(largest, w.facts[k].slope * norm(w.traction[k]));
+  for (std::size_t k = 0; k < w.order.size(); ++k) largest = std::max(largest, w.facts[k].slope * norm(w.traction[k]));
   goal = std::max(goal, hold ? kOfLargestHeld * largest : std::min(kOfLargest * largest, kMostTolerances * goal));
   const ContactSolve report = solve(problem, goal, c.max_iterations, w);
 

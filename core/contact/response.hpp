@@ -33,10 +33,6 @@ struct Stencil {
   }
 };
 
-/// In place of an obstacle's number: contacts of cloth with cloth. Contact::sample and feature then name a sample and
-/// the feature of the cloth's mesh that it touches, or two edges, or an edge and the triangle that it passes through.
-enum ClothContact { kSampleOnCloth = -1, kEdgeOnEdge = -2, kRestoring = -3 };
-
 /// A contact with what the solve needs to know of it. Its relative velocity is sum w v(sample) - body_velocity, its
 /// impulse lambda acts on each sample as w lambda.
 struct ContactRow {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view header =
     "# What gambeson wrote in this folder: it replaces no other files. This list may be removed.\n";
-/// In place of size and hash: whatever the content.
+/// Stands in place of size and hash: the file is ours whatever its content.
 constexpr std::string_view any = "any";
 
 [[noreturn]] void fail(const char* what, const fs::path& path, int error) {

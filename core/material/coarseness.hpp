@@ -14,12 +14,13 @@ namespace gambeson {
 /// tells. Of a strip of 8 to 32 cells of degree 2 that hangs from a clamped edge (w L^3/B = 10 and 100,
 /// tests/verify/heavy_elastica.json with thinner strips) the tip is off by 0.7 % of the length at N = 4 to 7, 2 to 3 at
 /// 15 to 20, 5 at 45, 10 at 70 to 150, 20 to 25 at 80 (16 cells) to 210; other quantities by a few times that. B is the
-/// smaller of weft and warp, of the law of Zheng its least slope B0; E h the larger. 0 without weight or where cloth
-/// has no bending stiffness to speak of in this way (layered sections, tension fields). `cell_m` > 0, `gravity` >= 0.
+/// smaller of weft and warp, the law's least slope; E h the larger. 0 without weight or where cloth
+/// has no bending stiffness to speak of in this way (solids, tension fields). `cell_m` > 0, `gravity` >= 0.
 inline double coarseness(const Fabric& f, double cell_m, double gravity_m_per_s2) {
-  const double B = std::fmin(f.bending_weft_Nm, f.bending_warp_Nm), w = f.surfaceDensity() * gravity_m_per_s2,
+  const GivenRigidities* given = givenRigidities(f.law);
+  const double B = given ? given->least_Nm() : 0, w = f.surfaceDensity() * gravity_m_per_s2,
                Eh = std::fmax(f.young_weft_Pa, f.young_warp_Pa) * f.thickness_m;
-  if (!f.plies.empty() || f.tension_field || !(B > 0 && w > 0 && Eh > 0)) return 0;
+  if (f.tension_field || !(B > 0 && w > 0 && Eh > 0)) return 0;
   return cell_m * cell_m / (std::sqrt(12 * B / Eh) * std::cbrt(B / w));
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/material/laws/membrane.hpp"
 
 namespace gambeson {
 
@@ -15,8 +16,9 @@ Voigt reducedStiffness(const Ply& ply) {
   if (!(ply.poisson12 * ply.poisson12 * ply.young2_Pa < ply.young1_Pa))
     reject("poisson12", "must satisfy poisson12^2 young2 < young1");
   if (!std::isfinite(ply.angle_rad)) reject("angle_rad", "must be finite");
-  const double nu21 = ply.poisson12 * ply.young2_Pa / ply.young1_Pa, scale = 1 / (1 - ply.poisson12 * nu21);
-  const double Q11 = ply.young1_Pa * scale, Q22 = ply.young2_Pa * scale, Q12 = ply.poisson12 * Q22, Q66 = ply.shear_Pa;
+  Voigt Q;
+  planeStress(ply.young1_Pa, ply.young2_Pa, ply.shear_Pa, ply.poisson12, 1.0, Q.data());
+  const double Q11 = Q[0], Q22 = Q[1], Q12 = Q[3], Q66 = Q[2];
   const double c = std::cos(ply.angle_rad), s = std::sin(ply.angle_rad), c2 = c * c, s2 = s * s, cs = c * s;
   return {Q11 * c2 * c2 + 2 * (Q12 + 2 * Q66) * s2 * c2 + Q22 * s2 * s2,
           Q11 * s2 * s2 + 2 * (Q12 + 2 * Q66) * s2 * c2 + Q22 * c2 * c2,

@@ -145,7 +145,8 @@ struct SymmetricFactor::Implementation {
     below.resize(n);
   }
 
-  /// Only blocks of the reached supernodes: columns of L below the diagonal block lie at rows of reached ones too.
+  /// Solves for the wanted unknowns with the blocks of the reached supernodes alone: columns of L below the diagonal
+  /// block lie at rows of reached ones too.
   void solveReached(std::span<const double> b, std::span<double> x) {
     using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
     const auto* super = static_cast<const int*>(supernodal->super);

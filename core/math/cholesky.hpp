@@ -33,7 +33,7 @@ class SymmetricFactor {
   /// condensation may lose digits where leading minors nearly vanish; `solve` refines against the matrix). Throws
   /// RunError where a value is not finite or memory runs out.
   Definiteness factorise(const SymmetricMatrix& matrix);
-  /// Of D: how many eigenvalues are negative (Sylvester). Valid after factorise.
+  /// How many eigenvalues of the matrix are negative: those of D (Sylvester). Valid after factorise.
   int negativePivots() const;
   /// The unknown with the smallest pivot relative to its diagonal: what a mechanism moves.
   int weakestUnknown() const;

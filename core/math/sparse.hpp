@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/math/parallel.hpp"
 #include "core/math/vec.hpp"
 
 namespace gambeson {
@@ -26,12 +27,11 @@ struct SparseRows {
   /// y = A x, row by row in a fixed order.
   template <class T>
   void multiply(std::span<const T> x, std::span<T> y) const {
-#pragma omp parallel for schedule(static) if (rows() > 512)
-    for (int r = 0; r < rows(); ++r) {
+    forAll(Each::row, rows(), [&](int r) {
       T sum{};
       for (int k = offsets[r]; k < offsets[r + 1]; ++k) sum += values[k] * x[columns[k]];
       y[r] = sum;
-    }
+    });
   }
 };
 

@@ -14,9 +14,9 @@ struct StepControl {
   int max_halvings = 8;     ///< of a step that fails
 };
 
-/// Called after each accepted step; the work holds the step's impulses.
-using StepObserver =
-    std::function<void(const State& before, const State& after, const StepReport&, const StepWork&, const Frequency&)>;
+/// Called after each accepted step; with what the step did.
+using StepObserver = std::function<void(const State& before, const State& after, const StepReport&, const StepResult&,
+                                        const Frequency&)>;
 
 /// Advances `state` to `until_s` exactly, in equal steps between estimates. A step that fails is tried again at half
 /// its length, one in which strain limits and contacts do not agree down to an eighth; throws RunError saying why where

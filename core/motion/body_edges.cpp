@@ -7,14 +7,13 @@
 #include "core/contact/segment_pair.hpp"
 #include "core/contact/sharp.hpp"
 #include "core/contact/triangle.hpp"
-#include "core/math/in_order.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr double kAway = 1e-3;  ///< of faces from the cloth: else they are nearer than the edge
 constexpr double kInside = 1e-6;
-constexpr int kMany = 1024;  ///< pairs, from which on threads share the work
 
 class Search {
  public:
@@ -96,6 +95,7 @@ class Search {
     row.contact.normal = normal;
     row.contact.gap_m = gap;
     row.contact.sample = cloth[0];
+    row.contact.kind = ContactKind::edge_on_body;
     row.contact.feature = -1 - feature;
     const CollisionModel::Body& of = m_.bodies[m_.body_of_vertex[body[0]]];
     row.contact.obstacle = of.obstacle;
@@ -141,10 +141,10 @@ void bodyEdgeRows(const CollisionModel& m, double dt, std::span<const char> insi
   rows.clear();
   if (m.bodies.empty()) return;
   const Search search(m, dt, inside, w);
-  appendInOrder(static_cast<int>(w.near.points.size()), kMany, rows, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(w.near.points.size()), Each::row, rows, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k) search.cornerOn(w.near.points[k], list);
   });
-  appendInOrder(static_cast<int>(w.near.edges.size()), kMany, rows, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(w.near.edges.size()), Each::row, rows, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k) search.edgeOn(w.near.edges[k], list);
   });
   const auto key = [](const ContactRow& r) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/contact/ellipsoid.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -70,20 +71,19 @@ void findClearances(const Model& m, StepWork& w) {
   first.assign(m.surface.size() + 1, 0);
   for (const Contact& c : w.near) ++first[c.sample + 1];
   for (int s = 0; s < m.surface.size(); ++s) first[s + 1] += first[s];
-#pragma omp parallel for schedule(static) if (n > 512)
-  for (int k = 0; k < n; ++k) {
+  forAll(Each::row, n, [&](int k) {
     Contact& c = w.near[k];
     const double layer = m.layer_m[c.sample];
     // Ellipsoids are asked for along the edges of the triangles; diagonals across them take in the way along the body.
     if (const auto* e = std::get_if<Ellipsoid>(&m.obstacles[c.obstacle].shape)) {
-      const double out = standOut(*e, w.start[c.obstacle], c, layer, m.collisions.mesh, w.x0);
+      const double out = standOut(*e, w.stage.start.obstacles[c.obstacle], c, layer, m.collisions.mesh, w.x0);
       c.clearance_m = m.bulges.beside(c.sample, -c.normal, w.x0, false) + std::max(layer, out + kLag * layer);
     } else {
       const double out = standOut(m.bulges, c, w.near, first, w.x0);
       c.clearance_m = std::max(m.bulges.beside(c.sample, -c.normal, w.x0) + layer, out + kLagAtSkin * layer);
     }
     c.clearance_m = std::min(kLargestClearance_m, c.clearance_m);
-  }
+  });
 }
 
 }  // namespace gambeson

@@ -9,14 +9,13 @@
 
 #include "core/contact/certified_impact.hpp"
 #include "core/contact/mesh_topology.hpp"
-#include "core/math/in_order.hpp"
+#include "core/math/parallel.hpp"
 #include "core/motion/body_edges.hpp"
 
 namespace gambeson {
 namespace {
 
 constexpr double kSeparation_m = 1e-6;
-constexpr int kMany = 4096;  ///< pairs, from which on threads share the work
 
 /// What samples of cloth may keep from a body, whatever their thickness.
 constexpr double kBodyReach_m = contactReach(kLargestClearance_m);
@@ -82,7 +81,8 @@ ContactRow rowOf(const CollisionModel& m, const CollisionWork& w, const PairHit&
   row.pair = {hit.edges ? 1 : 0, hit.a, hit.b};
   row.contact.normal = n;
   row.contact.gap_m = dot(n, start);
-  row.contact.obstacle = hit.edges ? kEdgeOnEdge : kSampleOnCloth;
+  row.contact.obstacle = -1;
+  row.contact.kind = hit.edges ? ContactKind::edge_on_edge : ContactKind::sample_on_cloth;
   row.contact.sample = hit.a;
   row.contact.feature = hit.b;
   Vec3 touched{};
@@ -94,6 +94,7 @@ ContactRow rowOf(const CollisionModel& m, const CollisionWork& w, const PairHit&
       continue;
     }
     row.contact.obstacle = m.bodies[body].obstacle;
+    row.contact.kind = hit.edges ? ContactKind::edge_on_body : ContactKind::sample_on_body;
     row.body_velocity -= (weight[k] / dt) * (x1[k] - x0[k]);
     touched += weight[k] * onBody(m, w, vertex[k]);
     body_weight += weight[k];
@@ -189,7 +190,8 @@ void freeTangles(const CollisionModel& m, std::vector<Contour> contours, double 
   for (const Untangling& u : found)
     for (const RestoringRow& r : restoringRows(m.mesh, u)) {
       ContactRow row;
-      row.contact.obstacle = kRestoring;
+      row.contact.obstacle = -1;
+      row.contact.kind = ContactKind::restoring;
       row.contact.sample = -1;
       row.contact.normal = r.direction;
       row.target_m_per_s = r.speed_mps;
@@ -302,7 +304,7 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   const std::span<const PointTriangle> points = w.list.pairs().points;
   const std::span<const EdgeEdge> edges = w.list.pairs().edges;
   w.near_points.clear();
-  appendInOrder(static_cast<int>(points.size()), kMany, w.near_points, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(points.size()), Each::value, w.near_points, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
       if (w.list.apart(points[k]) < reachOf(m.vertex_share_m[points[k].vertex], m.triangle_share_m[points[k].triangle]))
         list.push_back(points[k]);
@@ -317,7 +319,7 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
     }
   }
   for (int v = 0; v < m.cloth.cloth_vertices; ++v) w.near_bodies.first[v + 1] += w.near_bodies.first[v];
-  appendInOrder(static_cast<int>(edges.size()), kMany, w.near.edges, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(edges.size()), Each::value, w.near.edges, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
       if (w.list.apart(edges[k]) < reachOf(m.edge_share_m[edges[k].a], m.edge_share_m[edges[k].b]))
         list.push_back(edges[k]);
@@ -328,14 +330,13 @@ void dropUnreached(const CollisionModel& m, const ObstacleMotion& obstacles, con
                    std::vector<Contact>& near) {
   const int n = static_cast<int>(near.size());
   std::vector<char> reached(near.size(), 1);
-#pragma omp parallel for schedule(static) if (n > kMany)
-  for (int k = 0; k < n; ++k) {
+  forAll(Each::value, n, [&](int k) {
     const Contact& c = near[k];
-    if (!(c.gap_m > 0)) continue;
+    if (!(c.gap_m > 0)) return;
     const Vec3 from = c.gap_m * c.normal;
     const Vec3 way = w.x1[c.sample] - w.x0[c.sample] - wayOfBody(m, obstacles, c);
     reached[k] = comesWithin(contactReach(std::max(m.cloth.thickness_m[c.sample], c.clearance_m)), from, way);
-  }
+  });
   std::size_t kept = 0;
   for (int k = 0; k < n; ++k)
     if (reached[k]) near[kept++] = near[k];
@@ -398,28 +399,30 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
   };
   const std::span<const PointTriangle> points = w.list.pairs().points;
   const std::span<const EdgeEdge> edges = w.list.pairs().edges;
-  appendInOrder(static_cast<int>(points.size()), kMany, hits, [&](int first, int end, std::vector<PairHit>& found) {
-    for (int k = first; k < end; ++k) {
-      const PointTriangle& p = points[k];
-      if (w.list.apart(p) > 2 * kSeparation_m) continue;
-      const auto& [a, b, c] = m.mesh.triangles[p.triangle];
-      Box triangle = path(a);
-      triangle.add(path(b));
-      triangle.add(path(c));
-      if (!overlap(path(p.vertex).grown(2 * kSeparation_m), triangle)) continue;
-      ask({false, p.vertex, p.triangle, 0, {}}, {p.vertex, a, b, c}, found);
-    }
-  });
-  appendInOrder(static_cast<int>(edges.size()), kMany, hits, [&](int first, int end, std::vector<PairHit>& found) {
-    for (int k = first; k < end; ++k) {
-      const EdgeEdge& p = edges[k];
-      if (w.list.apart(p) > 2 * kSeparation_m || !overlap(edgePath(p.a).grown(2 * kSeparation_m), edgePath(p.b)))
-        continue;
-      const auto [a, b] = m.mesh.edges[p.a];
-      const auto [c, d] = m.mesh.edges[p.b];
-      ask({true, p.a, p.b, 0, {}}, {a, b, c, d}, found);
-    }
-  });
+  appendInOrder(static_cast<int>(points.size()), Each::value, hits,
+                [&](int first, int end, std::vector<PairHit>& found) {
+                  for (int k = first; k < end; ++k) {
+                    const PointTriangle& p = points[k];
+                    if (w.list.apart(p) > 2 * kSeparation_m) continue;
+                    const auto& [a, b, c] = m.mesh.triangles[p.triangle];
+                    Box triangle = path(a);
+                    triangle.add(path(b));
+                    triangle.add(path(c));
+                    if (!overlap(path(p.vertex).grown(2 * kSeparation_m), triangle)) continue;
+                    ask({false, p.vertex, p.triangle, 0, {}}, {p.vertex, a, b, c}, found);
+                  }
+                });
+  appendInOrder(
+      static_cast<int>(edges.size()), Each::value, hits, [&](int first, int end, std::vector<PairHit>& found) {
+        for (int k = first; k < end; ++k) {
+          const EdgeEdge& p = edges[k];
+          if (w.list.apart(p) > 2 * kSeparation_m || !overlap(edgePath(p.a).grown(2 * kSeparation_m), edgePath(p.b)))
+            continue;
+          const auto [a, b] = m.mesh.edges[p.a];
+          const auto [c, d] = m.mesh.edges[p.b];
+          ask({true, p.a, p.b, 0, {}}, {a, b, c, d}, found);
+        }
+      });
   w.report.touching += touching;
   w.report.capped += capped;
   std::sort(hits.begin(), hits.end(), [](const PairHit& p, const PairHit& q) {

@@ -168,6 +168,7 @@ bool ExplicitRun::step() {
   state_.time_s = left_ == 0 ? o_.end_s : o_.end_s - static_cast<double>(left_) * h_;
   if (limit_) limited_ = limit();
   forces();
+  commitStep(system_, state_);
   (damped_ ? *effective_ : mass_).solve(f_, state_.a);
   for (std::size_t i = 0; i < n; ++i) state_.v[i] += 0.5 * h_ * state_.a[i];
   return std::isfinite(norm(state_.a));
@@ -203,6 +204,7 @@ DynamicReport ExplicitRun::run(const DynamicObserver& observe) {
     }
     if (!automatic && !finite) {
       state_ = start;
+      system_.setHistory(state_.history);
       report_.why = fmt::format(
           "time {:.6g} s, after {} steps of {:.3e} s: the motion is not finite; likeliest cause: the step "
           "is longer than the stable one (step_s 0 takes that)",
@@ -215,6 +217,7 @@ DynamicReport ExplicitRun::run(const DynamicObserver& observe) {
       // Not for the last digits of an estimate whose error is part of it.
       if (!finite || !(h_ * after <= 2 || after <= 1.005 * omega)) {
         state_ = start;
+        system_.setHistory(state_.history);
         pulled_ = pulled;
         if (++rejections > kMostRejections) {
           report_.why = fmt::format(

@@ -166,6 +166,7 @@ DynamicReport integrateImplicit(System& system, const DynamicOptions& o, Dynamic
     state.a.swap(a);
     position += step;
     state.time_s = timeAt(position);
+    commitStep(system, state);
     largest = std::max(largest, system.residual(state.y, state.time_s, g));
     ++report.steps;
     if (!observe(state)) return report;
@@ -175,12 +176,24 @@ DynamicReport integrateImplicit(System& system, const DynamicOptions& o, Dynamic
   return report;
 }
 
+void commitStep(System& system, DynamicState& state) {
+  state.lost_J += system.commit(state.y, state.time_s);
+  state.history.assign(system.history().begin(), system.history().end());
+}
+
 DynamicReport integrate(System& system, const DynamicOptions& o, DynamicState& state, const DynamicObserver& observe) {
   const std::size_t n = static_cast<std::size_t>(system.size());
   for (std::vector<double>* part : {&state.y, &state.v, &state.a}) {
     if (part->empty()) part->assign(n, 0.0);
     if (part->size() != n) throw InputError({"", 0, "state"}, fmt::format("{} unknowns, expected {}", part->size(), n));
   }
+  if (!state.history.empty()) {
+    if (state.history.size() != system.history().size())
+      throw InputError({"", 0, "state"},
+                       fmt::format("remembers {} numbers, expected {}", state.history.size(), system.history().size()));
+    system.setHistory(state.history);
+  }
+  state.history.assign(system.history().begin(), system.history().end());
   if (!(o.end_s > state.time_s)) throw InputError({"", 0, "end_s"}, "must be after the start");
   if (!(o.tolerance > 0) || o.iterations < 1) throw InputError({"", 0, "tolerance"}, "must be > 0");
   if (o.scheme != TimeScheme::explicit_verlet && system.limit())

@@ -26,6 +26,8 @@ struct DynamicOptions {
 struct DynamicState {
   double time_s = 0;
   std::vector<double> y, v, a;
+  std::vector<double> history = {};  ///< committed; empty: of new cloth, or the laws remember nothing
+  double lost_J = 0;                 ///< by the laws since the start
   std::vector<double> limit_J = {};  ///< multipliers of the strain limits in the last step; empty: none
 };
 

@@ -13,7 +13,7 @@
 #include "core/contact/response.hpp"
 #include "core/contact/zones.hpp"
 #include "core/motion/collisions.hpp"
-#include "core/motion/deforming.hpp"
+#include "core/motion/stage_work.hpp"
 #include "core/motion/stitch.hpp"
 #include "core/motion/strain_limit.hpp"
 
@@ -103,6 +103,7 @@ struct ForceSums {
 
 /// What a contact leaves to the next step.
 struct WarmContact {
+  ContactKind kind = ContactKind::sample_on_body;
   int sample = 0, obstacle = 0, feature = 0;
   Vec3 traction;       ///< impulse per area that the next solve starts from [N s/m^2]
   double mean_Pa = 0;  ///< pressure that has lasted (lastingPressure)
@@ -197,13 +198,27 @@ struct PhaseTimes {
   double searched_steps = 0;
 };
 
-/// Scratch of a step, and the impulses of the last one (read by the recorder).
-struct StepWork {
+/// What a step did, for the recorder and the ledger.
+struct StepResult {
+  std::vector<ContactRow> rows;  ///< contacts that were solved
+  std::vector<Vec3> impulses;    ///< of these, per area of the rows' samples: on the cloth [N s]
+  std::vector<ImpactZone> zones;
+  std::vector<Vec3> zone_change;                 ///< velocity of each free point that zones added, where there are any
+  std::vector<ContactImpulse> contact_impulses;  ///< of bodies on the cloth
+  std::vector<Vec3> spring_impulses;             ///< on the cloth, one per spring [N s]
+  /// On each of Model::held_points by what holds it, with that point's own weight [N s].
+  std::vector<Vec3> held_impulses;
+};
+
+/// Scratch of a step. Nobody outside of core/motion reads it.
+struct StepScratch {
   ClothWork cloth;
   ContactWork contact;
   LimitWork limit;
+  StageWork stage;
+  CollisionWork collisions;
   std::vector<double> inner_force;
-  std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm, impulses;
+  std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm;
   std::vector<Vec3> jerk, net_jerk;  ///< changes of acceleration: of the free points, of the control points
   std::vector<Vec3> limit_end, moved, sample_impulse, pulled_before, pulled_after;
   std::vector<Vec3> lasting, sample_pressing;
@@ -212,19 +227,13 @@ struct StepWork {
   std::vector<int> near_first;  ///< of each sample in `near`, sorted by sample
   std::vector<PairHit> pair_hits;
   std::vector<char> inside;  ///< samples that are behind a body's surface
-  std::vector<ContactRow> restoring, edge_rows;
-  std::vector<int> stuck;  ///< samples of the pairs that no zone kept apart, where the step failed for impacts
-  CollisionWork collisions;
-  std::vector<ImpactZone> zones;  ///< of the last step
-  std::vector<Vec3> zone_change;  ///< velocity of each free point that they added, where there are zones
-  std::vector<ContactRow> rows, yielding;
+  std::vector<ContactRow> restoring, edge_rows, yielding;
+  std::vector<int> stuck;      ///< samples of the pairs that no zone kept apart, where the step failed for impacts
   std::vector<Vec3> unsolved;  ///< velocities before the contacts
-  std::vector<Placement> start, end, anchors_start, anchors_end;
-  DeformingWork deforming;
-  std::vector<ContactImpulse> contact_impulses;  ///< of the last step
-  std::vector<Vec3> spring_impulses;             ///< of the last step, on the cloth, one per spring [N s]
-  /// Of the last step, on each of Model::held_points by what holds it, with that point's own weight [N s].
-  std::vector<Vec3> held_impulses;
+};
+
+/// What steps work with, one after the other.
+struct StepWork : StepScratch, StepResult {
   PhaseTimes times;  ///< summed over the steps
 };
 

@@ -66,7 +66,7 @@ MotionAudit::Moment MotionAudit::at(const DynamicState& state) const {
   m.load.resize(n);
   s.cloth->map().Tt.multiply<Vec3>(external, m.load);
   m.support.resize(n);
-  s.cloth->map().Tt.multiply<Vec3>(reactions(s, state.y, t), m.support);
+  s.cloth->map().Tt.multiply<Vec3>(reactions(s, state.y, t, ProgramEnds::constant, state.history), m.support);
   m.damping.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     m.damping[i] = s.rayleigh_mass_per_s * Mv[i] + s.drag_kg_per_m2s * s.area_m2[i] * v[i];
@@ -75,7 +75,7 @@ MotionAudit::Moment MotionAudit::at(const DynamicState& state) const {
       if (free_[3 * i + static_cast<std::size_t>(d)]) m.support[i][d] = 0;
     m.energy_J += 0.5 * dot(v[i], Mv[i]);
   }
-  m.energy_J += strainEnergy(s, state.y, t);
+  m.energy_J += strainEnergy(s, state.y, t, ProgramEnds::constant, state.history) + state.lost_J;
   m.momentum_Ns = total(Mv);
   m.load_N = total(m.load);
   m.support_N = total(m.support);

@@ -8,7 +8,8 @@
 
 namespace gambeson {
 
-/// Over the steps so far, with forces F (loads), R (supports) and -d (drag, damping by mass), displacements u:
+/// Over the steps so far, with forces F (loads), R (supports) and -d (drag, damping by mass), displacements u, U with
+/// what the laws have lost:
 ///
 ///   energy:    K + U - (K + U at the start) - ∑ (F0 + F1)/2 . du - ∑ (R0 + R1)/2 . du + ∑ d . du
 ///   momentum:  P - (P at the start) - ∑ h (F0 + F1 + R0 + R1 - d0 - d1)/2

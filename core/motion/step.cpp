@@ -3,23 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/parallel.hpp"
+#include "core/motion/step_audit.hpp"
 #include "core/motion/step_contact.hpp"
 
 namespace gambeson {
 namespace {
-
-/// Where hardly anything acts from outside, velocities and internal forces still round: the scale of the momentum's
-/// error is at least this part of the momenta of all points and of what a weight would add. At the limit of 1e-9 of the
-/// scale, some 500 times the rounding of a velocity.
-constexpr double kScaleFloor = 1e-4, kWeight_m_per_s2 = 9.81;
-
-constexpr int kMany = 4096;  ///< samples, from which on threads share the work
-
-Vec3 sum(std::span<const Vec3> values) {
-  Vec3 s{};
-  for (const Vec3& v : values) s += v;
-  return s;
-}
 
 /// Internal force at s on the free points, Tᵀ f(T p), into `out`, and on the inner unknowns, into work.inner_force,
 /// from the committed history; what laws would remember into `history` where that is not empty.
@@ -114,7 +103,7 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
   addStitchForces(m.stitches, m.surface.WT, s.p, s.a);
   springForces(m, s, anchor_frames, w.spring_force);
   s.sums = {};
-  s.sums.springs = sum(w.spring_force);
+  s.sums.springs = sumOf(w.spring_force);
   s.held_N.clear();
   const auto deadForce = [&](int i) { return m.dead_force_N.empty() ? Vec3{} : m.dead_force_N[i]; };
   for (const int i : m.held_points)
@@ -175,21 +164,6 @@ std::span<const Vec3> together(std::span<const Vec3> pulled, std::span<const Vec
   return sum;
 }
 
-/// Work beyond that of its impulse I on the mean velocity u = (predictor + velocity)/2 - half a of a force that acts
-/// all the time though its impulse comes once a step [J]. With its accelerations c0 and c1 at the ends of the step, I =
-/// J + 2 half m c0: half m (c0 + c1) acts as the other forces do, on the way of the step, and J, what was not foreseen,
-/// at once on u; at rest both are nothing. `before`, `after`: empty or the accelerations.
-double lastingWork(const Model& m, std::span<const Vec3> before, std::span<const Vec3> after, const State& in,
-                   double half, const StepWork& w) {
-  double work = 0;
-  for (int i = 0; i < m.freeCount(); ++i) {
-    const Vec3 c0 = before.empty() ? Vec3{} : before[i], c1 = after.empty() ? Vec3{} : after[i];
-    work += (half * m.mass_kg[i]) *
-            (dot(c0 + c1, w.velocity[i]) - dot(c0, w.predictor[i] + w.velocity[i] - (2 * half) * in.a[i]));
-  }
-  return work;
-}
-
 }  // namespace
 
 void samplePositions(const Model& model, std::span<const Vec3> p, std::vector<Vec3>& x) {
@@ -238,15 +212,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   StepReport report;
   report.step_s = dt;
   StopWatch clock, whole;
-  w.start.resize(m.obstacles.size());
-  w.end.resize(m.obstacles.size());
-  w.anchors_start.resize(m.anchor_count);
-  w.anchors_end.resize(m.anchor_count);
-  stage.placements(in.time_s, w.start, w.anchors_start);
-  stage.placements(in.time_s + dt, w.end, w.anchors_end);
-
-  placeDeforming(m, stage, in.time_s, in.time_s + dt, w.deforming);
-
+  placeStage(m, stage, in.time_s, in.time_s + dt, w.stage);
   const Vec3 air0 = stage.air(in.time_s), air1 = stage.air(in.time_s + dt);
   clock.lap(w.times.stage);
 
@@ -281,14 +247,13 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.inner_acceleration.resize(out.inner_rate.size());
   samplePositions(m, out.p, w.x1);
   const int samples = m.surface.size();
-  double largest_way = 0;
-#pragma omp parallel for schedule(static) reduction(max : largest_way) if (samples > kMany)
-  for (int s = 0; s < samples; ++s) largest_way = std::max(largest_way, norm(w.x1[s] - w.x0[s]) / m.cell_m[s]);
-  report.largest_way = largest_way;
+  report.largest_way =
+      largestOf(Each::value, samples, 0.0, [&](int s) { return norm(w.x1[s] - w.x0[s]) / m.cell_m[s]; });
   clock.lap(w.times.other);
   out.anchors = in.anchors;
   std::vector<Vec3>& spring_mean = w.spring_impulses;
-  const AnchorFrames before{w.anchors_start, w.deforming.start}, after{w.anchors_end, w.deforming.end};
+  const AnchorFrames before{w.stage.start.anchors, w.stage.start.vertices},
+      after{w.stage.end.anchors, w.stage.end.vertices};
   springForces(m, in, before, spring_mean);
   out.limit_J.clear();
   if (m.strain_limit.mode != LimitMode::none) limitMultipliers(m.strain_rows, out.p, dt, out.limit_J, w.limit);
@@ -316,60 +281,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.share = in.share;
   out.last_step_s = dt;
 
-  // The audit, each term from its own source.
-  MomentumAudit& audit = report.momentum;
-  w.held_impulses.assign(m.held_points.size(), Vec3{});
-  for (std::size_t k = 0; k < w.held_impulses.size(); ++k) w.held_impulses[k] = half * (in.held_N[k] + out.held_N[k]);
-  contactLedger(m, in, dt, report, w);
-  if (m.strain_limit.mode != LimitMode::none) {
-    const Vec3 pull_after = sum(held_after), pull_before = sum(held_before);
-    audit.supports -= half * (pull_after - pull_before);
-    audit.scale += half * (norm(pull_after) + norm(pull_before));
-    for (std::size_t k = 0; k < w.held_impulses.size(); ++k) {
-      w.held_impulses[k] += w.limit.pull[m.held_points[k]] / dt;
-      if (!held_after.empty()) w.held_impulses[k] -= half * held_after[k];
-      if (!held_before.empty()) w.held_impulses[k] += half * held_before[k];
-    }
-    for (int i = 0; i < n; ++i) {
-      const Vec3 impulse = -w.limit.pull[i] / dt;
-      if (m.held[i]) {
-        audit.supports -= impulse;
-        audit.scale += norm(impulse);
-        continue;
-      }
-      report.work.limit += 0.5 * dot(impulse, w.predictor[i] + w.velocity[i] - dt * in.a[i]);
-    }
-    report.work.limit += lastingWork(m, w.pulled_before, w.pulled_after, in, half, w);
-  }
-  if (!in.pressed.empty() || !out.pressed.empty()) {
-    report.work.contact += lastingWork(m, in.pressed, out.pressed, in, half, w);
-    for (int i = 0; i < n; ++i) {
-      if (!out.pressed.empty()) audit.pressing += (m.mass_kg[i] * half) * out.pressed[i];
-      if (!in.pressed.empty()) audit.pressing -= (m.mass_kg[i] * half) * in.pressed[i];
-    }
-    audit.scale += norm(audit.pressing);
-  }
-  double floor = 0;
-  for (int i = 0; i < n; ++i) {
-    if (m.held[i]) continue;
-    floor += m.mass_kg[i] * (norm(out.v[i]) + kWeight_m_per_s2 * dt);
-    if (!m.dead_force_N.empty()) {
-      audit.dead += dt * m.dead_force_N[i];
-      audit.scale += dt * norm(m.dead_force_N[i]);
-    }
-    audit.change += m.mass_kg[i] * (out.v[i] - in.v[i]);
-    audit.scale += m.mass_kg[i] * norm(out.v[i] - in.v[i]);  // internal forces cancel in the sum, not in its rounding
-    audit.gravity += (m.mass_kg[i] * dt) * m.environment.gravity_m_per_s2;
-    audit.scale += m.mass_kg[i] * dt * norm(m.environment.gravity_m_per_s2);
-    const double d = m.drag_kg_per_s[i];
-    const Vec3 &v0 = in.v[i], &v1 = out.v[i];
-    report.work.drag -= half * d * (dot(v0 - air0, v0) + dot(v1 - air1, v1));
-    report.work.dissipated += half * d * (norm2(v0 - air0) + norm2(v1 - air1));
-  }
-  audit.drag = half * (in.sums.drag + out.sums.drag);
-  audit.supports += half * (in.sums.springs + in.sums.held + out.sums.springs + out.sums.held);
-  audit.scale += norm(audit.drag) + half * (norm(in.sums.held) + norm(out.sums.held));
-  audit.scale = std::max(audit.scale, kScaleFloor * floor);
+  auditStep(m, {in, out, dt, air0, air1, held_before, held_after}, report, w);
   clock.lap(w.times.other);
   if (report.searched) {
     ++w.times.searches;

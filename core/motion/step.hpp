@@ -21,8 +21,9 @@ void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> a
 /// Where strain is limited (Zheng 2013, section 5.2), the end positions p + dt v are projected, v being the velocity of
 /// the first half step after drag-free forces; what the projection moves is an impulse of that velocity, dq/dt, as the
 /// contacts' impulses are. Section 5.1 lets contact follow as the next substep. But contact stretches again what it
-/// pushes, and a projection pulls into what the cloth touches, so they take turns, each with the other's impulses in
-/// place, until the strains hold after the contacts; the contacts have the last word. StepReport gives both residuals.
+/// pushes, and a projection pulls into what the cloth touches, so limits of equality and contacts are one problem
+/// (StrainHold). Upper limits, which may slacken, and contacts take turns, each with the other's impulses in place,
+/// until the strains hold after the contacts; the contacts have the last word. StepReport gives both residuals.
 StepReport step(const Model& model, const Stage& stage, const State& in, double dt_s, State& out, StepWork& work);
 
 /// Sample positions W T p and velocities W T v.

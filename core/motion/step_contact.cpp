@@ -5,15 +5,12 @@
 #include <tuple>
 
 #include "core/contact/ellipsoid.hpp"
+#include "core/math/parallel.hpp"
 #include "core/motion/body_edges.hpp"
 #include "core/motion/clearance.hpp"
 
 namespace gambeson {
 namespace {
-
-constexpr int kRounds = 8;  ///< of solves
-constexpr int kZoneRounds = 12;
-constexpr int kMany = 4096;  ///< samples or rows, from which on threads share the work
 
 /// The sum of both sides' thicknesses; weights of a side add up to 1, a body has none.
 double clothLayer(const Model& m, const ContactRow& row) {
@@ -21,15 +18,32 @@ double clothLayer(const Model& m, const ContactRow& row) {
   for (int k = 0; k < row.stencil.count; ++k) sum += std::abs(row.stencil.weight[k]) * m.layer_m[row.stencil.sample[k]];
   return sum;
 }
-/// The distance that a contact restores: half the sum of both sides' thicknesses, at a body that of the cloth, and no
-/// less than keeps the cloth between the samples out of it.
+
+}  // namespace
+
 double layerOf(const Model& m, const ContactRow& row) {
   const double sum = clothLayer(m, row);
-  return row.contact.obstacle >= 0 ? std::max(sum, row.contact.clearance_m) : 0.5 * sum;
+  return row.contact.onBody() ? std::max(sum, row.contact.clearance_m) : 0.5 * sum;
 }
+
+MaterialPoint nearestTouched(const Model& m, const ImpactZone& zone, const Vec3& p, const StepWork& w) {
+  MaterialPoint point;
+  if (!m.obstacles[zone.body].deforms) return point;
+  const std::vector<Vec3>& x = w.stage.start.vertices[zone.body];
+  point.add(*std::min_element(zone.touched.begin(), zone.touched.end(),
+                              [&](int a, int b) { return norm2(x[a] - p) < norm2(x[b] - p); }),
+            1);
+  return point;
+}
+
+namespace {
+
+constexpr int kRounds = 8;  ///< of solves
+constexpr int kZoneRounds = 12;
+
 /// How far the cloth between the samples stands out from them towards the body: its gap is so much smaller than theirs.
 double standsOut(const Model& m, const ContactRow& row) {
-  return row.contact.obstacle >= 0 ? std::max(0.0, row.contact.clearance_m - clothLayer(m, row)) : 0;
+  return row.contact.onBody() ? std::max(0.0, row.contact.clearance_m - clothLayer(m, row)) : 0;
 }
 
 /// Mass per area of the cloth on the side that the normal points to, whose weights add up to 1. Contact::sample does
@@ -50,31 +64,29 @@ void setPersistent(const Model& m, double dt, const Vec3& warm, ContactRow& row)
   if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
 }
 
-/// The order of persistent contacts: bodies first, then samples on cloth, then edges, then edges of bodies; as the
-/// lists come.
-auto key(const auto& c) {
-  const bool body_edge = c.obstacle >= 0 && c.feature < 0;
-  return std::tuple(body_edge ? 4 : std::max(0, -c.obstacle), c.sample, c.obstacle, c.feature);
-}
+/// The order of persistent contacts, as the lists come.
+auto key(const auto& c) { return std::tuple(c.kind, c.sample, c.obstacle, c.feature); }
 
-ObstacleMotion motionOf(const StepWork& w) { return {w.start, w.end, w.deforming.start, w.deforming.end}; }
+ObstacleMotion motionOf(const StepWork& w) {
+  const StageInstant &a = w.stage.start, &b = w.stage.end;
+  return {a.obstacles, b.obstacles, a.vertices, b.vertices};
+}
 
 /// Rows of the persistent contacts, as the lists come.
 void listRows(const Model& m, double dt, StepWork& w) {
   const int near = static_cast<int>(w.near.size()), points = static_cast<int>(w.collisions.points.size());
   w.rows.resize(w.near.size() + w.collisions.points.size() + w.edge_rows.size());
-#pragma omp parallel for schedule(static) if (near > kMany)
-  for (int k = 0; k < near; ++k)
+  forAll(Each::value, near, [&](int k) {
     w.rows[k] = bodyRow(w.near[k], wayOfBody(m.collisions, motionOf(w), w.near[k]) / dt, 0, false);
-#pragma omp parallel for schedule(static) if (points > kMany)
-  for (int k = 0; k < points; ++k) {
+  });
+  forAll(Each::value, points, [&](int k) {
     const ClothContactPoint& p = w.collisions.points[k];
     ContactRow& row = w.rows[near + k];
     row = {};
     row.contact = p.contact;
     row.stencil = p.stencil;
     row.partner = p.partner;
-  }
+  });
   std::copy(w.edge_rows.begin(), w.edge_rows.end(), w.rows.begin() + near + points);
 }
 
@@ -90,11 +102,11 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   const auto around = [&](const Contact& c) {
     WarmContact mean;
     int count = 0;
-    const auto first = std::lower_bound(in.warm.begin(), in.warm.end(), std::pair(-kSampleOnCloth, c.sample),
-                                        [&](const WarmContact& a, const std::pair<int, int>& b) {
-                                          return std::pair(std::get<0>(key(a)), a.sample) < b;
-                                        });
-    for (auto it = first; it != in.warm.end() && it->obstacle == kSampleOnCloth && it->sample == c.sample; ++it) {
+    const auto first = std::lower_bound(
+        in.warm.begin(), in.warm.end(), std::pair(ContactKind::sample_on_cloth, c.sample),
+        [&](const WarmContact& a, const std::pair<ContactKind, int>& b) { return std::pair(a.kind, a.sample) < b; });
+    for (auto it = first; it != in.warm.end() && it->kind == ContactKind::sample_on_cloth && it->sample == c.sample;
+         ++it) {
       if (!(dot(it->traction, c.normal) > 0)) continue;
       mean.traction += it->traction;
       mean.mean_Pa += it->mean_Pa;
@@ -111,12 +123,11 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     const bool known = at < in.warm.size() && key(in.warm[at]) == key(row.contact);
     WarmContact warm;
     if (known) warm = in.warm[at];
-    if (!known && row.contact.obstacle == kSampleOnCloth) warm = around(row.contact);
+    if (!known && row.contact.kind == ContactKind::sample_on_cloth) warm = around(row.contact);
     w.warm[k] = scale * warm.traction;
     row.mean_Pa = warm.mean_Pa;
   }
-#pragma omp parallel for schedule(static) if (n > kMany)
-  for (int k = 0; k < n; ++k) setPersistent(m, dt, w.warm[k], w.rows[k]);
+  forAll(Each::value, n, [&](int k) { setPersistent(m, dt, w.warm[k], w.rows[k]); });
 }
 
 /// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for half of k delta more each round: bodies are
@@ -130,7 +141,8 @@ void setImpactTarget(const Model& m, double dt, int round, ContactRow& row) {
 
 /// A sample's hit at an obstacle; replaces the row of the same pair.
 void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWork& w) {
-  const Vec3 body = (w.end[hit.obstacle] * hit.local - w.start[hit.obstacle] * hit.local) / dt;
+  const Vec3 body =
+      (w.stage.end.obstacles[hit.obstacle] * hit.local - w.stage.start.obstacles[hit.obstacle] * hit.local) / dt;
   ContactRow row = bodyRow(hit, body, 0, true);
   setImpactTarget(m, dt, round, row);
   for (ContactRow& old : w.rows)
@@ -310,9 +322,8 @@ bool anyImpact(const Model& m, double dt, StepWork& w) {
   w.x1.resize(m.surface.size());
   m.surface.WT.multiply<Vec3>(w.velocity, w.x1);
   const int samples = m.surface.size();
-#pragma omp parallel for schedule(static) if (samples > kMany)
-  for (int s = 0; s < samples; ++s) w.x1[s] = w.x0[s] + dt * w.x1[s];
-  m.proximity->impacts(w.start, w.end, w.x0, w.x1, w.hits);
+  forAll(Each::value, samples, [&](int s) { w.x1[s] = w.x0[s] + dt * w.x1[s]; });
+  m.proximity->impacts(w.stage.start.obstacles, w.stage.end.obstacles, w.x0, w.x1, w.hits);
   std::erase_if(w.hits, [&](const Contact& hit) { return w.collisions.tangle[hit.sample] != Tangle::kFree; });
   moveVertices(w.x1, w.collisions);
   findImpacts(m.collisions, dt, w.inside, w.collisions, w.pair_hits);
@@ -322,8 +333,8 @@ bool anyImpact(const Model& m, double dt, StepWork& w) {
 /// When in the step a sample's path enters the ellipsoid that it hits, in [0, 1].
 double timeOf(const Model& m, const Contact& hit, const StepWork& w) {
   const EllipsoidMetric shape = ellipsoidMetric(std::get<Ellipsoid>(m.obstacles[hit.obstacle].shape));
-  return ellipsoidEntry(shape, toLocal(w.start[hit.obstacle], w.x0[hit.sample]),
-                        toLocal(w.end[hit.obstacle], w.x1[hit.sample]))
+  return ellipsoidEntry(shape, toLocal(w.stage.start.obstacles[hit.obstacle], w.x0[hit.sample]),
+                        toLocal(w.stage.end.obstacles[hit.obstacle], w.x1[hit.sample]))
       .value_or(0);
 }
 
@@ -337,21 +348,10 @@ RigidVelocity motionAround(const Model& m, const ImpactZone& zone, double dt, co
       for (int corner : c.mesh.triangles[t]) around.push_back(corner - first);
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
-  const std::vector<Vec3>&start = w.deforming.start[zone.body], &end = w.deforming.end[zone.body];
+  const std::vector<Vec3>&start = w.stage.start.vertices[zone.body], &end = w.stage.end.vertices[zone.body];
   std::vector<Vec3> velocity(start.size());
   for (int v : around) velocity[v] = (end[v] - start[v]) / dt;
   return nearestRigid(around, start, std::vector<double>(start.size(), 1.0), velocity);
-}
-
-/// The touched vertex of a zone's body nearest to a point, where the body deforms.
-MaterialPoint nearestTouched(const Model& m, const ImpactZone& zone, const Vec3& p, const StepWork& w) {
-  MaterialPoint point;
-  if (!m.obstacles[zone.body].deforms) return point;
-  const std::vector<Vec3>& x = w.deforming.start[zone.body];
-  point.add(*std::min_element(zone.touched.begin(), zone.touched.end(),
-                              [&](int a, int b) { return norm2(x[a] - p) < norm2(x[b] - p); }),
-            1);
-  return point;
 }
 
 /// Moves what still meets in rigid zones, which grow until nothing does. A zone at a body moves with it, a zone with a
@@ -377,7 +377,9 @@ bool moveZones(const Model& m, const State& in, double dt, StepReport& report, S
           for (int i : zone.points) w.velocity[i] = body.at(in.p[i]);
         } else {
           for (int i : zone.points)
-            w.velocity[i] = (w.end[zone.body] * toLocal(w.start[zone.body], in.p[i]) - in.p[i]) / dt;
+            w.velocity[i] =
+                (w.stage.end.obstacles[zone.body] * toLocal(w.stage.start.obstacles[zone.body], in.p[i]) - in.p[i]) /
+                dt;
         }
       } else if (held) {
         for (int i : zone.points) w.velocity[i] = {};
@@ -406,8 +408,8 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
     // What stops a sample on its way to the layer does not press on the layer.
     const double pressure = atLayer(c.gap_m, layerOf(m, row)) ? dot(w.warm[i], c.normal) / dt : 0;
     const double mean = lastingPressure(row.mean_Pa, pressure, dt, densityOf(m, row.stencil), m.contact);
-    warm.push_back({c.sample, c.obstacle, c.feature, w.warm[i], mean});
-    if (row.partner >= 0) warm.push_back({row.partner, c.obstacle, -1, -w.warm[i], mean});
+    warm.push_back({c.kind, c.sample, c.obstacle, c.feature, w.warm[i], mean});
+    if (row.partner >= 0) warm.push_back({c.kind, row.partner, c.obstacle, -1, -w.warm[i], mean});
   }
   std::stable_sort(warm.begin(), warm.end(),
                    [](const WarmContact& a, const WarmContact& b) { return key(a) < key(b); });
@@ -442,15 +444,15 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   m.surface.WT.multiply<Vec3>(w.predictor, w.sample_velocity);
   w.reach.resize(samples);
   w.x1.resize(samples);
-#pragma omp parallel for schedule(static) if (samples > kMany)
-  for (int s = 0; s < samples; ++s) {
+  forAll(Each::value, samples, [&](int s) {
     w.reach[s] = contactReach(std::max(m.layer_m[s], kLargestClearance_m)) + dt * norm(w.sample_velocity[s]);
     w.x1[s] = w.x0[s] + dt * w.sample_velocity[s];
-  }
+  });
   placeVertices(m.collisions, in.time_s, dt, w.x0, motionOf(w), w.collisions);
   moveVertices(w.x1, w.collisions);
   listNear(m.collisions, w.collisions);
-  m.proximity->near(w.start, w.end, w.x0, w.reach, w.near, &w.collisions.near_bodies, &w.deforming.surfaces);
+  m.proximity->near(w.stage.start.obstacles, w.stage.end.obstacles, w.x0, w.reach, w.near, &w.collisions.near_bodies,
+                    &w.stage.surfaces);
   findClearances(m, w);
   dropUnreached(m.collisions, motionOf(w), w.collisions, w.near);
   w.inside.assign(samples, 0);
@@ -520,69 +522,6 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   report.why = std::to_string(w.hits.size() + w.pair_hits.size()) + " pairs would still pass through each other" +
                (w.hits.empty() ? "" : ", of the cloth into " + m.obstacles[w.hits[0].obstacle].segment);
   return false;
-}
-
-void contactLedger(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
-  w.contact_impulses.clear();
-  const SparseRows& WT = m.surface.WT;
-  for (std::size_t i = 0; i < w.rows.size(); ++i) {
-    const ContactRow& row = w.rows[i];
-    const Vec3& impulse = w.impulses[i];
-    if (impulse == Vec3{}) continue;
-    const Contact& c = row.contact;
-    const bool body = c.obstacle >= 0;
-    Vec3 mean{};
-    for (int j = 0; j < row.stencil.count; ++j) {
-      const int s = row.stencil.sample[j];
-      const Vec3 share = row.stencil.weight[j] * impulse;
-      if (body)
-        w.contact_impulses.push_back(
-            {s, c.obstacle, c.feature, share, c.normal, w.start[c.obstacle] * c.local, c.touched});
-      if (body) report.momentum.obstacles -= share;
-      for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
-        if (const int point = WT.columns[k]; m.held[point]) {
-          report.momentum.supports -= WT.values[k] * share;
-          w.held_impulses[heldSlot(m, point)] -= WT.values[k] * share;
-        }
-      mean += (0.5 * row.stencil.weight[j]) *
-              (sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, in.a));
-    }
-    report.momentum.scale += norm(impulse);
-    const double normal = dot(impulse, c.normal);
-    report.work.contact += dot(impulse, mean);
-    if (row.slippery) report.work.restoring += dot(impulse, mean);
-    report.work.friction += dot(impulse - normal * c.normal, mean);
-    const double separation =
-        !row.slippery && c.gap_m < layerOf(m, row) && row.target_m_per_s > 0 ? normal * row.target_m_per_s : 0;
-    report.work.separation += separation;
-    if (!row.slippery) report.work.dissipated += separation - dot(impulse, mean - row.body_velocity);
-  }
-  // What zones take from the cloth goes to what they move with.
-  for (const ImpactZone& zone : w.zones) {
-    std::vector<std::size_t> held;
-    for (int i : zone.points)
-      if (m.held[i]) held.push_back(heldSlot(m, i));
-    for (int i : zone.points) {
-      if (m.held[i]) continue;
-      const Vec3 impulse = m.mass_kg[i] * w.zone_change[i];
-      report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.zone_change[i]);
-      report.work.dissipated +=
-          0.5 * dot(impulse, w.zone_change[i]) - (zone.body < 0 ? dot(impulse, w.velocity[i]) : 0);
-      report.momentum.scale += norm(impulse);
-      if (zone.body >= 0) {
-        const Vec3 point = in.p[i];
-        const int sample = m.surface.WTt.columns[m.surface.WTt.offsets[i]];
-        const double size = norm(impulse);
-        if (size == 0) continue;
-        w.contact_impulses.push_back(
-            {sample, zone.body, 0, impulse, impulse / size, point, nearestTouched(m, zone, point, w)});
-        report.momentum.obstacles -= impulse;
-      } else if (!held.empty()) {
-        report.momentum.supports += impulse;
-        for (const std::size_t k : held) w.held_impulses[k] += impulse / static_cast<double>(held.size());
-      }
-    }
-  }
 }
 
 }  // namespace gambeson

@@ -42,10 +42,10 @@ inline bool allFinite(std::span<const Vec3> values) {
   return zero == 0;
 }
 
-/// Reads w.predictor, w.x0, w.start, w.end; leaves w.velocity, w.rows with w.impulses and w.warm, and w.zone_impulses.
-/// In turn: contacts and impacts found so far solved together; paths tested; what would still pass joins them. After
-/// some rounds what is left moves in rigid zones. False where that does not do either: report.earliest_impact is the
-/// part of the step up to which nothing touches.
+/// Reads w.predictor, w.x0, w.stage; leaves w.velocity, w.rows with w.impulses and w.warm, and w.zones with
+/// w.zone_change. In turn: contacts and impacts found so far solved together; paths tested; what would still pass joins
+/// them. After some rounds what is left moves in rigid zones. False where that does not do either:
+/// report.earliest_impact is the part of the step up to which nothing touches.
 bool resolveContacts(const Model& model, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w);
 
 /// What the persistent contacts of the step leave to the next.
@@ -58,7 +58,11 @@ void keepWarm(const Model& model, double dt, const StepWork& work, std::vector<W
 /// sample to sample: then all persistent rows count, as all tensions do. Empty where nothing presses.
 void pressingAccelerations(const Model& model, double dt, StepWork& work, std::vector<Vec3>& pressed);
 
-/// Contact's part of the audit, and the impulses on bodies.
-void contactLedger(const Model& model, const State& in, double dt, StepReport& report, StepWork& w);
+/// The distance that a contact restores: half the sum of both sides' thicknesses, at a body that of the cloth, and no
+/// less than keeps the cloth between the samples out of it.
+double layerOf(const Model& model, const ContactRow& row);
+
+/// The touched vertex of a zone's body nearest to a point, where the body deforms.
+MaterialPoint nearestTouched(const Model& model, const ImpactZone& zone, const Vec3& p, const StepWork& w);
 
 }  // namespace gambeson

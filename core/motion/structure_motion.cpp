@@ -15,9 +15,10 @@ DynamicReport solveDynamic(const Structure& structure, const DynamicOptions& opt
 }
 
 std::vector<Mode> naturalModes(const Structure& structure, std::span<const double> y, double t, int count,
-                               bool lumped_mass) {
+                               bool lumped_mass, std::span<const double> history) {
   refuseLimit(structure);
   StructureSystem system(structure, ProgramEnds::constant);
+  if (!history.empty()) system.setHistory(history);
   return lowestModes(system, y, t, count, lumped_mass);
 }
 
@@ -38,7 +39,7 @@ DynamicEnergy energyOf(const Structure& s, const DynamicState& state, bool lumpe
   else
     s.consistent_kg.multiply<Vec3>(velocity, momentum);
   for (std::size_t i = 0; i < velocity.size(); ++i) energy.kinetic += 0.5 * dot(velocity[i], momentum[i]);
-  energy.internal = strainEnergy(s, state.y, t);
+  energy.internal = strainEnergy(s, state.y, t, ProgramEnds::constant, state.history);
   const std::vector<Vec3> q = controlPoints(s, state.y, t);
   for (const DeadLoad& load : s.dead)
     for (std::size_t i = 0; i < q.size(); ++i)

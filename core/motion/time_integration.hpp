@@ -14,6 +14,9 @@ DynamicReport integrateImplicit(System& system, const DynamicOptions& options, D
 DynamicReport integrateExplicit(System& system, const DynamicOptions& options, DynamicState& state,
                                 const DynamicObserver& observe);
 
+/// The step to the state is accepted: its laws remember it.
+void commitStep(System& system, DynamicState& state);
+
 /// The entries of a matrix that are not zero, with its whole diagonal.
 SymmetricMatrix withoutZeros(const SymmetricMatrix& a);
 

@@ -14,7 +14,7 @@ class Border {
  public:
   explicit Border(const TrimBoundary& b) : b_(b) {}
 
-  /// Where a point lies on side `side`.
+  /// Where along the border a point lies that is on side `side`; nothing where it is not on it.
   std::optional<double> at(Vec2 p, int side) const {
     const double s = (p.x - b_.u0) / (b_.u1 - b_.u0), t = (p.y - b_.v0) / (b_.v1 - b_.v0);
     const double off[4] = {t, 1 - s, 1 - t, s}, along[4] = {s, t, 1 - s, 1 - t};

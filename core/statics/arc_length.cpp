@@ -224,6 +224,7 @@ void followArc(System& system, const StaticOptions& options, const StaticObserve
       point.jumped = much > 1;
       point.limit_point = start.dfactor * end.dfactor < 0;
       point.bifurcation = ((point.negative_pivots - pivots) % 2 != 0) != point.limit_point;
+      commitPoint(system, state, point);
       return observe(point);
     };
     const bool passed = way * (state.factor + inc.dfactor - options.stop_factor) >= 0;

@@ -44,6 +44,7 @@ void followLoadSteps(System& system, const StaticOptions& options, const StaticO
     StaticPoint point = acceptPoint(system, state, newton, report);
     for (double& v : dy) v = -v;
     point.jumped = hasJumped(system, options, trial, before, dy, state, report);
+    commitPoint(system, state, point);
     return observe(point);
   };
   while (position < total) {

@@ -22,9 +22,10 @@ struct Mode {
 /// full orthogonalisation; consistent mass unless `lumped_mass`. Repeated modes are all found: after a run has
 /// converged, others look in the complement of what is known until none finds a lower mode. Where K is not positive
 /// definite (free bodies, unstable equilibria) the shift goes below the lowest eigenvalue, and an omega^2 within
-/// 1e-3 of the first such shift, 1e-10 max K_ii/M_ii, is zero: a rigid mode.
+/// 1e-3 of the first such shift, 1e-10 max K_ii/M_ii, is zero: a rigid mode. `history`: committed at y; empty: of new
+/// cloth.
 std::vector<Mode> naturalModes(const Structure& structure, std::span<const double> y, double t, int count,
-                               bool lumped_mass = false);
+                               bool lumped_mass = false, std::span<const double> history = {});
 
 class System;
 /// The same for any system.

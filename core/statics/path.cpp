@@ -151,6 +151,7 @@ bool startPath(System& system, const StaticOptions& options, PathState& state, S
       return false;
     }
     state.largest_force = r.force;
+    state.lost_J += system.commit(state.y, 0);
   }
   system.change(state.y, 0, first, g);
   requireHeld(system, state, g, first, report);
@@ -166,6 +167,12 @@ StaticPoint acceptPoint(System& system, PathState& state, const NewtonReport& ne
   restoreTangent(system, state, report);
   ++report.points;
   return {state.factor, state.y, newton.iterations, newton.residual, newton.rounded, state.solver.negativePivots()};
+}
+
+void commitPoint(System& system, PathState& state, StaticPoint& point) {
+  state.lost_J += system.commit(state.y, state.factor);
+  point.history.assign(system.history().begin(), system.history().end());
+  point.lost_J = state.lost_J;
 }
 
 namespace {

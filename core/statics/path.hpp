@@ -26,6 +26,7 @@ struct PathState {
   std::vector<double> y;
   double factor = 0;
   double largest_force = 0;  ///< met so far
+  double lost_J = 0;         ///< by the laws so far
   SymmetricMatrix K;
   SymmetricFactor solver;
   Definiteness definite = Definiteness::positive;
@@ -42,8 +43,10 @@ struct PathState {
 /// So a strip that hangs from a hinge along its weight goes on (and one that stands on it, as an unstable equilibrium);
 /// a free sheet under balanced loads, or a hinged strip across its weight, does not.
 bool startPath(System& system, const StaticOptions& options, PathState& state, StaticReport& report);
-/// Tangent at the state's y, factorised; the point as it is reported.
+/// Tangent at the state's y, factorised; the point as it is reported, but for what it remembers.
 StaticPoint acceptPoint(System& system, PathState& state, const NewtonReport& newton, StaticReport& report);
+/// The laws remember the point from now on: once nothing more is asked of the way to it.
+void commitPoint(System& system, PathState& state, StaticPoint& point);
 /// K of the state and its factor again, after other tangents have used them.
 void restoreTangent(System& system, PathState& state, StaticReport& report);
 NewtonOptions newtonOptions(const System& system, const StaticOptions& options, const PathState& state);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -76,17 +77,16 @@ Reduction::Reduction(const BlockMatrix& K, const SparseRows& C) {
 void Reduction::reduce(const BlockMatrix& K, SymmetricMatrix& out) const {
   out.values.resize(pattern_.rows.size());
   const long n = static_cast<long>(pattern_.rows.size());
-#pragma omp parallel for schedule(static) if (n > 4096)
-  for (long e = 0; e < n; ++e) {
+  forAll(Each::value, n, [&](long e) {
     if (offsets_.empty()) {
       out.values[e] = (weights_.empty() ? 1.0 : weights_[e]) * K.values[sources_[e]];
-      continue;
+      return;
     }
     double sum = 0;
     for (long k = offsets_[e]; k < offsets_[e + 1]; ++k)
       sum += (weights_.empty() ? 1.0 : weights_[k]) * K.values[sources_[k]];
     out.values[e] = sum;
-  }
+  });
 }
 
 void multiply(const BlockMatrix& K, std::span<const double> x, std::span<double> y) {

@@ -26,23 +26,25 @@ std::vector<Vec3> controlPoints(const Structure& s, std::span<const double> y, d
   return q;
 }
 
-std::vector<Vec3> reactions(const Structure& s, std::span<const double> y, double t, ProgramEnds ends) {
+std::vector<Vec3> reactions(const Structure& s, std::span<const double> y, double t, ProgramEnds ends,
+                            std::span<const double> history) {
   const std::vector<Vec3> q = controlPoints(s, y, t, ends);
   std::vector<Vec3> f(q.size()), external(q.size());
   ClothWork work;
-  s.cloth->force(q, f, work);
+  s.cloth->force({q, {}, history}, {f, {}, {}, nullptr}, work);
   s.loads.add(q, programValues(s, t, ends), external);
   for (std::size_t i = 0; i < q.size(); ++i) f[i] = -(f[i] + external[i]);
   return f;
 }
 
-double strainEnergy(const Structure& s, std::span<const double> y, double t, ProgramEnds ends) {
+double strainEnergy(const Structure& s, std::span<const double> y, double t, ProgramEnds ends,
+                    std::span<const double> history) {
   const std::vector<Vec3> q = controlPoints(s, y, t, ends);
   std::vector<Vec3> f(q.size());
   ClothWork work;
-  double energy = 0;
-  s.cloth->force(q, f, work, &energy);
-  return energy;
+  ClothEnergy energy;
+  s.cloth->force({q, {}, history}, {f, {}, {}, &energy}, work);
+  return energy.stored;
 }
 
 }  // namespace gambeson

@@ -40,6 +40,8 @@ struct StaticPoint {
   /// Arc length: the path between the last point and this one may not be the short way that their tangents say, and no
   /// shorter arc mended that (core/statics/arc_length.cpp).
   bool jumped = false;
+  std::vector<double> history = {};  ///< committed here; empty where the laws remember nothing
+  double lost_J = 0;                 ///< by the laws since the start
   // Arc length only, of the way from the last point to this one.
   bool limit_point = false;  ///< the factor turned
   bool bifurcation = false;  ///< the tangent's negative pivots changed and the factor did not turn, or the reverse
@@ -56,18 +58,19 @@ struct StaticReport {
 using StaticObserver = std::function<bool(const StaticPoint&)>;
 
 /// Starts from `start` (empty: the rest shape) at factor 0. Throws RunError where a support is missing (a mechanism:
-/// names the direction and the place that moves freely).
+/// names the direction and the place that moves freely). Laws commit what they remember at each point of the path.
 StaticReport solveStatic(const Structure& structure, const StaticOptions& options, const StaticObserver& observe,
                          std::vector<double> start = {});
 
 /// Control points q of the unknowns y at a time (or, with programs that go on beyond their ends, at a factor).
 std::vector<Vec3> controlPoints(const Structure& structure, std::span<const double> y, double t,
                                 ProgramEnds ends = ProgramEnds::constant);
-/// f_int - f_ext on the control points: what supports (and inertia) take up there [N].
+/// f_int - f_ext on the control points: what supports (and inertia) take up there [N]. `history`: committed there;
+/// empty: of new cloth.
 std::vector<Vec3> reactions(const Structure& structure, std::span<const double> y, double t,
-                            ProgramEnds ends = ProgramEnds::constant);
+                            ProgramEnds ends = ProgramEnds::constant, std::span<const double> history = {});
 /// Stored energy [J], loads not counted.
 double strainEnergy(const Structure& structure, std::span<const double> y, double t,
-                    ProgramEnds ends = ProgramEnds::constant);
+                    ProgramEnds ends = ProgramEnds::constant, std::span<const double> history = {});
 
 }  // namespace gambeson

@@ -56,6 +56,27 @@ StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends)
   f_.resize(q_.size());
   external_.resize(q_.size());
   free_.resize(structure.cloth->map().home.size());
+  history_.resize(structure.cloth->historySize());
+  trial_.resize(history_.size());
+  structure.cloth->startHistory(history_);
+}
+
+void StructureSystem::setHistory(std::span<const double> history) {
+  history_.assign(history.begin(), history.end());
+  residual_y_.clear();
+  at_y_.clear();
+}
+
+double StructureSystem::commit(std::span<const double> y, double t) {
+  if (history_.empty()) return 0;
+  if (residual_t_ != t || !std::equal(y.begin(), y.end(), residual_y_.begin(), residual_y_.end())) {
+    std::vector<double> unused(y.size());
+    residual(y, t, unused);
+  }
+  history_.swap(trial_);
+  residual_y_.clear();
+  at_y_.clear();
+  return energy_.lost;
 }
 
 void StructureSystem::place(std::span<const double> y, double t) {
@@ -68,7 +89,9 @@ void StructureSystem::place(std::span<const double> y, double t) {
 
 double StructureSystem::residual(std::span<const double> y, double t, std::span<double> g) {
   place(y, t);
-  structure_.cloth->force(q_, f_, work_);
+  structure_.cloth->force(stateOf(), {f_, {}, trial_, history_.empty() ? nullptr : &energy_}, work_);
+  residual_y_.assign(y.begin(), y.end());
+  residual_t_ = t;
   std::fill(external_.begin(), external_.end(), Vec3{});
   structure_.loads.add(q_, value_, external_);
   structure_.cloth->map().Tt.multiply<Vec3>(f_, free_);
@@ -85,7 +108,7 @@ double StructureSystem::residual(std::span<const double> y, double t, std::span<
 void StructureSystem::assemble(std::span<const double> y, double t) {
   if (at_t_ == t && std::equal(y.begin(), y.end(), at_y_.begin(), at_y_.end())) return;
   place(y, t);
-  structure_.tangent->assemble(q_, work_, K_);
+  structure_.tangent->assemble(stateOf(), work_, K_);
   if (structure_.loads.follow()) structure_.loads.addStiffness(q_, value_, structure_.cloth->map(), K_);
   at_y_.assign(y.begin(), y.end());
   at_t_ = t;
@@ -96,7 +119,7 @@ void StructureSystem::stiffness(std::span<const double> y, double t, SymmetricMa
     place(y, t);
     ForceTerms terms;
     terms.steepest = true;
-    structure_.tangent->assemble(q_, work_, K_, terms);
+    structure_.tangent->assemble(stateOf(), work_, K_, terms);
     at_y_.clear();
   } else {
     assemble(y, t);

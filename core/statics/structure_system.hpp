@@ -19,6 +19,9 @@ class StructureSystem : public System {
   void change(std::span<const double> y, double t0, double t1, std::span<double> dg) override;
   double length() const override { return length_; }
   double reach() const override { return reach_; }
+  std::span<const double> history() const override { return history_; }
+  void setHistory(std::span<const double> history) override;
+  double commit(std::span<const double> y, double t) override;
   std::string describe(std::span<const double> motion) const override;
   void mass(bool lumped, SymmetricMatrix& M) override;
   void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
@@ -28,6 +31,7 @@ class StructureSystem : public System {
 
  private:
   void place(std::span<const double> y, double t);  ///< sets value_ and q_
+  ClothState stateOf() const { return {q_, {}, history_}; }
   void assemble(std::span<const double> y, double t);
   BlockMatrix massBlocks(bool lumped) const;
 
@@ -36,6 +40,10 @@ class StructureSystem : public System {
   ProgramEnds ends_;
   double length_ = 0, reach_ = 0;
   ClothWork work_;
+  std::vector<double> history_, trial_;
+  ClothEnergy energy_;  ///< of the laws that remember, at the last residual
+  std::vector<double> residual_y_;
+  double residual_t_ = 0;
   BlockMatrix K_;
   std::vector<double> at_y_;  ///< where K_ is
   double at_t_ = 0;

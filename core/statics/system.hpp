@@ -28,6 +28,14 @@ class System {
   /// How large its coordinates are [m], at least `length`: positions, strains and forces are rounded in proportion to
   /// them, however small the structure is that stands there.
   virtual double reach() const { return length(); }
+  /// What the laws remember, as of the last commit: forces and stiffnesses are of it. Nothing else changes it, so that
+  /// a step or an iterate that is given up leaves no trace.
+  virtual std::span<const double> history() const { return {}; }
+  /// Goes on from a history of before.
+  virtual void setHistory(std::span<const double> history) { static_cast<void>(history); }
+  /// Accepts y at t: its laws remember it from now on. Returns the energy that they have lost since the last commit
+  /// [J], never negative. Forces at (y, t) stay what they are.
+  virtual double commit(std::span<const double> y, double t) { return static_cast<void>(y), static_cast<void>(t), 0; }
   /// In words: what moves in a motion of the unknowns that meets no stiffness.
   virtual std::string describe(std::span<const double> motion) const = 0;
 

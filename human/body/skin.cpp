@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/math/parallel.hpp"
 
 /// How the skin follows the links. A vertex turns about each of its joints by its share of the joint's rotation since
 /// the bind posture, distal joints first; then creases keep the two sides of a joint apart.
@@ -131,13 +132,12 @@ void blendLinearly(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3>
   std::vector<Pose> move(X_WL.size());
   for (std::size_t l = 0; l < move.size(); ++l) move[l] = X_WL[l] * inverse(skin.bind[l]);
   const int n = static_cast<int>(x.size());
-#pragma omp parallel for schedule(static)
-  for (int v = 0; v < n; ++v) {
+  forAll(Each::much, n, [&](int v) {
     Vec3 sum;
     for (int i = skin.first[v]; i < skin.first[v + 1]; ++i)
       sum += skin.weight[i] * (move[skin.link[i]] * skin.rest.vertices[v]);
     x[v] = sum;
-  }
+  });
 }
 
 }  // namespace
@@ -163,8 +163,7 @@ void skinPositions(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3>
     for (int begin = run.begin; begin < run.end; begin += kBlock)
       blocks.push_back({&run, begin, std::min(begin + kBlock, run.end)});
   const int nblocks = static_cast<int>(blocks.size());
-#pragma omp parallel for schedule(static)
-  for (int i = 0; i < nblocks; ++i) bendBlock(skin, turn, move, blocks[i], x);
+  forAll(Each::much, nblocks, [&](int i) { bendBlock(skin, turn, move, blocks[i], x); });
 
   for (const SkinCrease& crease : skin.creases) {
     const SkinBend& bend = skin.bends[crease.bend];
@@ -175,12 +174,11 @@ void skinPositions(const Skin& skin, std::span<const Pose> X_WL, std::span<Vec3>
     const double level = dot(normal, A * bend.centre) + bend.offset_m, h = 0.5 * S * skin.crease_gap_m,
                  b = S * kSoftness;
     const int count = static_cast<int>(crease.vertex.size());
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < count; ++i) {
+    forAll(Each::much, count, [&](int i) {
       Vec3& p = x[crease.vertex[i]];
       const double side = crease.side[i], d = side * (dot(normal, p) - level) - h, u = d / b - 1;
       if (u < 0) p += (crease.strength[i] * side * (b / (1 - u + u * u) - d)) * normal;
-    }
+    });
   }
 }
 

@@ -29,9 +29,9 @@ class BodyZones {
 
   /// From head to foot where the body has them, the left before the right.
   const std::vector<std::string>& names() const { return names_; }
-  /// Of a point in a link's frame; the link has a surface.
+  /// The zone of a point that is given in a link's frame; the link has a surface.
   int of(int link, const Vec3& p_L) const;
-  /// Of each vertex of a skin, by its place in the bind posture.
+  /// The zone of each vertex of a skin, by its place in the bind posture.
   std::vector<int> ofSkin(const Skin& skin) const;
 
  private:

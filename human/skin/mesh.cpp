@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/math/parallel.hpp"
 #include "human/skin/remesh.hpp"
 
 namespace gambeson {
@@ -33,8 +34,7 @@ TriangleMesh marchHalf(const ImplicitSurface& s, double h) {
   g.nz = static_cast<int>(std::ceil((s.high.z + margin - g.origin.z) / h)) + 1;
   const int n = g.nx * g.ny * g.nz;
   std::vector<double> f(n);
-#pragma omp parallel for schedule(static)
-  for (int i = 0; i < n; ++i) f[i] = s.value(g.at(i));
+  forAll(Each::much, n, [&](int i) { f[i] = s.value(g.at(i)); });
 
   TriangleMesh m;
   std::vector<int> point(static_cast<std::size_t>(n) * 8, -1);  // by lower node and direction bits of the grid's edge

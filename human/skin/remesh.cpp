@@ -1,4 +1,5 @@
 #include "human/skin/remesh.hpp"
+#include "core/math/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -30,9 +31,9 @@ class Remesher {
     flip();
     relax();
     const int n = static_cast<int>(x_.size());
-#pragma omp parallel for schedule(static)
-    for (int v = 0; v < n; ++v)
+    forAll(Each::much, n, [&](int v) {
       if (!at_[v].empty()) x_[v] = project(x_[v], border_[v]);
+    });
     return packed();
   }
 
@@ -213,9 +214,8 @@ class Remesher {
     for (int round = 0; round < 2; ++round) {
       const int n = static_cast<int>(x_.size());
       std::vector<Vec3> to = x_;
-#pragma omp parallel for schedule(static)
-      for (int v = 0; v < n; ++v) {
-        if (at_[v].empty()) continue;
+      forAll(Each::much, n, [&](int v) {
+        if (at_[v].empty()) return;
         Vec3 sum;
         double weight = 0;
         if (border_[v]) {
@@ -234,10 +234,10 @@ class Remesher {
             weight += area;
           }
         }
-        if (!(weight > 0)) continue;
+        if (!(weight > 0)) return;
         const Vec3 g = s_.gradient(x_[v]), move = sum / weight - x_[v];
         to[v] = projectAlong(x_[v] + move - dot(move, g) / norm2(g) * g, g, border_[v]);
-      }
+      });
       x_ = std::move(to);
     }
   }

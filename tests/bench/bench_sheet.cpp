@@ -25,11 +25,10 @@ Garment wavySheet(int degree, int cells, bool solid, Knots knots) {
   g.fabric.young_weft_Pa = g.fabric.young_warp_Pa = 1.44e6;
   g.fabric.poisson = 0.3;
   g.fabric.shear_Pa = 1.44e6 / 2.6;
-  g.fabric.bending_law = solid ? BendingLaw::consistent : BendingLaw::zheng;
-  g.fabric.bending_weft_Nm = g.fabric.bending_warp_Nm = 0.00371;
-  g.fabric.twist_Nm = 0.00371 * 0.7;
-  g.fabric.kappa0_per_m = 30;
-  g.fabric.kappa_regular_per_m = 3;
+  if (solid)
+    g.fabric.law = ConsistentBending{};
+  else
+    g.fabric.law = ZhengBending{{0.00371, 0.00371, 0.00371 * 0.7}, 30, 3};
   return g;
 }
 

@@ -53,7 +53,7 @@ void SheetForce(benchmark::State& state) {
     timeBest(state, "force " + std::to_string(threads), flop, [&] { shell.force(q, f, work); });
   } else {
     shell.force(q, f, work);
-    timeBest(state, "kernel " + std::to_string(threads), flop, [&] { shell.cellForces(q, work); });
+    timeBest(state, "kernel " + std::to_string(threads), flop, [&] { shell.cellForces(q, {}, work); });
   }
   omp_set_num_threads(before);
 }

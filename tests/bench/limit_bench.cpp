@@ -39,10 +39,7 @@ Garment sheet(int cells, double k_over_rho) {
   f.density_kg_per_m3 = 0.117 / f.thickness_m;
   f.young_weft_Pa = f.young_warp_Pa = k_over_rho * f.density_kg_per_m3;
   f.shear_Pa = f.young_weft_Pa / 2.5;
-  f.bending_law = BendingLaw::zheng;
-  f.bending_weft_Nm = f.bending_warp_Nm = 3.3e-3;
-  f.kappa0_per_m = 30;
-  f.kappa_regular_per_m = 1;
+  f.law = ZhengBending{{3.3e-3, 3.3e-3}, 30, 1};
   return g;
 }
 
@@ -70,7 +67,7 @@ Swing swing(int cells, double k_over_rho, const StrainLimit& limit) {
   const auto now = [] { return bench::seconds(bench::Clock::processor); };
   const double start = now();
   advance(*model, stage, control, 0.6, state, frequency, work,
-          [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
+          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
             const double pause = now();
             ++steps;
             result.projections += r.limit.projections;

@@ -22,7 +22,7 @@ void StepOfShortsWalk(benchmark::State& state) {
     Frequency frequency;
     State now = initialState(*scenario->model, *scenario->stage, scenario->start_s, work);
     long steps = 0, iterations = 0;
-    const auto count = [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) {
+    const auto count = [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
       ++steps;
       iterations += r.contact.iterations;
     };

@@ -179,7 +179,7 @@ int checkAgain(const Scenario& scenario, const RecordingReader* recording, const
     try {
       advance(*scenario.model, *scenario.stage, {c.time.step_safety, c.time.max_step_s}, windows.bound(k), state,
               frequency, work,
-              [&](const State&, const State& after, const StepReport& report, const StepWork&, const Frequency&) {
+              [&](const State&, const State& after, const StepReport& report, const StepResult&, const Frequency&) {
                 steps.add(after, report);
                 if (options.every_step) look.state(after, false);
               });

@@ -15,7 +15,8 @@ namespace gambeson {
 /// Links by number.
 using Links = std::vector<int>;
 
-/// In axes turned about x: planes of constant y lean outward at the left by `lean_rad` as they go up.
+/// The point in axes that are turned about x: planes of constant y lean outward at the left by `lean_rad` as they go
+/// up.
 Vec3 leaned(const Vec3& x, double lean_rad);
 
 class BodyForm {

@@ -41,7 +41,7 @@ class Wrap {
   Wrap raised(const std::function<double(double)>& distance) const;
   /// Hulls of both wraps' sections; both have the same heights.
   Wrap with(const Wrap& other) const;
-  /// At each height the hull of all sections within `reach` above and below.
+  /// The wrap that has at each height the hull of all sections within `reach` above and below.
   Wrap widened(double reach) const;
   /// (1 - share(z)) this + share(z) the section `other`, as supports (Minkowski).
   Wrap blended(const std::vector<Vec2>& other, const std::function<double(double)>& share) const;

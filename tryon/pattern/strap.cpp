@@ -145,7 +145,7 @@ Vec2 Strap::String::point(double s) const {
   return {points[i - 1].x + f * (points[i].x - points[i - 1].x), points[i - 1].y + f * (points[i].y - points[i - 1].y)};
 }
 
-/// On line i: where a cross line square to the strip meets it, or near the ends one that turns into them.
+/// The point of line i where a cross line square to the strip meets it, or near the ends one that turns into them.
 Vec2 Strap::point(int i, double t) const {
   const String &string = strings_[i], &middle = strings_[kMiddle];
   const auto before = [](const Vec2& from, const Vec2& to, const Vec3& end, const Vec3& mid) {

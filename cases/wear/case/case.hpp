@@ -251,11 +251,15 @@ struct Projecting {
   double grow_s = 0.3;         ///< time in which it grows back
 };
 
+/// What laws remember of a dressed state.
+enum class DressedHistory { kept, wiped };
+
 struct DressingCase {
   std::optional<Projecting> projecting;
   bool layer_by_layer = false;  ///< each garment is put on by itself, then all are worn together
   std::filesystem::path from;   ///< dressed state that another run or `gambeson dress` left
-  double settle_s = 0.5;        ///< time at rest before the motion starts
+  DressedHistory history = DressedHistory::kept;
+  double settle_s = 0.5;  ///< time at rest before the motion starts
 };
 
 struct TimeCase {

@@ -3,24 +3,30 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <variant>
 
 namespace gambeson {
 namespace {
 
-/// Of bending, twist and the springs along seams.
+/// The factor on the springs along seams, as on the bending rigidities.
 double bendingScale(const FactorsCase& f) { return f.thickness * f.thickness * f.thickness * f.bending; }
 
 void scale(Fabric& fabric, const FactorsCase& f) {
-  assert(fabric.plies.empty() && fabric.bending_law != BendingLaw::consistent);  // those are fabrics of structures
-  const double t = f.thickness, bending = bendingScale(f);
+  const double t = f.thickness;
   fabric.thickness_m *= t;
   fabric.density_kg_per_m3 *= f.inertia;
   fabric.young_weft_Pa *= f.membrane;
   fabric.young_warp_Pa *= f.membrane;
   fabric.shear_Pa *= f.membrane;
-  fabric.bending_weft_Nm *= bending;
-  fabric.bending_warp_Nm *= bending;
-  fabric.twist_Nm *= bending;
+  std::visit(
+      [&]<class L>(L& law) {
+        law.thicken(t);
+        if constexpr (L::is_solid)
+          assert(false);  // solids are fabrics of structures
+        else
+          law.stiffen(f.bending);
+      },
+      fabric.law);
 }
 
 }  // namespace

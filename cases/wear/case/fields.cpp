@@ -90,6 +90,11 @@ Object dressingTable() {
             "all are worn together and freed of each other, the first innermost")
       .path("from", &D::from, "dressed state that gambeson dress, or a run in its folder as dressed.json, left")
       .defaultsTo("none: the garments are put on")
+      .choice("history", &D::history,
+              std::vector<std::pair<std::string, DressedHistory>>{{"kept", DressedHistory::kept},
+                                                                  {"wiped", DressedHistory::wiped}},
+              "what fabrics that remember their folds (bending.law) know of being put on when all are worn: kept, or "
+              "wiped, as if they were new there")
       .number("settle", &D::settle_s, "s", between(0, 60),
               "time at rest on the body before the motion starts; 0 without a human")
       .build();

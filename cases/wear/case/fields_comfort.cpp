@@ -7,7 +7,7 @@
 namespace gambeson::schema {
 namespace {
 
-/// With the defaults of one part of the body.
+/// The keys of a comfort limit, with the defaults of one part of the body.
 Object limitTable(const ComfortLimit& defaults) {
   using L = ComfortLimit;
   const Range range = aboveTo(0, 1e6);

@@ -34,7 +34,7 @@ Place itemOf(const Place& root, const std::string& list, std::size_t i) {
   return root.member(*root.node.find(list)).item(i);
 }
 
-/// Whose edge it is.
+/// The garment that the edge belongs to. Throws InputError where the case does not tell which.
 const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase& edge) {
   std::vector<std::string> names;
   for (const GarmentCase& g : c.garments) {

@@ -7,6 +7,7 @@
 #include "cases/wear/recording/recorded_scene.hpp"
 #include "core/error.hpp"
 #include "core/math/carried_error.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -218,11 +219,24 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
   for (const WarmContact& w : s.warm) {
     traction.push_back(w.traction);
     mean_Pa.push_back(w.mean_Pa);
-    ids.insert(ids.end(), {w.sample, w.obstacle, w.feature});
+    ids.insert(ids.end(), {w.sample, w.obstacle >= 0 ? w.obstacle : -static_cast<int>(w.kind), w.feature});
   }
   c.reals["warm"] = doubles(traction);
   return c;
 }
+
+namespace {
+
+/// In a checkpoint a contact of cloth with cloth has minus its kind in place of an obstacle; an edge on a body has a
+/// negative feature.
+WarmContact warmContact(int sample, int obstacle, int feature, const Vec3& traction, double mean_Pa) {
+  const ContactKind kind = obstacle < 0  ? static_cast<ContactKind>(-obstacle)
+                           : feature < 0 ? ContactKind::edge_on_body
+                                         : ContactKind::sample_on_body;
+  return {kind, sample, std::max(obstacle, -1), feature, traction, mean_Pa};
+}
+
+}  // namespace
 
 State stateOf(const Checkpoint& c, Frequency& f) {
   State s;
@@ -257,8 +271,8 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   const std::vector<Vec3> traction = vectors(c.reals.at("warm"));
   const std::vector<double>& mean_Pa = c.reals.at("warm_mean");
   for (std::size_t i = 0; i < traction.size(); ++i)
-    s.warm.push_back({static_cast<int>(ids[3 * i]), static_cast<int>(ids[3 * i + 1]), static_cast<int>(ids[3 * i + 2]),
-                      traction[i], mean_Pa[i]});
+    s.warm.push_back(warmContact(static_cast<int>(ids[3 * i]), static_cast<int>(ids[3 * i + 1]),
+                                 static_cast<int>(ids[3 * i + 2]), traction[i], mean_Pa[i]));
   return s;
 }
 
@@ -278,7 +292,7 @@ Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
   if (scenario.hasSkin()) skin_.emplace(scenario);
 }
 
-void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepWork& work,
+void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepResult& work,
                        const Frequency& f) {
   // Moments about the body's origin at the middle of the step, where the impulse acts in the mean.
   const std::vector<Pose> poses = scenario_.bodyPoses(0.5 * (before.time_s + after.time_s));
@@ -397,8 +411,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
     std::vector<int> nearest(x.size(), 0);
     if (bodies_.size() > 1) {
       placed_.moveTo(state.time_s);
-#pragma omp parallel for schedule(static)
-      for (int s = 0; s < m.surface.size(); ++s) nearest[s] = placed_.nearest(x[s]).body;
+      forAll(Each::much, m.surface.size(), [&](int s) { nearest[s] = placed_.nearest(x[s]).body; });
     }
     for (int s = 0; s < m.surface.size(); ++s) {
       const Vec3 f = (-m.environment.drag_kg_per_m2s * m.surface.area_m2[s] * window) * (v[s] - air);
@@ -489,8 +502,7 @@ void Recorder::appendFrame(const State& state, double window) {
   const ClothState at(q);
   const std::vector<StressView::Sample> means = stress_->means(at, more);
   CarriedError error;
-#pragma omp parallel for schedule(static)
-  for (int s = 0; s < n; ++s)
+  forAll(Each::much, n, [&](int s) {
     error.guard(s, [&] {
       const PrincipalStress stress = stress_->at(at, m.surface.patch[s], m.surface.parameters[s], means, more);
       s1.data[s] = static_cast<float>(stress.principal1_N_per_m);
@@ -501,6 +513,7 @@ void Recorder::appendFrame(const State& state, double window) {
       area.data[s] = static_cast<float>(now_m2);
       pressure.data[s] = static_cast<float>(normal_[s] / (now_m2 * window));
     });
+  });
   error.rethrow();
   frame.sample_fields = {velocity, contact, pressure, area, s1, s2, e1, e2};
   frame.control_fields = {Field{"position", "m", 3, floats(q)}};

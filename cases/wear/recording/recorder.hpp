@@ -49,7 +49,7 @@ class Recorder {
  public:
   Recorder(const Scenario& scenario, RecordingWriter& writer);
 
-  void observe(const State& before, const State& after, const StepReport& report, const StepWork& work,
+  void observe(const State& before, const State& after, const StepReport& report, const StepResult& work,
                const Frequency& frequency);
   /// Ends the window that began at start_s; appends a frame where `frame` says so.
   void closeWindow(const State& state, double start_s, bool frame, StepWork& work);

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/math/carried_error.hpp"
+#include "core/math/parallel.hpp"
 #include "tryon/strap_cut.hpp"
 
 namespace gambeson {
@@ -72,9 +73,9 @@ struct Areas {
     const std::vector<float>& stress = fieldOf(frame, "stress").data;
     std::vector<double> bend(stress.size());
     CarriedError error;
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < surface.size(); ++i)
+    forAll(Each::much, surface.size(), [&](int i) {
       error.guard(i, [&] { bend[i] = s.model->cloth->bendAt(q, surface.patch[i], surface.parameters[i]); });
+    });
     error.rethrow();
     const int patches = static_cast<int>(s.patch_names.size());
     const std::vector<double> curvature = regionRms(surface.patch, surface.area_m2, bend, patches);

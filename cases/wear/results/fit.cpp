@@ -10,6 +10,7 @@
 #include "cases/cloth/thread_strains.hpp"
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/scene/placed_bodies.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -45,12 +46,11 @@ std::array<std::vector<StressSummary>, 2> directedStrains(const Scenario& s, con
     const std::vector<StressView::Sample> means = field->means(q);
     std::array<std::vector<float>, 2> strain;
     for (auto& direction : strain) direction.resize(static_cast<std::size_t>(surface.size()));
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < surface.size(); ++i) {
+    forAll(Each::much, surface.size(), [&](int i) {
       const PlaneTensor E = field->strainAt(q, surface.patch[i], surface.parameters[i], means);
       strain[0][static_cast<std::size_t>(i)] = static_cast<float>(E.t11);
       strain[1][static_cast<std::size_t>(i)] = static_cast<float>(E.t22);
-    }
+    });
     for (std::size_t d = 0; d < 2; ++d) frames[d].push_back({frame.time_s, strain[d], strain[d]});
   }
   return {summarizeStress(regions, frames[0]), summarizeStress(regions, frames[1])};

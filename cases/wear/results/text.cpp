@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "analysis/ticks.hpp"
-#include "cases/cloth/fabric.hpp"
+#include "cases/cloth/fabric_input.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/results/joint_words.hpp"
 #include "cases/wear/results/write.hpp"
-#include "core/material/bending.hpp"
+#include "core/material/fabric_law.hpp"
 #include "human/body/zones.hpp"
 #include "human/files/units.hpp"
 
@@ -144,20 +144,13 @@ namespace {
 /// How a fabric bends; `of`: "" where there is only one.
 void sayFabric(const std::string& of, const Fabric& f, std::vector<std::string>& list) {
   const auto say = [&](const std::string& text) { list.push_back(of + text); };
-  if (f.bending_law == BendingLaw::zheng)
-    say(
-        fmt::format("Bending follows Zheng 2013, eq. 2.14. Its root is replaced by a smooth cubic below a curvature of "
-                    "{} 1/m; the steepest slope is "
-                    "then {} N m (weft).",
-                    formatNumber(f.kappa_regular_per_m),
-                    formatNumber(zhengSteepest(f.bending_weft_Nm, f.kappa0_per_m, f.kappa_regular_per_m))));
-  else
-    say(fmt::format("Bending is linear, {} N m (weft).", formatNumber(f.bending_weft_Nm)));
+  say(schema::bendingInWords(f.law));
   say(f.rest_curvature_of_shape
           ? "The fabric rests in its sewn shape: bending starts from that curvature."
           : "The fabric is flat at rest (Zheng 2013): bending it around the body already costs moment.");
-  say(f.twist_Nm > 0 ? fmt::format("Twist stiffness {} N m.", formatNumber(f.twist_Nm))
-                     : "The fabric has no stiffness against twist (Zheng 2013).");
+  const GivenRigidities* given = givenRigidities(f.law);
+  say(given && given->twist_Nm > 0 ? fmt::format("Twist stiffness {} N m.", formatNumber(given->twist_Nm))
+                                   : "The fabric has no stiffness against twist (Zheng 2013).");
 }
 
 }  // namespace
@@ -218,8 +211,12 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
   if (!c.contact.self) say("Cloth does not touch cloth in this case: folds and layers may cross each other.");
   say("Cloth rests on bodies with its samples, and on cloth with samples and sharp edges; what would pass through a "
       "mesh or through cloth within a step is found for its triangles and edges.");
-  say("The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and orthotropic "
-      "(Zheng 2013, eq. 2.13).");
+  const bool remembers = std::any_of(c.garments.begin(), c.garments.end(),
+                                     [&](const GarmentCase& g) { return lawUse(fabricOf(c, g)).remembers(); });
+  say(remembers ? "Fabric keeps a part of its folds; stretched fabric is elastic. "
+                  "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
+                : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
+                  "orthotropic (Zheng 2013, eq. 2.13).");
   if (c.strain_limit) say(limitInWords(*c.strain_limit, "the window"));
   std::vector<FabricCase> said;
   for (const GarmentCase& g : c.garments) {

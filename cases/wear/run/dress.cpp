@@ -43,7 +43,7 @@ State settled(const Scenario& s, bool* tangled) {
   const TimeCase& time = s.definition.time;
   bool last = false;
   advance(*s.model, *s.stage, {time.step_safety, time.max_step_s}, 0, state, frequency, work,
-          [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) {
+          [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
             last = r.intersections > 0 || r.inside > 0 || r.pinched > 0;
           });
   if (tangled) *tangled = last;
@@ -59,10 +59,14 @@ std::unique_ptr<Scenario> floatingPanels(const Case& one, const Case& whole, std
   return buildPanels(floating, whole, garment);
 }
 
-/// The control points of the sewn garment, closed by springs.
-std::vector<Vec3> closePanels(const Case& one, const Case& whole, std::size_t garment) {
+/// The panels of the garment, closed by springs.
+struct Closed {
+  std::unique_ptr<Scenario> panels;
+  State state;
+};
+Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
   const Stitching& law = *one.garments[0].stitching;
-  const std::unique_ptr<Scenario> panels = floatingPanels(one, whole, garment);
+  std::unique_ptr<Scenario> panels = floatingPanels(one, whole, garment);
   const Model& m = *panels->model;
   StepWork work;
   State state = startOf(*panels, work);
@@ -70,7 +74,7 @@ std::vector<Vec3> closePanels(const Case& one, const Case& whole, std::size_t ga
   double widest = widestStitch(m.stitches, m.surface.WT, state.p);
   while (widest > law.close_m && state.time_s < -1e-9) {
     advance(m, *panels->stage, {one.time.step_safety, one.time.max_step_s}, std::min(0.0, state.time_s + look_s), state,
-            frequency, work, [](const State&, const State&, const StepReport&, const StepWork&, const Frequency&) {});
+            frequency, work, [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     widest = widestStitch(m.stitches, m.surface.WT, state.p);
   }
   if (widest > law.close_m)
@@ -78,7 +82,7 @@ std::vector<Vec3> closePanels(const Case& one, const Case& whole, std::size_t ga
         fmt::format("the panels of the garment \"{}\" are still {:.1f} mm apart after {} s of stitching (to be "
                     "sewn: {:.1f} mm); stiffer springs, more time or a larger offset may close them",
                     one.garments[0].name, 1e3 * widest, law.within_s, 1e3 * law.close_m));
-  return controlPoints(*panels, state);
+  return {std::move(panels), std::move(state)};
 }
 
 }  // namespace
@@ -88,14 +92,17 @@ Dressed putOnApart(const Case& c) {
   for (std::size_t g = 0; g < c.garments.size(); ++g) {
     Case one = alone(c, g);
     const bool stitched = one.garments[0].stitching.has_value();
-    std::vector<Vec3> closed;
+    Closed closed;
     try {
       if (stitched) {
         closed = closePanels(one, c, g);
         one.dressing.projecting.reset();
       }
       const std::unique_ptr<Scenario> s = buildAlone(one, c, g);
-      if (stitched) s->start_m = sew(s->model->cloth->map(), closed);
+      if (stitched) {
+        s->start_m = sew(s->model->cloth->map(), controlPoints(*closed.panels, closed.state));
+        s->start_history = carriedHistory(*closed.panels->model->cloth, closed.state.history, *s->model->cloth);
+      }
       const State state = settled(*s, nullptr);
       Dressed worn = dressedOf(*s, state);
       dressed.body = worn.body;

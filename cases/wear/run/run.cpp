@@ -114,7 +114,7 @@ int runCase(const Case& c, const RunOptions& options) {
     try {
       for (; k < windows.count(); ++k) {
         advance(model, *scenario->stage, control, windows.bound(k + 1), state, frequency, work,
-                [&](const State& before, const State& after, const StepReport& report, const StepWork& w,
+                [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
                     const Frequency& f) { recorder.observe(before, after, report, w, f); });
         auto after_s = phasesOf(work.times, c.strain_limit.has_value());
         times.push_back({windows.bound(k), state.time_s, {}});

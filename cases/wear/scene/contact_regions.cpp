@@ -6,7 +6,7 @@
 namespace gambeson {
 namespace {
 
-/// From the regions; `press` of each.
+/// Fills contact_groups and contact_group from the regions; `press` has an entry for each region.
 void groupContact(Scenario& s, const std::vector<std::string>& layers, const std::vector<Press>& press) {
   for (std::size_t i = 0; i < s.contact_region.size(); ++i) {
     const int patch = s.model->surface.patch[i];

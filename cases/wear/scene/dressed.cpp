@@ -28,9 +28,13 @@ Json parsed(const std::string& text) {
 
 Json listOf(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-double numberOf(const Json& j, const std::string& key) {
+double anyNumberOf(const Json& j, const std::string& key) {
   if (!j.is_number()) throw InputError({"", 0, key}, "must be a number");
-  const double x = j.get<double>();
+  return j.get<double>();
+}
+
+double numberOf(const Json& j, const std::string& key) {
+  const double x = anyNumberOf(j, key);
   if (!(std::abs(x) <= largest_coordinate_m)) throw InputError({"", 0, key}, "must be between -1000 and 1000");
   return x;
 }
@@ -83,6 +87,10 @@ Dressed dressedOf(const Json& j) {
     const Json& points = listIn(garments[g], "points_m", at);
     for (std::size_t i = 0; i < points.size(); ++i)
       garment.points_m.push_back(vecOf(points[i], at + "points_m[" + std::to_string(i) + "]"));
+    if (garments[g].contains("history")) garment.law = textIn(garments[g], "law", at);
+    if (garments[g].contains("history"))
+      for (const Json& number : listIn(garments[g], "history", at))
+        garment.history.push_back(anyNumberOf(number, at + "history"));
     d.garments.push_back(std::move(garment));
   }
   return d;
@@ -110,6 +118,9 @@ void writeDressed(const Dressed& d, const std::filesystem::path& file) {
     Json points = Json::array();
     for (const Vec3& x : g.points_m) points.push_back(listOf(x));
     garments.push_back({{"name", g.name}, {"points_m", std::move(points)}});
+    if (g.history.empty()) continue;
+    garments.back()["law"] = g.law;
+    garments.back()["history"] = g.history;
   }
   const Json j{
       {"format", format_name},

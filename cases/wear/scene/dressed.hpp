@@ -3,7 +3,8 @@
 ///
 ///   {"format": "gambeson dressed 1", "body": "<fingerprint>",
 ///    "posture": {"joints": [...], "origin_m": [x, y, z], "rotation": [nine numbers, row by row]},
-///    "garments": [{"name": "shorts", "points_m": [[x, y, z], ...]}]}       control points, patch by patch, u fastest
+///    "garments": [{"name": "shorts", "points_m": [[x, y, z], ...],         control points, patch by patch, u fastest
+///                  "law": "stop", "history": [...]}]}                      what its laws remember, where they do
 
 #include <filesystem>
 #include <string>
@@ -15,7 +16,9 @@ namespace gambeson {
 
 struct DressedGarment {
   std::string name;
-  std::vector<Vec3> points_m;  ///< of all patches, in turn
+  std::vector<Vec3> points_m;        ///< of all patches, in turn
+  std::string law = {};              ///< whose history it is (lawsThatRemember)
+  std::vector<double> history = {};  ///< patch by patch, by place (Cloth::historyPlaces); empty: it remembers nothing
 };
 
 struct Dressed {

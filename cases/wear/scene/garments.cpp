@@ -7,8 +7,8 @@
 #include "cases/cloth/noise.hpp"
 #include "cases/input/places.hpp"
 #include "cases/wear/case/garments/kind.hpp"
+#include "core/cloth/block_law.hpp"
 #include "core/cloth/shell/seams.hpp"
-#include "core/cloth/shell/shell_law.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
 

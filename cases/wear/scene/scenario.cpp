@@ -245,6 +245,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
 
 State startOf(const Scenario& s, StepWork& work) {
   State state = initialState(*s.model, *s.stage, s.start_s, work);
+  if (!s.start_history.empty()) state.history = s.start_history;
   if (s.shift_m.empty() && s.start_m.empty()) return state;
   const std::vector<Vec3> drafted = state.anchors;
   if (!s.start_m.empty())

@@ -23,7 +23,8 @@
 /// bending the order drops to 2; wrinkles under shear come out too short on meshes that the full rule resolves. Use it
 /// where bending of thin sheets governs; it is not the default.
 
-#include "core/cloth/shell/lanes.hpp"
+#include "core/cloth/law_lanes.hpp"
+#include "core/cloth/shell/shell_kernel.hpp"
 
 namespace gambeson {
 namespace {

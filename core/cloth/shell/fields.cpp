@@ -34,17 +34,20 @@ const PatchFields* fieldsOf(const Garment& g, int patch) { return g.fields.empty
 /// which is positive definite between two that are. Moduli and ratio mixed one by one need not be.
 Fabric mixture(const Fabric& a, const Fabric& b, double w) {
   Fabric f = a;
-  const auto mix = [&](double in_a, double in_b) { return (1 - w) * in_a + w * in_b; };
-  for (double Fabric::*member : {&Fabric::thickness_m, &Fabric::density_kg_per_m3, &Fabric::shear_Pa,
-                                 &Fabric::bending_weft_Nm, &Fabric::bending_warp_Nm, &Fabric::kappa0_per_m,
-                                 &Fabric::kappa_regular_per_m, &Fabric::twist_Nm, &Fabric::jam_area})
-    f.*member = mix(a.*member, b.*member);
+  for (double Fabric::*member :
+       {&Fabric::thickness_m, &Fabric::density_kg_per_m3, &Fabric::shear_Pa, &Fabric::jam_area})
+    f.*member = mix(a.*member, b.*member, w);
+  std::visit(
+      [&]<class L>(const L& law) {
+        if constexpr (requires { L::mixed(law, law, w); }) f.law = L::mixed(law, std::get<L>(b.law), w);
+      },
+      a.law);
   const auto stiffness = [](const Fabric& g) {
     const double s = 1 - g.poisson * g.poisson * g.young_warp_Pa / g.young_weft_Pa;
     return std::array{g.young_weft_Pa / s, g.young_warp_Pa / s, g.poisson * g.young_warp_Pa / s};
   };
   const auto in_a = stiffness(a), in_b = stiffness(b);
-  const double Q11 = mix(in_a[0], in_b[0]), Q22 = mix(in_a[1], in_b[1]), Q12 = mix(in_a[2], in_b[2]),
+  const double Q11 = mix(in_a[0], in_b[0], w), Q22 = mix(in_a[1], in_b[1], w), Q12 = mix(in_a[2], in_b[2], w),
                s = 1 - Q12 * Q12 / (Q11 * Q22);
   f.young_weft_Pa = Q11 * s;
   f.young_warp_Pa = Q22 * s;
@@ -86,12 +89,9 @@ Fabric fabricAt(const Garment& g, int patch, Vec2 uv) {
     f = w == 0 ? pick(k) : mixture(pick(k), pick(next), w);
   }
   if (fields->thickness) {
-    const double factor = fieldAt(*fields->thickness, st), cube = factor * factor * factor;
+    const double factor = fieldAt(*fields->thickness, st);
     f.thickness_m *= factor;
-    f.bending_weft_Nm *= cube;
-    f.bending_warp_Nm *= cube;
-    f.twist_Nm *= cube;
-    for (Ply& ply : f.plies) ply.thickness_m *= factor;
+    std::visit([&](auto& law) { law.thicken(factor); }, f.law);
   }
   return f;
 }
@@ -143,9 +143,9 @@ void validateFields(const Garment& g) {
       const int first_used = static_cast<int>(std::floor(*low)), last_used = static_cast<int>(std::ceil(*high));
       const auto pick = [&](int k) -> const Fabric& { return k == 0 ? g.fabric : g.other_fabrics[k - 1]; };
       for (int k = first_used; k <= last_used; ++k) {
-        if (!pick(k).plies.empty())
+        if (pick(k).laminate())
           throw InputError({"", 0, at + "material"}, "laminates cannot be mixed: use degree 0 and whole numbers");
-        if (pick(k).bending_law != pick(first_used).bending_law ||
+        if (pick(k).law.index() != pick(first_used).law.index() ||
             pick(k).tension_field != pick(first_used).tension_field)
           throw InputError({"", 0, at + "material"}, "only fabrics with the same laws can be mixed");
       }

@@ -26,7 +26,7 @@ void validate(const PatchField& field);
 /// The value at fractions (s, t) of the range, clamped to [0, 1].
 double fieldAt(const PatchField& field, Vec2 st);
 
-/// Of one patch. Absent: the fabric as it is.
+/// The fields of one patch. Where one is absent the fabric stays as it is.
 struct PatchFields {
   std::optional<PatchField> thickness;    ///< thickness over that of the fabric, > 0
   std::optional<PatchField> fibre_angle;  ///< turns the weft direction about the normal [rad]
@@ -41,7 +41,7 @@ struct PatchFields {
 /// themselves; kappa_0 stays.
 /// A mixture of laminates, or of a laminate and a fabric, is refused when the garment is validated.
 Fabric fabricAt(const Garment& garment, int patch, Vec2 uv);
-/// Of fabricAt [kg/m^2].
+/// The surface density of fabricAt at the same place [kg/m^2].
 double surfaceDensityAt(const Garment& garment, int patch, Vec2 uv);
 /// The angle by which the weft is turned about the normal [rad].
 double fibreAngleAt(const Garment& garment, int patch, Vec2 uv);

@@ -24,7 +24,7 @@ class ShellTangent : public ClothTangent {
   ShellTangent(const Shell& shell, const FreeMap& map) : shell_(shell), tangent_(shell, map) {}
   const BlockMatrix& pattern() const override { return tangent_.pattern(); }
   void assemble(const ClothState& state, ClothWork& work, BlockMatrix& K, const ForceTerms& terms) const override {
-    tangent_.assemble(shell_, state.q, work, K, terms);
+    tangent_.assemble(shell_, state, work, K, terms);
   }
 
  private:
@@ -190,8 +190,7 @@ std::vector<double> NurbsShell::evenedMasses(double share) const { return gambes
 SparseRows NurbsShell::consistentMass() const { return gambeson::consistentMass(garment()).mass; }
 
 void NurbsShell::force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const {
-  shell_.force(state.q, out.points, work, out.energy ? &out.energy->stored : nullptr, terms);
-  if (out.energy) out.energy->lost = 0;
+  shell_.force(state, out, work, terms);
 }
 
 std::unique_ptr<ClothTangent> NurbsShell::tangent() const { return std::make_unique<ShellTangent>(shell_, map_); }
@@ -199,7 +198,7 @@ std::unique_ptr<ClothTangent> NurbsShell::tangent() const { return std::make_uni
 std::unique_ptr<StressView> NurbsShell::stress() const { return std::make_unique<StressField>(shell_); }
 
 PointState NurbsShell::stateAt(const ClothState& state, int patch, Vec2 uv) const {
-  return shell_.stateAt(patch, uv, state.q);
+  return shell_.stateAt(patch, uv, state);
 }
 
 double NurbsShell::bendAt(const ClothState& state, int patch, Vec2 uv) const {

@@ -11,7 +11,7 @@
 #include "core/cloth/shell/rest_frame.hpp"
 #include "core/cloth/shell/shell_pack.hpp"
 #include "core/error.hpp"
-#include "core/material/bending.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -33,15 +33,15 @@ bool twoPointsSeeAll(const KnotVector& k) {
 }
 
 /// The law of a block: where it varies, what any of its points may need.
-ShellLaw blockLaw(const Garment& garment, bool varies) {
-  ShellLaw law = shellLaw(garment.fabric);
+BlockLaw lawOfBlock(const Garment& garment, bool varies) {
+  BlockLaw law = blockLaw(garment.fabric);
   if (!varies) return law;
   law.general = true;
   for (const Fabric& other : garment.other_fabrics) {
-    const ShellLaw more = shellLaw(other);
-    law.zheng |= more.zheng;
-    law.tension |= more.tension;
-    law.jams |= more.jams;
+    const BlockLaw more = blockLaw(other);
+    law.use.kinds |= more.use.kinds;
+    law.use.tension |= more.use.tension;
+    law.use.jams |= more.use.jams;
   }
   return law;
 }
@@ -92,7 +92,7 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   gather_ = SlotGather(control_count_);
   for (auto& [kind, cells] : kinds) {
     if (kind.scattered) sortByPoints(cells);
-    ShellPart part{packBlock(garment, offsets_, kind, cells, L, gauss_extra), blockLaw(garment, kind.varies),
+    ShellPart part{packBlock(garment, offsets_, kind, cells, L, gauss_extra), lawOfBlock(garment, kind.varies),
                    slot_count_, static_cast<int>(cells.size())};
     const ShellBlock& b = part.block;
     const int nn = b.nodeCount();
@@ -105,6 +105,10 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
       gauss_points_ += cell.cut ? static_cast<long>(cell.points.size()) : long{b.gu} * b.gv;
     slot_count_ += static_cast<long>(b.groups) * nn * 3 * L;
     parts_.push_back(std::move(part));
+  }
+  if (std::any_of(parts_.begin(), parts_.end(), [](const ShellPart& part) { return part.law.use.remembers(); })) {
+    auto part = parts_.begin();
+    for (const auto& kind : kinds) memory_.add((part++)->block, kind.second);
   }
 
   // Springs along seams; where the map T holds the tangents together the angle cannot change, and no spring is needed.
@@ -144,65 +148,55 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   gather_.close();
 }
 
-ShellLaw withTerms(ShellLaw law, const ForceTerms& terms) {
-  law.membrane = terms.membrane;
-  law.bending = terms.bending;
-  law.steepest = terms.steepest;
-  if (!terms.membrane) law.d1 = law.d2 = law.d3 = law.d4 = 0;
-  if (terms.steepest && law.kappa0 > 0) {
-    law.bending_weft = zhengSteepest(law.bending_weft, law.kappa0, law.kappa_regular);
-    law.bending_warp = zhengSteepest(law.bending_warp, law.kappa0, law.kappa_regular);
-    law.kappa0 = law.kappa_regular = 0;
-  }
-  if (!terms.bending) law.bending_weft = law.bending_warp = law.twist = 0;
-  return law;
-}
-
-void Shell::cellForces(std::span<const Vec3> q, ClothWork& work, double* energy, const ForceTerms& terms) const {
+void Shell::cellForces(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const {
   work.slots.resize(slot_count_);
-  double total = 0;
   const bool cells = terms.membrane || terms.bending;
   if (!cells) std::fill(work.slots.begin(), work.slots.begin() + hinge_slot_, 0.0);
   for (const ShellPart& part : parts_) {
     if (!cells) break;
-    const ShellLaw law = withTerms(part.law, terms);
-    if (energy) work.lane_energy.assign(static_cast<std::size_t>(part.block.groups) * part.block.lanes, 0.0);
-    kernels_->force(part.block, law, reinterpret_cast<const double*>(q.data()), work.slots.data() + part.first_slot,
-                    energy ? work.lane_energy.data() : nullptr);
-    if (energy)
-      for (double e : work.lane_energy) total += e;
+    BlockLaw law = withHistory(withTerms(part.law, terms), part.block.place.data(), state, out);
+    const std::size_t lanes = static_cast<std::size_t>(part.block.groups) * part.block.lanes;
+    if (out.energy) work.lane_energy.assign(lanes, 0.0);
+    if (out.energy && law.remembers()) work.lane_lost.assign(lanes, 0.0), law.lost = work.lane_lost.data();
+    kernels_->force(part.block, law, reinterpret_cast<const double*>(state.q.data()),
+                    work.slots.data() + part.first_slot, out.energy ? work.lane_energy.data() : nullptr);
+    if (out.energy)
+      for (double e : work.lane_energy) out.energy->stored += e;
+    if (law.lost)
+      for (double e : work.lane_lost) out.energy->lost += e;
   }
-  if (energy) *energy = total;
 }
 
 void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy,
                   const ForceTerms& terms) const {
-  double total = 0;
-  cellForces(q, work, energy ? &total : nullptr, terms);
+  ClothEnergy both;
+  force(ClothState(q), {f, {}, {}, energy ? &both : nullptr}, work, terms);
+  if (energy) *energy = both.stored;
+}
+
+void Shell::force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const {
+  const std::span<const Vec3> q = state.q;
+  if (out.energy) *out.energy = {};
+  cellForces(state, out, work, terms);
+  double* const energy = out.energy ? &out.energy->stored : nullptr;
   const int hinge_count = static_cast<int>(hinges_.size());
   std::vector<double> hinge_energy(energy ? hinge_count : 0);
-#pragma omp parallel if (hinge_count > 64)
-  {
-    std::vector<Vec3> gradient;
-#pragma omp for schedule(static)
-    for (int i = 0; i < hinge_count; ++i) {
-      const HingePoint& h = hinges_[i];
-      const double turn = terms.seams ? hingeAngle(h, q, &gradient) - h.theta0 : 0.0;
-      for (std::size_t k = 0; k < h.columns.size(); ++k) {
-        const Vec3 g = terms.seams ? (h.stiffness_length * turn) * gradient[k] : Vec3{};
-        double* slot = work.slots.data() + hinge_slot_ + 3 * (hinge_offset_[i] + static_cast<long>(k));
-        slot[0] = g.x;
-        slot[1] = g.y;
-        slot[2] = g.z;
-      }
-      if (energy) hinge_energy[i] = 0.5 * h.stiffness_length * turn * turn;
+  forAllWith<std::vector<Vec3>>(Each::element, 0, hinge_count, [&](std::vector<Vec3>& gradient, int i) {
+    const HingePoint& h = hinges_[i];
+    const double turn = terms.seams ? hingeAngle(h, q, &gradient) - h.theta0 : 0.0;
+    for (std::size_t k = 0; k < h.columns.size(); ++k) {
+      const Vec3 g = terms.seams ? (h.stiffness_length * turn) * gradient[k] : Vec3{};
+      double* slot = work.slots.data() + hinge_slot_ + 3 * (hinge_offset_[i] + static_cast<long>(k));
+      slot[0] = g.x;
+      slot[1] = g.y;
+      slot[2] = g.z;
     }
-  }
-  for (double e : hinge_energy) total += e;
+    if (energy) hinge_energy[i] = 0.5 * h.stiffness_length * turn * turn;
+  });
+  for (double e : hinge_energy) *energy += e;
   const int gap_count = static_cast<int>(gaps_.size());
   std::vector<double> gap_energy(energy ? gap_count : 0);
-#pragma omp parallel for schedule(static) if (gap_count > 64)
-  for (int i = 0; i < gap_count; ++i) {
+  forAll(Each::element, gap_count, [&](int i) {
     const GapPoint& point = gaps_[i];
     const Vec3 gap = terms.seams ? gapOf(point, q) : Vec3{};
     for (std::size_t k = 0; k < point.columns.size(); ++k) {
@@ -213,10 +207,9 @@ void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, d
       slot[2] = g.z;
     }
     if (energy) gap_energy[i] = 0.5 * point.stiffness_N_per_m * norm2(gap);
-  }
-  for (double e : gap_energy) total += e;
-  if (energy) *energy = total;
-  gather_.negativeSum(work.slots.data(), f);
+  });
+  for (double e : gap_energy) *energy += e;
+  gather_.negativeSum(work.slots.data(), out.points);
 }
 
 struct Shell::Frame {
@@ -273,8 +266,8 @@ Shell::Frame Shell::frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   return frame;
 }
 
-PointState Shell::stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
-  const Frame frame = frameAt(patch, uv, q);
+PointState Shell::stateAt(int patch, Vec2 uv, const ClothState& at) const {
+  const Frame frame = frameAt(patch, uv, at.q);
   const RestFrame& G = frame.G;
   const Vec3 e1 = G.G11 * frame.now[1] + G.G21 * frame.now[2], e2 = G.G12 * frame.now[1] + G.G22 * frame.now[2];
   const Fabric fabric = fabricAt(garment_, patch, uv);
@@ -284,9 +277,12 @@ PointState Shell::stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const {
   change.z *= 2;
   PointState state{{0.5 * (norm2(e1) - 1), 0.5 * (norm2(e2) - 1), dot(e1, e2)}, change, {}, {}};
   const double e[3] = {state.strain.x, state.strain.y, state.strain.z}, k[3] = {change.x, change.y, change.z};
-  const PointResultants r = resultants(pointLaw(fabric), e, k);
-  state.n = {r.n[0], r.n[1], r.n[2]};
-  state.m = {r.m[0], r.m[1], r.m[2]};
+  const NurbsPatch& p = garment_.patches[patch];
+  const double* remembered = memory_.nearest(patch, {findSpan(p.u, uv.x), findSpan(p.v, uv.y)}, uv, at.history);
+  const PointAnswer<double> r = resultants(pointLaw(fabric), e, k, {remembered, nullptr});
+  const double *n = r.membrane.resultant, *m = r.bending.resultant;
+  state.n = {n[0], n[1], n[2]};
+  state.m = {m[0], m[1], m[2]};
   return state;
 }
 

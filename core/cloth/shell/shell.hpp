@@ -4,11 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "core/cloth/block_law.hpp"
 #include "core/cloth/cloth_state.hpp"
 #include "core/cloth/shell/garment.hpp"
 #include "core/cloth/shell/seams.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
-#include "core/cloth/shell/shell_law.hpp"
+#include "core/cloth/shell/shell_memory.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/cloth/shell/weak_seam.hpp"
 #include "core/cloth/slot_gather.hpp"
@@ -19,7 +20,7 @@ namespace gambeson {
 /// Cells of one kind, packed, and where their shares of the force lie in ClothWork::slots.
 struct ShellPart {
   ShellBlock block;
-  ShellLaw law;
+  BlockLaw law;
   long first_slot = 0;
   int cell_count = 0;  ///< the rest of the last group are copies without area
 };
@@ -42,15 +43,16 @@ class Shell {
   /// f = - dE/dq on the control points [N]; `energy` [J] where not null. The same bits for any number of threads.
   void force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy = nullptr,
              const ForceTerms& terms = {}) const;
+  /// The same of a state with history, and what else `out` asks for.
+  void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
   /// The first part of `force` alone: each cell's own share, written to work.slots and not yet summed on the control
-  /// points.
-  void cellForces(std::span<const Vec3> q, ClothWork& work, double* energy = nullptr,
-                  const ForceTerms& terms = {}) const;
+  /// points. Adds to the energy.
+  void cellForces(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms = {}) const;
   /// Stress and strain at a point of a patch.
   /// `more_N_per_m` is added to the second Piola-Kirchhoff resultants along weft and warp (of strain limits, say).
   PrincipalStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m = {}) const;
-  /// Strains and resultants at a point of a patch.
-  PointState stateAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  /// Strains and resultants at a point of a patch, with the history of the nearest point of its cell.
+  PointState stateAt(int patch, Vec2 uv, const ClothState& state) const;
   /// Physical curvature (weft, warp, twist) at a point of a patch, the rest curvature not subtracted [1/m].
   Vec3 curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   /// Norm of the physical curvature, sqrt(k11² + k22² + 2 k12²) [1/m]: the same in every frame of the rest surface, so
@@ -64,12 +66,14 @@ class Shell {
   const std::vector<ShellPart>& parts() const { return parts_; }
   /// The springs along seams, without those that the map T holds.
   const std::vector<HingePoint>& hinges() const { return hinges_; }
+  const ShellMemory& memory() const { return memory_; }
   /// What holds weak seams together.
   const std::vector<GapPoint>& gaps() const { return gaps_; }
 
  private:
   struct Frame;
-  /// Of the rest surface and of q: derivatives in the parameters, as SurfaceBasis has them, the point itself left out.
+  /// The derivatives of the rest surface and of q in the parameters, as SurfaceBasis has them, the point itself left
+  /// out.
   std::array<std::array<Vec3, 6>, 2> derivativesAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   Frame frameAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
 
@@ -79,6 +83,7 @@ class Shell {
   int control_count_ = 0;
   long gauss_points_ = 0;
   std::vector<ShellPart> parts_;
+  ShellMemory memory_;
   std::vector<HingePoint> hinges_;
   long hinge_slot_ = 0;             ///< first slot of the hinges
   std::vector<long> hinge_offset_;  ///< of each hinge, in columns
@@ -88,8 +93,5 @@ class Shell {
   long slot_count_ = 0;
   SlotGather gather_;
 };
-
-/// A part's law with what `terms` leave out.
-ShellLaw withTerms(ShellLaw law, const ForceTerms& terms);
 
 }  // namespace gambeson

@@ -7,20 +7,23 @@
 ///   d(kappa_ab) = n . d(x,ab) - (x,ab . a^g) n . d(a_g),
 /// which is eq. 2.20 in fewer terms.
 
-#include "core/cloth/shell/lanes.hpp"
+#include "core/cloth/law_lanes.hpp"
+#include "core/cloth/shell/shell_kernel.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 
-void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, int, int, double*);
-void GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, double*, double*);
+void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock&, const BlockLaw&, const double*, int, int, double*);
+void GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(const ShellBlock&, const BlockLaw&, const double*, double*, double*);
 
 namespace {
 
 /// Resultants and their pull-back at one quadrature point: on return g1, g2, g11, g22, g12 hold the force conjugate to
 /// x,u x,v x,uu x,vv x,uv (times the point's area).
 template <bool kEnergy, class Law>
-inline void shellPoint(const Law& law, const double* data, const double* rest_curvature, V3 a1, V3 a2, V3 x11, V3 x22,
-                       V3 x12, V3& g1, V3& g2, V3& g11, V3& g22, V3& g12, V& energy) {
+inline void shellPoint(Law& law, const double* laws, long point, const double* data, const double* rest_curvature,
+                       V3 a1, V3 a2, V3 x11, V3 x22, V3 x12, V3& g1, V3& g2, V3& g11, V3& g22, V3& g12,
+                       GroupEnergy& energy) {
   const V G11 = load(data), G12 = load(data + kLanes), G21 = load(data + 2 * kLanes), G22 = load(data + 3 * kLanes);
   const V dA = load(data + 4 * kLanes);
   const V C11 = dot(a1, a1), C22 = dot(a2, a2), C12 = dot(a1, a2);
@@ -43,11 +46,12 @@ inline void shellPoint(const Law& law, const double* data, const double* rest_cu
     k12 -= load(rest_curvature + 2 * kLanes);
   }
   const V strain[3] = {E11, E22, E12x2}, change[3] = {k11, k22, 2.0 * k12};
-  V resultant[3], couple[3], density{};
-  law.template evaluate<kEnergy>(strain, change, resultant, couple, density);
-  if constexpr (kEnergy) energy += dA * density;
-  const V n11 = resultant[0], n22 = resultant[1], n12 = resultant[2];
-  const V m11 = couple[0], m22 = couple[1], m12 = couple[2];
+  PointAnswer<V> answer;
+  law.template evaluate<kEnergy ? with_energy : only_resultants>(laws, point, strain, change, answer);
+  if constexpr (kEnergy) energy.add(dA, answer);
+  const V *n_ab = answer.membrane.resultant, *m_ab = answer.bending.resultant;
+  const V n11 = n_ab[0], n22 = n_ab[1], n12 = n_ab[2];
+  const V m11 = m_ab[0], m22 = m_ab[1], m12 = m_ab[2];
 
   // Back to the parameters: N = G n Gᵀ, M = G m Gᵀ (symmetric).
   const V p1 = G11 * n11 + G12 * n12, p2 = G11 * n12 + G12 * n22;
@@ -70,124 +74,123 @@ inline void shellPoint(const Law& law, const double* data, const double* rest_cu
 
 constexpr int kMaxDegree = 5;
 
-/// kP, kQ: degrees known at compile time, or -1.
+/// The cells of a group. kP, kQ: degrees known at compile time, or -1.
 template <int kP, int kQ, bool kRational, bool kEnergy, class Law>
-void force(const ShellBlock& block, const ShellLaw& shell_law, const double* q, double* cell_force, double* energy) {
+void groupForce(const ShellBlock& block, const BlockLaw& shell_law, int group, const double* q, double* cell_force,
+                double* energy) {
   const int nu = kP < 0 ? block.p + 1 : kP + 1, nv = kQ < 0 ? block.q + 1 : kQ + 1, nn = nu * nv;
   constexpr int kNu = kP < 0 ? kMaxDegree + 1 : kP + 1, kNv = kQ < 0 ? kMaxDegree + 1 : kQ + 1;
   const int stride = block.pointDoubles() * kLanes;
-  [[maybe_unused]] const double* laws = block.laws.empty() ? nullptr : block.laws.data();
-#pragma omp parallel for schedule(static) if (block.groups > 16)
-  for (int group = 0; group < block.groups; ++group) {
-    V3 X[kNu * kNv], F[kNu * kNv];
-    const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
-    const double* weights = kRational ? block.weights.data() + static_cast<long>(group) * nn * kLanes : nullptr;
-    for (int k = 0; k < nn; ++k) {
-      X[k] = gather(q, nodes + k * kLanes);
-      if constexpr (kRational) X[k] = load(weights + k * kLanes) * X[k];
-      F[k] = V3{};
-    }
-    V e{};
-    Law law{shell_law};
-    if constexpr (std::is_same_v<Law, GeneralLaw>) constantLaw(shell_law, law.lanes);
-    for (int gv = 0; gv < block.gv; ++gv) {
-      const double* bv = block.basis_v.data() + (static_cast<long>(group) * block.gv + gv) * 3 * nv * kLanes;
-      V3 Y0[kNu], Y1[kNu], Y2[kNu], Z0[kNu], Z1[kNu], Z2[kNu];
-      for (int i = 0; i < nu; ++i) {
-        V3 y0{}, y1{}, y2{};
-        for (int j = 0; j < nv; ++j) {
-          add(y0, load(bv + j * kLanes), X[i + nu * j]);
-          add(y1, load(bv + (nv + j) * kLanes), X[i + nu * j]);
-          add(y2, load(bv + (2 * nv + j) * kLanes), X[i + nu * j]);
-        }
-        Y0[i] = y0;
-        Y1[i] = y1;
-        Y2[i] = y2;
-        Z0[i] = Z1[i] = Z2[i] = V3{};
-      }
-      for (int gu = 0; gu < block.gu; ++gu) {
-        const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 3 * nu * kLanes;
-        const double* data =
-            block.points.data() + ((static_cast<long>(group) * block.gv + gv) * block.gu + gu) * stride;
-        const double* rest = block.rest_curvature ? data + (5 + (kRational ? 6 : 0)) * kLanes : nullptr;
-        V3 x0{}, x1{}, x2{}, x11{}, x22{}, x12{};
-        for (int i = 0; i < nu; ++i) {
-          const V u0 = load(bu + i * kLanes), u1 = load(bu + (nu + i) * kLanes), u2 = load(bu + (2 * nu + i) * kLanes);
-          if constexpr (kRational) add(x0, u0, Y0[i]);
-          add(x1, u1, Y0[i]);
-          add(x2, u0, Y1[i]);
-          add(x11, u2, Y0[i]);
-          add(x22, u0, Y2[i]);
-          add(x12, u1, Y1[i]);
-        }
-        V w1{}, w2{}, w11{}, w22{}, w12{}, inv_w{};
-        if constexpr (kRational) {
-          const double* w = data + 5 * kLanes;
-          inv_w = 1.0 / load(w);
-          w1 = load(w + kLanes);
-          w2 = load(w + 2 * kLanes);
-          w11 = load(w + 3 * kLanes);
-          w22 = load(w + 4 * kLanes);
-          w12 = load(w + 5 * kLanes);
-          x0 = inv_w * x0;
-          x1 = inv_w * (x1 - w1 * x0);
-          x2 = inv_w * (x2 - w2 * x0);
-          x11 = inv_w * (x11 - (2.0 * w1) * x1 - w11 * x0);
-          x22 = inv_w * (x22 - (2.0 * w2) * x2 - w22 * x0);
-          x12 = inv_w * (x12 - w1 * x2 - w2 * x1 - w12 * x0);
-        }
-        V3 g0{}, g1, g2, g11, g22, g12;
-        if constexpr (std::is_same_v<Law, GeneralLaw>)
-          if (laws)
-            lawAtPoint(shell_law, laws + ((group * long{block.gv} + gv) * block.gu + gu) * kLawDoubles * kLanes,
-                       law.lanes);
-        shellPoint<kEnergy>(law, data, rest, x1, x2, x11, x22, x12, g1, g2, g11, g22, g12, e);
-        if constexpr (kRational) {
-          g11 = inv_w * g11;
-          g22 = inv_w * g22;
-          g12 = inv_w * g12;
-          g1 = inv_w * (g1 - (2.0 * w1) * g11 - w2 * g12);
-          g2 = inv_w * (g2 - (2.0 * w2) * g22 - w1 * g12);
-          g0 = (-inv_w) * (w11 * g11 + w22 * g22 + w12 * g12 + w1 * g1 + w2 * g2);
-        }
-        for (int i = 0; i < nu; ++i) {
-          const V u0 = load(bu + i * kLanes), u1 = load(bu + (nu + i) * kLanes), u2 = load(bu + (2 * nu + i) * kLanes);
-          add(Z0[i], u1, g1);
-          add(Z0[i], u2, g11);
-          if constexpr (kRational) add(Z0[i], u0, g0);
-          add(Z1[i], u0, g2);
-          add(Z1[i], u1, g12);
-          add(Z2[i], u0, g22);
-        }
-      }
-      for (int j = 0; j < nv; ++j) {
-        const V v0 = load(bv + j * kLanes), v1 = load(bv + (nv + j) * kLanes), v2 = load(bv + (2 * nv + j) * kLanes);
-        for (int i = 0; i < nu; ++i) {
-          add(F[i + nu * j], v0, Z0[i]);
-          add(F[i + nu * j], v1, Z1[i]);
-          add(F[i + nu * j], v2, Z2[i]);
-        }
-      }
-    }
-    double* out = cell_force + static_cast<long>(group) * nn * 3 * kLanes;
-    for (int k = 0; k < nn; ++k) {
-      const V3 f = kRational ? load(weights + k * kLanes) * F[k] : F[k];
-      store(out + (3 * k) * kLanes, f.x);
-      store(out + (3 * k + 1) * kLanes, f.y);
-      store(out + (3 * k + 2) * kLanes, f.z);
-    }
-    if constexpr (kEnergy) store(energy + static_cast<long>(group) * kLanes, e);
+  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  V3 X[kNu * kNv], F[kNu * kNv];
+  const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
+  const double* weights = kRational ? block.weights.data() + static_cast<long>(group) * nn * kLanes : nullptr;
+  for (int k = 0; k < nn; ++k) {
+    X[k] = gather(q, nodes + k * kLanes);
+    if constexpr (kRational) X[k] = load(weights + k * kLanes) * X[k];
+    F[k] = V3{};
   }
+  GroupEnergy e;
+  Law law{shell_law};
+  if constexpr (std::is_same_v<Law, GeneralLaw>) constantLaw(shell_law, law.lanes);
+  for (int gv = 0; gv < block.gv; ++gv) {
+    const double* bv = block.basis_v.data() + (static_cast<long>(group) * block.gv + gv) * 3 * nv * kLanes;
+    V3 Y0[kNu], Y1[kNu], Y2[kNu], Z0[kNu], Z1[kNu], Z2[kNu];
+    for (int i = 0; i < nu; ++i) {
+      V3 y0{}, y1{}, y2{};
+      for (int j = 0; j < nv; ++j) {
+        add(y0, load(bv + j * kLanes), X[i + nu * j]);
+        add(y1, load(bv + (nv + j) * kLanes), X[i + nu * j]);
+        add(y2, load(bv + (2 * nv + j) * kLanes), X[i + nu * j]);
+      }
+      Y0[i] = y0;
+      Y1[i] = y1;
+      Y2[i] = y2;
+      Z0[i] = Z1[i] = Z2[i] = V3{};
+    }
+    for (int gu = 0; gu < block.gu; ++gu) {
+      const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 3 * nu * kLanes;
+      const double* data = block.points.data() + ((static_cast<long>(group) * block.gv + gv) * block.gu + gu) * stride;
+      const double* rest = block.rest_curvature ? data + (5 + (kRational ? 6 : 0)) * kLanes : nullptr;
+      V3 x0{}, x1{}, x2{}, x11{}, x22{}, x12{};
+      for (int i = 0; i < nu; ++i) {
+        const V u0 = load(bu + i * kLanes), u1 = load(bu + (nu + i) * kLanes), u2 = load(bu + (2 * nu + i) * kLanes);
+        if constexpr (kRational) add(x0, u0, Y0[i]);
+        add(x1, u1, Y0[i]);
+        add(x2, u0, Y1[i]);
+        add(x11, u2, Y0[i]);
+        add(x22, u0, Y2[i]);
+        add(x12, u1, Y1[i]);
+      }
+      V w1{}, w2{}, w11{}, w22{}, w12{}, inv_w{};
+      if constexpr (kRational) {
+        const double* w = data + 5 * kLanes;
+        inv_w = 1.0 / load(w);
+        w1 = load(w + kLanes);
+        w2 = load(w + 2 * kLanes);
+        w11 = load(w + 3 * kLanes);
+        w22 = load(w + 4 * kLanes);
+        w12 = load(w + 5 * kLanes);
+        x0 = inv_w * x0;
+        x1 = inv_w * (x1 - w1 * x0);
+        x2 = inv_w * (x2 - w2 * x0);
+        x11 = inv_w * (x11 - (2.0 * w1) * x1 - w11 * x0);
+        x22 = inv_w * (x22 - (2.0 * w2) * x2 - w22 * x0);
+        x12 = inv_w * (x12 - w1 * x2 - w2 * x1 - w12 * x0);
+      }
+      V3 g0{}, g1, g2, g11, g22, g12;
+      const long point = (group * long{block.gv} + gv) * block.gu + gu;
+      shellPoint<kEnergy>(law, laws, point, data, rest, x1, x2, x11, x22, x12, g1, g2, g11, g22, g12, e);
+      if constexpr (kRational) {
+        g11 = inv_w * g11;
+        g22 = inv_w * g22;
+        g12 = inv_w * g12;
+        g1 = inv_w * (g1 - (2.0 * w1) * g11 - w2 * g12);
+        g2 = inv_w * (g2 - (2.0 * w2) * g22 - w1 * g12);
+        g0 = (-inv_w) * (w11 * g11 + w22 * g22 + w12 * g12 + w1 * g1 + w2 * g2);
+      }
+      for (int i = 0; i < nu; ++i) {
+        const V u0 = load(bu + i * kLanes), u1 = load(bu + (nu + i) * kLanes), u2 = load(bu + (2 * nu + i) * kLanes);
+        add(Z0[i], u1, g1);
+        add(Z0[i], u2, g11);
+        if constexpr (kRational) add(Z0[i], u0, g0);
+        add(Z1[i], u0, g2);
+        add(Z1[i], u1, g12);
+        add(Z2[i], u0, g22);
+      }
+    }
+    for (int j = 0; j < nv; ++j) {
+      const V v0 = load(bv + j * kLanes), v1 = load(bv + (nv + j) * kLanes), v2 = load(bv + (2 * nv + j) * kLanes);
+      for (int i = 0; i < nu; ++i) {
+        add(F[i + nu * j], v0, Z0[i]);
+        add(F[i + nu * j], v1, Z1[i]);
+        add(F[i + nu * j], v2, Z2[i]);
+      }
+    }
+  }
+  double* out = cell_force + static_cast<long>(group) * nn * 3 * kLanes;
+  for (int k = 0; k < nn; ++k) {
+    const V3 f = kRational ? load(weights + k * kLanes) * F[k] : F[k];
+    store(out + (3 * k) * kLanes, f.x);
+    store(out + (3 * k + 1) * kLanes, f.y);
+    store(out + (3 * k + 2) * kLanes, f.z);
+  }
+  if constexpr (kEnergy) e.write(shell_law, group, energy);
+}
+
+template <int kP, int kQ, bool kRational, bool kEnergy, class Law>
+void force(const ShellBlock& block, const BlockLaw& law, const double* q, double* cell_force, double* energy) {
+  forAll(Each::element, block.groups,
+         [&](int group) { groupForce<kP, kQ, kRational, kEnergy, Law>(block, law, group, q, cell_force, energy); });
 }
 
 /// Cut cells: points of their own, the law in its general form.
 template <bool kEnergy>
-void scatteredForce(const ShellBlock& block, const ShellLaw& shell_law, const double* q, double* cell_force,
+void scatteredForce(const ShellBlock& block, const BlockLaw& shell_law, const double* q, double* cell_force,
                     double* energy) {
   const int nn = block.nodeCount(), stride = block.pointDoubles() * kLanes;
   const double* laws = block.laws.empty() ? nullptr : block.laws.data();
-#pragma omp parallel for schedule(static) if (block.groups > 16)
-  for (int group = 0; group < block.groups; ++group) {
+  forAll(Each::element, block.groups, [&](int group) {
     constexpr int kMax = (kMaxDegree + 1) * (kMaxDegree + 1);
     V3 X[kMax], F[kMax];
     const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
@@ -195,19 +198,18 @@ void scatteredForce(const ShellBlock& block, const ShellLaw& shell_law, const do
       X[k] = gather(q, nodes + k * kLanes);
       F[k] = V3{};
     }
-    V e{};
-    GeneralLaw law{shell_law, {}};
+    GroupEnergy e;
+    GeneralLaw law{shell_law};
     constantLaw(shell_law, law.lanes);
     for (long point = block.first_point[group]; point < block.first_point[group + 1]; ++point) {
       const double* data = block.points.data() + point * stride;
       const double* shape = block.shapes.data() + point * 5 * nn * kLanes;
       const auto N = [&](int d, int k) { return load(shape + (d * nn + k) * kLanes); };
-      if (laws) lawAtPoint(shell_law, laws + point * kLawDoubles * kLanes, law.lanes);
       V3 x[5]{}, g[5];
       for (int k = 0; k < nn; ++k)
         for (int d = 0; d < 5; ++d) add(x[d], N(d, k), X[k]);
-      shellPoint<kEnergy>(law, data, block.rest_curvature ? data + 5 * kLanes : nullptr, x[0], x[1], x[2], x[3], x[4],
-                          g[0], g[1], g[2], g[3], g[4], e);
+      shellPoint<kEnergy>(law, laws, point, data, block.rest_curvature ? data + 5 * kLanes : nullptr, x[0], x[1], x[2],
+                          x[3], x[4], g[0], g[1], g[2], g[3], g[4], e);
       for (int k = 0; k < nn; ++k)
         for (int d = 0; d < 5; ++d) add(F[k], N(d, k), g[d]);
     }
@@ -217,24 +219,24 @@ void scatteredForce(const ShellBlock& block, const ShellLaw& shell_law, const do
       store(out + (3 * k + 1) * kLanes, F[k].y);
       store(out + (3 * k + 2) * kLanes, F[k].z);
     }
-    if constexpr (kEnergy) store(energy + static_cast<long>(group) * kLanes, e);
-  }
+    if constexpr (kEnergy) e.write(shell_law, group, energy);
+  });
 }
 
 template <bool kRational, bool kEnergy, class Law>
-void forceOfDegree(const ShellBlock& b, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
+void forceOfDegree(const ShellBlock& b, const BlockLaw& law, const double* q, double* cell_force, double* energy) {
   if (b.p == 2 && b.q == 2) return force<2, 2, kRational, kEnergy, Law>(b, law, q, cell_force, energy);
   if (b.p == 3 && b.q == 3) return force<3, 3, kRational, kEnergy, Law>(b, law, q, cell_force, energy);
   force<-1, -1, kRational, kEnergy, Law>(b, law, q, cell_force, energy);
 }
 
 template <bool kRational, bool kEnergy>
-void forceOfLaw(const ShellBlock& b, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
+void forceOfLaw(const ShellBlock& b, const BlockLaw& law, const double* q, double* cell_force, double* energy) {
   law.general ? forceOfDegree<kRational, kEnergy, GeneralLaw>(b, law, q, cell_force, energy)
               : forceOfDegree<kRational, kEnergy, FabricLaw>(b, law, q, cell_force, energy);
 }
 
-void shellForce(const ShellBlock& b, const ShellLaw& law, const double* q, double* cell_force, double* energy) {
+void shellForce(const ShellBlock& b, const BlockLaw& law, const double* q, double* cell_force, double* energy) {
   if (b.assumed) return GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(b, law, q, cell_force, energy);
   if (b.scattered)
     return energy ? scatteredForce<true>(b, law, q, cell_force, energy)
@@ -266,8 +268,6 @@ double multiplyAddPeak(long rounds) {
 }  // namespace
 
 extern const KernelSet GAMBESON_CONCAT(kKernels_, GAMBESON_ISA);
-#define GAMBESON_STRING2(a) #a
-#define GAMBESON_STRING(a) GAMBESON_STRING2(a)
 const KernelSet GAMBESON_CONCAT(kKernels_, GAMBESON_ISA){GAMBESON_STRING(GAMBESON_ISA), kLanes, shellForce,
                                                          GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA), multiplyAddPeak};
 

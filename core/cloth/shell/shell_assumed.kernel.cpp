@@ -2,18 +2,18 @@
 /// Compiled once per instruction set with GAMBESON_ISA defined. Notation as in shell_tangent.kernel.cpp.
 
 #include "core/cloth/shell/assumed.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
 
 template <bool kEnergy, class Law>
-void assumedForce(const ShellBlock& block, const ShellLaw& shell_law, const double* q, double* cell_force,
+void assumedForce(const ShellBlock& block, const BlockLaw& shell_law, const double* q, double* cell_force,
                   double* energy) {
   constexpr int nn = 9;
   const int stride = block.pointDoubles() * kLanes;
-  [[maybe_unused]] const double* laws = block.laws.empty() ? nullptr : block.laws.data();
-#pragma omp parallel for schedule(static) if (block.groups > 16)
-  for (int group = 0; group < block.groups; ++group) {
+  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  forAll(Each::element, block.groups, [&](int group) {
     V3 X[nn], F[nn];
     const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
     const double* weights = block.rational ? block.weights.data() + static_cast<long>(group) * nn * kLanes : nullptr;
@@ -22,7 +22,7 @@ void assumedForce(const ShellBlock& block, const ShellLaw& shell_law, const doub
       F[k] = V3{};
     }
     Ties ties(block, group, weights, X);
-    V total{};
+    GroupEnergy total;
     Law law{shell_law};
     if constexpr (std::is_same_v<Law, GeneralLaw>) constantLaw(shell_law, law.lanes);
     for (int gv = 0; gv < block.gv; ++gv) {
@@ -64,11 +64,10 @@ void assumedForce(const ShellBlock& block, const ShellLaw& shell_law, const doub
           change[1] -= load(rest + kLanes);
           change[2] -= 2.0 * load(rest + 2 * kLanes);
         }
-        if constexpr (std::is_same_v<Law, GeneralLaw>)
-          if (laws) lawAtPoint(shell_law, laws + point * kLawDoubles * kLanes, law.lanes);
-        V resultant[3], couple[3], density{};
-        law.template evaluate<kEnergy>(strain, change, resultant, couple, density);
-        if constexpr (kEnergy) total += dA * density;
+        PointAnswer<V> answer;
+        law.template evaluate<kEnergy ? with_energy : only_resultants>(laws, point, strain, change, answer);
+        if constexpr (kEnergy) total.add(dA, answer);
+        const V *resultant = answer.membrane.resultant, *couple = answer.bending.resultant;
         V R[3], B[3];
         for (int i = 0; i < 3; ++i) {
           R[i] = dA * (T[0][i] * resultant[0] + T[1][i] * resultant[1] + T[2][i] * resultant[2]);
@@ -101,14 +100,14 @@ void assumedForce(const ShellBlock& block, const ShellLaw& shell_law, const doub
       store(out + (3 * k + 1) * kLanes, F[k].y);
       store(out + (3 * k + 2) * kLanes, F[k].z);
     }
-    if constexpr (kEnergy) store(energy + static_cast<long>(group) * kLanes, total);
-  }
+    if constexpr (kEnergy) total.write(shell_law, group, energy);
+  });
 }
 
 }  // namespace
 
-void GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, double*, double*);
-void GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(const ShellBlock& b, const ShellLaw& law, const double* q,
+void GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(const ShellBlock&, const BlockLaw&, const double*, double*, double*);
+void GAMBESON_CONCAT(shellAssumed_, GAMBESON_ISA)(const ShellBlock& b, const BlockLaw& law, const double* q,
                                                   double* cell_force, double* energy) {
   if (law.general) {
     energy ? assumedForce<true, GeneralLaw>(b, law, q, cell_force, energy)

@@ -2,31 +2,19 @@
 /// The element kernel of the Kirchhoff-Love shell: data as the kernels want it, and the choice of instruction set.
 /// One lane of a vector is one cell; a group is as many cells as the vector has lanes.
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/material/section.hpp"
+#include "core/cloth/block_law.hpp"
 #include "core/math/aligned.hpp"
 
 namespace gambeson {
 
-/// The general law at a point: n = A e + B k, m = B e + D k (core/material/section.hpp), with eq. 2.14 for the moments
-/// of weft and warp where kappa0 > 0 (B0 in D11 and D22, the twist rigidity in D33), with the membrane relaxed to its
-/// tension field where `tension` is not 0, and jamming (core/material/jamming.hpp) with `jam_N_per_m` below the square
-/// `jam_s` of an area ratio.
-struct PointLaw {
-  Section section;
-  double kappa0 = 0, kappa_regular = 0;
-  double tension = 0;
-  double jam_N_per_m = 0, jam_s = 0;
-};
 constexpr int kShareDoubles = 33;  ///< of the ties at a Gauss point, and of the correction of the mean
 constexpr int kMeanDoubles = 75;   ///< of a cell's correction of the mean
 constexpr int kMaxTies = 8;        ///< Gauss points per direction of a cell with assumed strains
-constexpr int kLawDoubles =
-    23;  ///< A, B, D, kappa0, kappa_regular, tension, jam_N_per_m, jam_s: a PointLaw as the kernels read it
-static_assert(sizeof(PointLaw) == kLawDoubles * sizeof(double));
 
 /// Cells of one degree pair and one quadrature rule, packed for vectors of `lanes` doubles. All arrays run
 /// [group][...][lane]; a last group is filled up with copies of a cell whose area is zero.
@@ -55,6 +43,7 @@ struct ShellBlock {
   bool assumed = false;
   AlignedVector<double> tie_u, tie_v, tie_share, tie_rest, tie_mean;
   AlignedVector<double> laws;  ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
+  std::vector<long> place;     ///< as BlockLaw has it; empty where no law remembers
 
   int nodeCount() const { return (p + 1) * (q + 1); }
   int pairCount() const { return nodeCount() * (nodeCount() + 1) / 2; }
@@ -63,37 +52,14 @@ struct ShellBlock {
   long firstPoint(int group) const { return scattered ? first_point[group] : static_cast<long>(group) * gu * gv; }
 };
 
-/// What the law needs at every point of a block, as resultants.
-///   n_11 = d1 E11 + d3 E22, n_22 = d3 E11 + d2 E22, n_12 = d4 2E12 [N/m]; Zheng 2013, eq. 2.13 times the thickness
-///   m_I  = bending law of kappa_I, I = weft, warp [N]; m_12 = twist * 2 kappa_12
-/// with d in N/m and rigidities in N m. See core/material/bending.hpp for the law and its regularisation.
-struct ShellLaw {
-  double d1 = 0, d2 = 0, d3 = 0, d4 = 0;
-  double bending_weft = 0, bending_warp = 0, twist = 0;
-  double kappa0 = 0, kappa_regular = 0;  ///< kappa0 = 0: the linear law m = B kappa
-
-  /// The same as a general law: what the tangent reads, and the force where `general` says that the numbers above are
-  /// not enough.
-  PointLaw point;
-  bool general = false;
-  bool zheng = false, tension = false, jams = false;  ///< whether any point follows eq. 2.14, is a tension field, jams
-  /// What is left out, as in ShellTerms: of the general law in the kernel, of the numbers above by the caller.
-  bool membrane = true, bending = true, steepest = false;
-};
-
-/// core/material/tension_field.hpp for each lane whose `on` is not 0: overwrites n, the energy per area and, where not
-/// null, the slope. Arrays run [component][lane]. Compiled once, for all instruction sets.
-void tensionFieldLanes(int lanes, const double* A, const double* strain, const double* on, double* n, double* energy,
-                       double* slope);
-
 /// Adds nothing: writes f_int per cell, [group][node][3][lane], and the energy of each lane of a group where `energy`
 /// is not null.
-using ShellForceKernel = void (*)(const ShellBlock&, const ShellLaw&, const double* q, double* cell_force,
+using ShellForceKernel = void (*)(const ShellBlock&, const BlockLaw&, const double* q, double* cell_force,
                                   double* energy);
 
 /// Writes d2E/dq2 of the cells of groups [first, first + count): [group - first][pair][9][lane]. Pairs of nodes I <= J,
 /// I slowest; nine values row by row, rows for the components of I.
-using ShellTangentKernel = void (*)(const ShellBlock&, const ShellLaw&, const double* q, int first, int count,
+using ShellTangentKernel = void (*)(const ShellBlock&, const BlockLaw&, const double* q, int first, int count,
                                     double* pairs);
 
 struct KernelSet {

@@ -14,7 +14,7 @@ namespace gambeson {
 std::vector<Vec3> edgeForce(const Garment& garment, const PatchEdge& edge, const Vec3& force_N_per_m);
 std::vector<Vec3> surfaceForce(const Garment& garment, int patch, const Vec3& force_N_per_m2);
 std::vector<Vec3> pointForce(const Garment& garment, int patch, Vec2 uv, const Vec3& force_N);
-/// The same on all patches.
+/// surfaceForce on all patches, summed.
 std::vector<Vec3> garmentForce(const Garment& garment, const Vec3& force_N_per_m2);
 /// Weight: ∫ N rho g dA over all patches, with the local surface density.
 std::vector<Vec3> weightForce(const Garment& garment, const Vec3& gravity_m_per_s2);

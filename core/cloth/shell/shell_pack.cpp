@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "core/cloth/shell/rest_frame.hpp"
-#include "core/cloth/shell/shell_law.hpp"
+#include "core/material/fabric_law.hpp"
 
 namespace gambeson {
 namespace {

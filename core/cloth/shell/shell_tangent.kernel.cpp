@@ -11,6 +11,7 @@
 /// for rows of I and columns of J.
 
 #include "core/cloth/shell/assumed.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -40,8 +41,8 @@ struct Tied {
 /// Adds the point's share to all pairs. `kNodes`: their largest number, `nn` the number. With assumed strains (`tied`)
 /// the resultants go to the ties, which add the rest of the membrane's share (addTies).
 template <int kNodes, bool kAssumed = false>
-inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, const double* rest, const ShellLaw& law,
-                     LawLanes l, double* pairs, [[maybe_unused]] const Tied* tied = nullptr) {
+inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, const double* rest, GeneralLaw& law,
+                     const double* laws, long point, double* pairs, [[maybe_unused]] const Tied* tied = nullptr) {
   V3 a1{}, a2{}, x11{}, x22{}, x12{};
   for (int k = 0; k < nn; ++k) {
     add(a1, N[k].d1, X[k]);
@@ -78,12 +79,14 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
     change[1] -= load(rest + kLanes);
     change[2] -= 2.0 * load(rest + 2 * kLanes);
   }
-  V force[3], moment3[3], unused{};
-  generalLaw<false, true>(law, l, strain, change, force, moment3, unused);
+  PointAnswer<V> answer;
+  law.evaluate<with_slope>(laws, point, strain, change, answer);
+  V *force = answer.membrane.resultant, *moment3 = answer.bending.resultant;
+  V *A = answer.membrane.slope, *D = answer.bending.slope, B[6];
   for (int i = 0; i < 6; ++i) {
-    l.A[i] *= dA;
-    l.B[i] *= dA;
-    l.D[i] *= dA;
+    A[i] *= dA;
+    B[i] = law.lanes.B[i] * dA;
+    D[i] *= dA;
   }
   for (int i = 0; i < 3; ++i) {
     force[i] *= dA;
@@ -119,16 +122,16 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
     r.t = r.p1 * dual1 + r.p2 * dual2;
     r.mu = moment3[0] * r.bend[0] + moment3[1] * r.bend[1] + moment3[2] * r.bend[2];
     V bn[3]{}, bm[3]{};
-    addSymmetric(l.B, r.bend, bn);
-    addSymmetric(l.D, r.bend, bm);
+    addProduct(B, r.bend, bn);
+    addProduct(D, r.bend, bm);
     Changes& c = changes[k];
     const V3* s = r.strain;
-    c.n[0] = l.A[0] * s[0] + l.A[3] * s[1] + l.A[4] * s[2] + bn[0] * n;
-    c.n[1] = l.A[3] * s[0] + l.A[1] * s[1] + l.A[5] * s[2] + bn[1] * n;
-    c.n[2] = l.A[4] * s[0] + l.A[5] * s[1] + l.A[2] * s[2] + bn[2] * n;
-    c.m[0] = l.B[0] * s[0] + l.B[3] * s[1] + l.B[4] * s[2] + bm[0] * n;
-    c.m[1] = l.B[3] * s[0] + l.B[1] * s[1] + l.B[5] * s[2] + bm[1] * n;
-    c.m[2] = l.B[4] * s[0] + l.B[5] * s[1] + l.B[2] * s[2] + bm[2] * n;
+    c.n[0] = A[0] * s[0] + A[3] * s[1] + A[4] * s[2] + bn[0] * n;
+    c.n[1] = A[3] * s[0] + A[1] * s[1] + A[5] * s[2] + bn[1] * n;
+    c.n[2] = A[4] * s[0] + A[5] * s[1] + A[2] * s[2] + bn[2] * n;
+    c.m[0] = B[0] * s[0] + B[3] * s[1] + B[4] * s[2] + bm[0] * n;
+    c.m[1] = B[3] * s[0] + B[1] * s[1] + B[5] * s[2] + bm[1] * n;
+    c.m[2] = B[4] * s[0] + B[5] * s[1] + B[2] * s[2] + bm[2] * n;
   }
   for (int I = 0; I < nn; ++I) {
     const Rows r = rows[I];
@@ -193,13 +196,13 @@ struct NoTies {
 
 /// kP, kQ: degrees known at compile time, or -1. kAssumed: with assumed strains, degree 2.
 template <int kP, int kQ, bool kAssumed = false>
-void tensorTangent(const ShellBlock& block, const ShellLaw& law, const double* q, int first, int count, double* pairs) {
+void tensorTangent(const ShellBlock& block, const BlockLaw& law, const double* q, int first, int count, double* pairs) {
   const int nu = kP < 0 ? block.p + 1 : kP + 1, nv = kQ < 0 ? block.q + 1 : kQ + 1, nn = nu * nv;
   constexpr int kNodes = (kP < 0 ? kMaxDegree + 1 : kP + 1) * (kQ < 0 ? kMaxDegree + 1 : kQ + 1);
   const int stride = block.pointDoubles() * kLanes;
   const long pair_doubles = static_cast<long>(block.pairCount()) * 9 * kLanes;
-#pragma omp parallel for schedule(static) if (count > 4)
-  for (int group = first; group < first + count; ++group) {
+  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  forAll(Each::element, first, first + count, [&](int group) {
     V3 X[kNodes];
     Shape N[kNodes];
     const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
@@ -208,8 +211,8 @@ void tensorTangent(const ShellBlock& block, const ShellLaw& law, const double* q
     double* out = pairs + (group - first) * pair_doubles;
     for (long k = 0; k < pair_doubles; k += kLanes) store(out + k, V{});
     [[maybe_unused]] std::conditional_t<kAssumed, Ties, NoTies> ties(block, group, weights, X);
-    LawLanes lanes;
-    constantLaw(law, lanes);
+    GeneralLaw point_law{law};
+    constantLaw(law, point_law.lanes);
     for (int gv = 0; gv < block.gv; ++gv) {
       const double* bv = block.basis_v.data() + (static_cast<long>(group) * block.gv + gv) * 3 * nv * kLanes;
       for (int gu = 0; gu < block.gu; ++gu) {
@@ -217,50 +220,48 @@ void tensorTangent(const ShellBlock& block, const ShellLaw& law, const double* q
         const long point = (static_cast<long>(group) * block.gv + gv) * block.gu + gu;
         const double* data = block.points.data() + point * stride;
         tensorShapes(nu, nv, bu, bv, weights, data + 5 * kLanes, N);
-        if (!block.laws.empty()) lawAtPoint(law, block.laws.data() + point * kLawDoubles * kLanes, lanes);
         const double* rest = block.rest_curvature ? data + (5 + (block.rational ? 6 : 0)) * kLanes : nullptr;
         if constexpr (kAssumed) {
           const Tied tied{&ties, block.tie_share.data() + point * kShareDoubles * kLanes, gu, gv};
-          addPoint<kNodes, true>(nn, X, N, data, rest, law, lanes, out, &tied);
+          addPoint<kNodes, true>(nn, X, N, data, rest, point_law, laws, point, out, &tied);
         } else {
-          addPoint<kNodes>(nn, X, N, data, rest, law, lanes, out);
+          addPoint<kNodes>(nn, X, N, data, rest, point_law, laws, point, out);
         }
       }
     }
     if constexpr (kAssumed) addTies(ties, out);
-  }
+  });
 }
 
-void scatteredTangent(const ShellBlock& block, const ShellLaw& law, const double* q, int first, int count,
+void scatteredTangent(const ShellBlock& block, const BlockLaw& law, const double* q, int first, int count,
                       double* pairs) {
   constexpr int kNodes = (kMaxDegree + 1) * (kMaxDegree + 1);
   const int nn = block.nodeCount(), stride = block.pointDoubles() * kLanes;
   const long pair_doubles = static_cast<long>(block.pairCount()) * 9 * kLanes;
-#pragma omp parallel for schedule(static) if (count > 4)
-  for (int group = first; group < first + count; ++group) {
+  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  forAll(Each::element, first, first + count, [&](int group) {
     V3 X[kNodes];
     Shape N[kNodes];
     const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
     for (int k = 0; k < nn; ++k) X[k] = gather(q, nodes + k * kLanes);
     double* out = pairs + (group - first) * pair_doubles;
     for (long k = 0; k < pair_doubles; k += kLanes) store(out + k, V{});
-    LawLanes lanes;
-    constantLaw(law, lanes);
+    GeneralLaw point_law{law};
+    constantLaw(law, point_law.lanes);
     for (long point = block.first_point[group]; point < block.first_point[group + 1]; ++point) {
       const double* shape = block.shapes.data() + point * 5 * nn * kLanes;
       const auto at = [&](int d, int k) { return load(shape + (d * nn + k) * kLanes); };
       for (int k = 0; k < nn; ++k) N[k] = {at(0, k), at(1, k), at(2, k), at(3, k), at(4, k)};
       const double* data = block.points.data() + point * stride;
-      if (!block.laws.empty()) lawAtPoint(law, block.laws.data() + point * kLawDoubles * kLanes, lanes);
-      addPoint<kNodes>(nn, X, N, data, block.rest_curvature ? data + 5 * kLanes : nullptr, law, lanes, out);
+      addPoint<kNodes>(nn, X, N, data, block.rest_curvature ? data + 5 * kLanes : nullptr, point_law, laws, point, out);
     }
-  }
+  });
 }
 
 }  // namespace
 
-void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock&, const ShellLaw&, const double*, int, int, double*);
-void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock& b, const ShellLaw& law, const double* q, int first,
+void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock&, const BlockLaw&, const double*, int, int, double*);
+void GAMBESON_CONCAT(shellTangent_, GAMBESON_ISA)(const ShellBlock& b, const BlockLaw& law, const double* q, int first,
                                                   int count, double* pairs) {
   if (b.assumed) return tensorTangent<2, 2, true>(b, law, q, first, count, pairs);
   if (b.scattered) return scatteredTangent(b, law, q, first, count, pairs);

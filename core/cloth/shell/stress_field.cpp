@@ -8,6 +8,7 @@
 #include "core/cloth/shell/fields.hpp"
 #include "core/cloth/shell/seams.hpp"
 #include "core/math/carried_error.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -17,7 +18,7 @@ void add(StressField::Sample& sum, double w, const StressField::Sample& s) {
   addScaled(sum.strain, w, s.strain);
 }
 
-/// In the basis turned by - angle.
+/// The tensor in the basis that is turned by - angle.
 PlaneTensor turnedBack(const PlaneTensor& t, double angle) {
   if (angle == 0) return t;
   const double c = std::cos(angle), s = std::sin(angle);
@@ -114,10 +115,10 @@ std::vector<StressField::Sample> StressField::means(const ClothState& state, con
   std::vector<Sample> all(cells_.size());
   const long count = static_cast<long>(all.size());
   CarriedError error;
-#pragma omp parallel for schedule(static)
-  for (long k = 0; k < count; ++k)
+  forAll(Each::much, count, [&](long k) {
     error.guard(k,
                 [&] { all[static_cast<std::size_t>(k)] = meanOf(state.q, cells_[static_cast<std::size_t>(k)], more); });
+  });
   error.rethrow();
   return all;
 }

@@ -10,15 +10,15 @@
 
 namespace gambeson {
 
-/// `per_cell` samples along each cell edge (their parameters divide the cell evenly), or the Greville points for 0.
-/// Samples on joined edges are one, so patches that seams join need the same number. Trimmed patches have samples along
-/// their loops, which outline the triangles (trim_mesh.hpp). Throws InputError where the samples are too few to see
-/// every control point, or an area is not positive.
+/// Takes `per_cell` samples along each cell edge (their parameters divide the cell evenly), or the Greville points for
+/// 0. Samples on joined edges are one, so patches that seams join need the same number. Trimmed patches have samples
+/// along their loops, which outline the triangles (trim_mesh.hpp). Throws InputError where the samples are too few to
+/// see every control point, or an area is not positive.
 Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell);
-/// With a number for each patch.
+/// The same surface with a number of samples for each patch.
 Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const int> per_cell);
 
-/// Along one direction of a patch, as buildSurface takes them.
+/// The parameters of the samples along one direction of a patch, as buildSurface takes them.
 std::vector<double> sampleParameters(const KnotVector& knots, int per_cell);
 
 /// ∫ N dA at rest for each control point [m^2].

@@ -7,6 +7,7 @@
 
 #include "core/cloth/free_blocks.hpp"
 #include "core/cloth/shell/hinge.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -107,7 +108,7 @@ void Tangent::addSeamBatches(const FreeMap& map, Batch::Kind kind,
   }
 }
 
-void Tangent::assemble(const Shell& shell, std::span<const Vec3> q, ClothWork& work, BlockMatrix& K,
+void Tangent::assemble(const Shell& shell, const ClothState& state, ClothWork& work, BlockMatrix& K,
                        const ForceTerms& terms) const {
   if (K.columns.size() != pattern_.columns.size() || K.offsets != pattern_.offsets) K = pattern_;
   std::fill(K.values.begin(), K.values.end(), 0.0);
@@ -118,29 +119,24 @@ void Tangent::assemble(const Shell& shell, std::span<const Vec3> q, ClothWork& w
   for (const Batch& batch : batches_) {
     if (batch.kind == Batch::cells ? !terms.membrane && !terms.bending : !terms.seams) continue;
     if (batch.kind != Batch::cells) {
-#pragma omp parallel if (batch.count > 16)
-      {
-        std::vector<std::array<double, 9>> blocks;
-#pragma omp for schedule(static)
-        for (int i = batch.first; i < batch.first + batch.count; ++i) {
-          const bool hinge = batch.kind == Batch::hinges;
-          if (hinge) hingeStiffness(shell.hinges()[i], q, blocks);
-          if (!hinge) gapStiffness(shell.gaps()[i], blocks);
-          const std::size_t n = hinge ? shell.hinges()[i].columns.size() : shell.gaps()[i].columns.size();
-          double* out = slots + seam_slot_[batch.kind][i];
-          for (std::size_t I = 0; I < n; ++I)
-            for (std::size_t J = I; J < n; ++J)
-              out = std::copy(blocks[I * n + J].begin(), blocks[I * n + J].end(), out);
-        }
-      }
+      using Blocks = std::vector<std::array<double, 9>>;
+      forAllWith<Blocks>(Each::element, batch.first, batch.first + batch.count, [&](Blocks& blocks, int i) {
+        const bool hinge = batch.kind == Batch::hinges;
+        if (hinge) hingeStiffness(shell.hinges()[i], state.q, blocks);
+        if (!hinge) gapStiffness(shell.gaps()[i], blocks);
+        const std::size_t n = hinge ? shell.hinges()[i].columns.size() : shell.gaps()[i].columns.size();
+        double* out = slots + seam_slot_[batch.kind][i];
+        for (std::size_t I = 0; I < n; ++I)
+          for (std::size_t J = I; J < n; ++J) out = std::copy(blocks[I * n + J].begin(), blocks[I * n + J].end(), out);
+      });
     } else {
       const ShellPart& part = shell.parts()[batch.part];
-      shell.kernels().tangent(part.block, withTerms(part.law, terms), reinterpret_cast<const double*>(q.data()),
-                              batch.first, batch.count, slots);
+      const BlockLaw law = withHistory(withTerms(part.law, terms), part.block.place.data(), state, {});
+      shell.kernels().tangent(part.block, law, reinterpret_cast<const double*>(state.q.data()), batch.first,
+                              batch.count, slots);
     }
     const long stride = batch.stride;
-#pragma omp parallel for schedule(static) if (batch.end_sum - batch.first_sum > 64)
-    for (long s = batch.first_sum; s < batch.end_sum; ++s) {
+    forAll(Each::element, batch.first_sum, batch.end_sum, [&](long s) {
       double* out = &K.values[9 * sum_block_[s]];
       for (long k = sum_offsets_[s]; k < sum_offsets_[s + 1]; ++k) {
         const Source& source = sources_[k];
@@ -152,7 +148,7 @@ void Tangent::assemble(const Shell& shell, std::span<const Vec3> q, ClothWork& w
         else
           for (int i = 0; i < 9; ++i) out[i] += w * in[i * stride];
       }
-    }
+    });
   }
 }
 

@@ -16,7 +16,7 @@ class Tangent {
   /// Every pair of free points that share a cell (or a seam point) is in the pattern.
   const BlockMatrix& pattern() const { return pattern_; }
   /// Writes K at the control points q. `terms` as in Shell::force. `shell` is the one of the constructor.
-  void assemble(const Shell& shell, std::span<const Vec3> q, ClothWork& work, BlockMatrix& K,
+  void assemble(const Shell& shell, const ClothState& state, ClothWork& work, BlockMatrix& K,
                 const ForceTerms& terms = {}) const;
 
  private:

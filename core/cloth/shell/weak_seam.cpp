@@ -9,7 +9,6 @@
 #include "core/cloth/shell/edge.hpp"
 #include "core/cloth/shell/fields.hpp"
 #include "core/error.hpp"
-#include "core/material/bending.hpp"
 #include "core/math/quadrature.hpp"
 
 namespace gambeson {
@@ -27,28 +26,23 @@ struct Scale {
 
 Scale scaleOf(const Fabric& f) {
   Scale s;
-  if (f.plies.empty()) {
+  const Laminate* layered = f.laminate();
+  if (!layered) {
     const double modulus =
         std::max(f.young_weft_Pa, f.young_warp_Pa) / (1 - f.poisson * f.poisson * f.young_warp_Pa / f.young_weft_Pa);
     s.membrane = modulus * f.thickness_m;
-    const double given = std::max({f.bending_weft_Nm, f.bending_warp_Nm, f.twist_Nm});
-    switch (f.bending_law) {
-      case BendingLaw::linear:
-        s.bending = given;
-        break;
-      case BendingLaw::zheng:
-        s.bending = zhengSteepest(given, f.kappa0_per_m, f.kappa_regular_per_m);
-        break;
-      case BendingLaw::consistent:
-        s.bending = s.membrane * f.thickness_m * f.thickness_m / 12;
-        break;
-    }
+    s.bending = std::visit(
+        [&]<class L>(const L& law) {
+          if constexpr (L::is_solid)
+            return s.membrane * f.thickness_m * f.thickness_m / 12;
+          else
+            return steepestSlope(law, law.most_Nm());
+        },
+        f.law);
     return s;
   }
-  double thickness = 0;
-  for (const Ply& ply : f.plies) thickness += ply.thickness_m;
-  double bottom = -thickness / 2;
-  for (const Ply& ply : f.plies) {
+  double bottom = -layered->thickness_m() / 2;
+  for (const Ply& ply : layered->plies) {
     const double top = bottom + ply.thickness_m;
     const double modulus =
         std::max(ply.young1_Pa, ply.young2_Pa) / (1 - ply.poisson12 * ply.poisson12 * ply.young2_Pa / ply.young1_Pa);

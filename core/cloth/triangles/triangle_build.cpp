@@ -16,8 +16,8 @@ using Flat = std::array<Vec2, 2>;
 
 Vec2 minus(const Vec2& a, const Vec2& b) { return {a.x - b.x, a.y - b.y}; }
 
-/// From the corners in space; `uv` turns the weft to where u grows and v stays. Without uv the weft is the direction in
-/// the triangle nearest to the x axis (to y where the triangle faces x).
+/// The flat shape of a triangle from its corners in space; `uv` turns the weft to where u grows and v stays. Without uv
+/// the weft is the direction in the triangle nearest to the x axis (to y where the triangle faces x).
 Flat flatOfShape(const std::array<Vec3, 3>& X, const std::array<Vec2, 3>* uv, const std::string& name) {
   const Vec3 e1 = X[1] - X[0], e2 = X[2] - X[0], n = normalized(cross(e1, e2));
   Vec3 weft;
@@ -36,7 +36,8 @@ Flat flatOfShape(const std::array<Vec3, 3>& X, const std::array<Vec2, 3>* uv, co
   return {Vec2{dot(e1, weft), dot(e1, warp)}, Vec2{dot(e2, weft), dot(e2, warp)}};
 }
 
-/// From uv alone; where that runs the other way around (a mirrored piece) the warp is turned over.
+/// The flat shape of a triangle from uv alone; where that runs the other way around (a mirrored piece) the warp is
+/// turned over.
 Flat flatOfUv(const std::array<Vec2, 3>& uv, const std::string& name) {
   Vec2 d1 = minus(uv[1], uv[0]), d2 = minus(uv[2], uv[0]);
   const double det = d1.x * d2.y - d1.y * d2.x;

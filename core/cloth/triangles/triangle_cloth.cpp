@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/cloth/free_blocks.hpp"
-#include "core/cloth/shell/shell_kernel.hpp"
 #include "core/cloth/triangles/triangle_mounting.hpp"
 #include "core/cloth/triangles/triangle_stress.hpp"
 #include "core/error.hpp"
@@ -35,7 +34,7 @@ class TriangleTangent : public ClothTangent {
       addSymmetrised(cloth_.map(), e.triangles()[k].corner, blocks, K);
     }
     for (std::size_t k = 0; k < e.hinges().size(); ++k) {
-      e.hingeStiffness(static_cast<int>(k), state.q, terms, blocks);
+      e.hingeStiffness(static_cast<int>(k), state, terms, blocks);
       addSymmetrised(cloth_.map(), e.hinges()[k].corner, blocks, K);
     }
   }
@@ -62,7 +61,7 @@ TriangleCloth::TriangleCloth(std::vector<TriangleGarment> garments)
 
 TriangleCloth::~TriangleCloth() = default;
 
-std::string TriangleCloth::kernels() const { return widestKernels().name; }
+std::string TriangleCloth::kernels() const { return elements_.kernels(); }
 
 std::string TriangleCloth::describePoint(int point) const {
   int patch = 0;
@@ -289,15 +288,30 @@ SparseRows TriangleCloth::consistentMass() const {
 
 void TriangleCloth::force(const ClothState& state, const ClothForce& out, ClothWork& work,
                           const ForceTerms& terms) const {
-  elements_.force(state.q, out, work, terms);
+  elements_.force(state, out, work, terms);
 }
 
 std::unique_ptr<ClothTangent> TriangleCloth::tangent() const { return std::make_unique<TriangleTangent>(*this); }
 
+/// The middle of the hinge's edge, in its first triangle.
+std::vector<std::pair<int, Vec2>> TriangleCloth::historyPlaces() const {
+  std::vector<std::pair<int, Vec2>> places;
+  for (std::size_t k = 0; k < elements_.hinges().size(); ++k) {
+    if (!elements_.remembers(k)) continue;
+    const FoldHinge& h = elements_.hinges()[k];
+    int patch = 0;
+    while (firstTriangle(patch + 1) <= h.triangle[0]) ++patch;
+    const std::array<int, 3>& corners = elements_.triangles()[static_cast<std::size_t>(h.triangle[0])].corner;
+    const auto half = [&](std::size_t c) { return corners[c] == h.corner[0] || corners[c] == h.corner[1] ? 0.5 : 0.0; };
+    places.push_back({patch, {2.0 * (h.triangle[0] - firstTriangle(patch)) + half(1), half(2)}});
+  }
+  return places;
+}
+
 std::unique_ptr<StressView> TriangleCloth::stress() const { return std::make_unique<TriangleStress>(*this); }
 
 PointState TriangleCloth::stateAt(const ClothState& state, int patch, Vec2 uv) const {
-  return elements_.stateOf(locate(patch, uv).triangle, state.q);
+  return elements_.stateOf(locate(patch, uv).triangle, state);
 }
 
 double TriangleCloth::bendAt(const ClothState& state, int patch, Vec2 uv) const {

@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include "core/cloth/triangles/hinge_angle.hpp"
 #include "core/error.hpp"
-#include "core/material/bending.hpp"
-#include "core/material/jamming.hpp"
-#include "core/material/tension_field.hpp"
 
 namespace gambeson {
 namespace {
 
-constexpr int kMany = 256;  ///< elements, from which on threads share the work
-
-PointLaw lawOf(const Fabric& fabric) {
+BlockLaw lawOfTriangles(const Fabric& fabric) {
   checkFabric(fabric);
-  PointLaw law = pointLaw(fabric);
-  const Section& s = law.section;
+  const BlockLaw law = blockLaw(fabric);
+  const Section& s = law.point.section;
   for (int i = 0; i < 6; ++i)
     if (std::abs(s.B[static_cast<std::size_t>(i)]) > 1e-12 * std::sqrt(s.A[0] * s.D[0]))
       throw InputError(
@@ -28,72 +25,10 @@ PointLaw lawOf(const Fabric& fabric) {
   return law;
 }
 
-/// What the terms leave of a law.
-PointLaw withTerms(PointLaw law, const ForceTerms& terms) {
-  if (!terms.membrane) law.section.A = {}, law.tension = law.jam_N_per_m = law.jam_s = 0;
-  if (terms.steepest) {
-    law.tension = 0;
-    if (law.kappa0 > 0) {
-      law.section.D[0] = zhengSteepest(law.section.D[0], law.kappa0, law.kappa_regular);
-      law.section.D[1] = zhengSteepest(law.section.D[1], law.kappa0, law.kappa_regular);
-      law.kappa0 = law.kappa_regular = 0;
-    }
-  }
-  if (!terms.bending) law.section.D = {}, law.kappa0 = 0;
-  return law;
-}
-
-Vec3 times(const Voigt& S, const Vec3& x) {
-  return {S[0] * x.x + S[3] * x.y + S[4] * x.z, S[3] * x.x + S[1] * x.y + S[5] * x.z,
-          S[4] * x.x + S[5] * x.y + S[2] * x.z};
-}
-
-/// n of the membrane, its energy per area and, where not null, dn/de in the order of Voigt.
-Vec3 membraneLaw(const PointLaw& law, const Vec3& e, double* energy, Voigt* slope) {
-  Vec3 n;
-  if (law.tension != 0) {
-    const double strain[3] = {e.x, e.y, e.z};
-    const TensionField field = tensionField(law.section.A.data(), strain);
-    n = {field.n[0], field.n[1], field.n[2]};
-    if (energy) *energy = field.energy;
-    if (slope)
-      for (std::size_t i = 0; i < 6; ++i) (*slope)[i] = field.slope[i];
-  } else {
-    n = times(law.section.A, e);
-    if (energy) *energy = 0.5 * dot(n, e);
-    if (slope) *slope = law.section.A;
-  }
-  const double a = 1 + 2 * e.x, b = 1 + 2 * e.y, s = std::max(jam_least_s, a * b - e.z * e.z);
-  if (!(s < law.jam_s)) return n;
-  const double ratio = law.jam_s / s, r = ratio - 1, push = -0.25 * law.jam_N_per_m * r * ratio / s;
-  const Vec3 grad{2 * b, 2 * a, -2 * e.z};
-  n += push * grad;
-  if (energy) *energy += 0.125 * law.jam_N_per_m * r * r;
-  if (slope) {
-    const double steep = 0.25 * law.jam_N_per_m * ratio / (s * s) * (ratio + 2 * r);
-    constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
-    for (std::size_t i = 0; i < 6; ++i) (*slope)[i] += steep * grad[row[i]] * grad[column[i]];
-    (*slope)[3] += 4 * push;
-    (*slope)[2] -= 2 * push;
-  }
-  return n;
-}
-
-/// dW/dkappa of W(kappa d), W and, where not null, the slope.
-double bendingLaw(const PointLaw& law, double kappa, const Vec3& d, double* energy, double* slope) {
-  const Vec3 k = kappa * d;
-  if (law.kappa0 == 0) {
-    const double B = dot(d, times(law.section.D, d));
-    if (energy) *energy = 0.5 * B * kappa * kappa;
-    if (slope) *slope = B;
-    return B * kappa;
-  }
-  const double b1 = law.section.D[0], b2 = law.section.D[1], twist = law.section.D[2], k0 = law.kappa0,
-               kr = law.kappa_regular;
-  if (energy) *energy = zhengEnergy(k.x, b1, k0, kr) + zhengEnergy(k.y, b2, k0, kr) + 0.5 * twist * k.z * k.z;
-  if (slope)
-    *slope = zhengSlope(k.x, b1, k0, kr) * d.x * d.x + zhengSlope(k.y, b2, k0, kr) * d.y * d.y + twist * d.z * d.z;
-  return zhengMoment(k.x, b1, k0, kr) * d.x + zhengMoment(k.y, b2, k0, kr) * d.y + twist * k.z * d.z;
+PointNumbers<double> numbersOf(const BlockLaw& law) {
+  PointNumbers<double> numbers = numbersOf(law.point);
+  leaveOut(law, numbers);
+  return numbers;
 }
 
 HingePoints cornersOf(const FoldHinge& h, std::span<const Vec3> q) {
@@ -105,31 +40,116 @@ void addOuter(std::array<double, 9>& m, double scale, const Vec3& a, const Vec3&
     for (int j = 0; j < 3; ++j) m[static_cast<std::size_t>(3 * i + j)] += scale * a[i] * b[j];
 }
 
-void writeSlot(double* slot, const Vec3& f) { slot[0] = f.x, slot[1] = f.y, slot[2] = f.z; }
+/// Elements in one block share it.
+std::pair<int, bool> blockOf(const MembraneTriangle& t) { return {t.law, false}; }
+std::pair<int, bool> blockOf(const FoldHinge& h) { return {h.law, h.seam}; }
 
 }  // namespace
 
+/// Packs the elements of each law, and of seams apart. `rest(element, real)`: their numbers, `number` of each; those of
+/// copies that fill up a group have no area. `placed(block, k, at)`: element k is at `at` of the block.
+template <class Element, class Rest, class Placed>
+std::vector<ElementBlock> packed(const std::vector<Element>& elements, std::span<const BlockLaw> laws, int lanes,
+                                 int number, const Rest& rest, const Placed& placed) {
+  constexpr int corners = static_cast<int>(std::tuple_size_v<decltype(Element{}.corner)>);
+  std::map<std::pair<int, bool>, std::vector<int>> kinds;
+  for (std::size_t k = 0; k < elements.size(); ++k) kinds[blockOf(elements[k])].push_back(static_cast<int>(k));
+  std::vector<ElementBlock> blocks;
+  for (const auto& [kind, members] : kinds) {
+    const int count = static_cast<int>(members.size());
+    ElementBlock& block = blocks.emplace_back();
+    block.groups = (count + lanes - 1) / lanes;
+    block.law = laws[static_cast<std::size_t>(kind.first)];
+    block.seam = kind.second;
+    block.corners.resize(static_cast<std::size_t>(block.groups * corners * lanes));
+    block.rest.resize(static_cast<std::size_t>(block.groups * number * lanes));
+    for (int at = 0; at < block.groups * lanes; ++at) {
+      const int group = at / lanes, lane = at % lanes;
+      const auto k = static_cast<std::size_t>(members[static_cast<std::size_t>(std::min(at, count - 1))]);
+      const std::vector<double> numbers = rest(elements[k], at < count);
+      for (int i = 0; i < corners; ++i)
+        block.corners[static_cast<std::size_t>((group * corners + i) * lanes + lane)] =
+            elements[k].corner[static_cast<std::size_t>(i)];
+      for (int i = 0; i < number; ++i)
+        block.rest[static_cast<std::size_t>((group * number + i) * lanes + lane)] =
+            numbers[static_cast<std::size_t>(i)];
+      if (at < count) placed(block, k, at);
+    }
+  }
+  return blocks;
+}
+
+void TriangleElements::packHinges() {
+  const int lanes = kernels_->lanes;
+  moment_.resize(hinges_.size());
+  const auto rest = [](const FoldHinge& h, bool real) {
+    return std::vector{h.theta0, h.per_angle, real ? h.area_m2 : 0.0, h.d.x, h.d.y, h.d.z};
+  };
+  hinge_blocks_ = packed(hinges_, laws_, lanes, kHingeDoubles, rest, [&](ElementBlock& block, std::size_t k, int at) {
+    if (at == 0) block.place.assign(static_cast<std::size_t>(block.groups * lanes), -1), block.first = moments_;
+    block.place[static_cast<std::size_t>(at)] = place_[k];
+    moment_[k] = static_cast<int>(block.first) + at;
+    moments_ = static_cast<int>(block.first) + block.groups * lanes;
+  });
+}
+
+void TriangleElements::packTriangles() {
+  const int lanes = kernels_->lanes;
+  // The hinge that faces each corner.
+  std::vector<std::array<int, 3>> facing(triangles_.size(), {moments_, moments_, moments_});
+  for (std::size_t k = 0; k < hinges_.size(); ++k)
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto t = static_cast<std::size_t>(hinges_[k].triangle[side]);
+      const auto& corner = triangles_[t].corner;
+      const auto at = std::find(corner.begin(), corner.end(), hinges_[k].corner[2 + side]) - corner.begin();
+      facing[t][static_cast<std::size_t>(at)] = moment_[k];
+    }
+  const auto rest = [](const MembraneTriangle& t, bool real) {
+    return std::vector{t.g[0].x, t.g[0].y, t.g[1].x, t.g[1].y, real ? t.area_m2 : 0.0};
+  };
+  std::vector<long> slot(triangles_.size());  // of the first corner
+  triangle_blocks_ =
+      packed(triangles_, laws_, lanes, kMembraneDoubles, rest, [&](ElementBlock& block, std::size_t k, int at) {
+        if (at == 0) {
+          block.hinge.assign(static_cast<std::size_t>(3 * block.groups * lanes), moments_);
+          block.first = slot_count_;
+          slot_count_ += 9L * block.groups * lanes;
+        }
+        const long first = 3L * (at / lanes) * lanes + at % lanes;
+        for (std::size_t i = 0; i < 3; ++i)
+          block.hinge[static_cast<std::size_t>(first) + i * static_cast<std::size_t>(lanes)] = facing[k][i];
+        slot[k] = block.first + 9L * (at / lanes) * lanes + at % lanes;
+      });
+  for (std::size_t k = 0; k < triangles_.size(); ++k)
+    for (int i = 0; i < 3; ++i)
+      gather_.add(triangles_[k].corner[static_cast<std::size_t>(i)], slot[k] + 3L * i * lanes, lanes);
+}
+
 TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> triangles, std::vector<FoldHinge> hinges,
-                                   std::span<const Fabric> fabrics)
-    : triangles_(std::move(triangles)), hinges_(std::move(hinges)), gather_(points) {
-  for (const Fabric& f : fabrics) laws_.push_back(lawOf(f));
-  for (const MembraneTriangle& t : triangles_)
-    for (int corner : t.corner) {
-      gather_.add(corner, slot_count_, 1);
-      slot_count_ += 3;
-    }
-  hinge_slot_ = slot_count_;
-  for (const FoldHinge& h : hinges_)
-    for (int corner : h.corner) {
-      gather_.add(corner, slot_count_, 1);
-      slot_count_ += 3;
-    }
+                                   std::span<const Fabric> fabrics, const TriangleKernels& kernels)
+    : triangles_(std::move(triangles)), hinges_(std::move(hinges)), kernels_(&kernels), gather_(points) {
+  for (const Fabric& f : fabrics) laws_.push_back(lawOfTriangles(f));
+  for (const FoldHinge& h : hinges_) {
+    const bool remembers = laws_[static_cast<std::size_t>(h.law)].use.remembers();
+    place_.push_back(remembers ? history_ : -1);
+    if (remembers) history_ += kHistoryDoubles;
+  }
+  packHinges();
+  packTriangles();
   gather_.close();
   hinges_of_.assign(triangles_.size(), {-1, -1, -1});
   for (std::size_t k = 0; k < hinges_.size(); ++k)
     for (const int t : hinges_[k].triangle)
       *std::find(hinges_of_[static_cast<std::size_t>(t)].begin(), hinges_of_[static_cast<std::size_t>(t)].end(), -1) =
           static_cast<int>(k);
+}
+
+BlockLaw TriangleElements::lawOf(int index, const ForceTerms& terms) const {
+  return withTerms(laws_[static_cast<std::size_t>(index)], terms);
+}
+
+const double* TriangleElements::memoryOf(std::size_t hinge, std::span<const double> history) const {
+  return history.empty() || place_[hinge] < 0 ? nullptr : history.data() + place_[hinge];
 }
 
 Vec3 TriangleElements::strain(int triangle, std::span<const Vec3> q, Vec3* weft, Vec3* warp) const {
@@ -157,60 +177,68 @@ Vec3 TriangleElements::curvatureOf(int triangle, std::span<const Vec3> q, bool r
   return sum / triangles_[static_cast<std::size_t>(triangle)].area_m2;
 }
 
-PointState TriangleElements::stateOf(int triangle, std::span<const Vec3> q) const {
-  PointState s{strain(triangle, q), curvatureOf(triangle, q, false), {}, {}};
+PointState TriangleElements::stateOf(int triangle, const ClothState& state) const {
+  PointState s{strain(triangle, state.q), curvatureOf(triangle, state.q, false), {}, {}};
   const double e[3] = {s.strain.x, s.strain.y, s.strain.z},
                k[3] = {s.curvature_change.x, s.curvature_change.y, s.curvature_change.z};
-  const PointResultants r = resultants(law(triangles_[static_cast<std::size_t>(triangle)].law), e, k);
-  s.n = {r.n[0], r.n[1], r.n[2]};
-  s.m = {r.m[0], r.m[1], r.m[2]};
+  std::array<double, kHistoryDoubles> mean{};
+  double area = 0;
+  for (const int h : hinges_of_[static_cast<std::size_t>(triangle)]) {
+    const double* memory = h < 0 ? nullptr : memoryOf(static_cast<std::size_t>(h), state.history);
+    if (!memory) continue;
+    const double part = hinges_[static_cast<std::size_t>(h)].area_m2;
+    area += part;
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += part * memory[i];
+  }
+  for (double& m : mean) m /= area > 0 ? area : 1;
+  const PointLaw& law = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)].point;
+  const PointAnswer<double> r = resultants(law, e, k, {mean.data(), nullptr});
+  const double *n = r.membrane.resultant, *m = r.bending.resultant;
+  s.n = {n[0], n[1], n[2]};
+  s.m = {m[0], m[1], m[2]};
   return s;
 }
 
-void TriangleElements::force(std::span<const Vec3> q, const ClothForce& out, ClothWork& work,
+void TriangleElements::force(const ClothState& state, const ClothForce& out, ClothWork& work,
                              const ForceTerms& terms) const {
-  work.slots.resize(static_cast<std::size_t>(slot_count_));
-  std::vector<PointLaw> laws;
-  for (const PointLaw& law : laws_) laws.push_back(withTerms(law, terms));
-  const int triangles = static_cast<int>(triangles_.size()), hinges = static_cast<int>(hinges_.size());
-  work.lane_energy.assign(out.energy ? static_cast<std::size_t>(triangles + hinges) : 0, 0.0);
-  double* const energies = out.energy ? work.lane_energy.data() : nullptr;
-#pragma omp parallel for schedule(static) if (triangles > kMany)
-  for (int k = 0; k < triangles; ++k) {
-    const MembraneTriangle& t = triangles_[static_cast<std::size_t>(k)];
-    Vec3 f1, f2;
-    const Vec3 e = strain(k, q, &f1, &f2);
-    double w = 0;
-    const Vec3 n = membraneLaw(laws[static_cast<std::size_t>(t.law)], e, energies ? &w : nullptr, nullptr);
-    const Vec3 p1 = t.area_m2 * (n.x * f1 + n.z * f2), p2 = t.area_m2 * (n.z * f1 + n.y * f2);
-    const Vec3 g1 = t.g[0].x * p1 + t.g[0].y * p2, g2 = t.g[1].x * p1 + t.g[1].y * p2;
-    double* slot = work.slots.data() + 9L * k;
-    writeSlot(slot, -(g1 + g2));
-    writeSlot(slot + 3, g1);
-    writeSlot(slot + 6, g2);
-    if (energies) energies[k] = t.area_m2 * w;
-  }
-#pragma omp parallel for schedule(static) if (hinges > kMany)
-  for (int k = 0; k < hinges; ++k) {
-    const FoldHinge& h = hinges_[static_cast<std::size_t>(k)];
-    double* slot = work.slots.data() + hinge_slot_ + 12L * k;
-    if (!(terms.bending && (terms.seams || !h.seam))) {
-      std::fill(slot, slot + 12, 0.0);
+  // Behind the slots the hinges' moments, and a last one that stays 0.
+  work.slots.resize(static_cast<std::size_t>(slot_count_ + moments_ + 1));
+  double* const moments = work.slots.data() + slot_count_;
+  moments[moments_] = 0;
+  if (out.energy) *out.energy = {};
+  const double* q = reinterpret_cast<const double*>(state.q.data());
+  double* energies = nullptr;
+  const auto startEnergies = [&](const ElementBlock& block, BlockLaw& law) {
+    if (!out.energy) return;
+    const auto lanes = static_cast<std::size_t>(block.groups * kernels_->lanes);
+    work.lane_energy.assign(lanes, 0.0);
+    energies = work.lane_energy.data();
+    if (law.remembers()) work.lane_lost.assign(lanes, 0.0), law.lost = work.lane_lost.data();
+  };
+  const auto addEnergies = [&](const BlockLaw& law) {
+    if (!out.energy) return;
+    for (double e : work.lane_energy) out.energy->stored += e;
+    if (law.lost)
+      for (double e : work.lane_lost) out.energy->lost += e;
+  };
+  for (const ElementBlock& block : hinge_blocks_) {
+    if (!terms.bending || (block.seam && !terms.seams)) {
+      std::fill_n(moments + block.first, block.groups * kernels_->lanes, 0.0);
       continue;
     }
-    HingePoints gradient;
-    const double kappa = h.per_angle * (foldAngle(cornersOf(h, q), &gradient) - h.theta0);
-    double w = 0;
-    const double moment =
-        bendingLaw(laws[static_cast<std::size_t>(h.law)], kappa, h.d, energies ? &w : nullptr, nullptr);
-    for (std::size_t c = 0; c < 4; ++c)
-      writeSlot(slot + 3 * static_cast<long>(c), (h.area_m2 * h.per_angle * moment) * gradient[c]);
-    if (energies) energies[triangles + k] = h.area_m2 * w;
+    BlockLaw law = withHistory(withTerms(block.law, terms), block.place.data(), state, out);
+    startEnergies(block, law);
+    kernels_->hinges(block, law, q, moments + block.first, energies);
+    addEnergies(law);
+  }
+  for (const ElementBlock& block : triangle_blocks_) {
+    BlockLaw law = withTerms(block.law, terms);
+    law.use.kinds = 0;  // the membrane alone
+    startEnergies(block, law);
+    kernels_->triangles(block, law, q, moments, work.slots.data() + block.first, energies);
+    addEnergies(law);
   }
   gather_.negativeSum(work.slots.data(), out.points);
-  if (!out.energy) return;
-  *out.energy = {};
-  for (double e : work.lane_energy) out.energy->stored += e;
 }
 
 void TriangleElements::membraneStiffness(int triangle, std::span<const Vec3> q, const ForceTerms& terms,
@@ -218,8 +246,11 @@ void TriangleElements::membraneStiffness(int triangle, std::span<const Vec3> q, 
   const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
   Vec3 f[2];
   const Vec3 e = strain(triangle, q, &f[0], &f[1]);
-  Voigt C;
-  const Vec3 n = membraneLaw(withTerms(law(t.law), terms), e, nullptr, &C);
+  const BlockLaw law = lawOf(t.law, terms);
+  const double strains[3] = {e.x, e.y, e.z};
+  Answer<double, 3> answer;
+  evaluateMembrane<with_slope>(law.evaluated(), numbersOf(law), strains, answer);
+  const double *n = answer.resultant, *C = answer.slope;
   const Vec2 g[3] = {{-t.g[0].x - t.g[1].x, -t.g[0].y - t.g[1].y}, t.g[0], t.g[1]};
   // dE/dq_I = (g.x f1, g.y f2, g.y f1 + g.x f2).
   Vec3 b[3][3];
@@ -230,23 +261,30 @@ void TriangleElements::membraneStiffness(int triangle, std::span<const Vec3> q, 
     for (int J = 0; J < 3; ++J) {
       std::array<double, 9>& m = blocks[static_cast<std::size_t>(3 * I + J)];
       for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) addOuter(m, t.area_m2 * C[static_cast<std::size_t>(at[r][c])], b[I][r], b[J][c]);
+        for (int c = 0; c < 3; ++c) addOuter(m, t.area_m2 * C[at[r][c]], b[I][r], b[J][c]);
       const double geometric =
-          t.area_m2 * (n.x * g[I].x * g[J].x + n.y * g[I].y * g[J].y + n.z * (g[I].x * g[J].y + g[I].y * g[J].x));
+          t.area_m2 * (n[0] * g[I].x * g[J].x + n[1] * g[I].y * g[J].y + n[2] * (g[I].x * g[J].y + g[I].y * g[J].x));
       for (std::size_t d = 0; d < 3; ++d) m[4 * d] += geometric;
     }
 }
 
-void TriangleElements::hingeStiffness(int hinge, std::span<const Vec3> q, const ForceTerms& terms,
+void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const ForceTerms& terms,
                                       std::vector<std::array<double, 9>>& blocks) const {
   const FoldHinge& h = hinges_[static_cast<std::size_t>(hinge)];
   blocks.assign(16, {});
   if (!(terms.bending && (terms.seams || !h.seam))) return;
-  const HingePoints x = cornersOf(h, q);
+  const HingePoints x = cornersOf(h, state.q);
   HingePoints gradient;
   const double kappa = h.per_angle * (foldAngle(x, &gradient) - h.theta0);
-  double slope = 0;
-  const double moment = bendingLaw(withTerms(law(h.law), terms), kappa, h.d, nullptr, &slope);
+  const BlockLaw law = lawOf(h.law, terms);
+  const double change[3] = {kappa * h.d.x, kappa * h.d.y, kappa * h.d.z}, d[3] = {h.d.x, h.d.y, h.d.z};
+  Answer<double, 3> answer;
+  evaluateBending<with_slope>(law.evaluated(), numbersOf(law), change,
+                              {memoryOf(static_cast<std::size_t>(hinge), state.history), nullptr}, answer);
+  double across[3]{};
+  addProduct(answer.slope, d, across);
+  const double slope = across[0] * d[0] + across[1] * d[1] + across[2] * d[2];
+  const double moment = answer.resultant[0] * d[0] + answer.resultant[1] * d[1] + answer.resultant[2] * d[2];
   std::array<std::array<double, 9>, 16> second;
   foldAngleHessian(x, second);
   for (std::size_t I = 0; I < 4; ++I)

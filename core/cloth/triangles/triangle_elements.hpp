@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/cloth/cloth_state.hpp"
-#include "core/cloth/shell/shell_law.hpp"
 #include "core/cloth/slot_gather.hpp"
 #include "core/cloth/stress.hpp"
+#include "core/cloth/triangles/triangle_kernel.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/vec.hpp"
 
@@ -40,18 +40,21 @@ class TriangleElements {
   TriangleElements() = default;
   /// Throws InputError on a fabric that is none of triangles.
   TriangleElements(int points, std::vector<MembraneTriangle> triangles, std::vector<FoldHinge> hinges,
-                   std::span<const Fabric> fabrics);
+                   std::span<const Fabric> fabrics, const TriangleKernels& kernels = *triangleKernels().front());
 
   const std::vector<MembraneTriangle>& triangles() const { return triangles_; }
   const std::vector<FoldHinge>& hinges() const { return hinges_; }
-  const PointLaw& law(int index) const { return laws_[static_cast<std::size_t>(index)]; }
+  const char* kernels() const { return kernels_->name; }
+  /// Doubles of the history: kHistoryDoubles of each hinge whose law remembers, in their order.
+  std::size_t historySize() const { return static_cast<std::size_t>(history_); }
+  bool remembers(std::size_t hinge) const { return place_[hinge] >= 0; }
 
-  void force(std::span<const Vec3> q, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
+  void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
   /// d2E/dq2 of a triangle: blocks[3 I + J] (3 x 3, row by row) of its corners.
   void membraneStiffness(int triangle, std::span<const Vec3> q, const ForceTerms& terms,
                          std::vector<std::array<double, 9>>& blocks) const;
-  /// Of a hinge: blocks[4 I + J].
-  void hingeStiffness(int hinge, std::span<const Vec3> q, const ForceTerms& terms,
+  /// d2E/dq2 of a hinge: blocks[4 I + J] of its corners, as above.
+  void hingeStiffness(int hinge, const ClothState& state, const ForceTerms& terms,
                       std::vector<std::array<double, 9>>& blocks) const;
   /// Strain (E11, E22, 2 E12) of a triangle, and F D along weft and warp.
   Vec3 strain(int triangle, std::span<const Vec3> q, Vec3* weft = nullptr, Vec3* warp = nullptr) const;
@@ -59,15 +62,26 @@ class TriangleElements {
   /// (k11, k22, 2 k12) of a triangle [1/m]: half of what its hinges turn over their lengths, over its area. `rest`:
   /// with the angles at rest, else what is beyond them.
   Vec3 curvatureOf(int triangle, std::span<const Vec3> q, bool rest) const;
-  /// All that the laws see and say in a triangle.
-  PointState stateOf(int triangle, std::span<const Vec3> q) const;
+  /// All that the laws see and say in a triangle; they remember there the mean of what its hinges do.
+  PointState stateOf(int triangle, const ClothState& state) const;
 
  private:
+  void packHinges();
+  void packTriangles();
+  BlockLaw lawOf(int index, const ForceTerms& terms) const;
+  /// What a hinge remembers; null where it remembers nothing, or the cloth is new.
+  const double* memoryOf(std::size_t hinge, std::span<const double> history) const;
+
   std::vector<MembraneTriangle> triangles_;
   std::vector<FoldHinge> hinges_;
-  std::vector<PointLaw> laws_;
+  std::vector<BlockLaw> laws_;
   std::vector<std::array<int, 3>> hinges_of_;  ///< of each triangle; -1 where it has fewer
-  long hinge_slot_ = 0, slot_count_ = 0;
+  const TriangleKernels* kernels_ = nullptr;
+  std::vector<ElementBlock> triangle_blocks_, hinge_blocks_;
+  std::vector<long> place_;  ///< of each hinge's history; -1: it remembers nothing
+  std::vector<int> moment_;  ///< of each hinge: where its moment is
+  int moments_ = 0;          ///< and behind them one that stays 0
+  long history_ = 0, slot_count_ = 0;
   SlotGather gather_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/cloth/plane_stress.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 
@@ -16,7 +17,7 @@ TriangleStress::TriangleStress(const TriangleCloth& cloth)
 
 StressView::Sample TriangleStress::ofTriangle(const ClothState& state, int patch, int triangle,
                                               const More& more) const {
-  const PointState s = cloth_.elements().stateOf(triangle, state.q);
+  const PointState s = cloth_.elements().stateOf(triangle, state);
   Vec2 extra{};
   if (more) extra = more(patch, {2.0 * (triangle - cloth_.firstTriangle(patch)) + 1.0 / 3, 1.0 / 3});
   return {cauchyStress(s.strain, s.n + Vec3{extra.x, extra.y, 0}), {s.strain.x, s.strain.y, 0.5 * s.strain.z}};
@@ -28,9 +29,8 @@ std::vector<StressView::Sample> TriangleStress::means(const ClothState& state, c
   std::vector<Sample> all(cloth_.triangles().size());
   for (int p = 0; p < static_cast<int>(cloth_.patches().size()); ++p) {
     const int end = cloth_.firstTriangle(p + 1);
-#pragma omp parallel for schedule(static)
-    for (int t = cloth_.firstTriangle(p); t < end; ++t)
-      all[static_cast<std::size_t>(t)] = ofTriangle(state, p, t, more);
+    forAll(Each::much, cloth_.firstTriangle(p), end,
+           [&](int t) { all[static_cast<std::size_t>(t)] = ofTriangle(state, p, t, more); });
   }
   return all;
 }

@@ -24,7 +24,7 @@ Garment tube() {
   g.fabric.density_kg_per_m3 = 1440;
   g.fabric.thickness_m = 1e-3;
   g.fabric.young_weft_Pa = g.fabric.young_warp_Pa = g.fabric.shear_Pa = 1e6;
-  g.fabric.bending_law = BendingLaw::linear;
+  g.fabric.law = LinearBending{};
   return g;
 }
 

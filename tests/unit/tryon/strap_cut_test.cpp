@@ -17,8 +17,7 @@ Fabric cloth() {
   f.density_kg_per_m3 = 1440;
   f.young_weft_Pa = f.young_warp_Pa = kYoung_Pa;
   f.shear_Pa = kYoung_Pa / 2;
-  f.bending_law = BendingLaw::linear;
-  f.bending_weft_Nm = f.bending_warp_Nm = 4e-3;
+  f.law = LinearBending{{4e-3, 4e-3}};
   return f;
 }
 

@@ -44,10 +44,10 @@ struct GarmentKind {
   long (*cells)(const GarmentCase& g) = [](const GarmentCase&) { return 0L; };
   /// Why its patches can have no fields; empty where they can.
   std::string (*fieldless)(const GarmentCase& g) = [](const GarmentCase&) { return std::string(); };
-  /// In place of its own (without `position` and `weft_angle`), without fabrics and fields.
+  /// Makes the garment where its kind puts it (`position` and `weft_angle` follow), without fabrics and fields.
   Garment (*make)(const GarmentMaking& making) = nullptr;
-  /// Of what is read from a file: its patches and edges, for all that a case may name of them. Throws InputError where
-  /// the file is not well. Null: it is not read.
+  /// Reads the patches and edges of what stands in a file, for all that a case may name of them. Throws InputError
+  /// where the file is not well. Null: it is not read.
   Garment (*look)(const GarmentCase& g) = nullptr;
   /// Calls `take` with the path of each file that it is read from; `take` may put another in its place.
   void (*files)(GarmentCase& g, const Take& take) = [](GarmentCase&, const Take&) {};

@@ -63,7 +63,7 @@ const MotionKind& kindOf(const HumanCase& human);
 
 /// Time that the human's motion takes by itself [s].
 double motionDuration(const HumanCase& h, const Human& human);
-/// Those of the case's human.
+/// The strides that count of the case's human; none without one, or without a walk.
 std::optional<Strides> stridesOf(const Case& c);
 
 }  // namespace gambeson

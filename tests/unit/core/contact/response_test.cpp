@@ -177,7 +177,8 @@ TEST(Response, EachSideOfASampleStandsForHalfItsAreaWhateverTheNumberOfFeet) {
   const auto on = [](int s, int t, double up) {
     ContactRow r;
     r.contact.sample = s;
-    r.contact.obstacle = kSampleOnCloth;
+    r.contact.obstacle = -1;
+    r.contact.kind = ContactKind::sample_on_cloth;
     r.contact.normal = normalized(Vec3{0.02 * t, 0, up});
     r.stencil.add(s, 1);
     r.stencil.add(t, -1);

@@ -1,9 +1,9 @@
 // Jamming: cloth that is crushed in its plane resists the more; above the area ratio nothing changes.
-#include "core/material/jamming.hpp"
+#include "core/material/laws/jamming.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/cloth/shell/shell_law.hpp"
+#include "core/cloth/block_law.hpp"
 #include "core/cloth/shell/tangent.hpp"
 #include "core/error.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"
@@ -16,14 +16,14 @@ using namespace shapes;
 Fabric jammingFabric(bool layered) {
   Fabric f = plainFabric();
   f.jam_area = 0.7;
-  if (layered) f.plies = {{0.06, 220, 40, 20, 0.25, 0.4}, {0.09, 180, 60, 30, 0.3, -0.9}};
+  if (layered) f.law = Laminate{{{0.06, 220, 40, 20, 0.25, 0.4}, {0.09, 180, 60, 30, 0.3, -0.9}}};
   return f;
 }
 
 /// Nominal stress along the weft at a stretch, the warp kept at `across`.
 double pushed(const Fabric& f, double stretch, double across) {
   const double strain[3] = {0.5 * (stretch * stretch - 1), 0.5 * (across * across - 1), 0}, flat[3] = {0, 0, 0};
-  return stretch * resultants(pointLaw(f), strain, flat).n[0];
+  return stretch * resultants(pointLaw(f), strain, flat).membrane.resultant[0];
 }
 
 TEST(Jamming, CompressionNeverGivesWay) {

@@ -1,10 +1,12 @@
 // The relaxed membrane against closed forms, its own definition as a maximum, and differences.
-#include "core/material/tension_field.hpp"
+#include "core/material/laws/tension_field.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
+
+#include "core/material/section.hpp"
 
 namespace gambeson {
 namespace {

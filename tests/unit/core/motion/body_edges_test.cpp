@@ -25,10 +25,10 @@ TEST(BodyEdges, ASheetOverABoxRestsOnItsEdges) {
   std::vector<Vec3> x, lo, hi;
   const double end = 2, watched = 0.1;
   advance(*m.model, m.stage, {0.7, 1e-3}, end, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepWork& w, const Frequency&) {
+          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
             if (after.time_s < end - watched) return;
             impacts += r.impacts;
-            edges += static_cast<long>(w.edge_rows.size());
+            edges += static_cast<long>(m.work.edge_rows.size());
             ++steps;
             carried -= r.momentum.obstacles.z;
             weight -= r.momentum.gravity.z;

@@ -42,7 +42,7 @@ double tensionRatio(double friction, double wrap) {
   f.poisson = 0;
   f.shear_Pa = f.young_weft_Pa / 2;
   f.density_kg_per_m3 = 5 / f.thickness_m;  // slow waves, long steps: the motion is quasi-static
-  f.bending_weft_Nm = f.bending_warp_Nm = 1e-6;
+  f.law = LinearBending{{1e-6, 1e-6}};
   // The rest shape is the strip as it lies.
   const KnotVector along = uniformKnots(2, cells), across = uniformKnots(2, 1);
   NurbsPatch patch = patchOf(along, across, [&](double u, double v) {
@@ -71,7 +71,7 @@ double tensionRatio(double friction, double wrap) {
   int unconverged = 0;
   constexpr double from = 0.12, until = 0.16;
   advance(*model, drum, control, until, state, frequency, work,
-          [&](const State& before, const State&, const StepReport& report, const StepWork&, const Frequency&) {
+          [&](const State& before, const State&, const StepReport& report, const StepResult&, const Frequency&) {
             unconverged += !report.contact.converged;
             if (before.time_s >= from) held += report.momentum.supports;
           });

@@ -34,7 +34,7 @@ TEST(ClothFriction, ASheetSlidesOnAnotherWithoutMoreThanFriction) {
   Frequency frequency;
   double lifted = 0, t = 0, v = 0;
   advance(*m.model, m.stage, {0.9, 1e-3}, kTime_s, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
+          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
             EXPECT_TRUE(r.contact.converged);
             lifted = std::max(lifted, mean(after.p).z - start);
             if (t == 0 && after.time_s > 0.01) t = after.time_s, v = mean(after.v).x;  // the first steps land

@@ -59,7 +59,7 @@ struct Scene {
   }
   void run(double until, const StepObserver& observe = {}) {
     advance(*model, stage, {0.7, 1e-3}, until, state, frequency, work,
-            [&](const State& a, const State& b, const StepReport& r, const StepWork& w, const Frequency& f) {
+            [&](const State& a, const State& b, const StepReport& r, const StepResult& w, const Frequency& f) {
               EXPECT_LE(r.momentum.error(), 1e-9 * r.momentum.scale) << "at " << b.time_s;
               if (observe) observe(a, b, r, w, f);
             });
@@ -154,7 +154,7 @@ TEST(Deforming, ARigidMotionGivesTheSameContactsAsAPlacement) {
       EXPECT_LE(norm(x[i].impulse - y[i].impulse), 1e-8 * largest);
       EXPECT_LT(norm(x[i].point - y[i].point), 1e-12);
       // The touched point is that of its vertices, with weights that add up to 1.
-      EXPECT_LT(norm(x[i].touched.of(deforming.work.deforming.start[0]) - x[i].point), 1e-12);
+      EXPECT_LT(norm(x[i].touched.of(deforming.work.stage.start.vertices[0]) - x[i].point), 1e-12);
       EXPECT_NEAR(x[i].touched.weight[0] + x[i].touched.weight[1] + x[i].touched.weight[2], 1, 1e-12);
       EXPECT_FALSE(y[i].touched.given());
     }
@@ -235,7 +235,7 @@ TEST(Deforming, ASheetStaysOnAPlateThatBends) {
   Scene s(sheetAt(12, 0.15, {0.01, 0.013, 0.0013}), mesh, way);
   const exact::SceneIntersections check(*s.model, s.stage);
   long touched = 0;
-  s.run(0.12, [&](const State&, const State& after, const StepReport&, const StepWork& w, const Frequency&) {
+  s.run(0.12, [&](const State&, const State& after, const StepReport&, const StepResult& w, const Frequency&) {
     touched += static_cast<long>(w.contact_impulses.size());
     const exact::Intersections found = check.at(after);
     ASSERT_TRUE(found.none()) << after.time_s << " " << (found.pairs.empty() ? "" : check.name(found.pairs[0]));
@@ -311,7 +311,7 @@ TEST(Deforming, FastBodiesMissNothing) {
     const exact::SceneIntersections check(*s.model, s.stage);
     ASSERT_TRUE(check.at(s.state).none());
     long impacts = 0;
-    s.run(0.01, [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
+    s.run(0.01, [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
       impacts += r.impacts;
       ASSERT_TRUE(check.at(after).none()) << c.name << " at " << after.time_s;
     });
@@ -327,7 +327,7 @@ TEST(Deforming, ClothInsideOfADeformingBodyComesOutAndWhatIsOutsideIsNotPushed) 
   Scene s(sheetAt(6, 0.05, {0.001, 0.002, 0.015}), ball, way, {0, 0, 0}, 0.2);
   int inside = 0;
   double free_s = 0;
-  s.run(0.15, [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
+  s.run(0.15, [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
     inside = std::max(inside, r.inside);
     if (r.deepest_m > 0 || r.intersections > 0) free_s = after.time_s;
   });
@@ -338,7 +338,7 @@ TEST(Deforming, ClothInsideOfADeformingBodyComesOutAndWhatIsOutsideIsNotPushed) 
 
   // Far outside of the ball but within its box, with the ball coming past: no contact, no push.
   Scene far(sheetAt(6, 0.02, {0.045, 0.045, 0.045}), ball, way, {0, 0, 0}, 0.2);
-  far.run(0.02, [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) {
+  far.run(0.02, [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
     EXPECT_EQ(r.contacts, 0);
     EXPECT_EQ(r.deepest_m, 0);
   });
@@ -351,11 +351,11 @@ TEST(Deforming, WhatIsKnownToBeOutsideIs) {
   Scene s(sheetAt(10, 0.16, {0.004, 0.003, 0.043}), mesh, bentTube);
   DeformedSurfaces surfaces(s.model->obstacles);
   std::size_t known = 0, asked = 0;
-  s.run(0.12, [&](const State& before, const State&, const StepReport&, const StepWork& w, const Frequency&) {
+  s.run(0.12, [&](const State& before, const State&, const StepReport&, const StepResult&, const Frequency&) {
     surfaces.move(deformedVertices(*s.model, s.stage, before.time_s));
     std::vector<Vec3> x;
     samplePositions(*s.model, before.p, x);
-    const std::vector<char>& outside = w.collisions.near_bodies.outside_of;
+    const std::vector<char>& outside = s.work.collisions.near_bodies.outside_of;
     ASSERT_EQ(outside.size(), x.size());
     for (std::size_t i = 0; i < x.size(); ++i, ++asked) {
       if (!outside[i]) continue;

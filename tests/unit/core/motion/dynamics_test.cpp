@@ -124,7 +124,7 @@ TEST(Step, NothingPassesATurningBlade) {
   double closest = 1, shortest = 1;
   std::vector<Vec3> x;
   advance(*m.model, spin, {}, 0.012, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
+          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
             impacts += r.impacts;
             ++steps;
             shortest = std::min(shortest, r.step_s);
@@ -149,7 +149,7 @@ TEST(Advance, EndsAtTheTimeAndSaysWhyItCannot) {
   int steps = 0;
   double last = 0;
   advance(*m.model, m.stage, {}, 0.0137, m.state, f, m.work,
-          [&](const State& before, const State& after, const StepReport& r, const StepWork&, const Frequency& now) {
+          [&](const State& before, const State& after, const StepReport& r, const StepResult&, const Frequency& now) {
             EXPECT_EQ(before.time_s, last);
             EXPECT_NEAR(after.time_s, before.time_s + r.step_s, 1e-15);
             EXPECT_LE(r.step_s, 0.9 * 2 / before.frequency_rad_per_s * (1 + 1e-9));
@@ -161,7 +161,7 @@ TEST(Advance, EndsAtTheTimeAndSaysWhyItCannot) {
   EXPECT_GT(steps, 10);
   m.state.v[20].z = std::nan("");
   EXPECT_EQ(m.step(1e-6).failure, StepFailure::not_finite);
-  const auto ignore = [](const State&, const State&, const StepReport&, const StepWork&, const Frequency&) {};
+  const auto ignore = [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {};
   try {
     advance(*m.model, m.stage, {}, 0.02, m.state, f, m.work, ignore);
     ADD_FAILURE() << "a velocity that is not a number went through";

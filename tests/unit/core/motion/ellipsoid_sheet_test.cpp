@@ -29,7 +29,7 @@ TEST(EllipsoidSheet, ItsTrianglesKeepOutOfTheBody) {
   std::size_t most = 0;
   for (int k = 1; k <= 20; ++k) {
     advance(*m.model, m.stage, {0.9, 1e-3}, 0.02 * k, m.state, frequency, m.work,
-            [](const State&, const State&, const StepReport&, const StepWork&, const Frequency&) {});
+            [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     ++looks;
     const std::size_t pairs = check.at(m.state.p, m.state.time_s).pairs.size();
     crossing += pairs > 0;

@@ -25,11 +25,7 @@ Fabric cloth(double young, double bending) {
   f.young_weft_Pa = f.young_warp_Pa = young;
   f.shear_Pa = 0.4 * young;
   f.poisson = 0.25;
-  f.bending_law = BendingLaw::zheng;
-  f.bending_weft_Nm = f.bending_warp_Nm = bending;
-  f.twist_Nm = bending / 4;
-  f.kappa0_per_m = 30;
-  f.kappa_regular_per_m = 5;
+  f.law = ZhengBending{{bending, bending, bending / 4}, 30, 5};
   return f;
 }
 

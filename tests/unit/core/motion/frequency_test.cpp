@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <random>
 
-#include "core/material/bending.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
 namespace gambeson {
@@ -48,7 +47,7 @@ TEST(StableStep, SharpWhereTheMembraneGoverns) { expectSharp(squareSheet(8, 0.2,
 
 TEST(StableStep, SharpWhereLinearBendingGoverns) {
   Fabric f = sheetFabric();
-  f.bending_weft_Nm = f.bending_warp_Nm = f.twist_Nm = 0.02;
+  f.law = LinearBending{{0.02, 0.02, 0.02}};
   expectSharp(squareSheet(8, 0.2, 0, f), "bending");
 }
 
@@ -91,12 +90,10 @@ TEST(StableStep, FrequencyOfASpringOnAPoint) {
 /// bent.
 TEST(StableStep, AllowsForTheSteepestBendingLaw) {
   Fabric f = sheetFabric();
-  f.bending_law = BendingLaw::zheng;
-  f.bending_weft_Nm = f.bending_warp_Nm = 1e-2;
-  f.kappa0_per_m = 30;
-  f.kappa_regular_per_m = 3;
+  f.law = ZhengBending{{1e-2, 1e-2}, 30, 3};
   Fabric linear = sheetFabric();
-  linear.bending_weft_Nm = linear.bending_warp_Nm = zhengSteepest(1e-2, 30, 3);
+  const double steepest = zhengSteepest(1e-2, 30.0, 3.0);
+  linear.law = LinearBending{{steepest, steepest}};
   double omega[2];
   int at = 0;
   for (const Fabric& fabric : {f, linear}) {

@@ -43,8 +43,9 @@ TEST_P(InsideOfABall, ComesOut) {
   double free_s = 0, farthest_m = 0;
   Frequency frequency;
   advance(model, m.stage, {0.7, 1e-3}, 0.15, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepWork& w, const Frequency&) {
-            for (int s = 0; s < model.surface.size(); ++s) farthest_m = std::max(farthest_m, norm(w.x1[s] - w.x0[s]));
+          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
+            for (int s = 0; s < model.surface.size(); ++s)
+              farthest_m = std::max(farthest_m, norm(m.work.x1[s] - m.work.x0[s]));
             if (r.deepest_m > 0 || r.intersections > 0) free_s = after.time_s;
           });
   std::printf("[ measured ] %s: free at %.1f ms; %.2f cells in a step at most\n", start.name, 1e3 * free_s,

@@ -148,10 +148,7 @@ Motion corners(double k_over_rho, const StrainLimit& limit, CellRule rule = Cell
   f.young_weft_Pa = f.young_warp_Pa = k_over_rho * f.density_kg_per_m3;
   f.shear_Pa = f.young_weft_Pa / 2.5;
   f.poisson = 0;
-  f.bending_law = BendingLaw::zheng;
-  f.bending_weft_Nm = f.bending_warp_Nm = 3.3e-3;
-  f.kappa0_per_m = 30;
-  f.kappa_regular_per_m = 1;
+  f.law = ZhengBending{{3.3e-3, 3.3e-3}, 30, 1};
   const Garment g = squareSheet(8, 1, 0, f);
   ModelOptions o;
   o.held_control_points = {g.patches[0].index(0, 0), g.patches[0].index(9, 0)};
@@ -175,7 +172,7 @@ Stretch swing(double k_over_rho, const StrainLimit& limit, CellRule rule = CellR
   StepControl control;
   control.max_step_s = 2e-3;
   advance(*m.model, m.stage, control, 0.6, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
+          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
             s.missed += !r.limit.converged;
             strainVectors(rows, after.p, e);
             for (const Vec3& d : e) s.most = std::max(s.most, strainOf(d));
@@ -232,7 +229,7 @@ TEST(LimitedStep, TheStepIsThatOfTheFabric) {
     int missed = 0, steps = 0;
     const double before = stiff.energy().total();
     advance(*stiff.model, stiff.stage, {}, 0.01, stiff.state, f, stiff.work,
-            [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) {
+            [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
               missed += !r.limit.converged;
               ++steps;
             });
@@ -255,8 +252,7 @@ Pulled pull(LimitMode mode, int cells, LimitPoints points = LimitPoints::vertice
   f.young_weft_Pa = f.young_warp_Pa = 10 / f.thickness_m;
   f.shear_Pa = f.young_weft_Pa / 2.5;
   f.poisson = 0;
-  f.bending_law = BendingLaw::linear;
-  f.bending_weft_Nm = f.bending_warp_Nm = 1e-5;
+  f.law = LinearBending{{1e-5, 1e-5}};
   const Garment g = squareSheet(cells, 1, 0, f);
   const NurbsPatch& patch = g.patches[0];
   ModelOptions o;

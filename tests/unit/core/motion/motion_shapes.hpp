@@ -36,8 +36,7 @@ inline Fabric sheetFabric() {
   f.young_weft_Pa = f.young_warp_Pa = 30e3;
   f.poisson = 0.3;
   f.shear_Pa = 30e3 / 2.6;
-  f.bending_law = BendingLaw::linear;
-  f.bending_weft_Nm = f.bending_warp_Nm = 7e-6;
+  f.law = LinearBending{{7e-6, 7e-6}};
   return f;
 }
 

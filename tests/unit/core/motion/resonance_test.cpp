@@ -103,7 +103,7 @@ double growth(Motion& m, double duration_s) {
   control.max_step_s = 1;
   try {
     advance(*m.model, m.stage, control, duration_s, m.state, f, m.work,
-            [&](const State&, const State& after, const StepReport&, const StepWork&, const Frequency&) {
+            [&](const State&, const State& after, const StepReport&, const StepResult&, const Frequency&) {
               if (++steps % 5) return;
               most = std::max(most, energyOf(*m.model, m.stage, after, other).total() / first);
               if (!(most < 100)) throw RunError("it ran away");

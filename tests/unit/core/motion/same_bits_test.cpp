@@ -86,9 +86,9 @@ Met advanceTo(Motion& m, double until, bool forget = false) {
   Frequency frequency;
   if (forget) m.work = StepWork();
   advance(*m.model, m.stage, {}, until, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& report, const StepWork&, const Frequency&) {
+          [&](const State&, const State& after, const StepReport& report, const StepResult&, const Frequency&) {
             met.contacts = std::max(met.contacts, report.contacts);
-            for (const WarmContact& w : after.warm) met.edges += w.obstacle == kEdgeOnEdge && w.mean_Pa > 0;
+            for (const WarmContact& w : after.warm) met.edges += w.kind == ContactKind::edge_on_edge && w.mean_Pa > 0;
           });
   return met;
 }

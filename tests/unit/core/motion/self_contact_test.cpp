@@ -188,7 +188,8 @@ TEST(Zones, PairsThatShareSupportAreOneZone) {
   row({3});
   row({5});
   ContactRow a, b, c;
-  a.contact.obstacle = b.contact.obstacle = kSampleOnCloth;
+  a.contact.obstacle = b.contact.obstacle = -1;
+  a.contact.kind = b.contact.kind = ContactKind::sample_on_cloth;
   a.stencil.add(0, 1), a.stencil.add(2, -1);
   b.stencil.add(1, 1), b.stencil.add(2, -1);
   c.contact.obstacle = 4;

@@ -31,7 +31,7 @@ Fabric isotropic(double young, double poisson, double thickness, double density 
   f.young_weft_Pa = f.young_warp_Pa = young;
   f.shear_Pa = young / (2 * (1 + poisson));
   f.poisson = poisson;
-  f.bending_law = BendingLaw::consistent;
+  f.law = ConsistentBending{};
   f.rest_curvature_of_shape = true;
   return f;
 }
@@ -141,7 +141,7 @@ TEST(Structure, AMissingSupportIsNamed) {
   EXPECT_EQ(mechanismOf(g, all(supportEdge(g, left, kAxes), clampRotation(g, left))), "");
   // No bending stiffness: the sheet is held as a whole, but its inside is loose.
   Garment limp = g;
-  limp.fabric.bending_law = BendingLaw::linear;
+  limp.fabric.law = LinearBending{};
   has(mechanismOf(limp, all(supportEdge(limp, left, kAxes), clampRotation(limp, left))), "control point (");
 }
 

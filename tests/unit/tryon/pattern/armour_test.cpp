@@ -32,9 +32,7 @@ Fabric soft(double thickness_m) {
   f.shear_Pa = 1.44e6 / 2.6;
   f.poisson = 0.3;
   f.density_kg_per_m3 = 1440;
-  f.bending_weft_Nm = f.bending_warp_Nm = 0.00371;
-  f.kappa0_per_m = 30;
-  f.kappa_regular_per_m = 1;
+  f.law = ZhengBending{{0.00371, 0.00371}, 30, 1};
   return f;
 }
 
@@ -268,7 +266,7 @@ TEST(Belt, CarriesItsTensionOnTheWaist) {
     const Worn under[]{{&a.shorts, shorts_layer}};
     Garment belt = makeBelt(a.belt_pattern, a.form, soft(belt_layer), belt_layer, under);
     belt.fabric = soft(belt_layer);
-    belt.fabric.bending_weft_Nm = belt.fabric.bending_warp_Nm = 1e-9;
+    belt.fabric.law = ZhengBending{{1e-9, 1e-9}, 30, 1};
     const Shell shell(belt, widestKernels());
     ClothWork work;
     const NurbsPatch& p = belt.patches[0];

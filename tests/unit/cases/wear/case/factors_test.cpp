@@ -120,6 +120,22 @@ TEST(Factors, MassWeightInertiaDragAndLayer) {
 }
 
 /// Without a layer of the case, the contact distance is the thickness, which has its factor.
+/// A law scales its own numbers as it says: the yield moment of a sheet goes with the square of its thickness, and with
+/// what makes it stiffer.
+TEST(Factors, ALawScalesItsOwnNumbers) {
+  const auto stopOf = [](double thickness, double bending) {
+    Case c;
+    c.fabric.law = StopBending{{1e-4, 2e-4, 0}, 5e-5};
+    c.factors.thickness = thickness;
+    c.factors.bending = bending;
+    return std::get<StopBending>(withFactors(c).fabric.law);
+  };
+  EXPECT_DOUBLE_EQ(stopOf(2, 1).weft_Nm, 8e-4);
+  EXPECT_DOUBLE_EQ(stopOf(2, 1).yield_N, 2e-4);
+  EXPECT_DOUBLE_EQ(stopOf(1, 3).warp_Nm, 6e-4);
+  EXPECT_DOUBLE_EQ(stopOf(1, 3).yield_N, 1.5e-4);
+}
+
 TEST(Factors, TheLayerIsTheThicknessWhereNoneIsGiven) {
   const Case c = libraryCase("sphere_drape", {"factors.thickness=0.5"});
   const auto s = buildScenario(c);

@@ -43,7 +43,7 @@ Case caseOf(const std::string& field, const std::vector<std::string>& overrides 
 /// The control points after `until_s`.
 std::vector<Vec3> after(const Case& c, double until_s) {
   SceneRun scene(c);
-  scene.run(until_s, [](const State&, const State&, const StepReport&, const StepWork&, const Frequency&) {});
+  scene.run(until_s, [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
   return scene.state.p;
 }
 
@@ -92,7 +92,7 @@ TEST(GarmentFields, HalfTwiceAsThickWeighsAndKeepsOffSo) {
   EXPECT_DOUBLE_EQ(layers[0].largest_thickness_m, 2e-3);
   EXPECT_TRUE(layers[0].varies());
   // It comes to rest on its own thickness.
-  scene.run(0.3, [](const State&, const State&, const StepReport&, const StepWork&, const Frequency&) {});
+  scene.run(0.3, [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
   std::vector<Vec3> x(m.surface.size());
   m.surface.W.multiply<Vec3>(scene.state.p, x);
   int thin = 0, thick = 0;

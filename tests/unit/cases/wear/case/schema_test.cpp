@@ -31,8 +31,8 @@ TEST(Case, FieldsArriveInSi) {
   EXPECT_DOUBLE_EQ(c.fabric.young_weft_Pa, 1.2e6);
   EXPECT_DOUBLE_EQ(c.fabric.young_warp_Pa, 1.2e6);
   EXPECT_DOUBLE_EQ(c.fabric.shear_Pa, 1.2e6 / 2.6);  // isotropic: E / (2 (1 + nu))
-  EXPECT_DOUBLE_EQ(c.fabric.bending_weft_Nm, 7e-6);
-  EXPECT_DOUBLE_EQ(c.fabric.kappa_regular_per_m, 1);
+  EXPECT_DOUBLE_EQ(givenRigidities(c.fabric.law)->weft_Nm, 7e-6);
+  EXPECT_DOUBLE_EQ(std::get<ZhengBending>(c.fabric.law).kappa_regular_per_m, 1);
   EXPECT_EQ(c.human->manikin, "male_p50");
   EXPECT_EQ(std::get<WalkOptions>(c.human->motion).strides, 1);
   EXPECT_EQ(std::get<SphereObstacle>(c.obstacles[0].shape).segments, 9);
@@ -106,11 +106,11 @@ TEST(Case, LibraryHoldsTheNumbersOfTheTheses) {
   const Case sleeve = readCase(library / "sleeve_flex.json");
   EXPECT_DOUBLE_EQ(std::get<TubeGarment>(sleeve.garments[0].shape).radius_m, 0.06);
   EXPECT_DOUBLE_EQ(sleeve.fabric.shear_Pa, 1e5);
-  EXPECT_DOUBLE_EQ(sleeve.fabric.bending_weft_Nm, 1.2e6 * 1e-9 / 12);
+  EXPECT_DOUBLE_EQ(givenRigidities(sleeve.fabric.law)->weft_Nm, 1.2e6 * 1e-9 / 12);
   // Zheng 2013, section 6.2.
   const Case shorts = readCase(library / "shorts_walk.json");
   EXPECT_DOUBLE_EQ(shorts.fabric.surfaceDensity(), 1440 * 0.762e-3);
-  EXPECT_DOUBLE_EQ(shorts.fabric.bending_warp_Nm, 0.00371);
+  EXPECT_DOUBLE_EQ(givenRigidities(shorts.fabric.law)->warp_Nm, 0.00371);
   EXPECT_DOUBLE_EQ(shorts.air.drag_kg_per_m2s, 4);
 }
 

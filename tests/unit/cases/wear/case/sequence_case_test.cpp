@@ -61,7 +61,7 @@ TEST(SequenceCase, CarriesClothThatItAccelerates) {
   AuditWatch audit;
   Vec3 received{};
   double time = 0;
-  scene.run(0.6, [&](const State&, const State& after, const StepReport& r, const StepWork& w, const Frequency&) {
+  scene.run(0.6, [&](const State&, const State& after, const StepReport& r, const StepResult& w, const Frequency&) {
     audit(r);
     if (after.time_s < 0.3) return;
     time += r.step_s;

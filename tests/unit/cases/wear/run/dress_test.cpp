@@ -84,6 +84,47 @@ TEST(Dress, PanelsAreSewnAndLayersComeFreeOfEachOther) {
   EXPECT_EQ(startOf(*from, work).p, s->start_m);
 }
 
+/// A garment that keeps its folds knows of being put on, alone as with others, from memory and from a file; or not,
+/// where the case wipes that. The panels' seams are where they are sewn.
+TEST(Dress, WhatLawsRememberIsKeptOrWiped) {
+  const Folder folder;
+  const std::string stop = R"(fabric.bending={"law": "stop", "rigidity": "1e-4 N m", "yield_moment": "5e-5 N"})";
+  const std::filesystem::path file = folder.write("case.json", worn), dressed_file = folder.path() / "dressed.json";
+  for (const std::string& model : {std::string("nurbs"), std::string("triangles")}) {
+    const std::vector<std::string> settings{stop, "dressing.settle=2 ms", "garments[0].model=\"" + model + "\"",
+                                            "garments[1].model=\"" + model + "\""};
+    const auto with = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), settings.begin(), settings.end());
+      return readCase(file, more);
+    };
+    const Dressed apart = putOnApart(with({}));
+    const auto s = buildScenario(with({}));
+    wear(*s, apart);
+    StepWork work;
+    const State start = startOf(*s, work);
+    ASSERT_EQ(start.history.size(), s->model->cloth->historySize());
+    for (int g = 0; g < 2; ++g) {
+      const std::vector<double>& kept = apart.garments[static_cast<std::size_t>(g)].history;
+      ASSERT_FALSE(kept.empty());
+      EXPECT_NE(kept, std::vector<double>(kept.size(), 0.0)) << "a tube of flat cloth yields";
+      EXPECT_EQ(historyOf(*s->model->cloth, start.history, g), kept);
+    }
+    writeDressed(apart, dressed_file);
+    EXPECT_EQ(readDressed(dressed_file).garments[1].history, apart.garments[1].history);
+    EXPECT_EQ(readDressed(dressed_file).garments[1].law, "stop");
+    const std::string from = "dressing.from=" + dressed_file.string();
+    EXPECT_EQ(startOf(*buildScenario(with({from})), work).history, start.history);
+    EXPECT_EQ(startOf(*buildScenario(with({from, "dressing.history=wiped"})), work).history,
+              std::vector<double>(start.history.size(), 0.0));
+    try {
+      buildScenario(readCase(file, {from, settings[2], settings[3]}));
+      ADD_FAILURE() << "cloth without memory takes no history";
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("\"dressing.history\" be \"wiped\""), std::string::npos) << e.what();
+    }
+  }
+}
+
 /// Each is drafted over those before it.
 // clang-format off
 const std::string layers = R"json({

@@ -12,7 +12,7 @@
 #include "core/cloth/shell/seams.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
-#include "core/motion/deforming.hpp"
+#include "core/motion/stage_work.hpp"
 #include "exact/scene_intersections.hpp"
 #include "unit/human/files/files.hpp"
 #include "unit/shell_of.hpp"

@@ -14,7 +14,7 @@ void expectBalanced(const Case& c, double end_s) {
   SceneRun scene(c);
   AuditWatch audit;
   double supports = 0;
-  scene.run(end_s, [&](const State&, const State&, const StepReport& r, const StepWork& w, const Frequency&) {
+  scene.run(end_s, [&](const State&, const State&, const StepReport& r, const StepResult& w, const Frequency&) {
     audit(r);
     supports = std::max(supports, norm(r.momentum.supports));
     Vec3 ledger{};

@@ -17,7 +17,7 @@ TEST(Coarseness, OfTheStripThatItIsCalibratedWith) {
   Fabric f;
   f.thickness_m = 2e-5;
   f.density_kg_per_m3 = 0.1 / f.thickness_m;
-  f.bending_weft_Nm = f.bending_warp_Nm = 8e-5;
+  f.law = LinearBending{{8e-5, 8e-5}};
   f.young_weft_Pa = f.young_warp_Pa = 12 * 8e-5 / (f.thickness_m * f.thickness_m * f.thickness_m);
   const double R = std::cbrt(8e-5 / (0.1 * 10));
   const double N = coarseness(f, 0.2 / 32, 10);

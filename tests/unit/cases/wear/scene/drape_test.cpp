@@ -28,7 +28,7 @@ Drape drape(const Case& c) {
   Drape d;
   Vec3 received{};
   bool last = false;
-  const auto watch = [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) {
+  const auto watch = [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
     d.audit(r);
     d.sample_depth_m = std::max(d.sample_depth_m, r.deepest_m);
     d.unconverged += !r.contact.converged;

@@ -34,7 +34,7 @@ inline ExactRun runExactly(const Case& c, double until_s, Looks looks, bool self
                   " collapsed; " + (found.pairs.empty() ? check.name(found.collapsed[0]) : check.name(found.pairs[0]));
     run.most_pairs = std::max(run.most_pairs, found.pairs.size());
   };
-  const auto watch = [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
+  const auto watch = [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
     ++run.steps;
     run.steps_with_cloth_contact += r.cloth_contacts > 0;
     run.most_cloth_contacts = std::max(run.most_cloth_contacts, r.cloth_contacts);

@@ -26,7 +26,7 @@ TEST(SmallestGap, CoarseClothThatLiesDownDoesNotRebound) {
   })json")));
   double farthest = 0, nearest = 1;
   int touching = 0;
-  scene.run(0.022, [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) {
+  scene.run(0.022, [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
     if (r.contacts == 0) return true;
     ++touching;
     farthest = std::max(farthest, r.smallest_gap_m);

@@ -55,7 +55,7 @@ Landing land(const Case& c) {
   bool landed = false;
   int touched = 0;  // steps with contact
   const double end = *c.time.duration_s;
-  const auto watch = [&](const State& before, const State& after, const StepReport& r, const StepWork& w,
+  const auto watch = [&](const State& before, const State& after, const StepReport& r, const StepResult& w,
                          const Frequency&) {
     l.audit(r);
     // The velocity with which the positions moved, at the middle of the step.

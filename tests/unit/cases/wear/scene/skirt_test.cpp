@@ -32,14 +32,14 @@ TEST(SkirtDrape, TheHipsCarryIt) {
        "dressing.projecting={\"clearance\": \"5 mm\", \"grow\": \"0.1 s\"}", "time.duration=0.3"}));
   AuditWatch audit;
   double carried = 0, from_s = 0.2, deepest = 0;
-  scene.run(0.3,
-            [&](const State& before, const State& after, const StepReport& r, const StepWork& work, const Frequency&) {
-              audit(r);
-              deepest = std::max(deepest, r.deepest_m);
-              if (before.time_s < from_s) return;
-              for (const ContactImpulse& c : work.contact_impulses) carried += c.impulse.z;
-              EXPECT_EQ(after.tangled, false);
-            });
+  scene.run(
+      0.3, [&](const State& before, const State& after, const StepReport& r, const StepResult& work, const Frequency&) {
+        audit(r);
+        deepest = std::max(deepest, r.deepest_m);
+        if (before.time_s < from_s) return;
+        for (const ContactImpulse& c : work.contact_impulses) carried += c.impulse.z;
+        EXPECT_EQ(after.tangled, false);
+      });
   EXPECT_LT(audit.worst, 1e-9);
   EXPECT_LT(deepest, 0.2e-3);
   double mass = 0;

@@ -63,7 +63,7 @@ Stack stack(Case c, const std::vector<int>& cells, double end_s, double mean_s) 
   // Normal impulses of each sample from the sheet below it and the sheet above.
   std::vector<double> from_below(m.surface.size()), from_above(m.surface.size());
   bool last = false;
-  const auto watch = [&](const State&, const State&, const StepReport& r, const StepWork& w, const Frequency&) {
+  const auto watch = [&](const State&, const State&, const StepReport& r, const StepResult& w, const Frequency&) {
     s.audit(r);
     ++s.steps;
     s.zones += r.zones;

@@ -58,7 +58,7 @@ Sums sumsOf(const std::string& text, const std::vector<std::string>& overrides) 
   SceneRun scene(readCase(folder.write("case.json", text), overrides));
   const Model& m = scene.model;
   Sums sums;
-  scene.run(0.2, [&](const State&, const State&, const StepReport& r, const StepWork& w, const Frequency&) {
+  scene.run(0.2, [&](const State&, const State&, const StepReport& r, const StepResult& w, const Frequency&) {
     Vec3 all{};
     for (const SupportGroup& g : scene.scenario->supports)
       for (const auto& [k, part] : g.held) all += part * w.held_impulses[static_cast<std::size_t>(k)];

@@ -29,7 +29,7 @@ Freed freed(SceneRun& scene, double end_s) {
     return selfCrossings(f.x, m.surface.triangles);
   };
   f.at_start = f.at_end = crossings();
-  const auto watch = [&](const State& before, const State& after, const StepReport& r, const StepWork&,
+  const auto watch = [&](const State& before, const State& after, const StepReport& r, const StepResult&,
                          const Frequency&) {
     f.added_J += r.work.restoring;
     std::vector<Vec3> way(before.p.size()), moved(m.surface.size());

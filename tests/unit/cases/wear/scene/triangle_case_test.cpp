@@ -58,7 +58,7 @@ const char* const kSheet =
 std::vector<Vec3> after(const Case& c, double time_s) {
   SceneRun scene(c);
   scene.run(scene.scenario->start_s + time_s,
-            [](const State&, const State&, const StepReport&, const StepWork&, const Frequency&) {});
+            [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
   return scene.state.p;
 }
 
@@ -97,8 +97,9 @@ TEST_F(TriangleCase, TwoKindsOfClothTouchEachOther) {
   AuditWatch audit;
   int cloth_contacts = 0;
   Vec3 received{};
-  scene.run(0.5, [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) { audit(r); });
-  scene.run(0.6, [&](const State&, const State&, const StepReport& r, const StepWork&, const Frequency&) {
+  scene.run(0.5,
+            [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) { audit(r); });
+  scene.run(0.6, [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
     audit(r);
     cloth_contacts = std::max(cloth_contacts, r.cloth_contacts);
     received += r.momentum.obstacles;
@@ -129,6 +130,17 @@ TEST_F(TriangleCase, RefusesWhatItCannotBe) {
   EXPECT_NE(refusal(caseOf("\"mesh_file\": {\"path\": \"square.obj\", \"rest\": \"uv\"}")).find("uv"),
             std::string::npos);
   EXPECT_NE(refusal(caseOf(file, ", \"supports\": [{\"fixed\": {\"edge\": \"top\"}}]")).find("top"), std::string::npos);
+  // PLY: one patch, its threads as they lie; no uv to lie flat by. (A square of two triangles.)
+  write("square.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0.01\n0.2 0 0.01\n0.2 0.2 0.01\n0 0.2 0.01\n3 0 1 2\n3 0 2 3\n");
+  const std::string ply = "\"mesh_file\": {\"path\": \"square.ply\"}";
+  EXPECT_EQ(refusal(caseOf(ply)), "");
+  EXPECT_NE(refusal(caseOf("\"mesh_file\": {\"path\": \"square.ply\", \"rest\": \"uv\"}")).find("uv"),
+            std::string::npos);
+  write("square.stl", "solid\n");
+  EXPECT_NE(refusal(caseOf("\"mesh_file\": {\"path\": \"square.stl\"}")).find(".obj or .ply"), std::string::npos);
   struct Broken {
     const char *text, *says;
   };

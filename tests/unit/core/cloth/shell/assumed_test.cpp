@@ -42,7 +42,7 @@ int zeros(const Eigen::VectorXd& values) {
 /// A thin shell at rest is free in six ways and no more, also on distorted, curved and rational patches.
 TEST(CellRules, HoldEveryModeThatTheFullRuleHolds) {
   Fabric f = plainFabric();
-  f.bending_law = BendingLaw::consistent;
+  f.law = ConsistentBending{};
   f.thickness_m = 0.02;
   const std::vector<NurbsPatch> patches{flatPatch(uniformKnots(2, 7), uniformKnots(2, 6), 1, 1),
                                         flatPatch(uniformKnots(2, 6), uniformKnots(2, 6), 1, 1, 0.25),
@@ -72,10 +72,10 @@ TEST(CellRules, HoldEveryModeThatTheFullRuleHolds) {
 /// as many as under the full rule.
 TEST(CellRules, LeaveNoModeOutOnFewCells) {
   Fabric f = plainFabric();
-  f.bending_law = BendingLaw::consistent;
+  f.law = ConsistentBending{};
   f.thickness_m = 0.02;
   Fabric limp = plainFabric();
-  limp.bending_weft_Nm = limp.bending_warp_Nm = limp.twist_Nm = 1e-14;
+  limp.law = LinearBending{{1e-14, 1e-14, 1e-14}};
   limp.poisson = 0;
   for (int nu = 1; nu <= 4; ++nu)
     for (int nv = 1; nv <= 4; ++nv) {
@@ -106,7 +106,7 @@ double tipOfCantilever(double thickness, CellRule rule, int cells_across = 3) {
   f.density_kg_per_m3 = 1000;
   f.young_weft_Pa = f.young_warp_Pa = 1.2e6;
   f.shear_Pa = 0.6e6;
-  f.bending_law = BendingLaw::consistent;
+  f.law = ConsistentBending{};
   const Garment g = garmentOf({patchOf(uniformKnots(2, 16), uniformKnots(2, cells_across),
                                        [](double a, double b) {
                                          return Vec3{10 * a, b, 0};

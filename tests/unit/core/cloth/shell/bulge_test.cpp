@@ -108,7 +108,7 @@ Lowered troughOn(const TriangleMesh& body, const auto& top) {
   Lowered out;
   std::vector<Vec3> q(m.model->cloth->map().T.rows()), x;
   advance(*m.model, m.stage, {0.7, 1e-3}, 0.15, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepWork&, const Frequency&) {
+          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
             out.carried -= r.momentum.obstacles.z;
             m.model->cloth->map().T.multiply<Vec3>(after.p, q);
             for (int i = 0; i <= 200; ++i) {

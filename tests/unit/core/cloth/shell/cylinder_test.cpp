@@ -21,8 +21,8 @@ Fabric sheetFabric() {
   f.young_weft_Pa = f.young_warp_Pa = 1e6;
   f.shear_Pa = 0.5e6;
   f.poisson = 0;
-  f.bending_weft_Nm = f.bending_warp_Nm = 1e6 * std::pow(kThickness, 3) / 12;
-  f.twist_Nm = 0.5 * f.bending_weft_Nm;
+  const double B = 1e6 * std::pow(kThickness, 3) / 12;
+  f.law = LinearBending{{B, B, 0.5 * B}};
   return f;
 }
 
@@ -130,7 +130,7 @@ Bent bend(int degree, int n, SeamKind kind, double stiffness) {
   return b;
 }
 
-const double kRigidity = sheetFabric().bending_weft_Nm, kCurvature = kAngle / kLength;
+const double kRigidity = rigidities(sheetFabric()).weft_Nm, kCurvature = kAngle / kLength;
 const double kEnergy = 0.5 * kRigidity * kCurvature * kCurvature * kLength * kWidth,
              kMoment = kRigidity * kCurvature * kWidth;
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "core/cloth/block_law.hpp"
 #include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/shell_law.hpp"
 #include "core/error.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"
 
@@ -57,7 +57,7 @@ TEST(Fields, ThicknessScalesMassAndBending) {
   const Vec2 right{g.patches[0].u.back(), 0.5 * g.patches[0].v.back()};
   const Fabric f = fabricAt(g, 0, right);
   EXPECT_DOUBLE_EQ(f.thickness_m, 2 * g.fabric.thickness_m);
-  EXPECT_DOUBLE_EQ(f.bending_weft_Nm, 8 * g.fabric.bending_weft_Nm);
+  EXPECT_DOUBLE_EQ(rigidities(f).weft_Nm, 8 * rigidities(g.fabric).weft_Nm);
   EXPECT_DOUBLE_EQ(f.young_weft_Pa, g.fabric.young_weft_Pa);
   EXPECT_DOUBLE_EQ(surfaceDensityAt(g, 0, right), 2 * g.fabric.surfaceDensity());
   EXPECT_DOUBLE_EQ(surfaceDensityAt(g, 0, {g.patches[0].u.front(), 0}), g.fabric.surfaceDensity());
@@ -113,7 +113,7 @@ TEST(Fields, WhatDoesNotFitIsRefused) {
   refused({1, 2, 2, {1, 1, NAN, 1}}, &PatchFields::fibre_angle, "fields[0].fibre_angle.values");
   refused({0, 1, 1, {1}}, &PatchFields::material, "fields[0].material.values");
   Fabric layered = g.fabric;
-  layered.plies.push_back({1e-3, 1e9, 1e9, 1e8, 0.3, 0});
+  layered.law = Laminate{{{1e-3, 1e9, 1e9, 1e8, 0.3, 0}}};
   g.other_fabrics.push_back(layered);
   refused({0, 1, 1, {0.5}}, &PatchFields::material, "fields[0].material");
   g.fields.resize(3);

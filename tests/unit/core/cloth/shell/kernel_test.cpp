@@ -22,7 +22,7 @@ TEST(Kernel, EveryInstructionSetGivesTheSameForce) {
   ASSERT_STREQ(availableKernels().back()->name, "sse2");  // runs on any x86-64
   for (int p : {1, 2, 3, 4})
     for (bool rational : {false, true})
-      for (BendingLaw law : {BendingLaw::linear, BendingLaw::zheng}) {
+      for (Bends law : {Bends::linear, Bends::zheng}) {
         Fabric fabric = plainFabric(law);
         fabric.rest_curvature_of_shape = p == 2;
         const Garment g = garmentOf({curvedPatch(p, p, rational)}, {}, fabric, turnedWeft());
@@ -43,7 +43,7 @@ TEST(Kernel, EveryInstructionSetGivesTheSameForce) {
 }
 
 TEST(Kernel, ForceWithAndWithoutEnergyIsTheSame) {
-  const Garment g = garmentOf({curvedPatch(2, 3, true)}, {}, plainFabric(BendingLaw::zheng));
+  const Garment g = garmentOf({curvedPatch(2, 3, true)}, {}, plainFabric(Bends::zheng));
   const Shell shell(g, widestKernels());
   std::vector<Vec3> q = restPoints(g);
   q[7].z += 0.1;
@@ -78,7 +78,7 @@ TEST(Kernel, TheSameBitsForOneAndTwoThreads) {
   NurbsPatch right =
       patchOf(uniformKnots(3, 13), uniformKnots(2, 21), [&](double a, double b) { return wave(1 + a, b); });
   const Garment g =
-      garmentOf({left, right}, {{{0, Side::u1}, {1, Side::u0}, SeamKind::C0, 0.5}}, plainFabric(BendingLaw::zheng));
+      garmentOf({left, right}, {{{0, Side::u1}, {1, Side::u0}, SeamKind::C0, 0.5}}, plainFabric(Bends::zheng));
   std::vector<Vec3> q = restPoints(g);
   for (std::size_t i = 0; i < q.size(); ++i) q[i].z += 0.01 * std::sin(37.0 * static_cast<double>(i));
   const int threads = omp_get_max_threads();

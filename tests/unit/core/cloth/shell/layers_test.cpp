@@ -22,7 +22,7 @@ Fabric thickFabric() {
   f.thickness_m = 3e-3;
   f.density_kg_per_m3 = 500;
   f.young_warp_Pa = 90e3;
-  f.bending_weft_Nm = 4e-5;
+  rigidities(f).weft_Nm = 4e-5;
   return f;
 }
 

@@ -73,7 +73,7 @@ TEST(Loads, WeightIsThatOfAllPatches) {
   const double area = 1 + kPi / 2 * kRadius * kLength;
   expectVec(total(weightForce(g, {0, 0, -9.81})), {0, 0, -9.81 * 3 * area}, 1e-5);  // 300 kg/m^3, 0.01 m
   expectVec(total(garmentForce(g, {0, 0, 1})), {0, 0, area}, 1e-7);
-  g.fabric.plies = {{.thickness_m = 0.002}, {.thickness_m = 0.003}};  // the plies' thickness counts
+  g.fabric.law = Laminate{{{.thickness_m = 0.002}, {.thickness_m = 0.003}}};  // the plies' thickness counts
   expectVec(total(weightForce(g, {0, 0, -9.81})), {0, 0, -9.81 * 1.5 * area}, 1e-5);
   g.fields.resize(2);  // twice as thick at the far end of the flat patch: 1.5 on average
   g.fields[0].thickness = PatchField{1, 2, 2, {1, 2, 1, 2}};
@@ -286,7 +286,7 @@ TEST(Loads, ConstantMomentPatchTest) {
           for (int b = 1; b < a; ++b) sum += k.knots[i + a] * k.knots[i + b];
         q[patch.index(i, j)].z = 0.5 * kappa * length * length * sum / (p * (p - 1) / 2.0);
       }
-    const double m = g.fabric.bending_weft_Nm * kappa;
+    const double m = rigidities(g.fabric).weft_Nm * kappa;
     const Loads loads = loadsOf(g, {}, {}, {{{0, Side::u0}, m, 0}, {{0, Side::u1, true}, m, 0}});
     const auto load = forceOf(loads, q), inner = forceOn(shell, q);
     double size = 0, worst = 0;

@@ -110,8 +110,15 @@ inline std::array<NurbsPatch, 2> cutV(const NurbsPatch& s, double knot) {
   return {transposed(a), transposed(b)};
 }
 
+enum class Bends { linear, zheng, consistent };
+
+/// The rigidities of a fabric that has its own.
+inline GivenRigidities& rigidities(Fabric& f) { return *givenRigidities(f.law); }
+inline const GivenRigidities& rigidities(const Fabric& f) { return *givenRigidities(f.law); }
+inline ZhengBending& zheng(Fabric& f) { return std::get<ZhengBending>(f.law); }
+
 /// A fabric whose numbers have the same size, so that every term counts. nu = 0.25, weft twice as stiff as warp.
-inline Fabric plainFabric(BendingLaw law = BendingLaw::linear) {
+inline Fabric plainFabric(Bends law = Bends::linear) {
   Fabric f;
   f.thickness_m = 0.01;
   f.density_kg_per_m3 = 300;
@@ -119,12 +126,10 @@ inline Fabric plainFabric(BendingLaw law = BendingLaw::linear) {
   f.young_warp_Pa = 100;
   f.shear_Pa = 45;
   f.poisson = 0.25;
-  f.bending_law = law;
-  f.bending_weft_Nm = 0.3;
-  f.bending_warp_Nm = 0.2;
-  f.twist_Nm = 0.1;
-  f.kappa0_per_m = 1.5;
-  f.kappa_regular_per_m = 0.2;
+  const GivenRigidities given{0.3, 0.2, 0.1};
+  if (law == Bends::linear) f.law = LinearBending{given};
+  if (law == Bends::zheng) f.law = ZhengBending{given, 1.5, 0.2};
+  if (law == Bends::consistent) f.law = ConsistentBending{};
   return f;
 }
 

@@ -43,18 +43,15 @@ void expectSame(const Answer& a, const Answer& b, double tolerance = 1e-12) {
 /// E h^3/12/(1 - nu nu') -- where it has no coupling of weft and warp bending, nu = 0, and bends from the rest shape.
 TEST(ShellSection, PlyConsistentAndGivenRigidities) {
   Fabric consistent = plainFabric();
-  consistent.bending_law = BendingLaw::consistent;
+  consistent.law = ConsistentBending{};
   consistent.poisson = 0;
   consistent.thickness_m = 0.1;
   Fabric given = consistent;
   const double i = 1e-3 / 12;
-  given.bending_law = BendingLaw::linear;
-  given.bending_weft_Nm = given.young_weft_Pa * i;
-  given.bending_warp_Nm = given.young_warp_Pa * i;
-  given.twist_Nm = given.shear_Pa * i;
+  given.law = LinearBending{{given.young_weft_Pa * i, given.young_warp_Pa * i, given.shear_Pa * i}};
   given.rest_curvature_of_shape = true;
   Fabric ply = consistent;
-  ply.plies = {{0.1, consistent.young_weft_Pa, consistent.young_warp_Pa, consistent.shear_Pa, 0, 0}};
+  ply.law = Laminate{{{0.1, consistent.young_weft_Pa, consistent.young_warp_Pa, consistent.shear_Pa, 0, 0}}};
   const auto on = [](const Fabric& f) { return answerOf(garmentOf({curvedPatch(2, 3, true)}, {}, f, turnedWeft())); };
   expectSame(on(consistent), on(given));
   expectSame(on(consistent), on(ply));
@@ -63,8 +60,8 @@ TEST(ShellSection, PlyConsistentAndGivenRigidities) {
 /// Plies from the other side, angles mirrored, on a patch whose normal points the other way: the same sheet.
 TEST(ShellSection, TheSignOfTheCouplingFollowsTheNormal) {
   Fabric up = plainFabric(), down = plainFabric();
-  up.plies = {{0.05, 200, 50, 30, 0.3, 0.4}, {0.08, 100, 60, 25, 0.2, -0.7}};
-  down.plies = {{0.08, 100, 60, 25, 0.2, 0.7}, {0.05, 200, 50, 30, 0.3, -0.4}};
+  up.law = Laminate{{{0.05, 200, 50, 30, 0.3, 0.4}, {0.08, 100, 60, 25, 0.2, -0.7}}};
+  down.law = Laminate{{{0.08, 100, 60, 25, 0.2, 0.7}, {0.05, 200, 50, 30, 0.3, -0.4}}};
   const NurbsPatch patch = curvedPatch(2, 2, false), turned = flippedU(patch);
   const Garment a = garmentOf({patch}, {}, up), b = garmentOf({turned}, {}, down);
   std::vector<Vec3> q = deformedFree(a, buildFreeMap(a), 0.03), r(q.size());
@@ -74,7 +71,7 @@ TEST(ShellSection, TheSignOfTheCouplingFollowsTheNormal) {
   const auto fa = forceOn(Shell(a, widestKernels()), q, &ea), fb = forceOn(Shell(b, widestKernels()), r, &eb);
   EXPECT_NEAR(ea, eb, 1e-12 * ea);
   // The other order is another sheet.
-  down.plies = {down.plies[1], down.plies[0]};
+  std::swap(std::get<Laminate>(down.law).plies[0], std::get<Laminate>(down.law).plies[1]);
   forceOn(Shell(garmentOf({turned}, {}, down), widestKernels()), r, &eb);
   EXPECT_GT(std::abs(ea - eb), 1e-4 * ea);
 }
@@ -83,7 +80,7 @@ TEST(ShellSection, TheSignOfTheCouplingFollowsTheNormal) {
 /// n = A e + B k, m = B e + D k = 0 for a free strip; the shell's energy at that state is the least.
 TEST(ShellSection, StatesAtAPoint) {
   Fabric f = plainFabric();
-  f.plies = {{0.05, 200, 50, 30, 0.3, 0}, {0.05, 200, 50, 30, 0.3, kPi / 2}};
+  f.law = Laminate{{{0.05, 200, 50, 30, 0.3, 0}, {0.05, 200, 50, 30, 0.3, kPi / 2}}};
   const Garment g = garmentOf({flatPatch(uniformKnots(2, 2), uniformKnots(2, 2), 1, 1)}, {}, f);
   const Shell shell(g, widestKernels());
   std::vector<Vec3> q = restPoints(g);
@@ -94,7 +91,7 @@ TEST(ShellSection, StatesAtAPoint) {
   EXPECT_NEAR(s.strain.y, E22, 1e-14);
   EXPECT_NEAR(s.strain.z, g12, 1e-14);
   EXPECT_NEAR(norm(s.curvature_change), 0, 1e-12);
-  const Section section = laminate(f.plies);
+  const Section section = laminate(f.laminate()->plies);
   EXPECT_NEAR(s.n.x, section.A[0] * E11 + section.A[3] * E22, 1e-12);
   EXPECT_NEAR(s.n.z, section.A[2] * g12, 1e-12);
   EXPECT_NEAR(s.m.x, section.B[0] * E11 + section.B[3] * E22, 1e-12);
@@ -105,7 +102,7 @@ TEST(ShellSection, StatesAtAPoint) {
 }
 
 TEST(ShellSection, ConstantFieldsAreTheFabricTurnedOrThickened) {
-  for (BendingLaw law : {BendingLaw::linear, BendingLaw::zheng, BendingLaw::consistent})
+  for (Bends law : {Bends::linear, Bends::zheng, Bends::consistent})
     for (bool trimmed : {false, true}) {
       Garment plain = garmentOf({curvedPatch(2, 2, true)}, {}, plainFabric(law), {1, 0, 0});
       plain.fabric.rest_curvature_of_shape = true;
@@ -114,13 +111,12 @@ TEST(ShellSection, ConstantFieldsAreTheFabricTurnedOrThickened) {
       with.fields.resize(1);
       with.fields[0].thickness = PatchField{1, 2, 2, {1.7, 1.7, 1.7, 1.7}};
       plain.fabric.thickness_m *= 1.7;
-      for (double Fabric::*b : {&Fabric::bending_weft_Nm, &Fabric::bending_warp_Nm, &Fabric::twist_Nm})
-        plain.fabric.*b *= 1.7 * 1.7 * 1.7;
+      if (GivenRigidities* given = givenRigidities(plain.fabric.law)) given->stiffen(1.7 * 1.7 * 1.7);
       expectSame(answerOf(plain), answerOf(with));
     }
   // On a flat sheet the turned weft is a vector.
   Fabric f = plainFabric();
-  f.plies = {{0.05, 200, 50, 30, 0.3, 0.4}, {0.08, 100, 60, 25, 0.2, -0.7}};
+  f.law = Laminate{{{0.05, 200, 50, 30, 0.3, 0.4}, {0.08, 100, 60, 25, 0.2, -0.7}}};
   const NurbsPatch flat = flatPatch(uniformKnots(2, 3), uniformKnots(3, 2), 1.2, 0.9, 0.3);
   Garment angle = garmentOf({flat}, {}, f, {1, 0, 0});
   angle.fields.resize(1);
@@ -174,13 +170,14 @@ TEST(ShellSection, WrongLawsAreRefused) {
   const Garment good = garmentOf({curvedPatch(2, 2, true)}, {}, plainFabric());
   EXPECT_EQ(refusal(good), "accepted");
   Garment g = good;
-  g.fabric.plies = {{0.05, 200, 50, 30, 0.3, 0}, {0.05, 200, 50, 30, 0.3, 1}};
+  g.fabric.law = Laminate{{{0.05, 200, 50, 30, 0.3, 0}, {0.05, 200, 50, 30, 0.3, 1}}};
+  std::vector<Ply>& plies = std::get<Laminate>(g.fabric.law).plies;
   EXPECT_EQ(refusal(g), "accepted");
   g.fabric.tension_field = true;
   EXPECT_EQ(refusal(g), "fabric.tension_field");
-  g.fabric.plies.pop_back();
+  plies.pop_back();
   EXPECT_EQ(refusal(g), "accepted");
-  g.fabric.plies[0].young1_Pa = 0;
+  plies[0].young1_Pa = 0;
   EXPECT_EQ(refusal(g), "fabric.plies[0].young1_Pa");
   g = good;
   g.other_fabrics = {plainFabric()};
@@ -190,8 +187,7 @@ TEST(ShellSection, WrongLawsAreRefused) {
   g.fields.resize(2);
   EXPECT_EQ(refusal(g), "fields");
   g = good;
-  g.fabric.bending_law = BendingLaw::consistent;
-  g.fabric.bending_weft_Nm = std::nan("");  // not read by this law
+  g.fabric.law = ConsistentBending{};
   EXPECT_EQ(refusal(g), "accepted");
 }
 

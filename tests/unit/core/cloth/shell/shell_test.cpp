@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "core/material/bending.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"
 
 namespace gambeson {
@@ -25,7 +24,7 @@ double gradientError(const Garment& g) {
   std::vector<Vec3> p = deformedFree(g, map, 0.02);
   const std::vector<Vec3> f = onFree(map, forceOn(shell, controlsOf(map, p)));
   // The energy of eq. 2.14 has kinks in its third derivative: a short step keeps them out of most differences.
-  const double h = g.fabric.bending_law == BendingLaw::linear ? 2e-4 : 1e-5, scale = largest(f);
+  const double h = std::holds_alternative<LinearBending>(g.fabric.law) ? 2e-4 : 1e-5, scale = largest(f);
   double worst = 0;
   for (std::size_t i = 0; i < p.size(); ++i)
     for (int c = 0; c < 3; ++c) {
@@ -63,10 +62,10 @@ INSTANTIATE_TEST_SUITE_P(Degrees, ShellForce,
 TEST_P(ShellForce, IsTheGradientOfTheEnergy) {
   const auto [p, q, rational] = GetParam();
   for (bool of_shape : {false, true})
-    for (BendingLaw law : {BendingLaw::linear, BendingLaw::zheng}) {
+    for (Bends law : {Bends::linear, Bends::zheng}) {
       Fabric fabric = plainFabric(law);
       fabric.rest_curvature_of_shape = of_shape;
-      const double bound = law == BendingLaw::linear ? 1e-8 : 1e-7;
+      const double bound = law == Bends::linear ? 1e-8 : 1e-7;
       EXPECT_LT(gradientError(garmentOf({curvedPatch(p, q, rational)}, {}, fabric, turnedWeft())), bound);
       EXPECT_LT(gradientError(fourPatches(p, q, rational, SeamKind::C0, 0.4, fabric)), bound) << "springs";
       if (p > 1 && q > 1) {
@@ -78,7 +77,7 @@ TEST_P(ShellForce, IsTheGradientOfTheEnergy) {
 /// Internal forces are in balance in any state, also across the springs of a seam.
 TEST_P(ShellForce, HasNoResultantAndNoMoment) {
   const auto [p, q, rational] = GetParam();
-  const Garment g = fourPatches(p, q, rational, SeamKind::C0, 0.4, plainFabric(BendingLaw::zheng));
+  const Garment g = fourPatches(p, q, rational, SeamKind::C0, 0.4, plainFabric(Bends::zheng));
   const FreeMap map = buildFreeMap(g);
   const std::vector<Vec3> x = controlsOf(map, deformedFree(g, map, 0.05));
   const auto f = forceOn(Shell(g, widestKernels()), x);
@@ -97,7 +96,7 @@ TEST_P(ShellForce, HasNoResultantAndNoMoment) {
 TEST_P(ShellForce, VanishesUnderRigidMotion) {
   const auto [p, q, rational] = GetParam();
   const Mat3 turn = rotationAbout(normalized({1, 2, -0.5}), 1.1);
-  for (BendingLaw law : {BendingLaw::linear, BendingLaw::zheng})
+  for (Bends law : {Bends::linear, Bends::zheng})
     for (bool flat : {false, true}) {
       Fabric fabric = plainFabric(law);
       fabric.rest_curvature_of_shape = !flat;
@@ -216,7 +215,7 @@ TEST(ShellBending, NormIsThereWhereTheWeftIsNormalToTheSheet) {
   NurbsPatch s{uniformKnots(2, 1), uniformKnots(2, 1), {}, std::vector<double>(9, 1)};
   for (double y : {0.0, 0.5, 1.0})
     for (const Vec3& x : {Vec3{1, y, 0}, Vec3{1, y, 1}, Vec3{0, y, 1}}) s.points.push_back(x);
-  const Shell shell(garmentOf({s}, {}, plainFabric(BendingLaw::linear), {0, 0, 1}), widestKernels());
+  const Shell shell(garmentOf({s}, {}, plainFabric(Bends::linear), {0, 0, 1}), widestKernels());
   EXPECT_NO_THROW(shell.curvatureAt(0, {1, 0.5}, s.points));  // told beside it, where weft and warp are
   EXPECT_NEAR(shell.bendAt(0, {1, 0.5}, s.points), 0.5, 1e-12);
   EXPECT_NEAR(shell.bendAt(0, {0, 0.5}, s.points), 0.5, 1e-12);
@@ -227,10 +226,11 @@ TEST(ShellBending, NormIsThereWhereTheWeftIsNormalToTheSheet) {
 /// twist * 2 kappa12.
 TEST(ShellBending, EnergyOfAConstantCurvature) {
   const double a = 3e-4, b = 2e-4, c = -1e-4, cs = std::cos(kPi / 6), sn = std::sin(kPi / 6);
-  for (BendingLaw law : {BendingLaw::linear, BendingLaw::zheng}) {
+  for (Bends law : {Bends::linear, Bends::zheng}) {
     Fabric f = plainFabric(law);
-    f.kappa0_per_m = 3e-4;
-    f.kappa_regular_per_m = 1.5e-4;
+    const double k0 = 3e-4, kr = 1.5e-4;
+    if (law == Bends::zheng) f.law = ZhengBending{rigidities(f), k0, kr};
+    const auto [weft, warp, twist] = rigidities(f);
     const Garment g = garmentOf({flatPatch(uniformKnots(2, 3), uniformKnots(2, 2), 1, 1)}, {}, f, turnedWeft());
     NurbsPatch bent = g.patches[0];  // blossom of the quadratic at the Greville points: exact coefficients
     const auto &u = bent.u, &v = bent.v;
@@ -249,26 +249,26 @@ TEST(ShellBending, EnergyOfAConstantCurvature) {
     const double bend = std::sqrt(a * a + 2 * b * b + c * c);  // does not depend on the weft
     EXPECT_NEAR(shell.bendAt(0, {0.4, 0.7}, bent.points), bend, 1e-6 * a);
     const auto density = [&](double k, double B) {
-      return law == BendingLaw::linear ? 0.5 * B * k * k : zhengEnergy(k, B, f.kappa0_per_m, f.kappa_regular_per_m);
+      Answer<double, 1> zheng;
+      zhengCurve<with_energy>(B, k0, kr, k, zheng);
+      return law == Bends::linear ? 0.5 * B * k * k : zheng.energy;
     };
-    const double expected =
-        density(k11, f.bending_weft_Nm) + density(k22, f.bending_warp_Nm) + 2 * f.twist_Nm * k12 * k12;
+    const double expected = density(k11, weft) + density(k22, warp) + 2 * twist * k12 * k12;
     double energy;
     forceOn(shell, bent.points, &energy, {false, true, false, false});
     EXPECT_NEAR(energy, expected, 1e-6 * expected);
-    if (law == BendingLaw::linear) continue;
+    if (law == Bends::linear) continue;
     // `steepest`: the linear law of the steepest slope instead.
     forceOn(shell, bent.points, &energy, {false, true, false, true});
-    const auto steepest = [&](double B) { return zhengSteepest(B, f.kappa0_per_m, f.kappa_regular_per_m); };
     EXPECT_NEAR(energy,
-                0.5 * (steepest(f.bending_weft_Nm) * k11 * k11 + steepest(f.bending_warp_Nm) * k22 * k22) +
-                    2 * f.twist_Nm * k12 * k12,
+                0.5 * (zhengSteepest(weft, k0, kr) * k11 * k11 + zhengSteepest(warp, k0, kr) * k22 * k22) +
+                    2 * twist * k12 * k12,
                 1e-6 * energy);
   }
 }
 
 TEST(ShellInput, BadGeometryAndFabricAreRefused) {
-  const Garment good = garmentOf({curvedPatch(2, 2, false)}, {}, plainFabric(BendingLaw::zheng));
+  const Garment good = garmentOf({curvedPatch(2, 2, false)}, {}, plainFabric(Bends::zheng));
   EXPECT_NO_THROW(Shell(good, widestKernels()));
   const auto refuses = [&](auto&& spoil) {
     Garment g = good;
@@ -282,9 +282,9 @@ TEST(ShellInput, BadGeometryAndFabricAreRefused) {
   });
   refuses([](Garment& g) { g.patches[0].weights[3] = -1; });
   refuses([](Garment& g) { g.patches[0] = curvedPatch(6, 2, false); });
-  refuses([](Garment& g) { g.fabric.kappa_regular_per_m = 0; });
-  refuses([](Garment& g) { g.fabric.kappa_regular_per_m = NAN; });
-  refuses([](Garment& g) { g.fabric.kappa0_per_m = 0.1; });
+  refuses([](Garment& g) { zheng(g.fabric).kappa_regular_per_m = 0; });
+  refuses([](Garment& g) { zheng(g.fabric).kappa_regular_per_m = NAN; });
+  refuses([](Garment& g) { zheng(g.fabric).kappa0_per_m = 0.1; });
   refuses([](Garment& g) { g.fabric.poisson = 2; });
   refuses([](Garment& g) { g.fabric.thickness_m = 0; });
 }

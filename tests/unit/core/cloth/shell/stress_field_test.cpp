@@ -56,8 +56,7 @@ TEST(StressField, AHangingStripPullsWithTheWeightBelow) {
     f.density_kg_per_m3 = 500;
     f.young_weft_Pa = f.young_warp_Pa = 1e7;
     f.shear_Pa = 5e6;
-    f.bending_law = BendingLaw::linear;
-    f.bending_weft_Nm = f.bending_warp_Nm = f.twist_Nm = 0.05;
+    f.law = LinearBending{{0.05, 0.05, 0.05}};
     const Garment g = garmentOf({patchOf(uniformKnots(2, 32), uniformKnots(2, 2),
                                          [](double a, double b) {
                                            return Vec3{a, 0.1 * b, 0};

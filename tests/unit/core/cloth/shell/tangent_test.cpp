@@ -76,7 +76,7 @@ double tangentError(const Garment& g, const Options& o = {}) {
 
 Fabric consistentFabric() {
   Fabric f = plainFabric();
-  f.bending_law = BendingLaw::consistent;
+  f.law = ConsistentBending{};
   f.thickness_m = 0.1;
   return f;
 }
@@ -84,7 +84,7 @@ Fabric consistentFabric() {
 /// Two plies that couple membrane and bending, and shear with all.
 Fabric unsymmetricLaminate() {
   Fabric f = plainFabric();
-  f.plies = {{0.06, 220, 40, 20, 0.25, 0.4}, {0.09, 180, 60, 30, 0.3, -0.9}};
+  f.law = Laminate{{{0.06, 220, 40, 20, 0.25, 0.4}, {0.09, 180, 60, 30, 0.3, -0.9}}};
   return f;
 }
 
@@ -148,9 +148,9 @@ TEST(Tangent, HoldsWeakSeams) {
 TEST(Tangent, FollowsEquation214OnEachBranch) {
   const NurbsPatch patch = curvedPatch(2, 2, true);
   for (const auto& [kr, k0] : {std::pair{50.0, 60.0}, std::pair{1e-9, 2e-9}, std::pair{1e-9, 50.0}}) {
-    Fabric fabric = plainFabric(BendingLaw::zheng);
-    fabric.kappa_regular_per_m = kr;
-    fabric.kappa0_per_m = k0;
+    Fabric fabric = plainFabric(Bends::zheng);
+    zheng(fabric).kappa_regular_per_m = kr;
+    zheng(fabric).kappa0_per_m = k0;
     Options o;
     o.step = 1e-5;
     EXPECT_LT(tangentError(garmentOf({patch}, {}, fabric, turnedWeft()), o), 1e-7) << kr << " " << k0;
@@ -158,7 +158,7 @@ TEST(Tangent, FollowsEquation214OnEachBranch) {
 }
 
 TEST(Tangent, TakesTheSameTermsAsTheForce) {
-  const Garment g = fourPatches(2, 2, false, SeamKind::C0, 0.4, plainFabric(BendingLaw::zheng));
+  const Garment g = fourPatches(2, 2, false, SeamKind::C0, 0.4, plainFabric(Bends::zheng));
   for (const ForceTerms& terms : {ForceTerms{true, false, false, false}, ForceTerms{false, true, false, true},
                                   ForceTerms{false, false, true, false}, ForceTerms{true, true, true, true}}) {
     Options o;
@@ -171,7 +171,7 @@ TEST(Tangent, TakesTheSameTermsAsTheForce) {
 TEST(Tangent, FollowsTheTensionField) {
   for (bool layered : {false, true}) {
     Fabric fabric = plainFabric();
-    if (layered) fabric.plies = {{0.05, 220, 40, 20, 0.25, 0.6}};
+    if (layered) fabric.law = Laminate{{{0.05, 220, 40, 20, 0.25, 0.6}}};
     fabric.tension_field = true;
     Garment g = garmentOf({flatPatch(uniformKnots(2, 2), uniformKnots(2, 2), 1, 1, 0.2)}, {}, fabric, turnedWeft());
     Options o;
@@ -198,10 +198,10 @@ TEST(Tangent, CutCellsAndFields) {
 }
 
 TEST(Tangent, MaterialsOfDifferentLawsSideBySide) {
-  Fabric zheng = plainFabric(BendingLaw::zheng);
-  zheng.kappa_regular_per_m = 50;
-  zheng.kappa0_per_m = 60;
-  Garment g = garmentOf({curvedPatch(2, 2, false)}, {}, zheng, turnedWeft());
+  Fabric cloth = plainFabric(Bends::zheng);
+  zheng(cloth).kappa_regular_per_m = 50;
+  zheng(cloth).kappa0_per_m = 60;
+  Garment g = garmentOf({curvedPatch(2, 2, false)}, {}, cloth, turnedWeft());
   g.other_fabrics = {unsymmetricLaminate(), consistentFabric()};
   g.fields.resize(1);
   g.fields[0].material = PatchField{0, 3, 1, {0, 1, 2}};
@@ -279,7 +279,7 @@ TEST(Tangent, TheSameBitsForOneAndTwoThreads) {
   NurbsPatch right =
       patchOf(uniformKnots(3, 13), uniformKnots(2, 21), [&](double a, double b) { return wave(1 + a, b); });
   const Garment g =
-      garmentOf({left, right}, {{{0, Side::u1}, {1, Side::u0}, SeamKind::C0, 0.5}}, plainFabric(BendingLaw::zheng));
+      garmentOf({left, right}, {{{0, Side::u1}, {1, Side::u0}, SeamKind::C0, 0.5}}, plainFabric(Bends::zheng));
   const FreeMap map = buildFreeMap(g);
   const std::vector<Vec3> q = controlsOf(map, deformedFree(g, map, 0.01));
   const Shell shell(g, widestKernels());

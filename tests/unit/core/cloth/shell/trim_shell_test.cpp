@@ -186,7 +186,7 @@ TEST(TrimShell, TheModelsStepIsThatOfTheUntrimmedSheet) {
     for (bool stiff_bending : {false, true}) {
       Fabric fabric = plainFabric();
       const double bending = stiff_bending ? 30 : 1e-5;
-      fabric.bending_weft_Nm *= bending, fabric.bending_warp_Nm *= bending, fabric.twist_Nm *= bending;
+      rigidities(fabric).stiffen(bending);
       const auto omega = [&](const Garment& g) {
         const auto model = buildModel(g, {}, {}, {}, {});
         double mass = 0, area = 0;

@@ -145,9 +145,8 @@ struct StripErrors {
 };
 StripErrors strip(double factor, double scale) {
   Fabric fabric = plainFabric();
-  for (double* p : {&fabric.young_weft_Pa, &fabric.young_warp_Pa, &fabric.shear_Pa, &fabric.bending_weft_Nm,
-                    &fabric.bending_warp_Nm, &fabric.twist_Nm})
-    *p *= scale;
+  for (double* p : {&fabric.young_weft_Pa, &fabric.young_warp_Pa, &fabric.shear_Pa}) *p *= scale;
+  rigidities(fabric).stiffen(scale);
   const double length = 1.2, width = 0.4;
   const auto part = [&](int p, const std::vector<double>& us, const std::vector<double>& vs, double from, double to) {
     return patchOf(knotsAt(p, us), knotsAt(p, vs), [&](double a, double b) {
@@ -190,7 +189,7 @@ StripErrors strip(double factor, double scale) {
   const Eigen::MatrixXd u = (0.5 * (K + K.transpose())).ldlt().solve(f);
   const int tip = edgeColumns(g, {1, Side::u1}).edge[0];
   return {u(3 * tip, 0) / (length / (fabric.young_weft_Pa * fabric.thickness_m)) - 1,
-          u(3 * tip + 2, 1) / (0.5 * length * length / fabric.bending_weft_Nm) - 1};
+          u(3 * tip + 2, 1) / (0.5 * length * length / rigidities(fabric).weft_Nm) - 1};
 }
 
 // The seam gives way by h/f, h = 0.2 m and 0.14 m: less than 1/f of the strip's own displacement, whatever the

@@ -25,12 +25,7 @@ Fabric denim() {
   f.young_warp_Pa = 3.5e6;
   f.shear_Pa = 4e5;
   f.poisson = 0.15;
-  f.bending_law = BendingLaw::zheng;
-  f.bending_weft_Nm = 2e-5;
-  f.bending_warp_Nm = 5e-5;
-  f.kappa0_per_m = 40;
-  f.kappa_regular_per_m = 2;
-  f.twist_Nm = 1e-5;
+  f.law = ZhengBending{{2e-5, 5e-5, 1e-5}, 40, 2};
   return f;
 }
 
@@ -41,7 +36,7 @@ Fabric plate(double poisson = 0) {
   f.young_weft_Pa = f.young_warp_Pa = 1e6;
   f.poisson = poisson;
   f.shear_Pa = 1e6 / (2 * (1 + poisson));
-  f.bending_law = BendingLaw::consistent;
+  f.law = ConsistentBending{};
   return f;
 }
 
@@ -336,7 +331,7 @@ TEST(TriangleCloth, RefusesWhatIsNoCloth) {
   bad.rest = MeshRest::flat;
   EXPECT_THROW(clothOf(bad), InputError);
   bad = g;
-  bad.fabrics[0].plies = {{1e-3, 1e6, 1e6, 4e5, 0.2, 0}, {1e-3, 5e6, 1e6, 4e5, 0.2, 0}};
+  bad.fabrics[0].law = Laminate{{{1e-3, 1e6, 1e6, 4e5, 0.2, 0}, {1e-3, 5e6, 1e6, 4e5, 0.2, 0}}};
   EXPECT_THROW(clothOf(bad), InputError);
   bad = g;
   bad.mesh.lines[0].vertices = {0, 8};

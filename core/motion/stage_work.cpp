@@ -1,4 +1,4 @@
-#include "core/motion/deforming.hpp"
+#include "core/motion/stage_work.hpp"
 
 #include <cmath>
 #include <utility>
@@ -34,29 +34,30 @@ DeformedVertices deformedVertices(const Model& m, const Stage& stage, double tim
   return x;
 }
 
-void placeDeforming(const Model& m, const Stage& stage, double start_s, double end_s, DeformingWork& w) {
+namespace {
+
+void ask(const Model& m, const Stage& stage, double time_s, StageInstant& at) {
+  at.obstacles.resize(m.obstacles.size());
+  at.anchors.resize(static_cast<std::size_t>(m.anchor_count));
+  stage.placements(time_s, at.obstacles, at.anchors);
+  evaluate(m, stage, time_s, at.vertices);
+  at.time_s = time_s;
+}
+
+}  // namespace
+
+void placeStage(const Model& m, const Stage& stage, double start_s, double end_s, StageWork& w) {
   if (w.model != &m || w.stage != &stage) {
     w = {};
     w.model = &m;
     w.stage = &stage;
     w.surfaces = DeformedSurfaces(m.obstacles);
   }
-  if (w.surfaces.empty()) return;
-  if (start_s != w.start_s) {
-    if (start_s == w.end_s) {
-      std::swap(w.start, w.end);
-      std::swap(w.start_s, w.end_s);
-    } else {
-      evaluate(m, stage, start_s, w.start);
-      w.start_s = start_s;
-    }
-  }
-  if (end_s != w.end_s) {
-    evaluate(m, stage, end_s, w.end);
-    w.end_s = end_s;
-  }
-  if (w.surfaces_start_s == start_s && w.surfaces_end_s == end_s) return;
-  w.surfaces.move(w.start, w.end);
+  if (start_s != w.start.time_s && start_s == w.end.time_s) std::swap(w.start, w.end);
+  if (start_s != w.start.time_s) ask(m, stage, start_s, w.start);
+  if (end_s != w.end.time_s) ask(m, stage, end_s, w.end);
+  if (w.surfaces.empty() || (w.surfaces_start_s == start_s && w.surfaces_end_s == end_s)) return;
+  w.surfaces.move(w.start.vertices, w.end.vertices);
   w.surfaces_start_s = start_s;
   w.surfaces_end_s = end_s;
 }

@@ -1,0 +1,159 @@
+/// Internal force of constant-strain triangles and dihedral hinges (TriangleCloth), vectorised over elements. Compiled
+/// once per instruction set with GAMBESON_ISA defined.
+
+#include <algorithm>
+
+#include "core/cloth/law_lanes.hpp"
+#include "core/cloth/triangles/triangle_kernel.hpp"
+#include "core/math/parallel.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr int kChunk = 64;  ///< groups that a thread takes at a time
+constexpr int kGeneral = -1;
+
+void write(double* slot, V3 f) {
+  store(slot, f.x);
+  store(slot + kLanes, f.y);
+  store(slot + 2 * kLanes, f.z);
+}
+
+V gatherOne(const double* values, const int* at) {
+  V v;
+  for (int l = 0; l < kLanes; ++l) v[l] = values[at[l]];
+  return v;
+}
+
+/// The membrane as TriangleCloth has it. A hinge's moment acts by the gradient of its angle (foldAngle): |e| N/|N|^2 at
+/// the corner that faces the edge e, and what balances it at the ends of e, shared as the foot of that corner divides
+/// e. With the moment over |e| that takes no root.
+template <bool kEnergy>
+void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, int end, const double* q,
+                    const double* moment, double* slots, double* energy) {
+  constexpr unsigned kParts = kEnergy ? with_energy : only_resultants;
+  for (int group = begin; group < end; ++group) {
+    const int* corners = block.corners.data() + 3L * group * kLanes;
+    const int* hinge = block.hinge.data() + 3L * group * kLanes;
+    const double* rest = block.rest.data() + long{kMembraneDoubles} * group * kLanes;
+    const V3 x0 = gather(q, corners);
+    const V3 e1 = gather(q, corners + kLanes) - x0, e2 = gather(q, corners + 2 * kLanes) - x0;
+    const V g1x = load(rest), g1y = load(rest + kLanes), g2x = load(rest + 2 * kLanes), g2y = load(rest + 3 * kLanes),
+            area = load(rest + 4 * kLanes);
+    const V3 weft = g1x * e1 + g2x * e2, warp = g1y * e1 + g2y * e2;
+    const V strain[3] = {0.5 * (dot(weft, weft) - 1.0), 0.5 * (dot(warp, warp) - 1.0), dot(weft, warp)};
+    Answer<V, 3> answer;
+    if (!law.general) {
+      stretchPlain<kParts>(law, strain, answer);
+    } else {
+      LawLanes numbers;
+      constantLaw(law, numbers);
+      evaluateMembrane<kParts>(law.evaluated(), numbers, strain, answer);
+    }
+    const V* n = answer.resultant;
+    const V3 p1 = area * (n[0] * weft + n[2] * warp), p2 = area * (n[2] * weft + n[1] * warp);
+
+    const V3 normal = cross(e1, e2);
+    const V inverse2 = 1.0 / dot(normal, normal);
+    // Edges that face the corners: e2 - e1 from 1 to 2, -e2 from 2 to 0, e1 from 0 to 1.
+    const V d11 = dot(e1, e1), d22 = dot(e2, e2), d12 = dot(e1, e2), d00 = d11 + d22 - 2.0 * d12;
+    const V m0 = gatherOne(moment, hinge), m1 = gatherOne(moment, hinge + kLanes),
+            m2 = gatherOne(moment, hinge + 2 * kLanes);
+    // The foot of corner 0 divides the edge that faces it as (d22 - d12) : (d11 - d12), and so on.
+    const V w0 = m0 * inverse2, w1 = m1 * inverse2, w2 = m2 * inverse2;
+    const V s0 = w0 * d00 - w1 * (d22 - d12) - w2 * (d11 - d12);
+    const V s1 = w1 * d22 - w0 * (d22 - d12) - w2 * d12;
+    const V s2 = w2 * d11 - w0 * (d11 - d12) - w1 * d12;
+
+    const V3 f1 = g1x * p1 + g1y * p2, f2 = g2x * p1 + g2y * p2;
+    double* slot = slots + 9L * group * kLanes;
+    write(slot, s0 * normal - (f1 + f2));
+    write(slot + 3 * kLanes, f1 + s1 * normal);
+    write(slot + 6 * kLanes, f2 + s2 * normal);
+    if constexpr (kEnergy) store(energy + static_cast<long>(group) * kLanes, area * answer.energy);
+  }
+}
+
+/// kKind: of the plain law, 0 linear; or kGeneral. Known at compile time, what follows from its numbers is computed
+/// once.
+template <bool kEnergy, int kKind>
+void hingeMoments(const ElementBlock& block, const BlockLaw& law, int begin, int end, const double* q, double* moment,
+                  double* energy) {
+  constexpr unsigned kParts = kEnergy ? with_energy : only_resultants;
+  const PlainLaw plain = law.plain;  // a copy that no store can change: what follows from it is computed once
+  for (int group = begin; group < end; ++group) {
+    const int* corners = block.corners.data() + 4L * group * kLanes;
+    const double* rest = block.rest.data() + long{kHingeDoubles} * group * kLanes;
+    const V3 x0 = gather(q, corners);
+    const V3 e = gather(q, corners + kLanes) - x0, a = gather(q, corners + 2 * kLanes) - x0,
+             b = gather(q, corners + 3 * kLanes) - x0;
+    // The angle, as foldAngle has it: its sine goes with e . (nb x na) = |e|^2 na . b.
+    const V3 na = cross(e, a), nb = cross(b, e);
+    const V length2 = dot(e, e), per_length = 1.0 / squareRoot(length2);
+    const V theta = angleOf(length2 * per_length * dot(na, b), dot(na, nb));
+    const V per_angle = load(rest + kLanes), area = load(rest + 2 * kLanes);
+    const V d[3] = {load(rest + 3 * kLanes), load(rest + 4 * kLanes), load(rest + 5 * kLanes)};
+    const V kappa = per_angle * (theta - load(rest));
+    const V change[3] = {kappa * d[0], kappa * d[1], kappa * d[2]};
+    Answer<V, 3> answer;
+    if constexpr (kKind == kGeneral) {
+      LawLanes numbers;
+      constantLaw(law, numbers);
+      LaneMemory memory;
+      if (law.remembers()) memory.read(law, group);
+      const History<V> history{memory.committed, law.trial ? memory.trial : nullptr};
+      evaluateBending<kParts>(law.evaluated(), numbers, change, history, answer);
+      if (law.remembers() && law.trial) memory.write(law, group);
+    } else if constexpr (kKind == 0) {
+      linearMoment<kParts>(DiagonalStiffness<double>{plain.rigidity[0], plain.rigidity[1], plain.rigidity[2]}, change,
+                           answer);
+    } else {
+      BendingLaws::forEach([&]<class L, int kOf>(std::type_identity<L>, std::integral_constant<int, kOf>) {
+        if constexpr (kOf == kKind)
+          L::template bend<kParts>(plain.rigidity.data(), plain.numbers.data(), change, History<V>{}, answer);
+      });
+    }
+    const V* m = answer.resultant;
+    store(moment + static_cast<long>(group) * kLanes,
+          per_length * area * per_angle * (m[0] * d[0] + m[1] * d[1] + m[2] * d[2]));
+    if constexpr (kEnergy) {
+      store(energy + static_cast<long>(group) * kLanes, area * answer.energy);
+      if (law.lost) store(law.lost + static_cast<long>(group) * kLanes, area * answer.lost);
+    }
+  }
+}
+
+template <int kKind>
+void hingesOfKind(const ElementBlock& block, const BlockLaw& law, const double* q, double* moment, double* energy) {
+  forAll(Each::much, (block.groups + kChunk - 1) / kChunk, [&](int chunk) {
+    const int begin = chunk * kChunk, end = std::min(begin + kChunk, block.groups);
+    energy ? hingeMoments<true, kKind>(block, law, begin, end, q, moment, energy)
+           : hingeMoments<false, kKind>(block, law, begin, end, q, moment, energy);
+  });
+}
+
+void hinges(const ElementBlock& block, const BlockLaw& law, const double* q, double* moment, double* energy) {
+  if (law.general) return hingesOfKind<kGeneral>(block, law, q, moment, energy);
+  if (law.plain.kind == 0) return hingesOfKind<0>(block, law, q, moment, energy);
+  BendingLaws::forEach([&]<class L, int kKind>(std::type_identity<L>, std::integral_constant<int, kKind>) {
+    if constexpr (L::history_size == 0)
+      if (law.plain.kind == kKind) hingesOfKind<kKind>(block, law, q, moment, energy);
+  });
+}
+
+void triangles(const ElementBlock& block, const BlockLaw& law, const double* q, const double* moment, double* slots,
+               double* energy) {
+  forAll(Each::much, (block.groups + kChunk - 1) / kChunk, [&](int chunk) {
+    const int begin = chunk * kChunk, end = std::min(begin + kChunk, block.groups);
+    energy ? triangleForces<true>(block, law, begin, end, q, moment, slots, energy)
+           : triangleForces<false>(block, law, begin, end, q, moment, slots, energy);
+  });
+}
+
+}  // namespace
+
+extern const TriangleKernels GAMBESON_CONCAT(kTriangles_, GAMBESON_ISA);
+const TriangleKernels GAMBESON_CONCAT(kTriangles_, GAMBESON_ISA){GAMBESON_STRING(GAMBESON_ISA), kLanes, hinges,
+                                                                 triangles};
+
+}  // namespace gambeson

@@ -1,0 +1,155 @@
+#include "core/motion/step_audit.hpp"
+
+#include <algorithm>
+
+#include "core/motion/step_contact.hpp"
+
+namespace gambeson {
+namespace {
+
+/// Where hardly anything acts from outside, velocities and internal forces still round: the scale of the momentum's
+/// error is at least this part of the momenta of all points and of what a weight would add. At the limit of 1e-9 of the
+/// scale, some 500 times the rounding of a velocity.
+constexpr double kScaleFloor = 1e-4, kWeight_m_per_s2 = 9.81;
+
+/// Work beyond that of its impulse I on the mean velocity u = (predictor + velocity)/2 - half a of a force that acts
+/// all the time though its impulse comes once a step [J]. With its accelerations c0 and c1 at the ends of the step, I =
+/// J + 2 half m c0: half m (c0 + c1) acts as the other forces do, on the way of the step, and J, what was not foreseen,
+/// at once on u; at rest both are nothing. `before`, `after`: empty or the accelerations.
+double lastingWork(const Model& m, std::span<const Vec3> before, std::span<const Vec3> after, const State& in,
+                   double half, const StepWork& w) {
+  double work = 0;
+  for (int i = 0; i < m.freeCount(); ++i) {
+    const Vec3 c0 = before.empty() ? Vec3{} : before[i], c1 = after.empty() ? Vec3{} : after[i];
+    work += (half * m.mass_kg[i]) *
+            (dot(c0 + c1, w.velocity[i]) - dot(c0, w.predictor[i] + w.velocity[i] - (2 * half) * in.a[i]));
+  }
+  return work;
+}
+
+/// Contact's part, and the impulses on bodies.
+void contactLedger(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
+  w.contact_impulses.clear();
+  const SparseRows& WT = m.surface.WT;
+  for (std::size_t i = 0; i < w.rows.size(); ++i) {
+    const ContactRow& row = w.rows[i];
+    const Vec3& impulse = w.impulses[i];
+    if (impulse == Vec3{}) continue;
+    const Contact& c = row.contact;
+    const bool body = c.onBody();
+    Vec3 mean{};
+    for (int j = 0; j < row.stencil.count; ++j) {
+      const int s = row.stencil.sample[j];
+      const Vec3 share = row.stencil.weight[j] * impulse;
+      if (body)
+        w.contact_impulses.push_back(
+            {s, c.obstacle, c.feature, share, c.normal, w.stage.start.obstacles[c.obstacle] * c.local, c.touched});
+      if (body) report.momentum.obstacles -= share;
+      for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
+        if (const int point = WT.columns[k]; m.held[point]) {
+          report.momentum.supports -= WT.values[k] * share;
+          w.held_impulses[heldSlot(m, point)] -= WT.values[k] * share;
+        }
+      mean += (0.5 * row.stencil.weight[j]) *
+              (sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, in.a));
+    }
+    report.momentum.scale += norm(impulse);
+    const double normal = dot(impulse, c.normal);
+    report.work.contact += dot(impulse, mean);
+    if (row.slippery) report.work.restoring += dot(impulse, mean);
+    report.work.friction += dot(impulse - normal * c.normal, mean);
+    const double separation =
+        !row.slippery && c.gap_m < layerOf(m, row) && row.target_m_per_s > 0 ? normal * row.target_m_per_s : 0;
+    report.work.separation += separation;
+    if (!row.slippery) report.work.dissipated += separation - dot(impulse, mean - row.body_velocity);
+  }
+  // What zones take from the cloth goes to what they move with.
+  for (const ImpactZone& zone : w.zones) {
+    std::vector<std::size_t> held;
+    for (int i : zone.points)
+      if (m.held[i]) held.push_back(heldSlot(m, i));
+    for (int i : zone.points) {
+      if (m.held[i]) continue;
+      const Vec3 impulse = m.mass_kg[i] * w.zone_change[i];
+      report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.zone_change[i]);
+      report.work.dissipated +=
+          0.5 * dot(impulse, w.zone_change[i]) - (zone.body < 0 ? dot(impulse, w.velocity[i]) : 0);
+      report.momentum.scale += norm(impulse);
+      if (zone.body >= 0) {
+        const Vec3 point = in.p[i];
+        const int sample = m.surface.WTt.columns[m.surface.WTt.offsets[i]];
+        const double size = norm(impulse);
+        if (size == 0) continue;
+        w.contact_impulses.push_back(
+            {sample, zone.body, 0, impulse, impulse / size, point, nearestTouched(m, zone, point, w)});
+        report.momentum.obstacles -= impulse;
+      } else if (!held.empty()) {
+        report.momentum.supports += impulse;
+        for (const std::size_t k : held) w.held_impulses[k] += impulse / static_cast<double>(held.size());
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& w) {
+  const State &in = e.in, &out = e.out;
+  const double dt = e.step_s, half = 0.5 * dt;
+  const int n = m.freeCount();
+  MomentumAudit& audit = report.momentum;
+  w.held_impulses.assign(m.held_points.size(), Vec3{});
+  for (std::size_t k = 0; k < w.held_impulses.size(); ++k) w.held_impulses[k] = half * (in.held_N[k] + out.held_N[k]);
+  contactLedger(m, in, dt, report, w);
+  if (m.strain_limit.mode != LimitMode::none) {
+    const Vec3 pull_after = sumOf(e.held_after), pull_before = sumOf(e.held_before);
+    audit.supports -= half * (pull_after - pull_before);
+    audit.scale += half * (norm(pull_after) + norm(pull_before));
+    for (std::size_t k = 0; k < w.held_impulses.size(); ++k) {
+      w.held_impulses[k] += w.limit.pull[m.held_points[k]] / dt;
+      if (!e.held_after.empty()) w.held_impulses[k] -= half * e.held_after[k];
+      if (!e.held_before.empty()) w.held_impulses[k] += half * e.held_before[k];
+    }
+    for (int i = 0; i < n; ++i) {
+      const Vec3 impulse = -w.limit.pull[i] / dt;
+      if (m.held[i]) {
+        audit.supports -= impulse;
+        audit.scale += norm(impulse);
+        continue;
+      }
+      report.work.limit += 0.5 * dot(impulse, w.predictor[i] + w.velocity[i] - dt * in.a[i]);
+    }
+    report.work.limit += lastingWork(m, w.pulled_before, w.pulled_after, in, half, w);
+  }
+  if (!in.pressed.empty() || !out.pressed.empty()) {
+    report.work.contact += lastingWork(m, in.pressed, out.pressed, in, half, w);
+    for (int i = 0; i < n; ++i) {
+      if (!out.pressed.empty()) audit.pressing += (m.mass_kg[i] * half) * out.pressed[i];
+      if (!in.pressed.empty()) audit.pressing -= (m.mass_kg[i] * half) * in.pressed[i];
+    }
+    audit.scale += norm(audit.pressing);
+  }
+  double floor = 0;
+  for (int i = 0; i < n; ++i) {
+    if (m.held[i]) continue;
+    floor += m.mass_kg[i] * (norm(out.v[i]) + kWeight_m_per_s2 * dt);
+    if (!m.dead_force_N.empty()) {
+      audit.dead += dt * m.dead_force_N[i];
+      audit.scale += dt * norm(m.dead_force_N[i]);
+    }
+    audit.change += m.mass_kg[i] * (out.v[i] - in.v[i]);
+    audit.scale += m.mass_kg[i] * norm(out.v[i] - in.v[i]);  // internal forces cancel in the sum, not in its rounding
+    audit.gravity += (m.mass_kg[i] * dt) * m.environment.gravity_m_per_s2;
+    audit.scale += m.mass_kg[i] * dt * norm(m.environment.gravity_m_per_s2);
+    const double d = m.drag_kg_per_s[i];
+    const Vec3 &v0 = in.v[i], &v1 = out.v[i];
+    report.work.drag -= half * d * (dot(v0 - e.air_before, v0) + dot(v1 - e.air_after, v1));
+    report.work.dissipated += half * d * (norm2(v0 - e.air_before) + norm2(v1 - e.air_after));
+  }
+  audit.drag = half * (in.sums.drag + out.sums.drag);
+  audit.supports += half * (in.sums.springs + in.sums.held + out.sums.springs + out.sums.held);
+  audit.scale += norm(audit.drag) + half * (norm(in.sums.held) + norm(out.sums.held));
+  audit.scale = std::max(audit.scale, kScaleFloor * floor);
+}
+
+}  // namespace gambeson

@@ -1,0 +1,297 @@
+/// Cloth whose law remembers (StopBending): energy, what steps commit and what they do not, on every kind of cloth.
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/motion/advance.hpp"
+#include "core/motion/time_integration.hpp"
+#include "core/statics/path.hpp"
+#include "core/statics/structure_system.hpp"
+#include "unit/core/cloth/triangles/triangle_shapes.hpp"
+#include "unit/core/motion/motion_shapes.hpp"
+
+namespace gambeson {
+namespace {
+
+using namespace shapes;
+
+constexpr double kSide_m = 0.2, kRigidity_Nm = 2e-5, kYield_N = 1e-4;  // it yields at a curvature of 5 1/m
+
+Fabric keepsFolds() {
+  Fabric f = sheetFabric();
+  f.law = StopBending{{kRigidity_Nm, kRigidity_Nm, 0.5 * kRigidity_Nm}, kYield_N};
+  return f;
+}
+
+using Make = std::unique_ptr<const Cloth> (*)();
+std::unique_ptr<const Cloth> shellCloth() {
+  return std::make_unique<NurbsShell>(squareSheet(12, kSide_m, 0, keepsFolds()));
+}
+std::unique_ptr<const Cloth> triangleCloth() {
+  return std::make_unique<TriangleCloth>(
+      std::vector<TriangleGarment>{flatTriangles(12, 12, kSide_m, kSide_m, keepsFolds(), MeshKind::equilateral)});
+}
+
+class Memory : public testing::TestWithParam<Make> {
+ protected:
+  std::unique_ptr<const Cloth> cloth() const { return GetParam()(); }
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, Memory, testing::Values(shellCloth, triangleCloth),
+                         [](const auto& i) { return std::string(i.index == 0 ? "Shell" : "Triangles"); });
+
+/// All points on a cylinder about y of a curvature, without strain.
+std::vector<Vec3> rolled(const Cloth& c, double curvature) {
+  std::vector<Vec3> q;
+  for (const Vec3& X : c.rest()) {
+    const double angle = curvature * X.x;
+    q.push_back(std::abs(curvature) < 1e-9 ? Vec3{X.x, X.y, 0.5 * curvature * X.x * X.x}
+                                           : Vec3{std::sin(angle) / curvature, X.y, (1 - std::cos(angle)) / curvature});
+  }
+  return q;
+}
+
+std::vector<double> newHistory(const Cloth& c) {
+  std::vector<double> history(c.historySize());
+  c.startHistory(history);
+  return history;
+}
+
+/// Rolled back and forth: what the laws lose is what their loop encloses, never negative, and what the force works.
+TEST_P(Memory, ALoopOfBendingLosesWhatItEncloses) {
+  const auto c = cloth();
+  ASSERT_GT(c->historySize(), 0u);
+  EXPECT_EQ(c->historySize(), c->historyPlaces().size() * 3);
+  const double largest = 20, yields_at = kYield_N / kRigidity_Nm;
+  std::vector<double> committed = newHistory(*c), trial = committed;
+  std::vector<Vec3> before, force_before, force(c->rest().size());
+  double lost = 0, work = 0;
+  ClothWork scratch;
+  const int steps = 200;
+  ForceTerms bending;
+  bending.membrane = false;
+  for (int s = 0; s <= 2 * steps; ++s) {
+    const std::vector<Vec3> q = rolled(*c, largest * std::sin(2 * std::numbers::pi * s / steps));
+    ClothEnergy energy;
+    c->force({q, {}, committed}, {force, {}, trial, &energy}, scratch, bending);
+    EXPECT_GE(energy.lost, 0);
+    if (s > steps) {
+      lost += energy.lost;
+      for (std::size_t i = 0; i < q.size(); ++i) work -= 0.5 * dot(force[i] + force_before[i], q[i] - before[i]);
+    }
+    before = q, force_before = force;
+    committed = trial;
+  }
+  EXPECT_NEAR(work, lost, 0.01 * lost);
+  const double reached = c->bendAt(rolled(*c, largest), 0, c->placeOfDraft(0, {0.5, 0.5}));
+  // Hinges yield each by itself, at other curvatures than the plate that they make up.
+  const double off = c->pointName() == "vertices" ? 0.1 : 0.05;
+  EXPECT_NEAR(lost, 4 * kYield_N * (reached - yields_at) * kSide_m * kSide_m, off * lost);
+}
+
+/// f = - d(stored + lost)/dq and the tangent its derivative, the committed history held.
+TEST_P(Memory, ForceAndTangentAreOfTheCommittedHistory) {
+  const auto c = cloth();
+  ForceTerms bending;  // rolled cloth has no strain: what differences leave of its membrane would hide the rest
+  bending.membrane = false;
+  std::vector<double> committed = newHistory(*c);
+  std::vector<Vec3> q = rolled(*c, 12), f(q.size()), back(q.size());
+  ClothWork work;
+  {
+    std::vector<double> trial = committed;
+    c->force({q, {}, committed}, {f, {}, trial, nullptr}, work, bending);
+    ASSERT_NE(trial, committed) << "it has slipped";
+    committed = trial;
+  }
+  const std::vector<double> kept = committed;
+  q = rolled(*c, 0.5);  // 11 1/m back: it slips the other way
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  std::vector<Vec3> free_way(c->map().home.size()), way(q.size());
+  for (Vec3& v : free_way) v = {noise(random), noise(random), noise(random)};
+  c->map().T.multiply<Vec3>(free_way, way);
+  const auto at = [&](double h, std::vector<Vec3>& force) {
+    std::vector<Vec3> moved = q;
+    for (std::size_t i = 0; i < q.size(); ++i) moved[i] += h * way[i];
+    ClothEnergy energy;
+    c->force({moved, {}, committed}, {force, {}, {}, &energy}, work, bending);
+    return energy.stored + energy.lost;
+  };
+  const double h = 1e-7;
+  const double slope = (at(h, f) - at(-h, back)) / (2 * h);
+  double of_force = 0, differences = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) differences += dot((back[i] - f[i]) / (2 * h), way[i]);
+  at(0, f);
+  for (std::size_t i = 0; i < q.size(); ++i) of_force -= dot(f[i], way[i]);
+  EXPECT_NEAR(slope, of_force, 1e-6 * std::abs(of_force));
+  const auto tangent = c->tangent();
+  BlockMatrix K = tangent->pattern();
+  tangent->assemble({q, {}, committed}, work, K, bending);
+  std::vector<double> Kx(3 * free_way.size());
+  multiply(K, {&free_way.data()->x, 3 * free_way.size()}, Kx);
+  double stiffness = 0;
+  for (std::size_t i = 0; i < free_way.size(); ++i)
+    for (int d = 0; d < 3; ++d) stiffness += Kx[3 * i + static_cast<std::size_t>(d)] * free_way[i][d];
+  EXPECT_NEAR(stiffness, differences, 1e-5 * std::abs(stiffness));
+  EXPECT_EQ(committed, kept);
+  // With another history it is another force.
+  const std::vector<double> none = newHistory(*c);
+  c->force({q, {}, none}, {back, {}, {}, nullptr}, work, bending);
+  double change = 0, size = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) change += norm2(back[i] - f[i]), size += norm2(f[i]);
+  EXPECT_GT(change, 1e-4 * size);
+}
+
+/// One edge held, thrown upwards: it folds, and keeps a part of it.
+struct Thrown {
+  std::unique_ptr<Model> model;
+  UniformStage stage;
+  StepWork work;
+  State state;
+
+  explicit Thrown(std::unique_ptr<const Cloth> cloth) {
+    ModelOptions o;
+    for (int i = 0; i < cloth->points(); ++i)
+      if (cloth->rest()[static_cast<std::size_t>(i)].x < 1e-9) o.held_control_points.push_back(i);
+    model = buildModel(std::move(cloth), o, {{0, 0, -9.81}, 0}, {}, {});
+    state = initialState(*model, stage, 0, work);
+    for (std::size_t i = 0; i < state.p.size(); ++i)
+      if (!model->held[i]) state.v[i] = {0, 0, 3 * std::pow(state.p[i].x / kSide_m, 2)};
+    attachSprings(*model, stage, state, work);
+  }
+};
+
+/// Steps that are tried and thrown away leave no trace, whatever their length; threads change no bit.
+TEST_P(Memory, AnExplicitStepCommitsWhatItAcceptsAndNothingElse) {
+  constexpr double dt = 2e-4;
+  std::vector<State> ends;
+  for (const int tries : {0, 3})
+    for (const int threads : {1, 2}) {
+      omp_set_num_threads(threads);
+      Thrown t(cloth());
+      State next, thrown_away;
+      for (int s = 0; s < 400; ++s) {
+        for (int k = 0; k < tries; ++k) step(*t.model, t.stage, t.state, dt * (0.5 + k), thrown_away, t.work);
+        ASSERT_EQ(step(*t.model, t.stage, t.state, dt, next, t.work).failure, StepFailure::none);
+        std::swap(t.state, next);
+      }
+      ends.push_back(t.state);
+    }
+  omp_set_num_threads(2);
+  EXPECT_NE(ends[0].history, newHistory(*cloth())) << "it has folded";
+  for (const State& end : ends) {
+    EXPECT_EQ(end.history, ends[0].history);
+    EXPECT_TRUE(end.p == ends[0].p && end.v == ends[0].v);
+  }
+}
+
+/// A system that counts how often its history was set back.
+class Counted : public StructureSystem {
+ public:
+  using StructureSystem::StructureSystem;
+  int set_back = 0;
+  void setHistory(std::span<const double> history) override {
+    ++set_back;
+    StructureSystem::setHistory(history);
+  }
+};
+
+/// Held at one edge; `load` at the other [N/m], by a program.
+std::unique_ptr<Structure> cantilever(std::unique_ptr<const Cloth> cloth, const Vec3& load, Program program) {
+  StructureOptions o;
+  const Vec3 all[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const PatchEdge clamp{0, Side::u0, false}, tip{0, Side::u1, false};
+  o.constraints = cloth->mounting().holdEdge(clamp, all, {});
+  for (LinearConstraint& l : cloth->mounting().clampEdge(clamp)) o.constraints.push_back(std::move(l));
+  o.dead = {{cloth->mounting().edgeForce(tip, load), 0}};
+  o.programs = {std::move(program)};
+  return buildStructure(std::move(cloth), o);
+}
+
+/// What a system remembers that accepts these states, and only these.
+struct Accepted {
+  std::vector<double> y;
+  double t = 0;
+  std::vector<double> history;
+  double lost_J = 0;
+};
+void expectOnlyTheseCommitted(const Structure& s, ProgramEnds ends, const std::vector<Accepted>& states) {
+  StructureSystem fresh(s, ends);
+  double lost = 0;
+  for (const Accepted& a : states) {
+    lost += fresh.commit(a.y, a.t);
+    ASSERT_TRUE(std::equal(a.history.begin(), a.history.end(), fresh.history().begin(), fresh.history().end()));
+    EXPECT_EQ(a.lost_J, lost);
+  }
+  EXPECT_GT(lost, 0);
+}
+
+/// Bent beyond its yield moment and let go: it stays bent. Steps that Newton gives up, and the bisections of what looks
+/// like a jump, commit nothing.
+TEST_P(Memory, LoadStepsCommitWhatTheyAccept) {
+  const auto s = cantilever(cloth(), {0, 0, 2.5e-3}, {{0, 0.5, 1}, {0, 1, 0}});
+  std::vector<Accepted> points;
+  const StaticReport r = solveStatic(*s, {.steps = 8, .halvings = 8, .iterations = 4}, [&](const StaticPoint& p) {
+    points.push_back({p.y, p.factor, p.history, p.lost_J});
+    return true;
+  });
+  ASSERT_TRUE(r.reached) << r.why;
+  EXPECT_GT(points.size(), 8u) << "steps were cut";
+  expectOnlyTheseCommitted(*s, ProgramEnds::extended, points);
+  double tip = 0;
+  for (const Vec3& x : controlPoints(*s, points.back().y, 1)) tip = std::max(tip, x.z);
+  EXPECT_GT(tip, 0.01 * kSide_m);
+}
+
+/// Pulled, cloth stiffens, and windows of explicit steps turn out too long; lifted, it yields.
+TEST_P(Memory, ImplicitAndExplicitStepsCommitWhatTheyAccept) {
+  const auto s = cantilever(cloth(), {3, 0, 1}, {{0, 0.02, 1}, {0, 1, 1}});
+  const DynamicOptions implicit{.scheme = TimeScheme::newmark, .step_s = 0.01, .end_s = 0.05, .iterations = 5};
+  const DynamicOptions with_windows{.scheme = TimeScheme::explicit_verlet, .safety = 1, .end_s = 0.03};
+  for (const DynamicOptions& o : {implicit, with_windows}) {
+    Counted system(*s, ProgramEnds::constant);
+    DynamicState state;
+    std::vector<Accepted> states;
+    const DynamicReport r = integrate(system, o, state, [&](const DynamicState& d) {
+      states.push_back({d.y, d.time_s, d.history, d.lost_J});
+      return true;
+    });
+    ASSERT_TRUE(r.reached) << r.why;
+    if (o.scheme == TimeScheme::explicit_verlet)
+      EXPECT_GT(system.set_back, 0) << "no window was rejected";
+    else
+      EXPECT_GT(states.size(), 5u) << "no step was cut";
+    expectOnlyTheseCommitted(*s, ProgramEnds::constant, states);
+  }
+}
+
+/// A state that was kept goes on as if nothing had been.
+TEST_P(Memory, AMotionGoesOnFromAKeptState) {
+  const auto s = cantilever(cloth(), {0, 0, 0.1}, {{0, 0.02, 1}, {0, 1, 1}});
+  const auto run = [&](std::initializer_list<double> ends) {
+    DynamicState state;
+    for (const double end : ends) {
+      DynamicState kept = state;  // a new system each time
+      solveDynamic(*s, {.scheme = TimeScheme::newmark, .step_s = 2e-3, .end_s = end}, kept,
+                   [](const DynamicState&) { return true; });
+      state = kept;
+    }
+    return state;
+  };
+  const DynamicState whole = run({0.05}), parts = run({0.03, 0.05});
+  // Newton solves the acceleration anew where a motion starts: rounding.
+  ASSERT_EQ(whole.history.size(), parts.history.size());
+  EXPECT_GT(whole.lost_J, 0);
+  EXPECT_NEAR(whole.lost_J, parts.lost_J, 1e-6 * whole.lost_J);
+  double off = 0, size = 0;
+  for (std::size_t i = 0; i < whole.history.size(); ++i) {
+    off = std::max(off, std::abs(whole.history[i] - parts.history[i]));
+    size = std::max(size, std::abs(whole.history[i]));
+  }
+  EXPECT_LT(off, 1e-6 * size);
+}
+
+}  // namespace
+}  // namespace gambeson
