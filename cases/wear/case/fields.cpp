@@ -95,6 +95,7 @@ Object dressingTable() {
                                                                   {"wiped", DressedHistory::wiped}},
               "what fabrics that remember their folds (bending.law) know of being put on when all are worn: kept, or "
               "wiped, as if they were new there")
+      .unwritten()
       .number("settle", &D::settle_s, "s", between(0, 60),
               "time at rest on the body before the motion starts; 0 without a human")
       .build();
