@@ -79,10 +79,10 @@ void requireFinite(std::span<const Vec3> x, const char* what) {
 }
 
 /// Runs append(block, list) over all blocks, in their order.
-template <class Append>
-void collect(int blocks, std::vector<Contact>& out, Append&& append) {
+template <class Found, class Append>
+void collect(int blocks, std::vector<Found>& out, Append&& append) {
   out.clear();
-  appendInOrder(blocks, Each::much, out, [&](int first, int end, std::vector<Contact>& list) {
+  appendInOrder(blocks, Each::much, out, [&](int first, int end, std::vector<Found>& list) {
     for (int b = first; b < end; ++b) append(b, list);
   });
 }
@@ -216,7 +216,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
 }
 
 void ProximityQuery::impacts(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x0,
-                             std::span<const Vec3> x1, std::vector<Contact>& out) const {
+                             std::span<const Vec3> x1, std::vector<SampleHit>& out) const {
   const auto& shapes = impl_->shapes;
   const int n_obstacles = static_cast<int>(shapes.size()), n = static_cast<int>(x0.size());
   assert(static_cast<int>(start.size()) == n_obstacles && static_cast<int>(end.size()) == n_obstacles);
@@ -243,7 +243,7 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
     s.shift = norm(X1.origin - X0.origin) / X1.scale;
     s.turn = frobenius(minus(scaled(X1.rotation, 1 / X1.scale), scaled(X0.rotation, 1 / X0.scale)));
   }
-  collect((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<Contact>& list) {
+  collect((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<SampleHit>& list) {
     const int first = b * kBlock, last = std::min(n, first + kBlock);
     Box block, starts;
     double step2 = 0;
@@ -276,7 +276,7 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
         if (!t) continue;
         const Vec3 hit = p0 + *t * (p1 - p0);
         const Vec3 normal = normalized({hit.x * e.inverse2.x, hit.y * e.inverse2.y, hit.z * e.inverse2.z});
-        list.push_back({i, o, 0, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit, {}});
+        list.push_back({{i, o, 0, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit, {}}, *t});
       }
     }
   });

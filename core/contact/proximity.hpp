@@ -31,6 +31,11 @@ struct Contact {
   bool onBody() const { return obstacle >= 0; }
 };
 
+/// A sample that would pass into an obstacle during a step, first at `time` of it, in [0, 1].
+struct SampleHit : Contact {
+  double time = 0;
+};
+
 /// Triangles of meshes that a sample may touch, by sample: items[first[s], first[s + 1]). Where there are none the
 /// sample may still be deep inside of a mesh; it is not as long as it stays in a ball known to be outside. Of a mesh
 /// that deforms it is not as long as it has not passed through it, which is for the owner to know (`outside_of`).
@@ -70,10 +75,10 @@ class ProximityQuery {
 
   /// Trajectory impact (section 3.3.1): samples whose path x0 -> x1 (straight, against the moving obstacle) enters an
   /// ellipsoid from outside, with the normal and material point at the first time of contact, gap_m the separation at
-  /// the start along that normal. Sorted as above; one per (sample, obstacle). Meshes are not asked: their triangles
-  /// take part in the search of core/motion/collisions.hpp.
+  /// the start along that normal, and that time. Sorted as above; one per (sample, obstacle). Meshes are not asked:
+  /// their triangles take part in the search of core/motion/collisions.hpp.
   void impacts(std::span<const Placement> start, std::span<const Placement> end, std::span<const Vec3> x0,
-               std::span<const Vec3> x1, std::vector<Contact>& out) const;
+               std::span<const Vec3> x1, std::vector<SampleHit>& out) const;
 
   /// Signed distance of one point to one obstacle (for checks and analysis).
   double signedDistance(int obstacle, const Placement& placement, const Vec3& x,

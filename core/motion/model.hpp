@@ -223,7 +223,8 @@ struct StepScratch {
   std::vector<Vec3> limit_end, moved, sample_impulse, pulled_before, pulled_after;
   std::vector<Vec3> lasting, sample_pressing;
   std::vector<double> reach;
-  std::vector<Contact> near, hits;
+  std::vector<Contact> near;
+  std::vector<SampleHit> hits;
   std::vector<int> near_first;  ///< of each sample in `near`, sorted by sample
   std::vector<PairHit> pair_hits;
   std::vector<char> inside;  ///< samples that are behind a body's surface

@@ -4,7 +4,6 @@
 #include <limits>
 #include <tuple>
 
-#include "core/contact/ellipsoid.hpp"
 #include "core/math/parallel.hpp"
 #include "core/motion/body_edges.hpp"
 #include "core/motion/clearance.hpp"
@@ -324,18 +323,10 @@ bool anyImpact(const Model& m, double dt, StepWork& w) {
   const int samples = m.surface.size();
   forAll(Each::value, samples, [&](int s) { w.x1[s] = w.x0[s] + dt * w.x1[s]; });
   m.proximity->impacts(w.stage.start.obstacles, w.stage.end.obstacles, w.x0, w.x1, w.hits);
-  std::erase_if(w.hits, [&](const Contact& hit) { return w.collisions.tangle[hit.sample] != Tangle::kFree; });
+  std::erase_if(w.hits, [&](const SampleHit& hit) { return w.collisions.tangle[hit.sample] != Tangle::kFree; });
   moveVertices(w.x1, w.collisions);
   findImpacts(m.collisions, dt, w.inside, w.collisions, w.pair_hits);
   return !w.hits.empty() || !w.pair_hits.empty();
-}
-
-/// When in the step a sample's path enters the ellipsoid that it hits, in [0, 1].
-double timeOf(const Model& m, const Contact& hit, const StepWork& w) {
-  const EllipsoidMetric shape = ellipsoidMetric(std::get<Ellipsoid>(m.obstacles[hit.obstacle].shape));
-  return ellipsoidEntry(shape, toLocal(w.stage.start.obstacles[hit.obstacle], w.x0[hit.sample]),
-                        toLocal(w.stage.end.obstacles[hit.obstacle], w.x1[hit.sample]))
-      .value_or(0);
 }
 
 /// The rigid motion nearest to that of a body that deforms, around where a zone touches it: of all triangles there.
@@ -363,7 +354,7 @@ bool moveZones(const Model& m, const State& in, double dt, StepReport& report, S
   const std::vector<Vec3> solved = w.velocity;
   for (int round = 0; round < kZoneRounds; ++round) {
     rows.clear();
-    for (const Contact& hit : w.hits) rows.push_back(bodyRow(hit, {}, 0, true));
+    for (const SampleHit& hit : w.hits) rows.push_back(bodyRow(hit, {}, 0, true));
     for (const PairHit& hit : w.pair_hits) rows.push_back(hit.row);
     joinZones(rows, m.surface.WT, zones);
     w.velocity = solved;
@@ -500,7 +491,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
     if (!any) return true;
     if (round == 1) report.impacts = static_cast<int>(w.hits.size() + w.pair_hits.size());
     if (round > kRounds) break;
-    for (const Contact& hit : w.hits) addImpact(m, hit, dt, round, w);
+    for (const SampleHit& hit : w.hits) addImpact(m, hit, dt, round, w);
     for (const PairHit& hit : w.pair_hits) addImpact(m, hit, dt, round, w);
   }
   const bool done = moveZones(m, in, dt, report, w);
@@ -508,8 +499,8 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   if (done && allFinite(w.velocity)) return true;
   report.failure = StepFailure::impact;
   w.stuck.clear();
-  for (const Contact& hit : w.hits) {
-    report.earliest_impact = std::min(report.earliest_impact, timeOf(m, hit, w));
+  for (const SampleHit& hit : w.hits) {
+    report.earliest_impact = std::min(report.earliest_impact, hit.time);
     w.stuck.push_back(hit.sample);
   }
   for (const PairHit& hit : w.pair_hits) {

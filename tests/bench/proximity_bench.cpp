@@ -100,7 +100,7 @@ void near(benchmark::State& state, const Scene& s, int threads) {
 void impacts(benchmark::State& state, const Scene& s, int threads) {
   omp_set_num_threads(threads);
   const ProximityQuery query(s.obstacles);
-  std::vector<Contact> out;
+  std::vector<SampleHit> out;
   for (auto _ : state) {
     query.impacts(s.start, s.end, s.x0, s.x1, out);
     benchmark::DoNotOptimize(out.data());

@@ -27,8 +27,8 @@ std::vector<Contact> nearOf(const Scene& s, double reach) {
   ProximityQuery(s.obstacles).near(s.start, s.end, s.x0, std::vector<double>(s.x0.size(), reach), out);
   return out;
 }
-std::vector<Contact> impactsOf(const Scene& s) {
-  std::vector<Contact> out;
+std::vector<SampleHit> impactsOf(const Scene& s) {
+  std::vector<SampleHit> out;
   ProximityQuery(s.obstacles).impacts(s.start, s.end, s.x0, s.x1, out);
   return out;
 }
@@ -195,8 +195,10 @@ TEST(ProximityImpact, SphereFrontalAndThrough) {
   const auto c = impactsOf(s);
   ASSERT_EQ(c.size(), 3u);
   for (const Contact& k : c) EXPECT_EQ(k.normal, (Vec3{-1, 0, 0}));
+  EXPECT_NEAR(c[0].time, 2. / 3, 1e-15);
   EXPECT_EQ(c[1].sample, 1);
   EXPECT_NEAR(c[1].gap_m, 2, 1e-13);
+  EXPECT_NEAR(c[1].time, 2. / 103, 1e-15);
   EXPECT_EQ(c[2].sample, 4) << "starts on the surface and moves inward";
   EXPECT_EQ(c[2].gap_m, 0);
 }
@@ -255,18 +257,20 @@ TEST(Proximity, TheSameBitsForAnyNumberOfThreads) {
   const Scene s = randomScene(31, 5000);
   const int before = omp_get_max_threads();
   omp_set_num_threads(1);
-  const auto near1 = nearOf(s, 0.1), impacts1 = impactsOf(s);
+  const auto near1 = nearOf(s, 0.1);
+  const auto impacts1 = impactsOf(s);
+  const auto same = [](const auto& a, const auto& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const Contact &p = a[i], &q = b[i];
+      ASSERT_TRUE(p.sample == q.sample && p.obstacle == q.obstacle && p.feature == q.feature && p.normal == q.normal &&
+                  p.gap_m == q.gap_m && p.local == q.local);
+    }
+  };
   for (int threads : {2, 3}) {
     omp_set_num_threads(threads);
-    const auto near2 = nearOf(s, 0.1), impacts2 = impactsOf(s);
-    for (const auto& [a, b] : {std::pair(&near1, &near2), std::pair(&impacts1, &impacts2)}) {
-      ASSERT_EQ(a->size(), b->size());
-      for (std::size_t i = 0; i < a->size(); ++i) {
-        const Contact &p = (*a)[i], &q = (*b)[i];
-        ASSERT_TRUE(p.sample == q.sample && p.obstacle == q.obstacle && p.feature == q.feature &&
-                    p.normal == q.normal && p.gap_m == q.gap_m && p.local == q.local);
-      }
-    }
+    same(near1, nearOf(s, 0.1));
+    same(impacts1, impactsOf(s));
   }
   omp_set_num_threads(before);
   ASSERT_GT(near1.size(), 500u);
