@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/cloth/cloth.hpp"
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/motion/stitch.hpp"
 
 namespace gambeson {

@@ -10,7 +10,7 @@
 #include "cases/cloth/arc.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/input/table.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/seams.hpp"
 
 namespace gambeson {
 namespace {

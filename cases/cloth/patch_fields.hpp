@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 
 namespace gambeson {
 

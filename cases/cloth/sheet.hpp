@@ -1,7 +1,7 @@
 #pragma once
 /// A sheet of patches, and how they lie.
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 
 namespace gambeson {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/cloth/shell/nurbs_shell.hpp"
+#include "cases/cloth/make_cloth.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -133,13 +133,8 @@ Sheet sheetOf(const StructureCase& c) {
 }
 
 std::unique_ptr<const Cloth> clothOf(const StructureCase& c, const Sheet& sheet) {
-  if (c.sheet.cloth.kind == ClothKind::nurbs)
-    return std::make_unique<NurbsShell>(sheet.garment, ShellOptions{c.sheet.gauss_extra, c.sheet.rule, nullptr});
-  return at("sheet.mesh", [&] {
-    std::vector<TriangleGarment> garments;
-    garments.push_back(triangleGarment(sheet.garment, c.sheet.cloth.mesh));
-    return std::make_unique<TriangleCloth>(std::move(garments));
-  });
+  const ClothSource source{sheet.garment, c.sheet.cloth, nullptr, "sheet"};
+  return makeCloth({&source, 1}, {c.sheet.gauss_extra, c.sheet.rule, nullptr});
 }
 
 StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet, const Cloth& cloth) {

@@ -14,6 +14,7 @@
 #include "analysis/report/xy_chart.hpp"
 #include "analysis/ticks.hpp"
 #include "cases/cloth/fabric_input.hpp"
+#include "cases/cloth/make_cloth.hpp"
 #include "cases/input/message.hpp"
 #include "cases/structure/results.hpp"
 #include "core/error.hpp"

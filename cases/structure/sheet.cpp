@@ -8,7 +8,7 @@
 
 #include "cases/cloth/arc.hpp"
 #include "cases/structure/shapes.hpp"
-#include "core/cloth/shell/trim_loops.hpp"
+#include "core/cloth/draft/trim_loops.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
 #include "tryon/pattern/garment_file.hpp"

@@ -13,8 +13,8 @@
 #include "cases/cloth/noise.hpp"
 #include "cases/cloth/patch_fields.hpp"
 #include "cases/cloth/sheet.hpp"
-#include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/garment.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/shell/shell.hpp"
 
 namespace gambeson {

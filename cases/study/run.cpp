@@ -24,10 +24,10 @@
 #include "cases/study/time_left.hpp"
 #include "cases/wear/case/references.hpp"
 #include "cases/wear/results/results.hpp"
-#include "core/cloth/shell/shell_kernel.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
 #include "core/io/recording.hpp"
+#include "core/math/instruction_sets.hpp"
 
 namespace gambeson::study {
 namespace {
@@ -150,7 +150,7 @@ std::optional<double> tookBefore(const std::filesystem::path& folder, int thread
 
 Stand standOf(const std::filesystem::path& folder, const std::string& identity) {
   if (closedSegments(folder) == 0) return Stand::fresh;
-  const std::string whole = identity + " " + widestKernels().name;
+  const std::string whole = identity + " " + widestInstructionSet();
   try {
     if (RecordingReader(folder).layout().identity != whole) return Stand::fresh;
     std::ifstream stream(folder / "summary.json");

@@ -17,4 +17,12 @@ std::vector<const Kernel*> runnable(const Kernel& avx512, const Kernel& avx2, co
   return sets;
 }
 
+/// The name of the widest that this machine runs: bits of results are the same on machines of the same.
+inline const char* widestInstructionSet() {
+  static constexpr const char* avx512 = "avx512";
+  static constexpr const char* avx2 = "avx2";
+  static constexpr const char* sse2 = "sse2";
+  return *runnable(avx512, avx2, sse2).front();
+}
+
 }  // namespace gambeson

@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "tryon/pattern/form.hpp"
 
 namespace gambeson {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/draft/areas.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cloth/shell/part_seam.hpp"
+#include "core/cloth/draft/part_seam.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/fit.hpp"
 

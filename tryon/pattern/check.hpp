@@ -1,7 +1,7 @@
 #pragma once
 /// What a pattern's numbers and a garment must satisfy; each throws InputError with the key.
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 
 namespace gambeson {
 

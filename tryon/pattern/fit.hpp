@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 
 namespace gambeson {
 

@@ -21,7 +21,7 @@
 
 #include <filesystem>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 
 namespace gambeson {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/cloth/shell/part_seam.hpp"
+#include "core/cloth/draft/part_seam.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"

@@ -3,7 +3,7 @@
 #include <complex>
 #include <numbers>
 
-#include "core/cloth/shell/trim_loops.hpp"
+#include "core/cloth/draft/trim_loops.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"

@@ -15,7 +15,7 @@
 #include "cases/cloth/strain_limit.hpp"
 #include "cases/input/json.hpp"
 #include "cases/runs/picture.hpp"
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/math/vec.hpp"
 #include "human/body/mesh_sequence.hpp"
 #include "human/character/character.hpp"

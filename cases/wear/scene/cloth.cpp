@@ -2,38 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-#include <utility>
-
-#include "cases/input/places.hpp"
+#include "cases/cloth/make_cloth.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/scene/garments.hpp"
-#include "core/cloth/joined_cloth.hpp"
-#include "core/cloth/shell/layers.hpp"
-#include "core/cloth/shell/nurbs_shell.hpp"
-#include "core/cloth/triangles/triangle_cloth.hpp"
-#include "core/error.hpp"
 #include "tryon/stitching.hpp"
 
 namespace gambeson {
-namespace {
-
-/// Garments [from, end) of one kind.
-std::unique_ptr<const Cloth> clothOfKind(const Case& c, const std::vector<Garment>& drafts,
-                                         const std::vector<std::optional<TriangleGarment>>& meshes, std::size_t from,
-                                         std::size_t end) {
-  const std::span<const Garment> own = std::span(drafts).subspan(from, end - from);
-  if (c.garments[from].cloth.kind == ClothKind::nurbs)
-    return std::make_unique<NurbsShell>(own.size() == 1 ? own[0] : joinLayers(own));
-  std::vector<TriangleGarment> garments;
-  for (std::size_t k = from; k < end; ++k)
-    garments.push_back(underKey(fmt::format("garments[{}]", k), [&] {
-      return meshes[k] ? *meshes[k] : triangleGarment(drafts[k], c.garments[k].cloth.mesh);
-    }));
-  return std::make_unique<TriangleCloth>(std::move(garments));
-}
-
-}  // namespace
 
 ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wardrobe, bool panels) {
   ClothDraft out;
@@ -48,19 +22,17 @@ ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wa
       for (int i = first[p]; i < first[p + 1]; ++i) start[static_cast<std::size_t>(i)] += offsets[p];
     drafts[0] = unsewn(sewn);
   }
-  std::vector<std::unique_ptr<const Cloth>> kinds;
-  for (std::size_t from = 0; from < drafts.size();) {
-    std::size_t end = from + 1;
-    while (end < drafts.size() && c.garments[end].cloth.kind == c.garments[from].cloth.kind) ++end;
-    kinds.push_back(clothOfKind(c, drafts, wardrobe.meshes, from, end));
-    from = end;
+  std::vector<ClothSource> sources;
+  for (std::size_t k = 0; k < drafts.size(); ++k) {
+    const auto& mesh = wardrobe.meshes[k];
+    sources.push_back({drafts[k], c.garments[k].cloth, mesh ? &*mesh : nullptr, fmt::format("garments[{}]", k)});
   }
-  out.cloth = kinds.size() == 1 ? std::move(kinds[0]) : std::make_unique<JoinedCloth>(std::move(kinds));
+  out.cloth = makeCloth(sources);
   out.start_m = out.cloth->fromDraft(start);
   for (const Garment& g : drafts) out.edges.push_back(g.edges);
   for (const ClothPatch& p : out.cloth->patches()) {
     const GarmentCase& worn = c.garments[static_cast<std::size_t>(p.garment)];
-    out.samples_per_cell.push_back(worn.cloth.kind == ClothKind::nurbs ? worn.samples_per_cell : 1);
+    out.samples_per_cell.push_back(samplesPerCell(worn.cloth, worn.samples_per_cell));
   }
   if (panels) {
     const Stitching& law = *c.garments[0].stitching;

@@ -8,8 +8,8 @@
 #include "cases/input/places.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "core/cloth/block_law.hpp"
-#include "core/cloth/shell/seams.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/draft/areas.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

@@ -9,7 +9,7 @@
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/scene/stage.hpp"
 #include "cases/wear/scene/supports.hpp"
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
 #include "core/motion/advance.hpp"
 #include "human/body/body.hpp"

@@ -1,4 +1,5 @@
 #include "core/cloth/shell/evened_masses.hpp"
+#include "core/cloth/draft/areas.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/areas.hpp"
+#include "core/cloth/draft/garment.hpp"
 
 namespace gambeson {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/seams.hpp"
 
 namespace gambeson {
 

@@ -1,11 +1,12 @@
 #include "core/cloth/shell/nurbs_shell.hpp"
+#include "core/cloth/draft/areas.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/edge.hpp"
 #include "core/cloth/shell/bulge.hpp"
-#include "core/cloth/shell/cells.hpp"
-#include "core/cloth/shell/edge.hpp"
 #include "core/cloth/shell/evened_masses.hpp"
 #include "core/cloth/shell/shell_mass.hpp"
 #include "core/cloth/shell/shell_mounting.hpp"

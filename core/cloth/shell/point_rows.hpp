@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/garment.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/math/sparse.hpp"
 
 namespace gambeson {

@@ -6,8 +6,8 @@
 
 #include "core/cloth/block_law.hpp"
 #include "core/cloth/cloth_state.hpp"
-#include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/garment.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
 #include "core/cloth/shell/shell_memory.hpp"
 #include "core/cloth/shell/surface.hpp"

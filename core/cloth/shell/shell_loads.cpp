@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloth/draft/edge.hpp"
+#include "core/cloth/draft/fields.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/mounting.hpp"
-#include "core/cloth/shell/edge.hpp"
-#include "core/cloth/shell/fields.hpp"
-#include "core/cloth/shell/seams.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

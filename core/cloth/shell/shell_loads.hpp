@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/cloth/draft/cells.hpp"
 #include "core/cloth/loads.hpp"
-#include "core/cloth/shell/cells.hpp"
 
 namespace gambeson {
 

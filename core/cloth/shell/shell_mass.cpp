@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/cloth/shell/cells.hpp"
-#include "core/cloth/shell/fields.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/fields.hpp"
+#include "core/cloth/draft/seams.hpp"
 
 namespace gambeson {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/math/sparse.hpp"
 
 namespace gambeson {

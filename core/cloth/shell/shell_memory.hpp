@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "core/cloth/shell/cells.hpp"
+#include "core/cloth/draft/cells.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
 
 namespace gambeson {

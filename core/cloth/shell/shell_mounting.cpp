@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/cloth/shell/edge.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/edge.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/shell/shell_loads.hpp"
 #include "core/cloth/shell/shell_supports.hpp"
 #include "core/cloth/surface.hpp"

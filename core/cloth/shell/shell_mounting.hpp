@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "core/cloth/draft/garment.hpp"
 #include "core/cloth/mounting.hpp"
-#include "core/cloth/shell/garment.hpp"
 
 namespace gambeson {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "core/cloth/shell/cells.hpp"
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
 
 namespace gambeson {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cloth/shell/edge.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/edge.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

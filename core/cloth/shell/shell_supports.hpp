@@ -12,8 +12,8 @@
 /// buildDofMap where they agree. Of a trimmed edge, the control points are held whose basis functions reach what is
 /// left of it.
 
+#include "core/cloth/draft/garment.hpp"
 #include "core/cloth/mounting.hpp"
-#include "core/cloth/shell/garment.hpp"
 
 namespace gambeson {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "core/cloth/shell/cells.hpp"
+#include "core/cloth/draft/cells.hpp"
 #include "core/cloth/shell/thread_points.hpp"
 #include "core/error.hpp"
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/garment.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/strain_rows.hpp"
 
 namespace gambeson {

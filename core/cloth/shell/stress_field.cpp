@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/cloth/draft/fields.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/plane_stress.hpp"
-#include "core/cloth/shell/fields.hpp"
-#include "core/cloth/shell/seams.hpp"
 #include "core/math/carried_error.hpp"
 #include "core/math/parallel.hpp"
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/cloth/shell/cells.hpp"
+#include "core/cloth/draft/cells.hpp"
 #include "core/cloth/shell/shell.hpp"
 #include "core/cloth/stress.hpp"
 

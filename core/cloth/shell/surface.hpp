@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/garment.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/surface.hpp"
 
 namespace gambeson {
@@ -20,10 +20,5 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const
 
 /// The parameters of the samples along one direction of a patch, as buildSurface takes them.
 std::vector<double> sampleParameters(const KnotVector& knots, int per_cell);
-
-/// ∫ N dA at rest for each control point [m^2].
-std::vector<double> controlAreas(const Garment& garment);
-/// ∫ rho N dA with the surface density of each point [kg].
-std::vector<double> controlMasses(const Garment& garment);
 
 }  // namespace gambeson

@@ -1,7 +1,7 @@
 #pragma once
 /// The consistent tangent of a sheet on its free points, assembled in a fixed order.
 
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/shell/shell.hpp"
 #include "core/math/block_matrix.hpp"
 

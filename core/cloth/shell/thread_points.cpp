@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/cloth/shell/cells.hpp"
+#include "core/cloth/draft/cells.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
-#include "core/cloth/shell/edge.hpp"
-#include "core/cloth/shell/fields.hpp"
+#include "core/cloth/draft/edge.hpp"
+#include "core/cloth/draft/fields.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
 

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "core/cloth/shell/cells.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/shell/trim_mesh.hpp"
 #include "core/error.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Triangles in place of the NURBS patches of a draft.
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
 
 namespace gambeson {

@@ -8,6 +8,7 @@
 #include "cases/command/documents.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "cases/structure/build.hpp"
+#include "core/cloth/draft/areas.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
 #include "unit/cases/structure/example.hpp"

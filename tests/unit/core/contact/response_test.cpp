@@ -2,6 +2,7 @@
 /// effective mass 1 / sum(N^2/m) (the printed one holds for equal masses only).
 
 #include "core/contact/response.hpp"
+#include "core/cloth/draft/areas.hpp"
 
 #include <gtest/gtest.h>
 

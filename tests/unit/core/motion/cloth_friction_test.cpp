@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/cloth/shell/layers.hpp"
+#include "core/cloth/draft/layers.hpp"
 #include "core/motion/advance.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <random>
 
+#include "core/cloth/draft/areas.hpp"
 #include "core/error.hpp"
 #include "core/motion/strain_limit.hpp"
 #include "unit/core/motion/strain_net.hpp"

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cloth/shell/layers.hpp"
+#include "core/cloth/draft/areas.hpp"
+#include "core/cloth/draft/layers.hpp"
 #include "core/cloth/shell/shell.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/contact/crossing.hpp"

@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/cloth/draft/areas.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
 #include "human/manikin/manikin.hpp"

@@ -5,6 +5,7 @@
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "cases/wear/scene/scenario.hpp"
+#include "core/cloth/draft/areas.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
 #include "human/skin/make_skin.hpp"

@@ -1,6 +1,7 @@
 /// Masses for cloth whose threads are limited.
 
 #include "core/cloth/shell/evened_masses.hpp"
+#include "core/cloth/draft/areas.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/cloth/draft/trim_loops.hpp"
 #include "core/cloth/shell/surface.hpp"
-#include "core/cloth/shell/trim_loops.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"
 
 namespace gambeson {

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <limits>
 
-#include "core/cloth/shell/edge.hpp"
+#include "core/cloth/draft/edge.hpp"
 #include "core/error.hpp"
 #include "unit/core/cloth/shell/sheet_cylinder.hpp"
 #include "unit/shell_of.hpp"

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/garment.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/shell/shell.hpp"
 #include "core/nurbs/nurbs.hpp"
 

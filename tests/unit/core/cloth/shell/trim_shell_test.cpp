@@ -6,8 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "core/cloth/draft/areas.hpp"
+#include "core/cloth/draft/trim_map.hpp"
 #include "core/cloth/shell/shell.hpp"
-#include "core/cloth/shell/trim_map.hpp"
 #include "core/motion/model.hpp"
 #include "core/motion/step.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/cloth/triangles/draft_mesh.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"

@@ -1,9 +1,9 @@
-#include "core/cloth/shell/edge.hpp"
+#include "core/cloth/draft/edge.hpp"
 
 #include <algorithm>
 
-#include "core/cloth/shell/cells.hpp"
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
 

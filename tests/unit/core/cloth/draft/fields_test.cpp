@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/cloth/block_law.hpp"
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/error.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"
 

@@ -1,5 +1,6 @@
 // Cells of a garment and their quadrature.
-#include "core/cloth/shell/cells.hpp"
+#include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/areas.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 
 namespace gambeson {
 

@@ -5,9 +5,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "core/cloth/shell/cells.hpp"
+#include "core/cloth/draft/areas.hpp"
+#include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/trim_map.hpp"
 #include "core/cloth/shell/surface.hpp"
-#include "core/cloth/shell/trim_map.hpp"
 #include "core/error.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/seams.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <optional>
 #include <set>
 
-#include "core/cloth/shell/part_seam.hpp"
-#include "core/cloth/shell/trim_map.hpp"
+#include "core/cloth/draft/part_seam.hpp"
+#include "core/cloth/draft/trim_map.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
 

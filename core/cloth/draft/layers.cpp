@@ -1,4 +1,4 @@
-#include "core/cloth/shell/layers.hpp"
+#include "core/cloth/draft/layers.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,7 @@
 /// Loops in lengths.
 
-#include "core/cloth/shell/trim_loops.hpp"
+#include "core/cloth/draft/trim_loops.hpp"
+#include "core/cloth/draft/areas.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A short edge sewn to a part of a long one, exactly.
-#include "core/cloth/shell/part_seam.hpp"
+#include "core/cloth/draft/part_seam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/error.hpp"
 #include "core/motion/model.hpp"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "core/cloth/draft/garment.hpp"
 #include "core/cloth/free_map.hpp"
-#include "core/cloth/shell/garment.hpp"
 
 namespace gambeson {
 

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/trim_map.hpp"
+#include "core/cloth/draft/trim_map.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "core/cloth/shell/part_seam.hpp"
-#include "core/cloth/shell/seams.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/draft/areas.hpp"
+#include "core/cloth/draft/part_seam.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/error.hpp"
 #include "core/nurbs/trim_arcs.hpp"
 

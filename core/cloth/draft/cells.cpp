@@ -1,4 +1,4 @@
-#include "core/cloth/shell/cells.hpp"
+#include "core/cloth/draft/cells.hpp"
 
 #include <cassert>
 

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/trim_loops.hpp"
+#include "core/cloth/draft/trim_loops.hpp"
 
 #include <algorithm>
 #include <cmath>

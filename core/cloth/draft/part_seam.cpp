@@ -1,9 +1,9 @@
-#include "core/cloth/shell/part_seam.hpp"
+#include "core/cloth/draft/part_seam.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

@@ -1,5 +1,5 @@
 // Seams: the map T (Zheng 2013, eq. 2.35), corners, refusals, rotational springs.
-#include "core/cloth/shell/seams.hpp"
+#include "core/cloth/draft/seams.hpp"
 
 #include <gtest/gtest.h>
 

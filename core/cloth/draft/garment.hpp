@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/cloth/draft/fields.hpp"
 #include "core/cloth/patch_edge.hpp"
-#include "core/cloth/shell/fields.hpp"
 #include "core/material/fabric.hpp"
 #include "core/nurbs/trim.hpp"
 
@@ -19,7 +19,7 @@ enum class SeamKind { C0, G1 };
 /// Joins edge `a` to edge `b` point by point: same degree, same knots up to their range, same weights.
 /// `stiffness_N` is that of a rotational spring along the seam, moment per length and angle from rest [N m/(m rad)].
 /// With `first_cell` >= 0 the whole of `a` lies on a part of `b`: on as many of its cells as `a` has, from this one on
-/// in the sense of `b` (core/cloth/shell/part_seam.hpp). Such seams are C0, and their edges have equal weights.
+/// in the sense of `b` (core/cloth/draft/part_seam.hpp). Such seams are C0, and their edges have equal weights.
 struct Seam {
   PatchEdge a, b;
   SeamKind kind = SeamKind::G1;
@@ -39,7 +39,7 @@ struct WeakSeam {
   double factor = 1e3;  ///< penalty over the stiffness of a cell
 };
 
-/// Cloth at rest: one garment, or several worn over each other (core/cloth/shell/layers.hpp). The weft direction at a
+/// Cloth at rest: one garment, or several worn over each other (core/cloth/draft/layers.hpp). The weft direction at a
 /// point of patch i is weft[i] projected on the rest surface. `trims`, `fields`, `layer`, `patch_names` and `placed`
 /// are empty, or hold one entry per patch.
 struct Garment {

@@ -1,11 +1,11 @@
-#include "core/cloth/shell/fields.hpp"
+#include "core/cloth/draft/fields.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
-#include "core/cloth/shell/garment.hpp"
+#include "core/cloth/draft/garment.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

@@ -1,7 +1,7 @@
 /// Several garments as one: each keeps what it is alone, and contact keeps the layers apart by half the sum of their
 /// thicknesses.
 
-#include "core/cloth/shell/layers.hpp"
+#include "core/cloth/draft/layers.hpp"
 
 #include <gtest/gtest.h>
 

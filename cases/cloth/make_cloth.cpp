@@ -1,0 +1,63 @@
+#include "cases/cloth/make_cloth.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "cases/input/places.hpp"
+#include "core/cloth/draft/layers.hpp"
+#include "core/cloth/joined_cloth.hpp"
+#include "core/cloth/triangles/triangle_cloth.hpp"
+
+namespace gambeson {
+namespace {
+
+std::unique_ptr<const Cloth> shellOf(std::span<const ClothSource> sources, const ShellOptions& options) {
+  if (sources.size() == 1) return std::make_unique<NurbsShell>(sources[0].draft, options);
+  std::vector<Garment> drafts;
+  for (const ClothSource& s : sources) drafts.push_back(s.draft);
+  return std::make_unique<NurbsShell>(joinLayers(drafts), options);
+}
+
+std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {
+  std::vector<TriangleGarment> garments;
+  for (const ClothSource& s : sources)
+    garments.push_back(underKey(s.key, [&] { return s.mesh ? *s.mesh : triangleGarment(s.draft, s.model.mesh); }));
+  return std::make_unique<TriangleCloth>(std::move(garments));
+}
+
+std::unique_ptr<const Cloth> clothOfOneKind(std::span<const ClothSource> sources, const ShellOptions& shell) {
+  switch (sources[0].model.kind) {
+    case ClothKind::nurbs:
+      return shellOf(sources, shell);
+    case ClothKind::triangles:
+      return trianglesOf(sources);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources, const ShellOptions& shell) {
+  std::vector<std::unique_ptr<const Cloth>> kinds;
+  for (std::size_t from = 0; from < sources.size();) {
+    std::size_t end = from + 1;
+    while (end < sources.size() && sources[end].model.kind == sources[from].model.kind) ++end;
+    kinds.push_back(clothOfOneKind(sources.subspan(from, end - from), shell));
+    from = end;
+  }
+  return kinds.size() == 1 ? std::move(kinds[0]) : std::make_unique<JoinedCloth>(std::move(kinds));
+}
+
+int samplesPerCell(const ClothModel& model, int asked) { return model.kind == ClothKind::triangles ? 1 : asked; }
+
+std::string inWords(const ClothModel& model) {
+  switch (model.kind) {
+    case ClothKind::nurbs:
+      return "Kirchhoff-Love sheet: thin, normals stay normal; strains of the reference surface are Green-Lagrange's.";
+    case ClothKind::triangles:
+      return "Triangles of constant Green-Lagrange strain that bend at their edges.";
+  }
+  return {};
+}
+
+}  // namespace gambeson
