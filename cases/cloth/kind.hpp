@@ -1,7 +1,7 @@
 #pragma once
 /// Which kind of cloth a garment or a sheet is made into.
 
-#include "core/cloth/triangles/draft_mesh.hpp"
+#include "core/cloth/triangles/mesh_kind.hpp"
 
 namespace gambeson {
 

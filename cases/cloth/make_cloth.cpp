@@ -6,6 +6,7 @@
 #include "cases/input/places.hpp"
 #include "core/cloth/draft/layers.hpp"
 #include "core/cloth/joined_cloth.hpp"
+#include "core/cloth/triangles/draft_mesh.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
 
 namespace gambeson {

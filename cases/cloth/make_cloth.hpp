@@ -9,6 +9,7 @@
 #include "core/cloth/cloth.hpp"
 #include "core/cloth/draft/garment.hpp"
 #include "core/cloth/shell/nurbs_shell.hpp"
+#include "core/cloth/triangles/triangle_build.hpp"
 
 namespace gambeson {
 

@@ -7,6 +7,7 @@
 #include "bench_time.hpp"
 #include "core/cloth/shell/nurbs_shell.hpp"
 #include "core/cloth/triangles/draft_mesh.hpp"
+#include "core/cloth/triangles/triangle_cloth.hpp"
 
 namespace gambeson {
 namespace {

@@ -12,6 +12,7 @@
 #include "cases/wear/scene/garments.hpp"
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/triangles/draft_mesh.hpp"
 #include "core/cloth/triangles/obj_mesh.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"

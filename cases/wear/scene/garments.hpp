@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cases/wear/case/case.hpp"
-#include "core/cloth/triangles/triangle_cloth.hpp"
+#include "core/cloth/triangles/triangle_build.hpp"
 #include "human/body/body.hpp"
 
 namespace gambeson {

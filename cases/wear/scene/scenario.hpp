@@ -10,7 +10,7 @@
 #include "cases/wear/scene/stage.hpp"
 #include "cases/wear/scene/supports.hpp"
 #include "core/cloth/draft/garment.hpp"
-#include "core/cloth/triangles/triangle_cloth.hpp"
+#include "core/cloth/triangles/triangle_build.hpp"
 #include "core/motion/advance.hpp"
 #include "human/body/body.hpp"
 #include "human/motion/foot_report.hpp"

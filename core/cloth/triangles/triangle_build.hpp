@@ -7,16 +7,12 @@
 
 #include "core/cloth/cloth.hpp"
 #include "core/cloth/triangles/cloth_mesh.hpp"
+#include "core/cloth/triangles/mesh_kind.hpp"
 #include "core/cloth/triangles/triangle_elements.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/sparse.hpp"
 
 namespace gambeson {
-
-/// How a garment of triangles lies at rest. fabric: as the mesh stands, hinges straight or with its angles as the
-/// fabric counts bending (hasRestCurvature); shape: as the mesh stands, hinges keep its angles; in both uv turns the
-/// threads alone. flat: as uv says, hinges straight.
-enum class MeshRest { fabric, shape, flat };
 
 /// One garment.
 struct TriangleGarment {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cases/wear/case/case.hpp"
-#include "core/cloth/triangles/triangle_cloth.hpp"
+#include "core/cloth/triangles/triangle_build.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/form.hpp"
 
