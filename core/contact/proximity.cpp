@@ -13,6 +13,8 @@ namespace gambeson {
 
 namespace {
 
+constexpr ContactKind kOnBody = ContactKind::sample_on_body;
+
 /// Consecutive samples are neighbours on the cloth: whole blocks of them are culled at once.
 constexpr int kBlock = 16;
 /// A reject must be certain in spite of rounding.
@@ -162,7 +164,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
           if (surelyBeyond(*e, p, limit_m / X.scale)) continue;
           const SurfacePoint s = closestOnEllipsoid(*e, p);
           const double gap = X.scale * s.distance_m;
-          if (gap < limit_m) list.push_back({i, o, 0, X.rotation * s.normal, gap, s.position, {}});
+          if (gap < limit_m) list.push_back({i, o, 0, kOnBody, X.rotation * s.normal, gap, s.position, {}});
         } else if (std::holds_alternative<std::monostate>(shapes[o].shape)) {
           feet.clear();
           const MeshSurface& surface = deformed->of(o);
@@ -182,7 +184,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
           }
           for (const MeshPoint& f : feet)
             if (f.distance_m < limit_m)
-              list.push_back({i, o, f.feature, f.normal, f.distance_m, f.position, surface.material(f)});
+              list.push_back({i, o, f.feature, kOnBody, f.normal, f.distance_m, f.position, surface.material(f)});
         } else {
           feet.clear();
           const auto& surface = std::get<MeshSurface>(shapes[o].shape);
@@ -207,7 +209,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
           }
           for (const MeshPoint& f : feet) {
             const double gap = X.scale * f.distance_m;
-            if (gap < limit_m) list.push_back({i, o, f.feature, X.rotation * f.normal, gap, f.position, {}});
+            if (gap < limit_m) list.push_back({i, o, f.feature, kOnBody, X.rotation * f.normal, gap, f.position, {}});
           }
         }
       }
@@ -276,7 +278,8 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
         if (!t) continue;
         const Vec3 hit = p0 + *t * (p1 - p0);
         const Vec3 normal = normalized({hit.x * e.inverse2.x, hit.y * e.inverse2.y, hit.z * e.inverse2.z});
-        list.push_back({{i, o, 0, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit, {}}, *t});
+        list.push_back(
+            {{i, o, 0, kOnBody, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit, {}}, *t});
       }
     }
   });
@@ -299,8 +302,8 @@ double ProximityQuery::signedDistance(int obstacle, const Placement& placement, 
 Contact ProximityQuery::nearest(int obstacle, const Vec3& x, const DeformedSurfaces& deformed) const {
   const MeshSurface& surface = deformed.of(obstacle);
   const auto n = surface.nearest(x, std::numeric_limits<double>::infinity());
-  if (!n) return {-1, obstacle, 0, {}, std::numeric_limits<double>::quiet_NaN(), x, {}};
-  return {-1, obstacle, n->feature, n->normal, n->distance_m, n->position, surface.material(*n)};
+  if (!n) return {-1, obstacle, 0, kOnBody, {}, std::numeric_limits<double>::quiet_NaN(), x, {}};
+  return {-1, obstacle, n->feature, kOnBody, n->normal, n->distance_m, n->position, surface.material(*n)};
 }
 
 }  // namespace gambeson

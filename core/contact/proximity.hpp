@@ -21,12 +21,12 @@ struct Contact {
   int sample = 0;
   int obstacle = 0;  ///< -1: none, of cloth with cloth
   int feature = 0;  ///< which vertex, edge or face of a mesh (0 for an ellipsoid); identifies the contact between steps
+  ContactKind kind = ContactKind::sample_on_body;
   Vec3 normal;
   double gap_m = 0;
   Vec3 local;
   MaterialPoint touched;   ///< the same of an obstacle that deforms, whose frame is the world's
   double clearance_m = 0;  ///< what the cloth between the samples asks for (findClearances); 0: nothing
-  ContactKind kind = ContactKind::sample_on_body;
 
   bool onBody() const { return obstacle >= 0; }
 };
