@@ -59,7 +59,8 @@ void forAllInTeam(int threads, int n, Begin&& begin, F&& f) {
   }
 }
 
-/// join(join(start, f(0)), f(1)) ...: of what does not depend on the order (counts, largest values).
+/// join(join(start, f(0)), f(1)) ...: of what does not depend on the order (counts, largest values). Each thread begins
+/// with `start`, which must change nothing when it is joined once more.
 template <class T, class F, class Join>
 T joined(Each each, int n, T start, F&& f, Join&& join) {
   const int threads = n < static_cast<int>(each) ? 1 : omp_get_max_threads();

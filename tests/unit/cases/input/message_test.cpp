@@ -46,9 +46,9 @@ TEST(Message, NotesAreMessagesToo) {
 
 TEST(Message, IsShortAndKeepsItsPlaceAndItsEnd) {
   EXPECT_EQ(messageText("a.json:3: key: 5 is out of range"), "a.json:3: key: 5 is out of range");
-  const std::string text = messageText("a.json:3: key: " + std::string(5 << 20, 'x') + " is no number; allowed: > 0");
+  const std::string text = messageText("a.json:3: key: " + std::string(5 << 20, 'k') + " is no number; allowed: > 0");
   EXPECT_LE(text.size(), 390u);
-  EXPECT_TRUE(text.starts_with("a.json:3: key: xxx")) << text;
+  EXPECT_TRUE(text.starts_with("a.json:3: key: kkk")) << text;
   EXPECT_TRUE(text.ends_with("is no number; allowed: > 0")) << text;
   // Characters of several bytes stay whole.
   std::string umlauts;
