@@ -15,6 +15,7 @@ class RecordedTable {
 
   std::size_t rows() const { return rows_; }
   bool empty() const { return rows_ == 0; }
+  bool has(const std::string& name) const { return columns_.contains(name); }
   /// One value per row. Throws RunError where the table has no such column.
   const std::vector<double>& column(const std::string& name) const;
   /// The rows for which keep(row) is true.

@@ -14,7 +14,7 @@ import random
 import subprocess
 import sys
 
-from common import HERE, Folder, check, command, run_case, same_results
+from common import HERE, Folder, check, command, run_case, same_results, summary
 
 KILLS = 20
 
@@ -24,6 +24,8 @@ def main():
     chance = random.Random(20130331)
     with Folder() as folder:
         run_case(case, folder / "whole", "--threads", 1, *options)
+        drift = summary(folder / "whole")["energy"]["drift_ratio"]
+        check(abs(drift) < 0.01, f"works leave {drift:.1%} of the energy unexplained")
         computing_s = json.loads((folder / "whole/run.json").read_text())["wall_s"]
         segments = lambda name: len(list((folder / name).glob("frames/segment_*.h5")))
         complete = segments("whole")

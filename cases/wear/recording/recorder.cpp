@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "cases/wear/recording/recorded_scene.hpp"
 #include "core/error.hpp"
@@ -184,6 +185,7 @@ RecordingLayout recordingLayout(const Scenario& s) {
     for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(name + part);
   auto& steps = layout.tables["steps"] = window;
   steps.insert(steps.end(), stepColumns().begin(), stepColumns().end());
+  if (s.model->cloth->historySize() > 0) steps.push_back(lost_column);
   requireOwnNames(layout, s.definition.file);
   layout.scene = sceneOf(s);
   return layout;
@@ -355,6 +357,7 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   steps_[kWorkSupports] += r.work.supports;
   steps_[kWorkLimit] += r.work.limit;
   steps_[kDissipated] += r.work.dissipated;
+  lost_J_ += r.work.cloth;
   steps_[kProjections] += r.limit.projections;
   steps_[kUnlimited] += r.limit.converged ? 0 : 1;
   most(kLimitResidual, r.limit.residual);
@@ -451,6 +454,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   steps_[kSprings] = energy.springs;
   row = head;
   row.insert(row.end(), steps_.begin(), steps_.end());
+  if (m.cloth->historySize() > 0) row.push_back(std::exchange(lost_J_, 0));
   writer_.append(TableRow{"steps", row});
 
   if (frame) appendFrame(state, window);

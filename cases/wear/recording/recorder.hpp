@@ -34,6 +34,8 @@ namespace gambeson {
 
 /// Columns of the table "steps" after start_s and end_s.
 const std::vector<std::string>& stepColumns();
+/// Behind these where the cloth remembers: what its laws have lost in the window.
+constexpr const char* lost_column = "lost_energy_J";
 
 /// What stands before the parts of a column's name in the tables "regions" and "supports": of each the name, and of
 /// what has the name of an earlier one its number behind it.
@@ -76,6 +78,7 @@ class Recorder {
   std::vector<double> normal_;  ///< its normal part
   std::vector<double> limit_;   ///< multipliers of the strain limits times time, over the window
   std::vector<double> steps_;   ///< sums and extremes, in the order of stepColumns()
+  double lost_J_ = 0;           ///< by laws that remember
 };
 
 }  // namespace gambeson

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
@@ -69,8 +70,10 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     e.dissipated += at("dissipated_J");
     e.supports += at("work_supports_J");
     e.limit += at("work_limit_J");
+    const double lost = table.has(lost_column) ? at(lost_column) : 0;
+    e.lost += lost;
     e.absolute += std::abs(at("work_contact_J")) + std::abs(at("work_drag_J")) + std::abs(at("work_supports_J")) +
-                  std::abs(at("work_limit_J"));
+                  std::abs(at("work_limit_J")) + lost;
   }
   if (m.steps == 0) m.shortest_s = 0;
   m.mean_s = m.steps > 0 ? time / static_cast<double>(m.steps) : 0;

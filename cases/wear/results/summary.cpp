@@ -326,6 +326,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                  {"drift_J", m.energy.drift()},
                  {"sum_of_absolute_works_J", m.energy.absolute},
                  {"drift_ratio", m.energy.relative()}};
+  if (m.energy.lost > 0) j["energy"]["lost_energy_J"] = m.energy.lost;
   j["steps"] = {{"count", m.steps.steps},
                 {"smallest_s", m.steps.shortest_s},
                 {"mean_s", m.steps.mean_s},
