@@ -42,7 +42,7 @@ svg .grid { stroke:#e4e7ec; } svg .zero { stroke:#8d95a3; } svg .axis, svg .mark
 svg .uncounted { fill:#e9ecf1; } svg .uncounted-label { fill:var(--soft); font-size:12px; }
 svg .mark { stroke:#8d95a3; stroke-dasharray:3 4; } svg .peak-label { font-weight:600; paint-order:stroke; stroke:#fff; stroke-width:4px; }
 svg .series { fill:none; stroke-width:2.2; stroke-linejoin:round; }
-svg .left { stroke:var(--left); } svg .right { stroke:var(--right); stroke-dasharray:7 2.5; } svg .third { stroke:var(--third); } svg .fourth { stroke:var(--fourth); stroke-dasharray:2 3; }
+svg .left { stroke:var(--left); } svg .right { stroke:var(--right); stroke-dasharray:7 2.5; } svg .third { stroke:var(--third); } svg .fourth { stroke:var(--fourth); stroke-dasharray:2 3; } svg .fifth { stroke:var(--good); stroke-dasharray:9 3 2 3; }
 svg .peak { fill:#fff; stroke-width:2.4; stroke-dasharray:none; } svg .bar { fill:var(--accent); } svg .value { font-weight:600; }
 svg .published { fill:#fff; fill-opacity:.75; stroke:var(--ink); stroke-width:1.3; }
 svg .cursor { stroke:var(--ink); stroke-width:1; } svg .readout { font-weight:600; font-size:13px; paint-order:stroke; stroke:#fff; stroke-width:5px; }

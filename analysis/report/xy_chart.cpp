@@ -17,7 +17,7 @@ namespace {
 using html::escape;
 
 constexpr double kWidth = 500, kPlotHeight = 270, kLeft = 62, kRight = 16, kBottom = 46, kLegendRow = 19;
-constexpr std::array<const char*, 4> kTones{"left", "third", "right", "fourth"};
+constexpr std::array<const char*, 5> kTones{"left", "third", "right", "fourth", "fifth"};
 
 std::string text(double x, double y, const std::string& s, const char* anchor, const char* style = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor, style, escape(s));

@@ -1,16 +1,20 @@
 #pragma once
 /// Which kind of cloth a garment or a sheet is made into.
 
+#include "core/cloth/shell/cell_rule.hpp"
 #include "core/cloth/triangles/mesh_kind.hpp"
 
 namespace gambeson {
 
 enum class ClothKind { nurbs, triangles };
 
-/// `model` and `mesh` of a garment or a sheet.
+/// `model` of a garment or a sheet, with the keys that go with it.
 struct ClothModel {
   ClothKind kind = ClothKind::nurbs;
-  MeshKind mesh = MeshKind::single;
+  MeshKind mesh = MeshKind::single;  ///< of triangles
+  // Of NURBS; keys of sheets alone.
+  CellRule rule = CellRule::automatic;
+  int gauss_extra = 0;  ///< points more than degree + 1 in each direction
 };
 
 }  // namespace gambeson

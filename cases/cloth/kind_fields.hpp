@@ -26,4 +26,8 @@ inline const char* meshKindDoc() {
          "alike in all directions";
 }
 
+inline std::vector<std::pair<std::string, CellRule>> cellRules() {
+  return {{"automatic", CellRule::automatic}, {"full", CellRule::full}, {"assumed", CellRule::assumed}};
+}
+
 }  // namespace gambeson::schema

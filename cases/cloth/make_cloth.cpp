@@ -6,13 +6,15 @@
 #include "cases/input/places.hpp"
 #include "core/cloth/draft/layers.hpp"
 #include "core/cloth/joined_cloth.hpp"
+#include "core/cloth/shell/nurbs_shell.hpp"
 #include "core/cloth/triangles/draft_mesh.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
 
 namespace gambeson {
 namespace {
 
-std::unique_ptr<const Cloth> shellOf(std::span<const ClothSource> sources, const ShellOptions& options) {
+std::unique_ptr<const Cloth> shellOf(std::span<const ClothSource> sources) {
+  const ShellOptions options{sources[0].model.gauss_extra, sources[0].model.rule, nullptr};
   if (sources.size() == 1) return std::make_unique<NurbsShell>(sources[0].draft, options);
   std::vector<Garment> drafts;
   for (const ClothSource& s : sources) drafts.push_back(s.draft);
@@ -20,16 +22,16 @@ std::unique_ptr<const Cloth> shellOf(std::span<const ClothSource> sources, const
 }
 
 std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {
-  std::vector<TriangleGarment> garments;
+  std::vector<MeshDraft> garments;
   for (const ClothSource& s : sources)
-    garments.push_back(underKey(s.key, [&] { return s.mesh ? *s.mesh : triangleGarment(s.draft, s.model.mesh); }));
+    garments.push_back(underKey(s.key, [&] { return s.mesh ? *s.mesh : meshDraft(s.draft, s.model.mesh); }));
   return std::make_unique<TriangleCloth>(std::move(garments));
 }
 
-std::unique_ptr<const Cloth> clothOfOneKind(std::span<const ClothSource> sources, const ShellOptions& shell) {
+std::unique_ptr<const Cloth> clothOfOneKind(std::span<const ClothSource> sources) {
   switch (sources[0].model.kind) {
     case ClothKind::nurbs:
-      return shellOf(sources, shell);
+      return shellOf(sources);
     case ClothKind::triangles:
       return trianglesOf(sources);
   }
@@ -38,16 +40,18 @@ std::unique_ptr<const Cloth> clothOfOneKind(std::span<const ClothSource> sources
 
 }  // namespace
 
-std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources, const ShellOptions& shell) {
+std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources) {
   std::vector<std::unique_ptr<const Cloth>> kinds;
   for (std::size_t from = 0; from < sources.size();) {
     std::size_t end = from + 1;
     while (end < sources.size() && sources[end].model.kind == sources[from].model.kind) ++end;
-    kinds.push_back(clothOfOneKind(sources.subspan(from, end - from), shell));
+    kinds.push_back(clothOfOneKind(sources.subspan(from, end - from)));
     from = end;
   }
   return kinds.size() == 1 ? std::move(kinds[0]) : std::make_unique<JoinedCloth>(std::move(kinds));
 }
+
+MeshDraft meshOf(const Garment& draft, const ClothModel& model) { return meshDraft(draft, model.mesh); }
 
 int samplesPerCell(const ClothModel& model, int asked) { return model.kind == ClothKind::triangles ? 1 : asked; }
 

@@ -8,8 +8,7 @@
 #include "cases/cloth/kind.hpp"
 #include "core/cloth/cloth.hpp"
 #include "core/cloth/draft/garment.hpp"
-#include "core/cloth/shell/nurbs_shell.hpp"
-#include "core/cloth/triangles/triangle_build.hpp"
+#include "core/cloth/draft/mesh_draft.hpp"
 
 namespace gambeson {
 
@@ -17,13 +16,16 @@ namespace gambeson {
 struct ClothSource {
   const Garment& draft;
   ClothModel model;
-  const TriangleGarment* mesh = nullptr;  ///< where it was read from a mesh, in place of the draft
-  std::string key;                        ///< what is wrong with it is said of this key
+  const MeshDraft* mesh = nullptr;  ///< where it was read from a mesh, in place of the draft
+  std::string key;                  ///< what is wrong with it is said of this key
 };
 
-/// All garments as one cloth, the first innermost: neighbours of one kind together, kinds joined. `shell`: how NURBS
-/// cloth is integrated. Throws InputError.
-std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources, const ShellOptions& shell = {});
+/// All garments as one cloth, the first innermost: neighbours of one kind together, kinds joined. Throws
+/// InputError.
+std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources);
+
+/// A draft as the mesh that cloth of triangles would be made of. Throws InputError.
+MeshDraft meshOf(const Garment& draft, const ClothModel& model);
 
 /// Samples along each edge of a cell, where `asked` are wanted: those of triangles are their vertices.
 int samplesPerCell(const ClothModel& model, int asked);

@@ -134,7 +134,7 @@ Sheet sheetOf(const StructureCase& c) {
 
 std::unique_ptr<const Cloth> clothOf(const StructureCase& c, const Sheet& sheet) {
   const ClothSource source{sheet.garment, c.sheet.cloth, nullptr, "sheet"};
-  return makeCloth({&source, 1}, {c.sheet.gauss_extra, c.sheet.rule, nullptr});
+  return makeCloth({&source, 1});
 }
 
 StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet, const Cloth& cloth) {
@@ -159,7 +159,6 @@ StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet, const Clo
   o.rayleigh_mass_per_s = c.damping.mass_per_s;
   o.rayleigh_stiffness_s = c.damping.stiffness_s;
   o.drag_kg_per_m2s = c.damping.drag_kg_per_m2s;
-  if (c.strain_limit) o.strain_limit = limitOf(*c.strain_limit);
   return o;
 }
 

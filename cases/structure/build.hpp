@@ -3,14 +3,18 @@
 
 #include <memory>
 
+#include "cases/contact/stage.hpp"
 #include "cases/structure/case.hpp"
-#include "core/statics/structure.hpp"
+#include "core/motion/structure_motion.hpp"
 
 namespace gambeson {
 
 struct StructureModel {
   Sheet sheet;  ///< with fabrics
   std::unique_ptr<Structure> structure;
+  // Of explicit steps; else null.
+  std::unique_ptr<const Model> motion;  ///< refers to the structure
+  std::unique_ptr<const ObstacleStage> stage;
   std::unique_ptr<const StressView> stress;  ///< how its stress is shown
 };
 
@@ -23,8 +27,10 @@ StructureOptions optionsOf(const StructureCase& c, const Sheet& sheet, const Clo
 /// Whether `at: rest` of a modal case leaves the loads out.
 inline bool withLoads(const StructureCase& c) { return c.kind != StructureKind::modal || c.modal.at_equilibrium; }
 
-/// `options` gets its supports and loads.
+/// `options` gets its supports and loads. Without `motion`: not everything has a mass.
 StructureModel buildModel(const StructureCase& c, StructureOptions& options);
+/// Adds what explicit steps need, where the case takes them. Throws InputError with keys such as "obstacles[0].mesh".
+void addMotion(const StructureCase& c, StructureModel& model);
 StructureModel buildModel(const StructureCase& c);
 
 }  // namespace gambeson

@@ -19,6 +19,10 @@ StructureCase readWith(const JsonNode& root, const std::filesystem::path& file, 
   if (!word) place.failAt("kind", "is required: " + schema::joined(words));
   StructureCase c;
   c.kind = schema::structureKinds()[schema::readChoice(place.member(*word), words)].second;
+  for (const char* key : {"obstacles", "contact"})
+    if (const JsonNode* node = root.find(key); node && c.kind != StructureKind::dynamics)
+      place.member(*node).fail(
+          "goes with kind dynamic and \"scheme\": \"explicit\": equilibrium and modes know no contact");
   schema::readObject(schema::structureTable(c.kind), place, &c);
   if (!recorded) schema::applyStructureRules(place, c);
   c.file = file;

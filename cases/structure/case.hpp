@@ -13,9 +13,9 @@
 
 #include "analysis/render/render.hpp"
 #include "cases/cloth/strain_limit.hpp"
+#include "cases/contact/contact.hpp"
 #include "cases/input/json.hpp"
 #include "cases/structure/sheet.hpp"
-#include "core/motion/implicit.hpp"
 #include "core/statics/statics.hpp"
 
 namespace gambeson {
@@ -80,6 +80,23 @@ struct DampingCase {
   double drag_kg_per_m2s = 0;
 };
 
+enum class TimeScheme { newmark, generalised_alpha, explicit_verlet };
+
+struct DynamicOptions {
+  TimeScheme scheme = TimeScheme::generalised_alpha;
+  double beta = 0.25, gamma = 0.5;  ///< Newmark
+  double spectral_radius = 0.8;     ///< generalised-alpha
+  double step_s = 0;                ///< explicit: 0 takes `safety` of the stable one
+  double safety = 0.9;              ///< of the stable step 2 / omega, explicit
+  double end_s = 1;
+  int iterations = 20;
+  double tolerance = 1e-8;
+  bool lumped_mass = false;  ///< implicit schemes; explicit ones always lump
+
+  bool isExplicit() const { return scheme == TimeScheme::explicit_verlet; }
+  bool lumps() const { return lumped_mass || isExplicit(); }
+};
+
 struct ModalOptions {
   int count = 6;
   bool lumped_mass = false;
@@ -142,6 +159,8 @@ struct StructureCase {
   ModalOptions modal;
   DampingCase damping;
   std::optional<StrainLimitCase> strain_limit;  ///< dynamic, explicit steps
+  std::vector<ObstacleCase> obstacles;          ///< dynamic, explicit steps
+  std::optional<ContactCase> contact;           ///< dynamic, explicit steps: the sheet touches them, and itself
   InitialCase initial;
   StructureOutput output;
 

@@ -54,23 +54,28 @@ AuditCheck residualCheck(const StructureCase& c, const PathTable& path, const st
           fmt::format("forces do not balance: up to {} of them is left", formatNumber(most, 2))};
 }
 
-/// Energy that appears: how far the total rises above what it was before. Damping and numerical damping lower it.
+/// Energy that appears: how far the total rises above what it was before, but for what contact does on the sheet.
+/// Damping and numerical damping lower it.
 AuditCheck energyCheck(const PathTable& path) {
   const std::vector<double> kinetic = path.column("kinetic_energy_J"), strain = path.column("strain_energy_J"),
-                            loads = path.column("external_energy_J"), total = path.column("total_energy_J");
+                            loads = path.column("external_energy_J"), contact = path.column(contact_work_column);
+  std::vector<double> total = path.column("total_energy_J");
+  for (std::size_t k = 0; k < contact.size(); ++k) total[k] -= contact[k];
   double lowest = total.empty() ? 0 : total.front(), rise = 0, size = 0;
   for (std::size_t k = 0; k < total.size(); ++k) {
     lowest = std::min(lowest, total[k]);
     rise = std::isfinite(total[k]) ? std::max(rise, total[k] - lowest) : total[k];
-    size = std::max(size, std::abs(kinetic[k]) + std::abs(strain[k]) + std::abs(loads[k] - loads[0]));
+    const double touching = contact.empty() ? 0 : std::abs(contact[k]);
+    size = std::max(size, std::abs(kinetic[k]) + std::abs(strain[k]) + std::abs(loads[k] - loads[0]) + touching);
   }
   const double part = rise == 0 ? 0 : 100 * rise / size;
   return {"Energy",
           part,
           5,
           "%",
-          "the largest rise of the total energy (kinetic, strain, less the work of the loads), of the largest sum of "
-          "its parts",
+          fmt::format("the largest rise of the total energy (kinetic, strain, less the work of the loads{}), of the "
+                      "largest sum of its parts",
+                      contact.empty() ? "" : " and of contact"),
           fmt::format("{} % of the energy appears from nowhere", formatNumber(part, 2))};
 }
 
@@ -126,6 +131,19 @@ AuditCheck sizeCheck(const StructureCase& c, const StructureModel& model, const 
                  : fmt::format("the sheet moves by {} times its size, although it is held", times)};
 }
 
+void addContactChecks(const StructureFacts& facts, std::vector<AuditCheck>& checks) {
+  const ContactFacts& k = *facts.contact;
+  checks.push_back({"Contacts", 100.0 * static_cast<double>(k.unsolved) / static_cast<double>(facts.points), 1, "%",
+                    "share of the steps whose contacts were not solved within the tolerance",
+                    "contact forces are not solved in too many steps"});
+  checks.push_back({"Penetration", 1e3 * k.deepest_m, 0.2, "mm",
+                    "how deep a sample of the sheet was inside an obstacle, at most",
+                    fmt::format("the sheet was {} mm inside an obstacle", formatNumber(1e3 * k.deepest_m, 2))});
+  checks.push_back({"Crossings", static_cast<double>(k.crossings), 0, "",
+                    "places where the sheet passes through itself or through a mesh at the start of the last step",
+                    fmt::format("the sheet passes through itself or through a mesh at {} places", k.crossings)});
+}
+
 }  // namespace
 
 std::vector<AuditCheck> structureChecks(const StructureCase& c, const StructureModel& model, const PathTable& path,
@@ -153,6 +171,7 @@ std::vector<AuditCheck> structureChecks(const StructureCase& c, const StructureM
     checks.push_back({"Path", static_cast<double>(facts.jumps), 0, "",
                       "places between two points of the path where it bends more than the arcs could follow",
                       fmt::format("at {} places the path between two points is not known", facts.jumps)});
+  if (facts.contact && facts.points > 0) addContactChecks(facts, checks);
   if (c.strain_limit && facts.points > 0)
     checks.push_back({"Strain limit",
                       100.0 * static_cast<double>(facts.limits_missed) / static_cast<double>(facts.points), 1, "%",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cases/cloth/fields.hpp"
+#include "cases/contact/fields.hpp"
 #include "cases/input/table.hpp"
 
 namespace gambeson::schema {
@@ -122,6 +123,10 @@ Object makeTable(StructureKind kind, const std::string& word) {
                 "so that the material may be given soft threads, and with them long time steps; explicit "
                 "scheme only")
         .defaultsTo("none: the material's own stiffness")
+        .list("obstacles", &C::obstacles, obstacleTable(), "what the sheet touches; explicit scheme only")
+        .object("contact", &C::contact, contactTable(),
+                "how the sheet touches obstacles and itself; explicit scheme only")
+        .defaultsTo("required with obstacles; without it the sheet passes through itself")
         .object("initial", &C::initial, initialTable(), "how the motion starts; at rest where absent");
   return table.object("output", &C::output, structureOutputTable(kind), "what is written and pictured").build();
 }

@@ -71,7 +71,7 @@ Object structureOutputTable(StructureKind kind) {
             "summary.json (largest over the rows of the table, mean at the end)")
         .flag("audit", &O::audit,
               "balance of energy and momentum over all steps, in summary.json; costs up to two evaluations of the "
-              "forces a step. What a strain limit does is not in it and shows as a gap");
+              "forces a step");
   return table
       .integer("samples_per_cell", &O::samples_per_cell, 1, 16, "how finely shapes and pictures follow a cell's edge")
       .list("pictures", &O::pictures, picture.build(), "pictures to take")

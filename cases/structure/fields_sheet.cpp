@@ -69,13 +69,14 @@ Object structureSheetTable() {
             "thickness, fibre angle and material that vary over a patch")
       .object("imperfection", &S::imperfection, noiseTable(), "deviation of the stress-free shape along its normal")
       .defaultsTo("none")
-      .choice("cell_rule", &S::rule,
-              std::vector<std::pair<std::string, CellRule>>{
-                  {"automatic", CellRule::automatic}, {"full", CellRule::full}, {"assumed", CellRule::assumed}},
-              "integration of quadratic cells, which lock in bending under full, 3 x 3 Gauss points; automatic: 2 x 2, "
-              "but 3 across a patch of a single cell, and 3 x 3 on trimmed patches; assumed: strains taken at the "
-              "knots, free of locking but less accurate for wrinkles. Other degrees: degree + 1")
-      .integer("gauss_extra", &S::gauss_extra, 0, 5, "more integration points each way than the rule takes")
+      .choice(
+          "cell_rule", [](auto& s) -> auto& { return s.cloth.rule; }, cellRules(),
+          "integration of quadratic cells, which lock in bending under full, 3 x 3 Gauss points; automatic: 2 x 2, "
+          "but 3 across a patch of a single cell, and 3 x 3 on trimmed patches; assumed: strains taken at the "
+          "knots, free of locking but less accurate for wrinkles. Other degrees: degree + 1")
+      .integer(
+          "gauss_extra", [](auto& s) -> auto& { return s.cloth.gauss_extra; }, 0, 5,
+          "more integration points each way than the rule takes")
       .choice(
           "model", [](auto& s) -> auto& { return s.cloth.kind; }, clothKinds(), clothKindDoc())
       .unwritten()

@@ -1,5 +1,6 @@
 /// Detail of case.hpp: the files that a case names, and its hash.
 
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/fingerprint.hpp"
 #include "cases/structure/case.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 template <class Take>
 void eachFile(StructureCase& named, Take take) {
   if (auto* file = std::get_if<SheetFile>(&named.sheet.shape)) take(file->path);
+  for (ObstacleCase& o : named.obstacles) kindOf(o).files(o, take);
 }
 
 }  // namespace

@@ -57,20 +57,15 @@ std::vector<Vec3> linearForce(const Structure& s, const std::vector<double>& u) 
   return {points.begin(), points.end()};
 }
 
-/// Rates of the programs, for the motion of supports.
-struct ProgramRates {
-  std::vector<double> first, second;
-};
-ProgramRates programRates(const Structure& s, double t, double dt) {
+/// Second differences of the programs over the last step; 0 where there was none.
+std::vector<double> secondRates(const Structure& s, double t, double dt) {
+  std::vector<double> second(s.programs.size(), 0.0);
+  if (!(dt > 0)) return second;
   const std::vector<double> after = programValues(s, t + dt, ProgramEnds::constant),
                             now = programValues(s, t, ProgramEnds::constant),
                             before = programValues(s, t - dt, ProgramEnds::constant);
-  ProgramRates rates;
-  for (std::size_t k = 0; k < after.size(); ++k) {
-    rates.first.push_back((after[k] - before[k]) / (2 * dt));
-    rates.second.push_back((after[k] - 2 * now[k] + before[k]) / (dt * dt));
-  }
-  return rates;
+  for (std::size_t k = 0; k < second.size(); ++k) second[k] = (after[k] - 2 * now[k] + before[k]) / (dt * dt);
+  return second;
 }
 
 const char* const axes[] = {"x", "y", "z"};
@@ -107,49 +102,47 @@ MeasuredState measureStatic(const Structure& s, std::span<const double> y, doubl
   return m;
 }
 
-MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool lumped_mass, double step_s) {
+MeasuredState measureDynamic(const StructureModel& model, const State& state, bool lumped_mass, double step_s) {
+  const Structure& s = *model.structure;
   MeasuredState m;
   m.at = state.time_s;
-  m.q = controlPoints(s, state.y, state.time_s);
-  m.strain_energy_J = strainEnergy(s, state.y, state.time_s, ProgramEnds::constant, state.history);
-  m.reaction_N = pulledBack(s, reactions(s, state.y, state.time_s, ProgramEnds::constant, state.history));
-  ProgramRates rates = programRates(s, state.time_s, step_s > 0 ? step_s : 1e-6 * std::max(1e-3, state.time_s));
-  if (!(step_s > 0)) rates.second.assign(rates.second.size(), 0.0);
-  const std::vector<double> v = freeDisplacements(s, state.v, rates.first),
-                            a = freeDisplacements(s, state.a, rates.second);
-  const std::span<const Vec3> velocity = asPoints(v), acceleration = asPoints(a);
-  // What supports push with, beyond what the sheet pulls with: inertia and damping.
-  std::vector<Vec3> inertia(velocity.size());
-  for (std::size_t f = 0; f < inertia.size(); ++f) inertia[f] = acceleration[f] + s.rayleigh_mass_per_s * velocity[f];
-  std::vector<Vec3> force(velocity.size());
+  m.q = controlPoints(s, state);
+  m.strain_energy_J = strainEnergy(s, m.q, state.history);
+  m.reaction_N = pulledBack(s, reactions(s, m.q, state.time_s, ProgramEnds::constant, state.history));
+  const std::size_t n = state.v.size();
+  // What supports push with, beyond what the sheet pulls with: inertia and damping. The acceleration of the state is
+  // without what supports prescribe.
+  const std::vector<double> none(static_cast<std::size_t>(s.dofs.unknowns()), 0.0),
+      prescribed = freeDisplacements(s, none, secondRates(s, state.time_s, step_s));
+  std::vector<Vec3> inertia(n), force(n);
+  for (std::size_t f = 0; f < n; ++f)
+    inertia[f] = state.a[f] + asPoints(prescribed)[f] + s.rayleigh_mass_per_s * state.v[f];
   if (lumped_mass)
-    for (std::size_t f = 0; f < force.size(); ++f) force[f] = s.lumped_kg[f] * inertia[f];
+    for (std::size_t f = 0; f < n; ++f) force[f] = s.lumped_kg[f] * inertia[f];
   else
     s.consistent_kg.multiply<Vec3>(inertia, force);
-  for (std::size_t f = 0; f < force.size(); ++f)
-    m.reaction_N[f] += force[f] + s.drag_kg_per_m2s * s.area_m2[f] * velocity[f];
+  for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += force[f] + s.drag_kg_per_m2s * s.area_m2[f] * state.v[f];
   if (s.rayleigh_stiffness_s > 0) {
     BlockMatrix K = s.tangent->pattern();
     ClothWork work;
     s.tangent->assemble(m.q, work, K);
     if (s.loads.follow())
       s.loads.addStiffness(m.q, programValues(s, state.time_s, ProgramEnds::constant), s.cloth->map(), K);
-    std::vector<double> damping(v.size());
-    multiply(K, v, damping);
-    for (std::size_t f = 0; f < force.size(); ++f) m.reaction_N[f] += s.rayleigh_stiffness_s * asPoints(damping)[f];
+    std::vector<double> damping(3 * n);
+    multiply(K, {&state.v.data()->x, 3 * n}, damping);
+    for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += s.rayleigh_stiffness_s * asPoints(damping)[f];
   }
-  if (s.limit && !state.limit_J.empty()) {
+  if (!state.limit_J.empty()) {
     // The acceleration of the state is without the limits': what they push on free points is inertia there.
-    std::vector<Vec3> pull(force.size());
-    limitForce(s.limit->rows, freePoints(s, state.y, state.time_s), state.limit_J, pull);
-    std::vector<double> c(static_cast<std::size_t>(s.dofs.unknowns())), moved(3 * pull.size());
-    s.limit->release.multiply<double>({&pull.data()->x, 3 * pull.size()}, c);
-    s.dofs.C.multiply<double>(c, moved);
-    for (std::size_t f = 0; f < pull.size(); ++f) m.reaction_N[f] += s.lumped_kg[f] * asPoints(moved)[f] - pull[f];
-    m.limit_N_per_m = limitStress(s.limit->rows, state.limit_J);
+    const StrainRows& rows = model.motion->strain_rows;
+    std::vector<Vec3> pull(n), moved(n);
+    limitForce(rows, state.p, state.limit_J, pull);
+    applyMobility(rows.mobility, pull, moved);
+    for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += s.lumped_kg[f] * moved[f] - pull[f];
+    m.limit_N_per_m = limitStress(rows, state.limit_J);
   }
   m.velocity.resize(s.cloth->rest().size());
-  s.cloth->map().T.multiply<Vec3>(velocity, m.velocity);
+  s.cloth->map().T.multiply<Vec3>(state.v, m.velocity);
   return m;
 }
 
@@ -183,7 +176,7 @@ StressState::StressState(const StructureModel& model, const MeasuredState& state
 StressView::More StressState::more() const {
   if (limit_.empty()) return {};
   return [this](int patch, Vec2 uv) {
-    return model_.structure->cloth->limitStressAt(model_.structure->limit->rows, limit_, patch, uv);
+    return model_.structure->cloth->limitStressAt(model_.motion->strain_rows, limit_, patch, uv);
   };
 }
 

@@ -26,7 +26,9 @@ struct MeasuredState {
 MeasuredState measureStatic(const Structure& s, std::span<const double> y, double factor, bool linear,
                             std::span<const double> history = {});
 /// `step_s`: of the last step, over which the motion of supports is differentiated as the solver does; 0: none yet.
-MeasuredState measureDynamic(const Structure& s, const DynamicState& state, bool lumped_mass, double step_s);
+/// Reactions are without contact: where the sheet touches, what supports push with is known of a step only
+/// (StepResult::held_impulses).
+MeasuredState measureDynamic(const StructureModel& model, const State& state, bool lumped_mass, double step_s);
 /// The shape of a mode, its largest displacement `amplitude_m`.
 MeasuredState measureMode(const Structure& s, std::span<const double> y, double factor, std::span<const double> shape,
                           double amplitude_m);

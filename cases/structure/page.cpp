@@ -79,7 +79,7 @@ std::string plots(const StructureCase& c, const PathTable& t, double force_N, do
   const std::vector<double> lead = t.column(statics ? "factor" : "time_s");
   const auto plot = [&](const std::string& name, const char* letter, const std::string& unit, const std::string& what,
                         bool over) {
-    XyPlot p{what + " of " + name,
+    XyPlot p{what + (letter[0] == 'f' ? " on " : " of ") + name,
              "",
              over      ? what + " [" + unit + "]"
              : statics ? "load factor"
@@ -87,7 +87,7 @@ std::string plots(const StructureCase& c, const PathTable& t, double force_N, do
              over ? "load factor" : what + " [" + unit + "]",
              {},
              false};
-    double most = letter[0] == 'r' ? force_N : letter[0] == 'm' ? moment_Nm : 0;
+    double most = letter[0] == 'r' || letter[0] == 'f' ? force_N : letter[0] == 'm' ? moment_Nm : 0;
     for (const char* axis : {"x", "y", "z"})
       most = std::max(most, largest(t.column(name + "_" + letter + axis + "_" + unit)));
     for (const char* axis : {"x", "y", "z"}) {
@@ -105,12 +105,14 @@ std::string plots(const StructureCase& c, const PathTable& t, double force_N, do
     plot(e.name, "r", "N", "reaction", false);
     plot(e.name, "m", "Nm", "reaction moment", false);
   }
+  for (const ObstacleCase& o : c.obstacles) plot(o.name, "f", "N", "force", false);
   if (!statics) {
     XyPlot p{"Energy", "", "time [s]", "energy [J]", {}, false};
     for (const auto& [column, name] :
          {std::pair("kinetic_energy_J", "kinetic"), std::pair("strain_energy_J", "strain"),
           std::pair("external_energy_J", "of the loads"), std::pair("total_energy_J", "total")})
       p.series.push_back({name, lead, t.column(column), false});
+    if (c.contact) p.series.push_back({"work of contact", lead, t.column(contact_work_column), false});
     out += xyChart(p);
   } else {
     out += xyChart({"Strain energy",
@@ -180,6 +182,17 @@ std::string sentenceOf(const StructureCase& c, const Json& s) {
   return text + ".";
 }
 
+std::string contactInWords(const StructureCase& c) {
+  if (!c.contact) return "No contact; the sheet may pass through itself.";
+  std::string what;
+  for (std::size_t k = 0; k < c.obstacles.size(); ++k)
+    what += (k == 0 ? "" : k + 1 == c.obstacles.size() ? " and " : ", ") + c.obstacles[k].name;
+  const std::string self = c.contact->self ? "itself" : "";
+  return fmt::format("The sheet touches {}{}{}, with Coulomb friction {}{}.", what,
+                     what.empty() || self.empty() ? "" : ", and ", self, formatNumber(c.contact->friction, 3),
+                     self.empty() ? "; it may pass through itself" : "");
+}
+
 std::vector<std::string> assumptionsOf(const StructureCase& c) {
   std::vector<std::string> a{inWords(c.sheet.cloth)};
   const bool linear = c.kind == StructureKind::statics && c.statics.linear;
@@ -214,7 +227,7 @@ std::vector<std::string> assumptionsOf(const StructureCase& c) {
   if (follow) a.push_back("Pressure and edge moments follow the sheet.");
   if (c.sheet.imperfection) a.push_back("The stress-free shape deviates from the ideal one as the case says.");
   if (c.strain_limit) a.push_back(limitInWords(*c.strain_limit, "the last step"));
-  if (c.kind == StructureKind::dynamics) a.push_back("No contact; the sheet may pass through itself.");
+  if (c.kind == StructureKind::dynamics) a.push_back(contactInWords(c));
   if (c.kind == StructureKind::modal)
     a.push_back(c.modal.at_equilibrium ? "Frequencies about the equilibrium under the loads."
                                        : "Frequencies about the rest shape, without loads.");
@@ -272,6 +285,12 @@ std::string factsTable(const Json& s) {
         t.rows.push_back({Cell(fmt::format("Strain of the {} at {} points: largest, mean at the end", thread, where)),
                           Cell(formatNumber(numberOf(values.at("largest")), 3) + ", " +
                                formatNumber(numberOf(values.at("mean")), 3))});
+  if (s.contains("contact")) {
+    const Json& k = s.at("contact");
+    t.rows.push_back({Cell("Contact: deepest penetration"),
+                      Cell(formatNumber(1e3 * numberOf(k.at("deepest_penetration_m")), 3) + " mm")});
+    t.rows.push_back({Cell("Contact: steps not solved"), Cell(k.at("unsolved_steps").dump())});
+  }
   if (s.contains("strain_limit"))
     for (const auto& [key, value] : s.at("strain_limit").items())
       t.rows.push_back({Cell("Strain limit: " + key), Cell(formatNumber(numberOf(value), 3))});

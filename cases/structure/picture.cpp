@@ -13,7 +13,14 @@
 namespace gambeson {
 namespace {
 
-constexpr Color sheet_color{0.42f, 0.50f, 0.62f}, rest_color{0.80f, 0.80f, 0.80f};
+constexpr Color sheet_color{0.42f, 0.50f, 0.62f}, rest_color{0.80f, 0.80f, 0.80f}, obstacle_color{0.74f, 0.73f, 0.72f};
+
+/// Throws InputError where a frame has no such field.
+const Field& bodyFieldOf(const Frame& frame, const std::string& name) {
+  for (const Field& f : frame.body_fields)
+    if (f.name == name) return f;
+  throw InputError({"frames", 0, name}, "the frame holds no such field of the obstacles");
+}
 
 struct FieldWords {
   const char *field, *title, *word;
@@ -106,6 +113,14 @@ void renderStructure(const StructureCase& c, const RecordingLayout& layout, cons
     scene.bar = ColorBar{words.title, low < -0.05 * high ? -roundedUp(-low) : 0, roundedUp(high)};
   }
   scene.meshes.push_back(std::move(sheet));
+  if (!layout.body_triangles.empty()) {
+    RenderMesh obstacles;
+    obstacles.triangles = layout.body_triangles;
+    obstacles.color = obstacle_color;
+    const std::vector<float>& x = bodyFieldOf(frame, "position").data;
+    for (std::size_t i = 0; i + 2 < x.size(); i += 3) obstacles.vertices.push_back({x[i], x[i + 1], x[i + 2]});
+    scene.meshes.push_back(std::move(obstacles));
+  }
   scene.title = c.name;
   scene.subtitle = captionOf(c, frame, picture);
   scene.view = picture.view;

@@ -169,6 +169,12 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
         {"projections_per_step",
          facts.points > 0 ? static_cast<double>(facts.projections) / static_cast<double>(facts.points) : 0},
         {"unconverged_steps", facts.limits_missed}};
+  if (facts.contact)
+    j["contact"] = {{"unsolved_steps", facts.contact->unsolved},
+                    {"pinched_steps", facts.contact->pinched},
+                    {"deepest_penetration_m", facts.contact->deepest_m},
+                    {"crossings", facts.contact->crossings},
+                    {"work_J", facts.contact->work_J}};
   if (facts.audit) {
     const MotionAudit& a = *facts.audit;
     Json audit;

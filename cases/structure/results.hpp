@@ -14,12 +14,24 @@
 
 namespace gambeson {
 
+/// Of path.csv where the sheet touches something: work of contact on it since the start.
+constexpr const char* contact_work_column = "contact_work_J";
+
 /// path.csv as it grows.
 struct PathTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
   /// One value per row; empty where there is no such column.
   std::vector<double> column(const std::string& name) const;
+};
+
+/// What contacts came to, over the run.
+struct ContactFacts {
+  long unsolved = 0;     ///< steps whose contacts were not solved within the tolerance
+  long pinched = 0;      ///< steps that let something pass, because no step was short enough
+  double deepest_m = 0;  ///< of a sample inside an obstacle
+  int crossings = 0;     ///< where the sheet passes through itself or a mesh in the last step
+  double work_J = 0;     ///< on the sheet
 };
 
 /// What the run knows of itself.
@@ -35,6 +47,7 @@ struct StructureFacts {
   double wall_s = 0, build_s = 0, solve_s = 0;
   int threads = 1;
   std::optional<MotionAudit> audit;
+  std::optional<ContactFacts> contact;
 };
 
 struct ModeRow {
@@ -43,6 +56,10 @@ struct ModeRow {
 
 /// Frame number `index` (frames count up, factors of a path need not).
 Frame frameOf(const MeshShape& shape, int index, double at);
+
+/// All obstacles as one surface, for frames and pictures: its triangles, and its vertices at a time.
+std::vector<std::array<int, 3>> obstacleTriangles(const StructureModel& model);
+std::vector<Vec3> obstacleVertices(const StructureModel& model, double time_s);
 
 /// The load factor, time or mode of a frame.
 double frameValue(const Frame& frame);

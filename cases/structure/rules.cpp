@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/contact/fields.hpp"
 #include "cases/input/places.hpp"
 #include "cases/structure/build.hpp"
 #include "cases/structure/fields.hpp"
 #include "core/cloth/block_law.hpp"
 #include "core/error.hpp"
-#include "core/statics/structure_limit.hpp"
+#include "core/motion/structure_motion.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -128,6 +129,7 @@ void checkOutput(const Place& root, const StructureCase& c, const Sheet& sheet) 
       p.failAt("name", "is the name of columns; allowed: letters, digits, _ and -");
     names.push_back(name);
   };
+  for (std::size_t i = 0; i < c.obstacles.size(); ++i) unique(itemOf(root, "obstacles", i), c.obstacles[i].name);
   const auto place = [&](const char* list, std::size_t i) { return itemOf(memberOf(root, "output"), list, i); };
   for (std::size_t i = 0; i < c.output.points.size(); ++i) {
     unique(place("points", i), c.output.points[i].name);
@@ -168,6 +170,30 @@ void checkPlaces(const Place& root, const StructureCase& c, const Sheet& sheet) 
   for (std::size_t i = 0; i < c.loads.size(); ++i) check(itemOf(root, "loads", i), c.loads[i].where);
 }
 
+/// Contact is a stage of explicit steps.
+void checkContact(const Place& root, const StructureCase& c) {
+  checkObstacleNames(root, c.obstacles);
+  if (!c.obstacles.empty() && !c.contact)
+    root.failAt("contact", "is required where there is an obstacle: at least its friction");
+  if (!c.contact) return;
+  if (!c.dynamics.isExplicit())
+    root.failAt(c.obstacles.empty() ? "contact" : "obstacles",
+                "goes with explicit steps; give \"scheme\": \"explicit\"");
+  if (c.strain_limit && c.strain_limit->method == LimitMethod::closest)
+    memberOf(root, "strain_limit").failAt("method", "closest goes with a sheet that touches nothing; give fast");
+  if (c.obstacles.empty() && !c.contact->self)
+    memberOf(root, "contact").failAt("self", "there is nothing to touch; allowed: true, or a case with obstacles");
+}
+
+/// Whether this cloth under these supports can be limited so. A mass that is missing is said elsewhere.
+void tryLimit(const Structure& structure, const StrainLimit& limit) {
+  try {
+    untouchedModel(structure, limit);
+  } catch (const InputError& e) {
+    if (e.where().key.starts_with("strain_limit")) throw;
+  }
+}
+
 }  // namespace
 
 void applyStructureRules(const Place& root, StructureCase& c) {
@@ -176,18 +202,22 @@ void applyStructureRules(const Place& root, StructureCase& c) {
   for (std::size_t i = 0; i < c.other_materials.size(); ++i)
     checkMaterial(itemOf(root, "other_materials", i), c, c.other_materials[i]);
   checkLoads(root, c);
-  if (c.strain_limit && c.dynamics.scheme != TimeScheme::explicit_verlet)
+  checkContact(root, c);
+  if (c.kind == StructureKind::dynamics && c.dynamics.isExplicit() && c.damping.stiffness_s > 0)
+    memberOf(root, "solver")
+        .failAt("rayleigh_stiffness",
+                "goes with implicit schemes: it would cut the stable step of explicit ones; allowed: 0");
+  if (c.strain_limit && !c.dynamics.isExplicit())
     root.failAt("strain_limit", "goes with explicit steps; give \"scheme\": \"explicit\"");
   try {
     const Sheet sheet = sheetOf(c);
     checkPlaces(root, c, sheet);
     checkOutput(root, c, sheet);
-    const std::unique_ptr<const Cloth> cloth = clothOf(c, sheet);
+    const std::shared_ptr<const Cloth> cloth = clothOf(c, sheet);
     const StructureOptions o = optionsOf(c, sheet, *cloth);
     const DofMap dofs = buildDofMap(cloth->map(), o.constraints, static_cast<int>(o.programs.size()));
     if (dofs.unknowns() == 0) root.failAt("supports", "hold everything: nothing is left to move");
-    if (o.strain_limit.mode != LimitMode::none)
-      buildStructureLimit(*cloth, dofs, std::vector<double>(cloth->map().home.size(), 1.0), o.strain_limit);
+    if (c.strain_limit) tryLimit(*buildStructure(cloth, o), limitOf(*c.strain_limit));
   } catch (const InputError& e) {
     sayAt(root, e);
   }

@@ -23,7 +23,8 @@
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/own_file.hpp"
-#include "core/motion/time_integration.hpp"
+#include "core/motion/implicit.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "core/statics/modal.hpp"
 #include "core/statics/structure_system.hpp"
 
@@ -36,18 +37,17 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 /// Whoever divides by the mass needs one that is positive; densities and thicknesses near zero round to none.
 void requireMass(const StructureCase& c, const Structure& s) {
   if (c.kind == StructureKind::statics) return;
-  const bool modal = c.kind == StructureKind::modal,
-             explicit_steps = !modal && c.dynamics.scheme == TimeScheme::explicit_verlet;
+  const bool modal = c.kind == StructureKind::modal, explicit_steps = !modal && c.dynamics.isExplicit();
   StructureSystem system(s, ProgramEnds::constant);
   SymmetricMatrix M = system.pattern();
   system.mass(modal ? c.modal.lumped_mass : explicit_steps || c.dynamics.lumped_mass, M);
   bool positive = true;
-  for (int k = 0; k < M.size; ++k) positive = positive && M.values[static_cast<std::size_t>(M.offsets[k])] > 0;
-  // Modes need no more; steps take the factor.
-  if (positive && !modal) {
-    const SymmetricMatrix taken = explicit_steps ? withoutZeros(M) : M;
-    positive = SymmetricFactor(taken).factorise(taken) == Definiteness::positive;
+  for (int k = 0; k < M.size; ++k) {
+    const double mass = M.values[static_cast<std::size_t>(M.offsets[k])];
+    positive = positive && mass > 0 && std::isfinite(1 / mass);
   }
+  // Modes and explicit steps need no more; implicit ones take the factor.
+  if (positive && !modal && !explicit_steps) positive = SymmetricFactor(M).factorise(M) == Definiteness::positive;
   if (!positive)
     throw InputError({"", 0, "material"},
                      "a control point has no mass to speak of; allowed: a density and a thickness "
@@ -65,6 +65,7 @@ struct BuiltStructure {
       StructureOptions options;
       model = buildModel(c, options);
       requireMass(c, *model.structure);
+      addMotion(c, model);
       probes.emplace(c, model, options);
       mesh = model.structure->cloth->placeMesh(c.output.samples_per_cell);
     } catch (const InputError& e) {
@@ -85,6 +86,7 @@ class Run {
     layout.identity = caseIdentity(c) + " " + built_->model.structure->cloth->kernels();
     layout.metadata = writeCase(c);
     layout.triangles = built_->mesh.triangles;
+    layout.body_triangles = obstacleTriangles(built_->model);
     writer_.emplace(RecordingWriter::create(out_, layout));
     writeOwnFile(out_ / "case.json", writeCase(c));
     facts.build_s = since(start_);
@@ -115,7 +117,13 @@ class Run {
   }
   /// A whole shape for ParaView and the pictures.
   void keep(const MeasuredState& state) {
-    writer_->append(frameOf(shapeOf(built_->model, built_->mesh, state), frames_++, state.at));
+    Frame frame = frameOf(shapeOf(built_->model, built_->mesh, state), frames_++, state.at);
+    if (const std::vector<Vec3> x = obstacleVertices(built_->model, state.at); !x.empty()) {
+      Field& position = frame.body_fields.emplace_back(Field{"position", "m", 3, {}});
+      for (const Vec3& v : x)
+        for (int d = 0; d < 3; ++d) position.data.push_back(static_cast<float>(v[d]));
+    }
+    writer_->append(std::move(frame));
   }
 
   /// Everything that is left; `failures` of pictures do not stop it.
@@ -248,28 +256,72 @@ std::vector<double> unknownsOf(const Structure& s, const std::vector<double>& u)
   return y;
 }
 
-DynamicState startOf(const StructureCase& c, const Run& run) {
-  const Structure& s = run.structure();
-  DynamicState state;
-  const auto n = static_cast<std::size_t>(s.dofs.unknowns());
-  state.y.assign(n, 0.0);
-  state.v.assign(n, 0.0);
-  state.a.assign(n, 0.0);
-  const auto onFree = [&](auto value) {
-    std::vector<double> u;
-    for (std::size_t f = 0; f < s.cloth->map().home.size(); ++f) {
-      const Vec3 d = value(f);
-      u.insert(u.end(), {d.x, d.y, d.z});
+/// What moves a dynamic case.
+class Mover {
+ public:
+  Mover(const StructureCase& c, const StructureModel& model) : case_(c), model_(model) {
+    const DynamicOptions& o = c.dynamics;
+    if (model.motion) {
+      StepControl control;
+      control.safety = o.safety;
+      control.max_step_s = o.end_s;
+      control.fixed_s = o.step_s;
+      integrator_ = std::make_unique<VelocityVerlet>(*model.motion, *model.stage, control, frequency_, work_);
+    } else {
+      ImplicitOptions options{
+          o.scheme == TimeScheme::newmark ? ImplicitScheme::newmark : ImplicitScheme::generalised_alpha,
+          o.beta,
+          o.gamma,
+          o.spectral_radius,
+          o.step_s,
+          o.iterations,
+          o.tolerance,
+          o.lumped_mass};
+      auto steps = std::make_unique<ImplicitSteps>(*model.structure, options);
+      implicit_ = steps.get();
+      integrator_ = std::move(steps);
     }
-    return unknownsOf(s, u);
-  };
-  if (c.initial.noise) {
-    const std::vector<Vec3> noise = s.cloth->fromDraft(noiseOf(run.model().sheet, *c.initial.noise));
-    state.y = onFree([&](std::size_t f) { return noise[static_cast<std::size_t>(s.cloth->map().home[f])]; });
   }
-  if (norm(c.initial.velocity_m_per_s) > 0) state.v = onFree([&](std::size_t) { return c.initial.velocity_m_per_s; });
-  return state;
-}
+
+  State start() {
+    const Structure& s = *model_.structure;
+    std::vector<double> y(static_cast<std::size_t>(s.dofs.unknowns()), 0.0), v = y;
+    const auto onFree = [&](auto value) {
+      std::vector<double> u;
+      for (std::size_t f = 0; f < s.cloth->map().home.size(); ++f) {
+        const Vec3 d = value(f);
+        u.insert(u.end(), {d.x, d.y, d.z});
+      }
+      return unknownsOf(s, u);
+    };
+    if (case_.initial.noise) {
+      const std::vector<Vec3> noise = s.cloth->fromDraft(noiseOf(model_.sheet, *case_.initial.noise));
+      y = onFree([&](std::size_t f) { return noise[static_cast<std::size_t>(s.cloth->map().home[f])]; });
+    }
+    if (norm(case_.initial.velocity_m_per_s) > 0)
+      v = onFree([&](std::size_t) { return case_.initial.velocity_m_per_s; });
+    State state = structureState(s, 0, y, v, {});
+    if (!model_.motion) return state;
+    State moving = initialState(*model_.motion, *model_.stage, 0, work_);
+    moving.p = state.p;
+    moving.v = state.v;
+    attachSprings(*model_.motion, *model_.stage, moving, work_);
+    return moving;
+  }
+
+  void advance(double until_s, State& state, const StepObserver& observe) {
+    integrator_->advance(until_s, state, observe);
+  }
+  ImplicitReport newton() const { return implicit_ ? implicit_->report() : ImplicitReport{}; }
+
+ private:
+  const StructureCase& case_;
+  const StructureModel& model_;
+  Frequency frequency_;
+  StepWork work_;
+  std::unique_ptr<Integrator> integrator_;
+  const ImplicitSteps* implicit_ = nullptr;
+};
 
 /// Work of the loads since rest. Where all of them are constant it is that of the displacements; else it is summed over
 /// the steps, by the trapezium rule. (- F(t) . u is no potential where F changes with time.)
@@ -282,10 +334,10 @@ class LoadWork {
     }
   }
   /// Call after each step, and once before the first.
-  void follow(const DynamicState& state, bool lumped) {
+  void follow(const State& state, bool lumped) {
     const bool first = q_.empty();
     if (!varies_ && !first) return;
-    std::vector<Vec3> q = controlPoints(s_, state.y, state.time_s), force(q.size());
+    std::vector<Vec3> q = controlPoints(s_, state), force(q.size());
     s_.loads.add(q, programValues(s_, state.time_s, ProgramEnds::constant), force);
     if (first) work_J_ = -energyOf(s_, state, lumped).external;
     for (std::size_t i = 0; i < q_.size(); ++i) work_J_ += 0.5 * dot(force_[i] + force[i], q[i] - q_[i]);
@@ -301,31 +353,92 @@ class LoadWork {
   double work_J_ = 0;
 };
 
+/// Contact over a run: what it came to, and the mean forces on the obstacles between two rows of the table.
+class ContactTally {
+ public:
+  explicit ContactTally(const StructureCase& c) : impulse_(c.obstacles.size()) {
+    columns_.push_back(contact_work_column);
+    for (const ObstacleCase& o : c.obstacles)
+      for (const char* axis : {"x", "y", "z"}) columns_.push_back(fmt::format("{}_f{}_N", o.name, axis));
+  }
+  const std::vector<std::string>& columns() const { return columns_; }
+
+  void observe(const StepReport& r, const StepResult& result, ContactFacts& facts) {
+    elapsed_s_ += r.step_s;
+    facts.unsolved += !r.contact.converged || r.contact.yielded;
+    facts.pinched += r.pinched > 0;
+    facts.deepest_m = std::max(facts.deepest_m, r.deepest_m);
+    facts.crossings = r.intersections;
+    facts.work_J += r.work.contact;
+    for (const ContactImpulse& i : result.contact_impulses) impulse_[static_cast<std::size_t>(i.obstacle)] -= i.impulse;
+    held_.resize(result.held_impulses.size());
+    for (std::size_t k = 0; k < held_.size(); ++k) held_[k] += result.held_impulses[k];
+  }
+  /// Mean forces of the supports on Model::held_points since the last row [N]; empty before the first step.
+  std::vector<Vec3> heldForces() const {
+    std::vector<Vec3> forces = held_;
+    for (Vec3& f : forces) f = f / elapsed_s_;
+    return forces;
+  }
+  /// A row of them; the next begins.
+  std::vector<double> row(const ContactFacts& facts) {
+    std::vector<double> values{facts.work_J};
+    for (Vec3& i : impulse_) {
+      const Vec3 force = elapsed_s_ > 0 ? i / elapsed_s_ : Vec3{};
+      values.insert(values.end(), {force.x, force.y, force.z});
+      i = {};
+    }
+    held_.clear();
+    elapsed_s_ = 0;
+    return values;
+  }
+
+ private:
+  std::vector<std::string> columns_;
+  std::vector<Vec3> impulse_;  ///< on the obstacles
+  std::vector<Vec3> held_;     ///< on the held points
+  double elapsed_s_ = 0;
+};
+
 void runDynamic(const StructureCase& c, Run& run) {
   std::vector<std::string> lead{"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"};
   const Structure& s = run.structure();
   const bool remembers = s.cloth->historySize() > 0;
   if (remembers) lead.push_back(lost_column);
+  std::optional<ContactTally> contact;
+  if (c.contact) {
+    contact.emplace(c);
+    run.facts.contact.emplace();
+    lead.insert(lead.end(), contact->columns().begin(), contact->columns().end());
+  }
   std::optional<ThreadStrains> strains;
   if (c.output.thread_strains) {
     strains.emplace(*s.cloth);
     lead.insert(lead.end(), ThreadStrains::columns().begin(), ThreadStrains::columns().end());
   }
   run.columns(std::move(lead));
-  const bool lumped = c.dynamics.lumped_mass || c.dynamics.scheme == TimeScheme::explicit_verlet;
+  const bool lumped = c.dynamics.lumps();
   const double interval = c.output.interval_s.value_or(c.dynamics.end_s / 100);
   run.foretell(std::ceil(c.dynamics.end_s / interval) + 1);
   Progress progress(c.dynamics.end_s);
-  DynamicState state = startOf(c, run);
+  Mover mover(c, run.model());
+  State state = mover.start();
   long rows = 0;
   LoadWork work(s);
-  double step_s = 0;
-  const auto record = [&](const DynamicState& now) {
+  double step_s = 0, lost_J = 0;
+  const auto record = [&](const State& now) {
     DynamicEnergy energy = energyOf(s, now, lumped);
     energy.external = -work.work_J(energy);
     std::vector<double> row{now.time_s, energy.kinetic, energy.internal, energy.external, energy.total()};
-    if (remembers) row.push_back(now.lost_J);
-    const MeasuredState state_now = measureDynamic(s, now, lumped, step_s);
+    if (remembers) row.push_back(lost_J);
+    MeasuredState state_now = measureDynamic(run.model(), now, lumped, step_s);
+    if (contact) {
+      const std::vector<Vec3> held_N = contact->heldForces();
+      for (std::size_t k = 0; k < held_N.size(); ++k)
+        state_now.reaction_N[static_cast<std::size_t>(run.model().motion->held_points[k])] = held_N[k];
+      const std::vector<double> more = contact->row(*run.facts.contact);
+      row.insert(row.end(), more.begin(), more.end());
+    }
     if (strains) {
       const std::vector<double> more = strains->values(state_now.q);
       row.insert(row.end(), more.begin(), more.end());
@@ -337,26 +450,27 @@ void runDynamic(const StructureCase& c, Run& run) {
   attempt(run.facts, [&] {
     work.follow(state, lumped);
     record(state);
-    double before_s = state.time_s;
-    const DynamicReport report = solveDynamic(s, c.dynamics, state, [&](const DynamicState& now) {
-      work.follow(now, lumped);
-      step_s = now.time_s - before_s;
-      before_s = now.time_s;
-      if (now.time_s * (1 + 1e-12) >= static_cast<double>(rows) * interval || now.time_s >= c.dynamics.end_s)
-        record(now);
-      if (run.facts.audit) run.facts.audit->observe(now);
-      progress.update(now.time_s, "moving");
-      return true;
-    });
-    run.facts.finished = report.reached;
-    run.facts.why = report.why;
-    run.facts.points = report.steps;
-    run.facts.iterations = report.iterations;
-    run.facts.factorisations = report.factorisations;
-    run.facts.projections = report.projections;
-    run.facts.limits_missed = report.limits_missed;
-    run.facts.limit_residual = report.limit_residual;
+    mover.advance(
+        c.dynamics.end_s, state,
+        [&](const State& before, const State& now, const StepReport& r, const StepResult& result, const Frequency&) {
+          if (contact) contact->observe(r, result, *run.facts.contact);
+          work.follow(now, lumped);
+          step_s = r.step_s;
+          lost_J += r.work.cloth;
+          ++run.facts.points;
+          run.facts.projections += r.limit.projections;
+          run.facts.limits_missed += !r.limit.converged;
+          run.facts.limit_residual = std::max(run.facts.limit_residual, r.limit.residual);
+          if (now.time_s * (1 + 1e-12) >= static_cast<double>(rows) * interval || now.time_s >= c.dynamics.end_s)
+            record(now);
+          if (run.facts.audit && run.model().motion) run.facts.audit->observe(before, now, r);
+          if (run.facts.audit && !run.model().motion) run.facts.audit->observe(now, r.work.cloth);
+          progress.update(now.time_s, "moving");
+        });
+    run.facts.finished = true;
   });
+  run.facts.iterations = mover.newton().iterations;
+  run.facts.factorisations = mover.newton().factorisations;
 }
 
 void runModal(const StructureCase& c, Run& run) {

@@ -15,7 +15,6 @@
 #include "cases/cloth/sheet.hpp"
 #include "core/cloth/draft/garment.hpp"
 #include "core/cloth/draft/seams.hpp"
-#include "core/cloth/shell/shell.hpp"
 
 namespace gambeson {
 
@@ -121,8 +120,6 @@ struct SheetCase {
   double trim_unused = 0.05;  ///< Trim::unused_fraction
   std::vector<FieldsCase> fields;
   std::optional<NoiseCase> imperfection;  ///< part of the rest shape
-  CellRule rule = CellRule::automatic;
-  int gauss_extra = 0;
   ClothModel cloth;
 };
 

@@ -144,7 +144,10 @@ DofMap buildDofMap(const FreeMap& map, std::span<const LinearConstraint> constra
   std::vector<int> unknown(n, -1);
   int count = 0;
   for (int i = 0; i < n; ++i)
-    if (row_of[i] < 0) unknown[i] = count++;
+    if (row_of[i] < 0) {
+      unknown[i] = count++;
+      dofs.component.push_back(i);
+    }
   dofs.C.column_count = count;
   dofs.shift.resize(programs);
   for (int i = 0; i < n; ++i) {

@@ -24,6 +24,7 @@ struct LinearConstraint {
 struct DofMap {
   SparseRows C;  ///< 3 x free points rows, unknowns columns
   SparseRows Ct;
+  std::vector<int> component;  ///< of u, that each unknown is: y_j = u[component[j]]
   std::vector<std::vector<double>>
       shift;  ///< one per program, each as long as u; empty where the program moves nothing
   int unknowns() const { return C.column_count; }

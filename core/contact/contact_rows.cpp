@@ -126,7 +126,7 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
     } else {
       a = area[row.contact.sample] / w.on_body[row.contact.sample];
     }
-    w.area_of[i] = moves ? a : 0;
+    w.area_of[i] = moves && !row.fixed ? a : 0;
   }
 }
 

@@ -6,6 +6,12 @@
 
 namespace gambeson {
 
+DeformedVertices::DeformedVertices(std::span<const Obstacle> obstacles) {
+  for (const Obstacle& o : obstacles)
+    first_.push_back(first_.back() + (o.deforms ? std::get<TriangleMesh>(o.shape).vertices.size() : 0));
+  x_.resize(first_.back());
+}
+
 DeformedSurfaces::DeformedSurfaces(std::span<const Obstacle> obstacles) {
   if (std::none_of(obstacles.begin(), obstacles.end(), [](const Obstacle& o) { return o.deforms; })) return;
   for (const Obstacle& o : obstacles)

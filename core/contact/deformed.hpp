@@ -3,14 +3,38 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/contact/mesh_surface.hpp"
 
 namespace gambeson {
 
-/// Positions of the vertices of each obstacle that deforms; empty for the others.
-using DeformedVertices = std::vector<std::vector<Vec3>>;
+/// Positions of the vertices of the obstacles that deform, those of one behind those of another in one array: as many
+/// as the obstacles' meshes have, for the whole of a run.
+class DeformedVertices {
+ public:
+  DeformedVertices() = default;
+  explicit DeformedVertices(std::span<const Obstacle> obstacles);
+  /// Of one obstacle alone.
+  DeformedVertices(std::vector<Vec3> x) : x_(std::move(x)), first_{0, x_.size()} {}  // NOLINT: it is that
+
+  /// How many obstacles there are; none before it was made for some.
+  std::size_t size() const { return first_.size() - 1; }
+  bool empty() const { return size() == 0; }
+  bool operator==(const DeformedVertices&) const = default;
+  /// The vertices of an obstacle; none of one that does not deform.
+  std::span<Vec3> operator[](std::size_t obstacle) {
+    return std::span(x_).subspan(first_[obstacle], first_[obstacle + 1] - first_[obstacle]);
+  }
+  std::span<const Vec3> operator[](std::size_t obstacle) const {
+    return std::span(x_).subspan(first_[obstacle], first_[obstacle + 1] - first_[obstacle]);
+  }
+
+ private:
+  std::vector<Vec3> x_;
+  std::vector<std::size_t> first_{0};
+};
 
 /// Made once for the obstacles (topology, trees), then moved from instant to instant in linear time.
 class DeformedSurfaces {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/contact/deformed.hpp"
@@ -35,6 +36,8 @@ struct Contact {
 struct SampleHit : Contact {
   double time = 0;
 };
+
+static_assert(std::is_trivially_copyable_v<SampleHit>, "an array of contacts or hits goes to a device as it lies");
 
 /// Triangles of meshes that a sample may touch, by sample: items[first[s], first[s + 1]). Where there are none the
 /// sample may still be deep inside of a mesh; it is not as long as it stays in a ball known to be outside. Of a mesh

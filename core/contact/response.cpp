@@ -212,7 +212,8 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   double goal = c.tolerance_m_per_s2 * dt;
   double largest = 0;
   for (std::size_t k = 0; k < w.order.size(); ++k) largest = std::max(largest, w.facts[k].slope * norm(w.traction[k]));
-  goal = std::max(goal, hold ? kOfLargestHeld * largest : std::min(kOfLargest * largest, kMostTolerances * goal));
+  const bool tension = hold && hold->bearsTension();
+  goal = std::max(goal, tension ? kOfLargestHeld * largest : std::min(kOfLargest * largest, kMostTolerances * goal));
   const ContactSolve report = solve(problem, goal, c.max_iterations, w);
 
   std::fill(warm.begin(), warm.end(), Vec3{});

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/contact/proximity.hpp"
@@ -44,9 +45,12 @@ struct ContactRow {
   double compliance = 0;                ///< of the layer in this step (layerUnder) [m/s per N s/m^2]
   double mean_Pa = 0;                   ///< pressure that has lasted, at the start of the step (lastingPressure)
   bool slippery = false;                ///< without friction
+  bool fixed = false;                   ///< nothing can move it along its normal: it gets no impulse
   int partner = -1;                     ///< of two samples that are nearest to each other, one contact: the other one
   std::array<int, 3> pair{-1, -1, -1};  ///< of an impact of triangles: 0 or 1 for edges, and the two primitives
 };
+
+static_assert(std::is_trivially_copyable_v<ContactRow>, "an array of rows goes to a device as it lies");
 
 /// The row of a sample at an obstacle.
 ContactRow bodyRow(const Contact& contact, const Vec3& body_velocity, double target_m_per_s, bool impact);
@@ -72,6 +76,8 @@ struct ContactSolve {
 class MotionHold {
  public:
   virtual ~MotionHold() = default;
+  /// Whether it bears tensions far beyond the impulses that stop cloth (solveContacts).
+  virtual bool bearsTension() const { return true; }
   /// `change`: of all free points, M^-1 i in, P i out.
   virtual void hold(std::span<Vec3> change) const = 0;
   /// The same where impulses act on some points alone and only their changes matter: sets which (free points), and
@@ -185,7 +191,8 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 ///
 /// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem. Impulses may
 /// then be thousands of times what stops the cloth by itself (a ring that takes no stretch, on a body); a solve is done
-/// at 2e-4 of the largest where that is more than the tolerance. Without a hold at 1e-6, and ten tolerances at most.
+/// at 2e-4 of the largest where that is more than the tolerance. Without such a hold at 1e-6, and ten tolerances at
+/// most.
 ///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
 /// kg/m^2];

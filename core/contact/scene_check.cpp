@@ -80,7 +80,7 @@ std::vector<Piercing> piercings(std::span<const Obstacle> obstacles, std::span<c
     std::vector<Vec3> x;
     x.reserve(body.vertices.size());
     if (obstacles[o].deforms)
-      x = vertices.at(o);
+      x.assign(vertices[o].begin(), vertices[o].end());
     else
       for (const Vec3& p : body.vertices) x.push_back(placement[o] * p);
     std::vector<std::pair<int, int>> edges;

@@ -3,6 +3,7 @@
 /// step, and what would pass through what during it.
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/cloth/surface_charts.hpp"
@@ -59,6 +60,8 @@ struct PairHit {
   double time = 0;   ///< in [0, 1], a lower bound
   ContactRow row;  ///< asks for what keeps the pair apart: normal, stencil, gap at the start, body velocity; no target
 };
+
+static_assert(std::is_trivially_copyable_v<PairHit>, "an array of hits goes to a device as it lies");
 
 struct CollisionReport {
   int candidates = 0;  ///< pairs on the list

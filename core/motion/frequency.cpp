@@ -100,6 +100,15 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
   for (std::size_t k = 0; k < m.inner_mass.size(); ++k)
     root[points + static_cast<int>(k / 3)][static_cast<int>(k % 3)] = 1 / std::sqrt(m.inner_mass[k]);
   const auto scaled = [&](int i, const Vec3& v) { return Vec3{root[i].x * v.x, root[i].y * v.y, root[i].z * v.z}; };
+  // What supports leave: M^1/2 P M^1/2, a projection.
+  std::vector<Vec3> led(static_cast<std::size_t>(points));
+  const auto project = [&](std::vector<Vec3>& x) {
+    if (!m.supports || !m.supports->couple()) return;
+    for (int i = 0; i < points; ++i) led[i] = root[i].x * x[i];
+    m.supports->hold(led);
+    for (int i = 0; i < points; ++i)
+      if (root[i].x > 0) x[i] = led[i] / root[i].x;
+  };
   std::vector<std::vector<Vec3>> basis;
   std::vector<double> diagonal, off;
   std::vector<Vec3> y(n), Ky;
@@ -112,8 +121,9 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
       start[i] = warm ? state.mode[i] + (0.1 / std::sqrt(n)) * noise : noise;
       for (int d = 0; d < 3; ++d)
         if (root[i][d] == 0) start[i][d] = 0;  // held, or no unknown
-      size += norm2(start[i]);
     }
+    project(start);
+    for (const Vec3& v : start) size += norm2(v);
     for (Vec3& v : start) v *= 1 / std::sqrt(size);
     basis.push_back(std::move(start));
   }
@@ -121,6 +131,7 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
     for (int i = 0; i < n; ++i) y[i] = scaled(i, basis[k][i]);
     stiffness.apply(y, {}, true, Ky);
     for (int i = 0; i < n; ++i) Ky[i] = scaled(i, Ky[i]);
+    project(Ky);
     diagonal.push_back(inner(basis[k], Ky));
     for (int pass = 0; pass < 2; ++pass)
       for (const auto& b : basis) {

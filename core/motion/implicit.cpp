@@ -15,7 +15,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/motion/time_integration.hpp"
+#include "core/motion/structure_motion.hpp"
 #include "core/statics/newton.hpp"
 
 namespace gambeson {
@@ -25,8 +25,8 @@ struct Scheme {
   double beta, gamma, am, af;
 };
 
-Scheme schemeOf(const DynamicOptions& o) {
-  if (o.scheme == TimeScheme::newmark) {
+Scheme schemeOf(const ImplicitOptions& o) {
+  if (o.scheme == ImplicitScheme::newmark) {
     if (!(o.beta > 0)) throw InputError({"", 0, "beta"}, "must be > 0");
     if (!(o.gamma >= 0.5)) throw InputError({"", 0, "gamma"}, "must be >= 1/2: below, the scheme feeds energy in");
     return {o.beta, o.gamma, 0, 0};
@@ -41,7 +41,7 @@ Scheme schemeOf(const DynamicOptions& o) {
 class Step : public Equations {
  public:
   Step(System& system, const Scheme& scheme, const SymmetricMatrix& M, const SymmetricMatrix& D,
-       const DynamicState& from, std::span<const double> g0, double h, bool lumped)
+       const SystemState& from, std::span<const double> g0, double h, bool lumped)
       : system_(system), scheme_(scheme), M_(M), D_(D), from_(from), h_(h), known_(g0.begin(), g0.end()) {
     for (double& v : known_) v *= scheme.af;
     std::vector<double> support(known_.size());
@@ -88,17 +88,21 @@ class Step : public Equations {
   System& system_;
   const Scheme& scheme_;
   const SymmetricMatrix &M_, &D_;
-  const DynamicState& from_;
+  const SystemState& from_;
   double h_;
   std::vector<double> known_, v_, a_, inertia_, damping_;
 };
 
 constexpr int kHalvings = 12;
 
-}  // namespace
+/// The step to the state is accepted: its laws remember it.
+void commitStep(System& system, SystemState& state) {
+  state.lost_J += system.commit(state.y, state.time_s);
+  state.history.assign(system.history().begin(), system.history().end());
+}
 
-DynamicReport integrateImplicit(System& system, const DynamicOptions& o, DynamicState& state,
-                                const DynamicObserver& observe) {
+ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, SystemState& state,
+                    const SystemObserver& observe) {
   const Scheme scheme = schemeOf(o);
   if (!(o.step_s > 0)) throw InputError({"", 0, "step_s"}, "must be > 0");
   const std::size_t n = state.y.size();
@@ -108,7 +112,7 @@ DynamicReport integrateImplicit(System& system, const DynamicOptions& o, Dynamic
   system.damping(state.y, state.time_s, o.lumped_mass, true, D);
   std::vector<double> g(n), f(n), trial;
   double largest = 0;
-  DynamicReport report;
+  ImplicitReport report;
   SymmetricFactor factor(K);
   {  // the acceleration at the start
     largest = system.residual(state.y, state.time_s, g);
@@ -120,12 +124,12 @@ DynamicReport integrateImplicit(System& system, const DynamicOptions& o, Dynamic
     ++report.factorisations;
     factor.solve(f, state.a);
   }
-  const double start = state.time_s, span = o.end_s - start;
+  const double start = state.time_s, span = end_s - start;
   const long count = std::max(1L, static_cast<long>(std::ceil(span / o.step_s - 1e-6)));
   constexpr long units = 1L << kHalvings;
   const long total = count * units;
   const auto timeAt = [&](long position) {
-    return position == total ? o.end_s : start + span * static_cast<double>(position) / static_cast<double>(total);
+    return position == total ? end_s : start + span * static_cast<double>(position) / static_cast<double>(total);
   };
   long position = 0, step = units;
   NewtonOptions newton{o.iterations, o.tolerance, 0, system.reach(), false};
@@ -176,12 +180,10 @@ DynamicReport integrateImplicit(System& system, const DynamicOptions& o, Dynamic
   return report;
 }
 
-void commitStep(System& system, DynamicState& state) {
-  state.lost_J += system.commit(state.y, state.time_s);
-  state.history.assign(system.history().begin(), system.history().end());
-}
+}  // namespace
 
-DynamicReport integrate(System& system, const DynamicOptions& o, DynamicState& state, const DynamicObserver& observe) {
+ImplicitReport integrate(System& system, const ImplicitOptions& o, double end_s, SystemState& state,
+                         const SystemObserver& observe) {
   const std::size_t n = static_cast<std::size_t>(system.size());
   for (std::vector<double>* part : {&state.y, &state.v, &state.a}) {
     if (part->empty()) part->assign(n, 0.0);
@@ -194,12 +196,46 @@ DynamicReport integrate(System& system, const DynamicOptions& o, DynamicState& s
     system.setHistory(state.history);
   }
   state.history.assign(system.history().begin(), system.history().end());
-  if (!(o.end_s > state.time_s)) throw InputError({"", 0, "end_s"}, "must be after the start");
+  if (!(end_s > state.time_s)) throw InputError({"", 0, "end_s"}, "must be after the start");
   if (!(o.tolerance > 0) || o.iterations < 1) throw InputError({"", 0, "tolerance"}, "must be > 0");
-  if (o.scheme != TimeScheme::explicit_verlet && system.limit())
-    throw InputError({"", 0, "strain_limit"}, "goes with explicit steps alone");
-  return o.scheme == TimeScheme::explicit_verlet ? integrateExplicit(system, o, state, observe)
-                                                 : integrateImplicit(system, o, state, observe);
+  return take(system, o, end_s, state, observe);
+}
+
+ImplicitSteps::ImplicitSteps(const Structure& structure, const ImplicitOptions& options)
+    : structure_(structure), options_(options), system_(structure, ProgramEnds::constant) {}
+
+void ImplicitSteps::advance(double until, State& state, const StepObserver& observe) {
+  if (!(state.time_s < until)) return;
+  const std::vector<int>& component = structure_.dofs.component;
+  SystemState now{state.time_s, state.y, {}, {}, state.history};
+  const auto unknowns = [&](const std::vector<Vec3>& points, std::vector<double>& out) {
+    for (const int c : component) out.push_back(points[static_cast<std::size_t>(c / 3)][c % 3]);
+  };
+  if (now.y.empty()) {
+    unknowns(state.p, now.y);
+    const std::vector<int>& home = structure_.cloth->map().home;
+    for (std::size_t k = 0; k < component.size(); ++k)
+      now.y[k] -= structure_.cloth->rest()[home[component[k] / 3]][component[k] % 3];
+  }
+  unknowns(state.v, now.v);
+  const StepResult nothing;
+  double lost_J = 0;
+  const ImplicitReport report = integrate(system_, options_, until, now, [&](const SystemState& s) {
+    StepReport step;
+    step.step_s = s.time_s - state.time_s;
+    step.work.cloth = s.lost_J - lost_J;
+    lost_J = s.lost_J;
+    State next = structureState(structure_, s.time_s, s.y, s.v, s.a, 2 * step.step_s);
+    next.history = s.history;
+    next.last_step_s = step.step_s;
+    observe(state, next, step, nothing, {});
+    state = std::move(next);
+    return true;
+  });
+  report_.steps += report.steps;
+  report_.factorisations += report.factorisations;
+  report_.iterations += report.iterations;
+  if (!report.reached) throw RunError(report.why);
 }
 
 }  // namespace gambeson

@@ -33,18 +33,31 @@ void addPoints(const ModelOptions& options, Model& m) {
   m.mass_kg.resize(n);
   m.held.assign(n, 0);
   map.Tt.multiply<double>(m.cloth->areas(), m.area_m2);
-  const bool threads = options.strain_limit.mode != LimitMode::none;
+  const bool threads = options.strain_limit.mode != LimitMode::none && !options.structure;
   map.Tt.multiply<double>(threads ? m.cloth->evenedMasses(kLeastShare) : m.cloth->masses(), m.mass_kg);
   for (int c : options.held_control_points)
     for (int k = map.T.offsets[c]; k < map.T.offsets[c + 1]; ++k) m.held[map.T.columns[k]] = 1;
+  for (double a : m.area_m2) m.drag_kg_per_s.push_back(m.environment.drag_kg_per_m2s * a);
+  for (int i = 0; i < n; ++i)
+    if (!(m.mass_kg[i] > 0)) throw InputError({"", 0, "garment"}, "a control point would carry no mass");
+  if (const Structure* s = options.structure) {
+    if (s->rayleigh_stiffness_s > 0)
+      throw InputError(
+          {"", 0, "rayleigh_stiffness_s"},
+          "explicit steps take no stiffness damping: it would cut the stable step; use an implicit scheme");
+    m.structure = s;
+    for (int i = 0; i < n; ++i)
+      m.drag_kg_per_s[i] += s->drag_kg_per_m2s * m.area_m2[i] + s->rayleigh_mass_per_s * m.mass_kg[i];
+    m.supports = std::make_unique<const Supports>(*s, m.mass_kg, m.drag_kg_per_s);
+    m.held = m.supports->held();
+  }
   m.inner_mass.resize(m.cloth->innerRates());
   m.cloth->innerMasses(m.inner_mass);
   for (double mass : m.inner_mass)
     if (!(mass > 0)) throw InputError({"", 0, "garment"}, "an inner unknown would carry no mass");
   for (int i = 0; i < n; ++i) {
-    if (!(m.mass_kg[i] > 0)) throw InputError({"", 0, "garment"}, "a control point would carry no mass");
     m.inverse_mass.push_back(m.held[i] ? 0 : 1 / m.mass_kg[i]);
-    if (m.held[i]) m.held_points.push_back(i);
+    if (m.supports ? m.supports->binds(i) : m.held[i]) m.held_points.push_back(i);
   }
 }
 
@@ -63,7 +76,7 @@ void addSamples(Model& m, std::vector<int>& garment) {
 
 }  // namespace
 
-std::unique_ptr<Model> buildModel(std::unique_ptr<const Cloth> cloth, const ModelOptions& options,
+std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const ModelOptions& options,
                                   const Environment& environment, const ContactParameters& contact,
                                   std::vector<Obstacle> obstacles) {
   auto model = std::make_unique<Model>();
@@ -71,8 +84,14 @@ std::unique_ptr<Model> buildModel(std::unique_ptr<const Cloth> cloth, const Mode
   m.cloth = std::move(cloth);
   std::vector<int> per_cell = options.patch_samples_per_cell;
   if (per_cell.empty()) per_cell.assign(m.cloth->patches().size(), options.samples_per_cell);
-  m.surface = m.cloth->surface(per_cell);
-  m.bulges = m.cloth->bulges(m.surface, per_cell);
+  if (options.structure && !options.self_contact && obstacles.empty()) {  // no samples: nothing sees them
+    m.surface.W.column_count = m.cloth->points();
+    m.surface.WT.column_count = m.cloth->map().T.column_count;
+    m.surface.WTt = transpose(m.surface.WT);
+  } else {
+    m.surface = m.cloth->surface(per_cell);
+    m.bulges = m.cloth->bulges(m.surface, per_cell);
+  }
   m.net = m.cloth->net();
   m.environment = environment;
   m.contact = contact;
@@ -84,7 +103,6 @@ std::unique_ptr<Model> buildModel(std::unique_ptr<const Cloth> cloth, const Mode
   addPoints(options, m);
   std::vector<int> garment;
   addSamples(m, garment);
-  for (double a : m.area_m2) m.drag_kg_per_s.push_back(environment.drag_kg_per_m2s * a);
   addStitchDamping(m.stitches, m.surface.WT, m.drag_kg_per_s);
   m.spring_rise_m = springRise(m);
   if (!options.dead_force_N.empty()) {
@@ -95,7 +113,10 @@ std::unique_ptr<Model> buildModel(std::unique_ptr<const Cloth> cloth, const Mode
   }
   if (options.strain_limit.mode != LimitMode::none) {
     checkLimit(options.strain_limit);
-    m.strain_rows = m.cloth->strainRows({m.inverse_mass, {}}, options.strain_limit.points);
+    Mobility mobility = m.supports ? m.supports->mobility() : Mobility{m.inverse_mass, {}};
+    if (options.strain_limit.method == LimitMethod::closest && mobility.P.rows() > 0)
+      throw InputError({"", 0, "strain_limit.method"}, "closest goes with supports that hold points whole");
+    m.strain_rows = m.cloth->strainRows(std::move(mobility), options.strain_limit.points);
   }
   m.proximity = std::make_unique<ProximityQuery>(m.obstacles);
   std::vector<Vec3> rest(m.surface.size());

@@ -16,6 +16,7 @@
 #include "core/motion/stage_work.hpp"
 #include "core/motion/stitch.hpp"
 #include "core/motion/strain_limit.hpp"
+#include "core/motion/supports.hpp"
 
 namespace gambeson {
 
@@ -48,13 +49,13 @@ struct Environment {
 
 /// Constant after it is built.
 struct Model {
-  std::unique_ptr<const Cloth> cloth;
+  std::shared_ptr<const Cloth> cloth;
   Surface surface;
   Bulges bulges;
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
   std::vector<char> held;                              ///< free points that do not move
-  std::vector<int> held_points;                        ///< these, ascending
-  std::vector<double> density_kg_per_m2;               ///< of the samples
+  std::vector<int> held_points;           ///< these, ascending; of a structure all that supports take hold of
+  std::vector<double> density_kg_per_m2;  ///< of the samples
   std::vector<double> cell_m;   ///< of the samples: the shorter side of their cell at rest, through its middle
   std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
   Environment environment;
@@ -72,8 +73,12 @@ struct Model {
   StrainRows strain_rows;  ///< without points where strain is not limited
   std::vector<NetEdge> net;
   std::vector<Stitch> stitches;
-  std::vector<double> inner_mass;     ///< of the rates of the inner unknowns (Cloth::innerMasses)
-  std::vector<double> drag_kg_per_s;  ///< of the free points: eta times area, and what damps stitches
+  std::vector<double> inner_mass;  ///< of the rates of the inner unknowns (Cloth::innerMasses)
+  /// Of the free points: eta times area, what damps stitches, and damping by mass of a structure.
+  std::vector<double> drag_kg_per_s;
+  // Of cloth that is a structure; null for worn cloth.
+  const Structure* structure = nullptr;  ///< whose loads act
+  std::unique_ptr<const Supports> supports;
 
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
 };
@@ -88,10 +93,12 @@ struct ModelOptions {
   StrainLimit strain_limit;
   bool self_contact = true;  ///< cloth touches cloth
   std::vector<Stitch> stitches;
+  /// Whose supports, loads and damping act, in the place of held points and dead forces; outlives the model.
+  const Structure* structure = nullptr;
 };
 
 /// contact.layer_m = 0: each sample keeps the thickness of its fabric. Throws InputError.
-std::unique_ptr<Model> buildModel(std::unique_ptr<const Cloth> cloth, const ModelOptions& options,
+std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const ModelOptions& options,
                                   const Environment& environment, const ContactParameters& contact,
                                   std::vector<Obstacle> obstacles);
 
@@ -99,6 +106,8 @@ std::unique_ptr<Model> buildModel(std::unique_ptr<const Cloth> cloth, const Mode
 struct ForceSums {
   Vec3 drag, springs,
       held;  ///< `held`: what held points exert on the free ones, minus the internal force of their rows
+  /// Of a structure. `held` is there what its supports exert on all points.
+  Vec3 loads{};
 };
 
 /// What a contact leaves to the next step.
@@ -112,14 +121,20 @@ struct WarmContact {
 /// All that the next step depends on.
 struct State {
   double time_s = 0;
-  std::vector<Vec3> p, v, a;  ///< free points: position, velocity, acceleration without contact
+  /// Free points: position, velocity, acceleration without contact and without strain limits; of a structure also
+  /// without what supports prescribe.
+  std::vector<Vec3> p, v, a;
+  /// What an implicit scheme moves in their place, displacements u = C y + shifts (DofMap) [m], which have more digits
+  /// than positions; empty elsewhere.
+  std::vector<double> y;
   /// What the cloth's laws remember: committed by the step that ended here.
   std::vector<double> history;
   /// Unknowns that no sample sees: values, rates, and accelerations of these.
   std::vector<double> inner, inner_rate, inner_acceleration;
   std::vector<Vec3> anchors;  ///< of each spring, in its anchor frame
   ForceSums sums;             ///< at this time
-  std::vector<Vec3> held_N;   ///< force on each of Model::held_points that keeps it still, without limits and contact
+  /// Force on each of Model::held_points that keeps it still, or on its way, without limits and contact.
+  std::vector<Vec3> held_N;
   std::vector<WarmContact> warm;
   bool tangled = true;          ///< cloth may pass through cloth or a mesh: look for intersections
   std::vector<int> pinched;     ///< samples that no step length frees: their impacts are let pass in the next step
@@ -140,7 +155,7 @@ struct State {
 struct MomentumAudit {
   Vec3 change, gravity, drag;
   Vec3 supports;   ///< springs and what holds points, with the pull of strain limits on held points
-  Vec3 dead;       ///< dead forces
+  Vec3 dead;       ///< dead forces, and all loads of a structure
   Vec3 obstacles;  ///< the obstacles' own ledger: what they received
   Vec3 pressing;   ///< by how much more of the contacts' next impulses the velocities hold in advance, State::pressed
   double error() const { return norm(change - (gravity + dead + drag + supports + pressing - obstacles)); }
@@ -156,7 +171,8 @@ struct WorkAudit {
   double restoring = 0;   ///< part of it: what freeing intersections adds (section 4.3)
   double friction = 0;    ///< part of it: tangential
   double drag = 0, supports = 0;
-  double limit = 0;  ///< of the strain limits' impulses on the free points
+  double limit = 0;  ///< of the strain limits' impulses on the points that move; of a structure on all
+  double loads = 0;  ///< of a structure's
   double cloth = 0;  ///< lost in the cloth's own laws (hysteresis), at least 0
   /// Lost to friction, inelastic impact, drag and in the cloth, at least 0: works relative to the bodies and the air,
   /// without what separation and restoring add.
@@ -206,7 +222,7 @@ struct StepResult {
   std::vector<Vec3> zone_change;                 ///< velocity of each free point that zones added, where there are any
   std::vector<ContactImpulse> contact_impulses;  ///< of bodies on the cloth
   std::vector<Vec3> spring_impulses;             ///< on the cloth, one per spring [N s]
-  /// On each of Model::held_points by what holds it, with that point's own weight [N s].
+  /// On each of Model::held_points by what holds it, with that point's own weight, contacts and limits [N s].
   std::vector<Vec3> held_impulses;
 };
 
@@ -219,6 +235,9 @@ struct StepScratch {
   CollisionWork collisions;
   std::vector<double> inner_force;
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm;
+  // Of a structure.
+  Supports::Solver support_solver;
+  std::vector<Vec3> load, load_before, external, support_force, prescribed, released, start, accelerations;
   std::vector<Vec3> jerk, net_jerk;  ///< changes of acceleration: of the free points, of the control points
   std::vector<Vec3> limit_end, moved, sample_impulse, pulled_before, pulled_after;
   std::vector<Vec3> lasting, sample_pressing;

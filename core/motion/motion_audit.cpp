@@ -9,12 +9,6 @@
 namespace gambeson {
 namespace {
 
-std::vector<Vec3> asPoints(const std::vector<double>& v) {
-  std::vector<Vec3> points(v.size() / 3);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {v[3 * i], v[3 * i + 1], v[3 * i + 2]};
-  return points;
-}
-
 Vec3 total(const std::vector<Vec3>& f) {
   Vec3 sum;
   for (const Vec3& x : f) sum += x;
@@ -41,18 +35,14 @@ MotionAudit::MotionAudit(const Structure& structure, bool lumped_mass) : structu
                     users[static_cast<std::size_t>(C.columns[static_cast<std::size_t>(C.offsets[r])])] == 1);
 }
 
-MotionAudit::Moment MotionAudit::at(const DynamicState& state) const {
+MotionAudit::Moment MotionAudit::at(const State& state) const {
   const Structure& s = structure_;
   Moment m;
-  const double t = m.time_s = state.time_s, dt = 1e-6 * (1 + std::abs(t));
-  const std::vector<double> value = programValues(s, t, ProgramEnds::constant);
-  std::vector<double> rate = programValues(s, t + dt, ProgramEnds::constant);
-  const std::vector<double> before = programValues(s, t - dt, ProgramEnds::constant);
-  for (std::size_t k = 0; k < rate.size(); ++k) rate[k] = (rate[k] - before[k]) / (2 * dt);
-  m.u = asPoints(freeDisplacements(s, state.y, value));
-  const std::vector<Vec3> v = asPoints(freeDisplacements(s, state.v, rate));
-  const std::vector<Vec3> a = asPoints(freeDisplacements(s, state.a, std::vector<double>(rate.size(), 0.0)));
-  const std::size_t n = m.u.size();
+  const double t = m.time_s = state.time_s;
+  const std::size_t n = state.p.size();
+  m.u = state.p;
+  for (std::size_t i = 0; i < n; ++i) m.u[i] -= s.cloth->rest()[s.cloth->map().home[i]];
+  const std::vector<Vec3>&v = state.v, &a = state.a;
   std::vector<Vec3> Mv(n), Ma(n);
   if (lumped_) {
     for (std::size_t i = 0; i < n; ++i) Mv[i] = s.lumped_kg[i] * v[i], Ma[i] = s.lumped_kg[i] * a[i];
@@ -60,13 +50,13 @@ MotionAudit::Moment MotionAudit::at(const DynamicState& state) const {
     s.consistent_kg.multiply<Vec3>(v, Mv);
     s.consistent_kg.multiply<Vec3>(a, Ma);
   }
-  const std::vector<Vec3> q = controlPoints(s, state.y, t);
+  const std::vector<Vec3> q = controlPoints(s, state);
   std::vector<Vec3> external(q.size());
-  s.loads.add(q, value, external);
+  s.loads.add(q, programValues(s, t, ProgramEnds::constant), external);
   m.load.resize(n);
   s.cloth->map().Tt.multiply<Vec3>(external, m.load);
   m.support.resize(n);
-  s.cloth->map().Tt.multiply<Vec3>(reactions(s, state.y, t, ProgramEnds::constant, state.history), m.support);
+  s.cloth->map().Tt.multiply<Vec3>(reactions(s, q, t, ProgramEnds::constant, state.history), m.support);
   m.damping.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     m.damping[i] = s.rayleigh_mass_per_s * Mv[i] + s.drag_kg_per_m2s * s.area_m2[i] * v[i];
@@ -75,7 +65,7 @@ MotionAudit::Moment MotionAudit::at(const DynamicState& state) const {
       if (free_[3 * i + static_cast<std::size_t>(d)]) m.support[i][d] = 0;
     m.energy_J += 0.5 * dot(v[i], Mv[i]);
   }
-  m.energy_J += strainEnergy(s, state.y, t, ProgramEnds::constant, state.history) + state.lost_J;
+  m.energy_J += strainEnergy(s, q, state.history);
   m.momentum_Ns = total(Mv);
   m.load_N = total(m.load);
   m.support_N = total(m.support);
@@ -83,9 +73,16 @@ MotionAudit::Moment MotionAudit::at(const DynamicState& state) const {
   return m;
 }
 
-void MotionAudit::observe(const DynamicState& state) {
+void MotionAudit::closeEnergy(double energy_J) {
+  gap_J_ = energy_J + lost_J_ - start_J_ - balance_J_;
+  largest_gap_J_ = std::max(largest_gap_J_, std::abs(gap_J_));
+}
+
+void MotionAudit::observe(const State& state, double lost_J) {
   Moment now = at(state);
+  lost_J_ += lost_J;
   if (!last_) {
+    lost_J_ = 0;
     start_J_ = now.energy_J;
     start_Ns_ = now.momentum_Ns;
     last_ = std::move(now);
@@ -96,8 +93,7 @@ void MotionAudit::observe(const DynamicState& state) {
                damping = work(b.damping, now.damping, b.u, now.u);
   balance_J_ += load + support - damping;
   works_J_ += std::abs(load) + std::abs(support) + std::abs(damping);
-  gap_J_ = now.energy_J - start_J_ - balance_J_;
-  largest_gap_J_ = std::max(largest_gap_J_, std::abs(gap_J_));
+  closeEnergy(now.energy_J);
   const double half = 0.5 * (now.time_s - b.time_s);
   balance_Ns_ += half * (now.load_N + b.load_N + now.support_N + b.support_N - now.damping_N - b.damping_N);
   impulses_Ns_ += half * (norm(now.load_N) + norm(b.load_N) + norm(now.support_N) + norm(b.support_N) +
@@ -105,6 +101,24 @@ void MotionAudit::observe(const DynamicState& state) {
   gap_Ns_ = now.momentum_Ns - start_Ns_ - balance_Ns_;
   largest_gap_Ns_ = std::max(largest_gap_Ns_, norm(gap_Ns_));
   last_ = std::move(now);
+}
+
+void MotionAudit::observe(const State& before, const State& after, const StepReport& r) {
+  const auto energy = [&](const State& s) {
+    const DynamicEnergy e = energyOf(structure_, s, true);
+    return e.kinetic + e.internal;
+  };
+  if (!start_of_steps_J_) start_J_ = *(start_of_steps_J_ = energy(before));
+  const WorkAudit& w = r.work;
+  balance_J_ += w.loads + w.supports + w.contact + w.limit + w.drag;
+  works_J_ +=
+      std::abs(w.loads) + std::abs(w.supports) + std::abs(w.contact) + std::abs(w.limit) + std::abs(w.drag) + w.cloth;
+  lost_J_ += w.cloth;
+  closeEnergy(energy(after));
+  const MomentumAudit& m = r.momentum;
+  impulses_Ns_ += norm(m.dead) + norm(m.supports) + norm(m.drag) + norm(m.pressing) + norm(m.obstacles);
+  gap_Ns_ += m.change - (m.gravity + m.dead + m.drag + m.supports + m.pressing - m.obstacles);
+  largest_gap_Ns_ = std::max(largest_gap_Ns_, norm(gap_Ns_));
 }
 
 }  // namespace gambeson

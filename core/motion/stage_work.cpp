@@ -10,10 +10,9 @@ namespace gambeson {
 namespace {
 
 void evaluate(const Model& m, const Stage& stage, double time_s, DeformedVertices& x) {
-  x.resize(m.obstacles.size());
+  if (x.size() != m.obstacles.size()) x = DeformedVertices(m.obstacles);
   for (std::size_t o = 0; o < m.obstacles.size(); ++o) {
     if (!m.obstacles[o].deforms) continue;
-    x[o].resize(std::get<TriangleMesh>(m.obstacles[o].shape).vertices.size());
     stage.vertices(static_cast<int>(o), time_s, x[o]);
     for (std::size_t v = 0; v < x[o].size(); ++v)
       if (!(std::isfinite(x[o][v].x) && std::isfinite(x[o][v].y) && std::isfinite(x[o][v].z)))

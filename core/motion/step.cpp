@@ -6,6 +6,7 @@
 #include "core/math/parallel.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/motion/step_contact.hpp"
+#include "core/statics/structure_system.hpp"
 
 namespace gambeson {
 namespace {
@@ -31,7 +32,7 @@ struct AnchorFrames {
   /// Of the obstacle under the spring, unit; 0 where there is none.
   Vec3 normal(const SpringSupportPoint& spring) const {
     if (spring.obstacle < 0) return {};
-    const std::vector<Vec3>& x = vertices[spring.obstacle];
+    const std::span<const Vec3> x = vertices[spring.obstacle];
     const Vec3 a = x[spring.triangle[0]];
     return normalized(cross(x[spring.triangle[1]] - a, x[spring.triangle[2]] - a));
   }
@@ -80,6 +81,38 @@ double springWork(const Model& m, const State& in, const State& out, const Ancho
   return work;
 }
 
+/// The part of `accelerate` that a structure has of its own, s.a holding the internal forces: its loads act, and its
+/// supports leave (M + half D) a = F - D v to what is free. `start`: v with what lasts, less half a.
+void accelerateSupported(const Model& m, const Vec3& air, double half_step_s, std::vector<Vec3>& start, State& s,
+                         StepWork& w) {
+  const std::size_t n = s.p.size();
+  // A motion starts with the velocities that supports prescribe from then on.
+  const double t = s.time_s, dt = 2 * half_step_s, from = t - dt, to = t + (dt > 0 ? dt : 1e-6 * (1 + std::abs(t)));
+  loadsAt(m, t, w.q, w.load, w);
+  m.supports->drive(from, to, start);
+  w.prescribed.assign(n, Vec3{});
+  m.supports->addPrescribed(t, dt, w.prescribed);
+  w.support_force.resize(n);
+  s.sums = {};
+  for (std::size_t i = 0; i < n; ++i) {
+    s.sums.loads += w.load[i];
+    s.a[i] += w.load[i] + m.mass_kg[i] * m.environment.gravity_m_per_s2;
+    w.support_force[i] = -s.a[i];
+    s.a[i] -= m.drag_kg_per_s[i] * (start[i] - air) + m.mass_kg[i] * w.prescribed[i];
+  }
+  w.accelerations.resize(n);
+  w.support_solver.accelerations(*m.supports, half_step_s, s.a, w.accelerations);
+  s.a.swap(w.accelerations);
+  for (std::size_t i = 0; i < n; ++i) s.v[i] = start[i] + half_step_s * s.a[i];
+  m.supports->drive(from, to, s.v);
+  for (std::size_t i = 0; i < n; ++i) s.sums.drag -= m.drag_kg_per_s[i] * (s.v[i] - air);
+  s.held_N.clear();
+  for (const int i : m.held_points) {
+    s.held_N.push_back(w.support_force[i] + m.mass_kg[i] * s.a[i] + m.drag_kg_per_s[i] * (s.v[i] - air));
+    s.sums.held += s.held_N.back();
+  }
+}
+
 /// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit
 /// there (eq. 3.13), v = half_velocity + half_step a. For an evaluation at a known velocity pass it with half_step 0.
 /// With strain limits or contacts v = half_velocity + half_step (a + lasting), `lasting` being their acceleration in
@@ -99,6 +132,13 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
   for (std::size_t i = 0; i < m.inner_mass.size(); ++i) {
     s.inner_acceleration[i] = w.inner_force[i] / m.inner_mass[i];
     s.inner_rate[i] += half_step_s * s.inner_acceleration[i];
+  }
+  if (m.supports) {
+    w.start.resize(n);
+    for (int i = 0; i < n; ++i)
+      w.start[i] = lasting.empty() ? half_velocity[i] : half_velocity[i] + half_step_s * lasting[i];
+    accelerateSupported(m, air, half_step_s, w.start, s, w);
+    return energy.lost;
   }
   addStitchForces(m.stitches, m.surface.WT, s.p, s.a);
   springForces(m, s, anchor_frames, w.spring_force);
@@ -151,6 +191,12 @@ std::vector<Vec3> limitAccelerations(const Model& m, const State& s, std::vector
   m.strain_rows.Bt.multiply<Vec3>(w.e, out);
   std::vector<Vec3> held;
   for (const int i : m.held_points) held.push_back(-out[i]);
+  if (m.supports) {
+    const std::vector<Vec3> pull = out;
+    applyMobility(m.strain_rows.mobility, pull, out);
+    for (Vec3& a : out) a = -a;
+    return held;
+  }
   for (int i = 0; i < m.freeCount(); ++i) out[i] *= -m.inverse_mass[i];
   return held;
 }
@@ -166,6 +212,13 @@ std::span<const Vec3> together(std::span<const Vec3> pulled, std::span<const Vec
 
 }  // namespace
 
+void loadsAt(const Model& m, double time_s, std::span<const Vec3> q, std::vector<Vec3>& load, StepWork& w) {
+  load.resize(static_cast<std::size_t>(m.freeCount()));
+  w.external.assign(q.size(), Vec3{});
+  m.structure->loads.add(q, programValues(*m.structure, time_s, ProgramEnds::constant), w.external);
+  m.cloth->map().Tt.multiply<Vec3>(w.external, load);
+}
+
 void samplePositions(const Model& model, std::span<const Vec3> p, std::vector<Vec3>& x) {
   x.resize(model.surface.size());
   model.surface.WT.multiply<Vec3>(p, x);
@@ -176,6 +229,7 @@ State initialState(const Model& model, const Stage& stage, double time_s, StepWo
   s.time_s = time_s;
   for (int home : model.cloth->map().home) s.p.push_back(model.cloth->rest()[home]);
   s.v.assign(s.p.size(), {});
+  if (model.supports) model.supports->place(time_s, s.p);
   s.history.resize(model.cloth->historySize());
   model.cloth->startHistory(s.history);
   s.inner.resize(model.cloth->innerValues());
@@ -223,6 +277,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   const std::span<const Vec3> lasted = together(w.pulled_before, in.pressed, w.lasting);
   if (!lasted.empty())
     for (int i = 0; i < n; ++i) w.predictor[i] -= half * lasted[i];  // this step's impulses come in its place
+  if (m.supports) m.supports->drive(in.time_s, in.time_s + dt, w.predictor);
   const auto notFinite = [&](const char* what) {
     report.failure = StepFailure::not_finite;
     report.why = what;
@@ -239,6 +294,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.p.resize(n);
   out.v.resize(n);
   for (int i = 0; i < n; ++i) out.p[i] = in.p[i] + dt * w.velocity[i];
+  if (m.supports) m.supports->place(out.time_s, out.p);
   if (!allFinite(out.p)) return notFinite("a position is not finite");
   out.inner_rate = in.inner_rate;
   for (std::size_t i = 0; i < out.inner_rate.size(); ++i) out.inner_rate[i] += half * in.inner_acceleration[i];
@@ -263,6 +319,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   report.work.cloth = accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half,
                                  &in.history, out, w);
   report.work.dissipated += report.work.cloth;
+  if (!allFinite(out.v)) return notFinite("a force is not finite");
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);
     report.momentum.scale += norm(spring_mean[k]);

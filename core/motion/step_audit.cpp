@@ -46,7 +46,7 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
             {s, c.obstacle, c.feature, share, c.normal, w.stage.start.obstacles[c.obstacle] * c.local, c.touched});
       if (body) report.momentum.obstacles -= share;
       for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
-        if (const int point = WT.columns[k]; m.held[point]) {
+        if (const int point = WT.columns[k]; !m.supports && m.held[point]) {
           report.momentum.supports -= WT.values[k] * share;
           w.held_impulses[heldSlot(m, point)] -= WT.values[k] * share;
         }
@@ -67,9 +67,9 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
   for (const ImpactZone& zone : w.zones) {
     std::vector<std::size_t> held;
     for (int i : zone.points)
-      if (m.held[i]) held.push_back(heldSlot(m, i));
+      if (takesHold(m, i)) held.push_back(heldSlot(m, i));
     for (int i : zone.points) {
-      if (m.held[i]) continue;
+      if (takesHold(m, i)) continue;
       const Vec3 impulse = m.mass_kg[i] * w.zone_change[i];
       report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.zone_change[i]);
       report.work.dissipated +=
@@ -91,6 +91,54 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
   }
 }
 
+/// What supports do to what they take hold of, from the equation of motion there alone; and all loads. All points have
+/// a part in the momentum.
+void auditSupports(const Model& m, const StepEnds& e, StepReport& report, StepWork& w) {
+  const State &in = e.in, &out = e.out;
+  const double half = 0.5 * e.step_s;
+  MomentumAudit& audit = report.momentum;
+  w.q.resize(m.cloth->points());
+  m.cloth->map().T.multiply<Vec3>(in.p, w.q);
+  loadsAt(m, in.time_s, w.q, w.load_before, w);
+  // Impulses at once: of contacts and limits.
+  const int n = m.freeCount();
+  std::vector<Vec3>& given = w.support_force;
+  given.assign(n, Vec3{});
+  if (!w.rows.empty()) {
+    w.sample_impulse.assign(m.surface.size(), Vec3{});
+    for (std::size_t i = 0; i < w.rows.size(); ++i)
+      for (int k = 0; k < w.rows[i].stencil.count; ++k)
+        w.sample_impulse[w.rows[i].stencil.sample[k]] += w.rows[i].stencil.weight[k] * w.impulses[i];
+    m.surface.WTt.multiply<Vec3>(w.sample_impulse, given);
+  }
+  if (m.strain_limit.mode != LimitMode::none)
+    for (int i = 0; i < n; ++i) given[i] -= w.limit.pull[i] / e.step_s;
+  const auto ahead = [&](int i) {  // of the next impulses, in the velocities
+    Vec3 d{};
+    if (!w.pulled_after.empty()) d += half * w.pulled_after[i];
+    if (!w.pulled_before.empty()) d -= half * w.pulled_before[i];
+    audit.supports += m.mass_kg[i] * d;  // of all points, of limits
+    if (!out.pressed.empty()) d += half * out.pressed[i];
+    if (!in.pressed.empty()) d -= half * in.pressed[i];
+    return d;
+  };
+  std::vector<Vec3>& change = w.external;
+  change.resize(n);
+  for (int i = 0; i < n; ++i) change[i] = out.v[i] - in.v[i] - half * (in.a[i] + out.a[i]) - ahead(i);
+  for (std::size_t k = 0; k < m.held_points.size(); ++k) {
+    const int i = m.held_points[k];
+    const Vec3 at_once = m.mass_kg[i] * change[i] - given[i], lasting = half * (in.held_N[k] + out.held_N[k]);
+    w.held_impulses[k] += at_once;
+    audit.supports += at_once;
+    audit.scale += norm(at_once);
+    const Vec3 way = out.p[i] - in.p[i];
+    report.work.supports += dot(lasting + at_once, way) / e.step_s;
+  }
+  for (int i = 0; i < n; ++i) report.work.loads += 0.5 * dot(w.load_before[i] + w.load[i], out.p[i] - in.p[i]);
+  audit.dead = half * (in.sums.loads + out.sums.loads);
+  audit.scale += norm(audit.dead);
+}
+
 }  // namespace
 
 void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& w) {
@@ -101,7 +149,12 @@ void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& 
   w.held_impulses.assign(m.held_points.size(), Vec3{});
   for (std::size_t k = 0; k < w.held_impulses.size(); ++k) w.held_impulses[k] = half * (in.held_N[k] + out.held_N[k]);
   contactLedger(m, in, dt, report, w);
-  if (m.strain_limit.mode != LimitMode::none) {
+  if (m.supports) auditSupports(m, e, report, w);
+  if (m.strain_limit.mode != LimitMode::none && m.supports) {
+    for (int i = 0; i < n; ++i)
+      report.work.limit -= (0.5 / dt) * dot(w.limit.pull[i], w.predictor[i] + w.velocity[i] - dt * in.a[i]);
+    report.work.limit += lastingWork(m, w.pulled_before, w.pulled_after, in, half, w);
+  } else if (m.strain_limit.mode != LimitMode::none) {
     const Vec3 pull_after = sumOf(e.held_after), pull_before = sumOf(e.held_before);
     audit.supports -= half * (pull_after - pull_before);
     audit.scale += half * (norm(pull_after) + norm(pull_before));
@@ -131,7 +184,7 @@ void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& 
   }
   double floor = 0;
   for (int i = 0; i < n; ++i) {
-    if (m.held[i]) continue;
+    if (m.held[i] && !m.supports) continue;
     floor += m.mass_kg[i] * (norm(out.v[i]) + kWeight_m_per_s2 * dt);
     if (!m.dead_force_N.empty()) {
       audit.dead += dt * m.dead_force_N[i];

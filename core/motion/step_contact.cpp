@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "core/math/parallel.hpp"
 #include "core/motion/body_edges.hpp"
 #include "core/motion/clearance.hpp"
+#include "core/motion/closest_projection.hpp"
 
 namespace gambeson {
 namespace {
@@ -28,7 +30,7 @@ double layerOf(const Model& m, const ContactRow& row) {
 MaterialPoint nearestTouched(const Model& m, const ImpactZone& zone, const Vec3& p, const StepWork& w) {
   MaterialPoint point;
   if (!m.obstacles[zone.body].deforms) return point;
-  const std::vector<Vec3>& x = w.stage.start.vertices[zone.body];
+  const std::span<const Vec3> x = w.stage.start.vertices[zone.body];
   point.add(*std::min_element(zone.touched.begin(), zone.touched.end(),
                               [&](int a, int b) { return norm2(x[a] - p) < norm2(x[b] - p); }),
             1);
@@ -202,17 +204,49 @@ bool missTooMuch(const Model& m, double part, const StepWork& w) {
   return false;
 }
 
-/// w.velocity after the contacts w.rows, which yield as they did before in this step.
-void solveRows(const Model& m, double dt, MotionHold* hold, Yield& yield, StepReport& report, StepWork& w) {
+/// Marks the rows that supports leave no way to move along their normals.
+void markFixed(const Model& m, std::vector<ContactRow>& rows) {
+  std::vector<int> points;
+  std::vector<double> weight;
+  for (ContactRow& row : rows) {
+    points.clear();
+    weight.clear();
+    bool bound = false;
+    for (int k = 0; k < row.stencil.count; ++k) {
+      const int s = row.stencil.sample[k];
+      for (int e = m.surface.WT.offsets[s]; e < m.surface.WT.offsets[s + 1]; ++e) {
+        const int i = m.surface.WT.columns[e];
+        bound = bound || m.supports->binds(i);
+        const auto slot = static_cast<std::size_t>(std::find(points.begin(), points.end(), i) - points.begin());
+        if (slot == points.size()) {
+          points.push_back(i);
+          weight.push_back(0);
+        }
+        weight[slot] += row.stencil.weight[k] * m.surface.WT.values[e];
+      }
+    }
+    row.fixed = bound && !m.supports->yield(points, weight, row.contact.normal);
+  }
+}
+
+/// w.velocity after the contacts w.rows, which yield as they did before in this step. `limits`: null, or the strain
+/// limits that go along.
+void solveRows(const Model& m, double dt, MotionHold* limits, Yield& yield, StepReport& report, StepWork& w) {
+  std::optional<SupportHold> supported;
+  MotionHold* hold = limits;
+  if (m.supports && m.supports->couple()) {
+    hold = &supported.emplace(*m.supports, limits);
+    markFixed(m, w.rows);
+  }
   const auto solve = [&](std::span<const ContactRow> rows) {
     return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt,
                          w.velocity, w.warm, w.impulses, w.contact, hold);
   };
   w.unsolved = w.velocity;
   int before = 0;
-  if (yield.part == 0 || hold) {
+  if (yield.part == 0 || limits) {
     report.contact = solve(w.rows);
-    if (!contradict(report.contact, dt) || hold) return;  // limits yield before contacts do
+    if (!contradict(report.contact, dt) || limits) return;  // limits yield before contacts do
     before = report.contact.iterations;
     yield.part = Yield::kLittle;
     std::fill(w.warm.begin(), w.warm.end(), Vec3{});
@@ -239,6 +273,7 @@ void contactChange(const Model& m, StepWork& w, std::vector<Vec3>& change) {
       w.sample_impulse[w.rows[i].stencil.sample[k]] += w.rows[i].stencil.weight[k] * w.impulses[i];
   m.surface.WTt.multiply<Vec3>(w.sample_impulse, change);
   for (int i = 0; i < m.freeCount(); ++i) change[i] *= m.inverse_mass[i];
+  if (m.supports) m.supports->hold(change);
 }
 
 /// Velocities of the half step after contacts and strain limits; w.rows stay what they are. Each turn projects the
@@ -259,8 +294,13 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Yie
   end.resize(n);
   w.velocity.resize(n);
   const auto move = [&] {  // with the impulses of limits and contacts as they are
+    if (m.supports) {
+      w.released.resize(n);
+      applyMobility(m.strain_rows.mobility, w.limit.pull, w.released);
+    }
     for (int i = 0; i < n; ++i) {
-      w.velocity[i] = w.predictor[i] - (m.inverse_mass[i] / dt) * w.limit.pull[i] + change[i];
+      w.velocity[i] = m.supports ? w.predictor[i] - w.released[i] / dt + change[i]
+                                 : w.predictor[i] - (m.inverse_mass[i] / dt) * w.limit.pull[i] + change[i];
       end[i] = in.p[i] + dt * w.velocity[i];
     }
   };
@@ -279,7 +319,10 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Yie
     // The first turn solves both where the step would go without them, at once: a tension and the contacts that bear it
     // move the cloth far one by one, and hardly together.
     const int most = together && turn == 1 && !w.rows.empty() ? 1 : limit.max_projections;
-    projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit, most);
+    if (limit.method == LimitMethod::closest)
+      projectClosest(m.strain_rows, limit, end, report.limit, w.limit);
+    else
+      projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit, most);
     ++report.limit.rounds;
     clock.lap(w.times.limit);
     move();
@@ -339,14 +382,14 @@ RigidVelocity motionAround(const Model& m, const ImpactZone& zone, double dt, co
       for (int corner : c.mesh.triangles[t]) around.push_back(corner - first);
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
-  const std::vector<Vec3>&start = w.stage.start.vertices[zone.body], &end = w.stage.end.vertices[zone.body];
+  const std::span<const Vec3> start = w.stage.start.vertices[zone.body], end = w.stage.end.vertices[zone.body];
   std::vector<Vec3> velocity(start.size());
   for (int v : around) velocity[v] = (end[v] - start[v]) / dt;
   return nearestRigid(around, start, std::vector<double>(start.size(), 1.0), velocity);
 }
 
 /// Moves what still meets in rigid zones, which grow until nothing does. A zone at a body moves with it, a zone with a
-/// held point stays. False where it is no use: pinched between bodies, or never done.
+/// held point stays, or goes where supports move that. False where it is no use: pinched between bodies, or never done.
 bool moveZones(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
   std::vector<ImpactZone> zones;
   std::vector<ContactRow> rows;
@@ -360,7 +403,9 @@ bool moveZones(const Model& m, const State& in, double dt, StepReport& report, S
     w.velocity = solved;
     for (const ImpactZone& zone : zones) {
       if (zone.pinched) return false;
-      const bool held = std::any_of(zone.points.begin(), zone.points.end(), [&](int i) { return m.held[i]; });
+      const auto first_held =
+          std::find_if(zone.points.begin(), zone.points.end(), [&](int i) { return m.held[i] != 0; });
+      const bool held = first_held != zone.points.end();
       if (zone.body >= 0) {
         if (held) return false;
         if (m.obstacles[zone.body].deforms) {
@@ -373,12 +418,14 @@ bool moveZones(const Model& m, const State& in, double dt, StepReport& report, S
                 dt;
         }
       } else if (held) {
-        for (int i : zone.points) w.velocity[i] = {};
+        const Vec3 with = m.supports ? solved[*first_held] : Vec3{};
+        for (int i : zone.points) w.velocity[i] = with;
       } else {
         makeRigid(zone, in.p, m.mass_kg, w.velocity);
       }
     }
     report.zones = static_cast<int>(zones.size());
+    if (m.supports) m.supports->drive(in.time_s, in.time_s + dt, w.velocity);
     if (!allFinite(w.velocity) || !anyImpact(m, dt, w)) {
       w.zones = std::move(zones);
       for (int i = 0; i < m.freeCount(); ++i) w.zone_change[i] = w.velocity[i] - solved[i];
@@ -426,11 +473,33 @@ void pressingAccelerations(const Model& m, double dt, StepWork& w, std::vector<V
   if (pressed.empty()) return;
   m.surface.WTt.multiply<Vec3>(w.sample_pressing, pressed);
   for (int i = 0; i < m.freeCount(); ++i) pressed[i] *= m.inverse_mass[i] / dt;
+  if (m.supports) m.supports->hold(pressed);
 }
+
+namespace {
+
+bool solved(const StepWork& w, StepReport& report) {
+  if (allFinite(w.velocity)) return true;
+  report.failure = StepFailure::not_finite;
+  report.why = "a velocity is not finite after the contacts";
+  return false;
+}
+
+}  // namespace
 
 bool resolveContacts(const Model& m, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w) {
   const int samples = m.surface.size();
   w.zones.clear();
+  report.smallest_gap_m = std::numeric_limits<double>::max();
+  Yield yield;
+  startProjection(m.strain_rows, in.limit_J, w.limit);
+  leaveStrain(m.strain_rows, m.strain_limit, in.p, in.limit_J, dt, w.limit);
+  if (!m.collisions.self && m.obstacles.empty()) {  // nothing to touch
+    w.rows.clear();
+    w.warm.clear();
+    solveVelocities(m, in, dt, true, yield, report, clock, w);
+    return solved(w, report);
+  }
   w.sample_velocity.resize(samples);
   m.surface.WT.multiply<Vec3>(w.predictor, w.sample_velocity);
   w.reach.resize(samples);
@@ -467,7 +536,6 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   nearCloth(m.collisions, w.collisions);
   bodyEdgeRows(m.collisions, dt, w.inside, w.collisions, w.edge_rows);
   persistentRows(m, in, dt, w);
-  report.smallest_gap_m = std::numeric_limits<double>::max();
   for (const ContactRow& row : w.rows)
     report.smallest_gap_m = std::min(report.smallest_gap_m, row.contact.gap_m - standsOut(m, row));
   w.rows.insert(w.rows.end(), w.restoring.begin(), w.restoring.end());
@@ -475,16 +543,9 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   report.contacts = static_cast<int>(w.rows.size() - w.restoring.size());
   report.cloth_contacts = static_cast<int>(w.collisions.points.size());
   clock.lap(w.times.proximity);
-  startProjection(m.strain_rows, in.limit_J, w.limit);
-  leaveStrain(m.strain_rows, m.strain_limit, in.p, in.limit_J, dt, w.limit);
-  Yield yield;
   for (int round = 1;; ++round) {
     solveVelocities(m, in, dt, round == 1, yield, report, clock, w);
-    if (!allFinite(w.velocity)) {
-      report.failure = StepFailure::not_finite;
-      report.why = "a velocity is not finite after the contacts";
-      return false;
-    }
+    if (!solved(w, report)) return false;
     const bool any = anyImpact(m, dt, w);
     clock.lap(w.times.impact);
     report.impact_rounds = round - 1;

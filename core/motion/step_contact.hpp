@@ -36,11 +36,17 @@ inline std::size_t heldSlot(const Model& m, int i) {
                                   m.held_points.begin());
 }
 
+/// Whether something holds the free point `i`, whole or in part.
+inline bool takesHold(const Model& m, int i) { return m.supports ? m.supports->binds(i) : m.held[i] != 0; }
+
 inline bool allFinite(std::span<const Vec3> values) {
   double zero = 0;
   for (const Vec3& v : values) zero += 0 * (v.x + v.y + v.z);  // NaN from the first infinity or NaN on
   return zero == 0;
 }
+
+/// Loads of a structure on the free points [N], the control points at q.
+void loadsAt(const Model& model, double time_s, std::span<const Vec3> q, std::vector<Vec3>& load, StepWork& work);
 
 /// Reads w.predictor, w.x0, w.stage; leaves w.velocity, w.rows with w.impulses and w.warm, and w.zones with
 /// w.zone_change. In turn: contacts and impacts found so far solved together; paths tested; what would still pass joins

@@ -210,6 +210,14 @@ void leaveStrain(const StrainRows& rows, const StrainLimit& limit, std::span<con
   }
 }
 
+void limitForce(const StrainRows& rows, std::span<const Vec3> p, std::span<const double> multiplier_J,
+                std::span<Vec3> force) {
+  std::vector<Vec3> e;
+  strainVectors(rows, p, e);
+  for (std::size_t i = 0; i < e.size(); ++i) e[i] *= -multiplier_J[i];
+  rows.Bt.multiply<Vec3>(e, force);
+}
+
 void limitMultipliers(const StrainRows& rows, std::span<const Vec3> p, double dt, std::vector<double>& lambda,
                       LimitWork& w) {
   lambda.assign(rows.rows(), 0);

@@ -46,6 +46,10 @@ struct StrainLimit {
 /// Throws InputError (key strain_limit.KEY).
 void checkLimit(const StrainLimit& limit);
 
+/// Forces of the limits on the free points [N]: - J^T lambda with the points at p.
+void limitForce(const StrainRows& rows, std::span<const Vec3> p, std::span<const double> multiplier_J,
+                std::span<Vec3> force);
+
 /// What the projections of a step came to.
 struct LimitReport {
   int projections = 0, factorisations = 0;
@@ -54,7 +58,7 @@ struct LimitReport {
   double residual = 0;    ///< max |C| (upper_limit: max C, at least 0) at the end of the step, after the contacts
   bool converged = true;  ///< residual <= tolerance
   /// Whether limits and contacts agree on the step: strains are within tolerance of what was to be left of them, and
-  /// the contacts are solved. A shorter step turns threads less (by its square); advance tries that.
+  /// the contacts are solved. A shorter step turns threads less (by its square); the integrator tries that.
   bool solved = true;
 };
 

@@ -1,50 +1,69 @@
+#include "core/motion/structure_motion.hpp"
+
 #include <cmath>
 
-#include "core/motion/implicit.hpp"
-#include "core/motion/time_integration.hpp"
-#include "core/statics/modal.hpp"
 #include "core/statics/statics.hpp"
 #include "core/statics/structure_system.hpp"
 
 namespace gambeson {
+namespace {
 
-DynamicReport solveDynamic(const Structure& structure, const DynamicOptions& options, DynamicState& state,
-                           const DynamicObserver& observe) {
-  StructureSystem system(structure, ProgramEnds::constant);
-  return integrate(system, options, state, observe);
+std::vector<Vec3> pointsOf(const Structure& s, std::span<const double> y, std::span<const double> value) {
+  const std::vector<double> none(y.empty() ? static_cast<std::size_t>(s.dofs.unknowns()) : 0, 0.0);
+  const std::vector<double> u = freeDisplacements(s, y.empty() ? std::span<const double>(none) : y, value);
+  std::vector<Vec3> points(u.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {u[3 * i], u[3 * i + 1], u[3 * i + 2]};
+  return points;
 }
 
-std::vector<Mode> naturalModes(const Structure& structure, std::span<const double> y, double t, int count,
-                               bool lumped_mass, std::span<const double> history) {
-  refuseLimit(structure);
-  StructureSystem system(structure, ProgramEnds::constant);
-  if (!history.empty()) system.setHistory(history);
-  return lowestModes(system, y, t, count, lumped_mass);
+}  // namespace
+
+State structureState(const Structure& s, double t, std::span<const double> y, std::span<const double> v,
+                     std::span<const double> a, double around) {
+  const double half = around > 0 ? 0.5 * around : 1e-6 * (1 + std::abs(t));
+  std::vector<double> rate = programValues(s, t + half, ProgramEnds::constant);
+  const std::vector<double> before = programValues(s, t - half, ProgramEnds::constant);
+  for (std::size_t k = 0; k < rate.size(); ++k) rate[k] = (rate[k] - before[k]) / (2 * half);
+  State state;
+  state.time_s = t;
+  state.p = pointsOf(s, y, programValues(s, t, ProgramEnds::constant));
+  for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.cloth->rest()[s.cloth->map().home[i]];
+  state.v = pointsOf(s, v, rate);
+  state.a = pointsOf(s, a, std::vector<double>(rate.size(), 0.0));
+  state.y.assign(y.begin(), y.end());
+  state.history.resize(s.cloth->historySize());
+  s.cloth->startHistory(state.history);
+  return state;
 }
 
-DynamicEnergy energyOf(const Structure& s, const DynamicState& state, bool lumped_mass) {
+std::vector<Vec3> controlPoints(const Structure& s, const State& state) {
+  std::vector<Vec3> q(s.cloth->rest().size());
+  s.cloth->map().T.multiply<Vec3>(state.p, q);
+  return q;
+}
+
+DynamicEnergy energyOf(const Structure& s, const State& state, bool lumped_mass) {
   DynamicEnergy energy;
-  const double t = state.time_s;
-  // Velocities of the free points; moving supports by the mean slope of their programs at t.
-  const double dt = 1e-6 * (1 + std::abs(t));
-  std::vector<double> rate = programValues(s, t + dt, ProgramEnds::constant);
-  const std::vector<double> before = programValues(s, t - dt, ProgramEnds::constant);
-  for (std::size_t k = 0; k < rate.size(); ++k) rate[k] = (rate[k] - before[k]) / (2 * dt);
-  const std::vector<double> v = freeDisplacements(s, state.v, rate);
-  const std::vector<Vec3> velocity(reinterpret_cast<const Vec3*>(v.data()),
-                                   reinterpret_cast<const Vec3*>(v.data()) + v.size() / 3);
-  std::vector<Vec3> momentum(velocity.size());
+  std::vector<Vec3> momentum(state.v.size());
   if (lumped_mass)
-    for (std::size_t i = 0; i < velocity.size(); ++i) momentum[i] = s.lumped_kg[i] * velocity[i];
+    for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = s.lumped_kg[i] * state.v[i];
   else
-    s.consistent_kg.multiply<Vec3>(velocity, momentum);
-  for (std::size_t i = 0; i < velocity.size(); ++i) energy.kinetic += 0.5 * dot(velocity[i], momentum[i]);
-  energy.internal = strainEnergy(s, state.y, t, ProgramEnds::constant, state.history);
-  const std::vector<Vec3> q = controlPoints(s, state.y, t);
+    s.consistent_kg.multiply<Vec3>(state.v, momentum);
+  for (std::size_t i = 0; i < momentum.size(); ++i) energy.kinetic += 0.5 * dot(state.v[i], momentum[i]);
+  const std::vector<Vec3> q = controlPoints(s, state);
+  energy.internal = strainEnergy(s, q, state.history);
   for (const DeadLoad& load : s.dead)
     for (std::size_t i = 0; i < q.size(); ++i)
-      energy.external -= s.programs[load.program](t) * dot(load.force_N[i], q[i] - s.cloth->rest()[i]);
+      energy.external -= s.programs[load.program](state.time_s) * dot(load.force_N[i], q[i] - s.cloth->rest()[i]);
   return energy;
+}
+
+std::unique_ptr<Model> untouchedModel(const Structure& s, const StrainLimit& limit) {
+  ModelOptions o;
+  o.structure = &s;
+  o.strain_limit = limit;
+  o.self_contact = false;
+  return buildModel(s.cloth, o, {Vec3{}, 0}, {}, {});
 }
 
 }  // namespace gambeson

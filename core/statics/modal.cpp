@@ -8,7 +8,7 @@
 #include "core/math/exact_solve.hpp"
 #include "core/math/lanczos.hpp"
 #include "core/statics/newton.hpp"
-#include "core/statics/system.hpp"
+#include "core/statics/structure_system.hpp"
 
 namespace gambeson {
 namespace {
@@ -125,6 +125,13 @@ std::vector<Mode> lowestModes(System& system, std::span<const double> y, double 
   std::stable_sort(modes.begin(), modes.end(),
                    [](const Mode& a, const Mode& b) { return a.omega_rad_per_s < b.omega_rad_per_s; });
   return modes;
+}
+
+std::vector<Mode> naturalModes(const Structure& structure, std::span<const double> y, double t, int count,
+                               bool lumped_mass, std::span<const double> history) {
+  StructureSystem system(structure, ProgramEnds::constant);
+  if (!history.empty()) system.setHistory(history);
+  return lowestModes(system, y, t, count, lumped_mass);
 }
 
 }  // namespace gambeson

@@ -7,7 +7,6 @@ namespace gambeson {
 
 StaticReport solveStatic(const Structure& structure, const StaticOptions& options, const StaticObserver& observe,
                          std::vector<double> start) {
-  refuseLimit(structure);
   StructureSystem system(structure, ProgramEnds::extended);
   StaticReport report = followPath(system, options, observe, std::move(start));
   if (report.no_start && structure.cloth->springsAtRest(system.length()))
@@ -28,7 +27,11 @@ std::vector<Vec3> controlPoints(const Structure& s, std::span<const double> y, d
 
 std::vector<Vec3> reactions(const Structure& s, std::span<const double> y, double t, ProgramEnds ends,
                             std::span<const double> history) {
-  const std::vector<Vec3> q = controlPoints(s, y, t, ends);
+  return reactions(s, controlPoints(s, y, t, ends), t, ends, history);
+}
+
+std::vector<Vec3> reactions(const Structure& s, std::span<const Vec3> q, double t, ProgramEnds ends,
+                            std::span<const double> history) {
   std::vector<Vec3> f(q.size()), external(q.size());
   ClothWork work;
   s.cloth->force({q, {}, history}, {f, {}, {}, nullptr}, work);
@@ -39,7 +42,10 @@ std::vector<Vec3> reactions(const Structure& s, std::span<const double> y, doubl
 
 double strainEnergy(const Structure& s, std::span<const double> y, double t, ProgramEnds ends,
                     std::span<const double> history) {
-  const std::vector<Vec3> q = controlPoints(s, y, t, ends);
+  return strainEnergy(s, controlPoints(s, y, t, ends), history);
+}
+
+double strainEnergy(const Structure& s, std::span<const Vec3> q, std::span<const double> history) {
   std::vector<Vec3> f(q.size());
   ClothWork work;
   ClothEnergy energy;

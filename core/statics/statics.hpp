@@ -69,7 +69,11 @@ std::vector<Vec3> controlPoints(const Structure& structure, std::span<const doub
 /// empty: of new cloth.
 std::vector<Vec3> reactions(const Structure& structure, std::span<const double> y, double t,
                             ProgramEnds ends = ProgramEnds::constant, std::span<const double> history = {});
+/// The same of control points q.
+std::vector<Vec3> reactions(const Structure& structure, std::span<const Vec3> q, double t, ProgramEnds ends,
+                            std::span<const double> history);
 /// Stored energy [J], loads not counted.
+double strainEnergy(const Structure& structure, std::span<const Vec3> q, std::span<const double> history);
 double strainEnergy(const Structure& structure, std::span<const double> y, double t,
                     ProgramEnds ends = ProgramEnds::constant, std::span<const double> history = {});
 

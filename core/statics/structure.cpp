@@ -44,7 +44,7 @@ void checkPrograms(const std::vector<Program>& programs) {
 
 }  // namespace
 
-std::unique_ptr<Structure> buildStructure(std::unique_ptr<const Cloth> cloth, const StructureOptions& o) {
+std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, const StructureOptions& o) {
   std::vector<Program> programs = o.programs;
   if (programs.empty()) programs.push_back({{0, 1}, {0, 1}});
   checkPrograms(programs);
@@ -71,12 +71,10 @@ std::unique_ptr<Structure> buildStructure(std::unique_ptr<const Cloth> cloth, co
   const std::vector<double> ones(map.home.size(), 1.0);
   consistent.multiply<double>(ones, lumped);
   map.Tt.multiply<double>(cloth->areas(), area);
-  std::optional<StructureLimit> limit;
-  if (o.strain_limit.mode != LimitMode::none) limit = buildStructureLimit(*cloth, dofs, lumped, o.strain_limit);
   return std::make_unique<Structure>(Structure{std::move(cloth), std::move(dofs), std::move(loads), std::move(programs),
                                                std::move(tangent), std::move(reduction), o.dead, std::move(lumped),
                                                std::move(consistent), o.rayleigh_mass_per_s, o.rayleigh_stiffness_s,
-                                               o.drag_kg_per_m2s, std::move(area), std::move(limit)});
+                                               o.drag_kg_per_m2s, std::move(area)});
 }
 
 }  // namespace gambeson

@@ -1,8 +1,7 @@
 #pragma once
-/// A sheet with supports and loads: what the static, implicit and modal solvers see.
+/// A sheet with supports and loads: what the solvers see.
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "core/cloth/constraint.hpp"
 #include "core/math/cholesky.hpp"
 #include "core/statics/reduction.hpp"
-#include "core/statics/structure_limit.hpp"
 
 namespace gambeson {
 
@@ -30,7 +28,7 @@ enum class ProgramEnds { constant, extended };
 /// Constant after it is built. Unknowns y: displacements that satisfy the supports, u = C y + shifts (DofMap); points
 /// q = rest + T u.
 struct Structure {
-  std::unique_ptr<const Cloth> cloth;
+  std::shared_ptr<const Cloth> cloth;
   DofMap dofs;
   Loads loads;
   std::vector<Program> programs;
@@ -43,8 +41,6 @@ struct Structure {
   double rayleigh_stiffness_s = 0;  ///< b
   double drag_kg_per_m2s = 0;       ///< Zheng 2013, section 2.2.3
   std::vector<double> area_m2;      ///< ∫ N dA of the free points
-  /// Of explicit steps. Its force is no part of what equilibrium and implicit steps see: they refuse it.
-  std::optional<StructureLimit> limit;
 };
 
 struct StructureOptions {
@@ -54,10 +50,9 @@ struct StructureOptions {
   std::vector<EdgeMoment> moments;
   std::vector<Program> programs;  ///< none: one, from 0 at 0 to 1 at 1
   double rayleigh_mass_per_s = 0, rayleigh_stiffness_s = 0, drag_kg_per_m2s = 0;
-  StrainLimit strain_limit;
 };
 
 /// Throws InputError.
-std::unique_ptr<Structure> buildStructure(std::unique_ptr<const Cloth> cloth, const StructureOptions& options);
+std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, const StructureOptions& options);
 
 }  // namespace gambeson

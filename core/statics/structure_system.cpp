@@ -42,8 +42,7 @@ std::vector<double> freeDisplacements(const Structure& s, std::span<const double
   return u;
 }
 
-StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends)
-    : structure_(structure), limit_(motionLimit(structure)), ends_(ends) {
+StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends) : structure_(structure), ends_(ends) {
   Vec3 low = structure.cloth->rest().front(), high = low;
   for (const Vec3& x : structure.cloth->rest())
     for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], x[d]), high[d] = std::max(high[d], x[d]);

@@ -27,7 +27,6 @@ class StructureSystem : public System {
   void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
   bool hasStiffnessDamping() const override { return structure_.rayleigh_stiffness_s > 0; }
   void supportForce(double t, double dt, bool lumped, std::span<double> f) override;
-  MotionLimit* limit() override { return limit_.get(); }
 
  private:
   void place(std::span<const double> y, double t);  ///< sets value_ and q_
@@ -36,7 +35,6 @@ class StructureSystem : public System {
   BlockMatrix massBlocks(bool lumped) const;
 
   const Structure& structure_;
-  std::unique_ptr<MotionLimit> limit_;
   ProgramEnds ends_;
   double length_ = 0, reach_ = 0;
   ClothWork work_;

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "core/math/cholesky.hpp"
-#include "core/motion/motion_limit.hpp"
 
 namespace gambeson {
 
@@ -49,8 +48,6 @@ class System {
   virtual void supportForce(double /*t*/, double /*dt*/, bool /*lumped*/, std::span<double> f) {
     for (double& v : f) v = 0;
   }
-  /// What holds at the end of explicit steps beside the supports; null: nothing.
-  virtual MotionLimit* limit() { return nullptr; }
 };
 
 }  // namespace gambeson

@@ -11,7 +11,7 @@
 
 #include "bench_time.hpp"
 #include "core/cloth/shell/nurbs_shell.hpp"
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 
 namespace gambeson {
 namespace {
@@ -66,15 +66,16 @@ Swing swing(int cells, double k_over_rho, const StrainLimit& limit) {
   long steps = 0;
   const auto now = [] { return bench::seconds(bench::Clock::processor); };
   const double start = now();
-  advance(*model, stage, control, 0.6, state, frequency, work,
-          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
-            const double pause = now();
-            ++steps;
-            result.projections += r.limit.projections;
-            strainVectors(rows, after.p, e);
-            for (const Vec3& d : e) result.most = std::max(result.most, strainOf(d));
-            looking += now() - pause;
-          });
+  VelocityVerlet(*model, stage, control, frequency, work)
+      .advance(0.6, state,
+               [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
+                 const double pause = now();
+                 ++steps;
+                 result.projections += r.limit.projections;
+                 strainVectors(rows, after.p, e);
+                 for (const Vec3& d : e) result.most = std::max(result.most, strainOf(d));
+                 looking += now() - pause;
+               });
   result.frame_s = (now() - start - looking) / 30;
   result.projections /= static_cast<double>(steps);
   result.step_s = 0.6 / static_cast<double>(steps);

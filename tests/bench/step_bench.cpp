@@ -26,11 +26,11 @@ void StepOfShortsWalk(benchmark::State& state) {
       ++steps;
       iterations += r.contact.iterations;
     };
-    advance(*scenario->model, *scenario->stage, control, 0, now, frequency, work, count);
+    VelocityVerlet(*scenario->model, *scenario->stage, control, frequency, work).advance(0, now, count);
     steps = iterations = 0;
     work.times = {};
     state.ResumeTiming();
-    advance(*scenario->model, *scenario->stage, control, 0.3, now, frequency, work, count);
+    VelocityVerlet(*scenario->model, *scenario->stage, control, frequency, work).advance(0.3, now, count);
     const PhaseTimes& t = work.times;
     const std::pair<const char*, double> phases[] = {{"body motion", t.stage},        {"finding contacts", t.proximity},
                                                      {"solving contacts", t.contact}, {"finding impacts", t.impact},

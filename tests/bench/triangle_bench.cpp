@@ -20,8 +20,8 @@ void TriangleForce(benchmark::State& state) {
   const Garment garment = bench::wavySheet(2, kCells, false, bench::Knots::uneven_polynomial);
   const NurbsShell shell(garment);
   const bool single = state.range(0) == 0;
-  std::vector<TriangleGarment> garments;
-  garments.push_back(triangleGarment(garment, single ? MeshKind::single : MeshKind::equilateral));
+  std::vector<MeshDraft> garments;
+  garments.push_back(meshDraft(garment, single ? MeshKind::single : MeshKind::equilateral));
   const TriangleCloth triangles(std::move(garments));
   const auto displacedBy = [](const Cloth& c) {
     std::vector<Vec3> q = c.rest();

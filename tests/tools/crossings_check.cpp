@@ -177,8 +177,9 @@ int checkAgain(const Scenario& scenario, const RecordingReader* recording, const
   std::string failure;
   for (long k = 1; k <= windows.count(); ++k) {
     try {
-      advance(*scenario.model, *scenario.stage, {c.time.step_safety, c.time.max_step_s}, windows.bound(k), state,
-              frequency, work,
+      VelocityVerlet(*scenario.model, *scenario.stage, {c.time.step_safety, c.time.max_step_s}, frequency, work)
+          .advance(
+              windows.bound(k), state,
               [&](const State&, const State& after, const StepReport& report, const StepResult&, const Frequency&) {
                 steps.add(after, report);
                 if (options.every_step) look.state(after, false);

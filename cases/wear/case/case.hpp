@@ -13,9 +13,11 @@
 #include "cases/cloth/kind.hpp"
 #include "cases/cloth/patch_fields.hpp"
 #include "cases/cloth/strain_limit.hpp"
+#include "cases/contact/contact.hpp"
 #include "cases/input/json.hpp"
 #include "cases/runs/picture.hpp"
 #include "core/cloth/draft/garment.hpp"
+#include "core/cloth/draft/mesh_draft.hpp"
 #include "core/math/vec.hpp"
 #include "human/body/mesh_sequence.hpp"
 #include "human/character/character.hpp"
@@ -139,51 +141,6 @@ struct HumanCase {
   std::variant<StandMotion, WalkOptions, StairOptions, AimOptions, TrajectoryMotion, MotionFileOptions> motion;
 };
 
-// --- What else it touches ----------------------------------------------------------------------------------------
-
-struct EllipsoidObstacle {
-  Vec3 semi_axes_m, center_m;
-};
-
-/// Exact where rings and segments are 0; otherwise a mesh of `rings` bands from pole to pole and `segments` around (z
-/// is the axis), 2 segments (rings - 1) triangles.
-struct SphereObstacle {
-  double radius_m = 0;
-  Vec3 center_m;
-  int rings = 0, segments = 0;
-};
-
-/// A square of edge size_m about `point`, seen from the side of its unit normal.
-struct PlaneObstacle {
-  Vec3 point_m;
-  Vec3 normal{0, 0, 1};
-  double size_m = 2;
-};
-
-/// A ring about `axis` (unit), as a mesh of rings x segments x 2 triangles.
-struct TorusObstacle {
-  double radius_m = 0, tube_m = 0;  ///< of the ring's middle line, and of the tube about it
-  Vec3 center_m;
-  Vec3 axis{0, 0, 1};
-  int segments = 48, rings = 16;  ///< around the axis, around the tube
-};
-
-/// A mesh file, in metres times `scale`, moved by `position`.
-struct MeshObstacle {
-  std::filesystem::path file;
-  double scale = 1;
-  Vec3 position_m;
-};
-
-/// A body as snapshots of its surface.
-struct SequenceObstacle : SequenceOptions {};
-
-struct ObstacleCase {
-  std::string name;  ///< also the segment that forces are counted under; unique
-  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle, SequenceObstacle> shape;
-  Vec3 velocity_m_per_s;
-};
-
 // --- What holds it ----------------------------------------------------------------------------------------------
 
 /// An edge of a garment, which is named where there are several: by name (sheet: "u0" "u1" "v0" "v1"; tube: "start"
@@ -217,16 +174,6 @@ struct PinnedSupport {
 using SupportCase = std::variant<FixedSupport, SpringSupport, PinnedSupport>;
 
 // --- How it touches, and the air -------------------------------------------------------------------------------
-
-struct ContactCase {
-  std::optional<double> layer_m;  ///< of all cloth; the thickness of each fabric where absent
-  bool self = true;               ///< cloth touches cloth
-  double friction = 0.3;
-  double relaxation_s = 0.01;  ///< tau in k = 1 - exp(-dt/tau) of the separation correction
-  double compliance_m_per_Pa = 1e-9;
-  double tolerance = 1e-3;  ///< residual of the contacts of a step, of g dt
-  int max_iterations = 8000;
-};
 
 struct AirCase {
   double drag_kg_per_m2s = 0;

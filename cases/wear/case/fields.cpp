@@ -2,33 +2,12 @@
 
 #include "cases/cloth/fabric_input.hpp"
 #include "cases/cloth/fields.hpp"
+#include "cases/contact/fields.hpp"
 #include "cases/input/table.hpp"
 #include "cases/wear/case/case.hpp"
 
 namespace gambeson::schema {
 namespace {
-
-Object contactTable() {
-  using C = ContactCase;
-  return Table<C>("Contact")
-      .number("layer", &C::layer_m, "m", aboveTo(0, 0.05),
-              "distance that contact keeps between cloth and body, and between cloth and cloth")
-      .defaultsTo("the fabric's thickness; between two fabrics half the sum of theirs")
-      .number("friction", &C::friction, "", between(0, 5),
-              "Coulomb's coefficient between cloth and body, and between cloth and cloth")
-      .required()
-      .flag("self", &C::self, "cloth touches cloth: layers each other, folds themselves")
-      .number("relaxation", &C::relaxation_s, "s", aboveTo(0, 1),
-              "time in which a sample inside the layer returns to its surface")
-      .number("compliance", &C::compliance_m_per_Pa, "m/Pa", between(0, 1e-6),
-              "how much thinner the layer becomes under a pressure that lasts; where samples cannot all follow a round "
-              "body to the nanometre, it spreads the pressure over them (cloth pressed flat has about 1e-7 m/Pa)")
-      .number("tolerance", &C::tolerance, "", aboveTo(0, 0.1),
-              "residual velocity to which the contacts of a step are solved together, as a part of what gravity adds "
-              "in the step; in folds that are jammed 1e-6 of the largest impulse counts, up to ten times this")
-      .integer("max_iterations", &C::max_iterations, 1, 100000, "iterations before a step counts as failed")
-      .build();
-}
 
 Object airTable() {
   using A = AirCase;

@@ -10,11 +10,10 @@ namespace gambeson::schema {
 const Object& caseTable();
 
 // Its parts, each beside the rules between its fields.
-Object garmentTable();   ///< GarmentCase
-Object humanTable();     ///< HumanCase
-Object obstacleTable();  ///< ObstacleCase
-Object supportTable();   ///< SupportCase
-Object outputTable();    ///< OutputCase
-Object comfortTable();   ///< ComfortCase
+Object garmentTable();  ///< GarmentCase
+Object humanTable();    ///< HumanCase
+Object supportTable();  ///< SupportCase
+Object outputTable();   ///< OutputCase
+Object comfortTable();  ///< ComfortCase
 
 }  // namespace gambeson::schema

@@ -1,25 +1,11 @@
-/// Detail of fields.hpp: the tables of obstacles and supports.
+/// Detail of fields.hpp: the table of supports.
 
 #include "cases/input/table.hpp"
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/fields.hpp"
-#include "cases/wear/case/obstacles/kind.hpp"
 #include "cases/wear/case/supports/kind.hpp"
 
 namespace gambeson::schema {
-
-Object obstacleTable() {
-  using O = ObstacleCase;
-  Table<O> table("Obstacle");
-  table.text("name", &O::name, "what the tables call it").required();
-  for (const ObstacleKind* kind : obstacleKinds()) {
-    kind->addTo(table);
-    table.in("shape");
-  }
-  return table.oneOf("shape", true)
-      .vector("velocity", &O::velocity_m_per_s, "m/s", between(-100, 100), "constant velocity")
-      .build();
-}
 
 Object supportTable() {
   Table<SupportCase> table("Support");

@@ -1,10 +1,10 @@
 /// Detail of case.hpp: the files that a case names, and its hash.
 
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/fingerprint.hpp"
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
-#include "cases/wear/case/obstacles/kind.hpp"
 
 namespace gambeson {
 

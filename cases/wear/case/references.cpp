@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
-#include "cases/wear/case/obstacles/kind.hpp"
 #include "cases/wear/case/supports/kind.hpp"
 #include "core/error.hpp"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cases/contact/fields.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/case/supports/kind.hpp"
@@ -166,14 +167,6 @@ void checkGarments(const Place& root, const Case& c) {
   if (common && all_own) root.failAt("fabric", "is of no use: every garment has a fabric of its own");
 }
 
-void checkObstacles(const Place& root, const Case& c) {
-  std::set<std::string> names;
-  for (std::size_t i = 0; i < c.obstacles.size(); ++i)
-    if (!names.insert(c.obstacles[i].name).second)
-      itemOf(root, "obstacles", i)
-          .failAt("name", fmt::format("\"{}\" names two obstacles; allowed: a name of its own", c.obstacles[i].name));
-}
-
 void checkWithoutHuman(const Place& root, Case& c) {
   if (!c.time.duration_s) failAt(root, {"time", "duration"}, "is required without a human; allowed: > 0 s");
   if (c.air.with_pelvis) failAt(root, {"air", "velocity"}, "\"pelvis_mean\" needs a human, and the case has none");
@@ -210,7 +203,7 @@ void applyRules(const Place& root, Case& c) {
                 "is required where there is a human, an obstacle or a second garment: at least its friction");
   if (!c.human) checkWithoutHuman(root, c);
   checkSupports(root, c);
-  checkObstacles(root, c);
+  checkObstacleNames(root, c.obstacles);
   const JsonNode* analysis = root.node.find("analysis");
   if (c.human && !(analysis && analysis->find("task"))) c.analysis.task = kindOf(*c.human).task;
   checkTask(root, c);

@@ -52,11 +52,11 @@ std::map<std::string, Values> sceneOf(const Scenario& s) {
   scene.shrunk = stage.shrunk;
   scene.shrunk_skin = stage.shrunk_skin;
   scene.feet = s.feet;
-  for (std::size_t k = 0; k < stage.fixed.size(); ++k) {
+  for (std::size_t k = 0; k < stage.own.count(); ++k) {
     RecordedObstacle& o = scene.obstacles.emplace_back();
-    o.shape = s.model->obstacles[static_cast<std::size_t>(stage.first_fixed) + k].shape;
-    o.origin_m = stage.fixed[k].origin;
-    if (stage.sequence[k]) o.snapshots = stage.sequence[k]->snapshots();
+    o.shape = s.model->obstacles[static_cast<std::size_t>(stage.first_own) + k].shape;
+    o.origin_m = stage.own.start(k).origin;
+    if (const MeshSequence* sequence = stage.own.sequence(k)) o.snapshots = sequence->snapshots();
   }
   scene.wardrobe = s.wardrobe;
   scene.notes = s.notes;

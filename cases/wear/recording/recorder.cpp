@@ -527,7 +527,8 @@ void Recorder::appendFrame(const State& state, double window) {
 
 /// Pressure: the normal force on a vertex over a third of the area of its triangles.
 void Recorder::addSkin(const State& state, double window, Frame& frame) const {
-  const std::vector<Vec3> x = deformedVertices(*scenario_.model, *scenario_.stage, state.time_s)[0];
+  const DeformedVertices skin = deformedVertices(*scenario_.model, *scenario_.stage, state.time_s);
+  const std::span<const Vec3> x = skin[0];
   std::vector<double> area(x.size(), 0);
   for (const auto& t : scenario_.human->skin->rest.triangles) {
     const double third = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 6;

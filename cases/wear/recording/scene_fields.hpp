@@ -178,7 +178,7 @@ void fields(A& a, T& m) {
   a("lines", lines);
 }
 /// Of a mesh from the start; its fabric is that of the case, and no draft is behind it.
-template <class A, Of<TriangleGarment> T>
+template <class A, Of<MeshDraft> T>
 void fields(A& a, T& g) {
   auto& [mesh, rest, fabrics, fabric, draft, range, of_control] = g;
   a("mesh", mesh)("rest", rest);

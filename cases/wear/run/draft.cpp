@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "cases/cloth/make_cloth.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/wear/case/factors.hpp"
@@ -11,9 +12,8 @@
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "core/cloth/draft/areas.hpp"
+#include "core/cloth/draft/obj_mesh.hpp"
 #include "core/cloth/draft/seams.hpp"
-#include "core/cloth/triangles/draft_mesh.hpp"
-#include "core/cloth/triangles/obj_mesh.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
 #include "tryon/pattern/garment_file.hpp"
@@ -44,7 +44,7 @@ void draftToFile(const Case& c, const std::string& name, const std::filesystem::
     throw InputError({c.file.string(), 0, fmt::format("garments[{}].{}", k, kind.word)},
                      "is a mesh already; drafts are written");
   if (as_mesh) {
-    const TriangleGarment t = triangleGarment(g, c.garments[k].cloth.mesh);
+    const MeshDraft t = meshOf(g, c.garments[k].cloth);
     writeOwnFile(file, objText(t.mesh, g.name));
     out << fmt::format("{}: {} patches, {} vertices, {} triangles\n", g.name, t.mesh.patch_names.size(),
                        t.mesh.vertices.size(), t.mesh.triangles.size());

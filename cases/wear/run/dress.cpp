@@ -42,10 +42,10 @@ State settled(const Scenario& s, bool* tangled) {
   Frequency frequency;
   const TimeCase& time = s.definition.time;
   bool last = false;
-  advance(*s.model, *s.stage, {time.step_safety, time.max_step_s}, 0, state, frequency, work,
-          [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
-            last = r.intersections > 0 || r.inside > 0 || r.pinched > 0;
-          });
+  VelocityVerlet(*s.model, *s.stage, {time.step_safety, time.max_step_s}, frequency, work)
+      .advance(0, state, [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
+        last = r.intersections > 0 || r.inside > 0 || r.pinched > 0;
+      });
   if (tangled) *tangled = last;
   return state;
 }
@@ -73,8 +73,9 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
   Frequency frequency;
   double widest = widestStitch(m.stitches, m.surface.WT, state.p);
   while (widest > law.close_m && state.time_s < -1e-9) {
-    advance(m, *panels->stage, {one.time.step_safety, one.time.max_step_s}, std::min(0.0, state.time_s + look_s), state,
-            frequency, work, [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+    VelocityVerlet(m, *panels->stage, {one.time.step_safety, one.time.max_step_s}, frequency, work)
+        .advance(std::min(0.0, state.time_s + look_s), state,
+                 [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     widest = widestStitch(m.stitches, m.surface.WT, state.p);
   }
   if (widest > law.close_m)

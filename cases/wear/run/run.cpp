@@ -113,9 +113,10 @@ int runCase(const Case& c, const RunOptions& options) {
     Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
     try {
       for (; k < windows.count(); ++k) {
-        advance(model, *scenario->stage, control, windows.bound(k + 1), state, frequency, work,
-                [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
-                    const Frequency& f) { recorder.observe(before, after, report, w, f); });
+        VelocityVerlet(model, *scenario->stage, control, frequency, work)
+            .advance(windows.bound(k + 1), state,
+                     [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
+                         const Frequency& f) { recorder.observe(before, after, report, w, f); });
         auto after_s = phasesOf(work.times, c.strain_limit.has_value());
         times.push_back({windows.bound(k), state.time_s, {}});
         for (std::size_t p = 0; p < after_s.size(); ++p)

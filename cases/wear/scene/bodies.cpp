@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/places.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
-#include "cases/wear/case/obstacles/kind.hpp"
 #include "human/skin/overlap.hpp"
 
 namespace gambeson {
@@ -77,17 +77,11 @@ std::vector<Obstacle> placeHuman(Scenario& s, CaseStage& stage) {
 /// The case's own obstacles, after those of the human.
 void placeObstacles(const Case& c, std::vector<MadeObstacle> made, Scenario& s, CaseStage& stage,
                     std::vector<Obstacle>& obstacles) {
-  stage.first_fixed = static_cast<int>(obstacles.size());
-  for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
-    const ObstacleCase& o = c.obstacles[k];
-    obstacles.push_back({std::move(made[k].shape), o.name, made[k].sequence != nullptr});
-    stage.sequence.push_back(std::move(made[k].sequence));
-    Placement at;
-    at.origin = made[k].origin_m;
-    stage.fixed.push_back(at);
-    stage.fixed_velocity.push_back(o.velocity_m_per_s);
+  stage.first_own = static_cast<int>(obstacles.size());
+  for (Obstacle& o : stage.own.place(c.obstacles, std::move(made))) {
     s.body_of_obstacle.push_back(static_cast<int>(s.bodies.size()));
-    s.bodies.push_back(o.name);
+    s.bodies.push_back(o.segment);
+    obstacles.push_back(std::move(o));
   }
 }
 
@@ -96,12 +90,8 @@ void placeObstacles(const Case& c, std::vector<MadeObstacle> made, Scenario& s, 
 MadeBodies makeBodies(const Case& c) {
   MadeBodies made;
   if (c.human) makeHuman(c, made);
-  for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
-    const ObstacleCase& o = c.obstacles[k];
-    made.obstacles.push_back(underKey(fmt::format("obstacles[{}]", k), [&] { return kindOf(o).make(o); }));
-    const std::vector<std::string>& notes = made.obstacles.back().notes;
-    made.notes.insert(made.notes.end(), notes.begin(), notes.end());
-  }
+  made.obstacles = makeObstacles(c.obstacles);
+  for (const MadeObstacle& o : made.obstacles) made.notes.insert(made.notes.end(), o.notes.begin(), o.notes.end());
   return made;
 }
 

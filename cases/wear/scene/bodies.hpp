@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/wear/case/obstacles/kind.hpp"
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/wear/scene/scenario.hpp"
 #include "cases/wear/scene/stage.hpp"
 #include "core/contact/obstacle.hpp"

@@ -5,6 +5,7 @@
 #include "cases/cloth/make_cloth.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/scene/garments.hpp"
+#include "core/cloth/draft/seams.hpp"
 #include "tryon/stitching.hpp"
 
 namespace gambeson {

@@ -72,8 +72,8 @@ void addFabric(const Case& c, const GarmentCase& worn, Garment& garment) {
   applyFields(worn.fields, garment);
 }
 
-std::vector<std::optional<TriangleGarment>> readMeshes(const Case& c, const std::vector<Garment>& drafts) {
-  std::vector<std::optional<TriangleGarment>> meshes(drafts.size());
+std::vector<std::optional<MeshDraft>> readMeshes(const Case& c, const std::vector<Garment>& drafts) {
+  std::vector<std::optional<MeshDraft>> meshes(drafts.size());
   for (std::size_t k = 0; k < drafts.size(); ++k) {
     const GarmentCase& worn = c.garments[k];
     if (kindOf(worn).isMesh())

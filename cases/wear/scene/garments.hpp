@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cases/wear/case/case.hpp"
-#include "core/cloth/triangles/triangle_build.hpp"
+#include "core/cloth/draft/mesh_draft.hpp"
 #include "human/body/body.hpp"
 
 namespace gambeson {
@@ -17,7 +17,7 @@ std::vector<Garment> draftGarments(const Case& c, const Human* human);
 void addFabric(const Case& c, const GarmentCase& worn, Garment& garment);
 /// Of each garment that is a mesh from the start its triangles; `drafts`: of the same garments. Throws InputError with
 /// the garment's key.
-std::vector<std::optional<TriangleGarment>> readMeshes(const Case& c, const std::vector<Garment>& drafts);
+std::vector<std::optional<MeshDraft>> readMeshes(const Case& c, const std::vector<Garment>& drafts);
 
 /// Displacement of every control point from rest at the start: where it is placed, and noise.
 std::vector<Vec3> startDisplacements(const Case& c, const std::vector<Garment>& garments);

@@ -15,7 +15,8 @@ void PlacedBodies::moveTo(double time_s) {
 
 TriangleMesh PlacedBodies::deformedMesh(int obstacle) const {
   const auto o = static_cast<std::size_t>(obstacle);
-  return {vertices_[o], std::get<TriangleMesh>(scenario_.model->obstacles[o].shape).triangles};
+  return {{vertices_[o].begin(), vertices_[o].end()},
+          std::get<TriangleMesh>(scenario_.model->obstacles[o].shape).triangles};
 }
 
 PlacedBodies::Nearest PlacedBodies::nearest(const Vec3& x) const {

@@ -124,13 +124,6 @@ std::vector<int> nameParts(const Case& c, std::span<const Garment> garments, Sce
   return first;
 }
 
-ContactParameters contactOf(const Case& c) {
-  const double g = norm(c.gravity_m_per_s2);
-  return {c.contact.layer_m.value_or(0), c.contact.friction,
-          c.contact.relaxation_s,        c.contact.tolerance * (g > 0 ? g : 9.81),
-          c.contact.max_iterations,      c.contact.compliance_m_per_Pa};
-}
-
 /// The model of the drafted cloth, with what holds it, among the obstacles.
 void buildModelOf(const Case& c, const Only& only, ClothDraft&& draft, const std::vector<int>& first,
                   std::vector<Obstacle> obstacles, Scenario& s) {
@@ -146,7 +139,8 @@ void buildModelOf(const Case& c, const Only& only, ClothDraft&& draft, const std
   if (const auto& limit = c.strain_limit) options.strain_limit = wornLimit(*limit);
   const Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   s.model = underGarments(c, only, [&] {
-    return buildModel(std::move(draft.cloth), options, environment, contactOf(c), std::move(obstacles));
+    return buildModel(std::move(draft.cloth), options, environment, contactOf(c.contact, norm(c.gravity_m_per_s2)),
+                      std::move(obstacles));
   });
   findHeldPoints(*s.model, s.supports);
 }

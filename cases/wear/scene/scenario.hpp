@@ -10,8 +10,8 @@
 #include "cases/wear/scene/stage.hpp"
 #include "cases/wear/scene/supports.hpp"
 #include "core/cloth/draft/garment.hpp"
-#include "core/cloth/triangles/triangle_build.hpp"
-#include "core/motion/advance.hpp"
+#include "core/cloth/draft/mesh_draft.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "human/body/body.hpp"
 #include "human/motion/foot_report.hpp"
 #include "human/motion/motion.hpp"
@@ -32,7 +32,7 @@ struct ContactGroup {
 /// The garments of a case as they are made, before they are cloth: drafted or read, innermost first.
 struct Wardrobe {
   std::vector<Garment> drafts;
-  std::vector<std::optional<TriangleGarment>> meshes;  ///< of each that is a mesh from the start
+  std::vector<std::optional<MeshDraft>> meshes;  ///< of each that is a mesh from the start
 };
 
 /// Constant after it is built. Time 0 is where the motion starts; dressing and settling lie before it.

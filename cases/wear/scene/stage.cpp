@@ -20,11 +20,7 @@ void CaseStage::placements(double t, std::span<Placement> obstacles, std::span<P
     for (const Placement& p : body) obstacles[at++] = p;
     for (std::size_t l = 0; l < anchors.size(); ++l) anchors[l] = {poses[l].rotation, poses[l].origin, 1};
   }
-  for (std::size_t k = 0; k < fixed.size(); ++k) {
-    obstacles[at] = fixed[k];
-    if (!sequence[k]) obstacles[at].origin += t * fixed_velocity[k];
-    ++at;
-  }
+  own.placements(t, obstacles.subspan(at), {});
 }
 
 Posture CaseStage::postureAt(double t) const {
@@ -35,12 +31,7 @@ Posture CaseStage::postureAt(double t) const {
 }
 
 void CaseStage::vertices(int obstacle, double t, std::span<Vec3> x) const {
-  if (obstacle >= first_fixed) {
-    const auto k = static_cast<std::size_t>(obstacle - first_fixed);
-    sequence[k]->at(t, x);
-    for (Vec3& p : x) p += t * fixed_velocity[k];
-    return;
-  }
+  if (obstacle >= first_own) return own.vertices(obstacle - first_own, t, x);
   const Posture posture = postureAt(t);
   skinPositions(*human->skin, linkPoses(human->skeleton, posture.q, posture.root), x);
   if (shrunk_skin.empty() || !(t < grow_start_s + grow_s)) return;

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "cases/contact/stage.hpp"
 #include "core/motion/model.hpp"
 #include "human/body/body.hpp"
-#include "human/body/mesh_sequence.hpp"
 #include "human/motion/motion.hpp"
 
 namespace gambeson {
@@ -23,10 +23,8 @@ class CaseStage : public Stage {
   double grow_start_s = 0, grow_s = 0;
   std::optional<Posture> dressed;  ///< posture that the garments are put on in, left from settle_start_s on
   double settle_start_s = 0;
-  std::vector<Placement> fixed;
-  std::vector<Vec3> fixed_velocity;
-  std::vector<std::unique_ptr<const MeshSequence>> sequence;  ///< as `fixed`; null for those that do not deform
-  int first_fixed = 0;                                        ///< obstacle
+  ObstacleStage own;  ///< the case's obstacles
+  int first_own = 0;  ///< of them
   Vec3 air_velocity;
   double air_ramp_s = 0;
 

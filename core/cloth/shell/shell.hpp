@@ -8,6 +8,7 @@
 #include "core/cloth/cloth_state.hpp"
 #include "core/cloth/draft/garment.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/shell/cell_rule.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
 #include "core/cloth/shell/shell_memory.hpp"
 #include "core/cloth/shell/surface.hpp"
@@ -24,15 +25,6 @@ struct ShellPart {
   long first_slot = 0;
   int cell_count = 0;  ///< the rest of the last group are copies without area
 };
-
-/// How quadratic cells are integrated; other degrees, and what trimming leaves of a cell, always take the full rule of
-/// degree + 1 points in each direction. Quadratic cells lock in bending under it.
-///   automatic: 2 x 2 points; three across a patch of one cell (or of cells that meet in double knots only), where two
-///              miss a mode; 3 x 3 on trimmed patches
-///   full:      3 x 3 points
-///   assumed:   assumed strains (core/cloth/shell/assumed.hpp): free of locking for any thickness, less accurate where
-///              membrane stress governs the bending (wrinkles, hanging strips)
-enum class CellRule { automatic, full, assumed };
 
 class Shell {
  public:

@@ -167,11 +167,11 @@ void joinSides(const std::vector<int>& a, const std::vector<int>& b, const std::
 
 }  // namespace
 
-TriangleGarment triangleGarment(const Garment& g, MeshKind kind) {
+MeshDraft meshDraft(const Garment& g, MeshKind kind) {
   if (!g.weak_seams.empty())
     reject("triangles need seams whose edges have equal cells; weak seams go with NURBS cloth");
   validateFields(g);
-  TriangleGarment out;
+  MeshDraft out;
   ClothMesh& mesh = out.mesh;
   const double rows_per_cell = kind == MeshKind::equilateral ? rowsPerCell(g) : 1;
   std::vector<PatchMesh> patches;

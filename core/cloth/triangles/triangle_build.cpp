@@ -75,7 +75,7 @@ struct EdgeOf {
 /// Adds one garment.
 class Builder {
  public:
-  Builder(const TriangleGarment& garment, int number, TriangleParts& parts)
+  Builder(const MeshDraft& garment, int number, TriangleParts& parts)
       : g_(garment),
         mesh_(garment.mesh),
         out_(parts),
@@ -193,7 +193,7 @@ class Builder {
     }
   }
 
-  const TriangleGarment& g_;
+  const MeshDraft& g_;
   const ClothMesh& mesh_;
   TriangleParts& out_;
   int first_patch_;
@@ -205,7 +205,7 @@ class Builder {
 
 }  // namespace
 
-TriangleParts buildTriangles(std::span<const TriangleGarment> garments) {
+TriangleParts buildTriangles(std::span<const MeshDraft> garments) {
   if (garments.empty()) throw InputError({"", 0, "garments"}, "at least one garment is needed");
   TriangleParts parts;
   for (std::size_t g = 0; g < garments.size(); ++g) Builder(garments[g], static_cast<int>(g), parts);

@@ -6,26 +6,12 @@
 #include <vector>
 
 #include "core/cloth/cloth.hpp"
-#include "core/cloth/triangles/cloth_mesh.hpp"
-#include "core/cloth/triangles/mesh_kind.hpp"
+#include "core/cloth/draft/mesh_draft.hpp"
 #include "core/cloth/triangles/triangle_elements.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/sparse.hpp"
 
 namespace gambeson {
-
-/// One garment.
-struct TriangleGarment {
-  ClothMesh mesh;
-  MeshRest rest = MeshRest::fabric;
-  std::vector<Fabric> fabrics;  ///< one or more
-  std::vector<int> fabric;      ///< of each triangle; empty: the first
-  /// Of a draft: the parameters at each triangle's corners, their range in each patch, and the vertices as rows on the
-  /// draft's control points. Empty for a file.
-  std::vector<std::array<Vec2, 3>> draft;
-  std::vector<std::array<Vec2, 2>> range;
-  SparseRows of_control;
-};
 
 /// All garments, in turn.
 struct TriangleParts {
@@ -44,6 +30,6 @@ struct TriangleParts {
 };
 
 /// Throws InputError on bad meshes, a garment without fabric, and uv that gives no threads or no flat shape.
-TriangleParts buildTriangles(std::span<const TriangleGarment> garments);
+TriangleParts buildTriangles(std::span<const MeshDraft> garments);
 
 }  // namespace gambeson

@@ -46,7 +46,7 @@ class TriangleTangent : public ClothTangent {
 
 }  // namespace
 
-TriangleCloth::TriangleCloth(std::vector<TriangleGarment> garments)
+TriangleCloth::TriangleCloth(std::vector<MeshDraft> garments)
     : garments_(std::move(garments)), parts_(buildTriangles(garments_)) {
   map_.T = parts_.T;
   map_.Tt = transpose(map_.T);
@@ -100,14 +100,14 @@ Vec2 TriangleCloth::placeOfDraft(int patch, Vec2 uv) const {
 
 int TriangleCloth::draftPoints() const {
   int sum = 0;
-  for (const TriangleGarment& g : garments_) sum += g.of_control.column_count;
+  for (const MeshDraft& g : garments_) sum += g.of_control.column_count;
   return sum;
 }
 
 std::vector<Vec3> TriangleCloth::fromDraft(std::span<const Vec3> control) const {
   std::vector<Vec3> of_vertex, out;
   std::size_t first = 0;
-  for (const TriangleGarment& g : garments_) {
+  for (const MeshDraft& g : garments_) {
     const auto columns = static_cast<std::size_t>(g.of_control.column_count);
     std::vector<Vec3> own(g.mesh.vertices.size());
     if (columns > 0) g.of_control.multiply<Vec3>(control.subspan(first, columns), own);

@@ -28,7 +28,7 @@ class TriangleCloth : public Cloth {
  public:
   /// Garments worn over each other, the first innermost. Throws InputError on bad meshes or fabrics: a fabric with
   /// coupling of membrane and bending is none of triangles.
-  explicit TriangleCloth(std::vector<TriangleGarment> garments);
+  explicit TriangleCloth(std::vector<MeshDraft> garments);
   TriangleCloth(const TriangleCloth&) = delete;
   TriangleCloth& operator=(const TriangleCloth&) = delete;
   ~TriangleCloth() override;
@@ -91,7 +91,7 @@ class TriangleCloth : public Cloth {
   int firstTriangle(int patch) const { return parts_.first_triangle[static_cast<std::size_t>(patch)]; }
 
  private:
-  std::vector<TriangleGarment> garments_;
+  std::vector<MeshDraft> garments_;
   TriangleParts parts_;  ///< its elements have gone to elements_
   FreeMap map_;
   TriangleElements elements_;

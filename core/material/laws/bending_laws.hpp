@@ -16,8 +16,13 @@
 
 namespace gambeson {
 
+/// Whether it compares its own numbers: a base's comparison would find laws of different numbers alike.
+template <class L>
+concept ComparesItself = requires { static_cast<bool (L::*)(const L&) const>(&L::operator==); };
+
 template <BendingFormula... Laws>
 struct LawList {
+  static_assert((ComparesItself<Laws> && ...), "a law needs an operator== of its own");
   static constexpr int count = sizeof...(Laws);
   static constexpr int most_numbers = std::max({0, Laws::number_count...});
   static constexpr int most_history = std::max({0, Laws::history_size...});

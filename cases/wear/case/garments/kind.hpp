@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cases/wear/case/case.hpp"
-#include "core/cloth/triangles/triangle_build.hpp"
+#include "core/cloth/draft/mesh_draft.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/form.hpp"
 
@@ -52,7 +52,7 @@ struct GarmentKind {
   /// Calls `take` with the path of each file that it is read from; `take` may put another in its place.
   void (*files)(GarmentCase& g, const Take& take) = [](GarmentCase&, const Take&) {};
   /// Of what is triangles from the start, and has no patches: they, in place. Null: patches are drafted.
-  TriangleGarment (*triangles)(const GarmentCase& g, const Fabric& fabric) = nullptr;
+  MeshDraft (*triangles)(const GarmentCase& g, const Fabric& fabric) = nullptr;
 
   bool isRead() const { return look != nullptr; }
   bool isMesh() const { return triangles != nullptr; }

@@ -6,7 +6,7 @@
 
 #include "cases/input/table.hpp"
 #include "cases/wear/case/garments/kind.hpp"
-#include "core/cloth/triangles/obj_mesh.hpp"
+#include "core/cloth/draft/obj_mesh.hpp"
 #include "core/error.hpp"
 #include "human/files/mesh.hpp"
 
@@ -104,7 +104,7 @@ const GarmentKind mesh_file_garment{
     .triangles =
         [](const GarmentCase& worn, const Fabric& fabric) {
           const auto& file = std::get<MeshGarment>(worn.shape);
-          TriangleGarment g;
+          MeshDraft g;
           g.mesh = read(file.path);
           g.rest = file.rest;
           g.fabrics = {fabric};

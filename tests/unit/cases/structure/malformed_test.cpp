@@ -151,6 +151,42 @@ const std::string limited_example = R"json({
   "output": {"thread_strains": true}
 })json";
 
+const std::string touching_example = R"json({
+  "kind": "dynamic",
+  "name": "example",
+  "sheet": {"plate": {"width": 0.2, "height": 0.2}, "cells_u": 4, "cells_v": 4},
+  "material": {"isotropic": {"young": 10000, "thickness": 0.001, "density": 100}},
+  "supports": [{"edge": "v1", "hold": "xyz"}],
+  "loads": [{"gravity": [0, 0, -9.81]}],
+  "solver": {"scheme": "explicit", "end": 0.05},
+  "obstacles": [{"name": "ball", "sphere": {"radius": 0.1, "center": [0.1, 0.1, -0.2]}}],
+  "contact": {"friction": 0.3},
+  "output": {"points": [{"name": "tip", "corner": "u1v0"}]}
+})json";
+
+TEST(MalformedStructure, Contact) {
+  expectRefused(
+      touching_example,
+      {
+          {"\"scheme\": \"explicit\"", "\"step\": 0.01", 9, "obstacles", "goes with explicit steps"},
+          {"{\"friction\": 0.3}", "{}", 10, "contact.friction", "is required"},
+          {"  \"contact\": {\"friction\": 0.3},\n", "", 1, "contact", "is required where there is an obstacle"},
+          {"\"friction\": 0.3", "\"friction\": -1", 10, "contact.friction", "allowed: >= 0"},
+          {"\"ball\"", "\"tip\"", 11, "output.points[0].name", "used twice"},
+          {"\"ball\"", "\"a ball\"", 9, "obstacles[0].name", "letters, digits"},
+          {"\"radius\": 0.1", "\"radius\": 0", 9, "obstacles[0].sphere.radius", "allowed: > 0"},
+          {"{\"name\": \"ball\", \"sphere\": {\"radius\": 0.1, \"center\": [0.1, 0.1, -0.2]}}],\n  \"contact\": "
+           "{\"friction\": 0.3",
+           "],\n  \"contact\": {\"friction\": 0.3, \"self\": false", 10, "contact.self", "nothing to touch"},
+          {"\"dynamic\"", "\"static\"", 9, "obstacles", "know no contact"},
+          {"\"dynamic\"", "\"modal\"", 9, "obstacles", "know no contact"},
+          {"\"center\": [0.1, 0.1, -0.2]}}],",
+           "\"center\": [0.1, 0.1, -0.2]}}], \"strain_limit\": {\"mode\": \"equality\", "
+           "\"method\": \"closest\"},",
+           9, "strain_limit.method", "touches nothing"},
+      });
+}
+
 TEST(MalformedStructure, StrainLimits) {
   expectRefused(
       limited_example,

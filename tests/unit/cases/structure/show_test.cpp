@@ -14,7 +14,9 @@
 #include "cases/structure/measure.hpp"
 #include "cases/structure/run.hpp"
 #include "core/error.hpp"
+#include "core/motion/implicit.hpp"
 #include "unit/cases/example.hpp"
+#include "unit/cases/structure/table.hpp"
 
 namespace gambeson {
 namespace {
@@ -77,22 +79,6 @@ std::string stripInMotion(const std::string& supports_and_loads, const std::stri
     "output": {"edges": [{"name": "root", "edge": "u0"}], "interval": 0.01, "shapes": "none"}})json";
 }
 
-/// Rows of path.csv by the names of its columns.
-std::vector<std::map<std::string, double>> rowsOf(const std::filesystem::path& csv) {
-  std::ifstream stream(csv);
-  std::string line, cell;
-  std::getline(stream, line);
-  std::vector<std::string> names;
-  for (std::istringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
-  std::vector<std::map<std::string, double>> rows;
-  while (std::getline(stream, line)) {
-    std::size_t k = 0;
-    rows.emplace_back();
-    for (std::istringstream cells(line); std::getline(cells, cell, ',');) rows.back()[names[k++]] = std::stod(cell);
-  }
-  return rows;
-}
-
 /// Loads that come and go, and a pressure that follows: what they do is in the strip, to the order of the steps.
 TEST(StructureShow, LoadsThatChangeDoTheWorkThatTheStripHolds) {
   for (const char* load : {R"("loads": [{"edge": "u1", "force": [0, 0, 0.3], "program": "p"}],)",
@@ -105,7 +91,7 @@ TEST(StructureShow, LoadsThatChangeDoTheWorkThatTheStripHolds) {
                                     R"({"scheme": "newmark", "end": 1, "step": 0.002})"));
     runStructure(readStructureCase(file), {.out = folder.path() / "out", .threads = 1});
     double most = 0, off = 0;
-    for (auto& row : rowsOf(folder.path() / "out/path.csv")) {
+    for (auto& row : tableRows(folder.path() / "out/path.csv")) {
       most = std::max(most, row["kinetic_energy_J"] + row["strain_energy_J"]);
       off = std::max(off, std::abs(row["total_energy_J"]));
     }
@@ -126,7 +112,7 @@ TEST(StructureShow, AMovingSupportFeelsAllOfTheMass) {
                         path + "]}",
                     R"({"end": 0.9, "step": 0.01, "rayleigh_stiffness": 0.02})"));
   runStructure(readStructureCase(file), {.out = folder.path() / "out", .threads = 1});
-  EXPECT_NEAR(rowsOf(folder.path() / "out/path.csv").back()["root_rx_N"], 2, 1e-5);
+  EXPECT_NEAR(tableRows(folder.path() / "out/path.csv").back()["root_rx_N"], 2, 1e-5);
 }
 
 /// The forces on points that nothing holds are in balance, damping by stiffness and all.
@@ -140,13 +126,13 @@ TEST(StructureShow, DampingByStiffnessIsInTheBalance) {
   const StructureModel model = buildModel(c);
   const Structure& s = *model.structure;
   const Sheet sheet = sheetOf(c);
-  DynamicState state;
   const auto n = static_cast<std::size_t>(s.dofs.unknowns());
-  state.y.assign(n, 0);
-  state.v.assign(n, 1e-4);
-  state.a.assign(n, 0);
-  ASSERT_TRUE(solveDynamic(s, c.dynamics, state, [](const DynamicState&) { return true; }).reached);
-  const MeasuredState m = measureDynamic(s, state, c.dynamics.lumped_mass, c.dynamics.step_s);
+  State state = structureState(s, 0, std::vector<double>(n, 0.0), std::vector<double>(n, 1e-4), {});
+  const DynamicOptions& d = c.dynamics;
+  ImplicitSteps(s, {.scheme = ImplicitScheme::newmark, .step_s = d.step_s})
+      .advance(d.end_s, state,
+               [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+  const MeasuredState m = measureDynamic(model, state, d.lumped_mass, d.step_s);
   std::vector<double> pushed(n);
   s.dofs.Ct.multiply<double>({&m.reaction_N.data()->x, 3 * m.reaction_N.size()}, pushed);
   double left = 0, all = 0;

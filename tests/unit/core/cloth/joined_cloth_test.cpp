@@ -24,7 +24,7 @@ std::unique_ptr<const Cloth> patchOfNurbs() {
 }
 
 std::unique_ptr<const Cloth> patchOfTriangles() {
-  std::vector<TriangleGarment> g{flatTriangles(4, 3, 0.4, 0.3, plainFabric(), MeshKind::equilateral, 0.1)};
+  std::vector<MeshDraft> g{flatTriangles(4, 3, 0.4, 0.3, plainFabric(), MeshKind::equilateral, 0.1)};
   for (Vec3& x : g[0].mesh.vertices) x.z += 0.1;
   return std::make_unique<TriangleCloth>(std::move(g));
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/contact/mesh_shapes.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
@@ -24,18 +24,19 @@ TEST(BodyEdges, ASheetOverABoxRestsOnItsEdges) {
   double carried = 0, weight = 0;
   std::vector<Vec3> x, lo, hi;
   const double end = 2, watched = 0.1;
-  advance(*m.model, m.stage, {0.7, 1e-3}, end, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
-            if (after.time_s < end - watched) return;
-            impacts += r.impacts;
-            edges += static_cast<long>(m.work.edge_rows.size());
-            ++steps;
-            carried -= r.momentum.obstacles.z;
-            weight -= r.momentum.gravity.z;
-            samplePositions(*m.model, after.p, x);
-            if (lo.empty()) lo = hi = x;
-            for (std::size_t i = 0; i < x.size(); ++i) lo[i] = minimum(lo[i], x[i]), hi[i] = maximum(hi[i], x[i]);
-          });
+  VelocityVerlet(*m.model, m.stage, {0.7, 1e-3}, frequency, m.work)
+      .advance(end, m.state,
+               [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
+                 if (after.time_s < end - watched) return;
+                 impacts += r.impacts;
+                 edges += static_cast<long>(m.work.edge_rows.size());
+                 ++steps;
+                 carried -= r.momentum.obstacles.z;
+                 weight -= r.momentum.gravity.z;
+                 samplePositions(*m.model, after.p, x);
+                 if (lo.empty()) lo = hi = x;
+                 for (std::size_t i = 0; i < x.size(); ++i) lo[i] = minimum(lo[i], x[i]), hi[i] = maximum(hi[i], x[i]);
+               });
   double tremble = 0;
   for (std::size_t i = 0; i < x.size(); ++i) tremble = std::max(tremble, norm(hi[i] - lo[i]));
   std::printf("[ measured ] %.4f of the weight, samples move %.1f um in %.1f s, %ld impacts, %.1f rows on edges\n",

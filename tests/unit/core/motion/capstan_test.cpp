@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 #include "unit/shell_of.hpp"
 
@@ -70,11 +70,12 @@ double tensionRatio(double friction, double wrap) {
   Vec3 held{};
   int unconverged = 0;
   constexpr double from = 0.12, until = 0.16;
-  advance(*model, drum, control, until, state, frequency, work,
-          [&](const State& before, const State&, const StepReport& report, const StepResult&, const Frequency&) {
-            unconverged += !report.contact.converged;
-            if (before.time_s >= from) held += report.momentum.supports;
-          });
+  VelocityVerlet(*model, drum, control, frequency, work)
+      .advance(until, state,
+               [&](const State& before, const State&, const StepReport& report, const StepResult&, const Frequency&) {
+                 unconverged += !report.contact.converged;
+                 if (before.time_s >= from) held += report.momentum.supports;
+               });
   const double tension = norm(held) / ((until - from) * kWidth_m);
   std::printf("[ measured ] mu phi %.3f (wrap %.0f degrees): %.3f N/m, ratio over exp %.4f, %d unconverged\n",
               friction * wrap, wrap * 180 / kPi, tension, tension / kSlack_N_per_m / std::exp(friction * wrap),

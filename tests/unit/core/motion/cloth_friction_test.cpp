@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "core/cloth/draft/layers.hpp"
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
 namespace gambeson {
@@ -33,12 +33,13 @@ TEST(ClothFriction, ASheetSlidesOnAnotherWithoutMoreThanFriction) {
   const double start = mean(m.state.p).z;
   Frequency frequency;
   double lifted = 0, t = 0, v = 0;
-  advance(*m.model, m.stage, {0.9, 1e-3}, kTime_s, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
-            EXPECT_TRUE(r.contact.converged);
-            lifted = std::max(lifted, mean(after.p).z - start);
-            if (t == 0 && after.time_s > 0.01) t = after.time_s, v = mean(after.v).x;  // the first steps land
-          });
+  VelocityVerlet(*m.model, m.stage, {0.9, 1e-3}, frequency, m.work)
+      .advance(kTime_s, m.state,
+               [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
+                 EXPECT_TRUE(r.contact.converged);
+                 lifted = std::max(lifted, mean(after.p).z - start);
+                 if (t == 0 && after.time_s > 0.01) t = after.time_s, v = mean(after.v).x;  // the first steps land
+               });
   const double acceleration = (mean(m.state.v).x - v) / (kTime_s - t),
                exact = 9.81 * (kSlope - kFriction) / std::sqrt(1 + kSlope * kSlope);
   std::printf("[ measured ] acceleration %.5f of the exact one up to %.2f m/s, lifted by %.2g um\n",

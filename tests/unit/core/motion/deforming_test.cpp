@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "core/error.hpp"
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "exact/scene_intersections.hpp"
 #include "unit/core/contact/mesh_shapes.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
@@ -58,11 +58,12 @@ struct Scene {
     state = initialState(*model, stage, 0, work);
   }
   void run(double until, const StepObserver& observe = {}) {
-    advance(*model, stage, {0.7, 1e-3}, until, state, frequency, work,
-            [&](const State& a, const State& b, const StepReport& r, const StepResult& w, const Frequency& f) {
-              EXPECT_LE(r.momentum.error(), 1e-9 * r.momentum.scale) << "at " << b.time_s;
-              if (observe) observe(a, b, r, w, f);
-            });
+    VelocityVerlet(*model, stage, {0.7, 1e-3}, frequency, work)
+        .advance(until, state,
+                 [&](const State& a, const State& b, const StepReport& r, const StepResult& w, const Frequency& f) {
+                   EXPECT_LE(r.momentum.error(), 1e-9 * r.momentum.scale) << "at " << b.time_s;
+                   if (observe) observe(a, b, r, w, f);
+                 });
   }
   std::vector<Vec3> samples() const {
     std::vector<Vec3> x;
@@ -374,8 +375,8 @@ TEST(Deforming, PointsInARowAreInsideWhereEachAloneIs) {
   const std::vector<Obstacle> obstacles{{skin, "tube", true}};
   const ProximityQuery query(obstacles);
   DeformedSurfaces surfaces(obstacles);
-  DeformedVertices at(1);
-  for (const Vec3& X : skin.vertices) at[0].push_back(bentTube(X, 0.13));
+  DeformedVertices at(obstacles);
+  for (std::size_t v = 0; v < skin.vertices.size(); ++v) at[0][v] = bentTube(skin.vertices[v], 0.13);
   surfaces.move(at);
   std::vector<Vec3> x;
   for (int line = 0; line < 60; ++line)

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
 namespace gambeson {
@@ -123,20 +123,21 @@ TEST(Step, NothingPassesATurningBlade) {
   int impacts = 0, steps = 0;
   double closest = 1, shortest = 1;
   std::vector<Vec3> x;
-  advance(*m.model, spin, {}, 0.012, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
-            impacts += r.impacts;
-            ++steps;
-            shortest = std::min(shortest, r.step_s);
-            Placement at;
-            spin.placements(after.time_s, {&at, 1}, {});
-            samplePositions(*m.model, after.p, x);
-            for (const Vec3& p : x) {
-              closest = std::min(closest, m.model->proximity->signedDistance(0, at, p));
-              const Vec3 local = toLocal(at, p);  // on its side, or flung off beyond the rim
-              EXPECT_TRUE(local.z > 0 || std::pow(local.x / 0.3, 2) + std::pow(local.y / 0.2, 2) > 1);
-            }
-          });
+  VelocityVerlet(*m.model, spin, {}, frequency, m.work)
+      .advance(0.012, m.state,
+               [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
+                 impacts += r.impacts;
+                 ++steps;
+                 shortest = std::min(shortest, r.step_s);
+                 Placement at;
+                 spin.placements(after.time_s, {&at, 1}, {});
+                 samplePositions(*m.model, after.p, x);
+                 for (const Vec3& p : x) {
+                   closest = std::min(closest, m.model->proximity->signedDistance(0, at, p));
+                   const Vec3 local = toLocal(at, p);  // on its side, or flung off beyond the rim
+                   EXPECT_TRUE(local.z > 0 || std::pow(local.x / 0.3, 2) + std::pow(local.y / 0.2, 2) > 1);
+                 }
+               });
   std::printf("[ measured ] closest %.3g mm, %d impacts, %d steps down to %.3g us\n", 1e3 * closest, impacts, steps,
               1e6 * shortest);
   EXPECT_GT(closest, 0);
@@ -148,7 +149,9 @@ TEST(Advance, EndsAtTheTimeAndSaysWhyItCannot) {
   Frequency f;
   int steps = 0;
   double last = 0;
-  advance(*m.model, m.stage, {}, 0.0137, m.state, f, m.work,
+  VelocityVerlet(*m.model, m.stage, {}, f, m.work)
+      .advance(
+          0.0137, m.state,
           [&](const State& before, const State& after, const StepReport& r, const StepResult&, const Frequency& now) {
             EXPECT_EQ(before.time_s, last);
             EXPECT_NEAR(after.time_s, before.time_s + r.step_s, 1e-15);
@@ -163,7 +166,7 @@ TEST(Advance, EndsAtTheTimeAndSaysWhyItCannot) {
   EXPECT_EQ(m.step(1e-6).failure, StepFailure::not_finite);
   const auto ignore = [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {};
   try {
-    advance(*m.model, m.stage, {}, 0.02, m.state, f, m.work, ignore);
+    VelocityVerlet(*m.model, m.stage, {}, f, m.work).advance(0.02, m.state, ignore);
     ADD_FAILURE() << "a velocity that is not a number went through";
   } catch (const RunError& e) {
     EXPECT_NE(std::string(e.what()).find("no step at time 0.0137"), std::string::npos) << e.what();

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "core/contact/scene_check.hpp"
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "exact/scene_intersections.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
@@ -28,8 +28,9 @@ TEST(EllipsoidSheet, ItsTrianglesKeepOutOfTheBody) {
   int looks = 0, crossing = 0;
   std::size_t most = 0;
   for (int k = 1; k <= 20; ++k) {
-    advance(*m.model, m.stage, {0.9, 1e-3}, 0.02 * k, m.state, frequency, m.work,
-            [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+    VelocityVerlet(*m.model, m.stage, {0.9, 1e-3}, frequency, m.work)
+        .advance(0.02 * k, m.state,
+                 [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     ++looks;
     const std::size_t pairs = check.at(m.state.p, m.state.time_s).pairs.size();
     crossing += pairs > 0;

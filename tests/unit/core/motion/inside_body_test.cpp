@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "core/contact/crossing.hpp"
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/contact/mesh_shapes.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
@@ -42,12 +42,13 @@ TEST_P(InsideOfABall, ComesOut) {
   EXPECT_GT(deepest(), 0.02);
   double free_s = 0, farthest_m = 0;
   Frequency frequency;
-  advance(model, m.stage, {0.7, 1e-3}, 0.15, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
-            for (int s = 0; s < model.surface.size(); ++s)
-              farthest_m = std::max(farthest_m, norm(m.work.x1[s] - m.work.x0[s]));
-            if (r.deepest_m > 0 || r.intersections > 0) free_s = after.time_s;
-          });
+  VelocityVerlet(model, m.stage, {0.7, 1e-3}, frequency, m.work)
+      .advance(0.15, m.state,
+               [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
+                 for (int s = 0; s < model.surface.size(); ++s)
+                   farthest_m = std::max(farthest_m, norm(m.work.x1[s] - m.work.x0[s]));
+                 if (r.deepest_m > 0 || r.intersections > 0) free_s = after.time_s;
+               });
   std::printf("[ measured ] %s: free at %.1f ms; %.2f cells in a step at most\n", start.name, 1e3 * free_s,
               farthest_m / (start.side_m / 8));
   EXPECT_LT(free_s, 0.12);

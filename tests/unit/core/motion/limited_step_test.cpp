@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/cloth/shell/shell_loads.hpp"
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 #include "unit/shell_of.hpp"
 
@@ -171,12 +171,13 @@ Stretch swing(double k_over_rho, const StrainLimit& limit, CellRule rule = CellR
   std::vector<Vec3> e;
   StepControl control;
   control.max_step_s = 2e-3;
-  advance(*m.model, m.stage, control, 0.6, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
-            s.missed += !r.limit.converged;
-            strainVectors(rows, after.p, e);
-            for (const Vec3& d : e) s.most = std::max(s.most, strainOf(d));
-          });
+  VelocityVerlet(*m.model, m.stage, control, frequency, m.work)
+      .advance(0.6, m.state,
+               [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
+                 s.missed += !r.limit.converged;
+                 strainVectors(rows, after.p, e);
+                 for (const Vec3& d : e) s.most = std::max(s.most, strainOf(d));
+               });
   for (const Vec3& d : e) s.average += std::abs(strainOf(d)) / rows.rows();
   std::vector<Vec3> q(m.model->cloth->points());
   m.model->cloth->map().T.multiply<Vec3>(m.state.p, q);
@@ -228,11 +229,12 @@ TEST(LimitedStep, TheStepIsThatOfTheFabric) {
     Frequency f;
     int missed = 0, steps = 0;
     const double before = stiff.energy().total();
-    advance(*stiff.model, stiff.stage, {}, 0.01, stiff.state, f, stiff.work,
-            [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
-              missed += !r.limit.converged;
-              ++steps;
-            });
+    VelocityVerlet(*stiff.model, stiff.stage, {}, f, stiff.work)
+        .advance(0.01, stiff.state,
+                 [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
+                   missed += !r.limit.converged;
+                   ++steps;
+                 });
     EXPECT_GT(steps, 300);
     EXPECT_EQ(missed, 0);
     EXPECT_LT(stiff.energy().total(), before + 1e-3);

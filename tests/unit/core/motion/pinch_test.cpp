@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "core/contact/crossing.hpp"
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 #include "unit/shell_of.hpp"
 
@@ -71,25 +71,26 @@ struct Pinch {
   }
 
   void run(double until_s) {
-    advance(*model, stage, {0.7, 1e-3}, until_s, state, frequency, work,
-            [&](const State&, const State& after, const StepReport& r, const StepResult& w, const Frequency&) {
-              ++steps;
-              pinched += r.pinched;
-              yielded += r.contact.yielded;
-              double gained = 0, put_in = 0;
-              for (int i = 0; i < model->freeCount(); ++i) {
-                gained += 0.5 * model->mass_kg[i] * (norm2(work.velocity[i]) - norm2(work.predictor[i]));
-                fastest_mps = std::max(fastest_mps, norm(after.v[i]));
-                ASSERT_TRUE(std::isfinite(norm(after.v[i])));
-              }
-              for (std::size_t k = 0; k < w.rows.size(); ++k)
-                put_in +=
-                    dot(w.impulses[k], w.rows[k].body_velocity + w.rows[k].target_m_per_s * w.rows[k].contact.normal);
-              for (const ImpactZone& zone : w.zones)
-                for (int i : zone.points)
-                  if (zone.body >= 0) put_in += model->mass_kg[i] * dot(w.zone_change[i], work.velocity[i]);
-              excess_J = std::max(excess_J, gained - put_in);
-            });
+    VelocityVerlet(*model, stage, {0.7, 1e-3}, frequency, work)
+        .advance(until_s, state,
+                 [&](const State&, const State& after, const StepReport& r, const StepResult& w, const Frequency&) {
+                   ++steps;
+                   pinched += r.pinched;
+                   yielded += r.contact.yielded;
+                   double gained = 0, put_in = 0;
+                   for (int i = 0; i < model->freeCount(); ++i) {
+                     gained += 0.5 * model->mass_kg[i] * (norm2(work.velocity[i]) - norm2(work.predictor[i]));
+                     fastest_mps = std::max(fastest_mps, norm(after.v[i]));
+                     ASSERT_TRUE(std::isfinite(norm(after.v[i])));
+                   }
+                   for (std::size_t k = 0; k < w.rows.size(); ++k)
+                     put_in += dot(w.impulses[k],
+                                   w.rows[k].body_velocity + w.rows[k].target_m_per_s * w.rows[k].contact.normal);
+                   for (const ImpactZone& zone : w.zones)
+                     for (int i : zone.points)
+                       if (zone.body >= 0) put_in += model->mass_kg[i] * dot(w.zone_change[i], work.velocity[i]);
+                   excess_J = std::max(excess_J, gained - put_in);
+                 });
   }
 
   int crossings() const {

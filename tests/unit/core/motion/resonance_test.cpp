@@ -9,8 +9,8 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "core/motion/advance.hpp"
 #include "core/motion/resonance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
 namespace gambeson {
@@ -102,12 +102,13 @@ double growth(Motion& m, double duration_s) {
   StepControl control;
   control.max_step_s = 1;
   try {
-    advance(*m.model, m.stage, control, duration_s, m.state, f, m.work,
-            [&](const State&, const State& after, const StepReport&, const StepResult&, const Frequency&) {
-              if (++steps % 5) return;
-              most = std::max(most, energyOf(*m.model, m.stage, after, other).total() / first);
-              if (!(most < 100)) throw RunError("it ran away");
-            });
+    VelocityVerlet(*m.model, m.stage, control, f, m.work)
+        .advance(duration_s, m.state,
+                 [&](const State&, const State& after, const StepReport&, const StepResult&, const Frequency&) {
+                   if (++steps % 5) return;
+                   most = std::max(most, energyOf(*m.model, m.stage, after, other).total() / first);
+                   if (!(most < 100)) throw RunError("it ran away");
+                 });
   } catch (const RunError&) {
     most = 100;
   }

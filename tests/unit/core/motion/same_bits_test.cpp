@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
 namespace gambeson {
@@ -85,11 +85,13 @@ Met advanceTo(Motion& m, double until, bool forget = false) {
   Met met;
   Frequency frequency;
   if (forget) m.work = StepWork();
-  advance(*m.model, m.stage, {}, until, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& report, const StepResult&, const Frequency&) {
-            met.contacts = std::max(met.contacts, report.contacts);
-            for (const WarmContact& w : after.warm) met.edges += w.kind == ContactKind::edge_on_edge && w.mean_Pa > 0;
-          });
+  VelocityVerlet(*m.model, m.stage, {}, frequency, m.work)
+      .advance(until, m.state,
+               [&](const State&, const State& after, const StepReport& report, const StepResult&, const Frequency&) {
+                 met.contacts = std::max(met.contacts, report.contacts);
+                 for (const WarmContact& w : after.warm)
+                   met.edges += w.kind == ContactKind::edge_on_edge && w.mean_Pa > 0;
+               });
   return met;
 }
 

@@ -7,10 +7,11 @@
 #include <utility>
 #include <variant>
 
+#include "cases/contact/fields.hpp"
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/wear/case/fields.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
-#include "cases/wear/case/obstacles/kind.hpp"
 #include "cases/wear/case/supports/kind.hpp"
 
 namespace gambeson {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/motion/advance.hpp"
+#include "core/motion/velocity_verlet.hpp"
 #include "unit/core/contact/mesh_shapes.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
@@ -107,20 +107,22 @@ Lowered troughOn(const TriangleMesh& body, const auto& top) {
   Frequency frequency;
   Lowered out;
   std::vector<Vec3> q(m.model->cloth->map().T.rows()), x;
-  advance(*m.model, m.stage, {0.7, 1e-3}, 0.15, m.state, frequency, m.work,
-          [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
-            out.carried -= r.momentum.obstacles.z;
-            m.model->cloth->map().T.multiply<Vec3>(after.p, q);
-            for (int i = 0; i <= 200; ++i) {
-              const SurfaceBasis basis = surfaceBasis(patch, i / 200.0, 0.5);
-              Vec3 at;
-              for (std::size_t k = 0; k < basis.columns.size(); ++k) at += basis.values[0][k] * q[basis.columns[k]];
-              out.lowest = std::min(out.lowest, at.z - top(at.x) - 0.02 * after.time_s);
-            }
-            samplePositions(*m.model, after.p, x);
-            for (int s = 0; s < m.model->surface.size(); ++s)
-              if (out.carried != 0) out.bulge = std::max(out.bulge, m.model->bulges.beside(s, {0, 0, -1}, x));
-          });
+  VelocityVerlet(*m.model, m.stage, {0.7, 1e-3}, frequency, m.work)
+      .advance(0.15, m.state,
+               [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency&) {
+                 out.carried -= r.momentum.obstacles.z;
+                 m.model->cloth->map().T.multiply<Vec3>(after.p, q);
+                 for (int i = 0; i <= 200; ++i) {
+                   const SurfaceBasis basis = surfaceBasis(patch, i / 200.0, 0.5);
+                   Vec3 at;
+                   for (std::size_t k = 0; k < basis.columns.size(); ++k)
+                     at += basis.values[0][k] * q[basis.columns[k]];
+                   out.lowest = std::min(out.lowest, at.z - top(at.x) - 0.02 * after.time_s);
+                 }
+                 samplePositions(*m.model, after.p, x);
+                 for (int s = 0; s < m.model->surface.size(); ++s)
+                   if (out.carried != 0) out.bulge = std::max(out.bulge, m.model->bulges.beside(s, {0, 0, -1}, x));
+               });
   std::printf("[ measured ] lowest point %.3f mm above the body, at most %.3f mm below the samples beside it\n",
               1e3 * out.lowest, 1e3 * out.bulge);
   EXPECT_GT(std::abs(out.carried), 1e-6);

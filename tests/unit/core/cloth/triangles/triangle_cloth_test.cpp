@@ -295,7 +295,7 @@ TEST(TriangleCloth, ACantileverBendsAsTheBeam) {
     const Fabric f = plate(0);
     StructureOptions o;
     const double length = 1, width = 0.2, B = 1e6 * 1e-6 / 12, force = 1e-5;
-    auto c = std::make_unique<TriangleCloth>(std::vector<TriangleGarment>{
+    auto c = std::make_unique<TriangleCloth>(std::vector<MeshDraft>{
         flatTriangles(cells, std::max(2, cells / 4), length, width, f, MeshKind::equilateral)});
     const Vec3 all[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const PatchEdge clamp{0, Side::u0, false}, tip{0, Side::u1, false};
@@ -316,8 +316,8 @@ TEST(TriangleCloth, ACantileverBendsAsTheBeam) {
 }
 
 TEST(TriangleCloth, RefusesWhatIsNoCloth) {
-  TriangleGarment g = flatTriangles(2, 2, 1, 1, denim());
-  TriangleGarment bad = g;
+  MeshDraft g = flatTriangles(2, 2, 1, 1, denim());
+  MeshDraft bad = g;
   bad.mesh.triangles[1] = bad.mesh.triangles[0];
   EXPECT_THROW(clothOf(bad), InputError);
   bad = g;

@@ -13,14 +13,14 @@
 namespace gambeson::shapes {
 
 /// A flat rectangle in the x-y plane, `nu` x `nv` cells, all interior vertices moved by up to `jitter` of a cell.
-inline TriangleGarment flatTriangles(int nu, int nv, double width, double height, const Fabric& fabric,
+inline MeshDraft flatTriangles(int nu, int nv, double width, double height, const Fabric& fabric,
                                      MeshKind kind = MeshKind::single, double jitter = 0, unsigned seed = 1) {
   const Garment draft = garmentOf({patchOf(uniformKnots(2, nu), uniformKnots(2, nv),
                                            [&](double a, double b) {
                                              return Vec3{width * a, height * b, 0};
                                            })},
                                   {}, fabric);
-  TriangleGarment g = triangleGarment(draft, kind);
+  MeshDraft g = meshDraft(draft, kind);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> noise(-jitter, jitter);
   for (Vec3& x : g.mesh.vertices)
@@ -35,8 +35,8 @@ inline TriangleGarment flatTriangles(int nu, int nv, double width, double height
   return g;
 }
 
-inline TriangleCloth clothOf(TriangleGarment g) {
-  std::vector<TriangleGarment> all;
+inline TriangleCloth clothOf(MeshDraft g) {
+  std::vector<MeshDraft> all;
   all.push_back(std::move(g));
   return TriangleCloth(std::move(all));
 }

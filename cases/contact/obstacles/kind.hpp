@@ -1,6 +1,6 @@
 #pragma once
 /// What kinds of obstacle differ in: a row for each, a file for each row. Who adds a kind adds its struct to
-/// ObstacleCase (cases/wear/case/case.hpp), a file beside this one, and its row to the list in kind.cpp.
+/// ObstacleCase (cases/contact/contact.hpp), a file beside this one, and its row to the list in kind.cpp.
 
 #include <functional>
 #include <memory>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/wear/case/case.hpp"
+#include "cases/contact/contact.hpp"
 #include "core/contact/obstacle.hpp"
 #include "human/body/mesh_sequence.hpp"
 

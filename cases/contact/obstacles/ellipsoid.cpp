@@ -1,7 +1,7 @@
 /// Detail of kind.hpp: an ellipsoid.
 
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/table.hpp"
-#include "cases/wear/case/obstacles/kind.hpp"
 
 namespace gambeson {
 namespace schema {

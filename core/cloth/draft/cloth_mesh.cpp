@@ -1,4 +1,4 @@
-#include "core/cloth/triangles/cloth_mesh.hpp"
+#include "core/cloth/draft/cloth_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

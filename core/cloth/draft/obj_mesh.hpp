@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/cloth/triangles/cloth_mesh.hpp"
+#include "core/cloth/draft/cloth_mesh.hpp"
 
 namespace gambeson {
 

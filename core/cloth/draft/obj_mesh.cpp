@@ -1,4 +1,4 @@
-#include "core/cloth/triangles/obj_mesh.hpp"
+#include "core/cloth/draft/obj_mesh.hpp"
 
 #include <fmt/format.h>
 

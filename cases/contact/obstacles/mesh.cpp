@@ -1,8 +1,8 @@
 /// Detail of kind.hpp: triangles from a file.
 
 #include "human/files/mesh.hpp"
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/table.hpp"
-#include "cases/wear/case/obstacles/kind.hpp"
 
 namespace gambeson {
 namespace schema {

@@ -1,4 +1,4 @@
-#include "cases/wear/case/obstacles/kind.hpp"
+#include "cases/contact/obstacles/kind.hpp"
 
 #include <array>
 #include <variant>

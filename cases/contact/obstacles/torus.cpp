@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/table.hpp"
-#include "cases/wear/case/obstacles/kind.hpp"
 
 namespace gambeson {
 namespace schema {

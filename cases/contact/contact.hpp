@@ -1,0 +1,71 @@
+#pragma once
+/// What the cloth of a case touches beside itself and a human, and how.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/contact/response.hpp"
+#include "core/math/vec.hpp"
+#include "human/body/mesh_sequence.hpp"
+
+namespace gambeson {
+
+struct EllipsoidObstacle {
+  Vec3 semi_axes_m, center_m;
+};
+
+/// Exact where rings and segments are 0; otherwise a mesh of `rings` bands from pole to pole and `segments` around (z
+/// is the axis), 2 segments (rings - 1) triangles.
+struct SphereObstacle {
+  double radius_m = 0;
+  Vec3 center_m;
+  int rings = 0, segments = 0;
+};
+
+/// A square of edge size_m about `point`, seen from the side of its unit normal.
+struct PlaneObstacle {
+  Vec3 point_m;
+  Vec3 normal{0, 0, 1};
+  double size_m = 2;
+};
+
+/// A ring about `axis` (unit), as a mesh of rings x segments x 2 triangles.
+struct TorusObstacle {
+  double radius_m = 0, tube_m = 0;  ///< of the ring's middle line, and of the tube about it
+  Vec3 center_m;
+  Vec3 axis{0, 0, 1};
+  int segments = 48, rings = 16;  ///< around the axis, around the tube
+};
+
+/// A mesh file, in metres times `scale`, moved by `position`.
+struct MeshObstacle {
+  std::filesystem::path file;
+  double scale = 1;
+  Vec3 position_m;
+};
+
+/// A body as snapshots of its surface.
+struct SequenceObstacle : SequenceOptions {};
+
+struct ObstacleCase {
+  std::string name;  ///< also the segment that forces are counted under; unique
+  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle, SequenceObstacle> shape;
+  Vec3 velocity_m_per_s;
+};
+
+struct ContactCase {
+  std::optional<double> layer_m;  ///< of all cloth; the thickness of each fabric where absent
+  bool self = true;               ///< cloth touches cloth
+  double friction = 0.3;
+  double relaxation_s = 0.01;  ///< tau in k = 1 - exp(-dt/tau) of the separation correction
+  double compliance_m_per_Pa = 1e-9;
+  double tolerance = 1e-3;  ///< residual of the contacts of a step, of g dt
+  int max_iterations = 8000;
+};
+
+/// `gravity_m_per_s2`: what a tolerance is a part of; 0: that of the earth.
+ContactParameters contactOf(const ContactCase& c, double gravity_m_per_s2);
+
+}  // namespace gambeson
