@@ -104,13 +104,7 @@ void auditSupports(const Model& m, const StepEnds& e, StepReport& report, StepWo
   const int n = m.freeCount();
   std::vector<Vec3>& given = w.support_force;
   given.assign(n, Vec3{});
-  if (!w.rows.empty()) {
-    w.sample_impulse.assign(m.surface.size(), Vec3{});
-    for (std::size_t i = 0; i < w.rows.size(); ++i)
-      for (int k = 0; k < w.rows[i].stencil.count; ++k)
-        w.sample_impulse[w.rows[i].stencil.sample[k]] += w.rows[i].stencil.weight[k] * w.impulses[i];
-    m.surface.WTt.multiply<Vec3>(w.sample_impulse, given);
-  }
+  if (!w.rows.empty()) contactImpulses(m, w, given);
   if (m.strain_limit.mode != LimitMode::none)
     for (int i = 0; i < n; ++i) given[i] -= w.limit.pull[i] / e.step_s;
   const auto ahead = [&](int i) {  // of the next impulses, in the velocities

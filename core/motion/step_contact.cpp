@@ -267,11 +267,7 @@ void solveRows(const Model& m, double dt, MotionHold* limits, Yield& yield, Step
 
 /// What the contacts' impulses alone do to the free points [m/s].
 void contactChange(const Model& m, StepWork& w, std::vector<Vec3>& change) {
-  w.sample_impulse.assign(m.surface.size(), Vec3{});
-  for (std::size_t i = 0; i < w.rows.size(); ++i)
-    for (int k = 0; k < w.rows[i].stencil.count; ++k)
-      w.sample_impulse[w.rows[i].stencil.sample[k]] += w.rows[i].stencil.weight[k] * w.impulses[i];
-  m.surface.WTt.multiply<Vec3>(w.sample_impulse, change);
+  contactImpulses(m, w, change);
   for (int i = 0; i < m.freeCount(); ++i) change[i] *= m.inverse_mass[i];
   if (m.supports) m.supports->hold(change);
 }
@@ -474,6 +470,14 @@ void pressingAccelerations(const Model& m, double dt, StepWork& w, std::vector<V
   m.surface.WTt.multiply<Vec3>(w.sample_pressing, pressed);
   for (int i = 0; i < m.freeCount(); ++i) pressed[i] *= m.inverse_mass[i] / dt;
   if (m.supports) m.supports->hold(pressed);
+}
+
+void contactImpulses(const Model& m, StepWork& w, std::vector<Vec3>& impulses) {
+  w.sample_impulse.assign(m.surface.size(), Vec3{});
+  for (std::size_t i = 0; i < w.rows.size(); ++i)
+    for (int k = 0; k < w.rows[i].stencil.count; ++k)
+      w.sample_impulse[w.rows[i].stencil.sample[k]] += w.rows[i].stencil.weight[k] * w.impulses[i];
+  m.surface.WTt.multiply<Vec3>(w.sample_impulse, impulses);
 }
 
 namespace {

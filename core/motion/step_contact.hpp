@@ -45,6 +45,10 @@ inline bool allFinite(std::span<const Vec3> values) {
   return zero == 0;
 }
 
+/// What the step's contacts give the free points [N s], w.impulses of w.rows, before anything holds these. `impulses`
+/// has an entry for each.
+void contactImpulses(const Model& model, StepWork& work, std::vector<Vec3>& impulses);
+
 /// Loads of a structure on the free points [N], the control points at q.
 void loadsAt(const Model& model, double time_s, std::span<const Vec3> q, std::vector<Vec3>& load, StepWork& work);
 

@@ -12,9 +12,10 @@ namespace gambeson {
 State structureState(const Structure& structure, double t, std::span<const double> y, std::span<const double> v,
                      std::span<const double> a, double around_s = 0);
 
-/// Control points of a state.
+/// Control points of a state, q = T p [m].
 std::vector<Vec3> controlPoints(const Structure& structure, const State& state);
 
+/// [J]
 struct DynamicEnergy {
   double kinetic = 0, internal = 0, external = 0;  ///< external: minus the work of dead loads since rest
   double total() const { return kinetic + internal + external; }
@@ -23,10 +24,5 @@ DynamicEnergy energyOf(const Structure& structure, const State& state, bool lump
 
 /// The model of explicit steps of a structure that touches nothing.
 std::unique_ptr<Model> untouchedModel(const Structure& structure, const StrainLimit& limit = {});
-/// Obstacles and anchors that are not there.
-class EmptyStage : public Stage {
- public:
-  void placements(double, std::span<Placement>, std::span<Placement>) const override {}
-};
 
 }  // namespace gambeson

@@ -4,6 +4,7 @@
 #include "core/motion/implicit.hpp"
 #include "core/motion/structure_motion.hpp"
 #include "core/motion/velocity_verlet.hpp"
+#include "unit/core/motion/empty_stage.hpp"
 
 namespace gambeson::shapes {
 

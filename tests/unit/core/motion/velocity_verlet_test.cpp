@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "unit/core/motion/empty_stage.hpp"
 #include "unit/core/motion/spring_points.hpp"
 
 namespace gambeson {
@@ -15,15 +16,10 @@ namespace {
 using namespace shapes;
 using Vector = SpringPoints::Vector;
 
-class NoStage : public Stage {
- public:
-  void placements(double, std::span<Placement>, std::span<Placement>) const override {}
-};
-
 /// Oscillators that start at x with the velocities v. `damping` [1/s].
 struct Oscillators {
   std::unique_ptr<Model> model;
-  NoStage stage;
+  EmptyStage stage;
   StepWork work;
   Frequency frequency;
   State state;
