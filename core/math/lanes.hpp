@@ -75,7 +75,30 @@ inline void add(V3& a, V s, V3 b) {
   a.z += s * b.z;
 }
 
-/// Points, one of each lane's element.
+/// Points, one of each lane's element. Where vectors have four lanes or more, a point is loaded whole, its three
+/// numbers and nothing behind them, and lanes and components are then exchanged: a third of the loads.
+#if defined(__AVX512F__)
+inline V3 gather(const double* q, const int* nodes) {
+  const auto point = [&](int l) { return _mm256_maskz_loadu_pd(7, q + 3L * nodes[l]); };
+  const auto pair = [&](int l) { return _mm512_insertf64x4(_mm512_castpd256_pd512(point(l)), point(l + 4), 1); };
+  const V a = pair(0), b = pair(1), c = pair(2), d = pair(3);  // (x, y, z, 0) of a lane and of the fourth behind it
+  const V xz_ab = _mm512_unpacklo_pd(a, b), xz_cd = _mm512_unpacklo_pd(c, d);
+  const V y_ab = _mm512_unpackhi_pd(a, b), y_cd = _mm512_unpackhi_pd(c, d);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  return {_mm512_permutex2var_pd(xz_ab, low, xz_cd), _mm512_permutex2var_pd(y_ab, low, y_cd),
+          _mm512_permutex2var_pd(xz_ab, high, xz_cd)};
+}
+#elif defined(__AVX2__)
+inline V3 gather(const double* q, const int* nodes) {
+  const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
+  const auto point = [&](int l) { return _mm256_maskload_pd(q + 3L * nodes[l], three); };
+  const V a = point(0), b = point(1), c = point(2), d = point(3);
+  const V xz_ab = _mm256_unpacklo_pd(a, b), xz_cd = _mm256_unpacklo_pd(c, d);
+  const V y_ab = _mm256_unpackhi_pd(a, b), y_cd = _mm256_unpackhi_pd(c, d);
+  return {_mm256_permute2f128_pd(xz_ab, xz_cd, 0x20), _mm256_permute2f128_pd(y_ab, y_cd, 0x20),
+          _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31)};
+}
+#else
 inline V3 gather(const double* q, const int* nodes) {
   V3 x;
   for (int l = 0; l < kLanes; ++l) {
@@ -86,6 +109,7 @@ inline V3 gather(const double* q, const int* nodes) {
   }
   return x;
 }
+#endif
 
 /// The angle [rad] in [-pi, pi] whose sine and cosine are in this proportion, within two units in the last place. Not
 /// for 0 and 0. With t the smaller over the larger of their sizes, atan(t)/t is a Chebyshev fit in t^2 on [0, 1], off
