@@ -11,6 +11,9 @@ namespace gambeson {
 namespace {
 
 constexpr int kChunk = 64;  ///< groups that a thread takes at a time
+/// Groups of hinges that take each step together. From corners to moment is one long chain of operations that wait for
+/// each other; step by step a core has several groups under way.
+constexpr int kRun = 16;
 constexpr int kGeneral = -1;
 
 void write(double* slot, V3 f) {
@@ -74,23 +77,43 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
   }
 }
 
-/// kKind: of the plain law, 0 linear; or kGeneral. Known at compile time, what follows from its numbers is computed
-/// once.
-template <bool kEnergy, int kKind>
-void hingeMoments(const ElementBlock& block, const BlockLaw& law, int begin, int end, const double* q, double* moment,
-                  double* energy) {
-  constexpr unsigned kParts = kEnergy ? with_energy : only_resultants;
-  const PlainLaw plain = law.plain;  // a copy that no store can change: what follows from it is computed once
+/// The hinges of a run, in each lane of its groups.
+struct Folds {
+  V sine[kRun], cosine[kRun];  ///< of the angle, in this proportion
+  V theta[kRun];               ///< the angle [rad]
+  V per_length[kRun];          ///< 1/|e| of the common edge [1/m]
+};
+
+/// Sine and cosine as foldAngle has them: the sine goes with e . (nb x na) = |e|^2 na . b.
+void foldsOf(const ElementBlock& block, int begin, int end, const double* q, Folds& folds) {
   for (int group = begin; group < end; ++group) {
     const int* corners = block.corners.data() + 4L * group * kLanes;
-    const double* rest = block.rest.data() + long{kHingeDoubles} * group * kLanes;
     const V3 x0 = gather(q, corners);
     const V3 e = gather(q, corners + kLanes) - x0, a = gather(q, corners + 2 * kLanes) - x0,
              b = gather(q, corners + 3 * kLanes) - x0;
-    // The angle, as foldAngle has it: its sine goes with e . (nb x na) = |e|^2 na . b.
     const V3 na = cross(e, a), nb = cross(b, e);
     const V length2 = dot(e, e), per_length = 1.0 / squareRoot(length2);
-    const V theta = angleOf(length2 * per_length * dot(na, b), dot(na, nb));
+    const int at = group - begin;
+    folds.sine[at] = length2 * per_length * dot(na, b);
+    folds.cosine[at] = dot(na, nb);
+    folds.per_length[at] = per_length;
+  }
+}
+
+void anglesOf(int groups, Folds& folds) {
+  for (int at = 0; at < groups; ++at) folds.theta[at] = angleOf(folds.sine[at], folds.cosine[at]);
+}
+
+/// Moments by the law. kKind: of the plain law, 0 linear; or kGeneral. Known at compile time, what follows from its
+/// numbers is computed once.
+template <bool kEnergy, int kKind>
+void momentsOf(const ElementBlock& block, const BlockLaw& law, int begin, int end, const Folds& folds, double* moment,
+               double* energy) {
+  constexpr unsigned kParts = kEnergy ? with_energy : only_resultants;
+  const PlainLaw plain = law.plain;  // a copy that no store can change: what follows from it is computed once
+  for (int group = begin; group < end; ++group) {
+    const double* rest = block.rest.data() + long{kHingeDoubles} * group * kLanes;
+    const V theta = folds.theta[group - begin], per_length = folds.per_length[group - begin];
     const V per_angle = load(rest + kLanes), area = load(rest + 2 * kLanes);
     const V d[3] = {load(rest + 3 * kLanes), load(rest + 4 * kLanes), load(rest + 5 * kLanes)};
     const V kappa = per_angle * (theta - load(rest));
@@ -120,6 +143,18 @@ void hingeMoments(const ElementBlock& block, const BlockLaw& law, int begin, int
       store(energy + static_cast<long>(group) * kLanes, area * answer.energy);
       if (law.lost) store(law.lost + static_cast<long>(group) * kLanes, area * answer.lost);
     }
+  }
+}
+
+template <bool kEnergy, int kKind>
+void hingeMoments(const ElementBlock& block, const BlockLaw& law, int begin, int end, const double* q, double* moment,
+                  double* energy) {
+  Folds folds;
+  for (int first = begin; first < end; first += kRun) {
+    const int last = std::min(first + kRun, end);
+    foldsOf(block, first, last, q, folds);
+    anglesOf(last - first, folds);
+    momentsOf<kEnergy, kKind>(block, law, first, last, folds, moment, energy);
   }
 }
 
