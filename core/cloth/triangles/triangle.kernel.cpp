@@ -2,6 +2,7 @@
 /// once per instruction set with GAMBESON_ISA defined.
 
 #include <algorithm>
+#include <utility>
 
 #include "core/cloth/law_lanes.hpp"
 #include "core/cloth/triangles/triangle_kernel.hpp"
@@ -22,15 +23,31 @@ void write(double* slot, V3 f) {
   store(slot + 2 * kLanes, f.z);
 }
 
+/// Values, one of each lane's element.
 V gatherOne(const double* values, const int* at) {
-  V v;
-  for (int l = 0; l < kLanes; ++l) v[l] = values[at[l]];
-  return v;
+  return [&]<int... kLane>(std::integer_sequence<int, kLane...>) { return V{values[at[kLane]]...}; }
+  (std::make_integer_sequence<int, kLanes>{});
 }
 
-/// The membrane as TriangleCloth has it. A hinge's moment acts by the gradient of its angle (foldAngle): |e| N/|N|^2 at
-/// the corner that faces the edge e, and what balances it at the ends of e, shared as the foot of that corner divides
-/// e. With the moment over |e| that takes no root.
+/// Forces of a triangle's hinges on its corners 1 and 2 over its normal N = e1 x e2 [N/m^2]. A moment M acts by the
+/// gradient of its angle (foldAngle): |e| N/|N|^2 at the corner that faces the edge e, and what balances it at the ends
+/// of e, shared as the foot of that corner divides e. `m`: M/|e| [N] of the edges that face the corners 0, 1 and 2, so
+/// that no root is needed. e1, e2 and e0 run from corner 0 to 1, from 0 to 2 and from 1 to 2. Feet come from the edges
+/// themselves: differences of squares cancel where one is much shorter than the others.
+struct HingeShares {
+  V first, second;
+
+  HingeShares(V3 e0, V3 e1, V3 e2, V3 normal, const V* m) {
+    const V inverse2 = 1.0 / dot(normal, normal);
+    const V w0 = m[0] * inverse2, w1 = m[1] * inverse2, w2 = m[2] * inverse2;
+    const V d11 = dot(e1, e1), d22 = dot(e2, e2), d12 = dot(e1, e2), d01 = dot(e0, e1), d02 = dot(e0, e2);
+    // The foot of corner 0 divides e0 as d02 : -d01, that of 1 divides e2 as d12 : d02, that of 2 e1 as d12 : -d01.
+    first = w1 * d22 - w0 * d02 - w2 * d12;
+    second = w2 * d11 + w0 * d01 - w1 * d12;
+  }
+};
+
+/// The membrane as TriangleCloth has it, and the hinges at the triangle's edges.
 template <bool kEnergy>
 void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, int end, const double* q,
                     const double* moment, double* slots, double* energy) {
@@ -39,8 +56,8 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
     const int* corners = block.corners.data() + 3L * group * kLanes;
     const int* hinge = block.hinge.data() + 3L * group * kLanes;
     const double* rest = block.rest.data() + long{kMembraneDoubles} * group * kLanes;
-    const V3 x0 = gather(q, corners);
-    const V3 e1 = gather(q, corners + kLanes) - x0, e2 = gather(q, corners + 2 * kLanes) - x0;
+    const V3 x0 = gather(q, corners), x1 = gather(q, corners + kLanes), x2 = gather(q, corners + 2 * kLanes);
+    const V3 e1 = x1 - x0, e2 = x2 - x0;
     const V g1x = load(rest), g1y = load(rest + kLanes), g2x = load(rest + 2 * kLanes), g2y = load(rest + 3 * kLanes),
             area = load(rest + 4 * kLanes);
     const V3 weft = g1x * e1 + g2x * e2, warp = g1y * e1 + g2y * e2;
@@ -57,22 +74,13 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
     const V3 p1 = area * (n[0] * weft + n[2] * warp), p2 = area * (n[2] * weft + n[1] * warp);
 
     const V3 normal = cross(e1, e2);
-    const V inverse2 = 1.0 / dot(normal, normal);
-    // Edges that face the corners: e2 - e1 from 1 to 2, -e2 from 2 to 0, e1 from 0 to 1.
-    const V d11 = dot(e1, e1), d22 = dot(e2, e2), d12 = dot(e1, e2), d00 = d11 + d22 - 2.0 * d12;
-    const V m0 = gatherOne(moment, hinge), m1 = gatherOne(moment, hinge + kLanes),
-            m2 = gatherOne(moment, hinge + 2 * kLanes);
-    // The foot of corner 0 divides the edge that faces it as (d22 - d12) : (d11 - d12), and so on.
-    const V w0 = m0 * inverse2, w1 = m1 * inverse2, w2 = m2 * inverse2;
-    const V s0 = w0 * d00 - w1 * (d22 - d12) - w2 * (d11 - d12);
-    const V s1 = w1 * d22 - w0 * (d22 - d12) - w2 * d12;
-    const V s2 = w2 * d11 - w0 * (d11 - d12) - w1 * d12;
-
-    const V3 f1 = g1x * p1 + g1y * p2, f2 = g2x * p1 + g2y * p2;
+    const V m[3] = {gatherOne(moment, hinge), gatherOne(moment, hinge + kLanes), gatherOne(moment, hinge + 2 * kLanes)};
+    const HingeShares along(x2 - x1, e1, e2, normal, m);
+    const V3 f1 = g1x * p1 + g1y * p2 + along.first * normal, f2 = g2x * p1 + g2y * p2 + along.second * normal;
     double* slot = slots + 9L * group * kLanes;
-    write(slot, s0 * normal - (f1 + f2));
-    write(slot + 3 * kLanes, f1 + s1 * normal);
-    write(slot + 6 * kLanes, f2 + s2 * normal);
+    write(slot, V3{} - f1 - f2);
+    write(slot + 3 * kLanes, f1);
+    write(slot + 6 * kLanes, f2);
     if constexpr (kEnergy) store(energy + static_cast<long>(group) * kLanes, area * answer.energy);
   }
 }
