@@ -4,11 +4,11 @@
 
 namespace gambeson {
 
-void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueHistory& history,
+void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueSeries& series,
                   std::span<const TorqueVariant> variants) {
   std::vector<std::string> columns{"time_s"};
   const auto name = [&](const std::string& variant) {
-    for (const int j : history.joints) {
+    for (const int j : series.joints) {
       const Joint& joint = skeleton.joints[static_cast<std::size_t>(j)];
       columns.push_back(joint.name + variant + (joint.type == JointType::prismatic ? "_N" : "_Nm"));
     }
@@ -16,11 +16,11 @@ void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, co
   name("");
   for (const TorqueVariant& v : variants) name("_" + v.name);
   std::vector<std::vector<double>> rows;
-  for (std::size_t w = 0; w < history.time_s.size(); ++w) {
-    rows.push_back({history.time_s[w]});
-    rows.back().insert(rows.back().end(), history.value[w].begin(), history.value[w].end());
+  for (std::size_t w = 0; w < series.time_s.size(); ++w) {
+    rows.push_back({series.time_s[w]});
+    rows.back().insert(rows.back().end(), series.value[w].begin(), series.value[w].end());
     for (const TorqueVariant& v : variants)
-      rows.back().insert(rows.back().end(), v.history->value[w].begin(), v.history->value[w].end());
+      rows.back().insert(rows.back().end(), v.series->value[w].begin(), v.series->value[w].end());
   }
   writeCsv(csv, columns, rows);
 }

@@ -15,9 +15,9 @@ namespace gambeson {
 /// hip_flexion_left_segments_Nm.
 struct TorqueVariant {
   std::string name;
-  const TorqueHistory* history = nullptr;
+  const TorqueSeries* series = nullptr;
 };
-void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueHistory& history,
+void writeTorques(const std::filesystem::path& csv, const Skeleton& skeleton, const TorqueSeries& series,
                   std::span<const TorqueVariant> variants = {});
 
 /// time_s, then four columns per segment: thigh_left_N (magnitude), thigh_left_x_N, _y_N, _z_N in world axes.

@@ -75,7 +75,7 @@ std::vector<double> contactTorques(const Human& human, const Posture& posture, s
   return torques;
 }
 
-std::vector<double> TorqueHistory::of(int joint) const {
+std::vector<double> TorqueSeries::of(int joint) const {
   const auto found = std::find(joints.begin(), joints.end(), joint);
   if (found == joints.end()) throw std::out_of_range("no torques of this joint were asked for");
   const auto column = static_cast<std::size_t>(found - joints.begin());
@@ -84,16 +84,16 @@ std::vector<double> TorqueHistory::of(int joint) const {
   return values;
 }
 
-TorqueHistory torqueHistory(const Human& human, const Motion& motion, double motion_start_s,
-                            std::span<const ContactWindow> windows, std::span<const int> joints,
-                            TorqueCounting counting) {
-  TorqueHistory history{{joints.begin(), joints.end()}, {}, {}};
+TorqueSeries torqueSeries(const Human& human, const Motion& motion, double motion_start_s,
+                          std::span<const ContactWindow> windows, std::span<const int> joints,
+                          TorqueCounting counting) {
+  TorqueSeries series{{joints.begin(), joints.end()}, {}, {}};
   for (const ContactWindow& w : windows) {
-    history.time_s.push_back(w.middle());
-    history.value.push_back(
+    series.time_s.push_back(w.middle());
+    series.value.push_back(
         contactTorques(human, motion.at(w.middle() - motion_start_s), w.links, w.duration(), joints, counting));
   }
-  return history;
+  return series;
 }
 
 }  // namespace gambeson

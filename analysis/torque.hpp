@@ -44,18 +44,17 @@ std::vector<double> contactTorques(const Human& human, const Posture& posture, s
                                    double duration_s, std::span<const int> joints, TorqueCounting counting);
 
 /// Torques over a run: value[w][j] of window w and joint joints[j], at the middle of the window.
-struct TorqueHistory {
+struct TorqueSeries {
   std::vector<int> joints;
   std::vector<double> time_s;
   std::vector<std::vector<double>> value;
-  std::vector<double> of(int joint) const;  ///< the history of one joint, by its index in the skeleton
+  std::vector<double> of(int joint) const;  ///< the series of one joint, by its index in the skeleton
 };
 
 /// contactTorques for each window, in the posture at its middle. Exact where the force is constant and the link origin
 /// moves evenly against the joint; otherwise of second order in the window. `motion_start_s` is the time of the run at
 /// which the motion's time is 0.
-TorqueHistory torqueHistory(const Human& human, const Motion& motion, double motion_start_s,
-                            std::span<const ContactWindow> windows, std::span<const int> joints,
-                            TorqueCounting counting);
+TorqueSeries torqueSeries(const Human& human, const Motion& motion, double motion_start_s,
+                          std::span<const ContactWindow> windows, std::span<const int> joints, TorqueCounting counting);
 
 }  // namespace gambeson

@@ -73,14 +73,14 @@ const VerdictInput::Exponent* exponentOf(const VerdictInput& in, const Option::C
   return nullptr;
 }
 
-/// Layers at a size: those that go with it, from the option's own.
-std::string layersAt(const VerdictInput& in, int option, double size) {
+/// Garments at a size: those that go with it, from the option's own.
+std::string garmentsAt(const VerdictInput& in, int option, double size) {
   const Option& o = at(in, option);
   std::string text;
-  for (const Option::Layer& l : o.layers) {
+  for (const Option::Garment& l : o.garments) {
     bool goes = true;
     for (const Option& other : in.options)
-      for (const Option::Layer& k : other.layers)
+      for (const Option::Garment& k : other.garments)
         if (k.name == l.name)
           goes = goes && std::abs(k.thickness_m / l.thickness_m / (*other.size / *o.size) - 1) < 1e-6;
     if (goes || size == *o.size)
@@ -257,7 +257,7 @@ Verdict verdictOf(const VerdictInput& in) {
   v.cover = shownLight(v.light, trust);
   if (v.cover == Light::green && !v.doubt.empty()) v.cover = Light::doubtful;
   v.sentence = sentenceOf(in, v);
-  if (const auto& size = at(in, v.take).size; v.chosen && size) v.layers = layersAt(in, v.take, *size);
+  if (const auto& size = at(in, v.take).size; v.chosen && size) v.garments = garmentsAt(in, v.take, *size);
   v.enough = enoughOf(in, v);
   if (trust.spoiling == 0) {
     v.estimate = estimateOf(in, v);

@@ -19,11 +19,11 @@ bool isChosen(Role role);
 struct Option {
   std::string name;            ///< "thickness x 0.75", "male_p95"
   std::optional<double> size;  ///< thickness, where it is one
-  struct Layer {
+  struct Garment {
     std::string name;
     double thickness_m = 0;
   };
-  std::vector<Layer> layers;
+  std::vector<Garment> garments;
   struct Cost {
     std::string motion;           ///< empty where there is one only
     std::string joint;            ///< "left hip (flexion)"
@@ -119,11 +119,11 @@ struct Verdict {
   Light cover = Light::unknown;  ///< what the page may show
   std::string doubt;             ///< why a green number is no green page; completes a sentence
   std::string sentence;          ///< which one to take, or how the worst fares
-  std::string layers;            ///< how thick its layers are, where sizes are compared: "shirt 1.56 mm, belt 1.15 mm"
-  std::string enough;            ///< whether that is good enough, against the limits
-  std::string estimate;          ///< which size would be; empty where the question does not arise
-  std::string why;               ///< empty, as choice and estimate are, where no number can be relied on
-  std::string comfort;           ///< empty where no pressure is judged
+  std::string garments;  ///< how thick its garments are, where sizes are compared: "shirt 1.56 mm, belt 1.15 mm"
+  std::string enough;    ///< whether that is good enough, against the limits
+  std::string estimate;  ///< which size would be; empty where the question does not arise
+  std::string why;       ///< empty, as choice and estimate are, where no number can be relied on
+  std::string comfort;   ///< empty where no pressure is judged
   Light comfort_light = Light::unknown;
   Surety surety = Surety::no;         ///< of the choice
   std::string choice, numbers;        ///< how sure the choice is, and how exact the numbers are

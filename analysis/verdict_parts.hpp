@@ -32,8 +32,8 @@ Light optionLight(const Option& option, const VerdictInput& in, double error = 0
 /// How many times as much `b` costs as `a`, where each is worst.
 double factorOf(const Option& a, const Option& b);
 const VerdictInput::Exponent* exponentOf(const VerdictInput& in, const Option::Cost& cost);
-/// Layers at a size: those that go with it, from the option's own.
-std::string layersAt(const VerdictInput& in, int option, double size);
+/// Garments at a size: those that go with it, from the option's own.
+std::string garmentsAt(const VerdictInput& in, int option, double size);
 /// A choice that an error of this size would change is said to be only just right.
 constexpr double kNarrow = 0.1;
 /// Pressure on the body that is furthest from comfortable, and with which option: of the one taken, or where none is

@@ -21,7 +21,7 @@ std::string estimateOf(const VerdictInput& in, const Verdict& v) {
     if (s) {
       say(sizes,
           fmt::format("About {} {}{}{} would bring it down to {} (range {} to {}).", in.what, in.multiple ? "x " : "",
-                      formatNumber(s->size, 2), bracketed(layersAt(in, v.take, s->size)), nameOf(light),
+                      formatNumber(s->size, 2), bracketed(garmentsAt(in, v.take, s->size)), nameOf(light),
                       formatNumber(s->low, 2), formatNumber(s->high, 2)));
       how = fmt::format(
           "Extrapolated, not run: by how the peak that decides, at the {}{}, goes with the {}. The range "

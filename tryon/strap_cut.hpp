@@ -23,14 +23,14 @@ struct StrapCut {
 std::vector<StrapCut> strapCuts(const Cloth& cloth, std::span<const std::string> patch_names);
 
 /// Of each point how much of it lies beyond the cuts, away from the straps' middles: 1, but 0 between the cuts
-/// of a strap; other layers than those with straps count 1 or (`own`) 0.
+/// of a strap; other garments than those with straps count 1 or (`own`) 0.
 std::vector<double> weightsBelow(const Cloth& cloth, std::span<const StrapCut> cuts, bool own);
 
 /// The force of the strap's middle on what lies beyond each cut [N]: the sum of the strap's own membrane and bending
 /// forces on the control points beyond it. With w the weights of these points this is the integral of the stress
 /// resultants, shear of bending included, against the gradient of w; the discrete equations of motion of what lies
 /// beyond the cuts hold with it exactly: pulls + weight + contact = change of momentum, in the frame's own numbers
-/// (contact of cloth with cloth cancels where all layers count).
+/// (contact of cloth with cloth cancels where all garments count).
 std::vector<Vec3> strapPulls(const Cloth& cloth, const ClothState& state, std::span<const StrapCut> cuts,
                              ClothWork& work);
 

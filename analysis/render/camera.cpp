@@ -5,6 +5,17 @@
 
 namespace gambeson {
 
+std::array<Vec3, 2> boxOf(std::span<const Vec3> x, double margin_m) {
+  const double inf = std::numeric_limits<double>::infinity();
+  std::array<Vec3, 2> box{Vec3{inf, inf, inf}, Vec3{-inf, -inf, -inf}};
+  for (const Vec3& p : x)
+    for (int c = 0; c < 3; ++c) {
+      box[0][c] = std::min(box[0][c], p[c] - margin_m);
+      box[1][c] = std::max(box[1][c], p[c] + margin_m);
+    }
+  return box;
+}
+
 Camera fitCamera(const Scene& scene, const PixelRect& free) {
   Camera camera;
   camera.axes = axesOf(scene.view, scene.up);

@@ -37,7 +37,7 @@ Overlay layOut(const Scene& scene, const Fonts& fonts, int width, int height);
 /// The bar's range as drawn: see ColorBar. Throws RunError where it is not finite or high < low.
 ColorBar effective(const ColorBar& bar);
 
-/// Draws title, bar and the legend's text (its arrow is part of the arrows' layer).
+/// Draws title, bar and the legend's text (its arrow is drawn in the arrows' pass).
 void drawOverlay(Image& image, const Scene& scene, const Overlay& overlay, const Fonts& fonts, const ColorTable& colors,
                  Beyond beyond);
 

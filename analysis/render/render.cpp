@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/render/layers.hpp"
 #include "analysis/render/overlay.hpp"
+#include "analysis/render/passes.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -53,24 +53,24 @@ std::vector<Strip> stripsOf(int width, int height) {
   return strips;
 }
 
-void compose(const Layers& layers, const Strip& strip, const Overlay& overlay, bool fade, Image& image) {
+void compose(const Passes& passes, const Strip& strip, const Overlay& overlay, bool fade, Image& image) {
   constexpr float occlusion_strength = 0.75f;
   const Linear linear;
   const std::size_t w = static_cast<std::size_t>(image.width), h = static_cast<std::size_t>(image.height);
   for (auto y = static_cast<std::size_t>(strip.from); y < static_cast<std::size_t>(strip.to); ++y) {
     const Color paper = backgroundAt(double(y) / double(h));
     const std::array<float, 3> ground{linearOfSrgb(paper.r), linearOfSrgb(paper.g), linearOfSrgb(paper.b)};
-    const std::size_t row = static_cast<std::size_t>(strip.drawn_to) - 1 - y;  // the layers start below
+    const std::size_t row = static_cast<std::size_t>(strip.drawn_to) - 1 - y;  // the passes start below
     for (std::size_t x = 0; x < w; ++x) {
-      const float open = float(layers.occlusion[4 * (row * w + x)]) / 255;
+      const float open = float(passes.occlusion[4 * (row * w + x)]) / 255;
       const float darker = 1 - occlusion_strength * (1 - open);
       const float strength = fade ? fadeAt(overlay, double(x), double(y)) : 1;
       std::array<float, 3> sum{};
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t at = 4 * ((2 * row + k / 2) * 2 * w + 2 * x + k % 2);
         std::array<float, 3> c = ground;
-        over(c, &layers.surfaces[at], linear, darker, strength);
-        over(c, &layers.arrows[at], linear, 1, 1);
+        over(c, &passes.surfaces[at], linear, darker, strength);
+        over(c, &passes.arrows[at], linear, 1, 1);
         for (std::size_t i = 0; i < 3; ++i) sum[i] += 0.25f * c[i];
       }
       for (std::size_t i = 0; i < 3; ++i)
@@ -106,7 +106,7 @@ Image render(const Scene& scene, int width, int height) {
   const Fonts fonts = loadFonts(width, height);
   const Overlay overlay = layOut(scene, fonts, width, height);
 
-  LayerInput in;
+  PassInput in;
   in.camera = fitCamera(scene, overlay.free);
   in.colors = makeColorTable();
   const double pixel_m = 1 / in.camera.pixels_per_m;
@@ -133,7 +133,7 @@ Image render(const Scene& scene, int width, int height) {
   const double centre = in.camera.center_y;
   for (const Strip& strip : stripsOf(width, height)) {
     in.camera.center_y = centre - strip.drawn_from;
-    compose(drawLayers(in, width, strip.drawn_to - strip.drawn_from), strip, overlay,
+    compose(drawPasses(in, width, strip.drawn_to - strip.drawn_from), strip, overlay,
             scene.focus.has_value() || scene.ground_m.has_value(), image);
   }
   drawOverlay(image, scene, overlay, fonts, in.colors, scene.bar ? beyondOf(scene, bar) : Beyond{});

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ struct ColorBar {
 enum class View { front, back, left, right, top, front_left, front_right, back_left, back_right, above };
 std::optional<View> viewByName(const std::string& name);
 const std::vector<std::string>& viewNames();
+
+/// The bounding box of points, grown by a margin on all sides.
+std::array<Vec3, 2> boxOf(std::span<const Vec3> x, double margin_m);
 
 struct Scene {
   std::vector<RenderMesh> meshes;

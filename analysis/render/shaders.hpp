@@ -103,19 +103,19 @@ void main() {
 }
 )";
 
-/// Arrows: lit, faint where a surface hides them. `layer` is the normal and depth image of the surfaces.
+/// Arrows: lit, faint where a surface hides them. `normals` is the normal and depth image of the surfaces.
 inline constexpr const char* kArrowFragment = R"(#version 330 core
 in vec3 x, n, plain;
 in vec3 e;
-uniform sampler2D layer;
-uniform vec2 layerPerPixel;
+uniform sampler2D normals;
+uniform vec2 normalsPerPixel;
 uniform vec3 sun;
 uniform float soft, legend;
 out vec4 result;
 vec3 encoded(vec3 c) { return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)); }
 void main() {
   vec3 m = normalize(gl_FrontFacing ? n : -n);
-  float front = texelFetch(layer, ivec2(gl_FragCoord.xy * layerPerPixel), 0).w;
+  float front = texelFetch(normals, ivec2(gl_FragCoord.xy * normalsPerPixel), 0).w;
   float hidden = legend > 0.5 ? 0.0 : smoothstep(0.0, soft, front - x.z);
   float light = 0.62 + 0.42 * clamp(dot(m, sun), 0.0, 1.0) + 0.12 * m.z;
   float a = mix(1.0, 0.42, hidden);
@@ -132,22 +132,22 @@ void main() {
 )";
 
 /// Ambient occlusion from normals and depth: the mean over a disc of max(0, v.n) / |v|^2, as in the obscurance of
-/// McGuire et al. 2011, with a fall-off at the radius. The samples turn in a pattern of 4 x 4 pixels that the blur
+/// McGuire et al. 2011, with a fall-off at the radius. The samples turn in tiles of 4 x 4 pixels that the blur
 /// removes.
 inline constexpr const char* kOcclusionFragment = R"(#version 330 core
-uniform sampler2D layer;
+uniform sampler2D normals;
 uniform float metresPerPixel, radius;
 out vec4 result;
 void main() {
-  ivec2 p = ivec2(gl_FragCoord.xy), size = textureSize(layer, 0);
-  vec4 c = texelFetch(layer, p, 0);
+  ivec2 p = ivec2(gl_FragCoord.xy), size = textureSize(normals, 0);
+  vec4 c = texelFetch(normals, p, 0);
   if (c.w < -1e8) { result = vec4(1.0); return; }
   float sum = 0.0, turn = float((p.x % 4) * 4 + (p.y % 4)) * 0.3926991;
   for (int i = 0; i < 20; ++i) {
     float r = (float(i) + 0.5) / 20.0, a = 2.39996323 * float(i) + turn;
     vec2 o = r * radius / metresPerPixel * vec2(cos(a), sin(a));
     ivec2 q = clamp(p + ivec2(round(o)), ivec2(0), size - 1);
-    vec4 s = texelFetch(layer, q, 0);
+    vec4 s = texelFetch(normals, q, 0);
     vec3 v = vec3(vec2(q - p) * metresPerPixel, s.w - c.w);
     float v2 = dot(v, v), f = max(0.0, 1.0 - v2 / (radius * radius));
     sum += f * f * max(0.0, dot(v, c.xyz) - 0.012 * radius) / (sqrt(v2) + 0.02 * radius);
@@ -158,16 +158,16 @@ void main() {
 
 /// The mean over 4 x 4 pixels of the same surface.
 inline constexpr const char* kBlurFragment = R"(#version 330 core
-uniform sampler2D layer, occlusion;
+uniform sampler2D normals, occlusion;
 uniform float radius;
 out vec4 result;
 void main() {
-  ivec2 p = ivec2(gl_FragCoord.xy), size = textureSize(layer, 0);
-  float depth = texelFetch(layer, p, 0).w, sum = 0.0, weight = 0.0;
+  ivec2 p = ivec2(gl_FragCoord.xy), size = textureSize(normals, 0);
+  float depth = texelFetch(normals, p, 0).w, sum = 0.0, weight = 0.0;
   for (int j = -2; j < 2; ++j)
     for (int i = -2; i < 2; ++i) {
       ivec2 q = clamp(p + ivec2(i, j), ivec2(0), size - 1);
-      float w = max(1e-4, 1.0 - abs(texelFetch(layer, q, 0).w - depth) / (0.5 * radius));
+      float w = max(1e-4, 1.0 - abs(texelFetch(normals, q, 0).w - depth) / (0.5 * radius));
       sum += w * texelFetch(occlusion, q, 0).r;
       weight += w;
     }

@@ -14,8 +14,8 @@ std::string alarmOf(const std::vector<AuditCheck>& checks);
 std::string auditTableOf(const std::vector<AuditCheck>& checks, const std::string& caption);
 std::string figureOf(const Picture& picture);
 /// A section with a heading; `lead` is text, `body` HTML.
-std::string sectionOf(const std::string& id, const std::string& title, const std::string& lead,
-                      const std::string& body);
+std::string pageSectionOf(const std::string& id, const std::string& title, const std::string& lead,
+                          const std::string& body);
 /// A whole page; `summary` is text for search and previews, `body` HTML.
 std::string pageOf(const std::string& title, const std::string& description, const std::string& summary,
                    const std::string& body);

@@ -120,7 +120,7 @@ std::string joints(const ReportInput& in) {
               {"joint", "peak [Nm]", "at [s]", "during", "root mean square [Nm]", "of the natural moment [%]",
                "from friction [%]", "from air drag [%]"},
               {}};
-    const auto optional = [](const std::optional<double>& v) { return v ? Cell(*v, 2) : Cell("not known"); };
+    const auto optional = [](const std::optional<double>& v) { return v ? TableCell(*v, 2) : TableCell("not known"); };
     for (const auto* j : order)
       all.rows.push_back({jointName(*j), j->peak_Nm, j->peak_time_s, j->cause, j->rms_Nm, optional(j->natural_percent),
                           optional(j->friction_percent), optional(j->drag_percent)});
@@ -180,8 +180,8 @@ std::string figureOf(const Picture& p) {
   return element("figure", shown + element("figcaption", escape(p.caption)));
 }
 
-std::string sectionOf(const std::string& id, const std::string& title, const std::string& lead,
-                      const std::string& body) {
+std::string pageSectionOf(const std::string& id, const std::string& title, const std::string& lead,
+                          const std::string& body) {
   return element(
       "section",
       element("h2", escape(title), " id=\"" + id + "\"") + (lead.empty() ? "" : element("p", escape(lead))) + body,
@@ -210,8 +210,8 @@ std::string pageOf(const std::string& title, const std::string& description, con
              " lang=\"en\"");
 }
 
-Cell Cell::signal(const std::string& light) {
-  Cell c(light);
+TableCell TableCell::signal(const std::string& light) {
+  TableCell c(light);
   c.light = light;
   return c;
 }
@@ -248,7 +248,7 @@ std::string auditTableOf(const std::vector<AuditCheck>& checks, const std::strin
   return html::tablePanel(caption, element("thead", head) + element("tbody", rows));
 }
 
-Cell::Cell(double v, int digits) : text(formatNumber(v, digits)), number(true) {}
+TableCell::TableCell(double v, int digits) : text(formatNumber(v, digits)), number(true) {}
 
 Trust trustOf(const ReportInput& input) {
   Trust trust;
@@ -288,41 +288,45 @@ std::string headlineOf(const ReportInput& input) {
 std::string formatReport(const ReportInput& in) {
   std::string body = alarms(in) + headline(in);
   if (!in.joints.empty() || in.outcome.empty())
-    body += sectionOf("joints", "What each joint pays",
+    body +=
+        pageSectionOf("joints", "What each joint pays",
                       "Highest first. The share compares the peak with the moment that the joint needs in this task "
                       "without the garment.",
                       joints(in));
   if (!in.torques.empty())
-    body += sectionOf("torques", "Torque over time", "Dotted vertical lines mark the strides.",
-                      charts(each(in.torques, lineChart)));
+    body += pageSectionOf("torques", "Torque over time", "Dotted vertical lines mark the strides.",
+                          charts(each(in.torques, lineChart)));
   if (!in.contact_charts.empty() || !in.contact_tables.empty())
-    body += sectionOf("contact", "Where the garment presses", "Contact force of the cloth on the body.",
-                      charts(each(in.contact_charts, barChart) + each(in.contact_plots, lineChart) +
-                             each(in.contact_tables, tableOf)));
+    body += pageSectionOf("contact", "Where the garment presses", "Contact force of the cloth on the body.",
+                          charts(each(in.contact_charts, barChart) + each(in.contact_plots, lineChart) +
+                                 each(in.contact_tables, tableOf)));
   if (!in.comfort_tables.empty())
-    body += sectionOf(
+    body += pageSectionOf(
         "comfort", "How it feels", in.comfort,
         (in.comfort_pictures.empty() ? ""
                                      : element("div", each(in.comfort_pictures, figureOf), " class=\"pictures\"")) +
             element("div", each(in.comfort_tables, tableOf), " class=\"wide\""));
   if (!in.collision_plots.empty() || !in.collision_tables.empty())
-    body += sectionOf("collisions", "What met what",
+    body +=
+        pageSectionOf("collisions", "What met what",
                       "Cloth with bodies and cloth with cloth, window by window; the numbers stand in collisions.csv.",
                       charts(each(in.collision_tables, tableOf) + each(in.collision_plots, lineChart)));
   if (!in.stress_tables.empty())
-    body += sectionOf("stress", "What the fabric carries", "", charts(each(in.stress_tables, tableOf)));
+    body += pageSectionOf("stress", "What the fabric carries", "", charts(each(in.stress_tables, tableOf)));
   if (in.pictures.size() > 1)
-    body += sectionOf("pictures", "Pictures", "",
+    body +=
+        pageSectionOf("pictures", "Pictures", "",
                       element("div", each(std::vector<Picture>(in.pictures.begin() + 1, in.pictures.end()), figureOf),
                               " class=\"pictures\""));
   if (!in.support_tables.empty())
-    body += sectionOf("supports", "What holds the garment",
-                      "Reactions of the supports are reported apart and are part of no joint torque.",
-                      charts(each(in.support_tables, tableOf)));
-  body += sectionOf(
+    body += pageSectionOf("supports", "What holds the garment",
+                          "Reactions of the supports are reported apart and are part of no joint torque.",
+                          charts(each(in.support_tables, tableOf)));
+  body += pageSectionOf(
       "audit", "Why to trust these numbers", "",
       in.audit.empty() ? notice("This run was not audited.") : charts(auditTableOf(in.audit, "Checks of every step")));
-  body += sectionOf("assumptions", "What was assumed", "",
+  body +=
+      pageSectionOf("assumptions", "What was assumed", "",
                     in.assumptions.empty()
                         ? notice("The assumptions of this run were not recorded.")
                         : element("ul", each(in.assumptions, [](const auto& a) { return element("li", escape(a)); }),
@@ -330,9 +334,9 @@ std::string formatReport(const ReportInput& in) {
   if (!in.facts.empty() || !in.fact_tables.empty()) {
     Table facts{"The run", "", {"fact", "value"}, {}};
     for (const auto& [name, value] : in.facts) facts.rows.push_back({name, value});
-    body += sectionOf("run", "How it was computed", "",
-                      charts((in.facts.empty() ? "" : tableOf(facts)) + each(in.fact_tables, tableOf) +
-                             each(in.fact_plots, lineChart)));
+    body += pageSectionOf("run", "How it was computed", "",
+                          charts((in.facts.empty() ? "" : tableOf(facts)) + each(in.fact_tables, tableOf) +
+                                 each(in.fact_plots, lineChart)));
   }
   return pageOf(in.title, in.description, headlineOf(in), body);
 }

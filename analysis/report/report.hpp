@@ -17,12 +17,12 @@
 namespace gambeson {
 
 /// A text, or a number that the page rounds to `digits` significant digits.
-struct Cell {
-  Cell(std::string t) : text(std::move(t)) {}
-  Cell(const char* t) : text(t) {}
-  Cell(double v, int digits = 3);
+struct TableCell {
+  TableCell(std::string t) : text(std::move(t)) {}
+  TableCell(const char* t) : text(t) {}
+  TableCell(double v, int digits = 3);
   /// A traffic light: "green", "amber" or "red".
-  static Cell signal(const std::string& light);
+  static TableCell signal(const std::string& light);
   std::string text;
   bool number = false;
   std::string light{};
@@ -84,7 +84,7 @@ struct BarChart {
 struct Table {
   std::string title, caption;
   std::vector<std::string> columns;
-  std::vector<std::vector<Cell>> rows;
+  std::vector<std::vector<TableCell>> rows;
 };
 
 /// A PNG: a file, or its bytes. A picture that cannot be read shows as a message in its place.

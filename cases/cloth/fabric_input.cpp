@@ -18,14 +18,14 @@ namespace {
 struct LawRow {
   const char *name, *doc;
   std::vector<std::string> keys;  ///< beside those that all laws have
-  /// `at` is the place of the bending in the file.
-  BendingLaw (*resolve)(const Place& at, const BendingInput& in, const GivenRigidities& given);
+  /// `at` is the bending's entry in the file.
+  BendingLaw (*resolve)(const Entry& at, const BendingInput& in, const GivenRigidities& given);
   /// Writes the law's own keys; false: another row's law.
   bool (*restore)(const BendingLaw& law, BendingInput& in);
   std::string (*say)(const BendingLaw& law);
 };
 
-BendingLaw resolveZheng(const Place& at, const BendingInput& in, const GivenRigidities& given) {
+BendingLaw resolveZheng(const Entry& at, const BendingInput& in, const GivenRigidities& given) {
   if (!in.kappa0_per_m) at.failAt("kappa0", "is required for the law zheng: the curvature where it turns linear");
   const ZhengBending law{given, *in.kappa0_per_m,
                          in.regular_curvature_per_m.value_or(BendingInput::default_regular_curvature_per_m)};
@@ -51,7 +51,7 @@ std::string sayZheng(const BendingLaw& law) {
       formatNumber(zheng.kappa_regular_per_m), formatNumber(steepestSlope(zheng, zheng.weft_Nm)));
 }
 
-BendingLaw resolveStop(const Place& at, const BendingInput& in, const GivenRigidities& given) {
+BendingLaw resolveStop(const Entry& at, const BendingInput& in, const GivenRigidities& given) {
   if (!in.yield_N)
     at.failAt("yield_moment", "is required for the law stop: the moment per width that it never surpasses");
   return StopBending{given, *in.yield_N};
@@ -70,7 +70,7 @@ std::string sayStop(const BendingLaw& law) {
       formatNumber(stop.weft_Nm), formatNumber(stop.yield_N));
 }
 
-BendingLaw resolveLinear(const Place&, const BendingInput&, const GivenRigidities& given) {
+BendingLaw resolveLinear(const Entry&, const BendingInput&, const GivenRigidities& given) {
   return LinearBending{given};
 }
 
@@ -177,7 +177,7 @@ Object fabricTable() {
       .build();
 }
 
-FabricCase resolveFabric(const Place& place, const FabricInput& in) {
+FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
   FabricCase f;
   f.name = in.name;
   f.thickness_m = in.thickness_m;
@@ -186,15 +186,15 @@ FabricCase resolveFabric(const Place& place, const FabricInput& in) {
     for (const auto& [key, given] :
          {std::pair("young_weft", in.young_weft_Pa), std::pair("young_warp", in.young_warp_Pa)})
       if (given)
-        place.failAt(key, "excludes \"young\"; give young for isotropic cloth, or young_weft, young_warp and shear");
+        entry.failAt(key, "excludes \"young\"; give young for isotropic cloth, or young_weft, young_warp and shear");
     f.young_weft_Pa = f.young_warp_Pa = *in.young_Pa;
     f.shear_Pa = in.shear_Pa.value_or(*in.young_Pa / (2 * (1 + in.poisson)));
   } else {
     if (!in.young_weft_Pa && !in.young_warp_Pa)
-      place.failAt("young", "is required: Young's modulus, or young_weft, young_warp and shear");
+      entry.failAt("young", "is required: Young's modulus, or young_weft, young_warp and shear");
     for (const auto& [key, given] : {std::pair("young_weft", in.young_weft_Pa),
                                      std::pair("young_warp", in.young_warp_Pa), std::pair("shear", in.shear_Pa)})
-      if (!given) place.failAt(key, "is required where \"young\" is not given");
+      if (!given) entry.failAt(key, "is required where \"young\" is not given");
     f.young_weft_Pa = *in.young_weft_Pa;
     f.young_warp_Pa = *in.young_warp_Pa;
     f.shear_Pa = *in.shear_Pa;
@@ -203,18 +203,18 @@ FabricCase resolveFabric(const Place& place, const FabricInput& in) {
   f.jam_area = in.jam_area;
   // The elasticity matrix of eq. 2.13 is positive definite only so.
   if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa))
-    place.failAt("poisson", fmt::format("{} is out of range; allowed: below sqrt(young_weft / young_warp) = {:.4g}",
+    entry.failAt("poisson", fmt::format("{} is out of range; allowed: below sqrt(young_weft / young_warp) = {:.4g}",
                                         f.poisson, std::sqrt(f.young_weft_Pa / f.young_warp_Pa)));
 
   for (const auto& [key, given] :
        {std::pair("limit_strain_weft", in.limit_strain_weft), std::pair("limit_strain_warp", in.limit_strain_warp)})
     if (given && in.limit_strain)
-      place.failAt(key, "excludes \"limit_strain\"; give limit_strain, or limit_strain_weft and limit_strain_warp");
+      entry.failAt(key, "excludes \"limit_strain\"; give limit_strain, or limit_strain_weft and limit_strain_warp");
   f.limit_strain_weft = in.limit_strain ? in.limit_strain : in.limit_strain_weft;
   f.limit_strain_warp = in.limit_strain ? in.limit_strain : in.limit_strain_warp;
 
-  const JsonNode* bending_node = place.node.find("bending");
-  const Place bending = place.member(*bending_node);
+  const JsonNode* bending_node = entry.node.find("bending");
+  const Entry bending = entry.member(*bending_node);
   const BendingInput& b = in.bending;
   GivenRigidities rigidities;
   rigidities.twist_Nm = b.twist_Nm;

@@ -33,8 +33,8 @@ struct FabricInput {
   BendingInput bending;
 };
 
-/// The fabric that the input says; `place` is that of the fabric in the file, for the rules between fields.
-FabricCase resolveFabric(const Place& place, const FabricInput& in);
+/// The fabric that the input says; `entry` is the fabric's in the file, for the rules between fields.
+FabricCase resolveFabric(const Entry& entry, const FabricInput& in);
 /// What case files call the law; empty: a solid.
 std::string bendingName(const BendingLaw& law);
 /// How a fabric of a case file bends, for the report.

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "cases/input/places.hpp"
-#include "core/cloth/draft/layers.hpp"
+#include "cases/input/wrong_entry.hpp"
+#include "core/cloth/draft/join_garments.hpp"
 #include "core/cloth/joined_cloth.hpp"
 #include "core/cloth/shell/nurbs_shell.hpp"
 #include "core/cloth/triangles/draft_mesh.hpp"
@@ -18,7 +18,7 @@ std::unique_ptr<const Cloth> shellOf(std::span<const ClothSource> sources) {
   if (sources.size() == 1) return std::make_unique<NurbsShell>(sources[0].draft, options);
   std::vector<Garment> drafts;
   for (const ClothSource& s : sources) drafts.push_back(s.draft);
-  return std::make_unique<NurbsShell>(joinLayers(drafts), options);
+  return std::make_unique<NurbsShell>(joinGarments(drafts), options);
 }
 
 std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {

@@ -127,13 +127,13 @@ Object noiseTable() {
   return Table<N>("Noise")
       .number("amplitude", &N::amplitude_m, "m", aboveTo(0, 1e9), "largest displacement along the normal")
       .required()
-      .integer("seed", &N::seed, 0, 1000000000, "another seed gives another pattern, the same on every machine")
+      .integer("seed", &N::seed, 0, 1000000000, "another seed gives other noise, the same on every machine")
       .integer("from", &N::from, 0, 1000,
                "lowest number of waves over the sheet; 0: no waves, each control point moves by itself")
       .integer("to", &N::to, 0, 1000, "highest number of waves")
       .choice("along", &N::along_v, std::vector<std::pair<std::string, bool>>{{"u", false}, {"v", true}},
               "the direction of the waves")
-      .check([](const Place& p, const N& n) {
+      .check([](const Entry& p, const N& n) {
         if (n.to < n.from) p.failAt("to", fmt::format("{} is out of range; allowed: >= from = {}", n.to, n.from));
         if (n.from == 0 && n.to > 0) p.failAt("from", "is required with \"to\": the lowest number of waves, >= 1");
       })

@@ -12,14 +12,14 @@ namespace {
 Object patchFieldTable(const std::string& unit, const Range& range, const std::string& title) {
   using F = PatchField;
   Field values =
-      fieldOf("values", Kind::rows, unit, range, "rows along v of values along u; each count at least degree + 1");
+      fieldOf("values", Kind::lists, unit, range, "rows along v of values along u; each count at least degree + 1");
   values.required = true;
   return Table<F>(title)
       .integer("degree", &F::degree, 0, 3,
                "between the values: 0 constant by rectangle, 1 bilinear, 2 and 3 smooth (B-spline coefficients)")
       .custom(
           values,
-          [unit, range](const Place& p, F& f) {
+          [unit, range](const Entry& p, F& f) {
             if (p.node.type != JsonNode::Type::list || p.node.children.empty())
               p.fail("expected a list of rows of numbers, not " + describe(p.node));
             f.values.clear();
@@ -41,7 +41,7 @@ Object patchFieldTable(const std::string& unit, const Range& range, const std::s
                   {f.values.begin() + static_cast<long>(j * n), f.values.begin() + static_cast<long>(j * n + n)}));
             return std::optional(list);
           })
-      .check([](const Place& p, const F& f) {
+      .check([](const Entry& p, const F& f) {
         if (f.count_u < f.degree + 1 || f.count_v < f.degree + 1)
           p.failAt("values", fmt::format("{} x {} values are too few for degree {}; allowed: at least {} x {}",
                                          f.count_u, f.count_v, f.degree, f.degree + 1, f.degree + 1));
@@ -73,7 +73,7 @@ Object fieldsTable(FieldsOf of) {
   return Table<F>("Fields over a patch")
       .custom(
           patch,
-          [range = patch.range](const Place& p, F& f) {
+          [range = patch.range](const Entry& p, F& f) {
             if (p.node.type == JsonNode::Type::text)
               f.name = readText(p);
             else
@@ -96,7 +96,7 @@ Object fieldsTable(FieldsOf of) {
                           "thickness, density and bending rigidities of the two are mixed linearly",
                           what))
       .defaultsTo(fmt::format("the {} everywhere", what))
-      .check([sheet](const Place&, F& f) {
+      .check([sheet](const Entry&, F& f) {
         if (sheet && f.name.empty() && !f.patch) f.patch = 0;
       })
       .build();

@@ -84,7 +84,7 @@ Object strainLimitTable() {
                                                            {"closest", LimitMethod::closest}},
           "fast: fast projection (Zheng 2013, eq. 5.21). closest: the whole Newton iteration to the closest point on "
           "the constraints (eq. 5.15), slower; for comparison, of structures, mode equality")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         if (s.method == LimitMethod::closest && s.mode != LimitMode::equality)
           p.failAt("method", "closest goes with mode equality");
         if (s.mode == LimitMode::upper_limit && !s.limit)

@@ -26,12 +26,14 @@ Object contactTable() {
   using C = ContactCase;
   return Table<C>("Contact")
       .number("layer", &C::layer_m, "m", aboveTo(0, 0.05),
-              "distance that contact keeps between cloth and body, and between cloth and cloth")
+              "distance that contact keeps between cloth and body, and between cloth and cloth; cloth that starts "
+              "nearer is "
+              "pushed out to it, at up to layer / relaxation")
       .defaultsTo("the fabric's thickness; between two fabrics half the sum of theirs")
       .number("friction", &C::friction, "", between(0, 5),
               "Coulomb's coefficient between cloth and body, and between cloth and cloth")
       .required()
-      .flag("self", &C::self, "cloth touches cloth: layers each other, folds themselves")
+      .flag("self", &C::self, "cloth touches cloth: garments each other, folds themselves")
       .number("relaxation", &C::relaxation_s, "s", aboveTo(0, 1),
               "time in which a sample inside the layer returns to its surface")
       .number("compliance", &C::compliance_m_per_Pa, "m/Pa", between(0, 1e-6),
@@ -44,7 +46,7 @@ Object contactTable() {
       .build();
 }
 
-void checkObstacleNames(const Place& root, std::span<const ObstacleCase> obstacles) {
+void checkObstacleNames(const Entry& root, std::span<const ObstacleCase> obstacles) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (!names.insert(obstacles[i].name).second)

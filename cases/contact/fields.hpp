@@ -12,6 +12,6 @@ Object obstacleTable();  ///< ObstacleCase
 Object contactTable();   ///< ContactCase
 
 /// Each obstacle of the list "obstacles" has a name of its own.
-void checkObstacleNames(const Place& root, std::span<const ObstacleCase> obstacles);
+void checkObstacleNames(const Entry& root, std::span<const ObstacleCase> obstacles);
 
 }  // namespace gambeson::schema

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cases/input/places.hpp"
+#include "cases/input/wrong_entry.hpp"
 
 namespace gambeson {
 

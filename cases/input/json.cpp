@@ -57,9 +57,9 @@ class CountingIterator {
 std::string reasonOf(const std::string& what) {
   std::size_t start = what.find("] ");
   start = start == std::string::npos ? 0 : start + 2;
-  const std::size_t place = what.find("column ", start);
-  if (place != std::string::npos) {
-    const std::size_t colon = what.find(": ", place);
+  const std::size_t column = what.find("column ", start);
+  if (column != std::string::npos) {
+    const std::size_t colon = what.find(": ", column);
     if (colon != std::string::npos) start = colon + 2;
   }
   return what.substr(start);

@@ -24,9 +24,9 @@ class JsonAt {
   bool contains(const std::string& key) const { return value_->is_object() && value_->contains(key); }
   bool is_number() const { return value_->is_number(); }
   JsonAt at(const std::string& key) const {
-    const std::string place = path_.empty() ? key : path_ + "." + key;
-    if (!contains(key)) throw Error(place + ": is missing");
-    return JsonAt(value_->at(key), place);
+    const std::string path = path_.empty() ? key : path_ + "." + key;
+    if (!contains(key)) throw Error(path + ": is missing");
+    return JsonAt(value_->at(key), path);
   }
   /// Null counts as empty: what has had no item is written so.
   std::vector<JsonAt> list() const {

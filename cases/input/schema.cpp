@@ -39,10 +39,10 @@ std::string hint(std::string_view wrong, const std::vector<std::string>& words) 
   return near.empty() ? "allowed: " + joined(words) : fmt::format("did you mean \"{}\"?", near);
 }
 
-std::vector<std::string> keysOf(const Object& object, const std::string* group = nullptr) {
+std::vector<std::string> keysOf(const Object& object, const std::string* alternatives = nullptr) {
   std::vector<std::string> keys;
   for (const Field& f : object.fields)
-    if (!group || f.group == *group) keys.push_back(f.key);
+    if (!alternatives || f.alternatives == *alternatives) keys.push_back(f.key);
   return keys;
 }
 
@@ -57,22 +57,22 @@ std::string Range::text(const std::string& unit) const {
   return unit.empty() ? s : s + " " + unit;
 }
 
-void Place::fail(const std::string& reason) const {
+void Entry::fail(const std::string& reason) const {
   const bool from_command_line = node.line == 0;
   throw InputError({from_command_line ? "command line" : file, node.line, path}, reason);
 }
 
-void Place::failAt(const std::string& key, const std::string& reason) const {
+void Entry::failAt(const std::string& key, const std::string& reason) const {
   const JsonNode* child = node.find(key);
   if (child) member(*child).fail(reason);
-  Place{node, (path.empty() ? "" : path + ".") + key, file}.fail(reason);
+  Entry{node, (path.empty() ? "" : path + ".") + key, file}.fail(reason);
 }
 
-Place Place::member(const JsonNode& child) const {
+Entry Entry::member(const JsonNode& child) const {
   return {child, (path.empty() ? "" : path + ".") + child.key, child.file ? *child.file : file, recorded};
 }
 
-Place Place::item(std::size_t index) const {
+Entry Entry::item(std::size_t index) const {
   const JsonNode& child = node.children[index];
   return {child, fmt::format("{}[{}]", path, index), child.file ? *child.file : file, recorded};
 }
@@ -83,29 +83,30 @@ const Field* Object::find(std::string_view key) const {
   return nullptr;
 }
 
-void readObject(const Object& object, const Place& place, void* target) {
-  const JsonNode& node = place.node;
+void readObject(const Object& object, const Entry& entry, void* target) {
+  const JsonNode& node = entry.node;
   if (node.type != JsonNode::Type::object)
-    place.fail(fmt::format("expected an object {{ }} with {}, not {}", joined(keysOf(object)), describe(node)));
+    entry.fail(fmt::format("expected an object {{ }} with {}, not {}", joined(keysOf(object)), describe(node)));
   for (const JsonNode& child : node.children)
-    if (!object.find(child.key)) place.member(child).fail("unknown key; " + hint(child.key, keysOf(object)));
-  for (const Group& group : object.groups) {
+    if (!object.find(child.key)) entry.member(child).fail("unknown key; " + hint(child.key, keysOf(object)));
+  for (const Alternatives& alternatives : object.alternatives) {
     const JsonNode* first = nullptr;
     for (const JsonNode& child : node.children) {
-      if (object.find(child.key)->group != group.name) continue;
-      if (first) place.member(child).fail(fmt::format("excludes \"{}\"; give only one of them", first->key));
+      if (object.find(child.key)->alternatives != alternatives.name) continue;
+      if (first) entry.member(child).fail(fmt::format("excludes \"{}\"; give only one of them", first->key));
       first = &child;
     }
-    if (group.required && !first) place.fail(fmt::format("one of {} is required", joined(keysOf(object, &group.name))));
+    if (alternatives.required && !first)
+      entry.fail(fmt::format("one of {} is required", joined(keysOf(object, &alternatives.name))));
   }
   for (const Field& field : object.fields) {
     const JsonNode* child = node.find(field.key);
     if (child)
-      field.read(place.member(*child), target);
+      field.read(entry.member(*child), target);
     else if (field.required)
-      place.failAt(field.key, "is required: " + field.doc);
+      entry.failAt(field.key, "is required: " + field.doc);
   }
-  if (object.check) object.check(place, target);
+  if (object.check) object.check(entry, target);
 }
 
 JsonNode writeObject(const Object& object, const void* source) {
@@ -120,57 +121,57 @@ JsonNode writeObject(const Object& object, const void* source) {
   return node;
 }
 
-double readNumber(const Place& place, const std::string& unit, const Range& range) {
+double readNumber(const Entry& entry, const std::string& unit, const Range& range) {
   double x = 0;
-  if (place.node.type == JsonNode::Type::number) {
-    x = place.node.number;
-  } else if (place.node.type == JsonNode::Type::text) {
+  if (entry.node.type == JsonNode::Type::number) {
+    x = entry.node.number;
+  } else if (entry.node.type == JsonNode::Type::text) {
     try {
-      x = parseQuantity(place.node.text, unit);
+      x = parseQuantity(entry.node.text, unit);
     } catch (const InputError& e) {
-      place.fail(e.reason() + "; allowed: " + range.text(unit));
+      entry.fail(e.reason() + "; allowed: " + range.text(unit));
     }
   } else {
-    place.fail(fmt::format("expected a number{}, not {}; allowed: {}",
-                           unit.empty() ? "" : fmt::format(" in {} or a text with a unit", unit), describe(place.node),
+    entry.fail(fmt::format("expected a number{}, not {}; allowed: {}",
+                           unit.empty() ? "" : fmt::format(" in {} or a text with a unit", unit), describe(entry.node),
                            range.text(unit)));
   }
   if (!std::isfinite(x) || !range.contains(x))
-    place.fail(fmt::format("{} is out of range; allowed: {}", withUnit(x, unit), range.text(unit)));
+    entry.fail(fmt::format("{} is out of range; allowed: {}", withUnit(x, unit), range.text(unit)));
   return x;
 }
 
-int readInteger(const Place& place, const Range& range) {
-  if (place.node.type != JsonNode::Type::number || place.node.number != std::floor(place.node.number))
-    place.fail(fmt::format("expected a whole number, not {}; allowed: {}", describe(place.node), range.text()));
-  if (!range.contains(place.node.number) || std::abs(place.node.number) > 1e9)
-    place.fail(fmt::format("{} is out of range; allowed: {}", place.node.number, range.text()));
-  return static_cast<int>(place.node.number);
+int readInteger(const Entry& entry, const Range& range) {
+  if (entry.node.type != JsonNode::Type::number || entry.node.number != std::floor(entry.node.number))
+    entry.fail(fmt::format("expected a whole number, not {}; allowed: {}", describe(entry.node), range.text()));
+  if (!range.contains(entry.node.number) || std::abs(entry.node.number) > 1e9)
+    entry.fail(fmt::format("{} is out of range; allowed: {}", entry.node.number, range.text()));
+  return static_cast<int>(entry.node.number);
 }
 
-bool readBoolean(const Place& place) {
-  if (place.node.type != JsonNode::Type::boolean)
-    place.fail(fmt::format("expected true or false, not {}", describe(place.node)));
-  return place.node.boolean;
+bool readBoolean(const Entry& entry) {
+  if (entry.node.type != JsonNode::Type::boolean)
+    entry.fail(fmt::format("expected true or false, not {}", describe(entry.node)));
+  return entry.node.boolean;
 }
 
-const std::string& readText(const Place& place) {
-  if (place.node.type != JsonNode::Type::text)
-    place.fail(fmt::format("expected a text in quotes, not {}", describe(place.node)));
-  if (place.node.text.empty()) place.fail("the text is empty");
+const std::string& readText(const Entry& entry) {
+  if (entry.node.type != JsonNode::Type::text)
+    entry.fail(fmt::format("expected a text in quotes, not {}", describe(entry.node)));
+  if (entry.node.text.empty()) entry.fail("the text is empty");
   // Names, labels and paths have no control characters; what is prose may have several lines.
-  const std::string_view key = std::string_view(place.path).substr(place.path.rfind('.') + 1);
+  const std::string_view key = std::string_view(entry.path).substr(entry.path.rfind('.') + 1);
   const bool prose = key == "description" || key == "doc" || key == "note" || key == "source";
-  if (const std::string why = unfitText(place.node.text, prose); !why.empty()) place.fail(why);
-  return place.node.text;
+  if (const std::string why = unfitText(entry.node.text, prose); !why.empty()) entry.fail(why);
+  return entry.node.text;
 }
 
-std::size_t readChoice(const Place& place, const std::vector<std::string>& choices) {
-  if (place.node.type != JsonNode::Type::text)
-    place.fail(fmt::format("expected one of {}, not {}", joined(choices), describe(place.node)));
-  const auto found = std::find(choices.begin(), choices.end(), place.node.text);
+std::size_t readChoice(const Entry& entry, const std::vector<std::string>& choices) {
+  if (entry.node.type != JsonNode::Type::text)
+    entry.fail(fmt::format("expected one of {}, not {}", joined(choices), describe(entry.node)));
+  const auto found = std::find(choices.begin(), choices.end(), entry.node.text);
   if (found == choices.end())
-    place.fail(fmt::format("{} is not known here; allowed: {}", describe(place.node), joined(choices)));
+    entry.fail(fmt::format("{} is not known here; allowed: {}", describe(entry.node), joined(choices)));
   return static_cast<std::size_t>(found - choices.begin());
 }
 

@@ -29,8 +29,8 @@ inline Range atLeast(double low) { return {.low = low}; }
 inline Range between(double low, double high) { return {.low = low, .high = high}; }
 inline Range aboveTo(double low, double high) { return {.low = low, .high = high, .low_open = true}; }
 
-/// Where a value stands, and the way to complain about it.
-struct Place {
+/// What stands under a key or in a list of a file, and the way to complain about it.
+struct Entry {
   const JsonNode& node;
   std::string path;         ///< "supports[0].springs.stiffness"
   const std::string& file;  ///< of the case
@@ -40,14 +40,14 @@ struct Place {
   [[noreturn]] void fail(const std::string& reason) const;
   /// The same, at the member `key` where it is written, here where it is not.
   [[noreturn]] void failAt(const std::string& key, const std::string& reason) const;
-  Place member(const JsonNode& child) const;
-  Place item(std::size_t index) const;
+  Entry member(const JsonNode& child) const;
+  Entry item(std::size_t index) const;
 };
 
 struct Object;
 
-/// pair: [s, t]; numbers: a list of numbers; rows: a list of such lists; map: an object whose keys are names of the
-/// user's own, with rows in them; any: whatever the meaning says.
+/// pair: [s, t]; numbers: a list of numbers; lists: a list of such lists; map: an object whose keys are names of the
+/// user's own, with lists in them; any: whatever the meaning says.
 enum class Kind {
   number,
   integer,
@@ -58,7 +58,7 @@ enum class Kind {
   pair,
   vector,
   numbers,
-  rows,
+  lists,
   map,
   object,
   list,
@@ -75,17 +75,17 @@ struct Field {
   std::vector<std::string> choices;  ///< words; also for numbers and vectors that allow a word in their place
   std::string doc;
   bool required = false;
-  std::string group;                      ///< fields of one group exclude each other
+  std::string alternatives;               ///< fields that name the same ones exclude each other
   std::optional<JsonNode> default_value;  ///< what reading gives where the field is absent
   std::string default_note;               ///< says where a default comes from that is not a plain value
   std::shared_ptr<const Object> object;   ///< of an object, or of the items of a list
 
-  std::function<void(const Place&, void*)> read;
+  std::function<void(const Entry&, void*)> read;
   std::function<std::optional<JsonNode>(const void*)> write;  ///< nothing where the field is absent
 };
 
 /// Fields that exclude each other.
-struct Group {
+struct Alternatives {
   std::string name;
   bool required = false;
 };
@@ -95,24 +95,24 @@ struct Object {
   std::string title;  ///< for the documentation
   std::string about;  ///< of a whole file: what it is, without a full stop
   std::vector<Field> fields;
-  std::vector<Group> groups;
+  std::vector<Alternatives> alternatives;
   /// Rules between fields, run after all fields are read.
-  std::function<void(const Place&, void*)> check;
+  std::function<void(const Entry&, void*)> check;
 
   const Field* find(std::string_view key) const;
 };
 
 /// Reads all fields into `target`, which holds the defaults. Unknown keys, missing fields and broken rules throw
 /// InputError.
-void readObject(const Object& object, const Place& place, void* target);
+void readObject(const Object& object, const Entry& entry, void* target);
 JsonNode writeObject(const Object& object, const void* source);
 
 /// Values of single fields; throw InputError.
-double readNumber(const Place& place, const std::string& unit, const Range& range);
-int readInteger(const Place& place, const Range& range);
-bool readBoolean(const Place& place);
-const std::string& readText(const Place& place);
-std::size_t readChoice(const Place& place, const std::vector<std::string>& choices);
+double readNumber(const Entry& entry, const std::string& unit, const Range& range);
+int readInteger(const Entry& entry, const Range& range);
+bool readBoolean(const Entry& entry);
+const std::string& readText(const Entry& entry);
+std::size_t readChoice(const Entry& entry, const std::vector<std::string>& choices);
 
 /// The closest of `words` to `wrong`, or "" where none is close.
 std::string closest(std::string_view wrong, const std::vector<std::string>& words);

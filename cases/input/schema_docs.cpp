@@ -44,7 +44,7 @@ Json toJson(const JsonNode& node) {
 std::string defaultText(const Field& f) {
   if (f.required) return "required";
   if (!f.default_note.empty()) return f.default_note;
-  if (!f.group.empty()) return "";
+  if (!f.alternatives.empty()) return "";
   if (!f.default_value) return f.kind == Kind::object ? "as below" : "";
   const JsonNode& v = *f.default_value;
   if (v.type == JsonNode::Type::number && !f.unit.empty()) return fmt::format("{} {}", v.number, f.unit);
@@ -77,7 +77,7 @@ std::string typeText(const Field& f) {
       return "[s, t]";
     case Kind::numbers:
       return "list of numbers";
-    case Kind::rows:
+    case Kind::lists:
       return f.choices.empty() ? "list of lists of numbers" : "list of lists of numbers, or word";
     case Kind::map:
       return "name: list of lists of numbers";
@@ -97,7 +97,7 @@ std::string allowedText(const Field& f) {
   std::string s;
   for (const std::string& c : f.choices) s += (s.empty() ? "" : ", ") + c;
   const bool ranged = f.kind == Kind::number || f.kind == Kind::integer || f.kind == Kind::vector ||
-                      f.kind == Kind::pair || f.kind == Kind::numbers || f.kind == Kind::rows;
+                      f.kind == Kind::pair || f.kind == Kind::numbers || f.kind == Kind::lists;
   if (ranged && f.range.text() != "any") s = f.range.text(f.unit) + (s.empty() ? "" : "; or " + s);
   if (ranged && s.empty()) s = f.unit;
   return s;
@@ -138,7 +138,7 @@ Json fieldSchema(const Field& f) {
     case Kind::numbers:
       s = {{"type", "array"}, {"items", numberSchema(f)}};
       break;
-    case Kind::rows:
+    case Kind::lists:
       s = rowsSchema(f);
       if (!f.choices.empty()) s = {{"anyOf", Json::array({s, Json{{"enum", f.choices}}})}};
       break;
@@ -179,11 +179,11 @@ Json objectSchema(const Object& object) {
   }
   if (!required.empty()) s["required"] = required;
   Json rules = Json::array();
-  for (const Group& g : object.groups) {
+  for (const Alternatives& g : object.alternatives) {
     Json choices = Json::array();
     Json none = Json::array();
     for (const Field& f : object.fields) {
-      if (f.group != g.name) continue;
+      if (f.alternatives != g.name) continue;
       choices.push_back({{"required", {f.key}}});
       none.push_back({{"required", {f.key}}});
     }
@@ -197,10 +197,10 @@ Json objectSchema(const Object& object) {
 /// What is said of an object alone.
 std::string sectionOf(const Object& object) {
   std::string section;
-  for (const Group& g : object.groups) {
+  for (const Alternatives& g : object.alternatives) {
     std::vector<std::string> keys;
     for (const Field& f : object.fields)
-      if (f.group == g.name) keys.push_back("`" + f.key + "`");
+      if (f.alternatives == g.name) keys.push_back("`" + f.key + "`");
     section += fmt::format("{} of {}.\n\n", g.required ? "Exactly one" : "At most one", joined(keys));
   }
   section += "| key | type | default | allowed | meaning |\n|---|---|---|---|---|\n";

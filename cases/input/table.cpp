@@ -47,71 +47,71 @@ JsonNode emptyList() {
   return n;
 }
 
-Vec2 readPair(const Place& place, const std::string& unit, const Range& range) {
-  if (place.node.type != JsonNode::Type::list || place.node.children.size() != 2)
-    place.fail("expected a list of two numbers [s, t], not " + describe(place.node));
-  return {readNumber(place.item(0), unit, range), readNumber(place.item(1), unit, range)};
+Vec2 readPair(const Entry& entry, const std::string& unit, const Range& range) {
+  if (entry.node.type != JsonNode::Type::list || entry.node.children.size() != 2)
+    entry.fail("expected a list of two numbers [s, t], not " + describe(entry.node));
+  return {readNumber(entry.item(0), unit, range), readNumber(entry.item(1), unit, range)};
 }
 
-std::vector<double> readNumbers(const Place& place, const std::string& unit, const Range& range) {
-  if (place.node.type != JsonNode::Type::list) place.fail("expected a list of numbers, not " + describe(place.node));
+std::vector<double> readNumbers(const Entry& entry, const std::string& unit, const Range& range) {
+  if (entry.node.type != JsonNode::Type::list) entry.fail("expected a list of numbers, not " + describe(entry.node));
   std::vector<double> values;
-  for (std::size_t i = 0; i < place.node.children.size(); ++i) values.push_back(readNumber(place.item(i), unit, range));
+  for (std::size_t i = 0; i < entry.node.children.size(); ++i) values.push_back(readNumber(entry.item(i), unit, range));
   return values;
 }
 
-Vec3 readVector(const Place& place, const std::string& unit, const Range& range) {
-  if (place.node.type != JsonNode::Type::list || place.node.children.size() != 3)
-    place.fail("expected a list of three numbers [x, y, z], not " + describe(place.node));
+Vec3 readVector(const Entry& entry, const std::string& unit, const Range& range) {
+  if (entry.node.type != JsonNode::Type::list || entry.node.children.size() != 3)
+    entry.fail("expected a list of three numbers [x, y, z], not " + describe(entry.node));
   Vec3 v;
-  for (int i = 0; i < 3; ++i) v[i] = readNumber(place.item(static_cast<std::size_t>(i)), unit, range);
+  for (int i = 0; i < 3; ++i) v[i] = readNumber(entry.item(static_cast<std::size_t>(i)), unit, range);
   return v;
 }
 
-Vec3 readDirection(const Place& place) {
-  const Vec3 v = readVector(place, "", between(-1e6, 1e6));
-  if (!(norm(v) > 1e-6)) place.fail("a direction cannot have the length 0; allowed: a length above 1e-6");
+Vec3 readDirection(const Entry& entry) {
+  const Vec3 v = readVector(entry, "", between(-1e6, 1e6));
+  if (!(norm(v) > 1e-6)) entry.fail("a direction cannot have the length 0; allowed: a length above 1e-6");
   return normalized(v);
 }
 
 namespace {
 
-std::filesystem::path readName(const Place& place) {
-  const std::string& text = readText(place);
-  if (text.size() > 4000) place.fail("this is not the name of a file");
-  const bool from_command_line = place.node.line == 0;
+std::filesystem::path readName(const Entry& entry) {
+  const std::string& text = readText(entry);
+  if (text.size() > 4000) entry.fail("this is not the name of a file");
+  const bool from_command_line = entry.node.line == 0;
   const std::filesystem::path base =
-      from_command_line ? std::filesystem::current_path() : std::filesystem::absolute(place.file).parent_path();
+      from_command_line ? std::filesystem::current_path() : std::filesystem::absolute(entry.file).parent_path();
   const std::filesystem::path path = (base / text).lexically_normal();
-  if (const std::string why = unfitText(path.string()); !why.empty()) place.fail("the folder of the file " + why);
+  if (const std::string why = unfitText(path.string()); !why.empty()) entry.fail("the folder of the file " + why);
   return path;
 }
 
-std::filesystem::path readExisting(const Place& place, std::filesystem::file_status& status) {
-  std::filesystem::path path = readName(place);
+std::filesystem::path readExisting(const Entry& entry, std::filesystem::file_status& status) {
+  std::filesystem::path path = readName(entry);
   std::error_code error;
   status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::none)
-    place.fail(path.string() + " cannot be read: " + error.message());
-  if (!std::filesystem::exists(status)) place.fail("there is no file " + path.string());
+    entry.fail(path.string() + " cannot be read: " + error.message());
+  if (!std::filesystem::exists(status)) entry.fail("there is no file " + path.string());
   return path;
 }
 
 }  // namespace
 
-std::filesystem::path readPath(const Place& place) {
-  if (place.recorded) return readName(place);
+std::filesystem::path readPath(const Entry& entry) {
+  if (entry.recorded) return readName(entry);
   std::filesystem::file_status status;
-  std::filesystem::path path = readExisting(place, status);
-  if (!std::filesystem::is_regular_file(status)) place.fail(path.string() + " is not a file");
+  std::filesystem::path path = readExisting(entry, status);
+  if (!std::filesystem::is_regular_file(status)) entry.fail(path.string() + " is not a file");
   return path;
 }
 
-std::filesystem::path readFolder(const Place& place) {
-  if (place.recorded) return readName(place);
+std::filesystem::path readFolder(const Entry& entry) {
+  if (entry.recorded) return readName(entry);
   std::filesystem::file_status status;
-  std::filesystem::path path = readExisting(place, status);
-  if (!std::filesystem::is_directory(status)) place.fail(path.string() + " is not a folder");
+  std::filesystem::path path = readExisting(entry, status);
+  if (!std::filesystem::is_directory(status)) entry.fail(path.string() + " is not a folder");
   return path;
 }
 

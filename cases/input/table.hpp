@@ -25,16 +25,16 @@ JsonNode nodeOf(const Vec3& v);
 JsonNode nodeOfList(const std::vector<double>& values);
 JsonNode emptyList();
 
-Vec2 readPair(const Place& place, const std::string& unit, const Range& range);
-std::vector<double> readNumbers(const Place& place, const std::string& unit, const Range& range);
-Vec3 readVector(const Place& place, const std::string& unit, const Range& range);
+Vec2 readPair(const Entry& entry, const std::string& unit, const Range& range);
+std::vector<double> readNumbers(const Entry& entry, const std::string& unit, const Range& range);
+Vec3 readVector(const Entry& entry, const std::string& unit, const Range& range);
 /// A vector that is not zero, made unit.
-Vec3 readDirection(const Place& place);
+Vec3 readDirection(const Entry& entry);
 /// A path to a file that exists (or did, of a recorded case), made absolute: against the case's folder, or the current
 /// one from the command line.
-std::filesystem::path readPath(const Place& place);
+std::filesystem::path readPath(const Entry& entry);
 /// The same of a folder.
-std::filesystem::path readFolder(const Place& place);
+std::filesystem::path readFolder(const Entry& entry);
 
 /// A field whose reading and writing a table adds (Table::custom).
 inline Field fieldOf(const std::string& key, Kind kind, const std::string& unit, const Range& range,
@@ -66,7 +66,7 @@ class Table {
     Field& f = add(key, Kind::number, doc);
     f.unit = unit;
     f.range = range;
-    f.read = [=](const Place& p, void* t) { member(get, t) = readNumber(p, unit, range); };
+    f.read = [=](const Entry& p, void* t) { member(get, t) = readNumber(p, unit, range); };
     f.write = [=](const void* t) { return writeMember(member(get, t)); };
     return *this;
   }
@@ -74,14 +74,14 @@ class Table {
   Table& integer(const std::string& key, Get get, int low, int high, const std::string& doc) {
     Field& f = add(key, Kind::integer, doc);
     f.range = between(low, high);
-    f.read = [get, range = f.range](const Place& p, void* t) { member(get, t) = readInteger(p, range); };
+    f.read = [get, range = f.range](const Entry& p, void* t) { member(get, t) = readInteger(p, range); };
     f.write = [=](const void* t) { return writeMember(member(get, t)); };
     return *this;
   }
   template <class Get>
   Table& flag(const std::string& key, Get get, const std::string& doc) {
     Field& f = add(key, Kind::boolean, doc);
-    f.read = [=](const Place& p, void* t) { member(get, t) = readBoolean(p); };
+    f.read = [=](const Entry& p, void* t) { member(get, t) = readBoolean(p); };
     f.write = [=](const void* t) { return std::optional(nodeOf(member(get, t))); };
     return *this;
   }
@@ -89,14 +89,14 @@ class Table {
   template <class Get>
   Table& text(const std::string& key, Get get, const std::string& doc) {
     Field& f = add(key, Kind::text, doc);
-    f.read = [=](const Place& p, void* t) { member(get, t) = readText(p); };
+    f.read = [=](const Entry& p, void* t) { member(get, t) = readText(p); };
     f.write = [=](const void* t) { return writeMember(member(get, t)); };
     return *this;
   }
   template <class Get>
   Table& path(const std::string& key, Get get, const std::string& doc) {
     Field& f = add(key, Kind::path, doc);
-    f.read = [=](const Place& p, void* t) { member(get, t) = readPath(p); };
+    f.read = [=](const Entry& p, void* t) { member(get, t) = readPath(p); };
     f.write = [=](const void* t) { return writeMember(member(get, t).string()); };
     return *this;
   }
@@ -105,14 +105,14 @@ class Table {
     Field& f = add(key, Kind::vector, doc);
     f.unit = unit;
     f.range = range;
-    f.read = [=](const Place& p, void* t) { member(get, t) = readVector(p, unit, range); };
+    f.read = [=](const Entry& p, void* t) { member(get, t) = readVector(p, unit, range); };
     f.write = [=](const void* t) { return writeMember(member(get, t)); };
     return *this;
   }
   template <class Get>
   Table& direction(const std::string& key, Get get, const std::string& doc) {
     Field& f = add(key, Kind::vector, doc + " (any length but zero)");
-    f.read = [=](const Place& p, void* t) { member(get, t) = readDirection(p); };
+    f.read = [=](const Entry& p, void* t) { member(get, t) = readDirection(p); };
     f.write = [=](const void* t) { return writeMember(member(get, t)); };
     return *this;
   }
@@ -121,7 +121,7 @@ class Table {
                 const std::string& doc) {
     Field& f = add(key, Kind::choice, doc);
     for (const auto& w : words) f.choices.push_back(w.first);
-    f.read = [get, words, choices = f.choices](const Place& p, void* t) {
+    f.read = [get, words, choices = f.choices](const Entry& p, void* t) {
       member(get, t) = words[readChoice(p, choices)].second;
     };
     f.write = [=](const void* t) -> std::optional<JsonNode> {
@@ -136,7 +136,7 @@ class Table {
   Table& object(const std::string& key, Get get, Object table, const std::string& doc) {
     Field& f = add(key, Kind::object, doc);
     f.object = std::make_shared<const Object>(std::move(table));
-    f.read = [get, o = f.object](const Place& p, void* t) {
+    f.read = [get, o = f.object](const Entry& p, void* t) {
       auto& m = member(get, t);
       if constexpr (is_optional<std::remove_cvref_t<decltype(m)>>)
         readObject(*o, p, &m.emplace());
@@ -159,7 +159,7 @@ class Table {
                    const std::string& doc) {
     Field& f = add(key, Kind::object, doc);
     f.object = std::make_shared<const Object>(std::move(table));
-    f.read = [=, o = f.object](const Place& p, void* t) {
+    f.read = [=, o = f.object](const Entry& p, void* t) {
       In in;
       readObject(*o, p, &in);
       member(get, t) = resolve(p, in);
@@ -182,7 +182,7 @@ class Table {
   Table& alternative(const std::string& key, Get get, Object table, const std::string& doc) {
     Field& f = add(key, Kind::object, doc);
     f.object = std::make_shared<const Object>(std::move(table));
-    f.read = [get, o = f.object](const Place& p, void* t) {
+    f.read = [get, o = f.object](const Entry& p, void* t) {
       A a;
       readObject(*o, p, &a);
       member(get, t) = std::move(a);
@@ -198,7 +198,7 @@ class Table {
   Table& list(const std::string& key, Get get, Object table, const std::string& doc) {
     Field& f = add(key, Kind::list, doc);
     f.object = std::make_shared<const Object>(std::move(table));
-    f.read = [get, o = f.object](const Place& p, void* t) {
+    f.read = [get, o = f.object](const Entry& p, void* t) {
       if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
       auto& m = member(get, t);
       m.clear();
@@ -214,7 +214,7 @@ class Table {
   template <class Get>
   Table& texts(const std::string& key, Get get, const std::string& doc) {
     Field& f = add(key, Kind::text_list, doc);
-    f.read = [=](const Place& p, void* t) {
+    f.read = [=](const Entry& p, void* t) {
       if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of texts, not " + describe(p.node));
       auto& m = member(get, t);
       m.clear();
@@ -227,12 +227,12 @@ class Table {
     };
     return *this;
   }
-  /// A field with its own reading and writing: read(place, T&), write(const T&) -> optional<JsonNode>.
+  /// A field with its own reading and writing: read(entry, T&), write(const T&) -> optional<JsonNode>.
   template <class Read, class Write>
   Table& custom(Field field, Read read, Write write) {
     Field& f = add(field.key, field.kind, field.doc);
     f = std::move(field);
-    f.read = [=](const Place& p, void* t) { read(p, *static_cast<T*>(t)); };
+    f.read = [=](const Entry& p, void* t) { read(p, *static_cast<T*>(t)); };
     f.write = [=](const void* t) { return write(*static_cast<const T*>(t)); };
     return *this;
   }
@@ -259,26 +259,26 @@ class Table {
     };
     return *this;
   }
-  Table& in(const std::string& group) {
-    object_.fields.back().group = group;
+  Table& in(const std::string& alternatives) {
+    object_.fields.back().alternatives = alternatives;
     return *this;
   }
 
-  /// Says that exactly one (required) or at most one of the fields in `group` is given.
-  Table& oneOf(const std::string& group, bool required_) {
-    object_.groups.push_back({group, required_});
+  /// Says that exactly one (required) or at most one of the fields in `alternatives` is given.
+  Table& oneOf(const std::string& alternatives, bool required_) {
+    object_.alternatives.push_back({alternatives, required_});
     return *this;
   }
   template <class Check>
   Table& check(Check check) {
-    object_.check = [=](const Place& p, void* t) { check(p, *static_cast<T*>(t)); };
+    object_.check = [=](const Entry& p, void* t) { check(p, *static_cast<T*>(t)); };
     return *this;
   }
 
   Object build() {
     const T defaults{};
     for (Field& f : object_.fields)
-      if (!f.required && f.group.empty() && f.default_note.empty() && f.kind != Kind::object)
+      if (!f.required && f.alternatives.empty() && f.default_note.empty() && f.kind != Kind::object)
         f.default_value = f.write(&defaults);
     return std::move(object_);
   }

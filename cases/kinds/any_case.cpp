@@ -18,8 +18,8 @@ AnyCase readAnyCase(const JsonNode& root, const std::filesystem::path& file) {
   std::vector<std::string> words;
   for (const schema::KindOfFile& k : kindsOfCase()) words.push_back(k.kind);
   const std::string name = file.string();
-  const schema::Place place{root, "", name};
-  if (schema::readChoice(place.member(*kind), words) == 0) return readCase(root, file);
+  const schema::Entry entry{root, "", name};
+  if (schema::readChoice(entry.member(*kind), words) == 0) return readCase(root, file);
   return readStructureCase(root, file);
 }
 

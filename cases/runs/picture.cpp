@@ -17,7 +17,7 @@ Object pictureTable() {
   return Table<P>("Picture")
       .custom(
           time,
-          [time](const Place& p, P& picture) {
+          [time](const Entry& p, P& picture) {
             const bool word = p.node.type == JsonNode::Type::text && !p.node.text.empty() &&
                               std::isalpha(static_cast<unsigned char>(p.node.text[0]));
             picture.when =

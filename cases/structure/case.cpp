@@ -12,19 +12,19 @@ namespace {
 
 StructureCase readWith(const JsonNode& root, const std::filesystem::path& file, bool recorded) {
   const std::string name = file.string();
-  const schema::Place place{root, "", name, recorded};
+  const schema::Entry entry{root, "", name, recorded};
   const JsonNode* word = root.find("kind");
   std::vector<std::string> words;
   for (const auto& [w, kind] : schema::structureKinds()) words.push_back(w);
-  if (!word) place.failAt("kind", "is required: " + schema::joined(words));
+  if (!word) entry.failAt("kind", "is required: " + schema::joined(words));
   StructureCase c;
-  c.kind = schema::structureKinds()[schema::readChoice(place.member(*word), words)].second;
+  c.kind = schema::structureKinds()[schema::readChoice(entry.member(*word), words)].second;
   for (const char* key : {"obstacles", "contact"})
     if (const JsonNode* node = root.find(key); node && c.kind != StructureKind::dynamics)
-      place.member(*node).fail(
+      entry.member(*node).fail(
           "goes with kind dynamic and \"scheme\": \"explicit\": equilibrium and modes know no contact");
-  schema::readObject(schema::structureTable(c.kind), place, &c);
-  if (!recorded) schema::applyStructureRules(place, c);
+  schema::readObject(schema::structureTable(c.kind), entry, &c);
+  if (!recorded) schema::applyStructureRules(entry, c);
   c.file = file;
   return c;
 }

@@ -139,6 +139,10 @@ void addContactChecks(const StructureFacts& facts, std::vector<AuditCheck>& chec
   checks.push_back({"Penetration", 1e3 * k.deepest_m, 0.2, "mm",
                     "how deep a sample of the sheet was inside an obstacle, at most",
                     fmt::format("the sheet was {} mm inside an obstacle", formatNumber(1e3 * k.deepest_m, 2))});
+  checks.push_back(
+      {"Let through", static_cast<double>(k.pinched), 0, "",
+       "steps in which a part of the sheet was let through something, because no step was short enough",
+       fmt::format("in {} steps a part of the sheet was let through something that it should touch", k.pinched)});
   checks.push_back({"Crossings", static_cast<double>(k.crossings), 0, "",
                     "places where the sheet passes through itself or through a mesh at the start of the last step",
                     fmt::format("the sheet passes through itself or through a mesh at {} places", k.crossings)});

@@ -10,7 +10,7 @@ namespace gambeson::schema {
 namespace {
 
 /// Rows [at, value], at ascending.
-NamedProgram readProgram(const Place& p) {
+NamedProgram readProgram(const Entry& p) {
   NamedProgram program;
   program.name = p.node.key;
   if (p.node.type != JsonNode::Type::list || p.node.children.empty())
@@ -37,7 +37,7 @@ Field programsField() {
   return f;
 }
 
-void readPrograms(const Place& p, StructureCase& c) {
+void readPrograms(const Entry& p, StructureCase& c) {
   if (p.node.type != JsonNode::Type::object)
     p.fail("expected an object { } of programs, such as {\"ramp\": [[0, 0], [1, 1]]}, not " + describe(p.node));
   for (const JsonNode& child : p.node.children) {
@@ -99,7 +99,7 @@ Object makeTable(StructureKind kind, const std::string& word) {
   table
       .custom(
           kind_field,
-          [kind, word](const Place& p, C& c) {
+          [kind, word](const Entry& p, C& c) {
             readChoice(p, {word});
             c.kind = kind;
           },

@@ -21,11 +21,11 @@ Object modalSolverTable();                        ///< StructureCase
 Object structureOutputTable(StructureKind kind);  ///< StructureOutput
 
 // Pieces that several of them share: values and places.
-EdgeAt readEdgeAt(const Place& place);
+EdgeAt readEdgeAt(const Entry& entry);
 JsonNode nodeOf(const EdgeAt& edge);
-Vec2 readCorner(const Place& place);
+Vec2 readCorner(const Entry& entry);
 
 /// Rules between the parts of a case.
-void applyStructureRules(const Place& root, StructureCase& c);
+void applyStructureRules(const Entry& root, StructureCase& c);
 
 }  // namespace gambeson::schema

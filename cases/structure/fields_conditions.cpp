@@ -13,7 +13,7 @@ const Range any_amount = between(-1e18, 1e18);
 const std::vector<std::string> side_names{"u0", "u1", "v0", "v1"};
 const std::vector<std::string> holds{"x", "y", "z", "xy", "xz", "yz", "xyz"};
 
-void readHold(const Place& p, StructureSupport& s) {
+void readHold(const Entry& p, StructureSupport& s) {
   s.hold.clear();
   if (p.node.type == JsonNode::Type::text) {
     for (const char c : holds[readChoice(p, holds)])
@@ -45,7 +45,7 @@ void addVectorLoad(Table<StructureLoad>& table, const std::string& key, LoadSort
                    const std::string& doc) {
   table.custom(
       loadField(key, Kind::vector, unit, doc),
-      [sort, unit](const Place& p, StructureLoad& l) {
+      [sort, unit](const Entry& p, StructureLoad& l) {
         l.sort = sort;
         l.vector = readVector(p, unit, any_amount);
       },
@@ -57,7 +57,7 @@ void addNumberLoad(Table<StructureLoad>& table, const std::string& key, LoadSort
                    const std::string& doc) {
   table.custom(
       loadField(key, Kind::number, unit, doc),
-      [sort, unit](const Place& p, StructureLoad& l) {
+      [sort, unit](const Entry& p, StructureLoad& l) {
         l.sort = sort;
         l.amount = readNumber(p, unit, any_amount);
       },
@@ -68,7 +68,7 @@ void addNumberLoad(Table<StructureLoad>& table, const std::string& key, LoadSort
 const std::string program_doc = "name of the program that multiplies it";
 const std::string program_default = "static: the load factor; dynamic and modal: 1";
 
-void checkLoad(const Place& p, const StructureLoad& l) {
+void checkLoad(const Entry& p, const StructureLoad& l) {
   const bool edge = std::holds_alternative<EdgeAt>(l.where), point = std::holds_alternative<PointAt>(l.where);
   const bool nowhere = !edge && !point;
   switch (l.sort) {
@@ -95,15 +95,15 @@ void checkLoad(const Place& p, const StructureLoad& l) {
 
 }  // namespace
 
-EdgeAt readEdgeAt(const Place& place) {
-  const std::string& text = readText(place);
+EdgeAt readEdgeAt(const Entry& entry) {
+  const std::string& text = readText(entry);
   const std::size_t dot_at = text.find('.');
   const std::string patch = dot_at == std::string::npos ? "" : text.substr(0, dot_at);
   const std::string side = dot_at == std::string::npos ? text : text.substr(dot_at + 1);
   const auto found = std::find(side_names.begin(), side_names.end(), side);
   const bool number = !patch.empty() && patch.size() <= 4 && patch.find_first_not_of("0123456789") == std::string::npos;
   if (found == side_names.end() || (dot_at != std::string::npos && !number))
-    place.fail(describe(place.node) + " is not an edge; allowed: u0, u1, v0, v1, or patch and side such as 2.u0");
+    entry.fail(describe(entry.node) + " is not an edge; allowed: u0, u1, v0, v1, or patch and side such as 2.u0");
   return {number ? std::stoi(patch) : -1, static_cast<Side>(found - side_names.begin())};
 }
 
@@ -112,9 +112,9 @@ JsonNode nodeOf(const EdgeAt& edge) {
   return nodeOf(edge.patch < 0 ? side : fmt::format("{}.{}", edge.patch, side));
 }
 
-Vec2 readCorner(const Place& place) {
+Vec2 readCorner(const Entry& entry) {
   static const std::vector<std::string> corners{"u0v0", "u1v0", "u0v1", "u1v1"};
-  const std::size_t k = readChoice(place, corners);
+  const std::size_t k = readChoice(entry, corners);
   return {k % 2 ? 1. : 0., k / 2 ? 1. : 0.};
 }
 
@@ -127,7 +127,7 @@ Object structureSupportTable() {
   addPatchOfPoint(table);
   Field hold;
   hold.key = "hold";
-  hold.kind = Kind::rows;
+  hold.kind = Kind::lists;
   hold.choices = holds;
   hold.default_note = "xyz with move, else nothing";
   hold.doc = "directions that are held: letters of world axes, or a list of directions at right angles";
@@ -154,7 +154,7 @@ Object structureSupportTable() {
       .defaultsTo("none")
       .text("program", &S::program, program_doc + ", the motion")
       .defaultsTo(program_default)
-      .check([](const Place& p, S& s) {
+      .check([](const Entry& p, S& s) {
         const bool point = std::holds_alternative<PointAt>(s.where);
         if (point && (s.clamp || s.symmetry || s.tie))
           p.failAt(s.clamp ? "clamp" : s.symmetry ? "symmetry" : "tie", "goes with an edge, not with a point");
@@ -193,7 +193,7 @@ Object structureLoadTable() {
   patch.doc = "which patch a point, a corner or a load on the surface is on, where a sheet has several";
   table.custom(
       patch,
-      [](const Place& p, L& l) {
+      [](const Entry& p, L& l) {
         const int k = readInteger(p, between(0, 10000));
         if (PointAt* q = pointOf(l.where))
           q->patch = k;
@@ -219,7 +219,7 @@ Object structureLoadTable() {
   return table.oneOf("load", true)
       .text("program", &L::program, program_doc)
       .defaultsTo(program_default)
-      .check([](const Place& p, const L& l) { checkLoad(p, l); })
+      .check([](const Entry& p, const L& l) { checkLoad(p, l); })
       .build();
 }
 

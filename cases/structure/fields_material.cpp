@@ -30,7 +30,7 @@ Object isotropicTable() {
 }
 
 /// Positive definite only so: nu12^2 E2 < E1.
-void checkPoisson(const Place& p, double poisson, double e1, double e2, const char* key) {
+void checkPoisson(const Entry& p, double poisson, double e1, double e2, const char* key) {
   if (!(poisson * poisson * e2 < e1))
     p.failAt(key, fmt::format("{} is out of range; allowed: a magnitude below sqrt(E1 / E2) = {:.4g}", poisson,
                               std::sqrt(e1 / e2)));
@@ -51,7 +51,7 @@ Object orthotropicTable() {
       .required()
       .number("density", &M::density_kg_per_m3, "kg/m^3", density, density_doc)
       .check(
-          [](const Place& p, const M& m) { checkPoisson(p, m.poisson, m.young_weft_Pa, m.young_warp_Pa, "poisson"); })
+          [](const Entry& p, const M& m) { checkPoisson(p, m.poisson, m.young_weft_Pa, m.young_warp_Pa, "poisson"); })
       .build();
 }
 
@@ -68,7 +68,7 @@ Object plyTable() {
       .required()
       .number("poisson12", &P::poisson12, "", between(-10, 10), "contraction across the fibre under tension along it")
       .number("angle", &P::angle_rad, "rad", between(-7, 7), "of the fibre, from the weft towards the warp")
-      .check([](const Place& p, const P& m) { checkPoisson(p, m.poisson12, m.young1_Pa, m.young2_Pa, "poisson12"); })
+      .check([](const Entry& p, const P& m) { checkPoisson(p, m.poisson12, m.young1_Pa, m.young2_Pa, "poisson12"); })
       .build();
 }
 
@@ -78,7 +78,7 @@ Object laminateTable() {
       .list("plies", &M::plies, plyTable(), convention)
       .required()
       .number("density", &M::density_kg_per_m3, "kg/m^3", density, density_doc + "; of all plies")
-      .check([](const Place& p, const M& m) {
+      .check([](const Entry& p, const M& m) {
         if (m.plies.empty()) p.failAt("plies", "there is none; allowed: at least one");
       })
       .build();
@@ -105,7 +105,7 @@ Object materialTable() {
       .in("law")
       .custom(
           fabric,
-          [table = fabric.object](const Place& p, M& m) {
+          [table = fabric.object](const Entry& p, M& m) {
             FabricInput in;
             readObject(*table, p, &in);
             for (const char* key : {"limit_strain", "limit_strain_weft", "limit_strain_warp"})
@@ -149,14 +149,14 @@ Fabric fabricOf(const MaterialCase& material) {
       return f;
     }
     Fabric operator()(const LaminateMaterial& m) const {
-      const Laminate layered{m.plies};
-      Fabric f = homogeneous(layered.thickness_m(), m.density_kg_per_m3);
+      const Laminate laminate{m.plies};
+      Fabric f = homogeneous(laminate.thickness_m(), m.density_kg_per_m3);
       // What the shell takes is the plies; these stand for reports only.
       f.young_weft_Pa = m.plies[0].young1_Pa;
       f.young_warp_Pa = m.plies[0].young2_Pa;
       f.shear_Pa = m.plies[0].shear_Pa;
       f.poisson = m.plies[0].poisson12;
-      f.law = layered;
+      f.law = laminate;
       return f;
     }
     Fabric operator()(const Fabric& m) const { return m; }

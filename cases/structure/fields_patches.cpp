@@ -14,7 +14,7 @@ Object patchTable() {
   using P = NurbsPatch;
   Field degree = fieldOf("degree", Kind::numbers, "", between(1, 5), "degree of u and of v, such as [2, 2]");
   degree.required = true;
-  Field points = fieldOf("points", Kind::rows, "m", world, "control points [x, y, z], u fastest");
+  Field points = fieldOf("points", Kind::lists, "m", world, "control points [x, y, z], u fastest");
   points.required = true;
   const auto knots = [](const char* key, const char* along) {
     Field f = fieldOf(key, Kind::numbers, "", any(),
@@ -25,7 +25,7 @@ Object patchTable() {
   return Table<P>("Patch")
       .custom(
           degree,
-          [](const Place& p, P& patch) {
+          [](const Entry& p, P& patch) {
             if (p.node.type != JsonNode::Type::list || p.node.children.size() != 2)
               p.fail("expected two whole numbers [of u, of v], not " + describe(p.node));
             patch.u.degree = readInteger(p.item(0), between(1, 5));
@@ -35,13 +35,13 @@ Object patchTable() {
             return std::optional(nodeOfList({double(patch.u.degree), double(patch.v.degree)}));
           })
       .custom(
-          knots("knots_u", "u"), [](const Place& p, P& patch) { patch.u.knots = readNumbers(p, "", any()); },
+          knots("knots_u", "u"), [](const Entry& p, P& patch) { patch.u.knots = readNumbers(p, "", any()); },
           [](const P& patch) { return std::optional(nodeOfList(patch.u.knots)); })
       .custom(
-          knots("knots_v", "v"), [](const Place& p, P& patch) { patch.v.knots = readNumbers(p, "", any()); },
+          knots("knots_v", "v"), [](const Entry& p, P& patch) { patch.v.knots = readNumbers(p, "", any()); },
           [](const P& patch) { return std::optional(nodeOfList(patch.v.knots)); })
       .custom(
-          points, [](const Place& p, P& patch) { patch.points = readPoints<Vec3>(p, readVector); },
+          points, [](const Entry& p, P& patch) { patch.points = readPoints<Vec3>(p, readVector); },
           [](const P& patch) { return std::optional(nodeOfPoints(patch.points)); })
       .custom(
           [] {
@@ -49,9 +49,9 @@ Object patchTable() {
             f.default_note = "all 1";
             return f;
           }(),
-          [](const Place& p, P& patch) { patch.weights = readNumbers(p, "", aboveTo(0, 1e9)); },
+          [](const Entry& p, P& patch) { patch.weights = readNumbers(p, "", aboveTo(0, 1e9)); },
           [](const P& patch) { return std::optional(nodeOfList(patch.weights)); })
-      .check([](const Place& p, P& patch) {
+      .check([](const Entry& p, P& patch) {
         if (patch.weights.empty()) patch.weights.assign(patch.points.size(), 1.0);
         try {
           validate(patch);
@@ -69,7 +69,7 @@ Object seamTable() {
     f.required = true;
     return std::tuple(
         f,
-        [member](const Place& p, S& s) {
+        [member](const Entry& p, S& s) {
           const EdgeAt e = readEdgeAt(p);
           if (e.patch < 0) p.fail("a seam names the patch as well; allowed: such as 0.u1");
           (s.seam.*member).patch = e.patch;
@@ -109,7 +109,7 @@ Object nurbsTable() {
       .required()
       .list("seams", &S::seams, seamTable(),
             "how they are joined: edges with the same degree, knots and weights (others: weak)")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         if (s.patches.empty()) p.failAt("patches", "there is none; allowed: at least one");
         for (std::size_t i = 0; i < s.seams.size(); ++i)
           for (const int patch : {s.seams[i].seam.a.patch, s.seams[i].seam.b.patch})

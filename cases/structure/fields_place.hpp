@@ -36,7 +36,7 @@ void addEdge(Table<T>& table, bool required) {
       "as "
       "2.u0";
   table.custom(
-      f, [](const Place& p, T& t) { t.where = readEdgeAt(p); },
+      f, [](const Entry& p, T& t) { t.where = readEdgeAt(p); },
       [](const T& t) -> std::optional<JsonNode> {
         if constexpr (std::is_same_v<std::remove_cvref_t<decltype(t.where)>, EdgeAt>) {
           return nodeOf(t.where);
@@ -47,7 +47,7 @@ void addEdge(Table<T>& table, bool required) {
       });
 }
 
-/// The keys "point" and "corner" of T::where, in the group "where".
+/// The keys "point" and "corner" of T::where, alternatives called "where".
 template <class T>
 void addPoint(Table<T>& table) {
   Field point;
@@ -62,7 +62,7 @@ void addPoint(Table<T>& table) {
   corner.doc = "a corner";
   table.custom(
       point,
-      [](const Place& p, T& t) {
+      [](const Entry& p, T& t) {
         t.where = PointAt{-1, readPair(p, "", between(0, 1))};
       },
       [](const T& t) -> std::optional<JsonNode> {
@@ -72,7 +72,7 @@ void addPoint(Table<T>& table) {
   table.in("where");
   table.custom(
       corner,
-      [](const Place& p, T& t) {
+      [](const Entry& p, T& t) {
         t.where = PointAt{-1, readCorner(p)};
       },
       [](const T&) { return std::optional<JsonNode>(); });
@@ -90,7 +90,7 @@ void addPatchOfPoint(Table<T>& table) {
   f.doc = "which patch a point or corner lies on, where a sheet has several";
   table.custom(
       f,
-      [](const Place& p, T& t) {
+      [](const Entry& p, T& t) {
         PointAt* q = pointOf(t.where);
         if (!q) p.fail("goes with point or corner; an edge names its patch itself, such as 2.u0");
         q->patch = readInteger(p, between(0, 10000));

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void checkRightAngle(const Place& p, const Vec3& a, const Vec3& b, const char* key, const char* other) {
+void checkRightAngle(const Entry& p, const Vec3& a, const Vec3& b, const char* key, const char* other) {
   if (!(std::abs(dot(a, b)) < 1e-6)) p.failAt(key, fmt::format("is not at right angles to {}; allowed: 90 deg", other));
 }
 
-void checkTurn(const Place& p, double start, double end, const char* key) {
+void checkTurn(const Entry& p, double start, double end, const char* key) {
   const double turn = end - start;
   if (!(turn > 1e-6 && turn <= 2 * pi * (1 + 1e-9)))
     p.failAt(key, fmt::format("{} rad beyond the start is out of range; allowed: > 0 and <= 2 pi", turn));
@@ -31,7 +31,7 @@ Object plateTable() {
       .vector("corner", &S::corner, "m", world, "the corner u0v0 in the world")
       .direction("axis_u", &S::axis_u, "direction of u")
       .direction("axis_v", &S::axis_v, "direction of v; at right angles to axis_u")
-      .check([](const Place& p, const S& s) { checkRightAngle(p, s.axis_v, s.axis_u, "axis_v", "axis_u"); })
+      .check([](const Entry& p, const S& s) { checkRightAngle(p, s.axis_v, s.axis_u, "axis_v", "axis_u"); })
       .build();
 }
 
@@ -49,7 +49,7 @@ Object cylinderTable() {
       .vector("start", &S::start, "m", world, "centre of the circle v0")
       .direction("axis", &S::axis, "direction of the axis, from v0 to v1")
       .direction("zero", &S::zero, "from the axis to the line of angle 0; at right angles to axis")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         checkTurn(p, s.start_angle_rad, s.end_angle_rad, "end_angle");
         checkRightAngle(p, s.zero, s.axis, "zero", "axis");
       })
@@ -74,7 +74,7 @@ Object sphereTable() {
       .vector("center", &S::center, "m", world, "centre")
       .direction("axis", &S::axis, "from the south pole to the north pole")
       .direction("zero", &S::zero, "from the axis to longitude 0; at right angles to axis")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         checkTurn(p, s.longitude_start_rad, s.longitude_end_rad, "longitude_end");
         if (!(s.latitude_end_rad - s.latitude_start_rad > 1e-6))
           p.failAt("latitude_end", fmt::format("{} rad is out of range; allowed: above latitude_start = {} rad",
@@ -98,7 +98,7 @@ Object annulusTable() {
       .vector("center", &S::center, "m", world, "centre")
       .direction("normal", &S::normal, "normal of the ring")
       .direction("zero", &S::zero, "direction of angle 0; at right angles to normal")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         if (!(s.outer_radius_m > s.inner_radius_m * (1 + 1e-9)))
           p.failAt("outer_radius", fmt::format("{} m is out of range; allowed: above inner_radius = {} m",
                                                s.outer_radius_m, s.inner_radius_m));

@@ -17,7 +17,7 @@ void addKnots(Table<SheetCase>& table, const std::string& key, Get get, const st
                                 along));
   table.custom(
       f,
-      [get](const Place& p, SheetCase& s) {
+      [get](const Entry& p, SheetCase& s) {
         s.*get = readNumbers(p, "", {.low = 0, .high = 1, .low_open = true, .high_open = true});
       },
       [get](const SheetCase& s) { return std::optional(nodeOfList(s.*get)); });

@@ -21,7 +21,7 @@ inline const Range size = aboveTo(0, 1e9);
 
 /// A list of points [m]; `one` reads each.
 template <class Point>
-std::vector<Point> readPoints(const Place& p, Point (*one)(const Place&, const std::string&, const Range&)) {
+std::vector<Point> readPoints(const Entry& p, Point (*one)(const Entry&, const std::string&, const Range&)) {
   if (p.node.type != JsonNode::Type::list) p.fail("expected a list of points, not " + describe(p.node));
   std::vector<Point> points;
   for (std::size_t i = 0; i < p.node.children.size(); ++i) points.push_back(one(p.item(i), "m", world));

@@ -50,7 +50,7 @@ Object staticSolverTable() {
       .integer("max_points", statics(&StaticOptions::max_points), 1, 1000000, "points of the path, arc length only")
       .number("stop_factor", statics(&StaticOptions::stop_factor), "", between(-1e6, 1e6),
               "arc length ends where the factor first reaches this")
-      .check([](const Place& p, const StructureCase& c) {
+      .check([](const Entry& p, const StructureCase& c) {
         if (c.statics.linear && c.statics.arc_length) p.failAt("arc_length", "contradicts linear; give one of them");
         const StaticOptions standard;
         if (!c.statics.arc_length && c.statics.largest_arc_m != standard.largest_arc_m)
@@ -93,7 +93,7 @@ Object dynamicSolverTable() {
               "b in the damping a M + b K")
       .number("drag", damping(&DampingCase::drag_kg_per_m2s), "kg/(m^2 s)", between(0, 1e9),
               "force per area and velocity, eta of Zheng 2013")
-      .check([](const Place& p, const StructureCase& c) {
+      .check([](const Entry& p, const StructureCase& c) {
         const bool is_explicit = c.dynamics.scheme == TimeScheme::explicit_verlet;
         if (!is_explicit && !(c.dynamics.step_s > 0))
           p.failAt("step", "is required for implicit schemes; allowed: > 0 s");
@@ -132,7 +132,7 @@ Object modalSolverTable() {
               std::vector<std::pair<std::string, bool>>{{"consistent", false}, {"lumped", true}}, "mass matrix");
   addNewton(table);
   return table
-      .check([](const Place& p, const StructureCase& c) {
+      .check([](const Entry& p, const StructureCase& c) {
         if (c.modal.at_equilibrium) return;
         const StaticOptions standard;
         const auto goes = [&](const char* key, auto StaticOptions::*member) {

@@ -15,7 +15,7 @@ Object curveTable() {
   const auto degree = [](auto& c) -> auto& { return c.knots.degree; };
   Field knots = fieldOf("knots", Kind::numbers, "", any(), "knots, not falling; as many as points + degree + 1");
   knots.required = true;
-  Field points = fieldOf("points", Kind::rows, "m", world, "control points [s, t], " + trim_lengths);
+  Field points = fieldOf("points", Kind::lists, "m", world, "control points [s, t], " + trim_lengths);
   points.required = true;
   Field weights = fieldOf("weights", Kind::numbers, "", aboveTo(0, 1e9), "weights of the control points");
   weights.default_note = "all 1";
@@ -23,15 +23,15 @@ Object curveTable() {
       .integer("degree", degree, 1, 7, "degree")
       .required()
       .custom(
-          knots, [](const Place& p, C& c) { c.knots.knots = readNumbers(p, "", any()); },
+          knots, [](const Entry& p, C& c) { c.knots.knots = readNumbers(p, "", any()); },
           [](const C& c) { return std::optional(nodeOfList(c.knots.knots)); })
       .custom(
-          points, [](const Place& p, C& c) { c.points = readPoints<Vec2>(p, readPair); },
+          points, [](const Entry& p, C& c) { c.points = readPoints<Vec2>(p, readPair); },
           [](const C& c) { return std::optional(nodeOfPoints(c.points)); })
       .custom(
-          weights, [](const Place& p, C& c) { c.weights = readNumbers(p, "", aboveTo(0, 1e9)); },
+          weights, [](const Entry& p, C& c) { c.weights = readNumbers(p, "", aboveTo(0, 1e9)); },
           [](const C& c) { return std::optional(nodeOfList(c.weights)); })
-      .check([](const Place& p, C& c) {
+      .check([](const Entry& p, C& c) {
         if (c.weights.empty()) c.weights.assign(c.points.size(), 1.0);
         if (c.points.size() < static_cast<std::size_t>(c.knots.degree) + 1)
           p.failAt("points", fmt::format("there are {}; allowed: at least degree + 1", c.points.size()));
@@ -57,19 +57,19 @@ Object trimTable() {
   const Object circle_table =
       Table<TrimCircle>("Circle")
           .custom(
-              center, [](const Place& p, TrimCircle& c) { c.center = readPair(p, "m", world); },
+              center, [](const Entry& p, TrimCircle& c) { c.center = readPair(p, "m", world); },
               [](const TrimCircle& c) { return std::optional(nodeOf(c.center)); })
           .number("radius", &TrimCircle::radius, "m", size, "radius, a length (plate) or a fraction of both ranges")
           .required()
           .build();
-  Field points = fieldOf("points", Kind::rows, "m", world, "corners [s, t] in order, " + trim_lengths);
+  Field points = fieldOf("points", Kind::lists, "m", world, "corners [s, t] in order, " + trim_lengths);
   points.required = true;
   const auto corners = [&](auto kind, const std::string& title) {
     using C = decltype(kind);
     return Table<C>(title)
         .custom(
             points,
-            [](const Place& p, C& c) {
+            [](const Entry& p, C& c) {
               c.points = readPoints<Vec2>(p, readPair);
               if (c.points.size() < 3) p.fail(fmt::format("there are {} points; allowed: at least 3", c.points.size()));
             },
@@ -80,7 +80,7 @@ Object trimTable() {
                                   .list("curves", &TrimCurves::curves, curveTable(),
                                         "NURBS curves in order, each starting where the one before ends")
                                   .required()
-                                  .check([](const Place& p, const TrimCurves& c) {
+                                  .check([](const Entry& p, const TrimCurves& c) {
                                     if (c.curves.empty()) p.failAt("curves", "there is none; allowed: at least one");
                                   })
                                   .build();

@@ -48,7 +48,7 @@ std::vector<Vec3> pulledBack(const Structure& s, const std::vector<Vec3>& f) {
 
 /// The elastic stiffness at rest times displacements of the free points [N].
 std::vector<Vec3> linearForce(const Structure& s, const std::vector<double>& u) {
-  BlockMatrix K = s.tangent->pattern();
+  BlockMatrix K = s.tangent->sparsity();
   ClothWork work;
   s.tangent->assemble(s.cloth->rest(), work, K);
   std::vector<double> f(u.size());
@@ -123,7 +123,7 @@ MeasuredState measureDynamic(const StructureModel& model, const State& state, bo
     s.consistent_kg.multiply<Vec3>(inertia, force);
   for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += force[f] + s.drag_kg_per_m2s * s.area_m2[f] * state.v[f];
   if (s.rayleigh_stiffness_s > 0) {
-    BlockMatrix K = s.tangent->pattern();
+    BlockMatrix K = s.tangent->sparsity();
     ClothWork work;
     s.tangent->assemble(m.q, work, K);
     if (s.loads.follow())

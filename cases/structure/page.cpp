@@ -135,9 +135,10 @@ std::string placesTable(const Json& summary) {
     for (const auto& [key, value] : first.items())
       if (key != "name") table.columns.push_back(key);
     for (const Json& place : summary.at(list)) {
-      std::vector<Cell> row{Cell(place.at("name").get<std::string>())};
+      std::vector<TableCell> row{TableCell(place.at("name").get<std::string>())};
       for (std::size_t k = 1; k < table.columns.size(); ++k)
-        row.push_back(place.contains(table.columns[k]) ? Cell(numberOf(place.at(table.columns[k])), 5) : Cell(""));
+        row.push_back(place.contains(table.columns[k]) ? TableCell(numberOf(place.at(table.columns[k])), 5)
+                                                       : TableCell(""));
       table.rows.push_back(std::move(row));
     }
     out += tableOf(table);
@@ -152,8 +153,8 @@ std::string modesTable(const Json& summary) {
               {}};
   int k = 0;
   for (const Json& m : summary.at("modes"))
-    table.rows.push_back({Cell(std::to_string(++k)), Cell(numberOf(m.at("frequency_Hz")), 6),
-                          Cell(numberOf(m.at("omega_rad_per_s")), 6), Cell(numberOf(m.at("residual")), 2)});
+    table.rows.push_back({TableCell(std::to_string(++k)), TableCell(numberOf(m.at("frequency_Hz")), 6),
+                          TableCell(numberOf(m.at("omega_rad_per_s")), 6), TableCell(numberOf(m.at("residual")), 2)});
   return tableOf(table);
 }
 
@@ -254,9 +255,9 @@ std::string passedOf(const Json& arc) {
         std::pair("unknown_before", "places where the path bends more than the arcs could follow")}) {
     std::string at;
     for (const Json& factor : arc.at(key)) at += (at.empty() ? "" : ", ") + formatNumber(numberOf(factor), 4);
-    t.rows.push_back({Cell(name), Cell(std::to_string(arc.at(key).size())), Cell(at)});
+    t.rows.push_back({TableCell(name), TableCell(std::to_string(arc.at(key).size())), TableCell(at)});
   }
-  return sectionOf(
+  return pageSectionOf(
       "passed", "What the path passed",
       "Arcs are made so short that a straight line between two points misses little of the path. Where that did "
       "not succeed the last row says so: a limit point may lie there unseen.",
@@ -268,8 +269,8 @@ std::string factsTable(const Json& s) {
   const auto number = [&](const char* key, const char* name, const char* unit) {
     if (!s.contains(key)) return;
     const Json& value = s.at(key);
-    t.rows.push_back(
-        {Cell(name), Cell(value.is_number_integer() ? value.dump() : formatNumber(numberOf(value), 5) + unit)});
+    t.rows.push_back({TableCell(name),
+                      TableCell(value.is_number_integer() ? value.dump() : formatNumber(numberOf(value), 5) + unit)});
   };
   number("patches", "Patches", "");
   number("control_points", "Control points", "");
@@ -282,26 +283,27 @@ std::string factsTable(const Json& s) {
   if (s.contains("thread_strain"))
     for (const auto& [where, threads] : s.at("thread_strain").items())
       for (const auto& [thread, values] : threads.items())
-        t.rows.push_back({Cell(fmt::format("Strain of the {} at {} points: largest, mean at the end", thread, where)),
-                          Cell(formatNumber(numberOf(values.at("largest")), 3) + ", " +
-                               formatNumber(numberOf(values.at("mean")), 3))});
+        t.rows.push_back(
+            {TableCell(fmt::format("Strain of the {} at {} points: largest, mean at the end", thread, where)),
+             TableCell(formatNumber(numberOf(values.at("largest")), 3) + ", " +
+                       formatNumber(numberOf(values.at("mean")), 3))});
   if (s.contains("contact")) {
     const Json& k = s.at("contact");
-    t.rows.push_back({Cell("Contact: deepest penetration"),
-                      Cell(formatNumber(1e3 * numberOf(k.at("deepest_penetration_m")), 3) + " mm")});
-    t.rows.push_back({Cell("Contact: steps not solved"), Cell(k.at("unsolved_steps").dump())});
+    t.rows.push_back({TableCell("Contact: deepest penetration"),
+                      TableCell(formatNumber(1e3 * numberOf(k.at("deepest_penetration_m")), 3) + " mm")});
+    t.rows.push_back({TableCell("Contact: steps not solved"), TableCell(k.at("unsolved_steps").dump())});
   }
   if (s.contains("strain_limit"))
     for (const auto& [key, value] : s.at("strain_limit").items())
-      t.rows.push_back({Cell("Strain limit: " + key), Cell(formatNumber(numberOf(value), 3))});
+      t.rows.push_back({TableCell("Strain limit: " + key), TableCell(formatNumber(numberOf(value), 3))});
   for (const auto& [key, value] : s.at("solver").items())
-    if (value != 0) t.rows.push_back({Cell("Solver: " + key), Cell(value.dump())});
+    if (value != 0) t.rows.push_back({TableCell("Solver: " + key), TableCell(value.dump())});
   t.rows.push_back(
-      {Cell("Computed in"),
-       Cell(fmt::format("{} s; threads: {}; kernels: {}", formatNumber(numberOf(s.at("timings").at("wall_s"))),
-                        s.at("timings").at("threads").dump(), s.at("kernels").get<std::string>()))});
-  t.rows.push_back({Cell("Gambeson"), Cell(s.at("version").get<std::string>())});
-  t.rows.push_back({Cell("Case hash"), Cell(s.at("case_hash").get<std::string>())});
+      {TableCell("Computed in"),
+       TableCell(fmt::format("{} s; threads: {}; kernels: {}", formatNumber(numberOf(s.at("timings").at("wall_s"))),
+                             s.at("timings").at("threads").dump(), s.at("kernels").get<std::string>()))});
+  t.rows.push_back({TableCell("Gambeson"), TableCell(s.at("version").get<std::string>())});
+  t.rows.push_back({TableCell("Case hash"), TableCell(s.at("case_hash").get<std::string>())});
   return tableOf(t);
 }
 
@@ -337,24 +339,25 @@ std::string structurePage(const StructureCase& c, const Json& s, const PathTable
                   pictures.empty() ? " class=\"headline\" aria-label=\"The result\""
                                    : " class=\"headline pictured\" aria-label=\"The result\"");
   if (c.kind == StructureKind::modal) {
-    body += sectionOf("modes", "Frequencies", "", charts(modesTable(s)));
+    body += pageSectionOf("modes", "Frequencies", "", charts(modesTable(s)));
   } else {
     const double size = std::sqrt(numberOf(s.at("area_m2"))), force = numberOf(s.at("largest_stress_N_per_m")) * size;
-    body += sectionOf("path", c.kind == StructureKind::statics ? "The path" : "The motion",
-                      "All numbers are in path.csv.", charts(plots(c, path, force, force * size) + placesTable(s)));
+    body += pageSectionOf("path", c.kind == StructureKind::statics ? "The path" : "The motion",
+                          "All numbers are in path.csv.", charts(plots(c, path, force, force * size) + placesTable(s)));
   }
   if (pictures.size() > 1) {
     std::string more;
     for (std::size_t k = 1; k < pictures.size(); ++k) more += figureOf(pictures[k]);
-    body += sectionOf("pictures", "Pictures", "", element("div", more, " class=\"pictures\""));
+    body += pageSectionOf("pictures", "Pictures", "", element("div", more, " class=\"pictures\""));
   }
   if (s.contains("arc_length")) body += passedOf(s.at("arc_length"));
   if (!checks.empty())
-    body += sectionOf("audit", "Why to trust these numbers", "", charts(auditTableOf(checks, "Checks of this run")));
+    body +=
+        pageSectionOf("audit", "Why to trust these numbers", "", charts(auditTableOf(checks, "Checks of this run")));
   std::string assumed;
   for (const std::string& a : assumptionsOf(c)) assumed += element("li", escape(a));
-  body += sectionOf("assumptions", "What was assumed", "", element("ul", assumed, " class=\"assumptions\""));
-  body += sectionOf("run", "How it was computed", "", charts(factsTable(s)));
+  body += pageSectionOf("assumptions", "What was assumed", "", element("ul", assumed, " class=\"assumptions\""));
+  body += pageSectionOf("run", "How it was computed", "", charts(factsTable(s)));
   return pageOf(c.name, c.description, sentence, body);
 }
 

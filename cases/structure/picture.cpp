@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "analysis/ticks.hpp"
@@ -20,6 +21,23 @@ const Field& bodyFieldOf(const Frame& frame, const std::string& name) {
   for (const Field& f : frame.body_fields)
     if (f.name == name) return f;
   throw InputError({"frames", 0, name}, "the frame holds no such field of the obstacles");
+}
+
+/// What a picture of a sheet among obstacles frames: the sheet and its rest shape with a margin, in which what it
+/// touches is seen, but no more of that than there is.
+std::array<Vec3, 2> focusOn(const RenderMesh& sheet, const RenderMesh& rest, const RenderMesh& obstacles) {
+  constexpr double kMargin = 0.15;  ///< of the diagonal
+  std::vector<Vec3> shown = sheet.vertices;
+  shown.insert(shown.end(), rest.vertices.begin(), rest.vertices.end());
+  const std::array<Vec3, 2> bare = boxOf(shown, 0);
+  std::array<Vec3, 2> focus = boxOf(shown, kMargin * norm(bare[1] - bare[0]));
+  shown.insert(shown.end(), obstacles.vertices.begin(), obstacles.vertices.end());
+  const std::array<Vec3, 2> all = boxOf(shown, 0);
+  for (int k = 0; k < 3; ++k) {
+    focus[0][k] = std::max(focus[0][k], all[0][k]);
+    focus[1][k] = std::min(focus[1][k], all[1][k]);
+  }
+  return focus;
 }
 
 struct FieldWords {
@@ -112,15 +130,16 @@ void renderStructure(const StructureCase& c, const RecordingLayout& layout, cons
     // A small compression beside a large tension is not worth a colour of its own.
     scene.bar = ColorBar{words.title, low < -0.05 * high ? -roundedUp(-low) : 0, roundedUp(high)};
   }
-  scene.meshes.push_back(std::move(sheet));
   if (!layout.body_triangles.empty()) {
     RenderMesh obstacles;
     obstacles.triangles = layout.body_triangles;
     obstacles.color = obstacle_color;
     const std::vector<float>& x = bodyFieldOf(frame, "position").data;
     for (std::size_t i = 0; i + 2 < x.size(); i += 3) obstacles.vertices.push_back({x[i], x[i + 1], x[i + 2]});
+    if (n > 0) scene.focus = focusOn(sheet, rest, obstacles);
     scene.meshes.push_back(std::move(obstacles));
   }
+  scene.meshes.insert(scene.meshes.begin(), std::move(sheet));
   scene.title = c.name;
   scene.subtitle = captionOf(c, frame, picture);
   scene.view = picture.view;

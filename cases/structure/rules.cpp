@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cases/contact/fields.hpp"
-#include "cases/input/places.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "cases/structure/build.hpp"
 #include "cases/structure/fields.hpp"
 #include "core/cloth/block_law.hpp"
@@ -16,16 +16,16 @@
 namespace gambeson::schema {
 namespace {
 
-Place memberOf(const Place& parent, const std::string& key) { return parent.member(*parent.node.find(key)); }
-Place itemOf(const Place& parent, const std::string& list, std::size_t i) { return memberOf(parent, list).item(i); }
+Entry memberOf(const Entry& parent, const std::string& key) { return parent.member(*parent.node.find(key)); }
+Entry itemOf(const Entry& parent, const std::string& list, std::size_t i) { return memberOf(parent, list).item(i); }
 
 bool isBuilt(const SheetCase& s) {
   return !std::holds_alternative<NurbsShape>(s.shape) && !std::holds_alternative<SheetFile>(s.shape);
 }
 
 /// Also sets what is counted differently in built shapes and in patches of one's own.
-void checkSheet(const Place& root, SheetCase& s) {
-  const Place sheet = memberOf(root, "sheet");
+void checkSheet(const Entry& root, SheetCase& s) {
+  const Entry sheet = memberOf(root, "sheet");
   if (isBuilt(s)) {
     if (s.split) sheet.failAt("split", "goes with nurbs and file; give cells_u and cells_v");
     s.cells_u = s.cells_u.value_or(16);
@@ -55,11 +55,11 @@ std::optional<double> densityOf(const MaterialCase& m) {
       m.law);
 }
 
-void checkMaterial(const Place& place, const StructureCase& c, const MaterialCase& m) {
+void checkMaterial(const Entry& entry, const StructureCase& c, const MaterialCase& m) {
   const auto law = [&] {
     for (const char* key : {"isotropic", "orthotropic", "laminate", "fabric"})
-      if (place.node.find(key)) return memberOf(place, key);
-    return place;
+      if (entry.node.find(key)) return memberOf(entry, key);
+    return entry;
   }();
   if (!densityOf(m)) {
     if (c.kind != StructureKind::statics)
@@ -77,7 +77,7 @@ void checkMaterial(const Place& place, const StructureCase& c, const MaterialCas
       size_d = std::max(size_d, std::abs(s.D[k]));
     }
     if (size_b > 1e-9 * std::sqrt(size_a * size_d))
-      place.failAt("tension_field", "is not possible for a laminate that couples membrane and bending (B is not 0)");
+      entry.failAt("tension_field", "is not possible for a laminate that couples membrane and bending (B is not 0)");
   }
   try {
     checkFabric(fabricOf(m));
@@ -87,18 +87,18 @@ void checkMaterial(const Place& place, const StructureCase& c, const MaterialCas
   }
 }
 
-void checkProgram(const Place& place, const StructureCase& c, const std::string& name) {
+void checkProgram(const Entry& entry, const StructureCase& c, const std::string& name) {
   if (name.empty()) return;
   std::vector<std::string> names;
   for (const NamedProgram& p : c.programs) names.push_back(p.name);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   const std::string near = closest(name, names);
-  place.failAt("program", names.empty()  ? fmt::format("there is no program \"{}\"; the case has no programs", name)
+  entry.failAt("program", names.empty()  ? fmt::format("there is no program \"{}\"; the case has no programs", name)
                           : near.empty() ? fmt::format("there is no program \"{}\"; allowed: {}", name, joined(names))
                                          : fmt::format("there is no program \"{}\"; did you mean \"{}\"?", name, near));
 }
 
-void checkLoads(const Place& root, const StructureCase& c) {
+void checkLoads(const Entry& root, const StructureCase& c) {
   for (std::size_t i = 0; i < c.loads.size(); ++i) checkProgram(itemOf(root, "loads", i), c, c.loads[i].program);
   bool moves = false;
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
@@ -120,9 +120,9 @@ void checkLoads(const Place& root, const StructureCase& c) {
     memberOf(root, "solver").failAt("at", "there is no load; allowed: rest, or a case with loads");
 }
 
-void checkOutput(const Place& root, const StructureCase& c, const Sheet& sheet) {
+void checkOutput(const Entry& root, const StructureCase& c, const Sheet& sheet) {
   std::vector<std::string> names;
-  const auto unique = [&](const Place& p, const std::string& name) {
+  const auto unique = [&](const Entry& p, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) != names.end())
       p.failAt("name", fmt::format("\"{}\" is used twice; allowed: a name of its own", name));
     if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
@@ -130,35 +130,35 @@ void checkOutput(const Place& root, const StructureCase& c, const Sheet& sheet) 
     names.push_back(name);
   };
   for (std::size_t i = 0; i < c.obstacles.size(); ++i) unique(itemOf(root, "obstacles", i), c.obstacles[i].name);
-  const auto place = [&](const char* list, std::size_t i) { return itemOf(memberOf(root, "output"), list, i); };
+  const auto entry = [&](const char* list, std::size_t i) { return itemOf(memberOf(root, "output"), list, i); };
   for (std::size_t i = 0; i < c.output.points.size(); ++i) {
-    unique(place("points", i), c.output.points[i].name);
+    unique(entry("points", i), c.output.points[i].name);
     try {
       locate(sheet, c.output.points[i].where);
     } catch (const InputError& e) {
-      place("points", i).failAt("patch", e.reason());
+      entry("points", i).failAt("patch", e.reason());
     }
   }
   for (std::size_t i = 0; i < c.output.edges.size(); ++i) {
-    unique(place("edges", i), c.output.edges[i].name);
+    unique(entry("edges", i), c.output.edges[i].name);
     try {
       edgesOf(sheet, c.output.edges[i].where);
     } catch (const InputError& e) {
-      place("edges", i).failAt("edge", e.reason());
+      entry("edges", i).failAt("edge", e.reason());
     }
   }
   if (c.output.shapes == ShapesKept::none && !c.output.pictures.empty())
     memberOf(root, "output").failAt("pictures", "need a shape; allowed with shapes last or all");
   for (std::size_t i = 0; i < c.output.pictures.size(); ++i)
     if (c.kind == StructureKind::modal && c.output.pictures[i].mode > c.modal.count)
-      place("pictures", i)
+      entry("pictures", i)
           .failAt("mode", fmt::format("{} is out of range; allowed: at most count = {}", c.output.pictures[i].mode,
                                       c.modal.count));
 }
 
 /// Edges and points of supports and loads, said at the key that names them.
-void checkPlaces(const Place& root, const StructureCase& c, const Sheet& sheet) {
-  const auto check = [&](const Place& p, const auto& where) {
+void checkPlaces(const Entry& root, const StructureCase& c, const Sheet& sheet) {
+  const auto check = [&](const Entry& p, const auto& where) {
     try {
       if (const auto* e = std::get_if<EdgeAt>(&where)) edgesOf(sheet, *e);
       if (const auto* q = std::get_if<PointAt>(&where)) locate(sheet, *q);
@@ -170,8 +170,8 @@ void checkPlaces(const Place& root, const StructureCase& c, const Sheet& sheet) 
   for (std::size_t i = 0; i < c.loads.size(); ++i) check(itemOf(root, "loads", i), c.loads[i].where);
 }
 
-/// Contact is a stage of explicit steps.
-void checkContact(const Place& root, const StructureCase& c) {
+/// Contact is a part of explicit steps.
+void checkContact(const Entry& root, const StructureCase& c) {
   checkObstacleNames(root, c.obstacles);
   if (!c.obstacles.empty() && !c.contact)
     root.failAt("contact", "is required where there is an obstacle: at least its friction");
@@ -196,7 +196,7 @@ void tryLimit(const Structure& structure, const StrainLimit& limit) {
 
 }  // namespace
 
-void applyStructureRules(const Place& root, StructureCase& c) {
+void applyStructureRules(const Entry& root, StructureCase& c) {
   checkSheet(root, c.sheet);
   checkMaterial(memberOf(root, "material"), c, c.material);
   for (std::size_t i = 0; i < c.other_materials.size(); ++i)

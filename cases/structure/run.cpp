@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "cases/cloth/thread_strains.hpp"
 #include "cases/input/message.hpp"
 #include "cases/input/overrides.hpp"
-#include "cases/input/places.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "cases/runs/disk_space.hpp"
 #include "cases/runs/progress.hpp"
 #include "cases/runs/recorded_case.hpp"
@@ -39,7 +40,7 @@ void requireMass(const StructureCase& c, const Structure& s) {
   if (c.kind == StructureKind::statics) return;
   const bool modal = c.kind == StructureKind::modal, explicit_steps = !modal && c.dynamics.isExplicit();
   StructureSystem system(s, ProgramEnds::constant);
-  SymmetricMatrix M = system.pattern();
+  SymmetricMatrix M = system.sparsity();
   system.mass(modal ? c.modal.lumped_mass : explicit_steps || c.dynamics.lumped_mass, M);
   bool positive = true;
   for (int k = 0; k < M.size; ++k) {
@@ -107,6 +108,13 @@ class Run {
     lead.insert(lead.end(), built_->probes->columns().begin(), built_->probes->columns().end());
     path.columns = std::move(lead);
   }
+  /// Leaves the rows so far in path.csv, at most once a second: whatever stops the run, they are there.
+  void save() {
+    if (path.rows.size() == saved_ || (saved_ > 0 && since(saved_at_) < 1)) return;
+    writeCsv(out_ / "path.csv", path.columns, path.rows);
+    saved_ = path.rows.size();
+    saved_at_ = Clock::now();
+  }
   /// Says how much so many rows are going to take where that is much: all of them are recorded at the end.
   void foretell(double rows) const {
     constexpr double per_vertex = 14;
@@ -171,6 +179,8 @@ class Run {
   std::optional<RecordingWriter> writer_;
   int frames_ = 0;
   MeasuredState last_;
+  std::size_t saved_ = 0;  ///< rows of path.csv
+  Clock::time_point saved_at_;
 };
 
 /// Runs f; what it throws as a failure of the run is kept for after the results.
@@ -229,6 +239,7 @@ void runStatic(const StructureCase& c, Run& run) {
                         ++run.facts.points;
                         run.facts.iterations += p.iterations;
                         progress.update(std::abs(p.factor), "loading");
+                        run.save();
                         return true;
                       }),
           run.facts);
@@ -426,7 +437,9 @@ void runDynamic(const StructureCase& c, Run& run) {
   long rows = 0;
   LoadWork work(s);
   double step_s = 0, lost_J = 0;
+  double recorded_s = std::numeric_limits<double>::infinity();  // nothing yet
   const auto record = [&](const State& now) {
+    recorded_s = now.time_s;
     DynamicEnergy energy = energyOf(s, now, lumped);
     energy.external = -work.work_J(energy);
     std::vector<double> row{now.time_s, energy.kinetic, energy.internal, energy.external, energy.total()};
@@ -466,9 +479,11 @@ void runDynamic(const StructureCase& c, Run& run) {
           if (run.facts.audit && run.model().motion) run.facts.audit->observe(before, now, r);
           if (run.facts.audit && !run.model().motion) run.facts.audit->observe(now, r.work.cloth);
           progress.update(now.time_s, "moving");
+          run.save();
         });
     run.facts.finished = true;
   });
+  if (!run.facts.finished && state.time_s > recorded_s) record(state);  // where it failed
   run.facts.iterations = mover.newton().iterations;
   run.facts.factorisations = mover.newton().factorisations;
 }
@@ -523,7 +538,11 @@ int runStructure(const StructureCase& c, const RunOptions& options) {
     throw InputError({"command line", 0, "--resume"},
                      "is not possible for static, dynamic and modal cases: they start from the beginning");
   useThreads(options.threads);
-  const StopMessage stopped("stopped by a signal; a structure starts from the beginning when it is run again");
+  const std::string kept = c.kind == StructureKind::modal
+                               ? ""
+                               : fmt::format("; {} has what was done before", (options.out / "path.csv").string());
+  const StopMessage stopped("stopped by a signal" + kept +
+                            "; a structure starts from the beginning when it is run again");
   Run run(c, options);
   if (c.kind == StructureKind::statics)
     runStatic(c, run);

@@ -197,7 +197,7 @@ TrimLoop loopOf(const SheetCase& c, const TrimCase& t, const NurbsPatch& patch) 
 void applyTrim(const SheetCase& c, Garment& g) {
   if (c.trim.empty()) return;
   g.trims.resize(g.patches.size());
-  std::vector<std::vector<std::size_t>> origin(g.patches.size());  // of each patch's loops: places in c.trim
+  std::vector<std::vector<std::size_t>> origin(g.patches.size());  // of each patch's loops: indices in c.trim
   for (std::size_t i = 0; i < c.trim.size(); ++i) {
     const TrimCase& t = c.trim[i];
     if (t.patch >= static_cast<int>(g.patches.size()))

@@ -36,7 +36,7 @@ bool onMainMesh(const Comparison& c, const Variant& v) {
 }
 
 /// The joint that decides, and those that have a fifth of the largest torque in one of the runs or are not green.
-std::vector<std::string> jointsThatMatter(const Study& s, const Comparison& c, const Group& g) {
+std::vector<std::string> jointsThatMatter(const Study& s, const Comparison& c, const VariantGroup& g) {
   struct Most {
     std::string name;
     double part = -1, peak_Nm = 0;
@@ -61,19 +61,19 @@ std::vector<std::string> jointsThatMatter(const Study& s, const Comparison& c, c
   return names;
 }
 
-void findGroups(const Study& s, Comparison& c) {
+void findVariantGroups(const Study& s, Comparison& c) {
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const Variant& v = s.variants[i];
     if (!v.grid || !onMainMesh(c, v)) continue;
     const std::string label = settingOf(s, v, {c.main_axis, c.mesh_axis});
-    Group* group = nullptr;
-    for (Group& g : c.groups)
+    VariantGroup* group = nullptr;
+    for (VariantGroup& g : c.groups)
       if (g.label == label) group = &g;
-    if (!group) group = &c.groups.emplace_back(Group{label, {}, -1, {}});
+    if (!group) group = &c.groups.emplace_back(VariantGroup{label, {}, -1, {}});
     group->members.push_back(i);
     if (v.baseline == static_cast<int>(i)) group->baseline = v.baseline;
   }
-  for (Group& g : c.groups) g.joints = jointsThatMatter(s, c, g);
+  for (VariantGroup& g : c.groups) g.joints = jointsThatMatter(s, c, g);
 }
 
 void findRatios(const Study& s, Comparison& c) {
@@ -237,7 +237,7 @@ const Variant* finestOf(const Study& s, const Comparison& c, const Variant& v) {
 }
 
 void compareMeshes(const Study& s, Comparison& c) {
-  constexpr double settled_s = 0.2;  // Zheng 2013, fig. 6.11: the histories agree but for the start
+  constexpr double settled_s = 0.2;  // Zheng 2013, fig. 6.11: the courses agree but for the start
   std::map<int, double> largest;     // of each level
   const auto weight = [](const JointNumbers& j) { return j.natural_Nm && *j.natural_Nm > 0 ? 1 / *j.natural_Nm : 1; };
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
@@ -259,7 +259,7 @@ void compareMeshes(const Study& s, Comparison& c) {
     row.fine_Nm = f.peak_Nm;
     row.difference = std::abs(of->peak_Nm) / std::abs(f.peak_Nm) - 1;
     const Likeness like = compareShifted(fine.time_s, f.torque_Nm, of->torque_Nm, 0, settled_s, 1e300);
-    row.history = coarse.time_s == fine.time_s ? like.rms_difference / std::abs(f.peak_Nm) : std::nan("");
+    row.course = coarse.time_s == fine.time_s ? like.rms_difference / std::abs(f.peak_Nm) : std::nan("");
     row.error = weight(f) * std::abs(std::abs(of->peak_Nm) - std::abs(f.peak_Nm));
     largest[row.level] = std::max(largest[row.level], weight(f) * std::abs(f.peak_Nm));
     c.meshes.push_back(row);
@@ -271,7 +271,7 @@ void compareMeshes(const Study& s, Comparison& c) {
 /// The joint that decides for what is taken comes first in its motion.
 void decideFirst(Comparison& c) {
   if (c.verdict.take < 0) return;
-  for (Group& g : c.groups) {
+  for (VariantGroup& g : c.groups) {
     const Option::Cost* worst = worstCost(c.input.options[static_cast<std::size_t>(c.verdict.take)], &g.label);
     const auto decides = [&](const std::string& name) {
       return std::any_of(g.members.begin(), g.members.end(), [&](std::size_t i) {
@@ -338,7 +338,7 @@ Comparison compare(const Study& s, std::vector<RunNumbers> runs) {
     c.lights.push_back(shownLight(lightOf(j ? j->part() : std::nullopt, s.limits.green, s.limits.red), r.trust()));
   }
   findAxes(s, c);
-  findGroups(s, c);
+  findVariantGroups(s, c);
   findRatios(s, c);
   findExponents(s, c);
   findElasticities(s, c);

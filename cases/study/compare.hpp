@@ -17,11 +17,11 @@ namespace gambeson::study {
 struct JointRatio {
   std::string joint;
   double peak = 0, rms = 0;  ///< ratios of sizes
-  Likeness likeness;         ///< of the histories, from where torques count
+  Likeness likeness;         ///< of the courses, from where torques count
 };
 
 /// Variants that differ along the main axis (the thickness, where there is one) alone.
-struct Group {
+struct VariantGroup {
   std::string label;                 ///< the levels of the other axes, the mesh left out: "walking"
   std::vector<std::size_t> members;  ///< on the finest mesh, in the order of the axis; of good runs and bad
   int baseline = -1;                 ///< variant; -1: none
@@ -50,7 +50,7 @@ struct MeshRow {
   double coarse_Nm = 0, fine_Nm = 0;  ///< peaks
   double difference = 0;              ///< of the peaks, relative to the fine one
   double error = 0;                   ///< of the peaks, relative to the largest torque of the same level
-  double history = 0;                 ///< RMS difference after 0.2 s, of the fine peak
+  double course = 0;                  ///< RMS difference after 0.2 s, of the fine peak
 };
 
 struct Comparison {
@@ -58,7 +58,7 @@ struct Comparison {
   std::vector<std::vector<JointRatio>> ratios;  ///< of the variants, empty without baseline
   std::vector<Light> lights;                    ///< of the variants, as their own pages show them
   int main_axis = -1, mesh_axis = -1, mesh_level = -1;
-  std::vector<Group> groups;
+  std::vector<VariantGroup> groups;
   std::vector<AxisExponent> exponents;
   std::vector<ElasticityRow> elasticities;
   std::vector<MeshRow> meshes;

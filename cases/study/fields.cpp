@@ -12,7 +12,7 @@
 namespace gambeson::study {
 namespace {
 
-using schema::Place;
+using schema::Entry;
 using schema::Table;
 
 /// A field that is kept as it is written.
@@ -25,7 +25,7 @@ void rawField(Table<T>& table, const std::string& key, JsonNode T::*member, cons
   f.doc = doc;
   f.default_note = note;
   table.custom(
-      f, [member](const Place& p, T& t) { t.*member = p.node; },
+      f, [member](const Entry& p, T& t) { t.*member = p.node; },
       [member](const T& t) {
         return (t.*member).type == JsonNode::Type::null ? std::nullopt : std::optional(t.*member);
       });
@@ -92,7 +92,7 @@ schema::Object limitsTable() {
       .defaultsTo("5 %")
       .number("red", &Limits::red, "", schema::aboveTo(0, 10), "red above this part; amber between")
       .defaultsTo("15 %")
-      .check([](const Place& p, Limits& l) {
+      .check([](const Entry& p, Limits& l) {
         if (!(l.green < l.red))
           p.failAt("red", fmt::format("{} is out of range; allowed: > green = {}", l.red, l.green));
         l.source = "limits of the study";

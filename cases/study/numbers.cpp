@@ -115,7 +115,7 @@ double ComfortNumbers::part_of_limit() const { return std::max(mean_Pa / red_Pa,
 
 double RunNumbers::mass_kg() const {
   double m = 0;
-  for (const LayerNumbers& l : layers) m += l.mass_kg;
+  for (const GarmentNumbers& l : garments) m += l.mass_kg;
   return m;
 }
 
@@ -158,7 +158,8 @@ bool RunNumbers::natural() const {
 
 double RunNumbers::thinnest_mm() const {
   double least = 0;
-  for (const LayerNumbers& l : layers) least = least > 0 ? std::min(least, 1e3 * l.thickness_m) : 1e3 * l.thickness_m;
+  for (const GarmentNumbers& l : garments)
+    least = least > 0 ? std::min(least, 1e3 * l.thickness_m) : 1e3 * l.thickness_m;
   return least;
 }
 
@@ -213,8 +214,8 @@ RunNumbers readRun(const std::filesystem::path& folder) {
     run.control_points = j.at("control_points").integer();
     run.largest_strain = j.at("largest_strain").number();
     for (const Json& l : j.at("garments").list())
-      run.layers.push_back({l.at("garment").text(), l.at("mass_kg").number(), l.at("area_m2").number(),
-                            l.at("thickness_m").number(), l.at("control_points").integer()});
+      run.garments.push_back({l.at("garment").text(), l.at("mass_kg").number(), l.at("area_m2").number(),
+                              l.at("thickness_m").number(), l.at("control_points").integer()});
     for (const Json& joint : j.at("joints").list()) run.joints.push_back(jointOf(joint));
     for (const Json& c : j.at("contact").list())
       run.contact.push_back({c.at("segment").text(), c.at("share").number(), c.at("mean_N").number(),

@@ -29,7 +29,7 @@ struct JointNumbers {
   bool applies() const { return peak_Nm != 0 || normal_N != 0; }
 };
 
-struct LayerNumbers {
+struct GarmentNumbers {
   std::string name;
   double mass_kg = 0, area_m2 = 0, thickness_m = 0;
   int control_points = 0;
@@ -71,7 +71,7 @@ struct RunNumbers {
   std::string why;  ///< where it is not good
   double recorded_to_s = 0, planned_to_s = 0, counted_from_s = 0;
   int control_points = 0;
-  std::vector<LayerNumbers> layers;
+  std::vector<GarmentNumbers> garments;
   std::vector<JointNumbers> joints;
   std::vector<double> time_s;
   std::vector<ContactNumbers> contact;
@@ -88,7 +88,7 @@ struct RunNumbers {
   int failing() const;
   /// How far the run is to be trusted, as its own page says.
   Trust trust() const;
-  double thinnest_mm() const;  ///< layer, 0 without one
+  double thinnest_mm() const;  ///< garment, 0 without one
   /// What the value of a check is to be held against, ", thinnest cloth 0.38 mm" for depths; else empty.
   std::string heldAgainst(const std::string& check) const;
   double sinking_mm() const;  ///< of the edge on springs that sinks most, NaN without one

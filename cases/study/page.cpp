@@ -100,7 +100,7 @@ std::string multiplesOf(const Study& s) {
         "{}\u201c{} x {}\u201d means {} times the {} that the garment was designed with{}; x 1 is the "
         "design.",
         text.empty() ? "" : " ", a.name, least->label, least->label, a.name,
-        a.role == Role::thickness ? ", in every layer, and is no measure in mm" : "");
+        a.role == Role::thickness ? ", in every garment, and is no measure in mm" : "");
   }
   return text;
 }
@@ -134,7 +134,7 @@ std::string eachOf(const Study& s, const Comparison& c) {
   std::string list;
   for (const Option& o : c.input.options) {
     std::string costs;
-    for (const Group& g : c.groups)
+    for (const VariantGroup& g : c.groups)
       if (const Option::Cost* worst = worstCost(o, &g.label))
         costs += (costs.empty() ? "" : "<br>") + (g.label.empty() ? "" : escape(g.label) + ": ") + costOf(s, c, *worst);
     list += item(o.name, costs.empty() ? (o.untouched ? "touches nothing that a joint moves" : "not known") : costs);
@@ -154,12 +154,12 @@ std::string takenOf(const Study& s, const Comparison& c) {
     if (!mass && memberName(s, c, i) == o.name) mass = c.runs[i].mass_kg();
     if (!base && s.variants[i].baseline == static_cast<int>(i)) base = c.runs[i].mass_kg();
   }
-  if (!c.verdict.layers.empty()) list += item("Layers", prose(c.verdict.layers));
+  if (!c.verdict.garments.empty()) list += item("Garments", prose(c.verdict.garments));
   if (mass && *mass > 0)
     list += item("Weighs", base && *base != *mass
                                ? fmt::format("{} kg instead of {} kg", formatNumber(*mass), formatNumber(*base))
                                : fmt::format("{} kg", formatNumber(*mass)));
-  for (const Group& g : c.groups) {
+  for (const VariantGroup& g : c.groups) {
     const Option::Cost* worst = worstCost(o, &g.label);
     if (!worst) continue;
     list += item(g.label.empty() ? "Costs" : fmt::format("Costs, {}", g.label), costOf(s, c, *worst));
@@ -206,7 +206,7 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   if (v.take >= 0) {
     const Option& o = c.input.options[static_cast<std::size_t>(v.take)];
     const Option::Cost* worst = worstCost(o);
-    for (const Group& g : c.groups)
+    for (const VariantGroup& g : c.groups)
       for (const SidePicture& p : pictures)
         if (!shown && worst && g.label == worst->motion && memberName(s, c, p.variant) == o.name &&
             std::find(g.members.begin(), g.members.end(), p.variant) != g.members.end())
@@ -262,13 +262,13 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
                       const std::vector<std::string>& failures) {
   const bool batch = s.file.empty();
   std::string body = alarms(s, c, failures);
-  const auto section = [&](const char* id, const char* title, const std::string& lead, const std::string& what) {
-    if (!what.empty()) body += sectionOf(id, title, lead, what);
+  const auto pageSection = [&](const char* id, const char* title, const std::string& lead, const std::string& what) {
+    if (!what.empty()) body += pageSectionOf(id, title, lead, what);
   };
   if (!batch) body += headline(s, c, pictures);
   const bool joints = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.highest(); });
   const std::string shares = anyNatural(c) ? ": in per cent of the joint\u2019s natural moment, in Nm," : " in Nm,";
-  section(
+  pageSection(
       "pay", batch || !joints ? "The runs" : "What each joint pays",
       joints ? "The largest added torque" + shares +
                    " and as a part of that of the baseline, the variant that the others are compared with, in the same "
@@ -276,24 +276,24 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
              : "",
       payOf(s, c));
   if (!batch) {
-    section("curves", "Added torque over time", "Each variant has one colour throughout.", curvesOf(s, c));
-    section("laws", "How the torque changes with what varies", "", lawsOf(s, c));
-    section("elasticities", "What the torque is made of", "", elasticitiesOf(c));
-    section("meshes", "Coarse and fine", "What the error bar of the verdict comes from.", meshesOf(c));
-    section("standing", "Standing and moving", "", standingOf(s, c));
+    pageSection("curves", "Added torque over time", "Each variant has one colour throughout.", curvesOf(s, c));
+    pageSection("laws", "How the torque changes with what varies", "", lawsOf(s, c));
+    pageSection("elasticities", "What the torque is made of", "", elasticitiesOf(c));
+    pageSection("meshes", "Coarse and fine", "What the error bar of the verdict comes from.", meshesOf(c));
+    pageSection("standing", "Standing and moving", "", standingOf(s, c));
   }
-  section("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));
-  section("layers", "The layers", "", layersOf(s, c));
-  section("cloth", "How it sits", "", clothOf(s, c));
+  pageSection("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));
+  pageSection("garments", "The garments", "", thicknessPage(s, c));
+  pageSection("cloth", "How it sits", "", clothOf(s, c));
   if (!pictures.empty())
-    section(
+    pageSection(
         "pictures", "Side by side",
         "Of each motion all variants at the same time. The same colour means the same value, and arrows of the same "
         "length the same force, in all pictures. Colours end at a value that 99 % of the cloth stays below in every "
         "picture; a pointed end of the bar stands for what lies beyond it.",
         pairs(s, pictures));
-  section("checks", "Checks", "Every run checks itself, step by step.", checksOf(s, c));
-  section("assumptions", "What was left out and assumed", "", leftOutOf(s, c));
+  pageSection("checks", "Checks", "Every run checks itself, step by step.", checksOf(s, c));
+  pageSection("assumptions", "What was left out and assumed", "", leftOutOf(s, c));
   return pageOf(s.name, s.description, batch ? s.name : c.verdict.sentence, body);
 }
 

@@ -1,4 +1,4 @@
-/// Detail of page_parts.hpp: the garment on its wearer: pressure, layers, fit, stress.
+/// Detail of page_parts.hpp: the garment on its wearer: pressure, garments, fit, stress.
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ std::string segmentsOf(const Study& s, const Comparison& c) {
     std::replace(columns.back().begin(), columns.back().end(), '_', ' ');
   }
   std::vector<std::vector<Html>> rows;
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members) {
       if (!c.runs[i].good) continue;
       rows.push_back({escape(s.variants[i].label)});
@@ -61,11 +61,11 @@ std::string pressureOf(const Comparison& c) {
 std::string forcesOf(const Study& s, const Comparison& c) {
   std::vector<std::vector<Html>> split, shares, comfort;
   std::set<std::string> zones;
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members)
       for (const ZoneNumbers& z : c.runs[i].zones)
         if (z.normal_N > 0.005 * c.runs[i].pressing_N()) zones.insert(z.zone);
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members) {
       const RunNumbers& r = c.runs[i];
       if (!r.good) continue;
@@ -116,10 +116,10 @@ std::string forcesOf(const Study& s, const Comparison& c) {
   return out.empty() ? "" : element("div", out, " class=\"charts single\"") + segmentsOf(s, c);
 }
 
-std::string layersOf(const Study& s, const Comparison& c) {
+std::string thicknessPage(const Study& s, const Comparison& c) {
   std::vector<std::string> names;
   for (const RunNumbers& r : c.runs)
-    for (const LayerNumbers& l : r.layers)
+    for (const GarmentNumbers& l : r.garments)
       if (std::find(names.begin(), names.end(), l.name) == names.end()) names.push_back(l.name);
   if (names.empty()) return "";
   std::vector<std::string> columns{"variant"};
@@ -129,12 +129,12 @@ std::string layersOf(const Study& s, const Comparison& c) {
   std::vector<std::pair<std::string, std::vector<std::vector<Html>>>> levels;
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const RunNumbers& r = c.runs[i];
-    if (!r.good || !s.variants[i].grid || r.layers.empty()) continue;
+    if (!r.good || !s.variants[i].grid || r.garments.empty()) continue;
     std::vector<Html> row{escape(s.variants[i].label)};
     double area = 0;
     for (const std::string& n : names) {
       std::string cell = "\u2013";
-      for (const LayerNumbers& l : r.layers)
+      for (const GarmentNumbers& l : r.garments)
         if (l.name == n)
           cell = escape(formatNumber(1e3 * l.thickness_m) + " mm, " + formatNumber(l.mass_kg) + " kg"),
           area += l.area_m2;
@@ -155,7 +155,7 @@ std::string layersOf(const Study& s, const Comparison& c) {
     if (same) all.resize(1), all[0][0] = Html(escape(name));
     rows.insert(rows.end(), all.begin(), all.end());
   }
-  return charts(htmlTable("Thickness and mass of each layer", columns, rows, ""));
+  return charts(htmlTable("Thickness and mass of each garment", columns, rows, ""));
 }
 
 namespace {
@@ -172,10 +172,10 @@ Html limitOf(const Stretch* s) {
 std::string clothOf(const Study& s, const Comparison& c) {
   std::vector<std::vector<Html>> fit;
   std::string stretch;
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members) {
       const RunNumbers& r = c.runs[i];
-      if (!r.good || r.layers.empty()) continue;
+      if (!r.good || r.garments.empty()) continue;
       // As the verdict has it: that which goes furthest beyond its limit.
       const Stretch* worst = worstOf(r.stretch);
       const StressNumbers* top = nullptr;

@@ -54,7 +54,7 @@ std::string standingOf(const Study& study, const Comparison& c);
 std::string meshesOf(const Comparison& c);
 // page_cloth.cpp
 std::string forcesOf(const Study& study, const Comparison& c);
-std::string layersOf(const Study& study, const Comparison& c);
+std::string thicknessPage(const Study& study, const Comparison& c);
 std::string clothOf(const Study& study, const Comparison& c);
 // page_trust.cpp
 std::string checksOf(const Study& study, const Comparison& c);

@@ -18,7 +18,7 @@ using html::element;
 using html::escape;
 
 /// The natural moment of a joint that all runs of a group share; nothing where they have their own, as wearers do.
-std::optional<double> sharedNatural(const Comparison& c, const Group& g, const std::string& joint) {
+std::optional<double> sharedNatural(const Comparison& c, const VariantGroup& g, const std::string& joint) {
   std::optional<double> shared;
   for (const std::size_t i : g.members) {
     const JointNumbers* j = c.runs[i].joint(joint);
@@ -43,7 +43,7 @@ Html payment(const Study& s, const Comparison& c, std::size_t i, const JointNumb
 }
 
 /// The natural moment of a joint in a motion, and where it is of holding still what makes it.
-Html naturalOf(const Comparison& c, const Group& g, const std::string& joint) {
+Html naturalOf(const Comparison& c, const VariantGroup& g, const std::string& joint) {
   if (!sharedNatural(c, g, joint)) return Html::aligned("");
   for (const std::size_t i : g.members) {
     const JointNumbers* j = c.runs[i].joint(joint);
@@ -63,7 +63,7 @@ std::string readingOf(const Study& s, const Comparison& c) {
   const auto say = [&](const std::string& text) { list += element("li", escape(text)); };
   std::string counted;
   bool lead_in = false;
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members)
       if (const RunNumbers& r = c.runs[i]; r.good && !r.time_s.empty()) {
         lead_in = lead_in || r.counted_from_s > 0;
@@ -77,7 +77,7 @@ std::string readingOf(const Study& s, const Comparison& c) {
   say("Against the motion: when its torque peaks, the garment hinders, and the muscles must turn the joint against it. "
       "With the motion: it then turns the joint the way it goes, which helps unless the muscles are braking.");
   std::vector<std::string> told;
-  for (const Group& g : c.groups) {
+  for (const VariantGroup& g : c.groups) {
     const auto* k = std::get_if<Case>(&s.variants[g.members[0]].definition);
     const bool known =
         std::any_of(g.members.begin(), g.members.end(), [&](std::size_t i) { return c.runs[i].natural(); });
@@ -104,7 +104,7 @@ using Joints = std::vector<std::pair<std::string, std::string>>;  ///< names and
 /// The joints that the table of payments shows, first those that decide in a group.
 Joints jointsShown(const Comparison& c) {
   Joints shown;
-  const auto add = [&](const Group& g, const std::string& name) {
+  const auto add = [&](const VariantGroup& g, const std::string& name) {
     if (std::any_of(shown.begin(), shown.end(), [&](const auto& k) { return k.first == name; })) return;
     for (const std::size_t i : g.members)
       if (const JointNumbers* j = c.runs[i].joint(name)) {
@@ -112,9 +112,9 @@ Joints jointsShown(const Comparison& c) {
         return;
       }
   };
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     if (!g.joints.empty()) add(g, g.joints[0]);
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::string& name : g.joints) add(g, name);
   return shown;
 }
@@ -124,7 +124,7 @@ std::string furtherJoints(const Study& s, const Comparison& c, const Joints& joi
   std::vector<std::string> columns{"variant"};
   for (const auto& [name, label] : joints) columns.push_back(label);
   std::vector<std::vector<Html>> rows;
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members) {
       std::vector<Html> row{escape(s.variants[i].label)};
       for (const auto& [name, label] : joints) {
@@ -147,11 +147,11 @@ std::string payOf(const Study& s, const Comparison& c) {
   std::vector<std::string> columns{"variant (its own report)", "failing checks"};
   for (const auto& [name, label] : joints) columns.push_back(label);
   columns.insert(columns.end(), {"mass [kg]", "least comfortable"});
-  const auto rowOf = [&](std::size_t i, const std::string& name, const Group* g) {
+  const auto rowOf = [&](std::size_t i, const std::string& name, const VariantGroup* g) {
     const Variant& v = s.variants[i];
     const RunNumbers& r = c.runs[i];
     std::string below;
-    for (const LayerNumbers& l : r.layers)
+    for (const GarmentNumbers& l : r.garments)
       if (c.input.sized)
         below += (below.empty() ? "" : ", ") + l.name + (l.name.empty() ? "" : " ") + formatNumber(1e3 * l.thickness_m);
     if (!below.empty()) below = "<br>" + element("small", escape(below + " mm"), " class=\"q\"");
@@ -173,7 +173,7 @@ std::string payOf(const Study& s, const Comparison& c) {
     return row;
   };
   std::vector<std::vector<Html>> rows, others;
-  for (const Group& g : c.groups) {
+  for (const VariantGroup& g : c.groups) {
     std::vector<Html> heading{Html::heading(escape(g.label)), Html(std::string())};
     for (const auto& [name, label] : joints) heading.push_back(naturalOf(c, g, name));
     const bool any = std::any_of(heading.begin(), heading.end(), [](const Html& h) { return !h.html.empty(); });
@@ -184,7 +184,7 @@ std::string payOf(const Study& s, const Comparison& c) {
     for (const std::size_t i : g.members) rows.push_back(rowOf(i, memberName(s, c, i), &g));
   }
   for (std::size_t i = 0; i < s.variants.size(); ++i)
-    if (std::none_of(c.groups.begin(), c.groups.end(), [&](const Group& g) {
+    if (std::none_of(c.groups.begin(), c.groups.end(), [&](const VariantGroup& g) {
           return std::find(g.members.begin(), g.members.end(), i) != g.members.end();
         }))
       others.push_back(rowOf(i, s.variants[i].label, nullptr));

@@ -26,7 +26,7 @@ std::string named(const std::string& setting, const std::string& joint) {
 
 /// Labels of the joints that matter somewhere.
 bool matters(const Comparison& c, const std::string& label) {
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::string& name : g.joints)
       for (const std::size_t i : g.members)
         if (const JointNumbers* j = c.runs[i].joint(name); j && j->label == label) return true;
@@ -41,7 +41,7 @@ std::string curvesOf(const Study& s, const Comparison& c) {
   const std::string named_one =
       c.verdict.take >= 0 ? c.input.options[static_cast<std::size_t>(c.verdict.take)].name : "";
   std::string open, more;
-  for (const Group& g : c.groups) {
+  for (const VariantGroup& g : c.groups) {
     std::size_t last = 0;
     std::string highest;
     double peak_Nm = 0, decides_Nm = 0;
@@ -124,7 +124,7 @@ bool isMultiple(const Study& s, const std::string& axis) {
 std::string lawPlots(const Study& s, const Comparison& c, const std::vector<Law>& laws) {
   std::map<std::string, XyPlot> plots;
   for (const Law& l : laws) {
-    const bool decides = std::any_of(c.groups.begin(), c.groups.end(), [&](const Group& g) {
+    const bool decides = std::any_of(c.groups.begin(), c.groups.end(), [&](const VariantGroup& g) {
       return std::any_of(g.members.begin(), g.members.end(), [&](std::size_t i) {
         const JointNumbers* j = c.runs[i].joint(g.joint());
         return j && j->label == l.joint;
@@ -155,7 +155,7 @@ std::string lawsOf(const Study& s, const Comparison& c) {
       laws.begin(), laws.end(), [](const Law& l) { return l.peak && l.peak->law.points > 2 && !l.peak->law.turns(); });
   const std::string main = c.main_axis >= 0 ? s.axes[static_cast<std::size_t>(c.main_axis)].name : "";
   std::vector<std::string> levels;  // but the baseline's
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members)
       if (!isBaseline(s, i) && !c.ratios[i].empty() &&
           std::find(levels.begin(), levels.end(), memberName(s, c, i)) == levels.end())
@@ -168,7 +168,7 @@ std::string lawsOf(const Study& s, const Comparison& c) {
   if (any_law) columns.insert(columns.end(), {"exponent of the peak", "of the mean square"});
   if (any_law && neighbours) columns.push_back("of the peak, from level to level");
   std::vector<std::vector<Html>> rows, others;
-  for (const Group& g : c.groups) {
+  for (const VariantGroup& g : c.groups) {
     if (!g.label.empty() && !g.joints.empty()) {
       rows.push_back({Html::heading(escape(g.label))});
       rows.back().resize(columns.size(), Html(std::string()));
@@ -247,7 +247,7 @@ std::string elasticitiesOf(const Comparison& c) {
 
 std::string standingOf(const Study& s, const Comparison& c) {
   std::vector<std::vector<Html>> rows;
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members) {
       const JointNumbers* j = c.runs[i].good ? c.runs[i].joint(g.joint()) : nullptr;
       if (!j || !j->standing_Nm) continue;
@@ -275,7 +275,7 @@ std::string meshesOf(const Comparison& c) {
   for (const MeshRow& m : c.meshes)
     rows.push_back({escape(named(m.setting, m.joint)), Html(m.coarse_points), Html(m.fine_points),
                     Html(std::abs(m.coarse_Nm)), Html(std::abs(m.fine_Nm)), Html(100 * m.difference, 2),
-                    Html(100 * m.history, 2)});
+                    Html(100 * m.course, 2)});
   if (rows.empty()) return "";
   return charts(htmlTable("Coarse against fine",
                           {"variant", "points of the mesh, coarse", "fine", "peak, coarse [Nm]", "fine [Nm]",

@@ -16,7 +16,7 @@ namespace gambeson::study {
 namespace {
 
 /// The time that a wish means in a group: the peak is that of its baseline, or of its first good run.
-double timeOf(const Group& g, const Comparison& c, const PictureCase& wish) {
+double timeOf(const VariantGroup& g, const Comparison& c, const PictureCase& wish) {
   if (wish.when == PictureTime::at) return wish.time_s;
   const RunNumbers* run = g.baseline >= 0 ? &c.runs[static_cast<std::size_t>(g.baseline)] : nullptr;
   for (std::size_t k = 0; k < g.members.size() && (!run || !run->good); ++k) run = &c.runs[g.members[k]];
@@ -37,7 +37,7 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
   // One scale for all groups, so that motions can be compared as well.
   std::vector<PictureScale> scales(s.pictures.size());
   for (const bool draw : {false, true})
-    for (const Group& g : c.groups)
+    for (const VariantGroup& g : c.groups)
       for (const std::size_t i : g.members) {
         if (!c.runs[i].good || !std::holds_alternative<Case>(s.variants[i].definition)) continue;
         const Variant& v = s.variants[i];

@@ -15,11 +15,11 @@
 namespace gambeson::study {
 namespace {
 
-using schema::Place;
+using schema::Entry;
 
 constexpr std::size_t most_variants = 2000;
 
-[[noreturn]] void tooMany(const Place& at) { at.fail("more than 2,000 variants; allowed: at most 2,000 together"); }
+[[noreturn]] void tooMany(const Entry& at) { at.fail("more than 2,000 variants; allowed: at most 2,000 together"); }
 
 // --- From the fields to axes ------------------------------------------------------------------------------------
 
@@ -46,12 +46,12 @@ std::string safe(const std::string& text) {
   return s;
 }
 
-std::vector<Setting> settingsOf(const Place& place) {
-  if (place.node.type != JsonNode::Type::object)
-    place.fail("expected an object { } of path: value, not " + describe(place.node));
-  if (place.node.children.empty()) place.fail("is empty; allowed: at least one path: value");
+std::vector<Setting> settingsOf(const Entry& entry) {
+  if (entry.node.type != JsonNode::Type::object)
+    entry.fail("expected an object { } of path: value, not " + describe(entry.node));
+  if (entry.node.children.empty()) entry.fail("is empty; allowed: at least one path: value");
   std::vector<Setting> all;
-  for (const JsonNode& child : place.node.children) all.push_back({child.key, child});
+  for (const JsonNode& child : entry.node.children) all.push_back({child.key, child});
   return all;
 }
 
@@ -106,25 +106,25 @@ void findNumbers(Axis& axis, const JsonNode& values) {
   for (std::size_t i = 0; i < numbers.size(); ++i) axis.levels[i].number = numbers[i];
 }
 
-Axis axisOf(const Place& place, const AxisInput& in) {
+Axis axisOf(const Entry& entry, const AxisInput& in) {
   const bool sets = in.sets.type != JsonNode::Type::null, values = in.values.type != JsonNode::Type::null;
   if (sets && (values || !in.path.empty()))
-    place.failAt("sets", "excludes path and values; give either sets, or path and values");
-  if (!sets && in.path.empty()) place.failAt("path", "is required: the value of the case that varies (or sets)");
-  if (!sets && !values) place.failAt("values", "is required: a list of values");
+    entry.failAt("sets", "excludes path and values; give either sets, or path and values");
+  if (!sets && in.path.empty()) entry.failAt("path", "is required: the value of the case that varies (or sets)");
+  if (!sets && !values) entry.failAt("values", "is required: a list of values");
   Axis axis;
   axis.name = in.name.empty() ? in.path.substr(in.path.rfind('.') + 1) : in.name;
-  if (axis.name.empty()) place.failAt("name", "is required where sets are given");
+  if (axis.name.empty()) entry.failAt("name", "is required where sets are given");
   axis.unit = in.unit;
   axis.multiple = in.path.starts_with("factors.");
   axis.labelled = !in.labels.empty();
   const std::string key = sets ? "sets" : "values";
   const JsonNode& list = sets ? in.sets : in.values;
-  const Place at = place.member(*place.node.find(key));
+  const Entry at = entry.member(*entry.node.find(key));
   if (list.type != JsonNode::Type::list) at.fail("expected a list [ ], not " + describe(list));
   if (list.children.empty()) at.fail("the list is empty; allowed: at least one level");
   if (!in.labels.empty() && in.labels.size() != list.children.size())
-    place.failAt("labels", fmt::format("{} labels for {} {}; allowed: one for each", in.labels.size(),
+    entry.failAt("labels", fmt::format("{} labels for {} {}; allowed: one for each", in.labels.size(),
                                        list.children.size(), key));
   std::map<std::string, std::string> folders;
   for (std::size_t i = 0; i < list.children.size(); ++i) {
@@ -132,7 +132,7 @@ Axis axisOf(const Place& place, const AxisInput& in) {
     const JsonNode& value = list.children[i];
     level.label = in.labels.empty() ? (sets ? "" : textOf(value)) : in.labels[i];
     if (level.label.empty())
-      place.failAt("labels", "is required: what no number, text or flag names needs a label for each level");
+      entry.failAt("labels", "is required: what no number, text or flag names needs a label for each level");
     const std::string name = in.labels.empty() ? axis.name + "_" + level.label : level.label;
     level.folder = safe(name);
     // A factor is a multiple, and read as such: "thickness x 0.5" is no length.
@@ -140,7 +140,7 @@ Axis axisOf(const Place& place, const AxisInput& in) {
                                     : fmt::format("{} {}{}{}{}", axis.name, axis.multiple ? "x " : "", level.label,
                                                   axis.unit.empty() ? "" : " ", axis.unit);
     if (level.label.size() > 60) at.item(i).fail("its label is longer than 60 characters; give shorter labels");
-    const Place where = in.labels.empty() ? at.item(i) : place.member(*place.node.find("labels")).item(i);
+    const Entry where = in.labels.empty() ? at.item(i) : entry.member(*entry.node.find("labels")).item(i);
     if (const auto [other, fresh] = folders.insert({level.folder, level.label}); !fresh)
       where.fail(fmt::format("\"{}\" and \"{}\" name two levels alike; allowed: labels that differ in more than signs",
                              level.label, other->second));
@@ -155,34 +155,34 @@ Axis axisOf(const Place& place, const AxisInput& in) {
   return axis;
 }
 
-std::size_t axisNamed(const Place& place, const Study& s, const std::string& name) {
+std::size_t axisNamed(const Entry& entry, const Study& s, const std::string& name) {
   std::vector<std::string> names;
   for (std::size_t a = 0; a < s.axes.size(); ++a) {
     if (s.axes[a].name == name) return a;
     names.push_back(s.axes[a].name);
   }
-  place.fail(names.empty() ? "there are no axes"
+  entry.fail(names.empty() ? "there are no axes"
                            : fmt::format("there is no axis \"{}\"; allowed: {}", name, schema::joined(names)));
 }
 
-int levelNamed(const Place& place, const Axis& axis, const JsonNode& value) {
+int levelNamed(const Entry& entry, const Axis& axis, const JsonNode& value) {
   const std::string wanted = textOf(value);
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < axis.levels.size(); ++i) {
     if (axis.levels[i].label == wanted) return static_cast<int>(i);
     labels.push_back(axis.levels[i].label);
   }
-  place.fail(
+  entry.fail(
       fmt::format("{} is no level of the axis {}; allowed: {}", describe(value), axis.name, schema::joined(labels)));
 }
 
 /// Object axis: label.
-std::map<std::size_t, int> levelsAt(const Place& place, const Study& s) {
-  if (place.node.type != JsonNode::Type::object)
-    place.fail("expected an object { } of axis: label, not " + describe(place.node));
+std::map<std::size_t, int> levelsAt(const Entry& entry, const Study& s) {
+  if (entry.node.type != JsonNode::Type::object)
+    entry.fail("expected an object { } of axis: label, not " + describe(entry.node));
   std::map<std::size_t, int> levels;
-  for (const JsonNode& child : place.node.children) {
-    const Place at = place.member(child);
+  for (const JsonNode& child : entry.node.children) {
+    const Entry at = entry.member(child);
     const std::size_t axis = axisNamed(at, s, child.key);
     levels[axis] = levelNamed(at, s.axes[axis], child);
   }
@@ -195,11 +195,11 @@ bool isFactor(const Axis& axis) {
   });
 }
 
-void findBaseline(const Place& root, const StudyInput& in, Study& s) {
+void findBaseline(const Entry& root, const StudyInput& in, Study& s) {
   if (in.baseline.type != JsonNode::Type::null) {
-    const Place place = root.member(*root.node.find("baseline"));
-    const auto levels = levelsAt(place, s);
-    if (levels.empty()) place.fail("is empty; allowed: at least one axis: label");
+    const Entry entry = root.member(*root.node.find("baseline"));
+    const auto levels = levelsAt(entry, s);
+    if (levels.empty()) entry.fail("is empty; allowed: at least one axis: label");
     // What is not chosen is compared with itself: a motion with the same motion, a wearer with himself.
     int best = 3;
     for (const auto& [axis, level] : levels) best = std::min(best, rankOf(s.axes[axis].role));
@@ -228,12 +228,12 @@ void findBaseline(const Place& root, const StudyInput& in, Study& s) {
 /// Builds and checks variants one by one.
 class Maker {
  public:
-  Maker(const Place& place, const StudyInput& in, Study& study) : place_(place), in_(in), study_(study) {
+  Maker(const Entry& entry, const StudyInput& in, Study& study) : entry_(entry), in_(in), study_(study) {
     base_ = readJson(in.file);
-    if (in.set.type != JsonNode::Type::null) common_ = settingsOf(place.member(*place.node.find("set")));
+    if (in.set.type != JsonNode::Type::null) common_ = settingsOf(entry.member(*entry.node.find("set")));
   }
 
-  void add(std::vector<int> levels, const std::vector<Setting>& more, const std::string& extra_label, const Place& at) {
+  void add(std::vector<int> levels, const std::vector<Setting>& more, const std::string& extra_label, const Entry& at) {
     Variant v;
     v.levels = std::move(levels);
     v.grid = more.empty();
@@ -256,7 +256,7 @@ class Maker {
       at.fail(fmt::format("there are two variants {}; allowed: labels that differ", v.label));
     if (study_.variants.size() >= most_variants) tooMany(at);
     try {
-      for (const Setting& s : all) overrideValue(root, s.path, s.value, place_.file);
+      for (const Setting& s : all) overrideValue(root, s.path, s.value, entry_.file);
       v.definition = readAnyCase(root, in_.file);
     } catch (const InputError& e) {
       throw InputError(e.where(), fmt::format("{} (variant {})", e.reason(), v.label));
@@ -291,7 +291,7 @@ class Maker {
         v.definition);
   }
 
-  const Place& place_;
+  const Entry& entry_;
   const StudyInput& in_;
   Study& study_;
   JsonNode base_;
@@ -302,7 +302,7 @@ class Maker {
 /// All combinations of levels of the axes, the last axis fastest, each for `runs` variants. Counted first: they may be
 /// too many to be built.
 std::vector<std::vector<int>> combinations(const std::vector<std::vector<int>>& choices, std::size_t runs,
-                                           const Place& at) {
+                                           const Entry& at) {
   std::size_t count = runs;
   for (const std::vector<int>& choice : choices)
     if ((count *= choice.size()) > most_variants) tooMany(at);
@@ -334,17 +334,17 @@ int baselineLevel(const Study& s, std::size_t axis) {
   return 0;
 }
 
-void addElasticities(const Place& root, const ElasticityInput& in, Maker& maker, Study& s) {
-  const Place place = root.member(*root.node.find("elasticities"));
+void addElasticities(const Entry& root, const ElasticityInput& in, Maker& maker, Study& s) {
+  const Entry entry = root.member(*root.node.find("elasticities"));
   std::vector<std::vector<int>> choices = allLevels(s);
   for (std::size_t a = 0; a < s.axes.size(); ++a)
     if (isFactor(s.axes[a])) choices[a] = {baselineLevel(s, a)};
   if (in.where.type != JsonNode::Type::null) {
-    const Place where = place.member(*place.node.find("where"));
+    const Entry where = entry.member(*entry.node.find("where"));
     if (in.where.type != JsonNode::Type::object)
       where.fail("expected an object { } of axis: list of labels, not " + describe(in.where));
     for (const JsonNode& child : where.node.children) {
-      const Place at = where.member(child);
+      const Entry at = where.member(child);
       const std::size_t axis = axisNamed(at, s, child.key);
       if (isFactor(s.axes[axis])) at.fail("is an axis of factors, which stay at the baseline; allowed: another axis");
       if (child.type != JsonNode::Type::list || child.children.empty())
@@ -356,12 +356,12 @@ void addElasticities(const Place& root, const ElasticityInput& in, Maker& maker,
   }
   const std::array<const char*, 5> factors{"bending", "membrane", "weight", "inertia", "drag"};
   const std::array<double, 2> values{1 - in.step, 1 + in.step};
-  for (const auto& levels : combinations(choices, factors.size() * values.size(), place))
+  for (const auto& levels : combinations(choices, factors.size() * values.size(), entry))
     for (const char* factor : factors)
       for (const double value : values) {
         JsonNode node = schema::nodeOf(value);
-        node.line = place.node.line;
-        maker.add(levels, {{fmt::format("factors.{}", factor), node}}, fmt::format("{} x {:g}", factor, value), place);
+        node.line = entry.node.line;
+        maker.add(levels, {{fmt::format("factors.{}", factor), node}}, fmt::format("{} x {:g}", factor, value), entry);
       }
 }
 
@@ -382,32 +382,32 @@ void linkBaselines(Study& s) {
 Study readStudy(const std::filesystem::path& file) {
   const JsonNode root = readJson(file);
   const std::string name = file.string();
-  const Place place{root, "", name};
+  const Entry entry{root, "", name};
   StudyInput in;
-  schema::readObject(studyTable(), place, &in);
+  schema::readObject(studyTable(), entry, &in);
   Study s;
   s.name = in.name;
   s.description = in.description;
   s.file = file;
   s.limits = in.limits;
   s.pictures = in.pictures;
-  if (in.axes.empty() && in.variants.empty()) place.fail("one of axes or variants is required, and not empty");
+  if (in.axes.empty() && in.variants.empty()) entry.fail("one of axes or variants is required, and not empty");
   for (std::size_t a = 0; a < in.axes.size(); ++a) {
-    const Place at = place.member(*root.find("axes")).item(a);
+    const Entry at = entry.member(*root.find("axes")).item(a);
     Axis axis = axisOf(at, in.axes[a]);
     for (const Axis& other : s.axes)
       if (other.name == axis.name)
         at.failAt("name", fmt::format("\"{}\" names two axes; allowed: a name of its own", axis.name));
     s.axes.push_back(std::move(axis));
   }
-  findBaseline(place, in, s);
-  Maker maker(place, in, s);
+  findBaseline(entry, in, s);
+  Maker maker(entry, in, s);
   if (!s.axes.empty()) {
-    const Place axes = place.member(*root.find("axes"));
+    const Entry axes = entry.member(*root.find("axes"));
     for (const auto& levels : combinations(allLevels(s), 1, axes)) maker.add(levels, {}, "", axes);
   }
   for (std::size_t i = 0; i < in.variants.size(); ++i) {
-    const Place at = place.member(*root.find("variants")).item(i);
+    const Entry at = entry.member(*root.find("variants")).item(i);
     std::vector<int> levels;
     for (std::size_t a = 0; a < s.axes.size(); ++a) levels.push_back(baselineLevel(s, a));
     if (in.variants[i].at.type != JsonNode::Type::null)
@@ -416,7 +416,7 @@ Study readStudy(const std::filesystem::path& file) {
     maker.add(levels, settingsOf(at.member(*at.node.find("set"))), in.variants[i].label, at);
     s.variants.back().finer = in.variants[i].finer;
   }
-  if (in.elasticities) addElasticities(place, *in.elasticities, maker, s);
+  if (in.elasticities) addElasticities(entry, *in.elasticities, maker, s);
   linkBaselines(s);
   return s;
 }

@@ -51,8 +51,8 @@ std::string variantsTable(const Study& s, const Comparison& c) {
   const auto joints = namesOf(c.runs, [](const RunNumbers& r, auto add) {
     for (const auto& j : r.joints) add(j.name);
   });
-  const auto layers = namesOf(c.runs, [](const RunNumbers& r, auto add) {
-    for (const auto& l : r.layers) add(l.name);
+  const auto garments = namesOf(c.runs, [](const RunNumbers& r, auto add) {
+    for (const auto& l : r.garments) add(l.name);
   });
   const auto segments = namesOf(c.runs, [](const RunNumbers& r, auto add) {
     for (const auto& b : r.contact)
@@ -61,7 +61,7 @@ std::string variantsTable(const Study& s, const Comparison& c) {
   std::vector<std::string> row{"variant", "status"};
   for (const Axis& a : s.axes) row.push_back(a.name);
   row.insert(row.end(), {"baseline", "control_points"});
-  for (const std::string& l : layers)
+  for (const std::string& l : garments)
     for (const char* what : {"thickness_m", "mass_kg"})
       row.push_back(fmt::format("{}_{}", l.empty() ? "garment" : l, what));
   row.insert(row.end(), {"mass_kg", "highest_joint"});
@@ -90,9 +90,9 @@ std::string variantsTable(const Study& s, const Comparison& c) {
     row.push_back(v.baseline >= 0 ? s.variants[static_cast<std::size_t>(v.baseline)].folder : std::string());
     if (r.good) {
       row.push_back(std::to_string(r.control_points));
-      for (const std::string& name : layers) {
+      for (const std::string& name : garments) {
         std::optional<double> thickness, mass;
-        for (const LayerNumbers& l : r.layers)
+        for (const GarmentNumbers& l : r.garments)
           if (l.name == name) thickness = l.thickness_m, mass = l.mass_kg;
         row.insert(row.end(), {cell(thickness), cell(mass)});
       }
@@ -183,7 +183,7 @@ std::string meshesTable(const Comparison& c) {
                             "fine_peak_Nm", "peak_difference_ratio", "history_difference_of_peak"});
   for (const MeshRow& m : c.meshes)
     out += csvRow({m.setting, m.joint, std::to_string(m.coarse_points), std::to_string(m.fine_points),
-                   cell(m.coarse_Nm), cell(m.fine_Nm), cell(m.difference), cell(m.history)});
+                   cell(m.coarse_Nm), cell(m.fine_Nm), cell(m.difference), cell(m.course)});
   return out;
 }
 
@@ -198,7 +198,7 @@ Json variantJson(const Study& s, const Comparison& c, std::size_t i) {
   if (!r.good) return j;
   j["control_points"] = r.control_points;
   j["mass_kg"] = r.mass_kg();
-  for (const LayerNumbers& l : r.layers)
+  for (const GarmentNumbers& l : r.garments)
     j["layers"].push_back(
         {{"garment", l.name}, {"mass_kg", l.mass_kg}, {"area_m2", l.area_m2}, {"thickness_m", l.thickness_m}});
   j["light"] = nameOf(c.lights[i]);
@@ -262,7 +262,7 @@ std::string studyJson(const Study& s, const Comparison& c) {
                   {"light_of_torque", nameOf(v.light)},
                   {"doubt", v.doubt},
                   {"sentence", v.sentence},
-                  {"layers", v.layers},
+                  {"layers", v.garments},
                   {"enough", v.enough},
                   {"estimate", v.estimate},
                   {"why", v.why},
@@ -299,7 +299,7 @@ std::string studyJson(const Study& s, const Comparison& c) {
                            {"coarse_peak_Nm", number(m.coarse_Nm)},
                            {"fine_peak_Nm", number(m.fine_Nm)},
                            {"peak_difference_ratio", number(m.difference)},
-                           {"history_difference_of_peak", number(m.history)}});
+                           {"history_difference_of_peak", number(m.course)}});
   j["variants"] = Json::array();
   for (std::size_t i = 0; i < s.variants.size(); ++i) j["variants"].push_back(variantJson(s, c, i));
   return j.dump(2) + "\n";

@@ -16,10 +16,10 @@ namespace gambeson::study {
 namespace {
 
 /// What one run adds to its option.
-void addRun(const Comparison& c, const Group& g, std::size_t i, Option& option) {
+void addRun(const Comparison& c, const VariantGroup& g, std::size_t i, Option& option) {
   const RunNumbers& run = c.runs[i];
-  if (option.layers.empty())
-    for (const LayerNumbers& l : run.layers) option.layers.push_back({l.name, l.thickness_m});
+  if (option.garments.empty())
+    for (const GarmentNumbers& l : run.garments) option.garments.push_back({l.name, l.thickness_m});
   for (const std::string& name : g.joints) {
     const JointNumbers* j = run.joint(name);
     if (!j) continue;
@@ -36,13 +36,13 @@ void addRun(const Comparison& c, const Group& g, std::size_t i, Option& option) 
 
 /// Adds the exponents of all joints and motions that the options cost.
 void addExponents(const Study& s, const Comparison& c, VerdictInput& in) {
-  const auto find = [&](const Group& g, const std::string& joint, const char* quantity) -> const AxisExponent* {
+  const auto find = [&](const VariantGroup& g, const std::string& joint, const char* quantity) -> const AxisExponent* {
     const std::string setting = settingOf(s, s.variants[g.members[0]], {c.main_axis});
     for (const AxisExponent& e : c.exponents)
       if (e.axis == in.what && e.setting == setting && e.joint == joint && e.quantity == quantity) return &e;
     return nullptr;
   };
-  for (const Group& g : c.groups)
+  for (const VariantGroup& g : c.groups)
     for (const std::string& name : g.joints) {
       std::string label;
       for (const std::size_t i : g.members)
@@ -142,7 +142,7 @@ VerdictInput verdictInput(const Study& s, const Comparison& c) {
       const Variant& v = s.variants[i];
       return axis ? v.levels[static_cast<std::size_t>(c.main_axis)] == static_cast<int>(l) : i == l;
     };
-    for (const Group& g : c.groups)
+    for (const VariantGroup& g : c.groups)
       for (const std::size_t i : g.members) {
         const Variant& v = s.variants[i];
         if (!belongs(i)) continue;

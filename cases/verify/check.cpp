@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/history.hpp"
+#include "analysis/course.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/verify/verify.hpp"
 #include "core/error.hpp"
@@ -167,31 +167,31 @@ double valueOf(const Check& c, const std::string& instead, const RunNumbers& num
   return v;
 }
 
-Course courseOf(const History& h, const RunNumbers& numbers) {
+Course courseOf(const RunCourse& h, const RunNumbers& numbers) {
   const Numbers& t = numbers.table(h.run, h.table);
   Course course;
   std::vector<std::size_t> at;
   for (const std::string& name : h.columns) at.push_back(t.find(name));
   for (const auto& row : t.rows) {
     course.time_s.push_back(row.front());
-    double v = h.of == History::Of::largest ? -std::numeric_limits<double>::infinity() : 0;
+    double v = h.of == RunCourse::Of::largest ? -std::numeric_limits<double>::infinity() : 0;
     for (const std::size_t c : at)
-      if (h.of != History::Of::largest)
+      if (h.of != RunCourse::Of::largest)
         v += row[c];
       else if (!(v >= row[c]))  // a NaN wins
         v = row[c];
-    if (h.of == History::Of::mean) v /= static_cast<double>(at.size());
+    if (h.of == RunCourse::Of::mean) v /= static_cast<double>(at.size());
     course.value.push_back(h.scale * v);
   }
   return course;
 }
 
 double measureOf(const Check& c, const RunNumbers& numbers, Shown& shown) {
-  const auto part = [&](const History& h) {
+  const auto part = [&](const RunCourse& h) {
     return within(courseOf(h, numbers), h.from_s.value_or(c.from_s), h.to_s.value_or(c.to_s));
   };
   Course a = part(*c.first), b;
-  const auto show = [&](const History& h, const Course& x) {
+  const auto show = [&](const RunCourse& h, const Course& x) {
     shown.measured.push_back({h.run + ": " + schema::joined(h.columns), x.time_s, x.value});
   };
   show(*c.first, a);
@@ -371,7 +371,7 @@ void judgeRate(const Reference& reference, const Check& c, const RunNumbers& num
   out.shown = std::move(shown);
 }
 
-void judgeHistory(const Reference& reference, const Check& c, const RunNumbers& numbers, Judged& out) {
+void judgeCourse(const Reference& reference, const Check& c, const RunNumbers& numbers, Judged& out) {
   Shown shown;
   shown.title = c.item.empty() ? c.quantity : c.item + ": " + c.quantity;
   shown.x_name = "time [s]";
@@ -463,8 +463,8 @@ Judged judge(const Reference& reference, const Check& check, const RunNumbers& n
           },
           out);
       break;
-    case Check::Kind::history:
-      judgeHistory(reference, check, numbers, out);
+    case Check::Kind::course:
+      judgeCourse(reference, check, numbers, out);
       break;
     case Check::Kind::curve:
     case Check::Kind::table:

@@ -72,7 +72,7 @@ class Files : public RunNumbers {
         need(c.of, c.kind == Check::Kind::rate ? c.runs : c.also);
         if (c.minus) need(*c.minus, c.also);
         if (c.over) need(*c.over, c.also);
-      } else if (c.kind == Check::Kind::history) {
+      } else if (c.kind == Check::Kind::course) {
         for (const auto* h : {&c.first, &c.second})
           if (*h) loadTable((*h)->run, (*h)->table);
       } else {

@@ -14,9 +14,9 @@
 namespace gambeson::verify {
 namespace {
 
+using schema::Entry;
 using schema::Field;
 using schema::Kind;
-using schema::Place;
 
 template <class T>
 using Fields = schema::Table<T>;
@@ -42,7 +42,7 @@ schema::Object statementTable() {
       .text("quantity", &S::quantity, "the check's quantity")
       .text("without", &S::without, "why no check stands beside it")
       .object("recorded", &S::recorded, recordedTable(), "number of a reference that runs only by name")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         if (s.reference.empty() == s.without.empty()) p.fail("needs one of reference and without");
         if (s.reference.empty() != s.quantity.empty()) p.fail("reference and quantity go together");
         if (s.recorded && s.reference.empty()) p.failAt("recorded", "goes with reference");
@@ -65,7 +65,7 @@ schema::Object exampleTable() {
       .texts("tables", &E::tables, "numbers of its tables")
       .custom(
           cases,
-          [](const Place& p, E& e) {
+          [](const Entry& p, E& e) {
             if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of case files");
             for (std::size_t i = 0; i < p.node.children.size(); ++i) e.cases.push_back(schema::readPath(p.item(i)));
           },
@@ -73,7 +73,7 @@ schema::Object exampleTable() {
       .text("doc", &E::doc, "what ours differs in, and why")
       .list("statements", &E::statements, statementTable(), "what it states")
       .required()
-      .check([](const Place& p, const E& e) {
+      .check([](const Entry& p, const E& e) {
         if (e.statements.empty()) p.failAt("statements", "must not be empty");
       })
       .build();
@@ -91,7 +91,7 @@ schema::Object workTable() {
       .text("doc", &W::doc, "what the page holds")
       .list("examples", &W::examples, exampleTable(), "its examples")
       .required()
-      .check([](const Place& p, const W& w) {
+      .check([](const Entry& p, const W& w) {
         if (w.id != std::filesystem::path(p.file).stem().string())
           p.failAt("id", fmt::format("\"{}\" is not the name of the file", w.id));
         std::set<std::string> sections;
@@ -105,30 +105,30 @@ schema::Object workTable() {
 }
 
 /// Every reference and check that a statement names is there, once.
-void checkNames(const Place& root, const Work& work) {
+void checkNames(const Entry& root, const Work& work) {
   const std::filesystem::path dir = work.file.parent_path().parent_path();
   std::map<std::string, Reference> references;
-  const Place examples = root.member(*root.node.find("examples"));
+  const Entry examples = root.member(*root.node.find("examples"));
   for (std::size_t i = 0; i < work.examples.size(); ++i) {
-    const Place example = examples.item(i), list = example.member(*example.node.find("statements"));
+    const Entry example = examples.item(i), list = example.member(*example.node.find("statements"));
     for (std::size_t k = 0; k < work.examples[i].statements.size(); ++k) {
       const Statement& s = work.examples[i].statements[k];
       if (s.reference.empty()) continue;
-      const Place place = list.item(k);
+      const Entry entry = list.item(k);
       const std::filesystem::path file = dir / (s.reference + ".json");
       if (!references.contains(s.reference)) {
         if (!std::filesystem::exists(file))
-          place.failAt("reference", fmt::format("there is no reference {}", file.string()));
+          entry.failAt("reference", fmt::format("there is no reference {}", file.string()));
         references.emplace(s.reference, readReference(file));
       }
       const Reference& r = references.at(s.reference);
       const auto n =
           std::count_if(r.checks.begin(), r.checks.end(), [&](const Check& c) { return c.quantity == s.quantity; });
       if (n != 1)
-        place.failAt("quantity",
+        entry.failAt("quantity",
                      fmt::format("{} has {} checks of \"{}\"", s.reference, n == 0 ? "no" : "several", s.quantity));
       if (s.recorded && !r.on_demand)
-        place.failAt("recorded", fmt::format("is for references that run only by name; {} always runs", s.reference));
+        entry.failAt("recorded", fmt::format("is for references that run only by name; {} always runs", s.reference));
     }
   }
 }
@@ -138,7 +138,7 @@ void checkNames(const Place& root, const Work& work) {
 Work readWork(const std::filesystem::path& file) {
   const JsonNode node = readJson(file);
   const std::string name = file.string();
-  const Place root{node, "", name};
+  const Entry root{node, "", name};
   Work work;
   schema::readObject(workTable(), root, &work);
   work.file = file;

@@ -172,7 +172,7 @@ std::string overview(const Work& work, const std::vector<Result>& results) {
   return element("div", element("table", heads + element("tbody", rows)), " class=\"panel scroll\"");
 }
 
-std::string section(const Example& e, const std::vector<Result>& results) {
+std::string pageSection(const Example& e, const std::vector<Result>& results) {
   std::string head = element("h3", escape(e.section + " " + e.title));
   std::string line = illustrations(e);
   if (!e.cases.empty()) line += (line.empty() ? "" : ". ") + std::string("Case: ") + caseNames(e);
@@ -189,7 +189,7 @@ std::string formatWork(const Work& work, const std::vector<Verified>& done, cons
   for (const Verified& v : done)
     for (const Result& r : v.results()) results.push_back(r);
   std::string body = overview(work, results);
-  for (const Example& e : work.examples) body += section(e, results);
+  for (const Example& e : work.examples) body += pageSection(e, results);
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n" +
          element("title", escape(work.title)) + "\n<style>" + std::string(report::kStyle) + kWorkStyle +

@@ -30,7 +30,7 @@ section.reference { border-top:1px solid var(--line); margin-top:36px; } section
 .meter i { display:block; height:100%; background:var(--good); } .meter.over i { background:var(--bad); } .meter.free i { background:#8d95a3; }
 details { margin-top:12px; } summary { cursor:pointer; color:var(--accent); }
 .charts figure.chart:only-child { max-width:560px; }
-.panel { margin-top:14px; } th.group { padding-top:18px; color:var(--accent); } a { color:var(--accent); }
+.panel { margin-top:14px; } th.heading { padding-top:18px; color:var(--accent); } a { color:var(--accent); }
 )css";
 
 std::string cell(const std::string& content, bool number = false) {
@@ -178,7 +178,7 @@ std::string reportsOnly(const std::vector<Verified>& all) {
                  " class=\"alarm\" role=\"alert\"");
 }
 
-std::string section(const Verified& v) {
+std::string pageSection(const Verified& v) {
   std::string charts, tables, rows;
   for (std::size_t i = 0; i < v.judged.size(); ++i) {
     const Judged& j = v.judged[i];
@@ -199,13 +199,13 @@ std::string section(const Verified& v) {
                  fmt::format(" class=\"reference\" id=\"{}\"", escape(v.reference.id)));
 }
 
-std::string overview(const std::vector<Verified>& all, const std::vector<std::string>& groups) {
+std::string overview(const std::vector<Verified>& all, const std::vector<std::string>& headings) {
   std::string rows;
-  for (const std::string& group : groups) {
-    rows +=
-        element("tr", element("th", escape(group.empty() ? "References" : group), " colspan=\"6\" class=\"group\""));
+  for (const std::string& heading : headings) {
+    rows += element("tr",
+                    element("th", escape(heading.empty() ? "References" : heading), " colspan=\"6\" class=\"group\""));
     for (const Verified& v : all) {
-      if (v.reference.group != group) continue;
+      if (v.reference.heading != heading) continue;
       int gated = 0, good = 0, reported = 0;
       bool missing = false;
       const std::vector<Result> results = v.results();
@@ -245,13 +245,14 @@ std::string tile(const std::string& kind, int count, const std::string& what) {
 std::string formatPage(const std::vector<Verified>& all, const std::string& command, double wall_s,
                        const std::vector<PageLink>& pages) {
   int passed = 0, failed = 0, checks = 0, checks_failed = 0, reported = 0;
-  std::vector<std::string> groups;
+  std::vector<std::string> headings;
   for (const Verified& v : all) {
     passed += v.gates() && v.passed();
     failed += !v.passed();
     for (const Result& r : v.results())
       checks += r.gated, checks_failed += r.gated && !r.passed, reported += !r.gated && !r.other_run;
-    if (std::find(groups.begin(), groups.end(), v.reference.group) == groups.end()) groups.push_back(v.reference.group);
+    if (std::find(headings.begin(), headings.end(), v.reference.heading) == headings.end())
+      headings.push_back(v.reference.heading);
   }
   std::string body =
       reportsOnly(all) +
@@ -262,11 +263,11 @@ std::string formatPage(const std::vector<Verified>& all, const std::string& comm
               " class=\"tiles\"");
   for (const PageLink& p : pages)
     body += element("p", fmt::format("<a href=\"{}\">{}</a>", escape(p.file), escape(p.title)), " class=\"doc\"");
-  body += overview(all, groups);
-  for (const std::string& g : groups) {
+  body += overview(all, headings);
+  for (const std::string& g : headings) {
     body += element("h2", escape(g.empty() ? "References" : g));
     for (const Verified& v : all)
-      if (v.reference.group == g) body += section(v);
+      if (v.reference.heading == g) body += pageSection(v);
   }
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

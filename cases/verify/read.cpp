@@ -13,9 +13,9 @@
 namespace gambeson::verify {
 namespace {
 
+using schema::Entry;
 using schema::Field;
 using schema::Kind;
-using schema::Place;
 
 template <class T>
 using Fields = schema::Table<T>;
@@ -32,18 +32,18 @@ Field field(const std::string& key, Kind kind, const std::string& doc, bool requ
 /// Nothing is written back: references are only read.
 constexpr auto unwritten = [](const auto&) -> std::optional<JsonNode> { return std::nullopt; };
 
-void expect(const Place& p, JsonNode::Type type, const char* what) {
+void expect(const Entry& p, JsonNode::Type type, const char* what) {
   if (p.node.type != type) p.fail(fmt::format("expected {}, not {}", what, describe(p.node)));
 }
 
-std::vector<std::string> readTexts(const Place& p) {
+std::vector<std::string> readTexts(const Entry& p) {
   expect(p, JsonNode::Type::list, "a list [ ] of texts");
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < p.node.children.size(); ++i) texts.push_back(schema::readText(p.item(i)));
   return texts;
 }
 
-std::vector<double> readNumbers(const Place& p) {
+std::vector<double> readNumbers(const Entry& p) {
   expect(p, JsonNode::Type::list, "a list [ ] of numbers");
   std::vector<double> numbers;
   for (std::size_t i = 0; i < p.node.children.size(); ++i)
@@ -57,13 +57,13 @@ void optionalNumber(Fields<T>& fields, const std::string& key, Get get, const st
                     const schema::Range& range = schema::any()) {
   fields.custom(
       field(key, Kind::number, doc),
-      [=](const Place& p, T& t) { std::invoke(get, t) = schema::readNumber(p, "", range); }, unwritten);
+      [=](const Entry& p, T& t) { std::invoke(get, t) = schema::readNumber(p, "", range); }, unwritten);
 }
 
 template <class T, class Get>
 void boolean(Fields<T>& fields, const std::string& key, Get get, const std::string& doc) {
   fields.custom(
-      field(key, Kind::choice, doc), [=](const Place& p, T& t) { std::invoke(get, t) = readBoolean(p); }, unwritten);
+      field(key, Kind::choice, doc), [=](const Entry& p, T& t) { std::invoke(get, t) = readBoolean(p); }, unwritten);
 }
 
 /// A table is a file of the run's own folder, called by its bare name.
@@ -71,7 +71,7 @@ template <class T, class Get>
 void tableName(Fields<T>& t, Get get, const std::string& doc) {
   t.custom(
       field("table", Kind::text, doc),
-      [get](const Place& p, T& target) {
+      [get](const Entry& p, T& target) {
         const std::string& name = schema::readText(p);
         if (name.find_first_of("/\\") != std::string::npos || name.starts_with('.'))
           p.fail(describe(p.node) + " is no file of a run's folder; allowed: a name such as path.csv, without folders");
@@ -85,10 +85,10 @@ schema::Object quantityTable() {
   Fields<Q> t("Quantity");
   t.custom(
       field("run", Kind::text, "the run that it is taken from"),
-      [](const Place& p, Q& q) { q.runs = {schema::readText(p)}; }, unwritten);
+      [](const Entry& p, Q& q) { q.runs = {schema::readText(p)}; }, unwritten);
   t.custom(
       field("runs", Kind::text_list, "several runs, for instance seeds"),
-      [](const Place& p, Q& q) {
+      [](const Entry& p, Q& q) {
         if (!q.runs.empty()) p.fail("run and runs exclude each other");
         q.runs = readTexts(p);
       },
@@ -104,7 +104,7 @@ schema::Object quantityTable() {
   optionalNumber(t, "at", &Q::at, "row to take, between rows linearly; the last where absent");
   t.number("scale", &Q::scale, "", schema::any(), "the number is multiplied by it");
   t.number("offset", &Q::offset, "", schema::any(), "and this is added");
-  t.check([](const Place& p, const Q& q) {
+  t.check([](const Entry& p, const Q& q) {
     if (q.summary.empty() == q.column.empty()) p.fail("needs one of summary and column");
     if (!q.summary.empty() && q.at) p.failAt("at", "is for a column of a table");
   });
@@ -133,9 +133,9 @@ schema::Object reportedTable(const std::string& title, const std::string& column
       .build();
 }
 
-schema::Object historyTable() {
-  using H = History;
-  Fields<H> t("History");
+schema::Object courseTable() {
+  using H = RunCourse;
+  Fields<H> t("Course");
   tableName(t, &H::table, "file of the table; its first column is the time");
   return t.text("run", &H::run, "the run that it is taken from")
       .required()
@@ -186,7 +186,7 @@ const std::vector<KindRule>& kinds() {
        {"of"},
        {"minus", "over", "period", "reference", "relative", "absolute", "at_least", "at_most", "also"}},
       {"history",
-       Check::Kind::history,
+       Check::Kind::course,
        {"course", "first", "from", "to"},
        {"second", "shift", "reference", "relative", "absolute", "at_least", "at_most"}},
       {"curve", Check::Kind::curve, {"run", "x", "y", "bound"}, {"also", "table", "reported"}},
@@ -207,7 +207,7 @@ const std::vector<KindRule>& kinds() {
   return rules;
 }
 
-void checkGoal(const Place& p, const Check& c) {
+void checkGoal(const Entry& p, const Check& c) {
   const bool measured = !c.reference_runs.empty();
   if (measured && c.relative) p.failAt("relative", "reference_runs go with absolute");
   const int goals = static_cast<int>(c.reference.has_value()) + static_cast<int>(measured) + (c.at_least || c.at_most);
@@ -227,7 +227,7 @@ schema::Object checkTable() {
   Field kind = field("kind", Kind::choice, "what is compared", true);
   for (const KindRule& r : kinds()) kind.choices.push_back(r.name);
   t.custom(
-      kind, [c = kind.choices](const Place& p, C& x) { x.kind = kinds()[schema::readChoice(p, c)].kind; }, unwritten);
+      kind, [c = kind.choices](const Entry& p, C& x) { x.kind = kinds()[schema::readChoice(p, c)].kind; }, unwritten);
   t.text("quantity", &C::quantity, "what is measured, in words").required();
   t.text("unit", &C::unit, "unit of the number");
   t.text("note", &C::note, "said on the page beside the result");
@@ -243,9 +243,9 @@ schema::Object checkTable() {
   t.object("over", &C::over, quantityTable(), "divides it");
   const schema::Range tolerance = schema::above(0);
   optionalNumber(t, "period", &C::period, "the difference is taken to the nearest whole number of these", tolerance);
-  t.choice("course", &C::course, courses(), "what is taken of the histories");
-  t.object("first", &C::first, historyTable(), "a course in time");
-  t.object("second", &C::second, historyTable(), "another");
+  t.choice("course", &C::course, courses(), "what is taken of the courses");
+  t.object("first", &C::first, courseTable(), "a course in time");
+  t.object("second", &C::second, courseTable(), "another");
   t.number("shift", &C::shift_s, "s", schema::any(), "`second` is taken this much later");
   t.number("from", &C::from_s, "s", schema::any(), "first time");
   t.number("to", &C::to_s, "s", schema::any(), "last time");
@@ -257,7 +257,7 @@ schema::Object checkTable() {
   t.text("run", &C::run, "the run that is gated");
   t.custom(
       field("also", Kind::text_list, "other runs that are reported: coarser meshes"),
-      [](const Place& p, C& c) { c.also = readTexts(p); }, unwritten);
+      [](const Entry& p, C& c) { c.also = readTexts(p); }, unwritten);
   tableName(t, &C::file, "table of the run");
   t.object("x", &C::x, pairTable(), "abscissa; of a table check: where the rows are compared");
   t.object("y", &C::y, pairTable(), "ordinate; of a table check: what is compared");
@@ -266,13 +266,13 @@ schema::Object checkTable() {
   t.object("reported", &C::reported, reportedTable("Rows that are not gated", "column of the reference's table"),
            "rows that are shown and not gated");
   t.custom(
-      field("runs", Kind::text_list, "runs from coarse to fine"), [](const Place& p, C& c) { c.runs = readTexts(p); },
+      field("runs", Kind::text_list, "runs from coarse to fine"), [](const Entry& p, C& c) { c.runs = readTexts(p); },
       unwritten);
   t.custom(
       field("reference_runs", Kind::text_list, "runs whose median is the reference"),
-      [](const Place& p, C& c) { c.reference_runs = readTexts(p); }, unwritten);
+      [](const Entry& p, C& c) { c.reference_runs = readTexts(p); }, unwritten);
   t.custom(
-      field("sizes", Kind::list, "their mesh sizes or steps"), [](const Place& p, C& c) { c.sizes = readNumbers(p); },
+      field("sizes", Kind::list, "their mesh sizes or steps"), [](const Entry& p, C& c) { c.sizes = readNumbers(p); },
       unwritten);
   optionalNumber(t, "exact", &C::exact, "the limit; absent: from the last three runs");
   t.number("power", &C::power, "", tolerance, "of the error: 0.5 where the number is an energy and its norm is meant");
@@ -287,7 +287,7 @@ schema::Object checkTable() {
                                                            {"angle", C::Measure::angle}},
            "of wrinkles");
   t.number("margin", &C::margin, "", schema::between(0, 0.45), "part of the sheet's extents left out at both ends");
-  t.check([](const Place& p, const C& c) {
+  t.check([](const Entry& p, const C& c) {
     const auto rule = std::find_if(kinds().begin(), kinds().end(), [&](const KindRule& r) { return r.kind == c.kind; });
     for (const std::string& key : rule->needs)
       if (!p.node.find(key)) p.fail(fmt::format("a check of kind {} needs {}", rule->name, key));
@@ -300,8 +300,8 @@ schema::Object checkTable() {
         p.failAt(n.key, fmt::format("is not for a check of kind {}", rule->name));
     }
     if (c.kind != C::Kind::curve && c.kind != C::Kind::table) checkGoal(p, c);
-    if (c.kind == C::Kind::history) {
-      if (ofOne(c.course) && c.second) p.failAt("second", "this course is of one history");
+    if (c.kind == C::Kind::course) {
+      if (ofOne(c.course) && c.second) p.failAt("second", "this course is of one run alone");
       if (!ofOne(c.course) && !c.second) p.fail("this course needs second");
       if (!(c.to_s > c.from_s)) p.failAt("to", "must be later than from");
     }
@@ -322,7 +322,7 @@ schema::Object checkTable() {
   return t.build();
 }
 
-void readCase(const Place& p, std::filesystem::path& file, JsonNode& inline_case) {
+void readCase(const Entry& p, std::filesystem::path& file, JsonNode& inline_case) {
   if (p.node.type == JsonNode::Type::object)
     inline_case = p.node;
   else
@@ -334,10 +334,10 @@ schema::Object runTable() {
   t.text("name", &Run::name, "name, unique in the reference").required();
   t.custom(
       field("case", Kind::path, "case file, or the case itself; absent: the reference's case"),
-      [](const Place& p, Run& r) { readCase(p, r.file, r.inline_case); }, unwritten);
+      [](const Entry& p, Run& r) { readCase(p, r.file, r.inline_case); }, unwritten);
   t.custom(
       field("set", Kind::object, "values set in the case: {path: value}"),
-      [](const Place& p, Run& r) {
+      [](const Entry& p, Run& r) {
         expect(p, JsonNode::Type::object, "an object {path: value}");
         for (JsonNode n : p.node.children) {
           const std::string key = std::exchange(n.key, {});
@@ -356,68 +356,68 @@ schema::Object numbersTable() {
       .required()
       .custom(
           field("rows", Kind::list, "the rows", true),
-          [](const Place& p, T& t) {
+          [](const Entry& p, T& t) {
             expect(p, JsonNode::Type::list, "a list [ ] of rows");
             for (std::size_t i = 0; i < p.node.children.size(); ++i) t.rows.push_back(readNumbers(p.item(i)));
           },
           unwritten)
-      .check([](const Place& p, const T& t) {
+      .check([](const Entry& p, const T& t) {
         const JsonNode& rows = *p.node.find("rows");
         if (t.rows.empty()) p.failAt("rows", "must not be empty");
         for (std::size_t i = 0; i < t.rows.size(); ++i)
           if (t.rows[i].size() != t.columns.size())
-            Place{rows.children[i], fmt::format("{}.rows[{}]", p.path, i), p.file}.fail(
+            Entry{rows.children[i], fmt::format("{}.rows[{}]", p.path, i), p.file}.fail(
                 fmt::format("{} numbers for {} columns", t.rows[i].size(), t.columns.size()));
       })
       .build();
 }
 
 /// Names of runs and columns that checks refer to must be there.
-void checkNames(const Place& p, const Reference& r) {
+void checkNames(const Entry& p, const Reference& r) {
   std::set<std::string> runs;
   for (std::size_t i = 0; i < r.runs.size(); ++i) {
     const Run& run = r.runs[i];
-    const Place place = p.member(*p.node.find("runs")).item(i);
-    if (!runs.insert(run.name).second) place.failAt("name", fmt::format("\"{}\" is the name of two runs", run.name));
+    const Entry entry = p.member(*p.node.find("runs")).item(i);
+    if (!runs.insert(run.name).second) entry.failAt("name", fmt::format("\"{}\" is the name of two runs", run.name));
     if (run.name.find_first_of("/\\") != std::string::npos || run.name.starts_with('.'))
-      place.failAt("name", "is the name of a folder too: no slashes, no dot at its start");
+      entry.failAt("name", "is the name of a folder too: no slashes, no dot at its start");
     if (run.name.ends_with(".log") || run.name.ends_with(".json"))
-      place.failAt("name", "is the name of a folder beside files of that ending: another one");
+      entry.failAt("name", "is the name of a folder beside files of that ending: another one");
     if (run.file.empty() && run.inline_case.type == JsonNode::Type::null && r.case_file.empty() &&
         r.inline_case.type == JsonNode::Type::null)
-      place.fail("has no case, and the reference has none either");
+      entry.fail("has no case, and the reference has none either");
   }
   for (std::size_t i = 0; i < r.checks.size(); ++i) {
     const Check& c = r.checks[i];
-    const Place place = p.member(*p.node.find("checks")).item(i);
+    const Entry entry = p.member(*p.node.find("checks")).item(i);
     const auto known = [&](const std::string& key, const std::string& run) {
-      if (!runs.contains(run)) place.failAt(key, fmt::format("there is no run \"{}\"", run));
+      if (!runs.contains(run)) entry.failAt(key, fmt::format("there is no run \"{}\"", run));
     };
     const auto column = [&](const std::string& key, const std::string& name) {
       const auto& all = r.table.columns;
       if (std::find(all.begin(), all.end(), name) == all.end())
-        place.failAt(key, fmt::format("there is no column \"{}\" in the reference's table; there are: {}", name,
+        entry.failAt(key, fmt::format("there is no column \"{}\" in the reference's table; there are: {}", name,
                                       schema::joined(all)));
     };
-    if (c.gates() && !c.why.empty()) place.failAt("why", "is for what is reported only, and this check is gated");
+    if (c.gates() && !c.why.empty()) entry.failAt("why", "is for what is reported only, and this check is gated");
     if (!c.gates() && c.why.empty() && r.why.empty())
-      place.fail("is reported only and says nowhere why: give why here, or in the reference for all such checks");
+      entry.fail("is reported only and says nowhere why: give why here, or in the reference for all such checks");
     for (const std::string& run : c.also) known("also", run);
     for (const std::string& run : c.runs) known("runs", run);
     for (const std::string& run : c.reference_runs) known("reference_runs", run);
     if (!c.run.empty()) known("run", c.run);
     const auto quantity = [&](const std::string& key, const Quantity& q) {
-      if (q.runs.empty()) place.failAt(key, "needs run (or runs)");
+      if (q.runs.empty()) entry.failAt(key, "needs run (or runs)");
       for (const std::string& run : q.runs) known(key, run);
     };
     if (c.kind == Check::Kind::value) quantity("of", c.of);
-    if (c.kind == Check::Kind::rate && !c.of.runs.empty()) place.failAt("of", "takes its runs from the check");
+    if (c.kind == Check::Kind::rate && !c.of.runs.empty()) entry.failAt("of", "takes its runs from the check");
     if (c.first) known("first", c.first->run);
     if (c.second) known("second", c.second->run);
     if (c.minus) quantity("minus", *c.minus);
     if (c.over) quantity("over", *c.over);
     if (c.kind == Check::Kind::curve || c.kind == Check::Kind::table) {
-      if (r.table.columns.empty()) place.fail("needs the reference's table");
+      if (r.table.columns.empty()) entry.fail("needs the reference's table");
       column("x", c.x.reference);
       column("y", c.y.reference);
       if (c.reported) column("reported", c.reported->column);
@@ -430,7 +430,7 @@ schema::Object referenceTable() {
   Fields<R> t("Reference");
   t.text("id", &R::id, "name of the file without .json").required();
   t.text("title", &R::title, "what it is, in a line").required();
-  t.text("group", &R::group, "heading that it stands under");
+  t.text("group", &R::heading, "heading that it stands under");
   t.text("source", &R::source, "where the published numbers are from").required();
   t.text("doc", &R::doc, "problem, mesh, what is compared and why the tolerance is what it is").required();
   t.text("why", &R::why, "why checks are reported only that do not say it themselves");
@@ -438,11 +438,11 @@ schema::Object referenceTable() {
   boolean(t, "on_demand", &R::on_demand, "runs only where a filter names it");
   t.custom(
       field("case", Kind::path, "case of the runs: a file, or the case itself"),
-      [](const Place& p, R& r) { readCase(p, r.case_file, r.inline_case); }, unwritten);
+      [](const Entry& p, R& r) { readCase(p, r.case_file, r.inline_case); }, unwritten);
   t.object("table", &R::table, numbersTable(), "the published table");
   t.list("runs", &R::runs, runTable(), "runs").required();
   t.list("checks", &R::checks, checkTable(), "what is compared").required();
-  t.check([](const Place& p, const R& r) {
+  t.check([](const Entry& p, const R& r) {
     if (r.id != std::filesystem::path(p.file).stem().string())
       p.failAt("id", fmt::format("\"{}\" is not the name of the file", r.id));
     if (r.runs.empty()) p.failAt("runs", "must not be empty");

@@ -39,7 +39,7 @@ struct Quantity {
 };
 
 /// A course in time of a run: columns of a table whose first column is the time, joined row by row.
-struct History {
+struct RunCourse {
   enum class Of { sum, mean, largest };
   std::string run, table = "torques.csv";
   std::vector<std::string> columns;
@@ -56,7 +56,7 @@ struct Pair {
 
 /// Compares; what the members mean depends on the kind.
 struct Check {
-  enum class Kind { value, history, curve, table, rate, waves, wrinkles };
+  enum class Kind { value, course, curve, table, rate, waves, wrinkles };
   Kind kind = Kind::value;
   /// Of a list of claims: which one, and how much hangs on it. Only what must hold is gated.
   enum class Priority { none, must, should, nice };
@@ -75,7 +75,7 @@ struct Check {
   std::optional<double> reference, relative, absolute, at_least, at_most;
   std::optional<double> period;  ///< the difference is taken to the nearest whole number of these
 
-  // history: of `first` and `second` at the times of `first` from `from_s` to `to_s`, `second` shift_s later
+  // course: of `first` and `second` at the times of `first` from `from_s` to `to_s`, `second` shift_s later
   enum class Course {
     correlation,    ///< Pearson's
     difference,     ///< RMS of their difference over the peak of `first`
@@ -91,7 +91,7 @@ struct Check {
     greater_share,  ///< part of the times at which first > second
   };
   Course course = Course::peak;
-  std::optional<History> first, second;
+  std::optional<RunCourse> first, second;
   double shift_s = 0, from_s = 0, to_s = 0;
 
   // curve and table
@@ -136,7 +136,7 @@ struct ReferenceTable {
 
 struct Reference {
   std::filesystem::path file;
-  std::string id, title, group, source, doc;
+  std::string id, title, heading, source, doc;
   std::string why;  ///< why checks are reported only that do not say it themselves
   bool quick = false;
   bool on_demand = false;  ///< runs only where a filter names it: it takes an hour

@@ -35,7 +35,7 @@ struct BlockLaw {
   /// since by group, [group][lane] (null: not asked). Only general laws remember.
   const double* committed = nullptr;
   double* trial = nullptr;
-  const long* place = nullptr;
+  const long* history_at = nullptr;
   double* lost = nullptr;
 
   /// Which laws are evaluated.
@@ -63,6 +63,6 @@ BlockLaw blockLaw(const Fabric& fabric);
 BlockLaw withTerms(BlockLaw law, const ForceTerms& terms);
 
 /// The law that reads the history of a state at these places, and writes there what `out` asks for.
-BlockLaw withHistory(BlockLaw law, const long* place, const ClothState& state, const ClothForce& out);
+BlockLaw withHistory(BlockLaw law, const long* history_at, const ClothState& state, const ClothForce& out);
 
 }  // namespace gambeson

@@ -46,8 +46,8 @@ struct NetEdge {
 class ClothTangent {
  public:
   virtual ~ClothTangent() = default;
-  /// Every pair of free points that share an element is in the pattern.
-  virtual const BlockMatrix& pattern() const = 0;
+  /// Every pair of free points that share an element is in the sparsity.
+  virtual const BlockMatrix& sparsity() const = 0;
   /// Writes K = Tᵀ (d2E/dq2) T, symmetric, with the slopes of the laws at this history. The same bits for any number of
   /// threads.
   virtual void assemble(const ClothState& state, ClothWork& work, BlockMatrix& K,

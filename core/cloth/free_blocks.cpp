@@ -43,7 +43,7 @@ std::vector<int> freePointsOf(const FreeMap& map, const std::vector<int>& nodes)
 
 }  // namespace
 
-BlockMatrix blockPattern(const FreeMap& map, const std::vector<std::vector<int>>& elements) {
+BlockMatrix blockSparsity(const FreeMap& map, const std::vector<std::vector<int>>& elements) {
   std::vector<std::vector<int>> rows(static_cast<std::size_t>(map.T.column_count));
   for (int r = 0; r < map.T.column_count; ++r) rows[r].push_back(r);
   for (const std::vector<int>& nodes : elements) {

@@ -11,11 +11,11 @@
 namespace gambeson {
 
 /// K += Tᵀ S T with S = (B + Bᵀ)/2; B is given by 3 x 3 blocks (row by row), blocks[I * n + J] between the control
-/// points columns[I] and columns[J]. Every pair of free points of the element is in the pattern of K.
+/// points columns[I] and columns[J]. Every pair of free points of the element is in the sparsity of K.
 void addSymmetrised(const FreeMap& map, std::span<const int> columns, std::span<const std::array<double, 9>> blocks,
                     BlockMatrix& K);
 
-/// The pattern of elements on these points: every pair of free points that share one.
-BlockMatrix blockPattern(const FreeMap& map, const std::vector<std::vector<int>>& elements);
+/// The sparsity of elements on these points: every pair of free points that share one.
+BlockMatrix blockSparsity(const FreeMap& map, const std::vector<std::vector<int>>& elements);
 
 }  // namespace gambeson

@@ -30,22 +30,22 @@ class JoinedTangent : public ClothTangent {
     int first = 0;
     for (const auto& part : cloth.parts()) {
       parts_.push_back(part->tangent());
-      const BlockMatrix& K = parts_.back()->pattern();
-      const long entries = pattern_.offsets.back();
-      for (int c : K.columns) pattern_.columns.push_back(first + c);
-      for (std::size_t r = 1; r < K.offsets.size(); ++r) pattern_.offsets.push_back(entries + K.offsets[r]);
+      const BlockMatrix& K = parts_.back()->sparsity();
+      const long entries = sparsity_.offsets.back();
+      for (int c : K.columns) sparsity_.columns.push_back(first + c);
+      for (std::size_t r = 1; r < K.offsets.size(); ++r) sparsity_.offsets.push_back(entries + K.offsets[r]);
       first += K.rows();
     }
-    pattern_.values.assign(9 * pattern_.columns.size(), 0.0);
+    sparsity_.values.assign(9 * sparsity_.columns.size(), 0.0);
   }
-  const BlockMatrix& pattern() const override { return pattern_; }
+  const BlockMatrix& sparsity() const override { return sparsity_; }
   void assemble(const ClothState& state, ClothWork& work, BlockMatrix& K, const ForceTerms& terms) const override {
-    if (K.columns.size() != pattern_.columns.size() || K.offsets != pattern_.offsets) K = pattern_;
+    if (K.columns.size() != sparsity_.columns.size() || K.offsets != sparsity_.offsets) K = sparsity_;
     K.values.resize(9 * K.columns.size());
     work.parts.resize(parts_.size());
     std::size_t at = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      BlockMatrix own = parts_[i]->pattern();
+      BlockMatrix own = parts_[i]->sparsity();
       parts_[i]->assemble(cloth_.stateOf(state, i), work.parts[i], own, terms);
       std::copy(own.values.begin(), own.values.end(), K.values.begin() + static_cast<long>(at));
       at += own.values.size();
@@ -55,7 +55,7 @@ class JoinedTangent : public ClothTangent {
  private:
   const JoinedCloth& cloth_;
   std::vector<std::unique_ptr<ClothTangent>> parts_;
-  BlockMatrix pattern_;
+  BlockMatrix sparsity_;
 };
 
 class JoinedStress : public StressView {

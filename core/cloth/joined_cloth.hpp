@@ -70,7 +70,7 @@ class JoinedCloth : public Cloth {
   std::pair<std::size_t, int> partOf(int patch) const;
   int firstPatch(std::size_t part) const { return patch_[part]; }
   int firstPoint(std::size_t part) const { return point_[part]; }
-  /// A part's share of a state.
+  /// What a part has of a state.
   ClothState stateOf(const ClothState& state, std::size_t part) const;
 
  private:

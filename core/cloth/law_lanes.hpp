@@ -30,13 +30,13 @@ struct LaneMemory {
 
   /// `point` counts the block's law points.
   void read(const BlockLaw& law, long point) {
-    const long* at = law.place + point * kLanes;
+    const long* at = law.history_at + point * kLanes;
     for (int l = 0; l < kLanes; ++l)
       for (int i = 0; i < kHistoryDoubles; ++i)
         committed[i][l] = at[l] < 0 || !law.committed ? 0.0 : law.committed[at[l] + i];
   }
   void write(const BlockLaw& law, long point) const {
-    const long* at = law.place + point * kLanes;
+    const long* at = law.history_at + point * kLanes;
     for (int l = 0; l < kLanes; ++l)
       for (int i = 0; i < kHistoryDoubles; ++i)
         if (at[l] >= 0) law.trial[at[l] + i] = trial[i][l];

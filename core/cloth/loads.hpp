@@ -62,7 +62,7 @@ class Loads {
         const std::vector<EdgeMoment>& moments);
   /// Adds the forces on the points to f. `value[k]` is program k's.
   void add(std::span<const Vec3> q, std::span<const double> value, std::span<Vec3> f) const;
-  /// Adds - df/dq, symmetrised, to K on the free points (all pairs of points of a cell are in its pattern).
+  /// Adds - df/dq, symmetrised, to K on the free points (all pairs of points of a cell are in its sparsity).
   /// What is lost: pressure's is symmetric but for a term on the boundary of the pressed surface, which vanishes
   /// where that is held or closed (Schweizerhof and Ramm 1984); an edge moment's is symmetric where the edge keeps its
   /// direction. Elsewhere Newton converges to the same solution, linearly at the end.

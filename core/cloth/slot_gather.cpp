@@ -6,9 +6,9 @@ namespace gambeson {
 void SlotGather::close() {
   offsets_.push_back(0);
   for (const auto& list : lists_) {
-    for (const Share& share : list) {
-      slots_.push_back(share.slot);
-      strides_.push_back(share.stride);
+    for (const Contribution& contribution : list) {
+      slots_.push_back(contribution.slot);
+      strides_.push_back(contribution.stride);
     }
     offsets_.push_back(static_cast<long>(slots_.size()));
   }
@@ -18,7 +18,7 @@ void SlotGather::close() {
 
 void SlotGather::negativeSum(const double* slots, std::span<Vec3> f) const {
   const int points = static_cast<int>(f.size());
-  forAll(Each::row, points, [&](int i) {
+  forAll(Each::sum, points, [&](int i) {
     Vec3 sum{};
     for (long k = offsets_[i]; k < offsets_[i + 1]; ++k) {
       const double* slot = slots + slots_[k];

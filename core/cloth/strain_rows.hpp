@@ -55,7 +55,7 @@ void applyMobility(const Mobility& mobility, std::span<const Vec3> impulse, std:
 /// Strains along the weft and the warp, the physical directions D at rest. With F D = B p, linear in the
 /// free points p, the Green-Lagrange strain is E = (|B p|^2 - 1)/2, its gradient dE/dp_k = b_k F D, and
 ///   (J M^-1 J^T)_ij = F D_i . S_ij F D_j,   S_ij = sum_kl b_ik P_kl b_jl:
-/// the pattern and S are constant. Entries of a row of B sum to 0: no force of a strain moves the whole. Where all
+/// the sparsity and S are constant. Entries of a row of B sum to 0: no force of a strain moves the whole. Where all
 /// points are whole, S_ij is a number times the identity.
 struct StrainRows {
   std::vector<StrainPoint> points;

@@ -131,13 +131,13 @@ SurfaceCharts surfaceCharts(const Surface& s, std::span<const Vec3> rest) {
       bool whole = in[cell].size() == 2;
       for (int triangle : in[cell])
         for (int k = 0; k < 3; ++k) {
-          int place = 0;
-          while (place < 4 && s.patch_grid[p][corner[place]] != s.triangles[triangle][k]) ++place;
-          if (place == 4) {
+          int which = 0;
+          while (which < 4 && s.patch_grid[p][corner[which]] != s.triangles[triangle][k]) ++which;
+          if (which == 4) {
             whole = false;
             continue;
           }
-          out.corners[triangle][k] = {u[i + (place == 1 || place == 2)], v[j + (place >= 2)]};
+          out.corners[triangle][k] = {u[i + (which == 1 || which == 2)], v[j + (which >= 2)]};
         }
       chart.whole.push_back(whole);
       chart.triangles.items.insert(chart.triangles.items.end(), in[cell].begin(), in[cell].end());

@@ -105,12 +105,12 @@ void Bluntness::ask(const ContactMesh& mesh, const ListedMotion& motion, const B
   const std::span<const Vec3> x = motion.x;
   const int edge_count = static_cast<int>(edges_.size()), vertex_count = static_cast<int>(vertices_.size());
   const auto inside = [&](int v) { return overlap(Box{x[v], x[v]}, where); };
-  forAll(Each::row, edge_count, [&](int k) {
+  forAll(Each::sum, edge_count, [&](int k) {
     const auto [a, b] = mesh.edges[edges_[k]];
     way_m_[edges_[k]] = motion.horizon_s * norm(motion.velocity(b) - motion.velocity(a));
   });
   const auto lasts = [&](double room, double way) { return room > kHorizons * way + kLeastRoom_m; };
-  forAll(Each::row, edge_count, [&](int k) {
+  forAll(Each::sum, edge_count, [&](int k) {
     const int e = edges_[k];
     edge_room_m_[e] = kNever;
     features_.edge[e] = 0;
@@ -123,7 +123,7 @@ void Bluntness::ask(const ContactMesh& mesh, const ListedMotion& motion, const B
     edge_room_m_[e] = room;
     features_.edge[e] = 1;
   });
-  forAll(Each::row, vertex_count, [&](int k) {
+  forAll(Each::sum, vertex_count, [&](int k) {
     const int v = vertices_[k];
     corner_room_m_[v] = kNever;
     features_.vertex[v] = 0;

@@ -9,9 +9,9 @@ namespace {
 
 /// These were found by trial on the drape over a sphere (tests/bench/README.md). They decide what a step costs, never
 /// what it finds.
-constexpr int kWindow = 4;       ///< steps, about as many as a list serves
+constexpr int kProbe = 4;        ///< steps, about as many as a list serves
 constexpr double kMemory = 16;   ///< steps of which corrections and strays are means
-constexpr double kStrays = 3;    ///< ways off the path, in units of what is usual at the end of a window
+constexpr double kStrays = 3;    ///< ways off the path, in units of what is usual at the end of a probe
 constexpr double kHorizon = 10;  ///< steps like the one that a list is made for
 constexpr double kLeastSlack_m = 1e-4, kLeastSlack = 0.04;  ///< and of the margin: some vertex does what it never did
 constexpr double kBodySlack_m = 4e-5;                       ///< for bodies, whose motions are smooth
@@ -47,20 +47,20 @@ void CandidateList::learn(double passed_s, double now_s, std::span<const Vec3> x
   const double share = 1 / std::min(kMemory, static_cast<double>(++steps_));
   each(told_.size(),
        [&](int i) { correction_[i] += share * ((x[i] - x0_[i]) / passed_s - told_[i] - correction_[i]); });
-  if (window_steps_ < 0 || ++window_steps_ < kWindow) return;
-  const double t = now_s - window_s_, window_share = std::max(kWindow / kMemory, 1.0 / ++windows_);
+  if (probe_steps_ < 0 || ++probe_steps_ < kProbe) return;
+  const double t = now_s - probe_s_, probe_share = std::max(kProbe / kMemory, 1.0 / ++probes_);
   each(x.size(), [&](int i) {
-    strays2_[i] += window_share * (norm2(x[i] - window_at_[i] - t * window_velocity_[i]) - strays2_[i]);
+    strays2_[i] += probe_share * (norm2(x[i] - probe_at_[i] - t * probe_velocity_[i]) - strays2_[i]);
   });
-  window_steps_ = -1;
+  probe_steps_ = -1;
 }
 
 void CandidateList::begin(double start_s, double end_s, std::span<const Vec3> x0) {
   if (x0_.size() != x0.size()) {
     correction_.assign(x0.size(), {});
     strays2_.assign(x0.size(), 0.0);
-    steps_ = windows_ = 0;
-    window_steps_ = -1;
+    steps_ = probes_ = 0;
+    probe_steps_ = -1;
   } else if (start_s > start_s_) {
     learn(start_s - start_s_, start_s, x0);
   }
@@ -80,11 +80,11 @@ void CandidateList::expect(std::span<const Vec3> x1) {
     told_[i] = (x1[i] - x0_[i]) / dt;
     expected_[i] = told_[i] + correction_[i];
   });
-  if (window_steps_ >= 0) return;
-  window_at_ = x0_;
-  window_velocity_ = expected_;
-  window_s_ = start_s_;
-  window_steps_ = 0;
+  if (probe_steps_ >= 0) return;
+  probe_at_ = x0_;
+  probe_velocity_ = expected_;
+  probe_s_ = start_s_;
+  probe_steps_ = 0;
 }
 
 void CandidateList::leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const {

@@ -56,14 +56,14 @@ class CandidateList {
   CandidatePairs pairs_;
   std::vector<Vec3> x0_;  ///< of this step
   double start_s_ = 0, end_s_ = 0;
-  // How the vertices move. Now and then a window of some steps is opened, to see how far off their paths they are then.
+  // How the vertices move. Now and then a probe of some steps is opened, to see how far off their paths they are then.
   std::vector<Vec3> told_, expected_;  ///< velocity of this step as it was told of first [m/s], and put right
   std::vector<Vec3> correction_;       ///< what the velocities of the last steps differed from `told_` by, in the mean
-  std::vector<double> strays2_;        ///< mean square of the distance from the path at the end of a window [m^2]
-  std::vector<Vec3> window_at_, window_velocity_;
-  double window_s_ = 0;
-  int steps_ = 0, windows_ = 0;  ///< that have taught
-  int window_steps_ = -1;        ///< so far; -1: none is open
+  std::vector<double> strays2_;        ///< mean square of the distance from the path at the end of a probe [m^2]
+  std::vector<Vec3> probe_at_, probe_velocity_;
+  double probe_s_ = 0;
+  int steps_ = 0, probes_ = 0;  ///< that have taught
+  int probe_steps_ = -1;        ///< so far; -1: none is open
   // What the list was made for.
   std::vector<Vec3> listed_at_, listed_velocity_;
   std::vector<double> slack_m_;

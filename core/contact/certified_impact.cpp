@@ -35,7 +35,7 @@ struct Direction {
   bool valid = false;
 };
 
-/// Nearest point of a segment r0 r1 to the origin: r0 + s (r1 - r0), made orthogonal to the segment anew, as the
+/// Nearest point of a line segment r0 r1 to the origin: r0 + s (r1 - r0), made orthogonal to the segment anew, as the
 /// difference of long vectors leaves a direction that is not.
 struct SegmentFoot {
   double s, length2;

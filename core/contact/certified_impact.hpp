@@ -66,7 +66,7 @@ constexpr double kImpactTolerance_m = 1e-9;
 /// edge-edge). Triangles that share corners touch there at all times; what else they can do is seen by those of the
 /// same queries that have four different vertices:
 /// - one common corner o, triangles oab and ocd: the common part of two convex sets is convex and holds o, so a
-///   second common point means a whole segment from o, which leaves one of the triangles through the edge opposite
+///   second common point means a whole line segment from o, which leaves one of the triangles through the edge opposite
 ///   o: the edge ab touches ocd, or cd touches oab. First contact of these is point-triangle (a, b; ocd), (c, d; oab)
 ///   or edge-edge (ab; cd), (ab; oc), (ab; od), (cd; oa), (cd; ob): all with four different vertices, complete.
 /// - a common edge ab, triangles abc and abd: they touch elsewhere where the dihedral angle closes. Then both lie in

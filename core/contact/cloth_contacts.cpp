@@ -135,7 +135,7 @@ class Search {
   }
 
   bool neighbours(int v, int w, const Vec3& apart_at_rest, double layer) const {
-    return facts_.layer[v] == facts_.layer[w] && norm(apart_at_rest) < neighbourDistance(layer);
+    return facts_.garment[v] == facts_.garment[w] && norm(apart_at_rest) < neighbourDistance(layer);
   }
 
   /// No triangle at the foot's edge or corner is nearer, and this one is the first of them.
@@ -201,10 +201,10 @@ void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const Candi
                    std::span<const Vec3> x0, std::span<const Vec3> x1, std::vector<ClothContactPoint>& out) {
   out.clear();
   const Search search(mesh, facts, x0, x1);
-  appendInOrder(static_cast<int>(pairs.points.size()), Each::row, out, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(pairs.points.size()), Each::sum, out, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k) search.sampleOn(pairs.points[k], list);
   });
-  appendInOrder(static_cast<int>(pairs.edges.size()), Each::row, out, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(pairs.edges.size()), Each::sum, out, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k) search.edgeOn(pairs.edges[k], list);
   });
   const auto key = [](const ClothContactPoint& p) {

@@ -14,7 +14,7 @@ namespace gambeson {
 struct ClothFacts {
   int cloth_vertices = 0;
   std::vector<Vec3> rest;           ///< positions of the samples at rest
-  std::vector<int> layer;           ///< of each sample: the garment it belongs to
+  std::vector<int> garment;         ///< of each sample: the garment it belongs to
   std::vector<double> thickness_m;  ///< of each sample
 };
 
@@ -27,7 +27,7 @@ struct ClothContactPoint {
 };
 
 /// Distance within which contacts between cloth of this thickness are kept, and the distance at rest within which
-/// points of one layer are neighbours.
+/// points of one garment are neighbours.
 constexpr double contactReach(double layer_m) { return 1.1 * layer_m; }
 /// The most that the cloth between the samples asks for as distance of these from a body.
 constexpr double kLargestClearance_m = 2.5e-3;
@@ -45,7 +45,7 @@ inline bool comesWithin(double reach, const Vec3& from, const Vec3& way) {
 /// is nearer, and once for the feature; on a border only if nothing beside the sample is nearer to them, either. Edges
 /// against edges count only inside both and where both are sharp, that is where the faces of each bend away from the
 /// other by more than 3 degrees: flat cloth on flat cloth is carried by its samples alone, since all its edges are
-/// equally near. Neighbours along one layer are no contact: samples less than twice the layer from the foot, both at
+/// equally near. Neighbours along one garment are no contact: samples less than twice the layer from the foot, both at
 /// rest (a fold of the least radius, half the layer, joins points that are pi/2 layers apart). Sorted by kind, then
 /// sample, then feature. `pairs` hold all that come as near as this.
 void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const CandidatePairs& pairs,

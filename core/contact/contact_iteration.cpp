@@ -44,7 +44,7 @@ GAMBESON_WIDE void gatherImpulses(ContactWork& w, int begin, int end) {
     for (int k = w.of_sample.offsets[s]; k < w.of_sample.offsets[s + 1]; ++k) {
       const int row = w.of_sample.columns[k];
       const double weight = w.of_sample.values[k], size = std::abs(weight);
-      sum += w.share[row] * (V4{weight, weight, weight, size} * quad(w.point[row]));
+      sum += w.row_area[row] * (V4{weight, weight, weight, size} * quad(w.point[row]));
     }
     quad(w.impulse[s]) = sum;
   }
@@ -103,7 +103,7 @@ GAMBESON_WIDE void projectRows(ContactWork& w, bool exact, int begin, int end, d
                                double& against_out) {
   double largest2 = 0, against = 0;
   for (int k = begin; k < end; ++k) {
-    if (w.share[k] == 0) continue;  // stays zero
+    if (w.row_area[k] == 0) continue;  // stays zero
     V4 v;
     relative(w, k, v);
     const ContactWork::Row& facts = w.facts[k];
@@ -122,7 +122,7 @@ GAMBESON_WIDE void projectRows(ContactWork& w, bool exact, int begin, int end, d
     largest2 = std::max(largest2, norm2(way) * (inverse * inverse));
     if (exact) continue;
     const double* before = w.previous[k].lane;
-    against -= w.share[k] * inverse * dot(way, next - Vec3{before[0], before[1], before[2]});
+    against -= w.row_area[k] * inverse * dot(way, next - Vec3{before[0], before[1], before[2]});
     w.candidate[k] = {{next.x, next.y, next.z, at[3] > 0 || !(next == Vec3{}) ? 1.0 : 0.0}};
   }
   largest2_out = largest2;

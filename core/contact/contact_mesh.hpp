@@ -13,6 +13,10 @@ struct Lists {
   std::vector<int> items;
 
   int size() const { return static_cast<int>(first.size()) - 1; }
+  void add(std::span<const int> list) {
+    items.insert(items.end(), list.begin(), list.end());
+    first.push_back(static_cast<int>(items.size()));
+  }
   std::span<const int> operator[](int i) const {
     return {items.data() + first[i], static_cast<std::size_t>(first[i + 1] - first[i])};
   }

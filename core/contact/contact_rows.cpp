@@ -199,7 +199,7 @@ void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<
   const int n = static_cast<int>(w.order.size()), samples = static_cast<int>(w.samples.size()),
             free_count = static_cast<int>(w.free_points.size());
   w.facts.resize(n);
-  w.share.resize(n);
+  w.row_area.resize(n);
   w.traction.resize(n);
   for (auto* rows_of : {&w.point, &w.candidate, &w.previous}) rows_of->resize(n);
   w.impulse.resize(samples);
@@ -210,7 +210,7 @@ void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<
   w.inverse_mass.resize(free_count);
   for (int k = 0; k < n; ++k) {
     const ContactRow& row = rows[w.order[k]];
-    w.share[k] = w.area_of[w.order[k]];
+    w.row_area[k] = w.area_of[w.order[k]];
     const double slope = slopeOf(row, density);
     w.facts[k] = {row.contact.normal, driftOf(row), row.slippery ? 0 : friction, row.compliance, slope, slope};
   }
@@ -227,16 +227,16 @@ void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, Co
   const int n = static_cast<int>(w.order.size()), free_count = static_cast<int>(w.free_points.size());
   for (int at = 0; at < n; ++at) w.traction[at] = warm[w.order[at]];
   // Bodies, then both sides of the cloth.
-  for (int group = 0; group < 3; ++group) {
+  for (int family = 0; family < 3; ++family) {
     const auto smoothed = [&](int at) {
       const ContactRow& row = rows[w.order[at]];
       if (warm[w.order[at]] == Vec3{}) return false;
-      if (group == 0) return row.contact.onBody() && row.stencil.count == 1;
-      return row.contact.kind == ContactKind::sample_on_cloth && (dot(row.contact.normal, side) > 0) == (group == 1);
+      if (family == 0) return row.contact.onBody() && row.stencil.count == 1;
+      return row.contact.kind == ContactKind::sample_on_cloth && (dot(row.contact.normal, side) > 0) == (family == 1);
     };
     const auto part = [&](int at) {
       const Vec3& t = warm[w.order[at]];
-      return group == 0 ? t : Vec3{dot(t, rows[w.order[at]].contact.normal), 0, 0};
+      return family == 0 ? t : Vec3{dot(t, rows[w.order[at]].contact.normal), 0, 0};
     };
     const auto sampleOf = [&](int at) { return w.sample_slot[rows[w.order[at]].contact.sample]; };
     bool any = false;
@@ -245,8 +245,8 @@ void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, Co
     for (int at = 0; at < n; ++at) {
       if (!smoothed(at)) continue;
       any = true;
-      w.weight[sampleOf(at)] += w.share[at];
-      w.sample_impulse[sampleOf(at)] += w.share[at] * part(at);
+      w.weight[sampleOf(at)] += w.row_area[at];
+      w.sample_impulse[sampleOf(at)] += w.row_area[at] * part(at);
     }
     if (!any) continue;
     for (int f = 0; f < free_count; ++f) {
@@ -264,7 +264,7 @@ void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, Co
       for (int k = w.rows.offsets[sampleOf(at)]; k < w.rows.offsets[sampleOf(at) + 1]; ++k)
         smooth += w.rows.values[k] * w.free_velocity[w.rows.columns[k]];
       const Vec3 change = kMix * (smooth - part(at));
-      w.traction[at] += group == 0 ? change : change.x * rows[w.order[at]].contact.normal;
+      w.traction[at] += family == 0 ? change : change.x * rows[w.order[at]].contact.normal;
     }
   }
 }

@@ -10,7 +10,7 @@
 
 namespace gambeson {
 namespace {
-constexpr int kGroup = 1024;    ///< nodes
+constexpr int kChunk = 1024;    ///< nodes
 constexpr int kHullCells = 16;  ///< hulls of so few cells are looked at cell by cell
 }  // namespace
 
@@ -40,26 +40,28 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
     for (int t = range.first; t < range.end; ++t)
       for (int v : mesh.triangles[t]) first_obstacle_vertex_ = std::min(first_obstacle_vertex_, v);
   boxes_.resize(nodes_.size());
-  findGroups();
+  findChunks();
 }
 
-void ContactTree::setShares(std::span<const float> share_m) {
-  tile_share_m_.clear();
-  node_share_m_.clear();
-  const std::span<const float> cloth = share_m.first(std::min<std::size_t>(share_m.size(), first_obstacle_vertex_));
+void ContactTree::setHalfReaches(std::span<const float> half_reach_m) {
+  tile_half_reach_m_.clear();
+  node_half_reach_m_.clear();
+  const std::span<const float> cloth =
+      half_reach_m.first(std::min<std::size_t>(half_reach_m.size(), first_obstacle_vertex_));
   const bool obstacles = roots_.size() > charts_.size();
   if (!obstacles && std::all_of(cloth.begin(), cloth.end(), [&](float s) { return s == cloth[0]; })) return;
-  tile_share_m_.assign(tiles_.size(), -1);
-  node_share_m_.assign(nodes_.size(), -1);
+  tile_half_reach_m_.assign(tiles_.size(), -1);
+  node_half_reach_m_.assign(nodes_.size(), -1);
   for (std::size_t k = 0; k < tiles_.size(); ++k)
     for (int v : tiles_[k].vertex)
-      if (v < first_obstacle_vertex_) tile_share_m_[k] = std::max(tile_share_m_[k], share_m[v]);
+      if (v < first_obstacle_vertex_) tile_half_reach_m_[k] = std::max(tile_half_reach_m_[k], half_reach_m[v]);
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& n = nodes_[i];
     if (n.left >= 0)
-      node_share_m_[i] = std::max(node_share_m_[n.left], node_share_m_[n.right]);
+      node_half_reach_m_[i] = std::max(node_half_reach_m_[n.left], node_half_reach_m_[n.right]);
     else
-      for (int k = n.first; k < n.first + n.count; ++k) node_share_m_[i] = std::max(node_share_m_[i], tile_share_m_[k]);
+      for (int k = n.first; k < n.first + n.count; ++k)
+        node_half_reach_m_[i] = std::max(node_half_reach_m_[i], tile_half_reach_m_[k]);
   }
 }
 
@@ -90,16 +92,16 @@ void ContactTree::findApart(std::span<const ChartCorners> corners) {
 }
 
 /// A node's descendants follow it without a gap.
-void ContactTree::findGroups() {
+void ContactTree::findChunks() {
   std::vector<int> end(nodes_.size());
   for (std::size_t i = nodes_.size(); i-- > 0;)
     end[i] = nodes_[i].left < 0 ? static_cast<int>(i) + 1 : end[nodes_[i].right];
   for (int i = 0; i < static_cast<int>(nodes_.size());) {
-    if (end[i] - i > kGroup) {
+    if (end[i] - i > kChunk) {
       above_.push_back(i++);
       continue;
     }
-    groups_.push_back({i, end[i]});
+    chunks_.push_back({i, end[i]});
     i = end[i];
   }
 }
@@ -252,11 +254,11 @@ float ContactTree::shapeError(const MovingPoint& p) {
 void ContactTree::refit(const ContactMesh& mesh, const ListedMotion& motion) {
   const bool obstacles_changed = placePoints(motion);
   gradients_.resize(inverse_.size());
-  const int triangles = static_cast<int>(inverse_.size()), groups = static_cast<int>(groups_.size());
+  const int triangles = static_cast<int>(inverse_.size()), chunks = static_cast<int>(chunks_.size());
   forAll(Each::value, triangles, [&](int t) { gradients_[t] = gradient(mesh, t, motion); });
   const int end = static_cast<int>(obstacles_changed ? nodes_.size() : parts_.size());
-  forAllUneven(Each::much, groups, [&](int g) {
-    for (int i = std::min(groups_[g][1], end); i-- > groups_[g][0];) refitNode(i, motion);
+  forAllUneven(Each::much, chunks, [&](int g) {
+    for (int i = std::min(chunks_[g][1], end); i-- > chunks_[g][0];) refitNode(i, motion);
   });
   for (std::size_t k = above_.size(); k-- > 0;)
     if (above_[k] < end) refitNode(above_[k], motion);

@@ -62,13 +62,13 @@ class ContactTree {
               std::span<const TriangleRange> obstacles, std::span<const Vec3> x);
 
   /// Thin cloth has a margin of its own: two primitives of cloth matter only within the sum of their vertices' largest
-  /// shares, one of cloth and one of an obstacle within twice the former's or PairRules::obstacle_margin_m, and never
-  /// beyond PairRules::margin_m.
-  /// `share_m` of each vertex; of obstacles they do not count.
-  void setShares(std::span<const float> share_m);
+  /// half reaches, one of cloth and one of an obstacle within twice the former's or PairRules::obstacle_margin_m, and
+  /// never beyond PairRules::margin_m. `half_reach_m` of each vertex; of obstacles they do not count.
+  void setHalfReaches(std::span<const float> half_reach_m);
   /// The margin between two tiles.
   double marginOf(const PairRules& rules, int tile_a, int tile_b) const {
-    return tile_share_m_.empty() ? rules.margin_m : shared(rules, tile_share_m_[tile_a], tile_share_m_[tile_b]);
+    return tile_half_reach_m_.empty() ? rules.margin_m
+                                      : marginBetween(rules, tile_half_reach_m_[tile_a], tile_half_reach_m_[tile_b]);
   }
 
   /// Boxes and certificates of a motion, good for as long as all vertices do what it says.
@@ -256,7 +256,7 @@ class ContactTree {
   bool placePoints(const ListedMotion& motion);
   void placePoint(const ListedMotion& motion, int vertex);
   static float shapeError(const MovingPoint& p);
-  void findGroups();
+  void findChunks();
   void findLeaves(int triangles);
   void findApart(std::span<const ChartCorners> corners);
   void refitNode(int i, const ListedMotion& motion);
@@ -272,15 +272,16 @@ class ContactTree {
     return std::sqrt(TileShape::dot(s, s) + TileShape::dot(t, t));
   }
   bool hullCertifies(int ia, int ib, double least) const;
-  static double shared(const PairRules& rules, float a, float b) {
+  static double marginBetween(const PairRules& rules, float a, float b) {
     const bool obstacle = a < 0 || b < 0;
     const double sum = obstacle ? std::max(2.0 * std::max(a, b), rules.obstacle_margin_m) : static_cast<double>(a) + b;
     return std::clamp(sum, rules.blunt_margin_m, rules.margin_m);
   }
   /// The margin between two nodes, rounded up. `widest` is PairRules::margin_m, rounded up too.
   float reachOf(const PairRules& rules, float widest, int ia, int ib) const {
-    return node_share_m_.empty() ? widest
-                                 : 1.000001f * static_cast<float>(shared(rules, node_share_m_[ia], node_share_m_[ib]));
+    return node_half_reach_m_.empty()
+               ? widest
+               : 1.000001f * static_cast<float>(marginBetween(rules, node_half_reach_m_[ia], node_half_reach_m_[ib]));
   }
   bool coveredBetween(int ia, int ib, double margin_m, double least) const;
   /// Two touched leaves come up with the first of them.
@@ -299,13 +300,13 @@ class ContactTree {
   std::vector<MovingBox> boxes_;            ///< of the nodes
   std::vector<Part> parts_;                 ///< of the nodes of cloth, which come first
   std::vector<int> roots_;                  ///< of the charts, then of the obstacles
-  std::vector<std::array<int, 2>> groups_;  ///< nodes [first, end) under one, of a size that a thread takes at once
+  std::vector<std::array<int, 2>> chunks_;  ///< nodes [first, end) under one, of a size that a thread takes at once
   std::vector<int> above_;                  ///< the other nodes, ascending
   std::vector<Tile> tiles_;                 ///< leaf by leaf
   std::vector<int> parent_, leaf_of_;       ///< of the nodes of cloth, and of its triangles
   std::vector<char> touched_;               ///< of the nodes of cloth
   std::vector<int> touched_leaves_;         ///< ascending
-  std::vector<float> node_share_m_, tile_share_m_;  ///< the largest of their vertices; -1: of obstacles
+  std::vector<float> node_half_reach_m_, tile_half_reach_m_;  ///< the largest of their vertices; -1: of obstacles
   std::vector<MovingBox> vertex_boxes_;
   std::vector<MovingPoint> points_;  ///< the vertices
   Vec3 origin_;                      ///< of `points_`

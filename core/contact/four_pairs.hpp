@@ -42,14 +42,14 @@ inline FourCorners gather(std::span<const MovingPoint> points, const std::array<
 namespace four {
 constexpr float kLeast = 1e-30f;  ///< in place of lengths that are 0
 inline Four clamped(const Four& t) { return least(most(t, all(0)), all(1)); }
-/// The vector to p from the nearest point of the segment from a to a + e.
+/// The vector to p from the nearest point of the line segment from a to a + e.
 inline FourVec fromSegment(const FourVec& p, const FourVec& a, const FourVec& e) {
   const FourVec r = p - a;
   return r - clamped(dot(r, e) / most(dot(e, e), all(kLeast))) * e;
 }
 }  // namespace four
 
-/// From the nearest point of the segment between corners 2 and 3 to that of the segment between 0 and 1.
+/// From the nearest point of the line segment between corners 2 and 3 to that of the segment between 0 and 1.
 inline FourVec wayOfEdges(const FourCorners& p) {
   using four::clamped;
   const FourVec u = p[1] - p[0], v = p[3] - p[2], r = p[0] - p[2];

@@ -42,7 +42,7 @@ InsideGrid::InsideGrid(std::span<const std::array<Vec3, 3>> triangles,
           if (!(std::abs(dot(normal, centre - t[0])) > half)) state[index(i, j, k)] = kSurface;
         }
   }
-  cells_.assign(n, Cell::undecided);
+  cells_.assign(n, Cube::undecided);
   struct Index {
     int i, j, k;
   };
@@ -50,9 +50,9 @@ InsideGrid::InsideGrid(std::span<const std::array<Vec3, 3>> triangles,
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
-        if (state[index(i, j, k)] != kFree || cells_[index(i, j, k)] != Cell::undecided) continue;
+        if (state[index(i, j, k)] != kFree || cells_[index(i, j, k)] != Cube::undecided) continue;
         const Vec3 centre = origin_ + (1 / per_cell_) * Vec3{i + 0.5, j + 0.5, k + 0.5};
-        const Cell value = is_inside(centre) ? Cell::inside : Cell::outside;
+        const Cube value = is_inside(centre) ? Cube::inside : Cube::outside;
         cells_[index(i, j, k)] = value;
         front.assign(1, {i, j, k});
         while (!front.empty()) {
@@ -61,7 +61,7 @@ InsideGrid::InsideGrid(std::span<const std::array<Vec3, 3>> triangles,
           const auto reach = [&](int a, int b, int d) {
             if (a < 0 || b < 0 || d < 0 || a >= nx || b >= ny || d >= nz) return;
             const std::size_t m = index(a, b, d);
-            if (state[m] != kFree || cells_[m] != Cell::undecided) return;
+            if (state[m] != kFree || cells_[m] != Cube::undecided) return;
             cells_[m] = value;
             front.push_back({a, b, d});
           };

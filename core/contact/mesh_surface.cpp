@@ -24,7 +24,7 @@ Vec3 unitOrZero(const Vec3& v) {
 void triangleBoxes(std::span<const Vec3> x, std::span<const std::array<int, 3>> triangles, std::vector<Box>& boxes) {
   const int n = static_cast<int>(triangles.size());
   boxes.resize(triangles.size());
-  forAll(Each::row, n, [&](int t) {
+  forAll(Each::sum, n, [&](int t) {
     boxes[t] = {};
     for (int i : triangles[t]) boxes[t].add(x[i]);
   });
@@ -88,8 +88,8 @@ void MeshSurface::place(std::span<const Vec3> vertices) {
   faces_.clear();
   std::vector<EdgeFrame> edges(n_edges);
   std::vector<Face> faces(n_faces);
-  forAll(Each::row, n_edges, [&](int e) { edges[e] = edgeOf(e); });
-  forAll(Each::row, n_faces, [&](int t) {
+  forAll(Each::sum, n_edges, [&](int e) { edges[e] = edgeOf(e); });
+  forAll(Each::sum, n_faces, [&](int t) {
     if (topology_.collapsed(t)) return;
     Face& f = faces[t];
     f.normal = normalOf(t);
@@ -272,7 +272,7 @@ void MeshSurface::touching(const Vec3& p, double radius, std::span<const int> tr
 }
 
 std::optional<MeshPoint> MeshSurface::wayOut(const Vec3& p, double within_m) const {
-  if (!topology_.closed || boxDistance2(tree_.bounds(), p) > 0 || inside_.at(p) == InsideGrid::Cell::outside)
+  if (!topology_.closed || boxDistance2(tree_.bounds(), p) > 0 || inside_.at(p) == InsideGrid::Cube::outside)
     return std::nullopt;
   return nearest(p, within_m);
 }
@@ -283,7 +283,7 @@ void MeshSurface::chooseFeet(const Vec3& p, double radius, bool seen, std::size_
   const auto found = out.begin() + static_cast<std::ptrdiff_t>(begin);
   const bool maybe_deep = topology_.closed && boxDistance2(tree_.bounds(), p) == 0;
   if (found == out.end()) {
-    if (!seen && (!maybe_deep || inside_.at(p) == InsideGrid::Cell::outside)) return;
+    if (!seen && (!maybe_deep || inside_.at(p) == InsideGrid::Cube::outside)) return;
     // Deep inside, or a minimum that the predicates lost to rounding.
     const auto n = nearest(p, maybe_deep ? std::numeric_limits<double>::infinity() : radius);
     if (n && (n->distance_m < 0 || n->distance_m <= radius)) out.push_back(*n);

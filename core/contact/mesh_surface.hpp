@@ -45,7 +45,7 @@ class MeshSurface {
   std::optional<MeshPoint> nearest(const Vec3& p, double radius) const;
 
   /// What a sample at p touches within `radius`: every local minimum of the distance that faces p, so one on flat and
-  /// convex regions and several in concave ones; none at the inner edges of flat or concave regions, because a foot on
+  /// convex parts and several in concave ones; none at the inner edges of flat or concave parts, because a foot on
   /// an edge or vertex counts only if it is the closest point of every triangle there. A point behind the surface gets
   /// its nearest foot only (the way out), in a closed mesh at any depth. Appended to `out`, sorted by feature. (A point
   /// on a sharp edge to within the tolerance sees the faces of both sides.)

@@ -71,7 +71,7 @@ class Primitives {
 
  public:
   Primitives(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
-             std::span<const unsigned char> owned, std::span<const unsigned char> blunt, CandidatePairs::Share& out)
+             std::span<const unsigned char> owned, std::span<const unsigned char> blunt, CandidatePairs::OfThread& out)
       : mesh_(mesh), tree_(tree), motion_(motion), rules_(rules), owned_(owned), blunt_(blunt), out_(out) {}
   /// Looks at the pairs that still wait for a full vector of four.
   void finish() {
@@ -149,7 +149,7 @@ class Primitives {
         }
       return;
     }
-    // Parts of one sheet side by side, then layers.
+    // Parts of one sheet side by side, then sheets over each other.
     double gap = certain(beyond(a, b, TileShape::unit(way)));
     if (gap > far) return;
     gap = std::max(gap, certain(beyond(a, b, facing(b.normal, way))));
@@ -205,7 +205,7 @@ class Primitives {
   const ListedMotion& motion_;
   const PairRules& rules_;
   std::span<const unsigned char> owned_, blunt_;
-  CandidatePairs::Share& out_;
+  CandidatePairs::OfThread& out_;
   Batch<1> points_{tree_, motion_.horizon_s};
   Batch<2> edges_{tree_, motion_.horizon_s};
   const float narrow_reach_ = roundUp(rules_.blunt_margin_m);
@@ -292,26 +292,26 @@ void PairCollector::search(const ContactMesh& mesh, const ContactTree& tree, con
   const std::span<const unsigned char> blunt = out.blunt.empty() ? blunt_ : out.blunt;
   const int count = static_cast<int>(searches.size()), tile_count = static_cast<int>(tree.tiles().size());
   out.found.assign(count, {});
-  if (static_cast<int>(out.shares.size()) < threads) out.shares.resize(threads);
+  if (static_cast<int>(out.of_thread.size()) < threads) out.of_thread.resize(threads);
   const auto begin = [&](int me) {
-    CandidatePairs::Share& share = out.shares[me];
-    share.points.clear();
-    share.edges.clear();
-    share.shapes.resize(tile_count);
-    share.slacks.resize(tile_count);
-    share.shaped.assign(tile_count, 0);
-    return Primitives(mesh, tree, motion, rules, owned_, blunt, share);
+    CandidatePairs::OfThread& mine = out.of_thread[me];
+    mine.points.clear();
+    mine.edges.clear();
+    mine.shapes.resize(tile_count);
+    mine.slacks.resize(tile_count);
+    mine.shaped.assign(tile_count, 0);
+    return Primitives(mesh, tree, motion, rules, owned_, blunt, mine);
   };
   forAllInTeam(threads, count, begin, [&](Primitives& primitives, int me, int k) {
-    const CandidatePairs::Share& share = out.shares[me];
+    const CandidatePairs::OfThread& mine = out.of_thread[me];
     CandidatePairs::Found& found = out.found[k];
-    found.share = me;
-    found.first_point = share.points.size();
-    found.first_edge = share.edges.size();
+    found.thread = me;
+    found.first_point = mine.points.size();
+    found.first_edge = mine.edges.size();
     tree.pairs(rules, searches[k], [&](int i, int j, auto&& covered) { primitives.tiles(i, j, covered); });
     primitives.finish();
-    found.end_point = share.points.size();
-    found.end_edge = share.edges.size();
+    found.end_point = mine.points.size();
+    found.end_edge = mine.edges.size();
   });
   std::size_t points = 0, edges = out.edges.size();
   for (CandidatePairs::Found& f : out.found) {
@@ -324,10 +324,10 @@ void PairCollector::search(const ContactMesh& mesh, const ContactTree& tree, con
   out.edges.resize(edges);
   forAll(threads > 1 ? Each::much : Each::value, count, [&](int k) {
     const CandidatePairs::Found& f = out.found[k];
-    const CandidatePairs::Share& share = out.shares[f.share];
-    std::copy(share.points.begin() + f.first_point, share.points.begin() + f.end_point,
+    const CandidatePairs::OfThread& mine = out.of_thread[f.thread];
+    std::copy(mine.points.begin() + f.first_point, mine.points.begin() + f.end_point,
               out.unsorted.begin() + f.points_at);
-    std::copy(share.edges.begin() + f.first_edge, share.edges.begin() + f.end_edge, out.edges.begin() + f.edges_at);
+    std::copy(mine.edges.begin() + f.first_edge, mine.edges.begin() + f.end_edge, out.edges.begin() + f.edges_at);
   });
 }
 

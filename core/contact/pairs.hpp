@@ -38,7 +38,7 @@ struct CandidatePairs {
   std::vector<PointTriangle> points;  ///< ascending
   std::vector<EdgeEdge> edges;        ///< in an order that does not depend on the number of threads
   /// Scratch of one thread.
-  struct Share {
+  struct OfThread {
     std::vector<PointTriangle> points;
     std::vector<EdgeEdge> edges;
     // Of each tile, where it was asked for.
@@ -48,11 +48,11 @@ struct CandidatePairs {
   };
   /// What a part of the search has found, and where that stands in the end.
   struct Found {
-    int share = 0;
+    int thread = 0;
     std::size_t first_point = 0, end_point = 0, first_edge = 0, end_edge = 0;
     std::size_t points_at = 0, edges_at = 0;
   };
-  std::vector<Share> shares;
+  std::vector<OfThread> of_thread;
   std::vector<Found> found;
   std::vector<PointTriangle> unsorted;
   std::vector<int> first_of_vertex;

@@ -68,7 +68,7 @@ double leftOut(const Problem& p, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
   w.joins.assign(n, 0);
   w.left_out.assign(n, 0);
-  forAll(Each::row, n, [&](int i) {
+  forAll(Each::sum, n, [&](int i) {
     if (w.in[i] || w.area_of[i] == 0) return;
     const ContactRow& row = p.rows[i];
     Vec3 v = -driftOf(row);
@@ -222,7 +222,7 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
     const int i = w.order[k];
     const double* lane = w.candidate[k].lane;
     warm[i] = {lane[0], lane[1], lane[2]};
-    impulses[i] = w.share[k] * warm[i];
+    impulses[i] = w.row_area[k] * warm[i];
     for (int e = w.stencils.offsets[k]; e < w.stencils.offsets[k + 1]; ++e)
       w.sample_impulse[w.stencils.columns[e]] += w.stencils.values[e] * impulses[i];
   }

@@ -116,7 +116,7 @@ struct ContactWork {
   std::vector<int> samples, sample_slot, free_points, free_slot;
   SparseRows rows, columns;        ///< samples x free points and back
   SparseRows stencils, of_sample;  ///< rows x samples and back, with weights
-  std::vector<double> share;       ///< area of each row
+  std::vector<double> row_area;    ///< area of each row
   std::vector<double> weight;      ///< of a sample: area of its warm rows together
   std::vector<Vec3> sample_impulse, free_velocity, traction;
   // The iteration's own arrays, four lanes wide; the rows in the order of of_sample.

@@ -1,5 +1,5 @@
 #pragma once
-/// The nearest points of two segments.
+/// The nearest points of two line segments.
 
 #include <algorithm>
 

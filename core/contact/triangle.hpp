@@ -1,5 +1,5 @@
 #pragma once
-/// One triangle: the closest point with the feature it lies on, and the crossing of a segment.
+/// One triangle: the closest point with the feature it lies on, and the crossing of a line segment.
 
 #include <algorithm>
 #include <array>
@@ -51,8 +51,8 @@ inline TrianglePoint closestOnTriangle(const std::array<Vec3, 3>& corner, const 
   return best;
 }
 
-/// A segment p0 -> p1 against many triangles, watertight: a segment never slips between two triangles that share an
-/// edge or a corner. Corners are projected one by one along the segment (sheared so that it is the third axis); the
+/// A line segment p0 -> p1 against many triangles, watertight: a segment never slips between two triangles that share
+/// an edge or a corner. Corners are projected one by one along the segment (sheared so that it is the third axis); the
 /// edge functions of the projected corners are differences of two products, whose sign rounding cannot turn, and which
 /// are exactly antisymmetric between neighbours. A zero counts as inside for both, so that a hit may be seen twice,
 /// never missed. (After Woop, Benthin and Wald, 2013. Without contraction of multiply-add.)

@@ -34,16 +34,16 @@ double contourLength(const Contour& c) {
   return sum;
 }
 
-int layerOf(const ContactMesh& mesh, const Contour& c, int surface, std::span<const int> layer) {
-  return layer.empty() ? 0 : layer[mesh.triangles[c.segments[0].face[surface]][0]];
+int garmentOf(const ContactMesh& mesh, const Contour& c, int surface, std::span<const int> garment) {
+  return garment.empty() ? 0 : garment[mesh.triangles[c.segments[0].face[surface]][0]];
 }
 
-/// The wrong part between layers: +1 left of the contour, -1 right, 0 where the order does not tell: within one layer,
-/// and on a body, since cloth may lie on a body with either side. The left is in front of the
-/// other surface where -m . n_other > 0: on surface 0 where direction * normal < 0, on surface 1 where it is > 0. Where
-/// the normals of a layer disagree the longer part of the contour decides.
-int wrongByLayer(const ContactMesh& mesh, const Contour& c, int surface, std::span<const int> layer) {
-  const int own = layerOf(mesh, c, surface, layer), other = layerOf(mesh, c, 1 - surface, layer);
+/// The wrong part between garments: +1 left of the contour, -1 right, 0 where the order does not tell: within one
+/// garment, and on a body, since cloth may lie on a body with either side. The left is in front of the other surface
+/// where -m . n_other > 0: on surface 0 where direction * normal < 0, on surface 1 where it is > 0. Where the normals
+/// of a garment disagree the longer part of the contour decides.
+int wrongByGarment(const ContactMesh& mesh, const Contour& c, int surface, std::span<const int> garment) {
+  const int own = garmentOf(mesh, c, surface, garment), other = garmentOf(mesh, c, 1 - surface, garment);
   if (own == other || own < 0) return 0;
   double left_in_front = 0;
   for (std::size_t i = 0; i < c.segments.size(); ++i) {
@@ -55,8 +55,8 @@ int wrongByLayer(const ContactMesh& mesh, const Contour& c, int surface, std::sp
   return own < other ? left : -left;
 }
 
-/// A contour from the rim of one surface to the rim of the other ("mixed"). It divides neither, but the order of layers
-/// says which side of it is wrong, and where it ends inside one surface the other one ends too.
+/// A contour from the rim of one surface to the rim of the other ("mixed"). It divides neither, but the order of
+/// garments says which side of it is wrong, and where it ends inside one surface the other one ends too.
 bool fromRimToOtherRim(const ContactMesh& mesh, const Contour& c) {
   const auto onRim = [&](const ContourPoint& p) { return p.vertex < 0 && mesh.border(p.edge); };
   return !c.cyclic && onRim(c.points.front()) && onRim(c.points.back()) &&
@@ -84,54 +84,54 @@ std::vector<int> connectedPieces(const ContactMesh& mesh) {
   return piece;
 }
 
-/// Contours that bound regions together: closed on the same piece, by the same layer or the same piece of the own
-/// layer or of the bodies. A piece that crosses itself has each contour for itself.
+/// Contours that bound regions together: closed on the same piece, by the same garment or the same piece of the own
+/// garment or of the bodies. A piece that crosses itself has each contour for itself.
 class Bounds {
  public:
   /// The contours outlive it.
-  Bounds(const ContactMesh& mesh, std::span<const Contour> contours, std::span<const int> layer) {
+  Bounds(const ContactMesh& mesh, std::span<const Contour> contours, std::span<const int> garment) {
     if (contours.empty()) return;
     struct Key {
-      int own, other, layer, other_layer, contour;
+      int own, other, garment, other_garment, contour;
       auto operator<=>(const Key&) const = default;
     };
     const std::vector<int> piece = connectedPieces(mesh);
-    std::map<Key, std::vector<ContourPath>> groups;
+    std::map<Key, std::vector<ContourPath>> paths_of;
     std::vector<std::array<Key, 2>> keys(contours.size());
-    place_.resize(contours.size());
+    index_.resize(contours.size());
     for (std::size_t k = 0; k < contours.size(); ++k)
       for (int s = 0; s < 2; ++s) {
         const Contour& c = contours[k];
         const auto pieceOf = [&](int side) { return piece[mesh.triangles[c.segments[0].face[side]][0]]; };
-        const int own = layerOf(mesh, c, s, layer), other = layerOf(mesh, c, 1 - s, layer);
+        const int own = garmentOf(mesh, c, s, garment), other = garmentOf(mesh, c, 1 - s, garment);
         const bool itself = pieceOf(0) == pieceOf(1);
         const Key key{pieceOf(s), own == other || other < 0 ? pieceOf(1 - s) : -1, own, other,
                       itself ? 2 * static_cast<int>(k) + s : -1};
-        auto& group = groups[key];
+        auto& paths = paths_of[key];
         keys[k][s] = key;
-        place_[k][s].which = static_cast<int>(group.size());
-        group.push_back({&c, s});
+        index_[k][s].which = static_cast<int>(paths.size());
+        paths.push_back({&c, s});
       }
     std::map<Key, int> number;
-    for (const auto& [key, group] : groups) {
+    for (const auto& [key, paths] : paths_of) {
       number[key] = static_cast<int>(surfaces_.size());
-      surfaces_.emplace_back(mesh, group);
+      surfaces_.emplace_back(mesh, paths);
     }
     for (std::size_t k = 0; k < contours.size(); ++k)
-      for (int s = 0; s < 2; ++s) place_[k][s].surface = number[keys[k][s]];
+      for (int s = 0; s < 2; ++s) index_[k][s].surface = number[keys[k][s]];
   }
 
-  const CutSurface& surface(std::size_t contour, int side) const { return surfaces_[place_[contour][side].surface]; }
-  int which(std::size_t contour, int side) const { return place_[contour][side].which; }
+  const CutSurface& surface(std::size_t contour, int side) const { return surfaces_[index_[contour][side].surface]; }
+  int which(std::size_t contour, int side) const { return index_[contour][side].which; }
 
   /// Contours share their regions: one flood for all of them.
   void learn(std::size_t contour, int side, const ContourRegion& region) {
-    const int surface = place_[contour][side].surface;
+    const int surface = index_[contour][side].surface;
     for (const auto& [path, sign] : region.beside)
       known_.try_emplace({surface, path, sign}, Known{region.area_m2, region.vertices});
   }
   bool known(std::size_t contour, int side, int sign, Untangling& u) const {
-    const auto it = known_.find({place_[contour][side].surface, which(contour, side), sign});
+    const auto it = known_.find({index_[contour][side].surface, which(contour, side), sign});
     if (it == known_.end()) return false;
     u.closed[side] = true;
     u.wrong_sign[side] = sign;
@@ -141,7 +141,7 @@ class Bounds {
   }
 
  private:
-  struct Place {
+  struct Index {
     int surface = -1, which = -1;
   };
   struct Known {
@@ -150,7 +150,7 @@ class Bounds {
   };
   std::map<std::array<int, 3>, Known> known_;  ///< by surface, contour and sign
   std::vector<CutSurface> surfaces_;
-  std::vector<std::array<Place, 2>> place_;
+  std::vector<std::array<Index, 2>> index_;
 };
 
 }  // namespace
@@ -190,31 +190,31 @@ void checkUntangleLaw(const UntangleLaw& law) {
 }
 
 std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<const Vec3> x,
-                                         std::vector<Contour> contours, std::span<const int> layer,
+                                         std::vector<Contour> contours, std::span<const int> garment,
                                          const UntangleLaw& law) {
   checkUntangleLaw(law);
   FloodWork work;
   work.label.resize(mesh.vertex_count);
   std::vector<Untangling> out(contours.size());
-  Bounds bounds(mesh, contours, layer);
+  Bounds bounds(mesh, contours, garment);
   for (std::size_t k = 0; k < contours.size(); ++k) {
     Untangling& u = out[k];
     const Contour& c = contours[k];
     u.length_m = contourLength(c);
     for (int s = 0; s < 2; ++s) {
-      const int by_layer = wrongByLayer(mesh, c, s, layer);
+      const int by_garment = wrongByGarment(mesh, c, s, garment);
       if (!c.closed[s]) {
-        u.wrong_sign[s] = by_layer != 0 && fromRimToOtherRim(mesh, c) ? by_layer : 0;
+        u.wrong_sign[s] = by_garment != 0 && fromRimToOtherRim(mesh, c) ? by_garment : 0;
         continue;
       }
-      if (by_layer != 0 && bounds.known(k, s, by_layer, u)) continue;
+      if (by_garment != 0 && bounds.known(k, s, by_garment, u)) continue;
       ContourRegion region;
-      if (by_layer == 0) region = floodRegion(mesh, x, CutSurface(mesh, std::array{ContourPath{&c, s}}), 0, 0, work);
-      if (!region.found) region = floodRegion(mesh, x, bounds.surface(k, s), bounds.which(k, s), by_layer, work);
-      u.closed[s] = by_layer != 0 || region.found;
-      u.wrong_sign[s] = by_layer != 0 ? by_layer : region.found ? region.sign : 0;
+      if (by_garment == 0) region = floodRegion(mesh, x, CutSurface(mesh, std::array{ContourPath{&c, s}}), 0, 0, work);
+      if (!region.found) region = floodRegion(mesh, x, bounds.surface(k, s), bounds.which(k, s), by_garment, work);
+      u.closed[s] = by_garment != 0 || region.found;
+      u.wrong_sign[s] = by_garment != 0 ? by_garment : region.found ? region.sign : 0;
       if (!region.found) continue;
-      if (by_layer != 0) bounds.learn(k, s, region);
+      if (by_garment != 0) bounds.learn(k, s, region);
       u.wrong_area_m2[s] = region.area_m2;
       u.wrong_vertices[s] = std::move(region.vertices);
     }
@@ -228,7 +228,7 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
       // Which part of a body has come through is a guess by size, which part of the cloth is inside of it is not.
       if (dot(u.G_side[0], u.G_side[1]) < 0)
         for (int s = 0; s < 2; ++s)
-          if (layerOf(mesh, c, s, layer) >= 0 && layerOf(mesh, c, 1 - s, layer) < 0 && u.wrong_sign[s] != 0)
+          if (garmentOf(mesh, c, s, garment) >= 0 && garmentOf(mesh, c, 1 - s, garment) < 0 && u.wrong_sign[s] != 0)
             u.G = u.G_side[s];
       const double size = norm(u.G);
       if (size > 0) {
@@ -241,9 +241,9 @@ std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<cons
   return out;
 }
 
-std::vector<Untangling> untangle(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const int> layer,
+std::vector<Untangling> untangle(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const int> garment,
                                  std::span<const char> obstacle, const UntangleLaw& law) {
-  return untangleContours(mesh, x, traceContours(mesh, x, findCrossings(mesh, x, obstacle)), layer, law);
+  return untangleContours(mesh, x, traceContours(mesh, x, findCrossings(mesh, x, obstacle)), garment, law);
 }
 
 std::vector<RestoringRow> restoringRows(const ContactMesh& mesh, const Untangling& u) {

@@ -15,7 +15,7 @@ Vec3 lengthGradient(const ContactMesh& mesh, std::span<const Vec3> x, const Cont
 
 /// dA+/dd on one surface [m], A+ the area to the left of the contour (contour_region.hpp). The sum of eq. 4.17
 /// (surface 0) or 4.18 (surface 1) over all segments. A segment stays on the line in which the two planes meet,
-/// whatever edges its ends are on, so its share needs neither these nor a reference point: it sweeps the area
+/// whatever edges its ends are on, so its term needs neither these nor a reference point: it sweeps the area
 ///   l n'.d / (n'.m) on surface 0,   m = r x n the unit vector to the right of the contour's direction r,
 /// where n is the unit normal of surface 0's triangle and n' of surface 1's; n'.m = direction |n x n'|
 /// (times -1 where the carried normal is opposite to n).
@@ -40,8 +40,8 @@ struct Untangling {
   Contour contour;
   double length_m = 0;
   /// Where the contour is closed on surface s and tells a wrong part: its sign (+1: left of the contour), its area and
-  /// its vertices. Otherwise false, 0, 0 and none; but between layers a contour from the rim of one to the rim of the
-  /// other has its sign all the same ("mixed": nested tubes with flush rims). Between layers area and vertices
+  /// its vertices. Otherwise false, 0, 0 and none; but between garments a contour from the rim of one to the rim of the
+  /// other has its sign all the same ("mixed": nested tubes with flush rims). Between garments area and vertices
   /// are missing too where nothing keeps the two sides apart (a cut through a ring, a way around the end of an open
   /// contour). Contours that bound one region together report it each.
   std::array<bool, 2> closed{};
@@ -59,19 +59,19 @@ struct Untangling {
   double speed_mps = 0;
 };
 
-/// The wrong part is, between two layers (`layer`, one number per vertex, equal on each connected piece, or empty), the
-/// part of the lower layer in front of the higher and the part of the higher behind the lower, where the normals
-/// of all triangles point outward, from the low to the high layers; within one layer it is the smaller part. Negative
-/// layers are bodies: the wrong part of the cloth is what is behind their surface, that of the body the smaller one.
-/// (With G = -dA/dd the thesis's rule for one layer reverses the sign of A+ where |A+| > |A-|.)
-/// A contour that does not divide its surface alone (a cut along a tube) is taken with the others between the same two
+/// The wrong part is, between two garments (`garment`, one number per vertex, equal on each connected piece, or empty),
+/// the part of the lower garment in front of the higher and the part of the higher behind the lower, where the normals
+/// of all triangles point outward, from the low to the high numbers; within one garment it is the smaller part.
+/// Negative numbers are bodies: the wrong part of the cloth is what is behind their surface, that of the body the
+/// smaller one. (With G = -dA/dd the thesis's rule for one garment reverses the sign of A+ where |A+| > |A-|.) A
+/// contour that does not divide its surface alone (a cut along a tube) is taken with the others between the same two
 /// pieces; where these do not either, as open.
 std::vector<Untangling> untangleContours(const ContactMesh& mesh, std::span<const Vec3> x,
-                                         std::vector<Contour> contours, std::span<const int> layer,
+                                         std::vector<Contour> contours, std::span<const int> garment,
                                          const UntangleLaw& law);
 
 /// Crossings, contours and what frees them.
-std::vector<Untangling> untangle(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const int> layer = {},
+std::vector<Untangling> untangle(const ContactMesh& mesh, std::span<const Vec3> x, std::span<const int> garment = {},
                                  std::span<const char> obstacle = {}, const UntangleLaw& law = {});
 
 /// One condition on velocities: sum over k of weight[k] v[vertex[k]] . direction >= speed_mps. The weights sum to 0:

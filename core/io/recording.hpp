@@ -1,5 +1,5 @@
 #pragma once
-/// The Recording of a run: closed HDF5 segments, each written whole and renamed into place, so that a killed writer
+/// The recording of a run: closed HDF5 segments, each written whole and renamed into place, so that a killed writer
 /// loses at most the open one; a sidecar (XDMF) that ParaView 5.11 opens, replaced atomically after each segment.
 
 #include <array>

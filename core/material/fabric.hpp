@@ -29,7 +29,7 @@ struct Fabric {
   bool operator==(const Fabric&) const = default;
 
   const Laminate* laminate() const { return std::get_if<Laminate>(&law); }
-  /// [m]; a layered section has the thickness of its plies.
+  /// [m]; a laminate has the thickness of its plies.
   double thickness() const { return laminate() ? laminate()->thickness_m() : thickness_m; }
   /// [kg/m^2]
   double surfaceDensity() const { return density_kg_per_m3 * thickness(); }

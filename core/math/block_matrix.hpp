@@ -16,9 +16,9 @@ struct BlockMatrix {
   AlignedVector<double> values;
 
   int rows() const { return static_cast<int>(offsets.size()) - 1; }
-  /// Index of block (r, c), r <= c, in `columns`; -1 where it is not in the pattern.
+  /// Index of block (r, c), r <= c, in `columns`; -1 where it is not in the sparsity.
   long find(int r, int c) const;
-  /// Adds a block (row by row) at (r, c); for r > c its transpose is added at (c, r). The block is in the pattern.
+  /// Adds a block (row by row) at (r, c); for r > c its transpose is added at (c, r). The block is in the sparsity.
   void add(int r, int c, const std::array<double, 9>& block);
 };
 

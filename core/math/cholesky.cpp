@@ -206,10 +206,10 @@ void multiply(const SymmetricMatrix& a, std::span<const double> x, std::span<dou
   }
 }
 
-SymmetricFactor::SymmetricFactor(const SymmetricMatrix& pattern) : self_(std::make_unique<Implementation>()) {
+SymmetricFactor::SymmetricFactor(const SymmetricMatrix& sparsity) : self_(std::make_unique<Implementation>()) {
   Implementation& s = *self_;
-  s.matrix = pattern;
-  s.matrix.values.resize(pattern.rows.size());
+  s.matrix = sparsity;
+  s.matrix.values.resize(sparsity.rows.size());
   s.common.supernodal = CHOLMOD_SUPERNODAL;
   s.common.final_ll = 1;
   const OneThread one_thread;

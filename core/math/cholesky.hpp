@@ -21,10 +21,10 @@ void multiply(const SymmetricMatrix& a, std::span<const double> x, std::span<dou
 /// singular: a pivot is zero to rounding (below 1e-14 of its diagonal entry).
 enum class Definiteness { positive, indefinite, singular };
 
-/// Analyses the pattern once; `factorise` may be called as often as values change. Not for use by two threads at once.
+/// Analyses the sparsity once; `factorise` may be called as often as values change. Not for use by two threads at once.
 class SymmetricFactor {
  public:
-  explicit SymmetricFactor(const SymmetricMatrix& pattern);
+  explicit SymmetricFactor(const SymmetricMatrix& sparsity);
   ~SymmetricFactor();
   SymmetricFactor(SymmetricFactor&&) noexcept;
   SymmetricFactor& operator=(SymmetricFactor&&) noexcept;

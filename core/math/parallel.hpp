@@ -12,7 +12,7 @@ namespace gambeson {
 /// What one turn of a loop costs, as the number of turns from which on waking threads pays (some 10 us of one thread).
 enum class Each : int {
   value = 4096,  ///< a few operations
-  row = 512,     ///< a sum over a few neighbours, a pair of features
+  sum = 512,     ///< a sum over a few neighbours, a pair of features
   element = 16,  ///< a group of cells or hinges in lanes, a spring of a seam
   much = 2,      ///< a query, a block of vertices
 };

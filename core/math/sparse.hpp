@@ -27,7 +27,7 @@ struct SparseRows {
   /// y = A x, row by row in a fixed order.
   template <class T>
   void multiply(std::span<const T> x, std::span<T> y) const {
-    forAll(Each::row, rows(), [&](int r) {
+    forAll(Each::sum, rows(), [&](int r) {
       T sum{};
       for (int k = offsets[r]; k < offsets[r + 1]; ++k) sum += values[k] * x[columns[k]];
       y[r] = sum;

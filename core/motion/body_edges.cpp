@@ -141,10 +141,10 @@ void bodyEdgeRows(const CollisionModel& m, double dt, std::span<const char> insi
   rows.clear();
   if (m.bodies.empty()) return;
   const Search search(m, dt, inside, w);
-  appendInOrder(static_cast<int>(w.near.points.size()), Each::row, rows, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(w.near.points.size()), Each::sum, rows, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k) search.cornerOn(w.near.points[k], list);
   });
-  appendInOrder(static_cast<int>(w.near.edges.size()), Each::row, rows, [&](int first, int end, auto& list) {
+  appendInOrder(static_cast<int>(w.near.edges.size()), Each::sum, rows, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k) search.edgeOn(w.near.edges[k], list);
   });
   const auto key = [](const ContactRow& r) {

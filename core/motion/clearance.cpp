@@ -71,7 +71,7 @@ void findClearances(const Model& m, StepWork& w) {
   first.assign(m.surface.size() + 1, 0);
   for (const Contact& c : w.near) ++first[c.sample + 1];
   for (int s = 0; s < m.surface.size(); ++s) first[s + 1] += first[s];
-  forAll(Each::row, n, [&](int k) {
+  forAll(Each::sum, n, [&](int k) {
     Contact& c = w.near[k];
     const double layer = m.layer_m[c.sample];
     // Ellipsoids are asked for along the edges of the triangles; diagonals across them take in the way along the body.

@@ -26,18 +26,18 @@ PairRules rulesOf(const CollisionModel& m) {
           body};
 }
 
-/// Within which two primitives have contacts, of their shares (CollisionModel).
+/// Within which two primitives have contacts, of their half reaches (CollisionModel).
 double reachOf(float a, float b) {
   return a < 0 || b < 0 ? std::max(2.0 * std::max(a, b), kBodyReach_m) : static_cast<double>(a) + b;
 }
 
-/// Of each primitive, the largest share of its vertices.
+/// Of each primitive, the largest half reach of its vertices.
 template <class Primitives>
-std::vector<float> largestShares(const Primitives& primitives, std::span<const float> share_m) {
+std::vector<float> largestHalfReaches(const Primitives& primitives, std::span<const float> half_reach_m) {
   std::vector<float> out;
   for (const auto& vertices : primitives) {
     float most = -1;
-    for (int v : vertices) most = std::max(most, share_m[v]);
+    for (int v : vertices) most = std::max(most, half_reach_m[v]);
     out.push_back(most);
   }
   return out;
@@ -116,12 +116,12 @@ ContactRow rowOf(const CollisionModel& m, const CollisionWork& w, const PairHit&
 
 }  // namespace
 
-CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> rest, std::vector<int> layer,
+CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> rest, std::vector<int> garment,
                                std::vector<double> thickness_m, std::span<const Obstacle> obstacles,
                                std::span<const Placement> placement, bool self) {
   CollisionModel m;
   m.self = self;
-  m.cloth = {surface.size(), {rest.begin(), rest.end()}, std::move(layer), std::move(thickness_m)};
+  m.cloth = {surface.size(), {rest.begin(), rest.end()}, std::move(garment), std::move(thickness_m)};
   for (double h : m.cloth.thickness_m) m.largest_thickness_m = std::max(m.largest_thickness_m, h);
   std::vector<std::array<int, 3>> triangles = surface.triangles;
   std::vector<Vec3> x(rest.begin(), rest.end());
@@ -151,21 +151,21 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
   const SurfaceCharts charts = surfaceCharts(surface, rest);
   for (int body : m.body_of_vertex) m.is_body.push_back(body >= 0);
   for (const Obstacle& o : obstacles) m.is_mesh.push_back(std::holds_alternative<TriangleMesh>(o.shape));
-  const bool layered =
-      std::any_of(m.cloth.layer.begin(), m.cloth.layer.end(), [&](int l) { return l != m.cloth.layer[0]; });
-  if (layered || !m.bodies.empty()) {
-    m.layer_of_vertex = m.cloth.layer;
-    m.layer_of_vertex.resize(x.size(), -1);
+  const bool several =
+      std::any_of(m.cloth.garment.begin(), m.cloth.garment.end(), [&](int l) { return l != m.cloth.garment[0]; });
+  if (several || !m.bodies.empty()) {
+    m.garment_of_vertex = m.cloth.garment;
+    m.garment_of_vertex.resize(x.size(), -1);
   }
   m.tree = ContactTree(m.mesh, charts.charts, charts.corners, ranges, x);
   m.least =
       contactReach(m.largest_thickness_m) / std::max(m.tree.apartAtRest(), neighbourDistance(m.largest_thickness_m));
-  m.vertex_share_m.assign(m.mesh.vertex_count, -1);
+  m.vertex_half_reach_m.assign(m.mesh.vertex_count, -1);
   for (std::size_t v = 0; v < m.cloth.thickness_m.size(); ++v)
-    m.vertex_share_m[v] = roundUp(0.5 * contactReach(m.cloth.thickness_m[v]));
-  m.edge_share_m = largestShares(m.mesh.edges, m.vertex_share_m);
-  m.triangle_share_m = largestShares(m.mesh.triangles, m.vertex_share_m);
-  m.tree.setShares(m.vertex_share_m);
+    m.vertex_half_reach_m[v] = roundUp(0.5 * contactReach(m.cloth.thickness_m[v]));
+  m.edge_half_reach_m = largestHalfReaches(m.mesh.edges, m.vertex_half_reach_m);
+  m.triangle_half_reach_m = largestHalfReaches(m.mesh.triangles, m.vertex_half_reach_m);
+  m.tree.setHalfReaches(m.vertex_half_reach_m);
   m.collector = PairCollector(m.mesh, bluntFeatures(m));
   std::vector<char> deforms;
   for (int body : m.body_of_vertex) deforms.push_back(body >= 0 && m.bodies[body].deforms);
@@ -185,7 +185,7 @@ void freeTangles(const CollisionModel& m, std::vector<Contour> contours, double 
   w.tangle.assign(m.mesh.vertex_count, Tangle::kFree);
   if (contours.empty()) return;
   const std::vector<Untangling> found =
-      untangleContours(m.mesh, w.x0, std::move(contours), m.layer_of_vertex, m.untangling);
+      untangleContours(m.mesh, w.x0, std::move(contours), m.garment_of_vertex, m.untangling);
   w.tangle = tangledVertices(m.mesh, found);
   for (const Untangling& u : found)
     for (const RestoringRow& r : restoringRows(m.mesh, u)) {
@@ -306,7 +306,8 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   w.near_points.clear();
   appendInOrder(static_cast<int>(points.size()), Each::value, w.near_points, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
-      if (w.list.apart(points[k]) < reachOf(m.vertex_share_m[points[k].vertex], m.triangle_share_m[points[k].triangle]))
+      if (w.list.apart(points[k]) <
+          reachOf(m.vertex_half_reach_m[points[k].vertex], m.triangle_half_reach_m[points[k].triangle]))
         list.push_back(points[k]);
   });
   for (const PointTriangle& p : w.near_points) {
@@ -321,7 +322,7 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   for (int v = 0; v < m.cloth.cloth_vertices; ++v) w.near_bodies.first[v + 1] += w.near_bodies.first[v];
   appendInOrder(static_cast<int>(edges.size()), Each::value, w.near.edges, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
-      if (w.list.apart(edges[k]) < reachOf(m.edge_share_m[edges[k].a], m.edge_share_m[edges[k].b]))
+      if (w.list.apart(edges[k]) < reachOf(m.edge_half_reach_m[edges[k].a], m.edge_half_reach_m[edges[k].b]))
         list.push_back(edges[k]);
   });
 }

@@ -35,11 +35,11 @@ struct CollisionModel {
   double largest_thickness_m = 0;
   /// Half of contactReach of their thickness, rounded up: primitives of cloth have contacts within the sum of theirs.
   /// Of bodies -1.
-  std::vector<float> vertex_share_m, edge_share_m, triangle_share_m;
+  std::vector<float> vertex_half_reach_m, edge_half_reach_m, triangle_half_reach_m;
   /// Distance over distance at rest from which parts of the cloth have neither contacts nor impacts with each other.
   double least = 1;
   bool self = true;                            ///< cloth meets cloth
-  std::vector<int> layer_of_vertex;            ///< bodies -1; empty where there is one layer and no body
+  std::vector<int> garment_of_vertex;          ///< bodies -1; empty where there is one garment and no body
   std::vector<char> is_body;                   ///< of each vertex
   std::vector<char> is_mesh;                   ///< of each obstacle
   std::vector<int> body_of_obstacle;           ///< -1: no mesh
@@ -48,8 +48,8 @@ struct CollisionModel {
   UntangleLaw untangling;
 };
 
-/// `rest`: positions of the samples at rest; `layer` and `thickness_m` of each sample.
-CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> rest, std::vector<int> layer,
+/// `rest`: positions of the samples at rest; `garment` and `thickness_m` of each sample.
+CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> rest, std::vector<int> garment,
                                std::vector<double> thickness_m, std::span<const Obstacle> obstacles,
                                std::span<const Placement> placement, bool self);
 

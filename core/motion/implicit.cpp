@@ -106,7 +106,7 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
   const Scheme scheme = schemeOf(o);
   if (!(o.step_s > 0)) throw InputError({"", 0, "step_s"}, "must be > 0");
   const std::size_t n = state.y.size();
-  SymmetricMatrix K = system.pattern(), M = K, D = K;
+  SymmetricMatrix K = system.sparsity(), M = K, D = K;
   for (SymmetricMatrix* m : {&K, &M, &D}) m->values.assign(m->rows.size(), 0.0);
   system.mass(o.lumped_mass, M);
   system.damping(state.y, state.time_s, o.lumped_mass, true, D);

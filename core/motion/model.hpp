@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/cloth/cloth.hpp"
+#include "core/contact/impact_zones.hpp"
 #include "core/contact/proximity.hpp"
 #include "core/contact/response.hpp"
-#include "core/contact/zones.hpp"
 #include "core/motion/collisions.hpp"
 #include "core/motion/stage_work.hpp"
 #include "core/motion/stitch.hpp"
@@ -54,7 +54,7 @@ struct Model {
   Bulges bulges;
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
   std::vector<char> held;                              ///< free points that do not move
-  std::vector<int> held_points;           ///< these, ascending; of a structure all that supports take hold of
+  std::vector<int> held_points;           ///< free points that something takes hold of, in whole or in part, ascending
   std::vector<double> density_kg_per_m2;  ///< of the samples
   std::vector<double> cell_m;   ///< of the samples: the shorter side of their cell at rest, through its middle
   std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
@@ -65,8 +65,8 @@ struct Model {
   CollisionModel collisions;
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;
-  /// How far above its sample each spring is anchored, so that the springs of a layer carry it where they were
-  /// attached: -g M / sum k, M the mass of the layer [m].
+  /// How far above its sample each spring is anchored, so that the springs of a garment carry it where they were
+  /// attached: -g M / sum k, M the mass of the garment [m].
   std::vector<Vec3> spring_rise_m;
   std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
   StrainLimit strain_limit;
@@ -179,7 +179,9 @@ struct WorkAudit {
   double dissipated = 0;
 };
 
-enum class StepFailure { none, not_finite, impact };
+/// Why a step was not made. `impact`: pairs would pass through each other; `held`: one of them is of an obstacle and
+/// cloth that is held against it, which no shorter step changes.
+enum class StepFailure { none, not_finite, impact, held };
 
 struct StepReport {
   StepFailure failure = StepFailure::none;
@@ -193,8 +195,8 @@ struct StepReport {
   int cloth_contacts = 0;  ///< those of cloth with cloth
   int impacts = 0;         ///< pairs that would have passed through each other after the first solve
   int impact_rounds = 0;
-  int zones = 0;               ///< rigid impact zones
-  double earliest_impact = 1;  ///< of the step, where it failed for impacts
+  int impact_zones = 0;        ///< rigid impact zones
+  double earliest_impact = 1;  ///< of the step, where it failed for impacts, held or not
   int cuts = 0;                ///< times that the step was cut or halved before it worked
   int pinched = 0;             ///< samples whose impacts were let pass
   int intersections = 0;       ///< contours at the start of the step
@@ -218,8 +220,8 @@ struct PhaseTimes {
 struct StepResult {
   std::vector<ContactRow> rows;  ///< contacts that were solved
   std::vector<Vec3> impulses;    ///< of these, per area of the rows' samples: on the cloth [N s]
-  std::vector<ImpactZone> zones;
-  std::vector<Vec3> zone_change;                 ///< velocity of each free point that zones added, where there are any
+  ImpactZones impact_zones;
+  std::vector<Vec3> impact_zone_change;  ///< velocity of each free point that impact zones added, where there are any
   std::vector<ContactImpulse> contact_impulses;  ///< of bodies on the cloth
   std::vector<Vec3> spring_impulses;             ///< on the cloth, one per spring [N s]
   /// On each of Model::held_points by what holds it, with that point's own weight, contacts and limits [N s].
@@ -248,7 +250,7 @@ struct StepScratch {
   std::vector<PairHit> pair_hits;
   std::vector<char> inside;  ///< samples that are behind a body's surface
   std::vector<ContactRow> restoring, edge_rows, yielding;
-  std::vector<int> stuck;      ///< samples of the pairs that no zone kept apart, where the step failed for impacts
+  std::vector<int> stuck;  ///< samples of the pairs that no impact zone kept apart, where the step failed for impacts
   std::vector<Vec3> unsolved;  ///< velocities before the contacts
 };
 

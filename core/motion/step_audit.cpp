@@ -40,15 +40,15 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
     Vec3 mean{};
     for (int j = 0; j < row.stencil.count; ++j) {
       const int s = row.stencil.sample[j];
-      const Vec3 share = row.stencil.weight[j] * impulse;
+      const Vec3 part = row.stencil.weight[j] * impulse;
       if (body)
         w.contact_impulses.push_back(
-            {s, c.obstacle, c.feature, share, c.normal, w.stage.start.obstacles[c.obstacle] * c.local, c.touched});
-      if (body) report.momentum.obstacles -= share;
+            {s, c.obstacle, c.feature, part, c.normal, w.stage.start.obstacles[c.obstacle] * c.local, c.touched});
+      if (body) report.momentum.obstacles -= part;
       for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
         if (const int point = WT.columns[k]; !m.supports && m.held[point]) {
-          report.momentum.supports -= WT.values[k] * share;
-          w.held_impulses[heldSlot(m, point)] -= WT.values[k] * share;
+          report.momentum.supports -= WT.values[k] * part;
+          w.held_impulses[heldSlot(m, point)] -= WT.values[k] * part;
         }
       mean += (0.5 * row.stencil.weight[j]) *
               (sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, in.a));
@@ -63,17 +63,18 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
     report.work.separation += separation;
     if (!row.slippery) report.work.dissipated += separation - dot(impulse, mean - row.body_velocity);
   }
-  // What zones take from the cloth goes to what they move with.
-  for (const ImpactZone& zone : w.zones) {
+  // What impact zones take from the cloth goes to what they move with.
+  for (int z = 0; z < w.impact_zones.size(); ++z) {
+    const ImpactZone zone = w.impact_zones[z];
     std::vector<std::size_t> held;
     for (int i : zone.points)
       if (takesHold(m, i)) held.push_back(heldSlot(m, i));
     for (int i : zone.points) {
       if (takesHold(m, i)) continue;
-      const Vec3 impulse = m.mass_kg[i] * w.zone_change[i];
-      report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.zone_change[i]);
+      const Vec3 impulse = m.mass_kg[i] * w.impact_zone_change[i];
+      report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.impact_zone_change[i]);
       report.work.dissipated +=
-          0.5 * dot(impulse, w.zone_change[i]) - (zone.body < 0 ? dot(impulse, w.velocity[i]) : 0);
+          0.5 * dot(impulse, w.impact_zone_change[i]) - (zone.body < 0 ? dot(impulse, w.velocity[i]) : 0);
       report.momentum.scale += norm(impulse);
       if (zone.body >= 0) {
         const Vec3 point = in.p[i];

@@ -1,5 +1,7 @@
 #include "core/motion/step_contact.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -40,7 +42,7 @@ MaterialPoint nearestTouched(const Model& m, const ImpactZone& zone, const Vec3&
 namespace {
 
 constexpr int kRounds = 8;  ///< of solves
-constexpr int kZoneRounds = 12;
+constexpr int kImpactZoneRounds = 12;
 
 /// How far the cloth between the samples stands out from them towards the body: its gap is so much smaller than theirs.
 double standsOut(const Model& m, const ContactRow& row) {
@@ -204,29 +206,39 @@ bool missTooMuch(const Model& m, double part, const StepWork& w) {
   return false;
 }
 
-/// Marks the rows that supports leave no way to move along their normals.
-void markFixed(const Model& m, std::vector<ContactRow>& rows) {
+/// The free points under a contact and their parts in it.
+struct PointWeights {
   std::vector<int> points;
   std::vector<double> weight;
-  for (ContactRow& row : rows) {
-    points.clear();
-    weight.clear();
-    bool bound = false;
-    for (int k = 0; k < row.stencil.count; ++k) {
-      const int s = row.stencil.sample[k];
-      for (int e = m.surface.WT.offsets[s]; e < m.surface.WT.offsets[s + 1]; ++e) {
-        const int i = m.surface.WT.columns[e];
-        bound = bound || m.supports->binds(i);
-        const auto slot = static_cast<std::size_t>(std::find(points.begin(), points.end(), i) - points.begin());
-        if (slot == points.size()) {
-          points.push_back(i);
-          weight.push_back(0);
-        }
-        weight[slot] += row.stencil.weight[k] * m.surface.WT.values[e];
+};
+
+/// How far a contact gives way along its normal for all that holds the cloth: per impulse, in parts of what it would
+/// without. `at`: scratch.
+double givesWay(const Model& m, const ContactRow& row, PointWeights& at) {
+  at.points.clear();
+  at.weight.clear();
+  bool bound = false;
+  for (int k = 0; k < row.stencil.count; ++k) {
+    const int s = row.stencil.sample[k];
+    for (int e = m.surface.WT.offsets[s]; e < m.surface.WT.offsets[s + 1]; ++e) {
+      const int i = m.surface.WT.columns[e];
+      bound = bound || takesHold(m, i);
+      const auto slot = static_cast<std::size_t>(std::find(at.points.begin(), at.points.end(), i) - at.points.begin());
+      if (slot == at.points.size()) {
+        at.points.push_back(i);
+        at.weight.push_back(0);
       }
+      at.weight[slot] += row.stencil.weight[k] * m.surface.WT.values[e];
     }
-    row.fixed = bound && !m.supports->yield(points, weight, row.contact.normal);
   }
+  if (!bound) return 1;
+  if (m.supports && m.supports->couple()) return m.supports->givesWay(at.points, at.weight, row.contact.normal);
+  double whole = 0, left = 0;
+  for (std::size_t a = 0; a < at.points.size(); ++a) {
+    whole += at.weight[a] * at.weight[a] / m.mass_kg[at.points[a]];
+    left += at.weight[a] * at.weight[a] * m.inverse_mass[at.points[a]];
+  }
+  return left / whole;
 }
 
 /// w.velocity after the contacts w.rows, which yield as they did before in this step. `limits`: null, or the strain
@@ -236,7 +248,9 @@ void solveRows(const Model& m, double dt, MotionHold* limits, Yield& yield, Step
   MotionHold* hold = limits;
   if (m.supports && m.supports->couple()) {
     hold = &supported.emplace(*m.supports, limits);
-    markFixed(m, w.rows);
+    constexpr double kNothing = 1e-9;
+    PointWeights scratch;
+    for (ContactRow& row : w.rows) row.fixed = !(givesWay(m, row, scratch) > kNothing);
   }
   const auto solve = [&](std::span<const ContactRow> rows) {
     return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt,
@@ -368,7 +382,8 @@ bool anyImpact(const Model& m, double dt, StepWork& w) {
   return !w.hits.empty() || !w.pair_hits.empty();
 }
 
-/// The rigid motion nearest to that of a body that deforms, around where a zone touches it: of all triangles there.
+/// The rigid motion nearest to that of a body that deforms, around where an impact zone touches it: of all triangles
+/// there.
 RigidVelocity motionAround(const Model& m, const ImpactZone& zone, double dt, const StepWork& w) {
   const CollisionModel& c = m.collisions;
   const int first = c.bodies[c.body_of_obstacle[zone.body]].first_vertex;
@@ -384,20 +399,22 @@ RigidVelocity motionAround(const Model& m, const ImpactZone& zone, double dt, co
   return nearestRigid(around, start, std::vector<double>(start.size(), 1.0), velocity);
 }
 
-/// Moves what still meets in rigid zones, which grow until nothing does. A zone at a body moves with it, a zone with a
-/// held point stays, or goes where supports move that. False where it is no use: pinched between bodies, or never done.
-bool moveZones(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
-  std::vector<ImpactZone> zones;
+/// Moves what still meets in rigid impact zones, which grow until nothing does. An impact zone at a body moves with it,
+/// one with a held point stays, or goes where supports move that. False where it is no use: pinched between bodies, or
+/// never done.
+bool moveImpactZones(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
+  ImpactZones impact_zones;
   std::vector<ContactRow> rows;
-  w.zone_change.assign(m.freeCount(), Vec3{});
+  w.impact_zone_change.assign(m.freeCount(), Vec3{});
   const std::vector<Vec3> solved = w.velocity;
-  for (int round = 0; round < kZoneRounds; ++round) {
+  for (int round = 0; round < kImpactZoneRounds; ++round) {
     rows.clear();
     for (const SampleHit& hit : w.hits) rows.push_back(bodyRow(hit, {}, 0, true));
     for (const PairHit& hit : w.pair_hits) rows.push_back(hit.row);
-    joinZones(rows, m.surface.WT, zones);
+    joinImpactZones(rows, m.surface.WT, impact_zones);
     w.velocity = solved;
-    for (const ImpactZone& zone : zones) {
+    for (int z = 0; z < impact_zones.size(); ++z) {
+      const ImpactZone zone = impact_zones[z];
       if (zone.pinched) return false;
       const auto first_held =
           std::find_if(zone.points.begin(), zone.points.end(), [&](int i) { return m.held[i] != 0; });
@@ -420,11 +437,11 @@ bool moveZones(const Model& m, const State& in, double dt, StepReport& report, S
         makeRigid(zone, in.p, m.mass_kg, w.velocity);
       }
     }
-    report.zones = static_cast<int>(zones.size());
+    report.impact_zones = impact_zones.size();
     if (m.supports) m.supports->drive(in.time_s, in.time_s + dt, w.velocity);
     if (!allFinite(w.velocity) || !anyImpact(m, dt, w)) {
-      w.zones = std::move(zones);
-      for (int i = 0; i < m.freeCount(); ++i) w.zone_change[i] = w.velocity[i] - solved[i];
+      w.impact_zones = std::move(impact_zones);
+      for (int i = 0; i < m.freeCount(); ++i) w.impact_zone_change[i] = w.velocity[i] - solved[i];
       return true;
     }
   }
@@ -482,6 +499,32 @@ void contactImpulses(const Model& m, StepWork& w, std::vector<Vec3>& impulses) {
 
 namespace {
 
+/// What w.hits and w.pair_hits, which nothing keeps apart, say of the step.
+void failForImpacts(const Model& m, StepReport& report, StepWork& w) {
+  report.failure = StepFailure::impact;
+  report.why = fmt::format("{} pairs would still pass through each other{}", w.hits.size() + w.pair_hits.size(),
+                           w.hits.empty() ? "" : ", of the cloth into " + m.obstacles[w.hits[0].obstacle].segment);
+  constexpr double kLittleWay = 1e-2;  // a triangle that is held at two corners and met near these
+  w.stuck.clear();
+  PointWeights scratch;
+  const auto note = [&](const ContactRow& row, double time) {
+    report.earliest_impact = std::min(report.earliest_impact, time);
+    w.stuck.insert(w.stuck.end(), row.stencil.sample.begin(), row.stencil.sample.begin() + row.stencil.count);
+    if (report.failure == StepFailure::held || !row.contact.onBody() || givesWay(m, row, scratch) > kLittleWay) return;
+    Vec3 x{};
+    for (int k = 0; k < row.stencil.count; ++k) x += std::abs(row.stencil.weight[k]) * w.x0[row.stencil.sample[k]];
+    report.failure = StepFailure::held;
+    report.why = fmt::format(
+        "cloth that is held at {} and \"{}\" would pass through each other: what holds the cloth and the obstacle "
+        "contradict each other; let one of them give way, or start or move it elsewhere",
+        positionText(x), m.obstacles[row.contact.obstacle].segment);
+  };
+  for (const SampleHit& hit : w.hits) note(bodyRow(hit, {}, 0, true), hit.time);
+  for (const PairHit& hit : w.pair_hits) note(hit.row, hit.time);
+  std::sort(w.stuck.begin(), w.stuck.end());
+  w.stuck.erase(std::unique(w.stuck.begin(), w.stuck.end()), w.stuck.end());
+}
+
 bool solved(const StepWork& w, StepReport& report) {
   if (allFinite(w.velocity)) return true;
   report.failure = StepFailure::not_finite;
@@ -493,7 +536,7 @@ bool solved(const StepWork& w, StepReport& report) {
 
 bool resolveContacts(const Model& m, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w) {
   const int samples = m.surface.size();
-  w.zones.clear();
+  w.impact_zones.clear();
   report.smallest_gap_m = std::numeric_limits<double>::max();
   Yield yield;
   startProjection(m.strain_rows, in.limit_J, w.limit);
@@ -559,24 +602,10 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
     for (const SampleHit& hit : w.hits) addImpact(m, hit, dt, round, w);
     for (const PairHit& hit : w.pair_hits) addImpact(m, hit, dt, round, w);
   }
-  const bool done = moveZones(m, in, dt, report, w);
+  const bool done = moveImpactZones(m, in, dt, report, w);
   clock.lap(w.times.impact);
   if (done && allFinite(w.velocity)) return true;
-  report.failure = StepFailure::impact;
-  w.stuck.clear();
-  for (const SampleHit& hit : w.hits) {
-    report.earliest_impact = std::min(report.earliest_impact, hit.time);
-    w.stuck.push_back(hit.sample);
-  }
-  for (const PairHit& hit : w.pair_hits) {
-    report.earliest_impact = std::min(report.earliest_impact, hit.time);
-    w.stuck.insert(w.stuck.end(), hit.row.stencil.sample.begin(),
-                   hit.row.stencil.sample.begin() + hit.row.stencil.count);
-  }
-  std::sort(w.stuck.begin(), w.stuck.end());
-  w.stuck.erase(std::unique(w.stuck.begin(), w.stuck.end()), w.stuck.end());
-  report.why = std::to_string(w.hits.size() + w.pair_hits.size()) + " pairs would still pass through each other" +
-               (w.hits.empty() ? "" : ", of the cloth into " + m.obstacles[w.hits[0].obstacle].segment);
+  failForImpacts(m, report, w);
   return false;
 }
 

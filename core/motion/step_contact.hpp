@@ -2,10 +2,13 @@
 /// The contact part of a step: from the predicted velocities to those with which nothing passes through anything.
 /// Internal to core/motion.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <span>
+#include <string>
 
 #include "core/motion/model.hpp"
 
@@ -23,6 +26,12 @@ class StopWatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// "(0.1, 0, -0.25) m", to the micrometre.
+inline std::string positionText(const Vec3& x) {
+  const auto rounded = [](double v) { return std::round(1e6 * v) / 1e6 + 0.0; };
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", rounded(x.x), rounded(x.y), rounded(x.z));
+}
 
 inline Vec3 sampleAt(const SparseRows& WT, int sample, std::span<const Vec3> values) {
   Vec3 s{};
@@ -52,9 +61,9 @@ void contactImpulses(const Model& model, StepWork& work, std::vector<Vec3>& impu
 /// Loads of a structure on the free points [N], the control points at q.
 void loadsAt(const Model& model, double time_s, std::span<const Vec3> q, std::vector<Vec3>& load, StepWork& work);
 
-/// Reads w.predictor, w.x0, w.stage; leaves w.velocity, w.rows with w.impulses and w.warm, and w.zones with
-/// w.zone_change. In turn: contacts and impacts found so far solved together; paths tested; what would still pass joins
-/// them. After some rounds what is left moves in rigid zones. False where that does not do either:
+/// Reads w.predictor, w.x0, w.stage; leaves w.velocity, w.rows with w.impulses and w.warm, and w.impact_zones with
+/// w.impact_zone_change. In turn: contacts and impacts found so far solved together; paths tested; what would still
+/// pass joins them. After some rounds what is left moves in rigid impact zones. False where that does not do either:
 /// report.earliest_impact is the part of the step up to which nothing touches.
 bool resolveContacts(const Model& model, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w);
 
@@ -72,7 +81,7 @@ void pressingAccelerations(const Model& model, double dt, StepWork& work, std::v
 /// less than keeps the cloth between the samples out of it.
 double layerOf(const Model& model, const ContactRow& row);
 
-/// The touched vertex of a zone's body nearest to a point, where the body deforms.
+/// The touched vertex of an impact zone's body nearest to a point, where the body deforms.
 MaterialPoint nearestTouched(const Model& model, const ImpactZone& zone, const Vec3& p, const StepWork& w);
 
 }  // namespace gambeson

@@ -189,11 +189,10 @@ void Supports::hold(std::span<Vec3> change) const {
   mobility_.multiply<double>(flat(std::span<const Vec3>(impulse)), flat(change));
 }
 
-bool Supports::yield(std::span<const int> points, std::span<const double> weight, const Vec3& n) const {
-  constexpr double kNothing = 1e-9;  // of what it would be without supports
-  double free = 0, left = 0;
+double Supports::givesWay(std::span<const int> points, std::span<const double> weight, const Vec3& n) const {
+  double whole = 0, left = 0;
   for (std::size_t a = 0; a < points.size(); ++a) {
-    free += weight[a] * weight[a] / mass_kg_[points[a]];
+    whole += weight[a] * weight[a] / mass_kg_[points[a]];
     for (int d = 0; d < 3; ++d) {
       const int r = 3 * points[a] + d;
       for (int k = mobility_.offsets[r]; k < mobility_.offsets[r + 1]; ++k) {
@@ -203,7 +202,7 @@ bool Supports::yield(std::span<const int> points, std::span<const double> weight
       }
     }
   }
-  return left > kNothing * free;
+  return left / whole;
 }
 
 SparseRows Supports::holdOf(std::span<const int> points) const {

@@ -47,8 +47,9 @@ class Supports {
   };
   /// What is left of changes of velocity, M^-1 times impulses: P M change, with P = C (Cᵀ M C)^-1 Cᵀ.
   void hold(std::span<Vec3> change) const;
-  /// Whether impulses along n, with weights on some free points, move these at all.
-  bool yield(std::span<const int> points, std::span<const double> weight, const Vec3& n) const;
+  /// How far impulses along n, with weights on some free points, move these, as a part of what they would without
+  /// supports. Of supports that couple.
+  double givesWay(std::span<const int> points, std::span<const double> weight, const Vec3& n) const;
   /// P M on some points alone (free points): three rows and columns each, in their order.
   SparseRows holdOf(std::span<const int> points) const;
   /// P.

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/motion/capacity.hpp"
 #include "core/motion/resonance.hpp"
+#include "core/motion/step_contact.hpp"
 
 namespace gambeson {
 namespace {
@@ -21,6 +23,9 @@ constexpr double kFall = 0.995;
 /// kCrumpling on cells collapse, and one mode may take over from another between two estimates.
 constexpr double kStepsAtSwing = 6, kCrumpling = 0.5;
 constexpr int kSoonest = 10;  ///< steps between estimates because of the shown frequency
+/// Cloth that is so many times as stiff (as a frequency) as at rest is crushed or torn: the run would need so many
+/// times as many steps, and its forces mean nothing.
+constexpr double kCrushed = 250;
 
 /// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
 /// estimate, the estimate is out of date.
@@ -34,6 +39,32 @@ double shownFrequency2(const Model& m, const State& before, const State& after) 
 }
 }  // namespace
 
+VelocityVerlet::VelocityVerlet(const Model& model, const Stage& stage, const StepControl& control, Frequency& frequency,
+                               StepWork& work)
+    : model_(model), stage_(stage), control_(control), frequency_(frequency), work_(work) {
+  reserve(capacityOf(model), work);
+}
+
+double VelocityVerlet::frequencyAtRest() {
+  State rest;
+  for (const int home : model_.cloth->map().home) rest.p.push_back(model_.cloth->rest()[home]);
+  rest.inner.resize(model_.cloth->innerValues());
+  model_.cloth->startInner(rest.inner);
+  return largestFrequency(model_, stage_, rest, kWarmIterations, work_).largest_rad_per_s;
+}
+
+void VelocityVerlet::refuseCrushed(const State& state) {
+  if (at_rest_rad_per_s_ < 0) at_rest_rad_per_s_ = frequencyAtRest();
+  if (at_rest_rad_per_s_ == 0 || !(state.frequency_rad_per_s > kCrushed * at_rest_rad_per_s_)) return;
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < state.p.size(); ++i)
+    if (norm2(state.mode[i]) > norm2(state.mode[worst])) worst = i;
+  throw RunError(fmt::format(
+      "time {:.6g} s: the cloth near {} is crushed or torn, so that steps would have to be {:.0f} times as short as at "
+      "rest; likeliest cause: supports, obstacles or loads that leave it no room",
+      state.time_s, positionText(state.p[worst]), state.frequency_rad_per_s / at_rest_rad_per_s_));
+}
+
 double VelocityVerlet::longestStep(State& state) {
   if (control_.fixed_s > 0) return control_.fixed_s;
   if (state.steps_to_estimate <= 0) {
@@ -42,6 +73,7 @@ double VelocityVerlet::longestStep(State& state) {
     // A warm estimate may also have followed one mode while another rose.
     state.frequency_rad_per_s = std::max(frequency_.largest_rad_per_s, kFall * state.frequency_rad_per_s);
     state.steps_to_estimate = control_.estimate_every;
+    refuseCrushed(state);
   }
   const double omega = std::max(state.frequency_rad_per_s, 1e-300);
   const double share = std::min(control_.safety, state.share > 0 ? state.share : kFirstShare);
@@ -84,7 +116,9 @@ void VelocityVerlet::advance(double until, State& state, const StepObserver& obs
             fmt::format("time {:.6g} s, a step of {:.3e} s: {}; likeliest cause: the step is longer than the "
                         "stable one (step 0 takes that)",
                         state.time_s, dt, report.why));
-      const bool impact = report.failure == StepFailure::impact && report.earliest_impact < 1;
+      const bool impact = report.failure != StepFailure::not_finite && report.earliest_impact < 1;
+      if (report.failure == StepFailure::held && dt <= whole / kPinched)
+        throw RunError(fmt::format("time {:.6g} s: {}", state.time_s, report.why));
       if (impact && dt <= whole / kPinched && state.pinched != work_.stuck) {
         state.pinched = work_.stuck;  // no step is short enough: let them pass, and free them afterwards
         dt = whole;

@@ -19,11 +19,13 @@ struct StepControl {
 class VelocityVerlet : public Integrator {
  public:
   VelocityVerlet(const Model& model, const Stage& stage, const StepControl& control, Frequency& frequency,
-                 StepWork& work)
-      : model_(model), stage_(stage), control_(control), frequency_(frequency), work_(work) {}
+                 StepWork& work);
   void advance(double until_s, State& state, const StepObserver& observe) override;
 
  private:
+  double frequencyAtRest();
+  /// Throws RunError where the cloth has become so stiff that something has crushed or torn it.
+  void refuseCrushed(const State& state);
   /// The longest step that is stable, or fixed.
   double longestStep(State& state);
   /// The largest frequency at the end of a step of dt_s whose motion shows more than a stable step allows (loads that
@@ -35,6 +37,7 @@ class VelocityVerlet : public Integrator {
   StepControl control_;
   Frequency& frequency_;
   StepWork& work_;
+  double at_rest_rad_per_s_ = -1;  ///< the largest frequency of the cloth at rest; negative: not asked yet
 };
 
 }  // namespace gambeson

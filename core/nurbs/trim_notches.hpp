@@ -5,7 +5,7 @@
 
 namespace gambeson {
 
-/// The same region, in which no hole runs along the border of the patch: a notch (a hole with straight lines on the
+/// The same area, in which no hole runs along the border of the patch: a notch (a hole with straight lines on the
 /// border) is part of an outline instead, which goes around it and on along the border. Cut through by notches, a patch
 /// has an outline for each part that is left. Where other loops are the outline nothing is changed.
 /// Throws InputError as trimBoundary does.

@@ -47,7 +47,7 @@ std::vector<Mode> lowestModes(System& system, std::span<const double> y, double 
   count = std::min(count, n);
   std::vector<double> rest;
   if (y.empty()) rest.assign(n, 0.0), y = rest;
-  SymmetricMatrix K = system.pattern(), M = K;
+  SymmetricMatrix K = system.sparsity(), M = K;
   system.stiffness(y, t, K);
   system.mass(lumped_mass, M);
   // The shift: zero, or as far below as makes K - sigma M positive definite.

@@ -42,7 +42,7 @@ struct NewtonReport {
   std::vector<double> residuals;  ///< relative, of each iterate
 };
 
-/// Iterates y. `K` and `factor` are scratch with the pattern of the tangent.
+/// Iterates y. `K` and `factor` are scratch with the sparsity of the tangent.
 ///
 /// A thin shell's residual grows at first in a large step (transverse motion stretches the membrane to second order)
 /// and falls quadratically afterwards, so |r| need not fall. With `line_search` a step s obeys |G(s)| <= 0.8 |G(0)|,

@@ -35,7 +35,7 @@ std::vector<double> weakestMotion(const SymmetricMatrix& K) {
   return x;
 }
 
-PathState::PathState(System& system) : y(system.size(), 0.0), K(system.pattern()), solver(system.pattern()) {
+PathState::PathState(System& system) : y(system.size(), 0.0), K(system.sparsity()), solver(system.sparsity()) {
   K.values.assign(K.rows.size(), 0.0);
 }
 

@@ -51,7 +51,7 @@ Reduction::Reduction(const BlockMatrix& K, const SparseRows& C) {
   std::vector<long> next(first.begin(), first.end() - 1);
   forProducts(K, C, [&](int column, int row, int source, double w) { list[next[column]++] = {row, source, w}; });
 
-  pattern_.size = n;
+  sparsity_.size = n;
   offsets_.push_back(0);
   for (int c = 0; c < n; ++c) {
     std::stable_sort(list.begin() + first[c], list.begin() + first[c + 1],
@@ -59,24 +59,24 @@ Reduction::Reduction(const BlockMatrix& K, const SparseRows& C) {
     for (long k = first[c]; k < first[c + 1]; ++k) {
       if (k == first[c] || list[k].row != list[k - 1].row) {
         if (k > first[c]) offsets_.push_back(k);
-        pattern_.rows.push_back(list[k].row);
+        sparsity_.rows.push_back(list[k].row);
       }
       sources_.push_back(list[k].source);
       weights_.push_back(list[k].weight);
     }
     if (first[c + 1] > first[c]) offsets_.push_back(first[c + 1]);
-    if (pattern_.rows.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    if (sparsity_.rows.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
       throw InputError({"", 0, "size"}, "too many unknowns for the solvers");
-    pattern_.offsets.push_back(static_cast<int>(pattern_.rows.size()));
+    sparsity_.offsets.push_back(static_cast<int>(sparsity_.rows.size()));
   }
-  pattern_.values.assign(pattern_.rows.size(), 0.0);
-  if (sources_.size() == pattern_.rows.size()) offsets_ = {};
+  sparsity_.values.assign(sparsity_.rows.size(), 0.0);
+  if (sources_.size() == sparsity_.rows.size()) offsets_ = {};
   if (std::all_of(weights_.begin(), weights_.end(), [](double w) { return w == 1; })) weights_ = {};
 }
 
 void Reduction::reduce(const BlockMatrix& K, SymmetricMatrix& out) const {
-  out.values.resize(pattern_.rows.size());
-  const long n = static_cast<long>(pattern_.rows.size());
+  out.values.resize(sparsity_.rows.size());
+  const long n = static_cast<long>(sparsity_.rows.size());
   forAll(Each::value, n, [&](long e) {
     if (offsets_.empty()) {
       out.values[e] = (weights_.empty() ? 1.0 : weights_[e]) * K.values[sources_[e]];

@@ -16,12 +16,12 @@ class Reduction {
  public:
   /// K has 3 x 3 blocks, C has 3 rows per block row.
   Reduction(const BlockMatrix& K, const SparseRows& C);
-  const SymmetricMatrix& pattern() const { return pattern_; }
-  /// out has the pattern.
+  const SymmetricMatrix& sparsity() const { return sparsity_; }
+  /// out has the sparsity.
   void reduce(const BlockMatrix& K, SymmetricMatrix& out) const;
 
  private:
-  SymmetricMatrix pattern_;
+  SymmetricMatrix sparsity_;
   std::vector<long> offsets_;    ///< of each entry's sources; empty where each has one
   std::vector<int> sources_;     ///< index in K.values
   std::vector<double> weights_;  ///< empty where all are 1

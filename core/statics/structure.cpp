@@ -65,7 +65,7 @@ std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, co
   DofMap dofs = buildDofMap(map, o.constraints, count);
   Loads loads(cloth->mounting(), cloth->points(), o.dead, o.pressure, o.moments);
   std::unique_ptr<const ClothTangent> tangent = cloth->tangent();
-  Reduction reduction(tangent->pattern(), dofs.C);
+  Reduction reduction(tangent->sparsity(), dofs.C);
   SparseRows consistent = multiply(multiply(map.Tt, cloth->consistentMass()), map.T);
   std::vector<double> lumped(map.home.size()), area(map.home.size());
   const std::vector<double> ones(map.home.size(), 1.0);

@@ -49,7 +49,7 @@ StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends) :
   length_ = norm(high - low);
   reach_ = length_;
   for (const Vec3& x : structure.cloth->rest()) reach_ = std::max(reach_, norm(x));
-  K_ = structure.tangent->pattern();
+  K_ = structure.tangent->sparsity();
   K_.values.resize(9 * K_.columns.size());
   q_.resize(structure.cloth->rest().size());
   f_.resize(q_.size());
@@ -151,7 +151,7 @@ std::string StructureSystem::describe(std::span<const double> motion) const {
 }
 
 BlockMatrix StructureSystem::massBlocks(bool lumped) const {
-  BlockMatrix M = structure_.tangent->pattern();
+  BlockMatrix M = structure_.tangent->sparsity();
   M.values.assign(9 * M.columns.size(), 0.0);
   const auto set = [&](long k, double m) {
     for (int d = 0; d < 3; ++d) M.values[9 * k + 4 * d] = m;

@@ -13,7 +13,7 @@ class StructureSystem : public System {
   StructureSystem(const Structure& structure, ProgramEnds ends);
 
   int size() const override { return structure_.dofs.unknowns(); }
-  const SymmetricMatrix& pattern() const override { return structure_.reduction.pattern(); }
+  const SymmetricMatrix& sparsity() const override { return structure_.reduction.sparsity(); }
   double residual(std::span<const double> y, double t, std::span<double> g) override;
   void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) override;
   void change(std::span<const double> y, double t0, double t1, std::span<double> dg) override;

@@ -14,8 +14,8 @@ class System {
  public:
   virtual ~System() = default;
   virtual int size() const = 0;
-  /// The pattern that all matrices of the system share.
-  virtual const SymmetricMatrix& pattern() const = 0;
+  /// The sparsity that all matrices of the system share.
+  virtual const SymmetricMatrix& sparsity() const = 0;
   /// Writes g; returns the size of the forces that balance in it (loads, reactions), what a residual is small against.
   virtual double residual(std::span<const double> y, double t, std::span<double> g) = 0;
   /// K = dg/dy. `steepest`: every law at its steepest slope, what an explicit step must allow for.

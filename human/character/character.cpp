@@ -282,13 +282,13 @@ class Fit {
   void masses() {
     report_.volume_m3 = volume();
     const Human like = makeManikin(o_.like);
-    const double mass = o_.mass_kg.value_or(kDensity_kg_per_m3 * report_.volume_m3), share = mass / like.mass_kg,
+    const double mass = o_.mass_kg.value_or(kDensity_kg_per_m3 * report_.volume_m3), scale = mass / like.mass_kg,
                  taller = report_.height_m / like.stature_m;
     human_.mass_kg = mass;
     human_.stature_m = report_.height_m;
     for (std::size_t l = 0; l < human_.skeleton.links.size(); ++l) {
       Link& link = human_.skeleton.links[l];
-      link.mass_kg *= share;
+      link.mass_kg *= scale;
       double longer = taller;
       for (std::size_t j = 0; j < human_.skeleton.joints.size(); ++j) {
         const Joint& mine = human_.skeleton.joints[j];

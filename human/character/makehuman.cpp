@@ -17,7 +17,7 @@ namespace {
 
 using Json = JsonFile::Json;
 constexpr std::uintmax_t largest_json = std::uintmax_t{64} << 20;
-constexpr double largest_share = 10, largest_coordinate = 1e4;
+constexpr double largest_amount = 10, largest_coordinate = 1e4;
 
 void readBase(const MakeHumanFiles& files, RiggedMesh& out) {
   TextLines lines(files.mesh);
@@ -55,8 +55,8 @@ void readBase(const MakeHumanFiles& files, RiggedMesh& out) {
 }
 
 void morph(const MorphTarget& target, std::vector<Vec3>& x) {
-  if (!(std::abs(target.share) <= largest_share))
-    throw InputError({target.file.string(), 0, "share"}, fmt::format("{} is not within 10", target.share));
+  if (!(std::abs(target.amount) <= largest_amount))
+    throw InputError({target.file.string(), 0, "share"}, fmt::format("{} is not within 10", target.amount));
   TextLines lines(target.file);
   while (lines.nextFull()) {
     const auto words = lines.words();
@@ -66,7 +66,7 @@ void morph(const MorphTarget& target, std::vector<Vec3>& x) {
     if (!(v >= 0 && v < static_cast<double>(x.size()) && v == std::floor(v)))
       lines.fail(fmt::format("names vertex {} of {}", words[0], x.size()));
     for (std::size_t k = 0; k < 3; ++k)
-      x[static_cast<std::size_t>(v)][static_cast<int>(k)] += target.share * lines.number(words[k + 1], k + 2, "d");
+      x[static_cast<std::size_t>(v)][static_cast<int>(k)] += target.amount * lines.number(words[k + 1], k + 2, "d");
   }
 }
 

@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kWeld = 5e-6;
 
-using Cell = std::array<long, 3>;
+using Cube = std::array<long, 3>;
 
 /// The first vertex within `weld` of each, itself where there is none before it.
 std::vector<int> weldedTo(const std::vector<Vec3>& x, double weld) {
-  std::map<Cell, std::vector<int>> grid;
+  std::map<Cube, std::vector<int>> grid;
   std::vector<int> to(x.size());
   for (std::size_t v = 0; v < x.size(); ++v) {
-    Cell c{};
+    Cube c{};
     for (int k = 0; k < 3; ++k) c[static_cast<std::size_t>(k)] = std::lround(std::floor(x[v][k] / weld));
     int found = -1;
     for (long i = -1; i <= 1; ++i)

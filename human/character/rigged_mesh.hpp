@@ -32,10 +32,10 @@ struct RiggedMesh {
 /// that are not finite.
 RiggedMesh readRiggedScene(const std::filesystem::path& file);
 
-/// A sparse morph of MakeHuman's base mesh ("index dx dy dz" by line), added `share` times.
+/// A sparse morph of MakeHuman's base mesh ("index dx dy dz" by line), added `amount` times.
 struct MorphTarget {
   std::filesystem::path file;
-  double share = 1;
+  double amount = 1;
 };
 
 /// MakeHuman's base mesh (OBJ, quads) with its skeleton (.mhskel: joints as means of vertices) and weights (.mhw). Only

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "human/recorded/recording.hpp"
+#include "human/recorded/captured_motion.hpp"
 #include "human/recorded/retarget.hpp"
 
 namespace gambeson {
@@ -46,7 +46,7 @@ std::vector<JointMap> mapsOf(const MotionFileOptions& o, const std::vector<MapKi
 }
 
 /// The first map whose joints stay within what they can do; where there are several they differ in signs.
-Recording readAngles(const MotionFileOptions& o, const Human& human, const std::optional<WorldAxes>& world) {
+CapturedMotion readAngles(const MotionFileOptions& o, const Human& human, const std::optional<WorldAxes>& world) {
   const StorageTable table = readStorage(o.path);
   const auto maps = mapsOf(o, {MapKind::coordinates}, table.names);
   for (std::size_t i = 0; i + 1 < maps.size(); ++i) try {
@@ -56,7 +56,7 @@ Recording readAngles(const MotionFileOptions& o, const Human& human, const std::
   return recordAngles(table, maps.back(), human, world);
 }
 
-Recording readRecording(const MotionFileOptions& o, const Human& human) {
+CapturedMotion readCapturedMotion(const MotionFileOptions& o, const Human& human) {
   const std::string ending = endingOf(o.path), file = o.path.string();
   const auto world = worldOf(o);
   if (ending != ".trc" && !o.model.empty()) throw InputError({file, 0, "model"}, "goes with markers (.trc) only");
@@ -89,7 +89,7 @@ Recording readRecording(const MotionFileOptions& o, const Human& human) {
 std::unique_ptr<Motion> loadMotionFile(const MotionFileOptions& o, const Human& human, MotionFileNotes* notes) {
   MotionFileNotes mine;
   MotionFileNotes& n = notes ? *notes : mine;
-  const Recording r = readRecording(o, human);
+  const CapturedMotion r = readCapturedMotion(o, human);
   n.map = r.map;
   n.lines = r.notes;
   return retarget(r, human, o, n);

@@ -1,4 +1,4 @@
-/// Detail of recording.hpp: OpenSim coordinates as a recording: values by the map, without wraps.
+/// Detail of captured_motion.hpp: OpenSim coordinates as a captured motion: values by the map, without wraps.
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "human/files/units.hpp"
 #include "human/motion/standing.hpp"
-#include "human/recorded/recording.hpp"
+#include "human/recorded/captured_motion.hpp"
 
 namespace gambeson {
 namespace {
@@ -34,10 +34,10 @@ void checkLimits(const StorageTable& t, const Joint& joint, const JointMap::Driv
 
 }  // namespace
 
-Recording recordAngles(const StorageTable& table, const JointMap& map, const Human& human,
-                       const std::optional<WorldAxes>& world) {
+CapturedMotion recordAngles(const StorageTable& table, const JointMap& map, const Human& human,
+                            const std::optional<WorldAxes>& world) {
   const Skeleton& s = human.skeleton;
-  Recording r;
+  CapturedMotion r;
   r.file = table.file, r.map = map.name, r.times = table.times, r.notes = table.notes, r.model_leg_m = map.leg_m;
   r.driven.assign(s.joints.size(), false);
   r.q.assign(table.times.size(), standing(human).q);

@@ -1,13 +1,13 @@
-/// Detail of recording.hpp: A hierarchy of bones as a recording: matched by the directions of bones in the world, so
-/// that the pose in which the hierarchy was written down (T, A, arms down) does not matter for limbs. Pelvis, head and
-/// the twist of the trunk have no bone that shows them: they turn as their joints do from the rest pose, which stands
-/// upright.
+/// Detail of captured_motion.hpp: A hierarchy of bones as a captured motion: matched by the directions of bones in the
+/// world, so that the pose in which the hierarchy was written down (T, A, arms down) does not matter for limbs. Pelvis,
+/// head and the twist of the trunk have no bone that shows them: they turn as their joints do from the rest pose, which
+/// stands upright.
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "human/motion/standing.hpp"
-#include "human/recorded/recording.hpp"
+#include "human/recorded/captured_motion.hpp"
 
 namespace gambeson {
 namespace {
@@ -41,7 +41,7 @@ Vec3 meanOf(const BvhClip& clip, const std::vector<Pose>& X, const Points& names
 
 }  // namespace
 
-void addDirections(Recording& r, const Human& human, const LimbJoints& joints, const BodyDirections& body) {
+void addDirections(CapturedMotion& r, const Human& human, const LimbJoints& joints, const BodyDirections& body) {
   std::vector<double> q = r.q.empty() ? standing(human).q : r.q.back();
   setDirections(human.skeleton, joints, body, q);
   r.q.push_back(std::move(q));
@@ -115,13 +115,13 @@ BodyDirections boneDirections(const BvhClip& clip, const JointMap& map, const st
   return b;
 }
 
-Recording recordBones(const BvhClip& clip, const JointMap& map, const Human& human,
-                      const std::optional<WorldAxes>& world) {
+CapturedMotion recordBones(const BvhClip& clip, const JointMap& map, const Human& human,
+                           const std::optional<WorldAxes>& world) {
   if (clip.frames.size() < 2)
     throw InputError({clip.file, 0, ""}, "holds a single frame: a pose, not a motion; at least two frames are needed");
   const LimbJoints joints = limbJoints(human.skeleton);
   const Mat3 to_ours = world ? axesOf(world->forward, world->up) : axesOf(map.forward, map.up);
-  Recording r;
+  CapturedMotion r;
   r.file = clip.file, r.map = map.name, r.notes = clip.notes;
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     r.times.push_back(static_cast<double>(i) * clip.frame_time_s);

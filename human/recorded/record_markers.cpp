@@ -1,5 +1,5 @@
-/// Detail of recording.hpp: Markers as a recording. Man 2006, section 5.1: a segment is known from its joint centres
-/// J1, J2 and a marker M,
+/// Detail of captured_motion.hpp: Markers as a captured motion. Man 2006, section 5.1: a segment is known from its
+/// joint centres J1, J2 and a marker M,
 ///   e1 = (J2 - J1) / |J2 - J1|,  e2 = M - x_c less its part along e1, made unit,  e3 = e1 x e2,  x_c = (J1 + J2) / 2.
 /// Where the file has no joint centres, they come from a scaled OpenSim model, whose bodies are laid on their markers
 /// by least squares, hanging together at the joints; the body's own lateral axis then takes the place of M.
@@ -12,7 +12,7 @@
 
 #include "core/error.hpp"
 #include "human/motion/motion.hpp"
-#include "human/recorded/recording.hpp"
+#include "human/recorded/captured_motion.hpp"
 
 namespace gambeson {
 namespace {
@@ -203,14 +203,14 @@ BodyDirections fromPoints(const Source& s, const Mat3& to_ours) {
 
 }  // namespace
 
-Recording recordMarkers(const MarkerTable& table, const JointMap& map, const OsimModel* model, const Human& human,
-                        const std::optional<WorldAxes>& world) {
+CapturedMotion recordMarkers(const MarkerTable& table, const JointMap& map, const OsimModel* model, const Human& human,
+                             const std::optional<WorldAxes>& world) {
   if (map.kind == MapKind::markers && !model)
     throw InputError({table.file, 0, "model"},
                      "has no markers at the joints: name the subject's scaled OpenSim model (.osim) as \"model\"");
   const LimbJoints joints = limbJoints(human.skeleton);
   const Mat3 to_ours = world ? axesOf(world->forward, world->up) : axesOf(map.forward, map.up);
-  Recording r;
+  CapturedMotion r;
   r.file = table.file, r.map = map.name, r.times = table.times, r.notes = table.notes;
   Source s{table, map};
   double legs = 0;

@@ -35,10 +35,10 @@ double smootherArea(double s) {
   return s * s * s * s * (s * (s - 3) + 2.5);
 }
 
-/// All values of a recording over its time: joints, then x, y, z, roll, pitch, yaw; continued backwards to rest.
+/// All values of a captured motion over its time: joints, then x, y, z, roll, pitch, yaw; continued backwards to rest.
 class Source {
  public:
-  Source(const Recording& r, const std::vector<Vec3>& turn) : t_(r.times), joints_(r.q.front().size()) {
+  Source(const CapturedMotion& r, const std::vector<Vec3>& turn) : t_(r.times), joints_(r.q.front().size()) {
     columns_.resize(joints_ + 6);
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       auto& x = columns_[k].x;
@@ -83,7 +83,7 @@ class Source {
 };
 
 /// Angles of the pelvis without jumps.
-std::vector<Vec3> turnsOf(const Recording& r) {
+std::vector<Vec3> turnsOf(const CapturedMotion& r) {
   std::vector<Vec3> turn;
   for (const Mat3& R : r.pelvis) {
     Vec3 a = anglesOf(R);
@@ -98,15 +98,15 @@ std::vector<Vec3> turnsOf(const Recording& r) {
 /// One row of the table that becomes the motion.
 struct Row {
   double time = 0;    ///< of the motion
-  double source = 0;  ///< of the recording
+  double source = 0;  ///< of the captured motion
   double rate = 1;    ///< d source / d time
-  double share = 1;   ///< of the recording; the rest is standing
+  double share = 1;   ///< of the captured motion; the rest is standing
   std::vector<double> q;
   Vec3 turn, origin;
 };
 
-/// Standing, lead-in and window: when each row is, and which instant of the recording it shows.
-std::vector<Row> rowsOf(const Recording& r, const MotionFileOptions& o, double from, double to) {
+/// Standing, lead-in and window: when each row is, and which instant of the captured motion it shows.
+std::vector<Row> rowsOf(const CapturedMotion& r, const MotionFileOptions& o, double from, double to) {
   std::vector<Row> rows;
   const double begin = o.stand_s + o.lead_in_s;
   if (o.stand_s > 0) rows.push_back({0, from - 0.5 * o.lead_in_s / o.slower, 0, 0, {}, {}, {}});
@@ -206,7 +206,7 @@ double legOf(const Human& human) {
 }
 
 struct Retargeter {
-  const Recording& r;
+  const CapturedMotion& r;
   const Human& human;
   const MotionFileOptions& o;
   MotionFileNotes& notes;
@@ -421,23 +421,23 @@ struct Retargeter {
 
 }  // namespace
 
-Recording repeated(const Recording& r, int times, const Human& human) {
+CapturedMotion repeated(const CapturedMotion& r, int times, const Human& human) {
   if (times == 1) return r;
   if (static_cast<double>(r.times.size()) * times > static_cast<double>(most_rows))
     throw InputError({r.file, 0, "repeat"}, fmt::format("{} frames {} times are too many; allowed: at most {} together",
                                                         r.times.size(), times, most_rows));
-  Recording out = r;
+  CapturedMotion out = r;
   const std::size_t n = r.times.size() - 1;
   const double period = r.times[n] - r.times[0];
   const std::vector<Vec3> turn = turnsOf(r);
-  const auto share = [&](std::size_t i) { return (r.times[i] - r.times[0]) / period - 0.5; };
+  const auto fromMiddle = [&](std::size_t i) { return (r.times[i] - r.times[0]) / period - 0.5; };
   for (std::size_t j = 0; j < r.driven.size(); ++j) {
     const double error = r.q[n][j] - r.q[0][j];
     if (r.driven[j] && !(std::abs(error) <= closure_rad))
       throw InputError({r.file, 0, "repeat"},
                        fmt::format("{} ends {:.1f} degrees from where it starts: the clip is not one whole stride",
                                    human.skeleton.joints[j].name, error / rad_per_deg));
-    for (std::size_t i = 0; i <= n; ++i) out.q[i][j] -= error * share(i);
+    for (std::size_t i = 0; i <= n; ++i) out.q[i][j] -= error * fromMiddle(i);
   }
   const Vec3 off = turn[n] - turn[0];
   if (!(norm(off) <= closure_rad))
@@ -446,8 +446,8 @@ Recording repeated(const Recording& r, int times, const Human& human) {
   const double rise = step.z;
   step.z = 0;
   for (std::size_t i = 0; i <= n; ++i) {
-    out.pelvis[i] = rotationOf(turn[i] - share(i) * off);
-    out.hips[i].z -= rise * share(i);
+    out.pelvis[i] = rotationOf(turn[i] - fromMiddle(i) * off);
+    out.hips[i].z -= rise * fromMiddle(i);
   }
   for (int k = 1; k < times; ++k)
     for (std::size_t i = 1; i <= n; ++i) {
@@ -459,7 +459,7 @@ Recording repeated(const Recording& r, int times, const Human& human) {
   return out;
 }
 
-std::unique_ptr<Motion> retarget(const Recording& recording, const Human& human, const MotionFileOptions& o,
+std::unique_ptr<Motion> retarget(const CapturedMotion& captured, const Human& human, const MotionFileOptions& o,
                                  MotionFileNotes& notes) {
   const auto check = [&](const char* key, double value, bool good, const char* allowed) {
     if (!good) throw InputError({o.path.string(), 0, key}, fmt::format("{} is not allowed: {}", value, allowed));
@@ -472,7 +472,7 @@ std::unique_ptr<Motion> retarget(const Recording& recording, const Human& human,
   check("hips_apart", o.hips_apart_rad, std::abs(o.hips_apart_rad) <= 0.6, "-0.6 to 0.6 rad");
   check("arms_apart", o.arms_apart_rad, std::abs(o.arms_apart_rad) <= 1.6, "-1.6 to 1.6 rad");
   if (o.scale) check("scale", *o.scale, *o.scale > 0 && *o.scale <= 100, "> 0, <= 100");
-  const Recording r = repeated(recording, o.repeat, human);
+  const CapturedMotion r = repeated(captured, o.repeat, human);
   limbJoints(human.skeleton);
   notes.scale = o.scale.value_or(r.leg_m > 0 ? legOf(human) / r.leg_m : 1);
   Retargeter x{r, human, o, notes};

@@ -46,16 +46,16 @@ double hingeAngle(const Vec3& from, const Vec3& to, const Vec3& axis) {
 /// Sets a ball joint and the hinge beyond it; returns the world rotation of the link beyond the hinge. A hinge that
 /// `straightens` may pass a little beyond straight, or its lower bone deviate sideways: the plane of the two bones then
 /// counts by the cosine between its normal and `hinge`, which keeps its sign however the normal turns, and the less the
-/// straighter the limb is, s/(s + share) with s the sine of the bend.
+/// straighter the limb is, s/(s + weight) with s the sine of the bend.
 Mat3 setLimb(const Skeleton& s, const std::array<int, 3>& ball, int hinge, const Mat3& parent, const LimbDirections& d,
-             double share, bool straightens, const Vec3& lower_rest, std::vector<double>& q) {
+             double weight, bool straightens, const Vec3& lower_rest, std::vector<double>& q) {
   const Joint& h = s.joints[hinge];
   // The bone's direction in the upper link; the hinge's axis is across it.
   const Vec3 upper_rest = normalized(h.X_PJ.origin);
   const Vec3 axis = normalized(perpendicular(h.axis, upper_rest));
   Vec3 bend = cross(d.upper, d.lower);
-  if (straightens) bend = (dot(bend, d.hinge) / ((norm(bend) + share) * norm(d.hinge))) * bend;
-  const Vec3 wanted = perpendicular(bend + share * d.hinge, d.upper);
+  if (straightens) bend = (dot(bend, d.hinge) / ((norm(bend) + weight) * norm(d.hinge))) * bend;
+  const Vec3 wanted = perpendicular(bend + weight * d.hinge, d.upper);
   Vec3 across = wanted;
   if (!(norm(across) > 1e-9)) across = perpendicular(parent * axis, d.upper);
   if (!(norm(across) > 1e-9)) across = perpendicular(Vec3{0.36, 0.48, 0.8}, d.upper);
@@ -132,7 +132,7 @@ void setDirections(const Skeleton& s, const LimbJoints& joints, const BodyDirect
   for (int side = 0; side < 2; ++side) {
     const Vec3 shank = boneOf(s, s.joints[joints.knee[side]].child);
     const Mat3 lower =
-        setLimb(s, joints.hip[side], joints.knee[side], pelvis, body.leg[side], knee_share, true, shank, q);
+        setLimb(s, joints.hip[side], joints.knee[side], pelvis, body.leg[side], knee_hinge_weight, true, shank, q);
     if (body.foot[side]) {
       const int a = joints.ankle[side];
       q[a] = nearest(hingeAngle({1, 0, 0}, transposeTimes(lower, *body.foot[side]), s.joints[a].axis), q[a]);
@@ -151,7 +151,7 @@ void setDirections(const Skeleton& s, const LimbJoints& joints, const BodyDirect
     const auto& b = joints.shoulder[side];
     if (!body.arm[side] || b[0] < 0 || b[1] < 0 || b[2] < 0 || joints.elbow[side] < 0) continue;
     const Vec3 forearm = boneOf(s, s.joints[joints.elbow[side]].child);
-    setLimb(s, b, joints.elbow[side], torso, *body.arm[side], elbow_share, false, forearm, q);
+    setLimb(s, b, joints.elbow[side], torso, *body.arm[side], elbow_hinge_weight, false, forearm, q);
   }
 }
 

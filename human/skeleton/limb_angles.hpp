@@ -25,7 +25,7 @@ struct BodyDirections {
   std::array<std::optional<LimbDirections>, 2> arm;
 };
 
-/// The joints that a recording drives; -1 where the skeleton has none.
+/// The joints that a captured motion drives; -1 where the skeleton has none.
 struct LimbJoints {
   std::array<std::array<int, 3>, 2> hip, shoulder;  ///< flexion, adduction or abduction, rotation
   std::array<int, 2> knee, ankle, elbow;
@@ -39,11 +39,11 @@ LimbJoints limbJoints(const Skeleton& skeleton);
 /// their difference is known, and q1 is 0. The other solution is (q1 + pi, pi - q2, q3 + pi).
 std::array<double, 3> threeAngles(const Mat3& R, const std::array<Vec3, 3>& axes);
 
-/// What of the hinge's axis is taken from LimbDirections::hinge: the axis is along upper x lower + share * hinge.
+/// What of the hinge's axis is taken from LimbDirections::hinge: the axis is along upper x lower + weight * hinge.
 /// upper x lower is the sine of the bend long: at a knee bent by more than 6 degrees the two bones decide, as far as
 /// their plane agrees with the hinge (a knee that is a little overstretched turns the thigh no other way). An elbow
 /// never is straight in motion, and nothing else shows how the arm is twisted.
-inline constexpr double knee_share = 0.1, elbow_share = 0.01;
+inline constexpr double knee_hinge_weight = 0.1, elbow_hinge_weight = 0.01;
 
 /// Joint values that turn the skeleton's bones into those directions, written into q (what is not known stays); each
 /// angle that is not held within half a turn by its own nature is the one nearest to what q held before.

@@ -33,8 +33,8 @@ double smoothStep(double u) {
   return u * u * (3 - 2 * u);
 }
 
-/// One joint of the skeleton with the region over which it bends.
-struct Region {
+/// One joint of the skeleton with the band over which it bends.
+struct BendBand {
   int child;
   int side;  ///< +1 left, -1 right, 0 both
   Vec3 centre, normal;
@@ -56,7 +56,7 @@ class Maker {
     surface.low = field.low();
     surface.high = field.high();
     skin_.rest = meshOf(surface, options.cell_m);
-    regions();
+    findBands();
     for (const Vec3& x : skin_.rest.vertices) {
       towards_arm_.push_back(field.towardsArm(x));
       towards_left_.push_back(field.towardsLeftLeg(x));
@@ -79,14 +79,14 @@ class Maker {
   }
   Vec3 at(const std::string& name) const { return skin_.bind[link(name)].origin; }
 
-  /// Where the body bends: the plane through each joint and half the width of the region that takes part.
-  void regions() {
+  /// Where the body bends: the plane through each joint and half the width of the band that takes part.
+  void findBands() {
     const Vec3 pelvis = skin_.bind[0].origin;
     const double hip_depth = semiAxes("pelvis").x, chest_half = semiAxes("chest").y,
                  arm_radius = semiAxes("upper_arm_left").x;
     const auto add = [&](const std::string& child, int side, const Vec3& normal, double offset, double half_width,
                          bool bends, bool crease) {
-      regions_.push_back({link(child), side, at(child), normalized(normal), offset, half_width, bends, crease});
+      bands_.push_back({link(child), side, at(child), normalized(normal), offset, half_width, bends, crease});
     };
     for (const int side : {1, -1}) {
       const std::string name = side > 0 ? "_left" : "_right";
@@ -111,60 +111,60 @@ class Maker {
     const double trunk = at("head").z - at("torso").z;
     add("head", 0, {0, 0, 1}, 0.02 * trunk, 0.12 * trunk, true, false);
     add("torso", 0, {0, 0, 1}, 0.09 * trunk, 0.22 * trunk, true, false);
-    torso_ = static_cast<int>(regions_.size()) - 1;
-    for (const Region& r : regions_)
+    torso_ = static_cast<int>(bands_.size()) - 1;
+    for (const BendBand& r : bands_)
       if (r.bends) skin_.bends.push_back({parentSegment(r.child), r.child, r.centre, r.normal, r.offset_m, r.crease});
   }
 
-  /// The nearest link up the tree that has a region, or the root.
+  /// The nearest link up the tree that has a band, or the root.
   int parentSegment(int l) const {
     while (l != 0) {
       l = s_.joints[s_.links[l].parent_joint].parent;
-      if (std::any_of(regions_.begin(), regions_.end(), [&](const Region& r) { return r.child == l; })) return l;
+      if (std::any_of(bands_.begin(), bands_.end(), [&](const BendBand& r) { return r.child == l; })) return l;
     }
     return 0;
   }
 
   void shares() {
     const std::size_t n = skin_.rest.vertices.size();
-    bend_of_.assign(regions_.size(), -1);
-    above_.assign(regions_.size(), -1);
-    for (std::size_t r = 0, b = 0; r < regions_.size(); ++r) {
-      if (regions_[r].bends) bend_of_[r] = static_cast<int>(b++);
-      const int p = parentSegment(regions_[r].child);
-      for (std::size_t q = 0; q < regions_.size(); ++q)
-        if (regions_[q].child == p) above_[r] = static_cast<int>(q);
+    bend_of_.assign(bands_.size(), -1);
+    above_.assign(bands_.size(), -1);
+    for (std::size_t r = 0, b = 0; r < bands_.size(); ++r) {
+      if (bands_[r].bends) bend_of_[r] = static_cast<int>(b++);
+      const int p = parentSegment(bands_[r].child);
+      for (std::size_t q = 0; q < bands_.size(); ++q)
+        if (bands_[q].child == p) above_[r] = static_cast<int>(q);
     }
     std::vector<Shares> own(n);
     for (std::size_t v = 0; v < n; ++v) own[v] = sharesAt(v);
-    group(own);
+    makeRuns(own);
     skin_.first = {0};
     for (const Shares& s : own) weigh(s);
   }
 
-  /// What a vertex has of each region's joint, and of all joints from the root to it.
+  /// What a vertex has of each band's joint, and of all joints from the root to it.
   struct Shares {
     std::vector<double> own, total;
   };
 
   Shares sharesAt(std::size_t v) const {
     Shares s;
-    for (const Region& r : regions_) s.own.push_back(ownShare(r, v, skin_.bind[0].origin));
+    for (const BendBand& r : bands_) s.own.push_back(ownShare(r, v, skin_.bind[0].origin));
     // The lumbar joint leaves alone what turns with a thigh.
-    for (std::size_t r = 0; r < regions_.size(); ++r)
-      if (s_.links[regions_[r].child].name.starts_with("thigh")) s.own[torso_] *= 1 - s.own[r];
+    for (std::size_t r = 0; r < bands_.size(); ++r)
+      if (s_.links[bands_[r].child].name.starts_with("thigh")) s.own[torso_] *= 1 - s.own[r];
     s.total = s.own;
-    for (int r = static_cast<int>(regions_.size()) - 1; r >= 0; --r)
+    for (int r = static_cast<int>(bands_.size()) - 1; r >= 0; --r)
       if (above_[r] >= 0) s.total[r] *= s.total[above_[r]];
     return s;
   }
 
   /// Sorts the vertices by the bends that move them, so that each run is one loop.
-  void group(std::vector<Shares>& own) {
+  void makeRuns(std::vector<Shares>& own) {
     using Key = std::vector<std::pair<int, bool>>;  // bend, whether in part
     std::vector<Key> key(own.size());
     for (std::size_t v = 0; v < own.size(); ++v)
-      for (std::size_t r = 0; r < regions_.size(); ++r)
+      for (std::size_t r = 0; r < bands_.size(); ++r)
         if (bend_of_[r] >= 0 && own[v].total[r] > 0) key[v].emplace_back(bend_of_[r], own[v].own[r] < 1);
     std::vector<int> order(own.size()), number(own.size());
     std::iota(order.begin(), order.end(), 0);
@@ -200,12 +200,12 @@ class Maker {
   void weigh(const Shares& s) {
     std::vector<std::pair<int, double>> parts;
     double root = 1;
-    for (std::size_t r = 0; r < regions_.size(); ++r) {
+    for (std::size_t r = 0; r < bands_.size(); ++r) {
       double w = s.total[r];
-      for (std::size_t q = 0; q < regions_.size(); ++q)
+      for (std::size_t q = 0; q < bands_.size(); ++q)
         if (above_[q] == static_cast<int>(r)) w -= s.total[q];
       if (above_[r] < 0) root -= s.total[r];
-      if (w > 0) parts.emplace_back(regions_[r].child, w);
+      if (w > 0) parts.emplace_back(bands_[r].child, w);
     }
     if (root > 0) parts.emplace_back(0, root);
     std::sort(parts.begin(), parts.end());
@@ -223,7 +223,7 @@ class Maker {
 
   /// The share of a point of the skin in one joint. Legs end at the median plane; arms are told from the trunk by what
   /// is nearer, where a plane through the joint no longer can.
-  double ownShare(const Region& r, std::size_t v, const Vec3& pelvis) const {
+  double ownShare(const BendBand& r, std::size_t v, const Vec3& pelvis) const {
     const Vec3& x = skin_.rest.vertices[v];
     const double towards_arm = towards_arm_[v];
     const std::string& name = s_.links[r.child].name;
@@ -238,7 +238,7 @@ class Maker {
       const double away = std::hypot(x.x - r.centre.x, x.y - pelvis.y);
       const double width = std::min(0.03 + 1.0 * away, r.half_width_m);
       // The skin over the iliac crest and above does not turn with the thigh: on the trunk's side of the plane the
-      // region ends below it, u = -1, also at the sides, where the plane has risen towards it.
+      // band ends below it, u = -1, also at the sides, where the plane has risen towards it.
       const double crest_m = kIliacCrest * norm(at("thigh_left") - at("shank_left"));
       const double room = std::clamp((crest_m - (x.z - r.centre.z)) * -r.normal.z - s, 0.3 * width, width);
       const double t = std::max(0.0, -s), u = s > 0 ? s / width : -t / width - (1 / room - 1 / width) * t * t / room;
@@ -296,9 +296,9 @@ class Maker {
   const Human& human_;
   const Skeleton& s_;
   Skin skin_;
-  std::vector<Region> regions_;
-  int torso_ = 0;                     ///< its region
-  std::vector<int> bend_of_, above_;  ///< of each region: its bend, and the next region towards the root (or -1)
+  std::vector<BendBand> bands_;
+  int torso_ = 0;                     ///< its band
+  std::vector<int> bend_of_, above_;  ///< of each band: its bend, and the next band towards the root (or -1)
   std::vector<double> towards_arm_, towards_left_;
 };
 

@@ -14,9 +14,9 @@ struct Pair {
   FourPoints x0, x1;
 };
 
-/// Candidates between two layers of cells of 1 cm, 1 mm apart and wavy, in a step of 0.1 ms at walking speed;
+/// Candidates between two sheets of cells of 1 cm, 1 mm apart and wavy, in a step of 0.1 ms at walking speed;
 /// `closing_m` is how far they come towards each other.
-std::vector<Pair> layers(bool edges, double closing_m) {
+std::vector<Pair> sheets(bool edges, double closing_m) {
   std::mt19937 rng(5);
   std::uniform_real_distribution<double> u(0, 1);
   std::vector<Pair> pairs(4096);
@@ -39,7 +39,7 @@ std::vector<Pair> layers(bool edges, double closing_m) {
 }
 
 void query(benchmark::State& state, bool edges, double closing_m) {
-  const std::vector<Pair> pairs = layers(edges, closing_m);
+  const std::vector<Pair> pairs = sheets(edges, closing_m);
   long hits = 0, queries = 0;
   for (auto _ : state) {
     hits = 0;

@@ -160,7 +160,7 @@ void Projection(benchmark::State& state) {
     startProjection(rows, {}, work);
     projectStrain(rows, o.strain_limit, true, p, report, work);
   };
-  project();  // analyses the pattern
+  project();  // analyses the sparsity
   const std::vector<double> t = bench::times(state, bench::Clock::processor, [&] {
     if (what == 3) {
       benchmark::DoNotOptimize(SymmetricFactor(rows.S).negativePivots());

@@ -20,7 +20,7 @@ void timeMedian(benchmark::State& state, double cells, Work&& work) {
   state.counters["us_per_cell"] = t[t.size() / 2] / cells * 1e6;
 }
 
-/// Degree, cells in each direction, solid section, what (0 residual, 1 tangent with scatter, 2 pattern and lists), and
+/// Degree, cells in each direction, solid section, what (0 residual, 1 tangent with scatter, 2 sparsity and lists), and
 /// rule: 0 the full rule of degree + 1 points on a rational sheet, 1 the same on a polynomial one, 2 the default rule
 /// there.
 void ShellCell(benchmark::State& state) {
@@ -45,7 +45,7 @@ void ShellCell(benchmark::State& state) {
     tangent.assemble(shell, q, work, K);
     timeMedian(state, count, [&] { tangent.assemble(shell, q, work, K); });
   } else {
-    timeMedian(state, count, [&] { benchmark::DoNotOptimize(Tangent(shell, map).pattern().rows()); });
+    timeMedian(state, count, [&] { benchmark::DoNotOptimize(Tangent(shell, map).sparsity().rows()); });
   }
   omp_set_num_threads(before);
 }
@@ -79,7 +79,7 @@ void Factorisation(benchmark::State& state) {
   const Tangent tangent(shell, map);
   tangent.assemble(shell, garment.patches[0].points, work, K);
   const Reduction reduction(K, dofs.C);
-  SymmetricMatrix A = reduction.pattern();
+  SymmetricMatrix A = reduction.sparsity();
   reduction.reduce(K, A);
   SymmetricFactor factor(A);
   if (factor.factorise(A) != Definiteness::positive) state.SkipWithError("not positive definite");

@@ -76,6 +76,23 @@ def dress_says_that_it_was_stopped(folder):
         check(not (folder / "on.json").exists(), "half a dressed state is left")
 
 
+def a_structure_keeps_its_path(folder):
+    out = folder / "swinging"
+    moving = subprocess.Popen(command("run", SOURCE / "cases/library/corner_cloth_soft.json", "--out", out, "--set", "solver.end=100",
+                                      "--set", "output.pictures=[]"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True)
+    table = out / "path.csv"
+    while not table.exists() or table.read_text().count("\n") < 3:
+        check(moving.poll() is None, "the run ended by itself")
+        time.sleep(0.02)
+    moving.send_signal(signal.SIGTERM)
+    said = moving.communicate(timeout=20)[1]
+    check(moving.returncode == 1 and "stopped by a signal" in said and str(table) in said, f"{moving.returncode}: {said}")
+    header, *rows = table.read_text().splitlines()
+    check(header.startswith("time_s,") and all(len(row.split(",")) == len(header.split(",")) for row in rows), f"{table} is no table")
+    check(float(rows[-1].split(",")[0]) > 0, f"{table} has no row of a step")
+
+
 def a_report_leaves_nothing(folder):
     """In the folder for temporary files, where it cannot be written."""
     check(run("run", CASE, "--out", folder / "out", "--set", "time.duration=20 ms").returncode == 0, "no results")
@@ -139,7 +156,7 @@ def set_up_waits(folder):
 
 
 def main():
-    for test in (set_up_waits, what_cannot_be_said_is_no_success, a_report_leaves_nothing, dress_says_that_it_was_stopped, much_is_said_before, verify_ends_its_runs):
+    for test in (set_up_waits, what_cannot_be_said_is_no_success, a_report_leaves_nothing, dress_says_that_it_was_stopped, a_structure_keeps_its_path, much_is_said_before, verify_ends_its_runs):
         with Folder() as folder:
             test(folder)
             print(test.__name__, "good")

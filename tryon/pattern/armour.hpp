@@ -11,7 +11,7 @@
 
 namespace gambeson {
 
-/// A garment under the one that is drafted. Between two layers cloth keeps half the sum of their thicknesses, to the
+/// A garment under the one that is drafted. Between two garments cloth keeps half the sum of their thicknesses, to the
 /// body its own.
 struct Worn {
   const Garment* garment = nullptr;
@@ -20,19 +20,19 @@ struct Worn {
 
 /// One patch, closed on itself by a G1 seam at the back.
 ///
-/// At rest it is shorter than the curve that it lies on, the wrap of the body moved out by the layers, by the stretch
-/// lambda at which a strip of its width carries the tension:
+/// At rest it is shorter than the curve that it lies on, the wrap of the body moved out by the garments under it, by
+/// the stretch lambda at which a strip of its width carries the tension:
 ///   T = width thickness E lambda (lambda^2 - 1) / 2        (St. Venant-Kirchhoff, free to contract across)
 /// It then presses 2 pi T on a round, smooth waist: pressure per length T / R, R the radius of curvature, summed over a
-/// closed curve. It starts stretched further (Garment::placed), free of the layers below.
+/// closed curve. It starts stretched further (Garment::placed), free of the garments below.
 struct BeltPattern {
   double width_m = 0.05;
   double tension_N = 2;
-  double below_waist_m = 0.01;  ///< upper edge below the edge "waist" of the layer under it; without one, the belt's
+  double below_waist_m = 0.01;  ///< upper edge below the edge "waist" of the garment under it; without one, the belt's
                                 ///< middle stands at the origin of the torso's frame
   double cell_m = 0.022;
   int degree = 2;
-  double gap_m = 0.001;  ///< that it starts farther out than the layers ask for
+  double gap_m = 0.001;  ///< that it starts farther out than the garments under it ask for
 };
 /// `fabric` is the belt's, `layer_m` its thickness in contact.
 Garment makeBelt(const BeltPattern& pattern, const BodyForm& form, const Fabric& fabric, double layer_m,
@@ -49,12 +49,13 @@ double stretchAt(double tension_N, double width_m, const Fabric& fabric);
 ///   side_wrap  from the front's left edge around the sides and the back to the front's right edge
 ///   belly      hangs from the middle of the front's hem, over belt and shorts
 ///
-/// Sections are those of the convex hull of torso, pelvis and thighs, grown by 1 + ease, and farther out where garments
-/// lie under it. Towards the upper edge they go over into the hull of chest and shoulders. A strap is a straight
-/// strip that lies evenly on the slope of the shoulder (tryon/pattern/strap.hpp).
+/// Cross-sections are those of the convex hull of torso, pelvis and thighs, grown by 1 + ease, and farther out where
+/// garments lie under it. Towards the upper edge they go over into the hull of chest and shoulders. A strap is a
+/// straight strip that lies evenly on the slope of the shoulder (tryon/pattern/strap.hpp).
 struct ShirtPattern {
   double ease = 0.06;
-  double hem_above_waist_m = 0.01;  ///< above the edge "waist" of a layer under it, or the origin of the torso's frame
+  double hem_above_waist_m =
+      0.01;  ///< above the edge "waist" of a garment under it, or the origin of the torso's frame
   double top_below_shoulder_m = 0.02;  ///< upper edges of front and back below the shoulder joints
   double wrap_share = 0.66;            ///< of the front's height that the side wrap has
   double front_share = 0.36;           ///< of the girth that the front covers below
@@ -66,7 +67,7 @@ struct ShirtPattern {
   double belly_share = 0.75;  ///< of the front's width below
   double cell_m = 0.022;
   int degree = 2;
-  double gap_m = 0.001;  ///< more than the layers ask for
+  double gap_m = 0.001;  ///< more than the garments under it ask for
   double seam_stiffness_N = 0.01;
 };
 Garment makeShirt(const ShirtPattern& pattern, const BodyForm& form, double layer_m, std::span<const Worn> under);
@@ -82,9 +83,9 @@ inline std::vector<std::string> skirtPatchNames() {
   return {"panel_0", "panel_1", "panel_2", "panel_3", "panel_4", "panel_5", "panel_6", "panel_7"};
 }
 
-/// A flared skirt of eight equal panels, joined by G1 seams: a cone from the waist (the edge "waist" of a layer under
-/// it, or the origin of the torso's frame) down, and wider where body or layers ask for it (Zheng 2013, section 3.7.4:
-/// eight quadratic patches with 960 control points).
+/// A flared skirt of eight equal panels, joined by G1 seams: a cone from the waist (the edge "waist" of a garment under
+/// it, or the origin of the torso's frame) down, and wider where body or garments ask for it (Zheng 2013,
+/// section 3.7.4: eight quadratic patches with 960 control points).
 struct SkirtPattern {
   double length_m = 0.5;
   double ease = 0.04;      ///< at the waist

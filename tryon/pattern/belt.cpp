@@ -31,15 +31,15 @@ int cellsFor(double length_m, double cell_m, int least) {
 /// Rings of a wrap as a closed patch, u from the centre back around the left... to the centre back again.
 NurbsPatch ring(const KnotVector& u, const KnotVector& v, const Wrap& wrap, double median_y) {
   double last_z = HUGE_VAL, start = 0;
-  std::vector<ClosedCurve> row;
+  std::vector<ClosedCurve> curve;
   return interpolate(u, v, [&](double s, double t) {
     const double z = wrap.from() + t * (wrap.to() - wrap.from());
     if (z != last_z) {
-      row.assign(1, ClosedCurve(wrap.section(z)));
-      start = row[0].crossing({row[0].centroid().x, median_y}, {-1, 0});
+      curve.assign(1, ClosedCurve(wrap.crossSection(z)));
+      start = curve[0].crossing({curve[0].centroid().x, median_y}, {-1, 0});
       last_z = z;
     }
-    const Vec2 x = row[0].point(start + s * row[0].length());
+    const Vec2 x = curve[0].point(start + s * curve[0].length());
     return Vec3{x.x, x.y, z};
   });
 }
@@ -71,7 +71,7 @@ Garment makeBelt(const BeltPattern& p, const BodyForm& form, const Fabric& fabri
   const double top = waistOf(under, middle + 0.5 * p.width_m + p.below_waist_m) - p.below_waist_m;
   constexpr int heights = 17;
   const Wrap body = form.wrap(top - p.width_m, top, trunk, "below_waist_m", heights);
-  // Each layer keeps half the sum to the next, the first its thickness to the body.
+  // Each garment keeps half the sum to the next, the first its thickness to the body.
   double out = layer_m, below = 0;
   for (std::size_t k = 0; k < under.size(); ++k) {
     out = (k == 0 ? under[k].layer_m : below + 0.5 * (under[k - 1].layer_m + under[k].layer_m));
@@ -80,10 +80,10 @@ Garment makeBelt(const BeltPattern& p, const BodyForm& form, const Fabric& fabri
   if (!under.empty()) out = below + 0.5 * (under.back().layer_m + layer_m);
   const Wrap worn = body.offset(out);
   const double middle_z = 0.5 * (worn.from() + worn.to());
-  const ClosedCurve ring_middle(worn.section(middle_z));
+  const ClosedCurve ring_middle(worn.crossSection(middle_z));
   const Vec2 centre{ring_middle.centroid().x, form.medianY()};
-  Wrap start = worn.offset(p.gap_m), layers = start;
-  if (wrapOf(under, layer_m, p.gap_m, start.from(), start.to(), heights, layers)) start = start.with(layers);
+  Wrap start = worn.offset(p.gap_m), over_others = start;
+  if (wrapOf(under, layer_m, p.gap_m, start.from(), start.to(), heights, over_others)) start = start.with(over_others);
 
   const auto u = uniformKnots(p.degree, cellsFor(ring_middle.length(), p.cell_m, 8));
   const auto v = uniformKnots(p.degree, cellsFor(p.width_m, p.cell_m, 2));
@@ -99,7 +99,7 @@ Garment makeBelt(const BeltPattern& p, const BodyForm& form, const Fabric& fabri
   // On hips it is a cone, wider along its slope than upright.
   double area = 0;
   for (const double a : controlAreas(g)) area += a;
-  const double lambda = stretchAt(p.tension_N, area / ClosedCurve(start.section(middle_z)).length(), fabric);
+  const double lambda = stretchAt(p.tension_N, area / ClosedCurve(start.crossSection(middle_z)).length(), fabric);
   g.patches = {ring(u, v, worn.grown(1 / lambda, centre), form.medianY())};
   averageSeam(g, closing, 0, 0);
   g.seams = {closing};

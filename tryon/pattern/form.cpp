@@ -65,7 +65,7 @@ Vec3 leaned(const Vec3& x, double lean_rad) {
 std::vector<Vec2> BodyForm::cut(double at, const Links& of, const double* lean) const {
   std::vector<Vec2> out;
   const auto add = [&](const Shape& shape, const Placement& X) {
-    for (const Vec2& p : section(shape, lean ? turned(X, *lean) : X, at)) out.push_back(lean ? Vec2{p.y, p.x} : p);
+    for (const Vec2& p : crossSection(shape, lean ? turned(X, *lean) : X, at)) out.push_back(lean ? Vec2{p.y, p.x} : p);
   };
   if (segment_.empty()) {
     for (std::size_t i = 0; i < human_.shapes.size(); ++i)
@@ -108,14 +108,16 @@ std::vector<Vec2> BodyForm::hull(double z, const Links& of, bool mirrored, const
   if (mirrored)
     for (std::size_t i = 0, n = points.size(); i < n; ++i) points.push_back({points[i].x, 2 * median_y_ - points[i].y});
   std::vector<Vec2> out = convexHull(std::move(points));
-  if (out.size() < 3) reject(key, "reaches the height " + std::to_string(z) + " m, where the body has no section");
+  if (out.size() < 3)
+    reject(key, "reaches the height " + std::to_string(z) + " m, where the body has no cross-section");
   return out;
 }
 
 Wrap BodyForm::wrap(double from, double to, const Links& of, const char* key, int heights) const {
-  std::vector<std::vector<Vec2>> sections;
-  for (int k = 0; k < heights; ++k) sections.push_back(hull(from + (to - from) * k / (heights - 1), of, true, key));
-  return Wrap(sections, from, to);
+  std::vector<std::vector<Vec2>> cross_sections;
+  for (int k = 0; k < heights; ++k)
+    cross_sections.push_back(hull(from + (to - from) * k / (heights - 1), of, true, key));
+  return Wrap(cross_sections, from, to);
 }
 
 }  // namespace gambeson

@@ -1,6 +1,6 @@
 #pragma once
-/// The standing body as a pattern maker measures it: sections of the links that are asked for, whether the surface is a
-/// list of shapes on links or one closed skin whose vertices name their link.
+/// The standing body as a pattern maker measures it: cross-sections of the links that are asked for, whether the
+/// surface is a list of shapes on links or one closed skin whose vertices name their link.
 
 #include <memory>
 #include <span>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "human/body/body.hpp"
-#include "tryon/pattern/section.hpp"
+#include "tryon/pattern/wrap.hpp"
 
 namespace gambeson {
 
@@ -24,7 +24,7 @@ class BodyForm {
   /// The skin of a human who stands (human/motion/motion.hpp), or the shapes of one without. `human` outlives the form.
   explicit BodyForm(const Human& human);
   /// A closed skin of the standing human in the world; `segment` is the link of each vertex. A triangle belongs to a
-  /// link only with all its vertices, so that sections of the trunk end where arms begin.
+  /// link only with all its vertices, so that cross-sections of the trunk end where arms begin.
   BodyForm(const Human& human, TriangleMesh skin, std::vector<int> segment);
 
   /// The links of these names; throws InputError (key `key`) where one is missing.

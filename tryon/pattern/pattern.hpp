@@ -35,10 +35,10 @@ struct DiscPattern {
 Garment makeDisc(const DiscPattern& pattern);
 
 /// A closed tube from `start` along `axis` (unit), cut lengthwise into equal patches, whose number divides
-/// cells_around. u runs around, v along, normals outward. Its section is the uniform periodic spline through the circle
-/// at the knots: the radius between them differs by about radius (pi / cells_around)^4 / 8 for degree 2, and every
-/// seam is G1 with ratio 1 to rounding. `seam` C0 with `seam_stiffness_N` keeps the geometry and joins positions only.
-/// The weft runs along the axis, since one vector serves a whole patch.
+/// cells_around. u runs around, v along, normals outward. Its cross-section is the uniform periodic spline through the
+/// circle at the knots: the radius between them differs by about radius (pi / cells_around)^4 / 8 for degree 2, and
+/// every seam is G1 with ratio 1 to rounding. `seam` C0 with `seam_stiffness_N` keeps the geometry and joins positions
+/// only. The weft runs along the axis, since one vector serves a whole patch.
 struct TubePattern {
   double radius_m = 0, length_m = 0;
   int cells_around = 24, cells_along = 24;
@@ -59,12 +59,12 @@ Garment makeTube(const TubePattern& pattern);
 ///
 /// At the crotch points Cf and Cb (the ends of the gusset line) six patches meet. Centre and leg seams are G1 with
 /// ratio 1 save at Cf and Cb; hip and gusset lines are C0 with a rotational spring. v runs upward everywhere and u so
-/// that normals point outward. All rows of control points are horizontal, so sections are curves of constant v.
+/// that normals point outward. All rows of control points are horizontal, so cross-sections are curves of constant v.
 ///
-/// Trunk sections are those of the convex hull of pelvis, torso and thighs between crotch and waist (cloth and tape
-/// bridge the hollows); leg sections those of the thigh's hull; both grown by 1 + ease. From the crotch up to `fork_m`
-/// the centre lines leave the hull towards the gusset (a tape across the section still reads the same); from the crotch
-/// down to `blend_m` the leg goes over from the fork to the thigh's section.
+/// Trunk cross-sections are those of the convex hull of pelvis, torso and thighs between crotch and waist (cloth and
+/// tape bridge the hollows); leg cross-sections those of the thigh's hull; both grown by 1 + ease. From the crotch up
+/// to `fork_m` the centre lines leave the hull towards the gusset (a tape across the cross-section still reads the
+/// same); from the crotch down to `blend_m` the leg goes over from the fork to the thigh's cross-section.
 struct ShortsPattern {
   double inseam_m = 0.20;            ///< crotch to hem
   double rise_m = 0.25;              ///< crotch to waist edge

@@ -40,8 +40,8 @@ int cellsFor(double length_m, double cell_m, int least) {
   return std::max(least, static_cast<int>(n));
 }
 
-/// A row at one height: the curve around, and where its centre front stands on it.
-struct Row {
+/// A ring at one height: the curve around, and where its centre front stands on it.
+struct Ring {
   ClosedCurve curve;
   double front = 0;
   Vec3 at(double s, double z) const {
@@ -53,7 +53,7 @@ struct Row {
 class Draft {
  public:
   Draft(const ShirtPattern& p, const BodyForm& form, double layer_m, std::span<const Worn> under)
-      : p_(p), form_(form), under_(under), sections_(standUp(layer_m)) {
+      : p_(p), form_(form), under_(under), cross_sections_(standUp(layer_m)) {
     // Across the straps cells of one width; the front's and back's upper edges have the same.
     strap_cells = std::max(2, static_cast<int>(std::ceil(p.strap_width_m / p.cell_m)));
     const double cell = p.strap_width_m / strap_cells;
@@ -65,7 +65,7 @@ class Draft {
     top_half_m = (neck_half + strap_cells + margin) * cell;
 
     back_up = cellsFor(top_ - wrap_top_, p.cell_m, 2);
-    const double girth = row(0.5 * (hem_ + wrap_top_)).curve.length();
+    const double girth = ringAt(0.5 * (hem_ + wrap_top_)).curve.length();
     wrap_around = cellsFor((1 - p.front_share) * girth, p.cell_m, panel_cells + 2);
     wrap_around += (wrap_around - panel_cells) % 2;  // the back in its middle
     belly_across = cellsFor(p.belly_share * panel_cells, 1, 2);
@@ -75,19 +75,19 @@ class Draft {
 
   Vec3 front(double s, double t) const {
     const double z = hem_ + t * (top_ - hem_);
-    const Row& r = row(z);
+    const Ring& r = ringAt(z);
     const double low = 0.5 * p_.front_share * r.curve.length();
     return r.at((2 * s - 1) * armhole(low, z), z);
   }
   Vec3 wrap(double s, double t) const {
     const double z = hem_ + t * (wrap_top_ - hem_);
-    const Row& r = row(z);
+    const Ring& r = ringAt(z);
     const double half = 0.5 * p_.front_share * r.curve.length();
     return r.at(half + s * (r.curve.length() - 2 * half), z);
   }
   Vec3 back(double s, double t) const {
     const double z = wrap_top_ + t * (top_ - wrap_top_);
-    const Row& r = row(z);
+    const Ring& r = ringAt(z);
     const double around = (1 - p_.front_share) * r.curve.length();
     const double low = 0.5 * around * panel_cells / wrap_around;
     return r.at(0.5 * r.curve.length() + (2 * s - 1) * armhole(low, z), z);
@@ -95,8 +95,8 @@ class Draft {
   /// Narrower by a fifth at its lower edge.
   Vec3 belly(double s, double t) const {
     const double z = hem_ - (1 - t) * p_.belly_length_m;
-    const Row& r = row(z);
-    const double half = 0.5 * p_.front_share * row(hem_).curve.length() * belly_across / panel_cells;
+    const Ring& r = ringAt(z);
+    const double half = 0.5 * p_.front_share * ringAt(hem_).curve.length() * belly_across / panel_cells;
     return r.at((2 * s - 1) * half * (0.8 + 0.2 * t), z);
   }
   double top() const { return top_; }
@@ -125,20 +125,20 @@ class Draft {
     const double bottom = hem_ - p_.belly_length_m;
     const int heights = 1 + 2 * static_cast<int>(std::ceil((top_ - bottom) / 0.01));
     const Wrap body = form_.wrap(bottom, top_, trunk, "belly_length_m", heights);
-    const Vec2 centre{ClosedCurve(body.section(hem_)).centroid().x, form_.medianY()};
+    const Vec2 centre{ClosedCurve(body.crossSection(hem_)).centroid().x, form_.medianY()};
     const std::vector<Vec2> shoulders = form_.hull(top_, arms, true, "top_below_shoulder_m");
     const double cut = p_.cell_m * p_.cell_m / 0.8;  // by a spline of such cells off a body of 10 cm
-    Wrap layers = body;
-    const bool over = wrapOf(under_, layer_m, p_.gap_m, bottom, top_, heights, layers);
+    Wrap over_others = body;
+    const bool over = wrapOf(under_, layer_m, p_.gap_m, bottom, top_, heights, over_others);
     for (;; --wrap_up) {
       wrap_top_ = hem_ + height * wrap_up / front_up;
-      // Upward from the wrap the sections go over into the hull of chest and shoulders at the upper edges.
+      // Upward from the wrap the cross-sections go over into the hull of chest and shoulders at the upper edges.
       const Wrap upper = body.with(body.blended(shoulders, [&](double z) {
         const double x = std::clamp((z - wrap_top_) / (top_ - wrap_top_), 0.0, 1.0);
         return x * x * (3 - 2 * x);
       }));
       Wrap out = upper.grown(1 + p_.ease, centre).with(upper.offset(layer_m + p_.gap_m + cut));
-      if (over) out = out.with(layers.widened(1.5 * p_.cell_m));
+      if (over) out = out.with(over_others.widened(1.5 * p_.cell_m));
       if (clearOfArms(out, layer_m)) return out;
       if (wrap_up == 2) reject("ease", std::to_string(p_.ease) + ", leaves no room between chest and arms");
     }
@@ -150,18 +150,18 @@ class Draft {
     for (int k = 0; k <= heights; ++k) {
       const double z = hem_ + (wrap_top_ - hem_) * k / heights;
       double widest = -HUGE_VAL, inside = HUGE_VAL;
-      for (const Vec2& p : out.section(z)) widest = std::max(widest, p.y);
+      for (const Vec2& p : out.crossSection(z)) widest = std::max(widest, p.y);
       for (const Vec2& p : form_.level(z, arm)) inside = std::min(inside, p.y);
       if (!(widest + layer_m + p_.gap_m <= inside)) return false;
     }
     return true;
   }
-  const Row& row(double z) const {
-    const auto found = rows_.find(z);
-    if (found != rows_.end()) return found->second;
-    Row r{ClosedCurve(sections_.section(z)), 0};
+  const Ring& ringAt(double z) const {
+    const auto found = rings_.find(z);
+    if (found != rings_.end()) return found->second;
+    Ring r{ClosedCurve(cross_sections_.crossSection(z)), 0};
     r.front = r.curve.crossing({r.curve.centroid().x, form_.medianY()}, {1, 0});
-    return rows_.emplace(z, std::move(r)).first->second;
+    return rings_.emplace(z, std::move(r)).first->second;
   }
   /// Half the width of a panel: `low` beside the wrap, then along a parabola to the upper edge's.
   double armhole(double low, double z) const {
@@ -173,8 +173,8 @@ class Draft {
   const BodyForm& form_;
   std::span<const Worn> under_;
   double hem_ = 0, top_ = 0, wrap_top_ = 0;
-  Wrap sections_;
-  mutable std::map<double, Row> rows_;
+  Wrap cross_sections_;
+  mutable std::map<double, Ring> rings_;
 };
 
 /// The edge a of a seam on a part of edge b takes the control points that hold it there.

@@ -8,7 +8,7 @@
 #include "tryon/pattern/fit.hpp"
 #include "tryon/pattern/form.hpp"
 #include "tryon/pattern/pattern.hpp"
-#include "tryon/pattern/section.hpp"
+#include "tryon/pattern/wrap.hpp"
 
 namespace gambeson {
 namespace {
@@ -27,7 +27,7 @@ constexpr double level_m = 0.0015;
 /// And along a row: corners of a coarse skin stand between wider steps.
 constexpr int looks_per_cell = 16;
 
-/// A section of pelvis or thigh.
+/// A cross-section of pelvis or thigh.
 struct Outline {
   ClosedCurve curve;
   Vec2 middle;
@@ -53,7 +53,8 @@ class Drafted {
   ClosedCurve leftThigh(double z) const { return ClosedCurve(form_.hull(z, thigh_, false, "inseam_m")); }
   double medianY() const { return form_.medianY(); }
   double thighBottom() const { return form_.lowest(thigh_); }
-  /// Hulls of the pelvis, whose middle stands on the median plane, and of the left thigh, where they have a section.
+  /// Hulls of the pelvis, whose middle stands on the median plane, and of the left thigh, where they have a
+  /// cross-section.
   std::vector<Outline> underFork(double z) const {
     std::vector<Vec2> pelvis = form_.level(z, {0});
     for (std::size_t i = 0, n = pelvis.size(); i < n; ++i) pelvis.push_back({pelvis[i].x, 2 * medianY() - pelvis[i].y});
@@ -108,14 +109,15 @@ class Draft {
 
   /// s from centre front to centre back around the left hip, t from the crotch's level up to the waist.
   Vec3 trunk(double s, double t) const {
-    const std::vector<Vec2> section = halfSection(t);
+    const std::vector<Vec2> cross_section = halfCrossSection(t);
     std::vector<double> at{0};
-    for (std::size_t i = 1; i < section.size(); ++i)
-      at.push_back(at.back() + std::hypot(section[i].x - section[i - 1].x, section[i].y - section[i - 1].y));
+    for (std::size_t i = 1; i < cross_section.size(); ++i)
+      at.push_back(at.back() + std::hypot(cross_section[i].x - cross_section[i - 1].x,
+                                          cross_section[i].y - cross_section[i - 1].y));
     const double length = s * at.back();
     const std::size_t i = std::upper_bound(at.begin() + 1, at.end() - 1, length) - at.begin();
     const double f = (length - at[i - 1]) / (at[i] - at[i - 1]);
-    const Vec2 &a = section[i - 1], &b = section[i];
+    const Vec2 &a = cross_section[i - 1], &b = cross_section[i];
     return {a.x + f * (b.x - a.x), a.y + f * (b.y - a.y), crotch_z_ + t * p_.rise_m};
   }
   /// The patch through `trunk`. Between the points that it goes through a spline cuts off what stands out on the body
@@ -171,7 +173,7 @@ class Draft {
   }
 
  private:
-  /// The trunk's section grown by the ease.
+  /// The trunk's cross-section grown by the ease.
   struct Tape {
     ClosedCurve curve;
     double front = 0, half = 0;  ///< arc length where the centre front stands, and to the centre back
@@ -183,7 +185,7 @@ class Draft {
     return waist + (p_.ease - waist) * below * below * (3 - 2 * below);
   }
   Tape tape(double t) const {
-    const ClosedCurve body(trunk_.section(crotch_z_ + t * p_.rise_m));
+    const ClosedCurve body(trunk_.crossSection(crotch_z_ + t * p_.rise_m));
     const Vec2 c{body.centroid().x, body_.medianY()};
     const ClosedCurve grown = body.grown(1 + easeAt(t), c);
     const double front = grown.crossing(c, {1, 0}), half = 0.5 * grown.length();
@@ -194,11 +196,11 @@ class Draft {
     const double z = crotch_z_ + t * p_.rise_m;
     if (!(easeAt(t) > 0)) return {};
     if (z < crotch_z_ + p_.fork_m) return body_.underFork(z);
-    return {body_.outline(ClosedCurve(trunk_.section(z)))};
+    return {body_.outline(ClosedCurve(trunk_.crossSection(z)))};
   }
-  /// The trunk's section with the fork, from centre front to centre back: the tape, drawn towards the middle by a bell
-  /// across and a parabola upward, both flat where they end, so that the section mirrors without a kink.
-  std::vector<Vec2> halfSection(double t) const {
+  /// The trunk's cross-section with the fork, from centre front to centre back: the tape, drawn towards the middle by a
+  /// bell across and a parabola upward, both flat where they end, so that the cross-section mirrors without a kink.
+  std::vector<Vec2> halfCrossSection(double t) const {
     const Tape around = tape(t);
     const double up = std::max(0.0, 1 - t * p_.rise_m / p_.fork_m);
     const std::vector<Outline> bodies = up > 0 ? body_.underFork(crotch_z_ + t * p_.rise_m) : std::vector<Outline>{};
@@ -244,7 +246,7 @@ class Draft {
     const Vec2 x = tape.point(innermost + (fraction + 0.5 * (1 - share())) * tape.length());
     return {x.x, x.y, z};
   }
-  /// The fork's outline at the top goes over into the thigh's section, with a slope there and without one below.
+  /// The fork's outline at the top goes over into the thigh's cross-section, with a slope there and without one below.
   /// Points of two outlines that face each other on different rays cut the corner between them; they are moved out to
   /// where the thigh leaves room.
   Vec3 blend(const Vec3& top, const Vec3& leg, double t) const {
@@ -258,8 +260,8 @@ class Draft {
     return {out.x, out.y, x.z};
   }
   double wantedGap() const { return body_gap_m + p_.cell_m * p_.cell_m / 0.8; }
-  /// Moved out along the ray from the middle of a section of the body, unless it keeps `gap(radius of the body there)`
-  /// already; never past where the other leg has its room.
+  /// Moved out along the ray from the middle of a cross-section of the body, unless it keeps `gap(radius of the body
+  /// there)` already; never past where the other leg has its room.
   template <class Gap>
   static Vec2 movedOut(const Vec2& x, const Outline& body, const Gap& gap) {
     const Vec2 c = body.middle, ray{x.x - c.x, x.y - c.y};

@@ -63,9 +63,9 @@ Garment makeSheet(const SheetPattern& s) {
   return g;
 }
 
-// The section is one uniform periodic spline, whose net is a regular polygon; each patch is cut out of it by inserting
-// its end knots to multiplicity p. The cut leaves the curve C^(p-1), so both sides have the same first difference
-// there.
+// The cross-section is one uniform periodic spline, whose net is a regular polygon; each patch is cut out of it by
+// inserting its end knots to multiplicity p. The cut leaves the curve C^(p-1), so both sides have the same first
+// difference there.
 Garment makeDisc(const DiscPattern& d) {
   requirePositive("radius_m", d.radius_m);
   requireDegree(d.degree, 1);
@@ -84,9 +84,9 @@ Garment makeDisc(const DiscPattern& d) {
   return g;
 }
 
-// The section is one uniform periodic spline, whose net is a regular polygon; each patch is cut out of it by inserting
-// its end knots to multiplicity p. The cut leaves the curve C^(p-1), so both sides have the same first difference
-// there.
+// The cross-section is one uniform periodic spline, whose net is a regular polygon; each patch is cut out of it by
+// inserting its end knots to multiplicity p. The cut leaves the curve C^(p-1), so both sides have the same first
+// difference there.
 Garment makeTube(const TubePattern& t) {
   requirePositive("radius_m", t.radius_m);
   requirePositive("length_m", t.length_m);

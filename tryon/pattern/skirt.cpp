@@ -32,28 +32,28 @@ Garment makeSkirt(const SkirtPattern& p, const BodyForm& form, double layer_m, s
   const double waist = waistOf(under, form.origin(torso[0]).z), hem = waist - p.length_m;
   const int heights = 1 + static_cast<int>(std::ceil(p.length_m / 0.005));
   const Wrap body = form.wrap(hem, waist, legs, "length_m", heights);
-  const std::vector<Vec2> top = body.section(waist);
+  const std::vector<Vec2> top = body.crossSection(waist);
   const Vec2 centre{ClosedCurve(top).centroid().x, form.medianY()};
-  // The cone: the waist's section everywhere, moved out in proportion to the depth below.
+  // The cone: the waist's cross-section everywhere, moved out in proportion to the depth below.
   std::vector<std::vector<Vec2>> same(heights, top);
   const Wrap ring = Wrap::plain(same, hem, waist).grown(1 + p.ease, centre);
   const Wrap cone = ring.raised([&](double z) { return std::tan(p.flare_rad) * (waist - z); });
-  Wrap sections = cone.with(body.grown(1 + p.ease, centre)).with(body.offset(layer_m + p.gap_m));
-  Wrap layers = sections;
-  if (wrapOf(under, layer_m, p.gap_m, hem, waist, heights, layers))
-    sections = sections.with(layers.widened(1.5 * p.length_m / p.cells_along));
+  Wrap cross_sections = cone.with(body.grown(1 + p.ease, centre)).with(body.offset(layer_m + p.gap_m));
+  Wrap over_others = cross_sections;
+  if (wrapOf(under, layer_m, p.gap_m, hem, waist, heights, over_others))
+    cross_sections = cross_sections.with(over_others.widened(1.5 * p.length_m / p.cells_along));
 
-  struct Row {
+  struct Ring {
     ClosedCurve curve;
     double front = 0;
   };
-  std::map<double, Row> rows;
-  const auto row = [&](double z) -> const Row& {
-    const auto found = rows.find(z);
-    if (found != rows.end()) return found->second;
-    Row r{ClosedCurve(sections.section(z)), 0};
+  std::map<double, Ring> rings;
+  const auto ringAt = [&](double z) -> const Ring& {
+    const auto found = rings.find(z);
+    if (found != rings.end()) return found->second;
+    Ring r{ClosedCurve(cross_sections.crossSection(z)), 0};
     r.front = r.curve.crossing(centre, {1, 0});
-    return rows.emplace(z, std::move(r)).first->second;
+    return rings.emplace(z, std::move(r)).first->second;
   };
   Garment g;
   g.name = "skirt";
@@ -62,7 +62,7 @@ Garment makeSkirt(const SkirtPattern& p, const BodyForm& form, double layer_m, s
   for (int n = 0; n < panels; ++n) {
     g.patches.push_back(interpolate(u, v, [&](double s, double t) {
       const double z = hem + t * p.length_m;
-      const Row& r = row(z);
+      const Ring& r = ringAt(z);
       const Vec2 x = r.curve.point(r.front + (n + s) / panels * r.curve.length());
       return Vec3{x.x, x.y, z};
     }));

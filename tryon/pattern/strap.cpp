@@ -162,13 +162,13 @@ Vec2 Strap::point(int i, double t) const {
 /// The points of all lines on a cross line: sideways as far apart as gives it its width.
 std::array<Vec3, StrapLine::lines + 1> Strap::crossLine(double t) const {
   const double to_front = fade(t * length()), to_back = fade((1 - t) * length());
-  const auto share = [](int i) { return static_cast<double>(i) / StrapLine::lines - 0.5; };
+  const auto fromMiddle = [](int i) { return static_cast<double>(i) / StrapLine::lines - 0.5; };
   const auto lengthOf = [](const auto& x) { return norm(x[kMiddle] - x.front()) + norm(x.back() - x[kMiddle]); };
   const double width = line_.width_m + to_front * (lengthOf(line_.front) - line_.width_m) +
                        to_back * (lengthOf(line_.back) - line_.width_m);
   const double middle = line_.front[kMiddle].y + t * (line_.back[kMiddle].y - line_.front[kMiddle].y);
   const auto uneven = [&](const std::vector<Vec3>& end, int i) {
-    return end[i].y - end[kMiddle].y - share(i) * (end.back().y - end.front().y);
+    return end[i].y - end[kMiddle].y - fromMiddle(i) * (end.back().y - end.front().y);
   };
   std::array<Vec3, StrapLine::lines + 1> out;
   for (int i = 0; i <= StrapLine::lines; ++i) {
@@ -191,7 +191,7 @@ std::array<Vec3, StrapLine::lines + 1> Strap::crossLine(double t) const {
   }
   const auto spread = [&](double across) {
     auto points = out;
-    for (int i = 0; i <= StrapLine::lines; ++i) points[i].y += share(i) * across;
+    for (int i = 0; i <= StrapLine::lines; ++i) points[i].y += fromMiddle(i) * across;
     return points;
   };
   double low = 0.5 * line_.width_m, high = 1.1 * line_.width_m;  // longer with every step sideways

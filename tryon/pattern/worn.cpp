@@ -43,10 +43,10 @@ bool wrapOf(std::span<const Worn> under, double layer_m, double gap_m, double fr
   bool any = false;
   for (const Worn& w : under) {
     const Shape mesh = meshOf(*w.garment);
-    std::vector<std::vector<Vec2>> sections;
+    std::vector<std::vector<Vec2>> cross_sections;
     for (int k = 0; k < heights; ++k)
-      sections.push_back(section(mesh, Placement{}, from + (to - from) * k / (heights - 1)));
-    const Wrap wrap = Wrap::plain(sections, from, to).offset(0.5 * (w.layer_m + layer_m) + gap_m);
+      cross_sections.push_back(crossSection(mesh, Placement{}, from + (to - from) * k / (heights - 1)));
+    const Wrap wrap = Wrap::plain(cross_sections, from, to).offset(0.5 * (w.layer_m + layer_m) + gap_m);
     out = any ? out.with(wrap) : wrap;
     any = true;
   }

@@ -15,7 +15,9 @@ Object planeTable() {
   using P = PlaneObstacle;
   return Table<P>("Plane")
       .vector("point", &P::point_m, "m", world, "centre of the square")
-      .direction("normal", &P::normal, "points to the side where the cloth is")
+      .direction(
+          "normal", &P::normal,
+          "points to the side that bears cloth; what starts behind the square, or passes beside it, falls freely")
       .number("size", &P::size_m, "m", aboveTo(0, 1e3), "edge of the square")
       .build();
 }
@@ -39,7 +41,9 @@ const ObstacleKind plane_obstacle{
     .word = "plane",
     .addTo =
         [](schema::Table<ObstacleCase>& table) {
-          table.alternative<PlaneObstacle>("plane", &ObstacleCase::shape, schema::planeTable(), "a square of a plane");
+          table.alternative<PlaneObstacle>(
+              "plane", &ObstacleCase::shape, schema::planeTable(),
+              "a square of a plane; it bears cloth on one side alone and ends at its edges");
         },
     .make =
         [](const ObstacleCase& o) {

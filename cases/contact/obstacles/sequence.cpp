@@ -19,7 +19,7 @@ Object sequenceTable() {
       "whose vertices move";
   return Table<S>("Sequence of meshes")
       .custom(
-          folder, [](const Place& p, S& o) { o.folder = readFolder(p); },
+          folder, [](const Entry& p, S& o) { o.folder = readFolder(p); },
           [](const S& o) { return std::optional(nodeOf(o.folder.string())); })
       .required()
       .number("rate", &S::rate_Hz, "Hz", aboveTo(0, 1e5), "frames per second")

@@ -21,7 +21,7 @@ Object sphereTable() {
       .vector("center", &S::center_m, "m", world, "centre")
       .integer("rings", &S::rings, 0, 1000, "bands of triangles from pole to pole along z; 0: an exact sphere")
       .integer("segments", &S::segments, 0, 1000, "triangles around; 0: an exact sphere")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         if ((s.rings == 0) != (s.segments == 0))
           p.failAt(s.rings ? "segments" : "rings", "rings and segments go together; give both or neither");
         if (s.rings != 0 && s.rings < 2)

@@ -24,7 +24,7 @@ Object torusTable() {
       .direction("axis", &T::axis, "axis of the ring")
       .integer("segments", &T::segments, 3, 1000, "pieces around the axis")
       .integer("rings", &T::rings, 3, 1000, "pieces around the tube")
-      .check([](const Place& p, const T& t) {
+      .check([](const Entry& p, const T& t) {
         if (!(t.tube_m < t.radius_m))
           p.failAt("tube", fmt::format("{} m is out of range; allowed: < radius = {} m", t.tube_m, t.radius_m));
       })

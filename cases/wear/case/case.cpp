@@ -13,11 +13,11 @@ namespace {
 Case readWith(const JsonNode& root, const std::filesystem::path& file, bool recorded) {
   Case c;
   const std::string name = file.string();
-  const schema::Place place{root, "", name, recorded};
-  schema::readObject(schema::caseTable(), place, &c);
+  const schema::Entry entry{root, "", name, recorded};
+  schema::readObject(schema::caseTable(), entry, &c);
   if (!recorded) {
-    schema::applyRules(place, c);
-    schema::checkReferences(place, c);
+    schema::applyRules(entry, c);
+    schema::checkReferences(entry, c);
   }
   c.file = file;
   return c;

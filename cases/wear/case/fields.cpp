@@ -24,7 +24,7 @@ Object airTable() {
               "force per area and relative velocity, eta of Zheng 2013")
       .custom(
           velocity,
-          [velocity](const Place& p, A& air) {
+          [velocity](const Entry& p, A& air) {
             air.with_pelvis = p.node.type == JsonNode::Type::text;
             if (air.with_pelvis)
               readChoice(p, velocity.choices);
@@ -118,12 +118,12 @@ Object makeCaseTable() {
   garment.key = "garment";
   garment.kind = Kind::object;
   garment.object = std::make_shared<const Object>(garmentTable());
-  garment.group = garments.group = "garments";
+  garment.alternatives = garments.alternatives = "garments";
   garment.doc = "what is worn: its shape and how finely it is computed";
   garments.key = "garments";
   garments.kind = Kind::list;
   garments.object = garment.object;
-  garments.doc = "several garments worn over each other, innermost first, each a layer of its own";
+  garments.doc = "several garments worn over each other, innermost first, each with its own number";
   Field fabric;
   fabric.key = "fabric";
   fabric.kind = Kind::object;
@@ -138,7 +138,7 @@ Object makeCaseTable() {
   kind.doc = "what the case is; the other kinds have fields of their own";
   return Table<C>("Case", "a garment on a moving human, or cloth among obstacles, followed in time")
       .custom(
-          kind, [choices = kind.choices](const Place& p, C&) { readChoice(p, choices); },
+          kind, [choices = kind.choices](const Entry& p, C&) { readChoice(p, choices); },
           [](const C&) { return std::optional<JsonNode>(); })
       .text("name", &C::name, "title of the pictures and the report")
       .required()
@@ -146,7 +146,7 @@ Object makeCaseTable() {
       .vector("gravity", &C::gravity_m_per_s2, "m/s^2", between(-1e3, 1e3), "acceleration of free fall")
       .custom(
           garment,
-          [o = garment.object](const Place& p, C& c) {
+          [o = garment.object](const Entry& p, C& c) {
             c.garments.clear();
             readObject(*o, p, &c.garments.emplace_back());
           },
@@ -155,7 +155,7 @@ Object makeCaseTable() {
           })
       .custom(
           garments,
-          [o = garment.object](const Place& p, C& c) {
+          [o = garment.object](const Entry& p, C& c) {
             if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
             if (p.node.children.empty()) p.fail("the list is empty; allowed: at least one garment");
             c.garments.clear();
@@ -171,7 +171,7 @@ Object makeCaseTable() {
       .oneOf("garments", true)
       .custom(
           fabric,
-          [o = fabric.object](const Place& p, C& c) {
+          [o = fabric.object](const Entry& p, C& c) {
             FabricInput in;
             readObject(*o, p, &in);
             c.fabric = resolveFabric(p, in);

@@ -16,7 +16,7 @@ Object limitTable(const ComfortLimit& defaults) {
                              "comfortable up to here, in the mean over time at the place that bears most")
                      .number("red", &L::red_Pa, "Pa", range, "from here on it is not worn for long; at least amber")
                      .number("peak", &L::peak_Pa, "Pa", range, "and not at any time above this; at least red")
-                     .check([](const Place& p, const L& l) {
+                     .check([](const Entry& p, const L& l) {
                        if (!(l.red_Pa >= l.amber_Pa)) p.failAt("red", "lies below amber; allowed: at least amber");
                        if (!(l.peak_Pa >= l.red_Pa)) p.failAt("peak", "lies below red; allowed: at least red");
                      })
@@ -52,7 +52,7 @@ Object comfortTable() {
       .number("effort_amber", &C::effort_amber, "", aboveTo(0, 10),
               "added torque that is easily borne, as a part of the task's natural moment")
       .number("effort_red", &C::effort_red, "", aboveTo(0, 10), "and that from which it hinders; at least effort_amber")
-      .check([](const Place& p, const C& c) {
+      .check([](const Entry& p, const C& c) {
         if (!(c.effort_red >= c.effort_amber))
           p.failAt("effort_red", "lies below effort_amber; allowed: at least effort_amber");
       })

@@ -59,11 +59,11 @@ Object garmentTable() {
       .defaultsTo("the case's fabric")
       .custom(
           listOf("other_fabrics", fabricTable(), "what a material field chooses from"),
-          [table = fabricTable()](const Place& p, G& g) {
+          [table = fabricTable()](const Entry& p, G& g) {
             if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
             for (std::size_t i = 0; i < p.node.children.size(); ++i) {
               FabricInput in;
-              const Place item = p.item(i);
+              const Entry item = p.item(i);
               readObject(table, item, &in);
               g.other_fabrics.push_back(resolveFabric(item, in));
             }
@@ -81,7 +81,7 @@ Object garmentTable() {
       .custom(
           listOf("fields", fieldsTable(FieldsOf::garment),
                  "thickness, fibre angle and material that vary over its patches; seams keep their springs"),
-          [table = fieldsTable(FieldsOf::garment)](const Place& p, G& g) {
+          [table = fieldsTable(FieldsOf::garment)](const Entry& p, G& g) {
             if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
             for (std::size_t i = 0; i < p.node.children.size(); ++i)
               readObject(table, p.item(i), &g.fields.emplace_back());
@@ -96,8 +96,7 @@ Object garmentTable() {
       .number("noise", &G::noise_m, "m", between(0, 0.1),
               "largest displacement along the normal, control point by control point, that the motion starts from; the "
               "rest shape has none")
-      .integer("noise_seed", &G::noise_seed, 0, 1000000000,
-               "another seed gives another pattern, the same on every machine")
+      .integer("noise_seed", &G::noise_seed, 0, 1000000000, "another seed gives other noise, the same on every machine")
       .integer(
           "samples_per_cell", &G::samples_per_cell, 0, 8,
           "contact samples along the edge of a cell; 0: one per control point (Greville points). All garments together "
@@ -112,7 +111,7 @@ Object garmentTable() {
               "virtual stitching: the panels start apart and springs along the seams close them; needs "
               "dressing.layer_by_layer")
       .defaultsTo("none: drafted sewn, put on by projecting")
-      .check([](const Place& p, G& g) {
+      .check([](const Entry& p, G& g) {
         if (kindOf(g).isMesh() && !p.node.find("model")) g.cloth.kind = ClothKind::triangles;
       })
       .build();

@@ -23,14 +23,14 @@ Object characterTable() {
             Table<MorphTarget>("Morph target")
                 .path("file", &MorphTarget::file, "one of MakeHuman's (.target)")
                 .required()
-                .number("share", &MorphTarget::share, "", between(-10, 10), "how much of it is added")
+                .number("share", &MorphTarget::amount, "", between(-10, 10), "how much of it is added")
                 .build(),
             "morphs of MakeHuman's mesh")
       .custom(
           mapField("what its bones are in our human: unreal, mixamo, makehuman_default, or a joint map of one's own "
                    "(\"reads\": \"bones\"; human/data/MAPS.md)",
                    "that which goes with the names of its bones"),
-          [](const Place& p, C& c) { c.map = readMap(p); },
+          [](const Entry& p, C& c) { c.map = readMap(p); },
           [](const C& c) { return c.map.empty() ? std::nullopt : std::optional(nodeOf(c.map)); })
       .choice("like", &C::like, manikins, "the manikin whose limits of joints and shares of mass it takes")
       .number("height", &C::height_m, "m", between(0.5, 3), "it is scaled to, in the pose of the file")
@@ -77,7 +77,7 @@ Object humanTable() {
               "a closed skin around the manikin that bends with its joints, in place of its ellipsoids")
       .object("motion", &H::motion, motionTable(), "what the human does")
       .required()
-      .check([](const Place& p, const H& h) {
+      .check([](const Entry& p, const H& h) {
         if (h.skin && h.manikin.empty())
           p.failAt("skin", "is made around a manikin, not around a body of your own or a character");
         if (h.urdf.empty() && !h.body.empty()) p.failAt("body", "goes with \"urdf\"; a manikin has its own body");

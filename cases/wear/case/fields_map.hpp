@@ -14,7 +14,7 @@ inline Field mapField(const std::string& doc, const std::string& note) {
   f.default_note = note;
   return f;
 }
-inline std::string readMap(const Place& p) {
+inline std::string readMap(const Entry& p) {
   const std::string word = readText(p);
   return word.find_first_of("./") == std::string::npos ? word : readPath(p).string();
 }

@@ -24,7 +24,7 @@ Object outputTable() {
       .number("checkpoint", &O::checkpoint_s, "s", between(1e-5, 100),
               "time between points from which an interrupted run resumes; a multiple of frame")
       .list("pictures", &O::pictures, pictureTable(), "pictures to take")
-      .check([](const Place& p, const O& o) {
+      .check([](const Entry& p, const O& o) {
         if (!isMultiple(o.frame_s, o.window_s))
           p.failAt("frame",
                    fmt::format("{} s is not a multiple of window = {} s; allowed: a multiple", o.frame_s, o.window_s));

@@ -14,7 +14,7 @@
 namespace gambeson::schema {
 namespace {
 
-Place listItem(const Place& parent, const std::string& list, std::size_t i) {
+Entry listItem(const Entry& parent, const std::string& list, std::size_t i) {
   return parent.member(*parent.node.find(list)).item(i);
 }
 
@@ -25,30 +25,30 @@ std::string absent(const std::string& what, const std::string& name, const std::
                      near.empty() ? "allowed: " + joined(names) : fmt::format("did you mean \"{}\"?", near));
 }
 
-void checkJoints(const Place& root, const Case& c, const Skeleton& skeleton) {
+void checkJoints(const Entry& root, const Case& c, const Skeleton& skeleton) {
   std::vector<std::string> moving;
   for (const Joint& j : skeleton.joints)
     if (j.type != JointType::fixed) moving.push_back(j.name);
   for (std::size_t i = 0; i < c.analysis.joints.size(); ++i) {
     const std::string& name = c.analysis.joints[i];
-    const Place place = listItem(root.member(*root.node.find("analysis")), "joints", i);
+    const Entry entry = listItem(root.member(*root.node.find("analysis")), "joints", i);
     const int joint = skeleton.joint(name);
-    if (joint < 0) place.fail(absent("joint", name, moving));
+    if (joint < 0) entry.fail(absent("joint", name, moving));
     if (skeleton.joints[static_cast<std::size_t>(joint)].type == JointType::fixed)
-      place.fail(fmt::format("the joint \"{}\" is fixed; allowed: {}", name, joined(moving)));
+      entry.fail(fmt::format("the joint \"{}\" is fixed; allowed: {}", name, joined(moving)));
     for (std::size_t k = 0; k < i; ++k)
-      if (c.analysis.joints[k] == name) place.fail(fmt::format("\"{}\" is listed twice", name));
+      if (c.analysis.joints[k] == name) entry.fail(fmt::format("\"{}\" is listed twice", name));
   }
 }
 
-void checkLinks(const Place& root, const Case& c, const Skeleton& skeleton) {
+void checkLinks(const Entry& root, const Case& c, const Skeleton& skeleton) {
   std::vector<std::string> names;
   for (const Link& l : skeleton.links) names.push_back(l.name);
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const SupportKind& kind = kindOf(c.supports[i]);
     const std::string* link = kind.link(c.supports[i]);
     if (!link || skeleton.link(*link) >= 0) continue;
-    const Place support = listItem(root, "supports", i);
+    const Entry support = listItem(root, "supports", i);
     support.member(*support.node.find(kind.word)).failAt("link", absent("link", *link, names));
   }
   for (std::size_t i = 0; i < c.obstacles.size(); ++i)
@@ -58,7 +58,7 @@ void checkLinks(const Place& root, const Case& c, const Skeleton& skeleton) {
                   fmt::format("\"{}\" is also a link of the human; allowed: a name of its own", c.obstacles[i].name));
 }
 
-void checkPictures(const Place& root, const Case& c, double duration_s) {
+void checkPictures(const Entry& root, const Case& c, double duration_s) {
   for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
     const PictureCase& p = c.output.pictures[i];
     if (p.when == PictureTime::at && !(p.time_s <= duration_s * (1 + 1e-9)))
@@ -68,13 +68,13 @@ void checkPictures(const Place& root, const Case& c, double duration_s) {
 }
 
 /// What supports name of a garment with these patches and edges.
-void checkSupportsOf(const Place& root, const Case& c, const GarmentCase& garment, int patches,
+void checkSupportsOf(const Entry& root, const Case& c, const GarmentCase& garment, int patches,
                      const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
     const EdgeCase& edge = edgeOf(c.supports[i]);
     if (!edge.garment.empty() && edge.garment != garment.name) continue;
-    const Place support = listItem(root, "supports", i);
-    const Place kind = support.member(support.node.children.front());
+    const Entry support = listItem(root, "supports", i);
+    const Entry kind = support.member(support.node.children.front());
     if (!edge.name.empty() && std::find(names.begin(), names.end(), edge.name) == names.end())
       kind.failAt("edge", fmt::format("\"{}\" is not an edge of this garment; allowed: {}patch and side, such as 2.u0",
                                       edge.name, names.empty() ? "" : joined(names) + ", or "));
@@ -85,7 +85,7 @@ void checkSupportsOf(const Place& root, const Case& c, const GarmentCase& garmen
 }
 
 /// A garment's file, and the patches of it that supports name.
-void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garment) {
+void checkGarmentFile(const Entry& root, const Case& c, const GarmentCase& garment) {
   Garment read = kindOf(garment).look(garment);
   try {
     applyFields(garment.fields, read);
@@ -93,8 +93,8 @@ void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garme
     const std::size_t i = std::stoul(e.where().key.substr(std::string("fields[").size()));
     const JsonNode* list = root.node.find("garments");
     const auto k = static_cast<std::size_t>(&garment - c.garments.data());
-    const Place place = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
-    listItem(place, "fields", i).failAt("patch", e.reason());
+    const Entry entry = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
+    listItem(entry, "fields", i).failAt("patch", e.reason());
   }
   std::vector<std::string> names;
   for (const NamedEdge& e : read.edges) names.push_back(e.name);
@@ -103,7 +103,7 @@ void checkGarmentFile(const Place& root, const Case& c, const GarmentCase& garme
 
 }  // namespace
 
-void checkReferences(const Place& root, const Case& c) {
+void checkReferences(const Entry& root, const Case& c) {
   double duration_s = c.time.duration_s.value_or(0);
   if (c.human) {
     const Human human = skeletonOf(*c.human);

@@ -8,7 +8,7 @@ namespace gambeson::schema {
 
 /// Reads the human, its motion and the meshes, and throws InputError where one does not read (its own file and line) or
 /// where the case names a joint or a link that is not there, or a time beyond the motion (the case's line).
-void checkReferences(const Place& root, const Case& c);
+void checkReferences(const Entry& root, const Case& c);
 
 }  // namespace gambeson::schema
 

@@ -15,12 +15,12 @@ namespace gambeson::schema {
 namespace {
 
 /// Complains at the deepest part of `keys` that is written.
-[[noreturn]] void failAt(const Place& place, std::initializer_list<std::string> keys, const std::string& reason) {
-  if (keys.size() == 1) place.failAt(*keys.begin(), reason);
-  const JsonNode* child = place.node.find(*keys.begin());
+[[noreturn]] void failAt(const Entry& entry, std::initializer_list<std::string> keys, const std::string& reason) {
+  if (keys.size() == 1) entry.failAt(*keys.begin(), reason);
+  const JsonNode* child = entry.node.find(*keys.begin());
   if (child) {
     const std::vector<std::string> rest(keys.begin() + 1, keys.end());
-    const Place inner = place.member(*child);
+    const Entry inner = entry.member(*child);
     if (rest.size() == 1) inner.failAt(rest[0], reason);
     const JsonNode* next = inner.node.find(rest[0]);
     if (next) inner.member(*next).failAt(rest[1], reason);
@@ -28,15 +28,15 @@ namespace {
   }
   std::string path;
   for (const std::string& k : keys) path += (path.empty() ? "" : ".") + k;
-  place.failAt(path, reason);
+  entry.failAt(path, reason);
 }
 
-Place itemOf(const Place& root, const std::string& list, std::size_t i) {
+Entry itemOf(const Entry& root, const std::string& list, std::size_t i) {
   return root.member(*root.node.find(list)).item(i);
 }
 
 /// The garment that the edge belongs to. Throws InputError where the case does not tell which.
-const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase& edge) {
+const GarmentCase* garmentOf(const Entry& support, const Case& c, const EdgeCase& edge) {
   std::vector<std::string> names;
   for (const GarmentCase& g : c.garments) {
     if (edge.garment.empty() ? c.garments.size() == 1 : g.name == edge.garment) return &g;
@@ -49,7 +49,7 @@ const GarmentCase* garmentOf(const Place& support, const Case& c, const EdgeCase
                                                                                     : joined(names)));
 }
 
-void checkEdge(const Place& support, const Case& c, const EdgeCase& edge) {
+void checkEdge(const Entry& support, const Case& c, const EdgeCase& edge) {
   const GarmentCase& garment = *garmentOf(support, c, edge);
   if (!edge.name.empty()) {
     if (kindOf(garment).isRead()) return;  // its file knows (cases/wear/case/references.cpp)
@@ -65,10 +65,10 @@ void checkEdge(const Place& support, const Case& c, const EdgeCase& edge) {
                    fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
 }
 
-void checkSupports(const Place& root, const Case& c) {
+void checkSupports(const Entry& root, const Case& c) {
   for (std::size_t i = 0; i < c.supports.size(); ++i) {
-    const Place place = itemOf(root, "supports", i);
-    const Place support = place.member(place.node.children.front());
+    const Entry entry = itemOf(root, "supports", i);
+    const Entry support = entry.member(entry.node.children.front());
     checkEdge(support, c, edgeOf(c.supports[i]));
     if (kindOf(c.supports[i]).link(c.supports[i]) && !c.human)
       support.failAt("link", "springs tie the garment to a human, and the case has none");
@@ -76,33 +76,33 @@ void checkSupports(const Place& root, const Case& c) {
 }
 
 /// Garment i where it is written.
-Place garmentPlace(const Place& root, std::size_t i) {
+Entry garmentEntry(const Entry& root, std::size_t i) {
   const JsonNode* list = root.node.find("garments");
   return list ? root.member(*list).item(i) : root.member(*root.node.find("garment"));
 }
 
 /// At the part of the garment that the error's key names ("fields[0].thickness.values"), as far as it is written.
-[[noreturn]] void failInside(const Place& place, const std::string& key, const std::string& reason) {
+[[noreturn]] void failInside(const Entry& entry, const std::string& key, const std::string& reason) {
   const std::size_t end = key.find_first_of(".[");
-  if (end == std::string::npos) place.failAt(key, reason);
-  const JsonNode* child = place.node.find(key.substr(0, end));
-  if (!child) place.failAt(key, reason);
-  const Place inside = place.member(*child);
+  if (end == std::string::npos) entry.failAt(key, reason);
+  const JsonNode* child = entry.node.find(key.substr(0, end));
+  if (!child) entry.failAt(key, reason);
+  const Entry inside = entry.member(*child);
   if (key[end] == '.') failInside(inside, key.substr(end + 1), reason);
   const std::size_t close = key.find(']', end);
-  const Place item = inside.item(std::stoul(key.substr(end + 1)));
+  const Entry item = inside.item(std::stoul(key.substr(end + 1)));
   if (close + 1 >= key.size()) item.fail(reason);
   failInside(item, key.substr(close + 2), reason);
 }
 
 /// Keys that its kind of cloth has no use for.
-void checkModel(const Place& place, const Case& c, const GarmentCase& g) {
+void checkModel(const Entry& entry, const Case& c, const GarmentCase& g) {
   const GarmentKind& kind = kindOf(g);
   const auto refuse = [&](const char* key, const std::string& reason) {
-    if (place.node.find(key)) place.failAt(key, reason);
+    if (entry.node.find(key)) entry.failAt(key, reason);
   };
   if (kind.isMesh() && g.cloth.kind == ClothKind::nurbs)
-    place.failAt("model", fmt::format("a {} is cloth of triangles; allowed: \"triangles\"", kind.word));
+    entry.failAt("model", fmt::format("a {} is cloth of triangles; allowed: \"triangles\"", kind.word));
   if (kind.isMesh())
     refuse("mesh", fmt::format("is for drafts; a {} is a mesh already", kind.word));
   else if (g.cloth.kind == ClothKind::nurbs)
@@ -110,7 +110,7 @@ void checkModel(const Place& place, const Case& c, const GarmentCase& g) {
   if (g.cloth.kind == ClothKind::nurbs) return;
   refuse("samples_per_cell", "is for \"model\": \"nurbs\"; the samples of triangles are their vertices");
   if (c.strain_limit && wornLimit(*c.strain_limit).mode == LimitMode::equality)
-    place.failAt(
+    entry.failAt(
         "model",
         "triangles lock where their threads keep their lengths; allowed: strain_limit with a limit, or \"nurbs\"");
   if (!kind.isMesh()) return;
@@ -118,19 +118,19 @@ void checkModel(const Place& place, const Case& c, const GarmentCase& g) {
     refuse(key, fmt::format("is for drafted garments, not for a {}", kind.word));
 }
 
-void checkFieldsOf(const Place& place, const Case& c, const GarmentCase& g) {
+void checkFieldsOf(const Entry& entry, const Case& c, const GarmentCase& g) {
   for (std::size_t i = 0; i < g.fields.size(); ++i) {
     try {
       checkFields(g.fields[i], fabricOf(c, g), otherFabrics(g));
     } catch (const InputError& e) {
-      failInside(place, fmt::format("fields[{}].{}", i, e.where().key), e.reason());
+      failInside(entry, fmt::format("fields[{}].{}", i, e.where().key), e.reason());
     }
   }
   if (!g.other_fabrics.empty() &&
       std::none_of(g.fields.begin(), g.fields.end(), [](const FieldsCase& f) { return f.fields.material.has_value(); }))
-    place.failAt("other_fabrics", "is of no use: no material field of this garment chooses from it");
+    entry.failAt("other_fabrics", "is of no use: no material field of this garment chooses from it");
   const GarmentKind& kind = kindOf(g);
-  if (const std::string why = kind.fieldless(g); !why.empty() && !g.fields.empty()) place.failAt("fields", why);
+  if (const std::string why = kind.fieldless(g); !why.empty() && !g.fields.empty()) entry.failAt("fields", why);
   if (kind.isRead()) return;  // its file knows (cases/wear/case/references.cpp)
   Garment patches;
   patches.patch_names = kind.patches(g);
@@ -138,28 +138,28 @@ void checkFieldsOf(const Place& place, const Case& c, const GarmentCase& g) {
   try {
     applyFields(g.fields, patches);
   } catch (const InputError& e) {
-    failInside(place, e.where().key, e.reason());
+    failInside(entry, e.where().key, e.reason());
   }
 }
 
-void checkGarments(const Place& root, const Case& c) {
+void checkGarments(const Entry& root, const Case& c) {
   std::set<std::string> names;
   bool all_own = true;
   for (std::size_t i = 0; i < c.garments.size(); ++i) {
     const GarmentCase& g = c.garments[i];
-    const Place place = garmentPlace(root, i);
+    const Entry entry = garmentEntry(root, i);
     if (c.garments.size() > 1 && g.name.empty())
-      place.failAt("name", "is required where there are several garments: what supports and tables call it");
+      entry.failAt("name", "is required where there are several garments: what supports and tables call it");
     if (!names.insert(g.name).second)
-      place.failAt("name", fmt::format("\"{}\" names two garments; allowed: a name of its own", g.name));
+      entry.failAt("name", fmt::format("\"{}\" names two garments; allowed: a name of its own", g.name));
     const GarmentKind& kind = kindOf(g);
     if (kind.drafted && !c.human)
-      place.failAt(kind.word, fmt::format("a {} is drafted on a human, and the case has none", kind.word));
-    checkModel(place, c, g);
-    checkFieldsOf(place, c, g);
+      entry.failAt(kind.word, fmt::format("a {} is drafted on a human, and the case has none", kind.word));
+    checkModel(entry, c, g);
+    checkFieldsOf(entry, c, g);
     all_own = all_own && g.fabric;
     if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())
-      place.failAt("stitching", "needs dressing.layer_by_layer: each garment is then put on by itself");
+      entry.failAt("stitching", "needs dressing.layer_by_layer: each garment is then put on by itself");
   }
   const bool common = root.node.find("fabric");
   if (!common && !all_own)
@@ -167,7 +167,7 @@ void checkGarments(const Place& root, const Case& c) {
   if (common && all_own) root.failAt("fabric", "is of no use: every garment has a fabric of its own");
 }
 
-void checkWithoutHuman(const Place& root, Case& c) {
+void checkWithoutHuman(const Entry& root, Case& c) {
   if (!c.time.duration_s) failAt(root, {"time", "duration"}, "is required without a human; allowed: > 0 s");
   if (c.air.with_pelvis) failAt(root, {"air", "velocity"}, "\"pelvis_mean\" needs a human, and the case has none");
   if (c.dressing.projecting)
@@ -185,7 +185,7 @@ void checkWithoutHuman(const Place& root, Case& c) {
 }
 
 /// Natural moments are those of what the human does.
-void checkTask(const Place& root, const Case& c) {
+void checkTask(const Entry& root, const Case& c) {
   const Task task = c.analysis.task;
   if (task == Task::none || (c.human && kindOf(*c.human).task == task)) return;
   failAt(root, {"analysis", "task"},
@@ -196,7 +196,7 @@ void checkTask(const Place& root, const Case& c) {
 
 }  // namespace
 
-void applyRules(const Place& root, Case& c) {
+void applyRules(const Entry& root, Case& c) {
   checkGarments(root, c);
   if ((c.human || !c.obstacles.empty() || c.garments.size() > 1) && !root.node.find("contact"))
     root.failAt("contact",

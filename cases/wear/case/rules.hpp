@@ -6,7 +6,7 @@
 
 namespace gambeson::schema {
 
-/// `root` is the place of the whole case; throws InputError at the field that breaks a rule.
-void applyRules(const Place& root, Case& c);
+/// `root` is the entry of the whole case; throws InputError at the field that breaks a rule.
+void applyRules(const Entry& root, Case& c);
 
 }  // namespace gambeson::schema

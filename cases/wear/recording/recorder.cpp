@@ -21,7 +21,7 @@ enum Column {
   kContacts,
   kClothContacts,
   kImpacts,
-  kZones,
+  kImpactZones,
   kCuts,
   kPinched,
   kIntersections,
@@ -337,7 +337,7 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   most(kClothContacts, r.cloth_contacts);
   most(kIntersections, r.intersections);
   steps_[kSmallestGap] = first ? r.smallest_gap_m : std::min(steps_[kSmallestGap], r.smallest_gap_m);
-  steps_[kZones] += r.zones;
+  steps_[kImpactZones] += r.impact_zones;
   steps_[kCuts] += r.cuts > 0;
   steps_[kPinched] += r.pinched;
   most(kResidual, r.contact.residual_m_per_s);

@@ -1,6 +1,6 @@
 #pragma once
 /// The only reader of the live State: sums what the steps did over windows, and appends windows and frames to the
-/// Recording.
+/// recording.
 ///
 /// Tables, one row per window; the first two columns are start_s and end_s:
 ///   bodies    per body <name>_Jx_Ns .. Jz (impulse received from the cloth), <name>_Lx_Nms .. Lz (its moment about the

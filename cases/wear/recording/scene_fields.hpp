@@ -162,9 +162,10 @@ void fields(A& a, T& s) {
 /// Fabrics and fields are those of the case.
 template <class A, Of<Garment> T>
 void fields(A& a, T& g) {
-  auto& [name, patches, seams, weft, trims, fabric, others, of_case, weak_seams, layer, patch_names, edges, placed] = g;
+  auto& [name, patches, seams, weft, trims, fabric, others, of_case, weak_seams, garment_of_patch, patch_names, edges,
+         placed] = g;
   a("name", name)("patches", patches)("seams", seams)("weft", weft)("trims", trims)("weak_seams", weak_seams);
-  a("layer", layer)("patch_names", patch_names)("edges", edges)("placed", placed);
+  a("layer", garment_of_patch)("patch_names", patch_names)("edges", edges)("placed", placed);
 }
 template <class A, Of<MeshLine> T>
 void fields(A& a, T& l) {

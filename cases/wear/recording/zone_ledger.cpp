@@ -6,7 +6,7 @@
 namespace gambeson {
 
 std::string groupName(const ContactGroup& g) {
-  return g.layer + (g.press == Press::belt ? " in the belt's press" : g.press == Press::held ? " on springs" : "");
+  return g.garment + (g.press == Press::belt ? " in the belt's press" : g.press == Press::held ? " on springs" : "");
 }
 
 std::string spokenZone(std::string zone) {

@@ -6,7 +6,7 @@
 
 #include "cases/wear/scene/scenario.hpp"
 #include "core/contact/response.hpp"
-#include "human/body/zones.hpp"
+#include "human/body/body_zones.hpp"
 
 namespace gambeson {
 
@@ -25,7 +25,7 @@ class ZoneLedger {
   /// Sum of |J|, of its normal part, of its tangential magnitude; then of J itself, on the body, in world axes.
   static constexpr int kParts = 6;
   /// Columns of the table "body_zones" after start_s and end_s: for each group of the scenario and each zone
-  /// "<layer>[ in the belt's press| on springs] on <zone>" _Ns, _n_Ns, _t_Ns, _Jx_Ns, _Jy_Ns, _Jz_Ns.
+  /// "<garment>[ in the belt's press| on springs] on <zone>" _Ns, _n_Ns, _t_Ns, _Jx_Ns, _Jy_Ns, _Jz_Ns.
   static std::vector<std::string> columns(const Scenario& scenario);
 
   /// `X_WB`: the frames of the scenario's bodies when the contact acted.

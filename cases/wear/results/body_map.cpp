@@ -9,7 +9,7 @@
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/scene/placed_bodies.hpp"
 #include "core/error.hpp"
-#include "human/body/zones.hpp"
+#include "human/body/body_zones.hpp"
 
 namespace gambeson {
 namespace {
@@ -72,8 +72,8 @@ TriangleMesh refined(TriangleMesh mesh, double cell_m) {
   return mesh;
 }
 
-using Cell = std::array<int, 3>;
-Cell cellOf(const Vec3& p, double size) {
+using Cube = std::array<int, 3>;
+Cube cubeOf(const Vec3& p, double size) {
   const auto c = [&](double v) { return static_cast<int>(std::floor(v / size)); };
   return {c(p.x), c(p.y), c(p.z)};
 }
@@ -125,10 +125,10 @@ BodyMap::BodyMap(const Scenario& s, double sensor_m) : scenario_(s) {
       const Vec3 n = cross(x[static_cast<std::size_t>(b)] - o, x[static_cast<std::size_t>(c)] - o);
       for (const int v : {a, b, c}) normal[static_cast<std::size_t>(v)] += n;
     }
-    std::map<Cell, std::vector<int>> grid;
-    for (std::size_t v = 0; v < x.size(); ++v) grid[cellOf(x[v], reach)].push_back(static_cast<int>(v));
+    std::map<Cube, std::vector<int>> grid;
+    for (std::size_t v = 0; v < x.size(); ++v) grid[cubeOf(x[v], reach)].push_back(static_cast<int>(v));
     for (std::size_t v = 0; v < x.size(); ++v) {
-      const Cell c = cellOf(x[v], reach);
+      const Cube c = cubeOf(x[v], reach);
       for (int i = -1; i <= 1; ++i)
         for (int j = -1; j <= 1; ++j)
           for (int k = -1; k <= 1; ++k) {

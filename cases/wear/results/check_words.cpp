@@ -36,7 +36,7 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
             false};
   if (check == "Intersections")
     return {fmt::format("cloth passes through cloth at {} places at the end", count),
-            "Layers bear on each other in the wrong order there: forces between them are wrong.", true};
+            "Garments bear on each other in the wrong order there: forces between them are wrong.", true};
   if (check == "Movement")
     return {fmt::format("cloth goes up to {} in one step", much),
             "Contacts may have been missed on the way: forces may be wrong anywhere.", true};
@@ -58,7 +58,7 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
   if (check.starts_with("Layer order, "))
     return {
         fmt::format("{}: {} of the upper garment lies inside of the lower one", check.substr(13), much),
-        "The layers are worn in the wrong order there and cross nowhere, so nothing brings them out: the torques are "
+        "The garments are worn in the wrong order there and cross nowhere, so nothing brings them out: the torques are "
         "those of another outfit. Put them on together (dressing.projecting without layer_by_layer), or place the "
         "upper one higher.",
         true};

@@ -35,8 +35,8 @@ bool shows(const Plot& plot) {
 }
 
 /// The largest (or smallest) of all windows, and when. Without a unit it is a count.
-std::vector<Cell> most(const Measured& m, const std::string& name, const Value& value, const std::string& unit,
-                       bool smallest = false) {
+std::vector<TableCell> most(const Measured& m, const std::string& name, const Value& value, const std::string& unit,
+                            bool smallest = false) {
   double best = -std::numeric_limits<double>::infinity(), at = 0;
   for (const CollisionWindow& w : m.steps.collisions) {
     const double v = smallest ? -value(w) : value(w);
@@ -49,7 +49,7 @@ std::vector<Cell> most(const Measured& m, const std::string& name, const Value& 
           fmt::format("{:.2f}", at)};
 }
 
-std::vector<Cell> total(const Measured& m, const std::string& name, const Value& value) {
+std::vector<TableCell> total(const Measured& m, const std::string& name, const Value& value) {
   double sum = 0, at = 0;
   for (const CollisionWindow& w : m.steps.collisions) {
     if (sum == 0 && value(w) > 0) at = w.end_s;
@@ -79,11 +79,11 @@ void addCollisions(const Measured& m, ReportInput& in) {
                   most(m, "Residual of the contact solve", residual, "mm/s"),
                   most(m, "Movement of a sample", way, "cells")};
   Table totals{"Over the whole run",
-               "An impact is a pair that would have passed through each other; what the solve leaves goes into rigid "
+               "An impact is a pair that would have passed through each other; what the solve leaves goes into impact "
                "zones, then the step is cut. Pinched samples have no way to go.",
                {"what", "number", "first at [s]"},
                {}};
-  totals.rows = {total(m, "Impacts", count(&W::impacts)), total(m, "Rigid zones", count(&W::zones)),
+  totals.rows = {total(m, "Impacts", count(&W::impacts)), total(m, "Impact zones", count(&W::impact_zones)),
                  total(m, "Cut steps", count(&W::cut_steps)), total(m, "Pinched samples", count(&W::pinched))};
   in.collision_tables = {most_of, totals};
   std::vector<Plot> plots{{"Contacts",
@@ -100,7 +100,7 @@ void addCollisions(const Measured& m, ReportInput& in) {
                           {"Impacts and what remained",
                            "In each window.",
                            {seriesOf(m, "impacts", "number", Tone::left, count(&W::impacts)),
-                            seriesOf(m, "rigid zones", "number", Tone::right, count(&W::zones)),
+                            seriesOf(m, "impact zones", "number", Tone::right, count(&W::impact_zones)),
                             seriesOf(m, "cut steps", "number", Tone::third, count(&W::cut_steps)),
                             seriesOf(m, "pinched samples", "number", Tone::fourth, count(&W::pinched))},
                            {},

@@ -62,9 +62,9 @@ void addComfort(const Scenario& s, const Measured& m, ReportInput& in) {
     return a->mean_Pa / a->limit.red_Pa > b->mean_Pa / b->limit.red_Pa;
   });
   for (const ComfortMeasure* z : order) {
-    table.rows.push_back({spokenZone(z->zone), Cell::signal(nameOf(shownLight(z->light(), trust))), 1e-3 * z->mean_Pa,
-                          1e-3 * z->limit.amber_Pa, 1e-3 * z->limit.red_Pa, 1e-3 * z->peak_Pa,
-                          Cell(fmt::format("{:.2f}", z->peak_time_s)), 1e-3 * z->limit.peak_Pa, z->dose_kPa_min,
+    table.rows.push_back({spokenZone(z->zone), TableCell::signal(nameOf(shownLight(z->light(), trust))),
+                          1e-3 * z->mean_Pa, 1e-3 * z->limit.amber_Pa, 1e-3 * z->limit.red_Pa, 1e-3 * z->peak_Pa,
+                          TableCell(fmt::format("{:.2f}", z->peak_time_s)), 1e-3 * z->limit.peak_Pa, z->dose_kPa_min,
                           1e4 * z->amber_m2});
     table.rows.back()[6].number = true;
   }

@@ -16,20 +16,20 @@ namespace gambeson {
 namespace {
 
 /// Names are told where there are several.
-std::string nameOf(const Scenario& s, std::size_t layer) {
-  return s.definition.garments.size() > 1 ? s.definition.garments[layer].name : "";
+std::string nameOf(const Scenario& s, std::size_t garment) {
+  return s.definition.garments.size() > 1 ? s.definition.garments[garment].name : "";
 }
 
 /// Of the patches of one garment: the largest of what 99 % of each stays below, and of single spots.
-Stretch largestOf(const Scenario& s, const std::vector<StressSummary>& patches, std::size_t layer) {
+Stretch largestOf(const Scenario& s, const std::vector<StressSummary>& patches, std::size_t garment) {
   Stretch most;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    if (s.model->cloth->patches()[p].garment != static_cast<int>(layer)) continue;
+    if (s.model->cloth->patches()[p].garment != static_cast<int>(garment)) continue;
     // Not std::max: a NaN must win.
     if (!(patches[p].p99_strain <= most.most)) most.most = patches[p].p99_strain;
     if (!(patches[p].max_strain <= most.largest)) most.largest = patches[p].max_strain;
   }
-  most.garment = nameOf(s, layer);
+  most.garment = nameOf(s, garment);
   return most;
 }
 
@@ -80,17 +80,17 @@ void measureStretch(const Scenario& s, const RecordingReader& recording, Measure
   });
   std::array<std::vector<StressSummary>, 2> directed;
   if (stated) directed = directedStrains(s, recording, out.regions);
-  for (std::size_t layer = 0; layer < c.garments.size(); ++layer) {
-    const GarmentCase& garment = c.garments[layer];
+  for (std::size_t k = 0; k < c.garments.size(); ++k) {
+    const GarmentCase& garment = c.garments[k];
     const std::optional<double> limits[]{limitOf(c, garment, &FabricCase::limit_strain_weft),
                                          limitOf(c, garment, &FabricCase::limit_strain_warp)};
     if (!limits[0] && !limits[1]) {
-      out.stretch.push_back(largestOf(s, out.stress, layer));
+      out.stretch.push_back(largestOf(s, out.stress, k));
       out.stretch.back().limit = kStrainOfLaw;
       continue;
     }
     for (std::size_t d = 0; d < 2; ++d) {
-      out.stretch.push_back(largestOf(s, directed[d], layer));
+      out.stretch.push_back(largestOf(s, directed[d], k));
       out.stretch.back().limit = limits[d].value_or(kStrainOfLaw);
       out.stretch.back().stated = limits[d].has_value();
       out.stretch.back().along = d == 0 ? "weft" : "warp";
@@ -117,35 +117,36 @@ void measureFalls(const Scenario& s, const RecordingReader& recording, Measured&
   const std::vector<Pose> start = s.bodyPoses(first.time_s);
   PlacedBodies placed(s);
   placed.moveTo(first.time_s);
-  const std::size_t layers = s.definition.garments.size(), links = s.human->skeleton.links.size();
-  std::vector<double> area(layers, 0), worn(layers, 0);
-  std::vector<std::vector<char>> lies(layers, std::vector<char>(links, 0));
-  std::vector<std::size_t> layer(x0.size());
+  const std::size_t garments = s.definition.garments.size(), links = s.human->skeleton.links.size();
+  std::vector<double> area(garments, 0), worn(garments, 0);
+  std::vector<std::vector<char>> lies(garments, std::vector<char>(links, 0));
+  std::vector<std::size_t> garment_of(x0.size());
   for (std::size_t i = 0; i < x0.size(); ++i) {
-    layer[i] = static_cast<std::size_t>(s.model->cloth->patches()[static_cast<std::size_t>(surface.patch[i])].garment);
-    area[layer[i]] += surface.area_m2[i];
+    garment_of[i] =
+        static_cast<std::size_t>(s.model->cloth->patches()[static_cast<std::size_t>(surface.patch[i])].garment);
+    area[garment_of[i]] += surface.area_m2[i];
     const PlacedBodies::Nearest near = placed.nearest(x0[i]);
     if (near.body < 0 || near.body >= static_cast<int>(links) || !(near.distance_m < worn_within_m)) continue;
-    worn[layer[i]] += surface.area_m2[i];
-    lies[layer[i]][static_cast<std::size_t>(near.body)] = 1;
+    worn[garment_of[i]] += surface.area_m2[i];
+    lies[garment_of[i]][static_cast<std::size_t>(near.body)] = 1;
   }
-  for (std::size_t l = 0; l < layers; ++l)
+  for (std::size_t l = 0; l < garments; ++l)
     if (worn[l] > 0.5 * area[l]) out.falls.push_back({nameOf(s, l), 0, 0});
-  std::vector<double> put_on(layers, 0);  // fall until the motion starts
+  std::vector<double> put_on(garments, 0);  // fall until the motion starts
   for (int k = 0; k < recording.frameCount(); ++k) {
     const Frame frame = recording.frame(k);
     const bool moving = frame.time_s > 1e-9;
     const std::vector<Vec3> x = vectorsOf(frame.positions);
     const std::vector<Pose> now = s.bodyPoses(frame.time_s);
     std::size_t at = 0;
-    for (std::size_t l = 0; l < layers; ++l) {
+    for (std::size_t l = 0; l < garments; ++l) {
       if (!(worn[l] > 0.5 * area[l])) continue;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t b = 0; b < links; ++b) {
         if (!lies[l][b]) continue;
         double sum = 0;
         for (std::size_t i = 0; i < x.size(); ++i) {
-          if (layer[i] != l) continue;
+          if (garment_of[i] != l) continue;
           const Vec3 carried =
               now[b].rotation * (transposeTimes(start[b].rotation, x0[i] - start[b].origin)) + now[b].origin;
           sum += surface.area_m2[i] * dot(carried - x[i], up);

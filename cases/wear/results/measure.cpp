@@ -55,31 +55,31 @@ std::vector<double> lengthsOf(const RecordedTable& table) {
 double sumOf(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 /// The scenario's bodies come with the human's links first.
-TorqueHistory addedTorques(const Scenario& s, std::vector<ContactWindow> windows, std::span<const int> joints) {
+TorqueSeries addedTorques(const Scenario& s, std::vector<ContactWindow> windows, std::span<const int> joints) {
   for (ContactWindow& w : windows) w.links.resize(s.human->skeleton.links.size());
   const auto counting = s.definition.analysis.counting == Counting::all_distal ? TorqueCounting::all_distal
                                                                                : TorqueCounting::distal_segment;
-  TorqueHistory history = torqueHistory(*s.human, *s.motion, 0, windows, joints, counting);
-  for (auto& row : history.value)
+  TorqueSeries series = torqueSeries(*s.human, *s.motion, 0, windows, joints, counting);
+  for (auto& row : series.value)
     for (double& tau : row) tau = -tau;
-  return history;
+  return series;
 }
 
 /// One of the torques that the table "skin" holds of each joint, as the wearer adds it.
-TorqueHistory skinTorques(const Scenario& s, const RecordedTable& skin, std::span<const int> joints,
-                          const std::string& which) {
+TorqueSeries skinTorques(const Scenario& s, const RecordedTable& skin, std::span<const int> joints,
+                         const std::string& which) {
   const std::vector<int> moving = movingJoints(s.human->skeleton);
   const std::vector<double>&start = skin.column("start_s"), &end = skin.column("end_s");
-  TorqueHistory history{{joints.begin(), joints.end()}, {}, {}};
-  for (std::size_t w = 0; w < skin.rows(); ++w) history.time_s.push_back(0.5 * (start[w] + end[w]));
-  history.value.resize(skin.rows());
+  TorqueSeries series{{joints.begin(), joints.end()}, {}, {}};
+  for (std::size_t w = 0; w < skin.rows(); ++w) series.time_s.push_back(0.5 * (start[w] + end[w]));
+  series.value.resize(skin.rows());
   for (const int j : joints) {
     const bool moves = std::find(moving.begin(), moving.end(), j) != moving.end();
     const std::vector<double>* impulse = moves ? &skin.column(SkinLedger::column(s, j, which)) : nullptr;
     for (std::size_t w = 0; w < skin.rows(); ++w)
-      history.value[w].push_back(moves ? -(*impulse)[w] / (end[w] - start[w]) : 0);
+      series.value[w].push_back(moves ? -(*impulse)[w] / (end[w] - start[w]) : 0);
   }
-  return history;
+  return series;
 }
 
 /// "hip_flexion_left" is "hip", "flexion", "left"; "elbow" is just that.
@@ -125,7 +125,7 @@ std::vector<std::vector<double>> standingTorques(const Scenario& s, const Record
   if (rest.empty()) return torques;
   if (s.hasSkin()) {
     const std::vector<double> lengths = lengthsOf(rest);
-    const TorqueHistory all = skinTorques(s, rest, joints, "");
+    const TorqueSeries all = skinTorques(s, rest, joints, "");
     for (std::size_t w = 0; w < rest.rows(); ++w) {
       if (std::abs(lengths[w] - lengths.back()) > 1e-9) continue;
       for (std::size_t j = 0; j < joints.size(); ++j) torques[j].push_back(all.value[w][j]);
@@ -334,42 +334,42 @@ std::vector<double> thicknessOf(const Scenario& s) {
   return thickness;
 }
 
-std::vector<LayerMeasure> layersOf(const Scenario& s) {
-  std::vector<LayerMeasure> layers;
+std::vector<GarmentMeasure> garmentMeasuresOf(const Scenario& s) {
+  std::vector<GarmentMeasure> garments;
   const Case effective = withFactors(s.definition);
   for (const GarmentCase& g : effective.garments) {
     const Fabric& fabric = fabricOf(effective, g);
     const double h = fabric.thickness();
-    layers.push_back({g.name, fabric.name, 0, 0, h, 0, h, h});
+    garments.push_back({g.name, fabric.name, 0, 0, h, 0, h, h});
   }
   const std::vector<ClothPatch>& patches = s.model->cloth->patches();
   const Surface& surface = s.model->surface;
   const std::vector<double> thickness = thicknessOf(s);
-  const auto layerOf = [&](std::size_t sample) {
+  const auto garmentOf = [&](std::size_t sample) {
     return static_cast<std::size_t>(patches[static_cast<std::size_t>(surface.patch[sample])].garment);
   };
-  for (std::size_t k = 0; k < layers.size(); ++k) {
+  for (std::size_t k = 0; k < garments.size(); ++k) {
     if (effective.garments[k].fields.empty()) continue;
     double area = 0, volume = 0, least = std::numeric_limits<double>::infinity(), largest = 0;
     for (std::size_t i = 0; i < thickness.size(); ++i) {
-      if (layerOf(i) != k) continue;
+      if (garmentOf(i) != k) continue;
       area += surface.area_m2[i];
       volume += surface.area_m2[i] * thickness[i];
       least = std::min(least, thickness[i]);
       largest = std::max(largest, thickness[i]);
     }
-    layers[k].thickness_m = volume / area;
-    layers[k].least_thickness_m = least;
-    layers[k].largest_thickness_m = largest;
+    garments[k].thickness_m = volume / area;
+    garments[k].least_thickness_m = least;
+    garments[k].largest_thickness_m = largest;
   }
   for (std::size_t i = 0; i < surface.area_m2.size(); ++i) {
-    LayerMeasure& l = layers[layerOf(i)];
+    GarmentMeasure& l = garments[garmentOf(i)];
     l.area_m2 += surface.area_m2[i];
     l.mass_kg += surface.area_m2[i] * s.model->density_kg_per_m2[i];
   }
   for (const ClothPatch& p : patches)
-    layers[static_cast<std::size_t>(p.garment)].control_points += p.end_point - p.first_point;
-  return layers;
+    garments[static_cast<std::size_t>(p.garment)].control_points += p.end_point - p.first_point;
+  return garments;
 }
 
 double countedFrom(const Scenario& s, const RecordingReader& recording) {
@@ -395,7 +395,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   if (s.human) measureComfort(s, recording, out);
   measureRegions(s, inMotion(recording, "regions"), out);
   measureSupports(s, inMotion(recording, "supports"), out);
-  for (const LayerMeasure& l : layersOf(s)) out.cloth_kg += l.mass_kg;
+  for (const GarmentMeasure& l : garmentMeasuresOf(s)) out.cloth_kg += l.mass_kg;
   out.energy.negligible = 0.5 * out.cloth_kg * 1e-12;
   measureSteps(recording, out);
   out.limited = s.definition.strain_limit.has_value();
@@ -420,7 +420,7 @@ Measured measureAll(const Scenario& s, const RecordingReader& recording) {
   m.surface_depth = surfaceDepth(s, recording);
   measureStretch(s, recording, m);
   measureFalls(s, recording, m);
-  measureLayerOrder(s, recording, m);
+  measureGarmentOrder(s, recording, m);
   return m;
 }
 

@@ -141,7 +141,7 @@ struct SupportMeasure {
 struct CollisionWindow {
   double start_s = 0, end_s = 0;
   long contacts = 0, cloth_contacts = 0;  ///< the most of a step
-  long impacts = 0, zones = 0, cut_steps = 0, pinched = 0;
+  long impacts = 0, impact_zones = 0, cut_steps = 0, pinched = 0;
   long intersections = 0;  ///< contours, the most of a step
   double smallest_gap_m = 0, residual_m_per_s = 0, iterations = 0;
   double way_cells = 0;  ///< of a sample in a step, in sides of its cell, the largest
@@ -192,15 +192,15 @@ SurfaceDepth surfaceDepth(const Scenario& scenario, const RecordingReader& recor
 /// The control points of a frame. Throws RunError where they are not `count`.
 std::vector<Vec3> controlPointsOf(const Frame& frame, std::size_t count);
 
-/// One garment of the case, a layer.
-struct LayerMeasure {
+/// One garment of the case.
+struct GarmentMeasure {
   std::string name, fabric;
   double mass_kg = 0, area_m2 = 0, thickness_m = 0;  ///< the mean where it varies
   int control_points = 0;
   double least_thickness_m = 0, largest_thickness_m = 0;
   bool varies() const { return largest_thickness_m > least_thickness_m; }
 };
-std::vector<LayerMeasure> layersOf(const Scenario& scenario);
+std::vector<GarmentMeasure> garmentMeasuresOf(const Scenario& scenario);
 /// Of the cloth at each sample [m].
 std::vector<double> thicknessOf(const Scenario& scenario);
 
@@ -243,8 +243,8 @@ struct FallMeasure {
 };
 
 /// The share of a garment that lies inside of one that belongs under it, by area, of what of it has that one within 30
-/// mm along its normal; the largest of up to 40 frames of the motion. Such layers need not cross.
-struct LayerOrderMeasure {
+/// mm along its normal; the largest of up to 40 frames of the motion. Such garments need not cross.
+struct GarmentOrderMeasure {
   std::string lower, higher;
   double largest = 0, time_s = 0;
 };
@@ -255,10 +255,10 @@ struct Measured {
   std::optional<Strides> strides;
   Human bodies;  ///< every body of the scenario as a link without joints, for the tables per segment
   std::vector<ContactWindow> windows, drag;  ///< one link per body
-  TorqueHistory added, added_drag;
+  TorqueSeries added, added_drag;
   /// Of a skin, by segments, and with the border moved (SkinLedger); without a skin they have no windows.
-  TorqueHistory added_segments, added_proximal, added_distal;
-  TorqueHistory added_friction;  ///< the part of `added` that friction has
+  TorqueSeries added_segments, added_proximal, added_distal;
+  TorqueSeries added_friction;  ///< the part of `added` that friction has
   std::vector<JointMeasure> joints;
   std::vector<BodyMeasure> contact;
   std::vector<RegionMeasure> contact_regions;
@@ -275,9 +275,9 @@ struct Measured {
   Regions regions;
   std::vector<StressFrame> frames;
   std::vector<StressSummary> stress;
-  std::vector<Stretch> stretch;                ///< of each garment, against what its fabric is meant for
-  std::vector<FallMeasure> falls;              ///< of each garment that a human wears
-  std::vector<LayerOrderMeasure> layer_order;  ///< of each two garments that a human wears
+  std::vector<Stretch> stretch;                    ///< of each garment, against what its fabric is meant for
+  std::vector<FallMeasure> falls;                  ///< of each garment that a human wears
+  std::vector<GarmentOrderMeasure> garment_order;  ///< of each two garments that a human wears
   StepMeasure steps;
   EnergyMeasure energy;
   double cloth_kg = 0;                        ///< mass of all garments
@@ -291,7 +291,7 @@ struct Measured {
 };
 
 Measured measure(const Scenario& scenario, const RecordingReader& recording);
-/// With what costs seconds: SurfaceDepth, Stretch, FallMeasure and LayerOrderMeasure, for summary and page.
+/// With what costs seconds: SurfaceDepth, Stretch, FallMeasure and GarmentOrderMeasure, for summary and page.
 Measured measureAll(const Scenario& scenario, const RecordingReader& recording);
 
 // Its parts (steps.cpp): the table "steps", and the frames.
@@ -306,8 +306,8 @@ void measureCloth(const Scenario& scenario, const RecordingReader& recording, Me
 /// Of fit.cpp: cost seconds; after the frames.
 void measureStretch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 void measureFalls(const Scenario& scenario, const RecordingReader& recording, Measured& out);
-/// Of layers.cpp: costs seconds.
-void measureLayerOrder(const Scenario& scenario, const RecordingReader& recording, Measured& out);
+/// Of garment_order.cpp: costs seconds.
+void measureGarmentOrder(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of touch.cpp.
 void measureTouch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 

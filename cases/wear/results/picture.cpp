@@ -20,7 +20,7 @@ namespace gambeson {
 namespace {
 
 constexpr Color body_color{0.74f, 0.73f, 0.72f}, arrow_color{0.80f, 0.08f, 0.10f};
-/// Of the layers in turn.
+/// Of the garments in turn.
 constexpr std::array<Color, 5> cloth_colors{Color{0.42f, 0.50f, 0.62f}, Color{0.76f, 0.57f, 0.35f},
                                             Color{0.44f, 0.60f, 0.45f}, Color{0.62f, 0.45f, 0.56f},
                                             Color{0.68f, 0.66f, 0.42f}};
@@ -65,17 +65,6 @@ std::vector<Vec3> positionsOf(const Frame& frame) {
 Vec3 upOf(const Scenario& s) {
   const Vec3 g = s.model->environment.gravity_m_per_s2;
   return norm(g) > 0 ? -1.0 / norm(g) * g : Vec3{0, 0, 1};
-}
-
-std::array<Vec3, 2> boxOf(const std::vector<Vec3>& x, double margin_m) {
-  const double inf = std::numeric_limits<double>::infinity();
-  std::array<Vec3, 2> box{Vec3{inf, inf, inf}, Vec3{-inf, -inf, -inf}};
-  for (const Vec3& p : x)
-    for (int c = 0; c < 3; ++c) {
-      box[0][c] = std::min(box[0][c], p[c] - margin_m);
-      box[1][c] = std::max(box[1][c], p[c] + margin_m);
-    }
-  return box;
 }
 
 /// The force on the body of all samples in one cell near one body, where it acts in the mean.
@@ -273,14 +262,14 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
     scene.bar =
         ColorBar{fmt::format("{}; here up to {}", words.title, formatBrief(most, 2)), 0, words.scale * scale.high};
   }
-  // A mesh for each layer, with its samples alone.
+  // A mesh for each garment, with its samples alone.
   const Surface& surface = s.model->surface;
-  std::map<int, RenderMesh> layers;
+  std::map<int, RenderMesh> garments;
   std::vector<int> at(x.size(), -1);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const int layer = s.model->cloth->patches()[static_cast<std::size_t>(surface.triangle_patch[t])].garment;
-    RenderMesh& cloth = layers[layer];
-    cloth.color = cloth_colors[static_cast<std::size_t>(layer) % cloth_colors.size()];
+    const int garment = s.model->cloth->patches()[static_cast<std::size_t>(surface.triangle_patch[t])].garment;
+    RenderMesh& cloth = garments[garment];
+    cloth.color = cloth_colors[static_cast<std::size_t>(garment) % cloth_colors.size()];
     cloth.edges = true;
     std::array<int, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -294,7 +283,7 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
     }
     cloth.triangles.push_back(corners);
   }
-  for (auto& [layer, cloth] : layers) scene.meshes.push_back(std::move(cloth));
+  for (auto& [garment, cloth] : garments) scene.meshes.push_back(std::move(cloth));
   const std::array<Vec3, 2> garment = boxOf(x, 0);
   const Vec3 middle = 0.5 * (garment[0] + garment[1]);
   addArrows(scene, clustersOf(placed, frame, x), scale.most_N, 0.14 * scale.size_m);

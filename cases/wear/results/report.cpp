@@ -99,8 +99,8 @@ void addContact(const Measured& m, bool chart_too, ReportInput& in) {
     std::string name = b->contact.segment;
     std::replace(name.begin(), name.end(), '_', ' ');
     chart.bars.push_back({name, 100 * b->contact.share});
-    table.rows.push_back({name, b->contact.peak_N, Cell(fmt::format("{:.2f}", b->contact.peak_time_s)),
-                          b->contact.mean_N, Cell(100 * b->contact.share), b->normal_N, b->friction_N});
+    table.rows.push_back({name, b->contact.peak_N, TableCell(fmt::format("{:.2f}", b->contact.peak_time_s)),
+                          b->contact.mean_N, TableCell(100 * b->contact.share), b->normal_N, b->friction_N});
     table.rows.back()[2].number = true;
   }
   if (chart_too && !chart.bars.empty()) in.contact_charts.push_back(std::move(chart));
@@ -119,7 +119,7 @@ void addStress(const Scenario& s, const Measured& m, ReportInput& in) {
     std::string name = m.regions.names[r];
     std::replace(name.begin(), name.end(), '_', ' ');
     table.rows.push_back({name, k.p50_N_per_m, k.p95_N_per_m, k.p99_N_per_m, k.max_N_per_m,
-                          Cell(fmt::format("{:.2f}", k.max_time_s)), 100 * k.p99_strain, 100 * k.max_strain});
+                          TableCell(fmt::format("{:.2f}", k.max_time_s)), 100 * k.p99_strain, 100 * k.max_strain});
     table.rows.back()[5].number = true;
   }
   in.stress_tables.push_back(std::move(table));
@@ -133,7 +133,7 @@ void addSupports(const Measured& m, ReportInput& in) {
               {}};
   for (const SupportMeasure& s : m.supports)
     table.rows.push_back({s.name, s.mean_N.x, s.mean_N.y, s.mean_N.z, s.peak_N,
-                          s.springs ? Cell(1e3 * s.largest_drop_m) : Cell("held")});
+                          s.springs ? TableCell(1e3 * s.largest_drop_m) : TableCell("held")});
   in.support_tables.push_back(std::move(table));
 }
 
@@ -144,15 +144,15 @@ void addRepeatability(const Measured& m, ReportInput& in) {
       "right's.",
       {"joint", "second stride: correlation", "RMS difference [%]", "other side: correlation", "RMS difference [%]"},
       {}};
-  const auto cells = [](const std::optional<Likeness>& l, std::vector<Cell>& row) {
+  const auto cells = [](const std::optional<Likeness>& l, std::vector<TableCell>& row) {
     if (l)
-      row.insert(row.end(), {Cell(l->correlation), Cell(100 * l->relative)});
+      row.insert(row.end(), {TableCell(l->correlation), TableCell(100 * l->relative)});
     else
-      row.insert(row.end(), {Cell(""), Cell("")});
+      row.insert(row.end(), {TableCell(""), TableCell("")});
   };
   for (const JointMeasure& j : m.joints) {
     if (!j.second_stride && !j.other_side) continue;
-    std::vector<Cell> row{Cell(titleOf(j) + (j.side.empty() ? "" : ", " + j.side))};
+    std::vector<TableCell> row{TableCell(titleOf(j) + (j.side.empty() ? "" : ", " + j.side))};
     cells(j.second_stride, row);
     cells(j.other_side, row);
     table.rows.push_back(std::move(row));
@@ -266,7 +266,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
     double sum = 0;
     for (const auto& [name, seconds] : facts.phases_s) sum += seconds;
     for (const auto& [name, seconds] : facts.phases_s)
-      timings.rows.push_back({name, seconds, Cell(sum > 0 ? 100 * seconds / sum : 0)});
+      timings.rows.push_back({name, seconds, TableCell(sum > 0 ? 100 * seconds / sum : 0)});
     in.fact_tables.push_back(std::move(timings));
     Plot over_time{"Time of each phase", "Of each window; the three largest phases.", {}, {}, false};
     std::vector<std::size_t> order(facts.phases_s.size());

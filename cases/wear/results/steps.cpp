@@ -89,7 +89,7 @@ CollisionTable collisionTable(std::span<const CollisionWindow> windows) {
                    {}};
   for (const CollisionWindow& w : windows) {
     t.rows.push_back({w.start_s, w.end_s});
-    for (long n : {w.contacts, w.cloth_contacts, w.impacts, w.zones, w.cut_steps, w.pinched, w.intersections})
+    for (long n : {w.contacts, w.cloth_contacts, w.impacts, w.impact_zones, w.cut_steps, w.pinched, w.intersections})
       t.rows.back().push_back(static_cast<double>(n));
     t.rows.back().insert(t.rows.back().end(),
                          {w.contacts > 0 ? w.smallest_gap_m : 0, w.residual_m_per_s, w.iterations, w.way_cells});

@@ -109,7 +109,7 @@ Json collisionsJson(const Measured& m) {
     all.contacts = std::max(all.contacts, w.contacts);
     all.cloth_contacts = std::max(all.cloth_contacts, w.cloth_contacts);
     all.impacts += w.impacts;
-    all.zones += w.zones;
+    all.impact_zones += w.impact_zones;
     all.cut_steps += w.cut_steps;
     all.pinched += w.pinched;
     all.intersections = std::max(all.intersections, w.intersections);
@@ -124,7 +124,7 @@ Json collisionsJson(const Measured& m) {
   Json j{{"most_contacts", all.contacts},
          {"most_contacts_of_cloth_with_cloth", all.cloth_contacts},
          {"impacts", all.impacts},
-         {"rigid_zones", all.zones},
+         {"rigid_zones", all.impact_zones},
          {"cut_steps", all.cut_steps},
          {"pinched_samples", all.pinched},
          {"flagged_windows", flagged},
@@ -150,7 +150,7 @@ Json zonesJson(const ZonesMeasure& m) {
     for (std::size_t z = 0; z < m.names.size(); ++z)
       if (const ZoneForce& f = m.mean[g][z]; f.force_N > 0)
         j["rows"].push_back({{"zone", m.names[z]},
-                             {"layer", m.groups[g].layer},
+                             {"layer", m.groups[g].garment},
                              {"press", m.groups[g].press == Press::belt   ? "belt"
                                        : m.groups[g].press == Press::held ? "springs"
                                                                           : "free"},
@@ -244,11 +244,11 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   j["factors"] = {{"thickness", f.thickness}, {"bending", f.bending}, {"membrane", f.membrane},
                   {"weight", f.weight},       {"inertia", f.inertia}, {"drag", f.drag}};
   j["garments"] = Json::array();
-  for (const LayerMeasure& l : layersOf(s)) {
-    Json layer{{"garment", l.name},    {"fabric", l.fabric},           {"mass_kg", l.mass_kg},
-               {"area_m2", l.area_m2}, {"thickness_m", l.thickness_m}, {"control_points", l.control_points}};
-    if (l.varies()) layer["thickness_range_m"] = {l.least_thickness_m, l.largest_thickness_m};
-    j["garments"].push_back(std::move(layer));
+  for (const GarmentMeasure& l : garmentMeasuresOf(s)) {
+    Json garment{{"garment", l.name},    {"fabric", l.fabric},           {"mass_kg", l.mass_kg},
+                 {"area_m2", l.area_m2}, {"thickness_m", l.thickness_m}, {"control_points", l.control_points}};
+    if (l.varies()) garment["thickness_range_m"] = {l.least_thickness_m, l.largest_thickness_m};
+    j["garments"].push_back(std::move(garment));
   }
   j["counted_from_s"] = m.counted_from_s;
   j["control_points"] = s.model->cloth->points();

@@ -12,7 +12,7 @@
 #include "cases/wear/results/joint_words.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/material/fabric_law.hpp"
-#include "human/body/zones.hpp"
+#include "human/body/body_zones.hpp"
 #include "human/files/units.hpp"
 
 namespace gambeson {
@@ -121,7 +121,7 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
         {f.garment.empty() ? "Slipping" : "Slipping, " + f.garment, 1e3 * f.largest_m, 50, "mm",
          "mean fall of the garment in the motion, against the part of the body that it goes with best, and "
          "by what it came down further than 100 mm while it was put on; the largest"});
-  for (const LayerOrderMeasure& l : m.layer_order)
+  for (const GarmentOrderMeasure& l : m.garment_order)
     checks.push_back({"Layer order, " + l.higher + " over " + l.lower, 100 * l.largest, 25, "%",
                       "the share of the upper garment that lies inside of the lower one, of what of it has that one "
                       "within 30 mm; the largest over the motion"});
@@ -208,12 +208,12 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
         fmt::format("Peaks and mean squares of torques count from the foot strike at {} s on; the lead-in before it is "
                     "only drawn.",
                     formatNumber(strides->start_s)));
-  if (!c.contact.self) say("Cloth does not touch cloth in this case: folds and layers may cross each other.");
+  if (!c.contact.self) say("Cloth does not touch cloth in this case: folds and garments may cross each other.");
   say("Cloth rests on bodies with its samples, and on cloth with samples and sharp edges; what would pass through a "
       "mesh or through cloth within a step is found for its triangles and edges.");
   const bool remembers = std::any_of(c.garments.begin(), c.garments.end(),
                                      [&](const GarmentCase& g) { return lawUse(fabricOf(c, g)).remembers(); });
-  say(remembers ? "Fabric keeps a part of its folds; stretched fabric is elastic. "
+  say(remembers ? "Stretched fabric is elastic; what bent fabric remembers is said with its law. "
                   "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
                 : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
                   "orthotropic (Zheng 2013, eq. 2.13).");
@@ -231,7 +231,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
     for (std::size_t k = 0; k < g.other_fabrics.size(); ++k)
       sayFabric(fmt::format("Fabric {} of the material field{}: ", k + 1, g.name.empty() ? "" : " of " + g.name),
                 g.other_fabrics[k], list);
-  for (const LayerMeasure& l : layersOf(s))
+  for (const GarmentMeasure& l : garmentMeasuresOf(s))
     if (l.varies())
       say(
           fmt::format("{} varies from {} to {} mm, {} mm in the mean over its area: mass, membrane and the "

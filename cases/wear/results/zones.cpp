@@ -145,8 +145,8 @@ void addZones(const Measured& measured, ReportInput& in) {
       {}};
   for (const ContactGroup& g : m.groups) table.columns.push_back(groupName(g) + " [N]");
   const auto add = [&](const std::string& name, const ZoneForce& f, auto of) {
-    table.rows.push_back(
-        {name, f.force_N, f.normal_N, f.friction_N, Cell(total.normal_N > 0 ? 100 * f.normal_N / total.normal_N : 0)});
+    table.rows.push_back({name, f.force_N, f.normal_N, f.friction_N,
+                          TableCell(total.normal_N > 0 ? 100 * f.normal_N / total.normal_N : 0)});
     for (std::size_t g = 0; g < m.groups.size(); ++g) table.rows.back().push_back(of(g));
   };
   for (const std::size_t z : order)

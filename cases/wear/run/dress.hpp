@@ -1,6 +1,6 @@
 #pragma once
 /// Dressing (Zheng 2013, sections 6.3 and 4.5.3): each garment is put on the bare body by itself, then all are worn
-/// together, tangled as they may be, and freed of each other in the order of layers.
+/// together, tangled as they may be, and freed of each other in their order, from the innermost out.
 
 #include "cases/wear/scene/dressed.hpp"
 #include "cases/wear/scene/scenario.hpp"

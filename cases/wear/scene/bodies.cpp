@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "cases/contact/obstacles/kind.hpp"
-#include "cases/input/places.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "human/skin/overlap.hpp"

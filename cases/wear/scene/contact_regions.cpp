@@ -7,11 +7,11 @@ namespace gambeson {
 namespace {
 
 /// Fills contact_groups and contact_group from the regions; `press` has an entry for each region.
-void groupContact(Scenario& s, const std::vector<std::string>& layers, const std::vector<Press>& press) {
+void groupContact(Scenario& s, const std::vector<std::string>& garment_names, const std::vector<Press>& press) {
   for (std::size_t i = 0; i < s.contact_region.size(); ++i) {
     const int patch = s.model->surface.patch[i];
     const ContactGroup group{
-        layers[static_cast<std::size_t>(s.model->cloth->patches()[static_cast<std::size_t>(patch)].garment)],
+        garment_names[static_cast<std::size_t>(s.model->cloth->patches()[static_cast<std::size_t>(patch)].garment)],
         press[static_cast<std::size_t>(s.contact_region[i])]};
     const auto at = std::find(s.contact_groups.begin(), s.contact_groups.end(), group);
     s.contact_group.push_back(static_cast<int>(at - s.contact_groups.begin()));
@@ -29,10 +29,10 @@ void nameContactRegions(Scenario& s, const std::vector<Garment>& garments, const
   s.contact_regions = s.patch_names;
   s.contact_region = surface.patch;
   std::vector<Press> press(s.patch_names.size(), Press::free);
-  std::vector<std::string> layers;
+  std::vector<std::string> garment_names;
   for (std::size_t k = 0; k < garments.size(); ++k) {
     const std::string& called = s.definition.garments[k].name;
-    layers.push_back(!called.empty() ? called : !garments[k].name.empty() ? garments[k].name : "garment");
+    garment_names.push_back(!called.empty() ? called : !garments[k].name.empty() ? garments[k].name : "garment");
   }
   for (std::size_t k = 0; k < garments.size(); ++k) {
     if (garments[k].name != "belt") continue;
@@ -56,7 +56,7 @@ void nameContactRegions(Scenario& s, const std::vector<Garment>& garments, const
     s.contact_regions.push_back(group.name);
     press.push_back(Press::held);
   }
-  groupContact(s, layers, press);
+  groupContact(s, garment_names, press);
 }
 
 }  // namespace gambeson

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "cases/cloth/noise.hpp"
-#include "cases/input/places.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "core/cloth/block_law.hpp"
 #include "core/cloth/draft/areas.hpp"

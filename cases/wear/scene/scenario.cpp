@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/input/places.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/scene/bodies.hpp"

@@ -24,7 +24,7 @@ struct MadeBodies;  // cases/wear/scene/bodies.hpp
 /// an edge on springs, which pull it onto the body.
 enum class Press { free, belt, held };
 struct ContactGroup {
-  std::string layer;  ///< the garment's name
+  std::string garment;  ///< the garment's name
   Press press = Press::free;
   bool operator==(const ContactGroup&) const = default;
 };

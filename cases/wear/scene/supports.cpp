@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cases/input/places.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

@@ -39,9 +39,9 @@ struct WeakSeam {
   double factor = 1e3;  ///< penalty over the stiffness of a cell
 };
 
-/// Cloth at rest: one garment, or several worn over each other (core/cloth/draft/layers.hpp). The weft direction at a
-/// point of patch i is weft[i] projected on the rest surface. `trims`, `fields`, `layer`, `patch_names` and `placed`
-/// are empty, or hold one entry per patch.
+/// Cloth at rest: one garment, or several worn over each other (core/cloth/draft/join_garments.hpp). The weft direction
+/// at a point of patch i is weft[i] projected on the rest surface. `trims`, `fields`, `garment_of_patch`, `patch_names`
+/// and `placed` are empty, or hold one entry per patch.
 struct Garment {
   std::string name;
   std::vector<NurbsPatch> patches;
@@ -52,7 +52,7 @@ struct Garment {
   std::vector<Fabric> other_fabrics;  ///< what material fields choose from, beside `fabric`
   std::vector<PatchFields> fields;
   std::vector<WeakSeam> weak_seams;
-  std::vector<int> layer;  ///< garment that a patch belongs to, 0 innermost; empty: one garment
+  std::vector<int> garment_of_patch;  ///< garment that a patch belongs to, 0 innermost; empty: one garment
 
   std::vector<std::string> patch_names;  ///< of each patch, or empty
   std::vector<NamedEdge> edges;
@@ -60,7 +60,7 @@ struct Garment {
   /// empty, or one list per patch, empty where the patch starts at rest.
   std::vector<std::vector<Vec3>> placed;
 
-  int layerOf(int patch) const { return layer.empty() ? 0 : layer[patch]; }
+  int garmentOf(int patch) const { return garment_of_patch.empty() ? 0 : garment_of_patch[patch]; }
 };
 
 }  // namespace gambeson

@@ -68,7 +68,7 @@ struct Tie {
 };
 
 /// Eight ties act on a Gauss point: E11 at the knots 0 and 1, E22 at the knots 0 and 1, E12 at the corners (0, 0),
-/// (0, 1), (1, 0), (1, 1). Their shares (ShellBlock::tie_share) are three numbers each; nine more take C to
+/// (0, 1), (1, 0), (1, 1). Their weights (ShellBlock::tie_weight) are three numbers each; nine more take C to
 /// covariant components.
 struct Ties {
   Tie at[3][2][kMaxTies];             ///< [E11][u-knot][gv], [E22][v-knot][gu], [E12][u-knot][v-knot]
@@ -126,37 +126,37 @@ struct Ties {
   static constexpr int component(int which) { return which < 2 ? 0 : which < 4 ? 1 : 2; }
 
   /// The three covariant strains at a Gauss point.
-  void strains(const double* share, int gu, int gv, V* cov) const {
+  void strains(const double* tie_weight, int gu, int gv, V* cov) const {
     cov[0] = cov[1] = cov[2] = V{};
     for (int i = 0; i < 8; ++i) {
       const Tie& t = tie(*this, i, gu, gv);
-      for (int c = 0; c < 3; ++c) cov[component(i)] += load(share + (3 * i + c) * kLanes) * t.strain[c];
+      for (int c = 0; c < 3; ++c) cov[component(i)] += load(tie_weight + (3 * i + c) * kLanes) * t.strain[c];
     }
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) cov[i] += load(share + (24 + 3 * i + j) * kLanes) * mean[j];
+      for (int j = 0; j < 3; ++j) cov[i] += load(tie_weight + (24 + 3 * i + j) * kLanes) * mean[j];
   }
   /// Hands the covariant resultants of a Gauss point (times its area) to the ties.
-  void collect(const double* share, int gu, int gv, const V* N) {
+  void collect(const double* tie_weight, int gu, int gv, const V* N) {
     for (int i = 0; i < 8; ++i) {
       Tie& t = tie(*this, i, gu, gv);
-      for (int c = 0; c < 3; ++c) t.force[c] += load(share + (3 * i + c) * kLanes) * N[component(i)];
+      for (int c = 0; c < 3; ++c) t.force[c] += load(tie_weight + (3 * i + c) * kLanes) * N[component(i)];
     }
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) mean_force[j] += load(share + (24 + 3 * i + j) * kLanes) * N[i];
+      for (int j = 0; j < 3; ++j) mean_force[j] += load(tie_weight + (24 + 3 * i + j) * kLanes) * N[i];
   }
   /// Rows of the three covariant strains at a Gauss point for one node.
-  void rows(const double* share, int gu, int gv, int node, V3* r) const {
+  void rows(const double* tie_weight, int gu, int gv, int node, V3* r) const {
     r[0] = r[1] = r[2] = V3{};
     for (int i = 0; i < 8; ++i) {
       const Tie& t = tie(*this, i, gu, gv);
-      const V s0 = load(share + 3 * i * kLanes), s1 = load(share + (3 * i + 1) * kLanes),
-              s2 = load(share + (3 * i + 2) * kLanes);
+      const V s0 = load(tie_weight + 3 * i * kLanes), s1 = load(tie_weight + (3 * i + 1) * kLanes),
+              s2 = load(tie_weight + (3 * i + 2) * kLanes);
       V3& out = r[component(i)];
       add(out, s0 * t.d1[node] + s2 * t.d2[node], t.a1);
       add(out, s1 * t.d2[node] + s2 * t.d1[node], t.a2);
     }
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) add(r[i], load(share + (24 + 3 * i + j) * kLanes), mean_rows[j][node]);
+      for (int j = 0; j < 3; ++j) add(r[i], load(tie_weight + (24 + 3 * i + j) * kLanes), mean_rows[j][node]);
   }
 
  private:

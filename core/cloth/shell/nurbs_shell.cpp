@@ -14,7 +14,7 @@
 #include "core/cloth/shell/stress_field.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/cloth/shell/tangent.hpp"
-#include "core/cloth/shell/trim_mesh.hpp"
+#include "core/nurbs/trim_mesh.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -23,7 +23,7 @@ namespace {
 class ShellTangent : public ClothTangent {
  public:
   ShellTangent(const Shell& shell, const FreeMap& map) : shell_(shell), tangent_(shell, map) {}
-  const BlockMatrix& pattern() const override { return tangent_.pattern(); }
+  const BlockMatrix& sparsity() const override { return tangent_.sparsity(); }
   void assemble(const ClothState& state, ClothWork& work, BlockMatrix& K, const ForceTerms& terms) const override {
     tangent_.assemble(shell_, state, work, K, terms);
   }
@@ -39,7 +39,7 @@ std::vector<ClothPatch> patchesOf(const Garment& garment) {
   for (std::size_t p = 0; p < garment.patches.size(); ++p) {
     const KnotVector &u = garment.patches[p].u, &v = garment.patches[p].v;
     out.push_back({garment.patch_names.empty() ? "" : garment.patch_names[p],
-                   garment.layerOf(static_cast<int>(p)),
+                   garment.garmentOf(static_cast<int>(p)),
                    offsets[p],
                    offsets[p + 1],
                    {u.front(), v.front()},
@@ -63,8 +63,8 @@ PatchLayout layoutOf(const std::string& name, const NurbsPatch& p, const Trim* t
 }
 
 const Garment& checked(const Garment& garment) {
-  if (!garment.layer.empty() && garment.layer.size() != garment.patches.size())
-    throw InputError({"", 0, "layer"}, "one number for each patch is needed");
+  if (!garment.garment_of_patch.empty() && garment.garment_of_patch.size() != garment.patches.size())
+    throw InputError({"", 0, "garment_of_patch"}, "one number for each patch is needed");
   return garment;
 }
 

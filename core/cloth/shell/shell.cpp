@@ -98,8 +98,8 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
     const int nn = b.nodeCount();
     for (long at = 0; at < static_cast<long>(cells.size()); ++at)
       for (int k = 0; k < nn; ++k) {
-        const long place = (at / L) * nn + k;
-        gather_.add(b.nodes[place * L + at % L], part.first_slot + place * 3 * L + at % L, L);
+        const long node = (at / L) * nn + k;
+        gather_.add(b.nodes[node * L + at % L], part.first_slot + node * 3 * L + at % L, L);
       }
     for (const SheetCell& cell : cells)
       gauss_points_ += cell.cut ? static_cast<long>(cell.points.size()) : long{b.gu} * b.gv;
@@ -154,7 +154,7 @@ void Shell::cellForces(const ClothState& state, const ClothForce& out, ClothWork
   if (!cells) std::fill(work.slots.begin(), work.slots.begin() + hinge_slot_, 0.0);
   for (const ShellPart& part : parts_) {
     if (!cells) break;
-    BlockLaw law = withHistory(withTerms(part.law, terms), part.block.place.data(), state, out);
+    BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_at.data(), state, out);
     const std::size_t lanes = static_cast<std::size_t>(part.block.groups) * part.block.lanes;
     if (out.energy) work.lane_energy.assign(lanes, 0.0);
     if (out.energy && law.remembers()) work.lane_lost.assign(lanes, 0.0), law.lost = work.lane_lost.data();

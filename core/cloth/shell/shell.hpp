@@ -18,7 +18,7 @@
 
 namespace gambeson {
 
-/// Cells of one kind, packed, and where their shares of the force lie in ClothWork::slots.
+/// Cells of one kind, packed, and where what they contribute to the force lies in ClothWork::slots.
 struct ShellPart {
   ShellBlock block;
   BlockLaw law;
@@ -37,8 +37,8 @@ class Shell {
              const ForceTerms& terms = {}) const;
   /// The same of a state with history, and what else `out` asks for.
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
-  /// The first part of `force` alone: each cell's own share, written to work.slots and not yet summed on the control
-  /// points. Adds to the energy.
+  /// The first part of `force` alone: each cell's own contribution, written to work.slots and not yet summed on the
+  /// control points. Adds to the energy.
   void cellForces(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms = {}) const;
   /// Stress and strain at a point of a patch.
   /// `more_N_per_m` is added to the second Piola-Kirchhoff resultants along weft and warp (of strain limits, say).

@@ -31,7 +31,7 @@ void assumedForce(const ShellBlock& block, const BlockLaw& shell_law, const doub
         const double* bu = block.basis_u.data() + (static_cast<long>(group) * block.gu + gu) * 9 * kLanes;
         const long point = (static_cast<long>(group) * block.gv + gv) * block.gu + gu;
         const double* data = block.points.data() + point * stride;
-        const double* share = block.tie_share.data() + point * kShareDoubles * kLanes;
+        const double* tie_weight = block.tie_weight.data() + point * kTieWeightDoubles * kLanes;
         Shape N[nn];
         tensorShapes(3, 3, bu, bv, weights, data + 5 * kLanes, N);
         V3 a1{}, a2{}, x11{}, x22{}, x12{};
@@ -53,7 +53,7 @@ void assumedForce(const ShellBlock& block, const BlockLaw& shell_law, const doub
         const V3 n = squareRoot(inv_j2) * normal_j;
         const V bent[3] = {dot(n, x11), dot(n, x22), 2.0 * dot(n, x12)};
         V cov[3], strain[3], change[3];
-        ties.strains(share, gu, gv, cov);
+        ties.strains(tie_weight, gu, gv, cov);
         for (int i = 0; i < 3; ++i) {
           strain[i] = T[i][0] * cov[0] + T[i][1] * cov[1] + T[i][2] * cov[2];
           change[i] = T[i][0] * bent[0] + T[i][1] * bent[1] + T[i][2] * bent[2];
@@ -73,7 +73,7 @@ void assumedForce(const ShellBlock& block, const BlockLaw& shell_law, const doub
           R[i] = dA * (T[0][i] * resultant[0] + T[1][i] * resultant[1] + T[2][i] * resultant[2]);
           B[i] = dA * (T[0][i] * couple[0] + T[1][i] * couple[1] + T[2][i] * couple[2]);
         }
-        ties.collect(share, gu, gv, R);
+        ties.collect(tie_weight, gu, gv, R);
         // B : d(kappa) = n (B^ab N,ab - B^ab x,ab . a^g N,g)
         const V3 b = B[0] * x11 + B[1] * x22 + (2.0 * B[2]) * x12;
         const V C11 = dot(a1, a1), C22 = dot(a2, a2), C12 = dot(a1, a2), ba1 = dot(b, a1), ba2 = dot(b, a2);

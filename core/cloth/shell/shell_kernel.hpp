@@ -12,9 +12,9 @@
 
 namespace gambeson {
 
-constexpr int kShareDoubles = 33;  ///< of the ties at a Gauss point, and of the correction of the mean
-constexpr int kMeanDoubles = 75;   ///< of a cell's correction of the mean
-constexpr int kMaxTies = 8;        ///< Gauss points per direction of a cell with assumed strains
+constexpr int kTieWeightDoubles = 33;  ///< of the ties at a Gauss point, and of the correction of the mean
+constexpr int kMeanDoubles = 75;       ///< of a cell's correction of the mean
+constexpr int kMaxTies = 8;            ///< Gauss points per direction of a cell with assumed strains
 
 /// Cells of one degree pair and one quadrature rule, packed for vectors of `lanes` doubles. All arrays run
 /// [group][...][lane]; a last group is filled up with copies of a cell whose area is zero.
@@ -36,14 +36,14 @@ struct ShellBlock {
       points;  ///< [group][gv][gu][pointDoubles()][lane]: G11 G12 G21 G22 dA (w w1 w2 w11 w22 w12) (k11 k22 k12)
   bool rest_curvature = false;  ///< whether the rest curvature (physical components) is subtracted
   /// Assumed strains (core/cloth/shell/assumed.hpp; p = q = 2, not scattered): basis at the two knots of the cell,
-  /// [group][2][2][degree + 1][lane] values and first derivatives; shares of the ties at the Gauss points,
-  /// [point][kShareDoubles][lane]; covariant rest metric at the ties (A11, A22, A12), [group][tieCount()][3][lane];
+  /// [group][2][2][degree + 1][lane] values and first derivatives; weights of the ties at the Gauss points,
+  /// [point][kTieWeightDoubles][lane]; covariant rest metric at the ties (A11, A22, A12), [group][tieCount()][3][lane];
   /// rows of the mean gradient and of the correction of the mean strain, and its value at rest,
   /// [group][kMeanDoubles][lane].
   bool assumed = false;
-  AlignedVector<double> tie_u, tie_v, tie_share, tie_rest, tie_mean;
-  AlignedVector<double> laws;  ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
-  std::vector<long> place;     ///< as BlockLaw has it; empty where no law remembers
+  AlignedVector<double> tie_u, tie_v, tie_weight, tie_rest, tie_mean;
+  AlignedVector<double> laws;    ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
+  std::vector<long> history_at;  ///< as BlockLaw has it; empty where no law remembers
 
   int nodeCount() const { return (p + 1) * (q + 1); }
   int pairCount() const { return nodeCount() * (nodeCount() + 1) / 2; }

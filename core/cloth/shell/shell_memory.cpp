@@ -6,13 +6,13 @@ namespace gambeson {
 
 void ShellMemory::add(ShellBlock& block, const std::vector<SheetCell>& cells) {
   const long points = block.firstPoint(block.groups);
-  block.place.assign(static_cast<std::size_t>(points * block.lanes), -1);
+  block.history_at.assign(static_cast<std::size_t>(points * block.lanes), -1);
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const int group = static_cast<int>(k) / block.lanes, lane = static_cast<int>(k) % block.lanes;
     const std::vector<CellPoint> own = cellRule(cells[k], block.gu, block.gv);
     for (std::size_t i = 0; i < own.size(); ++i) {
       const long point = block.firstPoint(group) + static_cast<long>(i), at = static_cast<long>(places_.size());
-      block.place[static_cast<std::size_t>(point * block.lanes + lane)] = at * kHistoryDoubles;
+      block.history_at[static_cast<std::size_t>(point * block.lanes + lane)] = at * kHistoryDoubles;
       of_cell_[{cells[k].patch, cells[k].su, cells[k].sv}].push_back(at);
       places_.push_back({cells[k].patch, {own[i].u, own[i].v}});
     }

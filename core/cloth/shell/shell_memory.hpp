@@ -14,7 +14,7 @@ namespace gambeson {
 /// instruction set changes. Empty where no law remembers.
 class ShellMemory {
  public:
-  /// Call once for each part, in order. Sets block.place.
+  /// Call once for each part, in order. Sets block.history_at.
   void add(ShellBlock& block, const std::vector<SheetCell>& cells);
 
   std::size_t doubles() const { return places_.size() * kHistoryDoubles; }

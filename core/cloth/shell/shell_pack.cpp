@@ -143,7 +143,7 @@ ShellBlock packBlock(const Garment& garment, const std::vector<int>& offsets, co
   if (b.assumed) {
     b.tie_u.resize(b.groups * 12 * L);
     b.tie_v.resize(b.groups * 12 * L);
-    b.tie_share.resize(points * kShareDoubles * L);
+    b.tie_weight.resize(points * kTieWeightDoubles * L);
     b.tie_mean.resize(static_cast<long>(b.groups) * kMeanDoubles * L);
     b.tie_rest.resize(static_cast<long>(b.groups) * b.tieCount() * 3 * L);
   }

@@ -33,7 +33,7 @@ struct CellBasis {
 
 CellBasis cellBasis(const NurbsPatch& patch, const SheetCell& cell, double u, double v);
 
-/// The places of the assumed strains of a cell, in the order of the kernels' Ties, and their shares.
+/// The places of the assumed strains of a cell, in the order of the kernels' Ties, and their weights.
 void packTies(const Garment& garment, const SheetCell& cell, ShellBlock& b, long group, int lane);
 
 }  // namespace gambeson

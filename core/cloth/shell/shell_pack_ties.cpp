@@ -99,26 +99,26 @@ void packTies(const Garment& garment, const SheetCell& cell, ShellBlock& b, long
                    sv = (gauss_v(gv) - cell.v0) / (cell.v1 - cell.v0);
       const double a[2] = {1 - su, su}, c[2] = {1 - sv, sv};
       const long point = b.firstPoint(static_cast<int>(group)) + gu + b.gu * gv;
-      const auto share = [&](int which, int component, int tie, double factor) {
+      const auto weigh = [&](int which, int component, int tie, double factor) {
         for (int j = 0; j < 3; ++j) {
           double s = j == component ? 1 : 0;
           if (physical[tie]) {
             s = 0;
             for (int i = 0; i < 3; ++i) s += covariant[component][i] * (*physical[tie])[i][j];
           }
-          b.tie_share[(point * kShareDoubles + 3 * which + j) * L + lane] = factor * s;
+          b.tie_weight[(point * kTieWeightDoubles + 3 * which + j) * L + lane] = factor * s;
           for (int d = 0; d < 2; ++d)
             for (int n = 0; n < 9; ++n) missing[component][d][n] -= factor * s * linear[tie][j][d][n];
         }
       };
       for (int k = 0; k < 2; ++k) {
-        share(k, 0, k * b.gv + gv, a[k]);
-        share(2 + k, 1, 2 * b.gv + k * b.gu + gu, c[k]);
-        for (int l = 0; l < 2; ++l) share(4 + 2 * k + l, 2, 2 * b.gv + 2 * b.gu + 2 * k + l, a[k] * c[l]);
+        weigh(k, 0, k * b.gv + gv, a[k]);
+        weigh(2 + k, 1, 2 * b.gv + k * b.gu + gu, c[k]);
+        for (int l = 0; l < 2; ++l) weigh(4 + 2 * k + l, 2, 2 * b.gv + 2 * b.gu + 2 * k + l, a[k] * c[l]);
       }
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-          b.tie_share[(point * kShareDoubles + 24 + 3 * i + j) * L + lane] = covariant[i][j];
+          b.tie_weight[(point * kTieWeightDoubles + 24 + 3 * i + j) * L + lane] = covariant[i][j];
           for (int d = 0; d < 2; ++d)
             for (int n = 0; n < 9; ++n) rows[18 + 9 * (2 * i + d) + n] += dA * to_physical[i][j] * missing[j][d][n];
         }

@@ -34,12 +34,12 @@ struct Changes {
 /// Where a Gauss point lies among the ties of its cell.
 struct Tied {
   Ties* ties;
-  const double* share;
+  const double* tie_weight;
   int gu, gv;
 };
 
-/// Adds the point's share to all pairs. `kNodes`: their largest number, `nn` the number. With assumed strains (`tied`)
-/// the resultants go to the ties, which add the rest of the membrane's share (addTies).
+/// Adds what the point contributes to all pairs. `kNodes`: their largest number, `nn` the number. With assumed strains
+/// (`tied`) the resultants go to the ties, which add the rest of the membrane's part (addTies).
 template <int kNodes, bool kAssumed = false>
 inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, const double* rest, GeneralLaw& law,
                      const double* laws, long point, double* pairs, [[maybe_unused]] const Tied* tied = nullptr) {
@@ -70,7 +70,7 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
   [[maybe_unused]] const V T[3][3] = {{q11, q13, 0.5 * q12}, {q21, q23, 0.5 * q22}, {2.0 * q31, 2.0 * q33, q32}};
   if constexpr (kAssumed) {
     V cov[3];
-    tied->ties->strains(tied->share, tied->gu, tied->gv, cov);
+    tied->ties->strains(tied->tie_weight, tied->gu, tied->gv, cov);
     for (int i = 0; i < 3; ++i) strain[i] = T[i][0] * cov[0] + T[i][1] * cov[1] + T[i][2] * cov[2];
   }
   V change[3] = {b11, b22, 2.0 * b12};
@@ -95,7 +95,7 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
   if constexpr (kAssumed) {
     V R[3];
     for (int i = 0; i < 3; ++i) R[i] = T[0][i] * force[0] + T[1][i] * force[1] + T[2][i] * force[2];
-    tied->ties->collect(tied->share, tied->gu, tied->gv, R);
+    tied->ties->collect(tied->tie_weight, tied->gu, tied->gv, R);
   }
   const V Y = moment3[0] * b11 + moment3[1] * b22 + 2.0 * moment3[2] * b12;
   const V g111 = dot(y11, dual1), g211 = dot(y11, dual2), g122 = dot(y22, dual1), g222 = dot(y22, dual2),
@@ -112,7 +112,7 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
     r.bend[2] = 2.0 * (q31 * N[k].d11 + q32 * N[k].d12 + q33 * N[k].d22 - g112 * r.p1 - g212 * r.p2);
     if constexpr (kAssumed) {
       V3 cov[3];
-      tied->ties->rows(tied->share, tied->gu, tied->gv, k, cov);
+      tied->ties->rows(tied->tie_weight, tied->gu, tied->gv, k, cov);
       for (int i = 0; i < 3; ++i) r.strain[i] = T[i][0] * cov[0] + T[i][1] * cov[1] + T[i][2] * cov[2];
     } else {
       r.strain[0] = r.p1 * e1;
@@ -222,7 +222,7 @@ void tensorTangent(const ShellBlock& block, const BlockLaw& law, const double* q
         tensorShapes(nu, nv, bu, bv, weights, data + 5 * kLanes, N);
         const double* rest = block.rest_curvature ? data + (5 + (block.rational ? 6 : 0)) * kLanes : nullptr;
         if constexpr (kAssumed) {
-          const Tied tied{&ties, block.tie_share.data() + point * kShareDoubles * kLanes, gu, gv};
+          const Tied tied{&ties, block.tie_weight.data() + point * kTieWeightDoubles * kLanes, gu, gv};
           addPoint<kNodes, true>(nn, X, N, data, rest, point_law, laws, point, out, &tied);
         } else {
           addPoint<kNodes>(nn, X, N, data, rest, point_law, laws, point, out);

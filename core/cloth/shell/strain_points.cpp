@@ -61,16 +61,16 @@ std::vector<Place> placesOf(const Garment& garment, int patch_index, const Strai
   return places;
 }
 
-struct CellShare {
+struct CellParts {
   bool kept = false;
   double area = 0;
   std::map<int, double> points;  ///< area that each point takes of the cell
 };
 
 /// Hat functions in a whole cell; in a cut one inverse squared distances to its places.
-CellShare shareOf(const NurbsPatch& patch, const SheetCell& cell, const std::vector<Place>& places) {
-  CellShare share;
-  share.kept = true;
+CellParts partsOf(const NurbsPatch& patch, const SheetCell& cell, const std::vector<Place>& places) {
+  CellParts parts;
+  parts.kept = true;
   const double du = cell.u1 - cell.u0, dv = cell.v1 - cell.v0;
   std::vector<std::pair<Vec2, int>> inside;  // in units of the cell
   for (const Place& p : places) {
@@ -88,7 +88,7 @@ CellShare shareOf(const NurbsPatch& patch, const SheetCell& cell, const std::vec
   for (const CellPoint& point : cellRule(cell, patch.u.degree + 1, patch.v.degree + 1)) {
     const double dA = restArea(patch, point);
     const Vec2 at{(point.u - cell.u0) / du, (point.v - cell.v0) / dv};
-    share.area += dA;
+    parts.area += dA;
     std::vector<double> weight;
     double total = 0;
     for (const auto& [place, unused] : inside) {
@@ -96,25 +96,25 @@ CellShare shareOf(const NurbsPatch& patch, const SheetCell& cell, const std::vec
       weight.push_back(cell.cut ? 1 / (x * x + y * y + 1e-6) : std::max(0.0, 1 - x) * std::max(0.0, 1 - y));
       total += weight.back();
     }
-    for (std::size_t k = 0; k < inside.size(); ++k) share.points[inside[k].second] += weight[k] / total * dA;
+    for (std::size_t k = 0; k < inside.size(); ++k) parts.points[inside[k].second] += weight[k] / total * dA;
   }
-  return share;
+  return parts;
 }
 
 /// Each place of a cell's rule stands for its part of the cell.
-CellShare shareOfRule(std::span<const Place> places) {
-  CellShare share;
-  share.kept = true;
+CellParts partsOfRule(std::span<const Place> places) {
+  CellParts parts;
+  parts.kept = true;
   for (const Place& place : places) {
-    share.area += place.area_m2;
-    share.points[place.point] += place.area_m2;
+    parts.area += place.area_m2;
+    parts.points[place.point] += place.area_m2;
   }
-  return share;
+  return parts;
 }
 
 /// The value at a vertex from those of cells near it, as weights: the mean of four cells that meet there, else the
 /// value of the plane through the cells of the two rings around it that exist, else their mean.
-std::vector<std::pair<int, double>> vertexRow(const StrainRows::Grid& g, const std::vector<CellShare>& cells, int i,
+std::vector<std::pair<int, double>> vertexRow(const StrainRows::Grid& g, const std::vector<CellParts>& cells, int i,
                                               int j) {
   const int nu = static_cast<int>(g.us.size()) - 1, nv = static_cast<int>(g.vs.size()) - 1;
   struct Near {
@@ -194,7 +194,7 @@ void addSharedPoints(const Garment& garment, const FreeMap& map, LimitPoints kin
     }
   }
 
-  std::vector<std::vector<CellShare>> cells(patch_count);
+  std::vector<std::vector<CellParts>> cells(patch_count);
   std::vector<int> first_cell{0};
   for (int p = 0; p < patch_count; ++p) {
     cells[p].resize((s.grids[p].us.size() - 1) * (s.grids[p].vs.size() - 1));
@@ -208,10 +208,10 @@ void addSharedPoints(const Garment& garment, const FreeMap& map, LimitPoints kin
     if (across > 0) {
       const std::span<const Place> all = places[cell.patch];
       std::size_t& first = of_rules[cell.patch];
-      cells[cell.patch][at] = shareOfRule(all.subspan(first, static_cast<std::size_t>(across * across)));
+      cells[cell.patch][at] = partsOfRule(all.subspan(first, static_cast<std::size_t>(across * across)));
       first += static_cast<std::size_t>(across * across);
     } else {
-      cells[cell.patch][at] = shareOf(garment.patches[cell.patch], cell, places[cell.patch]);
+      cells[cell.patch][at] = partsOf(garment.patches[cell.patch], cell, places[cell.patch]);
     }
     for (const auto& [point, area] : cells[cell.patch][at].points) s.points[point].area_m2 += area;
   }
@@ -223,7 +223,7 @@ void addSharedPoints(const Garment& garment, const FreeMap& map, LimitPoints kin
   vertex_of_cell.column_count = first_cell.back();
   for (int p = 0; p < patch_count; ++p) {
     const StrainRows::Grid& g = s.grids[p];
-    for (const CellShare& cell : cells[p]) {
+    for (const CellParts& cell : cells[p]) {
       for (const auto& [point, area] : cell.points)
         if (area > 0) cell_of_point.add(point, area / (s.points[point].area_m2 * cell.area));
       cell_of_point.endRow();

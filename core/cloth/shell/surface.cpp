@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/cloth/draft/cells.hpp"
-#include "core/cloth/shell/trim_mesh.hpp"
+#include "core/nurbs/trim_mesh.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

@@ -22,13 +22,13 @@ std::vector<int> nodesOf(const ShellBlock& b, int cell) {
   return nodes;
 }
 
-BlockMatrix patternOf(const Shell& shell, const FreeMap& map) {
+BlockMatrix sparsityOf(const Shell& shell, const FreeMap& map) {
   std::vector<std::vector<int>> elements;
   for (const ShellPart& part : shell.parts())
     for (int cell = 0; cell < part.cell_count; ++cell) elements.push_back(nodesOf(part.block, cell));
   for (const HingePoint& h : shell.hinges()) elements.push_back(h.columns);
   for (const GapPoint& g : shell.gaps()) elements.push_back(g.columns);
-  return blockPattern(map, elements);
+  return blockSparsity(map, elements);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void Tangent::addBatch(const FreeMap& map, const Batch& batch,
           for (int b = T.offsets[nodes[J]]; b < T.offsets[nodes[J] + 1]; ++b)
             // Below the diagonal the transpose stands for it.
             if (T.columns[a] <= T.columns[b])
-              entries.push_back({pattern_.find(T.columns[a], T.columns[b]), {slot, I > J, T.values[a] * T.values[b]}});
+              entries.push_back({sparsity_.find(T.columns[a], T.columns[b]), {slot, I > J, T.values[a] * T.values[b]}});
       }
   }
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.block < b.block; });
@@ -71,7 +71,7 @@ void Tangent::addBatch(const FreeMap& map, const Batch& batch,
   batches_.push_back(done);
 }
 
-Tangent::Tangent(const Shell& shell, const FreeMap& map) : pattern_(patternOf(shell, map)) {
+Tangent::Tangent(const Shell& shell, const FreeMap& map) : sparsity_(sparsityOf(shell, map)) {
   for (std::size_t p = 0; p < shell.parts().size(); ++p) {
     const ShellBlock& b = shell.parts()[p].block;
     const long group_doubles = long{9} * b.pairCount() * b.lanes;
@@ -110,7 +110,7 @@ void Tangent::addSeamBatches(const FreeMap& map, Batch::Kind kind,
 
 void Tangent::assemble(const Shell& shell, const ClothState& state, ClothWork& work, BlockMatrix& K,
                        const ForceTerms& terms) const {
-  if (K.columns.size() != pattern_.columns.size() || K.offsets != pattern_.offsets) K = pattern_;
+  if (K.columns.size() != sparsity_.columns.size() || K.offsets != sparsity_.offsets) K = sparsity_;
   std::fill(K.values.begin(), K.values.end(), 0.0);
   long most = 0;
   for (const Batch& batch : batches_) most = std::max(most, batch.doubles);
@@ -131,7 +131,7 @@ void Tangent::assemble(const Shell& shell, const ClothState& state, ClothWork& w
       });
     } else {
       const ShellPart& part = shell.parts()[batch.part];
-      const BlockLaw law = withHistory(withTerms(part.law, terms), part.block.place.data(), state, {});
+      const BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_at.data(), state, {});
       shell.kernels().tangent(part.block, law, reinterpret_cast<const double*>(state.q.data()), batch.first,
                               batch.count, slots);
     }

@@ -7,14 +7,14 @@
 
 namespace gambeson {
 
-/// K = Tᵀ (d2E/dq2) T, material and geometric parts of cells and seams. The pattern and the gather lists are built
+/// K = Tᵀ (d2E/dq2) T, material and geometric parts of cells and seams. The sparsity and the gather lists are built
 /// once; values come from each element's own block in a fixed order, so that the bits do not depend on threads.
 /// Elements are worked off in batches that fit the cache, so that the scratch does not grow with the sheet.
 class Tangent {
  public:
   Tangent(const Shell& shell, const FreeMap& map);
-  /// Every pair of free points that share a cell (or a seam point) is in the pattern.
-  const BlockMatrix& pattern() const { return pattern_; }
+  /// Every pair of free points that share a cell (or a seam point) is in the sparsity.
+  const BlockMatrix& sparsity() const { return sparsity_; }
   /// Writes K at the control points q. `terms` as in Shell::force. `shell` is the one of the constructor.
   void assemble(const Shell& shell, const ClothState& state, ClothWork& work, BlockMatrix& K,
                 const ForceTerms& terms = {}) const;
@@ -28,7 +28,7 @@ class Tangent {
     long doubles = 0;  ///< of scratch
     long first_sum = 0, end_sum = 0;
   };
-  /// A pair's share of a block of K.
+  /// A pair's contribution to a block of K.
   struct Source {
     int slot = 0;  ///< first of nine values in ClothWork::tangent_slots
     bool transposed = false;
@@ -37,7 +37,7 @@ class Tangent {
   void addSeamBatches(const FreeMap& map, Batch::Kind kind, const std::vector<const std::vector<int>*>& columns);
   void addBatch(const FreeMap& map, const Batch& batch, const std::vector<std::pair<std::vector<int>, int>>& elements);
 
-  BlockMatrix pattern_;
+  BlockMatrix sparsity_;
   std::vector<Batch> batches_;
   std::vector<long> sum_block_;       ///< block of K that a sum goes to
   std::vector<long> sum_offsets_{0};  ///< its sources

@@ -26,8 +26,8 @@ struct Scale {
 
 Scale scaleOf(const Fabric& f) {
   Scale s;
-  const Laminate* layered = f.laminate();
-  if (!layered) {
+  const Laminate* laminate = f.laminate();
+  if (!laminate) {
     const double modulus =
         std::max(f.young_weft_Pa, f.young_warp_Pa) / (1 - f.poisson * f.poisson * f.young_warp_Pa / f.young_weft_Pa);
     s.membrane = modulus * f.thickness_m;
@@ -41,8 +41,8 @@ Scale scaleOf(const Fabric& f) {
         f.law);
     return s;
   }
-  double bottom = -layered->thickness_m() / 2;
-  for (const Ply& ply : layered->plies) {
+  double bottom = -laminate->thickness_m() / 2;
+  for (const Ply& ply : laminate->plies) {
     const double top = bottom + ply.thickness_m;
     const double modulus =
         std::max(ply.young1_Pa, ply.young2_Pa) / (1 - ply.poisson12 * ply.poisson12 * ply.young2_Pa / ply.young1_Pa);

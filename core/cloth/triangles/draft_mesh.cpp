@@ -8,7 +8,7 @@
 
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/seams.hpp"
-#include "core/cloth/shell/trim_mesh.hpp"
+#include "core/nurbs/trim_mesh.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

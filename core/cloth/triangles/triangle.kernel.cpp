@@ -34,10 +34,10 @@ V gatherOne(const double* values, const int* at) {
 /// of e, shared as the foot of that corner divides e. `m`: M/|e| [N] of the edges that face the corners 0, 1 and 2, so
 /// that no root is needed. e1, e2 and e0 run from corner 0 to 1, from 0 to 2 and from 1 to 2. Feet come from the edges
 /// themselves: differences of squares cancel where one is much shorter than the others.
-struct HingeShares {
+struct HingeMoments {
   V first, second;
 
-  HingeShares(V3 e0, V3 e1, V3 e2, V3 normal, const V* m) {
+  HingeMoments(V3 e0, V3 e1, V3 e2, V3 normal, const V* m) {
     const V inverse2 = 1.0 / dot(normal, normal);
     const V w0 = m[0] * inverse2, w1 = m[1] * inverse2, w2 = m[2] * inverse2;
     const V d11 = dot(e1, e1), d22 = dot(e2, e2), d12 = dot(e1, e2), d01 = dot(e0, e1), d02 = dot(e0, e2);
@@ -75,7 +75,7 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
 
     const V3 normal = cross(e1, e2);
     const V m[3] = {gatherOne(moment, hinge), gatherOne(moment, hinge + kLanes), gatherOne(moment, hinge + 2 * kLanes)};
-    const HingeShares along(x2 - x1, e1, e2, normal, m);
+    const HingeMoments along(x2 - x1, e1, e2, normal, m);
     const V3 f1 = g1x * p1 + g1y * p2 + along.first * normal, f2 = g2x * p1 + g2y * p2 + along.second * normal;
     double* slot = slots + 9L * group * kLanes;
     write(slot, V3{} - f1 - f2);

@@ -21,11 +21,11 @@ class TriangleTangent : public ClothTangent {
     for (const MembraneTriangle& t : cloth.elements().triangles())
       elements.emplace_back(t.corner.begin(), t.corner.end());
     for (const FoldHinge& h : cloth.elements().hinges()) elements.emplace_back(h.corner.begin(), h.corner.end());
-    pattern_ = blockPattern(cloth.map(), elements);
+    sparsity_ = blockSparsity(cloth.map(), elements);
   }
-  const BlockMatrix& pattern() const override { return pattern_; }
+  const BlockMatrix& sparsity() const override { return sparsity_; }
   void assemble(const ClothState& state, ClothWork&, BlockMatrix& K, const ForceTerms& terms) const override {
-    if (K.columns.size() != pattern_.columns.size() || K.offsets != pattern_.offsets) K = pattern_;
+    if (K.columns.size() != sparsity_.columns.size() || K.offsets != sparsity_.offsets) K = sparsity_;
     std::fill(K.values.begin(), K.values.end(), 0.0);
     std::vector<std::array<double, 9>> blocks;
     const TriangleElements& e = cloth_.elements();
@@ -41,7 +41,7 @@ class TriangleTangent : public ClothTangent {
 
  private:
   const TriangleCloth& cloth_;
-  BlockMatrix pattern_;
+  BlockMatrix sparsity_;
 };
 
 }  // namespace

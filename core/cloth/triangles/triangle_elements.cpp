@@ -86,8 +86,8 @@ void TriangleElements::packHinges() {
     return std::vector{h.theta0, h.per_angle, real ? h.area_m2 : 0.0, h.d.x, h.d.y, h.d.z};
   };
   hinge_blocks_ = packed(hinges_, laws_, lanes, kHingeDoubles, rest, [&](ElementBlock& block, std::size_t k, int at) {
-    if (at == 0) block.place.assign(static_cast<std::size_t>(block.groups * lanes), -1), block.first = moments_;
-    block.place[static_cast<std::size_t>(at)] = place_[k];
+    if (at == 0) block.history_at.assign(static_cast<std::size_t>(block.groups * lanes), -1), block.first = moments_;
+    block.history_at[static_cast<std::size_t>(at)] = history_at_[k];
     moment_[k] = static_cast<int>(block.first) + at;
     moments_ = static_cast<int>(block.first) + block.groups * lanes;
   });
@@ -131,7 +131,7 @@ TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> tri
   for (const Fabric& f : fabrics) laws_.push_back(lawOfTriangles(f));
   for (const FoldHinge& h : hinges_) {
     const bool remembers = laws_[static_cast<std::size_t>(h.law)].use.remembers();
-    place_.push_back(remembers ? history_ : -1);
+    history_at_.push_back(remembers ? history_ : -1);
     if (remembers) history_ += kHistoryDoubles;
   }
   packHinges();
@@ -149,7 +149,7 @@ BlockLaw TriangleElements::lawOf(int index, const ForceTerms& terms) const {
 }
 
 const double* TriangleElements::memoryOf(std::size_t hinge, std::span<const double> history) const {
-  return history.empty() || place_[hinge] < 0 ? nullptr : history.data() + place_[hinge];
+  return history.empty() || history_at_[hinge] < 0 ? nullptr : history.data() + history_at_[hinge];
 }
 
 Vec3 TriangleElements::strain(int triangle, std::span<const Vec3> q, Vec3* weft, Vec3* warp) const {
@@ -226,7 +226,7 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
       std::fill_n(moments + block.first, block.groups * kernels_->lanes, 0.0);
       continue;
     }
-    BlockLaw law = withHistory(withTerms(block.law, terms), block.place.data(), state, out);
+    BlockLaw law = withHistory(withTerms(block.law, terms), block.history_at.data(), state, out);
     startEnergies(block, law);
     kernels_->hinges(block, law, q, moments + block.first, energies);
     addEnergies(law);

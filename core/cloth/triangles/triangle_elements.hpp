@@ -47,7 +47,7 @@ class TriangleElements {
   const char* kernels() const { return kernels_->name; }
   /// Doubles of the history: kHistoryDoubles of each hinge whose law remembers, in their order.
   std::size_t historySize() const { return static_cast<std::size_t>(history_); }
-  bool remembers(std::size_t hinge) const { return place_[hinge] >= 0; }
+  bool remembers(std::size_t hinge) const { return history_at_[hinge] >= 0; }
 
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
   /// d2E/dq2 of a triangle: blocks[3 I + J] (3 x 3, row by row) of its corners.
@@ -78,9 +78,9 @@ class TriangleElements {
   std::vector<std::array<int, 3>> hinges_of_;  ///< of each triangle; -1 where it has fewer
   const TriangleKernels* kernels_ = nullptr;
   std::vector<ElementBlock> triangle_blocks_, hinge_blocks_;
-  std::vector<long> place_;  ///< of each hinge's history; -1: it remembers nothing
-  std::vector<int> moment_;  ///< of each hinge: where its moment is
-  int moments_ = 0;          ///< and behind them one that stays 0
+  std::vector<long> history_at_;  ///< of each hinge's history; -1: it remembers nothing
+  std::vector<int> moment_;       ///< of each hinge: where its moment is
+  int moments_ = 0;               ///< and behind them one that stays 0
   long history_ = 0, slot_count_ = 0;
   SlotGather gather_;
 };

@@ -14,14 +14,14 @@ namespace gambeson {
 struct ElementBlock {
   int groups = 0;
   BlockLaw law;
-  AlignedVector<int> corners;  ///< [group][corner][lane] points
-  AlignedVector<double> rest;  ///< [group][...][lane] as the kind has it
-  std::vector<long> place;     ///< of hinges, [group][lane], as BlockLaw has it
-  bool seam = false;           ///< of hinges: between two patches
-  /// Of triangles, [group][edge][lane]: the hinge at the edge that faces corner 0, 1, 2, by its place among all
+  AlignedVector<int> corners;    ///< [group][corner][lane] points
+  AlignedVector<double> rest;    ///< [group][...][lane] as the kind has it
+  std::vector<long> history_at;  ///< of hinges, [group][lane], as BlockLaw has it
+  bool seam = false;             ///< of hinges: between two patches
+  /// Of triangles, [group][edge][lane]: the hinge at the edge that faces corner 0, 1, 2, by its index among all
   /// moments.
   AlignedVector<int> hinge;
-  long first = 0;  ///< of triangles: slot; of hinges: place among all moments
+  long first = 0;  ///< of triangles: slot; of hinges: index among all moments
 };
 /// rest: g[0].x, g[0].y, g[1].x, g[1].y, area (MembraneTriangle). Three corners.
 constexpr int kMembraneDoubles = 5;

@@ -1,5 +1,5 @@
 #pragma once
-/// Membrane and bending of a layered sheet.
+/// Membrane and bending of a sheet of plies.
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Resultants in proportion to strains: what membrane, plain bending and layered sections have in common.
+/// Resultants in proportion to strains: what membrane, plain bending and laminates have in common.
 
 #include "core/material/laws/law.hpp"
 

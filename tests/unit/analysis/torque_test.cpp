@@ -153,7 +153,7 @@ TEST(Torque, HistoryFollowsTheMotionOfAMovingBase) {
     windows.push_back(window);
   }
   const int shoulder = 0;
-  const TorqueHistory h = torqueHistory(human, Swing(), start, windows, {&shoulder, 1}, TorqueCounting::all_distal);
+  const TorqueSeries h = torqueSeries(human, Swing(), start, windows, {&shoulder, 1}, TorqueCounting::all_distal);
   ASSERT_EQ(h.time_s.size(), 100u);
   const auto torque = h.of(0);
   for (std::size_t w = 0; w < 100; ++w) {

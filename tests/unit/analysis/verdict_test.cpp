@@ -27,7 +27,7 @@ VerdictInput table(std::vector<double> parts) {
     Option o;
     o.name = names[i];
     o.size = 0.5 + 0.25 * static_cast<double>(i);
-    o.layers = {{"shirt", 3e-3 * *o.size}, {"pad", 0.01}};
+    o.garments = {{"shirt", 3e-3 * *o.size}, {"pad", 0.01}};
     o.costs = {{"walking", "left hip (flexion)", 40 * parts[i], 0.8 * parts[i], parts[i] / parts.back()},
                {"stairs", hip, 50 * parts[i], parts[i], parts[i] / parts.back()}};
     in.options.push_back(o);
@@ -48,7 +48,7 @@ TEST(Verdict, TakesTheThickestThatStaysGreen) {
   EXPECT_EQ(v.take, 1);
   EXPECT_EQ(v.light, Light::green);
   EXPECT_EQ(v.sentence, "Take thickness x 0.75: the thickest that stays green in all 2 motions.");
-  EXPECT_EQ(v.layers, "shirt 2.25 mm, pad 10.0 mm");
+  EXPECT_EQ(v.garments, "shirt 2.25 mm, pad 10.0 mm");
   EXPECT_EQ(
       v.enough,
       "Good enough: at most 2.00 Nm at the right hip (flexion), 4 % of its natural 50.0 Nm (stairs): green, below "
@@ -242,7 +242,7 @@ TEST(Verdict, OfWearersTheWorstIsTheVerdict) {
                            "thickness x 0.5, the next, and 8.0 times that of thickness x 1, the least."))
       << v.choice;
   EXPECT_EQ(v.estimate, "");
-  EXPECT_EQ(v.layers, "");
+  EXPECT_EQ(v.garments, "");
   // One of whom nothing is known leaves no green.
   for (Option& o : in.options)
     for (Option::Cost& c : o.costs) c.part = 0.01;

@@ -35,7 +35,7 @@ Garment strapped() {
   g.fabric = cloth();
   g.patches = {strip(0, 0.2), strip(0.2, 0.4), strip(0.4, 0.6), strip(0, 0.6)};
   g.weft.assign(4, {1, 0, 0});
-  g.layer = {0, 0, 0, 1};
+  g.garment_of_patch = {0, 0, 0, 1};
   g.seams = {{{0, Side::v1}, {1, Side::v0}, SeamKind::C0, 0.01}, {{1, Side::v1}, {2, Side::v0}, SeamKind::C0, 0.01}};
   return g;
 }

@@ -18,7 +18,7 @@ Object beltTable() {
               "its upper edge below the edge \"waist\" of the garment under it")
       .number("cell", &B::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
       .integer("degree", &B::degree, 2, 5, "polynomial degree")
-      .number("gap", &B::gap_m, "m", between(0, 0.02), "that it starts farther out than the layers under it ask for")
+      .number("gap", &B::gap_m, "m", between(0, 0.02), "that it starts farther out than the garments under it ask for")
       .build();
 }
 

@@ -18,7 +18,7 @@ Object discTable() {
       .vector("center", &D::center, "m", between(-1e3, 1e3), "centre in the world")
       .direction("axis_u", &D::axis_u, "direction of u through the centre, the weft where weft_angle is 0")
       .direction("axis_v", &D::axis_v, "direction of v through the centre; at right angles to axis_u")
-      .check([](const Place& p, const D& d) {
+      .check([](const Entry& p, const D& d) {
         if (!(std::abs(dot(d.axis_u, d.axis_v)) < 1e-6))
           p.failAt("axis_v", "is not at right angles to axis_u; allowed: 90 deg");
       })

@@ -21,7 +21,7 @@ Object sheetTable() {
       .vector("corner", &S::corner, "m", between(-1e3, 1e3), "the corner u = v = 0 in the world")
       .direction("axis_u", &S::axis_u, "direction of u, the weft where weft_angle is 0")
       .direction("axis_v", &S::axis_v, "direction of v; at right angles to axis_u")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         if (!(std::abs(dot(s.axis_u, s.axis_v)) < 1e-6))
           p.failAt("axis_v", "is not at right angles to axis_u; allowed: 90 deg");
       })

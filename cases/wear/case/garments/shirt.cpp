@@ -26,7 +26,7 @@ Object shirtTable() {
       .number("belly_share", &S::belly_share, "", between(0.1, 0.9), "its width over that of the front")
       .number("cell", &S::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
       .integer("degree", &S::degree, 2, 5, "polynomial degree")
-      .number("gap", &S::gap_m, "m", between(0, 0.02), "farther out than the layers under it ask for")
+      .number("gap", &S::gap_m, "m", between(0, 0.02), "farther out than the garments under it ask for")
       .build();
 }
 

@@ -18,7 +18,7 @@ Object skirtTable() {
       .integer("cells_around", &S::cells_around, 16, 1000, "of all eight panels; a multiple of 8")
       .integer("cells_along", &S::cells_along, 2, 1000, "from hem to waist")
       .integer("degree", &S::degree, 2, 5, "polynomial degree")
-      .check([](const Place& p, const S& s) {
+      .check([](const Entry& p, const S& s) {
         if (s.cells_around % 8 != 0) p.failAt("cells_around", "is not a multiple of 8; allowed: a multiple");
       })
       .build();

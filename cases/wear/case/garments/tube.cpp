@@ -23,7 +23,7 @@ Object tubeTable() {
       .integer("patches", &T::patches, 1, 12, "equal patches around, joined lengthwise by seams")
       .vector("start", &T::start, "m", between(-1e3, 1e3), "centre of the first ring, the edge \"start\"")
       .direction("axis", &T::axis, "direction from the edge \"start\" to the edge \"end\"")
-      .check([](const Place& p, const T& t) {
+      .check([](const Entry& p, const T& t) {
         if (t.cells_around % t.patches != 0)
           p.failAt("cells_around", "is not a multiple of patches; allowed: a multiple");
       })

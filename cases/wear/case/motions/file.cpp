@@ -23,7 +23,7 @@ Object fileTable() {
                    "makehuman_default, unreal, mixamo, gait2392_markers, joint_centres, or a file of one's own "
                    "(human/data/MAPS.md)",
                    "that which goes with the names in the file"),
-          [](const Place& p, M& m) { m.map = readMap(p); },
+          [](const Entry& p, M& m) { m.map = readMap(p); },
           [](const M& m) { return m.map.empty() ? std::nullopt : std::optional(nodeOf(m.map)); })
       .number("from", &M::from_s, "s", between(-1e6, 1e6), "begin of the window in the file's own time")
       .defaultsTo("its first instant")

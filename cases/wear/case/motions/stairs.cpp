@@ -20,7 +20,7 @@ Object stairsTable() {
       .integer("lead_in_strides", &S::lead_in_strides, 0, 99,
                "how many of the strides come before what is measured; fewer than strides")
       .number("stride_time", &S::stride_time_s, "s", between(0.5, 3), "time of one stride")
-      .check([](const Place& p, const S& o) {
+      .check([](const Entry& p, const S& o) {
         if (!(o.lead_in_s >= 0.4 * o.stride_time_s && o.lead_in_s <= 0.7 * o.stride_time_s))
           p.failAt("lead_in", "must be 0.4 to 0.7 of stride_time");
         if (o.lead_in_strides >= o.strides) p.failAt("lead_in_strides", "must be fewer than strides");

@@ -31,7 +31,7 @@ void edgeField(Table<S>& table) {
       "patch and side, such as 2.u0";
   table.custom(
       f,
-      [](const Place& p, S& s) {
+      [](const Entry& p, S& s) {
         const std::string& text = readText(p);
         const std::size_t dot_at = text.find('.');
         if (dot_at == std::string::npos) {

@@ -28,10 +28,10 @@ const SupportKind fixed_support{
                                           "an edge that stays where it is in the world");
         },
     .hold =
-        [](const SupportCase& support, const SupportPlace& place, ModelOptions&, SupportGroup& group) {
-          group.name = place.name + " held";
-          for (const PatchEdge& e : place.edges) {
-            const std::vector<int> points = place.cloth.mounting().edgePoints(e, std::get<FixedSupport>(support).rows);
+        [](const SupportCase& support, const SupportedCloth& on, ModelOptions&, SupportGroup& group) {
+          group.name = on.name + " held";
+          for (const PatchEdge& e : on.edges) {
+            const std::vector<int> points = on.cloth.mounting().edgePoints(e, std::get<FixedSupport>(support).rows);
             group.control_points.insert(group.control_points.end(), points.begin(), points.end());
           }
         },

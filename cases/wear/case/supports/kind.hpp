@@ -32,7 +32,7 @@ struct SupportGroup {
 };
 
 /// What a support has to hold.
-struct SupportPlace {
+struct SupportedCloth {
   const Cloth& cloth;
   const Surface& surface;
   const Human* human = nullptr;         ///< null where the case has none
@@ -50,7 +50,7 @@ struct SupportKind {
   /// The link of the human that it ties to; null where it needs no human.
   const std::string* (*link)(const SupportCase& s) = [](const SupportCase&) -> const std::string* { return nullptr; };
   /// Names the group, and adds what it holds to it, and springs to `options`. Throws InputError.
-  void (*hold)(const SupportCase& s, const SupportPlace& place, ModelOptions& options, SupportGroup& group) = nullptr;
+  void (*hold)(const SupportCase& s, const SupportedCloth& on, ModelOptions& options, SupportGroup& group) = nullptr;
 };
 
 /// In the order of the documentation.

@@ -38,14 +38,14 @@ const SupportKind pinned_support{
         },
     .on_edge = false,
     .hold =
-        [](const SupportCase& support, const SupportPlace& place, ModelOptions&, SupportGroup& group) {
+        [](const SupportCase& support, const SupportedCloth& on, ModelOptions&, SupportGroup& group) {
           const auto& pinned = std::get<PinnedSupport>(support);
-          const int p = pinned.edge.patch + place.first_patch;
-          const ClothPatch& patch = place.cloth.patches()[static_cast<std::size_t>(p)];
+          const int p = pinned.edge.patch + on.first_patch;
+          const ClothPatch& patch = on.cloth.patches()[static_cast<std::size_t>(p)];
           const auto at = [](double from, double to, double part) { return from + part * (to - from); };
-          const PlaceRow row = place.cloth.mounting().place(
+          const PlaceRow row = on.cloth.mounting().place(
               p, {at(patch.low.x, patch.high.x, pinned.s), at(patch.low.y, patch.high.y, pinned.t)});
-          group.name = place.name + fmt::format("point ({:.3g}, {:.3g}) held", pinned.s, pinned.t);
+          group.name = on.name + fmt::format("point ({:.3g}, {:.3g}) held", pinned.s, pinned.t);
           for (std::size_t k = 0; k < row.columns.size(); ++k)
             if (row.value[k] > 1e-12) group.control_points.push_back(row.columns[k]);
         },

@@ -53,17 +53,17 @@ std::vector<Vec3> standingSkin(const Human& human) {
   return x;
 }
 
-void holdBySprings(const SupportCase& support, const SupportPlace& place, ModelOptions& options, SupportGroup& group) {
+void holdBySprings(const SupportCase& support, const SupportedCloth& on, ModelOptions& options, SupportGroup& group) {
   const auto& springs = std::get<SpringSupport>(support);
-  group.name = place.name + " springs to " + springs.link;
-  group.anchor = place.human->skeleton.link(springs.link);
+  group.name = on.name + " springs to " + springs.link;
+  group.anchor = on.human->skeleton.link(springs.link);
   if (group.anchor < 0) throw InputError({"", 0, "link"}, "the human has no link \"" + springs.link + "\"");
   // Each sample answers for half of the edge to either neighbour.
-  std::vector<double> length(place.surface.size(), 0);
-  std::vector<Vec3> X(place.surface.size());
-  place.surface.W.multiply<Vec3>(place.cloth.rest(), X);
-  for (const PatchEdge& e : place.edges) {
-    const std::vector<int> at = edgeSamples(place.surface, e);
+  std::vector<double> length(on.surface.size(), 0);
+  std::vector<Vec3> X(on.surface.size());
+  on.surface.W.multiply<Vec3>(on.cloth.rest(), X);
+  for (const PatchEdge& e : on.edges) {
+    const std::vector<int> at = edgeSamples(on.surface, e);
     for (std::size_t k = 0; k + 1 < at.size(); ++k) {
       const double half = 0.5 * norm(X[at[k + 1]] - X[at[k]]);
       length[at[k]] += half;
@@ -71,13 +71,13 @@ void holdBySprings(const SupportCase& support, const SupportPlace& place, ModelO
     }
   }
   std::vector<Vec3> skin;
-  if (place.human->skin) skin = standingSkin(*place.human);
+  if (on.human->skin) skin = standingSkin(*on.human);
   for (int s : group.samples) {
     group.springs.push_back(static_cast<int>(options.springs.size()));
     SpringSupportPoint spring{s, group.anchor, springs.stiffness_N_per_m2 * length[s]};
-    if (place.human->skin) {
+    if (on.human->skin) {
       spring.obstacle = 0;  // the skin, a human's only one
-      spring.triangle = nearestTriangle(place.human->skin->rest.triangles, skin, X[s]);
+      spring.triangle = nearestTriangle(on.human->skin->rest.triangles, skin, X[s]);
     }
     options.springs.push_back(spring);
   }

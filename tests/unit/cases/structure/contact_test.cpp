@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/structure/run.hpp"
+#include "core/error.hpp"
 #include "core/io/recording.hpp"
 #include "unit/cases/content.hpp"
 #include "unit/cases/example.hpp"
@@ -50,12 +51,12 @@ TEST(StructureWithContact, ASheetComesToRestOnABall) {
   EXPECT_LT(s.at("audit").at("energy_gap_over_works"), 0.01);
   int checks = 0;
   for (const auto& k : s.at("checks"))
-    for (const char* name : {"Energy", "Contacts", "Penetration", "Crossings"})
+    for (const char* name : {"Energy", "Contacts", "Penetration", "Let through", "Crossings"})
       if (k.at("check") == name) {
         EXPECT_TRUE(k.at("holds")) << k;
         ++checks;
       }
-  EXPECT_EQ(checks, 4);
+  EXPECT_EQ(checks, 5);
   EXPECT_NE(content(out / "report.html").find("The sheet touches ball, and itself, with Coulomb friction 0.3"),
             std::string::npos);
   // The same bits for any number of threads.
@@ -86,6 +87,29 @@ TEST(StructureWithContact, AnEdgeThatCannotMoveBearsNoContact) {
   EXPECT_NEAR(rows.back().at("held_rz_N") - rows.back().at("floor_fz_N"), load,
               0.03 * load);  // it still moves in the air
   EXPECT_LT(-rows.back().at("floor_fz_N"), load);
+}
+
+/// A support that carries the sheet's edge into the floor, at 0.2 m/s from 0.105 m: no motion keeps both. The run ends
+/// there, says where and why, and keeps what came before.
+TEST(StructureWithContact, ASupportThatGoesThroughAnObstacleEndsTheRun) {
+  const Folder folder;
+  const auto file =
+      folder.write("case.json", onObstacle(R"({"name": "floor", "plane": {"point": [0, 0, 0], "size": 2}})"));
+  const auto out = folder.path() / "out";
+  try {
+    runStructure(
+        readStructureCase(file, {R"(supports=[{"edge": "u0", "hold": "xyz", "move": [0, 0, -0.2], "program": "r"}])",
+                                 R"(programs={"r": [[0, 0], [1, 1]]})"}),
+        {.out = out, .threads = 1});
+    FAIL() << "the edge went through";
+  } catch (const RunError& e) {
+    const std::string why = e.what();
+    EXPECT_NE(why.find("time 0.52"), std::string::npos) << why;
+    EXPECT_NE(why.find("cloth that is held at (-0.15,"), std::string::npos) << why;
+    EXPECT_NE(why.find("\"floor\" would pass through each other"), std::string::npos) << why;
+  }
+  EXPECT_NEAR(tableRows(out / "path.csv").back().at("time_s"), 0.525, 1e-3);
+  EXPECT_NE(content(out / "report.html").find("would pass through each other"), std::string::npos);
 }
 
 /// A mesh file that is gone after the run changes no picture: the recording holds the obstacle.

@@ -87,7 +87,7 @@ TEST(Study, AMotionIsComparedWithItself) {
   const Comparison c = compare(s, numbersOf(s));
   ASSERT_EQ(c.groups.size(), 2u);
   const double thin = 0.325 + 0.31 / 8 + 0.04;
-  for (const Group& g : c.groups) {
+  for (const VariantGroup& g : c.groups) {
     ASSERT_EQ(g.members.size(), 2u);
     EXPECT_EQ(g.baseline, static_cast<int>(g.members[1]));
     EXPECT_NEAR(c.ratios[g.members[0]][0].peak, thin, 1e-12);
@@ -188,7 +188,7 @@ TEST(Study, ThePageSaysHowItsNumbersAreMeant) {
   EXPECT_EQ(runs[0].p99_strain(), 0.031);
   const std::string page = studyPage(s, compare(s, runs), {}, {});
   for (const char* text :
-       {"means 0.5 times the thickness that the garment was designed with, in every layer",
+       {"means 0.5 times the thickness that the garment was designed with, in every garment",
         "(walking from 0.20 s on; stairs from 0.20 s on)", "the shaded start before it is shown but not judged",
         "natural 100 Nm<br>foot bears 63 %,<br>28 cm off the joint", "<br>against the motion</small>",
         ", against the motion</text>", "hinders while the joint flexes",

@@ -61,7 +61,7 @@ inline std::vector<RunNumbers> numbersOf(const Study& s) {
     r.good = true;
     r.control_points = fine ? 25 : 16;
     r.recorded_to_s = r.planned_to_s = 1;
-    r.layers = {{"", 0.5 * t, 1, 1e-3 * t, r.control_points}};
+    r.garments = {{"", 0.5 * t, 1, 1e-3 * t, r.control_points}};
     JointNumbers j;
     j.name = "hip_flexion_left";
     j.label = "left hip (flexion)";

@@ -64,7 +64,7 @@ RunNumbers numbers(const Story& story, const Variant& v) {
   r.good = true;
   r.control_points = 900;
   r.recorded_to_s = r.planned_to_s = 2;
-  r.layers = {{"", 0.3 * c.factors.thickness, 0.6, 1e-3 * c.factors.thickness, 900}};
+  r.garments = {{"", 0.3 * c.factors.thickness, 0.6, 1e-3 * c.factors.thickness, 900}};
   for (int w = 0; w < 200; ++w) r.time_s.push_back(0.005 + 0.01 * w);
   r.joints = {joint("hip_flexion_left", "left hip (flexion)", moment, part * moment),
               joint("hip_flexion_right", "right hip (flexion)", moment, 0.9 * part * moment),
@@ -328,7 +328,7 @@ TEST(VerdictPages, NothingIsAnsweredWhereNothingCanBeReliedOn) {
   const Study s = studyOf(story);
   const Comparison c = compared(s, story);
   const std::string page = studyPage(s, c, {}, {});
-  for (const char* text : {"Why this one", "It stays the answer", "Layers</dt>", "Weighs</dt>", "Costs</dt>",
+  for (const char* text : {"Why this one", "It stays the answer", "Garments</dt>", "Weighs</dt>", "Costs</dt>",
                            "others hold all checks", "in doubt", "not known</span>", "Which one"})
     EXPECT_FALSE(has(page, text)) << text;
   EXPECT_EQ(c.verdict.comfort, "Comfort: not judged.");

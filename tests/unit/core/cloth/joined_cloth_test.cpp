@@ -64,7 +64,7 @@ TEST(JoinedCloth, ForcesAreThoseOfTheParts) {
   for (std::size_t i = 0; i < f.size(); ++i) EXPECT_EQ(f[i], i < one.size() ? one[i] : two[i - one.size()]);
   EXPECT_EQ(e, e1 + e2);
   const auto K = b.joined->tangent();
-  BlockMatrix joined = K->pattern(), own = b.outer->tangent()->pattern();
+  BlockMatrix joined = K->sparsity(), own = b.outer->tangent()->sparsity();
   K->assemble(q, work, joined);
   b.outer->tangent()->assemble(ClothState(second), work2, own);
   for (std::size_t k = 0; k < own.values.size(); ++k)

@@ -63,7 +63,7 @@ std::vector<double> newHistory(const Cloth& c) {
 TEST_P(Memory, ALoopOfBendingLosesWhatItEncloses) {
   const auto c = cloth();
   ASSERT_GT(c->historySize(), 0u);
-  EXPECT_EQ(c->historySize(), c->historyPlaces().size() * 3);
+  EXPECT_EQ(c->historySize(), c->historyPlaces().size() * kHistoryDoubles);
   const double largest = 20, yields_at = kYield_N / kRigidity_Nm;
   std::vector<double> committed = newHistory(*c), trial = committed;
   std::vector<Vec3> before, force_before, force(c->rest().size());
@@ -127,7 +127,7 @@ TEST_P(Memory, ForceAndTangentAreOfTheCommittedHistory) {
   for (std::size_t i = 0; i < q.size(); ++i) of_force -= dot(f[i], way[i]);
   EXPECT_NEAR(slope, of_force, 1e-6 * std::abs(of_force));
   const auto tangent = c->tangent();
-  BlockMatrix K = tangent->pattern();
+  BlockMatrix K = tangent->sparsity();
   tangent->assemble({q, {}, committed}, work, K, bending);
   std::vector<double> Kx(3 * free_way.size());
   multiply(K, {&free_way.data()->x, 3 * free_way.size()}, Kx);

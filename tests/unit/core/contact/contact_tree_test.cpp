@@ -260,10 +260,10 @@ TEST_F(TreeTest, AnyNumberOfThreadsMakesTheSameList) {
 TEST_F(TreeTest, ThinClothHasAMarginOfItsOwn) {
   std::mt19937 random(19);
   std::normal_distribution<double> noise;
-  std::vector<float> share(rest.size(), 0);
-  for (int v = 0; v < cloth; ++v) share[v] = rest[v].y < 0.15 ? 0.001f : 0.004f;
+  std::vector<float> half_reach_m(rest.size(), 0);
+  for (int v = 0; v < cloth; ++v) half_reach_m[v] = rest[v].y < 0.15 ? 0.001f : 0.004f;
   ContactTree thin = tree;
-  thin.setShares(share);
+  thin.setHalfReaches(half_reach_m);
   const PairRules rules{0.008, 0, true, 1e-4, 0.005};
   std::size_t listed = 0, listed_without = 0;
   int asked_cloth = 0, asked_body = 0;
@@ -284,7 +284,7 @@ TEST_F(TreeTest, ThinClothHasAMarginOfItsOwn) {
     const auto marginOf = [&](std::initializer_list<int> a, std::initializer_list<int> b) {
       const auto most = [&](std::initializer_list<int> vertices) {
         double s = -1;
-        for (int v : vertices) s = std::max(s, v < cloth ? static_cast<double>(share[v]) : -1);
+        for (int v : vertices) s = std::max(s, v < cloth ? static_cast<double>(half_reach_m[v]) : -1);
         return s;
       };
       const double of_a = most(a), of_b = most(b);

@@ -65,7 +65,7 @@ inline TriangleMesh sphere(double radius, int levels) {
   return m;
 }
 
-/// A torus about z, closed: concave and convex regions.
+/// A torus about z, closed: concave and convex parts.
 inline TriangleMesh torus(double R, double r, int n, int k) {
   TriangleMesh m;
   for (int i = 0; i < n; ++i)

@@ -294,12 +294,12 @@ TEST(InsideGrid, DecidedCellsAgreeWithTheWindingNumber) {
     int decided = 0;
     for (int trial = 0; trial < 4000; ++trial) {
       const Vec3 p = randomPoint(rng, 0.8);
-      if (grid.at(p) == InsideGrid::Cell::undecided) continue;
+      if (grid.at(p) == InsideGrid::Cube::undecided) continue;
       ++decided;
-      ASSERT_EQ(grid.at(p) == InsideGrid::Cell::inside, winding(m, p) > 0.5);
+      ASSERT_EQ(grid.at(p) == InsideGrid::Cube::inside, winding(m, p) > 0.5);
     }
     EXPECT_GT(decided, 500);
-    EXPECT_EQ(grid.at({5, 0, 0}), InsideGrid::Cell::undecided);
+    EXPECT_EQ(grid.at({5, 0, 0}), InsideGrid::Cube::undecided);
   }
 }
 

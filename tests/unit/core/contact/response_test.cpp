@@ -172,7 +172,7 @@ TEST(Response, AContactThatAnotherOneClosesIsFound) {
   EXPECT_NEAR(-p.impulses[1].z, exact(1), 1e-8 * exact(1));
 }
 
-/// Whatever the number of feet, the samples of both sides of two layers together stand for the area once: a uniform
+/// Whatever the number of feet, the samples of both sides of two sheets together stand for the area once: a uniform
 /// pressure is then the same traction in all rows.
 TEST(Response, EachSideOfASampleStandsForHalfItsAreaWhateverTheNumberOfFeet) {
   const auto on = [](int s, int t, double up) {
@@ -223,7 +223,7 @@ Problem beside(const Problem& a, const Problem& b) {
   return p;
 }
 
-/// Two regions of contact that no point ties together are solves of their own, to the last bit: neither waits for the
+/// Two islands of contact that no point ties together are solves of their own, to the last bit: neither waits for the
 /// other, nor shares its restarts. A held point that both touch ties nothing.
 TEST(Response, IslandsAreSolvedAsIfAlone) {
   for (const bool held : {false, true}) {

@@ -283,31 +283,31 @@ TEST(Untangle, FollowingGFrees) {
   }
 }
 
-/// Between layers their order decides, not the size: a tube that is to stay outside a sheet, and inside it.
-TEST(Untangle, LayerOrderDecides) {
+/// Between garments their order decides, not the size: a tube that is to stay outside a sheet, and inside it.
+TEST(Untangle, GarmentOrderDecides) {
   const Piece flat = sheet(6, 7, [](double u, double v) { return Vec3{u, v, 0}; });  // normal +z
   const Piece strip = sheet(5, 9, [](double u, double v) { return Vec3{0.21 + 0.5 * u, 0.53, v - 0.31}; });  // -y
   for (const bool swap : {false, true}) {
     const Tangled s = swap ? join({strip, flat}) : join({flat, strip});
     const int strip_piece = swap ? 0 : 1;
-    for (const int strip_layer : {0, 2}) {
-      std::vector<int> layer(s.x.size());
-      for (std::size_t v = 0; v < layer.size(); ++v) layer[v] = s.piece[v] == strip_piece ? strip_layer : 1;
-      const auto found = untangle(s.mesh, s.x, layer);
+    for (const int strip_number : {0, 2}) {
+      std::vector<int> garment(s.x.size());
+      for (std::size_t v = 0; v < garment.size(); ++v) garment[v] = s.piece[v] == strip_piece ? strip_number : 1;
+      const auto found = untangle(s.mesh, s.x, garment);
       ASSERT_EQ(found.size(), 1u);
       const Untangling& u = found[0];
       const int side = s.pieceOfFace(u.contour.segments[0].face[0]) == strip_piece ? 0 : 1;
       // Higher than the sheet, the strip's part behind it (z < 0) is wrong; lower, the part in front of it.
-      EXPECT_NEAR(u.wrong_area_m2[side], 0.5 * (strip_layer == 2 ? 0.31 : 0.69), 1e-14);
-      for (int v : u.wrong_vertices[side]) EXPECT_EQ(s.x[v].z < 0, strip_layer == 2);
-      // Surface 1 against surface 0: the strip goes up where it is the higher layer.
-      EXPECT_NEAR(u.direction.z, (side == 1 ? 1 : -1) * (strip_layer == 2 ? 1 : -1), 1e-13);
+      EXPECT_NEAR(u.wrong_area_m2[side], 0.5 * (strip_number == 2 ? 0.31 : 0.69), 1e-14);
+      for (int v : u.wrong_vertices[side]) EXPECT_EQ(s.x[v].z < 0, strip_number == 2);
+      // Surface 1 against surface 0: the strip goes up where it is the higher garment.
+      EXPECT_NEAR(u.direction.z, (side == 1 ? 1 : -1) * (strip_number == 2 ? 1 : -1), 1e-13);
     }
   }
 }
 
 /// Two tubes, the inner shifted sideways through the outer: two straight cuts along them, none of which divides a tube
-/// alone, together bound the lens of the inner one that is outside. Layers or not, G pushes it in.
+/// alone, together bound the lens of the inner one that is outside. Numbers or not, G pushes it in.
 TEST(Untangle, ShiftedNestedTubes) {
   const int n = 24;
   const double r = 0.100, R = 0.103, shift = 0.008, length = 0.28;
@@ -336,8 +336,8 @@ TEST(Untangle, ShiftedNestedTubes) {
       if (out > 0) arc += norm(q - p) / kParts;
     }
   }
-  for (const bool layers : {true, false}) {
-    const auto found = untangle(s.mesh, s.x, layers ? std::span<const int>(s.piece) : std::span<const int>{});
+  for (const bool numbered : {true, false}) {
+    const auto found = untangle(s.mesh, s.x, numbered ? std::span<const int>(s.piece) : std::span<const int>{});
     ASSERT_EQ(found.size(), 2u);
     Vec3 push;
     for (const auto& u : found) {
@@ -407,8 +407,8 @@ TEST(Untangle, RowsMeasureSurfaceOneAgainstSurfaceZero) {
 }
 
 /// Three nested tubes, each shifted 8 mm sideways in the next: moved along G, half of a step each, they come free in
-/// the order of their layers, and stand clear of one another: where each is longer than the one inside, and where their
-/// rims are flush, so that contours run from the rim of one to the rim of another.
+/// the order of their garments, and stand clear of one another: where each is longer than the one inside, and where
+/// their rims are flush, so that contours run from the rim of one to the rim of another.
 class NestedTubes : public testing::TestWithParam<double> {};
 
 TEST_P(NestedTubes, ComeFree) {
@@ -441,11 +441,11 @@ TEST_P(NestedTubes, ComeFree) {
 
 INSTANTIATE_TEST_SUITE_P(Rims, NestedTubes, testing::Values(0.005, 0.0));
 
-/// Two layers that differ by noise are through each other in a hundred places. The higher one is a little wider, so
+/// Two garments that differ by noise are through each other in a hundred places. The higher one is a little wider, so
 /// that all contours are closed on the lower one: exactly its vertices in front of the higher one are found wrong, and
 /// the areas of all wrong parts sum to all that is wrong. On the higher one some contours are open: no vertex is wrong
 /// that is not.
-TEST(Untangle, HundredsOfContoursBetweenTwoLayers) {
+TEST(Untangle, HundredsOfContoursBetweenTwoGarments) {
   std::mt19937 random(10);
   constexpr int n = 40;
   const auto noisy = [&](double u, double v) { return Vec3{u, v, 1e-3 * static_cast<double>(random()) / 0x1p32}; };

@@ -13,10 +13,10 @@ namespace {
 
 using namespace shapes;
 
-Fabric jammingFabric(bool layered) {
+Fabric jammingFabric(bool laminated) {
   Fabric f = plainFabric();
   f.jam_area = 0.7;
-  if (layered) f.law = Laminate{{{0.06, 220, 40, 20, 0.25, 0.4}, {0.09, 180, 60, 30, 0.3, -0.9}}};
+  if (laminated) f.law = Laminate{{{0.06, 220, 40, 20, 0.25, 0.4}, {0.09, 180, 60, 30, 0.3, -0.9}}};
   return f;
 }
 
@@ -52,7 +52,7 @@ TEST(Jamming, NothingChangesAboveItsArea) {
 
 class JammedShell : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Laws, JammedShell, testing::Bool(),
-                         [](const auto& law) { return law.param ? "layered" : "plain"; });
+                         [](const auto& law) { return law.param ? "laminate" : "plain"; });
 
 /// Energy of a flat sheet squeezed along x: its area times St. Venant-Kirchhoff plus k/8 (s0/s - 1)^2.
 TEST_P(JammedShell, HasTheClosedFormsEnergy) {

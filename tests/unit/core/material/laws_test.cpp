@@ -141,7 +141,7 @@ TEST(Laws, Friction) {
 
 /// All laws of a point together, with coupling of membrane and bending, and with a law of the list. Six strains: E and
 /// curvature changes.
-TEST(Laws, APointOfALayeredSheetThatJams) {
+TEST(Laws, APointOfALaminateThatJams) {
   const Voigt B{3, -2, 1, 0.5, 0.3, -0.4}, D{4, 3, 1, 0.6, 0.2, -0.1};
   const auto law = [&]<class S>(const S* x) {
     PointNumbers<S> l{};
@@ -164,7 +164,7 @@ TEST(Laws, APointOfALayeredSheetThatJams) {
     }
     return e;
   };
-  expectDerivatives<6>("layered", law, {{0.02, 0.01, -0.03, 1, -2, 0.7}, {-0.3, -0.05, 0.04, 0.4, 0.2, -0.1}});
+  expectDerivatives<6>("laminate", law, {{0.02, 0.01, -0.03, 1, -2, 0.7}, {-0.3, -0.05, 0.04, 0.4, 0.2, -0.1}});
 }
 
 TEST(Laws, APointTakesTheLawOfItsKind) {

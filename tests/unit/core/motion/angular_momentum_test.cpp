@@ -81,7 +81,7 @@ TEST(AngularMomentum, IsKeptByPersistentContactWithoutFriction) {
     const StepReport r = m.step(2e-4);
     ASSERT_EQ(r.failure, StepFailure::none) << r.why;
     contacts += r.cloth_contacts;
-    impacts += r.impacts + r.zones;
+    impacts += r.impacts + r.impact_zones;
     worst = std::max(worst, norm(angular(m) - start) / scale);
   }
   std::printf("[ measured ] persistent: %.2g of the angular momentum over 200 steps, %d contacts\n", worst, contacts);
@@ -102,7 +102,7 @@ TEST(AngularMomentum, OfImpactsAndFrictionChangesByThePredictedDefect) {
     const StepReport r = m.step(2e-4);
     ASSERT_EQ(r.failure, StepFailure::none) << r.why;
     impacts += r.impacts;
-    if (r.zones > 0) continue;
+    if (r.impact_zones > 0) continue;
     const Turned turned = turnedBy(m, p);
     worst = std::max(worst, norm(angular(m) - before - turned.by) / scale);
     largest = std::max(largest, norm(turned.by) / scale);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/cloth/draft/layers.hpp"
+#include "core/cloth/draft/join_garments.hpp"
 #include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
@@ -23,7 +23,7 @@ TEST(ClothFriction, ASheetSlidesOnAnotherWithoutMoreThanFriction) {
   const int below = lower.patches[0].size();
   for (int i = 0; i < below; ++i) o.held_control_points.push_back(i);
   const Vec3 gravity = 9.81 * normalized(Vec3{kSlope, 0, -1});
-  Motion m(joinLayers(std::vector<Garment>{lower, upper}), {gravity, 0}, {0, kFriction, 0.01}, o);
+  Motion m(joinGarments(std::vector<Garment>{lower, upper}), {gravity, 0}, {0, kFriction, 0.01}, o);
   const auto mean = [&](const std::vector<Vec3>& of) {
     Vec3 sum{};
     double mass = 0;

@@ -86,9 +86,10 @@ struct Pinch {
                    for (std::size_t k = 0; k < w.rows.size(); ++k)
                      put_in += dot(w.impulses[k],
                                    w.rows[k].body_velocity + w.rows[k].target_m_per_s * w.rows[k].contact.normal);
-                   for (const ImpactZone& zone : w.zones)
-                     for (int i : zone.points)
-                       if (zone.body >= 0) put_in += model->mass_kg[i] * dot(w.zone_change[i], work.velocity[i]);
+                   for (int z = 0; z < w.impact_zones.size(); ++z)
+                     for (int i : w.impact_zones[z].points)
+                       if (w.impact_zones[z].body >= 0)
+                         put_in += model->mass_kg[i] * dot(w.impact_zone_change[i], work.velocity[i]);
                    excess_J = std::max(excess_J, gained - put_in);
                  });
   }

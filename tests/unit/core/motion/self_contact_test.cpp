@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/contact/crossing.hpp"
-#include "core/contact/zones.hpp"
+#include "core/contact/impact_zones.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
 namespace gambeson {
@@ -156,8 +156,9 @@ TEST(Zones, RigidMotionKeepsMomentaAndNeverAddsEnergy) {
     v[i] = {d(random), d(random), d(random)};
     mass[i] = 0.5 + std::abs(d(random));
   }
+  const std::vector<int> points{0, 1, 2, 4, 5, 7, 8};
   ImpactZone zone;
-  zone.points = {0, 1, 2, 4, 5, 7, 8};
+  zone.points = points;
   std::vector<Vec3> after = v;
   makeRigid(zone, p, mass, after);
   Vec3 linear{}, angular{};
@@ -176,7 +177,7 @@ TEST(Zones, RigidMotionKeepsMomentaAndNeverAddsEnergy) {
     for (int j : zone.points) EXPECT_NEAR(dot(p[i] - p[j], after[i] - after[j]), 0, 1e-13);
 }
 
-TEST(Zones, PairsThatShareSupportAreOneZone) {
+TEST(ImpactZones, PairsThatShareSupportAreOneImpactZone) {
   SparseRows W;  // samples 0..3 on points {0,1}, {1,2}, {3}, {5}
   W.column_count = 6;
   const auto row = [&](std::initializer_list<int> columns) {
@@ -194,20 +195,23 @@ TEST(Zones, PairsThatShareSupportAreOneZone) {
   b.stencil.add(1, 1), b.stencil.add(2, -1);
   c.contact.obstacle = 4;
   c.stencil.add(3, 1);
-  std::vector<ImpactZone> zones;
+  ImpactZones impact_zones;
   const std::vector<ContactRow> rows{a, b, c};
-  joinZones(rows, W, zones);
-  ASSERT_EQ(zones.size(), 2u);
-  EXPECT_EQ(zones[0].points, (std::vector<int>{0, 1, 2, 3}));
-  EXPECT_EQ(zones[0].body, -1);
-  EXPECT_EQ(zones[1].points, (std::vector<int>{5}));
-  EXPECT_EQ(zones[1].body, 4);
+  joinImpactZones(rows, W, impact_zones);
+  const auto points = [&](int zone) {
+    return std::vector<int>(impact_zones[zone].points.begin(), impact_zones[zone].points.end());
+  };
+  ASSERT_EQ(impact_zones.size(), 2);
+  EXPECT_EQ(points(0), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(impact_zones[0].body, -1);
+  EXPECT_EQ(points(1), (std::vector<int>{5}));
+  EXPECT_EQ(impact_zones[1].body, 4);
   ContactRow d;
   d.contact.obstacle = 2;
   d.stencil.add(3, 1), d.stencil.add(0, -1);
-  joinZones(std::vector<ContactRow>{d}, W, zones);
-  ASSERT_EQ(zones.size(), 1u);
-  EXPECT_TRUE(zones[0].pinched);
+  joinImpactZones(std::vector<ContactRow>{d}, W, impact_zones);
+  ASSERT_EQ(impact_zones.size(), 1);
+  EXPECT_TRUE(impact_zones[0].pinched);
 }
 
 }  // namespace

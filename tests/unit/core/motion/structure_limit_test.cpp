@@ -142,7 +142,7 @@ TEST(StructureLimit, MobilityIsThatOfTheUnknowns) {
       for (int i = 0; i < rows.rows(); ++i) J[i][k] = (strainOf(plus[i]) - strainOf(minus[i])) / (2 * h);
     }
     StructureSystem system(*s, ProgramEnds::constant);
-    SymmetricMatrix M = system.pattern();
+    SymmetricMatrix M = system.sparsity();
     system.mass(true, M);
     SymmetricFactor factor(M);
     factor.factorise(M);

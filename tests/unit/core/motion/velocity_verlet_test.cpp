@@ -167,6 +167,24 @@ TEST(VelocityVerlet, TheStepFollowsAStiffnessThatRises) {
   for (const double e : energies) EXPECT_NEAR(e, 0.5, 0.1);
 }
 
+/// The same on f = x + 1e9 x^3, whose turn is 366 times as stiff as its rest: no length of the step is of use there.
+TEST(VelocityVerlet, SaysThatTheClothIsCrushed) {
+  Oscillators o(
+      [](const Vector& x) {
+        Vector f = x;
+        f(0) += 1e9 * x(0) * x(0) * x(0);
+        return f;
+      },
+      {0, 0, 0, 1, 0, 0}, {1});
+  try {
+    o.run(20, stableSteps(0.5));
+    FAIL();
+  } catch (const RunError& e) {
+    EXPECT_NE(std::string(e.what()).find("crushed or torn"), std::string::npos) << e.what();
+  }
+  EXPECT_LT(std::abs(o.state.p[0].x), 7e-3);  // (2 / 1e9)^(1/4), where it turns
+}
+
 /// A force that ends at x = 0.3: the message says why, and the last accepted state is left.
 TEST(VelocityVerlet, SaysThatAMotionIsNotFinite) {
   Oscillators o([](const Vector& x) -> Vector { return x.unaryExpr([](double v) { return v < 0.3 ? v : NAN; }); }, {0},

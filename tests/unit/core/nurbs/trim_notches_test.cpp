@@ -1,4 +1,4 @@
-/// Notches told as parts of outlines: the same region, and no hole along the border.
+/// Notches told as parts of outlines: the same area, and no hole along the border.
 
 #include "core/nurbs/trim_notches.hpp"
 

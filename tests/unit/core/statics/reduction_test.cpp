@@ -53,7 +53,7 @@ void expectReduced(const std::vector<LinearConstraint>& constraints) {
   const DofMap dofs = buildDofMap(map, constraints, 0);
   const BlockMatrix K = bandOfBlocks(points);
   const Reduction reduction(K, dofs.C);
-  SymmetricMatrix out = reduction.pattern();
+  SymmetricMatrix out = reduction.sparsity();
   reduction.reduce(K, out);
   const Eigen::MatrixXd C = dense(dofs.C), expected = C.transpose() * dense(K) * C;
   Eigen::MatrixXd got = Eigen::MatrixXd::Zero(out.size, out.size);

@@ -34,15 +34,15 @@ class SmallSystem : public System {
   double rayleigh_mass = 0, rayleigh_stiffness = 0;
   int evaluations = 0;
 
-  explicit SmallSystem(int n) : M(Matrix::Identity(n, n)), pattern_(fullMatrix(Matrix::Zero(n, n))) {
+  explicit SmallSystem(int n) : M(Matrix::Identity(n, n)), sparsity_(fullMatrix(Matrix::Zero(n, n))) {
     load = [n](double) { return Vector::Zero(n); };
   }
   static Vector vectorOf(std::span<const double> y) {
     return Eigen::Map<const Vector>(y.data(), static_cast<long>(y.size()));
   }
 
-  int size() const override { return pattern_.size; }
-  const SymmetricMatrix& pattern() const override { return pattern_; }
+  int size() const override { return sparsity_.size; }
+  const SymmetricMatrix& sparsity() const override { return sparsity_; }
   double residual(std::span<const double> y, double t, std::span<double> g) override {
     ++evaluations;
     const Vector internal = force(vectorOf(y)), external = load(t), sum = internal - external;
@@ -70,7 +70,7 @@ class SmallSystem : public System {
   bool hasStiffnessDamping() const override { return rayleigh_stiffness > 0; }
 
  private:
-  SymmetricMatrix pattern_;
+  SymmetricMatrix sparsity_;
 };
 
 /// Linear: force K y.

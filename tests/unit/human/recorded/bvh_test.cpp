@@ -8,8 +8,8 @@
 #include "human/files/units.hpp"
 #include "human/manikin/manikin.hpp"
 #include "human/motion/curve.hpp"
+#include "human/recorded/captured_motion.hpp"
 #include "human/recorded/motion_file.hpp"
-#include "human/recorded/recording.hpp"
 #include "unit/human/files/files.hpp"
 
 namespace gambeson {
@@ -49,12 +49,12 @@ class Bvh : public testing::Test {
  protected:
   Human human = makeManikin("male_p50");
   Folder folder;
-  Recording read(const std::string& text, double unit_m, bool adds = false) {
+  CapturedMotion read(const std::string& text, double unit_m, bool adds = false) {
     JointMap map = parseJointMap(own_map, "own");
     map.unit_m = unit_m, map.position_adds = adds;
     return recordBones(readBvh(folder.write("b.bvh", text)), map, human);
   }
-  double deg(const Recording& r, int frame, const char* joint) const {
+  double deg(const CapturedMotion& r, int frame, const char* joint) const {
     return r.q[frame][human.skeleton.joint(joint)] / rad_per_deg;
   }
   void refused(const std::string& text, int line, const char* words) {
@@ -66,7 +66,7 @@ class Bvh : public testing::Test {
 TEST_F(Bvh, HingesTurnAsTheBonesDo) {
   const std::string frames =
       "MOTION\nFrames: 2\nFrame Time: 0.1\n10 95 -20 0 0 0 0 0 0 0 0 0 0\n10 95 -20 0 0 0 -30 50 0 0 0 0 0\n";
-  const Recording r = read(skeleton(1, {-1, 0, 0}, frames), 0.01);
+  const CapturedMotion r = read(skeleton(1, {-1, 0, 0}, frames), 0.01);
   EXPECT_NEAR(deg(r, 1, "hip_flexion_right") - deg(r, 0, "hip_flexion_right"), 30, 1e-6);
   EXPECT_NEAR(deg(r, 1, "knee_flexion_right") - deg(r, 0, "knee_flexion_right"), 50, 1e-6);
   EXPECT_NEAR(deg(r, 1, "hip_flexion_left"), deg(r, 0, "hip_flexion_left"), 1e-9);
@@ -84,8 +84,8 @@ TEST_F(Bvh, TheRestPoseDoesNotMatter) {
         elbow);
   };
   // T: the forearm bends forward about y; hanging: about x.
-  const Recording t = read(skeleton(1, {-1, 0, 0}, motion(80, "0 40")), 0.01);
-  const Recording hanging = read(skeleton(1, {0, -1, 0}, motion(-10, "-40 0")), 0.01);
+  const CapturedMotion t = read(skeleton(1, {-1, 0, 0}, motion(80, "0 40")), 0.01);
+  const CapturedMotion hanging = read(skeleton(1, {0, -1, 0}, motion(-10, "-40 0")), 0.01);
   for (const char* joint :
        {"shoulder_flexion_right", "shoulder_abduction_right", "shoulder_rotation_right", "elbow_flexion_right"})
     EXPECT_NEAR(deg(t, 1, joint), deg(hanging, 1, joint), 1e-6) << joint;
@@ -98,9 +98,9 @@ TEST_F(Bvh, UnitsAndRootPositionsMeanTheSamePlace) {
   const auto frames = [&](double u, double x, double y, double z) {
     return fmt::format("MOTION\nFrames: 2\nFrame Time: 0.1\n{0} {1} {2}{3}{0} {1} {2}{3}", u * x, u * y, u * z, end);
   };
-  const Recording cm = read(skeleton(1, {-1, 0, 0}, frames(1, 110, 96, 5)), 0.01);
-  const Recording dm = read(skeleton(0.1, {-1, 0, 0}, frames(0.1, 110, 96, 5)), 0.1);
-  const Recording added = read(skeleton(1, {-1, 0, 0}, frames(1, 100, 1, 25)), 0.01, true);
+  const CapturedMotion cm = read(skeleton(1, {-1, 0, 0}, frames(1, 110, 96, 5)), 0.01);
+  const CapturedMotion dm = read(skeleton(0.1, {-1, 0, 0}, frames(0.1, 110, 96, 5)), 0.1);
+  const CapturedMotion added = read(skeleton(1, {-1, 0, 0}, frames(1, 100, 1, 25)), 0.01, true);
   // Turned by 90 degrees about x (left) the body lies on its face: the hips, 5 cm below the root, are behind it.
   EXPECT_LT(norm(cm.hips[0] - Vec3{0.05 - 0.05, 1.10, 0.96}), 1e-12);
   EXPECT_LT(norm(dm.hips[0] - cm.hips[0]) + norm(added.hips[0] - cm.hips[0]), 1e-12);

@@ -1,4 +1,4 @@
-/// Public recordings of walking (see their manifest); skipped where they are not there.
+/// Public captures of walking (see their manifest); skipped where they are not there.
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include "human/files/units.hpp"
 #include "human/manikin/manikin.hpp"
 #include "human/motion/standing.hpp"
+#include "human/recorded/captured_motion.hpp"
 #include "human/recorded/motion_file.hpp"
-#include "human/recorded/recording.hpp"
 #include "unit/human/files/files.hpp"
 
 namespace gambeson {
@@ -29,12 +29,12 @@ class MotionData : public testing::Test {
 // at hips and knees. Measured: 0.9 to 3.0 at the hips, 2.0 at the knees.
 TEST_F(MotionData, MarkersAgreeWithTheInverseKinematicsOfTheSameWalk) {
   const StorageTable table = readStorage(motions / "opensim_gait2392_subject01_walk1_ik.mot");
-  const Recording mot = recordAngles(table, findJointMap("gait2392"), human);
+  const CapturedMotion mot = recordAngles(table, findJointMap("gait2392"), human);
   const OsimModel osim = readOsim(model);
   const MarkerTable markers = readTrc(motions / "opensim_gait2392_subject01_walk_free_01.trc");
   ASSERT_EQ(markers.times.size(), 73u);
   EXPECT_EQ(markers.notes, std::vector<std::string>{"the header names 900 frames, the file holds 73"});
-  const Recording trc = recordMarkers(markers, findJointMap("gait2392_markers"), &osim, human);
+  const CapturedMotion trc = recordMarkers(markers, findJointMap("gait2392_markers"), &osim, human);
   for (const char* side : {"_right", "_left"})
     for (const char* joint : {"hip_flexion", "hip_adduction", "hip_rotation", "knee_flexion"}) {
       const std::string name = std::string(joint) + side;
@@ -102,7 +102,7 @@ TEST_F(MotionData, BonesPointAsInTheFile) {
   all.back().name = "snu_woody_low_walk.bvh";
   for (const File& f : all) {
     const BvhClip clip = readBvh(motions / f.name);
-    const Recording r = recordBones(clip, findJointMap(f.map), human);
+    const CapturedMotion r = recordBones(clip, findJointMap(f.map), human);
     const Vec3 left = cross(f.up, f.forward);
     std::map<std::string, double> worst;
     for (std::size_t i = 0; i < clip.frames.size(); ++i) {

@@ -27,7 +27,7 @@ class MotionFile : public testing::Test {
   Folder folder;
   double from = 0.5, to = 2.5;
 
-  void sameAsWalk(const Recording& r, double joints_rad, const std::vector<std::string>& but = {}) {
+  void sameAsWalk(const CapturedMotion& r, double joints_rad, const std::vector<std::string>& but = {}) {
     for (std::size_t i = 0; i < r.times.size(); ++i) {
       const Posture p = walk->at(r.times[i]);
       for (std::size_t j = 0; j < p.q.size(); ++j)

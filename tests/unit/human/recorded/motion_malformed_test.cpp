@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "human/manikin/manikin.hpp"
+#include "human/recorded/captured_motion.hpp"
 #include "human/recorded/motion_file.hpp"
-#include "human/recorded/recording.hpp"
 #include "human/skeleton/joint_map.hpp"
 #include "unit/human/files/files.hpp"
 

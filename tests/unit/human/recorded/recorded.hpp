@@ -10,7 +10,7 @@
 #include "human/body/body.hpp"
 #include "human/files/units.hpp"
 #include "human/motion/motion.hpp"
-#include "human/recorded/recording.hpp"
+#include "human/recorded/captured_motion.hpp"
 
 namespace gambeson::test {
 

@@ -52,8 +52,8 @@ TEST(SkinFolds, TheGapIsWhatIsAskedFor) {
   EXPECT_LT(narrowest(narrow, posed(human(), narrow, folded)), 0.008);
 }
 
-/// Inner thighs: two layers of the shorts, 0.762 mm each (Zheng 2013, 6.2), and 3 mm. Arms: 20 mm from a shirt 5 mm off
-/// the trunk, below the armholes (a hand's breadth, 0.1 m, below the armpits) and for forearms and hands.
+/// Inner thighs: two thicknesses of the shorts, 0.762 mm each (Zheng 2013, 6.2), and 3 mm. Arms: 20 mm from a shirt 5
+/// mm off the trunk, below the armholes (a hand's breadth, 0.1 m, below the armpits) and for forearms and hands.
 TEST(SkinFolds, WalkingKeepsThighsApartAndArmsOffTheShirt) {
   const auto walk = makeWalk(human(), {});
   const Skin& s = skin();

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/cloth/draft/areas.hpp"
-#include "core/cloth/draft/layers.hpp"
+#include "core/cloth/draft/join_garments.hpp"
 #include "core/cloth/shell/shell.hpp"
 #include "core/cloth/shell/surface.hpp"
 #include "core/contact/crossing.hpp"
@@ -24,7 +24,7 @@
 namespace gambeson {
 namespace {
 
-constexpr double shorts_layer = 0.762e-3, belt_layer = 2.29e-3, shirt_layer = 3e-3;
+constexpr double shorts_thickness_m = 0.762e-3, belt_thickness_m = 2.29e-3, shirt_thickness_m = 3e-3;
 
 Fabric soft(double thickness_m) {
   Fabric f;
@@ -37,7 +37,7 @@ Fabric soft(double thickness_m) {
   return f;
 }
 
-/// The three layers, coarse.
+/// The three garments, coarse.
 struct Armour {
   Human human;
   BodyForm form;
@@ -53,16 +53,16 @@ struct Armour {
     s.ease = shorts_ease;
     s.waist_ease = 0.01;
     shorts = makeShorts(s, form);
-    shorts.fabric = soft(shorts_layer);
+    shorts.fabric = soft(shorts_thickness_m);
     belt_pattern.cell_m = cell_m;
-    const Worn first[]{{&shorts, shorts_layer}};
-    belt = makeBelt(belt_pattern, form, soft(belt_layer), belt_layer, first);
-    belt.fabric = soft(belt_layer);
+    const Worn first[]{{&shorts, shorts_thickness_m}};
+    belt = makeBelt(belt_pattern, form, soft(belt_thickness_m), belt_thickness_m, first);
+    belt.fabric = soft(belt_thickness_m);
     pattern.ease = ease;
     pattern.cell_m = cell_m;
-    const Worn both[]{{&shorts, shorts_layer}, {&belt, belt_layer}};
-    shirt = makeShirt(pattern, form, shirt_layer, both);
-    shirt.fabric = soft(shirt_layer);
+    const Worn both[]{{&shorts, shorts_thickness_m}, {&belt, belt_thickness_m}};
+    shirt = makeShirt(pattern, form, shirt_thickness_m, both);
+    shirt.fabric = soft(shirt_thickness_m);
   }
 };
 
@@ -138,15 +138,15 @@ TEST_P(ArmourOn, IsFreeOfTheBodyAndOfItself) {
   for (const double ease : {0.02, 0.12}) {
     const Armour a(GetParam(), ease);
     const Sampled shorts(a.shorts), belt(a.belt), shirt(a.shirt);
-    EXPECT_GE(leastToBody(a.human, belt.x), belt_layer);
-    EXPECT_GE(leastToBody(a.human, shirt.x), shirt_layer) << ease;
+    EXPECT_GE(leastToBody(a.human, belt.x), belt_thickness_m);
+    EXPECT_GE(leastToBody(a.human, shirt.x), shirt_thickness_m) << ease;
     EXPECT_GT(leastToBody(a.human, shorts.x), 0);
-    // Layers keep half the sum of their thicknesses.
-    EXPECT_GE(leastBetween(shorts, belt), 0.5 * (shorts_layer + belt_layer));
-    EXPECT_GE(leastBetween(shorts, shirt), 0.5 * (shorts_layer + shirt_layer));
-    EXPECT_GE(leastBetween(belt, shirt), 0.5 * (belt_layer + shirt_layer));
+    // Garments keep half the sum of their thicknesses.
+    EXPECT_GE(leastBetween(shorts, belt), 0.5 * (shorts_thickness_m + belt_thickness_m));
+    EXPECT_GE(leastBetween(shorts, shirt), 0.5 * (shorts_thickness_m + shirt_thickness_m));
+    EXPECT_GE(leastBetween(belt, shirt), 0.5 * (belt_thickness_m + shirt_thickness_m));
     const std::vector<Garment> all{a.shorts, a.belt, a.shirt};
-    const Garment joined = joinLayers(all);
+    const Garment joined = joinGarments(all);
     const Sampled s(joined);
     EXPECT_EQ(findCrossings(contactMesh(s.surface.size(), s.surface.triangles), s.x).size(), 0u) << ease;
   }
@@ -200,7 +200,7 @@ TEST_P(ArmourOn, StartsClearOfTheSkinThatItIsDraftedOn) {
   const Skinned wearer(GetParam());
   const Armour a(wearer.human, 0.06, 0.12, 0.026);
   const std::vector<Garment> all{a.shorts, a.belt, a.shirt};
-  const Sampled s(joinLayers(all), 3);
+  const Sampled s(joinGarments(all), 3);
   std::vector<Vec3> x = s.x;
   std::vector<std::array<int, 3>> triangles = s.surface.triangles;
   const int first = static_cast<int>(x.size());
@@ -264,9 +264,9 @@ TEST(Belt, CarriesItsTensionOnTheWaist) {
   Armour a("male_p50");
   for (const double tension : {0.0, 2.0, 20.0}) {
     a.belt_pattern.tension_N = tension;
-    const Worn under[]{{&a.shorts, shorts_layer}};
-    Garment belt = makeBelt(a.belt_pattern, a.form, soft(belt_layer), belt_layer, under);
-    belt.fabric = soft(belt_layer);
+    const Worn under[]{{&a.shorts, shorts_thickness_m}};
+    Garment belt = makeBelt(a.belt_pattern, a.form, soft(belt_thickness_m), belt_thickness_m, under);
+    belt.fabric = soft(belt_thickness_m);
     belt.fabric.law = ZhengBending{{1e-9, 1e-9}, 30, 1};
     const Shell shell(belt, widestKernels());
     ClothWork work;
@@ -290,7 +290,8 @@ TEST(Belt, CarriesItsTensionOnTheWaist) {
     const Links trunk = a.form.links({"torso", "pelvis", "thigh_left", "thigh_right"}, "");
     const double low = p.points[0].z, high = p.points.back().z;
     const double girth = a.form.wrap(low, high, trunk, "", 17).girth(0.5 * (low + high));
-    EXPECT_NEAR(lambda * length, girth + 2 * M_PI * (shorts_layer + 0.5 * (shorts_layer + belt_layer)), 2e-4);
+    EXPECT_NEAR(lambda * length,
+                girth + 2 * M_PI * (shorts_thickness_m + 0.5 * (shorts_thickness_m + belt_thickness_m)), 2e-4);
     EXPECT_LT(g1Residual(belt, belt.seams[0]), 1e-15);
   }
 }
@@ -311,12 +312,12 @@ TEST(Shirt, IsDraftedOnASkinAsWell) {
   for (const Vec2& p : form.level(1.2, torso)) EXPECT_LT(std::abs(p.y), 0.2);
   ShirtPattern pattern;
   pattern.cell_m = 0.026;
-  const Sampled s(makeShirt(pattern, form, shirt_layer, {}));
+  const Sampled s(makeShirt(pattern, form, shirt_thickness_m, {}));
   const std::vector<Obstacle> skin{{wearer.skin, "skin"}};
   const ProximityQuery query(skin);
   double least = HUGE_VAL;
   for (const Vec3& y : s.x) least = std::min(least, query.signedDistance(0, Placement{}, y));
-  EXPECT_GE(least, shirt_layer);
+  EXPECT_GE(least, shirt_thickness_m);
 }
 
 TEST(Skirt, HasEightPanelsAnd960ControlPoints) {
@@ -344,12 +345,12 @@ TEST(Armour, RejectsBadNumbers) {
   };
   const double nan = std::nan("");
   const Garment shorts = makeShorts({}, form);
-  const Worn under[]{{&shorts, shorts_layer}};
+  const Worn under[]{{&shorts, shorts_thickness_m}};
   const auto belt = [&](auto damage) {
     BeltPattern p;
-    Fabric f = soft(belt_layer);
+    Fabric f = soft(belt_thickness_m);
     damage(p, f);
-    return keyOf([&] { makeBelt(p, form, f, belt_layer, under); });
+    return keyOf([&] { makeBelt(p, form, f, belt_thickness_m, under); });
   };
   EXPECT_EQ(belt([](auto&, auto&) {}), "accepted");
   EXPECT_EQ(belt([&](auto& p, auto&) { p.tension_N = nan; }), "tension_N");
@@ -360,7 +361,7 @@ TEST(Armour, RejectsBadNumbers) {
   const auto shirt = [&](auto damage) {
     ShirtPattern p;
     damage(p);
-    return keyOf([&] { makeShirt(p, form, shirt_layer, {}); });
+    return keyOf([&] { makeShirt(p, form, shirt_thickness_m, {}); });
   };
   EXPECT_EQ(shirt([](auto&) {}), "accepted");
   EXPECT_EQ(shirt([&](auto& p) { p.ease = nan; }), "ease");
@@ -370,7 +371,7 @@ TEST(Armour, RejectsBadNumbers) {
   EXPECT_EQ(shirt([](auto& p) { p.neck_depth_m = 0; }), "neck_depth_m");
   EXPECT_EQ(shirt([](auto& p) { p.neck_depth_m = 0.5; }), "neck_depth_m");
   EXPECT_EQ(shirt([](auto& p) { p.hem_above_waist_m = 0.5; }), "hem_above_waist_m");
-  EXPECT_EQ(keyOf([&] { makeShirt({}, BodyForm(Human{}), shirt_layer, {}); }), "garment.shirt");
+  EXPECT_EQ(keyOf([&] { makeShirt({}, BodyForm(Human{}), shirt_thickness_m, {}); }), "garment.shirt");
   const auto skirt = [&](auto damage) {
     SkirtPattern p;
     damage(p);

@@ -16,7 +16,7 @@
 #include "human/motion/motion.hpp"
 #include "human/motion/standing.hpp"
 #include "tryon/pattern/check.hpp"
-#include "tryon/pattern/section.hpp"
+#include "tryon/pattern/wrap.hpp"
 
 namespace gambeson {
 namespace {
@@ -288,7 +288,7 @@ TEST_P(Shorts, GirthsAreTheBodysPlusEase) {
     for (std::size_t i = 0; i < human.shapes.size(); ++i)
       for (const char* name : links)
         if (human.skeleton.links[human.shapes[i].link].name == name)
-          for (const Vec2& p : section(human.shapes[i].shape, placements[i], z)) points.push_back(p);
+          for (const Vec2& p : crossSection(human.shapes[i].shape, placements[i], z)) points.push_back(p);
     return ClosedCurve(convexHull(points)).length();
   };
   const auto height = [&](int patch, double v) { return surfaceDerivatives(garment.patches[patch], 0.5, v)[0].z; };
@@ -300,7 +300,7 @@ TEST_P(Shorts, GirthsAreTheBodysPlusEase) {
       const std::string& name = human.skeleton.links[human.shapes[i].link].name;
       if (name != "pelvis" && name != "torso" && !name.starts_with("thigh")) continue;
       const double z = low + (high - low) * k / 15;
-      const auto points = section(human.shapes[i].shape, placements[i], z);
+      const auto points = crossSection(human.shapes[i].shape, placements[i], z);
       for (std::size_t n = 0; n < points.size(); n += 18) cloud.push_back({points[n].x, points[n].y, z});
     }
   for (int k = 0; k <= 5; ++k) {
@@ -383,40 +383,40 @@ TEST(ShortsDraft, HigherDegreesKeepSeamsAndGirths) {
   }
 }
 
-TEST(Section, OfATiltedEllipsoidAndOfABoxMesh) {
-  // An ellipsoid of revolution about its axis, tilted: the section through the centre is an ellipse with the semi-axes
-  // a and a c / sqrt(a² sin² + c² cos²), sin and cos of the tilt.
+TEST(CrossSection, OfATiltedEllipsoidAndOfABoxMesh) {
+  // An ellipsoid of revolution about its axis, tilted: the cross-section through the centre is an ellipse with the
+  // semi-axes a and a c / sqrt(a² sin² + c² cos²), sin and cos of the tilt.
   const double a = 0.1, c = 0.3, tilt = 0.4;
   const Placement X{rotationAbout({1, 0, 0}, tilt), {0.5, -0.2, 1}, 1};
   double wide = 0, deep = 0;
-  for (const Vec2& p : section(Ellipsoid{{a, a, c}}, X, 1)) {
+  for (const Vec2& p : crossSection(Ellipsoid{{a, a, c}}, X, 1)) {
     wide = std::max(wide, std::abs(p.x - 0.5));
     deep = std::max(deep, std::abs(p.y + 0.2));
   }
   EXPECT_NEAR(wide, a, 1e-6);
   EXPECT_NEAR(deep, a * c / std::hypot(a * std::sin(tilt), c * std::cos(tilt)), 1e-5);
-  EXPECT_TRUE(section(Ellipsoid{{a, a, c}}, X, 1.31).empty());
+  EXPECT_TRUE(crossSection(Ellipsoid{{a, a, c}}, X, 1.31).empty());
   const TriangleMesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                  {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-  const ClosedCurve t(convexHull(section(tetrahedron, {}, 0.5)));
+  const ClosedCurve t(convexHull(crossSection(tetrahedron, {}, 0.5)));
   EXPECT_NEAR(t.length(), 1 + std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(t.centroid().x, 0.5 / 3, 1e-15);
 }
 
-TEST(Section, WrapBridgesTheHollowBetweenTwoSpheres) {
+TEST(CrossSection, WrapBridgesTheHollowBetweenTwoSpheres) {
   // Two unit spheres 3 apart: between them the hull is the cylinder of radius 1.
-  std::vector<std::vector<Vec2>> sections;
+  std::vector<std::vector<Vec2>> cross_sections;
   const int n = 61;
   for (int k = 0; k < n; ++k) {
     const double z = 3.0 * k / (n - 1);
     std::vector<Vec2> p{{0, 0}};
     for (const double centre : {0.0, 3.0})
-      for (const Vec2& x : section(Ellipsoid{{1, 1, 1}}, {{}, {0, 0, centre}, 1}, z)) p.push_back(x);
-    sections.push_back(p);
+      for (const Vec2& x : crossSection(Ellipsoid{{1, 1, 1}}, {{}, {0, 0, centre}, 1}, z)) p.push_back(x);
+    cross_sections.push_back(p);
   }
-  const Wrap wrap(sections, 0, 3);
+  const Wrap wrap(cross_sections, 0, 3);
   for (const double z : {0.0, 0.77, 1.5, 3.0})
-    EXPECT_NEAR(ClosedCurve(wrap.section(z)).length(), 2 * std::numbers::pi, 2e-4 * 2 * std::numbers::pi);
+    EXPECT_NEAR(ClosedCurve(wrap.crossSection(z)).length(), 2 * std::numbers::pi, 2e-4 * 2 * std::numbers::pi);
 }
 
 }  // namespace

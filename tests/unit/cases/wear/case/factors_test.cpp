@@ -112,11 +112,11 @@ TEST(Factors, MassWeightInertiaDragAndLayer) {
   check("drag=0.9", 1, 1, 0.9, 1);
   check("bending=3", 1, 1, 1, 1);
   check("membrane=3", 1, 1, 1, 1);
-  const std::vector<LayerMeasure> layers = layersOf(*buildScenario(folded({"factors.thickness=0.5"})));
-  ASSERT_EQ(layers.size(), 1u);
-  EXPECT_NEAR(layers[0].mass_kg, 0.5 * mass, 1e-12);
-  EXPECT_NEAR(layers[0].thickness_m, 0.4e-3, 1e-15);
-  EXPECT_EQ(layers[0].control_points, 18);
+  const std::vector<GarmentMeasure> garments = garmentMeasuresOf(*buildScenario(folded({"factors.thickness=0.5"})));
+  ASSERT_EQ(garments.size(), 1u);
+  EXPECT_NEAR(garments[0].mass_kg, 0.5 * mass, 1e-12);
+  EXPECT_NEAR(garments[0].thickness_m, 0.4e-3, 1e-15);
+  EXPECT_EQ(garments[0].control_points, 18);
 }
 
 /// Without a layer of the case, the contact distance is the thickness, which has its factor.

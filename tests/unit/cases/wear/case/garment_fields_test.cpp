@@ -84,13 +84,13 @@ TEST(GarmentFields, HalfTwiceAsThickWeighsAndKeepsOffSo) {
   double mass = 0;
   for (const double kg : m.mass_kg) mass += kg;
   EXPECT_NEAR(mass, 0.2 * 0.04 * 1.5, 1e-12);
-  const std::vector<LayerMeasure> layers = layersOf(*scene.scenario);
-  ASSERT_EQ(layers.size(), 1u);
+  const std::vector<GarmentMeasure> garments = garmentMeasuresOf(*scene.scenario);
+  ASSERT_EQ(garments.size(), 1u);
   // Samples on the border between both carry half of each.
-  EXPECT_NEAR(layers[0].mass_kg, 0.2 * 0.04 * 1.5, 0.05 * 0.2 * 0.04);
-  EXPECT_DOUBLE_EQ(layers[0].least_thickness_m, 1e-3);
-  EXPECT_DOUBLE_EQ(layers[0].largest_thickness_m, 2e-3);
-  EXPECT_TRUE(layers[0].varies());
+  EXPECT_NEAR(garments[0].mass_kg, 0.2 * 0.04 * 1.5, 0.05 * 0.2 * 0.04);
+  EXPECT_DOUBLE_EQ(garments[0].least_thickness_m, 1e-3);
+  EXPECT_DOUBLE_EQ(garments[0].largest_thickness_m, 2e-3);
+  EXPECT_TRUE(garments[0].varies());
   // It comes to rest on its own thickness.
   scene.run(0.3, [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
   std::vector<Vec3> x(m.surface.size());
@@ -153,12 +153,12 @@ TEST(GarmentFields, GarmentsOverEachOtherHaveTheirOwn) {
       "fields": [{"thickness": {"degree": 0, "values": [[1, 3]]}}]}],)");
   const Case c = readCase(folder.write("case.json", two));
   const SceneRun scene(c);
-  const std::vector<LayerMeasure> layers = layersOf(*scene.scenario);
-  ASSERT_EQ(layers.size(), 2u);
-  EXPECT_DOUBLE_EQ(layers[0].thickness_m, 2e-3);
-  EXPECT_FALSE(layers[0].varies());
-  EXPECT_DOUBLE_EQ(layers[1].least_thickness_m, 0.5e-3);
-  EXPECT_DOUBLE_EQ(layers[1].largest_thickness_m, 1.5e-3);
+  const std::vector<GarmentMeasure> garments = garmentMeasuresOf(*scene.scenario);
+  ASSERT_EQ(garments.size(), 2u);
+  EXPECT_DOUBLE_EQ(garments[0].thickness_m, 2e-3);
+  EXPECT_FALSE(garments[0].varies());
+  EXPECT_DOUBLE_EQ(garments[1].least_thickness_m, 0.5e-3);
+  EXPECT_DOUBLE_EQ(garments[1].largest_thickness_m, 1.5e-3);
   double mass = 0;
   for (const double kg : scene.model.mass_kg) mass += kg;
   EXPECT_NEAR(mass, 0.04 * 0.4 + 0.01 * 0.2, 1e-12);

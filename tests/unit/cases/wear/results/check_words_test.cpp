@@ -23,7 +23,7 @@ TEST(CheckWords, EveryCheckOfARunHasThem) {
   joint.second_stride.emplace();
   joint.second_stride->samples = 1;
   m.joints = {joint};
-  m.layer_order = {{"shirt", "trousers", 1}};
+  m.garment_order = {{"shirt", "trousers", 1}};
   const auto checks = auditOf(m);
   EXPECT_EQ(checks.size(), 13u);
   const std::string unknown = checkWords("no such check", 1, 0, "").means;

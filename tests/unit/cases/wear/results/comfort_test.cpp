@@ -12,7 +12,7 @@
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
-#include "human/body/zones.hpp"
+#include "human/body/body_zones.hpp"
 #include "unit/cases/example.hpp"
 
 namespace gambeson {

@@ -152,7 +152,7 @@ struct TwoShorts {
     const Surface& surface = scenario->model->surface;
     // Samples come component by component, those of the inner shorts first, then the control points.
     const auto inner = std::count_if(surface.patch.begin(), surface.patch.end(),
-                                     [&](int p) { return shellOf(*scenario->model).garment().layerOf(p) == 0; });
+                                     [&](int p) { return shellOf(*scenario->model).garment().garmentOf(p) == 0; });
     const long calls = 3L * (surface.size() + scenario->model->cloth->points());
     long at = 0;
     record(*scenario, folder.path() / "out", {0, 0.4}, [&](double t, const Vec3& p) {
@@ -162,9 +162,9 @@ struct TwoShorts {
       return p;
     });
     Measured m;
-    measureLayerOrder(*scenario, RecordingReader(folder.path() / "out"), m);
-    EXPECT_EQ(m.layer_order.size(), 1u);
-    std::printf("[ measured ] %.1f %% of the upper shorts lie inside\n", 100 * m.layer_order[0].largest);
+    measureGarmentOrder(*scenario, RecordingReader(folder.path() / "out"), m);
+    EXPECT_EQ(m.garment_order.size(), 1u);
+    std::printf("[ measured ] %.1f %% of the upper shorts lie inside\n", 100 * m.garment_order[0].largest);
     return m;
   }
 };
@@ -185,10 +185,10 @@ TEST(Fit, AGarmentInsideOfOneThatBelongsUnderItFailsItsCheck) {
     EXPECT_EQ(check->holds(), !wrong);
     // Seen from the pelvis the insides of the legs move to the other side of the cloth.
     if (wrong)
-      EXPECT_GT(m.layer_order[0].largest, 0.7);
+      EXPECT_GT(m.garment_order[0].largest, 0.7);
     else
-      EXPECT_LT(m.layer_order[0].largest, 0.25);
-    EXPECT_EQ(m.layer_order[0].time_s, 0.4);
+      EXPECT_LT(m.garment_order[0].largest, 0.25);
+    EXPECT_EQ(m.garment_order[0].time_s, 0.4);
   }
 }
 
@@ -200,7 +200,7 @@ TEST(Fit, TheOuterSideOfALowerGarmentMayLieBeforeAnUpperOne) {
   const Measured m = two.measured([&](bool lower, const Vec3& p) {
     return lower ? Vec3{2 * (two.front_m + 0.005) - p.x, 2 * middle.y - p.y, p.z} : p;
   });
-  EXPECT_LT(m.layer_order[0].largest, 0.01);
+  EXPECT_LT(m.garment_order[0].largest, 0.01);
 }
 
 /// Until the motion starts a garment may come down by 0.1 m: a skirt finds the hips so.

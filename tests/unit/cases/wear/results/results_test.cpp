@@ -63,15 +63,15 @@ void record(const Scenario& s, const std::filesystem::path& dir, std::size_t win
     row("bodies", start,
         {{"forearm_Jz_Ns", -J}, {"forearm_Ly_Nms", lever_m * J}, {"forearm_n_Ns", 2 * J}, {"forearm_t_Ns", J}});
     row("normal", start, {{"forearm_Jz_Ns", -0.75 * J}, {"forearm_Ly_Nms", 0.75 * lever_m * J}});
-    const std::string layer = groupName(s.contact_groups.at(0));
+    const std::string garment = groupName(s.contact_groups.at(0));
     row("body_zones", start,
-        {{layer + " on forearm_Ns", 2 * J},
-         {layer + " on forearm_n_Ns", 1.5 * J},
-         {layer + " on forearm_t_Ns", 0.5 * J},
-         {layer + " on forearm_Jx_Ns", 0.6 * J},
-         {layer + " on forearm_Jz_Ns", (w % 2 == 0 ? 0.8 : -0.8) * J},
-         {layer + " on upper_arm_Ns", J},
-         {layer + " on upper_arm_n_Ns", 0.5 * J}});
+        {{garment + " on forearm_Ns", 2 * J},
+         {garment + " on forearm_n_Ns", 1.5 * J},
+         {garment + " on forearm_t_Ns", 0.5 * J},
+         {garment + " on forearm_Jx_Ns", 0.6 * J},
+         {garment + " on forearm_Jz_Ns", (w % 2 == 0 ? 0.8 : -0.8) * J},
+         {garment + " on upper_arm_Ns", J},
+         {garment + " on upper_arm_n_Ns", 0.5 * J}});
     row("drag", start, {{"forearm_Jz_Ns", -0.25 * J}, {"forearm_Ly_Nms", 0.25 * lever_m * J}});
     row("supports", start, {{"start held_z_Ns", 0.02}});
     // The energy rises by 2 J a window, of which contact and drag explain 3 - 1.5.

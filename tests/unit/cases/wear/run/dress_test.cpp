@@ -1,4 +1,4 @@
-// Dressing layer by layer, Zheng 2013, sections 6.3 and 4.5.3.
+// Dressing garment by garment, Zheng 2013, sections 6.3 and 4.5.3.
 #include "cases/wear/run/dress.hpp"
 #include "cases/wear/scene/worn.hpp"
 
@@ -43,7 +43,7 @@ std::string bytesOf(const std::filesystem::path& file) {
   return out.str();
 }
 
-TEST(Dress, PanelsAreSewnAndLayersComeFreeOfEachOther) {
+TEST(Dress, PanelsAreSewnAndGarmentsComeFreeOfEachOther) {
   const Folder folder;
   const Case c = readCase(folder.write("case.json", worn));
   const Dressed apart = putOnApart(readCase(folder.path() / "case.json", {"dressing.settle=0.5 ms"}));
@@ -127,7 +127,7 @@ TEST(Dress, WhatLawsRememberIsKeptOrWiped) {
 
 /// Each is drafted over those before it.
 // clang-format off
-const std::string layers = R"json({
+const std::string several = R"json({
   "name": "layers",
   "garments": [
     {"name": "shorts", "shorts": {"cell": "50 mm"}},
@@ -147,7 +147,7 @@ const std::string layers = R"json({
 /// What is drafted over other garments is the same garment where it is put on by itself, without them.
 TEST(Dress, GarmentsThatAreDraftedOverOthersAreTheirOwn) {
   const Folder folder;
-  const Case c = readCase(folder.write("case.json", layers));
+  const Case c = readCase(folder.write("case.json", several));
   const auto together = buildScenario(c);
   const Dressed apart = putOnApart(c);
   wear(*together, apart);  // as many control points
@@ -161,7 +161,7 @@ TEST(Dress, GarmentsThatAreDraftedOverOthersAreTheirOwn) {
 /// With weight, a belt that is tight over shorts slides off the bare body: by 104 mm within 0.8 s on a skin.
 TEST(Dress, ABeltStaysWhereItIsWornUntilThereAreShortsUnderIt) {
   const Folder folder;
-  const Case c = readCase(folder.write("case.json", layers), {"dressing.settle=0.15"});
+  const Case c = readCase(folder.write("case.json", several), {"dressing.settle=0.15"});
   Case belted = c;
   belted.garments.pop_back();
   const auto height = [](const std::vector<Vec3>& points) {

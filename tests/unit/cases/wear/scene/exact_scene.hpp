@@ -14,7 +14,7 @@ struct ExactRun {
   int looks = 0, intersecting = 0;
   std::size_t most_pairs = 0;
   std::string first;  ///< what intersects first: when, how many, and one of them
-  int steps = 0, steps_with_cloth_contact = 0, most_cloth_contacts = 0, impacts = 0, zones = 0;
+  int steps = 0, steps_with_cloth_contact = 0, most_cloth_contacts = 0, impacts = 0, impact_zones = 0;
 };
 
 /// From the start of the case until until_s. Without `self` cloth does not meet itself: shows that the check would see
@@ -39,7 +39,7 @@ inline ExactRun runExactly(const Case& c, double until_s, Looks looks, bool self
     run.steps_with_cloth_contact += r.cloth_contacts > 0;
     run.most_cloth_contacts = std::max(run.most_cloth_contacts, r.cloth_contacts);
     run.impacts += r.impacts;
-    run.zones += r.zones;
+    run.impact_zones += r.impact_zones;
     if (looks == Looks::every_step) look(after);
   };
   look(scene.state);
@@ -50,9 +50,9 @@ inline ExactRun runExactly(const Case& c, double until_s, Looks looks, bool self
   }
   std::printf(
       "[ measured ] %d looks, %d with intersections (%zu pairs at most); %d steps, %d with contact of cloth with cloth "
-      "(%d at most), %d impacts, %d zones\n",
+      "(%d at most), %d impacts, %d impact zones\n",
       run.looks, run.intersecting, run.most_pairs, run.steps, run.steps_with_cloth_contact, run.most_cloth_contacts,
-      run.impacts, run.zones);
+      run.impacts, run.impact_zones);
   return run;
 }
 

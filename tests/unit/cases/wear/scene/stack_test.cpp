@@ -22,7 +22,7 @@ struct Stack {
   double single = 0;      ///< pressure at single samples of the upper sheet
   double block = 0;       ///< mean pressure over 3 x 3 cells, wherever they lie, of either sheet
   double iterations = 0;  ///< per step
-  long unconverged = 0, steps = 0, zones = 0;
+  long unconverged = 0, steps = 0, impact_zones = 0;
   AuditWatch audit;
 };
 
@@ -55,7 +55,7 @@ Stack stack(Case c, const std::vector<int>& cells, double end_s, double mean_s) 
   }
   SceneRun scene(c);
   const Model& m = scene.model;
-  const std::vector<int>& layer = m.collisions.cloth.layer;
+  const std::vector<int>& garment = m.collisions.cloth.garment;
   const std::size_t count = c.garments.size();
   Stack s;
   s.carried_N.resize(count);
@@ -66,7 +66,7 @@ Stack stack(Case c, const std::vector<int>& cells, double end_s, double mean_s) 
   const auto watch = [&](const State&, const State&, const StepReport& r, const StepResult& w, const Frequency&) {
     s.audit(r);
     ++s.steps;
-    s.zones += r.zones;
+    s.impact_zones += r.impact_zones;
     s.unconverged += !r.contact.converged;
     s.iterations += r.contact.iterations;
     if (!last) return;
@@ -80,15 +80,15 @@ Stack stack(Case c, const std::vector<int>& cells, double end_s, double mean_s) 
       // Positive weights are those of one side, on which the impulse acts as it is.
       int side[2] = {-1, -1};
       for (int k = 0; k < row.stencil.count; ++k)
-        if (row.stencil.weight[k] != 0) side[row.stencil.weight[k] < 0] = layer[row.stencil.sample[k]];
+        if (row.stencil.weight[k] != 0) side[row.stencil.weight[k] < 0] = garment[row.stencil.sample[k]];
       ASSERT_EQ(std::abs(side[0] - side[1]), 1) << "contact past a sheet";
       const int upper = std::max(side[0], side[1]);
       sums[static_cast<std::size_t>(upper)] += (side[0] > side[1] ? 1.0 : -1.0) * w.impulses[i];
       for (int k = 0; k < row.stencil.count; ++k) {
         const int sample = row.stencil.sample[k];
-        const double share = row.stencil.weight[k] * w.impulses[i].z;
-        if (layer[sample] == upper) from_below[sample] += share;
-        if (layer[sample] != upper) from_above[sample] -= share;
+        const double part = row.stencil.weight[k] * w.impulses[i].z;
+        if (garment[sample] == upper) from_below[sample] += part;
+        if (garment[sample] != upper) from_above[sample] -= part;
       }
     }
   };
@@ -119,8 +119,8 @@ Stack stack(Case c, const std::vector<int>& cells, double end_s, double mean_s) 
   std::vector<double> height(count + 1, 0);
   std::vector<int> samples(count + 1, 0);
   for (int i = 0; i < m.surface.size(); ++i) {
-    height[static_cast<std::size_t>(layer[i]) + 1] += x[i].z;
-    ++samples[static_cast<std::size_t>(layer[i]) + 1];
+    height[static_cast<std::size_t>(garment[i]) + 1] += x[i].z;
+    ++samples[static_cast<std::size_t>(garment[i]) + 1];
   }
   for (std::size_t k = 1; k <= count; ++k) height[k] /= samples[k];
   for (std::size_t k = 0; k < count; ++k) s.gap_m.push_back(height[k + 1] - height[k]);
@@ -131,8 +131,9 @@ Stack stack(Case c, const std::vector<int>& cells, double end_s, double mean_s) 
   s.iterations /= static_cast<double>(s.steps);
   std::printf(
       "; single samples %.4f, 3 x 3 cells %.4f (RMS); sideways %.2g of the weight; %ld steps, %.1f iterations each, "
-      "%ld unconverged, %ld zones, audit %.2g\n",
-      s.single, s.block, s.sideways_N / s.above_N[0], s.steps, s.iterations, s.unconverged, s.zones, s.audit.worst);
+      "%ld unconverged, %ld impact zones, audit %.2g\n",
+      s.single, s.block, s.sideways_N / s.above_N[0], s.steps, s.iterations, s.unconverged, s.impact_zones,
+      s.audit.worst);
   return s;
 }
 

@@ -71,21 +71,21 @@ TEST(TangledSleeve, ComesFreeByAreaAndNotByLength) {
   EXPECT_GT(freed(by_length, 0.3).at_end, 0);
 }
 
-/// In the order of their layers: each tube's samples lie outside of the one below.
-TEST(TangledTubes, ComeFreeInTheOrderOfTheirLayers) {
+/// In the order of the garments: each tube's samples lie outside of the one below.
+TEST(TangledTubes, ComeFreeInTheOrderOfTheGarments) {
   SceneRun scene(libraryCase("nested_tubes"));
   const Freed f = freed(scene, 0.2);
   EXPECT_GT(f.at_start, 0);
   EXPECT_EQ(f.at_end, 0);
   EXPECT_LT(f.farthest_m, 0.5 * 0.02);
   const Model& m = scene.model;
-  for (int layer : {0, 1}) {
+  for (int tube : {0, 1}) {
     // Rings of samples, v by v: the tube below as a polygon about its middle.
-    const auto [nu, nv] = m.surface.patch_grid_size[static_cast<std::size_t>(layer)];
-    const std::vector<int>& grid = m.surface.patch_grid[static_cast<std::size_t>(layer)];
+    const auto [nu, nv] = m.surface.patch_grid_size[static_cast<std::size_t>(tube)];
+    const std::vector<int>& grid = m.surface.patch_grid[static_cast<std::size_t>(tube)];
     int outside = 0, all = 0;
     for (int s = 0; s < m.surface.size(); ++s) {
-      if (m.surface.patch[s] != layer + 1) continue;
+      if (m.surface.patch[s] != tube + 1) continue;
       int ring = 0;
       double least = 1e9;
       for (int j = 0; j < nv; ++j) {
@@ -101,7 +101,7 @@ TEST(TangledTubes, ComeFreeInTheOrderOfTheirLayers) {
       ++all;
       outside += std::abs(turn) < 1;
     }
-    EXPECT_EQ(outside, all) << "layer " << layer + 1;
+    EXPECT_EQ(outside, all) << "tube " << tube + 1;
   }
 }
 

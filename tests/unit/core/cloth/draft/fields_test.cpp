@@ -112,9 +112,9 @@ TEST(Fields, WhatDoesNotFitIsRefused) {
   refused({1, 1, 2, {1, 1}}, &PatchFields::fibre_angle, "fields[0].fibre_angle.values");
   refused({1, 2, 2, {1, 1, NAN, 1}}, &PatchFields::fibre_angle, "fields[0].fibre_angle.values");
   refused({0, 1, 1, {1}}, &PatchFields::material, "fields[0].material.values");
-  Fabric layered = g.fabric;
-  layered.law = Laminate{{{1e-3, 1e9, 1e9, 1e8, 0.3, 0}}};
-  g.other_fabrics.push_back(layered);
+  Fabric laminated = g.fabric;
+  laminated.law = Laminate{{{1e-3, 1e9, 1e9, 1e8, 0.3, 0}}};
+  g.other_fabrics.push_back(laminated);
   refused({0, 1, 1, {0.5}}, &PatchFields::material, "fields[0].material");
   g.fields.resize(3);
   EXPECT_THROW(validateFields(g), InputError);

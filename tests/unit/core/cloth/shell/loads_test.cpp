@@ -140,7 +140,7 @@ TEST(Loads, PressureIsTheGradientOfTheVolumeInsideAHeldBoundary) {
   }
 }
 
-BlockMatrix fullPattern(int n) {
+BlockMatrix fullSparsity(int n) {
   BlockMatrix K;
   for (int r = 0; r < n; ++r) {
     for (int c = r; c < n; ++c) K.columns.push_back(c);
@@ -181,7 +181,7 @@ Eigen::MatrixXd differences(const Loads& loads, const FreeMap& map, const std::v
 void expectSymmetricPart(const Garment& g, const Loads& loads) {
   const FreeMap map = buildFreeMap(g);
   const auto p = deformedFree(g, map, 0.02);
-  BlockMatrix K = fullPattern(map.T.column_count);
+  BlockMatrix K = fullSparsity(map.T.column_count);
   loads.addStiffness(controlsOf(map, p), kOne, map, K);
   const Eigen::MatrixXd ours = dense(K), fd = differences(loads, map, p, 1e-5);
   const Eigen::MatrixXd symmetric = 0.5 * (fd + fd.transpose());
@@ -211,7 +211,7 @@ TEST(Loads, PressureStiffnessIsWholeInsideAHeldBoundary) {
   const FreeMap map = buildFreeMap(g);
   const auto p = deformedFree(g, map, 0.02);
   const Loads loads = loadsOf(g, {}, {{0, 2.0, 0}}, {});
-  BlockMatrix K = fullPattern(map.T.column_count);
+  BlockMatrix K = fullSparsity(map.T.column_count);
   loads.addStiffness(p, kOne, map, K);
   const Eigen::MatrixXd ours = dense(K), fd = differences(loads, map, p, 1e-3);  // quadratic in q: exact
   const NurbsPatch& patch = g.patches[0];

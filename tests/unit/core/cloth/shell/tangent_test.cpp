@@ -169,15 +169,15 @@ TEST(Tangent, TakesTheSameTermsAsTheForce) {
 
 /// Wrinkled, slack and taut points side by side; differences across a switch of state are only first order.
 TEST(Tangent, FollowsTheTensionField) {
-  for (bool layered : {false, true}) {
+  for (bool laminated : {false, true}) {
     Fabric fabric = plainFabric();
-    if (layered) fabric.law = Laminate{{{0.05, 220, 40, 20, 0.25, 0.6}}};
+    if (laminated) fabric.law = Laminate{{{0.05, 220, 40, 20, 0.25, 0.6}}};
     fabric.tension_field = true;
     Garment g = garmentOf({flatPatch(uniformKnots(2, 2), uniformKnots(2, 2), 1, 1, 0.2)}, {}, fabric, turnedWeft());
     Options o;
     o.size = 0.05;
     o.step = 1e-7;
-    EXPECT_LT(tangentError(g, o), 1e-5) << layered;
+    EXPECT_LT(tangentError(g, o), 1e-5) << laminated;
   }
 }
 

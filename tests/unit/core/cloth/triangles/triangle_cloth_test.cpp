@@ -170,7 +170,7 @@ TEST(TriangleCloth, TangentIsTheDerivativeOfTheForce) {
     std::vector<Vec3> q = deformed(c, 2e-3, 5);
     const auto tangent = c.tangent();
     ClothWork work;
-    BlockMatrix K = tangent->pattern();
+    BlockMatrix K = tangent->sparsity();
     tangent->assemble(q, work, K);
     const int n = c.map().T.column_count;
     Eigen::MatrixXd ours = Eigen::MatrixXd::Zero(3 * n, 3 * n), fd = ours;

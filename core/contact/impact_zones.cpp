@@ -1,4 +1,4 @@
-#include "core/contact/zones.hpp"
+#include "core/contact/impact_zones.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -7,8 +7,17 @@
 
 namespace gambeson {
 
-void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vector<ImpactZone>& zones) {
-  // Each row and each zone is a set of points; sets that share one are joined.
+void ImpactZones::add(const ImpactZone& zone) {
+  points.add(zone.points);
+  touched.add(zone.touched);
+  body.push_back(zone.body);
+  pinched.push_back(zone.pinched);
+}
+
+void ImpactZones::clear() { *this = {}; }
+
+void joinImpactZones(std::span<const ContactRow> rows, const SparseRows& WT, ImpactZones& impact_zones) {
+  // Each row and each impact zone is a set of points; sets that share one are joined.
   struct Set {
     std::vector<int> points;
     int body = -1;
@@ -16,7 +25,10 @@ void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vect
     std::vector<int> touched;
   };
   std::vector<Set> sets;
-  for (const ImpactZone& z : zones) sets.push_back({z.points, z.body, z.pinched, z.touched});
+  for (int k = 0; k < impact_zones.size(); ++k) {
+    const ImpactZone z = impact_zones[k];
+    sets.push_back({{z.points.begin(), z.points.end()}, z.body, z.pinched, {z.touched.begin(), z.touched.end()}});
+  }
   for (const ContactRow& row : rows) {
     Set set;
     for (int k = 0; k < row.stencil.count; ++k) {
@@ -42,24 +54,26 @@ void joinZones(std::span<const ContactRow> rows, const SparseRows& WT, std::vect
       const int a = find(at->second), b = find(static_cast<int>(i));
       parent[std::max(a, b)] = std::min(a, b);
     }
-  std::map<int, ImpactZone> joined;
+  std::map<int, Set> joined;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    ImpactZone& z = joined[find(static_cast<int>(i))];
+    Set& z = joined[find(static_cast<int>(i))];
     z.points.insert(z.points.end(), sets[i].points.begin(), sets[i].points.end());
     z.pinched = z.pinched || sets[i].pinched || (sets[i].body >= 0 && z.body >= 0 && sets[i].body != z.body);
     z.body = std::max(z.body, sets[i].body);
     z.touched.insert(z.touched.end(), sets[i].touched.begin(), sets[i].touched.end());
   }
-  zones.clear();
+  std::vector<Set> sorted;
   for (auto& [root, z] : joined) {
     std::sort(z.points.begin(), z.points.end());
     z.points.erase(std::unique(z.points.begin(), z.points.end()), z.points.end());
     std::sort(z.touched.begin(), z.touched.end());
     z.touched.erase(std::unique(z.touched.begin(), z.touched.end()), z.touched.end());
-    zones.push_back(std::move(z));
+    sorted.push_back(std::move(z));
   }
-  std::sort(zones.begin(), zones.end(),
-            [](const ImpactZone& a, const ImpactZone& b) { return a.points.front() < b.points.front(); });
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Set& a, const Set& b) { return a.points.front() < b.points.front(); });
+  impact_zones.clear();
+  for (const Set& z : sorted) impact_zones.add({z.points, z.body, z.pinched, z.touched});
 }
 
 RigidVelocity nearestRigid(std::span<const int> points, std::span<const Vec3> p, std::span<const double> mass,

@@ -7,10 +7,10 @@
 
 namespace gambeson {
 
-/// Patches, seams, trims, fields, fabrics and starting places of all, in turn, each garment a layer of its own, the
-/// first innermost. Patch k of garment i is patch first + k, first the number of patches before. Garments of unlike
+/// Patches, seams, trims, fields, fabrics and starting places of all, in turn, each garment with a number of its own,
+/// the first innermost. Patch k of garment i is patch first + k, first the number of patches before. Garments of unlike
 /// fabrics get their own through a material field of degree 0. Throws InputError where there is none, or one whose own
 /// fields do not fit.
-Garment joinLayers(std::span<const Garment> garments);
+Garment joinGarments(std::span<const Garment> garments);
 
 }  // namespace gambeson

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/trim_outline.hpp"
+#include "core/nurbs/trim_outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 Vec2 minus(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// Whether the segments a b and c d cross inside both, or one's end lies within the other.
+/// Whether the line segments a b and c d cross inside both, or one's end lies within the other.
 bool crosses(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const double c1 = cross(minus(b, a), minus(c, a)), c2 = cross(minus(b, a), minus(d, a));
   const double c3 = cross(minus(d, c), minus(a, c)), c4 = cross(minus(d, c), minus(b, c));

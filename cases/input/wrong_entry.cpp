@@ -1,4 +1,4 @@
-#include "cases/input/places.hpp"
+#include "cases/input/wrong_entry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ std::string keyUnder(const std::string& outer, const std::string& inner) {
   return outer + "." + withoutUnit(inner);
 }
 
-void sayAt(const schema::Place& root, const InputError& e) {
+void sayAt(const schema::Entry& root, const InputError& e) {
   if (!e.where().file.empty()) throw e;
   std::vector<std::string> steps = stepsOf(e.where().key);
   if (steps.size() > 1 && steps[0] == "garments" && steps[1] == "[0]" && !root.node.find("garments")) {
@@ -64,7 +64,7 @@ void sayAt(const schema::Place& root, const InputError& e) {
     node = next;
     if (node->file) file = *node->file;
   }
-  schema::Place{*node, path, file}.fail(rest.empty() || rest == "sheet" ? e.reason() : rest + ": " + e.reason());
+  schema::Entry{*node, path, file}.fail(rest.empty() || rest == "sheet" ? e.reason() : rest + ": " + e.reason());
 }
 
 void sayInCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, const InputError& e) {

@@ -1,4 +1,4 @@
-#include "analysis/render/layers.hpp"
+#include "analysis/render/passes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,7 +83,7 @@ struct Ground {
   bool edge_on = false;
 };
 
-Ground groundOf(const LayerInput& in, const Box& scene) {
+Ground groundOf(const PassInput& in, const Box& scene) {
   Ground ground;
   const Vec3 up = in.up_camera, centre = 0.5 * (scene.low + scene.high);
   ground.middle = centre + (*in.ground_m - dot(up, centre)) * up;
@@ -135,7 +135,7 @@ void uniform(const Gl& gl, GLint at, const Vec3& v) { gl.Uniform3f(at, float(v.x
 
 }  // namespace
 
-Layers drawLayers(const LayerInput& in, int width, int height) {
+Passes drawPasses(const PassInput& in, int width, int height) {
   Box scene;
   for (const auto& v : in.surfaces.vertices) scene.add(positionOf(v));
   Box depth = scene;
@@ -182,7 +182,7 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
 
   const Buffers surfaces(gl, in.surfaces), arrows(gl, in.arrows), legend(gl, in.legend);
   const std::string version = "#version 330 core\n";
-  Layers out;
+  Passes out;
   out.width = width, out.height = height;
   gl.Enable(GL_DEPTH_TEST);
 
@@ -217,13 +217,13 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
         blur(gl, shader::kScreenVertex, shader::kBlurFragment);
     raw.bind();
     occlusion.use();
-    texture(gl, occlusion, "layer", 0, normals.colorTexture());
+    texture(gl, occlusion, "normals", 0, normals.colorTexture());
     gl.Uniform1f(occlusion.at("metresPerPixel"), float(1 / scale));
     gl.Uniform1f(occlusion.at("radius"), float(occlusion_radius));
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     smooth.bind();
     blur.use();
-    texture(gl, blur, "layer", 0, normals.colorTexture());
+    texture(gl, blur, "normals", 0, normals.colorTexture());
     texture(gl, blur, "occlusion", 1, raw.colorTexture());
     gl.Uniform1f(blur.at("radius"), float(occlusion_radius));
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -270,8 +270,8 @@ Layers drawLayers(const LayerInput& in, int width, int height) {
     const ShaderProgram program(gl, shader::kSurfaceVertex, shader::kArrowFragment);
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, P.data());
-    texture(gl, program, "layer", 0, normals.colorTexture());
-    gl.Uniform2f(program.at("layerPerPixel"), 0.5f, 0.5f);
+    texture(gl, program, "normals", 0, normals.colorTexture());
+    gl.Uniform2f(program.at("normalsPerPixel"), 0.5f, 0.5f);
     uniform(gl, program.at("sun"), sun);
     gl.Uniform1f(program.at("soft"), float(2 * in.arrow_radius_m));
     gl.Uniform1f(program.at("legend"), 0);

@@ -1,5 +1,5 @@
 #pragma once
-/// The drawn layers of a picture, before they are put together.
+/// What is drawn of a picture in each pass, before it is put together.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 namespace gambeson {
 
 /// What to draw, in camera coordinates.
-struct LayerInput {
+struct PassInput {
   DrawList surfaces, arrows, legend;
   Camera camera;
   Vec3 up_camera;                  ///< the scene's up in camera coordinates
@@ -19,13 +19,13 @@ struct LayerInput {
 };
 
 /// Rows from the bottom. Colours are encoded (sRGB) times coverage.
-struct Layers {
+struct Passes {
   int width = 0, height = 0;             ///< of the picture; surfaces and arrows have twice as many pixels each way
   std::vector<unsigned char> surfaces;   ///< RGBA
   std::vector<unsigned char> arrows;     ///< RGBA, the legend's arrow in it
   std::vector<unsigned char> occlusion;  ///< RGBA, r: 255 in the open
 };
 
-Layers drawLayers(const LayerInput& input, int width, int height);
+Passes drawPasses(const PassInput& input, int width, int height);
 
 }  // namespace gambeson

@@ -1,4 +1,4 @@
-#include "analysis/history.hpp"
+#include "analysis/course.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-/// Several garments as one: each keeps what it is alone, and contact keeps the layers apart by half the sum of their
+/// Several garments as one: each keeps what it is alone, and contact keeps them apart by half the sum of their
 /// thicknesses.
 
-#include "core/cloth/draft/layers.hpp"
+#include "core/cloth/draft/join_garments.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ std::vector<Vec3> forceOf(const Garment& g, const std::vector<Vec3>& shift, doub
   return f;
 }
 
-TEST(Layers, JoinedGarmentsHaveTheForcesOfEach) {
+TEST(JoinGarments, JoinedGarmentsHaveTheForcesOfEach) {
   Garment varied = squareSheet(4, 0.3, 0.1, thickFabric());
   varied.fields.resize(1);
   varied.fields[0].thickness = PatchField{1, 2, 2, {1, 2, 1, 1.5}};
@@ -53,9 +53,9 @@ TEST(Layers, JoinedGarmentsHaveTheForcesOfEach) {
   varied.other_fabrics.push_back(sheetFabric());
   varied.other_fabrics[0].young_weft_Pa *= 2;
   const std::vector<Garment> garments{seamed(), squareSheet(5, 0.2, 0, thickFabric()), varied};
-  const Garment all = joinLayers(garments);
+  const Garment all = joinGarments(garments);
   ASSERT_EQ(all.patches.size(), 6u);
-  EXPECT_EQ(all.layer, (std::vector<int>{0, 0, 0, 0, 1, 2}));
+  EXPECT_EQ(all.garment_of_patch, (std::vector<int>{0, 0, 0, 0, 1, 2}));
   std::mt19937 random(5);
   std::uniform_real_distribution<double> d(-0.004, 0.004);
   std::vector<Vec3> shift(controlOffsets(all).back());
@@ -77,28 +77,28 @@ TEST(Layers, JoinedGarmentsHaveTheForcesOfEach) {
   EXPECT_NEAR(energy / sum, 1, 1e-12);
 }
 
-TEST(Layers, OneFabricNeedsNoFields) {
-  const Garment all = joinLayers(std::vector<Garment>{squareSheet(3, 0.2, 0), squareSheet(4, 0.2, 0.01)});
+TEST(JoinGarments, OneFabricNeedsNoFields) {
+  const Garment all = joinGarments(std::vector<Garment>{squareSheet(3, 0.2, 0), squareSheet(4, 0.2, 0.01)});
   EXPECT_TRUE(all.fields.empty());
   EXPECT_TRUE(all.other_fabrics.empty());
-  EXPECT_EQ(all.layer, (std::vector<int>{0, 1}));
+  EXPECT_EQ(all.garment_of_patch, (std::vector<int>{0, 1}));
 }
 
-TEST(Layers, MassDensityAndThicknessAreThoseOfEachFabric) {
+TEST(JoinGarments, MassDensityAndThicknessAreThoseOfEachFabric) {
   const Garment all =
-      joinLayers(std::vector<Garment>{squareSheet(3, 0.2, 0), squareSheet(4, 0.3, 0.01, thickFabric())});
+      joinGarments(std::vector<Garment>{squareSheet(3, 0.2, 0), squareSheet(4, 0.3, 0.01, thickFabric())});
   const std::unique_ptr<Model> m = buildModel(all, samplesOf({3, 2}), {}, {0, 0.3, 0.01}, {});
   const double rho[] = {sheetFabric().surfaceDensity(), thickFabric().surfaceDensity()}, area[] = {0.04, 0.09};
   double mass[2] = {0, 0};
   for (int i = 0; i < m->freeCount(); ++i) mass[i >= 25] += m->mass_kg[i];
   int samples[2] = {0, 0};
   for (int s = 0; s < m->surface.size(); ++s) {
-    const int layer = m->surface.patch[s];
-    EXPECT_DOUBLE_EQ(m->density_kg_per_m2[s], rho[layer]);
-    EXPECT_DOUBLE_EQ(m->layer_m[s], layer == 0 ? 1.177e-3 : 3e-3);
+    const int garment = m->surface.patch[s];
+    EXPECT_DOUBLE_EQ(m->density_kg_per_m2[s], rho[garment]);
+    EXPECT_DOUBLE_EQ(m->layer_m[s], garment == 0 ? 1.177e-3 : 3e-3);
     EXPECT_DOUBLE_EQ(m->collisions.cloth.thickness_m[s], m->layer_m[s]);
-    EXPECT_EQ(m->collisions.cloth.layer[s], layer);
-    ++samples[layer];
+    EXPECT_EQ(m->collisions.cloth.garment[s], garment);
+    ++samples[garment];
   }
   EXPECT_EQ(samples[0], 10 * 10);
   EXPECT_EQ(samples[1], 9 * 9);
@@ -108,7 +108,7 @@ TEST(Layers, MassDensityAndThicknessAreThoseOfEachFabric) {
 }
 
 /// A thickness field weighs what it weighs: the mass is the integral of density times factor.
-TEST(Layers, FieldsHaveMass) {
+TEST(JoinGarments, FieldsHaveMass) {
   Garment g = squareSheet(4, 0.2, 0);
   g.fields.resize(1);
   g.fields[0].thickness = PatchField{1, 2, 2, {1, 3, 1, 3}};
@@ -124,9 +124,9 @@ TEST(Layers, FieldsHaveMass) {
 }
 
 /// Two sheets of unlike thickness come to rest on a plate: each at its own distance.
-TEST(Layers, RestAtHalfTheSumOfTheThicknesses) {
+TEST(JoinGarments, RestAtHalfTheSumOfTheThicknesses) {
   const Garment all =
-      joinLayers(std::vector<Garment>{squareSheet(4, 0.1, 1.3e-3), squareSheet(5, 0.1, 4e-3, thickFabric())});
+      joinGarments(std::vector<Garment>{squareSheet(4, 0.1, 1.3e-3), squareSheet(5, 0.1, 4e-3, thickFabric())});
   const Obstacle plate{TriangleMesh{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}}, "plate"};
   Motion m(all, {{0, 0, -9.81}, 0}, {0, 0.3, 0.002, 1e-3, 400}, {}, {plate});
   double lifted = 0;
@@ -145,14 +145,14 @@ TEST(Layers, RestAtHalfTheSumOfTheThicknesses) {
   }
 }
 
-TEST(Layers, WhatDoesNotFitIsRefused) {
-  EXPECT_THROW(joinLayers({}), InputError);
+TEST(JoinGarments, WhatDoesNotFitIsRefused) {
+  EXPECT_THROW(joinGarments({}), InputError);
   Garment wrong = squareSheet(3, 0.2, 0);
   wrong.fields.resize(2);
-  EXPECT_THROW(joinLayers(std::vector<Garment>{squareSheet(3, 0.2, 0), wrong}), InputError);
-  Garment layers = squareSheet(3, 0.2, 0);
-  layers.layer = {0, 1};
-  EXPECT_THROW(buildModel(layers, {}, {}, {1e-3, 0, 0.01}, {}), InputError);
+  EXPECT_THROW(joinGarments(std::vector<Garment>{squareSheet(3, 0.2, 0), wrong}), InputError);
+  Garment wrong_count = squareSheet(3, 0.2, 0);
+  wrong_count.garment_of_patch = {0, 1};
+  EXPECT_THROW(buildModel(wrong_count, {}, {}, {1e-3, 0, 0.01}, {}), InputError);
   EXPECT_THROW(buildModel(seamed(), samplesOf({2, 2, 2}), {}, {1e-3, 0, 0.01}, {}), InputError);
   EXPECT_THROW(buildModel(seamed(), samplesOf({2, 2, 2, 3}), {}, {1e-3, 0, 0.01}, {}), InputError);
 }

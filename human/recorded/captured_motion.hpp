@@ -1,5 +1,5 @@
 #pragma once
-/// A recorded motion in terms of our skeleton, still with the subject's size, path and clock.
+/// A captured motion in terms of our skeleton, still with the subject's size, path and clock.
 
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@
 namespace gambeson {
 
 /// World: x forward, y left, z up, of the file's own origin.
-struct Recording {
+struct CapturedMotion {
   std::string file, map;
   std::vector<double> times;           ///< as in the file [s]
   std::vector<Vec3> hips;              ///< midway between the hip joints [m]
@@ -35,13 +35,13 @@ struct WorldAxes {
 
 /// Each takes the world axes from `world`, or from the map where that is empty. They throw InputError where a name that
 /// the map asks for is missing in the file.
-Recording recordAngles(const StorageTable& table, const JointMap& map, const Human& human,
-                       const std::optional<WorldAxes>& world = {});
-Recording recordBones(const BvhClip& clip, const JointMap& map, const Human& human,
-                      const std::optional<WorldAxes>& world = {});
+CapturedMotion recordAngles(const StorageTable& table, const JointMap& map, const Human& human,
+                            const std::optional<WorldAxes>& world = {});
+CapturedMotion recordBones(const BvhClip& clip, const JointMap& map, const Human& human,
+                           const std::optional<WorldAxes>& world = {});
 /// `model` is needed by maps of kind markers.
-Recording recordMarkers(const MarkerTable& table, const JointMap& map, const OsimModel* model, const Human& human,
-                        const std::optional<WorldAxes>& world = {});
+CapturedMotion recordMarkers(const MarkerTable& table, const JointMap& map, const OsimModel* model, const Human& human,
+                             const std::optional<WorldAxes>& world = {});
 
 /// The directions that the bones of a hierarchy have at one frame, and those of markers; for tests and pictures too.
 BodyDirections boneDirections(const BvhClip& clip, const JointMap& map, const std::vector<double>& frame,
@@ -53,6 +53,6 @@ inline std::string sided(const char* segment, int side) {
 }
 
 /// Joint values of directions, one instant after the other.
-void addDirections(Recording& r, const Human& human, const LimbJoints& joints, const BodyDirections& body);
+void addDirections(CapturedMotion& r, const Human& human, const LimbJoints& joints, const BodyDirections& body);
 
 }  // namespace gambeson

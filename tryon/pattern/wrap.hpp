@@ -1,5 +1,5 @@
 #pragma once
-/// Horizontal sections of a body, as a tape measure sees them: convex closed curves with their length.
+/// Horizontal cross-sections of a body, as a tape measure sees them: convex closed curves with their length.
 
 #include <functional>
 #include <span>
@@ -12,38 +12,39 @@ namespace gambeson {
 
 /// The points where a placed shape meets the plane z = height: 720 points of an ellipse, or the crossings of a mesh's
 /// edges. Empty where they do not meet.
-std::vector<Vec2> section(const Shape& shape, const Placement& placement, double height);
+std::vector<Vec2> crossSection(const Shape& shape, const Placement& placement, double height);
 
 /// The convex hull, counterclockwise, without points on its edges (Andrew's monotone chain).
 std::vector<Vec2> convexHull(std::vector<Vec2> points);
 
-/// Horizontal sections of the convex hull of a body between two heights: cloth under tension bridges the hollows
+/// Horizontal cross-sections of the convex hull of a body between two heights: cloth under tension bridges the hollows
 /// between the shapes below one another, as a tape bridges those beside one another.
 ///
-/// The support function of a hull's section at height z, h(angle, z) = max of cos(angle) x + sin(angle) y, is the least
-/// concave function of z above that of the sections. Kept for 360 directions at evenly spaced heights, linear between.
+/// The support function of a hull's cross-section at height z, h(angle, z) = max of cos(angle) x + sin(angle) y, is the
+/// least concave function of z above that of the cross-sections. Kept for 360 directions at evenly spaced heights,
+/// linear between.
 class Wrap {
  public:
-  /// sections[k], not empty, belongs to the height from + k (to - from) / (count - 1).
-  Wrap(const std::vector<std::vector<Vec2>>& sections, double from, double to);
-  /// Only hulls of the sections themselves, each at its height; where a section is empty nothing is there.
-  static Wrap plain(const std::vector<std::vector<Vec2>>& sections, double from, double to);
+  /// cross_sections[k], not empty, belongs to the height from + k (to - from) / (count - 1).
+  Wrap(const std::vector<std::vector<Vec2>>& cross_sections, double from, double to);
+  /// Only hulls of the cross-sections themselves, each at its height; where a cross-section is empty nothing is there.
+  static Wrap plain(const std::vector<std::vector<Vec2>>& cross_sections, double from, double to);
 
-  /// The section as the polygon of its tangents, counterclockwise; from <= z <= to.
-  std::vector<Vec2> section(double z) const;
-  /// Length of the section, the integral of the support over all directions (Cauchy).
+  /// The cross-section as the polygon of its tangents, counterclockwise; from <= z <= to.
+  std::vector<Vec2> crossSection(double z) const;
+  /// Length of the cross-section, the integral of the support over all directions (Cauchy).
   double girth(double z) const;
 
-  /// Each section grown by a factor about a centre; each moved outward by a distance.
+  /// Each cross-section grown by a factor about a centre; each moved outward by a distance.
   Wrap grown(double factor, const Vec2& centre) const;
   Wrap offset(double distance) const;
   /// Each moved outward by a distance of its height.
   Wrap raised(const std::function<double(double)>& distance) const;
-  /// Hulls of both wraps' sections; both have the same heights.
+  /// Hulls of both wraps' cross-sections; both have the same heights.
   Wrap with(const Wrap& other) const;
-  /// The wrap that has at each height the hull of all sections within `reach` above and below.
+  /// The wrap that has at each height the hull of all cross-sections within `reach` above and below.
   Wrap widened(double reach) const;
-  /// (1 - share(z)) this + share(z) the section `other`, as supports (Minkowski).
+  /// (1 - share(z)) this + share(z) the cross-section `other`, as supports (Minkowski).
   Wrap blended(const std::vector<Vec2>& other, const std::function<double(double)>& share) const;
 
   double from() const { return from_; }

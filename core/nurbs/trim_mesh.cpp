@@ -1,11 +1,11 @@
-#include "core/cloth/shell/trim_mesh.hpp"
+#include "core/nurbs/trim_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "core/cloth/shell/trim_outline.hpp"
+#include "core/nurbs/trim_outline.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

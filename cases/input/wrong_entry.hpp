@@ -28,9 +28,9 @@ auto underKey(const std::string& key, F&& f) {
   }
 }
 
-/// Throws e again, at the deepest place of its key that the file has; the rest of the key is part of the words. A
+/// Throws e again, at the deepest entry of its key that the file has; the rest of the key is part of the words. A
 /// single garment may stand as "garment" or in "garments". What names a file of its own is thrown as it is.
-[[noreturn]] void sayAt(const schema::Place& root, const InputError& e);
+[[noreturn]] void sayAt(const schema::Entry& root, const InputError& e);
 
 /// The same for a case that was read from a file with overrides (--set).
 [[noreturn]] void sayInCase(const std::filesystem::path& file, const std::vector<std::string>& overrides,

@@ -1,4 +1,4 @@
-#include "tryon/pattern/section.hpp"
+#include "tryon/pattern/wrap.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -14,7 +14,7 @@ double turn(const Vec2& o, const Vec2& a, const Vec2& b) {
 
 // x = c + R diag(a) w with |w| = 1: the plane z = height is m . w = height - c.z, m = diag(a) Rᵀ e_z, a circle on the
 // sphere.
-std::vector<Vec2> section(const Ellipsoid& e, const Placement& X, double height) {
+std::vector<Vec2> crossSection(const Ellipsoid& e, const Placement& X, double height) {
   const Vec3 a = X.scale * e.semi_axes, up = transposeTimes(X.rotation, {0, 0, 1});
   const Vec3 m{a.x * up.x, a.y * up.y, a.z * up.z};
   const double d = (height - X.origin.z) / norm(m);
@@ -33,7 +33,7 @@ std::vector<Vec2> section(const Ellipsoid& e, const Placement& X, double height)
   return out;
 }
 
-std::vector<Vec2> section(const TriangleMesh& mesh, const Placement& X, double height) {
+std::vector<Vec2> crossSection(const TriangleMesh& mesh, const Placement& X, double height) {
   std::vector<Vec2> out;
   for (const auto& triangle : mesh.triangles)
     for (int e = 0; e < 3; ++e) {
@@ -47,8 +47,8 @@ std::vector<Vec2> section(const TriangleMesh& mesh, const Placement& X, double h
 
 }  // namespace
 
-std::vector<Vec2> section(const Shape& shape, const Placement& placement, double height) {
-  return std::visit([&](const auto& s) { return section(s, placement, height); }, shape);
+std::vector<Vec2> crossSection(const Shape& shape, const Placement& placement, double height) {
+  return std::visit([&](const auto& s) { return crossSection(s, placement, height); }, shape);
 }
 
 std::vector<Vec2> convexHull(std::vector<Vec2> p) {
@@ -66,16 +66,16 @@ std::vector<Vec2> convexHull(std::vector<Vec2> p) {
   return hull;
 }
 
-Wrap::Wrap(const std::vector<std::vector<Vec2>>& sections, double from, double to) : from_(from), to_(to) {
-  assert(sections.size() >= 2);
-  const int n = static_cast<int>(sections.size());
+Wrap::Wrap(const std::vector<std::vector<Vec2>>& cross_sections, double from, double to) : from_(from), to_(to) {
+  assert(cross_sections.size() >= 2);
+  const int n = static_cast<int>(cross_sections.size());
   support_.assign(n, std::vector<double>(directions));
   std::vector<int> chain;
   for (int d = 0; d < directions; ++d) {
     const double angle = 2 * std::numbers::pi * d / directions, c = std::cos(angle), s = std::sin(angle);
     for (int k = 0; k < n; ++k) {
       double h = -HUGE_VAL;
-      for (const Vec2& p : sections[k]) h = std::max(h, c * p.x + s * p.y);
+      for (const Vec2& p : cross_sections[k]) h = std::max(h, c * p.x + s * p.y);
       support_[k][d] = h;
     }
     chain.clear();  // the heights where the concave envelope touches
@@ -105,10 +105,10 @@ double supportOf(const std::vector<Vec2>& points, const Vec2& n) {
 }
 }  // namespace
 
-Wrap Wrap::plain(const std::vector<std::vector<Vec2>>& sections, double from, double to) {
+Wrap Wrap::plain(const std::vector<std::vector<Vec2>>& cross_sections, double from, double to) {
   Wrap out;
   out.from_ = from, out.to_ = to;
-  for (const auto& points : sections) {
+  for (const auto& points : cross_sections) {
     out.support_.emplace_back(directions);
     for (int d = 0; d < directions; ++d) out.support_.back()[d] = supportOf(points, directionOf(d, directions));
   }
@@ -160,9 +160,9 @@ Wrap Wrap::blended(const std::vector<Vec2>& other, const std::function<double(do
   });
 }
 
-double Wrap::girth(double z) const { return ClosedCurve(section(z)).length(); }
+double Wrap::girth(double z) const { return ClosedCurve(crossSection(z)).length(); }
 
-std::vector<Vec2> Wrap::section(double z) const {
+std::vector<Vec2> Wrap::crossSection(double z) const {
   const int n = static_cast<int>(support_.size());
   const double at = std::clamp((z - from_) / (to_ - from_), 0.0, 1.0) * (n - 1);
   const int k = std::min(static_cast<int>(at), n - 2);

@@ -1,4 +1,4 @@
-#include "human/body/zones.hpp"
+#include "human/body/body_zones.hpp"
 
 #include <algorithm>
 #include <cmath>

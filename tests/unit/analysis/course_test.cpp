@@ -1,4 +1,4 @@
-#include "analysis/history.hpp"
+#include "analysis/course.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ Course courseOf(int n, double dt, double (*f)(double)) {
   return c;
 }
 
-TEST(History, ValuesLieOnStraightLinesBetweenTheRows) {
+TEST(Course, ValuesLieOnStraightLinesBetweenTheRows) {
   const Course c{{0, 1, 3}, {2, 4, -2}};
   EXPECT_DOUBLE_EQ(valueAt(c, 0), 2);
   EXPECT_DOUBLE_EQ(valueAt(c, 0.25), 2.5);
@@ -31,14 +31,14 @@ TEST(History, ValuesLieOnStraightLinesBetweenTheRows) {
   EXPECT_THROW(valueAt({}, 0), RunError);
 }
 
-TEST(History, PartsKeepTheirEndsAndRefuseWhatIsNoNumber) {
+TEST(Course, PartsKeepTheirEndsAndRefuseWhatIsNoNumber) {
   const Course c{{0, 1, 2, 3}, {5, 6, std::nan(""), 8}};
   EXPECT_EQ(within(c, 0, 1).value, (std::vector<double>{5, 6}));
   EXPECT_THROW(within(c, 0, 2), RunError);
   EXPECT_THROW(within(c, 4, 5), RunError);
 }
 
-TEST(History, HalfAPeriodLaterTheOtherLegIsTheSame) {
+TEST(Course, HalfAPeriodLaterTheOtherLegIsTheSame) {
   // cos(2 pi t/T) and the same half a period later: minus itself where it is not shifted.
   constexpr double T = 1.1;
   static constexpr auto right = [](double t) { return 3 * std::cos(2 * std::numbers::pi * t / T); };
@@ -56,7 +56,7 @@ TEST(History, HalfAPeriodLaterTheOtherLegIsTheSame) {
   EXPECT_THROW(resampled(l, none, 10), RunError);
 }
 
-TEST(History, DifferencesAreMeasuredAgainstThePeakOfTheFirst) {
+TEST(Course, DifferencesAreMeasuredAgainstThePeakOfTheFirst) {
   const std::vector<double> a{0, -4, 0, 0}, b{1, -5, 1, 1};
   EXPECT_DOUBLE_EQ(differenceOverPeak(a, b), 0.25);
   EXPECT_DOUBLE_EQ(differenceOverPeak(b, a), 0.2);
@@ -64,7 +64,7 @@ TEST(History, DifferencesAreMeasuredAgainstThePeakOfTheFirst) {
   EXPECT_EQ(largestOf(a).at, 1u);
 }
 
-TEST(History, RanksSeeRisingWhateverItsShape) {
+TEST(Course, RanksSeeRisingWhateverItsShape) {
   std::vector<double> t, rising, falling, bent;
   for (int i = 0; i < 50; ++i) {
     t.push_back(0.1 * i);
@@ -82,7 +82,7 @@ TEST(History, RanksSeeRisingWhateverItsShape) {
   EXPECT_TRUE(std::isnan(rankCorrelation(t, std::vector<double>(50, 1.0))));
 }
 
-TEST(History, SharesAndWholePeriods) {
+TEST(Course, SharesAndWholePeriods) {
   EXPECT_DOUBLE_EQ(greaterShare(std::vector<double>{1, 2, 3, 4}, std::vector<double>{1, 1, 4, 0}), 0.5);
   EXPECT_NEAR(wrapped(0.95 - 0.02, 1), -0.07, 1e-12);
   EXPECT_NEAR(wrapped(2.3, 1), 0.3, 1e-12);

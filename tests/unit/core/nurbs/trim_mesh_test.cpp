@@ -1,6 +1,6 @@
 /// Triangles and samples of trimmed patches: the outline is the loop, nothing overlaps, areas are consistent.
 
-#include "core/cloth/shell/trim_mesh.hpp"
+#include "core/nurbs/trim_mesh.hpp"
 #include "core/cloth/draft/areas.hpp"
 
 #include <gtest/gtest.h>

@@ -46,16 +46,16 @@ Tables legs() {
   return t;
 }
 
-History course(const std::string& run, std::vector<std::string> columns) {
-  History h;
+RunCourse course(const std::string& run, std::vector<std::string> columns) {
+  RunCourse h;
   h.run = run;
   h.columns = std::move(columns);
   return h;
 }
 
-Check check(Check::Course what, History first, std::optional<History> second = {}) {
+Check check(Check::Course what, RunCourse first, std::optional<RunCourse> second = {}) {
   Check c;
-  c.kind = Check::Kind::history;
+  c.kind = Check::Kind::course;
   c.course = what;
   c.first = std::move(first);
   c.second = std::move(second);
@@ -66,9 +66,10 @@ Check check(Check::Course what, History first, std::optional<History> second = {
 
 double measured(const Check& c) { return judge({}, c, legs()).results.at(0).measured.value(); }
 
-TEST(VerifyHistory, EachCourse) {
+TEST(VerifyCourse, EachCourse) {
   using C = Check::Course;
-  const History right = course("thick", {"right"}), left = course("thick", {"left"}), thin = course("thin", {"right"});
+  const RunCourse right = course("thick", {"right"}), left = course("thick", {"left"}),
+                  thin = course("thin", {"right"});
   Check c = check(C::correlation, right, left);
   EXPECT_NEAR(measured(c), -1, 1e-9);
   c.shift_s = 0.5;
@@ -95,18 +96,18 @@ TEST(VerifyHistory, EachCourse) {
   when.to_s = 0.9;
   EXPECT_NEAR(measured(when), -0.5, 1e-12);
   Check largest = check(C::mean, course("thick", {"right", "left"}));
-  largest.first->of = History::Of::largest;
+  largest.first->of = RunCourse::Of::largest;
   largest.first->scale = 2;
   EXPECT_NEAR(measured(largest), 6 * 2 / std::numbers::pi, 0.02);
 }
 
-TEST(VerifyHistory, HistoriesMayHaveTimesOfTheirOwn) {
+TEST(VerifyCourse, CoursesMayHaveTimesOfTheirOwn) {
   Check c = check(Check::Course::peak_ratio, course("thick", {"right"}), course("thick", {"right"}));
   c.first->from_s = 0.25, c.first->to_s = 0.25 + 1.0 / 12;  // up to |cos| = 1/2
   EXPECT_NEAR(measured(c), std::sin(2 * std::numbers::pi * 0.08), 1e-9);
 }
 
-TEST(VerifyHistory, WhatIsNotThereFailsWithItsReason) {
+TEST(VerifyCourse, WhatIsNotThereFailsWithItsReason) {
   const auto note = [](const Check& c) { return judge({}, c, legs()).results.at(0).note; };
   EXPECT_NE(note(check(Check::Course::peak, course("thick", {"knee"}))).find("\"knee\""), std::string::npos);
   EXPECT_EQ(note(check(Check::Course::peak, course("other", {"right"}))), "there is no torques.csv");
@@ -118,7 +119,7 @@ TEST(VerifyHistory, WhatIsNotThereFailsWithItsReason) {
   EXPECT_FALSE(judge({}, check(Check::Course::peak, course("thick", {"right"})), t).results.at(0).measured);
 }
 
-TEST(VerifyHistory, OnlyWhatMustHoldIsGated) {
+TEST(VerifyCourse, OnlyWhatMustHoldIsGated) {
   Check c = check(Check::Course::peak, course("thick", {"right"}));
   c.gated = true;
   c.at_most = 2;
@@ -229,7 +230,7 @@ TEST(VerifyKept, CompleteRunsAreNotRepeated) {
   EXPECT_NE(out.str().find("Z1"), std::string::npos);
 }
 
-TEST(VerifyHistory, MalformedOnesAreBadInput) {
+TEST(VerifyCourse, MalformedOnesAreBadInput) {
   Folder folder;
   const std::string good = R"({"id": "h", "title": "t", "source": "s", "doc": "d", "case": ")" + library +
                            R"(flag.json", "runs": [{"name": "a"}], "checks": [{"kind": "history", "quantity": "q",
@@ -241,7 +242,7 @@ TEST(VerifyHistory, MalformedOnesAreBadInput) {
     std::string from, to, says;
   };
   for (const Wrong& w :
-       std::vector<Wrong>{{"peak_ratio", "peak", "second: this course is of one history"},
+       std::vector<Wrong>{{"peak_ratio", "peak", "second: this course is of one run alone"},
                           {R"("second": {"run": "a", "columns": ["y"]}, )", "", "needs second"},
                           {"\"1 s\"", "\"0 s\"", "must be later than from"},
                           {R"("item": "Z1", )", "", "goes with item"},

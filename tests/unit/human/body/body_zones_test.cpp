@@ -1,6 +1,6 @@
 /// Parts of the body: landmarks of the manikins, both sides alike, the skin as the ellipsoids.
 
-#include "human/body/zones.hpp"
+#include "human/body/body_zones.hpp"
 
 #include <gtest/gtest.h>
 

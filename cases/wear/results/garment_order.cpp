@@ -16,22 +16,22 @@ constexpr double reach_m = 0.03;           ///< cloth that is farther does not l
 constexpr double least_covered_m2 = 2e-3;  ///< garments that touch along an edge only have no order
 constexpr int most_looks = 40;             ///< frames that are looked at
 
-/// Of each layer, by the triangles of the surface.
-struct Layers {
+/// Of each garment, by the triangles of the surface.
+struct GarmentTriangles {
   std::vector<std::size_t> of_sample;
   std::vector<std::vector<std::array<int, 3>>> triangles;
 };
 
-Layers trianglesByLayer(const Scenario& s) {
+GarmentTriangles trianglesByGarment(const Scenario& s) {
   const Surface& surface = s.model->surface;
-  Layers layers;
+  GarmentTriangles garments;
   for (int i = 0; i < surface.size(); ++i)
-    layers.of_sample.push_back(
+    garments.of_sample.push_back(
         static_cast<std::size_t>(s.model->cloth->patches()[static_cast<std::size_t>(surface.patch[i])].garment));
-  layers.triangles.resize(s.definition.garments.size());
+  garments.triangles.resize(s.definition.garments.size());
   for (const std::array<int, 3>& t : surface.triangles)
-    layers.triangles[layers.of_sample[static_cast<std::size_t>(t[0])]].push_back(t);
-  return layers;
+    garments.triangles[garments.of_sample[static_cast<std::size_t>(t[0])]].push_back(t);
+  return garments;
 }
 
 std::vector<Vec3> normalsOf(const Surface& surface, const std::vector<Vec3>& x) {
@@ -46,15 +46,15 @@ std::vector<Vec3> normalsOf(const Surface& surface, const std::vector<Vec3>& x) 
 }
 
 /// +1 for a garment whose normals point away from the bodies, -1 for one whose normals point to them.
-std::vector<double> outward(const Scenario& s, const Layers& layers, const Frame& frame) {
+std::vector<double> outward(const Scenario& s, const GarmentTriangles& garments, const Frame& frame) {
   constexpr double step_m = 1e-3;
   const std::vector<Vec3> x = vectorsOf(frame.positions), n = normalsOf(s.model->surface, x);
   PlacedBodies bodies(s);
   bodies.moveTo(frame.time_s);
-  std::vector<double> away(layers.triangles.size(), 0);
+  std::vector<double> away(garments.triangles.size(), 0);
   for (std::size_t i = 0; i < x.size(); i += 7) {
     const double here = bodies.nearest(x[i]).distance_m;
-    if (std::abs(here) < 0.1) away[layers.of_sample[i]] += bodies.nearest(x[i] + step_m * n[i]).distance_m - here;
+    if (std::abs(here) < 0.1) away[garments.of_sample[i]] += bodies.nearest(x[i] + step_m * n[i]).distance_m - here;
   }
   for (double& a : away) a = a < 0 ? -1 : 1;
   return away;
@@ -63,16 +63,16 @@ std::vector<double> outward(const Scenario& s, const Layers& layers, const Frame
 /// The share of the higher garment that has the lower one in front of it, of what has it on either side. In front is
 /// what shows its inner side: where the body folds, belly against thigh, a higher garment also has the outer side of a
 /// lower one before it.
-double wrongShare(const Scenario& s, const Layers& layers, std::size_t lower, std::size_t higher,
+double wrongShare(const Scenario& s, const GarmentTriangles& garments, std::size_t lower, std::size_t higher,
                   const std::vector<Vec3>& x, const std::vector<Vec3>& n, const std::vector<double>& sign) {
-  const std::vector<std::array<int, 3>>& under = layers.triangles[lower];
+  const std::vector<std::array<int, 3>>& under = garments.triangles[lower];
   std::vector<Box> boxes(under.size());
   for (std::size_t t = 0; t < under.size(); ++t)
     for (int corner : under[t]) boxes[t].add(x[static_cast<std::size_t>(corner)]);
   const BoundingTree tree(boxes);
   double behind = 0, in_front = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (layers.of_sample[i] != higher) continue;
+    if (garments.of_sample[i] != higher) continue;
     Vec3 nearest = x[i], outer{};
     double best2 = reach_m * reach_m;
     bool any = false;
@@ -95,14 +95,14 @@ double wrongShare(const Scenario& s, const Layers& layers, std::size_t lower, st
 
 }  // namespace
 
-void measureLayerOrder(const Scenario& s, const RecordingReader& recording, Measured& out) {
+void measureGarmentOrder(const Scenario& s, const RecordingReader& recording, Measured& out) {
   const std::size_t count = s.definition.garments.size();
   if (!s.human || count < 2 || recording.frameCount() == 0) return;
-  const Layers layers = trianglesByLayer(s);
+  const GarmentTriangles garments = trianglesByGarment(s);
   for (std::size_t higher = 1; higher < count; ++higher)
     for (std::size_t lower = 0; lower < higher; ++lower)
-      out.layer_order.push_back({s.definition.garments[lower].name, s.definition.garments[higher].name, 0, 0});
-  const std::vector<double> sign = outward(s, layers, recording.frame(0));
+      out.garment_order.push_back({s.definition.garments[lower].name, s.definition.garments[higher].name, 0, 0});
+  const std::vector<double> sign = outward(s, garments, recording.frame(0));
   const int stride = 1 + recording.frameCount() / most_looks, last = recording.frameCount() - 1;
   for (int k = last % stride; k <= last; k += stride) {
     if (recording.time(k) < -1e-9) continue;
@@ -111,8 +111,8 @@ void measureLayerOrder(const Scenario& s, const RecordingReader& recording, Meas
     std::size_t at = 0;
     for (std::size_t higher = 1; higher < count; ++higher)
       for (std::size_t lower = 0; lower < higher; ++lower) {
-        LayerOrderMeasure& m = out.layer_order[at++];
-        const double wrong = wrongShare(s, layers, lower, higher, x, n, sign);
+        GarmentOrderMeasure& m = out.garment_order[at++];
+        const double wrong = wrongShare(s, garments, lower, higher, x, n, sign);
         if (wrong > m.largest) m.largest = wrong, m.time_s = frame.time_s;
       }
   }

@@ -10,7 +10,7 @@ namespace gambeson {
 namespace {
 
 // clang-format off
-const std::string layered = R"json({
+const std::string several = R"json({
   "name": "layered",
   "garments": [
     {"name": "inner", "tube": {"radius": "10 cm", "length": "0.3 m", "cells_around": 12, "cells_along": 8, "patches": 3},
@@ -33,9 +33,9 @@ const std::string layered = R"json({
 })json";
 // clang-format on
 
-TEST(LayeredCase, IsReadAndWrittenAsItIs) {
+TEST(SeveralGarments, IsReadAndWrittenAsItIs) {
   const Folder folder;
-  const Case c = readCase(folder.write("case.json", layered));
+  const Case c = readCase(folder.write("case.json", several));
   ASSERT_EQ(c.garments.size(), 2u);
   EXPECT_EQ(c.garments[0].name, "inner");
   EXPECT_EQ(c.garments[0].position_m, (Vec3{0, 0, 0.008}));
@@ -53,11 +53,11 @@ TEST(LayeredCase, IsReadAndWrittenAsItIs) {
   EXPECT_NE(caseIdentity(other), caseIdentity(c));
 }
 
-TEST(LayeredCase, ScenarioHasEachGarmentWithItsOwnSamplesFabricAndSupports) {
+TEST(SeveralGarments, ScenarioHasEachGarmentWithItsOwnSamplesFabricAndSupports) {
   const Folder folder;
-  const auto s = buildScenario(readCase(folder.write("case.json", layered)));
+  const auto s = buildScenario(readCase(folder.write("case.json", several)));
   const Garment& g = shellOf(*s->model).garment();
-  EXPECT_EQ(g.layer, (std::vector<int>{0, 0, 0, 1}));
+  EXPECT_EQ(g.garment_of_patch, (std::vector<int>{0, 0, 0, 1}));
   EXPECT_EQ(s->patch_names, (std::vector<std::string>{"inner patch_0", "inner patch_1", "inner patch_2", "outer"}));
   EXPECT_EQ(s->fabric_names, (std::vector<std::string>{"shirt", "felt"}));
   const Surface& surface = s->model->surface;
@@ -80,9 +80,9 @@ TEST(LayeredCase, ScenarioHasEachGarmentWithItsOwnSamplesFabricAndSupports) {
   EXPECT_NEAR(mean / static_cast<double>(3 * g.patches[0].points.size()), 0.008, 2e-3);
 }
 
-TEST(LayeredCase, EachMistakeSaysWhereAndWhy) {
+TEST(SeveralGarments, EachMistakeSaysWhereAndWhy) {
   expectRefused(
-      layered,
+      several,
       {{"\"garments\": [", "\"garment\": {\"sheet\": {\"width\": 1, \"height\": 1}}, \"garments\": [", 3, "garments",
         "excludes \"garment\""},
        {"\"name\": \"inner\", ", "", 4, "garments[0].name", "required where there are several garments"},
@@ -102,7 +102,7 @@ TEST(LayeredCase, EachMistakeSaysWhereAndWhy) {
         "garments[1].shorts", "the case has none"}});
 }
 
-TEST(LayeredCase, FabricIsNamedOnceForEach) {
+TEST(SeveralGarments, FabricIsNamedOnceForEach) {
   const Folder folder;
   const std::string own = R"("position": [0, 0, "8 mm"], "fabric": {"thickness": "1 mm", "density": 400, "young": 1e6,
     "bending": {"law": "linear", "rigidity": 1e-5}})";
@@ -115,13 +115,13 @@ TEST(LayeredCase, FabricIsNamedOnceForEach) {
       EXPECT_NE(e.reason().find(reason), std::string::npos) << e.what();
     }
   };
-  refused(replaced(layered, "\"position\": [0, 0, \"8 mm\"]", own), "is of no use");
-  const std::size_t from = layered.find("  \"fabric\": {\n"), to = layered.find("  \"supports\"");
-  std::string without = layered;
+  refused(replaced(several, "\"position\": [0, 0, \"8 mm\"]", own), "is of no use");
+  const std::size_t from = several.find("  \"fabric\": {\n"), to = several.find("  \"supports\"");
+  std::string without = several;
   without.erase(from, to - from);
   refused(without, "is required");
   EXPECT_NO_THROW(readCase(folder.write("case.json", replaced(without, "\"position\": [0, 0, \"8 mm\"]", own))));
-  std::string none = layered;
+  std::string none = several;
   const std::size_t list = none.find("\"garments\": ["), end = none.find("  \"fabric\": {\n");
   none.replace(list, end - list, "\"garments\": [],\n");
   try {
@@ -132,9 +132,9 @@ TEST(LayeredCase, FabricIsNamedOnceForEach) {
   }
 }
 
-TEST(LayeredCase, NoiseMovesTheStartAndNotTheRestShape) {
+TEST(SeveralGarments, NoiseMovesTheStartAndNotTheRestShape) {
   const Folder folder;
-  const auto plain = buildScenario(readCase(folder.write("case.json", layered)));
+  const auto plain = buildScenario(readCase(folder.write("case.json", several)));
   const auto noisy = buildScenario(readCase(folder.path() / "case.json", {"garments[1].noise=1 mm"}));
   StepWork work;
   const State a = startOf(*plain, work), b = startOf(*noisy, work);
@@ -156,10 +156,10 @@ TEST(LayeredCase, NoiseMovesTheStartAndNotTheRestShape) {
   EXPECT_NE(startOf(*other, work).p, b.p);
 }
 
-TEST(LayeredCase, PinnedPointStaysAndTorusIsARing) {
+TEST(SeveralGarments, PinnedPointStaysAndTorusIsARing) {
   const Folder folder;
   const std::string pinned =
-      replaced(replaced(layered, R"({"fixed": {"garment": "outer", "edge": "0.v1"}})",
+      replaced(replaced(several, R"({"fixed": {"garment": "outer", "edge": "0.v1"}})",
                         R"({"pinned": {"garment": "outer", "s": 0.5, "t": 0.25}})"),
                "\"contact\"",
                R"("obstacles": [{"name": "ring", "torus": {"radius": "40 mm", "tube": "5 mm", "center": [0, 1, 0],

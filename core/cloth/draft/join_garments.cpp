@@ -1,4 +1,4 @@
-#include "core/cloth/draft/layers.hpp"
+#include "core/cloth/draft/join_garments.hpp"
 
 #include <algorithm>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gambeson {
 
-Garment joinLayers(std::span<const Garment> garments) {
+Garment joinGarments(std::span<const Garment> garments) {
   if (garments.empty()) throw InputError({"", 0, "garments"}, "at least one garment is needed");
   // With one fabric, and no fields that choose among others, nothing varies.
   const bool one = std::all_of(garments.begin(), garments.end(), [&](const Garment& g) {
@@ -18,10 +18,10 @@ Garment joinLayers(std::span<const Garment> garments) {
   const bool placed = std::any_of(garments.begin(), garments.end(), [](const Garment& g) { return !g.placed.empty(); });
   Garment all;
   all.fabric = garments[0].fabric;
-  int layer = 0;
+  int number = 0;
   for (const Garment& g : garments) {
     validateFields(g);
-    all.name += (layer == 0 ? "" : ", ") + g.name;
+    all.name += (number == 0 ? "" : ", ") + g.name;
     const int first = static_cast<int>(all.patches.size());
     const auto count = g.patches.size();
     const auto moved = [&](PatchEdge e) {
@@ -30,7 +30,7 @@ Garment joinLayers(std::span<const Garment> garments) {
     };
     all.patches.insert(all.patches.end(), g.patches.begin(), g.patches.end());
     all.weft.insert(all.weft.end(), g.weft.begin(), g.weft.end());
-    all.layer.insert(all.layer.end(), count, layer);
+    all.garment_of_patch.insert(all.garment_of_patch.end(), count, number);
     for (Seam seam : g.seams) {
       seam.a = moved(seam.a), seam.b = moved(seam.b);
       all.seams.push_back(seam);
@@ -48,8 +48,8 @@ Garment joinLayers(std::span<const Garment> garments) {
       all.trims.resize(all.patches.size());
     }
     // The fabric's number in the list that starts with all.fabric.
-    const double fabric = layer == 0 || one ? 0 : static_cast<double>(all.other_fabrics.size()) + 1;
-    if (layer > 0 && !one) all.other_fabrics.push_back(g.fabric);
+    const double fabric = number == 0 || one ? 0 : static_cast<double>(all.other_fabrics.size()) + 1;
+    if (number > 0 && !one) all.other_fabrics.push_back(g.fabric);
     all.other_fabrics.insert(all.other_fabrics.end(), g.other_fabrics.begin(), g.other_fabrics.end());
     if (!one || !plain) {
       std::vector<PatchFields> fields = g.fields;
@@ -63,7 +63,7 @@ Garment joinLayers(std::span<const Garment> garments) {
       }
       all.fields.insert(all.fields.end(), fields.begin(), fields.end());
     }
-    ++layer;
+    ++number;
   }
   return all;
 }
