@@ -19,13 +19,12 @@
 #include "cases/runs/stop_message.hpp"
 #include "cases/runs/temporary_folder.hpp"
 #include "cases/structure/checks.hpp"
+#include "cases/structure/mover.hpp"
 #include "cases/structure/results.hpp"
-#include "core/cloth/constraint.hpp"
+#include "cases/structure/tallies.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/own_file.hpp"
-#include "core/motion/implicit.hpp"
-#include "core/motion/velocity_verlet.hpp"
 #include "core/statics/modal.hpp"
 #include "core/statics/structure_system.hpp"
 
@@ -245,171 +244,6 @@ void runStatic(const StructureCase& c, Run& run) {
           run.facts);
   });
 }
-
-/// Unknowns of displacements of the free points, by least squares: C y = u.
-std::vector<double> unknownsOf(const Structure& s, const std::vector<double>& u) {
-  const SparseRows normal = multiply(s.dofs.Ct, s.dofs.C);
-  SymmetricMatrix m;
-  m.size = s.dofs.unknowns();
-  for (int column = 0; column < m.size; ++column) {
-    for (int k = normal.offsets[column]; k < normal.offsets[column + 1]; ++k)
-      if (normal.columns[k] >= column) {
-        m.rows.push_back(normal.columns[k]);
-        m.values.push_back(normal.values[k]);
-      }
-    m.offsets.push_back(static_cast<int>(m.rows.size()));
-  }
-  SymmetricFactor factor(m);
-  factor.factorise(m);
-  std::vector<double> right(static_cast<std::size_t>(m.size)), y(right.size());
-  s.dofs.Ct.multiply<double>(u, right);
-  factor.solve(right, y);
-  return y;
-}
-
-/// What moves a dynamic case.
-class Mover {
- public:
-  Mover(const StructureCase& c, const StructureModel& model) : case_(c), model_(model) {
-    const DynamicOptions& o = c.dynamics;
-    if (model.motion) {
-      StepControl control;
-      control.safety = o.safety;
-      control.max_step_s = o.end_s;
-      control.fixed_s = o.step_s;
-      integrator_ = std::make_unique<VelocityVerlet>(*model.motion, *model.stage, control, frequency_, work_);
-    } else {
-      ImplicitOptions options{
-          o.scheme == TimeScheme::newmark ? ImplicitScheme::newmark : ImplicitScheme::generalised_alpha,
-          o.beta,
-          o.gamma,
-          o.spectral_radius,
-          o.step_s,
-          o.iterations,
-          o.tolerance,
-          o.lumped_mass};
-      auto steps = std::make_unique<ImplicitSteps>(*model.structure, options);
-      implicit_ = steps.get();
-      integrator_ = std::move(steps);
-    }
-  }
-
-  State start() {
-    const Structure& s = *model_.structure;
-    std::vector<double> y(static_cast<std::size_t>(s.dofs.unknowns()), 0.0), v = y;
-    const auto onFree = [&](auto value) {
-      std::vector<double> u;
-      for (std::size_t f = 0; f < s.cloth->map().home.size(); ++f) {
-        const Vec3 d = value(f);
-        u.insert(u.end(), {d.x, d.y, d.z});
-      }
-      return unknownsOf(s, u);
-    };
-    if (case_.initial.noise) {
-      const std::vector<Vec3> noise = s.cloth->fromDraft(noiseOf(model_.sheet, *case_.initial.noise));
-      y = onFree([&](std::size_t f) { return noise[static_cast<std::size_t>(s.cloth->map().home[f])]; });
-    }
-    if (norm(case_.initial.velocity_m_per_s) > 0)
-      v = onFree([&](std::size_t) { return case_.initial.velocity_m_per_s; });
-    State state = structureState(s, 0, y, v, {});
-    if (!model_.motion) return state;
-    State moving = initialState(*model_.motion, *model_.stage, 0, work_);
-    moving.p = state.p;
-    moving.v = state.v;
-    attachSprings(*model_.motion, *model_.stage, moving, work_);
-    return moving;
-  }
-
-  void advance(double until_s, State& state, const StepObserver& observe) {
-    integrator_->advance(until_s, state, observe);
-  }
-  ImplicitReport newton() const { return implicit_ ? implicit_->report() : ImplicitReport{}; }
-
- private:
-  const StructureCase& case_;
-  const StructureModel& model_;
-  Frequency frequency_;
-  StepWork work_;
-  std::unique_ptr<Integrator> integrator_;
-  const ImplicitSteps* implicit_ = nullptr;
-};
-
-/// Work of the loads since rest. Where all of them are constant it is that of the displacements; else it is summed over
-/// the steps, by the trapezium rule. (- F(t) . u is no potential where F changes with time.)
-class LoadWork {
- public:
-  explicit LoadWork(const Structure& s) : s_(s), varies_(s.loads.follow()) {
-    for (const DeadLoad& load : s.dead) {
-      const std::vector<double>& value = s.programs[load.program].value;
-      varies_ = varies_ || std::any_of(value.begin(), value.end(), [&](double v) { return v != value[0]; });
-    }
-  }
-  /// Call after each step, and once before the first.
-  void follow(const State& state, bool lumped) {
-    const bool first = q_.empty();
-    if (!varies_ && !first) return;
-    std::vector<Vec3> q = controlPoints(s_, state), force(q.size());
-    s_.loads.add(q, programValues(s_, state.time_s, ProgramEnds::constant), force);
-    if (first) work_J_ = -energyOf(s_, state, lumped).external;
-    for (std::size_t i = 0; i < q_.size(); ++i) work_J_ += 0.5 * dot(force_[i] + force[i], q[i] - q_[i]);
-    q_ = std::move(q);
-    force_ = std::move(force);
-  }
-  double work_J(const DynamicEnergy& now) const { return varies_ ? work_J_ : -now.external; }
-
- private:
-  const Structure& s_;
-  bool varies_;
-  std::vector<Vec3> q_, force_;
-  double work_J_ = 0;
-};
-
-/// Contact over a run: what it came to, and the mean forces on the obstacles between two rows of the table.
-class ContactTally {
- public:
-  explicit ContactTally(const StructureCase& c) : impulse_(c.obstacles.size()) {
-    columns_.push_back(contact_work_column);
-    for (const ObstacleCase& o : c.obstacles)
-      for (const char* axis : {"x", "y", "z"}) columns_.push_back(fmt::format("{}_f{}_N", o.name, axis));
-  }
-  const std::vector<std::string>& columns() const { return columns_; }
-
-  void observe(const StepReport& r, const StepResult& result, ContactFacts& facts) {
-    elapsed_s_ += r.step_s;
-    facts.unsolved += !r.contact.converged || r.contact.yielded;
-    facts.pinched += r.pinched > 0;
-    facts.deepest_m = std::max(facts.deepest_m, r.deepest_m);
-    facts.crossings = r.intersections;
-    facts.work_J += r.work.contact;
-    for (const ContactImpulse& i : result.contact_impulses) impulse_[static_cast<std::size_t>(i.obstacle)] -= i.impulse;
-    held_.resize(result.held_impulses.size());
-    for (std::size_t k = 0; k < held_.size(); ++k) held_[k] += result.held_impulses[k];
-  }
-  /// Mean forces of the supports on Model::held_points since the last row [N]; empty before the first step.
-  std::vector<Vec3> heldForces() const {
-    std::vector<Vec3> forces = held_;
-    for (Vec3& f : forces) f = f / elapsed_s_;
-    return forces;
-  }
-  /// A row of them; the next begins.
-  std::vector<double> row(const ContactFacts& facts) {
-    std::vector<double> values{facts.work_J};
-    for (Vec3& i : impulse_) {
-      const Vec3 force = elapsed_s_ > 0 ? i / elapsed_s_ : Vec3{};
-      values.insert(values.end(), {force.x, force.y, force.z});
-      i = {};
-    }
-    held_.clear();
-    elapsed_s_ = 0;
-    return values;
-  }
-
- private:
-  std::vector<std::string> columns_;
-  std::vector<Vec3> impulse_;  ///< on the obstacles
-  std::vector<Vec3> held_;     ///< on the held points
-  double elapsed_s_ = 0;
-};
 
 void runDynamic(const StructureCase& c, Run& run) {
   std::vector<std::string> lead{"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"};
