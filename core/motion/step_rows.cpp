@@ -1,0 +1,218 @@
+#include "core/motion/step_rows.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/math/parallel.hpp"
+#include "core/motion/step_contact.hpp"
+
+namespace gambeson {
+namespace {
+
+/// The sum of both sides' thicknesses; weights of a side add up to 1, a body has none.
+double clothLayer(const Model& m, const ContactRow& row) {
+  double sum = 0;
+  for (int k = 0; k < row.stencil.count; ++k) sum += std::abs(row.stencil.weight[k]) * m.layer_m[row.stencil.sample[k]];
+  return sum;
+}
+
+}  // namespace
+
+double layerOf(const Model& m, const ContactRow& row) {
+  const double sum = clothLayer(m, row);
+  return row.contact.onBody() ? std::max(sum, row.contact.clearance_m) : 0.5 * sum;
+}
+
+MaterialPoint nearestTouched(const Model& m, const ImpactZone& zone, const Vec3& p, const StepWork& w) {
+  MaterialPoint point;
+  if (!m.obstacles[zone.body].deforms) return point;
+  const std::span<const Vec3> x = w.stage.start.vertices[zone.body];
+  point.add(*std::min_element(zone.touched.begin(), zone.touched.end(),
+                              [&](int a, int b) { return norm2(x[a] - p) < norm2(x[b] - p); }),
+            1);
+  return point;
+}
+
+double standsOut(const Model& m, const ContactRow& row) {
+  return row.contact.onBody() ? std::max(0.0, row.contact.clearance_m - clothLayer(m, row)) : 0;
+}
+
+namespace {
+
+/// Mass per area of the cloth on the side that the normal points to, whose weights add up to 1. Contact::sample does
+/// not tell: of two edges it is an edge's number.
+double densityOf(const Model& m, const Stencil& stencil) {
+  double sum = 0;
+  for (int k = 0; k < stencil.count; ++k)
+    if (stencil.weight[k] > 0) sum += stencil.weight[k] * m.density_kg_per_m2[stencil.sample[k]];
+  return sum;
+}
+
+/// `warm`: its traction in the last step, times dt. A sample inside of a body comes out no faster than other
+/// intersections are freed (h0 of eq. 4.21).
+void setPersistent(const Model& m, double dt, const Vec3& warm, ContactRow& row) {
+  ContactParameters parameters = m.contact;
+  parameters.layer_m = layerOf(m, row);
+  layerUnder(dot(warm, row.contact.normal) / dt, dt, densityOf(m, row.stencil), parameters, row);
+  if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
+}
+
+/// The order of persistent contacts, as the lists come.
+auto key(const auto& c) { return std::tuple(c.kind, c.sample, c.obstacle, c.feature); }
+
+}  // namespace
+
+ObstacleMotion motionOf(const StepWork& w) {
+  const StageInstant &a = w.stage.start, &b = w.stage.end;
+  return {a.obstacles, b.obstacles, a.vertices, b.vertices};
+}
+
+namespace {
+
+/// Rows of the persistent contacts, as the lists come.
+void listRows(const Model& m, double dt, StepWork& w) {
+  const int near = static_cast<int>(w.near.size()), points = static_cast<int>(w.collisions.points.size());
+  w.rows.resize(w.near.size() + w.collisions.points.size() + w.edge_rows.size());
+  forAll(Each::value, near, [&](int k) {
+    w.rows[k] = bodyRow(w.near[k], wayOfBody(m.collisions, motionOf(w), w.near[k]) / dt, 0, false);
+  });
+  forAll(Each::value, points, [&](int k) {
+    const ClothContactPoint& p = w.collisions.points[k];
+    ContactRow& row = w.rows[near + k];
+    row = {};
+    row.contact = p.contact;
+    row.stencil = p.stencil;
+    row.partner = p.partner;
+  });
+  std::copy(w.edge_rows.begin(), w.edge_rows.end(), w.rows.begin() + near + points);
+}
+
+}  // namespace
+
+void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
+  listRows(m, dt, w);
+  const int n = static_cast<int>(w.rows.size());
+  w.warm.resize(n);
+  const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
+  std::size_t at = 0;
+  // The sample's feet move from feature to feature, and there may be one or several of them: a new one starts from what
+  // those on its side have borne in the mean.
+  const auto around = [&](const Contact& c) {
+    WarmContact mean;
+    int count = 0;
+    const auto first = std::lower_bound(
+        in.warm.begin(), in.warm.end(), std::pair(ContactKind::sample_on_cloth, c.sample),
+        [&](const WarmContact& a, const std::pair<ContactKind, int>& b) { return std::pair(a.kind, a.sample) < b; });
+    for (auto it = first; it != in.warm.end() && it->kind == ContactKind::sample_on_cloth && it->sample == c.sample;
+         ++it) {
+      if (!(dot(it->traction, c.normal) > 0)) continue;
+      mean.traction += it->traction;
+      mean.mean_Pa += it->mean_Pa;
+      ++count;
+    }
+    if (count == 0) return mean;
+    mean.traction *= 1.0 / count;
+    mean.mean_Pa /= count;
+    return mean;
+  };
+  for (int k = 0; k < n; ++k) {
+    ContactRow& row = w.rows[k];
+    while (at < in.warm.size() && key(in.warm[at]) < key(row.contact)) ++at;
+    const bool known = at < in.warm.size() && key(in.warm[at]) == key(row.contact);
+    WarmContact warm;
+    if (known) warm = in.warm[at];
+    if (!known && row.contact.kind == ContactKind::sample_on_cloth) warm = around(row.contact);
+    w.warm[k] = scale * warm.traction;
+    row.mean_Pa = warm.mean_Pa;
+  }
+  forAll(Each::value, n, [&](int k) { setPersistent(m, dt, w.warm[k], w.rows[k]); });
+}
+
+namespace {
+
+/// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for half of k delta more each round: bodies are
+/// curved, and pairs turn. As a speed that is delta/(2 tau) at most, however short the step: where steps are cut, what
+/// is asked for must not grow.
+void setImpactTarget(const Model& m, double dt, int round, ContactRow& row) {
+  const double gap = row.contact.gap_m;
+  const double restored = -std::expm1(-dt / m.contact.relaxation_s) * layerOf(m, row);
+  row.target_m_per_s = (std::min(restored, std::max(gap, 0.0)) - gap + 0.5 * (round - 1) * restored) / dt;
+}
+
+}  // namespace
+
+void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWork& w) {
+  const Vec3 body =
+      (w.stage.end.obstacles[hit.obstacle] * hit.local - w.stage.start.obstacles[hit.obstacle] * hit.local) / dt;
+  ContactRow row = bodyRow(hit, body, 0, true);
+  setImpactTarget(m, dt, round, row);
+  for (ContactRow& old : w.rows)
+    if (old.stencil.count == 1 && old.contact.sample == hit.sample && old.contact.obstacle == hit.obstacle &&
+        old.pair[0] < 0 && (old.impact || round > 2)) {
+      old = row;
+      return;
+    }
+  w.rows.push_back(row);
+  w.warm.push_back({});
+}
+
+void addImpact(const Model& m, const PairHit& hit, double dt, int round, StepWork& w) {
+  ContactRow row = hit.row;
+  setImpactTarget(m, dt, round, row);
+  for (ContactRow& old : w.rows)
+    if (old.pair == row.pair) {
+      old = row;
+      return;
+    }
+  w.rows.push_back(row);
+  w.warm.push_back({});
+}
+
+void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmContact>& warm) {
+  warm.clear();
+  for (std::size_t i = 0; i < w.rows.size(); ++i) {
+    const ContactRow& row = w.rows[i];
+    const Contact& c = row.contact;
+    if (row.impact || (row.mean_Pa == 0 && w.warm[i] == Vec3{})) continue;
+    // What stops a sample on its way to the layer does not press on the layer.
+    const double pressure = atLayer(c.gap_m, layerOf(m, row)) ? dot(w.warm[i], c.normal) / dt : 0;
+    const double mean = lastingPressure(row.mean_Pa, pressure, dt, densityOf(m, row.stencil), m.contact);
+    warm.push_back({c.kind, c.sample, c.obstacle, c.feature, w.warm[i], mean});
+    if (row.partner >= 0) warm.push_back({c.kind, row.partner, c.obstacle, -1, -w.warm[i], mean});
+  }
+  std::stable_sort(warm.begin(), warm.end(),
+                   [](const WarmContact& a, const WarmContact& b) { return key(a) < key(b); });
+}
+
+void pressingAccelerations(const Model& m, double dt, StepWork& w, std::vector<Vec3>& pressed) {
+  const bool limited = m.strain_limit.mode != LimitMode::none;
+  pressed.clear();
+  for (std::size_t i = 0; i < w.rows.size(); ++i) {
+    const ContactRow& row = w.rows[i];
+    const Contact& c = row.contact;
+    if (row.impact || row.slippery || w.impulses[i] == Vec3{}) continue;
+    if (!limited && !atLayer(c.gap_m, layerOf(m, row))) continue;
+    if (pressed.empty()) {
+      pressed.resize(m.freeCount());
+      w.sample_pressing.assign(m.surface.size(), Vec3{});
+    }
+    const double share =
+        limited ? 1 : lastingShare(row.mean_Pa, dot(w.warm[i], c.normal) / dt, densityOf(m, row.stencil));
+    for (int k = 0; k < row.stencil.count; ++k)
+      w.sample_pressing[row.stencil.sample[k]] += (share * row.stencil.weight[k]) * w.impulses[i];
+  }
+  if (pressed.empty()) return;
+  m.surface.WTt.multiply<Vec3>(w.sample_pressing, pressed);
+  for (int i = 0; i < m.freeCount(); ++i) pressed[i] *= m.inverse_mass[i] / dt;
+  if (m.supports) m.supports->hold(pressed);
+}
+
+void contactImpulses(const Model& m, StepWork& w, std::vector<Vec3>& impulses) {
+  w.sample_impulse.assign(m.surface.size(), Vec3{});
+  for (std::size_t i = 0; i < w.rows.size(); ++i)
+    for (int k = 0; k < w.rows[i].stencil.count; ++k)
+      w.sample_impulse[w.rows[i].stencil.sample[k]] += w.rows[i].stencil.weight[k] * w.impulses[i];
+  m.surface.WTt.multiply<Vec3>(w.sample_impulse, impulses);
+}
+
+}  // namespace gambeson
