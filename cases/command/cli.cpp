@@ -126,10 +126,9 @@ void addRun(CLI::App& app, RunArguments& a) {
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}).description(""));
   run.footer(
       "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, zones.csv,\n"
-      "collisions.csv, stress.csv, snapshots/ (pictures) and frames.xdmf (the recording, for ParaView). Static, "
-      "dynamic and modal "
-      "cases\n"
-      "leave path.csv (points and edges of each step) and shape.csv (the last shape) in place of the three tables.\n\n"
+      "stress.csv, patches.csv, straps.csv, collisions.csv, latitude.csv, snapshots/ (pictures) and frames.xdmf (the\n"
+      "recording, for ParaView). Static, dynamic and modal cases leave path.csv (points and edges of each step) and\n"
+      "shape.csv (the last shape) in place of these tables.\n\n"
       "Examples:\n"
       "  gambeson run cases/library/shorts_walk.json\n"
       "  gambeson run cases/library/shorts_walk.json --out results/thin --set fabric.thickness=\"0.4 mm\"\n"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <fstream>
 #include <sstream>
 
 #include "cases/kinds/any_case.hpp"
@@ -170,6 +171,30 @@ TEST(Fuzz, Garments) {
   writeGarment(makeTube(tube), folder.path() / "tube.json");
   fuzz("garment.json", content(folder.path() / "tube.json"), 9, 700,
        [](const std::filesystem::path& file) { loadGarment(file); });
+}
+
+TEST(Fuzz, ClothMeshes) {
+  const std::string obj =
+      "o cloth\nv 0 0 0.01\nv 0.2 0 0.01\nv 0.2 0.2 0.01\nv 0 0.2 0.01\nv 0.4 0 0.01\nv 0.4 0.2 0.01\n"
+      "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\ng front\nf 1/1 2/2 3/3 4/4\ng back\nf 2/2 5/5 6/6 3/3\n"
+      "g edge hem front\nl 1 2\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0.01\n0.2 0 0.01\n0.2 0.2 0.01\n0 0.2 0.01\n3 0 1 2\n"
+      "3 0 2 3\n";
+  for (const char* name : {"worn.obj", "worn.ply"}) {
+    const auto read = [&](const std::filesystem::path& file) {
+      std::ofstream(file.parent_path() / "worn.json")
+          << R"({"name": "worn", "garment": {"mesh_file": {"path": ")" << name << R"("}, "model": "triangles"},
+                 "fabric": {"name": "f", "thickness": "1 mm", "density": "400 kg/m^3", "young": "1 MPa", "poisson": 0.2,
+                            "bending": {"law": "linear", "rigidity": "1e-5 N m"}},
+                 "obstacles": [{"name": "ground", "plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}],
+                 "contact": {"friction": 0.3}, "time": {"duration": "0.1 s"}})";
+      readCase(file.parent_path() / "worn.json");
+    };
+    const bool is_obj = std::string(name) == "worn.obj";
+    fuzz(name, is_obj ? obj : ply, is_obj ? 13 : 14, 500, read);
+  }
 }
 
 }  // namespace
