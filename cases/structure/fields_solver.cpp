@@ -94,8 +94,7 @@ Object dynamicSolverTable() {
       .number("drag", damping(&DampingCase::drag_kg_per_m2s), "kg/(m^2 s)", between(0, 1e9),
               "force per area and velocity, eta of Zheng 2013")
       .check([](const Entry& p, const StructureCase& c) {
-        const bool is_explicit = c.dynamics.scheme == TimeScheme::explicit_verlet;
-        if (!is_explicit && !(c.dynamics.step_s > 0))
+        if (!c.dynamics.isExplicit() && !(c.dynamics.step_s > 0))
           p.failAt("step", "is required for implicit schemes; allowed: > 0 s");
         if (!(c.dynamics.step_s <= c.dynamics.end_s))
           p.failAt("step", fmt::format("{} s is out of range; allowed: at most end = {} s", c.dynamics.step_s,

@@ -199,4 +199,20 @@ Human loadUrdf(const std::filesystem::path& urdf) {
   return human;
 }
 
+std::vector<std::filesystem::path> filesBesideUrdf(const std::filesystem::path& urdf) {
+  TiXmlDocument document;
+  parseXml(document, readText(urdf, largest_file), urdf.string());
+  checkUrdf(document, urdf.string());
+  std::vector<std::filesystem::path> out;
+  TiXmlHandle root(document.RootElement());
+  for (auto* link = root.FirstChild("link").Element(); link; link = link->NextSiblingElement("link"))
+    for (auto* v = link->FirstChildElement("visual"); v; v = v->NextSiblingElement("visual")) {
+      auto* mesh = TiXmlHandle(v).FirstChild("geometry").FirstChild("mesh").Element();
+      if (!mesh) continue;
+      out.push_back(resolve(mesh->Attribute("filename"), urdf.parent_path()));
+      for (std::filesystem::path& file : filesBeside(out.back())) out.push_back(std::move(file));
+    }
+  return out;
+}
+
 }  // namespace gambeson

@@ -2,6 +2,7 @@
 /// Reading a human from a URDF, through urdfdom.
 
 #include <filesystem>
+#include <vector>
 
 #include "human/body/body.hpp"
 
@@ -11,5 +12,8 @@ namespace gambeson {
 /// non-finite numbers). Visual boxes, cylinders and spheres become shapes (boxes and cylinders tessellated); meshes per
 /// link are read through assimp. Throws InputError with file, line and element.
 Human loadUrdf(const std::filesystem::path& urdf);
+
+/// The files that a URDF draws its geometry from: its meshes, and what those name. Throws InputError.
+std::vector<std::filesystem::path> filesBesideUrdf(const std::filesystem::path& urdf);
 
 }  // namespace gambeson

@@ -10,10 +10,7 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "core/io/apart.hpp"
 #include "human/body/skin.hpp"
-#include "human/files/json_file.hpp"
-#include "human/files/read_text.hpp"
 #include "human/files/units.hpp"
 #include "human/manikin/manikin.hpp"
 #include "human/skeleton/joint_map.hpp"
@@ -22,7 +19,6 @@
 namespace gambeson {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{256} << 20;
 constexpr double kDensity_kg_per_m3 = 1000;
 constexpr double kLeastHeight_m = 0.5, kMostHeight_m = 3;
 /// Part of the hinge's side in an elbow's axis beside the plane of the bent arm: at more than 6 degrees that decides.
@@ -335,24 +331,6 @@ class Fit {
 };
 
 }  // namespace
-
-std::vector<std::filesystem::path> filesBeside(const std::filesystem::path& file) {
-  if (lower(file.extension().string()) != ".gltf") return {};
-  std::vector<std::string> names;
-  readApart(file, limitsFor(file), [&](BytesOut& out) {
-    const JsonFile r{file.string()};
-    const JsonFile::Json root = r.parse(readText(file, largest_file));
-    std::vector<std::string> found;
-    if (root.is_object() && root.contains("buffers") && root.at("buffers").is_array())
-      for (const auto& buffer : root.at("buffers"))
-        if (buffer.is_object() && buffer.contains("uri") && buffer.at("uri").is_string())
-          if (const auto uri = buffer.at("uri").get<std::string>(); !uri.starts_with("data:")) found.push_back(uri);
-    out.put(found);
-  }).get(names);
-  std::vector<std::filesystem::path> out;
-  for (const std::string& name : names) out.push_back(file.parent_path() / name);
-  return out;
-}
 
 Human loadCharacter(const CharacterOptions& o, CharacterReport* report) {
   CharacterReport mine;

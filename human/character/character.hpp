@@ -32,10 +32,6 @@ struct CharacterReport {
   std::vector<std::string> notes;
 };
 
-/// The files that a glTF file draws its geometry from: its buffers that are not within itself. None for other files.
-/// Throws InputError.
-std::vector<std::filesystem::path> filesBeside(const std::filesystem::path& file);
-
 /// Joints stand where the bones' heads are. In the pose of the file pelvis and trunk are upright by definition, soles
 /// flat, knees bend in the plane of thigh and foot and elbows in that of the bent arm; so a human that stands has the
 /// limbs straight where the file bends them. Each bone that has no joint of its own moves with the next one towards the

@@ -12,6 +12,8 @@
 
 #include "core/error.hpp"
 #include "core/io/apart.hpp"
+#include "human/files/json_file.hpp"
+#include "human/files/read_text.hpp"
 #include "human/files/scene_import.hpp"
 
 namespace gambeson {
@@ -128,6 +130,24 @@ TriangleMesh loadMesh(const std::filesystem::path& file, double scale) {
   if (isClosed(mesh) && signedVolume(mesh) < 0)
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
+}
+
+std::vector<std::filesystem::path> filesBeside(const std::filesystem::path& file) {
+  if (extensionOf(file) != ".gltf") return {};
+  std::vector<std::string> names;
+  readApart(file, limitsFor(file), [&](BytesOut& out) {
+    const JsonFile r{file.string()};
+    const JsonFile::Json root = r.parse(readText(file, largest_scene_file));
+    std::vector<std::string> found;
+    if (root.is_object() && root.contains("buffers") && root.at("buffers").is_array())
+      for (const auto& buffer : root.at("buffers"))
+        if (buffer.is_object() && buffer.contains("uri") && buffer.at("uri").is_string())
+          if (const auto uri = buffer.at("uri").get<std::string>(); !uri.starts_with("data:")) found.push_back(uri);
+    out.put(found);
+  }).get(names);
+  std::vector<std::filesystem::path> out;
+  for (const std::string& name : names) out.push_back(file.parent_path() / name);
+  return out;
 }
 
 void writeMesh(const TriangleMesh& mesh, const std::filesystem::path& obj) {

@@ -26,7 +26,7 @@ void checkLimits(const StorageTable& t, const Joint& joint, const JointMap::Driv
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!(x[i] >= joint.lower - limit_slack_rad && x[i] <= joint.upper + limit_slack_rad))
       throw InputError(
-          {t.file, t.lines[i], d.from},
+          {t.file, i < t.lines.size() ? t.lines[i] : 0, d.from},
           fmt::format("makes {} {:.1f} degrees, which bends {:.0f} to {:.0f}: does the map have its sign "
                       "right, and the header its unit?",
                       joint.name, x[i] / rad_per_deg, joint.lower / rad_per_deg, joint.upper / rad_per_deg));

@@ -67,6 +67,8 @@ STUDY = """{
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 PLY = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n"
        "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+WORN = ("v 0 0 0\nv 0.2 0 0\nv 0.2 0.2 0\nv 0 0.2 0\nv 0.4 0 0.1\nv 0.4 0.2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\n"
+        "g front\nf 1/1 2/2 3/3 4/4\ng back\nf 2/2 5/5 6/6 3/3\ng edge hem front\nl 1 2\n")
 TRIANGLES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 CORNERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 
@@ -232,6 +234,7 @@ def kinds():
     on_arm = {"case.json": CLOTH % (HUMAN % ARM), **arm}
     recorded = lambda file, more="": {"case.json": CLOTH % (HUMAN % (RECORDED % (file, more)))}
     mesh = lambda file, content, **more: {"case.json": CLOTH % (OBSTACLE % file), file: content, **more}
+    worn = lambda file, content: {"case.json": wearing('{"mesh_file": {"path": "%s"}, "model": "triangles"}' % file) % "", file: content}
     scene, points = gltf("a.bin")
     body, body_points = fuzz_bodies.character_gltf("a.bin")
     character = lambda file, more="", **files: {"case.json": CLOTH % (HUMAN % (CHARACTER % (file, more))), **files}
@@ -271,6 +274,8 @@ def kinds():
         Kind("study", "a.study.json", {"a.study.json": STUDY, "cloth.json": CLOTH % ""}, command=["study", "a.study.json", "--check"]),
         Kind("garment_file", "cloth.json", {"case.json": wearing('{"file": {"path": "cloth.json"}}') % '"supports": [{"fixed": {"edge": "left"}}],',
                                             "cloth.json": GARMENT}, run=True),
+        Kind("mesh_file_obj", "worn.obj", worn("worn.obj", WORN), run=True),
+        Kind("mesh_file_ply", "worn.ply", worn("worn.ply", PLY), run=True),
         Kind("urdf", "arm.urdf", on_arm, run=True),
         Kind("body", "body.json", on_arm, run=True),
         Kind("csv", "flex.csv", on_arm, run=True),

@@ -72,7 +72,7 @@ struct ShortsPattern {
   std::optional<double> waist_ease;  ///< that of the waist edge, where it is another
   double cell_m = 0.022;             ///< wanted size of a cell
   int degree = 2;
-  double crotch_below_pelvis_m = 0.010;  ///< crotch line under the lowest point of the pelvis
+  double crotch_ease_m = 0.010;  ///< crotch line under the lowest point of the pelvis
   double gusset_share = 0.6;  ///< length of the gusset line, Cf to Cb, over the depth of the garment above it
   double fork_m = 0.11;
   double blend_m = 0.08;

@@ -84,7 +84,7 @@ class Draft {
   Draft(const ShortsPattern& p, const Drafted& body)
       : p_(p),
         body_(body),
-        crotch_z_(body.pelvisBottom() - p.crotch_below_pelvis_m),
+        crotch_z_(body.pelvisBottom() - p.crotch_ease_m),
         trunk_(body.trunk(crotch_z_, crotch_z_ + p.rise_m)) {
     if (const double most = crotch_z_ - body.thighBottom(); !(p.inseam_m < most))
       reject("inseam_m", std::to_string(p.inseam_m) + ", reaches below the thighs, where the body has no section; " +
@@ -312,8 +312,8 @@ void check(const ShortsPattern& p) {
   requireDegree(p.degree, 2);
   for (const auto& [key, ease] : {std::pair{"ease", p.ease}, std::pair{"waist_ease", p.waist_ease.value_or(p.ease)}})
     if (!(ease > -0.5 && ease < 2)) reject(key, std::to_string(ease) + ", must lie between -0.5 and 2");
-  if (!(p.crotch_below_pelvis_m > -0.1 && p.crotch_below_pelvis_m < 0.2))
-    reject("crotch_below_pelvis_m", std::to_string(p.crotch_below_pelvis_m) + ", must lie between -0.1 and 0.2");
+  if (!(p.crotch_ease_m > -0.1 && p.crotch_ease_m < 0.2))
+    reject("crotch_ease_m", std::to_string(p.crotch_ease_m) + ", must lie between -0.1 and 0.2");
   if (!(p.seam_stiffness_N >= 0) || !std::isfinite(p.seam_stiffness_N))
     reject("seam_stiffness_N", "must not be negative");
   if (!(p.fork_m <= p.rise_m)) reject("fork_m", "must not exceed rise_m");

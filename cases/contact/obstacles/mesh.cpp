@@ -1,8 +1,8 @@
 /// Detail of kind.hpp: triangles from a file.
 
-#include "human/files/mesh.hpp"
 #include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/table.hpp"
+#include "human/files/mesh.hpp"
 
 namespace gambeson {
 namespace schema {
@@ -44,7 +44,12 @@ const ObstacleKind mesh_obstacle{
           const auto& m = std::get<MeshObstacle>(o.shape);
           loadMesh(m.file, m.scale);
         },
-    .files = [](ObstacleCase& o, const ObstacleKind::Take& take) { take(std::get<MeshObstacle>(o.shape).file); },
+    .files =
+        [](ObstacleCase& o, const ObstacleKind::Take& take) {
+          auto& m = std::get<MeshObstacle>(o.shape);
+          for (std::filesystem::path file : filesBeside(m.file)) take(file);
+          take(m.file);
+        },
 };
 
 }  // namespace gambeson

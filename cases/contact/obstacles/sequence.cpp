@@ -4,6 +4,7 @@
 
 #include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/table.hpp"
+#include "human/files/mesh.hpp"
 
 namespace gambeson {
 namespace schema {
@@ -58,7 +59,10 @@ const ObstacleKind sequence_obstacle{
     .files =
         [](ObstacleCase& o, const ObstacleKind::Take& take) {
           auto& s = std::get<SequenceObstacle>(o.shape);
-          for (std::filesystem::path file : framesIn(s.folder)) take(file);
+          for (std::filesystem::path frame : framesIn(s.folder)) {
+            for (std::filesystem::path file : filesBeside(frame)) take(file);
+            take(frame);
+          }
           s.folder = s.folder.filename();
         },
 };

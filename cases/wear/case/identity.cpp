@@ -5,6 +5,8 @@
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
+#include "human/body/urdf.hpp"
+#include "human/files/mesh.hpp"
 
 namespace gambeson {
 
@@ -24,6 +26,8 @@ template <class Take>
 void eachFile(Case& named, Take take) {
   for (GarmentCase& g : named.garments) kindOf(g).files(g, take);
   if (named.human) {
+    if (!named.human->urdf.empty())
+      for (std::filesystem::path file : filesBesideUrdf(named.human->urdf)) take(file);
     take(named.human->urdf);
     take(named.human->body);
     if (auto& character = named.human->character) {

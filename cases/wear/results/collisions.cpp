@@ -85,7 +85,7 @@ void addCollisions(const Measured& m, ReportInput& in) {
                {}};
   totals.rows = {total(m, "Impacts", count(&W::impacts)), total(m, "Impact zones", count(&W::impact_zones)),
                  total(m, "Cut steps", count(&W::cut_steps)), total(m, "Pinched samples", count(&W::pinched))};
-  in.collision_tables = {most_of, totals};
+  in.collision_tables.insert(in.collision_tables.end(), {most_of, totals});
   std::vector<Plot> plots{{"Contacts",
                            "The most in a step of each window.",
                            {seriesOf(m, "with bodies", "number", Tone::left, bodies),

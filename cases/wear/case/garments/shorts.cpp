@@ -49,7 +49,7 @@ const GarmentKind shorts_garment{
           ShortsPattern pattern;
           pattern.inseam_m = s.inseam_m;
           pattern.rise_m = s.rise_m;
-          pattern.crotch_below_pelvis_m = s.crotch_ease_m;
+          pattern.crotch_ease_m = s.crotch_ease_m;
           pattern.ease = s.ease;
           pattern.waist_ease = s.waist_ease;
           pattern.cell_m = s.cell_m;

@@ -10,6 +10,7 @@
 
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
+#include "human/files/mesh.hpp"
 #include "human/motion/standing.hpp"
 #include "human/motion/walk.hpp"
 #include "human/skeleton/joint_map.hpp"

@@ -72,6 +72,23 @@ TEST(CharacterCase, IsAnotherCaseWithAnotherBody) {
   EXPECT_NE(identity(fat), lean);  // only the buffer beside the .gltf differs
 }
 
+TEST(CharacterCase, ItsMeshAsAnObstacleIsAnotherCaseWithAnotherBuffer) {
+  const Folder folder;
+  const std::string text =
+      R"({"name": "worn", "garment": {"sheet": {"width": 0.2, "height": 0.2, "cells_u": 4, "cells_v": 4}},
+    "fabric": {"name": "f", "thickness": "1 mm", "density": "400 kg/m^3", "young": "1 MPa", "poisson": 0.2,
+               "bending": {"law": "linear", "rigidity": "1e-5 N m"}},
+    "obstacles": [{"name": "man", "mesh": {"file": "man.gltf", "position": [0, 0, -3]}}],
+    "contact": {"friction": 0.3}, "time": {"duration": "0.1 s"}})";
+  const auto identity = [&](const test::CharacterBody& c) {
+    writeGltf(folder.path() / "man.gltf", c.bones, {c.part()});
+    return caseIdentity(readCase(folder.write("case.json", text)));
+  };
+  test::CharacterBody fat = man();
+  fat.skin.vertices[100] *= 1.01;
+  EXPECT_NE(identity(fat), identity(man()));
+}
+
 TEST(CharacterCase, SaysWhatIsWrong) {
   const Folder folder;
   writeGltf(folder.path() / "man.gltf", man().bones, {man().part()});

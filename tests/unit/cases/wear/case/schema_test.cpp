@@ -126,6 +126,29 @@ TEST(Case, IdentityFollowsWhatMatters) {
   EXPECT_NE(here, caseIdentity(readCase(folder.path() / "sleeve_flex.json")));
 }
 
+TEST(Case, MeshesOfAUrdfArePartOfItsIdentity) {
+  const Folder folder;
+  const std::filesystem::path library = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library";
+  for (const char* name : {"arm_body.json", "arm_flex.csv", "sleeve_flex.json"})
+    std::filesystem::copy_file(library / name, folder.path() / name);
+  std::ifstream in(library / "arm.urdf");
+  std::string urdf{std::istreambuf_iterator<char>(in), {}};
+  const std::string link = "<link name=\"forearm\"/>";
+  const std::size_t at = urdf.find(link);
+  ASSERT_NE(at, std::string::npos);
+  urdf.replace(at, link.size(),
+               "<link name=\"forearm\"><visual><geometry><mesh filename=\"hull.obj\"/></geometry></visual></link>");
+  folder.write("arm.urdf", urdf);
+  const auto identity = [&](const char* top) {
+    folder.write("hull.obj",
+                 std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 ") + top + "\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    return caseIdentity(readCase(folder.path() / "sleeve_flex.json"));
+  };
+  const std::string one = identity("1");
+  EXPECT_EQ(identity("1"), one);
+  EXPECT_NE(identity("1.1"), one);
+}
+
 TEST(Case, LimitsOfStrainAreOfTheFabric) {
   const Folder folder;
   const auto read = [&](const std::string& limits) {
