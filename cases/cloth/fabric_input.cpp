@@ -70,6 +70,36 @@ std::string sayStop(const BendingLaw& law) {
       formatNumber(stop.weft_Nm), formatNumber(stop.yield_N));
 }
 
+BendingLaw resolveHysteresis(const Entry& at, const BendingInput& in, const GivenRigidities& given) {
+  if (!in.loop) at.failAt("loop", "is required for the law hysteresis: the loop of moment over curvature");
+  return resolveLoop(at, *in.loop, given);
+}
+
+/// The law's loop, and whether it is isotropic; null: it has none.
+std::pair<const FrictionInBending*, bool> loopOf(const BendingLaw& law) {
+  if (const auto* apart = std::get_if<HysteresisBending>(&law)) return {apart, false};
+  return {std::get_if<IsotropicHysteresisBending>(&law), true};
+}
+
+bool restoreHysteresis(const BendingLaw& law, BendingInput& in) {
+  const auto [loop, isotropic] = loopOf(law);
+  if (loop) in.loop = restoreLoop(*loop, isotropic);
+  return loop;
+}
+
+std::string sayHysteresis(const BendingLaw& law) {
+  const auto [loop, isotropic] = loopOf(law);
+  std::string text = fmt::format(
+      "Bending has hysteresis{}: {} N m (weft) where cloth was never bent, {} N m beyond the friction between its "
+      "fibres, which is overcome at {} 1/m.",
+      isotropic ? ", the same about all axes" : "", formatNumber(loop->first_Nm[0]), formatNumber(loop->weft_Nm),
+      formatNumber(loop->span_per_m[0]));
+  if (loop->setting > 0 || loop->fatigue > 0)
+    text += fmt::format(" Folds set (lambda {}), and friction tires by {} in a cycle to {} 1/m and back.",
+                        formatNumber(loop->setting), formatNumber(loop->fatigue), formatNumber(loop->cycle_per_m));
+  return text;
+}
+
 BendingLaw resolveLinear(const Entry&, const BendingInput&, const GivenRigidities& given) {
   return LinearBending{given};
 }
@@ -94,7 +124,13 @@ const std::vector<LawRow>& rows() {
        {"yield_moment"},
        resolveStop,
        restoreStop,
-       sayStop}};
+       sayStop},
+      {"hysteresis",
+       "a measured loop with its inner loops, set and fatigue, Wong 2014, chapter 4: see loop",
+       {"loop"},
+       resolveHysteresis,
+       restoreHysteresis,
+       sayHysteresis}};
   return all;
 }
 
@@ -129,6 +165,8 @@ Object bendingTable() {
       .number("yield_moment", &B::yield_N, "N", aboveTo(0, 1e3),
               "moment per width up to which the law stop is linear, along weft, along warp and of twist")
       .defaultsTo("required for the law stop; for no other")
+      .object("loop", &B::loop, loopTable(), "the loop of moment over curvature of the law hysteresis")
+      .defaultsTo("required for the law hysteresis; for no other")
       .number("twist", &B::twist_Nm, "N m", between(0, 1e3), "twist rigidity; the law of eq. 2.14 has none")
       .choice("rest", &B::rest,
               std::vector<std::pair<std::string, RestCurvature>>{{"zero", RestCurvature::zero},
@@ -218,7 +256,10 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
   const BendingInput& b = in.bending;
   GivenRigidities rigidities;
   rigidities.twist_Nm = b.twist_Nm;
-  if (b.rigidity_Nm) {
+  const std::optional<double> of_curve = b.loop ? rigidityOf(bending, *b.loop) : std::nullopt;
+  if (of_curve) {
+    rigidities.weft_Nm = rigidities.warp_Nm = *of_curve;
+  } else if (b.rigidity_Nm) {
     for (const auto& [key, given] :
          {std::pair("rigidity_weft", b.rigidity_weft_Nm), std::pair("rigidity_warp", b.rigidity_warp_Nm)})
       if (given) bending.failAt(key, "excludes \"rigidity\"; give rigidity, or rigidity_weft and rigidity_warp");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cases/cloth/fabric.hpp"
+#include "cases/cloth/loop_input.hpp"
 #include "cases/input/schema.hpp"
 
 namespace gambeson::schema {
@@ -18,6 +19,7 @@ struct BendingInput {
   std::optional<double> regular_curvature_per_m;
   static constexpr double default_regular_curvature_per_m = 1;
   std::optional<double> yield_N;
+  std::optional<LoopInput> loop;
   double twist_Nm = 0;
   RestCurvature rest = RestCurvature::zero;
 };

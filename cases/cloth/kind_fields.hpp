@@ -18,12 +18,11 @@ inline const char* clothKindDoc() {
          "their edges";
 }
 inline std::vector<std::pair<std::string, MeshKind>> meshKinds() {
-  return {{"single", MeshKind::single}, {"equilateral", MeshKind::equilateral}};
+  return {{"single", MeshKind::single}, {"alternating", MeshKind::alternating}, {"equilateral", MeshKind::equilateral}};
 }
 inline const char* meshKindDoc() {
-  return "of triangles: two in each cell, all diagonals alike; or rows of equilateral ones, a cell's width wide, which "
-         "bend "
-         "alike in all directions";
+  return "of triangles: single, two in each cell, all diagonals alike; alternating, diagonals that cross from cell to "
+         "cell; equilateral, rows of triangles a cell's width wide, which bend alike in all directions";
 }
 
 inline std::vector<std::pair<std::string, CellRule>> cellRules() {

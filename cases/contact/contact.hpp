@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "cases/contact/drive.hpp"
 #include "core/contact/response.hpp"
 #include "core/math/vec.hpp"
 #include "human/body/mesh_sequence.hpp"
@@ -53,19 +54,27 @@ struct ObstacleCase {
   std::string name;  ///< also the segment that forces are counted under; unique
   std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle, SequenceObstacle> shape;
   Vec3 velocity_m_per_s;
+  ObstacleDrive drive;                  ///< beside that velocity
+  std::optional<FrictionLaw> friction;  ///< with cloth, where it differs
 };
 
 struct ContactCase {
-  std::optional<double> layer_m;  ///< of all cloth; the thickness of each fabric where absent
-  bool self = true;               ///< cloth touches cloth
-  double friction = 0.3;
-  double relaxation_s = 0.01;  ///< tau in k = 1 - exp(-dt/tau) of the separation correction
+  std::optional<double> layer_m;              ///< of all cloth; the thickness of each fabric where absent
+  bool self = true;                           ///< cloth touches cloth
+  FrictionLaw friction = 0.3;                 ///< between cloth and bodies
+  std::optional<FrictionLaw> friction_cloth;  ///< between cloth and cloth, where it differs
+  double relaxation_s = 0.01;                 ///< tau in k = 1 - exp(-dt/tau) of the separation correction
   double compliance_m_per_Pa = 1e-9;
   double tolerance = 1e-3;  ///< residual of the contacts of a step, of g dt
   int max_iterations = 8000;
 };
 
-/// `gravity_m_per_s2`: what a tolerance is a part of; 0: that of the earth.
-ContactParameters contactOf(const ContactCase& c, double gravity_m_per_s2);
+/// "Coulomb friction 0.3, the same for sticking and sliding".
+std::string inWords(const FrictionLaw& law);
+
+/// `gravity_m_per_s2`: what a tolerance is a part of; 0: that of the earth. `obstacles`: those of the case, which come
+/// behind `bodies` others (of the human) in the list of obstacles.
+ContactParameters contactOf(const ContactCase& c, double gravity_m_per_s2, std::span<const ObstacleCase> obstacles,
+                            std::size_t bodies);
 
 }  // namespace gambeson

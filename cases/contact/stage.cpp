@@ -22,6 +22,7 @@ std::vector<Obstacle> ObstacleStage::place(std::span<const ObstacleCase> cases, 
     at.origin = made[k].origin_m;
     start_.push_back(at);
     velocity_.push_back(cases[k].velocity_m_per_s);
+    drive_.push_back(cases[k].drive);
   }
   return obstacles;
 }
@@ -29,13 +30,23 @@ std::vector<Obstacle> ObstacleStage::place(std::span<const ObstacleCase> cases, 
 void ObstacleStage::placements(double t, std::span<Placement> obstacles, std::span<Placement>) const {
   for (std::size_t k = 0; k < start_.size(); ++k) {
     obstacles[k] = start_[k];
-    if (!sequence_[k]) obstacles[k].origin += t * velocity_[k];
+    if (sequence_[k]) continue;
+    if (!drive_[k].empty()) {
+      const Pose moved = drive_[k].at(t);
+      obstacles[k].rotation = moved.rotation * obstacles[k].rotation;
+      obstacles[k].origin = moved * obstacles[k].origin;
+    }
+    obstacles[k].origin += t * velocity_[k];
   }
 }
 
 void ObstacleStage::vertices(int obstacle, double t, std::span<Vec3> x) const {
   const auto k = static_cast<std::size_t>(obstacle);
   sequence_[k]->at(t, x);
+  if (!drive_[k].empty()) {
+    const Pose moved = drive_[k].at(t);
+    for (Vec3& p : x) p = moved * p;
+  }
   for (Vec3& p : x) p += t * velocity_[k];
 }
 

@@ -13,7 +13,7 @@ namespace gambeson {
 /// Makes them in their order. Throws InputError with a key such as "obstacles[1].mesh".
 std::vector<MadeObstacle> makeObstacles(std::span<const ObstacleCase> cases);
 
-/// Obstacles with constant velocities, some of which deform. No anchors.
+/// Obstacles with constant velocities and drives, some of which deform. No anchors.
 class ObstacleStage : public Stage {
  public:
   /// Takes what was made of the cases; returns the obstacles as the engine sees them.
@@ -29,6 +29,7 @@ class ObstacleStage : public Stage {
  private:
   std::vector<Placement> start_;
   std::vector<Vec3> velocity_;
+  std::vector<ObstacleDrive> drive_;
   std::vector<std::unique_ptr<const MeshSequence>> sequence_;  ///< null for those that do not deform
 };
 

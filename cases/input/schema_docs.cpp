@@ -83,6 +83,8 @@ std::string typeText(const Field& f) {
       return "name: list of lists of numbers";
     case Kind::object:
       return "object";
+    case Kind::number_or_object:
+      return "number or object";
     case Kind::list:
       return "list of objects";
     case Kind::text_list:
@@ -97,7 +99,8 @@ std::string allowedText(const Field& f) {
   std::string s;
   for (const std::string& c : f.choices) s += (s.empty() ? "" : ", ") + c;
   const bool ranged = f.kind == Kind::number || f.kind == Kind::integer || f.kind == Kind::vector ||
-                      f.kind == Kind::pair || f.kind == Kind::numbers || f.kind == Kind::lists;
+                      f.kind == Kind::pair || f.kind == Kind::numbers || f.kind == Kind::lists ||
+                      f.kind == Kind::number_or_object;
   if (ranged && f.range.text() != "any") s = f.range.text(f.unit) + (s.empty() ? "" : "; or " + s);
   if (ranged && s.empty()) s = f.unit;
   return s;
@@ -154,6 +157,9 @@ Json fieldSchema(const Field& f) {
       break;
     case Kind::object:
       s = objectSchema(*f.object);
+      break;
+    case Kind::number_or_object:
+      s = {{"anyOf", Json::array({numberSchema(f), objectSchema(*f.object)})}};
       break;
     case Kind::list:
       s = {{"type", "array"}, {"items", objectSchema(*f.object)}};

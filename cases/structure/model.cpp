@@ -45,7 +45,8 @@ void addMotion(const StructureCase& c, StructureModel& m) {
   if (c.strain_limit) o.strain_limit = limitOf(*c.strain_limit);
   std::vector<Obstacle> obstacles = stage->place(c.obstacles, makeObstacles(c.obstacles));
   m.motion = buildModel(m.structure->cloth, o, {Vec3{}, 0},
-                        c.contact ? contactOf(*c.contact, gravityOf(c)) : ContactParameters{}, std::move(obstacles));
+                        c.contact ? contactOf(*c.contact, gravityOf(c), c.obstacles, 0) : ContactParameters{},
+                        std::move(obstacles));
   m.stage = std::move(stage);
 }
 

@@ -189,8 +189,9 @@ std::string contactInWords(const StructureCase& c) {
   for (std::size_t k = 0; k < c.obstacles.size(); ++k)
     what += (k == 0 ? "" : k + 1 == c.obstacles.size() ? " and " : ", ") + c.obstacles[k].name;
   const std::string self = c.contact->self ? "itself" : "";
-  return fmt::format("The sheet touches {}{}{}, with Coulomb friction {}{}.", what,
-                     what.empty() || self.empty() ? "" : ", and ", self, formatNumber(c.contact->friction, 3),
+  const FrictionLaw& friction = c.contact->friction;
+  return fmt::format("The sheet touches {}{}{}, with {}{}.", what, what.empty() || self.empty() ? "" : ", and ", self,
+                     friction.isCoulomb() ? "Coulomb friction " + formatNumber(friction.kinetic, 3) : inWords(friction),
                      self.empty() ? "; it may pass through itself" : "");
 }
 

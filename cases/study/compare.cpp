@@ -352,7 +352,7 @@ Comparison compare(const Study& s, std::vector<RunNumbers> runs) {
 std::vector<std::string> switchedOff(const Case& c) {
   std::vector<std::string> off;
   if (!c.contact.self) off.emplace_back("contact of cloth with cloth");
-  if (c.contact.friction == 0) off.emplace_back("friction");
+  if (c.contact.friction == FrictionLaw{}) off.emplace_back("friction");
   if (c.air.drag_kg_per_m2s == 0) off.emplace_back("air drag");
   if (norm(c.gravity_m_per_s2) == 0) off.emplace_back("weight");
   if (!c.strain_limit) off.emplace_back("limits of strain");

@@ -41,8 +41,8 @@ BlockLaw withTerms(BlockLaw law, const ForceTerms& terms) {
   return law;
 }
 
-BlockLaw withHistory(BlockLaw law, const long* history_at, const ClothState& state, const ClothForce& out) {
-  law.history_at = history_at;
+BlockLaw withHistory(BlockLaw law, long history_first, const ClothState& state, const ClothForce& out) {
+  law.history_first = history_first;
   law.committed = state.history.empty() ? nullptr : state.history.data();
   law.trial = out.history.empty() ? nullptr : out.history.data();
   return law;

@@ -31,11 +31,11 @@ struct BlockLaw {
   /// What is left out, as in ForceTerms: of the general law in the kernel, of the plain one by the caller.
   bool membrane = true, bending = true, steepest = false;
   /// History of the whole cloth as it was committed (null: the cloth is new) and as it would be (null: not asked), and
-  /// where in it the block's points have theirs, [point][lane], kHistoryDoubles from there; -1: nowhere. Energy lost
-  /// since by group, [group][lane] (null: not asked). Only general laws remember.
+  /// where in it the block's points have theirs, [point][use.historySize()][lane]. Energy lost since by group,
+  /// [group][lane] (null: not asked). Only general laws remember.
   const double* committed = nullptr;
   double* trial = nullptr;
-  const long* history_at = nullptr;
+  long history_first = 0;
   double* lost = nullptr;
 
   /// Which laws are evaluated.
@@ -53,6 +53,7 @@ GAMBESON_LAW void leaveOut(const BlockLaw& law, PointNumbers<S>& l) {
     if (!law.bending) l.D[i] = S{};
   }
   if (law.steepest) takeSteepest(BendingLaws{}, law.use, l);
+  if (!law.bending) l.kind = S{};
   if (!law.membrane) l.tension = l.jam = S{};
 }
 
@@ -62,7 +63,7 @@ BlockLaw blockLaw(const Fabric& fabric);
 /// The same with what `terms` leave out.
 BlockLaw withTerms(BlockLaw law, const ForceTerms& terms);
 
-/// The law that reads the history of a state at these places, and writes there what `out` asks for.
-BlockLaw withHistory(BlockLaw law, const long* history_at, const ClothState& state, const ClothForce& out);
+/// The law that reads the history of a state from there on, and writes there what `out` asks for.
+BlockLaw withHistory(BlockLaw law, long history_first, const ClothState& state, const ClothForce& out);
 
 }  // namespace gambeson

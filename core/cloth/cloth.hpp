@@ -109,9 +109,9 @@ class Cloth {
   /// Writes the history of cloth that is new. The span has historySize() doubles.
   virtual void startHistory(std::span<double> history) const { static_cast<void>(history); }
 
-  /// Patch and place of each point that remembers, in the order of the history, where all have equally many numbers:
-  /// what tells the numbers of one garment from those of another.
-  virtual std::vector<std::pair<int, Vec2>> historyPlaces() const { return {}; }
+  /// Each point that remembers, in the order of the history: what tells the numbers of one garment from those of
+  /// another.
+  virtual std::vector<HistoryPlace> historyPlaces() const { return {}; }
 
   // Unknowns that no sample sees. Their rates may be fewer than their values (directors).
   virtual std::size_t innerValues() const { return 0; }

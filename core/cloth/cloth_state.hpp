@@ -22,6 +22,14 @@ struct ClothState {
       : q(points), inner(inner_values), history(committed) {}
 };
 
+/// A point of a cloth that remembers: its place, and where in the history its numbers stand, `count` of them `stride`
+/// apart.
+struct HistoryPlace {
+  int patch = 0;
+  Vec2 place;
+  std::size_t first = 0, count = 0, stride = 1;
+};
+
 /// Which parts of the force to evaluate. `steepest` takes each law at its steepest slope, without history: what the
 /// stable time step must allow for.
 struct ForceTerms {

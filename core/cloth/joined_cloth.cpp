@@ -400,10 +400,14 @@ void JoinedCloth::startHistory(std::span<double> history) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i]->startHistory(range(history, history_[i], history_[i + 1]));
 }
 
-std::vector<std::pair<int, Vec2>> JoinedCloth::historyPlaces() const {
-  std::vector<std::pair<int, Vec2>> all;
+std::vector<HistoryPlace> JoinedCloth::historyPlaces() const {
+  std::vector<HistoryPlace> all;
   for (std::size_t i = 0; i < parts_.size(); ++i)
-    for (const auto& [patch, place] : parts_[i]->historyPlaces()) all.emplace_back(patch_[i] + patch, place);
+    for (HistoryPlace p : parts_[i]->historyPlaces()) {
+      p.patch += patch_[i];
+      p.first += history_[i];
+      all.push_back(p);
+    }
   return all;
 }
 

@@ -46,7 +46,7 @@ class JoinedCloth : public Cloth {
 
   std::size_t historySize() const override { return history_.back(); }
   void startHistory(std::span<double> history) const override;
-  std::vector<std::pair<int, Vec2>> historyPlaces() const override;
+  std::vector<HistoryPlace> historyPlaces() const override;
   std::size_t innerValues() const override { return values_.back(); }
   std::size_t innerRates() const override { return rates_.back(); }
   void startInner(std::span<double> value) const override;

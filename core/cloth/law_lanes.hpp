@@ -24,24 +24,17 @@ inline void lawAtPoint(const BlockLaw& law, const double* data, LawLanes& l) {
   leaveOut(law, l);
 }
 
-/// What the laws remember at one point of each lane, on its way from and to the cloth's list.
-struct LaneMemory {
-  V committed[kHistoryDoubles]{}, trial[kHistoryDoubles]{};
-
-  /// `point` counts the block's law points.
-  void read(const BlockLaw& law, long point) {
-    const long* at = law.history_at + point * kLanes;
-    for (int l = 0; l < kLanes; ++l)
-      for (int i = 0; i < kHistoryDoubles; ++i)
-        committed[i][l] = at[l] < 0 || !law.committed ? 0.0 : law.committed[at[l] + i];
-  }
-  void write(const BlockLaw& law, long point) const {
-    const long* at = law.history_at + point * kLanes;
-    for (int l = 0; l < kLanes; ++l)
-      for (int i = 0; i < kHistoryDoubles; ++i)
-        if (at[l] >= 0) law.trial[at[l] + i] = trial[i][l];
-  }
-};
+/// What the laws remember at a point of each lane; `point` counts the block's law points. Where the block's laws differ
+/// from point to point, what a law does not write is what was committed.
+inline History<V> historyAt(const BlockLaw& law, long point, bool differ) {
+  const int size = law.use.historySize();
+  const long first = law.history_first + point * size * kLanes;
+  History<V> history{law.committed ? law.committed + first : nullptr, law.trial ? law.trial + first : nullptr};
+  history.of_all = !differ;
+  if (differ && law.trial)
+    for (int i = 0; i < size; ++i) Number<V>::stored(history.trial + i * kLanes, history.before(i));
+  return history;
+}
 
 /// The moment by the law of the list whose kind it is, if that remembers nothing.
 template <unsigned kParts, class L>
@@ -94,11 +87,8 @@ struct GeneralLaw {
   template <unsigned kParts>
   void evaluate(const double* laws, long point, const V* e, const V* k, PointAnswer<V>& out) {
     if (laws) lawAtPoint(law, laws + point * kLawDoubles * kLanes, lanes);
-    if (!law.remembers()) return evaluateLaws<kParts>(law.evaluated(), lanes, e, k, History<V>{}, out);
-    LaneMemory memory;
-    memory.read(law, point);
-    evaluateLaws<kParts>(law.evaluated(), lanes, e, k, {memory.committed, law.trial ? memory.trial : nullptr}, out);
-    if (law.trial) memory.write(law, point);
+    const History<V> history = law.remembers() ? historyAt(law, point, laws != nullptr) : History<V>{};
+    evaluateLaws<kParts>(law.evaluated(), lanes, e, k, history, out);
   }
 };
 

@@ -116,8 +116,8 @@ GAMBESON_WIDE void projectRows(ContactWork& w, bool exact, int begin, int end, d
     const double step = 1 / inverse;
     const Vec3 from{at[0], at[1], at[2]};
     const Vec3 yields = (facts.compliance * dot(from, facts.normal)) * facts.normal;
-    const Vec3 next =
-        project(from - step * (Vec3{v[0], v[1], v[2]} + yields - facts.drift), facts.normal, facts.friction);
+    const Vec3 next = project(from - step * (Vec3{v[0], v[1], v[2]} + yields - facts.drift), facts.normal,
+                              facts.friction, facts.drag);
     const Vec3 way = next - from;
     largest2 = std::max(largest2, norm2(way) * (inverse * inverse));
     if (exact) continue;
@@ -154,6 +154,14 @@ void startIteration(ContactWork& w) {
   gatherImpulses(w, 0, static_cast<int>(w.samples.size()));
   moveFreePoints(w, 0, static_cast<int>(w.free_points.size()));
   holdFreePoints(w);
+}
+
+Vec3 slipOf(const ContactWork& w, int row) {
+  V4 v;
+  relative(w, row, v);
+  const ContactWork::Row& facts = w.facts[row];
+  const Vec3 over = Vec3{v[0], v[1], v[2]} - facts.drift;
+  return over - dot(over, facts.normal) * facts.normal;
 }
 
 void moveDone(const ContactWork::Island& island, ContactWork& w) {

@@ -11,6 +11,9 @@ void startIteration(ContactWork& work);
 /// Velocities that go with the candidates of an island that is done, after the rows were chosen anew.
 void moveDone(const ContactWork::Island& island, ContactWork& work);
 
+/// Velocity along the surface of a row at w.velocity.
+Vec3 slipOf(const ContactWork& work, int row);
+
 /// Nesterov's sequence (O'Donoghue and Candes, 2015, restart by the gradient) of every island that is not done, up to
 /// the goal or to `last` iterations; work.candidate holds the result. A residual is that of the point before the last
 /// step. A restart keeps half of the momentum's index: on solves of walking and aiming armour this takes 8 % fewer

@@ -192,7 +192,7 @@ void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::sp
 }
 
 void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-              std::span<const double> density, double friction, std::span<const Vec3> velocity, ContactWork& w) {
+              std::span<const double> density, std::span<const Vec3> velocity, ContactWork& w) {
   findIslands(rows, WT, inverse_mass, w);
   touched(rows, WT, w);
   rangeIslands(w);
@@ -212,7 +212,8 @@ void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<
     const ContactRow& row = rows[w.order[k]];
     w.row_area[k] = w.area_of[w.order[k]];
     const double slope = slopeOf(row, density);
-    w.facts[k] = {row.contact.normal, driftOf(row), row.slippery ? 0 : friction, row.compliance, slope, slope};
+    const RowSlip& slip = w.slip[w.order[k]];
+    w.facts[k] = {row.contact.normal, driftOf(row), slip.friction, slip.drag, row.compliance, slope, slope};
   }
   for (int f = 0; f < free_count; ++f) {
     const Vec3& v = velocity[w.free_points[f]];

@@ -10,10 +10,10 @@
 namespace gambeson {
 
 /// Coulomb's law of the row: the traction cut to its cone.
-inline Vec3 project(const Vec3& traction, const Vec3& n, double mu) {
+inline Vec3 project(const Vec3& traction, const Vec3& n, double mu, double drag) {
   const double normal[3] = {n.x, n.y, n.z}, trial[3] = {traction.x, traction.y, traction.z};
   double cut[3];
-  coulombImpulse<only_resultants>(mu, normal, trial, cut);
+  coulombImpulse<only_resultants>(mu, drag, normal, trial, cut);
   return {cut[0], cut[1], cut[2]};
 }
 
@@ -38,7 +38,7 @@ void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::sp
 /// Restricts W_T to the samples and free points that the rows of work.order touch; everything of the iteration that
 /// follows from the rows, and its arrays at their sizes.
 void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-              std::span<const double> density, double friction, std::span<const Vec3> velocity, ContactWork& work);
+              std::span<const double> density, std::span<const Vec3> velocity, ContactWork& work);
 
 /// Where samples outnumber control points, tractions have parts that move nothing; a solve neither makes nor removes
 /// them, so what an impact left would stay. Each warm start moves a fifth of the way to the lumped projection of the

@@ -23,6 +23,8 @@ double beyondImpact(double pressure_Pa, double dt, double density) {
 
 // Of the largest impulse, see solveContacts: with a hold, and without, where the goal is at most so many tolerances.
 constexpr double kOfLargestHeld = 2e-4, kOfLargest = 1e-6, kMostTolerances = 10;
+constexpr int kFollows = 40;     ///< rounds in which friction follows the motion; a few are the rule
+constexpr double kStill = 4;     ///< goals; what sticks is as slow as that
 constexpr int kFirstCheck = 10;  ///< iterations before the rows that are left out are looked at; doubled each time
 
 /// What one solve is given.
@@ -31,7 +33,8 @@ struct Problem {
   const SparseRows& WT;
   std::span<const double> inverse_mass, density;
   std::span<const Vec3> velocity;
-  double friction;
+  const ContactParameters& parameters;
+  double dt;
 };
 
 /// Rows of one sample side by side.
@@ -47,7 +50,7 @@ void choose(const Problem& p, ContactWork& w) {
   w.order.clear();
   for (int i : w.sorted)
     if (w.in[i]) w.order.push_back(i);
-  restrict(p.rows, p.WT, p.inverse_mass, p.density, p.friction, p.velocity, w);
+  restrict(p.rows, p.WT, p.inverse_mass, p.density, p.velocity, w);
 }
 
 /// What the samples' impulses do to all free points, w.change.
@@ -87,7 +90,7 @@ double leftOut(const Problem& p, ContactWork& w) {
     }
     if (!(dot(v, row.contact.normal) < 0)) return;
     w.joins[i] = 1;
-    w.left_out[i] = norm2(project(-v, row.contact.normal, row.slippery ? 0 : p.friction));
+    w.left_out[i] = norm2(project(-v, row.contact.normal, w.slip[i].friction, w.slip[i].drag));
   });
   double most2 = 0;
   for (double l : w.left_out) most2 = std::max(most2, l);
@@ -143,14 +146,74 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
   choose(p, w);
   smoothWarm(p.rows, warm, w);
   for (std::size_t k = 0; k < w.order.size(); ++k)
-    w.traction[k] = project(w.traction[k], w.facts[k].normal, w.facts[k].friction);
+    w.traction[k] = project(w.traction[k], w.facts[k].normal, w.facts[k].friction, w.facts[k].drag);
   startIteration(w);
   leftOut(p, w);
   join(p, w);
 }
 
+/// Friction of the rows as they move now: mu and drag of a law.
+void setFriction(const FrictionLaw& law, double pressure_Pa, double dt, RowSlip& slip) {
+  const double factor = law.atPressure(pressure_Pa);
+  slip.friction = factor * (slip.slips ? law.slipping(slip.speed_m_per_s) : law.still);
+  slip.drag = slip.slips ? dt * law.drag(slip.speed_m_per_s) : 0;
+}
+
+/// Friction of all rows at the start.
+void startFriction(const Problem& p, std::span<const RowSlip> slip, std::span<const Vec3> warm, ContactWork& w) {
+  const std::size_t n = p.rows.size();
+  w.slip.assign(n, {});
+  w.any_slips = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const ContactRow& row = p.rows[i];
+    if (row.slippery) continue;
+    const FrictionLaw& law = p.parameters.frictionOf(row);
+    w.slip[i].friction = law.kinetic;
+    if (law.isCoulomb() || slip.empty()) continue;
+    w.any_slips = true;
+    w.slip[i] = slip[i];
+    setFriction(law, dot(warm[i], row.contact.normal) / p.dt, p.dt, w.slip[i]);
+  }
+}
+
+/// Lets the friction of rows that carry something follow the velocities that they have now. False: it is what it was,
+/// within `goal`; else the islands of those that changed are no longer done.
+bool followSlip(const Problem& p, double goal, ContactWork& w) {
+  bool any = false;
+  for (ContactWork::Island& island : w.islands) {
+    bool changed = false;
+    for (int k = island.row; k < island.row_end; ++k) {
+      const ContactRow& row = p.rows[w.order[k]];
+      if (row.slippery || w.row_area[k] == 0) continue;
+      const FrictionLaw& law = p.parameters.frictionOf(row);
+      if (law.isCoulomb()) continue;
+      const double* lane = w.candidate[k].lane;
+      const double pressed = dot(Vec3{lane[0], lane[1], lane[2]}, row.contact.normal);
+      RowSlip& slip = w.slip[w.order[k]];
+      slip.speed_m_per_s = norm(slipOf(w, k));
+      const bool breaks = !slip.slips && !slip.broke && slip.speed_m_per_s > kStill * goal;
+      if (breaks) {
+        slip.slips = slip.broke = true;
+        slip.friction = law.kinetic * law.atPressure(pressed / p.dt);
+        slip.drag = 0;
+      } else {
+        setFriction(law, pressed / p.dt, p.dt, slip);
+      }
+      ContactWork::Row& facts = w.facts[k];
+      const double change = std::abs(slip.friction - facts.friction) * pressed + std::abs(slip.drag - facts.drag);
+      if (!(change * facts.slope > goal)) continue;
+      facts.friction = slip.friction;
+      facts.drag = slip.drag;
+      changed = true;
+    }
+    if (changed) island.done = false, any = true;
+  }
+  return any;
+}
+
 ContactSolve solve(const Problem& p, double goal, int max_iterations, ContactWork& w) {
   ContactSolve report;
+  int follows = 0;
   for (int check = std::min(kFirstCheck, max_iterations);; check = std::min(2 * check, max_iterations)) {
     iterate(goal, check, w);
     report.residual_m_per_s = leftOut(p, w);
@@ -160,12 +223,41 @@ ContactSolve solve(const Problem& p, double goal, int max_iterations, ContactWor
       report.iterations = std::max(report.iterations, island.iterations);
       report.converged = report.converged && island.done;
     }
+    if (report.converged && w.any_slips && check < max_iterations && follows++ < kFollows && followSlip(p, goal, w)) {
+      check = std::max(report.iterations, kFirstCheck);  // twice as many come next
+      continue;
+    }
     if (report.converged || check >= max_iterations) return report;
     if (anyJoins(w)) join(p, w);
   }
 }
 
 }  // namespace
+
+namespace {
+
+const FrictionLaw* own(const std::vector<std::optional<FrictionLaw>>& list, int index) {
+  const auto at = static_cast<std::size_t>(index);
+  return index >= 0 && at < list.size() && list[at] ? &*list[at] : nullptr;
+}
+
+}  // namespace
+
+const FrictionLaw& ContactParameters::frictionOf(const ContactRow& row) const {
+  if (!row.contact.onBody()) return on_cloth ? *on_cloth : friction;
+  if (const FrictionLaw* of = own(of_obstacle, row.contact.obstacle)) return *of;
+  if (!garment_of_sample.empty() && row.stencil.count > 0)
+    if (const FrictionLaw* of = own(of_garment, garment_of_sample[static_cast<std::size_t>(row.stencil.sample[0])]))
+      return *of;
+  return friction;
+}
+
+bool ContactParameters::followsMotion() const {
+  const auto any = [](const std::vector<std::optional<FrictionLaw>>& list) {
+    return std::any_of(list.begin(), list.end(), [](const auto& f) { return f && !f->isCoulomb(); });
+  };
+  return !friction.isCoulomb() || (on_cloth && !on_cloth->isCoulomb()) || any(of_obstacle) || any(of_garment);
+}
 
 ContactRow bodyRow(const Contact& contact, const Vec3& body_velocity, double target, bool impact) {
   ContactRow row{contact, {}, body_velocity, target, impact};
@@ -201,13 +293,14 @@ void layerUnder(double last, double dt, double density, const ContactParameters&
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                            std::span<const double> area, std::span<const double> density, const ContactParameters& c,
                            double dt, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
-                           ContactWork& w, MotionHold* hold) {
+                           ContactWork& w, MotionHold* hold, std::span<RowSlip> slip) {
   impulses.assign(rows.size(), {});
   w.hold = hold;
   if (rows.empty()) return {};
-  const Problem problem{rows, WT, inverse_mass, density, velocity, c.friction};
+  const Problem problem{rows, WT, inverse_mass, density, velocity, c, dt};
   sortRows(rows, w);
   shareAreas(rows, WT, area, inverse_mass, w);
+  startFriction(problem, slip, warm, w);
   begin(problem, warm, w);
   double goal = c.tolerance_m_per_s2 * dt;
   double largest = 0;
@@ -216,6 +309,7 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   goal = std::max(goal, tension ? kOfLargestHeld * largest : std::min(kOfLargest * largest, kMostTolerances * goal));
   const ContactSolve report = solve(problem, goal, c.max_iterations, w);
 
+  std::copy_n(w.slip.begin(), slip.size(), slip.begin());
   std::fill(warm.begin(), warm.end(), Vec3{});
   w.sample_impulse.assign(w.samples.size(), Vec3{});
   for (std::size_t k = 0; k < w.order.size(); ++k) {

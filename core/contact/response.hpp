@@ -3,22 +3,46 @@
 /// consistent impulses and effective masses).
 
 #include <array>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
 
 #include "core/contact/proximity.hpp"
+#include "core/material/laws/friction.hpp"
 #include "core/math/sparse.hpp"
 
 namespace gambeson {
 
+struct ContactRow;
+
 struct ContactParameters {
   double layer_m = 0;       ///< delta: the distance at which persistent contact begins and which it restores
-  double friction = 0;      ///< Coulomb's mu
+  FrictionLaw friction;     ///< between cloth and bodies
   double relaxation_s = 0;  ///< tau: the correction of the distance takes this time, k = 1 - exp(-dt/tau) of eq. 3.17
   double tolerance_m_per_s2 = 1e-2;  ///< a solve is done at a residual velocity of this times dt
   int max_iterations = 8000;
-  double compliance_m_per_Pa = 1e-9;  ///< c: how much a pressure that lasts compresses the layer
+  double compliance_m_per_Pa = 1e-9;                   ///< c: how much a pressure that lasts compresses the layer
+  std::optional<FrictionLaw> on_cloth = std::nullopt;  ///< between cloth and cloth, if that differs
+  /// Of obstacles and of garments that have their own, which with a body an obstacle's is before; shorter lists mean
+  /// none.
+  std::vector<std::optional<FrictionLaw>> of_obstacle = {}, of_garment = {};
+  std::vector<int> garment_of_sample = {};  ///< where garments have their own
+
+  const FrictionLaw& frictionOf(const ContactRow& row) const;
+  /// Whether any friction is more than Coulomb's.
+  bool followsMotion() const;
+  /// Speed below which a contact counts as one that sticks, in a step [m/s].
+  double still(double dt_s) const { return 4 * tolerance_m_per_s2 * dt_s; }
+};
+
+/// How a contact whose friction depends on the motion moves, from step to step and within one.
+struct RowSlip {
+  bool slips = false;
+  bool broke = false;  ///< it began to slip in this step, and does so once
+  double speed_m_per_s = 0;
+  double friction = 0;  ///< mu that goes with it
+  double drag = 0;      ///< traction of viscosity, times dt [N s/m^2]
 };
 
 /// Samples whose weighted velocities make up the velocity that a contact acts on: one sample on a body (weight 1), a
@@ -92,6 +116,8 @@ struct ContactWork {
   // Of all rows.
   std::vector<int> sorted;                    ///< their order in the iteration, by sample
   std::vector<double> area_of;                ///< that each stands for
+  std::vector<RowSlip> slip;                  ///< of rows whose friction depends on the motion; of the others mu alone
+  bool any_slips = false;                     ///< whether there are such rows
   std::vector<char> in;                       ///< is iterated on
   std::vector<char> joins;                    ///< is left out and would be penetrated
   std::vector<double> left_out;               ///< squared residual of what is left out
@@ -125,7 +151,7 @@ struct ContactWork {
   };
   struct Row {
     Vec3 normal, drift;  ///< v_n - target = (v - drift) . normal
-    double friction = 0, compliance = 0;
+    double friction = 0, drag = 0, compliance = 0;
     double slope = 0;    ///< 1/rho, or for cloth on cloth the sum of both: the residual's measure
     double largest = 0;  ///< the bound if all rows carried something, at least the slope
   };
@@ -194,6 +220,12 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 /// at 2e-4 of the largest where that is more than the tolerance. Without such a hold at 1e-6, and ten tolerances at
 /// most.
 ///
+/// Friction that depends on the motion (FrictionLaw) is that of the velocities that the solve ends with: rows that
+/// stick may take up to mu_s, those that slip take mu(v) and viscosity at the end speed, found in rounds of the same
+/// iteration from the speed of the last step on; a row that breaks loose starts them from mu_c, so that of two speeds
+/// that balance it takes the higher one. `slip`: how rows move at the start, and at the end; empty where all friction
+/// is Coulomb's.
+///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
 /// kg/m^2];
 /// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the
@@ -202,6 +234,6 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
                            std::span<const double> area, std::span<const double> density,
                            const ContactParameters& parameters, double dt_s, std::span<Vec3> velocity,
                            std::span<Vec3> warm, std::vector<Vec3>& impulses, ContactWork& work,
-                           MotionHold* hold = nullptr);
+                           MotionHold* hold = nullptr, std::span<RowSlip> slip = {});
 
 }  // namespace gambeson

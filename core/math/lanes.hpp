@@ -58,6 +58,9 @@ struct Number<V> {
     return false;
   }
   GAMBESON_LAW static V root(V x) { return squareRoot(x); }
+  GAMBESON_LAW static V loaded(const double* p) { return *reinterpret_cast<const Anywhere*>(p); }
+  GAMBESON_LAW static void stored(double* p, V x) { *reinterpret_cast<Anywhere*>(p) = x; }
+  typedef double Anywhere __attribute__((vector_size(8 * kLanes), aligned(8)));
 };
 namespace {
 

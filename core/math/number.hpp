@@ -27,6 +27,14 @@ struct Number {
     using std::sqrt;
     return sqrt(x);
   }
+  /// From and to an array of doubles, one for each lane.
+  GAMBESON_LAW static S loaded(const double* p) { return S(*p); }
+  GAMBESON_LAW static void stored(double* p, const S& x) {
+    if constexpr (std::is_convertible_v<S, double>)
+      *p = x;
+    else
+      *p = x.value;
+  }
 };
 
 /// a where the mask holds, else b.

@@ -46,6 +46,7 @@ void reserve(const StepCapacity& c, StepWork& w) {
   w.pair_hits.reserve(static_cast<std::size_t>(c.hits));
   w.rows.reserve(rows);
   w.warm.reserve(rows);
+  w.slip.reserve(rows);
   w.impulses.reserve(rows);
   w.contact_impulses.reserve(static_cast<std::size_t>(c.near + c.edges + c.points));
   w.spring_impulses.reserve(static_cast<std::size_t>(c.springs));

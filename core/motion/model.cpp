@@ -103,6 +103,7 @@ std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const Mode
   addPoints(options, m);
   std::vector<int> garment;
   addSamples(m, garment);
+  if (!contact.of_garment.empty()) m.contact.garment_of_sample = garment;
   addStitchDamping(m.stitches, m.surface.WT, m.drag_kg_per_s);
   m.spring_rise_m = springRise(m);
   if (!options.dead_force_N.empty()) {

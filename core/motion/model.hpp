@@ -114,8 +114,9 @@ struct ForceSums {
 struct WarmContact {
   ContactKind kind = ContactKind::sample_on_body;
   int sample = 0, obstacle = 0, feature = 0;
-  Vec3 traction;       ///< impulse per area that the next solve starts from [N s/m^2]
-  double mean_Pa = 0;  ///< pressure that has lasted (lastingPressure)
+  Vec3 traction;            ///< impulse per area that the next solve starts from [N s/m^2]
+  double mean_Pa = 0;       ///< pressure that has lasted (lastingPressure)
+  double slip_m_per_s = 0;  ///< of friction that depends on it; 0: it sticks
 };
 
 /// All that the next step depends on.
@@ -237,6 +238,7 @@ struct StepScratch {
   CollisionWork collisions;
   std::vector<double> inner_force;
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm;
+  std::vector<RowSlip> slip;  ///< of the rows, where friction depends on the motion; else empty
   // Of a structure.
   Supports::Solver support_solver;
   std::vector<Vec3> load, load_before, external, support_force, prescribed, released, start, accelerations;

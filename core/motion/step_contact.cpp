@@ -102,7 +102,7 @@ void solveRows(const Model& m, double dt, MotionHold* limits, Yield& yield, Step
   }
   const auto solve = [&](std::span<const ContactRow> rows) {
     return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt,
-                         w.velocity, w.warm, w.impulses, w.contact, hold);
+                         w.velocity, w.warm, w.impulses, w.contact, hold, w.slip);
   };
   w.unsolved = w.velocity;
   int before = 0;
@@ -341,6 +341,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
   if (!m.collisions.self && m.obstacles.empty()) {  // nothing to touch
     w.rows.clear();
     w.warm.clear();
+    w.slip.clear();
     solveVelocities(m, in, dt, true, yield, report, clock, w);
     return solved(w, report);
   }
@@ -384,6 +385,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
     report.smallest_gap_m = std::min(report.smallest_gap_m, row.contact.gap_m - standsOut(m, row));
   w.rows.insert(w.rows.end(), w.restoring.begin(), w.restoring.end());
   w.warm.resize(w.rows.size());
+  if (m.contact.followsMotion()) w.slip.resize(w.rows.size());
   report.contacts = static_cast<int>(w.rows.size() - w.restoring.size());
   report.cloth_contacts = static_cast<int>(w.collisions.points.size());
   clock.lap(w.times.proximity);
@@ -396,8 +398,8 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
     if (!any) return true;
     if (round == 1) report.impacts = static_cast<int>(w.hits.size() + w.pair_hits.size());
     if (round > kRounds) break;
-    for (const SampleHit& hit : w.hits) addImpact(m, hit, dt, round, w);
-    for (const PairHit& hit : w.pair_hits) addImpact(m, hit, dt, round, w);
+    for (const SampleHit& hit : w.hits) addImpact(m, in, hit, dt, round, w);
+    for (const PairHit& hit : w.pair_hits) addImpact(m, in, hit, dt, round, w);
   }
   const bool done = moveImpactZones(m, in, dt, report, w);
   clock.lap(w.times.impact);

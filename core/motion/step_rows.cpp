@@ -57,6 +57,17 @@ void setPersistent(const Model& m, double dt, const Vec3& warm, ContactRow& row)
   if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
 }
 
+RowSlip slipAt(double speed) { return {speed > 0, false, speed, 0, 0}; }
+
+/// How a contact that is new moves: as the surfaces do at the start of the step.
+RowSlip startSlip(const Model& m, const State& in, double dt, const ContactRow& row) {
+  Vec3 v = -row.body_velocity;
+  for (int j = 0; j < row.stencil.count; ++j)
+    v += row.stencil.weight[j] * sampleAt(m.surface.WT, row.stencil.sample[j], in.v);
+  const double speed = norm(v - dot(v, row.contact.normal) * row.contact.normal);
+  return slipAt(speed > m.contact.still(dt) ? speed : 0);
+}
+
 /// The order of persistent contacts, as the lists come.
 auto key(const auto& c) { return std::tuple(c.kind, c.sample, c.obstacle, c.feature); }
 
@@ -93,6 +104,8 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   listRows(m, dt, w);
   const int n = static_cast<int>(w.rows.size());
   w.warm.resize(n);
+  w.slip.clear();
+  if (m.contact.followsMotion()) w.slip.resize(n);
   const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
   std::size_t at = 0;
   // The sample's feet move from feature to feature, and there may be one or several of them: a new one starts from what
@@ -124,6 +137,7 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     if (!known && row.contact.kind == ContactKind::sample_on_cloth) warm = around(row.contact);
     w.warm[k] = scale * warm.traction;
     row.mean_Pa = warm.mean_Pa;
+    if (m.contact.followsMotion()) w.slip[k] = known ? slipAt(warm.slip_m_per_s) : startSlip(m, in, dt, row);
   }
   forAll(Each::value, n, [&](int k) { setPersistent(m, dt, w.warm[k], w.rows[k]); });
 }
@@ -139,9 +153,15 @@ void setImpactTarget(const Model& m, double dt, int round, ContactRow& row) {
   row.target_m_per_s = (std::min(restored, std::max(gap, 0.0)) - gap + 0.5 * (round - 1) * restored) / dt;
 }
 
+void addRow(const Model& m, const State& in, double dt, const ContactRow& row, StepWork& w) {
+  w.rows.push_back(row);
+  w.warm.push_back({});
+  if (m.contact.followsMotion()) w.slip.push_back(startSlip(m, in, dt, row));
+}
+
 }  // namespace
 
-void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWork& w) {
+void addImpact(const Model& m, const State& in, const Contact& hit, double dt, int round, StepWork& w) {
   const Vec3 body =
       (w.stage.end.obstacles[hit.obstacle] * hit.local - w.stage.start.obstacles[hit.obstacle] * hit.local) / dt;
   ContactRow row = bodyRow(hit, body, 0, true);
@@ -152,11 +172,10 @@ void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWor
       old = row;
       return;
     }
-  w.rows.push_back(row);
-  w.warm.push_back({});
+  addRow(m, in, dt, row, w);
 }
 
-void addImpact(const Model& m, const PairHit& hit, double dt, int round, StepWork& w) {
+void addImpact(const Model& m, const State& in, const PairHit& hit, double dt, int round, StepWork& w) {
   ContactRow row = hit.row;
   setImpactTarget(m, dt, round, row);
   for (ContactRow& old : w.rows)
@@ -164,8 +183,7 @@ void addImpact(const Model& m, const PairHit& hit, double dt, int round, StepWor
       old = row;
       return;
     }
-  w.rows.push_back(row);
-  w.warm.push_back({});
+  addRow(m, in, dt, row, w);
 }
 
 void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmContact>& warm) {
@@ -177,8 +195,11 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
     // What stops a sample on its way to the layer does not press on the layer.
     const double pressure = atLayer(c.gap_m, layerOf(m, row)) ? dot(w.warm[i], c.normal) / dt : 0;
     const double mean = lastingPressure(row.mean_Pa, pressure, dt, densityOf(m, row.stencil), m.contact);
-    warm.push_back({c.kind, c.sample, c.obstacle, c.feature, w.warm[i], mean});
-    if (row.partner >= 0) warm.push_back({c.kind, row.partner, c.obstacle, -1, -w.warm[i], mean});
+    const double slip = !w.slip.empty() && w.slip[i].slips && w.slip[i].speed_m_per_s > m.contact.still(dt)
+                            ? w.slip[i].speed_m_per_s
+                            : 0;
+    warm.push_back({c.kind, c.sample, c.obstacle, c.feature, w.warm[i], mean, slip});
+    if (row.partner >= 0) warm.push_back({c.kind, row.partner, c.obstacle, -1, -w.warm[i], mean, slip});
   }
   std::stable_sort(warm.begin(), warm.end(),
                    [](const WarmContact& a, const WarmContact& b) { return key(a) < key(b); });

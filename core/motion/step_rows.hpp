@@ -15,9 +15,9 @@ ObstacleMotion motionOf(const StepWork& w);
 void persistentRows(const Model& m, const State& in, double dt, StepWork& w);
 
 /// A sample's hit at an obstacle; replaces the row of the same pair.
-void addImpact(const Model& m, const Contact& hit, double dt, int round, StepWork& w);
+void addImpact(const Model& m, const State& in, const Contact& hit, double dt, int round, StepWork& w);
 
 /// A hit of triangles; replaces the row of the same pair.
-void addImpact(const Model& m, const PairHit& hit, double dt, int round, StepWork& w);
+void addImpact(const Model& m, const State& in, const PairHit& hit, double dt, int round, StepWork& w);
 
 }  // namespace gambeson

@@ -119,6 +119,7 @@ struct GarmentCase {
   double seam_stiffness_N = 0.01;
   /// Turns the weft about the patch's normal; at 0 it lies along u in a sheet, lengthwise in a tube and in shorts.
   double weft_angle_rad = 0;
+  std::optional<FrictionLaw> friction;  ///< with bodies, where it differs
   std::optional<Stitching> stitching;  ///< how it is put on where garments are dressed one by one; else by projecting
 };
 

@@ -3,6 +3,7 @@
 #include "cases/cloth/fabric_input.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/cloth/kind_fields.hpp"
+#include "cases/contact/fields.hpp"
 #include "cases/input/table.hpp"
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/fields.hpp"
@@ -46,6 +47,7 @@ Object garmentTable() {
     kind->addTo(table);
     table.in("shape");
   }
+  ownFriction(table, "friction", &G::friction, "with bodies; an obstacle's own is before it");
   return table.oneOf("shape", true)
       .choice(
           "model", [](auto& g) -> auto& { return g.cloth.kind; }, clothKinds(), clothKindDoc())

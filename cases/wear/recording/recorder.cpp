@@ -218,9 +218,12 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
   std::vector<Vec3> traction;
   auto& ids = c.integers["warm"];
   auto& mean_Pa = c.reals["warm_mean"];
+  const bool slips =
+      std::any_of(s.warm.begin(), s.warm.end(), [](const WarmContact& w) { return w.slip_m_per_s > 0; });
   for (const WarmContact& w : s.warm) {
     traction.push_back(w.traction);
     mean_Pa.push_back(w.mean_Pa);
+    if (slips) c.reals["warm_slip"].push_back(w.slip_m_per_s);
     ids.insert(ids.end(), {w.sample, w.obstacle >= 0 ? w.obstacle : -static_cast<int>(w.kind), w.feature});
   }
   c.reals["warm"] = doubles(traction);
@@ -231,11 +234,11 @@ namespace {
 
 /// In a checkpoint a contact of cloth with cloth has minus its kind in place of an obstacle; an edge on a body has a
 /// negative feature.
-WarmContact warmContact(int sample, int obstacle, int feature, const Vec3& traction, double mean_Pa) {
+WarmContact warmContact(int sample, int obstacle, int feature, const Vec3& traction, double mean_Pa, double slip) {
   const ContactKind kind = obstacle < 0  ? static_cast<ContactKind>(-obstacle)
                            : feature < 0 ? ContactKind::edge_on_body
                                          : ContactKind::sample_on_body;
-  return {kind, sample, std::max(obstacle, -1), feature, traction, mean_Pa};
+  return {kind, sample, std::max(obstacle, -1), feature, traction, mean_Pa, slip};
 }
 
 }  // namespace
@@ -271,10 +274,11 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   for (const auto sample : c.integers.at("pinched")) s.pinched.push_back(static_cast<int>(sample));
   const auto& ids = c.integers.at("warm");
   const std::vector<Vec3> traction = vectors(c.reals.at("warm"));
-  const std::vector<double>& mean_Pa = c.reals.at("warm_mean");
+  const std::vector<double>&mean_Pa = c.reals.at("warm_mean"), slip = ifThere("warm_slip");
   for (std::size_t i = 0; i < traction.size(); ++i)
     s.warm.push_back(warmContact(static_cast<int>(ids[3 * i]), static_cast<int>(ids[3 * i + 1]),
-                                 static_cast<int>(ids[3 * i + 2]), traction[i], mean_Pa[i]));
+                                 static_cast<int>(ids[3 * i + 2]), traction[i], mean_Pa[i],
+                                 slip.empty() ? 0 : slip[i]));
   return s;
 }
 

@@ -243,13 +243,15 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
     say(fmt::format("Air drag is linear, {} kg/(m² s) times the velocity relative to the air, which {}.",
                     formatNumber(c.air.drag_kg_per_m2s),
                     c.air.with_pelvis ? "moves with the pelvis's mean velocity" : "is that of the case"));
-  say(
-      fmt::format("Contact begins at {} and is restored with a relaxation time of {} ms; Coulomb "
-                  "friction {}, the same for sticking "
-                  "and sliding.",
+  say(fmt::format("Contact begins at {} and is restored with a relaxation time of {} ms; {}{}.",
                   c.contact.layer_m ? fmt::format("a layer of {} mm", formatNumber(1e3 * *c.contact.layer_m))
                                     : "the thickness of the cloth",
-                  formatNumber(1e3 * c.contact.relaxation_s), formatNumber(c.contact.friction)));
+                  formatNumber(1e3 * c.contact.relaxation_s), inWords(c.contact.friction),
+                  c.contact.friction_cloth ? "; of cloth with cloth " + inWords(*c.contact.friction_cloth) : ""));
+  for (const ObstacleCase& o : c.obstacles)
+    if (o.friction) say(fmt::format("Friction with {}: {}.", o.name, inWords(*o.friction)));
+  for (const GarmentCase& g : c.garments)
+    if (g.friction) say(fmt::format("Friction of {} with bodies: {}.", g.name, inWords(*g.friction)));
   for (const SupportGroup& g : s.supports)
     say("Support: " + g.name + ". Its reaction is reported apart and is part of no joint torque.");
   return list;

@@ -24,7 +24,7 @@ constexpr double holding_friction = 1;
 Case alone(const Case& c, std::size_t g) {
   Case one = c;
   one.gravity_m_per_s2 = {};
-  one.contact.friction = std::max(one.contact.friction, holding_friction);
+  if (one.contact.friction.still < holding_friction) one.contact.friction = holding_friction;
   one.garments = {c.garments[g]};
   one.supports.clear();
   for (const SupportCase& support : c.supports) {

@@ -138,9 +138,12 @@ void buildModelOf(const Case& c, const Only& only, ClothDraft&& draft, const std
   addSupports(c, *draft.cloth, first, draft.edges, surface, human, options, s.supports);
   if (const auto& limit = c.strain_limit) options.strain_limit = wornLimit(*limit);
   const Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
+  ContactParameters contact =
+      contactOf(c.contact, norm(c.gravity_m_per_s2), c.obstacles, obstacles.size() - c.obstacles.size());
+  if (std::any_of(c.garments.begin(), c.garments.end(), [](const GarmentCase& g) { return g.friction.has_value(); }))
+    for (const GarmentCase& g : c.garments) contact.of_garment.push_back(g.friction);
   s.model = underGarments(c, only, [&] {
-    return buildModel(std::move(draft.cloth), options, environment, contactOf(c.contact, norm(c.gravity_m_per_s2)),
-                      std::move(obstacles));
+    return buildModel(std::move(draft.cloth), options, environment, contact, std::move(obstacles));
   });
   findHeldPoints(*s.model, s.supports);
 }

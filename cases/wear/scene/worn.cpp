@@ -16,15 +16,13 @@
 namespace gambeson {
 namespace {
 
-/// Where the history of a garment stands in that of the cloth, point by point.
-std::vector<std::size_t> pointsOf(const Cloth& cloth, int garment) {
-  const auto places = cloth.historyPlaces();
-  std::vector<std::size_t> points;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    if (cloth.patches()[static_cast<std::size_t>(places[k].first)].garment == garment) points.push_back(k);
-  std::stable_sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
-    const auto key = [&](std::size_t k) { return std::tuple(places[k].first, places[k].second.y, places[k].second.x); };
-    return key(a) < key(b);
+/// The points of a garment that remember, patch by patch, by place.
+std::vector<HistoryPlace> pointsOf(const Cloth& cloth, int garment) {
+  std::vector<HistoryPlace> points;
+  for (const HistoryPlace& p : cloth.historyPlaces())
+    if (cloth.patches()[static_cast<std::size_t>(p.patch)].garment == garment) points.push_back(p);
+  std::stable_sort(points.begin(), points.end(), [](const HistoryPlace& a, const HistoryPlace& b) {
+    return std::tuple(a.patch, a.place.y, a.place.x) < std::tuple(b.patch, b.place.y, b.place.x);
   });
   return points;
 }
@@ -39,45 +37,38 @@ std::string lawsThatRemember(const Case& c, const GarmentCase& worn) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::size_t perPoint(const Cloth& cloth) {
-  const std::size_t points = cloth.historyPlaces().size();
-  return points > 0 ? cloth.historySize() / points : 0;
-}
-
 }  // namespace
 
 std::vector<double> historyOf(const Cloth& cloth, std::span<const double> history, int garment) {
-  const std::size_t n = perPoint(cloth);
   std::vector<double> of_garment;
-  for (std::size_t k : pointsOf(cloth, garment))
-    of_garment.insert(of_garment.end(), history.begin() + static_cast<long>(k * n),
-                      history.begin() + static_cast<long>((k + 1) * n));
+  for (const HistoryPlace& p : pointsOf(cloth, garment))
+    for (std::size_t i = 0; i < p.count; ++i) of_garment.push_back(history[p.first + i * p.stride]);
   return of_garment;
 }
 
 std::size_t setHistoryOf(const Cloth& cloth, int garment, std::span<const double> of_garment,
                          std::span<double> history) {
-  const std::size_t n = perPoint(cloth);
-  const std::vector<std::size_t> points = pointsOf(cloth, garment);
-  if (of_garment.size() == points.size() * n)
-    for (std::size_t i = 0; i < points.size(); ++i)
-      std::copy_n(of_garment.begin() + static_cast<long>(i * n), n, history.begin() + static_cast<long>(points[i] * n));
-  return points.size() * n;
+  const std::vector<HistoryPlace> points = pointsOf(cloth, garment);
+  std::size_t count = 0;
+  for (const HistoryPlace& p : points) count += p.count;
+  if (of_garment.size() != count) return count;
+  auto at = of_garment.begin();
+  for (const HistoryPlace& p : points)
+    for (std::size_t i = 0; i < p.count; ++i) history[p.first + i * p.stride] = *at++;
+  return count;
 }
 
 std::vector<double> carriedHistory(const Cloth& from, std::span<const double> history, const Cloth& to) {
-  using Key = std::tuple<int, double, double>;
-  const std::size_t n = perPoint(from);
-  std::map<Key, std::size_t> known;
-  const auto before = from.historyPlaces(), now = to.historyPlaces();
-  for (std::size_t k = 0; k < before.size(); ++k) known[{before[k].first, before[k].second.x, before[k].second.y}] = k;
+  const auto key = [](const HistoryPlace& p) { return std::tuple(p.patch, p.place.x, p.place.y, p.count); };
+  const auto before = from.historyPlaces();
+  std::map<decltype(key(before[0])), const HistoryPlace*> known;
+  for (const HistoryPlace& p : before) known[key(p)] = &p;
   std::vector<double> carried(to.historySize());
   to.startHistory(carried);
-  for (std::size_t k = 0; k < now.size(); ++k) {
-    const auto at = known.find({now[k].first, now[k].second.x, now[k].second.y});
-    if (at != known.end())
-      std::copy_n(history.begin() + static_cast<long>(at->second * n), n, carried.begin() + static_cast<long>(k * n));
-  }
+  for (const HistoryPlace& p : to.historyPlaces())
+    if (const auto at = known.find(key(p)); at != known.end())
+      for (std::size_t i = 0; i < p.count; ++i)
+        carried[p.first + i * p.stride] = history[at->second->first + i * at->second->stride];
   return carried;
 }
 

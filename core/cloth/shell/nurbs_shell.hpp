@@ -53,7 +53,7 @@ class NurbsShell : public Cloth {
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const override;
   std::unique_ptr<ClothTangent> tangent() const override;
   std::size_t historySize() const override { return shell_.memory().doubles(); }
-  std::vector<std::pair<int, Vec2>> historyPlaces() const override { return shell_.memory().places(); }
+  std::vector<HistoryPlace> historyPlaces() const override { return shell_.memory().places(); }
 
   std::unique_ptr<StressView> stress() const override;
   PointState stateAt(const ClothState& state, int patch, Vec2 uv) const override;

@@ -108,7 +108,10 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   }
   if (std::any_of(parts_.begin(), parts_.end(), [](const ShellPart& part) { return part.law.use.remembers(); })) {
     auto part = parts_.begin();
-    for (const auto& kind : kinds) memory_.add((part++)->block, kind.second);
+    for (const auto& kind : kinds) {
+      memory_.add(part->block, kind.second, part->law.use.historySize());
+      ++part;
+    }
   }
 
   // Springs along seams; where the map T holds the tangents together the angle cannot change, and no spring is needed.
@@ -154,7 +157,7 @@ void Shell::cellForces(const ClothState& state, const ClothForce& out, ClothWork
   if (!cells) std::fill(work.slots.begin(), work.slots.begin() + hinge_slot_, 0.0);
   for (const ShellPart& part : parts_) {
     if (!cells) break;
-    BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_at.data(), state, out);
+    BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_first, state, out);
     const std::size_t lanes = static_cast<std::size_t>(part.block.groups) * part.block.lanes;
     if (out.energy) work.lane_energy.assign(lanes, 0.0);
     if (out.energy && law.remembers()) work.lane_lost.assign(lanes, 0.0), law.lost = work.lane_lost.data();
@@ -278,8 +281,8 @@ PointState Shell::stateAt(int patch, Vec2 uv, const ClothState& at) const {
   PointState state{{0.5 * (norm2(e1) - 1), 0.5 * (norm2(e2) - 1), dot(e1, e2)}, change, {}, {}};
   const double e[3] = {state.strain.x, state.strain.y, state.strain.z}, k[3] = {change.x, change.y, change.z};
   const NurbsPatch& p = garment_.patches[patch];
-  const double* remembered = memory_.nearest(patch, {findSpan(p.u, uv.x), findSpan(p.v, uv.y)}, uv, at.history);
-  const PointAnswer<double> r = resultants(pointLaw(fabric), e, k, {remembered, nullptr});
+  const History<double> remembered = memory_.nearest(patch, {findSpan(p.u, uv.x), findSpan(p.v, uv.y)}, uv, at.history);
+  const PointAnswer<double> r = resultants(pointLaw(fabric), e, k, remembered);
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
   state.n = {n[0], n[1], n[2]};
   state.m = {m[0], m[1], m[2]};

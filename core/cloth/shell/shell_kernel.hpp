@@ -43,7 +43,7 @@ struct ShellBlock {
   bool assumed = false;
   AlignedVector<double> tie_u, tie_v, tie_weight, tie_rest, tie_mean;
   AlignedVector<double> laws;    ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
-  std::vector<long> history_at;  ///< as BlockLaw has it; empty where no law remembers
+  long history_first = 0;        ///< as BlockLaw has it
 
   int nodeCount() const { return (p + 1) * (q + 1); }
   int pairCount() const { return nodeCount() * (nodeCount() + 1) / 2; }

@@ -131,7 +131,7 @@ void Tangent::assemble(const Shell& shell, const ClothState& state, ClothWork& w
       });
     } else {
       const ShellPart& part = shell.parts()[batch.part];
-      const BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_at.data(), state, {});
+      const BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_first, state, {});
       shell.kernels().tangent(part.block, law, reinterpret_cast<const double*>(state.q.data()), batch.first,
                               batch.count, slots);
     }

@@ -8,8 +8,8 @@
 
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/seams.hpp"
-#include "core/nurbs/trim_mesh.hpp"
 #include "core/error.hpp"
+#include "core/nurbs/trim_mesh.hpp"
 
 namespace gambeson {
 namespace {
@@ -35,7 +35,7 @@ void findSides(const NurbsPatch& patch, PatchMesh& m) {
   }
 }
 
-PatchMesh gridMesh(const std::vector<double>& us, const std::vector<double>& vs) {
+PatchMesh gridMesh(const std::vector<double>& us, const std::vector<double>& vs, bool alternating) {
   PatchMesh m;
   const int nu = static_cast<int>(us.size()), nv = static_cast<int>(vs.size());
   for (double v : vs)
@@ -43,8 +43,13 @@ PatchMesh gridMesh(const std::vector<double>& us, const std::vector<double>& vs)
   for (int j = 0; j + 1 < nv; ++j)
     for (int i = 0; i + 1 < nu; ++i) {
       const int a = i + nu * j, b = a + 1, c = a + 1 + nu, d = a + nu;
-      m.triangles.push_back({a, b, c});
-      m.triangles.push_back({a, c, d});
+      if (alternating && (i + j) % 2 == 1) {
+        m.triangles.push_back({a, b, d});
+        m.triangles.push_back({b, c, d});
+      } else {
+        m.triangles.push_back({a, b, c});
+        m.triangles.push_back({a, c, d});
+      }
     }
   return m;
 }
@@ -114,12 +119,13 @@ PatchMesh meshOf(const Garment& g, int index, MeshKind kind, double rows_per_cel
   const std::vector<double> us = breakpoints(patch.u), vs = breakpoints(patch.v);
   PatchMesh m;
   if (isTrimmed(g, index)) {
-    if (kind == MeshKind::equilateral) reject("equilateral is for patches that are not trimmed; allowed here: single");
+    if (kind != MeshKind::single)
+      reject("alternating and equilateral are for patches that are not trimmed; allowed here: single");
     const TrimMesh cut = trimMesh(patch, g.trims[static_cast<std::size_t>(index)], us, vs, joinedSides(g, index));
     m.uv = cut.uv;
     m.triangles = cut.triangles;
-  } else if (kind == MeshKind::single) {
-    m = gridMesh(us, vs);
+  } else if (kind != MeshKind::equilateral) {
+    m = gridMesh(us, vs, kind == MeshKind::alternating);
   } else {
     const double cells = static_cast<double>(vs.size() - 1);
     m = rowsMesh(us, vs, std::max(2, 2 * static_cast<int>(std::lround(0.5 * cells * rows_per_cell))));

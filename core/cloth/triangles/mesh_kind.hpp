@@ -3,8 +3,9 @@
 
 namespace gambeson {
 
-/// single: every cell of the draft in two triangles with the same diagonal. equilateral: rows of triangles with sides
+/// single: every cell of the draft in two triangles with the same diagonal. alternating: the diagonals of cells beside
+/// each other cross. equilateral: rows of triangles with sides
 /// of a cell's width, every other row shifted by half a side; patches that are trimmed have none.
-enum class MeshKind { single, equilateral };
+enum class MeshKind { single, alternating, equilateral };
 
 }  // namespace gambeson

@@ -130,11 +130,8 @@ void momentsOf(const ElementBlock& block, const BlockLaw& law, int begin, int en
     if constexpr (kKind == kGeneral) {
       LawLanes numbers;
       constantLaw(law, numbers);
-      LaneMemory memory;
-      if (law.remembers()) memory.read(law, group);
-      const History<V> history{memory.committed, law.trial ? memory.trial : nullptr};
+      const History<V> history = law.remembers() ? historyAt(law, group, false) : History<V>{};
       evaluateBending<kParts>(law.evaluated(), numbers, change, history, answer);
-      if (law.remembers() && law.trial) memory.write(law, group);
     } else if constexpr (kKind == 0) {
       linearMoment<kParts>(DiagonalStiffness<double>{plain.rigidity[0], plain.rigidity[1], plain.rigidity[2]}, change,
                            answer);

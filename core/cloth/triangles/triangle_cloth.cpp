@@ -294,16 +294,19 @@ void TriangleCloth::force(const ClothState& state, const ClothForce& out, ClothW
 std::unique_ptr<ClothTangent> TriangleCloth::tangent() const { return std::make_unique<TriangleTangent>(*this); }
 
 /// The middle of the hinge's edge, in its first triangle.
-std::vector<std::pair<int, Vec2>> TriangleCloth::historyPlaces() const {
-  std::vector<std::pair<int, Vec2>> places;
+std::vector<HistoryPlace> TriangleCloth::historyPlaces() const {
+  std::vector<HistoryPlace> places;
   for (std::size_t k = 0; k < elements_.hinges().size(); ++k) {
-    if (!elements_.remembers(k)) continue;
+    HistoryPlace own = elements_.historyOf(k);
+    if (own.count == 0) continue;
     const FoldHinge& h = elements_.hinges()[k];
     int patch = 0;
     while (firstTriangle(patch + 1) <= h.triangle[0]) ++patch;
     const std::array<int, 3>& corners = elements_.triangles()[static_cast<std::size_t>(h.triangle[0])].corner;
     const auto half = [&](std::size_t c) { return corners[c] == h.corner[0] || corners[c] == h.corner[1] ? 0.5 : 0.0; };
-    places.push_back({patch, {2.0 * (h.triangle[0] - firstTriangle(patch)) + half(1), half(2)}});
+    own.patch = patch;
+    own.place = {2.0 * (h.triangle[0] - firstTriangle(patch)) + half(1), half(2)};
+    places.push_back(own);
   }
   return places;
 }

@@ -86,8 +86,13 @@ void TriangleElements::packHinges() {
     return std::vector{h.theta0, h.per_angle, real ? h.area_m2 : 0.0, h.d.x, h.d.y, h.d.z};
   };
   hinge_blocks_ = packed(hinges_, laws_, lanes, kHingeDoubles, rest, [&](ElementBlock& block, std::size_t k, int at) {
-    if (at == 0) block.history_at.assign(static_cast<std::size_t>(block.groups * lanes), -1), block.first = moments_;
-    block.history_at[static_cast<std::size_t>(at)] = history_at_[k];
+    const int size = block.law.use.historySize();
+    if (at == 0) {
+      block.first = moments_;
+      block.history_first = history_;
+      history_ += static_cast<long>(block.groups) * size * lanes;
+    }
+    history_at_[k] = block.history_first + static_cast<long>(at / lanes) * size * lanes + at % lanes;
     moment_[k] = static_cast<int>(block.first) + at;
     moments_ = static_cast<int>(block.first) + block.groups * lanes;
   });
@@ -129,11 +134,7 @@ TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> tri
                                    std::span<const Fabric> fabrics, const TriangleKernels& kernels)
     : triangles_(std::move(triangles)), hinges_(std::move(hinges)), kernels_(&kernels), gather_(points) {
   for (const Fabric& f : fabrics) laws_.push_back(lawOfTriangles(f));
-  for (const FoldHinge& h : hinges_) {
-    const bool remembers = laws_[static_cast<std::size_t>(h.law)].use.remembers();
-    history_at_.push_back(remembers ? history_ : -1);
-    if (remembers) history_ += kHistoryDoubles;
-  }
+  history_at_.resize(hinges_.size());
   packHinges();
   packTriangles();
   gather_.close();
@@ -148,8 +149,19 @@ BlockLaw TriangleElements::lawOf(int index, const ForceTerms& terms) const {
   return withTerms(laws_[static_cast<std::size_t>(index)], terms);
 }
 
-const double* TriangleElements::memoryOf(std::size_t hinge, std::span<const double> history) const {
-  return history.empty() || history_at_[hinge] < 0 ? nullptr : history.data() + history_at_[hinge];
+HistoryPlace TriangleElements::historyOf(std::size_t hinge) const {
+  const int size = laws_[static_cast<std::size_t>(hinges_[hinge].law)].use.historySize();
+  return {0,
+          {},
+          static_cast<std::size_t>(history_at_[hinge]),
+          static_cast<std::size_t>(size),
+          static_cast<std::size_t>(kernels_->lanes)};
+}
+
+History<double> TriangleElements::memoryOf(std::size_t hinge, std::span<const double> history) const {
+  const HistoryPlace own = historyOf(hinge);
+  if (history.empty() || own.count == 0) return {};
+  return {history.data() + own.first, nullptr, static_cast<long>(own.stride)};
 }
 
 Vec3 TriangleElements::strain(int triangle, std::span<const Vec3> q, Vec3* weft, Vec3* warp) const {
@@ -181,14 +193,16 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
   PointState s{strain(triangle, state.q), curvatureOf(triangle, state.q, false), {}, {}};
   const double e[3] = {s.strain.x, s.strain.y, s.strain.z},
                k[3] = {s.curvature_change.x, s.curvature_change.y, s.curvature_change.z};
-  std::array<double, kHistoryDoubles> mean{};
+  std::array<double, kMostHistory> mean{};
   double area = 0;
   for (const int h : hinges_of_[static_cast<std::size_t>(triangle)]) {
-    const double* memory = h < 0 ? nullptr : memoryOf(static_cast<std::size_t>(h), state.history);
-    if (!memory) continue;
+    if (h < 0) continue;
+    const History<double> memory = memoryOf(static_cast<std::size_t>(h), state.history);
+    if (!memory.committed) continue;
     const double part = hinges_[static_cast<std::size_t>(h)].area_m2;
     area += part;
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += part * memory[i];
+    const std::size_t size = historyOf(static_cast<std::size_t>(h)).count;
+    for (std::size_t i = 0; i < size; ++i) mean[i] += part * memory.before(static_cast<int>(i));
   }
   for (double& m : mean) m /= area > 0 ? area : 1;
   const PointLaw& law = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)].point;
@@ -226,7 +240,7 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
       std::fill_n(moments + block.first, block.groups * kernels_->lanes, 0.0);
       continue;
     }
-    BlockLaw law = withHistory(withTerms(block.law, terms), block.history_at.data(), state, out);
+    BlockLaw law = withHistory(withTerms(block.law, terms), block.history_first, state, out);
     startEnergies(block, law);
     kernels_->hinges(block, law, q, moments + block.first, energies);
     addEnergies(law);
@@ -280,7 +294,7 @@ void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const 
   const double change[3] = {kappa * h.d.x, kappa * h.d.y, kappa * h.d.z}, d[3] = {h.d.x, h.d.y, h.d.z};
   Answer<double, 3> answer;
   evaluateBending<with_slope>(law.evaluated(), numbersOf(law), change,
-                              {memoryOf(static_cast<std::size_t>(hinge), state.history), nullptr}, answer);
+                              memoryOf(static_cast<std::size_t>(hinge), state.history), answer);
   double across[3]{};
   addProduct(answer.slope, d, across);
   const double slope = across[0] * d[0] + across[1] * d[1] + across[2] * d[2];

@@ -45,9 +45,10 @@ class TriangleElements {
   const std::vector<MembraneTriangle>& triangles() const { return triangles_; }
   const std::vector<FoldHinge>& hinges() const { return hinges_; }
   const char* kernels() const { return kernels_->name; }
-  /// Doubles of the history: kHistoryDoubles of each hinge whose law remembers, in their order.
+  /// Doubles of the history: those of each hinge whose law remembers, lanes side by side.
   std::size_t historySize() const { return static_cast<std::size_t>(history_); }
-  bool remembers(std::size_t hinge) const { return history_at_[hinge] >= 0; }
+  /// Of the numbers of a hinge: where they stand, without its place.
+  HistoryPlace historyOf(std::size_t hinge) const;
 
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
   /// d2E/dq2 of a triangle: blocks[3 I + J] (3 x 3, row by row) of its corners.
@@ -70,7 +71,7 @@ class TriangleElements {
   void packTriangles();
   BlockLaw lawOf(int index, const ForceTerms& terms) const;
   /// What a hinge remembers; null where it remembers nothing, or the cloth is new.
-  const double* memoryOf(std::size_t hinge, std::span<const double> history) const;
+  History<double> memoryOf(std::size_t hinge, std::span<const double> history) const;
 
   std::vector<MembraneTriangle> triangles_;
   std::vector<FoldHinge> hinges_;
@@ -78,7 +79,7 @@ class TriangleElements {
   std::vector<std::array<int, 3>> hinges_of_;  ///< of each triangle; -1 where it has fewer
   const TriangleKernels* kernels_ = nullptr;
   std::vector<ElementBlock> triangle_blocks_, hinge_blocks_;
-  std::vector<long> history_at_;  ///< of each hinge's history; -1: it remembers nothing
+  std::vector<long> history_at_;  ///< of each hinge's first number
   std::vector<int> moment_;       ///< of each hinge: where its moment is
   int moments_ = 0;               ///< and behind them one that stays 0
   long history_ = 0, slot_count_ = 0;

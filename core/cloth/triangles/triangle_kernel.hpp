@@ -14,10 +14,10 @@ namespace gambeson {
 struct ElementBlock {
   int groups = 0;
   BlockLaw law;
-  AlignedVector<int> corners;    ///< [group][corner][lane] points
-  AlignedVector<double> rest;    ///< [group][...][lane] as the kind has it
-  std::vector<long> history_at;  ///< of hinges, [group][lane], as BlockLaw has it
-  bool seam = false;             ///< of hinges: between two patches
+  AlignedVector<int> corners;  ///< [group][corner][lane] points
+  AlignedVector<double> rest;  ///< [group][...][lane] as the kind has it
+  long history_first = 0;      ///< of hinges, as BlockLaw has it
+  bool seam = false;           ///< of hinges: between two patches
   /// Of triangles, [group][edge][lane]: the hinge at the edge that faces corner 0, 1, 2, by its index among all
   /// moments.
   AlignedVector<int> hinge;

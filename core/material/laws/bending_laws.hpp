@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/material/laws/consistent_bending.hpp"
+#include "core/material/laws/hysteresis_bending.hpp"
 #include "core/material/laws/laminate.hpp"
 #include "core/material/laws/linear_bending.hpp"
 #include "core/material/laws/stop_bending.hpp"
@@ -18,7 +19,9 @@ namespace gambeson {
 
 /// Whether it compares its own numbers: a base's comparison would find laws of different numbers alike.
 template <class L>
-concept ComparesItself = requires { static_cast<bool (L::*)(const L&) const>(&L::operator==); };
+concept ComparesItself = requires {
+  static_cast<bool (L::*)(const L&) const>(&L::operator==);
+};
 
 template <BendingFormula... Laws>
 struct LawList {
@@ -33,6 +36,12 @@ struct LawList {
     ((++at, mask |= Laws::history_size > 0 ? 1u << at : 0u), ...);
     return mask;
   }();
+  /// The most that any of these kinds remembers.
+  static constexpr int historyOf(unsigned kinds) {
+    int most = 0, at = 0;
+    ((++at, most = kinds >> at & 1 ? std::max(most, Laws::history_size) : most), ...);
+    return most;
+  }
   /// The slot of a fabric. Linear laws, which a section expresses, beside those of the list.
   using Slot = std::variant<LinearBending, Laws..., ConsistentBending, Laminate>;
 
@@ -50,7 +59,7 @@ struct LawList {
   }
 };
 
-using BendingLaws = LawList<ZhengBending, StopBending>;
+using BendingLaws = LawList<ZhengBending, StopBending, HysteresisBending, IsotropicHysteresisBending>;
 /// The law of a fabric.
 using BendingLaw = BendingLaws::Slot;
 
@@ -79,7 +88,7 @@ inline GivenRigidities* givenRigidities(BendingLaw& slot) {
   return const_cast<GivenRigidities*>(givenRigidities(std::as_const(slot)));
 }
 
-constexpr int kLawNumbers = BendingLaws::most_numbers;      ///< of a point, beside its section
-constexpr int kHistoryDoubles = BendingLaws::most_history;  ///< that a point remembers
+constexpr int kLawNumbers = BendingLaws::most_numbers;   ///< of a point, beside its section
+constexpr int kMostHistory = BendingLaws::most_history;  ///< doubles that a point may remember
 
 }  // namespace gambeson

@@ -4,7 +4,8 @@
 ///
 /// Each law stands in a file of this folder, once: equation, source, units and valid range beside it. It is templated
 /// on the number S that it computes with (core/math/number.hpp) and on the number P of its parameters, which
-/// may be one for all lanes. tests/unit/core/material/laws_test.cpp checks each: energy against resultants against slope.
+/// may be one for all lanes. tests/unit/core/material/laws_test.cpp checks each: energy against resultants against
+/// slope.
 
 #include <concepts>
 
@@ -26,16 +27,24 @@ struct Answer {
   S slope[N * (N + 1) / 2];  ///< of the resultants, the committed history held fixed
 };
 
-/// What a law remembers at one point: `history_size` numbers each. A law reads what was committed and writes what it
-/// would remember if the step were accepted; it never commits.
+/// What a law remembers at one point: `history_size` numbers each, the lanes of each side by side, numbers `stride`
+/// doubles apart. A law reads what was committed and writes what it would remember if the step were accepted; it never
+/// commits.
 template <class S>
 struct History {
-  const S* committed = nullptr;  ///< null: new cloth, which remembers zeros
-  S* trial = nullptr;            ///< null: not asked
+  const double* committed = nullptr;  ///< null: new cloth, which remembers zeros
+  double* trial = nullptr;            ///< null: not asked
+  long stride = Number<S>::lanes;
+  /// Whether the law is that of all lanes. Else it is of those where `follows` is not 0, and the others keep what they
+  /// have in `trial`.
+  bool of_all = false;
+  S follows{};
 
-  GAMBESON_LAW S before(int i) const { return committed ? committed[i] : S{}; }
+  GAMBESON_LAW S before(int i) const { return committed ? Number<S>::loaded(committed + i * stride) : S{}; }
   GAMBESON_LAW void keep(int i, const S& value) const {
-    if (trial) trial[i] = value;
+    if (!trial) return;
+    double* const at = trial + i * stride;
+    Number<S>::stored(at, of_all ? value : pick(follows != 0.0, value, Number<S>::loaded(at)));
   }
 };
 

@@ -38,6 +38,8 @@ struct LawUse {
 
   GAMBESON_HD bool has(int kind) const { return kinds >> kind & 1; }
   GAMBESON_HD bool remembers() const { return kinds & BendingLaws::remembering; }
+  /// Doubles that a point has room for: as many as the law of these that remembers most.
+  GAMBESON_HD int historySize() const { return BendingLaws::historyOf(kinds); }
 };
 
 /// What all laws of a point answer: n [N/m] and m [N] with their own slopes. That of n by k, and of m by e, is B.
@@ -55,14 +57,8 @@ GAMBESON_LAW void replaceByLaw(const LawUse& use, const PointNumbers<S>& l, cons
   if (!use.has(kKind)) return;
   const auto on = l.kind == static_cast<double>(kKind);
   Answer<S, 3> own;
-  if constexpr (L::history_size == 0) {
-    L::template bend<kParts>(l.D, l.numbers, k, {}, own);
-  } else {
-    S trial[L::history_size];
-    L::template bend<kParts>(l.D, l.numbers, k, {history.committed, history.trial ? trial : nullptr}, own);
-    if (history.trial)
-      for (int i = 0; i < L::history_size; ++i) history.trial[i] = pick(on, trial[i], history.trial[i]);
-  }
+  if constexpr (L::history_size > 0) history.follows = pick(on, spread<S>(1.0), S{});
+  L::template bend<kParts>(l.D, l.numbers, k, history, own);
   bending.resultant[0] = pick(on, own.resultant[0], bending.resultant[0]);
   bending.resultant[1] = pick(on, own.resultant[1], bending.resultant[1]);
   bending.resultant[2] = pick(on, own.resultant[2], bending.resultant[2]);

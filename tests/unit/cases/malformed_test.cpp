@@ -85,7 +85,7 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {"[\"hip_flexion_left\"]", "\"hip_flexion_left\"", 33, "analysis.joints", "expected a list [ ] of texts"},
           {"[\"hip_flexion_left\"]", "[\"hip_flexion_left\", 3]", 33, "analysis.joints[1]", "expected a text"},
           // Words.
-          {"\"law\": \"zheng\"", "\"law\": \"quadratic\"", 13, "fabric.bending.law", "allowed: zheng, linear or stop"},
+          {"\"law\": \"zheng\"", "\"law\": \"quadratic\"", 13, "fabric.bending.law", "allowed: zheng, linear, stop or hysteresis"},
           {"\"male_p50\"", "\"bob\"", 16, "human.manikin", "allowed: male_p5, male_p50"},
           {"\"peak\"", "\"noon\"", 31, "output.pictures[0].time", "allowed: peak or end"},
           {"\"pelvis_mean\"", "\"head_mean\"", 28, "air.velocity", "allowed: pelvis_mean"},

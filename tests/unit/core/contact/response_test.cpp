@@ -338,7 +338,8 @@ double measuredResidual(const Problem& p) {
     const Vec3 to = tau - rho * (p.sampleVelocity(s) - r.body_velocity - r.target_m_per_s * n);
     const double normal = std::max(dot(to, n), 0.0);
     Vec3 t = to - dot(to, n) * n;
-    if (norm(t) > p.parameters.friction * normal) t *= norm(t) > 0 ? p.parameters.friction * normal / norm(t) : 0;
+    const double mu = p.parameters.friction.kinetic;
+    if (norm(t) > mu * normal) t *= norm(t) > 0 ? mu * normal / norm(t) : 0;
     most = std::max(most, norm(tau - (normal * n + t)) / rho);
   }
   return most;

@@ -117,26 +117,29 @@ TEST(Laws, TensionField) {
   expectDerivatives<3>("tension field", law, {{0.1, 0.05, 0.02}, {0.1, -0.2, 0.05}, {-0.04, 0.06, 0.11}}, 1e-7, 1e-6);
 }
 
-/// Coulomb's law has no potential; its slope is not symmetric. Sticking, slipping; parted surfaces bear nothing.
+/// Coulomb's law, and viscosity beside it, have no potential; their slope is not symmetric. Sticking, slipping; parted
+/// surfaces bear nothing.
 TEST(Laws, Friction) {
   const double n[3] = {1.0 / 3, 2.0 / 3, 2.0 / 3};
-  const auto law = [&]<class S>(const S* p) {
-    Evaluated<S, 3> e;
-    coulombImpulse<all_parts>(0.3, n, p, e.resultant, &e.slope[0][0]);
-    return e;
-  };
-  expectDerivatives<3>("friction", law, {{0.4, 0.65, 0.7}, {0.9, 0.3, 0.1}, {-1, 2, 0.1}}, 1e-8, 1e-13, false);
-  const double away[3] = {-1, -1, 0.5};
-  const auto parted = law(away);
-  for (double i : parted.resultant) EXPECT_EQ(i, 0);
-  // On the cone: |p_t| = mu p_n, the normal part as it was.
-  const double slides[3] = {0.9, 0.3, 0.1};
-  const auto cut = law(slides);
-  double normal = 0, kept = 0, size2 = 0;
-  for (int i = 0; i < 3; ++i) normal += slides[i] * n[i], kept += cut.resultant[i] * n[i];
-  for (int i = 0; i < 3; ++i) size2 += std::pow(cut.resultant[i] - kept * n[i], 2);
-  EXPECT_NEAR(kept, normal, 1e-15);
-  EXPECT_NEAR(std::sqrt(size2), 0.3 * normal, 1e-15);
+  for (const double drag : {0.0, 0.05}) {
+    const auto law = [&]<class S>(const S* p) {
+      Evaluated<S, 3> e;
+      coulombImpulse<all_parts>(0.3, drag, n, p, e.resultant, &e.slope[0][0]);
+      return e;
+    };
+    expectDerivatives<3>("friction", law, {{0.4, 0.65, 0.7}, {0.9, 0.3, 0.1}, {-1, 2, 0.1}}, 1e-8, 1e-13, false);
+    const double away[3] = {-1, -1, 0.5};
+    const auto parted = law(away);
+    for (double i : parted.resultant) EXPECT_EQ(i, 0);
+    // On the cone: |p_t| = mu p_n + drag, the normal part as it was.
+    const double slides[3] = {0.9, 0.3, 0.1};
+    const auto cut = law(slides);
+    double normal = 0, kept = 0, size2 = 0;
+    for (int i = 0; i < 3; ++i) normal += slides[i] * n[i], kept += cut.resultant[i] * n[i];
+    for (int i = 0; i < 3; ++i) size2 += std::pow(cut.resultant[i] - kept * n[i], 2);
+    EXPECT_NEAR(kept, normal, 1e-15);
+    EXPECT_NEAR(std::sqrt(size2), 0.3 * normal + drag, 1e-15);
+  }
 }
 
 /// All laws of a point together, with coupling of membrane and bending, and with a law of the list. Six strains: E and
@@ -197,11 +200,11 @@ TEST(Laws, APointTakesTheLawOfItsKind) {
 TEST(Laws, AStopAnswersFromWhatWasCommitted) {
   const double D[3] = {3, 2, 1}, yield[1] = {0.15}, committed[3] = {0.2, -0.1, 0.05};
   const auto law = [&]<class S>(const S* k) {
-    S own[3], trial[3];
+    double own[3], trial[3];
     std::copy(committed, committed + 3, own);
     Answer<S, 3> a{};
-    StopBending::bend<all_parts>(D, yield, k, History<S>{own, trial}, a);
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(own[i] == S(committed[i])) << "a law does not commit";
+    StopBending::bend<all_parts>(D, yield, k, History<S>{own, trial, 1, true}, a);
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(own[i] == committed[i]) << "a law does not commit";
     return evaluated(a);
   };
   expectDerivatives<3>("stop", law, {{0.21, -0.12, 0.07}, {0.4, -0.3, 0.1}, {-0.3, 0.4, -0.02}});
@@ -212,7 +215,7 @@ TEST(Laws, AStopOfNoRigidityIsSlack) {
   const double D[3] = {0, 2, 0}, yield[1] = {0.1}, k[3] = {5, 0.04, -3};
   double trial[3];
   Answer<double, 3> a{};
-  StopBending::bend<all_parts>(D, yield, k, {nullptr, trial}, a);
+  StopBending::bend<all_parts>(D, yield, k, {nullptr, trial, 1, true}, a);
   EXPECT_EQ(a.resultant[0], 0);
   EXPECT_DOUBLE_EQ(a.resultant[1], 0.08);
   EXPECT_EQ(a.resultant[2], 0);
@@ -245,7 +248,7 @@ TEST(Laws, AStopLosesWhatItsLoopEncloses) {
     for (int s = 1; s <= 2 * steps; ++s) {
       const double angle = 2 * std::numbers::pi * s / steps, k[3] = {0.5 * std::sin(angle), 0, 0};
       Answer<double, 3> a{};
-      StopBending::bend<all_parts>(D, yield, k, {committed, trial}, a);
+      StopBending::bend<all_parts>(D, yield, k, {committed, trial, 1, true}, a);
       EXPECT_GE(a.lost, 0);
       if (s > steps) {
         lost += a.lost;

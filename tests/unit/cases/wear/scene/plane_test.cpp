@@ -47,7 +47,7 @@ Landing land(const Case& c) {
   const Model& m = scene.model;
   const Vec3 n = std::get<PlaneObstacle>(c.obstacles[0].shape).normal, down{n.z, 0, -n.x};
   const double rho = c.fabric.surfaceDensity(), drag = c.air.drag_kg_per_m2s / rho, g = norm(c.gravity_m_per_s2);
-  const double a = g * (n.x - c.contact.friction * n.z), area = 0.36;
+  const double a = g * (n.x - c.contact.friction.kinetic * n.z), area = 0.36;
   Landing l;
   Vec3 received{}, start{};
   std::vector<double> normal(m.surface.size(), 0);
@@ -107,7 +107,7 @@ constexpr double k30 = M_PI / 6, k20 = M_PI / 9;
 
 /// Acceptance of what every run has in common. `friction` mu < tan(alpha): slides.
 void expectSliding(const Case& c, const Landing& l, double alpha_rad) {
-  const double rho = c.fabric.surfaceDensity(), g = 9.8, mu = c.contact.friction, drag = c.air.drag_kg_per_m2s / rho;
+  const double rho = c.fabric.surfaceDensity(), g = 9.8, mu = c.contact.friction.kinetic, drag = c.air.drag_kg_per_m2s / rho;
   const double p = rho * g * std::cos(alpha_rad);
   EXPECT_NEAR(l.pressure_Pa, p, 0.005 * p);
   EXPECT_NEAR(l.friction_Pa, mu * p, 0.005 * mu * p);

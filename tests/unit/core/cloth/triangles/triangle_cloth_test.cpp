@@ -147,7 +147,7 @@ TEST(TriangleCloth, AHingeOfSliversPushesByTheGradientOfItsAngle) {
 
 TEST(TriangleCloth, ForceIsTheGradientOfTheEnergy) {
   for (const Fabric& f : fabrics())
-    for (MeshKind kind : {MeshKind::single, MeshKind::equilateral}) {
+    for (MeshKind kind : {MeshKind::single, MeshKind::alternating, MeshKind::equilateral}) {
       const TriangleCloth c = clothOf(flatTriangles(4, 3, 0.4, 0.3, f, kind, 0.2));
       std::vector<Vec3> q = deformed(c, 2e-3, 3);
       const std::vector<Vec3> force = forceOf(c, q);
@@ -236,7 +236,7 @@ TEST(TriangleCloth, RigidMotionsCostNothing) {
 // A homogeneous deformation leaves no force on inner vertices of any mesh, and every triangle sees it.
 TEST(TriangleCloth, PatchTestOnIrregularMeshes) {
   for (unsigned seed : {1u, 2u, 3u})
-    for (MeshKind kind : {MeshKind::single, MeshKind::equilateral}) {
+    for (MeshKind kind : {MeshKind::single, MeshKind::alternating, MeshKind::equilateral}) {
       const double width = 0.6, height = 0.5;
       const TriangleCloth c = clothOf(flatTriangles(6, 5, width, height, denim(), kind, 0.3, seed));
       const Vec3 e1 = normalized({1, 0.4, 0.2}), e2 = normalized(cross({0.1, -0.3, 1}, e1));
