@@ -246,16 +246,20 @@ class Table {
     object_.fields.back().default_note = note;
     return *this;
   }
-  /// A choice or a number that is not written where it is the default, so that cases that do without it stay as they
+  /// A choice, a flag or a number that is not written where it is the default, so that cases that do without it stay as they
   /// are.
   Table& unwritten() {
     Field& f = object_.fields.back();
     const T defaults{};
     const std::optional<JsonNode> usual = f.write(&defaults);
-    f.default_note = f.kind == Kind::choice ? usual->text : fmt::format("{:g}", usual->number);
+    f.default_note = f.kind == Kind::choice    ? usual->text
+                     : f.kind == Kind::boolean ? std::string(usual->boolean ? "true" : "false")
+                                               : fmt::format("{:g}", usual->number);
     f.write = [write = f.write, usual](const void* t) -> std::optional<JsonNode> {
       const std::optional<JsonNode> node = write(t);
-      return node && (node->text != usual->text || node->number != usual->number) ? node : std::nullopt;
+      const bool other = node && (node->text != usual->text || node->number != usual->number ||
+                                  node->boolean != usual->boolean);
+      return other ? node : std::nullopt;
     };
     return *this;
   }

@@ -16,6 +16,7 @@
 #include "cases/contact/contact.hpp"
 #include "cases/input/json.hpp"
 #include "cases/structure/sheet.hpp"
+#include "core/motion/motion_options.hpp"
 #include "core/statics/statics.hpp"
 
 namespace gambeson {
@@ -80,7 +81,8 @@ struct DampingCase {
   double drag_kg_per_m2s = 0;
 };
 
-enum class TimeScheme { newmark, generalised_alpha, explicit_verlet };
+/// Newmark and generalised-alpha solve for unknowns; `points`: a MotionScheme steps free points, with contact.
+enum class TimeScheme { newmark, generalised_alpha, points };
 
 struct DynamicOptions {
   TimeScheme scheme = TimeScheme::generalised_alpha;
@@ -91,10 +93,11 @@ struct DynamicOptions {
   double end_s = 1;
   int iterations = 20;
   double tolerance = 1e-8;
-  bool lumped_mass = false;  ///< implicit schemes; explicit ones always lump
+  bool lumped_mass = false;  ///< Newmark, generalised-alpha; the others always lump
+  MotionOptions motion;      ///< of TimeScheme::points
 
-  bool isExplicit() const { return scheme == TimeScheme::explicit_verlet; }
-  bool lumps() const { return lumped_mass || isExplicit(); }
+  bool stepsPoints() const { return scheme == TimeScheme::points; }
+  bool lumps() const { return lumped_mass || stepsPoints(); }
 };
 
 struct ModalOptions {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/cloth/motion_fields.hpp"
 #include "cases/input/table.hpp"
 #include "cases/structure/fields.hpp"
 
@@ -35,6 +36,44 @@ void addNewton(Table<StructureCase>& table) {
               "residual force as a part of the forces that balance (loads, reactions)");
 }
 
+/// The schemes of unknowns and those that step points, in one list of words; `explicit` is velocity Verlet.
+struct SchemeWord {
+  std::string word;
+  TimeScheme scheme;
+  MotionScheme motion;
+};
+std::vector<SchemeWord> schemeWords() {
+  std::vector<SchemeWord> words{{"generalised_alpha", TimeScheme::generalised_alpha, {}},
+                                {"newmark", TimeScheme::newmark, {}}};
+  for (const auto& [word, scheme] : motionSchemes())
+    words.push_back({scheme == MotionScheme::verlet ? "explicit" : word, TimeScheme::points, scheme});
+  return words;
+}
+
+Field schemeField() {
+  Field f;
+  f.key = "scheme";
+  f.kind = Kind::choice;
+  for (const SchemeWord& w : schemeWords()) f.choices.push_back(w.word);
+  f.doc =
+      "generalised_alpha: implicit, second order, damps only the highest frequencies; newmark: implicit; explicit: "
+      "central differences (velocity Verlet), small steps; euler, rk2, rk4, implicit_euler, semi_implicit: as time.scheme "
+      "of worn cloth";
+  return f;
+}
+void readScheme(const Entry& p, StructureCase& c) {
+  const std::vector<SchemeWord> words = schemeWords();
+  const SchemeWord& w = words[static_cast<std::size_t>(readChoice(p, schemeField().choices))];
+  c.dynamics.scheme = w.scheme;
+  c.dynamics.motion.scheme = w.motion;
+}
+std::optional<JsonNode> writeScheme(const StructureCase& c) {
+  for (const SchemeWord& w : schemeWords())
+    if (w.scheme == c.dynamics.scheme && (w.scheme != TimeScheme::points || w.motion == c.dynamics.motion.scheme))
+      return nodeOf(w.word);
+  return std::nullopt;
+}
+
 }  // namespace
 
 Object staticSolverTable() {
@@ -66,20 +105,22 @@ Object staticSolverTable() {
 Object dynamicSolverTable() {
   using D = DynamicOptions;
   return Table<StructureCase>("Dynamic solver")
-      .choice("scheme", dynamics(&D::scheme),
-              std::vector<std::pair<std::string, TimeScheme>>{{"generalised_alpha", TimeScheme::generalised_alpha},
-                                                              {"newmark", TimeScheme::newmark},
-                                                              {"explicit", TimeScheme::explicit_verlet}},
-              "generalised_alpha: implicit, second order, damps only the highest frequencies; newmark: implicit; "
-              "explicit: central differences, small steps")
+      .custom(schemeField(), readScheme, writeScheme)
       .number("end", dynamics(&D::end_s), "s", aboveTo(0, 1e9), "time at which it ends")
       .required()
       .number("step", dynamics(&D::step_s), "s", between(0, 1e9),
-              "time step; explicit: 0 takes safety times the stable step")
-      .defaultsTo("required for implicit schemes; explicit: 0")
-      .number("safety", dynamics(&D::safety), "", aboveTo(0, 1), "explicit: part of the stable step that is taken")
+              "time step; 0 takes safety times the stable step of schemes that have one")
+      .defaultsTo("required for generalised_alpha, newmark and implicit_euler, and for euler and rk2 without damping; "
+                  "else 0")
+      .number("safety", dynamics(&D::safety), "", aboveTo(0, 1), "part of the stable step that is taken")
       .number("spectral_radius", dynamics(&D::spectral_radius), "", between(0, 1),
               "generalised_alpha: what is left of an infinite frequency after a step; 1 damps nothing")
+      .integer("substeps", [](auto& c) -> auto& { return c.dynamics.motion.substeps; }, 1, 1000,
+               "semi_implicit: explicit steps of bending in each step")
+      .unwritten()
+      .number("solve_tolerance", [](auto& c) -> auto& { return c.dynamics.motion.solve_tolerance; }, "",
+              between(1e-14, 1e-2), "implicit_euler, semi_implicit: what conjugate gradients may leave of the impulses")
+      .unwritten()
       .number("beta", dynamics(&D::beta), "", between(0, 1), "newmark")
       .number("gamma", dynamics(&D::gamma), "", between(0.5, 1), "newmark; above 1/2 it damps")
       .integer("iterations", dynamics(&D::iterations), 1, 1000, "Newton iterations of a step")
@@ -87,15 +128,24 @@ Object dynamicSolverTable() {
               "residual as a part of the forces that balance")
       .choice("mass", dynamics(&D::lumped_mass),
               std::vector<std::pair<std::string, bool>>{{"consistent", false}, {"lumped", true}},
-              "explicit schemes always lump")
+              "schemes but generalised_alpha and newmark always lump")
       .number("rayleigh_mass", damping(&DampingCase::mass_per_s), "1/s", between(0, 1e12), "a in the damping a M + b K")
       .number("rayleigh_stiffness", damping(&DampingCase::stiffness_s), "s", between(0, 1e12),
               "b in the damping a M + b K")
       .number("drag", damping(&DampingCase::drag_kg_per_m2s), "kg/(m^2 s)", between(0, 1e9),
               "force per area and velocity, eta of Zheng 2013")
       .check([](const Entry& p, const StructureCase& c) {
-        if (!c.dynamics.isExplicit() && !(c.dynamics.step_s > 0))
+        const MotionScheme motion = c.dynamics.motion.scheme;
+        const bool points = c.dynamics.stepsPoints();
+        if (!points && !(c.dynamics.step_s > 0))
           p.failAt("step", "is required for implicit schemes; allowed: > 0 s");
+        if (points && motion == MotionScheme::implicit_euler && !(c.dynamics.step_s > 0))
+          p.failAt("step", "is required for implicit_euler, which no step bounds; allowed: > 0 s");
+        if (points && (motion == MotionScheme::euler || motion == MotionScheme::midpoint) &&
+            !(c.dynamics.step_s > 0 || c.damping.mass_per_s > 0 || c.damping.drag_kg_per_m2s > 0))
+          p.failAt("step",
+                   "is required for euler and rk2 without damping, which let motion grow in steps of any length; "
+                   "allowed: > 0 s");
         if (!(c.dynamics.step_s <= c.dynamics.end_s))
           p.failAt("step", fmt::format("{} s is out of range; allowed: at most end = {} s", c.dynamics.step_s,
                                        c.dynamics.end_s));
@@ -104,7 +154,14 @@ Object dynamicSolverTable() {
           if (c.dynamics.scheme != scheme && c.dynamics.*member != standard.*member)
             p.failAt(key, fmt::format("has no meaning for this scheme; it goes with {}", name));
         };
-        only("safety", &D::safety, TimeScheme::explicit_verlet, "explicit");
+        if (c.dynamics.safety != standard.safety && !(points && motion != MotionScheme::implicit_euler))
+          p.failAt("safety", "has no meaning for this scheme; it goes with explicit and the schemes beside it");
+        if (c.dynamics.motion.substeps != standard.motion.substeps &&
+            !(points && motion == MotionScheme::semi_implicit))
+          p.failAt("substeps", "has no meaning for this scheme; it goes with semi_implicit");
+        if (c.dynamics.motion.solve_tolerance != standard.motion.solve_tolerance && !(points && isImplicit(motion)))
+          p.failAt("solve_tolerance",
+                   "has no meaning for this scheme; it goes with implicit_euler and semi_implicit");
         only("spectral_radius", &D::spectral_radius, TimeScheme::generalised_alpha, "generalised_alpha");
         only("beta", &D::beta, TimeScheme::newmark, "newmark");
         only("gamma", &D::gamma, TimeScheme::newmark, "newmark");

@@ -36,7 +36,7 @@ double gravityOf(const StructureCase& c) {
 }  // namespace
 
 void addMotion(const StructureCase& c, StructureModel& m) {
-  if (c.kind != StructureKind::dynamics || !c.dynamics.isExplicit()) return;
+  if (c.kind != StructureKind::dynamics || !c.dynamics.stepsPoints()) return;
   auto stage = std::make_unique<ObstacleStage>();
   ModelOptions o;
   o.structure = m.structure.get();

@@ -38,7 +38,7 @@ Mover::Mover(const StructureCase& c, const StructureModel& model) : case_(c), mo
     control.safety = o.safety;
     control.max_step_s = o.end_s;
     control.fixed_s = o.step_s;
-    integrator_ = std::make_unique<VelocityVerlet>(*model.motion, *model.stage, control, frequency_, work_);
+    integrator_ = makeIntegrator(o.motion, *model.motion, *model.stage, control, frequency_, work_);
   } else {
     ImplicitOptions options{
         o.scheme == TimeScheme::newmark ? ImplicitScheme::newmark : ImplicitScheme::generalised_alpha,

@@ -6,7 +6,7 @@
 #include "cases/structure/build.hpp"
 #include "cases/structure/case.hpp"
 #include "core/motion/implicit.hpp"
-#include "core/motion/velocity_verlet.hpp"
+#include "core/motion/free_steps.hpp"
 
 namespace gambeson {
 

@@ -183,6 +183,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
       audit["energy_gap_J"] = a.energyGap();
       audit["largest_energy_gap_J"] = a.largestEnergyGap();
       audit["works_J"] = a.works();
+      if (a.integratorEnergy() != 0) audit["work_integrator_J"] = a.integratorEnergy();
       audit["energy_gap_over_works"] = part(a.largestEnergyGap(), a.works());
     }
     audit["largest_momentum_gap_Ns"] = a.largestMomentumGap();

@@ -176,7 +176,7 @@ void checkContact(const Entry& root, const StructureCase& c) {
   if (!c.obstacles.empty() && !c.contact)
     root.failAt("contact", "is required where there is an obstacle: at least its friction");
   if (!c.contact) return;
-  if (!c.dynamics.isExplicit())
+  if (!c.dynamics.stepsPoints())
     root.failAt(c.obstacles.empty() ? "contact" : "obstacles",
                 "goes with explicit steps; give \"scheme\": \"explicit\"");
   if (c.strain_limit && c.strain_limit->method == LimitMethod::closest)
@@ -203,11 +203,11 @@ void applyStructureRules(const Entry& root, StructureCase& c) {
     checkMaterial(itemOf(root, "other_materials", i), c, c.other_materials[i]);
   checkLoads(root, c);
   checkContact(root, c);
-  if (c.kind == StructureKind::dynamics && c.dynamics.isExplicit() && c.damping.stiffness_s > 0)
+  if (c.kind == StructureKind::dynamics && c.dynamics.stepsPoints() && c.damping.stiffness_s > 0)
     memberOf(root, "solver")
         .failAt("rayleigh_stiffness",
                 "goes with implicit schemes: it would cut the stable step of explicit ones; allowed: 0");
-  if (c.strain_limit && !c.dynamics.isExplicit())
+  if (c.strain_limit && !(c.dynamics.stepsPoints() && c.dynamics.motion.scheme == MotionScheme::verlet))
     root.failAt("strain_limit", "goes with explicit steps; give \"scheme\": \"explicit\"");
   try {
     const Sheet sheet = sheetOf(c);

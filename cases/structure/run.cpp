@@ -37,7 +37,7 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 /// Whoever divides by the mass needs one that is positive; densities and thicknesses near zero round to none.
 void requireMass(const StructureCase& c, const Structure& s) {
   if (c.kind == StructureKind::statics) return;
-  const bool modal = c.kind == StructureKind::modal, explicit_steps = !modal && c.dynamics.isExplicit();
+  const bool modal = c.kind == StructureKind::modal, explicit_steps = !modal && c.dynamics.stepsPoints();
   StructureSystem system(s, ProgramEnds::constant);
   SymmetricMatrix M = system.sparsity();
   system.mass(modal ? c.modal.lumped_mass : explicit_steps || c.dynamics.lumped_mass, M);

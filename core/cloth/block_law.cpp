@@ -35,6 +35,7 @@ BlockLaw withTerms(BlockLaw law, const ForceTerms& terms) {
   law.membrane = terms.membrane;
   law.bending = terms.bending;
   law.steepest = terms.steepest;
+  law.definite = terms.definite;
   if (!terms.membrane) law.plain.membrane = {};
   if (terms.steepest) takeSteepest(law.plain);
   if (!terms.bending) law.plain.rigidity = {};

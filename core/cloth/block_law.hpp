@@ -29,7 +29,7 @@ struct BlockLaw {
   bool general = false;
   LawUse use;  ///< of any point
   /// What is left out, as in ForceTerms: of the general law in the kernel, of the plain one by the caller.
-  bool membrane = true, bending = true, steepest = false;
+  bool membrane = true, bending = true, steepest = false, definite = false;
   /// History of the whole cloth as it was committed (null: the cloth is new) and as it would be (null: not asked), and
   /// where in it the block's points have theirs, [point][use.historySize()][lane]. Energy lost since by group,
   /// [group][lane] (null: not asked). Only general laws remember.

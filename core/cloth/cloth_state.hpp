@@ -30,11 +30,14 @@ struct HistoryPlace {
   std::size_t first = 0, count = 0, stride = 1;
 };
 
-/// Which parts of the force to evaluate. `steepest` takes each law at its steepest slope, without history: what the
-/// stable time step must allow for.
+/// Which parts of the force to evaluate; the three add up to all of it. `steepest` takes each law at its steepest slope,
+/// without history: what the stable time step must allow for.
 struct ForceTerms {
   bool membrane = true, bending = true, seams = true;
   bool steepest = false;
+  /// Of a tangent: positive semidefinite for positive slopes of the laws, in each element by itself. Of what membranes
+  /// carry only the tension stiffens, and what folds and seams carry does not turn.
+  bool definite = false;
 };
 
 /// Energy of a cloth [J]: what it holds, and what its laws have lost since their history was committed.

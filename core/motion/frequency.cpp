@@ -92,11 +92,14 @@ const char* Frequency::governing() const {
   return seam_share >= spring_share ? "seam" : "spring";
 }
 
-Frequency largestFrequency(const Model& m, const Stage&, State& state, int iterations, StepWork& work) {
+Frequency largestFrequency(const Model& m, const Stage&, State& state, int iterations, StepWork& work,
+                           FrequencyOf of) {
+  const bool of_bending = of == FrequencyOf::bending, of_all = of == FrequencyOf::all;
+  const ForceTerms all{!of_bending, true, !of_bending};
   Stiffness stiffness(m, state, work);
   const int points = m.freeCount(), n = static_cast<int>(stiffness.blocks());
   std::vector<Vec3> root(n);  // of M^-1, by components
-  for (int i = 0; i < points; ++i) root[i] = std::sqrt(m.inverse_mass[i]) * Vec3{1, 1, 1};
+  for (int i = 0; i < points && of != FrequencyOf::inner; ++i) root[i] = std::sqrt(m.inverse_mass[i]) * Vec3{1, 1, 1};
   for (std::size_t k = 0; k < m.inner_mass.size(); ++k)
     root[points + static_cast<int>(k / 3)][static_cast<int>(k % 3)] = 1 / std::sqrt(m.inner_mass[k]);
   const auto scaled = [&](int i, const Vec3& v) { return Vec3{root[i].x * v.x, root[i].y * v.y, root[i].z * v.z}; };
@@ -124,12 +127,13 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
     }
     project(start);
     for (const Vec3& v : start) size += norm2(v);
+    if (!(size > 0)) return {};  // nothing of this moves
     for (Vec3& v : start) v *= 1 / std::sqrt(size);
     basis.push_back(std::move(start));
   }
   for (int k = 0; k < iterations; ++k) {
     for (int i = 0; i < n; ++i) y[i] = scaled(i, basis[k][i]);
-    stiffness.apply(y, {}, true, Ky);
+    stiffness.apply(y, all, of_all, Ky);
     for (int i = 0; i < n; ++i) Ky[i] = scaled(i, Ky[i]);
     project(Ky);
     diagonal.push_back(inner(basis[k], Ky));
@@ -163,6 +167,10 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
     stiffness.apply(y, terms, springs, Ky);
     return inner(y, Ky) / largest;
   };
+  if (!of_all) {
+    f.bending_share = 1;
+    return f;
+  }
   f.membrane_share = share({true, false, false}, false);
   f.bending_share = share({false, true, false}, false);
   f.seam_share = share({false, false, true}, false);

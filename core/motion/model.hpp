@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -150,6 +151,9 @@ struct State {
   double swing = 0;  ///< of the highest modes, its peaks held for a while (core/motion/resonance.hpp)
   double share = 0;  ///< of the stable step that this swing allows; 0 where there was no step yet
   double last_step_s = 0;
+  // Of schemes that keep account of what they make or take of energy, and that solve for velocities.
+  std::optional<double> elastic_J;  ///< stored in the cloth, its springs and stitches here; absent: not known
+  std::vector<Vec3> free_change;    ///< what the last solve changed velocities by, where the next one starts [m/s]
 };
 
 /// Momentum of the free points over one step [N s]: change = gravity + dead + drag + supports + pressing - obstacles.
@@ -159,10 +163,17 @@ struct MomentumAudit {
   Vec3 dead;       ///< dead forces, and all loads of a structure
   Vec3 obstacles;  ///< the obstacles' own ledger: what they received
   Vec3 pressing;   ///< by how much more of the contacts' next impulses the velocities hold in advance, State::pressed
-  double error() const { return norm(change - (gravity + dead + drag + supports + pressing - obstacles)); }
+  Vec3 missed;     ///< what the solve for velocities has left over: impulses that the forces say and no point has got
+  double error() const { return norm(change - (gravity + dead + drag + supports + pressing + missed - obstacles)); }
   /// Sum of the absolute impulses, the scale of `error`; at least what rounding is measured by (kScaleFloor in
   /// step.cpp).
   double scale = 0;
+};
+
+/// How the velocities of an implicit scheme were found.
+struct VelocitySolve {
+  int iterations = 0;   ///< of conjugate gradients
+  double residual = 0;  ///< what is left of the right side, as its tolerance is
 };
 
 /// Work over one step [J].
@@ -175,14 +186,18 @@ struct WorkAudit {
   double limit = 0;  ///< of the strain limits' impulses on the points that move; of a structure on all
   double loads = 0;  ///< of a structure's
   double cloth = 0;  ///< lost in the cloth's own laws (hysteresis), at least 0
+  /// What the scheme itself makes (positive) or takes: the change of the energy that forces taken at single instants
+  /// give and their exact course would not. Not of velocity Verlet where nobody asks (StepControl::audits_energy).
+  double integrator = 0;
   /// Lost to friction, inelastic impact, drag and in the cloth, at least 0: works relative to the bodies and the air,
   /// without what separation and restoring add.
   double dissipated = 0;
 };
 
 /// Why a step was not made. `impact`: pairs would pass through each other; `held`: one of them is of an obstacle and
-/// cloth that is held against it, which no shorter step changes.
-enum class StepFailure { none, not_finite, impact, held };
+/// cloth that is held against it, which no shorter step changes; `unsolved`: the velocities of an implicit scheme were not
+/// found.
+enum class StepFailure { none, not_finite, impact, held, unsolved };
 
 struct StepReport {
   StepFailure failure = StepFailure::none;
@@ -192,6 +207,7 @@ struct StepReport {
   WorkAudit work;
   ContactSolve contact;
   LimitReport limit;
+  VelocitySolve solve;
   int contacts = 0;        ///< persistent, with bodies and of cloth with cloth
   int cloth_contacts = 0;  ///< those of cloth with cloth
   int impacts = 0;         ///< pairs that would have passed through each other after the first solve
@@ -254,6 +270,7 @@ struct StepScratch {
   std::vector<ContactRow> restoring, edge_rows, yielding;
   std::vector<int> stuck;  ///< samples of the pairs that no impact zone kept apart, where the step failed for impacts
   std::vector<Vec3> unsolved;  ///< velocities before the contacts
+  bool audits_energy = false;  ///< StepControl::audits_energy
 };
 
 /// What steps work with, one after the other.

@@ -110,14 +110,15 @@ void MotionAudit::observe(const State& before, const State& after, const StepRep
   };
   if (!start_of_steps_J_) start_J_ = *(start_of_steps_J_ = energy(before));
   const WorkAudit& w = r.work;
-  balance_J_ += w.loads + w.supports + w.contact + w.limit + w.drag;
+  balance_J_ += w.loads + w.supports + w.contact + w.limit + w.drag + w.integrator;
+  integrator_J_ += w.integrator;
   works_J_ +=
       std::abs(w.loads) + std::abs(w.supports) + std::abs(w.contact) + std::abs(w.limit) + std::abs(w.drag) + w.cloth;
   lost_J_ += w.cloth;
   closeEnergy(energy(after));
   const MomentumAudit& m = r.momentum;
   impulses_Ns_ += norm(m.dead) + norm(m.supports) + norm(m.drag) + norm(m.pressing) + norm(m.obstacles);
-  gap_Ns_ += m.change - (m.gravity + m.dead + m.drag + m.supports + m.pressing - m.obstacles);
+  gap_Ns_ += m.change - (m.gravity + m.dead + m.drag + m.supports + m.pressing + m.missed - m.obstacles);
   largest_gap_Ns_ = std::max(largest_gap_Ns_, norm(gap_Ns_));
 }
 

@@ -35,6 +35,8 @@ class MotionAudit {
   bool hasEnergy() const { return structure_.rayleigh_stiffness_s == 0; }
   double energyGap() const { return gap_J_; }
   double largestEnergyGap() const { return largest_gap_J_; }
+  /// What explicit and implicit schemes of points have made (positive) or taken themselves, as they say it.
+  double integratorEnergy() const { return integrator_J_; }
   double works() const { return works_J_; }  ///< ∑ of the sizes of the works of each step
   Vec3 momentumGap() const { return gap_Ns_; }
   double largestMomentumGap() const { return largest_gap_Ns_; }
@@ -55,7 +57,7 @@ class MotionAudit {
   std::optional<Moment> last_;
   std::optional<double> start_of_steps_J_;
   double lost_J_ = 0;
-  double start_J_ = 0, gap_J_ = 0, largest_gap_J_ = 0, works_J_ = 0, balance_J_ = 0;
+  double start_J_ = 0, gap_J_ = 0, largest_gap_J_ = 0, works_J_ = 0, balance_J_ = 0, integrator_J_ = 0;
   Vec3 start_Ns_, gap_Ns_, balance_Ns_;
   double largest_gap_Ns_ = 0, impulses_Ns_ = 0;
 };

@@ -43,10 +43,14 @@ struct Frequency {
   const char* governing() const;
 };
 
+/// What an estimate of the frequency moves: all, by bending alone, or the inner unknowns alone.
+enum class FrequencyOf { all, bending, inner };
+
 /// The largest eigenfrequency of M^-1 K at the state's positions by Lanczos with full orthogonalisation, K from
 /// differences of the force with the steepest bending law; starts from state.mode where it is not empty and leaves the
 /// new mode there. The stable step of the scheme is 2 / frequency. Accurate from below; 40 iterations are within about
 /// 1 % cold.
-Frequency largestFrequency(const Model& model, const Stage& stage, State& state, int iterations, StepWork& work);
+Frequency largestFrequency(const Model& model, const Stage& stage, State& state, int iterations, StepWork& work,
+                           FrequencyOf of = FrequencyOf::all);
 
 }  // namespace gambeson

@@ -7,11 +7,6 @@
 namespace gambeson {
 namespace {
 
-/// Where hardly anything acts from outside, velocities and internal forces still round: the scale of the momentum's
-/// error is at least this part of the momenta of all points and of what a weight would add. At the limit of 1e-9 of the
-/// scale, some 500 times the rounding of a velocity.
-constexpr double kScaleFloor = 1e-4, kWeight_m_per_s2 = 9.81;
-
 /// Work beyond that of its impulse I on the mean velocity u = (predictor + velocity)/2 - half a of a force that acts
 /// all the time though its impulse comes once a step [J]. With its accelerations c0 and c1 at the ends of the step, I =
 /// J + 2 half m c0: half m (c0 + c1) acts as the other forces do, on the way of the step, and J, what was not foreseen,
@@ -27,8 +22,10 @@ double lastingWork(const Model& m, std::span<const Vec3> before, std::span<const
   return work;
 }
 
-/// Contact's part, and the impulses on bodies.
-void contactLedger(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
+}  // namespace
+
+void contactLedger(const Model& m, const State& in, double dt, std::span<const Vec3> foreseen, StepReport& report,
+                   StepWork& w) {
   w.contact_impulses.clear();
   const SparseRows& WT = m.surface.WT;
   for (std::size_t i = 0; i < w.rows.size(); ++i) {
@@ -51,7 +48,9 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
           w.held_impulses[heldSlot(m, point)] -= WT.values[k] * part;
         }
       mean += (0.5 * row.stencil.weight[j]) *
-              (sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, in.a));
+              (foreseen.empty()
+                   ? sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity)
+                   : sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, foreseen));
     }
     report.momentum.scale += norm(impulse);
     const double normal = dot(impulse, c.normal);
@@ -91,6 +90,8 @@ void contactLedger(const Model& m, const State& in, double dt, StepReport& repor
     }
   }
 }
+
+namespace {
 
 /// What supports do to what they take hold of, from the equation of motion there alone; and all loads. All points have
 /// a part in the momentum.
@@ -143,7 +144,7 @@ void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& 
   MomentumAudit& audit = report.momentum;
   w.held_impulses.assign(m.held_points.size(), Vec3{});
   for (std::size_t k = 0; k < w.held_impulses.size(); ++k) w.held_impulses[k] = half * (in.held_N[k] + out.held_N[k]);
-  contactLedger(m, in, dt, report, w);
+  contactLedger(m, in, dt, in.a, report, w);
   if (m.supports) auditSupports(m, e, report, w);
   if (m.strain_limit.mode != LimitMode::none && m.supports) {
     for (int i = 0; i < n; ++i)
@@ -198,6 +199,27 @@ void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& 
   audit.supports += half * (in.sums.springs + in.sums.held + out.sums.springs + out.sums.held);
   audit.scale += norm(audit.drag) + half * (norm(in.sums.held) + norm(out.sums.held));
   audit.scale = std::max(audit.scale, kScaleFloor * floor);
+}
+
+double verletWork(const Model& m, const State& in, const State& out, double elastic_before_J, const WorkAudit& work,
+                  const StepWork& w) {
+  const double dt = out.last_step_s, half = 0.5 * dt;
+  double energy = *out.elastic_J - elastic_before_J + work.cloth;
+  for (int i = 0; i < m.freeCount(); ++i) {
+    if (m.held[i]) continue;
+    Vec3 change = half * (in.a[i] + out.a[i]) + (w.velocity[i] - w.predictor[i]);
+    if (!w.pulled_after.empty()) change += half * w.pulled_after[i];
+    if (!w.pulled_before.empty()) change -= half * w.pulled_before[i];
+    if (!out.pressed.empty()) change += half * out.pressed[i];
+    if (!in.pressed.empty()) change -= half * in.pressed[i];
+    energy += m.mass_kg[i] * (0.5 * dot(change, in.v[i] + out.v[i]) -
+                              dt * dot(m.environment.gravity_m_per_s2, w.velocity[i]));
+    if (!m.dead_force_N.empty()) energy -= dt * dot(m.dead_force_N[i], w.velocity[i]);
+  }
+  for (std::size_t k = 0; k < m.inner_mass.size(); ++k)
+    energy += 0.25 * dt * m.inner_mass[k] * (in.inner_acceleration[k] + out.inner_acceleration[k]) *
+              (in.inner_rate[k] + out.inner_rate[k]);
+  return energy - (work.contact + work.drag + work.supports + work.limit + work.loads);
 }
 
 }  // namespace gambeson

@@ -1,80 +1,27 @@
 #include "core/motion/velocity_verlet.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/motion/capacity.hpp"
 #include "core/motion/resonance.hpp"
-#include "core/motion/step_contact.hpp"
 
 namespace gambeson {
 namespace {
-constexpr int kColdIterations = 40, kWarmIterations = 8;
-constexpr double kPinched = 64;  ///< part of a step below which samples count as pinched
-constexpr int kMostCuts = 200, kMostRejections = 30;
-constexpr double kLimitPieces = 8;  ///< a step in which strain limits and contacts do not agree is cut down to its 8th
-/// Each estimate is of the stiffness at one moment. Steps that follow it up and down gain energy (a crumpled sheet
-/// without drag 25 times its own in 0.4 s), so what is used stays near the largest of late.
-constexpr double kFall = 0.995;
 /// Steps until the next estimate, times the swing: cloth that swings far changes its stiffness as far. From a swing of
 /// kCrumpling on cells collapse, and one mode may take over from another between two estimates.
 constexpr double kStepsAtSwing = 6, kCrumpling = 0.5;
-constexpr int kSoonest = 10;  ///< steps between estimates because of the shown frequency
-/// Cloth that is so many times as stiff (as a frequency) as at rest is crushed or torn: the run would need so many
-/// times as many steps, and its forces mean nothing.
-constexpr double kCrushed = 250;
-
-/// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
-/// estimate, the estimate is out of date.
-double shownFrequency2(const Model& m, const State& before, const State& after) {
-  double force2 = 0, way2 = 0;
-  for (int i = 0; i < m.freeCount(); ++i) {
-    force2 += m.mass_kg[i] * norm2(after.a[i] - before.a[i]);
-    way2 += m.mass_kg[i] * norm2(after.p[i] - before.p[i]);
-  }
-  return way2 > 0 ? std::sqrt(force2 / way2) : 0;
-}
 }  // namespace
 
 VelocityVerlet::VelocityVerlet(const Model& model, const Stage& stage, const StepControl& control, Frequency& frequency,
                                StepWork& work)
-    : model_(model), stage_(stage), control_(control), frequency_(frequency), work_(work) {
-  reserve(capacityOf(model), work);
-}
+    : ControlledSteps(model, stage, control, frequency, work, FrequencyOf::all) {}
 
-double VelocityVerlet::frequencyAtRest() {
-  State rest;
-  for (const int home : model_.cloth->map().home) rest.p.push_back(model_.cloth->rest()[home]);
-  rest.inner.resize(model_.cloth->innerValues());
-  model_.cloth->startInner(rest.inner);
-  return largestFrequency(model_, stage_, rest, kWarmIterations, work_).largest_rad_per_s;
-}
-
-void VelocityVerlet::refuseCrushed(const State& state) {
-  if (at_rest_rad_per_s_ < 0) at_rest_rad_per_s_ = frequencyAtRest();
-  if (at_rest_rad_per_s_ == 0 || !(state.frequency_rad_per_s > kCrushed * at_rest_rad_per_s_)) return;
-  std::size_t worst = 0;
-  for (std::size_t i = 1; i < state.p.size(); ++i)
-    if (norm2(state.mode[i]) > norm2(state.mode[worst])) worst = i;
-  throw RunError(fmt::format(
-      "time {:.6g} s: the cloth near {} is crushed or torn, so that steps would have to be {:.0f} times as short as at "
-      "rest; likeliest cause: supports, obstacles or loads that leave it no room",
-      state.time_s, positionText(state.p[worst]), state.frequency_rad_per_s / at_rest_rad_per_s_));
+StepReport VelocityVerlet::makeStep(const State& in, double dt, State& out) {
+  return step(model_, stage_, in, dt, out, work_);
 }
 
 double VelocityVerlet::longestStep(State& state) {
-  if (control_.fixed_s > 0) return control_.fixed_s;
-  if (state.steps_to_estimate <= 0) {
-    const bool cold = state.frequency_rad_per_s == 0 || state.steps_to_estimate < 0;
-    frequency_ = largestFrequency(model_, stage_, state, cold ? kColdIterations : kWarmIterations, work_);
-    // A warm estimate may also have followed one mode while another rose.
-    state.frequency_rad_per_s = std::max(frequency_.largest_rad_per_s, kFall * state.frequency_rad_per_s);
-    state.steps_to_estimate = control_.estimate_every;
-    refuseCrushed(state);
-  }
+  estimate(state);
   const double omega = std::max(state.frequency_rad_per_s, 1e-300);
   const double share = std::min(control_.safety, state.share > 0 ? state.share : kFirstShare);
   // Threads that do not yield take what tension a step needs of them, more the shorter it is: these say nothing.
@@ -83,86 +30,14 @@ double VelocityVerlet::longestStep(State& state) {
   return std::min(control_.max_step_s, share * 2 / std::hypot(omega, across));
 }
 
-double VelocityVerlet::unstableAt(const State& end, double dt) {
-  State probe = end;
-  const double omega = largestFrequency(model_, stage_, probe, kColdIterations, work_).largest_rad_per_s;
-  return omega * dt > 2 ? omega : 0;
-}
-
-void VelocityVerlet::advance(double until, State& state, const StepObserver& observe) {
-  State next;
-  int rejections = 0;
-  while (state.time_s < until) {
-    const double longest = longestStep(state);
-    const double left = until - state.time_s;
-    // Times are sums of steps: a fixed step that fits up to their rounding fits.
-    const double pieces = std::ceil(control_.fixed_s > 0 ? left / longest - 1e-6 : left / longest * (1 - 1e-12));
-    double dt = pieces <= 1 ? left : left / pieces;
-    StepReport report;
-    const double whole = dt, shortest = dt / (1 << control_.max_halvings);
-    for (int cuts = 0;; ++cuts) {
-      if (!(state.time_s + dt > state.time_s))
-        throw RunError(
-            fmt::format("time {:.6g} s: a step of {:.3e} s is lost in the rounding of the time", state.time_s, dt));
-      report = step(model_, stage_, state, dt, next, work_);
-      report.cuts = cuts;
-      if (report.failure == StepFailure::none) {
-        if (report.limit.solved || 0.5 * dt < whole / kLimitPieces) break;
-        dt *= 0.5;
-        continue;
-      }
-      if (control_.fixed_s > 0 && report.failure == StepFailure::not_finite)
-        throw RunError(
-            fmt::format("time {:.6g} s, a step of {:.3e} s: {}; likeliest cause: the step is longer than the "
-                        "stable one (step 0 takes that)",
-                        state.time_s, dt, report.why));
-      const bool impact = report.failure != StepFailure::not_finite && report.earliest_impact < 1;
-      if (report.failure == StepFailure::held && dt <= whole / kPinched)
-        throw RunError(fmt::format("time {:.6g} s: {}", state.time_s, report.why));
-      if (impact && dt <= whole / kPinched && state.pinched != work_.stuck) {
-        state.pinched = work_.stuck;  // no step is short enough: let them pass, and free them afterwards
-        dt = whole;
-        continue;
-      }
-      if (dt <= shortest || cuts == kMostCuts)
-        throw RunError("no step at time " + std::to_string(state.time_s) + " s, down to " + std::to_string(dt * 1e6) +
-                       " us: " + report.why);
-      dt *= impact ? std::clamp(0.9 * report.earliest_impact, 0.1, 0.9) : 0.5;
-    }
-    if (pieces <= 1 && dt == left) next.time_s = until;
-    if (control_.fixed_s > 0 && (model_.collisions.self || !model_.obstacles.empty()) &&
-        shownFrequency2(model_, state, next) * dt * dt > 4) {
-      // A motion that grows and is stopped by contact grows in ever shorter steps.
-      if (const double omega = unstableAt(next, dt); omega > 0)
-        throw RunError(
-            fmt::format("time {:.6g} s: a step of {:.3e} s is longer than the stable one of {:.3e} s (step 0 "
-                        "takes nearly that)",
-                        state.time_s, dt, 2 / omega));
-    }
-    if (control_.fixed_s == 0) {
-      const double omega = std::max(state.frequency_rad_per_s, 1e-300);
-      const double shown2 = shownFrequency2(model_, state, next);
-      if (const double outgrown = shown2 * dt * dt > 4 ? unstableAt(next, dt) : 0; outgrown > 0) {
-        if (++rejections > kMostRejections)
-          throw RunError(
-              fmt::format("time {:.6g} s, a step of {:.3e} s: the stable step shrinks without end; likeliest "
-                          "cause: part of the cloth is crushed to nothing",
-                          state.time_s, dt));
-        state.frequency_rad_per_s = outgrown;
-        state.pinched.clear();
-        continue;
-      }
-      rejections = 0;
-      --next.steps_to_estimate;
-      next.swing = std::max(swing(model_, state, next, dt, omega, work_), kSwingHeld * state.swing);
-      next.share = shareAtSwing(next.swing, state.share);
-      const int since = control_.estimate_every - next.steps_to_estimate;
-      if (since >= kStepsAtSwing / next.swing) next.steps_to_estimate = next.swing > kCrumpling ? -1 : 0;
-      if (since >= kSoonest && shown2 > 0.8 * omega * omega) next.steps_to_estimate = -1;
-    }
-    observe(state, next, report, work_, frequency_);
-    std::swap(state, next);
-  }
+void VelocityVerlet::settle(const State& before, State& after, double dt, double shown2) {
+  const double omega = std::max(before.frequency_rad_per_s, 1e-300);
+  after.swing = std::max(swing(model_, before, after, dt, omega, work_), kSwingHeld * before.swing);
+  after.share = shareAtSwing(after.swing, before.share);
+  const int since = control_.estimate_every - (after.steps_to_estimate - 1);
+  const bool soon = since >= kStepsAtSwing / after.swing;
+  countDown(after, shown2);
+  if (soon && after.steps_to_estimate >= 0) after.steps_to_estimate = after.swing > kCrumpling ? -1 : 0;
 }
 
 }  // namespace gambeson

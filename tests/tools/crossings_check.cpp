@@ -29,6 +29,7 @@
 #include "core/error.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/recording.hpp"
+#include "core/motion/free_steps.hpp"
 #include "exact/scene_intersections.hpp"
 
 namespace gambeson {
@@ -175,10 +176,11 @@ int checkAgain(const Scenario& scenario, const RecordingReader* recording, const
   int frame = 0, equal = 0;
   Steps steps;
   std::string failure;
+  const std::unique_ptr<Integrator> integrator =
+      makeIntegrator(c.time.motion, *scenario.model, *scenario.stage, c.time.control(), frequency, work);
   for (long k = 1; k <= windows.count(); ++k) {
     try {
-      VelocityVerlet(*scenario.model, *scenario.stage, {c.time.step_safety, c.time.max_step_s}, frequency, work)
-          .advance(
+      integrator->advance(
               windows.bound(k), state,
               [&](const State&, const State& after, const StepReport& report, const StepResult&, const Frequency&) {
                 steps.add(after, report);

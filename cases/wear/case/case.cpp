@@ -5,6 +5,7 @@
 #include "cases/wear/case/references.hpp"
 #include "cases/wear/case/rules.hpp"
 #include "core/error.hpp"
+#include "core/motion/step_control.hpp"
 
 namespace gambeson {
 
@@ -33,6 +34,15 @@ Case readCase(const std::filesystem::path& file, const std::vector<std::string>&
   Case c = readCase(readCaseNode(file, overrides), file);
   c.overrides = overrides;
   return c;
+}
+
+StepControl TimeCase::control() const {
+  StepControl control;
+  control.safety = step_safety;
+  control.max_step_s = max_step_s;
+  control.fixed_s = step_s;
+  control.audits_energy = auditsEnergy();
+  return control;
 }
 
 std::string writeCase(const Case& c) { return schema::toText(schema::writeObject(schema::caseTable(), &c)) + "\n"; }

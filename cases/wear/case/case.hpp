@@ -19,6 +19,7 @@
 #include "core/cloth/draft/garment.hpp"
 #include "core/cloth/draft/mesh_draft.hpp"
 #include "core/math/vec.hpp"
+#include "core/motion/motion_options.hpp"
 #include "human/body/mesh_sequence.hpp"
 #include "human/character/character.hpp"
 #include "human/motion/aim.hpp"
@@ -29,6 +30,8 @@
 #include "tryon/pattern/armour.hpp"
 
 namespace gambeson {
+
+struct StepControl;
 
 // --- What is worn -----------------------------------------------------------------------------------------------
 
@@ -215,6 +218,12 @@ struct TimeCase {
   std::optional<double> duration_s;
   double step_safety = 0.9;  ///< of the stable step
   double max_step_s = 1e-3;
+  double step_s = 0;  ///< where positive: every step, stable or not
+  MotionOptions motion;
+  bool audit = false;  ///< velocity Verlet keeps account of what it makes or takes of energy; other schemes always do
+
+  bool auditsEnergy() const { return audit || motion.scheme != MotionScheme::verlet; }
+  StepControl control() const;
 };
 
 struct OutputCase {

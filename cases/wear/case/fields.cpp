@@ -1,7 +1,10 @@
 #include "cases/wear/case/fields.hpp"
 
+#include <fmt/format.h>
+
 #include "cases/cloth/fabric_input.hpp"
 #include "cases/cloth/fields.hpp"
+#include "cases/cloth/motion_fields.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/input/table.hpp"
 #include "cases/wear/case/case.hpp"
@@ -88,6 +91,35 @@ Object timeTable() {
       .number("step_safety", &T::step_safety, "", aboveTo(0, 1),
               "time step as a part of the largest stable one; at most 0.7 to 0.8 where the highest modes swing far")
       .number("max_step", &T::max_step_s, "s", between(1e-8, 0.01), "largest time step")
+      .choice("scheme", [](auto& t) -> auto& { return t.motion.scheme; }, motionSchemes(), motionSchemesDoc())
+      .unwritten()
+      .number("step", &T::step_s, "s", between(0, 0.01),
+              "every time step, stable or not, in place of step_safety and max_step; 0: none is given")
+      .unwritten()
+      .integer("substeps", [](auto& t) -> auto& { return t.motion.substeps; }, 1, 1000,
+               "semi_implicit: explicit steps of bending in each step, the thesis's alpha; a step is so many times as "
+               "long as bending alone allows, at most max_step")
+      .unwritten()
+      .number("solve_tolerance", [](auto& t) -> auto& { return t.motion.solve_tolerance; }, "", between(1e-14, 1e-2),
+              "implicit_euler, semi_implicit: what conjugate gradients may leave of the impulses, in the preconditioner's "
+              "norm; the impulse that they miss is a row of the momentum balance")
+      .unwritten()
+      .flag("audit", &T::audit,
+            "verlet keeps account of what it makes or takes of energy itself, one more evaluation of the energy a step; "
+            "the other schemes always do")
+      .unwritten()
+      .check([](const Entry& p, const T& t) {
+        const T standard;
+        const auto only = [&](const char* key, bool given, bool allowed, const char* with) {
+          if (given && !allowed) p.failAt(key, fmt::format("has no meaning for this scheme; it goes with {}", with));
+        };
+        const MotionScheme s = t.motion.scheme;
+        only("substeps", t.motion.substeps != standard.motion.substeps, s == MotionScheme::semi_implicit,
+             "semi_implicit");
+        only("solve_tolerance", t.motion.solve_tolerance != standard.motion.solve_tolerance, isImplicit(s),
+             "implicit_euler and semi_implicit");
+        only("audit", t.audit, s == MotionScheme::verlet, "verlet; the other schemes always keep account");
+      })
       .build();
 }
 

@@ -194,6 +194,17 @@ void checkTask(const Entry& root, const Case& c) {
                                         : "aiming compares with taking aim, and the human takes none");
 }
 
+void checkTime(const Entry& root, const Case& c) {
+  const MotionScheme scheme = c.time.motion.scheme;
+  if (scheme == MotionScheme::verlet) return;
+  if (c.strain_limit) failAt(root, {"time", "scheme"}, "goes without strain_limit; allowed with it: \"verlet\"");
+  if ((scheme == MotionScheme::euler || scheme == MotionScheme::midpoint) && !(c.time.step_s > 0) &&
+      !(c.air.drag_kg_per_m2s > 0))
+    failAt(root, {"time", "scheme"},
+           "lets motion grow in steps of any length where nothing damps it; allowed: with air.drag > 0, or with time.step "
+           "> 0");
+}
+
 }  // namespace
 
 void applyRules(const Entry& root, Case& c) {
@@ -202,6 +213,7 @@ void applyRules(const Entry& root, Case& c) {
     root.failAt("contact",
                 "is required where there is a human, an obstacle or a second garment: at least its friction");
   if (!c.human) checkWithoutHuman(root, c);
+  checkTime(root, c);
   checkSupports(root, c);
   checkObstacleNames(root, c.obstacles);
   const JsonNode* analysis = root.node.find("analysis");

@@ -186,6 +186,9 @@ RecordingLayout recordingLayout(const Scenario& s) {
   auto& steps = layout.tables["steps"] = window;
   steps.insert(steps.end(), stepColumns().begin(), stepColumns().end());
   if (s.model->cloth->historySize() > 0) steps.push_back(lost_column);
+  const TimeCase& time = s.definition.time;
+  if (time.auditsEnergy()) steps.push_back(integrator_column);
+  if (isImplicit(time.motion.scheme)) steps.insert(steps.end(), std::begin(solve_columns), std::end(solve_columns));
   requireOwnNames(layout, s.definition.file);
   layout.scene = sceneOf(s);
   return layout;
@@ -207,6 +210,8 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
                         f.bending_share,       f.seam_share,  f.spring_share};
   c.reals["swing"] = {s.swing, s.share};
   if (!s.history.empty()) c.reals["history"] = s.history;
+  if (s.elastic_J) c.reals["elastic"] = {*s.elastic_J};
+  if (!s.free_change.empty()) c.reals["free_change"] = doubles(s.free_change);
   if (!s.inner.empty()) {
     c.reals["inner"] = s.inner;
     c.reals["inner_rate"] = s.inner_rate;
@@ -256,6 +261,8 @@ State stateOf(const Checkpoint& c, Frequency& f) {
     return c.reals.contains(name) ? c.reals.at(name) : std::vector<double>{};
   };
   s.history = ifThere("history");
+  if (c.reals.contains("elastic")) s.elastic_J = c.reals.at("elastic")[0];
+  s.free_change = vectors(ifThere("free_change"));
   s.inner = ifThere("inner");
   s.inner_rate = ifThere("inner_rate");
   s.inner_acceleration = ifThere("inner_acceleration");
@@ -362,6 +369,10 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   steps_[kWorkLimit] += r.work.limit;
   steps_[kDissipated] += r.work.dissipated;
   lost_J_ += r.work.cloth;
+  integrator_J_ += r.work.integrator;
+  solve_iterations_ += r.solve.iterations;
+  if (r.momentum.scale > 0)
+    largest_missed_ = std::max(largest_missed_, norm(r.momentum.missed) / r.momentum.scale);
   steps_[kProjections] += r.limit.projections;
   steps_[kUnlimited] += r.limit.converged ? 0 : 1;
   most(kLimitResidual, r.limit.residual);
@@ -459,6 +470,11 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   row = head;
   row.insert(row.end(), steps_.begin(), steps_.end());
   if (m.cloth->historySize() > 0) row.push_back(std::exchange(lost_J_, 0));
+  const TimeCase& time = scenario_.definition.time;
+  const double own_J = std::exchange(integrator_J_, 0), iterations = static_cast<double>(std::exchange(solve_iterations_, 0)),
+               missed = std::exchange(largest_missed_, 0);
+  if (time.auditsEnergy()) row.push_back(own_J);
+  if (isImplicit(time.motion.scheme)) row.insert(row.end(), {iterations, missed});
   writer_.append(TableRow{"steps", row});
 
   if (frame) appendFrame(state, window);

@@ -36,6 +36,9 @@ namespace gambeson {
 const std::vector<std::string>& stepColumns();
 /// Behind these where the cloth remembers: what its laws have lost in the window.
 constexpr const char* lost_column = "lost_energy_J";
+/// Columns of "steps" of runs that keep account of the scheme's own energy, and of those that solve for velocities.
+constexpr const char* integrator_column = "work_integrator_J";
+constexpr const char* solve_columns[] = {"solve_iterations", "largest_missed_impulse"};
 
 /// What stands before the parts of a column's name in the tables "regions" and "supports": of each the name, and of
 /// what has the name of an earlier one its number behind it.
@@ -79,6 +82,9 @@ class Recorder {
   std::vector<double> limit_;   ///< multipliers of the strain limits times time, over the window
   std::vector<double> steps_;   ///< sums and extremes, in the order of stepColumns()
   double lost_J_ = 0;           ///< by laws that remember
+  double integrator_J_ = 0;     ///< made or taken by the scheme
+  long solve_iterations_ = 0;
+  double largest_missed_ = 0;  ///< impulse that a solve for velocities has missed, of the momentum's scale
 };
 
 }  // namespace gambeson

@@ -20,6 +20,9 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
   if (check == "Energy")
     return {fmt::format("{} of the work of all forces is unaccounted for", much),
             "Averages of the torques over the motion may be off by about this share.", false};
+  if (check == "Integrator")
+    return {fmt::format("the integrator made {} of the work of all forces", much),
+            "Averages of the torques over the motion may be off by about this share; shorter steps make less.", false};
   if (check == "Penetration")
     return {fmt::format("contact points of the cloth lie up to {} inside the body", much),
             "Contact gave way there: pressing forces, and torques with them, are rather too small.", false};

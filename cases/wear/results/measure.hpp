@@ -2,6 +2,7 @@
 /// The numbers of a recording: what summary.json, the tables and the report show. Only the motion counts (windows that
 /// start at time 0 or later, frames after it), dressing and settling do not, unless a name says otherwise.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -163,6 +164,8 @@ struct StepMeasure {
   long limited = 0, unlimited = 0;    ///< steps after settling, and those of them in which limits did not hold
   double largest_limit_residual = 0;  ///< of the strain, after settling
   double largest_limit_residual_settling = 0;
+  long solves = 0;  ///< of velocities, by implicit schemes
+  double solve_iterations = 0, largest_missed_impulse = 0;
 };
 
 /// Change of the total energy from the end of the first window of the motion, against the works since [J].
@@ -173,8 +176,12 @@ struct EnergyMeasure {
   /// Below it a sum of works is rounding: what moves the cloth's mass at a micrometre per second.
   double negligible = 0;
   double dissipated = 0;  ///< by friction, inelastic impact, drag and in the cloth
-  double drift() const { return change - (contact + drag + supports + limit - lost); }
+  /// What the scheme itself made (positive) or took, where the run has kept account of it.
+  std::optional<double> integrator;
+  double drift() const { return change - (contact + drag + supports + limit - lost + integrator.value_or(0)); }
   double relative() const { return absolute > negligible ? drift() / absolute : 0; }
+  /// What the scheme made, of the works.
+  double made() const { return absolute > negligible ? std::max(0.0, integrator.value_or(0)) / absolute : 0; }
 };
 
 /// As the recording stores it, in single precision.

@@ -37,6 +37,11 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
       m.unlimited += std::lround(at("unlimited_steps"));
     }
     m.impacts += std::lround(at("impacts"));
+    if (table.has(solve_columns[0])) {
+      m.solves += std::lround(at("steps"));
+      m.solve_iterations += at(solve_columns[0]);
+      m.largest_missed_impulse = std::max(m.largest_missed_impulse, at(solve_columns[1]));
+    }
     const auto count = [&](const char* name) { return std::lround(at(name)); };
     m.collisions.push_back({start, end, count("most_contacts"), count("most_cloth_contacts"), count("impacts"),
                             count("zones"), count("cut_steps"), count("pinched"), count("most_intersections"),
@@ -72,6 +77,7 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     e.limit += at("work_limit_J");
     const double lost = table.has(lost_column) ? at(lost_column) : 0;
     e.lost += lost;
+    if (table.has(integrator_column)) e.integrator = e.integrator.value_or(0) + at(integrator_column);
     e.absolute += std::abs(at("work_contact_J")) + std::abs(at("work_drag_J")) + std::abs(at("work_supports_J")) +
                   std::abs(at("work_limit_J")) + lost;
   }

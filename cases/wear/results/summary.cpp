@@ -327,6 +327,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                  {"sum_of_absolute_works_J", m.energy.absolute},
                  {"drift_ratio", m.energy.relative()}};
   if (m.energy.lost > 0) j["energy"]["lost_energy_J"] = m.energy.lost;
+  if (m.energy.integrator) j["energy"]["work_integrator_J"] = *m.energy.integrator;
   j["steps"] = {{"count", m.steps.steps},
                 {"smallest_s", m.steps.shortest_s},
                 {"mean_s", m.steps.mean_s},
@@ -344,6 +345,9 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                          {"largest_residual_m_per_s", m.steps.largest_residual_m_per_s},
                          {"mean_iterations", m.steps.mean_iterations},
                          {"impacts", m.steps.impacts}};
+  if (m.steps.solves > 0)
+    j["velocity_solver"] = {{"mean_iterations", m.steps.solve_iterations / static_cast<double>(m.steps.solves)},
+                            {"largest_missed_impulse_ratio", m.steps.largest_missed_impulse}};
   j["collisions"] = collisionsJson(m);
   if (m.limited)
     j["strain_limit"] = {

@@ -85,9 +85,12 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
       {"Momentum", m.steps.momentum_error, 1e-9, "",
        "in every step: the cloth's change of momentum against gravity, drag, supports and what the body's own ledger "
        "received; the largest"},
-      {"Energy", 100 * m.energy.relative(), 5, "%",
-       "over the motion: the change of the total energy against the works of contact, drag and supports, "
-       "of the sum of the absolute works"},
+      {"Energy", 100 * m.energy.relative(), m.energy.integrator ? 1e-4 : 5., "%",
+       m.energy.integrator
+           ? "over the motion: the change of the total energy against the works of contact, drag and supports and what "
+             "the integrator itself made or took, of the sum of the absolute works"
+           : "over the motion: the change of the total energy against the works of contact, drag and supports, "
+             "of the sum of the absolute works"},
       {"Penetration", 1e3 * m.steps.deepest_m, 0.2, "mm",
        "the deepest point of the cloth's samples inside the body, over the motion"},
       {"Contact solver",
@@ -95,6 +98,9 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
        "%",
        "share of the steps whose contacts were not solved to the tolerance of the case, or to a millionth of the "
        "largest impulse where cloth is jammed"}};
+  if (m.energy.integrator)
+    checks.push_back({"Integrator", 100 * m.energy.made(), 5, "%",
+                      "energy that the integrator itself made over the motion, of the sum of the absolute works"});
   double pinched = 0;
   for (const CollisionWindow& w : m.steps.collisions) pinched += static_cast<double>(w.pinched);
   checks.push_back({"Intersections",

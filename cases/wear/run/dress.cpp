@@ -8,6 +8,7 @@
 #include "cases/wear/case/supports/kind.hpp"
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
+#include "core/motion/free_steps.hpp"
 #include "tryon/stitching.hpp"
 
 namespace gambeson {
@@ -42,8 +43,8 @@ State settled(const Scenario& s, bool* tangled) {
   Frequency frequency;
   const TimeCase& time = s.definition.time;
   bool last = false;
-  VelocityVerlet(*s.model, *s.stage, {time.step_safety, time.max_step_s}, frequency, work)
-      .advance(0, state, [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
+  makeIntegrator(time.motion, *s.model, *s.stage, time.control(), frequency, work)
+      ->advance(0, state, [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
         last = r.intersections > 0 || r.inside > 0 || r.pinched > 0;
       });
   if (tangled) *tangled = last;
@@ -72,9 +73,10 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
   State state = startOf(*panels, work);
   Frequency frequency;
   double widest = widestStitch(m.stitches, m.surface.WT, state.p);
+  const std::unique_ptr<Integrator> integrator =
+      makeIntegrator(one.time.motion, m, *panels->stage, one.time.control(), frequency, work);
   while (widest > law.close_m && state.time_s < -1e-9) {
-    VelocityVerlet(m, *panels->stage, {one.time.step_safety, one.time.max_step_s}, frequency, work)
-        .advance(std::min(0.0, state.time_s + look_s), state,
+    integrator->advance(std::min(0.0, state.time_s + look_s), state,
                  [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     widest = widestStitch(m.stitches, m.surface.WT, state.p);
   }

@@ -23,6 +23,7 @@
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
+#include "core/motion/free_steps.hpp"
 
 namespace gambeson {
 namespace {
@@ -106,15 +107,15 @@ int runCase(const Case& c, const RunOptions& options) {
   // A run that is killed early starts again from the start itself.
   if (!resume) writer.closeSegment(checkpointOf(state, frequency));
   const bool finished = k == windows.count();
-  const StepControl control{c.time.step_safety, c.time.max_step_s};
+  const std::unique_ptr<Integrator> integrator =
+      makeIntegrator(c.time.motion, model, *scenario->stage, c.time.control(), frequency, work);
   std::vector<WindowTimes> times;
   auto before_s = phasesOf(work.times, c.strain_limit.has_value());
   {
     Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
     try {
       for (; k < windows.count(); ++k) {
-        VelocityVerlet(model, *scenario->stage, control, frequency, work)
-            .advance(windows.bound(k + 1), state,
+        integrator->advance(windows.bound(k + 1), state,
                      [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
                          const Frequency& f) { recorder.observe(before, after, report, w, f); });
         auto after_s = phasesOf(work.times, c.strain_limit.has_value());

@@ -45,7 +45,8 @@ struct Turn {
 
 }  // namespace
 
-void hingeStiffness(const HingePoint& h, std::span<const Vec3> q, std::vector<std::array<double, 9>>& blocks) {
+void hingeStiffness(const HingePoint& h, std::span<const Vec3> q, std::vector<std::array<double, 9>>& blocks,
+                    bool definite) {
   const std::size_t n = h.columns.size();
   Vec3 t{}, a{}, b{};
   for (std::size_t k = 0; k < n; ++k) {
@@ -57,7 +58,7 @@ void hingeStiffness(const HingePoint& h, std::span<const Vec3> q, std::vector<st
   // theta is the turn of b less that of -a, whose n and c n are those of a with the sign that hingeAngle gives them.
   const Turn ta(t, a), tb(t, b);
   std::vector<Vec3> gradient;
-  const double moment = h.stiffness_length * (hingeAngle(h, q, &gradient) - h.theta0);
+  const double angle = hingeAngle(h, q, &gradient) - h.theta0, moment = definite ? 0 : h.stiffness_length * angle;
   blocks.assign(n * n, Matrix{});
   for (std::size_t I = 0; I < n; ++I)
     for (std::size_t J = I; J < n; ++J) {

@@ -8,9 +8,11 @@
 /// and the second variations are, with n^ab the resultants, m^ab the moments, mu = m^ab beta_ab, Y = m^ab y_ab . n,
 ///   membrane  n^ab p_aI p_bJ 1
 ///   bending   - mu_I t_J n^T - mu_J n t_I^T - Y (t_I . t_J) n n^T
-/// for rows of I and columns of J.
+/// for rows of I and columns of J. Where the matrix has to be definite, n^ab is its tensile part alone and the last row
+/// is left out; cells with assumed strains then take their geometric stiffness at the Gauss points too, not at the ties.
 
 #include "core/cloth/shell/assumed.hpp"
+#include "core/cloth/tensile.hpp"
 #include "core/math/parallel.hpp"
 
 namespace gambeson {
@@ -101,6 +103,10 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
   const V g111 = dot(y11, dual1), g211 = dot(y11, dual2), g122 = dot(y22, dual1), g222 = dot(y22, dual2),
           g112 = dot(y12, dual1), g212 = dot(y12, dual2);
 
+  const bool definite = law.law.definite;
+  V spreading[3] = {force[0], force[1], force[2]};
+  if (definite) tensilePart(force, spreading);
+
   Rows rows[kNodes];
   Changes changes[kNodes];
   for (int k = 0; k < nn; ++k) {
@@ -135,14 +141,17 @@ inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, co
   }
   for (int I = 0; I < nn; ++I) {
     const Rows r = rows[I];
-    const V f1 = force[0] * r.p1 + force[2] * r.p2, f2 = force[2] * r.p1 + force[1] * r.p2;
-    const V3 turned = r.mu * n;
+    const V f1 = spreading[0] * r.p1 + spreading[2] * r.p2, f2 = spreading[2] * r.p1 + spreading[1] * r.p2;
+    const V3 turned = definite ? V3{} : r.mu * n;
     for (int J = I; J < nn; ++J) {
       const Changes& c = changes[J];
       const V3 tJ = rows[J].t;
-      V3 w = r.bend[0] * c.m[0] + r.bend[1] * c.m[1] + r.bend[2] * c.m[2] - rows[J].mu * r.t;
-      add(w, -Y * dot(r.t, tJ), n);
-      const V spread = kAssumed ? V{} : f1 * rows[J].p1 + f2 * rows[J].p2;
+      V3 w = r.bend[0] * c.m[0] + r.bend[1] * c.m[1] + r.bend[2] * c.m[2];
+      if (!definite) {
+        w = w - rows[J].mu * r.t;
+        add(w, -Y * dot(r.t, tJ), n);
+      }
+      const V spread = kAssumed && !definite ? V{} : f1 * rows[J].p1 + f2 * rows[J].p2;
       const V left[5][3] = {{r.strain[0].x, r.strain[0].y, r.strain[0].z},
                             {r.strain[1].x, r.strain[1].y, r.strain[1].z},
                             {r.strain[2].x, r.strain[2].y, r.strain[2].z},
@@ -229,7 +238,8 @@ void tensorTangent(const ShellBlock& block, const BlockLaw& law, const double* q
         }
       }
     }
-    if constexpr (kAssumed) addTies(ties, out);
+    if constexpr (kAssumed)
+      if (!law.definite) addTies(ties, out);
   });
 }
 

@@ -122,7 +122,7 @@ void Tangent::assemble(const Shell& shell, const ClothState& state, ClothWork& w
       using Blocks = std::vector<std::array<double, 9>>;
       forAllWith<Blocks>(Each::element, batch.first, batch.first + batch.count, [&](Blocks& blocks, int i) {
         const bool hinge = batch.kind == Batch::hinges;
-        if (hinge) hingeStiffness(shell.hinges()[i], state.q, blocks);
+        if (hinge) hingeStiffness(shell.hinges()[i], state.q, blocks, terms.definite);
         if (!hinge) gapStiffness(shell.gaps()[i], blocks);
         const std::size_t n = hinge ? shell.hinges()[i].columns.size() : shell.gaps()[i].columns.size();
         double* out = slots + seam_slot_[batch.kind][i];

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/cloth/tensile.hpp"
 #include "core/cloth/triangles/hinge_angle.hpp"
 #include "core/error.hpp"
 
@@ -236,11 +237,13 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
       for (double e : work.lane_lost) out.energy->lost += e;
   };
   for (const ElementBlock& block : hinge_blocks_) {
-    if (!terms.bending || (block.seam && !terms.seams)) {
+    if (!(block.seam ? terms.seams : terms.bending)) {
       std::fill_n(moments + block.first, block.groups * kernels_->lanes, 0.0);
       continue;
     }
-    BlockLaw law = withHistory(withTerms(block.law, terms), block.history_first, state, out);
+    ForceTerms of_hinges = terms;
+    of_hinges.bending = true;
+    BlockLaw law = withHistory(withTerms(block.law, of_hinges), block.history_first, state, out);
     startEnergies(block, law);
     kernels_->hinges(block, law, q, moments + block.first, energies);
     addEnergies(law);
@@ -265,6 +268,11 @@ void TriangleElements::membraneStiffness(int triangle, std::span<const Vec3> q, 
   Answer<double, 3> answer;
   evaluateMembrane<with_slope>(law.evaluated(), numbersOf(law), strains, answer);
   const double *n = answer.resultant, *C = answer.slope;
+  double tension[3];
+  if (terms.definite) {
+    tensilePart(n, tension);
+    n = tension;
+  }
   const Vec2 g[3] = {{-t.g[0].x - t.g[1].x, -t.g[0].y - t.g[1].y}, t.g[0], t.g[1]};
   // dE/dq_I = (g.x f1, g.y f2, g.y f1 + g.x f2).
   Vec3 b[3][3];
@@ -286,11 +294,13 @@ void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const 
                                       std::vector<std::array<double, 9>>& blocks) const {
   const FoldHinge& h = hinges_[static_cast<std::size_t>(hinge)];
   blocks.assign(16, {});
-  if (!(terms.bending && (terms.seams || !h.seam))) return;
+  if (!(h.seam ? terms.seams : terms.bending)) return;
   const HingePoints x = cornersOf(h, state.q);
   HingePoints gradient;
   const double kappa = h.per_angle * (foldAngle(x, &gradient) - h.theta0);
-  const BlockLaw law = lawOf(h.law, terms);
+  ForceTerms of_hinges = terms;
+  of_hinges.bending = true;
+  const BlockLaw law = lawOf(h.law, of_hinges);
   const double change[3] = {kappa * h.d.x, kappa * h.d.y, kappa * h.d.z}, d[3] = {h.d.x, h.d.y, h.d.z};
   Answer<double, 3> answer;
   evaluateBending<with_slope>(law.evaluated(), numbersOf(law), change,
@@ -300,7 +310,10 @@ void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const 
   const double slope = across[0] * d[0] + across[1] * d[1] + across[2] * d[2];
   const double moment = answer.resultant[0] * d[0] + answer.resultant[1] * d[1] + answer.resultant[2] * d[2];
   std::array<std::array<double, 9>, 16> second;
-  foldAngleHessian(x, second);
+  if (terms.definite)
+    second.fill({});
+  else
+    foldAngleHessian(x, second);
   for (std::size_t I = 0; I < 4; ++I)
     for (std::size_t J = 0; J < 4; ++J) {
       std::array<double, 9>& m = blocks[4 * I + J];

@@ -53,7 +53,7 @@ class SpringPoints : public Cloth {
     const Vector pull = law_(x);
     for (int i = 0; i < points(); ++i) out.points[i] = {-pull(i), 0, 0};
   }
-  std::unique_ptr<ClothTangent> tangent() const override { throw std::logic_error("no tangent"); }
+  std::unique_ptr<ClothTangent> tangent() const override { return std::make_unique<Tangent>(*this); }
   std::unique_ptr<StressView> stress() const override { throw std::logic_error("no stress"); }
   PointState stateAt(const ClothState&, int, Vec2) const override { return {}; }
   double bendAt(const ClothState&, int, Vec2) const override { return 0; }
@@ -64,6 +64,36 @@ class SpringPoints : public Cloth {
   const Mounting& mounting() const override { throw std::logic_error("nothing to mount"); }
 
  private:
+  /// By differences of the law: exact for springs that are linear or of the second order.
+  class Tangent : public ClothTangent {
+   public:
+    explicit Tangent(const SpringPoints& cloth) : cloth_(cloth) {
+      for (int r = 0; r < cloth.points(); ++r) {
+        for (int c = r; c < cloth.points(); ++c) sparsity_.columns.push_back(c);
+        sparsity_.offsets.push_back(static_cast<long>(sparsity_.columns.size()));
+      }
+      sparsity_.values.assign(9 * sparsity_.columns.size(), 0.0);
+    }
+    const BlockMatrix& sparsity() const override { return sparsity_; }
+    void assemble(const ClothState& state, ClothWork&, BlockMatrix& K, const ForceTerms&) const override {
+      constexpr double kDifference = 1e-3;
+      K = sparsity_;
+      Vector x(cloth_.points());
+      for (int i = 0; i < cloth_.points(); ++i) x(i) = state.q[i].x;
+      for (int c = 0; c < cloth_.points(); ++c) {
+        Vector before = x, after = x;
+        before(c) -= kDifference;
+        after(c) += kDifference;
+        const Vector slope = (cloth_.law_(after) - cloth_.law_(before)) / (2 * kDifference);
+        for (int r = 0; r <= c; ++r) K.values[9 * K.find(r, c)] = slope(r);
+      }
+    }
+
+   private:
+    const SpringPoints& cloth_;
+    BlockMatrix sparsity_;
+  };
+
   Law law_;
   std::vector<Vec3> rest_;
   FreeMap map_;

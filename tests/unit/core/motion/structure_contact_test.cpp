@@ -8,7 +8,9 @@
 
 #include "core/cloth/shell/shell_loads.hpp"
 #include "core/cloth/shell/shell_supports.hpp"
+#include "core/motion/implicit_velocities.hpp"
 #include "core/motion/motion_audit.hpp"
+#include "core/motion/runge_kutta.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 #include "unit/core/motion/structure_moves.hpp"
 
@@ -65,10 +67,13 @@ struct OnBall {
     state = initialState(*model, stage, 0, work);
   }
 
-  void run(double dt, int count) {
+  /// `scheme`: null for velocity Verlet.
+  void run(double dt, int count, FreeScheme* scheme = nullptr) {
     MotionAudit audit(*structure, true);
+    FreeMotion free;
     for (int k = 0; k < count; ++k) {
-      const StepReport r = step(*model, stage, state, dt, next, work);
+      const StepReport r = scheme ? freeStep(*model, stage, *scheme, state, dt, next, free, work)
+                                  : step(*model, stage, state, dt, next, work);
       ASSERT_EQ(r.failure, StepFailure::none) << k << ": " << r.why;
       audit.observe(state, next, r);
       deepest_m = std::max(deepest_m, r.deepest_m);
@@ -159,6 +164,40 @@ TEST(StructureContact, SupportsMoveWhileItTouches) {
   EXPECT_LT(s.deepest_m, 1e-6);
   EXPECT_LT(s.momentum, 1e-9);
   EXPECT_LT(s.energy, 0.02);
+}
+
+/// Rollers, ties and an edge that moves in a slanting direction, under each of the other schemes: supports hold, momentum
+/// is the ledger's, and works and what the scheme itself makes or takes are all of the energy.
+TEST(StructureContact, EverySchemeMovesUnderSupports) {
+  const Garment g = sheetAboveBall();
+  for (int supports = 0; supports < 3; ++supports)
+    for (int which = 0; which < 4; ++which) {
+      SCOPED_TRACE(testing::Message() << "supports " << supports << ", scheme " << which);
+      StructureOptions o = falling(g);
+      if (supports == 0) {
+        o.constraints = supportEdge(g, {0, Side::v1}, std::vector<Vec3>{axes[1], axes[2]});
+        for (LinearConstraint& l : supportPoint(g, 0, {0, 1}, axes)) o.constraints.push_back(std::move(l));
+      } else if (supports == 1) {
+        for (const Vec3& axis : axes)
+          for (LinearConstraint& l : tieEdge(g, {0, Side::v0}, axis)) o.constraints.push_back(std::move(l));
+        for (LinearConstraint& l : supportPoint(g, 0, {0.37, 0.81}, axes)) o.constraints.push_back(std::move(l));
+      } else {
+        o.programs.push_back({{0, 0.02, 0.1}, {0, 0, 1}});
+        const Vec3 slant = normalized(Vec3{1, 0, 2});
+        o.constraints = supportEdge(g, {0, Side::u0}, std::vector<Vec3>{slant, axes[1]}, {0.02 * slant, 1});
+      }
+      RungeKutta midpoint(RungeKuttaOrder::midpoint), fourth(RungeKuttaOrder::fourth);
+      ImplicitVelocities euler({0, 1e-6}), split({4, 1e-6});
+      FreeScheme* schemes[] = {&midpoint, &fourth, &euler, &split};
+      const double dt[] = {1e-4, 2.5e-4, 1e-3, 1e-3};
+      OnBall s(g, o);
+      s.run(dt[which], static_cast<int>(0.1 / dt[which]), schemes[which]);
+      s.expectSupported(o);
+      EXPECT_LT(s.deepest_m, 1e-6);
+      EXPECT_LT(s.momentum, 1e-9);
+      EXPECT_LT(s.energy, 1e-6);
+      EXPECT_GT(s.touching, 10);
+    }
 }
 
 }  // namespace

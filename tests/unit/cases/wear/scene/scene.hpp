@@ -12,7 +12,7 @@
 
 #include "cases/wear/scene/scenario.hpp"
 #include "core/contact/scene_check.hpp"
-#include "core/motion/velocity_verlet.hpp"
+#include "core/motion/free_steps.hpp"
 #include "unit/shell_of.hpp"
 
 namespace gambeson {
@@ -31,7 +31,7 @@ class SceneRun {
 
   void run(double until_s, const StepObserver& watch) {
     const TimeCase& time = scenario->definition.time;
-    VelocityVerlet(model, stage, {time.step_safety, time.max_step_s}, frequency, work).advance(until_s, state, watch);
+    makeIntegrator(time.motion, model, stage, time.control(), frequency, work)->advance(until_s, state, watch);
   }
 
   std::unique_ptr<Scenario> scenario;

@@ -1,0 +1,140 @@
+#include "core/math/conjugate_gradients.hpp"
+
+#include <cmath>
+
+#include "core/math/parallel.hpp"
+
+namespace gambeson {
+
+BlockProduct::BlockProduct(const BlockMatrix& A) : offsets_(static_cast<std::size_t>(A.rows()) + 1, 0) {
+  for (int r = 0; r < A.rows(); ++r)
+    for (long k = A.offsets[r]; k < A.offsets[r + 1]; ++k)
+      if (A.columns[k] > r) ++offsets_[A.columns[k] + 1];
+  for (int r = 0; r < A.rows(); ++r) offsets_[r + 1] += offsets_[r];
+  columns_.resize(offsets_.back());
+  block_.resize(offsets_.back());
+  std::vector<long> at(offsets_.begin(), offsets_.end() - 1);
+  for (int r = 0; r < A.rows(); ++r)
+    for (long k = A.offsets[r]; k < A.offsets[r + 1]; ++k)
+      if (const int c = A.columns[k]; c > r) {
+        columns_[at[c]] = r;
+        block_[at[c]++] = k;
+      }
+}
+
+void BlockProduct::multiply(const BlockMatrix& A, std::span<const Vec3> x, std::span<Vec3> y) const {
+  forAll(Each::sum, A.rows(), [&](int r) {
+    double sx = 0, sy = 0, sz = 0;
+    for (long k = offsets_[r]; k < offsets_[r + 1]; ++k) {
+      const double* b = &A.values[9 * block_[k]];
+      const Vec3& v = x[columns_[k]];
+      sx += b[0] * v.x + b[3] * v.y + b[6] * v.z;
+      sy += b[1] * v.x + b[4] * v.y + b[7] * v.z;
+      sz += b[2] * v.x + b[5] * v.y + b[8] * v.z;
+    }
+    for (long k = A.offsets[r]; k < A.offsets[r + 1]; ++k) {
+      const double* b = &A.values[9 * k];
+      const Vec3& v = x[A.columns[k]];
+      sx += b[0] * v.x + b[1] * v.y + b[2] * v.z;
+      sy += b[3] * v.x + b[4] * v.y + b[5] * v.z;
+      sz += b[6] * v.x + b[7] * v.y + b[8] * v.z;
+    }
+    y[r] = {sx, sy, sz};
+  });
+}
+
+bool BlockInverses::set(std::span<const double> blocks) {
+  const std::size_t n = blocks.size() / 9;
+  values_.resize(6 * n);
+  return countOf(Each::value, static_cast<int>(n), [&](int i) {
+           const double* b = &blocks[9 * static_cast<std::size_t>(i)];
+           const double a = b[0], d = b[4], f = b[8], p = b[1], q = b[2], s = b[5];
+           const double xx = d * f - s * s, xy = q * s - p * f, xz = p * s - q * d;
+           const double det = a * xx + p * xy + q * xz;
+           double* out = &values_[6 * static_cast<std::size_t>(i)];
+           out[0] = xx / det;
+           out[1] = (a * f - q * q) / det;
+           out[2] = (a * d - p * p) / det;
+           out[3] = xy / det;
+           out[4] = xz / det;
+           out[5] = (p * q - a * s) / det;
+           return !(a > 0 && a * d - p * p > 0 && det > 0);
+         }) == 0;
+}
+
+void BlockInverses::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
+  forAll(Each::value, static_cast<int>(x.size()), [&](int i) {
+    const double* b = &values_[6 * static_cast<std::size_t>(i)];
+    const Vec3 v = x[i];
+    y[i] = {b[0] * v.x + b[3] * v.y + b[4] * v.z, b[3] * v.x + b[1] * v.y + b[5] * v.z,
+            b[4] * v.x + b[5] * v.y + b[2] * v.z};
+  });
+}
+
+namespace {
+
+/// In blocks of a fixed length, whatever the threads.
+double product(std::span<const Vec3> a, std::span<const Vec3> b, std::vector<double>& parts) {
+  constexpr int kBlock = 512;
+  const int n = static_cast<int>(a.size()), blocks = (n + kBlock - 1) / kBlock;
+  parts.resize(static_cast<std::size_t>(blocks));
+  forAll(Each::element, blocks, [&](int k) {
+    double sum = 0;
+    for (int i = k * kBlock; i < std::min(n, (k + 1) * kBlock); ++i) sum += dot(a[i], b[i]);
+    parts[static_cast<std::size_t>(k)] = sum;
+  });
+  double sum = 0;
+  for (double part : parts) sum += part;
+  return sum;
+}
+
+}  // namespace
+
+CgReport solveCg(const ConjugateGradients& s, std::span<const Vec3> b, double tolerance, int most, std::span<Vec3> x,
+                 CgWork& w) {
+  const int n = static_cast<int>(b.size());
+  for (std::vector<Vec3>* v : {&w.r, &w.z, &w.p, &w.Ap}) v->resize(b.size());
+  const auto precondition = [&] {
+    s.precondition(w.r, w.z);
+    if (s.filter) s.filter(w.z);
+  };
+  CgReport report;
+  // The size of what is asked for.
+  std::copy(b.begin(), b.end(), w.r.begin());
+  if (s.forces) s.forces(w.r);
+  precondition();
+  const double size2 = product(w.r, w.z, w.parts);
+  if (size2 == 0) std::fill(x.begin(), x.end(), Vec3{});
+  if (!(size2 > 0)) {
+    report.converged = size2 == 0;
+    return report;
+  }
+  s.multiply(x, w.Ap);
+  for (int i = 0; i < n; ++i) w.r[i] = b[i] - w.Ap[i];
+  if (s.forces) s.forces(w.r);
+  precondition();
+  double left2 = product(w.r, w.z, w.parts);
+  std::copy(w.z.begin(), w.z.end(), w.p.begin());
+  for (;;) {
+    report.residual = std::sqrt(left2 / size2);
+    report.converged = report.residual <= tolerance;
+    if (report.converged || report.iterations == most || !std::isfinite(left2)) return report;
+    s.multiply(w.p, w.Ap);
+    const double curvature = product(w.p, w.Ap, w.parts);
+    report.positive = curvature > 0;
+    if (!report.positive) return report;
+    const double alpha = left2 / curvature;
+    forAll(Each::value, n, [&](int i) {
+      x[i] += alpha * w.p[i];
+      w.r[i] -= alpha * w.Ap[i];
+    });
+    if (s.forces) s.forces(w.r);
+    precondition();
+    const double now2 = product(w.r, w.z, w.parts), beta = now2 / left2;
+    forAll(Each::value, n, [&](int i) { w.p[i] = w.z[i] + beta * w.p[i]; });
+    left2 = now2;
+    ++report.iterations;
+  }
+}
+
+}  // namespace gambeson

@@ -1,0 +1,135 @@
+#include "core/motion/implicit_velocities.hpp"
+
+#include <fmt/format.h>
+
+namespace gambeson {
+
+void ImplicitVelocities::bend(const Model& m, const State& in, double dt, FreeMotion& free, State& out, StepWork& w) {
+  const int n = m.freeCount();
+  const double h = dt / options_.substeps;
+  for (int k = 0; k < options_.substeps; ++k) {
+    internalForce(m, at_, in.history, {}, force_, w, nullptr, {false, true, false});
+    change_.resize(n);
+    for (int i = 0; i < n; ++i) {
+      free.elastic[i] += h * force_[i];
+      change_[i] = m.held[i] ? Vec3{} : (h / m.mass_kg[i]) * force_[i];
+    }
+    if (m.supports) m.supports->hold(change_);
+    for (int i = 0; i < n; ++i) at_.v[i] += change_[i];
+    const double t = in.time_s + dt * k / options_.substeps;
+    if (m.supports) m.supports->drive(t, t + h, at_.v);
+    for (int i = 0; i < n; ++i) at_.p[i] += h * at_.v[i];
+    for (std::size_t i = 0; i < out.inner_rate.size(); ++i)
+      out.inner_rate[i] += h * w.inner_force[i] / m.inner_mass[i];
+    m.cloth->advance(at_.inner, out.inner_rate, h, out.inner);
+    at_.inner = out.inner;
+  }
+}
+
+bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& in, double dt, FreeMotion& free,
+                              State& out, StepReport& report, StepWork& w) {
+  const int n = m.freeCount();
+  const bool explicit_bending = options_.substeps > 0;
+  const AnchorFrames after{w.stage.end.anchors, w.stage.end.vertices};
+  const double end_s = in.time_s + dt;
+  const Vec3 air = stage.air(end_s);
+  free.elastic.assign(n, Vec3{});
+  out.inner = in.inner;
+  out.inner_rate = in.inner_rate;
+  at_.time_s = in.time_s;
+  at_.p = in.p;
+  at_.v = in.v;
+  at_.inner = in.inner;
+  at_.history = in.history;
+  at_.anchors = in.anchors;
+  // All that is implicit, at the start.
+  const ForceTerms terms{true, !explicit_bending, true};
+  internalForce(m, at_, in.history, {}, force_, w, nullptr, terms);
+  for (std::size_t i = 0; !explicit_bending && i < out.inner_rate.size(); ++i)
+    out.inner_rate[i] += dt * w.inner_force[i] / m.inner_mass[i];
+  addStitchForces(m.stitches, m.surface.WT, in.p, force_);
+  springForces(m, at_, after, w.spring_force);
+  free.spring.resize(m.springs.size());
+  const SparseRows& WT = m.surface.WT;
+  for (std::size_t c = 0; c < m.springs.size(); ++c)
+    for (int k = WT.offsets[m.springs[c].sample]; k < WT.offsets[m.springs[c].sample + 1]; ++k)
+      force_[WT.columns[k]] += WT.values[k] * w.spring_force[c];
+  free.spring = w.spring_force;
+  if (!system_.assemble(m, at_, after, terms, dt, w)) {
+    report.failure = StepFailure::not_finite;
+    report.why = "a stiffness is not finite";
+    return false;
+  }
+  free.loads.assign(m.supports ? n : 0, Vec3{});
+  if (m.supports) {
+    loadsAt(m, end_s, w.q, w.load, w);
+    for (int i = 0; i < n; ++i) free.loads[i] = dt * w.load[i];
+  }
+  stretched_ = force_;
+
+  // What moves explicitly, or by itself.
+  if (explicit_bending) {
+    bend(m, in, dt, free, out, w);
+  } else {
+    m.cloth->advance(in.inner, out.inner_rate, dt, out.inner);
+    for (int i = 0; i < n; ++i) at_.p[i] += dt * at_.v[i];
+  }
+  known_ = at_.v;
+  if (m.supports) {
+    m.supports->drive(in.time_s, end_s, known_);
+    m.supports->place(end_s, at_.p);
+  }
+  free.way.resize(n);
+  for (int i = 0; i < n; ++i) free.way[i] = at_.p[i] - in.p[i];
+
+  // The rest.
+  b_.resize(n);
+  product_.resize(n);
+  system_.stiffness(free.way, product_);
+  for (int i = 0; i < n; ++i) {
+    Vec3 lasts = m.mass_kg[i] * m.environment.gravity_m_per_s2;
+    if (!m.dead_force_N.empty()) lasts += m.dead_force_N[i];
+    free.elastic[i] += dt * stretched_[i] - product_[i];
+    b_[i] = dt * (stretched_[i] + lasts - m.drag_kg_per_s[i] * (known_[i] - air)) - product_[i] +
+            m.mass_kg[i] * (at_.v[i] - known_[i]);
+    if (m.supports) b_[i] += free.loads[i];
+  }
+  out.free_change.assign(n, Vec3{});
+  if (in.free_change.size() == out.free_change.size()) out.free_change = in.free_change;
+  const CgReport solved = system_.solve(b_, options_.tolerance, out.free_change);
+  free.solve = {solved.iterations, solved.residual};
+  report.solve = free.solve;
+  if (!solved.converged) {
+    report.failure = StepFailure::unsolved;
+    report.why = solved.positive
+                     ? fmt::format("the velocities are not found: after {} iterations {:.1e} of the impulses is left",
+                                   solved.iterations, solved.residual)
+                     : "the stiffness is not positive, so that the velocities cannot be solved for";
+    return false;
+  }
+
+  const std::vector<Vec3>& change = out.free_change;
+  free.velocity.resize(n);
+  free.drag.resize(n);
+  free.missed.assign(n, Vec3{});
+  free.drag_work_J = free.drag_lost_J = 0;
+  system_.multiply(change, product_);
+  for (int i = 0; i < n; ++i) {
+    const double d = m.drag_kg_per_s[i];
+    free.velocity[i] = known_[i] + change[i];
+    free.way[i] += dt * change[i];
+    free.elastic[i] -= product_[i] - (m.mass_kg[i] + dt * d) * change[i];
+    free.drag[i] = (-dt * d) * (free.velocity[i] - air);
+    if (!takesHold(m, i)) free.missed[i] = product_[i] - b_[i];
+    if (m.held[i] && !m.supports) continue;
+    free.drag_work_J += dot(free.drag[i], free.velocity[i]);
+    free.drag_lost_J -= dot(free.drag[i], free.velocity[i] - air);
+  }
+  for (std::size_t c = 0; c < free.spring.size(); ++c) {
+    const Vec3 normal = after.normal(m.springs[c]), d = sampleAt(WT, m.springs[c].sample, free.way);
+    free.spring[c] = dt * (free.spring[c] - m.springs[c].stiffness_N_per_m * (d - dot(d, normal) * normal));
+  }
+  return true;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,19 @@
+#pragma once
+/// Which scheme moves a Model.
+
+namespace gambeson {
+
+enum class MotionScheme { verlet, euler, midpoint, runge_kutta, implicit_euler, semi_implicit };
+
+struct MotionOptions {
+  MotionScheme scheme = MotionScheme::verlet;
+  int substeps = 1;               ///< semi_implicit: of bending in a step
+  double solve_tolerance = 1e-6;  ///< implicit_euler, semi_implicit: CgReport::residual
+};
+
+/// Whether velocities are solved for. A step may be as long as one likes then, but for what is explicit in it.
+inline bool isImplicit(MotionScheme s) {
+  return s == MotionScheme::implicit_euler || s == MotionScheme::semi_implicit;
+}
+
+}  // namespace gambeson
