@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/parallel.hpp"
+#include "core/motion/cloth_damping.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/motion/step_contact.hpp"
 #include "core/statics/structure_system.hpp"
@@ -129,6 +130,7 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
   if (remembers) s.history.resize(committed->size());
   internalForce(m, s, remembers ? *committed : s.history,
                 remembers ? std::span<double>(s.history) : std::span<double>{}, s.a, w, remembers ? &energy : nullptr);
+  addClothDamping(m, half_velocity, s, w);
   for (std::size_t i = 0; i < m.inner_mass.size(); ++i) {
     s.inner_acceleration[i] = w.inner_force[i] / m.inner_mass[i];
     s.inner_rate[i] += half_step_s * s.inner_acceleration[i];
@@ -258,6 +260,7 @@ void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> a
   state.limit_J.clear();
   state.pressed.clear();
   accelerate(model, at.frames(), stage.air(state.time_s), v, {}, 0, nullptr, state, work);
+  state.damping_W = clothDampingPower(state, work);
 }
 
 StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
@@ -316,9 +319,11 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   const std::vector<Vec3> held_after = limitAccelerations(m, out, w.pulled_after, w.limit);
   pressingAccelerations(m, dt, w, out.pressed);
   out.history.clear();
-  report.work.cloth = accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half,
+  const double lost = accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half,
                                  &in.history, out, w);
-  report.work.dissipated += report.work.cloth;
+  out.damping_W = clothDampingPower(out, w);
+  report.work.cloth = lost + half * (in.damping_W + out.damping_W);
+  report.work.dissipated += lost + dt * w.damping_power_W;
   if (!allFinite(out.v)) return notFinite("a force is not finite");
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);

@@ -185,7 +185,7 @@ RecordingLayout recordingLayout(const Scenario& s) {
     for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(name + part);
   auto& steps = layout.tables["steps"] = window;
   steps.insert(steps.end(), stepColumns().begin(), stepColumns().end());
-  if (s.model->cloth->historySize() > 0) steps.push_back(lost_column);
+  if (s.model->cloth->losesEnergy()) steps.push_back(lost_column);
   requireOwnNames(layout, s.definition.file);
   layout.scene = sceneOf(s);
   return layout;
@@ -207,6 +207,7 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
                         f.bending_share,       f.seam_share,  f.spring_share};
   c.reals["swing"] = {s.swing, s.share};
   if (!s.history.empty()) c.reals["history"] = s.history;
+  if (s.damping_W != 0) c.reals["damping"] = {s.damping_W};
   if (!s.inner.empty()) {
     c.reals["inner"] = s.inner;
     c.reals["inner_rate"] = s.inner_rate;
@@ -256,6 +257,7 @@ State stateOf(const Checkpoint& c, Frequency& f) {
     return c.reals.contains(name) ? c.reals.at(name) : std::vector<double>{};
   };
   s.history = ifThere("history");
+  if (const std::vector<double> damping = ifThere("damping"); !damping.empty()) s.damping_W = damping[0];
   s.inner = ifThere("inner");
   s.inner_rate = ifThere("inner_rate");
   s.inner_acceleration = ifThere("inner_acceleration");
@@ -458,7 +460,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   steps_[kSprings] = energy.springs;
   row = head;
   row.insert(row.end(), steps_.begin(), steps_.end());
-  if (m.cloth->historySize() > 0) row.push_back(std::exchange(lost_J_, 0));
+  if (m.cloth->losesEnergy()) row.push_back(std::exchange(lost_J_, 0));
   writer_.append(TableRow{"steps", row});
 
   if (frame) appendFrame(state, window);
