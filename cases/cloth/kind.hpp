@@ -1,6 +1,7 @@
 #pragma once
 /// Which kind of cloth a garment or a sheet is made into.
 
+#include "core/cloth/draft/membrane_elements.hpp"
 #include "core/cloth/shell/cell_rule.hpp"
 #include "core/cloth/triangles/mesh_kind.hpp"
 
@@ -12,6 +13,7 @@ enum class ClothKind { nurbs, triangles };
 struct ClothModel {
   ClothKind kind = ClothKind::nurbs;
   MeshKind mesh = MeshKind::single;  ///< of triangles
+  MembraneModel membrane;            ///< of triangles
   // Of NURBS; keys of sheets alone.
   CellRule rule = CellRule::automatic;
   int gauss_extra = 0;  ///< points more than degree + 1 in each direction

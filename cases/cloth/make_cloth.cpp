@@ -23,8 +23,10 @@ std::unique_ptr<const Cloth> shellOf(std::span<const ClothSource> sources) {
 
 std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {
   std::vector<MeshDraft> garments;
-  for (const ClothSource& s : sources)
+  for (const ClothSource& s : sources) {
     garments.push_back(underKey(s.key, [&] { return s.mesh ? *s.mesh : meshDraft(s.draft, s.model.mesh); }));
+    garments.back().membrane = s.model.membrane;
+  }
   return std::make_unique<TriangleCloth>(std::move(garments));
 }
 
@@ -60,7 +62,14 @@ std::string inWords(const ClothModel& model) {
     case ClothKind::nurbs:
       return "Kirchhoff-Love sheet: thin, normals stay normal; strains of the reference surface are Green-Lagrange's.";
     case ClothKind::triangles:
-      return "Triangles of constant Green-Lagrange strain that bend at their edges.";
+      switch (model.membrane.elements) {
+        case MembraneElements::continuum:
+          return "Triangles of constant Green-Lagrange strain that bend at their edges.";
+        case MembraneElements::springs:
+          return "Triangles with springs along their edges, at which they bend.";
+        case MembraneElements::baraff_witkin:
+          return "Triangles with threads along weft and warp (Baraff and Witkin) that bend at their edges.";
+      }
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #include "cases/structure/fields_sheet.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/cloth/kind_fields.hpp"
+#include "cases/cloth/membrane_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ Object structureSheetTable() {
       .defaultsTo("1 for nurbs and file");
   addKnots(table, "refine_u", &S::refine_u, "u");
   addKnots(table, "refine_v", &S::refine_v, "v");
-  return table.direction("weft", &S::weft, "direction 1 of the material, projected on the surface")
+  table.direction("weft", &S::weft, "direction 1 of the material, projected on the surface")
       .defaultsTo(
           "axis_u of a plate, axis of a cylinder or sphere, zero of an annulus, along u in the middle of a patch of "
           "your own")
@@ -82,8 +83,9 @@ Object structureSheetTable() {
       .unwritten()
       .choice(
           "mesh", [](auto& s) -> auto& { return s.cloth.mesh; }, meshKinds(), meshKindDoc())
-      .unwritten()
-      .build();
+      .unwritten();
+  addMembraneFields(table);
+  return table.build();
 }
 
 }  // namespace gambeson::schema

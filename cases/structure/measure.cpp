@@ -8,6 +8,7 @@
 
 #include "core/math/carried_error.hpp"
 #include "core/math/parallel.hpp"
+#include "core/motion/cloth_damping.hpp"
 #include "core/statics/structure_system.hpp"
 
 namespace gambeson {
@@ -122,6 +123,8 @@ MeasuredState measureDynamic(const StructureModel& model, const State& state, bo
   else
     s.consistent_kg.multiply<Vec3>(inertia, force);
   for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += force[f] + s.drag_kg_per_m2s * s.area_m2[f] * state.v[f];
+  const std::vector<Vec3> damping_N = clothDamping(*s.cloth, m.q, state.v);
+  for (std::size_t f = 0; f < damping_N.size(); ++f) m.reaction_N[f] -= damping_N[f];
   if (s.rayleigh_stiffness_s > 0) {
     BlockMatrix K = s.tangent->sparsity();
     ClothWork work;

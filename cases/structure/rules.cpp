@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/cloth/membrane_fields.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/structure/build.hpp"
@@ -201,6 +202,9 @@ void applyStructureRules(const Entry& root, StructureCase& c) {
   checkMaterial(memberOf(root, "material"), c, c.material);
   for (std::size_t i = 0; i < c.other_materials.size(); ++i)
     checkMaterial(itemOf(root, "other_materials", i), c, c.other_materials[i]);
+  checkMembrane(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(c.material), c.kind == StructureKind::dynamics);
+  for (const MaterialCase& m : c.other_materials)
+    checkMembrane(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(m), c.kind == StructureKind::dynamics);
   checkLoads(root, c);
   checkContact(root, c);
   if (c.kind == StructureKind::dynamics && c.dynamics.stepsPoints() && c.damping.stiffness_s > 0)

@@ -52,6 +52,13 @@ class ClothTangent {
   /// threads.
   virtual void assemble(const ClothState& state, ClothWork& work, BlockMatrix& K,
                         const ForceTerms& terms = {}) const = 0;
+  /// Writes the matrix D of Cloth::dampingForce, - Tᵀ f_d = D v, symmetric and positive semi-definite; zeros of cloth
+  /// that is not damped. How D changes with positions is left out.
+  virtual void assembleDamping(const ClothState& state, ClothWork& work, BlockMatrix& D) const {
+    static_cast<void>(state), static_cast<void>(work);
+    D = sparsity();
+    D.values.assign(9 * D.columns.size(), 0.0);
+  }
 };
 
 class Cloth {
@@ -103,6 +110,18 @@ class Cloth {
   virtual void force(const ClothState& state, const ClothForce& out, ClothWork& work,
                      const ForceTerms& terms = {}) const = 0;
   virtual std::unique_ptr<ClothTangent> tangent() const = 0;
+
+  // Damping by the cloth itself, linear in the velocities of its points; `force` leaves it out.
+  virtual bool damps() const { return false; }
+  /// f = - D(q) v at the velocities of the state, into out.points, and the power that it takes, v . D v, into
+  /// out.energy. To be called where the cloth damps. The same bits for any number of threads.
+  virtual void dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const {
+    static_cast<void>(state), static_cast<void>(work);
+    for (Vec3& f : out.points) f = {};
+    if (out.energy) *out.energy = {};
+  }
+  /// Whether motion loses energy in the cloth, to what its laws remember or to damping.
+  bool losesEnergy() const { return historySize() > 0 || damps(); }
 
   // What its laws remember.
   virtual std::size_t historySize() const { return 0; }

@@ -9,17 +9,19 @@
 
 namespace gambeson {
 
-/// Where a cloth is and what its laws remember.
+/// Where a cloth is, what its laws remember, and how it moves.
 struct ClothState {
   std::span<const Vec3> q;          ///< all points [m]
   std::span<const double> inner;    ///< values of the inner unknowns; empty where there are none
   std::span<const double> history;  ///< committed; empty where laws remember nothing
+  std::span<const Vec3> v;          ///< velocities of all points [m/s]; for damping alone, else empty
 
   ClothState() = default;
   ClothState(std::span<const Vec3> points) : q(points) {}     // NOLINT: a cloth without inner unknowns and history
   ClothState(const std::vector<Vec3>& points) : q(points) {}  // NOLINT
-  ClothState(std::span<const Vec3> points, std::span<const double> inner_values, std::span<const double> committed)
-      : q(points), inner(inner_values), history(committed) {}
+  ClothState(std::span<const Vec3> points, std::span<const double> inner_values, std::span<const double> committed,
+             std::span<const Vec3> velocities = {})
+      : q(points), inner(inner_values), history(committed), v(velocities) {}
 };
 
 /// A point of a cloth that remembers: its place, and where in the history its numbers stand, `count` of them `stride`
@@ -40,9 +42,10 @@ struct ForceTerms {
   bool definite = false;
 };
 
-/// Energy of a cloth [J]: what it holds, and what its laws have lost since their history was committed.
+/// Energy of a cloth [J]: what it holds, and what its laws have lost since their history was committed. Of damping, the
+/// power that it takes [W], at least 0.
 struct ClothEnergy {
-  double stored = 0, lost = 0;
+  double stored = 0, lost = 0, power_W = 0;
 };
 
 /// What an evaluation writes.

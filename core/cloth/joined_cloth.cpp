@@ -51,6 +51,18 @@ class JoinedTangent : public ClothTangent {
       at += own.values.size();
     }
   }
+  void assembleDamping(const ClothState& state, ClothWork& work, BlockMatrix& D) const override {
+    if (D.columns.size() != sparsity_.columns.size() || D.offsets != sparsity_.offsets) D = sparsity_;
+    D.values.resize(9 * D.columns.size());
+    work.parts.resize(parts_.size());
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      BlockMatrix own;
+      parts_[i]->assembleDamping(cloth_.stateOf(state, i), work.parts[i], own);
+      std::copy(own.values.begin(), own.values.end(), D.values.begin() + static_cast<long>(at));
+      at += own.values.size();
+    }
+  }
 
  private:
   const JoinedCloth& cloth_;
@@ -230,7 +242,8 @@ std::pair<std::size_t, int> JoinedCloth::partOf(int patch) const {
 
 ClothState JoinedCloth::stateOf(const ClothState& s, std::size_t i) const {
   return {s.q.subspan(static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1] - point_[i])),
-          range(s.inner, values_[i], values_[i + 1]), range(s.history, history_[i], history_[i + 1])};
+          range(s.inner, values_[i], values_[i + 1]), range(s.history, history_[i], history_[i + 1]),
+          range(s.v, static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1]))};
 }
 
 std::string JoinedCloth::describePoint(int point) const {
@@ -391,6 +404,26 @@ void JoinedCloth::force(const ClothState& state, const ClothForce& out, ClothWor
     if (!out.energy) continue;
     out.energy->stored += energy.stored;
     out.energy->lost += energy.lost;
+  }
+}
+
+bool JoinedCloth::damps() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->damps(); });
+}
+
+void JoinedCloth::dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const {
+  work.parts.resize(parts_.size());
+  if (out.energy) *out.energy = {};
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    ClothEnergy energy;
+    parts_[i]->dampingForce(stateOf(state, i),
+                            {range(out.points, static_cast<std::size_t>(point_[i]),
+                                   static_cast<std::size_t>(point_[i + 1])),
+                             {},
+                             {},
+                             out.energy ? &energy : nullptr},
+                            work.parts[i]);
+    if (out.energy) out.energy->power_W += energy.power_W;
   }
 }
 

@@ -43,6 +43,8 @@ class JoinedCloth : public Cloth {
   using Cloth::force;
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const override;
   std::unique_ptr<ClothTangent> tangent() const override;
+  bool damps() const override;
+  void dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const override;
 
   std::size_t historySize() const override { return history_.back(); }
   void startHistory(std::span<double> history) const override;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/motion/cloth_damping.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/statics/structure_system.hpp"
 
@@ -93,6 +94,7 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
                 remembers ? std::span<double>(s.history) : std::span<double>{}, s.a, w,
                 remembers || energy ? &of_cloth : nullptr);
   if (energy) *energy = of_cloth;
+  addClothDamping(m, half_velocity, s, w);
   for (std::size_t i = 0; i < m.inner_mass.size(); ++i) {
     s.inner_acceleration[i] = w.inner_force[i] / m.inner_mass[i];
     s.inner_rate[i] += half_step_s * s.inner_acceleration[i];

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/motion/cloth_damping.hpp"
 #include "core/motion/step.hpp"
 
 namespace gambeson {
@@ -16,6 +17,7 @@ double scatter(std::uint64_t i) {
 }
 
 /// K y for the parts that `terms` names, by a difference of the force over a displacement of at most 0.1 micrometre.
+/// Where the cloth damps its membrane counts as K + D rate.
 class Stiffness {
  public:
   /// Vectors: a block for each free point, then the rates of the inner unknowns, three in a block.
@@ -27,6 +29,16 @@ class Stiffness {
         blocks_(state.p.size() + (model.inner_mass.size() + 2) / 3) {}
 
   std::size_t blocks() const { return blocks_; }
+  void dampAt(double rate_per_s) { rate_per_s_ = rate_per_s; }
+
+  /// D y, of the cloth's own damping.
+  void applyDamping(std::span<const Vec3> y, std::vector<Vec3>& out) {
+    w_.q.resize(m_.cloth->points());
+    m_.cloth->map().T.multiply<Vec3>(p_, w_.q);
+    const std::vector<Vec3> f = clothDamping(*m_.cloth, w_.q, y.first(p_.size()));
+    out.assign(blocks_, {});
+    for (std::size_t i = 0; i < f.size(); ++i) out[i] = -f[i];
+  }
 
   void apply(std::span<const Vec3> y, ForceTerms terms, bool springs, std::vector<Vec3>& out) {
     terms.steepest = true;
@@ -53,6 +65,10 @@ class Stiffness {
     }
     out.resize(blocks_);
     for (std::size_t i = 0; i < blocks_; ++i) out[i] = (before_[i] - after_[i]) / (2 * epsilon);
+    if (rate_per_s_ > 0 && terms.membrane) {
+      applyDamping(y, damping_);
+      for (std::size_t i = 0; i < p_.size(); ++i) out[i] += rate_per_s_ * damping_[i];
+    }
     if (springs) {
       negative_.assign(p_.size(), {});
       addStitchForces(m_.stitches, m_.surface.WT, y.first(p_.size()), negative_);
@@ -74,7 +90,8 @@ class Stiffness {
   StepWork& w_;
   std::size_t blocks_;
   std::vector<double> inner_shifted_, inner_y_;
-  std::vector<Vec3> shifted_, before_, after_, negative_;
+  std::vector<Vec3> shifted_, before_, after_, negative_, damping_;
+  double rate_per_s_ = 0;
 };
 
 double inner(std::span<const Vec3> a, std::span<const Vec3> b) {
@@ -82,6 +99,10 @@ double inner(std::span<const Vec3> a, std::span<const Vec3> b) {
   for (std::size_t i = 0; i < a.size(); ++i) s += dot(a[i], b[i]);
   return s;
 }
+
+/// The largest frequency of K + D rate, and the damping of its mode, y . D y for y . M y = 1 [1/s].
+Frequency estimate(const Model& m, State& state, int iterations, double rate_per_s, double& damping_per_s,
+                   StepWork& work, FrequencyOf of);
 
 }  // namespace
 
@@ -94,9 +115,32 @@ const char* Frequency::governing() const {
 
 Frequency largestFrequency(const Model& m, const Stage&, State& state, int iterations, StepWork& work,
                            FrequencyOf of) {
+  double damping = 0;
+  if (!m.cloth->damps() || of != FrequencyOf::all) return estimate(m, state, iterations, 0, damping, work, of);
+  // The step h is stable where h^2 K + 2 h D <= 4 M: with 2/h = w, where no eigenvalue of K + D w is above w^2. Of one
+  // mode w = (d + sqrt(d^2 + 4 k))/2; from there its modes are sought again.
+  constexpr int most_passes = 6;
+  double rate = state.frequency_rad_per_s;
+  Frequency f;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    f = estimate(m, state, iterations, rate, damping, work, of);
+    const double both = f.largest_rad_per_s * f.largest_rad_per_s, k = std::max(both - rate * damping, 0.0);
+    f.largest_rad_per_s = 0.5 * (damping + std::sqrt(damping * damping + 4 * k));
+    const bool found = std::abs(f.largest_rad_per_s - rate) <= 0.005 * rate;
+    rate = f.largest_rad_per_s;
+    if (found) break;
+  }
+  return f;
+}
+
+namespace {
+
+Frequency estimate(const Model& m, State& state, int iterations, double rate_per_s, double& damping_per_s,
+                   StepWork& work, FrequencyOf of) {
   const bool of_bending = of == FrequencyOf::bending, of_all = of == FrequencyOf::all;
   const ForceTerms all{!of_bending, true, !of_bending};
   Stiffness stiffness(m, state, work);
+  stiffness.dampAt(rate_per_s);
   const int points = m.freeCount(), n = static_cast<int>(stiffness.blocks());
   std::vector<Vec3> root(n);  // of M^-1, by components
   for (int i = 0; i < points && of != FrequencyOf::inner; ++i) root[i] = std::sqrt(m.inverse_mass[i]) * Vec3{1, 1, 1};
@@ -175,7 +219,13 @@ Frequency largestFrequency(const Model& m, const Stage&, State& state, int itera
   f.bending_share = share({false, true, false}, false);
   f.seam_share = share({false, false, true}, false);
   f.spring_share = share({false, false, false}, true);
+  if (m.cloth->damps()) {
+    stiffness.applyDamping(y, Ky);
+    damping_per_s = inner(y, Ky);
+  }
   return f;
 }
+
+}  // namespace
 
 }  // namespace gambeson

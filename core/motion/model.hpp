@@ -144,6 +144,7 @@ struct State {
   /// Acceleration of the free points by contacts that press, in the last step (pressingAccelerations), of which v holds
   /// the half step; empty: none [m/s^2].
   std::vector<Vec3> pressed;
+  double damping_W = 0;  ///< power that the cloth's own damping takes at v (clothDampingPower)
   // Step control.
   double frequency_rad_per_s = 0;  ///< estimate of the largest
   std::vector<Vec3> mode;          ///< its mode, warm start of the next estimate
@@ -185,7 +186,7 @@ struct WorkAudit {
   double drag = 0, supports = 0;
   double limit = 0;  ///< of the strain limits' impulses on the points that move; of a structure on all
   double loads = 0;  ///< of a structure's
-  double cloth = 0;  ///< lost in the cloth's own laws (hysteresis), at least 0
+  double cloth = 0;  ///< lost in the cloth itself: to hysteresis, at least 0, and to damping (clothDampingPower)
   /// What the scheme itself makes (positive) or takes: the change of the energy that forces taken at single instants
   /// give and their exact course would not. Not of velocity Verlet where nobody asks (StepControl::audits_energy).
   double integrator = 0;
@@ -253,6 +254,8 @@ struct StepScratch {
   StageWork stage;
   CollisionWork collisions;
   std::vector<double> inner_force;
+  std::vector<Vec3> damping, net_velocity;  ///< of cloth that damps (core/motion/cloth_damping.hpp)
+  double damping_power_W = 0;
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm;
   std::vector<RowSlip> slip;  ///< of the rows, where friction depends on the motion; else empty
   // Of a structure.

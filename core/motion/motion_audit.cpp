@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/cloth_damping.hpp"
 #include "core/statics/statics.hpp"
 #include "core/statics/structure_system.hpp"
 
@@ -58,8 +59,10 @@ MotionAudit::Moment MotionAudit::at(const State& state) const {
   m.support.resize(n);
   s.cloth->map().Tt.multiply<Vec3>(reactions(s, q, t, ProgramEnds::constant, state.history), m.support);
   m.damping.resize(n);
+  const std::vector<Vec3> own = clothDamping(*s.cloth, q, v);
   for (std::size_t i = 0; i < n; ++i) {
     m.damping[i] = s.rayleigh_mass_per_s * Mv[i] + s.drag_kg_per_m2s * s.area_m2[i] * v[i];
+    if (!own.empty()) m.damping[i] -= own[i];
     m.support[i] += Ma[i] + m.damping[i];
     for (int d = 0; d < 3; ++d)
       if (free_[3 * i + static_cast<std::size_t>(d)]) m.support[i][d] = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/parallel.hpp"
+#include "core/motion/cloth_damping.hpp"
 #include "core/motion/forces.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/motion/step_contact.hpp"
@@ -84,6 +85,7 @@ void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> a
   state.elastic_J.reset();
   state.free_change.clear();
   accelerate(model, at.frames(), stage.air(state.time_s), v, {}, {}, nullptr, state, work);
+  state.damping_W = clothDampingPower(state, work);
 }
 
 StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
@@ -143,9 +145,11 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   pressingAccelerations(m, dt, w, out.pressed);
   out.history.clear();
   ClothEnergy energy;
-  report.work.cloth = accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting),
+  const double lost = accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting),
                                  {half, dt}, &in.history, out, w, w.audits_energy ? &energy : nullptr);
-  report.work.dissipated += report.work.cloth;
+  out.damping_W = clothDampingPower(out, w);
+  report.work.cloth = lost + half * (in.damping_W + out.damping_W);
+  report.work.dissipated += lost + dt * w.damping_power_W;
   if (!allFinite(out.v)) return notFinite("a force is not finite");
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);

@@ -47,9 +47,9 @@ struct Frequency {
 enum class FrequencyOf { all, bending, inner };
 
 /// The largest eigenfrequency of M^-1 K at the state's positions by Lanczos with full orthogonalisation, K from
-/// differences of the force with the steepest bending law; starts from state.mode where it is not empty and leaves the
-/// new mode there. The stable step of the scheme is 2 / frequency. Accurate from below; 40 iterations are within about
-/// 1 % cold.
+/// differences of the force with the steepest bending law, and D of the cloth's own damping as
+/// core/motion/frequency.cpp says; starts from state.mode where it is not empty and leaves the new mode there. The
+/// stable step of the scheme is 2 / frequency. Accurate from below; 40 iterations are within about 1 % cold.
 Frequency largestFrequency(const Model& model, const Stage& stage, State& state, int iterations, StepWork& work,
                            FrequencyOf of = FrequencyOf::all);
 

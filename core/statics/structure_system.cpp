@@ -182,7 +182,13 @@ void StructureSystem::damping(std::span<const double> y, double t, bool lumped, 
   for (int r = 0; r < damping_K_.rows(); ++r)
     for (int d = 0; d < 3; ++d)
       damping_K_.values[9 * damping_K_.offsets[r] + 4 * d] += structure_.drag_kg_per_m2s * structure_.area_m2[r];
-  if (stiffness_part && hasStiffnessDamping()) {
+  if (stiffness_part && structure_.cloth->damps()) {
+    BlockMatrix own;
+    place(y, t);
+    structure_.tangent->assembleDamping(stateOf(), work_, own);
+    for (std::size_t i = 0; i < damping_K_.values.size(); ++i) damping_K_.values[i] += own.values[i];
+  }
+  if (stiffness_part && structure_.rayleigh_stiffness_s > 0) {
     assemble(y, t);
     for (std::size_t i = 0; i < damping_K_.values.size(); ++i)
       damping_K_.values[i] += structure_.rayleigh_stiffness_s * K_.values[i];

@@ -29,6 +29,13 @@ void scale(Fabric& fabric, const FactorsCase& f) {
       fabric.law);
 }
 
+/// What a case gives in the place of the fabric's.
+void scale(MembraneModel& m, const FactorsCase& f) {
+  for (double* stiffness : {&m.spring_N_per_m, &m.weft_N_per_m, &m.warp_N_per_m, &m.shear_N_per_m})
+    *stiffness *= f.membrane * f.thickness;
+  for (double* damping : {&m.stretch_damping_Ns_per_m, &m.shear_damping_Ns_per_m}) *damping *= f.thickness;
+}
+
 }  // namespace
 
 Case withFactors(const Case& c) {
@@ -37,6 +44,7 @@ Case withFactors(const Case& c) {
   scale(out.fabric, f);
   for (GarmentCase& g : out.garments) {
     if (g.fabric) scale(*g.fabric, f);
+    scale(g.cloth.membrane, f);
     for (Fabric& other : g.other_fabrics) scale(other, f);
   }
   if (out.contact.layer_m) *out.contact.layer_m *= f.thickness;

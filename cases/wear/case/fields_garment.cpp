@@ -3,6 +3,7 @@
 #include "cases/cloth/fabric_input.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/cloth/kind_fields.hpp"
+#include "cases/cloth/membrane_fields.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/input/table.hpp"
 #include "cases/wear/case/case.hpp"
@@ -48,13 +49,15 @@ Object garmentTable() {
     table.in("shape");
   }
   ownFriction(table, "friction", &G::friction, "with bodies; an obstacle's own is before it");
-  return table.oneOf("shape", true)
+  table.oneOf("shape", true)
       .choice(
           "model", [](auto& g) -> auto& { return g.cloth.kind; }, clothKinds(), clothKindDoc())
       .unwritten()
       .choice(
           "mesh", [](auto& g) -> auto& { return g.cloth.mesh; }, meshKinds(), meshKindDoc())
-      .unwritten()
+      .unwritten();
+  addMembraneFields(table);
+  return table
       .vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
       .converted<FabricInput>("fabric", &G::fabric, fabricTable(), resolveFabric, restoreFabric,
                               "what this garment is made of")

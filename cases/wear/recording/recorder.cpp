@@ -185,7 +185,7 @@ RecordingLayout recordingLayout(const Scenario& s) {
     for (const char* part : {"_x_Ns", "_y_Ns", "_z_Ns", "_drop_m"}) supports.push_back(name + part);
   auto& steps = layout.tables["steps"] = window;
   steps.insert(steps.end(), stepColumns().begin(), stepColumns().end());
-  if (s.model->cloth->historySize() > 0) steps.push_back(lost_column);
+  if (s.model->cloth->losesEnergy()) steps.push_back(lost_column);
   const TimeCase& time = s.definition.time;
   if (time.auditsEnergy()) steps.push_back(integrator_column);
   if (isImplicit(time.motion.scheme)) steps.insert(steps.end(), std::begin(solve_columns), std::end(solve_columns));
@@ -212,6 +212,7 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
   if (!s.history.empty()) c.reals["history"] = s.history;
   if (s.elastic_J) c.reals["elastic"] = {*s.elastic_J};
   if (!s.free_change.empty()) c.reals["free_change"] = doubles(s.free_change);
+  if (s.damping_W != 0) c.reals["damping"] = {s.damping_W};
   if (!s.inner.empty()) {
     c.reals["inner"] = s.inner;
     c.reals["inner_rate"] = s.inner_rate;
@@ -263,6 +264,7 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   s.history = ifThere("history");
   if (c.reals.contains("elastic")) s.elastic_J = c.reals.at("elastic")[0];
   s.free_change = vectors(ifThere("free_change"));
+  if (const std::vector<double> damping = ifThere("damping"); !damping.empty()) s.damping_W = damping[0];
   s.inner = ifThere("inner");
   s.inner_rate = ifThere("inner_rate");
   s.inner_acceleration = ifThere("inner_acceleration");
@@ -469,7 +471,7 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   steps_[kSprings] = energy.springs;
   row = head;
   row.insert(row.end(), steps_.begin(), steps_.end());
-  if (m.cloth->historySize() > 0) row.push_back(std::exchange(lost_J_, 0));
+  if (m.cloth->losesEnergy()) row.push_back(std::exchange(lost_J_, 0));
   const TimeCase& time = scenario_.definition.time;
   const double own_J = std::exchange(integrator_J_, 0), iterations = static_cast<double>(std::exchange(solve_iterations_, 0)),
                missed = std::exchange(largest_missed_, 0);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/cloth/draft/cloth_mesh.hpp"
+#include "core/cloth/draft/membrane_elements.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/sparse.hpp"
 
@@ -25,6 +26,7 @@ struct MeshDraft {
   std::vector<std::array<Vec2, 3>> draft;
   std::vector<std::array<Vec2, 2>> range;
   SparseRows of_control;
+  MembraneModel membrane;
 };
 
 }  // namespace gambeson

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/cloth/law_lanes.hpp"
-#include "core/cloth/triangles/triangle_kernel.hpp"
+#include "core/cloth/triangles/membrane_lanes.hpp"
 #include "core/math/parallel.hpp"
 
 namespace gambeson {
@@ -47,8 +47,8 @@ struct HingeMoments {
   }
 };
 
-/// The membrane as TriangleCloth has it, and the hinges at the triangle's edges.
-template <bool kEnergy>
+/// The membrane as TriangleCloth has it, or of springs or conditions, and the hinges at the triangle's edges.
+template <MembraneElements kElements, bool kEnergy>
 void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, int end, const double* q,
                     const double* moment, double* slots, double* energy) {
   constexpr unsigned kParts = kEnergy ? with_energy : only_resultants;
@@ -58,12 +58,29 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
     const double* rest = block.rest.data() + long{kMembraneDoubles} * group * kLanes;
     const V3 x0 = gather(q, corners), x1 = gather(q, corners + kLanes), x2 = gather(q, corners + 2 * kLanes);
     const V3 e1 = x1 - x0, e2 = x2 - x0;
+    const V3 normal = cross(e1, e2);
+    const V m[3] = {gatherOne(moment, hinge), gatherOne(moment, hinge + kLanes), gatherOne(moment, hinge + 2 * kLanes)};
+    const HingeMoments along(x2 - x1, e1, e2, normal, m);
+    double* slot = slots + 9L * group * kLanes;
+    if constexpr (kElements == MembraneElements::springs) {
+      SpringForces springs(block, group, x2 - x1, e1, e2);
+      if (law.use.jams) springs.jam<kParts>(law, rest, e1, e2);
+      const V3 f1 = springs.first + along.first * normal, f2 = springs.second + along.second * normal;
+      write(slot, V3{} - f1 - f2);
+      write(slot + 3 * kLanes, f1);
+      write(slot + 6 * kLanes, f2);
+      if constexpr (kEnergy) store(energy + static_cast<long>(group) * kLanes, springs.energy);
+      continue;
+    }
     const V g1x = load(rest), g1y = load(rest + kLanes), g2x = load(rest + 2 * kLanes), g2y = load(rest + 3 * kLanes),
             area = load(rest + 4 * kLanes);
     const V3 weft = g1x * e1 + g2x * e2, warp = g1y * e1 + g2y * e2;
     const V strain[3] = {0.5 * (dot(weft, weft) - 1.0), 0.5 * (dot(warp, warp) - 1.0), dot(weft, warp)};
     Answer<V, 3> answer;
-    if (!law.general) {
+    if constexpr (kElements == MembraneElements::baraff_witkin) {
+      baraffWitkin<kParts>(block.membrane.threads, strain, answer);
+      if (law.use.jams) addJamming<kParts>(law.point.jam_N_per_m, law.point.jam_s, strain, answer);
+    } else if (!law.general) {
       stretchPlain<kParts>(law, strain, answer);
     } else {
       LawLanes numbers;
@@ -73,11 +90,7 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
     const V* n = answer.resultant;
     const V3 p1 = area * (n[0] * weft + n[2] * warp), p2 = area * (n[2] * weft + n[1] * warp);
 
-    const V3 normal = cross(e1, e2);
-    const V m[3] = {gatherOne(moment, hinge), gatherOne(moment, hinge + kLanes), gatherOne(moment, hinge + 2 * kLanes)};
-    const HingeMoments along(x2 - x1, e1, e2, normal, m);
     const V3 f1 = g1x * p1 + g1y * p2 + along.first * normal, f2 = g2x * p1 + g2y * p2 + along.second * normal;
-    double* slot = slots + 9L * group * kLanes;
     write(slot, V3{} - f1 - f2);
     write(slot + 3 * kLanes, f1);
     write(slot + 6 * kLanes, f2);
@@ -181,19 +194,33 @@ void hinges(const ElementBlock& block, const BlockLaw& law, const double* q, dou
   });
 }
 
-void triangles(const ElementBlock& block, const BlockLaw& law, const double* q, const double* moment, double* slots,
-               double* energy) {
+template <MembraneElements kElements>
+void trianglesOf(const ElementBlock& block, const BlockLaw& law, const double* q, const double* moment, double* slots,
+                 double* energy) {
   forAll(Each::much, (block.groups + kChunk - 1) / kChunk, [&](int chunk) {
     const int begin = chunk * kChunk, end = std::min(begin + kChunk, block.groups);
-    energy ? triangleForces<true>(block, law, begin, end, q, moment, slots, energy)
-           : triangleForces<false>(block, law, begin, end, q, moment, slots, energy);
+    energy ? triangleForces<kElements, true>(block, law, begin, end, q, moment, slots, energy)
+           : triangleForces<kElements, false>(block, law, begin, end, q, moment, slots, energy);
   });
+}
+
+/// Without its membrane a triangle is the continuum of a law that has none.
+void triangles(const ElementBlock& block, const BlockLaw& law, const double* q, const double* moment, double* slots,
+               double* energy) {
+  switch (law.membrane ? block.membrane.elements : MembraneElements::continuum) {
+    case MembraneElements::continuum:
+      return trianglesOf<MembraneElements::continuum>(block, law, q, moment, slots, energy);
+    case MembraneElements::springs:
+      return trianglesOf<MembraneElements::springs>(block, law, q, moment, slots, energy);
+    case MembraneElements::baraff_witkin:
+      return trianglesOf<MembraneElements::baraff_witkin>(block, law, q, moment, slots, energy);
+  }
 }
 
 }  // namespace
 
 extern const TriangleKernels GAMBESON_CONCAT(kTriangles_, GAMBESON_ISA);
 const TriangleKernels GAMBESON_CONCAT(kTriangles_, GAMBESON_ISA){GAMBESON_STRING(GAMBESON_ISA), kLanes, hinges,
-                                                                 triangles};
+                                                                 triangles, dampTriangles};
 
 }  // namespace gambeson

@@ -87,6 +87,7 @@ class Builder {
     if (g_.rest == MeshRest::flat && mesh_.uv.empty())
       throw InputError({"", 0, "rest"}, "needs uv coordinates to lie flat by; the mesh has none");
     out_.fabrics.insert(out_.fabrics.end(), g_.fabrics.begin(), g_.fabrics.end());
+    out_.membrane_models.resize(out_.fabrics.size(), g_.membrane);
     addPoints(number);
     addMembranes();
     addHinges();

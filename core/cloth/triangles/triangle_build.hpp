@@ -24,6 +24,7 @@ struct TriangleParts {
   std::vector<int> first_triangle;                   ///< of each patch, and the end
   std::vector<std::array<Vec2, 3>> draft;            ///< of each triangle; of garments without draft zeros
   std::vector<Fabric> fabrics;
+  std::vector<MembraneModel> membrane_models;  ///< of each fabric
   std::vector<int> fabric_of_triangle;
   std::vector<MembraneTriangle> membranes;
   std::vector<FoldHinge> hinges;  ///< in the order of the second triangle at an edge

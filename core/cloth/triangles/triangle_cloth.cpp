@@ -38,6 +38,17 @@ class TriangleTangent : public ClothTangent {
       addSymmetrised(cloth_.map(), e.hinges()[k].corner, blocks, K);
     }
   }
+  void assembleDamping(const ClothState& state, ClothWork&, BlockMatrix& D) const override {
+    if (D.columns.size() != sparsity_.columns.size() || D.offsets != sparsity_.offsets) D = sparsity_;
+    D.values.assign(9 * D.columns.size(), 0.0);
+    const TriangleElements& e = cloth_.elements();
+    if (!e.damps()) return;
+    std::vector<std::array<double, 9>> blocks;
+    for (std::size_t k = 0; k < e.triangles().size(); ++k) {
+      e.membraneDamping(static_cast<int>(k), state.q, blocks);
+      addSymmetrised(cloth_.map(), e.triangles()[k].corner, blocks, D);
+    }
+  }
 
  private:
   const TriangleCloth& cloth_;
@@ -55,7 +66,8 @@ TriangleCloth::TriangleCloth(std::vector<MeshDraft> garments)
     int& home = map_.home[static_cast<std::size_t>(freePoint(i))];
     if (home < 0) home = i;
   }
-  elements_ = TriangleElements(points(), std::move(parts_.membranes), std::move(parts_.hinges), parts_.fabrics);
+  elements_ = TriangleElements(points(), std::move(parts_.membranes), std::move(parts_.hinges), parts_.fabrics,
+                               *triangleKernels().front(), parts_.membrane_models);
   mounting_ = triangleMounting(*this);
 }
 
@@ -289,6 +301,10 @@ SparseRows TriangleCloth::consistentMass() const {
 void TriangleCloth::force(const ClothState& state, const ClothForce& out, ClothWork& work,
                           const ForceTerms& terms) const {
   elements_.force(state, out, work, terms);
+}
+
+void TriangleCloth::dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const {
+  elements_.dampingForce(state, out, work);
 }
 
 std::unique_ptr<ClothTangent> TriangleCloth::tangent() const { return std::make_unique<TriangleTangent>(*this); }

@@ -3,7 +3,8 @@
 ///
 /// Membrane: St. Venant-Kirchhoff triangles of linear displacement. With D_weft, D_warp the physical directions of a
 /// triangle at rest, F D linear in its corners, E = (Fᵀ F - 1)/2 in the basis of the threads is constant in it; its law
-/// is the fabric's membrane (Zheng 2013, eq. 2.13), or its tension field, with jamming.
+/// is the fabric's membrane (Zheng 2013, eq. 2.13), or its tension field, with jamming. Or springs along the edges, or
+/// Baraff and Witkin's conditions, both with damping (triangle_membrane.hpp).
 ///
 /// Bending: a hinge along every edge between two triangles. theta is the angle between their normals, theta0 at rest;
 /// with l the length of the edge and A the area of both triangles at rest the curvature across the edge is
@@ -62,6 +63,8 @@ class TriangleCloth : public Cloth {
   using Cloth::force;
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const override;
   std::unique_ptr<ClothTangent> tangent() const override;
+  bool damps() const override { return elements_.damps(); }
+  void dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const override;
   std::size_t historySize() const override { return elements_.historySize(); }
   std::vector<HistoryPlace> historyPlaces() const override;
 

@@ -120,6 +120,21 @@ void TriangleElements::packTriangles() {
           block.hinge.assign(static_cast<std::size_t>(3 * block.groups * lanes), moments_);
           block.first = slot_count_;
           slot_count_ += 9L * block.groups * lanes;
+          block.membrane = membraneOf(triangles_[k]);
+          if (block.membrane.elements == MembraneElements::springs)
+            block.springs.assign(static_cast<std::size_t>(kSpringDoubles * block.groups * lanes), 0.0);
+        }
+        if (!block.springs.empty()) {
+          const TriangleSprings s = springsOf(block.membrane, triangles_[k].g, triangles_[k].area_m2);
+          const double own[kSpringDoubles] = {s.rest_m[0],
+                                              s.rest_m[1],
+                                              s.rest_m[2],
+                                              s.stiffness_N_per_m[0],
+                                              s.stiffness_N_per_m[1],
+                                              s.stiffness_N_per_m[2],
+                                              s.damping_Ns_per_m};
+          for (int i = 0; i < kSpringDoubles; ++i)
+            block.springs[static_cast<std::size_t>((at / lanes * kSpringDoubles + i) * lanes + at % lanes)] = own[i];
         }
         const long first = 3L * (at / lanes) * lanes + at % lanes;
         for (std::size_t i = 0; i < 3; ++i)
@@ -132,9 +147,15 @@ void TriangleElements::packTriangles() {
 }
 
 TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> triangles, std::vector<FoldHinge> hinges,
-                                   std::span<const Fabric> fabrics, const TriangleKernels& kernels)
+                                   std::span<const Fabric> fabrics, const TriangleKernels& kernels,
+                                   std::span<const MembraneModel> membranes)
     : triangles_(std::move(triangles)), hinges_(std::move(hinges)), kernels_(&kernels), gather_(points) {
-  for (const Fabric& f : fabrics) laws_.push_back(lawOfTriangles(f));
+  for (const Fabric& f : fabrics) {
+    const std::size_t k = laws_.size();
+    laws_.push_back(lawOfTriangles(f));
+    membranes_.push_back(triangleMembrane(membranes.empty() ? MembraneModel{} : membranes[k], f,
+                                              laws_.back().point.section));
+  }
   history_at_.resize(hinges_.size());
   packHinges();
   packTriangles();
@@ -206,8 +227,10 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
     for (std::size_t i = 0; i < size; ++i) mean[i] += part * memory.before(static_cast<int>(i));
   }
   for (double& m : mean) m /= area > 0 ? area : 1;
-  const PointLaw& law = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)].point;
-  const PointAnswer<double> r = resultants(law, e, k, {mean.data(), nullptr});
+  const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
+  const BlockLaw& law = laws_[static_cast<std::size_t>(t.law)];
+  PointAnswer<double> r = resultants(law.point, e, k, {mean.data(), nullptr});
+  if (membraneOf(t).elements != MembraneElements::continuum) stretch(t, law, s.strain, r.membrane);
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
   s.n = {n[0], n[1], n[2]};
   s.m = {m[0], m[1], m[2]};
@@ -258,32 +281,106 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
   gather_.negativeSum(work.slots.data(), out.points);
 }
 
+bool TriangleElements::damps() const {
+  return std::any_of(membranes_.begin(), membranes_.end(), [](const TriangleMembrane& m) { return m.damps(); });
+}
+
+void TriangleElements::dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const {
+  work.slots.resize(static_cast<std::size_t>(slot_count_));
+  if (out.energy) *out.energy = {};
+  const double *q = reinterpret_cast<const double*>(state.q.data()),
+               *v = reinterpret_cast<const double*>(state.v.data());
+  for (const ElementBlock& block : triangle_blocks_) {
+    double* const slots = work.slots.data() + block.first;
+    if (!block.membrane.damps()) {
+      std::fill_n(slots, 9L * block.groups * kernels_->lanes, 0.0);
+      continue;
+    }
+    if (out.energy) work.lane_energy.assign(static_cast<std::size_t>(block.groups * kernels_->lanes), 0.0);
+    kernels_->damping(block, q, v, slots, out.energy ? work.lane_energy.data() : nullptr);
+    if (!out.energy) continue;
+    for (const double taken : work.lane_energy) out.energy->power_W += taken;
+  }
+  gather_.negativeSum(work.slots.data(), out.points);
+}
+
+void TriangleElements::stretch(const MembraneTriangle& t, const BlockLaw& law, const Vec3& strain,
+                               Answer<double, 3>& answer) const {
+  const TriangleMembrane& own = membraneOf(t);
+  const double e[3] = {strain.x, strain.y, strain.z};
+  if (!law.membrane || own.elements == MembraneElements::continuum)
+    return evaluateMembrane<all_parts>(law.evaluated(), numbersOf(law), e, answer);
+  if (own.elements == MembraneElements::springs)
+    springResultants(springsOf(own, t.g, t.area_m2), t.area_m2, e, answer);
+  else
+    baraffWitkin<all_parts>(own.threads, e, answer);
+  if (law.use.jams) addJamming<all_parts>(law.point.jam_N_per_m, law.point.jam_s, e, answer);
+}
+
+namespace {
+
+/// dE/dq_I = (g.x f1, g.y f2, g.y f1 + g.x f2) of each corner of a triangle.
+struct StrainGradient {
+  Vec2 g[3];
+  Vec3 of[3][3];
+
+  StrainGradient(const MembraneTriangle& t, const Vec3& weft, const Vec3& warp)
+      : g{{-t.g[0].x - t.g[1].x, -t.g[0].y - t.g[1].y}, t.g[0], t.g[1]} {
+    for (int I = 0; I < 3; ++I)
+      of[I][0] = g[I].x * weft, of[I][1] = g[I].y * warp, of[I][2] = g[I].y * weft + g[I].x * warp;
+  }
+
+  /// Adds the part of a slope [N/m].
+  void addSlope(double area_m2, const double* C, std::vector<std::array<double, 9>>& blocks) const {
+    constexpr int at[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+    for (int I = 0; I < 3; ++I)
+      for (int J = 0; J < 3; ++J)
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c)
+            addOuter(blocks[static_cast<std::size_t>(3 * I + J)], area_m2 * C[at[r][c]], of[I][r], of[J][c]);
+  }
+};
+
+}  // namespace
+
+void TriangleElements::membraneDamping(int triangle, std::span<const Vec3> q,
+                                       std::vector<std::array<double, 9>>& blocks) const {
+  const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
+  blocks.assign(9, {});
+  const TriangleMembrane& own = membraneOf(t);
+  if (!own.damps()) return;
+  Vec3 f[2];
+  const Vec3 strains = strain(triangle, q, &f[0], &f[1]);
+  const double e[3] = {strains.x, strains.y, strains.z}, rate[3]{};
+  Answer<double, 3> answer;
+  if (own.elements == MembraneElements::springs)
+    springDampingResultants(springsOf(own, t.g, t.area_m2), t.area_m2, e, rate, answer);
+  else
+    baraffWitkinDamping<all_parts>(own.threads, e, rate, answer);
+  StrainGradient(t, f[0], f[1]).addSlope(t.area_m2, answer.slope, blocks);
+}
+
 void TriangleElements::membraneStiffness(int triangle, std::span<const Vec3> q, const ForceTerms& terms,
                                          std::vector<std::array<double, 9>>& blocks) const {
   const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
   Vec3 f[2];
   const Vec3 e = strain(triangle, q, &f[0], &f[1]);
   const BlockLaw law = lawOf(t.law, terms);
-  const double strains[3] = {e.x, e.y, e.z};
   Answer<double, 3> answer;
-  evaluateMembrane<with_slope>(law.evaluated(), numbersOf(law), strains, answer);
-  const double *n = answer.resultant, *C = answer.slope;
+  stretch(t, law, e, answer);
+  const double* n = answer.resultant;
   double tension[3];
   if (terms.definite) {
     tensilePart(n, tension);
     n = tension;
   }
-  const Vec2 g[3] = {{-t.g[0].x - t.g[1].x, -t.g[0].y - t.g[1].y}, t.g[0], t.g[1]};
-  // dE/dq_I = (g.x f1, g.y f2, g.y f1 + g.x f2).
-  Vec3 b[3][3];
-  for (int I = 0; I < 3; ++I) b[I][0] = g[I].x * f[0], b[I][1] = g[I].y * f[1], b[I][2] = g[I].y * f[0] + g[I].x * f[1];
+  const StrainGradient gradient(t, f[0], f[1]);
+  const Vec2* g = gradient.g;
   blocks.assign(9, {});
-  constexpr int at[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  gradient.addSlope(t.area_m2, answer.slope, blocks);
   for (int I = 0; I < 3; ++I)
     for (int J = 0; J < 3; ++J) {
       std::array<double, 9>& m = blocks[static_cast<std::size_t>(3 * I + J)];
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) addOuter(m, t.area_m2 * C[at[r][c]], b[I][r], b[J][c]);
       const double geometric =
           t.area_m2 * (n[0] * g[I].x * g[J].x + n[1] * g[I].y * g[J].y + n[2] * (g[I].x * g[J].y + g[I].y * g[J].x));
       for (std::size_t d = 0; d < 3; ++d) m[4 * d] += geometric;

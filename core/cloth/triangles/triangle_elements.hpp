@@ -9,6 +9,7 @@
 #include "core/cloth/slot_gather.hpp"
 #include "core/cloth/stress.hpp"
 #include "core/cloth/triangles/triangle_kernel.hpp"
+#include "core/cloth/triangles/triangle_membrane.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/vec.hpp"
 
@@ -38,9 +39,11 @@ struct FoldHinge {
 class TriangleElements {
  public:
   TriangleElements() = default;
-  /// Throws InputError on a fabric that is none of triangles.
+  /// `membranes`: of each fabric; empty: its own. Throws InputError on a fabric that is none of triangles, or of such a
+  /// membrane.
   TriangleElements(int points, std::vector<MembraneTriangle> triangles, std::vector<FoldHinge> hinges,
-                   std::span<const Fabric> fabrics, const TriangleKernels& kernels = *triangleKernels().front());
+                   std::span<const Fabric> fabrics, const TriangleKernels& kernels = *triangleKernels().front(),
+                   std::span<const MembraneModel> membranes = {});
 
   const std::vector<MembraneTriangle>& triangles() const { return triangles_; }
   const std::vector<FoldHinge>& hinges() const { return hinges_; }
@@ -51,9 +54,14 @@ class TriangleElements {
   HistoryPlace historyOf(std::size_t hinge) const;
 
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
+  /// Whether any membrane is damped, and then as Cloth::dampingForce has it.
+  bool damps() const;
+  void dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const;
   /// d2E/dq2 of a triangle: blocks[3 I + J] (3 x 3, row by row) of its corners.
   void membraneStiffness(int triangle, std::span<const Vec3> q, const ForceTerms& terms,
                          std::vector<std::array<double, 9>>& blocks) const;
+  /// - df/dv of a triangle's damping, in the same order.
+  void membraneDamping(int triangle, std::span<const Vec3> q, std::vector<std::array<double, 9>>& blocks) const;
   /// d2E/dq2 of a hinge: blocks[4 I + J] of its corners, as above.
   void hingeStiffness(int hinge, const ClothState& state, const ForceTerms& terms,
                       std::vector<std::array<double, 9>>& blocks) const;
@@ -70,12 +78,19 @@ class TriangleElements {
   void packHinges();
   void packTriangles();
   BlockLaw lawOf(int index, const ForceTerms& terms) const;
+  const TriangleMembrane& membraneOf(const MembraneTriangle& t) const {
+    return membranes_[static_cast<std::size_t>(t.law)];
+  }
+  /// n of a triangle by its membrane, and its slope.
+  void stretch(const MembraneTriangle& triangle, const BlockLaw& law, const Vec3& strain,
+               Answer<double, 3>& answer) const;
   /// What a hinge remembers; null where it remembers nothing, or the cloth is new.
   History<double> memoryOf(std::size_t hinge, std::span<const double> history) const;
 
   std::vector<MembraneTriangle> triangles_;
   std::vector<FoldHinge> hinges_;
   std::vector<BlockLaw> laws_;
+  std::vector<TriangleMembrane> membranes_;  ///< of each law
   std::vector<std::array<int, 3>> hinges_of_;  ///< of each triangle; -1 where it has fewer
   const TriangleKernels* kernels_ = nullptr;
   std::vector<ElementBlock> triangle_blocks_, hinge_blocks_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/cloth/block_law.hpp"
+#include "core/cloth/triangles/triangle_membrane.hpp"
 #include "core/math/aligned.hpp"
 
 namespace gambeson {
@@ -21,10 +22,14 @@ struct ElementBlock {
   /// Of triangles, [group][edge][lane]: the hinge at the edge that faces corner 0, 1, 2, by its index among all
   /// moments.
   AlignedVector<int> hinge;
+  TriangleMembrane membrane;      ///< of triangles
+  AlignedVector<double> springs;  ///< [group][kSpringDoubles][lane], of a membrane of springs; copies have none
   long first = 0;  ///< of triangles: slot; of hinges: index among all moments
 };
 /// rest: g[0].x, g[0].y, g[1].x, g[1].y, area (MembraneTriangle). Three corners.
 constexpr int kMembraneDoubles = 5;
+/// springs: their lengths at rest, stiffnesses, and the damping of each (TriangleSprings).
+constexpr int kSpringDoubles = 7;
 /// rest: theta0, per_angle, area, d (FoldHinge). Four corners.
 constexpr int kHingeDoubles = 6;
 
@@ -38,12 +43,17 @@ using HingeKernel = void (*)(const ElementBlock& block, const BlockLaw& law, con
 /// `moment` of all hinges.
 using TriangleKernel = void (*)(const ElementBlock& block, const BlockLaw& law, const double* q, const double* moment,
                                 double* slots, double* energy);
+/// Of triangles that damp: minus the force on their corners at the velocities v, as above; their power where that is
+/// not null [W].
+using DampingKernel = void (*)(const ElementBlock& block, const double* q, const double* v, double* slots,
+                               double* power);
 
 struct TriangleKernels {
   const char* name;  ///< "sse2", "avx2", "avx512"
   int lanes;
   HingeKernel hinges;
   TriangleKernel triangles;
+  DampingKernel damping;
 };
 
 /// All sets that this machine runs, widest first.

@@ -119,6 +119,16 @@ TEST(Factors, MassWeightInertiaDragAndLayer) {
   EXPECT_EQ(garments[0].control_points, 18);
 }
 
+/// A membrane of triangles that the case gives numbers of its own scales as the fabric's would.
+TEST(Factors, ScaleAMembraneOfItsOwn) {
+  Case c = libraryCase("sphere_drape", {"factors.thickness=0.5", "factors.membrane=3", "garment.model=triangles",
+                                        "garment.membrane_elements=springs", "garment.spring_stiffness=100",
+                                        "garment.stretch_damping=0.2"});
+  const MembraneModel& m = withFactors(c).garments[0].cloth.membrane;
+  EXPECT_DOUBLE_EQ(m.spring_N_per_m, 150);
+  EXPECT_DOUBLE_EQ(m.stretch_damping_Ns_per_m, 0.1);
+}
+
 /// Without a layer of the case, the contact distance is the thickness, which has its factor.
 /// A law scales its own numbers as it says: the yield moment of a sheet goes with the square of its thickness, and with
 /// what makes it stiffer.
