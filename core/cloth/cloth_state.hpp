@@ -14,12 +14,14 @@ struct ClothState {
   std::span<const Vec3> q;          ///< all points [m]
   std::span<const double> inner;    ///< values of the inner unknowns; empty where there are none
   std::span<const double> history;  ///< committed; empty where laws remember nothing
+  double elapsed_s = 0;             ///< since that was committed; infinite in statics, where no time passes
 
   ClothState() = default;
   ClothState(std::span<const Vec3> points) : q(points) {}     // NOLINT: a cloth without inner unknowns and history
   ClothState(const std::vector<Vec3>& points) : q(points) {}  // NOLINT
-  ClothState(std::span<const Vec3> points, std::span<const double> inner_values, std::span<const double> committed)
-      : q(points), inner(inner_values), history(committed) {}
+  ClothState(std::span<const Vec3> points, std::span<const double> inner_values, std::span<const double> committed,
+             double elapsed = 0)
+      : q(points), inner(inner_values), history(committed), elapsed_s(elapsed) {}
 };
 
 /// A point of a cloth that remembers: its place, and where in the history its numbers stand, `count` of them `stride`

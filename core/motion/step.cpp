@@ -12,15 +12,15 @@ namespace gambeson {
 namespace {
 
 /// Internal force at s on the free points, Tᵀ f(T p), into `out`, and on the inner unknowns, into work.inner_force,
-/// from the committed history; what laws would remember into `history` where that is not empty.
-void internalForce(const Model& m, const State& s, std::span<const double> committed, std::span<double> history,
-                   std::vector<Vec3>& out, StepWork& w, ClothEnergy* energy) {
+/// from the history committed `elapsed_s` ago; what laws would remember into `history` where that is not empty.
+void internalForce(const Model& m, const State& s, std::span<const double> committed, double elapsed_s,
+                   std::span<double> history, std::vector<Vec3>& out, StepWork& w, ClothEnergy* energy) {
   w.q.resize(m.cloth->points());
   w.f.resize(m.cloth->points());
   w.inner_force.resize(m.inner_mass.size());
   out.resize(m.freeCount());
   m.cloth->map().T.multiply<Vec3>(s.p, w.q);
-  m.cloth->force({w.q, s.inner, committed}, {w.f, w.inner_force, history, energy}, w.cloth);
+  m.cloth->force({w.q, s.inner, committed, elapsed_s}, {w.f, w.inner_force, history, energy}, w.cloth);
   m.cloth->map().Tt.multiply<Vec3>(w.f, out);
 }
 
@@ -127,7 +127,7 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
   ClothEnergy energy;
   const bool remembers = committed && !committed->empty();
   if (remembers) s.history.resize(committed->size());
-  internalForce(m, s, remembers ? *committed : s.history,
+  internalForce(m, s, remembers ? *committed : s.history, 2 * half_step_s,
                 remembers ? std::span<double>(s.history) : std::span<double>{}, s.a, w, remembers ? &energy : nullptr);
   for (std::size_t i = 0; i < m.inner_mass.size(); ++i) {
     s.inner_acceleration[i] = w.inner_force[i] / m.inner_mass[i];
@@ -350,7 +350,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w) {
   Energy e;
   ClothEnergy of_cloth;
-  internalForce(m, s, s.history, {}, w.sample_force, w, &of_cloth);
+  internalForce(m, s, s.history, 0, {}, w.sample_force, w, &of_cloth);
   e.internal = of_cloth.stored;
   for (std::size_t i = 0; i < m.inner_mass.size(); ++i)
     e.kinetic += 0.5 * m.inner_mass[i] * s.inner_rate[i] * s.inner_rate[i];

@@ -71,7 +71,7 @@ class TriangleElements {
   void packTriangles();
   BlockLaw lawOf(int index, const ForceTerms& terms) const;
   /// What a hinge remembers; null where it remembers nothing, or the cloth is new.
-  History<double> memoryOf(std::size_t hinge, std::span<const double> history) const;
+  History<double> memoryOf(std::size_t hinge, const ClothState& state) const;
 
   std::vector<MembraneTriangle> triangles_;
   std::vector<FoldHinge> hinges_;
