@@ -84,22 +84,63 @@ struct Strip {
     std::swap(state, next);
   }
   double stableStep() { return 2 / largestFrequency(*model, stage, state, 40, work).largest_rad_per_s; }
+  /// Curvature at the root that the first mode has of the motion.
   double root() const {
-    std::vector<Vec3> q(static_cast<std::size_t>(model->cloth->points()));
-    model->cloth->map().T.multiply<Vec3>(state.p, q);
-    return model->cloth->stateAt({q, {}, state.history}, 0, {0, 0.5}).curvature_change.x;
+    double motion = 0, mode = 0;
+    for (std::size_t i = 0; i < state.p.size(); ++i) {
+      const double shape = shapeOf(state.p[i].x / kLength_m);
+      motion += model->mass_kg[i] * shape * state.p[i].z;
+      mode += model->mass_kg[i] * shape * shape;
+    }
+    return motion / mode * kBeta * kBeta / (kLength_m * kLength_m);
   }
 };
 
-/// 1/A grows by this in a cycle, towards A = 0: means of peaks and troughs, a line through their growth over A.
-double growth(int cells, double part_of_step) {
-  Strip strip(cells, 0.5 * kSpan_per_m);
-  const double dt = part_of_step * strip.stableStep();
+/// The same strip as a beam of small slopes, in finite differences: with any number of stops.
+template <int N>
+struct Beam {
+  int cells;
+  double h, dt;
+  std::vector<double> w, v, m;
+  std::vector<BentLine<N>> lines;
+
+  Beam(int count, double amplitude_per_m, double part_of_step)
+      : cells(count), h(kLength_m / count), w(count + 1), v(count + 1), m(count + 2) {
+    dt = part_of_step * 2 / (4 / (h * h) * std::sqrt(kFirst_Nm / kDensity));
+    lines.assign(count, BentLine<N>(stopsOf<N>(curveOver(kFirst_Nm, kLast_Nm, kSpan_per_m))));
+    const double omega = kBeta * kBeta / (kLength_m * kLength_m) * std::sqrt(kFirst_Nm / kDensity);
+    const double tip = amplitude_per_m * kLength_m * kLength_m / (kBeta * kBeta);
+    for (int i = 1; i <= count; ++i) v[i] = omega * tip * shapeOf(static_cast<double>(i) / count);
+  }
+  void advance() {
+    for (int i = 1; i <= cells; ++i) w[i] += dt * v[i];
+    // Moments at the nodes 0 to cells - 1 (the clamp mirrors), none at the tip.
+    for (int i = 0; i < cells; ++i) m[i] = lines[i].bend((w[i + 1] - 2 * w[i] + (i > 0 ? w[i - 1] : w[1])) / (h * h));
+    for (int i = 1; i <= cells; ++i) {
+      const double force = m[i - 1] - 2 * (i < cells ? m[i] : 0) + (i + 1 < cells ? m[i + 1] : 0);
+      v[i] -= dt * force / (h * h * kDensity * (i < cells ? 1 : 0.5));
+    }
+  }
+  double root() const {
+    double motion = 0, mode = 0;
+    for (int i = 1; i <= cells; ++i) {
+      const double shape = shapeOf(static_cast<double>(i) / cells), part = i < cells ? 1 : 0.5;
+      motion += part * shape * w[i];
+      mode += part * shape * shape;
+    }
+    return motion / mode * kBeta * kBeta / (kLength_m * kLength_m);
+  }
+};
+
+/// 1/A grows by this in a cycle, towards A = 0: a line through its growth over A in 18 cycles, from 0.43 to 0.16 K0. (Of
+/// 10 cycles the line of 8 stops, whose loops are polygons, is 5 % off that of 64; the mean growth is 1 % off.)
+template <class Advance, class Root>
+double growth(const Advance& advance, const Root& root) {
   std::vector<double> peaks;
   double before = 0, now = 0;
-  while (peaks.size() < 25) {
-    strip.advance(dt);
-    const double after = strip.root();
+  while (peaks.size() < 40) {
+    advance();
+    const double after = root();
     // The parabola through three steps: peaks come once in some thousand steps.
     if ((now - before) * (after - now) < 0 && std::abs(now) > 0) {
       const double bend = after - 2 * now + before;
@@ -117,12 +158,26 @@ double growth(int cells, double part_of_step) {
   return (g - slope * a) / n;
 }
 
+double growth(int cells, double part_of_step) {
+  Strip strip(cells, 0.5 * kSpan_per_m);
+  const double dt = part_of_step * strip.stableStep();
+  return growth([&] { strip.advance(dt); }, [&] { return strip.root(); });
+}
+template <int N>
+double growthOfBeam() {
+  Beam<N> beam(24, 0.5 * kSpan_per_m, 0.5);
+  return growth([&] { beam.advance(); }, [&] { return beam.root(); });
+}
+
 TEST(HysteresisDecay, OneOverTheAmplitudeGrowsByTheLoopsOwnRate) {
   EXPECT_NEAR(shapeFactor(), 0.739, 5e-4);
   const double rate = growth(12, 0.9);
   EXPECT_NEAR(rate / expectedGrowth(), 1, 0.05);
   EXPECT_NEAR(growth(12, 0.45) / rate, 1, 0.01) << "half the step";
   EXPECT_NEAR(growth(24, 0.9) / rate, 1, 0.01) << "half the cells";
+  const double many = growthOfBeam<64>();
+  EXPECT_NEAR(many / expectedGrowth(), 1, 0.05) << "64 stops";
+  EXPECT_NEAR(growthOfBeam<8>() / many, 1, 0.03) << "8 stops";
 }
 
 /// What is kinetic, stored and lost stays what it was, to second order in the step.
