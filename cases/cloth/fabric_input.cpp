@@ -75,29 +75,10 @@ BendingLaw resolveHysteresis(const Entry& at, const BendingInput& in, const Give
   return resolveLoop(at, *in.loop, given);
 }
 
-/// The law's loop, and whether it is isotropic; null: it has none.
-std::pair<const FrictionInBending*, bool> loopOf(const BendingLaw& law) {
-  if (const auto* apart = std::get_if<HysteresisBending>(&law)) return {apart, false};
-  return {std::get_if<IsotropicHysteresisBending>(&law), true};
-}
-
 bool restoreHysteresis(const BendingLaw& law, BendingInput& in) {
-  const auto [loop, isotropic] = loopOf(law);
-  if (loop) in.loop = restoreLoop(*loop, isotropic);
-  return loop;
-}
-
-std::string sayHysteresis(const BendingLaw& law) {
-  const auto [loop, isotropic] = loopOf(law);
-  std::string text = fmt::format(
-      "Bending has hysteresis{}: {} N m (weft) where cloth was never bent, {} N m beyond the friction between its "
-      "fibres, which is overcome at {} 1/m.",
-      isotropic ? ", the same about all axes" : "", formatNumber(loop->first_Nm[0]), formatNumber(loop->weft_Nm),
-      formatNumber(loop->span_per_m[0]));
-  if (loop->setting > 0 || loop->fatigue > 0)
-    text += fmt::format(" Folds set (lambda {}), and friction tires by {} in a cycle to {} 1/m and back.",
-                        formatNumber(loop->setting), formatNumber(loop->fatigue), formatNumber(loop->cycle_per_m));
-  return text;
+  std::optional<LoopInput> loop = restoreLoop(law);
+  if (loop) in.loop = std::move(loop);
+  return in.loop.has_value();
 }
 
 BendingLaw resolveLinear(const Entry&, const BendingInput&, const GivenRigidities& given) {
@@ -130,7 +111,7 @@ const std::vector<LawRow>& rows() {
        {"loop"},
        resolveHysteresis,
        restoreHysteresis,
-       sayHysteresis}};
+       sayLoop}};
   return all;
 }
 

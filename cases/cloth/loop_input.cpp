@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/ticks.hpp"
 #include "cases/input/table.hpp"
 #include "core/material/hysteresis.hpp"
 
@@ -216,6 +217,15 @@ Object loopTable() {
               "mu, the part of the friction that a cycle of reference takes")
       .number("cycle", &L::cycle_per_m, "1/m", curvature,
               "curvature to which a cycle of reference goes, either way; KES-FB2: 2.5/cm")
+      .choice("set_by", &L::set_by,
+              std::vector<std::pair<std::string, SetBy>>{{"slip", SetBy::slip}, {"cycles", SetBy::cycles}},
+              "what set and fatigue go with: slip of the friction; or cycles as Wong 2014 prints them (eq. 4.6 to "
+              "4.12), for comparison: a vibration then counts as a cycle. Of cycles set is at most 1")
+      .number("recovery", &L::recovery, "", between(0, 100),
+              "Maxwell branch: a spring beside the loop, as a part of the bending's rigidity, that relaxes with time: "
+              "what was bent for long then opens slowly")
+      .number("recovery_time", &L::recovery_time_s, "s", aboveTo(0, 1e9), "time in which that relaxes e-fold")
+      .defaultsTo("required with recovery")
       .build();
 }
 
@@ -237,6 +247,19 @@ std::optional<double> rigidityOf(const Entry& bending, const LoopInput& in) {
   }
 }
 
+namespace {
+
+/// By the printed rule, which knows neither a tensor nor cloth without stiffness beyond its friction.
+BendingLaw cyclicLaw(const Entry& loop, const LoopInput& in, const FrictionInBending& law) {
+  if (in.axes == LoopAxes::isotropic)
+    loop.failAt("set_by", "cycles is a rule for lines; it is not possible with isotropic axes");
+  if (!(in.set <= 1)) loop.failAt("set", fmt::format("{} is out of range; allowed with set_by = cycles: <= 1", in.set));
+  if (!(law.least_Nm() > 0)) loop.failAt("set_by", "cycles needs a rigidity beyond friction > 0");
+  return CyclicHysteresisBending{law};
+}
+
+}  // namespace
+
 BendingLaw resolveLoop(const Entry& bending, const LoopInput& in, const GivenRigidities& given) {
   const Entry loop = bending.member(*bending.node.find("loop"));
   FrictionInBending law;
@@ -254,11 +277,47 @@ BendingLaw resolveLoop(const Entry& bending, const LoopInput& in, const GivenRig
   law.check([&](const std::string& key, const std::string& reason) {
     loop.failAt(key == "cycle_per_m" ? "cycle" : "", reason);
   });
-  if (in.axes == LoopAxes::isotropic) return IsotropicHysteresisBending{law};
+  const bool recovers = in.recovery > 0, isotropic = in.axes == LoopAxes::isotropic;
+  if (recovers && !in.recovery_time_s) loop.failAt("recovery_time", "is required with recovery");
+  if (!recovers && in.recovery_time_s) loop.failAt("recovery_time", "goes with recovery, which is 0; remove it");
+  if (in.set_by == SetBy::cycles) {
+    if (recovers) loop.failAt("recovery", "is not possible with set_by = cycles, a rule without time");
+    return cyclicLaw(loop, in, law);
+  }
+  const double time = in.recovery_time_s.value_or(1);
+  if (recovers && isotropic) return Recovering<IsotropicHysteresisBending>{{law}, in.recovery, time};
+  if (recovers) return Recovering<HysteresisBending>{{law}, in.recovery, time};
+  if (isotropic) return IsotropicHysteresisBending{law};
   return HysteresisBending{law};
 }
 
-LoopInput restoreLoop(const FrictionInBending& law, bool isotropic) {
+namespace {
+
+/// What a law has of a loop.
+struct LoopOfLaw {
+  const FrictionInBending* loop = nullptr;
+  bool isotropic = false;
+  SetBy set_by = SetBy::slip;
+  double recovery = 0, recovery_time_s = 0;
+};
+template <class L>
+LoopOfLaw loopOf(const L& law) {
+  if constexpr (!std::is_base_of_v<FrictionInBending, L>) {
+    return {};
+  } else {
+    LoopOfLaw out{&law, std::is_base_of_v<IsotropicHysteresisBending, L>};
+    if constexpr (std::is_same_v<L, CyclicHysteresisBending>) out.set_by = SetBy::cycles;
+    if constexpr (requires { law.part; }) out.recovery = law.part, out.recovery_time_s = law.time_s;
+    return out;
+  }
+}
+LoopOfLaw loopOf(const BendingLaw& slot) {
+  return std::visit([](const auto& law) { return loopOf(law); }, slot);
+}
+
+LoopInput restored(const LoopOfLaw& of) {
+  const FrictionInBending& law = *of.loop;
+  const bool isotropic = of.isotropic;
   LoopInput in;
   in.axes = isotropic ? LoopAxes::isotropic : LoopAxes::apart;
   in.first_Nm.weft = law.first_Nm[0];
@@ -274,7 +333,38 @@ LoopInput restoreLoop(const FrictionInBending& law, bool isotropic) {
   in.set = law.setting;
   in.fatigue = law.fatigue;
   in.cycle_per_m = law.cycle_per_m;
+  in.set_by = of.set_by;
+  in.recovery = of.recovery;
+  if (of.recovery > 0) in.recovery_time_s = of.recovery_time_s;
   return in;
+}
+
+}  // namespace
+
+std::optional<LoopInput> restoreLoop(const BendingLaw& law) {
+  const LoopOfLaw of = loopOf(law);
+  if (!of.loop) return std::nullopt;
+  return restored(of);
+}
+
+std::string sayLoop(const BendingLaw& law) {
+  const LoopOfLaw of = loopOf(law);
+  const FrictionInBending& loop = *of.loop;
+  std::string text = fmt::format(
+      "Bending has hysteresis{}: {} N m (weft) where cloth was never bent, {} N m beyond the friction between its "
+      "fibres, which is overcome at {} 1/m.",
+      of.isotropic ? ", the same about all axes" : "", formatNumber(loop.first_Nm[0]), formatNumber(loop.weft_Nm),
+      formatNumber(loop.span_per_m[0]));
+  const std::string cycle = of.set_by == SetBy::cycles
+                                ? "at the end of each cycle of bending and recovery (Wong 2014, eq. 4.6 to 4.12)"
+                                : fmt::format("in a cycle to {} 1/m and back", formatNumber(loop.cycle_per_m));
+  if (loop.setting > 0 || loop.fatigue > 0)
+    text += fmt::format(" Folds set (lambda {}), and friction tires by {} {}.", formatNumber(loop.setting),
+                        formatNumber(loop.fatigue), cycle);
+  if (of.recovery > 0)
+    text += fmt::format(" A part of {} of the rigidity relaxes within {} s.", formatNumber(of.recovery),
+                        formatNumber(of.recovery_time_s));
+  return text;
 }
 
 }  // namespace gambeson::schema

@@ -19,6 +19,7 @@ struct ByDirection {
 
 enum class LoopAxes { apart, isotropic };
 enum class LoopShape { quadratic, sharp, zheng };
+enum class SetBy { slip, cycles };
 
 struct LoopInput {
   LoopAxes axes = LoopAxes::apart;
@@ -28,6 +29,9 @@ struct LoopInput {
   double width_at_per_m = 100;
   std::vector<std::pair<double, double>> virgin, stops;
   double set = 0, fatigue = 0, cycle_per_m = 250;
+  SetBy set_by = SetBy::slip;
+  double recovery = 0;
+  std::optional<double> recovery_time_s;
 };
 
 Object loopTable();
@@ -35,8 +39,10 @@ Object loopTable();
 /// The law; `bending` is its entry in the file, `given` the rigidities there (where a virgin curve is given: its last
 /// slope).
 BendingLaw resolveLoop(const Entry& bending, const LoopInput& in, const GivenRigidities& given);
-/// The input that resolves to the law.
-LoopInput restoreLoop(const FrictionInBending& law, bool isotropic);
+/// The input that resolves to a law with a loop; nothing for other laws.
+std::optional<LoopInput> restoreLoop(const BendingLaw& law);
+/// What reports say of it.
+std::string sayLoop(const BendingLaw& law);
 /// The rigidity beyond friction of a measured virgin curve, where there is one.
 std::optional<double> rigidityOf(const Entry& bending, const LoopInput& in);
 

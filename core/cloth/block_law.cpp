@@ -46,6 +46,7 @@ BlockLaw withHistory(BlockLaw law, long history_first, const ClothState& state, 
   law.history_first = history_first;
   law.committed = state.history.empty() ? nullptr : state.history.data();
   law.trial = out.history.empty() ? nullptr : out.history.data();
+  law.elapsed_s = state.elapsed_s;
   return law;
 }
 

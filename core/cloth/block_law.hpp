@@ -36,6 +36,7 @@ struct BlockLaw {
   const double* committed = nullptr;
   double* trial = nullptr;
   long history_first = 0;
+  double elapsed_s = 0;  ///< since the commit
   double* lost = nullptr;
 
   /// Which laws are evaluated.

@@ -15,13 +15,14 @@ struct ClothState {
   std::span<const double> inner;    ///< values of the inner unknowns; empty where there are none
   std::span<const double> history;  ///< committed; empty where laws remember nothing
   std::span<const Vec3> v;          ///< velocities of all points [m/s]; for damping alone, else empty
+  double elapsed_s = 0;             ///< since the history was committed; infinite in statics, where no time passes
 
   ClothState() = default;
   ClothState(std::span<const Vec3> points) : q(points) {}     // NOLINT: a cloth without inner unknowns and history
   ClothState(const std::vector<Vec3>& points) : q(points) {}  // NOLINT
   ClothState(std::span<const Vec3> points, std::span<const double> inner_values, std::span<const double> committed,
-             std::span<const Vec3> velocities = {})
-      : q(points), inner(inner_values), history(committed), v(velocities) {}
+             std::span<const Vec3> velocities = {}, double elapsed = 0)
+      : q(points), inner(inner_values), history(committed), v(velocities), elapsed_s(elapsed) {}
 };
 
 /// A point of a cloth that remembers: its place, and where in the history its numbers stand, `count` of them `stride`

@@ -243,7 +243,7 @@ std::pair<std::size_t, int> JoinedCloth::partOf(int patch) const {
 ClothState JoinedCloth::stateOf(const ClothState& s, std::size_t i) const {
   return {s.q.subspan(static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1] - point_[i])),
           range(s.inner, values_[i], values_[i + 1]), range(s.history, history_[i], history_[i + 1]),
-          range(s.v, static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1]))};
+          range(s.v, static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1])), s.elapsed_s};
 }
 
 std::string JoinedCloth::describePoint(int point) const {

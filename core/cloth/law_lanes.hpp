@@ -31,6 +31,7 @@ inline History<V> historyAt(const BlockLaw& law, long point, bool differ) {
   const long first = law.history_first + point * size * kLanes;
   History<V> history{law.committed ? law.committed + first : nullptr, law.trial ? law.trial + first : nullptr};
   history.of_all = !differ;
+  history.elapsed_s = law.elapsed_s;
   if (differ && law.trial)
     for (int i = 0; i < size; ++i) Number<V>::stored(history.trial + i * kLanes, history.before(i));
   return history;

@@ -8,14 +8,15 @@
 
 namespace gambeson {
 
-void internalForce(const Model& m, const State& s, std::span<const double> committed, std::span<double> history,
-                   std::vector<Vec3>& out, StepWork& w, ClothEnergy* energy, const ForceTerms& terms) {
+void internalForce(const Model& m, const State& s, std::span<const double> committed, double elapsed_s,
+                   std::span<double> history, std::vector<Vec3>& out, StepWork& w, ClothEnergy* energy,
+                   const ForceTerms& terms) {
   w.q.resize(m.cloth->points());
   w.f.resize(m.cloth->points());
   w.inner_force.resize(m.inner_mass.size());
   out.resize(m.freeCount());
   m.cloth->map().T.multiply<Vec3>(s.p, w.q);
-  m.cloth->force({w.q, s.inner, committed}, {w.f, w.inner_force, history, energy}, w.cloth, terms);
+  m.cloth->force({w.q, s.inner, committed, {}, elapsed_s}, {w.f, w.inner_force, history, energy}, w.cloth, terms);
   m.cloth->map().Tt.multiply<Vec3>(w.f, out);
 }
 
@@ -90,7 +91,7 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
   ClothEnergy of_cloth;
   const bool remembers = committed && !committed->empty();
   if (remembers) s.history.resize(committed->size());
-  internalForce(m, s, remembers ? *committed : s.history,
+  internalForce(m, s, remembers ? *committed : s.history, around.elapsed_s,
                 remembers ? std::span<double>(s.history) : std::span<double>{}, s.a, w,
                 remembers || energy ? &of_cloth : nullptr);
   if (energy) *energy = of_cloth;
@@ -155,7 +156,7 @@ double elasticEnergy(const Model& m, const State& s, const AnchorFrames& frames,
 
 double elasticEnergyAt(const Model& m, const State& s, const AnchorFrames& frames, StepWork& w) {
   ClothEnergy energy;
-  internalForce(m, s, s.history, {}, w.sample_force, w, &energy);
+  internalForce(m, s, s.history, 0, {}, w.sample_force, w, &energy);
   return elasticEnergy(m, s, frames, energy.stored, w);
 }
 

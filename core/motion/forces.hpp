@@ -34,9 +34,10 @@ struct AnchorInstant {
 };
 
 /// Internal force at s on the free points, Tᵀ f(T p), into `out`, and on the inner unknowns, into work.inner_force,
-/// from the committed history; what laws would remember into `history` where that is not empty.
-void internalForce(const Model& m, const State& s, std::span<const double> committed, std::span<double> history,
-                   std::vector<Vec3>& out, StepWork& w, ClothEnergy* energy, const ForceTerms& terms = {});
+/// from the history committed `elapsed_s` ago; what laws would remember into `history` where that is not empty.
+void internalForce(const Model& m, const State& s, std::span<const double> committed, double elapsed_s,
+                   std::span<double> history, std::vector<Vec3>& out, StepWork& w, ClothEnergy* energy,
+                   const ForceTerms& terms = {});
 
 /// Forces of the springs [N]; anchors stand as `frames` say.
 void springForces(const Model& m, const State& s, const AnchorFrames& frames, std::vector<Vec3>& forces);
@@ -51,6 +52,7 @@ struct Around {
   double half_step_s = 0;     ///< over which drag is implicit
   double support_step_s = 0;  ///< over which the motion that supports prescribe is differentiated, on each side; 0: it
                               ///< begins now
+  double elapsed_s = 0;       ///< since the history was committed
 };
 
 /// All forces at s.p; sets s.a and s.sums. `half_velocity` is v at n + 1/2 and `half_step_s` dt/2: the drag is implicit

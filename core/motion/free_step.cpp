@@ -56,7 +56,7 @@ StepReport freeStep(const Model& m, const Stage& stage, FreeScheme& scheme, cons
   out.history.clear();
   out.inner_acceleration.resize(out.inner_rate.size());
   ClothEnergy energy;
-  report.work.cloth = accelerate(m, after, stage.air(out.time_s), out.v, {}, {0, dt}, &in.history, out, w, &energy);
+  report.work.cloth = accelerate(m, after, stage.air(out.time_s), out.v, {}, {0, dt, dt}, &in.history, out, w, &energy);
   if (!allFinite(out.a) || !allFinite(out.v)) return notFinite("a force is not finite");
   out.elastic_J = elasticEnergy(m, out, after, energy.stored, w);
   const double elastic_J = *out.elastic_J - (in.elastic_J ? *in.elastic_J : elasticEnergyAt(m, in, before, w));

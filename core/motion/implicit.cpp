@@ -193,7 +193,7 @@ ImplicitReport integrate(System& system, const ImplicitOptions& o, double end_s,
     if (state.history.size() != system.history().size())
       throw InputError({"", 0, "state"},
                        fmt::format("remembers {} numbers, expected {}", state.history.size(), system.history().size()));
-    system.setHistory(state.history);
+    system.setHistory(state.history, state.time_s);
   }
   state.history.assign(system.history().begin(), system.history().end());
   if (!(end_s > state.time_s)) throw InputError({"", 0, "end_s"}, "must be after the start");

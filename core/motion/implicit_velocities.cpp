@@ -8,7 +8,7 @@ void ImplicitVelocities::bend(const Model& m, const State& in, double dt, FreeMo
   const int n = m.freeCount();
   const double h = dt / options_.substeps;
   for (int k = 0; k < options_.substeps; ++k) {
-    internalForce(m, at_, in.history, {}, force_, w, nullptr, {false, true, false});
+    internalForce(m, at_, in.history, k * h, {}, force_, w, nullptr, {false, true, false});
     change_.resize(n);
     for (int i = 0; i < n; ++i) {
       free.elastic[i] += h * force_[i];
@@ -44,7 +44,7 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   at_.anchors = in.anchors;
   // All that is implicit, at the start.
   const ForceTerms terms{true, !explicit_bending, true};
-  internalForce(m, at_, in.history, {}, force_, w, nullptr, terms);
+  internalForce(m, at_, in.history, 0, {}, force_, w, nullptr, terms);
   for (std::size_t i = 0; !explicit_bending && i < out.inner_rate.size(); ++i)
     out.inner_rate[i] += dt * w.inner_force[i] / m.inner_mass[i];
   addStitchForces(m.stitches, m.surface.WT, in.p, force_);

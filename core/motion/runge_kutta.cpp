@@ -70,7 +70,7 @@ bool RungeKutta::move(const Model& m, const Stage& stage, const State& in, doubl
       follow(m, in, dt, k);
       at_.history = in.history;
       const AnchorInstant now(m, stage, at_.time_s);
-      accelerate(m, now.frames(), air, std::vector<Vec3>(at_.v), {}, {0, dt}, nullptr, at_, w);
+      accelerate(m, now.frames(), air, std::vector<Vec3>(at_.v), {}, {0, dt, stages.at[k] * dt}, nullptr, at_, w);
     } else {
       springForces(m, in, {w.stage.start.anchors, w.stage.start.vertices}, w.spring_force);
       if (m.supports) {

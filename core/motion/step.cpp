@@ -146,7 +146,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.history.clear();
   ClothEnergy energy;
   const double lost = accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting),
-                                 {half, dt}, &in.history, out, w, w.audits_energy ? &energy : nullptr);
+                                 {half, dt, dt}, &in.history, out, w, w.audits_energy ? &energy : nullptr);
   out.damping_W = clothDampingPower(out, w);
   report.work.cloth = lost + half * (in.damping_W + out.damping_W);
   report.work.dissipated += lost + dt * w.damping_power_W;
@@ -188,7 +188,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
 Energy energyOf(const Model& m, const Stage& stage, const State& s, StepWork& w) {
   Energy e;
   ClothEnergy of_cloth;
-  internalForce(m, s, s.history, {}, w.sample_force, w, &of_cloth);
+  internalForce(m, s, s.history, 0, {}, w.sample_force, w, &of_cloth);
   e.internal = of_cloth.stored;
   for (std::size_t i = 0; i < m.inner_mass.size(); ++i)
     e.kinetic += 0.5 * m.inner_mass[i] * s.inner_rate[i] * s.inner_rate[i];

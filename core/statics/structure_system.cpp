@@ -60,8 +60,9 @@ StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends) :
   structure.cloth->startHistory(history_);
 }
 
-void StructureSystem::setHistory(std::span<const double> history) {
+void StructureSystem::setHistory(std::span<const double> history, double t) {
   history_.assign(history.begin(), history.end());
+  committed_t_ = t;
   residual_y_.clear();
   at_y_.clear();
 }
@@ -73,6 +74,7 @@ double StructureSystem::commit(std::span<const double> y, double t) {
     residual(y, t, unused);
   }
   history_.swap(trial_);
+  committed_t_ = t;
   residual_y_.clear();
   at_y_.clear();
   return energy_.lost;
@@ -88,7 +90,7 @@ void StructureSystem::place(std::span<const double> y, double t) {
 
 double StructureSystem::residual(std::span<const double> y, double t, std::span<double> g) {
   place(y, t);
-  structure_.cloth->force(stateOf(), {f_, {}, trial_, history_.empty() ? nullptr : &energy_}, work_);
+  structure_.cloth->force(stateAt(t), {f_, {}, trial_, history_.empty() ? nullptr : &energy_}, work_);
   residual_y_.assign(y.begin(), y.end());
   residual_t_ = t;
   std::fill(external_.begin(), external_.end(), Vec3{});
@@ -107,7 +109,7 @@ double StructureSystem::residual(std::span<const double> y, double t, std::span<
 void StructureSystem::assemble(std::span<const double> y, double t) {
   if (at_t_ == t && std::equal(y.begin(), y.end(), at_y_.begin(), at_y_.end())) return;
   place(y, t);
-  structure_.tangent->assemble(stateOf(), work_, K_);
+  structure_.tangent->assemble(stateAt(t), work_, K_);
   if (structure_.loads.follow()) structure_.loads.addStiffness(q_, value_, structure_.cloth->map(), K_);
   at_y_.assign(y.begin(), y.end());
   at_t_ = t;
@@ -118,7 +120,7 @@ void StructureSystem::stiffness(std::span<const double> y, double t, SymmetricMa
     place(y, t);
     ForceTerms terms;
     terms.steepest = true;
-    structure_.tangent->assemble(stateOf(), work_, K_, terms);
+    structure_.tangent->assemble(stateAt(t), work_, K_, terms);
     at_y_.clear();
   } else {
     assemble(y, t);

@@ -1,6 +1,7 @@
 #pragma once
 /// A structure as the solvers' system.
 
+#include <limits>
 #include <vector>
 
 #include "core/statics/structure.hpp"
@@ -20,7 +21,7 @@ class StructureSystem : public System {
   double length() const override { return length_; }
   double reach() const override { return reach_; }
   std::span<const double> history() const override { return history_; }
-  void setHistory(std::span<const double> history) override;
+  void setHistory(std::span<const double> history, double t = 0) override;
   double commit(std::span<const double> y, double t) override;
   std::string describe(std::span<const double> motion) const override;
   void mass(bool lumped, SymmetricMatrix& M) override;
@@ -32,7 +33,10 @@ class StructureSystem : public System {
 
  private:
   void place(std::span<const double> y, double t);  ///< sets value_ and q_
-  ClothState stateOf() const { return {q_, {}, history_}; }
+  /// At t: a load step takes no time that laws could count.
+  ClothState stateAt(double t) const {
+    return {q_, {}, history_, {}, ends_ == ProgramEnds::constant ? t - committed_t_ : std::numeric_limits<double>::infinity()};
+  }
   void assemble(std::span<const double> y, double t);
   BlockMatrix massBlocks(bool lumped) const;
 
@@ -41,6 +45,7 @@ class StructureSystem : public System {
   double length_ = 0, reach_ = 0;
   ClothWork work_;
   std::vector<double> history_, trial_;
+  double committed_t_ = 0;
   ClothEnergy energy_;  ///< of the laws that remember, at the last residual
   std::vector<double> residual_y_;
   double residual_t_ = 0;

@@ -30,8 +30,10 @@ class System {
   /// What the laws remember, as of the last commit: forces and stiffnesses are of it. Nothing else changes it, so that
   /// a step or an iterate that is given up leaves no trace.
   virtual std::span<const double> history() const { return {}; }
-  /// Goes on from a history of before.
-  virtual void setHistory(std::span<const double> history) { static_cast<void>(history); }
+  /// Goes on from a history of before, committed at t.
+  virtual void setHistory(std::span<const double> history, double t = 0) {
+    static_cast<void>(history), static_cast<void>(t);
+  }
   /// Accepts y at t: its laws remember it from now on. Returns the energy that they have lost since the last commit
   /// [J], never negative. Forces at (y, t) stay what they are.
   virtual double commit(std::span<const double> y, double t) { return static_cast<void>(y), static_cast<void>(t), 0; }

@@ -281,7 +281,8 @@ PointState Shell::stateAt(int patch, Vec2 uv, const ClothState& at) const {
   PointState state{{0.5 * (norm2(e1) - 1), 0.5 * (norm2(e2) - 1), dot(e1, e2)}, change, {}, {}};
   const double e[3] = {state.strain.x, state.strain.y, state.strain.z}, k[3] = {change.x, change.y, change.z};
   const NurbsPatch& p = garment_.patches[patch];
-  const History<double> remembered = memory_.nearest(patch, {findSpan(p.u, uv.x), findSpan(p.v, uv.y)}, uv, at.history);
+  History<double> remembered = memory_.nearest(patch, {findSpan(p.u, uv.x), findSpan(p.v, uv.y)}, uv, at.history);
+  remembered.elapsed_s = at.elapsed_s;
   const PointAnswer<double> r = resultants(pointLaw(fabric), e, k, remembered);
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
   state.n = {n[0], n[1], n[2]};

@@ -180,10 +180,13 @@ HistoryPlace TriangleElements::historyOf(std::size_t hinge) const {
           static_cast<std::size_t>(kernels_->lanes)};
 }
 
-History<double> TriangleElements::memoryOf(std::size_t hinge, std::span<const double> history) const {
+History<double> TriangleElements::memoryOf(std::size_t hinge, const ClothState& state) const {
   const HistoryPlace own = historyOf(hinge);
-  if (history.empty() || own.count == 0) return {};
-  return {history.data() + own.first, nullptr, static_cast<long>(own.stride)};
+  if (own.count == 0) return {};
+  History<double> memory{state.history.empty() ? nullptr : state.history.data() + own.first, nullptr,
+                         static_cast<long>(own.stride)};
+  memory.elapsed_s = state.elapsed_s;
+  return memory;
 }
 
 Vec3 TriangleElements::strain(int triangle, std::span<const Vec3> q, Vec3* weft, Vec3* warp) const {
@@ -219,7 +222,7 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
   double area = 0;
   for (const int h : hinges_of_[static_cast<std::size_t>(triangle)]) {
     if (h < 0) continue;
-    const History<double> memory = memoryOf(static_cast<std::size_t>(h), state.history);
+    const History<double> memory = memoryOf(static_cast<std::size_t>(h), state);
     if (!memory.committed) continue;
     const double part = hinges_[static_cast<std::size_t>(h)].area_m2;
     area += part;
@@ -229,7 +232,9 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
   for (double& m : mean) m /= area > 0 ? area : 1;
   const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
   const BlockLaw& law = laws_[static_cast<std::size_t>(t.law)];
-  PointAnswer<double> r = resultants(law.point, e, k, {mean.data(), nullptr});
+  History<double> memory{mean.data(), nullptr};
+  memory.elapsed_s = state.elapsed_s;
+  PointAnswer<double> r = resultants(law.point, e, k, memory);
   if (membraneOf(t).elements != MembraneElements::continuum) stretch(t, law, s.strain, r.membrane);
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
   s.n = {n[0], n[1], n[2]};
@@ -401,7 +406,7 @@ void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const 
   const double change[3] = {kappa * h.d.x, kappa * h.d.y, kappa * h.d.z}, d[3] = {h.d.x, h.d.y, h.d.z};
   Answer<double, 3> answer;
   evaluateBending<with_slope>(law.evaluated(), numbersOf(law), change,
-                              memoryOf(static_cast<std::size_t>(hinge), state.history), answer);
+                              memoryOf(static_cast<std::size_t>(hinge), state), answer);
   double across[3]{};
   addProduct(answer.slope, d, across);
   const double slope = across[0] * d[0] + across[1] * d[1] + across[2] * d[2];

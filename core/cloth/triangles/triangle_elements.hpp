@@ -85,7 +85,7 @@ class TriangleElements {
   void stretch(const MembraneTriangle& triangle, const BlockLaw& law, const Vec3& strain,
                Answer<double, 3>& answer) const;
   /// What a hinge remembers; null where it remembers nothing, or the cloth is new.
-  History<double> memoryOf(std::size_t hinge, std::span<const double> history) const;
+  History<double> memoryOf(std::size_t hinge, const ClothState& state) const;
 
   std::vector<MembraneTriangle> triangles_;
   std::vector<FoldHinge> hinges_;

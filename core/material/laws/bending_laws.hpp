@@ -9,9 +9,11 @@
 #include <variant>
 
 #include "core/material/laws/consistent_bending.hpp"
+#include "core/material/laws/cyclic_bending.hpp"
 #include "core/material/laws/hysteresis_bending.hpp"
 #include "core/material/laws/laminate.hpp"
 #include "core/material/laws/linear_bending.hpp"
+#include "core/material/laws/recovering_bending.hpp"
 #include "core/material/laws/stop_bending.hpp"
 #include "core/material/laws/zheng_bending.hpp"
 
@@ -59,7 +61,9 @@ struct LawList {
   }
 };
 
-using BendingLaws = LawList<ZhengBending, StopBending, HysteresisBending, IsotropicHysteresisBending>;
+using BendingLaws =
+    LawList<ZhengBending, StopBending, HysteresisBending, IsotropicHysteresisBending, CyclicHysteresisBending,
+            Recovering<HysteresisBending>, Recovering<IsotropicHysteresisBending>>;
 /// The law of a fabric.
 using BendingLaw = BendingLaws::Slot;
 

@@ -39,6 +39,8 @@ struct History {
   /// have in `trial`.
   bool of_all = false;
   S follows{};
+  /// Time since the commit [s]; infinite in statics, where none passes. Only laws that go with time read it.
+  double elapsed_s = 0;
 
   GAMBESON_LAW S before(int i) const { return committed ? Number<S>::loaded(committed + i * stride) : S{}; }
   GAMBESON_LAW void keep(int i, const S& value) const {

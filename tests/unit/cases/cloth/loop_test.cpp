@@ -67,7 +67,10 @@ TEST(LoopInput, IsWrittenAsItWasRead) {
       {R"({"law": "hysteresis", "rigidity": 1e-5, "loop": {"initial_rigidity": 3e-5, "friction_curvature": 60}})",
        R"({"law": "hysteresis", "rigidity": 1e-5, "loop": {"axes": "isotropic", "shape": "zheng", "initial_rigidity": 6e-5, "friction_curvature": 60, "set": 0.2}})",
        R"({"law": "hysteresis", "rigidity_weft": 1e-5, "rigidity_warp": 2e-5, "twist": 1e-6, "loop": {"hysteresis": 8e-4, "hysteresis_at": 50, "friction_curvature": 30}})",
-       R"({"law": "hysteresis", "loop": {"virgin": [[20, 0.004], [60, 0.007], [100, 0.009]], "fatigue": 0.1}})"}) {
+       R"({"law": "hysteresis", "loop": {"virgin": [[20, 0.004], [60, 0.007], [100, 0.009]], "fatigue": 0.1}})",
+       R"({"law": "hysteresis", "rigidity": 1e-5, "loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "set": 0.2, "set_by": "cycles"}})",
+       R"({"law": "hysteresis", "rigidity": 1e-5, "loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "recovery": 0.3, "recovery_time": "10 s"}})",
+       R"({"law": "hysteresis", "rigidity": 1e-5, "loop": {"axes": "isotropic", "initial_rigidity": 3e-5, "friction_curvature": 60, "recovery": 0.3, "recovery_time": "10 s"}})"}) {
     const Case c = readCase(folder.write("case.json", withBending(bending)));
     const std::string full = writeCase(c);
     EXPECT_EQ(writeCase(readCase(folder.write("again.json", full))), full);
@@ -93,6 +96,18 @@ TEST(LoopInput, SaysWhatIsWrong) {
   refused(R"("loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "set": -1})", ".loop.set", ">= 0");
   refused(R"("loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "cycle": 1})", ".loop.cycle",
           "must make a stop slip");
+  refused(R"("loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "set_by": "cycle"})", ".loop.set_by", "slip");
+  refused(R"("loop": {"axes": "isotropic", "initial_rigidity": 3e-5, "friction_curvature": 60, "set_by": "cycles"})",
+          ".loop.set_by", "not possible with isotropic");
+  refused(R"("loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "set_by": "cycles", "set": 2})", ".loop.set",
+          "<= 1");
+  refused(R"("loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "recovery": 0.3})", ".loop.recovery_time",
+          "required with recovery");
+  refused(R"("loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "recovery_time": 3})", ".loop.recovery_time",
+          "goes with recovery");
+  refused(
+      R"("loop": {"initial_rigidity": 3e-5, "friction_curvature": 60, "set_by": "cycles", "recovery": 1, "recovery_time": 1})",
+      ".loop.recovery", "without time");
   refused(R"("loop": {"hysteresis": 0.1, "friction_curvature": 200})", ".loop.hysteresis", "steeper by itself");
   refused(R"("loop": {"hysteresis": 1e-4, "initial_rigidity": 3e-5, "friction_curvature": 60})", ".loop.hysteresis",
           "excludes");

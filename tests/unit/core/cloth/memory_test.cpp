@@ -42,6 +42,12 @@ L loop(double setting, double fatigue) {
 BendingLaw loopLaw() { return loop<IsotropicHysteresisBending>(0, 0); }
 double loopLoss(double K) { return 0.7 * kRigidity_Nm * cycleLoss(loop<IsotropicHysteresisBending>(0, 0).shape, 8, K); }
 BendingLaw ageingLaw() { return loop<HysteresisBending>(0.3, 0.1); }
+BendingLaw recoveringLaw() {
+  auto law = loop<Recovering<IsotropicHysteresisBending>>(0, 0);
+  law.part = 0.5;
+  law.time_s = 0.01;
+  return law;
+}
 
 /// A law on a kind of cloth.
 struct Remembers {
@@ -69,7 +75,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Remembers{"LoopOnShell", true, loopLaw, IsotropicHysteresisBending::history_size, loopLoss},
                     Remembers{"LoopOnTriangles", false, loopLaw, IsotropicHysteresisBending::history_size, loopLoss},
                     Remembers{"AgeingOnShell", true, ageingLaw, HysteresisBending::history_size},
-                    Remembers{"AgeingOnTriangles", false, ageingLaw, HysteresisBending::history_size}),
+                    Remembers{"AgeingOnTriangles", false, ageingLaw, HysteresisBending::history_size},
+                    Remembers{"RecoveringOnShell", true, recoveringLaw, Recovering<IsotropicHysteresisBending>::history_size},
+                    Remembers{"RecoveringOnTriangles", false, recoveringLaw,
+                              Recovering<IsotropicHysteresisBending>::history_size}),
     [](const auto& i) { return std::string(i.param.name); });
 
 /// All points on a cylinder about y of a curvature, without strain.

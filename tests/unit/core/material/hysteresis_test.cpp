@@ -215,6 +215,7 @@ L lawOf(double setting, double fatigue) {
   law.span_per_m = {60, 60, 60};
   law.setting = setting;
   law.fatigue = fatigue;
+  if constexpr (requires { law.part; }) law.part = 0.7, law.time_s = 2;
   law.check([](const std::string& key, const std::string& why) { FAIL() << key << " " << why; });
   return law;
 }
@@ -234,7 +235,9 @@ void expectLaw(const char* name) {
   const auto answer = [&]<class S>(const S* k) {
     double trial[L::history_size];
     Answer<S, 3> a{};
-    L::template bend<all_parts>(D, numbers.data(), k, History<S>{memory.data(), trial, 1, true}, a);
+    History<S> history{memory.data(), trial, 1, true};
+    history.elapsed_s = 0.5;
+    L::template bend<all_parts>(D, numbers.data(), k, history, a);
     return evaluated(a);
   };
   for (const std::array<double, 3>& k :
@@ -249,6 +252,103 @@ void expectLaw(const char* name) {
 TEST(Hysteresis, ResultantsAreTheGradientOfWhatIsStoredAndLost) {
   expectLaw<HysteresisBending>("apart");
   expectLaw<IsotropicHysteresisBending>("isotropic");
+  expectLaw<CyclicHysteresisBending>("cycles");
+  expectLaw<Recovering<HysteresisBending>>("recovering");
+  expectLaw<Recovering<IsotropicHysteresisBending>>("recovering, isotropic");
+}
+
+/// A law that is bent along weft, step by step.
+template <class L>
+class BentSheet {
+ public:
+  explicit BentSheet(const L& law) : law_(law), numbers_(law.numbers()) {}
+  double bend(double k, double elapsed_s = 0) {
+    const double D[3] = {law_.weft_Nm, law_.warp_Nm, law_.twist_Nm}, to[3] = {k, 0, 0};
+    std::array<double, L::history_size> trial{};
+    History<double> history{memory.data(), trial.data(), 1, true};
+    history.elapsed_s = elapsed_s;
+    out = {};
+    L::template bend<all_parts>(D, numbers_.data(), to, history, out);
+    memory = trial;
+    lost += out.lost;
+    return out.resultant[0];
+  }
+  std::array<double, L::history_size> memory{};
+  Answer<double, 3> out{};
+  double lost = 0;
+
+ private:
+  L law_;
+  std::array<double, L::number_count> numbers_;
+};
+
+/// Held bent, its branch relaxes as exp(-t/tau); let go fast, it keeps what has relaxed and opens slowly.
+TEST(Hysteresis, AMaxwellBranchRelaxesAndLetsAFoldOpenInTime) {
+  const auto law = lawOf<Recovering<HysteresisBending>>(0, 0);
+  BentSheet<HysteresisBending> alone(law);
+  BentSheet<Recovering<HysteresisBending>> sheet(law);
+  const double K = 100, v = 0.7 * law.weft_Nm, at_rest = alone.bend(K);
+  EXPECT_NEAR(sheet.bend(K), at_rest + v * K, 1e-15) << "fast";
+  double before = sheet.lost;
+  for (int i = 0; i < 2000; ++i) {
+    sheet.bend(K, 1e-3);
+    EXPECT_GE(sheet.lost, before);
+    before = sheet.lost;
+  }
+  EXPECT_NEAR(sheet.out.resultant[0] - at_rest, v * K * std::exp(-1.0), 5e-4 * v * K) << "after tau";
+  EXPECT_NEAR(sheet.bend(K, INFINITY), at_rest, 1e-15) << "in statics";
+  // The curvature without moment, by bisection of copies: at once, and after 20 tau.
+  const auto open = [](auto tried, double elapsed) {
+    double low = 0, high = 100;
+    for (int i = 0; i < 60; ++i) {
+      auto copy = tried;
+      (copy.bend(0.5 * (low + high), elapsed) > 0 ? high : low) = 0.5 * (low + high);
+    }
+    return low;
+  };
+  const double alone_at = open(alone, 0), at_once = open(sheet, 0), late = open(sheet, INFINITY);
+  EXPECT_GT(at_once, 1.2 * alone_at);
+  EXPECT_NEAR(late, alone_at, 1e-9 * K);
+}
+
+/// Wong 2014, eq. 4.6, 4.7 and 4.11, in his numbers.
+CyclicHysteresisBending thesisRule(double lambda, double mu) {
+  const Stops<kStops> s = stopsOf<kStops>(quadraticCurve(b1, b2, c1));
+  CyclicHysteresisBending law;
+  law.weft_Nm = law.warp_Nm = law.twist_Nm = b2;
+  law.shape = s.shape;
+  law.first_Nm = {b1, b1, b1};
+  law.span_per_m = {K0, K0, K0};
+  law.setting = lambda;
+  law.fatigue = mu;
+  law.cycle_per_m = Km;
+  return law;
+}
+
+TEST(Hysteresis, ThePrintedRuleSetsAtTheEndOfACycle) {
+  for (const auto& [to, residual] : {std::pair{0.5, 0.0}, {1.0, 0.329}, {1.5, 0.540}, {2.5, 0.633}}) {
+    BentSheet<CyclicHysteresisBending> sheet(thesisRule(0.3, 0.1));
+    for (int i = 1; i <= 500; ++i) sheet.bend(to * i / 500);
+    EXPECT_EQ(sheet.memory[kStops], 0) << "while it is bent";
+    for (int i = 499; sheet.out.resultant[0] > 0; --i) sheet.bend(to * i / 500);
+    const double top = virgin(to), xi = std::min(1.0, top / (2 * (M0 + b2 * K0)));
+    const bool overcome = to > K0;
+    EXPECT_NEAR(sheet.memory[kStops], overcome ? 0.3 * xi * residual : 0, 0.3 * 0.006) << to;
+    EXPECT_NEAR(1 - sheet.memory[kStops + 1], overcome ? 1 - 0.1 * xi : 1, 1e-3) << to;
+  }
+}
+
+/// What the printed rule makes of a vibration of 0.01/cm, and what the stops' own does not.
+TEST(Hysteresis, ThePrintedRuleTakesAVibrationForCycles) {
+  BentSheet<CyclicHysteresisBending> sheet(thesisRule(0.1, 0.02));
+  for (int i = 1; i <= 200; ++i) sheet.bend(1.5 * i / 200);
+  for (int n = 0; n < 1000; ++n) {
+    for (int i = 1; i <= 10; ++i) sheet.bend(1.5 - 0.01 * std::sin(2 * M_PI * i / 10));
+    ASSERT_TRUE(std::isfinite(sheet.out.resultant[0]));
+  }
+  EXPECT_GT(sheet.memory[kStops], 0.5) << "set, 1/cm (stops: below 1e-3, VibrationsNeitherSetNorTire)";
+  EXPECT_LT(1 - sheet.memory[kStops + 1], 0.85);
+  EXPECT_GT(virgin(1.5), M0 + b2 * K0) << "friction is overcome, as the rule asks";
 }
 
 /// Cloth bent to a cylinder about any axis is one line.
