@@ -79,9 +79,13 @@ std::string legend(const std::vector<XySeries>& series, double& height) {
   return out;
 }
 
-}  // namespace
+/// What is drawn, in a box of kWidth times `height`, without a frame around it; empty where there is nothing to plot.
+struct Drawing {
+  std::string content;
+  double height = 0;
+};
 
-std::string xyChart(const XyPlot& plot) {
+Drawing draw(const XyPlot& plot) {
   Axis ax, ay;
   ax.logarithmic = ay.logarithmic = plot.logarithmic;
   ax.level = true;
@@ -93,10 +97,7 @@ std::string xyChart(const XyPlot& plot) {
       if (std::isfinite(cx) && std::isfinite(cy)) ax.add(cx), ay.add(cy);
     }
   }
-  const std::string heading = html::element("h3", escape(plot.title));
-  const std::string caption = plot.caption.empty() ? "" : html::element("figcaption", escape(plot.caption));
-  if (!(ax.low <= ax.high))
-    return html::element("figure", heading + html::notice("There is nothing to plot.") + caption, " class=\"chart\"");
+  if (!(ax.low <= ax.high)) return {};
   ax.widen();
   ay.widen();
 
@@ -107,8 +108,7 @@ std::string xyChart(const XyPlot& plot) {
   ax.from = kLeft, ax.to = kWidth - kRight;
   ay.from = bottom, ay.to = top;
 
-  std::string svg = fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">", kWidth,
-                                bottom + kBottom, escape(plot.title + ": " + plot.y_name + " over " + plot.x_name));
+  std::string svg;
   for (const Tick& t : ay.ticks(5)) {
     const double y = ay.pixel(t.at);
     svg += fmt::format("<line class=\"{}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>",
@@ -145,7 +145,46 @@ std::string xyChart(const XyPlot& plot) {
       lines += fmt::format("<path class=\"series {}\" data-name=\"{}\" d=\"{}\"/>", kTones[tone++ % kTones.size()],
                            escape(s.name), d);
   }
-  return html::element("figure", heading + svg + lines + circles + key + "</svg>\n" + caption, " class=\"chart\"");
+  return {svg + lines + circles + key, bottom + kBottom};
+}
+
+std::string labelOf(const XyPlot& plot) { return escape(plot.title + ": " + plot.y_name + " over " + plot.x_name); }
+
+/// The look of a page's plots (style.hpp), for a picture that has no page.
+constexpr const char* kPictureStyle =
+    "text{font:14px system-ui,-apple-system,'Segoe UI','DejaVu Sans',sans-serif;fill:#1b1f27}.axis,.note{fill:#555d6b}"
+    ".note{font-size:12px}.title{font-weight:600}.grid{stroke:#e4e7ec}.zero{stroke:#8d95a3}"
+    ".series{fill:none;stroke-width:2.2;stroke-linejoin:round}.left{stroke:#1668b0}"
+    ".right{stroke:#c04a0f;stroke-dasharray:7 2.5}.third{stroke:#a3246b}.fourth{stroke:#6b4c9a;stroke-dasharray:2 3}"
+    ".fifth{stroke:#1b6e3c;stroke-dasharray:9 3 2 3}.published{fill:#fff;fill-opacity:.75;stroke:#1b1f27;stroke-width:1.3}";
+
+}  // namespace
+
+std::string xyChart(const XyPlot& plot) {
+  const std::string heading = html::element("h3", escape(plot.title));
+  const std::string caption = plot.caption.empty() ? "" : html::element("figcaption", escape(plot.caption));
+  const Drawing drawing = draw(plot);
+  if (drawing.content.empty())
+    return html::element("figure", heading + html::notice("There is nothing to plot.") + caption, " class=\"chart\"");
+  const std::string frame = fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">", kWidth,
+                                        drawing.height, labelOf(plot));
+  return html::element("figure", heading + frame + drawing.content + "</svg>\n" + caption, " class=\"chart\"");
+}
+
+std::string xyPicture(const XyPlot& plot, const std::vector<std::string>& notes) {
+  constexpr double kMargin = 14, kHead = 30, kNote = 17;
+  const Drawing drawing = draw(plot);
+  const double width = kWidth + 2 * kMargin,
+               height = kHead + drawing.height + 2 * kMargin + kNote * static_cast<double>(notes.size());
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"0 0 {:.0f} {:.0f}\" "
+      "role=\"img\" aria-label=\"{}\">\n<style>{}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+      1.6 * width, 1.6 * height, width, height, labelOf(plot), kPictureStyle);
+  svg += text(kMargin, kHead - 8, plot.title, "start", " class=\"title\"");
+  svg += fmt::format("\n<g transform=\"translate({} {})\">{}</g>\n", kMargin, kHead, drawing.content);
+  double y = kHead + drawing.height + kMargin;
+  for (const std::string& note : notes) svg += text(kMargin, y += kNote, note, "start", " class=\"note\"");
+  return svg + "\n</svg>\n";
 }
 
 }  // namespace gambeson

@@ -21,4 +21,7 @@ struct XyPlot {
 /// A figure with the plot, its legend and its caption. Throws InputError where a series has not one y per x.
 std::string xyChart(const XyPlot& plot);
 
+/// The same as a picture of its own, an SVG file with its title, legend and `notes` in it.
+std::string xyPicture(const XyPlot& plot, const std::vector<std::string>& notes);
+
 }  // namespace gambeson

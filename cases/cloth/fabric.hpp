@@ -1,6 +1,7 @@
 #pragma once
 /// What cloth is made of, as a case has it.
 
+#include <filesystem>
 #include <optional>
 
 #include "core/material/fabric.hpp"
@@ -10,6 +11,7 @@ namespace gambeson {
 /// A fabric, and how far it may be stretched: what no force depends on, but the verdict.
 struct FabricCase : Fabric {
   std::optional<double> limit_strain_weft, limit_strain_warp;  ///< Green-Lagrange strains; absent: those of the law
+  std::filesystem::path card;  ///< that it is of (cases/cloth/card.hpp); empty: none
   bool operator==(const FabricCase&) const = default;
 };
 

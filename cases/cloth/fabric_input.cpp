@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "analysis/ticks.hpp"
+#include "cases/cloth/card.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/input/table.hpp"
 
@@ -161,17 +163,20 @@ Object bendingTable() {
 Object fabricTable() {
   using F = FabricInput;
   return Table<F>("Fabric")
+      .path("card", &F::card,
+            "file of a fabric card, from which all follows that is not given here (see Fabric cards, and gambeson "
+            "fabric --help)")
       .text("name", &F::name, "what the reports call it")
       .number("thickness", &F::thickness_m, "m", aboveTo(0, 0.05), "thickness")
-      .required()
+      .defaultsTo("required, or card")
       .number("density", &F::density_kg_per_m3, "kg/m^3", aboveTo(0, 3e4), "mass per volume")
       .in("density")
       .number("surface_density", &F::surface_density_kg_per_m2, "kg/m^2", aboveTo(0, 100),
               "mass per area (also in gsm)")
       .in("density")
-      .oneOf("density", true)
+      .oneOf("density", false)
       .number("young", &F::young_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus of isotropic cloth")
-      .defaultsTo("required, or young_weft, young_warp and shear")
+      .defaultsTo("required, or young_weft, young_warp and shear, or card")
       .number("young_weft", &F::young_weft_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus along the weft")
       .defaultsTo("young")
       .number("young_warp", &F::young_warp_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus along the warp")
@@ -192,49 +197,56 @@ Object fabricTable() {
       .number("limit_strain_warp", &F::limit_strain_warp, "", aboveTo(0, 10), "the same, along the warp alone")
       .defaultsTo("limit_strain")
       .object("bending", &F::bending, bendingTable(), "resistance to bending")
-      .required()
+      .defaultsTo("required, or card")
       .build();
 }
 
-FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
-  FabricCase f;
-  f.name = in.name;
-  f.thickness_m = in.thickness_m;
-  f.density_kg_per_m3 = in.density_kg_per_m3 ? *in.density_kg_per_m3 : *in.surface_density_kg_per_m2 / in.thickness_m;
+namespace {
+
+void resolveDensity(const Entry& entry, const FabricInput& in, FabricCase& f) {
+  if (in.surface_density_kg_per_m2)
+    f.density_kg_per_m3 = *in.surface_density_kg_per_m2 / f.thickness_m;
+  else if (in.density_kg_per_m3)
+    f.density_kg_per_m3 = *in.density_kg_per_m3;
+  else if (f.card.empty())
+    entry.fail("one of density or surface_density is required");
+}
+
+void resolveMembrane(const Entry& entry, const FabricInput& in, FabricCase& f) {
+  if (f.card.empty() || entry.node.find("poisson")) f.poisson = in.poisson;
   if (in.young_Pa) {
     for (const auto& [key, given] :
          {std::pair("young_weft", in.young_weft_Pa), std::pair("young_warp", in.young_warp_Pa)})
       if (given)
         entry.failAt(key, "excludes \"young\"; give young for isotropic cloth, or young_weft, young_warp and shear");
     f.young_weft_Pa = f.young_warp_Pa = *in.young_Pa;
-    f.shear_Pa = in.shear_Pa.value_or(*in.young_Pa / (2 * (1 + in.poisson)));
+    f.shear_Pa = in.shear_Pa.value_or(*in.young_Pa / (2 * (1 + f.poisson)));
   } else {
-    if (!in.young_weft_Pa && !in.young_warp_Pa)
+    if (f.card.empty() && !in.young_weft_Pa && !in.young_warp_Pa)
       entry.failAt("young", "is required: Young's modulus, or young_weft, young_warp and shear");
-    for (const auto& [key, given] : {std::pair("young_weft", in.young_weft_Pa),
-                                     std::pair("young_warp", in.young_warp_Pa), std::pair("shear", in.shear_Pa)})
-      if (!given) entry.failAt(key, "is required where \"young\" is not given");
-    f.young_weft_Pa = *in.young_weft_Pa;
-    f.young_warp_Pa = *in.young_warp_Pa;
-    f.shear_Pa = *in.shear_Pa;
+    for (const auto& [key, given, to] : {std::tuple("young_weft", in.young_weft_Pa, &f.young_weft_Pa),
+                                         std::tuple("young_warp", in.young_warp_Pa, &f.young_warp_Pa),
+                                         std::tuple("shear", in.shear_Pa, &f.shear_Pa)}) {
+      if (!given && f.card.empty()) entry.failAt(key, "is required where \"young\" is not given");
+      if (given) *to = *given;
+    }
   }
-  f.poisson = in.poisson;
-  f.jam_area = in.jam_area;
   // The elasticity matrix of eq. 2.13 is positive definite only so.
   if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa))
     entry.failAt("poisson", fmt::format("{} is out of range; allowed: below sqrt(young_weft / young_warp) = {:.4g}",
                                         f.poisson, std::sqrt(f.young_weft_Pa / f.young_warp_Pa)));
+}
 
+void resolveLimits(const Entry& entry, const FabricInput& in, FabricCase& f) {
   for (const auto& [key, given] :
        {std::pair("limit_strain_weft", in.limit_strain_weft), std::pair("limit_strain_warp", in.limit_strain_warp)})
     if (given && in.limit_strain)
       entry.failAt(key, "excludes \"limit_strain\"; give limit_strain, or limit_strain_weft and limit_strain_warp");
   f.limit_strain_weft = in.limit_strain ? in.limit_strain : in.limit_strain_weft;
   f.limit_strain_warp = in.limit_strain ? in.limit_strain : in.limit_strain_warp;
+}
 
-  const JsonNode* bending_node = entry.node.find("bending");
-  const Entry bending = entry.member(*bending_node);
-  const BendingInput& b = in.bending;
+void resolveBending(const Entry& bending, const BendingInput& b, FabricCase& f) {
   GivenRigidities rigidities;
   rigidities.twist_Nm = b.twist_Nm;
   const std::optional<double> of_curve = b.loop ? rigidityOf(bending, *b.loop) : std::nullopt;
@@ -260,6 +272,34 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
       if (bending.node.find(key) && std::find(row.keys.begin(), row.keys.end(), key) == row.keys.end())
         bending.failAt(key, fmt::format("has no meaning for the law {}; remove it", row.name));
   f.rest_curvature_of_shape = b.rest == RestCurvature::shape;
+}
+
+/// The fabric of the card that the input names; where there is none, or of a finished run, one without numbers.
+FabricCase cardOf(const Entry& entry, const FabricInput& in) {
+  FabricCase f;
+  if (!in.card.empty() && !entry.recorded) f = fabricOf(readCard(in.card)).fabric;
+  f.card = in.card;
+  return f;
+}
+
+}  // namespace
+
+FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
+  FabricCase f = cardOf(entry, in);
+  const bool of_card = !f.card.empty();
+  if (!in.name.empty()) f.name = in.name;
+  if (entry.node.find("thickness"))
+    f.thickness_m = in.thickness_m;
+  else if (!of_card)
+    entry.failAt("thickness", "is required: thickness");
+  resolveDensity(entry, in, f);
+  if (!of_card || entry.node.find("jam_area")) f.jam_area = in.jam_area;
+  resolveMembrane(entry, in, f);
+  resolveLimits(entry, in, f);
+  if (const JsonNode* bending = entry.node.find("bending"))
+    resolveBending(entry.member(*bending), in.bending, f);
+  else if (!of_card)
+    entry.failAt("bending", "is required: resistance to bending");
   return f;
 }
 
@@ -269,6 +309,7 @@ std::string bendingInWords(const BendingLaw& law) { return rowOf(law).say(law); 
 
 FabricInput restoreFabric(const FabricCase& f) {
   FabricInput in;
+  in.card = f.card;
   in.name = f.name;
   in.thickness_m = f.thickness_m;
   in.density_kg_per_m3 = f.density_kg_per_m3;

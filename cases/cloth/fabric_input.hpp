@@ -25,6 +25,7 @@ struct BendingInput {
 };
 
 struct FabricInput {
+  std::filesystem::path card;
   std::string name;
   double thickness_m = 0;
   std::optional<double> density_kg_per_m3, surface_density_kg_per_m2;
@@ -35,7 +36,8 @@ struct FabricInput {
   BendingInput bending;
 };
 
-/// The fabric that the input says; `entry` is the fabric's in the file, for the rules between fields.
+/// The fabric that the input says, and where it names a card the card, with what else the entry gives in its place.
+/// `entry` is the fabric's in the file, for the rules between fields; of a finished run it says all itself.
 FabricCase resolveFabric(const Entry& entry, const FabricInput& in);
 /// What case files call the law; empty: a solid.
 std::string bendingName(const BendingLaw& law);

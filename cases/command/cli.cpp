@@ -9,7 +9,9 @@
 #include <ostream>
 #include <sstream>
 
+#include "cases/cloth/kind_fields.hpp"
 #include "cases/command/documents.hpp"
+#include "cases/fabric/run.hpp"
 #include "cases/input/message.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "cases/runs/options.hpp"
@@ -65,6 +67,12 @@ struct RenderArguments {
 struct ExportArguments {
   ExportOptions options;
   std::string time = "end";
+};
+
+struct FabricArguments {
+  FabricOptions options;
+  std::vector<std::string> tests;
+  std::string model = "nurbs", mesh = "single";
 };
 
 struct StudyArguments {
@@ -257,6 +265,84 @@ void addExport(CLI::App& app, ExportArguments& a) {
       "Exit status: 0 done; 1 the results could not be written; 2 something in the input is wrong.");
 }
 
+/// The words of a choice as a case has them.
+template <class E>
+std::vector<std::string> wordsOf(const std::vector<std::pair<std::string, E>>& choices) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : choices) words.push_back(word);
+  return words;
+}
+template <class E>
+E choiceOf(const std::vector<std::pair<std::string, E>>& choices, const std::string& word) {
+  return std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == word; })->second;
+}
+
+void addFabric(CLI::App& app, FabricArguments& a) {
+  CLI::App& command = *app.add_subcommand(
+      "fabric",
+      "Makes a fabric of a laboratory's card (KES: B, 2HB, G, EMT, ...), and measures it again in a virtual laboratory");
+  command.add_option("CARD", a.options.card, "Fabric card (JSON)")->type_name("")->required();
+  command
+      .add_option("-o,--output", a.options.fabric,
+                  "Writes the fabric as cases have it, with where each number is from (JSON); the laboratory stays "
+                  "closed unless --out is given too")
+      ->type_name("FABRIC");
+  command
+      .add_option("--out", a.options.out,
+                  "Folder for what the laboratory measures [results/<name of the card>, without -o]")
+      ->type_name("DIR");
+  command
+      .add_option("--test", a.tests,
+                  "bending (KES-FB2, to 2.5/cm either way) or shear (KES-FB1, to 8 degrees); may be given several times "
+                  "[bending, and shear where the card has G]")
+      ->type_name("TEST")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"bending", "shear"}).description(""));
+  command
+      .add_option("--direction", a.options.directions_deg,
+                  "Direction that the specimen is cut in, degrees from the weft towards the warp; may be given several "
+                  "times [0, and 90 where the card tells weft and warp apart]")
+      ->type_name("DEG")
+      ->allow_extra_args(false)
+      ->check(CLI::Range(-360., 360.).description(""));
+  command.add_option("--model", a.model, "What the specimen is made of: " + schema::joined(wordsOf(schema::clothKinds())))
+      ->type_name("MODEL")
+      ->capture_default_str()
+      ->check(CLI::IsMember(wordsOf(schema::clothKinds())).description(""));
+  command.add_option("--mesh", a.mesh, "Of triangles: " + schema::joined(wordsOf(schema::meshKinds())))
+      ->type_name("MESH")
+      ->capture_default_str()
+      ->check(CLI::IsMember(wordsOf(schema::meshKinds())).description(""));
+  command.add_option("--cells", a.options.specimen.cells, "Cells between the clamps")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(4, 200).description(""));
+  command.add_option("--degree", a.options.specimen.degree, "Degree of NURBS")
+      ->type_name("P")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 5).description(""));
+  command
+      .add_option("--fit", a.options.loop,
+                  "Raw loop of bending (CSV with the columns curvature_per_cm or _per_m, and moment_gf_cm_per_cm, "
+                  "moment_N or moment_mN): finds its stops and bends the fabric by them, in place of B and 2HB")
+      ->type_name("LOOP");
+  command.footer(
+      "A card has the numbers of a laboratory, each with its unit:\n"
+      "  {\"name\": \"Denim A\", \"source\": \"our laboratory, 2026\", \"thickness\": \"1.066 mm\",\n"
+      "   \"bending\": {\"B\": \"0.172 gf cm^2/cm\", \"2HB\": \"0.139 gf cm/cm\", \"2HB_at\": \"1 1/cm\"},\n"
+      "   \"shear\": {\"G\": \"2.18 gf/(cm deg)\"}, \"tensile\": {\"EMT\": \"5.5 %\"}}\n"
+      "All keys: cases/FIELDS.md, Fabric cards. What the card lacks is assumed, and said. A case takes the fabric by\n"
+      "\"fabric\": {\"card\": \"denim_a.card.json\"}, or by what -o writes.\n"
+      "Leaves in DIR, for each test and direction: bending_0.csv and shear_0.csv (the loop), bending_0.svg and\n"
+      "shear_0.svg (the loop beside the card's numbers), and laboratory.json (all numbers).\n\n"
+      "Examples:\n"
+      "  gambeson fabric cases/library/cards/denim_a.card.json\n"
+      "  gambeson fabric cases/library/cards/denim_a.card.json -o denim_a.json\n"
+      "  gambeson fabric denim.card.json --test bending --direction 22.5 --model triangles --cells 16\n"
+      "  gambeson fabric denim.card.json --fit measured.csv -o denim.json --out results/denim\n\n"
+      "Exit status: 0 done; 1 a test failed, the message says why; 2 something in the input is wrong.");
+}
+
 void addVerify(CLI::App& app, verify::Options& o) {
   CLI::App& command =
       *app.add_subcommand("verify", "Runs published references: measured against reference, tolerance, on one page");
@@ -333,6 +419,24 @@ void addBatch(CLI::App& app, StudyArguments& a) {
   command.footer(
       "Example:\n  gambeson batch cases/library/flag.json cases/library/stack_mixed.json --out results/cloth\n\n"
       "Exit status: 0 all cases are done; 1 some failed; 2 something in the input is wrong, and nothing ran.");
+}
+
+int fabricCommand(FabricArguments& a, std::ostream& out) {
+  FabricOptions& o = a.options;
+  o.specimen.cloth.kind = choiceOf(schema::clothKinds(), a.model);
+  o.specimen.cloth.mesh = choiceOf(schema::meshKinds(), a.mesh);
+  if (!a.tests.empty()) {
+    o.bending = std::find(a.tests.begin(), a.tests.end(), "bending") != a.tests.end();
+    o.shear = std::find(a.tests.begin(), a.tests.end(), "shear") != a.tests.end();
+  }
+  o.chosen = !a.tests.empty();
+  if (!o.fabric.empty()) checkEnding(o.fabric, "--output", {".json"});
+  if (o.out.empty() && o.fabric.empty()) {
+    std::string name = o.card.stem().string();
+    if (name.ends_with(".card")) name.resize(name.size() - 5);
+    o.out = std::filesystem::path("results") / name;
+  }
+  return runFabric(o, out);
 }
 
 /// Builds what a run of the case starts from: a case that is valid can be run.
@@ -482,6 +586,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addReport(app, report_options);
   addExport(app, export_arguments);
   addVerify(app, verify_options);
+  FabricArguments fabric_arguments;
+  addFabric(app, fabric_arguments);
   StudyArguments study_arguments, batch_arguments;
   addStudy(app, study_arguments);
   addBatch(app, batch_arguments);
@@ -496,8 +602,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
     failure(fmt::format(
         "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, export, verify, "
-        "study "
-        "and batch (see "
+        "study, "
+        "batch and fabric (see "
         "gambeson --help)",
         command.substr(0, 80)));
     return bad_input;
@@ -516,6 +622,10 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {render_arguments.options.png, "--output"},
              {report_options.results, "RESULTS"},
              {report_options.html, "--output"},
+             {fabric_arguments.options.card, "CARD"},
+             {fabric_arguments.options.fabric, "--output"},
+             {fabric_arguments.options.out, "--out"},
+             {fabric_arguments.options.loop, "--fit"},
              {export_arguments.options.results, "RESULTS"},
              {export_arguments.options.iges, "--iges"},
              {export_arguments.options.opensim, "--opensim"},
@@ -527,7 +637,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {batch_arguments.options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
-      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS")) subject = path.string();
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD")) subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
     if (app.got_subcommand("run")) return run(run_arguments);
@@ -536,6 +646,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("draft")) return draft(draft_arguments, out);
     if (app.got_subcommand("render")) return render(render_arguments);
     if (app.got_subcommand("export")) return exportCommand(export_arguments);
+    if (app.got_subcommand("fabric")) return fabricCommand(fabric_arguments, out);
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
     if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
     if (app.got_subcommand("batch"))

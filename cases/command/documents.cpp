@@ -1,11 +1,16 @@
 #include "cases/command/documents.hpp"
 
+#include "cases/cloth/card.hpp"
+#include "cases/input/schema.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "cases/study/study.hpp"
 
 namespace gambeson {
 
 std::string caseSchema() { return schema::jsonSchema(kindsOfCase()); }
-std::string caseFields() { return schema::markdown(kindsOfCase()) + schema::chapter("Studies", study::studyTable()); }
+std::string caseFields() {
+  return schema::markdown(kindsOfCase()) + schema::chapter("Studies", study::studyTable()) +
+         schema::chapter("Fabric cards", schema::cardTable());
+}
 
 }  // namespace gambeson

@@ -42,6 +42,7 @@ struct LaminateMaterial {
 struct MaterialCase {
   std::variant<IsotropicMaterial, OrthotropicMaterial, LaminateMaterial, Fabric> law;
   bool tension_field = false;
+  std::filesystem::path card;  ///< of a fabric; empty: none
 };
 /// As the shell takes it; a density that is not given is 0.
 Fabric fabricOf(const MaterialCase& material);

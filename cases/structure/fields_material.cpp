@@ -111,12 +111,14 @@ Object materialTable() {
             for (const char* key : {"limit_strain", "limit_strain_weft", "limit_strain_warp"})
               if (p.node.find(key))
                 p.failAt(key, "is what a verdict on a garment asks for; a structure has none: remove it");
-            m.law = static_cast<const Fabric&>(resolveFabric(p, in));
+            const FabricCase f = resolveFabric(p, in);
+            m.law = static_cast<const Fabric&>(f);
+            m.card = f.card;
           },
           [table = fabric.object](const M& m) -> std::optional<JsonNode> {
             const Fabric* f = std::get_if<Fabric>(&m.law);
             if (!f) return std::nullopt;
-            const FabricInput in = restoreFabric(FabricCase{*f, {}, {}});
+            const FabricInput in = restoreFabric(FabricCase{*f, {}, {}, m.card});
             return writeObject(*table, &in);
           })
       .in("law")

@@ -12,6 +12,8 @@ template <class Take>
 void eachFile(StructureCase& named, Take take) {
   if (auto* file = std::get_if<SheetFile>(&named.sheet.shape)) take(file->path);
   for (ObstacleCase& o : named.obstacles) kindOf(o).files(o, take);
+  take(named.material.card);
+  for (MaterialCase& m : named.other_materials) take(m.card);
 }
 
 }  // namespace

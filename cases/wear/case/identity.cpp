@@ -24,7 +24,12 @@ void takeMap(std::string& map, Take take) {
 /// Calls `take` with the path of every file that the case names, empty ones too; it may put another in its place.
 template <class Take>
 void eachFile(Case& named, Take take) {
-  for (GarmentCase& g : named.garments) kindOf(g).files(g, take);
+  for (GarmentCase& g : named.garments) {
+    kindOf(g).files(g, take);
+    if (g.fabric) take(g.fabric->card);
+    for (FabricCase& f : g.other_fabrics) take(f.card);
+  }
+  take(named.fabric.card);
   if (named.human) {
     if (!named.human->urdf.empty())
       for (std::filesystem::path file : filesBesideUrdf(named.human->urdf)) take(file);

@@ -1,0 +1,91 @@
+#pragma once
+/// A fabric card: what laboratories measure of a fabric, in their terms and units, and the fabric that follows from it.
+/// Keys are Kawabata's (S. Kawabata, The standardization and analysis of hand evaluation, 2nd ed., Osaka 1980).
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cases/cloth/fabric.hpp"
+#include "cases/cloth/loop_input.hpp"
+#include "core/material/hysteresis.hpp"
+
+namespace gambeson {
+
+/// A number of both directions (their mean), or of weft and warp apart.
+struct CardNumber {
+  std::optional<double> both, weft, warp;
+  bool any() const { return both || weft || warp; }
+  bool apart() const { return weft && warp; }
+  double of(int direction) const { return both ? *both : direction == 0 ? *weft : *warp; }
+  double mean() const { return both ? *both : 0.5 * (*weft + *warp); }
+};
+
+/// KES-FB1, tension of a strip that is wide against its length: `extension` (EMT) at the largest load, linearity LT; or
+/// moduli [N/m], force per width over strain.
+struct CardTensile {
+  CardNumber extension, linearity, modulus_N_per_m;
+  double load_N_per_m = 490.3325;           ///< at which EMT was read: 500 gf/cm
+  std::optional<double> secant_at_N_per_m;  ///< load whose secant modulus the fabric gets; absent: that of EMT
+  std::optional<double> poisson;
+};
+/// KES-FB1, shear: slope G between 0.5 and 2.5 degrees [N/(m rad)], widths of the loop at 0.5 and 5 degrees [N/m].
+struct CardShear {
+  CardNumber rigidity, hysteresis, hysteresis_5;
+  std::optional<double> friction_rad;  ///< angle where all friction is overcome
+};
+/// KES-FB2: B [N m], 2HB [N] and the curvature where it was read [1/m]; K0, where all friction is overcome [1/m]; stops
+/// as loop.stops of a fabric.
+struct CardBending {
+  CardNumber rigidity, hysteresis;
+  std::optional<double> hysteresis_at_per_m, friction_per_m;
+  std::vector<std::pair<double, double>> stops;
+};
+
+struct FabricCard {
+  std::string name, source, description;
+  double thickness_m = 0;
+  std::optional<double> thickness_pressure_Pa, weight_kg_per_m2;
+  std::optional<CardTensile> tensile;
+  std::optional<CardShear> shear;
+  CardBending bending;
+  std::optional<double> friction;  ///< MIU of KES-FB4
+};
+
+/// The fabric of a card, and which numbers it has from where.
+struct CardFabric {
+  FabricCase fabric;
+  std::vector<std::string> derived;  ///< formulas, with their numbers
+  std::vector<std::string> assumed;  ///< what stands in for numbers that the card lacks
+};
+
+/// What cards leave open, and what stands in for it.
+constexpr double kCardDensity_kg_per_m3 = 400;   ///< weight over thickness of common woven cloth
+constexpr double kCardExtension = 0.05;          ///< EMT
+constexpr double kCardShear_N_per_m = 56.18796;  ///< G: 1 gf/(cm deg)
+constexpr double kCardFriction_per_m = 50;       ///< K0: where KES begins to read B
+constexpr double kCardFriction_rad = 0.0174532925199432958;
+
+/// Reads and checks a card. Throws InputError with file, line and key.
+FabricCard readCard(const std::filesystem::path& file);
+
+/// Never throws on a card that was read.
+///   membrane: a strip that is wide against its length keeps its width, so that the force per width at an engineering
+///     strain e is A (1 + e)(e + e^2/2) for the law n = A E (core/material/laws/membrane.hpp). A11 and A22 are those of
+///     EMT at 500 gf/cm, or with `secant_at` F of e = EMT (F/F_max)^(LT/(2 - LT)), the power law whose work is
+///     LT EMT F_max/2. E1 h = A11 s, s = 1 - poisson^2 A22/A11.
+///   shear: A33 = G, in simple shear by the angle phi the shear strain is tan(phi).
+///   bending: stopsOfKes (core/material/hysteresis.hpp); one number for both directions makes an isotropic loop, weft
+///     and warp apart make loops of their own, with a twist of half their geometric mean (Huber's assumption for plates).
+/// Valid for EMT below 50 % and 0.1 < LT <= 1.9.
+CardFabric fabricOf(const FabricCard& card);
+
+namespace schema {
+struct Object;
+/// Of a card, for the documentation.
+const Object& cardTable();
+}  // namespace schema
+
+}  // namespace gambeson
