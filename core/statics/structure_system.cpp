@@ -187,7 +187,7 @@ void StructureSystem::damping(std::span<const double> y, double t, bool lumped, 
   if (stiffness_part && structure_.cloth->damps()) {
     BlockMatrix own;
     place(y, t);
-    structure_.tangent->assembleDamping(stateOf(), work_, own);
+    structure_.tangent->assembleDamping(stateAt(t), work_, own);
     for (std::size_t i = 0; i < damping_K_.values.size(); ++i) damping_K_.values[i] += own.values[i];
   }
   if (stiffness_part && structure_.rayleigh_stiffness_s > 0) {
