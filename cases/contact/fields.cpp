@@ -32,6 +32,9 @@ Object frictionTable() {
               "p_1 of the factor (p/p_1)^(pressure_power - 1) on both coefficients; 0: none")
       .number("pressure_power", &F::pressure_power, "", aboveTo(0, 2),
               "n of that factor; fibres that flatten have 0.7 to 1. Pressures below p_1/100 count as that")
+      .number("along_warp", &F::along_warp, "", {.low = 0, .high = 100, .low_open = true},
+              "factor on both coefficients where the cloth slips along its warp; along the weft 1, between them an "
+              "ellipse")
       .check([](const Entry& p, F& f) {
         if (!p.node.find("static")) f.still = f.kinetic;
         if (!(f.still >= f.kinetic))

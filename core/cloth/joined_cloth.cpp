@@ -119,6 +119,12 @@ class JoinedMounting : public Mounting {
     for (int& column : row.columns) column += c_.firstPoint(i);
     return row;
   }
+  PlaceRow weft(int patch, Vec2 uv) const override {
+    const auto [i, own] = c_.partOf(patch);
+    PlaceRow row = of(i).weft(own, uv);
+    for (int& column : row.columns) column += c_.firstPoint(i);
+    return row;
+  }
   std::vector<int> edgePoints(const PatchEdge& edge, int rows) const override {
     const auto [i, own] = ownEdge(edge);
     std::vector<int> points = of(i).edgePoints(own, rows);

@@ -38,6 +38,8 @@ class Mounting {
   virtual ~Mounting() = default;
 
   virtual PlaceRow place(int patch, Vec2 uv) const = 0;
+  /// The derivative of the position along the weft at rest, of length 1 there: its `value` alone.
+  virtual PlaceRow weft(int patch, Vec2 uv) const = 0;
   /// The points that hold an edge, and the rows of them beside it into the patch; the whole patch where it has no more.
   virtual std::vector<int> edgePoints(const PatchEdge& edge, int rows = 1) const = 0;
   virtual double edgeLength(const PatchEdge& edge) const = 0;  ///< at rest [m]

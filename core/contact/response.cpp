@@ -152,9 +152,15 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
   join(p, w);
 }
 
+/// What pressure and direction have of the friction of a row. `along`: its slip, or the traction that holds it.
+double factorOf(const FrictionLaw& law, double pressure_Pa, const Vec3& along, const Vec3& normal, const RowSlip& slip) {
+  const Vec3 t = along - dot(along, normal) * normal;
+  const double size2 = norm2(t), to_weft = dot(t, slip.weft);
+  return law.atPressure(pressure_Pa) * law.towards(size2 > 0 ? std::min(to_weft * to_weft / size2, 1.0) : 1);
+}
+
 /// Friction of the rows as they move now: mu and drag of a law.
-void setFriction(const FrictionLaw& law, double pressure_Pa, double dt, RowSlip& slip) {
-  const double factor = law.atPressure(pressure_Pa);
+void setFriction(const FrictionLaw& law, double factor, double dt, RowSlip& slip) {
   slip.friction = factor * (slip.slips ? law.slipping(slip.speed_m_per_s) : law.still);
   slip.drag = slip.slips ? dt * law.drag(slip.speed_m_per_s) : 0;
 }
@@ -172,7 +178,8 @@ void startFriction(const Problem& p, std::span<const RowSlip> slip, std::span<co
     if (law.isCoulomb() || slip.empty()) continue;
     w.any_slips = true;
     w.slip[i] = slip[i];
-    setFriction(law, dot(warm[i], row.contact.normal) / p.dt, p.dt, w.slip[i]);
+    const Vec3& n = row.contact.normal;
+    setFriction(law, factorOf(law, dot(warm[i], n) / p.dt, warm[i], n, w.slip[i]), p.dt, w.slip[i]);
   }
 }
 
@@ -188,16 +195,19 @@ bool followSlip(const Problem& p, double goal, ContactWork& w) {
       const FrictionLaw& law = p.parameters.frictionOf(row);
       if (law.isCoulomb()) continue;
       const double* lane = w.candidate[k].lane;
-      const double pressed = dot(Vec3{lane[0], lane[1], lane[2]}, row.contact.normal);
+      const Vec3 traction{lane[0], lane[1], lane[2]}, over = slipOf(w, k);
+      const double pressed = dot(traction, row.contact.normal);
       RowSlip& slip = w.slip[w.order[k]];
-      slip.speed_m_per_s = norm(slipOf(w, k));
+      slip.speed_m_per_s = norm(over);
+      const double factor =
+          factorOf(law, pressed / p.dt, slip.slips ? over : traction, row.contact.normal, slip);
       const bool breaks = !slip.slips && !slip.broke && slip.speed_m_per_s > kStill * goal;
       if (breaks) {
         slip.slips = slip.broke = true;
-        slip.friction = law.kinetic * law.atPressure(pressed / p.dt);
+        slip.friction = law.kinetic * factor;
         slip.drag = 0;
       } else {
-        setFriction(law, pressed / p.dt, p.dt, slip);
+        setFriction(law, factor, p.dt, slip);
       }
       ContactWork::Row& facts = w.facts[k];
       const double change = std::abs(slip.friction - facts.friction) * pressed + std::abs(slip.drag - facts.drag);
@@ -257,6 +267,14 @@ bool ContactParameters::followsMotion() const {
     return std::any_of(list.begin(), list.end(), [](const auto& f) { return f && !f->isCoulomb(); });
   };
   return !friction.isCoulomb() || (on_cloth && !on_cloth->isCoulomb()) || any(of_obstacle) || any(of_garment);
+}
+
+bool ContactParameters::followsThreads() const {
+  const auto any = [](const std::vector<std::optional<FrictionLaw>>& list) {
+    return std::any_of(list.begin(), list.end(), [](const auto& f) { return f && f->goesWithDirection(); });
+  };
+  return friction.goesWithDirection() || (on_cloth && on_cloth->goesWithDirection()) || any(of_obstacle) ||
+         any(of_garment);
 }
 
 ContactRow bodyRow(const Contact& contact, const Vec3& body_velocity, double target, bool impact) {

@@ -32,6 +32,8 @@ struct ContactParameters {
   const FrictionLaw& frictionOf(const ContactRow& row) const;
   /// Whether any friction is more than Coulomb's.
   bool followsMotion() const;
+  /// Whether any goes with the direction of the cloth.
+  bool followsThreads() const;
   /// Speed below which a contact counts as one that sticks, in a step [m/s].
   double still(double dt_s) const { return 4 * tolerance_m_per_s2 * dt_s; }
 };
@@ -43,6 +45,7 @@ struct RowSlip {
   double speed_m_per_s = 0;
   double friction = 0;  ///< mu that goes with it
   double drag = 0;      ///< traction of viscosity, times dt [N s/m^2]
+  Vec3 weft{};          ///< of the cloth there, unit, where friction goes with the direction
 };
 
 /// Samples whose weighted velocities make up the velocity that a contact acts on: one sample on a body (weight 1), a

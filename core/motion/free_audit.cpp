@@ -23,13 +23,15 @@ void auditFreeStep(const Model& m, const State& in, const State& out, double dt,
   const int n = m.freeCount();
   MomentumAudit& audit = report.momentum;
   WorkAudit& work = report.work;
+  work.cloth += free.damping_lost_J;
+  const auto internal = [&](int i) { return free.damping.empty() ? free.elastic[i] : free.elastic[i] + free.damping[i]; };
   w.held_impulses.assign(m.held_points.size(), Vec3{});
   const Vec3& gravity = m.environment.gravity_m_per_s2;
   const auto dead = [&](int i) { return m.dead_force_N.empty() ? Vec3{} : m.dead_force_N[i]; };
   if (!m.supports)
     for (std::size_t k = 0; k < m.held_points.size(); ++k) {
       const int i = m.held_points[k];
-      w.held_impulses[k] = -(free.elastic[i] + free.drag[i] + dt * (m.mass_kg[i] * gravity + dead(i)));
+      w.held_impulses[k] = -(internal(i) + free.drag[i] + dt * (m.mass_kg[i] * gravity + dead(i)));
     }
   contactLedger(m, in, dt, {}, report, w);
   pressingAccelerations(m, dt, w, w.lasting);
@@ -50,13 +52,13 @@ void auditFreeStep(const Model& m, const State& in, const State& out, double dt,
   for (int i = 0; i < n; ++i) {
     const bool bound = m.supports && m.supports->binds(i);
     if (m.held[i] && !m.supports) {
-      held += free.elastic[i];
+      held += internal(i);
       continue;
     }
     const double mass = m.mass_kg[i];
     const Vec3 way = (1 / dt) * (out.p[i] - in.p[i]), mean = 0.5 * (in.v[i] + out.v[i]),
                lasts = dt * (mass * gravity + dead(i));
-    Vec3 known = free.elastic[i] + free.drag[i] + lasts;
+    Vec3 known = internal(i) + free.drag[i] + lasts;
     if (!free.loads.empty()) {
       known += free.loads[i];
       work.loads += dot(free.loads[i], way);

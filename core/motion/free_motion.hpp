@@ -14,10 +14,12 @@ struct FreeMotion {
   // Impulses on each free point, also where it is held [N s].
   std::vector<Vec3> elastic;  ///< of the cloth, its springs and stitches
   std::vector<Vec3> drag;
+  std::vector<Vec3> damping;  ///< of the cloth's own; empty: it has none
   std::vector<Vec3> loads;   ///< of a structure's; empty elsewhere
   std::vector<Vec3> missed;  ///< by which a solve has given less than these say; empty: none
   std::vector<Vec3> spring;  ///< of each spring
   double drag_work_J = 0, drag_lost_J = 0;  ///< of the forces of drag on the velocities at which they are taken
+  double damping_lost_J = 0;                ///< by that damping, likewise
   VelocitySolve solve;
 };
 

@@ -24,6 +24,8 @@ StepReport freeStep(const Model& m, const Stage& stage, FreeScheme& scheme, cons
   out.anchors = in.anchors;
   out.free_change.clear();
   free.solve = {};
+  free.damping.clear();
+  free.damping_lost_J = 0;
   if (!scheme.move(m, stage, in, dt, free, out, report, w)) return report;
   report.solve = free.solve;
   w.predictor.resize(n);
@@ -52,6 +54,7 @@ StepReport freeStep(const Model& m, const Stage& stage, FreeScheme& scheme, cons
   const AnchorFrames before{w.stage.start.anchors, w.stage.start.vertices},
       after{w.stage.end.anchors, w.stage.end.vertices};
   out.limit_J.clear();
+  out.damping_W = 0;  // Verlet's alone
   out.pressed.clear();
   out.history.clear();
   out.inner_acceleration.resize(out.inner_rate.size());

@@ -94,6 +94,9 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
             m.mass_kg[i] * (at_.v[i] - known_[i]);
     if (m.supports) b_[i] += free.loads[i];
   }
+  damped_.resize(n);
+  const bool damps = system_.damping(known_, damped_);
+  for (int i = 0; damps && i < n; ++i) b_[i] -= dt * damped_[i];
   out.free_change.assign(n, Vec3{});
   if (in.free_change.size() == out.free_change.size()) out.free_change = in.free_change;
   const CgReport solved = system_.solve(b_, options_.tolerance, out.free_change);
@@ -114,6 +117,15 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   free.missed.assign(n, Vec3{});
   free.drag_work_J = free.drag_lost_J = 0;
   system_.multiply(change, product_);
+  if (damps) {
+    free.damping.resize(n);
+    for (int i = 0; i < n; ++i) free.damping[i] = -dt * damped_[i];
+    system_.damping(change, damped_);
+    for (int i = 0; i < n; ++i) {
+      free.damping[i] -= dt * damped_[i];
+      free.elastic[i] += dt * damped_[i];  // the product below has it
+    }
+  }
   for (int i = 0; i < n; ++i) {
     const double d = m.drag_kg_per_s[i];
     free.velocity[i] = known_[i] + change[i];
@@ -122,6 +134,7 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
     free.drag[i] = (-dt * d) * (free.velocity[i] - air);
     if (!takesHold(m, i)) free.missed[i] = product_[i] - b_[i];
     if (m.held[i] && !m.supports) continue;
+    if (damps) free.damping_lost_J -= dot(free.damping[i], free.velocity[i]);
     free.drag_work_J += dot(free.drag[i], free.velocity[i]);
     free.drag_lost_J -= dot(free.drag[i], free.velocity[i] - air);
   }

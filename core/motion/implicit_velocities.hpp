@@ -5,7 +5,7 @@
 ///
 ///   (M + dt D + dt^2 K) dv = dt (f - dt K v0 - D (v0 - air)),   v1 = v0 + dv,   x1 = x0 + dt v1
 ///
-/// (the printed right side of 3.25 lacks the dt before K_x v). D is the drag, K = -df/dx.
+/// (the printed right side of 3.25 lacks the dt before K_x v). D is the drag, and the cloth's own damping (eq. 3.2, 3.8), which no air moves; K = -df/dx.
 ///
 /// Semi-implicit (section 4.3, after Schroeder et al. 2011): bending is moved explicitly in `substeps` of h = dt/substeps,
 /// v += h M^-1 f_b(x), x += h v, to x* and v*; then the rest implicitly, linearised at x0:
@@ -42,7 +42,7 @@ class ImplicitVelocities : public FreeScheme {
   ImplicitVelocityOptions options_;
   VelocitySystem system_;
   State at_;
-  std::vector<Vec3> force_, known_, b_, change_, product_, stretched_;
+  std::vector<Vec3> force_, known_, b_, change_, product_, stretched_, damped_;
 };
 
 }  // namespace gambeson

@@ -1,5 +1,6 @@
 #include "core/motion/model.hpp"
 
+#include <map>
 #include <utility>
 
 #include "core/error.hpp"
@@ -74,6 +75,23 @@ void addSamples(Model& m, std::vector<int>& garment) {
   }
 }
 
+/// Of each sample, what tells the direction of its weft from the free points.
+SparseRows weftRows(const Model& m) {
+  const SparseRows& T = m.cloth->map().T;
+  SparseRows rows;
+  rows.column_count = T.column_count;
+  for (int s = 0; s < m.surface.size(); ++s) {
+    const PlaceRow weft = m.cloth->mounting().weft(m.surface.patch[s], m.surface.parameters[s]);
+    std::map<int, double> of_free;
+    for (std::size_t k = 0; k < weft.columns.size(); ++k)
+      for (int e = T.offsets[weft.columns[k]]; e < T.offsets[weft.columns[k] + 1]; ++e)
+        of_free[T.columns[e]] += weft.value[k] * T.values[e];
+    for (const auto& [column, value] : of_free) rows.add(column, value);
+    rows.endRow();
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const ModelOptions& options,
@@ -103,6 +121,7 @@ std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const Mode
   addPoints(options, m);
   std::vector<int> garment;
   addSamples(m, garment);
+  if (contact.followsThreads()) m.weft = weftRows(m);
   if (!contact.of_garment.empty()) m.contact.garment_of_sample = garment;
   addStitchDamping(m.stitches, m.surface.WT, m.drag_kg_per_s);
   m.spring_rise_m = springRise(m);

@@ -59,6 +59,7 @@ struct Model {
   std::vector<double> density_kg_per_m2;  ///< of the samples
   std::vector<double> cell_m;   ///< of the samples: the shorter side of their cell at rest, through its middle
   std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
+  SparseRows weft;  ///< samples x free points: along the weft at rest, where friction goes with the direction
   Environment environment;
   ContactParameters contact;
   std::vector<Obstacle> obstacles;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/motion/cloth_damping.hpp"
 #include "core/motion/forces.hpp"
 
 namespace gambeson {
@@ -60,6 +61,7 @@ bool RungeKutta::move(const Model& m, const Stage& stage, const State& in, doubl
   free.missed.clear();
   free.spring.assign(m.springs.size(), Vec3{});
   free.drag_work_J = free.drag_lost_J = 0;
+  if (m.cloth->damps()) free.damping.assign(n, Vec3{});
   rate_.assign(in.inner_rate.size(), 0.0);
   out.inner_rate = in.inner_rate;
   for (int k = 0; k < stages.count; ++k) {
@@ -78,6 +80,11 @@ bool RungeKutta::move(const Model& m, const Stage& stage, const State& in, doubl
         m.cloth->map().T.multiply<Vec3>(in.p, w.q);
         loadsAt(m, in.time_s, w.q, w.load, w);
       }
+      if (m.cloth->damps()) {
+        w.q.resize(m.cloth->points());
+        m.cloth->map().T.multiply<Vec3>(in.p, w.q);
+        w.damping = clothDamping(*m.cloth, w.q, in.v);
+      }
     }
     const State& s = k > 0 ? at_ : in;
     slopes_[k] = {s.v, s.a, s.inner_rate, s.inner_acceleration};
@@ -91,6 +98,11 @@ bool RungeKutta::move(const Model& m, const Stage& stage, const State& in, doubl
       if (m.supports) {
         elastic -= w.load[i];
         free.loads[i] += share * w.load[i];
+      }
+      if (!free.damping.empty()) {
+        elastic -= w.damping[i];
+        free.damping[i] += share * w.damping[i];
+        free.damping_lost_J -= share * dot(w.damping[i], s.v[i]);
       }
       free.elastic[i] += share * elastic;
       free.drag[i] += share * drag;

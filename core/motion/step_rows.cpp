@@ -57,7 +57,15 @@ void setPersistent(const Model& m, double dt, const Vec3& warm, ContactRow& row)
   if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
 }
 
-RowSlip slipAt(double speed) { return {speed > 0, false, speed, 0, 0}; }
+RowSlip slipAt(double speed) { return {speed > 0, false, speed, 0, 0, {}}; }
+
+/// The weft of the cloth at a contact, at the start of the step; 0 where no friction asks.
+Vec3 weftAt(const Model& m, const State& in, const ContactRow& row) {
+  if (m.weft.rows() == 0) return {};
+  const Vec3 along = sampleAt(m.weft, row.stencil.sample[0], in.p);
+  const Vec3 t = along - dot(along, row.contact.normal) * row.contact.normal;
+  return norm2(t) > 0 ? normalized(t) : Vec3{};
+}
 
 /// How a contact that is new moves: as the surfaces do at the start of the step.
 RowSlip startSlip(const Model& m, const State& in, double dt, const ContactRow& row) {
@@ -137,7 +145,9 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     if (!known && row.contact.kind == ContactKind::sample_on_cloth) warm = around(row.contact);
     w.warm[k] = scale * warm.traction;
     row.mean_Pa = warm.mean_Pa;
-    if (m.contact.followsMotion()) w.slip[k] = known ? slipAt(warm.slip_m_per_s) : startSlip(m, in, dt, row);
+    if (!m.contact.followsMotion()) continue;
+    w.slip[k] = known ? slipAt(warm.slip_m_per_s) : startSlip(m, in, dt, row);
+    w.slip[k].weft = weftAt(m, in, row);
   }
   forAll(Each::value, n, [&](int k) { setPersistent(m, dt, w.warm[k], w.rows[k]); });
 }
@@ -156,7 +166,9 @@ void setImpactTarget(const Model& m, double dt, int round, ContactRow& row) {
 void addRow(const Model& m, const State& in, double dt, const ContactRow& row, StepWork& w) {
   w.rows.push_back(row);
   w.warm.push_back({});
-  if (m.contact.followsMotion()) w.slip.push_back(startSlip(m, in, dt, row));
+  if (!m.contact.followsMotion()) return;
+  w.slip.push_back(startSlip(m, in, dt, row));
+  w.slip.back().weft = weftAt(m, in, row);
 }
 
 }  // namespace

@@ -30,10 +30,15 @@ bool VelocitySystem::assemble(const Model& m, const State& s, const AnchorFrames
   ForceTerms definite = terms;
   definite.definite = true;
   tangent_->assemble({w.q, s.inner, s.history}, w.cloth, A_, definite);
+  const bool damps = m.cloth->damps();
+  if (damps) tangent_->assembleDamping({w.q, s.inner, s.history}, w.cloth, D_);
   own_.resize(n);
   diagonal_.resize(9 * static_cast<std::size_t>(n));
   forAll(Each::sum, n, [&](int r) {
-    for (long k = 9 * A_.offsets[r]; k < 9 * A_.offsets[r + 1]; ++k) A_.values[k] *= dt * dt;
+    for (long k = 9 * A_.offsets[r]; k < 9 * A_.offsets[r + 1]; ++k) {
+      A_.values[k] *= dt * dt;
+      if (damps) A_.values[k] += dt * D_.values[k];
+    }
     own_[r] = m.mass_kg[r] + dt * m.drag_kg_per_s[r];
     double* block = &A_.values[9 * A_.offsets[r]];  // its diagonal comes first
     for (int d = 0; d < 9; d += 4) block[d] += own_[r];
@@ -67,9 +72,18 @@ void VelocitySystem::multiply(std::span<const Vec3> x, std::span<Vec3> y) const 
   }
 }
 
+bool VelocitySystem::damping(std::span<const Vec3> x, std::span<Vec3> out) const {
+  if (!model_->cloth->damps()) return false;
+  product_.multiply(D_, x, out);
+  return true;
+}
+
 void VelocitySystem::stiffness(std::span<const Vec3> x, std::span<Vec3> out) const {
   multiply(x, out);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = (1 / dt_s_) * (out[i] - own_[i] * x[i]);
+  scratch_.resize(out.size());
+  if (damping(x, scratch_))
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] -= scratch_[i];
 }
 
 void VelocitySystem::hold(std::span<Vec3> change) const {

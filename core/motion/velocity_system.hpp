@@ -3,7 +3,7 @@
 ///
 ///   A = M + dt D + dt^2 K
 ///
-/// M the masses of the free points, D their drag, K = -df/dx the stiffness of the cloth, of support springs and of
+/// M the masses of the free points, D their drag and the cloth's own damping (eq. 3.2, 3.8), K = -df/dx the stiffness of the cloth, of support springs and of
 /// stitches (Wong 2014, eq. 3.25). The cloth's own part is positive semidefinite: what compression would take from it is
 /// left out element by element (ForceTerms::definite), so that A is positive and conjugate gradients find the solution.
 
@@ -19,6 +19,8 @@ class VelocitySystem {
   bool assemble(const Model& model, const State& s, const AnchorFrames& frames, const ForceTerms& terms, double dt_s,
                 StepWork& work);
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;  ///< y = A x
+  /// out = D x of the cloth's own damping; false, and nothing is written, where it has none.
+  bool damping(std::span<const Vec3> x, std::span<Vec3> out) const;
   /// out = dt K x.
   void stiffness(std::span<const Vec3> x, std::span<Vec3> out) const;
   /// Solves A x = b from x on, in what holds the points: held ones do not change, and supports lead what they couple.
@@ -29,10 +31,10 @@ class VelocitySystem {
  private:
   const Model* model_ = nullptr;
   std::unique_ptr<ClothTangent> tangent_;
-  BlockMatrix A_;
+  BlockMatrix A_, D_;             ///< D_: of the cloth's own damping, if it has one
   BlockProduct product_;
   BlockInverses inverses_;
-  std::vector<double> own_;       ///< M + dt D
+  std::vector<double> own_;       ///< M + dt D, without that
   std::vector<double> diagonal_;  ///< of A, nine values a block
   struct Link {
     int a = 0, b = -1;  ///< samples; b: of a stitch

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "core/cloth/draft/edge.hpp"
+#include "core/cloth/draft/fields.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/shell/rest_frame.hpp"
 #include "core/cloth/shell/shell_loads.hpp"
 #include "core/cloth/shell/shell_supports.hpp"
 #include "core/cloth/surface.hpp"
@@ -24,6 +26,28 @@ class ShellMounting : public Mounting {
     for (int& column : basis.columns) column += first;
     return {std::move(basis.columns), std::move(basis.values[0]), std::move(basis.values[1]),
             std::move(basis.values[2])};
+  }
+  /// Where the rest surface has no frame (a pole, a corner), that beside it, as the stress has it.
+  PlaceRow weft(int patch, Vec2 uv) const override {
+    const NurbsPatch& p = g_.patches[static_cast<std::size_t>(patch)];
+    for (const double share : {0.0, 0.1}) try {
+        const auto inside = [share](const KnotVector& knots, double t) {
+          const auto span = static_cast<std::size_t>(findSpan(knots, t));
+          return t + share * (0.5 * (knots.knots[span] + knots.knots[span + 1]) - t);
+        };
+        const Vec2 at{inside(p.u, uv.x), inside(p.v, uv.y)};
+        PlaceRow row = place(patch, at);
+        const std::array<Vec3, 6> rest = surfaceDerivatives(p, at.x, at.y);
+        const RestFrame G = restFrame(rest[1], rest[2], g_.weft[static_cast<std::size_t>(patch)],
+                                      fibreAngleAt(g_, patch, at));
+        for (std::size_t k = 0; k < row.columns.size(); ++k) row.value[k] = G.G11 * row.d1[k] + G.G21 * row.d2[k];
+        row.d1.clear();
+        row.d2.clear();
+        return row;
+      } catch (const InputError&) {
+        if (share > 0) throw;
+      }
+    return {};
   }
   std::vector<int> edgePoints(const PatchEdge& edge, int rows) const override {
     checkEdge(g_, edge, edgeName(edge));

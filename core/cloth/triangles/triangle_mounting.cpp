@@ -36,6 +36,11 @@ class TriangleMounting : public Mounting {
     return row;
   }
 
+  PlaceRow weft(int patch, Vec2 uv) const override {
+    PlaceRow row = place(patch, uv);
+    return {std::move(row.columns), std::move(row.d1), {}, {}};
+  }
+
   std::vector<int> edgePoints(const PatchEdge& edge, int rows) const override {
     std::vector<int> points = c_.sidePoints(edge);
     std::set<int> seen(points.begin(), points.end());

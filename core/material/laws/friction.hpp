@@ -52,8 +52,9 @@ GAMBESON_LAW void coulombImpulse(const P& mu, const P& drag, const P* n, const S
 /// is
 ///   mu(v) p + F_v v^d_v,   mu(v) = mu_c + (mu_s - mu_c) exp(-(v/v_S)^d_S),   v_S = 0: mu_c.
 /// Model C: mu_s = mu_c; CS: v_S = 0; CSS: v_S > 0; CSSV: with F_v > 0. Both mu go with the pressure as (p/p_1)^(n - 1)
-/// where p_1 > 0 (n below 1: fibres that flatten), p below p_1/100 counting as that. Valid for mu_s >= mu_c >= 0,
-/// d_S, d_v > 0, n > 0.
+/// where p_1 > 0 (n below 1: fibres that flatten), p below p_1/100 counting as that; and with the direction of what
+/// slips, or is about to, as sqrt(cos^2 a + w^2 sin^2 a), a its angle to the cloth's weft: an ellipse, w that along the
+/// warp. Friction stays opposite to the slip. Valid for mu_s >= mu_c >= 0, d_S, d_v, n, w > 0.
 struct FrictionLaw {
   double kinetic = 0;           ///< mu_c
   double still = 0;             ///< mu_s
@@ -63,13 +64,15 @@ struct FrictionLaw {
   double viscous_power = 1;     ///< d_v
   double pressure_Pa = 0;       ///< p_1
   double pressure_power = 1;    ///< n
+  double along_warp = 1;        ///< w
 
   FrictionLaw() = default;
   FrictionLaw(double mu) : kinetic(mu), still(mu) {}  // NOLINT: a number means model C
   bool operator==(const FrictionLaw&) const = default;
 
   /// Whether one number says all.
-  bool isCoulomb() const { return still == kinetic && viscosity == 0 && !goesWithPressure(); }
+  bool isCoulomb() const { return still == kinetic && viscosity == 0 && !goesWithPressure() && !goesWithDirection(); }
+  bool goesWithDirection() const { return along_warp != 1; }
   bool goesWithPressure() const { return pressure_Pa > 0 && pressure_power != 1; }
   double slipping(double v) const {
     return stribeck_m_per_s > 0
@@ -77,6 +80,10 @@ struct FrictionLaw {
                : kinetic;
   }
   double drag(double v) const { return viscosity > 0 ? viscosity * std::pow(v, viscous_power) : 0; }
+  /// `weft2`: cos^2 of the angle to the weft.
+  double towards(double weft2) const {
+    return goesWithDirection() ? std::sqrt(weft2 + along_warp * along_warp * (1 - weft2)) : 1;
+  }
   double atPressure(double p) const {
     return goesWithPressure() ? std::pow(std::max(p / pressure_Pa, 0.01), pressure_power - 1) : 1;
   }

@@ -156,7 +156,7 @@ TEST(Slip, SteadySlidingNeedsDamping) {
     block.v = {1.02 * v0, 0, 0};
     const double c = part * critical;
     block.x = {-(f.slipping(v0) * N + c * v0) / k, 0, 0};
-    block.slip[0] = {true, false, v0, 0, 0};
+    block.slip[0] = {true, false, v0, 0, 0, {}};
     const int steps = static_cast<int>(20 / block.dt);
     double early = 0, late = 0;
     for (int i = 0; i < steps; ++i) {
@@ -181,6 +181,34 @@ TEST(Slip, FrictionGoesWithThePressure) {
   for (int i = 0; i < 200; ++i) block.step(0);
   const double mu = 0.2 * std::pow(kGravity, -0.2);
   EXPECT_NEAR(block.v.x, 2 - mu * kGravity * 0.2, 1e-3);
+}
+
+/// Along the weft mu, along the warp w mu, between them an ellipse; friction is opposite to the slip.
+TEST(Slip, FrictionGoesWithTheDirectionOfTheCloth) {
+  FrictionLaw f = law(0.2, 0.2);
+  f.along_warp = 1.6;
+  EXPECT_FALSE(f.isCoulomb());
+  for (const double degrees : {0.0, 30.0, 90.0, 120.0}) {
+    const double angle = degrees * M_PI / 180;
+    Block block(f);
+    block.v = {2 * std::cos(angle), 2 * std::sin(angle), 0};
+    block.slip[0] = {true, false, 2, 0, 0, {1, 0, 0}};
+    for (int i = 0; i < 200; ++i) block.step(0);
+    const double mu = 0.2 * std::sqrt(std::pow(std::cos(angle), 2) + std::pow(1.6 * std::sin(angle), 2));
+    EXPECT_NEAR(norm(block.v), 2 - mu * kGravity * 0.2, 1e-3) << degrees;
+    EXPECT_NEAR(block.v.x * std::sin(angle) - block.v.y * std::cos(angle), 0, 1e-9) << degrees;
+  }
+  // What sticks is held by that of the direction in which it is drawn.
+  Block block(f);
+  block.slip[0].weft = {0, 1, 0};
+  block.slope = 0.3;
+  for (int i = 0; i < 100; ++i) block.step(0);
+  EXPECT_LT(std::abs(block.x.x), 1e-9) << "0.32 along the warp";
+  Block weft(f);
+  weft.slip[0].weft = {1, 0, 0};
+  weft.slope = 0.3;
+  for (int i = 0; i < 100; ++i) weft.step(0);
+  EXPECT_GT(weft.x.x, 1e-4) << "0.2 along the weft";
 }
 
 TEST(Slip, ACoulombLawNeedsNoState) {

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <random>
 
+#include "core/motion/implicit_velocities.hpp"
 #include "core/motion/motion_audit.hpp"
+#include "core/motion/runge_kutta.hpp"
 #include "unit/core/cloth/triangles/triangle_shapes.hpp"
 #include "unit/core/motion/structure_moves.hpp"
 
@@ -90,6 +92,43 @@ TEST(ClothDamping, TakesWhatTheEnergyLoses) {
     EXPECT_LT(std::abs(gap[2]), 2e-3 * taken[2]);
     EXPECT_GT(std::abs(gap[0] / gap[1]), 3.3);
     EXPECT_GT(std::abs(gap[1] / gap[2]), 3.3);
+  }
+}
+
+// Every scheme damps alike: the same motion and the same loss, to its own order; momentum stays in every step.
+TEST(ClothDamping, IsOfAllSchemes) {
+  for (const MembraneElements elements : {MembraneElements::springs, MembraneElements::baraff_witkin}) {
+    const MembraneModel m = damped(elements, 0.2);
+    Sheet exact(m);
+    double lost = 0;
+    for (int i = 0; i < 3200; ++i) lost += exact.step(4e-5 / 32).work.cloth;
+    const std::vector<Vec3> start = Sheet(m).state.p;
+    double way = 0;
+    for (std::size_t i = 0; i < start.size(); ++i) way = std::max(way, norm(exact.state.p[i] - start[i]));
+    const auto expectAlike = [&](FreeScheme& scheme, const char* name, double dt, double off) {
+      Sheet s(m);
+      FreeMotion free;
+      double taken = 0, worst = 0;
+      for (int i = 0; i < static_cast<int>(std::round(4e-3 / dt)); ++i) {
+        const StepReport r = freeStep(*s.model, s.stage, scheme, s.state, dt, s.next, free, s.work);
+        ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+        EXPECT_LT(r.momentum.error(), 1e-9 * r.momentum.scale) << name;
+        EXPECT_GT(r.work.cloth, 0) << name;
+        taken += r.work.cloth;
+        std::swap(s.state, s.next);
+      }
+      for (std::size_t i = 0; i < start.size(); ++i) worst = std::max(worst, norm(s.state.p[i] - exact.state.p[i]));
+      std::printf("[ measured ] %s: loss %.4f of Verlet's, %.2g of the way off\n", name, taken / lost, worst / way);
+      EXPECT_NEAR(taken / lost, 1, off) << name;
+      EXPECT_LT(worst, off * way) << name;
+    };
+    RungeKutta fourth(RungeKuttaOrder::fourth), midpoint(RungeKuttaOrder::midpoint), euler(RungeKuttaOrder::euler);
+    expectAlike(fourth, "RK4", 4e-5, 0.01);
+    expectAlike(midpoint, "RK2", 2e-5, 0.02);
+    expectAlike(euler, "Euler", 1e-6, 0.05);
+    ImplicitVelocities implicit({0, 1e-10}), semi({2, 1e-10});
+    expectAlike(implicit, "implicit Euler", 1e-6, 0.05);
+    expectAlike(semi, "semi-implicit", 1e-6, 0.05);
   }
 }
 
