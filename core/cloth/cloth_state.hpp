@@ -12,7 +12,7 @@ namespace gambeson {
 /// Where a cloth is and what its laws remember.
 struct ClothState {
   std::span<const Vec3> q;          ///< all points [m]
-  std::span<const double> inner;    ///< values of the inner unknowns; empty where there are none
+  std::span<const double> inner;    ///< values of the inner unknowns; empty: none, or as they start
   std::span<const double> history;  ///< committed; empty where laws remember nothing
 
   ClothState() = default;

@@ -129,8 +129,13 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
   if (remembers) s.history.resize(committed->size());
   internalForce(m, s, remembers ? *committed : s.history,
                 remembers ? std::span<double>(s.history) : std::span<double>{}, s.a, w, remembers ? &energy : nullptr);
+  if (m.supports && !m.inner_mass.empty()) {
+    m.structure->loads.addInner(programValues(*m.structure, s.time_s, ProgramEnds::constant), w.inner_force);
+    m.supports->handInner(w.inner_force, s.a);
+  }
   for (std::size_t i = 0; i < m.inner_mass.size(); ++i) {
-    s.inner_acceleration[i] = w.inner_force[i] / m.inner_mass[i];
+    s.inner_acceleration[i] = (w.inner_force[i] / m.inner_mass[i] - m.inner_drag_per_s * s.inner_rate[i]) /
+                              (1 + m.inner_drag_per_s * half_step_s);
     s.inner_rate[i] += half_step_s * s.inner_acceleration[i];
   }
   if (m.supports) {
@@ -234,6 +239,7 @@ State initialState(const Model& model, const Stage& stage, double time_s, StepWo
   model.cloth->startHistory(s.history);
   s.inner.resize(model.cloth->innerValues());
   model.cloth->startInner(s.inner);
+  if (model.supports) model.supports->placeInner(time_s, s.p, s.inner);
   s.inner_rate.assign(model.inner_mass.size(), 0);
   s.inner_acceleration.assign(model.inner_mass.size(), 0);
   attachSprings(model, stage, s, work);
@@ -300,6 +306,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   for (std::size_t i = 0; i < out.inner_rate.size(); ++i) out.inner_rate[i] += half * in.inner_acceleration[i];
   out.inner.resize(in.inner.size());
   m.cloth->advance(in.inner, out.inner_rate, dt, out.inner);
+  if (m.supports) m.supports->placeInner(out.time_s, out.p, out.inner);
   out.inner_acceleration.resize(out.inner_rate.size());
   samplePositions(m, out.p, w.x1);
   const int samples = m.surface.size();

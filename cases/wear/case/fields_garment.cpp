@@ -55,6 +55,14 @@ Object garmentTable() {
       .choice(
           "mesh", [](auto& g) -> auto& { return g.cloth.mesh; }, meshKinds(), meshKindDoc())
       .unwritten()
+      .choice(
+          "bending_elements", [](auto& g) -> auto& { return g.cloth.bending; }, bendingElements(),
+          bendingElementsDoc())
+      .unwritten()
+      .number(
+          "bending_spring", [](auto& g) -> auto& { return g.cloth.bending_spring_N_per_m; }, "N/m", between(0, 1e6),
+          bendingSpringDoc())
+      .unwritten()
       .vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
       .converted<FabricInput>("fabric", &G::fabric, fabricTable(), resolveFabric, restoreFabric,
                               "what this garment is made of")

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cases/cloth/rules.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
@@ -107,6 +108,7 @@ void checkModel(const Entry& entry, const Case& c, const GarmentCase& g) {
     refuse("mesh", fmt::format("is for drafts; a {} is a mesh already", kind.word));
   else if (g.cloth.kind == ClothKind::nurbs)
     refuse("mesh", "is for \"model\": \"triangles\"");
+  checkBending(entry, g.cloth);
   if (g.cloth.kind == ClothKind::nurbs) return;
   refuse("samples_per_cell", "is for \"model\": \"nurbs\"; the samples of triangles are their vertices");
   if (c.strain_limit && wornLimit(*c.strain_limit).mode == LimitMode::equality)
