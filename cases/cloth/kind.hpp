@@ -1,6 +1,7 @@
 #pragma once
 /// Which kind of cloth a garment or a sheet is made into.
 
+#include "core/cloth/draft/bending_elements.hpp"
 #include "core/cloth/draft/membrane_elements.hpp"
 #include "core/cloth/shell/cell_rule.hpp"
 #include "core/cloth/triangles/mesh_kind.hpp"
@@ -12,8 +13,11 @@ enum class ClothKind { nurbs, triangles };
 /// `model` of a garment or a sheet, with the keys that go with it.
 struct ClothModel {
   ClothKind kind = ClothKind::nurbs;
-  MeshKind mesh = MeshKind::single;  ///< of triangles
-  MembraneModel membrane;            ///< of triangles
+  // Of triangles.
+  MeshKind mesh = MeshKind::single;
+  BendingElements bending = BendingElements::midedge;
+  double bending_spring_N_per_m = 0;  ///< of crossed springs; 0: from the fabric's rigidities
+  MembraneModel membrane;
   // Of NURBS; keys of sheets alone.
   CellRule rule = CellRule::automatic;
   int gauss_extra = 0;  ///< points more than degree + 1 in each direction

@@ -13,9 +13,8 @@ inline std::vector<std::pair<std::string, ClothKind>> clothKinds() {
   return {{"nurbs", ClothKind::nurbs}, {"triangles", ClothKind::triangles}};
 }
 inline const char* clothKindDoc() {
-  return "what the cloth is made of: smooth NURBS patches (Kirchhoff-Love), or constant-strain triangles with hinges "
-         "at "
-         "their edges";
+  return "what the cloth is made of: smooth NURBS patches (Kirchhoff-Love), or constant-strain triangles "
+         "that bend as bending_elements says";
 }
 inline std::vector<std::pair<std::string, MeshKind>> meshKinds() {
   return {{"single", MeshKind::single}, {"alternating", MeshKind::alternating}, {"equilateral", MeshKind::equilateral}};
@@ -23,6 +22,24 @@ inline std::vector<std::pair<std::string, MeshKind>> meshKinds() {
 inline const char* meshKindDoc() {
   return "of triangles: single, two in each cell, all diagonals alike; alternating, diagonals that cross from cell to "
          "cell; equilateral, rows of triangles a cell's width wide, which bend alike in all directions";
+}
+
+inline std::vector<std::pair<std::string, BendingElements>> bendingElements() {
+  return {{"midedge", BendingElements::midedge},
+          {"triangle", BendingElements::triangle},
+          {"hinge", BendingElements::hinge},
+          {"springs", BendingElements::springs}};
+}
+inline const char* bendingElementsDoc() {
+  return "how triangles bend. midedge: each by its tensor of curvature, from the angles to the normals at its edges, "
+         "which turn by unknowns of their own; converges to the plate on all meshes. triangle: the same with normals "
+         "halfway between neighbours; a few per cent too soft. hinge: each edge by itself; on single meshes up to three "
+         "times too stiff across the diagonals. springs: between the corners that neighbours do not share; limp where "
+         "flat";
+}
+inline const char* bendingSpringDoc() {
+  return "stiffness of crossed springs; 0: what bends as much as the fabric's rigidities do at a curvature of 1/cm, too "
+         "little below it and too much beyond";
 }
 
 inline std::vector<std::pair<std::string, CellRule>> cellRules() {

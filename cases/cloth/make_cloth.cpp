@@ -13,6 +13,32 @@
 namespace gambeson {
 namespace {
 
+std::string membraneInWords(MembraneElements membrane) {
+  switch (membrane) {
+    case MembraneElements::continuum:
+      return "Triangles of constant Green-Lagrange strain; ";
+    case MembraneElements::springs:
+      return "Triangles with springs along their edges; ";
+    case MembraneElements::baraff_witkin:
+      return "Triangles with threads along weft and warp (Baraff and Witkin); ";
+  }
+  return {};
+}
+
+std::string bendingInWords(BendingElements bending) {
+  switch (bending) {
+    case BendingElements::midedge:
+      return "each bends by its tensor of curvature, edges turn by unknowns of their own.";
+    case BendingElements::triangle:
+      return "each bends by its tensor of curvature, from half of the folds at its edges.";
+    case BendingElements::hinge:
+      return "they bend at their edges.";
+    case BendingElements::springs:
+      return "crossed springs resist bending.";
+  }
+  return {};
+}
+
 std::unique_ptr<const Cloth> shellOf(std::span<const ClothSource> sources) {
   const ShellOptions options{sources[0].model.gauss_extra, sources[0].model.rule, nullptr};
   if (sources.size() == 1) return std::make_unique<NurbsShell>(sources[0].draft, options);
@@ -26,6 +52,8 @@ std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {
   for (const ClothSource& s : sources) {
     garments.push_back(underKey(s.key, [&] { return s.mesh ? *s.mesh : meshDraft(s.draft, s.model.mesh); }));
     garments.back().membrane = s.model.membrane;
+    garments.back().bending = s.model.bending;
+    garments.back().bending_spring_N_per_m = s.model.bending_spring_N_per_m;
   }
   return std::make_unique<TriangleCloth>(std::move(garments));
 }
@@ -62,14 +90,7 @@ std::string inWords(const ClothModel& model) {
     case ClothKind::nurbs:
       return "Kirchhoff-Love sheet: thin, normals stay normal; strains of the reference surface are Green-Lagrange's.";
     case ClothKind::triangles:
-      switch (model.membrane.elements) {
-        case MembraneElements::continuum:
-          return "Triangles of constant Green-Lagrange strain that bend at their edges.";
-        case MembraneElements::springs:
-          return "Triangles with springs along their edges, at which they bend.";
-        case MembraneElements::baraff_witkin:
-          return "Triangles with threads along weft and warp (Baraff and Witkin) that bend at their edges.";
-      }
+      return membraneInWords(model.membrane.elements) + bendingInWords(model.bending);
   }
   return {};
 }

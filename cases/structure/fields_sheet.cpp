@@ -83,6 +83,14 @@ Object structureSheetTable() {
       .unwritten()
       .choice(
           "mesh", [](auto& s) -> auto& { return s.cloth.mesh; }, meshKinds(), meshKindDoc())
+      .unwritten()
+      .choice(
+          "bending_elements", [](auto& s) -> auto& { return s.cloth.bending; }, bendingElements(),
+          bendingElementsDoc())
+      .unwritten()
+      .number(
+          "bending_spring", [](auto& s) -> auto& { return s.cloth.bending_spring_N_per_m; }, "N/m", between(0, 1e6),
+          bendingSpringDoc())
       .unwritten();
   addMembraneFields(table);
   return table.build();

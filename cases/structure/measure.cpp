@@ -14,8 +14,9 @@
 namespace gambeson {
 namespace {
 
-std::span<const Vec3> asPoints(const std::vector<double>& u) {
-  return {reinterpret_cast<const Vec3*>(u.data()), u.size() / 3};
+/// Of components of the free points, and what inner unknowns are behind them.
+std::span<const Vec3> asPoints(const Structure& s, const std::vector<double>& u) {
+  return {reinterpret_cast<const Vec3*>(u.data()), s.cloth->map().home.size()};
 }
 
 double largest(std::span<const Vec3> v) {
@@ -36,7 +37,7 @@ double sizeOf(std::span<const Vec3> v) {
 
 std::vector<Vec3> restPlus(const Structure& s, const std::vector<double>& u, double scale) {
   std::vector<Vec3> q(s.cloth->rest().size());
-  s.cloth->map().T.multiply<Vec3>(asPoints(u), q);
+  s.cloth->map().T.multiply<Vec3>(asPoints(s, u), q);
   for (std::size_t i = 0; i < q.size(); ++i) q[i] = s.cloth->rest()[i] + scale * q[i];
   return q;
 }
@@ -47,15 +48,14 @@ std::vector<Vec3> pulledBack(const Structure& s, const std::vector<Vec3>& f) {
   return free;
 }
 
-/// The elastic stiffness at rest times displacements of the free points [N].
-std::vector<Vec3> linearForce(const Structure& s, const std::vector<double>& u) {
+/// The elastic stiffness at rest times displacements of the free points and changes of inner unknowns.
+std::vector<double> linearForce(const Structure& s, const std::vector<double>& u) {
   BlockMatrix K = s.tangent->sparsity();
   ClothWork work;
   s.tangent->assemble(s.cloth->rest(), work, K);
   std::vector<double> f(u.size());
   multiply(K, u, f);
-  const std::span<const Vec3> points = asPoints(f);
-  return {points.begin(), points.end()};
+  return f;
 }
 
 /// Second differences of the programs over the last step; 0 where there was none.
@@ -93,9 +93,10 @@ MeasuredState measureStatic(const Structure& s, std::span<const double> y, doubl
   const std::vector<double> programs = programValues(s, factor, ProgramEnds::extended);
   const std::vector<double> u = freeDisplacements(s, y, programs);
   m.q = restPlus(s, u, 1);
-  m.reaction_N = linearForce(s, u);
-  const std::span<const Vec3> points = asPoints(u);
-  for (std::size_t f = 0; f < points.size(); ++f) m.strain_energy_J += 0.5 * dot(points[f], m.reaction_N[f]);
+  const std::vector<double> pull = linearForce(s, u);
+  m.reaction_N.assign(asPoints(s, pull).begin(), asPoints(s, pull).end());
+  for (std::size_t k = 0; k < u.size(); k += 3)
+    m.strain_energy_J += 0.5 * dot(Vec3{u[k], u[k + 1], u[k + 2]}, Vec3{pull[k], pull[k + 1], pull[k + 2]});
   std::vector<Vec3> external(s.cloth->rest().size());
   s.loads.add(s.cloth->rest(), programs, external);
   const std::vector<Vec3> load = pulledBack(s, external);
@@ -108,8 +109,8 @@ MeasuredState measureDynamic(const StructureModel& model, const State& state, bo
   MeasuredState m;
   m.at = state.time_s;
   m.q = controlPoints(s, state);
-  m.strain_energy_J = strainEnergy(s, m.q, state.history);
-  m.reaction_N = pulledBack(s, reactions(s, m.q, state.time_s, ProgramEnds::constant, state.history));
+  m.strain_energy_J = strainEnergy(s, {m.q, state.inner, state.history});
+  m.reaction_N = pulledBack(s, reactions(s, {m.q, state.inner, state.history}, state.time_s, ProgramEnds::constant));
   const std::size_t n = state.v.size();
   // What supports push with, beyond what the sheet pulls with: inertia and damping. The acceleration of the state is
   // without what supports prescribe.
@@ -117,7 +118,7 @@ MeasuredState measureDynamic(const StructureModel& model, const State& state, bo
       prescribed = freeDisplacements(s, none, secondRates(s, state.time_s, step_s));
   std::vector<Vec3> inertia(n), force(n);
   for (std::size_t f = 0; f < n; ++f)
-    inertia[f] = state.a[f] + asPoints(prescribed)[f] + s.rayleigh_mass_per_s * state.v[f];
+    inertia[f] = state.a[f] + asPoints(s, prescribed)[f] + s.rayleigh_mass_per_s * state.v[f];
   if (lumped_mass)
     for (std::size_t f = 0; f < n; ++f) force[f] = s.lumped_kg[f] * inertia[f];
   else
@@ -128,12 +129,14 @@ MeasuredState measureDynamic(const StructureModel& model, const State& state, bo
   if (s.rayleigh_stiffness_s > 0) {
     BlockMatrix K = s.tangent->sparsity();
     ClothWork work;
-    s.tangent->assemble(m.q, work, K);
+    s.tangent->assemble({m.q, state.inner, {}}, work, K);
     if (s.loads.follow())
       s.loads.addStiffness(m.q, programValues(s, state.time_s, ProgramEnds::constant), s.cloth->map(), K);
-    std::vector<double> damping(3 * n);
-    multiply(K, {&state.v.data()->x, 3 * n}, damping);
-    for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += s.rayleigh_stiffness_s * asPoints(damping)[f];
+    std::vector<double> rates(&state.v.data()->x, &state.v.data()->x + 3 * n), damping(3ul * K.rows());
+    rates.insert(rates.end(), state.inner_rate.begin(), state.inner_rate.end());
+    rates.resize(damping.size());
+    multiply(K, rates, damping);
+    for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += s.rayleigh_stiffness_s * asPoints(s, damping)[f];
   }
   if (!state.limit_J.empty()) {
     // The acceleration of the state is without the limits': what they push on free points is inertia there.

@@ -64,6 +64,7 @@ State Mover::start() {
       const Vec3 d = value(f);
       u.insert(u.end(), {d.x, d.y, d.z});
     }
+    u.resize(static_cast<std::size_t>(s.dofs.C.rows()));
     return unknownsOf(s, u);
   };
   if (case_.initial.noise) {
@@ -76,6 +77,8 @@ State Mover::start() {
   State moving = initialState(*model_.motion, *model_.stage, 0, work_);
   moving.p = state.p;
   moving.v = state.v;
+  moving.inner = state.inner;
+  moving.inner_rate = state.inner_rate;
   attachSprings(*model_.motion, *model_.stage, moving, work_);
   return moving;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/cloth/rules.hpp"
 #include "cases/cloth/membrane_fields.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/input/wrong_entry.hpp"
@@ -27,6 +28,7 @@ bool isBuilt(const SheetCase& s) {
 /// Also sets what is counted differently in built shapes and in patches of one's own.
 void checkSheet(const Entry& root, SheetCase& s) {
   const Entry sheet = memberOf(root, "sheet");
+  checkBending(sheet, s.cloth);
   if (isBuilt(s)) {
     if (s.split) sheet.failAt("split", "goes with nurbs and file; give cells_u and cells_v");
     s.cells_u = s.cells_u.value_or(16);
@@ -219,7 +221,7 @@ void applyStructureRules(const Entry& root, StructureCase& c) {
     checkOutput(root, c, sheet);
     const std::shared_ptr<const Cloth> cloth = clothOf(c, sheet);
     const StructureOptions o = optionsOf(c, sheet, *cloth);
-    const DofMap dofs = buildDofMap(cloth->map(), o.constraints, static_cast<int>(o.programs.size()));
+    const DofMap dofs = dofsOf(*cloth, o.constraints, static_cast<int>(o.programs.size()));
     if (dofs.unknowns() == 0) root.failAt("supports", "hold everything: nothing is left to move");
     if (c.strain_limit) tryLimit(*buildStructure(cloth, o), limitOf(*c.strain_limit));
   } catch (const InputError& e) {

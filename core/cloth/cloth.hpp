@@ -42,14 +42,15 @@ struct NetEdge {
   double per_length2 = 0;     ///< 1 / (length at rest)^2 [1/m^2]
 };
 
-/// The exact stiffness of a cloth on its free points. Lives no longer than its cloth.
+/// The exact stiffness of a cloth on its free points and its inner unknowns. Lives no longer than its cloth.
 class ClothTangent {
  public:
   virtual ~ClothTangent() = default;
-  /// Every pair of free points that share an element is in the sparsity.
+  /// A block row for each free point, and behind them the rates of the inner unknowns, three in a block (the last
+  /// filled up with zeros). Every pair that shares an element is in the sparsity.
   virtual const BlockMatrix& sparsity() const = 0;
-  /// Writes K = Tᵀ (d2E/dq2) T, symmetric, with the slopes of the laws at this history. The same bits for any number of
-  /// threads.
+  /// Writes K = Tᵀ (d2E/dq2) T, and so on for the inner unknowns, symmetric, with the slopes of the laws at this
+  /// history. The same bits for any number of threads.
   virtual void assemble(const ClothState& state, ClothWork& work, BlockMatrix& K,
                         const ForceTerms& terms = {}) const = 0;
   /// Writes the matrix D of Cloth::dampingForce, - Tᵀ f_d = D v, symmetric and positive semi-definite; zeros of cloth
@@ -135,6 +136,7 @@ class Cloth {
   // Unknowns that no sample sees. Their rates may be fewer than their values (directors).
   virtual std::size_t innerValues() const { return 0; }
   virtual std::size_t innerRates() const { return 0; }
+  int innerBlocks() const { return static_cast<int>((innerRates() + 2) / 3); }  ///< that hold the rates three by three
   virtual void startInner(std::span<double> value) const { static_cast<void>(value); }
   /// Writes the mass of each rate [kg m^2, where the rate is an angular velocity].
   virtual void innerMasses(std::span<double> mass) const { static_cast<void>(mass); }

@@ -12,7 +12,7 @@ namespace gambeson {
 /// Where a cloth is, what its laws remember, and how it moves.
 struct ClothState {
   std::span<const Vec3> q;          ///< all points [m]
-  std::span<const double> inner;    ///< values of the inner unknowns; empty where there are none
+  std::span<const double> inner;    ///< values of the inner unknowns; empty: none, or as they start
   std::span<const double> history;  ///< committed; empty where laws remember nothing
   std::span<const Vec3> v;          ///< velocities of all points [m/s]; for damping alone, else empty
   double elapsed_s = 0;             ///< since the history was committed; infinite in statics, where no time passes

@@ -1,6 +1,7 @@
 #include "core/cloth/constraint.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -48,8 +49,8 @@ void dropBelow(Terms& terms, double size) {
   std::erase_if(terms, [&](const auto& t) { return !(std::abs(t.second) > size); });
 }
 
-/// The equation on the components of the free points.
-Terms onFreePoints(const FreeMap& map, const LinearConstraint& c) {
+/// The equation on the components of the free points and, behind them, the inner unknowns.
+Terms onFreePoints(const FreeMap& map, const LinearConstraint& c, int inner_count) {
   Terms terms;
   for (const auto& [control, coefficient] : c.terms) {
     if (control < 0 || control >= map.T.rows())
@@ -57,6 +58,11 @@ Terms onFreePoints(const FreeMap& map, const LinearConstraint& c) {
     for (int k = map.T.offsets[control]; k < map.T.offsets[control + 1]; ++k)
       for (int d = 0; d < 3; ++d)
         if (coefficient[d] != 0) terms.emplace_back(3 * map.T.columns[k] + d, map.T.values[k] * coefficient[d]);
+  }
+  for (const auto& [inner, coefficient] : c.inner) {
+    if (inner < 0 || inner >= inner_count)
+      throw InputError({"", 0, c.name}, "inner unknown " + std::to_string(inner) + " does not exist");
+    terms.emplace_back(3 * map.T.column_count + inner, coefficient);
   }
   std::stable_sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   Terms merged;
@@ -70,15 +76,17 @@ Terms onFreePoints(const FreeMap& map, const LinearConstraint& c) {
 
 }  // namespace
 
-DofMap buildDofMap(const FreeMap& map, std::span<const LinearConstraint> constraints, int programs) {
-  const int n = 3 * map.T.column_count;
+DofMap buildDofMap(const FreeMap& map, std::span<const LinearConstraint> constraints, int programs,
+                   std::span<const double> inner_length_m) {
+  const int of_points = 3 * map.T.column_count, inner_count = static_cast<int>(inner_length_m.size()),
+            n = of_points + (inner_count + 2) / 3 * 3;
   std::vector<Row> rows;
   std::vector<int> row_of(n, -1);         // of a pivot component
   std::vector<std::vector<int>> used(n);  // rows whose terms may hold a component
   Terms scratch;
   for (const LinearConstraint& c : constraints) {
     Row row;
-    row.terms = onFreePoints(map, c);
+    row.terms = onFreePoints(map, c, inner_count);
     const double size = largest(row.terms);
     double scale = std::abs(c.amount_m);  // of the right-hand sides that meet here
     if (!std::isfinite(scale) ||
@@ -115,6 +123,7 @@ DofMap buildDofMap(const FreeMap& map, std::span<const LinearConstraint> constra
     const double most = largest(row.terms);
     for (auto it = row.terms.begin(); it != row.terms.end(); ++it)
       if (std::abs(it->second) > (1 - 1e-9) * most) pivot = it;
+    if (row.terms.back().first >= of_points) pivot = row.terms.end() - 1;
     row.pivot = pivot->first;
     const double inverse = 1 / pivot->second;
     row.terms.erase(pivot);
@@ -143,19 +152,26 @@ DofMap buildDofMap(const FreeMap& map, std::span<const LinearConstraint> constra
   DofMap dofs;
   std::vector<int> unknown(n, -1);
   int count = 0;
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < of_points + inner_count; ++i)
     if (row_of[i] < 0) {
       unknown[i] = count++;
       dofs.component.push_back(i);
     }
   dofs.C.column_count = count;
   dofs.shift.resize(programs);
+  dofs.points = map.T.column_count;
+  dofs.inner_length_m.assign(inner_length_m.begin(), inner_length_m.end());
+  const auto perUnknown = [&](int component) {
+    return component < of_points ? 1.0 : 1 / inner_length_m[static_cast<std::size_t>(component - of_points)];
+  };
   for (int i = 0; i < n; ++i) {
-    if (row_of[i] < 0) {
-      dofs.C.add(unknown[i], 1.0);
+    if (i >= of_points + inner_count) {  // fills a block up
+    } else if (row_of[i] < 0) {
+      dofs.C.add(unknown[i], perUnknown(i));
     } else {
       const Row& row = rows[row_of[i]];
-      for (const auto& [component, coefficient] : row.terms) dofs.C.add(unknown[component], coefficient);
+      for (const auto& [component, coefficient] : row.terms)
+        dofs.C.add(unknown[component], coefficient * perUnknown(component));
       for (const auto& [program, metres] : row.rhs) {
         auto& shift = dofs.shift[program];
         if (shift.empty()) shift.assign(n, 0.0);
@@ -166,6 +182,26 @@ DofMap buildDofMap(const FreeMap& map, std::span<const LinearConstraint> constra
   }
   dofs.Ct = transpose(dofs.C);
   return dofs;
+}
+
+DofMap pointsOf(const DofMap& dofs) {
+  DofMap of;
+  of.points = dofs.points;
+  const int rows = 3 * dofs.points;
+  for (const int component : dofs.component)
+    if (component < rows) of.component.push_back(component);
+  of.C.column_count = static_cast<int>(of.component.size());
+  for (int r = 0; r < rows; ++r) {
+    for (int k = dofs.C.offsets[r]; k < dofs.C.offsets[r + 1]; ++k) {
+      assert(dofs.C.columns[k] < of.C.column_count);
+      of.C.add(dofs.C.columns[k], dofs.C.values[k]);
+    }
+    of.C.endRow();
+  }
+  of.Ct = transpose(of.C);
+  for (const std::vector<double>& shift : dofs.shift)
+    of.shift.emplace_back(shift.begin(), shift.empty() ? shift.end() : shift.begin() + rows);
+  return of;
 }
 
 }  // namespace gambeson

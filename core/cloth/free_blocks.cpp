@@ -29,10 +29,7 @@ void addSymmetrised(const FreeMap& map, std::span<const int> columns, std::span<
     }
 }
 
-namespace {
-
-/// Free points that the points of an element hang on.
-std::vector<int> freePointsOf(const FreeMap& map, const std::vector<int>& nodes) {
+std::vector<int> freePointsOf(const FreeMap& map, std::span<const int> nodes) {
   std::vector<int> points;
   for (int node : nodes)
     for (int e = map.T.offsets[node]; e < map.T.offsets[node + 1]; ++e) points.push_back(map.T.columns[e]);
@@ -41,13 +38,17 @@ std::vector<int> freePointsOf(const FreeMap& map, const std::vector<int>& nodes)
   return points;
 }
 
-}  // namespace
-
 BlockMatrix blockSparsity(const FreeMap& map, const std::vector<std::vector<int>>& elements) {
-  std::vector<std::vector<int>> rows(static_cast<std::size_t>(map.T.column_count));
-  for (int r = 0; r < map.T.column_count; ++r) rows[r].push_back(r);
-  for (const std::vector<int>& nodes : elements) {
-    const std::vector<int> points = freePointsOf(map, nodes);
+  std::vector<std::vector<int>> free;
+  for (const std::vector<int>& nodes : elements) free.push_back(freePointsOf(map, nodes));
+  return blockSparsity(map.T.column_count, free);
+}
+
+BlockMatrix blockSparsity(int row_count, const std::vector<std::vector<int>>& elements) {
+  std::vector<std::vector<int>> rows(static_cast<std::size_t>(row_count));
+  for (int r = 0; r < row_count; ++r) rows[r].push_back(r);
+  for (std::vector<int> points : elements) {
+    std::sort(points.begin(), points.end());
     for (std::size_t i = 0; i < points.size(); ++i)
       rows[points[i]].insert(rows[points[i]].end(), points.begin() + static_cast<long>(i) + 1, points.end());
   }

@@ -17,5 +17,9 @@ void addSymmetrised(const FreeMap& map, std::span<const int> columns, std::span<
 
 /// The sparsity of elements on these points: every pair of free points that share one.
 BlockMatrix blockSparsity(const FreeMap& map, const std::vector<std::vector<int>>& elements);
+/// The same of elements on these block rows, each once, of `rows`.
+BlockMatrix blockSparsity(int rows, const std::vector<std::vector<int>>& elements);
+/// The free points that the points of an element hang on, ascending.
+std::vector<int> freePointsOf(const FreeMap& map, std::span<const int> points);
 
 }  // namespace gambeson

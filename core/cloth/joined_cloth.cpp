@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/cloth/free_blocks.hpp"
+
 namespace gambeson {
 namespace {
 
@@ -24,31 +26,38 @@ std::span<T> range(std::span<T> all, std::size_t from, std::size_t end) {
   return all.empty() ? all : all.subspan(from, end - from);
 }
 
+/// Points of all parts come first, then the rates of all, three in a block: blocks of rates of a part may fall into two.
 class JoinedTangent : public ClothTangent {
  public:
   explicit JoinedTangent(const JoinedCloth& cloth) : cloth_(cloth) {
-    int first = 0;
-    for (const auto& part : cloth.parts()) {
-      parts_.push_back(part->tangent());
+    std::vector<std::vector<int>> elements;
+    for (std::size_t i = 0; i < cloth.parts().size(); ++i) {
+      parts_.push_back(cloth.parts()[i]->tangent());
       const BlockMatrix& K = parts_.back()->sparsity();
-      const long entries = sparsity_.offsets.back();
-      for (int c : K.columns) sparsity_.columns.push_back(first + c);
-      for (std::size_t r = 1; r < K.offsets.size(); ++r) sparsity_.offsets.push_back(entries + K.offsets[r]);
-      first += K.rows();
+      for (int r = 0; r < K.rows(); ++r)
+        for (long k = K.offsets[static_cast<std::size_t>(r)]; k < K.offsets[static_cast<std::size_t>(r) + 1]; ++k) {
+          std::vector<int> rows;
+          for (const int row : {r, K.columns[static_cast<std::size_t>(k)]})
+            for (int d = 0; d < 3; ++d)
+              if (const int at = componentOf(i, 3 * row + d); at >= 0) rows.push_back(at / 3);
+          std::sort(rows.begin(), rows.end());
+          rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+          elements.push_back(std::move(rows));
+        }
     }
-    sparsity_.values.assign(9 * sparsity_.columns.size(), 0.0);
+    sparsity_ = blockSparsity(cloth.map().T.column_count + cloth.innerBlocks(), elements);
   }
   const BlockMatrix& sparsity() const override { return sparsity_; }
   void assemble(const ClothState& state, ClothWork& work, BlockMatrix& K, const ForceTerms& terms) const override {
     if (K.columns.size() != sparsity_.columns.size() || K.offsets != sparsity_.offsets) K = sparsity_;
-    K.values.resize(9 * K.columns.size());
+    K.values.assign(9 * K.columns.size(), 0.0);
     work.parts.resize(parts_.size());
-    std::size_t at = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       BlockMatrix own = parts_[i]->sparsity();
       parts_[i]->assemble(cloth_.stateOf(state, i), work.parts[i], own, terms);
-      std::copy(own.values.begin(), own.values.end(), K.values.begin() + static_cast<long>(at));
-      at += own.values.size();
+      for (int r = 0; r < own.rows(); ++r)
+        for (long k = own.offsets[static_cast<std::size_t>(r)]; k < own.offsets[static_cast<std::size_t>(r) + 1]; ++k)
+          addBlock(i, r, own.columns[static_cast<std::size_t>(k)], own.values.data() + 9 * k, K);
     }
   }
   void assembleDamping(const ClothState& state, ClothWork& work, BlockMatrix& D) const override {
@@ -65,6 +74,24 @@ class JoinedTangent : public ClothTangent {
   }
 
  private:
+  /// Of a component of a part's blocks; -1: it fills a block up.
+  int componentOf(std::size_t part, int component) const {
+    const int points = 3 * (cloth_.firstFree(part + 1) - cloth_.firstFree(part)), rate = component - points;
+    if (rate < 0) return 3 * cloth_.firstFree(part) + component;
+    if (rate >= cloth_.firstRate(part + 1) - cloth_.firstRate(part)) return -1;
+    return 3 * cloth_.map().T.column_count + cloth_.firstRate(part) + rate;
+  }
+  void addBlock(std::size_t part, int row, int column, const double* values, BlockMatrix& K) const {
+    for (int e = 0; e < 9; ++e) {
+      const int r = componentOf(part, 3 * row + e / 3), c = componentOf(part, 3 * column + e % 3);
+      if (r < 0 || c < 0 || r / 3 > c / 3) continue;
+      K.values[static_cast<std::size_t>(9 * K.find(r / 3, c / 3) + 3 * (r % 3) + c % 3)] += values[e];
+      // A block that was none of the diagonal and is now: its mirror image.
+      if (row != column && r / 3 == c / 3)
+        K.values[static_cast<std::size_t>(9 * K.find(r / 3, c / 3) + 3 * (c % 3) + r % 3)] += values[e];
+    }
+  }
+
   const JoinedCloth& cloth_;
   std::vector<std::unique_ptr<ClothTangent>> parts_;
   BlockMatrix sparsity_;
@@ -191,13 +218,17 @@ class JoinedMounting : public Mounting {
     return {i, edge};
   }
   std::vector<LinearConstraint> shifted(std::size_t part, std::vector<LinearConstraint> all) const {
-    for (LinearConstraint& c : all)
+    for (LinearConstraint& c : all) {
       for (auto& term : c.terms) term.first += c_.firstPoint(part);
+      for (auto& inner : c.inner) inner.first += c_.firstRate(part);
+    }
     return all;
   }
   std::vector<FollowingLoad> shifted(std::size_t part, std::vector<FollowingLoad> all) const {
-    for (FollowingLoad& load : all)
+    for (FollowingLoad& load : all) {
       for (int& column : load.columns) column += c_.firstPoint(part);
+      for (auto& inner : load.inner) inner.first += c_.firstRate(part);
+    }
     return all;
   }
   std::vector<Vec3> among(std::size_t part, const std::vector<Vec3>& own) const {

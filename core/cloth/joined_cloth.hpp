@@ -72,6 +72,8 @@ class JoinedCloth : public Cloth {
   std::pair<std::size_t, int> partOf(int patch) const;
   int firstPatch(std::size_t part) const { return patch_[part]; }
   int firstPoint(std::size_t part) const { return point_[part]; }
+  int firstFree(std::size_t part) const { return free_[part]; }
+  int firstRate(std::size_t part) const { return static_cast<int>(rates_[part]); }
   /// What a part has of a state.
   ClothState stateOf(const ClothState& state, std::size_t part) const;
 

@@ -138,6 +138,11 @@ void Loads::add(std::span<const Vec3> q, std::span<const double> value, std::spa
     if (value[element->program] != 0) element->add(q, value[element->program], f);
 }
 
+void Loads::addInner(std::span<const double> value, std::span<double> f) const {
+  for (const auto& element : following_)
+    for (const auto& [inner, force] : element->inner) f[static_cast<std::size_t>(inner)] += value[element->program] * force;
+}
+
 void Loads::addStiffness(std::span<const Vec3> q, std::span<const double> value, const FreeMap& map,
                          BlockMatrix& K) const {
   assert(static_cast<int>(value.size()) >= programs_);

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/cloth/free_map.hpp"
@@ -47,6 +48,8 @@ struct FollowingLoad {
   bool pressure = false;
   std::vector<int> columns;
   std::vector<FollowingPoint> points;
+  /// What the load does to inner unknowns: constant forces at program value 1 [N m, where they are angles].
+  std::vector<std::pair<int, double>> inner{};
 
   void add(std::span<const Vec3> q, double value, std::span<Vec3> f) const;
   /// Adds - value df_I/dq_J, not symmetrised, to blocks[I * n + J].
@@ -62,6 +65,8 @@ class Loads {
         const std::vector<EdgeMoment>& moments);
   /// Adds the forces on the points to f. `value[k]` is program k's.
   void add(std::span<const Vec3> q, std::span<const double> value, std::span<Vec3> f) const;
+  /// Adds the forces on the inner unknowns.
+  void addInner(std::span<const double> value, std::span<double> f) const;
   /// Adds - df/dq, symmetrised, to K on the free points (all pairs of points of a cell are in its sparsity).
   /// What is lost: pressure's is symmetric but for a term on the boundary of the pressed surface, which vanishes
   /// where that is held or closed (Schweizerhof and Ramm 1984); an edge moment's is symmetric where the edge keeps its

@@ -53,9 +53,13 @@ struct Number<V> {
   GAMBESON_LAW static V of(double x) { return splat(x); }
   GAMBESON_LAW static V pick(M first, V a, V b) { return first ? a : b; }
   GAMBESON_LAW static bool any(M mask) {
-    for (int l = 0; l < kLanes; ++l)
-      if (mask[l]) return true;
-    return false;
+#if defined(__AVX512F__)
+    return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(mask), reinterpret_cast<__m512i>(mask)) != 0;
+#elif defined(__AVX2__)
+    return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#else
+    return _mm_movemask_pd(reinterpret_cast<__m128d>(mask)) != 0;
+#endif
   }
   GAMBESON_LAW static V root(V x) { return squareRoot(x); }
   GAMBESON_LAW static V loaded(const double* p) { return *reinterpret_cast<const Anywhere*>(p); }

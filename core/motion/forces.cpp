@@ -20,6 +20,31 @@ void internalForce(const Model& m, const State& s, std::span<const double> commi
   m.cloth->map().Tt.multiply<Vec3>(w.f, out);
 }
 
+void leadInnerForce(const Model& m, double time_s, StepWork& w, std::vector<Vec3>& forces) {
+  if (!m.supports || m.inner_mass.empty()) return;
+  m.structure->loads.addInner(programValues(*m.structure, time_s, ProgramEnds::constant), w.inner_force);
+  m.supports->handInner(w.inner_force, forces);
+}
+
+double innerLoadWork(const Model& m, const State& in, const State& out) {
+  if (!m.supports || m.inner_mass.empty()) return 0;
+  std::vector<double> load(m.inner_mass.size());
+  for (const State* s : {&in, &out})
+    m.structure->loads.addInner(programValues(*m.structure, s->time_s, ProgramEnds::constant), load);
+  double work = 0;
+  for (std::size_t k = 0; k < load.size(); ++k) work += 0.5 * load[k] * (out.inner[k] - in.inner[k]);
+  return work;
+}
+
+double moveInnerRates(const Model& m, double dt, std::span<double> rates, const StepWork& w) {
+  double lost = 0;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    rates[i] = (rates[i] + dt * w.inner_force[i] / m.inner_mass[i]) / (1 + dt * m.inner_drag_per_s);
+    lost += dt * m.inner_drag_per_s * m.inner_mass[i] * rates[i] * rates[i];
+  }
+  return lost;
+}
+
 void springForces(const Model& m, const State& s, const AnchorFrames& frames, std::vector<Vec3>& forces) {
   forces.resize(m.springs.size());
   for (std::size_t k = 0; k < m.springs.size(); ++k) {
@@ -96,8 +121,10 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
                 remembers || energy ? &of_cloth : nullptr);
   if (energy) *energy = of_cloth;
   addClothDamping(m, half_velocity, s, w);
+  leadInnerForce(m, s.time_s, w, s.a);
   for (std::size_t i = 0; i < m.inner_mass.size(); ++i) {
-    s.inner_acceleration[i] = w.inner_force[i] / m.inner_mass[i];
+    s.inner_acceleration[i] = (w.inner_force[i] / m.inner_mass[i] - m.inner_drag_per_s * s.inner_rate[i]) /
+                              (1 + m.inner_drag_per_s * half_step_s);
     s.inner_rate[i] += half_step_s * s.inner_acceleration[i];
   }
   if (m.supports) {

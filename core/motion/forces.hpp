@@ -39,6 +39,16 @@ void internalForce(const Model& m, const State& s, std::span<const double> commi
                    std::span<double> history, std::vector<Vec3>& out, StepWork& w, ClothEnergy* energy,
                    const ForceTerms& terms = {});
 
+/// Takes w.inner_force, which internalForce has left, to what moves at time_s: with the loads of a structure, and what
+/// acts on inner unknowns that its supports lead to `forces` on the points.
+void leadInnerForce(const Model& m, double time_s, StepWork& w, std::vector<Vec3>& forces);
+
+/// Work of a structure's loads on inner unknowns over a step [J].
+double innerLoadWork(const Model& m, const State& in, const State& out);
+
+/// Rates of the inner unknowns after w.inner_force has acted for dt, their drag implicit; returns what that takes [J].
+double moveInnerRates(const Model& m, double dt_s, std::span<double> rates, const StepWork& w);
+
 /// Forces of the springs [N]; anchors stand as `frames` say.
 void springForces(const Model& m, const State& s, const AnchorFrames& frames, std::vector<Vec3>& forces);
 

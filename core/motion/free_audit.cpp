@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/motion/forces.hpp"
 #include "core/motion/free_motion.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/motion/step_contact.hpp"
@@ -88,6 +89,7 @@ void auditFreeStep(const Model& m, const State& in, const State& out, double dt,
     audit.change += mass * (out.v[i] - in.v[i]);
     audit.scale += dt * norm(dead(i)) + mass * (norm(out.v[i] - in.v[i]) + dt * norm(gravity));
   }
+  work.loads += innerLoadWork(m, in, out);
   for (std::size_t k = 0; k < m.inner_mass.size(); ++k)
     own += 0.5 * m.inner_mass[k] *
            (out.inner_rate[k] * out.inner_rate[k] - in.inner_rate[k] * in.inner_rate[k]);

@@ -43,7 +43,10 @@ StepReport freeStep(const Model& m, const Stage& stage, FreeScheme& scheme, cons
     out.p[i] = in.p[i] + dt * w.velocity[i];
     out.v[i] = free.velocity[i] + (w.velocity[i] - w.predictor[i]);
   }
-  if (m.supports) m.supports->place(out.time_s, out.p);
+  if (m.supports) {
+    m.supports->place(out.time_s, out.p);
+    m.supports->placeInner(out.time_s, out.p, out.inner);
+  }
   if (!allFinite(out.p)) return notFinite("a position is not finite");
   samplePositions(m, out.p, w.x1);
   report.largest_way = largestOf(Each::value, m.surface.size(), 0.0,

@@ -206,18 +206,28 @@ ImplicitSteps::ImplicitSteps(const Structure& structure, const ImplicitOptions& 
 
 void ImplicitSteps::advance(double until, State& state, const StepObserver& observe) {
   if (!(state.time_s < until)) return;
-  const std::vector<int>& component = structure_.dofs.component;
+  const DofMap& dofs = structure_.dofs;
   SystemState now{state.time_s, state.y, {}, {}, state.history};
-  const auto unknowns = [&](const std::vector<Vec3>& points, std::vector<double>& out) {
-    for (const int c : component) out.push_back(points[static_cast<std::size_t>(c / 3)][c % 3]);
+  const auto unknowns = [&](const std::vector<Vec3>& points, const std::vector<double>& inner,
+                            std::vector<double>& out) {
+    for (int k = 0; k < dofs.unknowns(); ++k) {
+      const int c = dofs.component[static_cast<std::size_t>(k)];
+      const double value = c < 3 * dofs.points ? points[static_cast<std::size_t>(c / 3)][c % 3]
+                                               : inner[static_cast<std::size_t>(c - 3 * dofs.points)];
+      out.push_back(dofs.unknownOf(k, value));
+    }
   };
   if (now.y.empty()) {
-    unknowns(state.p, now.y);
-    const std::vector<int>& home = structure_.cloth->map().home;
-    for (std::size_t k = 0; k < component.size(); ++k)
-      now.y[k] -= structure_.cloth->rest()[home[component[k] / 3]][component[k] % 3];
+    std::vector<Vec3> u = state.p;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] -= structure_.cloth->rest()[structure_.cloth->map().home[i]];
+    if (structure_.cloth->innerValues() != structure_.cloth->innerRates())
+      throw RunError("implicit steps start from unknowns where inner values have fewer rates");
+    std::vector<double> start(structure_.cloth->innerValues()), changed = state.inner;
+    structure_.cloth->startInner(start);
+    for (std::size_t k = 0; k < changed.size(); ++k) changed[k] -= start[k];
+    unknowns(u, changed, now.y);
   }
-  unknowns(state.v, now.v);
+  unknowns(state.v, state.inner_rate, now.v);
   const StepResult nothing;
   double lost_J = 0;
   const ImplicitReport report = integrate(system_, options_, until, now, [&](const SystemState& s) {

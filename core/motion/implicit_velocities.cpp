@@ -9,6 +9,7 @@ void ImplicitVelocities::bend(const Model& m, const State& in, double dt, FreeMo
   const double h = dt / options_.substeps;
   for (int k = 0; k < options_.substeps; ++k) {
     internalForce(m, at_, in.history, k * h, {}, force_, w, nullptr, {false, true, false});
+    leadInnerForce(m, in.time_s + dt, w, force_);
     change_.resize(n);
     for (int i = 0; i < n; ++i) {
       free.elastic[i] += h * force_[i];
@@ -19,8 +20,7 @@ void ImplicitVelocities::bend(const Model& m, const State& in, double dt, FreeMo
     const double t = in.time_s + dt * k / options_.substeps;
     if (m.supports) m.supports->drive(t, t + h, at_.v);
     for (int i = 0; i < n; ++i) at_.p[i] += h * at_.v[i];
-    for (std::size_t i = 0; i < out.inner_rate.size(); ++i)
-      out.inner_rate[i] += h * w.inner_force[i] / m.inner_mass[i];
+    inner_lost_J_ += moveInnerRates(m, h, out.inner_rate, w);
     m.cloth->advance(at_.inner, out.inner_rate, h, out.inner);
     at_.inner = out.inner;
   }
@@ -45,8 +45,11 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   // All that is implicit, at the start.
   const ForceTerms terms{true, !explicit_bending, true};
   internalForce(m, at_, in.history, 0, {}, force_, w, nullptr, terms);
-  for (std::size_t i = 0; !explicit_bending && i < out.inner_rate.size(); ++i)
-    out.inner_rate[i] += dt * w.inner_force[i] / m.inner_mass[i];
+  inner_lost_J_ = 0;
+  if (!explicit_bending) {
+    leadInnerForce(m, end_s, w, force_);
+    inner_lost_J_ = moveInnerRates(m, dt, out.inner_rate, w);
+  }
   addStitchForces(m.stitches, m.surface.WT, in.p, force_);
   springForces(m, at_, after, w.spring_force);
   free.spring.resize(m.springs.size());
@@ -115,7 +118,8 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   free.velocity.resize(n);
   free.drag.resize(n);
   free.missed.assign(n, Vec3{});
-  free.drag_work_J = free.drag_lost_J = 0;
+  free.drag_work_J = -inner_lost_J_;
+  free.drag_lost_J = inner_lost_J_;
   system_.multiply(change, product_);
   if (damps) {
     free.damping.resize(n);

@@ -43,6 +43,7 @@ class ImplicitVelocities : public FreeScheme {
   VelocitySystem system_;
   State at_;
   std::vector<Vec3> force_, known_, b_, change_, product_, stretched_, damped_;
+  double inner_lost_J_ = 0;  ///< by the drag of the inner unknowns
 };
 
 }  // namespace gambeson

@@ -1,6 +1,7 @@
 #include "core/motion/model.hpp"
 
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
@@ -54,6 +55,9 @@ void addPoints(const ModelOptions& options, Model& m) {
   }
   m.inner_mass.resize(m.cloth->innerRates());
   m.cloth->innerMasses(m.inner_mass);
+  if (!m.inner_mass.empty())
+    m.inner_drag_per_s = std::accumulate(m.drag_kg_per_s.begin(), m.drag_kg_per_s.end(), 0.0) /
+                         std::accumulate(m.mass_kg.begin(), m.mass_kg.end(), 0.0);
   for (double mass : m.inner_mass)
     if (!(mass > 0)) throw InputError({"", 0, "garment"}, "an inner unknown would carry no mass");
   for (int i = 0; i < n; ++i) {

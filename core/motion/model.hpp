@@ -76,6 +76,7 @@ struct Model {
   std::vector<NetEdge> net;
   std::vector<Stitch> stitches;
   std::vector<double> inner_mass;  ///< of the rates of the inner unknowns (Cloth::innerMasses)
+  double inner_drag_per_s = 0;     ///< of these over their mass: what drag and damping take from a mean point
   /// Of the free points: eta times area, what damps stitches, and damping by mass of a structure.
   std::vector<double> drag_kg_per_s;
   // Of cloth that is a structure; null for worn cloth.

@@ -24,6 +24,13 @@ double work(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const std::v
   return sum;
 }
 
+double work(const std::vector<double>& a, const std::vector<double>& b, const std::vector<double>& from,
+            const std::vector<double>& to) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += 0.5 * (a[i] + b[i]) * (to[i] - from[i]);
+  return sum;
+}
+
 }  // namespace
 
 MotionAudit::MotionAudit(const Structure& structure, bool lumped_mass) : structure_(structure), lumped_(lumped_mass) {
@@ -31,9 +38,11 @@ MotionAudit::MotionAudit(const Structure& structure, bool lumped_mass) : structu
   const SparseRows& C = structure.dofs.C;
   std::vector<int> users(static_cast<std::size_t>(structure.dofs.unknowns()), 0);
   for (const int column : C.columns) ++users[static_cast<std::size_t>(column)];
-  for (std::size_t r = 0; r + 1 < C.offsets.size(); ++r)
-    free_.push_back(C.offsets[r + 1] - C.offsets[r] == 1 &&
-                    users[static_cast<std::size_t>(C.columns[static_cast<std::size_t>(C.offsets[r])])] == 1);
+  const std::size_t points = 3 * structure.cloth->map().home.size();
+  for (std::size_t r = 0; r < points + structure.inner_mass.size(); ++r)
+    (r < points ? free_ : inner_free_)
+        .push_back(C.offsets[r + 1] - C.offsets[r] == 1 &&
+                   users[static_cast<std::size_t>(C.columns[static_cast<std::size_t>(C.offsets[r])])] == 1);
 }
 
 MotionAudit::Moment MotionAudit::at(const State& state) const {
@@ -57,7 +66,24 @@ MotionAudit::Moment MotionAudit::at(const State& state) const {
   m.load.resize(n);
   s.cloth->map().Tt.multiply<Vec3>(external, m.load);
   m.support.resize(n);
-  s.cloth->map().Tt.multiply<Vec3>(reactions(s, q, t, ProgramEnds::constant, state.history), m.support);
+  m.inner = state.inner;
+  m.inner_load.resize(s.inner_mass.size());
+  s.loads.addInner(programValues(s, t, ProgramEnds::constant), m.inner_load);
+  std::vector<Vec3> force(q.size());
+  m.inner_support.resize(s.inner_mass.size());
+  ClothWork scratch;
+  s.cloth->force({q, state.inner, state.history}, {force, m.inner_support, {}, nullptr}, scratch);
+  for (std::size_t i = 0; i < q.size(); ++i) force[i] = -(force[i] + external[i]);
+  s.cloth->map().Tt.multiply<Vec3>(force, m.support);
+  const double per_mass = s.rayleigh_mass_per_s + s.innerDrag();
+  m.inner_damping.resize(s.inner_mass.size());
+  for (std::size_t k = 0; k < s.inner_mass.size(); ++k) {
+    m.inner_damping[k] = per_mass * s.inner_mass[k] * state.inner_rate[k];
+    m.inner_support[k] = inner_free_[k] ? 0
+                                        : s.inner_mass[k] * state.inner_acceleration[k] + m.inner_damping[k] -
+                                              m.inner_support[k] - m.inner_load[k];
+    m.energy_J += 0.5 * s.inner_mass[k] * state.inner_rate[k] * state.inner_rate[k];
+  }
   m.damping.resize(n);
   const std::vector<Vec3> own = clothDamping(*s.cloth, q, v);
   for (std::size_t i = 0; i < n; ++i) {
@@ -68,7 +94,7 @@ MotionAudit::Moment MotionAudit::at(const State& state) const {
       if (free_[3 * i + static_cast<std::size_t>(d)]) m.support[i][d] = 0;
     m.energy_J += 0.5 * dot(v[i], Mv[i]);
   }
-  m.energy_J += strainEnergy(s, q, state.history);
+  m.energy_J += strainEnergy(s, {q, state.inner, state.history});
   m.momentum_Ns = total(Mv);
   m.load_N = total(m.load);
   m.support_N = total(m.support);
@@ -92,8 +118,12 @@ void MotionAudit::observe(const State& state, double lost_J) {
     return;
   }
   const Moment& b = *last_;
-  const double load = work(b.load, now.load, b.u, now.u), support = work(b.support, now.support, b.u, now.u),
-               damping = work(b.damping, now.damping, b.u, now.u);
+  const auto workOf = [&](const std::vector<Vec3> Moment::*points, const std::vector<double> Moment::*inner) {
+    return work(b.*points, now.*points, b.u, now.u) + work(b.*inner, now.*inner, b.inner, now.inner);
+  };
+  const double load = workOf(&Moment::load, &Moment::inner_load),
+               support = workOf(&Moment::support, &Moment::inner_support),
+               damping = workOf(&Moment::damping, &Moment::inner_damping);
   balance_J_ += load + support - damping;
   works_J_ += std::abs(load) + std::abs(support) + std::abs(damping);
   closeEnergy(now.energy_J);

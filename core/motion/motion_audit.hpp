@@ -46,14 +46,15 @@ class MotionAudit {
   struct Moment {
     double time_s = 0, energy_J = 0;
     Vec3 momentum_Ns, load_N, support_N, damping_N;
-    std::vector<Vec3> u, load, support, damping;  ///< of the free points
+    std::vector<Vec3> u, load, support, damping;                          ///< of the free points
+    std::vector<double> inner, inner_load, inner_support, inner_damping;  ///< of the inner unknowns
   };
   Moment at(const State& state) const;
   void closeEnergy(double energy_J);
 
   const Structure& structure_;
   bool lumped_;
-  std::vector<char> free_;  ///< of the displacements: no support acts
+  std::vector<char> free_, inner_free_;  ///< of the displacements and inner unknowns: no support acts
   std::optional<Moment> last_;
   std::optional<double> start_of_steps_J_;
   double lost_J_ = 0;

@@ -49,7 +49,10 @@ void RungeKutta::follow(const Model& m, const State& in, double dt, int k) {
   for (std::size_t i = 0; i < at_.inner_rate.size(); ++i) at_.inner_rate[i] += part * before.inner_acceleration[i];
   at_.inner_acceleration.resize(at_.inner_rate.size());
   at_.anchors = in.anchors;
-  if (m.supports) m.supports->place(at_.time_s, at_.p);
+  if (m.supports) {
+    m.supports->place(at_.time_s, at_.p);
+    m.supports->placeInner(at_.time_s, at_.p, at_.inner);
+  }
 }
 
 bool RungeKutta::move(const Model& m, const Stage& stage, const State& in, double dt, FreeMotion& free, State& out,
@@ -117,6 +120,9 @@ bool RungeKutta::move(const Model& m, const Stage& stage, const State& in, doubl
     for (std::size_t c = 0; c < rate_.size(); ++c) {
       rate_[c] += stages.weight[k] * s.inner_rate[c];
       out.inner_rate[c] += share * s.inner_acceleration[c];
+      const double lost = share * m.inner_drag_per_s * m.inner_mass[c] * s.inner_rate[c] * s.inner_rate[c];
+      free.drag_work_J -= lost;
+      free.drag_lost_J += lost;
     }
   }
   for (int i = 0; i < n; ++i) free.velocity[i] += in.v[i];

@@ -59,6 +59,7 @@ State initialState(const Model& model, const Stage& stage, double time_s, StepWo
   model.cloth->startHistory(s.history);
   s.inner.resize(model.cloth->innerValues());
   model.cloth->startInner(s.inner);
+  if (model.supports) model.supports->placeInner(time_s, s.p, s.inner);
   s.inner_rate.assign(model.inner_mass.size(), 0);
   s.inner_acceleration.assign(model.inner_mass.size(), 0);
   attachSprings(model, stage, s, work);
@@ -128,6 +129,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   for (std::size_t i = 0; i < out.inner_rate.size(); ++i) out.inner_rate[i] += half * in.inner_acceleration[i];
   out.inner.resize(in.inner.size());
   m.cloth->advance(in.inner, out.inner_rate, dt, out.inner);
+  if (m.supports) m.supports->placeInner(out.time_s, out.p, out.inner);
   out.inner_acceleration.resize(out.inner_rate.size());
   samplePositions(m, out.p, w.x1);
   const int samples = m.surface.size();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/motion/forces.hpp"
 #include "core/motion/step_contact.hpp"
+#include "core/statics/structure_system.hpp"
 
 namespace gambeson {
 namespace {
@@ -131,6 +133,7 @@ void auditSupports(const Model& m, const StepEnds& e, StepReport& report, StepWo
     report.work.supports += dot(lasting + at_once, way) / e.step_s;
   }
   for (int i = 0; i < n; ++i) report.work.loads += 0.5 * dot(w.load_before[i] + w.load[i], out.p[i] - in.p[i]);
+  report.work.loads += innerLoadWork(m, in, out);
   audit.dead = half * (in.sums.loads + out.sums.loads);
   audit.scale += norm(audit.dead);
 }
@@ -194,6 +197,12 @@ void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& 
     const Vec3 &v0 = in.v[i], &v1 = out.v[i];
     report.work.drag -= half * d * (dot(v0 - e.air_before, v0) + dot(v1 - e.air_after, v1));
     report.work.dissipated += half * d * (norm2(v0 - e.air_before) + norm2(v1 - e.air_after));
+  }
+  for (std::size_t k = 0; k < m.inner_mass.size(); ++k) {
+    const double lost = half * m.inner_drag_per_s * m.inner_mass[k] *
+                        (in.inner_rate[k] * in.inner_rate[k] + out.inner_rate[k] * out.inner_rate[k]);
+    report.work.drag -= lost;
+    report.work.dissipated += lost;
   }
   audit.drag = half * (in.sums.drag + out.sums.drag);
   audit.supports += half * (in.sums.springs + in.sums.held + out.sums.springs + out.sums.held);

@@ -8,10 +8,13 @@
 namespace gambeson {
 namespace {
 
-std::vector<Vec3> pointsOf(const Structure& s, std::span<const double> y, std::span<const double> value) {
+std::vector<double> componentsOf(const Structure& s, std::span<const double> y, std::span<const double> value) {
   const std::vector<double> none(y.empty() ? static_cast<std::size_t>(s.dofs.unknowns()) : 0, 0.0);
-  const std::vector<double> u = freeDisplacements(s, y.empty() ? std::span<const double>(none) : y, value);
-  std::vector<Vec3> points(u.size() / 3);
+  return freeDisplacements(s, y.empty() ? std::span<const double>(none) : y, value);
+}
+
+std::vector<Vec3> pointsOf(const Structure& s, std::span<const double> u) {
+  std::vector<Vec3> points(s.cloth->map().home.size());
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {u[3 * i], u[3 * i + 1], u[3 * i + 2]};
   return points;
 }
@@ -26,10 +29,20 @@ State structureState(const Structure& s, double t, std::span<const double> y, st
   for (std::size_t k = 0; k < rate.size(); ++k) rate[k] = (rate[k] - before[k]) / (2 * half);
   State state;
   state.time_s = t;
-  state.p = pointsOf(s, y, programValues(s, t, ProgramEnds::constant));
+  const std::vector<double> u = componentsOf(s, y, programValues(s, t, ProgramEnds::constant)),
+                            du = componentsOf(s, v, rate),
+                            ddu = componentsOf(s, a, std::vector<double>(rate.size(), 0.0));
+  state.p = pointsOf(s, u);
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.cloth->rest()[s.cloth->map().home[i]];
-  state.v = pointsOf(s, v, rate);
-  state.a = pointsOf(s, a, std::vector<double>(rate.size(), 0.0));
+  state.v = pointsOf(s, du);
+  state.a = pointsOf(s, ddu);
+  state.inner = innerValues(s, u);
+  const auto innerOf = [&](const std::vector<double>& all) {
+    const auto first = all.begin() + static_cast<long>(3 * state.p.size());
+    return std::vector<double>(first, first + static_cast<long>(s.cloth->innerRates()));
+  };
+  state.inner_rate = innerOf(du);
+  state.inner_acceleration = innerOf(ddu);
   state.y.assign(y.begin(), y.end());
   state.history.resize(s.cloth->historySize());
   s.cloth->startHistory(state.history);
@@ -51,7 +64,9 @@ DynamicEnergy energyOf(const Structure& s, const State& state, bool lumped_mass)
     s.consistent_kg.multiply<Vec3>(state.v, momentum);
   for (std::size_t i = 0; i < momentum.size(); ++i) energy.kinetic += 0.5 * dot(state.v[i], momentum[i]);
   const std::vector<Vec3> q = controlPoints(s, state);
-  energy.internal = strainEnergy(s, q, state.history);
+  for (std::size_t k = 0; k < state.inner_rate.size(); ++k)
+    energy.kinetic += 0.5 * s.inner_mass[k] * state.inner_rate[k] * state.inner_rate[k];
+  energy.internal = strainEnergy(s, {q, state.inner, state.history});
   for (const DeadLoad& load : s.dead)
     for (std::size_t i = 0; i < q.size(); ++i)
       energy.external -= s.programs[load.program](state.time_s) * dot(load.force_N[i], q[i] - s.cloth->rest()[i]);

@@ -53,9 +53,10 @@ std::vector<double> valuesAt(const Structure& s, double t) { return programValue
 Supports::Supports(const Structure& structure, std::span<const double> mass_kg,
                    std::span<const double> damping_kg_per_s)
     : s_(structure),
+      dofs_(pointsOf(structure.dofs)),
       mass_kg_(mass_kg.begin(), mass_kg.end()),
       damping_kg_per_s_(damping_kg_per_s.begin(), damping_kg_per_s.end()) {
-  const DofMap& dofs = s_.dofs;
+  const DofMap& dofs = dofs_;
   const SparseRows& C = dofs.C;
   std::vector<char> own(static_cast<std::size_t>(C.rows()), 0);
   for (const int component : dofs.component) own[static_cast<std::size_t>(component)] = 1;
@@ -77,6 +78,7 @@ Supports::Supports(const Structure& structure, std::span<const double> mass_kg,
   damps_ = std::any_of(damping_kg_per_s_.begin(), damping_kg_per_s_.end(), [](double d) { return d != 0; });
   for (const std::vector<double>& shift : dofs.shift)
     moves_ = moves_ || std::any_of(shift.begin(), shift.end(), [](double v) { return v != 0; });
+  findTurned();
   if (!couples_) return;
   diagonal_ = true;  // no component follows two others
   for (int r = 0; r < C.rows(); ++r) diagonal_ = diagonal_ && C.offsets[r + 1] - C.offsets[r] <= 1;
@@ -87,14 +89,53 @@ Supports::Supports(const Structure& structure, std::span<const double> mass_kg,
   mobility_ = mobilityRows();
 }
 
+void Supports::findTurned() {
+  const DofMap& all = s_.dofs;
+  std::vector<char> own(static_cast<std::size_t>(all.C.rows()), 0);
+  for (const int component : all.component) own[static_cast<std::size_t>(component)] = 1;
+  std::vector<double> start(s_.cloth->innerValues());
+  s_.cloth->startInner(start);
+  for (int k = 0; k < static_cast<int>(all.inner_length_m.size()); ++k) {
+    const int r = 3 * all.points + k;
+    if (own[static_cast<std::size_t>(r)]) continue;
+    Turned turned{k, start[static_cast<std::size_t>(k)], {}, {}};
+    for (int e = all.C.offsets[r]; e < all.C.offsets[r + 1]; ++e)
+      turned.terms.emplace_back(all.component[static_cast<std::size_t>(all.C.columns[e])], all.C.values[e]);
+    for (const std::vector<double>& shift : all.shift)
+      turned.shift.push_back(shift.empty() ? 0 : shift[static_cast<std::size_t>(r)]);
+    turned_.push_back(std::move(turned));
+  }
+}
+
+void Supports::placeInner(double t, std::span<const Vec3> p, std::span<double> inner) const {
+  if (turned_.empty()) return;
+  const std::vector<int>& home = s_.cloth->map().home;
+  const std::vector<double> value = valuesAt(s_, t);
+  for (const Turned& turned : turned_) {
+    double sum = turned.start;
+    for (const auto& [component, coefficient] : turned.terms)
+      sum += coefficient * (p[component / 3][component % 3] - s_.cloth->rest()[home[component / 3]][component % 3]);
+    for (std::size_t k = 0; k < value.size(); ++k) sum += value[k] * turned.shift[k];
+    inner[static_cast<std::size_t>(turned.inner)] = sum;
+  }
+}
+
+void Supports::handInner(std::span<double> inner_force, std::span<Vec3> f) const {
+  for (const Turned& turned : turned_) {
+    double& force = inner_force[static_cast<std::size_t>(turned.inner)];
+    for (const auto& [component, coefficient] : turned.terms) f[component / 3][component % 3] += coefficient * force;
+    force = 0;
+  }
+}
+
 SymmetricMatrix Supports::matrix(double h) const {
-  SparseRows weighted = s_.dofs.C;
+  SparseRows weighted = dofs_.C;
   for (int r = 0; r < weighted.rows(); ++r) {
     const auto i = static_cast<std::size_t>(r / 3);
     for (int k = weighted.offsets[r]; k < weighted.offsets[r + 1]; ++k)
       weighted.values[k] *= mass_kg_[i] + h * damping_kg_per_s_[i];
   }
-  return lowerTriangle(multiply(s_.dofs.Ct, weighted));
+  return lowerTriangle(multiply(dofs_.Ct, weighted));
 }
 
 double Supports::massOf(int unknown, double h) const {
@@ -109,15 +150,15 @@ double Supports::massOf(int unknown, double h) const {
 void Supports::addShifts(std::span<const double> value, std::span<Vec3> u) const {
   const std::span<double> components = flat(u);
   for (std::size_t k = 0; k < value.size(); ++k) {
-    const std::vector<double>& shift = s_.dofs.shift[k];
+    const std::vector<double>& shift = dofs_.shift[k];
     if (shift.empty() || value[k] == 0) continue;
     for (const int r : guided_) components[r] += value[k] * shift[r];
   }
 }
 
 void Supports::place(double t, std::span<Vec3> p) const {
-  const SparseRows& C = s_.dofs.C;
-  const std::vector<int>&home = s_.cloth->map().home, &component = s_.dofs.component;
+  const SparseRows& C = dofs_.C;
+  const std::vector<int>&home = s_.cloth->map().home, &component = dofs_.component;
   const auto rest = [&](int r) { return s_.cloth->rest()[home[r / 3]][r % 3]; };
   const std::span<double> x = flat(p);
   for (const int r : guided_) {
@@ -132,11 +173,11 @@ void Supports::place(double t, std::span<Vec3> p) const {
 }
 
 void Supports::drive(double t0, double t1, std::span<Vec3> v) const {
-  const SparseRows& C = s_.dofs.C;
+  const SparseRows& C = dofs_.C;
   const std::span<double> x = flat(v);
   for (const int r : guided_) {
     double sum = 0;
-    for (int k = C.offsets[r]; k < C.offsets[r + 1]; ++k) sum += C.values[k] * x[s_.dofs.component[C.columns[k]]];
+    for (int k = C.offsets[r]; k < C.offsets[r + 1]; ++k) sum += C.values[k] * x[dofs_.component[C.columns[k]]];
     x[r] = sum;
   }
   if (!moves_) return;
@@ -160,7 +201,7 @@ void Supports::Solver::accelerations(const Supports& s, double h, std::span<cons
       a[i] = s.held_[i] ? Vec3{} : f[i] / (s.mass_kg_[i] + h * s.damping_kg_per_s_[i]);
     return;
   }
-  const DofMap& dofs = s.s_.dofs;
+  const DofMap& dofs = s.dofs_;
   right_.resize(static_cast<std::size_t>(dofs.unknowns()));
   solution_.resize(right_.size());
   dofs.Ct.multiply<double>(flat(f), right_);
@@ -175,7 +216,7 @@ void Supports::Solver::accelerations(const Supports& s, double h, std::span<cons
     }
     factor_->solve(right_, solution_);
   }
-  s.s_.dofs.C.multiply<double>(solution_, flat(a));
+  s.dofs_.C.multiply<double>(solution_, flat(a));
 }
 
 void Supports::hold(std::span<Vec3> change) const {
@@ -228,7 +269,7 @@ Mobility Supports::mobility() const {
 }
 
 SparseRows Supports::mobilityRows() const {
-  const SparseRows& C = s_.dofs.C;
+  const SparseRows& C = dofs_.C;
   SparseRows columns;  // of M^-1 Cᵀ
   columns.column_count = C.column_count;
   std::unique_ptr<const SymmetricFactor> factor;

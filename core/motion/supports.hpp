@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/cloth/strain_rows.hpp"
@@ -34,6 +35,11 @@ class Supports {
   /// Prescribed accelerations at t, from second differences over dt_s, are added.
   void addPrescribed(double t, double dt_s, std::span<Vec3> a) const;
 
+  /// Inner unknowns that supports hold or turn (a clamp those of its edge) are where the points and time t say. They
+  /// have no inertia of their own, and what acts on them acts on the points.
+  void placeInner(double t, std::span<const Vec3> p, std::span<double> inner) const;
+  void handInner(std::span<double> inner_force, std::span<Vec3> f) const;
+
   /// a = C (Cᵀ (M + h D) C)^-1 Cᵀ f. Keeps the factor while h changes by rounding alone; of one Supports at a time.
   class Solver {
    public:
@@ -60,9 +66,20 @@ class Supports {
   SymmetricMatrix matrix(double h_s) const;
   SparseRows mobilityRows() const;
   double massOf(int unknown, double h_s) const;
+  void findTurned();
   void addShifts(std::span<const double> value, std::span<Vec3> u) const;
 
+  /// An inner unknown that follows components of points.
+  struct Turned {
+    int inner = 0;
+    double start = 0;
+    std::vector<std::pair<int, double>> terms;
+    std::vector<double> shift;  ///< by program
+  };
+
   const Structure& s_;
+  DofMap dofs_;  ///< of the points
+  std::vector<Turned> turned_;
   std::vector<double> mass_kg_, damping_kg_per_s_;
   std::vector<char> held_, binds_;
   std::vector<int> bound_;

@@ -15,12 +15,39 @@ void addAcross(double w, const Vec3& n, double* block) {
 
 }  // namespace
 
+/// The sparsity of the points alone: inner unknowns move by themselves.
+void VelocitySystem::takePoints() {
+  const BlockMatrix& all = tangent_->sparsity();
+  const int n = model_->freeCount();
+  A_ = {};
+  in_whole_.clear();
+  whole_ = model_->cloth->innerBlocks() > 0 ? all : BlockMatrix{};
+  for (int r = 0; r < n; ++r) {
+    for (long k = all.offsets[r]; k < all.offsets[r + 1]; ++k)
+      if (all.columns[k] < n) {
+        A_.columns.push_back(all.columns[k]);
+        in_whole_.push_back(k);
+      }
+    A_.offsets.push_back(static_cast<long>(A_.columns.size()));
+  }
+  A_.values.assign(9 * A_.columns.size(), 0.0);
+}
+
+template <class Assemble>
+void VelocitySystem::assembleOfPoints(BlockMatrix& out, const Assemble& assemble) {
+  if (whole_.rows() == 0) return assemble(out);
+  assemble(whole_);
+  if (out.columns.size() != A_.columns.size()) out = A_;
+  for (std::size_t k = 0; k < in_whole_.size(); ++k)
+    std::copy_n(&whole_.values[9 * in_whole_[k]], 9, &out.values[9 * k]);
+}
+
 bool VelocitySystem::assemble(const Model& m, const State& s, const AnchorFrames& frames, const ForceTerms& terms,
                               double dt, StepWork& w) {
   if (model_ != &m) {
     model_ = &m;
     tangent_ = m.cloth->tangent();
-    A_ = tangent_->sparsity();
+    takePoints();
     product_ = BlockProduct(A_);
   }
   dt_s_ = dt;
@@ -29,9 +56,10 @@ bool VelocitySystem::assemble(const Model& m, const State& s, const AnchorFrames
   m.cloth->map().T.multiply<Vec3>(s.p, w.q);
   ForceTerms definite = terms;
   definite.definite = true;
-  tangent_->assemble({w.q, s.inner, s.history}, w.cloth, A_, definite);
+  assembleOfPoints(A_, [&](BlockMatrix& K) { tangent_->assemble({w.q, s.inner, s.history}, w.cloth, K, definite); });
   const bool damps = m.cloth->damps();
-  if (damps) tangent_->assembleDamping({w.q, s.inner, s.history}, w.cloth, D_);
+  if (damps)
+    assembleOfPoints(D_, [&](BlockMatrix& D) { tangent_->assembleDamping({w.q, s.inner, s.history}, w.cloth, D); });
   own_.resize(n);
   diagonal_.resize(9 * static_cast<std::size_t>(n));
   forAll(Each::sum, n, [&](int r) {

@@ -29,9 +29,15 @@ class VelocitySystem {
   void hold(std::span<Vec3> change) const;
 
  private:
+  void takePoints();
+  template <class Assemble>
+  void assembleOfPoints(BlockMatrix& out, const Assemble& assemble);
+
   const Model* model_ = nullptr;
   std::unique_ptr<ClothTangent> tangent_;
   BlockMatrix A_, D_;             ///< D_: of the cloth's own damping, if it has one
+  BlockMatrix whole_;             ///< of a cloth with inner unknowns: of these too
+  std::vector<long> in_whole_;    ///< of the blocks of A: where they are in it
   BlockProduct product_;
   BlockInverses inverses_;
   std::vector<double> own_;       ///< M + dt D, without that

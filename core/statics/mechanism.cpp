@@ -28,7 +28,7 @@ std::string axisText(const Vec3& v) {
 /// Rigid motions that satisfy the supports, in row echelon form, rotations first.
 std::vector<Rigid> freeRigidMotions(const Structure& s, const Vec3& center, double length) {
   const SparseRows& C = s.dofs.C;
-  Eigen::MatrixXd R(C.rows(), 6);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(C.rows(), 6);  // inner unknowns stay
   for (std::size_t p = 0; p < s.cloth->map().home.size(); ++p) {
     const Vec3 x = (s.cloth->rest()[s.cloth->map().home[p]] - center) / length;
     for (int d = 0; d < 3; ++d) {
@@ -97,7 +97,7 @@ std::string describeMotion(const Structure& s, std::span<const double> motion) {
   s.dofs.C.multiply<double>(motion, u);
   std::size_t most = 0;
   const auto at = [&](std::size_t p) { return Vec3{u[3 * p], u[3 * p + 1], u[3 * p + 2]}; };
-  for (std::size_t p = 0; 3 * p < u.size(); ++p)
+  for (std::size_t p = 0; p < s.cloth->map().home.size(); ++p)
     if (norm(at(p)) > norm(at(most))) most = p;
   const int point = s.cloth->map().home[most];
   return fmt::format("the supports hold it as a whole, but {}, at {} m, moves along {} without resistance",

@@ -20,36 +20,39 @@ StaticReport solveStatic(const Structure& structure, const StaticOptions& option
 std::vector<Vec3> controlPoints(const Structure& s, std::span<const double> y, double t, ProgramEnds ends) {
   const std::vector<double> u = freeDisplacements(s, y, programValues(s, t, ends));
   std::vector<Vec3> q(s.cloth->rest().size());
-  s.cloth->map().T.multiply<Vec3>({reinterpret_cast<const Vec3*>(u.data()), u.size() / 3}, q);
+  s.cloth->map().T.multiply<Vec3>({reinterpret_cast<const Vec3*>(u.data()), s.cloth->map().home.size()}, q);
   for (std::size_t i = 0; i < q.size(); ++i) q[i] += s.cloth->rest()[i];
   return q;
 }
 
 std::vector<Vec3> reactions(const Structure& s, std::span<const double> y, double t, ProgramEnds ends,
                             std::span<const double> history) {
-  return reactions(s, controlPoints(s, y, t, ends), t, ends, history);
+  return reactions(s, {controlPoints(s, y, t, ends), innerValues(s, y, t, ends), history}, t, ends);
 }
 
-std::vector<Vec3> reactions(const Structure& s, std::span<const Vec3> q, double t, ProgramEnds ends,
-                            std::span<const double> history) {
-  std::vector<Vec3> f(q.size()), external(q.size());
+std::vector<double> innerValues(const Structure& s, std::span<const double> y, double t, ProgramEnds ends) {
+  return innerValues(s, freeDisplacements(s, y, programValues(s, t, ends)));
+}
+
+std::vector<Vec3> reactions(const Structure& s, const ClothState& state, double t, ProgramEnds ends) {
+  std::vector<Vec3> f(state.q.size()), external(f.size());
   ClothWork work;
-  s.cloth->force({q, {}, history}, {f, {}, {}, nullptr}, work);
-  s.loads.add(q, programValues(s, t, ends), external);
-  for (std::size_t i = 0; i < q.size(); ++i) f[i] = -(f[i] + external[i]);
+  s.cloth->force(state, {f, {}, {}, nullptr}, work);
+  s.loads.add(state.q, programValues(s, t, ends), external);
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] = -(f[i] + external[i]);
   return f;
 }
 
 double strainEnergy(const Structure& s, std::span<const double> y, double t, ProgramEnds ends,
                     std::span<const double> history) {
-  return strainEnergy(s, controlPoints(s, y, t, ends), history);
+  return strainEnergy(s, {controlPoints(s, y, t, ends), innerValues(s, y, t, ends), history});
 }
 
-double strainEnergy(const Structure& s, std::span<const Vec3> q, std::span<const double> history) {
-  std::vector<Vec3> f(q.size());
+double strainEnergy(const Structure& s, const ClothState& state) {
+  std::vector<Vec3> f(state.q.size());
   ClothWork work;
   ClothEnergy energy;
-  s.cloth->force({q, {}, history}, {f, {}, {}, &energy}, work);
+  s.cloth->force(state, {f, {}, {}, &energy}, work);
   return energy.stored;
 }
 

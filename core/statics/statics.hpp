@@ -65,15 +65,17 @@ StaticReport solveStatic(const Structure& structure, const StaticOptions& option
 /// Control points q of the unknowns y at a time (or, with programs that go on beyond their ends, at a factor).
 std::vector<Vec3> controlPoints(const Structure& structure, std::span<const double> y, double t,
                                 ProgramEnds ends = ProgramEnds::constant);
+/// Values of the inner unknowns there.
+std::vector<double> innerValues(const Structure& structure, std::span<const double> y, double t,
+                                ProgramEnds ends = ProgramEnds::constant);
 /// f_int - f_ext on the control points: what supports (and inertia) take up there [N]. `history`: committed there;
 /// empty: of new cloth.
 std::vector<Vec3> reactions(const Structure& structure, std::span<const double> y, double t,
                             ProgramEnds ends = ProgramEnds::constant, std::span<const double> history = {});
-/// The same of control points q.
-std::vector<Vec3> reactions(const Structure& structure, std::span<const Vec3> q, double t, ProgramEnds ends,
-                            std::span<const double> history);
+/// The same of a state.
+std::vector<Vec3> reactions(const Structure& structure, const ClothState& state, double t, ProgramEnds ends);
 /// Stored energy [J], loads not counted.
-double strainEnergy(const Structure& structure, std::span<const Vec3> q, std::span<const double> history);
+double strainEnergy(const Structure& structure, const ClothState& state);
 double strainEnergy(const Structure& structure, std::span<const double> y, double t,
                     ProgramEnds ends = ProgramEnds::constant, std::span<const double> history = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 
@@ -28,6 +29,11 @@ double Program::extended(double t) const {
   return (*this)(t);
 }
 
+double Structure::innerDrag() const {
+  return drag_kg_per_m2s * std::accumulate(area_m2.begin(), area_m2.end(), 0.0) /
+         std::accumulate(lumped_kg.begin(), lumped_kg.end(), 0.0);
+}
+
 namespace {
 
 void checkPrograms(const std::vector<Program>& programs) {
@@ -43,6 +49,16 @@ void checkPrograms(const std::vector<Program>& programs) {
 }
 
 }  // namespace
+
+DofMap dofsOf(const Cloth& cloth, std::span<const LinearConstraint> constraints, int programs) {
+  std::vector<double> length(cloth.innerRates());
+  cloth.innerMasses(length);
+  double mean = 0;
+  if (!length.empty())
+    for (const double m : cloth.masses()) mean += m / cloth.map().T.column_count;
+  for (double& l : length) l = std::sqrt(l / mean);
+  return buildDofMap(cloth.map(), constraints, programs, length);
+}
 
 std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, const StructureOptions& o) {
   std::vector<Program> programs = o.programs;
@@ -62,7 +78,7 @@ std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, co
   if (!(o.drag_kg_per_m2s >= 0)) throw InputError({"", 0, "drag_kg_per_m2s"}, "must be >= 0");
 
   const FreeMap& map = cloth->map();
-  DofMap dofs = buildDofMap(map, o.constraints, count);
+  DofMap dofs = dofsOf(*cloth, o.constraints, count);
   Loads loads(cloth->mounting(), cloth->points(), o.dead, o.pressure, o.moments);
   std::unique_ptr<const ClothTangent> tangent = cloth->tangent();
   Reduction reduction(tangent->sparsity(), dofs.C);
@@ -71,10 +87,12 @@ std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, co
   const std::vector<double> ones(map.home.size(), 1.0);
   consistent.multiply<double>(ones, lumped);
   map.Tt.multiply<double>(cloth->areas(), area);
+  std::vector<double> inner(cloth->innerRates());
+  cloth->innerMasses(inner);
   return std::make_unique<Structure>(Structure{std::move(cloth), std::move(dofs), std::move(loads), std::move(programs),
                                                std::move(tangent), std::move(reduction), o.dead, std::move(lumped),
                                                std::move(consistent), o.rayleigh_mass_per_s, o.rayleigh_stiffness_s,
-                                               o.drag_kg_per_m2s, std::move(area)});
+                                               o.drag_kg_per_m2s, std::move(area), std::move(inner)});
 }
 
 }  // namespace gambeson

@@ -25,8 +25,8 @@ struct Program {
 /// How programs go on beyond their ends: constant (time), or with their slope (a load path).
 enum class ProgramEnds { constant, extended };
 
-/// Constant after it is built. Unknowns y: displacements that satisfy the supports, u = C y + shifts (DofMap); points
-/// q = rest + T u.
+/// Constant after it is built. Unknowns y: displacements and inner unknowns that satisfy the supports, u = C y + shifts
+/// (DofMap); points q = rest + T u.
 struct Structure {
   std::shared_ptr<const Cloth> cloth;
   DofMap dofs;
@@ -41,6 +41,10 @@ struct Structure {
   double rayleigh_stiffness_s = 0;  ///< b
   double drag_kg_per_m2s = 0;       ///< Zheng 2013, section 2.2.3
   std::vector<double> area_m2;      ///< ∫ N dA of the free points
+  std::vector<double> inner_mass;   ///< of the rates of the inner unknowns (Cloth::innerMasses), lumped or not
+
+  /// What drag takes from inner unknowns, over their mass: what it takes from a mean point [1/s].
+  double innerDrag() const;
 };
 
 struct StructureOptions {
@@ -51,6 +55,10 @@ struct StructureOptions {
   std::vector<Program> programs;  ///< none: one, from 0 at 0 to 1 at 1
   double rayleigh_mass_per_s = 0, rayleigh_stiffness_s = 0, drag_kg_per_m2s = 0;
 };
+
+/// The unknowns that supports leave of a cloth. Inner unknowns are there as lengths by which they have the mass of a
+/// mean free point: all are of one size. Throws InputError.
+DofMap dofsOf(const Cloth& cloth, std::span<const LinearConstraint> constraints, int programs);
 
 /// Throws InputError.
 std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, const StructureOptions& options);

@@ -25,9 +25,7 @@ bool moves(const DofMap& dofs) {
   return std::any_of(dofs.shift.begin(), dofs.shift.end(), [](const auto& s) { return !s.empty(); });
 }
 
-std::span<const double> flat(const std::vector<Vec3>& v) { return {&v.data()->x, 3 * v.size()}; }
-
-double sizeOf(const std::vector<Vec3>& v) {
+double sizeOf(std::span<const Vec3> v) {
   double sum = 0;
   for (const Vec3& f : v) sum += norm2(f);
   return std::sqrt(sum);
@@ -42,6 +40,14 @@ std::vector<double> freeDisplacements(const Structure& s, std::span<const double
   return u;
 }
 
+std::vector<double> innerValues(const Structure& s, std::span<const double> u) {
+  std::vector<double> start(s.cloth->innerValues()), value(start.size());
+  if (start.empty()) return value;
+  s.cloth->startInner(start);
+  s.cloth->advance(start, u.subspan(3 * s.cloth->map().home.size(), s.cloth->innerRates()), 1.0, value);
+  return value;
+}
+
 StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends) : structure_(structure), ends_(ends) {
   Vec3 low = structure.cloth->rest().front(), high = low;
   for (const Vec3& x : structure.cloth->rest())
@@ -54,7 +60,9 @@ StructureSystem::StructureSystem(const Structure& structure, ProgramEnds ends) :
   q_.resize(structure.cloth->rest().size());
   f_.resize(q_.size());
   external_.resize(q_.size());
-  free_.resize(structure.cloth->map().home.size());
+  inner_f_.resize(structure.cloth->innerRates());
+  inner_external_.resize(inner_f_.size());
+  free_.resize(static_cast<std::size_t>(structure.dofs.C.rows()));
   history_.resize(structure.cloth->historySize());
   trial_.resize(history_.size());
   structure.cloth->startHistory(history_);
@@ -83,25 +91,38 @@ double StructureSystem::commit(std::span<const double> y, double t) {
 void StructureSystem::place(std::span<const double> y, double t) {
   value_ = programValues(structure_, t, ends_);
   u_ = freeDisplacements(structure_, y, value_);
-  const std::span<const Vec3> u(reinterpret_cast<const Vec3*>(u_.data()), u_.size() / 3);
+  const std::span<const Vec3> u(reinterpret_cast<const Vec3*>(u_.data()), structure_.cloth->map().home.size());
   structure_.cloth->map().T.multiply<Vec3>(u, q_);
   for (std::size_t i = 0; i < q_.size(); ++i) q_[i] += structure_.cloth->rest()[i];
+  inner_ = innerValues(structure_, u_);
+}
+
+void StructureSystem::pullBack(const std::vector<Vec3>& f, std::span<const double> inner,
+                               std::vector<double>& out) const {
+  const std::size_t points = structure_.cloth->map().home.size();
+  structure_.cloth->map().Tt.multiply<Vec3>(f, std::span(reinterpret_cast<Vec3*>(out.data()), points));
+  std::copy(inner.begin(), inner.end(), out.begin() + static_cast<long>(3 * points));
 }
 
 double StructureSystem::residual(std::span<const double> y, double t, std::span<double> g) {
   place(y, t);
-  structure_.cloth->force(stateAt(t), {f_, {}, trial_, history_.empty() ? nullptr : &energy_}, work_);
+  structure_.cloth->force(stateAt(t), {f_, inner_f_, trial_, history_.empty() ? nullptr : &energy_}, work_);
   residual_y_.assign(y.begin(), y.end());
   residual_t_ = t;
   std::fill(external_.begin(), external_.end(), Vec3{});
+  std::fill(inner_external_.begin(), inner_external_.end(), 0.0);
   structure_.loads.add(q_, value_, external_);
-  structure_.cloth->map().Tt.multiply<Vec3>(f_, free_);
-  double size = sizeOf(free_);
+  structure_.loads.addInner(value_, inner_external_);
+  // How large they are is said of the points: forces of inner unknowns are small beside those wherever these are not.
+  const std::span<const Vec3> of_points(reinterpret_cast<const Vec3*>(free_.data()), structure_.cloth->map().home.size());
+  pullBack(f_, inner_f_, free_);
+  double size = sizeOf(of_points);
+  pullBack(external_, inner_external_, free_);
+  size = std::max(size, sizeOf(of_points));
   for (std::size_t i = 0; i < f_.size(); ++i) f_[i] += external_[i];
-  structure_.cloth->map().Tt.multiply<Vec3>(external_, free_);
-  size = std::max(size, sizeOf(free_));
-  structure_.cloth->map().Tt.multiply<Vec3>(f_, free_);
-  structure_.dofs.Ct.multiply<double>(flat(free_), g);
+  for (std::size_t i = 0; i < inner_f_.size(); ++i) inner_f_[i] += inner_external_[i];
+  pullBack(f_, inner_f_, free_);
+  structure_.dofs.Ct.multiply<double>(free_, g);
   for (double& v : g) v = -v;
   return size;
 }
@@ -132,7 +153,7 @@ void StructureSystem::change(std::span<const double> y, double t0, double t1, st
   std::vector<double> difference = programValues(structure_, t1, ends_);
   const std::vector<double> before = programValues(structure_, t0, ends_);
   for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= before[k];
-  std::vector<double> force(3 * free_.size(), 0.0);
+  std::vector<double> force(free_.size(), 0.0);
   if (moves(structure_.dofs)) {
     assemble(y, t0);
     std::vector<double> shift(force.size(), 0.0);
@@ -141,10 +162,11 @@ void StructureSystem::change(std::span<const double> y, double t0, double t1, st
   }
   place(y, t0);
   std::fill(external_.begin(), external_.end(), Vec3{});
+  std::fill(inner_external_.begin(), inner_external_.end(), 0.0);
   structure_.loads.add(q_, difference, external_);
-  structure_.cloth->map().Tt.multiply<Vec3>(external_, free_);
-  const std::span<const double> external = flat(free_);
-  for (std::size_t i = 0; i < force.size(); ++i) force[i] -= external[i];
+  structure_.loads.addInner(difference, inner_external_);
+  pullBack(external_, inner_external_, free_);
+  for (std::size_t i = 0; i < force.size(); ++i) force[i] -= free_[i];
   structure_.dofs.Ct.multiply<double>(force, dg);
 }
 
@@ -159,7 +181,9 @@ BlockMatrix StructureSystem::massBlocks(bool lumped) const {
     for (int d = 0; d < 3; ++d) M.values[9 * k + 4 * d] = m;
   };
   const SparseRows& consistent = structure_.consistent_kg;
-  for (int r = 0; r < M.rows(); ++r) {
+  for (std::size_t k = 0; k < structure_.inner_mass.size(); ++k)
+    M.values[9 * M.offsets[structure_.lumped_kg.size() + k / 3] + 4 * (k % 3)] = structure_.inner_mass[k];
+  for (int r = 0; r < static_cast<int>(structure_.lumped_kg.size()); ++r) {
     long k = M.offsets[r];  // of the diagonal block
     if (lumped) {
       set(k, structure_.lumped_kg[r]);
@@ -181,9 +205,14 @@ void StructureSystem::damping(std::span<const double> y, double t, bool lumped, 
                               SymmetricMatrix& D) {
   damping_K_ = massBlocks(lumped);
   for (double& v : damping_K_.values) v *= structure_.rayleigh_mass_per_s;
-  for (int r = 0; r < damping_K_.rows(); ++r)
+  for (int r = 0; r < static_cast<int>(structure_.area_m2.size()); ++r)
     for (int d = 0; d < 3; ++d)
       damping_K_.values[9 * damping_K_.offsets[r] + 4 * d] += structure_.drag_kg_per_m2s * structure_.area_m2[r];
+  if (const std::vector<double>& inner = structure_.inner_mass; !inner.empty()) {
+    const double drag = structure_.innerDrag();
+    for (std::size_t k = 0; k < inner.size(); ++k)
+      damping_K_.values[9 * damping_K_.offsets[structure_.area_m2.size() + k / 3] + 4 * (k % 3)] += drag * inner[k];
+  }
   if (stiffness_part && structure_.cloth->damps()) {
     BlockMatrix own;
     place(y, t);
@@ -211,7 +240,7 @@ void StructureSystem::supportForce(double t, double dt, bool lumped, std::span<d
     still = still && v[k] == 0 && a[k] == 0;
   }
   if (still) return;
-  std::vector<double> velocity(3 * free_.size(), 0.0), acceleration = velocity, force = velocity;
+  std::vector<double> velocity(free_.size(), 0.0), acceleration = velocity, force = velocity;
   addShifts(structure_.dofs, v, velocity);
   addShifts(structure_.dofs, a, acceleration);
   const BlockMatrix M = massBlocks(lumped);

@@ -35,8 +35,11 @@ class StructureSystem : public System {
   void place(std::span<const double> y, double t);  ///< sets value_ and q_
   /// At t: a load step takes no time that laws could count.
   ClothState stateAt(double t) const {
-    return {q_, {}, history_, {}, ends_ == ProgramEnds::constant ? t - committed_t_ : std::numeric_limits<double>::infinity()};
+    return {q_, inner_, history_, {},
+            ends_ == ProgramEnds::constant ? t - committed_t_ : std::numeric_limits<double>::infinity()};
   }
+  /// Writes the forces on the blocks of all free points and inner unknowns.
+  void pullBack(const std::vector<Vec3>& f, std::span<const double> inner, std::vector<double>& out) const;
   void assemble(std::span<const double> y, double t);
   BlockMatrix massBlocks(bool lumped) const;
 
@@ -53,14 +56,19 @@ class StructureSystem : public System {
   std::vector<double> at_y_;  ///< where K_ is
   double at_t_ = 0;
   std::vector<double> value_, u_, damping_u_;
-  std::vector<Vec3> q_, f_, external_, free_;
+  std::vector<Vec3> q_, f_, external_;
+  std::vector<double> inner_, inner_f_, inner_external_;
+  std::vector<double> free_;  ///< forces by the components of the blocks
   BlockMatrix damping_K_;
 };
 
 std::vector<double> programValues(const Structure& structure, double t, ProgramEnds ends);
-/// Displacements of the free points, u = C y + shifts.
+/// Displacements of the free points and changes of the inner unknowns, u = C y + shifts.
 std::vector<double> freeDisplacements(const Structure& structure, std::span<const double> y,
                                       std::span<const double> value);
+
+/// The values of the inner unknowns, of such u.
+std::vector<double> innerValues(const Structure& structure, std::span<const double> u);
 
 /// In words, what a motion moves that meets no stiffness: rigid motions that the supports allow, else the place where
 /// it is largest.

@@ -55,6 +55,14 @@ Object garmentTable() {
       .unwritten()
       .choice(
           "mesh", [](auto& g) -> auto& { return g.cloth.mesh; }, meshKinds(), meshKindDoc())
+      .unwritten()
+      .choice(
+          "bending_elements", [](auto& g) -> auto& { return g.cloth.bending; }, bendingElements(),
+          bendingElementsDoc())
+      .unwritten()
+      .number(
+          "bending_spring", [](auto& g) -> auto& { return g.cloth.bending_spring_N_per_m; }, "N/m", between(0, 1e6),
+          bendingSpringDoc())
       .unwritten();
   addMembraneFields(table);
   return table

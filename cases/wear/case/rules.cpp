@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cases/cloth/membrane_fields.hpp"
+#include "cases/cloth/rules.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
@@ -110,6 +111,7 @@ void checkModel(const Entry& entry, const Case& c, const GarmentCase& g) {
     refuse("mesh", "is for \"model\": \"triangles\"");
   checkMembrane(entry, g.cloth, fabricOf(c, g), true);
   for (const Fabric& other : otherFabrics(g)) checkMembrane(entry, g.cloth, other, true);
+  checkBending(entry, g.cloth);
   if (g.cloth.kind == ClothKind::nurbs) return;
   refuse("samples_per_cell", "is for \"model\": \"nurbs\"; the samples of triangles are their vertices");
   if (c.strain_limit && wornLimit(*c.strain_limit).mode == LimitMode::equality)

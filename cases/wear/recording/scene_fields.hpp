@@ -178,10 +178,10 @@ void fields(A& a, T& m) {
   a("vertices", vertices)("patch_names", patch_names)("triangles", triangles)("patch", patch)("uv", uv);
   a("lines", lines);
 }
-/// Of a mesh from the start; its fabric and its membrane are those of the case, and no draft is behind it.
+/// Of a mesh from the start; its fabric, its membrane and its bending are those of the case, and no draft is behind it.
 template <class A, Of<MeshDraft> T>
 void fields(A& a, T& g) {
-  auto& [mesh, rest, fabrics, fabric, draft, range, of_control, membrane] = g;
+  auto& [mesh, rest, bending, bending_spring, fabrics, fabric, draft, range, of_control, membrane] = g;
   a("mesh", mesh)("rest", rest);
 }
 

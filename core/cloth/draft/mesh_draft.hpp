@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "core/cloth/draft/bending_elements.hpp"
 #include "core/cloth/draft/cloth_mesh.hpp"
 #include "core/cloth/draft/membrane_elements.hpp"
 #include "core/material/fabric.hpp"
@@ -19,6 +20,8 @@ enum class MeshRest { fabric, shape, flat };
 struct MeshDraft {
   ClothMesh mesh;
   MeshRest rest = MeshRest::fabric;
+  BendingElements bending = BendingElements::hinge;
+  double bending_spring_N_per_m = 0;  ///< of BendingElements::springs; 0: from the fabric's rigidities
   std::vector<Fabric> fabrics;  ///< one or more
   std::vector<int> fabric;      ///< of each triangle; empty: the first
   /// Of a draft: the parameters at each triangle's corners, their range in each patch, and the vertices as rows on the

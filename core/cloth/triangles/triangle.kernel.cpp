@@ -2,32 +2,12 @@
 /// once per instruction set with GAMBESON_ISA defined.
 
 #include <algorithm>
-#include <utility>
 
-#include "core/cloth/law_lanes.hpp"
 #include "core/cloth/triangles/membrane_lanes.hpp"
-#include "core/math/parallel.hpp"
+#include "core/cloth/triangles/triangle_lanes.hpp"
 
 namespace gambeson {
 namespace {
-
-constexpr int kChunk = 64;  ///< groups that a thread takes at a time
-/// Groups of hinges that take each step together. From corners to moment is one long chain of operations that wait for
-/// each other; step by step a core has several groups under way.
-constexpr int kRun = 16;
-constexpr int kGeneral = -1;
-
-void write(double* slot, V3 f) {
-  store(slot, f.x);
-  store(slot + kLanes, f.y);
-  store(slot + 2 * kLanes, f.z);
-}
-
-/// Values, one of each lane's element.
-V gatherOne(const double* values, const int* at) {
-  return [&]<int... kLane>(std::integer_sequence<int, kLane...>) { return V{values[at[kLane]]...}; }
-  (std::make_integer_sequence<int, kLanes>{});
-}
 
 /// Forces of a triangle's hinges on its corners 1 and 2 over its normal N = e1 x e2 [N/m^2]. A moment M acts by the
 /// gradient of its angle (foldAngle): |e| N/|N|^2 at the corner that faces the edge e, and what balances it at the ends
@@ -98,40 +78,11 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
   }
 }
 
-/// The hinges of a run, in each lane of its groups.
-struct Folds {
-  V sine[kRun], cosine[kRun];  ///< of the angle, in this proportion
-  V theta[kRun];               ///< the angle [rad]
-  V per_length[kRun];          ///< 1/|e| of the common edge [1/m]
-};
-
-/// Sine and cosine as foldAngle has them: the sine goes with e . (nb x na) = |e|^2 na . b.
-void foldsOf(const ElementBlock& block, int begin, int end, const double* q, Folds& folds) {
-  for (int group = begin; group < end; ++group) {
-    const int* corners = block.corners.data() + 4L * group * kLanes;
-    const V3 x0 = gather(q, corners);
-    const V3 e = gather(q, corners + kLanes) - x0, a = gather(q, corners + 2 * kLanes) - x0,
-             b = gather(q, corners + 3 * kLanes) - x0;
-    const V3 na = cross(e, a), nb = cross(b, e);
-    const V length2 = dot(e, e), per_length = 1.0 / squareRoot(length2);
-    const int at = group - begin;
-    folds.sine[at] = length2 * per_length * dot(na, b);
-    folds.cosine[at] = dot(na, nb);
-    folds.per_length[at] = per_length;
-  }
-}
-
-void anglesOf(int groups, Folds& folds) {
-  for (int at = 0; at < groups; ++at) folds.theta[at] = angleOf(folds.sine[at], folds.cosine[at]);
-}
-
-/// Moments by the law. kKind: of the plain law, 0 linear; or kGeneral. Known at compile time, what follows from its
-/// numbers is computed once.
+/// Moments by the law.
 template <bool kEnergy, int kKind>
-void momentsOf(const ElementBlock& block, const BlockLaw& law, int begin, int end, const Folds& folds, double* moment,
-               double* energy) {
+void momentsOf(const ElementBlock& block, const BendingLaw<kKind>& bending, int begin, int end, const Folds& folds,
+               double* moment, double* energy) {
   constexpr unsigned kParts = kEnergy ? with_energy : only_resultants;
-  const PlainLaw plain = law.plain;  // a copy that no store can change: what follows from it is computed once
   for (int group = begin; group < end; ++group) {
     const double* rest = block.rest.data() + long{kHingeDoubles} * group * kLanes;
     const V theta = folds.theta[group - begin], per_length = folds.per_length[group - begin];
@@ -140,26 +91,13 @@ void momentsOf(const ElementBlock& block, const BlockLaw& law, int begin, int en
     const V kappa = per_angle * (theta - load(rest));
     const V change[3] = {kappa * d[0], kappa * d[1], kappa * d[2]};
     Answer<V, 3> answer;
-    if constexpr (kKind == kGeneral) {
-      LawLanes numbers;
-      constantLaw(law, numbers);
-      const History<V> history = law.remembers() ? historyAt(law, group, false) : History<V>{};
-      evaluateBending<kParts>(law.evaluated(), numbers, change, history, answer);
-    } else if constexpr (kKind == 0) {
-      linearMoment<kParts>(DiagonalStiffness<double>{plain.rigidity[0], plain.rigidity[1], plain.rigidity[2]}, change,
-                           answer);
-    } else {
-      BendingLaws::forEach([&]<class L, int kOf>(std::type_identity<L>, std::integral_constant<int, kOf>) {
-        if constexpr (kOf == kKind)
-          L::template bend<kParts>(plain.rigidity.data(), plain.numbers.data(), change, History<V>{}, answer);
-      });
-    }
+    bending.template evaluate<kParts>(group, change, answer);
     const V* m = answer.resultant;
     store(moment + static_cast<long>(group) * kLanes,
           per_length * area * per_angle * (m[0] * d[0] + m[1] * d[1] + m[2] * d[2]));
     if constexpr (kEnergy) {
       store(energy + static_cast<long>(group) * kLanes, area * answer.energy);
-      if (law.lost) store(law.lost + static_cast<long>(group) * kLanes, area * answer.lost);
+      if (bending.law.lost) store(bending.law.lost + static_cast<long>(group) * kLanes, area * answer.lost);
     }
   }
 }
@@ -167,30 +105,23 @@ void momentsOf(const ElementBlock& block, const BlockLaw& law, int begin, int en
 template <bool kEnergy, int kKind>
 void hingeMoments(const ElementBlock& block, const BlockLaw& law, int begin, int end, const double* q, double* moment,
                   double* energy) {
+  const BendingLaw<kKind> bending(law);
   Folds folds;
   for (int first = begin; first < end; first += kRun) {
     const int last = std::min(first + kRun, end);
-    foldsOf(block, first, last, q, folds);
+    foldsOf(block.corners.data(), first, last, q, folds);
     anglesOf(last - first, folds);
-    momentsOf<kEnergy, kKind>(block, law, first, last, folds, moment, energy);
+    momentsOf<kEnergy>(block, bending, first, last, folds, moment, energy);
   }
 }
 
-template <int kKind>
-void hingesOfKind(const ElementBlock& block, const BlockLaw& law, const double* q, double* moment, double* energy) {
-  forAll(Each::much, (block.groups + kChunk - 1) / kChunk, [&](int chunk) {
-    const int begin = chunk * kChunk, end = std::min(begin + kChunk, block.groups);
-    energy ? hingeMoments<true, kKind>(block, law, begin, end, q, moment, energy)
-           : hingeMoments<false, kKind>(block, law, begin, end, q, moment, energy);
-  });
-}
-
 void hinges(const ElementBlock& block, const BlockLaw& law, const double* q, double* moment, double* energy) {
-  if (law.general) return hingesOfKind<kGeneral>(block, law, q, moment, energy);
-  if (law.plain.kind == 0) return hingesOfKind<0>(block, law, q, moment, energy);
-  BendingLaws::forEach([&]<class L, int kKind>(std::type_identity<L>, std::integral_constant<int, kKind>) {
-    if constexpr (L::history_size == 0)
-      if (law.plain.kind == kKind) hingesOfKind<kKind>(block, law, q, moment, energy);
+  forKindOf(law, [&](auto kind) {
+    forAll(Each::much, (block.groups + kChunk - 1) / kChunk, [&](int chunk) {
+      const int begin = chunk * kChunk, end = std::min(begin + kChunk, block.groups);
+      energy ? hingeMoments<true, decltype(kind)::value>(block, law, begin, end, q, moment, energy)
+             : hingeMoments<false, decltype(kind)::value>(block, law, begin, end, q, moment, energy);
+    });
   });
 }
 
@@ -219,8 +150,10 @@ void triangles(const ElementBlock& block, const BlockLaw& law, const double* q, 
 
 }  // namespace
 
+extern const BendingKernels GAMBESON_CONCAT(kBending_, GAMBESON_ISA);
 extern const TriangleKernels GAMBESON_CONCAT(kTriangles_, GAMBESON_ISA);
 const TriangleKernels GAMBESON_CONCAT(kTriangles_, GAMBESON_ISA){GAMBESON_STRING(GAMBESON_ISA), kLanes, hinges,
-                                                                 triangles, dampTriangles};
+                                                                 triangles, dampTriangles,
+                                                                 &GAMBESON_CONCAT(kBending_, GAMBESON_ISA)};
 
 }  // namespace gambeson

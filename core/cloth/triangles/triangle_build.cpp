@@ -49,7 +49,12 @@ Flat flatOfUv(const std::array<Vec2, 3>& uv, const std::string& name) {
 
 MembraneTriangle membraneOf(const Flat& f, const std::array<int, 3>& corner, int law) {
   const double det = f[0].x * f[1].y - f[0].y * f[1].x;
-  return {corner, {Vec2{f[1].y / det, -f[1].x / det}, Vec2{-f[0].y / det, f[0].x / det}}, 0.5 * det, law};
+  MembraneTriangle t;
+  t.corner = corner;
+  t.g = {Vec2{f[1].y / det, -f[1].x / det}, Vec2{-f[0].y / det, f[0].x / det}};
+  t.area_m2 = 0.5 * det;
+  t.law = law;
+  return t;
 }
 
 /// The direction tensor of the normal of an edge from corner a to corner b of a triangle, in the basis of its threads.
@@ -132,6 +137,8 @@ class Builder {
       flats_.push_back(g_.rest == MeshRest::flat ? flatOfUv(*uv, name) : flatOfShape(X, uv, name));
       const int fabric = first_fabric_ + (g_.fabric.empty() ? 0 : g_.fabric[t]);
       out_.membranes.push_back(membraneOf(flats_.back(), points, fabric));
+      out_.membranes.back().bending = g_.bending;
+      out_.membranes.back().bending_spring_N_per_m = g_.bending_spring_N_per_m;
       out_.triangles.push_back(points);
       out_.fabric_of_triangle.push_back(fabric);
       out_.draft.push_back(g_.draft.empty() ? std::array<Vec2, 3>{} : g_.draft[t]);

@@ -17,11 +17,13 @@ namespace {
 class TriangleTangent : public ClothTangent {
  public:
   explicit TriangleTangent(const TriangleCloth& cloth) : cloth_(cloth) {
-    std::vector<std::vector<int>> elements;
-    for (const MembraneTriangle& t : cloth.elements().triangles())
-      elements.emplace_back(t.corner.begin(), t.corner.end());
-    for (const FoldHinge& h : cloth.elements().hinges()) elements.emplace_back(h.corner.begin(), h.corner.end());
-    sparsity_ = blockSparsity(cloth.map(), elements);
+    std::vector<std::vector<int>> rows;
+    const TriangleElements& e = cloth.elements();
+    for (const MembraneTriangle& t : e.triangles()) rows.push_back(freePointsOf(cloth.map(), t.corner));
+    for (const FoldHinge& h : e.hinges()) rows.push_back(freePointsOf(cloth.map(), h.corner));
+    for (const BentTriangle& t : e.bending().triangles())
+      rows.push_back(e.bending().blocksOf(t, e.hinges(), cloth.map()));
+    sparsity_ = blockSparsity(cloth.map().T.column_count + cloth.innerBlocks(), rows);
   }
   const BlockMatrix& sparsity() const override { return sparsity_; }
   void assemble(const ClothState& state, ClothWork&, BlockMatrix& K, const ForceTerms& terms) const override {
@@ -33,7 +35,10 @@ class TriangleTangent : public ClothTangent {
       e.membraneStiffness(static_cast<int>(k), state.q, terms, blocks);
       addSymmetrised(cloth_.map(), e.triangles()[k].corner, blocks, K);
     }
+    e.bending().addStiffness(e.hinges(), cloth_.map(), state, terms, K);
+    if (terms.bending) e.springs().addStiffness(cloth_.map(), state.q, terms.definite, K);
     for (std::size_t k = 0; k < e.hinges().size(); ++k) {
+      if (!e.isHinge(k)) continue;
       e.hingeStiffness(static_cast<int>(k), state, terms, blocks);
       addSymmetrised(cloth_.map(), e.hinges()[k].corner, blocks, K);
     }
@@ -309,7 +314,11 @@ void TriangleCloth::dampingForce(const ClothState& state, const ClothForce& out,
 
 std::unique_ptr<ClothTangent> TriangleCloth::tangent() const { return std::make_unique<TriangleTangent>(*this); }
 
-/// The middle of the hinge's edge, in its first triangle.
+void TriangleCloth::innerMasses(std::span<double> mass) const {
+  std::copy(elements_.bending().innerMasses().begin(), elements_.bending().innerMasses().end(), mass.begin());
+}
+
+/// The middle of the hinge's edge, in its first triangle; or that of the triangle.
 std::vector<HistoryPlace> TriangleCloth::historyPlaces() const {
   std::vector<HistoryPlace> places;
   for (std::size_t k = 0; k < elements_.hinges().size(); ++k) {
@@ -324,6 +333,15 @@ std::vector<HistoryPlace> TriangleCloth::historyPlaces() const {
     own.place = {2.0 * (h.triangle[0] - firstTriangle(patch)) + half(1), half(2)};
     places.push_back(own);
   }
+  const BendingTriangles& bending = elements_.bending();
+  for (std::size_t k = 0; k < bending.triangles().size(); ++k) {
+    HistoryPlace own = bending.historyOf(k);
+    if (own.count == 0) continue;
+    const int triangle = bending.triangles()[k].triangle;
+    while (firstTriangle(own.patch + 1) <= triangle) ++own.patch;
+    own.place = {2.0 * (triangle - firstTriangle(own.patch)) + 1.0 / 3, 1.0 / 3};
+    places.push_back(own);
+  }
   return places;
 }
 
@@ -334,7 +352,7 @@ PointState TriangleCloth::stateAt(const ClothState& state, int patch, Vec2 uv) c
 }
 
 double TriangleCloth::bendAt(const ClothState& state, int patch, Vec2 uv) const {
-  const Vec3 k = elements_.curvatureOf(locate(patch, uv).triangle, state.q, true);
+  const Vec3 k = elements_.curvatureOf(locate(patch, uv).triangle, state, true);
   return std::sqrt(k.x * k.x + k.y * k.y + 0.5 * k.z * k.z);
 }
 
@@ -347,8 +365,7 @@ std::vector<std::pair<int, Vec2>> TriangleCloth::lawPlaces() const {
 }
 
 bool TriangleCloth::springsAtRest(double length_m) const {
-  const std::vector<FoldHinge>& hinges = elements_.hinges();
-  for (std::size_t k = 0; k < hinges.size(); ++k)
+  for (std::size_t k = 0; k < elements_.hinges().size(); ++k)
     if (std::abs(elements_.curvature(static_cast<int>(k), parts_.rest)) * length_m > 1e-6) return true;
   return false;
 }

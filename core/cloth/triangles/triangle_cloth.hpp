@@ -67,6 +67,9 @@ class TriangleCloth : public Cloth {
   void dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const override;
   std::size_t historySize() const override { return elements_.historySize(); }
   std::vector<HistoryPlace> historyPlaces() const override;
+  std::size_t innerValues() const override { return elements_.bending().innerMasses().size(); }
+  std::size_t innerRates() const override { return innerValues(); }
+  void innerMasses(std::span<double> mass) const override;
 
   std::unique_ptr<StressView> stress() const override;
   PointState stateAt(const ClothState& state, int patch, Vec2 uv) const override;

@@ -8,6 +8,7 @@
 
 #include "core/cloth/tensile.hpp"
 #include "core/cloth/triangles/hinge_angle.hpp"
+#include "core/cloth/triangles/lane_energies.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -47,14 +48,16 @@ std::pair<int, bool> blockOf(const FoldHinge& h) { return {h.law, h.seam}; }
 
 }  // namespace
 
-/// Packs the elements of each law, and of seams apart. `rest(element, real)`: their numbers, `number` of each; those of
-/// copies that fill up a group have no area. `placed(block, k, at)`: element k is at `at` of the block.
-template <class Element, class Rest, class Placed>
+/// Packs those elements of each law that are `among` these, and of seams apart. `rest(element, real)`: their numbers,
+/// `number` of each; those of copies that fill up a group have no area. `placed(block, k, at)`: element k is at `at` of
+/// the block.
+template <class Element, class Among, class Rest, class Placed>
 std::vector<ElementBlock> packed(const std::vector<Element>& elements, std::span<const BlockLaw> laws, int lanes,
-                                 int number, const Rest& rest, const Placed& placed) {
+                                 int number, const Among& among, const Rest& rest, const Placed& placed) {
   constexpr int corners = static_cast<int>(std::tuple_size_v<decltype(Element{}.corner)>);
   std::map<std::pair<int, bool>, std::vector<int>> kinds;
-  for (std::size_t k = 0; k < elements.size(); ++k) kinds[blockOf(elements[k])].push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    if (among(k)) kinds[blockOf(elements[k])].push_back(static_cast<int>(k));
   std::vector<ElementBlock> blocks;
   for (const auto& [kind, members] : kinds) {
     const int count = static_cast<int>(members.size());
@@ -82,11 +85,12 @@ std::vector<ElementBlock> packed(const std::vector<Element>& elements, std::span
 
 void TriangleElements::packHinges() {
   const int lanes = kernels_->lanes;
-  moment_.resize(hinges_.size());
+  moment_.assign(hinges_.size(), -1);
+  const auto among = [&](std::size_t k) { return isHinge(k); };
   const auto rest = [](const FoldHinge& h, bool real) {
     return std::vector{h.theta0, h.per_angle, real ? h.area_m2 : 0.0, h.d.x, h.d.y, h.d.z};
   };
-  hinge_blocks_ = packed(hinges_, laws_, lanes, kHingeDoubles, rest, [&](ElementBlock& block, std::size_t k, int at) {
+  const auto place = [&](ElementBlock& block, std::size_t k, int at) {
     const int size = block.law.use.historySize();
     if (at == 0) {
       block.first = moments_;
@@ -96,7 +100,8 @@ void TriangleElements::packHinges() {
     history_at_[k] = block.history_first + static_cast<long>(at / lanes) * size * lanes + at % lanes;
     moment_[k] = static_cast<int>(block.first) + at;
     moments_ = static_cast<int>(block.first) + block.groups * lanes;
-  });
+  };
+  hinge_blocks_ = packed(hinges_, laws_, lanes, kHingeDoubles, among, rest, place);
 }
 
 void TriangleElements::packTriangles() {
@@ -105,6 +110,7 @@ void TriangleElements::packTriangles() {
   std::vector<std::array<int, 3>> facing(triangles_.size(), {moments_, moments_, moments_});
   for (std::size_t k = 0; k < hinges_.size(); ++k)
     for (std::size_t side = 0; side < 2; ++side) {
+      if (moment_[k] < 0) continue;
       const auto t = static_cast<std::size_t>(hinges_[k].triangle[side]);
       const auto& corner = triangles_[t].corner;
       const auto at = std::find(corner.begin(), corner.end(), hinges_[k].corner[2 + side]) - corner.begin();
@@ -114,33 +120,34 @@ void TriangleElements::packTriangles() {
     return std::vector{t.g[0].x, t.g[0].y, t.g[1].x, t.g[1].y, real ? t.area_m2 : 0.0};
   };
   std::vector<long> slot(triangles_.size());  // of the first corner
-  triangle_blocks_ =
-      packed(triangles_, laws_, lanes, kMembraneDoubles, rest, [&](ElementBlock& block, std::size_t k, int at) {
-        if (at == 0) {
-          block.hinge.assign(static_cast<std::size_t>(3 * block.groups * lanes), moments_);
-          block.first = slot_count_;
-          slot_count_ += 9L * block.groups * lanes;
-          block.membrane = membraneOf(triangles_[k]);
-          if (block.membrane.elements == MembraneElements::springs)
-            block.springs.assign(static_cast<std::size_t>(kSpringDoubles * block.groups * lanes), 0.0);
-        }
-        if (!block.springs.empty()) {
-          const TriangleSprings s = springsOf(block.membrane, triangles_[k].g, triangles_[k].area_m2);
-          const double own[kSpringDoubles] = {s.rest_m[0],
-                                              s.rest_m[1],
-                                              s.rest_m[2],
-                                              s.stiffness_N_per_m[0],
-                                              s.stiffness_N_per_m[1],
-                                              s.stiffness_N_per_m[2],
-                                              s.damping_Ns_per_m};
-          for (int i = 0; i < kSpringDoubles; ++i)
-            block.springs[static_cast<std::size_t>((at / lanes * kSpringDoubles + i) * lanes + at % lanes)] = own[i];
-        }
-        const long first = 3L * (at / lanes) * lanes + at % lanes;
-        for (std::size_t i = 0; i < 3; ++i)
-          block.hinge[static_cast<std::size_t>(first) + i * static_cast<std::size_t>(lanes)] = facing[k][i];
-        slot[k] = block.first + 9L * (at / lanes) * lanes + at % lanes;
-      });
+  const auto all = [](std::size_t) { return true; };
+  const auto place = [&](ElementBlock& block, std::size_t k, int at) {
+    if (at == 0) {
+      block.hinge.assign(static_cast<std::size_t>(3 * block.groups * lanes), moments_);
+      block.first = slot_count_;
+      slot_count_ += 9L * block.groups * lanes;
+      block.membrane = membraneOf(triangles_[k]);
+      if (block.membrane.elements == MembraneElements::springs)
+        block.springs.assign(static_cast<std::size_t>(kSpringDoubles * block.groups * lanes), 0.0);
+    }
+    if (!block.springs.empty()) {
+      const TriangleSprings s = springsOf(block.membrane, triangles_[k].g, triangles_[k].area_m2);
+      const double own[kSpringDoubles] = {s.rest_m[0],
+                                          s.rest_m[1],
+                                          s.rest_m[2],
+                                          s.stiffness_N_per_m[0],
+                                          s.stiffness_N_per_m[1],
+                                          s.stiffness_N_per_m[2],
+                                          s.damping_Ns_per_m};
+      for (int i = 0; i < kSpringDoubles; ++i)
+        block.springs[static_cast<std::size_t>((at / lanes * kSpringDoubles + i) * lanes + at % lanes)] = own[i];
+    }
+    const long first = 3L * (at / lanes) * lanes + at % lanes;
+    for (std::size_t i = 0; i < 3; ++i)
+      block.hinge[static_cast<std::size_t>(first) + i * static_cast<std::size_t>(lanes)] = facing[k][i];
+    slot[k] = block.first + 9L * (at / lanes) * lanes + at % lanes;
+  };
+  triangle_blocks_ = packed(triangles_, laws_, lanes, kMembraneDoubles, all, rest, place);
   for (std::size_t k = 0; k < triangles_.size(); ++k)
     for (int i = 0; i < 3; ++i)
       gather_.add(triangles_[k].corner[static_cast<std::size_t>(i)], slot[k] + 3L * i * lanes, lanes);
@@ -158,7 +165,12 @@ TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> tri
   }
   history_at_.resize(hinges_.size());
   packHinges();
+  bending_ = BendingTriangles(triangles_, hinges_, laws_, fabrics, kernels, moments_, history_);
+  moments_ += bending_.moments();
+  for (std::size_t k = 0; k < hinges_.size(); ++k)
+    if (moment_[k] < 0) moment_[k] = bending_.momentOf(k);
   packTriangles();
+  packSprings();
   gather_.close();
   hinges_of_.assign(triangles_.size(), {-1, -1, -1});
   for (std::size_t k = 0; k < hinges_.size(); ++k)
@@ -167,11 +179,28 @@ TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> tri
           static_cast<int>(k);
 }
 
+void TriangleElements::packSprings() {
+  std::vector<CrossedSpring> springs;
+  for (const FoldHinge& h : hinges_) {
+    if (bendingOf(h) != BendingElements::springs) continue;
+    const BlockLaw& law = laws_[static_cast<std::size_t>(h.law)];
+    if (law.use.remembers())
+      throw InputError({"", 0, "bending_elements"},
+                       "springs know no law that remembers; allowed with it: midedge, triangle, hinge");
+    const MembraneTriangle& first = triangles_[static_cast<std::size_t>(h.triangle[0])];
+    springs.push_back(crossedSpring(h, first, triangles_[static_cast<std::size_t>(h.triangle[1])], law.point.section.D,
+                                    first.bending_spring_N_per_m));
+  }
+  springs_ = CrossedSprings(std::move(springs), *kernels_, slot_count_, gather_);
+  slot_count_ += springs_.slots();
+}
+
 BlockLaw TriangleElements::lawOf(int index, const ForceTerms& terms) const {
   return withTerms(laws_[static_cast<std::size_t>(index)], terms);
 }
 
 HistoryPlace TriangleElements::historyOf(std::size_t hinge) const {
+  if (!isHinge(hinge)) return {};
   const int size = laws_[static_cast<std::size_t>(hinges_[hinge].law)].use.historySize();
   return {0,
           {},
@@ -203,21 +232,22 @@ double TriangleElements::curvature(int hinge, std::span<const Vec3> q) const {
   return h.per_angle * (foldAngle(cornersOf(h, q), nullptr) - h.theta0);
 }
 
-Vec3 TriangleElements::curvatureOf(int triangle, std::span<const Vec3> q, bool rest) const {
+Vec3 TriangleElements::curvatureOf(int triangle, const ClothState& state, bool rest) const {
+  if (const int bent = bending_.bentOf(triangle); bent >= 0) {
+    const BentTriangle& t = bending_.triangles()[static_cast<std::size_t>(bent)];
+    return bending_.changeOf(t, hinges_, state) + (rest ? t.rest : Vec3{});
+  }
   Vec3 sum{};
   for (const int k : hinges_of_[static_cast<std::size_t>(triangle)]) {
     if (k < 0) continue;
     const FoldHinge& h = hinges_[static_cast<std::size_t>(k)];
     const double length = h.per_angle * h.area_m2;
-    sum += (0.5 * length * (curvature(k, q) / h.per_angle + (rest ? h.theta0 : 0))) * h.d;
+    sum += (0.5 * length * (curvature(k, state.q) / h.per_angle + (rest ? h.theta0 : 0))) * h.d;
   }
   return sum / triangles_[static_cast<std::size_t>(triangle)].area_m2;
 }
 
-PointState TriangleElements::stateOf(int triangle, const ClothState& state) const {
-  PointState s{strain(triangle, state.q), curvatureOf(triangle, state.q, false), {}, {}};
-  const double e[3] = {s.strain.x, s.strain.y, s.strain.z},
-               k[3] = {s.curvature_change.x, s.curvature_change.y, s.curvature_change.z};
+std::array<double, kMostHistory> TriangleElements::meanMemory(int triangle, const ClothState& state) const {
   std::array<double, kMostHistory> mean{};
   double area = 0;
   for (const int h : hinges_of_[static_cast<std::size_t>(triangle)]) {
@@ -230,10 +260,20 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
     for (std::size_t i = 0; i < size; ++i) mean[i] += part * memory.before(static_cast<int>(i));
   }
   for (double& m : mean) m /= area > 0 ? area : 1;
+  return mean;
+}
+
+PointState TriangleElements::stateOf(int triangle, const ClothState& state) const {
+  PointState s{strain(triangle, state.q), curvatureOf(triangle, state, false), {}, {}};
+  const double e[3] = {s.strain.x, s.strain.y, s.strain.z},
+               k[3] = {s.curvature_change.x, s.curvature_change.y, s.curvature_change.z};
+  const int bent = bending_.bentOf(triangle);
+  const std::array<double, kMostHistory> mean = meanMemory(triangle, state);
+  History<double> memory =
+      bent < 0 ? History<double>{mean.data(), nullptr} : bending_.memoryOf(static_cast<std::size_t>(bent), state);
+  memory.elapsed_s = state.elapsed_s;
   const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
   const BlockLaw& law = laws_[static_cast<std::size_t>(t.law)];
-  History<double> memory{mean.data(), nullptr};
-  memory.elapsed_s = state.elapsed_s;
   PointAnswer<double> r = resultants(law.point, e, k, memory);
   if (membraneOf(t).elements != MembraneElements::continuum) stretch(t, law, s.strain, r.membrane);
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
@@ -244,44 +284,35 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
 
 void TriangleElements::force(const ClothState& state, const ClothForce& out, ClothWork& work,
                              const ForceTerms& terms) const {
-  // Behind the slots the hinges' moments, and a last one that stays 0.
-  work.slots.resize(static_cast<std::size_t>(slot_count_ + moments_ + 1));
+  // Behind the slots the edges' moments, some that stay 0, and what bent triangles work with.
+  const int lanes = kernels_->lanes;
+  const std::size_t list = static_cast<std::size_t>(slot_count_ + moments_ + lanes);
+  work.slots.resize(list + bending_.scratchSize());
   double* const moments = work.slots.data() + slot_count_;
-  moments[moments_] = 0;
+  std::fill_n(moments + moments_, lanes, 0.0);
   if (out.energy) *out.energy = {};
   const double* q = reinterpret_cast<const double*>(state.q.data());
-  double* energies = nullptr;
-  const auto startEnergies = [&](const ElementBlock& block, BlockLaw& law) {
-    if (!out.energy) return;
-    const auto lanes = static_cast<std::size_t>(block.groups * kernels_->lanes);
-    work.lane_energy.assign(lanes, 0.0);
-    energies = work.lane_energy.data();
-    if (law.remembers()) work.lane_lost.assign(lanes, 0.0), law.lost = work.lane_lost.data();
-  };
-  const auto addEnergies = [&](const BlockLaw& law) {
-    if (!out.energy) return;
-    for (double e : work.lane_energy) out.energy->stored += e;
-    if (law.lost)
-      for (double e : work.lane_lost) out.energy->lost += e;
-  };
+  LaneEnergies energies(work, out.energy);
   for (const ElementBlock& block : hinge_blocks_) {
     if (!(block.seam ? terms.seams : terms.bending)) {
-      std::fill_n(moments + block.first, block.groups * kernels_->lanes, 0.0);
+      std::fill_n(moments + block.first, block.groups * lanes, 0.0);
       continue;
     }
     ForceTerms of_hinges = terms;
     of_hinges.bending = true;
     BlockLaw law = withHistory(withTerms(block.law, of_hinges), block.history_first, state, out);
-    startEnergies(block, law);
-    kernels_->hinges(block, law, q, moments + block.first, energies);
-    addEnergies(law);
+    double* const energy = energies.start(block.groups * lanes, law);
+    kernels_->hinges(block, law, q, moments + block.first, energy);
+    energies.add(law);
   }
+  bending_.force(state, out, terms, std::span(work.slots).subspan(list), moments, work);
+  springs_.force(state, out, terms.bending, work.slots.data(), work);
   for (const ElementBlock& block : triangle_blocks_) {
     BlockLaw law = withTerms(block.law, terms);
     law.use.kinds = 0;  // the membrane alone
-    startEnergies(block, law);
-    kernels_->triangles(block, law, q, moments, work.slots.data() + block.first, energies);
-    addEnergies(law);
+    double* const energy = energies.start(block.groups * lanes, law);
+    kernels_->triangles(block, law, q, moments, work.slots.data() + block.first, energy);
+    energies.add(law);
   }
   gather_.negativeSum(work.slots.data(), out.points);
 }
@@ -396,6 +427,7 @@ void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const 
                                       std::vector<std::array<double, 9>>& blocks) const {
   const FoldHinge& h = hinges_[static_cast<std::size_t>(hinge)];
   blocks.assign(16, {});
+  if (!isHinge(static_cast<std::size_t>(hinge))) return;
   if (!(h.seam ? terms.seams : terms.bending)) return;
   const HingePoints x = cornersOf(h, state.q);
   HingePoints gradient;

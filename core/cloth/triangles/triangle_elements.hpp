@@ -1,5 +1,5 @@
 #pragma once
-/// The elements of a cloth of triangles: membranes and hinges, their force, energy and stiffness.
+/// The elements of a cloth of triangles: membranes and what bends, their force, energy and stiffness.
 
 #include <array>
 #include <span>
@@ -8,33 +8,15 @@
 #include "core/cloth/cloth_state.hpp"
 #include "core/cloth/slot_gather.hpp"
 #include "core/cloth/stress.hpp"
+#include "core/cloth/triangles/bending_triangles.hpp"
+#include "core/cloth/triangles/crossed_springs.hpp"
+#include "core/cloth/triangles/rest_elements.hpp"
 #include "core/cloth/triangles/triangle_kernel.hpp"
 #include "core/cloth/triangles/triangle_membrane.hpp"
 #include "core/material/fabric.hpp"
 #include "core/math/vec.hpp"
 
 namespace gambeson {
-
-/// A triangle at rest.
-struct MembraneTriangle {
-  std::array<int, 3> corner{};
-  /// d(barycentric)/d(weft, warp): F D_weft = (x1 - x0) g[0].x + (x2 - x0) g[1].x, F D_warp with y [1/m].
-  std::array<Vec2, 2> g{};
-  double area_m2 = 0;
-  int law = 0;
-};
-
-/// A hinge between two triangles at rest; see TriangleCloth.
-struct FoldHinge {
-  std::array<int, 4> corner{};  ///< as foldAngle has them
-  std::array<int, 2> triangle{};
-  double theta0 = 0;     ///< [rad]
-  double per_angle = 0;  ///< kappa over theta - theta0 [1/m]
-  double area_m2 = 0;
-  Vec3 d;  ///< (n1^2, n2^2, 2 n1 n2)
-  int law = 0;
-  bool seam = false;  ///< between two patches
-};
 
 class TriangleElements {
  public:
@@ -48,8 +30,10 @@ class TriangleElements {
   const std::vector<MembraneTriangle>& triangles() const { return triangles_; }
   const std::vector<FoldHinge>& hinges() const { return hinges_; }
   const char* kernels() const { return kernels_->name; }
-  /// Doubles of the history: those of each hinge whose law remembers, lanes side by side.
-  std::size_t historySize() const { return static_cast<std::size_t>(history_); }
+  const BendingTriangles& bending() const { return bending_; }
+  const CrossedSprings& springs() const { return springs_; }
+  /// Doubles of the history: those of each hinge and bent triangle whose law remembers, lanes side by side.
+  std::size_t historySize() const { return static_cast<std::size_t>(history_ + bending_.historySize()); }
   /// Of the numbers of a hinge: where they stand, without its place.
   HistoryPlace historyOf(std::size_t hinge) const;
 
@@ -62,21 +46,24 @@ class TriangleElements {
                          std::vector<std::array<double, 9>>& blocks) const;
   /// - df/dv of a triangle's damping, in the same order.
   void membraneDamping(int triangle, std::span<const Vec3> q, std::vector<std::array<double, 9>>& blocks) const;
+  /// Whether an edge bends by itself.
+  bool isHinge(std::size_t hinge) const { return bendingOf(hinges_[hinge]) == BendingElements::hinge; }
   /// d2E/dq2 of a hinge: blocks[4 I + J] of its corners, as above.
   void hingeStiffness(int hinge, const ClothState& state, const ForceTerms& terms,
                       std::vector<std::array<double, 9>>& blocks) const;
   /// Strain (E11, E22, 2 E12) of a triangle, and F D along weft and warp.
   Vec3 strain(int triangle, std::span<const Vec3> q, Vec3* weft = nullptr, Vec3* warp = nullptr) const;
   double curvature(int hinge, std::span<const Vec3> q) const;  ///< kappa of a hinge [1/m]
-  /// (k11, k22, 2 k12) of a triangle [1/m]: half of what its hinges turn over their lengths, over its area. `rest`:
-  /// with the angles at rest, else what is beyond them.
-  Vec3 curvatureOf(int triangle, std::span<const Vec3> q, bool rest) const;
-  /// All that the laws see and say in a triangle; they remember there the mean of what its hinges do.
+  /// (k11, k22, 2 k12) of a triangle [1/m]: its own tensor, or half of what its hinges turn over their lengths, over
+  /// its area. `rest`: with the angles at rest, else what is beyond them.
+  Vec3 curvatureOf(int triangle, const ClothState& state, bool rest) const;
+  /// All that the laws see and say in a triangle; where its hinges remember, the mean of what they do.
   PointState stateOf(int triangle, const ClothState& state) const;
 
  private:
   void packHinges();
   void packTriangles();
+  void packSprings();
   BlockLaw lawOf(int index, const ForceTerms& terms) const;
   const TriangleMembrane& membraneOf(const MembraneTriangle& t) const {
     return membranes_[static_cast<std::size_t>(t.law)];
@@ -84,6 +71,11 @@ class TriangleElements {
   /// n of a triangle by its membrane, and its slope.
   void stretch(const MembraneTriangle& triangle, const BlockLaw& law, const Vec3& strain,
                Answer<double, 3>& answer) const;
+  BendingElements bendingOf(const FoldHinge& h) const {
+    return triangles_[static_cast<std::size_t>(h.triangle[0])].bending;
+  }
+  /// The mean of what a triangle's hinges remember.
+  std::array<double, kMostHistory> meanMemory(int triangle, const ClothState& state) const;
   /// What a hinge remembers; null where it remembers nothing, or the cloth is new.
   History<double> memoryOf(std::size_t hinge, const ClothState& state) const;
 
@@ -94,9 +86,11 @@ class TriangleElements {
   std::vector<std::array<int, 3>> hinges_of_;  ///< of each triangle; -1 where it has fewer
   const TriangleKernels* kernels_ = nullptr;
   std::vector<ElementBlock> triangle_blocks_, hinge_blocks_;
+  BendingTriangles bending_;
+  CrossedSprings springs_;
   std::vector<long> history_at_;  ///< of each hinge's first number
-  std::vector<int> moment_;       ///< of each hinge: where its moment is
-  int moments_ = 0;               ///< and behind them one that stays 0
+  std::vector<int> moment_;       ///< of each edge: where its moment is; -1: none
+  int moments_ = 0;               ///< and behind them some that stay 0
   long history_ = 0, slot_count_ = 0;
   SlotGather gather_;
 };

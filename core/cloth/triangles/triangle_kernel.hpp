@@ -48,12 +48,61 @@ using TriangleKernel = void (*)(const ElementBlock& block, const BlockLaw& law, 
 using DampingKernel = void (*)(const ElementBlock& block, const double* q, const double* v, double* slots,
                                double* power);
 
+/// Edges of triangles that bend by their curvature tensor (BendingTriangles), all of one kind: with a rotation of their
+/// normal, which the first triangle adds to half of the fold and the second takes from it; without; or with one
+/// triangle alone and a rotation.
+struct EdgeBlock {
+  enum class Kind { turning, still, border };
+  Kind kind = Kind::still;
+  int groups = 0, count = 0;   ///< the last group is filled up with copies
+  AlignedVector<int> corners;  ///< [group][4][lane] as foldAngle has them; empty at borders
+  AlignedVector<int> couple;   ///< [group][side][lane]: where its triangles write theirs
+  long first_angle = 0;        ///< of its angles, [group][side][lane]; where the normal is still, one for both
+  long first_moment = 0;       ///< among all moments; of borders none
+  long first_turn = 0;         ///< among the inner unknowns
+
+  int sides() const { return kind == Kind::border ? 1 : 2; }
+  int angles() const { return kind == Kind::turning ? 2 : 1; }  ///< of an edge
+};
+
+/// Triangles that bend by their curvature tensor, under one law. A last group is filled up with copies without area.
+struct BendingBlock {
+  int groups = 0;
+  BlockLaw law;
+  AlignedVector<int> angle;    ///< [group][edge][lane]: of its edges that face corner 0, 1, 2
+  AlignedVector<double> rest;  ///< [group][kBendingDoubles][lane]
+  long history_first = 0;      ///< as BlockLaw has it
+  long first_couple = 0;       ///< [group][edge][lane]
+};
+/// rest: curvature (k11, k22, 2 k12) at rest, area, and curvature per angle of each edge (BentTriangle).
+constexpr int kBendingDoubles = 13;
+
+/// Springs between two points each. A last group is filled up with copies without stiffness.
+struct SpringBlock {
+  int groups = 0;
+  AlignedVector<int> corners;  ///< [group][2][lane]
+  AlignedVector<double> rest;  ///< [group][rest length, stiffness][lane]
+};
+
+struct BendingKernels {
+  /// The angles of a block's edges from points `q` and its inner unknowns `turn` (null: zeros), and 1/|e| of each.
+  void (*angles)(const EdgeBlock& block, const double* q, const double* turn, double* angle, double* per_length);
+  /// dE/dangle of each triangle's edges [N m], from all angles; energies as those of hinges.
+  void (*bend)(const BendingBlock& block, const BlockLaw& law, const double* angle, double* couple, double* energy);
+  /// From all couples: the moment of each edge of a block over its length [N], in the place of 1/|e|, and minus what
+  /// acts on its inner unknowns [N m] (null: not asked).
+  void (*moments)(const EdgeBlock& block, const double* couple, double* moment, double* turn_force);
+  /// dE/dq of the springs' points, [group][2][3][lane]; energies as those of hinges.
+  void (*springs)(const SpringBlock& block, const double* q, double* slots, double* energy);
+};
+
 struct TriangleKernels {
   const char* name;  ///< "sse2", "avx2", "avx512"
   int lanes;
   HingeKernel hinges;
   TriangleKernel triangles;
   DampingKernel damping;
+  const BendingKernels* bending;
 };
 
 /// All sets that this machine runs, widest first.

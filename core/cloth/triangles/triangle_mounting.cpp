@@ -17,7 +17,9 @@ namespace {
 struct Piece {
   int a = 0, b = 0, c = 0;
   double foot = 0, length_m = 0, height_m = 0;
-  Vec3 normal;  ///< of the triangle at rest
+  Vec3 normal;               ///< of the triangle at rest
+  int turn = -1;             ///< inner unknown of the edge; -1: none
+  bool along_border = true;  ///< a to b as the triangle's border runs
 };
 
 class TriangleMounting : public Mounting {
@@ -94,7 +96,12 @@ class TriangleMounting : public Mounting {
 
   std::vector<LinearConstraint> clampEdge(const PatchEdge& edge) const override {
     std::vector<LinearConstraint> out;
-    for (const Piece& piece : pieces(edge)) keepAcross("clamp of " + edgeName(edge), piece, piece.normal, out);
+    const std::string name = "clamp of " + edgeName(edge);
+    for (const Piece& piece : pieces(edge))
+      if (piece.turn < 0)
+        keepAcross(name, piece, piece.normal, out);
+      else
+        keepNormal(name, piece, out);
     return out;
   }
 
@@ -116,7 +123,10 @@ class TriangleMounting : public Mounting {
     const Vec3 e = std::abs(normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 one = normalized(e - dot(e, normal) * normal), two = cross(normal, one);
     for (const Vec3& d : {one, two})
-      for (const Piece& piece : all) keepAcross(name, piece, d, out);
+      for (const Piece& piece : all)
+        if (piece.turn < 0) keepAcross(name, piece, d, out);
+    for (const Piece& piece : all)
+      if (piece.turn >= 0) keepNormal(name, piece, out);
     return out;
   }
 
@@ -182,14 +192,18 @@ class TriangleMounting : public Mounting {
 
   std::vector<FollowingLoad> edgeMoment(const PatchEdge& edge, double moment_N) const override {
     std::vector<FollowingLoad> loads;
-    for (const Piece& p : pieces(edge))
-      loads.push_back({0,
-                       false,
-                       {p.a, p.b, p.c},
-                       {{{},
-                         {-1 / p.length_m, 1 / p.length_m, 0},
-                         {-(1 - p.foot) / p.height_m, -p.foot / p.height_m, 1 / p.height_m},
-                         moment_N * p.length_m}}});
+    for (const Piece& p : pieces(edge)) {
+      FollowingLoad load{0,
+                         false,
+                         {p.a, p.b, p.c},
+                         {{{},
+                           {-1 / p.length_m, 1 / p.length_m, 0},
+                           {-(1 - p.foot) / p.height_m, -p.foot / p.height_m, 1 / p.height_m},
+                           moment_N * p.length_m}}};
+      // It turns the edge's normal: the triangle's less what the unknown takes from it.
+      if (p.turn >= 0) load.inner = {{p.turn, (p.along_border ? -1 : 1) * moment_N * p.length_m}};
+      loads.push_back(std::move(load));
+    }
     return loads;
   }
 
@@ -206,12 +220,19 @@ class TriangleMounting : public Mounting {
     out.push_back(std::move(c));
   }
 
+  /// phi = n . (u_c - u of its foot)/h: what the triangle turns about the edge, the edge's normal turns back.
+  static void keepNormal(const std::string& name, const Piece& p, std::vector<LinearConstraint>& out) {
+    const Vec3 d = -1 / p.height_m * p.normal;
+    keepAcross(name, p, d, out);
+    out.back().inner = {{p.turn, 1}};
+  }
+
   std::vector<Piece> pieces(const PatchEdge& edge) const {
     std::vector<int> points = c_.sidePoints(edge);
     if (edge.reversed) std::reverse(points.begin(), points.end());
     std::vector<Piece> out;
     for (std::size_t i = 1; i < points.size(); ++i) {
-      Piece p{points[i - 1], points[i], -1, 0, 0, 0, {}};
+      Piece p{points[i - 1], points[i], -1, 0, 0, 0, {}, -1, true};
       for (int t = c_.firstTriangle(edge.patch); t < c_.firstTriangle(edge.patch + 1) && p.c < 0; ++t) {
         const auto& corner = c_.triangles()[static_cast<std::size_t>(t)];
         const auto has = [&](int point) { return std::find(corner.begin(), corner.end(), point) != corner.end(); };
@@ -224,10 +245,22 @@ class TriangleMounting : public Mounting {
         p.foot = dot(up, along) / norm2(along);
         p.height_m = norm(up - p.foot * along);
         p.normal = normalized(cross(at(corner[1]) - at(corner[0]), at(corner[2]) - at(corner[0])));
+        p.turn = turnOf(t, p.c);
+        p.along_border = dot(cross(along, up), p.normal) > 0;
       }
       out.push_back(p);
     }
     return out;
+  }
+
+  /// The inner unknown of the border edge that faces a point of a triangle; -1: none.
+  int turnOf(int triangle, int point) const {
+    const BendingTriangles& bending = c_.elements().bending();
+    const int bent = bending.bentOf(triangle);
+    if (bent < 0) return -1;
+    const BentTriangle& t = bending.triangles()[static_cast<std::size_t>(bent)];
+    const auto edge = static_cast<std::size_t>(std::find(t.corner.begin(), t.corner.end(), point) - t.corner.begin());
+    return t.hinge[edge] < 0 ? t.turn[edge] : -1;
   }
 
   const TriangleCloth& c_;
