@@ -19,6 +19,7 @@ std::string inWords(const FrictionLaw& law) {
         fmt::format(", beside {} Pa at 1 m/s (power {})", formatNumber(law.viscosity), formatNumber(law.viscous_power));
   if (law.goesWithPressure())
     text += fmt::format(", times (p / {} Pa)^{}", formatNumber(law.pressure_Pa), formatNumber(law.pressure_power - 1));
+  if (law.goesWithDirection()) text += fmt::format(", times {} along the warp", formatNumber(law.along_warp));
   return text;
 }
 
