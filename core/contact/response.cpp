@@ -178,8 +178,8 @@ void startFriction(const Problem& p, std::span<const RowSlip> slip, std::span<co
     if (law.isCoulomb() || slip.empty()) continue;
     w.any_slips = true;
     w.slip[i] = slip[i];
-    const Vec3& n = row.contact.normal;
-    setFriction(law, factorOf(law, dot(warm[i], n) / p.dt, warm[i], n, w.slip[i]), p.dt, w.slip[i]);
+    const Vec3& normal = row.contact.normal;
+    setFriction(law, factorOf(law, dot(warm[i], normal) / p.dt, warm[i], normal, w.slip[i]), p.dt, w.slip[i]);
   }
 }
 
