@@ -13,11 +13,12 @@ std::string worn(const std::string& keys) {
 }
 
 TEST(MembraneKeys, WornCasesRefuseWhatHasNoMeaning) {
-  const std::string springs = R"(, "membrane_elements": "springs", "spring_stiffness": "500 N/m", "stretch_damping": 0.1)";
+  const std::string springs =
+      R"(, "membrane_elements": "springs", "spring_stiffness": "500 N/m", "stretch_damping": 0.1)";
   expectRefused(
       worn(springs),
       {{"\"springs\", \"spring", "\"spring\", \"spring", 6, "garment.membrane_elements",
-        "allowed: continuum, springs, baraff_witkin"},
+        "allowed: continuum, springs or baraff_witkin"},
        {"\"model\": \"triangles\"", "\"model\": \"nurbs\"", 6, "garment.membrane_elements", "is for \"model\""},
        {"\"springs\", \"spring", "\"continuum\", \"spring", 6, "garment.spring_stiffness", "\"springs\""},
        {"\"springs\", \"spring", "\"baraff_witkin\", \"spring", 6, "garment.spring_stiffness", "\"springs\""},
@@ -25,23 +26,26 @@ TEST(MembraneKeys, WornCasesRefuseWhatHasNoMeaning) {
        {"\"spring_stiffness\"", "\"shear_damping\"", 6, "garment.shear_damping", ""},
        {"\"500 N/m\"", "0", 6, "garment.spring_stiffness", "> 0"},
        {"\"500 N/m\"", "\"500 N/m^2\"", 6, "garment.spring_stiffness", ""},
-       {"\"500 N/m\"", "1e9", 6, "garment.spring_stiffness", "1e+07"},
-       {"\"stretch_damping\": 0.1", "\"stretch_damping\": -0.1", 6, "garment.stretch_damping", "> 0"},
-       {"\"thickness\": \"1 mm\",", "\"thickness\": \"1 mm\", \"tension_field\": true, \"jam_area\": 0,", 6,
-        "garment.membrane_elements", "tension_field"}});
+       {"\"500 N/m\"", "1e9", 6, "garment.spring_stiffness", "<= 10000000"},
+       {"\"stretch_damping\": 0.1", "\"stretch_damping\": -0.1", 6, "garment.stretch_damping", "> 0"}});
 }
 
 TEST(MembraneKeys, ACaseSaysThemAgain) {
   const Folder folder;
   const Case plain = readCase(folder.write("plain.json", worn("")));
   EXPECT_EQ(plain.garments[0].cloth.membrane, MembraneModel{});
-  const Case threads = readCase(folder.write(
-      "threads.json", worn(R"(, "membrane_elements": "baraff_witkin", "weft_stiffness": "1 kN/m", "shear_damping": 0.2)")));
+  const std::string keys =
+      R"(, "membrane_elements": "baraff_witkin", "weft_stiffness": "1 kN/m", "shear_damping": 0.2)";
+  const Case threads = readCase(folder.write("threads.json", worn(keys)));
   const MembraneModel& m = threads.garments[0].cloth.membrane;
   EXPECT_EQ(m.elements, MembraneElements::baraff_witkin);
   EXPECT_EQ(m.weft_N_per_m, 1000);
   EXPECT_EQ(m.warp_N_per_m, 0);
   EXPECT_EQ(m.shear_damping_Ns_per_m, 0.2);
+  const Case again = readRecordedCase(folder.write("again.json", writeCase(threads)));
+  EXPECT_EQ(again.garments[0].cloth.membrane, m);
+  for (const char* key : {"membrane_elements", "spring_stiffness", "weft_stiffness", "stretch_damping"})
+    EXPECT_EQ(writeCase(plain).find(key), std::string::npos) << key;
 }
 
 constexpr const char* sheet = R"json({
