@@ -1,5 +1,7 @@
 #include "cases/cloth/make_cloth.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
@@ -70,6 +72,29 @@ std::string inWords(const ClothModel& model) {
         case MembraneElements::baraff_witkin:
           return "Triangles with threads along weft and warp (Baraff and Witkin) that bend at their edges.";
       }
+  }
+  return {};
+}
+
+std::string inWords(const MembraneModel& m) {
+  const auto given = [](double number, const char* otherwise) {
+    return number > 0 ? fmt::format("{:g} N/m", number) : std::string(otherwise);
+  };
+  const bool damped = m.stretch_damping_Ns_per_m > 0 || m.shear_damping_Ns_per_m > 0;
+  switch (m.elements) {
+    case MembraneElements::continuum:
+      return {};
+    case MembraneElements::springs:
+      return fmt::format(
+          "In place of the fabric's membrane springs lie along the edges of the triangles (Wong 2014, eq. 3.1), of "
+          "{}{}. Their Poisson's ratio is 1/3, and shear follows from them.",
+          given(m.spring_N_per_m, "the fabric's modulus along them (Van Gelder 1998)"), damped ? ", damped" : "");
+    case MembraneElements::baraff_witkin:
+      return fmt::format(
+          "In place of the fabric's membrane threads along weft ({}) and warp ({}) are stretched, and the cosine "
+          "between them is resisted ({}){} (Wong 2014, eq. 3.3 to 3.8). Their Poisson's ratio is 0.",
+          given(m.weft_N_per_m, "the fabric's"), given(m.warp_N_per_m, "the fabric's"),
+          given(m.shear_N_per_m, "the fabric's"), damped ? ", with damping" : "");
   }
   return {};
 }

@@ -34,7 +34,7 @@ namespace gambeson {
 
 /// Columns of the table "steps" after start_s and end_s.
 const std::vector<std::string>& stepColumns();
-/// Behind these where the cloth remembers: what its laws have lost in the window.
+/// Behind these where the cloth remembers or damps: what it has lost in the window.
 constexpr const char* lost_column = "lost_energy_J";
 
 /// What stands before the parts of a column's name in the tables "regions" and "supports": of each the name, and of
