@@ -1,5 +1,7 @@
 #include "cases/cloth/make_cloth.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
@@ -91,6 +93,29 @@ std::string inWords(const ClothModel& model) {
       return "Kirchhoff-Love sheet: thin, normals stay normal; strains of the reference surface are Green-Lagrange's.";
     case ClothKind::triangles:
       return membraneInWords(model.membrane.elements) + bendingInWords(model.bending);
+  }
+  return {};
+}
+
+std::string inWords(const MembraneModel& m) {
+  const auto given = [](double number, const char* otherwise) {
+    return number > 0 ? fmt::format("{:g} N/m", number) : std::string(otherwise);
+  };
+  const bool damped = m.stretch_damping_Ns_per_m > 0 || m.shear_damping_Ns_per_m > 0;
+  switch (m.elements) {
+    case MembraneElements::continuum:
+      return {};
+    case MembraneElements::springs:
+      return fmt::format(
+          "In place of the fabric's membrane springs lie along the edges of the triangles (Wong 2014, eq. 3.1), of "
+          "{}{}. Their Poisson's ratio is 1/3, and shear follows from them.",
+          given(m.spring_N_per_m, "the fabric's modulus along them (Van Gelder 1998)"), damped ? ", damped" : "");
+    case MembraneElements::baraff_witkin:
+      return fmt::format(
+          "In place of the fabric's membrane threads along weft ({}) and warp ({}) are stretched, and the cosine "
+          "between them is resisted ({}){} (Wong 2014, eq. 3.3 to 3.8). Their Poisson's ratio is 0.",
+          given(m.weft_N_per_m, "the fabric's"), given(m.warp_N_per_m, "the fabric's"),
+          given(m.shear_N_per_m, "the fabric's"), damped ? ", with damping" : "");
   }
   return {};
 }

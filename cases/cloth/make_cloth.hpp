@@ -33,4 +33,7 @@ int samplesPerCell(const ClothModel& model, int asked);
 /// What it assumes, for pages.
 std::string inWords(const ClothModel& model);
 
+/// What takes the place of the fabric's own membrane, for pages; empty where nothing does.
+std::string inWords(const MembraneModel& membrane);
+
 }  // namespace gambeson

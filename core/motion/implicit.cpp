@@ -5,8 +5,8 @@
 ///
 /// am = af = 0 is Newmark; am = (2 r - 1)/(r + 1), af = r/(r + 1), gamma = 1/2 - am + af, beta = (1 - am + af)^2/4 with
 /// r the spectral radius at infinite frequency. Both are of second order (Newmark for gamma = 1/2). The stiffness part
-/// of Rayleigh's damping takes K where the step starts: of second order where K is constant, else the damping itself is
-/// of first order.
+/// of Rayleigh's damping takes K where the step starts, and the cloth's own damping its D: of second order where these
+/// are constant, else the damping itself is of first order.
 
 #include "core/motion/implicit.hpp"
 

@@ -34,7 +34,7 @@ namespace gambeson {
 
 /// Columns of the table "steps" after start_s and end_s.
 const std::vector<std::string>& stepColumns();
-/// Behind these where the cloth remembers: what its laws have lost in the window.
+/// Behind these where the cloth remembers or damps: what it has lost in the window.
 constexpr const char* lost_column = "lost_energy_J";
 /// Columns of "steps" of runs that keep account of the scheme's own energy, and of those that solve for velocities.
 constexpr const char* integrator_column = "work_integrator_J";

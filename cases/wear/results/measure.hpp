@@ -172,7 +172,7 @@ struct StepMeasure {
 struct EnergyMeasure {
   double change = 0, contact = 0, friction = 0, separation = 0, restoring = 0, drag = 0, supports = 0, limit = 0,
          absolute = 0;
-  double lost = 0;  ///< in the cloth, by laws that remember; part of what is dissipated
+  double lost = 0;  ///< in the cloth: to what its laws remember, and to its damping
   /// Below it a sum of works is rounding: what moves the cloth's mass at a micrometre per second.
   double negligible = 0;
   double dissipated = 0;  ///< by friction, inelastic impact, drag and in the cloth

@@ -7,6 +7,7 @@
 
 #include "analysis/ticks.hpp"
 #include "cases/cloth/fabric_input.hpp"
+#include "cases/cloth/make_cloth.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/results/joint_words.hpp"
@@ -223,6 +224,9 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
                   "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
                 : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
                   "orthotropic (Zheng 2013, eq. 2.13).");
+  for (const GarmentCase& g : c.garments)
+    if (const std::string own = inWords(g.cloth.membrane); !own.empty())
+      say((c.garments.size() > 1 ? g.name + ": " : "") + own);
   if (c.strain_limit) say(limitInWords(*c.strain_limit, "the window"));
   std::vector<FabricCase> said;
   for (const GarmentCase& g : c.garments) {
