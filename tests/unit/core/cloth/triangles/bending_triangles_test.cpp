@@ -315,9 +315,8 @@ std::vector<double> plateNumbers(BendingElements bending, int n, MeshKind kind, 
 /// 15.83, 22.37, 22.37 (Wong 2014 against thin-plate theory with nu = 0); the inertia of the edges is not seen. Those
 /// of hinges and of triangles without unknowns depend on the mesh (tests/verify/wong_plate.json).
 TEST(BendingTriangles, AFreePlateHasItsFrequencies) {
-  for (const auto& [kind, jitter] : {std::pair(MeshKind::single, 0.0), std::pair(MeshKind::alternating, 0.0),
-                                     std::pair(MeshKind::single, 0.15), std::pair(MeshKind::alternating, 0.15)}) {
-    const std::vector<double> w = plateNumbers(BendingElements::midedge, 20, kind, jitter);
+  for (const MeshKind kind : {MeshKind::single, MeshKind::alternating}) {  // vertices moved by 0.15 of a cell
+    const std::vector<double> w = plateNumbers(BendingElements::midedge, 20, kind, 0.15);
     ASSERT_EQ(w.size(), 3u);
     EXPECT_NEAR(w[0], 15.83, 0.015 * 15.83);
     EXPECT_NEAR(w[1], 22.37, 0.015 * 22.37);
