@@ -45,8 +45,7 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   // All that is implicit, at the start.
   const ForceTerms terms{true, !explicit_bending, true};
   internalForce(m, at_, in.history, {}, force_, w, nullptr, terms);
-  for (std::size_t i = 0; !explicit_bending && i < out.inner_rate.size(); ++i)
-    out.inner_rate[i] += dt * w.inner_force[i] / m.inner_mass[i];
+  inner_force_ = w.inner_force;
   addStitchForces(m.stitches, m.surface.WT, in.p, force_);
   springForces(m, at_, after, w.spring_force);
   free.spring.resize(m.springs.size());
@@ -71,7 +70,6 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   if (explicit_bending) {
     bend(m, in, dt, free, out, w);
   } else {
-    m.cloth->advance(in.inner, out.inner_rate, dt, out.inner);
     for (int i = 0; i < n; ++i) at_.p[i] += dt * at_.v[i];
   }
   known_ = at_.v;
@@ -82,10 +80,21 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   free.way.resize(n);
   for (int i = 0; i < n; ++i) free.way[i] = at_.p[i] - in.p[i];
 
-  // The rest.
-  b_.resize(n);
-  product_.resize(n);
-  system_.stiffness(free.way, product_);
+  // The rest. Blocks behind the points are rates of inner unknowns, three in each.
+  const int blocks = system_.rows();
+  const bool inner_too = blocks > n && !explicit_bending;
+  const auto innerAt = [&](std::size_t k) { return std::pair(n + k / 3, static_cast<int>(k % 3)); };
+  b_.assign(blocks, Vec3{});
+  product_.resize(blocks);
+  whole_way_ = free.way;
+  whole_way_.resize(blocks);
+  for (std::size_t k = 0; inner_too && k < in.inner_rate.size(); ++k)
+    whole_way_[innerAt(k).first][innerAt(k).second] = dt * in.inner_rate[k];
+  system_.stiffness(whole_way_, product_);
+  for (std::size_t k = 0; inner_too && k < in.inner_rate.size(); ++k) {
+    const auto [block, d] = innerAt(k);
+    b_[block][d] = dt * inner_force_[k] - product_[block][d];
+  }
   for (int i = 0; i < n; ++i) {
     Vec3 lasts = m.mass_kg[i] * m.environment.gravity_m_per_s2;
     if (!m.dead_force_N.empty()) lasts += m.dead_force_N[i];
@@ -94,7 +103,7 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
             m.mass_kg[i] * (at_.v[i] - known_[i]);
     if (m.supports) b_[i] += free.loads[i];
   }
-  out.free_change.assign(n, Vec3{});
+  out.free_change.assign(blocks, Vec3{});
   if (in.free_change.size() == out.free_change.size()) out.free_change = in.free_change;
   const CgReport solved = system_.solve(b_, options_.tolerance, out.free_change);
   free.solve = {solved.iterations, solved.residual};
@@ -109,6 +118,12 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   }
 
   const std::vector<Vec3>& change = out.free_change;
+  if (!explicit_bending) {
+    for (std::size_t k = 0; k < out.inner_rate.size(); ++k)
+      out.inner_rate[k] +=
+          inner_too ? change[innerAt(k).first][innerAt(k).second] : dt * inner_force_[k] / m.inner_mass[k];
+    m.cloth->advance(in.inner, out.inner_rate, dt, out.inner);
+  }
   free.velocity.resize(n);
   free.drag.resize(n);
   free.missed.assign(n, Vec3{});
@@ -118,7 +133,7 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
     const double d = m.drag_kg_per_s[i];
     free.velocity[i] = known_[i] + change[i];
     free.way[i] += dt * change[i];
-    free.elastic[i] -= product_[i] - (m.mass_kg[i] + dt * d) * change[i];
+    free.elastic[i] -= product_[i] - system_.own(i).x * change[i];
     free.drag[i] = (-dt * d) * (free.velocity[i] - air);
     if (!takesHold(m, i)) free.missed[i] = product_[i] - b_[i];
     if (m.held[i] && !m.supports) continue;

@@ -24,21 +24,30 @@ bool VelocitySystem::assemble(const Model& m, const State& s, const AnchorFrames
     product_ = BlockProduct(A_);
   }
   dt_s_ = dt;
-  const int n = m.freeCount();
+  const int n = m.freeCount(), blocks = A_.rows();
   w.q.resize(m.cloth->points());
   m.cloth->map().T.multiply<Vec3>(s.p, w.q);
   ForceTerms definite = terms;
   definite.definite = true;
   tangent_->assemble({w.q, s.inner, s.history}, w.cloth, A_, definite);
-  own_.resize(n);
-  diagonal_.resize(9 * static_cast<std::size_t>(n));
-  forAll(Each::sum, n, [&](int r) {
+  own_.resize(blocks);
+  diagonal_.resize(9 * static_cast<std::size_t>(blocks));
+  const auto ownOf = [&](int r) {
+    if (r < n) return (m.mass_kg[r] + dt * m.drag_kg_per_s[r]) * Vec3{1, 1, 1};
+    Vec3 mass{1, 1, 1};
+    for (int d = 0; d < 3; ++d)
+      if (const std::size_t k = 3 * static_cast<std::size_t>(r - n) + d; k < m.inner_mass.size())
+        mass[d] = m.inner_mass[k];
+    return mass;
+  };
+  forAll(Each::sum, blocks, [&](int r) {
     for (long k = 9 * A_.offsets[r]; k < 9 * A_.offsets[r + 1]; ++k) A_.values[k] *= dt * dt;
-    own_[r] = m.mass_kg[r] + dt * m.drag_kg_per_s[r];
+    own_[r] = ownOf(r);
     double* block = &A_.values[9 * A_.offsets[r]];  // its diagonal comes first
-    for (int d = 0; d < 9; d += 4) block[d] += own_[r];
+    for (int d = 0; d < 3; ++d) block[4 * d] += own_[r][d];
     std::copy(block, block + 9, &diagonal_[9 * static_cast<std::size_t>(r)]);
   });
+  product_.set(A_);
   links_.clear();
   for (const SpringSupportPoint& spring : m.springs)
     links_.push_back({spring.sample, -1, dt * dt * spring.stiffness_N_per_m, frames.normal(spring)});
@@ -55,7 +64,7 @@ bool VelocitySystem::assemble(const Model& m, const State& s, const AnchorFrames
 }
 
 void VelocitySystem::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
-  product_.multiply(A_, x, y);
+  product_.multiply(x, y);
   const SparseRows& WT = model_->surface.WT;
   for (const Link& link : links_) {
     Vec3 d = sampleAt(WT, link.a, x);
@@ -69,11 +78,12 @@ void VelocitySystem::multiply(std::span<const Vec3> x, std::span<Vec3> y) const 
 
 void VelocitySystem::stiffness(std::span<const Vec3> x, std::span<Vec3> out) const {
   multiply(x, out);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = (1 / dt_s_) * (out[i] - own_[i] * x[i]);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = (1 / dt_s_) * (out[i] - Vec3{own_[i].x * x[i].x, own_[i].y * x[i].y, own_[i].z * x[i].z});
 }
 
 void VelocitySystem::hold(std::span<Vec3> change) const {
-  if (model_->supports) return model_->supports->hold(change);
+  if (model_->supports) return model_->supports->hold(change.first(model_->mass_kg.size()));
   for (const int i : model_->held_points) change[i] = {};
 }
 
@@ -89,10 +99,11 @@ CgReport VelocitySystem::solve(std::span<const Vec3> b, double tolerance, std::s
     // What supports leave, P M, has the transpose M P = M (P M) M^-1.
     if (couples)
       cg.forces = [this, &m](std::span<Vec3> r) {
-        scratch_.assign(r.begin(), r.end());
-        for (std::size_t i = 0; i < r.size(); ++i) scratch_[i] = scratch_[i] / m.mass_kg[i];
+        const std::size_t n = m.mass_kg.size();
+        scratch_.assign(r.begin(), r.begin() + static_cast<long>(n));
+        for (std::size_t i = 0; i < n; ++i) scratch_[i] = scratch_[i] / m.mass_kg[i];
         hold(scratch_);
-        for (std::size_t i = 0; i < r.size(); ++i) r[i] = m.mass_kg[i] * scratch_[i];
+        for (std::size_t i = 0; i < n; ++i) r[i] = m.mass_kg[i] * scratch_[i];
       };
   }
   if (cg.filter) cg.filter(x);

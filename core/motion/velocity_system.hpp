@@ -4,8 +4,10 @@
 ///   A = M + dt D + dt^2 K
 ///
 /// M the masses of the free points, D their drag, K = -df/dx the stiffness of the cloth, of support springs and of
-/// stitches (Wong 2014, eq. 3.25). The cloth's own part is positive semidefinite: what compression would take from it is
-/// left out element by element (ForceTerms::definite), so that A is positive and conjugate gradients find the solution.
+/// stitches (Wong 2014, eq. 3.25). Where the cloth's tangent has rows for its inner unknowns, vectors have blocks for
+/// their rates behind those of the points, three rates in a block. The cloth's own part is positive semidefinite: what
+/// compression would take from it is left out element by element (ForceTerms::definite), so that A is positive and
+/// conjugate gradients find the solution.
 
 #include "core/math/conjugate_gradients.hpp"
 #include "core/motion/forces.hpp"
@@ -18,21 +20,25 @@ class VelocitySystem {
   /// block of the diagonal is not positive definite (forces that are not finite).
   bool assemble(const Model& model, const State& s, const AnchorFrames& frames, const ForceTerms& terms, double dt_s,
                 StepWork& work);
+  int rows() const { return A_.rows(); }  ///< of an assembled system: blocks
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;  ///< y = A x
+  /// M + dt D, by components; 1 where the last block of inner unknowns is filled up.
+  const Vec3& own(int block) const { return own_[static_cast<std::size_t>(block)]; }
   /// out = dt K x.
   void stiffness(std::span<const Vec3> x, std::span<Vec3> out) const;
   /// Solves A x = b from x on, in what holds the points: held ones do not change, and supports lead what they couple.
   CgReport solve(std::span<const Vec3> b, double tolerance, std::span<Vec3> x);
+
+ private:
   /// Leaves of changes of velocity what supports and held points let through.
   void hold(std::span<Vec3> change) const;
 
- private:
   const Model* model_ = nullptr;
   std::unique_ptr<ClothTangent> tangent_;
   BlockMatrix A_;
   BlockProduct product_;
   BlockInverses inverses_;
-  std::vector<double> own_;       ///< M + dt D
+  std::vector<Vec3> own_;
   std::vector<double> diagonal_;  ///< of A, nine values a block
   struct Link {
     int a = 0, b = -1;  ///< samples; b: of a stitch
