@@ -57,8 +57,8 @@ Field schemeField() {
   for (const SchemeWord& w : schemeWords()) f.choices.push_back(w.word);
   f.doc =
       "generalised_alpha: implicit, second order, damps only the highest frequencies; newmark: implicit; explicit: "
-      "central differences (velocity Verlet), small steps; euler, rk2, rk4, implicit_euler, semi_implicit: as time.scheme "
-      "of worn cloth";
+      "central differences (velocity Verlet), small steps; euler, rk2, rk4, implicit_euler, semi_implicit: as "
+      "time.scheme of worn cloth";
   return f;
 }
 void readScheme(const Entry& p, StructureCase& c) {

@@ -1,5 +1,6 @@
 #include "core/math/conjugate_gradients.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/math/parallel.hpp"
@@ -8,33 +9,53 @@ namespace gambeson {
 
 BlockProduct::BlockProduct(const BlockMatrix& A) : offsets_(static_cast<std::size_t>(A.rows()) + 1, 0) {
   for (int r = 0; r < A.rows(); ++r)
-    for (long k = A.offsets[r]; k < A.offsets[r + 1]; ++k)
+    for (long k = A.offsets[r]; k < A.offsets[r + 1]; ++k) {
+      ++offsets_[r + 1];
       if (A.columns[k] > r) ++offsets_[A.columns[k] + 1];
+    }
   for (int r = 0; r < A.rows(); ++r) offsets_[r + 1] += offsets_[r];
   columns_.resize(offsets_.back());
   block_.resize(offsets_.back());
   std::vector<long> at(offsets_.begin(), offsets_.end() - 1);
+  const auto put = [&](int row, int column, long block) {
+    columns_[at[row]] = column;
+    block_[at[row]++] = block;
+  };
   for (int r = 0; r < A.rows(); ++r)
     for (long k = A.offsets[r]; k < A.offsets[r + 1]; ++k)
-      if (const int c = A.columns[k]; c > r) {
-        columns_[at[c]] = r;
-        block_[at[c]++] = k;
-      }
+      if (A.columns[k] > r) put(A.columns[k], r, k);
+  for (int r = 0; r < A.rows(); ++r)
+    for (long k = A.offsets[r]; k < A.offsets[r + 1]; ++k) put(r, A.columns[k], k);
+  used_.resize(A.rows());
+  used_columns_.resize(columns_.size());
+  values_.resize(9 * columns_.size());
 }
 
-void BlockProduct::multiply(const BlockMatrix& A, std::span<const Vec3> x, std::span<Vec3> y) const {
+void BlockProduct::set(const BlockMatrix& A) {
   forAll(Each::sum, A.rows(), [&](int r) {
-    double sx = 0, sy = 0, sz = 0;
+    long to = offsets_[r];
     for (long k = offsets_[r]; k < offsets_[r + 1]; ++k) {
       const double* b = &A.values[9 * block_[k]];
-      const Vec3& v = x[columns_[k]];
-      sx += b[0] * v.x + b[3] * v.y + b[6] * v.z;
-      sy += b[1] * v.x + b[4] * v.y + b[7] * v.z;
-      sz += b[2] * v.x + b[5] * v.y + b[8] * v.z;
+      double size = 0;
+      for (int i = 0; i < 9; ++i) size = std::max(size, std::abs(b[i]));
+      if (size == 0) continue;
+      double* out = &values_[9 * to];
+      const bool transposed = columns_[k] < r;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) out[3 * i + j] = transposed ? b[3 * j + i] : b[3 * i + j];
+      used_columns_[to++] = columns_[k];
     }
-    for (long k = A.offsets[r]; k < A.offsets[r + 1]; ++k) {
-      const double* b = &A.values[9 * k];
-      const Vec3& v = x[A.columns[k]];
+    used_[r] = static_cast<int>(to - offsets_[r]);
+  });
+}
+
+void BlockProduct::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
+  forAll(Each::sum, static_cast<int>(used_.size()), [&](int r) {
+    double sx = 0, sy = 0, sz = 0;
+    const double* b = &values_[9 * offsets_[r]];
+    const int* column = &used_columns_[offsets_[r]];
+    for (int k = 0; k < used_[r]; ++k, b += 9) {
+      const Vec3& v = x[column[k]];
       sx += b[0] * v.x + b[1] * v.y + b[2] * v.z;
       sy += b[3] * v.x + b[4] * v.y + b[5] * v.z;
       sz += b[6] * v.x + b[7] * v.y + b[8] * v.z;

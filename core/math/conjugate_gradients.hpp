@@ -11,18 +11,23 @@
 
 namespace gambeson {
 
-/// Products with a BlockMatrix by rows, each of which one thread sums in a fixed order.
+/// A BlockMatrix as products want it: whole rows one after the other, without blocks that are zero. Each row is summed
+/// by one thread in a fixed order.
 class BlockProduct {
  public:
   BlockProduct() = default;
   explicit BlockProduct(const BlockMatrix& sparsity);
-  /// y = A x, A of that sparsity.
-  void multiply(const BlockMatrix& A, std::span<const Vec3> x, std::span<Vec3> y) const;
+  /// Takes the values of a matrix of that sparsity.
+  void set(const BlockMatrix& A);
+  void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;  ///< y = A x
 
  private:
-  std::vector<long> offsets_;  ///< of the blocks left of the diagonal, by rows
+  std::vector<long> offsets_;  ///< of the blocks by rows, left of the diagonal first
   std::vector<int> columns_;
-  std::vector<long> block_;  ///< whose transpose they are
+  std::vector<long> block_;  ///< which of A's; those left of the diagonal are transposed
+  // Of the values that were set, from offsets_[row] on.
+  std::vector<int> used_, used_columns_;
+  AlignedVector<double> values_;
 };
 
 /// Inverses of symmetric 3 x 3 blocks, six values each (xx, yy, zz, xy, xz, yz).

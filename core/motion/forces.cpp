@@ -80,7 +80,8 @@ void accelerateSupported(const Model& m, const Vec3& air, const Around& around, 
   const std::size_t n = s.p.size();
   // A motion starts with the velocities that supports prescribe from then on.
   const double half_step_s = around.half_step_s;
-  const double t = s.time_s, dt = around.support_step_s, from = t - dt, to = t + (dt > 0 ? dt : 1e-6 * (1 + std::abs(t)));
+  const double t = s.time_s, dt = around.support_step_s, from = t - dt,
+               to = t + (dt > 0 ? dt : 1e-6 * (1 + std::abs(t)));
   loadsAt(m, t, w.q, w.load, w);
   m.supports->drive(from, to, start);
   w.prescribed.assign(n, Vec3{});

@@ -6,19 +6,6 @@
 #include "core/motion/step_contact.hpp"
 
 namespace gambeson {
-namespace {
-
-/// Part of the contacts' impulses that lasts, as accelerations: it acts on the way of the step as other forces do, not
-/// at once on the mean of the velocities before and after it. At rest contact then works nothing.
-double lastingWork(const Model& m, double dt, std::span<const Vec3> lasting, const StepWork& w) {
-  double work = 0;
-  for (std::size_t i = 0; i < lasting.size(); ++i)
-    work += (0.5 * dt * m.mass_kg[i]) * dot(lasting[i], w.velocity[i] - w.predictor[i]);
-  return work;
-}
-
-}  // namespace
-
 void auditFreeStep(const Model& m, const State& in, const State& out, double dt, const FreeMotion& free,
                    double elastic_J, StepReport& report, StepWork& w) {
   const int n = m.freeCount();
@@ -34,11 +21,11 @@ void auditFreeStep(const Model& m, const State& in, const State& out, double dt,
       const int i = m.held_points[k];
       w.held_impulses[k] = -(internal(i) + free.drag[i] + dt * (m.mass_kg[i] * gravity + dead(i)));
     }
-  contactLedger(m, in, dt, {}, report, w);
-  pressingAccelerations(m, dt, w, w.lasting);
-  const double lasting = lastingWork(m, dt, w.lasting, w);
-  work.contact += lasting;
-  work.dissipated += work.cloth + free.drag_lost_J - lasting;
+  // What forces give in a step contacts that last give back in the same: at rest they then work nothing.
+  w.lasting.resize(n);
+  for (int i = 0; i < n; ++i) w.lasting[i] = (1 / dt) * (free.velocity[i] - in.v[i]);
+  contactLedger(m, in, dt, w.lasting, report, w);
+  work.dissipated += work.cloth + free.drag_lost_J;
   work.drag += free.drag_work_J;
 
   // Contact's impulses on what supports take hold of, before these answer.

@@ -64,6 +64,8 @@ FreeSteps::FreeSteps(const Model& model, const Stage& stage, const MotionOptions
       damping_per_s_(leastDamping(model)),
       scheme_(schemeOf(options)) {
   checkScheme(options, control, model);
+  inner_bounds_ = options.scheme == MotionScheme::implicit_euler && !model.inner_mass.empty() &&
+                  model.cloth->tangent()->sparsity().rows() == model.freeCount();
 }
 
 StepReport FreeSteps::makeStep(const State& in, double dt, State& out) {
@@ -82,7 +84,7 @@ double FreeSteps::stableStep(double omega) const {
 }
 
 double FreeSteps::longestStep(State& state) {
-  if (options_.scheme == MotionScheme::implicit_euler && model_.inner_mass.empty()) return control_.max_step_s;
+  if (options_.scheme == MotionScheme::implicit_euler && !inner_bounds_) return control_.max_step_s;
   estimate(state);
   return std::min(control_.max_step_s,
                   control_.safety * stableStep(std::max(state.frequency_rad_per_s, 1e-300)));

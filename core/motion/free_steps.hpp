@@ -10,8 +10,9 @@ namespace gambeson {
 
 /// ControlledSteps of `freeStep`. Steps are `safety` times the longest in which the highest mode does not grow
 /// (longestStableStep; drag of the points that it damps least), of the semi-implicit scheme the substeps of what bending
-/// alone allows, of implicit Euler max_step_s, or what inner unknowns allow. Throws InputError (key "scheme") for Euler and
-/// midpoint without drag, which no step keeps from growing, unless the step is fixed, and for limits of strain.
+/// alone allows, of implicit Euler max_step_s, or what inner unknowns without rows in the tangent allow. Throws
+/// InputError (key "scheme") for Euler and midpoint without drag, which no step keeps from growing, unless the step is
+/// fixed, and for limits of strain.
 class FreeSteps : public ControlledSteps {
  public:
   FreeSteps(const Model& model, const Stage& stage, const MotionOptions& options, const StepControl& control,
@@ -26,6 +27,7 @@ class FreeSteps : public ControlledSteps {
 
   MotionOptions options_;
   double damping_per_s_ = 0;
+  bool inner_bounds_ = false;  ///< inner unknowns are moved explicitly, beside an implicit scheme
   std::unique_ptr<FreeScheme> scheme_;
   FreeMotion free_;
 };

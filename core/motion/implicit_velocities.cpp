@@ -4,7 +4,8 @@
 
 namespace gambeson {
 
-void ImplicitVelocities::bend(const Model& m, const State& in, double dt, FreeMotion& free, State& out, StepWork& w) {
+void ImplicitVelocities::bend(const Model& m, const State& in, double dt, FreeMotion& free, State& out,
+                              double& inner_lost_J, StepWork& w) {
   const int n = m.freeCount();
   const double h = dt / options_.substeps;
   for (int k = 0; k < options_.substeps; ++k) {
@@ -20,7 +21,7 @@ void ImplicitVelocities::bend(const Model& m, const State& in, double dt, FreeMo
     const double t = in.time_s + dt * k / options_.substeps;
     if (m.supports) m.supports->drive(t, t + h, at_.v);
     for (int i = 0; i < n; ++i) at_.p[i] += h * at_.v[i];
-    inner_lost_J_ += moveInnerRates(m, h, out.inner_rate, w);
+    inner_lost_J += moveInnerRates(m, h, out.inner_rate, w);
     m.cloth->advance(at_.inner, out.inner_rate, h, out.inner);
     at_.inner = out.inner;
   }
@@ -45,11 +46,8 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   // All that is implicit, at the start.
   const ForceTerms terms{true, !explicit_bending, true};
   internalForce(m, at_, in.history, 0, {}, force_, w, nullptr, terms);
-  inner_lost_J_ = 0;
-  if (!explicit_bending) {
-    leadInnerForce(m, end_s, w, force_);
-    inner_lost_J_ = moveInnerRates(m, dt, out.inner_rate, w);
-  }
+  if (!explicit_bending) leadInnerForce(m, end_s, w, force_);
+  inner_force_ = w.inner_force;
   addStitchForces(m.stitches, m.surface.WT, in.p, force_);
   springForces(m, at_, after, w.spring_force);
   free.spring.resize(m.springs.size());
@@ -71,10 +69,10 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   stretched_ = force_;
 
   // What moves explicitly, or by itself.
+  double inner_lost_J = 0;  // by the drag of the inner unknowns
   if (explicit_bending) {
-    bend(m, in, dt, free, out, w);
+    bend(m, in, dt, free, out, inner_lost_J, w);
   } else {
-    m.cloth->advance(in.inner, out.inner_rate, dt, out.inner);
     for (int i = 0; i < n; ++i) at_.p[i] += dt * at_.v[i];
   }
   known_ = at_.v;
@@ -85,10 +83,21 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   free.way.resize(n);
   for (int i = 0; i < n; ++i) free.way[i] = at_.p[i] - in.p[i];
 
-  // The rest.
-  b_.resize(n);
-  product_.resize(n);
-  system_.stiffness(free.way, product_);
+  // The rest. Blocks behind the points are rates of inner unknowns, three in each.
+  const int blocks = system_.rows();
+  const bool inner_too = blocks > n && !explicit_bending;
+  const auto innerAt = [&](std::size_t k) { return std::pair(n + k / 3, static_cast<int>(k % 3)); };
+  b_.assign(blocks, Vec3{});
+  product_.resize(blocks);
+  whole_way_ = free.way;
+  whole_way_.resize(blocks);
+  for (std::size_t k = 0; inner_too && k < in.inner_rate.size(); ++k)
+    whole_way_[innerAt(k).first][innerAt(k).second] = dt * in.inner_rate[k];
+  system_.stiffness(whole_way_, product_);
+  for (std::size_t k = 0; inner_too && k < in.inner_rate.size(); ++k) {
+    const auto [block, d] = innerAt(k);
+    b_[block][d] = dt * (inner_force_[k] - m.inner_drag_per_s * m.inner_mass[k] * in.inner_rate[k]) - product_[block][d];
+  }
   for (int i = 0; i < n; ++i) {
     Vec3 lasts = m.mass_kg[i] * m.environment.gravity_m_per_s2;
     if (!m.dead_force_N.empty()) lasts += m.dead_force_N[i];
@@ -97,10 +106,12 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
             m.mass_kg[i] * (at_.v[i] - known_[i]);
     if (m.supports) b_[i] += free.loads[i];
   }
-  damped_.resize(n);
-  const bool damps = system_.damping(known_, damped_);
+  damped_.resize(blocks);
+  whole_way_.assign(known_.begin(), known_.end());
+  whole_way_.resize(blocks);
+  const bool damps = system_.damping(whole_way_, damped_);
   for (int i = 0; damps && i < n; ++i) b_[i] -= dt * damped_[i];
-  out.free_change.assign(n, Vec3{});
+  out.free_change.assign(blocks, Vec3{});
   if (in.free_change.size() == out.free_change.size()) out.free_change = in.free_change;
   const CgReport solved = system_.solve(b_, options_.tolerance, out.free_change);
   free.solve = {solved.iterations, solved.residual};
@@ -115,11 +126,24 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   }
 
   const std::vector<Vec3>& change = out.free_change;
+  if (!explicit_bending) {
+    w.inner_force = inner_force_;
+    if (!inner_too) {
+      inner_lost_J = moveInnerRates(m, dt, out.inner_rate, w);
+    } else {
+      for (std::size_t k = 0; k < out.inner_rate.size(); ++k) {
+        double& rate = out.inner_rate[k];
+        rate += change[innerAt(k).first][innerAt(k).second];
+        inner_lost_J += dt * m.inner_drag_per_s * m.inner_mass[k] * rate * rate;
+      }
+    }
+    m.cloth->advance(in.inner, out.inner_rate, dt, out.inner);
+  }
   free.velocity.resize(n);
   free.drag.resize(n);
   free.missed.assign(n, Vec3{});
-  free.drag_work_J = -inner_lost_J_;
-  free.drag_lost_J = inner_lost_J_;
+  free.drag_work_J = -inner_lost_J;
+  free.drag_lost_J = inner_lost_J;
   system_.multiply(change, product_);
   if (damps) {
     free.damping.resize(n);
@@ -134,7 +158,7 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
     const double d = m.drag_kg_per_s[i];
     free.velocity[i] = known_[i] + change[i];
     free.way[i] += dt * change[i];
-    free.elastic[i] -= product_[i] - (m.mass_kg[i] + dt * d) * change[i];
+    free.elastic[i] -= product_[i] - system_.own(i).x * change[i];
     free.drag[i] = (-dt * d) * (free.velocity[i] - air);
     if (!takesHold(m, i)) free.missed[i] = product_[i] - b_[i];
     if (m.held[i] && !m.supports) continue;

@@ -5,16 +5,18 @@
 ///
 ///   (M + dt D + dt^2 K) dv = dt (f - dt K v0 - D (v0 - air)),   v1 = v0 + dv,   x1 = x0 + dt v1
 ///
-/// (the printed right side of 3.25 lacks the dt before K_x v). D is the drag, and the cloth's own damping (eq. 3.2, 3.8), which no air moves; K = -df/dx.
+/// (the printed right side of 3.25 lacks the dt before K_x v). D is the drag, and the
+/// cloth's own damping (eq. 3.2, 3.8), which no air moves; K = -df/dx.
 ///
-/// Semi-implicit (section 4.3, after Schroeder et al. 2011): bending is moved explicitly in `substeps` of h = dt/substeps,
-/// v += h M^-1 f_b(x), x += h v, to x* and v*; then the rest implicitly, linearised at x0:
+/// Semi-implicit (section 4.3, after Schroeder et al. 2011): bending is moved explicitly in `substeps` of h =
+/// dt/substeps, v += h M^-1 f_b(x), x += h v, to x* and v*; then the rest implicitly, linearised at x0:
 ///
 ///   (M + dt D + dt^2 K) dv = dt (f - K (x* - x0) - D (v* - air)),   v1 = v* + dv,   x1 = x* + dt dv
 ///
 /// Without bending this is implicit Euler, without anything else the symplectic Euler method in steps of h, stable up to
-/// h = 2/omega of bending alone. Inner unknowns (edge rotations) go with bending, explicitly, in either scheme. Both are
-/// of first order. Loads act where the step starts, with their value at its end.
+/// h = 2/omega of bending alone. Inner unknowns (edge rotations) go with bending: in its substeps, or implicitly where
+/// the cloth's tangent has rows for them, else in one explicit step. Both are of first order. Loads act where the step
+/// starts, with their value at its end.
 
 #include "core/motion/velocity_system.hpp"
 #include "core/motion/free_motion.hpp"
@@ -37,13 +39,14 @@ class ImplicitVelocities : public FreeScheme {
 
  private:
   /// From in to x* and v*, at_.p and at_.v; impulses of bending into free.elastic.
-  void bend(const Model& model, const State& in, double dt_s, FreeMotion& free, State& out, StepWork& work);
+  void bend(const Model& model, const State& in, double dt_s, FreeMotion& free, State& out, double& inner_lost_J,
+            StepWork& work);
 
   ImplicitVelocityOptions options_;
   VelocitySystem system_;
   State at_;
-  std::vector<Vec3> force_, known_, b_, change_, product_, stretched_, damped_;
-  double inner_lost_J_ = 0;  ///< by the drag of the inner unknowns
+  std::vector<Vec3> force_, known_, b_, change_, product_, stretched_, whole_way_, damped_;
+  std::vector<double> inner_force_;
 };
 
 }  // namespace gambeson

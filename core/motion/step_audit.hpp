@@ -28,10 +28,11 @@ void auditStep(const Model& model, const StepEnds& ends, StepReport& report, Ste
 void contactLedger(const Model& model, const State& in, double dt_s, std::span<const Vec3> foreseen, StepReport& report,
                    StepWork& work);
 
-/// What velocity Verlet itself makes or takes in a step of worn cloth [J] (WorkAudit::integrator), from its own formula:
+/// What velocity Verlet itself makes or takes in a step of worn cloth [J] (WorkAudit::integrator), by its own formula:
 /// with the accelerations a of the forces, c of what lasts of contacts and limits, D of their impulses and d the way of
 /// the step,
-///   dv = dt/2 (a0 + a1) + D + dt/2 (c1 - c0),   m dv . (v0 + v1)/2 + change of what is stored + lost - m g . d - works,
+///   dv = dt/2 (a0 + a1) + D + dt/2 (c1 - c0),
+///   m dv . (v0 + v1)/2 + change of what is stored + lost - m g . d - works,
 /// which is (dt^2/8) m |a + c|^2 at the end less that at the start, and what the trapezium rule of the forces misses of
 /// their work on d. After auditStep.
 double verletWork(const Model& model, const State& in, const State& out, double elastic_before_J, const WorkAudit& work,

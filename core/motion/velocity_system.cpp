@@ -15,63 +15,48 @@ void addAcross(double w, const Vec3& n, double* block) {
 
 }  // namespace
 
-/// The sparsity of the points alone: inner unknowns move by themselves.
-void VelocitySystem::takePoints() {
-  const BlockMatrix& all = tangent_->sparsity();
-  const int n = model_->freeCount();
-  A_ = {};
-  in_whole_.clear();
-  whole_ = model_->cloth->innerBlocks() > 0 ? all : BlockMatrix{};
-  for (int r = 0; r < n; ++r) {
-    for (long k = all.offsets[r]; k < all.offsets[r + 1]; ++k)
-      if (all.columns[k] < n) {
-        A_.columns.push_back(all.columns[k]);
-        in_whole_.push_back(k);
-      }
-    A_.offsets.push_back(static_cast<long>(A_.columns.size()));
-  }
-  A_.values.assign(9 * A_.columns.size(), 0.0);
-}
-
-template <class Assemble>
-void VelocitySystem::assembleOfPoints(BlockMatrix& out, const Assemble& assemble) {
-  if (whole_.rows() == 0) return assemble(out);
-  assemble(whole_);
-  if (out.columns.size() != A_.columns.size()) out = A_;
-  for (std::size_t k = 0; k < in_whole_.size(); ++k)
-    std::copy_n(&whole_.values[9 * in_whole_[k]], 9, &out.values[9 * k]);
-}
-
 bool VelocitySystem::assemble(const Model& m, const State& s, const AnchorFrames& frames, const ForceTerms& terms,
                               double dt, StepWork& w) {
   if (model_ != &m) {
     model_ = &m;
     tangent_ = m.cloth->tangent();
-    takePoints();
+    A_ = tangent_->sparsity();
     product_ = BlockProduct(A_);
+    if (m.cloth->damps()) damping_product_ = BlockProduct(A_);
   }
   dt_s_ = dt;
-  const int n = m.freeCount();
+  const int n = m.freeCount(), blocks = A_.rows();
   w.q.resize(m.cloth->points());
   m.cloth->map().T.multiply<Vec3>(s.p, w.q);
   ForceTerms definite = terms;
   definite.definite = true;
-  assembleOfPoints(A_, [&](BlockMatrix& K) { tangent_->assemble({w.q, s.inner, s.history}, w.cloth, K, definite); });
+  tangent_->assemble({w.q, s.inner, s.history}, w.cloth, A_, definite);
   const bool damps = m.cloth->damps();
-  if (damps)
-    assembleOfPoints(D_, [&](BlockMatrix& D) { tangent_->assembleDamping({w.q, s.inner, s.history}, w.cloth, D); });
-  own_.resize(n);
-  diagonal_.resize(9 * static_cast<std::size_t>(n));
-  forAll(Each::sum, n, [&](int r) {
+  if (damps) {
+    tangent_->assembleDamping({w.q, s.inner, s.history}, w.cloth, D_);
+    damping_product_.set(D_);
+  }
+  own_.resize(blocks);
+  diagonal_.resize(9 * static_cast<std::size_t>(blocks));
+  const auto ownOf = [&](int r) {
+    if (r < n) return (m.mass_kg[r] + dt * m.drag_kg_per_s[r]) * Vec3{1, 1, 1};
+    Vec3 mass{1, 1, 1};
+    for (int d = 0; d < 3; ++d)
+      if (const std::size_t k = 3 * static_cast<std::size_t>(r - n) + d; k < m.inner_mass.size())
+        mass[d] = m.inner_mass[k] * (1 + dt * m.inner_drag_per_s);
+    return mass;
+  };
+  forAll(Each::sum, blocks, [&](int r) {
     for (long k = 9 * A_.offsets[r]; k < 9 * A_.offsets[r + 1]; ++k) {
       A_.values[k] *= dt * dt;
       if (damps) A_.values[k] += dt * D_.values[k];
     }
-    own_[r] = m.mass_kg[r] + dt * m.drag_kg_per_s[r];
+    own_[r] = ownOf(r);
     double* block = &A_.values[9 * A_.offsets[r]];  // its diagonal comes first
-    for (int d = 0; d < 9; d += 4) block[d] += own_[r];
+    for (int d = 0; d < 3; ++d) block[4 * d] += own_[r][d];
     std::copy(block, block + 9, &diagonal_[9 * static_cast<std::size_t>(r)]);
   });
+  product_.set(A_);
   links_.clear();
   for (const SpringSupportPoint& spring : m.springs)
     links_.push_back({spring.sample, -1, dt * dt * spring.stiffness_N_per_m, frames.normal(spring)});
@@ -88,7 +73,7 @@ bool VelocitySystem::assemble(const Model& m, const State& s, const AnchorFrames
 }
 
 void VelocitySystem::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
-  product_.multiply(A_, x, y);
+  product_.multiply(x, y);
   const SparseRows& WT = model_->surface.WT;
   for (const Link& link : links_) {
     Vec3 d = sampleAt(WT, link.a, x);
@@ -102,20 +87,32 @@ void VelocitySystem::multiply(std::span<const Vec3> x, std::span<Vec3> y) const 
 
 bool VelocitySystem::damping(std::span<const Vec3> x, std::span<Vec3> out) const {
   if (!model_->cloth->damps()) return false;
-  product_.multiply(D_, x, out);
+  damping_product_.multiply(x, out);
   return true;
 }
 
 void VelocitySystem::stiffness(std::span<const Vec3> x, std::span<Vec3> out) const {
   multiply(x, out);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = (1 / dt_s_) * (out[i] - own_[i] * x[i]);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = (1 / dt_s_) * (out[i] - Vec3{own_[i].x * x[i].x, own_[i].y * x[i].y, own_[i].z * x[i].z});
   scratch_.resize(out.size());
   if (damping(x, scratch_))
     for (std::size_t i = 0; i < out.size(); ++i) out[i] -= scratch_[i];
 }
 
 void VelocitySystem::hold(std::span<Vec3> change) const {
-  if (model_->supports) return model_->supports->hold(change);
+  if (model_->supports) {
+    const std::size_t n = model_->mass_kg.size();
+    model_->supports->hold(change.first(n));
+    // What supports lead of the inner unknowns does not move by itself.
+    inner_.resize(model_->inner_mass.size());
+    unled_.resize(n);
+    if (change.size() == n) return;
+    for (std::size_t k = 0; k < inner_.size(); ++k) inner_[k] = change[n + k / 3][static_cast<int>(k % 3)];
+    model_->supports->handInner(inner_, unled_);
+    for (std::size_t k = 0; k < inner_.size(); ++k) change[n + k / 3][static_cast<int>(k % 3)] = inner_[k];
+    return;
+  }
   for (const int i : model_->held_points) change[i] = {};
 }
 
@@ -131,10 +128,11 @@ CgReport VelocitySystem::solve(std::span<const Vec3> b, double tolerance, std::s
     // What supports leave, P M, has the transpose M P = M (P M) M^-1.
     if (couples)
       cg.forces = [this, &m](std::span<Vec3> r) {
-        scratch_.assign(r.begin(), r.end());
-        for (std::size_t i = 0; i < r.size(); ++i) scratch_[i] = scratch_[i] / m.mass_kg[i];
+        const std::size_t n = m.mass_kg.size();
+        scratch_.assign(r.begin(), r.begin() + static_cast<long>(n));
+        for (std::size_t i = 0; i < n; ++i) scratch_[i] = scratch_[i] / m.mass_kg[i];
         hold(scratch_);
-        for (std::size_t i = 0; i < r.size(); ++i) r[i] = m.mass_kg[i] * scratch_[i];
+        for (std::size_t i = 0; i < n; ++i) r[i] = m.mass_kg[i] * scratch_[i];
       };
   }
   if (cg.filter) cg.filter(x);

@@ -101,12 +101,12 @@ Object timeTable() {
                "long as bending alone allows, at most max_step")
       .unwritten()
       .number("solve_tolerance", [](auto& t) -> auto& { return t.motion.solve_tolerance; }, "", between(1e-14, 1e-2),
-              "implicit_euler, semi_implicit: what conjugate gradients may leave of the impulses, in the preconditioner's "
-              "norm; the impulse that they miss is a row of the momentum balance")
+              "implicit_euler, semi_implicit: what conjugate gradients may leave of the impulses, in the "
+              "preconditioner's norm; the impulse that they miss is a row of the momentum balance")
       .unwritten()
       .flag("audit", &T::audit,
-            "verlet keeps account of what it makes or takes of energy itself, one more evaluation of the energy a step; "
-            "the other schemes always do")
+            "verlet keeps account of what it makes or takes of energy itself, one more evaluation of the energy a "
+            "step; the other schemes always do")
       .unwritten()
       .check([](const Entry& p, const T& t) {
         const T standard;

@@ -206,8 +206,8 @@ void checkTime(const Entry& root, const Case& c) {
   if ((scheme == MotionScheme::euler || scheme == MotionScheme::midpoint) && !(c.time.step_s > 0) &&
       !(c.air.drag_kg_per_m2s > 0))
     failAt(root, {"time", "scheme"},
-           "lets motion grow in steps of any length where nothing damps it; allowed: with air.drag > 0, or with time.step "
-           "> 0");
+           "lets motion grow in steps of any length where nothing damps it; allowed: with air.drag > 0, or with "
+           "time.step > 0");
 }
 
 }  // namespace

@@ -473,8 +473,8 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   row.insert(row.end(), steps_.begin(), steps_.end());
   if (m.cloth->losesEnergy()) row.push_back(std::exchange(lost_J_, 0));
   const TimeCase& time = scenario_.definition.time;
-  const double own_J = std::exchange(integrator_J_, 0), iterations = static_cast<double>(std::exchange(solve_iterations_, 0)),
-               missed = std::exchange(largest_missed_, 0);
+  const double own_J = std::exchange(integrator_J_, 0), missed = std::exchange(largest_missed_, 0),
+               iterations = static_cast<double>(std::exchange(solve_iterations_, 0));
   if (time.auditsEnergy()) row.push_back(own_J);
   if (isImplicit(time.motion.scheme)) row.insert(row.end(), {iterations, missed});
   writer_.append(TableRow{"steps", row});

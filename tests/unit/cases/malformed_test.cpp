@@ -293,5 +293,32 @@ TEST(MalformedCase, OverridesGoThroughTheSameTable) {
   }
 }
 
+/// The schemes of worn cloth and what goes with each.
+TEST(MalformedCase, Schemes) {
+  const auto time = [](const std::string& keys, const std::string& more = "") {
+    return "\"contact\": {\"friction\": 0.2}, \"time\": {" + keys + "}," + more;
+  };
+  const std::string from = "\"contact\": {\"friction\": 0.2},";
+  const std::string limit = " \"strain_limit\": {\"mode\": \"upper_limit\", \"limit\": 0.01},";
+  expectRefused(
+      example,
+      {{from, time("\"scheme\": \"rk3\""), 27, "time.scheme",
+        "allowed: verlet, euler, rk2, rk4, implicit_euler or semi_implicit"},
+       {from, time("\"scheme\": \"euler\""), 27, "time.scheme", "allowed: with air.drag > 0, or with time.step > 0"},
+       {from, time("\"scheme\": \"rk2\""), 27, "time.scheme", "where nothing damps it"},
+       {from, time("\"scheme\": \"semi_implicit\", \"substeps\": 0"), 27, "time.substeps",
+        "0 is out of range; allowed: >= 1"},
+       {from, time("\"substeps\": 2"), 27, "time.substeps", "it goes with semi_implicit"},
+       {from, time("\"scheme\": \"implicit_euler\", \"substeps\": 2"), 27, "time.substeps",
+        "it goes with semi_implicit"},
+       {from, time("\"scheme\": \"implicit_euler\", \"solve_tolerance\": 0"), 27, "time.solve_tolerance",
+        "0 is out of range; allowed: >= 1e-14"},
+       {from, time("\"scheme\": \"rk4\", \"solve_tolerance\": 1e-3"), 27, "time.solve_tolerance",
+        "it goes with implicit_euler and semi_implicit"},
+       {from, time("\"scheme\": \"rk4\", \"audit\": true"), 27, "time.audit", "it goes with verlet"},
+       {from, time("\"step\": \"-1 ms\""), 27, "time.step", "-0.001 s is out of range"},
+       {from, time("\"scheme\": \"rk4\"", limit), 27, "time.scheme", "goes without strain_limit"}});
+}
+
 }  // namespace
 }  // namespace gambeson

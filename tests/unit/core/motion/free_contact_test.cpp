@@ -107,7 +107,8 @@ TEST(FreeContact, WhatTheSolveMissesIsARow) {
 TEST(FreeContact, TheSameBitsForAnyNumberOfThreads) {
   const int before = omp_get_max_threads();
   for (const Case& c : kCases) {
-    if (c.scheme == MotionScheme::euler || c.scheme == MotionScheme::midpoint) continue;  // as fourth order, in more steps
+    // As fourth order, in more steps.
+    if (c.scheme == MotionScheme::euler || c.scheme == MotionScheme::midpoint) continue;
     std::vector<Vec3> p[2];
     for (int threads : {1, 2}) {
       omp_set_num_threads(threads);

@@ -135,6 +135,73 @@ TEST(FreeSteps, RefusesEulerWithoutDragAndWithoutAStep) {
   }
 }
 
+/// One point on a spring, and an inner unknown that a second spring ties to it: the law of two points, of which no
+/// sample sees the second.
+class PointWithInner : public SpringPoints {
+ public:
+  explicit PointWithInner(Law law) : SpringPoints(1, law), both_(std::move(law)) {}
+  std::size_t innerValues() const override { return 1; }
+  std::size_t innerRates() const override { return 1; }
+  void startInner(std::span<double> value) const override { value[0] = 0; }
+  void innerMasses(std::span<double> mass) const override { mass[0] = 1; }
+  void force(const ClothState& s, const ClothForce& out, ClothWork&, const ForceTerms&) const override {
+    const Vector pull = both_(Vector{{s.q[0].x, s.inner[0]}});
+    out.points[0] = {-pull(0), 0, 0};
+    if (!out.inner.empty()) out.inner[0] = -pull(1);
+  }
+  std::unique_ptr<ClothTangent> tangent() const override { return std::make_unique<Both>(both_); }
+
+ private:
+  class Both : public ClothTangent {
+   public:
+    explicit Both(const Law& law) : law_(law) {
+      sparsity_.columns = {0, 1, 1};
+      sparsity_.offsets = {0, 2, 3};
+      sparsity_.values.assign(27, 0.0);
+    }
+    const BlockMatrix& sparsity() const override { return sparsity_; }
+    void assemble(const ClothState&, ClothWork&, BlockMatrix& K, const ForceTerms&) const override {
+      K = sparsity_;
+      const Vector first = law_(Vector{{1, 0}}), second = law_(Vector{{0, 1}});
+      K.values[0] = first(0), K.values[9] = second(0), K.values[18] = second(1);
+    }
+
+   private:
+    Law law_;
+    BlockMatrix sparsity_;
+  };
+  Law both_;
+};
+
+TEST(FreeSteps, InnerUnknownsMoveAsPointsDo) {
+  const SpringPoints::Law law = [](const Vector& x) -> Vector {
+    return Vector{{9 * x(0) - 4 * (x(1) - x(0)), 4 * (x(1) - x(0))}};
+  };
+  for (const MotionScheme s :
+       {MotionScheme::euler, MotionScheme::midpoint, MotionScheme::runge_kutta, MotionScheme::implicit_euler}) {
+    std::vector<Vec3> end[2];
+    for (const bool inner : {false, true}) {
+      ModelOptions o;
+      o.self_contact = false;
+      std::unique_ptr<Cloth> cloth = std::make_unique<SpringPoints>(2, law);
+      if (inner) cloth = std::make_unique<PointWithInner>(law);
+      const auto model = buildModel(std::move(cloth), o, {Vec3{}, 0}, {}, {});
+      EmptyStage stage;
+      StepWork work;
+      Frequency frequency;
+      State state = initialState(*model, stage, 0, work);
+      state.p[0].x = 1;
+      attachSprings(*model, stage, state, work);
+      makeIntegrator({s, 1, 1e-14}, *model, stage, fixedSteps(0.02), frequency, work)
+          ->advance(1, state,
+                    [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+      end[inner] = {state.p[0], state.v[0], {inner ? state.inner[0] : state.p[1].x, 0, 0}};
+    }
+    for (int k = 0; k < 3; ++k) EXPECT_LT(norm(end[0][k] - end[1][k]), 1e-12) << static_cast<int>(s) << " " << k;
+    EXPECT_GT(std::abs(end[0][2].x), 0.01);
+  }
+}
+
 /// A sheet that hangs from an edge and is set swinging; positions after 20 ms against a fine solution.
 struct Hanging : Motion {
   Hanging() : Motion(squareSheet(4, 0.2, 0), {{0, 0, -9.81}, 0.5}, {}, held()) {
@@ -154,7 +221,8 @@ struct Hanging : Motion {
   std::vector<Vec3> after(MotionScheme s, double dt, int substeps = 1) {
     Frequency f;
     makeIntegrator({s, substeps, 1e-13}, *model, stage, fixedSteps(dt), f, work)
-        ->advance(0.02, state, [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+        ->advance(0.02, state,
+                  [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     return state.p;
   }
 };

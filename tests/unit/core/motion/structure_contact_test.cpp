@@ -166,8 +166,8 @@ TEST(StructureContact, SupportsMoveWhileItTouches) {
   EXPECT_LT(s.energy, 0.02);
 }
 
-/// Rollers, ties and an edge that moves in a slanting direction, under each of the other schemes: supports hold, momentum
-/// is the ledger's, and works and what the scheme itself makes or takes are all of the energy.
+/// Rollers, ties and an edge that moves in a slanting direction, under each of the other schemes: supports hold,
+/// momentum is the ledger's, and works and what the scheme itself makes or takes are all of the energy.
 TEST(StructureContact, EverySchemeMovesUnderSupports) {
   const Garment g = sheetAboveBall();
   for (int supports = 0; supports < 3; ++supports)

@@ -61,7 +61,8 @@ TEST(VelocitySystem, ConjugateGradientsAgreeWithADirectSolution) {
     Assembled a(m, 5e-3);
     ASSERT_TRUE(a.definite);
     std::vector<Vec3> b(n), x(n);
-    for (int i = 0; i < n; ++i) b[i] = m.model->mass_kg[i] * Vec3{std::sin(3.0 * i), std::cos(5.0 * i), std::sin(i * i)};
+    for (int i = 0; i < n; ++i)
+      b[i] = m.model->mass_kg[i] * Vec3{std::sin(3.0 * i), std::cos(5.0 * i), std::sin(i * i)};
     const CgReport r = a.system.solve(b, 1e-13, x);
     EXPECT_TRUE(r.converged);
     // Without the held points.
@@ -87,8 +88,8 @@ TEST(VelocitySystem, ConjugateGradientsAgreeWithADirectSolution) {
   }
 }
 
-/// Crumpled cloth is compressed: its own stiffness has negative values, what the system takes of it has none, for a step
-/// of any length. Internal forces still sum to nothing: K of a translation is none.
+/// Crumpled cloth is compressed: its own stiffness has negative values, what the system takes of it has none, for a
+/// step of any length. Internal forces still sum to nothing: K of a translation is none.
 TEST(VelocitySystem, IsPositiveWhereClothIsCompressed) {
   for (const CellRule rule : {CellRule::automatic, CellRule::full}) {
     ShellOptions shell;
@@ -106,19 +107,20 @@ TEST(VelocitySystem, IsPositiveWhereClothIsCompressed) {
       ForceTerms terms;
       terms.definite = definite;
       tangent->assemble({q, {}, {}}, m.work.cloth, K, terms);
-      const BlockProduct product(K);
+      BlockProduct product(K);
+      product.set(K);
       Eigen::MatrixXd A(3 * n, 3 * n);
       std::vector<Vec3> x(n), y(n);
       for (int c = 0; c < 3 * n; ++c) {
         x.assign(n, Vec3{});
         x[c / 3][c % 3] = 1;
-        product.multiply(K, x, y);
+        product.multiply(x, y);
         for (int r = 0; r < 3 * n; ++r) A(r, c) = y[r / 3][r % 3];
       }
       const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues();
       lowest[definite] = values(0) / values(values.size() - 1);
       x.assign(n, Vec3{1, 2, 3});
-      product.multiply(K, x, y);
+      product.multiply(x, y);
       double most = 0;
       for (const Vec3& f : y) most = std::max(most, norm(f));
       EXPECT_LT(most, 1e-12 * values(values.size() - 1));
