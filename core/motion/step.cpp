@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/parallel.hpp"
+#include "core/motion/held_motion.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/motion/step_contact.hpp"
 #include "core/statics/structure_system.hpp"
@@ -258,6 +259,16 @@ void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> a
   state.limit_J.clear();
   state.pressed.clear();
   accelerate(model, at.frames(), stage.air(state.time_s), v, {}, 0, nullptr, state, work);
+  findHeldMotions(model, stage, state.time_s, state.time_s, work);
+  rateHeld(model, state.p, work, state.v);
+}
+
+void evaluateForces(const Model& model, const Stage& stage, State& state, StepWork& work) {
+  const AnchorInstant at(model, stage, state.time_s);
+  const std::vector<Vec3> v = state.v;
+  accelerate(model, at.frames(), stage.air(state.time_s), v, {}, 0, nullptr, state, work);
+  findHeldMotions(model, stage, state.time_s, state.time_s, work);
+  rateHeld(model, state.p, work, state.v);
 }
 
 StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
@@ -278,6 +289,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   if (!lasted.empty())
     for (int i = 0; i < n; ++i) w.predictor[i] -= half * lasted[i];  // this step's impulses come in its place
   if (m.supports) m.supports->drive(in.time_s, in.time_s + dt, w.predictor);
+  findHeldMotions(m, stage, in.time_s, in.time_s + dt, w);
+  driveHeld(m, in.p, dt, w, w.predictor);
   const auto notFinite = [&](const char* what) {
     report.failure = StepFailure::not_finite;
     report.why = what;
@@ -295,6 +308,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.v.resize(n);
   for (int i = 0; i < n; ++i) out.p[i] = in.p[i] + dt * w.velocity[i];
   if (m.supports) m.supports->place(out.time_s, out.p);
+  placeHeld(m, in.p, w, out.p);
   if (!allFinite(out.p)) return notFinite("a position is not finite");
   out.inner_rate = in.inner_rate;
   for (std::size_t i = 0; i < out.inner_rate.size(); ++i) out.inner_rate[i] += half * in.inner_acceleration[i];
@@ -319,6 +333,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   report.work.cloth = accelerate(m, after, air1, w.velocity, together(w.pulled_after, out.pressed, w.lasting), half,
                                  &in.history, out, w);
   report.work.dissipated += report.work.cloth;
+  rateHeld(m, out.p, w, out.v);
   if (!allFinite(out.v)) return notFinite("a force is not finite");
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);

@@ -196,6 +196,26 @@ void checkTask(const Entry& root, const Case& c) {
 
 }  // namespace
 
+namespace {
+
+/// Pictures of what cloth remembers, where none of it has friction in bending.
+void checkPictureFields(const Entry& root, const Case& c) {
+  const auto remembers = [](const Fabric& f) {
+    return std::holds_alternative<HysteresisBending>(f.law) || std::holds_alternative<IsotropicHysteresisBending>(f.law);
+  };
+  for (const GarmentCase& g : c.garments)
+    if (remembers(fabricOf(c, g)) || std::any_of(g.other_fabrics.begin(), g.other_fabrics.end(), remembers)) return;
+  for (std::size_t i = 0; i < c.output.pictures.size(); ++i)
+    if (const PictureField f = c.output.pictures[i].field; f == PictureField::set || f == PictureField::friction)
+      root.member(*root.node.find("output"))
+          .member(*root.node.find("output")->find("pictures"))
+          .item(i)
+          .failAt("field", "shows what bent cloth remembers, which no fabric here does; allowed: it where a fabric's "
+                           "bending has the law hysteresis");
+}
+
+}  // namespace
+
 void applyRules(const Entry& root, Case& c) {
   checkGarments(root, c);
   if ((c.human || !c.obstacles.empty() || c.garments.size() > 1) && !root.node.find("contact"))
@@ -207,6 +227,7 @@ void applyRules(const Entry& root, Case& c) {
   const JsonNode* analysis = root.node.find("analysis");
   if (c.human && !(analysis && analysis->find("task"))) c.analysis.task = kindOf(*c.human).task;
   checkTask(root, c);
+  checkPictureFields(root, c);
 }
 
 }  // namespace gambeson::schema

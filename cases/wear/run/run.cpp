@@ -23,6 +23,7 @@
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
+#include "core/motion/step.hpp"
 
 namespace gambeson {
 namespace {
@@ -53,6 +54,18 @@ const char* limbsHint(const Case& c) {
                "of the "
                "motion hold them apart"
              : "";
+}
+
+/// Supports that let go after from_s, up to to_s, do so at to_s, where the state is. What the energy of the cloth gains
+/// when the points that they held belong to it is theirs.
+void letGoAt(double from_s, double to_s, Scenario& s, State& state, Recorder& recorder, StepWork& work) {
+  const std::vector<std::size_t> supports = lettingGo(s.definition, from_s, to_s);
+  if (supports.empty()) return;
+  const double before = energyOf(*s.model, *s.stage, state, work).total();
+  letGo(supports, *s.model, s.supports);
+  evaluateForces(*s.model, *s.stage, state, work);
+  state.steps_to_estimate = -1;
+  recorder.addSupportWork(energyOf(*s.model, *s.stage, state, work).total() - before);
 }
 
 }  // namespace
@@ -105,6 +118,10 @@ int runCase(const Case& c, const RunOptions& options) {
   Recorder recorder(*scenario, writer);
   // A run that is killed early starts again from the start itself.
   if (!resume) writer.closeSegment(checkpointOf(state, frequency));
+  // What was let go before the checkpoint: at its own time the run had not done so yet.
+  if (k > 1)
+    if (const auto gone = lettingGo(c, windows.bound(0), windows.bound(k - 1)); !gone.empty())
+      letGo(gone, *scenario->model, scenario->supports);
   const bool finished = k == windows.count();
   const StepControl control{c.time.step_safety, c.time.max_step_s};
   std::vector<WindowTimes> times;
@@ -113,6 +130,7 @@ int runCase(const Case& c, const RunOptions& options) {
     Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
     try {
       for (; k < windows.count(); ++k) {
+        if (k > 0) letGoAt(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work);
         VelocityVerlet(model, *scenario->stage, control, frequency, work)
             .advance(windows.bound(k + 1), state,
                      [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
