@@ -134,8 +134,8 @@ void addRun(CLI::App& app, RunArguments& a) {
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}).description(""));
   run.footer(
       "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, zones.csv,\n"
-      "stress.csv, patches.csv, straps.csv, collisions.csv, latitude.csv, snapshots/ (pictures) and frames.xdmf (the\n"
-      "recording, for ParaView). Static, dynamic and modal cases leave path.csv (points and edges of each step) and\n"
+      "stress.csv, patches.csv, straps.csv, collisions.csv, energy.csv, memory.csv, latitude.csv, snapshots/\n"
+      "(pictures) and frames.xdmf (the recording, for ParaView). Static, dynamic and modal cases leave path.csv (points and edges of each step) and\n"
       "shape.csv (the last shape) in place of these tables.\n\n"
       "Examples:\n"
       "  gambeson run cases/library/shorts_walk.json\n"

@@ -54,7 +54,7 @@ struct ObstacleCase {
   std::string name;  ///< also the segment that forces are counted under; unique
   std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle, SequenceObstacle> shape;
   Vec3 velocity_m_per_s;
-  ObstacleDrive drive;                  ///< beside that velocity
+  Drive drive;                          ///< beside that velocity
   std::optional<FrictionLaw> friction;  ///< with cloth, where it differs
 };
 

@@ -68,8 +68,10 @@ JsonNode nodeOfRows(const Rows& rows) {
   return node;
 }
 
+}  // namespace
+
 Object driveTable() {
-  using D = ObstacleDrive;
+  using D = Drive;
   Table<D> table("Drive");
   Field velocity =
       fieldOf("velocity", Kind::lists, "", between(-1e4, 1e4),
@@ -118,8 +120,6 @@ Object driveTable() {
       .build();
 }
 
-}  // namespace
-
 FrictionLaw readFriction(const Entry& p) {
   if (p.node.type != JsonNode::Type::object) return readNumber(p, "", coefficient);
   static const Object table = frictionTable();
@@ -148,14 +148,7 @@ Object obstacleTable() {
     table.in("shape");
   }
   table.oneOf("shape", true).vector("velocity", &O::velocity_m_per_s, "m/s", between(-100, 100), "constant velocity");
-  Field drive = fieldOf("drive", Kind::object, "", any(), "how it is moved over time, beside its constant velocity");
-  drive.object = std::make_shared<const Object>(driveTable());
-  drive.default_note = "none";
-  table.custom(
-      drive, [o = drive.object](const Entry& p, O& obstacle) { readObject(*o, p, &obstacle.drive); },
-      [o = drive.object](const O& obstacle) {
-        return obstacle.drive.empty() ? std::nullopt : std::optional(writeObject(*o, &obstacle.drive));
-      });
+  driveField(table, &O::drive, "how it is moved over time, beside its constant velocity");
   ownFriction(table, "friction", &O::friction, "between cloth and this obstacle");
   return table.build();
 }

@@ -29,7 +29,7 @@ class ObstacleStage : public Stage {
  private:
   std::vector<Placement> start_;
   std::vector<Vec3> velocity_;
-  std::vector<ObstacleDrive> drive_;
+  std::vector<Drive> drive_;
   std::vector<std::unique_ptr<const MeshSequence>> sequence_;  ///< null for those that do not deform
 };
 

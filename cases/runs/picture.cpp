@@ -35,10 +35,13 @@ Object pictureTable() {
                                                                 {"strain", PictureField::strain},
                                                                 {"thickness", PictureField::thickness},
                                                                 {"body_pressure", PictureField::body_pressure},
+                                                                {"set", PictureField::set},
+                                                                {"friction", PictureField::friction},
                                                                 {"plain", PictureField::plain}},
               "what the colours show: first principal stress resultant, contact pressure (over the cloth's "
               "area as stretched), first principal strain, thickness at rest; on "
-              "the bare body the largest pressure of the motion; or nothing")
+              "the bare body the largest pressure of the motion; of cloth whose bending has the law hysteresis, the "
+              "curvature that is set in it, or how much of its friction fatigue has left; or nothing")
       .choice("view", &P::view, views, "where the picture is taken from")
       .integer("width", &P::width, 64, 8192, "pixels")
       .integer("height", &P::height, 64, 8192, "pixels")

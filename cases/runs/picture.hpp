@@ -8,7 +8,8 @@ namespace gambeson {
 
 enum class PictureTime { at, peak, end };
 /// body_pressure: on the body, without the garment, the largest over the motion at each place.
-enum class PictureField { plain, stress, pressure, strain, thickness, body_pressure };
+/// set, friction: of cloth with friction in bending.
+enum class PictureField { plain, stress, pressure, strain, thickness, body_pressure, set, friction };
 
 struct PictureCase {
   PictureTime when = PictureTime::end;

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 /// Files of a run beside its recording, as they stand in the results folder.
 constexpr std::array kFiles{"case.json",      "run.json",     "summary.json", "torques.csv", "contact.csv",
                             "collisions.csv", "latitude.csv", "stress.csv",   "zones.csv",   "patches.csv",
-                            "straps.csv",     "path.csv",     "shape.csv",    "report.html", "dressed.json"};
+                            "straps.csv",     "path.csv",     "shape.csv",    "report.html", "dressed.json",
+                            "energy.csv",     "memory.csv"};
 constexpr const char* kPictures = "snapshots";
 /// What stays when these and the recording's layout are gone, as a run begins that replaces an earlier one.
 constexpr std::array kBegun{"frames", "frames.xdmf", kPictures, FolderLock::file};

@@ -412,6 +412,9 @@ int renderStructureResults(const RenderOptions& o) {
   if (o.field == PictureField::pressure || o.field == PictureField::body_pressure)
     throw InputError({"command line", 0, "--field"},
                      "there is no contact pressure here; allowed: stress, strain or plain");
+  if (o.field == PictureField::set || o.field == PictureField::friction)
+    throw InputError({"command line", 0, "--field"},
+                     "pictures of structures do not show what their cloth remembers; allowed: stress, strain or plain");
   if (o.field == PictureField::thickness)
     throw InputError({"command line", 0, "--field"},
                      "pictures of structures do not show their thickness; allowed: stress, strain or plain");

@@ -1,5 +1,6 @@
 #include "core/motion/model.hpp"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -24,6 +25,26 @@ std::vector<Vec3> springRise(const Model& m) {
                        ? (-mass[garment(s)] / stiffness[garment(s)]) * m.environment.gravity_m_per_s2
                        : Vec3{});
   return rise;
+}
+
+/// Which motion moves each held point.
+void addHeldMotion(const ModelOptions& options, Model& m) {
+  const std::vector<int>& motion = options.held_motion;
+  if (std::all_of(motion.begin(), motion.end(), [](int k) { return k < 0; })) return;
+  constexpr int kNone = -2;
+  const SparseRows& T = m.cloth->map().T;
+  m.held_motion.assign(m.held_points.size(), kNone);
+  for (std::size_t c = 0; c < motion.size(); ++c) {
+    const int point = options.held_control_points[c];
+    m.held_motion_count = std::max(m.held_motion_count, motion[c] + 1);
+    for (int k = T.offsets[point]; k < T.offsets[point + 1]; ++k) {
+      int& of = m.held_motion[heldSlot(m, T.columns[k])];
+      if (of != kNone && of != motion[c])
+        throw InputError({"", 0, "supports"},
+                         "two supports hold the same point and move it differently; allowed: the same drive");
+      of = motion[c];
+    }
+  }
 }
 
 /// Masses and areas of the free points, and which of them are held.
@@ -64,6 +85,7 @@ void addPoints(const ModelOptions& options, Model& m) {
     m.inverse_mass.push_back(m.held[i] ? 0 : 1 / m.mass_kg[i]);
     if (m.supports ? m.supports->binds(i) : m.held[i]) m.held_points.push_back(i);
   }
+  addHeldMotion(options, m);
 }
 
 /// What contact asks of each sample.
@@ -149,6 +171,26 @@ std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const Mode
   m.collisions =
       buildCollisions(m.surface, rest, std::move(garment), m.layer_m, m.obstacles, placement, options.self_contact);
   return model;
+}
+
+void holdOnly(std::span<const int> control_points, Model& m) {
+  const SparseRows& T = m.cloth->map().T;
+  std::vector<char> held(m.held.size(), 0);
+  for (const int c : control_points)
+    for (int k = T.offsets[c]; k < T.offsets[c + 1]; ++k) held[T.columns[k]] = m.held[T.columns[k]];
+  std::vector<int> points, motion;
+  for (std::size_t k = 0; k < m.held_points.size(); ++k) {
+    const int i = m.held_points[k];
+    if (!held[i]) continue;
+    points.push_back(i);
+    if (!m.held_motion.empty()) motion.push_back(m.held_motion[k]);
+  }
+  for (std::size_t i = 0; i < held.size(); ++i) m.inverse_mass[i] = held[i] ? 0 : 1 / m.mass_kg[i];
+  m.held = std::move(held);
+  m.held_points = std::move(points);
+  m.held_motion = std::move(motion);
+  if (m.strain_limit.mode != LimitMode::none)
+    m.strain_rows = m.cloth->strainRows(Mobility{m.inverse_mass, {}}, m.strain_limit.points);
 }
 
 }  // namespace gambeson

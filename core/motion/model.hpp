@@ -1,6 +1,7 @@
 #pragma once
 /// The constant model of a run, its state, and what a step reports.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -21,6 +22,12 @@
 
 namespace gambeson {
 
+/// How what a support holds is moved at some time: x = pose X from where X stood before it moved, and its velocities.
+struct HeldMotion {
+  Pose pose;
+  RigidVelocity rate;
+};
+
 /// What is prescribed over time: where the obstacles and the frames that supports hang on stand.
 class Stage {
  public:
@@ -28,6 +35,8 @@ class Stage {
   virtual void placements(double time_s, std::span<Placement> obstacles, std::span<Placement> anchors) const = 0;
   /// Where the vertices of an obstacle that deforms are, in the world. A motion with continuous velocity.
   virtual void vertices(int obstacle, double time_s, std::span<Vec3> x) const;
+  /// How held points are moved, Model::held_motion_count motions.
+  virtual void heldMotions(double, std::span<HeldMotion>) const {}
   /// Velocity of the air, for the drag [m/s].
   virtual Vec3 air(double) const { return {}; }
 };
@@ -54,8 +63,11 @@ struct Model {
   Surface surface;
   Bulges bulges;
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
-  std::vector<char> held;                              ///< free points that do not move
+  std::vector<char> held;                              ///< free points that do not move, or as is prescribed
   std::vector<int> held_points;           ///< free points that something takes hold of, in whole or in part, ascending
+  /// Of each of held_points which motion of the Stage's moves it, or -1; empty: nothing is moved. Of worn cloth.
+  std::vector<int> held_motion;
+  int held_motion_count = 0;
   std::vector<double> density_kg_per_m2;  ///< of the samples
   std::vector<double> cell_m;   ///< of the samples: the shorter side of their cell at rest, through its middle
   std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
@@ -86,10 +98,17 @@ struct Model {
   int freeCount() const { return static_cast<int>(mass_kg.size()); }
 };
 
+/// Where Model::held_points has the free point `i`, which is held.
+inline std::size_t heldSlot(const Model& m, int i) {
+  return static_cast<std::size_t>(std::lower_bound(m.held_points.begin(), m.held_points.end(), i) -
+                                  m.held_points.begin());
+}
+
 struct ModelOptions {
   int samples_per_cell = 2;
   std::vector<int> patch_samples_per_cell;  ///< of each patch, in place of samples_per_cell; or empty
   std::vector<int> held_control_points;
+  std::vector<int> held_motion;  ///< of each of these, which of the Stage's motions moves it, or -1; empty: none is
   std::vector<SpringSupportPoint> springs;
   int anchor_count = 0;
   std::vector<Vec3> dead_force_N;  ///< per control point, such as edgeForce gives; empty: none
@@ -104,6 +123,9 @@ struct ModelOptions {
 std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const ModelOptions& options,
                                   const Environment& environment, const ContactParameters& contact,
                                   std::vector<Obstacle> obstacles);
+
+/// Lets go of what is held but for these control points. Of worn cloth; a state needs evaluateForces then (step.hpp).
+void holdOnly(std::span<const int> control_points, Model& model);
 
 /// Sums over the free points of the forces that are not internal [N].
 struct ForceSums {
@@ -137,7 +159,8 @@ struct State {
   std::vector<double> inner, inner_rate, inner_acceleration;
   std::vector<Vec3> anchors;  ///< of each spring, in its anchor frame
   ForceSums sums;             ///< at this time
-  /// Force on each of Model::held_points that keeps it still, or on its way, without limits and contact.
+  /// Force on each of Model::held_points that keeps it still, or on its way, without limits and contact; of worn cloth
+  /// without the inertia and the drag of what is moved.
   std::vector<Vec3> held_N;
   std::vector<WarmContact> warm;
   bool tangled = true;          ///< cloth may pass through cloth or a mesh: look for intersections
@@ -258,6 +281,7 @@ struct StepScratch {
   std::vector<double> inner_force;
   std::vector<Vec3> damping, net_velocity;  ///< of cloth that damps (core/motion/cloth_damping.hpp)
   double damping_power_W = 0;
+  std::vector<HeldMotion> held_start, held_end;  ///< motions of held points at the ends of the step
   std::vector<Vec3> q, f, predictor, velocity, x0, x1, sample_velocity, sample_force, spring_force, warm;
   std::vector<RowSlip> slip;  ///< of the rows, where friction depends on the motion; else empty
   // Of a structure.

@@ -6,6 +6,7 @@
 #include "core/math/parallel.hpp"
 #include "core/motion/cloth_damping.hpp"
 #include "core/motion/forces.hpp"
+#include "core/motion/held_motion.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/motion/step_contact.hpp"
 
@@ -87,6 +88,17 @@ void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> a
   state.free_change.clear();
   accelerate(model, at.frames(), stage.air(state.time_s), v, {}, {}, nullptr, state, work);
   state.damping_W = clothDampingPower(state, work);
+  findHeldMotions(model, stage, state.time_s, state.time_s, work);
+  rateHeld(model, state.p, work, state.v);
+}
+
+void evaluateForces(const Model& model, const Stage& stage, State& state, StepWork& work) {
+  const AnchorInstant at(model, stage, state.time_s);
+  const std::vector<Vec3> v = state.v;
+  accelerate(model, at.frames(), stage.air(state.time_s), v, {}, {}, nullptr, state, work);
+  state.damping_W = clothDampingPower(state, work);
+  findHeldMotions(model, stage, state.time_s, state.time_s, work);
+  rateHeld(model, state.p, work, state.v);
 }
 
 StepReport step(const Model& m, const Stage& stage, const State& in, double dt, State& out, StepWork& w) {
@@ -107,6 +119,8 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   if (!lasted.empty())
     for (int i = 0; i < n; ++i) w.predictor[i] -= half * lasted[i];  // this step's impulses come in its place
   if (m.supports) m.supports->drive(in.time_s, in.time_s + dt, w.predictor);
+  findHeldMotions(m, stage, in.time_s, in.time_s + dt, w);
+  driveHeld(m, in.p, dt, w, w.predictor);
   const auto notFinite = [&](const char* what) {
     report.failure = StepFailure::not_finite;
     report.why = what;
@@ -124,6 +138,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.v.resize(n);
   for (int i = 0; i < n; ++i) out.p[i] = in.p[i] + dt * w.velocity[i];
   if (m.supports) m.supports->place(out.time_s, out.p);
+  placeHeld(m, in.p, w, out.p);
   if (!allFinite(out.p)) return notFinite("a position is not finite");
   out.inner_rate = in.inner_rate;
   for (std::size_t i = 0; i < out.inner_rate.size(); ++i) out.inner_rate[i] += half * in.inner_acceleration[i];
@@ -152,6 +167,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   out.damping_W = clothDampingPower(out, w);
   report.work.cloth = lost + half * (in.damping_W + out.damping_W);
   report.work.dissipated += lost + dt * w.damping_power_W;
+  rateHeld(m, out.p, w, out.v);
   if (!allFinite(out.v)) return notFinite("a force is not finite");
   for (std::size_t k = 0; k < spring_mean.size(); ++k) {
     spring_mean[k] = half * (spring_mean[k] + w.spring_force[k]);

@@ -15,6 +15,9 @@ void attachSprings(const Model& model, const Stage& stage, State& state, StepWor
 /// Hangs the springs on the given points of their anchor frames, and evaluates the forces again.
 void hangSprings(const Model& model, const Stage& stage, std::span<const Vec3> anchors, State& state, StepWork& work);
 
+/// Evaluates the forces again, after supports let go. Positions, velocities and what limits and contacts have left stay.
+void evaluateForces(const Model& model, const Stage& stage, State& state, StepWork& work);
+
 /// Velocity Verlet with the contact split, eq. 3.11 to 3.13, by `dt_s`. Drag is implicit in the second half as in
 /// eq. 3.13. On failure `out` is not to be used.
 ///

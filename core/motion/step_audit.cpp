@@ -70,12 +70,16 @@ void contactLedger(const Model& m, const State& in, double dt, std::span<const V
     std::vector<std::size_t> held;
     for (int i : zone.points)
       if (takesHold(m, i)) held.push_back(heldSlot(m, i));
+    Vec3 with{};  // the velocity of what supports move in it
+    const bool guided = zone.body < 0 && !held.empty() && !m.held_motion.empty();
+    if (guided)
+      for (const std::size_t k : held) with += w.velocity[m.held_points[k]] / static_cast<double>(held.size());
     for (int i : zone.points) {
       if (takesHold(m, i)) continue;
       const Vec3 impulse = m.mass_kg[i] * w.impact_zone_change[i];
-      report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.impact_zone_change[i]);
+      report.work.contact += dot(impulse, w.velocity[i] - 0.5 * w.impact_zone_change[i] - with);
       report.work.dissipated +=
-          0.5 * dot(impulse, w.impact_zone_change[i]) - (zone.body < 0 ? dot(impulse, w.velocity[i]) : 0);
+          0.5 * dot(impulse, w.impact_zone_change[i]) - (zone.body < 0 && !guided ? dot(impulse, w.velocity[i]) : 0);
       report.momentum.scale += norm(impulse);
       if (zone.body >= 0) {
         const Vec3 point = in.p[i];
@@ -138,6 +142,21 @@ void auditSupports(const Model& m, const StepEnds& e, StepReport& report, StepWo
   audit.scale += norm(audit.dead);
 }
 
+/// Of held points that supports move, w.held_impulses being what keeps them still: its work on the cloth around them,
+/// which is without their own weight and drag; and what their inertia and drag ask for beside.
+void auditHeldMotion(const Model& m, const StepEnds& e, StepReport& report, StepWork& w) {
+  const double half = 0.5 * e.step_s;
+  for (std::size_t k = 0; k < m.held_motion.size(); ++k) {
+    if (m.held_motion[k] < 0) continue;
+    const int i = m.held_points[k];
+    const double d = m.drag_kg_per_s[i];
+    Vec3 own = m.mass_kg[i] * m.environment.gravity_m_per_s2 + 0.5 * d * (e.air_before + e.air_after);
+    if (!m.dead_force_N.empty()) own += m.dead_force_N[i];
+    report.work.supports += dot(w.held_impulses[k] + e.step_s * own, (e.out.p[i] - e.in.p[i]) / e.step_s);
+    w.held_impulses[k] += m.mass_kg[i] * (e.out.v[i] - e.in.v[i]) + half * d * (e.in.v[i] + e.out.v[i]);
+  }
+}
+
 }  // namespace
 
 void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& w) {
@@ -167,12 +186,14 @@ void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& 
       if (m.held[i]) {
         audit.supports -= impulse;
         audit.scale += norm(impulse);
+        if (!m.held_motion.empty()) report.work.limit += dot(impulse, w.velocity[i]);
         continue;
       }
       report.work.limit += 0.5 * dot(impulse, w.predictor[i] + w.velocity[i] - dt * in.a[i]);
     }
     report.work.limit += lastingWork(m, w.pulled_before, w.pulled_after, in, half, w);
   }
+  auditHeldMotion(m, e, report, w);
   if (!in.pressed.empty() || !out.pressed.empty()) {
     report.work.contact += lastingWork(m, in.pressed, out.pressed, in, half, w);
     for (int i = 0; i < n; ++i) {

@@ -10,6 +10,7 @@
 #include "core/motion/body_edges.hpp"
 #include "core/motion/clearance.hpp"
 #include "core/motion/closest_projection.hpp"
+#include "core/motion/held_motion.hpp"
 #include "core/motion/step_rows.hpp"
 
 namespace gambeson {
@@ -248,7 +249,7 @@ RigidVelocity motionAround(const Model& m, const ImpactZone& zone, double dt, co
 }
 
 /// Moves what still meets in rigid impact zones, which grow until nothing does. An impact zone at a body moves with it,
-/// one with a held point stays, or goes where supports move that. False where it is no use: pinched between bodies, or
+/// one with a held point stays, or goes where that is moved. False where it is no use: pinched between bodies, or
 /// never done.
 bool moveImpactZones(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
   ImpactZones impact_zones;
@@ -279,14 +280,17 @@ bool moveImpactZones(const Model& m, const State& in, double dt, StepReport& rep
                 dt;
         }
       } else if (held) {
-        const Vec3 with = m.supports ? solved[*first_held] : Vec3{};
-        for (int i : zone.points) w.velocity[i] = with;
+        const int motion = m.held_motion.empty() ? -1 : m.held_motion[heldSlot(m, *first_held)];
+        for (int i : zone.points)
+          w.velocity[i] = motion < 0 ? (m.supports ? solved[*first_held] : Vec3{})
+                                     : (carried(w, motion, in.p[i]) - in.p[i]) / dt;
       } else {
         makeRigid(zone, in.p, m.mass_kg, w.velocity);
       }
     }
     report.impact_zones = impact_zones.size();
     if (m.supports) m.supports->drive(in.time_s, in.time_s + dt, w.velocity);
+    driveHeld(m, in.p, dt, w, w.velocity);
     if (!allFinite(w.velocity) || !anyImpact(m, dt, w)) {
       w.impact_zones = std::move(impact_zones);
       for (int i = 0; i < m.freeCount(); ++i) w.impact_zone_change[i] = w.velocity[i] - solved[i];

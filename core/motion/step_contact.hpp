@@ -39,12 +39,6 @@ inline Vec3 sampleAt(const SparseRows& WT, int sample, std::span<const Vec3> val
   return s;
 }
 
-/// Where Model::held_points has the free point `i`, which is held.
-inline std::size_t heldSlot(const Model& m, int i) {
-  return static_cast<std::size_t>(std::lower_bound(m.held_points.begin(), m.held_points.end(), i) -
-                                  m.held_points.begin());
-}
-
 /// Whether something holds the free point `i`, whole or in part.
 inline bool takesHold(const Model& m, int i) { return m.supports ? m.supports->binds(i) : m.held[i] != 0; }
 

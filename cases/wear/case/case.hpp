@@ -23,6 +23,7 @@
 #include "human/body/mesh_sequence.hpp"
 #include "human/character/character.hpp"
 #include "human/motion/aim.hpp"
+#include "human/motion/sit.hpp"
 #include "human/motion/stairs.hpp"
 #include "human/motion/walk.hpp"
 #include "human/recorded/motion_file.hpp"
@@ -142,7 +143,9 @@ struct HumanCase {
   std::filesystem::path urdf, body;
   std::optional<CharacterOptions> character;
   std::optional<SkinOptions> skin;  ///< around the manikin; where absent, its ellipsoids are the surface
-  std::variant<StandMotion, WalkOptions, StairOptions, AimOptions, TrajectoryMotion, MotionFileOptions> motion;
+  std::variant<StandMotion, WalkOptions, StairOptions, AimOptions, TrajectoryMotion, MotionFileOptions,
+               SitOptions>
+      motion;
 };
 
 // --- What holds it ----------------------------------------------------------------------------------------------
@@ -156,9 +159,15 @@ struct EdgeCase {
   Side side = Side::u0;
 };
 
-/// Rows of control points held in the world: 1 holds the edge, 2 also its tangent.
-struct FixedSupport {
-  EdgeCase edge;
+/// Points held in the world, or moved by a drive, until they are let go.
+struct HeldSupport {
+  EdgeCase edge;  ///< garment and edge or patch
+  Drive drive;
+  std::optional<double> release_s;
+};
+
+/// Rows of control points held: 1 holds the edge, 2 also its tangent.
+struct FixedSupport : HeldSupport {
   int rows = 1;
 };
 
@@ -169,13 +178,15 @@ struct SpringSupport {
   std::string link;
 };
 
-/// The control points that shape a point of a patch held in the world.
-struct PinnedSupport {
-  EdgeCase edge;  ///< garment and patch
+/// The control points that shape a point of a patch held.
+struct PinnedSupport : HeldSupport {
   double s = 0.5, t = 0.5;
 };
 
-using SupportCase = std::variant<FixedSupport, SpringSupport, PinnedSupport>;
+/// All points of a patch held.
+struct PatchSupport : HeldSupport {};
+
+using SupportCase = std::variant<FixedSupport, SpringSupport, PinnedSupport, PatchSupport>;
 
 // --- How it touches, and the air -------------------------------------------------------------------------------
 

@@ -203,11 +203,41 @@ void checkTime(const Entry& root, const Case& c) {
   const MotionScheme scheme = c.time.motion.scheme;
   if (scheme == MotionScheme::verlet) return;
   if (c.strain_limit) failAt(root, {"time", "scheme"}, "goes without strain_limit; allowed with it: \"verlet\"");
+  const auto moves = [](const SupportCase& support) {
+    return std::visit(
+        []<class S>(const S& s) {
+          if constexpr (std::is_base_of_v<HeldSupport, S>) return !s.drive.empty() || s.release_s.has_value();
+          return false;
+        },
+        support);
+  };
+  if (std::any_of(c.supports.begin(), c.supports.end(), moves))
+    failAt(root, {"time", "scheme"}, "goes without supports that move or let go; allowed with them: \"verlet\"");
   if ((scheme == MotionScheme::euler || scheme == MotionScheme::midpoint) && !(c.time.step_s > 0) &&
       !(c.air.drag_kg_per_m2s > 0))
     failAt(root, {"time", "scheme"},
            "lets motion grow in steps of any length where nothing damps it; allowed: with air.drag > 0, or with "
            "time.step > 0");
+}
+
+}  // namespace
+
+namespace {
+
+/// Pictures of what cloth remembers, where none of it has friction in bending.
+void checkPictureFields(const Entry& root, const Case& c) {
+  const auto remembers = [](const Fabric& f) {
+    return std::visit([]<class L>(const L&) { return std::is_base_of_v<FrictionInBending, L>; }, f.law);
+  };
+  for (const GarmentCase& g : c.garments)
+    if (remembers(fabricOf(c, g)) || std::any_of(g.other_fabrics.begin(), g.other_fabrics.end(), remembers)) return;
+  for (std::size_t i = 0; i < c.output.pictures.size(); ++i)
+    if (const PictureField f = c.output.pictures[i].field; f == PictureField::set || f == PictureField::friction)
+      root.member(*root.node.find("output"))
+          .member(*root.node.find("output")->find("pictures"))
+          .item(i)
+          .failAt("field", "shows what bent cloth remembers, which no fabric here does; allowed: it where a fabric's "
+                           "bending has the law hysteresis");
 }
 
 }  // namespace
@@ -224,6 +254,7 @@ void applyRules(const Entry& root, Case& c) {
   const JsonNode* analysis = root.node.find("analysis");
   if (c.human && !(analysis && analysis->find("task"))) c.analysis.task = kindOf(*c.human).task;
   checkTask(root, c);
+  checkPictureFields(root, c);
 }
 
 }  // namespace gambeson::schema

@@ -189,6 +189,13 @@ RecordingLayout recordingLayout(const Scenario& s) {
   const TimeCase& time = s.definition.time;
   if (time.auditsEnergy()) steps.push_back(integrator_column);
   if (isImplicit(time.motion.scheme)) steps.insert(steps.end(), std::begin(solve_columns), std::end(solve_columns));
+  auto& sticking = layout.tables["sticking"] = window;
+  sticking.insert(sticking.end(), {"bodies_n_Ns", "bodies_stuck_Ns", "cloth_n_Ns", "cloth_stuck_Ns"});
+  if (ClothMemoryView(*s.model).any()) {
+    auto& memory = layout.tables["memory"] = window;
+    const std::vector<std::string> of_patches = ClothMemoryView::columns(s.patch_names);
+    memory.insert(memory.end(), of_patches.begin(), of_patches.end());
+  }
   requireOwnNames(layout, s.definition.file);
   layout.scene = sceneOf(s);
   return layout;
@@ -297,6 +304,7 @@ Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
       writer_(writer),
       placed_(scenario),
       zones_(scenario),
+      memory_(*scenario.model),
       bodies_(scenario.bodies.size()),
       regions_(scenario.contact_regions.size()),
       supports_(scenario.supports.size()),
@@ -306,6 +314,8 @@ Recorder::Recorder(const Scenario& scenario, RecordingWriter& writer)
       steps_(kColumns, 0) {
   if (scenario.hasSkin()) skin_.emplace(scenario);
 }
+
+void Recorder::addSupportWork(double J) { steps_[kWorkSupports] += J; }
 
 void Recorder::observe(const State& before, const State& after, const StepReport& r, const StepResult& work,
                        const Frequency& f) {
@@ -342,6 +352,7 @@ void Recorder::observe(const State& before, const State& after, const StepReport
     for (int k : scenario_.supports[g].springs) supports_[g] += work.spring_impulses[k];
     for (const auto& [k, part] : scenario_.supports[g].held) supports_[g] += part * work.held_impulses[k];
   }
+  addSticking(before, after, r, work);
   const bool first = steps_[kSteps] == 0;
   const auto most = [&](Column c, double value) { steps_[c] = first ? value : std::max(steps_[c], value); };
   steps_[kShortest] = first ? r.step_s : std::min(steps_[kShortest], r.step_s);
@@ -384,6 +395,26 @@ void Recorder::observe(const State& before, const State& after, const StepReport
   steps_[kBending] = f.bending_share;
   steps_[kSeam] = f.seam_share;
   steps_[kSpringShare] = f.spring_share;
+}
+
+void Recorder::addSticking(const State& before, const State& after, const StepReport& r, const StepResult& work) {
+  const Model& m = *scenario_.model;
+  const SparseRows& WT = m.surface.WT;
+  for (std::size_t i = 0; i < work.rows.size(); ++i) {
+    const ContactRow& row = work.rows[i];
+    const double normal = dot(work.impulses[i], row.contact.normal);
+    if (!(normal > 0) || row.slippery) continue;
+    Vec3 v = -row.body_velocity;
+    for (int j = 0; j < row.stencil.count; ++j) {
+      const int s = row.stencil.sample[j];
+      for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
+        v += (row.stencil.weight[j] * WT.values[k] / r.step_s) * (after.p[WT.columns[k]] - before.p[WT.columns[k]]);
+    }
+    const bool sticks = norm(v - dot(v, row.contact.normal) * row.contact.normal) <= m.contact.still(r.step_s);
+    const std::size_t of = row.contact.onBody() ? 0 : 2;
+    sticking_[of] += normal;
+    if (sticks) sticking_[of + 1] += normal;
+  }
 }
 
 void Recorder::closeWindow(const State& state, double start_s, bool frame, StepWork& work) {
@@ -478,6 +509,16 @@ void Recorder::closeWindow(const State& state, double start_s, bool frame, StepW
   if (time.auditsEnergy()) row.push_back(own_J);
   if (isImplicit(time.motion.scheme)) row.insert(row.end(), {iterations, missed});
   writer_.append(TableRow{"steps", row});
+  row = head;
+  row.insert(row.end(), sticking_.begin(), sticking_.end());
+  sticking_.fill(0);
+  writer_.append(TableRow{"sticking", row});
+  if (memory_.any()) {
+    row = head;
+    const std::vector<double> of_patches = memory_.row(state.history, static_cast<int>(scenario_.patch_names.size()));
+    row.insert(row.end(), of_patches.begin(), of_patches.end());
+    writer_.append(TableRow{"memory", row});
+  }
 
   if (frame) appendFrame(state, window);
   if (skin_) skin_->clear();
@@ -542,6 +583,11 @@ void Recorder::appendFrame(const State& state, double window) {
   });
   error.rethrow();
   frame.sample_fields = {velocity, contact, pressure, area, s1, s2, e1, e2};
+  if (memory_.any()) {
+    const ClothMemory memory = memory_.at(state.history);
+    frame.sample_fields.push_back({"set", "1/m", 1, {memory.set_per_m.begin(), memory.set_per_m.end()}});
+    frame.sample_fields.push_back({"friction_left", "1", 1, {memory.friction_left.begin(), memory.friction_left.end()}});
+  }
   frame.control_fields = {Field{"position", "m", 3, floats(q)}};
   if (skin_) addSkin(state, window, frame);
   writer_.append(std::move(frame));

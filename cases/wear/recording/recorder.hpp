@@ -15,14 +15,20 @@
 ///   link,
 ///             from where the springs were attached
 ///   skin      where the human has a skin: what its contact is at the joints (cases/wear/recording/skin_ledger.hpp)
+///   memory    where the cloth's laws have friction in bending: what they remember (ClothMemoryView::columns), at the
+///             window's end
+///   sticking  sums of the normal impulses of contacts: <bodies|cloth>_n_Ns of all, _stuck_Ns of those that stick, whose
+///             sides move along each other by no more than ContactParameters::still
 /// Frames hold of each sample the mean contact force over the window, the pressure (sum of the normal forces over the
 /// sample's area as it is at the window's end, stretched) and that area; stress and strain. Those of a human with a
 /// skin also hold the skin's vertices, the contact force on each and the pressure on it, over the skin's own area then.
 ///   steps     what the steps of the window reported (columns: stepColumns())
 
+#include <array>
 #include <optional>
 #include <vector>
 
+#include "cases/wear/recording/cloth_memory.hpp"
 #include "cases/wear/recording/skin_ledger.hpp"
 #include "cases/wear/recording/zone_ledger.hpp"
 #include "cases/wear/scene/placed_bodies.hpp"
@@ -56,6 +62,8 @@ class Recorder {
 
   void observe(const State& before, const State& after, const StepReport& report, const StepResult& work,
                const Frequency& frequency);
+  /// Work of supports beside what they do in steps [J].
+  void addSupportWork(double J);
   /// Ends the window that began at start_s; appends a frame where `frame` says so.
   void closeWindow(const State& state, double start_s, bool frame, StepWork& work);
 
@@ -65,6 +73,8 @@ class Recorder {
     Vec3 pressing, pressing_moment;  ///< their normal parts
     double normal = 0, tangential = 0;
   };
+  /// What sticks of the contacts of a step.
+  void addSticking(const State& before, const State& after, const StepReport& report, const StepResult& work);
   void appendFrame(const State& state, double window_s);
   void addSkin(const State& state, double window_s, Frame& frame) const;
 
@@ -73,6 +83,8 @@ class Recorder {
   RecordingWriter& writer_;
   PlacedBodies placed_;
   ZoneLedger zones_;
+  ClothMemoryView memory_;
+  std::array<double, 4> sticking_{};  ///< as the table has them
   std::optional<SkinLedger> skin_;
   std::vector<Body> bodies_;
   std::vector<Body> regions_;  ///< without moments

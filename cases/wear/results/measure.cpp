@@ -398,6 +398,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   for (const GarmentMeasure& l : garmentMeasuresOf(s)) out.cloth_kg += l.mass_kg;
   out.energy.negligible = 0.5 * out.cloth_kg * 1e-12;
   measureSteps(recording, out);
+  measureMemory(s, recording, out);
   out.limited = s.definition.strain_limit.has_value();
   out.regions = regionsOf(s);
   measureFrames(recording, out);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -146,6 +147,8 @@ struct CollisionWindow {
   long intersections = 0;  ///< contours, the most of a step
   double smallest_gap_m = 0, residual_m_per_s = 0, iterations = 0;
   double way_cells = 0;  ///< of a sample in a step, in sides of its cell, the largest
+  /// Part of the normal impulses on bodies, and of cloth on cloth, that contacts have which stick; NaN where none press.
+  double sticking = std::numeric_limits<double>::quiet_NaN(), cloth_sticking = sticking;
 };
 
 /// Over all windows of the run, dressing included, but for what says otherwise.
@@ -179,6 +182,7 @@ struct EnergyMeasure {
   /// What the scheme itself made (positive) or took, where the run has kept account of it.
   std::optional<double> integrator;
   double drift() const { return change - (contact + drag + supports + limit - lost + integrator.value_or(0)); }
+  std::vector<std::array<double, 11>> rows;  ///< of the windows of the motion, as energy.csv has them
   double relative() const { return absolute > negligible ? drift() / absolute : 0; }
   /// What the scheme made, of the works.
   double made() const { return absolute > negligible ? std::max(0.0, integrator.value_or(0)) / absolute : 0; }
@@ -256,6 +260,22 @@ struct GarmentOrderMeasure {
   double largest = 0, time_s = 0;
 };
 
+/// What the cloth of each patch remembers (cases/wear/recording/cloth_memory.hpp), at the ends of the windows of the
+/// motion. Empty where it remembers nothing.
+struct MemoryMeasure {
+  struct Of {
+    double set_per_m = 0, largest_set_per_m = 0, friction_left = 1;
+  };
+  std::vector<std::string> patches;
+  std::vector<double> time_s;
+  std::vector<std::vector<Of>> rows;  ///< [window][patch]
+};
+
+/// Of the normal impulses of the motion, the part that sticking contacts have; NaN where nothing presses.
+struct StickingMeasure {
+  double bodies = std::numeric_limits<double>::quiet_NaN(), cloth = bodies;
+};
+
 struct Measured {
   double recorded_end_s = 0;
   double counted_from_s = 0;  ///< peaks and mean squares of torques count from here on
@@ -287,6 +307,8 @@ struct Measured {
   std::vector<GarmentOrderMeasure> garment_order;  ///< of each two garments that a human wears
   StepMeasure steps;
   EnergyMeasure energy;
+  MemoryMeasure memory;
+  StickingMeasure sticking;
   double cloth_kg = 0;                        ///< mass of all garments
   bool limited = false;                       ///< whether the case limits strain
   std::optional<SurfaceDepth> surface_depth;  ///< costs seconds: only where asked for
@@ -304,6 +326,8 @@ Measured measureAll(const Scenario& scenario, const RecordingReader& recording);
 // Its parts (steps.cpp): the table "steps", and the frames.
 void measureSteps(const RecordingReader& recording, Measured& out);
 void measureFrames(const RecordingReader& recording, Measured& out);
+/// Of memory.cpp, after the steps: tables "memory" and "sticking", which recordings of before lack.
+void measureMemory(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of comfort.cpp; after the joints too.
 void measureComfort(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of zones.cpp; after the joints, which say from when on windows count.

@@ -49,6 +49,10 @@ FieldWords wordsOf(PictureField field) {
       return {"", "Thickness of the cloth at rest [mm]", "thickness of the cloth", 1e3};
     case PictureField::body_pressure:
       return {"", "Largest pressure on the body, mean over {:g} mm [kPa]", "largest pressure on the body", 1e-3};
+    case PictureField::set:
+      return {"set", "Curvature that is set in the fabric [1/m]", "curvature set in the fabric", 1};
+    case PictureField::friction:
+      return {"friction_left", "Friction in bending that is left [%]", "friction in bending that is left", 100};
     case PictureField::plain:
       break;
   }

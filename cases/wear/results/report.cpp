@@ -237,6 +237,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
                      : "The garment touches nothing that a joint moves: no torque tells what it costs. " + outcomeOf(m);
   addStress(s, m, in);
   addSupports(m, in);
+  addMemory(m, in);
   in.pictures = pictures;
   in.assumptions = assumptionsOf(s);
   if (const std::string names = untouchedOf(m); !names.empty())

@@ -30,6 +30,8 @@ std::string pictureName(std::size_t number, const PictureCase& p, double time_s)
                       : p.field == PictureField::strain        ? "strain"
                       : p.field == PictureField::thickness     ? "thickness"
                       : p.field == PictureField::body_pressure ? "body_pressure"
+                      : p.field == PictureField::set           ? "set"
+                      : p.field == PictureField::friction      ? "friction"
                                                                : "plain";
   const std::string when = p.when == PictureTime::peak  ? "peak"
                            : p.when == PictureTime::end ? "end"
@@ -174,6 +176,8 @@ void writeResults(const std::filesystem::path& dir) {
   writeZones(dir / "zones.csv", m.zones);
   writeCloth(dir, s, m);
   writeCollisions(dir / "collisions.csv", m.steps.collisions);
+  writeEnergy(dir / "energy.csv", m.energy.rows);
+  if (!m.memory.rows.empty()) writeMemory(dir / "memory.csv", m.memory);
   if (!m.touch.empty()) writeLatitude(dir / "latitude.csv", m.touch);
   writeStress(dir / "stress.csv", m.regions, m.frames);
   std::vector<std::string> failures;

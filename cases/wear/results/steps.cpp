@@ -61,6 +61,9 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
     if (start < -1e-9) continue;
     if (at("deepest_m") > m.deepest_m) m.deepest_m = at("deepest_m"), m.deepest_time_s = middle;
     const double energy = at("kinetic_J") + at("internal_J") + at("gravity_J") + at("springs_J");
+    e.rows.push_back({end, at("kinetic_J"), at("internal_J"), at("gravity_J"), at("springs_J"), at("work_contact_J"),
+                      at("work_drag_J"), at("work_supports_J"), at("work_limit_J"),
+                      table.has(lost_column) ? at(lost_column) : 0, at("dissipated_J")});
     if (!moving) {
       moving = true;
       first_energy = energy;
@@ -91,14 +94,16 @@ void measureSteps(const RecordingReader& recording, Measured& out) {
 CollisionTable collisionTable(std::span<const CollisionWindow> windows) {
   CollisionTable t{{"start_s", "end_s", "most_contacts", "most_cloth_contacts", "impacts", "rigid_zones", "cut_steps",
                     "pinched_samples", "most_intersections", "smallest_gap_m", "largest_residual_m_per_s",
-                    "mean_iterations", "largest_way_cells"},
+                    "mean_iterations", "largest_way_cells", "sticking_share", "sticking_share_cloth"},
                    {}};
   for (const CollisionWindow& w : windows) {
     t.rows.push_back({w.start_s, w.end_s});
     for (long n : {w.contacts, w.cloth_contacts, w.impacts, w.impact_zones, w.cut_steps, w.pinched, w.intersections})
       t.rows.back().push_back(static_cast<double>(n));
     t.rows.back().insert(t.rows.back().end(),
-                         {w.contacts > 0 ? w.smallest_gap_m : 0, w.residual_m_per_s, w.iterations, w.way_cells});
+                         {w.contacts > 0 ? w.smallest_gap_m : 0, w.residual_m_per_s, w.iterations, w.way_cells,
+                          std::isfinite(w.sticking) ? w.sticking : 0,
+                          std::isfinite(w.cloth_sticking) ? w.cloth_sticking : 0});
   }
   return t;
 }
@@ -106,6 +111,15 @@ CollisionTable collisionTable(std::span<const CollisionWindow> windows) {
 void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows) {
   const CollisionTable t = collisionTable(windows);
   writeCsv(csv, t.columns, t.rows);
+}
+
+void writeEnergy(const std::filesystem::path& csv, std::span<const std::array<double, 11>> rows) {
+  std::vector<std::vector<double>> table;
+  for (const auto& row : rows) table.emplace_back(row.begin(), row.end());
+  writeCsv(csv,
+           {"time_s", "kinetic_J", "internal_J", "gravity_J", "springs_J", "work_contact_J", "work_drag_J",
+            "work_supports_J", "work_limit_J", "lost_in_cloth_J", "dissipated_J"},
+           table);
 }
 
 void measureFrames(const RecordingReader& recording, Measured& out) {

@@ -328,6 +328,19 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                  {"drift_ratio", m.energy.relative()}};
   if (m.energy.lost > 0) j["energy"]["lost_energy_J"] = m.energy.lost;
   if (m.energy.integrator) j["energy"]["work_integrator_J"] = *m.energy.integrator;
+  if (std::isfinite(m.sticking.bodies)) j["sticking"]["bodies"] = m.sticking.bodies;
+  if (std::isfinite(m.sticking.cloth)) j["sticking"]["cloth"] = m.sticking.cloth;
+  if (!m.memory.rows.empty()) {
+    Json patches = Json::array();
+    for (std::size_t p = 0; p < m.memory.patches.size(); ++p) {
+      const MemoryMeasure::Of& of = m.memory.rows.back()[p];
+      patches.push_back({{"patch", m.memory.patches[p]},
+                         {"set_1_per_m", of.set_per_m},
+                         {"largest_set_1_per_m", of.largest_set_per_m},
+                         {"friction_left", of.friction_left}});
+    }
+    j["memory"] = patches;
+  }
   j["steps"] = {{"count", m.steps.steps},
                 {"smallest_s", m.steps.shortest_s},
                 {"mean_s", m.steps.mean_s},

@@ -24,6 +24,15 @@ void addCollisions(const Measured& measured, ReportInput& in);
 /// Replaces DIR/collisions.csv: what collided, window by window. The smallest gap is 0 where nothing was near.
 void writeCollisions(const std::filesystem::path& csv, std::span<const CollisionWindow> windows);
 
+/// Replaces DIR/energy.csv: what the cloth holds at the end of each window of the motion, and the works of the window.
+void writeEnergy(const std::filesystem::path& csv, std::span<const std::array<double, 11>> rows);
+
+/// Replaces DIR/memory.csv: what each patch remembers, window by window.
+void writeMemory(const std::filesystem::path& csv, const MemoryMeasure& memory);
+
+/// What it remembers, and what sticks, for the page.
+void addMemory(const Measured& measured, ReportInput& in);
+
 /// Replaces DIR/zones.csv: what each part of the body bears over the motion, all of it, what presses and what rubs, and
 /// without belt and edges on springs.
 void writeZones(const std::filesystem::path& csv, const ZonesMeasure& zones);

@@ -24,6 +24,7 @@
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
 #include "core/motion/free_steps.hpp"
+#include "core/motion/step.hpp"
 
 namespace gambeson {
 namespace {
@@ -54,6 +55,18 @@ const char* limbsHint(const Case& c) {
                "of the "
                "motion hold them apart"
              : "";
+}
+
+/// Supports that let go after from_s, up to to_s, do so at to_s, where the state is. What the energy of the cloth gains
+/// when the points that they held belong to it is theirs.
+void letGoAt(double from_s, double to_s, Scenario& s, State& state, Recorder& recorder, StepWork& work) {
+  const std::vector<std::size_t> supports = lettingGo(s.definition, from_s, to_s);
+  if (supports.empty()) return;
+  const double before = energyOf(*s.model, *s.stage, state, work).total();
+  letGo(supports, *s.model, s.supports);
+  evaluateForces(*s.model, *s.stage, state, work);
+  state.steps_to_estimate = -1;
+  recorder.addSupportWork(energyOf(*s.model, *s.stage, state, work).total() - before);
 }
 
 }  // namespace
@@ -106,6 +119,10 @@ int runCase(const Case& c, const RunOptions& options) {
   Recorder recorder(*scenario, writer);
   // A run that is killed early starts again from the start itself.
   if (!resume) writer.closeSegment(checkpointOf(state, frequency));
+  // What was let go before the checkpoint: at its own time the run had not done so yet.
+  if (k > 1)
+    if (const auto gone = lettingGo(c, windows.bound(0), windows.bound(k - 1)); !gone.empty())
+      letGo(gone, *scenario->model, scenario->supports);
   const bool finished = k == windows.count();
   const std::unique_ptr<Integrator> integrator =
       makeIntegrator(c.time.motion, model, *scenario->stage, c.time.control(), frequency, work);
@@ -115,6 +132,7 @@ int runCase(const Case& c, const RunOptions& options) {
     Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
     try {
       for (; k < windows.count(); ++k) {
+        if (k > 0) letGoAt(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work);
         integrator->advance(windows.bound(k + 1), state,
                      [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
                          const Frequency& f) { recorder.observe(before, after, report, w, f); });

@@ -135,7 +135,8 @@ void buildModelOf(const Case& c, const Only& only, ClothDraft&& draft, const std
   options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
   const Surface surface = underGarments(c, only, [&] { return draft.cloth->surface(s.samples_per_cell); });
-  addSupports(c, *draft.cloth, first, draft.edges, surface, human, options, s.supports);
+  addSupports(c, *draft.cloth, first, draft.edges, surface, human, options, s.supports,
+              s.stage->held_drives);
   if (const auto& limit = c.strain_limit) options.strain_limit = wornLimit(*limit);
   const Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   ContactParameters contact =

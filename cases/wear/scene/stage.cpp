@@ -39,6 +39,10 @@ void CaseStage::vertices(int obstacle, double t, std::span<Vec3> x) const {
   for (std::size_t v = 0; v < x.size(); ++v) x[v] = shrunk_skin[v] + w * (x[v] - shrunk_skin[v]);
 }
 
+void CaseStage::heldMotions(double t, std::span<HeldMotion> motions) const {
+  for (std::size_t k = 0; k < motions.size(); ++k) motions[k] = {held_drives[k].at(t), held_drives[k].rateAt(t)};
+}
+
 Vec3 CaseStage::air(double t) const {
   if (air_ramp_s <= 0) return air_velocity;
   const double x = std::clamp(t / air_ramp_s, 0.0, 1.0);

@@ -25,11 +25,13 @@ class CaseStage : public Stage {
   double settle_start_s = 0;
   ObstacleStage own;  ///< the case's obstacles
   int first_own = 0;  ///< of them
+  std::vector<Drive> held_drives;  ///< of what supports hold
   Vec3 air_velocity;
   double air_ramp_s = 0;
 
   void placements(double t, std::span<Placement> obstacles, std::span<Placement> anchors) const override;
   void vertices(int obstacle, double t, std::span<Vec3> x) const override;
+  void heldMotions(double t, std::span<HeldMotion> motions) const override;
   /// Starts with the motion, smoothly over the lead-in.
   Vec3 air(double t) const override;
   /// From the posture of dressing into that in which the motion starts, in the first two thirds of the time to settle.

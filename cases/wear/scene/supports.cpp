@@ -23,7 +23,7 @@ std::vector<PatchEdge> edgesOf(const std::vector<NamedEdge>& known, const EdgeCa
 
 void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& first,
                  const std::vector<std::vector<NamedEdge>>& known, const Surface& surface, const Human* human,
-                 ModelOptions& options, std::vector<SupportGroup>& groups) {
+                 ModelOptions& options, std::vector<SupportGroup>& groups, std::vector<Drive>& drives) {
   const auto add = [&](const SupportCase& support) {
     const SupportKind& kind = kindOf(support);
     SupportGroup group;
@@ -48,6 +48,12 @@ void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& firs
     kind.hold(support, {cloth, surface, human, kind.on_edge ? name : of, edges, first[worn]}, options, group);
     options.held_control_points.insert(options.held_control_points.end(), group.control_points.begin(),
                                        group.control_points.end());
+    int motion = -1;
+    if (const HeldSupport* held = heldOf(support); held && !held->drive.empty()) {
+      motion = static_cast<int>(std::find(drives.begin(), drives.end(), held->drive) - drives.begin());
+      if (motion == static_cast<int>(drives.size())) drives.push_back(held->drive);
+    }
+    options.held_motion.resize(options.held_control_points.size(), motion);
     groups.push_back(std::move(group));
   };
   for (std::size_t i = 0; i < c.supports.size(); ++i)
@@ -58,6 +64,7 @@ void findHeldPoints(const Model& m, std::vector<SupportGroup>& groups) {
   const SparseRows& T = m.cloth->map().T;
   std::vector<int> holders(m.held_points.size(), 0);
   for (SupportGroup& group : groups) {
+    group.held.clear();
     std::vector<int> points;
     for (int c : group.control_points)
       points.insert(points.end(), T.columns.begin() + T.offsets[c], T.columns.begin() + T.offsets[c + 1]);
@@ -71,6 +78,24 @@ void findHeldPoints(const Model& m, std::vector<SupportGroup>& groups) {
   }
   for (SupportGroup& group : groups)
     for (auto& [point, part] : group.held) part = 1.0 / holders[static_cast<std::size_t>(point)];
+}
+
+std::vector<std::size_t> lettingGo(const Case& c, double from_s, double to_s) {
+  constexpr double kSame_s = 1e-9;  // bounds of windows are rounded
+  std::vector<std::size_t> of;
+  for (std::size_t i = 0; i < c.supports.size(); ++i)
+    if (const HeldSupport* held = heldOf(c.supports[i]); held && held->release_s)
+      if (const double t = *held->release_s - kSame_s; t > from_s && t <= to_s) of.push_back(i);
+  return of;
+}
+
+void letGo(std::span<const std::size_t> supports, Model& m, std::vector<SupportGroup>& groups) {
+  for (const std::size_t i : supports) groups[i].control_points.clear();
+  std::vector<int> still;
+  for (const SupportGroup& group : groups)
+    still.insert(still.end(), group.control_points.begin(), group.control_points.end());
+  holdOnly(still, m);
+  findHeldPoints(m, groups);
 }
 
 }  // namespace gambeson

@@ -5,11 +5,13 @@
 
 namespace gambeson {
 
-extern const MotionKind stand_motion, walk_motion, stairs_motion, aim_motion, trajectory_motion, file_motion;
+extern const MotionKind stand_motion, walk_motion, stairs_motion, aim_motion, trajectory_motion, file_motion,
+    sit_motion;
 
 std::span<const MotionKind* const> motionKinds() {
   static constexpr std::array kinds{&stand_motion, &walk_motion,       &stairs_motion,
-                                    &aim_motion,   &trajectory_motion, &file_motion};
+                                    &aim_motion,   &trajectory_motion, &file_motion,
+                                    &sit_motion};
   static_assert(kinds.size() == std::variant_size_v<MotionKind::Options>);
   return kinds;
 }

@@ -1,8 +1,9 @@
-/// Detail of kind.hpp: an edge that stays where it is.
+/// Detail of kind.hpp: an edge that is held.
 
 #include <functional>
 
 #include "cases/wear/case/supports/fields_edge.hpp"
+#include "cases/wear/case/supports/fields_held.hpp"
 #include "cases/wear/case/supports/kind.hpp"
 
 namespace gambeson {
@@ -13,6 +14,7 @@ Object fixedTable() {
   Table<FixedSupport> table("Fixed edge");
   edgeField(table);
   table.integer("rows", &FixedSupport::rows, 1, 2, "rows of control points held: 1 holds the edge, 2 also its slope");
+  heldFields(table);
   return table.build();
 }
 
@@ -25,7 +27,7 @@ const SupportKind fixed_support{
     .addTo =
         [](schema::Table<SupportCase>& table) {
           table.alternative<FixedSupport>("fixed", std::identity{}, schema::fixedTable(),
-                                          "an edge that stays where it is in the world");
+                                          "an edge that stays where it is in the world, or is moved");
         },
     .hold =
         [](const SupportCase& support, const SupportedCloth& on, ModelOptions&, SupportGroup& group) {

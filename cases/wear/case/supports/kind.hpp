@@ -58,5 +58,7 @@ std::span<const SupportKind* const> supportKinds();
 const SupportKind& kindOf(const SupportCase& s);
 /// The edge that it is on; of what is on none garment and patch alone.
 const EdgeCase& edgeOf(const SupportCase& s);
+/// Of what holds points; null for springs.
+const HeldSupport* heldOf(const SupportCase& s);
 
 }  // namespace gambeson

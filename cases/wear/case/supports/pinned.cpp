@@ -1,10 +1,11 @@
-/// Detail of kind.hpp: a point that stays where it is.
+/// Detail of kind.hpp: a point that is held.
 
 #include <fmt/format.h>
 
 #include <functional>
 
 #include "cases/input/table.hpp"
+#include "cases/wear/case/supports/fields_held.hpp"
 #include "cases/wear/case/supports/kind.hpp"
 
 namespace gambeson {
@@ -21,6 +22,7 @@ Object pinnedTable() {
           "patch", [](auto& s) -> auto& { return s.edge.patch; }, 0, 9999, "patch of the garment")
       .number("s", &PinnedSupport::s, "", between(0, 1), "where along u, as a part of the patch's range")
       .number("t", &PinnedSupport::t, "", between(0, 1), "where along v");
+  heldFields(table);
   return table.build();
 }
 
@@ -34,7 +36,7 @@ const SupportKind pinned_support{
         [](schema::Table<SupportCase>& table) {
           table.alternative<PinnedSupport>(
               "pinned", std::identity{}, schema::pinnedTable(),
-              "a point that stays where it is in the world: the control points that shape it");
+              "a point that stays where it is in the world, or is moved: the control points that shape it");
         },
     .on_edge = false,
     .hold =

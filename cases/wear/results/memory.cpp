@@ -1,0 +1,101 @@
+/// Detail of measure.hpp: what the cloth remembers of its bending, and how much of its contact sticks.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "analysis/ticks.hpp"
+#include "cases/wear/recording/cloth_memory.hpp"
+#include "cases/wear/results/measure.hpp"
+#include "cases/wear/results/write.hpp"
+#include "core/io/csv.hpp"
+
+namespace gambeson {
+
+void measureMemory(const Scenario& s, const RecordingReader& recording, Measured& out) {
+  const auto& tables = recording.layout().tables;
+  const auto share = [](double stuck, double all) {
+    return all > 0 ? stuck / all : std::numeric_limits<double>::quiet_NaN();
+  };
+  if (tables.contains("sticking")) {
+    const RecordedTable table = recording.table("sticking");
+    const std::vector<double>&n = table.column("bodies_n_Ns"), &stuck = table.column("bodies_stuck_Ns"),
+                       &cloth_n = table.column("cloth_n_Ns"), &cloth_stuck = table.column("cloth_stuck_Ns");
+    double sums[4] = {};
+    for (std::size_t w = 0; w < table.rows() && w < out.steps.collisions.size(); ++w) {
+      out.steps.collisions[w].sticking = share(stuck[w], n[w]);
+      out.steps.collisions[w].cloth_sticking = share(cloth_stuck[w], cloth_n[w]);
+      if (table.column("start_s")[w] < -1e-9) continue;
+      sums[0] += n[w];
+      sums[1] += stuck[w];
+      sums[2] += cloth_n[w];
+      sums[3] += cloth_stuck[w];
+    }
+    out.sticking = {share(sums[1], sums[0]), share(sums[3], sums[2])};
+  }
+  if (!tables.contains("memory")) return;
+  const RecordedTable table = recording.table("memory");
+  out.memory.patches = s.patch_names;
+  const std::vector<std::string> columns = ClothMemoryView::columns(s.patch_names);
+  for (std::size_t w = 0; w < table.rows(); ++w) {
+    if (table.column("start_s")[w] < -1e-9) continue;
+    out.memory.time_s.push_back(table.column("end_s")[w]);
+    std::vector<MemoryMeasure::Of>& row = out.memory.rows.emplace_back();
+    for (std::size_t p = 0; p < s.patch_names.size(); ++p)
+      row.push_back({table.column(columns[3 * p])[w], table.column(columns[3 * p + 1])[w],
+                     table.column(columns[3 * p + 2])[w]});
+  }
+}
+
+void writeMemory(const std::filesystem::path& csv, const MemoryMeasure& m) {
+  std::vector<std::string> columns{"time_s"};
+  for (const std::string& name : ClothMemoryView::columns(m.patches)) columns.push_back(name);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t w = 0; w < m.rows.size(); ++w) {
+    rows.push_back({m.time_s[w]});
+    for (const MemoryMeasure::Of& of : m.rows[w])
+      rows.back().insert(rows.back().end(), {of.set_per_m, of.largest_set_per_m, of.friction_left});
+  }
+  writeCsv(csv, columns, rows);
+}
+
+void addMemory(const Measured& m, ReportInput& in) {
+  if (!m.memory.rows.empty()) {
+    Table table{"What the cloth remembers at the end",
+                fmt::format("Curvature that is set in it, over the area of a patch, and how much of its friction in "
+                            "bending fatigue has left. Over the motion {} J were lost in bending.",
+                            formatNumber(m.energy.lost)),
+                {"patch", "set, mean [1/m]", "set, largest [1/m]", "friction left [%]"},
+                {}};
+    for (std::size_t p = 0; p < m.memory.patches.size(); ++p) {
+      const MemoryMeasure::Of& of = m.memory.rows.back()[p];
+      table.rows.push_back({m.memory.patches[p], of.set_per_m, of.largest_set_per_m, 100 * of.friction_left});
+    }
+    in.stress_tables.push_back(std::move(table));
+  }
+  Table table{"How much of the contact sticks",
+              "Part of the normal forces, over the motion, where both sides move together.",
+              {"contact", "sticking [%]"},
+              {}};
+  if (std::isfinite(m.sticking.bodies)) table.rows.push_back({"of cloth with bodies", 100 * m.sticking.bodies});
+  if (std::isfinite(m.sticking.cloth)) table.rows.push_back({"of cloth with cloth", 100 * m.sticking.cloth});
+  if (table.rows.empty()) return;
+  in.collision_tables.push_back(std::move(table));
+  Plot plot{"Contact that sticks", "Part of the normal forces of each window.", {}, {}, false};
+  const auto course = [&](const char* name, Tone tone, auto value) {
+    Series s{name, "%", {}, {}, tone};
+    for (const CollisionWindow& w : m.steps.collisions) {
+      s.time_s.push_back(0.5 * (w.start_s + w.end_s));
+      s.values.push_back(100 * value(w));
+    }
+    s.gaps = true;
+    plot.series.push_back(std::move(s));
+  };
+  if (std::isfinite(m.sticking.bodies))
+    course("with bodies", Tone::left, [](const CollisionWindow& w) { return w.sticking; });
+  if (std::isfinite(m.sticking.cloth))
+    course("cloth with cloth", Tone::right, [](const CollisionWindow& w) { return w.cloth_sticking; });
+  in.collision_plots.push_back(std::move(plot));
+}
+
+}  // namespace gambeson
