@@ -246,8 +246,8 @@ class Table {
     object_.fields.back().default_note = note;
     return *this;
   }
-  /// A choice, a flag or a number that is not written where it is the default, so that cases that do without it stay as they
-  /// are.
+  /// A choice, a flag or a number that is not written where it is the default, so that cases that do without it stay as
+  /// they are.
   Table& unwritten() {
     Field& f = object_.fields.back();
     const T defaults{};

@@ -33,7 +33,7 @@ struct HistoryPlace {
   std::size_t first = 0, count = 0, stride = 1;
 };
 
-/// Which parts of the force to evaluate; the three add up to all of it. `steepest` takes each law at its steepest slope,
+/// Which parts of the force to evaluate; the three add up to it. `steepest` takes each law at its steepest slope,
 /// without history: what the stable time step must allow for.
 struct ForceTerms {
   bool membrane = true, bending = true, seams = true;

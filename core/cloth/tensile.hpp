@@ -5,8 +5,8 @@
 
 namespace gambeson {
 
-/// The part of the symmetric tensor n = (11, 22, 12) whose principal values are positive: sum max(n_i, 0) e_i e_i^T. The
-/// geometric stiffness n^ab N_I,a N_J,b of a membrane is positive semidefinite with it.
+/// The part of the symmetric tensor n = (11, 22, 12) whose principal values are positive, sum max(n_i, 0) e_i e_i^T.
+/// The geometric stiffness n^ab N_I,a N_J,b of a membrane is positive semidefinite with it.
 template <class S>
 GAMBESON_LAW void tensilePart(const S* n, S* tension) {
   const S mean = 0.5 * (n[0] + n[1]), half = 0.5 * (n[0] - n[1]), radius = root(half * half + n[2] * n[2]);

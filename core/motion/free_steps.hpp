@@ -9,7 +9,7 @@
 namespace gambeson {
 
 /// ControlledSteps of `freeStep`. Steps are `safety` times the longest in which the highest mode does not grow
-/// (longestStableStep; drag of the points that it damps least), of the semi-implicit scheme the substeps of what bending
+/// (longestStableStep; drag of the points that it damps least), of the semi-implicit scheme the substeps that bending
 /// alone allows, of implicit Euler max_step_s, or what inner unknowns without rows in the tangent allow. Throws
 /// InputError (key "scheme") for Euler and midpoint without drag, which no step keeps from growing, unless the step is
 /// fixed, and for limits of strain.

@@ -13,7 +13,7 @@
 ///
 ///   (M + dt D + dt^2 K) dv = dt (f - K (x* - x0) - D (v* - air)),   v1 = v* + dv,   x1 = x* + dt dv
 ///
-/// Without bending this is implicit Euler, without anything else the symplectic Euler method in steps of h, stable up to
+/// Without bending this is implicit Euler, with nothing else the symplectic Euler method in steps of h, stable up to
 /// h = 2/omega of bending alone. Inner unknowns (edge rotations) go with bending: in its substeps, or implicitly where
 /// the cloth's tangent has rows for them, else in one explicit step. Both are of first order. Loads act where the step
 /// starts, with their value at its end.

@@ -221,8 +221,8 @@ struct WorkAudit {
 };
 
 /// Why a step was not made. `impact`: pairs would pass through each other; `held`: one of them is of an obstacle and
-/// cloth that is held against it, which no shorter step changes; `unsolved`: the velocities of an implicit scheme were not
-/// found.
+/// cloth that is held against it, which no shorter step changes; `unsolved`: the velocities of an implicit scheme were
+/// not found.
 enum class StepFailure { none, not_finite, impact, held, unsolved };
 
 struct StepReport {

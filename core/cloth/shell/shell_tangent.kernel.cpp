@@ -9,7 +9,7 @@
 ///   membrane  n^ab p_aI p_bJ 1
 ///   bending   - mu_I t_J n^T - mu_J n t_I^T - Y (t_I . t_J) n n^T
 /// for rows of I and columns of J. Where the matrix has to be definite, n^ab is its tensile part alone and the last row
-/// is left out; cells with assumed strains then take their geometric stiffness at the Gauss points too, not at the ties.
+/// is left out; cells with assumed strains then have their geometric stiffness at the Gauss points, not at the ties.
 
 #include "core/cloth/shell/assumed.hpp"
 #include "core/cloth/tensile.hpp"
