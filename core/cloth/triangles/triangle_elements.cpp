@@ -244,8 +244,8 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
                k[3] = {s.curvature_change.x, s.curvature_change.y, s.curvature_change.z};
   const int bent = bending_.bentOf(triangle);
   const std::array<double, kMostHistory> mean = meanMemory(triangle, state.history);
-  const History<double> memory =
-      bent < 0 ? History<double>{mean.data(), nullptr} : bending_.memoryOf(static_cast<std::size_t>(bent), state.history);
+  const History<double> memory = bent < 0 ? History<double>{mean.data(), nullptr}
+                                          : bending_.memoryOf(static_cast<std::size_t>(bent), state.history);
   const PointLaw& law = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)].point;
   const PointAnswer<double> r = resultants(law, e, k, memory);
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
