@@ -34,12 +34,12 @@ inline const char* bendingElementsDoc() {
   return "how triangles bend. midedge: each by its tensor of curvature, from the angles to the normals at its edges, "
          "which turn by unknowns of their own; converges to the plate on all meshes. triangle: the same with normals "
          "halfway between neighbours; on alternating meshes a third too stiff in twist. hinge: each edge by itself; on "
-         "single meshes up to three times too stiff across the diagonals. springs: between the corners that neighbours do not share; limp where "
-         "flat";
+         "single meshes up to three times too stiff across the diagonals. springs: between the corners that "
+         "neighbours do not share; limp where flat";
 }
 inline const char* bendingSpringDoc() {
-  return "stiffness of crossed springs; 0: what bends as much as the fabric's rigidities do at a curvature of 1/cm, too "
-         "little below it and too much beyond";
+  return "stiffness of crossed springs; 0: what bends as much as the fabric's rigidities do at a curvature of 1/cm, "
+         "too little below it and too much beyond";
 }
 
 inline std::vector<std::pair<std::string, CellRule>> cellRules() {

@@ -28,7 +28,7 @@ struct LinearConstraint {
 struct DofMap {
   SparseRows C;  ///< a row for each component of u, unknowns columns
   SparseRows Ct;
-  std::vector<int> component;  ///< of u, that each unknown is: y_j = u[component[j]], times its length where it is inner
+  std::vector<int> component;  ///< of u, that each unknown is: y_j = u[component[j]], times its length if inner
   std::vector<std::vector<double>>
       shift;  ///< one per program, each as long as u; empty where the program moves nothing
   int points = 0;                      ///< free points: inner unknowns are components from 3 points on

@@ -26,7 +26,7 @@ std::span<T> range(std::span<T> all, std::size_t from, std::size_t end) {
   return all.empty() ? all : all.subspan(from, end - from);
 }
 
-/// Points of all parts come first, then the rates of all, three in a block: blocks of rates of a part may fall into two.
+/// Points of all parts come first, then the rates of all, three in a block: blocks of rates may fall into two.
 class JoinedTangent : public ClothTangent {
  public:
   explicit JoinedTangent(const JoinedCloth& cloth) : cloth_(cloth) {

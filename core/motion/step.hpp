@@ -9,6 +9,10 @@ namespace gambeson {
 /// Springs are anchored where their samples are (`attachSprings` does so again later).
 State initialState(const Model& model, const Stage& stage, double time_s, StepWork& work);
 
+/// Moves the inner unknowns to where nothing acts on them, points and history as they are: cloth that starts bent would
+/// swing there else. No supports of a structure.
+void settleInner(const Model& model, State& state, StepWork& work);
+
 /// Anchors every spring above where its sample is now (Model::spring_rise_m), and evaluates the forces again.
 void attachSprings(const Model& model, const Stage& stage, State& state, StepWork& work);
 

@@ -114,7 +114,8 @@ double StructureSystem::residual(std::span<const double> y, double t, std::span<
   structure_.loads.add(q_, value_, external_);
   structure_.loads.addInner(value_, inner_external_);
   // How large they are is said of the points: forces of inner unknowns are small beside those wherever these are not.
-  const std::span<const Vec3> of_points(reinterpret_cast<const Vec3*>(free_.data()), structure_.cloth->map().home.size());
+  const std::span<const Vec3> of_points(reinterpret_cast<const Vec3*>(free_.data()),
+                                        structure_.cloth->map().home.size());
   pullBack(f_, inner_f_, free_);
   double size = sizeOf(of_points);
   pullBack(external_, inner_external_, free_);

@@ -244,12 +244,13 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
 State startOf(const Scenario& s, StepWork& work) {
   State state = initialState(*s.model, *s.stage, s.start_s, work);
   if (!s.start_history.empty()) state.history = s.start_history;
-  if (s.shift_m.empty() && s.start_m.empty()) return state;
   const std::vector<Vec3> drafted = state.anchors;
   if (!s.start_m.empty())
     state.p = s.start_m;
   else
-    for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.shift_m[i];
+    for (std::size_t i = 0; i < s.shift_m.size(); ++i) state.p[i] += s.shift_m[i];
+  settleInner(*s.model, state, work);
+  if (s.shift_m.empty() && s.start_m.empty() && state.inner.empty()) return state;
   attachSprings(*s.model, *s.stage, state, work);
   if (!s.start_m.empty()) hangSprings(*s.model, *s.stage, drafted, state, work);
   return state;

@@ -275,7 +275,8 @@ Vec3 BendingTriangles::changeOf(const BentTriangle& t, std::span<const FoldHinge
   Vec3 change = -t.rest;
   for (std::size_t i = 0; i < 3; ++i) {
     double angle = 0;
-    if (t.hinge[i] >= 0) angle = 0.5 * foldAngle(cornersOf(hinges[static_cast<std::size_t>(t.hinge[i])], state.q), nullptr);
+    if (t.hinge[i] >= 0)
+      angle = 0.5 * foldAngle(cornersOf(hinges[static_cast<std::size_t>(t.hinge[i])], state.q), nullptr);
     if (t.turn[i] >= 0 && !state.inner.empty()) angle += t.sense[i] * state.inner[static_cast<std::size_t>(t.turn[i])];
     change += angle * t.per_angle[i];
   }

@@ -12,7 +12,7 @@
 /// `midedge`: alpha_a = theta/2 + phi and alpha_b = theta/2 - phi on both sides of an edge, theta the angle of its fold
 /// and phi [rad] an unknown of the edge, which turns its normal from the one halfway; at the border alpha = phi. Rigid
 /// motions leave phi. Its inertia is rho A_e (2 h)^2/3, A_e the area of the triangles at the edge and h their mean
-/// height on it: no mode of the plate sees it, and it asks for no shorter a step than hinges do (core/cloth/DECISIONS.md).
+/// height on it: no mode of the plate sees it, and it asks for no shorter a step than hinges do (DECISIONS.md).
 /// Modes and implicit motions have it too.
 /// `triangle`: phi = 0, and alpha = 0 at the border.
 

@@ -23,7 +23,8 @@ struct Height {
     const Vec2 at[3] = {{}, {t.g[1].y / det, -t.g[1].x / det}, {-t.g[0].y / det, t.g[0].x / det}};
     const auto find = [&](int c) { return std::find(t.corner.begin(), t.corner.end(), c) - t.corner.begin(); };
     const auto apex = find(corner), start = find(from), end = 3 - apex - start;
-    const Vec2 e{at[end].x - at[start].x, at[end].y - at[start].y}, a{at[apex].x - at[start].x, at[apex].y - at[start].y};
+    const Vec2 e{at[end].x - at[start].x, at[end].y - at[start].y},
+        a{at[apex].x - at[start].x, at[apex].y - at[start].y};
     const double length = std::hypot(e.x, e.y);
     height_m = std::abs(e.x * a.y - e.y * a.x) / length;
     foot_m = (e.x * a.x + e.y * a.y) / length;

@@ -87,8 +87,8 @@ struct BendingLaw {
   }
 };
 
-/// f(std::integral_constant<int, kKind>) with the kind of the block's bending law, as BendingLaw has it: laws of the list
-/// from their own numbers, also those that remember.
+/// f(std::integral_constant<int, kKind>) with the kind of the block's bending law, as BendingLaw has it: laws of the
+/// list from their own numbers, also those that remember.
 template <class F>
 void forBendingOf(const BlockLaw& law, const F& f) {
   if (law.plain.kind == 0)

@@ -121,6 +121,18 @@ TEST_F(TriangleCase, RefusesWhatItCannotBe) {
                 .find("samples_per_cell"),
             std::string::npos);
   EXPECT_EQ(refusal(caseOf(std::string(kSheet) + ", \"model\": \"triangles\", \"mesh\": \"equilateral\"")), "");
+  const auto says = [&](const std::string& keys, const std::string& reason) {
+    const std::string text = refusal(caseOf(std::string(kSheet) + keys));
+    EXPECT_NE(text.find(reason), std::string::npos) << text;
+  };
+  says(", \"bending_elements\": \"hinge\"", "garment.bending_elements: is for \"model\": \"triangles\"");
+  says(", \"model\": \"triangles\", \"bending_elements\": \"plate\"", "midedge, triangle, hinge, springs");
+  says(", \"model\": \"triangles\", \"bending_spring\": \"1 N/m\"", "\"bending_elements\": \"springs\"");
+  says(", \"model\": \"triangles\", \"bending_elements\": \"springs\", \"bending_spring\": \"-1 N/m\"", ">= 0");
+  for (const char* elements : {"midedge", "triangle", "hinge", "springs"})
+    EXPECT_EQ(refusal(caseOf(std::string(kSheet) + ", \"model\": \"triangles\", \"bending_elements\": \"" + elements +
+                             "\"")),
+              "");
   const std::string square = "v 0 0 0.01\nv 0.2 0 0.01\nv 0.2 0.2 0.01\nv 0 0.2 0.01\nf 1 2 3\nf 1 3 4\n";
   write("square.obj", square);
   const std::string file = "\"mesh_file\": {\"path\": \"square.obj\"}";

@@ -1,4 +1,4 @@
-/// Beams and loops of triangles that bend by their tensor of curvature: clamps, moments, directions, what they remember.
+/// Beams and loops of triangles that bend by their tensor of curvature: clamps, moments, directions, memory.
 
 #include <gtest/gtest.h>
 
@@ -180,7 +180,8 @@ Kes kesOf(BendingElements bending, MeshKind kind, double jitter, double degrees)
     for (const Vec3& X : c->rest()) {
       const double s = d.x * (X.x - 0.5 * size) + d.y * (X.y - 0.5 * size),
                    t = -d.y * (X.x - 0.5 * size) + d.x * (X.y - 0.5 * size);
-      const double a = std::abs(k) < 1e-9 ? s : std::sin(k * s) / k, z = std::abs(k) < 1e-9 ? 0 : (1 - std::cos(k * s)) / k;
+      const bool flat = std::abs(k) < 1e-9;
+      const double a = flat ? s : std::sin(k * s) / k, z = flat ? 0 : (1 - std::cos(k * s)) / k;
       q.push_back({d.x * a - d.y * t, d.y * a + d.x * t, z});
     }
     settle(*c, q, committed, inner);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/cloth/joined_cloth.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
 #include "core/error.hpp"
 #include "core/material/hysteresis.hpp"
@@ -391,6 +392,76 @@ TEST(BendingTriangles, FreeMotionKeepsItsEnergy) {
   }
   EXPECT_LT(drift[0], 0.02);
   EXPECT_NEAR(std::log2(drift[0] / drift[1]), 2, 0.3);
+}
+
+/// The rates of joined cloths are packed three by three anew.
+TEST(BendingTriangles, JoinedClothHasTheTangentOfBoth) {
+  std::vector<std::unique_ptr<const Cloth>> parts;
+  for (const int cells : {2, 3}) {
+    MeshDraft draft = flatTriangles(cells, 2, 0.1 * cells, 0.2, unlike(), MeshKind::single, 0.1);
+    draft.bending = BendingElements::midedge;
+    std::vector<MeshDraft> garments;
+    garments.push_back(std::move(draft));
+    parts.push_back(std::make_unique<TriangleCloth>(std::move(garments)));
+  }
+  ASSERT_NE(parts[0]->innerRates() % 3, 0u);
+  const JoinedCloth c(std::move(parts));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  std::vector<Vec3> q, way(c.rest().size());
+  std::vector<double> inner(c.innerValues()), turn(inner.size());
+  for (const Vec3& X : c.rest()) q.push_back(X + Vec3{0, 0, 2 * X.x * X.x} + 1e-3 * Vec3{0, 0, noise(random)});
+  for (double& phi : inner) phi = 0.1 * noise(random);
+  for (Vec3& w : way) w = {noise(random), noise(random), noise(random)};
+  for (double& t : turn) t = 10 * noise(random);
+  const auto tangent = c.tangent();
+  ClothWork work;
+  BlockMatrix K = tangent->sparsity();
+  tangent->assemble({q, inner, {}}, work, K, bendingAlone());
+  const std::size_t points = c.map().home.size();
+  std::vector<double> x(3 * static_cast<std::size_t>(K.rows())), Kx(x.size());
+  for (std::size_t p = 0; p < points; ++p)
+    for (int d = 0; d < 3; ++d)
+      x[3 * p + static_cast<std::size_t>(d)] = way[static_cast<std::size_t>(c.map().home[p])][d];
+  for (std::size_t k = 0; k < turn.size(); ++k) x[3 * points + k] = turn[k];
+  multiply(K, x, Kx);
+  const auto forces = [&](double h) {
+    std::vector<Vec3> moved = q, f(q.size());
+    std::vector<double> turned = inner, g(inner.size()), all(x.size());
+    for (std::size_t i = 0; i < q.size(); ++i) moved[i] += h * way[i];
+    for (std::size_t k = 0; k < inner.size(); ++k) turned[k] += h * turn[k];
+    c.force({moved, turned, {}}, {f, g, {}, nullptr}, work, bendingAlone());
+    for (std::size_t p = 0; p < points; ++p)
+      for (int d = 0; d < 3; ++d)
+        all[3 * p + static_cast<std::size_t>(d)] = f[static_cast<std::size_t>(c.map().home[p])][d];
+    for (std::size_t k = 0; k < g.size(); ++k) all[3 * points + k] = g[k];
+    return all;
+  };
+  const std::vector<double> low = forces(-1e-7), high = forces(1e-7);
+  double worst = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(Kx[i] - (low[i] - high[i]) / 2e-7));
+  EXPECT_LT(worst, 1e-5 * largest(Kx));
+}
+
+/// Cloth that starts bent starts with its edges at rest.
+TEST(BendingTriangles, EdgesOfBentClothSettle) {
+  MeshDraft draft = flatTriangles(8, 8, 0.3, 0.3, unlike(), MeshKind::single, 0.1);
+  draft.bending = BendingElements::midedge;
+  std::vector<MeshDraft> garments;
+  garments.push_back(std::move(draft));
+  ModelOptions o;
+  o.self_contact = false;
+  const auto model = buildModel(std::make_unique<TriangleCloth>(std::move(garments)), o, {Vec3{}, 0}, {}, {});
+  const UniformStage stage;
+  StepWork work;
+  State state = initialState(*model, stage, 0, work);
+  for (Vec3& p : state.p) p.z = 2 * p.x * p.x + p.x * p.y;
+  attachSprings(*model, stage, state, work);
+  const double before = largest(state.inner_acceleration);
+  settleInner(*model, state, work);
+  attachSprings(*model, stage, state, work);
+  EXPECT_GT(before, 0);
+  EXPECT_LT(largest(state.inner_acceleration), 1e-4 * before);
 }
 
 /// A clamped strip under a load that is put on slowly, by explicit and implicit steps: the static deflection.
