@@ -106,6 +106,11 @@ Object shearTable() {
     if (!s.rigidity.any()) p.failAt("G", "is required, or G_weft and G_warp: the shear rigidity");
     if (s.hysteresis_5.any() && !s.hysteresis.any()) p.failAt("2HG5", "needs 2HG beside it");
     if (s.friction_rad && !s.hysteresis.any()) p.failAt("friction_angle", "has no meaning without 2HG; remove it");
+    if (s.hysteresis.any()) try {
+        sheetOf(s);
+      } catch (const InputError& e) {
+        p.failAt(e.reason().starts_with("2HG5") ? s.hysteresis_5.both ? "2HG5" : "2HG5_weft" : "2HG", e.reason());
+      }
   });
   return table.build();
 }

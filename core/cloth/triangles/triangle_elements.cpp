@@ -40,6 +40,16 @@ void addOuter(std::array<double, 9>& m, double scale, const Vec3& a, const Vec3&
     for (int j = 0; j < 3; ++j) m[static_cast<std::size_t>(3 * i + j)] += scale * a[i] * b[j];
 }
 
+/// What hinges have of a law, and what membranes have.
+LawUse bendingOf(LawUse use) {
+  use.shears = false;
+  return use;
+}
+LawUse membraneOf(LawUse use) {
+  use.kinds = 0;
+  return use;
+}
+
 /// Elements in one block share it.
 std::pair<int, bool> blockOf(const MembraneTriangle& t) { return {t.law, false}; }
 std::pair<int, bool> blockOf(const FoldHinge& h) { return {h.law, h.seam}; }
@@ -86,6 +96,7 @@ void TriangleElements::packHinges() {
     return std::vector{h.theta0, h.per_angle, real ? h.area_m2 : 0.0, h.d.x, h.d.y, h.d.z};
   };
   hinge_blocks_ = packed(hinges_, laws_, lanes, kHingeDoubles, rest, [&](ElementBlock& block, std::size_t k, int at) {
+    block.law.use = bendingOf(block.law.use);
     const int size = block.law.use.historySize();
     if (at == 0) {
       block.first = moments_;
@@ -113,13 +124,19 @@ void TriangleElements::packTriangles() {
     return std::vector{t.g[0].x, t.g[0].y, t.g[1].x, t.g[1].y, real ? t.area_m2 : 0.0};
   };
   std::vector<long> slot(triangles_.size());  // of the first corner
+  shear_at_.resize(triangles_.size());
   triangle_blocks_ =
       packed(triangles_, laws_, lanes, kMembraneDoubles, rest, [&](ElementBlock& block, std::size_t k, int at) {
+        block.law.use = membraneOf(block.law.use);
+        const int size = block.law.use.historySize();
         if (at == 0) {
+          block.history_first = history_;
+          history_ += static_cast<long>(block.groups) * size * lanes;
           block.hinge.assign(static_cast<std::size_t>(3 * block.groups * lanes), moments_);
           block.first = slot_count_;
           slot_count_ += 9L * block.groups * lanes;
         }
+        shear_at_[k] = block.history_first + static_cast<long>(at / lanes) * size * lanes + at % lanes;
         const long first = 3L * (at / lanes) * lanes + at % lanes;
         for (std::size_t i = 0; i < 3; ++i)
           block.hinge[static_cast<std::size_t>(first) + i * static_cast<std::size_t>(lanes)] = facing[k][i];
@@ -150,10 +167,19 @@ BlockLaw TriangleElements::lawOf(int index, const ForceTerms& terms) const {
 }
 
 HistoryPlace TriangleElements::historyOf(std::size_t hinge) const {
-  const int size = laws_[static_cast<std::size_t>(hinges_[hinge].law)].use.historySize();
+  const int size = bendingOf(laws_[static_cast<std::size_t>(hinges_[hinge].law)].use).historySize();
   return {0,
           {},
           static_cast<std::size_t>(history_at_[hinge]),
+          static_cast<std::size_t>(size),
+          static_cast<std::size_t>(kernels_->lanes)};
+}
+
+HistoryPlace TriangleElements::shearHistoryOf(std::size_t triangle) const {
+  const int size = membraneOf(laws_[static_cast<std::size_t>(triangles_[triangle].law)].use).historySize();
+  return {0,
+          {},
+          static_cast<std::size_t>(shear_at_[triangle]),
           static_cast<std::size_t>(size),
           static_cast<std::size_t>(kernels_->lanes)};
 }
@@ -193,7 +219,7 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
   PointState s{strain(triangle, state.q), curvatureOf(triangle, state.q, false), {}, {}};
   const double e[3] = {s.strain.x, s.strain.y, s.strain.z},
                k[3] = {s.curvature_change.x, s.curvature_change.y, s.curvature_change.z};
-  std::array<double, kMostHistory> mean{};
+  std::array<double, kMostHistory + kShearHistory> mean{};
   double area = 0;
   for (const int h : hinges_of_[static_cast<std::size_t>(triangle)]) {
     if (h < 0) continue;
@@ -205,6 +231,12 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
     for (std::size_t i = 0; i < size; ++i) mean[i] += part * memory.before(static_cast<int>(i));
   }
   for (double& m : mean) m /= area > 0 ? area : 1;
+  if (const HistoryPlace own = shearHistoryOf(static_cast<std::size_t>(triangle));
+      own.count > 0 && !state.history.empty()) {
+    const int first = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)].use.shearHistory();
+    for (std::size_t i = 0; i < own.count; ++i)
+      mean[static_cast<std::size_t>(first) + i] = state.history[own.first + i * own.stride];
+  }
   const PointLaw& law = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)].point;
   const PointAnswer<double> r = resultants(law, e, k, {mean.data(), nullptr});
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
@@ -246,8 +278,7 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
     addEnergies(law);
   }
   for (const ElementBlock& block : triangle_blocks_) {
-    BlockLaw law = withTerms(block.law, terms);
-    law.use.kinds = 0;  // the membrane alone
+    BlockLaw law = withHistory(withTerms(block.law, terms), block.history_first, state, out);
     startEnergies(block, law);
     kernels_->triangles(block, law, q, moments, work.slots.data() + block.first, energies);
     addEnergies(law);
@@ -255,15 +286,20 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
   gather_.negativeSum(work.slots.data(), out.points);
 }
 
-void TriangleElements::membraneStiffness(int triangle, std::span<const Vec3> q, const ForceTerms& terms,
+void TriangleElements::membraneStiffness(int triangle, const ClothState& state, const ForceTerms& terms,
                                          std::vector<std::array<double, 9>>& blocks) const {
   const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
   Vec3 f[2];
-  const Vec3 e = strain(triangle, q, &f[0], &f[1]);
-  const BlockLaw law = lawOf(t.law, terms);
+  const Vec3 e = strain(triangle, state.q, &f[0], &f[1]);
+  BlockLaw law = lawOf(t.law, terms);
+  law.use = membraneOf(law.use);
+  const HistoryPlace own = shearHistoryOf(static_cast<std::size_t>(triangle));
+  History<double> memory;
+  if (own.count > 0 && !state.history.empty())
+    memory = {state.history.data() + own.first, nullptr, static_cast<long>(own.stride)};
   const double strains[3] = {e.x, e.y, e.z};
   Answer<double, 3> answer;
-  evaluateMembrane<with_slope>(law.evaluated(), numbersOf(law), strains, answer);
+  evaluateMembrane<with_slope>(law.evaluated(), numbersOf(law), strains, memory, answer);
   const double *n = answer.resultant, *C = answer.slope;
   const Vec2 g[3] = {{-t.g[0].x - t.g[1].x, -t.g[0].y - t.g[1].y}, t.g[0], t.g[1]};
   // dE/dq_I = (g.x f1, g.y f2, g.y f1 + g.x f2).
@@ -290,7 +326,8 @@ void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const 
   const HingePoints x = cornersOf(h, state.q);
   HingePoints gradient;
   const double kappa = h.per_angle * (foldAngle(x, &gradient) - h.theta0);
-  const BlockLaw law = lawOf(h.law, terms);
+  BlockLaw law = lawOf(h.law, terms);
+  law.use = bendingOf(law.use);
   const double change[3] = {kappa * h.d.x, kappa * h.d.y, kappa * h.d.z}, d[3] = {h.d.x, h.d.y, h.d.z};
   Answer<double, 3> answer;
   evaluateBending<with_slope>(law.evaluated(), numbersOf(law), change,

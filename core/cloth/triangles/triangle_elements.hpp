@@ -45,14 +45,16 @@ class TriangleElements {
   const std::vector<MembraneTriangle>& triangles() const { return triangles_; }
   const std::vector<FoldHinge>& hinges() const { return hinges_; }
   const char* kernels() const { return kernels_->name; }
-  /// Doubles of the history: those of each hinge whose law remembers, lanes side by side.
+  /// Doubles of the history: those of each hinge whose law remembers, and of each triangle that has friction in shear,
+  /// lanes side by side.
   std::size_t historySize() const { return static_cast<std::size_t>(history_); }
-  /// Of the numbers of a hinge: where they stand, without its place.
+  /// Of the numbers of a hinge: where they stand, without its place; of the friction in shear of a triangle.
   HistoryPlace historyOf(std::size_t hinge) const;
+  HistoryPlace shearHistoryOf(std::size_t triangle) const;
 
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
   /// d2E/dq2 of a triangle: blocks[3 I + J] (3 x 3, row by row) of its corners.
-  void membraneStiffness(int triangle, std::span<const Vec3> q, const ForceTerms& terms,
+  void membraneStiffness(int triangle, const ClothState& state, const ForceTerms& terms,
                          std::vector<std::array<double, 9>>& blocks) const;
   /// d2E/dq2 of a hinge: blocks[4 I + J] of its corners, as above.
   void hingeStiffness(int hinge, const ClothState& state, const ForceTerms& terms,
@@ -80,6 +82,7 @@ class TriangleElements {
   const TriangleKernels* kernels_ = nullptr;
   std::vector<ElementBlock> triangle_blocks_, hinge_blocks_;
   std::vector<long> history_at_;  ///< of each hinge's first number
+  std::vector<long> shear_at_;    ///< of each triangle's
   std::vector<int> moment_;       ///< of each hinge: where its moment is
   int moments_ = 0;               ///< and behind them one that stays 0
   long history_ = 0, slot_count_ = 0;
