@@ -61,7 +61,7 @@ TEST(Card, RefusesWhatIsWrong) {
       {"7.412 gf/cm", "4.9 gf/cm", 7, "shear.2HG5", "out of range; allowed beside 2HG"},
       {"2.18 gf/(cm deg)", "0.2 gf/(cm deg)", 7, "shear.2HG", "what friction alone gives it"},
       {"  \"thickness\": \"1.066 mm\",\n", "", 1, "thickness", "is required"},
-      {"\"430 g/m^2\"", "\"0 g/m^2\"", 5, "weight", "> 0"},
+      {"\"430 g/m^2\"", "\"0 g/m^2\"", 5, "weight", ">= 0.0001"},
       {"\"MIU\": 0.18", "\"MIU\": 1.8e3", 14, "MIU", "<= 2"},
       {"\"source\"", "\"sauce\"", 3, "sauce", "did you mean \"source\"?"}};
   for (const Bad& c : cases) {

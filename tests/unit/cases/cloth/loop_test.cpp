@@ -150,7 +150,7 @@ TEST(FrictionInput, ANumberOrAnObject) {
 FabricCase withShear(const std::string& loop) {
   const Folder folder;
   const std::string young = "\"young\": \"1.2 MPa\",";
-  return readCase(folder.write("case.json", replaced(example, young, young + " \"shear\": \"122.5 kPa\", \"shear_loop\": " + loop)))
+  return readCase(folder.write("case.json", replaced(example, young, young + " \"shear\": \"122.5 kPa\", \"shear_loop\": " + loop + ",")))
       .fabric;
 }
 
@@ -171,13 +171,13 @@ TEST(ShearLoopInput, ComesBackAsItWasWritten) {
   const Folder folder;
   const std::string young = "\"young\": \"1.2 MPa\",";
   const Case c = readCase(folder.write(
-      "case.json", replaced(example, young, young + R"( "shear_loop": {"hysteresis": 4.9, "hysteresis_5": 7.2})")));
+      "case.json", replaced(example, young, young + R"( "shear_loop": {"hysteresis": 4.9, "hysteresis_5": 7.2},)")));
   EXPECT_EQ(readCase(folder.write("full.json", writeCase(c))).fabric, c.fabric);
 }
 
 TEST(ShearLoopInput, RefusesWhatIsWrong) {
   const std::string young = "\"young\": \"1.2 MPa\",";
-  const std::string good = replaced(example, young, young + R"( "shear_loop": {"hysteresis": 4.9, "hysteresis_5": 7.2})");
+  const std::string good = replaced(example, young, young + R"( "shear_loop": {"hysteresis": 4.9, "hysteresis_5": 7.2},)");
   expectRefused(good, {{"\"hysteresis\": 4.9, ", "", 11, "fabric.shear_loop.hysteresis", "is required, or rise"},
                        {"\"hysteresis\": 4.9", "\"hysteresis\": 0", 11, "fabric.shear_loop.hysteresis", "> 0"},
                        {"\"hysteresis\": 4.9", "\"rise\": 4.9", 11, "fabric.shear_loop.hysteresis_5", "goes with"},
