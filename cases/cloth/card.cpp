@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/ticks.hpp"
+#include "core/material/kes_shear.hpp"
 
 namespace gambeson {
 namespace {
@@ -44,6 +45,15 @@ std::array<double, 2> tension(const CardTensile& t, CardFabric& out) {
   return A;
 }
 
+}  // namespace
+
+ShearedSheet sheetOf(const CardShear& s) {
+  return sheetOfKesShear({s.rigidity.mean(), s.hysteresis.mean(), s.hysteresis_5.any() ? s.hysteresis_5.mean() : 0},
+                         s.friction_rad.value_or(kCardFriction_rad));
+}
+
+namespace {
+
 void membrane(const FabricCard& card, CardFabric& out) {
   CardTensile t;
   t.extension.both = kCardExtension;
@@ -62,7 +72,6 @@ void membrane(const FabricCard& card, CardFabric& out) {
   double G = kCardShear_N_per_m;
   if (card.shear) {
     G = card.shear->rigidity.mean();
-    if (card.shear->hysteresis.any()) out.assumed.push_back("shear without friction: 2HG is not part of the fabric");
     if (card.shear->rigidity.apart()) out.derived.push_back("G is the mean of weft and warp");
   } else {
     out.assumed.push_back("G 1 gf/(cm deg): the card has no shear");
@@ -70,6 +79,19 @@ void membrane(const FabricCard& card, CardFabric& out) {
   out.derived.push_back(fmt::format("shear stiffness {} N/m per radian: G = {} gf/(cm deg)", number(G),
                                     number(G / kKesShear_N_per_m)));
   f.shear_Pa = G / f.thickness_m;
+  if (!card.shear) return;
+  if (!card.shear->hysteresis.any()) {
+    out.assumed.push_back("shear without hysteresis: the card has no 2HG");
+    return;
+  }
+  const ShearedSheet sheet = sheetOf(*card.shear);
+  f.shear_Pa = sheet.elastic_N_per_m / f.thickness_m;
+  f.shear_friction = sheet.friction;
+  if (!card.shear->friction_rad) out.assumed.push_back("friction_angle 1 degree: where friction in shear is overcome");
+  if (!card.shear->hysteresis_5.any()) out.assumed.push_back("2HG5 that of 2HG's friction: the card has none");
+  out.derived.push_back(fmt::format("of that {} gf/(cm deg) are elastic; the rest is friction, which grows with the "
+                                    "shear by 2HG5",
+                                    number(sheet.elastic_N_per_m / kKesShear_N_per_m)));
 }
 
 void bendLinearly(const CardBending& b, CardFabric& out) {

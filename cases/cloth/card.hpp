@@ -11,6 +11,7 @@
 #include "cases/cloth/fabric.hpp"
 #include "cases/cloth/loop_input.hpp"
 #include "core/material/hysteresis.hpp"
+#include "core/material/kes_shear.hpp"
 
 namespace gambeson {
 
@@ -71,12 +72,15 @@ constexpr double kCardFriction_rad = 0.0174532925199432958;
 /// Reads and checks a card. Throws InputError with file, line and key.
 FabricCard readCard(const std::filesystem::path& file);
 
+/// Of a card's shear with 2HG. Throws InputError (reason only) where no friction has these widths.
+ShearedSheet sheetOf(const CardShear& shear);
+
 /// Never throws on a card that was read.
 ///   membrane: a strip that is wide against its length keeps its width, so that the force per width at an engineering
 ///     strain e is A (1 + e)(e + e^2/2) for the law n = A E (core/material/laws/membrane.hpp). A11 and A22 are those of
 ///     EMT at 500 gf/cm, or with `secant_at` F of e = EMT (F/F_max)^(LT/(2 - LT)), the power law whose work is
 ///     LT EMT F_max/2. E1 h = A11 s, s = 1 - poisson^2 A22/A11.
-///   shear: A33 = G, in simple shear by the angle phi the shear strain is tan(phi).
+///   shear: A33 = G, in simple shear by the angle phi the shear strain is tan(phi); with 2HG sheetOfKesShear.
 ///   bending: stopsOfKes (core/material/hysteresis.hpp); one number for both directions makes an isotropic loop, weft
 ///     and warp apart make loops of their own, with a twist of half their geometric mean (Huber's assumption for plates).
 /// Valid for EMT below 50 % and 0.1 < LT <= 1.9.

@@ -54,15 +54,15 @@ void checkDirections(const Entry& p, const std::string& key, const CardNumber& n
 Object tensileTable() {
   using T = CardTensile;
   Table<T> table("Tension of a card");
-  byDirection(table, "EMT", &T::extension, "", "5.5 %", {.low = 0, .high = 0.5, .low_open = true},
+  byDirection(table, "EMT", &T::extension, "", "5.5 %", between(1e-5, 0.5),
               "extension at the largest load of KES-FB1, a part or in %", "required, or modulus");
   byDirection(table, "LT", &T::linearity, "", "", {.low = 0.1, .high = 1.9, .low_open = true},
               "linearity, the work over that of a straight line; needed for secant_at alone", "none");
-  byDirection(table, "modulus", &T::modulus_N_per_m, "N/m", "8900 N/m", aboveTo(0, 1e8),
+  byDirection(table, "modulus", &T::modulus_N_per_m, "N/m", "8900 N/m", between(1e-2, 1e8),
               "in place of EMT, force per width over strain of a strip that keeps its width", "none");
-  labNumber(table, "load", &T::load_N_per_m, "N/m", "500 gf/cm", aboveTo(0, 1e5), "largest load, at which EMT was read",
+  labNumber(table, "load", &T::load_N_per_m, "N/m", "500 gf/cm", between(1e-2, 1e5), "largest load, at which EMT was read",
             "500 gf/cm");
-  labNumber(table, "secant_at", &T::secant_at_N_per_m, "N/m", "50 gf/cm", aboveTo(0, 1e5),
+  labNumber(table, "secant_at", &T::secant_at_N_per_m, "N/m", "50 gf/cm", between(1e-2, 1e5),
             "load whose secant modulus the fabric gets, from EMT and LT: cloth is softer at small loads",
             "the largest load");
   labNumber(table, "poisson", &T::poisson, "", "", {.low = 0, .high = 1, .high_open = true},
@@ -91,7 +91,7 @@ Object tensileTable() {
 Object shearTable() {
   using S = CardShear;
   Table<S> table("Shear of a card");
-  byDirection(table, "G", &S::rigidity, "N/(m rad)", "1.5 gf/(cm deg)", aboveTo(0, 1e6),
+  byDirection(table, "G", &S::rigidity, "N/(m rad)", "1.5 gf/(cm deg)", between(1e-3, 1e6),
               "slope of the shear force between 0.5 and 2.5 degrees, KES-FB1", "required");
   byDirection(table, "2HG", &S::hysteresis, "N/m", "3.5 gf/cm", aboveTo(0, 1e4),
               "width of the loop at 0.5 degrees of one to 8 degrees", "none: shear without friction");
@@ -106,6 +106,11 @@ Object shearTable() {
     if (!s.rigidity.any()) p.failAt("G", "is required, or G_weft and G_warp: the shear rigidity");
     if (s.hysteresis_5.any() && !s.hysteresis.any()) p.failAt("2HG5", "needs 2HG beside it");
     if (s.friction_rad && !s.hysteresis.any()) p.failAt("friction_angle", "has no meaning without 2HG; remove it");
+    if (s.hysteresis.any()) try {
+        sheetOf(s);
+      } catch (const InputError& e) {
+        p.failAt(e.reason().starts_with("2HG5") ? s.hysteresis_5.both ? "2HG5" : "2HG5_weft" : "2HG", e.reason());
+      }
   });
   return table.build();
 }
@@ -200,10 +205,10 @@ Object makeCardTable() {
       .text("source", &C::source, "laboratory, date, publication: where the numbers are from")
       .required()
       .text("description", &C::description, "what the fabric is: fibre, weave, use");
-  labNumber(table, "thickness", &C::thickness_m, "m", "0.8 mm", aboveTo(0, 0.05), "thickness", "required");
+  labNumber(table, "thickness", &C::thickness_m, "m", "0.8 mm", between(1e-6, 0.05), "thickness", "required");
   labNumber(table, "thickness_pressure", &C::thickness_pressure_Pa, "Pa", "0.5 gf/cm^2", aboveTo(0, 1e6),
             "pressure of that test; for the record", "not said");
-  labNumber(table, "weight", &C::weight_kg_per_m2, "kg/m^2", "320 g/m^2", aboveTo(0, 10), "mass per area",
+  labNumber(table, "weight", &C::weight_kg_per_m2, "kg/m^2", "320 g/m^2", between(1e-4, 10), "mass per area",
             "400 kg/m^3 times the thickness, said as an assumption");
   table.object("tensile", &C::tensile, tensileTable(), "tension along weft and warp")
       .defaultsTo("EMT 5 %, said as an assumption")
@@ -214,7 +219,7 @@ Object makeCardTable() {
   labNumber(table, "MIU", &C::friction, "", "", aboveTo(0, 2),
             "coefficient of friction, KES-FB4; a case says its friction itself (contact.friction)", "not said");
   table.check([](const Entry& p, const C& c) {
-    if (!(c.thickness_m > 0)) p.failAt("thickness", "is required: \"0.8 mm\" say; allowed: > 0 and <= 0.05 m");
+    if (!(c.thickness_m > 0)) p.failAt("thickness", "is required: \"0.8 mm\" say; allowed: >= 1e-06 and <= 0.05 m");
   });
   return table.build();
 }

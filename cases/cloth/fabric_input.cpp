@@ -11,6 +11,7 @@
 #include "cases/cloth/card.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/input/table.hpp"
+#include "core/material/kes_shear.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -158,6 +159,25 @@ Object bendingTable() {
       .build();
 }
 
+Object shearLoopTable() {
+  using L = ShearLoopInput;
+  return Table<L>("Loop of shear")
+      .number("hysteresis", &L::hysteresis_N_per_m, "N/m", aboveTo(0, 1e5),
+              "2HG of KES-FB1, the width of the loop at 0.5 degrees; shear times thickness is then G of the same test")
+      .defaultsTo("required, or rise")
+      .number("hysteresis_5", &L::hysteresis_5_N_per_m, "N/m", aboveTo(0, 1e5),
+              "2HG5, the width at 5 degrees: more than 2HG where threads press on each other the more they are turned")
+      .defaultsTo("that of 2HG's friction")
+      .number("friction_angle", &L::friction_angle_rad, "rad", {.low = 0, .high = 0.14, .low_open = true},
+              "shear strain, as an angle, where all friction is overcome on first shear")
+      .number("rise", &L::rise_N_per_m, "N/m", between(0, 1e8),
+              "in place of hysteresis: slope of the friction in cloth that was never sheared, beside shear")
+      .defaultsTo("none")
+      .number("growth", &L::growth_N_per_m, "N/m", between(0, 1e8),
+              "with rise: the same of the friction that grows with the shear, at 5 degrees")
+      .build();
+}
+
 }  // namespace
 
 Object fabricTable() {
@@ -183,6 +203,8 @@ Object fabricTable() {
       .defaultsTo("young")
       .number("shear", &F::shear_Pa, "Pa", aboveTo(0, 1e12), "in-plane shear modulus")
       .defaultsTo("young / (2 (1 + poisson)); required where young is not given")
+      .object("shear_loop", &F::shear_loop, shearLoopTable(), "friction between threads that turn against each other")
+      .defaultsTo("none: shear is elastic")
       .number("poisson", &F::poisson, "", {.low = 0, .high = 1, .high_open = true},
               "contraction along the warp under tension along the weft; poisson^2 young_warp < young_weft")
       .number("jam_area", &F::jam_area, "", {.low = 0, .high = 1, .high_open = true},
@@ -235,6 +257,36 @@ void resolveMembrane(const Entry& entry, const FabricInput& in, FabricCase& f) {
   if (!(f.poisson * f.poisson * f.young_warp_Pa < f.young_weft_Pa))
     entry.failAt("poisson", fmt::format("{} is out of range; allowed: below sqrt(young_weft / young_warp) = {:.4g}",
                                         f.poisson, std::sqrt(f.young_weft_Pa / f.young_warp_Pa)));
+}
+
+/// After the membrane: what was given as shear may have a part of friction in it.
+void resolveShear(const Entry& entry, const FabricInput& in, FabricCase& f) {
+  if (!in.shear_loop) {
+    if (entry.node.find("shear") || entry.node.find("young")) f.shear_friction = {};
+    return;
+  }
+  const ShearLoopInput& loop = *in.shear_loop;
+  const Entry at = entry.member(*entry.node.find("shear_loop"));
+  if (loop.hysteresis_N_per_m.has_value() == loop.rise_N_per_m.has_value())
+    at.failAt(loop.rise_N_per_m ? "rise" : "hysteresis",
+              loop.rise_N_per_m ? "excludes \"hysteresis\", which gives it" : "is required, or rise");
+  const double span = loop.friction_angle_rad;
+  if (loop.rise_N_per_m) {
+    if (loop.hysteresis_5_N_per_m) at.failAt("hysteresis_5", "goes with hysteresis; give growth");
+    f.shear_friction = {*loop.rise_N_per_m, span, loop.growth_N_per_m};
+    return;
+  }
+  if (!f.card.empty() && !in.shear_Pa && !in.young_Pa)
+    at.failAt("hysteresis", "needs shear beside it, of the same test");
+  if (at.node.find("growth")) at.failAt("growth", "goes with rise; give hysteresis_5");
+  try {
+    const ShearedSheet sheet = sheetOfKesShear(
+        {f.shear_Pa * f.thickness_m, *loop.hysteresis_N_per_m, loop.hysteresis_5_N_per_m.value_or(0)}, span);
+    f.shear_Pa = sheet.elastic_N_per_m / f.thickness_m;
+    f.shear_friction = sheet.friction;
+  } catch (const InputError& e) {
+    at.failAt(loop.hysteresis_5_N_per_m && e.reason().starts_with("2HG5") ? "hysteresis_5" : "hysteresis", e.reason());
+  }
 }
 
 void resolveLimits(const Entry& entry, const FabricInput& in, FabricCase& f) {
@@ -295,6 +347,7 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
   resolveDensity(entry, in, f);
   if (!of_card || entry.node.find("jam_area")) f.jam_area = in.jam_area;
   resolveMembrane(entry, in, f);
+  resolveShear(entry, in, f);
   resolveLimits(entry, in, f);
   if (const JsonNode* bending = entry.node.find("bending"))
     resolveBending(entry.member(*bending), in.bending, f);
@@ -316,6 +369,12 @@ FabricInput restoreFabric(const FabricCase& f) {
   in.young_weft_Pa = f.young_weft_Pa;
   in.young_warp_Pa = f.young_warp_Pa;
   in.shear_Pa = f.shear_Pa;
+  if (const ShearFriction& s = f.shear_friction; s != ShearFriction{}) {
+    in.shear_loop.emplace();
+    in.shear_loop->rise_N_per_m = s.rise_N_per_m;
+    in.shear_loop->growth_N_per_m = s.growth_N_per_m;
+    in.shear_loop->friction_angle_rad = s.span;
+  }
   in.poisson = f.poisson;
   in.jam_area = f.jam_area;
   in.limit_strain_weft = f.limit_strain_weft;

@@ -24,6 +24,13 @@ struct BendingInput {
   RestCurvature rest = RestCurvature::zero;
 };
 
+/// Friction in shear, as KES-FB1 reads it or by its numbers.
+struct ShearLoopInput {
+  std::optional<double> hysteresis_N_per_m, hysteresis_5_N_per_m, rise_N_per_m;
+  double growth_N_per_m = 0;
+  double friction_angle_rad = 0.0174532925199432958;
+};
+
 struct FabricInput {
   std::filesystem::path card;
   std::string name;
@@ -33,6 +40,7 @@ struct FabricInput {
   double poisson = 0;
   double jam_area = 0.7;
   std::optional<double> limit_strain, limit_strain_weft, limit_strain_warp;
+  std::optional<ShearLoopInput> shear_loop;
   BendingInput bending;
 };
 

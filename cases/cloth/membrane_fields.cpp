@@ -60,6 +60,10 @@ void checkMembrane(const Entry& entry, const ClothModel& model, const Fabric& fa
     entry.failAt("membrane_elements",
                  "takes the place of the membrane that the fabric's tension_field relaxes; allowed: \"continuum\", or "
                  "a fabric without tension_field");
+  if (fabric.shear_friction != ShearFriction{})
+    entry.failAt("membrane_elements",
+                 "takes the place of the membrane that has the fabric's friction in shear; allowed: \"continuum\", or a "
+                 "fabric without shear_loop");
 }
 
 }  // namespace gambeson::schema

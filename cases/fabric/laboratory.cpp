@@ -290,9 +290,6 @@ Loop shear(const Fabric& fabric, const Specimen& specimen, const Course& angle_r
   return loop;
 }
 
-namespace {
-
-/// Where the loop passes a place on a leg: from the turn before `leg` to the next.
 double loadAt(const Loop& loop, int leg, double at) {
   int now = -1;
   double way = 0;
@@ -305,8 +302,6 @@ double loadAt(const Loop& loop, int leg, double at) {
   }
   throw RunError(fmt::format("the loop does not pass {:.4g} on its way {}", at, leg + 1));
 }
-
-}  // namespace
 
 double slopeBetween(const Loop& loop, double from, double to) {
   const double up = loadAt(loop, 2, to) - loadAt(loop, 2, from), down = loadAt(loop, 1, -from) - loadAt(loop, 1, -to);

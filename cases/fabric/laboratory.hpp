@@ -46,6 +46,10 @@ Loop bend(const Fabric& fabric, const Specimen& specimen, const Course& curvatur
 /// length. The force is without the tension's part, F - W tan(angle).
 Loop shear(const Fabric& fabric, const Specimen& specimen, const Course& angle_rad);
 
+/// Where a loop passes a place on a way: 0 is that to the first turn, 1 that to the second, and so on. Throws RunError
+/// where it does not.
+double loadAt(const Loop& loop, int way, double at);
+
 /// What KES reads: the slope between two places, and the width at places, each the mean of both sides. `loop`: of a
 /// course to +end, -end and +end.
 double slopeBetween(const Loop& loop, double from, double to);

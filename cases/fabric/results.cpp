@@ -122,37 +122,30 @@ std::string loopCsv(const KesTest& test) {
 
 namespace {
 
-/// The card's numbers as they stand in the loop: its slope through the middle, and its widths about the loop's own.
+/// The card's numbers where they are read: its slope from the loop on, its widths about the loop's middle.
 void addCard(const KesTest& test, double x_unit, double y_unit, XyPlot& plot) {
   constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+  const auto on = [&](int way, double at) { return laboratory::loadAt(test.loop, way, at); };
   for (const Reading& r : test.readings) {
     if (!r.card) continue;
     XySeries series;
-    const bool slope = &r == &test.readings.front();
     series.name = "card: " + r.name;
+    const auto add = [&](double at, double load) {
+      series.x.push_back(at / x_unit);
+      series.y.push_back(load / y_unit);
+    };
     for (const double side : {1., -1.}) {
-      if (slope) {
-        // Half of the width above the axis, on the way that loads the side.
-        const double from = r.at, to = test.bending ? kKesTo_per_m : kShearTo;
-        double offset = 0;
-        for (const Reading& w : test.readings)
-          if (&w != &r && w.card) {
-            offset = 0.5 * *w.card;
-            break;
-          }
-        for (const double at : {from, to}) {
-          series.x.push_back(side * at / x_unit);
-          series.y.push_back(side * (*r.card * at + offset) / y_unit);
-        }
+      const double at = side * r.at;
+      if (&r == &test.readings.front()) {
+        const double to = side * (test.bending ? kKesTo_per_m : kShearTo), from = on(side > 0 ? 2 : 1, at);
+        add(at, from);
+        add(to, from + *r.card * (to - at));
       } else {
-        const double middle = test.readings.front().card.value_or(test.readings.front().measured) * r.at;
-        for (const double half : {-0.5, 0.5}) {
-          series.x.push_back(side * r.at / x_unit);
-          series.y.push_back((side * middle + half * *r.card) / y_unit);
-        }
+        const double middle = 0.5 * (on(1, at) + on(2, at));
+        add(at, middle - 0.5 * *r.card);
+        add(at, middle + 0.5 * *r.card);
       }
-      series.x.push_back(kGap);
-      series.y.push_back(kGap);
+      add(kGap, kGap);
     }
     plot.series.push_back(std::move(series));
   }

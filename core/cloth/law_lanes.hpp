@@ -98,7 +98,7 @@ struct GroupEnergy {
   V stored{}, lost{};
   void add(V area, const PointAnswer<V>& answer) {
     stored += area * answer.energy;
-    lost += area * answer.bending.lost;
+    lost += area * (answer.bending.lost + answer.membrane.lost);
   }
   void write(const BlockLaw& law, long group, double* energy) const {
     store(energy + group * kLanes, stored);

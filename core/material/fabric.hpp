@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/material/laws/bending_laws.hpp"
+#include "core/material/laws/shear_friction.hpp"
 
 namespace gambeson {
 
@@ -14,6 +15,8 @@ struct Fabric {
   /// Membrane, Zheng 2013, eq. 2.13, plane stress: Young's moduli along weft and warp, in-plane shear modulus,
   /// Poisson's ratio nu_weft_warp (contraction along warp under weft tension).
   double young_weft_Pa = 0, young_warp_Pa = 0, shear_Pa = 0, poisson = 0;
+  /// Between threads that turn against each other, beside the shear modulus.
+  ShearFriction shear_friction;
   /// How it bends: one law of BendingLaws with its numbers (core/material/laws). A Laminate also replaces the membrane
   /// above and the thickness.
   BendingLaw law = ZhengBending{};

@@ -26,6 +26,15 @@ void checkLaminate(const Fabric& f, const Refusal& refuse) {
     refuse("tension_field", "needs a section without coupling of membrane and bending (symmetric plies)");
 }
 
+void checkShearFriction(const Fabric& f, const Refusal& refuse) {
+  const ShearFriction& s = f.shear_friction;
+  if (!(s.rise_N_per_m >= 0 && s.growth_N_per_m >= 0)) refuse("shear_friction", "must have slopes >= 0");
+  if (s == ShearFriction{}) return;
+  if (!(s.span > 0)) refuse("shear_friction", "must have a span > 0");
+  if (f.tension_field) refuse("tension_field", "is not possible with friction in shear");
+  if (f.laminate()) refuse("shear_friction", "is not possible for plies");
+}
+
 void checkMembrane(const Fabric& f, const Refusal& refuse) {
   if (!(f.thickness_m > 0)) refuse("thickness_m", "must be > 0");
   if (!(f.young_weft_Pa > 0)) refuse("young_weft_Pa", "must be > 0");
@@ -50,6 +59,7 @@ void checkFabric(const Fabric& f, const char* where) {
   if (!(f.jam_area >= 0 && f.jam_area < 1)) refuse("jam_area", "must be >= 0 and < 1");
   if (f.jam_area > 0 && f.tension_field)
     refuse("jam_area", "is not possible for a tension field, which carries no compression; allowed: 0");
+  checkShearFriction(f, refuse);
   if (f.laminate()) return checkLaminate(f, refuse);
   checkMembrane(f, refuse);
   std::visit(
@@ -74,12 +84,14 @@ PointLaw pointLaw(const Fabric& f) {
   point.tension = f.tension_field ? 1 : 0;
   point.jam_s = f.jam_area * f.jam_area;
   point.jam_N_per_m = f.jam_area > 0 ? jamStiffness(point.section.A) : 0;
+  const ShearFriction& s = f.shear_friction;
+  point.shear = {s.rise_N_per_m, s.span, s.growth_N_per_m};
   return point;
 }
 
 LawUse lawUse(const Fabric& f) {
   const int kind = std::visit([]<class L>(const L&) { return BendingLaws::kind<L>; }, f.law);
-  return {kind > 0 ? 1u << kind : 0u, f.tension_field, f.jam_area > 0};
+  return {kind > 0 ? 1u << kind : 0u, f.tension_field, f.jam_area > 0, f.shear_friction != ShearFriction{}};
 }
 
 bool hasRestCurvature(const Fabric& f) {
@@ -93,7 +105,8 @@ PointNumbers<double> numbersOf(const PointLaw& law) {
 }
 
 LawUse lawUse(const PointLaw& law) {
-  return {law.kind > 0 ? 1u << static_cast<int>(law.kind) : 0u, law.tension != 0, law.jam_N_per_m > 0};
+  return {law.kind > 0 ? 1u << static_cast<int>(law.kind) : 0u, law.tension != 0, law.jam_N_per_m > 0,
+          law.shear[0] > 0 || law.shear[2] > 0};
 }
 
 PointAnswer<double> resultants(const PointLaw& law, const double* strain, const double* change,

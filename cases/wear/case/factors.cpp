@@ -18,6 +18,8 @@ void scale(Fabric& fabric, const FactorsCase& f) {
   fabric.young_weft_Pa *= f.membrane;
   fabric.young_warp_Pa *= f.membrane;
   fabric.shear_Pa *= f.membrane;
+  fabric.shear_friction.rise_N_per_m *= t * f.membrane;
+  fabric.shear_friction.growth_N_per_m *= t * f.membrane;
   std::visit(
       [&]<class L>(L& law) {
         law.thicken(t);

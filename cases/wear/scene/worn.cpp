@@ -32,8 +32,11 @@ std::string lawsThatRemember(const Case& c, const GarmentCase& worn) {
   std::set<std::string> names;
   std::vector<Fabric> fabrics = otherFabrics(worn);
   fabrics.push_back(fabricOf(c, worn));
-  for (const Fabric& f : fabrics)
-    if (lawUse(f).remembers()) names.insert(schema::bendingName(f.law));
+  for (const Fabric& f : fabrics) {
+    const LawUse use = lawUse(f);
+    if (use.shears) names.insert("shear_loop");
+    if (use.kinds & BendingLaws::remembering) names.insert(schema::bendingName(f.law));
+  }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/cloth/draft/garment.hpp"
 #include "core/error.hpp"
+#include "core/material/fabric_law.hpp"
 
 namespace gambeson {
 namespace {
@@ -37,6 +38,9 @@ Fabric mixture(const Fabric& a, const Fabric& b, double w) {
   for (double Fabric::*member :
        {&Fabric::thickness_m, &Fabric::density_kg_per_m3, &Fabric::shear_Pa, &Fabric::jam_area})
     f.*member = mix(a.*member, b.*member, w);
+  for (double ShearFriction::*member :
+       {&ShearFriction::rise_N_per_m, &ShearFriction::span, &ShearFriction::growth_N_per_m})
+    f.shear_friction.*member = mix(a.shear_friction.*member, b.shear_friction.*member, w);
   std::visit(
       [&]<class L>(const L& law) {
         if constexpr (requires { L::mixed(law, law, w); }) f.law = L::mixed(law, std::get<L>(b.law), w);
@@ -136,6 +140,13 @@ void validateFields(const Garment& g) {
           throw InputError(
               {"", 0, at + "material.values"},
               "must be between 0 and " + std::to_string(g.other_fabrics.size()) + ", the number of other materials");
+      // What a point remembers lies in one order in all of a block.
+      const LawUse use = lawUse(g.fabric);
+      for (const Fabric& other : g.other_fabrics)
+        if (const LawUse more = lawUse(other);
+            (use.shears || more.shears) && (use.shears != more.shears || use.historySize() != more.historySize()))
+          throw InputError({"", 0, at + "material"},
+                           "fabrics with friction in shear stand beside others only with the same laws");
       const bool whole = f.material->degree == 0 && std::all_of(f.material->values.begin(), f.material->values.end(),
                                                                 [](double v) { return v == std::floor(v); });
       if (whole) continue;

@@ -42,6 +42,7 @@ BlockLaw lawOfBlock(const Garment& garment, bool varies) {
     law.use.kinds |= more.use.kinds;
     law.use.tension |= more.use.tension;
     law.use.jams |= more.use.jams;
+    law.use.shears |= more.use.shears;
   }
   return law;
 }

@@ -52,6 +52,7 @@ BendingTriangles::BendingTriangles(const std::vector<MembraneTriangle>& triangle
       laws_(laws.begin(), laws.end()),
       kernels_(&kernels),
       moment_of_(hinges.size(), -1) {
+  for (BlockLaw& law : laws_) law.use.shears = false;  // that is the membrane's
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const MembraneTriangle& m = triangles[t];
     if (!bendTriangles(m.bending)) continue;

@@ -65,7 +65,8 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
     } else {
       LawLanes numbers;
       constantLaw(law, numbers);
-      evaluateMembrane<kParts>(law.evaluated(), numbers, strain, answer);
+      const History<V> history = law.remembers() ? historyAt(law, group, false) : History<V>{};
+      evaluateMembrane<kParts>(law.evaluated(), numbers, strain, history, answer);
     }
     const V* n = answer.resultant;
     const V3 p1 = area * (n[0] * weft + n[2] * warp), p2 = area * (n[2] * weft + n[1] * warp);
@@ -74,7 +75,10 @@ void triangleForces(const ElementBlock& block, const BlockLaw& law, int begin, i
     write(slot, V3{} - f1 - f2);
     write(slot + 3 * kLanes, f1);
     write(slot + 6 * kLanes, f2);
-    if constexpr (kEnergy) store(energy + static_cast<long>(group) * kLanes, area * answer.energy);
+    if constexpr (kEnergy) {
+      store(energy + static_cast<long>(group) * kLanes, area * answer.energy);
+      if (law.lost) store(law.lost + static_cast<long>(group) * kLanes, area * answer.lost);
+    }
   }
 }
 

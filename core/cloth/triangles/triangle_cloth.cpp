@@ -32,7 +32,7 @@ class TriangleTangent : public ClothTangent {
     std::vector<std::array<double, 9>> blocks;
     const TriangleElements& e = cloth_.elements();
     for (std::size_t k = 0; k < e.triangles().size(); ++k) {
-      e.membraneStiffness(static_cast<int>(k), state.q, terms, blocks);
+      e.membraneStiffness(static_cast<int>(k), state, terms, blocks);
       addSymmetrised(cloth_.map(), e.triangles()[k].corner, blocks, K);
     }
     e.bending().addStiffness(e.hinges(), cloth_.map(), state, terms, K);
@@ -318,7 +318,7 @@ void TriangleCloth::innerMasses(std::span<double> mass) const {
   std::copy(elements_.bending().innerMasses().begin(), elements_.bending().innerMasses().end(), mass.begin());
 }
 
-/// The middle of the hinge's edge, in its first triangle; or that of the triangle.
+/// Of a hinge the middle of its edge, in its first triangle; of bent triangles and of friction in shear the triangle's.
 std::vector<HistoryPlace> TriangleCloth::historyPlaces() const {
   std::vector<HistoryPlace> places;
   for (std::size_t k = 0; k < elements_.hinges().size(); ++k) {
@@ -342,6 +342,14 @@ std::vector<HistoryPlace> TriangleCloth::historyPlaces() const {
     own.place = {2.0 * (triangle - firstTriangle(own.patch)) + 1.0 / 3, 1.0 / 3};
     places.push_back(own);
   }
+  for (int p = 0; p < static_cast<int>(parts_.patches.size()); ++p)
+    for (int t = firstTriangle(p); t < firstTriangle(p + 1); ++t) {
+      HistoryPlace own = elements_.shearHistoryOf(static_cast<std::size_t>(t));
+      if (own.count == 0) continue;
+      own.patch = p;
+      own.place = {2.0 * (t - firstTriangle(p)) + 1.0 / 3, 1.0 / 3};
+      places.push_back(own);
+    }
   return places;
 }
 

@@ -42,6 +42,16 @@ void addOuter(std::array<double, 9>& m, double scale, const Vec3& a, const Vec3&
     for (int j = 0; j < 3; ++j) m[static_cast<std::size_t>(3 * i + j)] += scale * a[i] * b[j];
 }
 
+/// What hinges have of a law, and what membranes have.
+LawUse bendingUse(LawUse use) {
+  use.shears = false;
+  return use;
+}
+LawUse membraneUse(LawUse use) {
+  use.kinds = 0;
+  return use;
+}
+
 /// Elements in one block share it.
 std::pair<int, bool> blockOf(const MembraneTriangle& t) { return {t.law, false}; }
 std::pair<int, bool> blockOf(const FoldHinge& h) { return {h.law, h.seam}; }
@@ -91,6 +101,7 @@ void TriangleElements::packHinges() {
     return std::vector{h.theta0, h.per_angle, real ? h.area_m2 : 0.0, h.d.x, h.d.y, h.d.z};
   };
   const auto place = [&](ElementBlock& block, std::size_t k, int at) {
+    block.law.use = bendingUse(block.law.use);
     const int size = block.law.use.historySize();
     if (at == 0) {
       block.first = moments_;
@@ -121,8 +132,13 @@ void TriangleElements::packTriangles() {
   };
   std::vector<long> slot(triangles_.size());  // of the first corner
   const auto all = [](std::size_t) { return true; };
+  shear_at_.resize(triangles_.size());
   const auto place = [&](ElementBlock& block, std::size_t k, int at) {
+    block.law.use = membraneUse(block.law.use);
+    const int size = block.law.use.historySize();
     if (at == 0) {
+      block.history_first = history_;
+      history_ += static_cast<long>(block.groups) * size * lanes;
       block.hinge.assign(static_cast<std::size_t>(3 * block.groups * lanes), moments_);
       block.first = slot_count_;
       slot_count_ += 9L * block.groups * lanes;
@@ -130,6 +146,7 @@ void TriangleElements::packTriangles() {
       if (block.membrane.elements == MembraneElements::springs)
         block.springs.assign(static_cast<std::size_t>(kSpringDoubles * block.groups * lanes), 0.0);
     }
+    shear_at_[k] = block.history_first + static_cast<long>(at / lanes) * size * lanes + at % lanes;
     if (!block.springs.empty()) {
       const TriangleSprings s = springsOf(block.membrane, triangles_[k].g, triangles_[k].area_m2);
       const double own[kSpringDoubles] = {s.rest_m[0],
@@ -167,6 +184,7 @@ TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> tri
   packHinges();
   bending_ = BendingTriangles(triangles_, hinges_, laws_, fabrics, kernels, moments_, history_);
   moments_ += bending_.moments();
+  history_ += bending_.historySize();
   for (std::size_t k = 0; k < hinges_.size(); ++k)
     if (moment_[k] < 0) moment_[k] = bending_.momentOf(k);
   packTriangles();
@@ -201,10 +219,19 @@ BlockLaw TriangleElements::lawOf(int index, const ForceTerms& terms) const {
 
 HistoryPlace TriangleElements::historyOf(std::size_t hinge) const {
   if (!isHinge(hinge)) return {};
-  const int size = laws_[static_cast<std::size_t>(hinges_[hinge].law)].use.historySize();
+  const int size = bendingUse(laws_[static_cast<std::size_t>(hinges_[hinge].law)].use).historySize();
   return {0,
           {},
           static_cast<std::size_t>(history_at_[hinge]),
+          static_cast<std::size_t>(size),
+          static_cast<std::size_t>(kernels_->lanes)};
+}
+
+HistoryPlace TriangleElements::shearHistoryOf(std::size_t triangle) const {
+  const int size = membraneUse(laws_[static_cast<std::size_t>(triangles_[triangle].law)].use).historySize();
+  return {0,
+          {},
+          static_cast<std::size_t>(shear_at_[triangle]),
           static_cast<std::size_t>(size),
           static_cast<std::size_t>(kernels_->lanes)};
 }
@@ -247,8 +274,18 @@ Vec3 TriangleElements::curvatureOf(int triangle, const ClothState& state, bool r
   return sum / triangles_[static_cast<std::size_t>(triangle)].area_m2;
 }
 
-std::array<double, kMostHistory> TriangleElements::meanMemory(int triangle, const ClothState& state) const {
-  std::array<double, kMostHistory> mean{};
+TriangleElements::PointMemory TriangleElements::memoryAt(int triangle, const ClothState& state) const {
+  PointMemory mean{};
+  const BlockLaw& law = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)];
+  if (const HistoryPlace own = shearHistoryOf(static_cast<std::size_t>(triangle)); own.count > 0 && !state.history.empty())
+    for (std::size_t i = 0; i < own.count; ++i)
+      mean[static_cast<std::size_t>(law.use.shearHistory()) + i] = state.history[own.first + i * own.stride];
+  if (const int bent = bending_.bentOf(triangle); bent >= 0) {
+    const History<double> memory = bending_.memoryOf(static_cast<std::size_t>(bent), state);
+    for (int i = 0; memory.committed && i < law.use.shearHistory(); ++i)
+      mean[static_cast<std::size_t>(i)] = memory.before(i);
+    return mean;
+  }
   double area = 0;
   for (const int h : hinges_of_[static_cast<std::size_t>(triangle)]) {
     if (h < 0) continue;
@@ -267,15 +304,13 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
   PointState s{strain(triangle, state.q), curvatureOf(triangle, state, false), {}, {}};
   const double e[3] = {s.strain.x, s.strain.y, s.strain.z},
                k[3] = {s.curvature_change.x, s.curvature_change.y, s.curvature_change.z};
-  const int bent = bending_.bentOf(triangle);
-  const std::array<double, kMostHistory> mean = meanMemory(triangle, state);
-  History<double> memory =
-      bent < 0 ? History<double>{mean.data(), nullptr} : bending_.memoryOf(static_cast<std::size_t>(bent), state);
+  const PointMemory remembered = memoryAt(triangle, state);
+  History<double> memory{remembered.data(), nullptr};
   memory.elapsed_s = state.elapsed_s;
   const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
   const BlockLaw& law = laws_[static_cast<std::size_t>(t.law)];
   PointAnswer<double> r = resultants(law.point, e, k, memory);
-  if (membraneOf(t).elements != MembraneElements::continuum) stretch(t, law, s.strain, r.membrane);
+  if (membraneOf(t).elements != MembraneElements::continuum) stretch(t, law, s.strain, {}, r.membrane);
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
   s.n = {n[0], n[1], n[2]};
   s.m = {m[0], m[1], m[2]};
@@ -308,8 +343,7 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
   bending_.force(state, out, terms, std::span(work.slots).subspan(list), moments, work);
   springs_.force(state, out, terms.bending, work.slots.data(), work);
   for (const ElementBlock& block : triangle_blocks_) {
-    BlockLaw law = withTerms(block.law, terms);
-    law.use.kinds = 0;  // the membrane alone
+    BlockLaw law = withHistory(withTerms(block.law, terms), block.history_first, state, out);
     double* const energy = energies.start(block.groups * lanes, law);
     kernels_->triangles(block, law, q, moments, work.slots.data() + block.first, energy);
     energies.add(law);
@@ -341,11 +375,11 @@ void TriangleElements::dampingForce(const ClothState& state, const ClothForce& o
 }
 
 void TriangleElements::stretch(const MembraneTriangle& t, const BlockLaw& law, const Vec3& strain,
-                               Answer<double, 3>& answer) const {
+                               const History<double>& memory, Answer<double, 3>& answer) const {
   const TriangleMembrane& own = membraneOf(t);
   const double e[3] = {strain.x, strain.y, strain.z};
   if (!law.membrane || own.elements == MembraneElements::continuum)
-    return evaluateMembrane<all_parts>(law.evaluated(), numbersOf(law), e, answer);
+    return evaluateMembrane<all_parts>(law.evaluated(), numbersOf(law), e, memory, answer);
   if (own.elements == MembraneElements::springs)
     springResultants(springsOf(own, t.g, t.area_m2), t.area_m2, e, answer);
   else
@@ -396,14 +430,19 @@ void TriangleElements::membraneDamping(int triangle, std::span<const Vec3> q,
   StrainGradient(t, f[0], f[1]).addSlope(t.area_m2, answer.slope, blocks);
 }
 
-void TriangleElements::membraneStiffness(int triangle, std::span<const Vec3> q, const ForceTerms& terms,
+void TriangleElements::membraneStiffness(int triangle, const ClothState& state, const ForceTerms& terms,
                                          std::vector<std::array<double, 9>>& blocks) const {
   const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
   Vec3 f[2];
-  const Vec3 e = strain(triangle, q, &f[0], &f[1]);
-  const BlockLaw law = lawOf(t.law, terms);
+  const Vec3 e = strain(triangle, state.q, &f[0], &f[1]);
+  BlockLaw law = lawOf(t.law, terms);
+  law.use = membraneUse(law.use);
+  const HistoryPlace own = shearHistoryOf(static_cast<std::size_t>(triangle));
+  History<double> memory;
+  if (own.count > 0 && !state.history.empty())
+    memory = {state.history.data() + own.first, nullptr, static_cast<long>(own.stride)};
   Answer<double, 3> answer;
-  stretch(t, law, e, answer);
+  stretch(t, law, e, memory, answer);
   const double* n = answer.resultant;
   double tension[3];
   if (terms.definite) {
@@ -434,7 +473,8 @@ void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const 
   const double kappa = h.per_angle * (foldAngle(x, &gradient) - h.theta0);
   ForceTerms of_hinges = terms;
   of_hinges.bending = true;
-  const BlockLaw law = lawOf(h.law, of_hinges);
+  BlockLaw law = lawOf(h.law, of_hinges);
+  law.use = bendingUse(law.use);
   const double change[3] = {kappa * h.d.x, kappa * h.d.y, kappa * h.d.z}, d[3] = {h.d.x, h.d.y, h.d.z};
   Answer<double, 3> answer;
   evaluateBending<with_slope>(law.evaluated(), numbersOf(law), change,

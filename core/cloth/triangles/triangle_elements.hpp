@@ -32,17 +32,19 @@ class TriangleElements {
   const char* kernels() const { return kernels_->name; }
   const BendingTriangles& bending() const { return bending_; }
   const CrossedSprings& springs() const { return springs_; }
-  /// Doubles of the history: those of each hinge and bent triangle whose law remembers, lanes side by side.
-  std::size_t historySize() const { return static_cast<std::size_t>(history_ + bending_.historySize()); }
-  /// Of the numbers of a hinge: where they stand, without its place.
+  /// Doubles of the history: those of each hinge and bent triangle whose law remembers, and of each triangle that has
+  /// friction in shear, lanes side by side.
+  std::size_t historySize() const { return static_cast<std::size_t>(history_); }
+  /// Of the numbers of a hinge: where they stand, without its place; of the friction in shear of a triangle.
   HistoryPlace historyOf(std::size_t hinge) const;
+  HistoryPlace shearHistoryOf(std::size_t triangle) const;
 
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
   /// Whether any membrane is damped, and then as Cloth::dampingForce has it.
   bool damps() const;
   void dampingForce(const ClothState& state, const ClothForce& out, ClothWork& work) const;
   /// d2E/dq2 of a triangle: blocks[3 I + J] (3 x 3, row by row) of its corners.
-  void membraneStiffness(int triangle, std::span<const Vec3> q, const ForceTerms& terms,
+  void membraneStiffness(int triangle, const ClothState& state, const ForceTerms& terms,
                          std::vector<std::array<double, 9>>& blocks) const;
   /// - df/dv of a triangle's damping, in the same order.
   void membraneDamping(int triangle, std::span<const Vec3> q, std::vector<std::array<double, 9>>& blocks) const;
@@ -69,13 +71,14 @@ class TriangleElements {
     return membranes_[static_cast<std::size_t>(t.law)];
   }
   /// n of a triangle by its membrane, and its slope.
-  void stretch(const MembraneTriangle& triangle, const BlockLaw& law, const Vec3& strain,
+  void stretch(const MembraneTriangle& triangle, const BlockLaw& law, const Vec3& strain, const History<double>& memory,
                Answer<double, 3>& answer) const;
   BendingElements bendingOf(const FoldHinge& h) const {
     return triangles_[static_cast<std::size_t>(h.triangle[0])].bending;
   }
-  /// The mean of what a triangle's hinges remember.
-  std::array<double, kMostHistory> meanMemory(int triangle, const ClothState& state) const;
+  using PointMemory = std::array<double, kMostHistory + kShearHistory>;
+  /// What a triangle remembers, as its law reads it; of hinges the mean.
+  PointMemory memoryAt(int triangle, const ClothState& state) const;
   /// What a hinge remembers; null where it remembers nothing, or the cloth is new.
   History<double> memoryOf(std::size_t hinge, const ClothState& state) const;
 
@@ -89,6 +92,7 @@ class TriangleElements {
   BendingTriangles bending_;
   CrossedSprings springs_;
   std::vector<long> history_at_;  ///< of each hinge's first number
+  std::vector<long> shear_at_;    ///< of each triangle's
   std::vector<int> moment_;       ///< of each edge: where its moment is; -1: none
   int moments_ = 0;               ///< and behind them some that stay 0
   long history_ = 0, slot_count_ = 0;

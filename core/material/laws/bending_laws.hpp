@@ -93,6 +93,6 @@ inline GivenRigidities* givenRigidities(BendingLaw& slot) {
 }
 
 constexpr int kLawNumbers = BendingLaws::most_numbers;   ///< of a point, beside its section
-constexpr int kMostHistory = BendingLaws::most_history;  ///< doubles that a point may remember
+constexpr int kMostHistory = BendingLaws::most_history;  ///< doubles that a point may remember of bending
 
 }  // namespace gambeson

@@ -4,6 +4,7 @@
 #include "core/material/laws/bending_laws.hpp"
 #include "core/material/laws/jamming.hpp"
 #include "core/material/laws/membrane.hpp"
+#include "core/material/laws/shear_friction.hpp"
 #include "core/material/laws/tension_field.hpp"
 #include "core/material/section.hpp"
 
@@ -11,8 +12,8 @@ namespace gambeson {
 
 /// The numbers of all laws at a point: n = A e + B k, m = B e + D k (core/material/section.hpp); the moment by law
 /// `kind` of BendingLaws instead of D k where that is not 0, its rigidities in D11, D22, D33; the membrane relaxed to
-/// its tension field where `tension` is not 0; jamming with `jam_N_per_m` below the square `jam_s` of an area ratio. A
-/// tension field, jamming and a law of the list stand only where they make sense together: not jamming with a tension
+/// its tension field where `tension` is not 0; jamming with `jam_N_per_m` below the square `jam_s` of an area ratio;
+/// friction in shear by `shear` (rise, span, growth of ShearFriction; all 0: none). A tension field, jamming and a law of the list stand only where they make sense together: not jamming with a tension
 /// field, no B and no other D with a law of the list or (B) with a tension field.
 struct PointLaw {
   Section section;
@@ -20,14 +21,15 @@ struct PointLaw {
   std::array<double, kLawNumbers> numbers{};
   double tension = 0;
   double jam_N_per_m = 0, jam_s = 0;
+  std::array<double, 3> shear{};
 };
-constexpr int kLawDoubles = 22 + kLawNumbers;  ///< a PointLaw as an array
+constexpr int kLawDoubles = 25 + kLawNumbers;  ///< a PointLaw as an array
 static_assert(sizeof(PointLaw) == kLawDoubles * sizeof(double));
 
 /// A PointLaw of S, in the same order.
 template <class S>
 struct PointNumbers {
-  S A[6], B[6], D[6], kind, numbers[kLawNumbers], tension, jam, jam_s;
+  S A[6], B[6], D[6], kind, numbers[kLawNumbers], tension, jam, jam_s, shear[3];
 };
 static_assert(sizeof(PointNumbers<double>) == sizeof(PointLaw));
 
@@ -35,11 +37,14 @@ static_assert(sizeof(PointNumbers<double>) == sizeof(PointLaw));
 struct LawUse {
   unsigned kinds = 0;  ///< bit k: kind k of BendingLaws
   bool tension = false, jams = false;
+  bool shears = false;  ///< with friction
 
   GAMBESON_HD bool has(int kind) const { return kinds >> kind & 1; }
-  GAMBESON_HD bool remembers() const { return kinds & BendingLaws::remembering; }
-  /// Doubles that a point has room for: as many as the law of these that remembers most.
-  GAMBESON_HD int historySize() const { return BendingLaws::historyOf(kinds); }
+  GAMBESON_HD bool remembers() const { return (kinds & BendingLaws::remembering) || shears; }
+  /// Doubles that a point has room for: as many as the bending law of these that remembers most, and behind them those
+  /// of the friction in shear.
+  GAMBESON_HD int historySize() const { return shearHistory() + (shears ? kShearHistory : 0); }
+  GAMBESON_HD int shearHistory() const { return BendingLaws::historyOf(kinds); }  ///< where that begins
 };
 
 /// What all laws of a point answer: n [N/m] and m [N] with their own slopes. That of n by k, and of m by e, is B.
@@ -75,9 +80,10 @@ GAMBESON_LAW void replaceByLaws(LawList<Laws...>, const LawUse& use, const Point
   (replaceByLaw<kParts, Laws>(use, l, k, history, bending), ...);
 }
 
-/// n of the strain e = (E11, E22, 2 E12) alone, its energy and slope.
+/// n of the strain e = (E11, E22, 2 E12) alone, its energy and slope. `history`: of the point.
 template <unsigned kParts, class S>
-GAMBESON_LAW void evaluateMembrane(const LawUse& use, const PointNumbers<S>& l, const S* e, Answer<S, 3>& membrane) {
+GAMBESON_LAW void evaluateMembrane(const LawUse& use, const PointNumbers<S>& l, const S* e, History<S> history,
+                                   Answer<S, 3>& membrane) {
   stVenantKirchhoff<kParts>(l.A, e, membrane);
   if (use.tension) {
     if constexpr (Number<S>::lanes == 1) {
@@ -95,6 +101,10 @@ GAMBESON_LAW void evaluateMembrane(const LawUse& use, const PointNumbers<S>& l, 
     }
   }
   if (use.jams) addJamming<kParts>(l.jam, l.jam_s, e, membrane);
+  if (use.shears) {
+    history.follows = spread<S>(1.0);  // points without friction have stops of no strength
+    addShearFriction<kParts>(l.shear, e[2], history, use.shearHistory(), membrane);
+  }
 }
 
 /// m of the change of curvature k = (k11, k22, 2 k12) alone. `history`: of the bending law.
@@ -110,7 +120,7 @@ template <unsigned kParts, class S>
 GAMBESON_LAW void evaluateLaws(const LawUse& use, const PointNumbers<S>& l, const S* e, const S* k, History<S> history,
                                PointAnswer<S>& out) {
   Answer<S, 3>&membrane = out.membrane, &bending = out.bending;
-  evaluateMembrane<kParts>(use, l, e, membrane);
+  evaluateMembrane<kParts>(use, l, e, history, membrane);
   S coupled[3]{};
   addProduct(l.B, e, coupled);
   if constexpr (kParts & with_energy) membrane.energy += coupled[0] * k[0] + coupled[1] * k[1] + coupled[2] * k[2];
@@ -143,6 +153,7 @@ GAMBESON_LAW void takeSteepestOf(const LawUse& use, PointNumbers<S>& l) {
 template <class S, class... Laws>
 GAMBESON_LAW void takeSteepest(LawList<Laws...>, const LawUse& use, PointNumbers<S>& l) {
   (takeSteepestOf<Laws>(use, l), ...);
+  if (use.shears) l.A[2] += steepestShearFriction(l.shear);
   l.kind = l.tension = S{};
 }
 

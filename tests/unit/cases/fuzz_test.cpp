@@ -1,14 +1,18 @@
 /// Mutations of good files: whatever is read ends in success, or in an InputError that names a file (never a crash,
 /// another exception, or endless work). Deterministic: the same mutations in every run.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <fstream>
 #include <sstream>
 
+#include "cases/cloth/card.hpp"
+#include "cases/fabric/raw_loop.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "core/error.hpp"
+#include "core/material/fabric_law.hpp"
 #include "human/files/mesh.hpp"
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
@@ -195,6 +199,17 @@ TEST(Fuzz, ClothMeshes) {
     const bool is_obj = std::string(name) == "worn.obj";
     fuzz(name, is_obj ? obj : ply, is_obj ? 13 : 14, 500, read);
   }
+}
+
+TEST(Fuzz, FabricCards) {
+  fuzz("denim.card.json", library("cards/denim_a.card.json"), 81, 600,
+       [](const auto& file) { checkFabric(fabricOf(readCard(file)).fabric); });
+  std::string loop = "curvature_per_cm,moment_gf_cm_per_cm\n";
+  BentLine<kStops> line(stopsOf<kStops>(quadraticCurve(7.6e-6, 2.6e-6, -3.8e-8)));
+  for (const int way : {1, -1, 1})
+    for (int i = way < 0 ? -15 : -16; i <= 16; ++i)
+      loop += fmt::format("{},{:.5f}\n", way * i * 0.15, line.bend(way * i * 15.0) / 9.80665e-3);
+  fuzz("loop.csv", loop, 82, 600, [](const auto& file) { readLoop(file); });
 }
 
 }  // namespace

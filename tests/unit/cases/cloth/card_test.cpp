@@ -58,8 +58,10 @@ TEST(Card, RefusesWhatIsWrong) {
       {"\"poisson\": 0.1", "\"secant_at\": \"600 gf/cm\"", 6, "tensile.secant_at", "at most load"},
       {"\"G\": \"2.18 gf/(cm deg)\"", "\"G\": \"2.18 gf/cm\"", 7, "shear.G", "wrong unit"},
       {"\"2HG\": \"5.012 gf/cm\", ", "", 7, "shear.2HG5", "needs 2HG"},
+      {"7.412 gf/cm", "4.9 gf/cm", 7, "shear.2HG5", "out of range; allowed beside 2HG"},
+      {"2.18 gf/(cm deg)", "0.2 gf/(cm deg)", 7, "shear.2HG", "what friction alone gives it"},
       {"  \"thickness\": \"1.066 mm\",\n", "", 1, "thickness", "is required"},
-      {"\"430 g/m^2\"", "\"0 g/m^2\"", 5, "weight", "> 0"},
+      {"\"430 g/m^2\"", "\"0 g/m^2\"", 5, "weight", ">= 0.0001"},
       {"\"MIU\": 0.18", "\"MIU\": 1.8e3", 14, "MIU", "<= 2"},
       {"\"source\"", "\"sauce\"", 3, "sauce", "did you mean \"source\"?"}};
   for (const Bad& c : cases) {
@@ -83,7 +85,10 @@ TEST(Card, GivesTheFabricThatWasMeasured) {
   const CardFabric made = fabricOf(card);
   const FabricCase& f = made.fabric;
   EXPECT_NEAR(f.surfaceDensity(), 0.43, 1e-12);
-  EXPECT_NEAR(f.shear_Pa * f.thickness_m, 2.18 * 56.187965, 1e-4);
+  const KesShear sheared = readKesShear({f.shear_Pa * f.thickness_m, f.shear_friction});
+  EXPECT_NEAR(sheared.rigidity_N_per_m, 2.18 * 56.187965, 1e-3);
+  EXPECT_NEAR(sheared.hysteresis_N_per_m, 5.012 * 0.980665, 1e-9);
+  EXPECT_NEAR(sheared.hysteresis_5_N_per_m, 7.412 * 0.980665, 1e-9);
   // Pulled to EMT at kept width, the law n = A E has 500 gf/cm.
   const Voigt A = pointLaw(f).section.A;
   const double e = 0.05515;

@@ -4,6 +4,7 @@
 #include "cases/cloth/fabric_input.hpp"
 #include "cases/wear/case/case.hpp"
 #include "core/material/hysteresis.hpp"
+#include "core/material/kes_shear.hpp"
 #include "unit/cases/malformed.hpp"
 
 namespace gambeson {
@@ -158,6 +159,48 @@ TEST(FrictionInput, ANumberOrAnObject) {
         "is required with pressure_power"},
        {"\"friction\": 0.2", R"("friction": {"kinetik": 0.4})", 27, "contact.friction.kinetik", "did you mean"},
        {"\"friction\": 0.2", "\"friction\": true", 27, "contact.friction", "expected"}});
+}
+
+/// The fabric of the example with friction in shear.
+FabricCase withShear(const std::string& loop) {
+  const Folder folder;
+  const std::string young = "\"young\": \"1.2 MPa\",";
+  return readCase(folder.write("case.json", replaced(example, young, young + " \"shear\": \"122.5 kPa\", \"shear_loop\": " + loop + ",")))
+      .fabric;
+}
+
+TEST(ShearLoopInput, WhatKesReads) {
+  const FabricCase f = withShear(R"({"hysteresis": "4.9 N/m", "hysteresis_5": "7.2 N/m"})");
+  const KesShear read = readKesShear({f.shear_Pa * f.thickness_m, f.shear_friction});
+  EXPECT_NEAR(read.rigidity_N_per_m, 122.5, 1e-9);
+  EXPECT_NEAR(read.hysteresis_N_per_m, 4.9, 1e-12);
+  EXPECT_NEAR(read.hysteresis_5_N_per_m, 7.2, 1e-12);
+  EXPECT_LT(f.shear_Pa, 122.5e3) << "a part of G is friction";
+  const FabricCase own = withShear(R"({"rise": 200, "growth": 100, "friction_angle": "2 deg"})");
+  EXPECT_EQ(own.shear_Pa, 122.5e3);
+  EXPECT_EQ(own.shear_friction.rise_N_per_m, 200);
+  EXPECT_EQ(own.shear_friction.growth_N_per_m, 100);
+}
+
+TEST(ShearLoopInput, ComesBackAsItWasWritten) {
+  const Folder folder;
+  const std::string young = "\"young\": \"1.2 MPa\",";
+  const Case c = readCase(folder.write(
+      "case.json", replaced(example, young, young + R"( "shear_loop": {"hysteresis": 4.9, "hysteresis_5": 7.2},)")));
+  EXPECT_EQ(readCase(folder.write("full.json", writeCase(c))).fabric, c.fabric);
+}
+
+TEST(ShearLoopInput, RefusesWhatIsWrong) {
+  const std::string young = "\"young\": \"1.2 MPa\",";
+  const std::string good = replaced(example, young, young + R"( "shear_loop": {"hysteresis": 4.9, "hysteresis_5": 7.2},)");
+  expectRefused(good, {{"\"hysteresis\": 4.9, ", "", 11, "fabric.shear_loop.hysteresis", "is required, or rise"},
+                       {"\"hysteresis\": 4.9", "\"hysteresis\": 0", 11, "fabric.shear_loop.hysteresis", "> 0"},
+                       {"\"hysteresis\": 4.9", "\"rise\": 4.9", 11, "fabric.shear_loop.hysteresis_5", "goes with"},
+                       {"\"hysteresis\": 4.9", "\"rise\": 3, \"hysteresis\": 4.9", 11, "fabric.shear_loop.rise", "excludes"},
+                       {"\"hysteresis_5\": 7.2", "\"growth\": 7.2", 11, "fabric.shear_loop.growth", "goes with rise"},
+                       {"\"hysteresis_5\": 7.2", "\"hysteresis_5\": 4", 11, "fabric.shear_loop.hysteresis_5", "allowed"},
+                       {"\"hysteresis_5\": 7.2", "\"friction_angle\": \"9 deg\"", 11, "fabric.shear_loop.friction_angle", "<= 0.14"},
+                       {"\"hysteresis\": 4.9", "\"hysteresis\": 300", 11, "fabric.shear_loop.hysteresis_5", "out of range"}});
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ Outcome gambeson(const Folder& folder, const std::string& arguments) {
 
 TEST(Command, HelpForNewcomers) {
   const Folder folder;
-  for (const char* subcommand : {"", "run ", "check ", "render ", "report ", "verify ", "study ", "batch "}) {
+  for (const char* subcommand : {"", "run ", "check ", "render ", "report ", "verify ", "study ", "batch ", "fabric "}) {
     const Outcome o = gambeson(folder, std::string(subcommand) + "--help");
     SCOPED_TRACE(subcommand);
     EXPECT_EQ(o.status, 0);
@@ -41,7 +41,7 @@ TEST(Command, HelpForNewcomers) {
 TEST(Command, StatusesAreAlike) {
   const Folder folder;
   for (const char* subcommand :
-       {"run", "dress", "check", "draft", "render", "report", "export", "verify", "study", "batch"}) {
+       {"run", "dress", "check", "draft", "render", "report", "export", "verify", "study", "batch", "fabric"}) {
     SCOPED_TRACE(subcommand);
     EXPECT_EQ(gambeson(folder, std::string(subcommand) + " --help").status, 0);
     for (const char* wrong : {"--nonsense", "absent.json", ""}) {
@@ -144,8 +144,8 @@ TEST(Command, BadInputExitsWithTwo) {
   const std::array<std::pair<std::string, std::string>, 18> cases{{
       {"", "gambeson run cases/library/shorts_walk.json"},
       {"dance",
-       "there is no command \"dance\"; there are run, dress, check, draft, render, report, export, verify, study and "
-       "batch"},
+       "there is no command \"dance\"; there are run, dress, check, draft, render, report, export, verify, study, "
+       "batch and fabric"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},

@@ -117,7 +117,19 @@ TEST(Laboratory, ShearsAsTheCardSays) {
     const double deg = kOneDegree;
     const Loop loop = laboratory::shear(fabricOf(card).fabric, shell(8, 2, 0), {{8 * deg, -8 * deg, 8 * deg}, 0.5 * deg, {}});
     EXPECT_NEAR(laboratory::slopeBetween(loop, 0.5 * deg, 2.5 * deg) / *card.shear->rigidity.both, 1, 0.005) << d.name;
+    EXPECT_NEAR(laboratory::widthAt(loop, 0.5 * deg) / *card.shear->hysteresis.both, 1, 0.005) << d.name;
+    EXPECT_NEAR(laboratory::widthAt(loop, 5 * deg) / *card.shear->hysteresis_5.both, 1, 0.005) << d.name;
   }
+}
+
+TEST(Laboratory, TrianglesShearAsTheCardSays) {
+  const FabricCard card = cardOf(denims[0]);
+  const double deg = kOneDegree;
+  const Loop loop =
+      laboratory::shear(fabricOf(card).fabric, triangles(MeshKind::single, 0), {{8 * deg, -8 * deg, 8 * deg}, 0.5 * deg, {}});
+  EXPECT_NEAR(laboratory::slopeBetween(loop, 0.5 * deg, 2.5 * deg) / *card.shear->rigidity.both, 1, 0.005);
+  EXPECT_NEAR(laboratory::widthAt(loop, 0.5 * deg) / *card.shear->hysteresis.both, 1, 0.005);
+  EXPECT_NEAR(laboratory::widthAt(loop, 5 * deg) / *card.shear->hysteresis_5.both, 1, 0.005);
 }
 
 TEST(Laboratory, CoursesPassWhatTheyMust) {
