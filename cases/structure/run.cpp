@@ -249,7 +249,7 @@ void runDynamic(const StructureCase& c, Run& run) {
   std::vector<std::string> lead{"time_s", "kinetic_energy_J", "strain_energy_J", "external_energy_J", "total_energy_J"};
   const Structure& s = run.structure();
   // What implicit schemes lose to the cloth's damping is no row of theirs, as what they lose to Rayleigh's.
-  const bool remembers = c.dynamics.isExplicit() ? s.cloth->losesEnergy() : s.cloth->historySize() > 0;
+  const bool remembers = c.dynamics.stepsPoints() ? s.cloth->losesEnergy() : s.cloth->historySize() > 0;
   if (remembers) lead.push_back(lost_column);
   std::optional<ContactTally> contact;
   if (c.contact) {
