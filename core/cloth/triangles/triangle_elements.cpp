@@ -233,7 +233,8 @@ PointState TriangleElements::stateOf(int triangle, const ClothState& state) cons
   for (double& m : mean) m /= area > 0 ? area : 1;
   if (const HistoryPlace own = shearHistoryOf(static_cast<std::size_t>(triangle));
       own.count > 0 && !state.history.empty()) {
-    const int first = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)].use.shearHistory();
+    const MembraneTriangle& t = triangles_[static_cast<std::size_t>(triangle)];
+    const int first = laws_[static_cast<std::size_t>(t.law)].use.shearHistory();
     for (std::size_t i = 0; i < own.count; ++i)
       mean[static_cast<std::size_t>(first) + i] = state.history[own.first + i * own.stride];
   }
