@@ -156,7 +156,8 @@ constexpr const char* kPictureStyle =
     ".note{font-size:12px}.title{font-weight:600}.grid{stroke:#e4e7ec}.zero{stroke:#8d95a3}"
     ".series{fill:none;stroke-width:2.2;stroke-linejoin:round}.left{stroke:#1668b0}"
     ".right{stroke:#c04a0f;stroke-dasharray:7 2.5}.third{stroke:#a3246b}.fourth{stroke:#6b4c9a;stroke-dasharray:2 3}"
-    ".fifth{stroke:#1b6e3c;stroke-dasharray:9 3 2 3}.published{fill:#fff;fill-opacity:.75;stroke:#1b1f27;stroke-width:1.3}";
+    ".fifth{stroke:#1b6e3c;stroke-dasharray:9 3 2 3}"
+    ".published{fill:#fff;fill-opacity:.75;stroke:#1b1f27;stroke-width:1.3}";
 
 }  // namespace
 

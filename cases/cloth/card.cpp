@@ -10,7 +10,8 @@
 namespace gambeson {
 namespace {
 
-constexpr double kGf_N = 9.80665e-3, kGfPerCm_N_per_m = 0.980665, kKesShear_N_per_m = kGfPerCm_N_per_m * 57.29577951308232;
+constexpr double kGf_N = 9.80665e-3, kGfPerCm_N_per_m = 0.980665,
+                 kKesShear_N_per_m = kGfPerCm_N_per_m * 57.29577951308232;
 
 std::string number(double x) { return formatBrief(x, 4); }
 
@@ -46,6 +47,17 @@ std::array<double, 2> tension(const CardTensile& t, CardFabric& out) {
 }
 
 }  // namespace
+
+StopShape<kStops> shapeOf(const CardBending& b) {
+  if (b.stops.empty()) return stopsOf<kStops>(curveOver(1, 0, 1)).shape;
+  StopShape<kStops> shape;
+  shape.reach.fill(1);
+  for (std::size_t j = 0; j < b.stops.size(); ++j) {
+    shape.drop[j] = b.stops[j].first;
+    shape.reach[j] = b.stops[j].second;
+  }
+  return shape;
+}
 
 ShearedSheet sheetOf(const CardShear& s) {
   return sheetOfKesShear({s.rigidity.mean(), s.hysteresis.mean(), s.hysteresis_5.any() ? s.hysteresis_5.mean() : 0},
@@ -105,15 +117,7 @@ void bendByLoop(const CardBending& b, CardFabric& out) {
   if (!b.friction_per_m)
     out.assumed.push_back(
         fmt::format("K0 {}/cm: friction in bending is overcome where KES begins to read B", number(span / 100)));
-  StopShape<kStops> shape = stopsOf<kStops>(curveOver(1, 0, 1)).shape;
-  if (!b.stops.empty()) {
-    shape.drop.fill(0);
-    shape.reach.fill(1);
-    for (std::size_t j = 0; j < b.stops.size(); ++j) {
-      shape.drop[j] = b.stops[j].first;
-      shape.reach[j] = b.stops[j].second;
-    }
-  }
+  const StopShape<kStops> shape = shapeOf(b);
   FrictionInBending law;
   law.shape = shape;
   double* const last[2] = {&law.weft_Nm, &law.warp_Nm};

@@ -72,6 +72,8 @@ constexpr double kCardFriction_rad = 0.0174532925199432958;
 /// Reads and checks a card. Throws InputError with file, line and key.
 FabricCard readCard(const std::filesystem::path& file);
 
+/// The stops of a card, or those of Wong 2014, eq. 4.2.
+StopShape<kStops> shapeOf(const CardBending& bending);
 /// Of a card's shear with 2HG. Throws InputError (reason only) where no friction has these widths.
 ShearedSheet sheetOf(const CardShear& shear);
 
@@ -82,7 +84,8 @@ ShearedSheet sheetOf(const CardShear& shear);
 ///     LT EMT F_max/2. E1 h = A11 s, s = 1 - poisson^2 A22/A11.
 ///   shear: A33 = G, in simple shear by the angle phi the shear strain is tan(phi); with 2HG sheetOfKesShear.
 ///   bending: stopsOfKes (core/material/hysteresis.hpp); one number for both directions makes an isotropic loop, weft
-///     and warp apart make loops of their own, with a twist of half their geometric mean (Huber's assumption for plates).
+///     and warp apart make loops of their own, with a twist of half their geometric mean (Huber's assumption for
+///     plates).
 /// Valid for EMT below 50 % and 0.1 < LT <= 1.9.
 CardFabric fabricOf(const FabricCard& card);
 

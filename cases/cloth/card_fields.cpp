@@ -60,8 +60,8 @@ Object tensileTable() {
               "linearity, the work over that of a straight line; needed for secant_at alone", "none");
   byDirection(table, "modulus", &T::modulus_N_per_m, "N/m", "8900 N/m", between(1e-2, 1e8),
               "in place of EMT, force per width over strain of a strip that keeps its width", "none");
-  labNumber(table, "load", &T::load_N_per_m, "N/m", "500 gf/cm", between(1e-2, 1e5), "largest load, at which EMT was read",
-            "500 gf/cm");
+  labNumber(table, "load", &T::load_N_per_m, "N/m", "500 gf/cm", between(1e-2, 1e5),
+            "largest load, at which EMT was read", "500 gf/cm");
   labNumber(table, "secant_at", &T::secant_at_N_per_m, "N/m", "50 gf/cm", between(1e-2, 1e5),
             "load whose secant modulus the fabric gets, from EMT and LT: cloth is softer at small loads",
             "the largest load");
@@ -113,17 +113,6 @@ Object shearTable() {
       }
   });
   return table.build();
-}
-
-StopShape<kStops> shapeOf(const CardBending& b) {
-  if (b.stops.empty()) return stopsOf<kStops>(curveOver(1, 0, 1)).shape;
-  StopShape<kStops> shape;
-  shape.reach.fill(1);
-  for (std::size_t j = 0; j < b.stops.size(); ++j) {
-    shape.drop[j] = b.stops[j].first;
-    shape.reach[j] = b.stops[j].second;
-  }
-  return shape;
 }
 
 Object bendingTable() {
@@ -182,7 +171,8 @@ Object bendingTable() {
       const std::string key = b.hysteresis.both ? "2HB" : i == 0 ? "2HB_weft" : "2HB_warp";
       const KesBending unit = readKes(Stops<kStops>{shapeOf(b), 1, 0, span}, *b.hysteresis_at_per_m);
       if (!(unit.hysteresis_N > 0))
-        p.failAt(key, fmt::format("cannot be read at {} 1/m: friction that is overcome at K0 = {} 1/m has no width there",
+        p.failAt(key, fmt::format("cannot be read at {} 1/m: friction that is overcome at K0 = {} 1/m has no width "
+                                  "there",
                                   *b.hysteresis_at_per_m, span));
       // B is b2 and what friction adds between 0.5 and 1.5/cm.
       if (const double most = read.rigidity_Nm * unit.hysteresis_N / unit.rigidity_Nm;

@@ -191,9 +191,11 @@ Object fabricTable() {
       .defaultsTo("required, or card")
       .number("density", &F::density_kg_per_m3, "kg/m^3", aboveTo(0, 3e4), "mass per volume")
       .in("density")
+      .defaultsTo("required, or surface_density, or card")
       .number("surface_density", &F::surface_density_kg_per_m2, "kg/m^2", aboveTo(0, 100),
               "mass per area (also in gsm)")
       .in("density")
+      .defaultsTo("required, or density, or card")
       .oneOf("density", false)
       .number("young", &F::young_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus of isotropic cloth")
       .defaultsTo("required, or young_weft, young_warp and shear, or card")

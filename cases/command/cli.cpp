@@ -280,7 +280,8 @@ E choiceOf(const std::vector<std::pair<std::string, E>>& choices, const std::str
 void addFabric(CLI::App& app, FabricArguments& a) {
   CLI::App& command = *app.add_subcommand(
       "fabric",
-      "Makes a fabric of a laboratory's card (KES: B, 2HB, G, EMT, ...), and measures it again in a virtual laboratory");
+      "Makes a fabric of a laboratory's card (KES: B, 2HB, G, EMT, ...), and measures it again in a virtual "
+      "laboratory");
   command.add_option("CARD", a.options.card, "Fabric card (JSON)")->type_name("")->required();
   command
       .add_option("-o,--output", a.options.fabric,
@@ -293,8 +294,8 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->type_name("DIR");
   command
       .add_option("--test", a.tests,
-                  "bending (KES-FB2, to 2.5/cm either way) or shear (KES-FB1, to 8 degrees); may be given several times "
-                  "[bending, and shear where the card has G]")
+                  "bending (KES-FB2, to 2.5/cm either way) or shear (KES-FB1, to 8 degrees); may be given several "
+                  "times [bending, and shear where the card has G]")
       ->type_name("TEST")
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"bending", "shear"}).description(""));
@@ -305,7 +306,8 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->type_name("DEG")
       ->allow_extra_args(false)
       ->check(CLI::Range(-360., 360.).description(""));
-  command.add_option("--model", a.model, "What the specimen is made of: " + schema::joined(wordsOf(schema::clothKinds())))
+  command
+      .add_option("--model", a.model, "What the specimen is made of: " + schema::joined(wordsOf(schema::clothKinds())))
       ->type_name("MODEL")
       ->capture_default_str()
       ->check(CLI::IsMember(wordsOf(schema::clothKinds())).description(""));
@@ -637,7 +639,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {batch_arguments.options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
-      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD")) subject = path.string();
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD"))
+        subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
     if (app.got_subcommand("run")) return run(run_arguments);

@@ -26,13 +26,14 @@ std::vector<std::string> namesOf(const std::map<std::string, double>& columns) {
 }
 
 /// Where a column of these stands, and its unit.
-std::pair<std::size_t, double> find(const std::vector<std::string>& header, const std::map<std::string, double>& columns,
-                                    const std::string& file) {
+std::pair<std::size_t, double> find(const std::vector<std::string>& header,
+                                    const std::map<std::string, double>& columns, const std::string& file) {
   for (std::size_t i = 0; i < header.size(); ++i)
     if (const auto it = columns.find(header[i]); it != columns.end()) return {i, it->second};
-  throw InputError({file, 1, ""}, fmt::format("there is no column {}; allowed in the first line: a comma between names, "
-                                              "each with its unit",
-                                              schema::joined(namesOf(columns))));
+  throw InputError({file, 1, ""},
+                   fmt::format("there is no column {}; allowed in the first line: names with commas between, each with "
+                               "its unit",
+                               schema::joined(namesOf(columns))));
 }
 
 std::string trimmed(std::string cell) {
@@ -67,7 +68,8 @@ std::vector<LoopSample> readLoop(const std::filesystem::path& path) {
       if (wrong != std::errc() || end != cell.data() + cell.size() || !std::isfinite(x))
         throw InputError({file, row, names[at]}, fmt::format("\"{}\" is no number", cell.substr(0, 40)));
       if (!(std::abs(x) <= most))
-        throw InputError({file, row, names[at]}, fmt::format("{} is out of range; allowed: a magnitude up to {}", x, most));
+        throw InputError({file, row, names[at]},
+                         fmt::format("{} is out of range; allowed: a magnitude up to {}", x, most));
       return x;
     };
     loop.push_back({unit_k * numberAt(at_k, 1e5 / unit_k), unit_m * numberAt(at_m, 1e3 / unit_m)});

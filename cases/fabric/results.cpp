@@ -14,9 +14,9 @@ namespace gambeson {
 namespace {
 
 constexpr double kGf_N = 9.80665e-3, kDegree = 0.017453292519943295;
-constexpr double kMomentUnit_N = kGf_N;              // gf cm/cm
-constexpr double kRigidityUnit_Nm = 0.01 * kGf_N;    // gf cm^2/cm
-constexpr double kForceUnit_N_per_m = 100 * kGf_N;   // gf/cm
+constexpr double kMomentUnit_N = kGf_N;             // gf cm/cm
+constexpr double kRigidityUnit_Nm = 0.01 * kGf_N;   // gf cm^2/cm
+constexpr double kForceUnit_N_per_m = 100 * kGf_N;  // gf/cm
 constexpr double kShearFrom = 0.5 * kDegree, kShearTo = 2.5 * kDegree, kShearWide = 5 * kDegree;
 
 /// What the card says of a direction: along weft or warp, or of any where it tells them not apart.
@@ -115,9 +115,9 @@ std::string loopCsv(const KesTest& test) {
       rows.push_back({p.at / 100, p.load / kMomentUnit_N, p.at, p.load, p.lost_J_per_m2});
     else
       rows.push_back({p.at / kDegree, p.load / kForceUnit_N_per_m, p.at, p.load, p.lost_J_per_m2});
-  return test.bending
-             ? formatCsv({"curvature_per_cm", "moment_gf_cm_per_cm", "curvature_per_m", "moment_N", "lost_J_per_m2"}, rows)
-             : formatCsv({"angle_deg", "force_gf_per_cm", "angle_rad", "force_N_per_m", "lost_J_per_m2"}, rows);
+  if (test.bending)
+    return formatCsv({"curvature_per_cm", "moment_gf_cm_per_cm", "curvature_per_m", "moment_N", "lost_J_per_m2"}, rows);
+  return formatCsv({"angle_deg", "force_gf_per_cm", "angle_rad", "force_N_per_m", "lost_J_per_m2"}, rows);
 }
 
 namespace {

@@ -60,8 +60,8 @@ ShearedSheet sheetOfKesShear(const KesShear& read, double span) {
                              sheet.friction.growth_N_per_m * growing.rigidity_N_per_m;
   sheet.elastic_N_per_m = (read.rigidity_N_per_m - of_friction) / elastic.rigidity_N_per_m;
   if (!(sheet.elastic_N_per_m > 0))
-    throw InputError({}, fmt::format("G = {:.4g} N/m per radian is out of range; allowed with these widths of the loop: "
-                                     "> {:.4g} N/m, what friction alone gives it",
+    throw InputError({}, fmt::format("G = {:.4g} N/m per radian is out of range; allowed with these widths of the "
+                                     "loop: > {:.4g} N/m, what friction alone gives it",
                                      read.rigidity_N_per_m, of_friction));
   return sheet;
 }

@@ -20,8 +20,8 @@ struct ShearedSheet {
 /// Reads a loop that has settled.
 KesShear readKesShear(const ShearedSheet& sheet);
 
-/// The sheet of which KES-FB1 reads this, its friction overcome at the shear strain `span`. Where `hysteresis_5_N_per_m`
-/// is 0 no friction grows with the shear. Throws InputError (reason only) where there is none: 2HG5 below what 2HG's
+/// The sheet of which KES-FB1 reads this, its friction overcome at the shear strain `span`. Where
+/// `hysteresis_5_N_per_m` is 0 no friction grows with the shear. Throws InputError (reason only) where there is none: 2HG5 below what 2HG's
 /// friction has there, or G below what friction gives it.
 ShearedSheet sheetOfKesShear(const KesShear& read, double span);
 

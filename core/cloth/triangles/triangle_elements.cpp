@@ -275,16 +275,15 @@ Vec3 TriangleElements::curvatureOf(int triangle, const ClothState& state, bool r
 }
 
 TriangleElements::PointMemory TriangleElements::memoryAt(int triangle, const ClothState& state) const {
-  PointMemory mean{};
+  PointMemory out{};
   const BlockLaw& law = laws_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)].law)];
-  if (const HistoryPlace own = shearHistoryOf(static_cast<std::size_t>(triangle)); own.count > 0 && !state.history.empty())
-    for (std::size_t i = 0; i < own.count; ++i)
-      mean[static_cast<std::size_t>(law.use.shearHistory()) + i] = state.history[own.first + i * own.stride];
+  const auto of_bending = static_cast<std::size_t>(law.use.shearHistory());
+  if (const HistoryPlace own = shearHistoryOf(static_cast<std::size_t>(triangle)); !state.history.empty())
+    for (std::size_t i = 0; i < own.count; ++i) out[of_bending + i] = state.history[own.first + i * own.stride];
   if (const int bent = bending_.bentOf(triangle); bent >= 0) {
     const History<double> memory = bending_.memoryOf(static_cast<std::size_t>(bent), state);
-    for (int i = 0; memory.committed && i < law.use.shearHistory(); ++i)
-      mean[static_cast<std::size_t>(i)] = memory.before(i);
-    return mean;
+    for (std::size_t i = 0; memory.committed && i < of_bending; ++i) out[i] = memory.before(static_cast<int>(i));
+    return out;
   }
   double area = 0;
   for (const int h : hinges_of_[static_cast<std::size_t>(triangle)]) {
@@ -294,10 +293,10 @@ TriangleElements::PointMemory TriangleElements::memoryAt(int triangle, const Clo
     const double part = hinges_[static_cast<std::size_t>(h)].area_m2;
     area += part;
     const std::size_t size = historyOf(static_cast<std::size_t>(h)).count;
-    for (std::size_t i = 0; i < size; ++i) mean[i] += part * memory.before(static_cast<int>(i));
+    for (std::size_t i = 0; i < size; ++i) out[i] += part * memory.before(static_cast<int>(i));
   }
-  for (double& m : mean) m /= area > 0 ? area : 1;
-  return mean;
+  for (std::size_t i = 0; i < of_bending; ++i) out[i] /= area > 0 ? area : 1;
+  return out;
 }
 
 PointState TriangleElements::stateOf(int triangle, const ClothState& state) const {

@@ -13,8 +13,9 @@ namespace gambeson {
 /// The numbers of all laws at a point: n = A e + B k, m = B e + D k (core/material/section.hpp); the moment by law
 /// `kind` of BendingLaws instead of D k where that is not 0, its rigidities in D11, D22, D33; the membrane relaxed to
 /// its tension field where `tension` is not 0; jamming with `jam_N_per_m` below the square `jam_s` of an area ratio;
-/// friction in shear by `shear` (rise, span, growth of ShearFriction; all 0: none). A tension field, jamming and a law of the list stand only where they make sense together: not jamming with a tension
-/// field, no B and no other D with a law of the list or (B) with a tension field.
+/// friction in shear by `shear` (rise, span, growth of ShearFriction; all 0: none). A tension field, jamming and a law of
+/// the list stand only where they make sense together: neither jamming nor friction with a tension field, no B and no
+/// other D with a law of the list or (B) with a tension field.
 struct PointLaw {
   Section section;
   double kind = 0;

@@ -50,7 +50,8 @@ TEST(Card, RefusesWhatIsWrong) {
       {"    \"2HB\": \"0.139 gf cm/cm\",\n", "", 10, "bending.2HB_at", "no meaning without 2HB"},
       // A friction that is overcome at 2.4/cm only rises between 0.5 and 1.5/cm by more than all of B.
       {"\"0.139 gf cm/cm\",\n    \"2HB_at\": \"1 1/cm\",\n    \"K0\": \"0.6 1/cm\"",
-       "\"0.8 gf cm/cm\",\n    \"2HB_at\": \"1 1/cm\",\n    \"K0\": \"2.4 1/cm\"", 10, "bending.2HB", "allowed: at most"},
+       "\"0.8 gf cm/cm\",\n    \"2HB_at\": \"1 1/cm\",\n    \"K0\": \"2.4 1/cm\"", 10, "bending.2HB",
+       "allowed: at most"},
       {"\"EMT\": \"5.515 %\"", "\"EMT\": \"60 %\"", 6, "tensile.EMT", "<= 0.5"},
       {"\"EMT\": \"5.515 %\", ", "", 6, "tensile.EMT", "is required, or modulus"},
       {"\"LT\": 0.712", "\"LT\": 2", 6, "tensile.LT", "<= 1.9"},
@@ -108,7 +109,8 @@ TEST(Card, SaysWhatItAssumes) {
   const Folder folder;
   const CardFabric made = fabricOf(readCard(folder.write(
       "little.card.json",
-      R"({"name": "a", "source": "b", "thickness": "1 mm", "bending": {"B": "0.1 gf cm", "2HB": "0.02 gf", "2HB_at": "1 1/cm"}})")));
+      R"({"name": "a", "source": "b", "thickness": "1 mm",
+          "bending": {"B": "0.1 gf cm", "2HB": "0.02 gf", "2HB_at": "1 1/cm"}})")));
   for (const char* what : {"weight 400", "EMT 5 %", "poisson 0", "G 1 gf", "K0 0.5/cm", "about all axes"})
     EXPECT_TRUE(std::any_of(made.assumed.begin(), made.assumed.end(),
                             [&](const std::string& s) { return s.find(what) != std::string::npos; }))

@@ -31,7 +31,8 @@ TEST(FabricCommand, MeasuresWhatTheCardSays) {
   const Folder folder;
   const Outcome o = fabric(folder, std::string(denim) + " --out lab --cells 8");
   ASSERT_EQ(o.status, 0) << o.err;
-  for (const char* said : {"KES-FB2 bending, along the weft", "KES-FB1 shear", "assumed: weight", "2HB at 1/cm", "2HG5"})
+  for (const char* said :
+       {"KES-FB2 bending, along the weft", "KES-FB1 shear", "assumed: weight", "2HB at 1/cm", "2HG5"})
     EXPECT_NE(o.out.find(said), std::string::npos) << said << "\n" << o.out;
   const auto all = nlohmann::json::parse(content(folder.path() / "lab/laboratory.json"));
   ASSERT_EQ(all.at("tests").size(), 2u);
@@ -54,7 +55,8 @@ TEST(FabricCommand, MeasuresWhatTheCardSays) {
 TEST(FabricCommand, FitsALoop) {
   const Folder folder;
   ASSERT_EQ(fabric(folder, std::string(denim) + " --out lab --cells 8 --test bending").status, 0);
-  const Outcome o = fabric(folder, std::string(denim) + " --fit lab/bending_0.csv -o fitted.json --out again --cells 8 --test bending");
+  const Outcome o = fabric(folder, std::string(denim) + " --fit lab/bending_0.csv -o fitted.json --out again "
+                                                        "--cells 8 --test bending");
   ASSERT_EQ(o.status, 0) << o.err;
   EXPECT_NE(o.out.find("what the stops miss"), std::string::npos);
   const auto again = nlohmann::json::parse(content(folder.path() / "again/laboratory.json"));

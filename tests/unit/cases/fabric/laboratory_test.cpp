@@ -49,7 +49,8 @@ TEST(Laboratory, BendsSixDenimsAsTheyWereMeasured) {
       if (d.name != denims[0].name && direction != 22.5) continue;  // they differ by numbers alone
       for (const int cells : {8, 16})
         for (const int degree : {2, 3}) expectRead(d, shell(cells, degree, direction), 0.005);
-      for (const MeshKind mesh : {MeshKind::single, MeshKind::alternating}) expectRead(d, triangles(mesh, direction), 0.02);
+      for (const MeshKind mesh : {MeshKind::single, MeshKind::alternating})
+        expectRead(d, triangles(mesh, direction), 0.02);
     }
 }
 
@@ -115,7 +116,8 @@ TEST(Laboratory, ShearsAsTheCardSays) {
   for (const Denim& d : denims) {
     const FabricCard card = cardOf(d);
     const double deg = kOneDegree;
-    const Loop loop = laboratory::shear(fabricOf(card).fabric, shell(8, 2, 0), {{8 * deg, -8 * deg, 8 * deg}, 0.5 * deg, {}});
+    const Course course{{8 * deg, -8 * deg, 8 * deg}, 0.5 * deg, {}};
+    const Loop loop = laboratory::shear(fabricOf(card).fabric, shell(8, 2, 0), course);
     EXPECT_NEAR(laboratory::slopeBetween(loop, 0.5 * deg, 2.5 * deg) / *card.shear->rigidity.both, 1, 0.005) << d.name;
     EXPECT_NEAR(laboratory::widthAt(loop, 0.5 * deg) / *card.shear->hysteresis.both, 1, 0.005) << d.name;
     EXPECT_NEAR(laboratory::widthAt(loop, 5 * deg) / *card.shear->hysteresis_5.both, 1, 0.005) << d.name;
@@ -125,8 +127,8 @@ TEST(Laboratory, ShearsAsTheCardSays) {
 TEST(Laboratory, TrianglesShearAsTheCardSays) {
   const FabricCard card = cardOf(denims[0]);
   const double deg = kOneDegree;
-  const Loop loop =
-      laboratory::shear(fabricOf(card).fabric, triangles(MeshKind::single, 0), {{8 * deg, -8 * deg, 8 * deg}, 0.5 * deg, {}});
+  const Course course{{8 * deg, -8 * deg, 8 * deg}, 0.5 * deg, {}};
+  const Loop loop = laboratory::shear(fabricOf(card).fabric, triangles(MeshKind::single, 0), course);
   EXPECT_NEAR(laboratory::slopeBetween(loop, 0.5 * deg, 2.5 * deg) / *card.shear->rigidity.both, 1, 0.005);
   EXPECT_NEAR(laboratory::widthAt(loop, 0.5 * deg) / *card.shear->hysteresis.both, 1, 0.005);
   EXPECT_NEAR(laboratory::widthAt(loop, 5 * deg) / *card.shear->hysteresis_5.both, 1, 0.005);
