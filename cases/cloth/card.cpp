@@ -150,7 +150,7 @@ void bendByLoop(const CardBending& b, CardFabric& out) {
 
 }  // namespace
 
-CardFabric fabricOf(const FabricCard& card) {
+CardFabric fabricOf(const FabricCard& card, const IsotropicHysteresisBending* fitted) {
   CardFabric out;
   FabricCase& f = out.fabric;
   f.name = card.name;
@@ -161,7 +161,9 @@ CardFabric fabricOf(const FabricCard& card) {
                                       number(1000 * f.surfaceDensity()), number(kCardDensity_kg_per_m3)));
   f.jam_area = 0.7;
   membrane(card, out);
-  if (card.bending.hysteresis.any())
+  if (fitted)
+    f.law = *fitted;
+  else if (card.bending.hysteresis.any())
     bendByLoop(card.bending, out);
   else
     bendLinearly(card.bending, out);

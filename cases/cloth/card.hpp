@@ -86,8 +86,8 @@ ShearedSheet sheetOf(const CardShear& shear);
 ///   bending: stopsOfKes (core/material/hysteresis.hpp); one number for both directions makes an isotropic loop, weft
 ///     and warp apart make loops of their own, with a twist of half their geometric mean (Huber's assumption for
 ///     plates).
-/// Valid for EMT below 50 % and 0.1 < LT <= 1.9.
-CardFabric fabricOf(const FabricCard& card);
+/// `fitted`: bends by this in place of the card's B and 2HB. Valid for EMT below 50 % and 0.1 < LT <= 1.9.
+CardFabric fabricOf(const FabricCard& card, const IsotropicHysteresisBending* fitted = nullptr);
 
 namespace schema {
 struct Object;

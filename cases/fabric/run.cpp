@@ -31,7 +31,7 @@ laboratory::Course shearCourse() {
 }
 
 /// What a raw loop makes of the bending of a card's fabric: its stops, the same about all axes.
-LoopFit bendByFit(const FabricOptions& o, std::vector<LoopSample>& raw, CardFabric& c) {
+LoopFit bendByFit(const FabricOptions& o, const FabricCard& card, std::vector<LoopSample>& raw, CardFabric& c) {
   raw = readLoop(o.loop);
   LoopFit fit;
   try {
@@ -49,7 +49,7 @@ LoopFit bendByFit(const FabricOptions& o, std::vector<LoopSample>& raw, CardFabr
   isotropic.check([&](const std::string&, const std::string& reason) {
     throw InputError({o.loop.string(), 0, ""}, "gives no law of bending: " + reason);
   });
-  c.fabric.law = isotropic;
+  c = fabricOf(card, &isotropic);
   c.derived.push_back(fmt::format("bending: stops of the raw loop {}, in place of B and 2HB", o.loop.string()));
   c.assumed.push_back("one loop about all axes: that of the raw loop");
   return fit;
@@ -164,10 +164,13 @@ void checkOutputs(const FabricOptions& o, const FabricCard& card) {
 
 int runFabric(const FabricOptions& o, std::ostream& out) {
   const FabricCard card = readCard(o.card);
-  CardFabric c = fabricOf(card);
+  CardFabric c;
   std::vector<LoopSample> raw;
   std::optional<LoopFit> fit;
-  if (!o.loop.empty()) fit = bendByFit(o, raw, c);
+  if (o.loop.empty())
+    c = fabricOf(card);
+  else
+    fit = bendByFit(o, card, raw, c);
   checkOutputs(o, card);
   useThreads(1);
   out << fabricTable(card, c) << '\n';

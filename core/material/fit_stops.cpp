@@ -160,6 +160,10 @@ LoopFit fitStops(const std::vector<LoopSample>& loop) {
   std::vector<Stop> stops;
   for (std::size_t j = 0; j < reach.size(); ++j)
     if (weight[j] > 0) stops.push_back({weight[j], reach[j]});
+  // What is next to nothing is noise of the slope, and its curvature would be taken for the end of friction.
+  double all = 0;
+  for (const Stop& s : stops) all += s.weight;
+  std::erase_if(stops, [&](const Stop& s) { return s.weight < 2e-3 * all; });
   merge(stops, kStops);
   reach.clear();
   for (const Stop& s : stops) reach.push_back(s.reach);
