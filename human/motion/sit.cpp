@@ -3,10 +3,11 @@
 /// down the planes tilt, and the feet roll by some degrees about their long axes: their lowest points stay on the
 /// ground. While nothing but the feet carries, trunk and pelvis lean forward just so far that the centre of mass stays
 /// over them, moving back to a part of their length; seated, the trunk straightens above the pelvis. The deepest bend
-/// of the knees is the one at which the lowest point of pelvis and thighs is at the height of the seat.
+/// of the knees is the one at which the lowest point of the pelvis is at the height of the seat.
 
 #include "human/motion/sit.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -23,13 +24,13 @@ namespace {
 
 /// Parts of the time at which he sits, has straightened, leans forward again, and rises.
 constexpr double kSits = 0.3, kStraight = 0.42, kLeans = 0.58, kRises = 0.7;
-constexpr double kShank = 12 * rad_per_deg;     ///< its lean forward, seated
-constexpr double kShankMore = 6 * rad_per_deg;  ///< and half way
-constexpr double kBehind = 0.3;                 ///< of the foot's length from the heel: the centre of mass, seated
-constexpr double kPelvis = 0.45;                ///< of the lean, that the pelvis has
+constexpr double kShank = 22 * rad_per_deg;     ///< its lean forward, seated
+constexpr double kShankMore = 4 * rad_per_deg;  ///< and half way
+constexpr double kBehind = 0.25;                ///< of the foot's length from the heel: the centre of mass, seated
+constexpr double kPelvis = 0.55;                ///< of the lean, that the pelvis has
 constexpr double kMostLean = 75 * rad_per_deg;
 constexpr double kSeatedLean = 0.1;                       ///< of the trunk, seated [rad]
-constexpr double kArms = 0.35, kElbows = 60 * rad_per_deg;  ///< forward of hanging; bent, seated [rad]
+constexpr double kArms = 0.6, kElbows = 25 * rad_per_deg;  ///< forward of hanging; bent, seated [rad]
 constexpr int kNodes = 200;
 
 struct Leg {
@@ -77,6 +78,9 @@ class Sit final : public Motion {
     path_.step_s = 1.0 / kNodes;
     for (int i = 0; i <= kNodes; ++i) path_.x.push_back(leanAt(static_cast<double>(i) / kNodes));
     path_.v = slopesOf(path_.x, path_.step_s);
+    if (!(*std::max_element(path_.x.begin(), path_.x.end()) < kMostLean - 1e-6))
+      throw InputError({"", 0, "seat_height"}, "the trunk cannot lean so far that the feet carry him on the way down; "
+                                               "allowed: a higher seat");
     checkLimits();
   }
 
@@ -123,18 +127,15 @@ class Sit final : public Motion {
     return p;
   }
 
-  /// The lean with which the centre of mass is where it belongs.
+  /// The lean with which the centre of mass is where it belongs; kMostLean where none is enough.
   double leanAt(double s) const {
+    if (s == 0) return 0;
     const double wanted = stands_at_ + s * (sits_at_ - stands_at_);
     const auto off = [&](double lean) {
       const Posture p = posture(s, lean, 0);
       return centreOfMass(human_, linkPoses(human_.skeleton, p.q, p.root), {}).x - wanted;
     };
-    if (s == 0) return 0;
     double lo = -0.2, hi = kMostLean;
-    if (!(off(hi) > 0))
-      throw InputError({"", 0, "seat_height"}, "the trunk cannot lean so far that the feet carry him on the way down; "
-                                               "allowed: a higher seat");
     for (int k = 0; k < 50; ++k) {
       const double middle = 0.5 * (lo + hi);
       (off(middle) > 0 ? hi : lo) = middle;
@@ -147,7 +148,7 @@ class Sit final : public Motion {
     const std::vector<Pose> X = linkPoses(human_.skeleton, p.q, p.root);
     double lowest = 1e9;
     for (const BodyShape& shape : human_.shapes) {
-      if (shape.link != 0 && shape.link != human_.skeleton.joints[legs_[0].rotation].child) continue;
+      if (shape.link != 0) continue;
       const Pose of = X[shape.link] * shape.X_LS;
       lowest = std::min(lowest, (of * lowestPoint(shape.shape, of.rotation)).z);
     }

@@ -7,9 +7,9 @@ namespace gambeson {
 
 /// What sitting down and standing up is made of.
 struct SitOptions {
-  double stand_s = 0.2;        ///< at rest before it
-  double duration_s = 4;       ///< down, seated, and up again
-  double seat_height_m = 0.45;  ///< of the lowest point of pelvis and thighs where they sit
+  double stand_s = 0.2;         ///< at rest before it
+  double duration_s = 4;        ///< down, seated, and up again
+  double seat_height_m = 0.45;  ///< of the lowest point of the pelvis where it sits
   int repeats = 1;
 };
 /// Sits down and stands up with both feet where they stand (human/motion/sit.cpp). Throws InputError where legs and

@@ -13,8 +13,8 @@ Object sitTable() {
       .number("stand", &S::stand_s, "s", between(0, 60), "time at rest before it")
       .number("duration", &S::duration_s, "s", between(1, 60), "down, seated, and up again")
       .number("seat_height", &S::seat_height_m, "m", between(0.2, 0.8),
-              "where the lowest point of pelvis and thighs is, seated; the box under it is an obstacle of the case, "
-              "lower by what the cloth between needs")
+              "where the lowest point of the pelvis is, seated; the box under it is an obstacle of the case, lower by "
+              "what the cloth between needs, and ends behind the thighs")
       .integer("repeats", &S::repeats, 1, 100, "how often")
       .build();
 }
