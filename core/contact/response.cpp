@@ -156,7 +156,10 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
 double factorOf(const FrictionLaw& law, double pressure_Pa, const Vec3& along, const Vec3& normal, const RowSlip& slip) {
   const Vec3 t = along - dot(along, normal) * normal;
   const double size2 = norm2(t), to_weft = dot(t, slip.weft);
-  return law.atPressure(pressure_Pa) * law.towards(size2 > 0 ? std::min(to_weft * to_weft / size2, 1.0) : 1);
+  // Where nothing pulls yet, the most that any direction holds: what does pull then says.
+  const double towards =
+      size2 > 0 ? law.towards(std::min(to_weft * to_weft / size2, 1.0)) : std::max(1.0, law.along_warp);
+  return law.atPressure(pressure_Pa) * towards;
 }
 
 /// Friction of the rows as they move now: mu and drag of a law.

@@ -72,6 +72,7 @@ ClothMemoryView::ClothMemoryView(const Model& m) : model_(m) {
   const std::vector<HistoryPlace> places = m.cloth->historyPlaces();
   const std::vector<ClothPatch>& patches = m.cloth->patches();
   std::vector<std::vector<int>> of_patch(patches.size());
+  std::vector<Vec2> places_of_points;
   for (const HistoryPlace& h : places) {
     const Fabric fabric = m.cloth->fabricAt(h.patch, h.place);
     const auto [kind, line] = std::visit(
@@ -80,6 +81,9 @@ ClothMemoryView::ClothMemoryView(const Model& m) : model_(m) {
           return std::pair(is_tensor ? Kind::tensor : lineOf<L>() > 0 ? Kind::apart : Kind::none, lineOf<L>());
         },
         fabric.law);
+    // What remembers friction in shear alone stands beside.
+    if (h.count < static_cast<std::size_t>(kind == Kind::tensor ? kStopHistory<kStops, PlaneCurvature> : 3 * line)) continue;
+    places_of_points.push_back(h.place);
     of_patch[static_cast<std::size_t>(h.patch)].push_back(static_cast<int>(points_.size()));
     points_.push_back({h.first, h.stride, kind, line});
     any_ = any_ || kind != Kind::none;
@@ -88,7 +92,7 @@ ClothMemoryView::ClothMemoryView(const Model& m) : model_(m) {
   std::vector<Buckets> buckets;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     buckets.emplace_back(patches[p], of_patch[p].size());
-    for (const int k : of_patch[p]) buckets.back().add(k, places[static_cast<std::size_t>(k)].place);
+    for (const int k : of_patch[p]) buckets.back().add(k, places_of_points[static_cast<std::size_t>(k)]);
   }
   for (int s = 0; s < m.surface.size(); ++s)
     near_.push_back(buckets[static_cast<std::size_t>(m.surface.patch[s])].nearest(m.surface.parameters[s], kNearest));

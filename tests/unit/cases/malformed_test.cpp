@@ -304,8 +304,6 @@ TEST(MalformedCase, Schemes) {
       example,
       {{from, time("\"scheme\": \"rk3\""), 27, "time.scheme",
         "allowed: verlet, euler, rk2, rk4, implicit_euler or semi_implicit"},
-       {from, time("\"scheme\": \"euler\""), 27, "time.scheme", "allowed: with air.drag > 0, or with time.step > 0"},
-       {from, time("\"scheme\": \"rk2\""), 27, "time.scheme", "where nothing damps it"},
        {from, time("\"scheme\": \"semi_implicit\", \"substeps\": 0"), 27, "time.substeps",
         "0 is out of range; allowed: >= 1"},
        {from, time("\"substeps\": 2"), 27, "time.substeps", "it goes with semi_implicit"},
@@ -318,6 +316,12 @@ TEST(MalformedCase, Schemes) {
        {from, time("\"scheme\": \"rk4\", \"audit\": true"), 27, "time.audit", "it goes with verlet"},
        {from, time("\"step\": \"-1 ms\""), 27, "time.step", "-0.001 s is out of range"},
        {from, time("\"scheme\": \"rk4\"", limit), 27, "time.scheme", "goes without strain_limit"}});
+  expectRefused(replaced(example, "\"rows\": 2", "\"rows\": 2, \"release\": 1"),
+                {{from, time("\"scheme\": \"rk4\""), 27, "time.scheme", "goes without supports that move or let go"}});
+  const std::string drag = "\"4 kg/(m^2 s)\"", still = replaced(example, drag, "0");
+  expectRefused(still, {{from, time("\"scheme\": \"euler\""), 27, "time.scheme",
+                         "allowed: with air.drag > 0, or with time.step > 0"},
+                        {from, time("\"scheme\": \"rk2\""), 27, "time.scheme", "where nothing damps it"}});
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ const std::string sheet = R"json({
                {"pinned": {"s": 1, "t": 0, "release": "0.15 s"}}],
   "contact": {"friction": 0.2},
   "air": {"drag": 0.4},
-  "time": {"duration": 0.4},
+  "time": {"duration": 0.4, "max_step": "0.25 ms"},
   "output": {"checkpoint": "100 ms", "frame": "20 ms", "pictures": [{"time": "end", "field": "set"}, {"time": "end", "field": "friction"}]}
 })json";
 
