@@ -12,7 +12,9 @@ void auditFreeStep(const Model& m, const State& in, const State& out, double dt,
   MomentumAudit& audit = report.momentum;
   WorkAudit& work = report.work;
   work.cloth += free.damping_lost_J;
-  const auto internal = [&](int i) { return free.damping.empty() ? free.elastic[i] : free.elastic[i] + free.damping[i]; };
+  const auto internal = [&](int i) {
+    return free.damping.empty() ? free.elastic[i] : free.elastic[i] + free.damping[i];
+  };
   w.held_impulses.assign(m.held_points.size(), Vec3{});
   const Vec3& gravity = m.environment.gravity_m_per_s2;
   const auto dead = [&](int i) { return m.dead_force_N.empty() ? Vec3{} : m.dead_force_N[i]; };

@@ -96,7 +96,8 @@ bool ImplicitVelocities::move(const Model& m, const Stage& stage, const State& i
   system_.stiffness(whole_way_, product_);
   for (std::size_t k = 0; inner_too && k < in.inner_rate.size(); ++k) {
     const auto [block, d] = innerAt(k);
-    b_[block][d] = dt * (inner_force_[k] - m.inner_drag_per_s * m.inner_mass[k] * in.inner_rate[k]) - product_[block][d];
+    const double drag = m.inner_drag_per_s * m.inner_mass[k] * in.inner_rate[k];
+    b_[block][d] = dt * (inner_force_[k] - drag) - product_[block][d];
   }
   for (int i = 0; i < n; ++i) {
     Vec3 lasts = m.mass_kg[i] * m.environment.gravity_m_per_s2;

@@ -4,10 +4,10 @@
 ///   A = M + dt D + dt^2 K
 ///
 /// M the masses of the free points, D their drag and the cloth's own damping (eq. 3.2, 3.8), K = -df/dx the stiffness of
-/// the cloth, of support springs and of stitches (Wong 2014, eq. 3.25). Where the cloth's tangent has rows for its inner unknowns, vectors have blocks for
-/// their rates behind those of the points, three rates in a block. The cloth's own part is positive semidefinite: what
-/// compression would take from it is left out element by element (ForceTerms::definite), so that A is positive and
-/// conjugate gradients find the solution.
+/// the cloth, of support springs and of stitches (Wong 2014, eq. 3.25). Where the cloth's tangent has rows for its inner
+/// unknowns, vectors have blocks for their rates behind those of the points, three rates in a block. The cloth's own
+/// part is positive semidefinite: what compression would take from it is left out element by element
+/// (ForceTerms::definite), so that A is positive and conjugate gradients find the solution.
 
 #include "core/math/conjugate_gradients.hpp"
 #include "core/motion/forces.hpp"

@@ -82,7 +82,8 @@ ClothMemoryView::ClothMemoryView(const Model& m) : model_(m) {
         },
         fabric.law);
     // What remembers friction in shear alone stands beside.
-    if (h.count < static_cast<std::size_t>(kind == Kind::tensor ? kStopHistory<kStops, PlaneCurvature> : 3 * line)) continue;
+    const int needed = kind == Kind::tensor ? kStopHistory<kStops, PlaneCurvature> : 3 * line;
+    if (h.count < static_cast<std::size_t>(needed)) continue;
     places_of_points.push_back(h.place);
     of_patch[static_cast<std::size_t>(h.patch)].push_back(static_cast<int>(points_.size()));
     points_.push_back({h.first, h.stride, kind, line});
