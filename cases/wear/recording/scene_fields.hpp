@@ -181,7 +181,7 @@ void fields(A& a, T& m) {
 /// Of a mesh from the start; its fabric, its membrane and its bending are those of the case, and no draft is behind it.
 template <class A, Of<MeshDraft> T>
 void fields(A& a, T& g) {
-  auto& [mesh, rest, bending, bending_spring, fabrics, fabric, draft, range, of_control, membrane] = g;
+  auto& [mesh, rest, bending, bending_spring, fabrics, fabric, draft, range, grid, of_control, membrane] = g;
   a("mesh", mesh)("rest", rest);
 }
 

@@ -28,6 +28,8 @@ struct MeshDraft {
   /// draft's control points. Empty for a file.
   std::vector<std::array<Vec2, 3>> draft;
   std::vector<std::array<Vec2, 2>> range;
+  /// Of each patch of a draft: the lines in u and in v whose crossings are its vertices; empty where there are none.
+  std::vector<std::array<std::vector<double>, 2>> lines;
   SparseRows of_control;
   MembraneModel membrane;
 };

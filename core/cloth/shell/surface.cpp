@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/grid_lines.hpp"
 #include "core/nurbs/trim_mesh.hpp"
 #include "core/error.hpp"
 
@@ -193,15 +194,11 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const
         std::sort(on.begin(), on.end());
         for (const auto& entry : on) s.edge_samples[p][side].push_back(entry.second);
       }
-      const auto cellOf = [](const std::vector<double>& lines, double at) {
-        const auto above = std::upper_bound(lines.begin(), lines.end(), at);
-        return std::clamp(static_cast<int>(above - lines.begin()) - 1, 0, static_cast<int>(lines.size()) - 2);
-      };
       for (const auto& [a, b, c] : mesh.triangles) {
         s.triangles.push_back({sample[a], sample[b], sample[c]});
         s.triangle_patch.push_back(p);
-        s.triangle_cell.push_back(cellOf(us[p], (mesh.uv[a].x + mesh.uv[b].x + mesh.uv[c].x) / 3) +
-                                  (nu - 1) * cellOf(vs[p], (mesh.uv[a].y + mesh.uv[b].y + mesh.uv[c].y) / 3));
+        s.triangle_cell.push_back(cellBetween(us[p], (mesh.uv[a].x + mesh.uv[b].x + mesh.uv[c].x) / 3) +
+                                  (nu - 1) * cellBetween(vs[p], (mesh.uv[a].y + mesh.uv[b].y + mesh.uv[c].y) / 3));
       }
       continue;
     }

@@ -16,10 +16,12 @@ namespace {
 
 [[noreturn]] void reject(const std::string& reason) { throw InputError({"", 0, "mesh"}, reason); }
 
-/// The triangles of one patch in its parameters, and the points of its sides u0, u1, v0, v1, ascending.
+/// The triangles of one patch in its parameters, the lines of its grid if it has one, and the points of its sides
+/// u0, u1, v0, v1, ascending.
 struct PatchMesh {
   std::vector<Vec2> uv;
   std::vector<std::array<int, 3>> triangles;
+  std::array<std::vector<double>, 2> lines;
   std::array<std::vector<int>, 4> sides;
 };
 
@@ -130,6 +132,7 @@ PatchMesh meshOf(const Garment& g, int index, MeshKind kind, double rows_per_cel
     const double cells = static_cast<double>(vs.size() - 1);
     m = rowsMesh(us, vs, std::max(2, 2 * static_cast<int>(std::lround(0.5 * cells * rows_per_cell))));
   }
+  if (kind != MeshKind::equilateral) m.lines = {us, vs};
   findSides(patch, m);
   return m;
 }
@@ -222,6 +225,7 @@ MeshDraft meshDraft(const Garment& g, MeshKind kind) {
     mesh.patch_names.push_back(g.patch_names.empty() ? "patch_" + std::to_string(p) : g.patch_names[patch]);
     const KnotVector &u = g.patches[patch].u, &v = g.patches[patch].v;
     out.range.push_back({Vec2{u.front(), v.front()}, Vec2{u.back(), v.back()}});
+    out.lines.push_back(patches[patch].lines);
     const bool varies = fabricVaries(g, p);
     for (const auto& t : patches[patch].triangles) {
       std::array<Vec3, 3> x;

@@ -118,6 +118,7 @@ class Builder {
       if (!g_.range.empty()) patch.low = g_.range[p][0], patch.high = g_.range[p][1];
       out_.patches.push_back(patch);
       out_.drafted.push_back(!g_.range.empty());
+      out_.lines.push_back(g_.lines.empty() ? std::array<std::vector<double>, 2>{} : g_.lines[p]);
       out_.sides.emplace_back(4);
     }
   }

@@ -23,6 +23,7 @@ struct TriangleParts {
   std::vector<std::array<int, 3>> triangles;         ///< by points, patch after patch
   std::vector<int> first_triangle;                   ///< of each patch, and the end
   std::vector<std::array<Vec2, 3>> draft;            ///< of each triangle; of garments without draft zeros
+  std::vector<std::array<std::vector<double>, 2>> lines;  ///< of each patch (MeshDraft::lines)
   std::vector<Fabric> fabrics;
   std::vector<MembraneModel> membrane_models;  ///< of each fabric
   std::vector<int> fabric_of_triangle;

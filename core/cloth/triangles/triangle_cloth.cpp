@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/cloth/draft/grid_lines.hpp"
 #include "core/cloth/free_blocks.hpp"
 #include "core/cloth/triangles/triangle_mounting.hpp"
 #include "core/cloth/triangles/triangle_stress.hpp"
@@ -167,12 +168,20 @@ Surface TriangleCloth::surface(std::span<const int>) const {
   s.parameters.resize(static_cast<std::size_t>(n));
   for (int p = 0; p < static_cast<int>(parts_.patches.size()); ++p) {
     const int first = firstTriangle(p);
+    const auto& [us, vs] = parts_.lines[static_cast<std::size_t>(p)];
+    const int nu = static_cast<int>(us.size());
+    std::vector<int> grid(us.size() * vs.size(), -1);
     for (int t = first; t < firstTriangle(p + 1); ++t) {
       std::array<int, 3> corner{};
+      Vec2 middle{};
       for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2& at = parts_.draft[static_cast<std::size_t>(t)][k];
         const int point = parts_.triangles[static_cast<std::size_t>(t)][k];
         corner[k] = map_.T.columns[static_cast<std::size_t>(point)];
         const auto sample = static_cast<std::size_t>(corner[k]);
+        if (const int i = lineAt(us, at.x), j = lineAt(vs, at.y); i >= 0 && j >= 0)
+          grid[static_cast<std::size_t>(i + nu * j)] = corner[k];
+        middle = {middle.x + at.x / 3, middle.y + at.y / 3};
         // A sample belongs to the patch of its first point.
         if (s.patch[sample] >= 0 || map_.home[sample] != point) continue;
         s.patch[sample] = p;
@@ -180,10 +189,12 @@ Surface TriangleCloth::surface(std::span<const int>) const {
       }
       s.triangles.push_back(corner);
       s.triangle_patch.push_back(p);
-      s.triangle_cell.push_back(t - first);
+      s.triangle_cell.push_back(
+          grid.empty() ? t - first : cellBetween(us, middle.x) + (nu - 1) * cellBetween(vs, middle.y));
     }
-    s.patch_grid.emplace_back();
-    s.patch_grid_size.push_back({firstTriangle(p + 1) - first + 1, 2});
+    s.patch_grid_size.push_back(grid.empty() ? std::array<int, 2>{firstTriangle(p + 1) - first + 1, 2}
+                                             : std::array<int, 2>{nu, static_cast<int>(vs.size())});
+    s.patch_grid.push_back(std::move(grid));
     s.edge_samples.emplace_back();
     for (const std::vector<int>& side : parts_.sides[static_cast<std::size_t>(p)]) {
       s.edge_samples.back().emplace_back();
