@@ -40,6 +40,10 @@ ContactTree::ContactTree(const ContactMesh& mesh, std::vector<GridChart> charts,
     for (int t = range.first; t < range.end; ++t)
       for (int v : mesh.triangles[t]) first_obstacle_vertex_ = std::min(first_obstacle_vertex_, v);
   boxes_.resize(nodes_.size());
+  tile_boxes_.resize(tiles_.size());
+  leaf_of_tile_.resize(tiles_.size());
+  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i)
+    if (nodes_[i].left < 0) std::fill_n(leaf_of_tile_.begin() + nodes_[i].first, nodes_[i].count, i);
   findChunks();
 }
 
@@ -72,7 +76,10 @@ void ContactTree::findLeaves(int triangles) {
   leaf_of_.assign(triangles, -1);
   for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
     const Node& n = nodes_[i];
-    if (n.left >= 0) parent_[n.left] = parent_[n.right] = i;
+    if (n.left >= 0) {
+      parent_[n.left] = parent_[n.right] = i;
+      continue;
+    }
     for (int k = n.first; k < n.first + n.count; ++k)
       for (int t : tiles_[k].triangle)
         if (t >= 0) leaf_of_[t] = i;
@@ -155,6 +162,10 @@ int ContactTree::buildChart(const ContactMesh& mesh, int chart, std::array<int, 
     part.rest.add(parts_[node.right].rest);
     node.whole = nodes_[node.left].whole && nodes_[node.right].whole;
   }
+  if (node.left >= 0) {
+    node.first = nodes_[node.left].first;
+    node.count = nodes_[node.left].count + nodes_[node.right].count;
+  }
   nodes_[at] = node;
   parts_[at] = part;
   return at;
@@ -180,6 +191,8 @@ int ContactTree::buildObstacle(const ContactMesh& mesh, std::span<int> triangles
                      });
     node.left = buildObstacle(mesh, triangles.first(middle), centres);
     node.right = buildObstacle(mesh, triangles.subspan(middle), centres);
+    node.first = nodes_[node.left].first;
+    node.count = nodes_[node.left].count + nodes_[node.right].count;
   }
   nodes_[at] = node;
   return at;
@@ -286,7 +299,11 @@ void ContactTree::refitNode(int i, const ListedMotion& motion) {
 void ContactTree::refitLeaf(int i, const ListedMotion& motion) {
   const Node& n = nodes_[i];
   boxes_[i] = {};
-  for (int k = n.first; k < n.first + n.count; ++k) boxes_[i].add(boxOf(tiles_[k].vertex));
+  for (int k = n.first; k < n.first + n.count; ++k) {
+    const MovingBox box = boxOf(tiles_[k].vertex);
+    tile_boxes_.set(k, box);
+    boxes_[i].add(box);
+  }
   if (n.chart < 0) return;
   float& aside = parts_[i].aside_m;
   aside = 0;

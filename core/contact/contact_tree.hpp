@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "core/contact/box.hpp"
+#include "core/contact/box_lanes.hpp"
 #include "core/contact/contact_mesh.hpp"
 #include "core/contact/moving_box.hpp"
 #include "core/contact/tile.hpp"
@@ -147,7 +149,7 @@ class ContactTree {
   };
   struct Node {
     int left = -1, right = -1;  ///< children, after their parent; -1 in leaves
-    int first = 0, count = 0;   ///< tiles of a leaf
+    int first = 0, count = 0;   ///< tiles under it
     int chart = -1;             ///< of cloth
     bool whole = false;         ///< all cells are
   };
@@ -215,12 +217,11 @@ class ContactTree {
     /// Two nodes whose boxes may meet. `asked`: their hull has no certificate.
     void near(int ia, int ib, bool asked) {
       const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
-      if (a.left < 0 && b.left < 0) {
-        leaves(ia, ib, asked);
-        return;
-      }
-      if (covered(ia, ib, asked)) return;
-      if (tree.opensFirst(ia, ib)) {
+      const bool one = a.count == 1 && b.count == 1;  // asked last
+      if (!one && covered(ia, ib, asked)) return;
+      if (a.count <= BoxLanes::kMost && b.count <= BoxLanes::kMost) {
+        blocks(ia, ib, asked || !one);
+      } else if (tree.opensFirst(ia, ib)) {
         between(a.left, ib);
         between(a.right, ib);
       } else {
@@ -232,16 +233,20 @@ class ContactTree {
       return !asked && tree.coveredBetween(ia, ib, reachOf(ia, ib), rules.least);
     }
     float reachOf(int ia, int ib) const { return tree.reachOf(rules, reach, ia, ib); }
-    [[gnu::noinline]] void leaves(int ia, int ib, bool asked) {
-      if (around_leaf >= 0 && tree.comesLater(around_leaf, ia == around_leaf ? ib : ia)) return;
+    /// Each tile of one node with each of the other. `asked`: the hull of both has no certificate.
+    void blocks(int ia, int ib, bool asked) {
       const Node &a = tree.nodes_[ia], &b = tree.nodes_[ib];
-      if (a.count == 1 && b.count == 1) {
-        visit(a.first, b.first, [&] { return covered(ia, ib, asked); });
-        return;
+      const float near = reachOf(ia, ib);
+      for (int i = a.first; i < a.first + a.count; ++i) {
+        const MovingBox box = a.count == 1 ? tree.boxes_[ia] : tree.boxOf(tree.tiles_[i].vertex);
+        if (a.count > 1 && !mayMeet(box, tree.boxes_[ib], near)) continue;
+        const int la = tree.leaf_of_tile_[i];
+        for (unsigned bits = tree.tile_boxes_.meeting(box, b.first, b.count, near); bits != 0; bits &= bits - 1) {
+          const int j = b.first + std::countr_zero(bits), lb = tree.leaf_of_tile_[j];
+          if (around_leaf >= 0 && tree.comesLater(around_leaf, ia == around_leaf ? lb : la)) continue;
+          visit(i, j, [&] { return covered(la, lb, asked && la == ia && lb == ib); });
+        }
       }
-      if (covered(ia, ib, asked)) return;
-      for (int i = a.first; i < a.first + a.count; ++i)
-        for (int j = b.first; j < b.first + b.count; ++j) emit(i, j, [] { return false; });
     }
     template <class Covered>
     void emit(int i, int j, Covered&& covered) {
@@ -303,9 +308,11 @@ class ContactTree {
   std::vector<std::array<int, 2>> chunks_;  ///< nodes [first, end) under one, of a size that a thread takes at once
   std::vector<int> above_;                  ///< the other nodes, ascending
   std::vector<Tile> tiles_;                 ///< leaf by leaf
-  std::vector<int> parent_, leaf_of_;       ///< of the nodes of cloth, and of its triangles
-  std::vector<char> touched_;               ///< of the nodes of cloth
-  std::vector<int> touched_leaves_;         ///< ascending
+  std::vector<int> leaf_of_tile_;           ///< node
+  BoxLanes tile_boxes_;
+  std::vector<int> parent_, leaf_of_;                         ///< of the nodes of cloth, and of its triangles
+  std::vector<char> touched_;                                 ///< of the nodes of cloth
+  std::vector<int> touched_leaves_;                           ///< ascending
   std::vector<float> node_half_reach_m_, tile_half_reach_m_;  ///< the largest of their vertices; -1: of obstacles
   std::vector<MovingBox> vertex_boxes_;
   std::vector<MovingPoint> points_;  ///< the vertices

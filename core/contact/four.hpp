@@ -12,19 +12,20 @@ namespace gambeson {
 using Four = float __attribute__((vector_size(16)));
 using FourBits = int __attribute__((vector_size(16)));
 
-// One instruction each where the compiler makes three of the comparison.
+// One instruction each where the compiler makes three of the comparison. Of `signs`, bit k: comparison k holds.
 #ifdef __SSE2__
 inline Four least(const Four& a, const Four& b) { return _mm_min_ps(a, b); }
 inline Four most(const Four& a, const Four& b) { return _mm_max_ps(a, b); }
-inline bool any(const FourBits& m) { return _mm_movemask_ps(reinterpret_cast<Four>(m)) != 0; }
+inline int signs(const FourBits& m) { return _mm_movemask_ps(reinterpret_cast<Four>(m)); }
 inline Four root(const Four& a) { return _mm_sqrt_ps(a); }
 #else
 inline Four least(const Four& a, const Four& b) { return a < b ? a : b; }
 inline Four most(const Four& a, const Four& b) { return a > b ? a : b; }
-inline bool any(const FourBits& m) { return m[0] | m[1] | m[2] | m[3]; }
+inline int signs(const FourBits& m) { return (m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8); }
 inline Four root(const Four& a) { return Four{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
 #endif
 
+inline bool any(const FourBits& m) { return signs(m) != 0; }
 inline Four all(float x) { return Four{x, x, x, x}; }
 /// The least and the most of four numbers, in all places.
 inline Four leastOf(Four a) {

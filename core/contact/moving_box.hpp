@@ -2,6 +2,7 @@
 /// Boxes of points that move, in single precision, rounded outwards: most of a search for pairs is comparing them.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -46,6 +47,12 @@ class MovingBox {
 
   bool operator==(const MovingBox& b) const {
     return !any((lo_ != b.lo_) | (hi_ != b.hi_) | (way_lo_ != b.way_lo_) | (way_hi_ != b.way_hi_));
+  }
+
+  /// lo, hi, and the least and most of the ways, of x, y, z each.
+  std::array<float, 12> numbers() const {
+    return {lo_[0],     lo_[1],     lo_[2],     hi_[0],     hi_[1],     hi_[2],
+            way_lo_[0], way_lo_[1], way_lo_[2], way_hi_[0], way_hi_[1], way_hi_[2]};
   }
 
   /// The box of points and of their ways.

@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <bit>
 #include <random>
 
 #include "core/cloth/constraint.hpp"
@@ -99,6 +100,36 @@ TEST_F(TreeTest, FlatAndGentlyBentClothIsCertifiedWithoutAPair) {
   const CandidatePairs with_body = pairs(x, 0.025, 0.5);
   EXPECT_FALSE(with_body.points.empty());
   EXPECT_FALSE(with_body.edges.empty());
+}
+
+/// Boxes side by side are told as one by one, wherever a run of them starts.
+TEST(BoxLanes, MeetAsOneBoxAfterTheOther) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<MovingBox> boxes;
+  BoxLanes lanes;
+  lanes.resize(40);
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Vec3> x, v;
+    for (int k = 0; k < 3; ++k) {
+      x.push_back({unit(random), unit(random), unit(random)});
+      v.push_back({unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5});
+    }
+    const ListedMotion motion{x, v, {}, 0.4};
+    boxes.emplace_back(motion, 0);
+    for (int k = 1; k < 3; ++k) boxes.back().add(MovingBox(motion, k));
+    lanes.set(i, boxes.back());
+  }
+  int met = 0;
+  for (const MovingBox& one : boxes)
+    for (int first = 0; first < 40; ++first)
+      for (int count = 1; count <= std::min(BoxLanes::kMost, 40 - first); ++count) {
+        int bits = 0;
+        for (int k = 0; k < count; ++k) bits |= mayMeet(one, boxes[first + k], 0.01f) << k;
+        ASSERT_EQ(lanes.meeting(one, first, count, 0.01f), bits) << first << " " << count;
+        met += std::popcount(static_cast<unsigned>(bits));
+      }
+  EXPECT_GT(met, 1000);
 }
 
 TEST_F(TreeTest, PairsOfCoilsAreFoundAndOnlyThose) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/cloth/surface_charts.hpp"
 #include "core/cloth/triangles/hinge_angle.hpp"
 #include "core/error.hpp"
 #include "core/statics/statics.hpp"
@@ -320,6 +321,28 @@ TEST(TriangleCloth, SamplesAreItsVertices) {
   EXPECT_NEAR(c.mounting().edgeLength({0, Side::v1, false}), 0.4, 1e-14);
   EXPECT_EQ(c.mounting().edgePoints({0, Side::u0, false}).size(), 4u);
   EXPECT_EQ(c.mounting().edgePoints({0, Side::u0, false}, 2).size(), 8u);
+}
+
+/// What lets contact leave out cells that cannot meet: pairs of triangles between the lines of the draft.
+TEST(TriangleCloth, ADraftOnAGridHasItsCells) {
+  const auto wholeCells = [](MeshKind kind) {
+    const TriangleCloth c = clothOf(flatTriangles(5, 3, 0.5, 0.3, denim(), kind));
+    const Surface s = c.surface({});
+    std::vector<Vec3> rest(static_cast<std::size_t>(s.size()));
+    s.W.multiply<Vec3>(c.rest(), rest);
+    const SurfaceCharts charts = surfaceCharts(s, rest);
+    for (std::size_t t = 0; t < s.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (s.patch_grid[0].empty()) continue;
+        const Vec3& at = rest[static_cast<std::size_t>(s.triangles[t][k])];
+        EXPECT_NEAR(charts.corners[t][k].x, at.x, 1e-12);
+        EXPECT_NEAR(charts.corners[t][k].y, at.y, 1e-12);
+      }
+    return std::ranges::count(charts.charts[0].whole, 1);
+  };
+  EXPECT_EQ(wholeCells(MeshKind::single), 15);
+  EXPECT_EQ(wholeCells(MeshKind::alternating), 15);
+  EXPECT_EQ(wholeCells(MeshKind::equilateral), 0);
 }
 
 TEST(TriangleCloth, LoadsHaveTheirSumAndMoment) {
