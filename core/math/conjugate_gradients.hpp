@@ -27,7 +27,7 @@ class BlockProduct {
   std::vector<long> block_;  ///< which of A's; those left of the diagonal are transposed
   // Of the values that were set, from offsets_[row] on.
   std::vector<int> used_, used_columns_;
-  AlignedVector<double> values_;
+  AlignedVector<double> values_;  ///< 12 a block: its columns, and a zero behind each
 };
 
 /// Inverses of symmetric 3 x 3 blocks, six values each (xx, yy, zz, xy, xz, yz).
