@@ -2,8 +2,9 @@
 /// hip and its ankle; the ankles stay where they stand, so the pelvis goes where the legs take it. As the hips come
 /// down the planes tilt, and the feet roll by some degrees about their long axes: their lowest points stay on the
 /// ground. While nothing but the feet carries, trunk and pelvis lean forward just so far that the centre of mass stays
-/// over them, moving back to a part of their length; seated, the trunk straightens above the pelvis. The deepest bend
-/// of the knees is the one at which the lowest point of the pelvis is at the height of the seat.
+/// over them, moving back to a part of their length; seated, trunk and pelvis straighten up: a pelvis that stayed
+/// inclined would press belly and thighs together and hollow the back. The deepest bend of the knees is the one at
+/// which the lowest point of the pelvis is at the height of the seat.
 
 #include "human/motion/sit.hpp"
 
@@ -24,12 +25,12 @@ namespace {
 
 /// Parts of the time at which he sits, has straightened, leans forward again, and rises.
 constexpr double kSits = 0.3, kStraight = 0.42, kLeans = 0.58, kRises = 0.7;
-constexpr double kShank = 22 * rad_per_deg;     ///< its lean forward, seated
+constexpr double kShank = 25 * rad_per_deg;     ///< its lean forward, seated
 constexpr double kShankMore = 4 * rad_per_deg;  ///< and half way
 constexpr double kBehind = 0.25;                ///< of the foot's length from the heel: the centre of mass, seated
-constexpr double kPelvis = 0.55;                ///< of the lean, that the pelvis has
+constexpr double kPelvis = 0.55;                ///< of the lean, that the pelvis has while the feet carry
 constexpr double kMostLean = 75 * rad_per_deg;
-constexpr double kSeatedLean = 0.1;                       ///< of the trunk, seated [rad]
+constexpr double kSeatedLean = 0.1;                       ///< of the trunk, seated; the pelvis is upright then [rad]
 constexpr double kArms = 0.6, kElbows = 25 * rad_per_deg;  ///< forward of hanging; bent, seated [rad]
 constexpr int kNodes = 200;
 
@@ -43,7 +44,10 @@ struct Leg {
 class Sit final : public Motion {
  public:
   Sit(const Human& human, const SitOptions& options)
-      : human_(human), options_(options), standing_(standing(human_)), lumbar_(human_.skeleton.joint("lumbar_flexion")) {
+      : human_(human),
+        options_(options),
+        standing_(standing(human_)),
+        lumbar_(human_.skeleton.joint("lumbar_flexion")) {
     for (const bool right : {true, false}) {
       const std::string side = right ? "right" : "left";
       const auto joint = [&](const char* name, bool needed = true) {
@@ -100,7 +104,7 @@ class Sit final : public Motion {
   Posture posture(double s, double lean, double straight) const {
     Posture p = standing_;
     const double knee = depth_ * s, shank = kShank * s + kShankMore * 4 * s * (1 - s), thigh = knee - shank;
-    const double pelvis = kPelvis * lean, trunk = lean + straight * (kSeatedLean - lean);
+    const double pelvis = (1 - straight) * kPelvis * lean, trunk = lean + straight * (kSeatedLean - lean);
     p.root.rotation = rotationAbout({0, 1, 0}, pelvis);
     for (const Leg& leg : legs_) {
       const Vec3 way =
@@ -143,14 +147,18 @@ class Sit final : public Motion {
     return 0.5 * (lo + hi);
   }
 
+  /// The lowest point of the pelvis while it straightens up.
   double seatHeight() const {
-    const Posture p = posture(1, leanAt(1), 0);
-    const std::vector<Pose> X = linkPoses(human_.skeleton, p.q, p.root);
     double lowest = 1e9;
-    for (const BodyShape& shape : human_.shapes) {
-      if (shape.link != 0) continue;
-      const Pose of = X[shape.link] * shape.X_LS;
-      lowest = std::min(lowest, (of * lowestPoint(shape.shape, of.rotation)).z);
+    const double lean = leanAt(1);
+    for (const double straight : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Posture p = posture(1, lean, straight);
+      const std::vector<Pose> X = linkPoses(human_.skeleton, p.q, p.root);
+      for (const BodyShape& shape : human_.shapes) {
+        if (shape.link != 0) continue;
+        const Pose of = X[shape.link] * shape.X_LS;
+        lowest = std::min(lowest, (of * lowestPoint(shape.shape, of.rotation)).z);
+      }
     }
     return lowest;
   }

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "human/body/ground.hpp"
+#include "human/files/units.hpp"
 #include "human/manikin/manikin.hpp"
 #include "human/motion/inverse_statics.hpp"
 #include "human/motion/motion.hpp"
@@ -74,6 +75,20 @@ TEST_P(EverySit, ReachesTheSeat) {
   }
   EXPECT_GE(lowest, options.seat_height_m - 1e-6);
   EXPECT_LT(lowest, options.seat_height_m + 0.06);
+}
+
+/// Seated, the pelvis is upright and the hips bend by no more than thighs do that are near to level.
+TEST_P(EverySit, SitsUpright) {
+  const double t = options.stand_s + 0.5 * options.duration_s;
+  const Posture p = sit->at(t);
+  EXPECT_LT(norm(p.root.rotation * Vec3{0, 0, 1} - Vec3{0, 0, 1}), 1e-9);
+  const double hip = p.q[human.skeleton.joint("hip_flexion_left")] / rad_per_deg;
+  const double lumbar = p.q[human.skeleton.joint("lumbar_flexion")] / rad_per_deg;
+  std::printf("[ measured ] hips bent by %.0f degrees, back by %.1f\n", hip, lumbar);
+  EXPECT_GT(hip, 55);
+  EXPECT_LT(hip, 90);
+  EXPECT_GT(lumbar, 0);
+  EXPECT_LT(lumbar, 10);
 }
 
 /// While nothing but the feet carries, the centre of mass is above them.
