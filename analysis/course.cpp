@@ -119,6 +119,16 @@ double greaterShare(std::span<const double> a, std::span<const double> b) {
   return n / static_cast<double>(a.size());
 }
 
+double halfTime(const Course& course) {
+  const std::vector<double>&t = course.time_s, &v = course.value;
+  const double half = 0.5 * largestOf(v).value;
+  std::size_t last = v.size() - 1;
+  while (last > 0 && std::abs(v[last]) < half) --last;
+  if (last + 1 == v.size()) return t.back();
+  const double above = std::abs(v[last]), below = std::abs(v[last + 1]);
+  return t[last] + (t[last + 1] - t[last]) * (above - half) / (above - below);
+}
+
 double wrapped(double difference, double period) { return difference - period * std::round(difference / period); }
 
 }  // namespace gambeson

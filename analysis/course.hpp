@@ -43,6 +43,9 @@ double meanOf(std::span<const double> a);
 /// The part of the times at which a > b.
 double greaterShare(std::span<const double> a, std::span<const double> b);
 
+/// When |value| falls below half of its largest for good, linearly between the times; the last time where it does not.
+double halfTime(const Course& course);
+
 /// `difference` less the nearest whole number of periods: in [-period/2, period/2].
 double wrapped(double difference, double period);
 

@@ -18,6 +18,9 @@ namespace {
 /// Uniform in [0, 1), the same on every machine.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
+/// Uniform in [-1, 1).
+double even(std::mt19937_64& random) { return 2 * uniform(random) - 1; }
+
 /// Waves over [0, 1] with the amplitude 1.
 struct Waves {
   std::vector<double> size, phase;
@@ -26,7 +29,7 @@ struct Waves {
 
   Waves(const NoiseCase& n, std::mt19937_64& random) : from(n.from) {
     for (int k = n.from; k <= n.to; ++k) {
-      size.push_back(2 * uniform(random) - 1);
+      size.push_back(even(random));
       phase.push_back(2 * std::numbers::pi * uniform(random));
     }
     for (int i = 0; i < 4096; ++i) largest = std::max(largest, std::abs(sum(i / 4096.)));
@@ -88,7 +91,7 @@ std::vector<Vec3> noiseOf(const Sheet& sheet, const NoiseCase& noise) {
           static_cast<std::size_t>(std::upper_bound(offsets.begin(), offsets.end(), map.home[f]) - offsets.begin() - 1);
       const NurbsPatch& p = g.patches[patch];
       const int local = map.home[f] - offsets[patch], i = local % p.u.count(), j = local / p.u.count();
-      const double size = 2 * uniform(random) - 1;
+      const double size = even(random);
       free[f] = noise.amplitude_m * size *
                 normalAt(p, grevillePoints(p.u)[static_cast<std::size_t>(i)],
                          grevillePoints(p.v)[static_cast<std::size_t>(j)]);
@@ -118,6 +121,24 @@ std::vector<Vec3> noiseOf(const Sheet& sheet, const NoiseCase& noise) {
   // By the free points, so that seams stay smooth.
   map.T.multiply<Vec3>(free, all);
   return all;
+}
+
+std::vector<Vec3> noiseOf(const Cloth& cloth, const Surface& surface, int first, int end, const NoiseCase& noise) {
+  const std::vector<Vec3>& rest = cloth.rest();
+  std::vector<Vec3> along(static_cast<std::size_t>(end - first));
+  for (const std::array<int, 3>& t : surface.triangles) {
+    std::array<int, 3> point;
+    for (int k = 0; k < 3; ++k) point[k] = surface.W.columns[surface.W.offsets[t[k]]];
+    if (point[0] < first || point[0] >= end) continue;
+    const Vec3 area = cross(rest[point[1]] - rest[point[0]], rest[point[2]] - rest[point[0]]);
+    for (const int p : point) along[p - first] += area;
+  }
+  std::mt19937_64 random(static_cast<std::uint64_t>(noise.seed));
+  for (Vec3& d : along) {
+    const double size = noise.amplitude_m * even(random);
+    d = norm(d) > 0 ? size * normalized(d) : Vec3{};
+  }
+  return along;
 }
 
 namespace schema {

@@ -1,9 +1,10 @@
 #pragma once
-/// Noise of a sheet: deviations along its normal that a run or a shape starts from.
+/// Noise of a sheet or of a mesh: deviations along its normal that a run or a shape starts from.
 
 #include <vector>
 
 #include "cases/cloth/sheet.hpp"
+#include "core/cloth/cloth.hpp"
 
 namespace gambeson {
 
@@ -19,5 +20,9 @@ struct NoiseCase {
 
 /// Displacements of all control points along the rest normal.
 std::vector<Vec3> noiseOf(const Sheet& sheet, const NoiseCase& noise);
+
+/// The same of triangles: displacements of the points from `first` to `end` of a cloth, each by itself along the normal
+/// of the triangles about it. `surface`: of the cloth, whose samples are its points there.
+std::vector<Vec3> noiseOf(const Cloth& cloth, const Surface& surface, int first, int end, const NoiseCase& noise);
 
 }  // namespace gambeson

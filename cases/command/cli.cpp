@@ -72,7 +72,7 @@ struct ExportArguments {
 struct FabricArguments {
   FabricOptions options;
   std::vector<std::string> tests;
-  std::string model = "nurbs", mesh = "single";
+  std::string model = "nurbs", mesh = "single", bending = "midedge";
 };
 
 struct StudyArguments {
@@ -315,6 +315,12 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->type_name("MESH")
       ->capture_default_str()
       ->check(CLI::IsMember(wordsOf(schema::meshKinds())).description(""));
+  command
+      .add_option("--bending-elements", a.bending,
+                  "What bends triangles: " + schema::joined(wordsOf(schema::bendingElements())))
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->check(CLI::IsMember(wordsOf(schema::bendingElements())).description(""));
   command.add_option("--cells", a.options.specimen.cells, "Cells between the clamps")
       ->type_name("N")
       ->capture_default_str()
@@ -427,6 +433,7 @@ int fabricCommand(FabricArguments& a, std::ostream& out) {
   FabricOptions& o = a.options;
   o.specimen.cloth.kind = choiceOf(schema::clothKinds(), a.model);
   o.specimen.cloth.mesh = choiceOf(schema::meshKinds(), a.mesh);
+  o.specimen.cloth.bending = choiceOf(schema::bendingElements(), a.bending);
   if (!a.tests.empty()) {
     o.bending = std::find(a.tests.begin(), a.tests.end(), "bending") != a.tests.end();
     o.shear = std::find(a.tests.begin(), a.tests.end(), "shear") != a.tests.end();

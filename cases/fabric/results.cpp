@@ -8,10 +8,17 @@
 
 #include "analysis/report/xy_chart.hpp"
 #include "analysis/ticks.hpp"
+#include "cases/cloth/kind_fields.hpp"
 #include "core/io/csv.hpp"
 
 namespace gambeson {
 namespace {
+
+/// The word of a choice as a case has it.
+template <class E>
+std::string wordOf(const std::vector<std::pair<std::string, E>>& choices, E value) {
+  return std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.second == value; })->first;
+}
 
 constexpr double kGf_N = 9.80665e-3, kDegree = 0.017453292519943295;
 constexpr double kMomentUnit_N = kGf_N;             // gf cm/cm
@@ -189,9 +196,9 @@ std::string loopPicture(const FabricCard& card, const KesTest& test, const std::
 
 std::string specimenText(const laboratory::Specimen& s) {
   if (s.cloth.kind == ClothKind::triangles) {
-    const char* const meshes[] = {"single", "alternating", "equilateral"};
-    return fmt::format("Specimen of triangles, {} mesh, {} cells between the clamps; sides left out",
-                       meshes[static_cast<int>(s.cloth.mesh)], s.cells);
+    return fmt::format("Specimen of triangles, {} mesh, bent as {}, {} cells between the clamps; sides left out",
+                       wordOf(schema::meshKinds(), s.cloth.mesh), wordOf(schema::bendingElements(), s.cloth.bending),
+                       s.cells);
   }
   return fmt::format("Specimen of a NURBS shell, degree {}, {} cells between the clamps; sides left out", s.degree,
                      s.cells);

@@ -201,6 +201,7 @@ double measureOf(const Check& c, const RunNumbers& numbers, Shown& shown) {
       case Check::Course::mean_ratio:
       case Check::Course::peak_time:
       case Check::Course::last_ratio:
+      case Check::Course::half_time:
         b = part(*c.second);
         break;
       default:
@@ -238,6 +239,12 @@ double measureOf(const Check& c, const RunNumbers& numbers, Shown& shown) {
     }
     case Check::Course::greater_share:
       return greaterShare(a.value, b.value);
+    case Check::Course::linearity: {
+      const double r = correlation(a.time_s, a.value);
+      return r * r;
+    }
+    case Check::Course::half_time:
+      return halfTime(a) - halfTime(b);
   }
   return 0;
 }

@@ -164,13 +164,15 @@ const std::vector<std::pair<std::string, Check::Course>>& courses() {
                                                             {"growth", C::growth},
                                                             {"last_ratio", C::last_ratio},
                                                             {"other_at_peak", C::other_at_peak},
-                                                            {"greater_share", C::greater_share}};
+                                                            {"greater_share", C::greater_share},
+                                                            {"linearity", C::linearity},
+                                                            {"half_time", C::half_time}};
   return names;
 }
 
 bool ofOne(Check::Course c) {
   using C = Check::Course;
-  return c == C::rank || c == C::peak || c == C::mean || c == C::growth;
+  return c == C::rank || c == C::peak || c == C::mean || c == C::growth || c == C::linearity;
 }
 
 struct KindRule {

@@ -89,6 +89,8 @@ struct Check {
     last_ratio,     ///< |first| / |second| at to_s
     other_at_peak,  ///< |second| / |first| where |first| is largest
     greater_share,  ///< part of the times at which first > second
+    linearity,      ///< R^2 of the straight line in time that fits `first` best
+    half_time,      ///< the last time at which |first| is half its peak or more: first - second
   };
   Course course = Course::peak;
   std::optional<RunCourse> first, second;

@@ -107,8 +107,8 @@ Object garmentTable() {
           })
       .defaultsTo("none")
       .number("noise", &G::noise_m, "m", between(0, 0.1),
-              "largest displacement along the normal, control point by control point, that the motion starts from; the "
-              "rest shape has none")
+              "largest displacement along the normal, control point by control point (of a mesh: vertex by vertex), "
+              "that the motion starts from; what is held stays, and the rest shape has none")
       .integer("noise_seed", &G::noise_seed, 0, 1000000000, "another seed gives other noise, the same on every machine")
       .integer(
           "samples_per_cell", &G::samples_per_cell, 0, 8,

@@ -119,7 +119,7 @@ void checkModel(const Entry& entry, const Case& c, const GarmentCase& g) {
         "model",
         "triangles lock where their threads keep their lengths; allowed: strain_limit with a limit, or \"nurbs\"");
   if (!kind.isMesh()) return;
-  for (const char* key : {"fields", "other_fabrics", "noise", "noise_seed", "stitching", "seam_stiffness"})
+  for (const char* key : {"fields", "other_fabrics", "stitching", "seam_stiffness"})
     refuse(key, fmt::format("is for drafted garments, not for a {}", kind.word));
 }
 

@@ -65,6 +65,37 @@ class Buckets {
   std::vector<std::vector<std::pair<int, Vec2>>> of_;
 };
 
+/// Of the vertices of triangles the points that remember which lie in triangles about them, and of hinges those at
+/// whose ends they are: a point lies by the corners of its triangle whose part of it is more than a quarter. `patch`
+/// and `place`: of the points.
+std::vector<std::vector<int>> pointsAboutVertices(const Surface& surface, std::span<const int> patch,
+                                                  std::span<const Vec2> place) {
+  std::vector<std::size_t> first(surface.patch_grid.size(), surface.triangles.size());  // triangle of each patch
+  for (std::size_t t = surface.triangles.size(); t-- > 0;)
+    first[static_cast<std::size_t>(surface.triangle_patch[t])] = t;
+  std::vector<std::vector<int>> about(static_cast<std::size_t>(surface.size()));
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    const auto p = static_cast<std::size_t>(patch[k]);
+    if (!surface.patch_grid[p].empty()) continue;
+    const double number = std::floor(0.5 * place[k].x), b = place[k].x - 2 * number, c = place[k].y;
+    const std::array<int, 3>& corners = surface.triangles[first[p] + static_cast<std::size_t>(number)];
+    const double parts[] = {1 - b - c, b, c};
+    for (std::size_t i = 0; i < 3; ++i)
+      if (parts[i] > 0.25) about[static_cast<std::size_t>(corners[i])].push_back(static_cast<int>(k));
+  }
+  // An ear, at which no two triangles meet, has what the other corners of its triangle have.
+  for (const std::array<int, 3>& t : surface.triangles)
+    for (const int v : t) {
+      std::vector<int>& own = about[static_cast<std::size_t>(v)];
+      if (own.empty())
+        for (const int w : t) {
+          const std::vector<int>& other = about[static_cast<std::size_t>(w)];
+          if (w != v) own.insert(own.end(), other.begin(), other.end());
+        }
+    }
+  return about;
+}
+
 }  // namespace
 
 ClothMemoryView::ClothMemoryView(const Model& m) : model_(m) {
@@ -73,6 +104,7 @@ ClothMemoryView::ClothMemoryView(const Model& m) : model_(m) {
   const std::vector<ClothPatch>& patches = m.cloth->patches();
   std::vector<std::vector<int>> of_patch(patches.size());
   std::vector<Vec2> places_of_points;
+  std::vector<int> patch_of_points;
   for (const HistoryPlace& h : places) {
     const Fabric fabric = m.cloth->fabricAt(h.patch, h.place);
     const auto [kind, line] = std::visit(
@@ -85,6 +117,7 @@ ClothMemoryView::ClothMemoryView(const Model& m) : model_(m) {
     const int needed = kind == Kind::tensor ? kStopHistory<kStops, PlaneCurvature> : 3 * line;
     if (h.count < static_cast<std::size_t>(needed)) continue;
     places_of_points.push_back(h.place);
+    patch_of_points.push_back(h.patch);
     of_patch[static_cast<std::size_t>(h.patch)].push_back(static_cast<int>(points_.size()));
     points_.push_back({h.first, h.stride, kind, line});
     any_ = any_ || kind != Kind::none;
@@ -93,10 +126,15 @@ ClothMemoryView::ClothMemoryView(const Model& m) : model_(m) {
   std::vector<Buckets> buckets;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     buckets.emplace_back(patches[p], of_patch[p].size());
+    if (m.surface.patch_grid[p].empty()) continue;
     for (const int k : of_patch[p]) buckets.back().add(k, places_of_points[static_cast<std::size_t>(k)]);
   }
-  for (int s = 0; s < m.surface.size(); ++s)
-    near_.push_back(buckets[static_cast<std::size_t>(m.surface.patch[s])].nearest(m.surface.parameters[s], kNearest));
+  near_ = pointsAboutVertices(m.surface, patch_of_points, places_of_points);
+  for (int s = 0; s < m.surface.size(); ++s) {
+    const auto p = static_cast<std::size_t>(m.surface.patch[s]);
+    if (!m.surface.patch_grid[p].empty())
+      near_[static_cast<std::size_t>(s)] = buckets[p].nearest(m.surface.parameters[s], kNearest);
+  }
 }
 
 ClothMemory ClothMemoryView::at(std::span<const double> history) const {
@@ -137,23 +175,29 @@ ClothMemory ClothMemoryView::at(std::span<const double> history) const {
 std::vector<std::string> ClothMemoryView::columns(const std::vector<std::string>& patch_names) {
   std::vector<std::string> names;
   for (const std::string& patch : patch_names)
-    for (const char* what : {"_set_1_per_m", "_largest_set_1_per_m", "_friction_left"}) names.push_back(patch + what);
+    for (const char* what : {"_set_1_per_m", "_largest_set_1_per_m", "_friction_left", "_least_friction_left"})
+      names.push_back(patch + what);
   return names;
 }
 
 std::vector<double> ClothMemoryView::row(std::span<const double> history, int patches) const {
   const ClothMemory memory = at(history);
-  std::vector<double> out(3 * static_cast<std::size_t>(patches), 0), area(static_cast<std::size_t>(patches), 0);
+  std::vector<double> out, area(static_cast<std::size_t>(patches), 0);
+  for (int p = 0; p < patches; ++p) out.insert(out.end(), {0, 0, 0, 1});
   for (std::size_t s = 0; s < memory.set_per_m.size(); ++s) {
     const auto p = static_cast<std::size_t>(model_.surface.patch[s]);
-    const double a = model_.surface.area_m2[s];
+    const double a = model_.surface.area_m2[s], left = memory.friction_left[s];
+    double* const of = &out[kColumns * p];
     area[p] += a;
-    out[3 * p] += a * memory.set_per_m[s];
-    out[3 * p + 1] = std::max(out[3 * p + 1], memory.set_per_m[s]);
-    out[3 * p + 2] += a * memory.friction_left[s];
+    of[0] += a * memory.set_per_m[s];
+    of[1] = std::max(of[1], memory.set_per_m[s]);
+    of[2] += a * left;
+    of[3] = std::min(of[3], left);
   }
-  for (std::size_t p = 0; p < area.size(); ++p)
-    for (const std::size_t k : {3 * p, 3 * p + 2}) out[k] = area[p] > 0 ? out[k] / area[p] : k % 3 == 2 ? 1.0 : 0.0;
+  for (std::size_t p = 0; p < area.size(); ++p) {
+    out[kColumns * p] = area[p] > 0 ? out[kColumns * p] / area[p] : 0;
+    out[kColumns * p + 2] = area[p] > 0 ? out[kColumns * p + 2] / area[p] : 1;
+  }
   return out;
 }
 

@@ -24,11 +24,13 @@ class ClothMemoryView {
 
   /// Whether any of the cloth has such a law.
   bool any() const { return any_; }
-  /// Each sample has the mean of the nearest points of its patch that remember.
+  /// Each sample has the mean of the nearest points of its patch that remember; a vertex of those in the triangles
+  /// about it.
   ClothMemory at(std::span<const double> history) const;
 
   /// Columns of the table "memory" behind start_s and end_s: of each patch the mean of the set over its area, the
-  /// largest, and the mean of the friction left.
+  /// largest, the mean of the friction left, and the least.
+  static constexpr std::size_t kColumns = 4;
   static std::vector<std::string> columns(const std::vector<std::string>& patch_names);
   std::vector<double> row(std::span<const double> history, int patches) const;
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/sheet_cells.hpp"
+#include "analysis/turning.hpp"
 #include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/results/vector_columns.hpp"
@@ -51,7 +52,7 @@ std::vector<int> cellsOf(const Scenario& s) {
 struct Areas {
   const Scenario& s;
   std::vector<Vec3> rest_m;  ///< of the samples
-  std::vector<double> inner_m2, clear_m2;
+  std::vector<double> inner_m2, clear_m2, mass_kg;
 
   explicit Areas(const Scenario& scenario) : s(scenario) {
     const Surface& surface = s.model->surface;
@@ -65,6 +66,7 @@ struct Areas {
     for (std::size_t i = 0; i < rest_m.size(); ++i) {
       if (inner[i]) inner_m2[i] = surface.area_m2[i];
       if (clear[i]) clear_m2[i] = surface.area_m2[i];
+      mass_kg.push_back(surface.area_m2[i] * s.model->density_kg_per_m2[i]);
     }
   }
 
@@ -79,11 +81,13 @@ struct Areas {
     error.rethrow();
     const int patches = static_cast<int>(s.patch_names.size());
     const std::vector<double> curvature = regionRms(surface.patch, surface.area_m2, bend, patches);
+    const std::vector<Turning> turning = turningOf(surface.patch, mass_kg, vectorsOf(frame.positions),
+                                                   vectorsOf(fieldOf(frame, "velocity").data), patches);
     std::vector<PatchMeasure> out(s.patch_names.size());
     std::vector<std::vector<double>> value(out.size()), weight(out.size());
     for (std::size_t p = 0; p < out.size(); ++p) {
       const double none = std::numeric_limits<double>::quiet_NaN();
-      out[p] = {none, none, none, curvature[p]};
+      out[p] = {none, none, none, curvature[p], turning[p]};
     }
     const auto most = [](double& so_far, double x) { so_far = so_far >= x ? so_far : x; };
     for (std::size_t i = 0; i < stress.size(); ++i) {
@@ -180,14 +184,17 @@ void writeCloth(const std::filesystem::path& dir, const Scenario& s, const Measu
   std::vector<std::string> columns{"time_s"};
   for (const std::string& name : s.patch_names)
     for (const char* what :
-         {"_inner_p95_N_per_m", "_inner_max_N_per_m", "_clear_max_N_per_m", "_curvature_rms_1_per_m"})
+         {"_inner_p95_N_per_m", "_inner_max_N_per_m", "_clear_max_N_per_m", "_curvature_rms_1_per_m",
+          "_turning_x_rad_per_s", "_turning_y_rad_per_s", "_turning_z_rad_per_s", "_Lx_Nms", "_Ly_Nms", "_Lz_Nms"})
       columns.push_back(name + what);
   std::vector<std::vector<double>> rows;
   for (std::size_t k = 0; k < m.cloth.size(); ++k) {
     rows.push_back({m.cloth_time_s[k]});
-    for (const PatchMeasure& p : m.cloth[k])
-      rows.back().insert(rows.back().end(),
-                         {p.inner_p95_N_per_m, p.inner_max_N_per_m, p.clear_max_N_per_m, p.curvature_rms_1_per_m});
+    for (const PatchMeasure& p : m.cloth[k]) {
+      const Vec3 &w = p.turning.rate_rad_per_s, &L = p.turning.momentum_Nms;
+      rows.back().insert(rows.back().end(), {p.inner_p95_N_per_m, p.inner_max_N_per_m, p.clear_max_N_per_m,
+                                             p.curvature_rms_1_per_m, w.x, w.y, w.z, L.x, L.y, L.z});
+    }
   }
   writeCsv(dir / "patches.csv", columns, rows);
   if (m.straps.cuts.empty()) return;

@@ -15,6 +15,7 @@
 #include "analysis/stress.hpp"
 #include "analysis/torque.hpp"
 #include "analysis/trust.hpp"
+#include "analysis/turning.hpp"
 #include "cases/runs/frame_field.hpp"
 #include "cases/wear/case/strides.hpp"
 #include "cases/wear/results/body_map.hpp"
@@ -147,7 +148,8 @@ struct CollisionWindow {
   long intersections = 0;  ///< contours, the most of a step
   double smallest_gap_m = 0, residual_m_per_s = 0, iterations = 0;
   double way_cells = 0;  ///< of a sample in a step, in sides of its cell, the largest
-  /// Part of the normal impulses on bodies, and of cloth on cloth, that contacts have which stick; NaN where none press.
+  /// Part of the normal impulses on bodies, and of cloth on cloth, that contacts have which stick; NaN where none
+  /// press.
   double sticking = std::numeric_limits<double>::quiet_NaN(), cloth_sticking = sticking;
 };
 
@@ -221,6 +223,7 @@ struct PatchMeasure {
   double inner_p95_N_per_m = 0, inner_max_N_per_m = 0;  ///< without the cells at free edges (analysis/sheet_cells.hpp)
   double clear_max_N_per_m = 0;                         ///< without the cells at re-entrant corners
   double curvature_rms_1_per_m = 0;                     ///< root of the mean of k11^2 + k22^2 + 2 k12^2
+  Turning turning;                                      ///< about its centre (analysis/turning.hpp)
 };
 
 /// What the straps carry (tryon/strap_cut.hpp); without cuts where there are none, or strains are limited.
@@ -264,7 +267,7 @@ struct GarmentOrderMeasure {
 /// motion. Empty where it remembers nothing.
 struct MemoryMeasure {
   struct Of {
-    double set_per_m = 0, largest_set_per_m = 0, friction_left = 1;
+    double set_per_m = 0, largest_set_per_m = 0, friction_left = 1, least_friction_left = 1;
   };
   std::vector<std::string> patches;
   std::vector<double> time_s;

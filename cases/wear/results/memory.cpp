@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "analysis/ticks.hpp"
 #include "cases/wear/recording/cloth_memory.hpp"
@@ -41,9 +42,13 @@ void measureMemory(const Scenario& s, const RecordingReader& recording, Measured
     if (table.column("start_s")[w] < -1e-9) continue;
     out.memory.time_s.push_back(table.column("end_s")[w]);
     std::vector<MemoryMeasure::Of>& row = out.memory.rows.emplace_back();
-    for (std::size_t p = 0; p < s.patch_names.size(); ++p)
-      row.push_back({table.column(columns[3 * p])[w], table.column(columns[3 * p + 1])[w],
-                     table.column(columns[3 * p + 2])[w]});
+    for (std::size_t p = 0; p < s.patch_names.size(); ++p) {
+      const auto at = [&](std::size_t k) {
+        const std::string& name = columns[ClothMemoryView::kColumns * p + k];
+        return table.has(name) ? table.column(name)[w] : std::numeric_limits<double>::quiet_NaN();
+      };
+      row.push_back({at(0), at(1), at(2), at(3)});
+    }
   }
 }
 
@@ -54,22 +59,25 @@ void writeMemory(const std::filesystem::path& csv, const MemoryMeasure& m) {
   for (std::size_t w = 0; w < m.rows.size(); ++w) {
     rows.push_back({m.time_s[w]});
     for (const MemoryMeasure::Of& of : m.rows[w])
-      rows.back().insert(rows.back().end(), {of.set_per_m, of.largest_set_per_m, of.friction_left});
+      rows.back().insert(rows.back().end(),
+                         {of.set_per_m, of.largest_set_per_m, of.friction_left, of.least_friction_left});
   }
   writeCsv(csv, columns, rows);
 }
 
 void addMemory(const Measured& m, ReportInput& in) {
   if (!m.memory.rows.empty()) {
-    Table table{"What the cloth remembers at the end",
-                fmt::format("Curvature that is set in it, over the area of a patch, and how much of its friction in "
-                            "bending fatigue has left. Over the motion {} J were lost in bending.",
-                            formatNumber(m.energy.lost)),
-                {"patch", "set, mean [1/m]", "set, largest [1/m]", "friction left [%]"},
-                {}};
+    Table table{
+        "What the cloth remembers at the end",
+        fmt::format("Curvature that is set in it, over the area of a patch, and how much of its friction in "
+                    "bending fatigue has left. Over the motion {} J were lost in bending.",
+                    formatNumber(m.energy.lost)),
+        {"patch", "set, mean [1/m]", "set, largest [1/m]", "friction left, mean [%]", "friction left, least [%]"},
+        {}};
     for (std::size_t p = 0; p < m.memory.patches.size(); ++p) {
       const MemoryMeasure::Of& of = m.memory.rows.back()[p];
-      table.rows.push_back({m.memory.patches[p], of.set_per_m, of.largest_set_per_m, 100 * of.friction_left});
+      table.rows.push_back({m.memory.patches[p], of.set_per_m, of.largest_set_per_m, 100 * of.friction_left,
+                            100 * of.least_friction_left});
     }
     in.stress_tables.push_back(std::move(table));
   }

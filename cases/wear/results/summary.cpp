@@ -337,7 +337,8 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
       patches.push_back({{"patch", m.memory.patches[p]},
                          {"set_1_per_m", of.set_per_m},
                          {"largest_set_1_per_m", of.largest_set_per_m},
-                         {"friction_left", of.friction_left}});
+                         {"friction_left", of.friction_left},
+                         {"least_friction_left", of.least_friction_left}});
     }
     j["memory"] = patches;
   }

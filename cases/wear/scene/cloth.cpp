@@ -2,13 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cases/cloth/make_cloth.hpp"
+#include "cases/cloth/noise.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "core/cloth/draft/seams.hpp"
 #include "tryon/stitching.hpp"
 
 namespace gambeson {
+namespace {
+
+/// Noise of the garments that are meshes from the start; that of drafts is their control points'.
+void addMeshNoise(const Case& c, const Wardrobe& wardrobe, ClothDraft& out) {
+  for (std::size_t k = 0; k < c.garments.size(); ++k) {
+    const GarmentCase& worn = c.garments[k];
+    if (!wardrobe.meshes[k] || !(worn.noise_m > 0)) continue;
+    int first = out.cloth->points(), end = 0;
+    for (const ClothPatch& p : out.cloth->patches())
+      if (p.garment == static_cast<int>(k)) first = std::min(first, p.first_point), end = std::max(end, p.end_point);
+    const std::vector<Vec3> noise = noiseOf(*out.cloth, out.cloth->surface(out.samples_per_cell), first, end,
+                                            {worn.noise_m, worn.noise_seed, 0, 0, false});
+    for (std::size_t i = 0; i < noise.size(); ++i) out.start_m[static_cast<std::size_t>(first) + i] += noise[i];
+  }
+}
+
+}  // namespace
 
 ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wardrobe, bool panels) {
   ClothDraft out;
@@ -35,6 +55,7 @@ ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wa
     const GarmentCase& worn = c.garments[static_cast<std::size_t>(p.garment)];
     out.samples_per_cell.push_back(samplesPerCell(worn.cloth, worn.samples_per_cell));
   }
+  addMeshNoise(c, wardrobe, out);
   if (panels) {
     const Stitching& law = *c.garments[0].stitching;
     out.stitches = stitchesOf(sewn, *out.cloth, out.cloth->surface(out.samples_per_cell),

@@ -82,6 +82,12 @@ TEST(Course, RanksSeeRisingWhateverItsShape) {
   EXPECT_TRUE(std::isnan(rankCorrelation(t, std::vector<double>(50, 1.0))));
 }
 
+TEST(Course, HalfTimeIsTheLastFallBelowHalfOfThePeak) {
+  // Falls below 2, rises again to 3, falls for good between 4 s (3) and 5 s (-1): 3 - 2 of 3 - 1.
+  EXPECT_NEAR(halfTime({{0, 1, 2, 3, 4, 5, 6}, {0, -4, -1, 2.5, 3, -1, 0}}), 4.5, 1e-12);
+  EXPECT_NEAR(halfTime({{0, 1, 2}, {1, 2, 3}}), 2, 1e-12) << "does not fall";
+}
+
 TEST(Course, SharesAndWholePeriods) {
   EXPECT_DOUBLE_EQ(greaterShare(std::vector<double>{1, 2, 3, 4}, std::vector<double>{1, 1, 4, 0}), 0.5);
   EXPECT_NEAR(wrapped(0.95 - 0.02, 1), -0.07, 1e-12);

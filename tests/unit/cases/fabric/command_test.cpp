@@ -51,6 +51,25 @@ TEST(FabricCommand, MeasuresWhatTheCardSays) {
   EXPECT_EQ(content(folder.path() / "lab/bending_0.csv"), "mine");
 }
 
+TEST(FabricCommand, BendsTrianglesAsItIsTold) {
+  const Folder folder;
+  const auto slope = [&](const std::string& elements) {
+    const Outcome o = fabric(folder, std::string(denim) + " --out lab --cells 8 --test bending --model triangles --mesh equilateral" +
+                                         (elements.empty() ? "" : " --bending-elements " + elements));
+    EXPECT_EQ(o.status, 0) << o.err;
+    const std::string word = elements.empty() ? "midedge" : elements;
+    EXPECT_NE(content(folder.path() / "lab/bending_0.svg").find("bent as " + word), std::string::npos) << word;
+    const auto all = nlohmann::json::parse(content(folder.path() / "lab/laboratory.json"));
+    return all.at("tests").at(0).at("readings").at(0).at("measured").get<double>();
+  };
+  const double of_edges = slope("midedge");
+  EXPECT_EQ(slope(""), of_edges);
+  EXPECT_LT(slope("hinge"), 0.9 * of_edges) << "hinges on such a mesh: 0.85";
+  const Outcome refused = fabric(folder, std::string(denim) + " --bending-elements plate");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("--bending-elements"), std::string::npos) << refused.err;
+}
+
 /// A loop that the laboratory drew gives stops whose loop is the same.
 TEST(FabricCommand, FitsALoop) {
   const Folder folder;

@@ -81,6 +81,15 @@ TEST(VerifyCourse, EachCourse) {
   EXPECT_NEAR(measured(check(C::other_at_peak, right, course("thick", {"belt"}))), 0.5 / 3, 1e-12);
   EXPECT_NEAR(measured(check(C::last_ratio, right, thin)), 3, 1e-12);
   EXPECT_NEAR(measured(check(C::greater_share, right, left)), 0.5, 0.02);
+  // cos over a quarter of a turn and line: R^2 = 24 (4 - pi)^2 / (pi^2 (pi^2 - 8)).
+  Check line = check(C::linearity, right);
+  line.to_s = 0.25;
+  const double pi2 = std::numbers::pi * std::numbers::pi;
+  EXPECT_NEAR(measured(line), 24 * std::pow(4 - std::numbers::pi, 2) / (pi2 * (pi2 - 8)), 5e-3);
+  // |right| falls below 3/2 at 1/6 s and |left|, from 0.5 s on, at 2/3 s.
+  Check half = check(C::half_time, right, left);
+  half.first->to_s = 0.25, half.second->from_s = 0.5, half.second->to_s = 0.75;
+  EXPECT_NEAR(measured(half), -0.5, 1e-9);
   Check quarter = check(C::rank, right);
   quarter.to_s = 0.5;
   EXPECT_NEAR(measured(quarter), -1, 1e-12);

@@ -149,6 +149,28 @@ TEST(Hysteresis, RepeatedFoldsSetLessAndLess) {
   }
 }
 
+// Wong 2014, section 4.5.4: folded again and again, the initial stiffness goes from b1 to b2. A small bend after each
+// fold has the slope b2 + phi (b1 - b2), of the law and of what it says of its friction phi alike.
+TEST(Hysteresis, FoldsSoftenFromTheFirstSlopeToTheLast) {
+  auto line = thesisLine<8>(0.15, 0.1);
+  const auto slope = [&] {
+    auto probe = line;
+    const double dk = 1e-3 * K0, m = probe.bend(0);
+    return (probe.bend(dk) - m) / dk;
+  };
+  // Of a polygon of eight stops the first side is a little softer than the tangent.
+  const double first = (line.bend(1e-3 * K0) - line.bend(0)) / (1e-3 * K0);
+  EXPECT_NEAR(first, b1, 0.1 * (b1 - b2));
+  double before = first;
+  for (int n = 0; n < 100; ++n) {
+    bendThrough(line, 0, {Km, 0}, 200);
+    EXPECT_NEAR(slope(), b2 + line.friction() * (first - b2), 1e-9) << n;
+    EXPECT_LT(slope(), before);
+    before = slope();
+  }
+  EXPECT_LT(before, b2 + 0.05 * (b1 - b2));
+}
+
 TEST(Hysteresis, VibrationsNeitherSetNorTire) {
   auto line = thesisLine<64>(0.1, 0.02);
   bendThrough(line, 0, {1.5}, 200);

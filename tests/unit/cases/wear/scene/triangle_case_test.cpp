@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
+#include <set>
 #include <sstream>
 
 #include "cases/wear/run/draft.hpp"
@@ -76,6 +78,55 @@ TEST_F(TriangleCase, ShortsFromAnObjAreTheDraftedOnes) {
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i], b[i]) << i;
 }
 
+// On NURBS, on triangles cut of the same sheet, and on a mesh from a file.
+TEST_F(TriangleCase, NoiseMovesAllButWhatIsHeldByASeed) {
+  write("square.obj",
+        "v 0 0 0.01\nv 0.2 0 0.01\nv 0.2 0.2 0.01\nv 0 0.2 0.01\nv 0.1 0.1 0.01\n"
+        "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  const std::string sheet = kSheet, file = "\"mesh_file\": {\"path\": \"square.obj\"}";
+  const std::string edge = ", \"supports\": [{\"fixed\": {\"edge\": \"v1\"}}]";
+  for (const auto& [garment, more] : {std::pair(sheet, edge), std::pair(sheet + ", \"model\": \"triangles\"", edge),
+                                      std::pair(file, std::string())}) {
+    const auto start = [&](const std::string& noise, std::vector<char>* held = nullptr) {
+      const auto s = buildScenario(readCase(caseOf(garment + noise, more)));
+      StepWork work;
+      if (held) held->assign(s->model->held.begin(), s->model->held.end());
+      return startOf(*s, work).p;
+    };
+    std::vector<char> held;
+    const std::vector<Vec3> still = start("", &held), first = start(", \"noise\": \"1 mm\", \"noise_seed\": 1");
+    EXPECT_EQ(start(", \"noise\": 0, \"noise_seed\": 7"), still) << garment;
+    EXPECT_EQ(start(", \"noise\": \"1 mm\""), first) << "the seed that is not said, " << garment;
+    const std::vector<Vec3> second = start(", \"noise\": \"1 mm\", \"noise_seed\": 2");
+    double most = 0, least = 0;
+    int moved = 0;
+    for (std::size_t i = 0; i < still.size(); ++i) {
+      const Vec3 d = first[i] - still[i];
+      EXPECT_LE(std::hypot(d.x, d.y), 1e-15) << garment;
+      EXPECT_EQ(d.z != 0, !held[i]) << i << " " << garment;
+      EXPECT_EQ(second[i] != first[i], !held[i]) << i << " " << garment;
+      most = std::max(most, d.z), least = std::min(least, d.z);
+      moved += !held[i];
+    }
+    EXPECT_LE(std::max(most, -least), 1e-3) << garment;
+    if (moved > 10) {
+      EXPECT_GT(most, 5e-4) << garment;
+      EXPECT_LT(least, -5e-4) << garment;
+    }
+    EXPECT_EQ(std::count(held.begin(), held.end(), 1) > 0, !more.empty()) << garment;
+  }
+  // The bits of the first seed, the same on every machine: 2 (random >> 11) 2^-53 - 1 of std::mt19937_64.
+  std::mt19937_64 random(1);
+  const auto s = buildScenario(readCase(caseOf(file + ", \"noise\": \"1 mm\"")));
+  StepWork work;
+  std::vector<double> z, bits;
+  for (const Vec3& p : startOf(*s, work).p) {
+    z.push_back(p.z);
+    bits.push_back(0.01 + 1e-3 * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1));
+  }
+  EXPECT_EQ(std::multiset<double>(z.begin(), z.end()), std::multiset<double>(bits.begin(), bits.end()));
+}
+
 // A NURBS sheet falls on one of triangles, and both rest on the ground.
 TEST_F(TriangleCase, TwoKindsOfClothTouchEachOther) {
   const std::string sheets =
@@ -138,7 +189,9 @@ TEST_F(TriangleCase, RefusesWhatItCannotBe) {
   const std::string file = "\"mesh_file\": {\"path\": \"square.obj\"}";
   EXPECT_EQ(refusal(caseOf(file)), "");
   EXPECT_NE(refusal(caseOf(file + ", \"model\": \"nurbs\"")).find("model"), std::string::npos);
-  EXPECT_NE(refusal(caseOf(file + ", \"noise\": \"1 mm\"")).find("noise"), std::string::npos);
+  EXPECT_NE(refusal(caseOf(file + ", \"noise\": \"11 cm\""))
+                .find("case.json:1: garment.noise: 0.11 m is out of range; allowed: >= 0 and <= 0.1 m"),
+            std::string::npos);
   EXPECT_NE(refusal(caseOf("\"mesh_file\": {\"path\": \"square.obj\", \"rest\": \"uv\"}")).find("uv"),
             std::string::npos);
   EXPECT_NE(refusal(caseOf(file, ", \"supports\": [{\"fixed\": {\"edge\": \"top\"}}]")).find("top"), std::string::npos);
