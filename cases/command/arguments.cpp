@@ -1,0 +1,333 @@
+#include "cases/command/arguments.hpp"
+
+#include "cases/cloth/kind_fields.hpp"
+#include "cases/runs/options.hpp"
+#include "cases/runs/picture.hpp"
+
+namespace gambeson {
+
+static void addOverrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command
+      .add_option("--set", overrides,
+                  "Replaces a value of the case, for instance fabric.thickness=\"0.4 mm\" or "
+                  "output.pictures[0].time=peak; may be given several times")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+void addRun(CLI::App& app, RunArguments& a) {
+  CLI::App& run =
+      *app.add_subcommand("run",
+                          "Runs a case: dresses the human, lets it move, measures, takes pictures, reports; or "
+                          "solves a static, dynamic or modal case of a structure");
+  run.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  run.add_option(
+         "--out", a.options.out,
+         "Folder for the results; an earlier run's results there are replaced [results/<name of the case file>]")
+      ->type_name("DIR");
+  run.add_option(
+         "--threads", a.options.threads,
+         "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  run.add_flag("--resume", a.options.resume,
+               "Continues an interrupted run of the same case, in the same folder, from its last checkpoint");
+  addOverrides(run, a.overrides);
+  run.add_option("--device", a.device, "Where to compute: auto or cpu, the same in this version [auto]")
+      ->type_name("DEVICE")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}).description(""));
+  run.footer(
+      "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, zones.csv,\n"
+      "stress.csv, patches.csv, straps.csv, collisions.csv, energy.csv, memory.csv, latitude.csv, snapshots/\n"
+      "(pictures) and frames.xdmf (the recording, for ParaView). Static, dynamic and modal cases leave path.csv "
+      "(points and edges of each step) and\n"
+      "shape.csv (the last shape) in place of these tables.\n\n"
+      "Examples:\n"
+      "  gambeson run cases/library/shorts_walk.json\n"
+      "  gambeson run cases/library/shorts_walk.json --out results/thin --set fabric.thickness=\"0.4 mm\"\n"
+      "  gambeson run cases/library/sleeve_flex.json --set contact.friction=0.5\n"
+      "  gambeson run cases/library/cantilever.json --set sheet.cells_u=32\n\n"
+      "Exit status: 0 done; 1 the run failed, the message says why; 2 something in the input is wrong.");
+}
+
+void addDress(CLI::App& app, DressArguments& a) {
+  CLI::App& command =
+      *app.add_subcommand("dress", "Puts the garments of a case on its human, for many runs to start from");
+  command.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  command.add_option("-o,--output", a.output, "Dressed state to write (JSON)")->type_name("FILE")->required();
+  command
+      .add_option(
+          "--threads", a.threads,
+          "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The state does not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  addOverrides(command, a.overrides);
+  command.footer(
+      "Examples:\n"
+      "  gambeson dress armour.json -o dressed.json\n"
+      "  gambeson run armour.json --set dressing.from=dressed.json\n\n"
+      "Exit status: 0 done; 1 a garment could not be put on, the message says why; 2 something in the input is wrong.");
+}
+
+void addCheck(CLI::App& app, CheckArguments& a) {
+  CLI::App& check = *app.add_subcommand("check", "Checks a case without running it");
+  check.add_option("CASE", a.file, "Case file (JSON); not needed with --schema or --doc")->type_name("");
+  addOverrides(check, a.overrides);
+  check.add_flag("--full", a.full, "Prints the case with all defaults written out, in SI");
+  check.add_flag("--schema", a.schema,
+                 "Prints the JSON Schema of cases, for editors that complete and check while you write");
+  check.add_flag("--doc", a.doc, "Prints what every field of a case means (Markdown)");
+  check.footer(
+      "Examples:\n"
+      "  gambeson check my_case.json\n"
+      "  gambeson check my_case.json --full --set garment.shorts.ease=\"10 %\"\n"
+      "  gambeson check --schema > case.schema.json\n\n"
+      "Exit status: 0 the case is valid: all that a run starts from was built; 1 the body cannot be freed of the "
+      "garment; 2 it "
+      "is not valid, and the message says file, line, key and what is allowed.");
+}
+
+void addDraft(CLI::App& app, DraftArguments& a) {
+  CLI::App& draft = *app.add_subcommand(
+      "draft", "Writes a garment of a case, made on its human, as a file that can be edited and worn");
+  draft.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
+  draft.add_option("--garment", a.garment, "Its name in the case; not needed where there is only one")
+      ->type_name("NAME");
+  addOverrides(draft, a.overrides);
+  draft.add_flag("--obj", a.obj, "Writes it as a mesh of triangles (OBJ) in place of its patches");
+  draft.add_option("-o,--output", a.garment_file, "Garment file to write (JSON, or OBJ)")
+      ->type_name("GARMENT")
+      ->required();
+  draft.footer(
+      "The file has patches, seams, trims and names of edges, but no fabric; {\"file\": {\"path\": ...}} in a case\n"
+      "wears it, with the same results to the bit. With --obj it has the triangles that the garment is made of with\n"
+      "\"model\": \"triangles\" (and its \"mesh\"); {\"mesh_file\": {\"path\": ...}} wears these.\n\n"
+      "Example:\n  gambeson draft cases/library/armour_stand.json --garment shirt -o shirt.json");
+}
+
+void addRender(CLI::App& app, RenderArguments& a) {
+  CLI::App& render = *app.add_subcommand("render", "Takes a picture of recorded results");
+  render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
+  render
+      .add_option(
+          "--field", a.field,
+          "What the colours show: stress (of a mode: its displacement), pressure, strain, body_pressure (the bare "
+          "body: the largest pressure of the motion) or plain")
+      ->type_name("FIELD")
+      ->capture_default_str();
+  render
+      .add_option("--time", a.time,
+                  "A time such as 1.2 or \"1200 ms\" (static: a load factor, modal: a mode); or peak (largest joint "
+                  "torque) or end")
+      ->type_name("TIME")
+      ->capture_default_str();
+  render.add_option("--view", a.view, "From where: " + schema::joined(viewNames()))
+      ->type_name("VIEW")
+      ->capture_default_str();
+  render.add_option("--size", a.size, "Pixels, width x height")->type_name("WxH")->capture_default_str();
+  render.add_option("-o,--output", a.options.png, "Picture to write (.png)")->type_name("PNG")->required();
+  render.footer(
+      "Examples:\n"
+      "  gambeson render results/shorts_walk -o peak.png --time peak\n"
+      "  gambeson render results/shorts_walk -o back.png --field pressure --view back --time 1.35 --size 1920x1080");
+}
+
+void addReport(CLI::App& app, ReportOptions& options) {
+  CLI::App& report = *app.add_subcommand("report", "Writes the report page of recorded results again");
+  report.add_option("RESULTS", options.results, "Folder that gambeson run left")->type_name("")->required();
+  report.add_option("-o,--output", options.html, "Page to write: one file (.html) that needs no other")
+      ->type_name("HTML")
+      ->required();
+  report.footer("Example:\n  gambeson report results/shorts_walk -o shorts.html");
+}
+
+void addExport(CLI::App& app, ExportArguments& a) {
+  CLI::App& command = *app.add_subcommand("export", "Writes recorded results for other programs: CAD and OpenSim");
+  command.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
+  command
+      .add_option(
+          "--iges", a.options.iges,
+          "The garment at one time as NURBS surfaces with their trimming: IGES 5.3 (.igs, .iges), in millimetres, as "
+          "recorded (single precision)")
+      ->type_name("FILE");
+  command
+      .add_option("--time", a.time, "Of --iges: a time such as 1.2 or \"1200 ms\", peak (largest joint torque) or end")
+      ->type_name("TIME")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--opensim", a.options.opensim,
+          "What the cloth does to the body, window by window: OpenSim's ExternalLoads PREFIX.xml and their data "
+          "PREFIX.mot, in ground (x forward, y up)")
+      ->type_name("PREFIX");
+  command.footer(
+      "Forces act at the origins of the body's links (joint centres) with their moments about these. Links of our "
+      "manikins\n"
+      "are called as the bodies of gait2392 and Rajagopal's model: thigh_left is femur_l.\n\n"
+      "Examples:\n"
+      "  gambeson export results/shorts_walk --iges shorts.igs --time peak\n"
+      "  gambeson export results/shorts_walk --opensim loads/shorts\n\n"
+      "Exit status: 0 done; 1 the results could not be written; 2 something in the input is wrong.");
+}
+
+/// The words of a choice as a case has them.
+template <class E>
+static std::vector<std::string> wordsOf(const std::vector<std::pair<std::string, E>>& choices) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : choices) words.push_back(word);
+  return words;
+}
+
+void addFabric(CLI::App& app, FabricArguments& a) {
+  CLI::App& command = *app.add_subcommand(
+      "fabric",
+      "Makes a fabric of a laboratory's card (KES: B, 2HB, G, EMT, ...), and measures it again in a virtual "
+      "laboratory");
+  command.add_option("CARD", a.options.card, "Fabric card (JSON)")->type_name("")->required();
+  command
+      .add_option("-o,--output", a.options.fabric,
+                  "Writes the fabric as cases have it, with where each number is from (JSON); the laboratory stays "
+                  "closed unless --out is given too")
+      ->type_name("FABRIC");
+  command
+      .add_option("--out", a.options.out,
+                  "Folder for what the laboratory measures [results/<name of the card>, without -o]")
+      ->type_name("DIR");
+  command
+      .add_option("--test", a.tests,
+                  "bending (KES-FB2, to 2.5/cm either way) or shear (KES-FB1, to 8 degrees); may be given several "
+                  "times [bending, and shear where the card has G]")
+      ->type_name("TEST")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"bending", "shear"}).description(""));
+  command
+      .add_option("--direction", a.options.directions_deg,
+                  "Direction that the specimen is cut in, degrees from the weft towards the warp; may be given several "
+                  "times [0, and 90 where the card tells weft and warp apart]")
+      ->type_name("DEG")
+      ->allow_extra_args(false)
+      ->check(CLI::Range(-360., 360.).description(""));
+  command
+      .add_option("--model", a.model, "What the specimen is made of: " + schema::joined(wordsOf(schema::clothKinds())))
+      ->type_name("MODEL")
+      ->capture_default_str()
+      ->check(CLI::IsMember(wordsOf(schema::clothKinds())).description(""));
+  command.add_option("--mesh", a.mesh, "Of triangles: " + schema::joined(wordsOf(schema::meshKinds())))
+      ->type_name("MESH")
+      ->capture_default_str()
+      ->check(CLI::IsMember(wordsOf(schema::meshKinds())).description(""));
+  command
+      .add_option("--bending-elements", a.bending,
+                  "What bends triangles: " + schema::joined(wordsOf(schema::bendingElements())))
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->check(CLI::IsMember(wordsOf(schema::bendingElements())).description(""));
+  command.add_option("--cells", a.options.specimen.cells, "Cells between the clamps")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(4, 200).description(""));
+  command.add_option("--degree", a.options.specimen.degree, "Degree of NURBS")
+      ->type_name("P")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 5).description(""));
+  command
+      .add_option("--fit", a.options.loop,
+                  "Raw loop of bending (CSV with the columns curvature_per_cm or _per_m, and moment_gf_cm_per_cm, "
+                  "moment_N or moment_mN): finds its stops and bends the fabric by them, in place of B and 2HB")
+      ->type_name("LOOP");
+  command.footer(
+      "A card has the numbers of a laboratory, each with its unit:\n"
+      "  {\"name\": \"Denim A\", \"source\": \"our laboratory, 2026\", \"thickness\": \"1.066 mm\",\n"
+      "   \"bending\": {\"B\": \"0.172 gf cm^2/cm\", \"2HB\": \"0.139 gf cm/cm\", \"2HB_at\": \"1 1/cm\"},\n"
+      "   \"shear\": {\"G\": \"2.18 gf/(cm deg)\"}, \"tensile\": {\"EMT\": \"5.5 %\"}}\n"
+      "All keys: cases/FIELDS.md, Fabric cards. What the card lacks is assumed, and said. A case takes the fabric by\n"
+      "\"fabric\": {\"card\": \"denim_a.card.json\"}, or by what -o writes.\n"
+      "Leaves in DIR, for each test and direction: bending_0.csv and shear_0.csv (the loop), bending_0.svg and\n"
+      "shear_0.svg (the loop beside the card's numbers), and laboratory.json (all numbers).\n\n"
+      "Examples:\n"
+      "  gambeson fabric cases/library/cards/denim_a.card.json\n"
+      "  gambeson fabric cases/library/cards/denim_a.card.json -o denim_a.json\n"
+      "  gambeson fabric denim.card.json --test bending --direction 22.5 --model triangles --cells 16\n"
+      "  gambeson fabric denim.card.json --fit measured.csv -o denim.json --out results/denim\n\n"
+      "Exit status: 0 done; 1 a test failed, the message says why; 2 something in the input is wrong.");
+}
+
+void addVerify(CLI::App& app, verify::Options& o) {
+  CLI::App& command =
+      *app.add_subcommand("verify", "Runs published references: measured against reference, tolerance, on one page");
+  command.add_option("--filter", o.filters, "Only references whose id fits the pattern, such as 'sze_*' [all]")
+      ->type_name("GLOB")
+      ->allow_extra_args(false);
+  command.add_flag("--quick", o.quick, "Only the quick half");
+  command.add_option("--dir", o.dir, "Folder of the references [tests/verify]")->type_name("DIR");
+  command.add_option("--out", o.out, "Folder for the results [results/verify]")->type_name("DIR");
+  command
+      .add_option("--results", o.results,
+                  "Takes runs from here (DIR/REFERENCE/RUN or DIR/RUN) that are complete and of the same case, instead "
+                  "of running them; runs that were interrupted in the folder of --out go on")
+      ->type_name("DIR");
+  command.add_option("--jobs", o.jobs, "Runs at a time, of one thread each; 0 for one on each core [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.footer(
+      "Leaves in DIR: verify.html (start here), verify.json and a folder for each run.\n\n"
+      "Examples:\n"
+      "  gambeson verify --quick\n"
+      "  gambeson verify --filter 'sze_3_4*' --out results/hemisphere\n"
+      "  gambeson verify --filter armour --out results/armour --results results/armour\n\n"
+      "Exit status: 0 all references passed; 1 some failed; 2 something in the input is wrong.");
+}
+
+static void addJobs(CLI::App& command, study::Options& o) {
+  command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.add_option("--threads", o.threads, "Threads of all runs together, 0 for as many as the machine has [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096).description(""));
+  command.add_flag("--resume", o.resume,
+                   "Keeps runs that are done with the same case, continues those that were interrupted, and runs the "
+                   "others; without it all run again");
+}
+
+void addStudy(CLI::App& app, StudyArguments& a) {
+  CLI::App& command = *app.add_subcommand(
+      "study",
+      "Runs the variants of a case side by side and compares them: which one to take, why, and how sure that is");
+  command.add_option("STUDY", a.file, "Study file (JSON)")->type_name("")->required();
+  command.add_option("--out", a.options.out, "Folder for the results [results/<name of the study file>]")
+      ->type_name("DIR");
+  addJobs(command, a.options);
+  command
+      .add_option(
+          "--engine", a.engine,
+          "local: runs here; slurm: writes DIR/study.slurm, an array of jobs for sbatch, and runs nothing [local]")
+      ->type_name("ENGINE")
+      ->check(CLI::IsMember({"local", "slurm"}).description(""));
+  command.add_flag("--check", a.check, "Only checks the study and all its variants, and lists them");
+  command.footer(
+      "Leaves in DIR: report.html (start here), study.json (all numbers), variants.csv (a row for each variant), "
+      "curves.csv\n"
+      "(torques over time), exponents.csv, elasticities.csv, meshes.csv, pictures/, logs/, and a folder with the run "
+      "of\n"
+      "each variant.\n\n"
+      "Examples:\n"
+      "  gambeson study cases/library/shorts_thickness.study.json\n"
+      "  gambeson study my.study.json --out results/mine --jobs 4 --resume\n\n"
+      "Exit status: 0 all variants are done; 1 some failed, and the report compares the others; 2 something in the "
+      "input\n"
+      "of any variant is wrong, and nothing ran.");
+}
+
+void addBatch(CLI::App& app, StudyArguments& a) {
+  CLI::App& command =
+      *app.add_subcommand("batch", "Runs several cases as a study does, each in a folder named after its file");
+  command.add_option("CASE", a.cases, "Case files (JSON)")->type_name("")->required();
+  command.add_option("--out", a.options.out, "Folder for the results")->type_name("DIR")->required();
+  addJobs(command, a.options);
+  command.footer(
+      "Example:\n  gambeson batch cases/library/flag.json cases/library/stack_mixed.json --out results/cloth\n\n"
+      "Exit status: 0 all cases are done; 1 some failed; 2 something in the input is wrong, and nothing ran.");
+}
+
+}  // namespace gambeson

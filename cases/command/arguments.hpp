@@ -1,0 +1,80 @@
+#pragma once
+/// What each command of the command line is told, and the options that tell it.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cases/fabric/run.hpp"
+#include "cases/study/run.hpp"
+#include "cases/verify/verify.hpp"
+#include "cases/wear/run/export.hpp"
+#include "cases/wear/run/run.hpp"
+
+namespace gambeson {
+
+struct CheckArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  bool full = false, schema = false, doc = false;
+};
+
+struct RunArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  std::string device = "auto";
+  RunOptions options;
+};
+
+struct DressArguments {
+  std::filesystem::path file, output;
+  std::vector<std::string> overrides;
+  int threads = 0;
+};
+
+struct DraftArguments {
+  std::filesystem::path file, garment_file;
+  std::vector<std::string> overrides;
+  std::string garment;
+  bool obj = false;
+};
+
+struct RenderArguments {
+  RenderOptions options;
+  std::string field = "stress", time = "end", view = "front_right", size = "1280x960";
+};
+
+struct ExportArguments {
+  ExportOptions options;
+  std::string time = "end";
+};
+
+struct FabricArguments {
+  FabricOptions options;
+  std::vector<std::string> tests;
+  std::string model = "nurbs", mesh = "single", bending = "midedge";
+};
+
+struct StudyArguments {
+  std::filesystem::path file;
+  std::vector<std::filesystem::path> cases;
+  std::string engine = "local";
+  bool check = false;
+  study::Options options;
+};
+
+/// Each adds one command, whose options fill what it is told.
+void addRun(CLI::App& app, RunArguments& a);
+void addDress(CLI::App& app, DressArguments& a);
+void addCheck(CLI::App& app, CheckArguments& a);
+void addDraft(CLI::App& app, DraftArguments& a);
+void addRender(CLI::App& app, RenderArguments& a);
+void addReport(CLI::App& app, ReportOptions& options);
+void addExport(CLI::App& app, ExportArguments& a);
+void addFabric(CLI::App& app, FabricArguments& a);
+void addVerify(CLI::App& app, verify::Options& o);
+void addStudy(CLI::App& app, StudyArguments& a);
+void addBatch(CLI::App& app, StudyArguments& a);
+
+}  // namespace gambeson
