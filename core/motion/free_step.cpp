@@ -49,8 +49,8 @@ StepReport freeStep(const Model& m, const Stage& stage, FreeScheme& scheme, cons
   }
   if (!allFinite(out.p)) return notFinite("a position is not finite");
   samplePositions(m, out.p, w.x1);
-  report.largest_way = largestOf(Each::value, m.surface.size(), 0.0,
-                                 [&](int s) { return norm(w.x1[s] - w.x0[s]) / m.cell_m[s]; });
+  report.largest_way =
+      largestOf(Each::value, m.surface.size(), 0.0, [&](int s) { return norm(w.x1[s] - w.x0[s]) / m.cell_m[s]; });
   clock.lap(w.times.other);
 
   // Forces at the end, and what the laws remember there.
@@ -71,15 +71,7 @@ StepReport freeStep(const Model& m, const Stage& stage, FreeScheme& scheme, cons
   report.work.supports += springWork(m, in, out, before, after, w.spring_impulses, dt);
   clock.lap(w.times.force);
 
-  keepWarm(m, dt, w, out.warm);
-  out.tangled = report.intersections > 0 || report.pinched > 0 || report.inside > 0;
-  out.pinched.clear();
-  out.frequency_rad_per_s = in.frequency_rad_per_s;
-  out.mode = in.mode;
-  out.steps_to_estimate = in.steps_to_estimate;
-  out.swing = in.swing;
-  out.share = in.share;
-  out.last_step_s = dt;
+  leaveToNext(m, in, dt, report, w, out);
   out.y.clear();
   auditFreeStep(m, in, out, dt, free, elastic_J, report, w);
   clock.lap(w.times.other);

@@ -176,16 +176,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   report.work.supports += springWork(m, in, out, before, after, spring_mean, dt);
 
   clock.lap(w.times.force);
-  keepWarm(m, dt, w, out.warm);
-  // Cloth wholly inside of a mesh crosses nothing until it comes out.
-  out.tangled = report.intersections > 0 || report.pinched > 0 || report.inside > 0;
-  out.pinched.clear();
-  out.frequency_rad_per_s = in.frequency_rad_per_s;
-  out.mode = in.mode;
-  out.steps_to_estimate = in.steps_to_estimate;
-  out.swing = in.swing;
-  out.share = in.share;
-  out.last_step_s = dt;
+  leaveToNext(m, in, dt, report, w, out);
   out.free_change.clear();
   out.elastic_J.reset();
   if (w.audits_energy) out.elastic_J = elasticEnergy(m, out, after, energy.stored, w);

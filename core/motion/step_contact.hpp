@@ -61,8 +61,10 @@ void loadsAt(const Model& model, double time_s, std::span<const Vec3> q, std::ve
 /// report.earliest_impact is the part of the step up to which nothing touches.
 bool resolveContacts(const Model& model, const State& in, double dt, StepReport& report, StopWatch& clock, StepWork& w);
 
-/// What the persistent contacts of the step leave to the next.
-void keepWarm(const Model& model, double dt, const StepWork& work, std::vector<WarmContact>& warm);
+/// What a step of any scheme leaves to the next in `out`: its persistent contacts, whether it ended tangled, and what
+/// the time step is chosen by. Cloth wholly inside of a mesh crosses nothing until it comes out.
+void leaveToNext(const Model& model, const State& in, double dt, const StepReport& report, const StepWork& work,
+                 State& out);
 
 /// What the step's contacts accelerate the free points by as a force that acts all the time [m/s^2]: of persistent rows
 /// that have come to their layer, friction with them, as much as lasts (lastingShare). Impacts, what stops a sample on

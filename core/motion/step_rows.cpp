@@ -198,6 +198,9 @@ void addImpact(const Model& m, const State& in, const PairHit& hit, double dt, i
   addRow(m, in, dt, row, w);
 }
 
+namespace {
+
+/// What the persistent contacts of the step leave to the next.
 void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmContact>& warm) {
   warm.clear();
   for (std::size_t i = 0; i < w.rows.size(); ++i) {
@@ -215,6 +218,20 @@ void keepWarm(const Model& m, double dt, const StepWork& w, std::vector<WarmCont
   }
   std::stable_sort(warm.begin(), warm.end(),
                    [](const WarmContact& a, const WarmContact& b) { return key(a) < key(b); });
+}
+
+}  // namespace
+
+void leaveToNext(const Model& m, const State& in, double dt, const StepReport& report, const StepWork& w, State& out) {
+  keepWarm(m, dt, w, out.warm);
+  out.tangled = report.intersections > 0 || report.pinched > 0 || report.inside > 0;
+  out.pinched.clear();
+  out.frequency_rad_per_s = in.frequency_rad_per_s;
+  out.mode = in.mode;
+  out.steps_to_estimate = in.steps_to_estimate;
+  out.swing = in.swing;
+  out.share = in.share;
+  out.last_step_s = dt;
 }
 
 void pressingAccelerations(const Model& m, double dt, StepWork& w, std::vector<Vec3>& pressed) {
