@@ -23,6 +23,7 @@
 #include <utility>
 
 #include "cases/wear/recording/recorder.hpp"
+#include "cases/wear/recording/state_checkpoint.hpp"
 #include "cases/wear/recording/windows.hpp"
 #include "cases/wear/run/dress.hpp"
 #include "cases/wear/scene/scenario.hpp"

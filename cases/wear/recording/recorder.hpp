@@ -53,9 +53,6 @@ std::vector<std::string> supportNames(const Scenario& scenario);
 
 RecordingLayout recordingLayout(const Scenario& scenario);
 
-Checkpoint checkpointOf(const State& state, const Frequency& frequency);
-State stateOf(const Checkpoint& checkpoint, Frequency& frequency);
-
 class Recorder {
  public:
   Recorder(const Scenario& scenario, RecordingWriter& writer);

@@ -17,6 +17,7 @@
 #include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/recording/recording_size.hpp"
+#include "cases/wear/recording/state_checkpoint.hpp"
 #include "cases/wear/recording/windows.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/run/dress.hpp"
