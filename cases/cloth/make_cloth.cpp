@@ -37,6 +37,8 @@ std::string bendingInWords(BendingElements bending) {
       return "they bend at their edges.";
     case BendingElements::springs:
       return "crossed springs resist bending.";
+    case BendingElements::quadratic:
+      return "they bend at their edges, by an energy that is quadratic in the positions.";
   }
   return {};
 }

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "core/cloth/free_blocks.hpp"
+#include "core/cloth/triangles/hinge_heights.hpp"
 #include "core/cloth/triangles/lane_energies.hpp"
+#include "core/cloth/triangles/point_block.hpp"
 #include "core/material/laws/spring.hpp"
 
 namespace gambeson {
@@ -13,35 +15,12 @@ namespace {
 
 constexpr double kCurvature_per_m = 100;  ///< at which springs and hinges store the same
 
-/// The height of a triangle on the edge that faces a corner, and the foot of that corner on it, from `from` on.
-struct Height {
-  double height_m = 0, foot_m = 0;
-
-  Height(const MembraneTriangle& t, int corner, int from) {
-    // Corners flat in the basis of the threads: the inverse of g.
-    const double det = t.g[0].x * t.g[1].y - t.g[0].y * t.g[1].x;
-    const Vec2 at[3] = {{}, {t.g[1].y / det, -t.g[1].x / det}, {-t.g[0].y / det, t.g[0].x / det}};
-    const auto find = [&](int c) { return std::find(t.corner.begin(), t.corner.end(), c) - t.corner.begin(); };
-    const auto apex = find(corner), start = find(from), end = 3 - apex - start;
-    const Vec2 e{at[end].x - at[start].x, at[end].y - at[start].y},
-        a{at[apex].x - at[start].x, at[apex].y - at[start].y};
-    const double length = std::hypot(e.x, e.y);
-    height_m = std::abs(e.x * a.y - e.y * a.x) / length;
-    foot_m = (e.x * a.x + e.y * a.y) / length;
-  }
-};
-
-/// The corner of the second triangle at which the edge starts: its own point there, which seams make another.
-int startIn(const FoldHinge& h, const MembraneTriangle& second) {
-  const auto apex = std::find(second.corner.begin(), second.corner.end(), h.corner[3]) - second.corner.begin();
-  return second.corner[static_cast<std::size_t>((apex + 2) % 3)];  // it runs 1, 0, 3
-}
-
 }  // namespace
 
 CrossedSpring crossedSpring(const FoldHinge& hinge, const MembraneTriangle& first, const MembraneTriangle& second,
                             std::span<const double, 6> D, double stiffness_N_per_m) {
-  const Height a(first, hinge.corner[2], hinge.corner[0]), b(second, hinge.corner[3], startIn(hinge, second));
+  const HingeHeights heights(hinge, first, second);
+  const TriangleHeight &a = heights.first, &b = heights.second;
   const double along = a.foot_m - b.foot_m;
   const auto distance = [&](double theta) {
     return std::sqrt(along * along + a.height_m * a.height_m + b.height_m * b.height_m +
@@ -49,9 +28,7 @@ CrossedSpring crossedSpring(const FoldHinge& hinge, const MembraneTriangle& firs
   };
   CrossedSpring spring{{hinge.corner[2], hinge.corner[3]}, distance(hinge.theta0), stiffness_N_per_m};
   if (stiffness_N_per_m > 0) return spring;
-  const Vec3& d = hinge.d;
-  const double rigidity = d.x * (D[0] * d.x + D[3] * d.y + D[4] * d.z) + d.y * (D[3] * d.x + D[1] * d.y + D[5] * d.z) +
-                          d.z * (D[4] * d.x + D[5] * d.y + D[2] * d.z);
+  const double rigidity = rigidityAcross(hinge, D);
   const double fold = std::min(kCurvature_per_m / hinge.per_angle, 0.5 * std::numbers::pi),
                curvature = hinge.per_angle * fold;
   double shorter2 = 0;  // mean of both senses
@@ -66,23 +43,10 @@ CrossedSpring crossedSpring(const FoldHinge& hinge, const MembraneTriangle& firs
 CrossedSprings::CrossedSprings(std::vector<CrossedSpring> springs, const TriangleKernels& kernels, long first_slot,
                                SlotGather& gather)
     : springs_(std::move(springs)), kernels_(kernels.bending), lanes_(kernels.lanes), first_slot_(first_slot) {
-  const int count = static_cast<int>(springs_.size());
-  block_.groups = (count + lanes_ - 1) / lanes_;
-  block_.corners.resize(static_cast<std::size_t>(2 * block_.groups * lanes_));
-  block_.rest.resize(block_.corners.size());
-  for (int at = 0; at < block_.groups * lanes_; ++at) {
-    const CrossedSpring& s = springs_[static_cast<std::size_t>(std::min(at, count - 1))];
-    const auto first = static_cast<std::size_t>(2 * (at / lanes_) * lanes_ + at % lanes_),
-               second = first + static_cast<std::size_t>(lanes_);
-    block_.corners[first] = s.corner[0];
-    block_.corners[second] = s.corner[1];
-    block_.rest[first] = s.rest_m;
-    block_.rest[second] = at < count ? s.stiffness_N_per_m : 0;
-    if (at >= count) continue;
-    const long slot = first_slot_ + 6L * (at / lanes_) * lanes_ + at % lanes_;
-    gather.add(s.corner[0], slot, lanes_);
-    gather.add(s.corner[1], slot + 3L * lanes_, lanes_);
-  }
+  block_ = packPoints(std::span<const CrossedSpring>(springs_), lanes_, first_slot_, gather,
+                      [](const CrossedSpring& s, bool real) {
+                        return std::array<double, kSpringElementDoubles>{s.rest_m, real ? s.stiffness_N_per_m : 0};
+                      });
 }
 
 void CrossedSprings::force(const ClothState& state, const ClothForce& out, bool bends, double* slots,

@@ -45,7 +45,7 @@ class CrossedSprings {
 
  private:
   std::vector<CrossedSpring> springs_;
-  SpringBlock block_;
+  PointBlock block_;
   const BendingKernels* kernels_ = nullptr;
   int lanes_ = 1;
   long first_slot_ = 0;

@@ -121,10 +121,10 @@ void moments(const EdgeBlock& block, const double* couple, double* moment, doubl
 }
 
 template <bool kEnergy>
-void pullSome(const SpringBlock& block, int begin, int end, const double* q, double* slots, double* energy) {
+void pullSome(const PointBlock& block, int begin, int end, const double* q, double* slots, double* energy) {
   for (int group = begin; group < end; ++group) {
     const int* corners = block.corners.data() + 2L * group * kLanes;
-    const double* rest = block.rest.data() + 2L * group * kLanes;
+    const double* rest = block.rest.data() + long{kSpringElementDoubles} * group * kLanes;
     const V3 way = gather(q, corners + kLanes) - gather(q, corners);
     const V rest_m = load(rest), stiffness = load(rest + kLanes);
     const SpringAnswer<V> answer =
@@ -137,16 +137,47 @@ void pullSome(const SpringBlock& block, int begin, int end, const double* q, dou
   }
 }
 
-void springs(const SpringBlock& block, const double* q, double* slots, double* energy) {
+void springs(const PointBlock& block, const double* q, double* slots, double* energy) {
   forChunks(block.groups, [&](int begin, int end) {
     energy ? pullSome<true>(block, begin, end, q, slots, energy)
            : pullSome<false>(block, begin, end, q, slots, energy);
   });
 }
 
+/// E = 1/2 |s|^2, s = sum_k w_k (x_k - x_0) (quadratic_hinges.hpp).
+template <bool kEnergy>
+void straightenSome(const PointBlock& block, int begin, int end, const double* q, double* slots, double* energy) {
+  for (int group = begin; group < end; ++group) {
+    const int* corners = block.corners.data() + 4L * group * kLanes;
+    const double* rest = block.rest.data() + long{kStencilDoubles} * group * kLanes;
+    double* slot = slots + 12L * group * kLanes;
+    const V3 x0 = gather(q, corners);
+    V weight[3];
+    V3 sum{}, others{};
+    for (int k = 0; k < 3; ++k) {
+      weight[k] = load(rest + long{k} * kLanes);
+      sum = sum + weight[k] * (gather(q, corners + long{k + 1} * kLanes) - x0);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const V3 f = weight[k] * sum;
+      write(slot + 3L * (k + 1) * kLanes, f);
+      others = others + f;
+    }
+    write(slot, V3{} - others);
+    if constexpr (kEnergy) store(energy + long{group} * kLanes, 0.5 * dot(sum, sum));
+  }
+}
+
+void stencils(const PointBlock& block, const double* q, double* slots, double* energy) {
+  forChunks(block.groups, [&](int begin, int end) {
+    energy ? straightenSome<true>(block, begin, end, q, slots, energy)
+           : straightenSome<false>(block, begin, end, q, slots, energy);
+  });
+}
+
 }  // namespace
 
 extern const BendingKernels GAMBESON_CONCAT(kBending_, GAMBESON_ISA);
-const BendingKernels GAMBESON_CONCAT(kBending_, GAMBESON_ISA){angles, bend, moments, springs};
+const BendingKernels GAMBESON_CONCAT(kBending_, GAMBESON_ISA){angles, bend, moments, springs, stencils};
 
 }  // namespace gambeson

@@ -37,6 +37,7 @@ class TriangleTangent : public ClothTangent {
       addSymmetrised(cloth_.map(), e.triangles()[k].corner, blocks, K);
     }
     e.bending().addStiffness(e.hinges(), cloth_.map(), state, terms, K);
+    e.quadratic().addStiffness(cloth_.map(), terms, K);
     if (terms.bending) e.springs().addStiffness(cloth_.map(), state.q, terms.definite, K);
     for (std::size_t k = 0; k < e.hinges().size(); ++k) {
       if (!e.isHinge(k)) continue;

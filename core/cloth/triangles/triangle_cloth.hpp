@@ -1,13 +1,14 @@
 #pragma once
-/// Cloth of constant-strain triangles, which bend by tensors of curvature, dihedral hinges or crossed springs
-/// (BendingElements), each garment as it says.
+/// Cloth of constant-strain triangles, which bend by tensors of curvature, dihedral hinges, crossed springs or
+/// quadratic hinges (BendingElements), each garment as it says.
 ///
 /// Membrane: St. Venant-Kirchhoff triangles of linear displacement. With D_weft, D_warp the physical directions of a
 /// triangle at rest, F D linear in its corners, E = (Fᵀ F - 1)/2 in the basis of the threads is constant in it; its law
 /// is the fabric's membrane (Zheng 2013, eq. 2.13), or its tension field, with jamming. Or springs along the edges, or
 /// Baraff and Witkin's conditions, both with damping (triangle_membrane.hpp).
 ///
-/// Bending by tensors: bending_triangles.hpp. By springs: crossed_springs.hpp.
+/// Bending by tensors: bending_triangles.hpp. By springs: crossed_springs.hpp. By quadratic hinges:
+/// quadratic_hinges.hpp.
 ///
 /// By hinges: one along every edge between two triangles. theta is the angle between their normals, theta0 at rest;
 /// with l the length of the edge and A the area of both triangles at rest the curvature across the edge is

@@ -189,6 +189,8 @@ TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> tri
     if (moment_[k] < 0) moment_[k] = bending_.momentOf(k);
   packTriangles();
   packSprings();
+  quadratic_ = QuadraticHinges(hinges_, triangles_, laws_, kernels, slot_count_, gather_);
+  slot_count_ += quadratic_.slots();
   gather_.close();
   hinges_of_.assign(triangles_.size(), {-1, -1, -1});
   for (std::size_t k = 0; k < hinges_.size(); ++k)
@@ -341,6 +343,7 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
   }
   bending_.force(state, out, terms, std::span(work.slots).subspan(list), moments, work);
   springs_.force(state, out, terms.bending, work.slots.data(), work);
+  quadratic_.force(state, out, terms, work.slots.data(), work);
   for (const ElementBlock& block : triangle_blocks_) {
     BlockLaw law = withHistory(withTerms(block.law, terms), block.history_first, state, out);
     double* const energy = energies.start(block.groups * lanes, law);
@@ -359,6 +362,9 @@ void TriangleElements::dampingForce(const ClothState& state, const ClothForce& o
   if (out.energy) *out.energy = {};
   const double *q = reinterpret_cast<const double*>(state.q.data()),
                *v = reinterpret_cast<const double*>(state.v.data());
+  // What bends with slots of its own has these behind those of the triangles, and damps nothing.
+  const long bending = springs_.slots() + quadratic_.slots();
+  std::fill_n(work.slots.data() + slot_count_ - bending, bending, 0.0);
   for (const ElementBlock& block : triangle_blocks_) {
     double* const slots = work.slots.data() + block.first;
     if (!block.membrane.damps()) {

@@ -10,6 +10,7 @@
 #include "core/cloth/stress.hpp"
 #include "core/cloth/triangles/bending_triangles.hpp"
 #include "core/cloth/triangles/crossed_springs.hpp"
+#include "core/cloth/triangles/quadratic_hinges.hpp"
 #include "core/cloth/triangles/rest_elements.hpp"
 #include "core/cloth/triangles/triangle_kernel.hpp"
 #include "core/cloth/triangles/triangle_membrane.hpp"
@@ -32,6 +33,7 @@ class TriangleElements {
   const char* kernels() const { return kernels_->name; }
   const BendingTriangles& bending() const { return bending_; }
   const CrossedSprings& springs() const { return springs_; }
+  const QuadraticHinges& quadratic() const { return quadratic_; }
   /// Doubles of the history: those of each hinge and bent triangle whose law remembers, and of each triangle that has
   /// friction in shear, lanes side by side.
   std::size_t historySize() const { return static_cast<std::size_t>(history_); }
@@ -48,7 +50,7 @@ class TriangleElements {
                          std::vector<std::array<double, 9>>& blocks) const;
   /// - df/dv of a triangle's damping, in the same order.
   void membraneDamping(int triangle, std::span<const Vec3> q, std::vector<std::array<double, 9>>& blocks) const;
-  /// Whether an edge bends by itself.
+  /// Whether an edge bends by itself, by the fabric's law.
   bool isHinge(std::size_t hinge) const { return bendingOf(hinges_[hinge]) == BendingElements::hinge; }
   /// d2E/dq2 of a hinge: blocks[4 I + J] of its corners, as above.
   void hingeStiffness(int hinge, const ClothState& state, const ForceTerms& terms,
@@ -91,6 +93,7 @@ class TriangleElements {
   std::vector<ElementBlock> triangle_blocks_, hinge_blocks_;
   BendingTriangles bending_;
   CrossedSprings springs_;
+  QuadraticHinges quadratic_;
   std::vector<long> history_at_;  ///< of each hinge's first number
   std::vector<long> shear_at_;    ///< of each triangle's
   std::vector<int> moment_;       ///< of each edge: where its moment is; -1: none

@@ -77,12 +77,16 @@ struct BendingBlock {
 /// rest: curvature (k11, k22, 2 k12) at rest, area, and curvature per angle of each edge (BentTriangle).
 constexpr int kBendingDoubles = 13;
 
-/// Springs between two points each. A last group is filled up with copies without stiffness.
-struct SpringBlock {
+/// Elements that know no law but their own numbers. A last group is filled up with copies without stiffness.
+struct PointBlock {
   int groups = 0;
-  AlignedVector<int> corners;  ///< [group][2][lane]
-  AlignedVector<double> rest;  ///< [group][rest length, stiffness][lane]
+  AlignedVector<int> corners;  ///< [group][corner][lane] points
+  AlignedVector<double> rest;  ///< [group][...][lane] as the kind has it
 };
+/// rest: length, stiffness (CrossedSpring). Two corners.
+constexpr int kSpringElementDoubles = 2;
+/// rest: weights of the corners 1, 2 and 3 (QuadraticHinge). Four corners.
+constexpr int kStencilDoubles = 3;
 
 struct BendingKernels {
   /// The angles of a block's edges from points `q` and its inner unknowns `turn` (null: zeros), and 1/|e| of each.
@@ -93,7 +97,9 @@ struct BendingKernels {
   /// acts on its inner unknowns [N m] (null: not asked).
   void (*moments)(const EdgeBlock& block, const double* couple, double* moment, double* turn_force);
   /// dE/dq of the springs' points, [group][2][3][lane]; energies as those of hinges.
-  void (*springs)(const SpringBlock& block, const double* q, double* slots, double* energy);
+  void (*springs)(const PointBlock& block, const double* q, double* slots, double* energy);
+  /// The same of quadratic hinges, [group][4][3][lane].
+  void (*stencils)(const PointBlock& block, const double* q, double* slots, double* energy);
 };
 
 struct TriangleKernels {

@@ -177,13 +177,15 @@ TEST_F(TriangleCase, RefusesWhatItCannotBe) {
     EXPECT_NE(text.find(reason), std::string::npos) << text;
   };
   says(", \"bending_elements\": \"hinge\"", "garment.bending_elements: is for \"model\": \"triangles\"");
-  says(", \"model\": \"triangles\", \"bending_elements\": \"plate\"", "midedge, triangle, hinge or springs");
+  says(", \"model\": \"triangles\", \"bending_elements\": \"plate\"", "midedge, triangle, hinge, springs or quadratic");
   says(", \"model\": \"triangles\", \"bending_spring\": \"1 N/m\"", "\"bending_elements\": \"springs\"");
   says(", \"model\": \"triangles\", \"bending_elements\": \"springs\", \"bending_spring\": \"-1 N/m\"", ">= 0");
-  for (const char* elements : {"midedge", "triangle", "hinge", "springs"})
+  for (const char* elements : {"midedge", "triangle", "hinge", "springs", "quadratic"})
     EXPECT_EQ(refusal(caseOf(std::string(kSheet) + ", \"model\": \"triangles\", \"bending_elements\": \"" + elements +
                              "\"")),
               "");
+  says(", \"model\": \"triangles\", \"bending_elements\": \"quadratic\", \"bending_spring\": \"1 N/m\"",
+       "\"bending_elements\": \"springs\"");
   const std::string square = "v 0 0 0.01\nv 0.2 0 0.01\nv 0.2 0.2 0.01\nv 0 0.2 0.01\nf 1 2 3\nf 1 3 4\n";
   write("square.obj", square);
   const std::string file = "\"mesh_file\": {\"path\": \"square.obj\"}";
