@@ -78,6 +78,7 @@ footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }
 @media (max-width:560px) { main, header.page { padding-left:12px; padding-right:12px; } .headline .words { padding:18px 16px; } .headline .sentence { font-size:1.25rem; } dl.answers { grid-template-columns:minmax(0,1fr); gap:0; } dl.answers dd { margin-bottom:8px; } figure.chart, .panel { padding:12px 10px; } }
 @media print { @page { margin:14mm; } html { font-size:11px; } body { background:#fff; font-size:1rem; } h2 + p { break-inside:avoid; break-after:avoid; } dl.answers { grid-template-columns:minmax(0,.7fr) minmax(0,1fr); } .cards { gap:8px; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page { padding-top:0; } h2 { break-after:avoid; margin-top:26px; }
   figure, .card, .panel, .headline, tr { break-inside:avoid; } .headline.pictured { grid-template-columns:1fr 1fr; } .cards { grid-template-columns:repeat(4,1fr); } .card { padding:8px 10px; } .charts, .pictures { grid-template-columns:1fr 1fr; } .panel.more::before { display:none; } .scroll { overflow:visible; background:none; } .panel.more th:first-child { position:static; border-right:0; }
+  .panel:has(thead th:nth-child(9)) table { font-size:.8rem; } .panel:has(thead th:nth-child(9)) :is(th, td) { padding-right:6px; }
   .headline .words { padding:14px 16px; } .headline .sentence { font-size:1.3rem; margin-bottom:10px; } dl.answers { gap:3px 12px; } .meaning { margin-top:10px; padding-top:8px; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
 )css";
 
