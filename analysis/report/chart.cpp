@@ -119,10 +119,16 @@ std::string peakMark(const Series& s, std::size_t i, const Frame& f, const std::
 /// The start that is not judged.
 std::string uncounted(double until_s, const Frame& f) {
   const double width = f.x(until_s) - kLeft;
-  const std::string label = width > 72 ? "not counted" : "";
   return fmt::format("<rect class=\"uncounted\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", kLeft,
-                     kTop, width, kHeight - kBottom - kTop) +
-         text(kLeft + 0.5 * width, kHeight - kBottom - 6, label, "middle", " class=\"uncounted-label\"");
+                     kTop, width, kHeight - kBottom - kTop);
+}
+
+/// Its name: over the lines, and at the top where the peak is below 0, so that its label is at the bottom.
+std::string uncountedLabel(double until_s, bool at_top, const Frame& f) {
+  const double width = f.x(until_s) - kLeft;
+  if (!(width > 72)) return "";
+  return text(kLeft + 0.5 * width, at_top ? kTop + 14 : kHeight - kBottom - 6, "not counted", "middle",
+              " class=\"uncounted-label\"");
 }
 
 /// Rows of lines with their names, the last at the top of the plot and the others above it; a name starts where its
@@ -216,6 +222,7 @@ std::string lineChart(const Plot& plot) {
     svg += text(late ? x - 3 : x + 3, kTop - 6, m.label, late ? "end" : "start", " class=\"mark-label\"");
   }
   for (const Series* s : shown) svg += path(*s, f);
+  if (starts_later) svg += uncountedLabel(plot.mark_from_s, plot.mark_peak && shown[k]->values[i] < 0, f);
   if (plot.mark_peak) svg += peakMark(*shown[k], i, f, plot.peak_note);
   svg += key + "</svg>\n";
   std::string caption = plot.caption;

@@ -76,8 +76,10 @@ std::string alarms(const ReportInput& in) {
   for (const auto& w : in.warnings) out += element("p", escape(w), " class=\"alarm\" role=\"alert\"");
   const Trust trust = trustOf(in);
   if (!trust.reliable()) out += alarmOf(in.audit);
+  for (const auto& n : in.notes) out += notice(n);
   if (const Stretch* worst = worstOf(in.stretch); trust.stretched > 0)
-    out += notice(sentenceOf(*worst) + " No light of this page is green for that.");
+    out += notice(sentenceOf(*worst) +
+                  (in.joints.empty() && in.comfort_tables.empty() ? "" : " No light of this page is green for that."));
   return out;
 }
 
@@ -141,19 +143,28 @@ std::string charts(const std::string& body) { return element("div", body, " clas
 }  // namespace
 
 std::string tableOf(const Table& t) {
+  const auto ofNumbers = [&](std::size_t c) {
+    return c > 0 &&
+           std::any_of(t.rows.begin(), t.rows.end(), [&](const auto& r) { return c < r.size() && r[c].number; });
+  };
+  // A sentence keeps room for a few words in a line where the table is wider than its place.
+  const auto styleOf = [&](const TableCell& cell, std::size_t c) {
+    constexpr std::size_t sentence = 40;
+    return cell.number || (ofNumbers(c) && cell.light.empty()) ? " class=\"number\""
+           : cell.text.size() > sentence                       ? " class=\"sentences\""
+                                                               : "";
+  };
   std::string head;
-  for (std::size_t c = 0; c < t.columns.size(); ++c) {
-    const bool number =
-        c > 0 && std::any_of(t.rows.begin(), t.rows.end(), [&](const auto& r) { return c < r.size() && r[c].number; });
-    head += element("th", escape(t.columns[c]), number ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
-  }
+  for (std::size_t c = 0; c < t.columns.size(); ++c)
+    head += element("th", escape(t.columns[c]),
+                    ofNumbers(c) ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
   std::string body;
   for (const auto& row : t.rows) {
     std::string cells;
     for (std::size_t c = 0; c < row.size(); ++c)
       cells += c == 0 ? element("th", escape(row[c].text), " scope=\"row\"")
                       : element("td", row[c].light.empty() ? escape(row[c].text) : lightOf(row[c].light),
-                                row[c].number ? " class=\"number\"" : "");
+                                styleOf(row[c], c));
     body += element("tr", cells);
   }
   std::string after;
@@ -235,7 +246,8 @@ std::string alarmOf(const std::vector<AuditCheck>& checks) {
 std::string auditTableOf(const std::vector<AuditCheck>& checks, const std::string& caption) {
   std::string rows;
   for (const AuditCheck& c : checks)
-    rows += element("tr", element("th", escape(c.name), " scope=\"row\"") + element("td", escape(c.meaning)) +
+    rows += element("tr", element("th", escape(c.name), " scope=\"row\"") +
+                              element("td", escape(c.meaning), " class=\"sentences\"") +
                               element("td", escape(formatNumber(c.value, 2) + " " + c.unit), " class=\"number\"") +
                               element("td", escape(formatNumber(c.limit, 2) + " " + c.unit), " class=\"number\"") +
                               element("td", c.holds() ? "<span class=\"good\">\u2713 holds</span>"

@@ -110,6 +110,7 @@ struct ReportInput {
   std::string description;            ///< who wears what and does what, in one or two sentences
   std::string task;                   ///< names the reference: "walking at natural speed"; empty where there is none
   std::vector<std::string> warnings;  ///< shown at the top: "The run stopped at 1.2 s: ..."
+  std::vector<std::string> notes;     ///< below them, in a milder tone: what to bear in mind
   std::vector<JointSummary> joints;   ///< the headline is the largest |peak|
   std::string outcome;                ///< the headline of a run without joints, one or two sentences
   std::vector<Plot> torques;

@@ -35,11 +35,12 @@ dl.answers dd { margin:0; font-weight:600; } dl.answers .reason { font-weight:40
 .cards.reasons { grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); } .cards.reasons .card:first-child:nth-last-child(odd) { grid-column:1 / -1; } .cards.reasons .card { border-top-color:var(--accent); } .cards.reasons p { margin-top:6px; }
 .wide { margin-top:14px; }
 .charts { display:grid; grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); gap:16px; margin-top:14px; align-items:start; }
+.charts > .panel:only-child, .charts > .panel:has(thead th:nth-child(6)) { grid-column:1 / -1; } .charts { grid-auto-flow:row dense; }
 figure.chart, .panel { margin:0; background:var(--paper); border:1px solid var(--line); border-radius:10px; padding:16px; min-width:0; }
 figure.chart figcaption, .panel .caption { font-size:.9rem; color:var(--soft); margin:6px 0 0; }
 svg { display:block; width:100%; height:auto; font:14px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; fill:var(--ink); overflow:visible; }
 svg .grid { stroke:#e4e7ec; } svg .zero { stroke:#8d95a3; } svg .axis, svg .mark-label { fill:var(--soft); } svg .mark-label { font-size:12px; }
-svg .uncounted { fill:#e9ecf1; } svg .uncounted-label { fill:var(--soft); font-size:12px; }
+svg .uncounted { fill:#e9ecf1; } svg .uncounted-label { fill:var(--soft); font-size:12px; paint-order:stroke; stroke:#e9ecf1; stroke-width:4px; }
 svg .mark { stroke:#8d95a3; stroke-dasharray:3 4; } svg .peak-label { font-weight:600; paint-order:stroke; stroke:#fff; stroke-width:4px; }
 svg .series { fill:none; stroke-width:2.2; stroke-linejoin:round; }
 svg .left { stroke:var(--left); } svg .right { stroke:var(--right); stroke-dasharray:7 2.5; } svg .third { stroke:var(--third); } svg .fourth { stroke:var(--fourth); stroke-dasharray:2 3; } svg .fifth { stroke:var(--good); stroke-dasharray:9 3 2 3; }
@@ -75,8 +76,10 @@ ul.assumptions { margin:10px 0 0; padding-left:22px; columns:2 420px; column-gap
 footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }
 @media (min-width:900px) { .headline.pictured { grid-template-columns:minmax(0,1fr) minmax(0,1fr); } .headline.pictured figure { display:flex; flex-direction:column; background:#f9fafa; border-left:1px solid var(--line); } .headline img { flex:1; min-height:0; height:100%; } }
 @media (max-width:560px) { main, header.page { padding-left:12px; padding-right:12px; } .headline .words { padding:18px 16px; } .headline .sentence { font-size:1.25rem; } dl.answers { grid-template-columns:minmax(0,1fr); gap:0; } dl.answers dd { margin-bottom:8px; } figure.chart, .panel { padding:12px 10px; } }
-@media print { @page { margin:14mm; } html { font-size:11px; } body { background:#fff; font-size:1rem; } h2 + p { break-after:avoid; } dl.answers { grid-template-columns:minmax(0,.7fr) minmax(0,1fr); } .cards { gap:8px; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page { padding-top:0; } h2 { break-after:avoid; margin-top:26px; }
-  figure, .card, .panel, .headline, tr { break-inside:avoid; } .headline.pictured { grid-template-columns:1fr 1fr; } .cards { grid-template-columns:repeat(4,1fr); } .card { padding:8px 10px; } .charts, .pictures { grid-template-columns:1fr 1fr; } .panel.more::before { display:none; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
+@media print { @page { margin:14mm; } html { font-size:11px; } body { background:#fff; font-size:1rem; } h2 + p { break-inside:avoid; break-after:avoid; } dl.answers { grid-template-columns:minmax(0,.7fr) minmax(0,1fr); } .cards { gap:8px; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page { padding-top:0; } h2 { break-after:avoid; margin-top:26px; }
+  figure, .card, .panel, .headline, tr { break-inside:avoid; } .headline.pictured { grid-template-columns:1fr 1fr; } .cards { grid-template-columns:repeat(4,1fr); } .card { padding:8px 10px; } .charts, .pictures { grid-template-columns:1fr 1fr; } .panel.more::before { display:none; } .scroll { overflow:visible; background:none; } .panel.more th:first-child { position:static; border-right:0; }
+  .panel:has(thead th:nth-child(9)) table { font-size:.8rem; } .panel:has(thead th:nth-child(9)) :is(th, td) { padding-right:6px; }
+  .headline .words { padding:14px 16px; } .headline .sentence { font-size:1.3rem; margin-bottom:10px; } dl.answers { gap:3px 12px; } .meaning { margin-top:10px; padding-top:8px; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
 )css";
 
 /// A sign where a table is wider than its place; values under the pointer, read back from the drawn paths.

@@ -139,7 +139,7 @@ void bendByLoop(const CardBending& b, CardFabric& out) {
     law.twist_Nm = 0.5 * law.weft_Nm;
     law.first_Nm[2] = 0.5 * law.first_Nm[0];
     out.fabric.law = IsotropicHysteresisBending{law};
-    out.assumed.push_back("one loop about all axes: the card tells weft and warp not apart");
+    out.assumed.push_back("one loop about all axes: the card does not tell weft and warp apart");
     return;
   }
   law.twist_Nm = 0.5 * std::sqrt(law.weft_Nm * law.warp_Nm);

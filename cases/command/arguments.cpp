@@ -111,8 +111,8 @@ void addRender(CLI::App& app, RenderArguments& a) {
   render
       .add_option(
           "--field", a.field,
-          "What the colours show: stress (of a mode: its displacement), pressure, strain, body_pressure (the bare "
-          "body: the largest pressure of the motion) or plain")
+          "What the colours show: stress (of a mode: its displacement), pressure, strain, thickness, set or friction "
+          "(of cloth that remembers), body_pressure (the bare body: the largest pressure of the motion) or plain")
       ->type_name("FIELD")
       ->capture_default_str();
   render

@@ -26,7 +26,7 @@ constexpr double kRigidityUnit_Nm = 0.01 * kGf_N;   // gf cm^2/cm
 constexpr double kForceUnit_N_per_m = 100 * kGf_N;  // gf/cm
 constexpr double kShearFrom = 0.5 * kDegree, kShearTo = 2.5 * kDegree, kShearWide = 5 * kDegree;
 
-/// What the card says of a direction: along weft or warp, or of any where it tells them not apart.
+/// What the card says of a direction: along weft or warp, or of any where it does not tell them apart.
 std::optional<double> cardOf(const CardNumber& n, double direction_deg, bool isotropic) {
   if (!n.any()) return std::nullopt;
   const double turned = std::fmod(std::abs(direction_deg), 180);
@@ -39,6 +39,12 @@ std::string fixed(double x) {
   if (x != 0 && (std::abs(x) < 1e-3 || std::abs(x) >= 1e5)) return fmt::format("{:.3e}", x);
   const int digits = x == 0 ? 3 : std::clamp(3 - static_cast<int>(std::floor(std::log10(std::abs(x)))), 0, 6);
   return fmt::format("{:.{}f}", x, digits);
+}
+
+/// Of a reading with a card; what rounds to nothing has no sign.
+std::string difference(const Reading& r) {
+  const double percent = 100 * (r.measured / *r.card - 1);
+  return std::abs(percent) < 0.005 ? "0.00 %" : fmt::format("{:+.2f} %", percent);
 }
 
 }  // namespace
@@ -84,7 +90,7 @@ std::string testTable(const KesTest& test) {
   for (const Reading& r : test.readings)
     text += fmt::format("  {:<16}{:>12}{:>12}{:>12}  {}\n", r.name, r.card ? fixed(*r.card / r.per_unit) : "-",
                         fixed(r.measured / r.per_unit),
-                        r.card ? fmt::format("{:+.2f} %", 100 * (r.measured / *r.card - 1)) : "-", r.unit);
+                        r.card ? difference(r) : "-", r.unit);
   return text;
 }
 
@@ -186,10 +192,9 @@ std::string loopPicture(const FabricCard& card, const KesTest& test, const std::
   addCard(test, x_unit, y_unit, plot);
   std::vector<std::string> notes;
   for (const Reading& r : test.readings)
-    notes.push_back(fmt::format("{}: measured {} {}{}", r.name, fixed(r.measured / r.per_unit), r.unit,
-                                r.card ? fmt::format(", card {} ({:+.2f} %)", fixed(*r.card / r.per_unit),
-                                                     100 * (r.measured / *r.card - 1))
-                                       : ""));
+    notes.push_back(
+        fmt::format("{}: measured {} {}{}", r.name, fixed(r.measured / r.per_unit), r.unit,
+                    r.card ? fmt::format(", card {} ({})", fixed(*r.card / r.per_unit), difference(r)) : ""));
   notes.push_back(specimen);
   return xyPicture(plot, notes);
 }

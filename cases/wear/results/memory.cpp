@@ -69,27 +69,36 @@ void addMemory(const Measured& m, ReportInput& in) {
   if (!m.memory.rows.empty()) {
     Table table{
         "What the cloth remembers at the end",
-        fmt::format("Curvature that is set in it, over the area of a patch, and how much of its friction in "
-                    "bending fatigue has left. Over the motion {} J were lost in bending.",
+        fmt::format("Set: the curvature at which the cloth now rests in place of flat (10 1/m is a radius of 10 cm). "
+                    "Friction left: how much of its friction in bending fatigue has left, where new cloth has 100 %. "
+                    "Mean: over the area of the patch. Largest and least: at its worst place. Over the motion the "
+                    "cloth itself lost {} J, to friction and setting within it and to its damping.",
                     formatNumber(m.energy.lost)),
         {"patch", "set, mean [1/m]", "set, largest [1/m]", "friction left, mean [%]", "friction left, least [%]"},
         {}};
     for (std::size_t p = 0; p < m.memory.patches.size(); ++p) {
       const MemoryMeasure::Of& of = m.memory.rows.back()[p];
-      table.rows.push_back({m.memory.patches[p], of.set_per_m, of.largest_set_per_m, 100 * of.friction_left,
+      // A space that does not break, as the other columns take the width.
+      std::string name;
+      for (const char c : m.memory.patches[p]) name += c == '_' ? "\u00a0" : std::string(1, c);
+      table.rows.push_back({name, of.set_per_m, of.largest_set_per_m, 100 * of.friction_left,
                             100 * of.least_friction_left});
     }
     in.stress_tables.push_back(std::move(table));
   }
   Table table{"How much of the contact sticks",
-              "Part of the normal forces, over the motion, where both sides move together.",
+              "How much of the pressing force acts where cloth does not slip over what it touches, over the motion.",
               {"contact", "sticking [%]"},
               {}};
   if (std::isfinite(m.sticking.bodies)) table.rows.push_back({"of cloth with bodies", 100 * m.sticking.bodies});
   if (std::isfinite(m.sticking.cloth)) table.rows.push_back({"of cloth with cloth", 100 * m.sticking.cloth});
   if (table.rows.empty()) return;
   in.collision_tables.push_back(std::move(table));
-  Plot plot{"Contact that sticks", "Part of the normal forces of each window.", {}, {}, false};
+  Plot plot{"Contact that sticks",
+            "Of the pressing force of each window; the line has gaps where nothing touches.",
+            {},
+            {},
+            false};
   const auto course = [&](const char* name, Tone tone, auto value) {
     Series s{name, "%", {}, {}, tone};
     for (const CollisionWindow& w : m.steps.collisions) {

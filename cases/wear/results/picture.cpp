@@ -102,17 +102,20 @@ double mostOf(const std::vector<Cluster>& clusters) {
   return most;
 }
 
-/// Arrows end where the body is pushed, so that they stay outside of it; one of `most_N` is `longest_m` long.
-void addArrows(Scene& scene, const std::vector<Cluster>& clusters, double most_N, double longest_m) {
+/// Arrows end where the body is pushed, so that they stay outside of it; one of `most_N` is `longest_m` long. They
+/// have a legend where there are any, which says what they push `on`.
+void addArrows(Scene& scene, const std::vector<Cluster>& clusters, double most_N, double longest_m, const char* on) {
   if (!(most_N > 0)) return;
-  const double legend_N = roundedUp(0.5 * most_N), m_per_N = longest_m / most_N;
+  const double m_per_N = longest_m / most_N;
   const Vec3 towards = axesOf(scene.view, scene.up).towards;
   for (const Cluster& c : clusters) {
     if (norm(c.force) < least_arrow * most_N || dot(c.force, towards) > far_side * norm(c.force)) continue;
     const Vec3 tip = c.moment_of_size / c.size;
     scene.arrows.push_back({tip - m_per_N * c.force, tip, arrow_color});
   }
-  scene.arrow_legend = fmt::format("{0:g} N on {1:g} x {1:g} cm of body", legend_N, 100 * arrow_cell_m);
+  if (scene.arrows.empty()) return;
+  const double legend_N = roundedUp(0.5 * most_N);
+  scene.arrow_legend = fmt::format("{0:g} N on {1:g} x {1:g} cm of {2}", legend_N, 100 * arrow_cell_m, on);
   scene.arrow_legend_length_m = legend_N * m_per_N;
 }
 
@@ -262,9 +265,12 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
       for (const double h : thicknessOf(s)) scalars.push_back(words.scale * h);
     else
       for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
-    const double most = *std::max_element(scalars.begin(), scalars.end());
-    scene.bar =
-        ColorBar{fmt::format("{}; here up to {}", words.title, formatBrief(most, 2)), 0, words.scale * scale.high};
+    // Friction falls from 100 % of new cloth: its least is what tells.
+    const bool falls = picture.field == PictureField::friction;
+    const auto [least, most] = std::minmax_element(scalars.begin(), scalars.end());
+    scene.bar = ColorBar{fmt::format("{}; here {} {}", words.title, falls ? "down to" : "up to",
+                                     formatBrief(falls ? *least : *most, 2)),
+                         0, words.scale * scale.high};
   }
   // A mesh for each garment, with its samples alone.
   const Surface& surface = s.model->surface;
@@ -290,7 +296,8 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   for (auto& [garment, cloth] : garments) scene.meshes.push_back(std::move(cloth));
   const std::array<Vec3, 2> garment = boxOf(x, 0);
   const Vec3 middle = 0.5 * (garment[0] + garment[1]);
-  addArrows(scene, clustersOf(placed, frame, x), scale.most_N, 0.14 * scale.size_m);
+  addArrows(scene, clustersOf(placed, frame, x), scale.most_N, 0.14 * scale.size_m,
+            s.human ? "body" : "obstacle");
   scene.focus = {middle - 0.5 * scale.box_m, middle + 0.5 * scale.box_m};
   scene.title = s.definition.name;
   scene.subtitle = captionOf(picture, frame.time_s, s.definition.comfort.sensor_m);

@@ -138,22 +138,28 @@ void addSupports(const Measured& m, ReportInput& in) {
 }
 
 void addRepeatability(const Measured& m, ReportInput& in) {
-  Table table{
-      "How well the strides repeat",
-      "The second stride's added torque against the first's; the left side's, half a stride later, against the "
-      "right's.",
-      {"joint", "second stride: correlation", "RMS difference [%]", "other side: correlation", "RMS difference [%]"},
-      {}};
-  const auto cells = [](const std::optional<Likeness>& l, std::vector<TableCell>& row) {
-    if (l)
+  const auto told = [](const std::optional<Likeness>& l) { return l && std::isfinite(l->correlation); };
+  const bool again =
+      std::any_of(m.joints.begin(), m.joints.end(), [&](const JointMeasure& j) { return told(j.second_stride); });
+  Table table{"How well the strides repeat",
+              std::string(again ? "The second stride's added torque against the first's; the left side's, half a "
+                                  "stride later, against the right's."
+                                : "The left side's added torque, half a stride later, against the right's.") +
+                  " A correlation of 1 is the same course over time. Joints without a torque are left out.",
+              {"joint"},
+              {}};
+  if (again) table.columns.insert(table.columns.end(), {"second stride: correlation", "RMS difference [%]"});
+  table.columns.insert(table.columns.end(), {"other side: correlation", "RMS difference [%]"});
+  const auto cells = [&](const std::optional<Likeness>& l, std::vector<TableCell>& row) {
+    if (told(l))
       row.insert(row.end(), {TableCell(l->correlation), TableCell(100 * l->relative)});
     else
       row.insert(row.end(), {TableCell(""), TableCell("")});
   };
   for (const JointMeasure& j : m.joints) {
-    if (!j.second_stride && !j.other_side) continue;
+    if (!told(j.second_stride) && !told(j.other_side)) continue;
     std::vector<TableCell> row{TableCell(titleOf(j) + (j.side.empty() ? "" : ", " + j.side))};
-    cells(j.second_stride, row);
+    if (again) cells(j.second_stride, row);
     cells(j.other_side, row);
     table.rows.push_back(std::move(row));
   }
@@ -188,6 +194,15 @@ std::string outcomeOf(const Measured& m) {
   }
   const auto add = [&](const std::string& sentence) { s += (s.empty() ? "" : " ") + sentence; };
   if (most > 0) add(fmt::format("Cloth touches cloth in up to {} places at a time.", most));
+  if (!m.memory.rows.empty()) {
+    double set = 0, friction = 1;
+    for (const MemoryMeasure::Of& of : m.memory.rows.back())
+      set = std::max(set, of.largest_set_per_m), friction = std::min(friction, of.least_friction_left);
+    if (set > 0)
+      add(fmt::format("Folds have set in the cloth, up to a curvature of {} 1/m; at least {} % of its friction in "
+                      "bending is left.",
+                      formatNumber(set), formatNumber(100 * friction)));
+  }
   if (tangles > 0)
     add(left > 0
             ? fmt::format("Cloth passes through something in {} places at the end.", left)
@@ -214,7 +229,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
     in.warnings.push_back(
         fmt::format("The run stopped at {:.2f} s of {:.2f} s: what follows is only what was recorded until then.",
                     m.recorded_end_s, s.end_s));
-  for (const std::string& note : s.notes) in.warnings.push_back("Note: " + note + ".");
+  for (const std::string& note : s.notes) in.notes.push_back("Note: " + note + ".");
   if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
   in.audit = auditOf(m);
   for (AuditCheck& c : in.audit)

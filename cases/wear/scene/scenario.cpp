@@ -101,9 +101,9 @@ void noteCoarseness(const Case& c, std::span<const Garment> garments, std::span<
     const double N = cell > 0 ? coarseness(garments[k].fabric, cell, g) : 0;
     if (N > kCoarse)
       s.notes.push_back(fmt::format(
-          "{}cells of up to {:.3g} mm are coarse for cloth that bends so easily: it folds as if it were stiffer, at a "
-          "coarseness of {:.0f} ({:.0f}: tips of heavy strips off by 3 % of their length, 100: by 10 % and more); "
-          "cells of {:.2g} mm would do",
+          "{}cells of up to {:.3g} mm are coarse for cloth that bends so easily: it folds as if it were stiffer "
+          "(coarseness {:.0f}; at {:.0f} tips of heavy strips are off by 3 % of their length, from 100 on by 10 % and "
+          "more); cells of {:.2g} mm would do",
           c.garments[k].name.empty() ? "" : c.garments[k].name + ": ", 1e3 * cell, N, kCoarse,
           1e3 * fineEnough(cell, N)));
   }

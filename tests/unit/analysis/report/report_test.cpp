@@ -201,6 +201,15 @@ TEST(Report, IsReadableByAll) {
         << tag;
 }
 
+TEST(Report, NotesStandAtTheTopAndAreNoAlarms) {
+  ReportInput in = example();
+  in.notes = {"Note: cells are coarse."};
+  const std::string page = formatReport(in);
+  EXPECT_FALSE(has(page, "class=\"alarm\""));
+  EXPECT_TRUE(has(page, "<p class=\"notice\">Note: cells are coarse."));
+  EXPECT_LT(page.find("Note: cells are coarse."), page.find("Peak added torque"));
+}
+
 TEST(Report, FailedCheckAndWarningStandAtTheTop) {
   ReportInput in = example();
   EXPECT_FALSE(has(formatReport(in), "class=\"alarm\""));
@@ -276,6 +285,11 @@ TEST(Chart, TheStartThatIsNotCountedIsShadedAndSaid) {
   const auto shaded = svg.find("<rect class=\"uncounted\"");
   ASSERT_NE(shaded, std::string::npos);
   EXPECT_NEAR(std::stod(quoted(svg.substr(shaded), " width=\"").at(0)), 0.5 * (x1 - x0), 0.1);
+  // Far from the label of a peak below 0.
+  const auto yOf = [&](const std::string& label) {
+    return std::stod(quoted(svg.substr(svg.rfind("<text", svg.find(label))), " y=\"").at(0));
+  };
+  EXPECT_LT(yOf(">not counted<"), yOf(">peak \u2212") - 100);
   EXPECT_TRUE(
       has(svg, "Sign. Counted is what comes from 2.00 s on; the shaded start before it is shown but not judged."));
 }
