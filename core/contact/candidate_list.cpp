@@ -24,22 +24,6 @@ void each(std::size_t n, F&& f) {
   forAll(Each::value, count, [&](int i) { f(i); });
 }
 
-/// f(i) for all i below n.
-template <class F>
-bool allOf(std::size_t n, F&& f) {
-  const int count = static_cast<int>(n);
-  if (count < static_cast<int>(Each::value)) {
-    for (int i = 0; i < count; ++i)
-      if (!f(i)) return false;
-    return true;
-  }
-  return countOf(Each::value, count, [&](int i) { return !f(i); }) == 0;
-}
-
-bool within(std::span<const double> moved, std::span<const double> slack) {
-  return allOf(moved.size(), [&](int i) { return moved[i] <= slack[i]; });
-}
-
 }  // namespace
 
 /// What the step that has passed tells.
@@ -87,20 +71,26 @@ void CandidateList::expect(std::span<const Vec3> x1) {
   probe_steps_ = 0;
 }
 
-void CandidateList::leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const {
+/// How far vertices are off their paths, and no less than they were before; whether all keep within their slack.
+bool CandidateList::leavePath(std::span<const Vec3> x, double time_s, std::span<const double> before_m,
+                              std::vector<double>& out) const {
   const double t = time_s - listed_s_;
   out.resize(x.size());
-  each(x.size(), [&](int i) { out[i] = norm(x[i] - listed_at_[i] - t * listed_velocity_[i]); });
+  return countOf(Each::value, static_cast<int>(x.size()), [&](int i) {
+           const double off = norm(x[i] - listed_at_[i] - t * listed_velocity_[i]);
+           out[i] = before_m.empty() ? off : std::max(off, before_m[i]);
+           return !(out[i] <= slack_m_[i]);
+         }) == 0;
 }
 
 /// Whether the list still holds for the step to x1, except for what its straying vertices of cloth ask for (mend).
 bool CandidateList::holds(std::span<const Vec3> x1) {
   if (listed_at_.size() != x0_.size() || start_s_ < listed_s_ || end_s_ > listed_s_ + horizon_s_) return false;
   if (start_moved_.empty()) {
-    leavePath(x0_, start_s_, start_moved_);
+    leavePath(x0_, start_s_, {}, start_moved_);
     if (!bluntness_.holds(x0_)) return false;
   }
-  leavePath(x1, end_s_, moved_);
+  kept_ = leavePath(x1, end_s_, start_moved_, moved_);
   return true;
 }
 
@@ -113,11 +103,11 @@ double CandidateList::slackFor(int vertex, double least, std::span<const Vec3> x
 /// New paths for vertices that stray, where these are few and of cloth.
 bool CandidateList::mend(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules,
                          std::span<const Vec3> x1) {
-  if (within(start_moved_, slack_m_) && within(moved_, slack_m_)) return true;
+  if (kept_) return true;
   const int cloth = std::min<int>(tree_.firstObstacleVertex(), static_cast<int>(x0_.size()));
   strays_.clear();
   for (int i = 0; i < static_cast<int>(x0_.size()); ++i) {
-    if (start_moved_[i] <= slack_m_[i] && moved_[i] <= slack_m_[i]) continue;
+    if (moved_[i] <= slack_m_[i]) continue;
     if (i >= cloth || kMended * std::ssize(strays_) >= cloth) return false;
     strays_.push_back(i);
   }
@@ -148,7 +138,7 @@ void CandidateList::make(const ContactMesh& mesh, const PairCollector& collector
   if (!bluntness_.empty()) bluntness_.ask(mesh, listedMotion(), tree_.reachOfCloth(rules));
   collector.collect(mesh, tree_, listedMotion(), rules, pairs_, bluntness_.empty() ? nullptr : &bluntness_.features());
   start_moved_.assign(x0_.size(), 0);
-  leavePath(x1, end_s_, moved_);
+  leavePath(x1, end_s_, {}, moved_);
   ++builds_;
 }
 
@@ -156,15 +146,7 @@ void CandidateList::cover(const ContactMesh& mesh, const PairCollector& collecto
                           std::span<const Vec3> x1) {
   if (told_.empty()) expect(x1);
   if (!holds(x1) || !mend(mesh, collector, rules, x1)) make(mesh, collector, rules, x1);
-  each(moved_.size(), [&](int i) { moved_[i] = std::max(moved_[i], start_moved_[i]); });
-  edge_moved_.resize(mesh.edges.size());
-  each(edge_moved_.size(),
-       [&](int e) { edge_moved_[e] = std::max(moved_[mesh.edges[e][0]], moved_[mesh.edges[e][1]]); });
-  triangle_moved_.resize(mesh.triangles.size());
-  each(triangle_moved_.size(), [&](int t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    triangle_moved_[t] = std::max({moved_[a], moved_[b], moved_[c]});
-  });
+  most_moved_ = largestOf(Each::value, static_cast<int>(moved_.size()), 0.0, [&](int i) { return moved_[i]; });
 }
 
 }  // namespace gambeson

@@ -1,6 +1,8 @@
 #pragma once
 /// Pairs of primitives that may touch, kept from step to step for as long as that is certain.
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -32,11 +34,16 @@ class CandidateList {
 
   const CandidatePairs& pairs() const { return pairs_; }
   /// The pair is at least that far apart all the way from x0 to x1.
-  double apart(const PointTriangle& p) const {
-    return p.apart.within(start_s_ - listed_s_, end_s_ - listed_s_) - moved_[p.vertex] - triangle_moved_[p.triangle];
+  double apart(const ContactMesh& mesh, const PointTriangle& p) const {
+    return alongPaths(p) - moved_[p.vertex] - most(mesh.triangles[p.triangle]);
   }
-  double apart(const EdgeEdge& p) const {
-    return p.apart.within(start_s_ - listed_s_, end_s_ - listed_s_) - edge_moved_[p.a] - edge_moved_[p.b];
+  double apart(const ContactMesh& mesh, const EdgeEdge& p) const {
+    return alongPaths(p) - most(mesh.edges[p.a]) - most(mesh.edges[p.b]);
+  }
+  /// Whether `apart` may be less than `reach_m`: cheap where the pair is far apart whatever its vertices do.
+  template <class Pair>
+  bool mayCome(const ContactMesh& mesh, const Pair& p, double reach_m) const {
+    return alongPaths(p) - most_moved_ - most_moved_ < reach_m && apart(mesh, p) < reach_m;
   }
   int builds() const { return builds_; }  ///< so far
   int mends() const { return mends_; }    ///< likewise
@@ -49,7 +56,16 @@ class CandidateList {
   double slackFor(int vertex, double least, std::span<const Vec3> x1) const;
   ListedMotion listedMotion() const { return {listed_at_, listed_velocity_, slack_m_, horizon_s_}; }
   void make(const ContactMesh& mesh, const PairCollector& collector, const PairRules& rules, std::span<const Vec3> x1);
-  void leavePath(std::span<const Vec3> x, double time_s, std::vector<double>& out) const;
+  bool leavePath(std::span<const Vec3> x, double time_s, std::span<const double> before_m,
+                 std::vector<double>& out) const;
+  /// The same of two primitives that keep to their paths.
+  double alongPaths(const auto& pair) const { return pair.apart.within(start_s_ - listed_s_, end_s_ - listed_s_); }
+  template <std::size_t N>
+  double most(const std::array<int, N>& vertices) const {
+    double far = moved_[vertices[0]];
+    for (std::size_t k = 1; k < N; ++k) far = std::max(far, moved_[vertices[k]]);
+    return far;
+  }
 
   ContactTree tree_;
   Bluntness bluntness_;
@@ -69,7 +85,9 @@ class CandidateList {
   std::vector<double> slack_m_;
   double listed_s_ = 0, horizon_s_ = 0;
   // How far each vertex is off its path: at x0 (empty: not looked at yet), and the most in this step.
-  std::vector<double> start_moved_, moved_, edge_moved_, triangle_moved_;
+  std::vector<double> start_moved_, moved_;
+  double most_moved_ = 0;    ///< the largest of moved_
+  bool kept_ = false;        ///< all have kept within their slack
   std::vector<int> strays_;  ///< scratch
   int builds_ = 0, mends_ = 0;
 };

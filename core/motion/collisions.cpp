@@ -15,7 +15,7 @@
 namespace gambeson {
 namespace {
 
-constexpr double kSeparation_m = 1e-6;
+constexpr double kSeparation_m = 1e-6, kBeyond_m = 2 * kSeparation_m;  ///< what is beyond that does not meet
 
 /// What samples of cloth may keep from a body, whatever their thickness.
 constexpr double kBodyReach_m = contactReach(kLargestClearance_m);
@@ -248,7 +248,8 @@ void keepOutside(const CollisionModel& m, double time_s, std::span<const Vec3> x
     if (isAt(w.end_s, w.x1)) {
       if (std::all_of(w.tangle.begin(), w.tangle.end(), [](Tangle t) { return t == Tangle::kFree; })) return;
       for (const PointTriangle& p : w.list.pairs().points) {
-        if (p.triangle < m.cloth_triangles || w.list.apart(p) > 0 || w.tangle[p.vertex] == Tangle::kFree) continue;
+        if (p.triangle < m.cloth_triangles || w.list.apart(m.mesh, p) > 0 || w.tangle[p.vertex] == Tangle::kFree)
+          continue;
         const CollisionModel::Body& body = m.bodies[m.body_of_vertex[m.mesh.triangles[p.triangle][0]]];
         known[static_cast<std::size_t>(body.obstacle) * m.cloth.cloth_vertices + p.vertex] = 0;
       }
@@ -306,8 +307,8 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   w.near_points.clear();
   appendInOrder(static_cast<int>(points.size()), Each::value, w.near_points, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
-      if (w.list.apart(points[k]) <
-          reachOf(m.vertex_half_reach_m[points[k].vertex], m.triangle_half_reach_m[points[k].triangle]))
+      if (w.list.mayCome(m.mesh, points[k],
+                         reachOf(m.vertex_half_reach_m[points[k].vertex], m.triangle_half_reach_m[points[k].triangle])))
         list.push_back(points[k]);
   });
   for (const PointTriangle& p : w.near_points) {
@@ -322,7 +323,7 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
   for (int v = 0; v < m.cloth.cloth_vertices; ++v) w.near_bodies.first[v + 1] += w.near_bodies.first[v];
   appendInOrder(static_cast<int>(edges.size()), Each::value, w.near.edges, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
-      if (w.list.apart(edges[k]) < reachOf(m.edge_half_reach_m[edges[k].a], m.edge_half_reach_m[edges[k].b]))
+      if (w.list.mayCome(m.mesh, edges[k], reachOf(m.edge_half_reach_m[edges[k].a], m.edge_half_reach_m[edges[k].b])))
         list.push_back(edges[k]);
   });
 }
@@ -404,7 +405,7 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
                 [&](int first, int end, std::vector<PairHit>& found) {
                   for (int k = first; k < end; ++k) {
                     const PointTriangle& p = points[k];
-                    if (w.list.apart(p) > 2 * kSeparation_m) continue;
+                    if (!w.list.mayCome(m.mesh, p, kBeyond_m)) continue;
                     const auto& [a, b, c] = m.mesh.triangles[p.triangle];
                     Box triangle = path(a);
                     triangle.add(path(b));
@@ -417,7 +418,7 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
       static_cast<int>(edges.size()), Each::value, hits, [&](int first, int end, std::vector<PairHit>& found) {
         for (int k = first; k < end; ++k) {
           const EdgeEdge& p = edges[k];
-          if (w.list.apart(p) > 2 * kSeparation_m || !overlap(edgePath(p.a).grown(2 * kSeparation_m), edgePath(p.b)))
+          if (!w.list.mayCome(m.mesh, p, kBeyond_m) || !overlap(edgePath(p.a).grown(2 * kSeparation_m), edgePath(p.b)))
             continue;
           const auto [a, b] = m.mesh.edges[p.a];
           const auto [c, d] = m.mesh.edges[p.b];

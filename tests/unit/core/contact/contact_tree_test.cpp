@@ -455,7 +455,7 @@ void TreeTest::serveManySteps(CandidateList& list, int kicked) {
         const auto at = std::ranges::lower_bound(list.pairs().points, PointTriangle{v, t, {}});
         ASSERT_TRUE(at != list.pairs().points.end() && *at == (PointTriangle{v, t, {}}))
             << step << " " << v << " " << t;
-        ASSERT_LE(list.apart(*at), least);
+        ASSERT_LE(list.apart(mesh, *at), least);
       }
     ASSERT_EQ(std::ranges::adjacent_find(list.pairs().points), list.pairs().points.end());
     std::vector<EdgeEdge> edges = list.pairs().edges;
@@ -469,7 +469,9 @@ void TreeTest::serveManySteps(CandidateList& list, int kicked) {
         const auto [c, d] = mesh.edges[e.b];
         return std::sqrt(nearestOnSegments(x[a], x[b], x[c], x[d]).dist2_m2);
       };
-      ASSERT_LE(list.apart(e), std::min({distance(x0), distance(middle), distance(x1)}) + 1e-12);
+      ASSERT_LE(list.apart(mesh, e), std::min({distance(x0), distance(middle), distance(x1)}) + 1e-12);
+      for (const double reach : {0.0, 0.5 * rules.margin_m, rules.margin_m})
+        ASSERT_EQ(list.mayCome(mesh, e, reach), list.apart(mesh, e) < reach);
     }
     x0 = x1;
   }
@@ -514,7 +516,7 @@ TEST_F(TreeTest, AListEndsAtItsHorizon) {
         const auto at = std::ranges::lower_bound(list.pairs().points, PointTriangle{v, t, {}});
         ASSERT_TRUE(at != list.pairs().points.end() && *at == (PointTriangle{v, t, {}}))
             << step << " " << v << " " << t;
-        ASSERT_LE(list.apart(*at), std::min(at_start, at_end));
+        ASSERT_LE(list.apart(mesh, *at), std::min(at_start, at_end));
       }
   }
   EXPECT_GT(asked, 5u);
