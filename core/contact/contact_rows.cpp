@@ -1,74 +1,16 @@
 #include "core/contact/contact_rows.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
-
-/// W_T of the samples and free points that the rows touch.
-void touched(std::span<const ContactRow> rows, const SparseRows& WT, ContactWork& w) {
-  w.sample_slot.resize(WT.rows(), -1);
-  w.free_slot.resize(WT.column_count, -1);
-  for (int s : w.samples) w.sample_slot[s] = -1;
-  for (int f : w.free_points) w.free_slot[f] = -1;
-  w.samples.clear();
-  w.free_points.clear();
-  const auto clear = [](SparseRows& m) {
-    m.offsets.assign(1, 0);
-    m.columns.clear();
-    m.values.clear();
-  };
-  clear(w.stencils);
-  for (int i : w.order) {
-    const Stencil& stencil = rows[i].stencil;
-    for (int k = 0; k < stencil.count; ++k) {
-      int& slot = w.sample_slot[stencil.sample[k]];
-      if (slot < 0) {
-        slot = static_cast<int>(w.samples.size());
-        w.samples.push_back(stencil.sample[k]);
-      }
-      w.stencils.add(slot, stencil.weight[k]);
-    }
-    w.stencils.endRow();
-  }
-  w.stencils.column_count = static_cast<int>(w.samples.size());
-  w.of_sample = transpose(w.stencils);
-  clear(w.rows);
-  for (int s : w.samples) {
-    for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k) {
-      int& slot = w.free_slot[WT.columns[k]];
-      if (slot < 0) {
-        slot = static_cast<int>(w.free_points.size());
-        w.free_points.push_back(WT.columns[k]);
-      }
-      w.rows.add(slot, WT.values[k]);
-    }
-    w.rows.endRow();
-  }
-  if (w.hold) w.hold->touch(w.free_points);
-  w.rows.column_count = static_cast<int>(w.free_points.size());
-  w.columns = transpose(w.rows);
-}
-
-/// Ranges of the islands in the samples and free points, which come in the order of the rows.
-void rangeIslands(ContactWork& w) {
-  int sample = 0, free_point = 0, chunk = 0;
-  for (ContactWork::Island& island : w.islands) {
-    island.sample = sample;
-    island.free_point = free_point;
-    island.chunk = chunk;
-    for (int e = w.stencils.offsets[island.row]; e < w.stencils.offsets[island.row_end]; ++e)
-      sample = std::max(sample, w.stencils.columns[e] + 1);
-    for (int e = w.rows.offsets[island.sample]; e < w.rows.offsets[sample]; ++e)
-      free_point = std::max(free_point, w.rows.columns[e] + 1);
-    island.sample_end = sample;
-    island.free_end = free_point;
-    chunk += island.row_end - island.row;  // at least as many as there are
-  }
-  w.largest2.resize(chunk);
-  w.against.resize(chunk);
-}
 
 /// The rows that each sample has on cloth, by sample: w.first_on_cloth and w.on_cloth.
 void listOnCloth(std::span<const ContactRow> rows, int samples, ContactWork& w) {
@@ -130,47 +72,63 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
   }
 }
 
-void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-                 ContactWork& w) {
+namespace {
+
+/// The free points of a row that can move, each once, from `first` on; how many.
+int reachOf(const ContactRow& row, const SparseRows& WT, std::span<const double> inverse_mass, int first,
+            ContactWork& w) {
+  int* const points = w.reach_point.data() + first;
+  double* const weights = w.reach_weight.data() + first;
+  int count = 0;
+  for (int j = 0; j < row.stencil.count; ++j) {
+    const int s = row.stencil.sample[j], seen = count;
+    for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) {
+      const int f = WT.columns[e];
+      const double weight = row.stencil.weight[j] * WT.values[e];
+      if (weight == 0 || !(inverse_mass[f] > 0)) continue;
+      const int at = static_cast<int>(std::find(points, points + seen, f) - points);
+      if (at < seen) {
+        weights[at] += weight;
+      } else {
+        points[count] = f;
+        weights[count++] = weight;
+      }
+    }
+  }
+  return count;
+}
+
+std::span<const int> pointsOf(const ContactWork& w, int row) {
+  return std::span(w.reach_point).subspan(static_cast<std::size_t>(w.reach[row].first), w.reach[row].count);
+}
+
+/// Sorts w.order by islands.
+void findIslands(int free_count, ContactWork& w) {
+  w.islands.clear();
   if (w.hold) {
-    w.islands.assign(w.order.empty() ? 0 : 1, {});
-    if (!w.islands.empty()) w.islands[0].row_end = static_cast<int>(w.order.size());
+    if (!w.order.empty()) w.islands.emplace_back().row_end = static_cast<int>(w.order.size());
     return;
   }
-  w.tied_to.resize(WT.column_count, -1);
+  w.tied_to.resize(free_count, -1);
+  w.number.resize(free_count);
   const auto root = [&](int f) {
     while (w.tied_to[f] != f) f = w.tied_to[f] = w.tied_to[w.tied_to[f]];
     return f;
   };
-  // The points of a row that can move, and one of each sample that has none: it ties the rows that touch this sample,
-  // which is gathered with one island.
-  const auto points = [&](int i, const auto& visit) {
-    const Stencil& stencil = rows[i].stencil;
-    for (int k = 0; k < stencil.count; ++k) {
-      const int first = WT.offsets[stencil.sample[k]], end = WT.offsets[stencil.sample[k] + 1];
-      bool moves = false;
-      for (int e = first; e < end; ++e) {
-        if (!(inverse_mass[WT.columns[e]] > 0)) continue;
-        visit(WT.columns[e]);
-        moves = true;
-      }
-      if (!moves) visit(WT.columns[first]);
-    }
-  };
-  for (int i : w.order) points(i, [&](int f) { w.tied_to[f] = f; });
+  for (int i : w.order)
+    for (int f : pointsOf(w, i)) w.tied_to[f] = f;
   std::vector<int>& of = w.island_of;  // first a free point of the row, then its island
   of.resize(w.order.size());
   for (std::size_t k = 0; k < w.order.size(); ++k) {
-    int first = -1;
-    points(w.order[k], [&](int f) {
+    const std::span<const int> points = pointsOf(w, w.order[k]);
+    int first = root(points[0]);
+    for (int f : points.subspan(1)) {
       f = root(f);
-      if (first >= 0) w.tied_to[std::max(first, f)] = std::min(first, f);
-      first = first < 0 ? f : std::min(first, f);
-    });
+      w.tied_to[std::max(first, f)] = std::min(first, f);
+      first = std::min(first, f);
+    }
     of[k] = first;
   }
-  w.islands.clear();
-  w.number.resize(WT.column_count);
   for (int f : of) w.number[root(f)] = -1;
   for (int& f : of) {
     int& number = w.number[root(f)];
@@ -191,41 +149,162 @@ void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::sp
   for (std::size_t k = 0; k < of.size(); ++k) w.order[w.islands[of[k]].row_end++] = w.unsorted[k];
 }
 
-void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-              std::span<const double> density, std::span<const Vec3> velocity, ContactWork& w) {
-  findIslands(rows, WT, inverse_mass, w);
-  touched(rows, WT, w);
-  rangeIslands(w);
-  const int n = static_cast<int>(w.order.size()), samples = static_cast<int>(w.samples.size()),
-            free_count = static_cast<int>(w.free_points.size());
-  w.facts.resize(n);
-  w.row_area.resize(n);
-  w.traction.resize(n);
-  for (auto* rows_of : {&w.point, &w.candidate, &w.previous}) rows_of->resize(n);
-  w.impulse.resize(samples);
-  w.velocity.resize(samples);
-  w.free_velocity.resize(free_count);
-  w.base.resize(free_count);
-  w.moved.resize(free_count);
-  w.inverse_mass.resize(free_count);
-  for (int k = 0; k < n; ++k) {
-    const ContactRow& row = rows[w.order[k]];
-    w.row_area[k] = w.area_of[w.order[k]];
-    const double slope = slopeOf(row, density);
-    const RowSlip& slip = w.slip[w.order[k]];
-    w.facts[k] = {row.contact.normal, driftOf(row), slip.friction, slip.drag, row.compliance, slope, slope};
+/// Gives each row the first colour that no row before it has at any of its points; what finds all taken has one of its
+/// own. Sorts the rows of each island by colours and cuts them into chunks.
+void colourRows(int free_count, ContactWork& w) {
+  constexpr int kColours = 256, kChunk = 64;
+  const int n = static_cast<int>(w.order.size());
+  w.colour.assign(n, 0);
+  w.chunks.clear();
+  if (!w.hold) {
+    w.taken.resize(free_count);
+    for (int i : w.order)
+      for (int f : pointsOf(w, i)) w.taken[f] = {};
+    int more = kColours;
+    for (int k = 0; k < n; ++k) {
+      const std::span<const int> points = pointsOf(w, w.order[k]);
+      std::array<std::uint64_t, 4> taken{};
+      for (int f : points)
+        for (std::size_t word = 0; word < 4; ++word) taken[word] |= w.taken[f][word];
+      std::size_t word = 0;
+      while (word < 4 && ~taken[word] == 0) ++word;
+      if (word == 4) {
+        w.colour[k] = more++;
+        continue;
+      }
+      const int bit = std::countr_one(taken[word]);
+      w.colour[k] = 64 * static_cast<int>(word) + bit;
+      for (int f : points) w.taken[f][word] |= std::uint64_t{1} << bit;
+    }
+    w.unsorted = w.order;
+    w.unsorted_colour = w.colour;
+    w.number.resize(std::max(free_count, n));
+    std::iota(w.number.begin(), w.number.begin() + n, 0);
+    for (const ContactWork::Island& island : w.islands)
+      std::stable_sort(w.number.begin() + island.row, w.number.begin() + island.row_end,
+                       [&](int a, int b) { return w.unsorted_colour[a] < w.unsorted_colour[b]; });
+    for (int k = 0; k < n; ++k) {
+      w.order[k] = w.unsorted[w.number[k]];
+      w.colour[k] = w.unsorted_colour[w.number[k]];
+    }
   }
-  for (int f = 0; f < free_count; ++f) {
+  for (ContactWork::Island& island : w.islands) {
+    island.chunk = static_cast<int>(w.chunks.size());
+    for (int k = island.row; k < island.row_end; ++k)
+      if (k == island.row || w.colour[k] != w.colour[k - 1] || k - w.chunks.back().row == kChunk)
+        w.chunks.push_back({k, w.colour[k]});
+    island.chunk_end = static_cast<int>(w.chunks.size());
+  }
+  w.largest2.resize(w.chunks.size());
+  w.against.resize(w.chunks.size());
+  w.chunks.push_back({n, 0});
+}
+
+/// Free points that the rows touch, in the order of the rows, and the rows' weights at these.
+void touchPoints(int free_count, ContactWork& w) {
+  w.free_slot.resize(free_count, -1);
+  for (int f : w.free_points) w.free_slot[f] = -1;
+  w.free_points.clear();
+  w.points.offsets.assign(1, 0);
+  w.points.columns.clear();
+  w.points.values.clear();
+  for (ContactWork::Island& island : w.islands) {
+    island.free_point = static_cast<int>(w.free_points.size());
+    for (int k = island.row; k < island.row_end; ++k) {
+      const ContactWork::Reach& reach = w.reach[w.order[k]];
+      for (int e = reach.first; e < reach.first + reach.count; ++e) {
+        int& slot = w.free_slot[w.reach_point[e]];
+        if (slot < 0) {
+          slot = static_cast<int>(w.free_points.size());
+          w.free_points.push_back(w.reach_point[e]);
+        }
+        w.points.add(slot, w.reach_weight[e]);
+      }
+      w.points.endRow();
+    }
+    island.free_end = static_cast<int>(w.free_points.size());
+  }
+  w.points.column_count = static_cast<int>(w.free_points.size());
+  if (!w.hold) return;
+  w.hold->touch(w.free_points);
+  w.columns = transpose(w.points);
+}
+
+}  // namespace
+
+void reachRows(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+               std::span<const Vec3> velocity, ContactWork& w) {
+  const int n = static_cast<int>(rows.size());
+  w.reach.resize(n);
+  int room = 0;
+  for (int i = 0; i < n; ++i) {
+    w.reach[i].first = room;
+    for (int j = 0; j < rows[i].stencil.count; ++j) {
+      const int s = rows[i].stencil.sample[j];
+      room += WT.offsets[s + 1] - WT.offsets[s];
+    }
+  }
+  w.reach_point.resize(room);
+  w.reach_weight.resize(room);
+  forAll(Each::sum, n, [&](int i) {
+    const ContactRow& row = rows[i];
+    ContactWork::Reach& reach = w.reach[i];
+    reach.count = reachOf(row, WT, inverse_mass, reach.first, w);
+    if (reach.count == 0) w.area_of[i] = 0;
+    reach.start = -driftOf(row);
+    for (int j = 0; j < row.stencil.count; ++j) {
+      Vec3 v{};
+      for (int e = WT.offsets[row.stencil.sample[j]]; e < WT.offsets[row.stencil.sample[j] + 1]; ++e)
+        v += WT.values[e] * velocity[WT.columns[e]];
+      reach.start += row.stencil.weight[j] * v;
+    }
+  });
+}
+
+void restrict(std::span<const ContactRow> rows, int free_count, std::span<const double> inverse_mass,
+              std::span<const double> density, std::span<const Vec3> velocity, ContactWork& w) {
+  findIslands(free_count, w);
+  colourRows(free_count, w);
+  touchPoints(free_count, w);
+  const int n = static_cast<int>(w.order.size()), touched = static_cast<int>(w.free_points.size());
+  w.inverse_mass.resize(touched);
+  for (auto* of_points : {&w.base, &w.moved, &w.moved_before}) of_points->resize(touched);
+  for (int f = 0; f < touched; ++f) {
     const Vec3& v = velocity[w.free_points[f]];
     w.base[f] = {{v.x, v.y, v.z, 0}};
     w.inverse_mass[f] = inverse_mass[w.free_points[f]];
   }
+  w.facts.resize(n);
+  w.row_area.resize(n);
+  w.traction.resize(n);
+  for (auto* of_rows : {&w.point, &w.candidate, &w.previous}) of_rows->resize(n);
+  for (int k = 0; k < n; ++k) {
+    const int i = w.order[k];
+    const ContactRow& row = rows[i];
+    const RowSlip& slip = w.slip[i];
+    w.row_area[k] = w.area_of[i];
+    double own = 0;
+    Vec3 moves{};  // of its points as they would move without contacts
+    for (int e = w.points.offsets[k]; e < w.points.offsets[k + 1]; ++e) {
+      const int f = w.points.columns[e];
+      own += w.points.values[e] * w.points.values[e] * w.inverse_mass[f];
+      const double* lane = w.base[f].lane;
+      moves += w.points.values[e] * Vec3{lane[0], lane[1], lane[2]};
+    }
+    const double slope = slopeOf(row, density);
+    // What held points do is a part of the drift.
+    w.facts[k] = {row.contact.normal,  moves - w.reach[i].start,
+                  slip.friction,       slip.drag,
+                  row.compliance,      slope,
+                  own * w.row_area[k], slope};
+  }
 }
 
-void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, ContactWork& w) {
+void smoothWarm(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const Vec3> warm, ContactWork& w) {
   constexpr double kMix = 0.2;
   const Vec3 side{0.6180, 0.4142, 0.7321};
-  const int n = static_cast<int>(w.order.size()), free_count = static_cast<int>(w.free_points.size());
+  const int n = static_cast<int>(w.order.size());
+  const std::size_t touched = w.free_points.size();
   for (int at = 0; at < n; ++at) w.traction[at] = warm[w.order[at]];
   // Bodies, then both sides of the cloth.
   for (int family = 0; family < 3; ++family) {
@@ -239,32 +318,37 @@ void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, Co
       const Vec3& t = warm[w.order[at]];
       return family == 0 ? t : Vec3{dot(t, rows[w.order[at]].contact.normal), 0, 0};
     };
-    const auto sampleOf = [&](int at) { return w.sample_slot[rows[w.order[at]].contact.sample]; };
+    // visit(slot, N) of the points of the row's sample that can move.
+    const auto eachPoint = [&](int at, const auto& visit) {
+      const int s = rows[w.order[at]].contact.sample;
+      for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e)
+        if (const int slot = w.free_slot[WT.columns[e]]; slot >= 0) visit(slot, WT.values[e]);
+    };
     bool any = false;
-    w.weight.assign(w.samples.size(), 0);
-    w.sample_impulse.assign(w.samples.size(), Vec3{});
+    w.weight.assign(touched, 0);
+    w.free_sum.assign(touched, Vec3{});
     for (int at = 0; at < n; ++at) {
       if (!smoothed(at)) continue;
       any = true;
-      w.weight[sampleOf(at)] += w.row_area[at];
-      w.sample_impulse[sampleOf(at)] += w.row_area[at] * part(at);
+      const Vec3 pressed = w.row_area[at] * part(at);
+      eachPoint(at, [&](int slot, double N) {
+        w.weight[slot] += N * w.row_area[at];
+        w.free_sum[slot] += N * pressed;
+      });
     }
     if (!any) continue;
-    for (int f = 0; f < free_count; ++f) {
-      Vec3 sum{};
-      double total = 0;
-      for (int k = w.columns.offsets[f]; k < w.columns.offsets[f + 1]; ++k) {
-        sum += w.columns.values[k] * w.sample_impulse[w.columns.columns[k]];
-        total += w.columns.values[k] * w.weight[w.columns.columns[k]];
-      }
-      w.free_velocity[f] = total > 0 ? sum / total : Vec3{};
-    }
+    for (std::size_t f = 0; f < touched; ++f)
+      if (w.weight[f] > 0) w.free_sum[f] = w.free_sum[f] / w.weight[f];
     for (int at = 0; at < n; ++at) {
       if (!smoothed(at)) continue;
       Vec3 smooth{};
-      for (int k = w.rows.offsets[sampleOf(at)]; k < w.rows.offsets[sampleOf(at) + 1]; ++k)
-        smooth += w.rows.values[k] * w.free_velocity[w.rows.columns[k]];
-      const Vec3 change = kMix * (smooth - part(at));
+      double whole = 0;
+      eachPoint(at, [&](int slot, double N) {
+        smooth += N * w.free_sum[slot];
+        whole += N;
+      });
+      if (!(whole > 0)) continue;
+      const Vec3 change = kMix * (smooth / whole - part(at));
       w.traction[at] += family == 0 ? change : change.x * rows[w.order[at]].contact.normal;
     }
   }

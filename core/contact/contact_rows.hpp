@@ -31,13 +31,14 @@ inline double slopeOf(const ContactRow& row, std::span<const double> density) {
 void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> area,
                 std::span<const double> inverse_mass, ContactWork& work);
 
-/// Sorts work.order by islands, and counts them in work.islands; they keep the order of their first rows.
-void findIslands(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-                 ContactWork& work);
+/// What each row moves with, work.reach: free points that can move, each once, with their weights B W_T; and how it
+/// would move at `velocity`.
+void reachRows(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+               std::span<const Vec3> velocity, ContactWork& work);
 
-/// Restricts W_T to the samples and free points that the rows of work.order touch; everything of the iteration that
-/// follows from the rows, and its arrays at their sizes.
-void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+/// Sorts work.order by islands, which keep the order of their first rows, and these by colours; the free points that
+/// the rows touch; everything of the iteration that follows from the rows, and its arrays at their sizes.
+void restrict(std::span<const ContactRow> rows, int free_count, std::span<const double> inverse_mass,
               std::span<const double> density, std::span<const Vec3> velocity, ContactWork& work);
 
 /// Where samples outnumber control points, tractions have parts that move nothing; a solve neither makes nor removes
@@ -46,6 +47,6 @@ void restrict(std::span<const ContactRow> rows, const SparseRows& WT, std::span<
 /// Contacts of samples on cloth have no direction in common with the others around: theirs take the projection of
 /// their normal parts, the two sides of the cloth apart, told by the normal's sign along a direction that no usual
 /// sheet lies in.
-void smoothWarm(std::span<const ContactRow> rows, std::span<const Vec3> warm, ContactWork& work);
+void smoothWarm(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const Vec3> warm, ContactWork& work);
 
 }  // namespace gambeson

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/contact/contact_iteration.hpp"
 #include "core/contact/contact_rows.hpp"
+#include "core/contact/held_iteration.hpp"
+#include "core/contact/iteration_lanes.hpp"
 #include "core/math/parallel.hpp"
 
 namespace gambeson {
@@ -37,31 +38,24 @@ struct Problem {
   double dt;
 };
 
-/// Rows of one sample side by side.
-void sortRows(std::span<const ContactRow> rows, ContactWork& w) {
-  w.sorted.resize(rows.size());
-  std::iota(w.sorted.begin(), w.sorted.end(), 0);
-  std::stable_sort(w.sorted.begin(), w.sorted.end(),
-                   [&](int a, int b) { return rows[a].stencil.sample[0] < rows[b].stencil.sample[0]; });
-}
-
-/// Makes w.order of the rows that are in.
+/// Makes w.order of the rows that are in, those of one sample side by side.
 void choose(const Problem& p, ContactWork& w) {
   w.order.clear();
-  for (int i : w.sorted)
+  for (int i = 0; i < static_cast<int>(p.rows.size()); ++i)
     if (w.in[i]) w.order.push_back(i);
-  restrict(p.rows, p.WT, p.inverse_mass, p.density, p.velocity, w);
+  std::stable_sort(w.order.begin(), w.order.end(),
+                   [&](int a, int b) { return p.rows[a].stencil.sample[0] < p.rows[b].stencil.sample[0]; });
+  restrict(p.rows, p.WT.column_count, p.inverse_mass, p.density, p.velocity, w);
+  if (w.hold) largestBounds(w);  // before velocities are set: it works in their arrays
 }
 
-/// What the samples' impulses do to all free points, w.change.
-void changeOfAll(std::span<const double> inverse_mass, ContactWork& w) {
-  w.change.assign(inverse_mass.size(), Vec3{});
-  for (std::size_t f = 0; f < w.free_points.size(); ++f) {
-    Vec3 sum{};
-    for (int k = w.columns.offsets[f]; k < w.columns.offsets[f + 1]; ++k)
-      sum += w.columns.values[k] * w.sample_impulse[w.columns.columns[k]];
-    w.change[w.free_points[f]] = inverse_mass[w.free_points[f]] * sum;
-  }
+/// What the rows' impulses do to all free points, w.change.
+void changeOfAll(std::span<const Vec3> impulses, ContactWork& w) {
+  w.change.assign(w.free_slot.size(), Vec3{});
+  for (std::size_t k = 0; k < w.order.size(); ++k)
+    for (int e = w.points.offsets[k]; e < w.points.offsets[k + 1]; ++e)
+      w.change[w.free_points[w.points.columns[e]]] += w.points.values[e] * impulses[w.order[k]];
+  for (std::size_t f = 0; f < w.free_points.size(); ++f) w.change[w.free_points[f]] *= w.inverse_mass[f];
   if (w.hold) w.hold->hold(w.change);
 }
 
@@ -71,26 +65,18 @@ double leftOut(const Problem& p, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
   w.joins.assign(n, 0);
   w.left_out.assign(n, 0);
+  w.free_sum.resize(w.free_points.size());  // what contacts have changed
+  for (std::size_t f = 0; f < w.free_points.size(); ++f) w.free_sum[f] = vec(w.moved[f]) - vec(w.base[f]);
   forAll(Each::sum, n, [&](int i) {
     if (w.in[i] || w.area_of[i] == 0) return;
-    const ContactRow& row = p.rows[i];
-    Vec3 v = -driftOf(row);
-    for (int j = 0; j < row.stencil.count; ++j) {
-      const int s = row.stencil.sample[j];
-      for (int e = p.WT.offsets[s]; e < p.WT.offsets[s + 1]; ++e) {
-        const int f = p.WT.columns[e], slot = w.free_slot[f];
-        const double weight = row.stencil.weight[j] * p.WT.values[e];
-        if (slot < 0) {
-          v += weight * p.velocity[f];
-        } else {
-          const double* lane = w.moved[slot].lane;
-          v += weight * Vec3{lane[0], lane[1], lane[2]};
-        }
-      }
-    }
-    if (!(dot(v, row.contact.normal) < 0)) return;
+    const ContactWork::Reach& reach = w.reach[i];
+    Vec3 v = reach.start;
+    for (int e = reach.first; e < reach.first + reach.count; ++e)
+      if (const int slot = w.free_slot[w.reach_point[e]]; slot >= 0) v += w.reach_weight[e] * w.free_sum[slot];
+    const Vec3& normal = p.rows[i].contact.normal;
+    if (!(dot(v, normal) < 0)) return;
     w.joins[i] = 1;
-    w.left_out[i] = norm2(project(-v, row.contact.normal, w.slip[i].friction, w.slip[i].drag));
+    w.left_out[i] = norm2(project(-v, normal, w.slip[i].friction, w.slip[i].drag));
   });
   double most2 = 0;
   for (double l : w.left_out) most2 = std::max(most2, l);
@@ -111,9 +97,18 @@ void join(const Problem& p, ContactWork& w) {
       w.kept_island[w.order[k]] = static_cast<int>(i);
     }
   w.kept_islands = w.islands;
+  w.kept_points = w.free_points;
+  w.kept_moved = w.moved;
+  w.kept_moved_before = w.moved_before;
   for (int i = 0; i < n; ++i) w.in[i] = w.in[i] || w.joins[i];
   choose(p, w);
-  largestBounds(w);  // before velocities are set: it works in their arrays
+  // What joins carries nothing yet: no point moves otherwise for it.
+  w.moved = w.moved_before = w.base;
+  for (std::size_t k = 0; k < w.kept_points.size(); ++k) {
+    const int slot = w.free_slot[w.kept_points[k]];
+    w.moved[slot] = w.kept_moved[k];
+    w.moved_before[slot] = w.kept_moved_before[k];
+  }
   for (ContactWork::Island& island : w.islands) {
     const ContactWork::Island* slowest = nullptr;
     bool same = true;
@@ -128,10 +123,10 @@ void join(const Problem& p, ContactWork& w) {
     if (!slowest) continue;
     island.beta = slowest->beta;
     island.momentum = slowest->momentum;
+    island.caution = slowest->caution;
     island.iterations = slowest->iterations;
     island.residual_m_per_s = slowest->residual_m_per_s;
     island.done = same && slowest->done;
-    if (island.done) moveDone(island, w);
   }
 }
 
@@ -144,7 +139,7 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
   w.in.resize(n);
   for (int i = 0; i < n; ++i) w.in[i] = w.area_of[i] > 0 && (w.hold || !(warm[i] == Vec3{}));
   choose(p, w);
-  smoothWarm(p.rows, warm, w);
+  smoothWarm(p.rows, p.WT, warm, w);
   for (std::size_t k = 0; k < w.order.size(); ++k)
     w.traction[k] = project(w.traction[k], w.facts[k].normal, w.facts[k].friction, w.facts[k].drag);
   startIteration(w);
@@ -153,7 +148,8 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
 }
 
 /// What pressure and direction have of the friction of a row. `along`: its slip, or the traction that holds it.
-double factorOf(const FrictionLaw& law, double pressure_Pa, const Vec3& along, const Vec3& normal, const RowSlip& slip) {
+double factorOf(const FrictionLaw& law, double pressure_Pa, const Vec3& along, const Vec3& normal,
+                const RowSlip& slip) {
   const Vec3 t = along - dot(along, normal) * normal;
   const double size2 = norm2(t), to_weft = dot(t, slip.weft);
   // Where nothing pulls yet, the most that any direction holds: what does pull then says.
@@ -202,8 +198,7 @@ bool followSlip(const Problem& p, double goal, ContactWork& w) {
       const double pressed = dot(traction, row.contact.normal);
       RowSlip& slip = w.slip[w.order[k]];
       slip.speed_m_per_s = norm(over);
-      const double factor =
-          factorOf(law, pressed / p.dt, slip.slips ? over : traction, row.contact.normal, slip);
+      const double factor = factorOf(law, pressed / p.dt, slip.slips ? over : traction, row.contact.normal, slip);
       const bool breaks = !slip.slips && !slip.broke && slip.speed_m_per_s > kStill * goal;
       if (breaks) {
         slip.slips = slip.broke = true;
@@ -228,7 +223,7 @@ ContactSolve solve(const Problem& p, double goal, int max_iterations, ContactWor
   ContactSolve report;
   int follows = 0;
   for (int check = std::min(kFirstCheck, max_iterations);; check = std::min(2 * check, max_iterations)) {
-    iterate(goal, check, w);
+    iterate(goal, check, max_iterations, w);
     report.residual_m_per_s = leftOut(p, w);
     report.converged = report.residual_m_per_s <= goal;
     for (const ContactWork::Island& island : w.islands) {
@@ -319,8 +314,8 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   w.hold = hold;
   if (rows.empty()) return {};
   const Problem problem{rows, WT, inverse_mass, density, velocity, c, dt};
-  sortRows(rows, w);
   shareAreas(rows, WT, area, inverse_mass, w);
+  reachRows(rows, WT, inverse_mass, velocity, w);
   startFriction(problem, slip, warm, w);
   begin(problem, warm, w);
   double goal = c.tolerance_m_per_s2 * dt;
@@ -332,16 +327,12 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
 
   std::copy_n(w.slip.begin(), slip.size(), slip.begin());
   std::fill(warm.begin(), warm.end(), Vec3{});
-  w.sample_impulse.assign(w.samples.size(), Vec3{});
   for (std::size_t k = 0; k < w.order.size(); ++k) {
     const int i = w.order[k];
-    const double* lane = w.candidate[k].lane;
-    warm[i] = {lane[0], lane[1], lane[2]};
+    warm[i] = vec(w.candidate[k]);
     impulses[i] = w.row_area[k] * warm[i];
-    for (int e = w.stencils.offsets[k]; e < w.stencils.offsets[k + 1]; ++e)
-      w.sample_impulse[w.stencils.columns[e]] += w.stencils.values[e] * impulses[i];
   }
-  changeOfAll(inverse_mass, w);
+  changeOfAll(impulses, w);
   if (hold)
     for (std::size_t f = 0; f < velocity.size(); ++f) velocity[f] += w.change[f];
   else

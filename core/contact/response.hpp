@@ -3,6 +3,7 @@
 /// consistent impulses and effective masses).
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -117,7 +118,6 @@ class MotionHold {
 /// their order, where it does not say otherwise.
 struct ContactWork {
   // Of all rows.
-  std::vector<int> sorted;                    ///< their order in the iteration, by sample
   std::vector<double> area_of;                ///< that each stands for
   std::vector<RowSlip> slip;                  ///< of rows whose friction depends on the motion; of the others mu alone
   bool any_slips = false;                     ///< whether there are such rows
@@ -126,12 +126,24 @@ struct ContactWork {
   std::vector<double> left_out;               ///< squared residual of what is left out
   std::vector<int> on_body;                   ///< contacts of each sample of the cloth with bodies
   std::vector<int> first_on_cloth, on_cloth;  ///< rows of each sample on cloth
+  /// The free points that a row moves with and that can move, with their weights B W_T: from `first` on, `count` of
+  /// them. And v - drift as the points would move without any contact.
+  struct Reach {
+    int first = 0, count = 0;
+    Vec3 start;
+  };
+  std::vector<Reach> reach;
+  std::vector<int> reach_point;
+  std::vector<double> reach_weight;
 
   /// Rows that no point of the cloth that can move ties to the others: each island is a solve of its own, and iterates
-  /// only until it is done. Ranges of `order`, of `samples` and of `free_points`.
+  /// only until it is done. Ranges of `order`, of `free_points` and of `chunks`.
   struct Island {
-    int row = 0, row_end = 0, sample = 0, sample_end = 0, free_point = 0, free_end = 0, chunk = 0;
+    int row = 0, row_end = 0, free_point = 0, free_end = 0, chunk = 0, chunk_end = 0;
     double beta = 0, momentum = 1;  ///< of Nesterov's sequence
+    double caution = 1;             ///< by which steps are shorter where the sequence does not settle
+    double best = 0;                ///< residual that counts as progress, 0: none yet
+    int waiting = 0;                ///< iterations since
     int iterations = 0;
     double residual_m_per_s = 0;
     bool done = false;
@@ -141,14 +153,23 @@ struct ContactWork {
   std::vector<int> tied_to;      ///< of all free points, a forest
   std::vector<int> island_of, number, unsorted, by_size;
 
-  std::vector<int> order;  ///< rows in the order of the iteration, by island
-  std::vector<int> samples, sample_slot, free_points, free_slot;
-  SparseRows rows, columns;        ///< samples x free points and back
-  SparseRows stencils, of_sample;  ///< rows x samples and back, with weights
-  std::vector<double> row_area;    ///< area of each row
-  std::vector<double> weight;      ///< of a sample: area of its warm rows together
-  std::vector<Vec3> sample_impulse, free_velocity, traction;
-  // The iteration's own arrays, four lanes wide; the rows in the order of of_sample.
+  std::vector<int> order;  ///< rows in the order of the iteration, by island and then by colour
+  /// Rows of one colour share no free point. Of rows in the order of the iteration, and bits of each free point.
+  std::vector<int> colour, unsorted_colour;
+  std::vector<std::array<std::uint64_t, 4>> taken;
+  /// Some rows of one colour of an island: begins here in `order`, and ends where the next one begins.
+  struct Chunk {
+    int row = 0, colour = 0;
+  };
+  std::vector<Chunk> chunks;
+  std::vector<double> largest2, against;  ///< of the chunks
+
+  std::vector<int> free_points, free_slot;
+  SparseRows points, columns;  ///< rows x free points, B W_T; with a hold its transpose too
+  std::vector<double> row_area;
+  std::vector<double> weight;  ///< of a free point: area of its warm rows together
+  std::vector<Vec3> free_sum, traction;
+  // The iteration's own arrays, four lanes wide.
   struct alignas(32) Quad {
     double lane[4];
   };
@@ -156,17 +177,18 @@ struct ContactWork {
     Vec3 normal, drift;  ///< v_n - target = (v - drift) . normal
     double friction = 0, drag = 0, compliance = 0;
     double slope = 0;    ///< 1/rho, or for cloth on cloth the sum of both: the residual's measure
-    double largest = 0;  ///< the bound if all rows carried something, at least the slope
+    double own = 0;      ///< what the row's own traction does to it, its diagonal entry of B W_T M^-1 W_T^T B^T a
+    double largest = 0;  ///< with a hold: the bound if all rows carried something, at least the slope
   };
   std::vector<Row> facts;
   std::vector<Quad> point, candidate, previous;     ///< of rows
   std::vector<Quad> kept_candidate, kept_previous;  ///< of all rows, while the rows change
-  std::vector<Quad> impulse, velocity;              ///< of samples
-  std::vector<Quad> base, moved;                    ///< of free points
+  std::vector<Quad> base, moved, moved_before;      ///< of free points: without contacts, now, a sweep ago
+  std::vector<int> kept_points;                     ///< free points, while the rows change
+  std::vector<Quad> kept_moved, kept_moved_before;  ///< of these
   std::vector<double> inverse_mass;
-  std::vector<double> largest2, against;  ///< of the islands' chunks of rows
-  MotionHold* hold = nullptr;             ///< ties all rows to each other: there is one island
-  std::vector<Vec3> change;               ///< of the free points that the rows touch, or of all, for `hold`
+  MotionHold* hold = nullptr;  ///< ties all rows to each other: there is one island
+  std::vector<Vec3> change;    ///< of the free points that the rows touch, or of all, for `hold`
 };
 
 /// The least normal velocity of eq. 3.15 to 3.18 as one unilateral condition. With g the gap and delta the layer,
@@ -205,20 +227,19 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 ///   lambda_n >= 0,  v_n >= target,  lambda_n (v_n - target) = 0,   |lambda_t| <= mu lambda_n opposing the slip
 ///   (eq. 3.20).
 /// Unknowns are impulses per area (tractions times dt): lambda = a tau, with the consistent areas a. In these unknowns
-/// the operator is bounded by 1/rho because W_Tᵀ a = m/rho, so that projected gradient steps of length rho (surface
-/// density, kg/m^2) are stable, independent of the mesh, and keep the pressure a smooth field over the surface also
-/// where samples outnumber control points; Nesterov's acceleration with restart, of each island of rows by itself. Only
-/// rows that carry something count
-/// in that bound: where they cover part of a neighbourhood, the row sum D_s = sum_j (W_T M^-1 W_T^T)_sj a_j over them
-/// is less than 1/rho and the step is 1/D_s (the operator's entries are not negative, so that D - W_T M^-1 W_T^T a has
-/// no negative eigenvalue). The residual is |tau - proj(tau - rho r)|/rho [m/s] whatever the steps were.
-/// Contacts of cloth with cloth (stencils B of several samples) solve with B W_T M^-1 W_Tᵀ Bᵀ in the same way; row sums
-/// are those of absolute weights there, and 1/rho is the sum of both sides'. Each sample on cloth stands for half its
-/// area, because the other side's samples stand for the other half; an edge for an eighth of what its pair touches.
+/// the operator A = B W_T M^-1 W_T^T B^T a is bounded by 1/rho because W_Tᵀ a = m/rho (rho: surface density, kg/m^2;
+/// for contacts of cloth with cloth, whose stencils B have several samples, by the sum of both sides'), independent of
+/// the mesh, and pressure is a smooth field over the surface also where samples outnumber control points. Rows are
+/// solved one after the other, each for what the others leave of it (projected Gauss-Seidel), in an order in which
+/// rows that share no point stand together, with Nesterov's acceleration between the sweeps and restarts, of each
+/// island of rows by itself (contact_iteration.hpp). The residual is |tau - proj(tau - rho r)|/rho [m/s]. Each sample
+/// on cloth stands for half its area, because the other side's samples stand for the other half; an edge for an eighth
+/// of what its pair touches.
 /// Rows that carry nothing are left out while they are not penetrated; the residual is that of all rows.
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
-/// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem. Impulses may
+/// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem, whose rows can
+/// no longer be taken one by one; all take a step along the gradient at once there. Impulses may
 /// then be thousands of times what stops the cloth by itself (a ring that takes no stretch, on a body); a solve is done
 /// at 2e-4 of the largest where that is more than the tolerance. Without such a hold at 1e-6, and ten tolerances at
 /// most.

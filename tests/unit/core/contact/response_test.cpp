@@ -5,10 +5,12 @@
 #include "core/cloth/draft/areas.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "core/contact/contact_rows.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
@@ -37,11 +39,12 @@ struct Problem {
   ContactParameters parameters{1e-3, 0.3, 0.01, 1e-9, 4000};
 
   std::vector<Vec3> impulses;
+  ContactWork work;
   ContactSolve solve(const Vec3& warm_start = {}) {
     std::vector<double> inverse;
     for (double m : mass) inverse.push_back(m > 0 ? 1 / m : 0);
     std::vector<Vec3> warm(rows.size(), warm_start);
-    ContactWork work;
+    work = {};
     const std::vector<double> density(area.size(), rho);
     return solveContacts(rows, W, inverse, area, density, parameters, dt, velocity, warm, impulses, work);
   }
@@ -346,8 +349,8 @@ double measuredResidual(const Problem& p) {
 }
 
 /// A sheet on a bumpy ground: neighbours' normals differ, samples outnumber control points, some have two contacts.
-Problem sheetOnBumps(double tolerance_m_per_s2) {
-  const Garment g = shapes::squareSheet(8, 0.2, 0);
+Problem sheetOnBumps(double tolerance_m_per_s2, int cells = 8) {
+  const Garment g = shapes::squareSheet(cells, 0.2, 0);
   const FreeMap map = buildFreeMap(g);
   const Surface surface = buildSurface(g, map, 2);
   std::vector<double> area(map.T.column_count);
@@ -383,6 +386,43 @@ TEST(Response, ClaimedResidualIsTheMeasuredOne) {
       EXPECT_LE(norm(p.impulses[i] - normal * p.rows[i].contact.normal), 0.3 * normal * (1 + 1e-9) + 1e-18);
     }
   }
+}
+
+/// Rows of one colour stand together in their island, and share no point: threads may take them side by side.
+TEST(Response, RowsOfOneColourShareNoPoint) {
+  Problem p = sheetOnBumps(1e-2);
+  ASSERT_TRUE(p.solve().converged);
+  const ContactWork& w = p.work;
+  ASSERT_EQ(w.islands.size(), 1u);
+  int colours = 0;
+  for (int c = 0, end; c < w.islands[0].chunk_end; c = end, ++colours) {
+    for (end = c; end < w.islands[0].chunk_end && w.chunks[end].colour == w.chunks[c].colour;) ++end;
+    EXPECT_EQ(w.chunks[c].colour, colours);
+    std::vector<char> taken(w.free_points.size(), 0);
+    for (int e = w.points.offsets[w.chunks[c].row]; e < w.points.offsets[w.chunks[end].row]; ++e)
+      EXPECT_FALSE(std::exchange(taken[w.points.columns[e]], 1));
+  }
+  EXPECT_GE(colours, 9);  // a point of a quadratic sheet reaches the samples of nine cells
+  EXPECT_LT(colours, 60);
+}
+
+/// An island that all threads share has the same impulses, to the last bit, for any number of them.
+TEST(Response, ALargeIslandIsTheSameForAnyNumberOfThreads) {
+  const int threads = omp_get_max_threads();
+  const auto solved = [](int count) {
+    omp_set_num_threads(count);
+    Problem p = sheetOnBumps(1, 48);
+    EXPECT_TRUE(p.solve().converged);
+    std::size_t most = 0;
+    for (const ContactWork::Island& i : p.work.islands)
+      most = std::max(most, static_cast<std::size_t>(i.row_end - i.row));
+    EXPECT_GT(most, 2048u);
+    return p.impulses;
+  };
+  const std::vector<Vec3> one = solved(1);
+  EXPECT_EQ(one, solved(2));
+  EXPECT_EQ(one, solved(3));
+  omp_set_num_threads(threads);
 }
 
 /// A solve that starts with impulses of I/rho ends at 1e-6 I/rho, or at ten tolerances.

@@ -74,6 +74,7 @@ TEST(SelfContact, FastSheetsAreStoppedByImpact) {
     if (m.state.p[i].z > 0.005) m.state.v[i] = {-120, 40, -60};
   m.restart();
   int impacts = 0, contacts = 0;
+  double work = 0, separation = 0;
   for (int s = 0; s < 30; ++s) {
     // 12 mm down and 25 mm sideways in a step: the nearest points at its start tell nothing.
     const StepReport r = m.step(2e-4);
@@ -81,8 +82,13 @@ TEST(SelfContact, FastSheetsAreStoppedByImpact) {
     ASSERT_EQ(crossings(m), 0) << s;
     impacts += r.impacts;
     contacts += r.cloth_contacts;
-    // Impulses take energy, but for what restoring the layer adds.
-    EXPECT_LE(r.work.contact, r.work.separation + 1e-12) << s;
+    // Impulses take energy, but for what restoring the layer adds. Velocities hold half of what lasts in advance, and a
+    // contact that has ended gives its half back in the next step: sums tell where nothing is held in advance.
+    work += r.work.contact;
+    separation += r.work.separation;
+    if (m.state.pressed.empty()) {
+      EXPECT_LE(work, separation + 1e-12) << s;
+    }
   }
   EXPECT_GT(impacts, 10);
   EXPECT_GT(impacts + contacts, 100);
