@@ -90,7 +90,7 @@ void MeshSurface::place(std::span<const Vec3> vertices) {
 }
 
 /// Of twice the face's area.
-Vec3 MeshSurface::areaNormal(int t) const {
+inline Vec3 MeshSurface::areaNormal(int t) const {
   const auto& c = topology_.triangles[t];
   return cross(x_[c[1]] - x_[c[0]], x_[c[2]] - x_[c[0]]);
 }
@@ -101,13 +101,13 @@ Vec3 MeshSurface::normalOf(int t) const { return topology_.collapsed(t) ? Vec3{}
 /// Whether s/sqrt(of2), how far along a unit vector a point goes that is sqrt(r2) away, is beyond the tolerance in
 /// spite of any rounding: 1 forwards, -1 backwards, 0 where that is not certain. It is where it counts in nearly all
 /// cases, and spares the unit vector.
-int MeshSurface::surely(double s, double of2, double r2) const {
+inline int MeshSurface::surely(double s, double of2, double r2) const {
   if (!(s * s > 4 * (tolerance_m_ * tolerance_m_ + kRounding2 * r2) * of2)) return 0;
   return s > 0 ? 1 : -1;
 }
 
 /// Of a point at r from the edge's line, over a face with this normal, into which the edge e goes round.
-MeshSurface::Side MeshSurface::sideOf(const Vec3& r, const Vec3& e, const Vec3& area_normal) const {
+inline MeshSurface::Side MeshSurface::sideOf(const Vec3& r, const Vec3& e, const Vec3& area_normal) const {
   const int sure = surely(dot(r, cross(area_normal, e)), norm2(area_normal) * norm2(e), norm2(r));
   if (sure != 0) return sure > 0 ? Side::in : Side::out;
   const double s = dot(r, unitOrZero(cross(unitOrZero(area_normal), e)));
@@ -169,14 +169,31 @@ MeshPoint MeshSurface::signedFoot(const Vec3& p, const Vec3& foot, int feature) 
     return m;
   }
   const int e = feature - n_faces, v = e - n_edges;
-  const Vec3 pseudo = e < n_edges ? edgeNormal(e) : vertexNormal(v);
-  const bool rim = e < n_edges ? topology_.rim_edge[e] : topology_.rim_vertex[v];
+  const bool is_edge = e < n_edges;
   const Vec3 r = p - foot;
   const double d = norm(r);
+  // Closer than this the direction is rounding.
+  const bool tells = d > 10 * tolerance_m_;
+  // In front of each face there, as most are, it is in front of their mean.
+  const auto inFront = [&](const MeshTopology::Corner& c) {
+    const Vec3 n = areaNormal(c.face);
+    const double h = dot(r, n);
+    return h > 0 && h * h > kRounding2 * norm2(r) * norm2(n);
+  };
+  const auto faces = is_edge
+                         ? std::span(topology_.edge_faces)
+                               .subspan(topology_.edge_begin[e], topology_.edge_begin[e + 1] - topology_.edge_begin[e])
+                         : std::span(corners_).subspan(corners_begin_[v], corners_begin_[v + 1] - corners_begin_[v]);
+  if (tells && std::ranges::all_of(faces, inFront)) {
+    m.distance_m = d;
+    m.normal = r / d;
+    return m;
+  }
+  const Vec3 pseudo = is_edge ? edgeNormal(e) : vertexNormal(v);
+  const bool rim = is_edge ? topology_.rim_edge[e] : topology_.rim_vertex[v];
   const bool behind = !rim && dot(r, pseudo) < 0;
   m.distance_m = behind ? -d : d;
-  // Closer than this the direction is rounding.
-  m.normal = d > 10 * tolerance_m_ ? r / m.distance_m : pseudo;
+  m.normal = tells ? r / m.distance_m : pseudo;
   return m;
 }
 
@@ -234,34 +251,37 @@ bool MeshSurface::vertexIsMinimum(int v, const Vec3& p) const {
 
 /// Local minima that this triangle answers for. False: it is out of reach.
 bool MeshSurface::faceFeet(int t, const Vec3& p, double radius, std::vector<MeshPoint>& out) const {
-  if (topology_.collapsed(t)) return false;
   const auto& c = topology_.triangles[t];
   const Vec3 r[3] = {p - x_[c[0]], p - x_[c[1]], p - x_[c[2]]}, n = areaNormal(t);
+  if (norm2(n) == 0 && topology_.collapsed(t)) return false;
   if (!surelyWithin(dot(r[0], n), norm2(n), norm2(r[0]), radius) && std::abs(dot(r[0], unitOrZero(n))) > radius)
     return false;
   Side side[3];
-  int past_start[3], past_end[3];  // of the foot of p on the edge's line
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 e = x_[c[(k + 1) % 3]] - x_[c[k]];
-    const double along = dot(r[k], e), e2 = norm2(e), r2 = norm2(r[k]);
-    side[k] = sideOf(r[k], e, n);
-    past_start[k] = surely(along, e2, r2);
-    past_end[k] = surely(along - e2, e2, r2 + e2);
-  }
+  for (int k = 0; k < 3; ++k) side[k] = sideOf(r[k], x_[c[(k + 1) % 3]] - x_[c[k]], n);
   if (norm2(n) > 0 && std::ranges::find(side, Side::out) == std::end(side)) {
     const Vec3 normal = unitOrZero(n);
     const double h = dot(r[0], normal);
     out.push_back({p - h * normal, normal, h, t});
   }
-  // This face alone often tells that it has a closer point than its edge or corner. It is its edges' first.
+  // This face alone often tells that it has a closer point than its edge or corner: the foot of p on the edge's line is
+  // surely before its start, or past its end, or the edge leads from the corner towards p.
+  const auto pastStart = [&](int k) {
+    const Vec3 e = x_[c[(k + 1) % 3]] - x_[c[k]];
+    return surely(dot(r[k], e), norm2(e), norm2(r[k]));
+  };
+  const auto beforeEnd = [&](int k) {
+    const Vec3 e = x_[c[(k + 1) % 3]] - x_[c[k]];
+    return surely(norm2(e) - dot(r[k], e), norm2(e), norm2(r[k]) + norm2(e));
+  };
   for (int k = 0; k < 3; ++k) {
-    const int edge = topology_.face_edges[t][k], from = side[k] == Side::out ? 1 : 0;
+    const int edge = topology_.face_edges[t][k];
+    const int next = side[k] == Side::out ? 1 : 0;  // this face is the first of the edges that it owns
     Vec3 foot;
-    if ((owns_[t].edges >> k & 1) && side[k] != Side::in && past_start[k] >= 0 && past_end[k] <= 0 &&
-        edgeIsMinimum(edge, p, from, foot) && norm2(p - foot) <= radius * radius)
+    if ((owns_[t].edges >> k & 1) && side[k] != Side::in && pastStart(k) >= 0 && beforeEnd(k) >= 0 &&
+        edgeIsMinimum(edge, p, next, foot) && norm2(p - foot) <= radius * radius)
       out.push_back(signedFoot(p, foot, topology_.edgeFeature(edge)));
-    if ((owns_[t].vertices >> k & 1) && past_start[k] <= 0 && past_end[(k + 2) % 3] >= 0 &&
-        norm2(r[k]) <= radius * radius && vertexIsMinimum(c[k], p))
+    if ((owns_[t].vertices >> k & 1) && norm2(r[k]) <= radius * radius && pastStart(k) <= 0 &&
+        beforeEnd((k + 2) % 3) <= 0 && vertexIsMinimum(c[k], p))
       out.push_back(signedFoot(p, x_[c[k]], topology_.vertexFeature(c[k])));
   }
   return true;
