@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "core/contact/triangle.hpp"
-#include "core/math/parallel.hpp"
 
 namespace gambeson {
 
@@ -99,8 +98,8 @@ inline Vec3 MeshSurface::areaNormal(int t) const {
 Vec3 MeshSurface::normalOf(int t) const { return topology_.collapsed(t) ? Vec3{} : unitOrZero(areaNormal(t)); }
 
 /// Whether s/sqrt(of2), how far along a unit vector a point goes that is sqrt(r2) away, is beyond the tolerance in
-/// spite of any rounding: 1 forwards, -1 backwards, 0 where that is not certain. It is where it counts in nearly all
-/// cases, and spares the unit vector.
+/// spite of any rounding: 1 forwards, -1 backwards, 0 where that is not certain. It nearly always is, which spares the
+/// unit vector.
 inline int MeshSurface::surely(double s, double of2, double r2) const {
   if (!(s * s > 4 * (tolerance_m_ * tolerance_m_ + kRounding2 * r2) * of2)) return 0;
   return s > 0 ? 1 : -1;
