@@ -74,21 +74,19 @@ class Search {
     const auto [a, b] = mesh_.edges[pair.a];
     const auto [c, d] = mesh_.edges[pair.b];
     if (std::max(b, d) >= facts_.cloth_vertices) return;
-    const auto& h = facts_.thickness_m;
-    const auto path = [&](int i) { return norm(end_[i] - x_[i]); };
-    const double most = contactReach(0.5 * (std::max(h[a], h[b]) + std::max(h[c], h[d]))) + std::max(path(a), path(b)) +
-                        std::max(path(c), path(d));
-    if (!overlap(Box{minimum(x_[a], x_[b]), maximum(x_[a], x_[b])}.grown(most),
-                 Box{minimum(x_[c], x_[d]), maximum(x_[c], x_[d])}))
-      return;
+    if (blunt(pair.a) || blunt(pair.b)) return;
     const SegmentPair near = nearestOnSegments(x_[a], x_[b], x_[c], x_[d]);
-    const double layer = 0.5 * ((1 - near.s) * h[a] + near.s * h[b] + (1 - near.t) * h[c] + near.t * h[d]);
-    if (!(near.dist2_m2 < most * most)) return;
     constexpr double inside = 1e-6;
     if (!(near.s > inside && near.s < 1 - inside && near.t > inside && near.t < 1 - inside)) return;
     const Vec3 p = x_[a] + near.s * (x_[b] - x_[a]), q = x_[c] + near.t * (x_[d] - x_[c]);
     const Vec3 way = direction(p - q, cross(x_[b] - x_[a], x_[d] - x_[c]));
     if (!sharp(pair.a, p, -way) || !sharp(pair.b, q, way)) return;
+    const auto& h = facts_.thickness_m;
+    const auto path = [&](int i) { return norm(end_[i] - x_[i]); };
+    const double most = contactReach(0.5 * (std::max(h[a], h[b]) + std::max(h[c], h[d]))) + std::max(path(a), path(b)) +
+                        std::max(path(c), path(d));
+    if (!(near.dist2_m2 < most * most)) return;
+    const double layer = 0.5 * ((1 - near.s) * h[a] + near.s * h[b] + (1 - near.t) * h[c] + near.t * h[d]);
     const auto& X = facts_.rest;
     const Vec3 rest = X[c] + near.t * (X[d] - X[c]) - (X[a] + near.s * (X[b] - X[a]));
     if (neighbours(a, c, rest, layer)) return;
@@ -143,13 +141,10 @@ class Search {
     const std::span<const int> around = foot.feature >= kEdge0
                                             ? mesh_.edge_faces[mesh_.face_edges[t][foot.feature - kEdge0]]
                                             : mesh_.vertex_faces[mesh_.triangles[t][foot.feature]];
-    for (int other : around) {
-      if (other == t) continue;
-      const TrianglePoint there = closestOnTriangle(corners(other), x_[v]);
-      if (there.dist2_m2 < foot.dist2_m2 * (1 - 1e-12)) return false;
-      if (other < t) return false;  // it answers for the feature
-    }
-    return true;
+    if (around.front() != t) return false;  // that one answers for the feature
+    return std::none_of(around.begin() + 1, around.end(), [&](int other) {
+      return closestOnTriangle(corners(other), x_[v]).dist2_m2 < foot.dist2_m2 * (1 - 1e-12);
+    });
   }
   bool onBorder(int vertex) const {
     const std::span<const int> edges = mesh_.vertex_edges[vertex];
@@ -176,6 +171,32 @@ class Search {
     return true;
   }
 
+  /// What leads from an edge to a corner of a face at it, square to the edge: `from` any point of its line.
+  static Vec3 across(const Vec3& corner, const Vec3& from, const Vec3& along, double length2) {
+    const Vec3 r = corner - from;
+    return r - (dot(r, along) / length2) * along;
+  }
+
+  /// The edge's two faces bend away from no direction by as much as sharp() asks for, since they hardly bend: two unit
+  /// vectors that both have less than -kSharp in common with a third one are less than 2 acos(kSharp) apart.
+  bool blunt(int edge) const {
+    constexpr double kFlat = 2 * kSharp * kSharp - 1 - 1e-4;  // cosine; the last part is far more than rounding
+    const std::span<const int> faces = mesh_.edge_faces[edge];
+    if (faces.size() != 2) return false;
+    const auto [a, b] = mesh_.edges[edge];
+    const Vec3 along = x_[b] - x_[a];
+    const double length2 = norm2(along);
+    const auto acrossFace = [&](int t) {
+      Vec3 corner{};
+      for (int c : mesh_.triangles[t])
+        if (c != a && c != b) corner = x_[c];
+      return across(corner, x_[a], along, length2);
+    };
+    const Vec3 one = acrossFace(faces[0]), two = acrossFace(faces[1]);
+    const double common = dot(one, two);
+    return common < 0 && common * common > kFlat * kFlat * norm2(one) * norm2(two);
+  }
+
   /// The faces at an edge bend away from `way` (unit) at its point p.
   bool sharp(int edge, const Vec3& p, const Vec3& way) const {
     const auto [a, b] = mesh_.edges[edge];
@@ -184,8 +205,8 @@ class Search {
     for (int t : mesh_.edge_faces[edge])
       for (int c : mesh_.triangles[t]) {
         if (c == a || c == b) continue;
-        const Vec3 r = x_[c] - p, across = r - (dot(r, along) / length2) * along;
-        if (!(dot(across, way) < -kSharp * norm(across))) return false;
+        const Vec3 r = across(x_[c], p, along, length2);
+        if (!(dot(r, way) < -kSharp * norm(r))) return false;
       }
     return true;
   }

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/bounding_tree.hpp"
 #include "core/contact/inside_grid.hpp"
+#include "core/contact/lazy_tree.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/contact/obstacle.hpp"
 
@@ -22,7 +22,8 @@ struct MeshPoint {
 };
 
 /// Topology and box tree are built once. A mesh that is rigid in its frame needs no refit: the queries come to it in
-/// local coordinates, which is its lazy refit. A mesh that deforms calls refit.
+/// local coordinates, which is its lazy refit. A mesh that deforms calls refit, and its tree follows when a query needs
+/// it: with a list of candidates hardly any does.
 class MeshSurface {
  public:
   /// Throws InputError: see meshTopology. A surface that is to be refitted gets no look-up of inside and outside, which
@@ -32,10 +33,9 @@ class MeshSurface {
   /// New positions of the same mesh (Zheng 2013, section 3.6.2), in linear time.
   void refit(std::span<const Vec3> vertices);
 
-  const Box& bounds() const { return tree_.bounds(); }
+  const Box& bounds() const { return bounds_; }
   bool closed() const { return topology_.closed; }
   const MeshTopology& topology() const { return topology_; }
-  const BoundingTree& tree() const { return tree_; }
   /// Lengths below this are rounding: two feet this close (times 100) are one.
   double tolerance_m() const { return tolerance_m_; }
 
@@ -62,10 +62,9 @@ class MeshSurface {
   MaterialPoint material(const MeshPoint& foot) const;
 
  private:
-  struct Face {
-    Vec3 normal;     ///< unit; 0 for a triangle without area
-    Vec3 inward[3];  ///< unit, in the plane, from edge k into the face; 0 without area
-  };
+  /// On which side of an edge a point is, looked at along the plane of a face: the face's own, within the tolerance of
+  /// the edge, or beyond.
+  enum class Side { in, on, out };
   /// Bit k: the face answers for its edge/corner k.
   struct Owns {
     unsigned char edges = 0, vertices = 0;
@@ -76,14 +75,15 @@ class MeshSurface {
   };
 
   void place(std::span<const Vec3> vertices);
-  // From the table, or, where the surface deforms, made when asked for: of a skin few are near cloth.
+  Vec3 areaNormal(int t) const;
   Vec3 normalOf(int t) const;
-  Vec3 inwardOf(int t, int k, const Vec3& normal) const;
+  int surely(double s, double of2, double r2) const;
+  Side sideOf(const Vec3& r, const Vec3& e, const Vec3& area_normal) const;
   EdgeFrame edgeOf(int e) const;
   Vec3 edgeNormal(int e) const;
   Vec3 vertexNormal(int v) const;
   MeshPoint signedFoot(const Vec3& p, const Vec3& foot, int feature) const;
-  bool edgeIsMinimum(int e, const Vec3& p, Vec3& foot) const;
+  bool edgeIsMinimum(int e, const Vec3& p, int from, Vec3& foot) const;
   bool vertexIsMinimum(int v, const Vec3& p) const;
   bool faceFeet(int t, const Vec3& p, double radius, std::vector<MeshPoint>& out) const;
   /// The nearest of the points that were looked at.
@@ -98,15 +98,13 @@ class MeshSurface {
   MeshTopology topology_;
   std::vector<Vec3> x_;                        ///< positions
   std::vector<Owns> owns_;                     ///< of each face
-  std::vector<Face> faces_;                    ///< empty where the surface deforms
-  std::vector<EdgeFrame> edge_frames_;         ///< empty where the surface deforms
   std::vector<MeshTopology::Corner> corners_;  ///< of vertex v: [corners_begin_[v], corners_begin_[v + 1]), by face
   std::vector<int> corners_begin_;
-  std::vector<Box> boxes_;  ///< of the triangles
-  BoundingTree tree_;
+  std::vector<int> named_;  ///< vertices of triangles
+  Box bounds_;
+  LazyTree tree_;
   InsideGrid inside_;
   double tolerance_m_ = 0;
-  bool deforms_ = false;
 };
 
 }  // namespace gambeson

@@ -1,5 +1,6 @@
 #include "core/contact/proximity.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
@@ -76,16 +77,19 @@ Mat3 scaled(const Mat3& m, double s) { return {s * m.a, s * m.b, s * m.c}; }
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void requireFinite(std::span<const Vec3> x, const char* what) {
+  const int n = static_cast<int>(x.size());
+  if (countOf(Each::value, n, [&](int i) { return !finite(x[i]); }) == 0) return;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!finite(x[i])) throw RunError(std::string(what) + " of sample " + std::to_string(i) + " is not finite");
 }
 
-/// Runs append(block, list) over all blocks, in their order.
-template <class Found, class Append>
+/// Runs append(block, scratch, list) over all blocks, in their order.
+template <class Scratch, class Found, class Append>
 void collect(int blocks, std::vector<Found>& out, Append&& append) {
   out.clear();
   appendInOrder(blocks, Each::much, out, [&](int first, int end, std::vector<Found>& list) {
-    for (int b = first; b < end; ++b) append(b, list);
+    Scratch scratch;
+    for (int b = first; b < end; ++b) append(b, scratch, list);
   });
 }
 
@@ -102,6 +106,14 @@ struct Beside {
     if (!(near->distance_m > 0)) inside.push_back(*near);
     *this = {p, near->position, std::max(0.0, near->distance_m) * (1 - 1e-9)};
   }
+};
+
+/// Of a block of samples.
+struct Scratch {
+  std::vector<int> obstacles;  ///< that may be near
+  std::vector<Beside> beside;  ///< of each obstacle
+  std::vector<int> triangles;  ///< of one sample and obstacle
+  std::vector<MeshPoint> feet;
 };
 
 }  // namespace
@@ -141,26 +153,37 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
     motion[o] = deforms ? deformed->motion_m(o) : motionBound_m(shapes[o].local, start[o], end[o]);
     box[o] = (deforms ? deformed->of(o).bounds() : worldBox(shapes[o], start[o])).grown(motion[o]);
   }
-  collect((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<Contact>& list) {
+  // Most samples have nothing to ask of a mesh that deforms: none of its triangles is near, and they are known to be
+  // outside.
+  const auto listed = [&](int o) { return candidates_of && std::holds_alternative<std::monostate>(shapes[o].shape); };
+  const auto asks = [&](int o, int from, int to) {
+    const auto outside = candidates_of->outside_of.begin() + static_cast<std::ptrdiff_t>(o) * n;
+    return candidates_of->first[from] < candidates_of->first[to] ||
+           std::find(outside + from, outside + to, char{0}) != outside + to;
+  };
+  bool all_listed = true;
+  for (int o = 0; o < n_obstacles; ++o) all_listed = all_listed && listed(o);
+  collect<Scratch>((n + kBlock - 1) / kBlock, out, [&](int b, Scratch& scratch, std::vector<Contact>& list) {
     const int first = b * kBlock, last = std::min(n, first + kBlock);
+    auto& [obstacles, beside, triangles, feet] = scratch;
     Box block;
-    for (int i = first; i < last; ++i) block.add(Box{x[i], x[i]}.grown(reach_m[i] * kSlack));
-    std::vector<MeshPoint> feet;
-    std::vector<int> triangles;
-    // Sample by sample below, so that the list comes out sorted.
-    std::vector<int> candidates;
+    if (!all_listed)
+      for (int i = first; i < last; ++i) block.add(Box{x[i], x[i]}.grown(reach_m[i] * kSlack));
+    obstacles.clear();
     for (int o = 0; o < n_obstacles; ++o)
-      if (overlap(block, box[o])) candidates.push_back(o);
-    if (candidates.empty()) return;
-    std::vector<Beside> beside(n_obstacles);
+      if (listed(o) ? asks(o, first, last) : overlap(block, box[o])) obstacles.push_back(o);
+    if (obstacles.empty()) return;
+    beside.assign(n_obstacles, {});
+    // Sample by sample, so that the list comes out sorted.
     for (int i = first; i < last; ++i) {
-      for (int o : candidates) {
+      for (int o : obstacles) {
+        if (listed(o) && !asks(o, i, i + 1)) continue;
         const double r = reach_m[i] * kSlack;
         if (component(maximum(x[i] - box[o].hi, box[o].lo - x[i])) > r) continue;
         const Placement& X = start[o];
-        const Vec3 p = toLocal(X, x[i]);
         const double limit_m = reach_m[i] + motion[o];
         if (const auto* e = std::get_if<EllipsoidMetric>(&shapes[o].shape)) {
+          const Vec3 p = toLocal(X, x[i]);
           if (surelyBeyond(*e, p, limit_m / X.scale)) continue;
           const SurfacePoint s = closestOnEllipsoid(*e, p);
           const double gap = X.scale * s.distance_m;
@@ -188,6 +211,7 @@ void ProximityQuery::near(std::span<const Placement> start, std::span<const Plac
         } else {
           feet.clear();
           const auto& surface = std::get<MeshSurface>(shapes[o].shape);
+          const Vec3 p = toLocal(X, x[i]);
           if (candidates_of) {
             triangles.clear();
             for (int k = candidates_of->first[i]; k < candidates_of->first[i + 1]; ++k)
@@ -225,6 +249,9 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
   assert(x0.size() == x1.size());
   requireFinite(x0, "position");
   requireFinite(x1, "predicted position");
+  out.clear();
+  if (std::ranges::none_of(shapes, [](const Prepared& s) { return std::holds_alternative<EllipsoidMetric>(s.shape); }))
+    return;
   // The path is the chord in the obstacle's frame, p(t) = (1 - t) p0 + t p1 with x0 = X0 p0, x1 = X1 p1. Under the
   // interpolated map Xt = (1 - t) X0 + t X1 (affine, linear part At) a point of the shape lies in the hull of the
   // shape's two boxes, and Xt p(t) = (1 - t) x0 + t x1 - t (1 - t) (A1 - A0) (p1 - p0). So the world chord comes within
@@ -245,7 +272,7 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
     s.shift = norm(X1.origin - X0.origin) / X1.scale;
     s.turn = frobenius(minus(scaled(X1.rotation, 1 / X1.scale), scaled(X0.rotation, 1 / X0.scale)));
   }
-  collect((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<SampleHit>& list) {
+  collect<std::vector<int>>((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<int>& candidates, auto& list) {
     const int first = b * kBlock, last = std::min(n, first + kBlock);
     Box block, starts;
     double step2 = 0;
@@ -256,7 +283,7 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
     }
     block.add(starts);
     const double step = std::sqrt(step2);
-    std::vector<int> candidates;
+    candidates.clear();
     for (int o = 0; o < n_obstacles; ++o) {
       if (!std::holds_alternative<EllipsoidMetric>(shapes[o].shape)) continue;
       const Sweep& s = sweep[o];

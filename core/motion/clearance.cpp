@@ -35,20 +35,27 @@ double standOut(const Ellipsoid& shape, const Placement& X, const Contact& c, do
 /// both ends, so that the surface between these, x(t) = (1 - t) a + t b + 4 t (1 - t) bulge, is
 ///     g(t) >= max((x - p_a).n_a, (x - p_b).n_b)
 /// away from it, where it is convex there. Looked at in the quarters of each edge and diagonal. Contacts farther than
-/// all clearances are left out: which of them are known depends on the lists of candidates.
+/// all clearances are left out: which of them are known depends on the lists of candidates. Only what is `more_m` more
+/// than Bulges::beside counts. That takes a way which leads so much nearer to the tangent plane at the sample than the
+/// gaps tell, within three quarters of it: few do.
 double standOut(const Bulges& bulges, const Contact& c, std::span<const Contact> near, std::span<const int> first,
-                std::span<const Vec3> x) {
+                std::span<const Vec3> x, double more_m) {
   constexpr double kParallel = 1 - 1e-9;  // of normals: Bulges::beside tells the same of one plane
+  constexpr double kRounding_m = 1e-9;    // far more than it is
   double most = 0;
   for (int k = bulges.of_sample.offsets[c.sample]; k < bulges.of_sample.offsets[c.sample + 1]; ++k) {
     const int row = bulges.of_sample.columns[k];
     const auto [a, b] = bulges.ends[row];
     const int other = a == c.sample ? b : a;
+    const Vec3 way = x[other] - x[c.sample];
+    const double nearer = -dot(way, c.normal);
+    if (!(0.75 * nearer > more_m - kRounding_m)) continue;
     for (int j = first[other]; j < first[other + 1]; ++j) {
       const Contact& d = near[j];
       if (d.obstacle != c.obstacle || dot(c.normal, d.normal) > kParallel) continue;
       if (!(d.gap_m < contactReach(kLargestClearance_m))) continue;
-      const Vec3 way = x[other] - x[c.sample], bulge = bulges.at(row, x);
+      if (!(0.75 * (nearer + std::min(0.0, d.gap_m - c.gap_m)) > more_m - kRounding_m)) continue;
+      const Vec3 bulge = bulges.at(row, x);
       for (const double t : {0.25, 0.5, 0.75}) {
         const Vec3 from = t * way + (4 * t * (1 - t)) * bulge;
         const double gap = std::max(c.gap_m + dot(from, c.normal), d.gap_m + dot(from - way, d.normal));
@@ -74,15 +81,18 @@ void findClearances(const Model& m, StepWork& w) {
   forAll(Each::sum, n, [&](int k) {
     Contact& c = w.near[k];
     const double layer = m.layer_m[c.sample];
+    c.clearance_m = kLargestClearance_m;
+    if (layer >= kLargestClearance_m) return;
+    double asked = 0;
     // Ellipsoids are asked for along the edges of the triangles; diagonals across them take in the way along the body.
     if (const auto* e = std::get_if<Ellipsoid>(&m.obstacles[c.obstacle].shape)) {
       const double out = standOut(*e, w.stage.start.obstacles[c.obstacle], c, layer, m.collisions.mesh, w.x0);
-      c.clearance_m = m.bulges.beside(c.sample, -c.normal, w.x0, false) + std::max(layer, out + kLag * layer);
+      asked = m.bulges.beside(c.sample, -c.normal, w.x0, false) + std::max(layer, out + kLag * layer);
     } else {
-      const double out = standOut(m.bulges, c, w.near, first, w.x0);
-      c.clearance_m = std::max(m.bulges.beside(c.sample, -c.normal, w.x0) + layer, out + kLagAtSkin * layer);
+      const double out = standOut(m.bulges, c, w.near, first, w.x0, (1 - kLagAtSkin) * layer);
+      asked = std::max(m.bulges.beside(c.sample, -c.normal, w.x0) + layer, out + kLagAtSkin * layer);
     }
-    c.clearance_m = std::min(kLargestClearance_m, c.clearance_m);
+    c.clearance_m = std::min(kLargestClearance_m, asked);
   });
 }
 

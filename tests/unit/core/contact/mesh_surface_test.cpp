@@ -284,6 +284,27 @@ TEST(MeshSurface, RepeatedVerticesAreWelded) {
   EXPECT_EQ(got.size(), 1u);
 }
 
+TEST(MeshSurface, AFootWithinTheToleranceOfAnEdgeIsTheFaces) {
+  // Of one triangle, fat or thin: to the tolerance, whatever the edge's length and the distance from it.
+  std::mt19937 rng(21);
+  std::uniform_real_distribution<double> within(0.1, 0.9), height(0, 0.5);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 a = randomPoint(rng), b = randomPoint(rng), way = randomPoint(rng);
+    const double thin = trial % 4 == 0 ? 1e-4 : 1;
+    const Vec3 c = a + within(rng) * (b - a) + thin * way;
+    const MeshSurface s({{a, b, c}, {{0, 1, 2}}});
+    const Vec3 normal = normalized(cross(b - a, c - a)), inward = normalized(cross(normal, b - a));
+    for (const double part : {-1000.0, -2.0, -0.5, 0.0, 0.5}) {
+      const Vec3 p =
+          a + within(rng) * (b - a) + part * s.tolerance_m() * inward + (trial % 3 ? height(rng) : 0.0) * normal;
+      std::vector<MeshPoint> got;
+      s.touching(p, 1, got);
+      ASSERT_EQ(got.size(), 1u) << trial;
+      ASSERT_EQ(got[0].feature == 0, part > -1) << trial << ", " << part;
+    }
+  }
+}
+
 TEST(InsideGrid, DecidedCellsAgreeWithTheWindingNumber) {
   std::mt19937 rng(9);
   for (const TriangleMesh& m : {torus(0.6, 0.25, 40, 16), sphere(0.8, 3)}) {
@@ -310,6 +331,8 @@ TEST(MeshSurface, RefitFollowsADeformingMesh) {
   for (Vec3& v : m.vertices) v = Vec3{1.5 * v.x + 0.2, 0.6 * v.y, v.z + 0.3 * v.x * v.x};
   s.refit(m.vertices);
   const MeshSurface fresh(m);
+  EXPECT_EQ(s.bounds(), fresh.bounds());
+  EXPECT_EQ(s.tolerance_m(), fresh.tolerance_m());
   for (int trial = 0; trial < 500; ++trial) {
     const Vec3 p = randomPoint(rng, 1.3);
     const auto a = s.nearest(p, 10), b = fresh.nearest(p, 10);
