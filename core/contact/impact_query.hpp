@@ -1,9 +1,7 @@
 #pragma once
-/// The arithmetic of the certified impact test, whose law certified_impact.hpp
-/// states: one source for that and for kernels, which cut a query into its
-/// start (`queryOf`, `boxesApart`, `startTime`), a first look (`know`,
-/// `verdict`) and turns (`advance`). The same bits wherever multiply-add is not
-/// contracted.
+/// The arithmetic of the certified impact test, whose law certified_impact.hpp states: one source for that and for
+/// kernels, which cut a query into its start (`queryOf`, `boxesApart`, `startTime`), a first look (`know`, `verdict`)
+/// and turns (`advance`). The same bits wherever multiply-add is not contracted.
 
 #include "core/contact/nearest_direction.hpp"
 
@@ -16,9 +14,8 @@ constexpr double kTiny = 1e-280;             ///< covers underflow
 constexpr double kLargest = 1e50;            ///< relative coordinates beyond this are not looked at
 constexpr int kCap = 2000;                   ///< steps
 
-/// A polynomial by its Bernstein coefficients lies above their lower hull: the
-/// part of [0, 1], from 0 on, on which the hull lies above a level. It falls to
-/// it on one of the lines between two coefficients.
+/// A polynomial by its Bernstein coefficients lies above their lower hull: the part of [0, 1], from 0 on, on which the
+/// hull lies above a level. It falls to it on one of the lines between two coefficients.
 template <std::size_t M>
 GAMBESON_HD double partAbove(const std::array<double, M>& c, double level) {
   if (!(c[0] > level)) return 0;
@@ -52,8 +49,7 @@ struct Query {
     for (std::size_t i = 0; i < N; ++i) r[i] = s * r0[i] + t * r1[i];
     return r;
   }
-  /// Of the nearest points that belong to a direction, relative to each other,
-  /// over the whole step.
+  /// Of the nearest points that belong to a direction, relative to each other, over the whole step.
   GAMBESON_HD Vec3 velocityAt(const Direction& d) const {
     const double u = d.u, v = d.v;
     if constexpr (N == 3)
@@ -64,8 +60,7 @@ struct Query {
   }
   GAMBESON_HD bool beyond(double gap_m) const { return gap_m - error_m > separation_m; }
 
-  /// Do the boxes of the hull at both ends lie beyond the separation on one
-  /// side of the origin?
+  /// Do the boxes of the hull at both ends lie beyond the separation on one side of the origin?
   GAMBESON_HD bool boxesApart() const {
     for (int k = 0; k < 3; ++k) {
       double lo = std::min(r0[0][k], r1[0][k]), hi = std::max(r0[0][k], r1[0][k]);
@@ -78,8 +73,7 @@ struct Query {
     return false;
   }
 
-  /// Smallest gap along n at time t, and the time from t on until which all
-  /// gaps are certainly beyond the separation
+  /// Smallest gap along n at time t, and the time from t on until which all gaps are certainly beyond the separation
   /// (-1: not even at t).
   struct Reach {
     double gap_m, time;
@@ -94,8 +88,7 @@ struct Query {
       gap = g < gap ? g : gap;
       if (!beyond(g)) return {gap, -1};  // NaN too
       if (beyond(h1[i])) continue;
-      // Where the gap falls to the separation and twice the error; what
-      // rounding does to it is checked below.
+      // Where the gap falls to the separation and twice the error; what rounding does to it is checked below.
       until = std::min(until, (h0[i] - 2 * error_m - separation_m) / (h0[i] - h1[i]));
     }
     until = std::max(until, t);
@@ -104,9 +97,8 @@ struct Query {
     return {gap, until};
   }
 
-  /// The pair from tA (positions rA) to tB along the direction that turns from
-  /// nA to nB: the part of the interval, from its start, on which all gaps are
-  /// certainly beyond the separation.
+  /// The pair from tA (positions rA) to tB along the direction that turns from nA to nB: the part of the interval, from
+  /// its start, on which all gaps are certainly beyond the separation.
   GAMBESON_HD double turning(const Vec3& nA, const Relative<N>& rA, const Vec3& nB, const Relative<N>& rB) const {
     double s = 1;
     for (std::size_t i = 0; i < N; ++i)
@@ -116,19 +108,18 @@ struct Query {
   }
 };
 
-/// What the determinant of coplanarity is made of: two edges e, f and an arm w
-/// between the primitives, at 0 and 1.
+/// What the determinant of coplanarity is made of: two edges e, f and an arm w between the primitives, at 0 and 1.
 struct Coplanarity {
   Vec3 e0, e1, f0, f1, w0, w1;
   double ef_m2, efw_m3;  ///< products of their largest components
 
-  Coplanarity(const Vec3& ea, const Vec3& eb, const Vec3& fa, const Vec3& fb, const Vec3& wa, const Vec3& wb)
+  GAMBESON_HD Coplanarity(const Vec3& ea, const Vec3& eb, const Vec3& fa, const Vec3& fb, const Vec3& wa,
+                          const Vec3& wb)
       : e0(ea), e1(eb), f0(fa), f1(fb), w0(wa), w1(wb) {
     ef_m2 = std::max(largest(e0), largest(e1)) * std::max(largest(f0), largest(f1));
     efw_m3 = ef_m2 * std::max(largest(w0), largest(w1));
   }
-  /// The part of [tA, tB], from its start, on which it is beyond separation
-  /// times |e x f|, with one sign.
+  /// The part of [tA, tB], from its start, on which it is beyond separation times |e x f|, with one sign.
   GAMBESON_HD double clear(double separation_m, double tA, double tB) const {
     const auto at = [](const Vec3& a, const Vec3& b, double t) { return (1 - t) * a + t * b; };
     const Vec3 ea = tA > 0 ? at(e0, e1, tA) : e0, fa = tA > 0 ? at(f0, f1, tA) : f0, wa = tA > 0 ? at(w0, w1, tA) : w0;
@@ -204,8 +195,7 @@ GAMBESON_HD Query<N> queryOf(const FourPoints& x0, const FourPoints& x1, double 
   return q;
 }
 
-/// The time until which coplanarity keeps the pair apart: where nearest points
-/// have to be looked at. 1: to the end.
+/// The time until which coplanarity keeps the pair apart: where nearest points have to be looked at. 1: to the end.
 template <std::size_t N>
 GAMBESON_HD double startTime(const Query<N>& q, const Coplanarity& coplanar) {
   return partWay(0, 1, coplanar.clear(q.separation_m, 0, 1));
@@ -219,8 +209,7 @@ GAMBESON_HD double enoughGap(const Query<N>& q, double tolerance_m) {
 
 enum class Verdict { apart, meets, open };
 
-/// From what is known at t, after so many turns: apart to the end, met at t, or
-/// to be looked at further.
+/// From what is known at t, after so many turns: apart to the end, met at t, or to be looked at further.
 GAMBESON_HD inline Verdict verdict(const Known& now, double t, double enough_m, int turns) {
   if (now.until >= 1) return Verdict::apart;
   return !(now.gap_m > enough_m) || !(now.until > t) || turns == kCap ? Verdict::meets : Verdict::open;
@@ -233,14 +222,12 @@ enum class Turn {
             ///< known (later) have been computed
 };
 
-/// One turn of a pair that is open at t, with positions r: t moves as far as
-/// the best direction certifies. `stride` is how far ahead it is worth to look,
-/// 1 at first.
+/// One turn of a pair that is open at t, with positions r: t moves as far as the best direction certifies. `stride` is
+/// how far ahead it is worth to look, 1 at first.
 template <std::size_t N>
 GAMBESON_HD inline Turn advance(const Query<N>& q, const Coplanarity& coplanar, const Relative<N>& r, const Known& now,
                                 double& t, double& stride, Relative<N>& rFar, Known& later) {
-  // Just before the nearest points of now would be at the separation, or the
-  // end: as far as it is worth to look.
+  // Just before the nearest points of now would be at the separation, or the end: as far as it is worth to look.
   const Direction& d = now.furthest;
   const double closing = -dot(d.n, q.velocityAt(d));
   double far = std::min(1.0, t + stride);
