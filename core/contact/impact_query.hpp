@@ -113,6 +113,7 @@ struct Coplanarity {
   Vec3 e0, e1, f0, f1, w0, w1;
   double ef_m2, efw_m3;  ///< products of their largest components
 
+  Coplanarity() = default;
   GAMBESON_HD Coplanarity(const Vec3& ea, const Vec3& eb, const Vec3& fa, const Vec3& fb, const Vec3& wa,
                           const Vec3& wb)
       : e0(ea), e1(eb), f0(fa), f1(fb), w0(wa), w1(wb) {
