@@ -10,14 +10,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstring>
 #include <fstream>
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
-#include "exact/query_generator.hpp"
 #include "gpu/scenes/stage_facts.hpp"
-#include "tools/collision_data.hpp"
+#include "tools/frames_scene.hpp"
+#include "tools/impact_questions.hpp"
 
 namespace gambeson::gpu {
 namespace {
@@ -30,24 +29,14 @@ struct Settings {
   bool stages = false, reference_alone = false, large = true;
 };
 
-Scene framesScene(const fs::path& folder, const std::string& name, const std::string& start, const std::string& end) {
-  const collision::Frame first = collision::readPly(folder / start), last = collision::readPly(folder / end);
-  Scene scene;
-  scene.name = name;
-  scene.mesh = {static_cast<int>(first.vertices.size()), first.faces, collision::edgesOf(first)};
-  scene.x0 = first.vertices, scene.x1 = last.vertices;
-  scene.options.tolerance_m = 1e-10;
-  return scene;
-}
-
 std::vector<Scene> scenes(const Settings& settings) {
   const fs::path folder = fs::path(settings.data) / "real" / "collision";
   std::vector<Scene> all;
-  if (fs::exists(folder / "cloth-ball")) {
-    all.push_back(framesScene(folder / "cloth-ball", "cloth-ball 92->93", "cloth_ball92.ply", "cloth_ball93.ply"));
-    all.push_back(framesScene(folder / "cloth-funnel", "cloth-funnel 227->228", "227.ply", "228.ply"));
-  } else {
-    fmt::print("no public frames in {}\n", folder.string());
+  for (const FramesFiles& files : kPublicFrames) {
+    if (fs::exists(folder / files.folder / files.start))
+      all.push_back(framesScene(folder, files));
+    else
+      fmt::print("no {} in {}\n", files.name, folder.string());
   }
   for (Scene& scene : manifestScenes()) all.push_back(std::move(scene));
   if (settings.large) {
@@ -64,12 +53,6 @@ FourPoints pointsOf(const Scene& scene, const std::vector<Vec3>& x, PairKind kin
   }
   const auto& f = scene.mesh.faces[pair.second];
   return {x[pair.first], x[f[0]], x[f[1]], x[f[2]]};
-}
-
-bool sameBits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool sameBits(const ImpactTime& a, const ImpactTime& b) {
-  return sameBits(a.time, b.time) && sameBits(a.u, b.u) && sameBits(a.v, b.v) && sameBits(a.gap_m, b.gap_m) &&
-         a.capped == b.capped;
 }
 
 /// Pairs for which core says otherwise.
@@ -136,29 +119,14 @@ int checkScene(const Scene& scene, const Settings& settings, bool cuda, Facts& f
   return different;
 }
 
-std::vector<ImpactQuestion> questions(int count) {
-  std::vector<ImpactQuestion> all;
-  for (const bool edges : {false, true}) {
-    exact::QueryGenerator make(edges ? 32 : 31, edges);
-    for (int i = 0; i < count / 2; ++i) {
-      const exact::MovingPoints q = make(static_cast<exact::QueryKind>(i % exact::kQueryKinds));
-      const double separation_m = i % 3 ? 0 : std::pow(10.0, -1.0 - i % 7);
-      all.push_back({q.x0, q.x1, edges ? PairKind::edgeEdge : PairKind::pointTriangle, separation_m, i % 2 ? 1e-9 : 0});
-    }
-  }
-  return all;
-}
-
 int checkQueries(const Settings& settings, bool cuda) {
-  const std::vector<ImpactQuestion> asked = questions(settings.queries);
+  const std::vector<ImpactQuestion> asked = impactQuestions(settings.queries);
   const std::vector<ImpactAnswer> got = cuda ? answersOnCuda(asked) : answersOnReference(asked);
   int different = 0, hits = 0;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const ImpactQuestion& q = asked[i];
-    const auto truth = (q.kind == PairKind::edgeEdge ? edgeEdgeImpact : pointTriangleImpact)(q.x0, q.x1, q.separation_m,
-                                                                                             q.tolerance_m);
+    const auto truth = answerOfCore(asked[i]);
     hits += truth.has_value();
-    different += got[i].meets != truth.has_value() || (truth && !sameBits(got[i].hit, *truth));
+    different += !sameBits(got[i], truth);
   }
   fmt::print("{} queries, random and degenerate, {} of them hits: {} differ from core/contact/certified_impact\n",
              asked.size(), hits, different);

@@ -1,7 +1,7 @@
 #pragma once
 /// The arithmetic of the certified impact test, whose law certified_impact.hpp states: one source for that and for
 /// kernels, which cut a query into its start (`queryOf`, `boxesApart`, `startTime`), a first look (`know`, `verdict`)
-/// and turns (`advance`). The same bits wherever multiply-add is not contracted.
+/// and turns (`lookAhead`, `moveOn`, `turnTo`). The same bits wherever multiply-add is not contracted.
 
 #include "core/contact/nearest_direction.hpp"
 
@@ -216,33 +216,34 @@ GAMBESON_HD inline Verdict verdict(const Known& now, double t, double enough_m, 
   return !(now.gap_m > enough_m) || !(now.until > t) || turns == kCap ? Verdict::meets : Verdict::open;
 }
 
+/// From an open pair at t on: just before the nearest points of now would be at the separation, or the end. As far as
+/// it is worth to look; `stride` is how far it was worth before, 1 at first.
+template <std::size_t N>
+GAMBESON_HD double lookAhead(const Query<N>& q, const Known& now, double t, double stride) {
+  const double closing = -dot(now.furthest.n, q.velocityAt(now.furthest)), far = std::min(1.0, t + stride);
+  return closing > 0 ? std::min(far, t + 0.999 * (now.gap_m - q.separation_m) / closing) : far;
+}
+
+/// t moves on as far as the direction of now certifies: where that is past the time to look at.
+GAMBESON_HD inline void moveOn(const Known& now, double& t, double& stride) {
+  stride = 2 * (now.until - t);
+  t = now.until;
+}
+
 enum class Turn {
   apart,    ///< to the end of the step
   moved,    ///< t has moved
-  reached,  ///< t has moved to a time at which the positions (rFar) and what is
-            ///< known (later) have been computed
+  reached,  ///< t has moved to the time that was looked at
 };
 
-/// One turn of a pair that is open at t, with positions r: t moves as far as the best direction certifies. `stride` is
-/// how far ahead it is worth to look, 1 at first.
+/// From t (positions r, known: now) to far (rFar, later): t moves as far as the direction that turns from one to the
+/// other certifies, or that of now, or coplanarity.
 template <std::size_t N>
-GAMBESON_HD inline Turn advance(const Query<N>& q, const Coplanarity& coplanar, const Relative<N>& r, const Known& now,
-                                double& t, double& stride, Relative<N>& rFar, Known& later) {
-  // Just before the nearest points of now would be at the separation, or the end: as far as it is worth to look.
-  const Direction& d = now.furthest;
-  const double closing = -dot(d.n, q.velocityAt(d));
-  double far = std::min(1.0, t + stride);
-  if (closing > 0) far = std::min(far, t + 0.999 * (now.gap_m - q.separation_m) / closing);
-  if (!(far > now.until)) {
-    stride = 2 * (now.until - t);
-    t = now.until;
-    return Turn::moved;
-  }
-  rFar = q.at(far);
-  later = know(q, rFar, far);
+GAMBESON_HD inline Turn turnTo(const Query<N>& q, const Coplanarity& coplanar, const Relative<N>& r, const Known& now,
+                               const Relative<N>& rFar, const Known& later, double far, double& t, double& stride) {
   Vec3 n = later.nearest.n;
-  if (dot(n, d.n) < 0) n = -n;  // already through the face
-  const double part = std::max(q.turning(d.n, r, n, rFar), coplanar.clear(q.separation_m, t, far));
+  if (dot(n, now.furthest.n) < 0) n = -n;  // already through the face
+  const double part = std::max(q.turning(now.furthest.n, r, n, rFar), coplanar.clear(q.separation_m, t, far));
   if (part >= 1) {
     if (far >= 1) return Turn::apart;
     t = far;
@@ -266,8 +267,8 @@ GAMBESON_HD std::optional<ImpactTime> findImpact(const FourPoints& x0, const Fou
   if (t >= 1) return std::nullopt;
   const double enough_m = enoughGap(q, tolerance_m);
 
-  Relative<N> r = q.at(t), rFar;
-  Known now = know(q, r, t), later;
+  Relative<N> r = q.at(t);
+  Known now = know(q, r, t);
   double stride = 1;
   for (int turns = 0;; ++turns) {
     const Verdict said = verdict(now, t, enough_m, turns);
@@ -276,14 +277,21 @@ GAMBESON_HD std::optional<ImpactTime> findImpact(const FourPoints& x0, const Fou
       const Direction& n = now.nearest;
       return ImpactTime{t, n.u, n.v, n.length_m, !(n.length_m <= enough_m + 4 * q.error_m)};
     }
-    const Turn turn = advance(q, coplanar, r, now, t, stride, rFar, later);
-    if (turn == Turn::apart) return std::nullopt;
-    if (turn == Turn::reached) {
-      r = rFar, now = later;
+    const double far = lookAhead(q, now, t, stride);
+    if (far > now.until) {
+      const Relative<N> rFar = q.at(far);
+      const Known later = know(q, rFar, far);
+      const Turn turn = turnTo(q, coplanar, r, now, rFar, later, far, t, stride);
+      if (turn == Turn::apart) return std::nullopt;
+      if (turn == Turn::reached) {
+        r = rFar, now = later;
+        continue;
+      }
     } else {
-      r = q.at(t);
-      now = know(q, r, t);
+      moveOn(now, t, stride);
     }
+    r = q.at(t);
+    now = know(q, r, t);
   }
 }
 

@@ -2,6 +2,9 @@
 /// What lanes of different groups do to the same place. Nothing that is left may depend on who came first.
 
 #include <atomic>
+#ifdef __CUDACC__
+#include <cuda/atomic>
+#endif
 
 #include "core/math/vec.hpp"
 
@@ -20,27 +23,15 @@ GAMBESON_HD T fetchAdd(T* at, T by) {
 #endif
 }
 
-/// The second of two that come here is told so, and sees (by `fresh`) what the first wrote before it came. The flag is
-/// 0 before and after.
+/// The second of two that come here is told so, and sees what the first wrote before it came. The flag is 0 before and
+/// after.
 GAMBESON_HD inline bool comesSecond(int* flag) {
 #ifdef __CUDA_ARCH__
-  __threadfence();
-  if (atomicAdd(flag, 1) == 0) return false;
-  __threadfence();
+  const bool second = cuda::atomic_ref<int, cuda::thread_scope_device>(*flag).fetch_xor(1, cuda::memory_order_acq_rel);
 #else
-  if (std::atomic_ref<int>(*flag).fetch_add(1, std::memory_order_acq_rel) == 0) return false;
+  const bool second = std::atomic_ref<int>(*flag).fetch_xor(1, std::memory_order_acq_rel);
 #endif
-  *flag = 0;
-  return true;
-}
-
-/// Read past the caches of this processor alone.
-GAMBESON_HD inline float fresh(const float& x) {
-#ifdef __CUDA_ARCH__
-  return __ldcg(&x);
-#else
-  return x;
-#endif
+  return second;
 }
 
 }  // namespace gambeson::gpu

@@ -3,6 +3,7 @@
 
 #include <cuda_runtime.h>
 
+#include <algorithm>
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
 #include <functional>
@@ -61,10 +62,13 @@ __global__ void __launch_bounds__(256) forItems(List<T> list, F f) {
 }
 
 template <int kGroups, class Kernel>
-__global__ void __launch_bounds__(32 * kGroups) forGroups(int n, Kernel kernel) {
-  __shared__ typename Kernel::Shared shared[kGroups];
+__global__ void __launch_bounds__(32 * kGroups, std::min(32, Kernel::kResident / kGroups))
+    forGroups(int n, Kernel kernel) {
+  // Bytes, as shared variables may have no constructor.
+  using Shared = typename Kernel::Shared;
+  __shared__ alignas(Shared) unsigned char shared[kGroups * sizeof(Shared)];
   const int mine = static_cast<int>(threadIdx.x) / 32, group = static_cast<int>(blockIdx.x) * kGroups + mine;
-  if (group < n) kernel(WarpLanes{}, shared[mine], group, n);
+  if (group < n) kernel(WarpLanes{}, reinterpret_cast<Shared*>(shared)[mine], group, n);
 }
 
 }  // namespace kernel
@@ -126,6 +130,17 @@ class CudaOf {
       if (n > 0) kernel::forGroups<kGroups><<<(n + kGroups - 1) / kGroups, 32 * kGroups, 0, stream_>>>(n, work);
       check(cudaGetLastError(), "a kernel over groups");
     }
+    template <class Kernel>
+    void forResidentGroups(const Kernel& work) {
+      static const int blocks = [] {
+        int of_processor = 0;
+        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&of_processor, kernel::forGroups<kGroups, Kernel>,
+                                                            32 * kGroups, 0),
+              "the room for a kernel");
+        return of_processor * processors();
+      }();
+      forGroups(kGroups * blocks, work);
+    }
     template <class T>
     void zero(Buffer<T>& buffer) {
       check(cudaMemsetAsync(buffer.data(), 0, buffer.size() * sizeof(T), stream_), "clearing memory");
@@ -153,8 +168,6 @@ class CudaOf {
     cudaStream_t stream_{};
     cudaEvent_t given_{};
   };
-
-  static int groupsAtOnce(int per_processor) { return per_processor * processors(); }
 
   class PairSort {
    public:

@@ -54,6 +54,11 @@ class ReferenceOf {
         kernel(Group{}, shared, i, n);
       }
     }
+    /// The same, by as many groups as work side by side: for kernels that take their items one after the other.
+    template <class Kernel>
+    void forResidentGroups(const Kernel& kernel) {
+      forGroups(4 * omp_get_max_threads(), kernel);
+    }
     template <class T>
     void zero(Buffer<T>& buffer) {
       std::fill_n(buffer.data(), buffer.size(), T{});
@@ -70,9 +75,6 @@ class ReferenceOf {
     void after(Queue&) {}
     void wait() {}
   };
-
-  /// How many groups work side by side on kernels that take their items one after the other.
-  static int groupsAtOnce(int) { return 4 * omp_get_max_threads(); }
 
   /// Pairs (key, value) by key, equal keys in the order in which they came.
   class PairSort {

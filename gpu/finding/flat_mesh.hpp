@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu/finding/float_point.hpp"
 #include "gpu/finding/morton.hpp"
 
 namespace gambeson::gpu {
@@ -29,6 +30,7 @@ struct FlatMesh {
   Buffer<int> edge;         ///< 2 vertices each
   Buffer<int> along_curve;  ///< vertices near each other after each other
   Buffer<MovingPoint> point;
+  Buffer<FloatPoint> rough;  ///< the same, from the start of a pass on
   MortonCube cube;
 };
 
@@ -42,7 +44,7 @@ inline MortonCube cubeAround(std::span<const Vec3> x) {
     }
   const double side = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
   const auto f = [](double v) { return static_cast<float>(v); };
-  return {{f(lo.x), f(lo.y), f(lo.z)}, side > 0 ? f(1023 / side) : 1.0f};
+  return {{f(lo.x), f(lo.y), f(lo.z)}, side > 0 ? f(255 / side) : 1.0f};
 }
 
 template <class Device>
@@ -54,6 +56,7 @@ FlatMesh<Device>::FlatMesh(const Mesh& mesh, std::span<const Vec3> x)
       edge(2 * mesh.edges.size()),
       along_curve(x.size()),
       point(x.size()),
+      rough(x.size()),
       cube(cubeAround(x)) {
   std::vector<std::pair<std::uint32_t, int>> place;
   for (int i = 0; i < vertices; ++i) place.emplace_back(cube.code(boxOf({x[i], x[i]}, 0)), i);

@@ -55,8 +55,8 @@ GAMBESON_HD inline FloatBox emptyBox() {
 GAMBESON_HD inline FloatBox joined(const FloatBox& a, const FloatBox& b) {
   FloatBox box;
   for (int k = 0; k < 3; ++k) {
-    box.lo[k] = std::min(a.lo[k], b.lo[k]);
-    box.hi[k] = std::max(a.hi[k], b.hi[k]);
+    box.lo[k] = b.lo[k] < a.lo[k] ? b.lo[k] : a.lo[k];
+    box.hi[k] = b.hi[k] > a.hi[k] ? b.hi[k] : a.hi[k];
   }
   return box;
 }

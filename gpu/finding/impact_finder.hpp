@@ -8,6 +8,20 @@
 
 namespace gambeson::gpu {
 
+/// What both kinds of pairs need before they are sought.
+struct BeginPass {
+  const MovingPoint* point;
+  FloatPoint* rough;
+  int vertices;
+  ClearCounts points, edges;
+
+  GAMBESON_HD void operator()(int i) const {
+    if (i < vertices) rough[i] = floatPoint(point[i]);
+    points(i);
+    edges(i);
+  }
+};
+
 template <class Device, template <class> class BroadPhase = Lbvh>
 class ImpactFinder final : public ImpactSearch {
  public:
@@ -92,9 +106,10 @@ class ImpactFinder final : public ImpactSearch {
     points_.reset(), edges_.reset();  // their memory first
     points_.emplace(mesh_, options_, room[0]);
     edges_.emplace(mesh_, options_, room[1]);
-    common_ = {{"clearing", [this](Queue& queue) {
-                  points_->clear(queue);
-                  edges_->clear(queue);
+    common_ = {{"beginning", [this](Queue& queue) {
+                  const int n = std::max({mesh_.vertices, mesh_.edges, int{kCounts}});
+                  queue.forEach(n, BeginPass{mesh_.point.data(), mesh_.rough.data(), mesh_.vertices, points_->clear(),
+                                             edges_->clear()});
                 }}};
     append(common_, broad_.common());
     stages_[0] = broad_.pointTriangle(points_->pairs());

@@ -27,7 +27,7 @@ class Lbvh {
   Lbvh(FlatMesh<Device>& mesh, float margin_m, int queries_per_group)
       : mesh_(mesh),
         margin_m_(margin_m),
-        per_group_(queries_per_group),
+        queries_per_group_(queries_per_group),
         vertex_box_(static_cast<std::size_t>(mesh.vertices)),
         faces_(mesh.faces),
         edges_(mesh.edges) {}
@@ -57,16 +57,20 @@ class Lbvh {
             {"boxes of " + of, [&](Queue& queue) { tree.fit(queue, corners, vertex_box_); }},
             {"pairs of " + of, collect}};
   }
+  /// Few enough to fill the device some six times over; 4 where there are not that many, as heavy queries then share.
+  static int bestPerGroup(int count) { return count > 1000000 ? 16 : count > 200000 ? 8 : 4; }
+
   template <class Queries, class Tree>
   void traverse(Queue& queue, const Queries& queries, int count, const Tree& tree, const List<Pair>& pairs) {
     if (tree.leaves() == 0) return;
-    queue.forGroups((count + per_group_ - 1) / per_group_,
-                    Traverse<Queries>{queries, count, per_group_, tree.node(), tree.leaf(), pairs});
+    const int per_group = queries_per_group_ > 0 ? queries_per_group_ : bestPerGroup(count);
+    queue.forGroups((count + per_group - 1) / per_group,
+                    Traverse<Queries>{queries, count, per_group, tree.node(), tree.leaf(), pairs});
   }
 
   FlatMesh<Device>& mesh_;
   float margin_m_;
-  int per_group_;
+  int queries_per_group_;
   typename Device::template Buffer<FloatBox> vertex_box_;
   BoxTree<Device, 3> faces_;
   BoxTree<Device, 2> edges_;

@@ -5,7 +5,7 @@
 
 #include "core/contact/impact_query.hpp"
 #include "gpu/device/list.hpp"
-#include "gpu/finding/float_box.hpp"
+#include "gpu/finding/float_point.hpp"
 #include "gpu/finding/pair.hpp"
 
 namespace gambeson::gpu {
@@ -14,6 +14,25 @@ namespace gambeson::gpu {
 struct OpenPair {
   Pair pair;
   double time;
+};
+
+/// A pair that is open at that time after nearest points have been looked at, and what of that its next turn takes
+/// (certified::Known).
+struct HardPair {
+  OpenPair open;
+  Vec3 n;  ///< the direction that separates longest
+  double u, v, until, gap_m;
+
+  GAMBESON_HD void keep(const certified::Known& now) {
+    n = now.furthest.n, u = now.furthest.u, v = now.furthest.v;
+    until = now.until, gap_m = now.gap_m;
+  }
+  GAMBESON_HD certified::Known known() const {
+    certified::Known now;
+    now.furthest.n = n, now.furthest.u = u, now.furthest.v = v;
+    now.until = until, now.gap_m = gap_m;
+    return now;
+  }
 };
 
 /// A hit, and how many others of its first primitive were found before it: for sorting (hit_order.hpp).
@@ -26,7 +45,8 @@ struct FoundHit {
 template <int N>
 struct PairQueries {
   const MovingPoint* point;
-  const int* corners;  ///< 3 of a face, 2 of an edge
+  const FloatPoint* rough;  ///< the same points
+  const int* corners;       ///< 3 of a face, 2 of an edge
   double separation_m, tolerance_m;
 
   GAMBESON_HD void points(const Pair& pair, FourPoints& x0, FourPoints& x1) const {
@@ -34,6 +54,12 @@ struct PairQueries {
       const MovingPoint& p = point[vertex(pair, k)];
       x0[k] = p.start, x1[k] = p.end;
     }
+  }
+  /// Apart by boxes in single precision?
+  GAMBESON_HD bool surelyApart(const Pair& pair) const {
+    FloatPoint p[4];
+    for (int k = 0; k < 4; ++k) p[k] = rough[vertex(pair, k)];
+    return gpu::surelyApart<N>(p, roundedUp(separation_m, 0));
   }
 
  private:
@@ -45,9 +71,11 @@ struct PairQueries {
   }
 };
 
-/// What is left of the pairs by boxes, then by coplanarity: pairs that boxes leave gather until every lane has one.
+/// What is left of the pairs by boxes, roughly and then exactly, and coplanarity: pairs that rough boxes leave gather
+/// until every lane has one.
 template <int N>
 struct SiftPairs {
+  static constexpr int kResident = 16;
   struct Shared {
     Gathered<Pair, 64> near;
   };
@@ -62,26 +90,22 @@ struct SiftPairs {
     Lanes<Group, Pair> pair;
     const Count n = pairs.size();
     int near = 0;
-    for (Count first = static_cast<Count>(index) * Group::kLanes; first < n;
+    for (Count first = static_cast<Count>(index) * Group::kLanes; first < n || near > 0;
          first += static_cast<Count>(groups) * Group::kLanes) {
       group.each([&](int lane) {
         const Count i = first + static_cast<Count>(lane);
         left[lane] = false;
         if (i >= n) return;
         pair[lane] = pairs.items[i];
-        FourPoints x0, x1;
-        queries.points(pair[lane], x0, x1);
-        const auto q = certified::queryOf<N>(x0, x1, queries.separation_m);
-        left[lane] = !q.sound || !q.boxesApart();
+        left[lane] = !queries.surelyApart(pair[lane]);
       });
       shared.near.add(group, left, pair, near);
       group.sync();
-      if (near >= Group::kLanes) {
-        near -= Group::kLanes;
-        coplanar(group, shared, near, Group::kLanes);
-      }
+      if (near < Group::kLanes && first < n) continue;
+      const int count = std::min(near, int{Group::kLanes});
+      near -= count;
+      lookClosely(group, shared, near, count);
     }
-    coplanar(group, shared, 0, near);
   }
 
  private:
@@ -90,7 +114,7 @@ struct SiftPairs {
 
   /// The gathered pairs from `first` on.
   template <class Group>
-  GAMBESON_HD void coplanar(const Group& group, const Shared& shared, int first, int count) const {
+  GAMBESON_HD void lookClosely(const Group& group, const Shared& shared, int first, int count) const {
     Lanes<Group, bool> left;
     Lanes<Group, OpenPair> item;
     group.each([&](int lane) {
@@ -100,6 +124,8 @@ struct SiftPairs {
       FourPoints x0, x1;
       queries.points(pair, x0, x1);
       const auto q = certified::queryOf<N>(x0, x1, queries.separation_m);
+      // What is not sound is a hit at 0, as the next look says.
+      if (q.sound && q.boxesApart()) return;
       const double time = q.sound ? certified::startTime(q, certified::coplanarity(q, x0, x1)) : 0;
       left[lane] = !(time >= 1);
       item[lane] = {pair, time};
@@ -130,16 +156,19 @@ struct HitList {
 /// Nearest points at the time from which a pair is open: most are apart to the end by their direction, or meet.
 template <int N>
 struct LookFirst {
+  static constexpr int kResident = 12;
   struct Shared {};
 
   PairQueries<N> queries;
-  List<OpenPair> open, hard;
+  List<OpenPair> open;
+  List<HardPair> hard;
   HitList hits;
 
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared&, int index, int groups) const {
     typename Group::template PerLane<bool> meets, left;
     typename Group::template PerLane<OpenPair> item;
+    typename Group::template PerLane<HardPair> looked;
     const Count n = open.size();
     for (Count first = static_cast<Count>(index) * Group::kLanes; first < n;
          first += static_cast<Count>(groups) * Group::kLanes) {
@@ -156,9 +185,11 @@ struct LookFirst {
         const auto verdict = certified::verdict(now, t, certified::enoughGap(q, queries.tolerance_m), 0);
         meets[lane] = !q.sound || verdict == certified::Verdict::meets;
         left[lane] = q.sound && verdict == certified::Verdict::open;
+        looked[lane].open = item[lane];
+        looked[lane].keep(now);
       });
       hits.append(group, meets, item);
-      gpu::append(group, left, item, hard);
+      append(group, left, looked, hard);
     }
   }
 };
@@ -166,17 +197,19 @@ struct LookFirst {
 /// The others turn by turn; a lane that is done takes the next pair.
 template <int N>
 struct TakeTurns {
+  static constexpr int kResident = 12;
   struct Shared {};
 
   PairQueries<N> queries;
-  List<OpenPair> hard;
+  List<HardPair> hard;
   Count* taken;  ///< 0 before
   HitList hits;
 
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared&, int, int) const {
     typename Group::template PerLane<bool> busy(false), meets;
-    typename Group::template PerLane<OpenPair> item;
+    typename Group::template PerLane<OpenPair> met;
+    typename Group::template PerLane<HardPair> item(HardPair{});
     typename Group::template PerLane<certified::Query<N>> query;
     typename Group::template PerLane<certified::Coplanarity> coplanarity;
     typename Group::template PerLane<double> stride(1);
@@ -196,7 +229,7 @@ struct TakeTurns {
             item[lane] = hard.items[i];
             stride[lane] = 1, turns[lane] = 0;
             FourPoints x0, x1;
-            queries.points(item[lane].pair, x0, x1);
+            queries.points(item[lane].open.pair, x0, x1);
             query[lane] = certified::queryOf<N>(x0, x1, queries.separation_m);
             coplanarity[lane] = certified::coplanarity(query[lane], x0, x1);
           });
@@ -207,27 +240,35 @@ struct TakeTurns {
       group.each([&](int lane) {
         meets[lane] = false;
         if (!busy[lane]) return;
-        const certified::Query<N>& q = query[lane];
-        double& t = item[lane].time;
-        const auto r = q.at(t);
-        const auto now = certified::know(q, r, t);
-        switch (certified::verdict(now, t, certified::enoughGap(q, queries.tolerance_m), turns[lane]++)) {
-          case certified::Verdict::apart:
-            busy[lane] = false;
-            break;
-          case certified::Verdict::meets:
-            meets[lane] = true, busy[lane] = false;
-            break;
-          case certified::Verdict::open:
-            // What a turn knows already of the time that it reached is found again: other lanes do so meanwhile.
-            certified::Relative<N> r_far;
-            certified::Known later;
-            busy[lane] = certified::advance(q, coplanarity[lane], r, now, t, stride[lane], r_far, later) !=
-                         certified::Turn::apart;
-        }
+        takeTurn(query[lane], coplanarity[lane], item[lane], stride[lane], ++turns[lane], busy[lane], meets[lane]);
+        met[lane] = item[lane].open;
       });
-      hits.append(group, meets, item);
+      hits.append(group, meets, met);
     }
+  }
+
+ private:
+  /// A turn of a pair, and a look at where it leads.
+  GAMBESON_HD void takeTurn(const certified::Query<N>& q, const certified::Coplanarity& coplanarity, HardPair& item,
+                            double& stride, int turns, bool& busy, bool& meets) const {
+    double& t = item.open.time;
+    certified::Known now = item.known(), later;
+    certified::Turn turn = certified::Turn::moved;
+    const double far = certified::lookAhead(q, now, t, stride);
+    if (far > now.until) {
+      const auto r_far = q.at(far);
+      later = certified::know(q, r_far, far);
+      turn = certified::turnTo(q, coplanarity, q.at(t), now, r_far, later, far, t, stride);
+    } else {
+      certified::moveOn(now, t, stride);
+    }
+    busy = turn != certified::Turn::apart;
+    if (!busy) return;
+    now = turn == certified::Turn::reached ? later : certified::know(q, q.at(t), t);
+    const auto verdict = certified::verdict(now, t, certified::enoughGap(q, queries.tolerance_m), turns);
+    meets = verdict == certified::Verdict::meets;
+    busy = verdict == certified::Verdict::open;
+    item.keep(now);
   }
 };
 

@@ -7,6 +7,19 @@
 
 namespace gambeson::gpu {
 
+enum Counted { kPairs, kOpen, kHard, kTaken, kHits, kCounts };
+
+struct ClearCounts {
+  Count* count;
+  int* of_first;
+  int firsts;
+
+  GAMBESON_HD void operator()(int i) const {
+    if (i < kCounts) count[i] = 0;
+    if (i < firsts) of_first[i] = 0;
+  }
+};
+
 /// N: 3 for points and triangles, 4 for edges.
 template <class Device, int N>
 class NarrowPass {
@@ -35,24 +48,19 @@ class NarrowPass {
   const ListSizes& room() const { return room_; }
 
   /// Before pairs are sought.
-  void clear(Queue& queue) {
-    queue.zero(count_);
-    queue.zero(of_first_);
-  }
+  ClearCounts clear() { return {count_.data(), of_first_.data(), firsts()}; }
   Stages<Device> stages(const std::string& of) {
     return {{"sifting " + of,
              [this](Queue& q) {
-               q.forGroups(Device::groupsAtOnce(kGroups), SiftPairs<N>{queries(), pairs(), list(open_, kOpen)});
+               q.forResidentGroups(SiftPairs<N>{queries(), pairs(), list(open_, kOpen)});
              }},
             {"first look at " + of,
              [this](Queue& q) {
-               q.forGroups(Device::groupsAtOnce(kGroups),
-                           LookFirst<N>{queries(), list(open_, kOpen), list(hard_, kHard), hits()});
+               q.forResidentGroups(LookFirst<N>{queries(), list(open_, kOpen), list(hard_, kHard), hits()});
              }},
             {"turns of " + of,
              [this](Queue& q) {
-               q.forGroups(Device::groupsAtOnce(kGroups / 2),
-                           TakeTurns<N>{queries(), list(hard_, kHard), count_.data() + kTaken, hits()});
+               q.forResidentGroups(TakeTurns<N>{queries(), list(hard_, kHard), count_.data() + kTaken, hits()});
              }},
             {"order of " + of, [this](Queue& q) { sort(q); }}};
   }
@@ -65,12 +73,10 @@ class NarrowPass {
   std::vector<Hit> downloadHits(Queue& queue) { return queue.download(sorted_, sizes(queue).hits); }
 
  private:
-  enum Counted { kPairs, kOpen, kHard, kTaken, kHits, kCounts };
-  static constexpr int kGroups = 16;  ///< of a processor
-
   int firsts() const { return N == 3 ? mesh_.vertices : mesh_.edges; }
   PairQueries<N> queries() const {
-    return {mesh_.point.data(), (N == 3 ? mesh_.face : mesh_.edge).data(), options_.separation_m, options_.tolerance_m};
+    return {mesh_.point.data(), mesh_.rough.data(), (N == 3 ? mesh_.face : mesh_.edge).data(), options_.separation_m,
+            options_.tolerance_m};
   }
   template <class T>
   List<T> list(Buffer<T>& items, Counted count) {
@@ -89,7 +95,8 @@ class NarrowPass {
   SearchOptions options_;
   ListSizes room_;
   Buffer<Pair> pairs_;
-  Buffer<OpenPair> open_, hard_;
+  Buffer<OpenPair> open_;
+  Buffer<HardPair> hard_;
   Buffer<FoundHit> found_;
   Buffer<Hit> placed_, sorted_;
   Buffer<int> of_first_, begin_;

@@ -113,12 +113,6 @@ struct CodePrimitives {
   }
 };
 
-/// A box that another group may just have written.
-GAMBESON_HD inline FloatBox freshBox(const FloatBox& box) {
-  return {{fresh(box.lo[0]), fresh(box.lo[1]), fresh(box.lo[2])},
-          {fresh(box.hi[0]), fresh(box.hi[1]), fresh(box.hi[2])}};
-}
-
 /// Leaf i and its box; then up, by whoever comes second to a node.
 template <int K>
 struct FitBoxes {
@@ -139,10 +133,10 @@ struct FitBoxes {
     leaf_box[i] = box;
     for (int up = above.of_leaf[i]; up >= 0;) {
       const int at = up / 2, side = up % 2;
+      up = above.of_node[at];  // read before the wait
       node[at].box[side] = box;
       if (!comesSecond(&came[at])) return;
-      box = joined(box, freshBox(node[at].box[1 - side]));
-      up = above.of_node[at];
+      box = joined(box, node[at].box[1 - side]);
     }
   }
 };

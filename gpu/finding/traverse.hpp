@@ -48,10 +48,11 @@ struct EdgesInEdges {
   }
 };
 
-constexpr int kMostQueries = 32;  ///< of a group
+constexpr int kMostQueries = 16;  ///< of a group
 
 template <class Queries>
 struct Traverse {
+  static constexpr int kResident = 48;
   static constexpr int kStack = 512, kGathered = 256, kNodeBits = 26;
   static_assert(kMostQueries <= 1 << (32 - kNodeBits));
 
