@@ -76,7 +76,7 @@ std::vector<ImpactAnswer> answersOnReference(std::span<const ImpactQuestion> que
 bool cudaBuilt();
 /// Name of the device. Throws RunError where there is none.
 std::string cudaDevice();
-/// groups_per_block: 1, 4 or 8; no matter to what is found.
+/// groups_per_block: 1 or 4; no matter to what is found.
 std::unique_ptr<ImpactSearch> searchOnCuda(const Mesh& mesh, std::span<const Vec3> positions,
                                            const SearchOptions& options, const BothSizes& room,
                                            int groups_per_block = 4);
