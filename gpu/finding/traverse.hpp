@@ -50,10 +50,11 @@ struct EdgesInEdges {
 
 constexpr int kMostQueries = 16;  ///< of a group
 
-template <class Queries>
+/// kStack: tasks of a group, more than kTreeDepth and the queries together.
+template <class Queries, int kStack = 512>
 struct Traverse {
   static constexpr int kResident = 48;
-  static constexpr int kStack = 512, kGathered = 256, kNodeBits = 26;
+  static constexpr int kGathered = 256, kNodeBits = 26;
   static_assert(kMostQueries <= 1 << (32 - kNodeBits));
 
   struct Shared {

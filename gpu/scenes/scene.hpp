@@ -24,6 +24,10 @@ Scene flyingBalls(int count);
 /// some 20 um. Pairs are sought within 2.6 mm, impacts at a separation of 1 um.
 Scene wavySheets(int sheets, int n);
 
+/// The upper of two such sheets falls through the lower by 6 mm, and every vertex moves by up to 4 mm along each axis
+/// besides: pairs turn, and take many turns of the query.
+Scene fallingSheets(int n);
+
 /// Edges of the faces, each once, in order of the larger vertex, then the smaller.
 std::vector<std::array<int, 2>> edgesOf(const std::vector<std::array<int, 3>>& faces);
 

@@ -45,4 +45,15 @@ Scene wavySheets(int sheets, int n) {
   return scene;
 }
 
+Scene fallingSheets(int n) {
+  Scene scene = wavySheets(2, n);
+  scene.name = "2 sheets of " + std::to_string(n) + " x " + std::to_string(n) + " that fall through each other";
+  Random random(5);
+  for (std::size_t i = 0; i < scene.x1.size(); ++i) {
+    const bool upper = i >= scene.x1.size() / 2;
+    scene.x1[i] = scene.x0[i] + Vec3{0, 0, upper ? -6e-3 : 0} + 4e-3 * random.evenVec();
+  }
+  return scene;
+}
+
 }  // namespace gambeson::gpu

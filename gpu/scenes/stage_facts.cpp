@@ -31,6 +31,7 @@ std::vector<Scene> manifestScenes() {
   std::vector<Scene> scenes;
   scenes.push_back(flyingBalls(40));
   scenes.push_back(wavySheets(3, 30));
+  scenes.push_back(fallingSheets(24));
   return scenes;
 }
 

@@ -97,6 +97,35 @@ TEST(ImpactSearch, TooLittleRoomIsRepeatedWithMore) {
   EXPECT_EQ(facts({ListSizes{1, 1, 1, 1}, ListSizes{1, 1, 1, 1}}, repeats), truth);
 }
 
+/// Tasks of a group that hardly fit on its stack are taken one at a time.
+TEST(ImpactSearch, AShortStackIsEnough) {
+  using Device = ReferenceOf<32>;
+  const Scene scene = triangleSoup(300, 2);
+  FlatMesh<Device> mesh(scene.mesh, scene.x0);
+  std::vector<FloatBox> boxes;
+  for (std::size_t i = 0; i < scene.x0.size(); ++i) boxes.push_back(boxOf({scene.x0[i], scene.x1[i]}, 5e-4f));
+  Device::Queue queue;
+  Device::Buffer<FloatBox> vertex_box(boxes.size());
+  queue.upload(std::span<const FloatBox>(boxes), vertex_box);
+  BoxTree<Device, 2> tree(mesh.edges);
+  tree.build(queue, mesh.edge, vertex_box, mesh.cube);
+  tree.fit(queue, mesh.edge, vertex_box);
+  const auto pairsWith = [&]<int kStack>() {
+    Device::Buffer<Pair> pairs(1 << 17);
+    Device::Buffer<Count> count(1);
+    const EdgesInEdges queries{tree.leaf(), tree.leafBox()};
+    queue.forGroups((mesh.edges + 7) / 8,
+                    Traverse<EdgesInEdges, kStack>{
+                        queries, mesh.edges, 8, tree.node(), tree.leaf(), {pairs.data(), count.data(), pairs.size()}});
+    std::vector<Pair> found = queue.download(pairs, *count.data());
+    std::ranges::sort(found);
+    return found;
+  };
+  const std::vector<Pair> found = pairsWith.operator()<512>();
+  EXPECT_GT(found.size(), 1000u);
+  EXPECT_EQ(pairsWith.operator()<kTreeDepth + 9>(), found);
+}
+
 TEST(ImpactSearch, HashesDoNotDependOnOrderButOnEveryBit) {
   std::vector<Hit> hits{{{1, 2}, 0.5}, {{2, 1}, 0.25}, {{0, 7}, 0}};
   const std::uint64_t hash = hashOf(std::span<const Hit>(hits));

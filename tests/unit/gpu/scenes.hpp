@@ -38,10 +38,7 @@ inline Scene triangleSoup(int faces, unsigned seed) {
 
 inline std::vector<Scene> smallScenes() {
   std::vector<Scene> scenes{triangleSoup(60, 1), triangleSoup(300, 2), flyingBalls(3), wavySheets(3, 9)};
-  // Two sheets that pass through each other within the step.
-  Scene falling = wavySheets(2, 12);
-  for (int i = 0; i < falling.mesh.vertices / 2; ++i) falling.x1[i].z += 4e-3;
-  scenes.push_back(falling);
+  scenes.push_back(fallingSheets(12));
   // So few that there is hardly a tree.
   Scene one;
   one.name = "one triangle and a point";
