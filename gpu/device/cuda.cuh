@@ -1,0 +1,267 @@
+#pragma once
+/// The CUDA device: the same vocabulary as the reference (reference.hpp), for sources that nvcc compiles.
+
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gpu/device/cuda_error.hpp"
+#include "gpu/device/list.hpp"
+
+namespace gambeson::gpu {
+
+/// A warp.
+struct WarpLanes {
+  static constexpr int kLanes = 32;
+
+  template <class T>
+  class PerLane {
+   public:
+    PerLane() = default;
+    __device__ explicit PerLane(const T& all) : item_(all) {}
+    __device__ T& operator[](int) { return item_; }
+    __device__ const T& operator[](int) const { return item_; }
+
+   private:
+    T item_;
+  };
+
+  template <class F>
+  __device__ void each(F&& f) const {
+    f(static_cast<int>(threadIdx.x % kLanes));
+  }
+  __device__ LaneMask ballot(const PerLane<bool>& on) const { return __ballot_sync(~0u, on[0]); }
+  template <class F>
+  __device__ auto once(F&& f) const {
+    decltype(f()) result{};
+    if (threadIdx.x % kLanes == 0) result = f();
+    return __shfl_sync(~0u, result, 0);
+  }
+  __device__ void sync() const { __syncwarp(); }
+};
+
+namespace kernel {
+
+template <class F>
+__global__ void __launch_bounds__(256) forEach(int n, F f) {
+  const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  if (i < n) f(i);
+}
+
+template <class T, class F>
+__global__ void __launch_bounds__(256) forItems(List<T> list, F f) {
+  const Count n = list.size();
+  for (Count i = blockIdx.x * blockDim.x + threadIdx.x; i < n; i += gridDim.x * blockDim.x) f(list.items[i], i);
+}
+
+template <int kGroups, class Kernel>
+__global__ void __launch_bounds__(32 * kGroups, std::min(32, Kernel::kResident / kGroups))
+    forGroups(int n, Kernel kernel) {
+  // Bytes, as shared variables may have no constructor.
+  using Shared = typename Kernel::Shared;
+  __shared__ alignas(Shared) unsigned char shared[kGroups * sizeof(Shared)];
+  const int mine = static_cast<int>(threadIdx.x) / 32, group = static_cast<int>(blockIdx.x) * kGroups + mine;
+  if (group < n) kernel(WarpLanes{}, reinterpret_cast<Shared*>(shared)[mine], group, n);
+}
+
+}  // namespace kernel
+
+/// kGroups: groups of a block. The same bits for each.
+template <int kGroups>
+class CudaOf {
+ public:
+  using Group = WarpLanes;
+
+  template <class T>
+  class Buffer {
+   public:
+    Buffer() = default;
+    explicit Buffer(std::size_t size) : size_(size) {
+      T* at = nullptr;
+      const std::size_t bytes = std::max<std::size_t>(1, size * sizeof(T));
+      check(cudaMalloc(&at, bytes), "memory for " + std::to_string(bytes) + " bytes");
+      data_.reset(at);
+      check(cudaMemset(at, 0, bytes), "clearing memory");
+    }
+    T* data() { return data_.get(); }
+    const T* data() const { return data_.get(); }
+    std::size_t size() const { return size_; }
+
+   private:
+    struct Free {
+      void operator()(T* at) const { cudaFree(at); }
+    };
+    std::unique_ptr<T, Free> data_;
+    std::size_t size_ = 0;
+  };
+
+  class Queue {
+   public:
+    Queue() {
+      check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a stream");
+      check(cudaEventCreateWithFlags(&given_, cudaEventDisableTiming), "an event");
+    }
+    ~Queue() {
+      cudaEventDestroy(given_);
+      cudaStreamDestroy(stream_);
+    }
+    Queue(const Queue&) = delete;
+    Queue& operator=(const Queue&) = delete;
+
+    template <class F>
+    void forEach(int n, const F& f) {
+      if (n > 0) kernel::forEach<<<(n + 255) / 256, 256, 0, stream_>>>(n, f);
+      check(cudaGetLastError(), "a kernel over items");
+    }
+    template <class T, class F>
+    void forItems(const List<T>& list, const F& f) {
+      kernel::forItems<<<4 * processors(), 256, 0, stream_>>>(list, f);
+      check(cudaGetLastError(), "a kernel over a list");
+    }
+    template <class Kernel>
+    void forGroups(int n, const Kernel& work) {
+      if (n > 0) kernel::forGroups<kGroups><<<(n + kGroups - 1) / kGroups, 32 * kGroups, 0, stream_>>>(n, work);
+      check(cudaGetLastError(), "a kernel over groups");
+    }
+    template <class Kernel>
+    void forResidentGroups(const Kernel& work) {
+      static const int blocks = [] {
+        int of_processor = 0;
+        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&of_processor, kernel::forGroups<kGroups, Kernel>,
+                                                            32 * kGroups, 0),
+              "the room for a kernel");
+        return of_processor * processors();
+      }();
+      forGroups(kGroups * blocks, work);
+    }
+    template <class T>
+    void zero(Buffer<T>& buffer) {
+      check(cudaMemsetAsync(buffer.data(), 0, buffer.size() * sizeof(T), stream_), "clearing memory");
+    }
+    template <class T>
+    void upload(std::span<const T> from, Buffer<T>& to) {
+      check(cudaMemcpyAsync(to.data(), from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream_), "an upload");
+      wait();
+    }
+    template <class T>
+    std::vector<T> download(const Buffer<T>& from, std::size_t size) {
+      std::vector<T> to(size);
+      check(cudaMemcpyAsync(to.data(), from.data(), size * sizeof(T), cudaMemcpyDeviceToHost, stream_), "a download");
+      wait();
+      return to;
+    }
+    void after(Queue& other) {
+      check(cudaEventRecord(other.given_, other.stream_), "an event");
+      check(cudaStreamWaitEvent(stream_, other.given_), "waiting for another stream");
+    }
+    void wait() { check(cudaStreamSynchronize(stream_), "work on the device"); }
+    cudaStream_t stream() const { return stream_; }
+
+   private:
+    cudaStream_t stream_{};
+    cudaEvent_t given_{};
+  };
+
+  class PairSort {
+   public:
+    PairSort(int n, int key_bits) : n_(n), bits_(key_bits) {
+      std::size_t bytes = 0;
+      check(sort(nullptr, bytes, nullptr, nullptr, nullptr, nullptr, nullptr), "room for a sort");
+      room_ = Buffer<char>(bytes);
+    }
+    void run(Queue& queue, const Buffer<std::uint32_t>& keys, const Buffer<int>& values,
+             Buffer<std::uint32_t>& keys_out, Buffer<int>& values_out) {
+      std::size_t bytes = room_.size();
+      check(sort(room_.data(), bytes, keys.data(), values.data(), keys_out.data(), values_out.data(), queue.stream()),
+            "a sort");
+    }
+
+   private:
+    cudaError_t sort(void* room, std::size_t& bytes, const std::uint32_t* keys, const int* values,
+                     std::uint32_t* keys_out, int* values_out, cudaStream_t stream) const {
+      return cub::DeviceRadixSort::SortPairs(room, bytes, keys, keys_out, values, values_out, n_, 0, bits_, stream);
+    }
+    int n_, bits_;
+    Buffer<char> room_;
+  };
+
+  class ExclusiveSum {
+   public:
+    explicit ExclusiveSum(int n) : n_(n) {
+      std::size_t bytes = 0;
+      check(sum(nullptr, bytes, nullptr, nullptr, nullptr), "room for a sum");
+      room_ = Buffer<char>(bytes);
+    }
+    void run(Queue& queue, const Buffer<int>& counts, Buffer<int>& sums) {
+      std::size_t bytes = room_.size();
+      check(sum(room_.data(), bytes, counts.data(), sums.data(), queue.stream()), "a sum");
+    }
+
+   private:
+    cudaError_t sum(void* room, std::size_t& bytes, const int* counts, int* sums, cudaStream_t stream) const {
+      return cub::DeviceScan::ExclusiveSum(room, bytes, counts, sums, n_, stream);
+    }
+    int n_;
+    Buffer<char> room_;
+  };
+
+  /// A graph: no host between its kernels.
+  class Replay {
+   public:
+    template <class F>
+    Replay(Queue& queue, F&& work) {
+      check(cudaStreamBeginCapture(queue.stream(), cudaStreamCaptureModeThreadLocal), "recording a graph");
+      work();
+      cudaGraph_t graph{};
+      check(cudaStreamEndCapture(queue.stream(), &graph), "recording a graph");
+      const cudaError_t made = cudaGraphInstantiate(&graph_, graph, 0);
+      cudaGraphDestroy(graph);
+      check(made, "making a graph");
+    }
+    ~Replay() { cudaGraphExecDestroy(graph_); }
+    Replay(const Replay&) = delete;
+    Replay& operator=(const Replay&) = delete;
+    void run(Queue& queue) { check(cudaGraphLaunch(graph_, queue.stream()), "starting a graph"); }
+
+   private:
+    cudaGraphExec_t graph_{};
+  };
+
+  template <class F>
+  static double milliseconds(Queue& queue, F&& f) {
+    cudaEvent_t start{}, end{};
+    check(cudaEventCreate(&start), "an event");
+    check(cudaEventCreate(&end), "an event");
+    check(cudaEventRecord(start, queue.stream()), "an event");
+    f();
+    check(cudaEventRecord(end, queue.stream()), "an event");
+    check(cudaEventSynchronize(end), "work on the device");
+    float ms = 0;
+    check(cudaEventElapsedTime(&ms, start, end), "an event");
+    cudaEventDestroy(start);
+    cudaEventDestroy(end);
+    return ms;
+  }
+
+ private:
+  static int processors() {
+    static const int count = [] {
+      int device = 0, n = 0;
+      check(cudaGetDevice(&device), "the device");
+      check(cudaDeviceGetAttribute(&n, cudaDevAttrMultiProcessorCount, device), "the device's processors");
+      return n;
+    }();
+    return count;
+  }
+};
+
+using Cuda = CudaOf<4>;
+
+}  // namespace gambeson::gpu

@@ -1,0 +1,131 @@
+#pragma once
+/// The reference device: kernels as loops on the host, under OpenMP. It needs no GPU and gives the bits of CUDA.
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "core/math/parallel.hpp"
+#include "gpu/device/list.hpp"
+
+namespace gambeson::gpu {
+
+/// W: lanes of a group. The same bits for each.
+template <int W>
+class ReferenceOf {
+ public:
+  using Group = HostLanes<W>;
+
+  template <class T>
+  class Buffer {
+   public:
+    Buffer() = default;
+    explicit Buffer(std::size_t size) : items_(size) {}
+    T* data() { return items_.data(); }
+    const T* data() const { return items_.data(); }
+    std::size_t size() const { return items_.size(); }
+
+   private:
+    std::vector<T> items_;
+  };
+
+  /// Work in the order in which it was given. Here each piece is done at once.
+  class Queue {
+   public:
+    /// f(i) for i < n.
+    template <class F>
+    void forEach(int n, const F& f) {
+      forAll(Each::much, n, [&](int i) { f(i); });
+    }
+    /// f(item) for the items of a list whose length only the device knows.
+    template <class T, class F>
+    void forItems(const List<T>& list, const F& f) {
+      forAll(Each::much, static_cast<long>(list.size()), [&](long i) { f(list.items[i], static_cast<Count>(i)); });
+    }
+    /// kernel(group, shared memory, index of the group, n) for n groups.
+    template <class Kernel>
+    void forGroups(int n, const Kernel& kernel) {
+#pragma omp parallel for schedule(dynamic)
+      for (int i = 0; i < n; ++i) {
+        typename Kernel::Shared shared;
+        kernel(Group{}, shared, i, n);
+      }
+    }
+    /// The same, by as many groups as work side by side: for kernels that take their items one after the other.
+    template <class Kernel>
+    void forResidentGroups(const Kernel& kernel) {
+      forGroups(4 * omp_get_max_threads(), kernel);
+    }
+    template <class T>
+    void zero(Buffer<T>& buffer) {
+      std::fill_n(buffer.data(), buffer.size(), T{});
+    }
+    template <class T>
+    void upload(std::span<const T> from, Buffer<T>& to) {
+      std::copy(from.begin(), from.end(), to.data());
+    }
+    template <class T>
+    std::vector<T> download(const Buffer<T>& from, std::size_t size) {
+      return {from.data(), from.data() + size};
+    }
+    /// What is given from now on waits for what the other has been given.
+    void after(Queue&) {}
+    void wait() {}
+  };
+
+  /// Pairs (key, value) by key, equal keys in the order in which they came.
+  class PairSort {
+   public:
+    PairSort(int n, int key_bits) : n_(n), order_(static_cast<std::size_t>(n)) { static_cast<void>(key_bits); }
+    void run(Queue&, const Buffer<std::uint32_t>& keys, const Buffer<int>& values, Buffer<std::uint32_t>& keys_out,
+             Buffer<int>& values_out) {
+      std::iota(order_.begin(), order_.end(), 0);
+      std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return keys.data()[a] < keys.data()[b]; });
+      for (int i = 0; i < n_; ++i) {
+        keys_out.data()[i] = keys.data()[order_[i]];
+        values_out.data()[i] = values.data()[order_[i]];
+      }
+    }
+
+   private:
+    int n_;
+    std::vector<int> order_;
+  };
+
+  /// sums[i] = counts[0] + ... + counts[i - 1]
+  class ExclusiveSum {
+   public:
+    explicit ExclusiveSum(int n) : n_(n) {}
+    void run(Queue&, const Buffer<int>& counts, Buffer<int>& sums) {
+      std::exclusive_scan(counts.data(), counts.data() + n_, sums.data(), 0);
+    }
+
+   private:
+    int n_;
+  };
+
+  /// Work that is given again and again, the same each time.
+  class Replay {
+   public:
+    Replay(Queue&, std::function<void()> work) : work_(std::move(work)) {}
+    void run(Queue&) { work_(); }
+
+   private:
+    std::function<void()> work_;
+  };
+
+  /// Milliseconds that the work given by f takes on the queue.
+  template <class F>
+  static double milliseconds(Queue&, F&& f) {
+    const auto start = std::chrono::steady_clock::now();
+    f();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+};
+
+using Reference = ReferenceOf<1>;
+
+}  // namespace gambeson::gpu

@@ -1,0 +1,145 @@
+#pragma once
+/// The search for impacts on a device: a broad phase, then the narrow phase, points and triangles beside edges.
+
+#include <optional>
+
+#include "gpu/finding/lbvh.hpp"
+#include "gpu/finding/narrow_pass.hpp"
+
+namespace gambeson::gpu {
+
+/// What both kinds of pairs need before they are sought.
+struct BeginPass {
+  const MovingPoint* point;
+  FloatPoint* rough;
+  int vertices;
+  ClearCounts points, edges;
+
+  GAMBESON_HD void operator()(int i) const {
+    if (i < vertices) rough[i] = floatPoint(point[i]);
+    points(i);
+    edges(i);
+  }
+};
+
+template <class Device, template <class> class BroadPhase = Lbvh>
+class ImpactFinder final : public ImpactSearch {
+ public:
+  using Queue = typename Device::Queue;
+
+  ImpactFinder(const Mesh& mesh, std::span<const Vec3> positions, const SearchOptions& options, const BothSizes& room)
+      : mesh_(mesh, positions), options_(options), broad_(mesh_, marginOf(options), options.queries_per_group) {
+    makeLists(room);
+  }
+
+  void setMotion(std::span<const Vec3> x0, std::span<const Vec3> x1) override {
+    std::vector<MovingPoint> point;
+    for (std::size_t i = 0; i < x0.size(); ++i) point.push_back({x0[i], x1[i]});
+    queue_.upload(std::span<const MovingPoint>(point), mesh_.point);
+  }
+
+  void find(Trees trees) override {
+    for (;; ++repeats_) {
+      give(trees);
+      queue_.wait();
+      BothSizes room = {points_->room(), edges_->room()};
+      const BothSizes need = sizes();
+      bool enough = true;
+      for (int kind = 0; kind < kPairKinds; ++kind)
+        for (const auto list : {&ListSizes::pairs, &ListSizes::open, &ListSizes::hard, &ListSizes::hits}) {
+          if (need[kind].*list <= room[kind].*list) continue;
+          enough = false;
+          room[kind].*list = std::max(2 * room[kind].*list, need[kind].*list);
+        }
+      if (enough) return;
+      makeLists(room);
+    }
+  }
+
+  BothSizes sizes() override { return {points_->sizes(queue_), edges_->sizes(queue_)}; }
+  std::vector<Pair> pairs(PairKind kind) override {
+    return kind == PairKind::pointTriangle ? points_->downloadPairs(queue_) : edges_->downloadPairs(queue_);
+  }
+  std::vector<Hit> hits(PairKind kind) override {
+    return kind == PairKind::pointTriangle ? points_->downloadHits(queue_) : edges_->downloadHits(queue_);
+  }
+  int repeats() const override { return repeats_; }
+
+  double medianMilliseconds(Trees trees, int passes) override {
+    typename Device::Replay replay(queue_, [&] { give(trees); });
+    std::vector<double> ms;
+    for (int k = -kWarmUp; k < passes; ++k) {
+      const double took = Device::milliseconds(queue_, [&] { replay.run(queue_); });
+      if (k >= 0) ms.push_back(took);
+    }
+    return median(ms);
+  }
+
+  std::vector<StageTime> stageTimes(int passes) override {
+    Stages<Device> all = common_;
+    all.insert(all.end(), stages_[0].begin(), stages_[0].end());
+    all.insert(all.end(), stages_[1].begin(), stages_[1].end());
+    std::vector<std::vector<double>> ms(all.size());
+    for (int k = -kWarmUp; k < passes; ++k)
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const double took = Device::milliseconds(queue_, [&] { all[i].work(queue_); });
+        if (k >= 0) ms[i].push_back(took);
+      }
+    std::vector<StageTime> times;
+    for (std::size_t i = 0; i < all.size(); ++i) times.push_back({all[i].name, median(ms[i])});
+    return times;
+  }
+
+ private:
+  static constexpr int kWarmUp = 3;  ///< passes that are not counted
+
+  static float marginOf(const SearchOptions& options) {
+    const float margin = roundedUp(options.margin_m, 0);
+    return std::max(margin, roundedUp(0.5 * options.separation_m, 0));
+  }
+  static double median(std::vector<double> values) {
+    std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
+    return values[values.size() / 2];
+  }
+
+  void makeLists(const BothSizes& room) {
+    points_.reset(), edges_.reset();  // their memory first
+    points_.emplace(mesh_, options_, room[0]);
+    edges_.emplace(mesh_, options_, room[1]);
+    common_ = {{"beginning", [this](Queue& queue) {
+                  const int n = std::max({mesh_.vertices, mesh_.edges, int{kCounts}});
+                  queue.forEach(n, BeginPass{mesh_.point.data(), mesh_.rough.data(), mesh_.vertices, points_->clear(),
+                                             edges_->clear()});
+                }}};
+    append(common_, broad_.common());
+    stages_[0] = broad_.pointTriangle(points_->pairs());
+    append(stages_[0], points_->stages("points"));
+    stages_[1] = broad_.edgeEdge(edges_->pairs());
+    append(stages_[1], edges_->stages("edges"));
+  }
+  static void append(Stages<Device>& to, const Stages<Device>& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+  /// Both kinds of pairs side by side.
+  void give(Trees trees) {
+    const auto run = [trees](const Stages<Device>& stages, Queue& queue) {
+      for (const Stage<Device>& stage : stages)
+        if (trees == Trees::rebuilt || !stage.rebuilds) stage.work(queue);
+    };
+    run(common_, queue_);
+    beside_.after(queue_);
+    run(stages_[0], queue_);
+    run(stages_[1], beside_);
+    queue_.after(beside_);
+  }
+
+  Queue queue_, beside_;
+  FlatMesh<Device> mesh_;
+  SearchOptions options_;
+  BroadPhase<Device> broad_;
+  std::optional<NarrowPass<Device, 3>> points_;
+  std::optional<NarrowPass<Device, 4>> edges_;
+  Stages<Device> common_, stages_[kPairKinds];
+  int repeats_ = 0;
+};
+
+}  // namespace gambeson::gpu

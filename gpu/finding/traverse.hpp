@@ -1,0 +1,136 @@
+#pragma once
+/// Pairs whose boxes meet, from a tree of boxes: tasks (query, node) on the stack of a group, as many at a time as it
+/// has lanes, so that a heavy query is shared by all of them.
+
+#include "gpu/device/list.hpp"
+#include "gpu/finding/pair.hpp"
+#include "gpu/finding/radix_tree.hpp"
+
+namespace gambeson::gpu {
+
+/// What is sought in the tree: a box and the primitive that has it.
+struct BoxQuery {
+  FloatBox box;
+  int corner[2];
+  int primitive;
+  int leaf;  ///< its own, in a tree that holds it; leaves up to it are not looked at
+};
+
+/// Vertices against the tree of the faces.
+struct VerticesInFaces {
+  const int* order;  ///< in which vertices are taken
+  const FloatBox* vertex_box;
+
+  GAMBESON_HD BoxQuery operator()(int i) const {
+    const int v = order[i];
+    return {vertex_box[v], {v, v}, v, -1};
+  }
+  GAMBESON_HD static bool counts(const BoxQuery& q, const TreeLeaf& leaf) {
+    return leaf.corner[0] != q.corner[0] && leaf.corner[1] != q.corner[0] && leaf.corner[2] != q.corner[0];
+  }
+  GAMBESON_HD static Pair pair(const BoxQuery& q, const TreeLeaf& leaf) { return {q.primitive, leaf.primitive}; }
+};
+
+/// Edges against the tree of the edges, each pair once.
+struct EdgesInEdges {
+  const TreeLeaf* leaf;
+  const FloatBox* leaf_box;
+
+  GAMBESON_HD BoxQuery operator()(int i) const {
+    return {leaf_box[i], {leaf[i].corner[0], leaf[i].corner[1]}, leaf[i].primitive, i};
+  }
+  GAMBESON_HD static bool counts(const BoxQuery& q, const TreeLeaf& other) {
+    return other.corner[0] != q.corner[0] && other.corner[0] != q.corner[1] && other.corner[1] != q.corner[0] &&
+           other.corner[1] != q.corner[1];
+  }
+  GAMBESON_HD static Pair pair(const BoxQuery& q, const TreeLeaf& other) {
+    return q.primitive < other.primitive ? Pair{q.primitive, other.primitive} : Pair{other.primitive, q.primitive};
+  }
+};
+
+constexpr int kMostQueries = 16;  ///< of a group
+
+/// kStack: tasks of a group, more than kTreeDepth and the queries together.
+template <class Queries, int kStack = 512>
+struct Traverse {
+  static constexpr int kResident = 48;
+  static constexpr int kGathered = 256, kNodeBits = 26;
+  static_assert(kMostQueries <= 1 << (32 - kNodeBits));
+
+  struct Shared {
+    BoxQuery query[kMostQueries];
+    std::uint32_t stack[kStack];  ///< query and node of a task
+    Gathered<Pair, kGathered> found;
+  };
+
+  Queries queries;
+  int count;             ///< of queries
+  int per_group;         ///< at most kMostQueries
+  const TreeNode* node;  ///< fewer than 2^kNodeBits
+  const TreeLeaf* leaf;
+  List<Pair> pairs;
+
+  template <class Group>
+  GAMBESON_HD void operator()(const Group& group, Shared& shared, int index, int) const {
+    Lanes<Group, bool> opens[2], counts[2];
+    Lanes<Group, std::uint32_t> task[2];
+    Lanes<Group, Pair> pair[2];
+    const int first = index * per_group;
+    int tasks = std::min(per_group, count - first), found = 0;
+    group.each([&](int lane) {
+      for (int k = lane; k < tasks; k += Group::kLanes) {
+        shared.query[k] = queries(first + k);
+        shared.stack[k] = static_cast<std::uint32_t>(k) << kNodeBits;
+      }
+    });
+    group.sync();
+    while (tasks > 0) {
+      // Each task may leave two. Where the stack is nearly full one is taken at a time: depth first, that adds no more
+      // than the tree is deep.
+      const int take = std::min(std::min(int{Group::kLanes}, tasks), std::max(1, kStack - kTreeDepth - tasks));
+      tasks -= take;
+      group.each([&](int lane) {
+        opens[0][lane] = opens[1][lane] = counts[0][lane] = counts[1][lane] = false;
+        if (lane >= take) return;
+        const std::uint32_t now = shared.stack[tasks + lane], of_query = now >> kNodeBits << kNodeBits;
+        const TreeNode at = node[now - of_query];
+        const BoxQuery& query = shared.query[now >> kNodeBits];
+        for (int side = 0; side < 2; ++side) {
+          if (!meet(query.box, at.box[side]) || at.last[side] <= query.leaf) continue;
+          if (at.child[side] >= 0) {
+            opens[side][lane] = true;
+            task[side][lane] = of_query | static_cast<std::uint32_t>(at.child[side]);
+          } else {
+            const TreeLeaf other = leaf[~at.child[side]];
+            counts[side][lane] = Queries::counts(query, other);
+            pair[side][lane] = Queries::pair(query, other);
+          }
+        }
+      });
+      group.sync();
+      for (int side = 0; side < 2; ++side) {
+        push(group, opens[side], task[side], shared.stack, tasks);
+        shared.found.add(group, counts[side], pair[side], found);
+      }
+      group.sync();
+      if (found > kGathered - 2 * Group::kLanes) shared.found.flush(group, found, pairs);
+    }
+    if (found > 0) shared.found.flush(group, found, pairs);
+  }
+
+ private:
+  template <class Group, class T>
+  using Lanes = typename Group::template PerLane<T>;
+
+  template <class Group>
+  GAMBESON_HD static void push(const Group& group, const Lanes<Group, bool>& on,
+                               const Lanes<Group, std::uint32_t>& task, std::uint32_t* stack, int& tasks) {
+    const LaneMask mask = group.ballot(on);
+    group.each([&](int lane) {
+      if (on[lane]) stack[tasks + lanesBefore(mask, lane)] = task[lane];
+    });
+    tasks += lanesIn(mask);
+  }
+};
+
+}  // namespace gambeson::gpu
