@@ -137,10 +137,12 @@ void iterateIsland(double goal, int last_iteration, int calm, Island& now, Conta
     for (int c = now.chunk; c < now.chunk_end; ++c) most2 = std::max(most2, w.largest2[c]);
     return std::sqrt(most2);
   };
+  const bool alone = now.row_end - now.row == 1;  // is solved at once
   for (; now.iterations < last_iteration && !now.done; ++now.iterations) {
+    const double caution = alone ? 1 : kCaution * now.caution;
     each.points(now, [&](int f, int end) { extrapolatePoints(w, now.beta, f, end); });
     each(w, now, [&](int c) {
-      sweepRows(w, now.beta, kCaution * now.caution, w.chunks[c].row, w.chunks[c + 1].row, w.largest2[c], w.against[c]);
+      sweepRows(w, now.beta, caution, w.chunks[c].row, w.chunks[c + 1].row, w.largest2[c], w.against[c]);
     });
     now.residual_m_per_s = mostOf();
     double sum = 0;
