@@ -51,7 +51,7 @@ GAMBESON_WIDE void extrapolatePoints(ContactWork& w, double beta, int begin, int
 /// of the range as the rows found it, and the product that tells whether the step went against the gradient.
 GAMBESON_WIDE void sweepRows(ContactWork& w, double beta, double caution, int begin, int end, double& largest2_out,
                              double& against_out) {
-  constexpr double kLeastOwn = 0.02;  // of the slope: what hardly moves takes no steps without bound
+  constexpr double kLeastOwn = 0.001;  // of the slope: what hardly moves takes no steps without bound
   double largest2 = 0, against = 0;
   for (int k = begin; k < end; ++k) {
     const ContactWork::Row& facts = w.facts[k];
