@@ -2,6 +2,7 @@
 /// From what a fabric is to what the kernels of any cloth read.
 
 #include <array>
+#include <span>
 
 #include "core/cloth/cloth_state.hpp"
 #include "core/material/fabric_law.hpp"
@@ -43,6 +44,13 @@ struct BlockLaw {
   LawUse evaluated() const { return steepest ? LawUse{0, false, use.jams} : use; }
   /// Whether any of the points has a history that counts.
   bool remembers() const { return use.remembers() && !steepest; }
+};
+
+/// Laws of the points of a block that differ: [point][kLawDoubles][lane], null where they do not, and which of the
+/// numbers of a point are not everywhere what BlockLaw::point has.
+struct LawsByPoint {
+  const double* numbers = nullptr;
+  std::span<const int> varying;
 };
 
 /// The parts that the law leaves out become zero, or steepest.

@@ -18,9 +18,15 @@ inline void constantLaw(const BlockLaw& law, LawLanes& l) {
   leaveOut(law, l);
 }
 
-inline void lawAtPoint(const BlockLaw& law, const double* data, LawLanes& l) {
+/// `l` is of another point of the block, or constant. Few numbers vary, and all of them are much to read.
+inline void lawAtPoint(const BlockLaw& law, const LawsByPoint& laws, long point, LawLanes& l) {
   V* out = reinterpret_cast<V*>(&l);
-  for (int i = 0; i < kLawDoubles; ++i) out[i] = load(data + i * kLanes);
+  const double* data = laws.numbers + point * kLawDoubles * kLanes;
+  if (law.steepest) {  // has changed numbers of what was there
+    for (int i = 0; i < kLawDoubles; ++i) out[i] = load(data + i * kLanes);
+  } else {
+    for (const int i : laws.varying) out[i] = load(data + i * kLanes);
+  }
   leaveOut(law, l);
 }
 
@@ -70,7 +76,7 @@ GAMBESON_LAW void stretchPlain(const BlockLaw& law, const V* e, Answer<V, 3>& me
 struct FabricLaw {
   const BlockLaw& law;
   template <unsigned kParts>
-  void evaluate(const double*, long, const V* e, const V* k, PointAnswer<V>& out) const {
+  void evaluate(const LawsByPoint&, long, const V* e, const V* k, PointAnswer<V>& out) const {
     const PlainLaw& plain = law.plain;
     stretchPlain<kParts>(law, e, out.membrane);
     out.bending.energy = out.membrane.energy;
@@ -84,11 +90,11 @@ struct GeneralLaw {
   const BlockLaw& law;
   LawLanes lanes{};
 
-  /// `laws`: of the block's points where they differ, else null; `point` counts them.
+  /// `point` counts the block's points. The numbers begin as constantLaw.
   template <unsigned kParts>
-  void evaluate(const double* laws, long point, const V* e, const V* k, PointAnswer<V>& out) {
-    if (laws) lawAtPoint(law, laws + point * kLawDoubles * kLanes, lanes);
-    const History<V> history = law.remembers() ? historyAt(law, point, laws != nullptr) : History<V>{};
+  void evaluate(const LawsByPoint& laws, long point, const V* e, const V* k, PointAnswer<V>& out) {
+    if (laws.numbers) lawAtPoint(law, laws, point, lanes);
+    const History<V> history = law.remembers() ? historyAt(law, point, laws.numbers != nullptr) : History<V>{};
     evaluateLaws<kParts>(law.evaluated(), lanes, e, k, history, out);
   }
 };

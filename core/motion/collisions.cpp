@@ -225,9 +225,8 @@ namespace {
 constexpr double kSame_m = 1e-12;
 
 bool same(std::span<const Vec3> x, std::span<const Vec3> y) {
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (!(norm2(x[i] - y[i]) < kSame_m * kSame_m)) return false;
-  return true;
+  return countOf(Each::value, static_cast<int>(x.size()),
+                 [&](int i) { return !(norm2(x[i] - y[i]) < kSame_m * kSame_m); }) == 0;
 }
 
 /// Which samples are known to be outside of bodies that deform, at the start of the next step. A sample stays on its
@@ -259,6 +258,10 @@ void keepOutside(const CollisionModel& m, double time_s, std::span<const Vec3> x
   std::fill(known.begin(), known.end(), 0);
 }
 
+void copyAll(std::span<const Vec3> from, std::span<Vec3> to) {
+  forAll(Each::value, static_cast<int>(from.size()), [&](int i) { to[i] = from[i]; });
+}
+
 }  // namespace
 
 void placeVertices(const CollisionModel& m, double time_s, double dt, std::span<const Vec3> x0,
@@ -266,21 +269,20 @@ void placeVertices(const CollisionModel& m, double time_s, double dt, std::span<
   keepOutside(m, time_s, x0, obstacles, w);
   w.start_s = time_s;
   w.end_s = time_s + dt;
-  w.x0.assign(x0.begin(), x0.end());
   w.x0.resize(m.mesh.vertex_count);
+  copyAll(x0, w.x0);
   w.x1.resize(m.mesh.vertex_count);
   for (const CollisionModel::Body& body : m.bodies) {
     if (body.deforms) {
-      std::copy(obstacles.start_vertices[body.obstacle].begin(), obstacles.start_vertices[body.obstacle].end(),
-                w.x0.begin() + body.first_vertex);
-      std::copy(obstacles.end_vertices[body.obstacle].begin(), obstacles.end_vertices[body.obstacle].end(),
-                w.x1.begin() + body.first_vertex);
+      copyAll(obstacles.start_vertices[body.obstacle], std::span(w.x0).subspan(body.first_vertex));
+      copyAll(obstacles.end_vertices[body.obstacle], std::span(w.x1).subspan(body.first_vertex));
       continue;
     }
-    for (std::size_t k = 0; k < body.local.size(); ++k) {
+    const int count = static_cast<int>(body.local.size());
+    forAll(Each::value, count, [&](int k) {
       w.x0[body.first_vertex + k] = obstacles.start[body.obstacle] * body.local[k];
       w.x1[body.first_vertex + k] = obstacles.end[body.obstacle] * body.local[k];
-    }
+    });
   }
   if (w.list.empty()) w.list = CandidateList(m.tree, m.bluntness);
   w.list.begin(time_s, time_s + dt, w.x0);
@@ -293,7 +295,7 @@ Vec3 wayOfBody(const CollisionModel& m, const ObstacleMotion& obstacles, const C
   return obstacles.end[c.obstacle] * c.local - obstacles.start[c.obstacle] * c.local;
 }
 
-void moveVertices(std::span<const Vec3> x1, CollisionWork& w) { std::copy(x1.begin(), x1.end(), w.x1.begin()); }
+void moveVertices(std::span<const Vec3> x1, CollisionWork& w) { copyAll(x1, w.x1); }
 
 void listNear(const CollisionModel& m, CollisionWork& w) {
   w.near.points.clear();

@@ -112,6 +112,17 @@ bool fabricVaries(const Garment& g, int patch) {
   return fields && (fields->thickness || fields->material);
 }
 
+std::optional<int> fabricOfPatch(const Garment& g, int patch) {
+  if (!fabricVaries(g, patch)) return 0;
+  const PatchFields& fields = *fieldsOf(g, patch);
+  if (fields.thickness) return std::nullopt;
+  const std::vector<double>& values = fields.material->values;
+  const double first = values.front();
+  if (first != std::floor(first) || std::any_of(values.begin(), values.end(), [&](double v) { return v != first; }))
+    return std::nullopt;
+  return static_cast<int>(first);
+}
+
 void validateFields(const Garment& g) {
   if (g.fields.empty()) return;
   if (g.fields.size() != g.patches.size()) throw InputError({"", 0, "fields"}, "one entry for each patch is needed");

@@ -47,6 +47,8 @@ double surfaceDensityAt(const Garment& garment, int patch, Vec2 uv);
 double fibreAngleAt(const Garment& garment, int patch, Vec2 uv);
 /// Whether the fabric (angle apart) differs from point to point of a patch.
 bool fabricVaries(const Garment& garment, int patch);
+/// The one fabric of a patch where there is one: 0 the garment's, else that of other_fabrics before it.
+std::optional<int> fabricOfPatch(const Garment& garment, int patch);
 /// Throws InputError (key "fields[patch]...") where fields do not fit the garment: counts, ranges over the whole patch.
 void validateFields(const Garment& garment);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -32,10 +33,10 @@ bool twoPointsSeeAll(const KnotVector& k) {
                      [&](double t) { return std::count(k.knots.begin(), k.knots.end(), t) == 1; });
 }
 
-/// The law of a block: where it varies, what any of its points may need.
-BlockLaw lawOfBlock(const Garment& garment, bool varies) {
-  BlockLaw law = blockLaw(garment.fabric);
-  if (!varies) return law;
+/// The law of a block: where its fabric varies, what any of its points may need.
+BlockLaw lawOfBlock(const Garment& garment, std::optional<int> fabric) {
+  BlockLaw law = blockLaw(fabric.value_or(0) == 0 ? garment.fabric : garment.other_fabrics[*fabric - 1]);
+  if (fabric) return law;
   law.general = true;
   for (const Fabric& other : garment.other_fabrics) {
     const BlockLaw more = blockLaw(other);
@@ -76,7 +77,7 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
                    patch.v.degree,
                    !cell.cut && isRational(patch),
                    cell.cut,
-                   fabricVaries(garment, cell.patch),
+                   fabricOfPatch(garment, cell.patch),
                    false,
                    false,
                    false};
@@ -93,7 +94,7 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   gather_ = SlotGather(control_count_);
   for (auto& [kind, cells] : kinds) {
     if (kind.scattered) sortByPoints(cells);
-    ShellPart part{packBlock(garment, offsets_, kind, cells, L, gauss_extra), lawOfBlock(garment, kind.varies),
+    ShellPart part{packBlock(garment, offsets_, kind, cells, L, gauss_extra), lawOfBlock(garment, kind.fabric),
                    slot_count_, static_cast<int>(cells.size())};
     const ShellBlock& b = part.block;
     const int nn = b.nodeCount();

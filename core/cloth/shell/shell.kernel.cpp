@@ -21,7 +21,7 @@ namespace {
 /// Resultants and their pull-back at one quadrature point: on return g1, g2, g11, g22, g12 hold the force conjugate to
 /// x,u x,v x,uu x,vv x,uv (times the point's area).
 template <bool kEnergy, class Law>
-inline void shellPoint(Law& law, const double* laws, long point, const double* data, const double* rest_curvature,
+inline void shellPoint(Law& law, const LawsByPoint& laws, long point, const double* data, const double* rest_curvature,
                        V3 a1, V3 a2, V3 x11, V3 x22, V3 x12, V3& g1, V3& g2, V3& g11, V3& g22, V3& g12,
                        GroupEnergy& energy) {
   const V G11 = load(data), G12 = load(data + kLanes), G21 = load(data + 2 * kLanes), G22 = load(data + 3 * kLanes);
@@ -81,7 +81,7 @@ void groupForce(const ShellBlock& block, const BlockLaw& shell_law, int group, c
   const int nu = kP < 0 ? block.p + 1 : kP + 1, nv = kQ < 0 ? block.q + 1 : kQ + 1, nn = nu * nv;
   constexpr int kNu = kP < 0 ? kMaxDegree + 1 : kP + 1, kNv = kQ < 0 ? kMaxDegree + 1 : kQ + 1;
   const int stride = block.pointDoubles() * kLanes;
-  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  const LawsByPoint laws = block.lawsByPoint();
   V3 X[kNu * kNv], F[kNu * kNv];
   const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;
   const double* weights = kRational ? block.weights.data() + static_cast<long>(group) * nn * kLanes : nullptr;
@@ -189,7 +189,7 @@ template <bool kEnergy>
 void scatteredForce(const ShellBlock& block, const BlockLaw& shell_law, const double* q, double* cell_force,
                     double* energy) {
   const int nn = block.nodeCount(), stride = block.pointDoubles() * kLanes;
-  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  const LawsByPoint laws = block.lawsByPoint();
   forAll(Each::element, block.groups, [&](int group) {
     constexpr int kMax = (kMaxDegree + 1) * (kMaxDegree + 1);
     V3 X[kMax], F[kMax];

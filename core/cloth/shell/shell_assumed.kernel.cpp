@@ -12,7 +12,7 @@ void assumedForce(const ShellBlock& block, const BlockLaw& shell_law, const doub
                   double* energy) {
   constexpr int nn = 9;
   const int stride = block.pointDoubles() * kLanes;
-  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  const LawsByPoint laws = block.lawsByPoint();
   forAll(Each::element, block.groups, [&](int group) {
     V3 X[nn], F[nn];
     const int* nodes = block.nodes.data() + static_cast<long>(group) * nn * kLanes;

@@ -42,13 +42,15 @@ struct ShellBlock {
   /// [group][kMeanDoubles][lane].
   bool assumed = false;
   AlignedVector<double> tie_u, tie_v, tie_weight, tie_rest, tie_mean;
-  AlignedVector<double> laws;    ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
-  long history_first = 0;        ///< as BlockLaw has it
+  AlignedVector<double> laws;   ///< [point][kLawDoubles][lane] where the law differs from point to point; else empty
+  std::vector<int> law_varies;  ///< which of these are not everywhere what BlockLaw::point has
+  long history_first = 0;       ///< as BlockLaw has it
 
   int nodeCount() const { return (p + 1) * (q + 1); }
   int pairCount() const { return nodeCount() * (nodeCount() + 1) / 2; }
   int pointDoubles() const { return 5 + (rational ? 6 : 0) + (rest_curvature ? 3 : 0); }
   int tieCount() const { return 2 * gv + 2 * gu + 4; }
+  LawsByPoint lawsByPoint() const { return {laws.empty() ? nullptr : laws.data(), law_varies}; }
   long firstPoint(int group) const { return scattered ? first_point[group] : static_cast<long>(group) * gu * gv; }
 };
 

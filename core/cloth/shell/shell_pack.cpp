@@ -31,11 +31,27 @@ void packPoint(const Garment& garment, const SheetCell& cell, const CellBasis& b
   }
   for (std::size_t k = 0; k < data.size(); ++k)
     b.points[(point * b.pointDoubles() + static_cast<long>(k)) * b.lanes + lane] = data[k];
-  if (!varies) return;
+  if (b.laws.empty()) return;
   checkFabric(fabric);
   const PointLaw law = pointLaw(fabric);
   const double* values = reinterpret_cast<const double*>(&law);
   for (int k = 0; k < kLawDoubles; ++k) b.laws[(point * kLawDoubles + k) * b.lanes + lane] = values[k];
+}
+
+/// Which numbers of the points' laws differ anywhere from those of the garment's fabric.
+std::vector<int> varyingNumbers(const Garment& garment, const ShellBlock& b) {
+  std::vector<int> varying;
+  if (b.laws.empty()) return varying;
+  const PointLaw law = pointLaw(garment.fabric);
+  const double* values = reinterpret_cast<const double*>(&law);
+  const std::size_t lanes = static_cast<std::size_t>(b.lanes), stride = kLawDoubles * lanes;
+  for (int k = 0; k < kLawDoubles; ++k) {
+    bool same = true;
+    for (std::size_t first = k * lanes; first < b.laws.size() && same; first += stride)
+      for (std::size_t lane = 0; lane < lanes && same; ++lane) same = b.laws[first + lane] == values[k];
+    if (!same) varying.push_back(k);
+  }
+  return varying;
 }
 
 /// Fills lane `lane` of group `group`; `real` is false for the copies that fill a last group up (their area is zero).
@@ -148,12 +164,13 @@ ShellBlock packBlock(const Garment& garment, const std::vector<int>& offsets, co
     b.tie_rest.resize(static_cast<long>(b.groups) * b.tieCount() * 3 * L);
   }
   b.points.resize(points * b.pointDoubles() * L);
-  if (kind.varies) b.laws.resize(points * kLawDoubles * L);
+  if (!kind.fabric) b.laws.resize(points * kLawDoubles * L);
   for (int g = 0; g < b.groups; ++g)
     for (int l = 0; l < lanes; ++l) {
       const int at = g * lanes + l;
       packCell(garment, offsets, cells[std::min(at, count - 1)], at < count, b, g, l);
     }
+  b.law_varies = varyingNumbers(garment, b);
   return b;
 }
 

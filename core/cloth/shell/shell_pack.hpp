@@ -2,6 +2,7 @@
 /// Packs cells into the blocks that the kernels of a shell work on (lanes = cells).
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/cloth/draft/cells.hpp"
@@ -13,7 +14,8 @@ namespace gambeson {
 /// What cells of one block share.
 struct BlockKind {
   int p, q;
-  bool rational, scattered, varies;
+  bool rational, scattered;
+  std::optional<int> fabric;       ///< fabricOfPatch
   bool assumed, fewer_u, fewer_v;  ///< assumed strains; a Gauss point less along u, along v
   auto operator<=>(const BlockKind&) const = default;
 };

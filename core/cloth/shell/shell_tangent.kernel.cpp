@@ -44,7 +44,7 @@ struct Tied {
 /// (`tied`) the resultants go to the ties, which add the rest of the membrane's part (addTies).
 template <int kNodes, bool kAssumed = false>
 inline void addPoint(int nn, const V3* X, const Shape* N, const double* data, const double* rest, GeneralLaw& law,
-                     const double* laws, long point, double* pairs, [[maybe_unused]] const Tied* tied = nullptr) {
+                     const LawsByPoint& laws, long point, double* pairs, [[maybe_unused]] const Tied* tied = nullptr) {
   V3 a1{}, a2{}, x11{}, x22{}, x12{};
   for (int k = 0; k < nn; ++k) {
     add(a1, N[k].d1, X[k]);
@@ -210,7 +210,7 @@ void tensorTangent(const ShellBlock& block, const BlockLaw& law, const double* q
   constexpr int kNodes = (kP < 0 ? kMaxDegree + 1 : kP + 1) * (kQ < 0 ? kMaxDegree + 1 : kQ + 1);
   const int stride = block.pointDoubles() * kLanes;
   const long pair_doubles = static_cast<long>(block.pairCount()) * 9 * kLanes;
-  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  const LawsByPoint laws = block.lawsByPoint();
   forAll(Each::element, first, first + count, [&](int group) {
     V3 X[kNodes];
     Shape N[kNodes];
@@ -248,7 +248,7 @@ void scatteredTangent(const ShellBlock& block, const BlockLaw& law, const double
   constexpr int kNodes = (kMaxDegree + 1) * (kMaxDegree + 1);
   const int nn = block.nodeCount(), stride = block.pointDoubles() * kLanes;
   const long pair_doubles = static_cast<long>(block.pairCount()) * 9 * kLanes;
-  const double* laws = block.laws.empty() ? nullptr : block.laws.data();
+  const LawsByPoint laws = block.lawsByPoint();
   forAll(Each::element, first, first + count, [&](int group) {
     V3 X[kNodes];
     Shape N[kNodes];

@@ -3,21 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "scenes.hpp"
+#include "tools/data_folder.hpp"
 #include "tools/frames_scene.hpp"
 
 namespace gambeson::gpu {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path collisionFolder() {
-  const char* data = std::getenv("GAMBESON_DATA");
-  const fs::path root = data ? fs::path(data) : fs::path(GAMBESON_SOURCE_DIR) / ".." / "shared" / "data";
-  return root / "real" / "collision";
-}
 
 /// Counted at separation 0 and a tolerance of 1e-10 m, on a GPU too.
 struct Known {
@@ -26,7 +20,7 @@ struct Known {
 };
 
 void testFrames(const Known& known) {
-  const fs::path collision = collisionFolder(), folder = collision / known.files.folder;
+  const fs::path collision = test::collisionFolder(), folder = collision / known.files.folder;
   if (!fs::exists(folder / known.files.start)) GTEST_SKIP() << "needs " << (folder / known.files.start).string();
   const Scene scene = framesScene(collision, known.files);
   const auto search = searchOnReference(scene.mesh, scene.x0, scene.options, roomFor(scene.mesh));

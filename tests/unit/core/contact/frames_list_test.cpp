@@ -2,23 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <ostream>
 
 #include "core/contact/pairs.hpp"
 #include "tools/collision_data.hpp"
+#include "tools/data_folder.hpp"
 
 namespace gambeson {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path collisionFolder() {
-  const char* data = std::getenv("GAMBESON_DATA");
-  const fs::path root = data ? fs::path(data) : fs::path(GAMBESON_SOURCE_DIR) / ".." / "shared" / "data";
-  return root / "real" / "collision";
-}
 
 struct Frames {
   const char *folder, *start, *end, *number;
@@ -30,7 +24,7 @@ class FramesTest : public testing::TestWithParam<Frames> {};
 
 TEST_P(FramesTest, EveryTruePairIsOnTheList) {
   const Frames& p = GetParam();
-  const fs::path folder = collisionFolder() / p.folder;
+  const fs::path folder = test::collisionFolder() / p.folder;
   if (!fs::exists(folder / p.start)) GTEST_SKIP() << "needs " << (folder / p.start).string();
   const collision::Frame start = collision::readPly(folder / p.start), end = collision::readPly(folder / p.end);
   const int vertices = static_cast<int>(start.vertices.size()), faces = static_cast<int>(start.faces.size());

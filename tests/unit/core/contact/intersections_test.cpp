@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -13,6 +12,7 @@
 #include "core/contact/crossing.hpp"
 #include "core/error.hpp"
 #include "tools/collision_data.hpp"
+#include "tools/data_folder.hpp"
 #include "unit/core/contact/tangle_shapes.hpp"
 
 namespace gambeson {
@@ -188,9 +188,7 @@ TEST(ExactIntersections, NamesTheSamePairsOfASleeveThroughASheet) {
 }
 
 collision::Frame publicMesh(const std::string& name) {
-  const char* data = std::getenv("GAMBESON_DATA");
-  const std::filesystem::path file =
-      std::filesystem::path(data ? data : GAMBESON_SOURCE_DIR "/../shared/data") / "real/collision" / name;
+  const std::filesystem::path file = test::collisionFolder() / name;
   return std::filesystem::exists(file) ? collision::readPly(file) : collision::Frame{};
 }
 

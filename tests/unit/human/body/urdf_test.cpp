@@ -9,6 +9,7 @@
 #include "human/manikin/manikin.hpp"
 #include "human/motion/motion.hpp"
 #include "human/motion/standing.hpp"
+#include "tools/data_folder.hpp"
 #include "unit/human/files/files.hpp"
 
 namespace gambeson {

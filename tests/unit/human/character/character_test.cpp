@@ -15,6 +15,7 @@
 #include "human/motion/walk.hpp"
 #include "human/skeleton/joint_map.hpp"
 #include "human/skin/overlap.hpp"
+#include "tools/data_folder.hpp"
 #include "unit/human/character/character_body.hpp"
 #include "unit/human/files/files.hpp"
 

@@ -49,10 +49,4 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-/// The public data files, where they are there.
-inline std::filesystem::path dataFolder() {
-  if (const char* set = std::getenv("GAMBESON_DATA")) return set;
-  return std::filesystem::path(GAMBESON_SOURCE_DIR) / ".." / "shared" / "data";
-}
-
 }  // namespace gambeson::test

@@ -10,6 +10,7 @@
 #include "human/motion/standing.hpp"
 #include "human/recorded/captured_motion.hpp"
 #include "human/recorded/motion_file.hpp"
+#include "tools/data_folder.hpp"
 #include "unit/human/files/files.hpp"
 
 namespace gambeson {

@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/motion/stage_work.hpp"
 #include "exact/scene_intersections.hpp"
+#include "tools/data_folder.hpp"
 #include "unit/human/files/files.hpp"
 #include "unit/shell_of.hpp"
 

@@ -52,6 +52,34 @@ TEST(Kernel, ForceWithAndWithoutEnergyIsTheSame) {
   for (std::size_t i = 0; i < q.size(); ++i) EXPECT_LE(norm(with[i] - without[i]), 1e-13 * largest(with));
 }
 
+/// One fabric of several, as the block's own or by point: with numbers of the laws that differ from the garment's.
+TEST(Kernel, APatchOfAnotherFabricIsOfThatFabric) {
+  Fabric other = plainFabric(Bends::zheng);
+  other.young_weft_Pa *= 3;
+  other.thickness_m *= 2;
+  const NurbsPatch patch = curvedPatch(2, 2, false);
+  const Garment alone = garmentOf({patch}, {}, other, turnedWeft());
+  Garment chosen = garmentOf({patch}, {}, plainFabric(), turnedWeft());
+  chosen.other_fabrics = {other};
+  chosen.fields.resize(1);
+  chosen.fields[0].material = PatchField{0, 2, 1, {1, 1}};
+  Garment by_point = chosen;
+  by_point.fields[0].thickness = PatchField{1, 2, 2, {1, 1, 1, 1}};
+  EXPECT_EQ(fabricOfPatch(chosen, 0), 1);
+  EXPECT_EQ(fabricOfPatch(by_point, 0), std::nullopt);
+  std::vector<Vec3> q = controlsOf(buildFreeMap(alone), deformedFree(alone, buildFreeMap(alone), 0.03));
+  const auto f = forceOn(Shell(alone, widestKernels()), q), as_chosen = forceOn(Shell(chosen, widestKernels()), q),
+             pointwise = forceOn(Shell(by_point, widestKernels()), q);
+  const ForceTerms steepest{true, true, true, true};
+  const auto steep = forceOn(Shell(alone, widestKernels()), q, nullptr, steepest),
+             steep_pointwise = forceOn(Shell(by_point, widestKernels()), q, nullptr, steepest);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    EXPECT_EQ(norm(f[i] - as_chosen[i]), 0);
+    EXPECT_LE(norm(f[i] - pointwise[i]), 1e-13 * largest(f));
+    EXPECT_LE(norm(steep[i] - steep_pointwise[i]), 1e-13 * largest(steep));
+  }
+}
+
 /// Parts of the force add up, and each can be left out.
 TEST(Kernel, TermsAddUp) {
   const Garment g = fourPatches(2, 2, false, SeamKind::C0, 0.7, plainFabric());
