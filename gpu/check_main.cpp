@@ -1,12 +1,12 @@
 /// Compares CUDA with the reference and with core, and times it.
 ///
-///   gambeson_gpu_check [--data FOLDER] [--passes N] [--queries N] [--stages] [--write-manifest FILE]
+///   gambeson_gpu_check [--data FOLDER] [--armour FILE] [--passes N] [--queries N] [--stages] [--write-manifest FILE]
 ///
 /// Scenes: public frames of cloth on a ball and in a funnel (where FOLDER, shared/data by name, has them), 460 balls
 /// that fly through each other, ten wavy sheets. For each: what every stage found, by count and order-free hash, on
 /// both devices; hits of the public frames against core; medians of a pass. Then queries by themselves, random and
-/// degenerate, against core. Without CUDA, or --reference: the reference alone. Exit: 0; 1 where two differ; 2 bad
-/// input.
+/// degenerate, against core, and what is near in dressed bodies (check_near.hpp). Without CUDA, or --reference: the
+/// reference alone. Exit: 0; 1 where two differ; 2 bad input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
+#include "gpu/check_near.hpp"
 #include "gpu/scenes/stage_facts.hpp"
 #include "tools/frames_scene.hpp"
 #include "tools/impact_questions.hpp"
@@ -24,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Settings {
-  std::string data = "../shared/data", manifest;
+  std::string data = "../shared/data", armour, manifest;
   int passes = 15, queries = 1000000;
-  bool stages = false, reference_alone = false, large = true;
+  bool stages = false, reference_alone = false, large = true, near_alone = false;
 };
 
 std::vector<Scene> scenes(const Settings& settings) {
@@ -133,7 +134,8 @@ int checkQueries(const Settings& settings, bool cuda) {
   return different;
 }
 
-void writeManifest(const fs::path& file, const std::string& device, const std::vector<std::pair<Scene, Facts>>& all) {
+void writeManifest(const fs::path& file, const std::string& device, const std::vector<std::pair<Scene, Facts>>& all,
+                   const std::string& near) {
   std::ofstream out(file);
   out << "{\n  \"device\": \"" << device << "\",\n  \"scenes\": [\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -147,7 +149,7 @@ void writeManifest(const fs::path& file, const std::string& device, const std::v
           facts[k].sizes.hits, facts[k].pairs_hash, facts[k].hits_hash);
     out << (i + 1 < all.size() ? "},\n" : "}\n");
   }
-  out << "  ]\n}\n";
+  out << "  ],\n  \"near\": {\"device\": \"" << device << "\", \"scenes\": [\n" << near << "\n  ]}\n}\n";
   if (!out) throw RunError("cannot write " + file.string());
 }
 
@@ -155,7 +157,13 @@ int run(const Settings& settings) {
   const bool cuda = cudaBuilt() && !settings.reference_alone;
   const std::string device = cuda ? cudaDevice() : "reference";
   fmt::print("device: {}{}\n", device, cudaBuilt() ? "" : " (this program was built without CUDA)");
-  int different = checkQueries(settings, cuda);
+  std::string near;
+  int different = checkNear({settings.armour, settings.passes, settings.stages, cuda}, near);
+  if (settings.near_alone) {
+    fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
+    return different == 0 ? 0 : 1;
+  }
+  different += checkQueries(settings, cuda);
   std::vector<std::pair<Scene, Facts>> kept;
   const std::vector<Scene> of_manifest = manifestScenes();
   for (Scene& scene : scenes(settings)) {
@@ -165,7 +173,7 @@ int run(const Settings& settings) {
       kept.emplace_back(std::move(scene), facts);
     std::fflush(stdout);
   }
-  if (!settings.manifest.empty()) writeManifest(settings.manifest, device, kept);
+  if (!settings.manifest.empty()) writeManifest(settings.manifest, device, kept, near);
   fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
   return different == 0 ? 0 : 1;
 }
@@ -177,6 +185,8 @@ int main(int argc, char** argv) {
   CLI::App app("Compares CUDA with the reference and with core, and times it.");
   gambeson::gpu::Settings settings;
   app.add_option("--data", settings.data, "folder with real/collision in it");
+  app.add_option("--armour", settings.armour, "a recorded mesh of a walk in armour");
+  app.add_flag("--near", settings.near_alone, "what is near alone");
   app.add_option("--passes", settings.passes, "of which a time is the median")->check(CLI::Range(1, 1000));
   app.add_option("--queries", settings.queries, "by themselves")->check(CLI::Range(0, 100000000));
   app.add_flag("--stages", settings.stages, "time each stage too");

@@ -8,10 +8,10 @@
 
 namespace gambeson {
 
-inline Vec3 minimum(const Vec3& a, const Vec3& b) {
+GAMBESON_HD inline Vec3 minimum(const Vec3& a, const Vec3& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
 }
-inline Vec3 maximum(const Vec3& a, const Vec3& b) {
+GAMBESON_HD inline Vec3 maximum(const Vec3& a, const Vec3& b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
@@ -22,23 +22,23 @@ struct Box {
   Vec3 hi{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
           -std::numeric_limits<double>::infinity()};
 
-  void add(const Vec3& p) { lo = minimum(lo, p), hi = maximum(hi, p); }
-  void add(const Box& b) { lo = minimum(lo, b.lo), hi = maximum(hi, b.hi); }
-  Box grown(double by) const { return {lo - Vec3{by, by, by}, hi + Vec3{by, by, by}}; }
-  Vec3 centre() const { return 0.5 * (lo + hi); }
-  Vec3 halfSize() const { return 0.5 * (hi - lo); }
+  GAMBESON_HD void add(const Vec3& p) { lo = minimum(lo, p), hi = maximum(hi, p); }
+  GAMBESON_HD void add(const Box& b) { lo = minimum(lo, b.lo), hi = maximum(hi, b.hi); }
+  GAMBESON_HD Box grown(double by) const { return {lo - Vec3{by, by, by}, hi + Vec3{by, by, by}}; }
+  GAMBESON_HD Vec3 centre() const { return 0.5 * (lo + hi); }
+  GAMBESON_HD Vec3 halfSize() const { return 0.5 * (hi - lo); }
   /// The i-th of 8 corners.
-  Vec3 corner(int i) const { return {i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z}; }
+  GAMBESON_HD Vec3 corner(int i) const { return {i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z}; }
   bool operator==(const Box&) const = default;
 };
 
-inline bool overlap(const Box& a, const Box& b) {
+GAMBESON_HD inline bool overlap(const Box& a, const Box& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
          b.lo.z <= a.hi.z;
 }
 
 /// Squared distance from a point to a box, 0 inside.
-inline double boxDistance2(const Box& b, const Vec3& p) {
+GAMBESON_HD inline double boxDistance2(const Box& b, const Vec3& p) {
   const Vec3 d = maximum(maximum(b.lo - p, p - b.hi), Vec3{});
   return norm2(d);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contact/pairs.hpp"
+#include "core/contact/reach.hpp"
 #include "core/contact/response.hpp"
 
 namespace gambeson {
@@ -25,19 +26,6 @@ struct ClothContactPoint {
   double layer_m = 0;  ///< half the sum of the thicknesses
   int partner = -1;    ///< ContactRow::partner
 };
-
-/// Distance within which contacts between cloth of this thickness are kept, and the distance at rest within which
-/// points of one garment are neighbours.
-constexpr double contactReach(double layer_m) { return 1.1 * layer_m; }
-/// The most that the cloth between the samples asks for as distance of these from a body.
-constexpr double kLargestClearance_m = 2.5e-3;
-inline double neighbourDistance(double layer_m) { return 2 * layer_m; }
-
-/// A point that moves straight by `way` comes less than `reach` from the origin, starting at `from`.
-inline bool comesWithin(double reach, const Vec3& from, const Vec3& way) {
-  const double way2 = norm2(way), t = way2 > 0 ? std::clamp(-dot(from, way) / way2, 0.0, 1.0) : 0;
-  return norm2(from + t * way) < reach * reach;
-}
 
 /// Local minima of the distance between cloth and cloth at positions x0, where it is, or at the rate of the paths
 /// x0 -> x1 would become, less than 1.1 layers (Zheng 2013, section 3.2.1: the normal points from the foot to the

@@ -10,16 +10,9 @@
 #include "core/contact/lazy_tree.hpp"
 #include "core/contact/mesh_topology.hpp"
 #include "core/contact/obstacle.hpp"
+#include "core/contact/surface_view.hpp"
 
 namespace gambeson {
-
-/// A foot point on a mesh: the unit normal points to the front, distance_m is negative behind.
-struct MeshPoint {
-  Vec3 position;
-  Vec3 normal;
-  double distance_m = 0;
-  int feature = 0;
-};
 
 /// Topology and box tree are built once. A mesh that is rigid in its frame needs no refit: the queries come to it in
 /// local coordinates, which is its lazy refit. A mesh that deforms calls refit, and its tree follows when a query needs
@@ -36,8 +29,12 @@ class MeshSurface {
   const Box& bounds() const { return bounds_; }
   bool closed() const { return topology_.closed; }
   const MeshTopology& topology() const { return topology_; }
+  /// Good until the surface is refitted.
+  const SurfaceView& view() const { return view_; }
+  /// Where each face's vertices stand.
+  std::span<const Vec3> positions() const { return x_; }
   /// Lengths below this are rounding: two feet this close (times 100) are one.
-  double tolerance_m() const { return tolerance_m_; }
+  double tolerance_m() const { return view_.tolerance_m; }
 
   /// The nearest point within `radius` (none: empty). The sign is that of the pseudo-normal of the nearest feature
   /// (angle-weighted at vertices; Baerentzen and Aanaes 2005), exact for closed meshes. Beyond the rim of an open mesh
@@ -59,52 +56,22 @@ class MeshSurface {
   std::optional<MeshPoint> wayOut(const Vec3& p, double within_m = std::numeric_limits<double>::infinity()) const;
 
   /// The foot's point as weights of the vertices of its triangle, edge or corner.
-  MaterialPoint material(const MeshPoint& foot) const;
+  MaterialPoint material(const MeshPoint& foot) const { return view_.material(foot); }
 
  private:
-  /// On which side of an edge a point is, looked at along the plane of a face: the face's own, within the tolerance of
-  /// the edge, or beyond.
-  enum class Side { in, on, out };
-  /// Bit k: the face answers for its edge/corner k.
-  struct Owns {
-    unsigned char edges = 0, vertices = 0;
-  };
-  struct EdgeFrame {
-    Vec3 direction;  ///< unit, v to w
-    double length_m = 0;
-  };
-
   void place(std::span<const Vec3> vertices);
-  Vec3 areaNormal(int t) const;
-  Vec3 normalOf(int t) const;
-  int surely(double s, double of2, double r2) const;
-  Side sideOf(const Vec3& r, const Vec3& e, const Vec3& area_normal) const;
-  EdgeFrame edgeOf(int e) const;
-  Vec3 edgeNormal(int e) const;
-  Vec3 vertexNormal(int v) const;
-  MeshPoint signedFoot(const Vec3& p, const Vec3& foot, int feature) const;
-  bool edgeIsMinimum(int e, const Vec3& p, int from, Vec3& foot) const;
-  bool vertexIsMinimum(int v, const Vec3& p) const;
-  bool faceFeet(int t, const Vec3& p, double radius, std::vector<MeshPoint>& out) const;
-  /// The nearest of the points that were looked at.
-  struct Nearest {
-    double dist2_m2;  ///< beyond it nothing counts
-    Vec3 position{};
-    int feature = -1;
-  };
-  void lookAt(int t, const Vec3& p, Nearest& best) const;
   void chooseFeet(const Vec3& p, double radius, bool seen, std::size_t begin, std::vector<MeshPoint>& out) const;
 
   MeshTopology topology_;
   std::vector<Vec3> x_;                        ///< positions
-  std::vector<Owns> owns_;                     ///< of each face
+  std::vector<SurfaceView::Owns> owns_;        ///< of each face
   std::vector<MeshTopology::Corner> corners_;  ///< of vertex v: [corners_begin_[v], corners_begin_[v + 1]), by face
   std::vector<int> corners_begin_;
   std::vector<int> named_;  ///< vertices of triangles
   Box bounds_;
   LazyTree tree_;
   InsideGrid inside_;
-  double tolerance_m_ = 0;
+  SurfaceView view_;
 };
 
 }  // namespace gambeson

@@ -15,7 +15,7 @@ struct SegmentPair {
 
 /// Nearest points of ab and cd; where they are parallel, one of the nearest pairs. Accurate to rounding unless the
 /// segments are nearly parallel, where s and t (not the distance) are undetermined.
-inline SegmentPair nearestOnSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+GAMBESON_HD inline SegmentPair nearestOnSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, r = a - c;
   const double uu = norm2(u), vv = norm2(v), uv = dot(u, v), ur = dot(u, r), vr = dot(v, r);
   const double det = uu * vv - uv * uv;

@@ -3,13 +3,9 @@
 
 #include <span>
 
-#include "core/contact/contact_mesh.hpp"
-#include "core/math/vec.hpp"
+#include "core/contact/sharp_view.hpp"
 
 namespace gambeson {
-
-constexpr double kSharpEdge = 0.26;  ///< sine of 15 degrees: half the angle by which two faces bend
-constexpr double kSharpCorner = 0.26;
 
 /// Unit vector from vertex v along an edge that ends there.
 Vec3 alongFrom(const ContactMesh& mesh, std::span<const Vec3> x, int v, int edge);

@@ -20,7 +20,7 @@ struct TrianglePoint {
 };
 
 /// Closest point of a triangle to p. A triangle without area counts as its edges.
-inline TrianglePoint closestOnTriangle(const std::array<Vec3, 3>& corner, const Vec3& p) {
+GAMBESON_HD inline TrianglePoint closestOnTriangle(const std::array<Vec3, 3>& corner, const Vec3& p) {
   const Vec3 n = cross(corner[1] - corner[0], corner[2] - corner[0]);
   const double n2 = norm2(n);
   TrianglePoint best;

@@ -1,10 +1,12 @@
 #include "core/motion/step_rows.hpp"
 
 #include <algorithm>
+#include <climits>
 #include <tuple>
 
 #include "core/math/parallel.hpp"
 #include "core/motion/step_contact.hpp"
+#include "core/motion/warm_start.hpp"
 
 namespace gambeson {
 namespace {
@@ -78,6 +80,7 @@ RowSlip startSlip(const Model& m, const State& in, double dt, const ContactRow& 
 
 /// The order of persistent contacts, as the lists come.
 auto key(const auto& c) { return std::tuple(c.kind, c.sample, c.obstacle, c.feature); }
+ContactKey contactKey(const WarmContact& c) { return {static_cast<int>(c.kind), c.sample, c.obstacle, c.feature}; }
 
 }  // namespace
 
@@ -116,25 +119,17 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
   if (m.contact.followsMotion()) w.slip.resize(n);
   const double scale = in.last_step_s > 0 ? dt / in.last_step_s : 0;
   std::size_t at = 0;
-  // The sample's feet move from feature to feature, and there may be one or several of them: a new one starts from what
-  // those on its side have borne in the mean.
+  const int known_count = static_cast<int>(in.warm.size());
+  const auto keyOf = [&](int k) { return contactKey(in.warm[k]); };
+  const auto borne = [&](int k) { return WarmStart{in.warm[k].traction, in.warm[k].mean_Pa, 0}; };
   const auto around = [&](const Contact& c) {
-    WarmContact mean;
-    int count = 0;
-    const auto first = std::lower_bound(
-        in.warm.begin(), in.warm.end(), std::pair(ContactKind::sample_on_cloth, c.sample),
-        [&](const WarmContact& a, const std::pair<ContactKind, int>& b) { return std::pair(a.kind, a.sample) < b; });
-    for (auto it = first; it != in.warm.end() && it->kind == ContactKind::sample_on_cloth && it->sample == c.sample;
-         ++it) {
-      if (!(dot(it->traction, c.normal) > 0)) continue;
-      mean.traction += it->traction;
-      mean.mean_Pa += it->mean_Pa;
-      ++count;
-    }
-    if (count == 0) return mean;
-    mean.traction *= 1.0 / count;
-    mean.mean_Pa /= count;
-    return mean;
+    const ContactKey of_sample{static_cast<int>(ContactKind::sample_on_cloth), c.sample, INT_MIN, INT_MIN};
+    const WarmStart mean =
+        meanAround(of_sample, c.normal, firstNotLess(of_sample, known_count, keyOf), known_count, keyOf, borne);
+    WarmContact warm;
+    warm.traction = mean.traction;
+    warm.mean_Pa = mean.mean_Pa;
+    return warm;
   };
   for (int k = 0; k < n; ++k) {
     ContactRow& row = w.rows[k];

@@ -14,6 +14,9 @@ struct Mesh {
   int vertices = 0;
   std::vector<std::array<int, 3>> faces;
   std::vector<std::array<int, 2>> edges;
+  /// Vertices from this one on are of bodies, which do not meet each other: faces and edges of cloth come first, and
+  /// none has vertices of both. -1: there are no bodies.
+  int bodies_from = -1;
 };
 
 /// On a device; `point` is filled anew for each step.
@@ -26,9 +29,11 @@ struct FlatMesh {
   FlatMesh(const Mesh& mesh, std::span<const Vec3> x);
 
   int vertices, faces, edges;
-  Buffer<int> face;         ///< 3 vertices each
-  Buffer<int> edge;         ///< 2 vertices each
-  Buffer<int> along_curve;  ///< vertices near each other after each other
+  int cloth_vertices, cloth_faces, cloth_edges;  ///< the first of these; all, where there are no bodies
+  Buffer<int> face;                              ///< 3 vertices each
+  Buffer<int> edge;                              ///< 2 vertices each
+  Buffer<int> body_face;                         ///< those of bodies
+  Buffer<int> along_curve;                       ///< vertices near each other after each other
   Buffer<MovingPoint> point;
   Buffer<FloatPoint> rough;  ///< the same, from the start of a pass on
   MortonCube cube;
@@ -52,6 +57,11 @@ FlatMesh<Device>::FlatMesh(const Mesh& mesh, std::span<const Vec3> x)
     : vertices(mesh.vertices),
       faces(static_cast<int>(mesh.faces.size())),
       edges(static_cast<int>(mesh.edges.size())),
+      cloth_vertices(mesh.bodies_from < 0 ? mesh.vertices : mesh.bodies_from),
+      cloth_faces(
+          static_cast<int>(std::ranges::count_if(mesh.faces, [&](const auto& f) { return f[0] < cloth_vertices; }))),
+      cloth_edges(
+          static_cast<int>(std::ranges::count_if(mesh.edges, [&](const auto& e) { return e[0] < cloth_vertices; }))),
       face(3 * mesh.faces.size()),
       edge(2 * mesh.edges.size()),
       along_curve(x.size()),
@@ -67,6 +77,9 @@ FlatMesh<Device>::FlatMesh(const Mesh& mesh, std::span<const Vec3> x)
   queue.upload(std::span<const int>(order), along_curve);
   for (const auto& f : mesh.faces) corners.insert(corners.end(), f.begin(), f.end());
   queue.upload(std::span<const int>(corners), face);
+  const auto of_bodies = std::span<const int>(corners).subspan(3 * static_cast<std::size_t>(cloth_faces));
+  body_face = Buffer<int>(of_bodies.size());
+  if (!of_bodies.empty()) queue.upload(of_bodies, body_face);
   corners.clear();
   for (const auto& e : mesh.edges) corners.insert(corners.end(), e.begin(), e.end());
   queue.upload(std::span<const int>(corners), edge);

@@ -2,7 +2,8 @@
 /// A broad phase: pairs whose boxes meet, by trees of boxes over faces and edges (a linear bounding volume hierarchy).
 ///
 /// Any other broad phase has the same three functions and finds the same set of pairs: vertices whose box over the
-/// step, grown by the margin, meets that of a face without them, and edges without a common vertex whose boxes meet.
+/// step, grown by the margin, meets that of a face without them, and edges without a common vertex whose boxes meet;
+/// not two of bodies (Mesh::bodies_from).
 
 #include "gpu/finding/box_tree.hpp"
 #include "gpu/finding/flat_mesh.hpp"
@@ -29,8 +30,9 @@ class Lbvh {
         margin_m_(margin_m),
         queries_per_group_(queries_per_group),
         vertex_box_(static_cast<std::size_t>(mesh.vertices)),
-        faces_(mesh.faces),
-        edges_(mesh.edges) {}
+        faces_(mesh.cloth_faces),
+        body_faces_(mesh.faces - mesh.cloth_faces),
+        edges_(mesh.cloth_edges) {}
 
   /// Before both kinds of pairs.
   Stages<Device> common() {
@@ -39,13 +41,24 @@ class Lbvh {
              }}};
   }
   Stages<Device> pointTriangle(const List<Pair>& pairs) {
-    return stages(faces_, mesh_.face, "faces", [this, pairs](Queue& queue) {
+    Stages<Device> all = stages(faces_, mesh_.face, "faces", [this, pairs](Queue& queue) {
       traverse(queue, VerticesInFaces{mesh_.along_curve.data(), vertex_box_.data()}, mesh_.vertices, faces_, pairs);
     });
+    if (body_faces_.leaves() == 0) return all;
+    const Stages<Device> bodies = stages(body_faces_, mesh_.body_face, "bodies", [this, pairs](Queue& queue) {
+      traverse(queue,
+               VerticesInBodies{mesh_.along_curve.data(), vertex_box_.data(), mesh_.cloth_vertices, mesh_.cloth_faces},
+               mesh_.vertices, body_faces_, pairs);
+    });
+    all.insert(all.end(), bodies.begin(), bodies.end());
+    return all;
   }
   Stages<Device> edgeEdge(const List<Pair>& pairs) {
     return stages(edges_, mesh_.edge, "edges", [this, pairs](Queue& queue) {
-      traverse(queue, EdgesInEdges{edges_.leaf(), edges_.leafBox()}, mesh_.edges, edges_, pairs);
+      traverse(queue, EdgesInEdges{edges_.leaf(), edges_.leafBox()}, mesh_.cloth_edges, edges_, pairs);
+      const int of_bodies = mesh_.edges - mesh_.cloth_edges;
+      traverse(queue, BodyEdgesInCloth{mesh_.edge.data(), vertex_box_.data(), mesh_.cloth_edges}, of_bodies, edges_,
+               pairs);
     });
   }
 
@@ -62,7 +75,7 @@ class Lbvh {
 
   template <class Queries, class Tree>
   void traverse(Queue& queue, const Queries& queries, int count, const Tree& tree, const List<Pair>& pairs) {
-    if (tree.leaves() == 0) return;
+    if (tree.leaves() == 0 || count == 0) return;
     const int per_group = queries_per_group_ > 0 ? queries_per_group_ : bestPerGroup(count);
     queue.forGroups((count + per_group - 1) / per_group,
                     Traverse<Queries>{queries, count, per_group, tree.node(), tree.leaf(), pairs});
@@ -72,7 +85,7 @@ class Lbvh {
   float margin_m_;
   int queries_per_group_;
   typename Device::template Buffer<FloatBox> vertex_box_;
-  BoxTree<Device, 3> faces_;
+  BoxTree<Device, 3> faces_, body_faces_;  ///< of cloth, or all; of bodies
   BoxTree<Device, 2> edges_;
 };
 

@@ -48,6 +48,36 @@ struct EdgesInEdges {
   }
 };
 
+/// Vertices of cloth against the tree of the faces of bodies, which are numbered from `first_face` on.
+struct VerticesInBodies {
+  const int* order;
+  const FloatBox* vertex_box;
+  int cloth_vertices, first_face;
+
+  GAMBESON_HD BoxQuery operator()(int i) const {
+    const int v = order[i];
+    return {v < cloth_vertices ? vertex_box[v] : emptyBox(), {v, first_face}, v, -1};
+  }
+  GAMBESON_HD static bool counts(const BoxQuery&, const TreeLeaf&) { return true; }
+  GAMBESON_HD static Pair pair(const BoxQuery& q, const TreeLeaf& leaf) {
+    return {q.primitive, q.corner[1] + leaf.primitive};
+  }
+};
+
+/// Edges of bodies, from `first` on, against the tree of the edges of cloth.
+struct BodyEdgesInCloth {
+  const int* edge;
+  const FloatBox* vertex_box;
+  int first;
+
+  GAMBESON_HD BoxQuery operator()(int i) const {
+    const int e = first + i, a = edge[2 * e], b = edge[2 * e + 1];
+    return {joined(vertex_box[a], vertex_box[b]), {a, b}, e, -1};
+  }
+  GAMBESON_HD static bool counts(const BoxQuery&, const TreeLeaf&) { return true; }
+  GAMBESON_HD static Pair pair(const BoxQuery& q, const TreeLeaf& leaf) { return {leaf.primitive, q.primitive}; }
+};
+
 constexpr int kMostQueries = 16;  ///< of a group
 
 /// kStack: tasks of a group, more than kTreeDepth and the queries together.

@@ -80,7 +80,9 @@ inline std::vector<Pair> pairsByBruteForce(const Scene& scene, PairKind kind) {
   const auto tryPair = [&](int i, const auto& a, int j, const auto& b) {
     if (!share(a, b) && meet(boxOfAll(a), boxOfAll(b))) pairs.push_back({i, j});
   };
-  const auto& [vertices, faces, edges] = scene.mesh;
+  const int vertices = scene.mesh.vertices;
+  const auto& faces = scene.mesh.faces;
+  const auto& edges = scene.mesh.edges;
   if (kind == PairKind::pointTriangle)
     for (int v = 0; v < vertices; ++v)
       for (int f = 0; f < static_cast<int>(faces.size()); ++f) tryPair(v, std::array{v}, f, faces[f]);

@@ -1,0 +1,26 @@
+/// Detail of near_search.hpp and skin_bender.hpp: on the host.
+#include "gpu/device/reference.hpp"
+#include "gpu/near/near_finder.hpp"
+#include "gpu/near/skin_on.hpp"
+
+namespace gambeson::gpu {
+
+std::unique_ptr<NearSearch> nearOnReference(const NearModel& model, const NearStep& start, const NearSizes& room) {
+  return std::make_unique<NearFinder<Reference>>(model, start, room);
+}
+
+std::unique_ptr<SkinBender> skinOnReference(const Skin& skin, int most_times) {
+  return std::make_unique<SkinOn<Reference>>(skin, most_times);
+}
+
+NearSizes roomForNear(const CollisionModel& m) {
+  const unsigned long long samples = static_cast<unsigned long long>(m.cloth.cloth_vertices) + 256;
+  NearSizes room;
+  room.fill(16 * samples);
+  room[kClothPoints] = room[kClothEdges] = 64 * samples;
+  room[kBodyPoints] = 48 * samples;
+  room[kOnBodies] = room[kContacts] = 4 * samples;
+  return room;
+}
+
+}  // namespace gambeson::gpu
