@@ -1,12 +1,14 @@
 /// Compares CUDA with the reference and with core, and times it.
 ///
-///   gambeson_gpu_check [--data FOLDER] [--passes N] [--queries N] [--stages] [--write-manifest FILE]
+///   gambeson_gpu_check [--data FOLDER] [--solves FOLDER] [--only PART] [--passes N] [--queries N] [--stages]
+///                      [--write-manifest FILE]
 ///
-/// Scenes: public frames of cloth on a ball and in a funnel (where FOLDER, shared/data by name, has them), 460 balls
-/// that fly through each other, ten wavy sheets. For each: what every stage found, by count and order-free hash, on
-/// both devices; hits of the public frames against core; medians of a pass. Then queries by themselves, random and
-/// degenerate, against core. Without CUDA, or --reference: the reference alone. Exit: 0; 1 where two differ; 2 bad
-/// input.
+/// Contact solves, recorded (where --solves has them) and made up: tractions, velocities and islands' states of core,
+/// the reference and CUDA, and medians of a solve for each step along the gradient. Scenes: public frames of cloth on a
+/// ball and in a funnel (where FOLDER, shared/data by name, has them), 460 balls that fly through each other, ten wavy
+/// sheets. For each: what every stage found, by count and order-free hash, on both devices; hits of the public frames
+/// against core; medians of a pass. Then queries by themselves, random and degenerate, against core. Without CUDA, or
+/// --reference: the reference alone. Exit: 0; 1 where two differ; 2 bad input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +16,8 @@
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
+#include "gpu/check_solves.hpp"
+#include "gpu/scenes/solve_facts.hpp"
 #include "gpu/scenes/stage_facts.hpp"
 #include "tools/frames_scene.hpp"
 #include "tools/impact_questions.hpp"
@@ -24,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Settings {
-  std::string data = "../shared/data", manifest;
+  std::string data = "../shared/data", solves = "../shared/trials/gpu", manifest, only;
   int passes = 15, queries = 1000000;
   bool stages = false, reference_alone = false, large = true;
 };
@@ -147,15 +151,34 @@ void writeManifest(const fs::path& file, const std::string& device, const std::v
           facts[k].sizes.hits, facts[k].pairs_hash, facts[k].hits_hash);
     out << (i + 1 < all.size() ? "},\n" : "}\n");
   }
+  out << "  ],\n  \"solves\": [\n";
+  const std::vector<ContactProblem> problems = manifestProblems();
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    const auto on = device == "reference" ? sweepsOnReference() : sweepsOnCuda();
+    const SolveFacts facts = factsOf(solved(problems[i], kManifestIterations, on.get()));
+    out << fmt::format(
+        "    {{\"name\": \"{}\", \"rows\": {}, \"islands\": {}, \"iterations\": {}, \"hash\": \"{:016x}\"}}{}\n",
+        problems[i].name, facts.rows, facts.islands, facts.iterations, facts.hash, i + 1 < problems.size() ? "," : "");
+  }
   out << "  ]\n}\n";
   if (!out) throw RunError("cannot write " + file.string());
+}
+
+int ending(int different) {
+  fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
+  return different == 0 ? 0 : 1;
 }
 
 int run(const Settings& settings) {
   const bool cuda = cudaBuilt() && !settings.reference_alone;
   const std::string device = cuda ? cudaDevice() : "reference";
   fmt::print("device: {}{}\n", device, cudaBuilt() ? "" : " (this program was built without CUDA)");
-  int different = checkQueries(settings, cuda);
+  int different = 0;
+  if (settings.only != "impacts") {
+    different += checkSolves({settings.solves, settings.passes, cuda, settings.large, settings.stages});
+    if (settings.only == "solves") return ending(different);
+  }
+  different += checkQueries(settings, cuda);
   std::vector<std::pair<Scene, Facts>> kept;
   const std::vector<Scene> of_manifest = manifestScenes();
   for (Scene& scene : scenes(settings)) {
@@ -166,8 +189,7 @@ int run(const Settings& settings) {
     std::fflush(stdout);
   }
   if (!settings.manifest.empty()) writeManifest(settings.manifest, device, kept);
-  fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
-  return different == 0 ? 0 : 1;
+  return ending(different);
 }
 
 }  // namespace
@@ -179,7 +201,9 @@ int main(int argc, char** argv) {
   app.add_option("--data", settings.data, "folder with real/collision in it");
   app.add_option("--passes", settings.passes, "of which a time is the median")->check(CLI::Range(1, 1000));
   app.add_option("--queries", settings.queries, "by themselves")->check(CLI::Range(0, 100000000));
-  app.add_flag("--stages", settings.stages, "time each stage too");
+  app.add_option("--solves", settings.solves, "folder of recorded contact solves, solve0.bin and so on");
+  app.add_option("--only", settings.only, "a part of it")->check(CLI::IsMember({"impacts", "solves"}));
+  app.add_flag("--stages", settings.stages, "time each stage and variant too");
   app.add_flag("--reference", settings.reference_alone, "the reference alone");
   app.add_flag("!--small", settings.large, "leave out 460 balls and ten sheets");
   app.add_option("--write-manifest", settings.manifest, "counts and hashes of the small scenes, as gpu/manifest.json");

@@ -10,7 +10,7 @@
 namespace gambeson {
 
 /// Coulomb's law of the row: the traction cut to its cone.
-inline Vec3 project(const Vec3& traction, const Vec3& n, double mu, double drag) {
+GAMBESON_LAW Vec3 project(const Vec3& traction, const Vec3& n, double mu, double drag) {
   const double normal[3] = {n.x, n.y, n.z}, trial[3] = {traction.x, traction.y, traction.z};
   double cut[3];
   coulombImpulse<only_resultants>(mu, drag, normal, trial, cut);
