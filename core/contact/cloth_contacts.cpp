@@ -56,11 +56,6 @@ class Search {
     p.contact.obstacle = -1;
     p.contact.kind = ContactKind::sample_on_cloth;
     p.contact.feature = featureOf(t, foot.feature);
-    // Two vertices that are nearest to each other are one contact.
-    if (foot.feature < kEdge0 && nearestAround(mesh_.triangles[t][foot.feature], v)) {
-      p.partner = mesh_.triangles[t][foot.feature];
-      if (p.partner < v) return;
-    }
     p.contact.gap_m = std::sqrt(foot.dist2_m2);
     p.contact.normal = direction(x_[v] - foot.position, cross(corner[1] - corner[0], corner[2] - corner[0]));
     p.layer_m = layer;
@@ -163,13 +158,6 @@ class Search {
       return closestOnTriangle(corners(face), foot.position).dist2_m2 < foot.dist2_m2 * (1 - 1e-12);
     });
   }
-  /// Vertex w is a local minimum of the distance to v, seen from v's triangles: v is nearest in all of them.
-  bool nearestAround(int v, int w) const {
-    const double dist2 = norm2(x_[v] - x_[w]);
-    for (int t : mesh_.vertex_faces[w])
-      if (closestOnTriangle(corners(t), x_[v]).dist2_m2 < dist2 * (1 - 1e-12)) return false;
-    return true;
-  }
 
   /// What leads from an edge to a corner of a face at it, square to the edge: `from` any point of its line.
   static Vec3 across(const Vec3& corner, const Vec3& from, const Vec3& along, double length2) {
@@ -216,6 +204,43 @@ class Search {
   std::span<const Vec3> x_, end_;
 };
 
+/// The sample that the foot of a sample lies on, or nearly: within a twentieth of the gap. -1: none.
+int sampleUnder(const ClothContactPoint& p, std::span<const Vec3> x) {
+  constexpr double kNearly = 0.05;
+  int nearest = -1;
+  double most = 0;
+  Vec3 foot{};
+  for (int k = 1; k < p.stencil.count; ++k) {
+    foot -= p.stencil.weight[k] * x[p.stencil.sample[k]];
+    if (-p.stencil.weight[k] > most) most = -p.stencil.weight[k], nearest = p.stencil.sample[k];
+  }
+  const double near = kNearly * p.contact.gap_m;
+  return nearest >= 0 && norm2(foot - x[nearest]) <= near * near ? nearest : -1;
+}
+
+/// Two samples that lie on each other are one contact, that of the first of them. `contacts` of samples come first,
+/// sorted.
+void joinPartners(std::span<const Vec3> x, std::vector<ClothContactPoint>& contacts) {
+  const auto end = std::partition_point(contacts.begin(), contacts.end(), [](const ClothContactPoint& p) {
+    return p.contact.kind == ContactKind::sample_on_cloth;
+  });
+  constexpr int kJoined = -2;
+  for (auto p = contacts.begin(); p != end; ++p) {
+    const int sample = p->contact.sample, under = p->partner == kJoined ? -1 : sampleUnder(*p, x);
+    if (under < 0) continue;
+    for (auto again = p + 1; again != end && again->contact.sample == sample; ++again)
+      if (sampleUnder(*again, x) == under) again->partner = kJoined;
+    if (under < sample) continue;
+    const auto firstOf = [&](const ClothContactPoint& c) { return c.contact.sample < under; };
+    for (auto other = std::partition_point(p, end, firstOf); other != end && other->contact.sample == under; ++other)
+      if (sampleUnder(*other, x) == sample) {
+        p->partner = under;
+        other->partner = kJoined;
+      }
+  }
+  std::erase_if(contacts, [](const ClothContactPoint& p) { return p.partner == kJoined; });
+}
+
 }  // namespace
 
 void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const CandidatePairs& pairs,
@@ -233,6 +258,7 @@ void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const Candi
   };
   std::sort(out.begin(), out.end(),
             [&](const ClothContactPoint& a, const ClothContactPoint& b) { return key(a) < key(b); });
+  joinPartners(x0, out);
 }
 
 }  // namespace gambeson

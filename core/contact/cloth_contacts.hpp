@@ -45,7 +45,8 @@ inline bool comesWithin(double reach, const Vec3& from, const Vec3& way) {
 /// is nearer, and once for the feature; on a border only if nothing beside the sample is nearer to them, either. Edges
 /// against edges count only inside both and where both are sharp, that is where the faces of each bend away from the
 /// other by more than 3 degrees: flat cloth on flat cloth is carried by its samples alone, since all its edges are
-/// equally near. Neighbours along one garment are no contact: samples less than twice the layer from the foot, both at
+/// equally near. Two samples that lie on each other, each with its foot within a twentieth of the gap of the other, are
+/// one contact. Neighbours along one garment are no contact: samples less than twice the layer from the foot, both at
 /// rest (a fold of the least radius, half the layer, joins points that are pi/2 layers apart). Sorted by kind, then
 /// sample, then feature. `pairs` hold all that come as near as this.
 void clothContacts(const ContactMesh& mesh, const ClothFacts& facts, const CandidatePairs& pairs,

@@ -32,7 +32,7 @@ GAMBESON_LAW double residual2(const Vec3& v, const Vec3& traction, const Contact
 
 /// What the entry of a row's own traction is taken for; its inverse is the length of the step.
 GAMBESON_LAW double stepBound(const ContactWork::Row& facts, double caution) {
-  constexpr double kLeastOwn = 0.02;  // of the slope: what hardly moves takes no steps without bound
+  constexpr double kLeastOwn = 0.001;  // of the slope: what hardly moves takes no steps without bound
   return std::max(caution * facts.own, kLeastOwn * facts.slope) + facts.compliance;
 }
 

@@ -24,7 +24,7 @@ constexpr int kImpactZoneRounds = 12;
 /// as grow without bound from step to step, the impulses of both sides grow with each iteration, and the residual stays
 /// far above the tolerance.
 bool contradict(const ContactSolve& solve, double dt) {
-  constexpr double kFar_m_per_s2 = 1;  // a tenth of gravity; solves end at a hundredth to a tenth of it
+  constexpr double kFar_m_per_s2 = 0.3;  // solves end at a thirtieth to a third of it
   return !solve.converged && !(solve.residual_m_per_s <= kFar_m_per_s2 * dt);
 }
 

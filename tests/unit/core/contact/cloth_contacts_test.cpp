@@ -1,4 +1,4 @@
-/// Which edges of cloth are sharp enough to meet edges.
+/// Which edges of cloth are sharp enough to meet edges, and which samples are one contact.
 #include "core/contact/cloth_contacts.hpp"
 
 #include <gtest/gtest.h>
@@ -42,6 +42,42 @@ TEST(ClothContacts, RidgesMeetWhereBothAreSharp) {
 TEST(ClothContacts, ABorderIsSharpWhereItsOneFaceFallsAway) {
   EXPECT_EQ(contactsOfRidges(0.0501, 0.1, false), 1u);
   EXPECT_EQ(contactsOfRidges(0.0499, 0.1, false), 0u);
+}
+
+/// Contacts of the middles, 0 and 5, of two flat squares one above the other, the upper one shifted.
+std::vector<ClothContactPoint> contactsOfMiddles(double shift, double gap) {
+  std::vector<Vec3> x;
+  for (const Vec3& from : {Vec3{}, Vec3{shift, 0.3 * shift, gap}})
+    for (const Vec3& corner : {Vec3{}, Vec3{-1, -1, 0}, Vec3{1, -1, 0}, Vec3{1, 1, 0}, Vec3{-1, 1, 0}})
+      x.push_back(from + corner);
+  std::vector<std::array<int, 3>> triangles;
+  for (const int first : {0, 5})
+    for (int k = 0; k < 4; ++k) triangles.push_back({first, first + 1 + k, first + 1 + (k + 1) % 4});
+  const ContactMesh mesh = contactMesh(10, triangles);
+  CandidatePairs pairs;
+  for (int t = 0; t < 4; ++t) {
+    pairs.points.push_back({5, t});
+    pairs.points.push_back({0, 4 + t});
+  }
+  const ClothFacts facts{10, x, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, std::vector<double>(10, gap)};
+  std::vector<ClothContactPoint> out;
+  clothContacts(mesh, facts, pairs, x, x, out);
+  return out;
+}
+
+TEST(ClothContacts, SamplesThatLieOnEachOtherAreOneContact) {
+  const double gap = 0.01;
+  for (const double shift : {0.0, 1e-9, 1e-5, 0.047 * gap}) {  // times 1.044 for both directions
+    const std::vector<ClothContactPoint> one = contactsOfMiddles(shift, gap);
+    ASSERT_EQ(one.size(), 1u) << shift;
+    EXPECT_EQ(one[0].contact.sample, 0);
+    EXPECT_EQ(one[0].partner, 5);
+    EXPECT_NEAR(one[0].contact.normal.z, -1, 1e-9);
+  }
+  const std::vector<ClothContactPoint> two = contactsOfMiddles(0.049 * gap, gap);
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[0].partner, -1);
+  EXPECT_EQ(two[1].partner, -1);
 }
 
 }  // namespace
