@@ -56,19 +56,24 @@ class CudaSweeps : public ContactSweeps {
     const SweepLimits limits{goal, last, most - most / 4};
     SolveData data = dataOf();
     const SolveJob* jobs = jobs_.data();
+    const bool beside = small_ > 0;
     if (small_ < count_) {
-      side_.after(queue_);
-      sweepIslands<Q>
-          <<<count_ - small_, kQuad * Q, shared_, side_.stream()>>>(data, limits, jobs + team_jobs_, vectors_);
+      Cuda::Queue& queue = beside ? side_ : queue_;
+      if (beside) side_.after(queue_);
+      const int first = batches_.empty() ? 0 : batches_.back();
+      sweepIslands<Q><<<count_ - small_, kQuad * Q, shared_, queue.stream()>>>(data, limits, jobs + first, vectors_);
       check(cudaGetLastError(), "sweeps over islands");
     }
-    if (small_ > 0) {
-      queue_.zero(arrived_);
-      int vectors = vectors_;
-      SweepLimits own = limits;
-      void* arguments[] = {&data, &own, &jobs, &vectors};
-      check(cudaLaunchCooperativeKernel(sweepIslands<Q>, team_jobs_, kQuad * Q, arguments, shared_, queue_.stream()),
+    if (!beside) return;
+    queue_.zero(arrived_);
+    int from = 0, vectors = vectors_;
+    SweepLimits own = limits;
+    for (int to : batches_) {
+      const SolveJob* those = jobs + from;
+      void* arguments[] = {&data, &own, &those, &vectors};
+      check(cudaLaunchCooperativeKernel(sweepIslands<Q>, to - from, kQuad * Q, arguments, shared_, queue_.stream()),
             "sweeps over large islands");
+      from = to;
     }
     queue_.after(side_);
   }
@@ -110,7 +115,9 @@ class CudaSweeps : public ContactSweeps {
   }
 
   void makeJobs(const FlatSolve& flat) {
+    // Teams whose groups can all be on the device at once, then the next ones.
     std::vector<SolveJob> jobs;
+    batches_.clear();
     int most_points = 0;
     for (int i = 0; i < small_; ++i) {
       const SolveIsland& island = flat.islands[flat.by_size[i]];
@@ -120,11 +127,13 @@ class CudaSweeps : public ContactSweeps {
         most = std::max(most, of_phase);
         most_points = std::max(most_points, flat.chunks[c].point_end - flat.chunks[c].point);
       }
-      const int room = std::max(1, processors_ / small_), wanted = options_.most_team > 0 ? options_.most_team : most;
-      const int groups = std::min({room, wanted, most});
+      if (options_.most_team > 0) most = std::min(most, options_.most_team);
+      const int groups = std::min(most, std::max(1, processors_ / small_));
+      const int begun = batches_.size() > 1 ? batches_[batches_.size() - 2] : 0;
+      if (batches_.empty() || static_cast<int>(jobs.size()) + groups - begun > processors_) batches_.push_back(0);
       for (int rank = 0; rank < groups; ++rank) jobs.push_back({flat.by_size[i], rank, groups, arrived_.data() + i});
+      batches_.back() = static_cast<int>(jobs.size());
     }
-    team_jobs_ = static_cast<int>(jobs.size());
     for (int i = small_; i < count_; ++i) {
       const SolveIsland& island = flat.islands[flat.by_size[i]];
       jobs.push_back({flat.by_size[i], 0, 1, nullptr});
@@ -146,7 +155,8 @@ class CudaSweeps : public ContactSweeps {
   CudaSweepOptions options_;
   mutable Cuda::Queue queue_;
   Cuda::Queue side_;
-  int most_shared_ = 0, processors_ = 0, small_ = 0, count_ = 0, team_jobs_ = 0, vectors_ = 0;
+  int most_shared_ = 0, processors_ = 0, small_ = 0, count_ = 0, vectors_ = 0;
+  std::vector<int> batches_;  ///< where each ends
   std::size_t shared_ = 0, rows_ = 0, points_ = 0;
   Buffer<SolveIsland> islands_, islands_now_;
   Buffer<SolveChunk> chunks_;
@@ -155,7 +165,8 @@ class CudaSweeps : public ContactSweeps {
   Buffer<RowPace> pace_;
   Buffer<RowEntries> entries_;
   Buffer<SolveJob> jobs_;
-  Buffer<int> steps_, point_, chunk_points_, arrived_;
+  Buffer<ChunkPoint> chunk_points_;
+  Buffer<int> steps_, point_, arrived_;
   Buffer<double> own_, slope_, weight_, push_, largest2_, against_;
   Buffer<Vec3> moved_, moved_before_, moved_now_, before_now_, spilled_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "core/contact/iteration_lanes.hpp"
 
@@ -26,6 +27,7 @@ FlatSolve flatSolve(const ContactWork& w) {
     flat.moved_before.push_back(vec(w.moved_before[f]));
   }
   std::vector<int> number(points, -1);
+  std::vector<char> had(points, 0);
   for (std::size_t c = 0; c + 1 < w.chunks.size(); ++c) {
     SolveChunk chunk{w.chunks[c].row,
                      w.chunks[c + 1].row,
@@ -43,7 +45,7 @@ FlatSolve flatSolve(const ContactWork& w) {
         const int f = w.points.columns[e];
         if (number[f] < 0) {
           number[f] = static_cast<int>(flat.chunk_points.size()) - chunk.point;
-          flat.chunk_points.push_back(f);
+          flat.chunk_points.push_back({f, !std::exchange(had[f], 1)});
         }
         const std::size_t at =
             e - first < kPlaces ? static_cast<std::size_t>(k) * kPlaces + e - first : flat.point.size();
@@ -55,7 +57,7 @@ FlatSolve flatSolve(const ContactWork& w) {
     }
     chunk.step_end = static_cast<int>(flat.steps.size());
     chunk.point_end = static_cast<int>(flat.chunk_points.size());
-    for (int p = chunk.point; p < chunk.point_end; ++p) number[flat.chunk_points[p]] = -1;
+    for (int p = chunk.point; p < chunk.point_end; ++p) number[flat.chunk_points[p].point] = -1;
     flat.chunks.push_back(chunk);
   }
   const auto parts = [&](int i) { return w.islands[i].chunk_end - w.islands[i].chunk; };

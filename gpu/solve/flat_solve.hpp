@@ -7,7 +7,8 @@ namespace gambeson::gpu {
 
 struct FlatSolve {
   std::vector<SolveIsland> islands;
-  std::vector<int> by_size, steps, point, chunk_points;
+  std::vector<int> by_size, steps, point;
+  std::vector<ChunkPoint> chunk_points;
   std::vector<SolveChunk> chunks;
   std::vector<RowFacts> facts;
   std::vector<RowState> state;

@@ -68,7 +68,9 @@ class IslandSweeps {
       }
       sweep.begin();
       const Ahead ahead = aheadOf(island.momentum);
-      extrapolate(group, moved, before, 0, points, 1, island.beta);
+      group.each([&](int lane) {
+        for (int f = lane; f < points; f += Group::kLanes) moved[f] = wentOn(moved[f], before[f], island.beta);
+      });
       group.sync();
       Lanes totals;
       sweep.run(moved, island.beta, totals);
@@ -92,16 +94,11 @@ class IslandSweeps {
     });
   }
 
-  /// Points go on along their last change, by beta of it.
-  GAMBESON_HD static void extrapolate(const Group& group, Vec3* moved, Vec3* before, int rank, int points, int groups,
-                                      double beta) {
-    group.each([&](int lane) {
-      for (int f = rank * Group::kLanes + lane; f < points; f += groups * Group::kLanes) {
-        const Vec3 now = current(moved[f]);
-        moved[f] = now + beta * (now - before[f]);
-        before[f] = now;
-      }
-    });
+  /// Where a point goes on to along its last change, by beta of it.
+  GAMBESON_HD static Vec3 wentOn(const Vec3& now, Vec3& before, double beta) {
+    const Vec3 then = now + beta * (now - before);
+    before = now;
+    return then;
   }
 
   /// Of every chunk of the island that falls to this group, phase by phase; the team meets between them.
@@ -115,14 +112,18 @@ class IslandSweeps {
       if (in_phase % team.groups() == team.rank()) visit(c);
     }
   }
-  /// The velocities of a chunk's points, where lanes reach them.
-  GAMBESON_HD Vec3* fetch(const Group& group, const SolveChunk& chunk) const {
+  /// The velocities of a chunk's points, where lanes reach them. With `beta` points that no chunk of the sweep had
+  /// before go on along their last change, by beta of it.
+  GAMBESON_HD Vec3* fetch(const Group& group, const SolveChunk& chunk, const double* beta) const {
     const int points = chunk.point_end - chunk.point;
     Vec3* const moved = points <= vectors_ ? room_ : d_.spilled + chunk.point;
     group.sync();  // all have left the chunk before
     group.each([&](int lane) {
-      for (int p = lane; p < points; p += Group::kLanes)
-        moved[p] = current(d_.moved_now[d_.chunk_points[chunk.point + p]]);
+      for (int p = lane; p < points; p += Group::kLanes) {
+        const ChunkPoint point = d_.chunk_points[chunk.point + p];
+        moved[p] = current(d_.moved_now[point.point]);
+        if (beta && point.first) moved[p] = wentOn(moved[p], d_.moved_before_now[point.point], *beta);
+      }
     });
     group.sync();
     return moved;
@@ -172,20 +173,17 @@ class IslandSweeps {
         eachChunk(team, island, false, [&](int i) { ChunkSweep<Group>(group, d_, d_.chunks[i]).setPace(caution); });
       }
       const Ahead ahead = aheadOf(island.momentum);
-      extrapolate(group, d_.moved_now + first, d_.moved_before_now + first, team.rank(), points, team.groups(),
-                  island.beta);
-      team.sync();
       eachChunk(team, island, true, [&](int c) {
         const SolveChunk chunk = d_.chunks[c];
         ChunkSweep<Group> sweep(group, d_, chunk);
         sweep.begin();
-        Vec3* const moved = fetch(group, chunk);
+        Vec3* const moved = fetch(group, chunk, &island.beta);
         Lanes totals;
         sweep.run(moved, island.beta, totals);
         keep(group, totals, shared_.looked, c, true);
         group.each([&](int lane) {
           for (int p = lane; p < chunk.point_end - chunk.point; p += Group::kLanes)
-            d_.moved_now[d_.chunk_points[chunk.point + p]] = moved[p];
+            d_.moved_now[d_.chunk_points[chunk.point + p].point] = moved[p];
         });
       });
       team.sync();
@@ -194,7 +192,7 @@ class IslandSweeps {
         team.sync();  // all have seen what the sweep left
         eachChunk(team, island, false, [&](int c) {
           const SolveChunk chunk = d_.chunks[c];
-          const Vec3* const moved = fetch(group, chunk);
+          const Vec3* const moved = fetch(group, chunk, nullptr);
           Lanes totals;
           ChunkSweep<Group>(group, d_, chunk).look(moved, totals);
           keep(group, totals, shared_.looked, c, false);

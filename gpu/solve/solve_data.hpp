@@ -13,6 +13,12 @@ struct SolveChunk {
   int row, row_end, step, step_end, point, point_end, phase;
 };
 
+/// A point of a chunk; whether no chunk of the island has it before.
+struct ChunkPoint {
+  int point;
+  bool first;
+};
+
 /// Of a row, in pieces of 16 bytes.
 struct alignas(16) RowFacts {
   Vec3 normal, drift;
@@ -50,7 +56,7 @@ struct SolveData {
   const int* point;
   const double *weight, *push;
   // Of the points of all islands; `chunk_points` lists those of the chunks.
-  const int* chunk_points;
+  const ChunkPoint* chunk_points;
   const Vec3 *moved, *moved_before;
   Vec3 *moved_now, *moved_before_now;
   // Of chunks.
