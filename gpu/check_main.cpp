@@ -151,16 +151,16 @@ void writeManifest(const fs::path& file, const std::string& device, const std::v
           facts[k].sizes.hits, facts[k].pairs_hash, facts[k].hits_hash);
     out << (i + 1 < all.size() ? "},\n" : "}\n");
   }
-  out << "  ],\n  \"solves\": [\n";
+  out << "  ],\n  \"solves\": {\n    \"device\": \"" << device << "\",\n    \"problems\": [\n";
   const std::vector<ContactProblem> problems = manifestProblems();
   for (std::size_t i = 0; i < problems.size(); ++i) {
     const auto on = device == "reference" ? sweepsOnReference() : sweepsOnCuda();
     const SolveFacts facts = factsOf(solved(problems[i], kManifestIterations, on.get()));
     out << fmt::format(
-        "    {{\"name\": \"{}\", \"rows\": {}, \"islands\": {}, \"iterations\": {}, \"hash\": \"{:016x}\"}}{}\n",
+        "      {{\"name\": \"{}\", \"rows\": {}, \"islands\": {}, \"iterations\": {}, \"hash\": \"{:016x}\"}}{}\n",
         problems[i].name, facts.rows, facts.islands, facts.iterations, facts.hash, i + 1 < problems.size() ? "," : "");
   }
-  out << "  ]\n}\n";
+  out << "    ]\n  }\n}\n";
   if (!out) throw RunError("cannot write " + file.string());
 }
 

@@ -1,9 +1,11 @@
-/// Contact solves on the reference device: the bits of core, for groups of any size.
+/// Contact solves on the reference device: the bits of core, for groups of any size, and of gpu/manifest.json.
 #include "gpu/solve/contact_sweeps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/contact/contact_iteration.hpp"
 #include "core/error.hpp"
@@ -117,6 +119,26 @@ TEST(ContactSweeps, GoOnWhereTheyWereLeft) {
   for (int again = 0; again < 2; ++again) device->run(1e-7, 80, 4000);
   device->get(there);
   expectSame(core, there, "in three pieces");
+}
+
+/// Iterations and bits that the device which the manifest names found; `gambeson_gpu_check --write-manifest` writes
+/// them.
+TEST(ContactSweeps, FindWhatTheManifestHas) {
+  std::ifstream file(std::string(GAMBESON_SOURCE_DIR) + "/gpu/manifest.json");
+  const auto manifest = nlohmann::json::parse(file);
+  const std::vector<ContactProblem> kept = manifestProblems();
+  const auto& problems = manifest.at("solves").at("problems");
+  ASSERT_EQ(problems.size(), kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const auto& truth = problems[i];
+    const auto device = sweepsOnReference();
+    const SolveFacts facts = factsOf(solved(kept[i], kManifestIterations, device.get()));
+    EXPECT_EQ(truth.at("name"), kept[i].name);
+    EXPECT_EQ(truth.at("rows"), facts.rows) << kept[i].name;
+    EXPECT_EQ(truth.at("islands"), facts.islands) << kept[i].name;
+    EXPECT_EQ(truth.at("iterations"), facts.iterations) << kept[i].name;
+    EXPECT_EQ(truth.at("hash"), fmt::format("{:016x}", facts.hash)) << kept[i].name;
+  }
 }
 
 /// Solves recorded from a walk in armour, where they are.
