@@ -4,8 +4,8 @@
 /// Rows of one colour share no free point, so that lanes may take them side by side. In a large island the rows come in
 /// patches, each of neighbours, with colours of its own: patches of one phase share no free point either, so that
 /// threads, or groups of lanes with barriers of their own, take them side by side and meet only between the phases
-/// (four to seven of them), where colours of the whole island would let them meet a hundred times. The order depends on
-/// nothing but the rows and their order.
+/// (three or four in sheets), where colours of the whole island would let them meet up to a hundred times. The order
+/// depends on nothing but the rows and their order.
 
 #include "core/contact/response.hpp"
 
