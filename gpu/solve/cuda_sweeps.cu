@@ -46,7 +46,7 @@ class CudaSweeps : public ContactSweeps {
     put(flat.moved, moved_), put(flat.moved_before, moved_before_);
     grow(flat.islands.size(), islands_now_), grow(flat.islands.size(), arrived_);
     grow(rows_, state_now_), grow(rows_, pace_), grow(points_, moved_now_), grow(points_, before_now_);
-    grow(flat.chunks.size(), largest2_), grow(flat.chunks.size(), against_);
+    grow(2 * flat.chunks.size(), largest2_), grow(2 * flat.chunks.size(), against_);
     grow(flat.chunk_points.size(), spilled_);
     makeJobs(flat);
     queue_.wait();

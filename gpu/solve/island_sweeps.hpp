@@ -128,15 +128,17 @@ class IslandSweeps {
     group.sync();
     return moved;
   }
+  /// Where a chunk's totals stand in a sweep: groups that are in the next one already write beside what others read.
+  GAMBESON_HD static int placeOf(int c, const SolveIsland& island) { return 2 * c + island.iterations % 2; }
   /// The totals of a chunk, by one lane.
-  GAMBESON_HD void keep(const Group& group, const Lanes& totals, PartTotals& shared, int c, bool with_sum) const {
+  GAMBESON_HD void keep(const Group& group, const Lanes& totals, PartTotals& shared, int place, bool with_sum) const {
     group.gather(totals, shared);
     group.sync();
     group.each([&](int lane) {
       if (lane != 0) return;
       const Totals total = totalOf(shared);
-      d_.largest2[c] = total.largest;
-      if (with_sum) d_.against[c] = total.sum;
+      d_.largest2[place] = total.largest;
+      if (with_sum) d_.against[place] = total.sum;
     });
   }
   /// Over the chunks of an island.
@@ -147,8 +149,8 @@ class IslandSweeps {
       LaneTotals<Group::kQuads>& mine = totals[lane];
       for (int part = lane / kQuad; part < kSumLanes; part += Group::kQuads)
         for (int c = island.chunk + part; c < island.chunk_end; c += kSumLanes) {
-          mine.part[part / Group::kQuads] += current(d_.against[c]);
-          mine.largest = std::max(mine.largest, current(d_.largest2[c]));
+          mine.part[part / Group::kQuads] += current(d_.against[placeOf(c, island)]);
+          mine.largest = std::max(mine.largest, current(d_.largest2[placeOf(c, island)]));
         }
     });
     group.gather(totals, shared_.swept);
@@ -171,6 +173,7 @@ class IslandSweeps {
       if (const double c = cautionOf(island); caution != c) {
         caution = c;
         eachChunk(team, island, false, [&](int i) { ChunkSweep<Group>(group, d_, d_.chunks[i]).setPace(caution); });
+        group.sync();
       }
       const Ahead ahead = aheadOf(island.momentum);
       eachChunk(team, island, true, [&](int c) {
@@ -180,7 +183,7 @@ class IslandSweeps {
         Vec3* const moved = fetch(group, chunk, &island.beta);
         Lanes totals;
         sweep.run(moved, island.beta, totals);
-        keep(group, totals, shared_.looked, c, true);
+        keep(group, totals, shared_.looked, placeOf(c, island), true);
         group.each([&](int lane) {
           for (int p = lane; p < chunk.point_end - chunk.point; p += Group::kLanes)
             d_.moved_now[d_.chunk_points[chunk.point + p].point] = moved[p];
@@ -195,7 +198,7 @@ class IslandSweeps {
           const Vec3* const moved = fetch(group, chunk, nullptr);
           Lanes totals;
           ChunkSweep<Group>(group, d_, chunk).look(moved, totals);
-          keep(group, totals, shared_.looked, c, false);
+          keep(group, totals, shared_.looked, placeOf(c, island), false);
         });
         team.sync();
         lookedAt(overChunks(group, island).largest, limits_, island);

@@ -17,8 +17,8 @@ class ReferenceSweeps : public ContactSweeps {
     flat_ = flatSolve(work);
     now_ = flat_;
     pace_.resize(flat_.facts.size());
-    largest2_.resize(flat_.chunks.size());
-    against_.resize(flat_.chunks.size());
+    largest2_.resize(2 * flat_.chunks.size());
+    against_.resize(2 * flat_.chunks.size());
     spilled_.resize(flat_.chunk_points.size());
   }
   void run(double goal, int last, int most) override {

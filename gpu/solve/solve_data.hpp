@@ -59,7 +59,7 @@ struct SolveData {
   const ChunkPoint* chunk_points;
   const Vec3 *moved, *moved_before;
   Vec3 *moved_now, *moved_before_now;
-  // Of chunks.
+  // Of chunks, of a sweep and of the one before.
   double *largest2, *against;
   Vec3* spilled;  ///< of points in chunks, where shared memory has no room
 };
