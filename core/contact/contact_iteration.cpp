@@ -1,6 +1,7 @@
 #include "core/contact/contact_iteration.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -17,16 +18,28 @@ constexpr std::size_t kShared = 64;  ///< rows from which on threads share islan
 
 /// Relative velocity of a row at w.moved.
 inline Vec3 velocityOf(const ContactWork& w, int row) {
-  V4 even{}, odd{};
-  int e = w.points.offsets[row];
-  const int end = w.points.offsets[row + 1];
-  for (; e + 1 < end; e += 2) {
-    even += w.points.values[e] * quad(w.moved[w.points.columns[e]]);
-    odd += w.points.values[e + 1] * quad(w.moved[w.points.columns[e + 1]]);
+  V4 part0{}, part1{}, part2{}, part3{};
+  const int* column = w.points.columns.data() + w.points.offsets[row];
+  const double *value = w.points.values.data() + w.points.offsets[row],
+               *end = w.points.values.data() + w.points.offsets[row + 1];
+  for (; value + kWays <= end; value += kWays, column += kWays) {
+    part0 += value[0] * quad(w.moved[column[0]]);
+    part1 += value[1] * quad(w.moved[column[1]]);
+    part2 += value[2] * quad(w.moved[column[2]]);
+    part3 += value[3] * quad(w.moved[column[3]]);
   }
-  if (e < end) even += w.points.values[e] * quad(w.moved[w.points.columns[e]]);
-  even += odd;
-  return {even[0], even[1], even[2]};
+  if (value < end) part0 += value[0] * quad(w.moved[column[0]]);
+  if (value + 1 < end) part1 += value[1] * quad(w.moved[column[1]]);
+  if (value + 2 < end) part2 += value[2] * quad(w.moved[column[2]]);
+  const V4 sum = (part0 + part1) + (part2 + part3);
+  return {sum[0], sum[1], sum[2]};
+}
+
+/// The sum of the first `width` (a power of two) of some parts: neighbours in pairs, pairs of these and so on.
+inline double sumOfParts(double* part, int width) {
+  for (int step = 1; step < width; step *= 2)
+    for (int i = 0; i < width; i += 2 * step) part[i] += part[i + step];
+  return part[0];
 }
 
 /// What a change of a row's traction does to the points.
@@ -47,26 +60,26 @@ GAMBESON_WIDE void extrapolatePoints(ContactWork& w, double beta, int begin, int
   }
 }
 
-/// Takes rows of one colour from where they go on to, by beta of their last change. Sets the largest squared residual
-/// of the range as the rows found it, and the product that tells whether the step went against the gradient.
+/// Takes the rows of a chunk from where they go on to, by beta of their last change. Sets the largest squared residual
+/// as the rows found it, and the product that tells whether the step went against the gradient.
 GAMBESON_WIDE void sweepRows(ContactWork& w, double beta, double caution, int begin, int end, double& largest2_out,
                              double& against_out) {
-  constexpr double kLeastOwn = 0.001;  // of the slope: what hardly moves takes no steps without bound
-  double largest2 = 0, against = 0;
+  double largest2 = 0, against[kSumLanes];
+  const int width = std::min<int>(kSumLanes, std::bit_ceil(static_cast<unsigned>(end - begin)));
+  std::fill_n(against, width, 0.0);
   for (int k = begin; k < end; ++k) {
     const ContactWork::Row& facts = w.facts[k];
     const Vec3 now = vec(w.candidate[k]), from = now + beta * (now - vec(w.previous[k]));
-    const double inverse = std::max(caution * facts.own, kLeastOwn * facts.slope) + facts.compliance;
-    const Vec3 next = projected(from - (1 / inverse) * missing(velocityOf(w, k), from, facts), facts);
-    const Vec3 way = next - from;
-    largest2 = std::max(largest2, norm2(way) * (inverse * inverse));
-    against -= w.row_area[k] * inverse * dot(way, next - now);
+    const double bound = stepBound(facts, caution);
+    const Vec3 next = takenFrom(from, velocityOf(w, k), 1 / bound, facts), way = next - from;
+    largest2 = std::max(largest2, foundResidual2(way, bound));
+    against[(k - begin) % kSumLanes] += againstGradient(w.row_area[k], bound, way, next - now);
     w.previous[k] = w.candidate[k];
     w.candidate[k] = quadOf(next);
     if (!(way == Vec3{})) push(w, k, way);
   }
   largest2_out = largest2;
-  against_out = against;
+  against_out = sumOfParts(against, width);
 }
 
 GAMBESON_WIDE double largestResidual2(const ContactWork& w, int begin, int end) {
@@ -76,25 +89,7 @@ GAMBESON_WIDE double largestResidual2(const ContactWork& w, int begin, int end) 
   return largest2;
 }
 
-/// Where the residual has not fallen for long, or has grown out of hand, the sequence begins anew with shorter steps.
-/// Longer ones than the least are tried first, since these converge fastest: on recorded solves of armour 1.2 is the
-/// least that seldom goes round.
-constexpr double kCaution = 1.2, kMoreCaution = 1.5, kMostCaution = 4, kProgress = 0.9, kGrown = 10;
-constexpr int kPatience = 120;
-void watch(Island& island) {
-  if (island.best == 0 || island.residual_m_per_s < kProgress * island.best) {
-    island.best = island.residual_m_per_s;
-    island.waiting = 0;
-  } else if (++island.waiting > kPatience || !(island.residual_m_per_s < kGrown * island.best)) {
-    island.caution = std::min(kMoreCaution * island.caution, kMostCaution / kCaution);
-    island.best = 0;
-    island.waiting = 0;
-    island.momentum = 1;
-    island.beta = 0;
-  }
-}
-
-/// Visits the chunks of an island, those of one colour side by side: by the calling thread alone, or by all of a
+/// Visits the chunks of an island, those of one phase side by side: by the calling thread alone, or by all of a
 /// parallel region.
 struct Alone {
   template <class Visit>
@@ -111,7 +106,7 @@ struct Together {
   template <class Visit>
   void operator()(const ContactWork& w, const Island& island, const Visit& visit) const {
     for (int c = island.chunk, end; c < island.chunk_end; c = end) {
-      for (end = c; end < island.chunk_end && w.chunks[end].colour == w.chunks[c].colour;) ++end;
+      for (end = c; end < island.chunk_end && w.chunks[end].phase == w.chunks[c].phase;) ++end;
 #pragma omp for schedule(static)
       for (int k = c; k < end; ++k) visit(k);
     }
@@ -127,35 +122,33 @@ struct Together {
   }
 };
 
-/// Together, every thread takes every decision, from the same sums in the same order. `calm`: from so many iterations
-/// on there is no momentum.
+/// Together, every thread takes every decision, from the same sums in the same order.
 template <class EachChunk>
-void iterateIsland(double goal, int last_iteration, int calm, Island& now, ContactWork& w, const EachChunk& each) {
-  constexpr double kNear = 2;  // what rows found on the way is about the residual
+void iterateIsland(const SweepLimits& limits, Island& now, ContactWork& w, const EachChunk& each) {
   const auto mostOf = [&] {
     double most2 = 0;
     for (int c = now.chunk; c < now.chunk_end; ++c) most2 = std::max(most2, w.largest2[c]);
-    return std::sqrt(most2);
+    return most2;
   };
-  const bool alone = now.row_end - now.row == 1;  // is solved at once
-  for (; now.iterations < last_iteration && !now.done; ++now.iterations) {
-    const double caution = alone ? 1 : kCaution * now.caution;
+  const auto sumOf = [&] {
+    if (now.chunk_end - now.chunk == 1) return w.against[now.chunk];
+    double part[kSumLanes] = {};
+    for (int c = now.chunk; c < now.chunk_end; ++c) part[(c - now.chunk) % kSumLanes] += w.against[c];
+    return sumOfParts(part, kSumLanes);
+  };
+  while (goesOn(now, limits)) {
+    const double caution = cautionOf(now);
     each.points(now, [&](int f, int end) { extrapolatePoints(w, now.beta, f, end); });
     each(w, now, [&](int c) {
       sweepRows(w, now.beta, caution, w.chunks[c].row, w.chunks[c + 1].row, w.largest2[c], w.against[c]);
     });
-    now.residual_m_per_s = mostOf();
-    double sum = 0;
-    for (int c = now.chunk; c < now.chunk_end; ++c) sum += w.against[c];
-    watch(now);
-    if (now.residual_m_per_s <= kNear * goal || now.iterations + 1 == last_iteration) {
+    const double against = sumOf();
+    if (sweptWith(mostOf(), limits, now)) {
       each.wait();
       each(w, now, [&](int c) { w.largest2[c] = largestResidual2(w, w.chunks[c].row, w.chunks[c + 1].row); });
-      now.residual_m_per_s = mostOf();
-      now.done = now.residual_m_per_s <= goal;
+      lookedAt(mostOf(), limits, now);
     }
-    advance(sum, now);
-    if (now.iterations + 1 >= calm) now.beta = 0;
+    goOn(against, limits, aheadOf(now.momentum), now);
   }
 }
 
@@ -179,7 +172,7 @@ Vec3 slipOf(const ContactWork& w, int row) {
 }
 
 void iterate(double goal, int last, int most, ContactWork& w) {
-  const int calm = most - most / 4;
+  const SweepLimits limits{goal, last, most - most / 4};
   if (w.hold) {
     iterateHeld(goal, last, w);
     return;
@@ -196,13 +189,13 @@ void iterate(double goal, int last, int most, ContactWork& w) {
     {
       Island mine = island;
 #pragma omp barrier
-      iterateIsland(goal, last, calm, mine, w, Together{});
+      iterateIsland(limits, mine, w, Together{});
 #pragma omp master
       island = mine;
     }
   }
 #pragma omp parallel for schedule(dynamic, 1) if (w.order.size() > kShared)
-  for (int i = large; i < count; ++i) iterateIsland(goal, last, calm, w.islands[w.by_size[i]], w, Alone{});
+  for (int i = large; i < count; ++i) iterateIsland(limits, w.islands[w.by_size[i]], w, Alone{});
 }
 
 }  // namespace gambeson

@@ -1,7 +1,7 @@
 #pragma once
 /// The iteration of a contact solve. Internal to the solve.
 ///
-/// A sweep takes the rows of an island one after the other, by colours, and gives each the traction that solves its own
+/// A sweep takes the rows of an island one after the other, in the order of row_order.hpp, and gives each the traction that solves its own
 /// condition while the others stay: tau' = P(tau - (v - drift + c tau_n n)/(D + c)) with the row's diagonal entry D.
 /// Between two sweeps the tractions go on along the last change, by Nesterov's sequence (O'Donoghue and Candes, 2015,
 /// restart by the gradient; a restart keeps half of the momentum's index). What converges slowly here are patterns of

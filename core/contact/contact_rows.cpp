@@ -1,12 +1,9 @@
 #include "core/contact/contact_rows.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
 
+#include "core/contact/row_order.hpp"
 #include "core/math/parallel.hpp"
 
 namespace gambeson {
@@ -149,57 +146,6 @@ void findIslands(int free_count, ContactWork& w) {
   for (std::size_t k = 0; k < of.size(); ++k) w.order[w.islands[of[k]].row_end++] = w.unsorted[k];
 }
 
-/// Gives each row the first colour that no row before it has at any of its points; what finds all taken has one of its
-/// own. Sorts the rows of each island by colours and cuts them into chunks.
-void colourRows(int free_count, ContactWork& w) {
-  constexpr int kColours = 256, kChunk = 64;
-  const int n = static_cast<int>(w.order.size());
-  w.colour.assign(n, 0);
-  w.chunks.clear();
-  if (!w.hold) {
-    w.taken.resize(free_count);
-    for (int i : w.order)
-      for (int f : pointsOf(w, i)) w.taken[f] = {};
-    int more = kColours;
-    for (int k = 0; k < n; ++k) {
-      const std::span<const int> points = pointsOf(w, w.order[k]);
-      std::array<std::uint64_t, 4> taken{};
-      for (int f : points)
-        for (std::size_t word = 0; word < 4; ++word) taken[word] |= w.taken[f][word];
-      std::size_t word = 0;
-      while (word < 4 && ~taken[word] == 0) ++word;
-      if (word == 4) {
-        w.colour[k] = more++;
-        continue;
-      }
-      const int bit = std::countr_one(taken[word]);
-      w.colour[k] = 64 * static_cast<int>(word) + bit;
-      for (int f : points) w.taken[f][word] |= std::uint64_t{1} << bit;
-    }
-    w.unsorted = w.order;
-    w.unsorted_colour = w.colour;
-    w.number.resize(std::max(free_count, n));
-    std::iota(w.number.begin(), w.number.begin() + n, 0);
-    for (const ContactWork::Island& island : w.islands)
-      std::stable_sort(w.number.begin() + island.row, w.number.begin() + island.row_end,
-                       [&](int a, int b) { return w.unsorted_colour[a] < w.unsorted_colour[b]; });
-    for (int k = 0; k < n; ++k) {
-      w.order[k] = w.unsorted[w.number[k]];
-      w.colour[k] = w.unsorted_colour[w.number[k]];
-    }
-  }
-  for (ContactWork::Island& island : w.islands) {
-    island.chunk = static_cast<int>(w.chunks.size());
-    for (int k = island.row; k < island.row_end; ++k)
-      if (k == island.row || w.colour[k] != w.colour[k - 1] || k - w.chunks.back().row == kChunk)
-        w.chunks.push_back({k, w.colour[k]});
-    island.chunk_end = static_cast<int>(w.chunks.size());
-  }
-  w.largest2.resize(w.chunks.size());
-  w.against.resize(w.chunks.size());
-  w.chunks.push_back({n, 0});
-}
-
 /// Free points that the rows touch, in the order of the rows, and the rows' weights at these.
 void touchPoints(int free_count, ContactWork& w) {
   w.free_slot.resize(free_count, -1);
@@ -264,7 +210,7 @@ void reachRows(std::span<const ContactRow> rows, const SparseRows& WT, std::span
 void restrict(std::span<const ContactRow> rows, int free_count, std::span<const double> inverse_mass,
               std::span<const double> density, std::span<const Vec3> velocity, ContactWork& w) {
   findIslands(free_count, w);
-  colourRows(free_count, w);
+  orderRows(free_count, w);
   touchPoints(free_count, w);
   const int n = static_cast<int>(w.order.size()), touched = static_cast<int>(w.free_points.size());
   w.inverse_mass.resize(touched);

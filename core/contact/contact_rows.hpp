@@ -10,7 +10,7 @@
 namespace gambeson {
 
 /// Coulomb's law of the row: the traction cut to its cone.
-inline Vec3 project(const Vec3& traction, const Vec3& n, double mu, double drag) {
+GAMBESON_LAW Vec3 project(const Vec3& traction, const Vec3& n, double mu, double drag) {
   const double normal[3] = {n.x, n.y, n.z}, trial[3] = {traction.x, traction.y, traction.z};
   double cut[3];
   coulombImpulse<only_resultants>(mu, drag, normal, trial, cut);
@@ -36,8 +36,8 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
 void reachRows(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                std::span<const Vec3> velocity, ContactWork& work);
 
-/// Sorts work.order by islands, which keep the order of their first rows, and these by colours; the free points that
-/// the rows touch; everything of the iteration that follows from the rows, and its arrays at their sizes.
+/// Sorts work.order by islands, which keep the order of their first rows, and these by row_order.hpp; the free points
+/// that the rows touch; everything of the iteration that follows from the rows, and its arrays at their sizes.
 void restrict(std::span<const ContactRow> rows, int free_count, std::span<const double> inverse_mass,
               std::span<const double> density, std::span<const Vec3> velocity, ContactWork& work);
 

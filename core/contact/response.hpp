@@ -153,13 +153,14 @@ struct ContactWork {
   std::vector<int> tied_to;      ///< of all free points, a forest
   std::vector<int> island_of, number, unsorted, by_size;
 
-  std::vector<int> order;  ///< rows in the order of the iteration, by island and then by colour
-  /// Rows of one colour share no free point. Of rows in the order of the iteration, and bits of each free point.
+  std::vector<int> order;  ///< rows in the order of the iteration, by island, phase, chunk and colour (row_order.hpp)
+  /// Rows of one colour of a chunk share no free point. Of rows in the order of the iteration, and bits of each point.
   std::vector<int> colour, unsorted_colour;
   std::vector<std::array<std::uint64_t, 4>> taken;
-  /// Some rows of one colour of an island: begins here in `order`, and ends where the next one begins.
+  /// Rows that are taken one after the other: a whole island, or a patch of a large one, which shares no free point with
+  /// others of its phase. Begins here in `order`, and ends where the next one begins.
   struct Chunk {
-    int row = 0, colour = 0;
+    int row = 0, phase = 0;
   };
   std::vector<Chunk> chunks;
   std::vector<double> largest2, against;  ///< of the chunks

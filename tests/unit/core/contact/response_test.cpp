@@ -388,22 +388,55 @@ TEST(Response, ClaimedResidualIsTheMeasuredOne) {
   }
 }
 
-/// Rows of one colour stand together in their island, and share no point: threads may take them side by side.
-TEST(Response, RowsOfOneColourShareNoPoint) {
-  Problem p = sheetOnBumps(1e-2);
-  ASSERT_TRUE(p.solve().converged);
-  const ContactWork& w = p.work;
-  ASSERT_EQ(w.islands.size(), 1u);
-  int colours = 0;
-  for (int c = 0, end; c < w.islands[0].chunk_end; c = end, ++colours) {
-    for (end = c; end < w.islands[0].chunk_end && w.chunks[end].colour == w.chunks[c].colour;) ++end;
-    EXPECT_EQ(w.chunks[c].colour, colours);
-    std::vector<char> taken(w.free_points.size(), 0);
-    for (int e = w.points.offsets[w.chunks[c].row]; e < w.points.offsets[w.chunks[end].row]; ++e)
-      EXPECT_FALSE(std::exchange(taken[w.points.columns[e]], 1));
+/// Patches of one phase share no point, nor do rows of one colour of a patch: threads, or lanes, may take them side by
+/// side. All rows of an island are in its patches, each once.
+void expectOrder(const ContactWork& w) {
+  std::vector<char> seen(w.area_of.size(), 0);
+  std::vector<int> phase_of(w.free_points.size()), patch_of(w.free_points.size()), colour_of(w.free_points.size());
+  for (const ContactWork::Island& island : w.islands) {
+    EXPECT_EQ(w.chunks[island.chunk].row, island.row);
+    EXPECT_EQ(w.chunks[island.chunk_end].row, island.row_end);
+    for (int f = island.free_point; f < island.free_end; ++f) phase_of[f] = -1;
+    int phase = 0;
+    for (int c = island.chunk; c < island.chunk_end; ++c) {
+      EXPECT_TRUE(w.chunks[c].phase == phase || (c > island.chunk && w.chunks[c].phase == phase + 1));
+      phase = w.chunks[c].phase;
+      for (int f = island.free_point; f < island.free_end; ++f) colour_of[f] = -1;
+      for (int k = w.chunks[c].row; k < w.chunks[c + 1].row; ++k) {
+        EXPECT_FALSE(std::exchange(seen[w.order[k]], 1));
+        EXPECT_TRUE(k == w.chunks[c].row || w.colour[k] >= w.colour[k - 1]);
+        for (int e = w.points.offsets[k]; e < w.points.offsets[k + 1]; ++e) {
+          const int f = w.points.columns[e];
+          EXPECT_LT(std::exchange(colour_of[f], w.colour[k]), w.colour[k]);
+          EXPECT_TRUE(phase_of[f] != phase || patch_of[f] == c);
+          phase_of[f] = phase;
+          patch_of[f] = c;
+        }
+      }
+    }
   }
-  EXPECT_GE(colours, 9);  // a point of a quadratic sheet reaches the samples of nine cells
-  EXPECT_LT(colours, 60);
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<int>(w.order.size()));
+}
+
+TEST(Response, PatchesOfAPhaseAndRowsOfAColourShareNoPoint) {
+  for (int cells : {4, 8, 40}) {
+    Problem p = sheetOnBumps(1, cells);
+    ASSERT_TRUE(p.solve().converged);
+    const ContactWork& w = p.work;
+    expectOrder(w);
+    EXPECT_EQ(w.colour.empty() ? 0 : w.colour[0], 0);
+    const int colours = *std::max_element(w.colour.begin(), w.colour.end()) + 1;
+    EXPECT_GE(colours, 9);  // a point of a quadratic sheet reaches the samples of nine cells
+    EXPECT_LT(colours, 60);
+    const ContactWork::Island& last = w.islands.back();
+    if (cells == 8) {
+      EXPECT_EQ(last.chunk_end - last.chunk, 1);
+    }
+    if (cells == 40) {
+      EXPECT_GT(last.chunk_end - last.chunk, 10);
+      EXPECT_LT(w.chunks[last.chunk_end - 1].phase, 8);  // phases
+    }
+  }
 }
 
 /// An island that all threads share has the same impulses, to the last bit, for any number of them.
