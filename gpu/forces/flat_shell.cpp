@@ -1,0 +1,290 @@
+#include "gpu/forces/flat_shell.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/material/fabric_law.hpp"
+
+namespace gambeson::gpu {
+namespace {
+
+/// Whether the kernels of quadratic cells have all that the cells need, but that they fill their patches.
+bool isQuad(const ShellPart& part) {
+  const ShellBlock& b = part.block;
+  return b.p == 2 && b.q == 2 && b.gu == 2 && b.gv == 2 && !b.scattered && !b.assumed && !b.rest_curvature &&
+         b.laws.empty() && !part.law.general &&
+         (part.law.plain.kind == 0 || part.law.plain.kind == BendingLaws::kind<ZhengBending>);
+}
+
+PlainNumbers plainNumbers(const BlockLaw& law) {
+  PlainNumbers n;
+  n.membrane = law.plain.membrane;
+  std::copy(law.plain.rigidity.begin(), law.plain.rigidity.end(), n.D);
+  n.zheng = law.plain.kind != 0;
+  if (n.zheng) {
+    n.k0 = law.plain.numbers[0];
+    n.kr = law.plain.numbers[1];
+    n.inverse_kr2 = 1 / (n.kr * n.kr);
+    for (int i = 0; i < 2; ++i) n.steep[i] = 2 * n.D[i] * std::sqrt(n.k0 / n.kr);
+  }
+  n.jams = law.use.jams;
+  n.jam_N_per_m = law.point.jam_N_per_m;
+  n.jam_s = law.point.jam_s;
+  return n;
+}
+
+/// The cells of a part that belong to one patch: which of its first control points they start at.
+struct PatchCells {
+  std::vector<int> columns, rows;  ///< distinct, ascending
+  std::map<std::array<int, 2>, int> cell;
+};
+
+class Flattener {
+ public:
+  Flattener(const Shell& shell, bool general_alone)
+      : shell_(shell), general_alone_(general_alone), offsets_(controlOffsets(shell.garment())) {
+    out_.points = shell.controlCount();
+    out_.gauss_points = shell.gaussPoints();
+    for (const NurbsPatch& patch : shell.garment().patches)
+      out_.weights.insert(out_.weights.end(), patch.weights.begin(), patch.weights.end());
+    slots_.resize(static_cast<std::size_t>(out_.points));
+    summed_.assign(static_cast<std::size_t>(out_.points), false);
+  }
+
+  FlatShell flat() {
+    for (const ShellPart& part : shell_.parts())
+      if (!addQuads(part)) addCells(part);
+    addSeams();
+    closeSlots();
+    return std::move(out_);
+  }
+
+ private:
+  int firstNode(const ShellBlock& b, int cell) const {
+    return b.nodes[static_cast<std::size_t>(cell / b.lanes) * b.nodeCount() * b.lanes + cell % b.lanes];
+  }
+  const NurbsPatch& patch(int p) const { return shell_.garment().patches[static_cast<std::size_t>(p)]; }
+
+  std::map<int, PatchCells> cellsByPatch(const ShellPart& part) const {
+    std::map<int, PatchCells> all;
+    for (int c = 0; c < part.cell_count; ++c) {
+      const int node = firstNode(part.block, c);
+      const int p = static_cast<int>(std::upper_bound(offsets_.begin(), offsets_.end(), node) - offsets_.begin()) - 1;
+      const int local = node - offsets_[static_cast<std::size_t>(p)], nu = patch(p).u.count();
+      PatchCells& cells = all[p];
+      cells.columns.push_back(local % nu);
+      cells.rows.push_back(local / nu);
+      cells.cell[{local / nu, local % nu}] = c;
+    }
+    for (auto& entry : all)
+      for (std::vector<int>* list : {&entry.second.columns, &entry.second.rows}) {
+        std::sort(list->begin(), list->end());
+        list->erase(std::unique(list->begin(), list->end()), list->end());
+      }
+    return all;
+  }
+
+  bool addQuads(const ShellPart& part) {
+    if (general_alone_ || !isQuad(part)) return false;
+    const auto patches = cellsByPatch(part);
+    for (const auto& [p, cells] : patches)
+      if (cells.cell.size() != cells.columns.size() * cells.rows.size()) return false;
+    FlatQuads& quads = out_.quads;
+    quads.law = plainNumbers(part.law);
+    for (const auto& [p, cells] : patches) addSheet(part.block, p, cells);
+    return true;
+  }
+
+  void addSheet(const ShellBlock& b, int p, const PatchCells& cells) {
+    FlatQuads& q = out_.quads;
+    const int across = static_cast<int>(cells.columns.size()), along = static_cast<int>(cells.rows.size());
+    const int points_u = patch(p).u.count(), points_v = patch(p).v.count();
+    q.sheets.push_back({across, along, points_u, points_v, offsets_[static_cast<std::size_t>(p)],
+                        static_cast<int>(q.function_u.size()), static_cast<int>(q.function_v.size()),
+                        static_cast<int>(q.touched_u.size()), static_cast<int>(q.touched_v.size()), q.cells,
+                        b.rational});
+    const long L = b.lanes;
+    const auto add = [&](const std::vector<int>& first, const AlignedVector<double>& basis, std::vector<int>& function,
+                         std::vector<double>& bases, std::vector<Touched>& touched, int points, auto&& cell_of) {
+      function.insert(function.end(), first.begin(), first.end());
+      for (int i = 0; i < static_cast<int>(first.size()); ++i)
+        for (int k = 0; k < 18; ++k) {
+          const long c = cell_of(i);
+          bases.push_back(basis[static_cast<std::size_t>((c / L * 18 + k) * L + c % L)]);
+        }
+      const std::size_t at = touched.size();
+      touched.resize(at + static_cast<std::size_t>(points), Touched{{-1, -1, -1}, -1});
+      for (int i = 0; i < static_cast<int>(first.size()); ++i)
+        for (int a = 0; a < 3; ++a) {
+          Touched& t = touched[at + static_cast<std::size_t>(first[static_cast<std::size_t>(i)] + a)];
+          t.cell[a] = i;
+          t.last = std::max(t.last, i);
+        }
+    };
+    add(cells.columns, b.basis_u, q.function_u, q.basis_u, q.touched_u, points_u, [&](int i) {
+      return cells.cell.at({cells.rows.front(), cells.columns[static_cast<std::size_t>(i)]});
+    });
+    add(cells.rows, b.basis_v, q.function_v, q.basis_v, q.touched_v, points_v, [&](int j) {
+      return cells.cell.at({cells.rows[static_cast<std::size_t>(j)], cells.columns.front()});
+    });
+    const std::size_t count = cells.cell.size(), first = q.rest.size();
+    q.rest.resize(first + 20 * count);
+    std::size_t at = 0;
+    for (const auto& entry : cells.cell) {
+      const long c = entry.second, group = c / L;
+      for (long g = 0; g < 4; ++g)
+        for (long k = 0; k < 5; ++k)
+          q.rest[first + (static_cast<std::size_t>(k) * count + at) * 4 + static_cast<std::size_t>(g)] =
+              b.points[static_cast<std::size_t>(((group * 4 + g) * b.pointDoubles() + k) * L + c % L)];
+      ++at;
+    }
+    q.cells += static_cast<long>(count);
+    for (int i = offsets_[static_cast<std::size_t>(p)]; i < offsets_[static_cast<std::size_t>(p) + 1]; ++i)
+      summed_[static_cast<std::size_t>(i)] = true;
+  }
+
+  void addCells(const ShellPart& part) {
+    const ShellBlock& b = part.block;
+    FlatCells cells;
+    cells.block = &b;
+    cells.law = numbersOf(part.law.point);
+    cells.shape = {.lanes = b.lanes,
+                   .cells = part.cell_count,
+                   .p = b.p,
+                   .q = b.q,
+                   .gu = b.gu,
+                   .gv = b.gv,
+                   .point_doubles = b.pointDoubles(),
+                   .rational = b.rational,
+                   .scattered = b.scattered,
+                   .rest_curvature = b.rest_curvature,
+                   .nodes = nullptr,
+                   .weights = nullptr,
+                   .basis_u = nullptr,
+                   .basis_v = nullptr,
+                   .shapes = nullptr,
+                   .points = nullptr,
+                   .first_point = nullptr,
+                   .law = nullptr,
+                   .laws = nullptr,
+                   .use = part.law.use,
+                   .history_first = b.history_first,
+                   .first_slot = out_.slots};
+    out_.cells.push_back(cells);
+    const int nodes = b.nodeCount();
+    for (int c = 0; c < part.cell_count; ++c)
+      for (int k = 0; k < nodes; ++k)
+        addSlot(b.nodes[(static_cast<std::size_t>(c / b.lanes) * nodes + k) * b.lanes + c % b.lanes]);
+  }
+
+  void addSlot(int point) { slots_[static_cast<std::size_t>(point)].push_back(out_.slots++); }
+
+  void addSeams() {
+    FlatSeams& s = out_.seams;
+    s.hinge_slot = out_.slots;
+    for (const HingePoint& h : shell_.hinges()) {
+      for (std::size_t k = 0; k < h.columns.size(); ++k) {
+        s.hinge_column.push_back(h.columns[k]);
+        s.hinge_rows.insert(s.hinge_rows.end(), {h.t[k], h.a[k], h.b[k]});
+        addSlot(h.columns[k]);
+      }
+      s.first_hinge.push_back(static_cast<int>(s.hinge_column.size()));
+      s.hinge_numbers.insert(s.hinge_numbers.end(), {h.stiffness_length, h.theta0});
+    }
+    s.gap_slot = out_.slots;
+    for (const GapPoint& g : shell_.gaps()) {
+      for (std::size_t k = 0; k < g.columns.size(); ++k) {
+        s.gap_column.push_back(g.columns[k]);
+        s.gap_row.push_back(g.row[k]);
+        addSlot(g.columns[k]);
+      }
+      s.first_gap.push_back(static_cast<int>(s.gap_column.size()));
+      s.gap_stiffness.push_back(g.stiffness_N_per_m);
+    }
+  }
+
+  void closeSlots() {
+    for (int i = 0; i < out_.points; ++i)
+      if (!summed_[static_cast<std::size_t>(i)]) out_.gathered.push_back(i);
+    if (out_.slots == 0 && out_.gathered.empty()) return;
+    out_.first_slot.push_back(0);
+    for (const std::vector<int>& list : slots_) {
+      out_.slot_list.insert(out_.slot_list.end(), list.begin(), list.end());
+      out_.first_slot.push_back(static_cast<int>(out_.slot_list.size()));
+    }
+  }
+
+  const Shell& shell_;
+  bool general_alone_;
+  std::vector<int> offsets_;
+  std::vector<std::vector<int>> slots_;  ///< of each control point
+  std::vector<bool> summed_;             ///< by a sheet
+  FlatShell out_;
+};
+
+constexpr int kAnyNumber = 1 << 30;
+
+/// Control points along one direction that a block takes, and the cells that touch them: at most `cells` of these, at
+/// most `points` of those.
+struct Span {
+  int point, point_end, cell, cell_end;
+};
+std::vector<Span> spansOf(const Touched* touched, const int* function, int count, int cells, int points) {
+  const auto first = [&](int i) {
+    int least = touched[i].last;
+    for (const int c : touched[i].cell)
+      if (c >= 0) least = std::min(least, c);
+    return least;
+  };
+  std::vector<Span> spans;
+  for (int at = 0; at < count;) {
+    Span span{at, at, first(at), 0};
+    const auto fits = [&](int last) {
+      return last - span.cell < cells && function[last] + 3 - function[span.cell] <= roomFor(cells);
+    };
+    while (span.point_end < count && span.point_end - at < points && fits(touched[span.point_end].last))
+      span.cell_end = touched[span.point_end++].last + 1;
+    spans.push_back(span);
+    at = span.point_end;
+  }
+  return spans;
+}
+
+std::vector<QuadWork> worksOf(const FlatQuads& quads, int cells_u, int cells_v, int points_v) {
+  std::vector<QuadWork> works;
+  for (std::size_t k = 0; k < quads.sheets.size(); ++k) {
+    const QuadSheet& s = quads.sheets[k];
+    const auto across = spansOf(quads.touched_u.data() + s.first_point_u, quads.function_u.data() + s.first_column,
+                                s.points_u, cells_u, s.points_u);
+    const auto along = spansOf(quads.touched_v.data() + s.first_point_v, quads.function_v.data() + s.first_row,
+                               s.points_v, cells_v, points_v);
+    for (const Span& v : along)
+      for (const Span& u : across)
+        works.push_back(
+            {static_cast<int>(k), u.cell, u.cell_end, v.cell, v.cell_end, u.point, u.point_end, v.point, v.point_end});
+  }
+  return works;
+}
+
+}  // namespace
+
+FlatShell flatShell(const Shell& shell, bool general_alone) { return Flattener(shell, general_alone).flat(); }
+
+std::optional<std::string> notCarried(const Shell& shell) {
+  for (const ShellPart& part : shell.parts()) {
+    if (part.block.assumed) return "assumed strains";
+    if (part.law.use.tension) return "a tension field";
+    if (part.law.use.shears) return "friction in shear";
+  }
+  return std::nullopt;
+}
+
+std::vector<QuadWork> tilesOf(const FlatQuads& quads, int cells_u, int cells_v) {
+  return worksOf(quads, cells_u, cells_v, kAnyNumber);
+}
+
+std::vector<QuadWork> stripsOf(const FlatQuads& quads, int cells_u, int rows) {
+  return worksOf(quads, cells_u, kAnyNumber, rows);
+}
+
+}  // namespace gambeson::gpu

@@ -1,0 +1,185 @@
+/// Forces on the reference device: against core, the same bits whatever the way and the sizes of blocks, and against
+/// differences of the energy.
+#include "gpu/forces/forces.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "force_cloths.hpp"
+#include "gpu/forces/angle.hpp"
+#include "gpu/forces/roots.hpp"
+
+namespace gambeson::gpu {
+namespace {
+
+/// f, T^T f and what the laws would remember.
+struct All {
+  std::vector<Vec3> f, free;
+  std::vector<double> history;
+  bool operator==(const All& o) const { return f == o.f && free == o.free && history == o.history; }
+};
+
+constexpr double kElapsed_s = 3e-3;
+
+All ofDevice(const ForceCloth& c, std::span<const double> committed, const ForceOptions& options = {}) {
+  const auto forces = forcesOnReference(*c.cloth, options);
+  EXPECT_EQ(forces->points(), c.cloth->points());
+  EXPECT_EQ(forces->freePoints(), static_cast<int>(c.p.size()));
+  forces->setHistory(committed, kElapsed_s);
+  forces->setFree(c.p);
+  forces->placePoints();
+  forces->evaluate();
+  forces->freeForces();
+  return {forces->force(), forces->freeForce(), forces->history()};
+}
+
+All ofCore(const ForceCloth& c, std::span<const double> committed) {
+  const std::vector<Vec3> q = c.q();
+  All all;
+  all.f.resize(q.size());
+  all.history.resize(c.cloth->historySize());
+  ClothWork work;
+  c.cloth->force(ClothState(q, {}, committed, {}, kElapsed_s), {all.f, {}, all.history, nullptr}, work, {});
+  all.free.resize(c.p.size());
+  c.cloth->map().Tt.multiply<Vec3>(all.f, all.free);
+  return all;
+}
+
+void expectCores(const ForceCloth& c, std::span<const double> committed) {
+  const All core = ofCore(c, committed), device = ofDevice(c, committed);
+  const double most = largest(core.f);
+  EXPECT_GT(most, 0) << c.name;
+  EXPECT_LT(farthest(device.f, core.f), 1e-13 * most) << c.name;
+  EXPECT_LT(farthest(device.free, core.free), 1e-13 * most) << c.name;
+  ASSERT_EQ(device.history.size(), core.history.size()) << c.name;
+  // Core also fills up its last groups, with points that do not exist.
+  double size = 0, off = 0;
+  for (const HistoryPlace& place : c.cloth->historyPlaces())
+    for (std::size_t k = 0; k < place.count; ++k) {
+      const std::size_t at = place.first + k * place.stride;
+      size = std::max(size, std::abs(core.history[at]));
+      off = std::max(off, std::abs(core.history[at] - device.history[at]));
+    }
+  EXPECT_LE(off, 1e-12 * size) << c.name;
+}
+
+TEST(Forces, AreThoseOfCore) {
+  for (const ForceCloth& c : quadCloths()) expectCores(c, {});
+  for (const ForceCloth& c : otherCloths()) expectCores(c, {});
+}
+
+TEST(Forces, FollowACommittedHistory) {
+  for (ForceCloth& c : otherCloths()) {
+    if (c.cloth->historySize() == 0) continue;
+    const std::vector<double> committed = ofCore(c, {}).history;
+    EXPECT_GT(*std::ranges::max_element(committed), 0) << c.name;
+    for (Vec3& p : c.p) p.z *= 0.7;
+    expectCores(c, committed);
+  }
+}
+
+TEST(Forces, AnyWayAndSizeGivesTheSameBits) {
+  for (const ForceCloth& c : quadCloths()) {
+    const All one = ofDevice(c, {});
+    for (const QuadPath path : {QuadPath::tiles, QuadPath::strips})
+      for (int size = 0; size < static_cast<int>(quadSizes(path).size()); ++size)
+        for (const int rows : {0, 3, 1000}) {
+          ForceOptions options;
+          options.path = path;
+          options.size = size;
+          options.strip_rows = rows;
+          EXPECT_TRUE(ofDevice(c, {}, options) == one) << c.name << ", " << quadSizes(path)[size] << ", " << rows;
+        }
+  }
+}
+
+/// The ways of quadratic and of all cells share their laws at a point, and nothing else.
+TEST(Forces, BothWaysThroughQuadraticCellsAgree) {
+  ForceOptions general;
+  general.general_cells = true;
+  for (const ForceCloth& c : quadCloths()) {
+    const All one = ofDevice(c, {}), other = ofDevice(c, {}, general);
+    EXPECT_LT(farthest(one.f, other.f), 1e-13 * largest(one.f)) << c.name;
+    EXPECT_FALSE(one.f == other.f) << c.name;
+  }
+}
+
+TEST(Forces, AreTheGradientOfTheEnergy) {
+  const std::vector<ForceCloth> quads = quadCloths();
+  for (const ForceCloth& c : {quads[1], quads[5], quads[7]}) {
+    const All all = ofDevice(c, {});
+    ClothWork work;
+    std::vector<Vec3> f(all.f.size());
+    const auto energy = [&](std::span<const Vec3> q) {
+      double e = 0;
+      c.cloth->force(q, f, work, &e);
+      return e;
+    };
+    std::vector<Vec3> q = c.q();
+    const double step = 1e-6, most = largest(all.f);
+    for (std::size_t i = 0; i < q.size(); i += 7)
+      for (int k = 0; k < 3; ++k) {
+        const double at = q[i][k];
+        q[i][k] = at + step;
+        const double more = energy(q);
+        q[i][k] = at - step;
+        const double less = energy(q);
+        q[i][k] = at;
+        EXPECT_NEAR(all.f[i][k], (less - more) / (2 * step), 2e-7 * most) << c.name << ", point " << i;
+      }
+  }
+}
+
+TEST(Forces, WhatIsNotCarriedIsRefusedByName) {
+  const auto refused = [](const Fabric& fabric, const ShellOptions& options, const std::string& name) {
+    const ForceCloth c =
+        forceCloth(name, shapes::garmentOf({shapes::curvedPatch(2, 2, false)}, {}, fabric), 0.01, options);
+    ASSERT_TRUE(notCarried(*c.cloth)) << name;
+    EXPECT_NE(notCarried(*c.cloth)->find(name), std::string::npos) << *notCarried(*c.cloth);
+    EXPECT_THROW(forcesOnReference(*c.cloth), RunError);
+  };
+  Fabric fabric = shapes::plainFabric();
+  ShellOptions assumed;
+  assumed.rule = CellRule::assumed;
+  refused(fabric, assumed, "assumed strains");
+  Fabric rubbing = fabric;
+  rubbing.shear_friction = {1, 0.1, 0};
+  refused(rubbing, {}, "friction in shear");
+  fabric.tension_field = true;
+  refused(fabric, {}, "tension field");
+  for (const ForceCloth& c : quadCloths()) EXPECT_FALSE(notCarried(*c.cloth)) << c.name;
+}
+
+TEST(Forces, RootsAndAnglesAreThoseOfTheLibrary) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> exponent(-320, 300), mantissa(1, 10), turn(-3.14159, 3.14159);
+  double off[4] = {};
+  for (int i = 0; i < 300000; ++i) {
+    const double x = mantissa(random) * std::pow(10, i % 3 == 0 ? exponent(random) : 0.1 * exponent(random) / 10);
+    const auto ulps = [](double found, double truth) { return std::abs(found - truth) / (std::abs(truth) * 0x1p-52); };
+    if (x < 1e-300) continue;
+    off[0] = std::max(off[0], ulps(reciprocal(x), static_cast<double>(1 / static_cast<long double>(x))));
+    off[1] = std::max(off[1], ulps(inverseRoot(x), static_cast<double>(1 / std::sqrt(static_cast<long double>(x)))));
+    off[2] = std::max(off[2], ulps(quickRoot(x), std::sqrt(x)));
+    const double angle = turn(random), s = std::sin(angle), c = std::cos(angle);
+    off[3] = std::max(off[3], ulps(angleOf(s, c), std::atan2(s, c)));
+  }
+  EXPECT_LE(off[0], 1);
+  EXPECT_LE(off[1], 1.5);
+  EXPECT_LE(off[2], 2);
+  EXPECT_LE(off[3], 3);
+}
+
+TEST(Forces, WithoutCudaSaysHowToGetIt) {
+  const ForceCloth c =
+      forceCloth("one", shapes::garmentOf({shapes::curvedPatch(2, 2, false)}, {}, shapes::plainFabric()), 0);
+  try {
+    forcesOnCuda(*c.cloth);
+    GTEST_SKIP() << "built with CUDA";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("CUDA"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace gambeson::gpu
