@@ -1,6 +1,7 @@
 /// Compares CUDA with the reference and with core, and times it.
 ///
-///   gambeson_gpu_check [--data FOLDER] [--passes N] [--queries N] [--stages] [--write-manifest FILE]
+///   gambeson_gpu_check [--data FOLDER] [--passes N] [--queries N] [--stages] [--no-finding] [--no-forces]
+///                      [--write-manifest FILE]
 ///
 /// Scenes: public frames of cloth on a ball and in a funnel (where FOLDER, shared/data by name, has them), 460 balls
 /// that fly through each other, ten wavy sheets. For each: what every stage found, by count and order-free hash, on
@@ -12,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 
+#include "check_forces.hpp"
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
 #include "gpu/scenes/stage_facts.hpp"
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 struct Settings {
   std::string data = "../shared/data", manifest;
   int passes = 15, queries = 1000000;
-  bool stages = false, reference_alone = false, large = true;
+  bool stages = false, reference_alone = false, large = true, finding = true, forces = true;
 };
 
 std::vector<Scene> scenes(const Settings& settings) {
@@ -133,7 +135,8 @@ int checkQueries(const Settings& settings, bool cuda) {
   return different;
 }
 
-void writeManifest(const fs::path& file, const std::string& device, const std::vector<std::pair<Scene, Facts>>& all) {
+void writeManifest(const fs::path& file, const std::string& device, const std::vector<std::pair<Scene, Facts>>& all,
+                   const ForceCheck& forces) {
   std::ofstream out(file);
   out << "{\n  \"device\": \"" << device << "\",\n  \"scenes\": [\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -147,6 +150,10 @@ void writeManifest(const fs::path& file, const std::string& device, const std::v
           facts[k].sizes.hits, facts[k].pairs_hash, facts[k].hits_hash);
     out << (i + 1 < all.size() ? "},\n" : "}\n");
   }
+  out << "  ],\n  \"forces\": [\n";
+  for (std::size_t i = 0; i < forces.hashes.size(); ++i)
+    out << fmt::format("    {{\"name\": \"{}\", \"hash\": \"{:016x}\"}}{}\n", forces.hashes[i].first,
+                       forces.hashes[i].second, i + 1 < forces.hashes.size() ? "," : "");
   out << "  ]\n}\n";
   if (!out) throw RunError("cannot write " + file.string());
 }
@@ -155,17 +162,20 @@ int run(const Settings& settings) {
   const bool cuda = cudaBuilt() && !settings.reference_alone;
   const std::string device = cuda ? cudaDevice() : "reference";
   fmt::print("device: {}{}\n", device, cudaBuilt() ? "" : " (this program was built without CUDA)");
-  int different = checkQueries(settings, cuda);
+  ForceCheck forces;
+  if (settings.forces) forces = checkForces(cuda, settings.passes, settings.large);
+  int different = forces.different;
+  if (settings.finding) different += checkQueries(settings, cuda);
   std::vector<std::pair<Scene, Facts>> kept;
   const std::vector<Scene> of_manifest = manifestScenes();
-  for (Scene& scene : scenes(settings)) {
+  for (Scene& scene : settings.finding ? scenes(settings) : std::vector<Scene>{}) {
     Facts facts;
     different += checkScene(scene, settings, cuda, facts);
     if (std::ranges::find(of_manifest, scene.name, &Scene::name) != of_manifest.end())
       kept.emplace_back(std::move(scene), facts);
     std::fflush(stdout);
   }
-  if (!settings.manifest.empty()) writeManifest(settings.manifest, device, kept);
+  if (!settings.manifest.empty()) writeManifest(settings.manifest, device, kept, forces);
   fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
   return different == 0 ? 0 : 1;
 }
@@ -181,7 +191,9 @@ int main(int argc, char** argv) {
   app.add_option("--queries", settings.queries, "by themselves")->check(CLI::Range(0, 100000000));
   app.add_flag("--stages", settings.stages, "time each stage too");
   app.add_flag("--reference", settings.reference_alone, "the reference alone");
-  app.add_flag("!--small", settings.large, "leave out 460 balls and ten sheets");
+  app.add_flag("!--small", settings.large, "leave out 460 balls, ten sheets and a million control points");
+  app.add_flag("!--no-finding", settings.finding, "leave out impacts");
+  app.add_flag("!--no-forces", settings.forces, "leave out forces");
   app.add_option("--write-manifest", settings.manifest, "counts and hashes of the small scenes, as gpu/manifest.json");
   CLI11_PARSE(app, argc, argv);
   try {

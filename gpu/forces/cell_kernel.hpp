@@ -134,7 +134,7 @@ struct CellForces {
     const double* data = b.points + point * b.point_doubles * L + lane_of;
     Denominator d{};
     if (b.rational) {
-      d = {reciprocal(data[5 * L]), data[6 * L], data[7 * L], data[8 * L], data[9 * L], data[10 * L]};
+      d = {1 / data[5 * L], data[6 * L], data[7 * L], data[8 * L], data[9 * L], data[10 * L]};
       t = divided(d, numerator, t);
     }
     const double* rest = b.rest_curvature ? data + (b.rational ? 11 : 5) * L : nullptr;

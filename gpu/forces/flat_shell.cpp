@@ -35,9 +35,18 @@ PlainNumbers plainNumbers(const BlockLaw& law) {
 
 /// The cells of a part that belong to one patch: which of its first control points they start at.
 struct PatchCells {
-  std::vector<int> columns, rows;  ///< distinct, ascending
-  std::map<std::array<int, 2>, int> cell;
+  std::vector<std::array<int, 2>> at;  ///< row and column
+  std::vector<int> cell;               ///< of the part
+  std::vector<int> columns, rows;      ///< distinct, ascending
 };
+
+std::vector<int> distinct(const std::vector<std::array<int, 2>>& at, std::size_t k) {
+  std::vector<int> list;
+  for (const auto& a : at) list.push_back(a[k]);
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
 
 class Flattener {
  public:
@@ -71,16 +80,13 @@ class Flattener {
       const int node = firstNode(part.block, c);
       const int p = static_cast<int>(std::upper_bound(offsets_.begin(), offsets_.end(), node) - offsets_.begin()) - 1;
       const int local = node - offsets_[static_cast<std::size_t>(p)], nu = patch(p).u.count();
-      PatchCells& cells = all[p];
-      cells.columns.push_back(local % nu);
-      cells.rows.push_back(local / nu);
-      cells.cell[{local / nu, local % nu}] = c;
+      all[p].at.push_back({local / nu, local % nu});
+      all[p].cell.push_back(c);
     }
-    for (auto& entry : all)
-      for (std::vector<int>* list : {&entry.second.columns, &entry.second.rows}) {
-        std::sort(list->begin(), list->end());
-        list->erase(std::unique(list->begin(), list->end()), list->end());
-      }
+    for (auto& entry : all) {
+      entry.second.rows = distinct(entry.second.at, 0);
+      entry.second.columns = distinct(entry.second.at, 1);
+    }
     return all;
   }
 
@@ -101,9 +107,17 @@ class Flattener {
     const int points_u = patch(p).u.count(), points_v = patch(p).v.count();
     q.sheets.push_back({across, along, points_u, points_v, offsets_[static_cast<std::size_t>(p)],
                         static_cast<int>(q.function_u.size()), static_cast<int>(q.function_v.size()),
-                        static_cast<int>(q.touched_u.size()), static_cast<int>(q.touched_v.size()), q.cells,
-                        b.rational});
+                        static_cast<int>(q.touched_u.size()), static_cast<int>(q.touched_v.size()),
+                        static_cast<long>(q.rest.size()), b.rational});
     const long L = b.lanes;
+    // Row by row.
+    std::vector<int> sorted(cells.cell.size());
+    const auto placeOf = [](const std::vector<int>& list, int value) {
+      return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), value) - list.begin());
+    };
+    for (std::size_t i = 0; i < cells.cell.size(); ++i)
+      sorted[placeOf(cells.rows, cells.at[i][0]) * cells.columns.size() + placeOf(cells.columns, cells.at[i][1])] =
+          cells.cell[i];
     const auto add = [&](const std::vector<int>& first, const AlignedVector<double>& basis, std::vector<int>& function,
                          std::vector<double>& bases, std::vector<Touched>& touched, int points, auto&& cell_of) {
       function.insert(function.end(), first.begin(), first.end());
@@ -121,22 +135,22 @@ class Flattener {
           t.last = std::max(t.last, i);
         }
     };
-    add(cells.columns, b.basis_u, q.function_u, q.basis_u, q.touched_u, points_u, [&](int i) {
-      return cells.cell.at({cells.rows.front(), cells.columns[static_cast<std::size_t>(i)]});
-    });
-    add(cells.rows, b.basis_v, q.function_v, q.basis_v, q.touched_v, points_v, [&](int j) {
-      return cells.cell.at({cells.rows[static_cast<std::size_t>(j)], cells.columns.front()});
-    });
+    add(cells.columns, b.basis_u, q.function_u, q.basis_u, q.touched_u, points_u,
+        [&](int i) { return sorted[static_cast<std::size_t>(i)]; });
+    add(cells.rows, b.basis_v, q.function_v, q.basis_v, q.touched_v, points_v,
+        [&](int j) { return sorted[static_cast<std::size_t>(j) * cells.columns.size()]; });
     const std::size_t count = cells.cell.size(), first = q.rest.size();
-    q.rest.resize(first + 20 * count);
-    std::size_t at = 0;
-    for (const auto& entry : cells.cell) {
-      const long c = entry.second, group = c / L;
+    const int numbers = b.pointDoubles();
+    q.rest.resize(first + 4 * count * static_cast<std::size_t>(numbers));
+    for (std::size_t at = 0; at < count; ++at) {
+      const long c = sorted[at], group = c / L;
       for (long g = 0; g < 4; ++g)
-        for (long k = 0; k < 5; ++k)
-          q.rest[first + (static_cast<std::size_t>(k) * count + at) * 4 + static_cast<std::size_t>(g)] =
-              b.points[static_cast<std::size_t>(((group * 4 + g) * b.pointDoubles() + k) * L + c % L)];
-      ++at;
+        for (int k = 0; k < numbers; ++k) {
+          const double x = b.points[static_cast<std::size_t>(((group * 4 + g) * numbers + k) * L + c % L)];
+          // The denominator as what it multiplies by.
+          q.rest[first + 4 * (static_cast<std::size_t>(k) * count + at) + static_cast<std::size_t>(g)] =
+              k == 5 ? 1 / x : x;
+        }
     }
     q.cells += static_cast<long>(count);
     for (int i = offsets_[static_cast<std::size_t>(p)]; i < offsets_[static_cast<std::size_t>(p) + 1]; ++i)

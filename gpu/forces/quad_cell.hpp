@@ -16,7 +16,7 @@ struct QuadSheet {
   int first_point;                   ///< of the control points
   int first_column, first_row;       ///< of cells: bases and first functions
   int first_point_u, first_point_v;  ///< of control points: which cells they touch
-  long first_cell;
+  long first_rest;
   int rational;
 };
 
@@ -31,7 +31,7 @@ struct QuadSheets {
   const int *function_u, *function_v;    ///< of each column, row of cells: its first control point
   const double *basis_u, *basis_v;       ///< of each column, row: [point][derivative][function]
   const Touched *touched_u, *touched_v;  ///< of each column, row of control points
-  const double* rest;                    ///< of each sheet: [5][cell][4]
+  const double* rest;                    ///< of each sheet: [number][cell][4], 5 numbers, of rational cells 11
   const Point4* position;
   Point4* force;
   PlainNumbers law;
@@ -55,30 +55,26 @@ struct QuadPlace {
 };
 
 /// The derivatives at the point and what the point gives to the functions of u: z[derivative of v][3 i + component].
-/// `node(i, j)`: a control point, of rational cells times its weight; bu, bv: [derivative][function].
+/// `node(i, j)`: a control point, of rational cells times its weight; bu, bv: [derivative][function]; `rest(k)`: number
+/// k of the point.
 template <bool kRational, class Node, class Rest>
 GAMBESON_HD void quadPoint(const Node& node, const double* bu, const double* bv, const Rest& rest,
                            const PlainNumbers& law, double (&z)[3][9]) {
-  Vec3 x0{}, w0{}, w1{};  // numerator; denominator w, w1, w2 and w11, w22, w12
+  Vec3 x0{};
   SurfaceTerms x{};
   GAMBESON_UNROLL
   for (int i = 0; i < 3; ++i) {
-    Vec3 y0{}, y1{}, y2{}, s0{};
+    Vec3 y0{}, y1{}, y2{};
     GAMBESON_UNROLL
     for (int j = 0; j < 3; ++j) {
-      const Point4 p = node(i, j);
+      const Vec3 q = node(i, j);
       const double v0 = bv[j], v1 = bv[3 + j], v2 = bv[6 + j];
-      y0 = fma(v0, vec(p), y0);
-      y1 = fma(v1, vec(p), y1);
-      y2 = fma(v2, vec(p), y2);
-      if (kRational) s0 = fma(p.w, Vec3{v0, v1, v2}, s0);
+      y0 = fma(v0, q, y0);
+      y1 = fma(v1, q, y1);
+      y2 = fma(v2, q, y2);
     }
     const double u0 = bu[i], u1 = bu[3 + i], u2 = bu[6 + i];
-    if (kRational) {
-      x0 = fma(u0, y0, x0);
-      w0 = {::fma(u0, s0.x, w0.x), ::fma(u1, s0.x, w0.y), ::fma(u0, s0.y, w0.z)};
-      w1 = {::fma(u2, s0.x, w1.x), ::fma(u0, s0.z, w1.y), ::fma(u1, s0.y, w1.z)};
-    }
+    if (kRational) x0 = fma(u0, y0, x0);
     x.of1 = fma(u1, y0, x.of1);
     x.of2 = fma(u0, y1, x.of2);
     x.of11 = fma(u2, y0, x.of11);
@@ -87,14 +83,14 @@ GAMBESON_HD void quadPoint(const Node& node, const double* bu, const double* bv,
   }
   Denominator d{};
   if (kRational) {
-    d = {reciprocal(w0.x), w0.y, w0.z, w1.x, w1.y, w1.z};
+    d = {rest(5), rest(6), rest(7), rest(8), rest(9), rest(10)};
     x = divided(d, x0, x);
   }
-  SurfaceTerms f =
-      shellForces(x, rest(), [&](const Voigt3& strain, const Voigt3& bend, Voigt3& tension, Voigt3& moment) {
-        tension = tensionOf(law, strain);
-        moment = momentOf(law, bend);
-      });
+  SurfaceTerms f = shellForces(x, RestPoint{rest(0), rest(1), rest(2), rest(3), rest(4)},
+                               [&](const Voigt3& strain, const Voigt3& bend, Voigt3& tension, Voigt3& moment) {
+                                 tension = tensionOf(law, strain);
+                                 moment = momentOf(law, bend);
+                               });
   Vec3 g0{};
   if (kRational) f = dividedBack(d, f, g0);
   GAMBESON_UNROLL
@@ -118,7 +114,7 @@ GAMBESON_HD void quadCells(const Group& group, const PlainNumbers& law, const So
     if (!source.on(lane)) return;
     double z[3][9];
     quadPoint<kRational>([&](int i, int j) { return source.node(lane, i, j); }, source.basisU(lane),
-                         source.basisV(lane), [&] { return source.rest(lane); }, law, z);
+                         source.basisV(lane), [&](int k) { return source.rest(lane, k); }, law, z);
     const bool odd = lane & 1;
     GAMBESON_UNROLL
     for (int p = 0; p < 5; ++p) GAMBESON_UNROLL

@@ -73,11 +73,10 @@ GAMBESON_HD void quadSums(const Group& group, const QuadSheets& s, const MoreSlo
 /// Control points that a block may need along a direction of so many cells: two more, and some where knots are double.
 constexpr int roomFor(int cells) { return cells + 4; }
 
-/// The rest of a point of a cell.
-GAMBESON_HD inline RestPoint restOf(const QuadSheets& s, const QuadSheet& sheet, int ci, int cj, int g) {
+/// Number k of a point of a cell at rest.
+GAMBESON_HD inline double restOf(const QuadSheets& s, const QuadSheet& sheet, int ci, int cj, int g, int k) {
   const long cells = static_cast<long>(sheet.cells_u) * sheet.cells_v;
-  const double* at = s.rest + 20 * sheet.first_cell + (ci + static_cast<long>(sheet.cells_u) * cj) * 4 + g;
-  return {at[0], at[4 * cells], at[8 * cells], at[12 * cells], at[16 * cells]};
+  return s.rest[sheet.first_rest + 4 * (k * cells + ci + static_cast<long>(sheet.cells_u) * cj) + g];
 }
 
 /// A control point as cells take it.
@@ -102,7 +101,7 @@ struct QuadTile {
 
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared& shared, int index) const {
-    const QuadWork work = works[index];
+    const QuadWork& work = works[index];
     const QuadSheet& sheet = s.sheet[work.sheet];
     sheet.rational ? run<true>(group, shared, work, sheet) : run<false>(group, shared, work, sheet);
   }
@@ -118,15 +117,15 @@ struct QuadTile {
     GAMBESON_HD bool on(int lane) const {
       return work.cell_u + u(lane) < work.end_u && work.cell_v + v(lane) < work.end_v;
     }
-    GAMBESON_HD Point4 node(int lane, int i, int j) const {
+    GAMBESON_HD Vec3 node(int lane, int i, int j) const {
       const int* column = s.function_u + sheet.first_column + work.cell_u;
       const int* row = s.function_v + sheet.first_row + work.cell_v;
-      return shared.point[row[v(lane)] - row[0] + j][column[u(lane)] - column[0] + i];
+      return vec(shared.point[row[v(lane)] - row[0] + j][column[u(lane)] - column[0] + i]);
     }
     GAMBESON_HD const double* basisU(int lane) const { return shared.basis_u + (2 * u(lane) + (lane & 1)) * 9; }
     GAMBESON_HD const double* basisV(int lane) const { return shared.basis_v + (2 * v(lane) + (lane >> 1 & 1)) * 9; }
-    GAMBESON_HD RestPoint rest(int lane) const {
-      return restOf(s, sheet, work.cell_u + u(lane), work.cell_v + v(lane), lane & 3);
+    GAMBESON_HD double rest(int lane, int k) const {
+      return restOf(s, sheet, work.cell_u + u(lane), work.cell_v + v(lane), lane & 3, k);
     }
   };
 
@@ -172,7 +171,7 @@ struct QuadStrip {
 
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared& shared, int index) const {
-    const QuadWork work = works[index];
+    const QuadWork& work = works[index];
     const QuadSheet& sheet = s.sheet[work.sheet];
     sheet.rational ? run<true>(group, shared, work, sheet) : run<false>(group, shared, work, sheet);
   }
@@ -185,13 +184,15 @@ struct QuadStrip {
     const Shared& shared;
     int cj, row;  ///< of cells; its first of control points
     GAMBESON_HD bool on(int lane) const { return work.cell_u + (lane >> 2) < work.end_u; }
-    GAMBESON_HD Point4 node(int lane, int i, int j) const {
+    GAMBESON_HD Vec3 node(int lane, int i, int j) const {
       const int* column = s.function_u + sheet.first_column + work.cell_u;
-      return shared.point[(row + j) & 7][column[lane >> 2] - column[0] + i];
+      return vec(shared.point[(row + j) & 7][column[lane >> 2] - column[0] + i]);
     }
     GAMBESON_HD const double* basisU(int lane) const { return shared.basis_u + (2 * (lane >> 2) + (lane & 1)) * 9; }
     GAMBESON_HD const double* basisV(int lane) const { return shared.basis_v[cj & 1] + 9 * (lane >> 1 & 1); }
-    GAMBESON_HD RestPoint rest(int lane) const { return restOf(s, sheet, work.cell_u + (lane >> 2), cj, lane & 3); }
+    GAMBESON_HD double rest(int lane, int k) const {
+      return restOf(s, sheet, work.cell_u + (lane >> 2), cj, lane & 3, k);
+    }
   };
 
   /// What the row cj of cells needs beyond the rows of control points before `from`.

@@ -12,9 +12,21 @@ std::unique_ptr<Forces> forcesOnReference(const Cloth& cloth, const ForceOptions
   return forcesOn<Reference>(cloth, options);
 }
 
+namespace {
+template <class... Tiles>
+std::vector<std::string> tileNames(std::type_identity<std::tuple<Tiles...>>) {
+  return {(std::to_string(Tiles::kCellsU) + " x " + std::to_string(Tiles::kCellsV) + " cells, " +
+           std::to_string(Tiles::kResident) + " blocks")...};
+}
+template <class... Strips>
+std::vector<std::string> stripNames(std::type_identity<std::tuple<Strips...>>) {
+  return {(std::to_string(Strips::kCellsU) + " cells, " + std::to_string(Strips::kResident) + " blocks")...};
+}
+}  // namespace
+
 std::vector<std::string> quadSizes(QuadPath path) {
-  if (path == QuadPath::strips) return {"32 cells, 4 blocks", "32 cells, 5 blocks", "64 cells, 2 blocks"};
-  return {"8 x 8 cells", "8 x 12 cells", "8 x 4 cells"};
+  if (path == QuadPath::strips) return stripNames(std::type_identity<QuadStrips>{});
+  return tileNames(std::type_identity<QuadTiles>{});
 }
 
 }  // namespace gambeson::gpu

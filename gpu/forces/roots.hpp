@@ -1,5 +1,5 @@
 #pragma once
-/// Reciprocals and roots of basic operations: the same bits on every device, and a third of what a division costs.
+/// Roots of basic operations: the same bits on every device, and a third of what a division costs.
 ///
 /// A quotient in single precision, which rounds alike everywhere, starts one step of third order in double: an error e
 /// of the start becomes e^3. Numbers whose float is not well inside of its range take the division.
@@ -12,14 +12,6 @@ namespace gambeson::gpu {
 
 /// Whether the float of x > 0 and of its reciprocal are normal numbers.
 GAMBESON_HD inline bool fitsFloat(double x) { return x > 1e-30 && x < 1e30; }
-
-/// 1/x for x > 0, within 1 unit in the last place.
-GAMBESON_HD inline double reciprocal(double x) {
-  if (!fitsFloat(x)) return 1 / x;
-  const double y = 1.0f / static_cast<float>(x);
-  const double e = ::fma(-x, y, 1.0);
-  return ::fma(y, ::fma(e, e, e), y);
-}
 
 /// 1/sqrt(x) for x > 0, within 1 unit in the last place.
 GAMBESON_HD inline double inverseRoot(double x) {

@@ -15,8 +15,8 @@
 namespace gambeson::gpu {
 
 /// What is compiled; the first is what is quick.
-using QuadTiles = std::tuple<QuadTile<8, 8, 2>, QuadTile<8, 12, 1>, QuadTile<8, 4, 4>>;
-using QuadStrips = std::tuple<QuadStrip<32, 4>, QuadStrip<32, 5>, QuadStrip<64, 2>>;
+using QuadTiles = std::tuple<QuadTile<8, 8, 1>, QuadTile<8, 12, 1>, QuadTile<8, 4, 3>, QuadTile<8, 8, 2>>;
+using QuadStrips = std::tuple<QuadStrip<32, 3>, QuadStrip<32, 4>, QuadStrip<64, 2>, QuadStrip<64, 1>>;
 
 /// f(type, index) for the k-th type of a tuple.
 template <class Tuple, class F, std::size_t kAt = 0>
@@ -156,9 +156,10 @@ class ShellForces final : public Forces {
     transpose_ = SlicedRows<Device>(queue_, map.Tt);
     free_position_ = Buffer<Point4>(static_cast<std::size_t>(free_points_));
     free_force_ = Buffer<Point4>(static_cast<std::size_t>(free_points_));
+    const std::vector<Point4> all = queue_.download(position_, position_.size());
     std::vector<Point4> start;
     for (const int home : map.home) {
-      const Point4 p = queue_.download(position_, position_.size())[static_cast<std::size_t>(home)];
+      const Point4& p = all[static_cast<std::size_t>(home)];
       start.push_back({p.x, p.y, p.z, 0});
     }
     queue_.upload(std::span<const Point4>(start), free_position_);
