@@ -12,9 +12,12 @@ struct CudaBlock {
   template <class Item>
   using PerLane = WarpLanes::PerLane<Item>;
 
+  /// The lane is read anew in each phase, so that no address is kept in a register from one to the next.
   template <class F>
   __device__ void each(F&& f) const {
-    f(static_cast<int>(threadIdx.x));
+    int lane;
+    asm volatile("mov.u32 %0, %%tid.x;" : "=r"(lane));
+    f(lane);
   }
   __device__ void sync() const { __syncthreads(); }
   template <class Item>

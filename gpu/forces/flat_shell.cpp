@@ -148,8 +148,8 @@ class Flattener {
         for (int k = 0; k < numbers; ++k) {
           const double x = b.points[static_cast<std::size_t>(((group * 4 + g) * numbers + k) * L + c % L)];
           // The denominator as what it multiplies by.
-          q.rest[first + 4 * (static_cast<std::size_t>(k) * count + at) + static_cast<std::size_t>(g)] =
-              k == 5 ? 1 / x : x;
+          q.rest[first + 4 * (at * static_cast<std::size_t>(numbers) + static_cast<std::size_t>(k)) +
+                 static_cast<std::size_t>(g)] = k == 5 ? 1 / x : x;
         }
     }
     q.cells += static_cast<long>(count);

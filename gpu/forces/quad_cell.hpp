@@ -31,7 +31,7 @@ struct QuadSheets {
   const int *function_u, *function_v;    ///< of each column, row of cells: its first control point
   const double *basis_u, *basis_v;       ///< of each column, row: [point][derivative][function]
   const Touched *touched_u, *touched_v;  ///< of each column, row of control points
-  const double* rest;                    ///< of each sheet: [number][cell][4], 5 numbers, of rational cells 11
+  const double* rest;                    ///< of each sheet: [cell][number][4], 5 numbers, of rational cells 11
   const Point4* position;
   Point4* force;
   PlainNumbers law;
@@ -54,12 +54,17 @@ struct QuadPlace {
   }
 };
 
-/// The derivatives at the point and what the point gives to the functions of u: z[derivative of v][3 i + component].
+/// Forces on the derivatives of the numerator, and on itself.
+struct NumeratorForces {
+  SurfaceTerms of;
+  Vec3 g0;
+};
+
 /// `node(i, j)`: a control point, of rational cells times its weight; bu, bv: [derivative][function]; `rest(k)`: number
 /// k of the point.
 template <bool kRational, class Node, class Rest>
-GAMBESON_HD void quadPoint(const Node& node, const double* bu, const double* bv, const Rest& rest,
-                           const PlainNumbers& law, double (&z)[3][9]) {
+GAMBESON_HD NumeratorForces quadPoint(const Node& node, const double* bu, const double* bv, const Rest& rest,
+                                      const PlainNumbers& law) {
   Vec3 x0{};
   SurfaceTerms x{};
   GAMBESON_UNROLL
@@ -86,18 +91,25 @@ GAMBESON_HD void quadPoint(const Node& node, const double* bu, const double* bv,
     d = {rest(5), rest(6), rest(7), rest(8), rest(9), rest(10)};
     x = divided(d, x0, x);
   }
-  SurfaceTerms f = shellForces(x, RestPoint{rest(0), rest(1), rest(2), rest(3), rest(4)},
-                               [&](const Voigt3& strain, const Voigt3& bend, Voigt3& tension, Voigt3& moment) {
-                                 tension = tensionOf(law, strain);
-                                 moment = momentOf(law, bend);
-                               });
-  Vec3 g0{};
-  if (kRational) f = dividedBack(d, f, g0);
+  const SurfaceTerms f = shellForces(x, RestPoint{rest(0), rest(1), rest(2), rest(3), rest(4)},
+                                     [&](const Voigt3& strain, const Voigt3& bend, Voigt3& tension, Voigt3& moment) {
+                                       tension = tensionOf(law, strain);
+                                       moment = momentOf(law, bend);
+                                     });
+  NumeratorForces out{f, {}};
+  if (kRational) out.of = dividedBack(d, f, out.g0);
+  return out;
+}
+
+/// What the point gives to the functions of u: z[derivative of v][3 i + component].
+template <bool kRational>
+GAMBESON_HD void quadColumns(const NumeratorForces& forces, const double* bu, double (&z)[3][9]) {
+  const SurfaceTerms& f = forces.of;
   GAMBESON_UNROLL
   for (int i = 0; i < 3; ++i) {
     const double u0 = bu[i], u1 = bu[3 + i], u2 = bu[6 + i];
     Vec3 z0 = fma(u2, f.of11, u1 * f.of1);
-    if (kRational) z0 = fma(u0, g0, z0);
+    if (kRational) z0 = fma(u0, forces.g0, z0);
     const Vec3 z1 = fma(u1, f.of12, u0 * f.of2), z2 = u0 * f.of22;
     z[0][3 * i] = z0.x, z[0][3 * i + 1] = z0.y, z[0][3 * i + 2] = z0.z;
     z[1][3 * i] = z1.x, z[1][3 * i + 1] = z1.y, z[1][3 * i + 2] = z1.z;
@@ -105,16 +117,20 @@ GAMBESON_HD void quadPoint(const Node& node, const double* bu, const double* bv,
   }
 }
 
-/// Cells in the lanes of a group, four lanes each. `source` says of a lane whether it has a cell (`on`), and its cell's
-/// nodes, bases and point at rest; `store(lane, at, value)` takes what each lane ends with.
+/// Cells in the lanes of a group, four lanes each. `source` gives the nodes, bases and point at rest of a lane's cell
+/// (lanes too many do a cell once more); `store(lane, at, value)` takes what each lane ends with.
 template <bool kRational, class Group, class Source, class Store>
 GAMBESON_HD void quadCells(const Group& group, const PlainNumbers& law, const Source& source, const Store& store) {
+  // Bases are read anew for what is given back: registers are scarce in between.
+  typename Group::template PerLane<NumeratorForces> forces;
+  group.each([&](int lane) {
+    forces[lane] = quadPoint<kRational>([&](int i, int j) { return source.node(lane, i, j); }, source.basisU(lane),
+                                        source.basisV(lane), [&](int k) { return source.rest(lane, k); }, law);
+  });
   typename Group::template PerLane<Lane15> kept, sent;
   group.each([&](int lane) {
-    if (!source.on(lane)) return;
     double z[3][9];
-    quadPoint<kRational>([&](int i, int j) { return source.node(lane, i, j); }, source.basisU(lane),
-                         source.basisV(lane), [&](int k) { return source.rest(lane, k); }, law, z);
+    quadColumns<kRational>(forces[lane], source.basisU(lane), z);
     const bool odd = lane & 1;
     GAMBESON_UNROLL
     for (int p = 0; p < 5; ++p) GAMBESON_UNROLL
@@ -127,7 +143,6 @@ GAMBESON_HD void quadCells(const Group& group, const PlainNumbers& law, const So
   group.exchange(sent, 1);
   typename Group::template PerLane<Lane8> kept8, sent8;
   group.each([&](int lane) {
-    if (!source.on(lane)) return;
     const double* bv = source.basisV(lane);
     double v[16];
     GAMBESON_UNROLL
@@ -148,7 +163,6 @@ GAMBESON_HD void quadCells(const Group& group, const PlainNumbers& law, const So
   });
   group.exchange(sent8, 2);
   group.each([&](int lane) {
-    if (!source.on(lane)) return;
     GAMBESON_UNROLL
     for (int k = 0; k < 8; ++k) store(lane, k, kept8[lane].at[k] + sent8[lane].at[k]);
   });

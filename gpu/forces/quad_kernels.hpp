@@ -74,9 +74,10 @@ GAMBESON_HD void quadSums(const Group& group, const QuadSheets& s, const MoreSlo
 constexpr int roomFor(int cells) { return cells + 4; }
 
 /// Number k of a point of a cell at rest.
-GAMBESON_HD inline double restOf(const QuadSheets& s, const QuadSheet& sheet, int ci, int cj, int g, int k) {
-  const long cells = static_cast<long>(sheet.cells_u) * sheet.cells_v;
-  return s.rest[sheet.first_rest + 4 * (k * cells + ci + static_cast<long>(sheet.cells_u) * cj) + g];
+template <bool kRational>
+GAMBESON_HD double restOf(const QuadSheets& s, const QuadSheet& sheet, int ci, int cj, int g, int k) {
+  constexpr int kNumbers = kRational ? 11 : 5;
+  return s.rest[sheet.first_rest + (ci + static_cast<long>(sheet.cells_u) * cj) * (4 * kNumbers) + g + 4 * k];
 }
 
 /// A control point as cells take it.
@@ -107,15 +108,19 @@ struct QuadTile {
   }
 
  private:
+  template <bool kRational>
   struct Source {
     const QuadSheets& s;
     const QuadSheet& sheet;
     const QuadWork& work;
     const Shared& shared;
-    GAMBESON_HD int u(int lane) const { return (lane >> 2) % kU; }
-    GAMBESON_HD int v(int lane) const { return (lane >> 2) / kU; }
-    GAMBESON_HD bool on(int lane) const {
-      return work.cell_u + u(lane) < work.end_u && work.cell_v + v(lane) < work.end_v;
+    GAMBESON_HD int u(int lane) const {
+      const int at = (lane >> 2) % kU, last = work.end_u - work.cell_u - 1;
+      return at < last ? at : last;
+    }
+    GAMBESON_HD int v(int lane) const {
+      const int at = (lane >> 2) / kU, last = work.end_v - work.cell_v - 1;
+      return at < last ? at : last;
     }
     GAMBESON_HD Vec3 node(int lane, int i, int j) const {
       const int* column = s.function_u + sheet.first_column + work.cell_u;
@@ -125,7 +130,7 @@ struct QuadTile {
     GAMBESON_HD const double* basisU(int lane) const { return shared.basis_u + (2 * u(lane) + (lane & 1)) * 9; }
     GAMBESON_HD const double* basisV(int lane) const { return shared.basis_v + (2 * v(lane) + (lane >> 1 & 1)) * 9; }
     GAMBESON_HD double rest(int lane, int k) const {
-      return restOf(s, sheet, work.cell_u + u(lane), work.cell_v + v(lane), lane & 3, k);
+      return restOf<kRational>(s, sheet, work.cell_u + u(lane), work.cell_v + v(lane), lane & 3, k);
     }
   };
 
@@ -146,7 +151,7 @@ struct QuadTile {
       for (int k = lane; k < 18 * cells_v; k += kLanes) shared.basis_v[k] = s.basis_v[18 * row + k];
     });
     group.sync();
-    quadCells<kRational>(group, s.law, Source{s, sheet, work, shared}, [&](int lane, int k, double value) {
+    quadCells<kRational>(group, s.law, Source<kRational>{s, sheet, work, shared}, [&](int lane, int k, double value) {
       shared.cell[(k * 4 + (lane & 3)) * kStride + (lane >> 2)] = value;
     });
     group.sync();
@@ -177,21 +182,25 @@ struct QuadStrip {
   }
 
  private:
+  template <bool kRational>
   struct Source {
     const QuadSheets& s;
     const QuadSheet& sheet;
     const QuadWork& work;
     const Shared& shared;
     int cj, row;  ///< of cells; its first of control points
-    GAMBESON_HD bool on(int lane) const { return work.cell_u + (lane >> 2) < work.end_u; }
+    GAMBESON_HD int u(int lane) const {
+      const int at = lane >> 2, last = work.end_u - work.cell_u - 1;
+      return at < last ? at : last;
+    }
     GAMBESON_HD Vec3 node(int lane, int i, int j) const {
       const int* column = s.function_u + sheet.first_column + work.cell_u;
-      return vec(shared.point[(row + j) & 7][column[lane >> 2] - column[0] + i]);
+      return vec(shared.point[(row + j) & 7][column[u(lane)] - column[0] + i]);
     }
-    GAMBESON_HD const double* basisU(int lane) const { return shared.basis_u + (2 * (lane >> 2) + (lane & 1)) * 9; }
+    GAMBESON_HD const double* basisU(int lane) const { return shared.basis_u + (2 * u(lane) + (lane & 1)) * 9; }
     GAMBESON_HD const double* basisV(int lane) const { return shared.basis_v[cj & 1] + 9 * (lane >> 1 & 1); }
     GAMBESON_HD double rest(int lane, int k) const {
-      return restOf(s, sheet, work.cell_u + (lane >> 2), cj, lane & 3, k);
+      return restOf<kRational>(s, sheet, work.cell_u + u(lane), cj, lane & 3, k);
     }
   };
 
@@ -223,9 +232,10 @@ struct QuadStrip {
     int next = work.point_v;  // row of control points to be summed
     for (int cj = work.cell_v; cj < work.end_v; ++cj) {
       if (cj + 1 < work.end_v) load<kRational>(group, shared, work, sheet, cj + 1, row + 3);
-      quadCells<kRational>(group, s.law, Source{s, sheet, work, shared, cj, row}, [&](int lane, int k, double value) {
-        shared.cell[cj & 3][(k * 4 + (lane & 3)) * kStride + (lane >> 2)] = value;
-      });
+      quadCells<kRational>(group, s.law, Source<kRational>{s, sheet, work, shared, cj, row},
+                           [&](int lane, int k, double value) {
+                             shared.cell[cj & 3][(k * 4 + (lane & 3)) * kStride + (lane >> 2)] = value;
+                           });
       group.sync();
       int end = next;
       while (end < work.point_end_v && s.touched_v[sheet.first_point_v + end].last <= cj) ++end;
