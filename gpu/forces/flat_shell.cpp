@@ -266,16 +266,14 @@ std::vector<Span> spansOf(const Touched* touched, const int* function, int count
 
 std::vector<QuadWork> worksOf(const FlatQuads& quads, int cells_u, int cells_v, int points_v) {
   std::vector<QuadWork> works;
-  for (std::size_t k = 0; k < quads.sheets.size(); ++k) {
-    const QuadSheet& s = quads.sheets[k];
+  for (const QuadSheet& s : quads.sheets) {
     const auto across = spansOf(quads.touched_u.data() + s.first_point_u, quads.function_u.data() + s.first_column,
                                 s.points_u, cells_u, s.points_u);
     const auto along = spansOf(quads.touched_v.data() + s.first_point_v, quads.function_v.data() + s.first_row,
                                s.points_v, cells_v, points_v);
     for (const Span& v : along)
       for (const Span& u : across)
-        works.push_back(
-            {static_cast<int>(k), u.cell, u.cell_end, v.cell, v.cell_end, u.point, u.point_end, v.point, v.point_end});
+        works.push_back({s, u.cell, u.cell_end, v.cell, v.cell_end, u.point, u.point_end, v.point, v.point_end});
   }
   return works;
 }

@@ -20,6 +20,9 @@ struct QuadSheet {
   int rational;
 };
 
+/// Of a point of a cell: G and the area, and of rational cells 1/w and the derivatives of w.
+GAMBESON_HD constexpr int restNumbers(bool rational) { return rational ? 11 : 5; }
+
 /// The cells along one direction that have a control point: cell[a] has it as its function a; -1: none.
 struct Touched {
   int cell[3];
@@ -27,11 +30,10 @@ struct Touched {
 };
 
 struct QuadSheets {
-  const QuadSheet* sheet;
   const int *function_u, *function_v;    ///< of each column, row of cells: its first control point
   const double *basis_u, *basis_v;       ///< of each column, row: [point][derivative][function]
   const Touched *touched_u, *touched_v;  ///< of each column, row of control points
-  const double* rest;                    ///< of each sheet: [cell][number][4], 5 numbers, of rational cells 11
+  const double* rest;                    ///< of each sheet: [cell][number][4]
   const Point4* position;
   Point4* force;
   PlainNumbers law;

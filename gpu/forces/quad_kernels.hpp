@@ -6,13 +6,14 @@
 /// their order. A tile has all its cells at once: a chain of operations as short as can be. A strip goes along v with
 /// the last rows of cells in shared memory: hardly any rim.
 
+#include "gpu/device/prefetch.hpp"
 #include "gpu/forces/quad_cell.hpp"
 
 namespace gambeson::gpu {
 
 /// What a block does: cells [cell_u, end_u) x [cell_v, end_v), and of them the sums of control points.
 struct QuadWork {
-  int sheet;
+  QuadSheet sheet;
   int cell_u, end_u, cell_v, end_v;
   int point_u, point_end_u, point_v, point_end_v;
 };
@@ -73,11 +74,16 @@ GAMBESON_HD void quadSums(const Group& group, const QuadSheets& s, const MoreSlo
 /// Control points that a block may need along a direction of so many cells: two more, and some where knots are double.
 constexpr int roomFor(int cells) { return cells + 4; }
 
-/// Number k of a point of a cell at rest.
+/// The numbers of a cell's points at rest, [number][4].
 template <bool kRational>
-GAMBESON_HD double restOf(const QuadSheets& s, const QuadSheet& sheet, int ci, int cj, int g, int k) {
-  constexpr int kNumbers = kRational ? 11 : 5;
-  return s.rest[sheet.first_rest + (ci + static_cast<long>(sheet.cells_u) * cj) * (4 * kNumbers) + g + 4 * k];
+GAMBESON_HD const double* restOf(const QuadSheets& s, const QuadSheet& sheet, int ci, int cj) {
+  return s.rest + sheet.first_rest + (ci + static_cast<long>(sheet.cells_u) * cj) * (4 * restNumbers(kRational));
+}
+template <bool kRational>
+GAMBESON_HD void prefetchRest(const double* rest, int g) {
+  GAMBESON_UNROLL
+  for (int k = 0; k < restNumbers(kRational); k += 4)
+    if (k + g < restNumbers(kRational)) prefetch(rest + 4 * (k + g));
 }
 
 /// A control point as cells take it.
@@ -103,7 +109,7 @@ struct QuadTile {
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared& shared, int index) const {
     const QuadWork& work = works[index];
-    const QuadSheet& sheet = s.sheet[work.sheet];
+    const QuadSheet& sheet = work.sheet;
     sheet.rational ? run<true>(group, shared, work, sheet) : run<false>(group, shared, work, sheet);
   }
 
@@ -130,7 +136,7 @@ struct QuadTile {
     GAMBESON_HD const double* basisU(int lane) const { return shared.basis_u + (2 * u(lane) + (lane & 1)) * 9; }
     GAMBESON_HD const double* basisV(int lane) const { return shared.basis_v + (2 * v(lane) + (lane >> 1 & 1)) * 9; }
     GAMBESON_HD double rest(int lane, int k) const {
-      return restOf<kRational>(s, sheet, work.cell_u + u(lane), work.cell_v + v(lane), lane & 3, k);
+      return restOf<kRational>(s, sheet, work.cell_u + u(lane), work.cell_v + v(lane))[4 * k + (lane & 3)];
     }
   };
 
@@ -141,7 +147,10 @@ struct QuadTile {
     const int first_u = s.function_u[column], first_v = s.function_v[row],
               across = s.function_u[column + cells_u - 1] + 3 - first_u,
               along = s.function_v[row + cells_v - 1] + 3 - first_v;
+    const Source<kRational> source{s, sheet, work, shared};
     group.each([&](int lane) {
+      prefetchRest<kRational>(restOf<kRational>(s, sheet, work.cell_u + source.u(lane), work.cell_v + source.v(lane)),
+                              lane & 3);
       for (int k = lane; k < across * along; k += kLanes) {
         const int x = k % across, y = k / across;
         shared.point[y][x] = homogeneous<kRational>(
@@ -151,7 +160,7 @@ struct QuadTile {
       for (int k = lane; k < 18 * cells_v; k += kLanes) shared.basis_v[k] = s.basis_v[18 * row + k];
     });
     group.sync();
-    quadCells<kRational>(group, s.law, Source<kRational>{s, sheet, work, shared}, [&](int lane, int k, double value) {
+    quadCells<kRational>(group, s.law, source, [&](int lane, int k, double value) {
       shared.cell[(k * 4 + (lane & 3)) * kStride + (lane >> 2)] = value;
     });
     group.sync();
@@ -177,7 +186,7 @@ struct QuadStrip {
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared& shared, int index) const {
     const QuadWork& work = works[index];
-    const QuadSheet& sheet = s.sheet[work.sheet];
+    const QuadSheet& sheet = work.sheet;
     sheet.rational ? run<true>(group, shared, work, sheet) : run<false>(group, shared, work, sheet);
   }
 
@@ -200,7 +209,7 @@ struct QuadStrip {
     GAMBESON_HD const double* basisU(int lane) const { return shared.basis_u + (2 * u(lane) + (lane & 1)) * 9; }
     GAMBESON_HD const double* basisV(int lane) const { return shared.basis_v[cj & 1] + 9 * (lane >> 1 & 1); }
     GAMBESON_HD double rest(int lane, int k) const {
-      return restOf<kRational>(s, sheet, work.cell_u + u(lane), cj, lane & 3, k);
+      return restOf<kRational>(s, sheet, work.cell_u + u(lane), cj)[4 * k + (lane & 3)];
     }
   };
 
@@ -213,6 +222,8 @@ struct QuadStrip {
               end = s.function_v[sheet.first_row + cj] + 3;
     const Point4* at = s.position + sheet.first_point + first_u;
     group.each([&](int lane) {
+      const int ci = work.cell_u + (lane >> 2);
+      if (ci < work.end_u) prefetchRest<kRational>(restOf<kRational>(s, sheet, ci, cj), lane & 3);
       for (int y = from; y < end; ++y)
         for (int x = lane; x < across; x += kLanes)
           shared.point[y & 7][x] = homogeneous<kRational>(at[x + static_cast<long>(sheet.points_u) * y]);

@@ -15,8 +15,8 @@
 namespace gambeson::gpu {
 
 /// What is compiled; the first is what is quick.
-using QuadTiles = std::tuple<QuadTile<8, 8, 1>, QuadTile<8, 12, 1>, QuadTile<8, 4, 3>, QuadTile<8, 8, 2>>;
-using QuadStrips = std::tuple<QuadStrip<32, 3>, QuadStrip<32, 4>, QuadStrip<64, 2>, QuadStrip<64, 1>>;
+using QuadTiles = std::tuple<QuadTile<8, 8, 2>, QuadTile<8, 12, 1>, QuadTile<12, 8, 1>>;
+using QuadStrips = std::tuple<QuadStrip<32, 4>, QuadStrip<32, 3>, QuadStrip<64, 2>>;
 
 /// f(type, index) for the k-th type of a tuple.
 template <class Tuple, class F, std::size_t kAt = 0>
@@ -166,7 +166,6 @@ class ShellForces final : public Forces {
   }
 
   void putQuads(const FlatQuads& quads) {
-    put(quads.sheets, sheet_);
     put(quads.function_u, function_u_);
     put(quads.function_v, function_v_);
     put(quads.basis_u, basis_u_);
@@ -201,17 +200,9 @@ class ShellForces final : public Forces {
 
   template <class Kernel>
   void runQuads(typename Device::Queue& queue, const MoreSlots& more) {
-    const QuadSheets sheets{sheet_.data(),
-                            function_u_.data(),
-                            function_v_.data(),
-                            basis_u_.data(),
-                            basis_v_.data(),
-                            touched_u_.data(),
-                            touched_v_.data(),
-                            rest_.data(),
-                            position_.data(),
-                            force_.data(),
-                            law_};
+    const QuadSheets sheets{
+        function_u_.data(), function_v_.data(), basis_u_.data(),  basis_v_.data(), touched_u_.data(),
+        touched_v_.data(),  rest_.data(),       position_.data(), force_.data(),   law_};
     Blocks<Device>::run(queue, static_cast<int>(works_.size()), Kernel{sheets, more, works_.data()});
   }
 
@@ -273,7 +264,6 @@ class ShellForces final : public Forces {
   Buffer<Point4> position_, force_, free_position_, free_force_;
   SlicedRows<Device> map_, transpose_;
   // Quadratic cells.
-  Buffer<QuadSheet> sheet_;
   Buffer<int> function_u_, function_v_;
   Buffer<double> basis_u_, basis_v_, rest_;
   Buffer<Touched> touched_u_, touched_v_;
