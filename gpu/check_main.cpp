@@ -150,7 +150,7 @@ void writeManifest(const fs::path& file, const std::string& device, const std::v
           facts[k].sizes.hits, facts[k].pairs_hash, facts[k].hits_hash);
     out << (i + 1 < all.size() ? "},\n" : "}\n");
   }
-  out << "  ],\n  \"forces\": [\n";
+  out << "  ],\n  \"forces_device\": \"" << device << "\",\n  \"forces\": [\n";
   for (std::size_t i = 0; i < forces.hashes.size(); ++i)
     out << fmt::format("    {{\"name\": \"{}\", \"hash\": \"{:016x}\"}}{}\n", forces.hashes[i].first,
                        forces.hashes[i].second, i + 1 < forces.hashes.size() ? "," : "");

@@ -20,7 +20,9 @@ struct HistoryArrays {
 
 /// A ShellBlock of core, its arrays as they are: [group][...][lane].
 struct CellArrays {
-  int lanes, cells, p, q, gu, gv, point_doubles;
+  int lanes, cells;
+  const int* list;  ///< of the block's cells
+  int p, q, gu, gv, point_doubles;
   int rational, scattered, rest_curvature;
   const int* nodes;
   const double *weights, *basis_u, *basis_v, *shapes, *points;
@@ -29,7 +31,7 @@ struct CellArrays {
   const double* laws;               ///< [point][kLawDoubles][lane] where they differ; else null
   LawUse use;
   long history_first;
-  int first_slot;  ///< [cell][node]
+  int first_slot;  ///< [index in the list][node]
 };
 
 /// n and m: evaluateLaws (core/material/laws/point_law.hpp) without tension fields and friction in shear.
@@ -56,8 +58,8 @@ struct CellForces {
   Vec3* slot;
 
   template <class Group>
-  GAMBESON_HD void operator()(const Group& group, Shared& shared, int cell, int) const {
-    const int nodes = (b.p + 1) * (b.q + 1), L = b.lanes, block = cell / L, lane_of = cell % L;
+  GAMBESON_HD void operator()(const Group& group, Shared& shared, int index, int) const {
+    const int cell = b.list[index], nodes = (b.p + 1) * (b.q + 1), L = b.lanes, block = cell / L, lane_of = cell % L;
     const long first_node = static_cast<long>(block) * nodes * L + lane_of;
     group.each([&](int lane) {
       for (int k = lane; k < nodes; k += Group::kLanes) {
@@ -91,7 +93,7 @@ struct CellForces {
     }
     group.each([&](int lane) {
       for (int k = lane; k < nodes; k += Group::kLanes)
-        slot[b.first_slot + cell * nodes + k] =
+        slot[b.first_slot + index * nodes + k] =
             b.rational ? b.weights[first_node + k * L] * shared.sum[k] : shared.sum[k];
     });
   }
@@ -182,6 +184,7 @@ struct CellForces {
 struct FlatCells {
   CellArrays shape{};
   const ShellBlock* block = nullptr;
+  std::vector<int> list;
   PointNumbers<double> law{};
 };
 

@@ -1,6 +1,7 @@
 #include "gpu/forces/flat_shell.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 
 #include "core/material/fabric_law.hpp"
@@ -8,28 +9,34 @@
 namespace gambeson::gpu {
 namespace {
 
-/// Whether the kernels of quadratic cells have all that the cells need, but that they fill their patches.
-bool isQuad(const ShellPart& part) {
-  const ShellBlock& b = part.block;
-  return b.p == 2 && b.q == 2 && b.gu == 2 && b.gv == 2 && !b.scattered && !b.assumed && !b.rest_curvature &&
-         b.laws.empty() && !part.law.general &&
-         (part.law.plain.kind == 0 || part.law.plain.kind == BendingLaws::kind<ZhengBending>);
+/// Whether the kernels of quadratic cells have what the cells of a block need, but for their laws.
+bool isQuad(const ShellBlock& b) {
+  return b.p == 2 && b.q == 2 && b.gu == 2 && b.gv == 2 && !b.scattered && !b.assumed && !b.rest_curvature;
 }
 
-PlainNumbers plainNumbers(const BlockLaw& law) {
+/// The laws of a point as the kernels of quadratic cells have them, if they are plain.
+std::optional<PlainNumbers> plainNumbers(const PointLaw& law) {
+  const Section& section = law.section;
+  const auto none = [](const Voigt& v, std::initializer_list<int> entries) {
+    return std::all_of(entries.begin(), entries.end(), [&](int i) { return v[static_cast<std::size_t>(i)] == 0; });
+  };
+  const bool zheng = law.kind == BendingLaws::kind<ZhengBending>;
+  if ((law.kind != 0 && !zheng) || law.tension != 0 || law.shear != std::array<double, 3>{} ||
+      !none(section.A, {4, 5}) || !none(section.B, {0, 1, 2, 3, 4, 5}) || !none(section.D, {3, 4, 5}))
+    return std::nullopt;
   PlainNumbers n;
-  n.membrane = law.plain.membrane;
-  std::copy(law.plain.rigidity.begin(), law.plain.rigidity.end(), n.D);
-  n.zheng = law.plain.kind != 0;
-  if (n.zheng) {
-    n.k0 = law.plain.numbers[0];
-    n.kr = law.plain.numbers[1];
+  n.membrane = {section.A[0], section.A[1], section.A[3], section.A[2]};
+  std::copy_n(section.D.begin(), 3, n.D);
+  n.zheng = zheng;
+  if (zheng) {
+    n.k0 = law.numbers[0];
+    n.kr = law.numbers[1];
     n.inverse_kr2 = 1 / (n.kr * n.kr);
     for (int i = 0; i < 2; ++i) n.steep[i] = 2 * n.D[i] * std::sqrt(n.k0 / n.kr);
   }
-  n.jams = law.use.jams;
-  n.jam_N_per_m = law.point.jam_N_per_m;
-  n.jam_s = law.point.jam_s;
+  n.jams = law.jam_N_per_m > 0;
+  n.jam_N_per_m = law.jam_N_per_m;
+  n.jam_s = law.jam_s;
   return n;
 }
 
@@ -61,8 +68,12 @@ class Flattener {
   }
 
   FlatShell flat() {
-    for (const ShellPart& part : shell_.parts())
-      if (!addQuads(part)) addCells(part);
+    for (const ShellPart& part : shell_.parts()) {
+      std::vector<int> others;
+      for (const auto& [p, cells] : cellsByPatch(part))
+        if (!addSheet(part, p, cells)) others.insert(others.end(), cells.cell.begin(), cells.cell.end());
+      if (!others.empty()) addCells(part, std::move(others));
+    }
     addSeams();
     closeSlots();
     return std::move(out_);
@@ -90,25 +101,38 @@ class Flattener {
     return all;
   }
 
-  bool addQuads(const ShellPart& part) {
-    if (general_alone_ || !isQuad(part)) return false;
-    const auto patches = cellsByPatch(part);
-    for (const auto& [p, cells] : patches)
-      if (cells.cell.size() != cells.columns.size() * cells.rows.size()) return false;
-    FlatQuads& quads = out_.quads;
-    quads.law = plainNumbers(part.law);
-    for (const auto& [p, cells] : patches) addSheet(part.block, p, cells);
-    return true;
+  /// The one law of some cells' points; none: there are several.
+  std::optional<PlainNumbers> lawOf(const ShellPart& part, const std::vector<int>& cells) const {
+    const ShellBlock& b = part.block;
+    if (b.laws.empty()) return plainNumbers(part.law.point);
+    std::optional<std::array<double, kLawDoubles>> one;
+    for (const int c : cells)
+      for (long g = 0; g < 4; ++g) {
+        std::array<double, kLawDoubles> law;
+        for (int k = 0; k < kLawDoubles; ++k)
+          law[static_cast<std::size_t>(k)] =
+              b.laws[static_cast<std::size_t>(((c / b.lanes * 4 + g) * kLawDoubles + k) * b.lanes + c % b.lanes)];
+        if (one && *one != law) return std::nullopt;
+        one = law;
+      }
+    PointLaw law;
+    std::memcpy(static_cast<void*>(&law), one->data(), sizeof law);
+    return plainNumbers(law);
   }
 
-  void addSheet(const ShellBlock& b, int p, const PatchCells& cells) {
+  bool addSheet(const ShellPart& part, int p, const PatchCells& cells) {
+    const ShellBlock& b = part.block;
+    if (general_alone_ || !isQuad(b) || cells.cell.size() != cells.columns.size() * cells.rows.size()) return false;
+    const auto law = lawOf(part, cells.cell);
+    if (!law) return false;
     FlatQuads& q = out_.quads;
     const int across = static_cast<int>(cells.columns.size()), along = static_cast<int>(cells.rows.size());
     const int points_u = patch(p).u.count(), points_v = patch(p).v.count();
     q.sheets.push_back({across, along, points_u, points_v, offsets_[static_cast<std::size_t>(p)],
                         static_cast<int>(q.function_u.size()), static_cast<int>(q.function_v.size()),
                         static_cast<int>(q.touched_u.size()), static_cast<int>(q.touched_v.size()),
-                        static_cast<long>(q.rest.size()), b.rational});
+                        static_cast<int>(q.laws.size()), static_cast<long>(q.rest.size()), b.rational});
+    q.laws.push_back(*law);
     const long L = b.lanes;
     // Row by row.
     std::vector<int> sorted(cells.cell.size());
@@ -155,15 +179,17 @@ class Flattener {
     q.cells += static_cast<long>(count);
     for (int i = offsets_[static_cast<std::size_t>(p)]; i < offsets_[static_cast<std::size_t>(p) + 1]; ++i)
       summed_[static_cast<std::size_t>(i)] = true;
+    return true;
   }
 
-  void addCells(const ShellPart& part) {
+  void addCells(const ShellPart& part, std::vector<int> list) {
     const ShellBlock& b = part.block;
     FlatCells cells;
     cells.block = &b;
     cells.law = numbersOf(part.law.point);
     cells.shape = {.lanes = b.lanes,
-                   .cells = part.cell_count,
+                   .cells = static_cast<int>(list.size()),
+                   .list = nullptr,
                    .p = b.p,
                    .q = b.q,
                    .gu = b.gu,
@@ -184,11 +210,12 @@ class Flattener {
                    .use = part.law.use,
                    .history_first = b.history_first,
                    .first_slot = out_.slots};
-    out_.cells.push_back(cells);
     const int nodes = b.nodeCount();
-    for (int c = 0; c < part.cell_count; ++c)
+    for (const int c : list)
       for (int k = 0; k < nodes; ++k)
         addSlot(b.nodes[(static_cast<std::size_t>(c / b.lanes) * nodes + k) * b.lanes + c % b.lanes]);
+    cells.list = std::move(list);
+    out_.cells.push_back(std::move(cells));
   }
 
   void addSlot(int point) { slots_[static_cast<std::size_t>(point)].push_back(out_.slots++); }

@@ -18,7 +18,7 @@ struct FlatQuads {
   std::vector<int> function_u, function_v;
   std::vector<double> basis_u, basis_v, rest;
   std::vector<Touched> touched_u, touched_v;
-  PlainNumbers law;
+  std::vector<PlainNumbers> laws;  ///< of each sheet
   long cells = 0;
 };
 

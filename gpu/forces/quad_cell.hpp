@@ -16,6 +16,7 @@ struct QuadSheet {
   int first_point;                   ///< of the control points
   int first_column, first_row;       ///< of cells: bases and first functions
   int first_point_u, first_point_v;  ///< of control points: which cells they touch
+  int law;
   long first_rest;
   int rational;
 };
@@ -36,7 +37,7 @@ struct QuadSheets {
   const double* rest;                    ///< of each sheet: [cell][number][4]
   const Point4* position;
   Point4* force;
-  PlainNumbers law;
+  const PlainNumbers* laws;
 };
 
 struct Lane15 {

@@ -101,6 +101,7 @@ struct QuadTile {
     Point4 point[roomFor(kV)][roomFor(kU)];
     double cell[32 * kStride];
     double basis_u[18 * kU], basis_v[18 * kV];
+    PlainNumbers law;
   };
   QuadSheets s;
   MoreSlots more;
@@ -156,11 +157,12 @@ struct QuadTile {
         shared.point[y][x] = homogeneous<kRational>(
             s.position[sheet.first_point + first_u + x + static_cast<long>(sheet.points_u) * (first_v + y)]);
       }
+      if (lane == 0) shared.law = s.laws[sheet.law];
       for (int k = lane; k < 18 * cells_u; k += kLanes) shared.basis_u[k] = s.basis_u[18 * column + k];
       for (int k = lane; k < 18 * cells_v; k += kLanes) shared.basis_v[k] = s.basis_v[18 * row + k];
     });
     group.sync();
-    quadCells<kRational>(group, s.law, source, [&](int lane, int k, double value) {
+    quadCells<kRational>(group, shared.law, source, [&](int lane, int k, double value) {
       shared.cell[(k * 4 + (lane & 3)) * kStride + (lane >> 2)] = value;
     });
     group.sync();
@@ -178,6 +180,7 @@ struct QuadStrip {
     Point4 point[8][roomFor(kU)];  ///< rows of control points: those of a row of cells, and of the next
     double cell[4][32 * kStride];  ///< rows of cells: the three that a control point may have, and the next
     double basis_u[18 * kU], basis_v[2][18];
+    PlainNumbers law;
   };
   QuadSheets s;
   MoreSlots more;
@@ -234,6 +237,7 @@ struct QuadStrip {
   template <bool kRational, class Group>
   GAMBESON_HD void run(const Group& group, Shared& shared, const QuadWork& work, const QuadSheet& sheet) const {
     group.each([&](int lane) {
+      if (lane == 0) shared.law = s.laws[sheet.law];
       const double* from = s.basis_u + 18 * (sheet.first_column + work.cell_u);
       for (int k = lane; k < 18 * (work.end_u - work.cell_u); k += kLanes) shared.basis_u[k] = from[k];
     });
@@ -243,7 +247,7 @@ struct QuadStrip {
     int next = work.point_v;  // row of control points to be summed
     for (int cj = work.cell_v; cj < work.end_v; ++cj) {
       if (cj + 1 < work.end_v) load<kRational>(group, shared, work, sheet, cj + 1, row + 3);
-      quadCells<kRational>(group, s.law, Source<kRational>{s, sheet, work, shared, cj, row},
+      quadCells<kRational>(group, shared.law, Source<kRational>{s, sheet, work, shared, cj, row},
                            [&](int lane, int k, double value) {
                              shared.cell[cj & 3][(k * 4 + (lane & 3)) * kStride + (lane >> 2)] = value;
                            });

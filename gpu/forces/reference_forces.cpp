@@ -1,11 +1,12 @@
 /// Detail of forces.hpp: on the host, and what both devices share.
+#include "core/cloth/triangles/triangle_cloth.hpp"
 #include "gpu/forces/shell_forces.hpp"
 
 namespace gambeson::gpu {
 
 std::optional<std::string> notCarried(const Cloth& cloth) {
   if (const auto* shell = dynamic_cast<const NurbsShell*>(&cloth)) return notCarried(shell->elements());
-  return "cloth of triangles";
+  return dynamic_cast<const TriangleCloth*>(&cloth) ? "cloth of triangles" : "cloths of several kinds";
 }
 
 std::unique_ptr<Forces> forcesOnReference(const Cloth& cloth, const ForceOptions& options) {

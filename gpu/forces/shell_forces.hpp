@@ -173,7 +173,7 @@ class ShellForces final : public Forces {
     put(quads.touched_u, touched_u_);
     put(quads.touched_v, touched_v_);
     put(quads.rest, rest_);
-    law_ = quads.law;
+    put(quads.laws, laws_);
     strips_ = options_.path == QuadPath::strips || (options_.path == QuadPath::automatic && quads.cells > kStripCells);
     size_ = std::max(0, options_.size);
     if (quads.sheets.empty()) return;
@@ -200,14 +200,14 @@ class ShellForces final : public Forces {
 
   template <class Kernel>
   void runQuads(typename Device::Queue& queue, const MoreSlots& more) {
-    const QuadSheets sheets{
-        function_u_.data(), function_v_.data(), basis_u_.data(),  basis_v_.data(), touched_u_.data(),
-        touched_v_.data(),  rest_.data(),       position_.data(), force_.data(),   law_};
+    const QuadSheets sheets{function_u_.data(), function_v_.data(), basis_u_.data(), basis_v_.data(),
+                            touched_u_.data(),  touched_v_.data(),  rest_.data(),    position_.data(),
+                            force_.data(),      laws_.data()};
     Blocks<Device>::run(queue, static_cast<int>(works_.size()), Kernel{sheets, more, works_.data()});
   }
 
   struct CellBuffers {
-    Buffer<int> nodes;
+    Buffer<int> nodes, list;
     Buffer<double> weights, basis_u, basis_v, shapes, points, laws;
     Buffer<long> first_point;
     Buffer<PointNumbers<double>> law;
@@ -217,6 +217,7 @@ class ShellForces final : public Forces {
       CellBuffers& to = cell_buffers_.emplace_back();
       const ShellBlock& b = *from.block;
       put(b.nodes, to.nodes);
+      put(from.list, to.list);
       put(b.weights, to.weights);
       put(b.basis_u, to.basis_u);
       put(b.basis_v, to.basis_v);
@@ -227,6 +228,7 @@ class ShellForces final : public Forces {
       put(std::vector<PointNumbers<double>>{from.law}, to.law);
       CellArrays a = from.shape;
       a.nodes = to.nodes.data();
+      a.list = to.list.data();
       a.weights = to.weights.data();
       a.basis_u = to.basis_u.data();
       a.basis_v = to.basis_v.data();
@@ -268,7 +270,7 @@ class ShellForces final : public Forces {
   Buffer<double> basis_u_, basis_v_, rest_;
   Buffer<Touched> touched_u_, touched_v_;
   Buffer<QuadWork> works_;
-  PlainNumbers law_;
+  Buffer<PlainNumbers> laws_;
   // Other cells.
   std::vector<CellBuffers> cell_buffers_;
   std::vector<CellArrays> cells_;

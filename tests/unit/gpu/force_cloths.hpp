@@ -102,6 +102,12 @@ inline std::vector<ForceCloth> quadCloths() {
   all.push_back(forceCloth("jams", garmentOf({unevenPatch(10, 8, false)}, {}, jams), 0.03));
   all.push_back(
       forceCloth("two sheets", garmentOf({unevenPatch(20, 6, true), unevenPatch(9, 40, false)}, {}, zheng), 0.01));
+  // Sheets of different cloth, which core evaluates point by point.
+  Garment worn = garmentOf({unevenPatch(20, 6, true), unevenPatch(9, 10, true)}, {}, zheng);
+  worn.other_fabrics.push_back(linear);
+  worn.fields = {PatchFields{}, PatchFields{}};
+  for (std::size_t k = 0; k < 2; ++k) worn.fields[k].material = PatchField{0, 1, 1, {static_cast<double>(k)}};
+  all.push_back(forceCloth("two cloths", worn, 0.01));
   for (const SeamKind kind : {SeamKind::C0, SeamKind::G1})
     all.push_back(forceCloth(kind == SeamKind::C0 ? "C0 seams" : "G1 seams", seamed(kind, zheng), 0.01));
   return all;
@@ -126,6 +132,15 @@ inline std::vector<ForceCloth> otherCloths() {
   Fabric plies = linear;
   plies.law = Laminate{{{0.004, 210, 90, 40, 0.2, 0.5}, {0.006, 120, 60, 30, 0.3, -0.2}}};
   all.push_back(forceCloth("plies", garmentOf({curvedPatch(3, 2, true)}, {}, plies), 0.05));
+  // A patch whose cloth changes from place to place, beside one whose does not.
+  Garment mixed = garmentOf({unevenPatch(8, 6, true), unevenPatch(9, 10, true)}, {}, zheng);
+  Fabric stiffer = zheng;
+  rigidities(stiffer).stiffen(2);
+  mixed.other_fabrics.push_back(stiffer);
+  mixed.fields = {PatchFields{}, PatchFields{}};
+  mixed.fields[0].material = PatchField{0, 1, 1, {1.0}};
+  mixed.fields[1].material = PatchField{1, 2, 2, {0, 0.2, 0.5, 1}};
+  all.push_back(forceCloth("cloth that changes", mixed, 0.01));
   Fabric remembers = linear;
   remembers.law = rememberingLaw();
   all.push_back(forceCloth("patches of few cells", fourPatches(2, 2, true, SeamKind::C0, 0.7, zheng), 0.03));

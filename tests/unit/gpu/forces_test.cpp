@@ -2,12 +2,19 @@
 /// differences of the energy.
 #include "gpu/forces/forces.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/cloth/joined_cloth.hpp"
 #include "core/error.hpp"
 #include "force_cloths.hpp"
 #include "gpu/forces/angle.hpp"
 #include "gpu/forces/roots.hpp"
+#include "gpu/scenes/force_scenes.hpp"
+#include "unit/core/cloth/triangles/triangle_shapes.hpp"
 
 namespace gambeson::gpu {
 namespace {
@@ -147,7 +154,16 @@ TEST(Forces, WhatIsNotCarriedIsRefusedByName) {
   refused(rubbing, {}, "friction in shear");
   fabric.tension_field = true;
   refused(fabric, {}, "tension field");
-  for (const ForceCloth& c : quadCloths()) EXPECT_FALSE(notCarried(*c.cloth)) << c.name;
+  for (const auto& list : {quadCloths(), otherCloths()})
+    for (const ForceCloth& c : list) EXPECT_FALSE(notCarried(*c.cloth)) << c.name;
+  const auto triangles = [] {
+    return std::make_unique<TriangleCloth>(
+        std::vector<MeshDraft>{shapes::flatTriangles(3, 3, 0.1, 0.1, shapes::plainFabric(), MeshKind::equilateral)});
+  };
+  EXPECT_EQ(notCarried(*triangles()), "cloth of triangles");
+  std::vector<std::unique_ptr<const Cloth>> parts;
+  parts.push_back(triangles());
+  EXPECT_EQ(notCarried(JoinedCloth(std::move(parts))), "cloths of several kinds");
 }
 
 TEST(Forces, RootsAndAnglesAreThoseOfTheLibrary) {
@@ -166,6 +182,23 @@ TEST(Forces, RootsAndAnglesAreThoseOfTheLibrary) {
   EXPECT_LE(off[0], 1.5);
   EXPECT_LE(off[1], 2);
   EXPECT_LE(off[2], 3);
+}
+
+/// Hashes that `gambeson_gpu_check --write-manifest` writes.
+TEST(Forces, AreThoseOfTheManifest) {
+  std::ifstream file(std::string(GAMBESON_SOURCE_DIR) + "/gpu/manifest.json");
+  const auto manifest = nlohmann::json::parse(file).at("forces");
+  const std::vector<ForceScene> scenes = manifestForceScenes();
+  ASSERT_EQ(manifest.size(), scenes.size());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    EXPECT_EQ(manifest[i].at("name"), scenes[i].name);
+    const auto forces = forcesOnReference(*scenes[i].cloth);
+    forces->setFree(scenes[i].p);
+    forces->placePoints();
+    forces->evaluate();
+    forces->freeForces();
+    EXPECT_EQ(manifest[i].at("hash"), fmt::format("{:016x}", hashOfForces(forces->freeForce()))) << scenes[i].name;
+  }
 }
 
 TEST(Forces, WithoutCudaSaysHowToGetIt) {
