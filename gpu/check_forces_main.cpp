@@ -71,6 +71,41 @@ int compare(const std::string& name, const Cloth& cloth, std::span<const Vec3> p
   return different;
 }
 
+/// Springs, stitches, gravity and drag: the same accelerations on both devices.
+int compareMotion(const ForceScene& scene) {
+  const int n = static_cast<int>(scene.p.size());
+  PointLoads loads;
+  loads.mass_kg.assign(scene.p.size(), 1e-3);
+  loads.drag_kg_per_s.assign(scene.p.size(), 2e-3);
+  loads.held.assign(scene.p.size(), 0);
+  loads.held[3] = 1;
+  loads.gravity_m_per_s2 = {0, 0, -9.81};
+  loads.springs.column_count = n;
+  for (int k = 0; k + 40 < n; k += 7) {
+    for (int e = 0; e < 9; ++e) loads.springs.add(k + 3 * e, 1.0 / 9);
+    loads.springs.endRow();
+    loads.stiffness_N_per_m.push_back(10 + k % 5);
+  }
+  loads.anchored = loads.springs.rows() / 2;
+  const auto answers = [&](bool cuda) {
+    const auto forces = make(*scene.cloth, cuda, {});
+    forces->setLoads(loads);
+    const std::vector<Vec3> anchors(static_cast<std::size_t>(loads.anchored), Vec3{0.1, 0.2, 0.3}),
+        normals(anchors.size(), Vec3{0, 0, 1});
+    forces->setAnchors(anchors, normals);
+    forces->setVelocities(scene.p);
+    forces->setFree(scene.p);
+    forces->placePoints();
+    forces->evaluate();
+    forces->freeForces();
+    forces->accelerate({1, 2, 3}, 1e-4);
+    return std::pair(forces->acceleration(), forces->velocity());
+  };
+  const bool same = answers(false) == answers(true);
+  if (!same) fmt::print("  DIFFERENT: accelerations of {}\n", scene.name);
+  return !same;
+}
+
 /// Of G4: control points, as gpu/DECISIONS.md counts them.
 int timeSheet(int cells_u, int cells_v, bool rational, bool cuda, int passes) {
   const ForceScene scene = forceSheet(cells_u, cells_v, rational);
@@ -109,6 +144,7 @@ ForceCheck checkForces(bool cuda, int passes, bool large) {
     for (const ForceCloth& c : list) check.different += compare(c.name, *c.cloth, c.p, cuda, answers), ++cloths;
   for (const ForceScene& scene : manifestForceScenes()) {
     check.different += compare(scene.name, *scene.cloth, scene.p, cuda, answers), ++cloths;
+    if (cuda) check.different += compareMotion(scene);
     check.hashes.emplace_back(scene.name, hashOfForces(answers.free));
   }
   fmt::print("forces of {} cloths, in all ways: {} differ\n", cloths, check.different);

@@ -33,7 +33,7 @@ namespace kernel {
 
 template <class Kernel>
 __global__ void __launch_bounds__(Kernel::kLanes, Kernel::kResident) forBlocks(Kernel kernel) {
-  extern __shared__ __align__(16) unsigned char block_shared[];
+  extern __shared__ __align__(32) unsigned char block_shared[];
   kernel(CudaBlock<Kernel::kLanes>{}, *reinterpret_cast<typename Kernel::Shared*>(block_shared),
          static_cast<int>(blockIdx.x));
 }

@@ -180,6 +180,13 @@ struct CellForces {
   }
 };
 
+/// to[i] = from[i].
+struct CopyNumbers {
+  const double* from;
+  double* to;
+  GAMBESON_HD void operator()(int i) const { to[i] = from[i]; }
+};
+
 /// The arrays of CellArrays on the host.
 struct FlatCells {
   CellArrays shape{};

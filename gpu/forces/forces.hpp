@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/cloth/cloth.hpp"
-#include "gpu/forces/point4.hpp"
+#include "gpu/forces/point_motion.hpp"
 
 namespace gambeson::gpu {
 
@@ -28,6 +28,7 @@ struct ForceOptions {
 struct ForceArrays {
   Point4 *free_position, *position;  ///< p; q = T p
   const Point4 *force, *free_force;  ///< f = - dE/dq; T^T f
+  Point4 *velocity, *acceleration;   ///< of free points; null before setLoads
 };
 
 class Forces {
@@ -48,10 +49,22 @@ class Forces {
   virtual void placePoints() = 0;  ///< q = T p
   virtual void evaluate() = 0;     ///< f of q, and what the laws would remember
   virtual void freeForces() = 0;   ///< T^T f
+  /// What the laws would remember becomes what they do.
+  virtual void commitHistory() = 0;
+
+  // What else acts on free points (point_motion.hpp).
+  virtual void setLoads(const PointLoads& loads) = 0;
+  /// Of the springs that have anchors; a normal of 0 where they pull in all directions.
+  virtual void setAnchors(std::span<const Vec3> anchors, std::span<const Vec3> normals) = 0;
+  virtual void setVelocities(std::span<const Vec3> v) = 0;
+  /// From T^T f and the velocities: accelerations, and the velocities half a step later. Nothing waits.
+  virtual void accelerate(const Vec3& air, double half_step_s) = 0;
 
   // What the device has made; waits.
   virtual std::vector<Vec3> force() = 0;
   virtual std::vector<Vec3> freeForce() = 0;
+  virtual std::vector<Vec3> velocity() = 0;
+  virtual std::vector<Vec3> acceleration() = 0;
   virtual std::vector<double> history() = 0;  ///< what the laws would remember
 
   /// Median over so many passes of what one evaluation takes, ten of them in a row without the host [us].

@@ -66,7 +66,14 @@ class ShellForces final : public Forces {
 
   int points() const override { return points_; }
   int freePoints() const override { return free_points_; }
-  ForceArrays arrays() override { return {freePosition(), position_.data(), force_.data(), freeForceData()}; }
+  ForceArrays arrays() override {
+    return {freePosition(),
+            position_.data(),
+            force_.data(),
+            freeForceData(),
+            motion_ ? motion_->velocity().data() : nullptr,
+            motion_ ? motion_->acceleration().data() : nullptr};
+  }
 
   void setFree(std::span<const Vec3> p) override {
     if (identity_) return setPositions(p);
@@ -93,6 +100,23 @@ class ShellForces final : public Forces {
     if (!identity_) queue_.forEach(free_points_, MapPoints{transpose_.view(), force_.data(), free_force_.data()});
   }
 
+  void commitHistory() override {
+    if (trial_.size() == 0) return;
+    has_history_ = true;
+    queue_.forEach(static_cast<int>(trial_.size()), CopyNumbers{trial_.data(), committed_.data()});
+  }
+
+  void setLoads(const PointLoads& loads) override { motion_.emplace(queue_, loads); }
+  void setAnchors(std::span<const Vec3> anchors, std::span<const Vec3> normals) override {
+    motion().setAnchors(queue_, anchors, normals);
+  }
+  void setVelocities(std::span<const Vec3> v) override { motion().setVelocities(queue_, v); }
+  void accelerate(const Vec3& air, double half_step_s) override {
+    motion().give(queue_, freePosition(), freeForceData(), air, half_step_s);
+  }
+
+  std::vector<Vec3> velocity() override { return vectors(motion().velocity()); }
+  std::vector<Vec3> acceleration() override { return vectors(motion().acceleration()); }
   std::vector<Vec3> force() override { return vectors(force_); }
   std::vector<Vec3> freeForce() override { return vectors(identity_ ? force_ : free_force_); }
   std::vector<double> history() override { return queue_.download(trial_, trial_.size()); }
@@ -137,6 +161,10 @@ class ShellForces final : public Forces {
   void put(const List& from, Buffer<T>& to) {
     to = Buffer<T>(from.size());
     if (!from.empty()) queue_.upload(std::span<const T>(from.data(), from.size()), to);
+  }
+  PointMotion<Device>& motion() {
+    if (!motion_) throw RunError("forces on a device: setLoads comes before what moves");
+    return *motion_;
   }
   Point4* freePosition() { return identity_ ? position_.data() : free_position_.data(); }
   const Point4* freeForceData() { return identity_ ? force_.data() : free_force_.data(); }
@@ -265,6 +293,7 @@ class ShellForces final : public Forces {
   std::vector<double> weights_;
   Buffer<Point4> position_, force_, free_position_, free_force_;
   SlicedRows<Device> map_, transpose_;
+  std::optional<PointMotion<Device>> motion_;
   // Quadratic cells.
   Buffer<int> function_u_, function_v_;
   Buffer<double> basis_u_, basis_v_, rest_;

@@ -80,8 +80,21 @@ TEST(Forces, FollowACommittedHistory) {
     if (c.cloth->historySize() == 0) continue;
     const std::vector<double> committed = ofCore(c, {}).history;
     EXPECT_GT(*std::ranges::max_element(committed), 0) << c.name;
-    for (Vec3& p : c.p) p.z *= 0.7;
-    expectCores(c, committed);
+    ForceCloth moved = c;
+    for (Vec3& p : moved.p) p.z *= 0.7;
+    expectCores(moved, committed);
+    // Committed on the device.
+    const auto forces = forcesOnReference(*c.cloth);
+    forces->setHistory({}, kElapsed_s);
+    for (const ForceCloth& at : {c, moved}) {
+      forces->setFree(at.p);
+      forces->placePoints();
+      forces->evaluate();
+      if (at.p == c.p) forces->commitHistory();
+    }
+    const All core = ofCore(moved, committed);
+    EXPECT_LT(farthest(forces->force(), core.f), 1e-13 * largest(core.f)) << c.name;
+    EXPECT_GT(farthest(ofDevice(moved, {}).f, core.f), 1e-3 * largest(core.f)) << c.name;
   }
 }
 
