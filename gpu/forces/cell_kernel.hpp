@@ -4,6 +4,7 @@
 #include "core/cloth/shell/shell_kernel.hpp"
 #include "core/material/laws/point_law.hpp"
 #include "gpu/device/lanes.hpp"
+#include "gpu/forces/basic_number.hpp"
 #include "gpu/forces/shell_point.hpp"
 
 namespace gambeson::gpu {
@@ -34,11 +35,21 @@ struct CellArrays {
   int first_slot;  ///< [index in the list][node]
 };
 
-/// n and m: evaluateLaws (core/material/laws/point_law.hpp) without tension fields and friction in shear.
+/// n of a membrane that carries no compression.
+GAMBESON_HD GAMBESON_APART inline void relaxToTensionField(const double* stiffness, const double* e, double* n) {
+  Basic A[6], strain[3];
+  for (int i = 0; i < 6; ++i) A[i] = stiffness[i];
+  for (int i = 0; i < 3; ++i) strain[i] = e[i];
+  const TensionFieldOf<Basic> field = tensionField(A, strain);
+  for (int i = 0; i < 3; ++i) n[i] = field.n[i].value;
+}
+
+/// n and m: evaluateLaws (core/material/laws/point_law.hpp) without friction in shear.
 GAMBESON_HD inline void evaluateCarried(const LawUse& use, const PointNumbers<double>& l, const double* e,
                                         const double* k, History<double> history, double* n, double* m) {
   Answer<double, 3> membrane, bending;
   stVenantKirchhoff<only_resultants>(l.A, e, membrane);
+  if (use.tension && l.tension != 0.0) relaxToTensionField(l.A, e, membrane.resultant);
   if (use.jams) addJamming<only_resultants>(l.jam, l.jam_s, e, membrane);
   addProduct(l.B, k, membrane.resultant);
   evaluateBending<only_resultants>(use, l, k, history, bending);

@@ -312,7 +312,6 @@ FlatShell flatShell(const Shell& shell, bool general_alone) { return Flattener(s
 std::optional<std::string> notCarried(const Shell& shell) {
   for (const ShellPart& part : shell.parts()) {
     if (part.block.assumed) return "assumed strains";
-    if (part.law.use.tension) return "a tension field";
     if (part.law.use.shears) return "friction in shear";
   }
   return std::nullopt;

@@ -141,6 +141,9 @@ inline std::vector<ForceCloth> otherCloths() {
   mixed.fields[0].material = PatchField{0, 1, 1, {1.0}};
   mixed.fields[1].material = PatchField{1, 2, 2, {0, 0.2, 0.5, 1}};
   all.push_back(forceCloth("cloth that changes", mixed, 0.01));
+  Fabric wrinkles = zheng;
+  wrinkles.tension_field = true;
+  all.push_back(forceCloth("wrinkles", garmentOf({unevenPatch(9, 8, true)}, {}, wrinkles, turnedWeft()), 0.02));
   Fabric remembers = linear;
   remembers.law = rememberingLaw();
   all.push_back(forceCloth("patches of few cells", fourPatches(2, 2, true, SeamKind::C0, 0.7, zheng), 0.03));
