@@ -29,7 +29,12 @@ struct SineCosine {
   }
 
  private:
-  GAMBESON_HD static constexpr double factorial(int n) { return n <= 1 ? 1.0 : n * factorial(n - 1); }
+  /// Exact. No recursion: with that a kernel's stack has no known size, and runs over.
+  GAMBESON_HD static constexpr double factorial(int n) {
+    double product = 1;
+    for (int k = 2; k <= n; ++k) product *= k;
+    return product;
+  }
 };
 
 struct Basic {
