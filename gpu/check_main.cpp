@@ -1,12 +1,14 @@
 /// Compares CUDA with the reference and with core, and times it.
 ///
-///   gambeson_gpu_check [--data FOLDER] [--armour FILE] [--passes N] [--queries N] [--stages] [--write-manifest FILE]
+///   gambeson_gpu_check [--only PART] [--data FOLDER] [--armour FILE] [--solves FOLDER] [--passes N] [--queries N]
+///                      [--stages] [--write-manifest FILE]
 ///
-/// Scenes: public frames of cloth on a ball and in a funnel (where FOLDER, shared/data by name, has them), 460 balls
-/// that fly through each other, ten wavy sheets. For each: what every stage found, by count and order-free hash, on
-/// both devices; hits of the public frames against core; medians of a pass. Then queries by themselves, random and
-/// degenerate, against core, and what is near in dressed bodies (check_near.hpp). Without CUDA, or --reference: the
-/// reference alone. Exit: 0; 1 where two differ; 2 bad input.
+/// Forces of shells (check_forces.hpp); contact solves, recorded (where --solves has them) and made up
+/// (check_solves.hpp); what is near in dressed bodies (check_near.hpp); impacts: public frames of cloth on a ball and
+/// in a funnel (where FOLDER, shared/data by name, has them), 460 balls that fly through each other, ten wavy sheets,
+/// and queries by themselves, random and degenerate. Of each: what it gives on both devices and, where core has it, in
+/// core, to the bit (forces: to 1e-13 of the largest); medians of a pass. Without CUDA, or --reference: the reference
+/// alone. Exit: 0; 1 where two differ; 2 bad input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,7 +16,10 @@
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
+#include "gpu/check_forces.hpp"
 #include "gpu/check_near.hpp"
+#include "gpu/check_solves.hpp"
+#include "gpu/scenes/solve_facts.hpp"
 #include "gpu/scenes/stage_facts.hpp"
 #include "tools/frames_scene.hpp"
 #include "tools/impact_questions.hpp"
@@ -25,9 +30,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Settings {
-  std::string data = "../shared/data", armour, manifest;
+  std::string data = "../shared/data", solves = "../shared/trials/gpu", armour, manifest, only;
   int passes = 15, queries = 1000000;
-  bool stages = false, reference_alone = false, large = true, near_alone = false;
+  bool stages = false, reference_alone = false, large = true;
+
+  bool asks(std::string_view part) const { return only.empty() || only == part; }
 };
 
 std::vector<Scene> scenes(const Settings& settings) {
@@ -134,12 +141,18 @@ int checkQueries(const Settings& settings, bool cuda) {
   return different;
 }
 
-void writeManifest(const fs::path& file, const std::string& device, const std::vector<std::pair<Scene, Facts>>& all,
-                   const std::string& near) {
+/// What the parts found of the manifest's scenes.
+struct Found {
+  std::vector<std::pair<Scene, Facts>> impacts;
+  std::string near;  ///< as the manifest has it
+  ForceCheck forces;
+};
+
+void writeManifest(const fs::path& file, const std::string& device, const Found& found) {
   std::ofstream out(file);
   out << "{\n  \"device\": \"" << device << "\",\n  \"scenes\": [\n";
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto& [scene, facts] = all[i];
+  for (std::size_t i = 0; i < found.impacts.size(); ++i) {
+    const auto& [scene, facts] = found.impacts[i];
     out << "    {\"name\": \"" << scene.name << "\"";
     for (int k = 0; k < kPairKinds; ++k)
       out << fmt::format(
@@ -147,24 +160,28 @@ void writeManifest(const fs::path& file, const std::string& device, const std::v
           "\"hits_hash\": \"{:016x}\"}}",
           k == 0 ? "points" : "edges", facts[k].sizes.pairs, facts[k].sizes.open, facts[k].sizes.hard,
           facts[k].sizes.hits, facts[k].pairs_hash, facts[k].hits_hash);
-    out << (i + 1 < all.size() ? "},\n" : "}\n");
+    out << (i + 1 < found.impacts.size() ? "},\n" : "}\n");
   }
-  out << "  ],\n  \"near\": {\"device\": \"" << device << "\", \"scenes\": [\n" << near << "\n  ]}\n}\n";
+  out << "  ],\n  \"near\": [\n" << found.near << "\n  ],\n  \"solves\": [\n";
+  const std::vector<ContactProblem> problems = manifestProblems();
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    const auto on = device == "reference" ? sweepsOnReference() : sweepsOnCuda();
+    const SolveFacts facts = factsOf(solved(problems[i], kManifestIterations, on.get()));
+    out << fmt::format(
+        "    {{\"name\": \"{}\", \"rows\": {}, \"islands\": {}, \"iterations\": {}, \"hash\": \"{:016x}\"}}{}\n",
+        problems[i].name, facts.rows, facts.islands, facts.iterations, facts.hash, i + 1 < problems.size() ? "," : "");
+  }
+  out << "  ],\n  \"forces\": [\n";
+  const auto& forces = found.forces.hashes;
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    out << fmt::format("    {{\"name\": \"{}\", \"hash\": \"{:016x}\"}}{}\n", forces[i].first, forces[i].second,
+                       i + 1 < forces.size() ? "," : "");
+  out << "  ]\n}\n";
   if (!out) throw RunError("cannot write " + file.string());
 }
 
-int run(const Settings& settings) {
-  const bool cuda = cudaBuilt() && !settings.reference_alone;
-  const std::string device = cuda ? cudaDevice() : "reference";
-  fmt::print("device: {}{}\n", device, cudaBuilt() ? "" : " (this program was built without CUDA)");
-  std::string near;
-  int different = checkNear({settings.armour, settings.passes, settings.stages, cuda}, near);
-  if (settings.near_alone) {
-    fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
-    return different == 0 ? 0 : 1;
-  }
-  different += checkQueries(settings, cuda);
-  std::vector<std::pair<Scene, Facts>> kept;
+int checkImpacts(const Settings& settings, bool cuda, std::vector<std::pair<Scene, Facts>>& kept) {
+  int different = checkQueries(settings, cuda);
   const std::vector<Scene> of_manifest = manifestScenes();
   for (Scene& scene : scenes(settings)) {
     Facts facts;
@@ -173,7 +190,27 @@ int run(const Settings& settings) {
       kept.emplace_back(std::move(scene), facts);
     std::fflush(stdout);
   }
-  if (!settings.manifest.empty()) writeManifest(settings.manifest, device, kept, near);
+  return different;
+}
+
+int run(const Settings& settings) {
+  if (!settings.manifest.empty() && !settings.only.empty())
+    throw InputError({"", 0, "--write-manifest"}, "is of all parts: leave out --only");
+  const bool cuda = cudaBuilt() && !settings.reference_alone;
+  const std::string device = cuda ? cudaDevice() : "reference";
+  fmt::print("device: {}{}\n", device, cudaBuilt() ? "" : " (this program was built without CUDA)");
+  Found found;
+  int different = 0;
+  if (settings.asks("forces")) {
+    found.forces = checkForces(cuda, settings.passes, settings.large);
+    different += found.forces.different;
+  }
+  if (settings.asks("solves"))
+    different += checkSolves({settings.solves, settings.passes, cuda, settings.large, settings.stages});
+  if (settings.asks("near"))
+    different += checkNear({settings.armour, settings.passes, settings.stages, cuda}, found.near);
+  if (settings.asks("impacts")) different += checkImpacts(settings, cuda, found.impacts);
+  if (!settings.manifest.empty()) writeManifest(settings.manifest, device, found);
   fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
   return different == 0 ? 0 : 1;
 }
@@ -186,12 +223,14 @@ int main(int argc, char** argv) {
   gambeson::gpu::Settings settings;
   app.add_option("--data", settings.data, "folder with real/collision in it");
   app.add_option("--armour", settings.armour, "a recorded mesh of a walk in armour");
-  app.add_flag("--near", settings.near_alone, "what is near alone");
+  app.add_option("--solves", settings.solves, "folder of recorded contact solves, solve0.bin and so on");
+  app.add_option("--only", settings.only, "a part of it")
+      ->check(CLI::IsMember({"forces", "solves", "near", "impacts"}));
   app.add_option("--passes", settings.passes, "of which a time is the median")->check(CLI::Range(1, 1000));
   app.add_option("--queries", settings.queries, "by themselves")->check(CLI::Range(0, 100000000));
-  app.add_flag("--stages", settings.stages, "time each stage too");
+  app.add_flag("--stages", settings.stages, "time each stage and variant too");
   app.add_flag("--reference", settings.reference_alone, "the reference alone");
-  app.add_flag("!--small", settings.large, "leave out 460 balls and ten sheets");
+  app.add_flag("!--small", settings.large, "leave out what is large");
   app.add_option("--write-manifest", settings.manifest, "counts and hashes of the small scenes, as gpu/manifest.json");
   CLI11_PARSE(app, argc, argv);
   try {

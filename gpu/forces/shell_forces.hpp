@@ -1,0 +1,322 @@
+#pragma once
+/// The forces of a NURBS shell on a device.
+
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+
+#include "core/cloth/shell/nurbs_shell.hpp"
+#include "core/error.hpp"
+#include "gpu/forces/blocks.hpp"
+#include "gpu/forces/flat_shell.hpp"
+#include "gpu/forces/forces.hpp"
+#include "gpu/forces/sliced_rows.hpp"
+
+namespace gambeson::gpu {
+
+/// What is compiled; the first is what is quick.
+using QuadTiles = std::tuple<QuadTile<8, 8, 2>, QuadTile<8, 12, 1>, QuadTile<12, 8, 1>>;
+using QuadStrips = std::tuple<QuadStrip<32, 4>, QuadStrip<32, 3>, QuadStrip<64, 2>>;
+
+/// f(type, index) for the k-th type of a tuple.
+template <class Tuple, class F, std::size_t kAt = 0>
+void withType(int k, const F& f) {
+  if constexpr (kAt < std::tuple_size_v<Tuple>) {
+    if (k == static_cast<int>(kAt))
+      f(std::type_identity<std::tuple_element_t<kAt, Tuple>>{});
+    else
+      withType<Tuple, F, kAt + 1>(k, f);
+  }
+}
+
+/// From so many cells on strips are quicker.
+constexpr long kStripCells = 30000;
+/// Blocks of a strip that a device is given.
+constexpr int kStripBlocks = 528;
+
+template <class Device>
+class ShellForces final : public Forces {
+  template <class T>
+  using Buffer = typename Device::template Buffer<T>;
+
+ public:
+  ShellForces(const NurbsShell& cloth, const ForceOptions& options) : options_(options) {
+    FlatShell flat = flatShell(cloth.elements(), options.general_cells);
+    points_ = flat.points;
+    gauss_points_ = flat.gauss_points;
+    std::vector<Point4> rest(static_cast<std::size_t>(points_));
+    for (int i = 0; i < points_; ++i) {
+      const Vec3& x = cloth.rest()[static_cast<std::size_t>(i)];
+      rest[static_cast<std::size_t>(i)] = {x.x, x.y, x.z, flat.weights[static_cast<std::size_t>(i)]};
+    }
+    put(rest, position_);
+    weights_ = flat.weights;
+    force_ = Buffer<Point4>(static_cast<std::size_t>(points_));
+    putMap(cloth.map());
+    putQuads(flat.quads);
+    putCells(flat);
+    putSeams(flat.seams);
+    put(flat.first_slot, first_slot_);
+    put(flat.slot_list, slot_list_);
+    put(flat.gathered, gathered_);
+    slot_ = Buffer<Vec3>(static_cast<std::size_t>(flat.slots));
+    trial_ = Buffer<double>(cloth.historySize());
+    committed_ = Buffer<double>(cloth.historySize());
+  }
+
+  int points() const override { return points_; }
+  int freePoints() const override { return free_points_; }
+  ForceArrays arrays() override {
+    return {freePosition(),
+            position_.data(),
+            force_.data(),
+            freeForceData(),
+            motion_ ? motion_->velocity().data() : nullptr,
+            motion_ ? motion_->acceleration().data() : nullptr};
+  }
+
+  void setFree(std::span<const Vec3> p) override {
+    if (identity_) return setPositions(p);
+    std::vector<Point4> all;
+    for (const Vec3& x : p) all.push_back({x.x, x.y, x.z, 0});
+    queue_.upload(std::span<const Point4>(all), free_position_);
+  }
+  void setPositions(std::span<const Vec3> q) override {
+    std::vector<Point4> all;
+    for (std::size_t i = 0; i < q.size(); ++i) all.push_back({q[i].x, q[i].y, q[i].z, weights_[i]});
+    queue_.upload(std::span<const Point4>(all), position_);
+  }
+  void setHistory(std::span<const double> committed, double elapsed_s) override {
+    elapsed_s_ = elapsed_s;
+    has_history_ = !committed.empty();
+    if (has_history_) queue_.upload(committed, committed_);
+  }
+
+  void placePoints() override {
+    if (!identity_) queue_.forEach(points_, MapPoints{map_.view(), free_position_.data(), position_.data()});
+  }
+  void evaluate() override { give(queue_); }
+  void freeForces() override {
+    if (!identity_) queue_.forEach(free_points_, MapPoints{transpose_.view(), force_.data(), free_force_.data()});
+  }
+
+  void commitHistory() override {
+    if (trial_.size() == 0) return;
+    has_history_ = true;
+    queue_.forEach(static_cast<int>(trial_.size()), CopyNumbers{trial_.data(), committed_.data()});
+  }
+
+  void setLoads(const PointLoads& loads) override { motion_.emplace(queue_, loads); }
+  void setAnchors(std::span<const Vec3> anchors, std::span<const Vec3> normals) override {
+    motion().setAnchors(queue_, anchors, normals);
+  }
+  void setVelocities(std::span<const Vec3> v) override { motion().setVelocities(queue_, v); }
+  void accelerate(const Vec3& air, double half_step_s) override {
+    motion().give(queue_, freePosition(), freeForceData(), air, half_step_s);
+  }
+
+  std::vector<Vec3> velocity() override { return vectors(motion().velocity()); }
+  std::vector<Vec3> acceleration() override { return vectors(motion().acceleration()); }
+  std::vector<Vec3> force() override { return vectors(force_); }
+  std::vector<Vec3> freeForce() override { return vectors(identity_ ? force_ : free_force_); }
+  std::vector<double> history() override { return queue_.download(trial_, trial_.size()); }
+
+  double medianMicroseconds(int passes) override {
+    constexpr int kInARow = 10;
+    typename Device::Replay replay(queue_, [&] {
+      for (int i = 0; i < kInARow; ++i) give(queue_);
+    });
+    replay.run(queue_);
+    std::vector<double> times;
+    for (int i = 0; i < passes; ++i)
+      times.push_back(1e3 / kInARow * Device::milliseconds(queue_, [&] { replay.run(queue_); }));
+    std::ranges::sort(times);
+    return times[times.size() / 2];
+  }
+
+  /// The kernels of one evaluation, to a queue of whoever steps.
+  void give(typename Device::Queue& queue) {
+    Vec3* const slot = slot_.data();
+    const HistoryArrays history{has_history_ ? committed_.data() : nullptr, trial_.size() > 0 ? trial_.data() : nullptr,
+                                elapsed_s_};
+    for (const CellArrays& cells : cells_)
+      queue.forGroups(cells.cells, CellForces{cells, history, position_.data(), slot});
+    queue.forEach(hinges_, HingeForces{first_hinge_.data(), hinge_column_.data(), hinge_rows_.data(),
+                                       hinge_numbers_.data(), position_.data(), slot + hinge_slot_});
+    queue.forEach(gaps_, GapForces{first_gap_.data(), gap_column_.data(), gap_row_.data(), gap_stiffness_.data(),
+                                   position_.data(), slot + gap_slot_});
+    const MoreSlots more{slot_.size() > 0 ? first_slot_.data() : nullptr, slot_list_.data(), slot};
+    if (works_.size() > 0) {
+      if (strips_)
+        withType<QuadStrips>(size_, [&]<class Kernel>(std::type_identity<Kernel>) { runQuads<Kernel>(queue, more); });
+      else
+        withType<QuadTiles>(size_, [&]<class Kernel>(std::type_identity<Kernel>) { runQuads<Kernel>(queue, more); });
+    }
+    queue.forEach(static_cast<int>(gathered_.size()),
+                  GatherSlots{gathered_.data(), first_slot_.data(), slot_list_.data(), slot, force_.data()});
+  }
+
+ private:
+  template <class List, class T>
+  void put(const List& from, Buffer<T>& to) {
+    to = Buffer<T>(from.size());
+    if (!from.empty()) queue_.upload(std::span<const T>(from.data(), from.size()), to);
+  }
+  PointMotion<Device>& motion() {
+    if (!motion_) throw RunError("forces on a device: setLoads comes before what moves");
+    return *motion_;
+  }
+  Point4* freePosition() { return identity_ ? position_.data() : free_position_.data(); }
+  const Point4* freeForceData() { return identity_ ? force_.data() : free_force_.data(); }
+  std::vector<Vec3> vectors(const Buffer<Point4>& from) {
+    std::vector<Vec3> out;
+    for (const Point4& p : queue_.download(from, from.size())) out.push_back(vec(p));
+    return out;
+  }
+
+  void putMap(const FreeMap& map) {
+    free_points_ = map.T.column_count;
+    identity_ = free_points_ == points_;
+    for (int i = 0; identity_ && i < points_; ++i)
+      identity_ = map.T.offsets[i] == i && map.T.columns[i] == i && map.T.values[i] == 1;
+    if (identity_) return;
+    map_ = SlicedRows<Device>(queue_, map.T);
+    transpose_ = SlicedRows<Device>(queue_, map.Tt);
+    free_position_ = Buffer<Point4>(static_cast<std::size_t>(free_points_));
+    free_force_ = Buffer<Point4>(static_cast<std::size_t>(free_points_));
+    const std::vector<Point4> all = queue_.download(position_, position_.size());
+    std::vector<Point4> start;
+    for (const int home : map.home) {
+      const Point4& p = all[static_cast<std::size_t>(home)];
+      start.push_back({p.x, p.y, p.z, 0});
+    }
+    queue_.upload(std::span<const Point4>(start), free_position_);
+  }
+
+  void putQuads(const FlatQuads& quads) {
+    put(quads.function_u, function_u_);
+    put(quads.function_v, function_v_);
+    put(quads.basis_u, basis_u_);
+    put(quads.basis_v, basis_v_);
+    put(quads.touched_u, touched_u_);
+    put(quads.touched_v, touched_v_);
+    put(quads.rest, rest_);
+    put(quads.laws, laws_);
+    strips_ = options_.path == QuadPath::strips || (options_.path == QuadPath::automatic && quads.cells > kStripCells);
+    size_ = std::max(0, options_.size);
+    if (quads.sheets.empty()) return;
+    std::vector<QuadWork> works;
+    if (strips_)
+      withType<QuadStrips>(size_, [&]<class Kernel>(std::type_identity<Kernel>) {
+        int rows = options_.strip_rows;
+        if (rows <= 0) {
+          // As many rows as leave every block one strip.
+          const double owned = Kernel::kCellsU - 2;
+          double all = 0;
+          for (const QuadSheet& s : quads.sheets) all += s.points_v * std::ceil(s.points_u / owned);
+          const int blocks = kStripBlocks / 4 * Kernel::kResident;
+          rows = std::max(1, static_cast<int>(std::ceil(all / blocks)));
+        }
+        works = stripsOf(quads, Kernel::kCellsU, rows);
+      });
+    else
+      withType<QuadTiles>(size_, [&]<class Kernel>(std::type_identity<Kernel>) {
+        works = tilesOf(quads, Kernel::kCellsU, Kernel::kCellsV);
+      });
+    put(works, works_);
+  }
+
+  template <class Kernel>
+  void runQuads(typename Device::Queue& queue, const MoreSlots& more) {
+    const QuadSheets sheets{function_u_.data(), function_v_.data(), basis_u_.data(), basis_v_.data(),
+                            touched_u_.data(),  touched_v_.data(),  rest_.data(),    position_.data(),
+                            force_.data(),      laws_.data()};
+    Blocks<Device>::run(queue, static_cast<int>(works_.size()), Kernel{sheets, more, works_.data()});
+  }
+
+  struct CellBuffers {
+    Buffer<int> nodes, list;
+    Buffer<double> weights, basis_u, basis_v, shapes, points, laws;
+    Buffer<long> first_point;
+    Buffer<PointNumbers<double>> law;
+  };
+  void putCells(const FlatShell& flat) {
+    for (const FlatCells& from : flat.cells) {
+      CellBuffers& to = cell_buffers_.emplace_back();
+      const ShellBlock& b = *from.block;
+      put(b.nodes, to.nodes);
+      put(from.list, to.list);
+      put(b.weights, to.weights);
+      put(b.basis_u, to.basis_u);
+      put(b.basis_v, to.basis_v);
+      put(b.shapes, to.shapes);
+      put(b.points, to.points);
+      put(b.laws, to.laws);
+      put(b.first_point, to.first_point);
+      put(std::vector<PointNumbers<double>>{from.law}, to.law);
+      CellArrays a = from.shape;
+      a.nodes = to.nodes.data();
+      a.list = to.list.data();
+      a.weights = to.weights.data();
+      a.basis_u = to.basis_u.data();
+      a.basis_v = to.basis_v.data();
+      a.shapes = to.shapes.data();
+      a.points = to.points.data();
+      a.first_point = to.first_point.data();
+      a.law = to.law.data();
+      a.laws = b.laws.empty() ? nullptr : to.laws.data();
+      cells_.push_back(a);
+    }
+  }
+
+  void putSeams(const FlatSeams& seams) {
+    hinges_ = seams.hinges();
+    gaps_ = seams.gaps();
+    hinge_slot_ = seams.hinge_slot;
+    gap_slot_ = seams.gap_slot;
+    put(seams.first_hinge, first_hinge_);
+    put(seams.hinge_column, hinge_column_);
+    put(seams.hinge_rows, hinge_rows_);
+    put(seams.hinge_numbers, hinge_numbers_);
+    put(seams.first_gap, first_gap_);
+    put(seams.gap_column, gap_column_);
+    put(seams.gap_row, gap_row_);
+    put(seams.gap_stiffness, gap_stiffness_);
+  }
+
+  ForceOptions options_;
+  typename Device::Queue queue_;
+  int points_ = 0, free_points_ = 0, size_ = 0;
+  long gauss_points_ = 0;
+  bool identity_ = true, strips_ = false, has_history_ = false;
+  double elapsed_s_ = 0;
+  std::vector<double> weights_;
+  Buffer<Point4> position_, force_, free_position_, free_force_;
+  SlicedRows<Device> map_, transpose_;
+  std::optional<PointMotion<Device>> motion_;
+  // Quadratic cells.
+  Buffer<int> function_u_, function_v_;
+  Buffer<double> basis_u_, basis_v_, rest_;
+  Buffer<Touched> touched_u_, touched_v_;
+  Buffer<QuadWork> works_;
+  Buffer<PlainNumbers> laws_;
+  // Other cells.
+  std::vector<CellBuffers> cell_buffers_;
+  std::vector<CellArrays> cells_;
+  Buffer<double> committed_, trial_;
+  // Seams.
+  int hinges_ = 0, gaps_ = 0, hinge_slot_ = 0, gap_slot_ = 0;
+  Buffer<int> first_hinge_, hinge_column_, first_gap_, gap_column_;
+  Buffer<double> hinge_rows_, hinge_numbers_, gap_row_, gap_stiffness_;
+  // What elements leave for control points.
+  Buffer<int> first_slot_, slot_list_, gathered_;
+  Buffer<Vec3> slot_;
+};
+
+template <class Device>
+std::unique_ptr<Forces> forcesOn(const Cloth& cloth, const ForceOptions& options) {
+  if (const auto missing = notCarried(cloth)) throw RunError("forces on a device do not carry " + *missing);
+  return std::make_unique<ShellForces<Device>>(dynamic_cast<const NurbsShell&>(cloth), options);
+}
+
+}  // namespace gambeson::gpu
