@@ -31,6 +31,7 @@ struct CellArrays {
   const PointNumbers<double>* law;  ///< of all points
   const double* laws;               ///< [point][kLawDoubles][lane] where they differ; else null
   LawUse use;
+  int history_size;  ///< LawUse::historySize, which a device cannot ask for
   long history_first;
   int first_slot;  ///< [index in the list][node]
 };
@@ -168,7 +169,7 @@ struct CellForces {
     if (rest) k[0] -= rest[0], k[1] -= rest[L], k[2] -= 2.0 * rest[2 * L];
     History<double> remembered;
     if (b.use.remembers()) {
-      const long first = b.history_first + point * b.use.historySize() * L + lane_of;
+      const long first = b.history_first + point * b.history_size * L + lane_of;
       remembered = {history.committed ? history.committed + first : nullptr,
                     history.trial ? history.trial + first : nullptr,
                     L,
@@ -176,7 +177,7 @@ struct CellForces {
                     0,
                     history.elapsed_s};
       if (b.laws && history.trial)
-        for (int i = 0; i < b.use.historySize(); ++i) remembered.trial[i * L] = remembered.before(i);
+        for (int i = 0; i < b.history_size; ++i) remembered.trial[i * L] = remembered.before(i);
     }
     if (b.laws) {
       PointNumbers<double> own;

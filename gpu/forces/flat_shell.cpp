@@ -208,6 +208,7 @@ class Flattener {
                    .law = nullptr,
                    .laws = nullptr,
                    .use = part.law.use,
+                   .history_size = part.law.use.historySize(),
                    .history_first = b.history_first,
                    .first_slot = out_.slots};
     const int nodes = b.nodeCount();

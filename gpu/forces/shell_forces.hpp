@@ -15,8 +15,8 @@
 namespace gambeson::gpu {
 
 /// What is compiled; the first is what is quick.
-using QuadTiles = std::tuple<QuadTile<8, 8, 2>, QuadTile<8, 12, 1>, QuadTile<12, 8, 1>>;
-using QuadStrips = std::tuple<QuadStrip<32, 4>, QuadStrip<32, 3>, QuadStrip<64, 2>>;
+using QuadTiles = std::tuple<QuadTile<12, 8, 1>, QuadTile<8, 12, 1>, QuadTile<8, 8, 2>>;
+using QuadStrips = std::tuple<QuadStrip<64, 2>, QuadStrip<32, 4>, QuadStrip<32, 3>>;
 
 /// f(type, index) for the k-th type of a tuple.
 template <class Tuple, class F, std::size_t kAt = 0>
