@@ -66,40 +66,23 @@ class ImpactFinder final : public ImpactSearch {
   int repeats() const override { return repeats_; }
 
   double medianMilliseconds(Trees trees, int passes) override {
-    typename Device::Replay replay(queue_, [&] { give(trees); });
-    std::vector<double> ms;
-    for (int k = -kWarmUp; k < passes; ++k) {
-      const double took = Device::milliseconds(queue_, [&] { replay.run(queue_); });
-      if (k >= 0) ms.push_back(took);
-    }
-    return median(ms);
+    return medianReplay<Device>(queue_, passes, [&] { give(trees); });
   }
 
   std::vector<StageTime> stageTimes(int passes) override {
     Stages<Device> all = common_;
     all.insert(all.end(), stages_[0].begin(), stages_[0].end());
     all.insert(all.end(), stages_[1].begin(), stages_[1].end());
-    std::vector<std::vector<double>> ms(all.size());
-    for (int k = -kWarmUp; k < passes; ++k)
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        const double took = Device::milliseconds(queue_, [&] { all[i].work(queue_); });
-        if (k >= 0) ms[i].push_back(took);
-      }
+    const std::vector<double> ms = medianTimes<Device>(queue_, passes, all);
     std::vector<StageTime> times;
-    for (std::size_t i = 0; i < all.size(); ++i) times.push_back({all[i].name, median(ms[i])});
+    for (std::size_t i = 0; i < all.size(); ++i) times.push_back({all[i].name, ms[i]});
     return times;
   }
 
  private:
-  static constexpr int kWarmUp = 3;  ///< passes that are not counted
-
   static float marginOf(const SearchOptions& options) {
     const float margin = roundedUp(options.margin_m, 0);
     return std::max(margin, roundedUp(0.5 * options.separation_m, 0));
-  }
-  static double median(std::vector<double> values) {
-    std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
-    return values[values.size() / 2];
   }
 
   void makeLists(const BothSizes& room) {

@@ -98,37 +98,21 @@ class NearFinder final : public NearSearch {
   int repeats() const override { return repeats_; }
 
   double medianMilliseconds(bool rebuild, int passes) override {
-    typename Device::Replay replay(queue_, [&] { give(rebuild); });
-    std::vector<double> ms;
-    for (int k = -kWarmUp; k < passes; ++k) {
-      const double took = Device::milliseconds(queue_, [&] { replay.run(queue_); });
-      if (k >= 0) ms.push_back(took);
-    }
-    return median(ms);
+    return medianReplay<Device>(queue_, passes, [&] { give(rebuild); });
   }
   std::vector<StageTime> stageTimes(int passes) override {
     Stages<Device> all;
     for (const Stages<Device>* part : {&common_, &on_bodies_, &points_, &cloth_edges_, &ending_})
       all.insert(all.end(), part->begin(), part->end());
-    std::vector<std::vector<double>> ms(all.size());
-    for (int k = -kWarmUp; k < passes; ++k)
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        const double took = Device::milliseconds(queue_, [&] { all[i].work(queue_); });
-        if (k >= 0) ms[i].push_back(took);
-      }
+    const std::vector<double> ms = medianTimes<Device>(queue_, passes, all);
     std::vector<StageTime> times;
-    for (std::size_t i = 0; i < all.size(); ++i) times.push_back({all[i].name, median(ms[i])});
+    for (std::size_t i = 0; i < all.size(); ++i) times.push_back({all[i].name, ms[i]});
     return times;
   }
 
  private:
-  static constexpr int kWarmUp = 3;    ///< passes that are not counted
   static constexpr int kPerGroup = 4;  ///< queries
 
-  static double median(std::vector<double> values) {
-    std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
-    return values[values.size() / 2];
-  }
   /// Vertices of the mesh. Those of rigid bodies the device places anew in each step.
   std::vector<Vec3> allVertices(std::span<const Vec3> samples, std::span<const Placement> placement,
                                 const DeformedVertices& deformed) const {

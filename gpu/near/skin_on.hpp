@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "gpu/finding/stage.hpp"
 #include "gpu/near/skin_bender.hpp"
 #include "gpu/near/skin_kernels.hpp"
 
@@ -54,13 +55,7 @@ class SkinOn final : public SkinBender {
             all.begin() + static_cast<std::ptrdiff_t>(time + 1) * view_.vertices};
   }
   double medianMilliseconds(int passes) override {
-    std::vector<double> ms;
-    for (int k = -3; k < passes; ++k) {
-      const double took = Device::milliseconds(queue_, [&] { give(); });
-      if (k >= 0) ms.push_back(took);
-    }
-    std::ranges::nth_element(ms, ms.begin() + static_cast<long>(ms.size() / 2));
-    return ms[ms.size() / 2];
+    return medianTime<Device>(queue_, passes, [&] { give(); });
   }
   /// Of the last window, on the device: those of a time together.
   const Vec3* data() const { return x_.data(); }
