@@ -22,6 +22,8 @@
 
 namespace gambeson {
 
+struct Skin;
+
 /// How what a support holds is moved at some time: x = pose X from where X stood before it moved, and its velocities.
 struct HeldMotion {
   Pose pose;
@@ -35,6 +37,9 @@ class Stage {
   virtual void placements(double time_s, std::span<Placement> obstacles, std::span<Placement> anchors) const = 0;
   /// Where the vertices of an obstacle that deforms are, in the world. A motion with continuous velocity.
   virtual void vertices(int obstacle, double time_s, std::span<Vec3> x) const;
+  /// The skin whose vertices an obstacle's are at a time, skinPositions of these poses of its links; null: they are not
+  /// these alone.
+  virtual const Skin* skin(int /*obstacle*/, double /*time_s*/, std::vector<Pose>& /*poses*/) const { return nullptr; }
   /// How held points are moved, Model::held_motion_count motions.
   virtual void heldMotions(double, std::span<HeldMotion>) const {}
   /// Velocity of the air, for the drag [m/s].

@@ -27,6 +27,10 @@ double swing(const Model& m, const State& before, const State& after, double dt,
   double most = 0;
   for (const NetEdge& e : m.net)
     most = std::max(most, norm2(w.net_jerk[e.second] - w.net_jerk[e.first]) * e.per_length2);
+  return swingOfJerk(most, dt, omega);
+}
+
+double swingOfJerk(double most, double dt, double omega) {
   return most > 0 ? std::sqrt(most) / (omega * omega * omega * dt) : 0;
 }
 

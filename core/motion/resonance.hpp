@@ -24,6 +24,10 @@ struct StepWork;
 double swing(const Model& model, const State& before, const State& after, double dt_s, double omega_rad_per_s,
              StepWork& work);
 
+/// The same of the largest squared change of acceleration, most |change of a|^2 / length^2 over the edges of the net
+/// [1/s^4].
+double swingOfJerk(double most_per_s4, double dt_s, double omega_rad_per_s);
+
 /// The part of 2/omega that keeps clear of the third-order resonance at this swing: 1 while the highest modes hardly
 /// swing, else 0.8, 0.75 or 0.7. Never near 0.866, where the highest mode itself would be in resonance; and in few
 /// levels, with hysteresis, because steps that follow the motion feed it too: velocity Verlet keeps energy with equal

@@ -45,7 +45,7 @@ void ask(const Model& m, const Stage& stage, double time_s, StageInstant& at) {
 
 }  // namespace
 
-void placeStage(const Model& m, const Stage& stage, double start_s, double end_s, StageWork& w) {
+void placeEnds(const Model& m, const Stage& stage, double start_s, double end_s, StageWork& w) {
   if (w.model != &m || w.stage != &stage) {
     w = {};
     w.model = &m;
@@ -55,6 +55,10 @@ void placeStage(const Model& m, const Stage& stage, double start_s, double end_s
   if (start_s != w.start.time_s && start_s == w.end.time_s) std::swap(w.start, w.end);
   if (start_s != w.start.time_s) ask(m, stage, start_s, w.start);
   if (end_s != w.end.time_s) ask(m, stage, end_s, w.end);
+}
+
+void placeStage(const Model& m, const Stage& stage, double start_s, double end_s, StageWork& w) {
+  placeEnds(m, stage, start_s, end_s, w);
   if (w.surfaces.empty() || (w.surfaces_start_s == start_s && w.surfaces_end_s == end_s)) return;
   w.surfaces.move(w.start.vertices, w.end.vertices);
   w.surfaces_start_s = start_s;

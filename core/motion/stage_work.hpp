@@ -29,6 +29,8 @@ struct StageWork {
   double surfaces_start_s = std::numeric_limits<double>::quiet_NaN(), surfaces_end_s = surfaces_start_s;
 };
 
+/// Sets both ends alone.
+void placeEnds(const Model& model, const Stage& stage, double start_s, double end_s, StageWork& work);
 /// Sets both ends, and surfaces at the first.
 void placeStage(const Model& model, const Stage& stage, double start_s, double end_s, StageWork& work);
 

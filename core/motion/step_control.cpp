@@ -22,17 +22,6 @@ constexpr int kSoonest = 10;  ///< steps between estimates because of the shown 
 /// Cloth that is so many times as stiff (as a frequency) as at rest is crushed or torn: the run would need so many
 /// times as many steps, and its forces mean nothing.
 constexpr double kCrushed = 250;
-
-/// The squared frequency that the last step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the
-/// estimate, the estimate is out of date.
-double shownFrequency2(const Model& m, const State& before, const State& after) {
-  double force2 = 0, way2 = 0;
-  for (int i = 0; i < m.freeCount(); ++i) {
-    force2 += m.mass_kg[i] * norm2(after.a[i] - before.a[i]);
-    way2 += m.mass_kg[i] * norm2(after.p[i] - before.p[i]);
-  }
-  return way2 > 0 ? std::sqrt(force2 / way2) : 0;
-}
 }  // namespace
 
 ControlledSteps::ControlledSteps(const Model& model, const Stage& stage, const StepControl& control,
@@ -40,6 +29,15 @@ ControlledSteps::ControlledSteps(const Model& model, const Stage& stage, const S
     : model_(model), stage_(stage), control_(control), frequency_(frequency), work_(work), of_(of) {
   reserve(capacityOf(model), work);
   work.audits_energy = control.audits_energy;
+}
+
+double ControlledSteps::shownFrequency2(const State& before, const State& after) {
+  double force2 = 0, way2 = 0;
+  for (int i = 0; i < model_.freeCount(); ++i) {
+    force2 += model_.mass_kg[i] * norm2(after.a[i] - before.a[i]);
+    way2 += model_.mass_kg[i] * norm2(after.p[i] - before.p[i]);
+  }
+  return way2 > 0 ? std::sqrt(force2 / way2) : 0;
 }
 
 double ControlledSteps::frequencyAtRest() {
@@ -65,6 +63,7 @@ void ControlledSteps::refuseCrushed(const State& state) {
 
 void ControlledSteps::estimate(State& state) {
   if (state.steps_to_estimate > 0) return;
+  bringBack(state);
   const bool cold = state.frequency_rad_per_s == 0 || state.steps_to_estimate < 0;
   frequency_ = largestFrequency(model_, stage_, state, cold ? kColdIterations : kWarmIterations, work_, of_);
   // A warm estimate may also have followed one mode while another rose.
@@ -82,6 +81,7 @@ void ControlledSteps::countDown(State& after, double shown2) const {
 
 double ControlledSteps::unstableAt(const State& end, double dt) {
   State probe = end;
+  bringBack(probe);
   const double omega = largestFrequency(model_, stage_, probe, kColdIterations, work_, of_).largest_rad_per_s;
   return outruns(omega * omega, dt) ? omega : 0;
 }
@@ -104,8 +104,8 @@ StepReport ControlledSteps::makeInCuts(State& state, double& dt, State& next) {
           fmt::format("time {:.6g} s, a step of {:.3e} s: {}; likeliest cause: the step is longer than the "
                       "stable one (step 0 takes that)",
                       state.time_s, dt, report.why));
-    const bool impact = (report.failure == StepFailure::impact || report.failure == StepFailure::held) &&
-                        report.earliest_impact < 1;
+    const bool impact =
+        (report.failure == StepFailure::impact || report.failure == StepFailure::held) && report.earliest_impact < 1;
     if (report.failure == StepFailure::held && dt <= whole / kPinched)
       throw RunError(fmt::format("time {:.6g} s: {}", state.time_s, report.why));
     if (impact && dt <= whole / kPinched && state.pinched != work_.stuck) {
@@ -123,7 +123,7 @@ StepReport ControlledSteps::makeInCuts(State& state, double& dt, State& next) {
 bool ControlledSteps::accepts(State& state, State& next, double dt) {
   const bool fixed = control_.fixed_s > 0;
   if (fixed && !model_.collisions.self && model_.obstacles.empty()) return true;
-  const double shown2 = shownFrequency2(model_, state, next);
+  const double shown2 = shownFrequency2(state, next);
   if (fixed) {
     // A motion that grows and is stopped by contact grows in ever shorter steps.
     if (const double omega = outruns(shown2, dt) ? unstableAt(next, dt) : 0; omega > 0)

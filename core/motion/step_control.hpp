@@ -39,6 +39,12 @@ class ControlledSteps : public Integrator {
   /// frequency that the step's motion has shown.
   virtual void settle(const State& before, State& after, double dt_s, double shown2) = 0;
 
+  /// The squared frequency that the step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the estimate,
+  /// the estimate is out of date.
+  virtual double shownFrequency2(const State& before, const State& after);
+  /// Before the frequency at a state is estimated: gives it its points and its mode, where these stand elsewhere.
+  virtual void bringBack(State&) {}
+
   /// Looks at the frequency where it is time, throws RunError where the cloth is crushed. Sets
   /// state.frequency_rad_per_s.
   void estimate(State& state);

@@ -30,9 +30,13 @@ double VelocityVerlet::longestStep(State& state) {
   return std::min(control_.max_step_s, share * 2 / std::hypot(omega, across));
 }
 
+double VelocityVerlet::swingOf(const State& before, const State& after, double dt, double omega) {
+  return swing(model_, before, after, dt, omega, work_);
+}
+
 void VelocityVerlet::settle(const State& before, State& after, double dt, double shown2) {
   const double omega = std::max(before.frequency_rad_per_s, 1e-300);
-  after.swing = std::max(swing(model_, before, after, dt, omega, work_), kSwingHeld * before.swing);
+  after.swing = std::max(swingOf(before, after, dt, omega), kSwingHeld * before.swing);
   after.share = shareAtSwing(after.swing, before.share);
   const int since = control_.estimate_every - (after.steps_to_estimate - 1);
   const bool soon = since >= kStepsAtSwing / after.swing;

@@ -17,6 +17,8 @@ class VelocityVerlet : public ControlledSteps {
   bool outruns(double omega2, double dt_s) const override { return omega2 * dt_s * dt_s > 4; }
   double stableStep(double omega_rad_per_s) const override { return 2 / omega_rad_per_s; }
   void settle(const State& before, State& after, double dt_s, double shown2) override;
+  /// How far the highest modes swing, of which the largest has the frequency omega (resonance.hpp).
+  virtual double swingOf(const State& before, const State& after, double dt_s, double omega_rad_per_s);
 };
 
 }  // namespace gambeson

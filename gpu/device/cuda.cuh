@@ -146,8 +146,8 @@ class CudaOf {
       check(cudaMemsetAsync(buffer.data(), 0, buffer.size() * sizeof(T), stream_), "clearing memory");
     }
     template <class T>
-    void upload(std::span<const T> from, Buffer<T>& to) {
-      check(cudaMemcpyAsync(to.data(), from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream_), "an upload");
+    void upload(std::span<const T> from, Buffer<T>& to, std::size_t at = 0) {
+      check(cudaMemcpyAsync(to.data() + at, from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream_), "an upload");
       wait();
     }
     template <class T>

@@ -64,8 +64,8 @@ class ReferenceOf {
       std::fill_n(buffer.data(), buffer.size(), T{});
     }
     template <class T>
-    void upload(std::span<const T> from, Buffer<T>& to) {
-      std::copy(from.begin(), from.end(), to.data());
+    void upload(std::span<const T> from, Buffer<T>& to, std::size_t at = 0) {
+      std::copy(from.begin(), from.end(), to.data() + at);
     }
     template <class T>
     std::vector<T> download(const Buffer<T>& from, std::size_t size) {

@@ -106,6 +106,8 @@ class PointMotion {
     queue.upload(std::span<const Point4>(points(anchors)), anchor_);
     queue.upload(std::span<const Point4>(points(normals)), normal_);
   }
+  /// The anchored springs' normals, for kernels that set them.
+  Point4* normals() { return normal_.data(); }
   void setVelocities(typename Device::Queue& queue, std::span<const Vec3> v) {
     queue.upload(std::span<const Point4>(points(v)), velocity_);
   }

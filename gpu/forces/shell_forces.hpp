@@ -92,28 +92,17 @@ class ShellForces final : public Forces {
     if (has_history_) queue_.upload(committed, committed_);
   }
 
-  void placePoints() override {
-    if (!identity_) queue_.forEach(points_, MapPoints{map_.view(), free_position_.data(), position_.data()});
-  }
+  void placePoints() override { placePoints(queue_); }
   void evaluate() override { give(queue_); }
-  void freeForces() override {
-    if (!identity_) queue_.forEach(free_points_, MapPoints{transpose_.view(), force_.data(), free_force_.data()});
-  }
-
-  void commitHistory() override {
-    if (trial_.size() == 0) return;
-    has_history_ = true;
-    queue_.forEach(static_cast<int>(trial_.size()), CopyNumbers{trial_.data(), committed_.data()});
-  }
+  void freeForces() override { freeForces(queue_); }
+  void commitHistory() override { commitHistory(queue_); }
 
   void setLoads(const PointLoads& loads) override { motion_.emplace(queue_, loads); }
   void setAnchors(std::span<const Vec3> anchors, std::span<const Vec3> normals) override {
     motion().setAnchors(queue_, anchors, normals);
   }
   void setVelocities(std::span<const Vec3> v) override { motion().setVelocities(queue_, v); }
-  void accelerate(const Vec3& air, double half_step_s) override {
-    motion().give(queue_, freePosition(), freeForceData(), air, half_step_s);
-  }
+  void accelerate(const Vec3& air, double half_step_s) override { accelerate(queue_, air, half_step_s); }
 
   std::vector<Vec3> velocity() override { return vectors(motion().velocity()); }
   std::vector<Vec3> acceleration() override { return vectors(motion().acceleration()); }
@@ -134,7 +123,31 @@ class ShellForces final : public Forces {
     return times[times.size() / 2];
   }
 
-  /// The kernels of one evaluation, to a queue of whoever steps.
+  // The same, given to a queue of whoever steps.
+  void placePoints(typename Device::Queue& queue) {
+    if (!identity_) queue.forEach(points_, MapPoints{map_.view(), free_position_.data(), position_.data()});
+  }
+  void freeForces(typename Device::Queue& queue) {
+    if (!identity_) queue.forEach(free_points_, MapPoints{transpose_.view(), force_.data(), free_force_.data()});
+  }
+  void commitHistory(typename Device::Queue& queue) {
+    if (trial_.size() == 0) return;
+    has_history_ = true;
+    queue.forEach(static_cast<int>(trial_.size()), CopyNumbers{trial_.data(), committed_.data()});
+  }
+  void accelerate(typename Device::Queue& queue, const Vec3& air, double half_step_s) {
+    motion().give(queue, freePosition(), freeForceData(), air, half_step_s);
+  }
+  std::vector<double> committedHistory() { return queue_.download(committed_, committed_.size()); }
+  Point4* springNormals() { return motion().normals(); }
+  /// Values of all points from those of free ones: in `room`, or these themselves where all points are free.
+  const Point4* mapped(typename Device::Queue& queue, const Buffer<Point4>& of_free, Buffer<Point4>& room) const {
+    if (identity_) return of_free.data();
+    queue.forEach(points_, MapPoints{map_.view(), of_free.data(), room.data()});
+    return room.data();
+  }
+  void setElapsed(double elapsed_s) { elapsed_s_ = elapsed_s; }
+  /// The kernels of one evaluation.
   void give(typename Device::Queue& queue) {
     Vec3* const slot = slot_.data();
     const HistoryArrays history{has_history_ ? committed_.data() : nullptr, trial_.size() > 0 ? trial_.data() : nullptr,

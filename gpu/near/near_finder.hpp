@@ -68,6 +68,21 @@ class NearFinder final : public NearSearch {
     feet_.setPlacements(queue_, o.start, o.end);
   }
 
+  // For a step on the device, which places samples itself: mesh().x0 and x1, before a pass.
+  Queue& queue() { return queue_; }
+  DressedMesh<Device>& mesh() { return mesh_; }
+  NearLists<Device>& lists() { return lists_; }
+  WarmStarts<Device>& warm() { return warm_; }
+  const BodyFeet<Device>& feet() const { return feet_; }
+  /// The next step, or the last one once more; `goes_on`: it begins where the last one ended. Bodies that deform are
+  /// placed by others.
+  void setBodies(const ObstacleMotion& o, double dt_s, bool goes_on) {
+    if (found_ && goes_on) feet_.keepOutside(queue_);
+    found_ = false;
+    queue_.upload(std::span<const double>(&dt_s, 1), dt_s_);
+    feet_.setPlacements(queue_, o.start, o.end);
+  }
+
   void find(bool rebuild) override {
     for (;; ++repeats_) {
       give(rebuild || !built_);

@@ -88,6 +88,8 @@ class NearLists {
                                      {facts_.data(), stencil_.data(), touch_.data()}});
   }
   List<ContactFacts> facts() { return list(facts_, kContacts); }
+  ContactStencil* stencils() { return stencil_.data(); }
+  BodyTouch* touches() { return touch_.data(); }
   NearContacts download(Queue& queue) {
     const std::size_t n = sizes(queue)[kContacts];
     return {queue.download(facts_, n), queue.download(stencil_, n), queue.download(touch_, n)};

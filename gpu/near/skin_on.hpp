@@ -43,10 +43,14 @@ class SkinOn final : public SkinBender {
       throw RunError("SkinBender: " + std::to_string(poses.size()) + " poses for " + std::to_string(times) +
                      " times of " + std::to_string(view_.links) + " links, " + std::to_string(most_times_) +
                      " times at most");
-    times_ = times;
-    queue_.upload(poses, poses_);
-    give();
+    bend(queue_, poses, times);
     queue_.wait();
+  }
+  /// The same, given to another's queue.
+  void bend(Queue& queue, std::span<const Pose> poses, int times) {
+    times_ = times;
+    queue.upload(poses, poses_);
+    give(queue);
   }
   std::vector<Vec3> positions(int time) override {
     const std::vector<Vec3> all =
@@ -55,17 +59,17 @@ class SkinOn final : public SkinBender {
             all.begin() + static_cast<std::ptrdiff_t>(time + 1) * view_.vertices};
   }
   double medianMilliseconds(int passes) override {
-    return medianTime<Device>(queue_, passes, [&] { give(); });
+    return medianTime<Device>(queue_, passes, [&] { give(queue_); });
   }
   /// Of the last window, on the device: those of a time together.
   const Vec3* data() const { return x_.data(); }
 
  private:
-  void give() {
+  void give(Queue& queue) {
     const SkinMotion of{poses_.data(), turn_.data(), motion_.data(), crease_.data(), move_.data(), x_.data()};
-    queue_.forEach(times_ * (view_.bends > 0 ? view_.bends : view_.links), TurnJoints{view_, of});
-    if (view_.bends > 0) queue_.forEach(times_ * (view_.runs + view_.creases), MoveRuns{view_, of});
-    queue_.forEach(times_ * view_.vertices, MoveVertices{view_, of});
+    queue.forEach(times_ * (view_.bends > 0 ? view_.bends : view_.links), TurnJoints{view_, of});
+    if (view_.bends > 0) queue.forEach(times_ * (view_.runs + view_.creases), MoveRuns{view_, of});
+    queue.forEach(times_ * view_.vertices, MoveVertices{view_, of});
   }
 
   void flattenBends(const Skin& skin) {

@@ -158,6 +158,9 @@ class WarmStarts {
   void match(Queue& queue, const List<ContactFacts>& facts) {
     queue.forItems(facts, MatchWarm{left(), scale_.data(), start_.data()});
   }
+  /// Of each contact, on the device; and where what they have borne may be written.
+  const WarmStart* started() const { return start_.data(); }
+  WarmStart* borne() { return borne_.data(); }
   std::vector<WarmStart> starts(Queue& queue, std::size_t n) { return queue.download(start_, n); }
 
   /// `borne` by the contacts, in their order, on the device: becomes what is known.

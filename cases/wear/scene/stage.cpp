@@ -39,6 +39,13 @@ void CaseStage::vertices(int obstacle, double t, std::span<Vec3> x) const {
   for (std::size_t v = 0; v < x.size(); ++v) x[v] = shrunk_skin[v] + w * (x[v] - shrunk_skin[v]);
 }
 
+const Skin* CaseStage::skin(int obstacle, double t, std::vector<Pose>& poses) const {
+  if (obstacle >= first_own || !human->skin || (!shrunk_skin.empty() && t < grow_start_s + grow_s)) return nullptr;
+  const Posture posture = postureAt(t);
+  poses = linkPoses(human->skeleton, posture.q, posture.root);
+  return &*human->skin;
+}
+
 void CaseStage::heldMotions(double t, std::span<HeldMotion> motions) const {
   for (std::size_t k = 0; k < motions.size(); ++k) motions[k] = {held_drives[k].at(t), held_drives[k].rateAt(t)};
 }

@@ -31,6 +31,7 @@ class CaseStage : public Stage {
 
   void placements(double t, std::span<Placement> obstacles, std::span<Placement> anchors) const override;
   void vertices(int obstacle, double t, std::span<Vec3> x) const override;
+  const Skin* skin(int obstacle, double t, std::vector<Pose>& poses) const override;
   void heldMotions(double t, std::span<HeldMotion> motions) const override;
   /// Starts with the motion, smoothly over the lead-in.
   Vec3 air(double t) const override;

@@ -1,0 +1,339 @@
+#pragma once
+/// A step of velocity Verlet with contact (core/motion/step.cpp) on a device: the state stays there from step to step.
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "core/error.hpp"
+#include "gpu/forces/shell_forces.hpp"
+#include "gpu/near/near_finder.hpp"
+#include "gpu/near/skin_on.hpp"
+#include "gpu/step/contact_row.hpp"
+#include "gpu/step/lap_clock.hpp"
+#include "gpu/step/step_kernels.hpp"
+#include "gpu/step/step_on_device.hpp"
+#include "gpu/step/tree_sum.hpp"
+
+namespace gambeson::gpu {
+
+template <class Device>
+class DeviceStep final : public StepOnDevice {
+  template <class T>
+  using Buffer = typename Device::template Buffer<T>;
+  using Queue = typename Device::Queue;
+
+ public:
+  DeviceStep(const Model& model, const State& start, const StageWork& stage)
+      : m_(model),
+        n_(model.freeCount()),
+        samples_(model.surface.size()),
+        forces_(dynamic_cast<const NurbsShell&>(*model.cloth), {}),
+        near_({model.collisions, model.obstacles, model.bulges}, nearStart(model, start, stage),
+              roomForNear(model.collisions)),
+        queue_(near_.queue()),
+        WT_(queue_, model.surface.WT),
+        WTt_(queue_, model.surface.WTt),
+        inverse_mass_(uploaded<Device>(queue_, model.inverse_mass)),
+        density_(uploaded<Device>(queue_, model.density_kg_per_m2)),
+        layer_(uploaded<Device>(queue_, model.layer_m)),
+        cell_(uploaded<Device>(queue_, model.cell_m)),
+        mass_(uploaded<Device>(queue_, model.mass_kg)),
+        net_(uploaded<Device>(queue_, model.net)),
+        spring_triangle_(uploaded<Device>(queue_, springTriangles(model))),
+        facts_(1),
+        row_count_(1),
+        motion_sum_(n_) {
+    forces_.setLoads(pointLoads(model));
+    for (Buffer<Point4>* of_points :
+         {&position_, &velocity_, &acceleration_, &pressed_, &pressed_next_, &predictor_, &solved_})
+      *of_points = Buffer<Point4>(static_cast<std::size_t>(n_));
+    jerk_ = Buffer<Point4>(static_cast<std::size_t>(n_));
+    net_jerk_ = Buffer<Point4>(static_cast<std::size_t>(forces_.points()));
+    points_out_ = Buffer<Point4>(3 * static_cast<std::size_t>(n_));
+    sample_sum_ = Buffer<Point4>(static_cast<std::size_t>(samples_));
+    of_sample_ = Buffer<int>(static_cast<std::size_t>(samples_)),
+    sample_begin_ = Buffer<int>(static_cast<std::size_t>(samples_));
+    sample_scan_.emplace(samples_);
+    makeRows();
+  }
+
+  void set(const State& s) override {
+    forces_.setFree(s.p);
+    const auto up = [&](const std::vector<Vec3>& from, Buffer<Point4>& to) {
+      std::vector<Point4> all(static_cast<std::size_t>(n_));
+      for (std::size_t i = 0; i < from.size(); ++i) all[i] = point4(from[i]);
+      queue_.upload(std::span<const Point4>(all), to);
+    };
+    up(s.v, velocity_);
+    up(s.a, acceleration_);
+    up(s.pressed, pressed_);
+    queue_.forEach(n_, CopyPoints{forces_.arrays().free_position, position_.data()});
+    forces_.setHistory(s.history, 0);
+    std::vector<WarmEntry> warm;
+    for (const WarmContact& c : s.warm)
+      warm.push_back(
+          {{static_cast<int>(c.kind), c.sample, c.obstacle, c.feature}, {c.traction, c.mean_Pa, c.slip_m_per_s}});
+    near_.warm().set(queue_, warm, 0);
+    near_.forget();
+    goes_on_ = false;
+    made_ = false;
+  }
+
+  void accept() override {
+    if (!made_) return;
+    made_ = false;
+    const ForceArrays f = forces_.arrays();
+    queue_.forEach(n_, TakeOver{f.free_position, f.velocity, f.acceleration, pressed_next_.data(), position_.data(),
+                                velocity_.data(), acceleration_.data(), pressed_.data()});
+    forces_.commitHistory(queue_);
+    near_.warm().keep(queue_, near_.lists().facts(), near_.warm().borne());
+    goes_on_ = true;
+  }
+
+  void complete(State& s) override {
+    s.warm.clear();
+    for (const WarmEntry& e : near_.warm().kept(queue_))
+      s.warm.push_back({static_cast<ContactKind>(e.key.kind), e.key.sample, e.key.obstacle, e.key.feature,
+                        e.start.traction, e.start.mean_Pa, e.start.slip_m_per_s});
+    if (m_.cloth->historySize() > 0) s.history = forces_.committedHistory();
+  }
+
+  StepDone make(const DeviceStepInput& in) override {
+    StepDone done;
+    LapClock clock;
+    const double dt = in.step_s, half = 0.5 * dt;
+    queue_.zero(facts_);
+    if (made_) {  // the last step was not accepted: forces stand at its end
+      queue_.forEach(n_, CopyPoints{position_.data(), forces_.arrays().free_position});
+      made_ = false;
+    }
+    queue_.forEach(n_, Predict{{position_.data(), velocity_.data(), acceleration_.data(), pressed_.data()},
+                               half,
+                               predictor_.data(),
+                               facts_.data()});
+    near_.setBodies({in.start, in.end, none_, none_}, dt, goes_on_);
+    goes_on_ = false;
+    for (const BodyShape& shape : in.shapes) placeShape(shape);
+    Vec3 *const x0 = near_.mesh().x0.data(), *const x1 = near_.mesh().x1.data();
+    queue_.forEach(samples_, PlaceSamples{WT_.view(), position_.data(), predictor_.data(), dt, x0, x1});
+    near_.warm().setScale(queue_, in.last_step_s > 0 ? dt / in.last_step_s : 0);
+    near_.find(steps_++ % kRebuild == 0);
+    queue_.forEach(samples_, LookAtSamples{near_.feet().inside(), facts_.data()});
+    queue_.forItems(near_.lists().facts(), LookAtContacts{near_.lists().stencils(), layer_.data(), facts_.data()});
+    const StepFacts seen = queue_.download(facts_, 1)[0];
+    contacts_ = near_.sizes()[kContacts];
+    done.contacts = static_cast<int>(contacts_);
+    done.cloth_contacts = seen.cloth_contacts;
+    done.smallest_gap_m = seen.smallest_gap_m();
+    clock.lap(done.times.proximity);
+    if (seen.not_finite > 0) return done.leftTo(ByCpu::not_finite);
+    if (seen.inside > 0) return done.leftTo(ByCpu::inside);
+
+    startRows(dt);
+    done.contact = solve(dt);
+    clock.lap(done.times.contact);
+    moveSamples(dt);
+    if (anyImpact(dt, done)) return done.leftTo(ByCpu::impacts);
+    clock.lap(done.times.impact);
+    moveOn(in, dt);
+    gather(dt, done);
+    clock.lap(done.times.force);
+    return done;
+  }
+
+ private:
+  static constexpr int kRebuild = 16;  ///< steps between trees that are built anew
+
+  static NearStep nearStart(const Model& m, const State& s, const StageWork& w) {
+    static thread_local std::vector<Vec3> x;
+    x.resize(m.surface.size());
+    m.surface.WT.multiply<Vec3>(s.p, x);
+    return {x, x, 1, {w.start.obstacles, w.start.obstacles, w.start.vertices, w.start.vertices}};
+  }
+
+  /// Of a body that deforms, its vertices at both ends.
+  void placeShape(const BodyShape& shape) {
+    const CollisionModel::Body& body = m_.collisions.bodies[m_.collisions.body_of_obstacle[shape.obstacle]];
+    const auto first = static_cast<std::size_t>(body.first_vertex);
+    Buffer<Vec3>&x0 = near_.mesh().x0, &x1 = near_.mesh().x1;
+    if (!shape.skin) {
+      queue_.upload(std::span<const Vec3>(shape.start), x0, first);
+      queue_.upload(std::span<const Vec3>(shape.end), x1, first);
+      return;
+    }
+    std::unique_ptr<SkinOn<Device>>& skin = skins_[shape.skin];
+    if (!skin) skin = std::make_unique<SkinOn<Device>>(*shape.skin, 2);
+    skin->bend(queue_, shape.poses, 2);
+    const int n = static_cast<int>(body.local.size());
+    queue_.forEach(n, PlaceSkin{skin->data(), n, x0.data() + first, x1.data() + first});
+  }
+  static std::vector<std::array<int, 3>> springTriangles(const Model& m) {
+    std::vector<std::array<int, 3>> all;
+    for (const SpringSupportPoint& s : m.springs) {
+      all.push_back({-1, -1, -1});
+      if (s.obstacle < 0) continue;
+      const int first = m.collisions.bodies[m.collisions.body_of_obstacle[s.obstacle]].first_vertex;
+      for (int k = 0; k < 3; ++k) all.back()[k] = first + s.triangle[k];
+    }
+    return all;
+  }
+
+  /// Arrays beside those of the contacts.
+  void makeRows() {
+    const auto room = static_cast<std::size_t>(near_.lists().facts().room);
+    if (terms_.size() == room) return;
+    terms_ = Buffer<RowTerms>(room);
+    traction_ = Buffer<Vec3>(room), impulse_ = Buffer<Vec3>(room);
+    share_ = Buffer<double>(room);
+    active_ = Buffer<int>(room), active_place_ = Buffer<int>(room);
+    part_place_ = Buffer<int>(5 * room), part_ = Buffer<int>(5 * room);
+    row_scan_.emplace(static_cast<int>(room));
+  }
+  StepRows rows() {
+    const List<ContactFacts> facts = near_.lists().facts();
+    return {facts.items,      near_.lists().stencils(), near_.lists().touches(), terms_.data(),
+            traction_.data(), impulse_.data(),          row_count_.data(),       facts.room};
+  }
+  int room() { return static_cast<int>(near_.lists().facts().room); }
+
+  void startRows(double dt) {
+    makeRows();
+    const List<ContactFacts> facts = near_.lists().facts();
+    queue_.forEach(1, CopyCount{facts.count, row_count_.data()});
+    queue_.forItems(
+        facts, SetTerms{rows(), near_.warm().started(), density_.data(), dt, -std::expm1(-dt / m_.contact.relaxation_s),
+                        m_.contact.compliance_m_per_Pa, m_.collisions.untangling.speed_mps});
+  }
+
+  /// On the host, for now.
+  ContactSolve solve(double dt) {
+    const std::size_t n = queue_.download(row_count_, 1)[0];
+    const auto facts = near_.lists().download(queue_);
+    const auto terms = queue_.download(terms_, n);
+    auto warm = queue_.download(traction_, n);
+    std::vector<ContactRow> rows;
+    for (std::size_t i = 0; i < n; ++i)
+      rows.push_back(contactRow(facts.facts[i], facts.stencil[i], facts.touch[i], terms[i]));
+    std::vector<Vec3> velocity, impulses;
+    for (const Point4& v : queue_.download(predictor_, static_cast<std::size_t>(n_))) velocity.push_back(vec(v));
+    const ContactSolve done =
+        solveContacts(rows, m_.surface.WT, m_.inverse_mass, m_.surface.area_m2, m_.density_kg_per_m2, m_.contact, dt,
+                      velocity, warm, impulses, host_work_, nullptr, {});
+    std::vector<Point4> all;
+    for (const Vec3& v : velocity) all.push_back(point4(v));
+    queue_.upload(std::span<const Point4>(all), solved_);
+    if (n == 0) return done;
+    queue_.upload(std::span<const Vec3>(warm), traction_);
+    queue_.upload(std::span<const Vec3>(impulses), impulse_);
+    return done;
+  }
+  bool anyImpact(double, StepDone&) { return false; }
+
+  void moveSamples(double dt) {
+    queue_.forEach(samples_,
+                   MoveSamples{WT_.view(), solved_.data(), dt, near_.mesh().x0.data(), near_.mesh().x1.data()});
+  }
+
+  /// Positions, what lasts, forces and velocities at the end.
+  void moveOn(const DeviceStepInput& in, double dt) {
+    const ForceArrays f = forces_.arrays();
+    queue_.forEach(n_, MovePoints{position_.data(), solved_.data(), dt, f.free_position, facts_.data()});
+    queue_.forEach(samples_, LookAtWays{near_.mesh().x0.data(), near_.mesh().x1.data(), cell_.data(), facts_.data()});
+    const StepRows all = rows();
+    queue_.forEach(room(), LookAtRows{all, contacts_, density_.data(), dt, -std::expm1(-dt / m_.contact.relaxation_s),
+                                      near_.warm().borne(), share_.data(), active_.data(), facts_.data()});
+    queue_.zero(of_sample_);
+    queue_.forEach(room(), CountParts{all, share_.data(), of_sample_.data(), part_place_.data()});
+    sample_scan_->run(queue_, of_sample_, sample_begin_);
+    queue_.forEach(room(), PlaceParts{all, share_.data(), sample_begin_.data(), part_place_.data(), part_.data()});
+    queue_.forEach(samples_, AddParts{all, share_.data(), sample_begin_.data(), of_sample_.data(), part_.data(),
+                                      sample_sum_.data()});
+    queue_.forEach(n_, PressPoints{WTt_.view(), sample_sum_.data(), inverse_mass_.data(), dt, 0.5 * dt, solved_.data(),
+                                   pressed_next_.data(), f.velocity});
+    forces_.setAnchors(in.anchors, in.anchors);
+    queue_.forEach(static_cast<int>(spring_triangle_.size()),
+                   SpringNormals{spring_triangle_.data(), near_.mesh().x1.data(), forces_.springNormals()});
+    forces_.setElapsed(dt);
+    forces_.placePoints(queue_);
+    forces_.give(queue_);
+    forces_.freeForces(queue_);
+    forces_.accelerate(queue_, in.air, 0.5 * dt);
+    made_ = true;
+    const MotionSum* motion = motion_sum_.run(
+        queue_, n_,
+        MotionOfPoint{mass_.data(), position_.data(), f.free_position, acceleration_.data(), f.acceleration});
+    queue_.forEach(1, TakeSum{motion, facts_.data()});
+    queue_.forEach(n_, Jerk{acceleration_.data(), f.acceleration, jerk_.data()});
+    queue_.forEach(static_cast<int>(net_.size()),
+                   LookAtJerk{net_.data(), forces_.mapped(queue_, jerk_, net_jerk_), facts_.data()});
+  }
+
+  void gather(double, StepDone& done) {
+    const ForceArrays f = forces_.arrays();
+    queue_.forEach(
+        n_, GatherPoints{solved_.data(), f.acceleration, pressed_next_.data(), n_, points_out_.data(), facts_.data()});
+    row_scan_->run(queue_, active_, active_place_);
+    queue_.forEach(room(), GatherRows{rows(), active_.data(), active_place_.data(), carrying_.data(),
+                                      static_cast<int>(carrying_.size())});
+    const StepFacts now = queue_.download(facts_, 1)[0];
+    if (now.not_finite > 0) {
+      done.leftTo(ByCpu::not_finite);
+      return;
+    }
+    const auto active = static_cast<std::size_t>(now.active);
+    if (active > carrying_.size()) {
+      carrying_ = Buffer<CarryingRow>(2 * active);
+      queue_.forEach(room(), GatherRows{rows(), active_.data(), active_place_.data(), carrying_.data(),
+                                        static_cast<int>(carrying_.size())});
+    }
+    done.presses = now.pressing > 0;
+    done.largest_way = now.way();
+    done.shown_frequency2 = now.motion.way2 > 0 ? std::sqrt(now.motion.force2 / now.motion.way2) : 0;
+    done.most_jerk_per_s4 = now.mostJerk();
+    const std::vector<Point4> points = queue_.download(points_out_, 3 * static_cast<std::size_t>(n_));
+    const auto part = [&](int k, std::vector<Vec3>& to) {
+      to.resize(static_cast<std::size_t>(n_));
+      for (int i = 0; i < n_; ++i) to[static_cast<std::size_t>(i)] = vec(points[static_cast<std::size_t>(k * n_ + i)]);
+    };
+    part(0, done.velocity), part(1, done.acceleration), part(2, done.pressed);
+    if (!m_.held_points.empty()) done.free_force = forces_.freeForce();
+    for (const CarryingRow& r : queue_.download(carrying_, active)) {
+      done.rows.push_back(contactRow(r.facts, r.stencil, r.touch, r.terms));
+      done.tractions.push_back(r.traction);
+      done.impulses.push_back(r.impulse);
+    }
+  }
+
+  const Model& m_;
+  int n_, samples_;
+  ShellForces<Device> forces_;
+  NearFinder<Device> near_;
+  Queue& queue_;
+  SlicedRows<Device> WT_, WTt_;
+  Buffer<double> inverse_mass_, density_, layer_, cell_, mass_;
+  Buffer<NetEdge> net_;
+  Buffer<std::array<int, 3>> spring_triangle_;
+  std::map<const Skin*, std::unique_ptr<SkinOn<Device>>> skins_;
+  const DeformedVertices none_;
+  // The state, and what the step makes of it beside the arrays of forces_.
+  Buffer<Point4> position_, velocity_, acceleration_, pressed_, pressed_next_, predictor_, solved_;
+  bool made_ = false;     ///< a step stands in the arrays of forces_ that is not accepted yet
+  bool goes_on_ = false;  ///< the next pass begins where the last one ended
+  long steps_ = 0;
+  // Rows.
+  Buffer<StepFacts> facts_;
+  Buffer<Count> row_count_;
+  Count contacts_ = 0;  ///< of the last pass
+  Buffer<RowTerms> terms_;
+  Buffer<Vec3> traction_, impulse_;
+  Buffer<double> share_;
+  Buffer<int> active_, active_place_, part_place_, part_, of_sample_, sample_begin_;
+  std::optional<typename Device::ExclusiveSum> row_scan_, sample_scan_;
+  Buffer<Point4> sample_sum_, points_out_, jerk_, net_jerk_;
+  TreeSum<Device, MotionSum> motion_sum_;
+  Buffer<CarryingRow> carrying_;
+  ContactWork host_work_;
+};
+
+}  // namespace gambeson::gpu
