@@ -4,12 +4,12 @@
 ///                      [--stages] [--write-manifest FILE]
 ///
 /// Forces of shells (check_forces.hpp); contact solves, recorded (where --solves has them) and made up
-/// (check_solves.hpp); what is near in dressed bodies (check_near.hpp); impacts of
-/// steps with their rows (check_step_impacts.hpp); impacts: public frames of cloth on a ball and
-/// in a funnel (where FOLDER, shared/data by name, has them), 460 balls that fly through each other, ten wavy sheets,
-/// and queries by themselves, random and degenerate. Of each: what it gives on both devices and, where core has it, in
-/// core, to the bit (forces: to 1e-13 of the largest); medians of a pass. Without CUDA, or --reference: the reference
-/// alone. Exit: 0; 1 where two differ; 2 bad input.
+/// (check_solves.hpp); what is near in dressed bodies (check_near.hpp); impacts of steps with their rows
+/// (check_step_impacts.hpp); impacts: public frames of cloth on a ball and in a funnel (where FOLDER, shared/data by
+/// name, has them), 460 balls that fly through each other, ten wavy sheets, and queries by themselves, random and
+/// degenerate. Of each: what it gives on both devices and, where core has it, in core, to the bit (forces: to 1e-13 of
+/// the largest); medians of a pass. Without CUDA, or --reference: the reference alone. Exit: 0; 1 where two differ; 2
+/// bad input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -34,12 +34,11 @@ struct ImpactPaths {
 /// What a pass begins with. Boxes of paths are grown by half of the separation.
 struct BeginImpacts {
   ImpactPaths paths;
-  int vertices, ellipsoids;
+  int vertices;
   float margin_m;
   MovingPoint* point;
   FloatPoint* rough;
   FloatBox* box;
-  EllipsoidSweep* sweep;
   Count* count;
 
   GAMBESON_HD void operator()(int i) const {
@@ -50,10 +49,6 @@ struct BeginImpacts {
       box[i] = boxOf(p, margin_m);
     }
     if (i < kImpactCounts) count[i] = 0;
-    if (i < ellipsoids) {
-      const EllipsoidBody& e = paths.ellipsoid[i];
-      sweep[i] = sweepOf(e.metric, e.start, e.end);
-    }
   }
 };
 
@@ -150,6 +145,14 @@ GAMBESON_HD inline bool entersEllipsoid(const ImpactPaths& paths, int sample, co
   return pathEnters(e.metric, e.start, toFrame(e.start, paths.x0[sample]), toFrame(e.end, paths.x1[sample]), hit);
 }
 
+struct SweepEllipsoids {
+  const EllipsoidBody* ellipsoid;
+  EllipsoidSweep* sweep;
+  GAMBESON_HD void operator()(int i) const {
+    const EllipsoidBody& e = ellipsoid[i];
+    sweep[i] = sweepOf(e.metric, e.start, e.end);
+  }
+};
 /// Of each sample, ellipsoids that it enters.
 struct EnterEllipsoids {
   ImpactPaths paths;

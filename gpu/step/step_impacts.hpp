@@ -36,12 +36,14 @@ class StepImpacts {
         mesh_(meshOf(model.collisions), start),
         points_of_cloth_(uploaded<Device>(queue, inTriangles(model.collisions, start, true))),
         points_of_bodies_(uploaded<Device>(queue, inTriangles(model.collisions, start, false))),
+        edge_(uploaded<Device>(queue, model.collisions.mesh.edges)),
+        body_edges_(uploaded<Device>(queue, edgesOfBodies(model.collisions, start))),
         thickness_(uploaded<Device>(queue, model.layer_m)),
         body_of_vertex_(uploaded<Device>(queue, model.collisions.body_of_vertex)),
         box_(start.size()),
         faces_(mesh_.cloth_faces),
         body_faces_(mesh_.faces - mesh_.cloth_faces),
-        edges_(mesh_.cloth_edges),
+        edge_boxes_(mesh_.cloth_edges),
         count_(kImpactCounts),
         slots_{samples_, mesh_.vertices, mesh_.edges},
         of_slot_(static_cast<std::size_t>(slots_.count())),
@@ -52,37 +54,52 @@ class StepImpacts {
     makeStages();
   }
 
-  /// A pass, given without waiting: for recordings. Lists may run over (needed).
+  /// A pass, given without waiting: for recordings. Trees are to be rebuilt once before they are refitted.
   void give(const ImpactPaths& paths, Trees trees) {
     paths_ = paths;
     const auto run = [trees](const Stages<Device>& stages, Queue& queue) {
       for (const Stage<Device>& stage : stages)
         if (trees == Trees::rebuilt || !stage.rebuilds) stage.work(queue);
     };
+    Queue &edges = beside_[0], &bodies = beside_[1], &parts = beside_[2];
     run(common_, queue_);
-    for (Queue& queue : beside_) queue.after(queue_);
-    run(on_bodies_, beside_[0]);
-    run(of_points_, queue_);
-    run(of_edges_, beside_[1]);
-    queue_.after(beside_[0]);
+    edges.after(queue_);
+    bodies.after(queue_);
+    run(edge_tree_, edges);
+    run(face_tree_, queue_);
+    parts.after(edges);
+    parts.after(queue_);
+    run(on_bodies_, bodies);
+    run(cloth_points_, queue_);
+    run(cloth_edges_, edges);
+    run(body_parts_, parts);
+    for (Queue* beside : {&bodies, &parts}) queue_.after(*beside);
+    edges.after(parts);
     run(points_, queue_);
-    queue_.after(beside_[1]);
+    run(edges_, edges);
+    queue_.after(edges);
   }
 
-  /// A pass, and a wait for its counts. Where a list runs over, it is repeated with more room.
+  /// Waits for the counts of the pass that was given last. False: a list ran over; all have room for it now, and the
+  /// pass is to be given again.
+  bool take(ImpactCounts& found) {
+    const std::vector<Count> count = queue_.download(count_, kImpactCounts);
+    ImpactSizes room = room_;
+    for (std::size_t k = 0; k < room.size(); ++k) {
+      sizes_[k] = count[k];
+      if (count[k] > room[k]) room[k] = std::max<unsigned long long>(2 * room[k], count[k]);
+    }
+    found = {count[kSampleHits], count[kPointHits], count[kEdgeHits], count[kTouchingPairs], count[kCappedPairs]};
+    if (room == room_) return true;
+    makeLists(room);
+    return false;
+  }
+  /// A pass, and a wait for its counts, repeated until nothing has run over.
   ImpactCounts find(const ImpactPaths& paths, Trees trees) {
-    for (;; ++repeats_) {
+    for (ImpactCounts found;; ++repeats_) {
       give(paths, built_ ? trees : Trees::rebuilt);
       built_ = true;
-      const std::vector<Count> count = queue_.download(count_, kImpactCounts);
-      ImpactSizes room = room_;
-      for (std::size_t k = 0; k < room.size(); ++k) {
-        sizes_[k] = count[k];
-        if (count[k] > room[k]) room[k] = std::max<unsigned long long>(2 * room[k], count[k]);
-      }
-      if (room == room_)
-        return {count[kSampleHits], count[kPointHits], count[kEdgeHits], count[kTouchingPairs], count[kCappedPairs]};
-      makeLists(room);
+      if (take(found)) return found;
     }
   }
 
@@ -107,7 +124,7 @@ class StepImpacts {
 
   /// How many hits the last pass has found, on the device.
   const Count* hitCount() const { return count_.data() + kStepHits; }
-  /// Of the last `find`.
+  /// Of the last pass that was waited for.
   const ImpactSizes& sizes() const { return sizes_; }
   int repeats() const { return repeats_; }  ///< of passes, for want of room, since the start
   /// Sorted; waits.
@@ -118,13 +135,14 @@ class StepImpacts {
   /// All stages one after the other, each alone.
   Stages<Device> stages() const {
     Stages<Device> all;
-    for (const Stages<Device>* part : {&common_, &on_bodies_, &of_points_, &points_, &of_edges_})
+    for (const Stages<Device>* part : {&common_, &face_tree_, &edge_tree_, &on_bodies_, &cloth_points_, &cloth_edges_,
+                                       &body_parts_, &points_, &edges_})
       all.insert(all.end(), part->begin(), part->end());
     return all;
   }
 
  private:
-  static constexpr int kPerGroup = 4;  ///< queries
+  static constexpr int kPerGroup = 8;  ///< queries
 
   static Mesh meshOf(const CollisionModel& m) {
     return {m.mesh.vertex_count, m.mesh.triangles, m.mesh.edges, m.bodies.empty() ? -1 : m.cloth.cloth_vertices};
@@ -135,6 +153,15 @@ class StepImpacts {
         cubeAround(start), m.mesh.vertex_count,
         [&](int v) { return (v < m.cloth.cloth_vertices) == cloth && !m.mesh.vertex_faces[v].empty(); },
         [&](int v) { return start[static_cast<std::size_t>(v)]; });
+  }
+
+  /// Likewise.
+  static std::vector<int> edgesOfBodies(const CollisionModel& m, std::span<const Vec3> start) {
+    const auto first = [&](int e) { return m.mesh.edges[static_cast<std::size_t>(e)][0]; };
+    return alongCurve(
+        cubeAround(start), static_cast<int>(m.mesh.edges.size()),
+        [&](int e) { return first(e) >= m.cloth.cloth_vertices; },
+        [&](int e) { return start[static_cast<std::size_t>(first(e))]; });
   }
 
   void flattenBodies(const Model& model) {
@@ -188,13 +215,13 @@ class StepImpacts {
 
   void makeStages() {
     common_ = {{"beginning", [this](Queue& q) {
-                  q.forEach(
-                      std::max({mesh_.vertices, int{kImpactCounts}, ellipsoids_}),
-                      BeginImpacts{paths_, mesh_.vertices, ellipsoids_, roundedUp(0.5 * kImpactSeparation_m, 0),
-                                   mesh_.point.data(), mesh_.rough.data(), box_.data(), sweep_.data(), count_.data()});
+                  q.forEach(std::max(mesh_.vertices, int{kImpactCounts}),
+                            BeginImpacts{paths_, mesh_.vertices, roundedUp(0.5 * kImpactSeparation_m, 0),
+                                         mesh_.point.data(), mesh_.rough.data(), box_.data(), count_.data()});
                 }}};
     if (ellipsoids_ > 0)
       on_bodies_.push_back({"hits on ellipsoids", [this](Queue& q) {
+                              q.forEach(ellipsoids_, SweepEllipsoids{paths_.ellipsoid, sweep_.data()});
                               q.forEach(samples_, EnterEllipsoids{paths_, ellipsoids_, sweep_.data(), hitList()});
                             }});
     const int of_cloth = static_cast<int>(points_of_cloth_.size()),
@@ -208,21 +235,30 @@ class StepImpacts {
            }});
     }
     if ((!self_ && bodies_ == 0) || faces_.leaves() == 0) return;
-    appendTree(of_points_, faces_, mesh_.face, "faces");
-    of_points_.push_back(
-        {"pairs of points", [this, of_cloth, of_bodies](Queue& q) {
-           if (self_) traverse(q, VerticesInFaces{points_of_cloth_.data(), box_.data()}, of_cloth, faces_, kPointPairs);
-           traverse(q, VerticesInFaces{points_of_bodies_.data(), box_.data()}, of_bodies, faces_, kPointPairs);
-         }});
+    appendTree(face_tree_, faces_, mesh_.face, "faces");
+    appendTree(edge_tree_, edge_boxes_, mesh_.edge, "edges");
+    if (self_) {
+      cloth_points_.push_back(
+          {"pairs of points", [this, of_cloth](Queue& q) {
+             traverse(q, VerticesInFaces{points_of_cloth_.data(), box_.data()}, of_cloth, faces_, kPointPairs);
+           }});
+      cloth_edges_.push_back({"pairs of edges", [this](Queue& q) {
+                                traverse(q, EdgesInEdges{edge_boxes_.leaf(), edge_boxes_.leafBox()}, mesh_.cloth_edges,
+                                         edge_boxes_, kEdgePairs);
+                              }});
+    }
+    if (bodies_ > 0) {
+      body_parts_.push_back({"pairs of body edges", [this](Queue& q) {
+                               traverse(q, BodyEdgesInEdges{body_edges_.data(), edge_.data(), box_.data()},
+                                        static_cast<int>(body_edges_.size()), edge_boxes_, kEdgePairs);
+                             }});
+      body_parts_.push_back(
+          {"pairs of body points", [this, of_bodies](Queue& q) {
+             traverse(q, VerticesInFaces{points_of_bodies_.data(), box_.data()}, of_bodies, faces_, kPointPairs);
+           }});
+    }
     appendNarrow<3>(points_, "points", mesh_.face);
-    appendTree(of_edges_, edges_, mesh_.edge, "edges");
-    of_edges_.push_back(
-        {"pairs of edges", [this](Queue& q) {
-           if (self_) traverse(q, EdgesInEdges{edges_.leaf(), edges_.leafBox()}, mesh_.cloth_edges, edges_, kEdgePairs);
-           traverse(q, BodyEdgesInCloth{mesh_.edge.data(), box_.data(), mesh_.cloth_edges},
-                    mesh_.edges - mesh_.cloth_edges, edges_, kEdgePairs);
-         }});
-    appendNarrow<4>(of_edges_, "edges", mesh_.edge);
+    appendNarrow<4>(edges_, "edges", mesh_.edge);
   }
 
   /// From pairs to hits. N: 3 for points and triangles, 4 for edges.
@@ -268,11 +304,13 @@ class StepImpacts {
   }
 
   Queue& queue_;
-  Queue beside_[2];
+  Queue beside_[3];
   bool self_;
   int samples_, bodies_, ellipsoids_ = 0;
   FlatMesh<Device> mesh_;
   Buffer<int> points_of_cloth_, points_of_bodies_;
+  Buffer<std::array<int, 2>> edge_;
+  Buffer<int> body_edges_;
   Buffer<double> thickness_;
   Buffer<int> body_of_vertex_, ellipsoid_of_;
   Buffer<ImpactBody> body_;
@@ -280,7 +318,7 @@ class StepImpacts {
   Buffer<EllipsoidSweep> sweep_;
   Buffer<FloatBox> box_;
   BoxTree<Device, 3> faces_, body_faces_;  ///< of cloth, of bodies
-  BoxTree<Device, 2> edges_;               ///< of cloth
+  BoxTree<Device, 2> edge_boxes_;          ///< of cloth
   ImpactPaths paths_;
   ImpactSizes room_{}, sizes_{};
   Buffer<Count> count_;
@@ -296,7 +334,7 @@ class StepImpacts {
   Buffer<int> is_new_, rank_;
   typename Device::ExclusiveSum slot_sum_;
   std::optional<typename Device::ExclusiveSum> new_sum_;
-  Stages<Device> common_, on_bodies_, of_points_, points_, of_edges_;
+  Stages<Device> common_, face_tree_, edge_tree_, on_bodies_, cloth_points_, cloth_edges_, body_parts_, points_, edges_;
   bool built_ = false;
   int repeats_ = 0;
 };
