@@ -4,11 +4,12 @@
 ///                      [--stages] [--write-manifest FILE]
 ///
 /// Forces of shells (check_forces.hpp); contact solves, recorded (where --solves has them) and made up
-/// (check_solves.hpp); what is near in dressed bodies (check_near.hpp); impacts: public frames of cloth on a ball and
-/// in a funnel (where FOLDER, shared/data by name, has them), 460 balls that fly through each other, ten wavy sheets,
-/// and queries by themselves, random and degenerate. Of each: what it gives on both devices and, where core has it, in
-/// core, to the bit (forces: to 1e-13 of the largest); medians of a pass. Without CUDA, or --reference: the reference
-/// alone. Exit: 0; 1 where two differ; 2 bad input.
+/// (check_solves.hpp); what is near in dressed bodies (check_near.hpp); impacts of steps with their rows
+/// (check_step_impacts.hpp); impacts: public frames of cloth on a ball and in a funnel (where FOLDER, shared/data by
+/// name, has them), 460 balls that fly through each other, ten wavy sheets, and queries by themselves, random and
+/// degenerate. Of each: what it gives on both devices and, where core has it, in core, to the bit (forces: to 1e-13 of
+/// the largest); medians of a pass. Without CUDA, or --reference: the reference alone. Exit: 0; 1 where two differ; 2
+/// bad input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +20,7 @@
 #include "gpu/check_forces.hpp"
 #include "gpu/check_near.hpp"
 #include "gpu/check_solves.hpp"
+#include "gpu/check_step_impacts.hpp"
 #include "gpu/scenes/solve_facts.hpp"
 #include "gpu/scenes/stage_facts.hpp"
 #include "tools/frames_scene.hpp"
@@ -209,6 +211,8 @@ int run(const Settings& settings) {
     different += checkSolves({settings.solves, settings.passes, cuda, settings.large, settings.stages});
   if (settings.asks("near"))
     different += checkNear({settings.armour, settings.passes, settings.stages, cuda}, found.near);
+  if (settings.asks("step_impacts"))
+    different += checkStepImpacts({settings.armour, settings.passes, settings.stages, cuda});
   if (settings.asks("impacts")) different += checkImpacts(settings, cuda, found.impacts);
   if (!settings.manifest.empty()) writeManifest(settings.manifest, device, found);
   fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
@@ -225,7 +229,7 @@ int main(int argc, char** argv) {
   app.add_option("--armour", settings.armour, "a recorded mesh of a walk in armour");
   app.add_option("--solves", settings.solves, "folder of recorded contact solves, solve0.bin and so on");
   app.add_option("--only", settings.only, "a part of it")
-      ->check(CLI::IsMember({"forces", "solves", "near", "impacts"}));
+      ->check(CLI::IsMember({"forces", "solves", "near", "step_impacts", "impacts"}));
   app.add_option("--passes", settings.passes, "of which a time is the median")->check(CLI::Range(1, 1000));
   app.add_option("--queries", settings.queries, "by themselves")->check(CLI::Range(0, 100000000));
   app.add_flag("--stages", settings.stages, "time each stage and variant too");

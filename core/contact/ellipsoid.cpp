@@ -1,8 +1,5 @@
 #include "core/contact/ellipsoid.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -24,20 +21,6 @@ EllipsoidMetric ellipsoidMetric(const Ellipsoid& shape) {
     m.ratio_minus_1[i] = ((e[i] - m.min_axis_m) / m.min_axis_m) * ((e[i] + m.min_axis_m) / m.min_axis_m);
   }
   return m;
-}
-
-std::optional<double> ellipsoidEntry(const EllipsoidMetric& s, const Vec3& p0, const Vec3& p1) {
-  const auto unit = [&](const Vec3& v) { return Vec3{v.x * s.inverse.x, v.y * s.inverse.y, v.z * s.inverse.z}; };
-  const Vec3 a = unit(p0), b = unit(p1 - p0);
-  const double A = norm2(b), B = dot(a, b), C = norm2(a) - 1;
-  if (!(B < 0) || !(C >= -1e-10)) return std::nullopt;
-  if (C <= 0) return 0.0;
-  // B^2 - A C = A - |a x b|^2: the second form does not cancel far from the surface.
-  const double disc = A - norm2(cross(a, b));
-  if (!(disc > 0)) return std::nullopt;
-  const double t = C / (-B + std::sqrt(disc));
-  if (t <= 1) return t;
-  return std::nullopt;
 }
 
 }  // namespace gambeson

@@ -255,12 +255,22 @@ GAMBESON_HD inline Turn turnTo(const Query<N>& q, const Coplanarity& coplanar, c
   return Turn::moved;
 }
 
+/// What is told of a pair that meets at t, where `now` is known of it.
+template <std::size_t N>
+GAMBESON_HD ImpactTime impactAt(const Query<N>& q, const Known& now, double t, double enough_m) {
+  const Direction& n = now.nearest;
+  return {t, n.u, n.v, n.length_m, !(n.length_m <= enough_m + 4 * q.error_m)};
+}
+
+/// Of a pair that is not sound.
+GAMBESON_HD inline ImpactTime unsoundImpact() { return {0, 0, 0, 0, true}; }
+
 /// The whole query.
 template <std::size_t N>
 GAMBESON_HD std::optional<ImpactTime> findImpact(const FourPoints& x0, const FourPoints& x1, double separation_m,
                                                  double tolerance_m) {
   const Query<N> q = queryOf<N>(x0, x1, separation_m);
-  if (!q.sound) return ImpactTime{0, 0, 0, 0, true};
+  if (!q.sound) return unsoundImpact();
   if (q.boxesApart()) return std::nullopt;
   const Coplanarity coplanar = coplanarity(q, x0, x1);
   double t = startTime(q, coplanar);
@@ -273,10 +283,7 @@ GAMBESON_HD std::optional<ImpactTime> findImpact(const FourPoints& x0, const Fou
   for (int turns = 0;; ++turns) {
     const Verdict said = verdict(now, t, enough_m, turns);
     if (said == Verdict::apart) return std::nullopt;
-    if (said == Verdict::meets) {
-      const Direction& n = now.nearest;
-      return ImpactTime{t, n.u, n.v, n.length_m, !(n.length_m <= enough_m + 4 * q.error_m)};
-    }
+    if (said == Verdict::meets) return impactAt(q, now, t, enough_m);
     const double far = lookAhead(q, now, t, stride);
     if (far > now.until) {
       const Relative<N> rFar = q.at(far);
@@ -293,6 +300,17 @@ GAMBESON_HD std::optional<ImpactTime> findImpact(const FourPoints& x0, const Fou
     r = q.at(t);
     now = know(q, r, t);
   }
+}
+
+/// Lower bound of the distance of a pair at rest (pointTriangleGap, edgeEdgeGap).
+template <std::size_t N>
+GAMBESON_HD double gapAtRest(const FourPoints& x) {
+  const Relative<N> r = relative<N>(x);
+  double extent = 0;
+  for (const Vec3& a : r) extent = std::max(extent, largest(a));
+  const Query<N> q{r, r, kDirectionBound * extent + kTiny, 0, true};
+  const double below = (know(q, r, 0).gap_m - q.error_m) / kRoundUp;
+  return extent < kLargest && below > 0 ? below : 0;
 }
 
 }  // namespace gambeson::certified

@@ -46,16 +46,12 @@ Prepared prepare(const Obstacle& obstacle) {
 double component(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 Box worldBox(const Prepared& p, const Placement& X) {
+  if (std::holds_alternative<EllipsoidMetric>(p.shape)) return boxAround(p.local.hi, X);
   const Mat3& R = X.rotation;
+  const Vec3 l = p.local.halfSize();
   Vec3 h;
-  if (std::holds_alternative<EllipsoidMetric>(p.shape)) {
-    const Vec3& e = p.local.hi;  // support function: |diag(e) R^T axis|
-    for (int i = 0; i < 3; ++i) h[i] = X.scale * norm({R.a[i] * e.x, R.b[i] * e.y, R.c[i] * e.z});
-  } else {
-    const Vec3 l = p.local.halfSize();
-    for (int i = 0; i < 3; ++i)
-      h[i] = X.scale * (std::abs(R.a[i]) * l.x + std::abs(R.b[i]) * l.y + std::abs(R.c[i]) * l.z);
-  }
+  for (int i = 0; i < 3; ++i)
+    h[i] = X.scale * (std::abs(R.a[i]) * l.x + std::abs(R.b[i]) * l.y + std::abs(R.c[i]) * l.z);
   const Vec3 c = X * p.local.centre();
   // Larger by the rounding of the placement.
   const Box box{c - h, c + h};
@@ -69,10 +65,6 @@ double motionBound_m(const Box& local, const Placement& start, const Placement& 
   for (int i = 0; i < 8; ++i) d2 = std::max(d2, norm2(end * local.corner(i) - start * local.corner(i)));
   return std::sqrt(d2);
 }
-
-Mat3 minus(const Mat3& m, const Mat3& n) { return {m.a - n.a, m.b - n.b, m.c - n.c}; }
-double frobenius(const Mat3& m) { return std::sqrt(norm2(m.a) + norm2(m.b) + norm2(m.c)); }
-Mat3 scaled(const Mat3& m, double s) { return {s * m.a, s * m.b, s * m.c}; }
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -252,26 +244,9 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
   out.clear();
   if (std::ranges::none_of(shapes, [](const Prepared& s) { return std::holds_alternative<EllipsoidMetric>(s.shape); }))
     return;
-  // The path is the chord in the obstacle's frame, p(t) = (1 - t) p0 + t p1 with x0 = X0 p0, x1 = X1 p1. Under the
-  // interpolated map Xt = (1 - t) X0 + t X1 (affine, linear part At) a point of the shape lies in the hull of the
-  // shape's two boxes, and Xt p(t) = (1 - t) x0 + t x1 - t (1 - t) (A1 - A0) (p1 - p0). So the world chord comes within
-  // |A1 - A0| |p1 - p0| / 4 of that hull wherever the local chord touches the shape, where
-  // |p1 - p0| <= |x1 - x0|/s1 + |o1 - o0|/s1 + |A1^-1 - A0^-1| |x0 - o0|.
-  struct Sweep {
-    Box hull;
-    double bend, per_motion, shift, turn;
-  };
-  std::vector<Sweep> sweep(n_obstacles);
-  for (int o = 0; o < n_obstacles; ++o) {
-    const Placement &X0 = start[o], &X1 = end[o];
-    Sweep& s = sweep[o];
-    s.hull = worldBox(shapes[o], X0);
-    s.hull.add(worldBox(shapes[o], X1));
-    s.bend = frobenius(minus(scaled(X1.rotation, X1.scale), scaled(X0.rotation, X0.scale))) / 4;
-    s.per_motion = 1 / X1.scale;
-    s.shift = norm(X1.origin - X0.origin) / X1.scale;
-    s.turn = frobenius(minus(scaled(X1.rotation, 1 / X1.scale), scaled(X0.rotation, 1 / X0.scale)));
-  }
+  std::vector<EllipsoidSweep> sweep(n_obstacles);
+  for (int o = 0; o < n_obstacles; ++o)
+    if (const auto* e = std::get_if<EllipsoidMetric>(&shapes[o].shape)) sweep[o] = sweepOf(*e, start[o], end[o]);
   collect<std::vector<int>>((n + kBlock - 1) / kBlock, out, [&](int b, std::vector<int>& candidates, auto& list) {
     const int first = b * kBlock, last = std::min(n, first + kBlock);
     Box block, starts;
@@ -286,27 +261,14 @@ void ProximityQuery::impacts(std::span<const Placement> start, std::span<const P
     candidates.clear();
     for (int o = 0; o < n_obstacles; ++o) {
       if (!std::holds_alternative<EllipsoidMetric>(shapes[o].shape)) continue;
-      const Sweep& s = sweep[o];
-      double margin = 0;
-      if (s.bend > 0) {
-        const Vec3 far = maximum(starts.hi - start[o].origin, start[o].origin - starts.lo);
-        margin = s.bend * (step * s.per_motion + s.shift + s.turn * norm(far)) * kSlack;
-      }
-      if (overlap(block.grown(margin), s.hull)) candidates.push_back(o);
+      if (sweep[o].mayMeet(starts, block, step, start[o].origin)) candidates.push_back(o);
     }
     for (int i = first; i < last && !candidates.empty(); ++i) {
       for (int o : candidates) {
-        const Vec3 p0 = toLocal(start[o], x0[i]), p1 = toLocal(end[o], x1[i]);
-        Box path;
-        path.add(p0), path.add(p1);
-        if (!overlap(path.grown(1e-9 * norm(shapes[o].local.halfSize())), shapes[o].local)) continue;
-        const auto& e = std::get<EllipsoidMetric>(shapes[o].shape);
-        const auto t = ellipsoidEntry(e, p0, p1);
-        if (!t) continue;
-        const Vec3 hit = p0 + *t * (p1 - p0);
-        const Vec3 normal = normalized({hit.x * e.inverse2.x, hit.y * e.inverse2.y, hit.z * e.inverse2.z});
-        list.push_back(
-            {{i, o, 0, kOnBody, start[o].rotation * normal, start[o].scale * dot(p0 - hit, normal), hit, {}}, *t});
+        EllipsoidHit hit;
+        if (pathEnters(std::get<EllipsoidMetric>(shapes[o].shape), start[o], toLocal(start[o], x0[i]),
+                       toLocal(end[o], x1[i]), hit))
+          list.push_back({{i, o, 0, kOnBody, hit.normal, hit.gap_m, hit.local, {}}, hit.time});
       }
     }
   });

@@ -11,11 +11,13 @@
 #include "core/contact/mesh_topology.hpp"
 #include "core/math/parallel.hpp"
 #include "core/motion/body_edges.hpp"
+#include "core/motion/impact_row.hpp"
 
 namespace gambeson {
 namespace {
 
-constexpr double kSeparation_m = 1e-6, kBeyond_m = 2 * kSeparation_m;  ///< what is beyond that does not meet
+constexpr double kSeparation_m = kImpactSeparation_m,
+                 kBeyond_m = 2 * kSeparation_m;  ///< what is beyond that does not meet
 
 /// What samples of cloth may keep from a body, whatever their thickness.
 constexpr double kBodyReach_m = contactReach(kLargestClearance_m);
@@ -58,59 +60,30 @@ Vec3 onBody(const CollisionModel& m, const CollisionWork& w, int vertex) {
   return body.deforms ? w.x0[vertex] : body.local[vertex - body.first_vertex];
 }
 
-/// The row that keeps a pair apart: weights at the hit, normal there, from side b to side a as they stood at the start.
+/// The row that keeps a pair apart (impact_row.hpp).
 ContactRow rowOf(const CollisionModel& m, const CollisionWork& w, const PairHit& hit, const FourPoints& x0,
                  const FourPoints& x1, const std::array<int, 4>& vertex, const ImpactTime& at, double dt) {
-  const double u = at.u, v = at.v;
-  const std::array<double, 4> weight =
-      hit.edges ? std::array<double, 4>{1 - u, u, v - 1, -v} : std::array<double, 4>{1, u + v - 1, -u, -v};
-  std::array<Vec3, 4> x;
-  Vec3 start{};
-  for (int k = 0; k < 4; ++k) {
-    x[k] = x0[k] + at.time * (x1[k] - x0[k]);
-    start += weight[k] * x0[k];
-  }
-  Vec3 n = hit.edges ? cross(x[1] - x[0], x[3] - x[2]) : cross(x[2] - x[1], x[3] - x[1]);
-  const double size = norm(n), length = norm(start);
-  // Parallel edges and triangles without area have no normal; then the way between them at the start.
-  const double scale = hit.edges ? norm(x[1] - x[0]) * norm(x[3] - x[2]) : norm(x[2] - x[1]) * norm(x[3] - x[1]);
-  n = size > 1e-6 * scale ? n / size : length > 0 ? start / length : Vec3{0, 0, 1};
-  if (dot(n, start) < 0) n = -n;
+  const auto bodyOf = [&](int v, BodyVertex& out) {
+    if (m.body_of_vertex[v] < 0) return false;
+    const CollisionModel::Body& body = m.bodies[m.body_of_vertex[v]];
+    out = {body.obstacle, v - body.first_vertex, body.deforms, onBody(m, w, v)};
+    return true;
+  };
+  const ImpactRow found = impactRow({hit.edges, hit.a, hit.b, vertex, x0, x1, at.time, at.u, at.v}, dt, bodyOf);
   ContactRow row;
   row.impact = true;
   row.pair = {hit.edges ? 1 : 0, hit.a, hit.b};
-  row.contact.normal = n;
-  row.contact.gap_m = dot(n, start);
-  row.contact.obstacle = -1;
-  row.contact.kind = hit.edges ? ContactKind::edge_on_edge : ContactKind::sample_on_cloth;
-  row.contact.sample = hit.a;
-  row.contact.feature = hit.b;
-  Vec3 touched{};
-  double body_weight = 0;
-  for (int k = 0; k < 4; ++k) {
-    const int body = m.body_of_vertex[vertex[k]];
-    if (body < 0) {
-      if (weight[k] != 0) row.stencil.add(vertex[k], weight[k]);
-      continue;
-    }
-    row.contact.obstacle = m.bodies[body].obstacle;
-    row.contact.kind = hit.edges ? ContactKind::edge_on_body : ContactKind::sample_on_body;
-    row.body_velocity -= (weight[k] / dt) * (x1[k] - x0[k]);
-    touched += weight[k] * onBody(m, w, vertex[k]);
-    body_weight += weight[k];
-  }
-  if (body_weight != 0) {
-    row.contact.local = touched / body_weight;
-    for (int k = 0; k < 4; ++k)
-      if (m.body_of_vertex[vertex[k]] >= 0) touch(m, vertex[k], weight[k] / body_weight, row.contact);
-    row.contact.sample = row.stencil.sample[0];
-    if (body_weight > 0) {
-      // The body is the first side: written from the cloth's.
-      for (int k = 0; k < row.stencil.count; ++k) row.stencil.weight[k] = -row.stencil.weight[k];
-      row.body_velocity = -row.body_velocity;
-      row.contact.normal = -row.contact.normal;
-    }
-  }
+  row.body_velocity = found.body_velocity;
+  Contact& contact = row.contact;
+  contact.normal = found.normal;
+  contact.gap_m = found.gap_m;
+  contact.obstacle = found.obstacle;
+  contact.kind = found.kind;
+  contact.sample = found.sample;
+  contact.feature = found.feature;
+  contact.local = found.local;
+  for (int k = 0; k < found.count; ++k) row.stencil.add(found.stencil[k], found.weight[k]);
+  for (int k = 0; k < found.touched_count; ++k) contact.touched.add(found.touched[k], found.touched_weight[k]);
   return row;
 }
 
@@ -388,13 +361,14 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
     const auto first = [&](double separation) {
       return hit.edges ? edgeEdgeImpact(x0, x1, separation) : pointTriangleImpact(x0, x1, separation);
     };
-    if (!first(kSeparation_m)) return;
+    auto at = first(kSeparation_m);
+    if (!at) return;
     const double start = hit.edges ? edgeEdgeGap(x0) : pointTriangleGap(x0);
     if (!(start > 0)) {  // no side to stay on
       ++touching;
       return;
     }
-    const auto at = first(std::min(kSeparation_m, 0.1 * start));
+    if (const double separation = separationFrom(start); separation < kSeparation_m) at = first(separation);
     if (!at) return;
     capped += at->capped;
     hit.time = at->time;

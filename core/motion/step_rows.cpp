@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/math/parallel.hpp"
+#include "core/motion/impact_row.hpp"
 #include "core/motion/step_contact.hpp"
 #include "core/motion/warm_start.hpp"
 
@@ -149,13 +150,9 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
 
 namespace {
 
-/// Asks for what eq. 3.23 leaves of the gap, min(k delta, g), and for half of k delta more each round: bodies are
-/// curved, and pairs turn. As a speed that is delta/(2 tau) at most, however short the step: where steps are cut, what
-/// is asked for must not grow.
 void setImpactTarget(const Model& m, double dt, int round, ContactRow& row) {
-  const double gap = row.contact.gap_m;
   const double restored = -std::expm1(-dt / m.contact.relaxation_s) * layerOf(m, row);
-  row.target_m_per_s = (std::min(restored, std::max(gap, 0.0)) - gap + 0.5 * (round - 1) * restored) / dt;
+  row.target_m_per_s = impactTarget(row.contact.gap_m, restored, round, dt);
 }
 
 void addRow(const Model& m, const State& in, double dt, const ContactRow& row, StepWork& w) {

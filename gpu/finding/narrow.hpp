@@ -39,6 +39,16 @@ struct HardPair {
 struct FoundHit {
   Hit hit;
   int place;
+
+  /// What is known of the pair at its time; then which pair it is.
+  template <std::size_t N>
+  GAMBESON_HD void note(const certified::Query<N>&, const certified::Known&, double) {}
+  GAMBESON_HD void set(const OpenPair& p) { hit = {p.pair, p.time}; }
+};
+
+/// Which pairs are asked at all.
+struct EveryPair {
+  GAMBESON_HD bool operator()(const Pair&) const { return true; }
 };
 
 /// What a query needs beside the pair.
@@ -61,8 +71,7 @@ struct PairQueries {
     for (int k = 0; k < 4; ++k) p[k] = rough[vertex(pair, k)];
     return gpu::surelyApart<N>(p, roundedUp(separation_m, 0));
   }
-
- private:
+  /// The k-th of the four.
   GAMBESON_HD int vertex(const Pair& pair, int k) const {
     if constexpr (N == 3)
       return k == 0 ? pair.first : corners[3 * pair.second + k - 1];
@@ -72,8 +81,8 @@ struct PairQueries {
 };
 
 /// What is left of the pairs by boxes, roughly and then exactly, and coplanarity: pairs that rough boxes leave gather
-/// until every lane has one.
-template <int N>
+/// until every lane has one. Asks: asks(pair) tells which take part.
+template <int N, class Asks = EveryPair>
 struct SiftPairs {
   static constexpr int kResident = 16;
   struct Shared {
@@ -83,6 +92,7 @@ struct SiftPairs {
   PairQueries<N> queries;
   List<Pair> pairs;
   List<OpenPair> open;
+  Asks asks = {};
 
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared& shared, int index, int groups) const {
@@ -97,7 +107,7 @@ struct SiftPairs {
         left[lane] = false;
         if (i >= n) return;
         pair[lane] = pairs.items[i];
-        left[lane] = !queries.surelyApart(pair[lane]);
+        left[lane] = !queries.surelyApart(pair[lane]) && asks(pair[lane]);
       });
       shared.near.add(group, left, pair, near);
       group.sync();
@@ -137,24 +147,24 @@ struct SiftPairs {
 
 /// Where hits go, and how many each first primitive has.
 struct HitList {
+  using Found = FoundHit;
+
   List<FoundHit> hits;
   int* of_first;
 
   template <class Group>
   GAMBESON_HD void append(const Group& group, const typename Group::template PerLane<bool>& on,
-                          const typename Group::template PerLane<OpenPair>& pair) const {
-    typename Group::template PerLane<FoundHit> hit;
+                          typename Group::template PerLane<FoundHit>& hit) const {
     group.each([&](int lane) {
-      if (!on[lane]) return;
-      const OpenPair& p = pair[lane];
-      hit[lane] = {{p.pair, p.time}, fetchAdd(&of_first[p.pair.first], 1)};
+      if (on[lane]) hit[lane].place = fetchAdd(&of_first[hit[lane].hit.pair.first], 1);
     });
     gpu::append(group, on, hit, hits);
   }
 };
 
-/// Nearest points at the time from which a pair is open: most are apart to the end by their direction, or meet.
-template <int N>
+/// Nearest points at the time from which a pair is open: most are apart to the end by their direction, or meet. Hits:
+/// takes what Found keeps of pairs that meet.
+template <int N, class Hits = HitList>
 struct LookFirst {
   static constexpr int kResident = 12;
   struct Shared {};
@@ -162,12 +172,12 @@ struct LookFirst {
   PairQueries<N> queries;
   List<OpenPair> open;
   List<HardPair> hard;
-  HitList hits;
+  Hits hits;
 
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared&, int index, int groups) const {
     typename Group::template PerLane<bool> meets, left;
-    typename Group::template PerLane<OpenPair> item;
+    typename Group::template PerLane<typename Hits::Found> found;
     typename Group::template PerLane<HardPair> looked;
     const Count n = open.size();
     for (Count first = static_cast<Count>(index) * Group::kLanes; first < n;
@@ -176,26 +186,29 @@ struct LookFirst {
         const Count i = first + static_cast<Count>(lane);
         meets[lane] = left[lane] = false;
         if (i >= n) return;
-        item[lane] = open.items[i];
-        const double t = item[lane].time;
+        const OpenPair item = open.items[i];
+        const double t = item.time;
         FourPoints x0, x1;
-        queries.points(item[lane].pair, x0, x1);
+        queries.points(item.pair, x0, x1);
         const auto q = certified::queryOf<N>(x0, x1, queries.separation_m);
         const auto now = certified::know(q, q.at(t), t);
-        const auto verdict = certified::verdict(now, t, certified::enoughGap(q, queries.tolerance_m), 0);
+        const double enough_m = certified::enoughGap(q, queries.tolerance_m);
+        const auto verdict = certified::verdict(now, t, enough_m, 0);
         meets[lane] = !q.sound || verdict == certified::Verdict::meets;
         left[lane] = q.sound && verdict == certified::Verdict::open;
-        looked[lane].open = item[lane];
+        found[lane].note(q, now, enough_m);
+        found[lane].set(item);
+        looked[lane].open = item;
         looked[lane].keep(now);
       });
-      hits.append(group, meets, item);
+      hits.append(group, meets, found);
       append(group, left, looked, hard);
     }
   }
 };
 
 /// The others turn by turn; a lane that is done takes the next pair.
-template <int N>
+template <int N, class Hits = HitList>
 struct TakeTurns {
   static constexpr int kResident = 12;
   struct Shared {};
@@ -203,12 +216,12 @@ struct TakeTurns {
   PairQueries<N> queries;
   List<HardPair> hard;
   Count* taken;  ///< 0 before
-  HitList hits;
+  Hits hits;
 
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared&, int, int) const {
     typename Group::template PerLane<bool> busy(false), meets;
-    typename Group::template PerLane<OpenPair> met;
+    typename Group::template PerLane<typename Hits::Found> met;
     typename Group::template PerLane<HardPair> item(HardPair{});
     typename Group::template PerLane<certified::Query<N>> query;
     typename Group::template PerLane<certified::Coplanarity> coplanarity;
@@ -240,8 +253,9 @@ struct TakeTurns {
       group.each([&](int lane) {
         meets[lane] = false;
         if (!busy[lane]) return;
-        takeTurn(query[lane], coplanarity[lane], item[lane], stride[lane], ++turns[lane], busy[lane], meets[lane]);
-        met[lane] = item[lane].open;
+        takeTurn(query[lane], coplanarity[lane], item[lane], stride[lane], ++turns[lane], busy[lane], meets[lane],
+                 met[lane]);
+        met[lane].set(item[lane].open);
       });
       hits.append(group, meets, met);
     }
@@ -250,7 +264,7 @@ struct TakeTurns {
  private:
   /// A turn of a pair, and a look at where it leads.
   GAMBESON_HD void takeTurn(const certified::Query<N>& q, const certified::Coplanarity& coplanarity, HardPair& item,
-                            double& stride, int turns, bool& busy, bool& meets) const {
+                            double& stride, int turns, bool& busy, bool& meets, typename Hits::Found& met) const {
     double& t = item.open.time;
     certified::Known now = item.known(), later;
     certified::Turn turn = certified::Turn::moved;
@@ -265,10 +279,12 @@ struct TakeTurns {
     busy = turn != certified::Turn::apart;
     if (!busy) return;
     now = turn == certified::Turn::reached ? later : certified::know(q, q.at(t), t);
-    const auto verdict = certified::verdict(now, t, certified::enoughGap(q, queries.tolerance_m), turns);
+    const double enough_m = certified::enoughGap(q, queries.tolerance_m);
+    const auto verdict = certified::verdict(now, t, enough_m, turns);
     meets = verdict == certified::Verdict::meets;
     busy = verdict == certified::Verdict::open;
     item.keep(now);
+    met.note(q, now, enough_m);
   }
 };
 

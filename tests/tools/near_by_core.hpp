@@ -70,11 +70,10 @@ struct CoreStep {
   }
 };
 
-inline NearContacts nearByCore(const DressedScene& scene) {
-  const CoreStep step(scene, {});
-  const Model& m = step.m;
+/// Rows of core as arrays.
+inline NearContacts contactsOf(const Model& m, std::span<const ContactRow> rows) {
   NearContacts out;
-  for (const ContactRow& row : step.w.rows) {
+  for (const ContactRow& row : rows) {
     const Contact& c = row.contact;
     ContactFacts f;
     f.normal = c.normal;
@@ -85,7 +84,7 @@ inline NearContacts nearByCore(const DressedScene& scene) {
     f.kind = static_cast<int>(c.kind), f.sample = c.sample, f.obstacle = c.obstacle, f.feature = c.feature;
     f.partner = row.partner;
     // The cloth's triangle, which stands behind a corner, or the cloth's edge, which comes before the body's.
-    if (c.kind == ContactKind::edge_on_body) f.pair = row.pair[0] == 0 ? row.pair[2] : row.pair[1];
+    if (c.kind == ContactKind::edge_on_body && !row.impact) f.pair = row.pair[0] == 0 ? row.pair[2] : row.pair[1];
     out.facts.push_back(f);
     ContactStencil stencil;
     for (int k = 0; k < row.stencil.count; ++k) stencil.add(row.stencil.sample[k], row.stencil.weight[k]);
@@ -96,6 +95,10 @@ inline NearContacts nearByCore(const DressedScene& scene) {
     out.touch.push_back(touch);
   }
   return out;
+}
+inline NearContacts nearByCore(const DressedScene& scene) {
+  const CoreStep step(scene, {});
+  return contactsOf(step.m, step.w.rows);
 }
 
 /// Whether a contact is core's to the last bit. Of a sample that is deeper in a body than contacts reach, core's own
