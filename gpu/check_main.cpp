@@ -1,15 +1,16 @@
 /// Compares CUDA with the reference and with core, and times it.
 ///
-///   gambeson_gpu_check [--only PART] [--data FOLDER] [--armour FILE] [--solves FOLDER] [--passes N] [--queries N]
-///                      [--stages] [--write-manifest FILE]
+///   gambeson_gpu_check [--only PART] [--broad NAME ...] [--data FOLDER] [--armour FILE] [--solves FOLDER]
+///                      [--passes N] [--queries N] [--stages] [--write-manifest FILE]
 ///
 /// Forces of shells (check_forces.hpp); contact solves, recorded (where --solves has them) and made up
 /// (check_solves.hpp); what is near in dressed bodies (check_near.hpp); impacts of steps with their rows
 /// (check_step_impacts.hpp); impacts: public frames of cloth on a ball and in a funnel (where FOLDER, shared/data by
 /// name, has them), 460 balls that fly through each other, ten wavy sheets, and queries by themselves, random and
-/// degenerate. Of each: what it gives on both devices and, where core has it, in core, to the bit (forces: to 1e-13 of
-/// the largest); medians of a pass. Without CUDA, or --reference: the reference alone. Exit: 0; 1 where two differ; 2
-/// bad input.
+/// degenerate; with --broad instead of these: broad phases on the same scenes, on triangles of all sizes and on long
+/// ways. Of each: what it gives on both devices and, where core has it, in core, to the bit (forces: to 1e-13 of the
+/// largest); medians of a pass. Without CUDA, or --reference: the reference alone. Exit: 0; 1 where two differ; 2 bad
+/// input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,7 @@
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
+#include "gpu/check_broad.hpp"
 #include "gpu/check_forces.hpp"
 #include "gpu/check_near.hpp"
 #include "gpu/check_solves.hpp"
@@ -33,10 +35,11 @@ namespace fs = std::filesystem;
 
 struct Settings {
   std::string data = "../shared/data", solves = "../shared/trials/gpu", armour, manifest, only;
+  std::vector<std::string> broad;
   int passes = 15, queries = 1000000;
-  bool stages = false, reference_alone = false, large = true;
+  bool stages = false, reference_alone = false, large = true, fast = false;
 
-  bool asks(std::string_view part) const { return only.empty() || only == part; }
+  bool asks(std::string_view part) const { return broad.empty() && (only.empty() || only == part); }
 };
 
 std::vector<Scene> scenes(const Settings& settings) {
@@ -48,10 +51,15 @@ std::vector<Scene> scenes(const Settings& settings) {
     else
       fmt::print("no {} in {}\n", files.name, folder.string());
   }
-  for (Scene& scene : manifestScenes()) all.push_back(std::move(scene));
+  if (settings.broad.empty())
+    for (Scene& scene : manifestScenes()) all.push_back(std::move(scene));
   if (settings.large) {
     all.push_back(flyingBalls(460));
     all.push_back(wavySheets(10, 316));
+  }
+  if (!settings.broad.empty()) {
+    all.push_back(settings.large ? gradedPyramids(4, 128) : gradedPyramids(2, 48));
+    all.push_back(longWays(settings.large ? 160 : 20));
   }
   return all;
 }
@@ -196,8 +204,8 @@ int checkImpacts(const Settings& settings, bool cuda, std::vector<std::pair<Scen
 }
 
 int run(const Settings& settings) {
-  if (!settings.manifest.empty() && !settings.only.empty())
-    throw InputError({"", 0, "--write-manifest"}, "is of all parts: leave out --only");
+  if (!settings.manifest.empty() && !(settings.only.empty() && settings.broad.empty()))
+    throw InputError({"", 0, "--write-manifest"}, "is of all parts: leave out --only and --broad");
   const bool cuda = cudaBuilt() && !settings.reference_alone;
   const std::string device = cuda ? cudaDevice() : "reference";
   fmt::print("device: {}{}\n", device, cudaBuilt() ? "" : " (this program was built without CUDA)");
@@ -213,7 +221,10 @@ int run(const Settings& settings) {
     different += checkNear({settings.armour, settings.passes, settings.stages, cuda}, found.near);
   if (settings.asks("step_impacts"))
     different += checkStepImpacts({settings.armour, settings.passes, settings.stages, cuda});
-  if (settings.asks("impacts")) different += checkImpacts(settings, cuda, found.impacts);
+  if (!settings.broad.empty())
+    different += checkBroad(scenes(settings), {settings.broad, settings.passes, cuda, settings.stages, !settings.fast});
+  else if (settings.asks("impacts"))
+    different += checkImpacts(settings, cuda, found.impacts);
   if (!settings.manifest.empty()) writeManifest(settings.manifest, device, found);
   fmt::print("{}\n", different == 0 ? "all the same" : "DIFFERENT");
   return different == 0 ? 0 : 1;
@@ -230,6 +241,9 @@ int main(int argc, char** argv) {
   app.add_option("--solves", settings.solves, "folder of recorded contact solves, solve0.bin and so on");
   app.add_option("--only", settings.only, "a part of it")
       ->check(CLI::IsMember({"forces", "solves", "near", "step_impacts", "impacts"}));
+  app.add_option("--broad", settings.broad, "compare these broad phases")
+      ->check(CLI::IsMember(gambeson::gpu::broadNames()));
+  app.add_flag("--fast", settings.fast, "with --broad: leave out the reference on CUDA");
   app.add_option("--passes", settings.passes, "of which a time is the median")->check(CLI::Range(1, 1000));
   app.add_option("--queries", settings.queries, "by themselves")->check(CLI::Range(0, 100000000));
   app.add_flag("--stages", settings.stages, "time each stage and variant too");

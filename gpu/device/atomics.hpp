@@ -2,6 +2,7 @@
 /// What lanes of different groups do to the same place. Nothing that is left may depend on who came first.
 
 #include <atomic>
+#include <cstdint>
 #ifdef __CUDACC__
 #include <cuda/atomic>
 #endif
@@ -20,6 +21,26 @@ GAMBESON_HD T fetchAdd(T* at, T by) {
   return atomicAdd(at, by);
 #else
   return std::atomic_ref<T>(*at).fetch_add(by, std::memory_order_relaxed);
+#endif
+}
+
+/// Keeps the lesser, the larger of what is there and the other.
+GAMBESON_HD inline void fetchMin(std::uint32_t* at, std::uint32_t other) {
+#ifdef __CUDA_ARCH__
+  atomicMin(at, other);
+#else
+  const std::atomic_ref<std::uint32_t> place(*at);
+  for (std::uint32_t now = place.load(); other < now && !place.compare_exchange_weak(now, other);) {
+  }
+#endif
+}
+GAMBESON_HD inline void fetchMax(std::uint32_t* at, std::uint32_t other) {
+#ifdef __CUDA_ARCH__
+  atomicMax(at, other);
+#else
+  const std::atomic_ref<std::uint32_t> place(*at);
+  for (std::uint32_t now = place.load(); other > now && !place.compare_exchange_weak(now, other);) {
+  }
 #endif
 }
 

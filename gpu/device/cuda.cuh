@@ -182,6 +182,7 @@ class CudaOf {
       check(sort(room_.data(), bytes, keys.data(), values.data(), keys_out.data(), values_out.data(), queue.stream()),
             "a sort");
     }
+    std::size_t bytes() const { return room_.size(); }
 
    private:
     cudaError_t sort(void* room, std::size_t& bytes, const std::uint32_t* keys, const int* values,
@@ -192,25 +193,28 @@ class CudaOf {
     Buffer<char> room_;
   };
 
-  class ExclusiveSum {
+  template <class T>
+  class ExclusiveSumOf {
    public:
-    explicit ExclusiveSum(int n) : n_(n) {
+    explicit ExclusiveSumOf(int n) : n_(n) {
       std::size_t bytes = 0;
       check(sum(nullptr, bytes, nullptr, nullptr, nullptr), "room for a sum");
       room_ = Buffer<char>(bytes);
     }
-    void run(Queue& queue, const Buffer<int>& counts, Buffer<int>& sums) {
+    void run(Queue& queue, const Buffer<T>& counts, Buffer<T>& sums) {
       std::size_t bytes = room_.size();
       check(sum(room_.data(), bytes, counts.data(), sums.data(), queue.stream()), "a sum");
     }
+    std::size_t bytes() const { return room_.size(); }
 
    private:
-    cudaError_t sum(void* room, std::size_t& bytes, const int* counts, int* sums, cudaStream_t stream) const {
+    cudaError_t sum(void* room, std::size_t& bytes, const T* counts, T* sums, cudaStream_t stream) const {
       return cub::DeviceScan::ExclusiveSum(room, bytes, counts, sums, n_, stream);
     }
     int n_;
     Buffer<char> room_;
   };
+  using ExclusiveSum = ExclusiveSumOf<int>;
 
   /// A graph: no host between its kernels.
   class Replay {

@@ -90,22 +90,27 @@ class ReferenceOf {
       }
     }
 
+    std::size_t bytes() const { return order_.size() * sizeof(int); }
+
    private:
     int n_;
     std::vector<int> order_;
   };
 
   /// sums[i] = counts[0] + ... + counts[i - 1]
-  class ExclusiveSum {
+  template <class T>
+  class ExclusiveSumOf {
    public:
-    explicit ExclusiveSum(int n) : n_(n) {}
-    void run(Queue&, const Buffer<int>& counts, Buffer<int>& sums) {
-      std::exclusive_scan(counts.data(), counts.data() + n_, sums.data(), 0);
+    explicit ExclusiveSumOf(int n) : n_(n) {}
+    void run(Queue&, const Buffer<T>& counts, Buffer<T>& sums) {
+      std::exclusive_scan(counts.data(), counts.data() + n_, sums.data(), T{});
     }
+    std::size_t bytes() const { return 0; }
 
    private:
     int n_;
   };
+  using ExclusiveSum = ExclusiveSumOf<int>;
 
   /// Work that is given again and again, the same each time.
   class Replay {

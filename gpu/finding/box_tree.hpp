@@ -1,6 +1,7 @@
 #pragma once
 /// The tree of boxes over the faces (K = 3) or edges (K = 2) of a mesh, and what making it needs.
 
+#include "gpu/device/bytes.hpp"
 #include "gpu/finding/radix_tree.hpp"
 
 namespace gambeson::gpu {
@@ -37,6 +38,10 @@ class BoxTree {
                                   leaf_.data(), leaf_box_.data()});
   }
 
+  std::size_t bytes() const {
+    return sort_.bytes() +
+           bytesOf(node_, leaf_, leaf_box_, code_, code_sorted_, primitive_, order_, above_node_, above_leaf_, came_);
+  }
   int leaves() const { return n_; }
   const TreeNode* node() const { return node_.data(); }
   const TreeLeaf* leaf() const { return leaf_.data(); }

@@ -17,8 +17,9 @@ std::string cudaDevice() {
 
 std::unique_ptr<ImpactSearch> searchOnCuda(const Mesh& mesh, std::span<const Vec3> positions,
                                            const SearchOptions& options, const BothSizes& room, int groups_per_block) {
-  if (groups_per_block == 1) return std::make_unique<ImpactFinder<CudaOf<1>>>(mesh, positions, options, room);
-  return std::make_unique<ImpactFinder<Cuda>>(mesh, positions, options, room);
+  if (groups_per_block == 1 && options.broad == Broad::lbvh)
+    return std::make_unique<ImpactFinder<CudaOf<1>>>(mesh, positions, options, room);
+  return impactFinder<Cuda>(mesh, positions, options, room);
 }
 
 std::vector<ImpactAnswer> answersOnCuda(std::span<const ImpactQuestion> questions) { return answers<Cuda>(questions); }

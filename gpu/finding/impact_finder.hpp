@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "gpu/finding/cells/cell_pairs.hpp"
 #include "gpu/finding/lbvh.hpp"
 #include "gpu/finding/narrow_pass.hpp"
 
@@ -28,7 +29,7 @@ class ImpactFinder final : public ImpactSearch {
   using Queue = typename Device::Queue;
 
   ImpactFinder(const Mesh& mesh, std::span<const Vec3> positions, const SearchOptions& options, const BothSizes& room)
-      : mesh_(mesh, positions), options_(options), broad_(mesh_, marginOf(options), options.queries_per_group) {
+      : mesh_(mesh, positions), options_(options), broad_(mesh, mesh_, marginOf(options), options) {
     makeLists(room);
   }
 
@@ -44,7 +45,7 @@ class ImpactFinder final : public ImpactSearch {
       queue_.wait();
       BothSizes room = {points_->room(), edges_->room()};
       const BothSizes need = sizes();
-      bool enough = true;
+      bool enough = !broad_.ranOver(queue_);
       for (int kind = 0; kind < kPairKinds; ++kind)
         for (const auto list : {&ListSizes::pairs, &ListSizes::open, &ListSizes::hard, &ListSizes::hits}) {
           if (need[kind].*list <= room[kind].*list) continue;
@@ -64,9 +65,12 @@ class ImpactFinder final : public ImpactSearch {
     return kind == PairKind::pointTriangle ? points_->downloadHits(queue_) : edges_->downloadHits(queue_);
   }
   int repeats() const override { return repeats_; }
+  BroadFacts broadFacts() override { return broad_.facts(queue_); }
 
-  double medianMilliseconds(Trees trees, int passes) override {
-    return medianReplay<Device>(queue_, passes, [&] { give(trees); });
+  double medianMilliseconds(Trees trees, int passes, Part part) override {
+    const double ms = medianReplay<Device>(queue_, passes, [&] { give(trees, part); });
+    if (part == Part::broad) find(trees);
+    return ms;
   }
 
   std::vector<StageTime> stageTimes(int passes) override {
@@ -95,23 +99,24 @@ class ImpactFinder final : public ImpactSearch {
                                              edges_->clear()});
                 }}};
     append(common_, broad_.common());
-    stages_[0] = broad_.pointTriangle(points_->pairs());
+    broad_stages_[0] = stages_[0] = broad_.pointTriangle(points_->pairs());
     append(stages_[0], points_->stages("points"));
-    stages_[1] = broad_.edgeEdge(edges_->pairs());
+    broad_stages_[1] = stages_[1] = broad_.edgeEdge(edges_->pairs());
     append(stages_[1], edges_->stages("edges"));
   }
   static void append(Stages<Device>& to, const Stages<Device>& more) { to.insert(to.end(), more.begin(), more.end()); }
 
   /// Both kinds of pairs side by side.
-  void give(Trees trees) {
+  void give(Trees trees, Part part = Part::all) {
     const auto run = [trees](const Stages<Device>& stages, Queue& queue) {
       for (const Stage<Device>& stage : stages)
         if (trees == Trees::rebuilt || !stage.rebuilds) stage.work(queue);
     };
     run(common_, queue_);
     beside_.after(queue_);
-    run(stages_[0], queue_);
-    run(stages_[1], beside_);
+    const auto& of_kind = part == Part::all ? stages_ : broad_stages_;
+    run(of_kind[0], queue_);
+    run(of_kind[1], beside_);
     queue_.after(beside_);
   }
 
@@ -122,7 +127,27 @@ class ImpactFinder final : public ImpactSearch {
   std::optional<NarrowPass<Device, 3>> points_;
   std::optional<NarrowPass<Device, 4>> edges_;
   Stages<Device> common_, stages_[kPairKinds];
+  Stages<Device> broad_stages_[kPairKinds];  ///< the first of these
   int repeats_ = 0;
 };
+
+/// With the broad phase that the options name.
+template <class Device>
+std::unique_ptr<ImpactSearch> impactFinder(const Mesh& mesh, std::span<const Vec3> positions,
+                                           const SearchOptions& options, const BothSizes& room) {
+  switch (options.broad) {
+    case Broad::vss:
+      return std::make_unique<ImpactFinder<Device, Vss>>(mesh, positions, options, room);
+    case Broad::vssPieces:
+      return std::make_unique<ImpactFinder<Device, VssPieces>>(mesh, positions, options, room);
+    case Broad::otg:
+      return std::make_unique<ImpactFinder<Device, Otg>>(mesh, positions, options, room);
+    case Broad::grid:
+      return std::make_unique<ImpactFinder<Device, PlainGrid>>(mesh, positions, options, room);
+    case Broad::lbvh:
+      break;
+  }
+  return std::make_unique<ImpactFinder<Device>>(mesh, positions, options, room);
+}
 
 }  // namespace gambeson::gpu

@@ -7,7 +7,7 @@ namespace gambeson::gpu {
 
 std::unique_ptr<ImpactSearch> searchOnReference(const Mesh& mesh, std::span<const Vec3> positions,
                                                 const SearchOptions& options, const BothSizes& room) {
-  return std::make_unique<ImpactFinder<Reference>>(mesh, positions, options, room);
+  return impactFinder<Reference>(mesh, positions, options, room);
 }
 
 std::vector<ImpactAnswer> answersOnReference(std::span<const ImpactQuestion> questions) {

@@ -3,6 +3,7 @@
 /// has lanes, so that a heavy query is shared by all of them.
 
 #include "gpu/device/list.hpp"
+#include "gpu/finding/float_dop.hpp"
 #include "gpu/finding/pair.hpp"
 #include "gpu/finding/radix_tree.hpp"
 
@@ -78,10 +79,23 @@ struct BodyEdgesInCloth {
   GAMBESON_HD static Pair pair(const BoxQuery& q, const TreeLeaf& leaf) { return {leaf.primitive, q.primitive}; }
 };
 
+/// Queries whose polytopes are compared after their boxes.
+template <class Queries, bool kOfVertices>
+struct WithPolytopes : Queries {
+  const FloatDop* vertex_dop;
+
+  GAMBESON_HD bool counts(const BoxQuery& q, const TreeLeaf& other) const {
+    if (!Queries::counts(q, other)) return false;
+    const FloatDop mine = kOfVertices ? vertex_dop[q.primitive] : primitiveDop<2>(q.corner, vertex_dop);
+    return meet(mine, primitiveDop<3>(other.corner, vertex_dop));
+  }
+};
+
 constexpr int kMostQueries = 16;  ///< of a group
 
-/// kStack: tasks of a group, more than kTreeDepth and the queries together.
-template <class Queries, int kStack = 512>
+/// kStack: tasks of a group, more than kTreeDepth and the queries together. kTallied: boxes that are compared are
+/// counted.
+template <class Queries, int kStack = 512, bool kTallied = false>
 struct Traverse {
   static constexpr int kResident = 48;
   static constexpr int kGathered = 256, kNodeBits = 26;
@@ -99,6 +113,7 @@ struct Traverse {
   const TreeNode* node;  ///< fewer than 2^kNodeBits
   const TreeLeaf* leaf;
   List<Pair> pairs;
+  Count* tally = nullptr;
 
   template <class Group>
   GAMBESON_HD void operator()(const Group& group, Shared& shared, int index, int) const {
@@ -119,6 +134,7 @@ struct Traverse {
       // than the tree is deep.
       const int take = std::min(std::min(int{Group::kLanes}, tasks), std::max(1, kStack - kTreeDepth - tasks));
       tasks -= take;
+      if constexpr (kTallied) group.once([&] { return fetchAdd(tally, static_cast<Count>(2 * take)); });
       group.each([&](int lane) {
         opens[0][lane] = opens[1][lane] = counts[0][lane] = counts[1][lane] = false;
         if (lane >= take) return;
@@ -132,7 +148,7 @@ struct Traverse {
             task[side][lane] = of_query | static_cast<std::uint32_t>(at.child[side]);
           } else {
             const TreeLeaf other = leaf[~at.child[side]];
-            counts[side][lane] = Queries::counts(query, other);
+            counts[side][lane] = queries.counts(query, other);
             pair[side][lane] = Queries::pair(query, other);
           }
         }

@@ -65,4 +65,16 @@ Scene flyingBalls(int count) {
   return scene;
 }
 
+Scene longWays(int count) {
+  Scene scene = flyingBalls(count);
+  scene.name += ", every fifth on a long way";
+  Random random(11);
+  const std::size_t of_ball = scene.x0.size() / static_cast<std::size_t>(count);
+  for (std::size_t ball = 0; ball < scene.x0.size(); ball += 5 * of_ball) {
+    const Vec3 way = 1.5 * random.evenVec();
+    for (std::size_t i = ball; i < ball + of_ball; ++i) scene.x1[i] = scene.x0[i] + way;
+  }
+  return scene;
+}
+
 }  // namespace gambeson::gpu

@@ -20,6 +20,13 @@ struct Scene {
 /// axis: they pass through each other. Separation 0.
 Scene flyingBalls(int count);
 
+/// The same, and every fifth ball flies on, by up to 1.5 m: most ways are short and some go through all of the rest.
+Scene longWays(int count);
+
+/// Square pyramids of rings that grow from 4 mm to 0.4 m, with so many vertices around each: triangles of one shape and
+/// of sizes from 1 to 100. They are tilted against each other and fall through each other.
+Scene gradedPyramids(int count, int around);
+
 /// Wavy square sheets of n x n vertices on each other: cells of 6 mm, sheets 2.5 mm apart; in the step vertices move by
 /// some 20 um. Pairs are sought within 2.6 mm, impacts at a separation of 1 um.
 Scene wavySheets(int sheets, int n);
