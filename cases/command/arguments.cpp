@@ -15,6 +15,17 @@ static void addOverrides(CLI::App& command, std::vector<std::string>& overrides)
       ->allow_extra_args(false);
 }
 
+static void addDevice(CLI::App& command, std::string& device) {
+  command
+      .add_option(
+          "--device", device,
+          "What computes the steps. cpu: the processor; cuda: an NVIDIA GPU, for fine cloth; "
+          "reference: the processor, slowly, with every bit as cuda has it; auto: cpu on every machine, so that "
+          "numbers do not depend on it, and a note where a GPU is there [auto]")
+      ->type_name("DEVICE")
+      ->check(CLI::IsMember({"auto", "cpu", "reference", "cuda"}).description(""));
+}
+
 void addRun(CLI::App& app, RunArguments& a) {
   CLI::App& run =
       *app.add_subcommand("run",
@@ -31,11 +42,10 @@ void addRun(CLI::App& app, RunArguments& a) {
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
   run.add_flag("--resume", a.options.resume,
-               "Continues an interrupted run of the same case, in the same folder, from its last checkpoint");
+               "Continues an interrupted run of the same case, in the same folder, from its last checkpoint; of cuda "
+               "also under reference, and the other way round");
   addOverrides(run, a.overrides);
-  run.add_option("--device", a.device, "Where to compute: auto or cpu, the same in this version [auto]")
-      ->type_name("DEVICE")
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}).description(""));
+  addDevice(run, a.device);
   run.footer(
       "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, zones.csv,\n"
       "stress.csv, patches.csv, straps.csv, collisions.csv, energy.csv, memory.csv, latitude.csv, snapshots/\n"
@@ -46,7 +56,8 @@ void addRun(CLI::App& app, RunArguments& a) {
       "  gambeson run cases/library/shorts_walk.json\n"
       "  gambeson run cases/library/shorts_walk.json --out results/thin --set fabric.thickness=\"0.4 mm\"\n"
       "  gambeson run cases/library/sleeve_flex.json --set contact.friction=0.5\n"
-      "  gambeson run cases/library/cantilever.json --set sheet.cells_u=32\n\n"
+      "  gambeson run cases/library/cantilever.json --set sheet.cells_u=32\n"
+      "  gambeson run cases/library/armour_walk.json --device cuda\n\n"
       "Exit status: 0 done; 1 the run failed, the message says why; 2 something in the input is wrong.");
 }
 
@@ -279,7 +290,9 @@ void addVerify(CLI::App& app, verify::Options& o) {
 }
 
 static void addJobs(CLI::App& command, study::Options& o) {
-  command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads [0]")
+  command
+      .add_option("--jobs", o.jobs,
+                  "Runs at a time; 0 for as many as there are threads, on a GPU for 16 as far as its memory goes [0]")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
   command.add_option("--threads", o.threads, "Threads of all runs together, 0 for as many as the machine has [0]")
@@ -298,10 +311,11 @@ void addStudy(CLI::App& app, StudyArguments& a) {
   command.add_option("--out", a.options.out, "Folder for the results [results/<name of the study file>]")
       ->type_name("DIR");
   addJobs(command, a.options);
+  addDevice(command, a.device);
   command
-      .add_option(
-          "--engine", a.engine,
-          "local: runs here; slurm: writes DIR/study.slurm, an array of jobs for sbatch, and runs nothing [local]")
+      .add_option("--engine", a.engine,
+                  "local: runs here; slurm: writes DIR/study.slurm, an array of jobs for sbatch (with "
+                  "--device cuda each asks for a GPU), and runs nothing [local]")
       ->type_name("ENGINE")
       ->check(CLI::IsMember({"local", "slurm"}).description(""));
   command.add_flag("--check", a.check, "Only checks the study and all its variants, and lists them");
@@ -325,9 +339,19 @@ void addBatch(CLI::App& app, StudyArguments& a) {
   command.add_option("CASE", a.cases, "Case files (JSON)")->type_name("")->required();
   command.add_option("--out", a.options.out, "Folder for the results")->type_name("DIR")->required();
   addJobs(command, a.options);
+  addDevice(command, a.device);
   command.footer(
       "Example:\n  gambeson batch cases/library/flag.json cases/library/stack_mixed.json --out results/cloth\n\n"
       "Exit status: 0 all cases are done; 1 some failed; 2 something in the input is wrong, and nothing ran.");
+}
+
+void addTogether(CLI::App& app, TogetherArguments& a) {
+  CLI::App& command = *app.add_subcommand("together", "Makes the runs of a study in one process")->group("");
+  command.add_option("LIST", a.options.list)->required();
+  command.add_option("--ended", a.options.ended)->required();
+  command.add_option("--jobs", a.options.jobs)->check(CLI::Range(1, 4096));
+  command.add_option("--threads", a.options.threads)->check(CLI::Range(1, 4096));
+  addDevice(command, a.device);
 }
 
 }  // namespace gambeson

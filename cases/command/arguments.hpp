@@ -11,6 +11,7 @@
 #include "cases/verify/verify.hpp"
 #include "cases/wear/run/export.hpp"
 #include "cases/wear/run/run.hpp"
+#include "cases/wear/run/together.hpp"
 
 namespace gambeson {
 
@@ -59,9 +60,14 @@ struct FabricArguments {
 struct StudyArguments {
   std::filesystem::path file;
   std::vector<std::filesystem::path> cases;
-  std::string engine = "local";
+  std::string engine = "local", device = "auto";
   bool check = false;
   study::Options options;
+};
+
+struct TogetherArguments {
+  TogetherOptions options;
+  std::string device = "reference";
 };
 
 /// Each adds one command, whose options fill what it is told.
@@ -76,5 +82,7 @@ void addFabric(CLI::App& app, FabricArguments& a);
 void addVerify(CLI::App& app, verify::Options& o);
 void addStudy(CLI::App& app, StudyArguments& a);
 void addBatch(CLI::App& app, StudyArguments& a);
+/// What `study` starts; no help names it.
+void addTogether(CLI::App& app, TogetherArguments& a);
 
 }  // namespace gambeson

@@ -22,11 +22,13 @@
 #include "cases/structure/run.hpp"
 #include "cases/study/run.hpp"
 #include "cases/verify/verify.hpp"
+#include "cases/wear/case/device_keys.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/run/draft.hpp"
 #include "cases/wear/run/dress.hpp"
 #include "cases/wear/run/export.hpp"
 #include "cases/wear/run/run.hpp"
+#include "cases/wear/run/run_steps.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -108,14 +110,38 @@ int draft(const DraftArguments& a, std::ostream& out) {
   return done;
 }
 
+/// `auto` is the processor: numbers must not depend on the machine.
+DeviceKind deviceOf(const std::string& word) {
+  const auto at = std::find(kDeviceWords.begin(), kDeviceWords.end(), word);
+  return at == kDeviceWords.end() ? DeviceKind::cpu : static_cast<DeviceKind>(at - kDeviceWords.begin());
+}
+
 int run(RunArguments& a) {
-  if (a.device == "cuda")
-    throw InputError({"command line", 0, "--device"}, "\"cuda\" is not in this build; allowed: auto or cpu");
+  a.options.device = deviceOf(a.device);
+  a.options.names_gpu = a.device == "auto";
   const AnyCase any = readAnyCase(a.file, a.overrides);
   if (a.options.out.empty()) a.options.out = std::filesystem::path("results") / a.file.stem();
   checkPath(std::filesystem::absolute(a.options.out), "--out");
   if (const auto* structure = std::get_if<StructureCase>(&any)) return runStructure(*structure, a.options);
   return runCase(std::get<Case>(any), a.options);
+}
+
+/// Before anything runs: that all variants can be run on the device that was asked for.
+void checkDevice(const study::Study& s, const study::Options& o, bool automatic) {
+  const auto require = [&](DeviceKind device) {
+    for (const study::Variant& v : s.variants)
+      std::visit([&](const auto& c) { requireCarried(c, device); }, v.definition);
+  };
+  require(o.device);
+  if (o.slurm) return;  // where the jobs run there may be another GPU
+  requireDevice(o.device);
+  if (!automatic) return;
+  try {
+    require(DeviceKind::cuda);
+  } catch (const InputError&) {
+    return;  // it would not help
+  }
+  nameGpu();
 }
 
 int studyCommand(StudyArguments& a, std::ostream& out) {
@@ -125,7 +151,9 @@ int studyCommand(StudyArguments& a, std::ostream& out) {
     a.options.out = std::filesystem::path("results") / name;
   }
   a.options.slurm = a.engine == "slurm";
+  a.options.device = deviceOf(a.device);
   const study::Study s = study::readStudy(a.file);
+  checkDevice(s, a.options, a.device == "auto");
   if (!a.check) return study::runStudy(s, a.options, out);
   for (const study::Variant& v : s.variants) {
     checkBuild(v.definition);
@@ -133,6 +161,13 @@ int studyCommand(StudyArguments& a, std::ostream& out) {
   }
   out << fmt::format("{}: valid, {} variants\n", a.file.string(), s.variants.size());
   return done;
+}
+
+int batchCommand(StudyArguments& a, std::ostream& out) {
+  a.options.device = deviceOf(a.device);
+  const study::Study s = study::batchOf(a.cases);
+  checkDevice(s, a.options, a.device == "auto");
+  return study::runStudy(s, a.options, out);
 }
 
 int dressCase(const DressArguments& a) {
@@ -229,6 +264,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   StudyArguments study_arguments, batch_arguments;
   addStudy(app, study_arguments);
   addBatch(app, batch_arguments);
+  TogetherArguments together_arguments;
+  addTogether(app, together_arguments);
   std::string subject;  // what the command works on, for messages that name no file themselves
   const auto failure = [&](const std::string& text) { err << messageText(text) << '\n'; };
   if (argc < 2) {
@@ -288,8 +325,11 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("fabric")) return fabricCommand(fabric_arguments, out);
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
     if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
-    if (app.got_subcommand("batch"))
-      return study::runStudy(study::batchOf(batch_arguments.cases), batch_arguments.options, out);
+    if (app.got_subcommand("together")) {
+      together_arguments.options.device = deviceOf(together_arguments.device);
+      return runTogether(together_arguments.options);
+    }
+    if (app.got_subcommand("batch")) return batchCommand(batch_arguments, out);
     checkEnding(report_options.html, "--output", {".html", ".htm"});
     checkOutput(report_options.html, "--output", recordedFiles(report_options.results));
     return holdsStructure(report_options.results) ? reportStructureResults(report_options)

@@ -100,7 +100,17 @@ std::string messageText(std::string_view whole) {
   return shown.substr(0, head).append(left_out).append(shown.substr(boundary(shown.size() - kept_at_end)));
 }
 
-void sayNote(const std::string& note) { fmt::print(stderr, "{}\n", messageText("note: " + note)); }
+namespace {
+thread_local std::FILE* told_to = nullptr;
+}
+
+std::FILE* notes() { return told_to ? told_to : stderr; }
+
+NotesTo::NotesTo(std::FILE* stream) : before_(told_to) { told_to = stream; }
+
+NotesTo::~NotesTo() { told_to = before_; }
+
+void sayNote(const std::string& note) { fmt::print(notes(), "{}\n", messageText("note: " + note)); }
 
 std::string unfitText(std::string_view text, bool lines) {
   for (std::size_t at = 0; at < text.size();) {

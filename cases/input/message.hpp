@@ -1,6 +1,7 @@
 #pragma once
 /// Texts that others wrote, as a terminal may show them.
 
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -12,7 +13,22 @@ namespace gambeson {
 /// would act on (control characters) and bytes that are no UTF-8 are written as \x1b; line breaks stay.
 std::string messageText(std::string_view text);
 
-/// A note on the standard error, as messageText has it. Names that the input gives stand in notes.
+/// Where this thread's notes go: the standard error, unless a NotesTo says otherwise.
+std::FILE* notes();
+
+/// While it lives, what this thread has to say goes there: runs that share a process have logs of their own.
+class NotesTo {
+ public:
+  explicit NotesTo(std::FILE* stream);
+  ~NotesTo();
+  NotesTo(const NotesTo&) = delete;
+  NotesTo& operator=(const NotesTo&) = delete;
+
+ private:
+  std::FILE* before_;
+};
+
+/// A note, as messageText has it. Names that the input gives stand in notes.
 void sayNote(const std::string& note);
 
 /// Why a text cannot be a name or a path: empty where it can. Control characters (line breaks, escapes of terminals,

@@ -4,13 +4,19 @@
 #include <filesystem>
 
 #include "cases/runs/picture.hpp"
+#include "core/device_kind.hpp"
 
 namespace gambeson {
+
+class Company;  // cases/wear/run/company.hpp
 
 struct RunOptions {
   std::filesystem::path out;  ///< results folder
   int threads = 0;            ///< 0: OMP_NUM_THREADS, or as many as the machine has
   bool resume = false;        ///< continue what an interrupted run left in `out`
+  DeviceKind device = DeviceKind::cpu;
+  bool names_gpu = false;      ///< says where a GPU could have done it
+  Company* company = nullptr;  ///< of other runs that this process makes too
 };
 
 struct RenderOptions {

@@ -16,6 +16,7 @@
 #include "cases/runs/progress.hpp"
 #include "cases/runs/recorded_case.hpp"
 #include "cases/runs/results_folder.hpp"
+#include "cases/runs/run_identity.hpp"
 #include "cases/runs/stop_message.hpp"
 #include "cases/runs/temporary_folder.hpp"
 #include "cases/structure/checks.hpp"
@@ -83,7 +84,7 @@ class Run {
     built_.emplace(c);
     removeEarlierResults(out_);
     RecordingLayout layout;
-    layout.identity = caseIdentity(c) + " " + built_->model.structure->cloth->kernels();
+    layout.identity = RunIdentity(caseIdentity(c), built_->model.structure->cloth->kernels(), DeviceKind::cpu).text();
     layout.metadata = writeCase(c);
     layout.triangles = built_->mesh.triangles;
     layout.body_triangles = obstacleTriangles(built_->model);
@@ -368,7 +369,16 @@ void checkStructure(const StructureCase& c) {
   caseIdentity(c);
 }
 
+void requireCarried(const StructureCase& c, DeviceKind device) {
+  if (device == DeviceKind::cpu) return;
+  sayInCase(c.file, c.overrides,
+            InputError({"", 0, "kind"}, fmt::format("structures are not carried by --device {}; allowed with it: "
+                                                    "\"wear\"; without: --device cpu",
+                                                    wordOf(device))));
+}
+
 int runStructure(const StructureCase& c, const RunOptions& options) {
+  requireCarried(c, options.device);
   if (options.resume)
     throw InputError({"command line", 0, "--resume"},
                      "is not possible for static, dynamic and modal cases: they start from the beginning");

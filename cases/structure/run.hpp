@@ -9,6 +9,9 @@ namespace gambeson {
 /// Builds what a run starts from, with the same errors, and lets it go.
 void checkStructure(const StructureCase& c);
 
+/// Throws InputError at the case's kind: structures are computed by the processor alone.
+void requireCarried(const StructureCase& c, DeviceKind device);
+
 /// Runs the case into the folder of the options, as runCase does. Throws RunError where the run fails; what converged
 /// before is in the folder.
 int runStructure(const StructureCase& c, const RunOptions& options);

@@ -18,10 +18,12 @@
 #include "cases/runs/process_pool.hpp"
 #include "cases/runs/progress.hpp"
 #include "cases/runs/results_folder.hpp"
+#include "cases/runs/run_identity.hpp"
 #include "cases/runs/shell_word.hpp"
 #include "cases/study/compare.hpp"
 #include "cases/study/files.hpp"
 #include "cases/study/time_left.hpp"
+#include "cases/study/together.hpp"
 #include "cases/wear/case/references.hpp"
 #include "cases/wear/results/results.hpp"
 #include "core/error.hpp"
@@ -55,7 +57,8 @@ std::filesystem::path logFile(const std::filesystem::path& out, const Variant& v
 
 std::vector<Stand> standsOf(const Study& s, const Options& o) {
   std::vector<Stand> stands;
-  for (const Variant& v : s.variants) stands.push_back(o.resume ? standOf(o.out / v.folder, v.identity) : Stand::fresh);
+  for (const Variant& v : s.variants)
+    stands.push_back(o.resume ? standOf(o.out / v.folder, v.identity, o.device) : Stand::fresh);
   return stands;
 }
 
@@ -102,7 +105,9 @@ std::vector<std::string> commandOf(const Variant& v, const Options& o, int threa
                                    "--out",
                                    (o.out / v.folder).string(),
                                    "--threads",
-                                   std::to_string(threads)};
+                                   std::to_string(threads),
+                                   "--device",
+                                   wordOf(o.device)};
   if (stand == Stand::interrupted) command.push_back("--resume");
   return command;
 }
@@ -148,11 +153,18 @@ std::optional<double> tookBefore(const std::filesystem::path& folder, int thread
 
 }  // namespace
 
-Stand standOf(const std::filesystem::path& folder, const std::string& identity) {
+Stand standOf(const std::filesystem::path& folder, const std::string& identity, DeviceKind device) {
   if (closedSegments(folder) == 0) return Stand::fresh;
-  const std::string whole = identity + " " + widestInstructionSet();
+  const RunIdentity whole(identity, widestInstructionSet(), device);
+  std::optional<RunIdentity> recorded;
   try {
-    if (RecordingReader(folder).layout().identity != whole) return Stand::fresh;
+    recorded.emplace(RecordingReader(folder).layout().identity);
+  } catch (const InputError&) {
+    return Stand::fresh;
+  }
+  if (recorded->case_hash == whole.case_hash) requireSameDevice(*recorded, device, folder.string());
+  if (*recorded != whole) return Stand::fresh;
+  try {
     std::ifstream stream(folder / "summary.json");
     // The page is written last.
     if (!stream || !std::filesystem::exists(folder / "report.html")) return Stand::interrupted;
@@ -162,8 +174,6 @@ Stand standOf(const std::filesystem::path& folder, const std::string& identity) 
                                                                                             : Stand::interrupted;
   } catch (const nlohmann::json::exception&) {
     return Stand::interrupted;
-  } catch (const InputError&) {
-    return Stand::fresh;
   }
 }
 
@@ -203,7 +213,10 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
         waiting.size(), s.variants.size(), shellWord((o.out / files::script).string()));
     return 0;
   }
-  const int parallel = std::clamp(o.jobs > 0 ? o.jobs : threads, 1, std::max(1, static_cast<int>(waiting.size())));
+  // Runs on a GPU wait for it most of the time; what waits for its memory has been built already.
+  constexpr int most_on_gpu = 16;
+  const int usual = o.device == DeviceKind::cuda ? most_on_gpu : threads;
+  const int parallel = std::clamp(o.jobs > 0 ? o.jobs : usual, 1, std::max(1, static_cast<int>(waiting.size())));
   const int each = std::max(1, threads / parallel);
   // Those interrupted first: they are nearest to their end.
   std::stable_partition(waiting.begin(), waiting.end(), [&](std::size_t i) { return stands[i] == Stand::interrupted; });
@@ -253,7 +266,15 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
       }
       line.update(times);
     };
-    whole = runProcesses(jobs, pool, signals, lock.descriptor());
+    if (o.device == DeviceKind::cpu) {
+      whole = runProcesses(jobs, pool, signals, lock.descriptor());
+    } else {
+      std::vector<TogetherRun> runs;
+      for (const std::size_t i : waiting)
+        runs.push_back({caseFile(o.out, s.variants[i]), o.out / s.variants[i].folder, logFile(o.out, s.variants[i]),
+                        stands[i] == Stand::interrupted});
+      whole = runInOneProcess(std::move(runs), {o.binary, o.out, o.device, threads}, pool, signals, lock.descriptor());
+    }
   }
   if (!whole)
     throw RunError(

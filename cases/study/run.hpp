@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cases/study/study.hpp"
+#include "core/device_kind.hpp"
 
 namespace gambeson::study {
 
@@ -14,13 +15,15 @@ struct Options {
   int jobs = 0;     ///< at a time; 0: as many as there are threads
   int threads = 0;  ///< of all jobs together; 0: as many as the machine has
   bool resume = false;
+  DeviceKind device = DeviceKind::cpu;    ///< of all runs
   bool slurm = false;                     ///< write a script for an array of jobs instead of running
   std::string binary = "/proc/self/exe";  ///< the command that runs a case
 };
 
-/// What a folder of a variant holds.
+/// What a folder of a variant holds, for runs on this device. Throws InputError where the same case was run there on
+/// another kind of device.
 enum class Stand { fresh, interrupted, done };
-Stand standOf(const std::filesystem::path& folder, const std::string& identity);
+Stand standOf(const std::filesystem::path& folder, const std::string& identity, DeviceKind device = DeviceKind::cpu);
 
 /// One variant after the runs.
 struct Outcome {

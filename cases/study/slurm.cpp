@@ -28,6 +28,7 @@ std::string slurmScript(const Study& s, const Options& o, const std::vector<Stan
       "# {} variants, each a job of its own. When all are done, compare them: gambeson study ... --out ... --resume\n"
       "#SBATCH --array=0-{}{}\n"
       "#SBATCH --cpus-per-task={}\n"
+      "{}"
       "#SBATCH --output=/dev/null\n"
       "gambeson={}\n"
       "out={}\n"
@@ -35,9 +36,10 @@ std::string slurmScript(const Study& s, const Options& o, const std::vector<Stan
       "again=({})\n"
       "i=$SLURM_ARRAY_TASK_ID\n"
       "exec \"$gambeson\" run \"$out/{}/${{folders[i]}}.json\" --out \"$out/${{folders[i]}}\" --threads "
-      "\"$SLURM_CPUS_PER_TASK\" ${{again[i]}} > \"$out/{}/${{folders[i]}}.log\" 2>&1\n",
-      count, count > 0 ? count - 1 : 0, limit, std::max(1, o.threads), shellWord(error ? o.binary : binary.string()),
-      shellWord(o.out.string()), folders, again, files::cases, files::logs);
+      "\"$SLURM_CPUS_PER_TASK\" --device {} ${{again[i]}} > \"$out/{}/${{folders[i]}}.log\" 2>&1\n",
+      count, count > 0 ? count - 1 : 0, limit, std::max(1, o.threads),
+      o.device == DeviceKind::cuda ? "#SBATCH --gres=gpu:1\n" : "", shellWord(error ? o.binary : binary.string()),
+      shellWord(o.out.string()), folders, again, files::cases, wordOf(o.device), files::logs);
 }
 
 }  // namespace gambeson::study

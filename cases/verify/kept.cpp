@@ -7,6 +7,7 @@
 #include "cases/input/overrides.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/kinds/any_case.hpp"
+#include "cases/runs/run_identity.hpp"
 #include "cases/verify/verify.hpp"
 #include "core/error.hpp"
 #include "core/io/recording.hpp"
@@ -32,7 +33,7 @@ std::optional<double> completeRun(const std::filesystem::path& folder, const std
   if (!stream) return {};
   const auto j = nlohmann::json::parse(stream, nullptr, false);
   try {
-    if (j.at("case_hash").get<std::string>() != hash) return {};
+    if (j.at("case_hash").get<std::string>() != hash || j.contains("steps_on")) return {};  // references are of the CPU
     if (!(j.at("recorded_to_s").get<double>() >= j.at("planned_to_s").get<double>() - 1e-9)) return {};
     return j.at("timings").at("wall_s").get<double>();
   } catch (const nlohmann::json::exception&) {
@@ -43,7 +44,7 @@ std::optional<double> completeRun(const std::filesystem::path& folder, const std
 bool interruptedRun(const std::filesystem::path& folder, const std::optional<std::string>& hash) {
   if (!hash || !holdsRecording(folder)) return false;
   try {
-    return caseIdentity(readCase(folder / "case.json")) == *hash;
+    return caseIdentity(readCase(folder / "case.json")) == *hash && !RunIdentity(readLayout(folder).identity).on_device;
   } catch (const InputError&) {
     return false;
   }

@@ -122,9 +122,10 @@ Process processOf(const Reference& reference, const Run& run, const Options& opt
     for (const auto& [path, value] : run.changes) changes.insert(changes.end(), {"--set", path + "=" + value});
   }
   claimFile(files.log);
-  Process process{{options.binary, "run", written.string(), "--out", files.folder.string(), "--threads", "1"},
-                  files.log,
-                  run.limit_s};
+  Process process{
+      {options.binary, "run", written.string(), "--out", files.folder.string(), "--threads", "1", "--device", "cpu"},
+      files.log,
+      run.limit_s};
   if (goes_on) process.command.emplace_back("--resume");
   process.command.insert(process.command.end(), changes.begin(), changes.end());
   return process;

@@ -158,9 +158,8 @@ void startIteration(ContactWork& w) {
   const int n = static_cast<int>(w.order.size());
   for (int k = 0; k < n; ++k)
     w.candidate[k] = w.previous[k] = w.point[k] = quadOf(w.traction[k], w.traction[k] == Vec3{} ? 0.0 : 1.0);
-  w.moved = w.base;
-  for (int k = 0; k < n; ++k)
-    if (!(w.traction[k] == Vec3{})) push(w, k, w.traction[k]);
+  for (std::size_t f = 0; f < w.free_points.size(); ++f)
+    w.moved[f] = quadOf(vec(w.base[f]) + w.change[w.free_points[f]]);
   holdPoints(w);
   w.moved_before = w.moved;
 }

@@ -1,21 +1,23 @@
 #pragma once
 /// The iteration of a contact solve. Internal to the solve.
 ///
-/// A sweep takes the rows of an island one after the other, in the order of row_order.hpp, and gives each the traction that solves its own
-/// condition while the others stay: tau' = P(tau - (v - drift + c tau_n n)/(D + c)) with the row's diagonal entry D.
-/// Between two sweeps the tractions go on along the last change, by Nesterov's sequence (O'Donoghue and Candes, 2015,
-/// restart by the gradient; a restart keeps half of the momentum's index). What converges slowly here are patterns of
-/// pressure that hardly move the cloth, since samples outnumber its points. Steps along the gradient are bounded by the
-/// row sums of the operator, ten times its diagonal; a sweep is not, and sees these patterns ten times as large: solves
-/// of walking and aiming armour take 0.35 to 0.45 of the iterations. Sweeps with momentum are no gradient method and
-/// may go round; where an island's residual has not fallen for some time, or has grown out of hand, its steps become
-/// shorter. Where something ties all points (MotionHold) a row cannot be taken alone: held_iteration.hpp.
+/// A sweep takes the rows of an island one after the other, in the order of row_order.hpp, and gives each the traction
+/// that solves its own condition while the others stay: tau' = P(tau - (v - drift + c tau_n n)/(D + c)) with the row's
+/// diagonal entry D. Between two sweeps the tractions go on along the last change, by Nesterov's sequence (O'Donoghue
+/// and Candes, 2015, restart by the gradient; a restart keeps half of the momentum's index). What converges slowly here
+/// are patterns of pressure that hardly move the cloth, since samples outnumber its points. Steps along the gradient
+/// are bounded by the row sums of the operator, ten times its diagonal; a sweep is not, and sees these patterns ten
+/// times as large: solves of walking and aiming armour take 0.35 to 0.45 of the iterations. Sweeps with momentum are no
+/// gradient method and may go round; where an island's residual has not fallen for some time, or has grown out of hand,
+/// its steps become shorter. Where something ties all points (MotionHold) a row cannot be taken alone:
+/// held_iteration.hpp.
 
 #include "core/contact/response.hpp"
 
 namespace gambeson {
 
-/// Starts from work.traction: sets the candidates and the velocities that go with them, work.moved.
+/// Starts from work.traction and what that does to all free points, work.change: sets the candidates and the velocities
+/// that go with them, work.moved.
 void startIteration(ContactWork& work);
 
 /// v - drift of a row at work.moved, less its normal part.

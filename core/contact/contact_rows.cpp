@@ -53,7 +53,7 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
     bool moves = false;
     for (int k = 0; k < stencil.count && !moves; ++k)
       for (int e = WT.offsets[stencil.sample[k]]; e < WT.offsets[stencil.sample[k] + 1] && !moves; ++e)
-        moves = WT.values[e] != 0 && inverse_mass[WT.columns[e]] > 0;
+        moves = stencil.weight[k] * WT.values[e] != 0 && inverse_mass[WT.columns[e]] > 0;
     double a = 0;
     const ContactKind kind = row.contact.kind;
     if (kind == ContactKind::edge_on_edge || kind == ContactKind::restoring ||
@@ -178,12 +178,24 @@ void touchPoints(int free_count, ContactWork& w) {
 
 }  // namespace
 
+Vec3 velocityAt(const ContactRow& row, const SparseRows& WT, std::span<const Vec3> velocity) {
+  Vec3 all = -driftOf(row);
+  for (int j = 0; j < row.stencil.count; ++j) {
+    Vec3 v{};
+    for (int e = WT.offsets[row.stencil.sample[j]]; e < WT.offsets[row.stencil.sample[j] + 1]; ++e)
+      v += WT.values[e] * velocity[WT.columns[e]];
+    all += row.stencil.weight[j] * v;
+  }
+  return all;
+}
+
 void reachRows(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                std::span<const Vec3> velocity, ContactWork& w) {
-  const int n = static_cast<int>(rows.size());
-  w.reach.resize(n);
-  int room = 0;
-  for (int i = 0; i < n; ++i) {
+  w.unsorted.clear();
+  int room = static_cast<int>(w.reach_point.size());
+  for (int i : w.order) {
+    if (w.reach[i].count >= 0) continue;
+    w.unsorted.push_back(i);
     w.reach[i].first = room;
     for (int j = 0; j < rows[i].stencil.count; ++j) {
       const int s = rows[i].stencil.sample[j];
@@ -192,18 +204,11 @@ void reachRows(std::span<const ContactRow> rows, const SparseRows& WT, std::span
   }
   w.reach_point.resize(room);
   w.reach_weight.resize(room);
-  forAll(Each::sum, n, [&](int i) {
-    const ContactRow& row = rows[i];
-    ContactWork::Reach& reach = w.reach[i];
+  forAll(Each::sum, static_cast<int>(w.unsorted.size()), [&](int k) {
+    const ContactRow& row = rows[w.unsorted[k]];
+    ContactWork::Reach& reach = w.reach[w.unsorted[k]];
     reach.count = reachOf(row, WT, inverse_mass, reach.first, w);
-    if (reach.count == 0) w.area_of[i] = 0;
-    reach.start = -driftOf(row);
-    for (int j = 0; j < row.stencil.count; ++j) {
-      Vec3 v{};
-      for (int e = WT.offsets[row.stencil.sample[j]]; e < WT.offsets[row.stencil.sample[j] + 1]; ++e)
-        v += WT.values[e] * velocity[WT.columns[e]];
-      reach.start += row.stencil.weight[j] * v;
-    }
+    reach.start = velocityAt(row, WT, velocity);
   });
 }
 
@@ -246,56 +251,95 @@ void restrict(std::span<const ContactRow> rows, int free_count, std::span<const 
   }
 }
 
-void smoothWarm(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const Vec3> warm, ContactWork& w) {
+namespace {
+
+/// Calls visit(sample) for the samples that are marked, in their order, and leaves none.
+template <class Visit>
+void eachMarked(ContactWork& w, const Visit& visit) {
+  for (std::size_t s = 0; s < w.on_sample.size(); ++s) {
+    if (!w.on_sample[s]) continue;
+    w.on_sample[s] = 0;
+    visit(static_cast<int>(s));
+  }
+}
+
+}  // namespace
+
+void spreadImpulses(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+                    std::span<const Vec3> impulses, ContactWork& w) {
+  w.on_sample.resize(WT.rows());
+  w.sample_sum.resize(WT.rows());
+  w.change.assign(WT.column_count, Vec3{});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (impulses[i] == Vec3{}) continue;
+    for (int j = 0; j < rows[i].stencil.count; ++j) {
+      const int s = rows[i].stencil.sample[j];
+      if (!w.on_sample[s]) w.on_sample[s] = 1, w.sample_sum[s] = {};
+      w.sample_sum[s] += rows[i].stencil.weight[j] * impulses[i];
+    }
+  }
+  eachMarked(w, [&](int s) {
+    for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) w.change[WT.columns[e]] += WT.values[e] * w.sample_sum[s];
+  });
+  for (int f = 0; f < WT.column_count; ++f) w.change[f] *= inverse_mass[f];
+}
+
+void smoothWarm(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+                std::span<const Vec3> warm, ContactWork& w) {
   constexpr double kMix = 0.2;
   const Vec3 side{0.6180, 0.4142, 0.7321};
-  const int n = static_cast<int>(w.order.size());
-  const std::size_t touched = w.free_points.size();
-  for (int at = 0; at < n; ++at) w.traction[at] = warm[w.order[at]];
+  const int n = static_cast<int>(rows.size());
+  w.start.resize(n);
+  for (int i = 0; i < n; ++i) w.start[i] = w.in[i] ? warm[i] : Vec3{};
+  w.on_sample.resize(WT.rows());
+  w.sample_sum.resize(WT.rows());
+  w.sample_area.resize(WT.rows());
   // Bodies, then both sides of the cloth.
   for (int family = 0; family < 3; ++family) {
-    const auto smoothed = [&](int at) {
-      const ContactRow& row = rows[w.order[at]];
-      if (warm[w.order[at]] == Vec3{}) return false;
+    const auto smoothed = [&](int i) {
+      const ContactRow& row = rows[i];
+      if (!w.in[i] || warm[i] == Vec3{}) return false;
       if (family == 0) return row.contact.onBody() && row.stencil.count == 1;
       return row.contact.kind == ContactKind::sample_on_cloth && (dot(row.contact.normal, side) > 0) == (family == 1);
     };
-    const auto part = [&](int at) {
-      const Vec3& t = warm[w.order[at]];
-      return family == 0 ? t : Vec3{dot(t, rows[w.order[at]].contact.normal), 0, 0};
-    };
-    // visit(slot, N) of the points of the row's sample that can move.
-    const auto eachPoint = [&](int at, const auto& visit) {
-      const int s = rows[w.order[at]].contact.sample;
-      for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e)
-        if (const int slot = w.free_slot[WT.columns[e]]; slot >= 0) visit(slot, WT.values[e]);
+    const auto part = [&](int i) {
+      const Vec3& t = warm[i];
+      return family == 0 ? t : Vec3{dot(t, rows[i].contact.normal), 0, 0};
     };
     bool any = false;
-    w.weight.assign(touched, 0);
-    w.free_sum.assign(touched, Vec3{});
-    for (int at = 0; at < n; ++at) {
-      if (!smoothed(at)) continue;
+    for (int i = 0; i < n; ++i) {
+      if (!smoothed(i)) continue;
+      const int s = rows[i].contact.sample;
+      if (!w.on_sample[s]) w.on_sample[s] = 1, w.sample_sum[s] = {}, w.sample_area[s] = 0;
+      w.sample_sum[s] += w.area_of[i] * part(i);
+      w.sample_area[s] += w.area_of[i];
       any = true;
-      const Vec3 pressed = w.row_area[at] * part(at);
-      eachPoint(at, [&](int slot, double N) {
-        w.weight[slot] += N * w.row_area[at];
-        w.free_sum[slot] += N * pressed;
-      });
     }
     if (!any) continue;
-    for (std::size_t f = 0; f < touched; ++f)
+    w.weight.assign(WT.column_count, 0);
+    w.free_sum.assign(WT.column_count, Vec3{});
+    eachMarked(w, [&](int s) {
+      for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) {
+        w.weight[WT.columns[e]] += WT.values[e] * w.sample_area[s];
+        w.free_sum[WT.columns[e]] += WT.values[e] * w.sample_sum[s];
+      }
+    });
+    for (int f = 0; f < WT.column_count; ++f)
       if (w.weight[f] > 0) w.free_sum[f] = w.free_sum[f] / w.weight[f];
-    for (int at = 0; at < n; ++at) {
-      if (!smoothed(at)) continue;
+    for (int i = 0; i < n; ++i) {
+      if (!smoothed(i)) continue;
       Vec3 smooth{};
-      double whole = 0;
-      eachPoint(at, [&](int slot, double N) {
-        smooth += N * w.free_sum[slot];
-        whole += N;
-      });
+      double whole = 0;  // of the points that can move
+      const int s = rows[i].contact.sample;
+      for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) {
+        const int f = WT.columns[e];
+        if (!(inverse_mass[f] > 0)) continue;
+        smooth += WT.values[e] * w.free_sum[f];
+        whole += WT.values[e];
+      }
       if (!(whole > 0)) continue;
-      const Vec3 change = kMix * (smooth / whole - part(at));
-      w.traction[at] += family == 0 ? change : change.x * rows[w.order[at]].contact.normal;
+      const Vec3 change = kMix * (smooth / whole - part(i));
+      w.start[i] += family == 0 ? change : change.x * rows[i].contact.normal;
     }
   }
 }

@@ -31,10 +31,17 @@ inline double slopeOf(const ContactRow& row, std::span<const double> density) {
 void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> area,
                 std::span<const double> inverse_mass, ContactWork& work);
 
-/// What each row moves with, work.reach: free points that can move, each once, with their weights B W_T; and how it
-/// would move at `velocity`.
+/// What the rows of work.order move with, work.reach, where it is not known yet.
 void reachRows(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                std::span<const Vec3> velocity, ContactWork& work);
+
+/// Sets work.change: what these impulses of all rows do to all free points, M^-1 W_T^T B^T i. Sums go over the rows of
+/// a sample in their order, then over the samples of a point in theirs: an order that needs no other rows.
+void spreadImpulses(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+                    std::span<const Vec3> impulses, ContactWork& work);
+
+/// The relative velocity of a row, less its drift, where free points move so.
+Vec3 velocityAt(const ContactRow& row, const SparseRows& WT, std::span<const Vec3> velocity);
 
 /// Sorts work.order by islands, which keep the order of their first rows, and these by row_order.hpp; the free points
 /// that the rows touch; everything of the iteration that follows from the rows, and its arrays at their sizes.
@@ -43,10 +50,12 @@ void restrict(std::span<const ContactRow> rows, int free_count, std::span<const 
 
 /// Where samples outnumber control points, tractions have parts that move nothing; a solve neither makes nor removes
 /// them, so what an impact left would stay. Each warm start moves a fifth of the way to the lumped projection of the
-/// traction on the basis, sum_I N_I (sum_s N_I a tau)/(sum_s N_I a), which keeps constants. Sets work.traction.
+/// traction on the basis, sum_I N_I (sum_s N_I a tau)/(sum_s N_I a), which keeps constants. Sets work.start of the rows
+/// that work.in marks, 0 of the others.
 /// Contacts of samples on cloth have no direction in common with the others around: theirs take the projection of
 /// their normal parts, the two sides of the cloth apart, told by the normal's sign along a direction that no usual
 /// sheet lies in.
-void smoothWarm(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const Vec3> warm, ContactWork& work);
+void smoothWarm(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+                std::span<const Vec3> warm, ContactWork& work);
 
 }  // namespace gambeson

@@ -7,6 +7,7 @@
 #include "core/contact/contact_rows.hpp"
 #include "core/contact/held_iteration.hpp"
 #include "core/contact/iteration_lanes.hpp"
+#include "core/contact/row_sweep.hpp"
 #include "core/math/parallel.hpp"
 
 namespace gambeson {
@@ -22,11 +23,9 @@ double beyondImpact(double pressure_Pa, double dt, double density) {
   return std::max(0.0, 1 - density * kFast_mps / (dt * pressure_Pa));
 }
 
-// Of the largest impulse, see solveContacts: with a hold, and without, where the goal is at most so many tolerances.
-constexpr double kOfLargestHeld = 2e-4, kOfLargest = 1e-6, kMostTolerances = 10;
-constexpr int kFollows = 40;     ///< rounds in which friction follows the motion; a few are the rule
-constexpr double kStill = 4;     ///< goals; what sticks is as slow as that
-constexpr int kFirstCheck = 10;  ///< iterations before the rows that are left out are looked at; doubled each time
+constexpr double kOfLargestHeld = 2e-4;  ///< of the largest impulse, with a hold that bears tension
+constexpr int kFollows = 40;             ///< rounds in which friction follows the motion; a few are the rule
+constexpr double kStill = 4;             ///< goals; what sticks is as slow as that
 
 /// What one solve is given.
 struct Problem {
@@ -45,34 +44,20 @@ void choose(const Problem& p, ContactWork& w) {
     if (w.in[i]) w.order.push_back(i);
   std::stable_sort(w.order.begin(), w.order.end(),
                    [&](int a, int b) { return p.rows[a].stencil.sample[0] < p.rows[b].stencil.sample[0]; });
+  reachRows(p.rows, p.WT, p.inverse_mass, p.velocity, w);
   restrict(p.rows, p.WT.column_count, p.inverse_mass, p.density, p.velocity, w);
   if (w.hold) largestBounds(w);  // before velocities are set: it works in their arrays
 }
 
-/// What the rows' impulses do to all free points, w.change.
-void changeOfAll(std::span<const Vec3> impulses, ContactWork& w) {
-  w.change.assign(w.free_slot.size(), Vec3{});
-  for (std::size_t k = 0; k < w.order.size(); ++k)
-    for (int e = w.points.offsets[k]; e < w.points.offsets[k + 1]; ++e)
-      w.change[w.free_points[w.points.columns[e]]] += w.points.values[e] * impulses[w.order[k]];
-  for (std::size_t f = 0; f < w.free_points.size(); ++f) w.change[w.free_points[f]] *= w.inverse_mass[f];
-  if (w.hold) w.hold->hold(w.change);
-}
-
-/// Looks at the rows that are left out, at the velocities w.moved: the largest residual among them; those that would be
+/// Looks at the rows that are left out, at the velocities w.now: the largest residual among them; those that would be
 /// penetrated are marked in w.joins.
 double leftOut(const Problem& p, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
   w.joins.assign(n, 0);
   w.left_out.assign(n, 0);
-  w.free_sum.resize(w.free_points.size());  // what contacts have changed
-  for (std::size_t f = 0; f < w.free_points.size(); ++f) w.free_sum[f] = vec(w.moved[f]) - vec(w.base[f]);
   forAll(Each::sum, n, [&](int i) {
     if (w.in[i] || w.area_of[i] == 0) return;
-    const ContactWork::Reach& reach = w.reach[i];
-    Vec3 v = reach.start;
-    for (int e = reach.first; e < reach.first + reach.count; ++e)
-      if (const int slot = w.free_slot[w.reach_point[e]]; slot >= 0) v += w.reach_weight[e] * w.free_sum[slot];
+    const Vec3 v = velocityAt(p.rows[i], p.WT, w.now);
     const Vec3& normal = p.rows[i].contact.normal;
     if (!(dot(v, normal) < 0)) return;
     w.joins[i] = 1;
@@ -138,13 +123,21 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
   w.in.resize(n);
   for (int i = 0; i < n; ++i) w.in[i] = w.area_of[i] > 0 && (w.hold || !(warm[i] == Vec3{}));
-  choose(p, w);
-  smoothWarm(p.rows, p.WT, warm, w);
-  for (std::size_t k = 0; k < w.order.size(); ++k)
-    w.traction[k] = project(w.traction[k], w.facts[k].normal, w.facts[k].friction, w.facts[k].drag);
-  startIteration(w);
+  smoothWarm(p.rows, p.WT, p.inverse_mass, warm, w);
+  w.impulses.assign(n, {});
+  for (int i = 0; i < n; ++i) {
+    if (w.start[i] == Vec3{}) continue;
+    w.start[i] = project(w.start[i], p.rows[i].contact.normal, w.slip[i].friction, w.slip[i].drag);
+    w.impulses[i] = w.area_of[i] * w.start[i];
+  }
+  spreadImpulses(p.rows, p.WT, p.inverse_mass, w.impulses, w);
+  w.now.assign(p.velocity.begin(), p.velocity.end());
+  for (std::size_t f = 0; f < w.now.size(); ++f) w.now[f] += w.change[f];
   leftOut(p, w);
-  join(p, w);
+  for (int i = 0; i < n; ++i) w.in[i] = w.in[i] || w.joins[i];
+  choose(p, w);
+  for (std::size_t k = 0; k < w.order.size(); ++k) w.traction[k] = w.start[w.order[k]];
+  startIteration(w);
 }
 
 /// What pressure and direction have of the friction of a row. `along`: its slip, or the traction that holds it.
@@ -224,6 +217,7 @@ ContactSolve solve(const Problem& p, double goal, int max_iterations, ContactWor
   int follows = 0;
   for (int check = std::min(kFirstCheck, max_iterations);; check = std::min(2 * check, max_iterations)) {
     iterate(goal, check, max_iterations, w);
+    for (std::size_t f = 0; f < w.free_points.size(); ++f) w.now[w.free_points[f]] = vec(w.moved[f]);
     report.residual_m_per_s = leftOut(p, w);
     report.converged = report.residual_m_per_s <= goal;
     for (const ContactWork::Island& island : w.islands) {
@@ -315,14 +309,16 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
   if (rows.empty()) return {};
   const Problem problem{rows, WT, inverse_mass, density, velocity, c, dt};
   shareAreas(rows, WT, area, inverse_mass, w);
-  reachRows(rows, WT, inverse_mass, velocity, w);
+  w.reach.assign(rows.size(), {});
+  w.reach_point.clear();
+  w.reach_weight.clear();
   startFriction(problem, slip, warm, w);
   begin(problem, warm, w);
   double goal = c.tolerance_m_per_s2 * dt;
   double largest = 0;
   for (std::size_t k = 0; k < w.order.size(); ++k) largest = std::max(largest, w.facts[k].slope * norm(w.traction[k]));
   const bool tension = hold && hold->bearsTension();
-  goal = std::max(goal, tension ? kOfLargestHeld * largest : std::min(kOfLargest * largest, kMostTolerances * goal));
+  goal = tension ? std::max(goal, kOfLargestHeld * largest) : goalOf(goal, largest);
   const ContactSolve report = solve(problem, goal, c.max_iterations, w);
 
   std::copy_n(w.slip.begin(), slip.size(), slip.begin());
@@ -332,11 +328,9 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
     warm[i] = vec(w.candidate[k]);
     impulses[i] = w.row_area[k] * warm[i];
   }
-  changeOfAll(impulses, w);
-  if (hold)
-    for (std::size_t f = 0; f < velocity.size(); ++f) velocity[f] += w.change[f];
-  else
-    for (int f : w.free_points) velocity[f] += w.change[f];
+  spreadImpulses(rows, WT, inverse_mass, impulses, w);
+  if (hold) hold->hold(w.change);
+  for (std::size_t f = 0; f < velocity.size(); ++f) velocity[f] += w.change[f];
   return report;
 }
 

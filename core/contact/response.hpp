@@ -126,10 +126,12 @@ struct ContactWork {
   std::vector<double> left_out;               ///< squared residual of what is left out
   std::vector<int> on_body;                   ///< contacts of each sample of the cloth with bodies
   std::vector<int> first_on_cloth, on_cloth;  ///< rows of each sample on cloth
-  /// The free points that a row moves with and that can move, with their weights B W_T: from `first` on, `count` of
-  /// them. And v - drift as the points would move without any contact.
+  std::vector<Vec3> start, impulses;          ///< traction that the iteration starts from, and its impulse
+  /// Of a row that is or was iterated on: the free points that it moves with and that can move, with their weights
+  /// B W_T, from `first` on, `count` of them; -1: not asked for yet. And v - drift as the points would move without any
+  /// contact.
   struct Reach {
-    int first = 0, count = 0;
+    int first = 0, count = -1;
     Vec3 start;
   };
   std::vector<Reach> reach;
@@ -157,8 +159,8 @@ struct ContactWork {
   /// Rows of one colour of a chunk share no free point. Of rows in the order of the iteration, and bits of each point.
   std::vector<int> colour, unsorted_colour;
   std::vector<std::array<std::uint64_t, 4>> taken;
-  /// Rows that are taken one after the other: a whole island, or a patch of a large one, which shares no free point with
-  /// others of its phase. Begins here in `order`, and ends where the next one begins.
+  /// Rows that are taken one after the other: a whole island, or a patch of a large one, which shares no free point
+  /// with others of its phase. Begins here in `order`, and ends where the next one begins.
   struct Chunk {
     int row = 0, phase = 0;
   };
@@ -168,8 +170,12 @@ struct ContactWork {
   std::vector<int> free_points, free_slot;
   SparseRows points, columns;  ///< rows x free points, B W_T; with a hold its transpose too
   std::vector<double> row_area;
-  std::vector<double> weight;  ///< of a free point: area of its warm rows together
-  std::vector<Vec3> free_sum, traction;
+  std::vector<Vec3> traction;
+  // Sums of what rows have on samples, which go on to all free points.
+  std::vector<char> on_sample;
+  std::vector<double> sample_area, weight;
+  std::vector<Vec3> sample_sum, free_sum;
+  std::vector<Vec3> now;  ///< velocities of all free points
   // The iteration's own arrays, four lanes wide.
   struct alignas(32) Quad {
     double lane[4];
@@ -200,7 +206,7 @@ struct ContactWork {
 double persistentTarget(double gap_m, double dt_s, const ContactParameters& parameters);
 
 /// Whether a contact has come to its layer and presses on it, up to rounding; what is farther is on its way there.
-inline bool atLayer(double gap_m, double layer_m) { return gap_m <= layer_m * (1 + 1e-6); }
+GAMBESON_HD inline bool atLayer(double gap_m, double layer_m) { return gap_m <= layer_m * (1 + 1e-6); }
 
 /// The pressure that has lasted, p_m, after a step in which the contact bore `pressure`: the mean over the relaxation
 /// time, in which a pressure counts as at most twice the mean plus that of a weight, 2 p_m + rho 9.81 m/s². An impact,

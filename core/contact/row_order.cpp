@@ -10,9 +10,7 @@
 namespace gambeson {
 namespace {
 
-constexpr int kColours = 256;  ///< that are told apart
-constexpr int kWhole = 1024;   ///< rows of an island up to which it is one patch
-constexpr int kPatch = 256;    ///< rows of a patch of a larger one
+constexpr int kPatch = 256;  ///< rows of a patch of a large island
 
 std::span<const int> pointsOf(const ContactWork& w, int row) {
   return std::span(w.reach_point).subspan(static_cast<std::size_t>(w.reach[row].first), w.reach[row].count);
@@ -140,7 +138,7 @@ void orderRows(int free_count, ContactWork& w) {
   w.unsorted_colour.resize(n);
   for (ContactWork::Island& island : w.islands) {
     island.chunk = static_cast<int>(w.chunks.size());
-    if (w.hold || island.row_end - island.row <= kWhole)
+    if (w.hold || island.row_end - island.row <= kWholeIsland)
       w.chunks.push_back({island.row, 0});
     else
       Patches(island, w);

@@ -11,6 +11,9 @@
 
 namespace gambeson {
 
+constexpr int kColours = 256;       ///< that are told apart
+constexpr int kWholeIsland = 1024;  ///< rows of an island up to which it is one patch
+
 /// Sorts the rows of each island of work.order by phase, patch and colour: work.colour of the rows, work.chunks of the
 /// patches, and the chunks of the islands. Only the rows' points, work.reach, are looked at.
 void orderRows(int free_count, ContactWork& work);

@@ -1,5 +1,7 @@
 #include "core/io/hdf5_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <tuple>
@@ -63,7 +65,8 @@ hid_t newFile(std::string* memory) {
   check(H5Pset_fapl_core(access, kChunkBytes, false), "file in memory");
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "format version");
   keepMemoryIn(memory, access);
-  return H5Fcreate("gambeson-in-memory", H5F_ACC_TRUNC, creation, access);
+  // Two of one name would be one file to the library; what a file is called stands nowhere in it.
+  return H5Fcreate(fmt::format("gambeson-in-memory-{}", fmt::ptr(memory)).c_str(), H5F_ACC_TRUNC, creation, access);
 }
 
 Handle textType(std::size_t length) {
@@ -83,6 +86,11 @@ bool plain(char c) {
 }
 
 }  // namespace
+
+bool takesThreads() {
+  hbool_t safe = false;
+  return H5is_library_threadsafe(&safe) >= 0 && safe;
+}
 
 Handle::Handle(hid_t id, herr_t (*closer)(hid_t), const char* what) : id_(id), close_(closer) {
   if (id < 0) throw Error(what + libraryReason());

@@ -21,6 +21,9 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whether the library may be called by several threads at once.
+bool takesThreads();
+
 /// Owns an identifier of HDF5. Constructed from what the library returned; a negative one throws Error.
 class Handle {
  public:

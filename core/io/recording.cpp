@@ -66,6 +66,8 @@ bool holdsRecording(const fs::path& directory) {
   return fs::exists(layoutPath(directory), error);
 }
 
+bool recordsSideBySide() { return hdf5::takesThreads(); }
+
 int closedSegments(const fs::path& directory) {
   std::error_code error;
   if (!holdsRecording(directory)) return 0;

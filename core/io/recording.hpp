@@ -74,6 +74,9 @@ RecordingLayout readLayout(const std::filesystem::path& directory);
 /// checkpoint starts anew).
 int closedSegments(const std::filesystem::path& directory);
 
+/// Whether threads may write recordings side by side, each its own: the library below them must have been built so.
+bool recordsSideBySide();
+
 /// Frames need ascending times and one row per sample or control point, table rows one value per column: anything else
 /// is our own mistake (std::logic_error). Where the file system fails: RunError with the reason.
 class RecordingWriter {

@@ -10,6 +10,7 @@
 #include "core/motion/body_edges.hpp"
 #include "core/motion/clearance.hpp"
 #include "core/motion/closest_projection.hpp"
+#include "core/motion/contradict.hpp"
 #include "core/motion/held_motion.hpp"
 #include "core/motion/step_rows.hpp"
 
@@ -18,15 +19,6 @@ namespace {
 
 constexpr int kRounds = 8;  ///< of solves
 constexpr int kImpactZoneRounds = 12;
-
-/// Contacts contradict each other where cloth is pinched: between bodies that come closer than two layers, or where it
-/// would have to bend more sharply than its control points can. Then no velocities keep what they ask for, or only such
-/// as grow without bound from step to step, the impulses of both sides grow with each iteration, and the residual stays
-/// far above the tolerance.
-bool contradict(const ContactSolve& solve, double dt) {
-  constexpr double kFar_m_per_s2 = 0.3;  // solves end at a thirtieth to a third of it
-  return !solve.converged && !(solve.residual_m_per_s <= kFar_m_per_s2 * dt);
-}
 
 /// Rows give way by this part of what their own impulse would move the cloth at them, B 1/rho in the mean:
 /// contradicting rows then share what they miss in proportion to their impulses. These are bounded (by 1/part of what
@@ -282,8 +274,8 @@ bool moveImpactZones(const Model& m, const State& in, double dt, StepReport& rep
       } else if (held) {
         const int motion = m.held_motion.empty() ? -1 : m.held_motion[heldSlot(m, *first_held)];
         for (int i : zone.points)
-          w.velocity[i] = motion < 0 ? (m.supports ? solved[*first_held] : Vec3{})
-                                     : (carried(w, motion, in.p[i]) - in.p[i]) / dt;
+          w.velocity[i] =
+              motion < 0 ? (m.supports ? solved[*first_held] : Vec3{}) : (carried(w, motion, in.p[i]) - in.p[i]) / dt;
       } else {
         makeRigid(zone, in.p, m.mass_kg, w.velocity);
       }

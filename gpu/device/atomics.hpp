@@ -24,6 +24,39 @@ GAMBESON_HD T fetchAdd(T* at, T by) {
 #endif
 }
 
+/// Puts `wanted` there where `expected` is, and says whether it was.
+GAMBESON_HD inline bool swapIf(int* at, int expected, int wanted) {
+#ifdef __CUDA_ARCH__
+  return atomicCAS(at, expected, wanted) == expected;
+#else
+  return std::atomic_ref<int>(*at).compare_exchange_strong(expected, wanted, std::memory_order_relaxed);
+#endif
+}
+/// What lanes of other groups may change meanwhile.
+GAMBESON_HD inline int seen(const int& at) {
+#ifdef __CUDA_ARCH__
+  return __ldcg(&at);
+#else
+  return std::atomic_ref<int>(const_cast<int&>(at)).load(std::memory_order_relaxed);
+#endif
+}
+GAMBESON_HD inline void put(int* at, int value) {
+#ifdef __CUDA_ARCH__
+  atomicExch(at, value);
+#else
+  std::atomic_ref<int>(*at).store(value, std::memory_order_relaxed);
+#endif
+}
+GAMBESON_HD inline void fetchMax(int* at, int other) {
+#ifdef __CUDA_ARCH__
+  atomicMax(at, other);
+#else
+  const std::atomic_ref<int> place(*at);
+  for (int now = place.load(); other > now && !place.compare_exchange_weak(now, other);) {
+  }
+#endif
+}
+
 /// Keeps the lesser, the larger of what is there and the other.
 GAMBESON_HD inline void fetchMin(std::uint32_t* at, std::uint32_t other) {
 #ifdef __CUDA_ARCH__

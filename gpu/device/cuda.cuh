@@ -4,6 +4,7 @@
 #include <cuda_runtime.h>
 
 #include <algorithm>
+#include <cstring>
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
 #include <functional>
@@ -38,6 +39,7 @@ struct WarpLanes {
     f(static_cast<int>(threadIdx.x % kLanes));
   }
   __device__ LaneMask ballot(const PerLane<bool>& on) const { return __ballot_sync(~0u, on[0]); }
+  __device__ std::uint32_t orOf(const PerLane<std::uint32_t>& bits) const { return __reduce_or_sync(~0u, bits[0]); }
   template <class F>
   __device__ auto once(F&& f) const {
     decltype(f()) result{};
@@ -88,7 +90,9 @@ class CudaOf {
       const std::size_t bytes = std::max<std::size_t>(1, size * sizeof(T));
       check(cudaMalloc(&at, bytes), "memory for " + std::to_string(bytes) + " bytes");
       data_.reset(at);
+      // Queues do not wait for the stream that this goes to.
       check(cudaMemset(at, 0, bytes), "clearing memory");
+      check(cudaStreamSynchronize(cudaStreamLegacy), "clearing memory");
     }
     T* data() { return data_.get(); }
     const T* data() const { return data_.get(); }
@@ -109,6 +113,8 @@ class CudaOf {
       check(cudaEventCreateWithFlags(&given_, cudaEventDisableTiming), "an event");
     }
     ~Queue() {
+      cudaStreamSynchronize(stream_);
+      if (stage_) cudaFreeHost(stage_);
       cudaEventDestroy(given_);
       cudaStreamDestroy(stream_);
     }
@@ -147,26 +153,58 @@ class CudaOf {
     }
     template <class T>
     void upload(std::span<const T> from, Buffer<T>& to, std::size_t at = 0) {
-      check(cudaMemcpyAsync(to.data() + at, from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream_), "an upload");
+      uploadLater(from, to, at);
       wait();
+    }
+    /// What is given to this queue from now on finds it there; what another one has been given may not. `from` may
+    /// change at once. Not to be recorded (Replay).
+    template <class T>
+    void uploadLater(std::span<const T> from, Buffer<T>& to, std::size_t at = 0) {
+      const std::size_t bytes = from.size_bytes();
+      if (bytes == 0) return;
+      const void* source = from.data();
+      if (bytes <= kStaged) {
+        if (staged_ + bytes > kStaged) wait();
+        source = std::memcpy(stage() + staged_, from.data(), bytes);
+        staged_ += (bytes + 63) / 64 * 64;
+      }
+      check(cudaMemcpyAsync(to.data() + at, source, bytes, cudaMemcpyHostToDevice, stream_), "an upload");
+      if (bytes > kStaged) wait();
     }
     template <class T>
     std::vector<T> download(const Buffer<T>& from, std::size_t size) {
       std::vector<T> to(size);
-      check(cudaMemcpyAsync(to.data(), from.data(), size * sizeof(T), cudaMemcpyDeviceToHost, stream_), "a download");
+      const std::size_t bytes = size * sizeof(T);
+      const bool staged = bytes <= kStaged;
+      void* const target = staged ? static_cast<void*>(stage() + kStaged) : to.data();
+      check(cudaMemcpyAsync(target, from.data(), bytes, cudaMemcpyDeviceToHost, stream_), "a download");
       wait();
+      if (staged && bytes > 0) std::memcpy(to.data(), target, bytes);
       return to;
     }
     void after(Queue& other) {
       check(cudaEventRecord(other.given_, other.stream_), "an event");
       check(cudaStreamWaitEvent(stream_, other.given_), "waiting for another stream");
     }
-    void wait() { check(cudaStreamSynchronize(stream_), "work on the device"); }
+    void wait() {
+      check(cudaStreamSynchronize(stream_), "work on the device");
+      staged_ = 0;
+    }
     cudaStream_t stream() const { return stream_; }
 
    private:
+    static constexpr std::size_t kStaged = std::size_t{1} << 20;
+
+    /// Memory that the device reads and writes itself: uploads on their way, then the download.
+    char* stage() {
+      if (!stage_) check(cudaMallocHost(&stage_, 2 * kStaged), "memory between host and device");
+      return stage_;
+    }
+
     cudaStream_t stream_{};
     cudaEvent_t given_{};
+    char* stage_ = nullptr;
+    std::size_t staged_ = 0;
   };
 
   class PairSort {

@@ -5,30 +5,34 @@
 
 #include <string>
 
-#include "core/error.hpp"
+#include "gpu/device/device_error.hpp"
 
 namespace gambeson::gpu {
 
-/// Throws RunError with what failed, the device's word for it and what to do, unless all is well.
-inline void check(cudaError_t result, const std::string& what) {
-  if (result == cudaSuccess) return;
-  std::string advice;
+/// Which fault it is. After what is not told apart here no call of this process works any more.
+inline DeviceFault faultOf(cudaError_t result) {
   switch (result) {
     case cudaErrorMemoryAllocation:
-      advice = "the device has too little free memory: close what else uses it, or take a smaller mesh";
-      break;
+      return DeviceFault::out_of_memory;
     case cudaErrorNoDevice:
+      return DeviceFault::no_device;
     case cudaErrorInsufficientDriver:
-      advice = "a device and a driver for CUDA 12.4 or newer are needed: see nvidia-smi";
-      break;
+      return DeviceFault::old_driver;
     case cudaErrorNoKernelImageForDevice:
-      advice = "the program was built for devices of compute capability 8.0 and newer";
-      break;
+      return DeviceFault::old_device;
+    case cudaErrorLaunchTimeout:
+    case cudaErrorLaunchOutOfResources:
+      return DeviceFault::kernel_limit;
     default:
-      advice = "the device may have been lost: start again from the last checkpoint";
+      return DeviceFault::device_lost;
   }
-  throw RunError("CUDA: " + what + ": " + cudaGetErrorString(result) + " (" + cudaGetErrorName(result) + "); " +
-                 advice);
+}
+
+/// Throws DeviceError with what failed and the device's word for it, unless all is well.
+inline void check(cudaError_t result, const std::string& what) {
+  if (result == cudaSuccess) return;
+  throw DeviceError(faultOf(result),
+                    "CUDA: " + what + ": " + cudaGetErrorString(result) + ", " + cudaGetErrorName(result));
 }
 
 }  // namespace gambeson::gpu

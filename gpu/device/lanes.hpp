@@ -25,6 +25,15 @@ GAMBESON_HD inline int lanesIn(LaneMask mask) {
 /// How many lanes of the mask come before this one.
 GAMBESON_HD inline int lanesBefore(LaneMask mask, int lane) { return lanesIn(mask & ((LaneMask{1} << lane) - 1)); }
 
+/// The first bit that is not set, of which there is one.
+GAMBESON_HD inline int firstClear(LaneMask mask) {
+#ifdef __CUDA_ARCH__
+  return __ffs(static_cast<int>(~mask)) - 1;
+#else
+  return std::countr_one(mask);
+#endif
+}
+
 /// A group on the host.
 template <int W>
 struct HostLanes {
@@ -53,6 +62,12 @@ struct HostLanes {
     LaneMask mask = 0;
     for (int lane = 0; lane < W; ++lane) mask |= static_cast<LaneMask>(on[lane]) << lane;
     return mask;
+  }
+  /// The bits that any lane has.
+  std::uint32_t orOf(const PerLane<std::uint32_t>& bits) const {
+    std::uint32_t all = 0;
+    for (int lane = 0; lane < W; ++lane) all |= bits[lane];
+    return all;
   }
   /// f() by one lane; all get what it gives.
   template <class F>

@@ -68,6 +68,10 @@ class ReferenceOf {
       std::copy(from.begin(), from.end(), to.data() + at);
     }
     template <class T>
+    void uploadLater(std::span<const T> from, Buffer<T>& to, std::size_t at = 0) {
+      upload(from, to, at);
+    }
+    template <class T>
     std::vector<T> download(const Buffer<T>& from, std::size_t size) {
       return {from.data(), from.data() + size};
     }

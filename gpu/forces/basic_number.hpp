@@ -39,7 +39,7 @@ struct SineCosine {
 
 struct Basic {
   double value = 0;
-  GAMBESON_HD Basic() = default;
+  Basic() = default;
   GAMBESON_HD Basic(double x) : value(x) {}  // NOLINT: numbers are numbers
   GAMBESON_HD Basic operator-() const { return -value; }
   GAMBESON_HD Basic& operator+=(Basic b) { return value += b.value, *this; }

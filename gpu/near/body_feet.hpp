@@ -78,7 +78,7 @@ class BodyFeet {
         of.start = start[size(of.obstacle)];
         of.end = end[size(of.obstacle)];
       }
-      if (!all.empty()) queue.upload(std::span(std::as_const(all)), to);
+      if (!all.empty()) queue.uploadLater(std::span(std::as_const(all)), to);
     };
     place(host_bodies_, bodies_);
     place(host_ellipsoids_, ellipsoids_);

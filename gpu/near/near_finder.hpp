@@ -2,6 +2,7 @@
 /// The search for what is near (near_search.hpp) on a device: cloth with cloth beside cloth with bodies.
 
 #include <algorithm>
+#include <optional>
 
 #include "gpu/near/body_feet.hpp"
 
@@ -79,14 +80,25 @@ class NearFinder final : public NearSearch {
   void setBodies(const ObstacleMotion& o, double dt_s, bool goes_on) {
     if (found_ && goes_on) feet_.keepOutside(queue_);
     found_ = false;
-    queue_.upload(std::span<const double>(&dt_s, 1), dt_s_);
+    queue_.uploadLater(std::span<const double>(&dt_s, 1), dt_s_);
     feet_.setPlacements(queue_, o.start, o.end);
+  }
+
+  /// At least so many contacts have room, in the next pass: what is known stays.
+  void makeRoom(Count contacts) {
+    NearSizes room = lists_.room();
+    if (contacts <= room[kContacts]) return;
+    room[kContacts] = std::max(2 * room[kContacts], contacts);
+    makeLists(room);
+    ++repeats_;
   }
 
   void find(bool rebuild) override {
     for (;; ++repeats_) {
-      give(rebuild || !built_);
-      queue_.wait();
+      const bool anew = rebuild || !built_;
+      std::optional<typename Device::Replay>& pass = passes_[anew];
+      if (!pass) pass.emplace(queue_, [this, anew] { give(anew); });
+      pass->run(queue_);
       built_ = found_ = true;
       const NearSizes room = lists_.needed(queue_);
       if (room == lists_.room()) return;
@@ -142,6 +154,7 @@ class NearFinder final : public NearSearch {
   }
 
   void makeLists(const NearSizes& room) {
+    for (auto& pass : passes_) pass.reset();
     lists_.make(room);
     feet_.makeLists();
     warm_.makeRoom(queue_, room[kContacts]);
@@ -261,6 +274,7 @@ class NearFinder final : public NearSearch {
   Buffer<char> blunt_;
   Buffer<double> dt_s_;
   Stages<Device> common_, on_bodies_, points_, cloth_edges_, ending_;
+  std::optional<typename Device::Replay> passes_[2];  ///< refitted, rebuilt
   bool built_ = false, found_ = false;
   int repeats_ = 0;
 };

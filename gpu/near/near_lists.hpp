@@ -90,8 +90,9 @@ class NearLists {
   List<ContactFacts> facts() { return list(facts_, kContacts); }
   ContactStencil* stencils() { return stencil_.data(); }
   BodyTouch* touches() { return touch_.data(); }
-  NearContacts download(Queue& queue) {
-    const std::size_t n = sizes(queue)[kContacts];
+  NearContacts download(Queue& queue) { return download(queue, sizes(queue)[kContacts]); }
+  /// The first n of what the arrays of contacts hold, which others may have gone on with.
+  NearContacts download(Queue& queue, std::size_t n) {
     return {queue.download(facts_, n), queue.download(stencil_, n), queue.download(touch_, n)};
   }
 

@@ -49,7 +49,7 @@ class SkinOn final : public SkinBender {
   /// The same, given to another's queue.
   void bend(Queue& queue, std::span<const Pose> poses, int times) {
     times_ = times;
-    queue.upload(poses, poses_);
+    queue.uploadLater(poses, poses_);
     give(queue);
   }
   std::vector<Vec3> positions(int time) override {

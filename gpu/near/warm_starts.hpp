@@ -153,7 +153,7 @@ class WarmStarts {
     queue.upload(std::span<const Count>(&n, 1), count_);
     setScale(queue, scale);
   }
-  void setScale(Queue& queue, double scale) { queue.upload(std::span<const double>(&scale, 1), scale_); }
+  void setScale(Queue& queue, double scale) { queue.uploadLater(std::span<const double>(&scale, 1), scale_); }
 
   void match(Queue& queue, const List<ContactFacts>& facts) {
     queue.forItems(facts, MatchWarm{left(), scale_.data(), start_.data()});

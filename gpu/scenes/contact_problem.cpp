@@ -110,18 +110,24 @@ void startProblem(const ContactProblem& p, ContactWork& w) {
   w.area_of = p.area;
   w.slip.assign(n, {});
   for (int i = 0; i < n; ++i) w.slip[i].friction = p.friction[i];
-  reachRows(p.rows, p.WT, p.inverse_mass, p.velocity, w);
+  w.reach.assign(n, {});
+  w.reach_point.clear();
+  w.reach_weight.clear();
   w.order.resize(n);
   std::iota(w.order.begin(), w.order.end(), 0);
   std::erase_if(w.order, [&](int i) { return w.area_of[i] == 0; });
   std::stable_sort(w.order.begin(), w.order.end(),
                    [&](int a, int b) { return p.rows[a].stencil.sample[0] < p.rows[b].stencil.sample[0]; });
+  reachRows(p.rows, p.WT, p.inverse_mass, p.velocity, w);
   const std::vector<double> density(p.WT.rows(), 1.0);
   restrict(p.rows, p.WT.column_count, p.inverse_mass, density, p.velocity, w);
+  w.impulses.assign(n, {});
   for (std::size_t k = 0; k < w.order.size(); ++k) {
     w.facts[k].slope = w.facts[k].largest = p.slope[w.order[k]];
     w.traction[k] = projected(p.traction[w.order[k]], w.facts[k]);
+    w.impulses[w.order[k]] = w.row_area[k] * w.traction[k];
   }
+  spreadImpulses(p.rows, p.WT, p.inverse_mass, w.impulses, w);
   startIteration(w);
 }
 

@@ -39,15 +39,16 @@ class CudaSweeps : public ContactSweeps {
     const FlatSolve flat = flatSolve(work);
     small_ = flat.small;
     count_ = static_cast<int>(flat.islands.size());
-    points_ = flat.moved.size(), rows_ = flat.facts.size();
+    points_ = flat.moved.size(), rows_ = flat.own.size();
     put(flat.islands, islands_), put(flat.chunks, chunks_), put(flat.steps, steps_), put(flat.facts, facts_);
     put(flat.own, own_), put(flat.slope, slope_), put(flat.entries, entries_), put(flat.state, state_);
     put(flat.point, point_), put(flat.weight, weight_), put(flat.push, push_), put(flat.chunk_points, chunk_points_);
-    put(flat.moved, moved_), put(flat.moved_before, moved_before_);
+    put(flat.free, free_), put(flat.moved, moved_), put(flat.moved_before, moved_before_);
     grow(flat.islands.size(), islands_now_), grow(flat.islands.size(), arrived_);
-    grow(rows_, state_now_), grow(rows_, pace_), grow(points_, moved_now_), grow(points_, before_now_);
+    grow(flat.state.size(), state_now_), grow(flat.facts.size(), pace_), grow(points_, moved_now_),
+        grow(points_, before_now_);
     grow(2 * flat.chunks.size(), largest2_), grow(2 * flat.chunks.size(), against_);
-    grow(flat.chunk_points.size(), spilled_);
+    grow(flat.chunk_points.size(), spilled_), grow(points_, spilled_before_);
     makeJobs(flat);
     queue_.wait();
   }
@@ -85,10 +86,12 @@ class CudaSweeps : public ContactSweeps {
 
   void get(ContactWork& w) const override {
     w.islands = queue_.download(islands_now_, w.islands.size());
-    const auto rows = queue_.download(state_now_, rows_);
+    const auto rows = queue_.download(state_now_, state_now_.size());
     const auto points = queue_.download(moved_now_, points_), before = queue_.download(before_now_, points_);
-    for (std::size_t k = 0; k < rows_; ++k)
-      w.candidate[k] = quadOf(rows[k].now), w.previous[k] = quadOf(rows[k].before);
+    for (std::size_t k = 0; k < rows_; ++k) {
+      const RowState state = RowState::of(rows.data(), static_cast<int>(k));
+      w.candidate[k] = quadOf(state.now), w.previous[k] = quadOf(state.before);
+    }
     for (std::size_t f = 0; f < points_; ++f) w.moved[f] = quadOf(points[f]), w.moved_before[f] = quadOf(before[f]);
   }
 
@@ -145,11 +148,11 @@ class CudaSweeps : public ContactSweeps {
   }
 
   SolveData dataOf() {
-    return {islands_.data(), islands_now_.data(),  chunks_.data(),    steps_.data(),      facts_.data(),
-            own_.data(),     slope_.data(),        entries_.data(),   state_.data(),      state_now_.data(),
-            pace_.data(),    point_.data(),        weight_.data(),    push_.data(),       chunk_points_.data(),
-            moved_.data(),   moved_before_.data(), moved_now_.data(), before_now_.data(), largest2_.data(),
-            against_.data(), spilled_.data()};
+    return {islands_.data(),      islands_now_.data(), chunks_.data(),       steps_.data(),         facts_.data(),
+            own_.data(),          slope_.data(),       entries_.data(),      state_.data(),         state_now_.data(),
+            pace_.data(),         point_.data(),       weight_.data(),       push_.data(),          free_.data(),
+            chunk_points_.data(), moved_.data(),       moved_before_.data(), moved_now_.data(),     before_now_.data(),
+            largest2_.data(),     against_.data(),     spilled_.data(),      spilled_before_.data()};
   }
 
   CudaSweepOptions options_;
@@ -160,15 +163,12 @@ class CudaSweeps : public ContactSweeps {
   std::size_t shared_ = 0, rows_ = 0, points_ = 0;
   Buffer<SolveIsland> islands_, islands_now_;
   Buffer<SolveChunk> chunks_;
-  Buffer<RowFacts> facts_;
-  Buffer<RowState> state_, state_now_;
-  Buffer<RowPace> pace_;
   Buffer<RowEntries> entries_;
   Buffer<SolveJob> jobs_;
   Buffer<ChunkPoint> chunk_points_;
-  Buffer<int> steps_, point_, arrived_;
-  Buffer<double> own_, slope_, weight_, push_, largest2_, against_;
-  Buffer<Vec3> moved_, moved_before_, moved_now_, before_now_, spilled_;
+  Buffer<int> steps_, point_, free_, arrived_;
+  Buffer<double> facts_, state_, state_now_, pace_, own_, slope_, weight_, push_, largest2_, against_;
+  Buffer<Vec3> moved_, moved_before_, moved_now_, before_now_, spilled_, spilled_before_;
 };
 
 }  // namespace

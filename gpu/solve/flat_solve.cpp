@@ -12,20 +12,24 @@ FlatSolve flatSolve(const ContactWork& w) {
   FlatSolve flat;
   const int rows = static_cast<int>(w.order.size()), points = static_cast<int>(w.free_points.size());
   flat.islands = w.islands;
-  flat.point.resize(static_cast<std::size_t>(rows) * kPlaces);
+  const auto packed = static_cast<std::size_t>(inRowBlocks(rows));
+  flat.facts.resize(packed * RowFacts::kNumbers), flat.state.resize(packed * RowState::kNumbers);
+  flat.point.resize(packed * kPlaces);
   flat.weight.resize(flat.point.size());
   flat.push.resize(flat.point.size());
   for (int k = 0; k < rows; ++k) {
     const ContactWork::Row& f = w.facts[k];
-    flat.facts.push_back({f.normal, f.drift, f.friction, f.drag, f.compliance, w.row_area[k]});
+    RowFacts{f.normal, f.drift, f.friction, f.drag, f.compliance, w.row_area[k]}.put(flat.facts.data(), k);
     flat.own.push_back(f.own);
     flat.slope.push_back(f.slope);
-    flat.state.push_back({vec(w.candidate[k]), vec(w.previous[k])});
+    RowState{vec(w.candidate[k]), vec(w.previous[k])}.put(flat.state.data(), k);
   }
   for (int f = 0; f < points; ++f) {
     flat.moved.push_back(vec(w.moved[f]));
     flat.moved_before.push_back(vec(w.moved_before[f]));
   }
+  flat.free.resize(points);
+  std::iota(flat.free.begin(), flat.free.end(), 0);
   std::vector<int> number(points, -1);
   std::vector<char> had(points, 0);
   for (std::size_t c = 0; c + 1 < w.chunks.size(); ++c) {
@@ -48,7 +52,7 @@ FlatSolve flatSolve(const ContactWork& w) {
           flat.chunk_points.push_back({f, !std::exchange(had[f], 1)});
         }
         const std::size_t at =
-            e - first < kPlaces ? static_cast<std::size_t>(k) * kPlaces + e - first : flat.point.size();
+            e - first < kPlaces ? static_cast<std::size_t>(placeOf(k, e - first)) : flat.point.size();
         if (at == flat.point.size()) flat.point.push_back(0), flat.weight.push_back(0), flat.push.push_back(0);
         flat.point[at] = number[f];
         flat.weight[at] = w.points.values[e];

@@ -7,11 +7,10 @@ namespace gambeson::gpu {
 
 struct FlatSolve {
   std::vector<SolveIsland> islands;
-  std::vector<int> by_size, steps, point;
+  std::vector<int> by_size, steps, point, free;
   std::vector<ChunkPoint> chunk_points;
   std::vector<SolveChunk> chunks;
-  std::vector<RowFacts> facts;
-  std::vector<RowState> state;
+  std::vector<double> facts, state;  ///< RowFacts, RowState
   std::vector<RowEntries> entries;
   std::vector<double> own, slope, weight, push;
   std::vector<Vec3> moved, moved_before;

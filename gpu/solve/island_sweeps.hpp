@@ -32,7 +32,7 @@ class IslandSweeps {
     else if (const int points = island.free_end - island.free_point; 2 * points <= vectors_)
       runAlone(group, island, room_, room_ + points);
     else
-      runAlone(group, island, d_.moved_now + island.free_point, d_.moved_before_now + island.free_point);
+      runAlone(group, island, d_.spilled + island.free_point, d_.spilled_before + island.free_point);
     group.each([&](int lane) {
       if (lane == 0 && job.rank == 0) d_.islands_now[job.island] = island;
     });
@@ -44,7 +44,7 @@ class IslandSweeps {
   /// Lanes of this group begin with copies of what they take.
   GAMBESON_HD void startRows(const Group& group, int begin, int end) const {
     group.each([&](int lane) {
-      for (int k = begin + lane; k < end; k += Group::kLanes) d_.state_now[k] = d_.state[k];
+      for (int k = begin + lane; k < end; k += Group::kLanes) RowState::of(d_.state, k).put(d_.state_now, k);
     });
   }
 
@@ -54,8 +54,8 @@ class IslandSweeps {
     startRows(group, chunk.row, chunk.row_end);
     group.each([&](int lane) {
       for (int f = lane; f < points; f += Group::kLanes) {
-        moved[f] = d_.moved[first + f];
-        before[f] = d_.moved_before[first + f];
+        moved[f] = d_.moved[d_.free[first + f]];
+        before[f] = d_.moved_before[d_.free[first + f]];
       }
     });
     ChunkSweep<Group> sweep(group, d_, chunk);
@@ -88,8 +88,8 @@ class IslandSweeps {
     }
     group.each([&](int lane) {
       for (int f = lane; f < points; f += Group::kLanes) {
-        d_.moved_now[first + f] = moved[f];
-        d_.moved_before_now[first + f] = before[f];
+        d_.moved_now[d_.free[first + f]] = moved[f];
+        d_.moved_before_now[d_.free[first + f]] = before[f];
       }
     });
   }
@@ -163,8 +163,9 @@ class IslandSweeps {
     eachChunk(team, island, false, [&](int c) { startRows(group, d_.chunks[c].row, d_.chunks[c].row_end); });
     group.each([&](int lane) {
       for (int f = team.rank() * Group::kLanes + lane; f < points; f += team.groups() * Group::kLanes) {
-        d_.moved_now[first + f] = d_.moved[first + f];
-        d_.moved_before_now[first + f] = d_.moved_before[first + f];
+        const int at = d_.free[first + f];
+        d_.moved_now[at] = d_.moved[at];
+        d_.moved_before_now[at] = d_.moved_before[at];
       }
     });
     team.sync();

@@ -20,6 +20,7 @@ class ReferenceSweeps : public ContactSweeps {
     largest2_.resize(2 * flat_.chunks.size());
     against_.resize(2 * flat_.chunks.size());
     spilled_.resize(flat_.chunk_points.size());
+    spilled_before_.resize(flat_.moved.size());
   }
   void run(double goal, int last, int most) override {
     using Group = HostQuads<Q>;
@@ -35,9 +36,10 @@ class ReferenceSweeps : public ContactSweeps {
   }
   void get(ContactWork& w) const override {
     w.islands = now_.islands;
-    for (std::size_t k = 0; k < now_.state.size(); ++k) {
-      w.candidate[k] = quadOf(now_.state[k].now);
-      w.previous[k] = quadOf(now_.state[k].before);
+    for (std::size_t k = 0; k < w.order.size(); ++k) {
+      const RowState state = RowState::of(now_.state.data(), static_cast<int>(k));
+      w.candidate[k] = quadOf(state.now);
+      w.previous[k] = quadOf(state.before);
     }
     for (std::size_t f = 0; f < now_.moved.size(); ++f) {
       w.moved[f] = quadOf(now_.moved[f]);
@@ -61,34 +63,18 @@ class ReferenceSweeps : public ContactSweeps {
   static constexpr int kRoom = 2048;  ///< so that larger ones take the other way
 
   SolveData dataOf() {
-    return {flat_.islands.data(),
-            now_.islands.data(),
-            flat_.chunks.data(),
-            flat_.steps.data(),
-            flat_.facts.data(),
-            flat_.own.data(),
-            flat_.slope.data(),
-            flat_.entries.data(),
-            flat_.state.data(),
-            now_.state.data(),
-            pace_.data(),
-            flat_.point.data(),
-            flat_.weight.data(),
-            flat_.push.data(),
-            flat_.chunk_points.data(),
-            flat_.moved.data(),
-            flat_.moved_before.data(),
-            now_.moved.data(),
-            now_.moved_before.data(),
-            largest2_.data(),
-            against_.data(),
-            spilled_.data()};
+    return {flat_.islands.data(), now_.islands.data(),       flat_.chunks.data(), flat_.steps.data(),
+            flat_.facts.data(),   flat_.own.data(),          flat_.slope.data(),  flat_.entries.data(),
+            flat_.state.data(),   now_.state.data(),         pace_.data(),        flat_.point.data(),
+            flat_.weight.data(),  flat_.push.data(),         flat_.free.data(),   flat_.chunk_points.data(),
+            flat_.moved.data(),   flat_.moved_before.data(), now_.moved.data(),   now_.moved_before.data(),
+            largest2_.data(),     against_.data(),           spilled_.data(),     spilled_before_.data()};
   }
 
   FlatSolve flat_, now_;
-  std::vector<RowPace> pace_;
+  std::vector<double> pace_;  ///< RowPace
   std::vector<double> largest2_, against_;
-  std::vector<Vec3> spilled_;
+  std::vector<Vec3> spilled_, spilled_before_;
 };
 
 }  // namespace

@@ -32,9 +32,9 @@ class ChunkSweep {
     group_.each([&](int lane) {
       for (int k = chunk_.row + lane; k < chunk_.row_end; k += Group::kLanes) {
         SolveRow row;
-        row.own = d_.own[k], row.slope = d_.slope[k], row.compliance = d_.facts[k].compliance;
+        row.own = d_.own[k], row.slope = d_.slope[k], row.compliance = RowFacts::of(d_.facts, k).compliance;
         const double bound = stepBound(row, caution);
-        d_.pace[k] = {bound, 1 / bound};
+        RowPace{bound, 1 / bound}.put(d_.pace, k);
       }
     });
   }
@@ -74,7 +74,7 @@ class ChunkSweep {
         if (row < chunk_.row_end) {
           const RowEntries entries = d_.entries[row];
           for (int e = lane % kQuad; e < entries.count; e += kQuad) {
-            const int at = e < kPlaces ? row * kPlaces + e : entries.more + e - kPlaces;
+            const int at = e < kPlaces ? placeOf(row, e) : entries.more + e - kPlaces;
             part += d_.weight[at] * moved[d_.point[at]];
           }
         }
@@ -84,9 +84,10 @@ class ChunkSweep {
       group_.each([&](int lane) {
         const int row = first + lane / kQuad;
         if (row >= chunk_.row_end) return;
-        SolveRow facts = rowOf(d_.facts[row]);
+        SolveRow facts = rowOf(RowFacts::of(d_.facts, row));
         facts.slope = d_.slope[row];
-        totals[lane].largest = std::max(totals[lane].largest, residual2(velocity_[lane], d_.state_now[row].now, facts));
+        totals[lane].largest =
+            std::max(totals[lane].largest, residual2(velocity_[lane], RowState::of(d_.state_now, row).now, facts));
       });
     }
   }
@@ -116,17 +117,17 @@ class ChunkSweep {
     if (row >= end) return;
     const RowEntries entries = d_.entries[row];
     r.row = row;
-    r.facts = d_.facts[row];
-    r.state = d_.state_now[row];
-    r.pace = d_.pace[row];
-    const int mine = lane % kQuad, places = row * kPlaces + mine;
+    r.facts = RowFacts::of(d_.facts, row);
+    r.state = RowState::of(d_.state_now, row);
+    r.pace = RowPace::of(d_.pace, row);
+    const int mine = lane % kQuad, places = placeOf(row, mine);
 #ifdef __CUDA_ARCH__
 #pragma unroll
 #endif
     for (int j = 0; j < kKept; ++j) {
-      r.point[j] = d_.point[places + kQuad * j];
-      r.weight[j] = d_.weight[places + kQuad * j];
-      r.push[j] = d_.push[places + kQuad * j];
+      r.point[j] = d_.point[places + kRowBlock * kQuad * j];
+      r.weight[j] = d_.weight[places + kRowBlock * kQuad * j];
+      r.push[j] = d_.push[places + kRowBlock * kQuad * j];
     }
     r.more = entries.more + mine;
     r.count = (entries.count - mine + kQuad - 1) / kQuad;
@@ -170,7 +171,7 @@ class ChunkSweep {
     total.largest = std::max(total.largest, foundResidual2(way, r.pace.bound));
     total.part[kRounds == 1 ? 0 : (r.row - chunk_.row) % kSumLanes / Group::kQuads] +=
         againstGradient(r.facts.area, r.pace.bound, way, after - now);
-    if (lane % kQuad == 0) d_.state_now[r.row] = {after, now};
+    if (lane % kQuad == 0) RowState{after, now}.put(d_.state_now, r.row);
   }
 
   const Group& group_;

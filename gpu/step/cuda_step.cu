@@ -1,6 +1,7 @@
 /// Detail of step_on_device.hpp: on a device of CUDA.
 #include "gpu/device/cuda.cuh"
 #include "gpu/forces/blocks.cuh"
+#include "gpu/solve/run_islands.cuh"
 #include "gpu/step/device_step.hpp"
 
 namespace gambeson::gpu {

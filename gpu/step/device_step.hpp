@@ -6,13 +6,16 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/motion/contradict.hpp"
 #include "gpu/forces/shell_forces.hpp"
 #include "gpu/near/near_finder.hpp"
 #include "gpu/near/skin_on.hpp"
 #include "gpu/step/contact_row.hpp"
 #include "gpu/step/lap_clock.hpp"
+#include "gpu/step/step_impacts.hpp"
 #include "gpu/step/step_kernels.hpp"
 #include "gpu/step/step_on_device.hpp"
+#include "gpu/step/step_solve.hpp"
 #include "gpu/step/tree_sum.hpp"
 
 namespace gambeson::gpu {
@@ -43,6 +46,7 @@ class DeviceStep final : public StepOnDevice {
         spring_triangle_(uploaded<Device>(queue_, springTriangles(model))),
         facts_(1),
         row_count_(1),
+        solve_(queue_, model, WT_, WTt_, inverse_mass_, density_),
         motion_sum_(n_) {
     forces_.setLoads(pointLoads(model));
     for (Buffer<Point4>* of_points :
@@ -50,13 +54,16 @@ class DeviceStep final : public StepOnDevice {
       *of_points = Buffer<Point4>(static_cast<std::size_t>(n_));
     jerk_ = Buffer<Point4>(static_cast<std::size_t>(n_));
     net_jerk_ = Buffer<Point4>(static_cast<std::size_t>(forces_.points()));
-    points_out_ = Buffer<Point4>(3 * static_cast<std::size_t>(n_));
+    points_out_ = Buffer<Vec3>(3 * static_cast<std::size_t>(n_));
     sample_sum_ = Buffer<Point4>(static_cast<std::size_t>(samples_));
     of_sample_ = Buffer<int>(static_cast<std::size_t>(samples_)),
     sample_begin_ = Buffer<int>(static_cast<std::size_t>(samples_));
     sample_scan_.emplace(samples_);
     makeRows();
+    makeImpacts();
   }
+
+  long repeats() const override { return near_.repeats() + (impacts_ ? impacts_->repeats() : 0); }
 
   void set(const State& s) override {
     forces_.setFree(s.p);
@@ -115,10 +122,25 @@ class DeviceStep final : public StepOnDevice {
     near_.setBodies({in.start, in.end, none_, none_}, dt, goes_on_);
     goes_on_ = false;
     for (const BodyShape& shape : in.shapes) placeShape(shape);
-    Vec3 *const x0 = near_.mesh().x0.data(), *const x1 = near_.mesh().x1.data();
-    queue_.forEach(samples_, PlaceSamples{WT_.view(), position_.data(), predictor_.data(), dt, x0, x1});
     near_.warm().setScale(queue_, in.last_step_s > 0 ? dt / in.last_step_s : 0);
-    near_.find(steps_++ % kRebuild == 0);
+    placeEllipsoids(in);
+    const bool rebuild = steps_++ % kRebuild == 0;
+    for (Count room = 0; !findAndSolve(rebuild, dt, clock, room, done);) near_.makeRoom(room);
+    if (done.by_cpu != ByCpu::none) return done;
+    moveOn(in, dt);
+    gather(dt, done);
+    clock.lap(done.times.force);
+    return done;
+  }
+
+ private:
+  /// What is near, and velocities with which nothing passes through anything. False: the rows have no room, and need
+  /// this.
+  bool findAndSolve(bool rebuild, double dt, LapClock& clock, Count& room_for_rows, StepDone& done) {
+    queue_.forEach(samples_, PlaceSamples{WT_.view(), position_.data(), predictor_.data(), dt, near_.mesh().x0.data(),
+                                          near_.mesh().x1.data()});
+    near_.find(rebuild);
+    queue_.forEach(1, ForgetSeen{facts_.data()});
     queue_.forEach(samples_, LookAtSamples{near_.feet().inside(), facts_.data()});
     queue_.forItems(near_.lists().facts(), LookAtContacts{near_.lists().stencils(), layer_.data(), facts_.data()});
     const StepFacts seen = queue_.download(facts_, 1)[0];
@@ -127,22 +149,29 @@ class DeviceStep final : public StepOnDevice {
     done.cloth_contacts = seen.cloth_contacts;
     done.smallest_gap_m = seen.smallest_gap_m();
     clock.lap(done.times.proximity);
-    if (seen.not_finite > 0) return done.leftTo(ByCpu::not_finite);
-    if (seen.inside > 0) return done.leftTo(ByCpu::inside);
-
+    if (seen.not_finite > 0) return done.leftTo(ByCpu::not_finite), true;
+    if (seen.inside > 0) return done.leftTo(ByCpu::inside), true;
     startRows(dt);
-    done.contact = solve(dt);
-    clock.lap(done.times.contact);
-    moveSamples(dt);
-    if (anyImpact(dt, done)) return done.leftTo(ByCpu::impacts);
-    clock.lap(done.times.impact);
-    moveOn(in, dt);
-    gather(dt, done);
-    clock.lap(done.times.force);
-    return done;
+    Count rows = contacts_;
+    for (int round = 1;; ++round) {
+      done.contact = solve(rows, dt);
+      clock.lap(done.times.contact);
+      if (contradict(done.contact, dt)) return done.leftTo(ByCpu::unsolved), true;
+      const ImpactCounts hits = findImpacts(dt, rebuild && round == 1);
+      done.impact_rounds = round - 1;
+      if (round == 1) done.impacts = static_cast<int>(hits.all());
+      if (hits.all() > 0 && round > kRounds) done.leftTo(ByCpu::impacts);
+      if (hits.all() > 0 && round <= kRounds) {
+        impacts_->addRows(this->rows(), {dt, keptPart(dt), round});
+        rows = queue_.download(row_count_, 1)[0];
+      }
+      clock.lap(done.times.impact);
+      if (hits.all() == 0 || done.by_cpu != ByCpu::none) return true;
+      if (rows > static_cast<Count>(room())) return room_for_rows = rows, false;
+    }
   }
 
- private:
+  static constexpr int kRounds = 8;    ///< of solves, as in core
   static constexpr int kRebuild = 16;  ///< steps between trees that are built anew
 
   static NearStep nearStart(const Model& m, const State& s, const StageWork& w) {
@@ -158,8 +187,8 @@ class DeviceStep final : public StepOnDevice {
     const auto first = static_cast<std::size_t>(body.first_vertex);
     Buffer<Vec3>&x0 = near_.mesh().x0, &x1 = near_.mesh().x1;
     if (!shape.skin) {
-      queue_.upload(std::span<const Vec3>(shape.start), x0, first);
-      queue_.upload(std::span<const Vec3>(shape.end), x1, first);
+      queue_.uploadLater(std::span<const Vec3>(shape.start), x0, first);
+      queue_.uploadLater(std::span<const Vec3>(shape.end), x1, first);
       return;
     }
     std::unique_ptr<SkinOn<Device>>& skin = skins_[shape.skin];
@@ -201,15 +230,19 @@ class DeviceStep final : public StepOnDevice {
     makeRows();
     const List<ContactFacts> facts = near_.lists().facts();
     queue_.forEach(1, CopyCount{facts.count, row_count_.data()});
-    queue_.forItems(
-        facts, SetTerms{rows(), near_.warm().started(), density_.data(), dt, -std::expm1(-dt / m_.contact.relaxation_s),
-                        m_.contact.compliance_m_per_Pa, m_.collisions.untangling.speed_mps});
+    queue_.forItems(facts, SetTerms{rows(), near_.warm().started(), density_.data(), dt, keptPart(dt),
+                                    m_.contact.compliance_m_per_Pa, m_.collisions.untangling.speed_mps});
   }
 
-  /// On the host, for now.
-  ContactSolve solve(double dt) {
-    const std::size_t n = queue_.download(row_count_, 1)[0];
-    const auto facts = near_.lists().download(queue_);
+  double keptPart(double dt) const { return -std::expm1(-dt / m_.contact.relaxation_s); }
+
+  ContactSolve solve(Count n, double dt) {
+    if (const auto done = solve_.solve(rows(), static_cast<int>(n), dt, predictor_, solved_)) return *done;
+    return solveOnHost(n, dt);
+  }
+  /// Of an island that no group takes alone.
+  ContactSolve solveOnHost(Count n, double dt) {
+    const auto facts = near_.lists().download(queue_, n);
     const auto terms = queue_.download(terms_, n);
     auto warm = queue_.download(traction_, n);
     std::vector<ContactRow> rows;
@@ -228,11 +261,32 @@ class DeviceStep final : public StepOnDevice {
     queue_.upload(std::span<const Vec3>(impulses), impulse_);
     return done;
   }
-  bool anyImpact(double, StepDone&) { return false; }
-
-  void moveSamples(double dt) {
-    queue_.forEach(samples_,
-                   MoveSamples{WT_.view(), solved_.data(), dt, near_.mesh().x0.data(), near_.mesh().x1.data()});
+  void makeImpacts() {
+    if (!m_.collisions.self && m_.obstacles.empty()) return;
+    const Buffer<Vec3>& x0 = near_.mesh().x0;
+    impacts_.emplace(queue_, m_, queue_.download(x0, x0.size()), roomForImpacts(m_.collisions));
+    for (std::size_t o = 0; o < m_.obstacles.size(); ++o)
+      if (const auto* e = std::get_if<Ellipsoid>(&m_.obstacles[o].shape)) {
+        ellipsoids_.emplace_back();
+        ellipsoids_.back().metric = ellipsoidMetric(*e);
+        ellipsoids_.back().obstacle = static_cast<int>(o);
+      }
+    ellipsoid_ = Buffer<EllipsoidBody>(ellipsoids_.size());
+  }
+  void placeEllipsoids(const DeviceStepInput& in) {
+    for (EllipsoidBody& e : ellipsoids_) {
+      e.start = in.start[static_cast<std::size_t>(e.obstacle)];
+      e.end = in.end[static_cast<std::size_t>(e.obstacle)];
+    }
+    if (!ellipsoids_.empty()) queue_.uploadLater(std::span<const EllipsoidBody>(ellipsoids_), ellipsoid_);
+  }
+  /// With the velocities that were solved for.
+  ImpactCounts findImpacts(double dt, bool rebuild) {
+    Vec3 *const x0 = near_.mesh().x0.data(), *const x1 = near_.mesh().x1.data();
+    queue_.forEach(samples_, MoveSamples{WT_.view(), solved_.data(), dt, x0, x1});
+    if (!impacts_) return {};
+    return impacts_->find({x0, x1, near_.feet().inside(), ellipsoid_.data()},
+                          rebuild ? Trees::rebuilt : Trees::refitted);
   }
 
   /// Positions, what lasts, forces and velocities at the end.
@@ -241,8 +295,8 @@ class DeviceStep final : public StepOnDevice {
     queue_.forEach(n_, MovePoints{position_.data(), solved_.data(), dt, f.free_position, facts_.data()});
     queue_.forEach(samples_, LookAtWays{near_.mesh().x0.data(), near_.mesh().x1.data(), cell_.data(), facts_.data()});
     const StepRows all = rows();
-    queue_.forEach(room(), LookAtRows{all, contacts_, density_.data(), dt, -std::expm1(-dt / m_.contact.relaxation_s),
-                                      near_.warm().borne(), share_.data(), active_.data(), facts_.data()});
+    queue_.forEach(room(), LookAtRows{all, contacts_, density_.data(), dt, keptPart(dt), near_.warm().borne(),
+                                      share_.data(), active_.data(), facts_.data()});
     queue_.zero(of_sample_);
     queue_.forEach(room(), CountParts{all, share_.data(), of_sample_.data(), part_place_.data()});
     sample_scan_->run(queue_, of_sample_, sample_begin_);
@@ -291,10 +345,9 @@ class DeviceStep final : public StepOnDevice {
     done.largest_way = now.way();
     done.shown_frequency2 = now.motion.way2 > 0 ? std::sqrt(now.motion.force2 / now.motion.way2) : 0;
     done.most_jerk_per_s4 = now.mostJerk();
-    const std::vector<Point4> points = queue_.download(points_out_, 3 * static_cast<std::size_t>(n_));
+    const std::vector<Vec3> points = queue_.download(points_out_, 3 * static_cast<std::size_t>(n_));
     const auto part = [&](int k, std::vector<Vec3>& to) {
-      to.resize(static_cast<std::size_t>(n_));
-      for (int i = 0; i < n_; ++i) to[static_cast<std::size_t>(i)] = vec(points[static_cast<std::size_t>(k * n_ + i)]);
+      to.assign(points.begin() + k * n_, points.begin() + (k + 1) * n_);
     };
     part(0, done.velocity), part(1, done.acceleration), part(2, done.pressed);
     if (!m_.held_points.empty()) done.free_force = forces_.freeForce();
@@ -324,15 +377,20 @@ class DeviceStep final : public StepOnDevice {
   // Rows.
   Buffer<StepFacts> facts_;
   Buffer<Count> row_count_;
+  StepSolve<Device> solve_;
   Count contacts_ = 0;  ///< of the last pass
   Buffer<RowTerms> terms_;
   Buffer<Vec3> traction_, impulse_;
   Buffer<double> share_;
   Buffer<int> active_, active_place_, part_place_, part_, of_sample_, sample_begin_;
   std::optional<typename Device::ExclusiveSum> row_scan_, sample_scan_;
-  Buffer<Point4> sample_sum_, points_out_, jerk_, net_jerk_;
+  Buffer<Point4> sample_sum_, jerk_, net_jerk_;
+  Buffer<Vec3> points_out_;
   TreeSum<Device, MotionSum> motion_sum_;
   Buffer<CarryingRow> carrying_;
+  std::optional<StepImpacts<Device>> impacts_;  ///< where there is anything to touch
+  std::vector<EllipsoidBody> ellipsoids_;
+  Buffer<EllipsoidBody> ellipsoid_;
   ContactWork host_work_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/motion/forces.hpp"
@@ -19,16 +18,20 @@ using MakeDevice = std::unique_ptr<StepOnDevice> (*)(const Model&, const State&,
 
 /// The control of velocity Verlet, whose steps a device makes. Its own states have no points: these stand on the
 /// device, and with the ledger, which may be some steps behind.
-class DeviceVerlet final : public DeviceIntegrator, private VelocityVerlet {
+class DeviceVerlet final : public DeviceSteps, private VelocityVerlet {
  public:
   DeviceVerlet(const Model& model, const gambeson::Stage& stage, const StepControl& control, Frequency& frequency,
                StepWork& work, MakeDevice make)
       : VelocityVerlet(model, stage, control, frequency, work), make_(make), ledger_(model, stage, work) {
-    if (const auto missing = stepNotCarried(model, control))
+    if (const auto missing = stepNotCarried(model, {}, control))
       throw RunError("steps on a device do not carry " + *missing);
   }
 
-  const DeviceCounts& counts() const override { return counts_; }
+  DeviceCounts counts() const override {
+    DeviceCounts all = counts_;
+    if (device_) all.repeated = device_->repeats();
+    return all;
+  }
 
   void advance(double until_s, State& state, const StepObserver& observe) override {
     mode_ = state.mode;
@@ -60,7 +63,6 @@ class DeviceVerlet final : public DeviceIntegrator, private VelocityVerlet {
 
  private:
   StepReport makeStep(const State& in, double dt, State& out) override {
-    ++counts_.steps;
     if (!in.mode.empty()) mode_ = in.mode;
     out.mode.clear();
     if (in.tangled) return makeByCpu(ByCpu::tangled, in, dt, out);
@@ -135,7 +137,7 @@ class DeviceVerlet final : public DeviceIntegrator, private VelocityVerlet {
   }
 
   StepReport makeByCpu(ByCpu why, const State& in, double dt, State& out) {
-    ++counts_.by_cpu[static_cast<std::size_t>(why)];
+    why_ = why;
     State& whole = ledger_.state();
     if (stands(in)) device_->complete(whole);
     stands_s_ = made_s_ = std::numeric_limits<double>::quiet_NaN();
@@ -148,6 +150,8 @@ class DeviceVerlet final : public DeviceIntegrator, private VelocityVerlet {
 
   /// A step is accepted.
   void enter(const State& after, const StepReport& report, const Frequency& frequency) {
+    ++counts_.steps;
+    if (by_cpu_) ++counts_.by_cpu, ++counts_.reasons[inWords(why_)];
     if (!by_cpu_) return ledger_.add(std::move(done_), made_dt_s_, after, report, frequency);
     copyControl(after, cpu_out_);
     ledger_.addByCpu(cpu_out_, report, frequency);
@@ -192,7 +196,8 @@ class DeviceVerlet final : public DeviceIntegrator, private VelocityVerlet {
   double stands_s_ = std::numeric_limits<double>::quiet_NaN(), made_s_ = stands_s_;  ///< times of the device's states
   double made_dt_s_ = 0;
   bool by_cpu_ = false;  ///< the CPU made the last step
-  StepDone done_;        ///< else what the device left
+  ByCpu why_ = ByCpu::none;
+  StepDone done_;  ///< else what the device left
   State cpu_out_;
   std::vector<Vec3> mode_, hung_;  ///< State::mode and anchors, which the control has no copy of
   std::vector<Vec3> anchors_;
@@ -223,21 +228,34 @@ const char* inWords(ByCpu reason) {
   }
 }
 
-long DeviceCounts::byCpu() const { return std::accumulate(by_cpu.begin(), by_cpu.end(), 0L); }
+void DeviceCounts::add(const DeviceCounts& more) {
+  steps += more.steps;
+  by_cpu += more.by_cpu;
+  repeated += more.repeated;
+  for (const auto& [why, count] : more.reasons) reasons[why] += count;
+}
 
-std::optional<std::string> stepNotCarried(const Model& m, const StepControl&) {
-  if (m.strain_limit.mode != LimitMode::none) return "limits of strain";
+std::optional<std::string> stepNotCarried(const Model& m, const MotionOptions& options, const StepControl&) {
+  if (options.scheme != MotionScheme::verlet) return "other schemes than velocity Verlet (time.scheme)";
+  if (m.strain_limit.mode != LimitMode::none) return "limits of strain (strain_limit)";
   if (m.contact.followsMotion()) return "friction that depends on the motion";
   if (m.cloth->losesEnergy()) return "cloth that loses energy";
   return notCarried(m);
 }
 
-std::unique_ptr<DeviceIntegrator> stepsOnReference(const Model& model, const gambeson::Stage& stage,
-                                                   const StepControl& control, Frequency& frequency, StepWork& work) {
+std::size_t bytesOnDevice(const Model& model) {
+  const std::size_t cloth = model.surface.triangles.size(), all = model.collisions.mesh.triangles.size();
+  constexpr std::size_t kFixed = 35'000'000, kOfSample = 10'000, kOfBodyTriangle = 1'600;
+  return kFixed + kOfSample * static_cast<std::size_t>(model.surface.size()) +
+         kOfBodyTriangle * (all > cloth ? all - cloth : 0);
+}
+
+std::unique_ptr<DeviceSteps> stepsOnReference(const Model& model, const gambeson::Stage& stage,
+                                              const StepControl& control, Frequency& frequency, StepWork& work) {
   return std::make_unique<DeviceVerlet>(model, stage, control, frequency, work, stepOnReference);
 }
-std::unique_ptr<DeviceIntegrator> stepsOnCuda(const Model& model, const gambeson::Stage& stage,
-                                              const StepControl& control, Frequency& frequency, StepWork& work) {
+std::unique_ptr<DeviceSteps> stepsOnCuda(const Model& model, const gambeson::Stage& stage, const StepControl& control,
+                                         Frequency& frequency, StepWork& work) {
   return std::make_unique<DeviceVerlet>(model, stage, control, frequency, work, stepOnCuda);
 }
 

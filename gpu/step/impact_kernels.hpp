@@ -29,6 +29,7 @@ struct ImpactPaths {
   const char* exempt = nullptr;             ///< of each sample: inside of a body, whose skin does not stop it
   const EllipsoidBody* ellipsoid =
       nullptr;  ///< of obstacles that are ellipsoids, in their order: metric and placements
+  bool operator==(const ImpactPaths&) const = default;
 };
 
 /// What a pass begins with. Boxes of paths are grown by half of the separation.

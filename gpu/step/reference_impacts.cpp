@@ -7,10 +7,9 @@ namespace gambeson::gpu {
 ImpactSizes roomForImpacts(const CollisionModel& m) {
   const unsigned long long vertices = static_cast<unsigned long long>(m.mesh.vertex_count) + 1024;
   ImpactSizes room;
-  room[kPointPairs] = 48 * vertices, room[kPointOpen] = 16 * vertices;
-  room[kEdgePairs] = 96 * vertices, room[kEdgeOpen] = 48 * vertices;
-  room[kPointHard] = room[kEdgeHard] = room[kPointMet] = room[kEdgeMet] = 4 * vertices;
-  room[kStepHits] = 2 * vertices;
+  room[kPointPairs] = 12 * vertices, room[kPointOpen] = 2 * vertices;
+  room[kEdgePairs] = 24 * vertices, room[kEdgeOpen] = 4 * vertices;
+  room[kPointHard] = room[kEdgeHard] = room[kPointMet] = room[kEdgeMet] = room[kStepHits] = vertices;
   return room;
 }
 

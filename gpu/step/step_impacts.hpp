@@ -97,7 +97,11 @@ class StepImpacts {
   /// A pass, and a wait for its counts, repeated until nothing has run over.
   ImpactCounts find(const ImpactPaths& paths, Trees trees) {
     for (ImpactCounts found;; ++repeats_) {
-      give(paths, built_ ? trees : Trees::rebuilt);
+      const bool anew = !built_ || trees == Trees::rebuilt;
+      if (!(paths == paths_)) forgetPasses();
+      std::optional<typename Device::Replay>& pass = passes_[anew];
+      if (!pass) pass.emplace(queue_, [this, paths, anew] { give(paths, anew ? Trees::rebuilt : Trees::refitted); });
+      pass->run(queue_);
       built_ = true;
       if (take(found)) return found;
     }
@@ -180,7 +184,11 @@ class StepImpacts {
     sweep_ = Buffer<EllipsoidSweep>(static_cast<std::size_t>(ellipsoids_));
   }
 
+  void forgetPasses() {
+    for (auto& pass : passes_) pass.reset();
+  }
   void makeLists(const ImpactSizes& room) {
+    forgetPasses();
     room_ = room;
     for (const ImpactList which : {kPointPairs, kEdgePairs}) makeOne(pairs_[which == kEdgePairs], which);
     for (const ImpactList which : {kPointOpen, kEdgeOpen}) makeOne(open_[which == kEdgeOpen], which);
@@ -335,6 +343,7 @@ class StepImpacts {
   typename Device::ExclusiveSum slot_sum_;
   std::optional<typename Device::ExclusiveSum> new_sum_;
   Stages<Device> common_, face_tree_, edge_tree_, on_bodies_, cloth_points_, cloth_edges_, body_parts_, points_, edges_;
+  std::optional<typename Device::Replay> passes_[2];  ///< refitted, rebuilt
   bool built_ = false;
   int repeats_ = 0;
 };

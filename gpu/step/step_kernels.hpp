@@ -148,6 +148,11 @@ struct SetTerms {
   }
 };
 
+/// A pass of the search looks anew.
+struct ForgetSeen {
+  StepFacts* facts;
+  GAMBESON_HD void operator()(int) const { facts->inside = facts->cloth_contacts = 0, facts->highest_gap = 0; }
+};
 /// What a pass of the search says of samples and of its contacts.
 struct LookAtSamples {
   const char* inside;
@@ -348,10 +353,10 @@ struct GatherRows {
 struct GatherPoints {
   const Point4 *velocity, *acceleration, *pressed;
   int n;
-  Point4* to;
+  Vec3* to;
   StepFacts* facts;
   GAMBESON_HD void operator()(int i) const {
-    to[i] = velocity[i], to[n + i] = acceleration[i], to[2 * n + i] = pressed[i];
+    to[i] = vec(velocity[i]), to[n + i] = vec(acceleration[i]), to[2 * n + i] = vec(pressed[i]);
     if (!isFinite(vec(acceleration[i]))) fetchAdd(&facts->not_finite, 1);
   }
 };

@@ -61,6 +61,7 @@ class StepOnDevice {
   virtual StepDone make(const DeviceStepInput& input) = 0;
   /// The state becomes that at the end of the last step. Nothing where none was made since.
   virtual void accept() = 0;
+  virtual long repeats() const = 0;  ///< of passes, for want of room
   /// Completes a host's copy of the state by what stayed here: warm contacts and history.
   virtual void complete(State& state) = 0;
 };

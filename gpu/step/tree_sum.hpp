@@ -1,5 +1,5 @@
 #pragma once
-/// Sums in an order that depends on the number of items alone: of 32 neighbours, then of 32 of these, and so on.
+/// Sums in an order that depends on the number of items alone: of 8 neighbours, then of 8 of these, and so on.
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 namespace gambeson::gpu {
 
-constexpr int kSummed = 32;
+constexpr int kSummed = 8;
 
 template <class F, class T>
 struct SumItems {

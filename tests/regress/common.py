@@ -32,8 +32,8 @@ def run(*arguments, **options):
                           errors="replace", **options)
 
 
-def run_case(case, out, *options):
-    done = run("run", case, "--out", out, *options)
+def run_case(case, out, *options, **how):
+    done = run("run", case, "--out", out, *options, **how)
     check(done.returncode == 0, f"run of {case} gave {done.returncode}: {done.stderr}")
     return done
 

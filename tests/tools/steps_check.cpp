@@ -10,6 +10,7 @@
 #include "cases/wear/scene/scenario.hpp"
 #include "core/motion/free_steps.hpp"
 #include "core/motion/step.hpp"
+#include "gpu/device/gpu.hpp"
 #include "gpu/step/device_steps.hpp"
 
 namespace gambeson {
@@ -73,6 +74,8 @@ int check(int argc, char** argv) {
   app.add_option("--steps", o.steps, "at most");
   app.add_option("--window", o.window_s, "time in s between lines");
   CLI11_PARSE(app, argc, argv);
+  const bool on_gpu = o.device == "cuda";
+  const std::size_t free_bytes = on_gpu ? gpu::gpuMemory().free_bytes : 0;
   const auto scenario = buildScenario(readCase(o.path, o.overrides));
   putOn(*scenario);
   StepWork work;
@@ -80,14 +83,14 @@ int check(int argc, char** argv) {
   State state = startOf(*scenario, work);
   const TimeCase& time = scenario->definition.time;
   std::unique_ptr<Integrator> integrator;
-  const gpu::DeviceCounts* counts = nullptr;
+  const gpu::DeviceSteps* on_device = nullptr;
   if (o.device == "cpu") {
     integrator = makeIntegrator(time.motion, *scenario->model, *scenario->stage, time.control(), frequency, work);
   } else {
-    auto on_device = (o.device == "cuda" ? gpu::stepsOnCuda : gpu::stepsOnReference)(*scenario->model, *scenario->stage,
-                                                                                     time.control(), frequency, work);
-    counts = &on_device->counts();
-    integrator = std::move(on_device);
+    auto steps = (o.device == "cuda" ? gpu::stepsOnCuda : gpu::stepsOnReference)(*scenario->model, *scenario->stage,
+                                                                                 time.control(), frequency, work);
+    on_device = steps.get();
+    integrator = std::move(steps);
   }
   std::printf("%d free points, %d samples, %zu triangles\n", scenario->model->freeCount(),
               scenario->model->surface.size(), scenario->model->collisions.mesh.triangles.size());
@@ -124,11 +127,17 @@ int check(int argc, char** argv) {
       (t.contact - from.contact) * ms, (t.impact - from.impact) * ms, (t.force - from.force) * ms,
       (t.other - from.other) * ms, (t.tangles + t.freeing - from.tangles - from.freeing) * ms,
       all.iterations / static_cast<double>(std::max(1L, all.steps)), all.unsolved, all.momentum);
-  if (counts) {
-    std::printf("%ld steps, %ld by the CPU:", counts->steps, counts->byCpu());
-    for (std::size_t k = 0; k < counts->by_cpu.size(); ++k)
-      if (counts->by_cpu[k] > 0) std::printf(" %ld %s;", counts->by_cpu[k], gpu::inWords(static_cast<gpu::ByCpu>(k)));
+  if (on_device) {
+    const gpu::DeviceCounts counts = on_device->counts();
+    std::printf("%ld steps, %ld passes repeated for want of room, %ld steps by the CPU:", counts.steps, counts.repeated,
+                counts.by_cpu);
+    for (const auto& [why, count] : counts.reasons) std::printf(" %ld %s;", count, why.c_str());
     std::printf("\n");
+    const std::size_t told = gpu::bytesOnDevice(*scenario->model);
+    if (on_gpu)
+      std::printf("%.1f MB of the device's memory, told before: %.1f MB\n",
+                  1e-6 * static_cast<double>(free_bytes - gpu::gpuMemory().free_bytes),
+                  1e-6 * static_cast<double>(told));
   }
   return 0;
 }

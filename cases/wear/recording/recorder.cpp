@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "cases/runs/run_identity.hpp"
 #include "cases/wear/recording/recorded_scene.hpp"
 #include "core/error.hpp"
 #include "core/math/carried_error.hpp"
@@ -137,9 +138,9 @@ void requireOwnNames(const RecordingLayout& layout, const std::filesystem::path&
 
 }  // namespace
 
-RecordingLayout recordingLayout(const Scenario& s) {
+RecordingLayout recordingLayout(const Scenario& s, DeviceKind device) {
   RecordingLayout layout;
-  layout.identity = caseIdentity(s.definition) + " " + s.model->cloth->kernels();
+  layout.identity = RunIdentity(caseIdentity(s.definition), s.model->cloth->kernels(), device).text();
   layout.metadata = writeCase(s.definition);
   layout.triangles = s.model->surface.triangles;
   layout.patches = s.model->cloth->geometry();

@@ -17,7 +17,8 @@
 ///   skin      where the human has a skin: what its contact is at the joints (cases/wear/recording/skin_ledger.hpp)
 ///   memory    where the cloth's laws have friction in bending: what they remember (ClothMemoryView::columns), at the
 ///             window's end
-///   sticking  sums of the normal impulses of contacts: <bodies|cloth>_n_Ns of all, _stuck_Ns of those that stick, whose
+///   sticking  sums of the normal impulses of contacts: <bodies|cloth>_n_Ns of all, _stuck_Ns of those that stick,
+///   whose
 ///             sides move along each other by no more than ContactParameters::still
 /// Frames hold of each sample the mean contact force over the window, the pressure (sum of the normal forces over the
 /// sample's area as it is at the window's end, stretched) and that area; stress and strain. Those of a human with a
@@ -34,6 +35,7 @@
 #include "cases/wear/scene/placed_bodies.hpp"
 #include "cases/wear/scene/scenario.hpp"
 #include "core/cloth/stress.hpp"
+#include "core/device_kind.hpp"
 #include "core/io/recording.hpp"
 
 namespace gambeson {
@@ -51,7 +53,7 @@ constexpr const char* solve_columns[] = {"solve_iterations", "largest_missed_imp
 std::vector<std::string> regionNames(const Scenario& scenario);
 std::vector<std::string> supportNames(const Scenario& scenario);
 
-RecordingLayout recordingLayout(const Scenario& scenario);
+RecordingLayout recordingLayout(const Scenario& scenario, DeviceKind device = DeviceKind::cpu);
 
 class Recorder {
  public:

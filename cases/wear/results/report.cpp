@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "analysis/ticks.hpp"
+#include "cases/runs/run_identity.hpp"
 #include "cases/wear/results/check_words.hpp"
 #include "cases/wear/results/joint_words.hpp"
 #include "cases/wear/results/write.hpp"
@@ -199,7 +200,8 @@ std::string outcomeOf(const Measured& m) {
     for (const MemoryMeasure::Of& of : m.memory.rows.back())
       set = std::max(set, of.largest_set_per_m), friction = std::min(friction, of.least_friction_left);
     if (set > 0)
-      add(fmt::format("Folds have set in the cloth, up to a curvature of {} 1/m; at least {} % of its friction in "
+      add(
+          fmt::format("Folds have set in the cloth, up to a curvature of {} 1/m; at least {} % of its friction in "
                       "bending is left.",
                       formatNumber(set), formatNumber(100 * friction)));
   }
@@ -208,6 +210,24 @@ std::string outcomeOf(const Measured& m) {
             ? fmt::format("Cloth passes through something in {} places at the end.", left)
             : fmt::format("It passed through something in {} places, and is free from {:.2f} s on.", tangles, free_s));
   return s.empty() ? "Nothing touched anything in this run." : s;
+}
+
+/// What made the steps, where that was not the processor alone.
+void addDevice(const DeviceFacts& d, ReportInput& in) {
+  if (d.kind == DeviceKind::cpu) return;
+  const std::string kernels = "kernels of the device: " + d.kernels;
+  in.facts.push_back(
+      {"Device", d.kind == DeviceKind::cuda
+                     ? fmt::format("{}, driver {}, this program has {}; {}", d.gpu, d.driver, d.runtime, kernels)
+                     : "the processor with the kernels of a GPU, whose bits it has (--device reference); " + kernels});
+  std::string by_cpu =
+      fmt::format("{} of {} ({} %)", d.by_cpu, d.steps,
+                  formatNumber(100.0 * static_cast<double>(d.by_cpu) / static_cast<double>(std::max(1L, d.steps))));
+  std::string reasons;
+  for (const auto& [why, count] : d.reasons) reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", why, count);
+  if (!reasons.empty()) by_cpu += ": " + reasons;
+  if (d.repeated > 0) by_cpu += fmt::format("; {} passes were repeated with more room for their lists", d.repeated);
+  in.facts.push_back({"Steps handed to the CPU", by_cpu});
 }
 
 std::string duration(double s) {
@@ -257,25 +277,26 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   in.assumptions = assumptionsOf(s);
   if (const std::string names = untouchedOf(m); !names.empty())
     in.assumptions.push_back("Left out, as the garment touches nothing that they move: " + names + ".");
-  const auto [hash, kernels] = identityParts(identity);
-  in.facts = {{"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->cloth->points(),
-                                      s.model->surface.size(), fmt::join(s.fabric_names, ", "))},
-              {"Steps", std::to_string(m.steps.steps)},
-              {"Smallest time step",
-               fmt::format("{}; governed by the {} term", duration(m.steps.shortest_s), m.steps.governing)},
-              {"Mean time step", duration(m.steps.mean_s)},
-              {"Largest stretch",
-               [&] {
-                 double e = 0, most = 0;
-                 for (const StressSummary& r : m.stress)
-                   e = std::max(e, r.max_strain), most = std::max(most, r.p99_strain);
-                 return fmt::format("{} %; 99 % of every patch stays below {} %", formatNumber(100 * e),
-                                    formatNumber(100 * most));
-               }()},
-              {"Computed in", fmt::format("{}; threads: {}; kernels: {}{}", duration(facts.wall_s), facts.threads,
-                                          kernels, facts.resumed ? "; resumed, the time is of the last part" : "")},
-              {"Gambeson", facts.version},
-              {"Case hash", hash}};
+  const RunIdentity made(identity);
+  in.facts = {
+      {"Garment", fmt::format("{} control points, {} contact samples, {}", s.model->cloth->points(),
+                              s.model->surface.size(), fmt::join(s.fabric_names, ", "))},
+      {"Steps", std::to_string(m.steps.steps)},
+      {"Smallest time step",
+       fmt::format("{}; governed by the {} term", duration(m.steps.shortest_s), m.steps.governing)},
+      {"Mean time step", duration(m.steps.mean_s)},
+      {"Largest stretch",
+       [&] {
+         double e = 0, most = 0;
+         for (const StressSummary& r : m.stress) e = std::max(e, r.max_strain), most = std::max(most, r.p99_strain);
+         return fmt::format("{} %; 99 % of every patch stays below {} %", formatNumber(100 * e),
+                            formatNumber(100 * most));
+       }()},
+      {"Computed in", fmt::format("{}; threads: {}; kernels: {}{}", duration(facts.wall_s), facts.threads, made.kernels,
+                                  facts.resumed ? "; resumed, the time is of the last part" : "")},
+      {"Gambeson", facts.version},
+      {"Case hash", made.case_hash}};
+  addDevice(facts.device, in);
   addRepeatability(m, in);
   if (!facts.phases_s.empty()) {
     Table timings{"Where the time went", "", {"phase", "time [s]", "share [%]"}, {}};

@@ -83,11 +83,6 @@ std::vector<Picture> takeBodyPictures(const Scenario& s, const Measured& m, cons
 
 }  // namespace
 
-std::pair<std::string, std::string> identityParts(const std::string& identity) {
-  const std::size_t blank = identity.find(' ');
-  return {identity.substr(0, blank), blank == std::string::npos ? "" : identity.substr(blank + 1)};
-}
-
 std::vector<double> WindowTimes::row() const {
   std::vector<double> row{start_s, end_s};
   row.insert(row.end(), phases_s.begin(), phases_s.end());
@@ -99,6 +94,15 @@ void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
   for (const auto& [name, seconds] : f.phases_s) phases.push_back({{"phase", name}, {"seconds", seconds}});
   Json windows = Json::array();
   for (const WindowTimes& w : f.windows) windows.push_back(w.row());
+  const DeviceFacts& d = f.device;
+  Json device{{"kind", wordOf(d.kind)}};
+  if (d.kind == DeviceKind::cuda) device.update({{"gpu", d.gpu}, {"driver", d.driver}, {"runtime", d.runtime}});
+  if (d.kind != DeviceKind::cpu)
+    device.update({{"kernels", d.kernels},
+                   {"steps", d.steps},
+                   {"steps_by_cpu", d.by_cpu},
+                   {"repeated_passes", d.repeated},
+                   {"reasons", d.reasons}});
   const Json j{{"version", f.version.empty() ? GAMBESON_VERSION : f.version},
                {"threads", f.threads},
                {"kernels", f.kernels},
@@ -108,9 +112,29 @@ void writeRunFacts(const RunFacts& f, const std::filesystem::path& dir) {
                {"searched_steps_s", f.searched_steps_s},
                {"phases", phases},
                {"windows", windows},
-               {"recording", f.recording}};
+               {"recording", f.recording},
+               {"device", device}};
   writeOwnFile(dir / "run.json", j.dump(2) + "\n");
 }
+
+namespace {
+
+DeviceFacts deviceFacts(const JsonAt& j) {
+  DeviceFacts d;
+  const std::string kind = j.at("kind").text();
+  const auto word = std::find(kDeviceWords.begin(), kDeviceWords.end(), kind);
+  if (word == kDeviceWords.end()) throw JsonAt::Error(fmt::format("device.kind: there is no '{}'", kind));
+  d.kind = static_cast<DeviceKind>(word - kDeviceWords.begin());
+  const auto text = [&](const char* key) { return j.contains(key) ? j.at(key).text() : std::string(); };
+  const auto count = [&](const char* key) { return j.contains(key) ? j.at(key).integer() : 0; };
+  d.gpu = text("gpu"), d.driver = text("driver"), d.runtime = text("runtime"), d.kernels = text("kernels");
+  d.steps = count("steps"), d.by_cpu = count("steps_by_cpu"), d.repeated = count("repeated_passes");
+  if (j.contains("reasons"))
+    for (const auto& [why, times] : j.at("reasons").items()) d.reasons[why] = times.integer();
+  return d;
+}
+
+}  // namespace
 
 RunFacts readRunFacts(const std::filesystem::path& dir) {
   RunFacts f;
@@ -127,6 +151,7 @@ RunFacts readRunFacts(const std::filesystem::path& dir) {
     f.resumed = j.at("resumed").flag();
     if (j.contains("searches")) f.searches = j.at("searches").integer();
     if (j.contains("searched_steps_s")) f.searched_steps_s = j.at("searched_steps_s").number();
+    if (j.contains("device")) f.device = deviceFacts(j.at("device"));
     if (j.contains("recording")) f.recording = j.at("recording").text();
     for (const JsonAt& p : j.at("phases").list())
       f.phases_s.emplace_back(p.at("phase").text(), p.at("seconds").number());
@@ -187,7 +212,7 @@ void writeResults(const std::filesystem::path& dir) {
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, dir / "report.html");
   for (const AuditCheck& c : in.audit)
-    if (!c.holds()) fmt::print(stderr, "{}\n", messageText(notMet(c.name, c.value, c.limit, c.unit)));
+    if (!c.holds()) fmt::print(notes(), "{}\n", messageText(notMet(c.name, c.value, c.limit, c.unit)));
   if (!failures.empty()) throw RunError(failures.front() + " (the numbers and the report are in " + dir.string() + ")");
 }
 

@@ -2,6 +2,7 @@
 /// Everything that a run leaves beside its recording: the numbers, tables, pictures and the report.
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -21,6 +22,16 @@ struct WindowTimes {
   std::vector<double> row() const;
 };
 
+/// What made the steps of a run.
+struct DeviceFacts {
+  DeviceKind kind = DeviceKind::cpu;
+  std::string gpu, driver, runtime;  ///< of `cuda`: names and versions
+  std::string kernels;               ///< what the device's kernels find, as a hash
+  // Of steps on a device; of a resumed run's last part.
+  long steps = 0, by_cpu = 0, repeated = 0;  ///< all; made by the CPU; passes repeated with more room
+  std::map<std::string, long> reasons{};     ///< of those by the CPU
+};
+
 /// What the run knows of itself and the recording does not; DIR/run.json.
 struct RunFacts {
   int threads = 0;
@@ -32,6 +43,7 @@ struct RunFacts {
   double searched_steps_s = 0;         ///< their time, all phases
   std::vector<WindowTimes> windows{};  ///< those of a resumed run's last part
   std::string recording{};             ///< identity of the recording that the run wrote
+  DeviceFacts device{};
 };
 void writeRunFacts(const RunFacts& facts, const std::filesystem::path& dir);
 /// Throws InputError where DIR/run.json is damaged; a run that was killed left none: empty facts.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cloth/thread_strains.hpp"
+#include "cases/runs/run_identity.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/io/own_file.hpp"
 
@@ -235,8 +236,12 @@ Json recordedJson(const RecordedRange& r) {
 
 void writeSummary(const Scenario& s, const RecordingReader& recording, const Measured& m, const RunFacts& facts,
                   const std::filesystem::path& file) {
-  const auto [hash, kernels] = identityParts(recording.layout().identity);
-  Json j{{"name", s.definition.name}, {"version", facts.version}, {"case_hash", hash}, {"kernels", kernels}};
+  const RunIdentity identity(recording.layout().identity);
+  Json j{{"name", s.definition.name},
+         {"version", facts.version},
+         {"case_hash", identity.case_hash},
+         {"kernels", identity.kernels}};
+  if (identity.on_device) j["steps_on"] = "device";
   j["recorded_from_s"] = s.start_s;
   j["recorded_to_s"] = m.recorded_end_s;
   j["planned_to_s"] = s.end_s;

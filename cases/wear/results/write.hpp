@@ -89,7 +89,4 @@ int frameOf(const RecordingReader& recording, const Measured& measured, const Pi
 /// ComfortCase::sensor_m on the body.
 std::string captionOf(const PictureCase& picture, double time_s, double sensor_m);
 
-/// Case hash and kernels of a recording's identity.
-std::pair<std::string, std::string> identityParts(const std::string& identity);
-
 }  // namespace gambeson

@@ -6,12 +6,15 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
+#include <optional>
 
 #include "cases/input/message.hpp"
 #include "cases/runs/disk_space.hpp"
 #include "cases/runs/progress.hpp"
 #include "cases/runs/recorded_case.hpp"
 #include "cases/runs/results_folder.hpp"
+#include "cases/runs/run_identity.hpp"
 #include "cases/runs/stop_message.hpp"
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/motions/kind.hpp"
@@ -20,11 +23,12 @@
 #include "cases/wear/recording/state_checkpoint.hpp"
 #include "cases/wear/recording/windows.hpp"
 #include "cases/wear/results/results.hpp"
+#include "cases/wear/run/company.hpp"
 #include "cases/wear/run/dress.hpp"
+#include "cases/wear/run/run_steps.hpp"
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
-#include "core/motion/free_steps.hpp"
 #include "core/motion/step.hpp"
 
 namespace gambeson {
@@ -58,16 +62,30 @@ const char* limbsHint(const Case& c) {
              : "";
 }
 
-/// Supports that let go after from_s, up to to_s, do so at to_s, where the state is. What the energy of the cloth gains
-/// when the points that they held belong to it is theirs.
-void letGoAt(double from_s, double to_s, Scenario& s, State& state, Recorder& recorder, StepWork& work) {
+/// Supports that let go after from_s, up to to_s, do so at to_s, where the state is: steps are made anew then. What the
+/// energy of the cloth gains when the points that they held belong to it is theirs. Whether any let go.
+bool letGoAt(double from_s, double to_s, Scenario& s, State& state, Recorder& recorder, StepWork& work) {
   const std::vector<std::size_t> supports = lettingGo(s.definition, from_s, to_s);
-  if (supports.empty()) return;
+  if (supports.empty()) return false;
   const double before = energyOf(*s.model, *s.stage, state, work).total();
   letGo(supports, *s.model, s.supports);
   evaluateForces(*s.model, *s.stage, state, work);
   state.steps_to_estimate = -1;
   recorder.addSupportWork(energyOf(*s.model, *s.stage, state, work).total() - before);
+  return true;
+}
+
+/// A device that fails says so, and how the run goes on; all that a shell needs stands in a line of its own.
+[[noreturn]] void failOnDevice(const gpu::DeviceError& e, const std::string& phase, const Case& c,
+                               const RunOptions& options) {
+  const std::string line = resumeLine(c, options);
+  const bool whole = unfitText(line).empty();
+  if (whole) fmt::print(notes(), "To go on from the last checkpoint: {}\n", line);
+  const std::string text =
+      fmt::format("{} ({})\nThe results up to the last checkpoint are in {}{}", e.what(), phase, options.out.string(),
+                  whole ? "" : ": the same command with --resume goes on from there");
+  if (e.fault() != gpu::DeviceFault::out_of_memory) throw DeviceLost(text);
+  throw RunError(text);
 }
 
 }  // namespace
@@ -83,23 +101,32 @@ void checkRun(const Case& c) {
 int runCase(const Case& c, const RunOptions& options) {
   const auto clock_start = std::chrono::steady_clock::now();
   useThreads(options.threads);
+  checkDevice(c, options);
   const ResultsFolder folder(options.out, inputsOf(c), options.resume);
   const bool resume = folder.resumes();
-  const StopMessage stopped(
-      fmt::format("stopped by a signal. What is recorded up to the last checkpoint stays in {}: the same command with "
-                  "--resume goes on from there",
-                  options.out.string()));
+  std::optional<StopMessage> stopped;  // of several runs of a process it speaks for all
+  if (!options.company)
+    stopped.emplace(fmt::format(
+        "stopped by a signal. What is recorded up to the last checkpoint stays in {}: the same command with "
+        "--resume goes on from there",
+        options.out.string()));
   if (options.resume && !resume)
-    fmt::print(stderr, "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
+    fmt::print(notes(), "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   const Model& model = *scenario->model;
+  const Company::Share memory = requireRoom(c, options, model);
   for (const std::string& note : scenario->notes) sayNote(note);
 
   StepWork work;
   State state;
   Frequency frequency;
   Checkpoint checkpoint;
-  const RecordingLayout layout = recordingLayout(*scenario);
+  const RecordingLayout layout = recordingLayout(*scenario, options.device);
+  if (resume) {
+    const RunIdentity recorded(readLayout(options.out).identity);
+    if (recorded.case_hash == RunIdentity(layout.identity).case_hash)  // else it is another case that is refused
+      requireSameDevice(recorded, options.device, options.out.string());
+  }
   if (const std::string note = sizeNote(recordingSize(*scenario, layout).bytes, freeBytes(options.out)); !note.empty())
     sayNote(note);
   // The case is written once there is a recording and before its first segment: a recording with a segment has its
@@ -125,18 +152,18 @@ int runCase(const Case& c, const RunOptions& options) {
     if (const auto gone = lettingGo(c, windows.bound(0), windows.bound(k - 1)); !gone.empty())
       letGo(gone, *scenario->model, scenario->supports);
   const bool finished = k == windows.count();
-  const std::unique_ptr<Integrator> integrator =
-      makeIntegrator(c.time.motion, model, *scenario->stage, c.time.control(), frequency, work);
+  RunSteps steps(c, options, *scenario, frequency, work);
   std::vector<WindowTimes> times;
   auto before_s = phasesOf(work.times, c.strain_limit.has_value());
   {
     Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
     try {
+      steps.make();
       for (; k < windows.count(); ++k) {
-        if (k > 0) letGoAt(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work);
-        integrator->advance(windows.bound(k + 1), state,
-                     [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
-                         const Frequency& f) { recorder.observe(before, after, report, w, f); });
+        if (k > 0 && letGoAt(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work)) steps.make();
+        steps.advance(windows.bound(k + 1), state,
+                      [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
+                          const Frequency& f) { recorder.observe(before, after, report, w, f); });
         auto after_s = phasesOf(work.times, c.strain_limit.has_value());
         times.push_back({windows.bound(k), state.time_s, {}});
         for (std::size_t p = 0; p < after_s.size(); ++p)
@@ -148,6 +175,8 @@ int runCase(const Case& c, const RunOptions& options) {
         if (windows.completes(k + 1, c.output.checkpoint_s)) writer.closeSegment(checkpointOf(state, frequency));
         progress.update(state.time_s - scenario->start_s, phaseName(*scenario, state.time_s));
       }
+    } catch (const gpu::DeviceError& e) {
+      failOnDevice(e, phaseName(*scenario, state.time_s), c, options);
     } catch (const RunError& e) {
       throw RunError(fmt::format("{} ({}{})\nThe results up to the last checkpoint are in {}", e.what(),
                                  phaseName(*scenario, state.time_s), limbsHint(c), options.out.string()));
@@ -162,12 +191,15 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.phases_s = phasesOf(work.times, c.strain_limit.has_value());
   facts.windows = std::move(times);
   facts.recording = layout.identity;
+  facts.device = steps.facts();
   facts.searches = work.times.searches;
   facts.searched_steps_s = work.times.searched_steps;
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
+  std::unique_lock<std::mutex> alone;
+  if (options.company) alone = std::unique_lock(options.company->results);
   writeResults(options.out);
-  fmt::print("Report: {}\n", (options.out / "report.html").string());
+  fmt::print(options.company ? notes() : stdout, "Report: {}\n", (options.out / "report.html").string());
   return 0;
 }
 

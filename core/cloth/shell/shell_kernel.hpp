@@ -50,7 +50,9 @@ struct ShellBlock {
   int pairCount() const { return nodeCount() * (nodeCount() + 1) / 2; }
   int pointDoubles() const { return 5 + (rational ? 6 : 0) + (rest_curvature ? 3 : 0); }
   int tieCount() const { return 2 * gv + 2 * gu + 4; }
-  LawsByPoint lawsByPoint() const { return {laws.empty() ? nullptr : laws.data(), law_varies}; }
+  LawsByPoint lawsByPoint() const {
+    return {laws.empty() ? nullptr : laws.data(), {law_varies.data(), law_varies.size()}};
+  }
   long firstPoint(int group) const { return scattered ? first_point[group] : static_cast<long>(group) * gu * gv; }
 };
 

@@ -89,7 +89,8 @@ TEST(NearSearch, AnyWidthOfAGroupGivesTheSameBits) {
 
 TEST(NearSearch, TooLittleRoomIsRepeatedWithMore) {
   for (const auto& scene : {twoLayers(14), sheetOnSkin(14)}) {
-    const NearSizes ample = roomForNear(scene->collisions);
+    NearSizes ample = roomForNear(scene->collisions);
+    for (auto& room : ample) room *= 8;
     const auto truth = found(*scene, ample);
     EXPECT_EQ(truth->repeats(), 0);
     const NearFacts facts = factsOf(*truth);

@@ -27,7 +27,8 @@ Outcome gambeson(const Folder& folder, const std::string& arguments) {
 
 TEST(Command, HelpForNewcomers) {
   const Folder folder;
-  for (const char* subcommand : {"", "run ", "check ", "render ", "report ", "verify ", "study ", "batch ", "fabric "}) {
+  for (const char* subcommand :
+       {"", "run ", "check ", "render ", "report ", "verify ", "study ", "batch ", "fabric "}) {
     const Outcome o = gambeson(folder, std::string(subcommand) + "--help");
     SCOPED_TRACE(subcommand);
     EXPECT_EQ(o.status, 0);
@@ -151,7 +152,8 @@ TEST(Command, BadInputExitsWithTwo) {
       {"run example.json --threads -1", "--threads"},
       {"run example.json --threads many", "--threads"},
       {"run example.json --device gpu", "--device"},
-      {"run example.json --device cuda", "--device: \"cuda\" is not in this build; allowed: auto or cpu"},
+      {"run example.json --device cuda --set time.audit=true",
+       "command line: time.audit: the account of the scheme's own energy is not kept by --device cuda"},
       {"run example.json --set contact.friction=-1",
        "command line: contact.friction: -1 is out of range; allowed: >= 0 and <= 5"},
       {"run typo.json", "typo.json:9: fabric.thicknes: unknown key; did you mean \"thickness\"?"},

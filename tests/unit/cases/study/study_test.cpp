@@ -242,8 +242,9 @@ TEST(Study, AScriptHasPathsAsTheyAre) {
       0);
   std::ifstream said((o.out / s.variants[0].folder).string() + ".arguments");
   const std::string out = o.out.string(), name = s.variants[0].folder;
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(said), {}),
-            "run|" + out + "/cases/" + name + ".json|--out|" + out + "/" + name + "|--threads|3|--resume|");
+  EXPECT_EQ(
+      std::string(std::istreambuf_iterator<char>(said), {}),
+      "run|" + out + "/cases/" + name + ".json|--out|" + out + "/" + name + "|--threads|3|--device|cpu|--resume|");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "F"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "G"));
   // What the queue itself reads has no text of the user's.

@@ -323,6 +323,42 @@ TEST(Results, FactsSurviveAndDamageIsNamed) {
   EXPECT_THROW(recordedRun(folder.path()), InputError);
 }
 
+TEST(Results, FactsOfTheDeviceSurvive) {
+  const Folder folder;
+  RunFacts facts{3, "avx2", "9.9", 1.25, {{"a", 1}}};
+  writeRunFacts(facts, folder.path());
+  EXPECT_EQ(readRunFacts(folder.path()).device.kind, DeviceKind::cpu);
+  EXPECT_EQ(content(folder.path() / "run.json").find("steps_by_cpu"), std::string::npos);
+  facts.device = {DeviceKind::cuda,
+                  "GPU X",
+                  "580.82, CUDA 13.0",
+                  "CUDA 12.4",
+                  "abc",
+                  900,
+                  12,
+                  2,
+                  {{"impact zones", 5}, {"intersections", 7}}};
+  writeRunFacts(facts, folder.path());
+  const DeviceFacts d = readRunFacts(folder.path()).device;
+  EXPECT_EQ(d.kind, DeviceKind::cuda);
+  EXPECT_EQ(d.gpu, "GPU X");
+  EXPECT_EQ(d.driver, "580.82, CUDA 13.0");
+  EXPECT_EQ(d.runtime, "CUDA 12.4");
+  EXPECT_EQ(d.kernels, "abc");
+  EXPECT_EQ(d.steps, 900);
+  EXPECT_EQ(d.by_cpu, 12);
+  EXPECT_EQ(d.repeated, 2);
+  EXPECT_EQ(d.reasons, facts.device.reasons);
+  const std::string whole = content(folder.path() / "run.json");
+  folder.write("run.json", replaced(whole, "\"cuda\"", "\"abacus\""));
+  EXPECT_THROW(readRunFacts(folder.path()), InputError);
+  folder.write("run.json", replaced(whole, "\"intersections\": 7", "\"intersections\": \"many\""));
+  EXPECT_THROW(readRunFacts(folder.path()), InputError);
+  // Runs of before had no devices.
+  folder.write("run.json", whole.substr(0, whole.rfind(",\n  \"device\"")) + "\n}\n");
+  EXPECT_EQ(readRunFacts(folder.path()).device.kind, DeviceKind::cpu);
+}
+
 TEST(Results, RoundedUpReadsWell) {
   EXPECT_EQ(roundedUp(0), 0);
   EXPECT_EQ(roundedUp(-1), 0);

@@ -1,0 +1,272 @@
+#pragma once
+/// The contact solve of a step on a device, from rows to velocities: solveContacts of core/contact/response.cpp where
+/// nothing holds the points together and friction is Coulomb's. The same order of rows, sums and decisions.
+
+#include <algorithm>
+#include <optional>
+
+#include "core/motion/model.hpp"
+#include "gpu/near/uploaded.hpp"
+#include "gpu/solve/run_islands.hpp"
+#include "gpu/step/solve_islands.hpp"
+
+namespace gambeson::gpu {
+
+template <class Device>
+class StepSolve {
+ public:
+  template <class T>
+  using Buffer = typename Device::template Buffer<T>;
+  using Queue = typename Device::Queue;
+
+  /// WT, WTt and inverse masses are on the device already.
+  StepSolve(Queue& queue, const Model& model, const SlicedRows<Device>& WT, const SlicedRows<Device>& WTt,
+            const Buffer<double>& inverse_mass, const Buffer<double>& density)
+      : queue_(queue),
+        parameters_(model.contact),
+        points_(model.freeCount()),
+        samples_(model.surface.size()),
+        area_m2_(uploaded<Device>(queue, model.surface.area_m2)),
+        of_obstacle_(uploaded<Device>(queue, frictionOfObstacles(model))),
+        of_sample_(uploaded<Device>(queue, frictionOfSamples(model))),
+        facts_(1),
+        list_sum_(kRowLists * samples_) {
+    for (int s = 0; s < samples_; ++s)
+      most_of_sample_ = std::max(most_of_sample_, model.surface.WT.offsets[s + 1] - model.surface.WT.offsets[s]);
+    m_ = {WT.view(),
+          WTt.view(),
+          inverse_mass.data(),
+          area_m2_.data(),
+          density.data(),
+          of_obstacle_.data(),
+          of_sample_.data(),
+          (model.contact.on_cloth ? *model.contact.on_cloth : model.contact.friction).kinetic,
+          points_,
+          samples_};
+    const auto points = static_cast<std::size_t>(points_), samples = static_cast<std::size_t>(samples_);
+    for (Buffer<int>* lists : {&of_list_, &list_begin_}) *lists = Buffer<int>(kRowLists * samples);
+    on_body_ = Buffer<int>(samples);
+    sample_sum_ = Buffer<Vec3>(samples), sample_velocity_ = Buffer<Vec3>(samples);
+    family_of_sample_ = Buffer<FamilySums>(samples), family_of_point_ = Buffer<FamilySums>(points);
+    for (Buffer<Vec3>* of_points : {&predicted_, &moved_, &moved_before_, &spilled_, &spilled_before_})
+      *of_points = Buffer<Vec3>(points);
+    for (Buffer<int>* of_points : {&tied_, &size_, &number_, &free_points_}) *of_points = Buffer<int>(points);
+    taken_ = Buffer<std::uint32_t>(kColourWords * points);
+  }
+
+  /// Solves for n rows whose terms and tractions at the start are set; leaves tractions and impulses in them, and the
+  /// velocities of the free points in `solved`. Nothing where an island is too large for one group: the rows' tractions
+  /// stand as they were then.
+  std::optional<ContactSolve> solve(const StepRows& rows, int n, double dt_s, const Buffer<Point4>& predictor,
+                                    Buffer<Point4>& solved) {
+    makeRoom(static_cast<std::size_t>(rows.room));
+    const SolveRows s = view(rows);
+    start(s, n, predictor);
+    SolveFacts facts = order(s, n, false);
+    if (facts.most_rows > kIslandRows) return std::nullopt;
+    const auto number = [](Count order) { return order == 0 ? 0.0 : fromOrder(order); };
+    const double goal = goalOf(parameters_.tolerance_m_per_s2 * dt_s, number(facts.largest));
+    const int most = parameters_.max_iterations;
+    ContactSolve report;
+    for (int check = std::min(kFirstCheck, most);; check = std::min(2 * check, most)) {
+      sweep(s, {goal, check, most - most / 4}, n);
+      facts = queue_.download(facts_, 1)[0];
+      report.residual_m_per_s = std::sqrt(number(facts.left_out));
+      report.converged = report.residual_m_per_s <= goal && facts.undone == 0;
+      report.residual_m_per_s = std::max(report.residual_m_per_s, number(facts.residual));
+      report.iterations = facts.iterations;
+      if (report.converged || check >= most) break;
+      if (facts.joins > 0 && order(s, n, true).most_rows > kIslandRows) return std::nullopt;
+    }
+    queue_.forEach(n, EndRows{s});
+    queue_.forEach(samples_, SpreadSamples{s, samples_, sample_sum_.data()});
+    queue_.forEach(points_, EndPoints{{m_, sample_sum_.data(), predicted_.data()}, solved.data()});
+    return report;
+  }
+
+ private:
+  /// Below 0: the sample's.
+  static std::vector<double> frictionOfObstacles(const Model& m) {
+    std::vector<double> mu(m.obstacles.size(), -1);
+    for (std::size_t o = 0; o < mu.size() && o < m.contact.of_obstacle.size(); ++o)
+      if (m.contact.of_obstacle[o]) mu[o] = m.contact.of_obstacle[o]->kinetic;
+    return mu;
+  }
+  static std::vector<double> frictionOfSamples(const Model& m) {
+    std::vector<double> mu(static_cast<std::size_t>(m.surface.size()), m.contact.friction.kinetic);
+    for (std::size_t s = 0; s < mu.size() && s < m.contact.garment_of_sample.size(); ++s) {
+      const auto garment = static_cast<std::size_t>(m.contact.garment_of_sample[s]);
+      if (garment < m.contact.of_garment.size() && m.contact.of_garment[garment])
+        mu[s] = m.contact.of_garment[garment]->kinetic;
+    }
+    return mu;
+  }
+
+  void makeRoom(std::size_t room) {
+    if (room <= start_.size()) return;
+    const auto packed = static_cast<std::size_t>(inRowBlocks(static_cast<int>(room)));
+    const std::size_t reach = room * static_cast<std::size_t>(reachRoom()),
+                      entries = packed * static_cast<std::size_t>(std::max(kPlaces, reachRoom()));
+    for (Buffer<int>* of_rows : {&reach_count_, &island_, &rank_, &kept_island_, &position_, &ordered_, &colour_, &key_,
+                                 &order_, &place_in_order_, &root_, &island_points_, &steps_})
+      *of_rows = Buffer<int>(room);
+    for (Buffer<int>* of_parts : {&place_, &listed_}) *of_parts = Buffer<int>(kPartsOfRow * room);
+    for (Buffer<double>* of_rows : {&row_area_, &friction_, &row_slope_, &row_own_, &own_, &slope_})
+      *of_rows = Buffer<double>(room);
+    start_ = Buffer<Vec3>(room), row_drift_ = Buffer<Vec3>(room);
+    in_ = Buffer<char>(room);
+    row_state_ = Buffer<RowState>(room), state_ = Buffer<double>(packed * RowState::kNumbers);
+    reach_point_ = Buffer<int>(reach), reach_weight_ = Buffer<double>(reach);
+    row_facts_ = Buffer<double>(packed * RowFacts::kNumbers), pace_ = Buffer<double>(packed * RowPace::kNumbers);
+    entries_ = Buffer<RowEntries>(room);
+    point_ = Buffer<int>(entries), weight_ = Buffer<double>(entries), push_ = Buffer<double>(entries);
+    islands_ = Buffer<SolveIsland>(room), kept_islands_ = Buffer<SolveIsland>(room);
+    chunks_ = Buffer<SolveChunk>(room);
+  }
+  int reachRoom() const { return 5 * most_of_sample_; }
+
+  SolveRows view(const StepRows& rows) {
+    return {rows,
+            of_list_.data(),
+            list_begin_.data(),
+            on_body_.data(),
+            place_.data(),
+            listed_.data(),
+            row_area_.data(),
+            friction_.data(),
+            row_slope_.data(),
+            start_.data(),
+            sample_velocity_.data(),
+            in_.data(),
+            row_state_.data(),
+            predicted_.data(),
+            moved_.data(),
+            moved_before_.data(),
+            facts_.data()};
+  }
+  IslandOrder islands(const SolveRows& s) {
+    return {s,
+            reachRoom(),
+            reach_count_.data(),
+            reach_point_.data(),
+            reach_weight_.data(),
+            row_own_.data(),
+            row_drift_.data(),
+            island_.data(),
+            rank_.data(),
+            kept_island_.data(),
+            position_.data(),
+            ordered_.data(),
+            colour_.data(),
+            key_.data(),
+            order_.data(),
+            tied_.data(),
+            size_.data(),
+            number_.data(),
+            taken_.data(),
+            free_points_.data(),
+            root_.data(),
+            island_points_.data(),
+            islands_.data(),
+            kept_islands_.data(),
+            chunks_.data(),
+            steps_.data()};
+  }
+
+  /// What rows are, and where the iteration starts from.
+  void start(const SolveRows& s, int n, const Buffer<Point4>& predictor) {
+    queue_.forEach(kRowLists * samples_, ClearRowLists{s, samples_});
+    queue_.forEach(points_, ToVectors{predictor.data(), predicted_.data()});
+    queue_.forEach(n, CountRows{s, samples_});
+    list_sum_.run(queue_, of_list_, list_begin_);
+    queue_.forEach(n, PlaceRows{s, samples_});
+    queue_.forEach(kRowLists * samples_, SortRows{s});
+    const StartRows rows{m_, s};
+    moveSamples(predicted_);
+    queue_.forEach(n, rows);
+    queue_.forEach(samples_, SmoothSamples{s, samples_, family_of_sample_.data()});
+    queue_.forEach(points_, SmoothPoints{m_, family_of_sample_.data(), family_of_point_.data()});
+    queue_.forEach(n, SmoothRows{m_, s, family_of_point_.data()});
+    queue_.forEach(samples_, SpreadSamples{s, samples_, sample_sum_.data()});
+    queue_.forEach(points_, StartPoints{{m_, sample_sum_.data(), predicted_.data()}, s.moved, s.moved_before});
+    moveSamples(moved_);
+    queue_.forEach(n, LookAtLeftOut{rows, nullptr, nullptr});
+    queue_.forEach(n, ForgetReach{islands(s)});
+  }
+  /// Islands and the order of rows.
+  SolveFacts order(const SolveRows& s, int n, bool goes_on) {
+    const IslandOrder o = islands(s);
+    // The rows by what they begin with stand behind the other lists.
+    const RowsInOrder sorted{listed_.data(), list_begin_.data() + kBegins * samples_};
+    using Group = typename Device::Group;
+    queue_.forEach(std::max(1, points_), ClearPoints{o, points_});
+    queue_.forGroups(n, TiePoints<Group>{m_, o});
+    queue_.forEach(n, NumberIslands{o});
+    queue_.forEach(n, PlaceIslands{o});
+    queue_.forEach(n, PlaceInIslands{o, sorted});
+    queue_.forEach(n * reachRoom(), NumberPoints{o});
+    queue_.forEach(n, SortByPosition{o, sorted});
+    queue_.forResidentGroups(ColourRows<Group>{o});
+    queue_.forEach(n, SortByColour{o});
+    queue_.forResidentGroups(EndIslands<Group>{o, goes_on});
+    const FillRows fill{o,
+                        row_facts_.data(),
+                        own_.data(),
+                        slope_.data(),
+                        entries_.data(),
+                        state_.data(),
+                        place_in_order_.data(),
+                        kPlaces * inRowBlocks(static_cast<int>(start_.size()))};
+    queue_.forEach(n, fill);
+    queue_.forEach(n * reachRoom(), FillEntries{m_, fill, point_.data(), weight_.data(), push_.data()});
+    return queue_.download(facts_, 1)[0];
+  }
+  /// Velocities of the samples.
+  void moveSamples(const Buffer<Vec3>& points) {
+    queue_.forEach(samples_, MoveSamplesWith{m_.WT, points.data(), sample_velocity_.data()});
+  }
+  void sweep(const SolveRows& s, const SweepLimits& limits, int n) {
+    queue_.forEach(1, ForgetLooks{facts_.data()});
+    SolveData data{};
+    data.islands = data.islands_now = islands_.data();
+    data.chunks = chunks_.data(), data.steps = steps_.data();
+    data.facts = row_facts_.data(), data.own = own_.data(), data.slope = slope_.data();
+    data.entries = entries_.data();
+    data.state = data.state_now = state_.data();
+    data.pace = pace_.data();
+    data.point = point_.data(), data.weight = weight_.data(), data.push = push_.data();
+    data.free = free_points_.data();
+    data.moved = data.moved_now = moved_.data();
+    data.moved_before = data.moved_before_now = moved_before_.data();
+    data.spilled = spilled_.data(), data.spilled_before = spilled_before_.data();
+    RunIslands<Device>::run(queue_, {data, limits, &facts_.data()->islands});
+    queue_.forEach(n, LookAtIslands{islands(s)});
+    moveSamples(moved_);
+    queue_.forEach(n, LookAtLeftOut{{m_, s}, state_.data(), place_in_order_.data()});
+  }
+
+  Queue& queue_;
+  const ContactParameters& parameters_;
+  int points_, samples_, most_of_sample_ = 0;
+  Buffer<double> area_m2_, of_obstacle_, of_sample_;
+  SolveModel m_;
+  Buffer<SolveFacts> facts_;
+  typename Device::ExclusiveSum list_sum_;
+  Buffer<int> of_list_, list_begin_, on_body_, place_, listed_;
+  Buffer<Vec3> sample_sum_, predicted_, moved_, moved_before_, spilled_, spilled_before_, start_, row_drift_,
+      sample_velocity_;
+  Buffer<FamilySums> family_of_sample_, family_of_point_;
+  Buffer<double> row_facts_, state_, pace_;  ///< packed
+  Buffer<double> row_area_, friction_, row_slope_, row_own_, own_, slope_, reach_weight_, weight_, push_;
+  Buffer<char> in_;
+  Buffer<RowState> row_state_;
+  Buffer<int> reach_count_, reach_point_, island_, rank_, kept_island_, position_, ordered_, colour_, key_, order_,
+      place_in_order_, root_, island_points_, steps_, point_;
+  Buffer<int> tied_, size_, number_, free_points_;
+  Buffer<std::uint32_t> taken_;
+  Buffer<RowEntries> entries_;
+  Buffer<SolveIsland> islands_, kept_islands_;
+  Buffer<SolveChunk> chunks_;
+};
+
+}  // namespace gambeson::gpu
