@@ -74,7 +74,8 @@ TEST(Case, OrthotropicCloth) {
 TEST(Case, WrittenAndReadAgainIsTheSame) {
   const Folder folder;
   std::vector<std::filesystem::path> files{folder.write("example.json", example)};
-  for (const char* name : {"shorts_walk", "sleeve_flex", "inclined_plane", "sphere_drape", "flag"})
+  for (const char* name : {"shorts_walk", "sleeve_flex", "inclined_plane", "sphere_drape", "flag", "wong_ball",
+                           "wong_funnel", "wong_dancer"})
     files.push_back(std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library" / (std::string(name) + ".json"));
   for (const std::filesystem::path& file : files) {
     SCOPED_TRACE(file);
