@@ -29,10 +29,10 @@ def main():
         computing_s = json.loads((folder / "whole/run.json").read_text())["wall_s"]
         segments = lambda name: len(list((folder / name).glob("frames/segment_*.h5")))
         complete = segments("whole")
-        reached, chain = [], 0
+        reached, chain, stuck = [], 0, 0
         while len(reached) < KILLS:
             cut = f"cut{chain}"
-            delay = chance.uniform(*((0.01, 0.05) if len(reached) < 4 else (0.2, 0.9))) * (0.15 + computing_s)
+            delay = chance.uniform(*((0.01, 0.05) if len(reached) < 4 else (0.2, 0.9))) * (0.15 + computing_s) * (1 + stuck / 2)
             process = subprocess.Popen(command("run", case, "--out", folder / cut, "--resume", "--threads", 2, *options),
                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
             try:
@@ -40,6 +40,8 @@ def main():
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
+                # Where a busy machine has hardly begun by then, the next one has longer.
+                stuck = stuck + 1 if len(reached) > 4 and reached[-1] == segments(cut) else 0
                 reached.append(segments(cut))
             errors = process.communicate()[1].decode()
             check(process.returncode in (0, -9), f"resumed run failed: {errors}")
