@@ -346,12 +346,18 @@ void addBatch(CLI::App& app, StudyArguments& a) {
 }
 
 void addTogether(CLI::App& app, TogetherArguments& a) {
-  CLI::App& command = *app.add_subcommand("together", "Makes the runs of a study in one process")->group("");
+  CLI::App& command = *app.add_subcommand("together", "Makes the steps of a study's runs in one process")->group("");
   command.add_option("LIST", a.options.list)->required();
   command.add_option("--ended", a.options.ended)->required();
   command.add_option("--jobs", a.options.jobs)->check(CLI::Range(1, 4096));
   command.add_option("--threads", a.options.threads)->check(CLI::Range(1, 4096));
   addDevice(command, a.device);
+}
+
+void addResults(CLI::App& app, FinishOptions& o) {
+  CLI::App& command = *app.add_subcommand("results", "Makes the results of a run from its recording")->group("");
+  command.add_option("DIR", o.out)->required();
+  command.add_option("--threads", o.threads)->check(CLI::Range(1, 4096));
 }
 
 }  // namespace gambeson

@@ -82,7 +82,8 @@ void addFabric(CLI::App& app, FabricArguments& a);
 void addVerify(CLI::App& app, verify::Options& o);
 void addStudy(CLI::App& app, StudyArguments& a);
 void addBatch(CLI::App& app, StudyArguments& a);
-/// What `study` starts; no help names it.
+/// What `study` starts; no help names them.
 void addTogether(CLI::App& app, TogetherArguments& a);
+void addResults(CLI::App& app, FinishOptions& options);
 
 }  // namespace gambeson

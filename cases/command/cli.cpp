@@ -266,6 +266,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addBatch(app, batch_arguments);
   TogetherArguments together_arguments;
   addTogether(app, together_arguments);
+  FinishOptions finish_options;
+  addResults(app, finish_options);
   std::string subject;  // what the command works on, for messages that name no file themselves
   const auto failure = [&](const std::string& text) { err << messageText(text) << '\n'; };
   if (argc < 2) {
@@ -329,6 +331,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       together_arguments.options.device = deviceOf(together_arguments.device);
       return runTogether(together_arguments.options);
     }
+    if (app.got_subcommand("results")) return finishApart(finish_options);
     if (app.got_subcommand("batch")) return batchCommand(batch_arguments, out);
     checkEnding(report_options.html, "--output", {".html", ".htm"});
     checkOutput(report_options.html, "--output", recordedFiles(report_options.results));

@@ -16,7 +16,7 @@ struct RunOptions {
   bool resume = false;        ///< continue what an interrupted run left in `out`
   DeviceKind device = DeviceKind::cpu;
   bool names_gpu = false;      ///< says where a GPU could have done it
-  Company* company = nullptr;  ///< of other runs that this process makes too
+  Company* company = nullptr;  ///< of other runs whose steps this process makes too
 };
 
 struct RenderOptions {

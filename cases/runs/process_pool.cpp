@@ -61,7 +61,7 @@ pid_t start(const Process& job, const ProcessPool& pool, const Signals& signals)
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // it died before the line above
   const int in = open("/dev/null", O_RDONLY),
-            out = open(job.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW, 0644);
+            out = open(job.log.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | (job.goes_on ? O_APPEND : O_TRUNC), 0644);
   if (in < 0 || out < 0) _exit(127);
   dup2(in, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
@@ -126,11 +126,14 @@ int Signals::wait(int ms) const {
 
 void Signals::release() const { pthread_sigmask(SIG_SETMASK, &state_->before, nullptr); }
 
-bool runProcesses(const std::vector<Process>& jobs, const ProcessPool& pool, const Signals& signals, int lock) {
+bool runProcesses(std::vector<Process> jobs, const ProcessPool& pool, const Signals& signals, int lock) {
   if (lock >= 0) fcntl(lock, F_SETFD, 0);  // processes keep it open
   std::vector<Running> running;
   std::size_t next = 0;
-  while (next < jobs.size() || !running.empty()) {
+  for (;;) {
+    if (pool.more)
+      for (Process& job : pool.more()) jobs.push_back(std::move(job));
+    if (next == jobs.size() && running.empty()) return true;
     while (next < jobs.size() && running.size() < static_cast<std::size_t>(std::max(1, pool.parallel))) {
       running.push_back({next, start(jobs[next], pool, signals), Clock::now(), false});
       ++next;
@@ -161,7 +164,6 @@ bool runProcesses(const std::vector<Process>& jobs, const ProcessPool& pool, con
     for (const Running& r : running) now.push_back(r.job);
     if (pool.watch) pool.watch(now);
   }
-  return true;
 }
 
 }  // namespace gambeson

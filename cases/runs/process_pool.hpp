@@ -13,6 +13,7 @@ struct Process {
   std::vector<std::string> command;                          ///< the first is the program
   std::filesystem::path log;                                 ///< takes what it says
   double limit_s = std::numeric_limits<double>::infinity();  ///< it is stopped when it takes longer
+  bool goes_on = false;                                      ///< with the log, which others began
 };
 
 struct Ended {
@@ -29,6 +30,8 @@ struct ProcessPool {
   std::function<void(std::size_t process, const Ended&)> ended;
   /// Called about twenty times a second, with the processes that run.
   std::function<void(const std::vector<std::size_t>& running)> watch;
+  /// Asked before any process starts, and after each call of `watch`: what else is to run, after all that there is.
+  std::function<std::vector<Process>()> more;
 };
 
 /// SIGINT, SIGTERM and SIGHUP are held back while this lives, and told by a descriptor instead: a pool ends its
@@ -51,6 +54,6 @@ class Signals {
 
 /// Runs all; false where a signal stopped it, all processes ended by then (SIGTERM, SIGKILL where that does not help).
 /// A process dies with this one, however that ends. What they inherit: descriptor `lock`, where it is not negative.
-bool runProcesses(const std::vector<Process>& processes, const ProcessPool& pool, const Signals& signals, int lock);
+bool runProcesses(std::vector<Process> processes, const ProcessPool& pool, const Signals& signals, int lock);
 
 }  // namespace gambeson

@@ -1,5 +1,6 @@
 #pragma once
-/// What a process that makes several runs is told, and what it tells: the files between `study` and such a process.
+/// What a process that makes the steps of several runs is told, and what it tells: the files between `study` and such a
+/// process.
 
 #include <filesystem>
 #include <optional>
@@ -21,7 +22,7 @@ std::vector<TogetherRun> readTogetherList(const std::filesystem::path& file);
 /// One line of what is told, by the number of the run in the list.
 struct TogetherEvent {
   std::size_t run = 0;
-  bool ended = false;  ///< else it begins
+  bool ended = false;  ///< its steps, and where it is good all is recorded; else it begins
   bool good = false;
   std::string why;  ///< where it is not good
   double seconds = 0;

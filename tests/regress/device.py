@@ -9,16 +9,19 @@ a GPU. Where there is one, cuda and reference are compared and go on from each o
 
 import json
 import os
+import select
 import shlex
 import signal
 import subprocess
 import time
 
 from common import HERE, Folder, check, command, results, run, run_case, same_results
+from study import children, killed, state
 
 CASE = HERE / "sphere.json"
 SHORT = ("--threads", 1, "--set", "time.duration=60 ms", "--set", "output.pictures=[]")  # some 240 steps, 72 from checkpoint to checkpoint
 ON = ("--device", "reference")
+PATIENCE_S = 300  # on a machine that is busy otherwise
 
 
 def with_fault(fault):
@@ -131,10 +134,10 @@ def let_go(folder):
     check(facts(folder / "cut")["steps"] < held["steps"], "a resumed run counts what another did")
 
 
-def study_of(folder, duration):
+def study_of(folder, duration, pictures=()):
     case = json.loads(CASE.read_text())
     case["time"]["duration"] = duration
-    case["output"]["pictures"] = []
+    case["output"]["pictures"] = list(pictures)
     (folder / "sphere.json").write_text(json.dumps(case))
     (folder / "a.study.json").write_text(json.dumps({
         "name": "thin and thick", "case": "sphere.json",
@@ -167,6 +170,66 @@ def stopped_study(folder):
     for variant in ("thickness_0.5", "thickness_1"):
         same_results(folder / "whole" / variant, out / variant, f"{variant} of a study that was stopped twice")
     check(not any((out / name).exists() for name in (".together.json", ".together.ended")), "what study and process told each other is left")
+
+
+def page_of(study, variant):
+    """The process that makes the results of a variant, stopped; nothing is written by it from then on."""
+    deadline = time.monotonic() + PATIENCE_S
+    while True:
+        check(study.poll() is None and time.monotonic() < deadline, "no process came that makes the results")
+        for pid in children(study.pid):
+            try:
+                words = open(f"/proc/{pid}/cmdline").read().split("\0")
+            except OSError:
+                continue
+            if words[1:2] == ["results"] and words[2].endswith(variant):
+                os.kill(pid, signal.SIGSTOP)
+                return pid
+        time.sleep(0.002)
+
+
+def pages(folder):
+    """Results of variants are made side by side, by processes of their own: as a run makes them, whatever becomes of one of them."""
+    _, study = study_of(folder, "60 ms", [{"time": "end", "width": 160, "height": 120}])
+    words = ("--jobs", 2, "--threads", 2, *ON)
+    out = folder / "out"
+
+    def begun():
+        return subprocess.Popen(command("study", study, "--out", out, "--resume", *words), stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    # One that stands still keeps none of the others, and is no orphan when the study ends.
+    process = begun()
+    page = page_of(process, "thickness_1")
+    told = select.select([process.stdout], [], [], PATIENCE_S)[0]
+    check(told and process.stdout.readline().startswith("done    thickness_0.5 "), "the results of one variant wait for those of another")
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=PATIENCE_S)[0]
+    check(process.returncode == 1 and "stopped by a signal" in said, f"{process.returncode}: {said}")
+    check(state(page) == "Z", "a process that makes results outlived its study")
+    check(not (out / "thickness_1/report.html").exists(), "a process that stood still has made a page")
+    # One that is killed, and one that fails, name their run; the other is not made again.
+    in_the_way = out / "thickness_1/report.html"
+    for why in ("ended by signal 9", "report.html"):
+        process = begun()
+        page = page_of(process, "thickness_1")
+        if why == "report.html":
+            in_the_way.mkdir()
+            os.kill(page, signal.SIGCONT)
+        else:
+            check(killed(page), "the process that makes the results had ended")
+        said = process.communicate(timeout=PATIENCE_S)[0]
+        check(process.returncode == 1 and "1 of 2 variants are done already" in said, f"{process.returncode}: {said}")
+        check(any(line.startswith("FAILED  thickness_1 ") and why in line for line in said.splitlines()), said)
+    in_the_way.rmdir()
+    last = run("study", study, "--out", out, "--resume", *words)
+    check(last.returncode == 0 and "1 of 2 variants are done already" in last.stdout, f"{last.stdout} {last.stderr}")
+    for variant in ("thickness_0.5", "thickness_1"):
+        check((out / f"logs/{variant}.log").read_text().endswith(f"Report: {out / variant / 'report.html'}\n"), "the log does not name the page")
+        run_case(out / f"cases/{variant}.json", folder / variant, "--threads", 1, *ON)
+        same_results(folder / variant, out / variant, f"{variant}, alone and in a study")
+        again = run("report", out / variant, "-o", folder / "again.html")
+        check(again.returncode == 0 and (folder / "again.html").read_bytes() == (out / variant / "report.html").read_bytes(), f"{variant} has another page")
 
 
 def studied(folder):
@@ -216,7 +279,7 @@ def on_a_gpu(folder):
 
 
 def main():
-    for test in (left, goes_on, on_the_way, before_anything, let_go, studied, stopped_study, on_a_gpu):
+    for test in (left, goes_on, on_the_way, before_anything, let_go, studied, stopped_study, pages, on_a_gpu):
         with Folder() as folder:
             test(folder)
             print(test.__name__, "good")

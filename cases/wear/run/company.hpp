@@ -30,9 +30,6 @@ class Company {
   /// Waits until others have left so much. More than there is at all is waited for until nobody else has any.
   Share take(std::size_t bytes);
 
-  /// Pictures and pages are made one run at a time.
-  std::mutex results;
-
  private:
   std::mutex lock_;
   std::condition_variable left_;

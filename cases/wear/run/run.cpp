@@ -6,11 +6,11 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 
 #include "cases/input/message.hpp"
 #include "cases/runs/disk_space.hpp"
+#include "cases/runs/folder_lock.hpp"
 #include "cases/runs/progress.hpp"
 #include "cases/runs/recorded_case.hpp"
 #include "cases/runs/results_folder.hpp"
@@ -196,11 +196,22 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.searched_steps_s = work.times.searched_steps;
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
-  std::unique_lock<std::mutex> alone;
-  if (options.company) alone = std::unique_lock(options.company->results);
-  writeResults(options.out);
-  fmt::print(options.company ? notes() : stdout, "Report: {}\n", (options.out / "report.html").string());
+  return options.company ? 0 : finishRun(options.out);
+}
+
+int finishRun(const std::filesystem::path& out) {
+  writeResults(out);
+  fmt::print("Report: {}\n", (out / "report.html").string());
   return 0;
+}
+
+int finishApart(const FinishOptions& o) {
+  useThreads(o.threads);
+  const FolderLock lock(o.out);
+  const StopMessage stopped(
+      fmt::format("stopped by a signal; {} holds what is recorded, and gambeson run with --resume makes its results",
+                  o.out.string()));
+  return finishRun(o.out);
 }
 
 }  // namespace gambeson

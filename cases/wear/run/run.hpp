@@ -15,6 +15,18 @@ namespace gambeson {
 /// itself, the state at the start.
 void checkRun(const Case& c);
 
+/// In company (RunOptions) it leaves the results to finishApart: pictures are drawn by one thread of a process at a
+/// time.
 int runCase(const Case& c, const RunOptions& options);
+
+/// Writes the results of what `out` holds recorded, and says where their page is.
+int finishRun(const std::filesystem::path& out);
+
+struct FinishOptions {
+  std::filesystem::path out;
+  int threads = 0;
+};
+/// finishRun in a process of its own. Throws as FolderLock and writeResults.
+int finishApart(const FinishOptions& options);
 
 }  // namespace gambeson
