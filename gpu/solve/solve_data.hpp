@@ -81,7 +81,8 @@ struct RowPace {
 };
 
 /// Entries of a row that a lane of its quad loads before the row's turn comes. They stand at fixed places, kPlaces to a
-/// row, so that no load waits for another; a row with more has the others at `more`.
+/// row, so that no load waits for another; a row with more has the others at `more`, one with fewer has the first point
+/// of the chunk with a weight and a push of 0 in their place.
 constexpr int kKept = 5, kPlaces = kKept * kQuad;
 struct RowEntries {
   int count, more;  ///< all of them; where the others begin

@@ -8,7 +8,7 @@ namespace gambeson::gpu {
 /// A row as a lane of a quad has it when the row's turn comes: nothing of it depends on other rows of the sweep.
 struct LaneRow {
   int row = -1;  ///< none
-  int count;     ///< of the entries that the lane keeps
+  int count;     ///< of the lane's entries
   int more;      ///< where its others begin
   RowFacts facts;
   RowState state;
@@ -41,27 +41,17 @@ class ChunkSweep {
 
   /// Loads the first rows.
   GAMBESON_HD void begin() {
-    group_.each([&](int lane) { load(chunk_.step, 0, lane); });
+    group_.each([&](int lane) { load(0, row_[0][lane], lane); });
   }
 
   /// Takes the rows, after `begin`; `moved`: velocities of the chunk's points. Adds to the lanes' totals. Lanes have
   /// not met after the last rows.
   GAMBESON_HD void run(Vec3* moved, double beta, Lanes& totals) {
-    for (int step = chunk_.step; step < chunk_.step_end; ++step) {
-      for (int round = 0; round < kRounds; ++round) {
-        group_.each([&](int lane) {
-          row_[lane] = next_[lane];
-          velocity_[lane] = partOfVelocity(moved, row_[lane], kept_[lane].of);
-          // Meanwhile the next one comes.
-          const bool ends = round + 1 == kRounds;
-          load(step + ends, ends ? 0 : round + 1, lane);
-        });
-        group_.sumOfQuads(velocity_);
-        group_.each([&](int lane) {
-          if (row_[lane].row >= 0) take(row_[lane], velocity_[lane], kept_[lane].of, moved, beta, lane, totals[lane]);
-        });
-      }
-      if (step + 1 < chunk_.step_end) group_.sync();
+    const int turns = kRounds * (chunk_.step_end - chunk_.step);
+    // Two places for rows, so that none is copied from one to the other.
+    for (int turn = 0; turn < turns; turn += 2) {
+      take(turn, turns, row_[0], row_[1], moved, beta, totals);
+      if (turn + 1 < turns) take(turn + 1, turns, row_[1], row_[0], moved, beta, totals);
     }
   }
 
@@ -106,9 +96,23 @@ class ChunkSweep {
     return row;
   }
 
-  /// The row of a lane's quad in a step, the `round`-th that falls to it.
-  GAMBESON_HD void load(int step, int round, int lane) {
-    LaneRow& r = next_[lane];
+  /// Takes the rows of a turn; meanwhile the next ones come.
+  GAMBESON_HD void take(int turn, int turns, PerLane<LaneRow>& row, PerLane<LaneRow>& next, Vec3* moved, double beta,
+                        Lanes& totals) {
+    group_.each([&](int lane) {
+      if (row[lane].row >= 0) velocity_[lane] = partOfVelocity(moved, row[lane], kept_[lane].of);
+      load(turn + 1, next[lane], lane);
+    });
+    group_.sumOfQuads(velocity_);
+    group_.each([&](int lane) {
+      if (row[lane].row >= 0) take(row[lane], velocity_[lane], kept_[lane].of, moved, beta, lane, totals[lane]);
+    });
+    if ((turn + 1) % kRounds == 0 && turn + 1 < turns) group_.sync();
+  }
+
+  /// The row of a lane's quad in a turn: a step has kRounds of them.
+  GAMBESON_HD void load(int turn, LaneRow& r, int lane) const {
+    const int step = chunk_.step + turn / kRounds, round = turn % kRounds;
     r.row = -1;
     if (step >= chunk_.step_end) return;
     const int first = d_.steps[step], end = step + 1 < chunk_.step_end ? d_.steps[step + 1] : chunk_.row_end;
@@ -133,15 +137,14 @@ class ChunkSweep {
     r.count = (entries.count - mine + kQuad - 1) / kQuad;
   }
 
-  /// The part of a row's velocity that a lane sums; keeps the velocities of the points that it has.
+  /// The part of a row's velocity that a lane sums; keeps the velocities of the points that it has. Places without an
+  /// entry add nothing.
   GAMBESON_HD Vec3 partOfVelocity(const Vec3* moved, const LaneRow& r, Vec3* kept) const {
     Vec3 part{};
-    if (r.row < 0) return part;
 #ifdef __CUDA_ARCH__
 #pragma unroll
 #endif
     for (int j = 0; j < kKept; ++j) {
-      if (j >= r.count) continue;
       kept[j] = moved[r.point[j]];
       part += r.weight[j] * kept[j];
     }
@@ -161,8 +164,10 @@ class ChunkSweep {
 #ifdef __CUDA_ARCH__
 #pragma unroll
 #endif
-      for (int j = 0; j < kKept; ++j)
-        if (j < r.count) moved[r.point[j]] = kept[j] + r.push[j] * impulse;
+      for (int j = 0; j < kKept; ++j) {
+        const Vec3 then = kept[j] + r.push[j] * impulse;
+        if (j < r.count) moved[r.point[j]] = then;
+      }
       for (int j = kKept; j < r.count; ++j) {
         const int e = r.more + kQuad * (j - kKept);
         moved[d_.point[e]] += d_.push[e] * impulse;
@@ -177,7 +182,7 @@ class ChunkSweep {
   const Group& group_;
   const SolveData& d_;
   const SolveChunk& chunk_;
-  PerLane<LaneRow> next_, row_;
+  PerLane<LaneRow> row_[2];
   PerLane<Vec3> velocity_;
   PerLane<Kept> kept_;
 };

@@ -283,7 +283,7 @@ struct ColourRows {
         before[lane] |= rows;
       });
     });
-    typename Group::template PerLane<int> mine;
+    typename Group::template PerLane<int> mine(0);
     for (int r = 0; r < n; ++r) {
       const std::uint32_t there = group.of(all, r);
       const int colour = ~there != 0 ? firstClear(there) : laterColour(group, o.ordered[k + r], more);
@@ -486,6 +486,11 @@ struct FillRows {
           weight[at] = w;
           push[at] = w * m.inverse_mass[f];
           o.free_points[free_point + number] = f;
+        }
+        for (int e = count + lane; e < kPlaces; e += Group::kLanes) {
+          const int at = placeOf(k, e);
+          point[at] = 0;
+          weight[at] = push[at] = 0;
         }
       });
     }
