@@ -96,7 +96,7 @@ GAMBESON_HD inline void watch(ContactWork::Island& island) {
 
 /// What a solve without a hold is done at [m/s], the velocities that its tractions at the start stand for being at most
 /// `largest`.
-inline double goalOf(double tolerance_m_per_s, double largest_m_per_s) {
+GAMBESON_HD inline double goalOf(double tolerance_m_per_s, double largest_m_per_s) {
   constexpr double kOfLargest = 1e-6, kMostTolerances = 10;
   return std::max(tolerance_m_per_s, std::min(kOfLargest * largest_m_per_s, kMostTolerances * tolerance_m_per_s));
 }

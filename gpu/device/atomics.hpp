@@ -40,11 +40,19 @@ GAMBESON_HD inline int seen(const int& at) {
   return std::atomic_ref<int>(const_cast<int&>(at)).load(std::memory_order_relaxed);
 #endif
 }
-GAMBESON_HD inline void put(int* at, int value) {
+template <class T>
+GAMBESON_HD void put(T* at, T value) {
 #ifdef __CUDA_ARCH__
   atomicExch(at, value);
 #else
-  std::atomic_ref<int>(*at).store(value, std::memory_order_relaxed);
+  std::atomic_ref<T>(*at).store(value, std::memory_order_relaxed);
+#endif
+}
+GAMBESON_HD inline void fetchOr(std::uint32_t* at, std::uint32_t bits) {
+#ifdef __CUDA_ARCH__
+  atomicOr(at, bits);
+#else
+  std::atomic_ref<std::uint32_t>(*at).fetch_or(bits, std::memory_order_relaxed);
 #endif
 }
 GAMBESON_HD inline void fetchMax(int* at, int other) {

@@ -40,6 +40,10 @@ struct WarpLanes {
   }
   __device__ LaneMask ballot(const PerLane<bool>& on) const { return __ballot_sync(~0u, on[0]); }
   __device__ std::uint32_t orOf(const PerLane<std::uint32_t>& bits) const { return __reduce_or_sync(~0u, bits[0]); }
+  template <class T>
+  __device__ T of(const PerLane<T>& items, int lane) const {
+    return __shfl_sync(~0u, items[0], lane);
+  }
   template <class F>
   __device__ auto once(F&& f) const {
     decltype(f()) result{};
@@ -61,6 +65,19 @@ template <class T, class F>
 __global__ void __launch_bounds__(256) forItems(List<T> list, F f) {
   const Count n = list.size();
   for (Count i = blockIdx.x * blockDim.x + threadIdx.x; i < n; i += gridDim.x * blockDim.x) f(list.items[i], i);
+}
+
+template <class Sized, class F>
+__global__ void __launch_bounds__(256) forEachOf(Sized of, F f) {
+  const int n = static_cast<int>(of.size());
+  for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n;
+       i += static_cast<int>(gridDim.x * blockDim.x))
+    f(i);
+}
+
+template <class F>
+__global__ void decide(cudaGraphConditionalHandle handle, F f) {
+  cudaGraphSetConditional(handle, f() ? 1u : 0u);
 }
 
 template <int kGroups, class Kernel>
@@ -106,6 +123,67 @@ class CudaOf {
     std::size_t size_ = 0;
   };
 
+  template <class T>
+  class HostBuffer {
+   public:
+    HostBuffer() = default;
+    explicit HostBuffer(std::size_t size) : size_(size) {
+      T* at = nullptr;
+      check(cudaMallocHost(&at, std::max<std::size_t>(1, size * sizeof(T))), "memory between host and device");
+      data_.reset(at);
+    }
+    T* data() { return data_.get(); }
+    const T* data() const { return data_.get(); }
+    std::size_t size() const { return size_; }
+
+   private:
+    struct Free {
+      void operator()(T* at) const { cudaFreeHost(at); }
+    };
+    std::unique_ptr<T, Free> data_;
+    std::size_t size_ = 0;
+  };
+  class Queue;
+  class Mark {
+   public:
+    explicit Mark(unsigned flags = cudaEventDisableTiming) {
+      check(cudaEventCreateWithFlags(&event_, flags), "an event");
+    }
+    ~Mark() { cudaEventDestroy(event_); }
+    Mark(const Mark&) = delete;
+    Mark& operator=(const Mark&) = delete;
+    void wait() const { check(cudaEventSynchronize(event_), "work on the device"); }
+    cudaEvent_t event() const { return event_; }
+
+   private:
+    cudaEvent_t event_{};
+  };
+  class Laps {
+   public:
+    void start(Queue& queue) {
+      used_ = 0;
+      lap(queue);
+    }
+    void lap(Queue& queue) {
+      if (used_ == marks_.size()) marks_.push_back(std::make_unique<Mark>(cudaEventDefault));
+      queue.set(*marks_[used_++]);
+    }
+    const std::vector<double>& seconds() {
+      seconds_.clear();
+      for (std::size_t k = 1; k < used_; ++k) {
+        float ms = 0;
+        check(cudaEventElapsedTime(&ms, marks_[k - 1]->event(), marks_[k]->event()), "an event");
+        seconds_.push_back(1e-3 * ms);
+      }
+      return seconds_;
+    }
+
+   private:
+    std::vector<std::unique_ptr<Mark>> marks_;
+    std::size_t used_ = 0;
+    std::vector<double> seconds_;
+  };
+
   class Queue {
    public:
     Queue() {
@@ -130,6 +208,19 @@ class CudaOf {
     void forItems(const List<T>& list, const F& f) {
       kernel::forItems<<<4 * processors(), 256, 0, stream_>>>(list, f);
       check(cudaGetLastError(), "a kernel over a list");
+    }
+    template <class Sized, class F>
+    void forEachOf(const Sized& of, const F& f) {
+      kernel::forEachOf<<<2 * processors(), 256, 0, stream_>>>(of, f);
+      check(cudaGetLastError(), "a kernel over what the device counts");
+    }
+    template <class Goes, class F>
+    void repeatWhile(const Goes& goes, F&& work) {
+      conditional(cudaGraphCondTypeWhile, goes, std::forward<F>(work));
+    }
+    template <class Only, class F>
+    void doIf(const Only& only, F&& work) {
+      conditional(cudaGraphCondTypeIf, only, std::forward<F>(work));
     }
     template <class Kernel>
     void forGroups(int n, const Kernel& work) {
@@ -182,6 +273,11 @@ class CudaOf {
       if (staged && bytes > 0) std::memcpy(to.data(), target, bytes);
       return to;
     }
+    template <class T>
+    void downloadLater(const Buffer<T>& from, std::size_t n, HostBuffer<T>& to) {
+      check(cudaMemcpyAsync(to.data(), from.data(), n * sizeof(T), cudaMemcpyDeviceToHost, stream_), "a download");
+    }
+    void set(Mark& mark) { check(cudaEventRecord(mark.event(), stream_), "an event"); }
     void after(Queue& other) {
       check(cudaEventRecord(other.given_, other.stream_), "an event");
       check(cudaStreamWaitEvent(stream_, other.given_), "waiting for another stream");
@@ -194,6 +290,64 @@ class CudaOf {
 
    private:
     static constexpr std::size_t kStaged = std::size_t{1} << 20;
+
+    /// A node of the graph that this queue is being recorded to, whose body is what `work` gives to the queue.
+    template <class Decides, class F>
+    void conditional(cudaGraphConditionalNodeType type, const Decides& decides, F&& work) {
+      cudaGraphConditionalHandle handle{};
+      check(cudaGraphConditionalHandleCreate(&handle, recorded().graph, 0, 0), "a condition of a graph");
+      const auto decide = [&] {
+        kernel::decide<<<1, 1, 0, stream_>>>(handle, decides);
+        check(cudaGetLastError(), "a condition of a graph");
+      };
+      decide();
+      cudaGraphNodeParams node{};
+      node.type = cudaGraphNodeTypeConditional;
+      node.conditional.handle = handle;
+      node.conditional.type = type;
+      node.conditional.size = 1;
+      addBehind(recorded(), node);
+      cudaStream_t body{};
+      check(cudaStreamCreateWithFlags(&body, cudaStreamNonBlocking), "a stream");
+      check(cudaStreamBeginCaptureToGraph(body, node.conditional.phGraph_out[0], nullptr, nullptr, 0,
+                                          cudaStreamCaptureModeThreadLocal),
+            "recording a part of a graph");
+      std::swap(stream_, body);
+      work();
+      if (type == cudaGraphCondTypeWhile) decide();
+      std::swap(stream_, body);
+      cudaGraph_t graph{};
+      check(cudaStreamEndCapture(body, &graph), "recording a part of a graph");
+      check(cudaStreamDestroy(body), "a stream");
+    }
+    struct Recorded {
+      cudaGraph_t graph{};
+      const cudaGraphNode_t* last{};
+      std::size_t count = 0;
+    };
+    Recorded recorded() const {
+      Recorded r;
+      cudaStreamCaptureStatus status{};
+#if CUDART_VERSION >= 13000
+      check(cudaStreamGetCaptureInfo(stream_, &status, nullptr, &r.graph, &r.last, nullptr, &r.count), "a recording");
+#else
+      check(cudaStreamGetCaptureInfo_v2(stream_, &status, nullptr, &r.graph, &r.last, &r.count), "a recording");
+#endif
+      return r;
+    }
+    /// What is recorded from now on waits for the node.
+    void addBehind(const Recorded& r, cudaGraphNodeParams& params) {
+      cudaGraphNode_t node{};
+#if CUDART_VERSION >= 13000
+      check(cudaGraphAddNode(&node, r.graph, r.last, nullptr, r.count, &params), "a part of a graph");
+      check(cudaStreamUpdateCaptureDependencies(stream_, &node, nullptr, 1, cudaStreamSetCaptureDependencies),
+            "a part of a graph");
+#else
+      check(cudaGraphAddNode(&node, r.graph, r.last, r.count, &params), "a part of a graph");
+      check(cudaStreamUpdateCaptureDependencies(stream_, &node, 1, cudaStreamSetCaptureDependencies),
+            "a part of a graph");
+#endif
+    }
 
     /// Memory that the device reads and writes itself: uploads on their way, then the download.
     char* stage() {

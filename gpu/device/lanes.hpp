@@ -69,6 +69,11 @@ struct HostLanes {
     for (int lane = 0; lane < W; ++lane) all |= bits[lane];
     return all;
   }
+  /// What a lane has.
+  template <class T>
+  const T& of(const PerLane<T>& items, int lane) const {
+    return items[lane];
+  }
   /// f() by one lane; all get what it gives.
   template <class F>
   auto once(F&& f) const {

@@ -32,6 +32,34 @@ class ReferenceOf {
     std::vector<T> items_;
   };
 
+  /// Memory of the host that a device writes to by itself.
+  template <class T>
+  using HostBuffer = Buffer<T>;
+  /// A place in a queue.
+  class Mark {
+   public:
+    void wait() const {}
+  };
+  /// Seconds between places in a queue.
+  class Laps {
+   public:
+    void start(auto&) {
+      seconds_.clear();
+      last_ = std::chrono::steady_clock::now();
+    }
+    void lap(auto&) {
+      const auto now = std::chrono::steady_clock::now();
+      seconds_.push_back(std::chrono::duration<double>(now - last_).count());
+      last_ = now;
+    }
+    /// After a wait for the last place.
+    const std::vector<double>& seconds() { return seconds_; }
+
+   private:
+    std::chrono::steady_clock::time_point last_;
+    std::vector<double> seconds_;
+  };
+
   /// Work in the order in which it was given. Here each piece is done at once.
   class Queue {
    public:
@@ -44,6 +72,11 @@ class ReferenceOf {
     template <class T, class F>
     void forItems(const List<T>& list, const F& f) {
       forAll(Each::much, static_cast<long>(list.size()), [&](long i) { f(list.items[i], static_cast<Count>(i)); });
+    }
+    /// f(i) for i < of.size(), which only the device knows.
+    template <class Sized, class F>
+    void forEachOf(const Sized& of, const F& f) {
+      forAll(Each::much, static_cast<long>(of.size()), [&](long i) { f(static_cast<int>(i)); });
     }
     /// kernel(group, shared memory, index of the group, n) for n groups.
     template <class Kernel>
@@ -58,6 +91,16 @@ class ReferenceOf {
     template <class Kernel>
     void forResidentGroups(const Kernel& kernel) {
       forGroups(4 * omp_get_max_threads(), kernel);
+    }
+    /// Work that is done again and again as long as goes() says so on the device; where only() does. In recordings
+    /// alone (Replay).
+    template <class Goes, class F>
+    void repeatWhile(const Goes& goes, F&& work) {
+      while (goes()) work();
+    }
+    template <class Only, class F>
+    void doIf(const Only& only, F&& work) {
+      if (only()) work();
     }
     template <class T>
     void zero(Buffer<T>& buffer) {
@@ -75,6 +118,12 @@ class ReferenceOf {
     std::vector<T> download(const Buffer<T>& from, std::size_t size) {
       return {from.data(), from.data() + size};
     }
+    /// The first n are there once a mark that is set later is reached.
+    template <class T>
+    void downloadLater(const Buffer<T>& from, std::size_t n, HostBuffer<T>& to) {
+      std::copy_n(from.data(), n, to.data());
+    }
+    void set(Mark&) {}
     /// What is given from now on waits for what the other has been given.
     void after(Queue&) {}
     void wait() {}

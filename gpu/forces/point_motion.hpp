@@ -103,8 +103,8 @@ class PointMotion {
   /// Of the anchored springs; a normal of 0 where they pull in all directions.
   void setAnchors(typename Device::Queue& queue, std::span<const Vec3> anchors, std::span<const Vec3> normals) {
     if (anchored_ == 0) return;
-    queue.upload(std::span<const Point4>(points(anchors)), anchor_);
-    queue.upload(std::span<const Point4>(points(normals)), normal_);
+    queue.uploadLater(std::span<const Point4>(points(anchors)), anchor_);
+    queue.uploadLater(std::span<const Point4>(points(normals)), normal_);
   }
   /// The anchored springs' normals, for kernels that set them.
   Point4* normals() { return normal_.data(); }

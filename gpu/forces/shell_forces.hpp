@@ -138,6 +138,9 @@ class ShellForces final : public Forces {
   void accelerate(typename Device::Queue& queue, const Vec3& air, double half_step_s) {
     motion().give(queue, freePosition(), freeForceData(), air, half_step_s);
   }
+  void setAnchors(typename Device::Queue& queue, std::span<const Vec3> anchors) {
+    motion().setAnchors(queue, anchors, anchors);  // kernels set the normals
+  }
   std::vector<double> committedHistory() { return queue_.download(committed_, committed_.size()); }
   Point4* springNormals() { return motion().normals(); }
   /// Values of all points from those of free ones: in `room`, or these themselves where all points are free.

@@ -94,16 +94,24 @@ class NearFinder final : public NearSearch {
   }
 
   void find(bool rebuild) override {
-    for (;; ++repeats_) {
-      const bool anew = rebuild || !built_;
-      std::optional<typename Device::Replay>& pass = passes_[anew];
-      if (!pass) pass.emplace(queue_, [this, anew] { give(anew); });
-      pass->run(queue_);
-      built_ = found_ = true;
-      const NearSizes room = lists_.needed(queue_);
-      if (room == lists_.room()) return;
-      makeLists(room);
-    }
+    do start(rebuild);
+    while (!took(lists_.sizes(queue_)));
+  }
+  /// A pass, given without waiting.
+  void start(bool rebuild) {
+    const bool anew = rebuild || !built_;
+    std::optional<typename Device::Replay>& pass = passes_[anew];
+    if (!pass) pass.emplace(queue_, [this, anew] { give(anew); });
+    pass->run(queue_);
+    built_ = found_ = true;
+  }
+  /// Of the sizes of the last pass. False: a list ran over; all have room for it now, and the pass is to be given again.
+  bool took(const NearSizes& sizes) {
+    const NearSizes room = lists_.needed(sizes);
+    if (room == lists_.room()) return true;
+    makeLists(room);
+    ++repeats_;
+    return false;
   }
 
   void forget() override {

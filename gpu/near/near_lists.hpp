@@ -49,14 +49,14 @@ class NearLists {
     items = Buffer<T>(room_[which]);
   }
   const NearSizes& room() const { return room_; }
-  /// What the last pass would have needed.
-  NearSizes needed(Queue& queue) {
-    const NearSizes need = sizes(queue);
+  /// Room for a pass of these sizes.
+  NearSizes needed(const NearSizes& need) const {
     NearSizes room = room_;
     for (std::size_t k = 0; k < room.size(); ++k)
       if (need[k] > room[k]) room[k] = std::max(2 * room[k], need[k]);
     return room;
   }
+  const Count* counts() const { return count_.data(); }
   NearSizes sizes(Queue& queue) {
     const std::vector<Count> count = queue.download(count_, kNearLists);
     NearSizes sizes{};

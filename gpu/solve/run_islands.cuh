@@ -14,8 +14,9 @@ __global__ void __launch_bounds__(Q* kQuad, 1) sweepAllIslands(IslandRun islands
   extern __shared__ double room[];
   __shared__ typename Sweeps::Shared shared;
   const int count = *islands.count;
+  const SweepLimits limits = *islands.limits;
   for (int i = static_cast<int>(blockIdx.x); i < count; i += static_cast<int>(gridDim.x)) {
-    Sweeps(islands.data, islands.limits, shared, reinterpret_cast<Vec3*>(room), vectors)
+    Sweeps(islands.data, limits, shared, reinterpret_cast<Vec3*>(room), vectors)
         .run(BlockQuads<Q>{}, {i, 0, 1, nullptr});
     __syncthreads();
   }

@@ -8,10 +8,10 @@
 
 namespace gambeson::gpu {
 
-/// Islands of one chunk each. `count`: how many there are.
+/// Islands of one chunk each. `count`: how many there are; both it and the limits stand on the device.
 struct IslandRun {
   SolveData data;
-  SweepLimits limits;
+  const SweepLimits* limits;
   const int* count;
 };
 
@@ -28,7 +28,7 @@ struct RunIslands<ReferenceOf<W>> {
     for (int i = 0; i < *islands.count; ++i) {
       typename IslandSweeps<Group>::Shared shared;
       std::vector<Vec3> room(kRoom);
-      IslandSweeps<Group>(islands.data, islands.limits, shared, room.data(), kRoom).run(Group{}, {i, 0, 1, nullptr});
+      IslandSweeps<Group>(islands.data, *islands.limits, shared, room.data(), kRoom).run(Group{}, {i, 0, 1, nullptr});
     }
   }
 };

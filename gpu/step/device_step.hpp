@@ -11,10 +11,9 @@
 #include "gpu/near/near_finder.hpp"
 #include "gpu/near/skin_on.hpp"
 #include "gpu/step/contact_row.hpp"
-#include "gpu/step/lap_clock.hpp"
 #include "gpu/step/step_impacts.hpp"
 #include "gpu/step/step_kernels.hpp"
-#include "gpu/step/step_on_device.hpp"
+#include "gpu/step/step_output.hpp"
 #include "gpu/step/step_solve.hpp"
 #include "gpu/step/tree_sum.hpp"
 
@@ -25,6 +24,7 @@ class DeviceStep final : public StepOnDevice {
   template <class T>
   using Buffer = typename Device::template Buffer<T>;
   using Queue = typename Device::Queue;
+  using Solve = StepSolve<Device>;
 
  public:
   DeviceStep(const Model& model, const State& start, const StageWork& stage)
@@ -45,16 +45,17 @@ class DeviceStep final : public StepOnDevice {
         net_(uploaded<Device>(queue_, model.net)),
         spring_triangle_(uploaded<Device>(queue_, springTriangles(model))),
         facts_(1),
+        counts_(1),
         row_count_(1),
         solve_(queue_, model, WT_, WTt_, inverse_mass_, density_),
-        motion_sum_(n_) {
+        motion_sum_(n_),
+        outputs_(n_, !model.held_points.empty()) {
     forces_.setLoads(pointLoads(model));
     for (Buffer<Point4>* of_points :
          {&position_, &velocity_, &acceleration_, &pressed_, &pressed_next_, &predictor_, &solved_})
       *of_points = Buffer<Point4>(static_cast<std::size_t>(n_));
     jerk_ = Buffer<Point4>(static_cast<std::size_t>(n_));
     net_jerk_ = Buffer<Point4>(static_cast<std::size_t>(forces_.points()));
-    points_out_ = Buffer<Vec3>(3 * static_cast<std::size_t>(n_));
     sample_sum_ = Buffer<Point4>(static_cast<std::size_t>(samples_));
     of_sample_ = Buffer<int>(static_cast<std::size_t>(samples_)),
     sample_begin_ = Buffer<int>(static_cast<std::size_t>(samples_));
@@ -63,7 +64,7 @@ class DeviceStep final : public StepOnDevice {
     makeImpacts();
   }
 
-  long repeats() const override { return near_.repeats() + (impacts_ ? impacts_->repeats() : 0); }
+  long repeats() const override { return near_.repeats() + solve_.repeats() + (impacts_ ? impacts_->repeats() : 0); }
 
   void set(const State& s) override {
     forces_.setFree(s.p);
@@ -108,67 +109,116 @@ class DeviceStep final : public StepOnDevice {
 
   StepDone make(const DeviceStepInput& in) override {
     StepDone done;
-    LapClock clock;
-    const double dt = in.step_s, half = 0.5 * dt;
+    const bool rebuild = steps_++ % kRebuild == 0;
+    begin(in);
+    run(in, rebuild, done);
+    if (done.by_cpu == ByCpu::none) leave(done);
+    return done;
+  }
+
+ private:
+  /// What a step is given from.
+  enum class From { near, solve, impacts };
+
+  /// What it starts from.
+  void begin(const DeviceStepInput& in) {
     queue_.zero(facts_);
     if (made_) {  // the last step was not accepted: forces stand at its end
       queue_.forEach(n_, CopyPoints{position_.data(), forces_.arrays().free_position});
       made_ = false;
     }
     queue_.forEach(n_, Predict{{position_.data(), velocity_.data(), acceleration_.data(), pressed_.data()},
-                               half,
+                               0.5 * in.step_s,
                                predictor_.data(),
                                facts_.data()});
-    near_.setBodies({in.start, in.end, none_, none_}, dt, goes_on_);
+    near_.setBodies({in.start, in.end, none_, none_}, in.step_s, goes_on_);
     goes_on_ = false;
     for (const BodyShape& shape : in.shapes) placeShape(shape);
-    near_.warm().setScale(queue_, in.last_step_s > 0 ? dt / in.last_step_s : 0);
+    near_.warm().setScale(queue_, in.last_step_s > 0 ? in.step_s / in.last_step_s : 0);
     placeEllipsoids(in);
-    const bool rebuild = steps_++ % kRebuild == 0;
-    for (Count room = 0; !findAndSolve(rebuild, dt, clock, room, done);) near_.makeRoom(room);
-    if (done.by_cpu != ByCpu::none) return done;
-    moveOn(in, dt);
-    gather(dt, done);
-    clock.lap(done.times.force);
-    return done;
+    forces_.setAnchors(queue_, in.anchors);
+    output_ = outputs_.next();
   }
 
- private:
-  /// What is near, and velocities with which nothing passes through anything. False: the rows have no room, and need
-  /// this.
-  bool findAndSolve(bool rebuild, double dt, LapClock& clock, Count& room_for_rows, StepDone& done) {
+  /// What is near, velocities with which nothing passes through anything, and the end of the step. All of it is given
+  /// at once, as if nothing were to be done twice, and waited for once; what was given too early is given again.
+  void run(const DeviceStepInput& in, bool rebuild, StepDone& done) {
+    const double dt = in.step_s;
+    From from = From::near;
+    for (int round = 1;;) {
+      give(in, from, rebuild && round == 1);
+      const StepCounts now = queue_.download(counts_, 1)[0];
+      addTimes(from, done.times);
+      if (from == From::near) {
+        NearSizes sizes;
+        std::copy_n(now.near, sizes.size(), sizes.begin());
+        if (!near_.took(sizes)) continue;
+        done.contacts = static_cast<int>(sizes[kContacts]);
+        done.cloth_contacts = now.step.cloth_contacts;
+        done.smallest_gap_m = now.step.smallest_gap_m();
+        if (now.step.not_finite > 0) return void(done.leftTo(ByCpu::not_finite));
+        if (now.step.inside > 0) return void(done.leftTo(ByCpu::inside));
+      }
+      if (now.rows > near_.lists().facts().room) {
+        near_.makeRoom(now.rows);
+        from = From::near, round = 1;
+        continue;
+      }
+      if (from != From::impacts) {
+        const auto outcome = solve_.outcome(now.solve);
+        from = From::solve;
+        if (outcome == Solve::Outcome::no_room) continue;
+        done.contact = Solve::report(now.solve);
+        from = From::impacts;
+        if (outcome == Solve::Outcome::too_large) {
+          done.contact = solveOnHost(now.rows, dt);
+          continue;
+        }
+      }
+      if (contradict(done.contact, dt)) return void(done.leftTo(ByCpu::unsolved));
+      ImpactCounts hits;
+      if (impacts_ && !impacts_->took(now.impacts, hits)) continue;
+      if (round == 1) done.impacts = static_cast<int>(hits.all());
+      done.impact_rounds = round - 1;
+      if (hits.all() == 0) return take(now.step, done);
+      if (round > kRounds) return void(done.leftTo(ByCpu::impacts));
+      impacts_->addRows(rows(), {dt, keptPart(dt), round++});
+      from = From::solve;
+    }
+  }
+  void give(const DeviceStepInput& in, From from, bool rebuild) {
+    const double dt = in.step_s;
+    laps_.start(queue_);
+    if (from == From::near) {
+      findNear(dt, rebuild);
+      startRows(dt);
+    }
+    laps_.lap(queue_);
+    if (from != From::impacts) solve_.give(rows(), dt, predictor_, solved_);
+    laps_.lap(queue_);
+    findImpacts(dt, rebuild);
+    laps_.lap(queue_);
+    moveOn(in, dt);
+    queue_.forEach(std::max(int{kNearLists}, int{kImpactCounts}),
+                   CollectCounts{facts_.data(), solve_.facts().data(), row_count_.data(), near_.lists().counts(),
+                                 impacts_ ? impacts_->counts() : nullptr, counts_.data()});
+    laps_.lap(queue_);
+  }
+  void addTimes(From from, PhaseTimes& to) {
+    const std::vector<double>& s = laps_.seconds();
+    if (from == From::near) to.proximity += s[0];
+    if (from != From::impacts) to.contact += s[1];
+    to.impact += s[2];
+    to.force += s[3];
+  }
+
+  void findNear(double dt, bool rebuild) {
     queue_.forEach(samples_, PlaceSamples{WT_.view(), position_.data(), predictor_.data(), dt, near_.mesh().x0.data(),
                                           near_.mesh().x1.data()});
-    near_.find(rebuild);
+    near_.start(rebuild);
     queue_.forEach(1, ForgetSeen{facts_.data()});
     queue_.forEach(samples_, LookAtSamples{near_.feet().inside(), facts_.data()});
     queue_.forItems(near_.lists().facts(), LookAtContacts{near_.lists().stencils(), layer_.data(), facts_.data()});
-    const StepFacts seen = queue_.download(facts_, 1)[0];
-    contacts_ = near_.sizes()[kContacts];
-    done.contacts = static_cast<int>(contacts_);
-    done.cloth_contacts = seen.cloth_contacts;
-    done.smallest_gap_m = seen.smallest_gap_m();
-    clock.lap(done.times.proximity);
-    if (seen.not_finite > 0) return done.leftTo(ByCpu::not_finite), true;
-    if (seen.inside > 0) return done.leftTo(ByCpu::inside), true;
-    startRows(dt);
-    Count rows = contacts_;
-    for (int round = 1;; ++round) {
-      done.contact = solve(rows, dt);
-      clock.lap(done.times.contact);
-      if (contradict(done.contact, dt)) return done.leftTo(ByCpu::unsolved), true;
-      const ImpactCounts hits = findImpacts(dt, rebuild && round == 1);
-      done.impact_rounds = round - 1;
-      if (round == 1) done.impacts = static_cast<int>(hits.all());
-      if (hits.all() > 0 && round > kRounds) done.leftTo(ByCpu::impacts);
-      if (hits.all() > 0 && round <= kRounds) {
-        impacts_->addRows(this->rows(), {dt, keptPart(dt), round});
-        rows = queue_.download(row_count_, 1)[0];
-      }
-      clock.lap(done.times.impact);
-      if (hits.all() == 0 || done.by_cpu != ByCpu::none) return true;
-      if (rows > static_cast<Count>(room())) return room_for_rows = rows, false;
-    }
   }
 
   static constexpr int kRounds = 8;    ///< of solves, as in core
@@ -236,10 +286,6 @@ class DeviceStep final : public StepOnDevice {
 
   double keptPart(double dt) const { return -std::expm1(-dt / m_.contact.relaxation_s); }
 
-  ContactSolve solve(Count n, double dt) {
-    if (const auto done = solve_.solve(rows(), static_cast<int>(n), dt, predictor_, solved_)) return *done;
-    return solveOnHost(n, dt);
-  }
   /// Of an island that no group takes alone.
   ContactSolve solveOnHost(Count n, double dt) {
     const auto facts = near_.lists().download(queue_, n);
@@ -281,31 +327,30 @@ class DeviceStep final : public StepOnDevice {
     if (!ellipsoids_.empty()) queue_.uploadLater(std::span<const EllipsoidBody>(ellipsoids_), ellipsoid_);
   }
   /// With the velocities that were solved for.
-  ImpactCounts findImpacts(double dt, bool rebuild) {
+  void findImpacts(double dt, bool rebuild) {
     Vec3 *const x0 = near_.mesh().x0.data(), *const x1 = near_.mesh().x1.data();
     queue_.forEach(samples_, MoveSamples{WT_.view(), solved_.data(), dt, x0, x1});
-    if (!impacts_) return {};
-    return impacts_->find({x0, x1, near_.feet().inside(), ellipsoid_.data()},
-                          rebuild ? Trees::rebuilt : Trees::refitted);
+    if (impacts_)
+      impacts_->start({x0, x1, near_.feet().inside(), ellipsoid_.data()}, rebuild ? Trees::rebuilt : Trees::refitted);
   }
 
   /// Positions, what lasts, forces and velocities at the end.
   void moveOn(const DeviceStepInput& in, double dt) {
     const ForceArrays f = forces_.arrays();
+    queue_.forEach(1, ForgetEnd{facts_.data()});
     queue_.forEach(n_, MovePoints{position_.data(), solved_.data(), dt, f.free_position, facts_.data()});
     queue_.forEach(samples_, LookAtWays{near_.mesh().x0.data(), near_.mesh().x1.data(), cell_.data(), facts_.data()});
     const StepRows all = rows();
-    queue_.forEach(room(), LookAtRows{all, contacts_, density_.data(), dt, keptPart(dt), near_.warm().borne(),
+    queue_.forEach(room(), LookAtRows{all, near_.lists().facts().count, density_.data(), dt, keptPart(dt), near_.warm().borne(),
                                       share_.data(), active_.data(), facts_.data()});
     queue_.zero(of_sample_);
-    queue_.forEach(room(), CountParts{all, share_.data(), of_sample_.data(), part_place_.data()});
+    queue_.forEachOf(all, CountParts{all, share_.data(), of_sample_.data(), part_place_.data()});
     sample_scan_->run(queue_, of_sample_, sample_begin_);
-    queue_.forEach(room(), PlaceParts{all, share_.data(), sample_begin_.data(), part_place_.data(), part_.data()});
+    queue_.forEachOf(all, PlaceParts{all, share_.data(), sample_begin_.data(), part_place_.data(), part_.data()});
     queue_.forEach(samples_, AddParts{all, share_.data(), sample_begin_.data(), of_sample_.data(), part_.data(),
                                       sample_sum_.data()});
     queue_.forEach(n_, PressPoints{WTt_.view(), sample_sum_.data(), inverse_mass_.data(), dt, 0.5 * dt, solved_.data(),
                                    pressed_next_.data(), f.velocity});
-    forces_.setAnchors(in.anchors, in.anchors);
     queue_.forEach(static_cast<int>(spring_triangle_.size()),
                    SpringNormals{spring_triangle_.data(), near_.mesh().x1.data(), forces_.springNormals()});
     forces_.setElapsed(dt);
@@ -321,41 +366,34 @@ class DeviceStep final : public StepOnDevice {
     queue_.forEach(n_, Jerk{acceleration_.data(), f.acceleration, jerk_.data()});
     queue_.forEach(static_cast<int>(net_.size()),
                    LookAtJerk{net_.data(), forces_.mapped(queue_, jerk_, net_jerk_), facts_.data()});
+    queue_.forEach(n_, GatherPoints{solved_.data(), f.acceleration, pressed_next_.data(),
+                                    m_.held_points.empty() ? nullptr : f.free_force, n_, output_->points(),
+                                    facts_.data()});
+    row_scan_->run(queue_, active_, active_place_);
+    gatherRows();
   }
 
-  void gather(double, StepDone& done) {
-    const ForceArrays f = forces_.arrays();
-    queue_.forEach(
-        n_, GatherPoints{solved_.data(), f.acceleration, pressed_next_.data(), n_, points_out_.data(), facts_.data()});
-    row_scan_->run(queue_, active_, active_place_);
-    queue_.forEach(room(), GatherRows{rows(), active_.data(), active_place_.data(), carrying_.data(),
-                                      static_cast<int>(carrying_.size())});
-    const StepFacts now = queue_.download(facts_, 1)[0];
-    if (now.not_finite > 0) {
-      done.leftTo(ByCpu::not_finite);
-      return;
-    }
-    const auto active = static_cast<std::size_t>(now.active);
-    if (active > carrying_.size()) {
-      carrying_ = Buffer<CarryingRow>(2 * active);
-      queue_.forEach(room(), GatherRows{rows(), active_.data(), active_place_.data(), carrying_.data(),
-                                        static_cast<int>(carrying_.size())});
-    }
+  /// What the control must know of the end.
+  void take(const StepFacts& now, StepDone& done) {
+    if (now.lost > 0) return void(done.leftTo(ByCpu::not_finite));
+    active_count_ = static_cast<std::size_t>(now.active);
     done.presses = now.pressing > 0;
     done.largest_way = now.way();
     done.shown_frequency2 = now.motion.way2 > 0 ? std::sqrt(now.motion.force2 / now.motion.way2) : 0;
     done.most_jerk_per_s4 = now.mostJerk();
-    const std::vector<Vec3> points = queue_.download(points_out_, 3 * static_cast<std::size_t>(n_));
-    const auto part = [&](int k, std::vector<Vec3>& to) {
-      to.assign(points.begin() + k * n_, points.begin() + (k + 1) * n_);
-    };
-    part(0, done.velocity), part(1, done.acceleration), part(2, done.pressed);
-    if (!m_.held_points.empty()) done.free_force = forces_.freeForce();
-    for (const CarryingRow& r : queue_.download(carrying_, active)) {
-      done.rows.push_back(contactRow(r.facts, r.stencil, r.touch, r.terms));
-      done.tractions.push_back(r.traction);
-      done.impulses.push_back(r.impulse);
+  }
+  /// What the ledger must, later.
+  void leave(StepDone& done) {
+    if (static_cast<int>(active_count_) > output_->room()) {
+      output_->makeRoom(2 * active_count_);
+      gatherRows();
     }
+    output_->send(copies_, queue_, active_count_);
+    done.arrays = std::move(output_);
+  }
+  void gatherRows() {
+    queue_.forEachOf(rows(),
+                     GatherRows{rows(), active_.data(), active_place_.data(), output_->rows(), output_->room()});
   }
 
   const Model& m_;
@@ -376,18 +414,21 @@ class DeviceStep final : public StepOnDevice {
   long steps_ = 0;
   // Rows.
   Buffer<StepFacts> facts_;
+  Buffer<StepCounts> counts_;
   Buffer<Count> row_count_;
-  StepSolve<Device> solve_;
-  Count contacts_ = 0;  ///< of the last pass
+  Solve solve_;
   Buffer<RowTerms> terms_;
   Buffer<Vec3> traction_, impulse_;
   Buffer<double> share_;
   Buffer<int> active_, active_place_, part_place_, part_, of_sample_, sample_begin_;
   std::optional<typename Device::ExclusiveSum> row_scan_, sample_scan_;
   Buffer<Point4> sample_sum_, jerk_, net_jerk_;
-  Buffer<Vec3> points_out_;
   TreeSum<Device, MotionSum> motion_sum_;
-  Buffer<CarryingRow> carrying_;
+  StepOutputs<Device> outputs_;
+  std::shared_ptr<StepOutput<Device>> output_;  ///< of the step that is being made
+  std::size_t active_count_ = 0;                ///< rows of it that carry something
+  Queue copies_;
+  typename Device::Laps laps_;
   std::optional<StepImpacts<Device>> impacts_;  ///< where there is anything to touch
   std::vector<EllipsoidBody> ellipsoids_;
   Buffer<EllipsoidBody> ellipsoid_;

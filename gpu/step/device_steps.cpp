@@ -176,6 +176,7 @@ class DeviceVerlet final : public DeviceSteps, private VelocityVerlet {
     } else if (by_cpu_) {
       s.p = cpu_out_.p;
     } else {
+      done_.unpack();
       s.p.resize(whole.p.size());
       for (std::size_t i = 0; i < s.p.size(); ++i) s.p[i] = whole.p[i] + made_dt_s_ * done_.velocity[i];
     }

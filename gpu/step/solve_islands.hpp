@@ -13,16 +13,18 @@ namespace gambeson::gpu {
 constexpr int kIslandRows = kWholeIsland;  ///< of an island, at most
 constexpr int kColourWords = kColours / 32;
 
-/// Whether there is an island that no group takes: nothing is ordered then.
-GAMBESON_HD inline bool tooLarge(const SolveFacts& facts) { return facts.most_rows > kIslandRows; }
+/// What rows move: entries of each row from its `first` on.
+struct RowReach {
+  int *first, *count;
+  int* point;
+  double* weight;
+  Count room;  ///< for the entries of all rows
+};
 
 struct IslandOrder {
   SolveRows s;
+  RowReach reach;
   // Of rows.
-  int reach_room;  ///< points of a row, at most
-  int* reach_count;
-  int* reach_point;
-  double* reach_weight;
   double* own;  ///< what the row's own impulse does to it, over its area; drift: of what nothing of the points does
   Vec3* drift;
   int *island, *rank, *kept_island;  ///< of a row; -1: none
@@ -31,13 +33,17 @@ struct IslandOrder {
   // Of points.
   int *tied, *size;  ///< size: of a root rows, then the island's number
   int* number;       ///< in its island, from 1 on
-  std::uint32_t* taken;
+  std::uint32_t *taken, *rows_at;  ///< rows_at: of a group that colours, 0 before and after
   int* free_points;
   // Of islands.
   int *root, *island_points;
   SolveIsland *islands, *kept_islands;
   SolveChunk* chunks;
   int* steps;
+
+  /// Whether there is an island that no group takes, or no room: nothing is ordered then, and nothing solved.
+  GAMBESON_HD bool fails() const { return s.facts->most_rows > kIslandRows || s.facts->reach > reach.room; }
+  GAMBESON_HD const int* pointsOf(int i) const { return reach.point + reach.first[i]; }
 };
 
 /// All rows by the sample that they begin with, then as they come.
@@ -48,7 +54,7 @@ struct RowsInOrder {
 
 struct ForgetReach {
   IslandOrder o;
-  GAMBESON_HD void operator()(int i) const { o.reach_count[i] = o.kept_island[i] = -1; }
+  GAMBESON_HD void operator()(int i) const { o.reach.count[i] = o.kept_island[i] = -1; }
 };
 struct ClearPoints {
   IslandOrder o;
@@ -56,11 +62,12 @@ struct ClearPoints {
   GAMBESON_HD void operator()(int k) const {
     SolveFacts& facts = *o.s.facts;
     if (k == 0) {
-      facts.islands = facts.rows = facts.points = 0;
+      facts.islands = facts.rows = facts.points = facts.others = 0;
     }
     if (k >= points) return;
     o.tied[k] = k;
     o.size[k] = o.number[k] = 0;
+    o.rows_at[k] = 0;
     for (int w = 0; w < kColourWords; ++w) o.taken[kColourWords * k + w] = 0;
   }
 };
@@ -86,21 +93,30 @@ struct TiePoints {
 
   SolveModel m;
   IslandOrder o;
-  GAMBESON_HD void operator()(const Group& group, Shared&, int i, int) const {
-    if (!o.s.in[i]) return;
-    int* const points = o.reach_point + static_cast<std::ptrdiff_t>(o.reach_room) * i;
-    if (o.reach_count[i] < 0) reach(group, i, points, o.reach_weight + static_cast<std::ptrdiff_t>(o.reach_room) * i);
-    const int count = o.reach_count[i];
-    group.each([&](int lane) {
-      for (int e = 1 + lane; e < count; e += Group::kLanes) unite(o.tied, points[0], points[e]);
-    });
+  GAMBESON_HD void operator()(const Group& group, Shared&, int index, int groups) const {
+    const int n = static_cast<int>(o.s.rows.size());
+    for (int i = index; i < n; i += groups) {
+      if (!o.s.in[i]) continue;
+      if (o.reach.count[i] < 0) find(group, i);
+      const int count = o.reach.count[i];
+      const int* const points = o.pointsOf(i);
+      group.each([&](int lane) {
+        for (int e = 1 + lane; e < count; e += Group::kLanes) unite(o.tied, points[0], points[e]);
+      });
+    }
   }
 
  private:
-  GAMBESON_HD void reach(const Group& group, int i, int* points, double* weights) const {
+  GAMBESON_HD void find(const Group& group, int i) const {
     const ContactStencil& at = o.s.rows.stencil[i];
+    int most = 0;
+    for (int j = 0; j < at.count; ++j) most += m.WT.length[at.sample[j]];
+    const Count begin = group.once([&] { return fetchAdd(&o.s.facts->reach, static_cast<Count>(most)); });
+    const bool fits = begin + static_cast<Count>(most) <= o.reach.room;
+    int* const points = o.reach.point + begin;
+    double* const weights = o.reach.weight + begin;
     int count = 0;
-    for (int j = 0; j < at.count; ++j) {
+    for (int j = 0; fits && j < at.count; ++j) {
       const int row = at.sample[j], first = m.WT.first[row >> 5] + (row & 31), length = m.WT.length[row],
                 before = count;
       for (int from = 0; from < length; from += Group::kLanes) {
@@ -140,7 +156,8 @@ struct TiePoints {
       }
       o.own[i] = own * o.s.area_m2[i];
       o.drift[i] = moves - o.s.start[i];
-      o.reach_count[i] = count;
+      o.reach.first[i] = static_cast<int>(begin);
+      o.reach.count[i] = count;
     });
     group.sync();
   }
@@ -150,8 +167,8 @@ struct NumberIslands {
   IslandOrder o;
   GAMBESON_HD void operator()(int i) const {
     o.island[i] = -1;
-    if (!o.s.in[i]) return;
-    const int root = rootOf(o.tied, o.reach_point[static_cast<std::ptrdiff_t>(o.reach_room) * i]);
+    if (!o.s.in[i] || o.fails()) return;
+    const int root = rootOf(o.tied, o.pointsOf(i)[0]);
     o.island[i] = root;  // for now
     o.rank[i] = fetchAdd(&o.size[root], 1);
     if (o.rank[i] > 0) return;
@@ -189,7 +206,7 @@ struct SortByPosition {
   IslandOrder o;
   RowsInOrder sorted;
   GAMBESON_HD void operator()(int k) const {
-    if (k >= o.s.facts->rows || tooLarge(*o.s.facts)) return;
+    if (k >= o.s.facts->rows || o.fails()) return;
     const int mine = o.position[k], i = sorted[mine];
     const SolveIsland& island = o.islands[o.island[i]];
     int rank = island.row;
@@ -199,81 +216,99 @@ struct SortByPosition {
 };
 
 /// Gives rows of an island, by a group, the first colour that no row before has at any of the row's points; what finds
-/// all taken one of its own. Nearly all find one of the first 32, whose bits lie in shared memory, by the numbers of
-/// the points.
+/// all taken one of its own. A lane has a row: which rows of the others come before it at its points is found side by
+/// side, so that in turn each has only to tell the others its colour. Nearly all find one of the first 32, whose bits
+/// lie in shared memory, by the numbers of the points.
 template <class Group>
 struct ColourRows {
-  static constexpr int kResident = 16, kStaged = 24, kPoints = 1536;
+  static constexpr int kResident = 16, kStaged = 16, kPoints = 1152;
   struct Shared {
-    std::uint32_t first[kPoints];
-    int point[32][kStaged], count[32];
+    std::uint32_t first[kPoints], rows[kPoints];
+    int point[kStaged][32];
   };
 
   IslandOrder o;
   GAMBESON_HD void operator()(const Group& group, Shared& shared, int index, int groups) const {
-    const int islands = tooLarge(*o.s.facts) ? 0 : o.s.facts->islands;
+    const int islands = o.fails() ? 0 : o.s.facts->islands;
     for (int q = index; q < islands; q += groups) {
       const int points = o.island_points[q];
       group.each([&](int lane) {
-        for (int p = lane; p < points && p < kPoints; p += Group::kLanes) shared.first[p] = 0;
+        for (int p = lane; p < points && p < kPoints; p += Group::kLanes) shared.first[p] = shared.rows[p] = 0;
       });
-      colour(group, shared, o.islands[q].row, o.islands[q].row_end - o.islands[q].row, points <= kPoints);
+      group.sync();
+      const SolveIsland& island = o.islands[q];
+      int more = kColours;
+      for (int k = island.row; k < island.row_end; k += Group::kLanes)
+        colour(group, shared, k, island.row_end - k < Group::kLanes ? island.row_end - k : Group::kLanes,
+               points <= kPoints, more);
     }
   }
 
  private:
-  GAMBESON_HD const int* pointsOf(int i) const { return o.reach_point + static_cast<std::ptrdiff_t>(o.reach_room) * i; }
+  using Bits = typename Group::template PerLane<std::uint32_t>;
+
   GAMBESON_HD std::uint32_t& taken(int f, int word) const {
     return o.taken[static_cast<std::ptrdiff_t>(kColourWords) * f + word];
   }
-
-  GAMBESON_HD void colour(const Group& group, Shared& shared, int begin, int n, bool numbered) const {
-    int more = kColours;
-    for (int first = 0; first < n; first += Group::kLanes) {
-      group.sync();
-      group.each([&](int lane) {
-        if (first + lane >= n) return;
-        const int i = o.ordered[begin + first + lane], count = o.reach_count[i];
-        shared.count[lane] = count;
-        for (int e = 0; e < count && e < kStaged; ++e) {
-          const int f = pointsOf(i)[e];
-          shared.point[lane][e] = numbered ? o.number[f] - 1 : f;
-        }
-      });
-      group.sync();
-      for (int r = 0; r < Group::kLanes && first + r < n; ++r) {
-        const int count = shared.count[r], place = begin + first + r;
-        const auto firstBits = [&](int e) -> std::uint32_t& {
-          int p = 0;
-          if (e < kStaged) {
-            p = shared.point[r][e];
-          } else {
-            p = pointsOf(o.ordered[place])[e];
-            if (numbered) p = o.number[p] - 1;
-          }
-          return numbered ? shared.first[p] : taken(p, 0);
-        };
-        typename Group::template PerLane<std::uint32_t> mine;
-        group.each([&](int lane) {
-          mine[lane] = 0;
-          for (int e = lane; e < count; e += Group::kLanes) mine[lane] |= firstBits(e);
-        });
-        const std::uint32_t all = group.orOf(mine);
-        const int colour = ~all != 0 ? firstClear(all) : laterColour(group, o.ordered[place], count, more);
-        group.each([&](int lane) {
-          if (lane == 0) o.colour[place] = colour;
-          if (colour >= 32) return;
-          for (int e = lane; e < count; e += Group::kLanes) firstBits(e) |= std::uint32_t{1} << colour;
-        });
-        group.sync();
-      }
+  /// visit(colours at the point, rows of the group at it) for each point of a row.
+  template <class Visit>
+  GAMBESON_HD void eachPoint(Shared& shared, int lane, int i, bool numbered, bool staged, const Visit& visit) const {
+    const int count = o.reach.count[i];
+    const int* const points = o.pointsOf(i);
+    for (int e = 0; e < count; ++e) {
+      const bool stands = e < kStaged;
+      const int p = staged && stands ? shared.point[e][lane] : numbered ? o.number[points[e]] - 1 : points[e];
+      if (!staged && stands) shared.point[e][lane] = p;
+      if (numbered)
+        visit(shared.first[p], shared.rows[p]);
+      else
+        visit(taken(p, 0), o.rows_at[p]);
     }
   }
+
+  /// The n rows from place k on.
+  GAMBESON_HD void colour(const Group& group, Shared& shared, int k, int n, bool numbered, int& more) const {
+    Bits all, before;  // colours that are taken, rows of the group that come before
+    group.each([&](int lane) {
+      if (lane >= n) return;
+      eachPoint(shared, lane, o.ordered[k + lane], numbered, false,
+                [&](std::uint32_t&, std::uint32_t& rows) { fetchOr(&rows, std::uint32_t{1} << lane); });
+    });
+    group.sync();
+    group.each([&](int lane) {
+      all[lane] = before[lane] = 0;
+      if (lane >= n) return;
+      eachPoint(shared, lane, o.ordered[k + lane], numbered, true, [&](std::uint32_t& colours, std::uint32_t& rows) {
+        all[lane] |= colours;
+        before[lane] |= rows;
+      });
+    });
+    typename Group::template PerLane<int> mine;
+    for (int r = 0; r < n; ++r) {
+      const std::uint32_t there = group.of(all, r);
+      const int colour = ~there != 0 ? firstClear(there) : laterColour(group, o.ordered[k + r], more);
+      group.each([&](int lane) {
+        if (lane == r) mine[lane] = colour;
+        if (colour < 32 && (before[lane] >> r & 1) != 0) all[lane] |= std::uint32_t{1} << colour;
+      });
+    }
+    group.sync();
+    group.each([&](int lane) {
+      if (lane >= n) return;
+      o.colour[k + lane] = mine[lane];
+      eachPoint(shared, lane, o.ordered[k + lane], numbered, true, [&](std::uint32_t& colours, std::uint32_t& rows) {
+        if (mine[lane] < 32) fetchOr(&colours, std::uint32_t{1} << mine[lane]);
+        put(&rows, std::uint32_t{0});
+      });
+    });
+    group.sync();
+  }
   /// Of a row that finds the first ones taken.
-  GAMBESON_HD int laterColour(const Group& group, int i, int count, int& more) const {
-    const int* const points = pointsOf(i);
+  GAMBESON_HD int laterColour(const Group& group, int i, int& more) const {
+    const int* const points = o.pointsOf(i);
+    const int count = o.reach.count[i];
     for (int w = 1; w < kColourWords; ++w) {
-      typename Group::template PerLane<std::uint32_t> mine;
+      Bits mine;
       group.each([&](int lane) {
         mine[lane] = 0;
         for (int e = lane; e < count; e += Group::kLanes) mine[lane] |= taken(points[e], w);
@@ -284,6 +319,7 @@ struct ColourRows {
       group.each([&](int lane) {
         for (int e = lane; e < count; e += Group::kLanes) taken(points[e], w) |= std::uint32_t{1} << bit;
       });
+      group.sync();
       return 32 * w + bit;
     }
     return more++;
@@ -294,7 +330,7 @@ struct ColourRows {
 struct SortByColour {
   IslandOrder o;
   GAMBESON_HD void operator()(int k) const {
-    if (k >= o.s.facts->rows || tooLarge(*o.s.facts)) return;
+    if (k >= o.s.facts->rows || o.fails()) return;
     const int i = o.ordered[k], mine = o.colour[k];
     const SolveIsland& island = o.islands[o.island[i]];
     int below = 0, same = 0;
@@ -307,15 +343,28 @@ struct SortByColour {
     o.key[island.row + below + same] = same;
   }
 };
-/// Of entries of rows: points are numbered within their islands.
+/// Points are numbered within their islands; a group takes a row.
+template <class Group>
 struct NumberPoints {
+  static constexpr int kResident = 32;
+  struct Shared {};
+
   IslandOrder o;
-  GAMBESON_HD void operator()(int k) const {
-    const int i = k / o.reach_room, e = k - i * o.reach_room;
-    if (!o.s.in[i] || e >= o.reach_count[i]) return;
-    const int f = o.reach_point[static_cast<std::ptrdiff_t>(o.reach_room) * i + e];
+  GAMBESON_HD void operator()(const Group& group, Shared&, int index, int groups) const {
+    const int n = o.fails() ? 0 : static_cast<int>(o.s.rows.size());
+    for (int i = index; i < n; i += groups) {
+      if (!o.s.in[i]) continue;
+      const int count = o.reach.count[i];
+      group.each([&](int lane) {
+        for (int e = lane; e < count; e += Group::kLanes) number(o.pointsOf(i)[e], o.island[i]);
+      });
+    }
+  }
+
+ private:
+  GAMBESON_HD void number(int f, int island) const {
     if (seen(o.number[f]) == 0 && swapIf(&o.number[f], 0, -1))
-      put(&o.number[f], fetchAdd(&o.island_points[o.island[i]], 1) + 1);
+      put(&o.number[f], fetchAdd(&o.island_points[island], 1) + 1);
   }
 };
 
@@ -333,7 +382,7 @@ struct EndIslands {
   bool goes_on;  ///< there were islands before
 
   GAMBESON_HD void operator()(const Group& group, Shared& shared, int index, int groups) const {
-    const int islands = tooLarge(*o.s.facts) ? 0 : o.s.facts->islands;
+    const int islands = o.fails() ? 0 : o.s.facts->islands;
     for (int q = index; q < islands; q += groups) {
       SolveIsland island = o.islands[q];
       const int begin = island.row, n = island.row_end - island.row;
@@ -404,8 +453,13 @@ struct EndIslands {
   }
 };
 
-/// Rows in the order of the iteration, with what they are to it.
+/// Rows in the order of the iteration, with what they are to it, by a group each.
+template <class Group>
 struct FillRows {
+  static constexpr int kResident = 32;
+  struct Shared {};
+
+  SolveModel m;
   IslandOrder o;
   double* facts;  ///< RowFacts
   double *own, *slope;
@@ -413,12 +467,34 @@ struct FillRows {
   double* state;  ///< RowState
   int* place;     ///< of a row in the iteration
   int others;     ///< where entries stand that have no place, of all rows
+  int* point;
+  double *weight, *push;
 
-  GAMBESON_HD void operator()(int k) const {
+  GAMBESON_HD void operator()(const Group& group, Shared&, int index, int groups) const {
+    const int rows = o.fails() ? 0 : o.s.facts->rows;
+    for (int k = index; k < rows; k += groups) {
+      const int i = o.order[k], count = o.reach.count[i], without = count > kPlaces ? count - kPlaces : 0;
+      const int more = others + group.once([&] { return without == 0 ? 0 : fetchAdd(&o.s.facts->others, without); });
+      const int free_point = o.islands[o.island[i]].free_point;
+      group.each([&](int lane) {
+        if (lane == 0) fill(k, i, {count, more});
+        for (int e = lane; e < count; e += Group::kLanes) {
+          const int from = o.reach.first[i] + e, f = o.reach.point[from], number = o.number[f] - 1;
+          const double w = o.reach.weight[from];
+          const int at = e < kPlaces ? placeOf(k, e) : more + e - kPlaces;
+          point[at] = number;
+          weight[at] = w;
+          push[at] = w * m.inverse_mass[f];
+          o.free_points[free_point + number] = f;
+        }
+      });
+    }
+  }
+
+ private:
+  GAMBESON_HD void fill(int k, int i, const RowEntries& has) const {
     const SolveRows& s = o.s;
-    if (k >= s.facts->rows || tooLarge(*s.facts)) return;
-    const int i = o.order[k];
-    entries[k] = {o.reach_count[i], otherEntries(k)};
+    entries[k] = has;
     RowFacts{s.rows.facts[i].normal, o.drift[i], s.friction[i], 0, s.rows.terms[i].compliance, s.area_m2[i]}.put(facts,
                                                                                                                  k);
     own[k] = o.own[i];
@@ -426,30 +502,6 @@ struct FillRows {
     s.state[i].put(state, k);
     o.kept_island[i] = o.island[i];
     place[i] = k;
-  }
-  GAMBESON_HD int otherEntries(int k) const {
-    return others + (o.reach_room > kPlaces ? o.reach_room - kPlaces : 0) * k;
-  }
-};
-struct FillEntries {
-  SolveModel m;
-  FillRows rows;
-  int* point;
-  double *weight, *push;
-  GAMBESON_HD void operator()(int ke) const {
-    const IslandOrder& o = rows.o;
-    const int k = ke / o.reach_room, e = ke - k * o.reach_room;
-    if (k >= o.s.facts->rows || tooLarge(*o.s.facts)) return;
-    const int i = o.order[k];
-    if (e >= o.reach_count[i]) return;
-    const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(o.reach_room) * i + e;
-    const int f = o.reach_point[from], number = o.number[f] - 1;
-    const double w = o.reach_weight[from];
-    const int at = e < kPlaces ? placeOf(k, e) : rows.otherEntries(k) + e - kPlaces;
-    point[at] = number;
-    weight[at] = w;
-    push[at] = w * m.inverse_mass[f];
-    o.free_points[o.islands[o.island[i]].free_point + number] = f;
   }
 };
 
@@ -464,6 +516,48 @@ struct LookAtIslands {
     fetchMax(&o.s.facts->iterations, island.iterations);
     if (!island.done) fetchAdd(&o.s.facts->undone, 1);
     o.kept_islands[q] = island;
+  }
+};
+
+/// Before sweeps: how far they go. Whether there are any.
+struct NextSweeps {
+  IslandOrder o;
+  const SolveLimits* limits;
+  GAMBESON_HD bool operator()() const {
+    SolveFacts& f = *o.s.facts;
+    if (f.ended || o.fails()) return false;
+    const int most = limits->most, next = f.limits.last == 0 ? kFirstCheck : 2 * f.limits.last;
+    if (f.limits.last == 0) f.limits.goal_m_per_s = goalOf(limits->tolerance_m_per_s, numberOf(f.largest));
+    f.limits.last = next < most ? next : most;
+    f.limits.calm = most - most / 4;
+    f.residual = f.left_out = 0;
+    f.iterations = f.undone = f.joins = 0;
+    return true;
+  }
+};
+/// After them: what the report says. Whether rows have joined, so that islands and their order are to be found anew.
+struct EndSweeps {
+  SolveFacts* facts;
+  const SolveLimits* limits;
+  GAMBESON_HD bool operator()() const {
+    SolveFacts& f = *facts;
+    const double left_out = std::sqrt(numberOf(f.left_out)), swept = numberOf(f.residual);
+    f.converged = left_out <= f.limits.goal_m_per_s && f.undone == 0;
+    f.residual_m_per_s = left_out < swept ? swept : left_out;
+    f.ended = f.converged || f.limits.last >= limits->most;
+    return !f.ended && f.joins > 0;
+  }
+};
+
+/// What the solve leaves in the rows: nothing where it fails.
+struct EndRows {
+  IslandOrder o;
+  GAMBESON_HD void operator()(int i) const {
+    if (o.fails()) return;
+    const SolveRows& s = o.s;
+    const Vec3 t = s.in[i] ? s.state[i].now : Vec3{};
+    s.rows.traction[i] = t;
+    s.rows.impulse[i] = s.area_m2[i] * t;
   }
 };
 

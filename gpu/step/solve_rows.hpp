@@ -20,6 +20,12 @@ struct SolveModel {
   int points, samples;
 };
 
+/// How far a solve may go.
+struct SolveLimits {
+  double tolerance_m_per_s;
+  int most;  ///< iterations
+};
+
 /// What is known of a solve on its way. Counts and largest values only: no order of lanes shows.
 struct SolveFacts {
   Count residual = 0, left_out = 0;  ///< inOrder: of islands, and squared of rows that are left out [m/s]
@@ -27,8 +33,15 @@ struct SolveFacts {
   int iterations = 0, undone = 0;    ///< of islands: most, and how many are not done
   int joins = 0;                     ///< rows that are left out and would be penetrated
   int islands = 0, rows = 0, points = 0;
-  int most_rows = 0;  ///< of an island
+  int most_rows = 0;          ///< of an island
+  Count reach = 0;            ///< entries of the points of rows that were asked for; above the room: there are too few
+  int others = 0;             ///< entries of rows that have no fixed place
+  SweepLimits limits{};       ///< of the sweeps that are next, or were last
+  bool ended = false;         ///< iterating
+  double residual_m_per_s = 0;  ///< as a report has it
+  bool converged = false;       ///< likewise
 };
+GAMBESON_HD inline double numberOf(Count order) { return order == 0 ? 0.0 : fromOrder(order); }
 
 /// Of each sample: rows that have it in their stencils, on-cloth rows that it is nearest in, rows that begin with it.
 enum RowsOfSample : int { kParts, kOnCloth, kBegins, kRowLists };
@@ -334,14 +347,6 @@ struct ToVectors {
   GAMBESON_HD void operator()(int f) const { to[f] = vec(from[f]); }
 };
 
-/// What a look forgets of the one before.
-struct ForgetLooks {
-  SolveFacts* facts;
-  GAMBESON_HD void operator()(int) const {
-    facts->residual = facts->left_out = 0;
-    facts->iterations = facts->undone = facts->joins = 0;
-  }
-};
 /// Rows that are left out and would be penetrated join; the largest squared residual of those left out. The others take
 /// what sweeps have found.
 struct LookAtLeftOut {
@@ -364,16 +369,6 @@ struct LookAtLeftOut {
     s.in[i] = 1;
     fetchAdd(&s.facts->joins, 1);
     raise(&s.facts->left_out, inOrder(norm2(project(-v, normal, s.friction[i], 0.0))));
-  }
-};
-
-/// What the solve leaves.
-struct EndRows {
-  SolveRows s;
-  GAMBESON_HD void operator()(int i) const {
-    const Vec3 t = s.in[i] ? s.state[i].now : Vec3{};
-    s.rows.traction[i] = t;
-    s.rows.impulse[i] = s.area_m2[i] * t;
   }
 };
 

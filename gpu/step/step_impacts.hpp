@@ -80,10 +80,19 @@ class StepImpacts {
     queue_.after(edges);
   }
 
-  /// Waits for the counts of the pass that was given last. False: a list ran over; all have room for it now, and the
-  /// pass is to be given again.
-  bool take(ImpactCounts& found) {
-    const std::vector<Count> count = queue_.download(count_, kImpactCounts);
+  /// A pass, given without waiting.
+  void start(const ImpactPaths& paths, Trees trees) {
+    const bool anew = !built_ || trees == Trees::rebuilt;
+    if (!(paths == paths_)) forgetPasses();
+    std::optional<typename Device::Replay>& pass = passes_[anew];
+    if (!pass) pass.emplace(queue_, [this, paths, anew] { give(paths, anew ? Trees::rebuilt : Trees::refitted); });
+    pass->run(queue_);
+    built_ = true;
+  }
+  /// What the last pass has counted, on the device.
+  const Count* counts() const { return count_.data(); }
+  /// Of that. False: a list ran over; all have room for it now, and the pass is to be given again.
+  bool took(std::span<const Count> count, ImpactCounts& found) {
     ImpactSizes room = room_;
     for (std::size_t k = 0; k < room.size(); ++k) {
       sizes_[k] = count[k];
@@ -92,19 +101,15 @@ class StepImpacts {
     found = {count[kSampleHits], count[kPointHits], count[kEdgeHits], count[kTouchingPairs], count[kCappedPairs]};
     if (room == room_) return true;
     makeLists(room);
+    ++repeats_;
     return false;
   }
   /// A pass, and a wait for its counts, repeated until nothing has run over.
   ImpactCounts find(const ImpactPaths& paths, Trees trees) {
-    for (ImpactCounts found;; ++repeats_) {
-      const bool anew = !built_ || trees == Trees::rebuilt;
-      if (!(paths == paths_)) forgetPasses();
-      std::optional<typename Device::Replay>& pass = passes_[anew];
-      if (!pass) pass.emplace(queue_, [this, paths, anew] { give(paths, anew ? Trees::rebuilt : Trees::refitted); });
-      pass->run(queue_);
-      built_ = true;
-      if (take(found)) return found;
-    }
+    ImpactCounts found;
+    do start(paths, trees);
+    while (!took(queue_.download(count_, kImpactCounts), found));
+    return found;
   }
 
   /// The hits of the last pass become rows, on the same paths, which still stand where they stood: those of a pair that
@@ -126,8 +131,6 @@ class StepImpacts {
     queue_.forEach(1, EndImpactRows{sorted, rank_.data(), is_new_.data(), rows});
   }
 
-  /// How many hits the last pass has found, on the device.
-  const Count* hitCount() const { return count_.data() + kStepHits; }
   /// Of the last pass that was waited for.
   const ImpactSizes& sizes() const { return sizes_; }
   int repeats() const { return repeats_; }  ///< of passes, for want of room, since the start

@@ -4,7 +4,10 @@
 #include "core/contact/response.hpp"
 #include "gpu/forces/sliced_rows.hpp"
 #include "gpu/near/raise.hpp"
+#include "gpu/near/near_search.hpp"
 #include "gpu/near/warm_starts.hpp"
+#include "gpu/step/impact_kernels.hpp"
+#include "gpu/step/solve_rows.hpp"
 #include "gpu/step/step_rows.hpp"
 
 namespace gambeson::gpu {
@@ -23,7 +26,8 @@ struct MotionSum {
 
 /// What a step has been found to be. Counts and largest values only: no order of lanes shows.
 struct StepFacts {
-  int not_finite = 0;  ///< velocities or positions that are not
+  int not_finite = 0;  ///< velocities at the start that are not
+  int lost = 0;        ///< likewise positions and accelerations at the end
   int inside = 0;      ///< samples that are inside of a body
   int cloth_contacts = 0;
   int active = 0;                          ///< rows that carry something
@@ -57,6 +61,9 @@ struct Predict {
   }
 };
 
+/// Where a sample goes; nowhere without a number.
+GAMBESON_HD inline Vec3 movedBy(const Vec3& way, const Vec3& from) { return isFinite(way) ? from + way : from; }
+
 /// Where samples are, and where they go at these velocities of the free points.
 struct PlaceSamples {
   SlicedView WT;
@@ -65,7 +72,7 @@ struct PlaceSamples {
   Vec3 *x0, *x1;
   GAMBESON_HD void operator()(int s) const {
     x0[s] = vec(WT.times(s, position));
-    x1[s] = x0[s] + dt_s * vec(WT.times(s, velocity));
+    x1[s] = movedBy(dt_s * vec(WT.times(s, velocity)), x0[s]);
   }
 };
 struct MoveSamples {
@@ -74,7 +81,7 @@ struct MoveSamples {
   double dt_s;
   const Vec3* x0;
   Vec3* x1;
-  GAMBESON_HD void operator()(int s) const { x1[s] = x0[s] + dt_s * vec(WT.times(s, velocity)); }
+  GAMBESON_HD void operator()(int s) const { x1[s] = movedBy(dt_s * vec(WT.times(s, velocity)), x0[s]); }
 };
 
 /// Pressures that count in the mean of what lasts (lastingPressure).
@@ -179,6 +186,14 @@ struct LookAtContacts {
   }
 };
 
+/// The end of a step is looked at anew.
+struct ForgetEnd {
+  StepFacts* facts;
+  GAMBESON_HD void operator()(int) const {
+    facts->lost = facts->active = facts->pressing = 0;
+    facts->largest_way = facts->most_jerk = 0;
+  }
+};
 /// Where free points are at the end of the step.
 struct MovePoints {
   const Point4 *from, *velocity;
@@ -188,7 +203,7 @@ struct MovePoints {
   GAMBESON_HD void operator()(int i) const {
     const Vec3 x = vec(from[i]) + dt_s * vec(velocity[i]);
     to[i].x = x.x, to[i].y = x.y, to[i].z = x.z;
-    if (!isFinite(x)) fetchAdd(&facts->not_finite, 1);
+    if (!isFinite(x)) fetchAdd(&facts->lost, 1);
   }
 };
 struct LookAtWays {
@@ -202,7 +217,7 @@ struct LookAtWays {
 /// whether they carry anything.
 struct LookAtRows {
   StepRows rows;
-  Count contacts;  ///< the first so many are no appended impacts
+  const Count* contacts;  ///< the first so many are no appended impacts
   const double* density;
   double dt_s, kept;  ///< 1 - exp(-dt/tau)
   WarmStart* borne;
@@ -228,7 +243,7 @@ struct LookAtRows {
       share[i] = pressed > 0 ? std::min(1.0, countsAtMost(t.mean_Pa, rho) / pressed) : 0.0;
       fetchAdd(&facts->pressing, 1);
     }
-    if (i >= contacts) return;
+    if (i >= *contacts) return;
     borne[i] = {};
     if (t.impact != 0 || (t.mean_Pa == 0 && rows.traction[i] == Vec3{})) return;
     const double pressure = on_layer ? pressed : 0.0;
@@ -351,13 +366,33 @@ struct GatherRows {
 
 /// Arrays of points side by side, to be taken along in one piece.
 struct GatherPoints {
-  const Point4 *velocity, *acceleration, *pressed;
+  const Point4 *velocity, *acceleration, *pressed, *force;  ///< force: null where it is left out
   int n;
   Vec3* to;
   StepFacts* facts;
   GAMBESON_HD void operator()(int i) const {
     to[i] = vec(velocity[i]), to[n + i] = vec(acceleration[i]), to[2 * n + i] = vec(pressed[i]);
-    if (!isFinite(vec(acceleration[i]))) fetchAdd(&facts->not_finite, 1);
+    if (force) to[3 * n + i] = vec(force[i]);
+    if (!isFinite(vec(acceleration[i]))) fetchAdd(&facts->lost, 1);
+  }
+};
+
+/// All that the host must know before it goes on.
+struct StepCounts {
+  StepFacts step;
+  SolveFacts solve;
+  Count rows;
+  Count near[kNearLists], impacts[kImpactCounts];
+};
+struct CollectCounts {
+  const StepFacts* step;
+  const SolveFacts* solve;
+  const Count *rows, *near, *impacts;  ///< impacts: null where there are none
+  StepCounts* to;
+  GAMBESON_HD void operator()(int i) const {
+    if (i == 0) to->step = *step, to->solve = *solve, to->rows = *rows;
+    if (i < kNearLists) to->near[i] = near[i];
+    if (i < kImpactCounts) to->impacts[i] = impacts ? impacts[i] : 0;
   }
 };
 struct TakeOver {

@@ -98,6 +98,7 @@ void StepLedger::take(StepDone& done, double dt, const State& control, StepRepor
   StepWork& w = work_;
   StopWatch clock;
   const double half = 0.5 * dt;
+  done.unpack();
   placeEnds(m, stage_, in.time_s, in.time_s + dt, w.stage);
   const Vec3 air = stage_.air(in.time_s + dt);
   const auto n = in.p.size();

@@ -31,6 +31,15 @@ struct DeviceStepInput {
   Vec3 air;                               ///< at the end [m/s]
 };
 
+struct StepDone;
+/// Arrays of a step on their way to the host.
+class StepArrays {
+ public:
+  virtual ~StepArrays() = default;
+  /// Waits for them.
+  virtual void unpack(StepDone& done) = 0;
+};
+
 /// What a step has left for the host. Arrays of free points where they are no rows'.
 struct StepDone {
   ByCpu by_cpu = ByCpu::none;
@@ -41,6 +50,7 @@ struct StepDone {
   double shown_frequency2 = 0;                        ///< of its motion (ControlledSteps::shownFrequency2)
   double most_jerk_per_s4 = 0;                        ///< swingOfJerk
   bool presses = false;                               ///< any of its contacts lasts
+  std::shared_ptr<StepArrays> arrays;                 ///< what follows, where it is not there yet
   std::vector<Vec3> velocity, acceleration, pressed;  ///< at the half step, at the end; State::pressed
   std::vector<Vec3> free_force;                       ///< of the cloth at the end [N], where points are held
   std::vector<ContactRow> rows;                       ///< that carry something
@@ -49,6 +59,10 @@ struct StepDone {
   StepDone& leftTo(ByCpu reason) {
     by_cpu = reason;
     return *this;
+  }
+  void unpack() {
+    if (const auto under_way = std::move(arrays)) under_way->unpack(*this);
+    arrays = nullptr;
   }
 };
 

@@ -27,6 +27,7 @@ struct StepRows {
   Count room;
 
   GAMBESON_HD Count size() const { return *count < room ? *count : room; }
+  bool operator==(const StepRows&) const = default;
 };
 
 }  // namespace gambeson::gpu

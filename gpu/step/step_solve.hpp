@@ -30,6 +30,7 @@ class StepSolve {
         of_obstacle_(uploaded<Device>(queue, frictionOfObstacles(model))),
         of_sample_(uploaded<Device>(queue, frictionOfSamples(model))),
         facts_(1),
+        limits_(1),
         list_sum_(kRowLists * samples_) {
     for (int s = 0; s < samples_; ++s)
       most_of_sample_ = std::max(most_of_sample_, model.surface.WT.offsets[s + 1] - model.surface.WT.offsets[s]);
@@ -51,38 +52,45 @@ class StepSolve {
     for (Buffer<Vec3>* of_points : {&predicted_, &moved_, &moved_before_, &spilled_, &spilled_before_})
       *of_points = Buffer<Vec3>(points);
     for (Buffer<int>* of_points : {&tied_, &size_, &number_, &free_points_}) *of_points = Buffer<int>(points);
-    taken_ = Buffer<std::uint32_t>(kColourWords * points);
+    taken_ = Buffer<std::uint32_t>(kColourWords * points), rows_at_ = Buffer<std::uint32_t>(points);
   }
 
-  /// Solves for n rows whose terms and tractions at the start are set; leaves tractions and impulses in them, and the
-  /// velocities of the free points in `solved`. Nothing where an island is too large for one group: the rows' tractions
-  /// stand as they were then.
-  std::optional<ContactSolve> solve(const StepRows& rows, int n, double dt_s, const Buffer<Point4>& predictor,
-                                    Buffer<Point4>& solved) {
+  /// Given without waiting: solves for rows whose terms and tractions at the start are set; leaves tractions and
+  /// impulses in them, and the velocities of the free points in `solved`.
+  void give(const StepRows& rows, double dt_s, const Buffer<Point4>& predictor, Buffer<Point4>& solved) {
     makeRoom(static_cast<std::size_t>(rows.room));
-    const SolveRows s = view(rows);
-    start(s, n, predictor);
-    SolveFacts facts = order(s, n, false);
-    if (facts.most_rows > kIslandRows) return std::nullopt;
-    const auto number = [](Count order) { return order == 0 ? 0.0 : fromOrder(order); };
-    const double goal = goalOf(parameters_.tolerance_m_per_s2 * dt_s, number(facts.largest));
-    const int most = parameters_.max_iterations;
-    ContactSolve report;
-    for (int check = std::min(kFirstCheck, most);; check = std::min(2 * check, most)) {
-      sweep(s, {goal, check, most - most / 4}, n);
-      facts = queue_.download(facts_, 1)[0];
-      report.residual_m_per_s = std::sqrt(number(facts.left_out));
-      report.converged = report.residual_m_per_s <= goal && facts.undone == 0;
-      report.residual_m_per_s = std::max(report.residual_m_per_s, number(facts.residual));
-      report.iterations = facts.iterations;
-      if (report.converged || check >= most) break;
-      if (facts.joins > 0 && order(s, n, true).most_rows > kIslandRows) return std::nullopt;
+    const SolveLimits limits{parameters_.tolerance_m_per_s2 * dt_s, parameters_.max_iterations};
+    queue_.uploadLater(std::span<const SolveLimits>(&limits, 1), limits_);
+    const Arrays arrays{rows, predictor.data(), solved.data()};
+    if (!pass_ || !(arrays == recorded_)) {
+      recorded_ = arrays;
+      pass_.emplace(queue_, [this] { run(); });
     }
-    queue_.forEach(n, EndRows{s});
-    queue_.forEach(samples_, SpreadSamples{s, samples_, sample_sum_.data()});
-    queue_.forEach(points_, EndPoints{{m_, sample_sum_.data(), predicted_.data()}, solved.data()});
+    pass_->run(queue_);
+  }
+  /// Of the solve that was given last, on the device.
+  const Buffer<SolveFacts>& facts() const { return facts_; }
+  /// What has come of it.
+  enum class Outcome { solved, too_large, no_room };
+  /// Nothing is solved where an island is too large for one group, or where the points of rows have no room: there is
+  /// room now. The rows' tractions stand as they were then.
+  Outcome outcome(const SolveFacts& facts) {
+    if (facts.reach > reach_point_.size()) {
+      reach_room_ = std::max<std::size_t>(2 * reach_room_, facts.reach);
+      makeReach();
+      ++repeats_;
+      return Outcome::no_room;
+    }
+    return facts.most_rows > kIslandRows ? Outcome::too_large : Outcome::solved;
+  }
+  static ContactSolve report(const SolveFacts& facts) {
+    ContactSolve report;
+    report.residual_m_per_s = facts.residual_m_per_s;
+    report.converged = facts.converged;
+    report.iterations = facts.iterations;
     return report;
   }
+  int repeats() const { return repeats_; }  ///< for want of room, since the start
 
  private:
   /// Below 0: the sample's.
@@ -104,26 +112,30 @@ class StepSolve {
 
   void makeRoom(std::size_t room) {
     if (room <= start_.size()) return;
-    const auto packed = static_cast<std::size_t>(inRowBlocks(static_cast<int>(room)));
-    const std::size_t reach = room * static_cast<std::size_t>(reachRoom()),
-                      entries = packed * static_cast<std::size_t>(std::max(kPlaces, reachRoom()));
-    for (Buffer<int>* of_rows : {&reach_count_, &island_, &rank_, &kept_island_, &position_, &ordered_, &colour_, &key_,
-                                 &order_, &place_in_order_, &root_, &island_points_, &steps_})
+    packed_ = static_cast<std::size_t>(inRowBlocks(static_cast<int>(room)));
+    for (Buffer<int>* of_rows : {&reach_first_, &reach_count_, &island_, &rank_, &kept_island_, &position_, &ordered_,
+                                 &colour_, &key_, &order_, &place_in_order_, &root_, &island_points_, &steps_})
       *of_rows = Buffer<int>(room);
     for (Buffer<int>* of_parts : {&place_, &listed_}) *of_parts = Buffer<int>(kPartsOfRow * room);
     for (Buffer<double>* of_rows : {&row_area_, &friction_, &row_slope_, &row_own_, &own_, &slope_})
       *of_rows = Buffer<double>(room);
     start_ = Buffer<Vec3>(room), row_drift_ = Buffer<Vec3>(room);
     in_ = Buffer<char>(room);
-    row_state_ = Buffer<RowState>(room), state_ = Buffer<double>(packed * RowState::kNumbers);
-    reach_point_ = Buffer<int>(reach), reach_weight_ = Buffer<double>(reach);
-    row_facts_ = Buffer<double>(packed * RowFacts::kNumbers), pace_ = Buffer<double>(packed * RowPace::kNumbers);
+    row_state_ = Buffer<RowState>(room), state_ = Buffer<double>(packed_ * RowState::kNumbers);
+    row_facts_ = Buffer<double>(packed_ * RowFacts::kNumbers), pace_ = Buffer<double>(packed_ * RowPace::kNumbers);
     entries_ = Buffer<RowEntries>(room);
-    point_ = Buffer<int>(entries), weight_ = Buffer<double>(entries), push_ = Buffer<double>(entries);
     islands_ = Buffer<SolveIsland>(room), kept_islands_ = Buffer<SolveIsland>(room);
     chunks_ = Buffer<SolveChunk>(room);
+    reach_room_ = std::max(reach_room_, room * static_cast<std::size_t>(most_of_sample_));
+    makeReach();
   }
-  int reachRoom() const { return 5 * most_of_sample_; }
+  /// Arrays of the points that rows move. What rows have beyond kPlaces is less than all.
+  void makeReach() {
+    pass_.reset();
+    const std::size_t entries = packed_ * kPlaces + reach_room_;
+    reach_point_ = Buffer<int>(reach_room_), reach_weight_ = Buffer<double>(reach_room_);
+    point_ = Buffer<int>(entries), weight_ = Buffer<double>(entries), push_ = Buffer<double>(entries);
+  }
 
   SolveRows view(const StepRows& rows) {
     return {rows,
@@ -146,10 +158,7 @@ class StepSolve {
   }
   IslandOrder islands(const SolveRows& s) {
     return {s,
-            reachRoom(),
-            reach_count_.data(),
-            reach_point_.data(),
-            reach_weight_.data(),
+            {reach_first_.data(), reach_count_.data(), reach_point_.data(), reach_weight_.data(), reach_point_.size()},
             row_own_.data(),
             row_drift_.data(),
             island_.data(),
@@ -164,6 +173,7 @@ class StepSolve {
             size_.data(),
             number_.data(),
             taken_.data(),
+            rows_at_.data(),
             free_points_.data(),
             root_.data(),
             island_points_.data(),
@@ -173,60 +183,73 @@ class StepSolve {
             steps_.data()};
   }
 
+  void run() {
+    const SolveRows s = view(recorded_.rows);
+    const IslandOrder o = islands(s);
+    start(s, recorded_.predictor);
+    order(o, false);
+    queue_.repeatWhile(NextSweeps{o, limits_.data()}, [&] {
+      sweep(o);
+      queue_.doIf(EndSweeps{facts_.data(), limits_.data()}, [&] { order(o, true); });
+    });
+    queue_.forEachOf(s.rows, EndRows{o});
+    queue_.forEach(samples_, SpreadSamples{s, samples_, sample_sum_.data()});
+    queue_.forEach(points_, EndPoints{{m_, sample_sum_.data(), predicted_.data()}, recorded_.solved});
+  }
   /// What rows are, and where the iteration starts from.
-  void start(const SolveRows& s, int n, const Buffer<Point4>& predictor) {
+  void start(const SolveRows& s, const Point4* predictor) {
     queue_.forEach(kRowLists * samples_, ClearRowLists{s, samples_});
-    queue_.forEach(points_, ToVectors{predictor.data(), predicted_.data()});
-    queue_.forEach(n, CountRows{s, samples_});
+    queue_.forEach(points_, ToVectors{predictor, predicted_.data()});
+    queue_.forEachOf(s.rows, CountRows{s, samples_});
     list_sum_.run(queue_, of_list_, list_begin_);
-    queue_.forEach(n, PlaceRows{s, samples_});
+    queue_.forEachOf(s.rows, PlaceRows{s, samples_});
     queue_.forEach(kRowLists * samples_, SortRows{s});
     const StartRows rows{m_, s};
     moveSamples(predicted_);
-    queue_.forEach(n, rows);
+    queue_.forEachOf(s.rows, rows);
     queue_.forEach(samples_, SmoothSamples{s, samples_, family_of_sample_.data()});
     queue_.forEach(points_, SmoothPoints{m_, family_of_sample_.data(), family_of_point_.data()});
-    queue_.forEach(n, SmoothRows{m_, s, family_of_point_.data()});
+    queue_.forEachOf(s.rows, SmoothRows{m_, s, family_of_point_.data()});
     queue_.forEach(samples_, SpreadSamples{s, samples_, sample_sum_.data()});
     queue_.forEach(points_, StartPoints{{m_, sample_sum_.data(), predicted_.data()}, s.moved, s.moved_before});
     moveSamples(moved_);
-    queue_.forEach(n, LookAtLeftOut{rows, nullptr, nullptr});
-    queue_.forEach(n, ForgetReach{islands(s)});
+    queue_.forEachOf(s.rows, LookAtLeftOut{rows, nullptr, nullptr});
+    queue_.forEachOf(s.rows, ForgetReach{islands(s)});
   }
-  /// Islands and the order of rows.
-  SolveFacts order(const SolveRows& s, int n, bool goes_on) {
-    const IslandOrder o = islands(s);
+  /// Islands and the order of rows; `goes_on`: there were islands before.
+  void order(const IslandOrder& o, bool goes_on) {
     // The rows by what they begin with stand behind the other lists.
     const RowsInOrder sorted{listed_.data(), list_begin_.data() + kBegins * samples_};
+    const StepRows& rows = o.s.rows;
     using Group = typename Device::Group;
     queue_.forEach(std::max(1, points_), ClearPoints{o, points_});
-    queue_.forGroups(n, TiePoints<Group>{m_, o});
-    queue_.forEach(n, NumberIslands{o});
-    queue_.forEach(n, PlaceIslands{o});
-    queue_.forEach(n, PlaceInIslands{o, sorted});
-    queue_.forEach(n * reachRoom(), NumberPoints{o});
-    queue_.forEach(n, SortByPosition{o, sorted});
+    queue_.forResidentGroups(TiePoints<Group>{m_, o});
+    queue_.forEachOf(rows, NumberIslands{o});
+    queue_.forEachOf(rows, PlaceIslands{o});
+    queue_.forEachOf(rows, PlaceInIslands{o, sorted});
+    queue_.forResidentGroups(NumberPoints<Group>{o});
+    queue_.forEachOf(rows, SortByPosition{o, sorted});
     queue_.forResidentGroups(ColourRows<Group>{o});
-    queue_.forEach(n, SortByColour{o});
+    queue_.forEachOf(rows, SortByColour{o});
     queue_.forResidentGroups(EndIslands<Group>{o, goes_on});
-    const FillRows fill{o,
-                        row_facts_.data(),
-                        own_.data(),
-                        slope_.data(),
-                        entries_.data(),
-                        state_.data(),
-                        place_in_order_.data(),
-                        kPlaces * inRowBlocks(static_cast<int>(start_.size()))};
-    queue_.forEach(n, fill);
-    queue_.forEach(n * reachRoom(), FillEntries{m_, fill, point_.data(), weight_.data(), push_.data()});
-    return queue_.download(facts_, 1)[0];
+    queue_.forResidentGroups(FillRows<Group>{m_,
+                                             o,
+                                             row_facts_.data(),
+                                             own_.data(),
+                                             slope_.data(),
+                                             entries_.data(),
+                                             state_.data(),
+                                             place_in_order_.data(),
+                                             static_cast<int>(packed_) * kPlaces,
+                                             point_.data(),
+                                             weight_.data(),
+                                             push_.data()});
   }
   /// Velocities of the samples.
   void moveSamples(const Buffer<Vec3>& points) {
     queue_.forEach(samples_, MoveSamplesWith{m_.WT, points.data(), sample_velocity_.data()});
   }
-  void sweep(const SolveRows& s, const SweepLimits& limits, int n) {
-    queue_.forEach(1, ForgetLooks{facts_.data()});
+  void sweep(const IslandOrder& o) {
     SolveData data{};
     data.islands = data.islands_now = islands_.data();
     data.chunks = chunks_.data(), data.steps = steps_.data();
@@ -239,18 +262,28 @@ class StepSolve {
     data.moved = data.moved_now = moved_.data();
     data.moved_before = data.moved_before_now = moved_before_.data();
     data.spilled = spilled_.data(), data.spilled_before = spilled_before_.data();
-    RunIslands<Device>::run(queue_, {data, limits, &facts_.data()->islands});
-    queue_.forEach(n, LookAtIslands{islands(s)});
+    RunIslands<Device>::run(queue_, {data, &facts_.data()->limits, &facts_.data()->islands});
+    queue_.forEachOf(o.s.rows, LookAtIslands{o});
     moveSamples(moved_);
-    queue_.forEach(n, LookAtLeftOut{{m_, s}, state_.data(), place_in_order_.data()});
+    queue_.forEachOf(o.s.rows, LookAtLeftOut{{m_, o.s}, state_.data(), place_in_order_.data()});
   }
+
+  /// What a recording is of.
+  struct Arrays {
+    StepRows rows;
+    const Point4* predictor;
+    Point4* solved;
+    bool operator==(const Arrays&) const = default;
+  };
 
   Queue& queue_;
   const ContactParameters& parameters_;
-  int points_, samples_, most_of_sample_ = 0;
+  int points_, samples_, most_of_sample_ = 0, repeats_ = 0;
+  std::size_t packed_ = 0, reach_room_ = 0;
   Buffer<double> area_m2_, of_obstacle_, of_sample_;
   SolveModel m_;
   Buffer<SolveFacts> facts_;
+  Buffer<SolveLimits> limits_;
   typename Device::ExclusiveSum list_sum_;
   Buffer<int> of_list_, list_begin_, on_body_, place_, listed_;
   Buffer<Vec3> sample_sum_, predicted_, moved_, moved_before_, spilled_, spilled_before_, start_, row_drift_,
@@ -260,13 +293,15 @@ class StepSolve {
   Buffer<double> row_area_, friction_, row_slope_, row_own_, own_, slope_, reach_weight_, weight_, push_;
   Buffer<char> in_;
   Buffer<RowState> row_state_;
-  Buffer<int> reach_count_, reach_point_, island_, rank_, kept_island_, position_, ordered_, colour_, key_, order_,
+  Buffer<int> reach_first_, reach_count_, reach_point_, island_, rank_, kept_island_, position_, ordered_, colour_, key_, order_,
       place_in_order_, root_, island_points_, steps_, point_;
   Buffer<int> tied_, size_, number_, free_points_;
-  Buffer<std::uint32_t> taken_;
+  Buffer<std::uint32_t> taken_, rows_at_;
   Buffer<RowEntries> entries_;
   Buffer<SolveIsland> islands_, kept_islands_;
   Buffer<SolveChunk> chunks_;
+  Arrays recorded_{};
+  std::optional<typename Device::Replay> pass_;
 };
 
 }  // namespace gambeson::gpu

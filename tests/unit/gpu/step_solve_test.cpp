@@ -73,14 +73,20 @@ std::optional<Solved> byDevice(const Model& m, HostRows rows, const std::vector<
   std::vector<Point4> predicted;
   for (const Vec3& v : velocity) predicted.push_back({v.x, v.y, v.z, 0});
   auto predictor = uploaded<Device>(queue, predicted), solved = predictor;
-  const auto report =
-      solve.solve({facts.data(), stencil.data(), touch.data(), terms.data(), traction.data(), impulse.data(), &n, n},
-                  static_cast<int>(n), dt_s, predictor, solved);
-  if (!report) {
+  using Solve = StepSolve<Device>;
+  SolveFacts facts_now;
+  typename Solve::Outcome outcome;
+  do {
+    solve.give({facts.data(), stencil.data(), touch.data(), terms.data(), traction.data(), impulse.data(), &n, n}, dt_s,
+               predictor, solved);
+    facts_now = queue.download(solve.facts(), 1)[0];
+    outcome = solve.outcome(facts_now);
+  } while (outcome == Solve::Outcome::no_room);
+  if (outcome == Solve::Outcome::too_large) {
     EXPECT_EQ(queue.download(traction, n), rows.traction);
     return std::nullopt;
   }
-  Solved s{*report, queue.download(traction, n), queue.download(impulse, n), {}, 0};
+  Solved s{Solve::report(facts_now), queue.download(traction, n), queue.download(impulse, n), {}, 0};
   for (const Point4& v : queue.download(solved, velocity.size())) s.velocity.push_back(vec(v));
   return s;
 }
