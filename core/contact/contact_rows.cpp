@@ -213,9 +213,10 @@ void reachRows(std::span<const ContactRow> rows, const SparseRows& WT, std::span
 }
 
 void restrict(std::span<const ContactRow> rows, int free_count, std::span<const double> inverse_mass,
-              std::span<const double> density, std::span<const Vec3> velocity, ContactWork& w) {
+              std::span<const double> density, std::span<const int> place, std::span<const Vec3> velocity,
+              ContactWork& w) {
   findIslands(free_count, w);
-  orderRows(free_count, w);
+  orderRows(rows, place, free_count, w);
   touchPoints(free_count, w);
   const int n = static_cast<int>(w.order.size()), touched = static_cast<int>(w.free_points.size());
   w.inverse_mass.resize(touched);

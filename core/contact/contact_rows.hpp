@@ -46,7 +46,8 @@ Vec3 velocityAt(const ContactRow& row, const SparseRows& WT, std::span<const Vec
 /// Sorts work.order by islands, which keep the order of their first rows, and these by row_order.hpp; the free points
 /// that the rows touch; everything of the iteration that follows from the rows, and its arrays at their sizes.
 void restrict(std::span<const ContactRow> rows, int free_count, std::span<const double> inverse_mass,
-              std::span<const double> density, std::span<const Vec3> velocity, ContactWork& work);
+              std::span<const double> density, std::span<const int> place, std::span<const Vec3> velocity,
+              ContactWork& work);
 
 /// Where samples outnumber control points, tractions have parts that move nothing; a solve neither makes nor removes
 /// them, so what an impact left would stay. Each warm start moves a fifth of the way to the lumped projection of the

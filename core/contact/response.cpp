@@ -32,6 +32,7 @@ struct Problem {
   std::span<const ContactRow> rows;
   const SparseRows& WT;
   std::span<const double> inverse_mass, density;
+  std::span<const int> place;
   std::span<const Vec3> velocity;
   const ContactParameters& parameters;
   double dt;
@@ -45,7 +46,7 @@ void choose(const Problem& p, ContactWork& w) {
   std::stable_sort(w.order.begin(), w.order.end(),
                    [&](int a, int b) { return p.rows[a].stencil.sample[0] < p.rows[b].stencil.sample[0]; });
   reachRows(p.rows, p.WT, p.inverse_mass, p.velocity, w);
-  restrict(p.rows, p.WT.column_count, p.inverse_mass, p.density, p.velocity, w);
+  restrict(p.rows, p.WT.column_count, p.inverse_mass, p.density, p.place, p.velocity, w);
   if (w.hold) largestBounds(w);  // before velocities are set: it works in their arrays
 }
 
@@ -301,13 +302,13 @@ void layerUnder(double last, double dt, double density, const ContactParameters&
 }
 
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-                           std::span<const double> area, std::span<const double> density, const ContactParameters& c,
-                           double dt, std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
-                           ContactWork& w, MotionHold* hold, std::span<RowSlip> slip) {
+                           std::span<const double> area, std::span<const double> density, std::span<const int> place,
+                           const ContactParameters& c, double dt, std::span<Vec3> velocity, std::span<Vec3> warm,
+                           std::vector<Vec3>& impulses, ContactWork& w, MotionHold* hold, std::span<RowSlip> slip) {
   impulses.assign(rows.size(), {});
   w.hold = hold;
   if (rows.empty()) return {};
-  const Problem problem{rows, WT, inverse_mass, density, velocity, c, dt};
+  const Problem problem{rows, WT, inverse_mass, density, place, velocity, c, dt};
   shareAreas(rows, WT, area, inverse_mass, w);
   w.reach.assign(rows.size(), {});
   w.reach_point.clear();

@@ -159,7 +159,7 @@ struct ContactWork {
   /// Rows of one colour of a chunk share no free point. Of rows in the order of the iteration, and bits of each point.
   std::vector<int> colour, unsorted_colour;
   std::vector<std::array<std::uint64_t, 4>> taken;
-  /// Rows that are taken one after the other: a whole island, or a patch of a large one, which shares no free point
+  /// Rows that are taken one after the other: a whole island, or a part of a large one, which shares no free point
   /// with others of its phase. Begins here in `order`, and ends where the next one begins.
   struct Chunk {
     int row = 0, phase = 0;
@@ -259,10 +259,11 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 ///
 /// `WT`: samples x free points; `inverse_mass`: of the free points, 0 where held; `area`, `density`: per sample [m^2,
 /// kg/m^2];
+/// `place`: of the samples, so that neighbours stand together (halving.hpp); empty: no island is cut.
 /// `velocity`: free velocities in, with impulses out; `warm`: tractions to start from, one per row, replaced by the
 /// result.
 ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-                           std::span<const double> area, std::span<const double> density,
+                           std::span<const double> area, std::span<const double> density, std::span<const int> place,
                            const ContactParameters& parameters, double dt_s, std::span<Vec3> velocity,
                            std::span<Vec3> warm, std::vector<Vec3>& impulses, ContactWork& work,
                            MotionHold* hold = nullptr, std::span<RowSlip> slip = {});

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/contact/halving.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -167,6 +168,7 @@ std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const Mode
   m.proximity = std::make_unique<ProximityQuery>(m.obstacles);
   std::vector<Vec3> rest(m.surface.size());
   m.surface.W.multiply<Vec3>(m.cloth->rest(), rest);
+  m.place = halvedPlaces(rest);
   const std::vector<Placement> placement(m.obstacles.size());
   m.collisions =
       buildCollisions(m.surface, rest, std::move(garment), m.layer_m, m.obstacles, placement, options.self_contact);

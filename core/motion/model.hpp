@@ -69,11 +69,12 @@ struct Model {
   Bulges bulges;
   std::vector<double> mass_kg, inverse_mass, area_m2;  ///< of the free points; inverse_mass is 0 where held
   std::vector<char> held;                              ///< free points that do not move, or as is prescribed
-  std::vector<int> held_points;           ///< free points that something takes hold of, in whole or in part, ascending
+  std::vector<int> held_points;  ///< free points that something takes hold of, in whole or in part, ascending
   /// Of each of held_points which motion of the Stage's moves it, or -1; empty: nothing is moved. Of worn cloth.
   std::vector<int> held_motion;
   int held_motion_count = 0;
   std::vector<double> density_kg_per_m2;  ///< of the samples
+  std::vector<int> place;                 ///< of the samples, so that neighbours at rest stand together (halvedPlaces)
   std::vector<double> cell_m;   ///< of the samples: the shorter side of their cell at rest, through its middle
   std::vector<double> layer_m;  ///< of the samples: least distance to a body; of cloth to cloth, half the sum of both
   SparseRows weft;  ///< samples x free points: along the weft at rest, where friction goes with the direction

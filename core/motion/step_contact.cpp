@@ -94,8 +94,8 @@ void solveRows(const Model& m, double dt, MotionHold* limits, Yield& yield, Step
     for (ContactRow& row : w.rows) row.fixed = !(givesWay(m, row, scratch) > kNothing);
   }
   const auto solve = [&](std::span<const ContactRow> rows) {
-    return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt,
-                         w.velocity, w.warm, w.impulses, w.contact, hold, w.slip);
+    return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.place, m.contact,
+                         dt, w.velocity, w.warm, w.impulses, w.contact, hold, w.slip);
   };
   w.unsolved = w.velocity;
   int before = 0;

@@ -6,6 +6,7 @@
 
 #include "core/contact/contact_iteration.hpp"
 #include "core/contact/contact_rows.hpp"
+#include "core/contact/halving.hpp"
 #include "core/contact/iteration_lanes.hpp"
 #include "gpu/scenes/random.hpp"
 
@@ -40,9 +41,14 @@ ContactProblem contactStack(const StackSize& size, std::uint64_t seed) {
   p.goal_m_per_s = 1e-7;
   const auto sampleAt = [&](int layer, int i, int j) { return (layer * samples + j) * samples + i; };
   const auto atEnd = [&](int i) { return i == 0 || i == samples - 1 ? 0.5 : 1.0; };
+  std::vector<Vec3> at;
   for (int l = 0; l < size.layers; ++l)
     for (int j = 0; j < samples; ++j)
-      for (int i = 0; i < samples; ++i) addSample(cells, l * across * across, i / 2.0, j / 2.0, p.WT);
+      for (int i = 0; i < samples; ++i) {
+        addSample(cells, l * across * across, i / 2.0, j / 2.0, p.WT);
+        at.push_back({i / 2.0, j / 2.0, 0.1 * l});
+      }
+  p.place = halvedPlaces(at);
   for (int l = 0; l < size.layers; ++l)
     for (int j = 0; j < samples; ++j)
       for (int i = 0; i < samples; ++i) {
@@ -97,6 +103,7 @@ ContactProblem besides(const std::vector<ContactProblem>& problems) {
       all.WT.endRow();
     }
     all.WT.column_count += p.WT.column_count;
+    for (int place : p.place) all.place.push_back(samples + place);
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     append(all.inverse_mass, p.inverse_mass), append(all.velocity, p.velocity), append(all.area, p.area);
     append(all.slope, p.slope), append(all.friction, p.friction), append(all.traction, p.traction);
@@ -120,7 +127,7 @@ void startProblem(const ContactProblem& p, ContactWork& w) {
                    [&](int a, int b) { return p.rows[a].stencil.sample[0] < p.rows[b].stencil.sample[0]; });
   reachRows(p.rows, p.WT, p.inverse_mass, p.velocity, w);
   const std::vector<double> density(p.WT.rows(), 1.0);
-  restrict(p.rows, p.WT.column_count, p.inverse_mass, density, p.velocity, w);
+  restrict(p.rows, p.WT.column_count, p.inverse_mass, density, p.place, p.velocity, w);
   w.impulses.assign(n, {});
   for (std::size_t k = 0; k < w.order.size(); ++k) {
     w.facts[k].slope = w.facts[k].largest = p.slope[w.order[k]];

@@ -15,6 +15,7 @@ struct ContactProblem {
   std::vector<ContactRow> rows;
   SparseRows WT;
   std::vector<double> inverse_mass;
+  std::vector<int> place;      ///< of the samples (halving.hpp); none: no island is cut
   std::vector<Vec3> velocity;  ///< of the free points
   std::vector<double> area, slope, friction;
   std::vector<Vec3> traction;

@@ -297,8 +297,8 @@ class DeviceStep final : public StepOnDevice {
     std::vector<Vec3> velocity, impulses;
     for (const Point4& v : queue_.download(predictor_, static_cast<std::size_t>(n_))) velocity.push_back(vec(v));
     const ContactSolve done =
-        solveContacts(rows, m_.surface.WT, m_.inverse_mass, m_.surface.area_m2, m_.density_kg_per_m2, m_.contact, dt,
-                      velocity, warm, impulses, host_work_, nullptr, {});
+        solveContacts(rows, m_.surface.WT, m_.inverse_mass, m_.surface.area_m2, m_.density_kg_per_m2, m_.place,
+                      m_.contact, dt, velocity, warm, impulses, host_work_, nullptr, {});
     std::vector<Point4> all;
     for (const Vec3& v : velocity) all.push_back(point4(v));
     queue_.upload(std::span<const Point4>(all), solved_);

@@ -1,7 +1,7 @@
 #pragma once
 /// The islands of a solve and the order of their rows, on a device: what restrict (core/contact/contact_rows.cpp) and
 /// orderRows (row_order.cpp) make of the rows that are iterated on, where no island is so large that core cuts it into
-/// patches. Islands and points have other numbers here, which nothing hangs on.
+/// chunks. Islands and points have other numbers here, which nothing hangs on.
 
 #include <limits>
 

@@ -36,7 +36,7 @@ int largestIsland(const ContactWork& w) {
   return most;
 }
 
-/// Rows alone, pairs, islands of all sizes up to three patches' and more; frictions from none to much, some with drag
+/// Rows alone, pairs, islands of all sizes up to three chunks' and more; frictions from none to much, some with drag
 /// through compliance.
 std::vector<ContactProblem> problems() {
   std::vector<ContactProblem> all = manifestProblems();
@@ -44,8 +44,8 @@ std::vector<ContactProblem> problems() {
   for (std::uint64_t seed = 1; seed <= 80; ++seed) small.push_back(contactStack({1, 1, 0.15}, seed));
   for (std::uint64_t seed = 1; seed <= 6; ++seed) small.push_back(contactStack({2, 3, 0.5}, seed));
   all.push_back(besides(small));
-  all.push_back(contactStack({3, 7, 1}, 8));     // one patch of 675 rows
-  all.push_back(contactStack({1, 40, 0.5}, 9));  // patches of 3,300 rows
+  all.push_back(contactStack({3, 7, 1}, 8));     // one chunk of 675 rows
+  all.push_back(contactStack({1, 40, 0.5}, 9));  // chunks of 3,300 rows
   Random random(3);
   for (ContactProblem& p : all)
     for (double& mu : p.friction) mu = std::max(0.0, 0.8 * random.even());

@@ -50,8 +50,8 @@ Solved byCore(const Model& m, const HostRows& rows, const std::vector<Vec3>& vel
     all.push_back(contactRow(rows.facts[i], rows.stencil[i], rows.touch[i], rows.terms[i]));
   Solved s{{}, rows.traction, {}, velocity, 0};
   ContactWork work;
-  s.report = solveContacts(all, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.contact, dt_s,
-                           s.velocity, s.traction, s.impulse, work, nullptr, {});
+  s.report = solveContacts(all, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.place,
+                           m.contact, dt_s, s.velocity, s.traction, s.impulse, work, nullptr, {});
   for (const auto& island : work.islands) s.largest_island = std::max(s.largest_island, island.row_end - island.row);
   return s;
 }

@@ -49,8 +49,8 @@ struct Block {
     const std::vector<double> inverse{1 / kMass_kg}, area{kArea_m2}, density{kMass_kg / kArea_m2};
     std::vector<Vec3> velocity{v + dt * (weight() + Vec3{force / kMass_kg, 0, 0})};
     slip[0].broke = false;
-    solve = solveContacts({&row, 1}, W, inverse, area, density, parameters, dt, velocity, warm, impulses, work, nullptr,
-                          slip);
+    solve = solveContacts({&row, 1}, W, inverse, area, density, {}, parameters, dt, velocity, warm, impulses, work,
+                          nullptr, slip);
     EXPECT_TRUE(solve.converged);
     v = velocity[0];
     slip[0].slips = slip[0].slips && slip[0].speed_m_per_s > parameters.still(dt);
