@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "cases/study/compare.hpp"
 #include "cases/study/files.hpp"
@@ -11,6 +12,7 @@
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson::study {
 namespace {
@@ -25,6 +27,36 @@ double timeOf(const VariantGroup& g, const Comparison& c, const PictureCase& wis
   return wish.when == PictureTime::end || !top ? run->recorded_to_s : top->peak_time_s;
 }
 
+/// A run that is drawn, and the group in which it stands.
+struct Drawn {
+  const VariantGroup& group;
+  std::size_t run;
+};
+
+std::vector<Drawn> drawnOf(const Study& s, const Comparison& c) {
+  std::vector<Drawn> drawn;
+  for (const VariantGroup& g : c.groups)
+    for (const std::size_t i : g.members)
+      if (c.runs[i].good && std::holds_alternative<Case>(s.variants[i].definition)) drawn.push_back({g, i});
+  return drawn;
+}
+
+/// f(k) for k < n, side by side where recordings may be read so; why each did not go well.
+template <class F>
+std::vector<std::string> forAllRuns(std::size_t n, F&& f) {
+  std::vector<std::string> why(n);
+  const auto nothing = [](int) { return 0; };
+  forAllInTeam(recordsSideBySide() ? omp_get_max_threads() : 1, static_cast<int>(n), nothing, [&](int, int, int at) {
+    const auto k = static_cast<std::size_t>(at);
+    try {
+      f(k);
+    } catch (const std::exception& e) {
+      why[k] = e.what();
+    }
+  });
+  return why;
+}
+
 }  // namespace
 
 std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, const std::filesystem::path& out,
@@ -34,36 +66,50 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
   const std::filesystem::path folder = out / files::pictures;
   std::filesystem::create_directories(folder);
   for (const std::filesystem::path& earlier : ownFiles(folder)) removeOwnFile(earlier);
+  const std::vector<Drawn> drawn = drawnOf(s, c);
+  const auto wishOf = [&](const Drawn& d, std::size_t w) {
+    PictureCase wish = s.pictures[w];
+    wish.time_s = timeOf(d.group, c, wish);
+    wish.when = PictureTime::at;
+    return wish;
+  };
   // One scale for all groups, so that motions can be compared as well.
   std::vector<PictureScale> scales(s.pictures.size());
-  for (const bool draw : {false, true})
-    for (const VariantGroup& g : c.groups)
-      for (const std::size_t i : g.members) {
-        if (!c.runs[i].good || !std::holds_alternative<Case>(s.variants[i].definition)) continue;
-        const Variant& v = s.variants[i];
-        try {
-          const auto [recording, scenario, facts] = recordedRun(out / v.folder);
-          for (std::size_t w = 0; w < s.pictures.size(); ++w) {
-            PictureCase wish = s.pictures[w];
-            wish.time_s = timeOf(g, c, wish);
-            wish.when = PictureTime::at;
-            const int frame = frameOf(recording, {}, wish);
-            if (!draw) {
-              scales[w].include(scaleOf(*scenario, recording, frame, wish.field));
-              scales[w].high = std::max(scales[w].high, fieldRange(*scenario, recording, wish.field));
-              continue;
-            }
-            const std::filesystem::path png = folder / files::pictureName(v.folder, w);
-            renderFrame(*scenario, recording, frame, wish, scales[w], png);
-            pictures.push_back(
-                {i, w, png,
-                 v.label + ". " +
-                     captionOf(wish, recording.time(frame), std::get<Case>(v.definition).comfort.sensor_m)});
-          }
-        } catch (const std::runtime_error& e) {
-          if (draw) failures.push_back(fmt::format("A picture of {} could not be drawn: {}", v.label, e.what()));
-        }
+  std::vector<std::vector<PictureScale>> own(drawn.size(), scales);
+  forAllRuns(drawn.size(), [&](std::size_t k) {
+    const auto [recording, scenario, facts] = recordedRun(out / s.variants[drawn[k].run].folder);
+    for (std::size_t w = 0; w < s.pictures.size(); ++w) {
+      const PictureCase wish = wishOf(drawn[k], w);
+      PictureScale& scale = own[k][w];
+      scale = scaleOf(*scenario, recording, frameOf(recording, {}, wish), wish.field);
+      scale.high = std::max(scale.high, fieldRange(*scenario, recording, wish.field));
+    }
+  });
+  for (const std::vector<PictureScale>& of_run : own)
+    for (std::size_t w = 0; w < scales.size(); ++w) scales[w].include(of_run[w]);
+  std::vector<std::vector<SidePicture>> taken(drawn.size());
+  std::mutex pencil;  // pictures are drawn by one thread of a process at a time
+  const std::vector<std::string> why = forAllRuns(drawn.size(), [&](std::size_t k) {
+    const Variant& v = s.variants[drawn[k].run];
+    const auto [recording, scenario, facts] = recordedRun(out / v.folder);
+    for (std::size_t w = 0; w < s.pictures.size(); ++w) {
+      const PictureCase wish = wishOf(drawn[k], w);
+      const int frame = frameOf(recording, {}, wish);
+      const std::filesystem::path png = folder / files::pictureName(v.folder, w);
+      {
+        const std::lock_guard alone(pencil);
+        renderFrame(*scenario, recording, frame, wish, scales[w], png);
       }
+      taken[k].push_back(
+          {drawn[k].run, w, png,
+           v.label + ". " + captionOf(wish, recording.time(frame), std::get<Case>(v.definition).comfort.sensor_m)});
+    }
+  });
+  for (std::size_t k = 0; k < drawn.size(); ++k) {
+    pictures.insert(pictures.end(), taken[k].begin(), taken[k].end());
+    if (!why[k].empty())
+      failures.push_back(fmt::format("A picture of {} could not be drawn: {}", s.variants[drawn[k].run].label, why[k]));
+  }
   return pictures;
 }
 

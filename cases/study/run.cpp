@@ -189,6 +189,7 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
   const std::vector<Stand> stands = standsOf(s, o);
   checkFolder(s, o, stands);  // what another command has left meanwhile
   const int threads = o.threads > 0 ? o.threads : machineThreads();
+  useThreads(threads);
 
   std::vector<Outcome> outcomes(s.variants.size());
   std::vector<std::size_t> waiting;

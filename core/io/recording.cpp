@@ -201,6 +201,11 @@ Frame RecordingReader::frame(int index) const {
   return impl_->segments[static_cast<std::size_t>(segment)].frame(index);
 }
 
+Field RecordingReader::sampleField(int index, const std::string& name) const {
+  const int segment = impl_->segment_of.at(static_cast<std::size_t>(index));
+  return impl_->segments[static_cast<std::size_t>(segment)].sampleField(index, name);
+}
+
 RecordedTable RecordingReader::table(const std::string& name) const {
   const auto columns = impl_->layout.tables.find(name);
   if (columns == impl_->layout.tables.end()) throw RunError("the recording has no table " + name);

@@ -113,6 +113,8 @@ class RecordingReader {
   int frameCount() const;
   double time(int frame) const;
   Frame frame(int index) const;
+  /// One of a frame's sample_fields, without the rest of the frame; throws RunError where it has none of that name.
+  Field sampleField(int index, const std::string& name) const;
   /// All rows of a table.
   RecordedTable table(const std::string& name) const;
   /// One at the end of each closed segment.

@@ -312,6 +312,16 @@ Frame SegmentReader::frame(int index) const {
   });
 }
 
+Field SegmentReader::sampleField(int index, const std::string& name) const {
+  return reading(path_, [&] {
+    const std::string group = framePath(index) + "/samples", path = samplePath(index, name);
+    if (!holds(file_, group, hdf5::linkName(name))) throw RunError("the recording has no field \"" + name + "\"");
+    auto array = file_.floats(path);
+    if (array.rows != file_.shape(framePath(index) + "/positions").first) throw hdf5::Error(name + ": wrong size");
+    return Field{name, file_.textAttribute(path, "unit"), static_cast<int>(array.columns), std::move(array.values)};
+  });
+}
+
 FrameInfo SegmentReader::info(int index) const {
   return reading(path_, [&] {
     FrameInfo info;

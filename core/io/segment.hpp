@@ -70,6 +70,7 @@ class SegmentReader {
   SegmentReader(const std::filesystem::path& directory, const RecordingLayout& layout, int index, int first_frame);
   const std::vector<double>& times() const { return times_; }
   Frame frame(int index) const;  ///< numbered through the recording
+  Field sampleField(int index, const std::string& name) const;
   FrameInfo info(int index) const;
   void appendRows(TableRows& rows) const;
   Checkpoint checkpoint() const;

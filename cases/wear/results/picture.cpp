@@ -147,8 +147,7 @@ double fieldRange(const Scenario& s, const RecordingReader& recording, PictureFi
   for (const bool motion : {true, false}) {
     for (int k = 0; k < recording.frameCount(); ++k) {
       if (motion && !(recording.time(k) > 1e-9)) continue;
-      const Frame frame = recording.frame(k);
-      for (const float v : fieldOf(frame, words.field).data) values.push_back(v);
+      for (const float v : recording.sampleField(k, words.field).data) values.push_back(v);
       weights.insert(weights.end(), s.model->surface.area_m2.begin(), s.model->surface.area_m2.end());
     }
     if (!values.empty()) break;

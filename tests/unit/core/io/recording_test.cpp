@@ -133,6 +133,9 @@ void expectSame(const RecordingReader& reader, int frames) {
   for (int f = 0; f < frames; ++f) {
     EXPECT_EQ(reader.time(f), 0.1 * f);
     EXPECT_TRUE(same(reader.frame(f), someFrame(f))) << "frame " << f;
+    for (const Field& field : someFrame(f).sample_fields)
+      EXPECT_TRUE(same(std::vector{reader.sampleField(f, field.name)}, std::vector{field})) << field.name;
+    EXPECT_THROW(reader.sampleField(f, "none"), RunError);
     const auto row = static_cast<std::size_t>(f);
     EXPECT_EQ(rows.column("time_s")[row], someRow(f).values[0]);
     EXPECT_EQ(rows.column("thigh/left_Ns")[row], someRow(f).values[1]);
