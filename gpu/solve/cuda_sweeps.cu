@@ -10,13 +10,18 @@
 namespace gambeson::gpu {
 namespace {
 
-template <int Q>
+/// Of islands by teams, or by a block each.
+template <int Q, bool kTeams>
 __global__ void __launch_bounds__(Q* kQuad, 1)
     sweepIslands(SolveData data, SweepLimits limits, const SolveJob* jobs, int vectors) {
   using Sweeps = IslandSweeps<BlockQuads<Q>>;
   extern __shared__ double room[];
   __shared__ typename Sweeps::Shared shared;
-  Sweeps(data, limits, shared, reinterpret_cast<Vec3*>(room), vectors).run(BlockQuads<Q>{}, jobs[blockIdx.x]);
+  const Sweeps sweeps(data, limits, shared, reinterpret_cast<Vec3*>(room), vectors);
+  if constexpr (kTeams)
+    sweeps.runTeam(BlockQuads<Q>{}, jobs[blockIdx.x]);
+  else
+    sweeps.runAlone(BlockQuads<Q>{}, jobs[blockIdx.x].island);
 }
 
 template <int Q>
@@ -28,11 +33,12 @@ class CudaSweeps : public ContactSweeps {
     check(cudaDeviceGetAttribute(&most_shared_, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "its shared memory");
     check(cudaDeviceGetAttribute(&processors_, cudaDevAttrMultiProcessorCount, device), "its processors");
     cudaFuncAttributes own{};
-    check(cudaFuncGetAttributes(&own, sweepIslands<Q>), "the kernel of sweeps");
+    check(cudaFuncGetAttributes(&own, sweepIslands<Q, true>), "the kernel of sweeps");
     most_shared_ -= static_cast<int>(own.sharedSizeBytes);
     if (options.shared_kB >= 0) most_shared_ = std::min(most_shared_, 1024 * options.shared_kB);
-    check(cudaFuncSetAttribute(sweepIslands<Q>, cudaFuncAttributeMaxDynamicSharedMemorySize, most_shared_),
-          "room in shared memory");
+    for (const auto kernel : {sweepIslands<Q, true>, sweepIslands<Q, false>})
+      check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, most_shared_),
+            "room in shared memory");
   }
 
   void set(const ContactWork& work) override {
@@ -62,7 +68,8 @@ class CudaSweeps : public ContactSweeps {
       Cuda::Queue& queue = beside ? side_ : queue_;
       if (beside) side_.after(queue_);
       const int first = batches_.empty() ? 0 : batches_.back();
-      sweepIslands<Q><<<count_ - small_, kQuad * Q, shared_, queue.stream()>>>(data, limits, jobs + first, vectors_);
+      sweepIslands<Q, false>
+          <<<count_ - small_, kQuad * Q, shared_, queue.stream()>>>(data, limits, jobs + first, vectors_);
       check(cudaGetLastError(), "sweeps over islands");
     }
     if (!beside) return;
@@ -72,7 +79,7 @@ class CudaSweeps : public ContactSweeps {
     for (int to : batches_) {
       const SolveJob* those = jobs + from;
       void* arguments[] = {&data, &own, &those, &vectors};
-      check(cudaLaunchCooperativeKernel(sweepIslands<Q>, to - from, kQuad * Q, arguments, shared_, queue_.stream()),
+      check(cudaLaunchCooperativeKernel(sweepIslands<Q, true>, to - from, kQuad * Q, arguments, shared_, queue_.stream()),
             "sweeps over large islands");
       from = to;
     }

@@ -24,22 +24,30 @@ class IslandSweeps {
   GAMBESON_HD IslandSweeps(const SolveData& data, const SweepLimits& limits, Shared& shared, Vec3* room, int vectors)
       : d_(data), limits_(limits), shared_(shared), room_(room), vectors_(vectors) {}
 
-  GAMBESON_HD void run(const Group& group, const SolveJob& job) const {
-    SolveIsland island = d_.islands[job.island];
-    Team team(group, job.rank, job.groups, job.arrived);
-    if (island.chunk_end - island.chunk > 1)
-      runTeam(group, team, island);
-    else if (const int points = island.free_end - island.free_point; 2 * points <= vectors_)
+  /// An island of one chunk, by one group.
+  GAMBESON_HD void runAlone(const Group& group, int number) const {
+    SolveIsland island = d_.islands[number];
+    if (const int points = island.free_end - island.free_point; 2 * points <= vectors_)
       runAlone(group, island, room_, room_ + points);
     else
       runAlone(group, island, d_.spilled + island.free_point, d_.spilled_before + island.free_point);
-    group.each([&](int lane) {
-      if (lane == 0 && job.rank == 0) d_.islands_now[job.island] = island;
-    });
+    leave(group, island, number);
+  }
+  /// One of several chunks, by a team.
+  GAMBESON_HD void runTeam(const Group& group, const SolveJob& job) const {
+    SolveIsland island = d_.islands[job.island];
+    runTeam(group, Team(group, job.rank, job.groups, job.arrived), island);
+    if (job.rank == 0) leave(group, island, job.island);
   }
 
  private:
   using Lanes = typename Group::template PerLane<LaneTotals<Group::kQuads>>;
+
+  GAMBESON_HD void leave(const Group& group, const SolveIsland& island, int number) const {
+    group.each([&](int lane) {
+      if (lane == 0) d_.islands_now[number] = island;
+    });
+  }
 
   /// Lanes of this group begin with copies of what they take.
   GAMBESON_HD void startRows(const Group& group, int begin, int end) const {

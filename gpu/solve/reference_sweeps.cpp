@@ -31,7 +31,12 @@ class ReferenceSweeps : public ContactSweeps {
     for (int i = 0; i < n; ++i) {
       typename IslandSweeps<Group>::Shared shared;
       std::vector<Vec3> room(kRoom);
-      IslandSweeps<Group>(data, limits, shared, room.data(), kRoom).run(Group{}, {flat_.by_size[i], 0, 1, nullptr});
+      const IslandSweeps<Group> sweeps(data, limits, shared, room.data(), kRoom);
+      const int island = flat_.by_size[i];
+      if (isLarge(flat_.islands[island]))
+        sweeps.runTeam(Group{}, {island, 0, 1, nullptr});
+      else
+        sweeps.runAlone(Group{}, island);
     }
   }
   void get(ContactWork& w) const override {

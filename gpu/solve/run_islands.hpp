@@ -8,27 +8,48 @@
 
 namespace gambeson::gpu {
 
-/// Islands of one chunk each. `count`: how many there are; both it and the limits stand on the device.
+/// How many islands there are, and how far sweeps go, stands on the device.
 struct IslandRun {
   SolveData data;
   const SweepLimits* limits;
   const int* count;
+  // Of those that have several chunks.
+  const LargeIsland* large;
+  const int* large_count;
+  int* arrived;  ///< of the barriers of their teams, 0 before
 };
 
-/// Specialised beside each device.
+/// Sweeps over small islands, and over large ones. Specialised beside each device.
 template <class Device>
 struct RunIslands;
 
 template <int W>
 struct RunIslands<ReferenceOf<W>> {
-  static void run(typename ReferenceOf<W>::Queue&, const IslandRun& islands) {
-    using Group = HostQuads<8>;
+  using Queue = typename ReferenceOf<W>::Queue;
+
+  static void runSmall(Queue&, const IslandRun& islands) {
+    each(*islands.count, islands, [&](const Sweeps& sweeps, int i) {
+      if (!isLarge(islands.data.islands[i])) sweeps.runAlone(Group{}, i);
+    });
+  }
+  static void runLarge(Queue&, const IslandRun& islands) {
+    each(*islands.large_count, islands, [&](const Sweeps& sweeps, int l) {
+      sweeps.runTeam(Group{}, {islands.large[l].island, 0, 1, nullptr});
+    });
+  }
+
+ private:
+  using Group = HostQuads<8>;
+  using Sweeps = IslandSweeps<Group>;
+
+  template <class Visit>
+  static void each(int count, const IslandRun& islands, const Visit& visit) {
     constexpr int kRoom = 2048;  // so that large ones take the other way
 #pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < *islands.count; ++i) {
-      typename IslandSweeps<Group>::Shared shared;
+    for (int i = 0; i < count; ++i) {
+      typename Sweeps::Shared shared;
       std::vector<Vec3> room(kRoom);
-      IslandSweeps<Group>(islands.data, *islands.limits, shared, room.data(), kRoom).run(Group{}, {i, 0, 1, nullptr});
+      visit(Sweeps(islands.data, *islands.limits, shared, room.data(), kRoom), i);
     }
   }
 };

@@ -6,6 +6,8 @@
 namespace gambeson::gpu {
 
 using SolveIsland = ContactWork::Island;
+/// Whether it has several chunks.
+GAMBESON_HD inline bool isLarge(const SolveIsland& island) { return island.chunk_end - island.chunk > 1; }
 
 /// A chunk of an island: its rows, steps and points. Entries of its rows number points within the chunk. A step has at
 /// most kSumLanes rows of one colour, which are taken side by side.
@@ -17,6 +19,11 @@ struct SolveChunk {
 struct ChunkPoint {
   int point;
   bool first;
+};
+
+/// An island of several chunks, and how many of them are in one phase at most.
+struct LargeIsland {
+  int island, most_of_phase;
 };
 
 /// Numbers of rows: of eight rows side by side, number after number, so that the quads of a warp read what lies

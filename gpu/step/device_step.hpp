@@ -10,7 +10,6 @@
 #include "gpu/forces/shell_forces.hpp"
 #include "gpu/near/near_finder.hpp"
 #include "gpu/near/skin_on.hpp"
-#include "gpu/step/contact_row.hpp"
 #include "gpu/step/step_impacts.hpp"
 #include "gpu/step/step_kernels.hpp"
 #include "gpu/step/step_output.hpp"
@@ -165,15 +164,10 @@ class DeviceStep final : public StepOnDevice {
         continue;
       }
       if (from != From::impacts) {
-        const auto outcome = solve_.outcome(now.solve);
         from = From::solve;
-        if (outcome == Solve::Outcome::no_room) continue;
+        if (!solve_.took(now.solve)) continue;
         done.contact = Solve::report(now.solve);
         from = From::impacts;
-        if (outcome == Solve::Outcome::too_large) {
-          done.contact = solveOnHost(now.rows, dt);
-          continue;
-        }
       }
       if (contradict(done.contact, dt)) return void(done.leftTo(ByCpu::unsolved));
       ImpactCounts hits;
@@ -286,27 +280,6 @@ class DeviceStep final : public StepOnDevice {
 
   double keptPart(double dt) const { return -std::expm1(-dt / m_.contact.relaxation_s); }
 
-  /// Of an island that no group takes alone.
-  ContactSolve solveOnHost(Count n, double dt) {
-    const auto facts = near_.lists().download(queue_, n);
-    const auto terms = queue_.download(terms_, n);
-    auto warm = queue_.download(traction_, n);
-    std::vector<ContactRow> rows;
-    for (std::size_t i = 0; i < n; ++i)
-      rows.push_back(contactRow(facts.facts[i], facts.stencil[i], facts.touch[i], terms[i]));
-    std::vector<Vec3> velocity, impulses;
-    for (const Point4& v : queue_.download(predictor_, static_cast<std::size_t>(n_))) velocity.push_back(vec(v));
-    const ContactSolve done =
-        solveContacts(rows, m_.surface.WT, m_.inverse_mass, m_.surface.area_m2, m_.density_kg_per_m2, m_.place,
-                      m_.contact, dt, velocity, warm, impulses, host_work_, nullptr, {});
-    std::vector<Point4> all;
-    for (const Vec3& v : velocity) all.push_back(point4(v));
-    queue_.upload(std::span<const Point4>(all), solved_);
-    if (n == 0) return done;
-    queue_.upload(std::span<const Vec3>(warm), traction_);
-    queue_.upload(std::span<const Vec3>(impulses), impulse_);
-    return done;
-  }
   void makeImpacts() {
     if (!m_.collisions.self && m_.obstacles.empty()) return;
     const Buffer<Vec3>& x0 = near_.mesh().x0;
@@ -432,7 +405,6 @@ class DeviceStep final : public StepOnDevice {
   std::optional<StepImpacts<Device>> impacts_;  ///< where there is anything to touch
   std::vector<EllipsoidBody> ellipsoids_;
   Buffer<EllipsoidBody> ellipsoid_;
-  ContactWork host_work_;
 };
 
 }  // namespace gambeson::gpu

@@ -1,56 +1,13 @@
 #pragma once
 /// The islands of a solve and the order of their rows, on a device: what restrict (core/contact/contact_rows.cpp) and
-/// orderRows (row_order.cpp) make of the rows that are iterated on, where no island is so large that core cuts it into
-/// chunks. Islands and points have other numbers here, which nothing hangs on.
+/// orderRows (row_order.cpp) make of the rows that are iterated on; large islands are cut in solve_chunks.hpp. Islands,
+/// parts and points have other numbers here, which nothing hangs on.
 
 #include <limits>
 
-#include "core/contact/row_order.hpp"
-#include "gpu/step/solve_rows.hpp"
+#include "gpu/step/island_order.hpp"
 
 namespace gambeson::gpu {
-
-constexpr int kIslandRows = kWholeIsland;  ///< of an island, at most
-constexpr int kColourWords = kColours / 32;
-
-/// What rows move: entries of each row from its `first` on.
-struct RowReach {
-  int *first, *count;
-  int* point;
-  double* weight;
-  Count room;  ///< for the entries of all rows
-};
-
-struct IslandOrder {
-  SolveRows s;
-  RowReach reach;
-  // Of rows.
-  double* own;  ///< what the row's own impulse does to it, over its area; drift: of what nothing of the points does
-  Vec3* drift;
-  int *island, *rank, *kept_island;  ///< of a row; -1: none
-  // Of places: rows of an island together.
-  int *position, *ordered, *colour, *key, *order;
-  // Of points.
-  int *tied, *size;  ///< size: of a root rows, then the island's number
-  int* number;       ///< in its island, from 1 on
-  std::uint32_t *taken, *rows_at;  ///< rows_at: of a group that colours, 0 before and after
-  int* free_points;
-  // Of islands.
-  int *root, *island_points;
-  SolveIsland *islands, *kept_islands;
-  SolveChunk* chunks;
-  int* steps;
-
-  /// Whether there is an island that no group takes, or no room: nothing is ordered then, and nothing solved.
-  GAMBESON_HD bool fails() const { return s.facts->most_rows > kIslandRows || s.facts->reach > reach.room; }
-  GAMBESON_HD const int* pointsOf(int i) const { return reach.point + reach.first[i]; }
-};
-
-/// All rows by the sample that they begin with, then as they come.
-struct RowsInOrder {
-  const int *listed, *begin;  ///< lists; where those of this sort begin
-  GAMBESON_HD int operator[](int p) const { return listed[*begin + p] / kPartsOfRow; }
-};
 
 struct ForgetReach {
   IslandOrder o;
@@ -63,6 +20,8 @@ struct ClearPoints {
     SolveFacts& facts = *o.s.facts;
     if (k == 0) {
       facts.islands = facts.rows = facts.points = facts.others = 0;
+      facts.parts = facts.large = facts.cut = 0, facts.bits = 0;
+      facts.chunk_points = points;
     }
     if (k >= points) return;
     o.tied[k] = k;
@@ -187,18 +146,23 @@ struct PlaceIslands {
     island.row_end = island.row + rows;
     island.chunk = q, island.chunk_end = q + 1;
     o.islands[q] = island;
-    o.island_points[q] = 0;
+    o.island_points[q] = o.island_parts[q] = 0;
     fetchMax(&o.s.facts->most_rows, rows);
   }
 };
+/// A small island has its rows in the order in which they come, a large one by the places that they begin with first.
 struct PlaceInIslands {
+  SolveModel m;
   IslandOrder o;
   RowsInOrder sorted;
   GAMBESON_HD void operator()(int p) const {
     const int i = sorted[p];
     if (o.island[i] < 0) return;
     o.island[i] = o.size[o.island[i]];
-    o.position[o.islands[o.island[i]].row + o.rank[i]] = p;
+    const SolveIsland& island = o.islands[o.island[i]];
+    const bool large = island.row_end - island.row > kWholeIsland && m.places > 0;
+    const int place = large ? m.place[o.s.rows.stencil[i].sample[0]] : 0;
+    o.position[island.row + o.rank[i]] = static_cast<Count>(place) << 32 | static_cast<Count>(p);
   }
 };
 /// Of places of islands: o.ordered, rows in their order.
@@ -207,7 +171,8 @@ struct SortByPosition {
   RowsInOrder sorted;
   GAMBESON_HD void operator()(int k) const {
     if (k >= o.s.facts->rows || o.fails()) return;
-    const int mine = o.position[k], i = sorted[mine];
+    const Count mine = o.position[k];
+    const int i = sorted[static_cast<int>(mine & 0xffffffffU)];
     const SolveIsland& island = o.islands[o.island[i]];
     int rank = island.row;
     for (int b = island.row; b < island.row_end; ++b) rank += o.position[b] < mine;
@@ -215,134 +180,6 @@ struct SortByPosition {
   }
 };
 
-/// Gives rows of an island, by a group, the first colour that no row before has at any of the row's points; what finds
-/// all taken one of its own. A lane has a row: which rows of the others come before it at its points is found side by
-/// side, so that in turn each has only to tell the others its colour. Nearly all find one of the first 32, whose bits
-/// lie in shared memory, by the numbers of the points.
-template <class Group>
-struct ColourRows {
-  static constexpr int kResident = 16, kStaged = 16, kPoints = 1152;
-  struct Shared {
-    std::uint32_t first[kPoints], rows[kPoints];
-    int point[kStaged][32];
-  };
-
-  IslandOrder o;
-  GAMBESON_HD void operator()(const Group& group, Shared& shared, int index, int groups) const {
-    const int islands = o.fails() ? 0 : o.s.facts->islands;
-    for (int q = index; q < islands; q += groups) {
-      const int points = o.island_points[q];
-      group.each([&](int lane) {
-        for (int p = lane; p < points && p < kPoints; p += Group::kLanes) shared.first[p] = shared.rows[p] = 0;
-      });
-      group.sync();
-      const SolveIsland& island = o.islands[q];
-      int more = kColours;
-      for (int k = island.row; k < island.row_end; k += Group::kLanes)
-        colour(group, shared, k, island.row_end - k < Group::kLanes ? island.row_end - k : Group::kLanes,
-               points <= kPoints, more);
-    }
-  }
-
- private:
-  using Bits = typename Group::template PerLane<std::uint32_t>;
-
-  GAMBESON_HD std::uint32_t& taken(int f, int word) const {
-    return o.taken[static_cast<std::ptrdiff_t>(kColourWords) * f + word];
-  }
-  /// visit(colours at the point, rows of the group at it) for each point of a row.
-  template <class Visit>
-  GAMBESON_HD void eachPoint(Shared& shared, int lane, int i, bool numbered, bool staged, const Visit& visit) const {
-    const int count = o.reach.count[i];
-    const int* const points = o.pointsOf(i);
-    for (int e = 0; e < count; ++e) {
-      const bool stands = e < kStaged;
-      const int p = staged && stands ? shared.point[e][lane] : numbered ? o.number[points[e]] - 1 : points[e];
-      if (!staged && stands) shared.point[e][lane] = p;
-      if (numbered)
-        visit(shared.first[p], shared.rows[p]);
-      else
-        visit(taken(p, 0), o.rows_at[p]);
-    }
-  }
-
-  /// The n rows from place k on.
-  GAMBESON_HD void colour(const Group& group, Shared& shared, int k, int n, bool numbered, int& more) const {
-    Bits all, before;  // colours that are taken, rows of the group that come before
-    group.each([&](int lane) {
-      if (lane >= n) return;
-      eachPoint(shared, lane, o.ordered[k + lane], numbered, false,
-                [&](std::uint32_t&, std::uint32_t& rows) { fetchOr(&rows, std::uint32_t{1} << lane); });
-    });
-    group.sync();
-    group.each([&](int lane) {
-      all[lane] = before[lane] = 0;
-      if (lane >= n) return;
-      eachPoint(shared, lane, o.ordered[k + lane], numbered, true, [&](std::uint32_t& colours, std::uint32_t& rows) {
-        all[lane] |= colours;
-        before[lane] |= rows;
-      });
-    });
-    typename Group::template PerLane<int> mine(0);
-    for (int r = 0; r < n; ++r) {
-      const std::uint32_t there = group.of(all, r);
-      const int colour = ~there != 0 ? firstClear(there) : laterColour(group, o.ordered[k + r], more);
-      group.each([&](int lane) {
-        if (lane == r) mine[lane] = colour;
-        if (colour < 32 && (before[lane] >> r & 1) != 0) all[lane] |= std::uint32_t{1} << colour;
-      });
-    }
-    group.sync();
-    group.each([&](int lane) {
-      if (lane >= n) return;
-      o.colour[k + lane] = mine[lane];
-      eachPoint(shared, lane, o.ordered[k + lane], numbered, true, [&](std::uint32_t& colours, std::uint32_t& rows) {
-        if (mine[lane] < 32) fetchOr(&colours, std::uint32_t{1} << mine[lane]);
-        put(&rows, std::uint32_t{0});
-      });
-    });
-    group.sync();
-  }
-  /// Of a row that finds the first ones taken.
-  GAMBESON_HD int laterColour(const Group& group, int i, int& more) const {
-    const int* const points = o.pointsOf(i);
-    const int count = o.reach.count[i];
-    for (int w = 1; w < kColourWords; ++w) {
-      Bits mine;
-      group.each([&](int lane) {
-        mine[lane] = 0;
-        for (int e = lane; e < count; e += Group::kLanes) mine[lane] |= taken(points[e], w);
-      });
-      const std::uint32_t all = group.orOf(mine);
-      if (~all == 0) continue;
-      const int bit = firstClear(all);
-      group.each([&](int lane) {
-        for (int e = lane; e < count; e += Group::kLanes) taken(points[e], w) |= std::uint32_t{1} << bit;
-      });
-      group.sync();
-      return 32 * w + bit;
-    }
-    return more++;
-  }
-};
-
-/// Of places: o.order, rows by colour, then in their order; o.key: which of its colour a row is.
-struct SortByColour {
-  IslandOrder o;
-  GAMBESON_HD void operator()(int k) const {
-    if (k >= o.s.facts->rows || o.fails()) return;
-    const int i = o.ordered[k], mine = o.colour[k];
-    const SolveIsland& island = o.islands[o.island[i]];
-    int below = 0, same = 0;
-    for (int b = island.row; b < island.row_end; ++b) {
-      const int other = o.colour[b];
-      below += other < mine;
-      same += other == mine && b < k;
-    }
-    o.order[island.row + below + same] = i;
-    o.key[island.row + below + same] = same;
-  }
-};
 /// Points are numbered within their islands; a group takes a row.
 template <class Group>
 struct NumberPoints {
@@ -368,8 +205,8 @@ struct NumberPoints {
   }
 };
 
-/// A group takes an island after the other: where its points stand, its steps, and how it goes on where its rows were
-/// in islands before.
+/// A group takes an island after the other: where its points stand, and how it goes on where its rows were in islands
+/// before.
 template <class Group>
 struct EndIslands {
   static constexpr int kResident = 32;
@@ -389,32 +226,15 @@ struct EndIslands {
       const int points = o.island_points[q];
       island.free_point = group.once([&] { return fetchAdd(&o.s.facts->points, points); });
       island.free_end = island.free_point + points;
-      SolveChunk chunk{};
-      chunk.row = begin, chunk.row_end = begin + n;
-      chunk.step = begin, chunk.step_end = begin + cutIntoSteps(group, begin, n);
       if (goes_on) goOn(group, shared, begin, n, island);
       group.each([&](int lane) {
-        if (lane == 0) o.islands[q] = island, o.chunks[q] = chunk;
+        if (lane == 0) o.islands[q] = island;
       });
       group.sync();
     }
   }
 
  private:
-  /// Rows of one colour, at most kSumLanes of them, are a step: where steps begin; how many there are.
-  GAMBESON_HD int cutIntoSteps(const Group& group, int begin, int n) const {
-    int steps = 0;
-    for (int first = 0; first < n; first += Group::kLanes) {
-      typename Group::template PerLane<bool> starts;
-      group.each([&](int lane) { starts[lane] = first + lane < n && o.key[begin + first + lane] % kSumLanes == 0; });
-      const LaneMask mask = group.ballot(starts);
-      group.each([&](int lane) {
-        if (starts[lane]) o.steps[begin + steps + lanesBefore(mask, lane)] = begin + first + lane;
-      });
-      steps += lanesIn(mask);
-    }
-    return steps;
-  }
   /// With the least momentum of those that grew together, the first of several (join, core/contact/response.cpp).
   GAMBESON_HD void goOn(const Group& group, Shared& shared, int begin, int n, SolveIsland& island) const {
     typename Group::template PerLane<bool> differs;
@@ -453,6 +273,46 @@ struct EndIslands {
   }
 };
 
+/// Parts become chunks, by a group each.
+template <class Group>
+struct EndChunks {
+  static constexpr int kResident = 32;
+  struct Shared {};
+
+  IslandOrder o;
+  GAMBESON_HD void operator()(const Group& group, Shared&, int index, int groups) const {
+    const int parts = o.fails() ? 0 : o.s.facts->parts;
+    for (int at = index; at < parts; at += groups) {
+      const int begin = o.parts[at];
+      const IslandPart part = o.part[begin];
+      SolveChunk chunk{};
+      chunk.row = part.to, chunk.row_end = part.to + part.end - begin;
+      chunk.step = part.to, chunk.step_end = part.to + cutIntoSteps(group, part.to, part.end - begin);
+      if (part.bits >= 0) chunk.point = part.point, chunk.point_end = part.point + part.points;
+      chunk.phase = part.phase;
+      group.each([&](int lane) {
+        if (lane == 0) o.chunks[part.chunk] = chunk;
+      });
+    }
+  }
+
+ private:
+  /// Rows of one colour, at most kSumLanes of them, are a step: where steps begin; how many there are.
+  GAMBESON_HD int cutIntoSteps(const Group& group, int begin, int n) const {
+    int steps = 0;
+    for (int first = 0; first < n; first += Group::kLanes) {
+      typename Group::template PerLane<bool> starts;
+      group.each([&](int lane) { starts[lane] = first + lane < n && o.key[begin + first + lane] % kSumLanes == 0; });
+      const LaneMask mask = group.ballot(starts);
+      group.each([&](int lane) {
+        if (starts[lane]) o.steps[begin + steps + lanesBefore(mask, lane)] = begin + first + lane;
+      });
+      steps += lanesIn(mask);
+    }
+    return steps;
+  }
+};
+
 /// Rows in the order of the iteration, with what they are to it, by a group each.
 template <class Group>
 struct FillRows {
@@ -476,16 +336,20 @@ struct FillRows {
       const int i = o.order[k], count = o.reach.count[i], without = count > kPlaces ? count - kPlaces : 0;
       const int more = others + group.once([&] { return without == 0 ? 0 : fetchAdd(&o.s.facts->others, without); });
       const int free_point = o.islands[o.island[i]].free_point;
+      const IslandPart part = o.part[o.part_at[k]];
       group.each([&](int lane) {
         if (lane == 0) fill(k, i, {count, more});
         for (int e = lane; e < count; e += Group::kLanes) {
-          const int from = o.reach.first[i] + e, f = o.reach.point[from], number = o.number[f] - 1;
+          const int from = o.reach.first[i] + e, f = o.reach.point[from], of_island = o.number[f] - 1,
+                    number = o.numberIn(part, f);
           const double w = o.reach.weight[from];
           const int at = e < kPlaces ? placeOf(k, e) : more + e - kPlaces;
           point[at] = number;
           weight[at] = w;
           push[at] = w * m.inverse_mass[f];
-          o.free_points[free_point + number] = f;
+          o.free_points[free_point + of_island] = f;
+          if (part.bits >= 0)
+            o.chunk_points[part.point + number] = {f, (o.bits[part.fresh + of_island / 32] >> of_island % 32 & 1) != 0};
         }
         for (int e = count + lane; e < kPlaces; e += Group::kLanes) {
           const int at = placeOf(k, e);

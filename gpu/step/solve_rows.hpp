@@ -18,6 +18,8 @@ struct SolveModel {
   const double *of_obstacle, *of_sample;  ///< mu of an obstacle, below 0: that of the sample
   double on_cloth;                        ///< mu of cloth on cloth
   int points, samples;
+  const int* place;  ///< of samples, of so many: core's Model::place
+  int places;
 };
 
 /// How far a solve may go.
@@ -33,11 +35,15 @@ struct SolveFacts {
   int iterations = 0, undone = 0;    ///< of islands: most, and how many are not done
   int joins = 0;                     ///< rows that are left out and would be penetrated
   int islands = 0, rows = 0, points = 0;
-  int most_rows = 0;          ///< of an island
-  Count reach = 0;            ///< entries of the points of rows that were asked for; above the room: there are too few
-  int others = 0;             ///< entries of rows that have no fixed place
-  SweepLimits limits{};       ///< of the sweeps that are next, or were last
-  bool ended = false;         ///< iterating
+  int most_rows = 0;         ///< of an island
+  int parts = 0, large = 0;  ///< of islands: those that become chunks, and islands of several
+  int cut = 0;               ///< parts of these
+  int chunk_points = 0;      ///< theirs, behind all points
+  Count bits = 0;            ///< words that islands of several parts ask for; above the room: there are too few
+  Count reach = 0;           ///< entries of the points of rows that were asked for; above the room: there are too few
+  int others = 0;            ///< entries of rows that have no fixed place
+  SweepLimits limits{};      ///< of the sweeps that are next, or were last
+  bool ended = false;        ///< iterating
   double residual_m_per_s = 0;  ///< as a report has it
   bool converged = false;       ///< likewise
 };

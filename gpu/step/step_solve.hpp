@@ -8,6 +8,8 @@
 #include "core/motion/model.hpp"
 #include "gpu/near/uploaded.hpp"
 #include "gpu/solve/run_islands.hpp"
+#include "gpu/step/colour_rows.hpp"
+#include "gpu/step/solve_chunks.hpp"
 #include "gpu/step/solve_islands.hpp"
 
 namespace gambeson::gpu {
@@ -29,6 +31,7 @@ class StepSolve {
         area_m2_(uploaded<Device>(queue, model.surface.area_m2)),
         of_obstacle_(uploaded<Device>(queue, frictionOfObstacles(model))),
         of_sample_(uploaded<Device>(queue, frictionOfSamples(model))),
+        place_of_sample_(uploaded<Device>(queue, model.place)),
         facts_(1),
         limits_(1),
         list_sum_(kRowLists * samples_) {
@@ -43,16 +46,18 @@ class StepSolve {
           of_sample_.data(),
           (model.contact.on_cloth ? *model.contact.on_cloth : model.contact.friction).kinetic,
           points_,
-          samples_};
+          samples_,
+          place_of_sample_.data(),
+          static_cast<int>(model.place.size())};
     const auto points = static_cast<std::size_t>(points_), samples = static_cast<std::size_t>(samples_);
     for (Buffer<int>* lists : {&of_list_, &list_begin_}) *lists = Buffer<int>(kRowLists * samples);
     on_body_ = Buffer<int>(samples);
     sample_sum_ = Buffer<Vec3>(samples), sample_velocity_ = Buffer<Vec3>(samples);
     family_of_sample_ = Buffer<FamilySums>(samples), family_of_point_ = Buffer<FamilySums>(points);
-    for (Buffer<Vec3>* of_points : {&predicted_, &moved_, &moved_before_, &spilled_, &spilled_before_})
+    for (Buffer<Vec3>* of_points : {&predicted_, &moved_, &moved_before_, &spilled_before_})
       *of_points = Buffer<Vec3>(points);
     for (Buffer<int>* of_points : {&tied_, &size_, &number_, &free_points_}) *of_points = Buffer<int>(points);
-    taken_ = Buffer<std::uint32_t>(kColourWords * points), rows_at_ = Buffer<std::uint32_t>(points);
+    makeBits(kFirstBits);
   }
 
   /// Given without waiting: solves for rows whose terms and tractions at the start are set; leaves tractions and
@@ -70,18 +75,21 @@ class StepSolve {
   }
   /// Of the solve that was given last, on the device.
   const Buffer<SolveFacts>& facts() const { return facts_; }
-  /// What has come of it.
-  enum class Outcome { solved, too_large, no_room };
-  /// Nothing is solved where an island is too large for one group, or where the points of rows have no room: there is
-  /// room now. The rows' tractions stand as they were then.
-  Outcome outcome(const SolveFacts& facts) {
+  /// Whether there was room for it. Where the points of rows, or of parts of islands, had none, nothing is solved and
+  /// the rows' tractions stand as they were; there is room now.
+  bool took(const SolveFacts& facts) {
     if (facts.reach > reach_point_.size()) {
       reach_room_ = std::max<std::size_t>(2 * reach_room_, facts.reach);
       makeReach();
       ++repeats_;
-      return Outcome::no_room;
+      return false;
     }
-    return facts.most_rows > kIslandRows ? Outcome::too_large : Outcome::solved;
+    if (facts.bits > bits_.size()) {
+      makeBits(std::max<std::size_t>(2 * bits_.size(), facts.bits));
+      ++repeats_;
+      return false;
+    }
+    return true;
   }
   static ContactSolve report(const SolveFacts& facts) {
     ContactSolve report;
@@ -113,9 +121,14 @@ class StepSolve {
   void makeRoom(std::size_t room) {
     if (room <= start_.size()) return;
     packed_ = static_cast<std::size_t>(inRowBlocks(static_cast<int>(room)));
-    for (Buffer<int>* of_rows : {&reach_first_, &reach_count_, &island_, &rank_, &kept_island_, &position_, &ordered_,
-                                 &colour_, &key_, &order_, &place_in_order_, &root_, &island_points_, &steps_})
+    for (Buffer<int>* of_rows :
+         {&reach_first_, &reach_count_, &island_, &rank_, &kept_island_, &ordered_, &colour_, &key_, &order_, &part_of_,
+          &part_at_, &parts_, &place_in_order_, &root_, &island_points_, &island_parts_, &island_bits_, &steps_})
       *of_rows = Buffer<int>(room);
+    position_ = Buffer<Count>(room), part_ = Buffer<IslandPart>(room);
+    largest2_ = Buffer<double>(2 * room), against_ = Buffer<double>(2 * room);
+    const std::size_t large = room / kWholeIsland + 1;
+    large_ = Buffer<LargeIsland>(large), arrived_ = Buffer<int>(large);
     for (Buffer<int>* of_parts : {&place_, &listed_}) *of_parts = Buffer<int>(kPartsOfRow * room);
     for (Buffer<double>* of_rows : {&row_area_, &friction_, &row_slope_, &row_own_, &own_, &slope_})
       *of_rows = Buffer<double>(room);
@@ -135,6 +148,17 @@ class StepSolve {
     const std::size_t entries = packed_ * kPlaces + reach_room_;
     reach_point_ = Buffer<int>(reach_room_), reach_weight_ = Buffer<double>(reach_room_);
     point_ = Buffer<int>(entries), weight_ = Buffer<double>(entries), push_ = Buffer<double>(entries);
+  }
+
+  /// Arrays of the bits of parts of islands, and of the points of these: with a row for each part, and as many more,
+  /// less than sixteen points a word.
+  void makeBits(std::size_t words) {
+    pass_.reset();
+    bits_ = Buffer<std::uint32_t>(words), before_ = Buffer<int>(words);
+    const std::size_t points = static_cast<std::size_t>(points_) + 16 * words;
+    taken_ = Buffer<std::uint32_t>(kColourWords * points), rows_at_ = Buffer<std::uint32_t>(points);
+    chunk_points_ = Buffer<ChunkPoint>(points);
+    spilled_ = Buffer<Vec3>(points);
   }
 
   SolveRows view(const StepRows& rows) {
@@ -169,14 +193,25 @@ class StepSolve {
             colour_.data(),
             key_.data(),
             order_.data(),
+            part_of_.data(),
+            part_at_.data(),
+            part_.data(),
+            parts_.data(),
             tied_.data(),
             size_.data(),
             number_.data(),
+            free_points_.data(),
             taken_.data(),
             rows_at_.data(),
-            free_points_.data(),
+            chunk_points_.data(),
+            bits_.data(),
+            before_.data(),
+            bits_.size(),
             root_.data(),
             island_points_.data(),
+            island_parts_.data(),
+            island_bits_.data(),
+            large_.data(),
             islands_.data(),
             kept_islands_.data(),
             chunks_.data(),
@@ -226,24 +261,25 @@ class StepSolve {
     queue_.forResidentGroups(TiePoints<Group>{m_, o});
     queue_.forEachOf(rows, NumberIslands{o});
     queue_.forEachOf(rows, PlaceIslands{o});
-    queue_.forEachOf(rows, PlaceInIslands{o, sorted});
+    queue_.forEachOf(rows, PlaceInIslands{m_, o, sorted});
     queue_.forResidentGroups(NumberPoints<Group>{o});
     queue_.forEachOf(rows, SortByPosition{o, sorted});
+    queue_.forEachOf(rows, CutIslands{m_, o});
+    queue_.doIf(AnyLarge{facts_.data()}, [&] {
+      queue_.forEachOf(rows, PlaceBits{o});
+      queue_.forEachOf(rows, FindBits{o});
+      queue_.forEachOf(ClearBits{o}, ClearBits{o});
+      queue_.forResidentGroups(MarkPoints<Group>{o});
+      queue_.forResidentGroups(CountBits<Group>{o});
+      queue_.forResidentGroups(PhaseParts<Group>{o});
+    });
     queue_.forResidentGroups(ColourRows<Group>{o});
     queue_.forEachOf(rows, SortByColour{o});
     queue_.forResidentGroups(EndIslands<Group>{o, goes_on});
-    queue_.forResidentGroups(FillRows<Group>{m_,
-                                             o,
-                                             row_facts_.data(),
-                                             own_.data(),
-                                             slope_.data(),
-                                             entries_.data(),
-                                             state_.data(),
-                                             place_in_order_.data(),
-                                             static_cast<int>(packed_) * kPlaces,
-                                             point_.data(),
-                                             weight_.data(),
-                                             push_.data()});
+    queue_.forResidentGroups(EndChunks<Group>{o});
+    queue_.forResidentGroups(FillRows<Group>{m_, o, row_facts_.data(), own_.data(), slope_.data(), entries_.data(),
+                                             state_.data(), place_in_order_.data(), static_cast<int>(packed_) * kPlaces,
+                                             point_.data(), weight_.data(), push_.data()});
   }
   /// Velocities of the samples.
   void moveSamples(const Buffer<Vec3>& points) {
@@ -261,8 +297,16 @@ class StepSolve {
     data.free = free_points_.data();
     data.moved = data.moved_now = moved_.data();
     data.moved_before = data.moved_before_now = moved_before_.data();
+    data.chunk_points = chunk_points_.data();
+    data.largest2 = largest2_.data(), data.against = against_.data();
     data.spilled = spilled_.data(), data.spilled_before = spilled_before_.data();
-    RunIslands<Device>::run(queue_, {data, &facts_.data()->limits, &facts_.data()->islands});
+    const IslandRun islands{data,          &facts_.data()->limits, &facts_.data()->islands,
+                            large_.data(), &facts_.data()->large,  arrived_.data()};
+    RunIslands<Device>::runSmall(queue_, islands);
+    queue_.doIf(AnyLarge{facts_.data()}, [&] {
+      queue_.forEach(static_cast<int>(arrived_.size()), ClearArrived{arrived_.data()});
+      RunIslands<Device>::runLarge(queue_, islands);
+    });
     queue_.forEachOf(o.s.rows, LookAtIslands{o});
     moveSamples(moved_);
     queue_.forEachOf(o.s.rows, LookAtLeftOut{{m_, o.s}, state_.data(), place_in_order_.data()});
@@ -276,11 +320,14 @@ class StepSolve {
     bool operator==(const Arrays&) const = default;
   };
 
+  static constexpr std::size_t kFirstBits = 2048;
+
   Queue& queue_;
   const ContactParameters& parameters_;
   int points_, samples_, most_of_sample_ = 0, repeats_ = 0;
   std::size_t packed_ = 0, reach_room_ = 0;
   Buffer<double> area_m2_, of_obstacle_, of_sample_;
+  Buffer<int> place_of_sample_;
   SolveModel m_;
   Buffer<SolveFacts> facts_;
   Buffer<SolveLimits> limits_;
@@ -293,10 +340,17 @@ class StepSolve {
   Buffer<double> row_area_, friction_, row_slope_, row_own_, own_, slope_, reach_weight_, weight_, push_;
   Buffer<char> in_;
   Buffer<RowState> row_state_;
-  Buffer<int> reach_first_, reach_count_, reach_point_, island_, rank_, kept_island_, position_, ordered_, colour_, key_, order_,
-      place_in_order_, root_, island_points_, steps_, point_;
+  Buffer<int> reach_first_, reach_count_, reach_point_, island_, rank_, kept_island_, ordered_, colour_, key_, order_,
+      part_of_, part_at_, parts_, place_in_order_, root_, island_points_, island_parts_, island_bits_, steps_, point_;
+  Buffer<Count> position_;
+  Buffer<IslandPart> part_;
+  Buffer<LargeIsland> large_;
+  Buffer<int> arrived_;  ///< of teams
+  Buffer<double> largest2_, against_;
   Buffer<int> tied_, size_, number_, free_points_;
-  Buffer<std::uint32_t> taken_, rows_at_;
+  Buffer<std::uint32_t> taken_, rows_at_, bits_;
+  Buffer<int> before_;
+  Buffer<ChunkPoint> chunk_points_;
   Buffer<RowEntries> entries_;
   Buffer<SolveIsland> islands_, kept_islands_;
   Buffer<SolveChunk> chunks_;
