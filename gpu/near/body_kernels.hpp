@@ -39,7 +39,7 @@ struct PlaceVertices {
   }
 };
 
-constexpr int kExtentPart = 4;  ///< vertices that a lane looks at
+constexpr int kExtentPart = 16;  ///< vertices that a lane looks at
 
 /// Of body `which`, some vertices.
 struct FindExtent {

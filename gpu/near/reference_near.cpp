@@ -16,10 +16,10 @@ std::unique_ptr<SkinBender> skinOnReference(const Skin& skin, int most_times) {
 NearSizes roomForNear(const CollisionModel& m) {
   const unsigned long long samples = static_cast<unsigned long long>(m.cloth.cloth_vertices) + 256;
   NearSizes room;
-  room.fill(4 * samples);
-  room[kClothPoints] = room[kClothEdges] = 24 * samples;
-  room[kBodyPoints] = 16 * samples;
-  room[kOnBodies] = room[kContacts] = samples;
+  room.fill(2 * samples);
+  room[kClothPoints] = room[kClothEdges] = 16 * samples;
+  room[kBodyPoints] = 8 * samples;
+  room[kOnBodies] = room[kContacts] = samples / 4;
   return room;
 }
 

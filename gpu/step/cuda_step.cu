@@ -6,8 +6,8 @@
 
 namespace gambeson::gpu {
 
-std::unique_ptr<StepOnDevice> stepOnCuda(const Model& model, const State& start, const StageWork& stage) {
-  return std::make_unique<DeviceStep<Cuda>>(model, start, stage);
+std::unique_ptr<StepOnDevice> stepOnCuda(const Model& model, const State& start, const StageWork& stage, double room) {
+  return std::make_unique<DeviceStep<Cuda>>(model, start, stage, room);
 }
 
 }  // namespace gambeson::gpu

@@ -26,13 +26,13 @@ class DeviceStep final : public StepOnDevice {
   using Solve = StepSolve<Device>;
 
  public:
-  DeviceStep(const Model& model, const State& start, const StageWork& stage)
+  DeviceStep(const Model& model, const State& start, const StageWork& stage, double room)
       : m_(model),
         n_(model.freeCount()),
         samples_(model.surface.size()),
         forces_(dynamic_cast<const NurbsShell&>(*model.cloth), {}),
         near_({model.collisions, model.obstacles, model.bulges}, nearStart(model, start, stage),
-              roomForNear(model.collisions)),
+              partOf(roomForNear(model.collisions), room)),
         queue_(near_.queue()),
         WT_(queue_, model.surface.WT),
         WTt_(queue_, model.surface.WTt),
@@ -60,7 +60,7 @@ class DeviceStep final : public StepOnDevice {
     sample_begin_ = Buffer<int>(static_cast<std::size_t>(samples_));
     sample_scan_.emplace(samples_);
     makeRows();
-    makeImpacts();
+    makeImpacts(room);
   }
 
   long repeats() const override { return near_.repeats() + solve_.repeats() + (impacts_ ? impacts_->repeats() : 0); }
@@ -218,6 +218,11 @@ class DeviceStep final : public StepOnDevice {
   static constexpr int kRounds = 8;    ///< of solves, as in core
   static constexpr int kRebuild = 16;  ///< steps between trees that are built anew
 
+  template <class Sizes>
+  static Sizes partOf(Sizes sizes, double part) {
+    for (Count& n : sizes) n = std::max<Count>(16, static_cast<Count>(part * static_cast<double>(n)));
+    return sizes;
+  }
   static NearStep nearStart(const Model& m, const State& s, const StageWork& w) {
     static thread_local std::vector<Vec3> x;
     x.resize(m.surface.size());
@@ -280,10 +285,10 @@ class DeviceStep final : public StepOnDevice {
 
   double keptPart(double dt) const { return -std::expm1(-dt / m_.contact.relaxation_s); }
 
-  void makeImpacts() {
+  void makeImpacts(double room) {
     if (!m_.collisions.self && m_.obstacles.empty()) return;
     const Buffer<Vec3>& x0 = near_.mesh().x0;
-    impacts_.emplace(queue_, m_, queue_.download(x0, x0.size()), roomForImpacts(m_.collisions));
+    impacts_.emplace(queue_, m_, queue_.download(x0, x0.size()), partOf(roomForImpacts(m_.collisions), room));
     for (std::size_t o = 0; o < m_.obstacles.size(); ++o)
       if (const auto* e = std::get_if<Ellipsoid>(&m_.obstacles[o].shape)) {
         ellipsoids_.emplace_back();
@@ -314,8 +319,8 @@ class DeviceStep final : public StepOnDevice {
     queue_.forEach(n_, MovePoints{position_.data(), solved_.data(), dt, f.free_position, facts_.data()});
     queue_.forEach(samples_, LookAtWays{near_.mesh().x0.data(), near_.mesh().x1.data(), cell_.data(), facts_.data()});
     const StepRows all = rows();
-    queue_.forEach(room(), LookAtRows{all, near_.lists().facts().count, density_.data(), dt, keptPart(dt), near_.warm().borne(),
-                                      share_.data(), active_.data(), facts_.data()});
+    queue_.forEach(room(), LookAtRows{all, near_.lists().facts().count, density_.data(), dt, keptPart(dt),
+                                      near_.warm().borne(), share_.data(), active_.data(), facts_.data()});
     queue_.zero(of_sample_);
     queue_.forEachOf(all, CountParts{all, share_.data(), of_sample_.data(), part_place_.data()});
     sample_scan_->run(queue_, of_sample_, sample_begin_);

@@ -14,15 +14,18 @@
 namespace gambeson::gpu {
 namespace {
 
-using MakeDevice = std::unique_ptr<StepOnDevice> (*)(const Model&, const State&, const StageWork&);
+using MakeDevice = std::unique_ptr<StepOnDevice> (*)(const Model&, const State&, const StageWork&, double);
 
 /// The control of velocity Verlet, whose steps a device makes. Its own states have no points: these stand on the
 /// device, and with the ledger, which may be some steps behind.
 class DeviceVerlet final : public DeviceSteps, private VelocityVerlet {
  public:
   DeviceVerlet(const Model& model, const gambeson::Stage& stage, const StepControl& control, Frequency& frequency,
-               StepWork& work, MakeDevice make)
-      : VelocityVerlet(model, stage, control, frequency, work), make_(make), ledger_(model, stage, work) {
+               StepWork& work, MakeDevice make, double room)
+      : VelocityVerlet(model, stage, control, frequency, work),
+        make_(make),
+        room_(room),
+        ledger_(model, stage, work) {
     if (const auto missing = stepNotCarried(model, {}, control))
       throw RunError("steps on a device do not carry " + *missing);
   }
@@ -73,7 +76,7 @@ class DeviceVerlet final : public DeviceSteps, private VelocityVerlet {
     if (!device_) {
       StageWork ends;
       placeEnds(model_, stage_, in.time_s, end_s, ends);
-      device_ = make_(model_, ledger_.state(), ends);
+      device_ = make_(model_, ledger_.state(), ends, room_);
     }
     if (!stands(in)) {
       device_->set(ledger_.state());
@@ -190,6 +193,7 @@ class DeviceVerlet final : public DeviceSteps, private VelocityVerlet {
   }
 
   MakeDevice make_;
+  double room_;  ///< of lists at the start, a part of the usual
   std::unique_ptr<StepOnDevice> device_;
   StepLedger ledger_;
   std::vector<Placement> start_, end_, anchors_end_;
@@ -252,12 +256,13 @@ std::size_t bytesOnDevice(const Model& model) {
 }
 
 std::unique_ptr<DeviceSteps> stepsOnReference(const Model& model, const gambeson::Stage& stage,
-                                              const StepControl& control, Frequency& frequency, StepWork& work) {
-  return std::make_unique<DeviceVerlet>(model, stage, control, frequency, work, stepOnReference);
+                                              const StepControl& control, Frequency& frequency, StepWork& work,
+                                              double room) {
+  return std::make_unique<DeviceVerlet>(model, stage, control, frequency, work, stepOnReference, room);
 }
 std::unique_ptr<DeviceSteps> stepsOnCuda(const Model& model, const gambeson::Stage& stage, const StepControl& control,
-                                         Frequency& frequency, StepWork& work) {
-  return std::make_unique<DeviceVerlet>(model, stage, control, frequency, work, stepOnCuda);
+                                         Frequency& frequency, StepWork& work, double room) {
+  return std::make_unique<DeviceVerlet>(model, stage, control, frequency, work, stepOnCuda, room);
 }
 
 }  // namespace gambeson::gpu

@@ -40,11 +40,13 @@ std::optional<std::string> stepNotCarried(const Model& model, const MotionOption
 std::size_t bytesOnDevice(const Model& model);
 
 /// Both throw RunError for what is not carried; model, stage, frequency and work outlive what they give. The model must
-/// not change meanwhile: where supports have let go, steps are made anew.
+/// not change meanwhile: where supports have let go, steps are made anew. `room`: the part of their usual room that
+/// lists begin with, which changes no bit of a run.
 std::unique_ptr<DeviceSteps> stepsOnReference(const Model& model, const gambeson::Stage& stage,
-                                              const StepControl& control, Frequency& frequency, StepWork& work);
+                                              const StepControl& control, Frequency& frequency, StepWork& work,
+                                              double room = 1);
 /// Throws DeviceError where the GPU cannot be used.
 std::unique_ptr<DeviceSteps> stepsOnCuda(const Model& model, const gambeson::Stage& stage, const StepControl& control,
-                                         Frequency& frequency, StepWork& work);
+                                         Frequency& frequency, StepWork& work, double room = 1);
 
 }  // namespace gambeson::gpu

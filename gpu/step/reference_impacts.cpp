@@ -7,9 +7,9 @@ namespace gambeson::gpu {
 ImpactSizes roomForImpacts(const CollisionModel& m) {
   const unsigned long long vertices = static_cast<unsigned long long>(m.mesh.vertex_count) + 1024;
   ImpactSizes room;
-  room[kPointPairs] = 12 * vertices, room[kPointOpen] = 2 * vertices;
-  room[kEdgePairs] = 24 * vertices, room[kEdgeOpen] = 4 * vertices;
-  room[kPointHard] = room[kEdgeHard] = room[kPointMet] = room[kEdgeMet] = room[kStepHits] = vertices;
+  room[kPointPairs] = 8 * vertices, room[kPointOpen] = vertices;
+  room[kEdgePairs] = 16 * vertices, room[kEdgeOpen] = 2 * vertices;
+  room[kPointHard] = room[kEdgeHard] = room[kPointMet] = room[kEdgeMet] = room[kStepHits] = vertices / 4;
   return room;
 }
 

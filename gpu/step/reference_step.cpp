@@ -4,8 +4,9 @@
 
 namespace gambeson::gpu {
 
-std::unique_ptr<StepOnDevice> stepOnReference(const Model& model, const State& start, const StageWork& stage) {
-  return std::make_unique<DeviceStep<Reference>>(model, start, stage);
+std::unique_ptr<StepOnDevice> stepOnReference(const Model& model, const State& start, const StageWork& stage,
+                                              double room) {
+  return std::make_unique<DeviceStep<Reference>>(model, start, stage, room);
 }
 
 }  // namespace gambeson::gpu

@@ -80,8 +80,9 @@ class StepOnDevice {
   virtual void complete(State& state) = 0;
 };
 
-/// `start`: a state, with the stage at its time.
-std::unique_ptr<StepOnDevice> stepOnReference(const Model& model, const State& start, const StageWork& stage);
-std::unique_ptr<StepOnDevice> stepOnCuda(const Model& model, const State& start, const StageWork& stage);
+/// `start`: a state, with the stage at its time; `room`: the part of their usual room that lists begin with.
+std::unique_ptr<StepOnDevice> stepOnReference(const Model& model, const State& start, const StageWork& stage,
+                                              double room);
+std::unique_ptr<StepOnDevice> stepOnCuda(const Model& model, const State& start, const StageWork& stage, double room);
 
 }  // namespace gambeson::gpu

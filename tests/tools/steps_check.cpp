@@ -19,7 +19,7 @@ namespace {
 struct Options {
   std::string path, device = "cpu";
   std::vector<std::string> overrides;
-  double until_s = 1e9, window_s = 0.01, time_from_s = -1e9;
+  double until_s = 1e9, window_s = 0.01, time_from_s = -1e9, room = 1;
   long steps = 1L << 60;
 };
 
@@ -73,6 +73,7 @@ int check(int argc, char** argv) {
   app.add_option("--from", o.time_from_s, "time in s from which times are taken");
   app.add_option("--steps", o.steps, "at most");
   app.add_option("--window", o.window_s, "time in s between lines");
+  app.add_option("--room", o.room, "part of their usual room that lists on a device begin with");
   CLI11_PARSE(app, argc, argv);
   const bool on_gpu = o.device == "cuda";
   const std::size_t free_bytes = on_gpu ? gpu::gpuMemory().free_bytes : 0;
@@ -87,8 +88,8 @@ int check(int argc, char** argv) {
   if (o.device == "cpu") {
     integrator = makeIntegrator(time.motion, *scenario->model, *scenario->stage, time.control(), frequency, work);
   } else {
-    auto steps = (o.device == "cuda" ? gpu::stepsOnCuda : gpu::stepsOnReference)(*scenario->model, *scenario->stage,
-                                                                                 time.control(), frequency, work);
+    auto steps = (o.device == "cuda" ? gpu::stepsOnCuda : gpu::stepsOnReference)(
+        *scenario->model, *scenario->stage, time.control(), frequency, work, o.room);
     on_device = steps.get();
     integrator = std::move(steps);
   }

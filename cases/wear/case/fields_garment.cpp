@@ -113,7 +113,7 @@ Object garmentTable() {
       .integer(
           "samples_per_cell", &G::samples_per_cell, 0, 8,
           "contact samples along the edge of a cell; 0: one per control point (Greville points). All garments together "
-          "have at most 40,000 cells and 160,000 samples")
+          "have at most 1,100,000 cells and 1,100,000 samples")
       .number("seam_stiffness", &G::seam_stiffness_N, "N/rad", between(0, 1e4),
               "rotational spring of seams that meet at an angle: moment per length and angle")
       .number("weft_angle", &G::weft_angle_rad, "rad", between(-3.2, 3.2),

@@ -52,7 +52,7 @@ TEST(CheckBuilds, WhatARunOfClothingRefuses) {
   for (const Bad& bad : {
            Bad{R"("width": "20 cm")", R"("width": 1e-300)", 3, "garment.sheet", "area"},
            Bad{R"("cells_u": 4, "cells_v": 4)", R"("cells_u": 1000, "cells_v": 1000)", 3, "garment.sheet",
-               "at most 40,000 cells"},
+               "at most 1,100,000 cells"},
            Bad{"}},\n  \"fabric\"", "}, \"samples_per_cell\": 8},\n  \"fabric\"", 0, "", ""},
            Bad{"}},\n  \"fabric\"", "}, \"samples_per_cell\": 1},\n  \"fabric\"", 3, "garment.samples_per_cell",
                "do not see every control point"},
