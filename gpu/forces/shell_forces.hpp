@@ -205,8 +205,7 @@ class ShellForces final : public Forces {
   /// What seams alone give.
   void giveSeams(typename Device::Queue& queue, const Point4* position, Point4* force) {
     giveSeamSlots(queue, position);
-    queue.forEach(points_,
-                  GatherSeams{first_slot_.data(), slot_list_.data(), hinge_slot_, slot_.data(), force});
+    queue.forEach(points_, GatherSeams{first_slot_.data(), slot_list_.data(), hinge_slot_, slot_.data(), force});
   }
   /// Weights of the control points.
   const std::vector<double>& weights() const { return weights_; }
@@ -228,11 +227,10 @@ class ShellForces final : public Forces {
                                    position, slot + gap_slot_});
   }
   /// With what seams have left in their slots.
-  void giveCells(typename Device::Queue& queue, const Laws& laws, const HistoryArrays& history,
-                 const Point4* position, Point4* force) {
+  void giveCells(typename Device::Queue& queue, const Laws& laws, const HistoryArrays& history, const Point4* position,
+                 Point4* force) {
     Vec3* const slot = slot_.data();
-    for (const CellArrays& cells : laws.cells)
-      queue.forGroups(cells.cells, CellForces{cells, history, position, slot});
+    for (const CellArrays& cells : laws.cells) queue.forGroups(cells.cells, CellForces{cells, history, position, slot});
     const MoreSlots more{slot_.size() > 0 ? first_slot_.data() : nullptr, slot_list_.data(), slot};
     if (works_.size() > 0) {
       const auto run = [&]<class Kernel>(std::type_identity<Kernel>) {
@@ -314,9 +312,9 @@ class ShellForces final : public Forces {
   template <class Kernel>
   void runQuads(typename Device::Queue& queue, const MoreSlots& more, const Laws& laws, const Point4* position,
                 Point4* force) {
-    const QuadSheets sheets{function_u_.data(), function_v_.data(), basis_u_.data(), basis_v_.data(),
-                            touched_u_.data(),  touched_v_.data(),  rest_.data(),    position,
-                            force,              laws.sheets.data()};
+    const QuadSheets sheets{
+        function_u_.data(), function_v_.data(), basis_u_.data(), basis_v_.data(), touched_u_.data(),
+        touched_v_.data(),  rest_.data(),       position,        force,           laws.sheets.data()};
     Blocks<Device>::run(queue, static_cast<int>(works_.size()), Kernel{sheets, more, works_.data()});
   }
 

@@ -51,8 +51,7 @@ class DeviceFrequency {
   }
 
   /// largestFrequency with the free points at `position`, on the device; null: at `p`.
-  Frequency at(Queue& queue, const Point4* position, std::span<const Vec3> p, std::vector<Vec3>& mode,
-               int iterations) {
+  Frequency at(Queue& queue, const Point4* position, std::span<const Vec3> p, std::vector<Vec3>& mode, int iterations) {
     makeRoom(iterations);
     if (!position) {
       std::vector<Point4> all;
@@ -93,8 +92,8 @@ class DeviceFrequency {
     }
     const LargestOf largest = largestOf(diagonal, off);
     queue.uploadLater(std::span<const double>(largest.vector), weight_);
-    queue.forEach(n_, Together{basis_.data(), static_cast<int>(largest.vector.size()), n_, weight_.data(),
-                               vector_.data()});
+    queue.forEach(n_,
+                  Together{basis_.data(), static_cast<int>(largest.vector.size()), n_, weight_.data(), vector_.data()});
     takeUnit(queue, mode_.data(), found(kStart));
     share(queue, &laws_[kMembrane], false, kMembraneShare);
     share(queue, &laws_[kBending], false, kBendingShare);
@@ -171,7 +170,7 @@ class DeviceFrequency {
   std::vector<typename ShellForces<Device>::Laws> laws_;
   Buffer<double> root_, weight_, found_;
   Buffer<Vec3> basis_, mode_, vector_;
-  Buffer<Point4> free_, moved_;                            ///< of free points
+  Buffer<Point4> free_, moved_;                                            ///< of free points
   Buffer<Point4> position_, before_, after_, force_before_, force_after_;  ///< of all points
   SideSums<Device, LengthSum> lengths_;
   SideSums<Device, NumberSum> overlaps_;

@@ -1,6 +1,6 @@
 #pragma once
-/// Kernels of an estimate of the largest frequency (core/motion/frequency.cpp). Vectors are of free points; one by which
-/// points are moved is M^-1/2 times one of the basis.
+/// Kernels of an estimate of the largest frequency (core/motion/frequency.cpp). Vectors are of free points; one by
+/// which points are moved is M^-1/2 times one of the basis.
 
 #include <cmath>
 

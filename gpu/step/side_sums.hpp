@@ -36,8 +36,7 @@ class SideSums {
 
  public:
   SideSums() = default;
-  SideSums(int most, int items)
-      : part_(size(most * partsOf(items))), next_(size(most * partsOf(partsOf(items)))) {}
+  SideSums(int most, int items) : part_(size(most * partsOf(items))), next_(size(most * partsOf(partsOf(items)))) {}
 
   /// The sums of of(sum, i), i < n, for sum < sums, on the device until the next are asked for.
   template <class F>
