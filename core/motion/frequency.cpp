@@ -1,20 +1,11 @@
-#include <Eigen/Dense>
 #include <cmath>
-#include <cstdint>
 
 #include "core/motion/cloth_damping.hpp"
+#include "core/motion/lanczos.hpp"
 #include "core/motion/step.hpp"
 
 namespace gambeson {
 namespace {
-
-/// A fixed number in (-1, 1) for each index, so that a start vector is never blind to a mode.
-double scatter(std::uint64_t i) {
-  i += 0x9e3779b97f4a7c15ULL;
-  i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  i = (i ^ (i >> 27)) * 0x94d049bb133111ebULL;
-  return static_cast<double>((i ^ (i >> 31)) >> 11) / 4503599627370496.0 - 1.0;
-}
 
 /// K y for the parts that `terms` names, by a difference of the force over a displacement of at most 0.1 micrometre.
 /// Where the cloth damps its membrane counts as K + D rate.
@@ -44,7 +35,7 @@ class Stiffness {
     terms.steepest = true;
     double largest = 0;
     for (const Vec3& v : y) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    const double epsilon = 1e-7 / largest;
+    const double epsilon = kComparedOver_m / largest;
     shifted_.resize(p_.size());
     inner_shifted_.resize(inner_.size());
     inner_y_.resize(m_.inner_mass.size());
@@ -162,10 +153,10 @@ Frequency estimate(const Model& m, State& state, int iterations, double rate_per
   {
     std::vector<Vec3> start(n);
     const bool warm = static_cast<int>(state.mode.size()) == n;
+    const double noise = noiseOfLanczos(n);
     double size = 0;
     for (int i = 0; i < n; ++i) {
-      const Vec3 noise{scatter(3 * i), scatter(3 * i + 1), scatter(3 * i + 2)};
-      start[i] = warm ? state.mode[i] + (0.1 / std::sqrt(n)) * noise : noise;
+      start[i] = startOfLanczos(i, warm ? &state.mode[i] : nullptr, noise);
       for (int d = 0; d < 3; ++d)
         if (root[i][d] == 0) start[i][d] = 0;  // held, or no unknown
     }
@@ -187,22 +178,15 @@ Frequency estimate(const Model& m, State& state, int iterations, double rate_per
         for (int i = 0; i < n; ++i) Ky[i] -= overlap * b[i];
       }
     const double size = std::sqrt(inner(Ky, Ky));
-    if (!(size > 1e-9 * std::abs(diagonal.front())) || k + 1 == iterations) break;
+    if (!goesOn(size, diagonal.front()) || k + 1 == iterations) break;
     off.push_back(size);
     for (Vec3& v : Ky) v *= 1 / size;
     basis.push_back(Ky);
   }
-  const int size = static_cast<int>(diagonal.size());
-  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(size, size);
-  for (int k = 0; k < size; ++k) {
-    T(k, k) = diagonal[k];
-    if (k + 1 < size) T(k, k + 1) = T(k + 1, k) = off[k];
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(T);
-  const double largest = solver.eigenvalues()(size - 1);
+  const auto [largest, vector] = largestOf(diagonal, off);
   state.mode.assign(n, {});
-  for (int k = 0; k < size; ++k)
-    for (int i = 0; i < n; ++i) state.mode[i] += solver.eigenvectors()(k, size - 1) * basis[k][i];
+  for (std::size_t k = 0; k < vector.size(); ++k)
+    for (int i = 0; i < n; ++i) state.mode[i] += vector[k] * basis[k][i];
 
   Frequency f;
   f.largest_rad_per_s = std::sqrt(std::max(largest, 0.0));

@@ -48,10 +48,18 @@ double ControlledSteps::frequencyAtRest() {
   return largestFrequency(model_, stage_, rest, kWarmIterations, work_, of_).largest_rad_per_s;
 }
 
+Frequency ControlledSteps::lookAtFrequency(State& state, int iterations) {
+  return largestFrequency(model_, stage_, state, iterations, work_, of_);
+}
+
 /// Throws RunError where the cloth has become so stiff that something has crushed or torn it.
-void ControlledSteps::refuseCrushed(const State& state) {
-  if (at_rest_rad_per_s_ < 0) at_rest_rad_per_s_ = frequencyAtRest();
+void ControlledSteps::refuseCrushed(State& state) {
+  if (at_rest_rad_per_s_ < 0) {
+    bringBack(state);
+    at_rest_rad_per_s_ = frequencyAtRest();
+  }
   if (at_rest_rad_per_s_ == 0 || !(state.frequency_rad_per_s > kCrushed * at_rest_rad_per_s_)) return;
+  bringBack(state);
   std::size_t worst = 0;
   for (std::size_t i = 1; i < state.p.size(); ++i)
     if (norm2(state.mode[i]) > norm2(state.mode[worst])) worst = i;
@@ -63,9 +71,8 @@ void ControlledSteps::refuseCrushed(const State& state) {
 
 void ControlledSteps::estimate(State& state) {
   if (state.steps_to_estimate > 0) return;
-  bringBack(state);
   const bool cold = state.frequency_rad_per_s == 0 || state.steps_to_estimate < 0;
-  frequency_ = largestFrequency(model_, stage_, state, cold ? kColdIterations : kWarmIterations, work_, of_);
+  frequency_ = lookAtFrequency(state, cold ? kColdIterations : kWarmIterations);
   // A warm estimate may also have followed one mode while another rose.
   state.frequency_rad_per_s = std::max(frequency_.largest_rad_per_s, kFall * state.frequency_rad_per_s);
   state.steps_to_estimate = control_.estimate_every;
@@ -81,8 +88,7 @@ void ControlledSteps::countDown(State& after, double shown2) const {
 
 double ControlledSteps::unstableAt(const State& end, double dt) {
   State probe = end;
-  bringBack(probe);
-  const double omega = largestFrequency(model_, stage_, probe, kColdIterations, work_, of_).largest_rad_per_s;
+  const double omega = lookAtFrequency(probe, kColdIterations).largest_rad_per_s;
   return outruns(omega * omega, dt) ? omega : 0;
 }
 

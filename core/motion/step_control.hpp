@@ -42,7 +42,10 @@ class ControlledSteps : public Integrator {
   /// The squared frequency that the step's motion itself shows, |M^-1/2 df| / |M^1/2 dx|: where it nears the estimate,
   /// the estimate is out of date.
   virtual double shownFrequency2(const State& before, const State& after);
-  /// Before the frequency at a state is estimated: gives it its points and its mode, where these stand elsewhere.
+  /// The largest frequency at a state, where a step begins or ends, and its mode (largestFrequency).
+  virtual Frequency lookAtFrequency(State& state, int iterations);
+  /// Before the points of a state are read, or the scratch of steps is written to: gives it its points, where these
+  /// stand elsewhere, and waits for whoever else has the scratch.
   virtual void bringBack(State&) {}
 
   /// Looks at the frequency where it is time, throws RunError where the cloth is crushed. Sets
@@ -59,7 +62,7 @@ class ControlledSteps : public Integrator {
 
  private:
   double frequencyAtRest();
-  void refuseCrushed(const State& state);
+  void refuseCrushed(State& state);
   /// Makes `next`, in cuts where it fails. Returns the length that worked.
   StepReport makeInCuts(State& state, double& dt_s, State& next);
   /// The largest frequency at the end of a step of dt_s whose motion shows more than a stable step allows (loads that

@@ -203,6 +203,7 @@ struct CopyNumbers {
 struct FlatCells {
   CellArrays shape{};
   const ShellBlock* block = nullptr;
+  const BlockLaw* block_law = nullptr;
   std::vector<int> list;
   PointNumbers<double> law{};
 };

@@ -102,9 +102,9 @@ class Flattener {
   }
 
   /// The one law of some cells' points; none: there are several.
-  std::optional<PlainNumbers> lawOf(const ShellPart& part, const std::vector<int>& cells) const {
+  std::optional<PointLaw> lawOf(const ShellPart& part, const std::vector<int>& cells) const {
     const ShellBlock& b = part.block;
-    if (b.laws.empty()) return plainNumbers(part.law.point);
+    if (b.laws.empty()) return part.law.point;
     std::optional<std::array<double, kLawDoubles>> one;
     for (const int c : cells)
       for (long g = 0; g < 4; ++g) {
@@ -117,13 +117,14 @@ class Flattener {
       }
     PointLaw law;
     std::memcpy(static_cast<void*>(&law), one->data(), sizeof law);
-    return plainNumbers(law);
+    return law;
   }
 
   bool addSheet(const ShellPart& part, int p, const PatchCells& cells) {
     const ShellBlock& b = part.block;
     if (general_alone_ || !isQuad(b) || cells.cell.size() != cells.columns.size() * cells.rows.size()) return false;
-    const auto law = lawOf(part, cells.cell);
+    const auto point = lawOf(part, cells.cell);
+    const auto law = point ? plainNumbers(*point) : std::nullopt;
     if (!law) return false;
     FlatQuads& q = out_.quads;
     const int across = static_cast<int>(cells.columns.size()), along = static_cast<int>(cells.rows.size());
@@ -133,6 +134,8 @@ class Flattener {
                         static_cast<int>(q.touched_u.size()), static_cast<int>(q.touched_v.size()),
                         static_cast<int>(q.laws.size()), static_cast<long>(q.rest.size()), b.rational});
     q.laws.push_back(*law);
+    q.points.push_back(*point);
+    q.blocks.push_back(&part.law);
     const long L = b.lanes;
     // Row by row.
     std::vector<int> sorted(cells.cell.size());
@@ -186,6 +189,7 @@ class Flattener {
     const ShellBlock& b = part.block;
     FlatCells cells;
     cells.block = &b;
+    cells.block_law = &part.law;
     cells.law = numbersOf(part.law.point);
     cells.shape = {.lanes = b.lanes,
                    .cells = static_cast<int>(list.size()),
@@ -309,6 +313,36 @@ std::vector<QuadWork> worksOf(const FlatQuads& quads, int cells_u, int cells_v, 
 }  // namespace
 
 FlatShell flatShell(const Shell& shell, bool general_alone) { return Flattener(shell, general_alone).flat(); }
+
+FlatLaws flatLaws(const FlatShell& flat, const ForceTerms& terms) {
+  FlatLaws out;
+  for (std::size_t k = 0; k < flat.quads.laws.size(); ++k) {
+    PointNumbers<double> numbers = numbersOf(flat.quads.points[k]);
+    leaveOut(withTerms(*flat.quads.blocks[k], terms), numbers);
+    PointLaw law;
+    std::memcpy(static_cast<void*>(&law), &numbers, sizeof law);
+    out.sheets.push_back(plainNumbers(law).value());
+  }
+  for (const FlatCells& from : flat.cells) {
+    const BlockLaw law = withTerms(*from.block_law, terms);
+    FlatLaws::OfCells& to = out.cells.emplace_back();
+    to.law = from.law;
+    leaveOut(law, to.law);
+    to.use = law.evaluated();
+    const ShellBlock& b = *from.block;
+    to.laws.assign(b.laws.begin(), b.laws.end());
+    const std::size_t L = static_cast<std::size_t>(b.lanes), groups = b.laws.size() / (L * kLawDoubles);
+    for (std::size_t at = 0; at < groups * L; ++at) {
+      const std::size_t first = at / L * kLawDoubles * L + at % L;
+      PointNumbers<double> numbers;
+      double* const number = reinterpret_cast<double*>(&numbers);
+      for (std::size_t k = 0; k < kLawDoubles; ++k) number[k] = to.laws[first + k * L];
+      leaveOut(law, numbers);
+      for (std::size_t k = 0; k < kLawDoubles; ++k) to.laws[first + k * L] = number[k];
+    }
+  }
+  return out;
+}
 
 std::optional<std::string> notCarried(const Shell& shell) {
   for (const ShellPart& part : shell.parts()) {

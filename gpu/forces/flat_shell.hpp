@@ -18,7 +18,9 @@ struct FlatQuads {
   std::vector<int> function_u, function_v;
   std::vector<double> basis_u, basis_v, rest;
   std::vector<Touched> touched_u, touched_v;
-  std::vector<PlainNumbers> laws;  ///< of each sheet
+  std::vector<PlainNumbers> laws;       ///< of each sheet
+  std::vector<PointLaw> points;         ///< likewise, as core has them
+  std::vector<const BlockLaw*> blocks;  ///< likewise, of the blocks that they come from
   long cells = 0;
 };
 
@@ -35,6 +37,18 @@ struct FlatShell {
 };
 
 FlatShell flatShell(const Shell& shell, bool general_alone = false);
+
+/// The laws of a flat shell where something is left out, or taken at its steepest; all else of it stays.
+struct FlatLaws {
+  struct OfCells {
+    PointNumbers<double> law{};
+    std::vector<double> laws;  ///< of the points, where they differ
+    LawUse use;
+  };
+  std::vector<PlainNumbers> sheets;
+  std::vector<OfCells> cells;
+};
+FlatLaws flatLaws(const FlatShell& flat, const ForceTerms& terms);
 
 /// What of a shell is not carried; none: all is.
 std::optional<std::string> notCarried(const Shell& shell);

@@ -123,6 +123,15 @@ class PointMotion {
                                    held_.data(), dead_.size() > 0 ? dead_.data() : nullptr, gravity_, air, half_step_s,
                                    velocity_.data(), acceleration_.data()});
   }
+  /// What all springs pull at points that are moved by `y`, from no pull, whatever their normals: for pulled().
+  const Point4* pulls(typename Device::Queue& queue, const Point4* y) {
+    if (springs_ > 0)
+      queue.forEach(springs_, SpringPulls{rows_.view(), stiffness_.data(), 0, y, nullptr, nullptr, pull_.data()});
+    return pull_.data();
+  }
+  /// Of each point the springs that pull at it.
+  SlicedView pulled() const { return pulled_.view(); }
+  int springs() const { return springs_; }
   Buffer<Point4>& velocity() { return velocity_; }
   Buffer<Point4>& acceleration() { return acceleration_; }
 

@@ -47,6 +47,20 @@ struct HingeForces {
   }
 };
 
+/// f = - sum of the slots of seams, which are the last, at any control point.
+struct GatherSeams {
+  const int *first, *slot;
+  int first_of_seams;
+  const Vec3* value;
+  Point4* force;
+  GAMBESON_HD void operator()(int i) const {
+    Vec3 sum{};
+    for (int k = first[i]; k < first[i + 1]; ++k)
+      if (slot[k] >= first_of_seams) sum += value[slot[k]];
+    force[i] = {-sum.x, -sum.y, -sum.z, 0.0};
+  }
+};
+
 struct GapForces {
   const int *first, *column;
   const double *row, *stiffness;

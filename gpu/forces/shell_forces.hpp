@@ -54,6 +54,7 @@ class ShellForces final : public Forces {
     force_ = Buffer<Point4>(static_cast<std::size_t>(points_));
     putMap(cloth.map());
     putQuads(flat.quads);
+    put(flat.quads.laws, own_.sheets);
     putCells(flat);
     putSeams(flat.seams);
     put(flat.first_slot, first_slot_);
@@ -152,35 +153,102 @@ class ShellForces final : public Forces {
   void setElapsed(double elapsed_s) { elapsed_s_ = elapsed_s; }
   /// The kernels of one evaluation.
   void give(typename Device::Queue& queue) {
-    Vec3* const slot = slot_.data();
     const HistoryArrays history{has_history_ ? committed_.data() : nullptr, trial_.size() > 0 ? trial_.data() : nullptr,
                                 elapsed_s_};
-    for (const CellArrays& cells : cells_)
-      queue.forGroups(cells.cells, CellForces{cells, history, position_.data(), slot});
-    queue.forEach(hinges_, HingeForces{first_hinge_.data(), hinge_column_.data(), hinge_rows_.data(),
-                                       hinge_numbers_.data(), position_.data(), slot + hinge_slot_});
-    queue.forEach(gaps_, GapForces{first_gap_.data(), gap_column_.data(), gap_row_.data(), gap_stiffness_.data(),
-                                   position_.data(), slot + gap_slot_});
-    const MoreSlots more{slot_.size() > 0 ? first_slot_.data() : nullptr, slot_list_.data(), slot};
-    if (works_.size() > 0) {
-      if (strips_)
-        withType<QuadStrips>(size_, [&]<class Kernel>(std::type_identity<Kernel>) { runQuads<Kernel>(queue, more); });
-      else
-        withType<QuadTiles>(size_, [&]<class Kernel>(std::type_identity<Kernel>) { runQuads<Kernel>(queue, more); });
+    giveSeamSlots(queue, position_.data());
+    giveCells(queue, own_, history, position_.data(), force_.data());
+  }
+
+  // Evaluations elsewhere, with other laws: whatever a step reads stays. Their laws have no history.
+  struct OfCells {
+    Buffer<PointNumbers<double>> law;
+    Buffer<double> laws;
+  };
+  /// Laws as an evaluation reads them.
+  struct Laws {
+    Buffer<PlainNumbers> sheets;
+    std::vector<OfCells> buffers;
+    std::vector<CellArrays> cells;
+    bool seams = true;
+  };
+  /// What several terms leave of the laws, each at its steepest.
+  std::vector<Laws> steepest(const NurbsShell& cloth, std::span<const ForceTerms> terms) {
+    const FlatShell flat = flatShell(cloth.elements(), options_.general_cells);
+    std::vector<Laws> all;
+    for (ForceTerms of : terms) {
+      of.steepest = true;
+      const FlatLaws from = flatLaws(flat, of);
+      Laws& to = all.emplace_back();
+      to.seams = of.seams;
+      put(from.sheets, to.sheets);
+      for (std::size_t k = 0; k < from.cells.size(); ++k) {
+        OfCells& room = to.buffers.emplace_back();
+        put(std::vector<PointNumbers<double>>{from.cells[k].law}, room.law);
+        put(from.cells[k].laws, room.laws);
+        CellArrays& cells = to.cells.emplace_back(own_.cells[k]);
+        cells.law = room.law.data();
+        cells.laws = room.laws.size() > 0 ? room.laws.data() : nullptr;
+        cells.use = from.cells[k].use;
+      }
     }
-    queue.forEach(static_cast<int>(gathered_.size()),
-                  GatherSlots{gathered_.data(), first_slot_.data(), slot_list_.data(), slot, force_.data()});
+    return all;
+  }
+  /// Into `force`, by these laws. Positions carry the weights.
+  void give(typename Device::Queue& queue, const Laws& laws, const Point4* position, Point4* force) {
+    if (laws.seams)
+      giveSeamSlots(queue, position);
+    else if (hinges_ + gaps_ > 0)
+      queue.zero(slot_);
+    giveCells(queue, laws, {}, position, force);
+  }
+  bool hasSeams() const { return hinges_ + gaps_ > 0; }
+  /// What seams alone give.
+  void giveSeams(typename Device::Queue& queue, const Point4* position, Point4* force) {
+    giveSeamSlots(queue, position);
+    queue.forEach(points_, GatherSeams{first_slot_.data(), slot_list_.data(), hinge_slot_, slot_.data(), force});
+  }
+  /// Weights of the control points.
+  const std::vector<double>& weights() const { return weights_; }
+  /// Whether all points are free, and what there is no T for.
+  bool allFree() const { return identity_; }
+  SlicedView map() const { return map_.view(); }
+  SlicedView transposed() const { return transpose_.view(); }
+  PointMotion<Device>& motion() {
+    if (!motion_) throw RunError("forces on a device: setLoads comes before what moves");
+    return *motion_;
   }
 
  private:
+  void giveSeamSlots(typename Device::Queue& queue, const Point4* position) {
+    Vec3* const slot = slot_.data();
+    queue.forEach(hinges_, HingeForces{first_hinge_.data(), hinge_column_.data(), hinge_rows_.data(),
+                                       hinge_numbers_.data(), position, slot + hinge_slot_});
+    queue.forEach(gaps_, GapForces{first_gap_.data(), gap_column_.data(), gap_row_.data(), gap_stiffness_.data(),
+                                   position, slot + gap_slot_});
+  }
+  /// With what seams have left in their slots.
+  void giveCells(typename Device::Queue& queue, const Laws& laws, const HistoryArrays& history, const Point4* position,
+                 Point4* force) {
+    Vec3* const slot = slot_.data();
+    for (const CellArrays& cells : laws.cells) queue.forGroups(cells.cells, CellForces{cells, history, position, slot});
+    const MoreSlots more{slot_.size() > 0 ? first_slot_.data() : nullptr, slot_list_.data(), slot};
+    if (works_.size() > 0) {
+      const auto run = [&]<class Kernel>(std::type_identity<Kernel>) {
+        runQuads<Kernel>(queue, more, laws, position, force);
+      };
+      if (strips_)
+        withType<QuadStrips>(size_, run);
+      else
+        withType<QuadTiles>(size_, run);
+    }
+    queue.forEach(static_cast<int>(gathered_.size()),
+                  GatherSlots{gathered_.data(), first_slot_.data(), slot_list_.data(), slot, force});
+  }
+
   template <class List, class T>
   void put(const List& from, Buffer<T>& to) {
     to = Buffer<T>(from.size());
     if (!from.empty()) queue_.upload(std::span<const T>(from.data(), from.size()), to);
-  }
-  PointMotion<Device>& motion() {
-    if (!motion_) throw RunError("forces on a device: setLoads comes before what moves");
-    return *motion_;
   }
   Point4* freePosition() { return identity_ ? position_.data() : free_position_.data(); }
   const Point4* freeForceData() { return identity_ ? force_.data() : free_force_.data(); }
@@ -217,7 +285,6 @@ class ShellForces final : public Forces {
     put(quads.touched_u, touched_u_);
     put(quads.touched_v, touched_v_);
     put(quads.rest, rest_);
-    put(quads.laws, laws_);
     strips_ = options_.path == QuadPath::strips || (options_.path == QuadPath::automatic && quads.cells > kStripCells);
     size_ = std::max(0, options_.size);
     if (quads.sheets.empty()) return;
@@ -243,22 +310,23 @@ class ShellForces final : public Forces {
   }
 
   template <class Kernel>
-  void runQuads(typename Device::Queue& queue, const MoreSlots& more) {
-    const QuadSheets sheets{function_u_.data(), function_v_.data(), basis_u_.data(), basis_v_.data(),
-                            touched_u_.data(),  touched_v_.data(),  rest_.data(),    position_.data(),
-                            force_.data(),      laws_.data()};
+  void runQuads(typename Device::Queue& queue, const MoreSlots& more, const Laws& laws, const Point4* position,
+                Point4* force) {
+    const QuadSheets sheets{
+        function_u_.data(), function_v_.data(), basis_u_.data(), basis_v_.data(), touched_u_.data(),
+        touched_v_.data(),  rest_.data(),       position,        force,           laws.sheets.data()};
     Blocks<Device>::run(queue, static_cast<int>(works_.size()), Kernel{sheets, more, works_.data()});
   }
 
   struct CellBuffers {
     Buffer<int> nodes, list;
-    Buffer<double> weights, basis_u, basis_v, shapes, points, laws;
+    Buffer<double> weights, basis_u, basis_v, shapes, points;
     Buffer<long> first_point;
-    Buffer<PointNumbers<double>> law;
   };
   void putCells(const FlatShell& flat) {
     for (const FlatCells& from : flat.cells) {
       CellBuffers& to = cell_buffers_.emplace_back();
+      OfCells& of = own_.buffers.emplace_back();
       const ShellBlock& b = *from.block;
       put(b.nodes, to.nodes);
       put(from.list, to.list);
@@ -267,9 +335,9 @@ class ShellForces final : public Forces {
       put(b.basis_v, to.basis_v);
       put(b.shapes, to.shapes);
       put(b.points, to.points);
-      put(b.laws, to.laws);
+      put(b.laws, of.laws);
       put(b.first_point, to.first_point);
-      put(std::vector<PointNumbers<double>>{from.law}, to.law);
+      put(std::vector<PointNumbers<double>>{from.law}, of.law);
       CellArrays a = from.shape;
       a.nodes = to.nodes.data();
       a.list = to.list.data();
@@ -279,9 +347,9 @@ class ShellForces final : public Forces {
       a.shapes = to.shapes.data();
       a.points = to.points.data();
       a.first_point = to.first_point.data();
-      a.law = to.law.data();
-      a.laws = b.laws.empty() ? nullptr : to.laws.data();
-      cells_.push_back(a);
+      a.law = of.law.data();
+      a.laws = b.laws.empty() ? nullptr : of.laws.data();
+      own_.cells.push_back(a);
     }
   }
 
@@ -315,10 +383,9 @@ class ShellForces final : public Forces {
   Buffer<double> basis_u_, basis_v_, rest_;
   Buffer<Touched> touched_u_, touched_v_;
   Buffer<QuadWork> works_;
-  Buffer<PlainNumbers> laws_;
   // Other cells.
   std::vector<CellBuffers> cell_buffers_;
-  std::vector<CellArrays> cells_;
+  Laws own_;  ///< of all cells, as they are
   Buffer<double> committed_, trial_;
   // Seams.
   int hinges_ = 0, gaps_ = 0, hinge_slot_ = 0, gap_slot_ = 0;

@@ -10,6 +10,7 @@
 #include "gpu/forces/shell_forces.hpp"
 #include "gpu/near/near_finder.hpp"
 #include "gpu/near/skin_on.hpp"
+#include "gpu/step/device_frequency.hpp"
 #include "gpu/step/step_impacts.hpp"
 #include "gpu/step/step_kernels.hpp"
 #include "gpu/step/step_output.hpp"
@@ -104,6 +105,14 @@ class DeviceStep final : public StepOnDevice {
       s.warm.push_back({static_cast<ContactKind>(e.key.kind), e.key.sample, e.key.obstacle, e.key.feature,
                         e.start.traction, e.start.mean_Pa, e.start.slip_m_per_s});
     if (m_.cloth->historySize() > 0) s.history = forces_.committedHistory();
+  }
+
+  Frequency frequency(StandsAt at, std::span<const Vec3> p, std::vector<Vec3>& mode, int iterations) override {
+    if (!frequency_) frequency_.emplace(queue_, m_, forces_);
+    const Point4* const here = at == StandsAt::start ? position_.data()
+                               : at == StandsAt::end ? forces_.arrays().free_position
+                                                     : nullptr;
+    return frequency_->at(queue_, here, p, mode, iterations);
   }
 
   StepDone make(const DeviceStepInput& in) override {
@@ -410,6 +419,7 @@ class DeviceStep final : public StepOnDevice {
   std::optional<StepImpacts<Device>> impacts_;  ///< where there is anything to touch
   std::vector<EllipsoidBody> ellipsoids_;
   Buffer<EllipsoidBody> ellipsoid_;
+  std::optional<DeviceFrequency<Device>> frequency_;  ///< once it was asked for
 };
 
 }  // namespace gambeson::gpu

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/motion/model.hpp"
+#include "core/motion/step.hpp"
 
 namespace gambeson::gpu {
 
@@ -30,6 +30,10 @@ struct DeviceStepInput {
   std::span<const Vec3> anchors;          ///< of the springs at the end of the step, in the world
   Vec3 air;                               ///< at the end [m/s]
 };
+
+/// Where the free points of a state are: where the next step starts, where the last one has ended, accepted or not, or
+/// not on the device.
+enum class StandsAt { start, end, host };
 
 struct StepDone;
 /// Arrays of a step on their way to the host.
@@ -75,6 +79,9 @@ class StepOnDevice {
   virtual StepDone make(const DeviceStepInput& input) = 0;
   /// The state becomes that at the end of the last step. Nothing where none was made since.
   virtual void accept() = 0;
+  /// largestFrequency at a state's points (`p`: where these are not on the device), from `mode`, which becomes that
+  /// found. Nothing that a step reads changes.
+  virtual Frequency frequency(StandsAt at, std::span<const Vec3> p, std::vector<Vec3>& mode, int iterations) = 0;
   virtual long repeats() const = 0;  ///< of passes, for want of room
   /// Completes a host's copy of the state by what stayed here: warm contacts and history.
   virtual void complete(State& state) = 0;
