@@ -53,8 +53,9 @@ struct WarpLanes {
   __device__ void sync() const { __syncwarp(); }
 };
 
-/// Of a block of kernels over items: few, so that a thousand rows take twenty processors.
-constexpr int kThreads = 64;
+/// Of a block of kernels over items: few, so that some thousand items are spread over many processors. Kernels over
+/// rows, which are given again and again, have fewer and larger blocks to start.
+constexpr int kThreads = 64, kThreadsOverRows = 256;
 
 namespace kernel {
 
@@ -65,13 +66,13 @@ __global__ void __launch_bounds__(kThreads) forEach(int n, F f) {
 }
 
 template <class T, class F>
-__global__ void __launch_bounds__(4 * kThreads) forItems(List<T> list, F f) {
+__global__ void __launch_bounds__(kThreads) forItems(List<T> list, F f) {
   const Count n = list.size();
   for (Count i = blockIdx.x * blockDim.x + threadIdx.x; i < n; i += gridDim.x * blockDim.x) f(list.items[i], i);
 }
 
 template <class Sized, class F>
-__global__ void __launch_bounds__(kThreads) forEachOf(Sized of, F f) {
+__global__ void __launch_bounds__(kThreadsOverRows) forEachOf(Sized of, F f) {
   const int n = static_cast<int>(of.size());
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n;
        i += static_cast<int>(gridDim.x * blockDim.x))
@@ -209,12 +210,12 @@ class CudaOf {
     }
     template <class T, class F>
     void forItems(const List<T>& list, const F& f) {
-      kernel::forItems<<<4 * processors(), 4 * kThreads, 0, stream_>>>(list, f);
+      kernel::forItems<<<8 * processors(), kThreads, 0, stream_>>>(list, f);
       check(cudaGetLastError(), "a kernel over a list");
     }
     template <class Sized, class F>
     void forEachOf(const Sized& of, const F& f) {
-      kernel::forEachOf<<<2 * processors(), kThreads, 0, stream_>>>(of, f);
+      kernel::forEachOf<<<2 * processors(), kThreadsOverRows, 0, stream_>>>(of, f);
       check(cudaGetLastError(), "a kernel over what the device counts");
     }
     template <class Goes, class F>

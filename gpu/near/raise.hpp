@@ -18,10 +18,10 @@ GAMBESON_HD inline double fromOrder(Count order) {
   return std::bit_cast<double>(bits >> 63 != 0 ? bits & ~(std::uint64_t{1} << 63) : ~bits);
 }
 
-/// *at becomes no less than that.
+/// *at becomes no less than that. Most lanes come with less than what is there, and do not wait for each other.
 GAMBESON_HD inline void raise(Count* at, Count value) {
 #ifdef __CUDA_ARCH__
-  atomicMax(at, value);
+  if (__ldcg(at) < value) atomicMax(at, value);
 #else
   const std::atomic_ref<Count> place(*at);
   Count seen = place.load(std::memory_order_relaxed);

@@ -79,8 +79,9 @@ class CudaSweeps : public ContactSweeps {
     for (int to : batches_) {
       const SolveJob* those = jobs + from;
       void* arguments[] = {&data, &own, &those, &vectors};
-      check(cudaLaunchCooperativeKernel(sweepIslands<Q, true>, to - from, kQuad * Q, arguments, shared_, queue_.stream()),
-            "sweeps over large islands");
+      check(
+          cudaLaunchCooperativeKernel(sweepIslands<Q, true>, to - from, kQuad * Q, arguments, shared_, queue_.stream()),
+          "sweeps over large islands");
       from = to;
     }
     queue_.after(side_);

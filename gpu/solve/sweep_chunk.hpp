@@ -100,8 +100,8 @@ class ChunkSweep {
   GAMBESON_HD void take(int turn, int turns, PerLane<LaneRow>& row, PerLane<LaneRow>& next, Vec3* moved, double beta,
                         Lanes& totals) {
     group_.each([&](int lane) {
-      load(turn + 1, next[lane], lane);
       if (row[lane].row >= 0) velocity_[lane] = partOfVelocity(moved, row[lane], kept_[lane].of);
+      load(turn + 1, next[lane], lane);
     });
     group_.sumOfQuads(velocity_);
     group_.each([&](int lane) {

@@ -353,9 +353,9 @@ class DeviceStep final : public StepOnDevice {
     queue_.forEach(n_, Jerk{acceleration_.data(), f.acceleration, jerk_.data()});
     queue_.forEach(static_cast<int>(net_.size()),
                    LookAtJerk{net_.data(), forces_.mapped(queue_, jerk_, net_jerk_), facts_.data()});
-    queue_.forEach(n_, GatherPoints{solved_.data(), f.acceleration, pressed_next_.data(),
-                                    m_.held_points.empty() ? nullptr : f.free_force, n_, output_->points(),
-                                    facts_.data()});
+    queue_.forEach(n_,
+                   GatherPoints{solved_.data(), f.acceleration, pressed_next_.data(),
+                                m_.held_points.empty() ? nullptr : f.free_force, n_, output_->points(), facts_.data()});
     row_scan_->run(queue_, active_, active_place_);
     gatherRows();
   }

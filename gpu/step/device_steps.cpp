@@ -22,10 +22,7 @@ class DeviceVerlet final : public DeviceSteps, private VelocityVerlet {
  public:
   DeviceVerlet(const Model& model, const gambeson::Stage& stage, const StepControl& control, Frequency& frequency,
                StepWork& work, MakeDevice make, double room)
-      : VelocityVerlet(model, stage, control, frequency, work),
-        make_(make),
-        room_(room),
-        ledger_(model, stage, work) {
+      : VelocityVerlet(model, stage, control, frequency, work), make_(make), room_(room), ledger_(model, stage, work) {
     if (const auto missing = stepNotCarried(model, {}, control))
       throw RunError("steps on a device do not carry " + *missing);
   }
@@ -257,7 +254,7 @@ std::optional<std::string> stepNotCarried(const Model& m, const MotionOptions& o
 
 std::size_t bytesOnDevice(const Model& model) {
   const std::size_t cloth = model.surface.triangles.size(), all = model.collisions.mesh.triangles.size();
-  constexpr std::size_t kFixed = 35'000'000, kOfSample = 10'000, kOfBodyTriangle = 1'600;
+  constexpr std::size_t kFixed = 35'000'000, kOfSample = 5'900, kOfBodyTriangle = 950;
   return kFixed + kOfSample * static_cast<std::size_t>(model.surface.size()) +
          kOfBodyTriangle * (all > cloth ? all - cloth : 0);
 }

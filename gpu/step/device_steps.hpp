@@ -34,9 +34,9 @@ class DeviceSteps : public Integrator {
 /// one; none: all.
 std::optional<std::string> stepNotCarried(const Model& model, const MotionOptions& options, const StepControl& control);
 
-/// Memory of the device that the steps of this model take, about [bytes]: a fit of what was measured on six cases of
-/// 3,000 to 21,000 samples (within 10 % on dressed bodies, up to 40 MB too much on small ones). Lists that run over
-/// take more.
+/// Memory of the device that the steps of this model take, about [bytes]: a fit of what was measured on ten cases of
+/// 4,000 to 21,000 samples (within 10 % on dressed bodies, up to 25 MB too much on small ones) and on a million. Lists
+/// that run over take more.
 std::size_t bytesOnDevice(const Model& model);
 
 /// Both throw RunError for what is not carried; model, stage, frequency and work outlive what they give. The model must
