@@ -121,7 +121,8 @@ TEST(StepImpacts, TooLittleRoomIsRepeatedWithMore) {
   for (const auto& make : {+[] { return twoLayers(18); }, +[] { return sheetsAmongAll(18); }}) {
     Hurried hurried{make(), {}};
     hurried.ends = hurriedEnds(*hurried.scene, 1e-3, {0, 0, 2e-3}, 2);
-    const ImpactSizes ample = roomForImpacts(hurried.scene->collisions);
+    ImpactSizes ample = roomForImpacts(hurried.scene->collisions);
+    for (auto& room : ample) room *= 8;
     CoreImpacts core(*hurried.scene);
     core.moveTo(hurried.ends[0]);
     const auto first = impactStepOnReference(core.model(), core.x0(), ample);
