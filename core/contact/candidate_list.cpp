@@ -24,6 +24,11 @@ void each(std::size_t n, F&& f) {
   forAll(Each::value, count, [&](int i) { f(i); });
 }
 
+void copyAll(std::span<const Vec3> from, std::vector<Vec3>& to) {
+  to.resize(from.size());
+  each(from.size(), [&](int i) { to[i] = from[i]; });
+}
+
 }  // namespace
 
 /// What the step that has passed tells.
@@ -49,7 +54,7 @@ void CandidateList::begin(double start_s, double end_s, std::span<const Vec3> x0
     learn(start_s - start_s_, start_s, x0);
   }
   told_.clear();
-  x0_.assign(x0.begin(), x0.end());
+  copyAll(x0, x0_);
   start_s_ = start_s;
   end_s_ = end_s;
   start_moved_.clear();
@@ -65,8 +70,8 @@ void CandidateList::expect(std::span<const Vec3> x1) {
     expected_[i] = told_[i] + correction_[i];
   });
   if (probe_steps_ >= 0) return;
-  probe_at_ = x0_;
-  probe_velocity_ = expected_;
+  copyAll(x0_, probe_at_);
+  copyAll(expected_, probe_velocity_);
   probe_s_ = start_s_;
   probe_steps_ = 0;
 }
@@ -128,8 +133,8 @@ void CandidateList::make(const ContactMesh& mesh, const PairCollector& collector
                          std::span<const Vec3> x1) {
   listed_s_ = start_s_;
   horizon_s_ = kHorizon * (end_s_ - start_s_);
-  listed_at_ = x0_;
-  listed_velocity_ = expected_;
+  copyAll(x0_, listed_at_);
+  copyAll(expected_, listed_velocity_);
   slack_m_.resize(x0_.size());
   const int first_of_bodies = tree_.firstObstacleVertex();
   const double least = std::max(kLeastSlack_m, kLeastSlack * rules.margin_m);

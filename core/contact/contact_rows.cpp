@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "core/contact/row_order.hpp"
 #include "core/math/parallel.hpp"
@@ -47,7 +49,7 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
     if (row.contact.onBody()) ++w.on_body[row.contact.sample];
   listOnCloth(rows, static_cast<int>(area.size()), w);
   w.area_of.resize(n);
-  for (int i = 0; i < n; ++i) {
+  forAll(Each::sum, n, [&](int i) {
     const ContactRow& row = rows[i];
     const Stencil& stencil = row.stencil;
     bool moves = false;
@@ -66,7 +68,7 @@ void shareAreas(std::span<const ContactRow> rows, const SparseRows& WT, std::spa
       a = area[row.contact.sample] / w.on_body[row.contact.sample];
     }
     w.area_of[i] = moves && !row.fixed ? a : 0;
-  }
+  });
 }
 
 namespace {
@@ -230,7 +232,7 @@ void restrict(std::span<const ContactRow> rows, int free_count, std::span<const 
   w.row_area.resize(n);
   w.traction.resize(n);
   for (auto* of_rows : {&w.point, &w.candidate, &w.previous}) of_rows->resize(n);
-  for (int k = 0; k < n; ++k) {
+  forAll(Each::sum, n, [&](int k) {
     const int i = w.order[k];
     const ContactRow& row = rows[i];
     const RowSlip& slip = w.slip[i];
@@ -249,100 +251,111 @@ void restrict(std::span<const ContactRow> rows, int free_count, std::span<const 
                   slip.friction,       slip.drag,
                   row.compliance,      slope,
                   own * w.row_area[k], slope};
-  }
+  });
 }
 
 namespace {
 
 /// Calls visit(sample) for the samples that are marked, in their order, and leaves none.
 template <class Visit>
-void eachMarked(ContactWork& w, const Visit& visit) {
-  for (std::size_t s = 0; s < w.on_sample.size(); ++s) {
-    if (!w.on_sample[s]) continue;
-    w.on_sample[s] = 0;
-    visit(static_cast<int>(s));
-  }
+void eachMarked(ContactWork::OnSamples& sums, const Visit& visit) {
+  for (std::size_t s = 0; s < sums.marked.size(); ++s)
+    if (std::exchange(sums.marked[s], 0)) visit(static_cast<int>(s));
 }
 
 }  // namespace
 
 void spreadImpulses(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
                     std::span<const Vec3> impulses, ContactWork& w) {
-  w.on_sample.resize(WT.rows());
-  w.sample_sum.resize(WT.rows());
+  ContactWork::OnSamples& sums = w.spread;
+  sums.marked.resize(WT.rows());
+  sums.sum.resize(WT.rows());
   w.change.assign(WT.column_count, Vec3{});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (impulses[i] == Vec3{}) continue;
     for (int j = 0; j < rows[i].stencil.count; ++j) {
       const int s = rows[i].stencil.sample[j];
-      if (!w.on_sample[s]) w.on_sample[s] = 1, w.sample_sum[s] = {};
-      w.sample_sum[s] += rows[i].stencil.weight[j] * impulses[i];
+      if (!std::exchange(sums.marked[s], 1)) sums.sum[s] = {};
+      sums.sum[s] += rows[i].stencil.weight[j] * impulses[i];
     }
   }
-  eachMarked(w, [&](int s) {
-    for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) w.change[WT.columns[e]] += WT.values[e] * w.sample_sum[s];
+  eachMarked(sums, [&](int s) {
+    for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) w.change[WT.columns[e]] += WT.values[e] * sums.sum[s];
   });
-  for (int f = 0; f < WT.column_count; ++f) w.change[f] *= inverse_mass[f];
+  forAll(Each::value, WT.column_count, [&](int f) { w.change[f] *= inverse_mass[f]; });
 }
 
-void smoothWarm(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
-                std::span<const Vec3> warm, ContactWork& w) {
+namespace {
+
+/// The rows that are smoothed together: those of bodies, then those of each side of the cloth.
+constexpr int kFamilies = std::tuple_size_v<decltype(ContactWork::smoothed)>;
+
+/// Takes the warm starts of one family towards their smooth part, in w.start.
+void smoothFamily(int family, std::span<const ContactRow> rows, const SparseRows& WT,
+                  std::span<const double> inverse_mass, std::span<const Vec3> warm, ContactWork& w) {
   constexpr double kMix = 0.2;
   const Vec3 side{0.6180, 0.4142, 0.7321};
   const int n = static_cast<int>(rows.size());
-  w.start.resize(n);
-  for (int i = 0; i < n; ++i) w.start[i] = w.in[i] ? warm[i] : Vec3{};
-  w.on_sample.resize(WT.rows());
-  w.sample_sum.resize(WT.rows());
-  w.sample_area.resize(WT.rows());
-  // Bodies, then both sides of the cloth.
-  for (int family = 0; family < 3; ++family) {
-    const auto smoothed = [&](int i) {
-      const ContactRow& row = rows[i];
-      if (!w.in[i] || warm[i] == Vec3{}) return false;
-      if (family == 0) return row.contact.onBody() && row.stencil.count == 1;
-      return row.contact.kind == ContactKind::sample_on_cloth && (dot(row.contact.normal, side) > 0) == (family == 1);
-    };
-    const auto part = [&](int i) {
-      const Vec3& t = warm[i];
-      return family == 0 ? t : Vec3{dot(t, rows[i].contact.normal), 0, 0};
-    };
-    bool any = false;
-    for (int i = 0; i < n; ++i) {
-      if (!smoothed(i)) continue;
-      const int s = rows[i].contact.sample;
-      if (!w.on_sample[s]) w.on_sample[s] = 1, w.sample_sum[s] = {}, w.sample_area[s] = 0;
-      w.sample_sum[s] += w.area_of[i] * part(i);
-      w.sample_area[s] += w.area_of[i];
-      any = true;
-    }
-    if (!any) continue;
-    w.weight.assign(WT.column_count, 0);
-    w.free_sum.assign(WT.column_count, Vec3{});
-    eachMarked(w, [&](int s) {
-      for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) {
-        w.weight[WT.columns[e]] += WT.values[e] * w.sample_area[s];
-        w.free_sum[WT.columns[e]] += WT.values[e] * w.sample_sum[s];
-      }
-    });
-    for (int f = 0; f < WT.column_count; ++f)
-      if (w.weight[f] > 0) w.free_sum[f] = w.free_sum[f] / w.weight[f];
-    for (int i = 0; i < n; ++i) {
-      if (!smoothed(i)) continue;
-      Vec3 smooth{};
-      double whole = 0;  // of the points that can move
-      const int s = rows[i].contact.sample;
-      for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) {
-        const int f = WT.columns[e];
-        if (!(inverse_mass[f] > 0)) continue;
-        smooth += WT.values[e] * w.free_sum[f];
-        whole += WT.values[e];
-      }
-      if (!(whole > 0)) continue;
-      const Vec3 change = kMix * (smooth / whole - part(i));
-      w.start[i] += family == 0 ? change : change.x * rows[i].contact.normal;
-    }
+  ContactWork::OnSamples& sums = w.smoothed[static_cast<std::size_t>(family)];
+  const auto isOne = [&](int i) {
+    const ContactRow& row = rows[i];
+    if (!w.in[i] || warm[i] == Vec3{}) return false;
+    if (family == 0) return row.contact.onBody() && row.stencil.count == 1;
+    return row.contact.kind == ContactKind::sample_on_cloth && (dot(row.contact.normal, side) > 0) == (family == 1);
+  };
+  const auto part = [&](int i) {
+    const Vec3& t = warm[i];
+    return family == 0 ? t : Vec3{dot(t, rows[i].contact.normal), 0, 0};
+  };
+  sums.marked.resize(WT.rows());
+  sums.sum.resize(WT.rows());
+  sums.area.resize(WT.rows());
+  bool any = false;
+  for (int i = 0; i < n; ++i) {
+    if (!isOne(i)) continue;
+    const int s = rows[i].contact.sample;
+    if (!std::exchange(sums.marked[s], 1)) sums.sum[s] = {}, sums.area[s] = 0;
+    sums.sum[s] += w.area_of[i] * part(i);
+    sums.area[s] += w.area_of[i];
+    any = true;
   }
+  if (!any) return;
+  sums.free_area.assign(WT.column_count, 0);
+  sums.free_sum.assign(WT.column_count, Vec3{});
+  eachMarked(sums, [&](int s) {
+    for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) {
+      sums.free_area[WT.columns[e]] += WT.values[e] * sums.area[s];
+      sums.free_sum[WT.columns[e]] += WT.values[e] * sums.sum[s];
+    }
+  });
+  for (int f = 0; f < WT.column_count; ++f)
+    if (sums.free_area[f] > 0) sums.free_sum[f] = sums.free_sum[f] / sums.free_area[f];
+  for (int i = 0; i < n; ++i) {
+    if (!isOne(i)) continue;
+    Vec3 smooth{};
+    double whole = 0;  // of the points that can move
+    const int s = rows[i].contact.sample;
+    for (int e = WT.offsets[s]; e < WT.offsets[s + 1]; ++e) {
+      const int f = WT.columns[e];
+      if (!(inverse_mass[f] > 0)) continue;
+      smooth += WT.values[e] * sums.free_sum[f];
+      whole += WT.values[e];
+    }
+    if (!(whole > 0)) continue;
+    const Vec3 change = kMix * (smooth / whole - part(i));
+    w.start[i] += family == 0 ? change : change.x * rows[i].contact.normal;
+  }
+}
+
+}  // namespace
+
+void smoothWarm(std::span<const ContactRow> rows, const SparseRows& WT, std::span<const double> inverse_mass,
+                std::span<const Vec3> warm, ContactWork& w) {
+  const int n = static_cast<int>(rows.size());
+  w.start.resize(n);
+  forAll(Each::value, n, [&](int i) { w.start[i] = w.in[i] ? warm[i] : Vec3{}; });
+  const auto smooth = [&](int family) { smoothFamily(family, rows, WT, inverse_mass, warm, w); };
+  forAllUneven(n < static_cast<int>(Each::sum) ? Each::value : Each::much, kFamilies, smooth);
 }
 
 }  // namespace gambeson

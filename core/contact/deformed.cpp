@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/math/parallel.hpp"
+
 namespace gambeson {
 
 DeformedVertices::DeformedVertices(std::span<const Obstacle> obstacles) {
@@ -24,9 +26,8 @@ void DeformedSurfaces::move(const DeformedVertices& start, const DeformedVertice
   for (std::size_t o = 0; o < surfaces_.size(); ++o) {
     if (!surfaces_[o]) continue;
     surfaces_[o]->refit(start[o]);
-    double most2 = 0;
-    for (std::size_t v = 0; v < start[o].size(); ++v) most2 = std::max(most2, norm2(end[o][v] - start[o][v]));
-    motion_[o] = std::sqrt(most2);
+    motion_[o] = std::sqrt(largestOf(Each::value, static_cast<int>(start[o].size()), 0.0,
+                                     [&](int v) { return norm2(end[o][v] - start[o][v]); }));
   }
 }
 

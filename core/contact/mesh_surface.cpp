@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/math/parallel.hpp"
+
 namespace gambeson {
 
 namespace {
@@ -66,7 +68,8 @@ void MeshSurface::refit(std::span<const Vec3> vertices) {
 
 void MeshSurface::place(std::span<const Vec3> vertices) {
   assert(vertices.size() == topology_.vertex_of.size());
-  x_.assign(vertices.begin(), vertices.end());
+  x_.resize(vertices.size());
+  forAll(Each::value, static_cast<int>(vertices.size()), [&](int v) { x_[v] = vertices[v]; });
   bounds_ = {};
   for (int v : named_) bounds_.add(x_[v]);
   const MeshTopology& m = topology_;

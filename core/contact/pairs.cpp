@@ -272,11 +272,15 @@ void PairCollector::collect(const ContactMesh& mesh, const ContactTree& tree, co
 
 void PairCollector::mend(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion,
                          const PairRules& rules, CandidatePairs& out) const {
-  std::erase_if(out.points, [&](const PointTriangle& p) {
-    return tree.touched(p.triangle) || tree.touched(vertex_owner_[p.vertex]);
+  forAllUneven(Each::much, 2, [&](int k) {
+    if (k == 0)
+      std::erase_if(out.points, [&](const PointTriangle& p) {
+        return tree.touched(p.triangle) || tree.touched(vertex_owner_[p.vertex]);
+      });
+    else
+      std::erase_if(
+          out.edges, [&](const EdgeEdge& p) { return tree.touched(edge_owner_[p.a]) || tree.touched(edge_owner_[p.b]); });
   });
-  std::erase_if(out.edges,
-                [&](const EdgeEdge& p) { return tree.touched(edge_owner_[p.a]) || tree.touched(edge_owner_[p.b]); });
   const std::vector<ContactTree::Search> searches = tree.searchesOfTouched();
   search(mesh, tree, motion, rules, searches, std::ssize(searches) > kManyLeaves ? omp_get_max_threads() : 1, out);
   std::sort(out.unsorted.begin(), out.unsorted.end());

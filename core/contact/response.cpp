@@ -54,19 +54,16 @@ void choose(const Problem& p, ContactWork& w) {
 /// penetrated are marked in w.joins.
 double leftOut(const Problem& p, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
-  w.joins.assign(n, 0);
-  w.left_out.assign(n, 0);
-  forAll(Each::sum, n, [&](int i) {
-    if (w.in[i] || w.area_of[i] == 0) return;
+  w.joins.resize(n);
+  return std::sqrt(largestOf(Each::sum, n, 0.0, [&](int i) {
+    w.joins[i] = 0;
+    if (w.in[i] || w.area_of[i] == 0) return 0.0;
     const Vec3 v = velocityAt(p.rows[i], p.WT, w.now);
     const Vec3& normal = p.rows[i].contact.normal;
-    if (!(dot(v, normal) < 0)) return;
+    if (!(dot(v, normal) < 0)) return 0.0;
     w.joins[i] = 1;
-    w.left_out[i] = norm2(project(-v, normal, w.slip[i].friction, w.slip[i].drag));
-  });
-  double most2 = 0;
-  for (double l : w.left_out) most2 = std::max(most2, l);
-  return std::sqrt(most2);
+    return norm2(project(-v, normal, w.slip[i].friction, w.slip[i].drag));
+  }));
 }
 
 /// Takes in what w.joins marks. The others keep their place in the iteration; islands that grow together go on with the
@@ -125,15 +122,16 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
   w.in.resize(n);
   for (int i = 0; i < n; ++i) w.in[i] = w.area_of[i] > 0 && (w.hold || !(warm[i] == Vec3{}));
   smoothWarm(p.rows, p.WT, p.inverse_mass, warm, w);
-  w.impulses.assign(n, {});
-  for (int i = 0; i < n; ++i) {
-    if (w.start[i] == Vec3{}) continue;
+  w.impulses.resize(n);
+  forAll(Each::sum, n, [&](int i) {
+    w.impulses[i] = {};
+    if (w.start[i] == Vec3{}) return;
     w.start[i] = project(w.start[i], p.rows[i].contact.normal, w.slip[i].friction, w.slip[i].drag);
     w.impulses[i] = w.area_of[i] * w.start[i];
-  }
+  });
   spreadImpulses(p.rows, p.WT, p.inverse_mass, w.impulses, w);
-  w.now.assign(p.velocity.begin(), p.velocity.end());
-  for (std::size_t f = 0; f < w.now.size(); ++f) w.now[f] += w.change[f];
+  w.now.resize(p.velocity.size());
+  forAll(Each::value, static_cast<int>(w.now.size()), [&](int f) { w.now[f] = p.velocity[f] + w.change[f]; });
   leftOut(p, w);
   for (int i = 0; i < n; ++i) w.in[i] = w.in[i] || w.joins[i];
   choose(p, w);
@@ -160,20 +158,21 @@ void setFriction(const FrictionLaw& law, double factor, double dt, RowSlip& slip
 
 /// Friction of all rows at the start.
 void startFriction(const Problem& p, std::span<const RowSlip> slip, std::span<const Vec3> warm, ContactWork& w) {
-  const std::size_t n = p.rows.size();
-  w.slip.assign(n, {});
-  w.any_slips = false;
-  for (std::size_t i = 0; i < n; ++i) {
-    const ContactRow& row = p.rows[i];
-    if (row.slippery) continue;
-    const FrictionLaw& law = p.parameters.frictionOf(row);
-    w.slip[i].friction = law.kinetic;
-    if (law.isCoulomb() || slip.empty()) continue;
-    w.any_slips = true;
-    w.slip[i] = slip[i];
-    const Vec3& normal = row.contact.normal;
-    setFriction(law, factorOf(law, dot(warm[i], normal) / p.dt, warm[i], normal, w.slip[i]), p.dt, w.slip[i]);
-  }
+  const int n = static_cast<int>(p.rows.size());
+  w.slip.resize(n);
+  w.any_slips = countOf(Each::sum, n, [&](int i) {
+                  w.slip[i] = {};
+                  const ContactRow& row = p.rows[i];
+                  if (row.slippery) return false;
+                  const FrictionLaw& law = p.parameters.frictionOf(row);
+                  w.slip[i].friction = law.kinetic;
+                  if (law.isCoulomb() || slip.empty()) return false;
+                  w.slip[i] = slip[i];
+                  const Vec3& normal = row.contact.normal;
+                  const double factor = factorOf(law, dot(warm[i], normal) / p.dt, warm[i], normal, w.slip[i]);
+                  setFriction(law, factor, p.dt, w.slip[i]);
+                  return true;
+                }) > 0;
 }
 
 /// Lets the friction of rows that carry something follow the velocities that they have now. False: it is what it was,
@@ -324,14 +323,14 @@ ContactSolve solveContacts(std::span<const ContactRow> rows, const SparseRows& W
 
   std::copy_n(w.slip.begin(), slip.size(), slip.begin());
   std::fill(warm.begin(), warm.end(), Vec3{});
-  for (std::size_t k = 0; k < w.order.size(); ++k) {
+  forAll(Each::value, static_cast<int>(w.order.size()), [&](int k) {
     const int i = w.order[k];
     warm[i] = vec(w.candidate[k]);
     impulses[i] = w.row_area[k] * warm[i];
-  }
+  });
   spreadImpulses(rows, WT, inverse_mass, impulses, w);
   if (hold) hold->hold(w.change);
-  for (std::size_t f = 0; f < velocity.size(); ++f) velocity[f] += w.change[f];
+  forAll(Each::value, static_cast<int>(velocity.size()), [&](int f) { velocity[f] += w.change[f]; });
   return report;
 }
 

@@ -123,7 +123,6 @@ struct ContactWork {
   bool any_slips = false;                     ///< whether there are such rows
   std::vector<char> in;                       ///< is iterated on
   std::vector<char> joins;                    ///< is left out and would be penetrated
-  std::vector<double> left_out;               ///< squared residual of what is left out
   std::vector<int> on_body;                   ///< contacts of each sample of the cloth with bodies
   std::vector<int> first_on_cloth, on_cloth;  ///< rows of each sample on cloth
   std::vector<Vec3> start, impulses;          ///< traction that the iteration starts from, and its impulse
@@ -171,10 +170,14 @@ struct ContactWork {
   SparseRows points, columns;  ///< rows x free points, B W_T; with a hold its transpose too
   std::vector<double> row_area;
   std::vector<Vec3> traction;
-  // Sums of what rows have on samples, which go on to all free points.
-  std::vector<char> on_sample;
-  std::vector<double> sample_area, weight;
-  std::vector<Vec3> sample_sum, free_sum;
+  /// Sums of what rows have on samples, which go on to all free points.
+  struct OnSamples {
+    std::vector<char> marked;  ///< samples that rows have something on
+    std::vector<double> area, free_area;
+    std::vector<Vec3> sum, free_sum;
+  };
+  OnSamples spread;                   ///< of impulses
+  std::array<OnSamples, 3> smoothed;  ///< of warm starts: of bodies, of each side of the cloth
   std::vector<Vec3> now;  ///< velocities of all free points
   // The iteration's own arrays, four lanes wide.
   struct alignas(32) Quad {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/contact/halving.hpp"
+#include "core/math/parallel.hpp"
 
 namespace gambeson {
 namespace {
@@ -108,7 +109,12 @@ void orderRows(std::span<const ContactRow> rows, std::span<const int> place, int
   w.against.resize(w.chunks.size());
   w.chunks.push_back({n, 0});
   if (w.hold) return;
-  for (std::size_t c = 0; c + 1 < w.chunks.size(); ++c) colourChunk({w.chunks[c].row, w.chunks[c + 1].row}, w);
+  // Islands share no point.
+  const Each each = n < static_cast<int>(Each::sum) ? Each::value : Each::much;
+  forAllUneven(each, static_cast<int>(w.islands.size()), [&](int i) {
+    for (int c = w.islands[i].chunk; c < w.islands[i].chunk_end; ++c)
+      colourChunk({w.chunks[c].row, w.chunks[c + 1].row}, w);
+  });
 }
 
 }  // namespace gambeson

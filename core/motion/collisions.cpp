@@ -270,6 +270,27 @@ Vec3 wayOfBody(const CollisionModel& m, const ObstacleMotion& obstacles, const C
 
 void moveVertices(std::span<const Vec3> x1, CollisionWork& w) { copyAll(x1, w.x1); }
 
+namespace {
+
+/// Of w.near_points those of cloth: w.near.points.
+void keepCloth(const CollisionModel& m, CollisionWork& w) {
+  for (const PointTriangle& p : w.near_points)
+    if (p.triangle < m.cloth_triangles) w.near.points.push_back(p);
+}
+
+/// Those of bodies: w.near_bodies.
+void keepBodies(const CollisionModel& m, CollisionWork& w) {
+  for (const PointTriangle& p : w.near_points) {
+    if (p.triangle < m.cloth_triangles) continue;
+    const int body = m.body_of_vertex[m.mesh.triangles[p.triangle][0]];
+    ++w.near_bodies.first[p.vertex + 1];
+    w.near_bodies.items.push_back({m.bodies[body].obstacle, m.body_triangle[p.triangle - m.cloth_triangles]});
+  }
+  for (int v = 0; v < m.cloth.cloth_vertices; ++v) w.near_bodies.first[v + 1] += w.near_bodies.first[v];
+}
+
+}  // namespace
+
 void listNear(const CollisionModel& m, CollisionWork& w) {
   w.near.points.clear();
   w.near.edges.clear();
@@ -286,16 +307,7 @@ void listNear(const CollisionModel& m, CollisionWork& w) {
                          reachOf(m.vertex_half_reach_m[points[k].vertex], m.triangle_half_reach_m[points[k].triangle])))
         list.push_back(points[k]);
   });
-  for (const PointTriangle& p : w.near_points) {
-    if (p.triangle < m.cloth_triangles) {
-      w.near.points.push_back(p);
-    } else {
-      const int body = m.body_of_vertex[m.mesh.triangles[p.triangle][0]];
-      ++w.near_bodies.first[p.vertex + 1];
-      w.near_bodies.items.push_back({m.bodies[body].obstacle, m.body_triangle[p.triangle - m.cloth_triangles]});
-    }
-  }
-  for (int v = 0; v < m.cloth.cloth_vertices; ++v) w.near_bodies.first[v + 1] += w.near_bodies.first[v];
+  forAllUneven(Each::much, 2, [&](int of) { of == 0 ? keepCloth(m, w) : keepBodies(m, w); });
   appendInOrder(static_cast<int>(edges.size()), Each::value, w.near.edges, [&](int first, int end, auto& list) {
     for (int k = first; k < end; ++k)
       if (w.list.mayCome(m.mesh, edges[k], reachOf(m.edge_half_reach_m[edges[k].a], m.edge_half_reach_m[edges[k].b])))
@@ -307,7 +319,7 @@ void dropUnreached(const CollisionModel& m, const ObstacleMotion& obstacles, con
                    std::vector<Contact>& near) {
   const int n = static_cast<int>(near.size());
   std::vector<char> reached(near.size(), 1);
-  forAll(Each::value, n, [&](int k) {
+  forAll(Each::sum, n, [&](int k) {
     const Contact& c = near[k];
     if (!(c.gap_m > 0)) return;
     const Vec3 from = c.gap_m * c.normal;

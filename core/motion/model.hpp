@@ -293,6 +293,7 @@ struct StepScratch {
   // Of a structure.
   Supports::Solver support_solver;
   std::vector<Vec3> load, load_before, external, support_force, prescribed, released, start, accelerations;
+  std::vector<Vec3> row_mean;        ///< velocity that the impulse of each row works on, in the mean [m/s]
   std::vector<Vec3> jerk, net_jerk;  ///< changes of acceleration: of the free points, of the control points
   std::vector<Vec3> limit_end, moved, sample_impulse, pulled_before, pulled_after;
   std::vector<Vec3> lasting, sample_pressing;

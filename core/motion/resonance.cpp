@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/parallel.hpp"
 #include "core/motion/model.hpp"
 
 namespace gambeson {
@@ -22,11 +23,12 @@ constexpr double kCalmAgain = 0.6;  ///< part of a level's swing below which the
 double swing(const Model& m, const State& before, const State& after, double dt, double omega, StepWork& w) {
   w.jerk.resize(m.freeCount());
   w.net_jerk.resize(m.cloth->points());
-  for (int i = 0; i < m.freeCount(); ++i) w.jerk[i] = after.a[i] - before.a[i];
+  forAll(Each::value, m.freeCount(), [&](int i) { w.jerk[i] = after.a[i] - before.a[i]; });
   m.cloth->map().T.multiply<Vec3>(w.jerk, w.net_jerk);
-  double most = 0;
-  for (const NetEdge& e : m.net)
-    most = std::max(most, norm2(w.net_jerk[e.second] - w.net_jerk[e.first]) * e.per_length2);
+  const double most = largestOf(Each::value, static_cast<int>(m.net.size()), 0.0, [&](int k) {
+    const NetEdge& e = m.net[k];
+    return norm2(w.net_jerk[e.second] - w.net_jerk[e.first]) * e.per_length2;
+  });
   return swingOfJerk(most, dt, omega);
 }
 

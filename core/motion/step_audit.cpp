@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/math/parallel.hpp"
 #include "core/motion/forces.hpp"
 #include "core/motion/step_contact.hpp"
 #include "core/statics/structure_system.hpp"
@@ -24,19 +25,37 @@ double lastingWork(const Model& m, std::span<const Vec3> before, std::span<const
   return work;
 }
 
+/// What an impulse on these samples works on, as the ledger has it (contactLedger).
+Vec3 meanVelocity(const SparseRows& WT, const Stencil& stencil, double dt, std::span<const Vec3> foreseen,
+                  const StepWork& w) {
+  Vec3 mean{};
+  for (int j = 0; j < stencil.count; ++j) {
+    const int s = stencil.sample[j];
+    mean += (0.5 * stencil.weight[j]) *
+            (foreseen.empty()
+                 ? sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity)
+                 : sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, foreseen));
+  }
+  return mean;
+}
+
 }  // namespace
 
 void contactLedger(const Model& m, const State& in, double dt, std::span<const Vec3> foreseen, StepReport& report,
                    StepWork& w) {
   w.contact_impulses.clear();
   const SparseRows& WT = m.surface.WT;
+  w.row_mean.resize(w.rows.size());
+  forAll(Each::sum, static_cast<int>(w.rows.size()), [&](int i) {
+    if (!(w.impulses[i] == Vec3{})) w.row_mean[i] = meanVelocity(WT, w.rows[i].stencil, dt, foreseen, w);
+  });
   for (std::size_t i = 0; i < w.rows.size(); ++i) {
     const ContactRow& row = w.rows[i];
     const Vec3& impulse = w.impulses[i];
     if (impulse == Vec3{}) continue;
     const Contact& c = row.contact;
     const bool body = c.onBody();
-    Vec3 mean{};
+    const Vec3& mean = w.row_mean[i];
     for (int j = 0; j < row.stencil.count; ++j) {
       const int s = row.stencil.sample[j];
       const Vec3 part = row.stencil.weight[j] * impulse;
@@ -49,10 +68,6 @@ void contactLedger(const Model& m, const State& in, double dt, std::span<const V
           report.momentum.supports -= WT.values[k] * part;
           w.held_impulses[heldSlot(m, point)] -= WT.values[k] * part;
         }
-      mean += (0.5 * row.stencil.weight[j]) *
-              (foreseen.empty()
-                   ? sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity)
-                   : sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, foreseen));
     }
     report.momentum.scale += norm(impulse);
     const double normal = dot(impulse, c.normal);

@@ -96,10 +96,10 @@ namespace {
 void listRows(const Model& m, double dt, StepWork& w) {
   const int near = static_cast<int>(w.near.size()), points = static_cast<int>(w.collisions.points.size());
   w.rows.resize(w.near.size() + w.collisions.points.size() + w.edge_rows.size());
-  forAll(Each::value, near, [&](int k) {
+  forAll(Each::sum, near, [&](int k) {
     w.rows[k] = bodyRow(w.near[k], wayOfBody(m.collisions, motionOf(w), w.near[k]) / dt, 0, false);
   });
-  forAll(Each::value, points, [&](int k) {
+  forAll(Each::sum, points, [&](int k) {
     const ClothContactPoint& p = w.collisions.points[k];
     ContactRow& row = w.rows[near + k];
     row = {};
@@ -145,7 +145,7 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     w.slip[k] = known ? slipAt(warm.slip_m_per_s) : startSlip(m, in, dt, row);
     w.slip[k].weft = weftAt(m, in, row);
   }
-  forAll(Each::value, n, [&](int k) { setPersistent(m, dt, w.warm[k], w.rows[k]); });
+  forAll(Each::sum, n, [&](int k) { setPersistent(m, dt, w.warm[k], w.rows[k]); });
 }
 
 namespace {

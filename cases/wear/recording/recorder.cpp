@@ -291,20 +291,29 @@ void Recorder::observe(const State& before, const State& after, const StepReport
 void Recorder::addSticking(const State& before, const State& after, const StepReport& r, const StepResult& work) {
   const Model& m = *scenario_.model;
   const SparseRows& WT = m.surface.WT;
-  for (std::size_t i = 0; i < work.rows.size(); ++i) {
+  const auto pressing = [&](std::size_t i) {
+    const double normal = dot(work.impulses[i], work.rows[i].contact.normal);
+    return normal > 0 && !work.rows[i].slippery ? normal : 0.0;
+  };
+  std::vector<char> sticks(work.rows.size());
+  forAll(Each::sum, static_cast<int>(work.rows.size()), [&](int at) {
+    const auto i = static_cast<std::size_t>(at);
+    if (pressing(i) == 0) return;
     const ContactRow& row = work.rows[i];
-    const double normal = dot(work.impulses[i], row.contact.normal);
-    if (!(normal > 0) || row.slippery) continue;
     Vec3 v = -row.body_velocity;
     for (int j = 0; j < row.stencil.count; ++j) {
       const int s = row.stencil.sample[j];
       for (int k = WT.offsets[s]; k < WT.offsets[s + 1]; ++k)
         v += (row.stencil.weight[j] * WT.values[k] / r.step_s) * (after.p[WT.columns[k]] - before.p[WT.columns[k]]);
     }
-    const bool sticks = norm(v - dot(v, row.contact.normal) * row.contact.normal) <= m.contact.still(r.step_s);
-    const std::size_t of = row.contact.onBody() ? 0 : 2;
+    sticks[i] = norm(v - dot(v, row.contact.normal) * row.contact.normal) <= m.contact.still(r.step_s);
+  });
+  for (std::size_t i = 0; i < work.rows.size(); ++i) {
+    const double normal = pressing(i);
+    if (normal == 0) continue;
+    const std::size_t of = work.rows[i].contact.onBody() ? 0 : 2;
     sticking_[of] += normal;
-    if (sticks) sticking_[of + 1] += normal;
+    if (sticks[i]) sticking_[of + 1] += normal;
   }
 }
 
