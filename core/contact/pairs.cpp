@@ -278,8 +278,9 @@ void PairCollector::mend(const ContactMesh& mesh, const ContactTree& tree, const
         return tree.touched(p.triangle) || tree.touched(vertex_owner_[p.vertex]);
       });
     else
-      std::erase_if(
-          out.edges, [&](const EdgeEdge& p) { return tree.touched(edge_owner_[p.a]) || tree.touched(edge_owner_[p.b]); });
+      std::erase_if(out.edges, [&](const EdgeEdge& p) {
+        return tree.touched(edge_owner_[p.a]) || tree.touched(edge_owner_[p.b]);
+      });
   });
   const std::vector<ContactTree::Search> searches = tree.searchesOfTouched();
   search(mesh, tree, motion, rules, searches, std::ssize(searches) > kManyLeaves ? omp_get_max_threads() : 1, out);

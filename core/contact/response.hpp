@@ -178,7 +178,7 @@ struct ContactWork {
   };
   OnSamples spread;                   ///< of impulses
   std::array<OnSamples, 3> smoothed;  ///< of warm starts: of bodies, of each side of the cloth
-  std::vector<Vec3> now;  ///< velocities of all free points
+  std::vector<Vec3> now;              ///< velocities of all free points
   // The iteration's own arrays, four lanes wide.
   struct alignas(32) Quad {
     double lane[4];

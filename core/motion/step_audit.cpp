@@ -31,10 +31,9 @@ Vec3 meanVelocity(const SparseRows& WT, const Stencil& stencil, double dt, std::
   Vec3 mean{};
   for (int j = 0; j < stencil.count; ++j) {
     const int s = stencil.sample[j];
-    mean += (0.5 * stencil.weight[j]) *
-            (foreseen.empty()
-                 ? sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity)
-                 : sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) - dt * sampleAt(WT, s, foreseen));
+    mean += (0.5 * stencil.weight[j]) * (foreseen.empty() ? sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity)
+                                                          : sampleAt(WT, s, w.predictor) + sampleAt(WT, s, w.velocity) -
+                                                                dt * sampleAt(WT, s, foreseen));
   }
   return mean;
 }
@@ -257,8 +256,8 @@ double verletWork(const Model& m, const State& in, const State& out, double elas
     if (!w.pulled_before.empty()) change -= half * w.pulled_before[i];
     if (!out.pressed.empty()) change += half * out.pressed[i];
     if (!in.pressed.empty()) change -= half * in.pressed[i];
-    energy += m.mass_kg[i] * (0.5 * dot(change, in.v[i] + out.v[i]) -
-                              dt * dot(m.environment.gravity_m_per_s2, w.velocity[i]));
+    energy += m.mass_kg[i] *
+              (0.5 * dot(change, in.v[i] + out.v[i]) - dt * dot(m.environment.gravity_m_per_s2, w.velocity[i]));
     if (!m.dead_force_N.empty()) energy -= dt * dot(m.dead_force_N[i], w.velocity[i]);
   }
   for (std::size_t k = 0; k < m.inner_mass.size(); ++k)
