@@ -3,8 +3,8 @@
 
     interrupted.py [GAMBESON] CASE [OPTION...]    options of the run, such as --set
 
-The moments come from a fixed seed and scale with the time that a whole run takes here. The first are very early, so that
-runs die before their first checkpoint too; the others leave time to draft the garment again before anything is computed.
+The first dies as soon as it records, before its first checkpoint. The other moments come from a fixed seed and scale with the
+time that a whole run takes here: some very early, the others with time to draft the garment again before anything is computed.
 A chain of kills and resumptions ends when all is computed; its results are compared, and the next kills begin with a new
 run.
 """
@@ -17,6 +17,17 @@ import sys
 from common import HERE, Folder, check, command, run_case, same_results, summary
 
 KILLS = 20
+
+
+def wait_for_recording(process, results):
+    """Until the run has begun to record; raises TimeoutExpired as soon as it has."""
+    while True:
+        try:
+            process.wait(0.001)
+            return
+        except subprocess.TimeoutExpired:
+            if (results / "frames").exists():
+                raise
 
 
 def main():
@@ -36,7 +47,10 @@ def main():
             process = subprocess.Popen(command("run", case, "--out", folder / cut, "--resume", "--threads", 2, *options),
                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
             try:
-                process.wait(delay)
+                if reached:
+                    process.wait(delay)
+                else:
+                    wait_for_recording(process, folder / cut)
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
