@@ -6,7 +6,7 @@
 
 #include "bench_sheet.hpp"
 #include "bench_time.hpp"
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "core/cloth/shell/tangent.hpp"
 #include "core/statics/reduction.hpp"
 

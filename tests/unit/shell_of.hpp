@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/cloth/shell/nurbs_shell.hpp"
-#include "core/cloth/shell/shell_loads.hpp"
-#include "core/cloth/shell/shell_supports.hpp"
-#include "core/cloth/shell/strain_points.hpp"
+#include "core/cloth/patches/patch_loads.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
+#include "core/cloth/patches/strain_points.hpp"
 #include "core/motion/model.hpp"
 #include "core/statics/structure.hpp"
 

@@ -63,4 +63,8 @@ struct Garment {
   int garmentOf(int patch) const { return garment_of_patch.empty() ? 0 : garment_of_patch[patch]; }
 };
 
+/// Throws InputError where fabrics, patches, fields or lists of one entry per patch are no good; seams are another
+/// matter (buildFreeMap).
+void checkGarment(const Garment& garment);
+
 }  // namespace gambeson

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "core/cloth/shell/rest_frame.hpp"
+#include "core/cloth/patches/rest_frame.hpp"
 #include "core/cloth/shell/shell_pack.hpp"
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
@@ -58,17 +58,10 @@ void sortByPoints(std::vector<SheetCell>& cells) {
 
 Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, CellRule rule)
     : garment_(garment), kernels_(&kernels), offsets_(controlOffsets(garment)), control_count_(offsets_.back()) {
-  checkFabric(garment.fabric);
-  for (std::size_t k = 0; k < garment.other_fabrics.size(); ++k)
-    checkFabric(garment.other_fabrics[k], ("other_fabrics[" + std::to_string(k) + "]").c_str());
-  if (garment.weft.size() != garment.patches.size())
-    throw InputError({"", 0, "weft"}, "one direction for each patch is needed");
-  for (const NurbsPatch& patch : garment.patches) {
-    validate(patch);
+  checkGarment(garment);
+  for (const NurbsPatch& patch : garment.patches)
     if (patch.u.degree < 1 || patch.u.degree > 5 || patch.v.degree < 1 || patch.v.degree > 5)
       throw InputError({"", 0, "degree"}, "degrees of a shell patch must be 1 to 5");
-  }
-  validateFields(garment);
   std::map<BlockKind, std::vector<SheetCell>> kinds;
   for (SheetCell& cell : sheetCells(garment)) {
     if (cell.cut && cell.points.empty()) continue;

@@ -11,7 +11,7 @@
 #include "core/cloth/shell/cell_rule.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
 #include "core/cloth/shell/shell_memory.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/cloth/shell/weak_seam.hpp"
 #include "core/cloth/slot_gather.hpp"
 #include "core/cloth/stress.hpp"

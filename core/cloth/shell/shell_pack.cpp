@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/cloth/shell/rest_frame.hpp"
+#include "core/cloth/patches/rest_frame.hpp"
 #include "core/material/fabric_law.hpp"
 
 namespace gambeson {

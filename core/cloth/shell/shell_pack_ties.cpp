@@ -1,7 +1,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/cloth/shell/rest_frame.hpp"
+#include "core/cloth/patches/rest_frame.hpp"
 #include "core/cloth/shell/shell_pack.hpp"
 
 namespace gambeson {

@@ -9,7 +9,7 @@
 #include "cases/kinds/any_case.hpp"
 #include "cases/structure/build.hpp"
 #include "core/cloth/draft/areas.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "unit/cases/structure/example.hpp"
 

@@ -1,6 +1,6 @@
 // Surface samples: rows of W, rank, consistent areas, and what must agree between samples and nodes (ARCHITECTURE, "One
 // small interface for every cloth").
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/cloth/draft/areas.hpp"
 
 #include <gtest/gtest.h>

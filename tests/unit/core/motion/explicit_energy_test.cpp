@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "core/statics/statics.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"
 #include "unit/core/motion/structure_moves.hpp"

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/cloth/shell/shell_loads.hpp"
+#include "core/cloth/patches/patch_loads.hpp"
 #include "core/motion/velocity_verlet.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 #include "unit/shell_of.hpp"

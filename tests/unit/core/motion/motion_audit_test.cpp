@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 #include "unit/core/motion/structure_moves.hpp"
 #include "unit/shell_of.hpp"

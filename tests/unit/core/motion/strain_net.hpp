@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/cloth/shell/strain_points.hpp"
+#include "core/cloth/patches/strain_points.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
 
 namespace gambeson::shapes {

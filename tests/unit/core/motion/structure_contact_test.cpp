@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/cloth/shell/shell_loads.hpp"
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_loads.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "core/motion/implicit_velocities.hpp"
 #include "core/motion/motion_audit.hpp"
 #include "core/motion/runge_kutta.hpp"

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <random>
 
-#include "core/cloth/shell/shell_loads.hpp"
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_loads.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "core/error.hpp"
 #include "core/statics/statics.hpp"
 #include "core/statics/structure_system.hpp"

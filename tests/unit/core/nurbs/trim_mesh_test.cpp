@@ -10,7 +10,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"
 

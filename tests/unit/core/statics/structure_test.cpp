@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "core/error.hpp"
 #include "core/statics/modal.hpp"
 #include "core/statics/path.hpp"

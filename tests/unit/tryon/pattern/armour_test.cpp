@@ -9,7 +9,7 @@
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/join_garments.hpp"
 #include "core/cloth/shell/shell.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/contact/crossing.hpp"
 #include "core/contact/proximity.hpp"
 #include "core/error.hpp"

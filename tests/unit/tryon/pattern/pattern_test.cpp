@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "core/cloth/draft/areas.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "human/manikin/manikin.hpp"
 #include "human/motion/motion.hpp"

@@ -6,7 +6,7 @@
 #include "cases/wear/scene/garments.hpp"
 #include "cases/wear/scene/scenario.hpp"
 #include "core/cloth/draft/areas.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "human/skin/make_skin.hpp"
 #include "unit/cases/example.hpp"

@@ -11,7 +11,7 @@
 #include "cases/wear/scene/scenario.hpp"
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/seams.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "core/motion/stage_work.hpp"
 #include "exact/scene_intersections.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/cloth/draft/seams.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "core/motion/model.hpp"
 #include "core/nurbs/curve.hpp"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"
 

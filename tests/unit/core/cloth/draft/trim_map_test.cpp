@@ -8,7 +8,7 @@
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/trim_map.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/error.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"
 

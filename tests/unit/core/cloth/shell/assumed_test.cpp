@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "core/cloth/shell/tangent.hpp"
 #include "core/statics/statics.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "core/statics/statics.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"
 #include "unit/shell_of.hpp"

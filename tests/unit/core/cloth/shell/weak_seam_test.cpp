@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/cloth/shell/hinge.hpp"
-#include "core/cloth/shell/shell_loads.hpp"
+#include "core/cloth/patches/patch_loads.hpp"
 #include "core/cloth/shell/tangent.hpp"
 #include "core/error.hpp"
 #include "unit/core/cloth/shell/sheet_cylinder.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the strain of a NURBS sheet is limited (Zheng 2013, sections 5.4 and 5.5).
+/// Where the strain of cloth on patches is limited (Zheng 2013, sections 5.4 and 5.5).
 
 #include <span>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/rest_frame.hpp"
+#include "core/cloth/patches/rest_frame.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/bulge.hpp"
+#include "core/cloth/patches/bulge.hpp"
 
 #include <algorithm>
 #include <array>

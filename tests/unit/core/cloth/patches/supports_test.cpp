@@ -1,5 +1,5 @@
 // Supports: which motions they take and which they leave, exactly, on curved, rational and skewed patches.
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 
 #include <gtest/gtest.h>
 

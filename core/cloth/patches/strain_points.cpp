@@ -1,4 +1,4 @@
-#include "core/cloth/shell/strain_points.hpp"
+#include "core/cloth/patches/strain_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/cloth/draft/cells.hpp"
-#include "core/cloth/shell/thread_points.hpp"
+#include "core/cloth/patches/thread_points.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {

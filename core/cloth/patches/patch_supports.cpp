@@ -1,4 +1,4 @@
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/thread_points.hpp"
+#include "core/cloth/patches/thread_points.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,6 +1,6 @@
 /// Masses for cloth whose threads are limited.
 
-#include "core/cloth/shell/evened_masses.hpp"
+#include "core/cloth/patches/evened_masses.hpp"
 #include "core/cloth/draft/areas.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "core/cloth/draft/trim_loops.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"
 
 namespace gambeson {

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/cloth/draft/areas.hpp"
 
 #include <Eigen/SparseCholesky>

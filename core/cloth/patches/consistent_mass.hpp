@@ -1,5 +1,5 @@
 #pragma once
-/// The consistent mass of a NURBS sheet.
+/// The consistent mass of cloth on patches.
 
 #include <vector>
 

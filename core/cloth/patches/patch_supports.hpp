@@ -1,5 +1,5 @@
 #pragma once
-/// Supports of a NURBS sheet as linear constraints: easy to state, exact for a rotation-free shell.
+/// Supports of cloth on patches as linear constraints: easy to state, exact for a rotation-free shell.
 ///
 /// All act on control points, so each holds for the whole edge and not only at some of its points. Common supports:
 ///   hinged edge       supportEdge, three directions: held, free to turn about itself

@@ -1,7 +1,7 @@
 #pragma once
 /// Constraint points of their own for weft and warp (LimitPoints::threads).
 
-#include "core/cloth/shell/point_rows.hpp"
+#include "core/cloth/patches/point_rows.hpp"
 
 namespace gambeson {
 

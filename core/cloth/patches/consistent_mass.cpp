@@ -1,4 +1,4 @@
-#include "core/cloth/shell/shell_mass.hpp"
+#include "core/cloth/patches/consistent_mass.hpp"
 
 #include <algorithm>
 #include <utility>

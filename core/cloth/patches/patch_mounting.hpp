@@ -1,5 +1,5 @@
 #pragma once
-/// How supports and loads take hold of a NURBS sheet: shell_supports.hpp and shell_loads.hpp behind one interface.
+/// How supports and loads take hold of cloth on patches: patch_supports.hpp and patch_loads.hpp behind one interface.
 
 #include <memory>
 
@@ -9,6 +9,6 @@
 namespace gambeson {
 
 /// Lives no longer than the garment.
-std::unique_ptr<const Mounting> shellMounting(const Garment& garment);
+std::unique_ptr<const Mounting> patchMounting(const Garment& garment);
 
 }  // namespace gambeson

@@ -1,5 +1,5 @@
 #pragma once
-/// The surface samples of a NURBS sheet.
+/// The surface samples of cloth on patches.
 
 #include <span>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/point_rows.hpp"
+#include "core/cloth/patches/point_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

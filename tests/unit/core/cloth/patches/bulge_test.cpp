@@ -1,6 +1,6 @@
 /// How far cloth stands out between its samples, and that it stays out of bodies there.
 
-#include "core/cloth/shell/bulge.hpp"
+#include "core/cloth/patches/bulge.hpp"
 
 #include <gtest/gtest.h>
 

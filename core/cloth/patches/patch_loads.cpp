@@ -1,4 +1,4 @@
-#include "core/cloth/shell/shell_loads.hpp"
+#include "core/cloth/patches/patch_loads.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Loads: totals against closed forms, virtual work against finite differences, stiffness of those that follow.
-#include "core/cloth/shell/shell_loads.hpp"
+#include "core/cloth/patches/patch_loads.hpp"
 
 #include <gtest/gtest.h>
 

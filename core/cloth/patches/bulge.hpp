@@ -1,10 +1,10 @@
 #pragma once
-/// How far a NURBS sheet stands out between its samples.
+/// How far cloth on patches stands out between its samples.
 
 #include <span>
 
 #include "core/cloth/bulge.hpp"
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 
 namespace gambeson {
 

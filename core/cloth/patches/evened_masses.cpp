@@ -1,9 +1,9 @@
-#include "core/cloth/shell/evened_masses.hpp"
+#include "core/cloth/patches/evened_masses.hpp"
 #include "core/cloth/draft/areas.hpp"
 
 #include <algorithm>
 
-#include "core/cloth/shell/surface.hpp"
+#include "core/cloth/patches/surface.hpp"
 
 namespace gambeson {
 

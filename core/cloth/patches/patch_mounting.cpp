@@ -1,22 +1,22 @@
-#include "core/cloth/shell/shell_mounting.hpp"
+#include "core/cloth/patches/patch_mounting.hpp"
 
 #include <algorithm>
 
 #include "core/cloth/draft/edge.hpp"
 #include "core/cloth/draft/fields.hpp"
 #include "core/cloth/draft/seams.hpp"
-#include "core/cloth/shell/rest_frame.hpp"
-#include "core/cloth/shell/shell_loads.hpp"
-#include "core/cloth/shell/shell_supports.hpp"
+#include "core/cloth/patches/rest_frame.hpp"
+#include "core/cloth/patches/patch_loads.hpp"
+#include "core/cloth/patches/patch_supports.hpp"
 #include "core/cloth/surface.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
 namespace {
 
-class ShellMounting : public Mounting {
+class PatchMounting : public Mounting {
  public:
-  explicit ShellMounting(const Garment& garment) : g_(garment) {}
+  explicit PatchMounting(const Garment& garment) : g_(garment) {}
 
   PlaceRow place(int patch, Vec2 uv) const override {
     if (patch < 0 || patch >= static_cast<int>(g_.patches.size()))
@@ -115,8 +115,8 @@ class ShellMounting : public Mounting {
 
 }  // namespace
 
-std::unique_ptr<const Mounting> shellMounting(const Garment& garment) {
-  return std::make_unique<ShellMounting>(garment);
+std::unique_ptr<const Mounting> patchMounting(const Garment& garment) {
+  return std::make_unique<PatchMounting>(garment);
 }
 
 }  // namespace gambeson

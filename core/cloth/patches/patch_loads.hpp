@@ -1,5 +1,5 @@
 #pragma once
-/// Loads on a NURBS sheet.
+/// Loads on cloth on patches.
 
 #include <span>
 #include <vector>
