@@ -1,0 +1,249 @@
+#include "core/cloth/springs/spring_cloth.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/cloth/free_blocks.hpp"
+#include "core/cloth/plane_stress.hpp"
+#include "core/material/laws/spring.hpp"
+#include "core/math/parallel.hpp"
+
+namespace gambeson {
+namespace {
+
+class SpringTangent : public ClothTangent {
+ public:
+  explicit SpringTangent(const SpringCloth& cloth) : cloth_(cloth) {
+    std::vector<std::vector<int>> rows;
+    for (const PointSpring& s : cloth.springs().springs) rows.push_back(freePointsOf(cloth.map(), s.corner));
+    sparsity_ = blockSparsity(cloth.map(), rows);
+  }
+  const BlockMatrix& sparsity() const override { return sparsity_; }
+  void assemble(const ClothState& state, ClothWork&, BlockMatrix& K, const ForceTerms& terms) const override {
+    if (K.columns.size() != sparsity_.columns.size() || K.offsets != sparsity_.offsets) K = sparsity_;
+    K.values.assign(9 * K.columns.size(), 0.0);
+    std::vector<std::array<double, 9>> blocks(4);
+    for (const PointSpring& s : cloth_.springs().springs) {
+      if (!(s.bends ? terms.bending : terms.membrane)) continue;
+      const Vec3 way = state.q[static_cast<std::size_t>(s.corner[1])] - state.q[static_cast<std::size_t>(s.corner[0])];
+      const SpringAnswer<double> answer = linearSpring<with_slope>(s.stiffness_N_per_m, s.rest_m, norm2(way));
+      const Vec3 u = normalized(way);
+      const double across = terms.definite ? std::max(answer.across, 0.0) : answer.across;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+          const auto e = static_cast<std::size_t>(3 * i + j);
+          blocks[0][e] = blocks[3][e] = (i == j ? across : 0) + (answer.along - across) * u[i] * u[j];
+          blocks[1][e] = blocks[2][e] = -blocks[0][e];
+        }
+      addSymmetrised(cloth_.map(), s.corner, blocks, K);
+    }
+  }
+
+ private:
+  const SpringCloth& cloth_;
+  BlockMatrix sparsity_;
+};
+
+/// Those of the cells; at a point the mean over the cells around it, by area.
+class SpringStress : public StressView {
+ public:
+  explicit SpringStress(const SpringCloth& cloth) : cloth_(cloth) {}
+  std::size_t cells() const override { return cloth_.springs().cells.size(); }
+  std::vector<Sample> means(const ClothState& state, const More& more) const override {
+    std::vector<Sample> all(cells());
+    for (int p = 0; p < static_cast<int>(cloth_.patches().size()); ++p)
+      for (int c = cloth_.springs().first_cell[static_cast<std::size_t>(p)];
+           c < cloth_.springs().first_cell[static_cast<std::size_t>(p) + 1]; ++c)
+        all[static_cast<std::size_t>(c)] = ofCell(state, p, c, more);
+    return all;
+  }
+  PrincipalStress at(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means,
+                     const More& more) const override {
+    const Sample s = shownAt(state, patch, uv, means, more);
+    const auto stress = principalValues(s.stress), strain = principalValues(s.strain);
+    return {stress[0], stress[1], strain[0], strain[1]};
+  }
+  PlaneTensor strainAt(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means) const override {
+    return shownAt(state, patch, uv, means, {}).strain;
+  }
+
+ private:
+  Sample ofCell(const ClothState& state, int patch, int cell, const More& more) const {
+    const PointState s = cloth_.stateOf(patch, cell, state.q);
+    Vec2 extra{};
+    if (more) extra = more(patch, cloth_.lawPlaces()[static_cast<std::size_t>(cell)].second);
+    return {cauchyStress(s.strain, s.n + Vec3{extra.x, extra.y, 0}), {s.strain.x, s.strain.y, 0.5 * s.strain.z}};
+  }
+  Sample shownAt(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means, const More& more) const {
+    Sample sum;
+    double area = 0;
+    const std::vector<int> around = cloth_.cellsAt(patch, uv);
+    for (int c : around) area += cloth_.springs().cells[static_cast<std::size_t>(c)].area_m2;
+    for (int c : around) {
+      const double part = cloth_.springs().cells[static_cast<std::size_t>(c)].area_m2 / area;
+      const Sample s = means.empty() ? ofCell(state, patch, c, more) : means[static_cast<std::size_t>(c)];
+      addScaled(sum.stress, part, s.stress);
+      addScaled(sum.strain, part, s.strain);
+    }
+    return sum;
+  }
+
+  const SpringCloth& cloth_;
+};
+
+/// Of one knot vector of degree 1: the cells at a parameter, two at a knot inside.
+std::vector<int> cellsOf(const KnotVector& k, double at) {
+  const double near = 1e-9 * (k.back() - k.front());
+  std::vector<int> cells;
+  for (int c = 0; c + 1 < k.count(); ++c)
+    if (at >= k.knots[static_cast<std::size_t>(c) + 1] - near && at <= k.knots[static_cast<std::size_t>(c) + 2] + near)
+      cells.push_back(c);
+  return cells;
+}
+
+}  // namespace
+
+SpringCloth::SpringCloth(const Garment& garment, const SpringNumbers& numbers)
+    : PatchCloth(garment), springs_(springNet(garment, numbers)), gather_(points()) {
+  for (std::size_t k = 0; k < springs_.springs.size(); ++k)
+    for (std::size_t end = 0; end < 2; ++end)
+      gather_.add(springs_.springs[k].corner[end], static_cast<long>(6 * k + 3 * end), 1);
+  gather_.close();
+}
+
+void SpringCloth::force(const ClothState& state, const ClothForce& out, ClothWork& work,
+                        const ForceTerms& terms) const {
+  const int n = static_cast<int>(springs_.springs.size());
+  work.slots.resize(6 * springs_.springs.size());
+  if (out.energy) work.lane_energy.assign(springs_.springs.size(), 0.0);
+  forAll(Each::sum, n, [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    const PointSpring& s = springs_.springs[k];
+    double* const slot = work.slots.data() + 6 * k;
+    if (!(s.bends ? terms.bending : terms.membrane)) {
+      std::fill_n(slot, 6, 0.0);
+      return;
+    }
+    const Vec3 way = state.q[static_cast<std::size_t>(s.corner[1])] - state.q[static_cast<std::size_t>(s.corner[0])];
+    const SpringAnswer<double> answer = linearSpring<with_energy>(s.stiffness_N_per_m, s.rest_m, norm2(way));
+    for (int c = 0; c < 3; ++c) {
+      slot[c] = -answer.per_length * way[c];
+      slot[3 + c] = -slot[c];
+    }
+    if (out.energy) work.lane_energy[k] = answer.energy;
+  });
+  gather_.negativeSum(work.slots.data(), out.points);
+  if (!out.energy) return;
+  *out.energy = {};
+  for (const double e : work.lane_energy) out.energy->stored += e;
+}
+
+std::unique_ptr<ClothTangent> SpringCloth::tangent() const { return std::make_unique<SpringTangent>(*this); }
+
+std::unique_ptr<StressView> SpringCloth::stress() const { return std::make_unique<SpringStress>(*this); }
+
+std::vector<int> SpringCloth::cellsAt(int patch, Vec2 uv) const {
+  const NurbsPatch& p = garment().patches[static_cast<std::size_t>(patch)];
+  std::vector<int> cells;
+  for (const int j : cellsOf(p.v, uv.y))
+    for (const int i : cellsOf(p.u, uv.x))
+      cells.push_back(springs_.first_cell[static_cast<std::size_t>(patch)] + i + (p.u.count() - 1) * j);
+  return cells;
+}
+
+namespace {
+
+/// The mean of the second differences of a line of points around its interval c, where there are any.
+template <class At>
+Vec3 secondDifference(int c, int count, const At& at) {
+  Vec3 sum{};
+  int found = 0;
+  for (int k = c; k <= c + 1; ++k)
+    if (k > 0 && k + 1 < count) sum += at(k - 1) - 2.0 * at(k) + at(k + 1), ++found;
+  return found > 0 ? sum / found : sum;
+}
+
+}  // namespace
+
+/// A cell of a patch among its points, and what takes forms of grid coordinates to (weft, warp).
+class SpringCloth::Place {
+ public:
+  Place(const SpringCloth& cloth, int patch, int cell, std::span<const Vec3> q)
+      : patch_(cloth.garment().patches[static_cast<std::size_t>(patch)]),
+        q_(q.subspan(static_cast<std::size_t>(cloth.patches()[static_cast<std::size_t>(patch)].first_point),
+                     static_cast<std::size_t>(patch_.size()))) {
+    const int local = cell - cloth.springs_.first_cell[static_cast<std::size_t>(patch)], across = patch_.u.count() - 1;
+    i_ = local % across, j_ = local / across;
+    const auto& lines = cloth.springs_.cells[static_cast<std::size_t>(cell)].lines;
+    const Vec2 u = lines[0].way, v = lines[1].way;
+    const double det = u.x * v.y - u.y * v.x;
+    of_u_ = {v.y / det, -v.x / det}, of_v_ = {-u.y / det, u.x / det};
+    su_ = 0.5 * (at(1, 0) - at(0, 0) + at(1, 1) - at(0, 1));
+    sv_ = 0.5 * (at(0, 1) - at(0, 0) + at(1, 1) - at(1, 0));
+  }
+  Vec3 strain() const {
+    const Vec3 metric = toWeft(norm2(su_), norm2(sv_), 2 * dot(su_, sv_));
+    return {0.5 * (metric.x - 1), 0.5 * (metric.y - 1), 0.5 * metric.z};
+  }
+  Vec3 curvature() const {
+    const Vec3 normal = normalized(cross(su_, sv_));
+    Vec3 uu{}, vv{};
+    for (int side = 0; side < 2; ++side) {
+      uu += 0.5 * secondDifference(i_, patch_.u.count(), [&](int k) { return at(k - i_, side); });
+      vv += 0.5 * secondDifference(j_, patch_.v.count(), [&](int l) { return at(side, l - j_); });
+    }
+    const Vec3 twist = at(1, 1) - at(1, 0) - at(0, 1) + at(0, 0);
+    return toWeft(dot(uu, normal), dot(vv, normal), 2 * dot(twist, normal));
+  }
+
+ private:
+  const Vec3& at(int k, int l) const { return q_[static_cast<std::size_t>(patch_.index(i_ + k, j_ + l))]; }
+  /// Of a form (uu, vv, 2 uv).
+  Vec3 toWeft(double uu, double vv, double uv2) const {
+    const Vec2 &a = of_u_, &b = of_v_;
+    return {uu * a.x * a.x + vv * b.x * b.x + uv2 * a.x * b.x, uu * a.y * a.y + vv * b.y * b.y + uv2 * a.y * b.y,
+            2 * (uu * a.x * a.y + vv * b.x * b.y) + uv2 * (a.x * b.y + a.y * b.x)};
+  }
+
+  const NurbsPatch& patch_;
+  std::span<const Vec3> q_;
+  int i_ = 0, j_ = 0;
+  Vec2 of_u_, of_v_;  ///< rows of the inverse of the sides at rest
+  Vec3 su_, sv_;      ///< the sides
+};
+
+Vec3 SpringCloth::curvatureOf(int patch, int cell, std::span<const Vec3> q) const {
+  return Place(*this, patch, cell, q).curvature();
+}
+
+PointState SpringCloth::stateOf(int patch, int cell, std::span<const Vec3> q) const {
+  PointState s;
+  s.strain = Place(*this, patch, cell, q).strain();
+  s.curvature_change = curvatureOf(patch, cell, q) - curvatureOf(patch, cell, rest());
+  s.n = resultantsOf(springs_.cells[static_cast<std::size_t>(cell)], s.strain);
+  s.m = momentsOf(springs_.cells[static_cast<std::size_t>(cell)], s.curvature_change);
+  return s;
+}
+
+PointState SpringCloth::stateAt(const ClothState& state, int patch, Vec2 uv) const {
+  return stateOf(patch, cellsAt(patch, uv).front(), state.q);
+}
+
+double SpringCloth::bendAt(const ClothState& state, int patch, Vec2 uv) const {
+  const Vec3 k = curvatureOf(patch, cellsAt(patch, uv).front(), state.q);
+  return std::sqrt(k.x * k.x + k.y * k.y + 0.5 * k.z * k.z);
+}
+
+std::vector<std::pair<int, Vec2>> SpringCloth::lawPlaces() const {
+  std::vector<std::pair<int, Vec2>> places;
+  for (std::size_t p = 0; p < garment().patches.size(); ++p) {
+    const std::vector<double> us = breakpoints(garment().patches[p].u), vs = breakpoints(garment().patches[p].v);
+    for (std::size_t j = 0; j + 1 < vs.size(); ++j)
+      for (std::size_t i = 0; i + 1 < us.size(); ++i)
+        places.emplace_back(static_cast<int>(p), Vec2{0.5 * (us[i] + us[i + 1]), 0.5 * (vs[j] + vs[j + 1])});
+  }
+  return places;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,225 @@
+#include "core/cloth/springs/spring_net.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/cloth/draft/cells.hpp"
+#include "core/cloth/draft/fields.hpp"
+#include "core/cloth/draft/seams.hpp"
+#include "core/error.hpp"
+#include "core/material/fabric_law.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr double kCurvature_per_m = 100;  ///< at which flexion springs store what the fabric does
+
+[[noreturn]] void refuse(const std::string& key, const std::string& why) { throw InputError({"", 0, key}, why); }
+
+void checkForSprings(const Garment& g) {
+  checkGarment(g);
+  if (!g.weak_seams.empty()) refuse("weak_seams", "cloth of springs has none; join edges point by point");
+  for (std::size_t p = 0; p < g.patches.size(); ++p) {
+    const NurbsPatch& patch = g.patches[p];
+    if (patch.u.degree != 1 || patch.v.degree != 1) refuse("degree", "patches of springs are of degree 1");
+    if (isTrimmed(g, static_cast<int>(p))) refuse("trims", "cloth of springs cannot be trimmed");
+    for (double w : patch.weights)
+      if (w != patch.weights[0]) refuse("weights", "patches of springs have none");
+    for (const KnotVector* k : {&patch.u, &patch.v})
+      if (static_cast<int>(breakpoints(*k).size()) != k->count())
+        refuse("knots", "patches of springs have each inner knot once");
+  }
+  for (const Seam& s : g.seams)
+    if (s.kind != SeamKind::C0 || s.stiffness_N != 0 || s.onPart())
+      refuse("seams", "cloth of springs is joined along whole edges, C0 and without springs of the seam");
+  const auto checkLaw = [](const Fabric& f) {
+    if (lawUse(f).remembers()) refuse("fabric.bending.law", "springs know no law that remembers");
+  };
+  checkLaw(g.fabric);
+  for (const Fabric& f : g.other_fabrics) checkLaw(f);
+}
+
+/// e . A e of a strain or curvature in Voigt's form.
+double form(const Voigt& A, const Vec3& e) {
+  return A[0] * e.x * e.x + A[1] * e.y * e.y + A[2] * e.z * e.z +
+         2 * (A[3] * e.x * e.y + A[4] * e.x * e.z + A[5] * e.y * e.z);
+}
+/// Of a stretch of 1 along a direction, and of a shear of 1 between it and the one across.
+Vec3 along(const Vec2& d) { return {d.x * d.x, d.y * d.y, 2 * d.x * d.y}; }
+Vec3 shearAcross(const Vec2& d) { return {-d.x * d.y, d.x * d.y, d.x * d.x - d.y * d.y}; }
+
+/// Flexion springs over two cells of length a and width b, of cloth of this rigidity [N m].
+double flexionOf(double rigidity, double a, double b) {
+  const double turn = std::min(2 * std::asin(std::min(1.0, 0.5 * a * kCurvature_per_m)), 0.5 * std::numbers::pi);
+  const double curvature = 2 * std::sin(0.5 * turn) / a, shorter = 2 * a * (1 - std::cos(0.5 * turn));
+  return rigidity * curvature * curvature * a * b / (shorter * shorter);
+}
+
+double size(const Vec2& v) { return std::hypot(v.x, v.y); }
+
+/// One cell of a patch, before its springs are shared out.
+struct Cell {
+  Vec2 u, v;              ///< its sides at rest, along (weft, warp) [m]; of no length at a pole
+  double ku = 0, kv = 0;  ///< structural springs along them
+  double fu = 0, fv = 0;  ///< flexion
+  double diagonal = 0;
+};
+
+Cell cellOf(const Garment& g, int patch, const std::array<Vec3, 4>& x, const Vec2& middle, const SpringNumbers& n) {
+  const Vec3 su = 0.5 * (x[1] - x[0] + x[3] - x[2]), sv = 0.5 * (x[2] - x[0] + x[3] - x[1]);
+  const Vec3 normal = normalized(cross(su, sv)), weft = g.weft[static_cast<std::size_t>(patch)];
+  const Vec3 e1 = normalized(weft - dot(weft, normal) * normal), e2 = cross(normal, e1);
+  Cell c{{dot(su, e1), dot(su, e2)}, {dot(sv, e1), dot(sv, e2)}};
+  const double a = size(c.u), b = size(c.v);
+  const Section s = pointLaw(fabricAt(g, patch, middle)).section;
+  const Vec2 du{c.u.x / a, c.u.y / a}, dv{c.v.x / b, c.v.y / b};
+  const double shear = form(s.A, shearAcross(du));
+  c.diagonal = n.shear_N_per_m > 0 ? n.shear_N_per_m : shear * (a * a + b * b) / (2 * a * b);
+  const double sum2 = a * a + b * b;
+  const auto line = [&](const Vec2& d, double length, double width, double& structural, double& flexion) {
+    flexion = n.flexion_N_per_m > 0 ? n.flexion_N_per_m : flexionOf(form(s.D, along(d)), length, width);
+    const double diagonals = 2 * c.diagonal * length * length * length / (width * sum2);
+    structural = n.structural_N_per_m > 0 ? n.structural_N_per_m
+                                          : (form(s.A, along(d)) - diagonals) * width / length - 4 * flexion;
+    if (!(structural > 0))
+      refuse("springs",
+             "cells are too long: shear springs alone are stiffer along them than the fabric; give "
+             "structural springs, or make cells as wide as they are long");
+  };
+  line(du, a, b, c.ku, c.fu);
+  line(dv, b, a, c.kv, c.fv);
+  return c;
+}
+
+/// Springs between points of a garment, which lines on both sides of them have a part in.
+class Springs {
+ public:
+  Springs(const std::vector<Vec3>& rest, std::vector<PointSpring>& out) : rest_(rest), out_(out) {}
+  void add(int a, int b, double stiffness, bool bends) {
+    const double length = norm(rest_[static_cast<std::size_t>(b)] - rest_[static_cast<std::size_t>(a)]);
+    if (length > 0 && stiffness > 0) out_.push_back({{a, b}, length, stiffness, bends});
+  }
+
+ private:
+  const std::vector<Vec3>& rest_;
+  std::vector<PointSpring>& out_;
+};
+
+SpringCell summed(const Cell& c) {
+  SpringCell out;
+  const Vec2 sum{c.u.x + c.v.x, c.u.y + c.v.y}, difference{c.u.x - c.v.x, c.u.y - c.v.y};
+  const auto twice = [](const Vec2& v) { return Vec2{2 * v.x, 2 * v.y}; };
+  out.lines = {
+      {{c.u, c.ku}, {c.v, c.kv}, {twice(c.u), c.fu}, {twice(c.v), c.fv}, {sum, c.diagonal}, {difference, c.diagonal}}};
+  out.area_m2 = std::abs(c.u.x * c.v.y - c.u.y * c.v.x);
+  return out;
+}
+
+void addPatch(const Garment& g, int patch, int first, const std::vector<Vec3>& rest, const SpringNumbers& numbers,
+              SpringNet& net) {
+  const NurbsPatch& p = g.patches[static_cast<std::size_t>(patch)];
+  const int nu = p.u.count(), nv = p.v.count();
+  std::vector<Cell> cells;
+  const auto at = [&](int i, int j) { return first + p.index(i, j); };
+  for (int j = 0; j + 1 < nv; ++j)
+    for (int i = 0; i + 1 < nu; ++i) {
+      const auto x = [&](int k, int l) { return p.points[static_cast<std::size_t>(p.index(k, l))]; };
+      const auto mid = [](const KnotVector& k, int c) {
+        return 0.5 * (k.knots[static_cast<std::size_t>(c) + 1] + k.knots[static_cast<std::size_t>(c) + 2]);
+      };
+      cells.push_back(
+          cellOf(g, patch, {x(i, j), x(i + 1, j), x(i, j + 1), x(i + 1, j + 1)}, {mid(p.u, i), mid(p.v, j)}, numbers));
+      net.cells.push_back(summed(cells.back()));
+    }
+  net.first_cell.push_back(static_cast<int>(net.cells.size()));
+  const auto cell = [&](int i, int j) -> const Cell& { return cells[static_cast<std::size_t>(i + (nu - 1) * j)]; };
+  // Half of each line's stiffness is that of the cells on either side.
+  const auto both = [](int line, int lines, const auto& of) {
+    double sum = 0;
+    for (int side = std::max(0, line - 1); side <= std::min(line, lines - 2); ++side) sum += 0.5 * of(side);
+    return sum;
+  };
+  Springs springs(rest, net.springs);
+  for (int j = 0; j < nv; ++j)
+    for (int i = 0; i < nu; ++i) {
+      if (i + 1 < nu) springs.add(at(i, j), at(i + 1, j), both(j, nv, [&](int l) { return cell(i, l).ku; }), false);
+      if (j + 1 < nv) springs.add(at(i, j), at(i, j + 1), both(i, nu, [&](int k) { return cell(k, j).kv; }), false);
+      if (i + 1 < nu && j + 1 < nv) {
+        springs.add(at(i, j), at(i + 1, j + 1), cell(i, j).diagonal, false);
+        springs.add(at(i + 1, j), at(i, j + 1), cell(i, j).diagonal, false);
+      }
+      if (i + 2 < nu)
+        springs.add(at(i, j), at(i + 2, j),
+                    both(j, nv, [&](int l) { return 0.5 * (cell(i, l).fu + cell(i + 1, l).fu); }), true);
+      if (j + 2 < nv)
+        springs.add(at(i, j), at(i, j + 2),
+                    both(i, nu, [&](int k) { return 0.5 * (cell(k, j).fv + cell(k, j + 1).fv); }), true);
+    }
+}
+
+/// Flexion springs over a seam.
+void addSeam(const Garment& g, const Seam& seam, const std::vector<Vec3>& rest, const SpringNet& cells,
+             std::vector<PointSpring>& out) {
+  const EdgeColumns a = edgeColumns(g, seam.a), b = edgeColumns(g, seam.b);
+  const auto across = [&](const PatchEdge& edge, int k) {
+    const NurbsPatch& p = g.patches[static_cast<std::size_t>(edge.patch)];
+    const int nu = p.u.count() - 1, nv = p.v.count() - 1;
+    const bool along_v = edge.side == Side::u0 || edge.side == Side::u1;
+    const int count = along_v ? nv : nu, at = edge.reversed ? count - 1 - k : k;
+    const int i = along_v ? (edge.side == Side::u0 ? 0 : nu - 1) : at;
+    const int j = along_v ? at : (edge.side == Side::v0 ? 0 : nv - 1);
+    const int cell = cells.first_cell[static_cast<std::size_t>(edge.patch)] + i + nu * j;
+    return cells.cells[static_cast<std::size_t>(cell)].lines[along_v ? 2 : 3].stiffness_N_per_m;
+  };
+  const int points = static_cast<int>(a.edge.size());
+  Springs springs(rest, out);
+  for (int k = 0; k < points; ++k) {
+    double stiffness = 0;
+    for (int c = std::max(0, k - 1); c <= std::min(k, points - 2); ++c)
+      stiffness += 0.25 * (across(seam.a, c) + across(seam.b, c));
+    springs.add(a.inner[static_cast<std::size_t>(k)], b.inner[static_cast<std::size_t>(k)], stiffness, true);
+  }
+}
+
+}  // namespace
+
+SpringNet springNet(const Garment& garment, const SpringNumbers& numbers) {
+  checkForSprings(garment);
+  SpringNet net;
+  std::vector<Vec3> rest;
+  for (const NurbsPatch& p : garment.patches) rest.insert(rest.end(), p.points.begin(), p.points.end());
+  const std::vector<int> offsets = controlOffsets(garment);
+  for (int p = 0; p < static_cast<int>(garment.patches.size()); ++p)
+    addPatch(garment, p, offsets[static_cast<std::size_t>(p)], rest, numbers, net);
+  for (const Seam& seam : garment.seams) addSeam(garment, seam, rest, net, net.springs);
+  return net;
+}
+
+Vec3 resultantsOf(const SpringCell& cell, const Vec3& strain) {
+  Vec3 n{};
+  for (const SpringCell::Line& line : cell.lines) {
+    const double length2 = line.way.x * line.way.x + line.way.y * line.way.y;
+    const double longer2 = 2 * (strain.x * line.way.x * line.way.x + strain.y * line.way.y * line.way.y +
+                                strain.z * line.way.x * line.way.y);
+    const double pull = line.stiffness_N_per_m * (1 - std::sqrt(length2 / (length2 + longer2))) / cell.area_m2;
+    n += pull * Vec3{line.way.x * line.way.x, line.way.y * line.way.y, line.way.x * line.way.y};
+  }
+  return n;
+}
+
+Vec3 momentsOf(const SpringCell& cell, const Vec3& curvature) {
+  Vec3 m{};
+  for (const SpringCell::Line& line : {cell.lines[2], cell.lines[3]}) {
+    const double length = 0.5 * size(line.way), dx = 0.5 * line.way.x / length, dy = 0.5 * line.way.y / length;
+    const double bent = curvature.x * dx * dx + curvature.y * dy * dy + curvature.z * dx * dy;
+    const double half = std::clamp(0.5 * length * bent, -std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2);
+    const double cosine = std::sqrt(1 - half * half), shorter = 2 * length * (1 - cosine);
+    const double moment = line.stiffness_N_per_m * shorter * length * length * half / cosine / cell.area_m2;
+    m += moment * Vec3{dx * dx, dy * dy, dx * dy};
+  }
+  return m;
+}
+
+}  // namespace gambeson
