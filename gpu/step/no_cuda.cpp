@@ -4,7 +4,7 @@
 
 namespace gambeson::gpu {
 
-std::unique_ptr<StepOnDevice> stepOnCuda(const Model&, const State&, const StageWork&) {
+std::unique_ptr<StepOnDevice> stepOnCuda(const Model&, const State&, const StageWork&, double) {
   throw DeviceError(DeviceFault::not_built, "");
 }
 
