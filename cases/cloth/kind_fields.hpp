@@ -10,11 +10,16 @@
 namespace gambeson::schema {
 
 inline std::vector<std::pair<std::string, ClothKind>> clothKinds() {
-  return {{"nurbs", ClothKind::nurbs}, {"triangles", ClothKind::triangles}};
+  return {{"nurbs", ClothKind::nurbs}, {"triangles", ClothKind::triangles}, {"springs", ClothKind::springs}};
 }
 inline const char* clothKindDoc() {
-  return "what the cloth is made of: smooth NURBS patches (Kirchhoff-Love), or constant-strain triangles "
-         "that bend as bending_elements says";
+  return "what the cloth is made of: nurbs, smooth patches (Kirchhoff-Love); triangles of constant strain "
+         "that bend as bending_elements says; springs between points at the corners of the cells (Provot; Man 2006, "
+         "2.2)";
+}
+/// Those that a laboratory bends and shears: springs have no rigidity of their own, and remember nothing.
+inline std::vector<std::pair<std::string, ClothKind>> specimenKinds() {
+  return {{"nurbs", ClothKind::nurbs}, {"triangles", ClothKind::triangles}};
 }
 inline std::vector<std::pair<std::string, MeshKind>> meshKinds() {
   return {{"single", MeshKind::single}, {"alternating", MeshKind::alternating}, {"equilateral", MeshKind::equilateral}};

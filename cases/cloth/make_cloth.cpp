@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/cloth/draft/join_garments.hpp"
 #include "core/cloth/joined_cloth.hpp"
 #include "core/cloth/shell/nurbs_shell.hpp"
+#include "core/cloth/springs/spring_cloth.hpp"
 #include "core/cloth/triangles/draft_mesh.hpp"
 #include "core/cloth/triangles/triangle_cloth.hpp"
 
@@ -62,12 +64,21 @@ std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {
   return std::make_unique<TriangleCloth>(std::move(garments));
 }
 
+/// Of one garment: its springs have numbers of their own.
+std::unique_ptr<const Cloth> springsOf(const ClothSource& source) {
+  return underKey(source.key, [&] {
+    return std::make_unique<SpringCloth>(source.draft, source.model.springs.value_or(SpringNumbers{}));
+  });
+}
+
 std::unique_ptr<const Cloth> clothOfOneKind(std::span<const ClothSource> sources) {
   switch (sources[0].model.kind) {
     case ClothKind::nurbs:
       return shellOf(sources);
     case ClothKind::triangles:
       return trianglesOf(sources);
+    case ClothKind::springs:
+      return springsOf(sources[0]);
   }
   return nullptr;
 }
@@ -78,7 +89,8 @@ std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources) {
   std::vector<std::unique_ptr<const Cloth>> kinds;
   for (std::size_t from = 0; from < sources.size();) {
     std::size_t end = from + 1;
-    while (end < sources.size() && sources[end].model.kind == sources[from].model.kind) ++end;
+    const ClothKind kind = sources[from].model.kind;
+    while (kind != ClothKind::springs && end < sources.size() && sources[end].model.kind == kind) ++end;
     kinds.push_back(clothOfOneKind(sources.subspan(from, end - from)));
     from = end;
   }
@@ -87,7 +99,17 @@ std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources) {
 
 MeshDraft meshOf(const Garment& draft, const ClothModel& model) { return meshDraft(draft, model.mesh); }
 
-int samplesPerCell(const ClothModel& model, int asked) { return model.kind == ClothKind::triangles ? 1 : asked; }
+int samplesPerCell(const ClothModel& model, int asked) {
+  switch (model.kind) {
+    case ClothKind::nurbs:
+      return asked;
+    case ClothKind::triangles:
+      return 1;
+    case ClothKind::springs:
+      return std::max(1, asked);
+  }
+  return asked;
+}
 
 std::string inWords(const ClothModel& model) {
   switch (model.kind) {
@@ -95,11 +117,36 @@ std::string inWords(const ClothModel& model) {
       return "Kirchhoff-Love sheet: thin, normals stay normal; strains of the reference surface are Green-Lagrange's.";
     case ClothKind::triangles:
       return membraneInWords(model.membrane.elements) + bendingInWords(model.bending);
+    case ClothKind::springs:
+      return "Points at the corners of the cells, joined by springs.";
   }
   return {};
 }
 
-std::string inWords(const MembraneModel& m) {
+namespace {
+
+std::string springsInWords(const SpringNumbers& n) {
+  const auto given = [](double number, const char* otherwise) {
+    return number > 0 ? fmt::format("{:g} N/m", number) : std::string(otherwise);
+  };
+  const bool strips = n.flexion == Flexion::buckling;
+  return fmt::format(
+      "In place of the fabric's membrane and bending springs join neighbours ({}) and the diagonals of cells ({}), as "
+      "Provot's do (Man 2006, 2.2): their Poisson's ratio follows from them. {}. They do not jam. Seams with springs "
+      "of "
+      "their own bend as the cloth beside them.",
+      given(n.structural_N_per_m, "as stiff as the fabric asks for"), given(n.shear_N_per_m, "the fabric's shear"),
+      strips ? fmt::format("Every second point is joined by a strip that buckles (eq. 2.10), of {}",
+                           n.rigidity_Nm > 0 ? fmt::format("{:g} N m", n.rigidity_Nm) : "the fabric's rigidity")
+             : fmt::format("Every second point is joined likewise ({}), which is limp where flat",
+                           given(n.flexion_N_per_m, "as stores what the fabric's rigidity does at 1/cm")));
+}
+
+}  // namespace
+
+std::string ownLawsInWords(const ClothModel& model) {
+  if (model.kind == ClothKind::springs) return springsInWords(model.springs.value_or(SpringNumbers{}));
+  const MembraneModel& m = model.membrane;
   const auto given = [](double number, const char* otherwise) {
     return number > 0 ? fmt::format("{:g} N/m", number) : std::string(otherwise);
   };

@@ -27,13 +27,14 @@ std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources);
 /// A draft as the mesh that cloth of triangles would be made of. Throws InputError.
 MeshDraft meshOf(const Garment& draft, const ClothModel& model);
 
-/// Samples along each edge of a cell, where `asked` are wanted: those of triangles are their vertices.
+/// Samples along each edge of a cell, where `asked` are wanted (0: as few as the cloth has points): those of triangles
+/// are their vertices.
 int samplesPerCell(const ClothModel& model, int asked);
 
 /// What it assumes, for pages.
 std::string inWords(const ClothModel& model);
 
-/// What takes the place of the fabric's own membrane, for pages; empty where nothing does.
-std::string inWords(const MembraneModel& membrane);
+/// What takes the place of the fabric's own laws, for pages; empty where nothing does.
+std::string ownLawsInWords(const ClothModel& model);
 
 }  // namespace gambeson

@@ -43,15 +43,15 @@ const std::vector<MembraneKey>& membraneKeys() {
 
 void checkMembrane(const Entry& entry, const ClothModel& model, const Fabric& fabric, bool moves) {
   const MembraneElements elements = model.membrane.elements;
-  if (model.kind == ClothKind::nurbs && entry.node.find("membrane_elements"))
+  if (model.kind != ClothKind::triangles && entry.node.find("membrane_elements"))
     entry.failAt("membrane_elements", "is for \"model\": \"triangles\"");
   for (const MembraneKey& k : membraneKeys()) {
     if (!entry.node.find(k.key)) continue;
     if (!isOf(k, elements))
-      entry.failAt(k.key, std::string("is for \"membrane_elements\": ") +
-                              (k.springs && k.threads ? "\"springs\" or \"baraff_witkin\""
-                               : k.springs            ? "\"springs\""
-                                                      : "\"baraff_witkin\""));
+      entry.failAt(k.key, std::string("is for \"membrane_elements\": ") + (k.springs && k.threads
+                                                                               ? "\"springs\" or \"baraff_witkin\""
+                                                                           : k.springs ? "\"springs\""
+                                                                                       : "\"baraff_witkin\""));
     if (damps(k) && !moves)
       entry.failAt(k.key, "acts on velocities, and a static or modal case has none; allowed: leave it out");
   }
@@ -61,9 +61,10 @@ void checkMembrane(const Entry& entry, const ClothModel& model, const Fabric& fa
                  "takes the place of the membrane that the fabric's tension_field relaxes; allowed: \"continuum\", or "
                  "a fabric without tension_field");
   if (fabric.shear_friction != ShearFriction{})
-    entry.failAt("membrane_elements",
-                 "takes the place of the membrane that has the fabric's friction in shear; allowed: \"continuum\", or a "
-                 "fabric without shear_loop");
+    entry.failAt(
+        "membrane_elements",
+        "takes the place of the membrane that has the fabric's friction in shear; allowed: \"continuum\", or a "
+        "fabric without shear_loop");
 }
 
 }  // namespace gambeson::schema

@@ -1,14 +1,25 @@
 #include "cases/cloth/rules.hpp"
 
+#include "core/cloth/springs/spring_net.hpp"
+
 namespace gambeson::schema {
 
 void checkBending(const Entry& entry, const ClothModel& model) {
   const auto refuse = [&](const char* key, const char* reason) {
     if (entry.node.find(key)) entry.failAt(key, reason);
   };
-  if (model.kind == ClothKind::nurbs) refuse("bending_elements", "is for \"model\": \"triangles\"");
-  if (model.kind == ClothKind::nurbs || model.bending != BendingElements::springs)
+  if (model.kind != ClothKind::triangles) refuse("bending_elements", "is for \"model\": \"triangles\"");
+  if (model.kind != ClothKind::triangles || model.bending != BendingElements::springs)
     refuse("bending_spring", "is for triangles with \"bending_elements\": \"springs\"");
+}
+
+void checkSprings(const Entry& entry, const ClothModel& model, const Fabric& fabric) {
+  if (model.kind != ClothKind::springs) {
+    if (entry.node.find("springs")) entry.failAt("springs", "is for \"model\": \"springs\"");
+    return;
+  }
+  if (const std::string why = whatSpringsLack(fabric); !why.empty())
+    entry.failAt("model", why + R"(; allowed with it: "nurbs", "triangles")");
 }
 
 }  // namespace gambeson::schema

@@ -3,10 +3,15 @@
 
 #include "cases/cloth/kind.hpp"
 #include "cases/input/schema.hpp"
+#include "core/material/fabric.hpp"
 
 namespace gambeson::schema {
 
 /// Throws InputError where `entry` has keys of bending that its kind of cloth has no use for.
 void checkBending(const Entry& entry, const ClothModel& model);
+
+/// Throws InputError where `entry` has springs that its kind of cloth has no use for, or springs are to be made of a
+/// fabric that has more than they can be.
+void checkSprings(const Entry& entry, const ClothModel& model, const Fabric& fabric);
 
 }  // namespace gambeson::schema

@@ -22,8 +22,9 @@ StrainLimit limitOf(const StrainLimitCase& c) {
 StrainLimit wornLimit(const StrainLimitCase& c) {
   constexpr double kTensionAtTolerance_N_per_m = 100;
   StrainLimit limit = limitOf(c);
-  if (c.method != LimitMethod::fast)
-    throw InputError({"", 0, "strain_limit.method"}, "closest is for structures; cloth that is worn takes fast");
+  if (c.method == LimitMethod::closest)
+    throw InputError({"", 0, "strain_limit.method"},
+                     "closest is for structures; cloth that is worn takes fast or provot");
   if (!c.stiffness_N_per_m) limit.stiffness_N_per_m = kTensionAtTolerance_N_per_m / c.tolerance;
   return limit;
 }
@@ -38,10 +39,8 @@ std::string limitInWords(const StrainLimitCase& c, const std::string& mean) {
           ? "Weft and warp keep their length"
           : fmt::format("Weft and warp are kept from stretching beyond a strain of {}", formatNumber(*c.limit));
   return fmt::format(
-      "{} by projection at {} (Zheng 2013, chapter 5); stress includes what that takes, as "
-      "a "
-      "mean over {}.",
-      held, words.at(c.points), mean);
+      "{} by projection at {} ({}); stress includes what that takes, as a mean over {}.", held, words.at(c.points),
+      c.method == LimitMethod::provot ? "one after the other, Provot 1995" : "Zheng 2013, chapter 5", mean);
 }
 
 namespace schema {
@@ -80,13 +79,17 @@ Object strainLimitTable() {
           "whole patches (Zheng 2013, 5.4): the first lock, the second lets cells hourglass")
       .choice(
           "method", &S::method,
-          std::vector<std::pair<std::string, LimitMethod>>{{"fast", LimitMethod::fast},
-                                                           {"closest", LimitMethod::closest}},
+          std::vector<std::pair<std::string, LimitMethod>>{
+              {"fast", LimitMethod::fast}, {"closest", LimitMethod::closest}, {"provot", LimitMethod::provot}},
           "fast: fast projection (Zheng 2013, eq. 5.21). closest: the whole Newton iteration to the closest point on "
-          "the constraints (eq. 5.15), slower; for comparison, of structures, mode equality")
+          "the constraints (eq. 5.15), slower; for comparison, of structures, mode equality. provot: what is stretched "
+          "too far is drawn together one strain after the other, max_projections sweeps over all at most (Provot 1995; "
+          "Man 2006, 2.1.1.1, without a number), of mode upper_limit; slow where much is stretched")
       .check([](const Entry& p, const S& s) {
         if (s.method == LimitMethod::closest && s.mode != LimitMode::equality)
           p.failAt("method", "closest goes with mode equality");
+        if (s.method == LimitMethod::provot && s.mode != LimitMode::upper_limit)
+          p.failAt("method", "provot goes with mode upper_limit");
         if (s.mode == LimitMode::upper_limit && !s.limit)
           p.failAt("limit", "is required for upper_limit: the largest strain");
         if (s.mode == LimitMode::equality && s.limit)

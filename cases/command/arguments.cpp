@@ -219,10 +219,10 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->allow_extra_args(false)
       ->check(CLI::Range(-360., 360.).description(""));
   command
-      .add_option("--model", a.model, "What the specimen is made of: " + schema::joined(wordsOf(schema::clothKinds())))
+      .add_option("--model", a.model, "What the specimen is made of: " + schema::joined(wordsOf(schema::specimenKinds())))
       ->type_name("MODEL")
       ->capture_default_str()
-      ->check(CLI::IsMember(wordsOf(schema::clothKinds())).description(""));
+      ->check(CLI::IsMember(wordsOf(schema::specimenKinds())).description(""));
   command.add_option("--mesh", a.mesh, "Of triangles: " + schema::joined(wordsOf(schema::meshKinds())))
       ->type_name("MESH")
       ->capture_default_str()

@@ -62,7 +62,7 @@ E choiceOf(const std::vector<std::pair<std::string, E>>& choices, const std::str
 
 int fabricCommand(FabricArguments& a, std::ostream& out) {
   FabricOptions& o = a.options;
-  o.specimen.cloth.kind = choiceOf(schema::clothKinds(), a.model);
+  o.specimen.cloth.kind = choiceOf(schema::specimenKinds(), a.model);
   o.specimen.cloth.mesh = choiceOf(schema::meshKinds(), a.mesh);
   o.specimen.cloth.bending = choiceOf(schema::bendingElements(), a.bending);
   if (!a.tests.empty()) {

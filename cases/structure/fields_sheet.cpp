@@ -2,6 +2,7 @@
 #include "cases/cloth/fields.hpp"
 #include "cases/cloth/kind_fields.hpp"
 #include "cases/cloth/membrane_fields.hpp"
+#include "cases/cloth/spring_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -85,14 +86,14 @@ Object structureSheetTable() {
           "mesh", [](auto& s) -> auto& { return s.cloth.mesh; }, meshKinds(), meshKindDoc())
       .unwritten()
       .choice(
-          "bending_elements", [](auto& s) -> auto& { return s.cloth.bending; }, bendingElements(),
-          bendingElementsDoc())
+          "bending_elements", [](auto& s) -> auto& { return s.cloth.bending; }, bendingElements(), bendingElementsDoc())
       .unwritten()
       .number(
           "bending_spring", [](auto& s) -> auto& { return s.cloth.bending_spring_N_per_m; }, "N/m", between(0, 1e6),
           bendingSpringDoc())
       .unwritten();
   addMembraneFields(table);
+  addSpringFields(table);
   return table.build();
 }
 

@@ -197,7 +197,7 @@ std::string contactInWords(const StructureCase& c) {
 
 std::vector<std::string> assumptionsOf(const StructureCase& c) {
   std::vector<std::string> a{inWords(c.sheet.cloth)};
-  if (std::string own = inWords(c.sheet.cloth.membrane); !own.empty()) a.push_back(std::move(own));
+  if (std::string own = ownLawsInWords(c.sheet.cloth); !own.empty()) a.push_back(std::move(own));
   const bool linear = c.kind == StructureKind::statics && c.statics.linear;
   a.push_back(linear ? "Small displacements: forces, strains and stress are linear in them."
                      : "Displacements and rotations of any size.");

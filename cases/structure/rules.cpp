@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/cloth/rules.hpp"
 #include "cases/cloth/membrane_fields.hpp"
+#include "cases/cloth/rules.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/structure/build.hpp"
@@ -207,6 +207,8 @@ void applyStructureRules(const Entry& root, StructureCase& c) {
   checkMembrane(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(c.material), c.kind == StructureKind::dynamics);
   for (const MaterialCase& m : c.other_materials)
     checkMembrane(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(m), c.kind == StructureKind::dynamics);
+  checkSprings(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(c.material));
+  for (const MaterialCase& m : c.other_materials) checkSprings(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(m));
   checkLoads(root, c);
   checkContact(root, c);
   if (c.kind == StructureKind::dynamics && c.dynamics.stepsPoints() && c.damping.stiffness_s > 0)

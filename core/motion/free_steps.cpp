@@ -14,9 +14,10 @@ namespace {
 constexpr int kLongStepsToEstimate = 10;
 
 RungeKuttaOrder orderOf(MotionScheme s) {
-  return s == MotionScheme::euler      ? RungeKuttaOrder::euler
-         : s == MotionScheme::midpoint ? RungeKuttaOrder::midpoint
-                                       : RungeKuttaOrder::fourth;
+  return s == MotionScheme::euler              ? RungeKuttaOrder::euler
+         : s == MotionScheme::symplectic_euler ? RungeKuttaOrder::symplectic
+         : s == MotionScheme::midpoint         ? RungeKuttaOrder::midpoint
+                                               : RungeKuttaOrder::fourth;
 }
 
 FrequencyOf frequencyOf(MotionScheme s) {
@@ -93,6 +94,7 @@ double FreeSteps::longestStep(State& state) {
 bool FreeSteps::outruns(double omega2, double dt) const {
   if (isImplicit(options_.scheme)) return false;  // what the motion shows is not what bounds the step
   if (options_.scheme == MotionScheme::runge_kutta) return omega2 * dt * dt > 8;
+  if (options_.scheme == MotionScheme::symplectic_euler) return omega2 * dt * dt > 4;
   return control_.fixed_s > 0 ? omega2 * dt * dt > 1 : dt > stableStep(std::sqrt(omega2));
 }
 

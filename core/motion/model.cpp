@@ -161,8 +161,8 @@ std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const Mode
   if (options.strain_limit.mode != LimitMode::none) {
     checkLimit(options.strain_limit);
     Mobility mobility = m.supports ? m.supports->mobility() : Mobility{m.inverse_mass, {}};
-    if (options.strain_limit.method == LimitMethod::closest && mobility.P.rows() > 0)
-      throw InputError({"", 0, "strain_limit.method"}, "closest goes with supports that hold points whole");
+    if (options.strain_limit.method != LimitMethod::fast && mobility.P.rows() > 0)
+      throw InputError({"", 0, "strain_limit.method"}, "closest and provot go with supports that hold points whole");
     m.strain_rows = m.cloth->strainRows(std::move(mobility), options.strain_limit.points);
   }
   m.proximity = std::make_unique<ProximityQuery>(m.obstacles);

@@ -3,7 +3,7 @@
 
 namespace gambeson {
 
-enum class MotionScheme { verlet, euler, midpoint, runge_kutta, implicit_euler, semi_implicit };
+enum class MotionScheme { verlet, euler, symplectic_euler, midpoint, runge_kutta, implicit_euler, semi_implicit };
 
 struct MotionOptions {
   MotionScheme scheme = MotionScheme::verlet;

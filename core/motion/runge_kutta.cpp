@@ -18,15 +18,16 @@ struct Stages {
 const Stages& stagesOf(RungeKuttaOrder order) {
   static const Stages euler{1, {0}, {1}}, midpoint{2, {0, 0.5}, {0, 1}},
       fourth{4, {0, 0.5, 0.5, 1}, {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}};
-  return order == RungeKuttaOrder::euler ? euler : order == RungeKuttaOrder::midpoint ? midpoint : fourth;
+  return order == RungeKuttaOrder::midpoint ? midpoint : order == RungeKuttaOrder::fourth ? fourth : euler;
 }
 
 }  // namespace
 
 double longestStableStep(RungeKuttaOrder order, double omega, double damping) {
   if (order == RungeKuttaOrder::fourth) return 2 * std::sqrt(2.0) / omega;
-  const double longest = order == RungeKuttaOrder::euler ? damping / (omega * omega)
-                                                         : std::cbrt(4 * damping / std::pow(omega, 4));
+  if (order == RungeKuttaOrder::symplectic) return 2 / omega;
+  const double longest =
+      order == RungeKuttaOrder::euler ? damping / (omega * omega) : std::cbrt(4 * damping / std::pow(omega, 4));
   return std::min(longest, 1 / omega);
 }
 
@@ -126,6 +127,10 @@ bool RungeKutta::move(const Model& m, const Stage& stage, const State& in, doubl
     }
   }
   for (int i = 0; i < n; ++i) free.velocity[i] += in.v[i];
+  if (order_ == RungeKuttaOrder::symplectic) {
+    for (int i = 0; i < n; ++i) free.way[i] = dt * free.velocity[i];
+    rate_ = out.inner_rate;
+  }
   out.inner.resize(in.inner.size());
   m.cloth->advance(in.inner, rate_, dt, out.inner);
   return true;

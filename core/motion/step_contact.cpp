@@ -12,6 +12,7 @@
 #include "core/motion/closest_projection.hpp"
 #include "core/motion/contradict.hpp"
 #include "core/motion/held_motion.hpp"
+#include "core/motion/provot_projection.hpp"
 #include "core/motion/step_rows.hpp"
 
 namespace gambeson {
@@ -172,6 +173,8 @@ void solveVelocities(const Model& m, const State& in, double dt, bool first, Yie
     const int most = together && turn == 1 && !w.rows.empty() ? 1 : limit.max_projections;
     if (limit.method == LimitMethod::closest)
       projectClosest(m.strain_rows, limit, end, report.limit, w.limit);
+    else if (limit.method == LimitMethod::provot)
+      projectOneByOne(m.strain_rows, limit, end, report.limit, w.limit);
     else
       projectStrain(m.strain_rows, limit, first && turn == 1 && limit.always, end, report.limit, w.limit, most);
     ++report.limit.rounds;

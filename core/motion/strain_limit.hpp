@@ -15,8 +15,9 @@ namespace gambeson {
 /// so that cloth may shorten freely and is only held where it would stretch beyond the limit.
 enum class LimitMode { none, equality, upper_limit };
 
-/// fast: eq. 5.21 and 5.22. closest: the whole Newton iteration, eq. 5.15 and 5.16 (projectClosest).
-enum class LimitMethod { fast, closest };
+/// fast: eq. 5.21 and 5.22. closest: the whole Newton iteration, eq. 5.15 and 5.16 (projectClosest). provot: one strain
+/// after the other (projectOneByOne).
+enum class LimitMethod { fast, closest, provot };
 
 struct StrainLimit {
   LimitMode mode = LimitMode::none;

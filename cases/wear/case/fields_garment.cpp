@@ -4,6 +4,7 @@
 #include "cases/cloth/fields.hpp"
 #include "cases/cloth/kind_fields.hpp"
 #include "cases/cloth/membrane_fields.hpp"
+#include "cases/cloth/spring_fields.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/input/table.hpp"
 #include "cases/wear/case/case.hpp"
@@ -57,16 +58,15 @@ Object garmentTable() {
           "mesh", [](auto& g) -> auto& { return g.cloth.mesh; }, meshKinds(), meshKindDoc())
       .unwritten()
       .choice(
-          "bending_elements", [](auto& g) -> auto& { return g.cloth.bending; }, bendingElements(),
-          bendingElementsDoc())
+          "bending_elements", [](auto& g) -> auto& { return g.cloth.bending; }, bendingElements(), bendingElementsDoc())
       .unwritten()
       .number(
           "bending_spring", [](auto& g) -> auto& { return g.cloth.bending_spring_N_per_m; }, "N/m", between(0, 1e6),
           bendingSpringDoc())
       .unwritten();
   addMembraneFields(table);
-  return table
-      .vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
+  addSpringFields(table);
+  return table.vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
       .converted<FabricInput>("fabric", &G::fabric, fabricTable(), resolveFabric, restoreFabric,
                               "what this garment is made of")
       .defaultsTo("the case's fabric")

@@ -103,17 +103,19 @@ void checkModel(const Entry& entry, const Case& c, const GarmentCase& g) {
   const auto refuse = [&](const char* key, const std::string& reason) {
     if (entry.node.find(key)) entry.failAt(key, reason);
   };
-  if (kind.isMesh() && g.cloth.kind == ClothKind::nurbs)
+  if (kind.isMesh() && g.cloth.kind != ClothKind::triangles)
     entry.failAt("model", fmt::format("a {} is cloth of triangles; allowed: \"triangles\"", kind.word));
   if (kind.isMesh())
     refuse("mesh", fmt::format("is for drafts; a {} is a mesh already", kind.word));
-  else if (g.cloth.kind == ClothKind::nurbs)
+  else if (g.cloth.kind != ClothKind::triangles)
     refuse("mesh", "is for \"model\": \"triangles\"");
   checkMembrane(entry, g.cloth, fabricOf(c, g), true);
   for (const Fabric& other : otherFabrics(g)) checkMembrane(entry, g.cloth, other, true);
   checkBending(entry, g.cloth);
-  if (g.cloth.kind == ClothKind::nurbs) return;
-  refuse("samples_per_cell", "is for \"model\": \"nurbs\"; the samples of triangles are their vertices");
+  checkSprings(entry, g.cloth, fabricOf(c, g));
+  for (const Fabric& other : otherFabrics(g)) checkSprings(entry, g.cloth, other);
+  if (g.cloth.kind != ClothKind::triangles) return;
+  refuse("samples_per_cell", "is for the other models; the samples of triangles are their vertices");
   if (c.strain_limit && wornLimit(*c.strain_limit).mode == LimitMode::equality)
     entry.failAt(
         "model",
@@ -236,8 +238,9 @@ void checkPictureFields(const Entry& root, const Case& c) {
       root.member(*root.node.find("output"))
           .member(*root.node.find("output")->find("pictures"))
           .item(i)
-          .failAt("field", "shows what bent cloth remembers, which no fabric here does; allowed: it where a fabric's "
-                           "bending has the law hysteresis");
+          .failAt("field",
+                  "shows what bent cloth remembers, which no fabric here does; allowed: it where a fabric's "
+                  "bending has the law hysteresis");
 }
 
 }  // namespace

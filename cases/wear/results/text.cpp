@@ -225,7 +225,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
                 : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
                   "orthotropic (Zheng 2013, eq. 2.13).");
   for (const GarmentCase& g : c.garments)
-    if (const std::string own = inWords(g.cloth.membrane); !own.empty())
+    if (const std::string own = ownLawsInWords(g.cloth); !own.empty())
       say((c.garments.size() > 1 ? g.name + ": " : "") + own);
   if (c.strain_limit) say(limitInWords(*c.strain_limit, "the window"));
   std::vector<FabricCase> said;

@@ -62,7 +62,20 @@ PatchCloth::PatchCloth(Garment garment)
       patches_(patchesOf(garment_)),
       mounting_(patchMounting(garment_)) {}
 
+PatchCloth::PatchCloth(const NodalDraft& draft) : PatchCloth(heldAtNodes(draft.garment)) {
+  of_control_ = draft.of_control;
+}
+
 PatchCloth::~PatchCloth() = default;
+
+int PatchCloth::draftPoints() const { return of_control_.rows() > 0 ? of_control_.column_count : points(); }
+
+std::vector<Vec3> PatchCloth::fromDraft(std::span<const Vec3> control) const {
+  if (of_control_.rows() == 0) return {control.begin(), control.end()};
+  std::vector<Vec3> nodes(rest_.size());
+  of_control_.multiply<Vec3>(control, nodes);
+  return nodes;
+}
 
 std::string PatchCloth::describePoint(int point) const {
   int patch = 0;

@@ -1,11 +1,12 @@
 #pragma once
 /// What all cloth on patches has in common, whatever its law: where its points are, which of them move freely, its
-/// samples, places, masses, supports and files. Its points are the control points of a draft.
+/// samples, places, masses, supports and files. Its points are the control points of a draft, or nodes made of them.
 
 #include <memory>
 
 #include "core/cloth/cloth.hpp"
 #include "core/cloth/draft/garment.hpp"
+#include "core/cloth/draft/nodal_draft.hpp"
 
 namespace gambeson {
 
@@ -22,8 +23,8 @@ class PatchCloth : public Cloth {
   const std::vector<ClothPatch>& patches() const override { return patches_; }
   std::string describePoint(int point) const override;
   Vec2 placeOfDraft(int, Vec2 uv) const override { return uv; }
-  int draftPoints() const override { return points(); }
-  std::vector<Vec3> fromDraft(std::span<const Vec3> control) const override { return {control.begin(), control.end()}; }
+  int draftPoints() const override;
+  std::vector<Vec3> fromDraft(std::span<const Vec3> control) const override;
 
   Surface surface(std::span<const int> per_cell) const override;
   Bulges bulges(const Surface& surface, std::span<const int> per_cell) const override;
@@ -47,9 +48,12 @@ class PatchCloth : public Cloth {
  protected:
   /// Throws InputError on bad geometry or seams.
   explicit PatchCloth(Garment garment);
+  /// Its points are nodes, held together in position along all seams.
+  explicit PatchCloth(const NodalDraft& draft);
 
  private:
   Garment garment_;
+  SparseRows of_control_;  ///< of nodes; no rows: points are control points
   FreeMap map_;
   std::vector<Vec3> rest_;
   std::vector<ClothPatch> patches_;

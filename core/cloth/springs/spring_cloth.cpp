@@ -6,7 +6,7 @@
 
 #include "core/cloth/free_blocks.hpp"
 #include "core/cloth/plane_stress.hpp"
-#include "core/material/laws/spring.hpp"
+#include "core/cloth/spring_stiffness.hpp"
 #include "core/math/parallel.hpp"
 
 namespace gambeson {
@@ -23,20 +23,10 @@ class SpringTangent : public ClothTangent {
   void assemble(const ClothState& state, ClothWork&, BlockMatrix& K, const ForceTerms& terms) const override {
     if (K.columns.size() != sparsity_.columns.size() || K.offsets != sparsity_.offsets) K = sparsity_;
     K.values.assign(9 * K.columns.size(), 0.0);
-    std::vector<std::array<double, 9>> blocks(4);
     for (const PointSpring& s : cloth_.springs().springs) {
       if (!(s.bends ? terms.bending : terms.membrane)) continue;
       const Vec3 way = state.q[static_cast<std::size_t>(s.corner[1])] - state.q[static_cast<std::size_t>(s.corner[0])];
-      const SpringAnswer<double> answer = linearSpring<with_slope>(s.stiffness_N_per_m, s.rest_m, norm2(way));
-      const Vec3 u = normalized(way);
-      const double across = terms.definite ? std::max(answer.across, 0.0) : answer.across;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-          const auto e = static_cast<std::size_t>(3 * i + j);
-          blocks[0][e] = blocks[3][e] = (i == j ? across : 0) + (answer.along - across) * u[i] * u[j];
-          blocks[1][e] = blocks[2][e] = -blocks[0][e];
-        }
-      addSymmetrised(cloth_.map(), s.corner, blocks, K);
+      addSpringStiffness(cloth_.map(), s.corner, way, cloth_.springs().answer(s, norm2(way)), terms.definite, K);
     }
   }
 
@@ -104,8 +94,8 @@ std::vector<int> cellsOf(const KnotVector& k, double at) {
 
 }  // namespace
 
-SpringCloth::SpringCloth(const Garment& garment, const SpringNumbers& numbers)
-    : PatchCloth(garment), springs_(springNet(garment, numbers)), gather_(points()) {
+SpringCloth::SpringCloth(const NodalDraft& draft, const SpringNumbers& numbers)
+    : PatchCloth(draft), springs_(springNet(draft.garment, numbers)), gather_(points()) {
   for (std::size_t k = 0; k < springs_.springs.size(); ++k)
     for (std::size_t end = 0; end < 2; ++end)
       gather_.add(springs_.springs[k].corner[end], static_cast<long>(6 * k + 3 * end), 1);
@@ -126,7 +116,7 @@ void SpringCloth::force(const ClothState& state, const ClothForce& out, ClothWor
       return;
     }
     const Vec3 way = state.q[static_cast<std::size_t>(s.corner[1])] - state.q[static_cast<std::size_t>(s.corner[0])];
-    const SpringAnswer<double> answer = linearSpring<with_energy>(s.stiffness_N_per_m, s.rest_m, norm2(way));
+    const SpringAnswer<double> answer = springs_.answer(s, norm2(way));
     for (int c = 0; c < 3; ++c) {
       slot[c] = -answer.per_length * way[c];
       slot[3 + c] = -slot[c];

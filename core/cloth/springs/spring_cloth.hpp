@@ -9,8 +9,9 @@ namespace gambeson {
 
 class SpringCloth : public PatchCloth {
  public:
-  /// Throws InputError where the garment cannot be made of springs (springNet).
-  explicit SpringCloth(const Garment& garment, const SpringNumbers& numbers = {});
+  /// Between the nodes of a draft (nodalDraft). Throws InputError where it cannot be made of springs (springNet).
+  explicit SpringCloth(const Garment& draft, const SpringNumbers& numbers = {})
+      : SpringCloth(nodalDraft(draft), numbers) {}
 
   const SpringNet& springs() const { return springs_; }
 
@@ -38,6 +39,8 @@ class SpringCloth : public PatchCloth {
 
  private:
   class Place;
+
+  SpringCloth(const NodalDraft& draft, const SpringNumbers& numbers);
 
   SpringNet springs_;
   SlotGather gather_;

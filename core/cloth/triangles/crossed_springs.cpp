@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/cloth/free_blocks.hpp"
+#include "core/cloth/spring_stiffness.hpp"
 #include "core/cloth/triangles/hinge_heights.hpp"
 #include "core/cloth/triangles/lane_energies.hpp"
 #include "core/cloth/triangles/point_block.hpp"
@@ -61,22 +61,11 @@ void CrossedSprings::force(const ClothState& state, const ClothForce& out, bool 
   energies.add(none);
 }
 
-void CrossedSprings::addStiffness(const FreeMap& map, std::span<const Vec3> q, bool definite,
-                                BlockMatrix& K) const {
-  std::vector<std::array<double, 9>> blocks(4);
+void CrossedSprings::addStiffness(const FreeMap& map, std::span<const Vec3> q, bool definite, BlockMatrix& K) const {
   for (const CrossedSpring& s : springs_) {
     const Vec3 way = q[static_cast<std::size_t>(s.corner[1])] - q[static_cast<std::size_t>(s.corner[0])];
-    const SpringAnswer<double> answer = linearSpring<with_slope>(s.stiffness_N_per_m, s.rest_m, norm2(way));
-    const Vec3 u = normalized(way);
-    const double across = definite ? std::max(answer.across, 0.0) : answer.across;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const double k = (i == j ? across : 0) + (answer.along - across) * u[i] * u[j];
-        const auto e = static_cast<std::size_t>(3 * i + j);
-        blocks[0][e] = blocks[3][e] = k;
-        blocks[1][e] = blocks[2][e] = -k;
-      }
-    addSymmetrised(map, s.corner, blocks, K);
+    addSpringStiffness(map, s.corner, way, linearSpring<with_slope>(s.stiffness_N_per_m, s.rest_m, norm2(way)),
+                       definite, K);
   }
 }
 

@@ -303,7 +303,7 @@ TEST(MalformedCase, Schemes) {
   expectRefused(
       example,
       {{from, time("\"scheme\": \"rk3\""), 27, "time.scheme",
-        "allowed: verlet, euler, rk2, rk4, implicit_euler or semi_implicit"},
+        "allowed: verlet, euler, symplectic_euler, rk2, rk4, implicit_euler or semi_implicit"},
        {from, time("\"scheme\": \"semi_implicit\", \"substeps\": 0"), 27, "time.substeps",
         "0 is out of range; allowed: >= 1"},
        {from, time("\"substeps\": 2"), 27, "time.substeps", "it goes with semi_implicit"},

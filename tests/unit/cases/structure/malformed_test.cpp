@@ -133,7 +133,8 @@ TEST(MalformedStructure, DynamicCasesAndClosedShapes) {
           {"\"step\": 0.01", "\"step\": 0.01, \"scheme\": \"newmark\", \"beta\": 0.1", 12, "solver.beta", "stable"},
           {"\"end\": 0.5", "\"end\": 0", 12, "solver.end", "allowed: > 0"},
           {"\"step\": 0.01", "\"step\": 0.01, \"scheme\": \"leapfrog\"", 12, "solver.scheme",
-           "allowed: generalised_alpha, newmark, explicit, euler, rk2, rk4, implicit_euler or semi_implicit"},
+           "allowed: generalised_alpha, newmark, explicit, euler, symplectic_euler, rk2, rk4, implicit_euler or "
+           "semi_implicit"},
           {"\"step\": 0.01", "\"scheme\": \"implicit_euler\"", 12, "solver.step",
            "which no step bounds; allowed: > 0 s"},
           {"\"step\": 0.01", "\"scheme\": \"rk2\"", 12, "solver.step", "without damping"},

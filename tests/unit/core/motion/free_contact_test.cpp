@@ -19,13 +19,10 @@ struct Case {
   double step_s;
   int substeps = 1;
 };
-constexpr Case kCases[] = {{MotionScheme::verlet, 3e-4},
-                           {MotionScheme::euler, 5e-6},
-                           {MotionScheme::midpoint, 5e-5},
-                           {MotionScheme::runge_kutta, 3e-4},
-                           {MotionScheme::implicit_euler, 1e-3},
-                           {MotionScheme::semi_implicit, 1e-3, 1},
-                           {MotionScheme::semi_implicit, 2e-3, 4}};
+constexpr Case kCases[] = {{MotionScheme::verlet, 3e-4},           {MotionScheme::euler, 5e-6},
+                           {MotionScheme::symplectic_euler, 3e-4}, {MotionScheme::midpoint, 5e-5},
+                           {MotionScheme::runge_kutta, 3e-4},      {MotionScheme::implicit_euler, 1e-3},
+                           {MotionScheme::semi_implicit, 1e-3, 1}, {MotionScheme::semi_implicit, 2e-3, 4}};
 
 /// A sheet held along an edge, hung on springs at two corners, in the wind, over a rising ball that it touches.
 Motion everything() {

@@ -17,7 +17,8 @@ namespace {
 using namespace shapes;
 using Vector = SpringPoints::Vector;
 
-constexpr MotionScheme kSchemes[] = {MotionScheme::euler, MotionScheme::midpoint, MotionScheme::runge_kutta,
+constexpr MotionScheme kSchemes[] = {MotionScheme::euler,          MotionScheme::symplectic_euler,
+                                     MotionScheme::midpoint,       MotionScheme::runge_kutta,
                                      MotionScheme::implicit_euler, MotionScheme::semi_implicit};
 
 StepControl fixedSteps(double dt) {
@@ -81,6 +82,34 @@ TEST(FreeSteps, AnOscillatorGrowsAsTheSchemeSays) {
       EXPECT_EQ(steps, 12);
     }
   }
+}
+
+/// Man 2006, eq. 2.2: the velocity goes first, and v^2 + omega^2 x^2 - dt omega^2 x v stays.
+TEST(FreeSteps, SymplecticEulerKeepsAnInvariantUpToTwo) {
+  const double omega = 5;
+  for (const double z : {0.3, 1.5, 1.99, 2.01}) {
+    Oscillator o(spring(omega), 0.4, -1.1);
+    const double dt = z / omega;
+    const auto kept = [&](const State& x) {
+      return norm2(x.v[0]) + omega * omega * (norm2(x.p[0]) - dt * x.p[0].x * x.v[0].x);
+    };
+    const double first = kept(o.state);
+    double most = 0;
+    o.run(MotionScheme::symplectic_euler, 400 * dt, fixedSteps(dt),
+          [&](const State& a, const State& b, const StepReport&) {
+            EXPECT_NEAR(b.v[0].x, a.v[0].x - dt * omega * omega * a.p[0].x, 1e-12 * (1 + std::abs(b.v[0].x)));
+            EXPECT_NEAR(b.p[0].x, a.p[0].x + dt * b.v[0].x, 1e-12 * (1 + std::abs(b.p[0].x)));
+            if (z < 2) {
+              EXPECT_NEAR(kept(b), first, 1e-10 * first);
+            }
+            most = std::max(most, std::abs(b.p[0].x));
+          });
+    if (z < 2)
+      EXPECT_LT(most, 10);
+    else
+      EXPECT_GT(most, 1e10);
+  }
+  EXPECT_EQ(longestStableStep(RungeKuttaOrder::symplectic, omega, 0), 2 / omega);
 }
 
 /// The toy's law has no energy that could be asked for: all that its kinetic energy changes by is the scheme's own.
@@ -177,8 +206,8 @@ TEST(FreeSteps, InnerUnknownsMoveAsPointsDo) {
   const SpringPoints::Law law = [](const Vector& x) -> Vector {
     return Vector{{9 * x(0) - 4 * (x(1) - x(0)), 4 * (x(1) - x(0))}};
   };
-  for (const MotionScheme s :
-       {MotionScheme::euler, MotionScheme::midpoint, MotionScheme::runge_kutta, MotionScheme::implicit_euler}) {
+  for (const MotionScheme s : {MotionScheme::euler, MotionScheme::symplectic_euler, MotionScheme::midpoint,
+                               MotionScheme::runge_kutta, MotionScheme::implicit_euler}) {
     std::vector<Vec3> end[2];
     for (const bool inner : {false, true}) {
       ModelOptions o;
@@ -239,6 +268,7 @@ TEST(FreeSteps, OrdersOnAHangingSheet) {
     return std::log2(error(s, dt, substeps) / error(s, dt / 2, substeps));
   };
   EXPECT_NEAR(order(MotionScheme::euler, 4e-6), 1, 0.1);
+  EXPECT_NEAR(order(MotionScheme::symplectic_euler, 5e-5), 1, 0.1);
   EXPECT_NEAR(order(MotionScheme::midpoint, 5e-5), 2, 0.1);
   EXPECT_NEAR(order(MotionScheme::runge_kutta, 4e-4), 4, 0.1);
   EXPECT_NEAR(order(MotionScheme::implicit_euler, 2e-5), 1, 0.1);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/motion/closest_projection.hpp"
+#include "core/motion/provot_projection.hpp"
 #include "core/motion/strain_limit.hpp"
 #include "unit/core/motion/strain_net.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"
@@ -289,6 +290,55 @@ TEST(Projection, UpperLimitIsComplementary) {
     EXPECT_GT(pulling, 3);
     EXPECT_GT(slack, 3);
   }
+}
+
+/// Provot's correction: strain after strain; momentum, what it gives and the limits hold.
+TEST(Projection, OneByOneHoldsTheLimitAndKeepsTheMomentum) {
+  Net net(seamed());
+  net.shake(0.04, 2);
+  const std::vector<Vec3> before = net.p;
+  LimitWork work;
+  LimitReport report;
+  StrainLimit limit{LimitMode::upper_limit, 0.02, 1e-4, 1000};
+  limit.method = LimitMethod::provot;
+  startProjection(net.rows, {}, work);
+  projectOneByOne(net.rows, limit, net.p, report, work);
+  EXPECT_TRUE(report.converged);
+  EXPECT_GT(report.projections, 3);
+  EXPECT_GT(report.active, 3);
+  std::vector<Vec3> e, moved;
+  strainVectors(net.rows, net.p, e);
+  for (int i = 0; i < net.rows.rows(); ++i) {
+    EXPECT_LE(strainOf(e[i]), 0.02 + 1e-4);
+    EXPECT_GE(work.multiplier[i], 0);
+  }
+  const std::vector<double>& inverse = net.rows.mobility.inverse_mass;
+  Vec3 sum{};
+  double scale = 0;
+  for (std::size_t k = 0; k < net.p.size(); ++k) {
+    EXPECT_LT(norm(net.p[k] - before[k] + inverse[k] * work.pull[k]), 1e-15);
+    sum += work.pull[k];
+    scale += norm(work.pull[k]);
+  }
+  EXPECT_LT(norm(sum), 1e-13 * scale);
+  // A few sweeps leave something, and say how much.
+  Net again(seamed());
+  again.shake(0.04, 2);
+  limit.max_projections = 2;
+  LimitReport some;
+  startProjection(again.rows, {}, work);
+  projectOneByOne(again.rows, limit, again.p, some, work);
+  EXPECT_FALSE(some.converged);
+  EXPECT_EQ(some.projections, 2);
+  EXPECT_GT(some.residual, 1e-4);
+}
+
+TEST(Projection, OneByOneGoesWithUpperLimits) {
+  Net net(squareSheet(4, 0.2, 0));
+  LimitWork work;
+  LimitReport report;
+  startProjection(net.rows, {}, work);
+  EXPECT_THROW(projectOneByOne(net.rows, {LimitMode::equality}, net.p, report, work), InputError);
 }
 
 TEST(Projection, ShortenedClothIsFree) {

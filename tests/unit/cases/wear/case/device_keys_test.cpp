@@ -101,7 +101,8 @@ const Keys carried{
 const Keys with_refused{
     {"Garment",
      "mesh bending_elements bending_spring membrane_elements spring_stiffness weft_stiffness "
-     "warp_stiffness shear_stiffness stretch_damping shear_damping mesh_file"},
+     "warp_stiffness shear_stiffness stretch_damping shear_damping mesh_file springs"},
+    {"Springs of cloth", "structural shear bending flexion rigidity"},
     {"Mesh file", "path rest unit uv_unit"},
     {"Friction", "stribeck_speed stribeck_power viscous_power pressure"},
     {"Loop of shear", "hysteresis hysteresis_5 friction_angle rise growth"},
@@ -210,15 +211,18 @@ TEST(DeviceKeys, TheLineOfTheFileIsNamed) {
 TEST(DeviceKeys, GarmentsAreLookedAtOneByOne) {
   const Folder folder;
   const std::string sheet = R"({"name": "NAME", "sheet": {"width": 0.4, "height": 0.4, "cells_u": 8, "cells_v": 8}})";
-  const std::string both =
-      replaced(plain, R"("garment": {"sheet": {"width": 0.4, "height": 0.4, "cells_u": 8, "cells_v": 8}})",
-               "\"garments\": [" + replaced(sheet, "NAME", "a") + ", " +
-                   replaced(replaced(sheet, "NAME", "b"), "}}", "}, \"model\": \"triangles\"}") + "]");
-  try {
-    requireCarried(readCase(folder.write("both.json", both)), DeviceKind::cuda);
-    ADD_FAILURE() << "accepted";
-  } catch (const InputError& e) {
-    EXPECT_EQ(e.where().key, "garments[1].model") << e.what();
+  for (const std::string model : {"triangles", "springs"}) {
+    const std::string both =
+        replaced(plain, R"("garment": {"sheet": {"width": 0.4, "height": 0.4, "cells_u": 8, "cells_v": 8}})",
+                 "\"garments\": [" + replaced(sheet, "NAME", "a") + ", " +
+                     replaced(replaced(sheet, "NAME", "b"), "}}", "}, \"model\": \"" + model + "\"}") + "]");
+    try {
+      requireCarried(readCase(folder.write("both.json", both)), DeviceKind::cuda);
+      ADD_FAILURE() << "accepted " << model;
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.where().key, "garments[1].model") << e.what();
+      EXPECT_NE(e.reason().find(model), std::string::npos) << e.what();
+    }
   }
 }
 

@@ -108,9 +108,8 @@ TEST(SpringCloth, OfAFabricHasItsStiffnessOnCellsOfAnySides) {
   EXPECT_NEAR(stored / area, 0.5 * s.D[0] * 100 * 100 * (nu - 1) / nu, 1e-9);
 }
 
-TEST(SpringCloth, ForceIsTheGradientOfTheEnergyAndTheTangentItsSlope) {
-  Garment g = sheet(5, 4, 0.05, 0.044);
-  const SpringCloth c(g);
+void expectGradientAndSlope(const SpringNumbers& numbers) {
+  const SpringCloth c(sheet(5, 4, 0.05, 0.044), numbers);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> d(-1e-3, 1e-3);
   const std::vector<Vec3> q = moved(c, [&](const Vec3& x) {
@@ -152,6 +151,11 @@ TEST(SpringCloth, ForceIsTheGradientOfTheEnergyAndTheTangentItsSlope) {
   EXPECT_LT(norm(sum), 1e-12 * largest);
 }
 
+TEST(SpringCloth, ForceIsTheGradientOfTheEnergyAndTheTangentItsSlope) {
+  expectGradientAndSlope({});
+  expectGradientAndSlope({0, 0, 0, Flexion::buckling});
+}
+
 TEST(SpringCloth, TwoPatchesJoinedAreOne) {
   const SpringNumbers numbers{7, 3, 0.5};
   const SpringCloth whole(sheet(12, 6, 0.12, 0.06), numbers);
@@ -160,12 +164,66 @@ TEST(SpringCloth, TwoPatchesJoinedAreOne) {
     return Vec3{0.05 + 0.07 * a, 0.06 * b, 0};
   }));
   two.weft.push_back({1, 0, 0});
-  two.seams.push_back({{0, Side::u1, false}, {1, Side::u0, false}, SeamKind::C0});
+  two.seams.push_back({{0, Side::u1, false}, {1, Side::u0, false}, SeamKind::G1});
   const SpringCloth joined(two, numbers);
   const auto shape = [](const Vec3& x) { return Vec3{1.02 * x.x + 0.01 * x.y, 0.99 * x.y, 2 * x.x * x.x - x.y * x.x}; };
   const double e = energyOf(whole, moved(whole, shape));
   EXPECT_GT(e, 0);
   EXPECT_NEAR(energyOf(joined, moved(joined, shape)), e, 1e-12 * e);
+}
+
+/// Across a free seam (C0) nothing bends; one with a spring of its own bends as the cloth beside it.
+TEST(SpringCloth, FoldsFreelyAtAFreeSeam) {
+  Garment two = sheet(4, 3, 0.04, 0.03);
+  two.patches.push_back(patchOf(uniformKnots(1, 4), uniformKnots(1, 3), [](double a, double b) {
+    return Vec3{0.04 + 0.04 * a, 0.03 * b, 0};
+  }));
+  two.weft.push_back({1, 0, 0});
+  const auto folded = [&](const Seam& seam) {
+    two.seams = {seam};
+    const SpringCloth c(two, {7, 3, 0.5});
+    return energyOf(c, moved(c, [](const Vec3& x) { return x.x <= 0.04 ? x : Vec3{0.04, x.y, x.x - 0.04}; }));
+  };
+  const PatchEdge a{0, Side::u1, false}, b{1, Side::u0, false};
+  EXPECT_NEAR(folded({a, b, SeamKind::C0}), 0, 1e-18);
+  // Three cells' width of springs from 2 cells to sqrt(2) of them.
+  const double shorter = 0.01 * (2 - std::sqrt(2.0)), expected = 3 * 0.5 * 0.5 * shorter * shorter;
+  EXPECT_NEAR(folded({a, b, SeamKind::C0, 0.01}), expected, 1e-12 * expected);
+  EXPECT_NEAR(folded({a, b, SeamKind::G1}), expected, 1e-12 * expected);
+}
+
+/// A narrow patch on a part of a wide one's edge (Seam::first_cell) is as if the wide one went on there.
+TEST(SpringCloth, BendsOverASeamOnAPart) {
+  Garment g = sheet(4, 6, 0.04, 0.06);
+  g.patches.push_back(patchOf(uniformKnots(1, 4), uniformKnots(1, 2), [](double a, double b) {
+    return Vec3{0.04 + 0.04 * a, 0.03 + 0.02 * b, 0};
+  }));
+  g.weft.push_back({1, 0, 0});
+  g.seams.push_back({{1, Side::u0, false}, {0, Side::u1, false}, SeamKind::C0, 0.01, 3});
+  const SpringCloth c(g, {7, 3, 0.5});
+  const double e = energyOf(c, moved(c, [](const Vec3& x) { return x.x <= 0.04 ? x : Vec3{0.04, x.y, x.x - 0.04}; }));
+  const double shorter = 0.01 * (2 - std::sqrt(2.0)), expected = 2 * 0.5 * 0.5 * shorter * shorter;
+  EXPECT_NEAR(e, expected, 1e-12 * expected);
+}
+
+/// Strips that buckle store B/2 kappa^2 of a cylinder, but for the half line at both ends, and pull nothing.
+TEST(SpringCloth, StripsStoreWhatTheRigiditySays) {
+  const int n = 24;
+  const double h = 0.01, kappa = 8;
+  // Stiff enough at the start for that to store next to nothing.
+  const SpringCloth c(sheet(n, n, n * h, n * h), {1000, 0, 1e5, Flexion::buckling, 3e-6});
+  const double area = n * h * n * h, e = energyOf(c, bent(c, h, kappa), {false, true, false}) / area;
+  EXPECT_NEAR(e, 0.5 * 3e-6 * kappa * kappa * (n - 1) / n, 3e-3 * e);  // chords, and the start of the strips
+  const std::vector<Vec3> stretched = moved(c, [](const Vec3& x) { return 1.05 * x; });
+  EXPECT_EQ(energyOf(c, stretched, {false, true, false}), 0);
+  const PointState s = c.stateAt(ClothState(bent(c, h, kappa)), 0, {0.45, 0.45});
+  EXPECT_NEAR(s.m.x, 3e-6 * kappa, 1e-3 * 3e-6 * kappa);
+  EXPECT_NEAR(s.m.y, 0, 1e-12);
+  // From a fabric the springs along a line have all of its stiffness.
+  const SpringCloth whole(sheet(60, 50, 0.6, 0.6), {0, 0, 0, Flexion::buckling});
+  const Section section = pointLaw(cloth()).section;
+  const auto stretch = moved(whole, [](const Vec3& x) { return Vec3{1.0001 * x.x, x.y, 0}; });
+  EXPECT_NEAR(2 * energyOf(whole, stretch) / (0.36 * 1e-8), section.A[0], 1e-3 * section.A[0]);
 }
 
 TEST(SpringCloth, ResultantsAreWhatTheEnergySays) {
@@ -209,9 +267,12 @@ TEST(SpringCloth, SaysWhatItCannotBe) {
     }
     return "nothing";
   };
-  Garment smooth = sheet(4, 4, 0.04, 0.04);
-  smooth.patches[0] = flatPatch(uniformKnots(2, 4), uniformKnots(2, 4), 0.04, 0.04);
-  EXPECT_NE(says(smooth).find("degree 1"), std::string::npos);
+  Garment trimmed = sheet(4, 4, 0.04, 0.04);
+  trimmed.trims = {{{{circle({0.5, 0.5}, 0.2, 0.2, true)}}}};
+  EXPECT_NE(says(trimmed).find("cannot be trimmed"), std::string::npos);
+  Garment weak = sheet(4, 4, 0.04, 0.04);
+  weak.weak_seams.push_back({{0, Side::u0}, {0, Side::u1}});
+  EXPECT_NE(says(weak).find("weak seams"), std::string::npos);
   Garment remembers = sheet(4, 4, 0.04, 0.04);
   remembers.fabric.law = StopBending{};
   EXPECT_NE(says(remembers), "nothing");
