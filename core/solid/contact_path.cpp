@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <optional>
 
 #include "core/error.hpp"
@@ -53,14 +53,14 @@ class LoadStep {
 
   /// False where it failed; `why` then.
   bool take() {
-    done.state = {to_, from_.y, from_.memory};
+    done.state = {to_, from_.y, from_.multipliers};
     startAhead();
     const bool good = options_.method == ContactMethod::penalty       ? penalty()
                       : options_.method == ContactMethod::multipliers ? tried()
                                                                       : augment();
     if (!good) return false;
     done.deepest_m = deepestOf(done.points);
-    done.state.memory = contact_.settled(solids_.positions(done.state.y, to_), std::move(done.state.memory));
+    done.state.multipliers = contact_.settled(solids_.positions(done.state.y, to_), std::move(done.state.multipliers));
     return true;
   }
 
@@ -72,11 +72,11 @@ class LoadStep {
   /// The tangent's way, where it leads to a state that has forces.
   void startAhead() {
     ContactSystem before(solids_, contact_, from_.factor, solids_.positions(from_.y, from_.factor));
-    const std::vector<double> way = before.ahead(from_.memory, from_.y, to_ - from_.factor);
+    const std::vector<double> way = before.ahead(from_.multipliers, from_.y, to_ - from_.factor);
     if (way.empty()) return;
     std::vector<double> y = from_.y, r(y.size());
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += way[i];
-    system_.residual(from_.memory, y, r);
+    system_.residual(from_.multipliers, y, r);
     if (std::isfinite(norm(r))) done.state.y.swap(y);
   }
 
@@ -95,29 +95,30 @@ class LoadStep {
   }
 
   bool penalty() {
-    std::vector<ContactMemory> memory = from_.memory;
-    for (ContactMemory& m : memory) m.pressure_Pa = 0;
-    if (!converged(system_.solve(memory, newton_, done.state.y))) return false;
-    done.points = system_.points(memory, done.state.y);
-    done.state.memory = contact_.augmented(done.points);
+    std::vector<ContactMultipliers> multipliers = from_.multipliers;
+    for (ContactMultipliers& m : multipliers) m.pressure_Pa = 0;
+    if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
+    done.points = system_.points(multipliers, done.state.y);
+    done.state.multipliers = contact_.augmented(done.points);
     return true;
   }
 
   bool augment() {
-    std::vector<ContactMemory>& memory = done.state.memory;
+    std::vector<ContactMultipliers>& multipliers = done.state.multipliers;
     const int least = contact_.law().friction > 0 ? kLeastAugmentations : 0;
     double change = 0, largest = 0;
     for (int k = 0; k <= options_.passes; ++k) {
-      if (!converged(system_.solve(memory, newton_, done.state.y))) return false;
-      done.points = system_.points(memory, done.state.y);
-      std::vector<ContactMemory> next = contact_.augmented(done.points);
+      if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
+      done.points = system_.points(multipliers, done.state.y);
+      std::vector<ContactMultipliers> next = contact_.augmented(done.points);
       change = largest = 0;
       for (const ContactPoint& p : done.points) {
         largest = std::max(largest, p.pressure_Pa);
         change = std::max(change, std::abs(p.pressure_Pa - p.multiplier_Pa));
-        if (p.rubs) change = std::max(change, tractionChange(p, memory));
+        const Vec2 before = p.multiplier_N_per_m, t = p.traction_N_per_m;
+        if (p.rubs) change = std::max(change, sizeOfTraction({t.x - before.x, t.y - before.y}, p.metric_m2));
       }
-      memory = std::move(next);
+      multipliers = std::move(next);
       if (k >= least && change <= options_.change * largest && deepestOf(done.points) <= options_.deepest_m)
         return true;
     }
@@ -128,23 +129,13 @@ class LoadStep {
     return false;
   }
 
-  /// |t - lambda| of the friction in this pass.
-  static double tractionChange(const ContactPoint& p, std::span<const ContactMemory> memory) {
-    Vec2 before;
-    for (const ContactMemory& m : memory)
-      if (m.side == p.side && m.slave == p.slave && m.chart == p.chart) before = m.traction_N_per_m;
-    const Vec2 d{p.traction_N_per_m.x - before.x, p.traction_N_per_m.y - before.y};
-    const auto& M = p.metric_m2;
-    return std::sqrt((M[1] * d.x * d.x + M[0] * d.y * d.y - 2 * M[2] * d.x * d.y) / (M[0] * M[1] - M[2] * M[2]));
-  }
-
   bool tried() {
-    std::vector<ContactMemory> pairs = from_.memory;
+    std::vector<ContactMultipliers> pairs = from_.multipliers;
     for (int k = 0; k < options_.passes; ++k) {
-      const std::optional<std::vector<ContactMemory>> next = nextSet(pairs);
+      const std::optional<std::vector<ContactMultipliers>> next = nextSet(pairs);
       if (k > 0 && !next) {
         done.points = system_.points(pairs, done.state.y);
-        done.state.memory = std::move(pairs);
+        done.state.multipliers = std::move(pairs);
         return true;
       }
       if (next) pairs = *next;
@@ -155,25 +146,18 @@ class LoadStep {
   }
 
   /// Without what pulls, with what has passed, each on the facet where it now is; none where that is the same set.
-  std::optional<std::vector<ContactMemory>> nextSet(std::span<const ContactMemory> pairs) {
+  std::optional<std::vector<ContactMultipliers>> nextSet(std::span<const ContactMultipliers> pairs) {
     constexpr double kRounding = 1e-12;  // of the solids' length
     const double passed_m = kRounding * solids_.length();
-    std::vector<ContactMemory> kept, next;
-    for (const ContactMemory& p : pairs)
-      if (p.pressure_Pa >= 0) kept.push_back(p);
-    bool same = kept.size() == pairs.size();
-    const auto held = [&](const ContactPoint& p) {
-      return std::any_of(pairs.begin(), pairs.end(), [&](const ContactMemory& m) {
-        return m.side == p.side && m.slave == p.slave && m.facet == p.facet;
-      });
-    };
-    // `multiplier_Pa` is that of the pair which the point takes; a pair without pressure is told by its facet.
+    const auto pushes = [](const ContactMultipliers& p) { return p.pressure_Pa >= 0; };
+    std::vector<ContactMultipliers> kept, next;
+    std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(kept), pushes);
+    bool same = true;
     for (const ContactPoint& p : system_.points(kept, done.state.y, true)) {
-      const bool stays = p.multiplier_Pa > 0 || std::any_of(kept.begin(), kept.end(), [&](const ContactMemory& m) {
-                           return m.side == p.side && m.slave == p.slave && m.facet == p.facet;
-                         });
-      if (!stays && !(p.over.gap_m > passed_m)) continue;
-      same = same && held(p);
+      if (!p.known && !(p.over.gap_m > passed_m)) continue;
+      same = same && std::any_of(pairs.begin(), pairs.end(), [&](const ContactMultipliers& m) {
+               return m.side == p.side && m.slave == p.slave && m.facet == p.facet;
+             });
       next.push_back({p.side, p.slave, p.facet, p.facet, p.multiplier_Pa, {}});
     }
     if (same && next.size() == pairs.size()) return std::nullopt;

@@ -7,6 +7,9 @@
 ///   augmented    boxes 6 and 7: Newton with multipliers held, then lambda = t, and again until they stay. Which of the
 ///                boxes is ContactLaw::bound's to say. With friction at least two augmentations: new contacts of box 7
 ///                rub from the second pass on.
+///
+/// A step that fails is halved. Supports must hold each body, at least until contact presses: what contact alone holds
+/// has a singular tangent before the first touch, and the step says so.
 
 #include <functional>
 #include <string>
@@ -34,7 +37,7 @@ struct ContactPathOptions {
 struct ContactState {
   double factor = 0;
   std::vector<double> y;
-  std::vector<ContactMemory> memory;  ///< what the next step starts from
+  std::vector<ContactMultipliers> multipliers;  ///< what the next step starts from
 };
 
 struct ContactStep {

@@ -134,9 +134,9 @@ bool ContactSystem::symmetric() const {
   return contact_.law().friction == 0 || contact_.law().bound == FrictionBound::symmetrised;
 }
 
-std::vector<ContactPoint> ContactSystem::points(std::span<const ContactMemory> memory, std::span<const double> y,
-                                                bool all) const {
-  return contact_.points(solids_.positions(y, t_), start_, memory, all);
+std::vector<ContactPoint> ContactSystem::points(std::span<const ContactMultipliers> multipliers,
+                                                std::span<const double> y, bool all) const {
+  return contact_.points(solids_.positions(y, t_), start_, multipliers, all);
 }
 
 void ContactSystem::addForce(std::span<const ContactPoint> points, std::span<double> r) const {
@@ -147,9 +147,10 @@ void ContactSystem::addForce(std::span<const ContactPoint> points, std::span<dou
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += pulled[i];
 }
 
-double ContactSystem::residual(std::span<const ContactMemory> memory, std::span<const double> y, std::span<double> r) {
+double ContactSystem::residual(std::span<const ContactMultipliers> multipliers, std::span<const double> y,
+                               std::span<double> r) {
   const double size = solids_.residual(y, t_, r);
-  addForce(points(memory, y), r);
+  addForce(points(multipliers, y), r);
   return size;
 }
 
@@ -175,28 +176,30 @@ void ContactSystem::addBlock(const ContactBlock& block, std::vector<MatrixEntry>
     }
 }
 
-std::vector<MatrixEntry> ContactSystem::tangent(std::span<const ContactMemory> memory, std::span<const double> y) {
+std::vector<MatrixEntry> ContactSystem::tangent(std::span<const ContactMultipliers> multipliers,
+                                                std::span<const double> y) {
   std::vector<MatrixEntry> entries;
   addSolids(y, entries);
   const std::vector<Vec3> x = solids_.positions(y, t_);
-  for (const ContactBlock& block : contact_.tangent(x, contact_.points(x, start_, memory))) addBlock(block, entries);
+  for (const ContactBlock& block : contact_.tangent(x, contact_.points(x, start_, multipliers)))
+    addBlock(block, entries);
   return entries;
 }
 
-NewtonReport ContactSystem::solve(std::span<const ContactMemory> memory, const ContactNewton& options,
+NewtonReport ContactSystem::solve(std::span<const ContactMultipliers> multipliers, const ContactNewton& options,
                                   std::vector<double>& y) {
   return iterate(
       y, options, symmetric(), true, solids_.reach(),
-      [&](const std::vector<double>& z, std::vector<double>& r) { return residual(memory, z, r); },
-      [&](const std::vector<double>& z) { return tangent(memory, z); });
+      [&](const std::vector<double>& z, std::vector<double>& r) { return residual(multipliers, z, r); },
+      [&](const std::vector<double>& z) { return tangent(multipliers, z); });
 }
 
-NewtonReport ContactSystem::solveTogether(std::span<ContactMemory> pairs, const ContactNewton& options,
+NewtonReport ContactSystem::solveTogether(std::span<ContactMultipliers> pairs, const ContactNewton& options,
                                           std::vector<double>& y) {
   const int n = static_cast<int>(y.size());
   const double eps = contact_.law().normal_Pa_per_m;
   std::vector<double> z = y;
-  for (const ContactMemory& p : pairs) z.push_back(p.pressure_Pa / eps);
+  for (const ContactMultipliers& p : pairs) z.push_back(p.pressure_Pa / eps);
   /// The pairs at x, each over its own facet, continued beyond its edges; false where a node has left it.
   const auto pointsAt = [&](std::span<const Vec3> x, const std::vector<double>& at, std::vector<ContactPoint>& out) {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -206,7 +209,7 @@ NewtonReport ContactSystem::solveTogether(std::span<ContactMemory> pairs, const 
       p.area_m2 = contact_.sides()[p.side].areas_m2[p.slave];
       p.pressure_Pa = eps * at[n + k];
       const FacetCorners corners = contact_.cornersOf(p.side, p.facet, x);
-      const std::optional<Vec2> local = projectOnFacet(corners, x[p.node], kChartReach);
+      const std::optional<Vec2> local = projectOnFacet(corners, x[p.node], kFacetReach);
       if (!local) return false;
       p.over = projectionOf(corners, x[p.node], *local);
       out.push_back(p);
@@ -258,14 +261,15 @@ NewtonReport ContactSystem::solveTogether(std::span<ContactMemory> pairs, const 
   return report;
 }
 
-std::vector<double> ContactSystem::ahead(std::span<const ContactMemory> memory, std::span<const double> y, double dt) {
+std::vector<double> ContactSystem::ahead(std::span<const ContactMultipliers> multipliers, std::span<const double> y,
+                                         double dt) {
   std::vector<double> dg(y.size());
   solids_.change(y, t_, t_ + dt, dg);
   const std::vector<Vec3> x = solids_.positions(y, t_), moved = solids_.positions(y, t_ + dt);
   std::vector<MatrixEntry> entries;
   addSolids(y, entries);
   std::vector<Vec3> force(x.size());
-  for (const ContactBlock& block : contact_.tangent(x, contact_.points(x, start_, memory))) {
+  for (const ContactBlock& block : contact_.tangent(x, contact_.points(x, start_, multipliers))) {
     addBlock(block, entries);
     for (int i = 0; i < kProjectionSize; ++i)
       for (int j = 0; j < kProjectionSize; ++j) {

@@ -31,23 +31,24 @@ class ContactSystem {
   /// f_int + f_cnt = f_ext with the multipliers held (step 2 of boxes 6 and 7; all zero: the penalty method, 3.28). y
   /// is the start and, where the report says so, the solution. Whole steps; those into states that are not finite are
   /// halved.
-  NewtonReport solve(std::span<const ContactMemory> memory, const ContactNewton& options, std::vector<double>& y);
+  NewtonReport solve(std::span<const ContactMultipliers> multipliers, const ContactNewton& options,
+                     std::vector<double>& y);
 
   /// f_int + Gᵀ lambda = f_ext and g = 0 for each of the pairs (3.29, 3.30), whatever the sign of their pressures,
   /// which are solved for too. Rows of g are scaled by A eps_N: they are forces.
-  NewtonReport solveTogether(std::span<ContactMemory> pairs, const ContactNewton& options, std::vector<double>& y);
+  NewtonReport solveTogether(std::span<ContactMultipliers> pairs, const ContactNewton& options, std::vector<double>& y);
 
   /// How y goes on to first order while the load goes on by dt; empty where the tangent is singular.
-  std::vector<double> ahead(std::span<const ContactMemory> memory, std::span<const double> y, double dt);
+  std::vector<double> ahead(std::span<const ContactMultipliers> multipliers, std::span<const double> y, double dt);
 
   /// SolidContact::points.
-  std::vector<ContactPoint> points(std::span<const ContactMemory> memory, std::span<const double> y,
+  std::vector<ContactPoint> points(std::span<const ContactMultipliers> multipliers, std::span<const double> y,
                                    bool all = false) const;
 
   /// r of `solve`; returns the size of the forces that balance.
-  double residual(std::span<const ContactMemory> memory, std::span<const double> y, std::span<double> r);
+  double residual(std::span<const ContactMultipliers> multipliers, std::span<const double> y, std::span<double> r);
   /// dr/dy, both triangles; entries of one place add up.
-  std::vector<MatrixEntry> tangent(std::span<const ContactMemory> memory, std::span<const double> y);
+  std::vector<MatrixEntry> tangent(std::span<const ContactMultipliers> multipliers, std::span<const double> y);
 
  private:
   void addForce(std::span<const ContactPoint> points, std::span<double> r) const;

@@ -45,12 +45,6 @@ void checkSide(const ContactSide& side, int nodes) {
   }
 }
 
-/// sqrt(t_a M^ab t_b).
-double sizeOf(const Vec2& t, const std::array<double, 3>& M) {
-  const double det = M[0] * M[1] - M[2] * M[2];
-  return std::sqrt((M[1] * t.x * t.x + M[0] * t.y * t.y - 2 * M[2] * t.x * t.y) / det);
-}
-
 void addForces(const std::array<int, 5>& nodes, double factor, const ProjectionSlope& slope, std::span<Vec3> f) {
   for (int k = 0; k < 5; ++k) f[nodes[k]] += factor * Vec3{slope[3 * k], slope[3 * k + 1], slope[3 * k + 2]};
 }
@@ -62,6 +56,11 @@ void addProduct(double factor, const ProjectionSlope& row, const ProjectionSlope
 
 }  // namespace
 
+double sizeOfTraction(const Vec2& t, const std::array<double, 3>& M) {
+  const double det = M[0] * M[1] - M[2] * M[2];
+  return std::sqrt((M[1] * t.x * t.x + M[0] * t.y * t.y - 2 * M[2] * t.x * t.y) / det);
+}
+
 ContactSide contactSide(std::span<const Facet> of_nodes, const FacetSurface& against, std::span<const Vec3> rest,
                         double share) {
   ContactSide side;
@@ -72,17 +71,17 @@ ContactSide contactSide(std::span<const Facet> of_nodes, const FacetSurface& aga
   return side;
 }
 
-std::vector<int> matched(std::span<const FacetTouch> touches, std::span<const ContactMemory> memory) {
+std::vector<int> matched(std::span<const FacetTouch> touches, std::span<const ContactMultipliers> multipliers) {
   std::vector<int> of(touches.size(), -1);
-  std::vector<char> taken(memory.size(), 0);
+  std::vector<char> taken(multipliers.size(), 0);
   for (std::size_t t = 0; t < touches.size(); ++t)
-    for (std::size_t m = 0; m < memory.size(); ++m)
-      if (memory[m].facet == touches[t].facet) of[t] = static_cast<int>(m), taken[m] = 1;
+    for (std::size_t m = 0; m < multipliers.size(); ++m)
+      if (multipliers[m].facet == touches[t].facet) of[t] = static_cast<int>(m), taken[m] = 1;
   std::size_t next = 0;
   for (int& m : of) {
     if (m >= 0) continue;
-    while (next < memory.size() && taken[next]) ++next;
-    if (next < memory.size()) m = static_cast<int>(next++);
+    while (next < multipliers.size() && taken[next]) ++next;
+    if (next < multipliers.size()) m = static_cast<int>(next++);
   }
   return of;
 }
@@ -102,50 +101,52 @@ std::array<int, 5> SolidContact::nodesOf(int side, int node, int facet) const {
 }
 
 void SolidContact::rub(std::span<const Vec3> x, std::span<const Vec3> start, ContactPoint& p,
-                       const ContactMemory* memory) const {
+                       const ContactMultipliers* multipliers) const {
   p.bound_Pa = law_.friction * (law_.bound == FrictionBound::coupled ? p.pressure_Pa : p.multiplier_Pa);
   if (!(p.bound_Pa > 0)) return;
   p.rubs = true;
-  p.chart = memory ? memory->chart : p.facet;
-  const FacetCorners now = cornersOf(p.side, p.chart, x), before = cornersOf(p.side, p.chart, start);
-  const std::optional<Vec2> local = projectOnFacet(now, x[p.node], kChartReach),
-                            local0 = projectOnFacet(before, start[p.node], kChartReach);
+  p.rub_facet = multipliers ? multipliers->rub_facet : p.facet;
+  const FacetCorners now = cornersOf(p.side, p.rub_facet, x), before = cornersOf(p.side, p.rub_facet, start);
+  const std::optional<Vec2> local = projectOnFacet(now, x[p.node], kFacetReach),
+                            local0 = projectOnFacet(before, start[p.node], kFacetReach);
   if (!local || !local0) {
     p.pressure_Pa = std::numeric_limits<double>::quiet_NaN();
     return;
   }
-  p.on_chart = projectionOf(now, x[p.node], *local);
-  const std::array<Vec3, 2> T = facetTangents(cornersOf(p.side, p.chart, rest_), *local0);
+  p.rub_over = projectionOf(now, x[p.node], *local);
+  const std::array<Vec3, 2> T = facetTangents(cornersOf(p.side, p.rub_facet, rest_), *local0);
   p.metric_m2 = {norm2(T[0]), norm2(T[1]), dot(T[0], T[1])};
   const Vec2 slid{local->x - local0->x, local->y - local0->y};
-  p.trial_N_per_m = {law_.tangential_Pa_per_m * (p.metric_m2[0] * slid.x + p.metric_m2[2] * slid.y),
-                     law_.tangential_Pa_per_m * (p.metric_m2[2] * slid.x + p.metric_m2[1] * slid.y)};
-  if (memory) p.trial_N_per_m.x += memory->traction_N_per_m.x, p.trial_N_per_m.y += memory->traction_N_per_m.y;
-  p.trial_Pa = sizeOf(p.trial_N_per_m, p.metric_m2);
+  if (multipliers) p.multiplier_N_per_m = multipliers->traction_N_per_m;
+  const std::array<double, 3>& M = p.metric_m2;
+  p.trial_N_per_m = {p.multiplier_N_per_m.x + law_.tangential_Pa_per_m * (M[0] * slid.x + M[2] * slid.y),
+                     p.multiplier_N_per_m.y + law_.tangential_Pa_per_m * (M[2] * slid.x + M[1] * slid.y)};
+  p.trial_Pa = sizeOfTraction(p.trial_N_per_m, p.metric_m2);
   p.slips = p.trial_Pa > p.bound_Pa;
   const double kept = p.slips ? p.bound_Pa / p.trial_Pa : 1;
   p.traction_N_per_m = {kept * p.trial_N_per_m.x, kept * p.trial_N_per_m.y};
 }
 
 std::vector<ContactPoint> SolidContact::points(std::span<const Vec3> x, std::span<const Vec3> start,
-                                               std::span<const ContactMemory> memory, bool all) const {
+                                               std::span<const ContactMultipliers> multipliers, bool all) const {
   std::vector<FacetSurface::Spheres> spheres;
   for (const ContactSide& side : sides_) spheres.push_back(side.surface.spheres(x));
-  std::vector<std::vector<ContactMemory>> of_slave(first_slave_.back());
-  for (const ContactMemory& m : memory) of_slave[first_slave_[m.side] + m.slave].push_back(m);
+  std::vector<std::vector<ContactMultipliers>> of_slave(first_slave_.back());
+  for (const ContactMultipliers& m : multipliers) of_slave[first_slave_[m.side] + m.slave].push_back(m);
   std::vector<std::vector<ContactPoint>> found(of_slave.size());
   for (int s = 0; s < static_cast<int>(sides_.size()); ++s) {
     const ContactSide& side = sides_[s];
     forAll(Each::much, static_cast<int>(side.nodes.size()), [&](int slave) {
       const int node = side.nodes[slave];
-      const std::vector<ContactMemory>& own = of_slave[first_slave_[s] + slave];
+      const std::vector<ContactMultipliers>& own = of_slave[first_slave_[s] + slave];
       const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[s], x[node], law_.touch);
       const std::vector<int> match = matched(touches, own);
       for (std::size_t t = 0; t < touches.size(); ++t) {
-        const ContactMemory* m = match[t] >= 0 ? &own[match[t]] : nullptr;
+        const ContactMultipliers* m = match[t] >= 0 ? &own[match[t]] : nullptr;
         ContactPoint p;
         p.side = s, p.slave = slave, p.node = node, p.facet = touches[t].facet;
         p.area_m2 = side.areas_m2[slave];
+        p.known = m != nullptr;
         p.multiplier_Pa = m ? m->pressure_Pa : 0;
         p.pressure_Pa = std::max(0.0, p.multiplier_Pa + law_.normal_Pa_per_m * touches[t].gap_m);
         if (law_.friction > 0 && (p.pressure_Pa > 0 || p.multiplier_Pa > 0)) rub(x, start, p, m);
@@ -164,9 +165,9 @@ void SolidContact::addForce(std::span<const ContactPoint> points, std::span<Vec3
   for (const ContactPoint& p : points) {
     addForces(nodesOf(p.side, p.node, p.facet), p.area_m2 * p.pressure_Pa, p.over.gap_slope, f);
     if (!p.rubs) continue;
-    const std::array<int, 5> nodes = nodesOf(p.side, p.node, p.chart);
-    addForces(nodes, p.area_m2 * p.traction_N_per_m.x, p.on_chart.local_slope[0], f);
-    addForces(nodes, p.area_m2 * p.traction_N_per_m.y, p.on_chart.local_slope[1], f);
+    const std::array<int, 5> nodes = nodesOf(p.side, p.node, p.rub_facet);
+    addForces(nodes, p.area_m2 * p.traction_N_per_m.x, p.rub_over.local_slope[0], f);
+    addForces(nodes, p.area_m2 * p.traction_N_per_m.y, p.rub_over.local_slope[1], f);
   }
 }
 
@@ -180,60 +181,61 @@ std::vector<ContactBlock> SolidContact::tangent(std::span<const Vec3> x, std::sp
       addGapCurvature(cornersOf(p.side, p.facet, x), x[p.node], p.over, p.area_m2 * p.pressure_Pa, b.values);
     }
     if (!p.rubs) continue;
-    const std::array<int, 5> rubbed = nodesOf(p.side, p.node, p.chart);
+    const std::array<int, 5> rubbed = nodesOf(p.side, p.node, p.rub_facet);
     ContactBlock& b = blocks.emplace_back(ContactBlock{rubbed, rubbed});
     const double M[2][2] = {{p.metric_m2[0], p.metric_m2[2]}, {p.metric_m2[2], p.metric_m2[1]}};
     const double way[2] = {p.trial_N_per_m.x / p.trial_Pa, p.trial_N_per_m.y / p.trial_Pa};
     for (int a = 0; a < 2; ++a)
       for (int c = 0; c < 2; ++c) {
         const double slope = p.slips ? p.bound_Pa / p.trial_Pa * (M[a][c] - way[a] * way[c]) : M[a][c];
-        addProduct(p.area_m2 * law_.tangential_Pa_per_m * slope, p.on_chart.local_slope[a], p.on_chart.local_slope[c],
+        addProduct(p.area_m2 * law_.tangential_Pa_per_m * slope, p.rub_over.local_slope[a], p.rub_over.local_slope[c],
                    b.values);
       }
-    addLocalCurvature(cornersOf(p.side, p.chart, x), x[p.node], p.on_chart,
+    addLocalCurvature(cornersOf(p.side, p.rub_facet, x), x[p.node], p.rub_over,
                       {p.area_m2 * p.traction_N_per_m.x, p.area_m2 * p.traction_N_per_m.y}, b.values);
     if (law_.bound == FrictionBound::coupled && p.slips) {
       ContactBlock& mixed = blocks.emplace_back(ContactBlock{rubbed, pushed});
       for (int a = 0; a < 2; ++a)
-        addProduct(p.area_m2 * law_.friction * law_.normal_Pa_per_m * way[a], p.on_chart.local_slope[a],
+        addProduct(p.area_m2 * law_.friction * law_.normal_Pa_per_m * way[a], p.rub_over.local_slope[a],
                    p.over.gap_slope, mixed.values);
     }
   }
   return blocks;
 }
 
-std::vector<ContactMemory> SolidContact::augmented(std::span<const ContactPoint> points) const {
-  std::vector<ContactMemory> memory;
+std::vector<ContactMultipliers> SolidContact::augmented(std::span<const ContactPoint> points) const {
+  std::vector<ContactMultipliers> multipliers;
   for (const ContactPoint& p : points) {
     if (!(p.pressure_Pa > 0)) continue;
-    ContactMemory m{p.side, p.slave, p.facet, p.rubs ? p.chart : p.facet, p.pressure_Pa, {}};
+    ContactMultipliers m{p.side, p.slave, p.facet, p.rubs ? p.rub_facet : p.facet, p.pressure_Pa, {}};
     if (p.rubs) {
       const double bound = law_.friction * p.pressure_Pa;
       const double kept = p.trial_Pa > bound ? bound / p.trial_Pa : 1;
       m.traction_N_per_m = {kept * p.trial_N_per_m.x, kept * p.trial_N_per_m.y};
     }
-    memory.push_back(m);
+    multipliers.push_back(m);
   }
-  return memory;
+  return multipliers;
 }
 
-std::vector<ContactMemory> SolidContact::settled(std::span<const Vec3> x, std::vector<ContactMemory> memory) const {
-  for (ContactMemory& m : memory) {
-    if (m.chart == m.facet) continue;
+std::vector<ContactMultipliers> SolidContact::settled(std::span<const Vec3> x,
+                                                      std::vector<ContactMultipliers> multipliers) const {
+  for (ContactMultipliers& m : multipliers) {
+    if (m.rub_facet == m.facet) continue;
     const Vec3& p = x[sides_[m.side].nodes[m.slave]];
     const auto frame = [&](int facet) {
-      const std::optional<Vec2> local = projectOnFacet(cornersOf(m.side, facet, x), p, kChartReach);
+      const std::optional<Vec2> local = projectOnFacet(cornersOf(m.side, facet, x), p, kFacetReach);
       assert(local);  // the node rubbed there
       return facetTangents(cornersOf(m.side, facet, rest_), *local);
     };
-    const std::array<Vec3, 2> from = frame(m.chart), to = frame(m.facet);
+    const std::array<Vec3, 2> from = frame(m.rub_facet), to = frame(m.facet);
     const double a = norm2(from[0]), c = norm2(from[1]), b = dot(from[0], from[1]), det = a * c - b * b;
     const Vec2 t = m.traction_N_per_m;
     const Vec3 traction = ((c * t.x - b * t.y) / det) * from[0] + ((a * t.y - b * t.x) / det) * from[1];
     m.traction_N_per_m = {dot(traction, to[0]), dot(traction, to[1])};
-    m.chart = m.facet;
+    m.rub_facet = m.facet;
   }
-  return memory;
+  return multipliers;
 }
 
 }  // namespace gambeson

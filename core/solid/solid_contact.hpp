@@ -30,9 +30,8 @@
 
 namespace gambeson {
 
-/// How far from the middle of the facet on which a step began a node may go on rubbing, or be held [half widths]: over
-/// the next facet.
-inline constexpr double kChartReach = 3;
+/// How far from its middle a facet holds a node, or is rubbed by one [half widths]: over the next facet.
+inline constexpr double kFacetReach = 3;
 
 /// Nodes that must not pass facets.
 struct ContactSide {
@@ -56,10 +55,10 @@ struct ContactLaw {
 };
 
 /// The multipliers of a node on a facet.
-struct ContactMemory {
+struct ContactMultipliers {
   int side = 0, slave = 0;  ///< side, and which of its nodes
   int facet = 0;            ///< on which it is
-  int chart = 0;            ///< in whose frame the traction is counted
+  int rub_facet = 0;        ///< in whose frame the traction is counted
   double pressure_Pa = 0;
   Vec2 traction_N_per_m;  ///< lambda_a
 };
@@ -68,16 +67,17 @@ struct ContactMemory {
 struct ContactPoint {
   int side = 0, slave = 0, node = 0, facet = 0;
   double area_m2 = 0;
+  bool known = false;                         ///< it has multipliers; else it is new
   double multiplier_Pa = 0, pressure_Pa = 0;  ///< lambda_N, t_N
   FacetProjection over;                       ///< the facet, gap and all
 
   bool rubs = false;  ///< the rest is only then there
-  int chart = 0;
+  int rub_facet = 0;
   bool slips = false;
-  double bound_Pa = 0, trial_Pa = 0;  ///< |t*|
-  Vec2 trial_N_per_m, traction_N_per_m;
-  std::array<double, 3> metric_m2{};  ///< M_11, M_22, M_12
-  FacetProjection on_chart;
+  double bound_Pa = 0, trial_Pa = 0;                         ///< trial: |t*|
+  Vec2 multiplier_N_per_m, trial_N_per_m, traction_N_per_m;  ///< lambda_a, t*_a, t_a
+  std::array<double, 3> metric_m2{};                         ///< M_11, M_22, M_12
+  FacetProjection rub_over;
 
   /// |t| [Pa].
   double tractionSize() const { return slips ? bound_Pa : trial_Pa; }
@@ -102,16 +102,16 @@ class SolidContact {
   /// that neither press nor rub are left out, unless `all`. A point is not a number where the node slid farther than
   /// over the next facet since then: take smaller steps.
   std::vector<ContactPoint> points(std::span<const Vec3> x, std::span<const Vec3> start,
-                                   std::span<const ContactMemory> memory, bool all = false) const;
+                                   std::span<const ContactMultipliers> multipliers, bool all = false) const;
   /// f += A (t_N dg/dx + t_a dxi_a/dx), as internal forces.
   void addForce(std::span<const ContactPoint> points, std::span<Vec3> f) const;
   /// The exact slope of that force in x.
   std::vector<ContactBlock> tangent(std::span<const Vec3> x, std::span<const ContactPoint> points) const;
 
   /// Multipliers for the next pass: lambda = t; of box 7 t* returned to mu t_N (3.79).
-  std::vector<ContactMemory> augmented(std::span<const ContactPoint> points) const;
+  std::vector<ContactMultipliers> augmented(std::span<const ContactPoint> points) const;
   /// Multipliers for the next step, in the frames of the facets on which the nodes are at x.
-  std::vector<ContactMemory> settled(std::span<const Vec3> x, std::vector<ContactMemory> memory) const;
+  std::vector<ContactMultipliers> settled(std::span<const Vec3> x, std::vector<ContactMultipliers> multipliers) const;
 
   std::array<int, 5> nodesOf(int side, int node, int facet) const;
   FacetCorners cornersOf(int side, int facet, std::span<const Vec3> x) const {
@@ -120,7 +120,7 @@ class SolidContact {
 
  private:
   void rub(std::span<const Vec3> x, std::span<const Vec3> start, ContactPoint& point,
-           const ContactMemory* memory) const;
+           const ContactMultipliers* multipliers) const;
 
   std::vector<ContactSide> sides_;
   ContactLaw law_;
@@ -128,8 +128,11 @@ class SolidContact {
   std::vector<int> first_slave_;  ///< of each side
 };
 
-/// Which memory each touch of a node takes: that on the same facet, else one that has lost its facet, in their order;
-/// -1: it is new.
-std::vector<int> matched(std::span<const FacetTouch> touches, std::span<const ContactMemory> memory);
+/// |t| = sqrt(t_a M^ab t_b) [Pa], M = (M_11, M_22, M_12).
+double sizeOfTraction(const Vec2& traction_N_per_m, const std::array<double, 3>& metric_m2);
+
+/// Which multipliers each touch of a node takes: that on the same facet, else one that has lost its facet, in their
+/// order; -1: it is new.
+std::vector<int> matched(std::span<const FacetTouch> touches, std::span<const ContactMultipliers> multipliers);
 
 }  // namespace gambeson

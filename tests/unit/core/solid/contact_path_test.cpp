@@ -165,7 +165,7 @@ TEST(ContactPath, WhatIsReleasedIsAsBefore) {
     ASSERT_TRUE(p.report.reached) << p.report.why;
     EXPECT_EQ(p.steps[1].points.size(), 9u);
     EXPECT_TRUE(p.last().points.empty());
-    EXPECT_TRUE(p.last().state.memory.empty());
+    EXPECT_TRUE(p.last().state.multipliers.empty());
     EXPECT_LT(s.solids->energy(p.last().state.y, 1), 1e-12 * s.solids->energy(p.steps[1].state.y, 0.5));
   }
 }
@@ -232,7 +232,7 @@ TEST(ContactPath, WithOneFacetAtATimeABlockGoesToAndFroInAGroove) {
   std::vector<int> held;
   std::vector<ContactPoint> passed = system.points({}, y);
   for (int trial = 0; trial < 6; ++trial) {
-    std::vector<ContactMemory> pairs;
+    std::vector<ContactMultipliers> pairs;
     for (const ContactPoint& q : passed) pairs.push_back({q.side, q.slave, q.facet, q.facet, 0, {}});
     ASSERT_EQ(pairs.size(), 2u);
     EXPECT_EQ(pairs[0].facet, pairs[1].facet);
@@ -292,7 +292,7 @@ TEST(ContactPath, Box7AnswersAsBox6WithASymmetricTangent) {
       const ContactStep& before = path[k].steps[path[k].steps.size() - 2];
       ContactSystem system(*s.solids, c, 1, s.solids->positions(before.state.y, before.state.factor));
       const std::size_t n = last.state.y.size();
-      const double skew = asymmetry(fullMatrix(system.tangent(last.state.memory, last.state.y), n), n);
+      const double skew = asymmetry(fullMatrix(system.tangent(last.state.multipliers, last.state.y), n), n);
       if (bound == FrictionBound::symmetrised)
         EXPECT_LT(skew, 1e-12);
       else

@@ -21,7 +21,7 @@ struct Scene {
   std::vector<Vec3> rest, start, x;
   std::vector<Facet> facets;
   std::vector<int> nodes;
-  std::vector<ContactMemory> memory;
+  std::vector<ContactMultipliers> multipliers;
 
   Scene() {
     std::mt19937 random(5);
@@ -39,9 +39,9 @@ struct Scene {
       const FacetCorners c = surface.corners(f, rest);
       nodes.push_back(static_cast<int>(rest.size()));
       rest.push_back(facetPosition(c, at) + (d(0.02) - 0.02) * facetNormal(c, at));
-      memory.push_back({0, f, f, f, 60 + d(40), {d(20), d(20)}});
+      multipliers.push_back({0, f, f, f, 60 + d(40), {d(20), d(20)}});
     }
-    memory.erase(memory.begin() + 4);  // one node is new
+    multipliers.erase(multipliers.begin() + 4);  // one node is new
     for (const Vec3& X : rest) {
       start.push_back(X + Vec3{d(0.01), d(0.01), d(0.002)});
       x.push_back(start.back() + Vec3{d(0.03), d(0.03), d(0.005)});
@@ -60,7 +60,7 @@ struct Scene {
 
 std::vector<Vec3> forceOf(const SolidContact& c, const Scene& s, const std::vector<Vec3>& x) {
   std::vector<Vec3> f(x.size());
-  c.addForce(c.points(x, s.start, s.memory), f);
+  c.addForce(c.points(x, s.start, s.multipliers), f);
   return f;
 }
 
@@ -68,7 +68,7 @@ std::vector<Vec3> forceOf(const SolidContact& c, const Scene& s, const std::vect
 std::vector<double> tangentOf(const SolidContact& c, const Scene& s) {
   const std::size_t n = 3 * s.x.size();
   std::vector<double> K(n * n, 0.0);
-  for (const ContactBlock& b : c.tangent(s.x, c.points(s.x, s.start, s.memory)))
+  for (const ContactBlock& b : c.tangent(s.x, c.points(s.x, s.start, s.multipliers)))
     for (int i = 0; i < 15; ++i)
       for (int j = 0; j < 15; ++j)
         K[n * (3 * b.rows[i / 3] + i % 3) + 3 * b.columns[j / 3] + j % 3] += b.values[15 * i + j];
@@ -108,7 +108,7 @@ TEST(SolidContact, TheTangentIsTheSlopeOfTheForce) {
   for (const double friction : {0.0, 0.15, 0.5, 50.0}) {
     for (const FrictionBound bound : {FrictionBound::coupled, FrictionBound::symmetrised}) {
       const SolidContact c = s.contact(friction, bound);
-      const std::vector<ContactPoint> points = c.points(s.x, s.start, s.memory);
+      const std::vector<ContactPoint> points = c.points(s.x, s.start, s.multipliers);
       ASSERT_GE(points.size(), 6u);
       const long slipping = std::count_if(points.begin(), points.end(), [](const ContactPoint& p) { return p.slips; });
       if (friction == 0.15) {
@@ -132,7 +132,7 @@ TEST(SolidContact, PressureIsTheGradientOfItsEnergy) {
   const SolidContact c = s.contact(0, FrictionBound::symmetrised);
   const auto energy = [&](const std::vector<Vec3>& x) {
     double sum = 0;
-    for (const ContactPoint& p : c.points(x, s.start, s.memory))
+    for (const ContactPoint& p : c.points(x, s.start, s.multipliers))
       sum += p.area_m2 * p.pressure_Pa * p.pressure_Pa / (2 * c.law().normal_Pa_per_m);
     return sum;
   };
@@ -183,10 +183,10 @@ TEST(SolidContact, ANewContactOfBox7DoesNotRubInItsFirstPass) {
 TEST(SolidContact, AugmentedTractionsKeepCoulomb) {
   const Scene s;
   const SolidContact c = s.contact(0.15, FrictionBound::symmetrised);
-  const std::vector<ContactPoint> points = c.points(s.x, s.start, s.memory);
-  std::vector<ContactMemory> next = c.augmented(points);
+  const std::vector<ContactPoint> points = c.points(s.x, s.start, s.multipliers);
+  std::vector<ContactMultipliers> next = c.augmented(points);
   int at_bound = 0;
-  for (const ContactMemory& m : next) {
+  for (const ContactMultipliers& m : next) {
     const ContactPoint& p =
         *std::find_if(points.begin(), points.end(), [&](const ContactPoint& q) { return q.slave == m.slave; });
     EXPECT_EQ(m.pressure_Pa, p.pressure_Pa);
@@ -208,8 +208,8 @@ TEST(SolidContact, TractionIsTheSameInTheFrameOfTheNextFacet) {
   law.touch.reach_m = 0.5;
   const SolidContact c({{{6}, {1}, FacetSurface({{0, 1, 4, 3}, {2, 5, 4, 1}}, 7)}}, law, x);
   // T of the first facet: (1/2, 0, 0) and (0, 1/2, 0). A traction of (3, -4, 0) Pa.
-  const std::vector<ContactMemory> moved = c.settled(x, {{0, 0, 1, 0, 10, {1.5, -2}}});
-  ASSERT_EQ(moved[0].chart, 1);
+  const std::vector<ContactMultipliers> moved = c.settled(x, {{0, 0, 1, 0, 10, {1.5, -2}}});
+  ASSERT_EQ(moved[0].rub_facet, 1);
   const FacetCorners second = c.cornersOf(0, 1, x);
   const std::array<Vec3, 2> T = facetTangents(second, *projectOnFacet(second, x[6], 2));
   EXPECT_NEAR(moved[0].traction_N_per_m.x, dot(T[0], Vec3{3, -4, 0}), 1e-12);
@@ -218,8 +218,8 @@ TEST(SolidContact, TractionIsTheSameInTheFrameOfTheNextFacet) {
 
 TEST(SolidContact, MultipliersGoAlongOverAnEdge) {
   const std::vector<FacetTouch> touches{{7, {}, 0}, {3, {}, 0}};
-  const auto on = [](int facet) { return ContactMemory{0, 0, facet, facet, 1, {}}; };
-  const std::vector<ContactMemory> both{on(3), on(7)}, one{on(3)}, gone{on(5)}, mixed{on(3), on(5)};
+  const auto on = [](int facet) { return ContactMultipliers{0, 0, facet, facet, 1, {}}; };
+  const std::vector<ContactMultipliers> both{on(3), on(7)}, one{on(3)}, gone{on(5)}, mixed{on(3), on(5)};
   EXPECT_EQ(matched(touches, both), (std::vector<int>{1, 0}));
   EXPECT_EQ(matched(touches, one), (std::vector<int>{-1, 0}));
   EXPECT_EQ(matched(touches, gone), (std::vector<int>{0, -1}));
@@ -230,7 +230,8 @@ TEST(SolidContact, MultipliersGoAlongOverAnEdge) {
 TEST(SolidContact, ANodeThatSlidesTooFarInAStepHasNoForce) {
   Scene s;
   s.start[s.nodes[0]] += Vec3{-3, 0, 0};
-  const std::vector<ContactPoint> points = s.contact(0.3, FrictionBound::symmetrised).points(s.x, s.start, s.memory);
+  const std::vector<ContactPoint> points =
+      s.contact(0.3, FrictionBound::symmetrised).points(s.x, s.start, s.multipliers);
   EXPECT_TRUE(std::isnan(points.front().pressure_Pa));
 }
 
