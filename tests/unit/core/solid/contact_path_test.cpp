@@ -310,6 +310,29 @@ TEST(ContactPath, Box7AnswersAsBox6WithASymmetricTangent) {
   }
 }
 
+TEST(ContactPath, WhatIsNewInBox7RubsAfterTwoAugmentations) {
+  Scene s = cubeOnPlane(2, false);
+  const SolidContact c = s.build(lawOf(2e7, 0.3), atBottom);
+  ContactPathOptions o = optionsOf(ContactMethod::augmented, 2);
+  o.change = 10;  // no multiplier is asked to stay
+  o.deepest_m = 1;
+  const Path p = followed(s, c, o);
+  ASSERT_TRUE(p.report.reached) << p.report.why;
+  EXPECT_EQ(p.steps[0].passes, 3);
+  ASSERT_EQ(p.steps[0].points.size(), 9u);
+  for (const ContactPoint& q : p.steps[0].points) EXPECT_TRUE(q.rubs);
+}
+
+TEST(ContactPath, WhatWouldSlipToAndFroComesToRest) {
+  // Box 7: what spreads without friction in the first pass is drawn back through its stick zone in the second.
+  Scene s = cubeOnPlane(3, false);
+  const SolidContact c = s.build(lawOf(2e7, 0.3), atBottom);
+  ContactPathOptions o = optionsOf(ContactMethod::augmented, 10);
+  o.halvings = 0;
+  const Path p = followed(s, c, o);
+  EXPECT_TRUE(p.report.reached) << p.report.why;
+}
+
 TEST(ContactPath, WhatSlidesIsDraggedByCoulombsForce) {
   for (const ContactMethod method : {ContactMethod::penalty, ContactMethod::augmented}) {
     Scene s = cubeOnPlane(2, false, 0.3);
