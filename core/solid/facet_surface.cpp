@@ -31,7 +31,8 @@ bool candidateOf(const FacetCorners& corners, int facet, const Vec3& p, double r
 /// Whether the facets face each other: each lies outside of the other, and they meet at an angle.
 bool facing(const Candidate& a, const Candidate& b, double groove_rad) {
   const Vec3 way = b.center - a.center;
-  return dot(a.normal, b.normal) < std::cos(groove_rad) && dot(a.normal, way) > 0 && dot(b.normal, way) < 0;
+  const double angle = std::atan2(norm(cross(a.normal, b.normal)), dot(a.normal, b.normal));
+  return angle > groove_rad && dot(a.normal, way) > 0 && dot(b.normal, way) < 0;
 }
 
 /// The angle between the edges of a facet at its corner k.

@@ -35,8 +35,10 @@ struct FacetTouch {
 };
 
 struct TouchOptions {
-  double reach_m = 0;        ///< farther facets do not count, on either side; > 0
-  double groove_rad = 0.1;   ///< facets that meet at less are one surface: one of them holds a point
+  double reach_m = 0;  ///< farther facets do not count, on either side; > 0
+  /// Facets that meet at less are one plane, and one of them holds a point. More than rounding and no more: one facet
+  /// at a time in a groove, however shallow, and the solution goes to and fro.
+  double groove_rad = 1e-6;
   bool simultaneous = true;  ///< false: the first facet alone, as others do
 };
 

@@ -19,8 +19,9 @@
 ///
 /// Fails: only nodes of one side are kept out of the facets of the other. The facets' own nodes may pass, and a uniform
 /// pressure is not passed on exactly between meshes that do not match (no one-sided contact of nodes passes the contact
-/// patch test). Both sides in turn, with half of the area each, mend the first and not the second. A surface does not
-/// touch itself.
+/// patch test). Both sides in turn, with half of the area each, mend the first and not the second; where nodes meet
+/// nodes they are more conditions than there are motions, and multipliers settle slowly. A surface does not touch
+/// itself.
 
 #include <span>
 #include <vector>

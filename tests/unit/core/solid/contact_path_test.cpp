@@ -430,6 +430,64 @@ TEST(ContactPath, TwoSoftBodiesPushEachOtherAlike) {
   EXPECT_NEAR(down, pressed, 1e-3 * pressed);  // facets are a little off the horizontal
 }
 
+/// A straight yarn of elliptical section, 3 b wide and 2 b high, its middle at the height z.
+SolidMesh yarn(bool along_x, double z, double b) {
+  SolidMesh m = block(9, 3, 3, [&](const Vec3& p) {
+    const double u = 2 * p.y - 1, v = 2 * p.z - 1, along = 6 * b * (p.x - 0.5);
+    const double across = 1.5 * b * u * std::sqrt(1 - 0.5 * v * v), up = z + b * v * std::sqrt(1 - 0.5 * u * u);
+    return along_x ? Vec3{along, across, up} : Vec3{-across, along, up};
+  });
+  m.materials = {{kevlar(), 0}};
+  m.fibres.assign(m.cells.size(), along_x ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+  return m;
+}
+
+TEST(ContactPath, AYarnIsPressedOnAnotherAndSlidesAlongIt) {
+  const double b = 1e-4, mu = 0.3;
+  SolidMesh m = yarn(true, b, b);
+  const int upper_cells = static_cast<int>(m.cells.size()), upper_nodes = static_cast<int>(m.nodes.size());
+  const SolidMesh lower = yarn(false, -b, b);
+  append(m, lower);
+  m.fibres.insert(m.fibres.end(), lower.fibres.begin(), lower.fibres.end());
+  Scene s(m);
+  s.supports.programs = {{{0, 0.5}, {0, 1}}, {{0.5, 1}, {0, 1}}};
+  for (int i = 0; i < static_cast<int>(m.nodes.size()); ++i) {
+    const bool upper = i < upper_nodes;
+    if (std::abs(upper ? m.nodes[i].x : m.nodes[i].y) < 3 * b * (1 - 1e-9)) continue;
+    s.hold({i}, kAxes[0]);
+    s.hold({i}, kAxes[1], upper ? 0.5 * b : 0, 1);
+    s.hold({i}, kAxes[2], upper ? -0.25 * b : 0, 0);
+  }
+  s.body = std::make_unique<SolidBody>(m);
+  s.solids = std::make_unique<SolidSystem>(*s.body, s.supports);
+  ContactLaw law{1e14, 1.5e13, mu, FrictionBound::symmetrised, {}};
+  law.touch.reach_m = 0.5 * b;
+  const FacetSurface skin(boundaryFacets(m, upper_cells, static_cast<int>(m.cells.size())),
+                          static_cast<int>(m.nodes.size()));
+  const SolidContact c({contactSide(boundaryFacets(m, 0, upper_cells), skin, m.nodes)}, law, m.nodes);
+  ContactPathOptions o = optionsOf(ContactMethod::augmented, 6);
+  o.change = 1e-4;
+  o.deepest_m = 1e-3 * b;
+  const Path p = followed(s, c, o);
+  ASSERT_TRUE(p.report.reached) << p.report.why;
+  EXPECT_LE(p.last().deepest_m, 1e-3 * b);
+  double most = 0;
+  for (const ContactPoint& q : p.last().points) most = std::max(most, q.pressure_Pa);
+  EXPECT_GE(p.last().points.size(), 4u);
+  for (const ContactPoint& q : p.last().points) {
+    EXPECT_TRUE(q.slips);
+    EXPECT_NEAR(q.tractionSize(), mu * q.pressure_Pa, 1e-4 * mu * most);
+  }
+  expectQuadratic(p.last().residuals);
+  // What drags the upper yarn's ends is friction, and little else: the yarns cross at right angles.
+  const std::vector<Vec3> forces = s.solids->reactions(p.last().state.y, 1);
+  Vec3 held{};
+  for (int i = 0; i < upper_nodes; ++i)
+    if (std::abs(m.nodes[i].x) > 3 * b * (1 - 1e-9)) held += forces[i];
+  EXPECT_LT(held.z, -0.5);
+  EXPECT_NEAR(held.y, -mu * held.z, 0.02 * std::abs(held.z));
+}
+
 TEST(ContactPath, SameBitsForAnyNumberOfThreads) {
   std::vector<double> y[2];
   const int before = omp_get_max_threads();

@@ -235,10 +235,16 @@ TEST(FacetSurface, OneSurfaceHoldsAPointOnce) {
   const FacetSurface flat = valley(x, 0);
   EXPECT_EQ(touches(flat, x, {0, 0.2, -0.1}).size(), 1u);
   EXPECT_EQ(touches(flat, x, {0.1, 0.2, 0.1}).size(), 1u);
-  const FacetSurface shallow = valley(x, 0.04);  // 4.6 degrees
-  EXPECT_EQ(touches(shallow, x, {0, 0.2, -0.01}).size(), 1u);
-  const FacetSurface deeper = valley(x, 0.06);  // 6.9 degrees
-  EXPECT_EQ(touches(deeper, x, {0, 0.2, -0.01}).size(), 2u);
+  // How shallow a groove counts as none is the caller's to say; by itself hardly any.
+  const FacetSurface shallow = valley(x, 1e-4);
+  const Vec3 p{0, 0.2, -0.01};
+  EXPECT_EQ(touches(shallow, x, p).size(), 2u);
+  TouchOptions options;
+  options.reach_m = 0.5;
+  for (const double groove_rad : {1.9e-4, 2.1e-4}) {
+    options.groove_rad = groove_rad;
+    EXPECT_EQ(shallow.touching(x, shallow.spheres(x), p, options).size(), groove_rad < 2e-4 ? 2u : 1u);
+  }
 }
 
 TEST(FacetSurface, APocketHoldsAPointByThreeSides) {
