@@ -216,6 +216,29 @@ TEST(ContactPath, ABlockSettlesInAGroove) {
     }
 }
 
+TEST(ContactPath, ABlockSettlesOnTwoFacetsThatMeetAtNearlyNoAngle) {
+  for (const ContactMethod method : kMethods)
+    for (const double slope : {1e-2, 1e-5}) {
+      SolidMesh m = block(2, 2, 2, [](const Vec3& p) { return p; });
+      m.materials = {{isotropicLaw(1e6, 0.3), 0}};
+      Scene s(m);
+      const std::vector<int> top = s.where([](const Vec3& X) { return X.z > 0.999; });
+      s.hold(top, kAxes[2], -0.05, 0);
+      for (int d = 0; d < 2; ++d) s.hold(top, kAxes[d]);
+      const double rise = 1.5 * slope;
+      s.addObstacle({{-1, -1, rise}, {0.5, -1, 0}, {2, -1, rise}, {-1, 2, rise}, {0.5, 2, 0}, {2, 2, rise}},
+                    {{0, 1, 4, 3}, {1, 2, 5, 4}});
+      const SolidContact c = s.build(lawOf(2e7), atBottom);
+      const Path p = followed(s, c, optionsOf(method, 2));
+      ASSERT_TRUE(p.report.reached) << p.report.why;
+      double pressed = 0, reaction = 0;
+      for (const ContactPoint& q : p.last().points) pressed += q.area_m2 * q.pressure_Pa * q.over.normal.z;
+      const std::vector<Vec3> forces = s.solids->reactions(p.last().state.y, 1);
+      for (const int i : top) reaction -= forces[i].z;
+      EXPECT_NEAR(pressed, reaction, 1e-7 * reaction);
+    }
+}
+
 TEST(ContactPath, WithOneFacetAtATimeABlockGoesToAndFroInAGroove) {
   for (const ContactMethod method : kMethods) {
     Scene s = groove(0.013);
