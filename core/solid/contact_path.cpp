@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <utility>
 
 #include "core/error.hpp"
 
@@ -146,31 +145,20 @@ class LoadStep {
     return false;
   }
 
-  /// Whether no facet of nearly the same normal holds the node: two of one sense have multipliers that only their
-  /// difference in angle tells apart.
-  static bool isApart(const ContactPoint& p, std::span<const std::pair<int, Vec3>> normals) {
-    constexpr double kLeast_rad = 1e-3;
-    return std::none_of(normals.begin(), normals.end(), [&](const std::pair<int, Vec3>& held) {
-      return held.first == p.node && norm(cross(held.second, p.over.normal)) < kLeast_rad;
-    });
-  }
-
   /// Without what pulls, with what has passed, each on the facet where it now is; none where that is the same set.
   std::optional<std::vector<ContactMultipliers>> nextSet(std::span<const ContactMultipliers> pairs) {
     constexpr double kRounding = 1e-12;  // of the solids' length
     const double passed_m = kRounding * solids_.length();
     const auto pushes = [](const ContactMultipliers& p) { return p.pressure_Pa >= 0; };
     std::vector<ContactMultipliers> kept, next;
-    std::vector<std::pair<int, Vec3>> normals;  // of each node that is held
     std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(kept), pushes);
     bool same = true;
     for (const ContactPoint& p : system_.points(kept, done.state.y, true)) {
-      if (!p.known && !(p.over.gap_m > passed_m && isApart(p, normals))) continue;
+      if (!p.known && !(p.over.gap_m > passed_m)) continue;
       same = same && std::any_of(pairs.begin(), pairs.end(), [&](const ContactMultipliers& m) {
                return m.side == p.side && m.slave == p.slave && m.facet == p.facet;
              });
       next.push_back({p.side, p.slave, p.facet, p.facet, p.multiplier_Pa, {}});
-      normals.emplace_back(p.node, p.over.normal);
     }
     if (same && next.size() == pairs.size()) return std::nullopt;
     return next;
