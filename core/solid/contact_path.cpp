@@ -16,17 +16,17 @@ constexpr int kLeastAugmentations = 2;  ///< with friction
 
 [[noreturn]] void reject(const char* key, const std::string& why) { throw InputError({"", 0, key}, why); }
 
-void check(const ContactPathOptions& o, const ContactLaw& law) {
+void check(const ContactPathOptions& o, const SolidContactLaw& law) {
   if (o.steps < 1) reject("steps", fmt::format("{} is not allowed: >= 1", o.steps));
   if (o.halvings < 0 || o.halvings > 20) reject("halvings", fmt::format("{} is not allowed: 0 to 20", o.halvings));
   if (o.iterations < 1) reject("iterations", fmt::format("{} is not allowed: >= 1", o.iterations));
   if (o.passes < 1) reject("passes", fmt::format("{} is not allowed: >= 1", o.passes));
   if (!(o.tolerance > 0)) reject("tolerance", fmt::format("{} is not allowed: > 0", o.tolerance));
-  if (o.method == ContactMethod::multipliers && law.friction > 0)
+  if (o.method == SolidContactMethod::multipliers && law.friction > 0)
     reject("friction", fmt::format("{} is not allowed with multipliers: 0", law.friction));
-  if (o.method == ContactMethod::penalty && law.friction > 0 && law.bound != FrictionBound::coupled)
+  if (o.method == SolidContactMethod::penalty && law.friction > 0 && law.bound != FrictionBound::coupled)
     reject("bound", "symmetrised is not allowed with penalties, which have no multipliers: coupled");
-  if (o.method == ContactMethod::augmented) {
+  if (o.method == SolidContactMethod::augmented) {
     if (!(o.change > 0)) reject("change", fmt::format("{} is not allowed: > 0", o.change));
     if (!(o.deepest_m > 0)) reject("deepest_m", fmt::format("{} is not allowed: > 0", o.deepest_m));
   }
@@ -55,9 +55,9 @@ class LoadStep {
   bool take() {
     done.state = {to_, from_.y, from_.multipliers};
     startAhead();
-    const bool good = options_.method == ContactMethod::penalty       ? penalty()
-                      : options_.method == ContactMethod::multipliers ? tried()
-                                                                      : augment();
+    const bool good = options_.method == SolidContactMethod::penalty       ? penalty()
+                      : options_.method == SolidContactMethod::multipliers ? tried()
+                                                                           : augment();
     if (!good) return false;
     done.deepest_m = deepestOf(done.points);
     done.state.multipliers = contact_.settled(solids_.positions(done.state.y, to_), std::move(done.state.multipliers));

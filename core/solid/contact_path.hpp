@@ -5,8 +5,8 @@
 ///   multipliers  g = 0 for a set of pairs that is tried (3.29, 3.30): what pulls leaves it, what has passed enters,
 ///                until nothing changes; without friction
 ///   augmented    boxes 6 and 7: Newton with multipliers held, then lambda = t, and again until they stay. Which of the
-///                boxes is ContactLaw::bound's to say. With friction at least two augmentations: new contacts of box 7
-///                rub from the second pass on.
+///                boxes is SolidContactLaw::bound's to say. With friction at least two augmentations: new contacts of
+///                box 7 rub from the second pass on.
 ///
 /// A step that fails is halved. Supports must hold each body, at least until contact presses: what contact alone holds
 /// has a singular tangent before the first touch, and the step says so.
@@ -19,10 +19,10 @@
 
 namespace gambeson {
 
-enum class ContactMethod { penalty, multipliers, augmented };
+enum class SolidContactMethod { penalty, multipliers, augmented };
 
 struct ContactPathOptions {
-  ContactMethod method = ContactMethod::augmented;
+  SolidContactMethod method = SolidContactMethod::augmented;
   int steps = 10;  ///< equal load steps from 0 to 1; one that fails is halved, at most `halvings` times
   int halvings = 6;
   int iterations = 30;      ///< of Newton, for a pass

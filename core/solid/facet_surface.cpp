@@ -78,10 +78,10 @@ FacetSurface::Spheres FacetSurface::spheres(std::span<const Vec3> x) const {
   return s;
 }
 
-SurfacePoint FacetSurface::nearest(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
+NearestFacet FacetSurface::nearest(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
                                    double reach_m) const {
   constexpr double kRounding = 1e-12;  // of a sphere's distance: it rules out what is farther for certain
-  SurfacePoint best;
+  NearestFacet best;
   double best_m = reach_m;
   for (int f = 0; f < static_cast<int>(facets_.size()); ++f) {
     const double away = norm(spheres.center[f] - p);
@@ -95,7 +95,7 @@ SurfacePoint FacetSurface::nearest(std::span<const Vec3> x, const Spheres& spher
   return best;
 }
 
-std::vector<int> FacetSurface::facetsOf(const SurfacePoint& nearest) const {
+std::vector<int> FacetSurface::facetsOf(const NearestFacet& nearest) const {
   if (nearest.at.feature == kFacetFace) return {nearest.facet};
   const Facet& f = facets_[nearest.facet];
   const int k = nearest.at.feature % 4;
@@ -109,7 +109,7 @@ std::vector<int> FacetSurface::facetsOf(const SurfacePoint& nearest) const {
 
 std::vector<FacetTouch> FacetSurface::touching(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
                                                const TouchOptions& options) const {
-  const SurfacePoint near = nearest(x, spheres, p, options.reach_m);
+  const NearestFacet near = nearest(x, spheres, p, options.reach_m);
   if (near.facet < 0) return {};
   std::vector<Candidate> own;
   Vec3 outward{};  // weighted by angles: its sign is right where the nearest feature is an edge or a corner

@@ -22,7 +22,7 @@
 namespace gambeson {
 
 /// The nearest point of a surface.
-struct SurfacePoint {
+struct NearestFacet {
   int facet = -1;  ///< -1: none within the distance asked for
   FacetPoint at;
 };
@@ -64,7 +64,7 @@ class FacetSurface {
   Spheres spheres(std::span<const Vec3> x) const;
 
   /// The nearest point to p within `reach_m`. Of equally near ones, that of the first facet. `spheres` are those of x.
-  SurfacePoint nearest(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p, double reach_m) const;
+  NearestFacet nearest(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p, double reach_m) const;
 
   /// All facets that hold p at once, the nearest first, or where an edge or corner is nearest from inside that which p
   /// has passed most. Empty where none is within reach.
@@ -72,7 +72,7 @@ class FacetSurface {
                                    const TouchOptions& options) const;
 
  private:
-  std::vector<int> facetsOf(const SurfacePoint& nearest) const;
+  std::vector<int> facetsOf(const NearestFacet& nearest) const;
 
   std::vector<Facet> facets_;
   std::vector<int> nodes_;

@@ -18,7 +18,7 @@ namespace {
   throw InputError({"", 0, key}, fmt::format("{} is not allowed: {}", value, allowed));
 }
 
-void checkLaw(const ContactLaw& law) {
+void checkLaw(const SolidContactLaw& law) {
   if (!(law.normal_Pa_per_m > 0) || !std::isfinite(law.normal_Pa_per_m))
     reject("normal_Pa_per_m", law.normal_Pa_per_m, "> 0");
   if (!(law.friction >= 0) || !std::isfinite(law.friction)) reject("friction", law.friction, ">= 0");
@@ -71,7 +71,7 @@ ContactSide contactSide(std::span<const Facet> of_nodes, const FacetSurface& aga
   return side;
 }
 
-std::vector<int> matched(std::span<const FacetTouch> touches, std::span<const ContactMultipliers> multipliers) {
+std::vector<int> matchTouches(std::span<const FacetTouch> touches, std::span<const ContactMultipliers> multipliers) {
   std::vector<int> of(touches.size(), -1);
   std::vector<char> taken(multipliers.size(), 0);
   for (std::size_t t = 0; t < touches.size(); ++t)
@@ -86,7 +86,7 @@ std::vector<int> matched(std::span<const FacetTouch> touches, std::span<const Co
   return of;
 }
 
-SolidContact::SolidContact(std::vector<ContactSide> sides, const ContactLaw& law, std::vector<Vec3> rest)
+SolidContact::SolidContact(std::vector<ContactSide> sides, const SolidContactLaw& law, std::vector<Vec3> rest)
     : sides_(std::move(sides)), law_(law), rest_(std::move(rest)), first_slave_{0} {
   checkLaw(law_);
   for (const ContactSide& side : sides_) {
@@ -140,7 +140,7 @@ std::vector<ContactPoint> SolidContact::points(std::span<const Vec3> x, std::spa
       const int node = side.nodes[slave];
       const std::vector<ContactMultipliers>& own = of_slave[first_slave_[s] + slave];
       const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[s], x[node], law_.touch);
-      const std::vector<int> match = matched(touches, own);
+      const std::vector<int> match = matchTouches(touches, own);
       for (std::size_t t = 0; t < touches.size(); ++t) {
         const ContactMultipliers* m = match[t] >= 0 ? &own[match[t]] : nullptr;
         ContactPoint p;

@@ -47,7 +47,7 @@ ContactSide contactSide(std::span<const Facet> of_nodes, const FacetSurface& aga
 
 enum class FrictionBound { coupled, symmetrised };
 
-struct ContactLaw {
+struct SolidContactLaw {
   double normal_Pa_per_m = 0;      ///< eps_N > 0
   double tangential_Pa_per_m = 0;  ///< eps_T > 0, where there is friction
   double friction = 0;             ///< mu >= 0
@@ -94,10 +94,10 @@ struct ContactBlock {
 class SolidContact {
  public:
   /// Throws InputError where a number is out of its range, or a node of a side is one of its facets' too.
-  SolidContact(std::vector<ContactSide> sides, const ContactLaw& law, std::vector<Vec3> rest);
+  SolidContact(std::vector<ContactSide> sides, const SolidContactLaw& law, std::vector<Vec3> rest);
 
   const std::vector<ContactSide>& sides() const { return sides_; }
-  const ContactLaw& law() const { return law_; }
+  const SolidContactLaw& law() const { return law_; }
 
   /// What presses at the positions x, in the order of sides and nodes. `start`: positions when the step began. Points
   /// that neither press nor rub are left out, unless `all`. A point is not a number where the node slid farther than
@@ -124,7 +124,7 @@ class SolidContact {
            const ContactMultipliers* multipliers) const;
 
   std::vector<ContactSide> sides_;
-  ContactLaw law_;
+  SolidContactLaw law_;
   std::vector<Vec3> rest_;
   std::vector<int> first_slave_;  ///< of each side
 };
@@ -134,6 +134,6 @@ double sizeOfTraction(const Vec2& traction_N_per_m, const std::array<double, 3>&
 
 /// Which multipliers each touch of a node takes: that on the same facet, else one that has lost its facet, in their
 /// order; -1: it is new.
-std::vector<int> matched(std::span<const FacetTouch> touches, std::span<const ContactMultipliers> multipliers);
+std::vector<int> matchTouches(std::span<const FacetTouch> touches, std::span<const ContactMultipliers> multipliers);
 
 }  // namespace gambeson

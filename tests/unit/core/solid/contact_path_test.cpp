@@ -46,7 +46,7 @@ struct Scene {
   std::vector<int> where(const std::function<bool(const Vec3&)>& at) const { return nodesWhere(mesh, at); }
 
   /// The skin where `at` holds must not pass the obstacle.
-  SolidContact build(const ContactLaw& law, const std::function<bool(const Vec3&)>& at) {
+  SolidContact build(const SolidContactLaw& law, const std::function<bool(const Vec3&)>& at) {
     body = std::make_unique<SolidBody>(mesh);
     solids = std::make_unique<SolidSystem>(*body, supports);
     std::vector<Facet> skin;
@@ -104,13 +104,13 @@ Scene cubeOnPlane(int cells, bool free, double aside = 0) {
 
 bool atBottom(const Vec3& X) { return X.z < 1e-9; }
 
-ContactLaw lawOf(double normal_Pa_per_m, double friction = 0, FrictionBound bound = FrictionBound::symmetrised) {
-  ContactLaw law{normal_Pa_per_m, 1e7, friction, bound, {}};
+SolidContactLaw lawOf(double normal_Pa_per_m, double friction = 0, FrictionBound bound = FrictionBound::symmetrised) {
+  SolidContactLaw law{normal_Pa_per_m, 1e7, friction, bound, {}};
   law.touch.reach_m = 0.3;
   return law;
 }
 
-ContactPathOptions optionsOf(ContactMethod method, int steps) {
+ContactPathOptions optionsOf(SolidContactMethod method, int steps) {
   ContactPathOptions o;
   o.method = method;
   o.steps = steps;
@@ -118,7 +118,8 @@ ContactPathOptions optionsOf(ContactMethod method, int steps) {
   return o;
 }
 
-constexpr ContactMethod kMethods[] = {ContactMethod::penalty, ContactMethod::multipliers, ContactMethod::augmented};
+constexpr SolidContactMethod kMethods[] = {SolidContactMethod::penalty, SolidContactMethod::multipliers,
+                                           SolidContactMethod::augmented};
 
 /// The last Newton step squares the residual, as far as rounding lets it.
 void expectQuadratic(const std::vector<double>& residuals) {
@@ -129,7 +130,7 @@ void expectQuadratic(const std::vector<double>& residuals) {
 }
 
 TEST(ContactPath, AUniformPressureIsUniform) {
-  for (const ContactMethod method : kMethods) {
+  for (const SolidContactMethod method : kMethods) {
     Scene s = cubeOnPlane(3, true);
     const SolidContact c = s.build(lawOf(2e7), atBottom);
     const Path p = followed(s, c, optionsOf(method, 2));
@@ -140,14 +141,14 @@ TEST(ContactPath, AUniformPressureIsUniform) {
     for (const ContactPoint& q : p.last().points) {
       pressed += q.area_m2 * q.pressure_Pa;
       EXPECT_NEAR(q.pressure_Pa, pressure, 1e-7 * pressure);
-      if (method == ContactMethod::penalty) {
+      if (method == SolidContactMethod::penalty) {
         EXPECT_NEAR(q.over.gap_m, pressure / 2e7, 1e-12);
       }
-      if (method == ContactMethod::multipliers) {
+      if (method == SolidContactMethod::multipliers) {
         EXPECT_LT(std::abs(q.over.gap_m), 1e-14);
       }
     }
-    EXPECT_LE(p.last().deepest_m, method == ContactMethod::penalty ? 1 : 1e-6);
+    EXPECT_LE(p.last().deepest_m, method == SolidContactMethod::penalty ? 1 : 1e-6);
     const std::vector<Vec3> forces = s.solids->reactions(p.last().state.y, 1);
     for (const int i : s.where([](const Vec3& X) { return X.z > 0.999; })) reaction -= forces[i].z;
     EXPECT_GT(pressure, 4e4);
@@ -157,7 +158,7 @@ TEST(ContactPath, AUniformPressureIsUniform) {
 }
 
 TEST(ContactPath, WhatIsReleasedIsAsBefore) {
-  for (const ContactMethod method : kMethods) {
+  for (const SolidContactMethod method : kMethods) {
     Scene s = cubeOnPlane(2, true);
     s.supports.programs[0] = {{0, 0.5, 1}, {0, 1, -0.2}};
     const SolidContact c = s.build(lawOf(2e7), atBottom);
@@ -187,13 +188,13 @@ Scene groove(double aside) {
 }
 
 SolidContact grooveContact(Scene& s, double aside, bool simultaneous) {
-  ContactLaw law = lawOf(1e8);
+  SolidContactLaw law = lawOf(1e8);
   law.touch.simultaneous = simultaneous;
   return s.build(law, [=](const Vec3& X) { return X.z < 1.5 * std::abs(X.x - aside) + 1e-9; });
 }
 
 TEST(ContactPath, ABlockSettlesInAGroove) {
-  for (const ContactMethod method : kMethods)
+  for (const SolidContactMethod method : kMethods)
     for (const double aside : {0.0, 0.013}) {
       Scene s = groove(aside);
       const SolidContact c = grooveContact(s, aside, true);
@@ -217,7 +218,7 @@ TEST(ContactPath, ABlockSettlesInAGroove) {
 }
 
 TEST(ContactPath, ABlockSettlesOnTwoFacetsThatMeetAtNearlyNoAngle) {
-  for (const ContactMethod method : kMethods)
+  for (const SolidContactMethod method : kMethods)
     for (const double slope : {1e-2, 1e-5}) {
       SolidMesh m = block(2, 2, 2, [](const Vec3& p) { return p; });
       m.materials = {{isotropicLaw(1e6, 0.3), 0}};
@@ -240,7 +241,7 @@ TEST(ContactPath, ABlockSettlesOnTwoFacetsThatMeetAtNearlyNoAngle) {
 }
 
 TEST(ContactPath, WithOneFacetAtATimeABlockGoesToAndFroInAGroove) {
-  for (const ContactMethod method : kMethods) {
+  for (const SolidContactMethod method : kMethods) {
     Scene s = groove(0.013);
     const SolidContact c = grooveContact(s, 0.013, false);
     ContactPathOptions o = optionsOf(method, 1);
@@ -292,7 +293,7 @@ TEST(ContactPath, Box7AnswersAsBox6WithASymmetricTangent) {
       const int k = bound == FrictionBound::symmetrised;
       Scene s = cubeOnPlane(2, false, aside);
       const SolidContact c = s.build(lawOf(2e7, mu, bound), atBottom);
-      ContactPathOptions o = optionsOf(ContactMethod::augmented, 6);
+      ContactPathOptions o = optionsOf(SolidContactMethod::augmented, 6);
       o.change = 1e-7;
       path[k] = followed(s, c, o);
       ASSERT_TRUE(path[k].report.reached) << path[k].report.why;
@@ -336,7 +337,7 @@ TEST(ContactPath, Box7AnswersAsBox6WithASymmetricTangent) {
 TEST(ContactPath, WhatIsNewInBox7RubsAfterTwoAugmentations) {
   Scene s = cubeOnPlane(2, false);
   const SolidContact c = s.build(lawOf(2e7, 0.3), atBottom);
-  ContactPathOptions o = optionsOf(ContactMethod::augmented, 2);
+  ContactPathOptions o = optionsOf(SolidContactMethod::augmented, 2);
   o.change = 10;  // no multiplier is asked to stay
   o.deepest_m = 1;
   const Path p = followed(s, c, o);
@@ -350,14 +351,14 @@ TEST(ContactPath, WhatWouldSlipToAndFroComesToRest) {
   // Box 7: what spreads without friction in the first pass is drawn back through its stick zone in the second.
   Scene s = cubeOnPlane(3, false);
   const SolidContact c = s.build(lawOf(2e7, 0.3), atBottom);
-  ContactPathOptions o = optionsOf(ContactMethod::augmented, 10);
+  ContactPathOptions o = optionsOf(SolidContactMethod::augmented, 10);
   o.halvings = 0;
   const Path p = followed(s, c, o);
   EXPECT_TRUE(p.report.reached) << p.report.why;
 }
 
 TEST(ContactPath, WhatSlidesIsDraggedByCoulombsForce) {
-  for (const ContactMethod method : {ContactMethod::penalty, ContactMethod::augmented}) {
+  for (const SolidContactMethod method : {SolidContactMethod::penalty, SolidContactMethod::augmented}) {
     Scene s = cubeOnPlane(2, false, 0.3);
     const SolidContact c = s.build(lawOf(2e7, 0.2, FrictionBound::coupled), atBottom);
     const Path p = followed(s, c, optionsOf(method, 6));
@@ -388,7 +389,7 @@ TEST(ContactPath, ACylinderOnAPlanePressesAsHertzSays) {
   s.hold(s.where([](const Vec3& X) { return X.z > 0.999; }), kAxes[2], -0.006, 0);
   s.addObstacle({{-1, -1, 0}, {2, -1, 0}, {2, 1, 0}, {-1, 1, 0}}, {{0, 1, 2, 3}});
   const SolidContact c = s.build(lawOf(2e8), [&](const Vec3& X) { return X.z < bottomOf(X.x) + 1e-9 && X.x < 0.5; });
-  const Path p = followed(s, c, optionsOf(ContactMethod::augmented, 3));
+  const Path p = followed(s, c, optionsOf(SolidContactMethod::augmented, 3));
   ASSERT_TRUE(p.report.reached) << p.report.why;
   double force_N_per_m = 0, largest = 0, reaches = 0;
   for (const ContactPoint& q : p.last().points) {
@@ -437,7 +438,7 @@ TEST(ContactPath, TwoSoftBodiesPushEachOtherAlike) {
   const SolidContact c({contactSide(above, FacetSurface(below, nodes), m.nodes, 0.5),
                         contactSide(below, FacetSurface(above, nodes), m.nodes, 0.5)},
                        lawOf(5e7), m.nodes);
-  ContactPathOptions o = optionsOf(ContactMethod::augmented, 2);
+  ContactPathOptions o = optionsOf(SolidContactMethod::augmented, 2);
   o.deepest_m = 1e-3;
   o.change = 1e-3;
   const Path p = followed(s, c, o);
@@ -483,12 +484,12 @@ TEST(ContactPath, AYarnIsPressedOnAnotherAndSlidesAlongIt) {
   }
   s.body = std::make_unique<SolidBody>(m);
   s.solids = std::make_unique<SolidSystem>(*s.body, s.supports);
-  ContactLaw law{1e14, 1.5e13, mu, FrictionBound::symmetrised, {}};
+  SolidContactLaw law{1e14, 1.5e13, mu, FrictionBound::symmetrised, {}};
   law.touch.reach_m = 0.5 * b;
   const FacetSurface skin(boundaryFacets(m, upper_cells, static_cast<int>(m.cells.size())),
                           static_cast<int>(m.nodes.size()));
   const SolidContact c({contactSide(boundaryFacets(m, 0, upper_cells), skin, m.nodes)}, law, m.nodes);
-  ContactPathOptions o = optionsOf(ContactMethod::augmented, 6);
+  ContactPathOptions o = optionsOf(SolidContactMethod::augmented, 6);
   o.change = 1e-4;
   o.deepest_m = 1e-3 * b;
   const Path p = followed(s, c, o);
@@ -518,7 +519,7 @@ TEST(ContactPath, SameBitsForAnyNumberOfThreads) {
     omp_set_num_threads(k == 0 ? 1 : 3);
     Scene s = cubeOnPlane(2, false, 0.05);
     const SolidContact c = s.build(lawOf(2e7, 0.3), atBottom);
-    y[k] = followed(s, c, optionsOf(ContactMethod::augmented, 2)).last().state.y;
+    y[k] = followed(s, c, optionsOf(SolidContactMethod::augmented, 2)).last().state.y;
   }
   omp_set_num_threads(before);
   EXPECT_EQ(y[0], y[1]);
@@ -527,7 +528,7 @@ TEST(ContactPath, SameBitsForAnyNumberOfThreads) {
 TEST(ContactPath, SaysWhyItStops) {
   Scene s = cubeOnPlane(2, true);
   const SolidContact c = s.build(lawOf(1e4), atBottom);
-  ContactPathOptions o = optionsOf(ContactMethod::augmented, 1);
+  ContactPathOptions o = optionsOf(SolidContactMethod::augmented, 1);
   o.halvings = 1;
   o.passes = 2;
   const Path p = followed(s, c, o);
@@ -538,7 +539,7 @@ TEST(ContactPath, SaysWhyItStops) {
 
 TEST(ContactPath, BadOptionsAreRefused) {
   Scene s = cubeOnPlane(1, true);
-  const auto refused = [&](const std::string& key, const ContactLaw& law, ContactMethod method,
+  const auto refused = [&](const std::string& key, const SolidContactLaw& law, SolidContactMethod method,
                            const std::function<void(ContactPathOptions&)>& spoil) {
     const SolidContact c = s.build(law, atBottom);
     ContactPathOptions o = optionsOf(method, 1);
@@ -552,7 +553,7 @@ TEST(ContactPath, BadOptionsAreRefused) {
     }
   };
   const auto augmented = [&](const std::string& key, const std::function<void(ContactPathOptions&)>& spoil) {
-    refused(key, lawOf(1e7), ContactMethod::augmented, spoil);
+    refused(key, lawOf(1e7), SolidContactMethod::augmented, spoil);
   };
   augmented("steps", [](ContactPathOptions& o) { o.steps = 0; });
   augmented("halvings", [](ContactPathOptions& o) { o.halvings = 21; });
@@ -562,8 +563,8 @@ TEST(ContactPath, BadOptionsAreRefused) {
   augmented("change", [](ContactPathOptions& o) { o.change = 0; });
   augmented("deepest_m", [](ContactPathOptions& o) { o.deepest_m = 0; });
   const auto nothing = [](ContactPathOptions&) {};
-  refused("friction", lawOf(1e7, 0.3), ContactMethod::multipliers, nothing);
-  refused("bound", lawOf(1e7, 0.3), ContactMethod::penalty, nothing);
+  refused("friction", lawOf(1e7, 0.3), SolidContactMethod::multipliers, nothing);
+  refused("bound", lawOf(1e7, 0.3), SolidContactMethod::penalty, nothing);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST(FacetSurface, TheNearestFeatureIsFoundOnAnyFan) {
       for (int k = 0; k < 4; ++k) signs |= (dot(p, fan.x[1 + k]) > 0) << k;
       cases.insert(signs);
       const Reference expected(fan, p);
-      const SurfacePoint near = surface.nearest(fan.x, spheres, p, 10);
+      const NearestFacet near = surface.nearest(fan.x, spheres, p, 10);
       ASSERT_GE(near.facet, 0);
       const Feature feature = featureOf(fan.facets[near.facet], near.at.feature);
       ++found[feature.size()];
@@ -143,7 +143,7 @@ TEST(FacetSurface, NoPointOfTwistedFacetsIsNearer) {
         for (int j = 0; j <= n; ++j)
           sampled = std::min(sampled,
                              norm(p - facetPosition(surface.corners(f, waves.x), {2.0 * i / n - 1, 2.0 * j / n - 1})));
-    const SurfacePoint near = surface.nearest(waves.x, spheres, p, 10);
+    const NearestFacet near = surface.nearest(waves.x, spheres, p, 10);
     const double distance = std::sqrt(near.at.dist2_m2);
     EXPECT_LE(distance, sampled + 1e-12);
     EXPECT_GE(distance, sampled - 0.1);

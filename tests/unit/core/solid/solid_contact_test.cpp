@@ -52,7 +52,7 @@ struct Scene {
     return {nodes, std::vector<double>(nodes.size(), 0.7), FacetSurface(facets, static_cast<int>(rest.size()))};
   }
   SolidContact contact(double friction, FrictionBound bound) const {
-    ContactLaw law{3000, 2000, friction, bound, {}};
+    SolidContactLaw law{3000, 2000, friction, bound, {}};
     law.touch.reach_m = 0.4;
     return SolidContact({side()}, law, rest);
   }
@@ -204,7 +204,7 @@ TEST(SolidContact, AugmentedTractionsKeepCoulomb) {
 TEST(SolidContact, TractionIsTheSameInTheFrameOfTheNextFacet) {
   // Two facets of a plane, their frames turned against each other.
   const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 2, 0}, {1.1, 0.4, -0.01}};
-  ContactLaw law{1000, 1000, 0.5, FrictionBound::symmetrised, {}};
+  SolidContactLaw law{1000, 1000, 0.5, FrictionBound::symmetrised, {}};
   law.touch.reach_m = 0.5;
   const SolidContact c({{{6}, {1}, FacetSurface({{0, 1, 4, 3}, {2, 5, 4, 1}}, 7)}}, law, x);
   // T of the first facet: (1/2, 0, 0) and (0, 1/2, 0). A traction of (3, -4, 0) Pa.
@@ -220,11 +220,11 @@ TEST(SolidContact, MultipliersGoAlongOverAnEdge) {
   const std::vector<FacetTouch> touches{{7, {}, 0}, {3, {}, 0}};
   const auto on = [](int facet) { return ContactMultipliers{0, 0, facet, facet, 1, {}}; };
   const std::vector<ContactMultipliers> both{on(3), on(7)}, one{on(3)}, gone{on(5)}, mixed{on(3), on(5)};
-  EXPECT_EQ(matched(touches, both), (std::vector<int>{1, 0}));
-  EXPECT_EQ(matched(touches, one), (std::vector<int>{-1, 0}));
-  EXPECT_EQ(matched(touches, gone), (std::vector<int>{0, -1}));
-  EXPECT_EQ(matched(touches, mixed), (std::vector<int>{1, 0}));
-  EXPECT_EQ(matched(touches, {}), (std::vector<int>{-1, -1}));
+  EXPECT_EQ(matchTouches(touches, both), (std::vector<int>{1, 0}));
+  EXPECT_EQ(matchTouches(touches, one), (std::vector<int>{-1, 0}));
+  EXPECT_EQ(matchTouches(touches, gone), (std::vector<int>{0, -1}));
+  EXPECT_EQ(matchTouches(touches, mixed), (std::vector<int>{1, 0}));
+  EXPECT_EQ(matchTouches(touches, {}), (std::vector<int>{-1, -1}));
 }
 
 TEST(SolidContact, ANodeThatSlidesTooFarInAStepHasNoForce) {
@@ -247,10 +247,10 @@ TEST(SolidContact, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one, three);
 }
 
-void expectRefused(const std::string& key, const std::function<void(ContactSide&, ContactLaw&)>& spoil) {
+void expectRefused(const std::string& key, const std::function<void(ContactSide&, SolidContactLaw&)>& spoil) {
   const Scene s;
   ContactSide side = s.side();
-  ContactLaw law{3000, 2000, 0.3, FrictionBound::coupled, {}};
+  SolidContactLaw law{3000, 2000, 0.3, FrictionBound::coupled, {}};
   law.touch.reach_m = 0.4;
   spoil(side, law);
   try {
@@ -262,15 +262,15 @@ void expectRefused(const std::string& key, const std::function<void(ContactSide&
 }
 
 TEST(SolidContact, BadInputIsRefused) {
-  expectRefused("normal_Pa_per_m", [](ContactSide&, ContactLaw& l) { l.normal_Pa_per_m = 0; });
-  expectRefused("tangential_Pa_per_m", [](ContactSide&, ContactLaw& l) { l.tangential_Pa_per_m = std::nan(""); });
-  expectRefused("friction", [](ContactSide&, ContactLaw& l) { l.friction = -0.1; });
-  expectRefused("reach_m", [](ContactSide&, ContactLaw& l) { l.touch.reach_m = 0; });
-  expectRefused("groove_rad", [](ContactSide&, ContactLaw& l) { l.touch.groove_rad = 4; });
-  expectRefused("areas_m2", [](ContactSide& s, ContactLaw&) { s.areas_m2.pop_back(); });
-  expectRefused("areas_m2", [](ContactSide& s, ContactLaw&) { s.areas_m2[1] = 0; });
-  expectRefused("nodes", [](ContactSide& s, ContactLaw&) { s.nodes[1] = 25; });
-  expectRefused("nodes", [](ContactSide& s, ContactLaw&) { s.nodes[1] = 3; });
+  expectRefused("normal_Pa_per_m", [](ContactSide&, SolidContactLaw& l) { l.normal_Pa_per_m = 0; });
+  expectRefused("tangential_Pa_per_m", [](ContactSide&, SolidContactLaw& l) { l.tangential_Pa_per_m = std::nan(""); });
+  expectRefused("friction", [](ContactSide&, SolidContactLaw& l) { l.friction = -0.1; });
+  expectRefused("reach_m", [](ContactSide&, SolidContactLaw& l) { l.touch.reach_m = 0; });
+  expectRefused("groove_rad", [](ContactSide&, SolidContactLaw& l) { l.touch.groove_rad = 4; });
+  expectRefused("areas_m2", [](ContactSide& s, SolidContactLaw&) { s.areas_m2.pop_back(); });
+  expectRefused("areas_m2", [](ContactSide& s, SolidContactLaw&) { s.areas_m2[1] = 0; });
+  expectRefused("nodes", [](ContactSide& s, SolidContactLaw&) { s.nodes[1] = 25; });
+  expectRefused("nodes", [](ContactSide& s, SolidContactLaw&) { s.nodes[1] = 3; });
 }
 
 }  // namespace
