@@ -9,21 +9,10 @@
 #include "core/cloth/cloth.hpp"
 #include "core/cloth/constraint.hpp"
 #include "core/math/cholesky.hpp"
+#include "core/statics/program.hpp"
 #include "core/statics/reduction.hpp"
 
 namespace gambeson {
-
-/// A factor over time (or over the load factor, in statics), linear between its points, constant beyond.
-struct Program {
-  std::vector<double> at, value;
-  double operator()(double t) const;
-  /// As a load path sees it that leaves 0 to 1 (limit points, snap-backs): beyond both its points and 0 to 1 it goes on
-  /// with its slope there.
-  double extended(double factor) const;
-};
-
-/// How programs go on beyond their ends: constant (time), or with their slope (a load path).
-enum class ProgramEnds { constant, extended };
 
 /// Constant after it is built. Unknowns y: displacements and inner unknowns that satisfy the supports, u = C y + shifts
 /// (DofMap); points q = rest + T u.
