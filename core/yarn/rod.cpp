@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -136,7 +137,7 @@ RodPiece restPiece(const Pose& a, const Pose& b, double length_m) {
 }
 
 RodAnswer evaluateRod(const RodSection& section, const RodPiece& piece, const Pose& a, const Pose& b,
-                      bool with_tangent) {
+                      RodTangent tangent) {
   const double h = piece.length_m;
   const Turn t = turnBetween(a, b);
   const Matrix3 Ra = toEigen(a.rotation);
@@ -144,14 +145,18 @@ RodAnswer evaluateRod(const RodSection& section, const RodPiece& piece, const Po
   const Matrix3 Rm = t.half();
   const Vector3 gamma = Rm.transpose() * e, psi = t.turn();
 
-  const Vector3 stiff(section.stretch_N, section.shear_across_N, section.shear_through_N);
+  const Vector3 shear(0, section.shear_across_N, section.shear_through_N);
   const Vector3 bend(section.torsion_Nm2, section.bending_through_Nm2, section.bending_in_plane_Nm2);
-  const Vector3 strain = gamma / h - toEigen(piece.strain), curvature = psi / h - toEigen(piece.curvature_per_m);
-  const Vector3 n = stiff.cwiseProduct(strain), m = bend.cwiseProduct(curvature);
+  const Vector3 Gamma = gamma / h, strain = Gamma - toEigen(piece.strain);
+  const Vector3 curvature = psi / h - toEigen(piece.curvature_per_m);
+  const double length = Gamma.norm(), stretch = length - norm(piece.strain);
+  const Vector3 along = Gamma / length;
+  const double tension = section.stretch_N * stretch;
+  const Vector3 n = tension * along + shear.cwiseProduct(strain), m = bend.cwiseProduct(curvature);
 
   RodAnswer out;
-  out.energy_J = 0.5 * h * (n.dot(strain) + m.dot(curvature));
-  out.force_N = fromEigen(n), out.moment_Nm = fromEigen(m);
+  out.energy_J = 0.5 * h * (tension * stretch + strain.dot(shear.cwiseProduct(strain)) + m.dot(curvature));
+  out.tension_N = tension, out.force_N = fromEigen(n), out.moment_Nm = fromEigen(m);
 
   // dp and dq over (alpha, beta): sections are exp(alpha/2) and q exp(beta/2), the relative one exp(-alpha/2) q
   // exp(beta/2).
@@ -181,10 +186,13 @@ RodAnswer evaluateRod(const RodSection& section, const RodPiece& piece, const Po
   toUnknowns.block<3, 3>(0, 6) = Ra.transpose();
   toUnknowns.block<3, 3>(3, 3) = toUnknowns.block<3, 3>(6, 9) = Matrix3::Identity();
   Eigen::Map<Eigen::Matrix<double, 12, 1>>(out.gradient.data()) = toUnknowns.transpose() * g;
-  if (!with_tangent) return out;
+  if (tangent == RodTangent::none) return out;
 
+  const double across = (tangent == RodTangent::downhill ? std::max(tension, 0.0) : tension) / length;
+  Matrix3 stiff = across * Matrix3::Identity() + (section.stretch_N - across) * along * along.transpose();
+  stiff.diagonal() += shear;
   Eigen::Matrix<double, 9, 9> H =
-      dgamma.transpose() * (stiff / h).asDiagonal() * dgamma + dpsi.transpose() * (bend / h).asDiagonal() * dpsi;
+      dgamma.transpose() * (stiff / h) * dgamma + dpsi.transpose() * (bend / h).asDiagonal() * dpsi;
   // What n and m do along second derivatives.
   const double f = n.dot(gamma);
   const Quaternion4 df = dgamma_dp.transpose() * n;

@@ -1,6 +1,6 @@
 #pragma once
-/// A yarn as a rod that stretches, shears, bends and twists, at any rotation (Simo 1985, Computer Methods in Applied
-/// Mechanics and Engineering 49, 55): energy, forces and tangent of the piece between two of its sections.
+/// A yarn as a rod that stretches, shears, bends and twists, at any rotation (after Simo 1985, Computer Methods in
+/// Applied Mechanics and Engineering 49, 55): energy, forces and tangent of the piece between two of its sections.
 
 #include <array>
 
@@ -32,9 +32,14 @@ RodSection ellipticSection(double young_Pa, double shear_Pa, double half_width_m
 /// the section's axes as above (the first need not be the tangent: the yarn shears), the origin is its middle.
 ///   Gamma = R_m^T (x_b - x_a)/h,  R_m half way from R_a to R_b,
 ///   K = log(R_a^T R_b)/h,
-///   W = h/2 [(Gamma - Gamma_0) . C_G (Gamma - Gamma_0) + (K - K_0) . C_K (K - K_0)]   [J]
-/// One point for each piece, which is what keeps thin rods from locking; second order in h. K is exact on an arc, so a
-/// uniform moment bends and twists any number of pieces alike. Sections of a piece are less than half a turn apart.
+///   W = h/2 [EA (|Gamma| - |Gamma_0|)² + (Gamma - Gamma_0) . C_shear (Gamma - Gamma_0) + (K - K_0) . C_K (K - K_0)]
+///   [J]
+/// Simo stretches along the section's normal. A yarn's fibres run along its middle, however its sections lean: tension
+/// belongs to the length of the middle, |Gamma|. So a load T straightens a wave as if its bending and shear were
+/// springs in series, 1/P = L²/(pi² B) + 1/GA (Engesser); along the normal it would be 1/(1 - T/GA) in place of 1 +
+/// T/GA (Haringx), far off where T is not small against GA, as in yarns. One point for each piece, which is what keeps
+/// thin rods from locking; second order in h. K is exact on an arc, so a uniform moment bends and twists any number of
+/// pieces alike. Sections of a piece are less than half a turn apart, their middles not at one place.
 struct RodPiece {
   double length_m = 0;   ///< h, along the yarn
   Vec3 strain;           ///< Gamma_0: stretch (the share of the length, near 1), shear across, shear through
@@ -48,14 +53,18 @@ RodPiece restPiece(const Pose& a, const Pose& b, double length_m);
 /// section's own axes [rad].
 struct RodAnswer {
   double energy_J = 0;
-  Vec3 force_N;    ///< of the section half way, in its axes: tension, shear across, shear through
-  Vec3 moment_Nm;  ///< torque, bending through the cloth, bending in the cloth
+  double tension_N = 0;  ///< along the middle
+  Vec3 force_N;          ///< on the section half way, in its axes: along its normal, across, through the cloth
+  Vec3 moment_Nm;        ///< torque, bending through the cloth, bending in the cloth
   std::array<double, 12> gradient{};
   /// The second derivative in these unknowns, symmetric also out of balance; row by row; where it was asked for.
   std::array<double, 144> tangent{};
 };
+/// downhill: the tangent of a piece that is compressed without what its compression takes from the stiffness across it,
+/// for steps downhill from where the tangent itself is far from positive definite.
+enum class RodTangent { none, exact, downhill };
 RodAnswer evaluateRod(const RodSection& section, const RodPiece& piece, const Pose& a, const Pose& b,
-                      bool with_tangent);
+                      RodTangent tangent);
 
 /// R exp(alpha), kept a rotation to rounding.
 Mat3 turned(const Mat3& rotation, const Vec3& alpha_rad);

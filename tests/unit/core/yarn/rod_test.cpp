@@ -44,7 +44,7 @@ TEST(Rod, ForceAndTangentAreDerivatives) {
     const Pose first = randomPose(random, 1, 2);
     const std::array<Pose, 2> ends{first, first * Pose{turned({}, randomVector(random, trial % 2 == 0 ? 0.2 : 1.4)),
                                                        Vec3{0.1, 0, 0} + randomVector(random, 0.05)}};
-    const RodAnswer here = evaluateRod(kSection, piece, ends[0], ends[1], true);
+    const RodAnswer here = evaluateRod(kSection, piece, ends[0], ends[1], RodTangent::exact);
     const auto unit = [](int i) { return i % 6 < 3 ? 0.1 : 1.0; };  // lengths beside angles
     constexpr double step = 3e-4;
     const auto energy = [&](int i, double by_i, int j, double by_j) {
@@ -52,7 +52,7 @@ TEST(Rod, ForceAndTangentAreDerivatives) {
       by[i] += by_i * step * unit(i);
       by[j] += by_j * step * unit(j);
       const std::array<Pose, 2> m = moved(ends, by);
-      return evaluateRod(kSection, piece, m[0], m[1], false).energy_J;
+      return evaluateRod(kSection, piece, m[0], m[1], RodTangent::none).energy_J;
     };
     double force = 0, slope = 0, force_error = 0, slope_error = 0, skew = 0;
     for (int j = 0; j < 12; ++j) {
@@ -85,7 +85,7 @@ TEST(Rod, RigidMotionCostsNothing) {
     const Pose b = a * Pose{turned({}, randomVector(random, 1)), Vec3{0.1, 0.01, 0} + randomVector(random, 0.02)};
     const RodPiece piece = restPiece(a, b, 0.11);
     const Pose motion = randomPose(random, 1, 3);
-    const RodAnswer rest = evaluateRod(kSection, piece, motion * a, motion * b, true);
+    const RodAnswer rest = evaluateRod(kSection, piece, motion * a, motion * b, RodTangent::exact);
     EXPECT_LT(rest.energy_J, 1e-26);
     double force = 0, stiffness = 0;
     for (int i = 0; i < 12; ++i) force = std::max(force, std::abs(rest.gradient[i]));
@@ -93,8 +93,9 @@ TEST(Rod, RigidMotionCostsNothing) {
     EXPECT_LT(force, 1e-14 * stiffness);
     // Also of a strained piece: no net force, no net moment, and the same energy.
     const Pose c = b * Pose{turned({}, {0.2, -0.1, 0.3}), {0.01, 0.02, -0.01}};
-    const RodAnswer strained = evaluateRod(kSection, piece, motion * a, motion * c, false);
-    EXPECT_NEAR(strained.energy_J, evaluateRod(kSection, piece, a, c, false).energy_J, 1e-13 * strained.energy_J);
+    const RodAnswer strained = evaluateRod(kSection, piece, motion * a, motion * c, RodTangent::none);
+    EXPECT_NEAR(strained.energy_J, evaluateRod(kSection, piece, a, c, RodTangent::none).energy_J,
+                1e-13 * strained.energy_J);
     const std::array<double, 12>& g = strained.gradient;
     const Vec3 f_a{g[0], g[1], g[2]}, f_b{g[6], g[7], g[8]};
     const Vec3 m_a = (motion * a).rotation * Vec3{g[3], g[4], g[5]};
@@ -140,7 +141,7 @@ class Cantilever {
       Eigen::VectorXd r = Eigen::VectorXd::Zero(6 * n);
       Eigen::MatrixXd K = Eigen::MatrixXd::Zero(6 * n, 6 * n);
       for (int i = 0; i + 1 < n; ++i) {
-        const RodAnswer a = evaluateRod(section_, piece_, sections_[i], sections_[i + 1], true);
+        const RodAnswer a = evaluateRod(section_, piece_, sections_[i], sections_[i + 1], RodTangent::exact);
         r.segment<12>(6 * i) += Eigen::Map<const Eigen::Matrix<double, 12, 1>>(a.gradient.data());
         K.block<12, 12>(6 * i, 6 * i) += Eigen::Map<const Eigen::Matrix<double, 12, 12>>(a.tangent.data());
       }
