@@ -10,6 +10,7 @@ namespace gambeson {
 namespace {
 
 constexpr double kLeastRaise = 1e-10;    ///< of the diagonal
+constexpr double kStillDefinite = 1e-8;  ///< a raise that hides no instability but slides, which cost nothing
 constexpr double kNear = 0.1;            ///< of the distance at which yarns touch: pairs that the sparsity has room for
 constexpr double kSmallDiagonal = 1e-6;  ///< of the largest: what a raise takes for smaller entries
 
@@ -99,6 +100,7 @@ EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, s
   EquilibriumReport report;
   const double longest = longestStep(cell);
   double raise = kLeastRaise, rounding = 0;
+  bool known = false;  // whether the tangent is definite, of the last iterate
   cell.evaluate(faces, sections, work.answer);
   for (;; ++report.iterations) {
     const std::vector<double> r = work.residual(work.answer);
@@ -108,7 +110,13 @@ EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, s
     report.end = End::not_finite;
     if (!std::isfinite(size)) return report;
     report.end = End::converged;
-    if (size <= std::max(options.tolerance * work.answer.balanced_N, rounding)) return report;
+    if (size <= std::max(options.tolerance * work.answer.balanced_N, rounding)) {
+      if (!known) {
+        work.assemble(faces, sections, work.answer);
+        report.stable = work.factorise(kStillDefinite);
+      }
+      return report;
+    }
     report.end = End::too_many_iterations;
     if (report.iterations == options.iterations) return report;
 
@@ -117,6 +125,7 @@ EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, s
     if (!isFinite(work.unraised())) return report;
     rounding = roundingForce(work.unraised(), cell.reach_m());
     bool definite = work.factorise(raise);
+    known = definite && raise <= kStillDefinite;
     if (!definite) work.assemble(faces, sections, work.answer, true);
     while (!definite && raise < kMostRaise) {
       definite = work.factorise(raise);

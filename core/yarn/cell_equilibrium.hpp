@@ -19,6 +19,8 @@ struct EquilibriumOptions {
 struct EquilibriumReport {
   enum class End { converged, too_many_iterations, no_descent, not_finite };
   End end = End::converged;
+  /// False where the forces balance and the tangent is not positive definite: yarns would leave at the least push.
+  bool stable = true;
   int iterations = 0;   ///< of all parts of the way
   double residual = 0;  ///< against the forces that balance, the last
   double energy_J = 0;  ///< of the cell

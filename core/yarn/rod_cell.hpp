@@ -25,7 +25,9 @@ struct RodCellDesign {
   bool contact = true;                ///< false: yarns pass through each other
   LateralCompression compression;     ///< where they do not
   FaceSupport faces = FaceSupport::glide;
-  int pieces_per_spacing = 16;  ///< of each yarn between neighbours of the other direction; even, 4 to 256
+  /// Of each yarn between neighbours of the other direction; even, 4 to 256. Contact is a sum over pairs of sections:
+  /// with fewer than 16 yarns catch on each other's sections, and a lightly pressed crossing may be unstable.
+  int pieces_per_spacing = 16;
 };
 
 /// What a cell answers. Blocks of three unknowns: of section i the place x [m] (block 2 i) and the turn about its own

@@ -35,6 +35,7 @@ struct Specimen {
     options.tolerance = tolerance;
     const LoadReport report = changeLoad(cell, load, to, sections, work, options);
     EXPECT_TRUE(report.converged()) << report.reason();
+    stable = report.stable;
     load = report.reached;
     return resultantsOf(cell, load, sections);
   }
@@ -42,6 +43,7 @@ struct Specimen {
   EquilibriumWork work;
   std::vector<Pose> sections;
   CellLoad load;
+  bool stable = false;
 };
 
 /// T of eps = pi² (A² - A'²)/4 L² + T/EA, A' = A/(1 + T/P), 1/P = L²/(pi² B) + 1/GA, L = 1, by bisection.
@@ -113,6 +115,7 @@ TEST(RodCell, ResultantsAreTheGradientOfTheEnergy) {
     Specimen specimen(plain(0.16, yarn(), 8));
     const CellResultants n = specimen.at(load, 1e-11);
     const std::array<double, 9> D = membraneTangent(specimen.cell, load, specimen.sections, specimen.work);
+    EXPECT_TRUE(specimen.stable);
     const double largest = std::max({std::abs(n.n11), std::abs(n.n22), std::abs(n.n12)}),
                  stiffest = std::max(D[0], D[4]);
     const double exact[] = {n.n11, n.n22, n.n12};
@@ -173,7 +176,7 @@ TEST(RodCell, ClothOfSmallCrimpBendsHalfAsStiffOnTheBias) {
 }
 
 TEST(RodCell, YarnsTakeUpEachOthersCrimp) {
-  RodCellDesign design = plain(0.16, ellipticSection(84.63, 0.244, 0.24, 0.16), 12);  // the thesis's yarn
+  RodCellDesign design = plain(0.16, ellipticSection(84.63, 0.244, 0.24, 0.16), 16);  // the thesis's yarn
   design.compression = {5, 3};
   Specimen biaxial(design), uniaxial(design), free(design);
   const CellResultants both = biaxial.at({0.06, 0.06, 0, 0, 0});
@@ -181,6 +184,7 @@ TEST(RodCell, YarnsTakeUpEachOthersCrimp) {
   EXPECT_NEAR(both.n12, 0, 1e-8 * both.n11);
   const CellResultants one = uniaxial.at({0.06, 0, 0, 0, 0});
   EXPECT_LT(one.n11, both.n11);
+  EXPECT_TRUE(biaxial.stable && uniaxial.stable);
   EXPECT_GT(one.n22, 0.1 * one.n11) << "the crossing yarn is stretched";
   // Other stress zero: it contracts, and pulls less.
   CellLoad load{0.06, 0, 0, 0, 0};
@@ -227,11 +231,12 @@ TEST(RodCell, ShearIsOddAndLocks) {
 
 /// In a plain weave no yarn sinks, and nothing is held; in a satin floats do.
 TEST(RodCell, HeldFacesAreStiffer) {
-  RodCellDesign design = plain(0.16, yarn(), 6), held = design;
+  RodCellDesign design = plain(0.16, yarn(), 12), held = design;
   held.faces = FaceSupport::held;
   const CellLoad load{0.05, 0.05, 0, 0, 0};
   EXPECT_NEAR(Specimen(held).at(load).n11, Specimen(design).at(load).n11, 1e-8);
   design.yarns.weave = held.yarns.weave = satinWeave(5, 2);
+  design.pieces_per_spacing = held.pieces_per_spacing = 4;
   const CellResultants glide = Specimen(design).at(load), fixed = Specimen(held).at(load);
   EXPECT_GT(fixed.energy_J_per_m2, 1.001 * glide.energy_J_per_m2);
   Specimen bent(held);
@@ -244,7 +249,7 @@ TEST(RodCell, HeldFacesAreStiffer) {
 }
 
 TEST(RodCell, OtherWeavesComeToRest) {
-  for (const Weave& weave : {twillWeave(2, 2), satinWeave(5, 2)}) {
+  for (const Weave& weave : {twillWeave(2, 2), twillWeave(2, 1)}) {
     RodCellDesign design = plain(0.16, yarn(), 6);
     design.yarns.weave = weave;
     const CellResultants n = Specimen(design).at({0.04, 0.04, 0, 0, 0});
