@@ -1,0 +1,77 @@
+#pragma once
+/// Where the sections of a cell come to rest.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/statics/reduction.hpp"
+#include "core/yarn/rod_cell.hpp"
+
+namespace gambeson {
+
+struct EquilibriumOptions {
+  double tolerance = 1e-9;  ///< of the residual against the forces that balance in it
+  int iterations = 200;
+  int halvings = 8;  ///< of a change of the load that does not come to rest at once
+};
+
+struct EquilibriumReport {
+  enum class End { converged, too_many_iterations, no_descent, not_finite };
+  End end = End::converged;
+  /// False where the forces balance and the tangent is not positive definite: yarns would leave at the least push.
+  bool stable = true;
+  int iterations = 0;   ///< of all parts of the way
+  double residual = 0;  ///< against the forces that balance, the last
+  double energy_J = 0;  ///< of the cell
+  bool converged() const { return end == End::converged; }
+  /// Why it ended, in words.
+  std::string reason() const;
+};
+
+/// Scratch of the solution: matrices whose sparsity is kept while the same points touch.
+class EquilibriumWork {
+ public:
+  explicit EquilibriumWork(const RodCell& cell) : cell_(cell) {}
+
+  /// Second derivatives of the energy where `at` was evaluated, for all blocks and for the unknowns.
+  void assemble(const CellFaces& faces, std::span<const Pose> sections, const CellAnswer& at, bool downhill = false);
+  /// Unknowns of a lattice slide: a yarn may move along itself or, where nothing touches it, anywhere. So a part of its
+  /// diagonal (`raise`) is added to the matrix that is factorised; equilibria stay what they are. Returns whether it is
+  /// positive definite.
+  bool factorise(double raise);
+  const BlockMatrix& blocks() const { return blocks_; }
+  const SymmetricMatrix& unraised() const { return reduced_; }
+  const SymmetricFactor& factor() const { return *factor_; }
+  /// The residual of the unknowns.
+  std::vector<double> residual(const CellAnswer& answer) const;
+
+  CellAnswer answer, trial;
+
+ private:
+  const RodCell& cell_;
+  std::vector<int> pairs_;
+  BlockMatrix blocks_;
+  std::unique_ptr<Reduction> reduction_;
+  SymmetricMatrix reduced_, raised_;
+  std::unique_ptr<SymmetricFactor> factor_;
+};
+
+/// Moves the sections downhill in energy until the forces balance, the faces as they are: Newton's method, with
+/// RodTangent::downhill where the tangent is not positive definite and its diagonal raised where that is not either,
+/// steps cut until the energy falls (Nocedal and Wright 2006, algorithms 3.2 and 3.3). Where it does not converge,
+/// `sections` are the last ones. Bits do not depend on threads.
+EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
+                                  EquilibriumWork& work, const EquilibriumOptions& options = {});
+
+/// From an equilibrium under one load to one under another, the sections carried along; where that does not come to
+/// rest, by way of loads between, the change halved up to `halvings` times. Where it fails, `sections` are of the last
+/// load that was reached and `reached` is that. Throws InputError as checkLoad, and with the key "faces" where held
+/// faces are to bend.
+struct LoadReport : EquilibriumReport {
+  CellLoad reached;
+};
+LoadReport changeLoad(const RodCell& cell, const CellLoad& from, const CellLoad& to, std::vector<Pose>& sections,
+                      EquilibriumWork& work, const EquilibriumOptions& options = {});
+
+}  // namespace gambeson

@@ -1,0 +1,303 @@
+#include "core/yarn/rod_cell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/yarn/line_contact.hpp"
+
+namespace gambeson {
+namespace {
+
+using Block = std::array<double, 9>;
+
+Mat3 minus(const Mat3& m) { return {-m.a, -m.b, -m.c}; }
+
+/// Aᵀ B C of a block by rows.
+Block between(const Mat3& A, const Block& B, const Mat3& C) {
+  const Mat3 rows{{B[0], B[1], B[2]}, {B[3], B[4], B[5]}, {B[6], B[7], B[8]}};  // Bᵀ by columns
+  const Mat3 CtBt = transpose(C) * rows;                                        // (B C)ᵀ
+  const Mat3 product = transpose(A) * transpose(CtBt);
+  return {product.a.x, product.b.x, product.c.x, product.a.y, product.b.y,
+          product.c.y, product.a.z, product.b.z, product.c.z};
+}
+
+void checkSection(const RodSection& s, const std::string& key) {
+  for (const auto& [name, value] : {std::pair{"stretch", s.stretch_N},
+                                    {"shear_across", s.shear_across_N},
+                                    {"shear_through", s.shear_through_N},
+                                    {"bending_through", s.bending_through_Nm2},
+                                    {"bending_in_plane", s.bending_in_plane_Nm2}})
+    if (!(value > 0 && std::isfinite(value)))
+      throw InputError({"", 0, key + "." + name}, fmt::format("{:.6g}, must be > 0", value));
+  if (!(s.torsion_Nm2 >= 0 && std::isfinite(s.torsion_Nm2)))
+    throw InputError({"", 0, key + ".torsion"}, fmt::format("{:.6g}, must be >= 0", s.torsion_Nm2));
+}
+
+}  // namespace
+
+/// An image in space, and how it moves: dx' = by_x dx + by_t dt.
+struct RodCell::Placed {
+  Pose pose;
+  Mat3 by_x;
+  Mat3 by_t;  ///< where power is not 0
+};
+
+RodCell::Placed RodCell::place(const CellFaces& faces, std::span<const Pose> sections, const Image& image) {
+  const Pose& own = sections[image.section];
+  if (image.power == 0) return {own, {}, {}};
+  const Pose& g = faces.step[image.direction];
+  if (image.power == 1) return {g * own, g.rotation, {}};
+  const Mat3 back = transpose(g.rotation);
+  return {inverse(g) * own, back, minus(back)};
+}
+
+RodCell::RodCell(const RodCellDesign& design) : design_(design) {
+  checkWovenYarns(design_.yarns);
+  checkSection(design_.section[along_weft], "weft.section");
+  checkSection(design_.section[along_warp], "warp.section");
+  if (design_.contact) checkCompression(design_.compression);
+  const int n = design_.pieces_per_spacing;
+  if (n < 4 || n > 256 || n % 2 != 0)
+    throw InputError({"", 0, "pieces_per_spacing"}, fmt::format("{}, must be even, 4 to 256", n));
+  touch_m_ = yarns().yarn[along_weft].half_thickness_m + yarns().yarn[along_warp].half_thickness_m;
+  addYarns();
+  if (design_.contact) addPairs();
+  for (const int d : {along_weft, along_warp})
+    for (int i = 0; i < yarns().count(d) * sectionsOf(d); ++i)
+      for (int c = 0; c < 6; ++c) {
+        const bool held = design_.faces == FaceSupport::held && i % sectionsOf(d) == 0 && c == 2;
+        if (!held) freedoms_.add(freedoms_.column_count++, 1);
+        freedoms_.endRow();
+      }
+  for (int c = 0; c < 6; ++c) freedoms_.endRow();
+}
+
+int RodCell::sectionsOf(int direction) const { return design_.pieces_per_spacing * yarns().crossings(direction); }
+
+int RodCell::firstSection(int direction, int k) const {
+  return k * sectionsOf(direction) + (direction == along_warp ? yarns().weave.wefts * sectionsOf(along_weft) : 0);
+}
+
+/// Section i of a yarn that goes on for ever: i from -n to 2 n - 1.
+RodCell::Image RodCell::imageOf(int direction, int k, int i) const {
+  const int n = sectionsOf(direction), power = i < 0 ? -1 : i >= n ? 1 : 0;
+  return {firstSection(direction, k) + i - power * n, direction, power};
+}
+
+void RodCell::addYarns() {
+  for (const int d : {along_weft, along_warp}) {
+    const int n = sectionsOf(d);
+    const double step = yarns().period_m(d) / n;
+    const Vec3 ahead = d == along_weft ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up{0, 0, 1}, across = cross(up, ahead);
+    for (int k = 0; k < yarns().count(d); ++k)
+      for (int i = 0; i < n; ++i) {
+        const Vec3 tangent = normalized(ahead + yarns().slope(d, k, i * step) * up);
+        rest_.push_back({{tangent, across, cross(tangent, across)}, yarns().middle(d, k, i * step)});
+      }
+  }
+  const CellFaces faces = facesOf(yarns(), {});
+  double total = 0;
+  for (const int d : {along_weft, along_warp}) {
+    const int n = sectionsOf(d);
+    const double step = yarns().period_m(d) / n;
+    for (int k = 0; k < yarns().count(d); ++k)
+      for (int i = 0; i < n; ++i) {
+        const Image a = imageOf(d, k, i), b = imageOf(d, k, i + 1);
+        const double length = yarns().arcLength_m(d, k, i * step, (i + 1) * step);
+        pieces_.push_back({restPiece(place(faces, rest_, a).pose, place(faces, rest_, b).pose, length), d, a, b});
+        total += length;
+      }
+  }
+  turn_length_m_ = total / static_cast<double>(pieces_.size());
+}
+
+/// Around each crossing the sections of both yarns up to their next crossings.
+void RodCell::addPairs() {
+  const int n = design_.pieces_per_spacing;
+  const auto shareOf = [&](int direction, int k, int i) {
+    const int m = sectionsOf(direction), first = firstSection(direction, k), here = ((i % m) + m) % m;
+    return 0.5 * (pieces_[first + here].piece.length_m + pieces_[first + (here + m - 1) % m].piece.length_m);
+  };
+  for (int j = 0; j < yarns().weave.wefts; ++j)
+    for (int i = 0; i < yarns().weave.warps; ++i) {
+      const int on_weft = i * n + n / 2, on_warp = j * n + n / 2;
+      for (int a = on_weft - n; a <= on_weft + n; ++a)
+        for (int b = on_warp - n; b <= on_warp + n; ++b)
+          pairs_.push_back({imageOf(along_weft, j, a), imageOf(along_warp, i, b),
+                            shareOf(along_weft, j, a) * shareOf(along_warp, i, b)});
+    }
+}
+
+double RodCell::yarnLength_m(int direction, int k) const {
+  double sum = 0;
+  for (int i = 0; i < sectionsOf(direction); ++i) sum += pieces_[firstSection(direction, k) + i].piece.length_m;
+  return sum;
+}
+
+double RodCell::reach_m() const { return std::hypot(yarns().period_m(along_weft), yarns().period_m(along_warp)); }
+
+std::vector<int> RodCell::nearPairs(const CellFaces& faces, std::span<const Pose> sections, double part) const {
+  const double reach = touch_m_ * (1 + part);
+  std::vector<int> near;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const Vec3 apart =
+        place(faces, sections, pairs_[k].weft).pose.origin - place(faces, sections, pairs_[k].warp).pose.origin;
+    if (norm2(apart) < reach * reach) near.push_back(static_cast<int>(k));
+  }
+  return near;
+}
+
+BlockMatrix RodCell::sparsity(std::span<const int> pairs) const {
+  std::vector<std::vector<int>> rows(static_cast<std::size_t>(blocks()));
+  for (int r = 0; r < blocks(); ++r) rows[r].push_back(r);
+  const auto join = [&](const std::vector<int>& together) {
+    for (int r : together)
+      for (int c : together)
+        if (r < c) rows[r].push_back(c);
+  };
+  const int faces = 2 * sections();
+  for (const Piece& p : pieces_) {
+    std::vector<int> together{2 * p.a.section, 2 * p.a.section + 1, 2 * p.b.section, 2 * p.b.section + 1};
+    if (p.b.power != 0) together.push_back(faces + p.direction);
+    join(together);
+  }
+  for (const int k : pairs) {
+    const Pair& p = pairs_[k];
+    std::vector<int> together{2 * p.weft.section, 2 * p.warp.section};
+    if (p.weft.power != 0) together.push_back(faces + along_weft);
+    if (p.warp.power != 0) together.push_back(faces + along_warp);
+    join(together);
+  }
+  BlockMatrix K;
+  for (std::vector<int>& row : rows) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    K.columns.insert(K.columns.end(), row.begin(), row.end());
+    K.offsets.push_back(static_cast<long>(K.columns.size()));
+  }
+  K.values.assign(9 * K.columns.size(), 0.0);
+  return K;
+}
+
+namespace {
+
+/// One of the blocks that a vector of an element moves with, and how: v = by u.
+struct Part {
+  int vector;  ///< of the element
+  int block;
+  Mat3 by;
+};
+
+/// Adds the second derivative in the vectors of an element, each given by a part or two.
+template <class Entry>
+void addBlocks(const std::vector<Part>& parts, const Entry& entry, BlockMatrix& K) {
+  for (const Part& p : parts)
+    for (const Part& q : parts)
+      if (p.block <= q.block) K.add(p.block, q.block, between(p.by, entry(p.vector, q.vector), q.by));
+}
+
+Mat3 scaled(double s) { return {{s, 0, 0}, {0, s, 0}, {0, 0, s}}; }
+
+}  // namespace
+
+void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out, BlockMatrix* K,
+                       bool downhill) const {
+  out.energy_J = 0;
+  out.gradient.assign(static_cast<std::size_t>(blocks()), Vec3{});
+  out.face_moment_Nm = {};
+  out.touching.clear();
+  if (K) std::fill(K->values.begin(), K->values.end(), 0.0);
+  double balanced = 0;
+  const int face_block = 2 * this->sections();
+  std::vector<Part> parts;
+  /// The force on a vector that a place is: to its section and its face.
+  const auto addForce = [&](const Image& image, const Placed& at, const Vec3& force) {
+    out.gradient[2 * image.section] += transposeTimes(at.by_x, force);
+    balanced += norm2(force);
+    if (image.power == 0) return;
+    out.gradient[face_block + image.direction] += transposeTimes(at.by_t, force);
+    const Pose& g = faces.step[image.direction];
+    const Vec3& own = sections[image.section].origin;
+    out.face_moment_Nm[image.direction] +=
+        image.power == 1 ? cross(g.rotation * own, force) : -cross(own - g.origin, g.rotation * force);
+  };
+  const auto addParts = [&](const Image& image, const Placed& at, int vector) {
+    parts.push_back({vector, 2 * image.section, at.by_x});
+    if (image.power != 0) parts.push_back({vector, face_block + image.direction, at.by_t});
+  };
+
+  const double per_length = 1 / turn_length_m_;
+  const RodTangent tangent = !K ? RodTangent::none : downhill ? RodTangent::downhill : RodTangent::exact;
+  for (const Piece& piece : pieces_) {
+    const Placed a = place(faces, sections, piece.a), b = place(faces, sections, piece.b);
+    const RodAnswer answer = evaluateRod(design_.section[piece.direction], piece.piece, a.pose, b.pose, tangent);
+    out.energy_J += answer.energy_J;
+    const auto vector = [&](int k) {
+      return Vec3{answer.gradient[3 * k], answer.gradient[3 * k + 1], answer.gradient[3 * k + 2]};
+    };
+    addForce(piece.a, a, vector(0));
+    addForce(piece.b, b, vector(2));
+    out.gradient[2 * piece.a.section + 1] += per_length * vector(1);
+    out.gradient[2 * piece.b.section + 1] += per_length * vector(3);
+    balanced += norm2(per_length * vector(1)) + norm2(per_length * vector(3));
+    if (piece.b.power == 1) out.face_moment_Nm[piece.direction] += b.pose.rotation * vector(3);
+    if (!K) continue;
+    parts.clear();
+    addParts(piece.a, a, 0);
+    addParts(piece.b, b, 2);
+    parts.push_back({1, 2 * piece.a.section + 1, scaled(per_length)});
+    parts.push_back({3, 2 * piece.b.section + 1, scaled(per_length)});
+    addBlocks(
+        parts,
+        [&](int p, int q) {
+          Block block;
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) block[3 * i + j] = answer.tangent[12 * (3 * p + i) + 3 * q + j];
+          return block;
+        },
+        *K);
+  }
+
+  const double touch2 = touch_m_ * touch_m_;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const Pair& pair = pairs_[k];
+    const Placed weft = place(faces, sections, pair.weft), warp = place(faces, sections, pair.warp);
+    const Vec3 apart = weft.pose.origin - warp.pose.origin;
+    if (!(norm2(apart) < touch2)) continue;
+    out.touching.push_back(static_cast<int>(k));
+    const double distance = norm(apart);
+    const LineContact contact = lineContact(design_.compression, touch_m_, distance);
+    out.energy_J += pair.lengths_m2 * contact.energy;
+    const Vec3 u = apart / distance, force = pair.lengths_m2 * contact.first * u;
+    addForce(pair.weft, weft, force);
+    addForce(pair.warp, warp, -force);
+    if (!K) continue;
+    parts.clear();
+    addParts(pair.weft, weft, 0);
+    addParts(pair.warp, warp, 1);
+    const double across = pair.lengths_m2 * contact.first / distance, along = pair.lengths_m2 * contact.second;
+    addBlocks(
+        parts,
+        [&](int p, int q) {
+          Block block;
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+              block[3 * i + j] = (p == q ? 1 : -1) * ((i == j ? across : 0) + (along - across) * u[i] * u[j]);
+          return block;
+        },
+        *K);
+  }
+  out.balanced_N = std::sqrt(balanced);
+}
+
+RodAnswer RodCell::pieceAt(const CellFaces& faces, std::span<const Pose> sections, int direction, int k, int i) const {
+  const Piece& p = pieces_[firstSection(direction, k) + i];
+  return evaluateRod(design_.section[direction], p.piece, place(faces, sections, p.a).pose,
+                     place(faces, sections, p.b).pose, RodTangent::none);
+}
+
+}  // namespace gambeson

@@ -1,0 +1,109 @@
+#pragma once
+/// A repeat of a woven cloth whose yarns are rods: its energy, and how that changes with each of its sections and with
+/// the motions that take the cell to its neighbours.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/math/block_matrix.hpp"
+#include "core/math/sparse.hpp"
+#include "core/yarn/cell_faces.hpp"
+#include "core/yarn/compression.hpp"
+#include "core/yarn/rod.hpp"
+#include "core/yarn/woven_yarns.hpp"
+
+namespace gambeson {
+
+/// Whether sections in the faces of the cell may move through the cloth. Faces lie half way between crossings. Held
+/// faces (Man 2006, section 4.3.5.3) stiffen the cell and are of flat cloth alone.
+enum class FaceSupport { glide, held };
+
+struct RodCellDesign {
+  WovenYarns yarns;
+  std::array<RodSection, 2> section;  ///< by YarnDirection
+  bool contact = true;                ///< false: yarns pass through each other
+  LateralCompression compression;     ///< where they do not
+  FaceSupport faces = FaceSupport::glide;
+  /// Of each yarn between neighbours of the other direction; even, 4 to 256. Contact is a sum over pairs of sections:
+  /// with fewer than 16 yarns catch on each other's sections, and a lightly pressed crossing may be unstable.
+  int pieces_per_spacing = 16;
+};
+
+/// What a cell answers. Blocks of three unknowns: of section i the place x [m] (block 2 i) and the turn about its own
+/// axes times the cell's `turn_length` [m] (block 2 i + 1), after all sections the translations of the faces 1 and 2.
+struct CellAnswer {
+  double energy_J = 0;
+  std::vector<Vec3> gradient;          ///< by block [N]
+  std::array<Vec3, 2> face_moment_Nm;  ///< dW = face_moment . w of a spin w of face 1 or 2 about the origin
+  double balanced_N = 0;               ///< the size of the forces that balance in the gradient
+  std::vector<int> touching;           ///< pairs of points in contact, ascending
+};
+
+/// The cell is constant; callers own its sections and faces. Yarns are without force where they lie at rest. Yarns that
+/// cross press on each other without friction (line_contact.hpp), by sums over pairs of sections.
+class RodCell {
+ public:
+  /// Throws InputError where the yarns cannot lie so (checkWovenYarns), a section stretches, shears or bends without
+  /// stiffness (keys "weft.section.stretch" and so on; torsion may have none), the law of compression is out of range
+  /// (checkCompression), or "pieces_per_spacing" is.
+  explicit RodCell(const RodCellDesign& design);
+
+  const RodCellDesign& design() const { return design_; }
+  const WovenYarns& yarns() const { return design_.yarns; }
+  double area_m2() const { return yarns().area_m2(); }
+  int sections() const { return static_cast<int>(rest_.size()); }
+  int blocks() const { return 2 * sections() + 2; }
+  std::span<const Pose> rest() const { return rest_; }
+  /// Sections of yarn k of a direction, in order along it: the first of them, and how many.
+  int firstSection(int direction, int k) const;
+  int sectionsOf(int direction) const;
+  /// Length of yarn k in one repeat, at rest [m].
+  double yarnLength_m(int direction, int k) const;
+  double turnLength_m() const { return turn_length_m_; }
+  /// The greatest extent of the cell [m], to which positions are rounded.
+  double reach_m() const;
+
+  /// From all blocks to the unknowns of the sections: the rows of held components are empty.
+  const SparseRows& freedoms() const { return freedoms_; }
+
+  /// Where K is given it has the sparsity of `sparsity` with at least the pairs that touch; `downhill`: RodTangent's.
+  void evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out, BlockMatrix* K = nullptr,
+                bool downhill = false) const;
+  /// Pairs that touch, or will when their points are nearer by this part of their distance.
+  std::vector<int> nearPairs(const CellFaces& faces, std::span<const Pose> sections, double part) const;
+  BlockMatrix sparsity(std::span<const int> pairs) const;
+
+  /// Tension, shears [N] and torque, moments [N m] half way between the sections i and i + 1 of a yarn.
+  RodAnswer pieceAt(const CellFaces& faces, std::span<const Pose> sections, int direction, int k, int i) const;
+
+ private:
+  /// A section, or its image in the next cell (power 1) or the one before (-1) along the yarn's own direction.
+  struct Image {
+    int section, direction, power;
+  };
+  struct Piece {
+    RodPiece piece;
+    int direction;
+    Image a, b;
+  };
+  struct Pair {
+    Image weft, warp;
+    double lengths_m2;  ///< of both yarns for which the pair stands
+  };
+  struct Placed;
+
+  static Placed place(const CellFaces& faces, std::span<const Pose> sections, const Image& image);
+  Image imageOf(int direction, int k, int i) const;
+  void addYarns();
+  void addPairs();
+
+  RodCellDesign design_;
+  std::vector<Pose> rest_;
+  std::vector<Piece> pieces_;
+  std::vector<Pair> pairs_;
+  SparseRows freedoms_;
+  double turn_length_m_ = 0, touch_m_ = 0;
+};
+
+}  // namespace gambeson

@@ -1,0 +1,277 @@
+#include "core/yarn/cell_response.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/math/quadrature.hpp"
+
+namespace gambeson {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A balanced plain weave of spacing 1.
+RodCellDesign plain(double amplitude, const RodSection& section, int pieces) {
+  RodCellDesign d;
+  const double b = amplitude;
+  d.yarns = {plainWeave(), {WovenYarn{1, amplitude, 1.5 * b, b}, WovenYarn{1, amplitude, 1.5 * b, b}}};
+  d.section = {section, section};
+  d.compression = {0.1, 3};
+  d.pieces_per_spacing = pieces;
+  return d;
+}
+
+/// A cell, brought from one load to the next.
+struct Specimen {
+  explicit Specimen(const RodCellDesign& design)
+      : cell(design), work(cell), sections(cell.rest().begin(), cell.rest().end()) {}
+  CellResultants at(const CellLoad& to, double tolerance = 1e-9) {
+    EquilibriumOptions options;
+    options.tolerance = tolerance;
+    const LoadReport report = changeLoad(cell, load, to, sections, work, options);
+    EXPECT_TRUE(report.converged()) << report.reason();
+    stable = report.stable;
+    load = report.reached;
+    return resultantsOf(cell, load, sections);
+  }
+  RodCell cell;
+  EquilibriumWork work;
+  std::vector<Pose> sections;
+  CellLoad load;
+  bool stable = false;
+};
+
+/// T of eps = pi² (A² - A'²)/4 L² + T/EA, A' = A/(1 + T/P), 1/P = L²/(pi² B) + 1/GA, L = 1, by bisection.
+double tensionOfWave(double strain, double A, const RodSection& s) {
+  const double P = 1 / (1 / (kPi * kPi * s.bending_through_Nm2) + 1 / s.shear_through_N);
+  double low = 0, high = s.stretch_N;
+  for (int k = 0; k < 200; ++k) {
+    const double T = 0.5 * (low + high), left = A / (1 + T / P);
+    (kPi * kPi * (A * A - left * left) / 4 + T / s.stretch_N < strain ? low : high) = T;
+  }
+  return low;
+}
+
+/// Waves that bend: within 0.5 % up to A = 0.08 L on 64 pieces of a wave. Waves that shear: where the slope is small,
+/// too (along the section's normal in place of the middle the tension would be 30 % less at GA = 0.003).
+TEST(RodCell, WavesStraightenAsTheClosedFormSays) {
+  for (const double GA : {1.0, 0.01, 0.003})
+    for (const double A : {0.02, 0.04, 0.08}) {
+      if (A > 0.02 && GA < 1) continue;
+      const RodSection section{1000, 1, GA, 1e-3, 1e-3, 1e-3};
+      RodCellDesign design = plain(A, section, 32);
+      design.contact = false;
+      Specimen specimen(design);
+      const double strain = 0.5 * kPi * kPi * A * A / 4;  // half of what the crimp holds
+      const CellResultants n = specimen.at(loadOf({1 + strain, 0, 0, 1}));
+      const double exact = tensionOfWave(strain, A, section);
+      EXPECT_NEAR(n.n11 * (1 + strain), exact, 5e-3 * exact) << GA << " " << A;
+      EXPECT_NEAR(n.n22, 0, 1e-6 * n.n11);
+    }
+}
+
+/// At any amplitude, to first order in the load: strain/T = 1/L integral of (z²/B + sin²/GA + 1/EA cos²) ds over a half
+/// wave at rest; the error falls with the square of a piece's length.
+TEST(RodCell, SteepWavesHaveTheComplianceOfTheirShape) {
+  const double A = 0.16;
+  for (const double GA : {1.0, 0.01}) {
+    const RodSection section{30, 1, GA, 1e-3, 1e-3, 1e-3};
+    const Quadrature rule = gaussLegendre(20);
+    double compliance = 0;
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const double x = rule.points[q], z = A * std::cos(kPi * x), slope = kPi * A * std::sin(kPi * x);
+      const double ds = std::hypot(1, slope), sin = slope / ds, cos = 1 / ds;
+      compliance += rule.weights[q] * ds * (z * z / 1e-3 + sin * sin / GA + cos * cos / 30);
+    }
+    double before = 0;
+    for (const int pieces : {8, 16}) {
+      RodCellDesign design = plain(A, section, pieces);
+      design.contact = false;
+      Specimen specimen(design);
+      const double strain = 1e-5;
+      const double error = specimen.at({strain, 0, 0, 0, 0}).n11 * compliance / strain - 1;
+      if (before > 0) {
+        EXPECT_NEAR(before / error, 4, 0.3) << GA;
+        EXPECT_NEAR((4 * error - before) / 3, 0, 1e-3) << GA;
+      }
+      before = error;
+    }
+  }
+}
+
+RodSection yarn() { return {10, 0.5, 0.4, 0.01, 0.03, 0.05}; }
+
+const CellLoad kStrains[] = {
+    {0.06, 0.06, 0, 0, 0}, {0.08, 0, 0.1, 0, 0}, {0.02, 0.05, -0.3, 0, 0}, {-0.03, -0.01, 0, 0, 0}};
+
+/// The resultants are differences of the energy, the tangent is differences of the resultants.
+TEST(RodCell, ResultantsAreTheGradientOfTheEnergy) {
+  for (const CellLoad& load : kStrains) {
+    Specimen specimen(plain(0.16, yarn(), 8));
+    const CellResultants n = specimen.at(load, 1e-11);
+    const std::array<double, 9> D = membraneTangent(specimen.cell, load, specimen.sections, specimen.work);
+    EXPECT_TRUE(specimen.stable);
+    const double largest = std::max({std::abs(n.n11), std::abs(n.n22), std::abs(n.n12)}),
+                 stiffest = std::max(D[0], D[4]);
+    const double exact[] = {n.n11, n.n22, n.n12};
+    for (int e = 0; e < 3; ++e) {
+      const double h = 2e-5;
+      const auto near = [&](double by) {
+        CellLoad to = load;
+        (e == 0 ? to.e11 : e == 1 ? to.e22 : to.g12) += by;
+        return specimen.at(to, 1e-11);
+      };
+      const CellResultants a = near(-h), b = near(h);
+      EXPECT_NEAR((b.energy_J_per_m2 - a.energy_J_per_m2) / (2 * h), exact[e], 1e-5 * largest) << e;
+      EXPECT_NEAR((b.n11 - a.n11) / (2 * h), D[3 * e], 1e-5 * stiffest) << e;
+      EXPECT_NEAR((b.n22 - a.n22) / (2 * h), D[3 * e + 1], 1e-5 * stiffest) << e;
+      EXPECT_NEAR((b.n12 - a.n12) / (2 * h), D[3 * e + 2], 1e-5 * stiffest) << e;
+    }
+  }
+}
+
+TEST(RodCell, MomentIsTheDerivativeInCurvature) {
+  Specimen specimen(plain(0.16, yarn(), 8));
+  CellLoad load{0.03, 0.01, 0.05, 0.05, 0.5};
+  const CellResultants here = specimen.at(load, 1e-11);
+  const double h = 1e-4;
+  load.curvature_per_m -= h;
+  const double below = specimen.at(load, 1e-11).energy_J_per_m2;
+  load.curvature_per_m += 2 * h;
+  const double above = specimen.at(load, 1e-11).energy_J_per_m2;
+  EXPECT_NEAR((above - below) / (2 * h), here.moment_N, 1e-5 * std::abs(here.moment_N));
+}
+
+/// D = B/S along the yarns, S the length of a yarn in a spacing: without contact a moment bends yarns as if they were
+/// straight, however steep (64 pieces of a wave, and fewer).
+TEST(RodCell, ClothBendsByTheLengthOfItsYarns) {
+  for (const double direction : {0.0, kPi / 2})
+    for (const double A : {0.05, 0.16})
+      for (const int pieces : {8, 32}) {
+        RodCellDesign design = plain(A, {1000, 10, 10, 0.5, 1, 0.7}, pieces);
+        design.contact = false;
+        Specimen specimen(design);
+        const double k = 0.01, S = specimen.cell.yarnLength_m(along_weft, 0) / 2;
+        const CellResultants n = specimen.at({0, 0, 0, k, direction});
+        EXPECT_NEAR(n.moment_N / k * S, 1, 1e-5) << direction << " " << A << " " << pieces;
+        EXPECT_NEAR(2 * n.energy_J_per_m2 / (k * k) * S, 1, 1e-5);
+      }
+}
+
+/// On the bias yarns become helices: bending k/2 each and torsion k/2, which costs GJ/B of D.
+TEST(RodCell, ClothOfSmallCrimpBendsHalfAsStiffOnTheBias) {
+  for (const double GJ : {1e-4, 0.4}) {
+    RodCellDesign design = plain(1e-3, {1000, 10, 10, GJ, 1, 1}, 32);
+    design.contact = false;
+    Specimen specimen(design);
+    const double k = 0.002;
+    const CellResultants n = specimen.at({0, 0, 0, k, kPi / 4});
+    EXPECT_NEAR(n.moment_N / k, 0.5 * (1 + GJ), 5e-4) << GJ;
+  }
+}
+
+TEST(RodCell, YarnsTakeUpEachOthersCrimp) {
+  RodCellDesign design = plain(0.16, ellipticSection(84.63, 0.244, 0.24, 0.16), 16);  // the thesis's yarn
+  design.compression = {5, 3};
+  Specimen biaxial(design), uniaxial(design), free(design);
+  const CellResultants both = biaxial.at({0.06, 0.06, 0, 0, 0});
+  EXPECT_NEAR(both.n11, both.n22, 1e-8 * both.n11) << "a balanced weave";
+  EXPECT_NEAR(both.n12, 0, 1e-8 * both.n11);
+  const CellResultants one = uniaxial.at({0.06, 0, 0, 0, 0});
+  EXPECT_LT(one.n11, both.n11);
+  EXPECT_TRUE(biaxial.stable && uniaxial.stable);
+  EXPECT_GT(one.n22, 0.1 * one.n11) << "the crossing yarn is stretched";
+  // Other stress zero: it contracts, and pulls less.
+  CellLoad load{0.06, 0, 0, 0, 0};
+  free.at(load);
+  const LoadReport report = freeAcross(free.cell, load, free.sections, free.work);
+  ASSERT_TRUE(report.converged()) << report.reason();
+  const CellResultants none = resultantsOf(free.cell, load, free.sections);
+  EXPECT_LT(load.e22, -0.01);
+  EXPECT_LE(std::abs(none.n22), 1e-6 * none.n11);
+  EXPECT_LT(none.n11, one.n11);
+  EXPECT_GT(none.n11, 0);
+  // Compression opens the crossings.
+  Specimen pressed(design);
+  const CellResultants less = pressed.at({-0.04, -0.04, 0, 0, 0});
+  EXPECT_LT(less.n11, 0);
+  EXPECT_LT(-less.n11, 0.7 * biaxial.at({0.04, 0.04, 0, 0, 0}).n11);
+}
+
+/// Second order in the length of a piece, contact included.
+TEST(RodCell, BiaxialTensionConverges) {
+  double n[3];
+  const int pieces[3] = {8, 16, 32};
+  for (int k = 0; k < 3; ++k) n[k] = Specimen(plain(0.16, yarn(), pieces[k])).at({0.05, 0.05, 0, 0, 0}).n11;
+  EXPECT_NEAR((n[0] - n[1]) / (n[1] - n[2]), 4, 1);
+  EXPECT_NEAR(n[1], n[2], 0.01 * n[2]);
+}
+
+TEST(RodCell, ShearIsOddAndLocks) {
+  RodCellDesign design = plain(0.16, yarn(), 8);
+  Specimen left(design), right(design);
+  double before = 0, slope = 0;
+  for (int k = 1; k <= 4; ++k) {
+    const CellResultants a = left.at(trellis(0.2 * k, 1.01)), b = right.at(trellis(-0.2 * k, 1.01));
+    EXPECT_NEAR(a.n12, -b.n12, 1e-6 * std::abs(a.n12));
+    EXPECT_NEAR(a.n11, b.n11, 1e-6 * a.n11);
+    EXPECT_GT(a.n12 - before, slope) << "stiffer and stiffer";
+    slope = a.n12 - before, before = a.n12;
+  }
+  Specimen printed(design);
+  const CellResultants p = printed.at(shearAsPrinted(0.2, 1.01));
+  EXPECT_GT(p.n12, 0);
+  EXPECT_GT(p.n11, 0);
+}
+
+/// In a plain weave no yarn sinks, and nothing is held; in a satin floats do.
+TEST(RodCell, HeldFacesAreStiffer) {
+  RodCellDesign design = plain(0.16, yarn(), 12), held = design;
+  held.faces = FaceSupport::held;
+  const CellLoad load{0.05, 0.05, 0, 0, 0};
+  EXPECT_NEAR(Specimen(held).at(load).n11, Specimen(design).at(load).n11, 1e-8);
+  design.yarns.weave = held.yarns.weave = satinWeave(5, 2);
+  design.pieces_per_spacing = held.pieces_per_spacing = 4;
+  const CellResultants glide = Specimen(design).at(load), fixed = Specimen(held).at(load);
+  EXPECT_GT(fixed.energy_J_per_m2, 1.001 * glide.energy_J_per_m2);
+  Specimen bent(held);
+  try {
+    bent.at({0, 0, 0, 0.1, 0});
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.where().key, "faces");
+  }
+}
+
+TEST(RodCell, OtherWeavesComeToRest) {
+  for (const Weave& weave : {twillWeave(2, 2), twillWeave(2, 1)}) {
+    RodCellDesign design = plain(0.16, yarn(), 6);
+    design.yarns.weave = weave;
+    const CellResultants n = Specimen(design).at({0.04, 0.04, 0, 0, 0});
+    EXPECT_GT(n.n11, 0);
+    EXPECT_NEAR(n.n11, n.n22, 1e-3 * n.n11);
+    EXPECT_GT(n.n11, Specimen(plain(0.16, yarn(), 6)).at({0.04, 0.04, 0, 0, 0}).n11)
+        << "floats have less crimp to give";
+  }
+}
+
+TEST(RodCell, ThreadsChangeNoBit) {
+  const int before = omp_get_max_threads();
+  std::vector<Pose> first;
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Specimen specimen(plain(0.16, yarn(), 8));
+    specimen.at({0.05, 0.02, 0.1, 0, 0});
+    if (first.empty()) first = specimen.sections;
+    EXPECT_EQ(specimen.sections, first) << threads;
+  }
+  omp_set_num_threads(before);
+}
+
+}  // namespace
+}  // namespace gambeson
