@@ -84,7 +84,7 @@ double gapTo(const Shape& shape, const Pose& X, const std::optional<Stairs>& sta
   return gap;
 }
 
-double gapTo(const Shape& shape, const Pose& X, const Hurdle& hurdle) {
+double gapToHurdle(const Shape& shape, const Pose& X, const Hurdle& hurdle) {
   constexpr int directions = 360;
   double gap = -std::numeric_limits<double>::infinity();
   for (int i = 0; i <= directions; ++i) {

@@ -37,6 +37,6 @@ const BodyShape& footOf(const Human& human, const std::string& side, const std::
 /// Meshes count as their convex hulls. `nearest`: the step that is nearest.
 double gapTo(const Shape& shape, const Pose& X_WS, const std::optional<Stairs>& stairs, int* nearest = nullptr);
 /// Signed distance of a shape from a hurdle, with the same supporting planes, but in steps of half a degree.
-double gapTo(const Shape& shape, const Pose& X_WS, const Hurdle& hurdle);
+double gapToHurdle(const Shape& shape, const Pose& X_WS, const Hurdle& hurdle);
 
 }  // namespace gambeson

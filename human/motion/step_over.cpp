@@ -348,7 +348,7 @@ class StepOver final : public Motion {
     for (int i = 0; i <= n; ++i) {
       const Posture p = at(s.begin + (s.end - s.begin) * i / n);
       const Pose X = linkPoses(human_.skeleton, p.q, p.root)[legs_[l].foot->link] * legs_[l].foot->X_LS;
-      gap = std::min(gap, gapTo(legs_[l].foot->shape, X, hurdle_));
+      gap = std::min(gap, gapToHurdle(legs_[l].foot->shape, X, hurdle_));
     }
     return gap;
   }

@@ -59,7 +59,7 @@ TEST_P(EveryStepOver, FeetClearTheObstacle) {
     constexpr int n = 3000;
     for (int i = 0; i <= n; ++i) {
       const Pose X = s.foot(s.motion->duration() * i / n, side);
-      gap = std::min(gap, gapTo(shape, X, s.hurdle));
+      gap = std::min(gap, gapToHurdle(shape, X, s.hurdle));
       if (std::abs(X.origin.x - s.hurdle.front_m) < 0.1) over = std::max(over, X.origin.z);
     }
     RecordProperty(side + "_mm", std::to_string(1e3 * gap));
@@ -204,7 +204,7 @@ TEST(StepOver, BendsNoMoreThanItMust) {
       const auto X = linkPoses(human.skeleton, p.q, p.root);
       for (const char* side : {"right", "left"}) {
         const BodyShape& foot = footOf(human, side, "");
-        gap = std::min(gap, gapTo(foot.shape, X[foot.link] * foot.X_LS, hurdle));
+        gap = std::min(gap, gapToHurdle(foot.shape, X[foot.link] * foot.X_LS, hurdle));
       }
     }
     EXPECT_GE(gap, o.clearance_m) << height;
@@ -244,7 +244,7 @@ TEST(StepOver, RefusesNonsense) {
 TEST(Hurdle, IsAsFarAsItIs) {
   const Hurdle hurdle{1, 0.1, 0.5};
   const Shape ball = Ellipsoid{{0.05, 0.05, 0.05}};
-  const auto gap = [&](double x, double z) { return gapTo(ball, Pose{{}, {x, 3, z}}, hurdle); };
+  const auto gap = [&](double x, double z) { return gapToHurdle(ball, Pose{{}, {x, 3, z}}, hurdle); };
   EXPECT_NEAR(gap(1.05, 0.7), 0.15, 1e-12);                       // above
   EXPECT_NEAR(gap(0.8, 0.2), 0.15, 1e-12);                        // before
   EXPECT_NEAR(gap(1.3, 0.2), 0.15, 1e-12);                        // behind
