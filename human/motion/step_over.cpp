@@ -31,15 +31,17 @@ namespace gambeson {
 namespace {
 
 // On the level. Lengths are over that of the leg, times over that of the stride, where no unit stands.
-constexpr double soft = 10 * rad_per_deg, softest = 2 * rad_per_deg;  ///< least bend of knees that stand, that swing
-constexpr double unlock_s = 0.4, shift_s = 0.25;  ///< knees bend from standing; then the weight goes onto one leg
-constexpr double step = 0.72;                     ///< from foot to foot
-constexpr double double_support = 0.12, swing = 0.38, heel_rises = 0.3;   ///< before the foot is lifted
+constexpr double soft = 10 * rad_per_deg, softest = 2 * rad_per_deg;     ///< least bend of knees that stand, that swing
+constexpr double unlock_s = 0.4;                                         ///< in which knees bend from standing
+constexpr double shift = 0.23;                                           ///< in which the weight goes onto one leg
+constexpr double step = 0.72;                                            ///< from foot to foot
+constexpr double double_support = 0.12, swing = 0.38, heel_rises = 0.3;  ///< before the foot is lifted
 constexpr double heel_off = 28 * rad_per_deg, strike = 10 * rad_per_deg;  ///< pitch of the sole
 constexpr double lift_m = 0.03;                                           ///< of the foot that swings
-constexpr double ahead = 0.56;     ///< where the pelvis is between rear and front foot in double support
-constexpr double sway = 0.15;      ///< of the pelvis, over the standing foot's distance to the side
-constexpr double smooth_s = 0.08;  ///< over which the pelvis's height is smoothed, to both sides
+constexpr double ahead = 0.56;    ///< where the pelvis is between rear and front foot in double support
+constexpr double sway = 0.15;     ///< of the pelvis, over the standing foot's distance to the side
+constexpr double smooth = 0.073;  ///< over which the pelvis's height is smoothed, to both sides
+constexpr double round_x = 0.14, round_y = 0.18, round_phase = 0.09, round_pitch = 0.045;  ///< likewise, of ways
 
 // Over the obstacle.
 /// From the toes of the foot before the obstacle to its front, and from its back to the heel of the foot beyond it.
@@ -47,6 +49,7 @@ constexpr double toes_before = 0.31, heel_beyond = 0.13;
 constexpr double cross_off = 44 * rad_per_deg, raised = 22 * rad_per_deg;  ///< sole of the rear, the standing foot
 constexpr double cross_ahead = 0.68, cross_sway = 0.4;
 constexpr double tilt_back = 15 * rad_per_deg, hike = 12 * rad_per_deg;  ///< of the pelvis
+constexpr double cross_slower = 2.2;                                     ///< time of its stride, over that on the level
 constexpr double full_wait_m = 0.5;  ///< height from which on the trailing foot waits before it goes forward
 constexpr double arms_out = 15 * rad_per_deg;
 
@@ -142,7 +145,7 @@ class StepOver final : public Motion {
 
  private:
   double length() const { return legs_[0].length_m(); }
-  double strideTime(const Step& s) const { return s.over ? options_.cross_time_s : options_.stride_time_s; }
+  double strideTime(const Step& s) const { return (s.over ? cross_slower : 1) * options_.stride_time_s; }
   const Step& lead() const { return steps_[2 * options_.before]; }
   const Step& trail() const { return steps_[2 * options_.before + 1]; }
 
@@ -152,7 +155,7 @@ class StepOver final : public Motion {
     const double half = std::get<Ellipsoid>(legs_[0].foot->shape).semi_axes.x, L = length();
     const double toes = (X[legs_[0].foot->link] * legs_[0].foot->X_LS).origin.x + half;
     const int count = 2 * (options_.before + 1 + options_.after);
-    double t = options_.stand_s + unlock_s + shift_s;
+    double t = options_.stand_s + unlock_s + shift * options_.stride_time_s;
     std::array<double, 2> place{};
     for (int k = 0; k < count; ++k) {
       Step s{k % 2, 0, 0, place[k % 2], place[1 - k % 2], k / 2 == options_.before};
@@ -169,7 +172,7 @@ class StepOver final : public Motion {
       steps_.push_back(s);
     }
     begin_ = options_.stand_s + unlock_s;
-    end_ = t + shift_s;
+    end_ = t + shift * options_.stride_time_s;
     duration_ = end_ + unlock_s;
   }
 
@@ -191,7 +194,8 @@ class StepOver final : public Motion {
       tp.push_back(s.end), p.push_back(1 + 0.5 * static_cast<double>(k));
     }
     tx.push_back(end_), x.push_back(steps_.back().to), ty.push_back(end_), y.push_back(0);
-    x_ = {tx, x, 0.15}, y_ = {ty, y, 0.2}, phase_ = {tp, p, 0.1};
+    const double T = options_.stride_time_s;
+    x_ = {tx, x, round_x * T}, y_ = {ty, y, round_y * T}, phase_ = {tp, p, round_phase * T};
   }
 
   void planPitch(int l) {
@@ -214,7 +218,7 @@ class StepOver final : public Motion {
       add(s.end, k + 2 < steps_.size() ? strike : 0);
       add(s.end + 0.8 * double_support * options_.stride_time_s, 0);
     }
-    pitch_[l] = {t, pitch, 0.05};
+    pitch_[l] = {t, pitch, round_pitch * options_.stride_time_s};
   }
 
   /// Of arms and turns of the pelvis.
@@ -259,10 +263,8 @@ class StepOver final : public Motion {
     if (!(up2 > 0)) tooFar();
     return ankle.z + std::sqrt(up2) - hip.z;
   }
-  [[noreturn]] void tooFar() const {
-    throw InputError({"", 0, "depth"}, std::to_string(options_.depth_m) +
-                                           " m is not allowed for this body: its legs do not reach over the obstacle; "
-                                           "allowed: less");
+  [[noreturn]] static void tooFar() {
+    throw InputError({"", 0, "human"}, "stepping over an obstacle: the legs are too short for its steps");
   }
 
   /// Feet and pelvis depend on each other a little, by the feet's roll: they are found in turns.
@@ -297,7 +299,7 @@ class StepOver final : public Motion {
         if (bent < 1)
           straighter[i] = highest(0, pelvis[i], ankles[0][i], bent * soft) - highest(0, pelvis[i], ankles[0][i], soft);
       }
-      const std::vector<double> z = smoothBelow(most, static_cast<int>(std::ceil(smooth_s / h)));
+      const std::vector<double> z = smoothBelow(most, static_cast<int>(std::ceil(smooth * options_.stride_time_s / h)));
       for (int i = 0; i <= n; ++i) pelvis[i].origin.z = z[i] + straighter[i];
     }
     height_ = {h, {}, {}};
@@ -415,10 +417,9 @@ std::unique_ptr<Motion> makeStepOver(const Human& human, const StepOverOptions& 
   check("before", o.before, o.before >= 1 && o.before <= 1000, "1 to 1000");
   check("after", o.after, o.after >= 1 && o.after <= 1000, "1 to 1000");
   check("height", o.height_m, o.height_m >= 0.05 && o.height_m <= 1, "0.05 to 1");
-  check("depth", o.depth_m, o.depth_m >= 0 && o.depth_m <= 0.2, "0 to 0.2");
+  check("depth", o.depth_m, o.depth_m >= 0 && o.depth_m <= 0.1, "0 to 0.1");
   check("clearance", o.clearance_m, o.clearance_m >= 0 && o.clearance_m <= 0.1, "0 to 0.1");
   check("stride_time_s", o.stride_time_s, o.stride_time_s >= 0.5 && o.stride_time_s <= 10, "0.5 to 10");
-  check("cross_time_s", o.cross_time_s, o.cross_time_s >= 1 && o.cross_time_s <= 20, "1 to 20");
   auto motion = std::make_unique<StepOver>(human, o);
   if (hurdle) *hurdle = motion->hurdle();
   return motion;

@@ -14,13 +14,12 @@ struct StepOverOptions {
   double height_m = 0.5;        ///< of the obstacle
   double depth_m = 0.05;        ///< of the obstacle, along the way
   double clearance_m = 0.025;   ///< of the feet from the obstacle, at least
-  double stride_time_s = 1.10;  ///< of a stride on the level
-  double cross_time_s = 2.40;   ///< of the stride over the obstacle
+  double stride_time_s = 1.10;  ///< of a stride on the level; the one over the obstacle takes 2.2 times as long
 };
 
 /// Four strides, the third over an obstacle 0.5 m high, unless the options say otherwise (Man 2006, 5.4;
 /// human/motion/step_over.cpp). `hurdle` returns where the obstacle stands. Throws InputError with the key "height"
-/// where the legs do not allow it.
+/// where the legs cannot clear it.
 std::unique_ptr<Motion> makeStepOver(const Human& human, const StepOverOptions& options, Hurdle* hurdle = nullptr);
 
 }  // namespace gambeson

@@ -67,7 +67,7 @@ const Keys carried{
     {"Climbing stairs", "stand lead_in strides lead_in_strides stride_time"},
     {"Taking aim", "stand duration hold rifle"},
     {"Kneeling", "stand duration hold rise"},
-    {"Stepping over an obstacle", "stand before after height depth clearance stride_time cross_time"},
+    {"Stepping over an obstacle", "stand before after height depth clearance stride_time"},
     {"Trajectory", "file"},
     {"Recorded motion",
      "path model map from to stand lead_in repeat slower scale floor forward up heading travel "
