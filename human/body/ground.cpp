@@ -84,4 +84,16 @@ double gapTo(const Shape& shape, const Pose& X, const std::optional<Stairs>& sta
   return gap;
 }
 
+double gapToHurdle(const Shape& shape, const Pose& X, const Hurdle& hurdle) {
+  constexpr int directions = 360;
+  double gap = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= directions; ++i) {
+    const double a = M_PI * (static_cast<double>(i) / directions - 0.5);
+    const Vec3 n{std::sin(a), 0, std::cos(a)};  // away from the hurdle
+    const double x = hurdle.front_m + (n.x > 0 ? hurdle.depth_m : 0);
+    gap = std::max(gap, reach(shape, X, n) - (n.x * x + n.z * hurdle.height_m));
+  }
+  return gap;
+}
+
 }  // namespace gambeson

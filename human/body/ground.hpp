@@ -22,6 +22,11 @@ struct Stairs {
   double heightAt(double x_m) const;
 };
 
+/// A box across the way, without ends to the sides: front <= x <= front + depth, below `height`. All [m].
+struct Hurdle {
+  double front_m = 0, depth_m = 0, height_m = 0;
+};
+
 /// The foot of a side: the ellipsoid on the link that the joint ankle_flexion_<side> moves. Throws InputError where
 /// there is none; `what` needs it.
 const BodyShape& footOf(const Human& human, const std::string& side, const std::string& what);
@@ -31,5 +36,7 @@ const BodyShape& footOf(const Human& human, const std::string& side, const std::
 /// but for the sampling of the planes' direction, 2 degrees: at an edge it may be short by 2e-4 of the way to it).
 /// Meshes count as their convex hulls. `nearest`: the step that is nearest.
 double gapTo(const Shape& shape, const Pose& X_WS, const std::optional<Stairs>& stairs, int* nearest = nullptr);
+/// Signed distance of a shape from a hurdle, with the same supporting planes, but in steps of half a degree.
+double gapToHurdle(const Shape& shape, const Pose& X_WS, const Hurdle& hurdle);
 
 }  // namespace gambeson

@@ -9,6 +9,7 @@ extern const std::string_view manikins;
 extern const std::string_view walk_natural;
 extern const std::string_view stairs_ascent;
 extern const std::string_view aim_at_ground;
+extern const std::string_view kneel;
 extern const std::string_view task_moments;
 extern const std::string_view effort_limits;
 extern const std::string_view map_gait2392, map_rajagopal, map_snu_woody, map_makehuman, map_makehuman_default,

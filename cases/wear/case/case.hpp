@@ -23,8 +23,10 @@
 #include "human/body/mesh_sequence.hpp"
 #include "human/character/character.hpp"
 #include "human/motion/aim.hpp"
+#include "human/motion/kneel.hpp"
 #include "human/motion/sit.hpp"
 #include "human/motion/stairs.hpp"
+#include "human/motion/step_over.hpp"
 #include "human/motion/walk.hpp"
 #include "human/recorded/motion_file.hpp"
 #include "human/skin/make_skin.hpp"
@@ -124,7 +126,7 @@ struct GarmentCase {
   /// Turns the weft about the patch's normal; at 0 it lies along u in a sheet, lengthwise in a tube and in shorts.
   double weft_angle_rad = 0;
   std::optional<FrictionLaw> friction;  ///< with bodies, where it differs
-  std::optional<Stitching> stitching;  ///< how it is put on where garments are dressed one by one; else by projecting
+  std::optional<Stitching> stitching;   ///< how it is put on where garments are dressed one by one; else by projecting
 };
 
 // --- Who wears it -----------------------------------------------------------------------------------------------
@@ -137,14 +139,21 @@ struct StandMotion {
   double duration_s = 1;
 };
 
+/// Feet that are left out at first, so that trousers can be pulled up over the legs (Man 2006, 5.4, fig. 47).
+struct FeetLeftOut {
+  double back_s = 1;    ///< when they begin to come back
+  double grow_s = 0.3;  ///< from then on they grow to their size
+};
+
 /// A manikin by name, a URDF with a body file (which may be empty: the URDF's own geometry then), or a character.
 struct HumanCase {
   std::string manikin;
   std::filesystem::path urdf, body;
   std::optional<CharacterOptions> character;
   std::optional<SkinOptions> skin;  ///< around the manikin; where absent, its ellipsoids are the surface
-  std::variant<StandMotion, WalkOptions, StairOptions, AimOptions, TrajectoryMotion, MotionFileOptions,
-               SitOptions>
+  std::optional<FeetLeftOut> feet;  ///< where absent, they are there at all times
+  std::variant<StandMotion, WalkOptions, StairOptions, AimOptions, TrajectoryMotion, MotionFileOptions, SitOptions,
+               KneelOptions, StepOverOptions>
       motion;
 };
 

@@ -17,6 +17,8 @@ class Refusals {
     lookAtFabric("fabric", case_.fabric);
     for (std::size_t g = 0; g < case_.garments.size(); ++g)
       lookAtGarment(fmt::format("garments[{}]", g), case_.garments[g]);
+    if (case_.human && case_.human->feet)
+      refuse("human.feet", "feet that are left out are not carried by", "a human with feet");
     for (std::size_t k = 0; k < case_.obstacles.size(); ++k)
       if (const auto& law = case_.obstacles[k].friction) lookAtFriction(fmt::format("obstacles[{}].friction", k), *law);
     for (std::size_t k = 0; k < case_.supports.size(); ++k)

@@ -75,11 +75,21 @@ Object humanTable() {
                           "what stays between the two sides of a fold, at hips, knees, elbows and shoulders")
                   .build(),
               "a closed skin around the manikin that bends with its joints, in place of its ellipsoids")
+      .object("feet", &H::feet,
+              Table<FeetLeftOut>("Feet left out")
+                  .number("back", &FeetLeftOut::back_s, "s", between(-60, 600), "when they begin to come back")
+                  .number("grow", &FeetLeftOut::grow_s, "s", between(0.01, 10), "from then on they grow to their size")
+                  .build(),
+              "feet that cloth does not touch at first, so that trousers can be pulled up over the legs; pictures show "
+              "them all the same")
+      .defaultsTo("they are there at all times")
       .object("motion", &H::motion, motionTable(), "what the human does")
       .required()
       .check([](const Entry& p, const H& h) {
         if (h.skin && h.manikin.empty())
           p.failAt("skin", "is made around a manikin, not around a body of your own or a character");
+        if (h.feet && (h.skin || h.character))
+          p.failAt("feet", "can be left out of a body whose surface is shapes on its links, not of a skin");
         if (h.urdf.empty() && !h.body.empty()) p.failAt("body", "goes with \"urdf\"; a manikin has its own body");
       })
       .build();

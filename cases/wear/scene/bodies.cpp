@@ -7,6 +7,7 @@
 #include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
+#include "human/motion/foot_ground.hpp"
 #include "human/skin/overlap.hpp"
 
 namespace gambeson {
@@ -63,7 +64,7 @@ void makeHuman(const Case& c, MadeBodies& s) {
 }
 
 /// Returns the obstacles of the scenario's human.
-std::vector<Obstacle> placeHuman(Scenario& s, CaseStage& stage) {
+std::vector<Obstacle> placeHuman(const HumanCase& human, Scenario& s, CaseStage& stage) {
   stage.human = &*s.human;
   stage.motion = s.motion.get();
   for (const Link& link : s.human->skeleton.links) s.bodies.push_back(link.name);
@@ -71,6 +72,11 @@ std::vector<Obstacle> placeHuman(Scenario& s, CaseStage& stage) {
     s.body_of_obstacle.push_back(-1);
   else
     for (const BodyShape& shape : s.human->shapes) s.body_of_obstacle.push_back(shape.link);
+  if (human.feet) {
+    stage.feet_back_s = human.feet->back_s, stage.feet_grow_s = human.feet->grow_s;
+    for (const auto& foot : underKey("human.feet", [&] { return footShapes(*s.human); }))
+      for (const BodyShape* shape : foot) stage.feet.push_back(static_cast<int>(shape - s.human->shapes.data()));
+  }
   return obstaclesOf(*s.human);
 }
 
@@ -103,7 +109,7 @@ std::vector<Obstacle> placeBodies(const Case& c, MadeBodies made, Scenario& s, C
   s.feet = made.feet;
   s.notes = std::move(made.notes);
   std::vector<Obstacle> obstacles;
-  if (s.human) obstacles = placeHuman(s, stage);
+  if (s.human) obstacles = placeHuman(*c.human, s, stage);
   stage.air_velocity = c.air.with_pelvis ? s.mean_velocity_m_per_s : c.air.velocity_m_per_s;
   stage.air_ramp_s = c.air.with_pelvis ? s.air_ramp_s : 0;
   placeObstacles(c, std::move(made.obstacles), s, stage, obstacles);

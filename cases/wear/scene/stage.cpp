@@ -4,6 +4,7 @@
 
 #include "human/body/skin.hpp"
 #include "human/motion/blend.hpp"
+#include "human/motion/smooth_step.hpp"
 #include "tryon/projecting.hpp"
 #include "tryon/skin_projecting.hpp"
 
@@ -17,10 +18,16 @@ void CaseStage::placements(double t, std::span<Placement> obstacles, std::span<P
     std::vector<Placement> body = obstaclePlacementsOf(*human, poses);
     if (!shrunk.empty() && t < grow_start_s + grow_s)
       body = placementsDuringGrowth(body, shrunk, (t - grow_start_s) / grow_s);
+    for (const int foot : feet) body[foot].scale *= footScale(t);
     for (const Placement& p : body) obstacles[at++] = p;
     for (std::size_t l = 0; l < anchors.size(); ++l) anchors[l] = {poses[l].rotation, poses[l].origin, 1};
   }
   own.placements(t, obstacles.subspan(at), {});
+}
+
+double CaseStage::footScale(double t) const {
+  constexpr double left_out = 0.02;  // some millimetres long: out of the way of any trouser leg
+  return left_out + (1 - left_out) * smootherStep((t - feet_back_s) / feet_grow_s);
 }
 
 Posture CaseStage::postureAt(double t) const {

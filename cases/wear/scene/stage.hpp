@@ -21,10 +21,12 @@ class CaseStage : public Stage {
   std::vector<Placement> shrunk;  ///< of the human's shapes, empty without projecting
   std::vector<Vec3> shrunk_skin;  ///< of the human's skin, the same
   double grow_start_s = 0, grow_s = 0;
-  std::optional<Posture> dressed;  ///< posture that the garments are put on in, left from settle_start_s on
+  std::vector<int> feet;                    ///< of the human's shapes, those that are left out until feet_back_s
+  double feet_back_s = 0, feet_grow_s = 0;  ///< from then on they grow to their size
+  std::optional<Posture> dressed;           ///< posture that the garments are put on in, left from settle_start_s on
   double settle_start_s = 0;
-  ObstacleStage own;  ///< the case's obstacles
-  int first_own = 0;  ///< of them
+  ObstacleStage own;               ///< the case's obstacles
+  int first_own = 0;               ///< of them
   std::vector<Drive> held_drives;  ///< of what supports hold
   Vec3 air_velocity;
   double air_ramp_s = 0;
@@ -37,6 +39,10 @@ class CaseStage : public Stage {
   Vec3 air(double t) const override;
   /// From the posture of dressing into that in which the motion starts, in the first two thirds of the time to settle.
   Posture postureAt(double t) const;
+
+ private:
+  /// Of feet that are left out, each about the origin of its shape.
+  double footScale(double t) const;
 };
 
 }  // namespace gambeson

@@ -6,12 +6,11 @@
 namespace gambeson {
 
 extern const MotionKind stand_motion, walk_motion, stairs_motion, aim_motion, trajectory_motion, file_motion,
-    sit_motion;
+    sit_motion, kneel_motion, step_over_motion;
 
 std::span<const MotionKind* const> motionKinds() {
-  static constexpr std::array kinds{&stand_motion, &walk_motion,       &stairs_motion,
-                                    &aim_motion,   &trajectory_motion, &file_motion,
-                                    &sit_motion};
+  static constexpr std::array kinds{&stand_motion, &walk_motion, &stairs_motion, &aim_motion,      &trajectory_motion,
+                                    &file_motion,  &sit_motion,  &kneel_motion,  &step_over_motion};
   static_assert(kinds.size() == std::variant_size_v<MotionKind::Options>);
   return kinds;
 }

@@ -37,7 +37,7 @@ struct MotionKind {
   /// Adds its key, with the table of what stands below it.
   void (*addTo)(schema::Table<Options>& table) = nullptr;
   Task task = Task::none;    ///< whose natural moments it is compared with
-  bool ours = true;          ///< of our own making: our own skins do not fold in it
+  bool ours = true;          ///< of our own making and tested with our own skins: they do not fold in it
   bool tells_feet = false;   ///< its notes say how its feet stand
   bool holds_apart = false;  ///< has the keys hips_apart and arms_apart
   MadeMotion (*make)(const Options& options, const Human& human) = nullptr;

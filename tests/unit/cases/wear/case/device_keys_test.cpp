@@ -61,11 +61,13 @@ const Keys carried{
     {"Character", "file skeleton weights targets map like height switch_off_folds mass"},
     {"Morph target", "file share"},
     {"Skin", "cell crease_gap"},
-    {"Motion", "stand walk stairs aim trajectory file sit"},
+    {"Motion", "stand walk stairs aim trajectory file sit kneel step_over"},
     {"Standing", "duration"},
     {"Walking", "stand lead_in strides paces stride_time"},
     {"Climbing stairs", "stand lead_in strides lead_in_strides stride_time"},
     {"Taking aim", "stand duration hold rifle"},
+    {"Kneeling", "stand duration hold rise"},
+    {"Stepping over an obstacle", "stand before after height depth clearance stride_time"},
     {"Trajectory", "file"},
     {"Recorded motion",
      "path model map from to stand lead_in repeat slower scale floor forward up heading travel "
@@ -104,6 +106,7 @@ const Keys with_refused{
      "warp_stiffness shear_stiffness stretch_damping shear_damping mesh_file springs"},
     {"Springs of cloth", "structural shear bending flexion rigidity"},
     {"Mesh file", "path rest unit uv_unit"},
+    {"Feet left out", "back grow"},
     {"Friction", "stribeck_speed stribeck_power viscous_power pressure"},
     {"Loop of shear", "hysteresis hysteresis_5 friction_angle rise growth"},
     {"Strain limit", "mode limit tolerance stiffness max_projections points method"},
@@ -117,6 +120,7 @@ struct Refused {
 };
 const std::vector<Refused> refused{
     {"Case", "strain_limit", R"(strain_limit={"mode": "upper_limit", "limit": 0.01})", "strain_limit"},
+    {"Human", "feet", R"(human={"manikin": "male_p50", "motion": {"stand": {}}, "feet": {}})", "human.feet"},
     {"Garment", "model", "garment.model=triangles", "garment.model"},
     {"Fabric", "shear_loop", R"(fabric.shear_loop={"hysteresis": 1})", "fabric.shear_loop"},
     {"Friction", "static", R"(contact.friction={"kinetic": 0.2, "static": 0.3})", "contact.friction"},
