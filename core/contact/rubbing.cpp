@@ -58,4 +58,16 @@ ContactSolve rub(const MethodStep& s, std::span<const ContactRow> rows, std::spa
   }
 }
 
+void applyImpulses(const MethodStep& s, std::span<const ContactRow> rows, std::span<const Vec3> normal,
+                   std::span<const Vec3> rubbed, std::span<Vec3> velocity, std::span<Vec3> traction,
+                   std::span<Vec3> impulses, ContactWork& w) {
+  shareAreas(rows, s.WT, s.area, s.inverse_mass, w);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    impulses[i] = normal[i] + rubbed[i];
+    traction[i] = w.area_of[i] > 0 ? impulses[i] / w.area_of[i] : Vec3{};
+  }
+  spreadImpulses(rows, s.WT, s.inverse_mass, impulses, w);
+  for (std::size_t f = 0; f < velocity.size(); ++f) velocity[f] += w.change[f];
+}
+
 }  // namespace gambeson

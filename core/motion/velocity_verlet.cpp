@@ -1,12 +1,9 @@
 #include "core/motion/velocity_verlet.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/contact/penalty.hpp"
-#include "core/error.hpp"
 #include "core/motion/resonance.hpp"
 
 namespace gambeson {
@@ -19,13 +16,7 @@ constexpr double kStepsAtSwing = 6, kCrumpling = 0.5;
 VelocityVerlet::VelocityVerlet(const Model& model, const Stage& stage, const StepControl& control, Frequency& frequency,
                                StepWork& work)
     : ControlledSteps(model, stage, control, frequency, work, FrequencyOf::all),
-      pressing_rad_per_s_(penaltyFrequency(model.contact, model.density_kg_per_m2)) {
-  if (control.fixed_s * pressing_rad_per_s_ > 2)
-    throw InputError(
-        {"", 0, "time.step"},
-        fmt::format("{:.3e} s is longer than the stable step of contact.penalty; allowed: at most {:.3e} s",
-                    control.fixed_s, 2 / pressing_rad_per_s_));
-}
+      pressing_rad_per_s_(penaltyFrequency(model.contact, model.density_kg_per_m2)) {}
 
 StepReport VelocityVerlet::makeStep(const State& in, double dt, State& out) {
   return step(model_, stage_, in, dt, out, work_);

@@ -6,7 +6,7 @@
 namespace gambeson {
 
 /// ControlledSteps of `step`: stable up to 2/omega, less where the highest modes swing far (resonance.hpp), omega with
-/// the frequency of penalties. Throws InputError (key "time.step") where a fixed step is longer than these allow.
+/// the frequency of penalties.
 class VelocityVerlet : public ControlledSteps {
  public:
   VelocityVerlet(const Model& model, const Stage& stage, const StepControl& control, Frequency& frequency,
