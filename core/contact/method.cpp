@@ -14,11 +14,11 @@ constexpr int kTurns = 50;
 
 void copyOut(const LayeredRows& rows, std::span<const Vec3> warm, std::span<const int> which, MethodWork::Part& part) {
   part.rows.clear();
-  part.layer_m.clear();
+  part.layer.clear();
   part.warm.clear();
   for (const int i : which) {
     part.rows.push_back(rows.rows[i]);
-    part.layer_m.push_back(rows.layer_m[i]);
+    part.layer.push_back(rows.layer[i]);
     part.warm.push_back(warm[i]);
   }
 }
@@ -73,7 +73,11 @@ ContactSolve solveByMethod(const BodyMethod& method, const MethodStep& s, const 
   copyOut(all, warm, m.others, others);
   own.impulses.assign(m.own.size(), {});
   own.change.assign(velocity.size(), {});
-  others.change.assign(velocity.size(), {});
+  shareAreas(others.rows, s.WT, s.area, s.inverse_mass, w);
+  others.impulses = others.warm;
+  for (std::size_t k = 0; k < others.impulses.size(); ++k) others.impulses[k] *= w.area_of[k];
+  spreadImpulses(others.rows, s.WT, s.inverse_mass, others.impulses, w);
+  others.change = w.change;
   // `change`: what the impulses of a part alone do.
   const auto without = [&](const MethodWork::Part& part) {
     m.velocity.assign(velocity.begin(), velocity.end());
@@ -81,7 +85,7 @@ ContactSolve solveByMethod(const BodyMethod& method, const MethodStep& s, const 
   };
   const auto solveOwn = [&] {
     without(others);
-    const ContactSolve solve = method.solve(s, {own.rows, own.layer_m}, m.velocity, own.warm, own.impulses, w, m);
+    const ContactSolve solve = method.solve(s, {own.rows, own.layer}, m.velocity, own.warm, own.impulses, w, m);
     spreadImpulses(own.rows, s.WT, s.inverse_mass, own.impulses, w);
     own.before.swap(own.change);
     own.change = w.change;

@@ -32,10 +32,13 @@ struct MethodStep {
   double dt_s;
 };
 
-/// Rows with the distances that they keep.
+/// The distance that a row keeps, and the part of it that the cloth between the samples asks for beyond its layer.
+struct RowLayer {
+  double m = 0, beyond_m = 0;
+};
 struct LayeredRows {
   std::span<const ContactRow> rows;
-  std::span<const double> layer_m;
+  std::span<const RowLayer> layer;
 };
 
 /// Scratch of solveByMethod.
@@ -43,7 +46,7 @@ struct MethodWork {
   std::vector<int> own, others;  ///< rows of the method and of solveContacts
   struct Part {
     std::vector<ContactRow> rows;
-    std::vector<double> layer_m;
+    std::vector<RowLayer> layer;
     std::vector<Vec3> warm, impulses, change, before;
   };
   Part of_own, of_others;
@@ -62,7 +65,7 @@ class BodyMethod {
   /// Whether a row is its own: persistent contacts with bodies. Impacts, contours and cloth on cloth never are.
   virtual bool takes(const ContactRow& row) const;
   /// Changes what the row asks for, target and normal, once it has those of a rigid layer (layerUnder).
-  virtual void prepare(const MethodStep&, double /*layer_m*/, ContactRow&) const {}
+  virtual void prepare(const MethodStep&, const RowLayer&, ContactRow&) const {}
   /// `velocity`: of the free points without these rows, with their impulses out; `warm`: tractions of the last step,
   /// replaced by the result [N s/m^2]; `impulses`: on the cloth [N s].
   virtual ContactSolve solve(const MethodStep& step, const LayeredRows& rows, std::span<Vec3> velocity,

@@ -8,7 +8,7 @@
 
 namespace gambeson {
 
-void Penalty::prepare(const MethodStep&, double, ContactRow& row) const { row.target_m_per_s = 0; }
+void Penalty::prepare(const MethodStep&, const RowLayer&, ContactRow& row) const { row.target_m_per_s = 0; }
 
 ContactSolve Penalty::solve(const MethodStep& s, const LayeredRows& all, std::span<Vec3> velocity, std::span<Vec3> warm,
                             std::span<Vec3> impulses, ContactWork& w, MethodWork& m) const {
@@ -18,7 +18,7 @@ ContactSolve Penalty::solve(const MethodStep& s, const LayeredRows& all, std::sp
   m.pressed.resize(rows.size());
   m.rubbed.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double depth = std::max(0.0, all.layer_m[i] - rows[i].contact.gap_m);
+    const double depth = std::max(0.0, all.layer[i].m - rows[i].contact.gap_m);
     m.pressed[i] = s.dt_s * w.area_of[i] * s.parameters.penalty_Pa_per_m * depth;
     m.normal[i] = m.pressed[i] * rows[i].contact.normal;
     m.rubbed[i] = w.area_of[i] * warm[i];

@@ -15,7 +15,7 @@ namespace gambeson {
 /// meets the surface and is stopped there as an impact.
 class Penalty : public BodyMethod {
  public:
-  void prepare(const MethodStep& step, double layer_m, ContactRow& row) const override;
+  void prepare(const MethodStep& step, const RowLayer& layer, ContactRow& row) const override;
   ContactSolve solve(const MethodStep& step, const LayeredRows& rows, std::span<Vec3> velocity, std::span<Vec3> warm,
                      std::span<Vec3> impulses, ContactWork& work, MethodWork& scratch) const override;
 };

@@ -19,11 +19,11 @@ constexpr int kSweeps = 200;           ///< over the bodies of a node
 constexpr double kOfTolerance = 1e-8;  ///< of a solve, that a node moves by at the end: nothing but rounding
 constexpr double kRounding = 8e-16;    ///< of a coordinate
 
-/// The axes that a row's surface has.
-EllipsoidMetric layered(const Ellipsoid& shape, double layer, double clearance, double scale) {
+/// The ellipsoid that a row keeps its sample on.
+EllipsoidMetric layered(const Ellipsoid& shape, const RowLayer& layer, double scale) {
   const Vec3& e = shape.semi_axes;
   const double a = std::max({e.x, e.y, e.z}), b = std::min({e.x, e.y, e.z});
-  const double grown = std::max(layer, clearance * (a + b) / (2 * std::sqrt(a * b))) / scale;
+  const double grown = (layer.m - layer.beyond_m + layer.beyond_m * (a + b) / (2 * std::sqrt(a * b))) / scale;
   return ellipsoidMetric({e + Vec3{grown, grown, grown}});
 }
 
@@ -34,14 +34,14 @@ struct Depth {
 };
 
 /// The surface that a row keeps its sample on, where the obstacle stands at one end of the step.
-Depth depthOf(const MethodStep& s, const ContactRow& row, double layer, const Placement& X, const Vec3& x) {
+Depth depthOf(const MethodStep& s, const ContactRow& row, const RowLayer& layer, const Placement& X, const Vec3& x) {
   const Contact& c = row.contact;
   if (const auto* shape = std::get_if<Ellipsoid>(&s.obstacles[c.obstacle].shape)) {
-    const GradientFoot foot = footAlongGradient(layered(*shape, layer, c.clearance_m, X.scale), toLocal(X, x));
+    const GradientFoot foot = footAlongGradient(layered(*shape, layer, X.scale), toLocal(X, x));
     return {X.scale * foot.distance_m, X.rotation * foot.direction};
   }
   const Vec3 normal = X.rotation * transposeTimes(s.start[c.obstacle].rotation, c.normal);
-  return {layer - dot(x - X * c.local, normal), normal};
+  return {layer.m - dot(x - X * c.local, normal), normal};
 }
 
 /// Takes the rows of a node in turn until it stays; returns by how much it still moved [m].
@@ -56,9 +56,9 @@ double settleNode(const MethodStep& s, const LayeredRows& all, std::span<const i
     for (const int i : of_node) {
       const ContactRow& row = all.rows[i];
       const Vec3 x = s.x0[row.contact.sample] + dt * v;
-      const Depth end = depthOf(s, row, all.layer_m[i], s.end[row.contact.obstacle], x);
+      const Depth end = depthOf(s, row, all.layer[i], s.end[row.contact.obstacle], x);
       if (end.m <= 0 && m.pressed[i] == 0) continue;
-      const double start = depthOf(s, row, all.layer_m[i], s.start[row.contact.obstacle], s.x0[row.contact.sample]).m;
+      const double start = depthOf(s, row, all.layer[i], s.start[row.contact.obstacle], s.x0[row.contact.sample]).m;
       const double left = std::max(0.0, start - row.target_m_per_s * dt);  // of the depth, for later steps
       const double pressed = std::max(0.0, m.pressed[i] + mass * (end.m - left) / dt);
       const Vec3 normal = pressed > 0 ? m.normal[i] + (pressed - m.pressed[i]) * end.out : Vec3{};
@@ -122,7 +122,7 @@ GradientFoot footAlongGradient(const EllipsoidMetric& e, const Vec3& p) {
 
 bool Projection::takes(const ContactRow& row) const { return BodyMethod::takes(row) && row.stencil.count == 1; }
 
-void Projection::prepare(const MethodStep& s, double layer, ContactRow& row) const {
+void Projection::prepare(const MethodStep& s, const RowLayer& layer, ContactRow& row) const {
   const Placement& X = s.start[row.contact.obstacle];
   const Depth depth = depthOf(s, row, layer, X, s.x0[row.contact.sample]);
   const double share = -std::expm1(-s.dt_s / s.parameters.relaxation_s);

@@ -32,9 +32,11 @@ GradientFoot footAlongGradient(const EllipsoidMetric& ellipsoid, const Vec3& p);
 /// ellipsoids or flat (a plane, along its normal).
 ///
 /// With a layer the surface is that of the ellipsoid whose semi-axes are the layer longer: the layer away at the ends
-/// of its axes, and at least 2 sqrt(ab)/(a + b) of it elsewhere, a and b the longest and the shortest semi-axis (0.86
-/// on the arm). Where the cloth between its points needs a clearance (findClearances), the axes are so much longer that
-/// it has that everywhere. The row's normal is that of this surface.
+/// of its axes, and elsewhere at least c = 2 sqrt(ab)/(a + b) of it, a and b the longest and the shortest semi-axis
+/// (0.86 on the arm). What the cloth between its points asks for beyond its layer (findClearances) makes them 1/c of
+/// that longer. These clearances have a tenth of the layer to spare: triangles stay out of bodies up to 2.5 times as
+/// long as wide (c >= 0.9), and on longer ones may dip into the flanks by 0.9 - c of the layer. The row's normal is
+/// that of this surface.
 ///
 /// Friction (the thesis gives none): after a projection the slip over the touched point of the body is stopped as far
 /// as mu lambda allows; then the node is put on the surface again, inwards too where friction has carried it off, and
@@ -42,7 +44,7 @@ GradientFoot footAlongGradient(const EllipsoidMetric& ellipsoid, const Vec3& p);
 class Projection : public BodyMethod {
  public:
   bool takes(const ContactRow& row) const override;
-  void prepare(const MethodStep& step, double layer_m, ContactRow& row) const override;
+  void prepare(const MethodStep& step, const RowLayer& layer, ContactRow& row) const override;
   ContactSolve solve(const MethodStep& step, const LayeredRows& rows, std::span<Vec3> velocity, std::span<Vec3> warm,
                      std::span<Vec3> impulses, ContactWork& work, MethodWork& scratch) const override;
 };

@@ -284,7 +284,7 @@ struct StepScratch {
   ClothWork cloth;
   ContactWork contact;
   MethodWork method;
-  std::vector<double> row_layer;  ///< of the rows, where Model::method asks [m]
+  std::vector<RowLayer> row_layer;  ///< of the rows, where Model::method asks
   LimitWork limit;
   StageWork stage;
   CollisionWork collisions;

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
 #include "core/motion/step_contact.hpp"
+#include "core/motion/step_rows.hpp"
 
 namespace gambeson {
 namespace {
@@ -21,6 +22,8 @@ MethodStep methodStep(const Model& m, double dt, const StepWork& w) {
           m.contact,
           dt};
 }
+
+RowLayer rowLayer(const Model& m, const ContactRow& row) { return {layerOf(m, row), standsOut(m, row)}; }
 
 }  // namespace
 
@@ -40,13 +43,13 @@ void checkMethod(const Model& m) {
 void prepareRows(const Model& m, double dt, StepWork& w) {
   const MethodStep step = methodStep(m, dt, w);
   forAll(Each::sum, static_cast<int>(w.rows.size()), [&](int k) {
-    if (m.method->takes(w.rows[k])) m.method->prepare(step, layerOf(m, w.rows[k]), w.rows[k]);
+    if (m.method->takes(w.rows[k])) m.method->prepare(step, rowLayer(m, w.rows[k]), w.rows[k]);
   });
 }
 
 ContactSolve solveByMethod(const Model& m, double dt, StepWork& w) {
   w.row_layer.clear();
-  for (const ContactRow& row : w.rows) w.row_layer.push_back(layerOf(m, row));
+  for (const ContactRow& row : w.rows) w.row_layer.push_back(rowLayer(m, row));
   return solveByMethod(*m.method, methodStep(m, dt, w), {w.rows, w.row_layer}, w.velocity, w.warm, w.impulses,
                        w.contact, w.method);
 }

@@ -19,7 +19,8 @@ struct Rows {
   std::vector<Placement> placed{1};
   SparseRows WT;
   std::vector<ContactRow> rows;
-  std::vector<double> layer, inverse, area, density;
+  std::vector<RowLayer> layer;
+  std::vector<double> inverse, area, density;
   std::vector<int> place;
   std::vector<Vec3> x0, velocity, warm, impulses;
   ContactWork work;
@@ -46,7 +47,7 @@ struct Rows {
     c.normal = normal;
     c.gap_m = gap;
     rows.push_back(bodyRow(c, {}, target, false));
-    layer.push_back(1e-3);
+    layer.push_back({1e-3});
     warm.push_back({});
   }
   ContactSolve solve() {

@@ -73,7 +73,8 @@ struct Meeting {
   SparseRows WT{1, {0, 1}, {0}, {1.0}};
   std::vector<double> inverse{1e3}, area{1e-4}, density{10};
   std::vector<Vec3> x0{Vec3{}}, velocity{Vec3{}}, warm{Vec3{}}, impulses{Vec3{}};
-  double dt = 1e-4, layer = 1e-3;
+  double dt = 1e-4;
+  RowLayer layer{1e-3};
   ContactWork work;
   MethodWork scratch;
   Projection method;
@@ -93,7 +94,7 @@ struct Meeting {
   }
   /// f of the ellipsoid with its layer, of the point at the end.
   double f() const {
-    const EllipsoidMetric e = ellipsoidMetric({arm.semi_axes + Vec3{layer, layer, layer}});
+    const EllipsoidMetric e = ellipsoidMetric({arm.semi_axes + Vec3{layer.m, layer.m, layer.m}});
     return ellipsoidFunction(e, toLocal(end[0], x0[0] + dt * velocity[0]));
   }
 };
@@ -157,7 +158,7 @@ TEST(Projection, ANodeInTwoBodiesEndsOutsideOfBoth) {
   m.parameters.friction = 0;
   const MethodStep step{m.WT, m.inverse, m.area, m.density, {}, m.obstacles, m.start, m.end, m.x0, m.parameters, m.dt};
   std::vector<ContactRow> rows;
-  std::vector<double> layer(2, m.layer);
+  std::vector<RowLayer> layer(2, m.layer);
   for (int o = 0; o < 2; ++o) {
     const SurfacePoint foot = closestOnEllipsoid(ellipsoidMetric(ball), toLocal(m.start[o], m.x0[0]));
     Contact c;

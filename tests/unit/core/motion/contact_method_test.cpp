@@ -151,10 +151,10 @@ TEST(ContactMethod, SlidesAndSticksOnASlope) {
     // At rest, box 3 at the depth that bears the weight.
     const double depth = method == ContactMethod::penalty ? rho * kGravity * std::cos(angle) / eps : 0;
     const auto atRest = [&](double friction) {
-      return Sheet(2, 0.1, {0, 0, kLayer_m - depth}, gravity, with(method, friction, eps), {{ground, "ground"}});
+      return Sheet(1, 0.1, {0, 0, kLayer_m - depth}, gravity, with(method, friction, eps), {{ground, "ground"}});
     };
     Sheet sliding = atRest(0.2);
-    const int steps = 2000, from = 1000;
+    const int steps = 1000, from = 500;
     double way[2] = {};
     for (int k = 0; k < steps; ++k) {
       if (k == from) way[0] = sliding.state.p[0].x;
@@ -215,14 +215,14 @@ TEST(ContactMethod, Box5KeepsPointsOnTheArmWithItsLayer) {
   const EllipsoidMetric bare = ellipsoidMetric(arm),
                         grown = ellipsoidMetric({arm.semi_axes + Vec3{kLayer_m, kLayer_m, kLayer_m}});
   ContactParameters c = with(ContactMethod::projection, 0.5);
-  Sheet s(10, 0.12, {0.03, -0.06, 0.0595}, {0, 0, -kGravity}, c, {{arm, "arm"}});
+  Sheet s(14, 0.12, {0.06, -0.06, 0.057}, {0, 0, -kGravity}, c, {{arm, "arm"}});
   double worst = 0, nearest = 1;
   int pressed = 0;
-  for (int k = 0; k < 800; ++k) {
+  for (int k = 0; k < 400; ++k) {
     s.step(2e-4);
     for (std::size_t i = 0; i < s.work.rows.size(); ++i) {
       const ContactRow& row = s.work.rows[i];
-      if (row.contact.clearance_m > 0.86 * kLayer_m || s.work.impulses[i] == Vec3{}) continue;
+      if (row.contact.clearance_m > kLayer_m || s.work.impulses[i] == Vec3{}) continue;
       const Vec3& x = s.state.p[static_cast<std::size_t>(row.contact.sample)];
       worst = std::max(worst, std::abs(ellipsoidFunction(grown, x)));
       nearest = std::min(nearest, closestOnEllipsoid(bare, x).distance_m);
@@ -242,14 +242,14 @@ TEST(ContactMethod, ClothOnClothStaysWithItsSolve) {
     SCOPED_TRACE(nameOf(method));
     Sheet s(3, 0.05, {0, 0, 1.2 * kLayer_m}, {0, 0, -kGravity}, with(method, 0.3), {{ground, "ground"}}, true, 2);
     double force = 0;
-    for (int k = 0; k < 1000; ++k) {
+    for (int k = 0; k < 600; ++k) {
       const StepReport r = s.step(1e-4);
-      if (k >= 500) force -= r.momentum.obstacles.z / (500 * 1e-4);
-      if (k == 999) {
+      if (k >= 400) force -= r.momentum.obstacles.z / (200 * 1e-4);
+      if (k == 599) {
         EXPECT_GT(r.cloth_contacts, 0);
       }
     }
-    double lowest[2] = {1, 1};
+    double lowest[2] = {10, 10};
     const std::size_t half = s.state.p.size() / 2;
     for (std::size_t i = 0; i < s.state.p.size(); ++i)
       lowest[i / half] = std::min(lowest[i / half], s.state.p[i].z / kLayer_m);
@@ -267,10 +267,11 @@ TEST(ContactMethod, TheSameBitsForAnyNumberOfThreads) {
     std::vector<Vec3> p[2];
     for (int k = 0; k < 2; ++k) {
       omp_set_num_threads(k == 0 ? 1 : 4);
-      Sheet s(30, 0.2, {-0.1, -0.1, 0.0512}, {0, 0, -kGravity}, with(method, 0.3, 1e6 * sheetFabric().surfaceDensity()),
-              {{Ellipsoid{{0.3, 0.3, 0.05}}, "hill"}});
+      Sheet s(26, 0.2, {-0.1, -0.1, kLayer_m}, {2, 0, -kGravity},
+              with(method, 0.3, 1e6 * sheetFabric().surfaceDensity()), {{ground, "ground"}});
+      s.throwWith({0.3, 0.1, -0.5});
       int rows = 0;
-      for (int i = 0; i < 60; ++i) {
+      for (int i = 0; i < 40; ++i) {
         s.step(1e-4);
         rows = static_cast<int>(s.work.rows.size());
       }
