@@ -10,7 +10,7 @@
 namespace gambeson {
 namespace {
 
-constexpr int kTurns = 50;
+constexpr int kTurns = 100;
 
 void copyOut(const LayeredRows& rows, std::span<const Vec3> warm, std::span<const int> which, MethodWork::Part& part) {
   part.rows.clear();
@@ -28,6 +28,17 @@ void copyBack(const MethodWork::Part& part, std::span<const int> which, std::spa
   for (std::size_t k = 0; k < which.size(); ++k) {
     warm[which[k]] = part.warm[k];
     impulses[which[k]] = part.impulses[k];
+  }
+}
+
+/// A sample that meets the surface itself rubs there: of two frictions at one point neither would come to an end.
+void leaveFriction(std::span<const ContactRow> others, std::span<ContactRow> own) {
+  for (const ContactRow& hit : others) {
+    if (!hit.impact || !hit.contact.onBody() || hit.stencil.count > 1) continue;
+    for (ContactRow& row : own)
+      if (row.stencil.count == 1 && row.contact.sample == hit.contact.sample &&
+          row.contact.obstacle == hit.contact.obstacle)
+        row.slippery = true;
   }
 }
 
@@ -91,6 +102,7 @@ ContactSolve solveByMethod(const BodyMethod& method, const MethodStep& s, const 
     own.change = w.change;
     return solve;
   };
+  leaveFriction(others.rows, own.rows);
   ContactSolve report = solveOwn();
   const double goal = s.parameters.tolerance_m_per_s2 * s.dt_s;
   for (int turn = 1;; ++turn) {

@@ -66,8 +66,7 @@ double settleNode(const MethodStep& s, const LayeredRows& all, std::span<const i
       m.pressed[i] = pressed;
       m.normal[i] = normal;
       const Vec3 slip = across(v - row.body_velocity, row.contact.normal);
-      const Vec3 rubbed =
-          cutTo(s.parameters.frictionOf(row).kinetic * pressed, across(m.rubbed[i] - mass * slip, row.contact.normal));
+      const Vec3 rubbed = cutTo(frictionOf(s, row) * pressed, across(m.rubbed[i] - mass * slip, row.contact.normal));
       v += (rubbed - m.rubbed[i]) / mass;
       m.rubbed[i] = rubbed;
       size = std::max(size, std::abs(x.x) + std::abs(x.y) + std::abs(x.z));

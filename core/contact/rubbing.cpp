@@ -17,7 +17,7 @@ ContactSolve rub(const MethodStep& s, std::span<const ContactRow> rows, std::spa
   w.order.clear();
   for (int i = 0; i < n; ++i) {
     const Vec3& normal = rows[i].contact.normal;
-    rubbed[i] = cutTo(s.parameters.frictionOf(rows[i]).kinetic * pressed[i], across(rubbed[i], normal));
+    rubbed[i] = cutTo(frictionOf(s, rows[i]) * pressed[i], across(rubbed[i], normal));
     if (pressed[i] > 0) w.order.push_back(i);
   }
   w.reach.assign(n, {});
@@ -44,8 +44,7 @@ ContactSolve rub(const MethodStep& s, std::span<const ContactRow> rows, std::spa
     for (const int i : w.order) {
       const ContactRow& row = rows[i];
       const Vec3 slip = across(velocityAt(row, s.WT, velocity), row.contact.normal);
-      const Vec3 next = cutTo(s.parameters.frictionOf(row).kinetic * pressed[i],
-                              across(rubbed[i] - slip / own[i], row.contact.normal));
+      const Vec3 next = cutTo(frictionOf(s, row) * pressed[i], across(rubbed[i] - slip / own[i], row.contact.normal));
       const Vec3 change = next - rubbed[i];
       most2 = std::max(most2, norm2(own[i] * change));
       rubbed[i] = next;

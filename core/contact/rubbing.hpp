@@ -14,6 +14,11 @@ namespace gambeson {
 ContactSolve rub(const MethodStep& step, std::span<const ContactRow> rows, std::span<const double> pressed,
                  std::span<Vec3> rubbed, std::span<Vec3> velocity, ContactWork& work);
 
+/// Coulomb's coefficient of a row.
+inline double frictionOf(const MethodStep& step, const ContactRow& row) {
+  return row.slippery ? 0 : step.parameters.frictionOf(row).kinetic;
+}
+
 /// Part of a vector across a unit normal.
 inline Vec3 across(const Vec3& v, const Vec3& normal) { return v - dot(v, normal) * normal; }
 
