@@ -213,6 +213,7 @@ Object contactTable() {
               "stiffness eps of the method penalty, pressure per depth in the layer: cloth of surface density rho that "
               "lands at v sinks by v sqrt(rho / eps). It shortens the stable step to 2 sqrt(rho / eps). What sinks "
               "through the layer is stopped at the surface")
+      .unwritten()
       .defaultsTo("none; required with method penalty")
       .check([](const Entry& p, const C& c) {
         const bool given = p.node.find("penalty") != nullptr;
