@@ -23,11 +23,41 @@ std::string inWords(const FrictionLaw& law) {
   return text;
 }
 
+std::string inWords(const ContactCase& c) {
+  const std::string rest =
+      " The layer is rigid; contacts of cloth with cloth, and what would pass through a surface within a step, are "
+      "solved together, in turns with these.";
+  switch (c.method) {
+    case ContactMethod::together:
+      return "";
+    case ContactMethod::penalty:
+      return fmt::format(
+                 "Contacts with bodies are springs in the layer, {} Pa/m (Man 2006, box 3): cloth sinks into it and is "
+                 "thrown "
+                 "back; what sinks through it is stopped at the surface.",
+                 formatNumber(c.penalty_Pa_per_m)) +
+             rest;
+    case ContactMethod::forward_increment:
+      return "Contacts with bodies are multipliers that keep the end of each step out of them, without those that "
+             "would "
+             "pull (Man 2006, box 4), and friction under these." +
+             rest;
+    case ContactMethod::projection:
+      return "Contacts with bodies put each vertex that would enter one onto its surface, along the gradient of the "
+             "body's function (Man 2006, box 5); an ellipsoid's surface is that with semi-axes longer by the layer, so "
+             "that between the ends of its axes the distance kept is somewhat less." +
+             rest;
+  }
+  return "";
+}
+
 ContactParameters contactOf(const ContactCase& c, double g, std::span<const ObstacleCase> obstacles,
                             std::size_t bodies) {
   ContactParameters p{c.layer_m.value_or(0), c.friction,           c.relaxation_s, c.tolerance * (g > 0 ? g : 9.81),
                       c.max_iterations,      c.compliance_m_per_Pa};
   p.on_cloth = c.friction_cloth;
+  p.method = c.method;
+  p.penalty_Pa_per_m = c.penalty_Pa_per_m;
   p.of_obstacle.resize(bodies);
   for (const ObstacleCase& o : obstacles) p.of_obstacle.push_back(o.friction);
   return p;

@@ -67,10 +67,15 @@ struct ContactCase {
   double compliance_m_per_Pa = 1e-9;
   double tolerance = 1e-3;  ///< residual of the contacts of a step, of g dt
   int max_iterations = 8000;
+  ContactMethod method = ContactMethod::together;
+  double penalty_Pa_per_m = 0;  ///< of ContactMethod::penalty
 };
 
 /// "Coulomb friction 0.3, the same for sticking and sliding".
 std::string inWords(const FrictionLaw& law);
+
+/// What a run with a method of contact of its own assumes; empty where all contacts are solved together.
+std::string inWords(const ContactCase& contact);
 
 /// `gravity_m_per_s2`: what a tolerance is a part of; 0: that of the earth. `obstacles`: those of the case, which come
 /// behind `bodies` others (of the human) in the list of obstacles.

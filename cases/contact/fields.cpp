@@ -153,6 +153,32 @@ Object obstacleTable() {
   return table.build();
 }
 
+namespace {
+
+const std::vector<std::pair<std::string, ContactMethod>>& contactMethods() {
+  static const std::vector<std::pair<std::string, ContactMethod>> words{
+      {"together", ContactMethod::together},
+      {"penalty", ContactMethod::penalty},
+      {"forward_increment", ContactMethod::forward_increment},
+      {"projection", ContactMethod::projection}};
+  return words;
+}
+
+const char* contactMethodDoc() {
+  return "how contacts with bodies are found. together: all contacts of a step as one problem. The others are the "
+         "boxes "
+         "of Man 2006, section 3.3, with Coulomb's friction and a rigid layer: penalty (box 3), a spring in the layer, "
+         "in which cloth sinks and bounces; forward_increment (box 4), multipliers that keep the end of the step out "
+         "of "
+         "the bodies, then friction under these; projection (box 5), cloth whose samples are its points (triangles) on "
+         "ellipsoids, exact spheres and planes, each point for itself along the gradient of the body's function. They "
+         "know no cloth on cloth: its contacts, and what would pass through a surface within a step, stay with "
+         "together, "
+         "in turns with these. They go with time.scheme verlet and without strain_limit";
+}
+
+}  // namespace
+
 Object contactTable() {
   using C = ContactCase;
   Table<C> table("Contact");
@@ -181,6 +207,21 @@ Object contactTable() {
               "residual velocity to which the contacts of a step are solved together, as a part of what gravity adds "
               "in the step; in folds that are jammed 1e-6 of the largest impulse counts, up to ten times this")
       .integer("max_iterations", &C::max_iterations, 1, 100000, "iterations before a step counts as failed")
+      .choice("method", &C::method, contactMethods(), contactMethodDoc())
+      .unwritten()
+      .number("penalty", &C::penalty_Pa_per_m, "Pa/m", aboveTo(0, 1e12),
+              "stiffness eps of the method penalty, pressure per depth in the layer: cloth of surface density rho that "
+              "lands at v sinks by v sqrt(rho / eps). It shortens the stable step to 2 sqrt(rho / eps). What sinks "
+              "through the layer is stopped at the surface")
+      .unwritten()
+      .defaultsTo("none; required with method penalty")
+      .check([](const Entry& p, const C& c) {
+        const bool given = p.node.find("penalty") != nullptr;
+        if (c.method == ContactMethod::penalty && !given)
+          p.failAt("penalty", "is required with method penalty; allowed: > 0 and <= 1e+12 Pa/m");
+        if (c.method != ContactMethod::penalty && given)
+          p.failAt("penalty", "is for method penalty; allowed: none, or \"method\": \"penalty\"");
+      })
       .build();
 }
 

@@ -182,6 +182,8 @@ void checkContact(const Entry& root, const StructureCase& c) {
   if (!c.dynamics.stepsPoints())
     root.failAt(c.obstacles.empty() ? "contact" : "obstacles",
                 "goes with explicit steps; give \"scheme\": \"explicit\"");
+  if (c.contact->method != ContactMethod::together)
+    memberOf(root, "contact").failAt("method", "goes with worn cloth; allowed: together");
   if (c.strain_limit && c.strain_limit->method == LimitMethod::closest)
     memberOf(root, "strain_limit").failAt("method", "closest goes with a sheet that touches nothing; give fast");
   if (c.obstacles.empty() && !c.contact->self)

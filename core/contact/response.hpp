@@ -17,6 +17,10 @@ namespace gambeson {
 
 struct ContactRow;
 
+/// How the impulses of a step's contacts with bodies are found: all contacts at once (solveContacts), or by a box of
+/// Man 2006, section 3.3 (method.hpp).
+enum class ContactMethod { together, penalty, forward_increment, projection };
+
 struct ContactParameters {
   double layer_m = 0;       ///< delta: the distance at which persistent contact begins and which it restores
   FrictionLaw friction;     ///< between cloth and bodies
@@ -29,6 +33,8 @@ struct ContactParameters {
   /// none.
   std::vector<std::optional<FrictionLaw>> of_obstacle = {}, of_garment = {};
   std::vector<int> garment_of_sample = {};  ///< where garments have their own
+  ContactMethod method = ContactMethod::together;
+  double penalty_Pa_per_m = 0;  ///< eps_N of ContactMethod::penalty
 
   const FrictionLaw& frictionOf(const ContactRow& row) const;
   /// Whether any friction is more than Coulomb's.

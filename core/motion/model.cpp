@@ -7,6 +7,7 @@
 
 #include "core/contact/halving.hpp"
 #include "core/error.hpp"
+#include "core/motion/step_method.hpp"
 
 namespace gambeson {
 namespace {
@@ -172,6 +173,8 @@ std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const Mode
   const std::vector<Placement> placement(m.obstacles.size());
   m.collisions =
       buildCollisions(m.surface, rest, std::move(garment), m.layer_m, m.obstacles, placement, options.self_contact);
+  m.method = bodyMethod(m.contact);
+  if (m.method) checkMethod(m);
   return model;
 }
 

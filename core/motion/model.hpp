@@ -12,6 +12,7 @@
 
 #include "core/cloth/cloth.hpp"
 #include "core/contact/impact_zones.hpp"
+#include "core/contact/method.hpp"
 #include "core/contact/proximity.hpp"
 #include "core/contact/response.hpp"
 #include "core/motion/collisions.hpp"
@@ -80,6 +81,7 @@ struct Model {
   SparseRows weft;  ///< samples x free points: along the weft at rest, where friction goes with the direction
   Environment environment;
   ContactParameters contact;
+  std::unique_ptr<const BodyMethod> method;  ///< of contacts with bodies; null: all contacts are solved together
   std::vector<Obstacle> obstacles;
   std::unique_ptr<ProximityQuery> proximity;
   CollisionModel collisions;
@@ -281,6 +283,8 @@ struct StepResult {
 struct StepScratch {
   ClothWork cloth;
   ContactWork contact;
+  MethodWork method;
+  std::vector<RowLayer> row_layer;  ///< of the rows, where Model::method asks
   LimitWork limit;
   StageWork stage;
   CollisionWork collisions;

@@ -5,6 +5,7 @@
 #include "core/math/parallel.hpp"
 #include "core/motion/forces.hpp"
 #include "core/motion/step_contact.hpp"
+#include "core/motion/step_method.hpp"
 #include "core/statics/structure_system.hpp"
 
 namespace gambeson {
@@ -76,7 +77,8 @@ void contactLedger(const Model& m, const State& in, double dt, std::span<const V
     const double separation =
         !row.slippery && c.gap_m < layerOf(m, row) && row.target_m_per_s > 0 ? normal * row.target_m_per_s : 0;
     report.work.separation += separation;
-    if (!row.slippery) report.work.dissipated += separation - dot(impulse, mean - row.body_velocity);
+    const Vec3 lost = givesBack(m, row) ? impulse - normal * c.normal : impulse;
+    if (!row.slippery) report.work.dissipated += separation - dot(lost, mean - row.body_velocity);
   }
   // What impact zones take from the cloth goes to what they move with.
   for (int z = 0; z < w.impact_zones.size(); ++z) {

@@ -13,6 +13,7 @@
 #include "core/motion/contradict.hpp"
 #include "core/motion/held_motion.hpp"
 #include "core/motion/provot_projection.hpp"
+#include "core/motion/step_method.hpp"
 #include "core/motion/step_rows.hpp"
 
 namespace gambeson {
@@ -86,6 +87,10 @@ double givesWay(const Model& m, const ContactRow& row, PointWeights& at) {
 /// w.velocity after the contacts w.rows, which yield as they did before in this step. `limits`: null, or the strain
 /// limits that go along.
 void solveRows(const Model& m, double dt, MotionHold* limits, Yield& yield, StepReport& report, StepWork& w) {
+  if (m.method) {
+    report.contact = solveByMethod(m, dt, w);
+    return;
+  }
   std::optional<SupportHold> supported;
   MotionHold* hold = limits;
   if (m.supports && m.supports->couple()) {

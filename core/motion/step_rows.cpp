@@ -7,6 +7,7 @@
 #include "core/math/parallel.hpp"
 #include "core/motion/impact_row.hpp"
 #include "core/motion/step_contact.hpp"
+#include "core/motion/step_method.hpp"
 #include "core/motion/warm_start.hpp"
 
 namespace gambeson {
@@ -56,6 +57,7 @@ double densityOf(const Model& m, const Stencil& stencil) {
 void setPersistent(const Model& m, double dt, const Vec3& warm, ContactRow& row) {
   ContactParameters parameters = m.contact;
   parameters.layer_m = layerOf(m, row);
+  if (m.method && m.method->takes(row)) parameters.compliance_m_per_Pa = 0;
   layerUnder(dot(warm, row.contact.normal) / dt, dt, densityOf(m, row.stencil), parameters, row);
   if (row.contact.gap_m < 0) row.target_m_per_s = std::min(row.target_m_per_s, m.collisions.untangling.speed_mps);
 }
@@ -146,6 +148,7 @@ void persistentRows(const Model& m, const State& in, double dt, StepWork& w) {
     w.slip[k].weft = weftAt(m, in, row);
   }
   forAll(Each::sum, n, [&](int k) { setPersistent(m, dt, w.warm[k], w.rows[k]); });
+  if (m.method) prepareRows(m, dt, w);
 }
 
 namespace {

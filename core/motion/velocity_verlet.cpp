@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/penalty.hpp"
 #include "core/motion/resonance.hpp"
 
 namespace gambeson {
@@ -14,7 +15,8 @@ constexpr double kStepsAtSwing = 6, kCrumpling = 0.5;
 
 VelocityVerlet::VelocityVerlet(const Model& model, const Stage& stage, const StepControl& control, Frequency& frequency,
                                StepWork& work)
-    : ControlledSteps(model, stage, control, frequency, work, FrequencyOf::all) {}
+    : ControlledSteps(model, stage, control, frequency, work, FrequencyOf::all),
+      pressing_rad_per_s_(penaltyFrequency(model.contact, model.density_kg_per_m2)) {}
 
 StepReport VelocityVerlet::makeStep(const State& in, double dt, State& out) {
   return step(model_, stage_, in, dt, out, work_);
@@ -27,7 +29,7 @@ double VelocityVerlet::longestStep(State& state) {
   // Threads that do not yield take what tension a step needs of them, more the shorter it is: these say nothing.
   const double across =
       std::isfinite(model_.strain_limit.stiffness_N_per_m) ? tensionFrequency(model_.strain_rows, state.limit_J) : 0;
-  return std::min(control_.max_step_s, share * 2 / std::hypot(omega, across));
+  return std::min(control_.max_step_s, share * 2 / std::hypot(std::hypot(omega, across), pressing_rad_per_s_));
 }
 
 double VelocityVerlet::swingOf(const State& before, const State& after, double dt, double omega) {

@@ -5,7 +5,8 @@
 
 namespace gambeson {
 
-/// ControlledSteps of `step`: stable up to 2/omega, less where the highest modes swing far (resonance.hpp).
+/// ControlledSteps of `step`: stable up to 2/omega, less where the highest modes swing far (resonance.hpp), omega with
+/// the frequency of penalties.
 class VelocityVerlet : public ControlledSteps {
  public:
   VelocityVerlet(const Model& model, const Stage& stage, const StepControl& control, Frequency& frequency,
@@ -19,6 +20,8 @@ class VelocityVerlet : public ControlledSteps {
   void settle(const State& before, State& after, double dt_s, double shown2) override;
   /// How far the highest modes swing, of which the largest has the frequency omega (resonance.hpp).
   virtual double swingOf(const State& before, const State& after, double dt_s, double omega_rad_per_s);
+
+  double pressing_rad_per_s_;  ///< of a penalty, which no estimate sees (penaltyFrequency)
 };
 
 }  // namespace gambeson

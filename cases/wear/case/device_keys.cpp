@@ -25,6 +25,8 @@ class Refusals {
       lookAtSupport(fmt::format("supports[{}]", k), case_.supports[k]);
     lookAtFriction("contact.friction", case_.contact.friction);
     if (case_.contact.friction_cloth) lookAtFriction("contact.friction_cloth", *case_.contact.friction_cloth);
+    if (case_.contact.method != ContactMethod::together)
+      refuse("contact.method", "methods of contact of their own are not carried by", "\"together\"");
     if (case_.strain_limit) refuse("strain_limit", "limits of strain are not carried by", "none, and stiffer threads");
     if (case_.time.motion.scheme != MotionScheme::verlet)
       refuse("time.scheme", "other schemes than velocity Verlet are not carried by", "\"verlet\"");

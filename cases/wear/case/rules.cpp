@@ -222,6 +222,25 @@ void checkTime(const Entry& root, const Case& c) {
            "time.step > 0");
 }
 
+/// What the methods of contact of their own do not treat. The cloth and the bodies of projection are looked at where
+/// they are made (checkProjection).
+void checkContactMethod(const Entry& root, const Case& c) {
+  if (c.contact.method == ContactMethod::together) return;
+  const std::string reason = "this contact.method knows Coulomb's friction; allowed with it: a number";
+  if (!c.contact.friction.isCoulomb()) failAt(root, {"contact", "friction"}, reason);
+  if (c.contact.friction_cloth && !c.contact.friction_cloth->isCoulomb())
+    failAt(root, {"contact", "friction_cloth"}, reason);
+  for (std::size_t i = 0; i < c.garments.size(); ++i)
+    if (c.garments[i].friction && !c.garments[i].friction->isCoulomb())
+      garmentEntry(root, i).failAt("friction", reason);
+  for (std::size_t i = 0; i < c.obstacles.size(); ++i)
+    if (c.obstacles[i].friction && !c.obstacles[i].friction->isCoulomb())
+      itemOf(root, "obstacles", i).failAt("friction", reason);
+  if (c.strain_limit) failAt(root, {"contact", "method"}, "goes without strain_limit; allowed with it: together");
+  if (c.time.motion.scheme != MotionScheme::verlet)
+    failAt(root, {"contact", "method"}, "goes with time.scheme verlet; allowed with others: together");
+}
+
 }  // namespace
 
 namespace {
@@ -252,6 +271,7 @@ void applyRules(const Entry& root, Case& c) {
                 "is required where there is a human, an obstacle or a second garment: at least its friction");
   if (!c.human) checkWithoutHuman(root, c);
   checkTime(root, c);
+  checkContactMethod(root, c);
   checkSupports(root, c);
   checkObstacleNames(root, c.obstacles);
   const JsonNode* analysis = root.node.find("analysis");

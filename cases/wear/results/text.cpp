@@ -258,6 +258,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
                                     : "the thickness of the cloth",
                   formatNumber(1e3 * c.contact.relaxation_s), inWords(c.contact.friction),
                   c.contact.friction_cloth ? "; of cloth with cloth " + inWords(*c.contact.friction_cloth) : ""));
+  if (const std::string method = inWords(c.contact); !method.empty()) say(method);
   for (const ObstacleCase& o : c.obstacles)
     if (o.friction) say(fmt::format("Friction with {}: {}.", o.name, inWords(*o.friction)));
   for (const GarmentCase& g : c.garments)

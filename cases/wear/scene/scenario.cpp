@@ -14,6 +14,7 @@
 #include "cases/wear/scene/garments.hpp"
 #include "cases/wear/scene/stage.hpp"
 #include "cases/wear/scene/worn.hpp"
+#include "core/contact/penalty.hpp"
 #include "core/error.hpp"
 #include "core/material/coarseness.hpp"
 #include "core/motion/step.hpp"
@@ -146,6 +147,11 @@ void buildModelOf(const Case& c, const Only& only, ClothDraft&& draft, const std
   s.model = underGarments(c, only, [&] {
     return buildModel(std::move(draft.cloth), options, environment, contact, std::move(obstacles));
   });
+  const double springs = penaltyFrequency(s.model->contact, s.model->density_kg_per_m2);
+  if (c.time.step_s * springs > 2)
+    throw InputError({"", 0, "time.step"},
+                     fmt::format("{:.3e} s is longer than the stable step of contact.penalty; allowed: at most {:.3e} s",
+                                 c.time.step_s, 2 / springs));
   findHeldPoints(*s.model, s.supports);
 }
 

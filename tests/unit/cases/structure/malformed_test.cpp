@@ -183,6 +183,8 @@ TEST(MalformedStructure, Contact) {
           {"{\"friction\": 0.3}", "{}", 10, "contact.friction", "is required"},
           {"  \"contact\": {\"friction\": 0.3},\n", "", 1, "contact", "is required where there is an obstacle"},
           {"\"friction\": 0.3", "\"friction\": -1", 10, "contact.friction", "allowed: >= 0"},
+          {"\"friction\": 0.3", "\"friction\": 0.3, \"method\": \"forward_increment\"", 10, "contact.method",
+           "allowed: together"},
           {"\"ball\"", "\"tip\"", 11, "output.points[0].name", "used twice"},
           {"\"ball\"", "\"a ball\"", 9, "obstacles[0].name", "letters, digits"},
           {"\"radius\": 0.1", "\"radius\": 0", 9, "obstacles[0].sphere.radius", "allowed: > 0"},

@@ -109,6 +109,7 @@ const Keys with_refused{
     {"Feet left out", "back grow"},
     {"Friction", "stribeck_speed stribeck_power viscous_power pressure"},
     {"Loop of shear", "hysteresis hysteresis_5 friction_angle rise growth"},
+    {"Contact", "penalty"},
     {"Strain limit", "mode limit tolerance stiffness max_projections points method"},
     {"Time", "substeps solve_tolerance"},
 };
@@ -134,6 +135,7 @@ const std::vector<Refused> refused{
      "supports[0].pinned.drive"},
     {"Held patch", "drive", R"(supports=[{"patch": {"drive": {"velocity": [[0, 0, 0, 1]]}}}])",
      "supports[0].patch.drive"},
+    {"Contact", "method", "contact.method=forward_increment", "contact.method"},
     {"Time", "scheme", "time.scheme=rk4", "time.scheme"},
     {"Time", "audit", "time.audit=true", "time.audit"},
 };
