@@ -140,6 +140,8 @@ class Cloth {
   virtual void startInner(std::span<double> value) const { static_cast<void>(value); }
   /// Writes the mass of each rate [kg m^2, where the rate is an angular velocity].
   virtual void innerMasses(std::span<double> mass) const { static_cast<void>(mass); }
+  /// Whether values are no sums of what their rates did (directors): then `advance` alone says where they go.
+  virtual bool turnsInner() const { return false; }
   /// Writes where the values go with these rates in time dt: value + dt rate, but on their manifold.
   virtual void advance(std::span<const double> value, std::span<const double> rate, double dt_s,
                        std::span<double> out) const {

@@ -184,6 +184,10 @@ class JoinedMounting : public Mounting {
     const auto [i, own] = ownEdge(edge);
     return shifted(i, of(i).tieEdge(own, direction));
   }
+  std::vector<LinearConstraint> turnEdge(const PatchEdge& edge, const Vec3& turn_rad, int program) const override {
+    const auto [i, own] = ownEdge(edge);
+    return shifted(i, of(i).turnEdge(own, turn_rad, program));
+  }
   std::vector<Vec3> edgeForce(const PatchEdge& edge, const Vec3& force_N_per_m) const override {
     const auto [i, own] = ownEdge(edge);
     return among(i, of(i).edgeForce(own, force_N_per_m));
@@ -453,13 +457,13 @@ void JoinedCloth::dampingForce(const ClothState& state, const ClothForce& out, C
   if (out.energy) *out.energy = {};
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     ClothEnergy energy;
-    parts_[i]->dampingForce(stateOf(state, i),
-                            {range(out.points, static_cast<std::size_t>(point_[i]),
-                                   static_cast<std::size_t>(point_[i + 1])),
-                             {},
-                             {},
-                             out.energy ? &energy : nullptr},
-                            work.parts[i]);
+    parts_[i]->dampingForce(
+        stateOf(state, i),
+        {range(out.points, static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1])),
+         {},
+         {},
+         out.energy ? &energy : nullptr},
+        work.parts[i]);
     if (out.energy) out.energy->power_W += energy.power_W;
   }
 }
@@ -487,6 +491,10 @@ void JoinedCloth::startInner(std::span<double> value) const {
 
 void JoinedCloth::innerMasses(std::span<double> mass) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i]->innerMasses(range(mass, rates_[i], rates_[i + 1]));
+}
+
+bool JoinedCloth::turnsInner() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->turnsInner(); });
 }
 
 void JoinedCloth::advance(std::span<const double> value, std::span<const double> rate, double dt_s,

@@ -4,16 +4,28 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/math/cholesky.hpp"
 
 namespace gambeson {
 
 /// Equilibrium is g(y, t) = 0 with g = f_int - f_ext; t is the time, or the load factor in statics.
+///
+/// A state y has a number for each unknown, and behind these what turns (directors), which no sum of changes tells: a
+/// change dy, an unknown each, takes y to another state by `retract`. Systems without such things add.
 class System {
  public:
   virtual ~System() = default;
-  virtual int size() const = 0;
+  virtual int size() const = 0;  ///< of unknowns: of g, and of a change dy
+  /// The state at rest.
+  virtual std::vector<double> start() const { return std::vector<double>(static_cast<std::size_t>(size()), 0.0); }
+  /// Writes the state y (+) s dy, at t. K is the slope of g along it where dy is 0. `out` may be y.
+  virtual void retract(std::span<const double> y, std::span<const double> dy, double s, double t,
+                       std::span<double> out) const {
+    static_cast<void>(t);
+    for (std::size_t i = 0; i < y.size(); ++i) out[i] = y[i] + s * dy[i];
+  }
   /// The sparsity that all matrices of the system share.
   virtual const SymmetricMatrix& sparsity() const = 0;
   /// Writes g; returns the size of the forces that balance in it (loads, reactions), what a residual is small against.

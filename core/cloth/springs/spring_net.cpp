@@ -5,9 +5,9 @@
 #include <numbers>
 #include <string>
 
-#include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/fields.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/patches/bilinear.hpp"
 #include "core/error.hpp"
 #include "core/material/fabric_law.hpp"
 
@@ -19,21 +19,7 @@ constexpr double kCurvature_per_m = 100;  ///< at which flexion springs store wh
 [[noreturn]] void refuse(const std::string& key, const std::string& why) { throw InputError({"", 0, key}, why); }
 
 void checkForSprings(const Garment& g) {
-  checkGarment(g);
-  if (!g.weak_seams.empty()) refuse("weak_seams", "cloth of springs has none; join edges point by point");
-  for (std::size_t p = 0; p < g.patches.size(); ++p) {
-    const NurbsPatch& patch = g.patches[p];
-    if (patch.u.degree != 1 || patch.v.degree != 1) refuse("degree", "patches of springs are of degree 1");
-    if (isTrimmed(g, static_cast<int>(p))) refuse("trims", "cloth of springs cannot be trimmed");
-    for (double w : patch.weights)
-      if (w != patch.weights[0]) refuse("weights", "patches of springs have none");
-    for (const KnotVector* k : {&patch.u, &patch.v})
-      if (static_cast<int>(breakpoints(*k).size()) != k->count())
-        refuse("knots", "patches of springs have each inner knot once");
-  }
-  for (const Seam& s : g.seams)
-    if (s.kind != SeamKind::C0 || s.stiffness_N != 0 || s.onPart())
-      refuse("seams", "cloth of springs is joined along whole edges, C0 and without springs of the seam");
+  checkBilinear(g, "springs");
   const auto checkLaw = [](const Fabric& f) {
     if (lawUse(f).remembers()) refuse("fabric.bending.law", "springs know no law that remembers");
   };
