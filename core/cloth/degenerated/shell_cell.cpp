@@ -222,43 +222,41 @@ void ShellKernel::stiffness(const ShellCell& cell, const CornerVectors& now, con
     const ShellPoint& p = cell.points[i];
     const CornerBasis& N = points_[i];
     const Station s = stationAt(N, now);
-    // Rows: the derivative of each covariant strain by the nodes.
-    std::array<CornerVectors, 8> rows{};
+    // Rows: the derivative of each covariant strain by the nodes' components.
+    std::array<std::array<double, 24>, 8> rows{}, stressed{};
+    const auto addTo = [&rows](std::size_t row, std::size_t node, double w, const Vec3& v) {
+      rows[row][3 * node] += w * v.x, rows[row][3 * node + 1] += w * v.y, rows[row][3 * node + 2] += w * v.z;
+    };
     for (std::size_t k = 0; k < 4; ++k) {
       const double n1 = N.n1[k], n2 = N.n2[k];
-      rows[0][k] = n1 * s.a1, rows[0][4 + k] = z2 * n1 * s.b1;
-      rows[1][k] = n2 * s.a2, rows[1][4 + k] = z2 * n2 * s.b2;
-      rows[2][k] = 0.5 * (n1 * s.a2 + n2 * s.a1), rows[2][4 + k] = 0.5 * z2 * (n1 * s.b2 + n2 * s.b1);
-      rows[3][k] = n1 * s.b1, rows[3][4 + k] = n1 * s.a1;
-      rows[4][k] = n2 * s.b2, rows[4][4 + k] = n2 * s.a2;
-      rows[5][k] = 0.5 * (n1 * s.b2 + n2 * s.b1), rows[5][4 + k] = 0.5 * (n1 * s.a2 + n2 * s.a1);
+      addTo(0, k, n1, s.a1), addTo(0, 4 + k, z2 * n1, s.b1);
+      addTo(1, k, n2, s.a2), addTo(1, 4 + k, z2 * n2, s.b2);
+      addTo(2, k, 0.5, n1 * s.a2 + n2 * s.a1), addTo(2, 4 + k, 0.5 * z2, n1 * s.b2 + n2 * s.b1);
+      addTo(3, k, n1, s.b1), addTo(3, 4 + k, n1, s.a1);
+      addTo(4, k, n2, s.b2), addTo(4, 4 + k, n2, s.a2);
+      addTo(5, k, 0.5, n1 * s.b2 + n2 * s.b1), addTo(5, 4 + k, 0.5, n1 * s.a2 + n2 * s.a1);
     }
     for (std::size_t st = 0; rule.shear && st < stations_.size(); ++st) {
       const Station t = stationAt(stations_[st], now);
       for (std::size_t k = 0; k < 4; ++k) {
-        rows[6][k] += 0.5 * rule.on13[st] * stations_[st].n1[k] * t.d;
-        rows[6][4 + k] += 0.5 * rule.on13[st] * stations_[st].n[k] * t.a1;
-        rows[7][k] += 0.5 * rule.on23[st] * stations_[st].n2[k] * t.d;
-        rows[7][4 + k] += 0.5 * rule.on23[st] * stations_[st].n[k] * t.a2;
+        addTo(6, k, 0.5 * rule.on13[st] * stations_[st].n1[k], t.d);
+        addTo(6, 4 + k, 0.5 * rule.on13[st] * stations_[st].n[k], t.a1);
+        addTo(7, k, 0.5 * rule.on23[st] * stations_[st].n2[k], t.d);
+        addTo(7, 4 + k, 0.5 * rule.on23[st] * stations_[st].n[k], t.a2);
       }
     }
-    // Their change under each: the law's answer to a row.
-    std::array<CornerVectors, 8> stressed{};
-    for (std::size_t k = 0; k < 8; ++k)
-      for (int axis = 0; axis < 3; ++axis) {
-        Covariant c;
-        for (std::size_t r = 0; r < 8; ++r) c[r] = rows[r][k][axis];
-        const Covariant f = Answer(cell.law, p, c, rule, terms).conjugate(p);
-        for (std::size_t r = 0; r < 8; ++r) stressed[r][k][axis] = p.area_m2 * f[r];
+    for (std::size_t c = 0; c < 8; ++c) {
+      Covariant one{};
+      one[c] = p.area_m2;
+      const Covariant answer = Answer(cell.law, p, one, rule, terms).conjugate(p);
+      for (std::size_t r = 0; r < 8; ++r)
+        for (std::size_t j = 0; answer[r] != 0 && j < 24; ++j) stressed[r][j] += answer[r] * rows[c][j];
+    }
+    for (std::size_t i1 = 0; i1 < 24; ++i1)
+      for (std::size_t r = 0; r < 8; ++r) {
+        const double row = rows[r][i1];
+        for (std::size_t j = 0; j < 24; ++j) K[24 * i1 + j] += row * stressed[r][j];
       }
-    for (std::size_t k = 0; k < 8; ++k)
-      for (std::size_t l = 0; l < 8; ++l)
-        for (int a = 0; a < 3; ++a)
-          for (int b = 0; b < 3; ++b) {
-            double sum = 0;
-            for (std::size_t r = 0; r < 8; ++r) sum += rows[r][k][a] * stressed[r][l][b];
-            K[(3 * k + static_cast<std::size_t>(a)) * 24 + 3 * l + static_cast<std::size_t>(b)] += sum;
-          }
     if (terms.definite) continue;
     Covariant c = covariant(now, z2, i);
     for (std::size_t r = 0; r < 8; ++r) c[r] -= p.rest[r];

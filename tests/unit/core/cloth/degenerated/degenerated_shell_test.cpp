@@ -348,7 +348,7 @@ TEST(DegeneratedShell, SaysWhatItCannotBe) {
   smooth.patches[0] = flatPatch(uniformKnots(2, 2), uniformKnots(2, 2), 1, 1);
   EXPECT_NE(says(smooth).find("degree 1"), std::string::npos);
   Fabric other = solid;
-  other.law = StopBending{};
+  other.law = StopBending{{1, 1, 1}, 0.1};
   EXPECT_NE(says(flatSheet(2, 2, 1, 1, other)).find("fabric.bending.law"), std::string::npos);
   other = solid;
   other.tension_field = true;
