@@ -282,7 +282,16 @@ void StructureSystem::damping(std::span<const double> y, double t, bool lumped, 
     for (std::size_t i = 0; i < damping_K_.values.size(); ++i) damping_K_.values[i] += own.values[i];
   }
   if (stiffness_part && structure_.rayleigh_stiffness_s > 0) {
-    assemble(y, t);
+    // Of directors the part of the material alone (Man 2006, eq. 2.85): the stress' would damp turns of the whole.
+    if (structure_.cloth->turnsInner()) {
+      ForceTerms terms;
+      terms.definite = true;
+      place(y, t);
+      structure_.tangent->assemble(stateAt(t), work_, K_, terms);
+      at_y_.clear();
+    } else {
+      assemble(y, t);
+    }
     for (std::size_t i = 0; i < damping_K_.values.size(); ++i)
       damping_K_.values[i] += structure_.rayleigh_stiffness_s * K_.values[i];
   }
