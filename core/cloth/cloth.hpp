@@ -60,6 +60,11 @@ class ClothTangent {
     D = sparsity();
     D.values.assign(9 * D.columns.size(), 0.0);
   }
+  /// Adds a stiffness to rates that nothing resists and nothing drives (the spin of a director about itself), so that
+  /// an assembled K without mass can be solved: solutions have none of these rates, whatever it is.
+  virtual void holdIdle(const ClothState& state, BlockMatrix& K) const {
+    static_cast<void>(state), static_cast<void>(K);
+  }
 };
 
 class Cloth {

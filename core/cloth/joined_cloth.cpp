@@ -55,9 +55,15 @@ class JoinedTangent : public ClothTangent {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       BlockMatrix own = parts_[i]->sparsity();
       parts_[i]->assemble(cloth_.stateOf(state, i), work.parts[i], own, terms);
-      for (int r = 0; r < own.rows(); ++r)
-        for (long k = own.offsets[static_cast<std::size_t>(r)]; k < own.offsets[static_cast<std::size_t>(r) + 1]; ++k)
-          addBlock(i, r, own.columns[static_cast<std::size_t>(k)], own.values.data() + 9 * k, K);
+      addPart(i, own, K);
+    }
+  }
+  void holdIdle(const ClothState& state, BlockMatrix& K) const override {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      BlockMatrix own = parts_[i]->sparsity();
+      own.values.assign(9 * own.columns.size(), 0.0);
+      parts_[i]->holdIdle(cloth_.stateOf(state, i), own);
+      addPart(i, own, K);
     }
   }
   void assembleDamping(const ClothState& state, ClothWork& work, BlockMatrix& D) const override {
@@ -80,6 +86,11 @@ class JoinedTangent : public ClothTangent {
     if (rate < 0) return 3 * cloth_.firstFree(part) + component;
     if (rate >= cloth_.firstRate(part + 1) - cloth_.firstRate(part)) return -1;
     return 3 * cloth_.map().T.column_count + cloth_.firstRate(part) + rate;
+  }
+  void addPart(std::size_t part, const BlockMatrix& own, BlockMatrix& K) const {
+    for (int r = 0; r < own.rows(); ++r)
+      for (long k = own.offsets[static_cast<std::size_t>(r)]; k < own.offsets[static_cast<std::size_t>(r) + 1]; ++k)
+        addBlock(part, r, own.columns[static_cast<std::size_t>(k)], own.values.data() + 9 * k, K);
   }
   void addBlock(std::size_t part, int row, int column, const double* values, BlockMatrix& K) const {
     for (int e = 0; e < 9; ++e) {

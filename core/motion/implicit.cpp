@@ -81,7 +81,7 @@ class Step : public Equations {
   }
 
   void tangent(std::span<const double> y1, SymmetricMatrix& K) override {
-    system_.stiffness(y1, from_.time_s + h_, K);
+    system_.stiffnessInMotion(y1, from_.time_s + h_, K);
     const double m = (1 - scheme_.am) / (scheme_.beta * h_ * h_), f = 1 - scheme_.af,
                  d = f * scheme_.gamma / (scheme_.beta * h_);
     for (std::size_t k = 0; k < K.values.size(); ++k)

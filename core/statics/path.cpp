@@ -56,9 +56,6 @@ double largestDiagonal(const SymmetricMatrix& K) {
   return largest;
 }
 
-/// Strains at rest are rounding, and their stress is a stiffness of eps of the membrane's in every direction: what
-/// resists less than that is not held.
-constexpr double kRounding = 1e-15;
 /// Where a first try strains the sheet by 1e-8 or so, what holds is of the order 1e-8 of the membrane's stiffness over
 /// the square of the cells along it, and what does not is of the order of that strain's square, or of the rounding.
 constexpr double kTryStrain = 1e-8, kTryRounding = 1e-13;
@@ -86,7 +83,7 @@ void requireHeld(System& system, PathState& state, std::span<const double> p, do
   state.raised = false;
   system.stiffness(state.y, state.factor, state.K);
   ++report.factorisations;
-  if (!isLoose(state, kRounding)) return;
+  if (!isLoose(state, system.looseness())) return;
   const double size = norm(p);
   if (!(size > 0)) throw mechanism("");
   factoriseRaised(state);

@@ -20,6 +20,8 @@ class StructureSystem : public System {
                std::span<double> out) const override;
   double residual(std::span<const double> y, double t, std::span<double> g) override;
   void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) override;
+  void stiffnessInMotion(std::span<const double> y, double t, SymmetricMatrix& K) override;
+  double looseness() const override;
   void change(std::span<const double> y, double t0, double t1, std::span<double> dg) override;
   double length() const override { return length_; }
   double reach() const override { return reach_; }
@@ -45,6 +47,7 @@ class StructureSystem : public System {
   /// Writes the forces on the blocks of all free points and inner unknowns.
   void pullBack(const std::vector<Vec3>& f, std::span<const double> inner, std::vector<double>& out) const;
   void assemble(std::span<const double> y, double t);
+  void assemble(std::span<const double> y, double t, const ForceTerms& terms);
   BlockMatrix massBlocks(bool lumped) const;
 
   const Structure& structure_;

@@ -32,6 +32,11 @@ class System {
   virtual double residual(std::span<const double> y, double t, std::span<double> g) = 0;
   /// K = dg/dy. `steepest`: every law at its steepest slope, what an explicit step must allow for.
   virtual void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) = 0;
+  /// K for a matrix to which mass is added: what has neither force nor stiffness has none in it.
+  virtual void stiffnessInMotion(std::span<const double> y, double t, SymmetricMatrix& K) { stiffness(y, t, K); }
+  /// What of the largest stiffness may be rounding where a motion meets none: what resists less is not held. Strains at
+  /// rest are rounding, and their stress is a stiffness of eps of the membrane's in every direction.
+  virtual double looseness() const { return 1e-15; }
   /// How g changes from t0 to t1 with y held: loads exactly, moving supports to first order (through the stiffness).
   virtual void change(std::span<const double> y, double t0, double t1, std::span<double> dg) = 0;
   /// A length of the structure [m].

@@ -5,9 +5,9 @@
 /// three numbers, whose rates are the three components of a spin, so that a block of rates is a director's. Man's two
 /// rotations without drilling are the spins normal to the director; the force on the third, director x dE/d(director),
 /// has none about the director, and the mass of all three is the same, so that a spin about the director never begins.
-/// In tangents alone that spin is held by a stiffness of its own, which takes no part in any solution: it is coupled
-/// to nothing, and nothing drives it. Of modes it makes one for each director that means nothing, at the frequency of
-/// shear through the thickness, the highest of the sheet.
+/// Where a tangent without mass is solved that spin is held by a stiffness of its own (ClothTangent::holdIdle), which
+/// takes no part in the solution: it is coupled to nothing, and nothing drives it. Of modes it makes one for each
+/// director that means nothing, at the frequency of shear through the thickness, the highest of the sheet.
 ///
 /// The fabric's membrane is St. Venant-Kirchhoff, isotropic or orthotropic; it bends by a linear law: `consistent`
 /// (D = A t²/12, the thesis's), rigidities of its own, or plies. Transverse shear has the stiffness factor * A66 in

@@ -56,9 +56,20 @@ class DegeneratedTangent : public ClothTangent {
           Block block = blockOf(own, k, l);
           if (l >= 4) block = timesTurn(block, now[l]);
           if (k >= 4) block = transposed(timesTurn(transposed(block), now[k]));
-          if (k == l && k >= 4) addOwn(cell, now[k], terms.definite ? 0 : -dot(gradient[k], now[k]), block);
+          if (k == l && k >= 4 && !terms.definite) addOwn(now[k], -dot(gradient[k], now[k]), block);
           K.add(r, c, block);
         }
+    }
+  }
+  void holdIdle(const ClothState& state, BlockMatrix& K) const override {
+    for (const ShellCell& cell : cloth_.cells()) {
+      const CornerVectors now = cloth_.cornersOf(cell, state);
+      for (std::size_t k = 4; k < 8; ++k) {
+        Block block{};
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c) block[static_cast<std::size_t>(3 * r + c)] = cell.hold_Nm * now[k][r] * now[k][c];
+        K.add(rowOf(cell, k), rowOf(cell, k), block);
+      }
     }
   }
 
@@ -70,11 +81,10 @@ class DegeneratedTangent : public ClothTangent {
     }
     return cloth_.map().T.column_count + cell.director[node - 4];
   }
-  /// bend P + hold d dᵀ.
-  static void addOwn(const ShellCell& cell, const Vec3& d, double bend, Block& block) {
+  /// bend (1 - d dᵀ).
+  static void addOwn(const Vec3& d, double bend, Block& block) {
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        block[static_cast<std::size_t>(3 * r + c)] += (r == c ? bend : 0) + (cell.hold_Nm - bend) * d[r] * d[c];
+      for (int c = 0; c < 3; ++c) block[static_cast<std::size_t>(3 * r + c)] += bend * ((r == c ? 1 : 0) - d[r] * d[c]);
   }
 
   const DegeneratedShell& cloth_;

@@ -16,7 +16,7 @@ namespace gambeson {
 
 /// Normals of neighbouring patches that differ by less along the whole of a seam meet smoothly there: their points
 /// share directors, and the seam bends as cloth does. At other seams each side has its own: the seam is a free hinge.
-constexpr double kSmoothSeam_rad = 0.1745;  // 10 degrees: the normals of coarse cells are off by about 2
+constexpr double kSmoothSeam_rad = 0.2618;  // 15 degrees: where a tube of 8 cells is closed they differ by 11
 
 struct Directors {
   std::vector<Vec3> rest;     ///< unit vectors

@@ -48,7 +48,7 @@ struct ShellCell {
   int patch = 0;
   std::array<int, 4> corner{}, director{};  ///< corners (-1, -1), (1, -1), (-1, 1), (1, 1)
   ShellLaw law;
-  double hold_Nm = 0;  ///< per rad: against drilling in the tangent, where nothing else is (DegeneratedShell)
+  double hold_Nm = 0;  ///< per rad: against drilling, where it must not be without stiffness (ClothTangent::holdIdle)
   std::array<ShellPoint, 5> points;  ///< as many as the rule has
 };
 

@@ -128,12 +128,12 @@ TEST(DegeneratedMotion, AutomaticStepIsThatOfTheLargestFrequency) {
     ExplicitSteps moving(*m.structure);
     for (std::size_t i = 0; i < moving.state.v.size(); ++i)
       moving.state.v[i].z = 1e-3 * std::sin(40 * moving.state.p[i].x);
-    double step = 0;
+    double taken = 0;
     moving.run(100 * dense, 0,
-               [&](const State&, const State&, const StepReport& r) { step = std::max(step, r.step_s); });
-    printf("[ measured ] dense %.4e s, taken %.4e s (%.3f)\n", dense, step, step / dense);
-    EXPECT_GT(step, 0.85 * dense);
-    EXPECT_LE(step, dense);
+               [&](const State&, const State&, const StepReport& r) { taken = std::max(taken, r.step_s); });
+    printf("[ measured ] dense %.4e s, taken %.4e s (%.3f)\n", dense, taken, taken / dense);
+    EXPECT_GT(taken, 0.85 * dense);
+    EXPECT_LE(taken, dense);
     // And sharp: of a small perturbation the energy grows beyond it, and does not below.
     for (const double factor : {0.95, 1.1}) {
       ExplicitSteps near(*m.structure);
@@ -143,21 +143,26 @@ TEST(DegeneratedMotion, AutomaticStepIsThatOfTheLargestFrequency) {
       attachSprings(*near.model, near.stage, near.state, near.work);
       const double first = energyOf(*near.model, near.stage, near.state, near.work).total();
       double most = 1;
-      near.run(300 * factor * dense, factor * dense, [&](const State&, const State& now, const StepReport&) {
-        if (most < 1e6) most = std::max(most, energyOf(*near.model, near.stage, State(now), near.work).total() / first);
-      });
-      if (factor < 1)
+      State next;
+      for (int k = 0; k < 300 && most < 1e6; ++k) {
+        ASSERT_EQ(step(*near.model, near.stage, near.state, factor * dense, next, near.work).failure,
+                  StepFailure::none);
+        std::swap(near.state, next);
+        most = std::max(most, energyOf(*near.model, near.stage, near.state, near.work).total() / first);
+      }
+      if (factor < 1) {
         EXPECT_LT(most, 1.1 / (1 - factor * factor));
-      else
+      } else {
         EXPECT_GT(most, 1e3);
+      }
     }
   }
 }
 
 TEST(DegeneratedMotion, SupportsHoldDirectorsInExplicitSteps) {
   // A strip clamped at one end and turned by an edge moment comes, damped, to the arc that statics say.
-  const double L = 0.2, E = 1e6, t = 5e-3;
-  const auto cloth = std::make_shared<DegeneratedShell>(flatSheet(8, 1, L, 0.02, isotropicSolid(E, 0, t, 500)));
+  const double L = 0.2, E = 4e6, t = 5e-3;
+  const auto cloth = std::make_shared<DegeneratedShell>(flatSheet(6, 1, L, 0.02, isotropicSolid(E, 0, t, 500)));
   StructureOptions o;
   for (const auto& list :
        {cloth->mounting().holdEdge({0, Side::u0, false}, kAxes, {}), cloth->mounting().clampEdge({0, Side::u0, false}),
@@ -165,10 +170,10 @@ TEST(DegeneratedMotion, SupportsHoldDirectorsInExplicitSteps) {
     o.constraints.insert(o.constraints.end(), list.begin(), list.end());
   o.moments = {{{0, Side::u1, false}, -0.5 * E * t * t * t / 12 / L, 0}};  // half a radian along the strip
   o.programs = {{{0, 1}, {1, 1}}};
-  o.rayleigh_mass_per_s = 15;
+  o.rayleigh_mass_per_s = 20;
   const auto s = buildStructure(cloth, o);
   ExplicitSteps moving(*s);
-  moving.run(2, 0);
+  moving.run(1.6, 0);
   StructureOptions still = o;
   still.programs = {{{0, 1}, {0, 1}}};
   const auto held = buildStructure(cloth, still);
@@ -183,7 +188,7 @@ TEST(DegeneratedMotion, SupportsHoldDirectorsInExplicitSteps) {
   });
   ASSERT_TRUE(report.reached) << report.why;
   // The director at the end has turned by half a radian.
-  EXPECT_NEAR(std::atan2(inner[3 * 8], inner[3 * 8 + 2]), -0.5, 0.01);
+  EXPECT_NEAR(std::atan2(inner[3 * 6], inner[3 * 6 + 2]), -0.5, 0.01);
   double off = 0;
   for (std::size_t i = 0; i < q.size(); ++i) off = std::max(off, norm(moving.state.p[i] - q[i]));
   for (std::size_t k = 0; k < inner.size(); ++k) off = std::max(off, L * std::abs(moving.state.inner[k] - inner[k]));
@@ -218,10 +223,7 @@ Turning turnTenTimes(double damping_s, int steps_a_turn) {
   o.rayleigh_stiffness_s = damping_s;
   const Moved m(flatSheet(2, 2, 0.1, 0.1, cotton(1e-3)), {}, o);
   const double w = 2 * kPi;
-  EmptyStage stage;
-  StepWork work;
-  const auto model = untouchedModel(*m.structure, {});
-  State state = initialState(*model, stage, 0, work);
+  State state = structureState(*m.structure, 0, {}, {}, {});
   spinUp(m, {0, w, 0}, state);
   ImplicitOptions options;
   options.scheme = ImplicitScheme::newmark;
