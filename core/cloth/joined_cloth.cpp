@@ -504,6 +504,11 @@ void JoinedCloth::innerMasses(std::span<double> mass) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i]->innerMasses(range(mass, rates_[i], rates_[i + 1]));
 }
 
+void JoinedCloth::dropIdle(std::span<const double> value, std::span<double> rate) const {
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    parts_[i]->dropIdle(range(value, values_[i], values_[i + 1]), range(rate, rates_[i], rates_[i + 1]));
+}
+
 bool JoinedCloth::turnsInner() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->turnsInner(); });
 }

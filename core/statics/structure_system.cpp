@@ -126,6 +126,19 @@ void StructureSystem::retract(std::span<const double> y, std::span<const double>
   System::retract(y.first(unknowns), dy, s, t, out);
 }
 
+void StructureSystem::dropIdle(std::span<const double> y, double t, std::span<double> rate) const {
+  if (!structure_.cloth->turnsInner()) return;
+  std::vector<double> u(static_cast<std::size_t>(structure_.dofs.C.rows()));
+  structure_.dofs.C.multiply<double>(rate, u);
+  structure_.cloth->dropIdle(
+      innerValues(structure_, y, programValues(structure_, t, ends_)),
+      std::span(u).subspan(3 * structure_.cloth->map().home.size(), structure_.cloth->innerRates()));
+  for (int j = 0; j < size(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    rate[k] = structure_.dofs.unknownOf(j, u[static_cast<std::size_t>(structure_.dofs.component[k])]);
+  }
+}
+
 void StructureSystem::setHistory(std::span<const double> history, double t) {
   history_.assign(history.begin(), history.end());
   committed_t_ = t;

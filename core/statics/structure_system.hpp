@@ -31,6 +31,7 @@ class StructureSystem : public System {
   std::string describe(std::span<const double> motion) const override;
   void mass(bool lumped, SymmetricMatrix& M) override;
   void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
+  void dropIdle(std::span<const double> y, double t, std::span<double> rate) const override;
   bool hasStiffnessDamping() const override { return structure_.rayleigh_stiffness_s > 0 || structure_.cloth->damps(); }
   void supportForce(double t, double dt, bool lumped, std::span<double> f) override;
 

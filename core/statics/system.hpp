@@ -61,6 +61,10 @@ class System {
   virtual void mass(bool lumped, SymmetricMatrix& M) = 0;
   /// D = a M + b K(y, t) + drag; without its stiffness part where `stiffness_part` is false.
   virtual void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) = 0;
+  /// Takes from rates of the unknowns at y what has neither force nor stiffness, which steps might let grow.
+  virtual void dropIdle(std::span<const double> y, double t, std::span<double> rate) const {
+    static_cast<void>(y), static_cast<void>(t), static_cast<void>(rate);
+  }
   virtual bool hasStiffnessDamping() const { return false; }
   /// Forces of the inertia and damping of what supports move, from central differences of their programs over dt; the
   /// damping is that of the last call of `damping`.

@@ -167,6 +167,13 @@ void DegeneratedShell::advance(std::span<const double> value, std::span<const do
   }
 }
 
+void DegeneratedShell::dropIdle(std::span<const double> value, std::span<double> rate) const {
+  for (std::size_t k = 0; k < rate.size(); k += 3) {
+    const double about = rate[k] * value[k] + rate[k + 1] * value[k + 1] + rate[k + 2] * value[k + 2];
+    for (std::size_t i = k; i < k + 3; ++i) rate[i] -= about * value[i];
+  }
+}
+
 std::unique_ptr<StressView> DegeneratedShell::stress() const {
   return std::make_unique<CellStress>(*this, first_cell_, [this](const ClothState& state, int, int cell) {
     return stateIn(cells_[static_cast<std::size_t>(cell)], state, {0.5, 0.5});

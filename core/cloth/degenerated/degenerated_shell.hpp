@@ -69,6 +69,7 @@ class DegeneratedShell : public PatchCloth {
   void innerMasses(std::span<double> mass) const override;
   void advance(std::span<const double> value, std::span<const double> rate, double dt_s,
                std::span<double> out) const override;
+  void dropIdle(std::span<const double> value, std::span<double> rate) const override;
 
   std::unique_ptr<StressView> stress() const override;
   PointState stateAt(const ClothState& state, int patch, Vec2 uv) const override;
