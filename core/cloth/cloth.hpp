@@ -152,10 +152,6 @@ class Cloth {
                        std::span<double> out) const {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = value[i] + dt_s * rate[i];
   }
-  /// Takes from the rates what nothing drives and nothing resists there (ClothTangent::holdIdle).
-  virtual void dropIdle(std::span<const double> value, std::span<double> rate) const {
-    static_cast<void>(value), static_cast<void>(rate);
-  }
 
   // Strain and stress.
   virtual std::unique_ptr<StressView> stress() const = 0;
@@ -174,6 +170,11 @@ class Cloth {
 
   // Supports and loads.
   virtual const Mounting& mounting() const = 0;
+
+  /// Takes from the rates what nothing drives and nothing resists there (ClothTangent::holdIdle).
+  virtual void dropIdle(std::span<const double> value, std::span<double> rate) const {
+    static_cast<void>(value), static_cast<void>(rate);
+  }
 
   /// The force alone, and the energy stored.
   void force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy = nullptr,

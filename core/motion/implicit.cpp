@@ -6,8 +6,7 @@
 /// am = af = 0 is Newmark; am = (2 r - 1)/(r + 1), af = r/(r + 1), gamma = 1/2 - am + af, beta = (1 - am + af)^2/4 with
 /// r the spectral radius at infinite frequency. Both are of second order (Newmark for gamma = 1/2). The stiffness part
 /// of Rayleigh's damping takes K where the step starts, and the cloth's own damping its D: of second order where these
-/// are constant, else the damping itself is of first order. Where directors turn K is the material's (Man 2006,
-/// eq. 2.85) where the step is expected to end: where it starts, a turn of the whole would be damped by its step.
+/// are constant, else the damping itself is of first order.
 
 #include "core/motion/implicit.hpp"
 
@@ -111,7 +110,6 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
   const Scheme scheme = schemeOf(o);
   if (!(o.step_s > 0)) throw InputError({"", 0, "step_s"}, "must be > 0");
   const auto n = static_cast<std::size_t>(system.size());
-  const bool turns = state.y.size() != n;
   SymmetricMatrix K = system.sparsity(), M = K, D = K;
   for (SymmetricMatrix* m : {&K, &M, &D}) m->values.assign(m->rows.size(), 0.0);
   system.mass(o.lumped_mass, M);
@@ -141,15 +139,7 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
   NewtonOptions newton{o.iterations, o.tolerance, 0, system.reach(), false};
   while (position < total) {
     const double h = timeAt(position + step) - state.time_s;
-    if (turns) {
-      // Where the step goes: what is rigid there would strain where it comes from.
-      for (std::size_t i = 0; i < n; ++i) ahead[i] = h * state.v[i] + 0.5 * h * h * state.a[i];
-      trial = state.y;
-      system.retract(trial, ahead, 1, state.time_s + h, trial);
-      system.damping(trial, state.time_s + h, o.lumped_mass, true, D);
-    } else if (system.hasStiffnessDamping() && report.steps > 0) {
-      system.damping(state.y, state.time_s, o.lumped_mass, true, D);
-    }
+    if (system.hasStiffnessDamping() && report.steps > 0) system.damping(state.y, state.time_s, o.lumped_mass, true, D);
     Step equations(system, scheme, M, D, state, g, h, o.lumped_mass);
     newton.least_force = 1e-6 * largest;
     NewtonReport result;
