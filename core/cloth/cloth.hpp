@@ -60,6 +60,11 @@ class ClothTangent {
     D = sparsity();
     D.values.assign(9 * D.columns.size(), 0.0);
   }
+  /// Adds a stiffness to rates that nothing resists and nothing drives (the spin of a director about itself), so that
+  /// an assembled K without mass can be solved: solutions have none of these rates, whatever it is.
+  virtual void holdIdle(const ClothState& state, BlockMatrix& K) const {
+    static_cast<void>(state), static_cast<void>(K);
+  }
 };
 
 class Cloth {
@@ -140,6 +145,8 @@ class Cloth {
   virtual void startInner(std::span<double> value) const { static_cast<void>(value); }
   /// Writes the mass of each rate [kg m^2, where the rate is an angular velocity].
   virtual void innerMasses(std::span<double> mass) const { static_cast<void>(mass); }
+  /// Whether values are no sums of what their rates did (directors): then `advance` alone says where they go.
+  virtual bool turnsInner() const { return false; }
   /// Writes where the values go with these rates in time dt: value + dt rate, but on their manifold.
   virtual void advance(std::span<const double> value, std::span<const double> rate, double dt_s,
                        std::span<double> out) const {
@@ -163,6 +170,11 @@ class Cloth {
 
   // Supports and loads.
   virtual const Mounting& mounting() const = 0;
+
+  /// Takes from the rates what nothing drives and nothing resists there (ClothTangent::holdIdle).
+  virtual void dropIdle(std::span<const double> value, std::span<double> rate) const {
+    static_cast<void>(value), static_cast<void>(rate);
+  }
 
   /// The force alone, and the energy stored.
   void force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy = nullptr,

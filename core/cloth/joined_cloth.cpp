@@ -55,9 +55,15 @@ class JoinedTangent : public ClothTangent {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       BlockMatrix own = parts_[i]->sparsity();
       parts_[i]->assemble(cloth_.stateOf(state, i), work.parts[i], own, terms);
-      for (int r = 0; r < own.rows(); ++r)
-        for (long k = own.offsets[static_cast<std::size_t>(r)]; k < own.offsets[static_cast<std::size_t>(r) + 1]; ++k)
-          addBlock(i, r, own.columns[static_cast<std::size_t>(k)], own.values.data() + 9 * k, K);
+      addPart(i, own, K);
+    }
+  }
+  void holdIdle(const ClothState& state, BlockMatrix& K) const override {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      BlockMatrix own = parts_[i]->sparsity();
+      own.values.assign(9 * own.columns.size(), 0.0);
+      parts_[i]->holdIdle(cloth_.stateOf(state, i), own);
+      addPart(i, own, K);
     }
   }
   void assembleDamping(const ClothState& state, ClothWork& work, BlockMatrix& D) const override {
@@ -80,6 +86,11 @@ class JoinedTangent : public ClothTangent {
     if (rate < 0) return 3 * cloth_.firstFree(part) + component;
     if (rate >= cloth_.firstRate(part + 1) - cloth_.firstRate(part)) return -1;
     return 3 * cloth_.map().T.column_count + cloth_.firstRate(part) + rate;
+  }
+  void addPart(std::size_t part, const BlockMatrix& own, BlockMatrix& K) const {
+    for (int r = 0; r < own.rows(); ++r)
+      for (long k = own.offsets[static_cast<std::size_t>(r)]; k < own.offsets[static_cast<std::size_t>(r) + 1]; ++k)
+        addBlock(part, r, own.columns[static_cast<std::size_t>(k)], own.values.data() + 9 * k, K);
   }
   void addBlock(std::size_t part, int row, int column, const double* values, BlockMatrix& K) const {
     for (int e = 0; e < 9; ++e) {
@@ -183,6 +194,10 @@ class JoinedMounting : public Mounting {
   std::vector<LinearConstraint> tieEdge(const PatchEdge& edge, const Vec3& direction) const override {
     const auto [i, own] = ownEdge(edge);
     return shifted(i, of(i).tieEdge(own, direction));
+  }
+  std::vector<LinearConstraint> turnEdge(const PatchEdge& edge, const Vec3& turn_rad, int program) const override {
+    const auto [i, own] = ownEdge(edge);
+    return shifted(i, of(i).turnEdge(own, turn_rad, program));
   }
   std::vector<Vec3> edgeForce(const PatchEdge& edge, const Vec3& force_N_per_m) const override {
     const auto [i, own] = ownEdge(edge);
@@ -453,13 +468,13 @@ void JoinedCloth::dampingForce(const ClothState& state, const ClothForce& out, C
   if (out.energy) *out.energy = {};
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     ClothEnergy energy;
-    parts_[i]->dampingForce(stateOf(state, i),
-                            {range(out.points, static_cast<std::size_t>(point_[i]),
-                                   static_cast<std::size_t>(point_[i + 1])),
-                             {},
-                             {},
-                             out.energy ? &energy : nullptr},
-                            work.parts[i]);
+    parts_[i]->dampingForce(
+        stateOf(state, i),
+        {range(out.points, static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1])),
+         {},
+         {},
+         out.energy ? &energy : nullptr},
+        work.parts[i]);
     if (out.energy) out.energy->power_W += energy.power_W;
   }
 }
@@ -487,6 +502,15 @@ void JoinedCloth::startInner(std::span<double> value) const {
 
 void JoinedCloth::innerMasses(std::span<double> mass) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i]->innerMasses(range(mass, rates_[i], rates_[i + 1]));
+}
+
+void JoinedCloth::dropIdle(std::span<const double> value, std::span<double> rate) const {
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    parts_[i]->dropIdle(range(value, values_[i], values_[i + 1]), range(rate, rates_[i], rates_[i + 1]));
+}
+
+bool JoinedCloth::turnsInner() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->turnsInner(); });
 }
 
 void JoinedCloth::advance(std::span<const double> value, std::span<const double> rate, double dt_s,

@@ -52,6 +52,8 @@ class JoinedCloth : public Cloth {
   std::size_t innerValues() const override { return values_.back(); }
   std::size_t innerRates() const override { return rates_.back(); }
   void startInner(std::span<double> value) const override;
+  bool turnsInner() const override;
+  void dropIdle(std::span<const double> value, std::span<double> rate) const override;
   void innerMasses(std::span<double> mass) const override;
   void advance(std::span<const double> value, std::span<const double> rate, double dt_s,
                std::span<double> out) const override;

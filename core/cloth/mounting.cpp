@@ -28,4 +28,8 @@ void checkFiniteLoad(const Vec3& v, const char* name) {
   if (!std::isfinite(v.x + v.y + v.z)) throw InputError({"", 0, name}, "must be finite");
 }
 
+std::vector<LinearConstraint> Mounting::turnEdge(const PatchEdge& edge, const Vec3&, int) const {
+  throw InputError({"", 0, "turn of " + edgeName(edge)}, "this cloth has no directors; only a degenerated shell has");
+}
+
 }  // namespace gambeson

@@ -56,6 +56,8 @@ class Mounting {
   virtual std::vector<LinearConstraint> mirrorEdge(const PatchEdge& edge, const Vec3& normal) const = 0;
   /// All points of the edge move alike along `direction`.
   virtual std::vector<LinearConstraint> tieEdge(const PatchEdge& edge, const Vec3& direction) const = 0;
+  /// Turns the directors of an edge by this rotation at program value 1; cloth without directors refuses (InputError).
+  virtual std::vector<LinearConstraint> turnEdge(const PatchEdge& edge, const Vec3& turn_rad, int program) const;
 
   /// Forces on the points [N] of a load per length of an edge [N/m], per area of a patch [N/m^2], at a place [N], and
   /// of the weight under `gravity` [m/s^2].

@@ -32,7 +32,11 @@ double innerLoadWork(const Model& m, const State& in, const State& out) {
   for (const State* s : {&in, &out})
     m.structure->loads.addInner(programValues(*m.structure, s->time_s, ProgramEnds::constant), load);
   double work = 0;
-  for (std::size_t k = 0; k < load.size(); ++k) work += 0.5 * load[k] * (out.inner[k] - in.inner[k]);
+  const bool turns = m.cloth->turnsInner();  // then values are no sums of what their rates did
+  for (std::size_t k = 0; k < load.size(); ++k)
+    work +=
+        0.5 * load[k] *
+        (turns ? 0.5 * (out.time_s - in.time_s) * (in.inner_rate[k] + out.inner_rate[k]) : out.inner[k] - in.inner[k]);
   return work;
 }
 

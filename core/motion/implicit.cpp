@@ -51,16 +51,16 @@ class Step : public Equations {
 
   /// v and a at the end, of y1.
   void kinematics(std::span<const double> y1, std::vector<double>& v1, std::vector<double>& a1) const {
-    v1.resize(y1.size());
-    a1.resize(y1.size());
-    for (std::size_t i = 0; i < y1.size(); ++i) {
+    v1.resize(from_.v.size());
+    a1.resize(v1.size());
+    for (std::size_t i = 0; i < v1.size(); ++i) {
       a1[i] = (y1[i] - from_.y[i] - h_ * from_.v[i]) / (scheme_.beta * h_ * h_) - (0.5 / scheme_.beta - 1) * from_.a[i];
       v1[i] = from_.v[i] + h_ * ((1 - scheme_.gamma) * from_.a[i] + scheme_.gamma * a1[i]);
     }
   }
 
   double residual(std::span<const double> y1, std::span<double> r) override {
-    const std::size_t n = y1.size();
+    const std::size_t n = r.size();
     const double am = scheme_.am, af = scheme_.af;
     kinematics(y1, v_, a_);
     for (std::size_t i = 0; i < n; ++i) {
@@ -76,8 +76,12 @@ class Step : public Equations {
     return std::max({size, norm(inertia_), norm(damping_), norm(known_)});
   }
 
+  void retract(std::span<const double> y, std::span<const double> dy, double s, std::span<double> out) const override {
+    system_.retract(y, dy, s, from_.time_s + h_, out);
+  }
+
   void tangent(std::span<const double> y1, SymmetricMatrix& K) override {
-    system_.stiffness(y1, from_.time_s + h_, K);
+    system_.stiffnessInMotion(y1, from_.time_s + h_, K);
     const double m = (1 - scheme_.am) / (scheme_.beta * h_ * h_), f = 1 - scheme_.af,
                  d = f * scheme_.gamma / (scheme_.beta * h_);
     for (std::size_t k = 0; k < K.values.size(); ++k)
@@ -105,12 +109,12 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
                     const SystemObserver& observe) {
   const Scheme scheme = schemeOf(o);
   if (!(o.step_s > 0)) throw InputError({"", 0, "step_s"}, "must be > 0");
-  const std::size_t n = state.y.size();
+  const auto n = static_cast<std::size_t>(system.size());
   SymmetricMatrix K = system.sparsity(), M = K, D = K;
   for (SymmetricMatrix* m : {&K, &M, &D}) m->values.assign(m->rows.size(), 0.0);
   system.mass(o.lumped_mass, M);
   system.damping(state.y, state.time_s, o.lumped_mass, true, D);
-  std::vector<double> g(n), f(n), trial;
+  std::vector<double> g(n), f(n), ahead(n), trial;
   double largest = 0;
   ImplicitReport report;
   SymmetricFactor factor(K);
@@ -141,8 +145,10 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
     NewtonReport result;
     for (const bool careful : {false, true}) {
       trial = state.y;
-      if (!careful)
-        for (std::size_t i = 0; i < n; ++i) trial[i] += h * state.v[i] + 0.5 * h * h * state.a[i];
+      if (!careful) {
+        for (std::size_t i = 0; i < n; ++i) ahead[i] = h * state.v[i] + 0.5 * h * h * state.a[i];
+        system.retract(trial, ahead, 1, state.time_s + h, trial);
+      }
       newton.line_search = careful;
       result = solveNewton(equations, newton, trial, K, factor);
       report.factorisations += result.factorisations;
@@ -170,6 +176,8 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
     state.a.swap(a);
     position += step;
     state.time_s = timeAt(position);
+    system.dropIdle(state.y, state.time_s, state.v);
+    system.dropIdle(state.y, state.time_s, state.a);
     commitStep(system, state);
     largest = std::max(largest, system.residual(state.y, state.time_s, g));
     ++report.steps;
@@ -184,11 +192,15 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
 
 ImplicitReport integrate(System& system, const ImplicitOptions& o, double end_s, SystemState& state,
                          const SystemObserver& observe) {
-  const std::size_t n = static_cast<std::size_t>(system.size());
-  for (std::vector<double>* part : {&state.y, &state.v, &state.a}) {
-    if (part->empty()) part->assign(n, 0.0);
-    if (part->size() != n) throw InputError({"", 0, "state"}, fmt::format("{} unknowns, expected {}", part->size(), n));
-  }
+  if (state.y.empty()) state.y = system.start();
+  for (std::vector<double>* part : {&state.v, &state.a})
+    if (part->empty()) part->assign(static_cast<std::size_t>(system.size()), 0.0);
+  const auto check = [](std::size_t size, std::size_t expected) {
+    if (size != expected) throw InputError({"", 0, "state"}, fmt::format("{} unknowns, expected {}", size, expected));
+  };
+  check(state.y.size(), system.start().size());
+  check(state.v.size(), static_cast<std::size_t>(system.size()));
+  check(state.a.size(), static_cast<std::size_t>(system.size()));
   if (!state.history.empty()) {
     if (state.history.size() != system.history().size())
       throw InputError({"", 0, "state"},
@@ -220,12 +232,16 @@ void ImplicitSteps::advance(double until, State& state, const StepObserver& obse
   if (now.y.empty()) {
     std::vector<Vec3> u = state.p;
     for (std::size_t i = 0; i < u.size(); ++i) u[i] -= structure_.cloth->rest()[structure_.cloth->map().home[i]];
-    if (structure_.cloth->innerValues() != structure_.cloth->innerRates())
-      throw RunError("implicit steps start from unknowns where inner values have fewer rates");
     std::vector<double> start(structure_.cloth->innerValues()), changed = state.inner;
     structure_.cloth->startInner(start);
     for (std::size_t k = 0; k < changed.size(); ++k) changed[k] -= start[k];
+    if (structure_.cloth->turnsInner()) changed.assign(structure_.cloth->innerRates(), 0.0);
     unknowns(u, changed, now.y);
+  }
+  if (now.y.size() == static_cast<std::size_t>(dofs.unknowns())) {
+    const std::vector<double> turned =
+        turnedValues(structure_, state.inner, programValues(structure_, state.time_s, ProgramEnds::constant));
+    now.y.insert(now.y.end(), turned.begin(), turned.end());
   }
   unknowns(state.v, state.inner_rate, now.v);
   const StepResult nothing;

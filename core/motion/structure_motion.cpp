@@ -36,7 +36,9 @@ State structureState(const Structure& s, double t, std::span<const double> y, st
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += s.cloth->rest()[s.cloth->map().home[i]];
   state.v = pointsOf(s, du);
   state.a = pointsOf(s, ddu);
-  state.inner = innerValues(s, u);
+  const std::vector<double> none(y.empty() ? static_cast<std::size_t>(s.dofs.unknowns()) : 0, 0.0);
+  state.inner =
+      innerValues(s, y.empty() ? std::span<const double>(none) : y, programValues(s, t, ProgramEnds::constant));
   const auto innerOf = [&](const std::vector<double>& all) {
     const auto first = all.begin() + static_cast<long>(3 * state.p.size());
     return std::vector<double>(first, first + static_cast<long>(s.cloth->innerRates()));

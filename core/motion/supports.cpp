@@ -90,6 +90,10 @@ Supports::Supports(const Structure& structure, std::span<const double> mass_kg,
 }
 
 void Supports::findTurned() {
+  if (s_.cloth->turnsInner()) {
+    directors_ = HeldDirectors(s_);
+    return;
+  }
   const DofMap& all = s_.dofs;
   std::vector<char> own(static_cast<std::size_t>(all.C.rows()), 0);
   for (const int component : all.component) own[static_cast<std::size_t>(component)] = 1;
@@ -108,6 +112,7 @@ void Supports::findTurned() {
 }
 
 void Supports::placeInner(double t, std::span<const Vec3> p, std::span<double> inner) const {
+  directors_.place(s_, t, inner);
   if (turned_.empty()) return;
   const std::vector<int>& home = s_.cloth->map().home;
   const std::vector<double> value = valuesAt(s_, t);
@@ -121,6 +126,7 @@ void Supports::placeInner(double t, std::span<const Vec3> p, std::span<double> i
 }
 
 void Supports::handInner(std::span<double> inner_force, std::span<Vec3> f) const {
+  directors_.hold(inner_force);
   for (const Turned& turned : turned_) {
     double& force = inner_force[static_cast<std::size_t>(turned.inner)];
     for (const auto& [component, coefficient] : turned.terms) f[component / 3][component % 3] += coefficient * force;

@@ -9,6 +9,7 @@
 #include "core/cloth/strain_rows.hpp"
 #include "core/contact/response.hpp"
 #include "core/math/cholesky.hpp"
+#include "core/motion/held_directors.hpp"
 #include "core/statics/structure.hpp"
 
 namespace gambeson {
@@ -80,6 +81,7 @@ class Supports {
   const Structure& s_;
   DofMap dofs_;  ///< of the points
   std::vector<Turned> turned_;
+  HeldDirectors directors_;
   std::vector<double> mass_kg_, damping_kg_per_s_;
   std::vector<char> held_, binds_;
   std::vector<int> bound_;

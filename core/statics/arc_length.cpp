@@ -54,12 +54,12 @@ std::optional<double> onCylinder(std::span<const double> dy, std::span<const dou
 /// motion per factor at the last iterate but one.
 NewtonReport correct(System& system, const NewtonOptions& options, double length, PathState& state, Increment& inc,
                      std::vector<double>& by_load) {
-  const std::size_t n = state.y.size();
+  const auto n = static_cast<std::size_t>(system.size());
   NewtonReport report;
-  std::vector<double> y(n), r(n), p(n), by_residual(n), a(n);
+  std::vector<double> y(state.y.size()), r(n), p(n), by_residual(n), a(n);
   for (;; ++report.iterations) {
-    for (std::size_t i = 0; i < n; ++i) y[i] = state.y[i] + inc.dy[i];
     const double factor = state.factor + inc.dfactor;
+    system.retract(state.y, inc.dy, 1, factor, y);
     report.force = std::max(system.residual(y, factor, r), options.least_force);
     const double size = norm(r);
     report.residual = size == 0 ? 0 : size / report.force;
@@ -143,12 +143,12 @@ bool landOn(System& system, const StaticOptions& options, double factor, PathSta
             NewtonReport& newton, StaticReport& report) {
   std::vector<double> y = state.y;
   const double part = (factor - state.factor) / inc.dfactor;
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += part * inc.dy[i];
+  system.retract(y, inc.dy, part, factor, y);
   EquilibriumAt equilibrium(system, factor);
   newton = solveNewton(equilibrium, newtonOptions(system, options, state), y, state.K, state.solver);
   report.factorisations += newton.factorisations;
   double moved = 0;
-  for (std::size_t i = 0; i < y.size(); ++i) moved += (y[i] - state.y[i]) * (y[i] - state.y[i]);
+  for (std::size_t i = 0; i < inc.dy.size(); ++i) moved += (y[i] - state.y[i]) * (y[i] - state.y[i]);
   if (!newton.converged || std::sqrt(moved) > 1.5 * norm(inc.dy)) return false;
   state.y = y;
   state.factor = factor;
@@ -159,7 +159,7 @@ bool landOn(System& system, const StaticOptions& options, double factor, PathSta
 
 void followArc(System& system, const StaticOptions& options, const StaticObserver& observe, PathState& state,
                StaticReport& report) {
-  const std::size_t n = state.y.size();
+  const auto n = static_cast<std::size_t>(system.size());
   std::vector<double> p(n), tangent(n), last(n, 0.0), by_load(n);
   double length = 0, first_length = 0, forward = 1;
   const double way = options.stop_factor >= state.factor ? 1 : -1;
@@ -236,8 +236,8 @@ void followArc(System& system, const StaticOptions& options, const StaticObserve
         return;
       }
     }
-    for (std::size_t i = 0; i < n; ++i) state.y[i] += inc.dy[i];
     state.factor += inc.dfactor;
+    system.retract(state.y, inc.dy, 1, state.factor, state.y);
     last = inc.dy;
     const bool more = accept(newton);
     report.reached = passed;

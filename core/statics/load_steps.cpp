@@ -31,7 +31,7 @@ void followLoadSteps(System& system, const StaticOptions& options, const StaticO
                      StaticReport& report) {
   const long units = 1L << options.halvings, total = options.steps * units;
   const auto factorAt = [&](long position) { return static_cast<double>(position) / static_cast<double>(total); };
-  std::vector<double> dg(state.y.size()), dy(state.y.size()), trial;
+  std::vector<double> dg(static_cast<std::size_t>(system.size())), dy(dg.size()), trial;
   double first_stiffness = 0, softening = 1;  // work of the load on the tangent's motion, now against at first
   long position = 0, step = units;
   int unstable_failures = 0;  ///< of this whole step: Newton failed where the tangent has negative pivots
@@ -62,7 +62,7 @@ void followLoadSteps(System& system, const StaticOptions& options, const StaticO
     bool singular = false;
     for (const bool line_search : {false, true}) {
       trial = state.y;
-      for (std::size_t i = 0; i < trial.size(); ++i) trial[i] -= dy[i];
+      system.retract(trial, dy, -1, next, trial);
       EquilibriumAt equilibrium(system, next);
       NewtonOptions n = newtonOptions(system, options, state);
       n.line_search = line_search;

@@ -28,7 +28,7 @@ std::string axisText(const Vec3& v) {
 /// Rigid motions that satisfy the supports, in row echelon form, rotations first.
 std::vector<Rigid> freeRigidMotions(const Structure& s, const Vec3& center, double length) {
   const SparseRows& C = s.dofs.C;
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(C.rows(), 6);  // inner unknowns stay
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(C.rows(), 6);  // inner unknowns stay, but that directors turn
   for (std::size_t p = 0; p < s.cloth->map().home.size(); ++p) {
     const Vec3 x = (s.cloth->rest()[s.cloth->map().home[p]] - center) / length;
     for (int d = 0; d < 3; ++d) {
@@ -41,14 +41,12 @@ std::vector<Rigid> freeRigidMotions(const Structure& s, const Vec3& center, doub
       }
     }
   }
+  for (std::size_t k = 0; s.cloth->turnsInner() && k < s.cloth->innerRates(); ++k)
+    R(static_cast<long>(3 * s.cloth->map().home.size() + k), static_cast<long>(k % 3)) = 1 / length;
   // Each unknown is one of the components; what C makes of those must be the motion.
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(C.column_count, 6);
-  std::vector<char> seen(C.column_count, 0);
-  for (int r = 0; r < C.rows(); ++r)
-    if (C.offsets[r + 1] == C.offsets[r] + 1 && C.values[C.offsets[r]] == 1 && !seen[C.columns[C.offsets[r]]]) {
-      seen[C.columns[C.offsets[r]]] = 1;
-      Y.row(C.columns[C.offsets[r]]) = R.row(r);
-    }
+  for (int j = 0; j < C.column_count; ++j)
+    for (int d = 0; d < 6; ++d) Y(j, d) = s.dofs.unknownOf(j, R(s.dofs.component[static_cast<std::size_t>(j)], d));
   Eigen::MatrixXd misfit = R;
   for (int r = 0; r < C.rows(); ++r)
     for (int k = C.offsets[r]; k < C.offsets[r + 1]; ++k) misfit.row(r) -= C.values[k] * Y.row(C.columns[k]);

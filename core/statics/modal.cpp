@@ -46,7 +46,7 @@ std::vector<Mode> lowestModes(System& system, std::span<const double> y, double 
   if (count < 1) throw InputError({"", 0, "modes"}, "must be >= 1");
   count = std::min(count, n);
   std::vector<double> rest;
-  if (y.empty()) rest.assign(n, 0.0), y = rest;
+  if (y.empty()) rest = system.start(), y = rest;
   SymmetricMatrix K = system.sparsity(), M = K;
   system.stiffness(y, t, K);
   system.mass(lumped_mass, M);

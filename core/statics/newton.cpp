@@ -34,10 +34,10 @@ namespace {
 class Line {
  public:
   Line(Equations& equations, const std::vector<double>& y, const std::vector<double>& dy)
-      : equations_(equations), y_(y), dy_(dy), point(y.size()), r(y.size()) {}
+      : equations_(equations), y_(y), dy_(dy), point(y.size()), r(dy.size()) {}
 
   double slope(double s) {
-    for (std::size_t i = 0; i < y_.size(); ++i) point[i] = y_[i] + s * dy_[i];
+    equations_.retract(y_, dy_, s, point);
     force = equations_.residual(point, r);
     at = s;
     return dot(dy_, r);
@@ -83,7 +83,7 @@ bool search(Line& line, double slope0, bool line_search, bool& finite) {
 NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std::vector<double>& y, SymmetricMatrix& K,
                          SymmetricFactor& factor) {
   NewtonReport report;
-  std::vector<double> r(y.size()), dy(y.size());
+  std::vector<double> r(static_cast<std::size_t>(K.size)), dy(r.size());
   double force = equations.residual(y, r);
   bool still = false;  // the last correction was rounding
   double raise = 0;    // of the diagonal, descending only

@@ -16,6 +16,10 @@ class Equations {
   /// Writes r; returns the size of the forces that balance in it.
   virtual double residual(std::span<const double> y, std::span<double> r) = 0;
   virtual void tangent(std::span<const double> y, SymmetricMatrix& K) = 0;
+  /// Writes y (+) s dy: System::retract.
+  virtual void retract(std::span<const double> y, std::span<const double> dy, double s, std::span<double> out) const {
+    for (std::size_t i = 0; i < y.size(); ++i) out[i] = y[i] + s * dy[i];
+  }
 };
 
 struct NewtonOptions {
@@ -42,7 +46,7 @@ struct NewtonReport {
   std::vector<double> residuals;  ///< relative, of each iterate
 };
 
-/// Iterates y. `K` and `factor` are scratch with the sparsity of the tangent.
+/// Iterates the state y. `K` and `factor` are scratch with the sparsity of the tangent.
 ///
 /// A thin shell's residual grows at first in a large step (transverse motion stretches the membrane to second order)
 /// and falls quadratically afterwards, so |r| need not fall. With `line_search` a step s obeys |G(s)| <= 0.8 |G(0)|,

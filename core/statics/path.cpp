@@ -35,7 +35,7 @@ std::vector<double> weakestMotion(const SymmetricMatrix& K) {
   return x;
 }
 
-PathState::PathState(System& system) : y(system.size(), 0.0), K(system.sparsity()), solver(system.sparsity()) {
+PathState::PathState(System& system) : y(system.start()), K(system.sparsity()), solver(system.sparsity()) {
   K.values.assign(K.rows.size(), 0.0);
 }
 
@@ -56,9 +56,6 @@ double largestDiagonal(const SymmetricMatrix& K) {
   return largest;
 }
 
-/// Strains at rest are rounding, and their stress is a stiffness of eps of the membrane's in every direction: what
-/// resists less than that is not held.
-constexpr double kRounding = 1e-15;
 /// Where a first try strains the sheet by 1e-8 or so, what holds is of the order 1e-8 of the membrane's stiffness over
 /// the square of the cells along it, and what does not is of the order of that strain's square, or of the rounding.
 constexpr double kTryStrain = 1e-8, kTryRounding = 1e-13;
@@ -79,14 +76,14 @@ void factoriseRaised(PathState& state) {
 
 /// K of the state, factorised; where it is singular and the loads p (of factor `next`) do not hold it: RunError.
 void requireHeld(System& system, PathState& state, std::span<const double> p, double next, StaticReport& report) {
-  const std::size_t n = state.y.size();
+  const auto n = static_cast<std::size_t>(system.size());
   const auto mechanism = [&](const char* more) {
     return RunError("the structure is a mechanism: " + system.describe(weakestMotion(state.K)) + more);
   };
   state.raised = false;
   system.stiffness(state.y, state.factor, state.K);
   ++report.factorisations;
-  if (!isLoose(state, kRounding)) return;
+  if (!isLoose(state, system.looseness())) return;
   const double size = norm(p);
   if (!(size > 0)) throw mechanism("");
   factoriseRaised(state);
@@ -104,7 +101,7 @@ void requireHeld(System& system, PathState& state, std::span<const double> p, do
   double largest = 0;
   for (double v : x) largest = std::max(largest, std::abs(v));
   std::vector<double> y = state.y;
-  for (std::size_t i = 0; i < n; ++i) y[i] -= kTryStrain * system.length() / largest * x[i];
+  system.retract(y, x, -(kTryStrain * system.length() / largest), next, y);
   const SymmetricMatrix at_start = state.K;
   system.stiffness(y, next, state.K);
   ++report.factorisations;
@@ -126,7 +123,7 @@ void restoreTangent(System& system, PathState& state, StaticReport& report) {
 }
 
 bool startPath(System& system, const StaticOptions& options, PathState& state, StaticReport& report) {
-  const std::size_t n = state.y.size();
+  const auto n = static_cast<std::size_t>(system.size());
   const double first = options.linear ? 1 : 1.0 / options.steps;
   std::vector<double> g(n), dy(n);
   const double force = system.residual(state.y, 0, g);
@@ -135,7 +132,7 @@ bool startPath(System& system, const StaticOptions& options, PathState& state, S
     requireHeld(system, state, g, 0, report);
     if (state.raised) {
       state.solver.solve(g, dy);
-      for (std::size_t i = 0; i < n; ++i) state.y[i] -= dy[i];
+      system.retract(state.y, dy, -1, 0, state.y);
     }
     EquilibriumAt at_zero(system, 0);
     NewtonOptions newton = newtonOptions(system, options, state);
@@ -179,11 +176,12 @@ namespace {
 
 void solveLinear(System& system, const StaticOptions&, const StaticObserver& observe, PathState& state,
                  StaticReport& report) {
-  std::vector<double> dg(state.y.size()), g(state.y.size());
+  std::vector<double> dg(static_cast<std::size_t>(system.size())), dy(dg.size()), g(dg.size());
   system.change(state.y, 0, 1, dg);
-  state.solver.solve(dg, state.y);
-  for (double& v : state.y) v = -v;
-  multiply(state.K, state.y, g);
+  state.solver.solve(dg, dy);
+  for (double& v : dy) v = -v;
+  multiply(state.K, dy, g);
+  system.retract(system.start(), dy, 1, 1, state.y);
   for (std::size_t i = 0; i < g.size(); ++i) g[i] += dg[i];
   const double size = norm(dg);
   report.points = 1;
@@ -205,7 +203,7 @@ StaticReport followPath(System& system, const StaticOptions& options, const Stat
       throw InputError({"", 0, "start"}, fmt::format("{} unknowns, expected {}", start.size(), state.y.size()));
     state.y = std::move(start);
   }
-  if (state.y.empty()) throw InputError({"", 0, "supports"}, "hold every control point; nothing is left to move");
+  if (system.size() == 0) throw InputError({"", 0, "supports"}, "hold every control point; nothing is left to move");
   if (!startPath(system, options, state, report)) return report;
   if (options.linear)
     solveLinear(system, options, observe, state, report);

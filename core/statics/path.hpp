@@ -13,6 +13,9 @@ class EquilibriumAt : public Equations {
   EquilibriumAt(System& system, double t) : system_(system), t_(t) {}
   double residual(std::span<const double> y, std::span<double> r) override { return system_.residual(y, t_, r); }
   void tangent(std::span<const double> y, SymmetricMatrix& K) override { system_.stiffness(y, t_, K); }
+  void retract(std::span<const double> y, std::span<const double> dy, double s, std::span<double> out) const override {
+    system_.retract(y, dy, s, t_, out);
+  }
 
  private:
   System& system_;

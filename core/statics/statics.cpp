@@ -31,7 +31,7 @@ std::vector<Vec3> reactions(const Structure& s, std::span<const double> y, doubl
 }
 
 std::vector<double> innerValues(const Structure& s, std::span<const double> y, double t, ProgramEnds ends) {
-  return innerValues(s, freeDisplacements(s, y, programValues(s, t, ends)));
+  return innerValues(s, y, programValues(s, t, ends));
 }
 
 std::vector<Vec3> reactions(const Structure& s, const ClothState& state, double t, ProgramEnds ends) {

@@ -19,6 +19,11 @@ DofMap dofsOf(const Cloth& cloth, std::span<const LinearConstraint> constraints,
   if (!length.empty())
     for (const double m : cloth.masses()) mean += m / cloth.map().T.column_count;
   for (double& l : length) l = std::sqrt(l / mean);
+  if (cloth.turnsInner()) {
+    const std::vector<double> areas = cloth.areas();
+    const double area = std::accumulate(areas.begin(), areas.end(), 0.0) / cloth.map().T.column_count;
+    length.assign(length.size(), std::sqrt(area));
+  }
   return buildDofMap(cloth.map(), constraints, programs, length);
 }
 

@@ -46,7 +46,8 @@ struct StructureOptions {
 };
 
 /// The unknowns that supports leave of a cloth. Inner unknowns are there as lengths by which they have the mass of a
-/// mean free point: all are of one size. Throws InputError.
+/// mean free point: all are of one size. Directors are lengths by the side of a mean cell, so that a turn is as stiff
+/// as a stretch, however thin the sheet is. Throws InputError.
 DofMap dofsOf(const Cloth& cloth, std::span<const LinearConstraint> constraints, int programs);
 
 /// Throws InputError.

@@ -15,8 +15,13 @@ class StructureSystem : public System {
 
   int size() const override { return structure_.dofs.unknowns(); }
   const SymmetricMatrix& sparsity() const override { return structure_.reduction.sparsity(); }
+  std::vector<double> start() const override;
+  void retract(std::span<const double> y, std::span<const double> dy, double s, double t,
+               std::span<double> out) const override;
   double residual(std::span<const double> y, double t, std::span<double> g) override;
   void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) override;
+  void stiffnessInMotion(std::span<const double> y, double t, SymmetricMatrix& K) override;
+  double looseness() const override;
   void change(std::span<const double> y, double t0, double t1, std::span<double> dg) override;
   double length() const override { return length_; }
   double reach() const override { return reach_; }
@@ -26,21 +31,24 @@ class StructureSystem : public System {
   std::string describe(std::span<const double> motion) const override;
   void mass(bool lumped, SymmetricMatrix& M) override;
   void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
-  bool hasStiffnessDamping() const override {
-    return structure_.rayleigh_stiffness_s > 0 || structure_.cloth->damps();
-  }
+  void dropIdle(std::span<const double> y, double t, std::span<double> rate) const override;
+  bool hasStiffnessDamping() const override { return structure_.rayleigh_stiffness_s > 0 || structure_.cloth->damps(); }
   void supportForce(double t, double dt, bool lumped, std::span<double> f) override;
 
  private:
   void place(std::span<const double> y, double t);  ///< sets value_ and q_
   /// At t: a load step takes no time that laws could count.
   ClothState stateAt(double t) const {
-    return {q_, inner_, history_, {},
+    return {q_,
+            inner_,
+            history_,
+            {},
             ends_ == ProgramEnds::constant ? t - committed_t_ : std::numeric_limits<double>::infinity()};
   }
   /// Writes the forces on the blocks of all free points and inner unknowns.
   void pullBack(const std::vector<Vec3>& f, std::span<const double> inner, std::vector<double>& out) const;
   void assemble(std::span<const double> y, double t);
+  void assemble(std::span<const double> y, double t, const ForceTerms& terms);
   BlockMatrix massBlocks(bool lumped) const;
 
   const Structure& structure_;
@@ -63,12 +71,18 @@ class StructureSystem : public System {
 };
 
 std::vector<double> programValues(const Structure& structure, double t, ProgramEnds ends);
-/// Displacements of the free points and changes of the inner unknowns, u = C y + shifts.
+/// Displacements of the free points and changes of the inner unknowns, u = C y + shifts. Of inner values that turn they
+/// are the sum of the changes that led there, which says nothing of where they are.
 std::vector<double> freeDisplacements(const Structure& structure, std::span<const double> y,
                                       std::span<const double> value);
 
-/// The values of the inner unknowns, of such u.
-std::vector<double> innerValues(const Structure& structure, std::span<const double> u);
+/// The values of the inner unknowns in a state y. Those that turn (Cloth::turnsInner) stand behind the unknowns as they
+/// would be without what supports turn, which is done to them last; a state without them has turned from the start at
+/// once.
+std::vector<double> innerValues(const Structure& structure, std::span<const double> y, std::span<const double> value);
+/// The values behind the unknowns that make these inner values; none where they do not turn.
+std::vector<double> turnedValues(const Structure& structure, std::span<const double> inner,
+                                 std::span<const double> value);
 
 /// In words, what a motion moves that meets no stiffness: rigid motions that the supports allow, else the place where
 /// it is largest.

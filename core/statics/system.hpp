@@ -4,22 +4,39 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/math/cholesky.hpp"
 
 namespace gambeson {
 
 /// Equilibrium is g(y, t) = 0 with g = f_int - f_ext; t is the time, or the load factor in statics.
+///
+/// A state y has a number for each unknown, and behind these what turns (directors), which no sum of changes tells: a
+/// change dy, an unknown each, takes y to another state by `retract`. Systems without such things add.
 class System {
  public:
   virtual ~System() = default;
-  virtual int size() const = 0;
+  virtual int size() const = 0;  ///< of unknowns: of g, and of a change dy
+  /// The state at rest.
+  virtual std::vector<double> start() const { return std::vector<double>(static_cast<std::size_t>(size()), 0.0); }
+  /// Writes the state y (+) s dy, at t. K is the slope of g along it where dy is 0. `out` may be y.
+  virtual void retract(std::span<const double> y, std::span<const double> dy, double s, double t,
+                       std::span<double> out) const {
+    static_cast<void>(t);
+    for (std::size_t i = 0; i < y.size(); ++i) out[i] = y[i] + s * dy[i];
+  }
   /// The sparsity that all matrices of the system share.
   virtual const SymmetricMatrix& sparsity() const = 0;
   /// Writes g; returns the size of the forces that balance in it (loads, reactions), what a residual is small against.
   virtual double residual(std::span<const double> y, double t, std::span<double> g) = 0;
   /// K = dg/dy. `steepest`: every law at its steepest slope, what an explicit step must allow for.
   virtual void stiffness(std::span<const double> y, double t, SymmetricMatrix& K, bool steepest = false) = 0;
+  /// K for a matrix to which mass is added: what has neither force nor stiffness has none in it.
+  virtual void stiffnessInMotion(std::span<const double> y, double t, SymmetricMatrix& K) { stiffness(y, t, K); }
+  /// What of the largest stiffness may be rounding where a motion meets none: what resists less is not held. Strains at
+  /// rest are rounding, and their stress is a stiffness of eps of the membrane's in every direction.
+  virtual double looseness() const { return 1e-15; }
   /// How g changes from t0 to t1 with y held: loads exactly, moving supports to first order (through the stiffness).
   virtual void change(std::span<const double> y, double t0, double t1, std::span<double> dg) = 0;
   /// A length of the structure [m].
@@ -44,6 +61,10 @@ class System {
   virtual void mass(bool lumped, SymmetricMatrix& M) = 0;
   /// D = a M + b K(y, t) + drag; without its stiffness part where `stiffness_part` is false.
   virtual void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) = 0;
+  /// Takes from rates of the unknowns at y what has neither force nor stiffness, which steps might let grow.
+  virtual void dropIdle(std::span<const double> y, double t, std::span<double> rate) const {
+    static_cast<void>(y), static_cast<void>(t), static_cast<void>(rate);
+  }
   virtual bool hasStiffnessDamping() const { return false; }
   /// Forces of the inertia and damping of what supports move, from central differences of their programs over dt; the
   /// damping is that of the last call of `damping`.

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "core/cloth/free_blocks.hpp"
-#include "core/cloth/plane_stress.hpp"
+#include "core/cloth/patches/bilinear.hpp"
+#include "core/cloth/patches/cell_stress.hpp"
 #include "core/cloth/spring_stiffness.hpp"
 #include "core/math/parallel.hpp"
 
@@ -34,63 +35,6 @@ class SpringTangent : public ClothTangent {
   const SpringCloth& cloth_;
   BlockMatrix sparsity_;
 };
-
-/// Those of the cells; at a point the mean over the cells around it, by area.
-class SpringStress : public StressView {
- public:
-  explicit SpringStress(const SpringCloth& cloth) : cloth_(cloth) {}
-  std::size_t cells() const override { return cloth_.springs().cells.size(); }
-  std::vector<Sample> means(const ClothState& state, const More& more) const override {
-    std::vector<Sample> all(cells());
-    for (int p = 0; p < static_cast<int>(cloth_.patches().size()); ++p)
-      for (int c = cloth_.springs().first_cell[static_cast<std::size_t>(p)];
-           c < cloth_.springs().first_cell[static_cast<std::size_t>(p) + 1]; ++c)
-        all[static_cast<std::size_t>(c)] = ofCell(state, p, c, more);
-    return all;
-  }
-  PrincipalStress at(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means,
-                     const More& more) const override {
-    const Sample s = shownAt(state, patch, uv, means, more);
-    const auto stress = principalValues(s.stress), strain = principalValues(s.strain);
-    return {stress[0], stress[1], strain[0], strain[1]};
-  }
-  PlaneTensor strainAt(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means) const override {
-    return shownAt(state, patch, uv, means, {}).strain;
-  }
-
- private:
-  Sample ofCell(const ClothState& state, int patch, int cell, const More& more) const {
-    const PointState s = cloth_.stateOf(patch, cell, state.q);
-    Vec2 extra{};
-    if (more) extra = more(patch, cloth_.lawPlaces()[static_cast<std::size_t>(cell)].second);
-    return {cauchyStress(s.strain, s.n + Vec3{extra.x, extra.y, 0}), {s.strain.x, s.strain.y, 0.5 * s.strain.z}};
-  }
-  Sample shownAt(const ClothState& state, int patch, Vec2 uv, std::span<const Sample> means, const More& more) const {
-    Sample sum;
-    double area = 0;
-    const std::vector<int> around = cloth_.cellsAt(patch, uv);
-    for (int c : around) area += cloth_.springs().cells[static_cast<std::size_t>(c)].area_m2;
-    for (int c : around) {
-      const double part = cloth_.springs().cells[static_cast<std::size_t>(c)].area_m2 / area;
-      const Sample s = means.empty() ? ofCell(state, patch, c, more) : means[static_cast<std::size_t>(c)];
-      addScaled(sum.stress, part, s.stress);
-      addScaled(sum.strain, part, s.strain);
-    }
-    return sum;
-  }
-
-  const SpringCloth& cloth_;
-};
-
-/// Of one knot vector of degree 1: the cells at a parameter, two at a knot inside.
-std::vector<int> cellsOf(const KnotVector& k, double at) {
-  const double near = 1e-9 * (k.back() - k.front());
-  std::vector<int> cells;
-  for (int c = 0; c + 1 < k.count(); ++c)
-    if (at >= k.knots[static_cast<std::size_t>(c) + 1] - near && at <= k.knots[static_cast<std::size_t>(c) + 2] + near)
-      cells.push_back(c);
-  return cells;
-}
 
 }  // namespace
 
@@ -131,14 +75,15 @@ void SpringCloth::force(const ClothState& state, const ClothForce& out, ClothWor
 
 std::unique_ptr<ClothTangent> SpringCloth::tangent() const { return std::make_unique<SpringTangent>(*this); }
 
-std::unique_ptr<StressView> SpringCloth::stress() const { return std::make_unique<SpringStress>(*this); }
+std::unique_ptr<StressView> SpringCloth::stress() const {
+  return std::make_unique<CellStress>(*this, springs_.first_cell, [this](const ClothState& state, int patch, int cell) {
+    return stateOf(patch, cell, state.q);
+  });
+}
 
 std::vector<int> SpringCloth::cellsAt(int patch, Vec2 uv) const {
-  const NurbsPatch& p = garment().patches[static_cast<std::size_t>(patch)];
-  std::vector<int> cells;
-  for (const int j : cellsOf(p.v, uv.y))
-    for (const int i : cellsOf(p.u, uv.x))
-      cells.push_back(springs_.first_cell[static_cast<std::size_t>(patch)] + i + (p.u.count() - 1) * j);
+  std::vector<int> cells = gambeson::cellsAt(garment().patches[static_cast<std::size_t>(patch)], uv);
+  for (int& c : cells) c += springs_.first_cell[static_cast<std::size_t>(patch)];
   return cells;
 }
 
@@ -225,15 +170,6 @@ double SpringCloth::bendAt(const ClothState& state, int patch, Vec2 uv) const {
   return std::sqrt(k.x * k.x + k.y * k.y + 0.5 * k.z * k.z);
 }
 
-std::vector<std::pair<int, Vec2>> SpringCloth::lawPlaces() const {
-  std::vector<std::pair<int, Vec2>> places;
-  for (std::size_t p = 0; p < garment().patches.size(); ++p) {
-    const std::vector<double> us = breakpoints(garment().patches[p].u), vs = breakpoints(garment().patches[p].v);
-    for (std::size_t j = 0; j + 1 < vs.size(); ++j)
-      for (std::size_t i = 0; i + 1 < us.size(); ++i)
-        places.emplace_back(static_cast<int>(p), Vec2{0.5 * (us[i] + us[i + 1]), 0.5 * (vs[j] + vs[j + 1])});
-  }
-  return places;
-}
+std::vector<std::pair<int, Vec2>> SpringCloth::lawPlaces() const { return cellMiddles(garment()); }
 
 }  // namespace gambeson

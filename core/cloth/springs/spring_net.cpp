@@ -5,9 +5,9 @@
 #include <numbers>
 #include <string>
 
-#include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/fields.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/patches/bilinear.hpp"
 #include "core/error.hpp"
 #include "core/material/fabric_law.hpp"
 
@@ -22,11 +22,7 @@ constexpr double kStripShare = 2.0 / 3, kFlatter = 0.75;
 [[noreturn]] void refuse(const std::string& key, const std::string& why) { throw InputError({"", 0, key}, why); }
 
 void checkForSprings(const Garment& g) {
-  checkGarment(g);
-  for (const NurbsPatch& patch : g.patches)
-    for (const KnotVector* k : {&patch.u, &patch.v})
-      if (k->degree != 1 || static_cast<int>(breakpoints(*k).size()) != k->count())
-        refuse("degree", "patches of springs are of degree 1, with each inner knot once");
+  checkBilinear(g, "springs");
   const auto checkLaw = [](const Fabric& f) {
     if (const std::string why = whatSpringsLack(f); !why.empty()) refuse("model", why);
   };
