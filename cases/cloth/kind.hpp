@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/cloth/degenerated/degenerated_options.hpp"
 #include "core/cloth/draft/bending_elements.hpp"
 #include "core/cloth/draft/membrane_elements.hpp"
 #include "core/cloth/shell/cell_rule.hpp"
@@ -11,7 +12,7 @@
 
 namespace gambeson {
 
-enum class ClothKind { nurbs, triangles, springs };
+enum class ClothKind { nurbs, triangles, springs, shell };
 
 /// `model` of a garment or a sheet, with the keys that go with it.
 struct ClothModel {
@@ -23,6 +24,8 @@ struct ClothModel {
   MembraneModel membrane;
   // Of springs; none: from the fabric.
   std::optional<SpringNumbers> springs;
+  // Of the degenerated shell; none: the default.
+  std::optional<DegeneratedOptions> shell;
   // Of NURBS; keys of sheets alone.
   CellRule rule = CellRule::automatic;
   int gauss_extra = 0;  ///< points more than degree + 1 in each direction

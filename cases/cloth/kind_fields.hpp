@@ -10,14 +10,17 @@
 namespace gambeson::schema {
 
 inline std::vector<std::pair<std::string, ClothKind>> clothKinds() {
-  return {{"nurbs", ClothKind::nurbs}, {"triangles", ClothKind::triangles}, {"springs", ClothKind::springs}};
+  return {{"nurbs", ClothKind::nurbs},
+          {"triangles", ClothKind::triangles},
+          {"springs", ClothKind::springs},
+          {"shell", ClothKind::shell}};
 }
 inline const char* clothKindDoc() {
   return "what the cloth is made of: nurbs, smooth patches (Kirchhoff-Love); triangles of constant strain "
          "that bend as bending_elements says; springs between points at the corners of the cells (Provot; Man 2006, "
-         "2.2)";
+         "2.2); shell, bilinear cells whose directors turn, sheared through the thickness (Man 2006, 2.3)";
 }
-/// Those that a laboratory bends and shears: springs have no rigidity of their own, and remember nothing.
+/// Those that a laboratory bends and shears: springs have no rigidity of their own, and the shell remembers nothing.
 inline std::vector<std::pair<std::string, ClothKind>> specimenKinds() {
   return {{"nurbs", ClothKind::nurbs}, {"triangles", ClothKind::triangles}};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cases/input/wrong_entry.hpp"
+#include "core/cloth/degenerated/degenerated_shell.hpp"
 #include "core/cloth/draft/join_garments.hpp"
 #include "core/cloth/joined_cloth.hpp"
 #include "core/cloth/shell/nurbs_shell.hpp"
@@ -64,7 +65,15 @@ std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {
   return std::make_unique<TriangleCloth>(std::move(garments));
 }
 
-/// Of one garment: its springs have numbers of their own.
+/// Whether neighbouring garments of a kind are made into one cloth: those of nodes have numbers of their own.
+bool joins(ClothKind kind) { return kind == ClothKind::nurbs || kind == ClothKind::triangles; }
+
+std::unique_ptr<const Cloth> degeneratedOf(const ClothSource& source) {
+  return underKey(source.key, [&] {
+    return std::make_unique<DegeneratedShell>(source.draft, source.model.shell.value_or(DegeneratedOptions{}));
+  });
+}
+
 std::unique_ptr<const Cloth> springsOf(const ClothSource& source) {
   return underKey(source.key, [&] {
     return std::make_unique<SpringCloth>(source.draft, source.model.springs.value_or(SpringNumbers{}));
@@ -79,6 +88,8 @@ std::unique_ptr<const Cloth> clothOfOneKind(std::span<const ClothSource> sources
       return trianglesOf(sources);
     case ClothKind::springs:
       return springsOf(sources[0]);
+    case ClothKind::shell:
+      return degeneratedOf(sources[0]);
   }
   return nullptr;
 }
@@ -90,7 +101,7 @@ std::unique_ptr<const Cloth> makeCloth(std::span<const ClothSource> sources) {
   for (std::size_t from = 0; from < sources.size();) {
     std::size_t end = from + 1;
     const ClothKind kind = sources[from].model.kind;
-    while (kind != ClothKind::springs && end < sources.size() && sources[end].model.kind == kind) ++end;
+    while (joins(kind) && end < sources.size() && sources[end].model.kind == kind) ++end;
     kinds.push_back(clothOfOneKind(sources.subspan(from, end - from)));
     from = end;
   }
@@ -106,6 +117,7 @@ int samplesPerCell(const ClothModel& model, int asked) {
     case ClothKind::triangles:
       return 1;
     case ClothKind::springs:
+    case ClothKind::shell:
       return std::max(1, asked);
   }
   return asked;
@@ -119,6 +131,10 @@ std::string inWords(const ClothModel& model) {
       return membraneInWords(model.membrane.elements) + bendingInWords(model.bending);
     case ClothKind::springs:
       return "Points at the corners of the cells, joined by springs.";
+    case ClothKind::shell:
+      return "Bilinear degenerated shell (Man 2006, 2.3): directors through the thickness turn by themselves and "
+             "shear; "
+             "strains are Green-Lagrange's, the shape at rest is free of stress; it does not jam.";
   }
   return {};
 }

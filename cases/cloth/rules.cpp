@@ -1,5 +1,6 @@
 #include "cases/cloth/rules.hpp"
 
+#include "core/cloth/degenerated/degenerated_shell.hpp"
 #include "core/cloth/springs/spring_net.hpp"
 
 namespace gambeson::schema {
@@ -13,13 +14,14 @@ void checkBending(const Entry& entry, const ClothModel& model) {
     refuse("bending_spring", "is for triangles with \"bending_elements\": \"springs\"");
 }
 
-void checkSprings(const Entry& entry, const ClothModel& model, const Fabric& fabric) {
-  if (model.kind != ClothKind::springs) {
-    if (entry.node.find("springs")) entry.failAt("springs", "is for \"model\": \"springs\"");
-    return;
-  }
-  if (const std::string why = whatSpringsLack(fabric); !why.empty())
-    entry.failAt("model", why + R"(; allowed with it: "nurbs", "triangles")");
+void checkNodes(const Entry& entry, const ClothModel& model, const Fabric& fabric) {
+  if (model.kind != ClothKind::springs && entry.node.find("springs"))
+    entry.failAt("springs", "is for \"model\": \"springs\"");
+  if (model.kind != ClothKind::shell && entry.node.find("shell")) entry.failAt("shell", "is for \"model\": \"shell\"");
+  const std::string why = model.kind == ClothKind::springs ? whatSpringsLack(fabric)
+                          : model.kind == ClothKind::shell ? whatShellLacks(fabric)
+                                                           : "";
+  if (!why.empty()) entry.failAt("model", why + R"(; allowed with it: "nurbs", "triangles")");
 }
 
 }  // namespace gambeson::schema

@@ -2,7 +2,7 @@
 #include "cases/cloth/fields.hpp"
 #include "cases/cloth/kind_fields.hpp"
 #include "cases/cloth/membrane_fields.hpp"
-#include "cases/cloth/spring_fields.hpp"
+#include "cases/cloth/node_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -93,7 +93,7 @@ Object structureSheetTable() {
           bendingSpringDoc())
       .unwritten();
   addMembraneFields(table);
-  addSpringFields(table);
+  addNodeFields(table);
   return table.build();
 }
 

@@ -209,8 +209,8 @@ void applyStructureRules(const Entry& root, StructureCase& c) {
   checkMembrane(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(c.material), c.kind == StructureKind::dynamics);
   for (const MaterialCase& m : c.other_materials)
     checkMembrane(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(m), c.kind == StructureKind::dynamics);
-  checkSprings(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(c.material));
-  for (const MaterialCase& m : c.other_materials) checkSprings(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(m));
+  checkNodes(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(c.material));
+  for (const MaterialCase& m : c.other_materials) checkNodes(memberOf(root, "sheet"), c.sheet.cloth, fabricOf(m));
   checkLoads(root, c);
   checkContact(root, c);
   if (c.kind == StructureKind::dynamics && c.dynamics.stepsPoints() && c.damping.stiffness_s > 0)

@@ -52,6 +52,8 @@ class Refusals {
   void lookAtGarment(const std::string& key, const GarmentCase& g) const {
     if (g.cloth.kind == ClothKind::triangles) refuse(key + ".model", "triangles are not carried by", "\"nurbs\"");
     if (g.cloth.kind == ClothKind::springs) refuse(key + ".model", "springs are not carried by", "\"nurbs\"");
+    if (g.cloth.kind == ClothKind::shell)
+      refuse(key + ".model", "the degenerated shell is not carried by", "\"nurbs\"");
     if (g.fabric) lookAtFabric(key + ".fabric", *g.fabric);
     for (std::size_t k = 0; k < g.other_fabrics.size(); ++k)
       lookAtFabric(fmt::format("{}.other_fabrics[{}]", key, k), g.other_fabrics[k]);

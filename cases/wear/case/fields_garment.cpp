@@ -4,7 +4,7 @@
 #include "cases/cloth/fields.hpp"
 #include "cases/cloth/kind_fields.hpp"
 #include "cases/cloth/membrane_fields.hpp"
-#include "cases/cloth/spring_fields.hpp"
+#include "cases/cloth/node_fields.hpp"
 #include "cases/contact/fields.hpp"
 #include "cases/input/table.hpp"
 #include "cases/wear/case/case.hpp"
@@ -65,7 +65,7 @@ Object garmentTable() {
           bendingSpringDoc())
       .unwritten();
   addMembraneFields(table);
-  addSpringFields(table);
+  addNodeFields(table);
   return table.vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
       .converted<FabricInput>("fabric", &G::fabric, fabricTable(), resolveFabric, restoreFabric,
                               "what this garment is made of")

@@ -112,8 +112,8 @@ void checkModel(const Entry& entry, const Case& c, const GarmentCase& g) {
   checkMembrane(entry, g.cloth, fabricOf(c, g), true);
   for (const Fabric& other : otherFabrics(g)) checkMembrane(entry, g.cloth, other, true);
   checkBending(entry, g.cloth);
-  checkSprings(entry, g.cloth, fabricOf(c, g));
-  for (const Fabric& other : otherFabrics(g)) checkSprings(entry, g.cloth, other);
+  checkNodes(entry, g.cloth, fabricOf(c, g));
+  for (const Fabric& other : otherFabrics(g)) checkNodes(entry, g.cloth, other);
   if (g.cloth.kind != ClothKind::triangles) return;
   refuse("samples_per_cell", "is for the other models; the samples of triangles are their vertices");
   if (c.strain_limit && wornLimit(*c.strain_limit).mode == LimitMode::equality)

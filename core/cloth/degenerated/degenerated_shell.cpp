@@ -17,11 +17,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& key, const std::string& why) { throw InputError({"", 0, key}, why); }
 
 void checkFabricOfShell(const Fabric& f) {
-  const LawUse use = lawUse(f);
-  if (use.kinds != 0) refuse("fabric.bending.law", "a degenerated shell takes linear, consistent or laminate");
-  if (use.tension) refuse("fabric.tension_field", "a degenerated shell carries compression; allowed: false");
-  if (use.jams) refuse("fabric.jam_area", "a degenerated shell does not jam; allowed: 0");
-  if (use.shears) refuse("fabric.shear_friction", "a degenerated shell has none");
+  if (const std::string why = whatShellLacks(f); !why.empty()) refuse("model", why);
 }
 
 const NodalDraft& checkedForShell(const NodalDraft& draft, const DegeneratedOptions& o) {
@@ -41,6 +37,15 @@ bool isBent(const CornerVectors& rest) {
 }
 
 }  // namespace
+
+std::string whatShellLacks(const Fabric& f) {
+  const LawUse use = lawUse(f);
+  return use.kinds != 0
+             ? "a degenerated shell bends by a linear law, consistent or a laminate, and this fabric has another"
+         : use.tension ? "a degenerated shell carries pressure, and this fabric has a tension field"
+         : use.shears  ? "a degenerated shell has no friction in shear, and this fabric has"
+                       : "";
+}
 
 DegeneratedShell::DegeneratedShell(const NodalDraft& draft, const DegeneratedOptions& options)
     : PatchCloth(checkedForShell(draft, options)),

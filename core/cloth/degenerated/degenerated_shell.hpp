@@ -18,6 +18,7 @@
 #include <memory>
 #include <string>
 
+#include "core/cloth/degenerated/degenerated_options.hpp"
 #include "core/cloth/degenerated/directors.hpp"
 #include "core/cloth/degenerated/shell_cell.hpp"
 #include "core/cloth/patches/patch_cloth.hpp"
@@ -25,18 +26,9 @@
 
 namespace gambeson {
 
-/// Rotary inertia of a director over the mass that it has a part in.
-enum class RotaryInertia {
-  exact,  ///< t²/12 (Man 2006, eq. 2.82)
-  cell    ///< the larger of t²/12 and a twelfth of the cell's area: shear through the thickness swings no faster than
-          ///< the membrane does, and explicit steps are as long as without directors. Adds inertia to turns of a cell.
-};
-
-struct DegeneratedOptions {
-  ShellRule rule = ShellRule::mitc4;
-  double shear_factor = 5.0 / 6;  ///< of transverse shear, > 0
-  RotaryInertia rotary = RotaryInertia::exact;
-};
+/// What a fabric has that such a shell has not, in words; empty where there is nothing. Jamming is left out and is no
+/// such thing.
+std::string whatShellLacks(const Fabric& fabric);
 
 class DegeneratedShell : public PatchCloth {
  public:

@@ -289,13 +289,13 @@ TEST(ContactMethod, APenaltyShortensTheStep) {
   const auto longest = [&](double eps) {
     Sheet s(2, 0.1, {0, 0, 1}, {0, 0, -kGravity}, with(ContactMethod::penalty, 0, eps), {{ground, "ground"}});
     Frequency frequency;
-    double longest = 0;
+    double most_s = 0;
     VelocityVerlet(*s.model, s.stage, {0.9, 1e-3}, frequency, s.work)
         .advance(2e-3, s.state,
                  [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
-                   longest = std::max(longest, r.step_s);
+                   most_s = std::max(most_s, r.step_s);
                  });
-    return longest;
+    return most_s;
   };
   EXPECT_LE(longest(1e10 * rho), 0.9 * 2 / 1e5);
   EXPECT_GT(longest(1e2 * rho), 2 / 1e5);

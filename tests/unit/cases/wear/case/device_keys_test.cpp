@@ -103,8 +103,9 @@ const Keys carried{
 const Keys with_refused{
     {"Garment",
      "mesh bending_elements bending_spring membrane_elements spring_stiffness weft_stiffness "
-     "warp_stiffness shear_stiffness stretch_damping shear_damping mesh_file springs"},
+     "warp_stiffness shear_stiffness stretch_damping shear_damping mesh_file springs shell"},
     {"Springs of cloth", "structural shear bending flexion rigidity"},
+    {"Degenerated shell", "rule shear_factor rotary"},
     {"Mesh file", "path rest unit uv_unit"},
     {"Feet left out", "back grow"},
     {"Friction", "stribeck_speed stribeck_power viscous_power pressure"},
@@ -217,7 +218,7 @@ TEST(DeviceKeys, TheLineOfTheFileIsNamed) {
 TEST(DeviceKeys, GarmentsAreLookedAtOneByOne) {
   const Folder folder;
   const std::string sheet = R"({"name": "NAME", "sheet": {"width": 0.4, "height": 0.4, "cells_u": 8, "cells_v": 8}})";
-  for (const std::string model : {"triangles", "springs"}) {
+  for (const std::string model : {"triangles", "springs", "shell"}) {
     const std::string both =
         replaced(plain, R"("garment": {"sheet": {"width": 0.4, "height": 0.4, "cells_u": 8, "cells_v": 8}})",
                  "\"garments\": [" + replaced(sheet, "NAME", "a") + ", " +

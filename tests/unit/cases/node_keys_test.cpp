@@ -1,4 +1,5 @@
-/// Keys of cloth of springs: what has no meaning is refused where it stands, and cases say them again.
+/// Keys of cloth of springs and of the degenerated shell: what has no meaning is refused where it stands, and cases say
+/// them again.
 
 #include "cases/cloth/make_cloth.hpp"
 #include "cases/kinds/any_case.hpp"
@@ -16,17 +17,17 @@ std::string worn(const std::string& keys) {
 }
 
 TEST(SpringKeys, WornCasesRefuseWhatHasNoMeaning) {
-  expectRefused(
-      worn(R"(, "springs": {"structural": "500 N/m", "bending": "strips", "rigidity": "1e-6 N m"})"),
-      {{"\"model\": \"springs\"", "\"model\": \"nurbs\"", 6, "garment.springs", "is for \"model\""},
-       {"\"model\": \"springs\"", "\"model\": \"triangles\"", 6, "garment.springs", "is for \"model\""},
-       {"\"model\": \"springs\"", "\"model\": \"spring\"", 6, "garment.model", "allowed: nurbs, triangles or springs"},
-       {"\"strips\"", "\"flexion\"", 6, "garment.springs.rigidity", "\"strips\""},
-       {"\"strips\"", "\"strip\"", 6, "garment.springs.bending", "allowed: flexion or strips"},
-       {"\"500 N/m\"", "0", 6, "garment.springs.structural", "> 0"},
-       {"\"500 N/m\"", "\"500 Pa\"", 6, "garment.springs.structural", ""},
-       {"\"500 N/m\"", "1e9", 6, "garment.springs.structural", "<= 10000000"},
-       {"\"1e-6 N m\"", "-1", 6, "garment.springs.rigidity", "> 0"}});
+  expectRefused(worn(R"(, "springs": {"structural": "500 N/m", "bending": "strips", "rigidity": "1e-6 N m"})"),
+                {{"\"model\": \"springs\"", "\"model\": \"nurbs\"", 6, "garment.springs", "is for \"model\""},
+                 {"\"model\": \"springs\"", "\"model\": \"triangles\"", 6, "garment.springs", "is for \"model\""},
+                 {"\"model\": \"springs\"", "\"model\": \"spring\"", 6, "garment.model",
+                  "allowed: nurbs, triangles, springs or shell"},
+                 {"\"strips\"", "\"flexion\"", 6, "garment.springs.rigidity", "\"strips\""},
+                 {"\"strips\"", "\"strip\"", 6, "garment.springs.bending", "allowed: flexion or strips"},
+                 {"\"500 N/m\"", "0", 6, "garment.springs.structural", "> 0"},
+                 {"\"500 N/m\"", "\"500 Pa\"", 6, "garment.springs.structural", ""},
+                 {"\"500 N/m\"", "1e9", 6, "garment.springs.structural", "<= 10000000"},
+                 {"\"1e-6 N m\"", "-1", 6, "garment.springs.rigidity", "> 0"}});
   for (const char* key : {"\"mesh\": \"single\"", "\"bending_elements\": \"hinge\"", "\"bending_spring\": 1",
                           "\"membrane_elements\": \"springs\"", "\"spring_stiffness\": 1"})
     expectRefused(worn(""),
@@ -52,6 +53,27 @@ TEST(SpringKeys, ACaseSaysThemAgain) {
   EXPECT_EQ(*given.garments[0].cloth.springs, expected);
   const Case again = readRecordedCase(folder.write("again.json", writeCase(given)));
   EXPECT_EQ(*again.garments[0].cloth.springs, expected);
+}
+
+TEST(ShellKeys, WornCasesRefuseWhatHasNoMeaning) {
+  const std::string linear =
+      replaced(replaced(example, "\"law\": \"zheng\", ", "\"law\": \"linear\", \"rest\": \"shape\", "),
+               ", \"kappa0\": \"30 1/m\"", "");
+  const std::string shell =
+      replaced(linear, "\"weft_angle\": \"45 deg\"",
+               "\"weft_angle\": \"45 deg\", \"model\": \"shell\", \"shell\": {\"rule\": \"one_point\", "
+               "\"shear_factor\": 1, \"rotary\": \"cell\"}");
+  expectRefused(shell,
+                {{"\"model\": \"shell\"", "\"model\": \"springs\"", 6, "garment.shell", "is for \"model\""},
+                 {"one_point", "two_points", 6, "garment.shell.rule", "allowed: mitc4, one_point"},
+                 {"\"shear_factor\": 1", "\"shear_factor\": 0", 6, "garment.shell.shear_factor", "> 0"},
+                 {"\"cell\"", "true", 6, "garment.shell.rotary", "expected one of"},
+                 {"\"law\": \"linear\"", "\"law\": \"stop\", \"yield_moment\": 1e-5", 6, "garment.model", "another"}});
+  const Folder folder;
+  const Case given = readCase(folder.write("given.json", shell));
+  const DegeneratedOptions expected{ShellRule::one_point, 1, RotaryInertia::cell};
+  EXPECT_EQ(*given.garments[0].cloth.shell, expected);
+  EXPECT_EQ(*readRecordedCase(folder.write("again.json", writeCase(given))).garments[0].cloth.shell, expected);
 }
 
 constexpr const char* sheet = R"json({

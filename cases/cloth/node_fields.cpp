@@ -1,4 +1,4 @@
-#include "cases/cloth/spring_fields.hpp"
+#include "cases/cloth/node_fields.hpp"
 
 namespace gambeson::schema {
 
@@ -28,6 +28,29 @@ Object springsTable() {
         if (p.node.find("rigidity") && s.flexion != Flexion::buckling)
           p.failAt("rigidity", "is for \"bending\": \"strips\"; flexion springs have a stiffness");
       })
+      .build();
+}
+
+Object shellTable() {
+  using S = DegeneratedOptions;
+  return Table<S>("Degenerated shell")
+      .choice(
+          "rule", &S::rule,
+          std::vector<std::pair<std::string, ShellRule>>{{"mitc4", ShellRule::mitc4},
+                                                         {"one_point", ShellRule::one_point},
+                                                         {"selective", ShellRule::selective},
+                                                         {"full", ShellRule::full}},
+          "points in the plane of a cell. mitc4: 2 x 2, transverse shear from the middles of the sides (Dvorkin and "
+          "Bathe 1984), does not lock; one_point: one for all, the thesis's, leaves hourglass motions without "
+          "stiffness; selective: 2 x 2, transverse shear in the middle alone; full: 2 x 2 for all, locks in thin "
+          "sheets")
+      .number("shear_factor", &S::shear_factor, "", aboveTo(0, 10),
+              "of the transverse shear stiffness, factor times G times thickness; 1 in the thesis")
+      .choice("rotary", &S::rotary,
+              std::vector<std::pair<std::string, RotaryInertia>>{{"exact", RotaryInertia::exact},
+                                                                 {"cell", RotaryInertia::cell}},
+              "inertia of directors over mass. exact: thickness^2/12; cell: at least a twelfth of the cell's area, so "
+              "that explicit steps are as long as those of the membrane; it adds inertia to turns of a cell")
       .build();
 }
 
