@@ -59,7 +59,7 @@ double tensionOfWave(double strain, double A, const RodSection& s) {
 
 /// Waves that bend: within 0.5 % up to A = 0.08 L on 64 pieces of a wave. Waves that shear: where the slope is small,
 /// too (along the section's normal in place of the middle the tension would be 30 % less at GA = 0.003).
-TEST(RodCell, WavesStraightenAsTheClosedFormSays) {
+TEST(CellResponse, WavesStraightenAsTheClosedFormSays) {
   for (const double GA : {1.0, 0.01, 0.003})
     for (const double A : {0.02, 0.04, 0.08}) {
       if (A > 0.02 && GA < 1) continue;
@@ -77,7 +77,7 @@ TEST(RodCell, WavesStraightenAsTheClosedFormSays) {
 
 /// At any amplitude, to first order in the load: strain/T = 1/L integral of (z²/B + sin²/GA + 1/EA cos²) ds over a half
 /// wave at rest; the error falls with the square of a piece's length.
-TEST(RodCell, SteepWavesHaveTheComplianceOfTheirShape) {
+TEST(CellResponse, SteepWavesHaveTheComplianceOfTheirShape) {
   const double A = 0.16;
   for (const double GA : {1.0, 0.01}) {
     const RodSection section{30, 1, GA, 1e-3, 1e-3, 1e-3};
@@ -110,7 +110,7 @@ const CellLoad kStrains[] = {
     {0.06, 0.06, 0, 0, 0}, {0.08, 0, 0.1, 0, 0}, {0.02, 0.05, -0.3, 0, 0}, {-0.03, -0.01, 0, 0, 0}};
 
 /// The resultants are differences of the energy, the tangent is differences of the resultants.
-TEST(RodCell, ResultantsAreTheGradientOfTheEnergy) {
+TEST(CellResponse, ResultantsAreTheGradientOfTheEnergy) {
   for (const CellLoad& load : kStrains) {
     Specimen specimen(plain(0.16, yarn(), 8));
     const CellResultants n = specimen.at(load, 1e-11);
@@ -135,7 +135,7 @@ TEST(RodCell, ResultantsAreTheGradientOfTheEnergy) {
   }
 }
 
-TEST(RodCell, MomentIsTheDerivativeInCurvature) {
+TEST(CellResponse, MomentIsTheDerivativeInCurvature) {
   Specimen specimen(plain(0.16, yarn(), 8));
   CellLoad load{0.03, 0.01, 0.05, 0.05, 0.5};
   const CellResultants here = specimen.at(load, 1e-11);
@@ -149,7 +149,7 @@ TEST(RodCell, MomentIsTheDerivativeInCurvature) {
 
 /// D = B/S along the yarns, S the length of a yarn in a spacing: without contact a moment bends yarns as if they were
 /// straight, however steep (64 pieces of a wave, and fewer).
-TEST(RodCell, ClothBendsByTheLengthOfItsYarns) {
+TEST(CellResponse, ClothBendsByTheLengthOfItsYarns) {
   for (const double direction : {0.0, kPi / 2})
     for (const double A : {0.05, 0.16})
       for (const int pieces : {8, 32}) {
@@ -164,7 +164,7 @@ TEST(RodCell, ClothBendsByTheLengthOfItsYarns) {
 }
 
 /// On the bias yarns become helices: bending k/2 each and torsion k/2, which costs GJ/B of D.
-TEST(RodCell, ClothOfSmallCrimpBendsHalfAsStiffOnTheBias) {
+TEST(CellResponse, ClothOfSmallCrimpBendsHalfAsStiffOnTheBias) {
   for (const double GJ : {1e-4, 0.4}) {
     RodCellDesign design = plain(1e-3, {1000, 10, 10, GJ, 1, 1}, 32);
     design.contact = false;
@@ -175,7 +175,7 @@ TEST(RodCell, ClothOfSmallCrimpBendsHalfAsStiffOnTheBias) {
   }
 }
 
-TEST(RodCell, YarnsTakeUpEachOthersCrimp) {
+TEST(CellResponse, YarnsTakeUpEachOthersCrimp) {
   RodCellDesign design = plain(0.16, ellipticSection(84.63, 0.244, 0.24, 0.16), 16);  // the thesis's yarn
   design.compression = {5, 3};
   Specimen biaxial(design), uniaxial(design), free(design);
@@ -204,7 +204,7 @@ TEST(RodCell, YarnsTakeUpEachOthersCrimp) {
 }
 
 /// Second order in the length of a piece, contact included.
-TEST(RodCell, BiaxialTensionConverges) {
+TEST(CellResponse, BiaxialTensionConverges) {
   double n[3];
   const int pieces[3] = {8, 16, 32};
   for (int k = 0; k < 3; ++k) n[k] = Specimen(plain(0.16, yarn(), pieces[k])).at({0.05, 0.05, 0, 0, 0}).n11;
@@ -212,7 +212,7 @@ TEST(RodCell, BiaxialTensionConverges) {
   EXPECT_NEAR(n[1], n[2], 0.01 * n[2]);
 }
 
-TEST(RodCell, ShearIsOddAndLocks) {
+TEST(CellResponse, ShearIsOddAndLocks) {
   RodCellDesign design = plain(0.16, yarn(), 8);
   Specimen left(design), right(design);
   double before = 0, slope = 0;
@@ -230,7 +230,7 @@ TEST(RodCell, ShearIsOddAndLocks) {
 }
 
 /// In a plain weave no yarn sinks, and nothing is held; in a satin floats do.
-TEST(RodCell, HeldFacesAreStiffer) {
+TEST(CellResponse, HeldFacesAreStiffer) {
   RodCellDesign design = plain(0.16, yarn(), 12), held = design;
   held.faces = FaceSupport::held;
   const CellLoad load{0.05, 0.05, 0, 0, 0};
@@ -248,7 +248,7 @@ TEST(RodCell, HeldFacesAreStiffer) {
   }
 }
 
-TEST(RodCell, OtherWeavesComeToRest) {
+TEST(CellResponse, OtherWeavesComeToRest) {
   for (const Weave& weave : {twillWeave(2, 2), twillWeave(2, 1)}) {
     RodCellDesign design = plain(0.16, yarn(), 6);
     design.yarns.weave = weave;
@@ -260,7 +260,7 @@ TEST(RodCell, OtherWeavesComeToRest) {
   }
 }
 
-TEST(RodCell, ThreadsChangeNoBit) {
+TEST(CellResponse, ThreadsChangeNoBit) {
   const int before = omp_get_max_threads();
   std::vector<Pose> first;
   for (const int threads : {1, 2, 3}) {

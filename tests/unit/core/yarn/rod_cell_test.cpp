@@ -26,7 +26,8 @@ struct Somewhere {
   CellFaces faces;
   std::vector<Pose> sections;
 };
-Somewhere somewhere(const RodCell& cell) {
+/// `slide`: of the yarns across themselves, so that they touch beyond a face of the cell.
+Somewhere somewhere(const RodCell& cell, double slide = 0) {
   Somewhere s;
   s.faces = facesOf(cell.yarns(), s.load);
   s.sections = carried(cell.rest(), {}, s.load);
@@ -38,6 +39,7 @@ Somewhere somewhere(const RodCell& cell) {
     p.origin += 0.01 * Vec3{in(random), in(random), in(random)};
     // Crossings lie nearer than at rest, wherever the yarns are on top.
     p.origin.z -= (p.origin.z > 0 ? 1 : -1) * (i < first_warp ? 0.05 : 0.03);
+    p.origin += slide * (i < first_warp ? Vec3{0, 1, 0} : Vec3{1, 0, 0});
     p.rotation = turned(p.rotation, 0.1 * Vec3{in(random), in(random), in(random)});
   }
   return s;
@@ -59,62 +61,66 @@ TEST(RodCell, ForcesAndTangentAreDerivatives) {
   RodCellDesign design = smallCell();
   design.pieces_per_spacing = 6;
   const RodCell cell(design);
-  const Somewhere here = somewhere(cell);
-  CellAnswer answer, moved;
-  cell.evaluate(here.faces, here.sections, answer);
-  ASSERT_GT(answer.touching.size(), 8u);
-  BlockMatrix K = cell.sparsity(cell.nearPairs(here.faces, here.sections, 0.05));
-  cell.evaluate(here.faces, here.sections, answer, &K);
-  double force = 0, force_error = 0, slope = 0, slope_error = 0;
-  const double h = 1e-4;
-  const auto at = [&](int b, int c, double by) {
-    Somewhere s = here;
-    move(cell, s, b, c, by);
-    cell.evaluate(s.faces, s.sections, moved);
-    return moved;
-  };
-  for (int b = 0; b < cell.blocks(); ++b)
-    for (int c = 0; c < 3; ++c) {
-      const CellAnswer m2 = at(b, c, -2 * h), m1 = at(b, c, -h), p1 = at(b, c, h), p2 = at(b, c, 2 * h);
-      const double energy = (8 * (p1.energy_J - m1.energy_J) - (p2.energy_J - m2.energy_J)) / (12 * h);
-      force = std::max(force, std::abs(answer.gradient[b][c]));
-      force_error = std::max(force_error, std::abs(energy - answer.gradient[b][c]));
-      // Places and faces: their derivatives are those of the gradient. (A turn's own axes turn with it.)
-      for (int r = 0; r < cell.blocks(); ++r) {
-        const bool places = b % 2 == 0 || b >= 2 * cell.sections();
-        if (!places) continue;
-        const long k = K.find(std::min(r, b), std::max(r, b));
-        const Vec3 d = (8 * (p1.gradient[r] - m1.gradient[r]) - (p2.gradient[r] - m2.gradient[r])) / (12 * h);
-        for (int i = 0; i < 3; ++i) {
-          const double exact = k < 0 ? 0 : K.values[9 * k + (r <= b ? 3 * i + c : 3 * c + i)];
-          slope = std::max(slope, std::abs(exact));
-          slope_error = std::max(slope_error, std::abs(d[i] - exact));
+  for (const double slide : {0.0, -0.45, 0.45}) {
+    const Somewhere here = somewhere(cell, slide);
+    CellAnswer answer, moved;
+    cell.evaluate(here.faces, here.sections, answer);
+    ASSERT_GT(answer.touching.size(), 8u);
+    BlockMatrix K = cell.sparsity(cell.nearPairs(here.faces, here.sections, 0.05));
+    cell.evaluate(here.faces, here.sections, answer, &K);
+    double force = 0, force_error = 0, slope = 0, slope_error = 0;
+    const double h = 1e-4;
+    const auto at = [&](int b, int c, double by) {
+      Somewhere s = here;
+      move(cell, s, b, c, by);
+      cell.evaluate(s.faces, s.sections, moved);
+      return moved;
+    };
+    for (int b = 0; b < cell.blocks(); ++b)
+      for (int c = 0; c < 3; ++c) {
+        const CellAnswer m2 = at(b, c, -2 * h), m1 = at(b, c, -h), p1 = at(b, c, h), p2 = at(b, c, 2 * h);
+        const double energy = (8 * (p1.energy_J - m1.energy_J) - (p2.energy_J - m2.energy_J)) / (12 * h);
+        force = std::max(force, std::abs(answer.gradient[b][c]));
+        force_error = std::max(force_error, std::abs(energy - answer.gradient[b][c]));
+        // Places and faces: their derivatives are those of the gradient. (A turn's own axes turn with it.)
+        for (int r = 0; r < cell.blocks(); ++r) {
+          const bool places = b % 2 == 0 || b >= 2 * cell.sections();
+          if (!places) continue;
+          const long k = K.find(std::min(r, b), std::max(r, b));
+          const Vec3 d = (8 * (p1.gradient[r] - m1.gradient[r]) - (p2.gradient[r] - m2.gradient[r])) / (12 * h);
+          for (int i = 0; i < 3; ++i) {
+            const double exact = k < 0 ? 0 : K.values[9 * k + (r <= b ? 3 * i + c : 3 * c + i)];
+            slope = std::max(slope, std::abs(exact));
+            slope_error = std::max(slope_error, std::abs(d[i] - exact));
+          }
         }
       }
-    }
-  EXPECT_LT(force_error, 1e-8 * force);
-  EXPECT_LT(slope_error, 1e-7 * slope);
+    EXPECT_LT(force_error, 1e-8 * force) << slide;
+    EXPECT_LT(slope_error, 1e-7 * slope) << slide;
+  }
 }
 
 TEST(RodCell, SpinsOfTheFacesDoTheirWork) {
   const RodCell cell(smallCell());
-  const Somewhere here = somewhere(cell);
-  CellAnswer answer, moved;
-  cell.evaluate(here.faces, here.sections, answer);
-  for (int g = 0; g < 2; ++g)
-    for (int c = 0; c < 3; ++c) {
-      const double h = 1e-4;
-      Vec3 axis{};
-      axis[c] = 1;
-      const auto energy = [&](double by) {
-        CellFaces faces = here.faces;
-        faces.step[g].rotation = rotationAbout(axis, by) * faces.step[g].rotation;
-        cell.evaluate(faces, here.sections, moved);
-        return moved.energy_J;
-      };
-      const double work = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
-      EXPECT_NEAR(work, answer.face_moment_Nm[g][c], 1e-8 * norm(answer.face_moment_Nm[g])) << g << c;
-    }
+  for (const double slide : {0.0, -0.45, 0.45}) {
+    const Somewhere here = somewhere(cell, slide);
+    CellAnswer answer, moved;
+    cell.evaluate(here.faces, here.sections, answer);
+    for (int g = 0; g < 2; ++g)
+      for (int c = 0; c < 3; ++c) {
+        const double h = 1e-4;
+        Vec3 axis{};
+        axis[c] = 1;
+        const auto energy = [&](double by) {
+          CellFaces faces = here.faces;
+          faces.step[g].rotation = rotationAbout(axis, by) * faces.step[g].rotation;
+          cell.evaluate(faces, here.sections, moved);
+          return moved.energy_J;
+        };
+        const double work = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
+        EXPECT_NEAR(work, answer.face_moment_Nm[g][c], 1e-8 * norm(answer.face_moment_Nm[g])) << slide << g << c;
+      }
+  }
 }
 
 TEST(RodCell, RestIsWithoutForceWhereverItStands) {
