@@ -78,7 +78,8 @@ std::unique_ptr<const BodyMethod> bodyMethod(const ContactParameters& parameters
 
 /// Solves the rows that the method takes by it, and the others by solveContacts. Where there are both they take turns,
 /// each with the impulses of the other in place, until those of the method's rows stay (within the tolerance of a
-/// solve); the method's have the last word. Arguments as of solveContacts.
+/// solve); the method's have the last word. A sample that is stopped at the surface as an impact has its friction from
+/// that alone. Arguments as of solveContacts.
 ContactSolve solveByMethod(const BodyMethod& method, const MethodStep& step, const LayeredRows& rows,
                            std::span<Vec3> velocity, std::span<Vec3> warm, std::vector<Vec3>& impulses,
                            ContactWork& work, MethodWork& scratch);

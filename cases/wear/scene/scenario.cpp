@@ -85,7 +85,7 @@ auto underGarments(const Case& c, const Only& only, F f) {
     return f();
   } catch (const InputError& e) {
     const std::string& inner = e.where().key;
-    if (!e.where().file.empty() || inner.starts_with("strain_limit")) throw;
+    if (!e.where().file.empty() || inner.starts_with("strain_limit") || inner.starts_with("contact.")) throw;
     const bool sampling = inner == "sampling" && c.garments.size() == 1;
     throw InputError({"", 0, sampling ? key + ".samples_per_cell" : keyUnder(key, inner)}, e.reason());
   }
@@ -136,22 +136,21 @@ void buildModelOf(const Case& c, const Only& only, ClothDraft&& draft, const std
   options.self_contact = c.contact.self;
   options.anchor_count = human ? static_cast<int>(human->skeleton.links.size()) : 0;
   const Surface surface = underGarments(c, only, [&] { return draft.cloth->surface(s.samples_per_cell); });
-  addSupports(c, *draft.cloth, first, draft.edges, surface, human, options, s.supports,
-              s.stage->held_drives);
+  addSupports(c, *draft.cloth, first, draft.edges, surface, human, options, s.supports, s.stage->held_drives);
   if (const auto& limit = c.strain_limit) options.strain_limit = wornLimit(*limit);
   const Environment environment{c.gravity_m_per_s2, c.air.drag_kg_per_m2s};
   ContactParameters contact =
       contactOf(c.contact, norm(c.gravity_m_per_s2), c.obstacles, obstacles.size() - c.obstacles.size());
   if (std::any_of(c.garments.begin(), c.garments.end(), [](const GarmentCase& g) { return g.friction.has_value(); }))
     for (const GarmentCase& g : c.garments) contact.of_garment.push_back(g.friction);
-  s.model = underGarments(c, only, [&] {
-    return buildModel(std::move(draft.cloth), options, environment, contact, std::move(obstacles));
-  });
+  s.model = underGarments(
+      c, only, [&] { return buildModel(std::move(draft.cloth), options, environment, contact, std::move(obstacles)); });
   const double springs = penaltyFrequency(s.model->contact, s.model->density_kg_per_m2);
   if (c.time.step_s * springs > 2)
-    throw InputError({"", 0, "time.step"},
-                     fmt::format("{:.3e} s is longer than the stable step of contact.penalty; allowed: at most {:.3e} s",
-                                 c.time.step_s, 2 / springs));
+    throw InputError(
+        {"", 0, "time.step"},
+        fmt::format("{:.3e} s is longer than the stable step of contact.penalty; allowed: at most {:.3e} s",
+                    c.time.step_s, 2 / springs));
   findHeldPoints(*s.model, s.supports);
 }
 
