@@ -223,7 +223,7 @@ TEST(StepOver, KeepsItsShapeAtAnyPace) {
   slow.stand_s = quick.stand_s = 0;
   const auto a = makeStepOver(human, slow), b = makeStepOver(human, quick);
   for (int i = 1; i < 20; ++i) {
-    const double u = 8.0 * i / 20 * 0.65;
+    const double u = 0.7 + 4.8 * i / 20;  // from the first step's end on: the pelvis turns from standing before
     const Posture p = a->at(0.4 + u * slow.stride_time_s), q = b->at(0.4 + u * quick.stride_time_s);
     for (const char* joint : {"hip_flexion_right", "knee_flexion_right", "hip_flexion_left", "knee_flexion_left"}) {
       const int j = human.skeleton.joint(joint);
