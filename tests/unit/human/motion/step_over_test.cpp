@@ -215,7 +215,8 @@ TEST(StepOver, BendsNoMoreThanItMust) {
   }
 }
 
-// Quicker or slower, it is the same motion but for the time in which knees bend from standing.
+// Quicker or slower, it is the same motion, but for the time in which knees bend from standing and for the pelvis's
+// height, which is smoothed over whole instants: half a millimetre.
 TEST(StepOver, KeepsItsShapeAtAnyPace) {
   const Human human = makeManikin("male_p5");
   StepOverOptions slow, quick;
@@ -223,13 +224,14 @@ TEST(StepOver, KeepsItsShapeAtAnyPace) {
   slow.stand_s = quick.stand_s = 0;
   const auto a = makeStepOver(human, slow), b = makeStepOver(human, quick);
   for (int i = 1; i < 20; ++i) {
-    const double u = 8.0 * i / 20 * 0.65;
+    const double u = 0.7 + 4.8 * i / 20;  // from the first step's end on: the pelvis turns from standing before
     const Posture p = a->at(0.4 + u * slow.stride_time_s), q = b->at(0.4 + u * quick.stride_time_s);
     for (const char* joint : {"hip_flexion_right", "knee_flexion_right", "hip_flexion_left", "knee_flexion_left"}) {
       const int j = human.skeleton.joint(joint);
-      EXPECT_NEAR(p.q[j], q.q[j], 0.01) << joint << " at " << u;
+      EXPECT_NEAR(p.q[j], q.q[j], 0.02) << joint << " at " << u;
     }
     EXPECT_NEAR(p.root.origin.x, q.root.origin.x, 1e-3) << u;
+    EXPECT_NEAR(p.root.origin.z, q.root.origin.z, 1.5e-3) << u;
   }
 }
 
