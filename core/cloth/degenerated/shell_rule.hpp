@@ -10,7 +10,8 @@ namespace gambeson {
 /// Rules of the bilinear degenerated shell (Man 2006, section 2.3; Hughes 1987, chapter 6).
 enum class ShellRule {
   mitc4,      ///< 2 x 2 points; transverse shear from the middles of the sides (Dvorkin and Bathe 1984): does not lock
-  one_point,  ///< 1 point for all, the thesis's: does not lock, and leaves hourglass motions without stiffness
+  one_point,  ///< 1 point for all, the thesis's: does not lock in regular meshes, and leaves hourglass motions without
+              ///< stiffness
   selective,  ///< 2 x 2 points, transverse shear at the middle alone: does not lock in regular meshes
   full        ///< 2 x 2 points for all: locks where cells are much longer than the sheet is thick
 };
