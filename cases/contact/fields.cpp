@@ -170,7 +170,7 @@ const char* contactMethodDoc() {
          "of Man 2006, section 3.3, with Coulomb's friction and a rigid layer: penalty (box 3), a spring in the layer, "
          "in which cloth sinks and bounces; forward_increment (box 4), multipliers that keep the end of the step out "
          "of "
-         "the bodies, then friction under these; projection (box 5), cloth whose samples are its points (triangles) on "
+         "the bodies, then friction under these; projection (box 5), cloth whose samples are its points (not nurbs) on "
          "ellipsoids, exact spheres and planes, each point for itself along the gradient of the body's function. They "
          "know no cloth on cloth: its contacts, and what would pass through a surface within a step, stay with "
          "together, "
