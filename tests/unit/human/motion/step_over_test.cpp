@@ -216,7 +216,7 @@ TEST(StepOver, BendsNoMoreThanItMust) {
 }
 
 // Quicker or slower, it is the same motion, but for the time in which knees bend from standing and for the pelvis's
-// height, which is smoothed over whole instants: half a millimetre.
+// height: it is smoothed over whole instants, and its limit jumps by 4 mm where a foot is lifted.
 TEST(StepOver, KeepsItsShapeAtAnyPace) {
   const Human human = makeManikin("male_p5");
   StepOverOptions slow, quick;
@@ -231,7 +231,7 @@ TEST(StepOver, KeepsItsShapeAtAnyPace) {
       EXPECT_NEAR(p.q[j], q.q[j], 0.02) << joint << " at " << u;
     }
     EXPECT_NEAR(p.root.origin.x, q.root.origin.x, 1e-3) << u;
-    EXPECT_NEAR(p.root.origin.z, q.root.origin.z, 1.5e-3) << u;
+    EXPECT_NEAR(p.root.origin.z, q.root.origin.z, 4e-3) << u;
   }
 }
 
