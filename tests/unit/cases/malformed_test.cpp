@@ -25,7 +25,7 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {", \"link\": \"pelvis\"", "", 25, "supports[1].springs.link", "is required"},
           {"\"manikin\": \"male_p50\",", "", 15, "human", "one of manikin, urdf or character is required"},
           {"{\"walk\": {\"strides\": 1}}", "{}", 17, "human.motion",
-           "one of stand, walk, stairs, aim, trajectory, file or sit is required"},
+           "one of stand, walk, stairs, aim, trajectory, file, sit, kneel or step_over is required"},
           // Fields that exclude each other.
           {"\"weft_angle\"", "\"tube\": {\"radius\": 1, \"length\": 1}, \"weft_angle\"", 6, "garment.tube",
            "excludes \"sheet\""},
