@@ -21,10 +21,11 @@ struct StrainGrid {
 /// W(E, k) = Wm(E) + k . b(E) + 1/2 k . D(E) . k per area at rest [J/m^2]; k = (k11, k22, 2 k12) [1/m].
 struct LawTableData {
   /// The cloth looks the same in a mirror that turns weft over: Wm, b1, b2, D11, D22, D33, D12 are even in shear, b3,
-  /// D13, D23 odd. Then the nodes in 2 E12 start at 0, and negative shear is the mirror's.
+  /// D13, D23 odd. Then the nodes in 2 E12 start at 0, where odd ones are 0 whatever stands there, and negative shear
+  /// is the mirror's.
   bool even_in_shear = false;
 
-  StrainGrid membrane;         ///< at least four nodes in each direction
+  StrainGrid membrane;         ///< at least three nodes in each direction (two of the shear where it is even)
   std::vector<double> energy;  ///< Wm [J/m^2] at the nodes
 
   /// Of b and D. In each direction either one node (constant) or the first and last node of `membrane`.
