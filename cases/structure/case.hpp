@@ -42,7 +42,8 @@ struct LaminateMaterial {
 struct MaterialCase {
   std::variant<IsotropicMaterial, OrthotropicMaterial, LaminateMaterial, Fabric> law;
   bool tension_field = false;
-  std::filesystem::path card;  ///< of a fabric; empty: none
+  std::filesystem::path card;        ///< of a fabric; empty: none
+  std::optional<FabricTable> table;  ///< that a fabric's law is
 };
 /// As the shell takes it; a density that is not given is 0.
 Fabric fabricOf(const MaterialCase& material);

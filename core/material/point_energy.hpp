@@ -32,19 +32,21 @@ class PointEnergy {
  public:
   virtual ~PointEnergy() = default;
 
-  /// Writes what `points.size()` points answer. `history` is what each remembers, historySize() doubles one after the
-  /// other (empty: nothing yet), `remembered` what it would (empty: not asked). Throws RunError where a point finds no
-  /// answer. Slopes are written where asked.
+  /// Writes what each of the points answers. `history` is what each remembers, historySize() doubles one after the
+  /// other (empty, or zeros: nothing yet), `remembered` what it would (empty: not asked). Slopes are written where
+  /// asked. A point that finds no answer has NaN.
   virtual void evaluate(std::span<const SheetStrain> points, SheetParts parts, std::span<const double> history,
                         std::span<double> remembered, std::span<SheetAnswer> out) const = 0;
   /// Doubles that each point remembers.
   virtual std::size_t historySize() const { return 0; }
-  /// A slope that none of its points exceeds, in the order of matrices: what the stable time step must allow for.
+  /// A slope that none of its points exceeds, in the order of matrices: what the stable time step must allow for. Throws
+  /// RunError where nothing bounds them (such laws are of statics).
   virtual std::array<double, 36> steepest() const = 0;
 
-  SheetAnswer at(const SheetStrain& point, SheetParts parts = SheetParts::slopes) const {
+  SheetAnswer at(const SheetStrain& point, SheetParts parts = SheetParts::slopes,
+                 std::span<const double> history = {}) const {
     SheetAnswer out;
-    evaluate({&point, 1}, parts, {}, {}, {&out, 1});
+    evaluate({&point, 1}, parts, history, {}, {&out, 1});
     return out;
   }
 };
