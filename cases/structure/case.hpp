@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "analysis/render/render.hpp"
+#include "cases/cloth/fabric.hpp"
 #include "cases/cloth/strain_limit.hpp"
 #include "cases/contact/contact.hpp"
 #include "cases/input/json.hpp"
