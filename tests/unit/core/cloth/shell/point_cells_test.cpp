@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/material/linearised.hpp"
 #include "core/material/table/law_table.hpp"
+#include "core/math/quadrature.hpp"
 #include "unit/core/cloth/shell/sheet_shapes.hpp"
 #include "unit/core/material/table/stiffening_cloth.hpp"
 #include "unit/core/nurbs/trim_shapes.hpp"
@@ -155,9 +156,23 @@ TEST(PointCells, TheForceIsTheEnergysGradientAndTheTangentTheForces) {
   }
 }
 
-/// A19: a closed loop of a small sheet takes no energy.
+/// Nodes so few that splines have no inner knots: forces are smooth along any path within the range.
+Fabric smooth() {
+  const StiffeningCloth cloth;
+  LawTableData data;
+  data.membrane.nodes = {evenly(-0.02, 0.10, 4), evenly(-0.02, 0.10, 4), evenly(-0.5, 0.5, 4)};
+  data.bending.nodes = {evenly(-0.02, 0.10, 3), evenly(-0.02, 0.10, 3), evenly(-0.5, 0.5, 3)};
+  forEachNode(data.membrane, [&](const std::array<double, 3>& E) { data.energy.push_back(cloth.energy(E)); });
+  forEachNode(data.bending, [&](const std::array<double, 3>& E) {
+    data.moment.push_back(StiffeningCloth::moment(E));
+    data.rigidity.push_back(StiffeningCloth::rigidity(E));
+  });
+  return withEnergy(plainFabric(), std::make_shared<const LawTable>(data));
+}
+
+/// A19: a closed loop of a small sheet takes no energy. (Out of the range and back: law_table_test.cpp.)
 TEST(PointCells, AClosedLoopTakesNoEnergy) {
-  const Garment g = garmentOf({flatPatch(uniformKnots(2, 2), uniformKnots(2, 2), 0.1, 0.1)}, {}, stiffening());
+  const Garment g = garmentOf({flatPatch(uniformKnots(2, 2), uniformKnots(2, 2), 0.1, 0.1)}, {}, smooth());
   const Shell shell(g, widestKernels());
   const FreeMap map = buildFreeMap(g);
   const auto corner = [&](double stretch, double shear, double bend, double noise, unsigned seed) {
@@ -166,24 +181,27 @@ TEST(PointCells, AClosedLoopTakesNoEnergy) {
       x = {x.x * (1 + stretch) + shear * x.y, x.y * (1 + 0.5 * stretch), x.z + bend * (x.x * x.x - x.x * x.y)};
     return p;
   };
-  const std::vector<std::vector<Vec3>> corners{corner(0.01, 0, 0, 0, 1), corner(0.05, 0.1, 3, 2e-4, 2),
-                                               corner(0.03, 0.2, -4, 3e-4, 3), corner(0, 0.05, 1, 2e-4, 4),
+  const std::vector<std::vector<Vec3>> corners{corner(0.01, 0, 0, 0, 1), corner(0.04, 0.1, 0.8, 1e-4, 2),
+                                               corner(0.02, 0.2, -1.2, 1e-4, 3), corner(0.01, 0.05, 0.5, 1e-4, 4),
                                                corner(0.01, 0, 0, 0, 1)};
-  constexpr int kSteps = 200;
+  const Quadrature rule = gaussLegendre(8);
+  constexpr int kSteps = 4;
   double work = 0, size = 0;
   for (std::size_t leg = 0; leg + 1 < corners.size(); ++leg)
     for (int k = 0; k < kSteps; ++k)
-      for (const double side : {-0.5, 0.5}) {
-        const double t = (k + 0.5 + side / std::sqrt(3.0)) / kSteps;
+      for (std::size_t gauss = 0; gauss < rule.points.size(); ++gauss) {
+        const double t = (k + 0.5 + 0.5 * rule.points[gauss]) / kSteps, weight = 0.5 * rule.weights[gauss] / kSteps;
         std::vector<Vec3> p;
         for (std::size_t i = 0; i < corners[leg].size(); ++i)
           p.push_back((1 - t) * corners[leg][i] + t * corners[leg + 1][i]);
-        const std::vector<Vec3> f = onFree(map, forceOn(shell, controlsOf(map, p)));
+        const std::vector<Vec3> q = controlsOf(map, p), f = onFree(map, forceOn(shell, q));
+        ASSERT_EQ(shell.lawRange(q).beyond, 0);
         double power = 0;
         for (std::size_t i = 0; i < p.size(); ++i) power += dot(f[i], corners[leg + 1][i] - corners[leg][i]);
-        work += power / (2 * kSteps);
-        size += std::abs(power) / (2 * kSteps);
+        work += weight * power;
+        size += weight * std::abs(power);
       }
+  EXPECT_GT(size, 0);
   EXPECT_LT(std::abs(work), 1e-10 * size);
 }
 
