@@ -89,7 +89,7 @@ TEST(CellEnergy, WhatFindsNoAnswerHasNone) {
 /// A19, on eight points: the same sheet by cells and by the table made from them, within 1 %.
 TEST(CellEnergy, ASheetOfCellsAnswersAsItsTable) {
   HomogeniseOptions options;
-  options.range = {{{-0.01, 0.05}, {-0.01, 0.05}, {-0.15, 0.15}}};
+  options.range = {{{0, 0.06}, {0, 0.06}, {-0.15, 0.15}}};  // cells of so few pieces are not stable when pressed
   options.first_nodes = {5, 5, 4};
   options.most_nodes = 100;
   options.rigidity_by_strain = false;

@@ -190,7 +190,7 @@ TEST(PointCells, AClosedLoopTakesNoEnergy) {
   for (std::size_t leg = 0; leg + 1 < corners.size(); ++leg)
     for (int k = 0; k < kSteps; ++k)
       for (std::size_t gauss = 0; gauss < rule.points.size(); ++gauss) {
-        const double t = (k + 0.5 + 0.5 * rule.points[gauss]) / kSteps, weight = 0.5 * rule.weights[gauss] / kSteps;
+        const double t = (k + rule.points[gauss]) / kSteps, weight = rule.weights[gauss] / kSteps;
         std::vector<Vec3> p;
         for (std::size_t i = 0; i < corners[leg].size(); ++i)
           p.push_back((1 - t) * corners[leg][i] + t * corners[leg + 1][i]);
