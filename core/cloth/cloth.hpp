@@ -161,7 +161,6 @@ class Cloth {
   virtual double bendAt(const ClothState& state, int patch, Vec2 uv) const = 0;
   /// Places where the laws are evaluated, for statistics of strain.
   virtual std::vector<std::pair<int, Vec2>> lawPlaces() const = 0;
-  virtual LawRange lawRange(const ClothState& state) const { return static_cast<void>(state), LawRange{}; }
   /// Whether a fabric without moment when flat is bent at rest, by more than 1e-6 over the length [m].
   virtual bool springsAtRest(double length_m) const = 0;
 
@@ -177,6 +176,9 @@ class Cloth {
   virtual void dropIdle(std::span<const double> value, std::span<double> rate) const {
     static_cast<void>(value), static_cast<void>(rate);
   }
+
+  /// How many of its points are strained beyond what their law knows.
+  virtual LawRange lawRange(const ClothState& state) const { return static_cast<void>(state), LawRange{}; }
 
   /// The force alone, and the energy stored.
   void force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy = nullptr,
