@@ -100,23 +100,26 @@ SheetAnswer LawTable::answer(const SheetStrain& point, SheetParts parts) const {
     at[i] = c[i].at;
     out.beyond |= c[i].beyond;
   }
+  const bool slopes = parts == SheetParts::slopes;
   std::array<StrainTaylor, 1> W;
-  std::array<StrainTaylor, 3> b;
   std::array<StrainTaylor, 6> D;
-  membrane_.evaluate(at, W);
-  moment_.evaluate(at, b);
-  rigidity_.evaluate(at, D);
+  membrane_.evaluate(at, W, slopes);
+  rigidity_.evaluate(at, D, slopes);
 
   // Of the splines: what the energy is of the strain at this curvature, and the moments' derivatives in the strain.
   const std::array<double, 3>& k = point.curvature;
   StrainTaylor all = W[0];
   std::array<std::array<double, 3>, 3> coupled{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.moment[i] = b[i].value;
-    coupled[i] = b[i].first;
-    all.value += k[i] * b[i].value;
-    for (std::size_t p = 0; p < 3; ++p) all.first[p] += k[i] * b[i].first[p];
-    for (std::size_t p = 0; p < 6; ++p) all.second[p] += k[i] * b[i].second[p];
+  if (!data_.moment.empty()) {
+    std::array<StrainTaylor, 3> b;
+    moment_.evaluate(at, b, slopes);
+    for (std::size_t i = 0; i < 3; ++i) {
+      out.moment[i] = b[i].value;
+      coupled[i] = b[i].first;
+      all.value += k[i] * b[i].value;
+      for (std::size_t p = 0; p < 3; ++p) all.first[p] += k[i] * b[i].first[p];
+      for (std::size_t p = 0; p < 6; ++p) all.second[p] += k[i] * b[i].second[p];
+    }
   }
   for (std::size_t v = 0; v < 6; ++v) {
     const auto i = static_cast<std::size_t>(kPairs[v][0]), j = static_cast<std::size_t>(kPairs[v][1]);
@@ -136,7 +139,7 @@ SheetAnswer LawTable::answer(const SheetStrain& point, SheetParts parts) const {
     out.energy_J_per_m2 += c[i].energy;
     out.resultant[i] = c[i].at1 * all.first[i] + c[i].energy1;
   }
-  if (parts == SheetParts::resultants) return out;
+  if (!slopes) return out;
   for (std::size_t v = 0; v < 6; ++v) {
     const auto i = static_cast<std::size_t>(kPairs[v][0]), j = static_cast<std::size_t>(kPairs[v][1]);
     double stiffness = c[i].at1 * c[j].at1 * all.second[v];

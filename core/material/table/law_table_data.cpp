@@ -46,7 +46,8 @@ void checkLawTable(const LawTableData& data) {
     const bool even = data.even_in_shear && i == 2;
     checkNodes(nodes[i], key, i < 2, even ? 2 : 3);
     if (even ? nodes[i].front() != 0 : !(nodes[i].front() <= 0 && nodes[i].back() > 0))
-      reject(key, even ? "starts at 0 where the law is even in shear" : "must have the strain 0 in its range, and not at its end");
+      reject(key, even ? "starts at 0 where the law is even in shear"
+                       : "must have the strain 0 in its range, and not at its end");
   }
   if (data.energy.size() != data.membrane.count())
     reject("membrane.energy", "has " + std::to_string(data.energy.size()) +

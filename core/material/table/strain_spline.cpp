@@ -59,44 +59,59 @@ StrainSpline<kParts>::StrainSpline(const StrainGrid& grid, std::span<const doubl
 }
 
 template <int kParts>
-void StrainSpline<kParts>::evaluate(const std::array<double, 3>& E, std::array<StrainTaylor, kParts>& out) const {
+void StrainSpline<kParts>::evaluate(const std::array<double, 3>& E, std::array<StrainTaylor, kParts>& out,
+                                    bool second) const {
+  second ? evaluateAs<true>(E, out) : evaluateAs<false>(E, out);
+}
+
+template <int kParts>
+template <bool kSecond>
+void StrainSpline<kParts>::evaluateAs(const std::array<double, 3>& E, std::array<StrainTaylor, kParts>& out) const {
   const SplineAxis::Basis u = axes_[0].at(E[0]), v = axes_[1].at(E[1]), w = axes_[2].at(E[2]);
   const int nu = axes_[0].order(), nv = axes_[1].order(), nw = axes_[2].order();
   const long rows = axes_[1].count(), depth = axes_[2].count();
-  out = {};
+  constexpr int kLines = kSecond ? 3 : 2, kPlanes = kSecond ? 6 : 3;
+  double sum[10][kParts]{};
   for (int i = 0; i < nu; ++i) {
-    double plane[6][kParts]{};  // derivatives in E22, 2 E12: none, 2, 3, 22, 33, 23
+    double plane[kPlanes][kParts]{};  // derivatives in E22, 2 E12: none, 2, 3, 22, 33, 23
     for (int j = 0; j < nv; ++j) {
-      double line[3][kParts]{};
+      double line[kLines][kParts]{};
       const double* c = coefficients_.data() + (((u.first + i) * rows + v.first + j) * depth + w.first) * kParts;
       for (int k = 0; k < nw; ++k)
-        for (int d = 0; d < 3; ++d)
+        for (int d = 0; d < kLines; ++d)
           for (int part = 0; part < kParts; ++part) line[d][part] += w.value[d][k] * c[k * kParts + part];
       for (int part = 0; part < kParts; ++part) {
         plane[0][part] += v.value[0][j] * line[0][part];
         plane[1][part] += v.value[1][j] * line[0][part];
         plane[2][part] += v.value[0][j] * line[1][part];
-        plane[3][part] += v.value[2][j] * line[0][part];
-        plane[4][part] += v.value[0][j] * line[2][part];
-        plane[5][part] += v.value[1][j] * line[1][part];
+        if constexpr (kSecond) {
+          plane[3][part] += v.value[2][j] * line[0][part];
+          plane[4][part] += v.value[0][j] * line[2][part];
+          plane[5][part] += v.value[1][j] * line[1][part];
+        }
       }
     }
     const double b = u.value[0][i], b1 = u.value[1][i], b11 = u.value[2][i];
     for (int part = 0; part < kParts; ++part) {
-      StrainTaylor& t = out[static_cast<std::size_t>(part)];
-      const auto p = [&](int k) { return plane[k][part]; };
-      t.value += b * p(0);
-      t.first[0] += b1 * p(0);
-      t.first[1] += b * p(1);
-      t.first[2] += b * p(2);
-      t.second[0] += b11 * p(0);
-      t.second[1] += b * p(3);
-      t.second[2] += b * p(4);
-      t.second[3] += b1 * p(1);
-      t.second[4] += b1 * p(2);
-      t.second[5] += b * p(5);
+      sum[0][part] += b * plane[0][part];
+      sum[1][part] += b1 * plane[0][part];
+      sum[2][part] += b * plane[1][part];
+      sum[3][part] += b * plane[2][part];
+      if constexpr (kSecond) {
+        sum[4][part] += b11 * plane[0][part];
+        sum[5][part] += b * plane[3][part];
+        sum[6][part] += b * plane[4][part];
+        sum[7][part] += b1 * plane[1][part];
+        sum[8][part] += b1 * plane[2][part];
+        sum[9][part] += b * plane[5][part];
+      }
     }
   }
+  for (int part = 0; part < kParts; ++part)
+    out[static_cast<std::size_t>(part)] = {
+        sum[0][part],
+        {sum[1][part], sum[2][part], sum[3][part]},
+        {sum[4][part], sum[5][part], sum[6][part], sum[7][part], sum[8][part], sum[9][part]}};
 }
 
 template class StrainSpline<1>;

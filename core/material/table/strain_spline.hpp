@@ -27,9 +27,13 @@ class StrainSpline {
   /// shear, -1 for odd ones, whose nodes are those not below 0; 0: the grid has all nodes.
   StrainSpline(const StrainGrid& grid, std::span<const double> values, const std::array<int, kParts>& parity);
 
-  void evaluate(const std::array<double, 3>& E, std::array<StrainTaylor, kParts>& out) const;
+  /// Second derivatives where asked, else zeros.
+  void evaluate(const std::array<double, 3>& E, std::array<StrainTaylor, kParts>& out, bool second = true) const;
 
  private:
+  template <bool kSecond>
+  void evaluateAs(const std::array<double, 3>& E, std::array<StrainTaylor, kParts>& out) const;
+
   std::array<SplineAxis, 3> axes_;
   std::vector<double> coefficients_;  ///< [i][j][k][part]
 };

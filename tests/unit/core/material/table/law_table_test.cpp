@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/material/laws/membrane.hpp"
+#include "core/material/linearised.hpp"
 #include "unit/core/material/table/stiffening_cloth.hpp"
 
 namespace gambeson {
@@ -204,6 +206,30 @@ TEST(LawTable, NoSlopeSurpassesTheSteepest) {
     for (std::size_t i = 0; i < 3; ++i) nearest = std::min(nearest, steepest[7 * i] / a.slope[7 * i]);
   }
   EXPECT_LT(nearest, 3) << "the bound is of no use where it is far from every slope";
+}
+
+TEST(Linearised, HasTheSlopesAtRestAndSomeShearWhereYarnsSlide) {
+  Fabric cloth;
+  cloth.thickness_m = 2e-3;
+  const auto with = [&](const LawTableData& data) { return withEnergy(cloth, std::make_shared<const LawTable>(data)); };
+  const Fabric f = with(linearTable({400, 300, 50}, 60, {2e-5, 3e-5, 1e-5}, 4e-6));
+  Voigt A{};
+  planeStress(f.young_weft_Pa, f.young_warp_Pa, f.shear_Pa, f.poisson, f.thickness_m, A.data());
+  EXPECT_NEAR(A[0], 400, 1e-8);
+  EXPECT_NEAR(A[1], 300, 1e-8);
+  EXPECT_NEAR(A[2], 50, 1e-8);
+  EXPECT_NEAR(A[3], 60, 1e-8);
+  EXPECT_NEAR(givenRigidities(f.law)->warp_Nm, 3e-5, 1e-17);
+  // No shear is resisted at rest, but farther off.
+  LawTableData sliding = linearTable({400, 300, 0}, 60, {2e-5, 3e-5, 1e-5}, 4e-6);
+  std::size_t at = 0;
+  forEachNode(sliding.membrane, [&](const std::array<double, 3>& E) {
+    const double g = E[2] < 0.2 ? 0 : E[2] - 0.2;
+    sliding.energy[at++] += 10 * g * g;
+  });
+  EXPECT_GT(with(sliding).shear_Pa, 0);
+  EXPECT_LT(with(sliding).shear_Pa * cloth.thickness_m, 1);
+  EXPECT_THROW(with(linearTable({-400, 300, 50}, 60, {2e-5, 3e-5, 1e-5}, 4e-6)), InputError);
 }
 
 TEST(LawTable, SaysWhereItIsNotConvex) {
