@@ -9,6 +9,7 @@
 
 #include "analysis/ticks.hpp"
 #include "cases/cloth/card.hpp"
+#include "cases/cloth/fabric_table.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/input/table.hpp"
 #include "core/material/kes_shear.hpp"
@@ -182,7 +183,7 @@ Object shearLoopTable() {
 
 Object fabricTable() {
   using F = FabricInput;
-  return Table<F>("Fabric")
+  Object table = Table<F>("Fabric")
       .path("card", &F::card,
             "file of a fabric card, from which all follows that is not given here (see Fabric cards, and gambeson "
             "fabric --help)")
@@ -221,8 +222,19 @@ Object fabricTable() {
       .number("limit_strain_warp", &F::limit_strain_warp, "", aboveTo(0, 10), "the same, along the warp alone")
       .defaultsTo("limit_strain")
       .object("bending", &F::bending, bendingTable(), "resistance to bending")
-      .defaultsTo("required, or card")
+      .defaultsTo("required, or card, or law")
+      .object("law", &F::law, tableLawTable(),
+              "in place of young and its like, poisson, jam_area, shear_loop and bending: a law that is a table "
+              "(with nurbs cloth, on the CPU)")
+      .defaultsTo("none")
       .build();
+  // What a law that is a table leaves no meaning to is not written beside it.
+  for (Field& f : table.fields)
+    if (f.key == "poisson" || f.key == "jam_area" || f.key == "bending")
+      f.write = [write = f.write](const void* in) {
+        return static_cast<const F*>(in)->law ? std::nullopt : write(in);
+      };
+  return table;
 }
 
 namespace {
@@ -347,6 +359,11 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
   else if (!of_card)
     entry.failAt("thickness", "is required: thickness");
   resolveDensity(entry, in, f);
+  if (in.law) {
+    resolveLimits(entry, in, f);
+    resolveTable(entry, *in.law, f);
+    return f;
+  }
   if (!of_card || entry.node.find("jam_area")) f.jam_area = in.jam_area;
   resolveMembrane(entry, in, f);
   resolveShear(entry, in, f);
@@ -368,6 +385,12 @@ FabricInput restoreFabric(const FabricCase& f) {
   in.name = f.name;
   in.thickness_m = f.thickness_m;
   in.density_kg_per_m3 = f.density_kg_per_m3;
+  if (f.table) {
+    in.limit_strain_weft = f.limit_strain_weft;
+    in.limit_strain_warp = f.limit_strain_warp;
+    in.law = restoreTable(f);
+    return in;
+  }
   in.young_weft_Pa = f.young_weft_Pa;
   in.young_warp_Pa = f.young_warp_Pa;
   in.shear_Pa = f.shear_Pa;

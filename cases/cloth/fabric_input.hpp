@@ -1,6 +1,7 @@
 #pragma once
 /// A fabric as a case file writes it: with the shorthand for isotropic cloth and with either density.
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -31,6 +32,13 @@ struct ShearLoopInput {
   double friction_angle_rad = 0.0174532925199432958;
 };
 
+/// A law that is a table.
+struct TableInput {
+  std::filesystem::path table;
+  std::shared_ptr<const LawFile> values;
+  RestCurvature rest = RestCurvature::zero;
+};
+
 struct FabricInput {
   std::filesystem::path card;
   std::string name;
@@ -42,6 +50,7 @@ struct FabricInput {
   std::optional<double> limit_strain, limit_strain_weft, limit_strain_warp;
   std::optional<ShearLoopInput> shear_loop;
   BendingInput bending;
+  std::optional<TableInput> law;
 };
 
 /// The fabric that the input says, and where it names a card the card, with what else the entry gives in its place.
@@ -51,6 +60,8 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in);
 std::string bendingName(const BendingLaw& law);
 /// How a fabric of a case file bends, for the report.
 std::string bendingInWords(const BendingLaw& law);
+/// What a law is that is a table, for the report.
+std::string lawInWords(const FabricTable& table);
 /// The input, written out in full, that resolves to the fabric.
 FabricInput restoreFabric(const FabricCase& fabric);
 

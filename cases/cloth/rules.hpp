@@ -10,8 +10,8 @@ namespace gambeson::schema {
 /// Throws InputError where `entry` has keys of bending that its kind of cloth has no use for.
 void checkBending(const Entry& entry, const ClothModel& model);
 
-/// Throws InputError where `entry` has springs or a shell that its kind of cloth has no use for, or they are to be made
-/// of a fabric that has more than they can be.
+/// Throws InputError where `entry` has springs or a shell that its kind of cloth has no use for, or cloth is to be made
+/// of a fabric that has more than its kind can be.
 void checkNodes(const Entry& entry, const ClothModel& model, const Fabric& fabric);
 
 }  // namespace gambeson::schema

@@ -1,6 +1,7 @@
 #include "cases/command/documents.hpp"
 
 #include "cases/cloth/card.hpp"
+#include "cases/cloth/law_table.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "cases/study/study.hpp"
@@ -10,7 +11,8 @@ namespace gambeson {
 std::string caseSchema() { return schema::jsonSchema(kindsOfCase()); }
 std::string caseFields() {
   return schema::markdown(kindsOfCase()) + schema::chapter("Studies", study::studyTable()) +
-         schema::chapter("Fabric cards", schema::cardTable());
+         schema::chapter("Fabric cards", schema::cardTable()) +
+         schema::chapter("Law tables", schema::lawFileTable());
 }
 
 }  // namespace gambeson

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "analysis/render/render.hpp"
+#include "cases/cloth/fabric.hpp"
 #include "cases/cloth/strain_limit.hpp"
 #include "cases/contact/contact.hpp"
 #include "cases/input/json.hpp"
@@ -42,7 +43,8 @@ struct LaminateMaterial {
 struct MaterialCase {
   std::variant<IsotropicMaterial, OrthotropicMaterial, LaminateMaterial, Fabric> law;
   bool tension_field = false;
-  std::filesystem::path card;  ///< of a fabric; empty: none
+  std::filesystem::path card;        ///< of a fabric; empty: none
+  std::optional<FabricTable> table;  ///< that a fabric's law is
 };
 /// As the shell takes it; a density that is not given is 0.
 Fabric fabricOf(const MaterialCase& material);

@@ -79,6 +79,19 @@ AuditCheck energyCheck(const PathTable& path) {
           fmt::format("{} % of the energy appears from nowhere", formatNumber(part, 2))};
 }
 
+bool isTable(const MaterialCase& m) { return m.table.has_value(); }
+
+AuditCheck lawCheck(const LawRange& range) {
+  const double part = 100.0 * static_cast<double>(range.beyond) / static_cast<double>(range.points);
+  return {"Law range",
+          part,
+          0,
+          "%",
+          "share of the points of the sheet that are strained beyond the table of its law, in the state where most are",
+          fmt::format("{} of {} points are strained beyond the table of the law: stress there is a guess",
+                      range.beyond, range.points)};
+}
+
 bool isFabric(const MaterialCase& m) { return std::holds_alternative<Fabric>(m.law); }
 
 AuditCheck strainCheck(const StructureCase& c, const MeshShape& shape) {
@@ -169,7 +182,9 @@ std::vector<AuditCheck> structureChecks(const StructureCase& c, const StructureM
                                   formatNumber(100 * most, 2))});
     return checks;
   }
-  checks.push_back(strainCheck(c, shape));
+  if (facts.law_range.points > 0) checks.push_back(lawCheck(facts.law_range));
+  if (!isTable(c.material) || !std::all_of(c.other_materials.begin(), c.other_materials.end(), isTable))
+    checks.push_back(strainCheck(c, shape));
   if (!c.supports.empty()) checks.push_back(sizeCheck(c, model, last));
   if (c.kind == StructureKind::statics && c.statics.arc_length)
     checks.push_back({"Path", static_cast<double>(facts.jumps), 0, "",

@@ -12,7 +12,7 @@ namespace gambeson {
 constexpr double kStrainOfLinearLaw = 0.05;
 
 /// Holds or fails, with limits: numbers are finite, forces balance (static), modes are modes (modal), energy does not
-/// appear (dynamic), strain is in the range of the material's law, displacements are of the sheet's size, the path is
+/// appear (dynamic), strain is in the range of the material's law (no point beyond that of a table), displacements are of the sheet's size, the path is
 /// known between its points. A fabric's range is that of the source of its law (kStrainOfLaw of
 /// cases/cloth/fabric.hpp).
 std::vector<AuditCheck> structureChecks(const StructureCase& c, const StructureModel& model, const PathTable& path,

@@ -114,11 +114,12 @@ Object materialTable() {
             const FabricCase f = resolveFabric(p, in);
             m.law = static_cast<const Fabric&>(f);
             m.card = f.card;
+            m.table = f.table;
           },
           [table = fabric.object](const M& m) -> std::optional<JsonNode> {
             const Fabric* f = std::get_if<Fabric>(&m.law);
             if (!f) return std::nullopt;
-            const FabricInput in = restoreFabric(FabricCase{*f, {}, {}, m.card});
+            const FabricInput in = restoreFabric(FabricCase{*f, {}, {}, m.card, m.table});
             return writeObject(*table, &in);
           })
       .in("law")

@@ -12,8 +12,12 @@ template <class Take>
 void eachFile(StructureCase& named, Take take) {
   if (auto* file = std::get_if<SheetFile>(&named.sheet.shape)) take(file->path);
   for (ObstacleCase& o : named.obstacles) kindOf(o).files(o, take);
-  take(named.material.card);
-  for (MaterialCase& m : named.other_materials) take(m.card);
+  const auto takeMaterial = [&](MaterialCase& m) {
+    take(m.card);
+    if (m.table) take(m.table->file);
+  };
+  takeMaterial(named.material);
+  for (MaterialCase& m : named.other_materials) takeMaterial(m);
 }
 
 }  // namespace

@@ -169,6 +169,8 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
         {"projections_per_step",
          facts.points > 0 ? static_cast<double>(facts.projections) / static_cast<double>(facts.points) : 0},
         {"unconverged_steps", facts.limits_missed}};
+  if (facts.law_range.points > 0)
+    j["law_range"] = {{"points", facts.law_range.points}, {"most_beyond", facts.law_range.beyond}};
   if (facts.contact)
     j["contact"] = {{"unsolved_steps", facts.contact->unsolved},
                     {"pinched_steps", facts.contact->pinched},

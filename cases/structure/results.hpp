@@ -48,6 +48,7 @@ struct StructureFacts {
   int threads = 1;
   std::optional<MotionAudit> audit;
   std::optional<ContactFacts> contact;
+  LawRange law_range;  ///< of a sheet whose law is a table: of the recorded state with the most points beyond it
 };
 
 struct ModeRow {

@@ -102,6 +102,9 @@ class Run {
     lead.insert(lead.end(), values.begin(), values.end());
     path.rows.push_back(std::move(lead));
     last_ = state;
+    const LawRange range = structure().cloth->lawRange(state.q);
+    if (range.points > 0 && (facts.law_range.points == 0 || range.beyond > facts.law_range.beyond))
+      facts.law_range = range;
     if (c_.output.shapes == ShapesKept::all) keep(state);
   }
   void columns(std::vector<std::string> lead) {

@@ -17,6 +17,7 @@
 #include "core/cloth/bulge.hpp"
 #include "core/cloth/cloth_state.hpp"
 #include "core/cloth/free_map.hpp"
+#include "core/cloth/law_range.hpp"
 #include "core/cloth/mounting.hpp"
 #include "core/cloth/strain_rows.hpp"
 #include "core/cloth/stress.hpp"
@@ -160,6 +161,7 @@ class Cloth {
   virtual double bendAt(const ClothState& state, int patch, Vec2 uv) const = 0;
   /// Places where the laws are evaluated, for statistics of strain.
   virtual std::vector<std::pair<int, Vec2>> lawPlaces() const = 0;
+  virtual LawRange lawRange(const ClothState& state) const { return static_cast<void>(state), LawRange{}; }
   /// Whether a fabric without moment when flat is bent at rest, by more than 1e-6 over the length [m].
   virtual bool springsAtRest(double length_m) const = 0;
 

@@ -539,6 +539,16 @@ std::vector<std::pair<int, Vec2>> JoinedCloth::lawPlaces() const {
   return all;
 }
 
+LawRange JoinedCloth::lawRange(const ClothState& state) const {
+  LawRange all;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const LawRange own = parts_[i]->lawRange(stateOf(state, i));
+    all.points += own.points;
+    all.beyond += own.beyond;
+  }
+  return all;
+}
+
 bool JoinedCloth::springsAtRest(double length_m) const {
   return std::any_of(parts_.begin(), parts_.end(), [&](const auto& part) { return part->springsAtRest(length_m); });
 }

@@ -62,6 +62,7 @@ class JoinedCloth : public Cloth {
   PointState stateAt(const ClothState& state, int patch, Vec2 uv) const override;
   double bendAt(const ClothState& state, int patch, Vec2 uv) const override;
   std::vector<std::pair<int, Vec2>> lawPlaces() const override;
+  LawRange lawRange(const ClothState& state) const override;
   bool springsAtRest(double length_m) const override;
 
   StrainRows strainRows(Mobility mobility, LimitPoints points) const override;

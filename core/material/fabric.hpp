@@ -1,12 +1,15 @@
 #pragma once
 /// What a fabric is: numbers of the case, SI.
 
+#include <memory>
 #include <string>
 
 #include "core/material/laws/bending_laws.hpp"
 #include "core/material/laws/shear_friction.hpp"
 
 namespace gambeson {
+
+class PointEnergy;
 
 struct Fabric {
   std::string name;
@@ -28,6 +31,11 @@ struct Fabric {
   bool tension_field = false;
   /// Area ratio J0 below which the membrane jams (core/material/laws/jamming.hpp); 0: never. Not with a tension field.
   double jam_area = 0;
+
+  /// Where given, what a point answers (core/material/point_energy.hpp), in place of the membrane, the bending law and
+  /// jamming. What else asks for moduli and rigidities has those above, of cloth at rest (linearised). The same fabric
+  /// means the same object here. Cloth made of NURBS alone carries it.
+  std::shared_ptr<const PointEnergy> energy;
 
   bool operator==(const Fabric&) const = default;
 

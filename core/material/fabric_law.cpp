@@ -35,6 +35,13 @@ void checkShearFriction(const Fabric& f, const Refusal& refuse) {
   if (f.laminate()) refuse("shear_friction", "is not possible for plies");
 }
 
+void checkEnergy(const Fabric& f, const Refusal& refuse) {
+  if (f.tension_field) refuse("tension_field", "is not possible where a fabric's law is an energy at a point");
+  if (f.jam_area > 0) refuse("jam_area", "is not possible where a fabric's law is an energy at a point; allowed: 0");
+  if (f.shear_friction != ShearFriction{} || !std::holds_alternative<LinearBending>(f.law))
+    refuse("law", "an energy at a point stands for membrane and bending: no other law goes with it");
+}
+
 void checkMembrane(const Fabric& f, const Refusal& refuse) {
   if (!(f.thickness_m > 0)) refuse("thickness_m", "must be > 0");
   if (!(f.young_weft_Pa > 0)) refuse("young_weft_Pa", "must be > 0");
@@ -60,6 +67,7 @@ void checkFabric(const Fabric& f, const char* where) {
   if (f.jam_area > 0 && f.tension_field)
     refuse("jam_area", "is not possible for a tension field, which carries no compression; allowed: 0");
   checkShearFriction(f, refuse);
+  if (f.energy) checkEnergy(f, refuse);
   if (f.laminate()) return checkLaminate(f, refuse);
   checkMembrane(f, refuse);
   std::visit(

@@ -91,6 +91,36 @@ bool EquilibriumWork::factorise(double raise) {
   return factor_->factorise(raised_) == Definiteness::positive;
 }
 
+bool EquilibriumWork::settle(const CellFaces& faces, std::span<const Pose> sections, const CellAnswer& at) {
+  assemble(faces, sections, at);
+  return factorise(kLeastRaise) || factorise(kStillDefinite);
+}
+
+std::vector<double> EquilibriumWork::onUnknowns(std::span<const double> blocks) const {
+  const SparseRows& C = cell_.freedoms();
+  std::vector<double> r(static_cast<std::size_t>(C.column_count), 0.0);
+  for (int row = 0; row < C.rows(); ++row)
+    for (int k = C.offsets[row]; k < C.offsets[row + 1]; ++k) r[C.columns[k]] += C.values[k] * blocks[row];
+  return r;
+}
+
+std::vector<double> EquilibriumWork::follow(std::span<const double> force) const {
+  constexpr int kRefinements = 60;
+  constexpr double kSettled = 1e-11, kStalled = 0.5, kHeld = 1e-3;
+  std::vector<double> x(force.size(), 0.0), left(force.begin(), force.end()), d(force.size()), kx(force.size());
+  double size = norm(force), before = 2 * size / kStalled;
+  const double enough = kSettled * size;
+  for (int k = 0; k < kRefinements && size > enough && size < kStalled * before; ++k) {
+    factor_->solveOnce(left, d);
+    for (std::size_t i = 0; i < d.size(); ++i) x[i] += d[i];
+    multiply(reduced_, x, kx);
+    for (std::size_t i = 0; i < d.size(); ++i) left[i] = force[i] - kx[i];
+    before = size, size = norm(left);
+  }
+  if (size > kHeld * norm(force)) throw RunError("a force moves yarns that nothing holds");
+  return x;
+}
+
 EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
                                   EquilibriumWork& work, const EquilibriumOptions& options) {
   using End = EquilibriumReport::End;

@@ -40,11 +40,19 @@ class EquilibriumWork {
   /// diagonal (`raise`) is added to the matrix that is factorised; equilibria stay what they are. Returns whether it is
   /// positive definite.
   bool factorise(double raise);
+  /// Assembles and factorises in an equilibrium, with the least raise that hides no instability. Returns whether it is
+  /// stable.
+  bool settle(const CellFaces& faces, std::span<const Pose> sections, const CellAnswer& at);
+  /// How the unknowns answer a force on them, the raise of the diagonal taken back by iteration: to 1e-11 of the force,
+  /// or until what is left no longer falls to half: what is softer than the raise slides, and its force is rounding.
+  /// Throws RunError where more than a thousandth of the force is left.
+  std::vector<double> follow(std::span<const double> force) const;
   const BlockMatrix& blocks() const { return blocks_; }
   const SymmetricMatrix& unraised() const { return reduced_; }
   const SymmetricFactor& factor() const { return *factor_; }
-  /// The residual of the unknowns.
+  /// The residual of the unknowns; the forces on the unknowns of forces on all blocks.
   std::vector<double> residual(const CellAnswer& answer) const;
+  std::vector<double> onUnknowns(std::span<const double> blocks) const;
 
   CellAnswer answer, trial;
 

@@ -24,36 +24,25 @@ CellResultants resultantsOf(const RodCell& cell, const CellLoad& load, std::span
 
 std::array<double, 9> membraneTangent(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections,
                                       EquilibriumWork& work) {
-  constexpr double kRaise = 1e-10, kSettled = 1e-11;
-  constexpr int kRefinements = 60;
   if (load.curvature_per_m != 0) throw RunError("the tangent of a cell's membrane is of flat cloth");
   const CellFaces faces = facesOf(cell.yarns(), load);
   cell.evaluate(faces, sections, work.answer);
-  work.assemble(faces, sections, work.answer);
-  if (!work.factorise(kRaise)) throw RunError("the cell of yarns is not stable");
+  if (!work.settle(faces, sections, work.answer)) throw RunError("the cell of yarns is not stable");
   const std::array<FaceMotion, 4> motions = faceMotions(cell.yarns(), load);
   const auto rows = static_cast<std::size_t>(3 * cell.blocks());
   const SparseRows& C = cell.freedoms();
 
   // Columns of d(all blocks)/dE: the faces move, the sections follow so that their forces stay balanced.
   Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(static_cast<long>(rows), 3), force(static_cast<long>(rows), 3);
-  std::vector<double> x(rows), y(rows), b(static_cast<std::size_t>(C.column_count)), d(b.size()), kd(b.size());
+  std::vector<double> x(rows), y(rows);
   for (int e = 0; e < 3; ++e) {
     std::fill(x.begin(), x.end(), 0.0);
     for (int g = 0; g < 2; ++g)
       for (int c = 0; c < 3; ++c) x[3 * (2 * cell.sections() + g) + c] = motions[e].dt_m[g][c];
     multiply(work.blocks(), x, y);
-    std::fill(b.begin(), b.end(), 0.0);
-    for (int row = 0; row < C.rows(); ++row)
-      for (int k = C.offsets[row]; k < C.offsets[row + 1]; ++k) b[C.columns[k]] -= C.values[k] * y[row];
-    std::vector<double> follow(b.size(), 0.0), left = b;
-    for (int k = 0; k < kRefinements; ++k) {  // the raise of the diagonal is taken back
-      work.factor().solve(left, d);
-      for (std::size_t i = 0; i < d.size(); ++i) follow[i] += d[i];
-      if (norm(d) <= kSettled * norm(follow)) break;
-      multiply(work.unraised(), follow, kd);
-      for (std::size_t i = 0; i < d.size(); ++i) left[i] = b[i] - kd[i];
-    }
+    std::vector<double> force_of_faces = work.onUnknowns(y);
+    for (double& f : force_of_faces) f = -f;
+    const std::vector<double> follow = work.follow(force_of_faces);
     for (int row = 0; row < C.rows(); ++row)
       for (int k = C.offsets[row]; k < C.offsets[row + 1]; ++k) x[row] += C.values[k] * follow[C.columns[k]];
     multiply(work.blocks(), x, y);

@@ -90,6 +90,33 @@ Weave weaveOf(const std::vector<std::vector<int>>& rows) {
   return w;
 }
 
+namespace {
+
+/// Whether other(i, j) is the weave, shifted by some warps and wefts.
+template <class Other>
+bool isShifted(const Weave& w, const Other& other) {
+  const auto same = [&](int by_warps, int by_wefts) {
+    for (int j = 0; j < w.wefts; ++j)
+      for (int i = 0; i < w.warps; ++i)
+        if (other(i, j) != w.warpOver(i + by_warps, j + by_wefts)) return false;
+    return true;
+  };
+  for (int j = 0; j < w.wefts; ++j)
+    for (int i = 0; i < w.warps; ++i)
+      if (same(i, j)) return true;
+  return false;
+}
+
+}  // namespace
+
+bool isMirrorSymmetric(const Weave& weave) {
+  return isShifted(weave, [&](int i, int j) { return weave.warpOver(-i, j); });
+}
+
+bool hasEqualFaces(const Weave& weave) {
+  return isShifted(weave, [&](int i, int j) { return !weave.warpOver(i, j); });
+}
+
 void checkWeave(const Weave& weave) {
   for (const bool up : {true, false}) {
     const std::vector<char> found = reached(weave, up);

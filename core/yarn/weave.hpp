@@ -27,6 +27,12 @@ Weave satinWeave(int ends, int step);
 /// where rows are empty, differ in length or have other numbers, and as checkWeave.
 Weave weaveOf(const std::vector<std::vector<int>>& rows);
 
+/// Whether the weave is its own image in a mirror across its warp yarns: sheared to the left and to the right it does the
+/// same. (A twill's lines go to the other side.)
+bool isMirrorSymmetric(const Weave& weave);
+/// Whether both of its faces look the same, one behind the other: bent up and down it does the same. (A satin's do not.)
+bool hasEqualFaces(const Weave& weave);
+
 /// Throws InputError, key "weave.matrix", where the cloth falls apart: where some yarns lie over all others that they
 /// cross and can be lifted off. It holds together exactly where from each yarn there is a way to every other that goes
 /// from a yarn to one that lies over it (Enns 1984, Geometriae Dedicata 15, 259).

@@ -24,12 +24,16 @@ void takeMap(std::string& map, Take take) {
 /// Calls `take` with the path of every file that the case names, empty ones too; it may put another in its place.
 template <class Take>
 void eachFile(Case& named, Take take) {
+  const auto takeFabric = [&](FabricCase& f) {
+    take(f.card);
+    if (f.table) take(f.table->file);
+  };
   for (GarmentCase& g : named.garments) {
     kindOf(g).files(g, take);
-    if (g.fabric) take(g.fabric->card);
-    for (FabricCase& f : g.other_fabrics) take(f.card);
+    if (g.fabric) takeFabric(*g.fabric);
+    for (FabricCase& f : g.other_fabrics) takeFabric(f);
   }
-  take(named.fabric.card);
+  takeFabric(named.fabric);
   if (named.human) {
     if (!named.human->urdf.empty())
       for (std::filesystem::path file : filesBesideUrdf(named.human->urdf)) take(file);

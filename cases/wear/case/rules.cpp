@@ -264,7 +264,24 @@ void checkPictureFields(const Entry& root, const Case& c) {
 
 }  // namespace
 
+namespace {
+
+/// What a table says is of one cloth as it is.
+void checkFactors(const Entry& root, const Case& c) {
+  const auto is_table = [](const Fabric& f) { return f.energy != nullptr; };
+  if (std::none_of(c.garments.begin(), c.garments.end(), [&](const GarmentCase& g) {
+        return is_table(fabricOf(c, g)) || std::any_of(g.other_fabrics.begin(), g.other_fabrics.end(), is_table);
+      }))
+    return;
+  for (const auto& [key, factor] : {std::pair("thickness", c.factors.thickness), std::pair("bending", c.factors.bending),
+                                    std::pair("membrane", c.factors.membrane)})
+    if (factor != 1) failAt(root, {"factors", key}, "does not go with a fabric whose law is a table; allowed: 1");
+}
+
+}  // namespace
+
 void applyRules(const Entry& root, Case& c) {
+  checkFactors(root, c);
   checkGarments(root, c);
   if ((c.human || !c.obstacles.empty() || c.garments.size() > 1) && !root.node.find("contact"))
     root.failAt("contact",

@@ -49,6 +49,11 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
   if (check == "Strain limit")
     return {fmt::format("threads stretch more than their limit in {} of the steps", much),
             "The cloth is softer than the case says: torques are rather too small.", false};
+  if (check == "Law range")
+    return {fmt::format("{} of the cloth is strained beyond the table of its law", withUnit(value)),
+            "Stress there is a guess: the energy goes on as stiff as at the table's end. A table of a wider range, or a "
+            "looser garment, settles it.",
+            false};
   if (check.starts_with("Sinking"))
     return {fmt::format("an edge on springs slides {} along the body", much),
             "The garment hangs lower than it was made to: the torques are those of a garment that slipped.", false};

@@ -75,6 +75,13 @@ void measureStretch(const Scenario& s, const RecordingReader& recording, Measure
     if (recording.time(k) > 1e-9)
       out.thread_strains.push_back(
           strains.values(controlPointsOf(recording.frame(k), static_cast<std::size_t>(s.model->cloth->points()))));
+  for (int k = 0; k < recording.frameCount(); ++k) {
+    if (!(recording.time(k) > 1e-9)) continue;
+    const LawRange range = s.model->cloth->lawRange(
+        controlPointsOf(recording.frame(k), static_cast<std::size_t>(s.model->cloth->points())));
+    if (range.points == 0) break;
+    if (out.law_range.points == 0 || range.beyond > out.law_range.beyond) out.law_range = range;
+  }
   const bool stated = std::any_of(c.garments.begin(), c.garments.end(), [&](const GarmentCase& g) {
     return limitOf(c, g, &FabricCase::limit_strain_weft) || limitOf(c, g, &FabricCase::limit_strain_warp);
   });

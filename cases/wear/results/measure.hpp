@@ -318,6 +318,7 @@ struct Measured {
   /// Of each frame of the motion, ThreadStrains::columns: only where asked for.
   std::vector<std::vector<double>> thread_strains;
   std::optional<RecordedRange> recorded;
+  LawRange law_range;  ///< of cloth whose law is a table: of the frame with the most points beyond it
 
   const JointMeasure* highest() const;  ///< of joints that turn and that the garment touches something beyond; or null
 };

@@ -119,6 +119,11 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
          1, "%",
          "share of the steps after settling at whose end a thread missed its strain by more than the tolerance of the "
          "case"});
+  if (m.law_range.points > 0)
+    checks.push_back({"Law range",
+                      100.0 * static_cast<double>(m.law_range.beyond) / static_cast<double>(m.law_range.points), 0, "%",
+                      "share of the points of the cloth that are strained beyond the table of its law, in the frame "
+                      "where most are"});
   if (m.surface_depth)
     checks.push_back(
         {"Penetration between samples", 1e3 * m.surface_depth->deepest_m, 0.2, "mm",
@@ -149,12 +154,13 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
 namespace {
 
 /// How a fabric bends; `of`: "" where there is only one.
-void sayFabric(const std::string& of, const Fabric& f, std::vector<std::string>& list) {
+void sayFabric(const std::string& of, const FabricCase& f, std::vector<std::string>& list) {
   const auto say = [&](const std::string& text) { list.push_back(of + text); };
-  say(schema::bendingInWords(f.law));
+  say(f.table ? schema::lawInWords(*f.table) : schema::bendingInWords(f.law));
   say(f.rest_curvature_of_shape
           ? "The fabric rests in its sewn shape: bending starts from that curvature."
           : "The fabric is flat at rest (Zheng 2013): bending it around the body already costs moment.");
+  if (f.table) return;
   const GivenRigidities* given = givenRigidities(f.law);
   say(given && given->twist_Nm > 0 ? fmt::format("Twist stiffness {} N m.", formatNumber(given->twist_Nm))
                                    : "The fabric has no stiffness against twist (Zheng 2013).");
@@ -220,7 +226,10 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
       "mesh or through cloth within a step is found for its triangles and edges.");
   const bool remembers = std::any_of(c.garments.begin(), c.garments.end(),
                                      [&](const GarmentCase& g) { return lawUse(fabricOf(c, g)).remembers(); });
-  say(remembers ? "Stretched fabric is elastic; what bent fabric remembers is said with its law. "
+  const bool tables = std::all_of(c.garments.begin(), c.garments.end(),
+                                  [&](const GarmentCase& g) { return fabricOf(c, g).table.has_value(); });
+  say(tables      ? "The fabric is elastic and does not remember: no hysteresis, no plastic strain."
+      : remembers ? "Stretched fabric is elastic; what bent fabric remembers is said with its law. "
                   "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
                 : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
                   "orthotropic (Zheng 2013, eq. 2.13).");

@@ -40,7 +40,8 @@ bool isBent(const CornerVectors& rest) {
 
 std::string whatShellLacks(const Fabric& f) {
   const LawUse use = lawUse(f);
-  return use.kinds != 0
+  return f.energy ? "a degenerated shell has laminas, and this fabric's law is an energy at a point"
+         : use.kinds != 0
              ? "a degenerated shell bends by a linear law, consistent or a laminate, and this fabric has another"
          : use.tension ? "a degenerated shell carries pressure, and this fabric has a tension field"
          : use.shears  ? "a degenerated shell has no friction in shear, and this fabric has"

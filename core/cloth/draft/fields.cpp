@@ -59,6 +59,21 @@ Fabric mixture(const Fabric& a, const Fabric& b, double w) {
   return f;
 }
 
+/// Laws that are an energy at a point can neither be mixed nor made thicker.
+void checkPointEnergies(const Garment& g, int patch, const std::string& at) {
+  if (!fabricVaries(g, patch) || fabricOfPatch(g, patch)) return;
+  const PatchFields& f = g.fields[static_cast<std::size_t>(patch)];
+  std::vector<double> numbers{0};
+  if (f.material) numbers = f.material->values;
+  for (double number : numbers)
+    for (double k : {std::floor(number), std::ceil(number)}) {
+      const Fabric& fabric = k == 0 ? g.fabric : g.other_fabrics[static_cast<std::size_t>(k) - 1];
+      if (fabric.energy)
+        throw InputError({"", 0, at + (f.thickness ? "thickness" : "material")},
+                         "a fabric whose law is a table is one over a whole patch");
+    }
+}
+
 }  // namespace
 
 void validate(const PatchField& f) {
@@ -151,6 +166,9 @@ void validateFields(const Garment& g) {
           throw InputError(
               {"", 0, at + "material.values"},
               "must be between 0 and " + std::to_string(g.other_fabrics.size()) + ", the number of other materials");
+    }
+    checkPointEnergies(g, static_cast<int>(p), at);
+    if (f.material) {
       // What a point remembers lies in one order in all of a block.
       const LawUse use = lawUse(g.fabric);
       for (const Fabric& other : g.other_fabrics)

@@ -34,6 +34,7 @@ class NurbsShell : public PatchCloth {
   PointState stateAt(const ClothState& state, int patch, Vec2 uv) const override;
   double bendAt(const ClothState& state, int patch, Vec2 uv) const override;
   std::vector<std::pair<int, Vec2>> lawPlaces() const override;
+  LawRange lawRange(const ClothState& state) const override { return shell_.lawRange(state); }
   bool springsAtRest(double length_m) const override;
 
  private:

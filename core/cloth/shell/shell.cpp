@@ -33,9 +33,31 @@ bool twoPointsSeeAll(const KnotVector& k) {
                      [&](double t) { return std::count(k.knots.begin(), k.knots.end(), t) == 1; });
 }
 
+const Fabric& fabricOfBlock(const Garment& garment, std::optional<int> fabric) {
+  return fabric.value_or(0) == 0 ? garment.fabric : garment.other_fabrics[static_cast<std::size_t>(*fabric - 1)];
+}
+
+/// The cells of a block whose fabric's law is an energy at a point.
+std::optional<PointCells> pointCells(const Garment& garment, const std::vector<int>& offsets, const BlockKind& kind,
+                                     const std::vector<SheetCell>& cells, const ShellBlock& block) {
+  if (!kind.fabric) return std::nullopt;  // validateFields lets no such fabric vary
+  const Fabric& fabric = fabricOfBlock(garment, kind.fabric);
+  if (!fabric.energy) return std::nullopt;
+  if (kind.assumed) throw InputError({"", 0, "rule"}, "assumed strains are of fabrics with a law in closed form");
+  BlockLayout layout{block.lanes, 0, {}};
+  for (int group = 0; group < block.groups; ++group) layout.first_point.push_back(block.firstPoint(group));
+  return PointCells(garment, offsets, cells, {block.gu, block.gv}, std::move(layout), fabric.energy,
+                    hasRestCurvature(fabric));
+}
+
+/// Doubles that each point of a part remembers.
+int historySize(const ShellPart& part) {
+  return part.points ? static_cast<int>(part.points->energy().historySize()) : part.law.use.historySize();
+}
+
 /// The law of a block: where its fabric varies, what any of its points may need.
 BlockLaw lawOfBlock(const Garment& garment, std::optional<int> fabric) {
-  BlockLaw law = blockLaw(fabric.value_or(0) == 0 ? garment.fabric : garment.other_fabrics[*fabric - 1]);
+  BlockLaw law = blockLaw(fabricOfBlock(garment, fabric));
   if (fabric) return law;
   law.general = true;
   for (const Fabric& other : garment.other_fabrics) {
@@ -88,8 +110,9 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   for (auto& [kind, cells] : kinds) {
     if (kind.scattered) sortByPoints(cells);
     ShellPart part{packBlock(garment, offsets_, kind, cells, L, gauss_extra), lawOfBlock(garment, kind.fabric),
-                   slot_count_, static_cast<int>(cells.size())};
+                   slot_count_, static_cast<int>(cells.size()), std::nullopt};
     const ShellBlock& b = part.block;
+    part.points = pointCells(garment_, offsets_, kind, cells, b);
     const int nn = b.nodeCount();
     for (long at = 0; at < static_cast<long>(cells.size()); ++at)
       for (int k = 0; k < nn; ++k) {
@@ -101,10 +124,14 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
     slot_count_ += static_cast<long>(b.groups) * nn * 3 * L;
     parts_.push_back(std::move(part));
   }
-  if (std::any_of(parts_.begin(), parts_.end(), [](const ShellPart& part) { return part.law.use.remembers(); })) {
+  const bool remembers = std::any_of(parts_.begin(), parts_.end(), [](const ShellPart& part) {
+    return part.points ? historySize(part) > 0 : part.law.use.remembers();
+  });
+  if (remembers) {
     auto part = parts_.begin();
     for (const auto& kind : kinds) {
-      memory_.add(part->block, kind.second, part->law.use.historySize());
+      memory_.add(part->block, kind.second, historySize(*part));
+      if (part->points) part->points->setHistory(part->block.history_first);
       ++part;
     }
   }
@@ -152,6 +179,10 @@ void Shell::cellForces(const ClothState& state, const ClothForce& out, ClothWork
   if (!cells) std::fill(work.slots.begin(), work.slots.begin() + hinge_slot_, 0.0);
   for (const ShellPart& part : parts_) {
     if (!cells) break;
+    if (part.points) {
+      part.points->force(state, out, terms, work.slots.data() + part.first_slot);
+      continue;
+    }
     BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_first, state, out);
     const std::size_t lanes = static_cast<std::size_t>(part.block.groups) * part.block.lanes;
     if (out.energy) work.lane_energy.assign(lanes, 0.0);
@@ -274,10 +305,20 @@ PointState Shell::stateAt(int patch, Vec2 uv, const ClothState& at) const {
   if (hasRestCurvature(fabric)) change -= bent(frame.rest);
   change.z *= 2;
   PointState state{{0.5 * (norm2(e1) - 1), 0.5 * (norm2(e2) - 1), dot(e1, e2)}, change, {}, {}};
-  const double e[3] = {state.strain.x, state.strain.y, state.strain.z}, k[3] = {change.x, change.y, change.z};
   const NurbsPatch& p = garment_.patches[patch];
   History<double> remembered = memory_.nearest(patch, {findSpan(p.u, uv.x), findSpan(p.v, uv.y)}, uv, at.history);
   remembered.elapsed_s = at.elapsed_s;
+  if (fabric.energy) {
+    std::vector<double> history;
+    for (std::size_t i = 0; i < fabric.energy->historySize(); ++i)
+      history.push_back(remembered.before(static_cast<int>(i)));
+    const SheetStrain strain{{state.strain.x, state.strain.y, state.strain.z}, {change.x, change.y, change.z}};
+    const SheetAnswer a = fabric.energy->at(strain, SheetParts::resultants, history);
+    state.n = {a.resultant[0], a.resultant[1], a.resultant[2]};
+    state.m = {a.moment[0], a.moment[1], a.moment[2]};
+    return state;
+  }
+  const double e[3] = {state.strain.x, state.strain.y, state.strain.z}, k[3] = {change.x, change.y, change.z};
   const PointAnswer<double> r = resultants(pointLaw(fabric), e, k, remembered);
   const double *n = r.membrane.resultant, *m = r.bending.resultant;
   state.n = {n[0], n[1], n[2]};
@@ -295,6 +336,17 @@ PrincipalStress Shell::stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec
   const double root = std::sqrt(std::max(0.0, 0.25 * trace * trace - det));
   const double mean = 0.5 * (E11 + E22), radius = std::hypot(0.5 * (E11 - E22), E12);
   return {(0.5 * trace + root) / J, (0.5 * trace - root) / J, mean + radius, mean - radius};
+}
+
+LawRange Shell::lawRange(const ClothState& state) const {
+  LawRange all;
+  for (const ShellPart& part : parts_) {
+    if (!part.points) continue;
+    const LawRange own = part.points->range(state);
+    all.points += own.points;
+    all.beyond += own.beyond;
+  }
+  return all;
 }
 
 Vec3 Shell::curvatureAt(int patch, Vec2 uv, std::span<const Vec3> q) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// The NURBS Kirchhoff-Love sheet (Zheng 2013, section 2.2): force, energy and stress of a garment.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,7 +9,9 @@
 #include "core/cloth/cloth_state.hpp"
 #include "core/cloth/draft/garment.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/law_range.hpp"
 #include "core/cloth/shell/cell_rule.hpp"
+#include "core/cloth/shell/point_cells.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
 #include "core/cloth/shell/shell_memory.hpp"
 #include "core/cloth/patches/surface.hpp"
@@ -24,6 +27,8 @@ struct ShellPart {
   BlockLaw law;
   long first_slot = 0;
   int cell_count = 0;  ///< the rest of the last group are copies without area
+  /// The same cells where their fabric's law is an energy at a point: these instead of the kernels.
+  std::optional<PointCells> points;
 };
 
 class Shell {
@@ -50,6 +55,8 @@ class Shell {
   /// Norm of the physical curvature, sqrt(k11² + k22² + 2 k12²) [1/m]: the same in every frame of the rest surface, so
   /// also where that stands across the weft.
   double bendAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
+  /// Of the points whose law is an energy at a point.
+  LawRange lawRange(const ClothState& state) const;
 
   const KernelSet& kernels() const { return *kernels_; }
   long gaussPoints() const { return gauss_points_; }

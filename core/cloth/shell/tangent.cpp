@@ -129,8 +129,9 @@ void Tangent::assemble(const Shell& shell, const ClothState& state, ClothWork& w
         for (std::size_t I = 0; I < n; ++I)
           for (std::size_t J = I; J < n; ++J) out = std::copy(blocks[I * n + J].begin(), blocks[I * n + J].end(), out);
       });
+    } else if (const ShellPart& part = shell.parts()[batch.part]; part.points) {
+      part.points->tangent(state, terms, batch.first, batch.count, slots);
     } else {
-      const ShellPart& part = shell.parts()[batch.part];
       const BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_first, state, {});
       shell.kernels().tangent(part.block, law, reinterpret_cast<const double*>(state.q.data()), batch.first,
                               batch.count, slots);

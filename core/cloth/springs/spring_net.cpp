@@ -225,7 +225,8 @@ std::string whatSpringsLack(const Fabric& fabric) {
   const LawUse use = lawUse(fabric);
   const Section section = pointLaw(fabric).section;
   const bool coupled = std::any_of(section.B.begin(), section.B.end(), [](double b) { return b != 0; });
-  return (use.kinds & BendingLaws::remembering) ? "springs remember nothing, and this fabric's bending does"
+  return fabric.energy ? "springs have numbers for their law, and this fabric's is an energy at a point"
+         : (use.kinds & BendingLaws::remembering) ? "springs remember nothing, and this fabric's bending does"
          : use.shears                           ? "springs have no friction in shear, and this fabric has"
          : use.tension ? "springs carry pressure as they carry tension, and this fabric has a tension field"
          : coupled     ? "springs do not couple stretch and bending, and this laminate does"

@@ -16,6 +16,9 @@ namespace {
 
 BlockLaw lawOfTriangles(const Fabric& fabric) {
   checkFabric(fabric);
+  if (fabric.energy)
+    throw InputError({"", 0, "fabric.law"},
+                     "is an energy at a point, which triangles do not carry; allowed with it: \"model\": \"nurbs\"");
   const BlockLaw law = blockLaw(fabric);
   const Section& s = law.point.section;
   for (int i = 0; i < 6; ++i)
