@@ -68,14 +68,15 @@ AuditCheck finiteCheck(const RecordedCell& cell) {
 AuditCheck residualCheck(const RecordedCell& cell) {
   const Worst worst = worstOf(cell, [](const PathCase&, const RecordedTable& rows) {
     Worst most;
-    for (const double r : rows.column("residual")) most.see(r, "");
+    for (std::size_t k = 0; k < rows.rows(); ++k)
+      if (rows.column("rounded")[k] == 0) most.see(rows.column("residual")[k], "");
     return most.value;
   });
   return {"Residual",
           worst.value,
           std::max(cell.definition().solver.tolerance, 1e-6),
           "",
-          "forces out of balance at a step, of the forces that balance; the largest",
+          "forces out of balance at a step, of the forces that balance; the largest, where there is more than rounding",
           fmt::format("forces do not balance: up to {} of them is left on the load {}", formatNumber(worst.value, 2),
                       worst.path)};
 }

@@ -20,7 +20,8 @@ struct CellPoint {
   std::array<double, 2> tension_N{};  ///< the largest of the yarns of a direction
   bool stable = true;
   int iterations = 0;
-  double residual = 0;  ///< forces out of balance, of those that balance
+  double residual = 0;   ///< forces out of balance, of those that balance
+  bool rounded = false;  ///< rounding kept the residual above the tolerance: there is next to no force
 };
 
 /// Whether a target was reached; if not, why, and the last equilibrium before it.
@@ -40,6 +41,9 @@ class CellSpecimen {
   /// d(n11, n22, n12)/d(E11, E22, 2 E12) [N/m] of flat cloth where it is, by rows; none where the engine has none.
   /// Throws RunError where the cell is not stable.
   virtual std::optional<std::array<double, 9>> membraneTangent() = 0;
+  /// D11, D22 and D12 + 2 D66 [N m] of flat cloth where it is, as it begins to bend; none where the engine has none.
+  /// Throws RunError where the cell is not stable.
+  virtual std::optional<std::array<double, 3>> bendingStiffness() = 0;
 };
 
 /// Constant; specimens of it may be moved side by side.
@@ -48,8 +52,6 @@ class CellEngine {
   virtual ~CellEngine() = default;
   virtual std::unique_ptr<CellSpecimen> specimen() const = 0;
   virtual const YarnSurface& surface() const = 0;
-  /// Whether its specimens can be bent.
-  virtual bool bends() const = 0;
   /// What it takes for granted, in sentences.
   virtual std::vector<std::string> assumptions() const = 0;
 };

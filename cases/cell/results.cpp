@@ -53,7 +53,8 @@ Json pathOf(const PathCase& path, const RecordedPath& walked) {
   const auto end = static_cast<std::size_t>(std::max_element(part.begin(), part.end()) - part.begin());
   Json at = Json::object();
   for (const std::string& column : curveColumns())
-    if (column != "iterations" && column != "residual") at[column] = walked.rows.column(column)[end];
+    if (column != "iterations" && column != "residual" && column != "rounded")
+      at[column] = walked.rows.column(column)[end];
   j["end"] = std::move(at);
   return j;
 }

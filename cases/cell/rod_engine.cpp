@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/yarn/cell_bending.hpp"
 
 namespace gambeson {
 namespace {
@@ -58,6 +59,7 @@ class RodSpecimen : public CellSpecimen {
       }
     }
     step.point = {load_, resultantsOf(cell_, load_, sections_), {}, report.stable, report.iterations, report.residual};
+    step.point.rounded = report.converged() && report.residual > options_.tolerance;
     const CellFaces faces = facesOf(cell_.yarns(), load_);
     for (const int d : {along_weft, along_warp}) {
       double& most = step.point.tension_N[d];
@@ -73,6 +75,12 @@ class RodSpecimen : public CellSpecimen {
 
   std::optional<std::array<double, 9>> membraneTangent() override {
     return gambeson::membraneTangent(cell_, load_, sections_, work_);
+  }
+
+  std::optional<std::array<double, 3>> bendingStiffness() override {
+    if (cell_.design().faces == FaceSupport::held) return {};
+    const std::array<double, 6> D = bendingOf(cell_, load_, sections_, work_).rigidity_Nm;
+    return std::array<double, 3>{D[0], D[1], D[3] + 2 * D[2]};
   }
 
  private:
@@ -100,8 +108,9 @@ std::vector<std::string> RodEngine::assumptions() const {
                     ? "Yarns that cross press on each other without friction, by the law of lateral compression; yarns "
                       "side by side do not, so that what their width locks is not seen."
                     : "Yarns pass through each other.");
-  all.push_back(bends() ? "Sections in the faces of the cell may move through the cloth."
-                        : "Sections in the faces of the cell do not move through the cloth.");
+  all.push_back(cell_.design().faces == FaceSupport::glide
+                    ? "Sections in the faces of the cell may move through the cloth."
+                    : "Sections in the faces of the cell do not move through the cloth.");
   return all;
 }
 

@@ -13,7 +13,6 @@ class RodEngine : public CellEngine {
 
   std::unique_ptr<CellSpecimen> specimen() const override;
   const YarnSurface& surface() const override { return surface_; }
-  bool bends() const override { return cell_.design().faces == FaceSupport::glide; }
   std::vector<std::string> assumptions() const override;
 
  private:

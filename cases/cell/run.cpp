@@ -73,7 +73,7 @@ class Units {
   void make(int unit) {
     try {
       if (unit == 0) {
-        RestStiffness rest = restStiffness(engine_, c_);
+        RestStiffness rest = restStiffness(engine_);
         const std::lock_guard<std::mutex> guard(lock_);
         rest_ = std::move(rest);
         record();

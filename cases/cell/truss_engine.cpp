@@ -78,6 +78,7 @@ class TrussSpecimen : public CellSpecimen {
     return shapeOf(tubesOf(cloth_, yarns_, stretch_, kawabataState(cloth_, stretch_)));
   }
   std::optional<std::array<double, 9>> membraneTangent() override { return {}; }
+  std::optional<std::array<double, 3>> bendingStiffness() override { return {}; }
 
  private:
   const KawabataCloth& cloth_;

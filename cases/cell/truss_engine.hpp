@@ -13,7 +13,6 @@ class TrussEngine : public CellEngine {
 
   std::unique_ptr<CellSpecimen> specimen() const override;
   const YarnSurface& surface() const override { return surface_; }
-  bool bends() const override { return false; }
   std::vector<std::string> assumptions() const override;
 
  private:

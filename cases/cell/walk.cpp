@@ -2,40 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <numbers>
-
 #include "core/error.hpp"
 
 namespace gambeson {
-namespace {
-
-/// M/k of a cylinder whose arcs run along a direction.
-double bendingOf(const CellEngine& engine, double curvature_per_m, double direction_rad) {
-  CellTarget to;
-  to.load.curvature_per_m = curvature_per_m;
-  to.load.direction_rad = direction_rad;
-  const CellStep step = engine.specimen()->bring(to);
-  if (!step.reached) throw RunError("the cell cannot be bent at rest: " + step.why);
-  return step.point.resultants.moment_N / curvature_per_m;
-}
-
-}  // namespace
-
-RestStiffness restStiffness(const CellEngine& engine, const CellCase& c) {
-  constexpr double kBend = 1e-3;
+RestStiffness restStiffness(const CellEngine& engine) {
   RestStiffness rest;
   try {
     const auto specimen = engine.specimen();
     specimen->bring({});
     rest.membrane_N_per_m = specimen->membraneTangent();
-    if (!engine.bends()) return rest;
-    double half_m = 0;
-    for (const int d : {along_weft, along_warp})
-      half_m = std::max(half_m, c.yarn(d).shape.amplitude_m + c.yarn(d).shape.half_thickness_m);
-    const double k = kBend / half_m, weft = bendingOf(engine, k, 0), warp = bendingOf(engine, k, std::numbers::pi / 2),
-                 bias = bendingOf(engine, k, std::numbers::pi / 4);
-    rest.bending_Nm = {weft, warp, 2 * bias - 0.5 * (weft + warp)};
+    rest.bending_Nm = specimen->bendingStiffness();
   } catch (const RunError& e) {
     rest.why = e.what();
   }

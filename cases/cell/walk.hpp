@@ -16,12 +16,11 @@ struct RestStiffness {
   std::optional<std::array<double, 9>> membrane_N_per_m;
   /// D11, D22 and D12 + 2 D66 [N m] of M(theta) = D(theta) k, theta from the weft:
   ///   D(theta) = D11 cos⁴ + D22 sin⁴ + 2 (D12 + 2 D66) sin² cos²
-  /// from cylinders along the weft, the warp and the bias; cylinders cannot tell D12 from D66.
+  /// Cylinders cannot tell D12 from D66.
   std::optional<std::array<double, 3>> bending_Nm;
   std::string why{};  ///< of what is absent though the engine has it
 };
-/// Bent by so little that D is that of rest: a thousandth over the half thickness of the cloth.
-RestStiffness restStiffness(const CellEngine& engine, const CellCase& c);
+RestStiffness restStiffness(const CellEngine& engine);
 
 /// A row of the table of a path, and where yarns were there if that is kept.
 struct WalkedRow {

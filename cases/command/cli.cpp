@@ -266,6 +266,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addVerify(app, verify_options);
   FabricArguments fabric_arguments;
   addFabric(app, fabric_arguments);
+  HomogeniseArguments homogenise_arguments;
+  addHomogenise(app, homogenise_arguments);
   StudyArguments study_arguments, batch_arguments;
   addStudy(app, study_arguments);
   addBatch(app, batch_arguments);
@@ -285,7 +287,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     failure(fmt::format(
         "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, export, verify, "
         "study, "
-        "batch and fabric (see "
+        "batch, fabric and homogenise (see "
         "gambeson --help)",
         command.substr(0, 80)));
     return bad_input;
@@ -308,6 +310,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {fabric_arguments.options.fabric, "--output"},
              {fabric_arguments.options.out, "--out"},
              {fabric_arguments.options.loop, "--fit"},
+             {homogenise_arguments.file, "CELL"},
+             {homogenise_arguments.law, "--output"},
              {export_arguments.options.results, "RESULTS"},
              {export_arguments.options.iges, "--iges"},
              {export_arguments.options.opensim, "--opensim"},
@@ -319,7 +323,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {batch_arguments.options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
-      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD"))
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" || name == "CELL"))
         subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
@@ -330,6 +334,10 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("render")) return render(render_arguments);
     if (app.got_subcommand("export")) return exportCommand(export_arguments);
     if (app.got_subcommand("fabric")) return fabricCommand(fabric_arguments, out);
+    if (app.got_subcommand("homogenise")) {
+      checkEnding(homogenise_arguments.law, "--output", {".json"});
+      return homogeniseCell(homogenise_arguments, out);
+    }
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
     if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
     if (app.got_subcommand("together")) {

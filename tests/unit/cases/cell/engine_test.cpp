@@ -17,9 +17,11 @@ CellCase example(const std::vector<std::string>& changes) {
   return readCellCase(folder.write("cell.json", cell_example), changes);
 }
 
+/// Of two yarns that touch, one twice as wavy as the other.
 CellCase truss() {
   return example({"yarns=truss", "solver={}", R"(loads=[{"name":"both","biaxial":{"extension":0.1}}])",
-                  "output.pictures=[]", R"(warp.amplitude="0.12 mm")", R"(weft.amplitude="0.2 mm")"});
+                  "output.pictures=[]", R"(weft.amplitude="0.2 mm")", R"(warp.amplitude="0.12 mm")",
+                  R"(weft.half_width="0.12 mm")", R"(warp.half_width="0.1 mm")"});
 }
 
 CellTarget at(double e11, double e22) { return {{e11, e22, 0, 0, 0}, {}}; }
