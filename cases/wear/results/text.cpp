@@ -53,6 +53,16 @@ std::string signRule() {
          "rotation).";
 }
 
+namespace {
+
+/// Whether the law of all garments is a table.
+bool allTables(const Case& c) {
+  return std::all_of(c.garments.begin(), c.garments.end(),
+                     [&](const GarmentCase& g) { return fabricOf(c, g).table.has_value(); });
+}
+
+}  // namespace
+
 std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
   std::vector<std::string> stated;
   for (const Stretch& s : measured) {
@@ -66,19 +76,21 @@ std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
   // The strain is no longer the elongation: (1 + e)^2 = 1 + 2 E.
   const std::string large =
       most > 0.1 ? fmt::format(", {:.0f} % are {:.0f} cm", 100 * most, 100 * (std::sqrt(1 + 2 * most) - 1)) : "";
+  const std::string law =
+      allTables(c) ? "The fabric\u2019s law is a table: beyond its range stress is a guess."
+                   : fmt::format("The fabric\u2019s law is a straight line, which its source takes for strains below "
+                                 "{} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real fabric "
+                                 "may be stiffer.",
+                                 100 * kStrainOfLaw);
   return fmt::format(
-      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} The fabric\u2019s law is a straight line, "
-      "which "
-      "its source takes for strains below {} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real "
-      "fabric may be stiffer. A largest value far above what 99 % of the cloth stays below is that of single spots, at "
-      "corners and seams.",
+      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} {} A largest value far above what 99 % of the "
+      "cloth stays below is that of single spots, at corners and seams.",
       large,
       stated.empty() ? "The case does not state how far its fabric may stretch, so that the range of its law counts."
                      : fmt::format("The case states how far its fabric may stretch, and that limit counts: less than "
                                    "{}.",
                                    fmt::join(stated, ", ")),
-      c.strain_limit ? " The computation holds the strain of weft and warp to a limit of its own." : "",
-      100 * kStrainOfLaw);
+      c.strain_limit ? " The computation holds the strain of weft and warp to a limit of its own." : "", law);
 }
 
 std::vector<AuditCheck> auditOf(const Measured& m) {
@@ -226,9 +238,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
       "mesh or through cloth within a step is found for its triangles and edges.");
   const bool remembers = std::any_of(c.garments.begin(), c.garments.end(),
                                      [&](const GarmentCase& g) { return lawUse(fabricOf(c, g)).remembers(); });
-  const bool tables = std::all_of(c.garments.begin(), c.garments.end(),
-                                  [&](const GarmentCase& g) { return fabricOf(c, g).table.has_value(); });
-  say(tables      ? "The fabric is elastic and does not remember: no hysteresis, no plastic strain."
+  say(allTables(c) ? "The fabric is elastic and does not remember: no hysteresis, no plastic strain."
       : remembers ? "Stretched fabric is elastic; what bent fabric remembers is said with its law. "
                   "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
                 : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "

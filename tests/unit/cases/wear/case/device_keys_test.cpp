@@ -11,6 +11,7 @@
 #include "cases/input/schema.hpp"
 #include "cases/wear/case/fields.hpp"
 #include "core/error.hpp"
+#include "unit/cases/cloth/small_law.hpp"
 #include "unit/cases/example.hpp"
 
 namespace gambeson {
@@ -109,6 +110,7 @@ const Keys with_refused{
     {"Mesh file", "path rest unit uv_unit"},
     {"Feet left out", "back grow"},
     {"Friction", "stribeck_speed stribeck_power viscous_power pressure"},
+    {"Law of a fabric", "table values rest"},
     {"Loop of shear", "hysteresis hysteresis_5 friction_angle rise growth"},
     {"Contact", "penalty"},
     {"Strain limit", "mode limit tolerance stiffness max_projections points method"},
@@ -125,6 +127,7 @@ const std::vector<Refused> refused{
     {"Human", "feet", R"(human={"manikin": "male_p50", "motion": {"stand": {}}, "feet": {}})", "human.feet"},
     {"Garment", "model", "garment.model=triangles", "garment.model"},
     {"Fabric", "shear_loop", R"(fabric.shear_loop={"hysteresis": 1})", "fabric.shear_loop"},
+    {"Fabric", "law", R"(fabric={"thickness": 0.001, "density": 436, "law": {"values": )" + small_law + "}}", "fabric.law"},
     {"Friction", "static", R"(contact.friction={"kinetic": 0.2, "static": 0.3})", "contact.friction"},
     {"Friction", "viscosity", R"(garment.friction={"kinetic": 0.2, "viscosity": 1})", "garment.friction"},
     {"Friction", "pressure_power", R"(contact.friction_cloth={"kinetic": 0.2, "pressure": 100, "pressure_power": 0.8})",

@@ -7,10 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/cloth/shell/nurbs_shell.hpp"
 #include "core/cloth/shell/tangent.hpp"
-#include "core/cloth/triangles/draft_mesh.hpp"
-#include "core/cloth/triangles/triangle_cloth.hpp"
 #include "core/error.hpp"
 #include "core/material/linearised.hpp"
 #include "core/material/table/law_table.hpp"
@@ -239,7 +236,7 @@ TEST(PointCells, TheSteepestLawBoundsTheTangent) {
   }
 }
 
-TEST(PointCells, OtherClothAndVaryingFabricsAreRefused) {
+TEST(PointCells, AssumedStrainsAndVaryingFabricsAreRefused) {
   const auto keyOf = [](auto f) -> std::string {
     try {
       f();
@@ -260,7 +257,6 @@ TEST(PointCells, OtherClothAndVaryingFabricsAreRefused) {
   Garment jams = g;
   jams.fabric.jam_area = 0.5;
   EXPECT_EQ(keyOf([&] { Shell(jams, widestKernels()); }), "fabric.jam_area");
-  EXPECT_EQ(keyOf([&] { TriangleCloth({meshDraft(g, MeshKind{})}); }), "fabric.law");
 }
 
 }  // namespace

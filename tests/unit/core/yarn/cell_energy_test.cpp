@@ -1,0 +1,118 @@
+#include "core/yarn/cell_energy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/material/linearised.hpp"
+#include "core/material/table/law_table.hpp"
+#include "core/yarn/homogenise.hpp"
+#include "unit/core/cloth/shell/sheet_shapes.hpp"
+
+namespace gambeson {
+namespace {
+
+using namespace shapes;
+
+/// A balanced plain weave of spacing 1 mm.
+RodCellDesign plain(int pieces) {
+  RodCellDesign d;
+  const double L = 1e-3, b = 0.16 * L;
+  d.yarns = {plainWeave(), {WovenYarn{L, b, 1.5 * b, b}, WovenYarn{L, b, 1.5 * b, b}}};
+  d.section = {RodSection{10, 0.5, 0.4, 1e-8, 3e-8, 5e-8}, RodSection{10, 0.5, 0.4, 1e-8, 3e-8, 5e-8}};
+  d.compression = {0.1, 3};
+  d.pieces_per_spacing = pieces;
+  return d;
+}
+
+const CellEnergy& cells() {
+  static const CellEnergy energy(plain(8));
+  return energy;
+}
+
+double resultantOf(const SheetAnswer& a, std::size_t i) { return i < 3 ? a.resultant[i] : a.moment[i - 3]; }
+
+/// A19: 1e-5.
+TEST(CellEnergy, SlopesAreDifferencesOfResultantsAndTheseOfTheEnergy) {
+  const SheetStrain at{{0.06, 0.045, 0.1}, {40, -25, 30}};
+  const SheetAnswer here = cells().at(at);
+  const double step[6] = {1e-5, 1e-5, 1e-5, 1e-1, 1e-1, 1e-1};
+  double force = 0, stiffest = 0, worst_force = 0, worst_slope = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    force = std::max(force, std::abs(resultantOf(here, i)) * step[i]);
+    for (std::size_t j = 0; j < 6; ++j)
+      stiffest = std::max(stiffest, std::abs(here.slope[6 * i + j]) * step[i] * step[j]);
+  }
+  for (std::size_t j = 0; j < 6; ++j) {
+    std::array<SheetAnswer, 2> a;
+    for (std::size_t k = 0; k < 2; ++k) {
+      SheetStrain moved = at;
+      (j < 3 ? moved.strain[j] : moved.curvature[j - 3]) += k == 0 ? -step[j] : step[j];
+      a[k] = cells().at(moved, SheetParts::resultants);
+    }
+    worst_force = std::max(
+        worst_force, std::abs(0.5 * (a[1].energy_J_per_m2 - a[0].energy_J_per_m2) - resultantOf(here, j) * step[j]));
+    for (std::size_t i = 0; i < 6; ++i)
+      worst_slope = std::max(worst_slope, std::abs(0.5 * (resultantOf(a[1], i) - resultantOf(a[0], i)) * step[i] -
+                                                   here.slope[6 * i + j] * step[i] * step[j]));
+  }
+  EXPECT_LT(worst_force, 1e-5 * force);
+  EXPECT_LT(worst_slope, 1e-5 * stiffest);
+}
+
+TEST(CellEnergy, AnswersDoNotDependOnWhatIsRememberedWhereTheEquilibriumIsTheSame) {
+  const SheetStrain first{{0.03, 0.02, 0.05}, {}}, second{{0.04, 0.03, 0.02}, {}};
+  std::vector<double> none(cells().historySize()), remembered(none.size());
+  std::array<SheetAnswer, 2> a;
+  cells().evaluate({&first, 1}, SheetParts::resultants, none, remembered, {&a[0], 1});
+  cells().evaluate({&second, 1}, SheetParts::resultants, remembered, {}, {&a[0], 1});
+  a[1] = cells().at(second, SheetParts::resultants);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(a[0].resultant[i], a[1].resultant[i], 1e-7 * std::abs(a[1].resultant[0]));
+  EXPECT_NEAR(remembered[1], 0.03, 0) << "the strain of the committed state";
+}
+
+TEST(CellEnergy, WhatFindsNoAnswerHasNone) {
+  const SheetAnswer a = cells().at({{-0.6, 0, 0}, {}});
+  EXPECT_TRUE(std::isnan(a.energy_J_per_m2));
+  EXPECT_TRUE(std::isnan(a.slope[0]));
+  EXPECT_THROW(static_cast<void>(cells().steepest()), RunError);
+  RodCellDesign held = plain(8);
+  held.faces = FaceSupport::held;
+  EXPECT_THROW(CellEnergy{held}, InputError);
+}
+
+/// A19, on eight points: the same sheet by cells and by the table made from them, within 1 %.
+TEST(CellEnergy, ASheetOfCellsAnswersAsItsTable) {
+  HomogeniseOptions options;
+  options.range = {{{-0.01, 0.05}, {-0.01, 0.05}, {-0.15, 0.15}}};
+  options.first_nodes = {5, 5, 4};
+  options.most_nodes = 100;
+  options.rigidity_by_strain = false;
+  Fabric fabric;
+  fabric.thickness_m = 0.5e-3;
+  const auto energy = std::make_shared<const CellEnergy>(plain(8));
+  const Fabric of_cells = withEnergy(fabric, energy);
+  const Fabric of_table =
+      withEnergy(fabric, std::make_shared<const LawTable>(homogenise(energy->cell(), options).table));
+  std::vector<std::vector<Vec3>> force;
+  std::vector<double> stored;
+  for (const Fabric& f : {of_cells, of_table}) {
+    const Garment g = garmentOf({flatPatch(uniformKnots(2, 2), uniformKnots(2, 1), 0.02, 0.01)}, {}, f);
+    const Shell shell(g, widestKernels());
+    std::vector<Vec3> q = restPoints(g);
+    for (Vec3& x : q) x = {1.035 * x.x + 0.08 * x.y, 1.02 * x.y + 0.5 * x.x * x.y, 2 * x.x * x.x};
+    force.push_back(forceOn(shell, q, &stored.emplace_back()));
+  }
+  double largest = 0;
+  for (const Vec3& f : force[1]) largest = std::max(largest, norm(f));
+  for (std::size_t i = 0; i < force[0].size(); ++i) EXPECT_LT(norm(force[0][i] - force[1][i]), 1e-2 * largest);
+  EXPECT_NEAR(stored[0], stored[1], 1e-2 * stored[1]);
+}
+
+}  // namespace
+}  // namespace gambeson
