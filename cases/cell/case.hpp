@@ -65,9 +65,10 @@ struct ShearPath {
 struct TrellisPath {
   double angle_rad = 0, extension = 0;
 };
-/// To a cylinder whose arcs run along `direction`, from the weft towards the warp, after an extension.
+/// To a cylinder whose arcs run along `direction`, from the weft towards the warp; of cloth that nothing pulls (yarns
+/// that are pulled would slip through the cloth to where arcs are shorter).
 struct BendingPath {
-  double curvature_per_m = 0, direction_rad = 0, extension = 0;
+  double curvature_per_m = 0, direction_rad = 0;
 };
 using PathLoads = std::variant<BiaxialPath, UniaxialPath, CompressionPath, ShearPath, TrellisPath, BendingPath>;
 

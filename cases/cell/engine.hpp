@@ -46,7 +46,7 @@ class CellSpecimen {
   virtual std::optional<std::array<double, 3>> bendingStiffness() = 0;
 };
 
-/// Constant; specimens of it may be moved side by side.
+/// Constant; specimens of it may be moved side by side, and not longer than it lives.
 class CellEngine {
  public:
   virtual ~CellEngine() = default;

@@ -66,7 +66,6 @@ Object bendingTable() {
               "of the cylinder at its end, positive where its axis lies on the upper side")
       .required()
       .number("direction", &B::direction_rad, "rad", between(-7, 7), "of the arcs, from the weft towards the warp")
-      .number("extension", &B::extension, "", before, before_doc)
       .build();
 }
 
@@ -87,7 +86,8 @@ Object pathTable() {
       .in("load")
       .alternative<TrellisPath>("trellis", &P::load, trellisTable(), "sheared as a picture frame does it")
       .in("load")
-      .alternative<BendingPath>("bending", &P::load, bendingTable(), "bent to a cylinder, exact at any curvature")
+      .alternative<BendingPath>("bending", &P::load, bendingTable(),
+                                "bent to a cylinder, exact at any curvature; of cloth that nothing pulls")
       .in("load")
       .oneOf("load", true)
       .integer("steps", &P::steps, 1, 10000, "equal steps from its begin to its end")

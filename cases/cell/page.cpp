@@ -25,12 +25,6 @@ std::string capital(std::string s) {
   return s;
 }
 
-double largestOf(const std::vector<double>& values) {
-  double most = 0;
-  for (const double v : values) most = std::max(most, std::abs(v));
-  return most;
-}
-
 /// The row at the end of the way, which with cycles is not the last.
 std::size_t endOf(const RecordedPath& path) {
   const std::vector<double>& part = path.rows.column("part");
@@ -39,24 +33,36 @@ std::size_t endOf(const RecordedPath& path) {
 
 double at(const RecordedPath& path, const char* column, std::size_t row) { return path.rows.column(column)[row]; }
 
-/// Forces, or the moment, of one load over what drives it. Curves that are rounding beside the others are left out.
+/// What a load drives, by column of curves.csv and name; each group is a plot of its own.
+using Curves = std::vector<std::pair<const char*, const char*>>;
+struct CurveGroup {
+  const char *title, *unit;
+  Curves curves;
+};
+std::vector<CurveGroup> groupsOf(const PathLoads& load) {
+  const Curves tensions{{"n11_N_per_m", "N11 (weft)"}, {"n22_N_per_m", "N22 (warp)"}};
+  if (std::holds_alternative<BendingPath>(load)) return {{"moment", "moment per width [N]", {{"moment_N", "moment"}}}};
+  if (std::holds_alternative<ShearPath>(load) || std::holds_alternative<TrellisPath>(load))
+    return {{"shear force", "force per width [N/m]", {{"n12_N_per_m", "N12"}}},
+            {"tensions", "force per width [N/m]", tensions}};
+  return {{"tensions", "force per width [N/m]", tensions}};
+}
+
 std::string forcesOf(const PathCase& path, const RecordedPath& walked) {
-  constexpr double kRounding = 1e-6;
   const PathAbscissa x = abscissaOf(path.load);
-  const bool bends = std::holds_alternative<BendingPath>(path.load);
-  XyPlot plot{path.name, capital(inWords(path.load)) + (walked.reached ? "." : ". It ends " + walked.why + "."),
-              x.title,   bends ? "moment per width [N]" : "force per width [N/m]",
-              {},        false};
-  const auto columns =
-      bends ? std::vector<std::pair<const char*, const char*>>{{"moment_N", "moment"}}
-            : std::vector<std::pair<const char*, const char*>>{
-                  {"n11_N_per_m", "N11 (weft)"}, {"n22_N_per_m", "N22 (warp)"}, {"n12_N_per_m", "N12 (shear)"}};
-  double most = 0;
-  for (const auto& [column, name] : columns) most = std::max(most, largestOf(walked.rows.column(column)));
-  for (const auto& [column, name] : columns)
-    if (most == 0 || largestOf(walked.rows.column(column)) > kRounding * most)
+  std::string out;
+  for (const CurveGroup& group : groupsOf(path.load)) {
+    XyPlot plot{fmt::format("{}: {}", path.name, group.title),
+                capital(inWords(path.load)) + (walked.reached ? "." : ". It ends " + walked.why + "."),
+                x.title,
+                group.unit,
+                {},
+                false};
+    for (const auto& [column, name] : group.curves)
       plot.series.push_back({name, walked.rows.column(x.column), walked.rows.column(column), false});
-  return xyChart(plot);
+    out += xyChart(plot);
+  }
+  return out;
 }
 
 /// The thesis's figures: stress by the height of the cell, loads of one sort over each other.
@@ -88,25 +94,29 @@ std::string endsTable(const RecordedCell& cell) {
           {"load", "E11", "E22", "E12", "N11 [N/m]", "N22 [N/m]", "N12 [N/m]", "S11 [GPa]", "S22 [GPa]", "S12 [GPa]",
            "moment [N]", "energy [J/m\u00b2]", "yarn, weft [N]", "yarn, warp [N]"},
           {}};
+  constexpr double kRounding = 1e-6;
+  const double height_m = *cell.definition().height_m;
   for (std::size_t k = 0; k < cell.paths().size(); ++k) {
     const RecordedPath& path = cell.paths()[k];
     std::vector<TableCell> row{TableCell(cell.definition().paths[k].name + (path.reached ? "" : " (not reached)"))};
+    /// Beside the largest force what is less reads as 0.
+    const auto scaleOf = [&](const std::string& column) {
+      double most = 0;
+      for (const char* force : {"n11_N_per_m", "n22_N_per_m", "n12_N_per_m"})
+        most = std::max(most, std::abs(at(path, force, endOf(path))));
+      return column.starts_with('n')   ? most
+             : column.starts_with('s') ? 1e-9 * most / height_m
+             : column == "moment_N"    ? most * height_m
+                                       : 0;
+    };
     for (const char* column : {"e11", "e22", "e12", "n11_N_per_m", "n22_N_per_m", "n12_N_per_m", "s11_GPa", "s22_GPa",
                                "s12_GPa", "moment_N", "energy_J_per_m2", "tension_weft_N", "tension_warp_N"}) {
       if (path.rows.empty()) {
         row.emplace_back("");
         continue;
       }
-      // Beside the largest of its kind what is rounding reads as 0.
-      const double most =
-          std::max({std::abs(at(path, "n11_N_per_m", endOf(path))), std::abs(at(path, "n22_N_per_m", endOf(path))),
-                    std::abs(at(path, "n12_N_per_m", endOf(path)))});
-      const bool force = column[0] == 'n' || column[0] == 's';
-      const double v = at(path, column, endOf(path)), scale = !force ? 0
-                                                              : column[0] == 'n'
-                                                                  ? most
-                                                                  : 1e-9 * most / *cell.definition().height_m;
-      row.emplace_back(std::abs(v) < 1e-9 * scale ? 0. : v);
+      const double v = at(path, column, endOf(path));
+      row.emplace_back(std::abs(v) < kRounding * scaleOf(column) ? 0. : v);
     }
     t.rows.push_back(std::move(row));
   }
@@ -126,10 +136,11 @@ std::string stiffnessTable(const RestStiffness& rest) {
   if (rest.membrane_N_per_m) {
     const std::array<double, 9>& A = *rest.membrane_N_per_m;
     const double most = std::max(A[0], A[4]);
+    const auto rounded = [&](double v) { return std::abs(v) < 1e-9 * most ? 0 : v; };
     add("A11", A[0], "N/m", "extension along the weft, the warp held");
     add("A22", A[4], "N/m", "extension along the warp, the weft held");
-    add("A12", std::abs(A[1]) < 1e-9 * most ? 0 : A[1], "N/m", "extension of one by the other");
-    add("A66", A[8], "N/m", "shear");
+    add("A12", rounded(A[1]), "N/m", "extension of one by the other");
+    add("A66", rounded(A[8]), "N/m", "shear");
   }
   if (rest.bending_Nm) {
     const std::array<double, 3>& D = *rest.bending_Nm;

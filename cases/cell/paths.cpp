@@ -41,7 +41,7 @@ CellTarget targetOf(const PathLoads& load, double t) {
                           return CellTarget{trellis(t * p.angle_rad, 1 + p.extension), {}};
                         },
                         [&](const BendingPath& p) {
-                          CellLoad to = loadOf({1 + p.extension, 0, 0, 1 + p.extension});
+                          CellLoad to;
                           to.curvature_per_m = t * p.curvature_per_m;
                           to.direction_rad = p.direction_rad;
                           return CellTarget{to, {}};
@@ -94,8 +94,8 @@ std::string inWords(const PathLoads& load) {
             return fmt::format("sheared as a trellis by {:.3g} degrees{}", degrees(p.angle_rad), after(p.extension));
           },
           [](const BendingPath& p) {
-            return fmt::format("bent to {:.3g} 1/m, arcs at {:.3g} degrees from the weft{}", p.curvature_per_m,
-                               degrees(p.direction_rad), after(p.extension));
+            return fmt::format("bent to {:.3g} 1/m, arcs at {:.3g} degrees from the weft", p.curvature_per_m,
+                               degrees(p.direction_rad));
           },
       },
       load);

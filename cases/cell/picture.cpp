@@ -42,7 +42,7 @@ std::string captionOf(const RecordedCell& cell, const CellPicture& picture) {
   std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
   std::replace(view.begin(), view.end(), '_', ' ');
   const std::string what =
-      picture.field == CellField::stress ? "Stress along the yarns" : "Weft (brown) and warp (blue)";
+      picture.field == CellField::stress ? "Stress along the yarns" : "Weft (orange) and warp (blue)";
   const std::string where =
       picture.path.empty()
           ? "at rest"

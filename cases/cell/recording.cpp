@@ -127,10 +127,26 @@ void CellRecorder::add(const WalkedPath& path) {
     const CellResultants& n = p.resultants;
     const double to_GPa = 1e-9 / *c_.height_m;
     writer_->append(TableRow{kTable,
-                             {static_cast<double>(units_), row.part, p.load.e11, p.load.e22, 0.5 * p.load.g12,
-                              p.load.curvature_per_m, n.n11, n.n22, n.n12, n.moment_N, to_GPa * n.n11, to_GPa * n.n22,
-                              to_GPa * n.n12, n.energy_J_per_m2, p.tension_N[along_weft], p.tension_N[along_warp],
-                              p.stable ? 1. : 0., static_cast<double>(p.iterations), p.residual}});
+                             {static_cast<double>(units_),
+                              row.part,
+                              p.load.e11,
+                              p.load.e22,
+                              0.5 * p.load.g12,
+                              p.load.curvature_per_m,
+                              n.n11,
+                              n.n22,
+                              n.n12,
+                              n.moment_N,
+                              to_GPa * n.n11,
+                              to_GPa * n.n22,
+                              to_GPa * n.n12,
+                              n.energy_J_per_m2,
+                              p.tension_N[along_weft],
+                              p.tension_N[along_warp],
+                              p.stable ? 1. : 0.,
+                              static_cast<double>(p.iterations),
+                              p.residual,
+                              p.rounded ? 1. : 0.}});
     if (row.shape) keep(*row.shape, rows_);
     ++rows_;
   }

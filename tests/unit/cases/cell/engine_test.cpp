@@ -44,7 +44,8 @@ TEST(CellEngine, ForcesOfATrussAreDerivativesOfItsEnergy) {
 TEST(CellEngine, ATrussWithFreeSidesPullsItsYarnStraight) {
   const CellCase c = truss();
   const KawabataCloth cloth = trussOf(c);
-  const auto specimen = makeEngine(c)->specimen();
+  const auto engine = makeEngine(c);
+  const auto specimen = engine->specimen();
   const double stretch = 1.1;
   const CellStep step = specimen->bring({at(0.5 * (stretch * stretch - 1), 0).load, along_warp});
   EXPECT_LT(step.point.load.e22, -0.01);

@@ -26,7 +26,7 @@ inline const std::string cell_example = R"json({
   "loads": [
     {"name": "both", "biaxial": {"extension": 0.04}, "steps": 4},
     {"name": "one", "uniaxial": {"extension": 0.04, "along": "warp", "sides": "free"}, "steps": 2},
-    {"name": "bent", "bending": {"curvature": "0.2 1/mm"}, "steps": 2},
+    {"name": "bent", "bending": {"curvature": "5 1/m", "direction": "45 deg"}, "steps": 2},
     {"name": "turned", "trellis": {"angle": "10 deg", "extension": 0.01}, "steps": 2, "cycles": 1}
   ],
   "bars": [{"name": "two", "lengths": [0.5, 0.5], "young": [1e9, 3e9]}],

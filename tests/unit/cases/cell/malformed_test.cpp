@@ -57,7 +57,7 @@ TEST(MalformedCell, EachSaysFileLineKeyAndReason) {
           {", \"biaxial\": {\"extension\": 0.04}", "", 16, "loads[0]", "one of biaxial"},
           {"\"biaxial\": {\"extension\": 0.04}", "\"shear\": {\"shear\": 0.8, \"extension\": -0.3}", 16,
            "loads[0].shear", "of no plane cloth"},
-          {"\"0.2 1/mm\"", "\"4 1/mm\"", 18, "loads[2].bending.curvature", "allowed: below"},
+          {"\"5 1/m\"", "\"4 1/mm\"", 18, "loads[2].bending.curvature", "allowed: below"},
           {"\"10 deg\"", "\"90 deg\"", 19, "loads[3].trellis.angle", "allowed: >= -1.4"},
           {"\"height\"", "\"faces\": \"held\", \"height\"", 18, "loads[2].bending", "do not bend"},
           {"\"height\"", "\"yarns\": \"truss\", \"height\"", 22, "solver.pieces_per_spacing", "goes with yarns rod"},

@@ -88,11 +88,11 @@ TEST(CellRun, TablesSummaryAndPage) {
   EXPECT_NEAR(both.at("s11_GPa")[4], 1e-9 * both.at("n11_N_per_m")[4] / 0.64e-3, 1e-15);
   // Sides that are free carry nothing and come in.
   EXPECT_LE(std::abs(one.at("n11_N_per_m")[2]), 1e-6 * one.at("n22_N_per_m")[2]);
-  EXPECT_LT(one.at("e11")[2], -0.005);
+  EXPECT_LT(one.at("e11")[2], -1e-4);
   EXPECT_GT(bent.at("moment_N")[2], 0);
   ASSERT_EQ(turned.at("part").size(), 5u);
   EXPECT_NEAR(turned.at("energy_J_per_m2")[4], turned.at("energy_J_per_m2")[0], 1e-6 * turned.at("energy_J_per_m2")[2]);
-  EXPECT_NEAR(turned.at("n12_N_per_m")[3], turned.at("n12_N_per_m")[1], 1e-6 * turned.at("n12_N_per_m")[2]);
+  EXPECT_NEAR(turned.at("n12_N_per_m")[3], turned.at("n12_N_per_m")[1], 1e-6 * turned.at("n11_N_per_m")[2]);
 
   const auto s = summaryOf(out);
   EXPECT_TRUE(s.at("finished").get<bool>());
@@ -128,7 +128,9 @@ TEST(CellRun, TablesSummaryAndPage) {
   EXPECT_EQ(caseIdentity(readCellCase(out / "case.json")), caseIdentity(c));
 }
 
-const std::vector<std::string> kQuick{"output.pictures=[]", "solver.pieces_per_spacing=4"};
+const std::vector<std::string> kQuick{"output.pictures=[]", "solver.pieces_per_spacing=4",
+                                      R"(loads=[{"name":"a","biaxial":{"extension":0.05},"steps":2},
+              {"name":"b","trellis":{"angle":0.1,"extension":0.05},"steps":1,"cycles":1}])"};
 
 /// The same bits for any number of threads, and for a run that was stopped after any load and goes on.
 TEST(CellRun, ThreadsAndResumeChangeNoBit) {
@@ -137,15 +139,15 @@ TEST(CellRun, ThreadsAndResumeChangeNoBit) {
   const auto out = [&](const char* name) { return folder.path() / name; };
   run(c, out("one"));
   run(c, out("two"), 2);
-  for (const int kept : {1, 3}) {
+  for (const int kept : {1, 2}) {
     run(c, out("cut"));
-    for (int k = kept; k <= 4; ++k)
+    for (int k = kept; k <= 2; ++k)
       std::filesystem::remove(out("cut") / ("frames/segment_00000" + std::to_string(k) + ".h5"));
     run(c, out("cut"), 2, true);
     for (const char* other : {"two", "cut"}) {
       for (const char* file : {"curves.csv", "case.json", "frames.xdmf", "frames/layout.h5"})
         EXPECT_EQ(content(out("one") / file), content(out(other) / file)) << other << " " << file;
-      for (int k = 0; k <= 4; ++k) {
+      for (int k = 0; k <= 2; ++k) {
         const std::string file = "frames/segment_00000" + std::to_string(k) + ".h5";
         EXPECT_EQ(content(out("one") / file), content(out(other) / file)) << other << " " << file;
       }
