@@ -14,8 +14,8 @@ struct CellBending {
 };
 
 /// Of a flat equilibrium, the strain of the middle of the cloth kept: the sections go with the cylinder (carried), follow
-/// to first order as they like, and their mean height stays (cloth under tension would slip inwards to where it is
-/// shorter). To a bend k about the direction t the energy answers
+/// to first order as they like, and the force that moves a yarn as a whole through the cloth is borne from outside (yarns
+/// under tension would slip inwards, to where they are shorter, and loose ones have nothing to hold them). To a bend k about the direction t the energy answers
 ///   b(t) = b1 c² + b2 s² + 2 b3 c s,
 ///   D(t) = D11 c⁴ + D22 s⁴ + (2 D12 + 4 D33) c² s² + 4 D13 c³ s + 4 D23 c s³,  c = cos t, s = sin t,
 /// D(t) = d²W/dk² - g . K^-1 g with g = d²W/(dk dx), by central differences (h = 1e-4 a period, error of h²). b comes

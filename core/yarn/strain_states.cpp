@@ -90,10 +90,7 @@ void StrainStates::goOut(std::span<const Node> from, int direction) {
       before = last, last = here;
     }
   });
-  const std::size_t shears = nodes_[2].size(), warps = nodes_[1].size();
-  throwFirst(failures, [&](std::size_t i) {
-    return loadOf({i / (shears * warps), i / shears % warps, i % shears});
-  });
+  throwFirst(failures, [&](std::size_t i) { return loadOf(nodeOf(i)); });
 }
 
 void StrainStates::split(int direction, std::span<const int> intervals) {
