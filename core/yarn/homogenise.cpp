@@ -54,7 +54,9 @@ std::vector<double> nodesThroughZero(double low, double high, int count) {
   if (high > 0) below = std::min(below, intervals - 1);
   std::vector<double> nodes;
   for (int i = 0; i <= intervals; ++i)
-    nodes.push_back(i < below ? low * (below - i) / below : i == below ? 0.0 : high * (i - below) / (intervals - below));
+    nodes.push_back(i < below    ? low * (below - i) / below
+                    : i == below ? 0.0
+                                 : high * (i - below) / (intervals - below));
   return nodes;
 }
 
@@ -136,8 +138,8 @@ class Refinement {
 
   /// What one direction of the grid errs.
   struct Along {
-    Strain greatest{};               ///< of each component
-    std::vector<double> by_wanted;   ///< of each interval, in parts of what is wanted
+    Strain greatest{};              ///< of each component
+    std::vector<double> by_wanted;  ///< of each interval, in parts of what is wanted
   };
 
   Along errorsAlong(int d, const StrainSpline<1>& spline, const HomogenisedCell& out) {
@@ -241,8 +243,8 @@ HomogenisedCell homogeniseOver(const RodCell& cell, const HomogeniseOptions& opt
   out.table.even_in_shear = even;
   out.table.membrane = refinement.grid();
   out.table.energy = refinement.energies();
-  addBending(cell, refinement.states(),
-             options.rigidity_by_strain ? first : Nodes{{{0.0}, {0.0}, {0.0}}}, even, out.table);
+  addBending(cell, refinement.states(), options.rigidity_by_strain ? first : Nodes{{{0.0}, {0.0}, {0.0}}}, even,
+             out.table);
   return out;
 }
 

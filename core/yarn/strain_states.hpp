@@ -23,12 +23,12 @@ class NoEquilibrium : public RunError {
 };
 
 /// Nodes in E11, E22, 2 E12, ascending; states in the order of law tables, E11 slowest. Work is cut into lines of
-/// nodes that are fixed: each goes from a state that is known, each of its loads from what the two before it lead to (or
-/// lie between), so that the bits do not depend on threads.
+/// nodes that are fixed: each goes from a state that is known, each of its loads from what the two before it lead to
+/// (or lie between), so that the bits do not depend on threads.
 class StrainStates {
  public:
-  /// From rest along shear, from there along E11, from there along E22. Throws NoEquilibrium, of the first in the order of
-  /// the nodes.
+  /// From rest along shear, from there along E11, from there along E22. Throws NoEquilibrium, of the first in the order
+  /// of the nodes.
   StrainStates(const RodCell& cell, const std::array<std::vector<double>, 3>& nodes, const EquilibriumOptions& options);
 
   using Node = std::array<std::size_t, 3>;
