@@ -30,7 +30,8 @@ void addRun(CLI::App& app, RunArguments& a) {
   CLI::App& run =
       *app.add_subcommand("run",
                           "Runs a case: dresses the human, lets it move, measures, takes pictures, reports; or "
-                          "solves a static, dynamic or modal case of a structure");
+                          "solves a static, dynamic or modal case of a structure; or takes a cell of yarns through "
+                          "loads");
   run.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
   run.add_option(
          "--out", a.options.out,
@@ -51,7 +52,7 @@ void addRun(CLI::App& app, RunArguments& a) {
       "stress.csv, patches.csv, straps.csv, collisions.csv, energy.csv, memory.csv, latitude.csv, snapshots/\n"
       "(pictures) and frames.xdmf (the recording, for ParaView). Static, dynamic and modal cases leave path.csv "
       "(points and edges of each step) and\n"
-      "shape.csv (the last shape) in place of these tables.\n\n"
+      "shape.csv (the last shape) in place of these tables, cells of yarns curves.csv.\n\n"
       "Examples:\n"
       "  gambeson run cases/library/shorts_walk.json\n"
       "  gambeson run cases/library/shorts_walk.json --out results/thin --set fabric.thickness=\"0.4 mm\"\n"
@@ -261,6 +262,53 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       "  gambeson fabric denim.card.json --test bending --direction 22.5 --model triangles --cells 16\n"
       "  gambeson fabric denim.card.json --fit measured.csv -o denim.json --out results/denim\n\n"
       "Exit status: 0 done; 1 a test failed, the message says why; 2 something in the input is wrong.");
+}
+
+void addHomogenise(CLI::App& app, HomogeniseArguments& a) {
+  CLI::App& command = *app.add_subcommand(
+      "homogenise",
+      "Makes the law of a cloth from a cell of its yarns (a case of kind cell): its energy by strain and its bending "
+      "rigidity, as a table that a fabric takes");
+  command.add_option("CELL", a.file, "Case of kind cell (JSON)")->type_name("")->required();
+  command.add_option("-o,--output", a.law, "The law (JSON), for \"fabric\": {\"law\": {\"table\": \"LAW\"}}")
+      ->type_name("LAW")
+      ->required();
+  addOverrides(command, a.overrides);
+  const auto range = [&](const char* option, std::array<double, 2>& ends, const std::string& what) {
+    command.add_option(option, ends, what)->type_name("LOW HIGH")->capture_default_str();
+  };
+  range("--e11", a.e11, "Strain along the weft (Green-Lagrange), with 0 inside or at an end");
+  range("--e22", a.e22, "Strain along the warp");
+  range("--e12", a.e12, "Shear strain");
+  command
+      .add_option("--tension-error", a.tension_error,
+                  "Error of the tensions that is wanted, as a part of the largest in the range")
+      ->type_name("PART")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-6, 1.).description(""));
+  command.add_option("--shear-error", a.shear_error, "Error of the shear that is wanted, as a part of the largest")
+      ->type_name("PART")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-6, 1.).description(""));
+  command.add_option("--nodes", a.most_nodes, "Nodes of the table, at most: cells that are solved for it")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(100, 1000000).description(""));
+  command.add_flag("--rigidity-at-rest", a.rigidity_at_rest,
+                   "Takes the bending rigidity of the cell at rest for all strains, in place of one by strain");
+  command.add_flag("--shrink", a.shrink,
+                   "Makes the range smaller where a load has no stable equilibrium, in place of ending there");
+  command.add_option("--threads", a.threads, "Threads, 0 for as many as the machine has; the law does not depend on it")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 4096).description(""));
+  command.footer(
+      "Nodes are added where cells solved between them differ most from the table, until the errors wanted hold. "
+      "Friction between\nyarns is left out: an energy has none.\n\n"
+      "Example:\n"
+      "  gambeson homogenise cases/library/cell_plain.json -o plain.law.json --e11 -0.01 0.06 --e22 -0.01 0.06\n\n"
+      "Exit status: 0 done; 1 a load has no equilibrium, or the errors wanted were not reached (the table is written "
+      "then, and says its errors); 2 the case or\nan option is wrong.");
 }
 
 void addVerify(CLI::App& app, verify::Options& o) {

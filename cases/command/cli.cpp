@@ -9,6 +9,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "cases/cell/run.hpp"
 #include "cases/cloth/kind_fields.hpp"
 #include "cases/command/arguments.hpp"
 #include "cases/command/documents.hpp"
@@ -84,6 +85,8 @@ void checkBuild(const AnyCase& any) {
   useThreads(0);
   if (const auto* structure = std::get_if<StructureCase>(&any))
     checkStructure(*structure);
+  else if (const auto* cell = std::get_if<CellCase>(&any))
+    checkCell(*cell);
   else
     checkRun(std::get<Case>(any));
 }
@@ -105,7 +108,7 @@ int check(const CheckArguments& a, std::ostream& out) {
 int draft(const DraftArguments& a, std::ostream& out) {
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
-  if (!c) throw InputError({a.file.string(), 0, ""}, "is a case of a structure; garments are made by those that wear");
+  if (!c) throw InputError({a.file.string(), 0, ""}, "is no case of worn cloth; garments are made by those that wear");
   draftToFile(*c, a.garment, a.garment_file, a.obj, out);
   return done;
 }
@@ -123,6 +126,7 @@ int run(RunArguments& a) {
   if (a.options.out.empty()) a.options.out = std::filesystem::path("results") / a.file.stem();
   checkPath(std::filesystem::absolute(a.options.out), "--out");
   if (const auto* structure = std::get_if<StructureCase>(&any)) return runStructure(*structure, a.options);
+  if (const auto* cell = std::get_if<CellCase>(&any)) return runCell(*cell, a.options);
   return runCase(std::get<Case>(any), a.options);
 }
 
@@ -225,6 +229,7 @@ int render(RenderArguments& a) {
   a.options.width = picture.width;
   a.options.height = picture.height;
   checkOutput(a.options.png, "--output", recordedFiles(a.options.results));
+  if (holdsCell(a.options.results)) return renderCellResults(a.options);
   return holdsStructure(a.options.results) ? renderStructureResults(a.options) : renderResults(a.options);
 }
 
@@ -261,6 +266,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addVerify(app, verify_options);
   FabricArguments fabric_arguments;
   addFabric(app, fabric_arguments);
+  HomogeniseArguments homogenise_arguments;
+  addHomogenise(app, homogenise_arguments);
   StudyArguments study_arguments, batch_arguments;
   addStudy(app, study_arguments);
   addBatch(app, batch_arguments);
@@ -280,7 +287,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     failure(fmt::format(
         "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, export, verify, "
         "study, "
-        "batch and fabric (see "
+        "batch, fabric and homogenise (see "
         "gambeson --help)",
         command.substr(0, 80)));
     return bad_input;
@@ -303,6 +310,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {fabric_arguments.options.fabric, "--output"},
              {fabric_arguments.options.out, "--out"},
              {fabric_arguments.options.loop, "--fit"},
+             {homogenise_arguments.file, "CELL"},
+             {homogenise_arguments.law, "--output"},
              {export_arguments.options.results, "RESULTS"},
              {export_arguments.options.iges, "--iges"},
              {export_arguments.options.opensim, "--opensim"},
@@ -314,7 +323,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {batch_arguments.options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
-      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD"))
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" || name == "CELL"))
         subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
@@ -325,6 +334,10 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("render")) return render(render_arguments);
     if (app.got_subcommand("export")) return exportCommand(export_arguments);
     if (app.got_subcommand("fabric")) return fabricCommand(fabric_arguments, out);
+    if (app.got_subcommand("homogenise")) {
+      checkEnding(homogenise_arguments.law, "--output", {".json"});
+      return homogeniseCell(homogenise_arguments, out);
+    }
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
     if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
     if (app.got_subcommand("together")) {
@@ -335,6 +348,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("batch")) return batchCommand(batch_arguments, out);
     checkEnding(report_options.html, "--output", {".html", ".htm"});
     checkOutput(report_options.html, "--output", recordedFiles(report_options.results));
+    if (holdsCell(report_options.results)) return reportCellResults(report_options);
     return holdsStructure(report_options.results) ? reportStructureResults(report_options)
                                                   : reportResults(report_options);
   };

@@ -1,5 +1,6 @@
 #include "cases/kinds/any_case.hpp"
 
+#include "cases/cell/fields.hpp"
 #include "cases/input/overrides.hpp"
 #include "cases/structure/fields.hpp"
 #include "cases/wear/case/fields.hpp"
@@ -9,6 +10,7 @@ namespace gambeson {
 std::vector<schema::KindOfFile> kindsOfCase() {
   std::vector<schema::KindOfFile> kinds{{"wear", &schema::caseTable()}};
   for (const auto& [word, kind] : schema::structureKinds()) kinds.push_back({word, &schema::structureTable(kind)});
+  kinds.push_back({"cell", &schema::cellTable()});
   return kinds;
 }
 
@@ -19,7 +21,9 @@ AnyCase readAnyCase(const JsonNode& root, const std::filesystem::path& file) {
   for (const schema::KindOfFile& k : kindsOfCase()) words.push_back(k.kind);
   const std::string name = file.string();
   const schema::Entry entry{root, "", name};
-  if (schema::readChoice(entry.member(*kind), words) == 0) return readCase(root, file);
+  const std::size_t which = schema::readChoice(entry.member(*kind), words);
+  if (which == 0) return readCase(root, file);
+  if (words[which] == "cell") return readCellCase(root, file);
   return readStructureCase(root, file);
 }
 

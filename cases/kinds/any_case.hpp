@@ -6,13 +6,14 @@
 #include <variant>
 #include <vector>
 
+#include "cases/cell/case.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/structure/case.hpp"
 #include "cases/wear/case/case.hpp"
 
 namespace gambeson {
 
-using AnyCase = std::variant<Case, StructureCase>;
+using AnyCase = std::variant<Case, StructureCase, CellCase>;
 
 /// Reads and checks a case file of the kind that it says it is; as readCase.
 AnyCase readAnyCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});

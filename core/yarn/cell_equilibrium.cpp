@@ -73,7 +73,7 @@ void EquilibriumWork::assemble(const CellFaces& faces, std::span<const Pose> sec
     blocks_ = cell_.sparsity(pairs_);
     reduction_ = std::make_unique<Reduction>(blocks_, cell_.freedoms());
     reduced_ = reduction_->sparsity();
-    factor_ = std::make_unique<SymmetricFactor>(reduced_);
+    factor_ = std::make_unique<SymmetricFactor>(reduced_, Elimination::entries);
   }
   CellAnswer again;
   cell_.evaluate(faces, sections, again, &blocks_, downhill);

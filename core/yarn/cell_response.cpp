@@ -65,19 +65,22 @@ std::array<double, 9> membraneTangent(const RodCell& cell, const CellLoad& load,
 }
 
 LoadReport freeAcross(const RodCell& cell, CellLoad& load, std::vector<Pose>& sections, EquilibriumWork& work,
-                      double tolerance, const EquilibriumOptions& options) {
+                      double tolerance, const EquilibriumOptions& options, YarnDirection pulled) {
   constexpr int kIterations = 30;
-  constexpr double kLongest = 0.02, kRounding = 1e-12;  // of E22
+  constexpr double kLongest = 0.02, kRounding = 1e-12;  // of the strain across
+  const bool weft = pulled == along_weft;
+  const auto across = [&](CellLoad& l) -> double& { return weft ? l.e22 : l.e11; };
   LoadReport report;
   report.reached = load;
   for (int k = 0; k < kIterations; ++k) {
     const CellResultants n = resultantsOf(cell, load, sections);
     report.end = EquilibriumReport::End::converged;
-    if (std::abs(n.n22) <= tolerance * (std::abs(n.n11) + std::abs(n.n12))) return report;
-    const double slope = membraneTangent(cell, load, sections, work)[4];
+    const double side = weft ? n.n22 : n.n11, along = weft ? n.n11 : n.n22;
+    if (std::abs(side) <= tolerance * (std::abs(along) + std::abs(n.n12))) return report;
+    const double slope = membraneTangent(cell, load, sections, work)[weft ? 4 : 0];
     CellLoad next = load;
-    next.e22 -= std::clamp(n.n22 / std::abs(slope), -kLongest, kLongest);
-    if (std::abs(next.e22 - load.e22) <= kRounding) return report;
+    across(next) -= std::clamp(side / std::abs(slope), -kLongest, kLongest);
+    if (std::abs(across(next) - across(load)) <= kRounding) return report;
     const int before = report.iterations;
     report = changeLoad(cell, load, next, sections, work, options);
     report.iterations += before;

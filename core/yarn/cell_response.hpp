@@ -27,8 +27,10 @@ std::array<double, 9> membraneTangent(const RodCell& cell, const CellLoad& load,
 
 /// The strain E22 at which n22 = 0 under the E11 and 2 E12 of `load` (uniaxial with free sides), from an equilibrium
 /// under `load`, which it moves there: Newton's method, until |n22| is below `tolerance` times |n11| + |n12|, or below
-/// that of E22's last change. Returns how it ended; `load` and `sections` are of the last equilibrium.
+/// that of E22's last change. Where the cloth is pulled along the warp, E11 at which n11 = 0. Returns how it ended;
+/// `load` and `sections` are of the last equilibrium.
 LoadReport freeAcross(const RodCell& cell, CellLoad& load, std::vector<Pose>& sections, EquilibriumWork& work,
-                      double tolerance = 1e-6, const EquilibriumOptions& options = {});
+                      double tolerance = 1e-6, const EquilibriumOptions& options = {},
+                      YarnDirection pulled = along_weft);
 
 }  // namespace gambeson

@@ -57,6 +57,18 @@ FALL = """{
   "solver": {"scheme": "explicit", "end": "5 ms"}, "output": {"pictures": []}
 }
 """
+CELL = """{
+  "kind": "cell", "name": "cell", "weave": {"pattern": "twill", "over": 2, "under": 1},
+  "weft": {"spacing": "1 mm", "amplitude": "0.16 mm", "half_width": "0.2 mm", "half_thickness": "0.16 mm", "moduli": {"young": "84 GPa", "axial_shear": "0.2 GPa"}},
+  "warp": {"spacing": "1.2 mm", "amplitude": "0.16 mm", "half_width": "0.2 mm", "half_thickness": "0.16 mm",
+           "section": {"stretch": 1e4, "shear_across": 25, "shear_through": 25, "torsion": 1e-6, "bending_through": 6e-5, "bending_in_plane": 1e-4}},
+  "compression": {"half_force": "5 N", "exponent": 3}, "height": "0.64 mm",
+  "loads": [{"name": "both", "biaxial": {"extension": 0.04, "ratio": 0.5}, "steps": 2},
+            {"name": "turned", "trellis": {"angle": "10 deg", "extension": 0.03}, "steps": 1, "cycles": 1}],
+  "bars": [{"name": "two", "lengths": [0.5, 0.5], "young": [1e9, 3e9]}],
+  "solver": {"pieces_per_spacing": 4, "iterations": 40, "halvings": 2}, "output": {"shapes": "all", "pictures": []}
+}
+"""
 STUDY = """{
   "name": "slip", "case": "cloth.json",
   "axes": [{"path": "factors.thickness", "values": [0.5, 1]},
@@ -271,6 +283,7 @@ def kinds():
         Kind("static", "case.json", {"case.json": PLATE}, run=True),
         Kind("modal", "case.json", {"case.json": DISC}, run=True),
         Kind("dynamic", "case.json", {"case.json": FALL}, run=True),
+        Kind("cell", "case.json", {"case.json": CELL}, run=True),
         Kind("study", "a.study.json", {"a.study.json": STUDY, "cloth.json": CLOTH % ""}, command=["study", "a.study.json", "--check"]),
         Kind("garment_file", "cloth.json", {"case.json": wearing('{"file": {"path": "cloth.json"}}') % '"supports": [{"fixed": {"edge": "left"}}],',
                                             "cloth.json": GARMENT}, run=True),
@@ -333,6 +346,8 @@ def kinds():
         results("report_facts", "out/run.json", on_ball, "report", "out", "-o", "page.html"),
         results("report_summary", "out/summary.json", PLATE, "report", "out", "-o", "page.html"),
         results("report_path", "out/path.csv", PLATE, "report", "out", "-o", "page.html"),
+        results("report_cell", "out/frames/segment_000001.h5", CELL, "report", "out", "-o", "page.html"),
+        results("resume_cell", "out/frames/segment_000001.h5", CELL, "run", "case.json", "--out", "out", "--threads", "1", "--resume"),
         results("render_layout", "out/frames/layout.h5", on_ball, "render", "out", "-o", "a.png", "--size", "160x120"),
         results("report_human", "out/frames/segment_000001.h5", dressed_case, "report", "out", "-o", "page.html"),
         results("export_layout", "out/frames/layout.h5", dressed_case, "export", "out", "--iges", "a.igs", "--opensim", "loads"),

@@ -147,7 +147,7 @@ TEST(Command, BadInputExitsWithTwo) {
       {"", "gambeson run cases/library/shorts_walk.json"},
       {"dance",
        "there is no command \"dance\"; there are run, dress, check, draft, render, report, export, verify, study, "
-       "batch and fabric"},
+       "batch, fabric and homogenise"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},

@@ -11,7 +11,7 @@ TEST(MalformedStructure, EachSaysFileLineKeyAndReason) {
       structure_example,
       {
           // Kinds and keys.
-          {"\"static\"", "\"statics\"", 2, "kind", "allowed: wear, static, dynamic or modal"},
+          {"\"static\"", "\"statics\"", 2, "kind", "allowed: wear, static, dynamic, modal or cell"},
           {"\"static\"", "3", 2, "kind", "expected one of"},
           {"\"steps\"", "\"step\"", 29, "solver.step", "did you mean \"steps\"?"},
           {"\"clamp\"", "\"clamped\"", 20, "supports[0].clamped", "did you mean \"clamp\"?"},

@@ -1,0 +1,147 @@
+#pragma once
+/// A cell of a woven cloth, its yarns, and the loads that it is taken through: the kind of case that says what a cloth
+/// will carry before it is woven (Man 2006, chapter 4). What each field means in a case file, its default and range:
+/// cases/FIELDS.md, written by the tables in cases/cell/fields*.cpp.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "analysis/render/render.hpp"
+#include "cases/input/json.hpp"
+#include "core/yarn/compression.hpp"
+#include "core/yarn/periodic_bar.hpp"
+#include "core/yarn/rod.hpp"
+#include "core/yarn/woven_yarns.hpp"
+
+namespace gambeson {
+
+// --- Yarns -------------------------------------------------------------------------------------------------------
+
+/// What the yarns are computed as.
+enum class YarnModel { rod, truss };
+
+enum class WeavePattern { plain, twill, satin, matrix };
+struct WeaveCase {
+  WeavePattern pattern = WeavePattern::plain;
+  std::optional<int> over, under;        ///< of a twill
+  std::optional<int> ends, step;         ///< of a satin
+  std::vector<std::vector<int>> matrix;  ///< rows of 0 and 1, as weaveOf takes them
+};
+
+/// Of a yarn whose fibres run along it.
+struct YarnModuli {
+  double young_Pa = 0;  ///< along the yarn
+  double shear_Pa = 0;  ///< axial: of fibres along each other
+};
+
+struct YarnCase {
+  WovenYarn shape;
+  std::variant<YarnModuli, RodSection> stiffness;
+};
+// --- Loads -------------------------------------------------------------------------------------------------------
+
+/// Stretched along both directions: Phi11 = 1 + extension, Phi22 = 1 + ratio extension.
+struct BiaxialPath {
+  double extension = 0, ratio = 1;
+};
+/// Stretched along one direction; the other keeps its length, or is free to change it.
+struct UniaxialPath {
+  double extension = 0;
+  YarnDirection along = along_weft;
+  bool free_sides = false;
+};
+/// Phi11 = Phi22 = 1 - shortening.
+struct CompressionPath {
+  double shortening = 0;
+};
+/// As printed (Man 2006, section 4.3.5): Phi12 = Phi21 = shear, after Phi11 = Phi22 = 1 + extension.
+struct ShearPath {
+  double shear = 0, extension = 0;
+};
+/// Yarns turn towards each other by an angle and keep their spacing along themselves, after an extension.
+struct TrellisPath {
+  double angle_rad = 0, extension = 0;
+};
+/// To a cylinder whose arcs run along `direction`, from the weft towards the warp; of cloth that nothing pulls (yarns
+/// that are pulled would slip through the cloth to where arcs are shorter).
+struct BendingPath {
+  double curvature_per_m = 0, direction_rad = 0;
+};
+using PathLoads = std::variant<BiaxialPath, UniaxialPath, CompressionPath, ShearPath, TrellisPath, BendingPath>;
+
+struct PathCase {
+  std::string name;
+  PathLoads load;
+  int steps = 20;  ///< from its begin to its end
+  int cycles = 0;  ///< there and back; 0: there
+};
+
+// --- What is asked -----------------------------------------------------------------------------------------------
+
+struct CellSolver {
+  int pieces_per_spacing = 16;
+  double tolerance = 1e-9;
+  int iterations = 200, halvings = 8;
+};
+
+struct BarCase {
+  std::string name;
+  PeriodicBar bar;
+};
+
+enum class CellShapesKept { last, all };
+/// stress: along the yarns; direction: weft and warp in colours of their own.
+enum class CellField { stress, direction };
+
+struct CellPicture {
+  std::string path;  ///< its end; empty: the cell at rest
+  CellField field = CellField::stress;
+  View view = View::above;
+  std::optional<int> repeats;  ///< of the cell, either way
+  int width = 1100, height = 850;
+};
+
+struct CellOutput {
+  CellShapesKept shapes = CellShapesKept::last;
+  std::vector<CellPicture> pictures;  ///< none: one of the cell at rest, and one of the end of each path
+};
+
+struct CellCase {
+  std::string name, description;
+  WeaveCase weave;
+  YarnCase weft;
+  std::optional<YarnCase> warp;  ///< read: always
+  YarnModel yarns = YarnModel::rod;
+  bool contact = true;
+  std::optional<LateralCompression> compression;
+  bool holds_faces = false;        ///< sections in the faces of the cell stay in the middle of the cloth
+  std::optional<double> height_m;  ///< of the cell, by which stress is counted; read: always
+  std::vector<PathCase> paths;
+  std::vector<BarCase> bars;
+  CellSolver solver;
+  CellOutput output;
+
+  std::filesystem::path file;          ///< where it was read
+  std::vector<std::string> overrides;  ///< "path=value" of the command line
+
+  const YarnCase& yarn(int direction) const { return direction == along_weft ? weft : *warp; }
+};
+
+/// Reads and checks a case file of this kind; as readCase of cases/wear/case/case.hpp. The cell is built once, so that
+/// a run does not stumble over it.
+CellCase readCellCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// The same from a file already read, with values put in their places.
+CellCase readCellCase(const JsonNode& root, const std::filesystem::path& file);
+/// The case of a finished run, as writeCase left it: nothing is built.
+CellCase readRecordedCellCase(const std::filesystem::path& file);
+/// The case written out in full as JSON; readCellCase gives the same case back.
+std::string writeCase(const CellCase& c);
+/// As caseIdentity of cases/wear/case/case.hpp.
+std::string caseIdentity(const CellCase& c);
+/// The case file: such a case names no others.
+std::vector<std::filesystem::path> inputsOf(const CellCase& c);
+
+}  // namespace gambeson

@@ -1,0 +1,23 @@
+#pragma once
+/// What a case of the kind cell describes, as the core computes it. Of a case that was read.
+
+#include "cases/cell/case.hpp"
+#include "core/yarn/cell_equilibrium.hpp"
+#include "core/yarn/kawabata.hpp"
+#include "core/yarn/rod_cell.hpp"
+
+namespace gambeson {
+
+/// Throws InputError as twillWeave, satinWeave and weaveOf.
+Weave weaveOf(const WeaveCase& weave);
+RodSection sectionOf(const YarnCase& yarn);
+WovenYarns wovenYarns(const CellCase& c);
+
+/// The cell of rods, whatever `yarns` says.
+RodCellDesign rodDesign(const CellCase& c);
+EquilibriumOptions equilibriumOptions(const CellSolver& solver);
+
+/// The truss whose crossings stand where those of the cell do.
+KawabataCloth trussOf(const CellCase& c);
+
+}  // namespace gambeson

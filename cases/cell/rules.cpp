@@ -1,0 +1,136 @@
+/// Detail of fields.hpp: rules between the parts of a cell's case.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "cases/cell/design.hpp"
+#include "cases/cell/engine.hpp"
+#include "cases/cell/fields.hpp"
+#include "cases/input/wrong_entry.hpp"
+#include "core/error.hpp"
+
+namespace gambeson::schema {
+namespace {
+
+Entry memberOf(const Entry& parent, const std::string& key) { return parent.member(*parent.node.find(key)); }
+Entry itemOf(const Entry& parent, const std::string& list, std::size_t i) { return memberOf(parent, list).item(i); }
+
+/// What is counted before anything is built: sections of yarns, and pairs of them near crossings.
+void checkSize(const Entry& root, const CellCase& c, const Weave& weave) {
+  constexpr long kSections = 40000, kPairs = 4000000;
+  const long crossings = static_cast<long>(weave.warps) * weave.wefts, n = c.solver.pieces_per_spacing;
+  const long sections = 2 * crossings * n, pairs = crossings * (2 * n + 1) * (2 * n + 1);
+  if (sections <= kSections && pairs <= kPairs) return;
+  const std::string reason = fmt::format(
+      "{} pieces between the crossings of {} x {} yarns give {} sections and {} pairs of them; allowed: at most {} and "
+      "{}",
+      n, weave.warps, weave.wefts, sections, pairs, kSections, kPairs);
+  if (const JsonNode* solver = root.node.find("solver")) root.member(*solver).failAt("pieces_per_spacing", reason);
+  memberOf(root, "weave").fail(reason);
+}
+
+void checkTruss(const Entry& root, const CellCase& c) {
+  constexpr double kTouch = 0.01;
+  if (c.yarns != YarnModel::truss) return;
+  if (c.weave.pattern != WeavePattern::plain)
+    memberOf(root, "weave").failAt("pattern", "the truss is of a plain weave; allowed with yarns truss: plain");
+  if (!c.contact)
+    memberOf(root, "contact").fail("the truss is joined at its crossings; allowed with yarns truss: true");
+  if (root.node.find("faces"))
+    memberOf(root, "faces").fail("goes with yarns rod: a truss has no sections in its faces");
+  for (const char* key : {"pieces_per_spacing", "tolerance", "iterations", "halvings"})
+    if (const JsonNode* solver = root.node.find("solver"); solver && solver->find(key))
+      root.member(*solver).failAt(key, "goes with yarns rod: a truss is solved to rounding");
+  double amplitudes = 0, halves = 0;
+  for (const int d : {along_weft, along_warp}) {
+    amplitudes += c.yarn(d).shape.amplitude_m;
+    halves += c.yarn(d).shape.half_thickness_m;
+  }
+  if (!(std::abs(amplitudes - halves) <= kTouch * halves))
+    memberOf(root, "weft")
+        .failAt("amplitude", fmt::format("the amplitudes of weft and warp add up to {:.6g} m, and a truss touches at "
+                                         "rest; allowed: within {:g} % of the half thicknesses, {:.6g} m",
+                                         amplitudes, 100 * kTouch, halves));
+}
+
+void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
+  const std::string word = wordOf(p.load);
+  const Entry load = memberOf(path, word);
+  if (c.yarns == YarnModel::truss && word != "biaxial" && word != "uniaxial")
+    load.fail("a truss carries loads along its yarns; allowed with yarns truss: biaxial or uniaxial");
+  if (const auto* bending = std::get_if<BendingPath>(&p.load)) {
+    if (c.holds_faces) load.fail("held faces do not bend; allowed with faces glide");
+    double half = 0;
+    for (const int d : {along_weft, along_warp})
+      half = std::max(half, c.yarn(d).shape.amplitude_m + c.yarn(d).shape.half_thickness_m);
+    if (!(std::abs(bending->curvature_per_m) * half < 1))
+      load.failAt("curvature", fmt::format("{:g} 1/m is out of range; allowed: below 1 over half of the cloth's "
+                                           "thickness, {:.6g} 1/m",
+                                           bending->curvature_per_m, 1 / half));
+  }
+  if (const auto* biaxial = std::get_if<BiaxialPath>(&p.load); biaxial && biaxial->ratio * biaxial->extension <= -0.5)
+    load.failAt("ratio", fmt::format("shortens the warp by {:g}; allowed: by less than 0.5",
+                                     -biaxial->ratio * biaxial->extension));
+  for (const double t : partsOf(p)) {
+    try {
+      checkLoad(targetOf(p.load, t).load);
+    } catch (const InputError& e) {
+      load.fail(fmt::format("is of no plane cloth at {:g} of its way: {} {}", t, e.where().key, e.reason()));
+    }
+    if (t == 1) break;
+  }
+}
+
+/// Names of columns, plots and files.
+void checkName(const Entry& entry, const std::string& name, std::set<std::string>& names) {
+  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
+    entry.failAt("name", "is the name of files; allowed: letters, digits, _ and -");
+  if (!names.insert(name).second)
+    entry.failAt("name", fmt::format("\"{}\" is used twice; allowed: a name of its own", name));
+}
+
+void checkPictures(const Entry& root, const CellCase& c, const std::set<std::string>& names) {
+  for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
+    const std::string& path = c.output.pictures[i].path;
+    if (path.empty() || names.contains(path)) continue;
+    itemOf(memberOf(root, "output"), "pictures", i)
+        .failAt("path",
+                fmt::format("there is no load \"{}\"; allowed: {}", path,
+                            names.empty() ? "none, the case has no loads" : joined({names.begin(), names.end()})));
+  }
+}
+
+}  // namespace
+
+void applyCellRules(const Entry& root, CellCase& c) {
+  constexpr std::size_t kPaths = 1000;
+  if (!c.warp) c.warp = c.weft;
+  if (!c.height_m) c.height_m = 2 * (c.weft.shape.half_thickness_m + c.warp->shape.half_thickness_m);
+  if (c.contact && !c.compression)
+    root.failAt("compression",
+                "is required with contact: how yarns give way to each other, such as {\"half_force\": "
+                "\"5 N\"}");
+  if (!c.contact && c.compression) memberOf(root, "compression").fail("goes with contact, which is false");
+  if (c.paths.size() > kPaths)
+    memberOf(root, "loads").fail(fmt::format("{} are too many; allowed: at most {}", c.paths.size(), kPaths));
+  checkTruss(root, c);
+  try {
+    checkSize(root, c, weaveOf(c.weave));
+    makeEngine(c);
+  } catch (const InputError& e) {
+    sayAt(root, e);
+  }
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < c.paths.size(); ++i) {
+    checkPath(itemOf(root, "loads", i), c, c.paths[i]);
+    checkName(itemOf(root, "loads", i), c.paths[i].name, names);
+  }
+  checkPictures(root, c, names);
+  std::set<std::string> bars;
+  for (std::size_t i = 0; i < c.bars.size(); ++i) checkName(itemOf(root, "bars", i), c.bars[i].name, bars);
+}
+
+}  // namespace gambeson::schema
