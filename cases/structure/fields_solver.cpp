@@ -56,8 +56,8 @@ Field schemeField() {
   f.kind = Kind::choice;
   for (const SchemeWord& w : schemeWords()) f.choices.push_back(w.word);
   f.doc =
-      "generalised_alpha: implicit, second order, damps only the highest frequencies; newmark: implicit; explicit: "
-      "central differences (velocity Verlet), small steps; euler, rk2, rk4, implicit_euler, semi_implicit: as "
+      "generalised_alpha: implicit, second order, damps only the highest frequencies; newmark: implicit (Man 2006, box "
+      "2); explicit: central differences (velocity Verlet; Newmark's with beta 0 and gamma 1/2), small steps; euler, rk2, rk4, implicit_euler, semi_implicit: as "
       "time.scheme of worn cloth";
   return f;
 }
@@ -128,7 +128,7 @@ Object dynamicSolverTable() {
               "residual as a part of the forces that balance")
       .choice("mass", dynamics(&D::lumped_mass),
               std::vector<std::pair<std::string, bool>>{{"consistent", false}, {"lumped", true}},
-              "schemes but generalised_alpha and newmark always lump")
+              "consistent or lumped; schemes but generalised_alpha and newmark always lump")
       .number("rayleigh_mass", damping(&DampingCase::mass_per_s), "1/s", between(0, 1e12), "a in the damping a M + b K")
       .number("rayleigh_stiffness", damping(&DampingCase::stiffness_s), "s", between(0, 1e12),
               "b in the damping a M + b K")

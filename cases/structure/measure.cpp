@@ -129,7 +129,9 @@ MeasuredState measureDynamic(const StructureModel& model, const State& state, bo
   if (s.rayleigh_stiffness_s > 0) {
     BlockMatrix K = s.tangent->sparsity();
     ClothWork work;
-    s.tangent->assemble({m.q, state.inner, {}}, work, K);
+    ForceTerms terms;
+    terms.definite = s.cloth->turnsInner();
+    s.tangent->assemble({m.q, state.inner, state.history}, work, K, terms);
     if (s.loads.follow())
       s.loads.addStiffness(m.q, programValues(s, state.time_s, ProgramEnds::constant), s.cloth->map(), K);
     std::vector<double> rates(&state.v.data()->x, &state.v.data()->x + 3 * n), damping(3ul * K.rows());

@@ -68,12 +68,18 @@ TEST(ShellKeys, WornCasesRefuseWhatHasNoMeaning) {
                  {"one_point", "two_points", 6, "garment.shell.rule", "allowed: mitc4, one_point"},
                  {"\"shear_factor\": 1", "\"shear_factor\": 0", 6, "garment.shell.shear_factor", "> 0"},
                  {"\"cell\"", "true", 6, "garment.shell.rotary", "expected one of"},
-                 {"\"law\": \"linear\"", "\"law\": \"stop\", \"yield_moment\": 1e-5", 6, "garment.model", "another"}});
+                 {"\"young\": \"1.2 MPa\",", "\"young\": \"1.2 MPa\", \"tension_field\": true,", 6, "garment.model",
+                  "tension field"}});
   const Folder folder;
   const Case given = readCase(folder.write("given.json", shell));
   const DegeneratedOptions expected{ShellRule::one_point, 1, RotaryInertia::cell};
   EXPECT_EQ(*given.garments[0].cloth.shell, expected);
   EXPECT_EQ(*readRecordedCase(folder.write("again.json", writeCase(given))).garments[0].cloth.shell, expected);
+  // Cloth that remembers, in bending and in shear, and that is flat by itself.
+  const std::string remembers =
+      replaced(replaced(shell, "\"law\": \"linear\", \"rest\": \"shape\"", "\"law\": \"stop\", \"yield_moment\": 1e-5"),
+               "\"young\": \"1.2 MPa\",", "\"young\": \"1.2 MPa\", \"shear_loop\": {\"rise\": 10},");
+  EXPECT_EQ(readCase(folder.write("remembers.json", remembers)).garments[0].cloth.kind, ClothKind::shell);
 }
 
 constexpr const char* sheet = R"json({
