@@ -128,7 +128,7 @@ Object dynamicSolverTable() {
               "residual as a part of the forces that balance")
       .choice("mass", dynamics(&D::lumped_mass),
               std::vector<std::pair<std::string, bool>>{{"consistent", false}, {"lumped", true}},
-              "consistent or lumped; schemes but generalised_alpha and newmark always lump")
+              "schemes but generalised_alpha and newmark always lump")
       .number("rayleigh_mass", damping(&DampingCase::mass_per_s), "1/s", between(0, 1e12), "a in the damping a M + b K")
       .number("rayleigh_stiffness", damping(&DampingCase::stiffness_s), "s", between(0, 1e12),
               "b in the damping a M + b K")

@@ -4,9 +4,9 @@
 ///   y1 = y0 + h v0 + h^2 ((1/2 - beta) a0 + beta a1),   v1 = v0 + h ((1 - gamma) a0 + gamma a1)
 ///
 /// am = af = 0 is Newmark; am = (2 r - 1)/(r + 1), af = r/(r + 1), gamma = 1/2 - am + af, beta = (1 - am + af)^2/4 with
-/// r the spectral radius at infinite frequency. Both are of second order (Newmark for gamma = 1/2). With am = af = 0 and
-/// D = a M + b K_M this is box 2 of Man 2006 (eq. 2.85 with the sign of its internal force turned). Newton's matrix has D
-/// where it is, but not how it changes: each iteration leaves of the damping's part about what the step turns.
+/// r the spectral radius at infinite frequency. Both are of second order (Newmark for gamma = 1/2). With am = af = 0
+/// and D = a M + b K_M this is box 2 of Man 2006 (eq. 2.85 with the sign of its internal force turned). Newton's matrix
+/// has D where it is, but not how it changes: each iteration leaves of the damping's part about what the step turns.
 
 #include "core/motion/implicit.hpp"
 

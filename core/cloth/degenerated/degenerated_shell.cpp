@@ -138,9 +138,10 @@ std::vector<HistoryPlace> DegeneratedShell::historyPlaces() const {
     const NurbsPatch& patch = garment().patches[static_cast<std::size_t>(cell.patch)];
     for (std::size_t i = 0; count > 0 && i < kernel_.planePoints(); ++i) {
       const Natural at = kernel_.table().points[i].at;
-      places.push_back({cell.patch,
-                        placeIn(patch, static_cast<int>(e) - firstCell(cell.patch), {0.5 * (1 + at.xi), 0.5 * (1 + at.eta)}),
-                        static_cast<std::size_t>(cell.first_history) + i * count, count});
+      places.push_back(
+          {cell.patch,
+           placeIn(patch, static_cast<int>(e) - firstCell(cell.patch), {0.5 * (1 + at.xi), 0.5 * (1 + at.eta)}),
+           static_cast<std::size_t>(cell.first_history) + i * count, count});
     }
   }
   return places;

@@ -11,10 +11,11 @@
 ///
 /// The fabric's membrane is St. Venant-Kirchhoff, isotropic or orthotropic, with friction in shear or without; it bends
 /// by a linear law, `consistent` (D = A t²/12, the thesis's), rigidities of its own or plies, or by any law of
-/// core/material/laws/bending_laws.hpp, also one that remembers (shell_law.hpp). Transverse shear has the stiffness factor * A66 in
-/// both directions: G t, which is E t/(2 (1 + nu)) of an isotropic sheet. An orthotropic fabric has no transverse
-/// moduli of its own; that its shear modulus in the plane stands for both is an assumption. The shape at rest is free
-/// of stress where curvature counts from it (hasRestCurvature); else of that in the plane and across alone.
+/// core/material/laws/bending_laws.hpp, also one that remembers (shell_law.hpp). Transverse shear has the stiffness
+/// factor * A66 in both directions: G t, which is E t/(2 (1 + nu)) of an isotropic sheet. An orthotropic fabric has no
+/// transverse moduli of its own; that its shear modulus in the plane stands for both is an assumption. The shape at
+/// rest is free of stress where curvature counts from it (hasRestCurvature); else of that in the plane and across
+/// alone.
 
 #include <memory>
 #include <string>

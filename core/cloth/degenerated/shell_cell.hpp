@@ -12,9 +12,9 @@
 /// S33 = 0 is condensed (Man 2006, eq. 2.72 and 2.74 with section 2.3.1.5). Energy per area of the rest mid-surface:
 ///   W = E . A E/2 + E . B kappa + kappa . D kappa/2 + gamma . G gamma/2.
 /// With A = Q t, B = 0, D = Q t³/12 that is what the thesis integrates over both points; a sheet whose rigidity D is
-/// given apart, or a laminate, takes its own, and laws that no section expresses take the place of the first three terms
-/// (shell_law.hpp). Where curvature counts from flat, k has no value at rest. Terms of the order of thickness over radius of the rest shape are left
-/// out, as in any first-order shell theory.
+/// given apart, or a laminate, takes its own, and laws that no section expresses take the place of the first three
+/// terms (shell_law.hpp). Where curvature counts from flat, k has no value at rest. Terms of the order of thickness
+/// over radius of the rest shape are left out, as in any first-order shell theory.
 
 #include <array>
 
@@ -77,8 +77,8 @@ class ShellKernel {
   /// area, the weft is normal to it, or a director lies in it.
   void setRest(const CornerVectors& rest, const Vec3& weft, double angle_rad, ShellCell& cell) const;
 
-  /// Adds the gradient of the energy; returns that [J]. Terms of `terms` that do not act are left out: stretching and what couples
-  /// it are the membrane, bending and shear the bending.
+  /// Adds the gradient of the energy; returns that [J]. Terms of `terms` that do not act are left out: stretching and
+  /// what couples it are the membrane, bending and shear the bending.
   ClothEnergy gradient(const ShellCell& cell, const CornerVectors& now, const CellMemory& memory,
                        const ForceTerms& terms, CornerVectors& gradient) const;
   /// Writes the second derivatives by positions and directors, both free in space. `definite`: without the part of the

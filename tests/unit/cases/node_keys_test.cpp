@@ -63,13 +63,12 @@ TEST(ShellKeys, WornCasesRefuseWhatHasNoMeaning) {
       replaced(linear, "\"weft_angle\": \"45 deg\"",
                "\"weft_angle\": \"45 deg\", \"model\": \"shell\", \"shell\": {\"rule\": \"one_point\", "
                "\"shear_factor\": 1, \"rotary\": \"cell\"}");
-  expectRefused(shell,
-                {{"\"model\": \"shell\"", "\"model\": \"springs\"", 6, "garment.shell", "is for \"model\""},
-                 {"one_point", "two_points", 6, "garment.shell.rule", "allowed: mitc4, one_point"},
-                 {"\"shear_factor\": 1", "\"shear_factor\": 0", 6, "garment.shell.shear_factor", "> 0"},
-                 {"\"cell\"", "true", 6, "garment.shell.rotary", "expected one of"},
-                 {"\"young\": \"1.2 MPa\",", "\"young\": \"1.2 MPa\", \"tension_field\": true,", 6, "garment.model",
-                  "tension field"}});
+  expectRefused(shell, {{"\"model\": \"shell\"", "\"model\": \"springs\"", 6, "garment.shell", "is for \"model\""},
+                        {"one_point", "two_points", 6, "garment.shell.rule", "allowed: mitc4, one_point"},
+                        {"\"shear_factor\": 1", "\"shear_factor\": 0", 6, "garment.shell.shear_factor", "> 0"},
+                        {"\"cell\"", "true", 6, "garment.shell.rotary", "expected one of"},
+                        {"\"young\": \"1.2 MPa\",", "\"young\": \"1.2 MPa\", \"tension_field\": true,", 6,
+                         "garment.model", "tension field"}});
   const Folder folder;
   const Case given = readCase(folder.write("given.json", shell));
   const DegeneratedOptions expected{ShellRule::one_point, 1, RotaryInertia::cell};

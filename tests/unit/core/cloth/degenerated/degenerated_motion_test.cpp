@@ -252,9 +252,11 @@ TEST(DegeneratedMotion, StiffnessDampingAloneTakesNothingOfTenTurns) {
   };
   // It starts without the stretch that it turns with: half the square of a step's turn goes into that, once.
   const double start = energyOf(*m.structure, state, true).total(), first = energyAfter(1), end = energyAfter(10);
-  printf("[ measured ] b alone takes %.2e of the energy in ten turns, %.2e of it after the first; %.2f iterations a step\n",
-         1 - end / start, 1 - end / first,
-         static_cast<double>(moving.report().iterations) / static_cast<double>(moving.report().steps));
+  printf(
+      "[ measured ] b alone takes %.2e of the energy in ten turns, %.2e of it after the first; %.2f iterations a "
+      "step\n",
+      1 - end / start, 1 - end / first,
+      static_cast<double>(moving.report().iterations) / static_cast<double>(moving.report().steps));
   EXPECT_LT(std::abs(1 - end / start), 1e-3);
   EXPECT_LT(std::abs(1 - end / first), 1e-4);
   EXPECT_LT(moving.report().iterations, 5 * moving.report().steps);

@@ -183,8 +183,9 @@ TEST(ShellLaw, CurvatureFromFlatBendsACurvedDraft) {
   f.law = LinearBending{{B, B, B}};
   const auto tube = [&](bool from_shape) {
     f.rest_curvature_of_shape = from_shape;
-    return DegeneratedShell(
-        sheetOf(24, 2, f, [&](double a, double b) { return Vec3{R * std::sin(a), b, R * (1 - std::cos(a))}; }));
+    return DegeneratedShell(sheetOf(24, 2, f, [&](double a, double b) {
+      return Vec3{R * std::sin(a), b, R * (1 - std::cos(a))};
+    }));
   };
   const DegeneratedShell flat = tube(false), shape = tube(true);
   EXPECT_LT(energyIn(shape, atRest(shape)), 1e-20);
