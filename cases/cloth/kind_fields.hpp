@@ -20,7 +20,8 @@ inline const char* clothKindDoc() {
          "that bend as bending_elements says; springs between points at the corners of the cells (Provot; Man 2006, "
          "2.2); shell, bilinear cells whose directors turn, sheared through the thickness (Man 2006, 2.3)";
 }
-/// Those that a laboratory bends and shears: springs have no rigidity of their own, and the shell remembers nothing.
+/// Those that a laboratory bends and shears: springs have no rigidity of their own, and a centimetre of denim of
+/// the degenerated shell does not settle to the 1e-11 of its forces that the laboratory asks for (9e-6).
 inline std::vector<std::pair<std::string, ClothKind>> specimenKinds() {
   return {{"nurbs", ClothKind::nurbs}, {"triangles", ClothKind::triangles}};
 }

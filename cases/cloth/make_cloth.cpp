@@ -133,8 +133,7 @@ std::string inWords(const ClothModel& model) {
       return "Points at the corners of the cells, joined by springs.";
     case ClothKind::shell:
       return "Bilinear degenerated shell (Man 2006, 2.3): directors through the thickness turn by themselves and "
-             "shear; "
-             "strains are Green-Lagrange's, the shape at rest is free of stress; it does not jam.";
+             "shear; strains are Green-Lagrange's, the shape at rest has none in the plane and across; it does not jam.";
   }
   return {};
 }

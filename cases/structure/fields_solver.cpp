@@ -56,8 +56,8 @@ Field schemeField() {
   f.kind = Kind::choice;
   for (const SchemeWord& w : schemeWords()) f.choices.push_back(w.word);
   f.doc =
-      "generalised_alpha: implicit, second order, damps only the highest frequencies; newmark: implicit; explicit: "
-      "central differences (velocity Verlet), small steps; euler, rk2, rk4, implicit_euler, semi_implicit: as "
+      "generalised_alpha: implicit, second order, damps only the highest frequencies; newmark: implicit (Man 2006, box "
+      "2); explicit: central differences (velocity Verlet; Newmark's with beta 0 and gamma 1/2), small steps; euler, rk2, rk4, implicit_euler, semi_implicit: as "
       "time.scheme of worn cloth";
   return f;
 }

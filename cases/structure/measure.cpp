@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "cases/structure/director_moments.hpp"
+#include "cases/structure/stiffness_damping.hpp"
 #include "core/math/carried_error.hpp"
 #include "core/math/parallel.hpp"
 #include "core/motion/cloth_damping.hpp"
@@ -87,6 +88,8 @@ MeasuredState measureStatic(const Structure& s, std::span<const double> y, doubl
   if (!linear) {
     m.q = controlPoints(s, y, factor, ProgramEnds::extended);
     m.reaction_N = pulledBack(s, reactions(s, y, factor, ProgramEnds::extended, history));
+    m.turning_Nm = directorMoments(s, {m.q, innerValues(s, y, factor, ProgramEnds::extended), history},
+                                   programValues(s, factor, ProgramEnds::extended));
     m.strain_energy_J = strainEnergy(s, y, factor, ProgramEnds::extended, history);
     return m;
   }
@@ -101,6 +104,7 @@ MeasuredState measureStatic(const Structure& s, std::span<const double> y, doubl
   s.loads.add(s.cloth->rest(), programs, external);
   const std::vector<Vec3> load = pulledBack(s, external);
   for (std::size_t f = 0; f < load.size(); ++f) m.reaction_N[f] -= load[f];
+  m.turning_Nm = directorMoments(s, std::span(pull).subspan(3 * load.size()), programs);
   return m;
 }
 
@@ -126,17 +130,16 @@ MeasuredState measureDynamic(const StructureModel& model, const State& state, bo
   for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += force[f] + s.drag_kg_per_m2s * s.area_m2[f] * state.v[f];
   const std::vector<Vec3> damping_N = clothDamping(*s.cloth, m.q, state.v);
   for (std::size_t f = 0; f < damping_N.size(); ++f) m.reaction_N[f] -= damping_N[f];
+  std::vector<double> turning(prescribed.begin() + static_cast<long>(3 * n), prescribed.end());
+  for (std::size_t k = 0; k < state.inner_acceleration.size(); ++k) turning[k] += state.inner_acceleration[k];
+  m.turning_Nm =
+      directorMoments(s, {m.q, state.inner, state.history}, programValues(s, state.time_s, ProgramEnds::constant),
+                      state.inner_rate, turning);
   if (s.rayleigh_stiffness_s > 0) {
-    BlockMatrix K = s.tangent->sparsity();
-    ClothWork work;
-    s.tangent->assemble({m.q, state.inner, {}}, work, K);
-    if (s.loads.follow())
-      s.loads.addStiffness(m.q, programValues(s, state.time_s, ProgramEnds::constant), s.cloth->map(), K);
-    std::vector<double> rates(&state.v.data()->x, &state.v.data()->x + 3 * n), damping(3ul * K.rows());
-    rates.insert(rates.end(), state.inner_rate.begin(), state.inner_rate.end());
-    rates.resize(damping.size());
-    multiply(K, rates, damping);
-    for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += s.rayleigh_stiffness_s * asPoints(s, damping)[f];
+    const std::vector<double> damping = stiffnessDamping(s, state, m.q);
+    for (std::size_t f = 0; f < n; ++f) m.reaction_N[f] += asPoints(s, damping)[f];
+    for (std::size_t k = 0; k < 3 * m.turning_Nm.size(); ++k)
+      m.turning_Nm[k / 3][static_cast<int>(k % 3)] += damping[3 * n + k];
   }
   if (!state.limit_J.empty()) {
     // The acceleration of the state is without the limits': what they push on free points is inertia there.
@@ -271,6 +274,7 @@ Probes::Probes(const StructureCase& c, const StructureModel& model, const Struct
     for (const int f : of_this)
       if (!of_others.contains(f)) on_edge.insert(f);
     probe.free.assign(on_edge.begin(), on_edge.end());
+    probe.directors = directorsOn(*s.cloth, edges);
     edges_.push_back(std::move(probe));
     addVector(columns_, e.name, "u", "m");
     addVector(columns_, e.name, "r", "N");
@@ -311,6 +315,7 @@ std::vector<double> Probes::values(const MeasuredState& state) const {
       force += r;
       moment += cross((state.small ? s.cloth->rest()[home] : state.q[home]) - middle, r);
     }
+    for (const int d : e.directors) moment += state.turning_Nm[static_cast<std::size_t>(d)];
     addVector(row, u);
     addVector(row, force);
     addVector(row, moment);

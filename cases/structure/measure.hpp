@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct MeasuredState {
   std::vector<Vec3> q;              ///< control points; of small displacements: rest + displacements
   std::vector<Vec3> velocity;       ///< of control points; empty where there is none
   std::vector<Vec3> reaction_N;     ///< on the free points: what supports push with
+  std::vector<Vec3> turning_Nm;     ///< on the directors: what supports turn them with; empty: there are none
   std::vector<Vec2> limit_N_per_m;  ///< field of limitStress where strain is limited; else empty
   double strain_energy_J = 0;
   bool small = false;  ///< strains and forces are those of the linearised sheet
@@ -72,6 +74,7 @@ class Probes {
   struct EdgeProbe {
     std::vector<double> weight;  ///< of control points, sum 1: mean along the edge at rest
     std::vector<int> free;       ///< whose reactions count
+    std::set<int> directors;     ///< whose moments count
   };
   const StructureModel* model_;
   const Structure* structure_;

@@ -1,12 +1,12 @@
 /// Newmark's method and the generalised-alpha method (Chung and Hulbert 1993) with Newton's method.
 ///
-///   M ((1 - am) a1 + am a0) + D ((1 - af) v1 + af v0) + (1 - af) g(y1, t1) + af g(y0, t0) = 0
+///   M ((1 - am) a1 + am a0) + (1 - af) (D(y1) v1 + g(y1, t1)) + af (D(y0) v0 + g(y0, t0)) = 0
 ///   y1 = y0 + h v0 + h^2 ((1/2 - beta) a0 + beta a1),   v1 = v0 + h ((1 - gamma) a0 + gamma a1)
 ///
 /// am = af = 0 is Newmark; am = (2 r - 1)/(r + 1), af = r/(r + 1), gamma = 1/2 - am + af, beta = (1 - am + af)^2/4 with
-/// r the spectral radius at infinite frequency. Both are of second order (Newmark for gamma = 1/2). The stiffness part
-/// of Rayleigh's damping takes K where the step starts, and the cloth's own damping its D: of second order where these
-/// are constant, else the damping itself is of first order.
+/// r the spectral radius at infinite frequency. Both are of second order (Newmark for gamma = 1/2). With am = af = 0
+/// and D = a M + b K_M this is box 2 of Man 2006 (eq. 2.85 with the sign of its internal force turned). Newton's matrix
+/// has D where it is, but not how it changes: each iteration leaves of the damping's part about what the step turns.
 
 #include "core/motion/implicit.hpp"
 
@@ -37,16 +37,35 @@ Scheme schemeOf(const ImplicitOptions& o) {
   return {(1 - am + af) * (1 - am + af) / 4, 0.5 - am + af, am, af};
 }
 
+/// Writes D(y) v, with what moving supports drag along, and D itself.
+void dampingAt(System& system, std::span<const double> y, std::span<const double> v, double t, double h, bool lumped,
+               SymmetricMatrix& D, std::span<double> out) {
+  system.damping(y, t, lumped, true, D);
+  std::vector<double> support(out.size());
+  system.supportForce(t, h, lumped, SupportForces::damping, support);
+  multiply(D, v, out);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] += support[i];
+}
+
 /// The equations of one step, in y1.
 class Step : public Equations {
  public:
-  Step(System& system, const Scheme& scheme, const SymmetricMatrix& M, const SymmetricMatrix& D,
-       const SystemState& from, std::span<const double> g0, double h, bool lumped)
-      : system_(system), scheme_(scheme), M_(M), D_(D), from_(from), h_(h), known_(g0.begin(), g0.end()) {
+  /// `g0`: forces at the start, with those of a damping that changes. Such a D is that of the last residual.
+  Step(System& system, const Scheme& scheme, const SymmetricMatrix& M, SymmetricMatrix& D, const SystemState& from,
+       std::span<const double> g0, double h, bool lumped)
+      : system_(system),
+        scheme_(scheme),
+        M_(M),
+        D_(D),
+        from_(from),
+        h_(h),
+        lumped_(lumped),
+        known_(g0.begin(), g0.end()),
+        support_(g0.size()) {
     for (double& v : known_) v *= scheme.af;
-    std::vector<double> support(known_.size());
-    system.supportForce(from.time_s + (1 - scheme.af) * h, h, lumped, support);
-    for (std::size_t i = 0; i < known_.size(); ++i) known_[i] += support[i];
+    system.supportForce(from.time_s + (1 - scheme.af) * h, h, lumped,
+                        system.hasStiffnessDamping() ? SupportForces::inertia : SupportForces::all, support_);
+    for (std::size_t i = 0; i < known_.size(); ++i) known_[i] += support_[i];
   }
 
   /// v and a at the end, of y1.
@@ -63,14 +82,18 @@ class Step : public Equations {
     const std::size_t n = r.size();
     const double am = scheme_.am, af = scheme_.af;
     kinematics(y1, v_, a_);
+    damping_.resize(n);
+    if (system_.hasStiffnessDamping()) {
+      dampingAt(system_, y1, v_, from_.time_s + h_, h_, lumped_, D_, damping_);
+      for (double& v : damping_) v *= 1 - af;
+    }
     for (std::size_t i = 0; i < n; ++i) {
       a_[i] = (1 - am) * a_[i] + am * from_.a[i];
       v_[i] = (1 - af) * v_[i] + af * from_.v[i];
     }
     inertia_.resize(n);
-    damping_.resize(n);
     multiply(M_, a_, inertia_);
-    multiply(D_, v_, damping_);
+    if (!system_.hasStiffnessDamping()) multiply(D_, v_, damping_);
     double size = system_.residual(y1, from_.time_s + h_, r);
     for (std::size_t i = 0; i < n; ++i) r[i] = (1 - af) * r[i] + known_[i] + inertia_[i] + damping_[i];
     return std::max({size, norm(inertia_), norm(damping_), norm(known_)});
@@ -91,10 +114,12 @@ class Step : public Equations {
  private:
   System& system_;
   const Scheme& scheme_;
-  const SymmetricMatrix &M_, &D_;
+  const SymmetricMatrix& M_;
+  SymmetricMatrix& D_;
   const SystemState& from_;
   double h_;
-  std::vector<double> known_, v_, a_, inertia_, damping_;
+  bool lumped_;
+  std::vector<double> known_, support_, v_, a_, inertia_, damping_;
 };
 
 constexpr int kHalvings = 12;
@@ -120,7 +145,7 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
   SymmetricFactor factor(K);
   {  // the acceleration at the start
     largest = system.residual(state.y, state.time_s, g);
-    system.supportForce(state.time_s, o.step_s, o.lumped_mass, f);
+    system.supportForce(state.time_s, o.step_s, o.lumped_mass, SupportForces::all, f);
     std::vector<double> damping(n);
     multiply(D, state.v, damping);
     for (std::size_t i = 0; i < n; ++i) f[i] = -(f[i] + g[i] + damping[i]);
@@ -136,10 +161,15 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
     return position == total ? end_s : start + span * static_cast<double>(position) / static_cast<double>(total);
   };
   long position = 0, step = units;
+  bool with_damping = false;  ///< g has the damping where the step starts
   NewtonOptions newton{o.iterations, o.tolerance, 0, system.reach(), false};
   while (position < total) {
     const double h = timeAt(position + step) - state.time_s;
-    if (system.hasStiffnessDamping() && report.steps > 0) system.damping(state.y, state.time_s, o.lumped_mass, true, D);
+    if (system.hasStiffnessDamping() && scheme.af > 0 && !with_damping) {
+      dampingAt(system, state.y, state.v, state.time_s, h, o.lumped_mass, D, f);
+      for (std::size_t i = 0; i < n; ++i) g[i] += f[i];
+      with_damping = true;
+    }
     Step equations(system, scheme, M, D, state, g, h, o.lumped_mass);
     newton.least_force = 1e-6 * largest;
     NewtonReport result;
@@ -180,6 +210,7 @@ ImplicitReport take(System& system, const ImplicitOptions& o, double end_s, Syst
     system.dropIdle(state.y, state.time_s, state.a);
     commitStep(system, state);
     largest = std::max(largest, system.residual(state.y, state.time_s, g));
+    with_damping = false;
     ++report.steps;
     if (!observe(state)) return report;
     while (step < units && position % (2 * step) == 0 && result.iterations <= o.iterations / 2) step *= 2;

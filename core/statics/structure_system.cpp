@@ -326,7 +326,7 @@ void StructureSystem::damping(std::span<const double> y, double t, bool lumped, 
   structure_.reduction.reduce(damping_K_, D);
 }
 
-void StructureSystem::supportForce(double t, double dt, bool lumped, std::span<double> f) {
+void StructureSystem::supportForce(double t, double dt, bool lumped, SupportForces which, std::span<double> f) {
   std::fill(f.begin(), f.end(), 0.0);
   if (!moves(structure_.dofs)) return;
   std::vector<double> v = programValues(structure_, t + dt, ends_), a = v;
@@ -342,9 +342,8 @@ void StructureSystem::supportForce(double t, double dt, bool lumped, std::span<d
   std::vector<double> velocity(free_.size(), 0.0), acceleration = velocity, force = velocity;
   addShifts(structure_.dofs, v, velocity);
   addShifts(structure_.dofs, a, acceleration);
-  const BlockMatrix M = massBlocks(lumped);
-  multiply(M, acceleration, force);
-  if (!damping_K_.values.empty()) {
+  if (which != SupportForces::damping) multiply(massBlocks(lumped), acceleration, force);
+  if (which != SupportForces::inertia && !damping_K_.values.empty()) {
     multiply(damping_K_, velocity, acceleration);
     for (std::size_t i = 0; i < force.size(); ++i) force[i] += acceleration[i];
   }

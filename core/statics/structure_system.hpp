@@ -33,7 +33,7 @@ class StructureSystem : public System {
   void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
   void dropIdle(std::span<const double> y, double t, std::span<double> rate) const override;
   bool hasStiffnessDamping() const override { return structure_.rayleigh_stiffness_s > 0 || structure_.cloth->damps(); }
-  void supportForce(double t, double dt, bool lumped, std::span<double> f) override;
+  void supportForce(double t, double dt, bool lumped, SupportForces which, std::span<double> f) override;
 
  private:
   void place(std::span<const double> y, double t);  ///< sets value_ and q_

@@ -10,6 +10,9 @@
 
 namespace gambeson {
 
+/// What of the forces by which moving supports drag what they hold: of its mass, of its damping, or both.
+enum class SupportForces { all, inertia, damping };
+
 /// Equilibrium is g(y, t) = 0 with g = f_int - f_ext; t is the time, or the load factor in statics.
 ///
 /// A state y has a number for each unknown, and behind these what turns (directors), which no sum of changes tells: a
@@ -65,10 +68,12 @@ class System {
   virtual void dropIdle(std::span<const double> y, double t, std::span<double> rate) const {
     static_cast<void>(y), static_cast<void>(t), static_cast<void>(rate);
   }
+  /// Whether D changes with y.
   virtual bool hasStiffnessDamping() const { return false; }
   /// Forces of the inertia and damping of what supports move, from central differences of their programs over dt; the
   /// damping is that of the last call of `damping`.
-  virtual void supportForce(double /*t*/, double /*dt*/, bool /*lumped*/, std::span<double> f) {
+  virtual void supportForce(double t, double dt, bool lumped, SupportForces which, std::span<double> f) {
+    static_cast<void>(t), static_cast<void>(dt), static_cast<void>(lumped), static_cast<void>(which);
     for (double& v : f) v = 0;
   }
 };

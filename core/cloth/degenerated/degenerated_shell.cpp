@@ -1,5 +1,6 @@
 #include "core/cloth/degenerated/degenerated_shell.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/cloth/degenerated/degenerated_tangent.hpp"
@@ -29,7 +30,7 @@ const NodalDraft& checkedForShell(const NodalDraft& draft, const DegeneratedOpti
   return draft;
 }
 
-/// Bent so at rest that it matters over a cell.
+/// Bent at rest by more than rounding, which a flat sheet is free of stress of.
 bool isBent(const CornerVectors& rest) {
   double most = 0;
   for (std::size_t k = 1; k < 4; ++k) most = std::max(most, norm(rest[4 + k] - rest[4]));
@@ -39,13 +40,9 @@ bool isBent(const CornerVectors& rest) {
 }  // namespace
 
 std::string whatShellLacks(const Fabric& f) {
-  const LawUse use = lawUse(f);
   return f.energy ? "a degenerated shell has laminas, and this fabric's law is an energy at a point"
-         : use.kinds != 0
-             ? "a degenerated shell bends by a linear law, consistent or a laminate, and this fabric has another"
-         : use.tension ? "a degenerated shell carries pressure, and this fabric has a tension field"
-         : use.shears  ? "a degenerated shell has no friction in shear, and this fabric has"
-                       : "";
+         : f.tension_field ? "a degenerated shell carries pressure, and this fabric has a tension field"
+                           : "";
 }
 
 DegeneratedShell::DegeneratedShell(const NodalDraft& draft, const DegeneratedOptions& options)
@@ -83,12 +80,11 @@ void DegeneratedShell::buildCells(const DegeneratedOptions& options) {
       }
       const Vec2 middle = middleOf(patch, c);
       const Fabric fabric = gambeson::fabricAt(garment(), cell.patch, middle);
-      cell.law.section = pointLaw(fabric).section;
-      cell.law.shear_N_per_m = options.shear_factor * cell.law.section.A[2];
-      cell.law.z2_m2 = fabric.thickness() * fabric.thickness() / 12;
+      cell.law = shellLaw(fabric, options.shear_factor);
+      cell.first_history = static_cast<long>(history_doubles_);
+      history_doubles_ += kernel_.planePoints() * static_cast<std::size_t>(cell.law.historySize());
       const CornerVectors rest_corners = cornersOf(cell, start);
-      if (!hasRestCurvature(fabric) && isBent(rest_corners))
-        refuse("fabric.bending.rest", "a degenerated shell bends from its shape at rest; allowed: shape");
+      cell.law.from_flat = cell.law.from_flat && isBent(rest_corners);
       kernel_.setRest(rest_corners, garment().weft[p], fibreAngleAt(garment(), cell.patch, middle), cell);
       double area = 0;
       for (const ShellPoint& point : cell.points) area += point.area_m2;
@@ -131,22 +127,50 @@ CornerVectors DegeneratedShell::cornersOf(const ShellCell& cell, const ClothStat
   return x;
 }
 
+CellMemory DegeneratedShell::memoryOf(const ShellCell& cell, const ClothState& state, std::span<double> trial) const {
+  return {state.history.empty() ? nullptr : state.history.data() + cell.first_history,
+          trial.empty() ? nullptr : trial.data() + cell.first_history, state.elapsed_s};
+}
+
+std::vector<HistoryPlace> DegeneratedShell::historyPlaces() const {
+  std::vector<HistoryPlace> places;
+  for (std::size_t e = 0; e < cells_.size(); ++e) {
+    const ShellCell& cell = cells_[e];
+    const auto count = static_cast<std::size_t>(cell.law.historySize());
+    const NurbsPatch& patch = garment().patches[static_cast<std::size_t>(cell.patch)];
+    for (std::size_t i = 0; count > 0 && i < kernel_.planePoints(); ++i) {
+      const Natural at = kernel_.table().points[i].at;
+      places.push_back(
+          {cell.patch,
+           placeIn(patch, static_cast<int>(e) - firstCell(cell.patch), {0.5 * (1 + at.xi), 0.5 * (1 + at.eta)}),
+           static_cast<std::size_t>(cell.first_history) + i * count, count});
+    }
+  }
+  return places;
+}
+
 void DegeneratedShell::force(const ClothState& state, const ClothForce& out, ClothWork& work,
                              const ForceTerms& terms) const {
   const int n = static_cast<int>(cells_.size());
   work.slots.resize(24 * cells_.size());
-  if (out.energy) work.lane_energy.assign(cells_.size(), 0.0);
+  if (out.energy) {
+    work.lane_energy.assign(cells_.size(), 0.0);
+    work.lane_lost.assign(cells_.size(), 0.0);
+  }
   forAll(Each::element, n, [&](int i) {
     const auto e = static_cast<std::size_t>(i);
     const CornerVectors now = cornersOf(cells_[e], state);
     CornerVectors gradient{};
-    const double energy = kernel_.gradient(cells_[e], now, terms, gradient);
+    const ClothEnergy energy =
+        kernel_.gradient(cells_[e], now, memoryOf(cells_[e], state, out.history), terms, gradient);
     for (std::size_t k = 0; k < 8; ++k) {
       // What turns a director: d x g.
       const Vec3 slot = k < 4 ? gradient[k] : cross(now[k], gradient[k]);
       for (int axis = 0; axis < 3; ++axis) work.slots[24 * e + 3 * k + static_cast<std::size_t>(axis)] = slot[axis];
     }
-    if (out.energy) work.lane_energy[e] = energy;
+    if (!out.energy) return;
+    work.lane_energy[e] = energy.stored;
+    work.lane_lost[e] = energy.lost;
   });
   of_points_.negativeSum(work.slots.data(), out.points);
   if (!out.inner.empty())
@@ -154,6 +178,7 @@ void DegeneratedShell::force(const ClothState& state, const ClothForce& out, Clo
   if (!out.energy) return;
   *out.energy = {};
   for (const double e : work.lane_energy) out.energy->stored += e;
+  for (const double e : work.lane_lost) out.energy->lost += e;
 }
 
 std::unique_ptr<ClothTangent> DegeneratedShell::tangent() const { return degeneratedTangent(*this); }
@@ -190,7 +215,7 @@ std::unique_ptr<StressView> DegeneratedShell::stress() const {
 PointState DegeneratedShell::stateIn(const ShellCell& cell, const ClothState& state, Vec2 within, bool total) const {
   const NurbsPatch& patch = garment().patches[static_cast<std::size_t>(cell.patch)];
   const int own = static_cast<int>(&cell - cells_.data()) - firstCell(cell.patch);
-  return kernel_.at(cell, cornersOf(cell, ClothState(rest())), cornersOf(cell, state),
+  return kernel_.at(cell, cornersOf(cell, ClothState(rest())), cornersOf(cell, state), memoryOf(cell, state),
                     garment().weft[static_cast<std::size_t>(cell.patch)],
                     fibreAngleAt(garment(), cell.patch, middleOf(patch, own)), {2 * within.x - 1, 2 * within.y - 1},
                     total);
@@ -209,6 +234,15 @@ double DegeneratedShell::bendAt(const ClothState& state, int patch, Vec2 uv) con
       stateIn(cells_[static_cast<std::size_t>(firstCell(patch) + cell)], state, withinCell(p, cell, uv), true)
           .curvature_change;
   return std::sqrt(k.x * k.x + k.y * k.y + 0.5 * k.z * k.z);
+}
+
+bool DegeneratedShell::springsAtRest(double length_m) const {
+  for (const ShellCell& cell : cells_) {
+    if (!cell.law.from_flat) continue;
+    const Vec3 k = stateIn(cell, ClothState(rest()), {0.5, 0.5}, true).curvature_change;
+    if (std::max({std::abs(k.x), std::abs(k.y), 0.5 * std::abs(k.z)}) * length_m > 1e-6) return true;
+  }
+  return false;
 }
 
 std::vector<std::pair<int, Vec2>> DegeneratedShell::lawPlaces() const { return cellMiddles(garment()); }

@@ -9,11 +9,13 @@
 /// takes no part in the solution: it is coupled to nothing, and nothing drives it. Of modes it makes one for each
 /// director that means nothing, at the frequency of shear through the thickness, the highest of the sheet.
 ///
-/// The fabric's membrane is St. Venant-Kirchhoff, isotropic or orthotropic; it bends by a linear law: `consistent`
-/// (D = A t²/12, the thesis's), rigidities of its own, or plies. Transverse shear has the stiffness factor * A66 in
-/// both directions: G t, which is E t/(2 (1 + nu)) of an isotropic sheet. An orthotropic fabric has no transverse
-/// moduli of its own; that its shear modulus in the plane stands for both is an assumption. The shape at rest is free
-/// of stress.
+/// The fabric's membrane is St. Venant-Kirchhoff, isotropic or orthotropic, with friction in shear or without; it bends
+/// by a linear law, `consistent` (D = A t²/12, the thesis's), rigidities of its own or plies, or by any law of
+/// core/material/laws/bending_laws.hpp, also one that remembers (shell_law.hpp). Transverse shear has the stiffness
+/// factor * A66 in both directions: G t, which is E t/(2 (1 + nu)) of an isotropic sheet. An orthotropic fabric has no
+/// transverse moduli of its own; that its shear modulus in the plane stands for both is an assumption. The shape at
+/// rest is free of stress where curvature counts from it (hasRestCurvature); else of that in the plane and across
+/// alone.
 
 #include <memory>
 #include <string>
@@ -33,7 +35,7 @@ std::string whatShellLacks(const Fabric& fabric);
 class DegeneratedShell : public PatchCloth {
  public:
   /// Between the nodes of a draft (nodalDraft). Throws InputError where its fabric is none that such a shell can have,
-  /// or bends from another shape than that at rest, and where a cell has no area or no normal.
+  /// and where a cell has no area or no normal.
   explicit DegeneratedShell(const Garment& draft, const DegeneratedOptions& options = {})
       : DegeneratedShell(nodalDraft(draft), options) {}
   ~DegeneratedShell() override;
@@ -44,6 +46,8 @@ class DegeneratedShell : public PatchCloth {
   const ShellKernel& kernel() const { return kernel_; }
   /// Positions and directors of a cell's corners.
   CornerVectors cornersOf(const ShellCell& cell, const ClothState& state) const;
+  /// What a cell remembers in a state; `trial`: of the cloth, may be empty.
+  CellMemory memoryOf(const ShellCell& cell, const ClothState& state, std::span<double> trial = {}) const;
 
   std::string pointName() const override { return "points"; }
   std::string kernels() const override { return "scalar"; }
@@ -54,6 +58,9 @@ class DegeneratedShell : public PatchCloth {
   using Cloth::force;
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const override;
   std::unique_ptr<ClothTangent> tangent() const override;
+
+  std::size_t historySize() const override { return history_doubles_; }
+  std::vector<HistoryPlace> historyPlaces() const override;
 
   std::size_t innerValues() const override { return 3 * directors_.rest.size(); }
   std::size_t innerRates() const override { return 3 * directors_.rest.size(); }
@@ -68,7 +75,7 @@ class DegeneratedShell : public PatchCloth {
   PointState stateAt(const ClothState& state, int patch, Vec2 uv) const override;
   double bendAt(const ClothState& state, int patch, Vec2 uv) const override;
   std::vector<std::pair<int, Vec2>> lawPlaces() const override;
-  bool springsAtRest(double) const override { return false; }
+  bool springsAtRest(double length_m) const override;
   /// Of a cell, at a place in it: 0 to 1 in u and v. `total`: curvature with that at rest.
   PointState stateIn(const ShellCell& cell, const ClothState& state, Vec2 within, bool total = false) const;
 
@@ -82,6 +89,7 @@ class DegeneratedShell : public PatchCloth {
   ShellKernel kernel_;
   Directors directors_;
   std::vector<ShellCell> cells_;
+  std::size_t history_doubles_ = 0;
   std::vector<int> first_cell_{0};  ///< of each patch, one more than there are patches
   std::vector<double> masses_, inertias_;
   SlotGather of_points_, of_directors_;

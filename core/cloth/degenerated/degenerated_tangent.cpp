@@ -48,7 +48,7 @@ class DegeneratedTangent : public ClothTangent {
     CornerVectors gradient;
     for (const ShellCell& cell : cloth_.cells()) {
       const CornerVectors now = cloth_.cornersOf(cell, state);
-      cloth_.kernel().stiffness(cell, now, terms, own, gradient);
+      cloth_.kernel().stiffness(cell, now, cloth_.memoryOf(cell, state), terms, own, gradient);
       for (std::size_t k = 0; k < 8; ++k)
         for (std::size_t l = 0; l < 8; ++l) {
           const int r = rowOf(cell, k), c = rowOf(cell, l);

@@ -3,25 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloth/degenerated/shell_resultants.hpp"
 #include "core/cloth/patches/rest_frame.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
 namespace {
-
-/// y = S x of a symmetric matrix in Voigt's order.
-Vec3 times(const Voigt& S, const Vec3& x) {
-  return {S[0] * x.x + S[3] * x.y + S[4] * x.z, S[3] * x.x + S[1] * x.y + S[5] * x.z,
-          S[4] * x.x + S[5] * x.y + S[2] * x.z};
-}
-Vec3 rowsTimes(const std::array<double, 9>& T, double a, double b, double c) {
-  return {T[0] * a + T[1] * b + T[2] * c, T[3] * a + T[4] * b + T[5] * c, T[6] * a + T[7] * b + T[8] * c};
-}
-/// Tᵀ v.
-Vec3 columnsTimes(const std::array<double, 9>& T, const Vec3& v) {
-  return {T[0] * v.x + T[3] * v.y + T[6] * v.z, T[1] * v.x + T[4] * v.y + T[7] * v.z,
-          T[2] * v.x + T[5] * v.y + T[8] * v.z};
-}
 
 /// What takes covariant strains (11, 22, 12) to (E11, E22, 2 E12) of the frame G = d(xi)/dX.
 std::array<double, 9> toPhysical(const RestFrame& G) {
@@ -29,43 +16,6 @@ std::array<double, 9> toPhysical(const RestFrame& G) {
           G.G12 * G.G12,     G.G22 * G.G22,     2 * G.G12 * G.G22,
           2 * G.G11 * G.G12, 2 * G.G21 * G.G22, 2 * (G.G11 * G.G22 + G.G21 * G.G12)};
 }
-
-/// Strains of a point and what its law answers, by the covariant strains less those at rest.
-struct Answer {
-  Vec3 strain, curvature, n, m;
-  Vec2 gamma, shear;
-
-  Answer(const ShellLaw& law, const ShellPoint& p, const Covariant& c, const RulePoint& rule, const ForceTerms& terms) {
-    if (rule.plane) {
-      strain = rowsTimes(p.T, c[0], c[1], c[2]);
-      curvature = -rowsTimes(p.T, c[3], c[4], c[5]);
-      if (terms.membrane) n = times(law.section.A, strain);
-      if (terms.bending) m = times(law.section.D, curvature);
-      if (terms.membrane && terms.bending) {
-        n += times(law.section.B, curvature);
-        m += times(law.section.B, strain);
-      }
-    }
-    if (rule.shear && terms.bending) {
-      gamma = {p.slant[0] * c[0] + p.slant[1] * c[1] + p.slant[2] * c[2] + p.across[0] * c[6] + p.across[1] * c[7],
-               p.slant[3] * c[0] + p.slant[4] * c[1] + p.slant[5] * c[2] + p.across[2] * c[6] + p.across[3] * c[7]};
-      shear = {law.shear_N_per_m * gamma.x, law.shear_N_per_m * gamma.y};
-    }
-  }
-  double energy() const { return 0.5 * (dot(n, strain) + dot(m, curvature) + shear.x * gamma.x + shear.y * gamma.y); }
-  /// Conjugate to the covariant strains, over the area.
-  Covariant conjugate(const ShellPoint& p) const {
-    const Vec3 of_n = columnsTimes(p.T, n), of_m = -columnsTimes(p.T, m);
-    return {of_n.x + p.slant[0] * shear.x + p.slant[3] * shear.y,
-            of_n.y + p.slant[1] * shear.x + p.slant[4] * shear.y,
-            of_n.z + p.slant[2] * shear.x + p.slant[5] * shear.y,
-            of_m.x,
-            of_m.y,
-            of_m.z,
-            p.across[0] * shear.x + p.across[2] * shear.y,
-            p.across[1] * shear.x + p.across[3] * shear.y};
-  }
-};
 
 constexpr std::array<double, 4> kXi{-1, 1, -1, 1}, kEta{-1, -1, 1, 1};
 
@@ -112,7 +62,10 @@ ShellKernel::Station ShellKernel::stationAt(const CornerBasis& basis, const Corn
 }
 
 ShellKernel::ShellKernel(ShellRule rule) : table_(tableOf(rule)) {
-  for (const RulePoint& p : table_.points) points_.push_back(cornerBasis(p.at));
+  for (const RulePoint& p : table_.points) {
+    points_.push_back(cornerBasis(p.at));
+    plane_points_ += p.plane ? 1 : 0;
+  }
   for (const Natural& s : table_.stations) stations_.push_back(cornerBasis(s));
 }
 
@@ -155,11 +108,12 @@ void ShellKernel::setRest(const CornerVectors& rest, const Vec3& weft, double an
                2 * G.G12 * beta1, 2 * G.G22 * beta2, 2 * (G.G12 * beta2 + G.G22 * beta1)};
     p.across = {2 * G.G11 * beta3, 2 * G.G21 * beta3, 2 * G.G12 * beta3, 2 * G.G22 * beta3};
     p.rest = covariant(rest, cell.law.z2_m2, i);
+    if (cell.law.from_flat) std::fill(p.rest.begin() + 3, p.rest.begin() + 6, 0.0);
   }
 }
 
-double ShellKernel::gradient(const ShellCell& cell, const CornerVectors& now, const ForceTerms& terms,
-                             CornerVectors& gradient) const {
+ClothEnergy ShellKernel::gradient(const ShellCell& cell, const CornerVectors& now, const CellMemory& memory,
+                                  const ForceTerms& terms, CornerVectors& gradient) const {
   const double z2 = cell.law.z2_m2;
   std::array<Station, 4> stations;
   std::array<double, 4> e13{}, e23{}, s13{}, s23{};
@@ -168,7 +122,7 @@ double ShellKernel::gradient(const ShellCell& cell, const CornerVectors& now, co
     e13[k] = 0.5 * dot(stations[k].a1, stations[k].d);
     e23[k] = 0.5 * dot(stations[k].a2, stations[k].d);
   }
-  double energy = 0;
+  ClothEnergy energy;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const RulePoint& rule = table_.points[i];
     const ShellPoint& p = cell.points[i];
@@ -180,8 +134,9 @@ double ShellKernel::gradient(const ShellCell& cell, const CornerVectors& now, co
       c[7] += rule.on23[k] * e23[k];
     }
     for (std::size_t r = 0; r < 8; ++r) c[r] -= p.rest[r];
-    const Answer answer(cell.law, p, c, rule, terms);
-    energy += p.area_m2 * answer.energy();
+    const Resultants answer(cell.law, p, c, rule, terms, memory.of(cell.law, i));
+    energy.stored += p.area_m2 * answer.stored();
+    energy.lost += p.area_m2 * answer.in_plane.lost;
     Covariant f = answer.conjugate(p);
     for (double& v : f) v *= p.area_m2;
     const Vec3 a1 = f[0] * s.a1 + 0.5 * f[2] * s.a2 + f[3] * s.b1 + 0.5 * f[5] * s.b2,
@@ -208,14 +163,15 @@ double ShellKernel::gradient(const ShellCell& cell, const CornerVectors& now, co
   return energy;
 }
 
-void ShellKernel::stiffness(const ShellCell& cell, const CornerVectors& now, const ForceTerms& terms, CellStiffness& K,
-                            CornerVectors& gradient) const {
+void ShellKernel::stiffness(const ShellCell& cell, const CornerVectors& now, const CellMemory& memory,
+                            const ForceTerms& terms, CellStiffness& K, CornerVectors& gradient) const {
   const double z2 = cell.law.z2_m2;
   std::array<std::array<double, 8>, 8> turning{};  // of the stress, by nodes: times the identity
   const auto addTurning = [&](std::size_t k, std::size_t l, double v) { turning[k][l] += v; };
   K.fill(0);
   gradient.fill({});
-  this->gradient(cell, now, terms, gradient);
+  const CellMemory committed{memory.committed, nullptr, memory.elapsed_s};
+  this->gradient(cell, now, committed, terms, gradient);
   std::array<double, 4> s13{}, s23{};
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const RulePoint& rule = table_.points[i];
@@ -245,12 +201,17 @@ void ShellKernel::stiffness(const ShellCell& cell, const CornerVectors& now, con
         addTo(7, 4 + k, 0.5 * rule.on23[st] * stations_[st].n[k], t.a2);
       }
     }
-    for (std::size_t c = 0; c < 8; ++c) {
+    Covariant c = covariant(now, z2, i);
+    for (std::size_t r = 0; r < 8; ++r) c[r] -= p.rest[r];
+    ShellLaw slopes;
+    if (!cell.law.isLinear()) slopes = linearAt(cell.law, p, c, terms, committed.of(cell.law, i));
+    const ShellLaw& tangent = cell.law.isLinear() ? cell.law : slopes;
+    for (std::size_t k = 0; k < 8; ++k) {
       Covariant one{};
-      one[c] = p.area_m2;
-      const Covariant answer = Answer(cell.law, p, one, rule, terms).conjugate(p);
+      one[k] = p.area_m2;
+      const Covariant answer = Resultants(tangent, p, one, rule, terms).conjugate(p);
       for (std::size_t r = 0; r < 8; ++r)
-        for (std::size_t j = 0; answer[r] != 0 && j < 24; ++j) stressed[r][j] += answer[r] * rows[c][j];
+        for (std::size_t j = 0; answer[r] != 0 && j < 24; ++j) stressed[r][j] += answer[r] * rows[k][j];
     }
     for (std::size_t i1 = 0; i1 < 24; ++i1)
       for (std::size_t r = 0; r < 8; ++r) {
@@ -258,9 +219,7 @@ void ShellKernel::stiffness(const ShellCell& cell, const CornerVectors& now, con
         for (std::size_t j = 0; j < 24; ++j) K[24 * i1 + j] += row * stressed[r][j];
       }
     if (terms.definite) continue;
-    Covariant c = covariant(now, z2, i);
-    for (std::size_t r = 0; r < 8; ++r) c[r] -= p.rest[r];
-    Covariant f = Answer(cell.law, p, c, rule, terms).conjugate(p);
+    Covariant f = Resultants(cell.law, p, c, rule, terms, committed.of(cell.law, i)).conjugate(p);
     for (double& v : f) v *= p.area_m2;
     for (std::size_t k = 0; k < 4; ++k)
       for (std::size_t l = 0; l < 4; ++l) {
@@ -290,8 +249,9 @@ void ShellKernel::stiffness(const ShellCell& cell, const CornerVectors& now, con
       for (std::size_t a = 0; a < 3; ++a) K[(3 * k + a) * 24 + 3 * l + a] += turning[k][l];
 }
 
-PointState ShellKernel::at(const ShellCell& cell, const CornerVectors& rest, const CornerVectors& now, const Vec3& weft,
-                           double angle_rad, Natural place, bool total) const {
+PointState ShellKernel::at(const ShellCell& cell, const CornerVectors& rest, const CornerVectors& now,
+                           const CellMemory& memory, const Vec3& weft, double angle_rad, Natural place,
+                           bool total) const {
   const CornerBasis basis = cornerBasis(place);
   const Station before = stationAt(basis, rest);
   ShellPoint p;
@@ -300,8 +260,16 @@ PointState ShellKernel::at(const ShellCell& cell, const CornerVectors& rest, con
   addPlane(stationAt(basis, now), cell.law.z2_m2, c);
   addPlane(before, cell.law.z2_m2, start);
   for (std::size_t r = 0; r < 6; ++r)
-    if (!total || r < 3) c[r] -= start[r];
-  const Answer answer(cell.law, p, c, {place, 1, true, false, {}, {}}, {});
+    if (r < 3 || !(total || cell.law.from_flat)) c[r] -= start[r];
+  const auto off2 = [&](std::size_t i) {
+    const Natural& at = table_.points[i].at;
+    return (at.xi - place.xi) * (at.xi - place.xi) + (at.eta - place.eta) * (at.eta - place.eta);
+  };
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < plane_points_; ++i)
+    if (off2(i) < off2(nearest)) nearest = i;
+  const CellMemory committed{memory.committed, nullptr, memory.elapsed_s};
+  const Resultants answer(cell.law, p, c, {place, 1, true, false, {}, {}}, {}, committed.of(cell.law, nearest));
   return {answer.strain, answer.curvature, answer.n, answer.m};
 }
 

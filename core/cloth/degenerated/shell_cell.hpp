@@ -12,28 +12,21 @@
 /// S33 = 0 is condensed (Man 2006, eq. 2.72 and 2.74 with section 2.3.1.5). Energy per area of the rest mid-surface:
 ///   W = E . A E/2 + E . B kappa + kappa . D kappa/2 + gamma . G gamma/2.
 /// With A = Q t, B = 0, D = Q t³/12 that is what the thesis integrates over both points; a sheet whose rigidity D is
-/// given apart, or a laminate, takes its own. Terms of the order of thickness over radius of the rest shape are left
-/// out, as in any first-order shell theory.
+/// given apart, or a laminate, takes its own, and laws that no section expresses take the place of the first three
+/// terms (shell_law.hpp). Where curvature counts from flat, k has no value at rest. Terms of the order of thickness
+/// over radius of the rest shape are left out, as in any first-order shell theory.
 
 #include <array>
 
 #include "core/cloth/cloth_state.hpp"
+#include "core/cloth/degenerated/shell_law.hpp"
 #include "core/cloth/degenerated/shell_rule.hpp"
-#include "core/cloth/stress.hpp"
-#include "core/material/section.hpp"
 #include "core/math/vec.hpp"
 
 namespace gambeson {
 
 /// Covariant strains of a point: eta 11, 22, 12 [m^2], k 11, 22, 12 [m], e_13, e_23 [m].
 using Covariant = std::array<double, 8>;
-
-/// Linear in E, kappa and gamma.
-struct ShellLaw {
-  Section section;
-  double shear_N_per_m = 0;  ///< G, in both directions
-  double z2_m2 = 0;          ///< z0²
-};
 
 /// A point of the rule in one cell, at rest.
 struct ShellPoint {
@@ -48,6 +41,7 @@ struct ShellCell {
   int patch = 0;
   std::array<int, 4> corner{}, director{};  ///< corners (-1, -1), (1, -1), (-1, 1), (1, 1)
   ShellLaw law;
+  long first_history = 0;  ///< where its memory begins in the cloth's
   double hold_Nm = 0;  ///< per rad: against drilling, where it must not be without stiffness (ClothTangent::holdIdle)
   std::array<ShellPoint, 5> points;  ///< as many as the rule has
 };
@@ -76,23 +70,25 @@ class ShellKernel {
   explicit ShellKernel(ShellRule rule);
 
   const RuleTable& table() const { return table_; }
+  /// Points that see strains in the plane, and remember; they come first.
+  std::size_t planePoints() const { return plane_points_; }
 
   /// The frames and rest strains of a cell with these corners at rest. Throws InputError where the rest surface has no
   /// area, the weft is normal to it, or a director lies in it.
   void setRest(const CornerVectors& rest, const Vec3& weft, double angle_rad, ShellCell& cell) const;
 
-  /// Adds the energy [J] and its gradient. Terms of `terms` that do not act are left out: stretching and what couples
-  /// it are the membrane, bending and shear the bending.
-  double gradient(const ShellCell& cell, const CornerVectors& now, const ForceTerms& terms,
-                  CornerVectors& gradient) const;
+  /// Adds the gradient of the energy; returns that [J]. Terms of `terms` that do not act are left out: stretching and
+  /// what couples it are the membrane, bending and shear the bending.
+  ClothEnergy gradient(const ShellCell& cell, const CornerVectors& now, const CellMemory& memory,
+                       const ForceTerms& terms, CornerVectors& gradient) const;
   /// Writes the second derivatives by positions and directors, both free in space. `definite`: without the part of the
   /// stress.
-  void stiffness(const ShellCell& cell, const CornerVectors& now, const ForceTerms& terms, CellStiffness& K,
-                 CornerVectors& gradient) const;
-  /// What the law says of stretching and bending at a place of a cell whose corners were at rest. `total`: with the
-  /// curvature of the rest shape, in PointState::curvature_change.
-  PointState at(const ShellCell& cell, const CornerVectors& rest, const CornerVectors& now, const Vec3& weft,
-                double angle_rad, Natural place, bool total = false) const;
+  void stiffness(const ShellCell& cell, const CornerVectors& now, const CellMemory& memory, const ForceTerms& terms,
+                 CellStiffness& K, CornerVectors& gradient) const;
+  /// What the law says of stretching and bending at a place of a cell whose corners were at rest, as the nearest point
+  /// remembers. `total`: with the curvature of the rest shape, in PointState::curvature_change.
+  PointState at(const ShellCell& cell, const CornerVectors& rest, const CornerVectors& now, const CellMemory& memory,
+                const Vec3& weft, double angle_rad, Natural place, bool total = false) const;
 
  private:
   struct Station {
@@ -103,6 +99,7 @@ class ShellKernel {
   Covariant covariant(const CornerVectors& x, double z2, std::size_t point) const;
 
   RuleTable table_;
+  std::size_t plane_points_ = 0;
   std::vector<CornerBasis> points_, stations_;
 };
 

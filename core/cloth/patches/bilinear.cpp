@@ -46,6 +46,11 @@ Vec2 withinCell(const NurbsPatch& patch, int cell, Vec2 uv) {
   return {(uv.x - u.x) / (u.y - u.x), (uv.y - v.x) / (v.y - v.x)};
 }
 
+Vec2 placeIn(const NurbsPatch& patch, int cell, Vec2 within) {
+  const Vec2 u = endsOf(patch.u, cell % across(patch)), v = endsOf(patch.v, cell / across(patch));
+  return {u.x + within.x * (u.y - u.x), v.x + within.y * (v.y - v.x)};
+}
+
 Vec2 middleOf(const NurbsPatch& patch, int cell) {
   const Vec2 u = endsOf(patch.u, cell % across(patch)), v = endsOf(patch.v, cell / across(patch));
   return {0.5 * (u.x + u.y), 0.5 * (v.x + v.y)};

@@ -20,6 +20,8 @@ std::vector<int> cellsAt(const NurbsPatch& patch, Vec2 uv);
 std::array<int, 4> cornersOf(const NurbsPatch& patch, int cell);
 /// Where a place lies in a cell, 0 to 1 in u and v.
 Vec2 withinCell(const NurbsPatch& patch, int cell, Vec2 uv);
+/// The place that lies so in a cell.
+Vec2 placeIn(const NurbsPatch& patch, int cell, Vec2 within);
 /// The place in the middle of a cell.
 Vec2 middleOf(const NurbsPatch& patch, int cell);
 int cellCount(const NurbsPatch& patch);

@@ -63,17 +63,20 @@ TEST(ShellKeys, WornCasesRefuseWhatHasNoMeaning) {
       replaced(linear, "\"weft_angle\": \"45 deg\"",
                "\"weft_angle\": \"45 deg\", \"model\": \"shell\", \"shell\": {\"rule\": \"one_point\", "
                "\"shear_factor\": 1, \"rotary\": \"cell\"}");
-  expectRefused(shell,
-                {{"\"model\": \"shell\"", "\"model\": \"springs\"", 6, "garment.shell", "is for \"model\""},
-                 {"one_point", "two_points", 6, "garment.shell.rule", "allowed: mitc4, one_point"},
-                 {"\"shear_factor\": 1", "\"shear_factor\": 0", 6, "garment.shell.shear_factor", "> 0"},
-                 {"\"cell\"", "true", 6, "garment.shell.rotary", "expected one of"},
-                 {"\"law\": \"linear\"", "\"law\": \"stop\", \"yield_moment\": 1e-5", 6, "garment.model", "another"}});
+  expectRefused(shell, {{"\"model\": \"shell\"", "\"model\": \"springs\"", 6, "garment.shell", "is for \"model\""},
+                        {"one_point", "two_points", 6, "garment.shell.rule", "allowed: mitc4, one_point"},
+                        {"\"shear_factor\": 1", "\"shear_factor\": 0", 6, "garment.shell.shear_factor", "> 0"},
+                        {"\"cell\"", "true", 6, "garment.shell.rotary", "expected one of"}});
   const Folder folder;
   const Case given = readCase(folder.write("given.json", shell));
   const DegeneratedOptions expected{ShellRule::one_point, 1, RotaryInertia::cell};
   EXPECT_EQ(*given.garments[0].cloth.shell, expected);
   EXPECT_EQ(*readRecordedCase(folder.write("again.json", writeCase(given))).garments[0].cloth.shell, expected);
+  // Cloth that remembers, in bending and in shear, and that is flat by itself.
+  const std::string remembers =
+      replaced(replaced(shell, "\"law\": \"linear\", \"rest\": \"shape\"", "\"law\": \"stop\", \"yield_moment\": 1e-5"),
+               "\"young\": \"1.2 MPa\",", "\"young\": \"1.2 MPa\", \"shear_loop\": {\"rise\": 10},");
+  EXPECT_EQ(readCase(folder.write("remembers.json", remembers)).garments[0].cloth.kind, ClothKind::shell);
 }
 
 constexpr const char* sheet = R"json({
@@ -104,6 +107,15 @@ TEST(SpringKeys, ASheetIsOfTheSpringsThatItsCaseGives) {
       {{"\"cells_v\": 6,", "\"cells_v\": 6, \"trim\": [{\"circle\": {\"center\": [0.5, 0.5], \"radius\": 0.2}}],", 4,
         "sheet.model", "cannot be trimmed"},
        {"\"material\": {", "\"material\": {\"tension_field\": true, ", 4, "sheet.model", "tension field"}});
+}
+
+/// Of laws that other cloth has a degenerated shell lacks one.
+TEST(ShellKeys, ASheetCarriesPressure) {
+  const std::string shell =
+      replaced(sheet, "\"model\": \"springs\",\n    \"springs\": {\"structural\": 70, \"shear\": 30, \"flexion\": 5}",
+               "\"model\": \"shell\"");
+  expectRefused(shell,
+                {{"\"material\": {", "\"material\": {\"tension_field\": true, ", 4, "sheet.model", "tension field"}});
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST(Command, CheckAcceptsTheLibrary) {
   const Folder folder;
   for (const char* name : {"shorts_walk", "shorts_stairs", "sleeve_flex", "inclined_plane", "sphere_drape", "flag",
                            "cantilever", "roll_up", "hinged_roof", "plate_modes", "flag_dynamic", "wong_ball",
-                           "wong_funnel", "wong_dancer", "wong_reef_knot", "wong_bowline"}) {
+                           "wong_funnel", "wong_dancer", "wong_reef_knot", "wong_bowline", "man_plate", "man_roll_up"}) {
     const Outcome o = gambeson(folder, "check '" GAMBESON_SOURCE_DIR "/cases/library/" + std::string(name) + ".json'");
     EXPECT_EQ(o.status, 0) << o.err;
     EXPECT_NE(o.out.find("valid"), std::string::npos);

@@ -51,6 +51,8 @@ TEST(StructureChecks, TheLibrarysCasesMeetTheirs) {
                                                                      {"roll_up", {}},
                                                                      {"hinged_roof", {}},
                                                                      {"plate_modes", {}},
+                                                                     {"man_plate", {}},
+                                                                     {"man_roll_up", {}},
                                                                      {"flag_dynamic", {"solver.end=0.1 s"}}}) {
     const Ran r = ranOf(name, changes);
     EXPECT_EQ(r.error, "") << name;

@@ -17,7 +17,8 @@ namespace gambeson {
 namespace {
 
 const std::filesystem::path library = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library";
-const std::vector<std::string> structures{"cantilever", "roll_up", "hinged_roof", "plate_modes", "flag_dynamic"};
+const std::vector<std::string> structures{"cantilever",   "roll_up",   "hinged_roof", "plate_modes",
+                                          "flag_dynamic", "man_plate", "man_roll_up"};
 
 TEST(StructureCase, FieldsArriveInSi) {
   const Folder folder;

@@ -125,6 +125,21 @@ TEST(ImplicitSteps, RayleighDampingAgreesWithTheClosedForm) {
     EXPECT_NEAR(run(s, {.scheme = scheme, .step_s = 1e-3}, end, {0, {1}, {0}, {}}).y[0], exact(0.7), 1e-5);
 }
 
+/// y'' + b (1 + 3 y²) y' + y + y³ = 0: where the damping follows the motion within the step, the scheme keeps its
+/// order.
+TEST(ImplicitSteps, ADampingThatChangesIsOfSecondOrderToo) {
+  SmallSystem s = duffing();
+  s.rayleigh_stiffness = 0.1;
+  for (const ImplicitScheme scheme : {ImplicitScheme::newmark, ImplicitScheme::generalised_alpha}) {
+    double y[4];
+    for (int k = 0; k < 4; ++k)
+      y[k] = run(s, {.scheme = scheme, .step_s = 0.04 / (1 << k)}, 4, {0, {1.5}, {0}, {}}).y[0];
+    const double first = std::abs(y[1] - y[0]), second = std::abs(y[2] - y[1]), third = std::abs(y[3] - y[2]);
+    EXPECT_NEAR(std::log2(first / second), 2, 0.1);
+    EXPECT_NEAR(std::log2(second / third), 2, 0.05);
+  }
+}
+
 /// Newton with few iterations fails in whole steps of a hard spring; halved ones pass, and the end is met exactly.
 TEST(ImplicitSteps, StepsThatFailAreHalved) {
   SmallSystem s(1);

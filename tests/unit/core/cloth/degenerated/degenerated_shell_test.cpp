@@ -376,7 +376,7 @@ TEST(DegeneratedShell, SaysWhatItCannotBe) {
   EXPECT_NE(says(smooth).find("cannot be trimmed"), std::string::npos);
   Fabric other = solid;
   other.law = StopBending{{1, 1, 1}, 0.1};
-  EXPECT_NE(says(flatSheet(2, 2, 1, 1, other)).find("linear law"), std::string::npos);
+  EXPECT_EQ(says(flatSheet(2, 2, 1, 1, other)), "nothing");
   other = solid;
   other.tension_field = true;
   EXPECT_NE(says(flatSheet(2, 2, 1, 1, other)).find("tension field"), std::string::npos);
@@ -386,7 +386,7 @@ TEST(DegeneratedShell, SaysWhatItCannotBe) {
   other = orthotropicCloth();
   other.rest_curvature_of_shape = false;
   EXPECT_EQ(says(flatSheet(2, 2, 1, 1, other)), "nothing");
-  EXPECT_NE(says(curvedSheet(2, 2, other)).find("fabric.bending.rest"), std::string::npos);
+  EXPECT_EQ(says(curvedSheet(2, 2, other)), "nothing");
   EXPECT_NE(says(flatSheet(2, 2, 1, 1, solid), {ShellRule::mitc4, 0.0, RotaryInertia::exact}).find("shear_factor"),
             std::string::npos);
   Garment pole = sheetOf(2, 2, solid, [](double a, double b) { return Vec3{a * b, b, 0}; });
