@@ -197,9 +197,10 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   const Verdict& v = c.verdict;
   std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
   words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
+  std::string meaning;
   for (const std::string& note :
        {multiplesOf(s), std::string("Effort and comfort only: what protects enough is not part of this study.")})
-    if (!note.empty()) words += element("p", prose(note), " class=\"meaning\"");
+    if (!note.empty()) meaning += element("p", prose(note), " class=\"meaning\"");
   std::string body = element("div", words, " class=\"words\"");
   // The one taken, in the motion that decides.
   const SidePicture* shown = nullptr;
@@ -225,7 +226,7 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
                               : std::string("How much: no error bar"),
            v.numbers,
            doubts.empty() ? "" : element("ul", doubts) + element("p", "<a href=\"#checks\">What that means</a>"));
-  return element("section", body,
+  return element("section", body + meaning,
                  shown ? " class=\"headline pictured\" aria-label=\"The verdict\""
                        : " class=\"headline\" aria-label=\"The verdict\"") +
          element("div", cards, " class=\"cards reasons\"") + meaningOf(s, c);
