@@ -199,7 +199,12 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
   std::string meaning;
   for (const std::string& note :
-       {multiplesOf(s), std::string("Effort and comfort only: what protects enough is not part of this study.")})
+       {multiplesOf(s),
+        std::string(c.input.role == Role::model
+                        ? "Kinds of cloth are ways to compute one garment, and none is a design to take: how far they "
+                          "are apart tells how far a torque hangs on the way."
+                        : ""),
+        std::string("Effort and comfort only: what protects enough is not part of this study.")})
     if (!note.empty()) meaning += element("p", prose(note), " class=\"meaning\"");
   std::string body = element("div", words, " class=\"words\"");
   // The one taken, in the motion that decides.
@@ -221,7 +226,12 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   const std::string cards =
       card(v.chosen && v.light != Light::red ? "Why this one" : "How they differ", v.why) +
       card("Thinner still?", v.estimate) +
-      card(fmt::format("{}: {}", v.chosen ? "Which one" : "The worst", surety[static_cast<int>(v.surety)]), v.choice) +
+      card(fmt::format("{}: {}",
+                       v.chosen                      ? "Which one"
+                       : c.input.role == Role::model ? "The largest"
+                                                     : "The worst",
+                       surety[static_cast<int>(v.surety)]),
+           v.choice) +
       card(c.input.mesh_error ? fmt::format("How much: \u00b1 {}", percent(c.input.mesh_error))
                               : std::string("How much: no error bar"),
            v.numbers,
@@ -284,7 +294,7 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
     pageSection("standing", "Standing and moving", "", standingOf(s, c));
   }
   pageSection("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));
-  pageSection("garments", "The garments", "", thicknessPage(s, c));
+  pageSection("garments", "The garments", "", kindsOf(s, c) + thicknessPage(s, c));
   pageSection("cloth", "How it sits", "", clothOf(s, c));
   if (!pictures.empty())
     pageSection(
