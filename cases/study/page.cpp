@@ -124,7 +124,8 @@ std::string costOf(const Study& s, const Comparison& c, const Option::Cost& wors
       worst.part ? fmt::format("{} of natural {} Nm: ", percentBeside(*worst.part, s.limits.green, s.limits.red),
                                formatNumber(worst.peak_Nm / *worst.part))
                  : "";
-  return fmt::format("{} {}", lightOf(s, trustOf(c.input), worst.part),
+  // Where no run knows a natural moment, no light is missing.
+  return fmt::format("{}{}", anyNatural(c) ? lightOf(s, trustOf(c.input), worst.part) + " " : "",
                      element("span", prose(fmt::format("{}{} Nm, {}", share, formatNumber(worst.peak_Nm), worst.joint)),
                              " class=\"reason\""));
 }
