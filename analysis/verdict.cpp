@@ -20,7 +20,7 @@ std::string capital(std::string text) {
 }
 
 std::string opening(const std::string& text, const VerdictInput& in) {
-  return text.starts_with(in.what) ? capital(text) : text;
+  return text.starts_with(in.what) || in.role == Role::model ? capital(text) : text;
 }
 
 std::vector<std::string> motionsOf(const Option& o) {

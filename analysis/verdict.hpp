@@ -11,8 +11,9 @@
 namespace gambeson {
 
 /// What the levels of an axis of a study are.
-enum class Role { other, thickness, mesh, motion, wearer, size, material, friction, fit };
-/// Whether one of the levels is taken. Wearers, sizes, motions and frictions all occur: of them the worst counts.
+enum class Role { other, thickness, mesh, motion, wearer, size, material, friction, fit, model };
+/// Whether one of the levels is taken. Wearers, sizes, motions and frictions all occur: of them the worst counts. Models,
+/// kinds of cloth, are ways to compute one garment.
 bool isChosen(Role role);
 
 /// One level of what is compared.

@@ -12,6 +12,8 @@ struct RoleWords {
   const char* costs;  ///< "male_p95 pays 2 Nm", "stairs cost", "friction 0.5 costs"
 };
 RoleWords wordsOf(Role role);
+/// "male_p95 pays", "friction 0.5 costs", "as springs it costs"
+std::string whoPays(const VerdictInput& in, const Option& option);
 
 inline const Option& at(const VerdictInput& in, int i) { return in.options[static_cast<std::size_t>(i)]; }
 std::string percent(double part);

@@ -185,11 +185,11 @@ void sayWorst(const VerdictInput& in, Verdict& v) {
   if (next) {
     v.order = factorOf(*next, worst);
     const char* what = unitOf(worst, *next);
-    say(fmt::format("{} {} {} times as {} as {}, the next{}.", worst.name, wordsOf(in.role).costs,
-                    formatNumber(*v.order, 2), what, next->name,
-                    least != next ? fmt::format(", and {} times that of {}, the least",
-                                                formatNumber(factorOf(*least, worst), 2), least->name)
-                                  : ""));
+    say(fmt::format(
+        "{} {} times as {} as {}, the next{}.", whoPays(in, worst), formatNumber(*v.order, 2), what, next->name,
+        least != next
+            ? fmt::format(", and {} times that of {}, the least", formatNumber(factorOf(*least, worst), 2), least->name)
+            : ""));
     v.choice = opening(v.choice, in);
   }
   if (v.holds_up_to)

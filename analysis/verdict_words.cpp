@@ -47,10 +47,17 @@ RoleWords wordsOf(Role role) {
       return {"at", "friction", "frictions", "costs"};
     case Role::fit:
       return {"with", "fit", "fits", "costs"};
+    case Role::model:
+      return {"as", "kind of cloth", "kinds of cloth", "costs"};
     case Role::other:
       break;
   }
   return {"with", "variant", "variants", "costs"};
+}
+
+std::string whoPays(const VerdictInput& in, const Option& o) {
+  return in.role == Role::model ? fmt::format("as {} it costs", o.name)
+                                : fmt::format("{} {}", o.name, wordsOf(in.role).costs);
 }
 
 namespace {
@@ -75,14 +82,20 @@ std::string amongOf(Role role, long count, long all) {
                       : fmt::format("{} {} of {} {}", w.before, count, all, w.many);
 }
 
-/// "male_p95 pays", "friction 0.5 costs"
-std::string whoPays(const VerdictInput& in, const Option& o) {
-  return fmt::format("{} {}", o.name, wordsOf(in.role).costs);
+/// How far the kinds of cloth of one garment are apart. No light is the garment's own before one kind is believed.
+std::string modelSentence(const VerdictInput& in, const Verdict& v) {
+  const Option &most = at(in, v.take), *least = &most;
+  for (const Option& o : in.options)
+    if (isUsable(o) && factorOf(o, *least) > 1) least = &o;
+  return fmt::format("One garment as {} kinds of cloth: the largest torque ({}) is {} times the least ({}).{}",
+                     usableCount(in), most.name, formatNumber(factorOf(*least, most), 2), least->name,
+                     v.light == Light::unknown ? "" : fmt::format(" By the largest it is {}.", nameOf(v.cover)));
 }
 
 /// The sentence where no option is taken: how the worst fares, and how many fare like that.
 std::string worstSentence(const VerdictInput& in, const Verdict& v) {
   const Option& o = at(in, v.take);
+  if (in.role == Role::model && usableCount(in) > 1) return modelSentence(in, v);
   const long all = usableCount(in), alike = std::count_if(in.options.begin(), in.options.end(), [&](const Option&k) {
                                       return isUsable(k) && optionLight(k, in) == v.light;
                                     });

@@ -54,10 +54,10 @@ std::string answers(const ReportInput& in, const JointSummary& j) {
 }
 
 std::string headline(const ReportInput& in) {
-  std::string words = element("p", prose(headlineOf(in)), " class=\"sentence\"");
+  std::string words = element("p", prose(headlineOf(in)), " class=\"sentence\""), meaning;
   if (const JointSummary* j = highestJoint(in)) {
     words += answers(in, *j);
-    words +=
+    meaning =
         element("p",
                 "Added torque: the garment pushes on the body and so turns its joints; the wearer\u2019s muscles "
                 "must give as much against it, on top of what the movement needs. Where the garment pushes the way "
@@ -66,7 +66,7 @@ std::string headline(const ReportInput& in) {
   }
   std::string body = element("div", words, " class=\"words\"");
   if (!in.pictures.empty()) body += figureOf(in.pictures.front());
-  return element("section", body,
+  return element("section", body + meaning,
                  in.pictures.empty() ? " class=\"headline\" aria-label=\"The result\""
                                      : " class=\"headline pictured\" aria-label=\"The result\"");
 }

@@ -19,7 +19,7 @@ h3 { font-size:1rem; margin:0 0 8px; }
 .headline .words { padding:26px 28px; }
 .headline .sentence { font-size:1.5rem; line-height:1.3; margin:0 0 18px; font-weight:600; text-wrap:balance; }
 .headline img { width:100%; height:auto; max-height:560px; object-fit:contain; display:block; background:#f9fafa; }
-.headline figure { margin:0; }
+.headline figure { margin:0; } .headline > .meaning { grid-column:1 / -1; margin:-24px 28px 24px; }
 .headline figcaption { padding:6px 16px 12px; font-size:.9rem; color:var(--soft); }
 dl.answers { display:grid; grid-template-columns:max-content minmax(0,1fr); gap:7px 18px; margin:0; }
 dl.answers dt { color:var(--soft); }
@@ -74,7 +74,7 @@ details { margin-top:14px; } summary { cursor:pointer; color:var(--accent); font
 .good, .bad { font-weight:700; white-space:nowrap; } .good { color:var(--good); } .bad { color:var(--bad); }
 ul.assumptions { margin:10px 0 0; padding-left:22px; columns:2 420px; column-gap:36px; } ul.assumptions li { break-inside:avoid; margin-bottom:6px; }
 footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }
-@media (min-width:900px) { .headline.pictured { grid-template-columns:minmax(0,1fr) minmax(0,1fr); } .headline.pictured figure { display:flex; flex-direction:column; background:#f9fafa; border-left:1px solid var(--line); } .headline img { flex:1; min-height:0; height:100%; } }
+@media (min-width:900px) { .headline.pictured { grid-template-columns:minmax(0,1fr) minmax(0,1fr); } .headline.pictured figure { display:flex; flex-direction:column; justify-content:center; background:#f9fafa; border-left:1px solid var(--line); border-bottom:1px solid var(--line); } .headline > .meaning { border-top:0; padding-top:0; margin-top:0; } .headline > .meaning + .meaning { margin-top:-18px; } }
 @media (max-width:560px) { main, header.page { padding-left:12px; padding-right:12px; } .headline .words { padding:18px 16px; } .headline .sentence { font-size:1.25rem; } dl.answers { grid-template-columns:minmax(0,1fr); gap:0; } dl.answers dd { margin-bottom:8px; } figure.chart, .panel { padding:12px 10px; } }
 @media print { @page { margin:14mm; } html { font-size:11px; } body { background:#fff; font-size:1rem; } h2 + p { break-inside:avoid; break-after:avoid; } dl.answers { grid-template-columns:minmax(0,.7fr) minmax(0,1fr); } .cards { gap:8px; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page { padding-top:0; } h2 { break-after:avoid; margin-top:26px; }
   figure, .card, .panel, .headline, tr { break-inside:avoid; } .headline.pictured { grid-template-columns:1fr 1fr; } .cards { grid-template-columns:repeat(4,1fr); } .card { padding:8px 10px; } .charts, .pictures { grid-template-columns:1fr 1fr; } .panel.more::before { display:none; } .scroll { overflow:visible; background:none; } .panel.more th:first-child { position:static; border-right:0; }

@@ -56,12 +56,13 @@ schema::Object axisTable() {
       .choice(
           "role", &A::role, roleChoices(),
           "what the levels are: thicknesses, materials, fits or other designs, of which the verdict takes one; "
-          "wearers, sizes, motions or frictions, which all occur, so that the worst counts; meshes, coarse and fine, "
-          "whose difference is the verdict's error")
+          "wearers, sizes, motions or frictions, which all occur, so that the worst counts; models, kinds of cloth of "
+          "one garment, which are laid side by side; meshes, coarse and fine, whose difference is the verdict's error")
       .defaultsTo(
           "by the name where it is one of these, else by the paths (factors.thickness, fabric.thickness: thickness; "
           "fabric: material; cell, cells_...: mesh; human.motion: motion; human.manikin and the like: wearer; "
-          "contact.friction: friction; measures of a drafted garment, such as garment.shorts.ease: fit)");
+          "contact.friction: friction; garment.model, sheet.model: model; measures of a drafted garment, such as "
+          "garment.shorts.ease: fit)");
   return table.build();
 }
 
@@ -137,7 +138,8 @@ const std::vector<std::pair<std::string, Role>>& roleNames() {
   static const std::vector<std::pair<std::string, Role>> names{
       {"thickness", Role::thickness}, {"mesh", Role::mesh}, {"motion", Role::motion},
       {"wearer", Role::wearer},       {"size", Role::size}, {"material", Role::material},
-      {"friction", Role::friction},   {"fit", Role::fit},   {"other", Role::other}};
+      {"friction", Role::friction},   {"fit", Role::fit},   {"model", Role::model},
+      {"other", Role::other}};
   return names;
 }
 

@@ -6,8 +6,10 @@
 namespace gambeson::study {
 
 /// What variants are compared along: a design (0), where one varies; else who or what it must do for, wearers before
-/// motions; a mesh (3) is none of these.
-inline int rankOf(Role role) { return isChosen(role) ? 0 : role == Role::mesh ? 3 : role == Role::motion ? 2 : 1; }
+/// motions and kinds of cloth; a mesh (3) is none of these.
+inline int rankOf(Role role) {
+  return isChosen(role) ? 0 : role == Role::mesh ? 3 : role == Role::motion || role == Role::model ? 2 : 1;
+}
 
 /// What roles are called in a study's file.
 const std::vector<std::pair<std::string, Role>>& roleNames();

@@ -124,7 +124,8 @@ std::string costOf(const Study& s, const Comparison& c, const Option::Cost& wors
       worst.part ? fmt::format("{} of natural {} Nm: ", percentBeside(*worst.part, s.limits.green, s.limits.red),
                                formatNumber(worst.peak_Nm / *worst.part))
                  : "";
-  return fmt::format("{} {}", lightOf(s, trustOf(c.input), worst.part),
+  // Where no run knows a natural moment, no light is missing.
+  return fmt::format("{}{}", anyNatural(c) ? lightOf(s, trustOf(c.input), worst.part) + " " : "",
                      element("span", prose(fmt::format("{}{} Nm, {}", share, formatNumber(worst.peak_Nm), worst.joint)),
                              " class=\"reason\""));
 }
@@ -197,9 +198,15 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   const Verdict& v = c.verdict;
   std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
   words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
+  std::string meaning;
   for (const std::string& note :
-       {multiplesOf(s), std::string("Effort and comfort only: what protects enough is not part of this study.")})
-    if (!note.empty()) words += element("p", prose(note), " class=\"meaning\"");
+       {multiplesOf(s),
+        std::string(c.input.role == Role::model
+                        ? "Kinds of cloth are ways to compute one garment, and none is a design to take: how far they "
+                          "are apart tells how far a torque hangs on the way."
+                        : ""),
+        std::string("Effort and comfort only: what protects enough is not part of this study.")})
+    if (!note.empty()) meaning += element("p", prose(note), " class=\"meaning\"");
   std::string body = element("div", words, " class=\"words\"");
   // The one taken, in the motion that decides.
   const SidePicture* shown = nullptr;
@@ -220,12 +227,17 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   const std::string cards =
       card(v.chosen && v.light != Light::red ? "Why this one" : "How they differ", v.why) +
       card("Thinner still?", v.estimate) +
-      card(fmt::format("{}: {}", v.chosen ? "Which one" : "The worst", surety[static_cast<int>(v.surety)]), v.choice) +
+      card(fmt::format("{}: {}",
+                       v.chosen                      ? "Which one"
+                       : c.input.role == Role::model ? "The largest"
+                                                     : "The worst",
+                       surety[static_cast<int>(v.surety)]),
+           v.choice) +
       card(c.input.mesh_error ? fmt::format("How much: \u00b1 {}", percent(c.input.mesh_error))
                               : std::string("How much: no error bar"),
            v.numbers,
            doubts.empty() ? "" : element("ul", doubts) + element("p", "<a href=\"#checks\">What that means</a>"));
-  return element("section", body,
+  return element("section", body + meaning,
                  shown ? " class=\"headline pictured\" aria-label=\"The verdict\""
                        : " class=\"headline\" aria-label=\"The verdict\"") +
          element("div", cards, " class=\"cards reasons\"") + meaningOf(s, c);
@@ -283,7 +295,7 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
     pageSection("standing", "Standing and moving", "", standingOf(s, c));
   }
   pageSection("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));
-  pageSection("garments", "The garments", "", thicknessPage(s, c));
+  pageSection("garments", "The garments", "", kindsOf(s, c) + thicknessPage(s, c));
   pageSection("cloth", "How it sits", "", clothOf(s, c));
   if (!pictures.empty())
     pageSection(

@@ -8,6 +8,7 @@
 
 #include "analysis/report/html.hpp"
 #include "analysis/ticks.hpp"
+#include "cases/cloth/make_cloth.hpp"
 #include "cases/study/page_parts.hpp"
 #include "cases/wear/recording/zone_ledger.hpp"
 #include "cases/wear/results/write.hpp"
@@ -16,6 +17,7 @@ namespace gambeson::study {
 
 using html::element;
 using html::escape;
+using html::prose;
 
 namespace {
 
@@ -114,6 +116,42 @@ std::string forcesOf(const Study& s, const Comparison& c) {
         "Forces: sums of magnitudes on the segments that count for the joint. Torque: what the tangential "
         "parts of the contact forces have in it when it peaks; a negative share is of the other sense.");
   return out.empty() ? "" : element("div", out, " class=\"charts single\"") + segmentsOf(s, c);
+}
+
+namespace {
+
+/// How the garments of a variant are computed; empty where they are none that are worn.
+std::string kindOfCloth(const Variant& v) {
+  const auto* c = std::get_if<Case>(&v.definition);
+  if (!c) return "";
+  std::vector<std::string> kinds;
+  for (const GarmentCase& g : c->garments) {
+    const std::string own = ownLawsInWords(g.cloth), words = inWords(g.cloth) + (own.empty() ? "" : " " + own);
+    if (kinds.empty() || kinds.back() != words) kinds.push_back(words);
+  }
+  std::string all;
+  for (const std::string& k : kinds) all += (all.empty() ? "" : " ") + k;
+  return all;
+}
+
+}  // namespace
+
+std::string kindsOf(const Study& s, const Comparison& c) {
+  std::vector<std::pair<std::string, std::string>> kinds;  // of each level its words, once
+  std::set<std::string> different;
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    const std::string words = kindOfCloth(s.variants[i]), name = memberName(s, c, i);
+    if (words.empty() || !s.variants[i].grid) continue;
+    different.insert(words);
+    if (std::find(kinds.begin(), kinds.end(), std::pair(name, words)) == kinds.end()) kinds.emplace_back(name, words);
+  }
+  if (different.size() < 2) return "";
+  std::vector<std::vector<Html>> rows;
+  for (const auto& [name, words] : kinds) rows.push_back({Html(escape(name)), Html(prose(words))});
+  return charts(htmlTable(
+      "What the cloth is made of", {"variant", "how it is computed"}, rows,
+      "The fabric is the same: each row says what that kind of cloth puts in place of it, or leaves out. Pull "
+      "and pressure are known of all kinds; the pull of springs is what they carry through a cell."));
 }
 
 std::string thicknessPage(const Study& s, const Comparison& c) {

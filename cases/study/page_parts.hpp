@@ -54,6 +54,8 @@ std::string standingOf(const Study& study, const Comparison& c);
 std::string meshesOf(const Comparison& c);
 // page_cloth.cpp
 std::string forcesOf(const Study& study, const Comparison& c);
+/// What kinds of cloth the variants are made of, where they differ.
+std::string kindsOf(const Study& study, const Comparison& c);
 std::string thicknessPage(const Study& study, const Comparison& c);
 std::string clothOf(const Study& study, const Comparison& c);
 // page_trust.cpp

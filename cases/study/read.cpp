@@ -65,6 +65,7 @@ Role roleOfPath(const std::string& path) {
   if (path == "human" || path.starts_with("human.")) return Role::wearer;
   if (in("fabric")) return Role::material;
   if (path == "contact.friction") return Role::friction;
+  if (last == "model") return Role::model;
   // A measure of the garment, "garment.shorts.ease": not how finely it is computed.
   for (const char* shape : {"sheet", "disc", "tube", "shorts", "belt", "shirt", "skirt"})
     if (path.starts_with("garment") && in(shape) && last != "degree") return Role::fit;

@@ -155,13 +155,15 @@ std::optional<double> tookBefore(const std::filesystem::path& folder, int thread
 
 Stand standOf(const std::filesystem::path& folder, const std::string& identity, DeviceKind device) {
   if (closedSegments(folder) == 0) return Stand::fresh;
-  const RunIdentity whole(identity, widestInstructionSet(), device);
   std::optional<RunIdentity> recorded;
   try {
     recorded.emplace(RecordingReader(folder).layout().identity);
   } catch (const InputError&) {
     return Stand::fresh;
   }
+  // Cloth whose kernels are the same everywhere says so wherever it runs.
+  const bool anywhere = recorded->kernels == kOneForAll;
+  const RunIdentity whole(identity, anywhere ? recorded->kernels : widestInstructionSet(), device);
   if (recorded->case_hash == whole.case_hash) requireSameDevice(*recorded, device, folder.string());
   if (*recorded != whole) return Stand::fresh;
   try {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/cloth/free_blocks.hpp"
+#include "core/math/instruction_sets.hpp"
 
 namespace gambeson {
 namespace {
@@ -296,6 +297,13 @@ ClothState JoinedCloth::stateOf(const ClothState& s, std::size_t i) const {
   return {s.q.subspan(static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1] - point_[i])),
           range(s.inner, values_[i], values_[i + 1]), range(s.history, history_[i], history_[i + 1]),
           range(s.v, static_cast<std::size_t>(point_[i]), static_cast<std::size_t>(point_[i + 1])), s.elapsed_s};
+}
+
+/// The bits of all hang on those vectors that any part is computed in.
+std::string JoinedCloth::kernels() const {
+  for (const auto& part : parts_)
+    if (part->kernels() != kOneForAll) return part->kernels();
+  return kOneForAll;
 }
 
 std::string JoinedCloth::describePoint(int point) const {

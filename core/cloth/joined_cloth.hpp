@@ -21,7 +21,7 @@ class JoinedCloth : public Cloth {
   const FreeMap& map() const override { return map_; }
   const std::vector<ClothPatch>& patches() const override { return patches_; }
   std::string pointName() const override { return "points"; }
-  std::string kernels() const override { return parts_[0]->kernels(); }
+  std::string kernels() const override;
   std::string describePoint(int point) const override;
   Vec2 placeOfDraft(int patch, Vec2 uv) const override;
   std::vector<Vec3> fromDraft(std::span<const Vec3> control) const override;

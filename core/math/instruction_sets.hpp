@@ -25,4 +25,7 @@ inline const char* widestInstructionSet() {
   return *runnable(avx512, avx2, sse2).front();
 }
 
+/// What kernels call themselves that are compiled once, for all machines alike.
+inline constexpr const char* kOneForAll = "scalar";
+
 }  // namespace gambeson

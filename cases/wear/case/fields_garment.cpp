@@ -39,6 +39,37 @@ Field listOf(const std::string& key, Object item, const std::string& doc) {
   return f;
 }
 
+/// A number of garments that `has` one; the case of others does not say it, as reading it would be refused.
+template <class Number, class Has>
+void numberOfSome(Table<GarmentCase>& table, const Field& field, Number GarmentCase::*number, Has has) {
+  table.custom(
+      field,
+      [=](const Entry& p, GarmentCase& g) {
+        if constexpr (std::is_same_v<Number, int>)
+          g.*number = readInteger(p, field.range);
+        else
+          g.*number = readNumber(p, field.unit, field.range);
+      },
+      [=](const GarmentCase& g) -> std::optional<JsonNode> {
+        return has(g) ? std::optional(nodeOf(static_cast<double>(g.*number))) : std::nullopt;
+      });
+}
+
+/// What a garment's samples and seams are.
+void addSamplesAndSeams(Table<GarmentCase>& table) {
+  using G = GarmentCase;
+  numberOfSome(
+      table,
+      fieldOf("samples_per_cell", Kind::integer, "", between(0, 8),
+              "contact samples along the edge of a cell; 0: one per control point (Greville points). All garments "
+              "together have at most 1,100,000 cells and 1,100,000 samples"),
+      &G::samples_per_cell, [](const G& g) { return g.cloth.kind != ClothKind::triangles; });
+  numberOfSome(table,
+               fieldOf("seam_stiffness", Kind::number, "N/rad", between(0, 1e4),
+                       "rotational spring of seams that meet at an angle: moment per length and angle"),
+               &G::seam_stiffness_N, [](const G& g) { return !kindOf(g).isMesh(); });
+}
+
 }  // namespace
 
 Object garmentTable() {
@@ -66,7 +97,7 @@ Object garmentTable() {
       .unwritten();
   addMembraneFields(table);
   addNodeFields(table);
-  return table.vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
+  table.vector("position", &G::position_m, "m", between(-1e3, 1e3), "moves the shape from where it was made")
       .converted<FabricInput>("fabric", &G::fabric, fabricTable(), resolveFabric, restoreFabric,
                               "what this garment is made of")
       .defaultsTo("the case's fabric")
@@ -109,13 +140,10 @@ Object garmentTable() {
       .number("noise", &G::noise_m, "m", between(0, 0.1),
               "largest displacement along the normal, control point by control point (of a mesh: vertex by vertex), "
               "that the motion starts from; what is held stays, and the rest shape has none")
-      .integer("noise_seed", &G::noise_seed, 0, 1000000000, "another seed gives other noise, the same on every machine")
-      .integer(
-          "samples_per_cell", &G::samples_per_cell, 0, 8,
-          "contact samples along the edge of a cell; 0: one per control point (Greville points). All garments together "
-          "have at most 1,100,000 cells and 1,100,000 samples")
-      .number("seam_stiffness", &G::seam_stiffness_N, "N/rad", between(0, 1e4),
-              "rotational spring of seams that meet at an angle: moment per length and angle")
+      .integer("noise_seed", &G::noise_seed, 0, 1000000000,
+               "another seed gives other noise, the same on every machine");
+  addSamplesAndSeams(table);
+  return table
       .number("weft_angle", &G::weft_angle_rad, "rad", between(-3.2, 3.2),
               "turns the weft about the outward normal; at 0 it lies along u in a sheet or disc, lengthwise in a tube "
               "and in "

@@ -25,6 +25,7 @@
 #include "core/cloth/degenerated/shell_cell.hpp"
 #include "core/cloth/patches/patch_cloth.hpp"
 #include "core/cloth/slot_gather.hpp"
+#include "core/math/instruction_sets.hpp"
 
 namespace gambeson {
 
@@ -50,7 +51,7 @@ class DegeneratedShell : public PatchCloth {
   CellMemory memoryOf(const ShellCell& cell, const ClothState& state, std::span<double> trial = {}) const;
 
   std::string pointName() const override { return "points"; }
-  std::string kernels() const override { return "scalar"; }
+  std::string kernels() const override { return kOneForAll; }
 
   /// Lumped by the diagonal of each cell's consistent mass (Man 2006, eq. 2.82; Hinton, Rock and Zienkiewicz 1976).
   std::vector<double> masses() const override { return masses_; }

@@ -4,6 +4,7 @@
 #include "core/cloth/patches/patch_cloth.hpp"
 #include "core/cloth/slot_gather.hpp"
 #include "core/cloth/springs/spring_net.hpp"
+#include "core/math/instruction_sets.hpp"
 
 namespace gambeson {
 
@@ -16,7 +17,7 @@ class SpringCloth : public PatchCloth {
   const SpringNet& springs() const { return springs_; }
 
   std::string pointName() const override { return "points"; }
-  std::string kernels() const override { return "scalar"; }
+  std::string kernels() const override { return kOneForAll; }
 
   using Cloth::force;
   /// Flexion springs are bending, the others the membrane.

@@ -226,6 +226,34 @@ TEST(Verdict, FailingChecksTouchAChoiceThatLimitsMake) {
   EXPECT_TRUE(has(v.enough, "By its torque it would be good enough")) << v.enough;
 }
 
+/// Kinds of cloth of one garment are laid side by side: none is taken, least torque or not.
+TEST(Verdict, OfKindsOfClothNoneIsTaken) {
+  VerdictInput in = table({0.08, 0.16, 0.02});
+  in.sized = in.multiple = false;
+  in.what = "cloth";
+  in.role = Role::model;
+  const char* names[]{"smooth patches", "springs", "triangles"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    in.options[i].name = names[i];
+    in.options[i].size.reset();
+    for (Option::Cost& c : in.options[i].costs) c.part.reset();
+  }
+  Verdict v = verdictOf(in);
+  EXPECT_FALSE(v.chosen);
+  EXPECT_EQ(v.take, 1);
+  EXPECT_EQ(v.sentence,
+            "One garment as 3 kinds of cloth: the largest torque (springs) is 8.0 times the least (triangles).");
+  EXPECT_TRUE(v.enough.ends_with("As springs it costs 8.00 Nm at the right hip (flexion) (stairs).")) << v.enough;
+  EXPECT_TRUE(v.choice.starts_with("As springs it costs 2.0 times as large a torque as smooth patches, the next, and "
+                                   "8.0 times that of triangles, the least."))
+      << v.choice;
+  in.options[0].costs[1].part = 0.08;
+  in.options[1].costs[1].part = 0.16;
+  in.options[2].costs[1].part = 0.02;
+  v = verdictOf(in);
+  EXPECT_TRUE(v.sentence.ends_with("(triangles). By the largest it is red.")) << v.sentence;
+}
+
 /// Of what is not chosen the worst decides, by its share of its own natural moment, and all of them are counted.
 TEST(Verdict, OfWearersTheWorstIsTheVerdict) {
   VerdictInput in = table({0.08, 0.16, 0.02});

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "cases/input/json.hpp"
+#include "cases/study/study.hpp"
 
 namespace gambeson {
 namespace {
@@ -30,6 +32,21 @@ TEST(Library, NoCaseSetsStepSafety) {
   }
   EXPECT_GT(cases, 25);
   EXPECT_EQ(with, std::set<std::string>{});
+}
+
+/// All variants of all studies are cases; those of Man's sleeve are as many as his section 5.3 asks for.
+TEST(Library, StudiesAreValid) {
+  std::map<std::string, std::size_t> variants;
+  for (const auto& entry : std::filesystem::directory_iterator(GAMBESON_SOURCE_DIR "/cases/library")) {
+    const std::string name = entry.path().filename();
+    if (!name.ends_with(".study.json")) continue;
+    ASSERT_NO_THROW(variants[name] = study::readStudy(entry.path()).variants.size()) << name;
+  }
+  EXPECT_EQ(variants.size(), 6u);
+  EXPECT_EQ(variants["sleeve.study.json"], 2u * 4u * 2u + 1u);  // cloths, meshes, frictions; exact inertia
+  EXPECT_EQ(variants["sleeve_fit.study.json"], 4u * 2u * 2u);   // sleeves, cloths, meshes
+  EXPECT_EQ(variants["sleeve_material.study.json"], 4u * 2u);   // materials, meshes
+  EXPECT_EQ(variants["models.study.json"], 4u);
 }
 
 }  // namespace

@@ -87,6 +87,7 @@ TEST(Study, RolesFollowFromPaths) {
   EXPECT_EQ(role(R"("path": "garment.shorts.inseam", "values": ["10 cm", "15 cm"])"), Role::fit);
   EXPECT_EQ(role(R"("path": "garment.shorts.cell", "values": ["60 mm", "50 mm"])"), Role::mesh);
   EXPECT_EQ(role(R"("path": "human.motion.stand.duration", "values": [1, 2])"), Role::motion);
+  EXPECT_EQ(role(R"("path": "garment.model", "values": ["nurbs", "shell"])"), Role::model);
   EXPECT_EQ(role(R"("path": "contact.tolerance", "values": [1e-3, 1e-4])"), Role::other);
   EXPECT_EQ(role(R"("name": "size", "path": "garment.shorts.ease", "values": ["2 %", "6 %"])"), Role::size);
   EXPECT_EQ(role(R"("path": "garment.shorts.ease", "values": ["2 %", "6 %"], "role": "size")"), Role::size);

@@ -164,6 +164,23 @@ TEST_F(TriangleCase, TwoKindsOfClothTouchEachOther) {
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i].z, m.surface.patch[i] == 0 ? 1e-3 : 2e-3, 3e-4) << i;
 }
 
+// What runs and studies write of a case is read again: of triangles too, which have no samples within cells, and of
+// meshes, which have no seams.
+TEST_F(TriangleCase, WhatIsWrittenIsRead) {
+  write("square.obj", "v 0 0 0.01\nv 0.2 0 0.01\nv 0.2 0.2 0.01\nv 0 0.2 0.01\nf 1 2 3\nf 1 3 4\n");
+  for (const std::string garment :
+       {std::string(kSheet), std::string(kSheet) + ", \"samples_per_cell\": 3, \"seam_stiffness\": \"2 N/rad\"",
+        std::string(kSheet) + ", \"model\": \"triangles\", \"seam_stiffness\": \"2 N/rad\"",
+        std::string(kSheet) + ", \"model\": \"springs\"", std::string(kSheet) + ", \"model\": \"shell\"",
+        std::string("\"mesh_file\": {\"path\": \"square.obj\"}")}) {
+    const Case c = readCase(caseOf(garment));
+    const Case again = readCase(write("again.json", writeCase(c)));
+    EXPECT_EQ(writeCase(again), writeCase(c)) << garment;
+    EXPECT_EQ(again.garments[0].samples_per_cell, c.garments[0].samples_per_cell) << garment;
+    EXPECT_EQ(again.garments[0].seam_stiffness_N, c.garments[0].seam_stiffness_N) << garment;
+  }
+}
+
 TEST_F(TriangleCase, RefusesWhatItCannotBe) {
   EXPECT_NE(refusal(caseOf(std::string(kSheet) + ", \"mesh\": \"single\"")).find("\"model\": \"triangles\""),
             std::string::npos);
