@@ -66,7 +66,7 @@ Role roleOfPath(const std::string& path) {
   if (in("fabric")) return Role::material;
   if (path == "contact.friction") return Role::friction;
   // A measure of the garment, "garment.shorts.ease": not how finely it is computed.
-  for (const char* shape : {"sheet", "disc", "tube", "shorts", "belt", "shirt", "skirt"})
+  for (const char* shape : {"sheet", "disc", "tube", "shorts", "trousers", "belt", "shirt", "skirt"})
     if (path.starts_with("garment") && in(shape) && last != "degree") return Role::fit;
   return Role::other;
 }
