@@ -16,9 +16,9 @@ Object trousersTable() {
               "how much wider than the body: around the hips 1 + ease times the widest outline of hips and legs, "
               "around a leg half of that, and at least 1 + ease times the leg")
       .number("rise", &T::rise_m, "m", between(0.15, 0.6), "crotch to waist edge, along the cloth")
-      .number("inseam", &T::inseam_m, "m", between(0.2, 1.2), "crotch to hem")
       .number("crotch_ease", &T::crotch_ease_m, "m", between(0, 0.2),
               "how far the crotch of the trousers lies under the body's where they are worn")
+      .number("hem", &T::hem_m, "m", between(0.02, 1), "height of the hems above the ground where they are worn")
       .number("cell", &T::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
       .integer("degree", &T::degree, 2, 5, "polynomial degree")
       .build();

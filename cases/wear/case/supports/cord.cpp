@@ -29,9 +29,10 @@ const SupportKind cord_support{
     .word = "cord",
     .addTo =
         [](schema::Table<SupportCase>& table) {
-          table.alternative<CordSupport>("cord", std::identity{}, schema::cordTable(),
-                                         "a cord along an edge that is drawn tight, as a belt or a drawstring: it pulls "
-                                         "the edge together, and what lies in it holds it");
+          table.alternative<CordSupport>(
+              "cord", std::identity{}, schema::cordTable(),
+              "a cord along an edge that is drawn tight, as a belt or a drawstring: it pulls "
+              "the edge together, and what lies in it holds it");
         },
     .hold =
         [](const SupportCase& support, const SupportedCloth& on, ModelOptions& options, SupportGroup& group) {
