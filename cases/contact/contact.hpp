@@ -47,12 +47,19 @@ struct MeshObstacle {
   Vec3 position_m;
 };
 
+/// What the human of the case steps over, as a box across the way: its place, depth and height are the motion's.
+struct HurdleObstacle {
+  double width_m = 2;  ///< to both sides together
+};
+
 /// A body as snapshots of its surface.
 struct SequenceObstacle : SequenceOptions {};
 
 struct ObstacleCase {
   std::string name;  ///< also the segment that forces are counted under; unique
-  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle, SequenceObstacle> shape;
+  std::variant<EllipsoidObstacle, SphereObstacle, PlaneObstacle, TorusObstacle, MeshObstacle, HurdleObstacle,
+               SequenceObstacle>
+      shape;
   Vec3 velocity_m_per_s;
   Drive drive;                          ///< beside that velocity
   std::optional<FrictionLaw> friction;  ///< with cloth, where it differs

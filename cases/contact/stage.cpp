@@ -6,10 +6,11 @@
 
 namespace gambeson {
 
-std::vector<MadeObstacle> makeObstacles(std::span<const ObstacleCase> cases) {
+std::vector<MadeObstacle> makeObstacles(std::span<const ObstacleCase> cases, const Hurdle* stepped_over) {
   std::vector<MadeObstacle> made;
   for (std::size_t k = 0; k < cases.size(); ++k)
-    made.push_back(underKey(fmt::format("obstacles[{}]", k), [&] { return kindOf(cases[k]).make(cases[k]); }));
+    made.push_back(
+        underKey(fmt::format("obstacles[{}]", k), [&] { return kindOf(cases[k]).make(cases[k], stepped_over); }));
   return made;
 }
 

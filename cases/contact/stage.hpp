@@ -10,8 +10,9 @@
 
 namespace gambeson {
 
-/// Makes them in their order. Throws InputError with a key such as "obstacles[1].mesh".
-std::vector<MadeObstacle> makeObstacles(std::span<const ObstacleCase> cases);
+/// Makes them in their order; `stepped_over` as in ObstacleKind. Throws InputError with a key such as
+/// "obstacles[1].mesh".
+std::vector<MadeObstacle> makeObstacles(std::span<const ObstacleCase> cases, const Hurdle* stepped_over = nullptr);
 
 /// Obstacles with constant velocities and drives, some of which deform. No anchors.
 class ObstacleStage : public Stage {

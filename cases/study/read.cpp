@@ -67,7 +67,7 @@ Role roleOfPath(const std::string& path) {
   if (path == "contact.friction") return Role::friction;
   if (last == "model") return Role::model;
   // A measure of the garment, "garment.shorts.ease": not how finely it is computed.
-  for (const char* shape : {"sheet", "disc", "tube", "shorts", "belt", "shirt", "skirt"})
+  for (const char* shape : {"sheet", "disc", "tube", "shorts", "trousers", "belt", "shirt", "skirt"})
     if (path.starts_with("garment") && in(shape) && last != "degree") return Role::fit;
   return Role::other;
 }

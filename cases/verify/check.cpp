@@ -176,7 +176,9 @@ Course courseOf(const RunCourse& h, const RunNumbers& numbers) {
     course.time_s.push_back(row.front());
     double v = h.of == RunCourse::Of::largest ? -std::numeric_limits<double>::infinity() : 0;
     for (const std::size_t c : at)
-      if (h.of != RunCourse::Of::largest)
+      if (h.of == RunCourse::Of::magnitude)
+        v = std::hypot(v, row[c]);
+      else if (h.of != RunCourse::Of::largest)
         v += row[c];
       else if (!(v >= row[c]))  // a NaN wins
         v = row[c];

@@ -143,7 +143,10 @@ schema::Object courseTable() {
       .required()
       .choice("join", &H::of,
               std::vector<std::pair<std::string, H::Of>>{
-                  {"sum", H::Of::sum}, {"mean", H::Of::mean}, {"largest", H::Of::largest}},
+                  {"sum", H::Of::sum},
+                  {"mean", H::Of::mean},
+                  {"largest", H::Of::largest},
+                  {"magnitude", H::Of::magnitude}},
               "how several columns become one course")
       .number("scale", &H::scale, "", schema::any(), "the course is multiplied by it")
       .number("from", &H::from_s, "s", schema::any(), "first time, instead of the check's")

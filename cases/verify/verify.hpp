@@ -40,7 +40,12 @@ struct Quantity {
 
 /// A course in time of a run: columns of a table whose first column is the time, joined row by row.
 struct RunCourse {
-  enum class Of { sum, mean, largest };
+  enum class Of {
+    sum,
+    mean,
+    largest,
+    magnitude  ///< root of the sum of squares: of components, or of one column without its sign
+  };
   std::string run, table = "torques.csv";
   std::vector<std::string> columns;
   Of of = Of::sum;

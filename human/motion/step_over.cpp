@@ -1,13 +1,14 @@
 /// Walking up to an obstacle, over it and on. Feet and pelvis go prescribed ways; hips, knees and ankles follow
 /// (human/motion/leg.hpp). A foot that stands rolls on the ground without slip, a foot that swings is carried to its
 /// next place (human/motion/rolling_foot.hpp). The pelvis is as high as it can be with no knee of a standing leg
-/// straighter than `soft`, smoothed. Over the obstacle the standing foot rises onto its ball and the pelvis lifts the
-/// side that swings. The leg that leads is carried over in an arc while the pelvis stays behind; the one that trails
-/// folds its knee behind and is turned out to its side, by bumps that are added to its joints. Arcs and bumps are the
-/// least with which the feet clear the obstacle. Arms and the pelvis's turns are those of natural walking.
+/// straighter than `soft`, smoothed. Over the obstacle knees stretch up to `softest`, the standing foot rises onto its
+/// ball and the pelvis lifts the side that swings. The leg that leads is carried over in an arc while the pelvis stays
+/// behind; the one that trails folds its knee behind and is turned out to its side, by bumps that are added to its
+/// joints. Arcs and bumps are the least with which the feet clear the obstacle, and legs do as well as with the whole
+/// of them. Arms and the pelvis's turns are those of natural walking.
 ///
-/// Nobody was recorded: ways, times and bumps were sought by hand and by random search such that feet clear 0.5 m and
-/// joints stay within their limits for all manikins.
+/// Nobody was recorded: ways, times and bumps were sought by hand and by random search such that feet clear 0.5 m,
+/// thighs and shanks keep out of it as far as may be, and joints stay within their limits for all manikins.
 
 #include "human/motion/step_over.hpp"
 
@@ -45,12 +46,14 @@ constexpr double round_x = 0.14, round_y = 0.18, round_phase = 0.09, round_pitch
 
 // Over the obstacle.
 /// From the toes of the foot before the obstacle to its front, and from its back to the heel of the foot beyond it.
-constexpr double toes_before = 0.31, heel_beyond = 0.13;
-constexpr double cross_off = 44 * rad_per_deg, raised = 22 * rad_per_deg;  ///< sole of the rear, the standing foot
-constexpr double cross_ahead = 0.68, cross_sway = 0.4;
-constexpr double tilt_back = 15 * rad_per_deg, hike = 12 * rad_per_deg;  ///< of the pelvis
-constexpr double cross_slower = 2.2;                                     ///< time of its stride, over that on the level
-constexpr double full_wait_m = 0.5;  ///< height from which on the trailing foot waits before it goes forward
+constexpr double toes_before = 0.314, heel_beyond = 0.088;
+constexpr double cross_off = 43.3 * rad_per_deg, raised = 27.3 * rad_per_deg;  ///< sole of the rear, the standing foot
+constexpr double cross_strike = 3.7 * rad_per_deg;
+constexpr double cross_ahead = 0.75, cross_sway = 0.37;
+constexpr double tilt_back = 9 * rad_per_deg, hike = 16.4 * rad_per_deg;  ///< of the pelvis
+constexpr double cross_slower = 2.2;   ///< time of its stride, over that on the level
+constexpr double tall_m = 0.5;         ///< height from which on feet are pitched, and the trailing one waits, in full
+constexpr double legs_clear_m = 0.01;  ///< of thighs, knees and shanks from the obstacle, where a leg can
 constexpr double arms_out = 15 * rad_per_deg;
 
 /// A bump over the swing: rises from the first to the second part of it, falls from the third to the fourth.
@@ -73,19 +76,20 @@ struct Crossing {
 };
 constexpr Bump none{0, {0, 0.5, 0.5, 1}};
 constexpr std::array<Crossing, 2> crossings{
-    Crossing{{0, 0.85},
-             {1, {0.05, 0.5, 0.66, 1}},
-             0.06,
-             {{{0.28, -70}, {0.5, -20}, {0.7, 5}}},
-             {{{0.45, -0.15}, {0.8, 0.36}}},
-             {none, none, none, none, none}},
-    Crossing{{0.16, 0.98},
-             {0.6, {0, 0.51, 0.58, 1}},
+    Crossing{{0.017, 0.749},
+             {1.027, {0.094, 0.559, 0.573, 1}},
+             0.081,
+             {{{0.267, -69.5}, {0.424, -18.4}, {0.798, -0.8}}},
+             {{{0.478, -0.221}, {0.764, 0.57}}},
+             {none, Bump{-2.4, {0.003, 0.512, 0.605, 0.996}}, Bump{6.6, {0.045, 0.356, 0.52, 0.975}}, none, none}},
+    Crossing{{0.15, 0.989},
+             {0.593, {0.038, 0.559, 0.585, 0.935}},
              0,
-             {{{0.3, -32}, {0.42, -70}, {0.8, 10}}},
-             {{{0.3, -0.18}, {0.7, 0.38}}},
-             {Bump{16, {0.25, 0.55, 0.6, 0.92}}, Bump{-38, {0.04, 0.38, 0.38, 0.69}}, Bump{10, {0.1, 0.33, 0.55, 1}},
-              Bump{46, {0, 0.31, 0.31, 0.93}}, Bump{-8, {0.2, 0.45, 0.6, 0.95}}}}};
+             {{{0.26, -29}, {0.418, -66.9}, {0.882, -0.9}}},
+             {{{0.38, -0.154}, {0.824, 0.513}}},
+             {Bump{3, {0.02, 0.17, 0.25, 0.5}}, Bump{-42.9, {0.007, 0.255, 0.551, 0.776}},
+              Bump{6.5, {0.107, 0.394, 0.526, 0.815}}, Bump{30.4, {0.019, 0.253, 0.276, 0.968}},
+              Bump{-12.8, {0.059, 0.382, 0.686, 0.938}}}}};
 
 constexpr double node_s = 0.0025, coarse_s = 0.01;  ///< between the instants that are solved; while arcs are sought
 
@@ -148,6 +152,9 @@ class StepOver final : public Motion {
   double strideTime(const Step& s) const { return (s.over ? cross_slower : 1) * options_.stride_time_s; }
   const Step& lead() const { return steps_[2 * options_.before]; }
   const Step& trail() const { return steps_[2 * options_.before + 1]; }
+
+  /// Of the obstacle: over lower ones feet go as they do on the level.
+  double tallness() const { return std::min(1.0, options_.height_m / tall_m); }
 
   void planSteps() {
     const std::vector<Pose> X = linkPoses(human_.skeleton, standing_.q, standing_.root);
@@ -214,8 +221,11 @@ class StepOver final : public Motion {
         add(s.begin - heel_rises * strideTime(s), 0);
       add(s.begin + 0.1 * in, -(k == 0 ? 0.5 * heel_off : s.over && l == 1 ? cross_off : heel_off));
       if (s.over)
-        for (const auto& [u, degrees] : crossings[l].pitch) add(s.begin + u * in, degrees * rad_per_deg);
-      add(s.end, k + 2 < steps_.size() ? strike : 0);
+        for (const auto& [u, degrees] : crossings[l].pitch) {
+          const double level = l == 0 ? strike : 0;
+          add(s.begin + u * in, level + tallness() * (degrees * rad_per_deg - level));
+        }
+      add(s.end, k + 2 >= steps_.size() ? 0 : s.over && l == 0 ? cross_strike : strike);
       add(s.end + 0.8 * double_support * options_.stride_time_s, 0);
     }
     pitch_[l] = {t, pitch, round_pitch * options_.stride_time_s};
@@ -225,6 +235,10 @@ class StepOver final : public Motion {
   double amplitude(double t) const {
     const double in = steps_.front().end, out = steps_.back().begin;
     return smootherStep((t - options_.stand_s) / (in - options_.stand_s)) - smootherStep((t - out) / (end_ - out));
+  }
+  /// Least bend of knees that stand.
+  double softAt(double t) const {
+    return soft - (soft - softest) * (smootherStep(2 * lead().at(t)) - smootherStep(2 * trail().at(t) - 1));
   }
   double crossingAmplitude(double t) const {
     return smootherStep(2 * lead().at(t)) - smootherStep(2 * trail().at(t) - 1);
@@ -243,7 +257,7 @@ class StepOver final : public Motion {
   FootGoal goalAt(int l, double t) const {
     FootGoal g{pitch_[l].at(t), {}};
     const Crossing& c = crossings[l];
-    const double waits = c.go[0] * std::min(1.0, options_.height_m / full_wait_m);
+    const double waits = tallness() * c.go[0];
     for (const Step& s : steps_) {
       if (s.leg != l) continue;
       const double u = s.at(t);
@@ -293,7 +307,8 @@ class StepOver final : public Motion {
       for (int i = 0; i <= n; ++i) {
         most[i] = std::numeric_limits<double>::infinity();
         for (int l = 0; l < 2; ++l)
-          most[i] = std::min(most[i], highest(l, pelvis[i], ankles[l][i], goals[l][i].way.z > 1e-3 ? softest : soft));
+          most[i] = std::min(most[i],
+                             highest(l, pelvis[i], ankles[l][i], goals[l][i].way.z > 1e-3 ? softest : softAt(i * h)));
         const double bent =
             smootherStep((i * h - options_.stand_s) / unlock_s) - smootherStep((i * h - end_) / unlock_s);
         if (bent < 1)
@@ -342,32 +357,49 @@ class StepOver final : public Motion {
     return q;
   }
 
-  /// The smallest distance of a foot from the obstacle while it crosses.
-  double clearanceOf(int l) const {
+  /// The smallest distances of a foot, and of its thigh, knee and shank, from the obstacle while it crosses.
+  struct Clearance {
+    double foot = std::numeric_limits<double>::infinity(), leg = foot;
+  };
+  Clearance clearanceOf(int l) const {
     const Step& s = l == 0 ? lead() : trail();
-    double gap = std::numeric_limits<double>::infinity();
+    const auto& joints = legs_[l].joints;
+    const int thigh = human_.skeleton.joints[joints[2]].child, shank = human_.skeleton.joints[joints[3]].child;
+    Clearance least;
     constexpr int n = 150;
     for (int i = 0; i <= n; ++i) {
       const Posture p = at(s.begin + (s.end - s.begin) * i / n);
-      const Pose X = linkPoses(human_.skeleton, p.q, p.root)[legs_[l].foot->link] * legs_[l].foot->X_LS;
-      gap = std::min(gap, gapToHurdle(legs_[l].foot->shape, X, hurdle_));
+      const std::vector<Pose> X = linkPoses(human_.skeleton, p.q, p.root);
+      for (const BodyShape& shape : human_.shapes) {
+        const bool foot = shape.name == legs_[l].foot->name;
+        if (!foot && shape.link != thigh && shape.link != shank) continue;
+        double& gap = foot ? least.foot : least.leg;
+        gap = std::min(gap, gapToHurdle(shape.shape, X[shape.link] * shape.X_LS, hurdle_));
+      }
     }
-    return gap;
+    return least;
   }
 
-  /// The smallest shares of arcs and bumps with which the feet clear the obstacle.
+  /// The smallest shares of arcs and bumps with which the feet clear the obstacle, and legs as far as they can.
   void clearHurdle() {
     constexpr double spare_m = 1e-3;  // of instants between those that are looked at
+    constexpr double lost_m = 2e-3;   // that a leg which is in it anyway may go deeper
     const double wanted = options_.clearance_m + spare_m;
     for (int l = 0; l < 2; ++l) {
-      const auto clears = [&](double share) {
+      const auto clearance = [&](double share) {
         share_[l] = share;
         solveLegs(coarse_s);
-        return clearanceOf(l) >= wanted;
+        return clearanceOf(l);
       };
-      if (!clears(1)) refuseHeight("the foot would pass it at " + std::to_string(clearanceOf(l)) + " m");
+      const Clearance most = clearance(1);
+      if (!(most.foot >= wanted)) refuseHeight("the foot would pass it at " + std::to_string(most.foot) + " m");
+      const double leg = std::min(legs_clear_m, most.leg - lost_m);
       double lo = 0, hi = 1;
-      while (hi - lo > 0.01) (clears(0.5 * (lo + hi)) ? hi : lo) = 0.5 * (lo + hi);
+      while (hi - lo > 0.01) {
+        const double share = 0.5 * (lo + hi);
+        const Clearance c = clearance(share);
+        (c.foot >= wanted && c.leg >= leg ? hi : lo) = share;
+      }
       share_[l] = hi;
     }
   }

@@ -22,12 +22,6 @@ void check(const BeltPattern& p) {
   if (!std::isfinite(p.below_waist_m)) reject("below_waist_m", "must be finite");
 }
 
-int cellsFor(double length_m, double cell_m, int least) {
-  const double n = std::round(length_m / cell_m);
-  if (!(n <= 1000)) reject("cell_m", std::to_string(cell_m) + ", too small: more than 1000 cells along an edge");
-  return std::max(least, static_cast<int>(n));
-}
-
 /// Rings of a wrap as a closed patch, u from the centre back around the left... to the centre back again.
 NurbsPatch ring(const KnotVector& u, const KnotVector& v, const Wrap& wrap, double median_y) {
   double last_z = HUGE_VAL, start = 0;

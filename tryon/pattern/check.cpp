@@ -100,6 +100,11 @@ void requireCells(const char* key, int cells, int least) {
   if (cells < least || cells > 10000)
     reject(key, std::to_string(cells) + ", must be " + std::to_string(least) + " to 10000");
 }
+int cellsFor(double length_m, double cell_m, int least) {
+  const double n = std::round(length_m / cell_m);
+  if (!(n <= 1000)) reject("cell_m", std::to_string(cell_m) + ", too small: more than 1000 cells along an edge");
+  return std::max(least, static_cast<int>(n));
+}
 
 // Zheng 2013, eq. 2.31 for control points: b1 - e = c (e - a1) with one c > 0 for the seam, here the least-squares one.
 double g1Residual(const Garment& g, const Seam& s) {

@@ -8,6 +8,8 @@ namespace gambeson {
 void requirePositive(const char* key, double value);
 void requireDegree(int degree, int least);
 void requireCells(const char* key, int cells, int least);
+/// The number of cells along a length that is nearest to the wanted size, at least `least`; the key is "cell_m".
+int cellsFor(double length_m, double cell_m, int least);
 
 /// Patches valid; one weft per patch, not zero; seams name patches that exist, no edge twice, edges of the same degree,
 /// knots (up to their range, 1e-9) and weights that coincide within 1e-9 m; G1 seams are G1 with a constant ratio

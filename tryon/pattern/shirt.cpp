@@ -34,12 +34,6 @@ void check(const ShirtPattern& p) {
     if (!(value >= -0.1 && value <= 0.2)) reject(key, std::to_string(value) + ", must lie between -0.1 and 0.2");
 }
 
-int cellsFor(double length_m, double cell_m, int least) {
-  const double n = std::round(length_m / cell_m);
-  if (!(n <= 1000)) reject("cell_m", std::to_string(cell_m) + ", too small: more than 1000 cells along an edge");
-  return std::max(least, static_cast<int>(n));
-}
-
 /// A ring at one height: the curve around, and where its centre front stands on it.
 struct Ring {
   ClosedCurve curve;

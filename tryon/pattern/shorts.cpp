@@ -221,11 +221,7 @@ class Draft {
     }
     return out;
   }
-  int cellsFor(double length_m) const {
-    const double n = std::round(length_m / p_.cell_m);
-    if (!(n <= 1000)) reject("cell_m", std::to_string(p_.cell_m) + ", too small: more than 1000 cells along an edge");
-    return std::max(2, static_cast<int>(n));
-  }
+  int cellsFor(double length_m) const { return gambeson::cellsFor(length_m, p_.cell_m, 2); }
   /// Share of the outer leg in the leg's girth: cells of the same length on both sides of the leg lines.
   double share() const { return static_cast<double>(around()) / (around() + inner()); }
   /// Grown by the ease about the thigh's middle or, where that would take it nearer to the median plane than the leg's

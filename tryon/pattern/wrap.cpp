@@ -191,7 +191,8 @@ Vec2 ClosedCurve::point(double s) const {
   s -= length() * std::floor(s / length());
   const auto it = std::upper_bound(at_.begin() + 1, at_.end() - 1, s);
   const std::size_t i = it - at_.begin();
-  const double t = (s - at_[i - 1]) / (at_[i] - at_[i - 1]);
+  const double way = at_[i] - at_[i - 1];  // none where growing made two points one
+  const double t = way > 0 ? (s - at_[i - 1]) / way : 0;
   return {points_[i - 1].x + t * (points_[i].x - points_[i - 1].x),
           points_[i - 1].y + t * (points_[i].y - points_[i - 1].y)};
 }

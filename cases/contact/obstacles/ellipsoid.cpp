@@ -36,7 +36,7 @@ const ObstacleKind ellipsoid_obstacle{
                                                "an ellipsoid");
         },
     .make =
-        [](const ObstacleCase& o) {
+        [](const ObstacleCase& o, const Hurdle*) {
           const auto& e = std::get<EllipsoidObstacle>(o.shape);
           return MadeObstacle{shapeOf(e), e.center_m};
         },

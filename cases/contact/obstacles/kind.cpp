@@ -9,11 +9,11 @@
 namespace gambeson {
 
 extern const ObstacleKind ellipsoid_obstacle, sphere_obstacle, plane_obstacle, torus_obstacle, mesh_obstacle,
-    sequence_obstacle;
+    hurdle_obstacle, sequence_obstacle;
 
 std::span<const ObstacleKind* const> obstacleKinds() {
-  static constexpr std::array kinds{&ellipsoid_obstacle, &sphere_obstacle, &plane_obstacle,
-                                    &torus_obstacle,     &mesh_obstacle,   &sequence_obstacle};
+  static constexpr std::array kinds{&ellipsoid_obstacle, &sphere_obstacle, &plane_obstacle,   &torus_obstacle,
+                                    &mesh_obstacle,      &hurdle_obstacle, &sequence_obstacle};
   static_assert(kinds.size() == std::variant_size_v<decltype(ObstacleCase::shape)>);
   return kinds;
 }

@@ -10,6 +10,7 @@
 
 #include "cases/contact/contact.hpp"
 #include "core/contact/obstacle.hpp"
+#include "human/body/ground.hpp"
 #include "human/body/mesh_sequence.hpp"
 
 namespace gambeson {
@@ -33,8 +34,9 @@ struct ObstacleKind {
   const char* word = "";  ///< its key in a case file
   /// Adds its key, with the table of what stands below it.
   void (*addTo)(schema::Table<ObstacleCase>& table) = nullptr;
-  /// Throws InputError where a file does not read, or holds no surface.
-  MadeObstacle (*make)(const ObstacleCase& o) = nullptr;
+  /// `stepped_over`: what the human of the case steps over; null where nothing is. Throws InputError where a file does
+  /// not read, or holds no surface.
+  MadeObstacle (*make)(const ObstacleCase& o, const Hurdle* stepped_over) = nullptr;
   /// Reads its files once, with the errors that reading has.
   void (*check)(const ObstacleCase& o) = [](const ObstacleCase&) {};
   /// Calls `take` with the path of each file that it is read from; `take` may put another in its place.

@@ -31,7 +31,7 @@ const ObstacleKind mesh_obstacle{
           table.alternative<MeshObstacle>("mesh", &ObstacleCase::shape, schema::meshTable(), "triangles from a file");
         },
     .make =
-        [](const ObstacleCase& o) {
+        [](const ObstacleCase& o, const Hurdle*) {
           const auto& m = std::get<MeshObstacle>(o.shape);
           TriangleMesh mesh = loadMesh(m.file, m.scale);
           std::vector<std::string> notes;

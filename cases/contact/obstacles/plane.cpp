@@ -46,7 +46,7 @@ const ObstacleKind plane_obstacle{
               "a square of a plane; it bears cloth on one side alone and ends at its edges");
         },
     .make =
-        [](const ObstacleCase& o) {
+        [](const ObstacleCase& o, const Hurdle*) {
           const auto& p = std::get<PlaneObstacle>(o.shape);
           return MadeObstacle{shapeOf(p), p.point_m};
         },

@@ -46,7 +46,7 @@ const ObstacleKind sequence_obstacle{
                                               "a surface that deforms, frame by frame");
         },
     .make =
-        [](const ObstacleCase& o) {
+        [](const ObstacleCase& o, const Hurdle*) {
           const auto& s = std::get<SequenceObstacle>(o.shape);
           auto sequence = std::make_unique<const MeshSequence>(s);
           const std::string defects = defectsOf(sequence->first(), o.name, s.folder);

@@ -72,7 +72,7 @@ const ObstacleKind sphere_obstacle{
                                             "a sphere, exact or as a mesh");
         },
     .make =
-        [](const ObstacleCase& o) {
+        [](const ObstacleCase& o, const Hurdle*) {
           const auto& s = std::get<SphereObstacle>(o.shape);
           return MadeObstacle{shapeOf(s), s.center_m};
         },

@@ -64,7 +64,7 @@ const ObstacleKind torus_obstacle{
           table.alternative<TorusObstacle>("torus", &ObstacleCase::shape, schema::torusTable(), "a ring");
         },
     .make =
-        [](const ObstacleCase& o) {
+        [](const ObstacleCase& o, const Hurdle*) {
           const auto& t = std::get<TorusObstacle>(o.shape);
           return MadeObstacle{shapeOf(t), t.center_m};
         },

@@ -31,6 +31,7 @@
 #include "human/recorded/motion_file.hpp"
 #include "human/skin/make_skin.hpp"
 #include "tryon/pattern/armour.hpp"
+#include "tryon/pattern/trousers.hpp"
 
 namespace gambeson {
 
@@ -79,6 +80,9 @@ struct ShortsGarment {
   int degree = 2;
 };
 
+/// Trousers of four rectangles for the body of the case (tryon/pattern/trousers.hpp, where the defaults are).
+struct TrousersGarment : TrousersPattern {};
+
 /// Drafted on the body of the case, over the garments before it (tryon/pattern/armour.hpp, where the defaults are).
 struct BeltGarment : BeltPattern {};
 struct ShirtGarment : ShirtPattern {};
@@ -107,8 +111,8 @@ struct Stitching {
 
 struct GarmentCase {
   std::string name;  ///< where there are several: what supports and tables call it; unique
-  std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, BeltGarment, ShirtGarment, SkirtGarment,
-               FileGarment, MeshGarment>
+  std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, TrousersGarment, BeltGarment, ShirtGarment,
+               SkirtGarment, FileGarment, MeshGarment>
       shape;
   ClothModel cloth;
   Vec3 position_m;                        ///< moves the shape
@@ -195,7 +199,17 @@ struct PinnedSupport : HeldSupport {
 /// All points of a patch held.
 struct PatchSupport : HeldSupport {};
 
-using SupportCase = std::variant<FixedSupport, SpringSupport, PinnedSupport, PatchSupport>;
+/// A cord along an edge that is drawn tight, as a belt or a drawstring is: neighbouring samples attract each other, with
+/// `tension_N` where they are as far apart as at rest and in proportion to their distance, so the cord has no length of
+/// its own. It is drawn in `draw_s`, further at the end of each window.
+struct CordSupport {
+  EdgeCase edge;
+  double tension_N = 30;
+  std::optional<double> from_s;  ///< absent: it is drawn from the start on
+  double draw_s = 0.1;
+};
+
+using SupportCase = std::variant<FixedSupport, SpringSupport, PinnedSupport, PatchSupport, CordSupport>;
 
 // --- How it touches, and the air -------------------------------------------------------------------------------
 

@@ -80,8 +80,8 @@ Object humanTable() {
                   .number("back", &FeetLeftOut::back_s, "s", between(-60, 600), "when they begin to come back")
                   .number("grow", &FeetLeftOut::grow_s, "s", between(0.01, 10), "from then on they grow to their size")
                   .build(),
-              "feet that cloth does not touch at first, so that trousers can be pulled up over the legs; pictures show "
-              "them all the same")
+              "feet that cloth does not touch at first, so that trousers can be pulled up over the legs; pictures leave "
+              "them out until they come back")
       .defaultsTo("they are there at all times")
       .object("motion", &H::motion, motionTable(), "what the human does")
       .required()

@@ -209,12 +209,12 @@ void checkTime(const Entry& root, const Case& c) {
     return std::visit(
         []<class S>(const S& s) {
           if constexpr (std::is_base_of_v<HeldSupport, S>) return !s.drive.empty() || s.release_s.has_value();
-          return false;
+          return std::is_same_v<S, CordSupport>;
         },
         support);
   };
   if (std::any_of(c.supports.begin(), c.supports.end(), moves))
-    failAt(root, {"time", "scheme"}, "goes without supports that move or let go; allowed with them: \"verlet\"");
+    failAt(root, {"time", "scheme"}, "goes without supports that move or let go, and without cords; allowed with them: \"verlet\"");
   if ((scheme == MotionScheme::euler || scheme == MotionScheme::midpoint) && !(c.time.step_s > 0) &&
       !(c.air.drag_kg_per_m2s > 0))
     failAt(root, {"time", "scheme"},

@@ -296,6 +296,7 @@ void measureSupports(const Scenario& s, const RecordedTable& table, Measured& ou
   const std::vector<double> lengths = lengthsOf(table);
   const double time = sumOf(lengths);
   for (std::size_t g = 0; g < names.size(); ++g) {
+    if (!s.supports[g].cord.empty()) continue;  // its forces add up to none
     SupportMeasure m;
     m.name = s.supports[g].name;
     m.springs = !s.supports[g].springs.empty();

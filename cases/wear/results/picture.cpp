@@ -254,10 +254,12 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   Scene scene;
   PlacedBodies placed(s);
   placed.moveTo(frame.time_s);
-  for (std::size_t o = 0; o < s.model->obstacles.size(); ++o)
+  for (std::size_t o = 0; o < s.model->obstacles.size(); ++o) {
+    if (s.stage->leavesOut(static_cast<int>(o), frame.time_s)) continue;
     scene.meshes.push_back(meshOf(
         s.model->obstacles[o].deforms ? Shape(placed.deformedMesh(static_cast<int>(o))) : s.model->obstacles[o].shape,
         placed.placements()[o], body_color));
+  }
   std::vector<double> scalars;
   if (picture.field != PictureField::plain) {
     if (picture.field == PictureField::thickness)

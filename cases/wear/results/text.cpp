@@ -283,7 +283,8 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
   for (const GarmentCase& g : c.garments)
     if (g.friction) say(fmt::format("Friction of {} with bodies: {}.", g.name, inWords(*g.friction)));
   for (const SupportGroup& g : s.supports)
-    say("Support: " + g.name + ". Its reaction is reported apart and is part of no joint torque.");
+    say(g.cord.empty() ? "Support: " + g.name + ". Its reaction is reported apart and is part of no joint torque."
+                       : "Support: " + g.name + ". It pulls the cloth together, and what it presses on bears that.");
   return list;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -62,15 +63,20 @@ const char* limbsHint(const Case& c) {
              : "";
 }
 
-/// Supports that let go after from_s, up to to_s, do so at to_s, where the state is: steps are made anew then. What the
-/// energy of the cloth gains when the points that they held belong to it is theirs. Whether any let go.
-bool letGoAt(double from_s, double to_s, Scenario& s, State& state, Recorder& recorder, StepWork& work) {
-  const std::vector<std::size_t> supports = lettingGo(s.definition, from_s, to_s);
-  if (supports.empty()) return false;
+/// Supports that let go after from_s, up to to_s, do so at to_s, where the state is, and cords are drawn as they are
+/// then: steps are made anew. What the energy of the cloth gains by that is theirs, as when points that were held belong
+/// to it. Whether anything changed.
+bool changeSupports(double from_s, double to_s, Scenario& s, State& state, Recorder& recorder, StepWork& work) {
+  const std::vector<std::size_t> gone = lettingGo(s.definition, from_s, to_s);
+  const bool cords = std::any_of(s.supports.begin(), s.supports.end(), [](const auto& g) { return !g.cord.empty(); });
+  if (gone.empty() && !cords) return false;
   const double before = energyOf(*s.model, *s.stage, state, work).total();
-  letGo(supports, *s.model, s.supports);
+  const bool drawn = drawCords(s.definition, to_s, s.supports, *s.model);
+  if (gone.empty() && !drawn) return false;
+  if (!gone.empty()) letGo(gone, *s.model, s.supports);
   evaluateForces(*s.model, *s.stage, state, work);
   state.steps_to_estimate = -1;
+  if (drawn) state.elastic_J.reset();
   recorder.addSupportWork(energyOf(*s.model, *s.stage, state, work).total() - before);
   return true;
 }
@@ -147,10 +153,12 @@ int runCase(const Case& c, const RunOptions& options) {
   Recorder recorder(*scenario, writer);
   // A run that is killed early starts again from the start itself.
   if (!resume) writer.closeSegment(checkpointOf(state, frequency));
-  // What was let go before the checkpoint: at its own time the run had not done so yet.
-  if (k > 1)
+  // What was let go and drawn before the checkpoint: at its own time the run had not done so yet.
+  if (k > 1) {
     if (const auto gone = lettingGo(c, windows.bound(0), windows.bound(k - 1)); !gone.empty())
       letGo(gone, *scenario->model, scenario->supports);
+    drawCords(c, windows.bound(k - 1), scenario->supports, *scenario->model);
+  }
   const bool finished = k == windows.count();
   RunSteps steps(c, options, *scenario, frequency, work);
   std::vector<WindowTimes> times;
@@ -160,7 +168,7 @@ int runCase(const Case& c, const RunOptions& options) {
     try {
       steps.make();
       for (; k < windows.count(); ++k) {
-        if (k > 0 && letGoAt(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work)) steps.make();
+        if (k > 0 && changeSupports(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work)) steps.make();
         steps.advance(windows.bound(k + 1), state,
                       [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
                           const Frequency& f) { recorder.observe(before, after, report, w, f); });

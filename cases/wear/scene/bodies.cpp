@@ -56,6 +56,7 @@ void makeHuman(const Case& c, MadeBodies& s) {
   s.motion = std::move(made.motion);
   s.mean_velocity_m_per_s = made.mean_velocity_m_per_s;
   s.air_ramp_s = made.air_ramp_s;
+  s.hurdle = made.hurdle;
   s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
   if (s.human->skin && !(kind.ours && c.human->skin)) noteFolds(*c.human, s);
   s.feet = footReport(*s.human, *s.motion);
@@ -96,7 +97,7 @@ void placeObstacles(const Case& c, std::vector<MadeObstacle> made, Scenario& s, 
 MadeBodies makeBodies(const Case& c) {
   MadeBodies made;
   if (c.human) makeHuman(c, made);
-  made.obstacles = makeObstacles(c.obstacles);
+  made.obstacles = makeObstacles(c.obstacles, made.hurdle ? &*made.hurdle : nullptr);
   for (const MadeObstacle& o : made.obstacles) made.notes.insert(made.notes.end(), o.notes.begin(), o.notes.end());
   return made;
 }

@@ -13,6 +13,7 @@
 #include "cases/wear/scene/contact_regions.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "cases/wear/scene/stage.hpp"
+#include "cases/wear/scene/supports.hpp"
 #include "cases/wear/scene/worn.hpp"
 #include "core/contact/penalty.hpp"
 #include "core/error.hpp"
@@ -231,6 +232,7 @@ Assembled assemble(const Case& written, const Case& c, const Only& only, MadeBod
   std::vector<Vec3> at_start = placeCloth(start, *s);
   nameContactRegions(*s, garments, first, at_start);
   planTimes(c, *s, *s->stage);
+  drawCords(c, s->start_s, s->supports, *s->model);
   return {std::move(s), std::move(at_start)};
 }
 

@@ -25,6 +25,10 @@ void CaseStage::placements(double t, std::span<Placement> obstacles, std::span<P
   own.placements(t, obstacles.subspan(at), {});
 }
 
+bool CaseStage::leavesOut(int obstacle, double t) const {
+  return t < feet_back_s && std::find(feet.begin(), feet.end(), obstacle) != feet.end();
+}
+
 double CaseStage::footScale(double t) const {
   constexpr double left_out = 0.02;  // some millimetres long: out of the way of any trouser leg
   return left_out + (1 - left_out) * smootherStep((t - feet_back_s) / feet_grow_s);

@@ -39,6 +39,8 @@ class CaseStage : public Stage {
   Vec3 air(double t) const override;
   /// From the posture of dressing into that in which the motion starts, in the first two thirds of the time to settle.
   Posture postureAt(double t) const;
+  /// Whether it is a foot that has not begun to come back.
+  bool leavesOut(int obstacle, double t) const;
 
  private:
   /// Of feet that are left out, each about the origin of its shape.

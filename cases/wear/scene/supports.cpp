@@ -6,6 +6,7 @@
 
 #include "cases/input/wrong_entry.hpp"
 #include "core/error.hpp"
+#include "human/motion/smooth_step.hpp"
 
 namespace gambeson {
 namespace {
@@ -96,6 +97,21 @@ void letGo(std::span<const std::size_t> supports, Model& m, std::vector<SupportG
     still.insert(still.end(), group.control_points.begin(), group.control_points.end());
   holdOnly(still, m);
   findHeldPoints(m, groups);
+}
+
+bool drawCords(const Case& c, double time_s, const std::vector<SupportGroup>& groups, Model& m) {
+  bool changed = false;
+  for (std::size_t i = 0; i < c.supports.size(); ++i) {
+    const auto* cord = std::get_if<CordSupport>(&c.supports[i]);
+    if (!cord) continue;
+    const double drawn = cord->from_s ? smootherStep((time_s - *cord->from_s) / cord->draw_s) : 1;
+    for (const auto& [k, stiffness] : groups[i].cord) {
+      double& now = m.stitches[static_cast<std::size_t>(k)].stiffness_N_per_m;
+      changed = changed || now != drawn * stiffness;
+      now = drawn * stiffness;
+    }
+  }
+  return changed;
 }
 
 }  // namespace gambeson

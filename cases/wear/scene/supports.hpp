@@ -26,4 +26,7 @@ std::vector<std::size_t> lettingGo(const Case& c, double from_s, double to_s);
 /// Lets go of what they hold.
 void letGo(std::span<const std::size_t> supports, Model& model, std::vector<SupportGroup>& groups);
 
+/// Draws the cords as tight as they are at a time. Whether any changed; then a state needs evaluateForces (step.hpp).
+bool drawCords(const Case& c, double time_s, const std::vector<SupportGroup>& groups, Model& model);
+
 }  // namespace gambeson

@@ -12,6 +12,7 @@
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/strides.hpp"
 #include "human/body/body.hpp"
+#include "human/body/ground.hpp"
 #include "human/motion/motion.hpp"
 
 namespace gambeson {
@@ -26,6 +27,7 @@ struct MadeMotion {
   Vec3 mean_velocity_m_per_s{};      ///< of the pelvis; 0 where it does not travel
   double air_ramp_s = 0;             ///< in which air that goes along comes up to speed
   std::vector<std::string> notes{};  ///< what a user should know of it
+  std::optional<Hurdle> hurdle{};    ///< what it steps over
 };
 
 /// All functions are of options of this kind.

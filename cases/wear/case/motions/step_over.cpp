@@ -42,16 +42,15 @@ const MotionKind step_over_motion{
         [](const MotionKind::Options& options, const Human& human) {
           const auto& o = std::get<StepOverOptions>(options);
           MadeMotion made;
-          Hurdle hurdle;
+          Hurdle& hurdle = made.hurdle.emplace();
           made.motion = makeStepOver(human, o, &hurdle);
           const Motion& m = *made.motion;
           const Vec3 way = m.at(m.duration()).root.origin - m.at(0).root.origin;
           made.mean_velocity_m_per_s = Vec3{way.x, way.y, 0} / (m.duration() - o.stand_s);
           made.air_ramp_s = o.stand_s + o.stride_time_s;
           made.notes.push_back(
-              fmt::format("motion step_over: the obstacle stands from x = {:.3f} to {:.3f} m and is {:.2f} m high; it "
-                          "is no body of "
-                          "the case unless obstacles name it",
+              fmt::format("motion step_over: the obstacle stands from x = {:.3f} to {:.3f} m and is {:.2f} m high; cloth "
+                          "touches it where obstacles of the case have it (hurdle)",
                           hurdle.front_m, hurdle.front_m + hurdle.depth_m, hurdle.height_m));
           return made;
         },

@@ -6,10 +6,10 @@
 
 namespace gambeson {
 
-extern const SupportKind fixed_support, springs_support, pinned_support, patch_support;
+extern const SupportKind fixed_support, springs_support, pinned_support, patch_support, cord_support;
 
 std::span<const SupportKind* const> supportKinds() {
-  static constexpr std::array kinds{&fixed_support, &springs_support, &pinned_support, &patch_support};
+  static constexpr std::array kinds{&fixed_support, &springs_support, &pinned_support, &patch_support, &cord_support};
   static_assert(kinds.size() == std::variant_size_v<SupportCase>);
   return kinds;
 }

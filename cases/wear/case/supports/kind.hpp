@@ -29,6 +29,8 @@ struct SupportGroup {
   std::vector<std::pair<int, double>> held;
   std::vector<int> samples;  ///< of the supported edge
   int anchor = -1;           ///< frame of the springs
+  /// Of a cord, the indices in Model::stitches and their stiffness once it is drawn [N/m]; it carries nothing.
+  std::vector<std::pair<int, double>> cord;
 };
 
 /// What a support has to hold.

@@ -108,6 +108,14 @@ TEST(VerifyCourse, EachCourse) {
   largest.first->of = RunCourse::Of::largest;
   largest.first->scale = 2;
   EXPECT_NEAR(measured(largest), 6 * 2 / std::numbers::pi, 0.02);
+  // |(3 cos, -3 cos)| is 3 sqrt(2) |cos|, and above |cos| whatever the signs.
+  Check magnitude = check(C::mean, course("thick", {"right", "left"}));
+  magnitude.first->of = RunCourse::Of::magnitude;
+  EXPECT_NEAR(measured(magnitude), 6 * std::sqrt(2.0) / std::numbers::pi, 0.02);
+  Check greater = check(C::greater_share, right, thin);
+  EXPECT_NEAR(measured(greater), 0.5, 0.02);
+  greater.first->of = greater.second->of = RunCourse::Of::magnitude;
+  EXPECT_NEAR(measured(greater), 1, 0.02);
 }
 
 TEST(VerifyCourse, CoursesMayHaveTimesOfTheirOwn) {

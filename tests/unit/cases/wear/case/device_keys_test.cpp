@@ -29,12 +29,13 @@ const Keys carried{
      "kind name description gravity garment garments fabric human obstacles supports contact air "
      "factors dressing time output analysis comfort"},
     {"Garment",
-     "name sheet disc tube shorts belt shirt skirt file friction position fabric other_fabrics "
+     "name sheet disc tube shorts trousers belt shirt skirt file friction position fabric other_fabrics "
      "fields noise noise_seed samples_per_cell seam_stiffness weft_angle stitching"},
     {"Sheet", "width height cells_u cells_v degree corner axis_u axis_v"},
     {"Disc", "radius cells degree center axis_u axis_v"},
     {"Tube", "radius length cells_around cells_along degree patches start axis"},
     {"Shorts", "inseam rise crotch_ease ease waist_ease cell degree"},
+    {"Trousers", "ease rise crotch_ease hem cell degree"},
     {"Belt", "width tension below_waist cell degree gap"},
     {"Shirt",
      "ease hem_above_waist top_below_shoulder wrap_share front_share strap_width neck_share "
@@ -74,12 +75,13 @@ const Keys carried{
      "path model map from to stand lead_in repeat slower scale floor forward up heading travel "
      "hips_apart arms_apart"},
     {"Sitting down", "stand duration seat_height repeats"},
-    {"Obstacle", "name ellipsoid sphere plane torus mesh sequence velocity drive friction"},
+    {"Obstacle", "name ellipsoid sphere plane torus mesh hurdle sequence velocity drive friction"},
     {"Ellipsoid", "semi_axes center"},
     {"Sphere", "radius center rings segments"},
     {"Plane", "point normal size"},
     {"Torus", "radius tube center axis segments rings"},
     {"Mesh", "file scale position"},
+    {"Hurdle", "width"},
     {"Sequence of meshes", "folder rate scale begin forward up"},
     {"Drive", "velocity spin axis center"},
     {"Support", "fixed springs pinned patch"},
@@ -109,6 +111,7 @@ const Keys with_refused{
     {"Degenerated shell", "rule shear_factor rotary"},
     {"Mesh file", "path rest unit uv_unit"},
     {"Feet left out", "back grow"},
+    {"Cord", "garment edge tension from draw"},
     {"Friction", "stribeck_speed stribeck_power viscous_power pressure"},
     {"Law of a fabric", "table values rest"},
     {"Loop of shear", "hysteresis hysteresis_5 friction_angle rise growth"},
@@ -139,6 +142,7 @@ const std::vector<Refused> refused{
      "supports[0].pinned.drive"},
     {"Held patch", "drive", R"(supports=[{"patch": {"drive": {"velocity": [[0, 0, 0, 1]]}}}])",
      "supports[0].patch.drive"},
+    {"Support", "cord", R"(supports=[{"cord": {"edge": "u0"}}])", "supports[0].cord"},
     {"Contact", "method", "contact.method=forward_increment", "contact.method"},
     {"Time", "scheme", "time.scheme=rk4", "time.scheme"},
     {"Time", "audit", "time.audit=true", "time.audit"},
