@@ -21,6 +21,7 @@ void check(const ContactPathOptions& o, const SolidContactLaw& law) {
   if (o.halvings < 0 || o.halvings > 20) reject("halvings", fmt::format("{} is not allowed: 0 to 20", o.halvings));
   if (o.iterations < 1) reject("iterations", fmt::format("{} is not allowed: >= 1", o.iterations));
   if (o.passes < 1) reject("passes", fmt::format("{} is not allowed: >= 1", o.passes));
+  if (!(o.raise >= 0 && o.raise < 1)) reject("raise", fmt::format("{} is not allowed: 0 to 1, 1 excluded", o.raise));
   if (!(o.tolerance > 0)) reject("tolerance", fmt::format("{} is not allowed: > 0", o.tolerance));
   if (o.method == SolidContactMethod::multipliers && law.friction > 0)
     reject("friction", fmt::format("{} is not allowed with multipliers: 0", law.friction));
@@ -48,7 +49,7 @@ class LoadStep {
         options_(options),
         from_(from),
         to_(to),
-        newton_{options.iterations, options.tolerance, 1e-3 * largest_force},
+        newton_{options.iterations, options.tolerance, 1e-3 * largest_force, options.raise},
         system_(solids, contact, to, solids.positions(from.y, from.factor)) {}
 
   /// False where it failed; `why` then.
@@ -72,7 +73,7 @@ class LoadStep {
   /// The tangent's way, where it leads to a state that has forces.
   void startAhead() {
     ContactSystem before(solids_, contact_, from_.factor, solids_.positions(from_.y, from_.factor));
-    const std::vector<double> way = before.ahead(from_.multipliers, from_.y, to_ - from_.factor);
+    const std::vector<double> way = before.ahead(from_.multipliers, from_.y, to_ - from_.factor, options_.raise);
     if (way.empty()) return;
     std::vector<double> y = from_.y, r(y.size());
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += way[i];

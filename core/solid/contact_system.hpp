@@ -20,6 +20,9 @@ struct ContactNewton {
   int iterations = 30;
   double tolerance = 1e-10;  ///< of |r| against the forces that balance
   double least_force = 0;    ///< these count as at least so large [N]
+  /// Of each diagonal entry, added to the symmetric tangent that is factorised: what nothing holds takes a step of
+  /// nothing, and equilibria stay what they are. 0: a singular tangent ends the iteration.
+  double raise = 0;
 };
 
 /// Solids in contact at the load t, from the positions `start`, where the step began. Refers to solids and contact.
@@ -38,8 +41,10 @@ class ContactSystem {
   /// which are solved for too. Rows of g are scaled by A eps_N: they are forces.
   NewtonReport solveTogether(std::span<ContactMultipliers> pairs, const ContactNewton& options, std::vector<double>& y);
 
-  /// How y goes on to first order while the load goes on by dt; empty where the tangent is singular.
-  std::vector<double> ahead(std::span<const ContactMultipliers> multipliers, std::span<const double> y, double dt);
+  /// How y goes on to first order while the load goes on by dt; empty where the tangent is singular. `raise`:
+  /// ContactNewton's.
+  std::vector<double> ahead(std::span<const ContactMultipliers> multipliers, std::span<const double> y, double dt,
+                            double raise = 0);
 
   /// SolidContact::points.
   std::vector<ContactPoint> points(std::span<const ContactMultipliers> multipliers, std::span<const double> y,

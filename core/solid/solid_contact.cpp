@@ -171,6 +171,13 @@ void SolidContact::addForce(std::span<const ContactPoint> points, std::span<Vec3
   }
 }
 
+double SolidContact::energy(std::span<const ContactPoint> points) const {
+  double sum = 0;
+  for (const ContactPoint& p : points)
+    sum += p.area_m2 * (p.pressure_Pa * p.pressure_Pa - p.multiplier_Pa * p.multiplier_Pa) / (2 * law_.normal_Pa_per_m);
+  return sum;
+}
+
 std::vector<ContactBlock> SolidContact::tangent(std::span<const Vec3> x, std::span<const ContactPoint> points) const {
   std::vector<ContactBlock> blocks;
   for (const ContactPoint& p : points) {

@@ -106,6 +106,9 @@ class SolidContact {
                                    std::span<const ContactMultipliers> multipliers, bool all = false) const;
   /// f += A (t_N dg/dx + t_a dxi_a/dx), as internal forces.
   void addForce(std::span<const ContactPoint> points, std::span<Vec3> f) const;
+  /// What the penalties store [J]: the sum of A (t_N² - lambda_N²)/(2 eps_N). Without friction its gradient is the
+  /// force, with the multipliers held.
+  double energy(std::span<const ContactPoint> points) const;
   /// The exact slope of that force in x.
   std::vector<ContactBlock> tangent(std::span<const Vec3> x, std::span<const ContactPoint> points) const;
 
