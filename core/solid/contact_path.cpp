@@ -98,10 +98,21 @@ class LoadStep {
   bool penalty() {
     std::vector<ContactMultipliers> multipliers = from_.multipliers;
     for (ContactMultipliers& m : multipliers) m.pressure_Pa = 0;
-    if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
-    done.points = system_.points(multipliers, done.state.y);
-    done.state.multipliers = contact_.augmented(done.points);
-    return true;
+    for (int k = 0; k <= options_.passes; ++k) {
+      if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
+      multipliers = system_.known();
+      done.points = system_.points(multipliers, done.state.y);
+      if (moveOn(multipliers) > 0) continue;
+      done.state.multipliers = contact_.augmented(done.points);
+      return true;
+    }
+    why = fmt::format("after {} passes nodes still go on from facet to facet", options_.passes);
+    return false;
+  }
+
+  int moveOn(std::vector<ContactMultipliers>& multipliers) {
+    if (!(contact_.law().touch.keep > 0)) return 0;
+    return contact_.moveOn(solids_.positions(done.state.y, to_), multipliers);
   }
 
   bool augment() {
@@ -110,8 +121,9 @@ class LoadStep {
     double change = 0, largest = 0;
     for (int k = 0; k <= options_.passes; ++k) {
       if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
-      done.points = system_.points(multipliers, done.state.y);
+      done.points = system_.points(system_.known(), done.state.y);
       std::vector<ContactMultipliers> next = contact_.augmented(done.points);
+      const int moved = moveOn(next);
       change = largest = 0;
       for (const ContactPoint& p : done.points) {
         largest = std::max(largest, p.pressure_Pa);
@@ -120,7 +132,8 @@ class LoadStep {
         if (p.rubs) change = std::max(change, sizeOfTraction({t.x - before.x, t.y - before.y}, p.metric_m2));
       }
       multipliers = std::move(next);
-      if (k >= least && change <= options_.change * largest && deepestOf(done.points) <= options_.deepest_m)
+      if (k >= least && moved == 0 && change <= options_.change * largest &&
+          deepestOf(done.points) <= options_.deepest_m)
         return true;
     }
     why = fmt::format(

@@ -187,12 +187,21 @@ std::vector<MatrixEntry> ContactSystem::tangent(std::span<const ContactMultiplie
   return entries;
 }
 
+void ContactSystem::keepFacets(std::span<const double> y) {
+  for (const ContactPoint& p : points(known_, y))
+    if (!p.known) known_.push_back({p.side, p.slave, p.facet, p.facet, 0, {}});
+}
+
 NewtonReport ContactSystem::solve(std::span<const ContactMultipliers> multipliers, const ContactNewton& options,
                                   std::vector<double>& y) {
+  known_.assign(multipliers.begin(), multipliers.end());
   return iterate(
       y, options, symmetric(), true, solids_.reach(),
-      [&](const std::vector<double>& z, std::vector<double>& r) { return residual(multipliers, z, r); },
-      [&](const std::vector<double>& z) { return tangent(multipliers, z); });
+      [&](const std::vector<double>& z, std::vector<double>& r) { return residual(known_, z, r); },
+      [&](const std::vector<double>& z) {
+        if (contact_.law().touch.keep > 0) keepFacets(z);
+        return tangent(known_, z);
+      });
 }
 
 NewtonReport ContactSystem::solveTogether(std::span<ContactMultipliers> pairs, const ContactNewton& options,

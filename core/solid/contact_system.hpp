@@ -36,6 +36,8 @@ class ContactSystem {
   /// halved.
   NewtonReport solve(std::span<const ContactMultipliers> multipliers, const ContactNewton& options,
                      std::vector<double>& y);
+  /// The multipliers of the last `solve`; where nodes keep facets, with those that pressed for the first time, at zero.
+  const std::vector<ContactMultipliers>& known() const { return known_; }
 
   /// f_int + Gᵀ lambda = f_ext and g = 0 for each of the pairs (3.29, 3.30), whatever the sign of their pressures,
   /// which are solved for too. Rows of g are scaled by A eps_N: they are forces.
@@ -60,11 +62,14 @@ class ContactSystem {
   void addSolids(std::span<const double> y, std::vector<MatrixEntry>& entries);
   void addBlock(const ContactBlock& block, std::vector<MatrixEntry>& entries) const;
   bool symmetric() const;
+  /// Points that have no multipliers yet get some, of zero: while forces are being balanced they keep their facets.
+  void keepFacets(std::span<const double> y);
 
   SolidSystem& solids_;
   const SolidContact& contact_;
   double t_;
   std::vector<Vec3> start_;
+  std::vector<ContactMultipliers> known_;
 };
 
 }  // namespace gambeson

@@ -11,12 +11,7 @@ namespace {
 /// point, and as one that faces the nearest.
 constexpr double kBeyondOwn = 3, kBeyondFacing = 1.5;
 
-/// A facet that may hold the point.
-struct Candidate {
-  FacetTouch touch;
-  Vec3 normal, center;
-  double beyond = 0;  ///< its edges, as far as the point lies over it there
-};
+using Candidate = FacetCandidate;
 
 bool candidateOf(const FacetCorners& corners, int facet, const Vec3& p, double reach, Candidate& c) {
   const std::optional<Vec2> local = projectOnFacet(corners, p, reach);
@@ -107,10 +102,15 @@ std::vector<int> FacetSurface::facetsOf(const NearestFacet& nearest) const {
   return both;
 }
 
-std::vector<FacetTouch> FacetSurface::touching(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
-                                               const TouchOptions& options) const {
+std::optional<FacetCandidate> FacetSurface::first(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
+                                                  const TouchOptions& options, int held, HeldFacet after) const {
+  std::optional<Candidate> kept;
+  if (Candidate c; held >= 0 && options.keep > 0 && candidateOf(corners(held, x), held, p, kBeyondOwn, c) &&
+                   std::abs(c.touch.gap_m) <= options.reach_m)
+    kept = c;
+  if (kept && after == HeldFacet::keeps) return kept;
   const NearestFacet near = nearest(x, spheres, p, options.reach_m);
-  if (near.facet < 0) return {};
+  if (near.facet < 0) return std::nullopt;
   std::vector<Candidate> own;
   Vec3 outward{};  // weighted by angles: its sign is right where the nearest feature is an edge or a corner
   for (const int facet : facetsOf(near)) {
@@ -123,17 +123,25 @@ std::vector<FacetTouch> FacetSurface::touching(std::span<const Vec3> x, const Sp
     outward += weight * facetNormal(c, {});
     if (Candidate candidate; candidateOf(c, facet, p, kBeyondOwn, candidate)) own.push_back(candidate);
   }
-  if (own.empty()) return {};
+  if (own.empty()) return std::nullopt;
   const bool passed = dot(outward, near.at.position - p) > 0;
   const auto shallower = [](const Candidate& a, const Candidate& b) { return a.touch.gap_m < b.touch.gap_m; };
   // Beside a ridge the facet that is passed least; in a groove the one that is passed most goes first.
-  const Candidate first = passed ? *std::max_element(own.begin(), own.end(), shallower)
+  const Candidate found = passed ? *std::max_element(own.begin(), own.end(), shallower)
                                  : *std::min_element(own.begin(), own.end(), shallower);
-  std::vector<Candidate> taken{first};
+  const bool in_groove = kept && dot(kept->normal - found.normal, found.center - kept->center) > 0;
+  return in_groove && kept->beyond <= options.keep ? *kept : found;
+}
+
+std::vector<FacetTouch> FacetSurface::touching(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
+                                               const TouchOptions& options, int held, HeldFacet after) const {
+  const std::optional<Candidate> foremost = first(x, spheres, p, options, held, after);
+  if (!foremost) return {};
+  std::vector<Candidate> taken{*foremost};
   if (options.simultaneous) {
     std::vector<Candidate> others;
-    std::vector<int> seen{first.touch.facet};
-    for (const int node : facets_[first.touch.facet])
+    std::vector<int> seen{foremost->touch.facet};
+    for (const int node : facets_[foremost->touch.facet])
       for (const int facet : facetsAt(node)) {
         if (std::count(seen.begin(), seen.end(), facet) > 0) continue;
         seen.push_back(facet);

@@ -13,6 +13,7 @@
 ///   in a groove (an edge or corner nearest from inside, or a facet that faces the nearest one): all of these facets,
 ///   beside a ridge: of its facets that which the point has passed least.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,13 +35,27 @@ struct FacetTouch {
   double gap_m = 0;  ///< > 0: the point has passed the facet (Man's sign, 3.9)
 };
 
+/// A facet that may hold a point.
+struct FacetCandidate {
+  FacetTouch touch;
+  Vec3 normal, center;
+  double beyond = 0;  ///< its edges, as far as the point lies over it there [half widths]
+};
+
 struct TouchOptions {
   double reach_m = 0;  ///< farther facets do not count, on either side; > 0
   /// Facets that meet at less are one plane, and one of them holds a point. More than rounding and no more: one facet
   /// at a time in a groove, however shallow, and the solution goes to and fro.
   double groove_rad = 1e-6;
   bool simultaneous = true;  ///< false: the first facet alone, as others do
+  /// 0: a point is held by what is nearest now. Else it keeps its facet while forces are being balanced, and from one
+  /// pass to the next until it lies so far beyond the edges [half widths] of a groove, where it has then passed the
+  /// other facet by this times the sine of their angle. At most 1.
+  double keep = 0;
 };
+
+/// What becomes of the facet that held a point before.
+enum class HeldFacet { keeps, goes_on };
 
 /// Constant after it is built.
 class FacetSurface {
@@ -67,12 +82,18 @@ class FacetSurface {
   NearestFacet nearest(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p, double reach_m) const;
 
   /// All facets that hold p at once, the nearest first, or where an edge or corner is nearest from inside that which p
-  /// has passed most. Empty where none is within reach.
+  /// has passed most. Empty where none is within reach. `held`: the facet that held p before, or -1. It
+  /// keeps p as long as p lies over it or the next facet; or p goes on to what is nearest now, but over no groove before
+  /// TouchOptions::keep.
   std::vector<FacetTouch> touching(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
-                                   const TouchOptions& options) const;
+                                   const TouchOptions& options, int held = -1,
+                                   HeldFacet after = HeldFacet::keeps) const;
 
  private:
   std::vector<int> facetsOf(const NearestFacet& nearest) const;
+  /// The facet that holds p before any other.
+  std::optional<FacetCandidate> first(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
+                                      const TouchOptions& options, int held, HeldFacet after) const;
 
   std::vector<Facet> facets_;
   std::vector<int> nodes_;

@@ -27,6 +27,7 @@ void checkLaw(const SolidContactLaw& law) {
   if (!(law.touch.reach_m > 0) || !std::isfinite(law.touch.reach_m)) reject("reach_m", law.touch.reach_m, "> 0");
   if (!(law.touch.groove_rad > 0 && law.touch.groove_rad < std::numbers::pi))
     reject("groove_rad", law.touch.groove_rad, "0 to pi, both excluded");
+  if (!(law.touch.keep >= 0 && law.touch.keep <= 1)) reject("keep", law.touch.keep, "0 to 1");
 }
 
 void checkSide(const ContactSide& side, int nodes) {
@@ -139,7 +140,7 @@ std::vector<ContactPoint> SolidContact::points(std::span<const Vec3> x, std::spa
     forAll(Each::much, static_cast<int>(side.nodes.size()), [&](int slave) {
       const int node = side.nodes[slave];
       const std::vector<ContactMultipliers>& own = of_slave[first_slave_[s] + slave];
-      const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[s], x[node], law_.touch);
+      const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[s], x[node], law_.touch, own.empty() ? -1 : own.front().facet);
       const std::vector<int> match = matchTouches(touches, own);
       for (std::size_t t = 0; t < touches.size(); ++t) {
         const ContactMultipliers* m = match[t] >= 0 ? &own[match[t]] : nullptr;
@@ -223,6 +224,24 @@ std::vector<ContactMultipliers> SolidContact::augmented(std::span<const ContactP
     multipliers.push_back(m);
   }
   return multipliers;
+}
+
+int SolidContact::moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers>& multipliers) const {
+  std::vector<FacetSurface::Spheres> spheres;
+  for (const ContactSide& side : sides_) spheres.push_back(side.surface.spheres(x));
+  std::vector<char> moved(multipliers.size(), 0);
+  forAll(Each::much, static_cast<int>(multipliers.size()), [&](int k) {
+    ContactMultipliers& m = multipliers[k];
+    const bool first = k == 0 || multipliers[k - 1].side != m.side || multipliers[k - 1].slave != m.slave;
+    if (!first) return;
+    const ContactSide& side = sides_[m.side];
+    const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[m.side], x[side.nodes[m.slave]], law_.touch,
+                                                                  m.facet, HeldFacet::goes_on);
+    if (touches.empty() || touches[0].facet == m.facet) return;
+    moved[k] = 1;
+    m.facet = touches[0].facet;
+  });
+  return static_cast<int>(std::count(moved.begin(), moved.end(), 1));
 }
 
 std::vector<ContactMultipliers> SolidContact::settled(std::span<const Vec3> x,

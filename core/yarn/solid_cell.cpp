@@ -13,6 +13,9 @@ namespace {
 /// Programs 0 to 3: the steps of face 1 along axes 1 and 2, of face 2 likewise; then two of each held yarn.
 constexpr int kStepPrograms = 4;
 
+/// Dents of yarns are shallow grooves: facets hold a node one after the other there. Those of Man's figure 14 are not.
+constexpr double kKeep = 0.3, kGroove_rad = 0.5;
+
 constexpr Vec3 kAxis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 const SolidCellDesign& checked(const SolidCellDesign& d) {
@@ -54,6 +57,8 @@ SolidContact SolidCell::makeContact() const {
   law.friction = design_.friction;
   law.bound = design_.bound;
   law.touch.reach_m = 0.5 * thin;
+  law.touch.keep = kKeep;
+  law.touch.groove_rad = kGroove_rad;
   std::vector<Facet> skins[2];
   for (const YarnBody& b : solids_.bodies) {
     const std::vector<Facet> skin = solids_.skin(b);

@@ -24,7 +24,7 @@ struct SolidCellDesign {
   double friction = 0;       ///< mu >= 0
   FrictionBound bound = FrictionBound::symmetrised;
   /// Stiffness of contact, normal and tangential [transverse Young's modulus by half thickness, the softer of both].
-  double penalty = 5;
+  double penalty = 50;
 };
 
 /// What joins the ends of yarns, and where yarns stand: linear in the steps of the faces (CellFaces) of flat cloth.

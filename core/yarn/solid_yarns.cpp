@@ -16,7 +16,8 @@ namespace {
 void check(const WovenYarns& yarns, const YarnMeshing& meshing, bool quarter) {
   checkWovenYarns(yarns);
   if (meshing.across < 2 || meshing.across > 16) refuse("across", fmt::format("{}, must be 2 to 16", meshing.across));
-  if (meshing.along < 4 || meshing.along > 64) refuse("along", fmt::format("{}, must be 4 to 64", meshing.along));
+  if (meshing.along < 5 || meshing.along > 63 || meshing.along % 2 == 0)
+    refuse("along", fmt::format("{}, must be odd, 5 to 63", meshing.along));
   if (quarter && !isPlain(yarns.weave)) refuse("cell", "quarter, must be full: the weave is not plain");
   for (const WovenYarn& y : yarns.yarn) {
     // The sharpest bend has the curvature A pi²/L².

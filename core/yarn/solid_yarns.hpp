@@ -12,7 +12,9 @@ namespace gambeson {
 /// How a yarn is cut into hexahedra.
 struct YarnMeshing {
   int across = 4;  ///< of a section, in both of its directions: across² hexahedra; 2 to 16
-  int along = 12;  ///< of a yarn from the middle between two crossings to the next such middle; 4 to 64
+  /// Of a yarn from the middle between two crossings to the next such middle; odd, 5 to 63. With even numbers nodes of
+  /// one yarn stand on ridges of the other where they cross, and fall off them to one side.
+  int along = 13;
 };
 
 /// One yarn in the mesh: sections one behind the other along it, (across + 1)² nodes each.
