@@ -22,6 +22,20 @@ Sparse matrixOf(std::span<const MatrixEntry> entries, int size, bool lower) {
   return K;
 }
 
+}  // namespace
+
+SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size) {
+  const Sparse K = matrixOf(entries, size, true);
+  SymmetricMatrix lower;
+  lower.size = size;
+  lower.offsets.assign(K.outerIndexPtr(), K.outerIndexPtr() + size + 1);
+  lower.rows.assign(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros());
+  lower.values.assign(K.valuePtr(), K.valuePtr() + K.nonZeros());
+  return lower;
+}
+
+namespace {
+
 /// x with K x = b, the diagonal raised by a part where K is symmetric; none where K is not finite or singular.
 std::optional<std::vector<double>> solution(std::span<const MatrixEntry> entries, std::span<const double> b,
                                             bool symmetric, double raise) {
@@ -29,19 +43,15 @@ std::optional<std::vector<double>> solution(std::span<const MatrixEntry> entries
     return std::nullopt;
   const int size = static_cast<int>(b.size());
   std::vector<double> x(b.size());
-  const Sparse K = matrixOf(entries, size, symmetric);
   if (symmetric) {
-    SymmetricMatrix lower;
-    lower.size = size;
-    lower.offsets.assign(K.outerIndexPtr(), K.outerIndexPtr() + size + 1);
-    lower.rows.assign(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros());
-    lower.values.assign(K.valuePtr(), K.valuePtr() + K.nonZeros());
+    SymmetricMatrix lower = lowerTriangle(entries, size);
     for (int j = 0; j < size; ++j) lower.values[lower.offsets[j]] += raise * std::abs(lower.values[lower.offsets[j]]);
     SymmetricFactor factor(lower);
     if (factor.factorise(lower) == Definiteness::singular) return std::nullopt;
     factor.solve(b, x);
     return x;
   }
+  const Sparse K = matrixOf(entries, size, false);
   Eigen::SparseLU<Sparse> factor;
   factor.compute(K);
   if (factor.info() != Eigen::Success) return std::nullopt;

@@ -16,6 +16,9 @@ struct MatrixEntry {
   double value;
 };
 
+/// The lower triangle of what both triangles' entries add up to.
+SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size);
+
 struct ContactNewton {
   int iterations = 30;
   double tolerance = 1e-10;  ///< of |r| against the forces that balance

@@ -33,8 +33,6 @@ const SolidCellDesign& checked(const SolidCellDesign& d) {
   return d;
 }
 
-Program straight(double from, double to) { return {{0, 1}, {from, to}}; }
-
 }  // namespace
 
 SolidCell::SolidCell(const SolidCellDesign& design)
@@ -98,7 +96,7 @@ void SolidCell::holdYarn(const YarnBody& b, int halves) {
   const int one = solids_.node(b, place / 2, n / 2, n / 2), other = solids_.node(b, (place + 1) / 2, n - n / 2, n / 2);
   const double spacing = yarns().yarn[1 - b.direction].spacing_m;
   const int program = kStepPrograms + 2 * static_cast<int>(held_.size());
-  held_.push_back({yarns().middle(b.direction, b.yarn, spacing * place / (2 * design_.meshing.along)), program});
+  held_.push_back(yarns().middle(b.direction, b.yarn, spacing * place / (2 * design_.meshing.along)));
   for (int c = 0; c < 2; ++c)
     supports_.constraints.push_back(
         {{{one, kAxis[c]}, {other, kAxis[c]}}, 2, program + c, fmt::format("middle of yarn {}", b.yarn + 1)});
@@ -132,18 +130,21 @@ std::vector<Program> SolidCell::programs(const CellLoad& from, const CellLoad& t
     const CellFaces faces = facesOf(yarns(), *load), rest = facesOf(yarns(), {});
     for (int g = 0; g < 2; ++g) moved[load == &to][g] = faces.step[g].origin - rest.step[g].origin;
   }
+  const std::vector<double> before = programRates(moved[0]), after = programRates(moved[1]);
   std::vector<Program> programs;
-  for (int g = 0; g < 2; ++g)
-    for (int c = 0; c < 2; ++c) programs.push_back(straight(share_ * moved[0][g][c], share_ * moved[1][g][c]));
-  for (const Held& h : held_)
-    for (int c = 0; c < 2; ++c) {
-      const auto at = [&](int k) {
-        return h.rest.x / yarns().period_m(along_weft) * moved[k][0][c] +
-               h.rest.y / yarns().period_m(along_warp) * moved[k][1][c];
-      };
-      programs.push_back(straight(at(0), at(1)));
-    }
+  for (std::size_t k = 0; k < before.size(); ++k) programs.push_back({{0, 1}, {before[k], after[k]}});
   return programs;
+}
+
+std::vector<double> SolidCell::programRates(const std::array<Vec3, 2>& step_m) const {
+  std::vector<double> rates;
+  for (int g = 0; g < 2; ++g)
+    for (int c = 0; c < 2; ++c) rates.push_back(share_ * step_m[g][c]);
+  for (const Vec3& place : held_)
+    for (int c = 0; c < 2; ++c)
+      rates.push_back(place.x / yarns().period_m(along_weft) * step_m[0][c] +
+                      place.y / yarns().period_m(along_warp) * step_m[1][c]);
+  return rates;
 }
 
 CellLoad SolidCell::between(const CellLoad& from, const CellLoad& to, double t) const {

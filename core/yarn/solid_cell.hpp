@@ -59,16 +59,14 @@ class SolidCell {
 
   /// The supports' programs from one load at 0 to another at 1; between them the steps of the faces go straight.
   std::vector<Program> programs(const CellLoad& from, const CellLoad& to) const;
+  /// How the programs' values move while the steps of the faces move so.
+  std::vector<double> programRates(const std::array<Vec3, 2>& step_m) const;
   /// The load at t on that way.
   CellLoad between(const CellLoad& from, const CellLoad& to, double t) const;
   /// What steps of the faces 1 and 2 carry of forces on all nodes [N], their derivative of the energy.
   std::array<Vec3, 2> faceForces(std::span<const Vec3> force) const;
 
  private:
-  struct Held {
-    Vec3 rest;  ///< of the place
-    int program = 0;
-  };
   void joinEnds(const YarnBody& body);
   void holdYarn(const YarnBody& body, int halves);
   void addSupports();
@@ -80,7 +78,7 @@ class SolidCell {
   SolidBody body_;
   SolidContact contact_;
   SolidSupports supports_;
-  std::vector<Held> held_;
+  std::vector<Vec3> held_;  ///< places of yarns, at rest
 };
 
 }  // namespace gambeson
