@@ -13,6 +13,7 @@
 ///   in a groove (an edge or corner nearest from inside, or a facet that faces the nearest one): all of these facets,
 ///   beside a ridge: of its facets that which the point has passed least.
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -71,10 +72,17 @@ class FacetSurface {
   /// The facets around a node, ascending.
   std::span<const int> facetsAt(int node) const;
 
-  /// Spheres around the facets at the positions x, for the searches there.
+  /// Spheres around the facets at the positions x, for the searches there, and in which box of a grid their centers lie.
   struct Spheres {
     std::vector<Vec3> center;
     std::vector<double> radius;
+    Vec3 low;
+    double box_m = 0, largest_m = 0;  ///< edge of a box; largest radius
+    std::array<int, 3> boxes{};
+    std::vector<int> offsets, facets;  ///< by box, ascending in each
+
+    /// The box of a coordinate, of those that there are.
+    int boxOf(int axis, double at) const;
   };
   Spheres spheres(std::span<const Vec3> x) const;
 
@@ -82,18 +90,18 @@ class FacetSurface {
   NearestFacet nearest(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p, double reach_m) const;
 
   /// All facets that hold p at once, the nearest first, or where an edge or corner is nearest from inside that which p
-  /// has passed most. Empty where none is within reach. `held`: the facet that held p before, or -1. It
-  /// keeps p as long as p lies over it or the next facet; or p goes on to what is nearest now, but over no groove before
-  /// TouchOptions::keep.
+  /// has passed most. Empty where none is within reach. `held`: the facets that held p before, the
+  /// foremost first. They keep p as long as it lies over them or the next facets; or p goes on to what is nearest now,
+  /// but over no groove before TouchOptions::keep.
   std::vector<FacetTouch> touching(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
-                                   const TouchOptions& options, int held = -1,
+                                   const TouchOptions& options, std::span<const int> held = {},
                                    HeldFacet after = HeldFacet::keeps) const;
 
  private:
   std::vector<int> facetsOf(const NearestFacet& nearest) const;
-  /// The facet that holds p before any other.
+  /// The facet that holds p before any other; -1: none held it before.
   std::optional<FacetCandidate> first(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
-                                      const TouchOptions& options, int held, HeldFacet after) const;
+                                      const TouchOptions& options, int held) const;
 
   std::vector<Facet> facets_;
   std::vector<int> nodes_;

@@ -140,7 +140,9 @@ std::vector<ContactPoint> SolidContact::points(std::span<const Vec3> x, std::spa
     forAll(Each::much, static_cast<int>(side.nodes.size()), [&](int slave) {
       const int node = side.nodes[slave];
       const std::vector<ContactMultipliers>& own = of_slave[first_slave_[s] + slave];
-      const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[s], x[node], law_.touch, own.empty() ? -1 : own.front().facet);
+      std::vector<int> held;
+      for (const ContactMultipliers& m : own) held.push_back(m.facet);
+      const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[s], x[node], law_.touch, held);
       const std::vector<int> match = matchTouches(touches, own);
       for (std::size_t t = 0; t < touches.size(); ++t) {
         const ContactMultipliers* m = match[t] >= 0 ? &own[match[t]] : nullptr;
@@ -236,7 +238,7 @@ int SolidContact::moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers
     if (!first) return;
     const ContactSide& side = sides_[m.side];
     const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[m.side], x[side.nodes[m.slave]], law_.touch,
-                                                                  m.facet, HeldFacet::goes_on);
+                                                                  {&m.facet, 1}, HeldFacet::goes_on);
     if (touches.empty() || touches[0].facet == m.facet) return;
     moved[k] = 1;
     m.facet = touches[0].facet;

@@ -13,8 +13,8 @@ namespace {
 /// Programs 0 to 3: the steps of face 1 along axes 1 and 2, of face 2 likewise; then two of each held yarn.
 constexpr int kStepPrograms = 4;
 
-/// Dents of yarns are shallow grooves: facets hold a node one after the other there. Those of Man's figure 14 are not.
-constexpr double kKeep = 0.3, kGroove_rad = 0.5;
+/// In grooves that are shallower facets hold a node one after the other; it keeps each for so long [half widths].
+constexpr double kGroove_rad = 0.5, kKeep = 0.1;
 
 constexpr Vec3 kAxis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
