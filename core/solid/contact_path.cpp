@@ -21,6 +21,7 @@ void check(const ContactPathOptions& o, const SolidContactLaw& law) {
   if (o.halvings < 0 || o.halvings > 20) reject("halvings", fmt::format("{} is not allowed: 0 to 20", o.halvings));
   if (o.iterations < 1) reject("iterations", fmt::format("{} is not allowed: >= 1", o.iterations));
   if (o.passes < 1) reject("passes", fmt::format("{} is not allowed: >= 1", o.passes));
+  if (!(o.raise >= 0 && o.raise < 1)) reject("raise", fmt::format("{} is not allowed: 0 to 1, 1 excluded", o.raise));
   if (!(o.tolerance > 0)) reject("tolerance", fmt::format("{} is not allowed: > 0", o.tolerance));
   if (o.method == SolidContactMethod::multipliers && law.friction > 0)
     reject("friction", fmt::format("{} is not allowed with multipliers: 0", law.friction));
@@ -48,7 +49,7 @@ class LoadStep {
         options_(options),
         from_(from),
         to_(to),
-        newton_{options.iterations, options.tolerance, 1e-3 * largest_force},
+        newton_{options.iterations, options.tolerance, 1e-3 * largest_force, options.raise},
         system_(solids, contact, to, solids.positions(from.y, from.factor)) {}
 
   /// False where it failed; `why` then.
@@ -72,7 +73,7 @@ class LoadStep {
   /// The tangent's way, where it leads to a state that has forces.
   void startAhead() {
     ContactSystem before(solids_, contact_, from_.factor, solids_.positions(from_.y, from_.factor));
-    const std::vector<double> way = before.ahead(from_.multipliers, from_.y, to_ - from_.factor);
+    const std::vector<double> way = before.ahead(from_.multipliers, from_.y, to_ - from_.factor, options_.raise);
     if (way.empty()) return;
     std::vector<double> y = from_.y, r(y.size());
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += way[i];
@@ -97,10 +98,21 @@ class LoadStep {
   bool penalty() {
     std::vector<ContactMultipliers> multipliers = from_.multipliers;
     for (ContactMultipliers& m : multipliers) m.pressure_Pa = 0;
-    if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
-    done.points = system_.points(multipliers, done.state.y);
-    done.state.multipliers = contact_.augmented(done.points);
-    return true;
+    for (int k = 0; k <= options_.passes; ++k) {
+      if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
+      multipliers = system_.known();
+      done.points = system_.points(multipliers, done.state.y);
+      if (moveOn(multipliers) > 0) continue;
+      done.state.multipliers = contact_.augmented(done.points);
+      return true;
+    }
+    why = fmt::format("after {} passes nodes still go on from facet to facet", options_.passes);
+    return false;
+  }
+
+  int moveOn(std::vector<ContactMultipliers>& multipliers) {
+    if (!(contact_.law().touch.keep > 0)) return 0;
+    return contact_.moveOn(solids_.positions(done.state.y, to_), multipliers);
   }
 
   bool augment() {
@@ -109,8 +121,9 @@ class LoadStep {
     double change = 0, largest = 0;
     for (int k = 0; k <= options_.passes; ++k) {
       if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
-      done.points = system_.points(multipliers, done.state.y);
+      done.points = system_.points(system_.known(), done.state.y);
       std::vector<ContactMultipliers> next = contact_.augmented(done.points);
+      const int moved = moveOn(next);
       change = largest = 0;
       for (const ContactPoint& p : done.points) {
         largest = std::max(largest, p.pressure_Pa);
@@ -119,7 +132,8 @@ class LoadStep {
         if (p.rubs) change = std::max(change, sizeOfTraction({t.x - before.x, t.y - before.y}, p.metric_m2));
       }
       multipliers = std::move(next);
-      if (k >= least && change <= options_.change * largest && deepestOf(done.points) <= options_.deepest_m)
+      if (k >= least && moved == 0 && change <= options_.change * largest &&
+          deepestOf(done.points) <= options_.deepest_m)
         return true;
     }
     why = fmt::format(

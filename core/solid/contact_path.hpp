@@ -28,6 +28,7 @@ struct ContactPathOptions {
   int iterations = 30;      ///< of Newton, for a pass
   double tolerance = 1e-9;  ///< of the residual against the forces that balance
   int passes = 40;          ///< augmentations, or sets tried, of a step
+  double raise = 0;         ///< ContactNewton's: for bodies that nothing but contact holds
   /// Augmented: multipliers may change by this part of the largest pressure in the last pass ...
   double change = 1e-6;
   double deepest_m = 0;  ///< ... and no node may have passed by more; > 0

@@ -22,25 +22,36 @@ Sparse matrixOf(std::span<const MatrixEntry> entries, int size, bool lower) {
   return K;
 }
 
-/// x with K x = b; none where K is not finite or singular.
+}  // namespace
+
+SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size) {
+  const Sparse K = matrixOf(entries, size, true);
+  SymmetricMatrix lower;
+  lower.size = size;
+  lower.offsets.assign(K.outerIndexPtr(), K.outerIndexPtr() + size + 1);
+  lower.rows.assign(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros());
+  lower.values.assign(K.valuePtr(), K.valuePtr() + K.nonZeros());
+  return lower;
+}
+
+namespace {
+
+/// x with K x = b, the diagonal raised by a part where K is symmetric; none where K is not finite or singular.
 std::optional<std::vector<double>> solution(std::span<const MatrixEntry> entries, std::span<const double> b,
-                                            bool symmetric) {
+                                            bool symmetric, double raise) {
   if (!std::all_of(entries.begin(), entries.end(), [](const MatrixEntry& e) { return std::isfinite(e.value); }))
     return std::nullopt;
   const int size = static_cast<int>(b.size());
   std::vector<double> x(b.size());
-  const Sparse K = matrixOf(entries, size, symmetric);
   if (symmetric) {
-    SymmetricMatrix lower;
-    lower.size = size;
-    lower.offsets.assign(K.outerIndexPtr(), K.outerIndexPtr() + size + 1);
-    lower.rows.assign(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros());
-    lower.values.assign(K.valuePtr(), K.valuePtr() + K.nonZeros());
+    SymmetricMatrix lower = lowerTriangle(entries, size);
+    for (int j = 0; j < size; ++j) lower.values[lower.offsets[j]] += raise * std::abs(lower.values[lower.offsets[j]]);
     SymmetricFactor factor(lower);
     if (factor.factorise(lower) == Definiteness::singular) return std::nullopt;
     factor.solve(b, x);
     return x;
   }
+  const Sparse K = matrixOf(entries, size, false);
   Eigen::SparseLU<Sparse> factor;
   factor.compute(K);
   if (factor.info() != Eigen::Success) return std::nullopt;
@@ -109,7 +120,7 @@ NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, bool 
     const std::vector<MatrixEntry> K = entries(z);
     rounding = diagonalRounding(K, static_cast<int>(z.size()), reach_m);
     ++report.factorisations;
-    const std::optional<std::vector<double>> step = solution(K, r, symmetric);
+    const std::optional<std::vector<double>> step = solution(K, r, symmetric, options.raise);
     if (!step) {
       report.singular = true;
       return report;
@@ -186,12 +197,21 @@ std::vector<MatrixEntry> ContactSystem::tangent(std::span<const ContactMultiplie
   return entries;
 }
 
+void ContactSystem::keepFacets(std::span<const double> y) {
+  for (const ContactPoint& p : points(known_, y))
+    if (!p.known) known_.push_back({p.side, p.slave, p.facet, p.facet, 0, {}});
+}
+
 NewtonReport ContactSystem::solve(std::span<const ContactMultipliers> multipliers, const ContactNewton& options,
                                   std::vector<double>& y) {
+  known_.assign(multipliers.begin(), multipliers.end());
   return iterate(
       y, options, symmetric(), true, solids_.reach(),
-      [&](const std::vector<double>& z, std::vector<double>& r) { return residual(multipliers, z, r); },
-      [&](const std::vector<double>& z) { return tangent(multipliers, z); });
+      [&](const std::vector<double>& z, std::vector<double>& r) { return residual(known_, z, r); },
+      [&](const std::vector<double>& z) {
+        if (contact_.law().touch.keep > 0) keepFacets(z);
+        return tangent(known_, z);
+      });
 }
 
 NewtonReport ContactSystem::solveTogether(std::span<ContactMultipliers> pairs, const ContactNewton& options,
@@ -262,7 +282,7 @@ NewtonReport ContactSystem::solveTogether(std::span<ContactMultipliers> pairs, c
 }
 
 std::vector<double> ContactSystem::ahead(std::span<const ContactMultipliers> multipliers, std::span<const double> y,
-                                         double dt) {
+                                         double dt, double raise) {
   std::vector<double> dg(y.size());
   solids_.change(y, t_, t_ + dt, dg);
   const std::vector<Vec3> x = solids_.positions(y, t_), moved = solids_.positions(y, t_ + dt);
@@ -280,7 +300,7 @@ std::vector<double> ContactSystem::ahead(std::span<const ContactMultipliers> mul
   std::vector<double> pulled(y.size());
   solids_.dofs().Ct.multiply<double>({reinterpret_cast<const double*>(force.data()), 3 * force.size()}, pulled);
   for (std::size_t i = 0; i < dg.size(); ++i) dg[i] = -(dg[i] + pulled[i]);
-  return solution(entries, dg, symmetric()).value_or(std::vector<double>{});
+  return solution(entries, dg, symmetric(), raise).value_or(std::vector<double>{});
 }
 
 }  // namespace gambeson

@@ -16,10 +16,16 @@ struct MatrixEntry {
   double value;
 };
 
+/// The lower triangle of what both triangles' entries add up to.
+SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size);
+
 struct ContactNewton {
   int iterations = 30;
   double tolerance = 1e-10;  ///< of |r| against the forces that balance
   double least_force = 0;    ///< these count as at least so large [N]
+  /// Of each diagonal entry, added to the symmetric tangent that is factorised: what nothing holds takes a step of
+  /// nothing, and equilibria stay what they are. 0: a singular tangent ends the iteration.
+  double raise = 0;
 };
 
 /// Solids in contact at the load t, from the positions `start`, where the step began. Refers to solids and contact.
@@ -33,13 +39,17 @@ class ContactSystem {
   /// halved.
   NewtonReport solve(std::span<const ContactMultipliers> multipliers, const ContactNewton& options,
                      std::vector<double>& y);
+  /// The multipliers of the last `solve`; where nodes keep facets, with those that pressed for the first time, at zero.
+  const std::vector<ContactMultipliers>& known() const { return known_; }
 
   /// f_int + Gᵀ lambda = f_ext and g = 0 for each of the pairs (3.29, 3.30), whatever the sign of their pressures,
   /// which are solved for too. Rows of g are scaled by A eps_N: they are forces.
   NewtonReport solveTogether(std::span<ContactMultipliers> pairs, const ContactNewton& options, std::vector<double>& y);
 
-  /// How y goes on to first order while the load goes on by dt; empty where the tangent is singular.
-  std::vector<double> ahead(std::span<const ContactMultipliers> multipliers, std::span<const double> y, double dt);
+  /// How y goes on to first order while the load goes on by dt; empty where the tangent is singular. `raise`:
+  /// ContactNewton's.
+  std::vector<double> ahead(std::span<const ContactMultipliers> multipliers, std::span<const double> y, double dt,
+                            double raise = 0);
 
   /// SolidContact::points.
   std::vector<ContactPoint> points(std::span<const ContactMultipliers> multipliers, std::span<const double> y,
@@ -55,11 +65,14 @@ class ContactSystem {
   void addSolids(std::span<const double> y, std::vector<MatrixEntry>& entries);
   void addBlock(const ContactBlock& block, std::vector<MatrixEntry>& entries) const;
   bool symmetric() const;
+  /// Points that have no multipliers yet get some, of zero: while forces are being balanced they keep their facets.
+  void keepFacets(std::span<const double> y);
 
   SolidSystem& solids_;
   const SolidContact& contact_;
   double t_;
   std::vector<Vec3> start_;
+  std::vector<ContactMultipliers> known_;
 };
 
 }  // namespace gambeson

@@ -13,6 +13,8 @@
 ///   in a groove (an edge or corner nearest from inside, or a facet that faces the nearest one): all of these facets,
 ///   beside a ridge: of its facets that which the point has passed least.
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,13 +36,27 @@ struct FacetTouch {
   double gap_m = 0;  ///< > 0: the point has passed the facet (Man's sign, 3.9)
 };
 
+/// A facet that may hold a point.
+struct FacetCandidate {
+  FacetTouch touch;
+  Vec3 normal, center;
+  double beyond = 0;  ///< its edges, as far as the point lies over it there [half widths]
+};
+
 struct TouchOptions {
   double reach_m = 0;  ///< farther facets do not count, on either side; > 0
   /// Facets that meet at less are one plane, and one of them holds a point. More than rounding and no more: one facet
   /// at a time in a groove, however shallow, and the solution goes to and fro.
   double groove_rad = 1e-6;
   bool simultaneous = true;  ///< false: the first facet alone, as others do
+  /// 0: a point is held by what is nearest now. Else it keeps its facet while forces are being balanced, and from one
+  /// pass to the next until it lies so far beyond the edges [half widths] of a groove, where it has then passed the
+  /// other facet by this times the sine of their angle. At most 1.
+  double keep = 0;
 };
+
+/// What becomes of the facet that held a point before.
+enum class HeldFacet { keeps, goes_on };
 
 /// Constant after it is built.
 class FacetSurface {
@@ -56,10 +72,17 @@ class FacetSurface {
   /// The facets around a node, ascending.
   std::span<const int> facetsAt(int node) const;
 
-  /// Spheres around the facets at the positions x, for the searches there.
+  /// Spheres around the facets at the positions x, for the searches there, and in which box of a grid their centers lie.
   struct Spheres {
     std::vector<Vec3> center;
     std::vector<double> radius;
+    Vec3 low;
+    double box_m = 0, largest_m = 0;  ///< edge of a box; largest radius
+    std::array<int, 3> boxes{};
+    std::vector<int> offsets, facets;  ///< by box, ascending in each
+
+    /// The box of a coordinate, of those that there are.
+    int boxOf(int axis, double at) const;
   };
   Spheres spheres(std::span<const Vec3> x) const;
 
@@ -67,12 +90,18 @@ class FacetSurface {
   NearestFacet nearest(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p, double reach_m) const;
 
   /// All facets that hold p at once, the nearest first, or where an edge or corner is nearest from inside that which p
-  /// has passed most. Empty where none is within reach.
+  /// has passed most. Empty where none is within reach. `held`: the facets that held p before, the
+  /// foremost first. They keep p as long as it lies over them or the next facets; or p goes on to what is nearest now,
+  /// but over no groove before TouchOptions::keep.
   std::vector<FacetTouch> touching(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
-                                   const TouchOptions& options) const;
+                                   const TouchOptions& options, std::span<const int> held = {},
+                                   HeldFacet after = HeldFacet::keeps) const;
 
  private:
   std::vector<int> facetsOf(const NearestFacet& nearest) const;
+  /// The facet that holds p before any other; -1: none held it before.
+  std::optional<FacetCandidate> first(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
+                                      const TouchOptions& options, int held) const;
 
   std::vector<Facet> facets_;
   std::vector<int> nodes_;

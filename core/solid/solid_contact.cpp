@@ -27,6 +27,7 @@ void checkLaw(const SolidContactLaw& law) {
   if (!(law.touch.reach_m > 0) || !std::isfinite(law.touch.reach_m)) reject("reach_m", law.touch.reach_m, "> 0");
   if (!(law.touch.groove_rad > 0 && law.touch.groove_rad < std::numbers::pi))
     reject("groove_rad", law.touch.groove_rad, "0 to pi, both excluded");
+  if (!(law.touch.keep >= 0 && law.touch.keep <= 1)) reject("keep", law.touch.keep, "0 to 1");
 }
 
 void checkSide(const ContactSide& side, int nodes) {
@@ -139,7 +140,9 @@ std::vector<ContactPoint> SolidContact::points(std::span<const Vec3> x, std::spa
     forAll(Each::much, static_cast<int>(side.nodes.size()), [&](int slave) {
       const int node = side.nodes[slave];
       const std::vector<ContactMultipliers>& own = of_slave[first_slave_[s] + slave];
-      const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[s], x[node], law_.touch);
+      std::vector<int> held;
+      for (const ContactMultipliers& m : own) held.push_back(m.facet);
+      const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[s], x[node], law_.touch, held);
       const std::vector<int> match = matchTouches(touches, own);
       for (std::size_t t = 0; t < touches.size(); ++t) {
         const ContactMultipliers* m = match[t] >= 0 ? &own[match[t]] : nullptr;
@@ -169,6 +172,13 @@ void SolidContact::addForce(std::span<const ContactPoint> points, std::span<Vec3
     addForces(nodes, p.area_m2 * p.traction_N_per_m.x, p.rub_over.local_slope[0], f);
     addForces(nodes, p.area_m2 * p.traction_N_per_m.y, p.rub_over.local_slope[1], f);
   }
+}
+
+double SolidContact::energy(std::span<const ContactPoint> points) const {
+  double sum = 0;
+  for (const ContactPoint& p : points)
+    sum += p.area_m2 * (p.pressure_Pa * p.pressure_Pa - p.multiplier_Pa * p.multiplier_Pa) / (2 * law_.normal_Pa_per_m);
+  return sum;
 }
 
 std::vector<ContactBlock> SolidContact::tangent(std::span<const Vec3> x, std::span<const ContactPoint> points) const {
@@ -216,6 +226,24 @@ std::vector<ContactMultipliers> SolidContact::augmented(std::span<const ContactP
     multipliers.push_back(m);
   }
   return multipliers;
+}
+
+int SolidContact::moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers>& multipliers) const {
+  std::vector<FacetSurface::Spheres> spheres;
+  for (const ContactSide& side : sides_) spheres.push_back(side.surface.spheres(x));
+  std::vector<char> moved(multipliers.size(), 0);
+  forAll(Each::much, static_cast<int>(multipliers.size()), [&](int k) {
+    ContactMultipliers& m = multipliers[k];
+    const bool first = k == 0 || multipliers[k - 1].side != m.side || multipliers[k - 1].slave != m.slave;
+    if (!first) return;
+    const ContactSide& side = sides_[m.side];
+    const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[m.side], x[side.nodes[m.slave]], law_.touch,
+                                                                  {&m.facet, 1}, HeldFacet::goes_on);
+    if (touches.empty() || touches[0].facet == m.facet) return;
+    moved[k] = 1;
+    m.facet = touches[0].facet;
+  });
+  return static_cast<int>(std::count(moved.begin(), moved.end(), 1));
 }
 
 std::vector<ContactMultipliers> SolidContact::settled(std::span<const Vec3> x,

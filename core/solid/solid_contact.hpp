@@ -106,11 +106,17 @@ class SolidContact {
                                    std::span<const ContactMultipliers> multipliers, bool all = false) const;
   /// f += A (t_N dg/dx + t_a dxi_a/dx), as internal forces.
   void addForce(std::span<const ContactPoint> points, std::span<Vec3> f) const;
+  /// What the penalties store [J]: the sum of A (t_N² - lambda_N²)/(2 eps_N). Without friction its gradient is the
+  /// force, with the multipliers held.
+  double energy(std::span<const ContactPoint> points) const;
   /// The exact slope of that force in x.
   std::vector<ContactBlock> tangent(std::span<const Vec3> x, std::span<const ContactPoint> points) const;
 
   /// Multipliers for the next pass: lambda = t; of box 7 t* returned to mu t_N (3.79).
   std::vector<ContactMultipliers> augmented(std::span<const ContactPoint> points) const;
+  /// Where nodes keep facets (TouchOptions::keep): those of these multipliers moved on to what is nearest at x. Returns
+  /// how many have moved.
+  int moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers>& multipliers) const;
   /// Multipliers for the next step, in the frames of the facets on which the nodes are at x.
   std::vector<ContactMultipliers> settled(std::span<const Vec3> x, std::vector<ContactMultipliers> multipliers) const;
 

@@ -67,6 +67,13 @@ SolidSystem::SolidSystem(const SolidBody& body, const SolidSupports& supports)
   reach_m_ = std::max(reach_m_, length_m_);
 }
 
+void SolidSystem::setPrograms(std::vector<Program> programs) {
+  if (programs.size() != programs_.size())
+    throw InputError({"", 0, "programs"}, fmt::format("{} given, {} expected", programs.size(), programs_.size()));
+  checkPrograms(programs);
+  programs_ = std::move(programs);
+}
+
 std::vector<double> SolidSystem::programValues(double t) const {
   std::vector<double> value;
   for (const Program& p : programs_) value.push_back(p.extended(t));

@@ -47,6 +47,8 @@ class SolidSystem : public System {
   void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
 
   const SolidBody& body() const { return body_; }
+  /// Other programs from now on. Throws InputError where there are not as many as before.
+  void setPrograms(std::vector<Program> programs);
   const DofMap& dofs() const { return dofs_; }
   /// Positions of all nodes.
   std::vector<Vec3> positions(std::span<const double> y, double t) const;

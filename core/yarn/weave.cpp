@@ -54,6 +54,13 @@ bool Weave::warpOver(int warp, int weft) const {
 
 Weave plainWeave() { return shifted({1, 0}, 1); }
 
+bool isPlain(const Weave& w) {
+  for (int j = 0; j < w.wefts; ++j)
+    for (int i = 0; i < w.warps; ++i)
+      if (w.warpOver(i, j) == w.warpOver(i + 1, j) || w.warpOver(i, j) == w.warpOver(i, j + 1)) return false;
+  return true;
+}
+
 Weave twillWeave(int over, int under) {
   if (over < 1) refuse("weave.over", std::to_string(over) + ", must be at least 1");
   if (under < 1) refuse("weave.under", std::to_string(under) + ", must be at least 1");

@@ -16,6 +16,8 @@ struct Weave {
 
 /// 2 x 2 (Man 2006, fig. 18a).
 Weave plainWeave();
+/// Whether yarns change sides at every crossing, in both directions.
+bool isPlain(const Weave& weave);
 /// Each warp yarn goes over `over` weft yarns and under `under`, each weft yarn shifted by one (fig. 18b is 2/2).
 /// Throws InputError, key "weave.over" or "weave.under", where one is below 1.
 Weave twillWeave(int over, int under);

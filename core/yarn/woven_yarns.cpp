@@ -42,6 +42,18 @@ bool WovenYarns::onTop(int direction, int k, int c) const {
   return direction == along_weft ? !weave.warpOver(c, k) : weave.warpOver(k, c);
 }
 
+std::optional<int> WovenYarns::halfTurn(int direction, int k) const {
+  const auto symmetric = [&](int halves) {
+    for (int i = 0; i < count(direction); ++i)
+      for (int c = 0; c < crossings(direction); ++c)
+        if (onTop(direction, i, c) != onTop(direction, 2 * k - i, halves - c)) return false;
+    return true;
+  };
+  for (int halves = 0; halves < 2 * crossings(direction); ++halves)
+    if (symmetric(halves)) return halves;
+  return std::nullopt;
+}
+
 namespace {
 
 /// Where s lies: after crossing `before`, on the part `along` of the way to the next, of length L.

@@ -2,6 +2,7 @@
 /// Where the yarns of a weave lie at rest: paths of half sine waves, elliptical sections.
 
 #include <array>
+#include <optional>
 
 #include "core/math/vec.hpp"
 #include "core/yarn/weave.hpp"
@@ -35,6 +36,9 @@ struct WovenYarns {
   double area_m2() const { return period_m(along_weft) * period_m(along_warp); }
   /// Whether yarn k is on top at its crossing c.
   bool onTop(int direction, int k, int c) const;
+  /// Where on yarn k, in half spacings from its first crossing, half a turn about axis 3 takes the weave to itself; none
+  /// where that is so nowhere on it. 0 in a plain weave.
+  std::optional<int> halfTurn(int direction, int k) const;
   /// Height of the middle of yarn k, and its slope, at s [m] along its direction.
   double height_m(int direction, int k, double s) const;
   double slope(int direction, int k, double s) const;

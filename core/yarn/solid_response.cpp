@@ -1,0 +1,206 @@
+#include "core/yarn/solid_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/solid/contact_system.hpp"
+
+namespace gambeson {
+namespace {
+
+using Column = std::vector<double>;
+
+/// What a motion of all nodes meets in the state: the tangent of the yarns and of what presses.
+class Linearised {
+ public:
+  Linearised(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work, SolidContactMethod method)
+      : cell_(cell), x_(state.x), system_(work.system), held_(method != SolidContactMethod::penalty) {
+    system_.setPrograms(cell.programs(state.load, state.load));
+    std::vector<ContactMultipliers> multipliers = state.multipliers;
+    for (ContactMultipliers& m : multipliers) {
+      m.traction_N_per_m = {};
+      if (!held_) m.pressure_Pa = 0;
+    }
+    ContactSystem contact(system_, cell.contact(), 1, state.x);
+    for (const ContactPoint& p : contact.points(multipliers, state.y))
+      if (p.pressure_Pa > 0) points_.push_back(p), points_.back().rubs = false;
+    blocks_ = cell.contact().tangent(x_, points_);
+    SolidWork scratch;
+    K_ = cell.body().sparsity();
+    cell.body().stiffness(x_, K_, scratch);
+    SymmetricMatrix reduced = lowerTriangle(contact.tangent(multipliers, state.y), system_.size());
+    for (int c = 0; c < reduced.size; ++c) reduced.values[reduced.offsets[c]] *= 1 + kRaise;
+    factor_ = std::make_unique<SymmetricFactor>(reduced);
+    if (factor_->factorise(reduced) == Definiteness::singular)
+      throw RunError("the tangent of the cell of solids is singular");
+  }
+
+  /// The forces on all nodes that follow where supports move by `moved`, the yarns staying in equilibrium.
+  Column forces(const Column& moved) const {
+    constexpr int kIterations = 200;
+    constexpr double kSettled = 1e-10;
+    const SparseRows &C = system_.dofs().C, &Ct = system_.dofs().Ct;
+    Column x = moved, force(x.size()), r(C.column_count), dy(r.size()), back(x.size());
+    std::vector<double> pressure(points_.size(), 0.0);
+    double first = 0;
+    for (int k = 0; k < kIterations; ++k) {
+      multiply(K_, x, force);
+      press(x, pressure, force);
+      Ct.multiply<double>(force, r);
+      const double size = norm(r);
+      if (k == 0) first = size;
+      if (size <= kSettled * first) return force;
+      factor_->solve(r, dy);
+      C.multiply<double>(dy, back);
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] -= back[i];
+      if (!held_) continue;
+      for (std::size_t p = 0; p < points_.size(); ++p)
+        pressure[p] += cell_.contact().law().normal_Pa_per_m * gapRate(points_[p], x);
+    }
+    throw RunError("what touches in the cell of solids does not settle under a change of the load");
+  }
+
+ private:
+  static constexpr double kRaise = 1e-10;
+
+  std::array<int, 5> nodesOf(const ContactPoint& p) const { return cell_.contact().nodesOf(p.side, p.node, p.facet); }
+
+  double gapRate(const ContactPoint& p, const Column& x) const {
+    const std::array<int, 5> nodes = nodesOf(p);
+    double rate = 0;
+    for (int i = 0; i < kProjectionSize; ++i) rate += p.over.gap_slope[i] * x[3 * nodes[i / 3] + i % 3];
+    return rate;
+  }
+
+  /// Adds what touches: the tangent's forces and those of changed multipliers.
+  void press(const Column& x, std::span<const double> pressure, Column& force) const {
+    for (const ContactBlock& b : blocks_)
+      for (int i = 0; i < kProjectionSize; ++i)
+        for (int j = 0; j < kProjectionSize; ++j)
+          force[3 * b.rows[i / 3] + i % 3] +=
+              b.values[kProjectionSize * i + j] * x[3 * b.columns[j / 3] + j % 3];
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const std::array<int, 5> nodes = nodesOf(points_[k]);
+      for (int i = 0; i < kProjectionSize; ++i)
+        force[3 * nodes[i / 3] + i % 3] += points_[k].area_m2 * pressure[k] * points_[k].over.gap_slope[i];
+    }
+  }
+
+  const SolidCell& cell_;
+  std::span<const Vec3> x_;
+  SolidSystem& system_;
+  bool held_;
+  std::vector<ContactPoint> points_;
+  std::vector<ContactBlock> blocks_;
+  BlockMatrix K_;
+  std::unique_ptr<SymmetricFactor> factor_;
+};
+
+std::array<double, 9> tangentOf(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work,
+                                SolidContactMethod method) {
+  const Linearised linear(cell, state, work, method);
+  const std::array<FaceMotion, 4> motions = faceMotions(cell.yarns(), state.load);
+  std::vector<Vec3> force(state.x.size());
+  std::array<double, 9> D{};
+  for (int e = 0; e < 3; ++e) {
+    const std::vector<double> rates = cell.programRates(motions[e].dt_m);
+    Column moved(3 * state.x.size(), 0.0);
+    for (std::size_t k = 0; k < rates.size(); ++k) {
+      const std::vector<double>& shift = work.system.dofs().shift[k];
+      for (std::size_t i = 0; i < shift.size(); ++i) moved[i] += rates[k] * shift[i];
+    }
+    const Column f = linear.forces(moved);
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] = {f[3 * i], f[3 * i + 1], f[3 * i + 2]};
+    const std::array<Vec3, 2> carried = cell.faceForces(force);
+    for (int d = 0; d < 3; ++d)
+      for (int g = 0; g < 2; ++g) D[3 * d + e] += dot(carried[g], motions[d].dt_m[g]) / cell.area_m2();
+  }
+  SolidWork scratch;
+  cell.body().force(state.x, force, scratch);
+  cell.contact().addForce(state.points, force);
+  const std::array<Vec3, 2> carried = cell.faceForces(force);
+  const auto second = faceCurvature(cell.yarns(), state.load);
+  constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+  for (int v = 0; v < 6; ++v)
+    for (int g = 0; g < 2; ++g) {
+      const double turn = dot(carried[g], second[v][g]) / cell.area_m2();
+      D[3 * pairs[v][0] + pairs[v][1]] += turn;
+      if (v > 2) D[3 * pairs[v][1] + pairs[v][0]] += turn;
+    }
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < i; ++j) D[3 * i + j] = D[3 * j + i] = 0.5 * (D[3 * i + j] + D[3 * j + i]);
+  return D;
+}
+
+}  // namespace
+
+CellResultants resultantsOf(const SolidCell& cell, const SolidCellState& state) {
+  SolidWork work;
+  std::vector<Vec3> force(state.x.size());
+  const double stored = cell.body().force(state.x, force, work);
+  cell.contact().addForce(state.points, force);
+  const std::array<Vec3, 2> carried = cell.faceForces(force);
+  const std::array<FaceMotion, 4> motions = faceMotions(cell.yarns(), state.load);
+  std::array<double, 3> n{};
+  for (int e = 0; e < 3; ++e)
+    for (int g = 0; g < 2; ++g) n[e] += dot(carried[g], motions[e].dt_m[g]) / cell.area_m2();
+  return {(stored + cell.contact().energy(state.points)) / cell.area_m2(), n[0], n[1], n[2], 0};
+}
+
+std::array<double, 3> stressOf(const SolidCell& cell, const CellResultants& n) {
+  const double height = cell.height_m();
+  return {n.n11 / height, n.n22 / height, n.n12 / height};
+}
+
+std::array<double, 3> meanStress(const SolidCell& cell, std::span<const Vec3> x) {
+  const SolidBody& body = cell.body();
+  std::array<double, 3> sum{};
+  for (std::size_t e = 0; e < body.cells().size(); ++e) {
+    std::array<Vec3, kHexahedronNodes> corners;
+    for (int a = 0; a < kHexahedronNodes; ++a) corners[a] = x[body.mesh().cells[e][a]];
+    for (const HexahedronPoint& p : body.cells()[e]) {
+      const Symmetric S = evaluate(body.lawOf(static_cast<int>(e)), p.fibre, strainAt(p, corners).C).stress_Pa;
+      sum[0] += p.volume_m3 * S[0];
+      sum[1] += p.volume_m3 * S[1];
+      sum[2] += p.volume_m3 * S[5];
+    }
+  }
+  for (double& s : sum) s /= cell.area_m2() * cell.height_m();
+  return sum;
+}
+
+std::array<double, 9> membraneTangent(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work,
+                                      SolidContactMethod method) {
+  if (cell.design().friction > 0) throw RunError("the tangent of a cell of solids is of yarns without friction");
+  return tangentOf(cell, state, work, method);
+}
+
+SolidLoadReport freeAcross(const SolidCell& cell, SolidCellState& state, SolidCellWork& work, double tolerance,
+                           const SolidLoadOptions& options) {
+  constexpr int kIterations = 30;
+  constexpr double kLongest = 0.02;  // of E22
+  SolidLoadReport report;
+  for (int k = 0; k < kIterations; ++k) {
+    const CellResultants n = resultantsOf(cell, state);
+    report.reached = true;
+    if (std::abs(n.n22) <= tolerance * (std::abs(n.n11) + std::abs(n.n12))) return report;
+    const double slope = tangentOf(cell, state, work, options.method)[4];
+    CellLoad next = state.load;
+    next.e22 -= std::clamp(n.n22 / std::abs(slope), -kLongest, kLongest);
+    const SolidLoadReport part = changeLoad(cell, next, state, work, options);
+    report.steps += part.steps;
+    report.passes += part.passes;
+    report.iterations += part.iterations;
+    report.deepest_m = part.deepest_m;
+    report.why = part.why;
+    report.reached = part.reached;
+    if (!part.reached) return report;
+  }
+  report.reached = false;
+  report.why = "the stress across does not vanish within the iterations";
+  return report;
+}
+
+}  // namespace gambeson
