@@ -168,7 +168,7 @@ TEST_F(TriangleCase, TwoKindsOfClothTouchEachOther) {
 // meshes, which have no seams.
 TEST_F(TriangleCase, WhatIsWrittenIsRead) {
   write("square.obj", "v 0 0 0.01\nv 0.2 0 0.01\nv 0.2 0.2 0.01\nv 0 0.2 0.01\nf 1 2 3\nf 1 3 4\n");
-  for (const std::string garment :
+  for (const std::string& garment :
        {std::string(kSheet), std::string(kSheet) + ", \"samples_per_cell\": 3, \"seam_stiffness\": \"2 N/rad\"",
         std::string(kSheet) + ", \"model\": \"triangles\", \"seam_stiffness\": \"2 N/rad\"",
         std::string(kSheet) + ", \"model\": \"springs\"", std::string(kSheet) + ", \"model\": \"shell\"",
