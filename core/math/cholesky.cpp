@@ -206,7 +206,8 @@ void multiply(const SymmetricMatrix& a, std::span<const double> x, std::span<dou
   }
 }
 
-SymmetricFactor::SymmetricFactor(const SymmetricMatrix& sparsity) : self_(std::make_unique<Implementation>()) {
+SymmetricFactor::SymmetricFactor(const SymmetricMatrix& sparsity, Elimination elimination)
+    : self_(std::make_unique<Implementation>()) {
   Implementation& s = *self_;
   s.matrix = sparsity;
   s.matrix.values.resize(sparsity.rows.size());
@@ -214,8 +215,10 @@ SymmetricFactor::SymmetricFactor(const SymmetricMatrix& sparsity) : self_(std::m
   s.common.final_ll = 1;
   const OneThread one_thread;
   cholmod_sparse a = s.view();
-  s.supernodal = cholmod_analyze(&a, &s.common);
-  if (!s.supernodal) s.check("symbolic factorisation");
+  const bool in_blocks = elimination == Elimination::blocks;
+  if (!in_blocks) s.common.supernodal = CHOLMOD_SIMPLICIAL, s.common.final_ll = 0;
+  (in_blocks ? s.supernodal : s.simplicial) = cholmod_analyze(&a, &s.common);
+  if (!s.supernodal && !s.simplicial) s.check("symbolic factorisation");
 }
 
 SymmetricFactor::~SymmetricFactor() = default;
@@ -236,14 +239,16 @@ Definiteness SymmetricFactor::factorise(const SymmetricMatrix& matrix) {
 
   const OneThread one_thread;
   cholmod_sparse a = s.view();
-  cholmod_factorize(&a, s.supernodal, &s.common);
-  s.check("factorisation");
-  if (s.common.status == CHOLMOD_OK) {
-    s.valid = s.supernodal;
-    s.scanSupernodal();
-    return s.weakest_ratio < kSingularPivot ? Definiteness::singular : Definiteness::positive;
+  if (s.supernodal) {
+    cholmod_factorize(&a, s.supernodal, &s.common);
+    s.check("factorisation");
+    if (s.common.status == CHOLMOD_OK) {
+      s.valid = s.supernodal;
+      s.scanSupernodal();
+      return s.weakest_ratio < kSingularPivot ? Definiteness::singular : Definiteness::positive;
+    }
   }
-  // Not positive definite: L D Lᵀ with the same ordering.
+  // Entry by entry, or not positive definite: L D Lᵀ, with the ordering of the blocks where there are some.
   s.common.supernodal = CHOLMOD_SIMPLICIAL;
   s.common.final_ll = 0;
   if (!s.simplicial) {

@@ -21,15 +21,20 @@ void multiply(const SymmetricMatrix& a, std::span<const double> x, std::span<dou
 /// singular: a pivot is zero to rounding (below 1e-14 of its diagonal entry).
 enum class Definiteness { positive, indefinite, singular };
 
+/// How a matrix is eliminated: in blocks (supernodal, by BLAS), which is fast for large ones, or entry by entry without
+/// BLAS. Factors of their own may work side by side only entry by entry: some builds of BLAS (OpenBLAS without threads,
+/// as Debian has it) share their buffers between callers and answer wrongly.
+enum class Elimination { blocks, entries };
+
 /// Analyses the sparsity once; `factorise` may be called as often as values change. Not for use by two threads at once.
 class SymmetricFactor {
  public:
-  explicit SymmetricFactor(const SymmetricMatrix& sparsity);
+  explicit SymmetricFactor(const SymmetricMatrix& sparsity, Elimination elimination = Elimination::blocks);
   ~SymmetricFactor();
   SymmetricFactor(SymmetricFactor&&) noexcept;
   SymmetricFactor& operator=(SymmetricFactor&&) noexcept;
 
-  /// Supernodal Cholesky; where that meets a pivot that is not positive, simplicial L D Lᵀ (no pivoting: static
+  /// Supernodal Cholesky; entry by entry, or where that meets a pivot that is not positive, simplicial L D Lᵀ (no pivoting: static
   /// condensation may lose digits where leading minors nearly vanish; `solve` refines against the matrix). Throws
   /// RunError where a value is not finite or memory runs out.
   Definiteness factorise(const SymmetricMatrix& matrix);

@@ -10,17 +10,21 @@
 namespace gambeson {
 namespace {
 
-/// Takes the force that shifts all sections up or down out of a force on the unknowns: the middle of the cloth bears it.
-void holdHeight(const RodCell& cell, std::vector<double>& force) {
+/// Takes the force that shifts a yarn as a whole up or down out of a force on the unknowns.
+void holdHeights(const RodCell& cell, std::vector<double>& force) {
   const SparseRows& C = cell.freedoms();
-  const auto forHeights = [&](const auto& visit) {
-    for (int i = 0; i < cell.sections(); ++i)
-      for (int row = 6 * i + 2, k = C.offsets[row]; k < C.offsets[row + 1]; ++k) visit(C.columns[k]);
-  };
-  double sum = 0;
-  int count = 0;
-  forHeights([&](int column) { sum += force[column], ++count; });
-  forHeights([&](int column) { force[column] -= sum / count; });
+  for (const int d : {along_weft, along_warp})
+    for (int k = 0; k < cell.yarns().count(d); ++k) {
+      const auto forHeights = [&](const auto& visit) {
+        const int first = cell.firstSection(d, k);
+        for (int i = first; i < first + cell.sectionsOf(d); ++i)
+          for (int row = 6 * i + 2, e = C.offsets[row]; e < C.offsets[row + 1]; ++e) visit(C.columns[e]);
+      };
+      double sum = 0;
+      int count = 0;
+      forHeights([&](int column) { sum += force[column], ++count; });
+      forHeights([&](int column) { force[column] -= sum / count; });
+    }
 }
 
 /// d²W/dk² by area, of an arc in one direction; `work` is settled there.
@@ -37,7 +41,7 @@ double rigidityAlong(const RodCell& cell, const CellLoad& flat, double direction
   std::vector<double> g = work.residual(answer[1]);
   const std::vector<double> before = work.residual(answer[0]);
   for (std::size_t i = 0; i < g.size(); ++i) g[i] = (g[i] - before[i]) / (2 * h);
-  holdHeight(cell, g);
+  holdHeights(cell, g);
   return (second - dot(g, work.follow(g))) / cell.area_m2();
 }
 
@@ -46,6 +50,8 @@ double rigidityAlong(const RodCell& cell, const CellLoad& flat, double direction
 CellBending bendingOf(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections,
                       EquilibriumWork& work) {
   if (load.curvature_per_m != 0) throw RunError("how a cell begins to bend is asked of a flat one");
+  if (cell.design().extent == CellExtent::quarter)
+    throw InputError({"", 0, "extent"}, "quarter, must be full where the cloth bends");
   const CellFaces faces = facesOf(cell.yarns(), load);
   cell.evaluate(faces, sections, work.answer);
   if (!work.settle(faces, sections, work.answer)) throw RunError("the cell of yarns is not stable");

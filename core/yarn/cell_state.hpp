@@ -14,11 +14,12 @@ struct CellState {
 };
 
 /// Sections for the load `to` if they changed linearly from a to b: at the part 0 they are a's, at 1 b's; parts below
-/// and above go on beyond. The motion of the cloth is taken out first (carried), so what is left is what the yarns do in it.
+/// and above go on beyond. The motion of the cloth is taken out first (carried), so what is left is what the yarns do
+/// in it.
 std::vector<Pose> mixed(const CellState& a, const CellState& b, double part, const CellLoad& to);
 
-/// The equilibrium under `to` from sections that may be near, or by changeLoad from the state `from` where these lead to
-/// none that is stable. Returns why it failed, empty where it did not.
+/// The equilibrium under `to` from sections that may be near, or by changeLoad from the state `from` where these lead
+/// to none that is stable. Returns why it failed, empty where it did not.
 std::string findState(const RodCell& cell, const CellState& from, std::vector<Pose> near, const CellLoad& to,
                       EquilibriumWork& work, const EquilibriumOptions& options, CellState& out);
 

@@ -54,7 +54,9 @@ std::vector<double> nodesThroughZero(double low, double high, int count) {
   if (high > 0) below = std::min(below, intervals - 1);
   std::vector<double> nodes;
   for (int i = 0; i <= intervals; ++i)
-    nodes.push_back(i < below ? low * (below - i) / below : i == below ? 0.0 : high * (i - below) / (intervals - below));
+    nodes.push_back(i < below    ? low * (below - i) / below
+                    : i == below ? 0.0
+                                 : high * (i - below) / (intervals - below));
   return nodes;
 }
 
@@ -75,19 +77,23 @@ class Refinement {
     while (true) {
       const StrainSpline<1> spline = splineOf();
       setLargest(out);
-      std::array<std::vector<double>, 3> worst;
-      out.tension_error = out.shear_error = 0;
-      for (int d = 0; d < 3; ++d) worst[d] = errorsAlong(d, spline, out);
+      setNodeErrors(spline, out);
+      std::array<Along, 3> along;
+      for (int d = 0; d < 3; ++d) along[d] = errorsAlong(d, spline, out);
+      std::array<double, 3> sum{};
+      for (const Along& a : along)
+        for (int c = 0; c < 3; ++c) sum[c] += a.greatest[c];
+      out.tension_error = std::max(sum[0], sum[1]), out.shear_error = sum[2];
       out.checked = static_cast<int>(answers_.size());
       out.reached = out.tension_error <= options_.tension_error && out.shear_error <= options_.shear_error;
       if (out.reached) return;
-      const auto greatest = [&](int d) { return *std::max_element(worst[d].begin(), worst[d].end()); };
-      int direction = 0;
-      for (int d = 1; d < 3; ++d)
-        if (greatest(d) > greatest(direction)) direction = d;
+
+      std::array<double, 3> worst{};
+      for (int d = 0; d < 3; ++d) worst[d] = *std::max_element(along[d].by_wanted.begin(), along[d].by_wanted.end());
+      const int direction = static_cast<int>(std::max_element(worst.begin(), worst.end()) - worst.begin());
       std::vector<int> intervals;
-      for (std::size_t i = 0; i < worst[direction].size(); ++i)
-        if (2 * worst[direction][i] >= greatest(direction)) intervals.push_back(static_cast<int>(i));
+      for (std::size_t i = 0; i < along[direction].by_wanted.size(); ++i)
+        if (2 * along[direction].by_wanted[i] >= worst[direction]) intervals.push_back(static_cast<int>(i));
       const std::size_t plane = states_.count() / states_.nodes()[direction].size();
       if (states_.count() + plane * intervals.size() > static_cast<std::size_t>(options_.most_nodes)) return;
       states_.split(direction, intervals);
@@ -114,8 +120,29 @@ class Refinement {
     }
   }
 
-  /// Of each interval the greatest error in parts of what is wanted; adds the greatest of all to the estimates.
-  std::vector<double> errorsAlong(int d, const StrainSpline<1>& spline, HomogenisedCell& out) {
+  /// n of the spline less n of a cell, each component by the largest of its kind.
+  static Strain errorOf(const StrainSpline<1>& spline, const CellLoad& load, const CellResultants& n,
+                        const HomogenisedCell& out) {
+    std::array<StrainTaylor, 1> W;
+    spline.evaluate(strainOf(load), W);
+    const auto by = [](double error, double largest) { return largest > 0 ? error / largest : 0; };
+    return {by(W[0].first[0] - n.n11, out.largest_tension_N_per_m),
+            by(W[0].first[1] - n.n22, out.largest_tension_N_per_m),
+            by(W[0].first[2] - n.n12, out.largest_shear_N_per_m)};
+  }
+
+  void setNodeErrors(const StrainSpline<1>& spline, const HomogenisedCell& out) {
+    node_errors_.clear();
+    for (const CellState& s : states_.all()) node_errors_.push_back(errorOf(spline, s.load, s.resultants, out));
+  }
+
+  /// What one direction of the grid errs.
+  struct Along {
+    Strain greatest{};              ///< of each component
+    std::vector<double> by_wanted;  ///< of each interval, in parts of what is wanted
+  };
+
+  Along errorsAlong(int d, const StrainSpline<1>& spline, const HomogenisedCell& out) {
     constexpr double kSlope = 0.21132486540518713, kValue = 0.5;  // (3 - sqrt(3))/6
     const int a = d == 0 ? 1 : 0, b = d == 2 ? 1 : 2;
     const std::size_t intervals = states_.nodes()[d].size() - 1;
@@ -132,22 +159,28 @@ class Refinement {
     const std::vector<CellResultants> found = states_.answersAt(fresh);
     for (std::size_t m = 0; m < fresh.size(); ++m) answers_[strainOf(states_.loadAt(fresh[m]))] = found[m];
 
-    std::vector<double> worst(intervals, 0.0);
-    double tension = 0, shear = 0;
+    Along along;
+    along.by_wanted.assign(intervals, 0.0);
+    const auto add = [&](std::size_t interval, int c, double error) {
+      const double wanted = c == 2 ? options_.shear_error : options_.tension_error;
+      along.greatest[c] = std::max(along.greatest[c], std::abs(error));
+      along.by_wanted[interval] = std::max(along.by_wanted[interval], std::abs(error) / wanted);
+    };
     for (const StrainStates::Between& place : all) {
-      const Strain E = strainOf(states_.loadAt(place));
-      const CellResultants& n = answers_.at(E);
-      std::array<StrainTaylor, 1> W;
-      spline.evaluate(E, W);
-      const auto [w1, w2, w3] = W[0].first;
-      const double by_tension = std::max(std::abs(w1 - n.n11), std::abs(w2 - n.n22)) / out.largest_tension_N_per_m;
-      const double by_shear = out.largest_shear_N_per_m > 0 ? std::abs(w3 - n.n12) / out.largest_shear_N_per_m : 0;
-      tension = std::max(tension, by_tension), shear = std::max(shear, by_shear);
-      double& w = worst[place.node[d]];
-      w = std::max({w, by_tension / options_.tension_error, by_shear / options_.shear_error});
+      const CellLoad load = states_.loadAt(place);
+      const Strain here = errorOf(spline, load, answers_.at(strainOf(load)), out);
+      StrainStates::Node next = place.node;
+      ++next[d];
+      const Strain &low = node_errors_[states_.index(place.node)], &high = node_errors_[states_.index(next)];
+      for (int c = 0; c < 3; ++c)
+        add(place.node[d], c, c == d ? here[c] : here[c] - (1 - place.part) * low[c] - place.part * high[c]);
     }
-    out.tension_error += tension, out.shear_error += shear;
-    return worst;
+    for (std::size_t m = 0; m < node_errors_.size(); ++m) {
+      const std::size_t i = states_.nodeOf(m)[d];
+      if (i > 0) add(i - 1, d, node_errors_[m][d]);
+      if (i < intervals) add(i, d, node_errors_[m][d]);
+    }
+    return along;
   }
 
   std::size_t nodeAt(int direction, double strain) const {
@@ -160,6 +193,7 @@ class Refinement {
   StrainStates states_;
   std::array<std::array<double, 3>, 3> lines_;
   std::map<Strain, CellResultants> answers_;  ///< of places checked
+  std::vector<Strain> node_errors_;
 };
 
 /// b and D at the nodes of `first`, which are among those of the states.
@@ -174,7 +208,7 @@ void addBending(const RodCell& cell, const StrainStates& states, const Nodes& fi
     for (std::size_t j = 0; j < first[1].size(); ++j)
       for (std::size_t k = 0; k < first[2].size(); ++k)
         at[table.bending.index(i, j, k)] =
-            &states.at(place(0, first[0][i]), place(1, first[1][j]), place(2, first[2][k]));
+            &states.at({place(0, first[0][i]), place(1, first[1][j]), place(2, first[2][k])});
   const bool equal_faces = hasEqualFaces(cell.yarns().weave);
   table.rigidity.resize(at.size());
   if (!equal_faces) table.moment.resize(at.size());
@@ -209,8 +243,8 @@ HomogenisedCell homogeniseOver(const RodCell& cell, const HomogeniseOptions& opt
   out.table.even_in_shear = even;
   out.table.membrane = refinement.grid();
   out.table.energy = refinement.energies();
-  addBending(cell, refinement.states(),
-             options.rigidity_by_strain ? first : Nodes{{{0.0}, {0.0}, {0.0}}}, even, out.table);
+  addBending(cell, refinement.states(), options.rigidity_by_strain ? first : Nodes{{{0.0}, {0.0}, {0.0}}}, even,
+             out.table);
   return out;
 }
 

@@ -35,8 +35,7 @@ void inLines(const RodCell& cell, std::size_t n, std::vector<std::string>& failu
 
 }  // namespace
 
-void StrainStates::throwFirst(std::span<const std::string> failures,
-                              const std::function<CellLoad(std::size_t)>& load) {
+void StrainStates::throwFirst(std::span<const std::string> failures, const std::function<CellLoad(std::size_t)>& load) {
   for (std::size_t i = 0; i < failures.size(); ++i)
     if (!failures[i].empty()) throw NoEquilibrium(load(i), failures[i]);
 }
@@ -49,8 +48,8 @@ StrainStates::StrainStates(const RodCell& cell, const std::array<std::vector<dou
   EquilibriumWork work(cell_);
   CellState rest{{}, {cell_.rest().begin(), cell_.rest().end()}, {}};
   const CellLoad first = loadOf(origin);
-  const std::string why = findState(cell_, rest, carried(rest.sections, {}, first), first, work, options_,
-                                    states_[index(origin)]);
+  const std::string why =
+      findState(cell_, rest, carried(rest.sections, {}, first), first, work, options_, states_[index(origin)]);
   if (!why.empty()) throw NoEquilibrium(first, why);
 
   goOut(std::vector<Node>{origin}, 2);
@@ -78,8 +77,9 @@ void StrainStates::goOut(std::span<const Node> from, int direction) {
       node[direction] = at;
       const std::size_t here = index(node);
       const CellLoad to = loadOf(node);
-      const double part = before == last ? 1 : 1 + (strain(to) - strain(states_[last].load)) /
-                                                       (strain(states_[last].load) - strain(states_[before].load));
+      const double part = before == last ? 1
+                                         : 1 + (strain(to) - strain(states_[last].load)) /
+                                                   (strain(states_[last].load) - strain(states_[before].load));
       try {
         failures[here] = findState(cell_, states_[last], mixed(states_[before], states_[last], part, to), to, work,
                                    options_, states_[here]);
@@ -90,10 +90,7 @@ void StrainStates::goOut(std::span<const Node> from, int direction) {
       before = last, last = here;
     }
   });
-  const std::size_t shears = nodes_[2].size(), warps = nodes_[1].size();
-  throwFirst(failures, [&](std::size_t i) {
-    return loadOf({i / (shears * warps), i / shears % warps, i % shears});
-  });
+  throwFirst(failures, [&](std::size_t i) { return loadOf(nodeOf(i)); });
 }
 
 void StrainStates::split(int direction, std::span<const int> intervals) {
@@ -137,8 +134,9 @@ CellLoad StrainStates::loadAt(const Between& place) const {
   const std::vector<double>& along = nodes_[place.direction];
   const std::size_t i = place.node[place.direction];
   CellLoad load = loadOf(place.node);
-  (place.direction == 0 ? load.e11 : place.direction == 1 ? load.e22 : load.g12) +=
-      place.part * (along[i + 1] - along[i]);
+  (place.direction == 0   ? load.e11
+   : place.direction == 1 ? load.e22
+                          : load.g12) += place.part * (along[i + 1] - along[i]);
   return load;
 }
 
@@ -152,8 +150,7 @@ std::vector<CellResultants> StrainStates::answersAt(std::span<const Between> pla
     const CellState &low = states_[index(place.node)], &high = states_[index(next)];
     const CellLoad to = loadAt(place);
     CellState found;
-    const std::string why =
-        findState(cell_, low, mixed(low, high, place.part, to), to, work, options_, found);
+    const std::string why = findState(cell_, low, mixed(low, high, place.part, to), to, work, options_, found);
     out[m] = found.resultants;
     return why;
   });

@@ -23,17 +23,24 @@ class NoEquilibrium : public RunError {
 };
 
 /// Nodes in E11, E22, 2 E12, ascending; states in the order of law tables, E11 slowest. Work is cut into lines of
-/// nodes that are fixed: each goes from a state that is known, each of its loads from what the two before it lead to (or
-/// lie between), so that the bits do not depend on threads.
+/// nodes that are fixed: each goes from a state that is known, each of its loads from what the two before it lead to
+/// (or lie between), so that the bits do not depend on threads.
 class StrainStates {
  public:
-  /// From rest along shear, from there along E11, from there along E22. Throws NoEquilibrium, of the first in the order of
-  /// the nodes.
+  /// From rest along shear, from there along E11, from there along E22. Throws NoEquilibrium, of the first in the order
+  /// of the nodes.
   StrainStates(const RodCell& cell, const std::array<std::vector<double>, 3>& nodes, const EquilibriumOptions& options);
+
+  using Node = std::array<std::size_t, 3>;
 
   const std::array<std::vector<double>, 3>& nodes() const { return nodes_; }
   std::size_t count() const { return states_.size(); }
-  const CellState& at(std::size_t i, std::size_t j, std::size_t k) const { return states_[index({i, j, k})]; }
+  std::size_t index(const Node& n) const { return (n[0] * nodes_[1].size() + n[1]) * nodes_[2].size() + n[2]; }
+  Node nodeOf(std::size_t index) const {
+    return {index / (nodes_[1].size() * nodes_[2].size()), index / nodes_[2].size() % nodes_[1].size(),
+            index % nodes_[2].size()};
+  }
+  const CellState& at(const Node& n) const { return states_[index(n)]; }
   std::span<const CellState> all() const { return states_; }
 
   /// Nodes half way in these intervals of a direction, ascending; each state from its two neighbours.
@@ -41,7 +48,7 @@ class StrainStates {
 
   /// A strain between two neighbours of the grid in one direction: `part` of the way from a node to the next.
   struct Between {
-    std::array<std::size_t, 3> node;
+    Node node;
     int direction;
     double part;
   };
@@ -50,8 +57,6 @@ class StrainStates {
   std::vector<CellResultants> answersAt(std::span<const Between> places) const;
 
  private:
-  using Node = std::array<std::size_t, 3>;
-  std::size_t index(const Node& n) const { return (n[0] * nodes_[1].size() + n[1]) * nodes_[2].size() + n[2]; }
   CellLoad loadOf(const Node& n) const { return {nodes_[0][n[0]], nodes_[1][n[1]], nodes_[2][n[2]], 0, 0}; }
   /// Both ways from a node that is known, along a direction.
   void goOut(std::span<const Node> from, int direction);

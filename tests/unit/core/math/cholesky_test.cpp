@@ -55,6 +55,29 @@ TEST(Cholesky, SolvesRandomPositiveDefiniteSystems) {
   }
 }
 
+/// Entry by entry as in blocks, also side by side: each thread has a factor of its own.
+TEST(Cholesky, EntriesWorkSideBySide) {
+  for (const double shift : {12.0, 0.4}) {
+    const Eigen::MatrixXd a = randomSymmetric(150, shift, 5);
+    SymmetricFactor blocks(sparseOf(a));
+    const Definiteness is = blocks.factorise(sparseOf(a));
+    const auto pivotOf = [&] {
+      SymmetricFactor factor(sparseOf(a), Elimination::entries);
+      EXPECT_EQ(factor.factorise(sparseOf(a)), is);
+      EXPECT_EQ(factor.negativePivots(), blocks.negativePivots());
+      EXPECT_LT(relativeError(factor, a), 1e-10);
+      return factor.smallestPivot();
+    };
+    const double alone = pivotOf();
+    const auto many = [&] {
+      for (int k = 0; k < 20; ++k) EXPECT_EQ(pivotOf(), alone);
+    };
+    std::thread other(many);
+    many();
+    other.join();
+  }
+}
+
 /// Right sides on a few unknowns, of which alone the solution is wanted; an indefinite matrix goes the long way.
 TEST(Cholesky, SolvesForWantedUnknowns) {
   for (const double shift : {12.0, 0.4}) {

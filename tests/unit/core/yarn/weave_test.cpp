@@ -58,6 +58,19 @@ TEST(Weave, WhatFallsApartIsRefused) {
   expectRefused([] { satinWeave(5, 4); }, "weave.step", "2 to 3");
 }
 
+TEST(Weave, KnowsItsMirrorsAndFaces) {
+  EXPECT_TRUE(isMirrorSymmetric(plainWeave()));
+  EXPECT_TRUE(hasEqualFaces(plainWeave()));
+  EXPECT_FALSE(isMirrorSymmetric(twillWeave(2, 2))) << "its line goes to the other side";
+  EXPECT_TRUE(hasEqualFaces(twillWeave(2, 2)));
+  EXPECT_FALSE(isMirrorSymmetric(twillWeave(2, 1)));
+  EXPECT_FALSE(hasEqualFaces(twillWeave(2, 1)));
+  EXPECT_FALSE(isMirrorSymmetric(satinWeave(5, 2))) << "step 2 becomes step 3";
+  EXPECT_FALSE(hasEqualFaces(satinWeave(8, 3)));
+  // A twill that turns back is its mirror image.
+  EXPECT_TRUE(isMirrorSymmetric(weaveOf({{1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 1, 0}, {0, 1, 0, 1}})));
+}
+
 WovenYarns cloth(const Weave& weave) {
   return {weave, {WovenYarn{1e-3, 0.16e-3, 0.24e-3, 0.16e-3}, WovenYarn{1.5e-3, 0.12e-3, 0.2e-3, 0.1e-3}}};
 }
