@@ -50,6 +50,8 @@ double rigidityAlong(const RodCell& cell, const CellLoad& flat, double direction
 CellBending bendingOf(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections,
                       EquilibriumWork& work) {
   if (load.curvature_per_m != 0) throw RunError("how a cell begins to bend is asked of a flat one");
+  if (cell.design().extent == CellExtent::quarter)
+    throw InputError({"", 0, "extent"}, "quarter, must be full where the cloth bends");
   const CellFaces faces = facesOf(cell.yarns(), load);
   cell.evaluate(faces, sections, work.answer);
   if (!work.settle(faces, sections, work.answer)) throw RunError("the cell of yarns is not stable");

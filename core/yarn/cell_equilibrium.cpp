@@ -21,7 +21,8 @@ std::vector<Pose> movedBy(const RodCell& cell, std::span<const Pose> sections, s
   for (int i = 0; i < cell.sections(); ++i) {
     Vec3 by[2];
     for (int c = 0; c < 6; ++c)
-      for (int k = C.offsets[6 * i + c]; k < C.offsets[6 * i + c + 1]; ++k) by[c / 3][c % 3] += s * d[C.columns[k]];
+      for (int k = C.offsets[6 * i + c]; k < C.offsets[6 * i + c + 1]; ++k)
+        by[c / 3][c % 3] += s * C.values[k] * d[C.columns[k]];
     moved[i].origin += by[0];
     moved[i].rotation = turned(moved[i].rotation, by[1] / cell.turnLength_m());
   }
@@ -192,6 +193,8 @@ LoadReport changeLoad(const RodCell& cell, const CellLoad& from, const CellLoad&
   checkLoad(to);
   if (cell.design().faces == FaceSupport::held && to.curvature_per_m != 0)
     throw InputError({"", 0, "faces"}, "held, must be glide where the cloth bends");
+  if (cell.design().extent == CellExtent::quarter && to.curvature_per_m != 0)
+    throw InputError({"", 0, "extent"}, "quarter, must be full where the cloth bends");
   LoadReport report;
   report.reached = from;
   const double least = std::ldexp(1.0, -options.halvings);

@@ -74,8 +74,8 @@ EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, s
 
 /// From an equilibrium under one load to one under another, the sections carried along; where that does not come to
 /// rest, by way of loads between, the change halved up to `halvings` times. Where it fails, `sections` are of the last
-/// load that was reached and `reached` is that. Throws InputError as checkLoad, and with the key "faces" where held
-/// faces are to bend.
+/// load that was reached and `reached` is that. Throws InputError as checkLoad, and with the keys "faces", "extent" where
+/// held faces or a quarter are to bend.
 struct LoadReport : EquilibriumReport {
   CellLoad reached;
 };

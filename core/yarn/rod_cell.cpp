@@ -66,12 +66,29 @@ RodCell::RodCell(const RodCellDesign& design) : design_(design) {
   touch_m_ = yarns().yarn[along_weft].half_thickness_m + yarns().yarn[along_warp].half_thickness_m;
   addYarns();
   if (design_.contact) addPairs();
+  if (design_.extent == CellExtent::quarter &&
+      (yarns().weave.warps != 2 || yarns().weave.wefts != 2 || !hasEqualFaces(yarns().weave)))
+    throw InputError({"", 0, "extent"}, "quarter, must be full unless the weave is plain");
+  addFreedoms();
+}
+
+/// Column by column of the sections that move by themselves; the images of a quarter refer to theirs.
+void RodCell::addFreedoms() {
+  constexpr std::array<double, 6> kGlide{1, 1, -1, -1, -1, 1};
+  const bool quarter = design_.extent == CellExtent::quarter, held = design_.faces == FaceSupport::held;
+  const int n = design_.pieces_per_spacing;
+  std::vector<std::array<int, 6>> columns(rest_.size());
   for (const int d : {along_weft, along_warp})
-    for (int i = 0; i < yarns().count(d) * sectionsOf(d); ++i)
-      for (int c = 0; c < 6; ++c) {
-        const bool held = design_.faces == FaceSupport::held && i % sectionsOf(d) == 0 && c == 2;
-        if (!held) freedoms_.add(freedoms_.column_count++, 1);
-        freedoms_.endRow();
+    for (int k = 0; k < yarns().count(d); ++k)
+      for (int i = 0; i < sectionsOf(d); ++i) {
+        const bool own = !quarter || (k == 0 && i < n), mirrored = quarter && (k + i / n) % 2 == 1;
+        const int here = firstSection(d, k) + i, origin = quarter ? firstSection(d, 0) + i % n : here;
+        for (int c = 0; c < 6; ++c) {
+          const bool in_face = i % (quarter ? n : sectionsOf(d)) == 0;
+          if (own) columns[here][c] = held && in_face && c == 2 ? -1 : freedoms_.column_count++;
+          if (columns[origin][c] >= 0) freedoms_.add(columns[origin][c], mirrored ? kGlide[c] : 1);
+          freedoms_.endRow();
+        }
       }
   for (int c = 0; c < 6; ++c) freedoms_.endRow();
 }

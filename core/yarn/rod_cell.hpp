@@ -15,8 +15,15 @@
 
 namespace gambeson {
 
-/// Whether sections in the faces of the cell may move through the cloth. Faces lie half way between crossings. Held
-/// faces (Man 2006, section 4.3.5.3) stiffen the cell and are of flat cloth alone.
+/// How much of a plain weave moves by itself. In a quarter (Man 2006, fig. 19c) one crossing does, and its neighbours
+/// are its images under a glide: on by a spacing and mirrored in the middle of the cloth,
+///   u(X + L) = (u1, u2, -u3)(X),  turns about the section's axes (-a1, -a2, a3).
+/// Plain weaves keep this symmetry under any strain of the plane, unless they buckle; no bend has it.
+enum class CellExtent { full, quarter };
+
+/// Whether sections in the faces of the cell may move through the cloth. Faces lie half way between crossings; a
+/// quarter has them between any two, a full cell at its ends. Held faces (Man 2006, section 4.3.5.3) stiffen the cell
+/// and are of flat cloth alone.
 enum class FaceSupport { glide, held };
 
 struct RodCellDesign {
@@ -26,8 +33,10 @@ struct RodCellDesign {
   LateralCompression compression;     ///< where they do not
   FaceSupport faces = FaceSupport::glide;
   /// Of each yarn between neighbours of the other direction; even, 4 to 256. Contact is a sum over pairs of sections:
-  /// with fewer than 16 yarns catch on each other's sections, and a lightly pressed crossing may be unstable.
-  int pieces_per_spacing = 16;
+  /// with fewer than 16 yarns catch on each other's sections, and a lightly pressed crossing may be unstable; with 16
+  /// its shear stiffness may still be negative, by some 5e-4 of that along the yarns.
+  int pieces_per_spacing = 24;
+  CellExtent extent = CellExtent::full;
 };
 
 /// What a cell answers. Blocks of three unknowns: of section i the place x [m] (block 2 i) and the turn about its own
@@ -46,7 +55,7 @@ class RodCell {
  public:
   /// Throws InputError where the yarns cannot lie so (checkWovenYarns), a section stretches, shears or bends without
   /// stiffness (keys "weft.section.stretch" and so on; torsion may have none), the law of compression is out of range
-  /// (checkCompression), or "pieces_per_spacing" is.
+  /// (checkCompression), "pieces_per_spacing" is, or "extent" is a quarter of no plain weave.
   explicit RodCell(const RodCellDesign& design);
 
   const RodCellDesign& design() const { return design_; }
@@ -97,6 +106,7 @@ class RodCell {
   Image imageOf(int direction, int k, int i) const;
   void addYarns();
   void addPairs();
+  void addFreedoms();
 
   RodCellDesign design_;
   std::vector<Pose> rest_;

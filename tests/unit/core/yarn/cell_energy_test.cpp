@@ -18,12 +18,11 @@ namespace {
 
 using namespace shapes;
 
-/// A balanced plain weave of spacing 1 mm.
+/// A balanced plain weave of spacing 1.
 RodCellDesign plain(int pieces) {
   RodCellDesign d;
-  const double L = 1e-3, b = 0.16 * L;
-  d.yarns = {plainWeave(), {WovenYarn{L, b, 1.5 * b, b}, WovenYarn{L, b, 1.5 * b, b}}};
-  d.section = {RodSection{10, 0.5, 0.4, 1e-8, 3e-8, 5e-8}, RodSection{10, 0.5, 0.4, 1e-8, 3e-8, 5e-8}};
+  d.yarns = {plainWeave(), {WovenYarn{1, 0.16, 0.24, 0.16}, WovenYarn{1, 0.16, 0.24, 0.16}}};
+  d.section = {RodSection{10, 0.5, 0.4, 0.01, 0.03, 0.05}, RodSection{10, 0.5, 0.4, 0.01, 0.03, 0.05}};
   d.compression = {0.1, 3};
   d.pieces_per_spacing = pieces;
   return d;
@@ -38,9 +37,9 @@ double resultantOf(const SheetAnswer& a, std::size_t i) { return i < 3 ? a.resul
 
 /// A19: 1e-5.
 TEST(CellEnergy, SlopesAreDifferencesOfResultantsAndTheseOfTheEnergy) {
-  const SheetStrain at{{0.06, 0.045, 0.1}, {40, -25, 30}};
+  const SheetStrain at{{0.06, 0.045, 0.1}, {0.04, -0.025, 0.03}};
   const SheetAnswer here = cells().at(at);
-  const double step[6] = {1e-5, 1e-5, 1e-5, 1e-1, 1e-1, 1e-1};
+  const double step[6] = {1e-5, 1e-5, 1e-5, 1e-4, 1e-4, 1e-4};
   double force = 0, stiffest = 0, worst_force = 0, worst_slope = 0;
   for (std::size_t i = 0; i < 6; ++i) {
     force = std::max(force, std::abs(resultantOf(here, i)) * step[i]);
@@ -89,23 +88,23 @@ TEST(CellEnergy, WhatFindsNoAnswerHasNone) {
 /// A19, on eight points: the same sheet by cells and by the table made from them, within 1 %.
 TEST(CellEnergy, ASheetOfCellsAnswersAsItsTable) {
   HomogeniseOptions options;
-  options.range = {{{0, 0.06}, {0, 0.06}, {-0.15, 0.15}}};  // cells of so few pieces are not stable when pressed
-  options.first_nodes = {5, 5, 4};
-  options.most_nodes = 100;
+  options.range = {{{0, 0.08}, {0, 0.08}, {-0.3, 0.3}}};
+  options.first_nodes = {4, 4, 4};
+  options.tension_error = 0.01, options.shear_error = 0.03;  // of the largest in the range
   options.rigidity_by_strain = false;
   Fabric fabric;
-  fabric.thickness_m = 0.5e-3;
-  const auto energy = std::make_shared<const CellEnergy>(plain(8));
+  fabric.thickness_m = 0.5;
+  const auto energy = std::make_shared<const CellEnergy>(plain(12));
   const Fabric of_cells = withEnergy(fabric, energy);
   const Fabric of_table =
       withEnergy(fabric, std::make_shared<const LawTable>(homogenise(energy->cell(), options).table));
   std::vector<std::vector<Vec3>> force;
   std::vector<double> stored;
   for (const Fabric& f : {of_cells, of_table}) {
-    const Garment g = garmentOf({flatPatch(uniformKnots(2, 2), uniformKnots(2, 1), 0.02, 0.01)}, {}, f);
+    const Garment g = garmentOf({flatPatch(uniformKnots(2, 2), uniformKnots(2, 1), 20, 10)}, {}, f);
     const Shell shell(g, widestKernels());
     std::vector<Vec3> q = restPoints(g);
-    for (Vec3& x : q) x = {1.035 * x.x + 0.08 * x.y, 1.02 * x.y + 0.5 * x.x * x.y, 2 * x.x * x.x};
+    for (Vec3& x : q) x = {1.05 * x.x + 0.1 * x.y, 1.05 * x.y + 5e-4 * x.x * x.y, 2e-3 * x.x * x.x};
     force.push_back(forceOn(shell, q, &stored.emplace_back()));
   }
   double largest = 0;
