@@ -74,6 +74,9 @@ void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
   if (const auto* biaxial = std::get_if<BiaxialPath>(&p.load); biaxial && biaxial->ratio * biaxial->extension <= -0.5)
     load.failAt("ratio", fmt::format("shortens the warp by {:g}; allowed: by less than 0.5",
                                      -biaxial->ratio * biaxial->extension));
+  if (const auto* shear = std::get_if<ShearPath>(&p.load); shear && !(std::abs(shear->shear) < 1 + shear->extension))
+    load.failAt("shear", fmt::format("{:g} turns the cloth over; allowed: below 1 + extension = {:g}", shear->shear,
+                                     1 + shear->extension));
   for (const double t : partsOf(p)) {
     try {
       checkLoad(targetOf(p.load, t).load);

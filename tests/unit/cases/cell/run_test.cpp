@@ -128,9 +128,9 @@ TEST(CellRun, TablesSummaryAndPage) {
   EXPECT_EQ(caseIdentity(readCellCase(out / "case.json")), caseIdentity(c));
 }
 
-const std::vector<std::string> kQuick{"output.pictures=[]", "solver.pieces_per_spacing=4",
-                                      R"(loads=[{"name":"a","biaxial":{"extension":0.05},"steps":2},
-              {"name":"b","trellis":{"angle":0.1,"extension":0.05},"steps":1,"cycles":1}])"};
+const std::vector<std::string> kQuick{"output.pictures=[]", "solver.pieces_per_spacing=6",
+                                      R"(loads=[{"name":"a","biaxial":{"extension":0.02},"steps":2},
+              {"name":"b","trellis":{"angle":0.1,"extension":0.02},"steps":1,"cycles":1}])"};
 
 /// The same bits for any number of threads, and for a run that was stopped after any load and goes on.
 TEST(CellRun, ThreadsAndResumeChangeNoBit) {
@@ -181,7 +181,7 @@ TEST(CellRun, YarnsSideBySideAreWatched) {
   const Folder folder;
   const std::filesystem::path out = folder.path() / "out";
   const std::string loose =
-      replaced(cell_example, R"("compression": {"half_force": "5 N", "exponent": 3})", R"("contact": false)");
+      replaced(cell_example, R"("compression": {"half_force": "800 N", "exponent": 3})", R"("contact": false)");
   const CellCase c = readCellCase(folder.write("cell.json", loose),
                                   {"output.pictures=[]", "solver.pieces_per_spacing=4",
                                    R"(loads=[{"name":"turned","trellis":{"angle":"65 deg"},"steps":4}])"});
