@@ -67,6 +67,12 @@ TEST(CellEngine, WeftAndWarpOfABalancedWeaveAreAlike) {
     const CellPoint weft = engine->specimen()->bring(targetOf(UniaxialPath{0.05, along_weft, free}, 1)).point;
     const CellPoint warp = engine->specimen()->bring(targetOf(UniaxialPath{0.05, along_warp, free}, 1)).point;
     EXPECT_NEAR(weft.resultants.n11, warp.resultants.n22, 1e-5 * weft.resultants.n11);
+    ASSERT_GT(weft.resultants.n11, 1000);
+    if (free) {
+      EXPECT_LE(std::abs(weft.resultants.n22), 1e-6 * weft.resultants.n11);
+    } else {
+      EXPECT_GT(weft.resultants.n22, 0.01 * weft.resultants.n11);
+    }
     EXPECT_NEAR(weft.load.e22, warp.load.e11, 1e-6);
     EXPECT_NEAR(weft.tension_N[along_weft], warp.tension_N[along_warp], 1e-4 * weft.tension_N[along_weft]);
   }

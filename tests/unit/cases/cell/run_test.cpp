@@ -91,6 +91,7 @@ TEST(CellRun, TablesSummaryAndPage) {
   EXPECT_LT(one.at("e11")[2], -1e-4);
   EXPECT_GT(bent.at("moment_N")[2], 0);
   ASSERT_EQ(turned.at("part").size(), 5u);
+  EXPECT_NEAR(turned.at("e12")[2], 0.5 * 1.01 * 1.01 * std::sin(std::numbers::pi / 18), 1e-12);
   EXPECT_NEAR(turned.at("energy_J_per_m2")[4], turned.at("energy_J_per_m2")[0], 1e-6 * turned.at("energy_J_per_m2")[2]);
   EXPECT_NEAR(turned.at("n12_N_per_m")[3], turned.at("n12_N_per_m")[1], 1e-6 * turned.at("n11_N_per_m")[2]);
 
