@@ -54,6 +54,7 @@ std::string captionOf(const RecordedCell& cell, const CellPicture& picture) {
 std::vector<CellPicture> picturesOf(const RecordedCell& cell) {
   constexpr std::size_t kMost = 8;
   const CellCase& c = cell.definition();
+  if (c.output.shapes == CellShapesKept::none) return {};
   if (!c.output.pictures.empty()) return c.output.pictures;
   std::vector<CellPicture> pictures(1);
   pictures[0].field = CellField::direction;

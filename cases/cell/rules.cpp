@@ -96,6 +96,8 @@ void checkName(const Entry& entry, const std::string& name, std::set<std::string
 }
 
 void checkPictures(const Entry& root, const CellCase& c, const std::set<std::string>& names) {
+  if (c.output.shapes == CellShapesKept::none && !c.output.pictures.empty())
+    memberOf(root, "output").failAt("pictures", "need a shape; allowed with shapes last or all");
   for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
     const std::string& path = c.output.pictures[i].path;
     if (path.empty() || names.contains(path)) continue;

@@ -68,6 +68,7 @@ TEST(MalformedCell, EachSaysFileLineKeyAndReason) {
           {"[1e9, 3e9]", "[1e9]", 21, "bars[0].young", "1 values for 2 pieces"},
           {"\"pieces_per_spacing\": 8", "\"pieces_per_spacing\": 9", 22, "solver.pieces_per_spacing", "is odd"},
           {"\"pieces_per_spacing\": 8", "\"pieces_per_spacing\": 2", 22, "solver.pieces_per_spacing", "allowed: >= 4"},
+          {"\"output\": {", "\"output\": {\"shapes\": \"none\", ", 23, "output.pictures", "need a shape"},
           {"\"path\": \"both\"", "\"path\": \"bothe\"", 23, "output.pictures[0].path", "allowed: bent, both, one"},
       });
 }
