@@ -87,12 +87,15 @@ void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
   }
 }
 
-/// Names of columns, plots and files.
-void checkName(const Entry& entry, const std::string& name, std::set<std::string>& names) {
-  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
-    entry.failAt("name", "is the name of files; allowed: letters, digits, _ and -");
+void checkUnused(const Entry& entry, const std::string& name, std::set<std::string>& names) {
   if (!names.insert(name).second)
     entry.failAt("name", fmt::format("\"{}\" is used twice; allowed: a name of its own", name));
+}
+
+/// Of a load, which pictures are called by.
+void checkFileName(const Entry& entry, const std::string& name) {
+  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
+    entry.failAt("name", "is the name of files; allowed: letters, digits, _ and -");
 }
 
 void checkPictures(const Entry& root, const CellCase& c, const std::set<std::string>& names) {
@@ -131,11 +134,12 @@ void applyCellRules(const Entry& root, CellCase& c) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < c.paths.size(); ++i) {
     checkPath(itemOf(root, "loads", i), c, c.paths[i]);
-    checkName(itemOf(root, "loads", i), c.paths[i].name, names);
+    checkFileName(itemOf(root, "loads", i), c.paths[i].name);
+    checkUnused(itemOf(root, "loads", i), c.paths[i].name, names);
   }
   checkPictures(root, c, names);
   std::set<std::string> bars;
-  for (std::size_t i = 0; i < c.bars.size(); ++i) checkName(itemOf(root, "bars", i), c.bars[i].name, bars);
+  for (std::size_t i = 0; i < c.bars.size(); ++i) checkUnused(itemOf(root, "bars", i), c.bars[i].name, bars);
 }
 
 }  // namespace gambeson::schema
