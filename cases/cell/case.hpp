@@ -92,7 +92,7 @@ struct BarCase {
   PeriodicBar bar;
 };
 
-enum class CellShapesKept { last, all };
+enum class CellShapesKept { last, all, none };
 /// stress: along the yarns; direction: weft and warp in colours of their own.
 enum class CellField { stress, direction };
 

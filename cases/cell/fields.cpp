@@ -131,10 +131,10 @@ Object cellOutputTable() {
                        .build();
   return Table<O>("Output of a cell")
       .choice("shapes", &O::shapes,
-              std::vector<std::pair<std::string, CellShapesKept>>{{"last", CellShapesKept::last},
-                                                                  {"all", CellShapesKept::all}},
+              std::vector<std::pair<std::string, CellShapesKept>>{
+                  {"last", CellShapesKept::last}, {"all", CellShapesKept::all}, {"none", CellShapesKept::none}},
               "shapes of the yarns that are kept (frames.xdmf, for ParaView): at rest and at the end of each load, or "
-              "at every step")
+              "at every step; none: no pictures either")
       .list("pictures", &O::pictures, std::move(picture), "pictures to take")
       .defaultsTo("one of the cell at rest, and one of the end of each load")
       .build();

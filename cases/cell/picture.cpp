@@ -54,6 +54,7 @@ std::string captionOf(const RecordedCell& cell, const CellPicture& picture) {
 std::vector<CellPicture> picturesOf(const RecordedCell& cell) {
   constexpr std::size_t kMost = 8;
   const CellCase& c = cell.definition();
+  if (c.output.shapes == CellShapesKept::none) return {};
   if (!c.output.pictures.empty()) return c.output.pictures;
   std::vector<CellPicture> pictures(1);
   pictures[0].field = CellField::direction;
@@ -74,6 +75,9 @@ void renderCell(const RecordedCell& cell, const CellPicture& picture, const std:
   const WovenYarns yarns = wovenYarns(c);
   const Frame frame = cell.reader().frame(frameOf(cell, picture.path));
   const Field &stress = fieldOf(frame, "stress"), &direction = fieldOf(frame, "direction");
+  const std::size_t vertices = frame.positions.size() / 3;
+  if (stress.data.size() != vertices || direction.data.size() != vertices)
+    throw RunError("a shape of the recording has not one value for each of its vertices");
   const CellFaces faces = facesOf(yarns, cell.loadOf(frame));
   const int fewest = std::min(yarns.weave.warps, yarns.weave.wefts);
   const int repeats = picture.repeats.value_or(std::max(1, (kYarns + fewest - 1) / fewest));
@@ -90,8 +94,8 @@ void renderCell(const RecordedCell& cell, const CellPicture& picture, const std:
       for (const int d : {along_weft, along_warp}) {
         RenderMesh mesh;
         mesh.color = d == along_weft ? kWeft : kWarp;
-        std::vector<int> index(direction.data.size(), -1);
-        for (std::size_t v = 0; v < index.size(); ++v) {
+        std::vector<int> index(vertices, -1);
+        for (std::size_t v = 0; v < vertices; ++v) {
           if (static_cast<int>(direction.data[v]) != d) continue;
           index[v] = static_cast<int>(mesh.vertices.size());
           mesh.vertices.push_back(place *
@@ -99,7 +103,7 @@ void renderCell(const RecordedCell& cell, const CellPicture& picture, const std:
           if (colours) mesh.scalars.push_back(1e-6 * stress.data[v]);
         }
         for (const std::array<int, 3>& t : cell.reader().layout().triangles)
-          if (index[t[0]] >= 0) mesh.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
+          if (index.at(t[0]) >= 0) mesh.triangles.push_back({index.at(t[0]), index.at(t[1]), index.at(t[2])});
         scene.meshes.push_back(std::move(mesh));
       }
     }

@@ -74,6 +74,9 @@ void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
   if (const auto* biaxial = std::get_if<BiaxialPath>(&p.load); biaxial && biaxial->ratio * biaxial->extension <= -0.5)
     load.failAt("ratio", fmt::format("shortens the warp by {:g}; allowed: by less than 0.5",
                                      -biaxial->ratio * biaxial->extension));
+  if (const auto* shear = std::get_if<ShearPath>(&p.load); shear && !(std::abs(shear->shear) < 1 + shear->extension))
+    load.failAt("shear", fmt::format("{:g} turns the cloth over; allowed: below 1 + extension = {:g}", shear->shear,
+                                     1 + shear->extension));
   for (const double t : partsOf(p)) {
     try {
       checkLoad(targetOf(p.load, t).load);
@@ -84,15 +87,20 @@ void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
   }
 }
 
-/// Names of columns, plots and files.
-void checkName(const Entry& entry, const std::string& name, std::set<std::string>& names) {
-  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
-    entry.failAt("name", "is the name of files; allowed: letters, digits, _ and -");
+void checkUnused(const Entry& entry, const std::string& name, std::set<std::string>& names) {
   if (!names.insert(name).second)
     entry.failAt("name", fmt::format("\"{}\" is used twice; allowed: a name of its own", name));
 }
 
+/// Of a load, which pictures are called by.
+void checkFileName(const Entry& entry, const std::string& name) {
+  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
+    entry.failAt("name", "is the name of files; allowed: letters, digits, _ and -");
+}
+
 void checkPictures(const Entry& root, const CellCase& c, const std::set<std::string>& names) {
+  if (c.output.shapes == CellShapesKept::none && !c.output.pictures.empty())
+    memberOf(root, "output").failAt("pictures", "need a shape; allowed with shapes last or all");
   for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
     const std::string& path = c.output.pictures[i].path;
     if (path.empty() || names.contains(path)) continue;
@@ -126,11 +134,12 @@ void applyCellRules(const Entry& root, CellCase& c) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < c.paths.size(); ++i) {
     checkPath(itemOf(root, "loads", i), c, c.paths[i]);
-    checkName(itemOf(root, "loads", i), c.paths[i].name, names);
+    checkFileName(itemOf(root, "loads", i), c.paths[i].name);
+    checkUnused(itemOf(root, "loads", i), c.paths[i].name, names);
   }
   checkPictures(root, c, names);
   std::set<std::string> bars;
-  for (std::size_t i = 0; i < c.bars.size(); ++i) checkName(itemOf(root, "bars", i), c.bars[i].name, bars);
+  for (std::size_t i = 0; i < c.bars.size(); ++i) checkUnused(itemOf(root, "bars", i), c.bars[i].name, bars);
 }
 
 }  // namespace gambeson::schema

@@ -306,7 +306,7 @@ void addHomogenise(CLI::App& app, HomogeniseArguments& a) {
       "Nodes are added where cells solved between them differ most from the table, until the errors wanted hold. "
       "Friction between\nyarns is left out: an energy has none.\n\n"
       "Example:\n"
-      "  gambeson homogenise cases/library/cell_plain.json -o plain.law.json --e11 -0.01 0.06 --e22 -0.01 0.06\n\n"
+      "  gambeson homogenise cases/library/cell_spun.json -o spun.law.json --e11 -0.01 0.06 --e22 -0.01 0.06\n\n"
       "Exit status: 0 done; 1 a load has no equilibrium, or the errors wanted were not reached (the table is written "
       "then, and says its errors); 2 the case or\nan option is wrong.");
 }

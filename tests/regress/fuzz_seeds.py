@@ -66,7 +66,7 @@ CELL = """{
   "loads": [{"name": "both", "biaxial": {"extension": 0.04, "ratio": 0.5}, "steps": 2},
             {"name": "turned", "trellis": {"angle": "10 deg", "extension": 0.03}, "steps": 1, "cycles": 1}],
   "bars": [{"name": "two", "lengths": [0.5, 0.5], "young": [1e9, 3e9]}],
-  "solver": {"pieces_per_spacing": 4, "iterations": 40, "halvings": 2}, "output": {"shapes": "all", "pictures": []}
+  "solver": {"pieces_per_spacing": 4, "iterations": 40, "halvings": 2}, "output": {"shapes": "none"}
 }
 """
 STUDY = """{

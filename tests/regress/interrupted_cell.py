@@ -10,7 +10,7 @@ import time
 
 from common import SOURCE, Folder, check, command, run_case, same_results, summary
 
-OPTIONS = ["--set", "solver.pieces_per_spacing=8", "--set", "output.pictures=[]"]
+OPTIONS = ["--set", "solver.pieces_per_spacing=8", "--set", "output.shapes=none"]
 
 
 def main():

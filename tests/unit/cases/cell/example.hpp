@@ -21,7 +21,7 @@ inline const std::string cell_example = R"json({
     "spacing": "1 mm", "amplitude": "0.16 mm", "half_width": "0.25 mm", "half_thickness": "0.16 mm",
     "section": {"stretch": 1e4, "shear_across": 25, "shear_through": 25, "torsion": 1e-6, "bending_through": 6e-5, "bending_in_plane": 1e-4}
   },
-  "compression": {"half_force": "5 N", "exponent": 3},
+  "compression": {"half_force": "800 N", "exponent": 3},
   "height": "0.64 mm",
   "loads": [
     {"name": "both", "biaxial": {"extension": 0.04}, "steps": 4},

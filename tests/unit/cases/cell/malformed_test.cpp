@@ -38,11 +38,12 @@ TEST(MalformedCell, EachSaysFileLineKeyAndReason) {
           {"\"bending_through\": 6e-5, ", "", 11, "warp.section.bending_through", "is required"},
           {"\"section\": {\"stretch\"", "\"moduli\": {\"young\": 1, \"axial_shear\": 1}, \"section\": {\"stretch\"", 11,
            "warp.section", "excludes \"moduli\""},
-          {"\"half_force\": \"5 N\", ", "", 13, "compression.half_force", "is required"},
+          {"\"half_force\": \"800 N\", ", "", 13, "compression.half_force", "is required"},
           {"\"exponent\": 3", "\"exponent\": 7", 13, "compression.exponent", "allowed: >= 2 and <= 6"},
-          {"\"compression\": {\"half_force\": \"5 N\", \"exponent\": 3},\n", "\n", 1, "compression",
+          {"\"compression\": {\"half_force\": \"800 N\", \"exponent\": 3},\n", "\n", 1, "compression",
            "is required with contact"},
-          {"\"height\"", "\"contact\": false, \"height\"", 13, "compression", "goes with contact"},
+          {"\"height\": \"0.64 mm\"", "\"contact\": false, \"height\": \"0.64 mm\"", 13, "compression",
+           "goes with contact"},
           {"\"0.64 mm\"", "0", 14, "height", "allowed: > 0"},
           // Loads.
           {"\"name\": \"one\"", "\"name\": \"both\"", 17, "loads[1].name", "used twice"},
@@ -56,17 +57,18 @@ TEST(MalformedCell, EachSaysFileLineKeyAndReason) {
           {"\"biaxial\": {\"extension\": 0.04}", "\"pull\": {}", 16, "loads[0].pull", "unknown key"},
           {", \"biaxial\": {\"extension\": 0.04}", "", 16, "loads[0]", "one of biaxial"},
           {"\"biaxial\": {\"extension\": 0.04}", "\"shear\": {\"shear\": 0.8, \"extension\": -0.3}", 16,
-           "loads[0].shear", "of no plane cloth"},
+           "loads[0].shear.shear", "allowed: below 1 + extension"},
           {"\"5 1/m\"", "\"4 1/mm\"", 18, "loads[2].bending.curvature", "allowed: below"},
           {"\"10 deg\"", "\"90 deg\"", 19, "loads[3].trellis.angle", "allowed: >= -1.4"},
-          {"\"height\"", "\"faces\": \"held\", \"height\"", 18, "loads[2].bending", "do not bend"},
-          {"\"height\"", "\"yarns\": \"truss\", \"height\"", 22, "solver.pieces_per_spacing", "goes with yarns rod"},
+          {"\"height\": \"0.64 mm\"", "\"faces\": \"held\"", 18, "loads[2].bending", "do not bend"},
+          {"\"height\": \"0.64 mm\"", "\"yarns\": \"truss\"", 22, "solver.pieces_per_spacing", "goes with yarns rod"},
           {"\"height\": \"0.64 mm\",", "\"yarns\": \"beam\",", 14, "yarns", "allowed: rod or truss"},
           // The rest.
           {"[1e9, 3e9]", "[1e9, 0]", 21, "bars[0].young[1]", "allowed: > 0"},
           {"[1e9, 3e9]", "[1e9]", 21, "bars[0].young", "1 values for 2 pieces"},
           {"\"pieces_per_spacing\": 8", "\"pieces_per_spacing\": 9", 22, "solver.pieces_per_spacing", "is odd"},
           {"\"pieces_per_spacing\": 8", "\"pieces_per_spacing\": 2", 22, "solver.pieces_per_spacing", "allowed: >= 4"},
+          {"\"output\": {", "\"output\": {\"shapes\": \"none\", ", 23, "output.pictures", "need a shape"},
           {"\"path\": \"both\"", "\"path\": \"bothe\"", 23, "output.pictures[0].path", "allowed: bent, both, one"},
       });
 }
@@ -75,7 +77,7 @@ const std::string truss_example = R"json({
   "kind": "cell", "name": "truss", "yarns": "truss",
   "weave": {"pattern": "plain"},
   "weft": {"spacing": "1 mm", "amplitude": "0.16 mm", "half_width": "0.24 mm", "half_thickness": "0.16 mm", "moduli": {"young": "84.63 GPa", "axial_shear": "0.244 GPa"}},
-  "compression": {"half_force": "5 N"},
+  "compression": {"half_force": "800 N"},
   "loads": [{"name": "pull", "biaxial": {"extension": 0.04}}]
 })json";
 
@@ -86,7 +88,7 @@ TEST(MalformedCell, WhatATrussCannotDo) {
           {"{\"pattern\": \"plain\"}", "{\"pattern\": \"twill\", \"over\": 2, \"under\": 2}", 3, "weave.pattern",
            "allowed with yarns truss: plain"},
           {"\"amplitude\": \"0.16 mm\"", "\"amplitude\": \"0.18 mm\"", 4, "weft.amplitude", "allowed: within 1 %"},
-          {"\"compression\": {\"half_force\": \"5 N\"}", "\"contact\": false", 5, "contact",
+          {"\"compression\": {\"half_force\": \"800 N\"}", "\"contact\": false", 5, "contact",
            "allowed with yarns truss"},
           {"\"compression\"", "\"faces\": \"held\", \"compression\"", 5, "faces", "goes with yarns rod"},
           {"\"biaxial\": {\"extension\": 0.04}", "\"trellis\": {\"angle\": 0.1}", 6, "loads[0].trellis",

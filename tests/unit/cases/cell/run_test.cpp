@@ -62,7 +62,7 @@ TEST(CellRun, BendingAtRestIsThatOfTheYarns) {
                            slender + R"(}, "solver": {"pieces_per_spacing": 32, "tolerance": 1e-11}})";
   for (const auto& [amplitude, bias] : {std::pair("0.16 mm", false), std::pair("0.02 mm", true)}) {
     const CellCase c =
-        readCellCase(folder.write("bent.json", replaced(cell, "AMPLITUDE", amplitude)), {"output.pictures=[]"});
+        readCellCase(folder.write("bent.json", replaced(cell, "AMPLITUDE", amplitude)), {"output.shapes=none"});
     run(c, folder.path() / "out");
     const auto rest = summaryOf(folder.path() / "out").at("at_rest");
     const double S = 1 + measuresOf(c).crimp[along_weft], D = 2e-6 / (S * 1e-3);
@@ -91,6 +91,7 @@ TEST(CellRun, TablesSummaryAndPage) {
   EXPECT_LT(one.at("e11")[2], -1e-4);
   EXPECT_GT(bent.at("moment_N")[2], 0);
   ASSERT_EQ(turned.at("part").size(), 5u);
+  EXPECT_NEAR(turned.at("e12")[2], 0.5 * 1.01 * 1.01 * std::sin(std::numbers::pi / 18), 1e-12);
   EXPECT_NEAR(turned.at("energy_J_per_m2")[4], turned.at("energy_J_per_m2")[0], 1e-6 * turned.at("energy_J_per_m2")[2]);
   EXPECT_NEAR(turned.at("n12_N_per_m")[3], turned.at("n12_N_per_m")[1], 1e-6 * turned.at("n11_N_per_m")[2]);
 
@@ -128,9 +129,9 @@ TEST(CellRun, TablesSummaryAndPage) {
   EXPECT_EQ(caseIdentity(readCellCase(out / "case.json")), caseIdentity(c));
 }
 
-const std::vector<std::string> kQuick{"output.pictures=[]", "solver.pieces_per_spacing=4",
-                                      R"(loads=[{"name":"a","biaxial":{"extension":0.05},"steps":2},
-              {"name":"b","trellis":{"angle":0.1,"extension":0.05},"steps":1,"cycles":1}])"};
+const std::vector<std::string> kQuick{"output={}", "output.shapes=none", "solver.pieces_per_spacing=6",
+                                      R"(loads=[{"name":"a","biaxial":{"extension":0.02},"steps":2},
+              {"name":"b","trellis":{"angle":0.1,"extension":0.02},"steps":1,"cycles":1}])"};
 
 /// The same bits for any number of threads, and for a run that was stopped after any load and goes on.
 TEST(CellRun, ThreadsAndResumeChangeNoBit) {
@@ -162,7 +163,7 @@ TEST(CellRun, ThreadsAndResumeChangeNoBit) {
 TEST(CellRun, ALoadThatFailsLeavesTheOthers) {
   const Folder folder;
   const std::filesystem::path out = folder.path() / "out";
-  const CellCase c = example(folder, {"output.pictures=[]", "solver.iterations=3", "solver.halvings=0"});
+  const CellCase c = example(folder, {"output={}", "output.shapes=none", "solver.iterations=3", "solver.halvings=0"});
   try {
     run(c, out);
     ADD_FAILURE() << "three iterations are enough";
@@ -181,9 +182,9 @@ TEST(CellRun, YarnsSideBySideAreWatched) {
   const Folder folder;
   const std::filesystem::path out = folder.path() / "out";
   const std::string loose =
-      replaced(cell_example, R"("compression": {"half_force": "5 N", "exponent": 3})", R"("contact": false)");
+      replaced(cell_example, R"("compression": {"half_force": "800 N", "exponent": 3})", R"("contact": false)");
   const CellCase c = readCellCase(folder.write("cell.json", loose),
-                                  {"output.pictures=[]", "solver.pieces_per_spacing=4",
+                                  {"output={}", "output.shapes=none", "solver.pieces_per_spacing=4",
                                    R"(loads=[{"name":"turned","trellis":{"angle":"65 deg"},"steps":4}])"});
   run(c, out);
   // 1 mm cos(65 degrees) of yarns 0.5 mm wide.
