@@ -1,12 +1,15 @@
 #include "core/yarn/cell_energy.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <vector>
 
+#include "core/cloth/shell/tangent.hpp"
 #include "core/error.hpp"
 #include "core/material/linearised.hpp"
 #include "core/material/table/law_table.hpp"
@@ -111,6 +114,43 @@ TEST(CellEnergy, ASheetOfCellsAnswersAsItsTable) {
   for (const Vec3& f : force[1]) largest = std::max(largest, norm(f));
   for (std::size_t i = 0; i < force[0].size(); ++i) EXPECT_LT(norm(force[0][i] - force[1][i]), 1e-2 * largest);
   EXPECT_NEAR(stored[0], stored[1], 1e-2 * stored[1]);
+}
+
+/// Forces, what is remembered, and the tangent, point by point from a committed history.
+TEST(CellEnergy, BitsDoNotDependOnThreads) {
+  Fabric fabric;
+  fabric.thickness_m = 0.5;
+  const Garment g = garmentOf({flatPatch(uniformKnots(2, 3), uniformKnots(2, 1), 30, 10)}, {},
+                              withEnergy(fabric, std::make_shared<const CellEnergy>(plain(8))));
+  const Shell shell(g, widestKernels());
+  const FreeMap map = buildFreeMap(g);
+  const Tangent tangent(shell, map);
+  const auto run = [&](int threads) {
+    omp_set_num_threads(threads);
+    std::vector<double> history(shell.memory().doubles()), next(history.size()), all;
+    ClothWork work;
+    ClothEnergy energy;
+    for (const double stretch : {1.03, 1.05}) {
+      std::vector<Vec3> q = restPoints(g), f(q.size());
+      for (Vec3& x : q) x = {stretch * x.x + 0.1 * x.y, 1.04 * x.y + 5e-4 * x.x * x.y, 0};
+      const ClothState state(q, {}, history);
+      shell.force(state, {f, {}, next, &energy}, work, {});
+      BlockMatrix K;
+      tangent.assemble(shell, state, work, K);
+      for (const Vec3& v : f) all.insert(all.end(), {v.x, v.y, v.z});
+      all.insert(all.end(), K.values.begin(), K.values.end());
+      all.push_back(energy.stored);
+      history = next;
+    }
+    all.insert(all.end(), history.begin(), history.end());
+    return all;
+  };
+  const int before = omp_get_max_threads();
+  const std::vector<double> one = run(1), three = run(3);
+  omp_set_num_threads(before);
+  ASSERT_EQ(one.size(), three.size());
+  EXPECT_EQ(std::memcmp(one.data(), three.data(), one.size() * sizeof(double)), 0);
+  EXPECT_TRUE(std::isfinite(one[0]));
 }
 
 }  // namespace
