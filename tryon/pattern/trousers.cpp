@@ -84,36 +84,103 @@ class Measured {
   Vec2 lean_;
 };
 
-/// Where the control points of the tubes start.
+/// Where the control points of the tubes start: hips that open upward from the legs' two circles to a ring. Each row
+/// keeps its length: the direction of its curve, by the length from the centre, goes over from that of a circle to that
+/// of an ellipse. Each column keeps its length too: where it leans outward it reaches less high.
 class Opened {
  public:
   Opened(const TrousersPattern& p, const Measured& body, double width_m)
-      : rise_m_(p.rise_m),
-        width_m_(width_m),
+      : width_m_(width_m),
+        rise_m_(p.rise_m),
         radius_m_(width_m / std::numbers::pi),
         crotch_{body.legX(), body.medianY(), body.crotch()},
         lean_(body.legLean()),
-        ring_(body.outline().grown(4 * width_m / body.outline().length(), body.outline().centroid())),
-        front_(ring_.crossing({ring_.centroid().x, body.medianY()}, {1, 0})) {}
+        middle_x_(body.outline().centroid().x),
+        heading_(headingOf(body.outline())) {
+    for (int k = 0; k <= rows; ++k) row_.push_back(rowAt(static_cast<double>(k) / rows));
+    height_.assign(rows + 1, std::vector<double>(columns + 1, 0));
+    for (int k = rows - 1; k >= 0; --k)
+      for (int i = 0; i <= columns; ++i) {
+        const auto n = static_cast<std::size_t>(i);
+        const Vec2 &low = row_[k][n], &high = row_[k + 1][n];
+        const double step = rise_m_ / rows, out = std::hypot(high.x - low.x, high.y - low.y);
+        height_[k][n] = height_[k + 1][n] - std::sqrt(std::max(0.1 * step * step, step * step - out * out));
+      }
+  }
 
   const Vec3& crotch() const { return crotch_; }
 
   /// x: of the front or the back of a tube beside the crotch, to the left (side 1) or to the right (-1).
   Vec3 at(const Vec3& x, double side, bool front) const {
     const Vec3 d = x - crotch_;
-    if (d.z <= 0) return x + Vec3{lean_.x * d.z, side * lean_.y * d.z, 0};
-    const double share = d.z / rise_m_;
+    const double share = std::clamp(d.z / rise_m_, 0.0, 1.0);
     const double from_centre = std::atan2(std::abs(d.x), radius_m_ - side * d.y) / std::numbers::pi;
-    const Vec2 top = ring_.point(front_ + side * (front ? from_centre : 2 - from_centre) * width_m_);
-    return {x.x + share * (top.x - x.x), x.y + share * (top.y - x.y), x.z};
+    const Vec3 open = openedAt(from_centre, share);
+    const Vec3 start{crotch_.x + share * (middle_x_ - crotch_.x) + (front ? open.x : -open.x),
+                     crotch_.y + side * open.y, crotch_.z + rise_m_ + open.z};
+    const double below = std::min(d.z, 0.0);
+    return start + Vec3{lean_.x * below, side * lean_.y * below, below};
   }
 
  private:
-  double rise_m_, width_m_, radius_m_;
+  static constexpr int rows = 24, columns = 96;
+
+  /// Of a quarter of the ellipse that is as deep for its width as the outline: the direction of its curve at even
+  /// lengths from the centre to the side, from y to -x.
+  static std::vector<double> headingOf(const ClosedCurve& outline) {
+    const double depth = outline.extent({1, 0}) + outline.extent({-1, 0});
+    const double across = outline.extent({0, 1}) + outline.extent({0, -1});
+    constexpr int n = 4000;
+    std::vector<double> length{0}, angle;
+    for (int k = 0; k <= n; ++k) {
+      const double a = 0.5 * std::numbers::pi * k / n, dx = -depth * std::sin(a), dy = across * std::cos(a);
+      angle.push_back(std::atan2(dy, dx));
+      if (k > 0) length.push_back(length.back() + std::hypot(dx, dy));
+    }
+    std::vector<double> heading;
+    for (int i = 0; i <= columns; ++i) {
+      const double at = length.back() * i / columns;
+      const auto k = std::lower_bound(length.begin(), length.end(), at) - length.begin();
+      heading.push_back(angle[static_cast<std::size_t>(k)]);
+    }
+    return heading;
+  }
+
+  /// Half a front from the centre to the side; x is 0 at the side.
+  std::vector<Vec2> rowAt(double share) const {
+    std::vector<Vec2> row{{0, 0}};
+    for (int i = 1; i <= columns; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      const double circle = std::numbers::pi * (i - 0.5) / columns;
+      const double heading = circle + share * (0.5 * (heading_[n - 1] + heading_[n]) - circle);
+      row.push_back({row.back().x + width_m_ / columns * std::cos(heading),
+                     row.back().y + width_m_ / columns * std::sin(heading)});
+    }
+    const double side_x = row.back().x;
+    for (Vec2& x : row) x.x -= side_x;
+    return row;
+  }
+
+  /// x and y in its row, and its height below the waist edge.
+  Vec3 openedAt(double from_centre, double share) const {
+    const double u = columns * from_centre, v = rows * share;
+    const int i = std::min(static_cast<int>(u), columns - 1), k = std::min(static_cast<int>(v), rows - 1);
+    const auto point = [&](int row, int column) {
+      const auto n = static_cast<std::size_t>(column);
+      return Vec3{row_[row][n].x, row_[row][n].y, height_[row][n]};
+    };
+    const double s = u - i, t = v - k;
+    return (1 - t) * ((1 - s) * point(k, i) + s * point(k, i + 1)) +
+           t * ((1 - s) * point(k + 1, i) + s * point(k + 1, i + 1));
+  }
+
+  double width_m_, rise_m_, radius_m_;
   Vec3 crotch_;
   Vec2 lean_;
-  ClosedCurve ring_;
-  double front_;
+  double middle_x_;
+  std::vector<double> heading_;
+  std::vector<std::vector<Vec2>> row_;       ///< from the crotch up
+  std::vector<std::vector<double>> height_;  ///< likewise
 };
 
 }  // namespace

@@ -14,6 +14,11 @@
 namespace gambeson {
 namespace {
 
+Case withoutNoise(Case c) {
+  for (GarmentCase& g : c.garments) g.noise_m = 0;
+  return c;
+}
+
 /// Noise of the garments that are meshes from the start; that of drafts is their control points'.
 void addMeshNoise(const Case& c, const Wardrobe& wardrobe, ClothDraft& out) {
   for (std::size_t k = 0; k < c.garments.size(); ++k) {
@@ -50,6 +55,7 @@ ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wa
   }
   out.cloth = makeCloth(sources);
   out.start_m = out.cloth->fromDraft(start);
+  out.placed_m = out.cloth->fromDraft(startDisplacements(withoutNoise(c), drafts));
   for (const Garment& g : drafts) out.edges.push_back(g.edges);
   for (const ClothPatch& p : out.cloth->patches()) {
     const GarmentCase& worn = c.garments[static_cast<std::size_t>(p.garment)];

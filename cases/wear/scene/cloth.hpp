@@ -17,6 +17,7 @@ struct ClothDraft {
   std::vector<std::vector<NamedEdge>> edges;  ///< of each garment; patches counted in the garment
   std::vector<int> samples_per_cell;          ///< of each patch
   std::vector<Vec3> start_m;                  ///< displacement of each point from rest, that the motion starts from
+  std::vector<Vec3> placed_m;                 ///< of that what its garment's draft says of its place, without noise
   std::vector<Stitch> stitches;               ///< of panels that stand apart
 };
 

@@ -155,12 +155,13 @@ void buildModelOf(const Case& c, const Only& only, ClothDraft&& draft, const std
   findHeldPoints(*s.model, s.supports);
 }
 
-/// Where the cloth's points start, which lie at rest but for `start`.
-std::vector<Vec3> placeCloth(const std::vector<Vec3>& start, Scenario& s) {
+/// Where the cloth's points start, which lie at rest but for `start`; what is held has no noise, and is where its
+/// garment's draft has it (`placed`).
+std::vector<Vec3> placeCloth(const std::vector<Vec3>& start, const std::vector<Vec3>& placed, Scenario& s) {
   const FreeMap& map = s.model->cloth->map();
   if (std::any_of(start.begin(), start.end(), [](const Vec3& n) { return n != Vec3{}; }))
     for (std::size_t i = 0; i < map.home.size(); ++i)
-      s.shift_m.push_back(s.model->held[i] ? Vec3{} : start[static_cast<std::size_t>(map.home[i])]);
+      s.shift_m.push_back((s.model->held[i] ? placed : start)[static_cast<std::size_t>(map.home[i])]);
   std::vector<Vec3> at_start = s.model->cloth->rest();
   for (std::size_t i = 0; i < at_start.size(); ++i) at_start[i] += start[i];
   return at_start;
@@ -226,10 +227,10 @@ Assembled assemble(const Case& written, const Case& c, const Only& only, MadeBod
   const std::vector<Garment>& garments = s->wardrobe.drafts;
   const std::vector<int> first = nameParts(c, garments, *s);
   ClothDraft draft = underGarments(c, only, [&] { return clothOf(c, written.factors, s->wardrobe, only.panels); });
-  const std::vector<Vec3> start = std::move(draft.start_m);
+  const std::vector<Vec3> start = std::move(draft.start_m), placed = std::move(draft.placed_m);
   buildModelOf(c, only, std::move(draft), first, std::move(obstacles), *s);
   noteCoarseness(c, garments, first, *s);
-  std::vector<Vec3> at_start = placeCloth(start, *s);
+  std::vector<Vec3> at_start = placeCloth(start, placed, *s);
   nameContactRegions(*s, garments, first, at_start);
   planTimes(c, *s, *s->stage);
   drawCords(c, s->start_s, s->supports, *s->model);

@@ -140,6 +140,26 @@ TEST_P(Trousers, StartOpenAroundTheBody) {
   }
 }
 
+// They start bent, and sheared, but hardly stretched: rows and columns of the panels are as long as at rest, but for
+// rows that rise towards the crotch, which the opening lifts.
+TEST_P(Trousers, StartUnstretched) {
+  const auto lengthOf = [](const NurbsPatch& p, bool row, double at) {
+    double length = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double a = (i + 0.5) / 200;
+      length += norm(surfaceDerivatives(p, row ? a : at, row ? at : a)[row ? 1 : 2]) / 200;
+    }
+    return length;
+  };
+  for (int k = 0; k < 8; ++k)
+    for (const double at : {0.0, 0.2, 0.5, 0.8, 1.0}) {
+      const NurbsPatch p = started(k);
+      const double height = k < 4 ? pattern.rise_m : crotch() - pattern.hem_m;
+      EXPECT_NEAR(lengthOf(p, true, at) / width(), 1, 0.08) << k << " row " << at;
+      EXPECT_NEAR(lengthOf(p, false, at) / height, 1, 0.04) << k << " column " << at;
+    }
+}
+
 TEST_P(Trousers, AreTheirOwnMirrorImage) {
   for (const int k : {0, 2, 4, 6}) {
     const NurbsPatch left = started(k), right = started(k + 1);

@@ -81,7 +81,7 @@ TEST(Cord, PressesAsACordAroundABodyDoes) {
   EXPECT_NEAR(std::abs(pressed_Ns) / 0.1, 2 * std::numbers::pi * tension, 0.03 * 2 * std::numbers::pi * tension);
 }
 
-TEST(Cord, IsDrawnWindowByWindowAndResumed) {
+TEST(Cord, IsDrawnWindowByWindow) {
   const Folder folder;
   const Case c = readCase(folder.write("case.json", ring));
   ASSERT_EQ(runCase(c, {folder.path() / "out", 1, false}), 0);

@@ -33,6 +33,11 @@ TEST(TrousersScene, ArePulledUpOverTheLegs) {
   }
   for (const Vec3& p : x) highest = std::max(highest, p.z);
   EXPECT_LT(highest, lowest - 0.01);
+  // The waist edge is held where the draft opens it, not where it is at rest, front on back.
+  for (const int i : s->supports[1].samples)
+    if (std::abs(x[static_cast<std::size_t>(i)].y) < 0.01) {
+      EXPECT_GT(std::abs(x[static_cast<std::size_t>(i)].x), 0.12);
+    }
   const HeldSupport& hands = *heldOf(s->definition.supports[0]);
   EXPECT_NEAR(hands.drive.at(*hands.release_s).origin.z, -s->definition.garments[0].position_m.z, 1e-12);
   EXPECT_LT(*hands.release_s, std::get<StepOverOptions>(s->definition.human->motion).stand_s);
