@@ -265,11 +265,11 @@ TEST(FacetSurface, WhatIsOutOfReachIsNotTouched) {
   EXPECT_EQ(touches(s, x, {0.2, 0, -0.49}).size(), 1u);
 }
 
-/// A bumpy cushion of n by n facets over the unit square.
+/// A bumpy cushion of n by n facets, four times as long as wide.
 FacetSurface cushion(std::vector<Vec3>& x, int n) {
   std::vector<Facet> facets;
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) x.push_back({double(i) / n, double(j) / n, 0.1 * std::sin(7.0 * i + 3.0 * j)});
+    for (int i = 0; i <= n; ++i) x.push_back({4.0 * i / n, double(j) / n, 0.02 * std::sin(7.0 * i + 3.0 * j)});
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const int a = i + (n + 1) * j;
@@ -286,9 +286,9 @@ TEST(FacetSurface, TheGridOfBoxesLeavesOutNothing) {
   std::mt19937 random(7);
   int found = 0;
   for (int q = 0; q < 3000; ++q) {
-    Vec3 p{uniform(random, -0.3, 1.3), uniform(random, -0.3, 1.3), uniform(random, -0.3, 0.3)};
+    Vec3 p{uniform(random, -0.1, 4.1), uniform(random, -0.1, 1.1), uniform(random, -0.1, 0.1)};
     if (q % 5 == 0) p = x[q % x.size()];  // at a node several facets are equally near: the first
-    const double reach = uniform(random, 0.01, 0.4);
+    const double reach = uniform(random, 0.01, 0.2);
     NearestFacet all;
     for (int f = 0; f < 144; ++f) {
       const FacetPoint at = closestOnFacet(s.corners(f, x), p);

@@ -4,6 +4,7 @@
 #include "core/yarn/solid_response.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
 #include <numbers>
@@ -247,6 +248,21 @@ TEST(SolidCell, StretchedWithFreeSidesItHasNoStressAcross) {
   EXPECT_LT(std::abs(n.n22), 1e-6 * n.n11);
   EXPECT_LT(state.load.e22, -1e-3);
   EXPECT_NEAR(state.load.e11, 0.5 * (1.02 * 1.02 - 1), 1e-12);
+}
+
+TEST(SolidCell, SameBitsForAnyNumberOfThreads) {
+  std::vector<Vec3> x[2];
+  const int before = omp_get_max_threads();
+  for (const int k : {0, 1}) {
+    omp_set_num_threads(k == 0 ? 1 : 3);
+    SolidCellDesign d = designOf({2, 5});
+    d.friction = 0.2;
+    const SolidCell cell(d);
+    SolidCellWork work(cell);
+    x[k] = at(cell, work, {biaxial(1.01), sheared(0.05, 1.01)}).x;
+  }
+  omp_set_num_threads(before);
+  EXPECT_EQ(x[0], x[1]);
 }
 
 TEST(SolidCell, OtherWeavesStretchToo) {
