@@ -132,7 +132,8 @@ NearestFacet FacetSurface::nearest(std::span<const Vec3> x, const Spheres& spher
   for (int k = from[2]; k <= to[2]; ++k)
     for (int j = from[1]; j <= to[1]; ++j) {
       const int row = spheres.boxes[0] * (j + spheres.boxes[1] * k);
-      for (int at = spheres.offsets[row + from[0]]; at < spheres.offsets[row + to[0] + 1]; ++at) ask(spheres.facets[at]);
+      for (int at = spheres.offsets[row + from[0]]; at < spheres.offsets[row + to[0] + 1]; ++at)
+        ask(spheres.facets[at]);
     }
   return best;
 }
@@ -171,10 +172,9 @@ std::optional<FacetCandidate> FacetSurface::first(std::span<const Vec3> x, const
   // Beside a ridge the facet that is passed least; in a groove the one that is passed most goes first.
   const Candidate found = passed ? *std::max_element(own.begin(), own.end(), shallower)
                                  : *std::min_element(own.begin(), own.end(), shallower);
-  if (Candidate kept; held >= 0 && held != found.touch.facet &&
-                      candidateOf(corners(held, x), held, p, 1 + options.keep, kept) &&
-                      std::abs(kept.touch.gap_m) <= options.reach_m &&
-                      dot(kept.normal - found.normal, found.center - kept.center) > 0)
+  if (Candidate kept;
+      held >= 0 && held != found.touch.facet && candidateOf(corners(held, x), held, p, 1 + options.keep, kept) &&
+      std::abs(kept.touch.gap_m) <= options.reach_m && dot(kept.normal - found.normal, found.center - kept.center) > 0)
     return kept;
   return found;
 }
@@ -185,8 +185,8 @@ std::vector<FacetTouch> FacetSurface::touching(std::span<const Vec3> x, const Sp
   std::vector<Candidate> taken;
   if (options.keep > 0 && after == HeldFacet::keeps)
     for (const int facet : held)
-      if (Candidate c; candidateOf(corners(facet, x), facet, p, kBeyondOwn, c) &&
-                       std::abs(c.touch.gap_m) <= options.reach_m)
+      if (Candidate c;
+          candidateOf(corners(facet, x), facet, p, kBeyondOwn, c) && std::abs(c.touch.gap_m) <= options.reach_m)
         taken.push_back(c);
   if (taken.empty()) {
     const std::optional<Candidate> foremost =

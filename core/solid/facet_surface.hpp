@@ -72,7 +72,8 @@ class FacetSurface {
   /// The facets around a node, ascending.
   std::span<const int> facetsAt(int node) const;
 
-  /// Spheres around the facets at the positions x, for the searches there, and in which box of a grid their centers lie.
+  /// Spheres around the facets at the positions x, for the searches there, and in which box of a grid their centers
+  /// lie.
   struct Spheres {
     std::vector<Vec3> center;
     std::vector<double> radius;

@@ -237,8 +237,8 @@ int SolidContact::moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers
     const bool first = k == 0 || multipliers[k - 1].side != m.side || multipliers[k - 1].slave != m.slave;
     if (!first) return;
     const ContactSide& side = sides_[m.side];
-    const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[m.side], x[side.nodes[m.slave]], law_.touch,
-                                                                  {&m.facet, 1}, HeldFacet::goes_on);
+    const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[m.side], x[side.nodes[m.slave]],
+                                                                  law_.touch, {&m.facet, 1}, HeldFacet::goes_on);
     if (touches.empty() || touches[0].facet == m.facet) return;
     moved[k] = 1;
     m.facet = touches[0].facet;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kStepPrograms = 4;
 
 /// In grooves that are shallower facets hold a node one after the other; it keeps each for so long [half widths].
-constexpr double kGroove_rad = 0.5, kKeep = 0.1;
+constexpr double kGroove_rad = 0.5, kKeep = 0.3;
 
 constexpr Vec3 kAxis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 

@@ -19,7 +19,7 @@ struct SolidCellDesign {
   /// step to the next crossing and a reflection in the middle of the cloth take to the next quarter.
   bool quarter = false;
   FaceSupport faces = FaceSupport::glide;
-  bool contact = true;  ///< false: yarns pass through each other
+  bool contact = true;       ///< false: yarns pass through each other
   int pressed = along_weft;  ///< the direction whose surface nodes must not pass the facets of the other
   double friction = 0;       ///< mu >= 0
   FrictionBound bound = FrictionBound::symmetrised;

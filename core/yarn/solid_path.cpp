@@ -1,15 +1,9 @@
 #include "core/yarn/solid_path.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gambeson {
-namespace {
-
-/// Yarns that touch nothing slide along the cloth, and a lattice's may leave it: what that costs nothing takes no step.
-constexpr double kRaise = 1e-10;
-
-}  // namespace
-
 SolidCellState restOf(const SolidCell& cell) {
   SolidCellState state;
   state.x = cell.solids().mesh.nodes;
@@ -32,7 +26,7 @@ SolidLoadReport changeLoad(const SolidCell& cell, const CellLoad& to, SolidCellS
   path.passes = options.passes;
   path.change = options.change;
   path.deepest_m = options.deepest * thin;
-  path.raise = kRaise;
+  path.raise = kSolidCellRaise;
   ContactState at = contactStart(work.system);
   if (!state.y.empty()) at.y = state.y;
   at.multipliers = state.multipliers;

@@ -31,7 +31,7 @@ class Linearised {
     K_ = cell.body().sparsity();
     cell.body().stiffness(x_, K_, scratch);
     SymmetricMatrix reduced = lowerTriangle(contact.tangent(multipliers, state.y), system_.size());
-    for (int c = 0; c < reduced.size; ++c) reduced.values[reduced.offsets[c]] *= 1 + kRaise;
+    for (int c = 0; c < reduced.size; ++c) reduced.values[reduced.offsets[c]] *= 1 + kSolidCellRaise;
     factor_ = std::make_unique<SymmetricFactor>(reduced);
     if (factor_->factorise(reduced) == Definiteness::singular)
       throw RunError("the tangent of the cell of solids is singular");
@@ -63,8 +63,6 @@ class Linearised {
   }
 
  private:
-  static constexpr double kRaise = 1e-10;
-
   std::array<int, 5> nodesOf(const ContactPoint& p) const { return cell_.contact().nodesOf(p.side, p.node, p.facet); }
 
   double gapRate(const ContactPoint& p, const Column& x) const {
@@ -79,8 +77,7 @@ class Linearised {
     for (const ContactBlock& b : blocks_)
       for (int i = 0; i < kProjectionSize; ++i)
         for (int j = 0; j < kProjectionSize; ++j)
-          force[3 * b.rows[i / 3] + i % 3] +=
-              b.values[kProjectionSize * i + j] * x[3 * b.columns[j / 3] + j % 3];
+          force[3 * b.rows[i / 3] + i % 3] += b.values[kProjectionSize * i + j] * x[3 * b.columns[j / 3] + j % 3];
     for (std::size_t k = 0; k < points_.size(); ++k) {
       const std::array<int, 5> nodes = nodesOf(points_[k]);
       for (int i = 0; i < kProjectionSize; ++i)

@@ -19,14 +19,6 @@ void check(const WovenYarns& yarns, const YarnMeshing& meshing, bool quarter) {
   if (meshing.along < 5 || meshing.along > 63 || meshing.along % 2 == 0)
     refuse("along", fmt::format("{}, must be odd, 5 to 63", meshing.along));
   if (quarter && !isPlain(yarns.weave)) refuse("cell", "quarter, must be full: the weave is not plain");
-  for (const WovenYarn& y : yarns.yarn) {
-    // The sharpest bend has the curvature A pi²/L².
-    const double spacing = yarns.yarn[&y == &yarns.yarn[along_weft] ? along_warp : along_weft].spacing_m;
-    const double radius = std::pow(spacing / std::numbers::pi, 2) / y.amplitude_m;
-    if (!(y.half_thickness_m < radius))
-      refuse("cell", fmt::format("a yarn of half thickness {:.6g} m bends with a radius of {:.6g} m: sections meet",
-                                 y.half_thickness_m, radius));
-  }
 }
 
 /// A yarn at s along the cloth: its middle and the axes of its section.
@@ -48,8 +40,13 @@ class Builder {
   /// A yarn over a number of spacings from s = 0.
   void add(int direction, int yarn, int spacings) {
     const double L = yarns_.yarn[1 - direction].spacing_m;
-    YarnBody body{direction, yarn, static_cast<int>(out_.mesh.nodes.size()), static_cast<int>(out_.mesh.cells.size()),
-                  0, along_ * spacings + 1, yarns_.arcLength_m(direction, yarn, 0, spacings * L)};
+    YarnBody body{direction,
+                  yarn,
+                  static_cast<int>(out_.mesh.nodes.size()),
+                  static_cast<int>(out_.mesh.cells.size()),
+                  0,
+                  along_ * spacings + 1,
+                  yarns_.arcLength_m(direction, yarn, 0, spacings * L)};
     const double step = L / along_;
     const WovenYarn& size = yarns_.yarn[direction];
     for (int l = 0; l < body.sections; ++l) {
@@ -72,8 +69,8 @@ class Builder {
       for (int j = 0; j < n_; ++j)
         for (int i = 0; i < n_; ++i) {
           const auto at = [&](int dl, int di, int dj) { return out_.node(body, l + dl, i + di, j + dj); };
-          out_.mesh.cells.push_back({at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1),
-                                     at(1, 1, 1), at(0, 1, 1)});
+          out_.mesh.cells.push_back(
+              {at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)});
           out_.mesh.material_of.push_back(body.direction);
           for (const Vec3& local : hexahedronPoints())
             out_.mesh.fibres.push_back(

@@ -19,10 +19,10 @@ struct YarnMeshing {
 
 /// One yarn in the mesh: sections one behind the other along it, (across + 1)² nodes each.
 struct YarnBody {
-  int direction = 0, yarn = 0;   ///< of the weave
+  int direction = 0, yarn = 0;  ///< of the weave
   int first_node = 0, first_cell = 0, end_cell = 0;
-  int sections = 0;              ///< planes of nodes
-  double length_m = 0;           ///< of the middle
+  int sections = 0;     ///< planes of nodes
+  double length_m = 0;  ///< of the middle
 };
 
 struct SolidYarns {
@@ -49,8 +49,7 @@ struct SolidYarns {
 /// Heights v are not: yarns touch where they cross and press on each other nowhere.
 ///
 /// Throws InputError as checkWovenYarns, and with the keys "across", "along" where the meshing is out of range, or
-/// "cell" where a quarter is asked of a weave that is not plain, or a section does not fit between its neighbours on
-/// the inside of a bend.
+/// "cell" where a quarter is asked of a weave that is not plain.
 SolidYarns solidYarns(const WovenYarns& yarns, const std::array<BonetBurton, 2>& law, const YarnMeshing& meshing,
                       bool quarter);
 

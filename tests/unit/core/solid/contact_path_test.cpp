@@ -525,6 +525,38 @@ TEST(ContactPath, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(y[0], y[1]);
 }
 
+TEST(ContactPath, WhereNodesKeepFacetsTheyComeToTheSameRest) {
+  for (const SolidContactMethod method : {SolidContactMethod::penalty, SolidContactMethod::augmented}) {
+    std::vector<double> y[2];
+    for (const int k : {0, 1}) {
+      Scene s = cubeOnPlane(2, false, 0.05);
+      SolidContactLaw law = lawOf(2e7);
+      law.touch.keep = 0.3 * k;
+      const SolidContact c = s.build(law, atBottom);
+      const Path p = followed(s, c, optionsOf(method, 2));
+      ASSERT_TRUE(p.report.reached) << p.report.why;
+      EXPECT_EQ(p.last().points.size(), 9u);
+      y[k] = p.last().state.y;
+    }
+    for (std::size_t i = 0; i < y[0].size(); ++i) EXPECT_NEAR(y[0][i], y[1][i], 1e-7);
+  }
+}
+
+TEST(ContactPath, ABodyThatOnlyContactWouldHoldNeedsARaisedDiagonal) {
+  for (const double raise : {0.0, 1e-10}) {
+    Scene s = cubeOnPlane(1, true);
+    // Nothing holds the cube, and nothing pushes it.
+    std::erase_if(s.supports.constraints, [](const LinearConstraint& c) { return c.terms[0].first < 8; });
+    const SolidContact c = s.build(lawOf(1e7), atBottom);
+    ContactSystem system(*s.solids, c, 1, s.mesh.nodes);
+    std::vector<double> y(s.solids->size(), 0.0);
+    y[2] = 1e-3;
+    const NewtonReport report = system.solve({}, {30, 1e-8, 0, raise}, y);
+    EXPECT_EQ(report.converged, raise > 0);
+    EXPECT_EQ(report.singular, raise == 0);
+  }
+}
+
 TEST(ContactPath, SaysWhyItStops) {
   Scene s = cubeOnPlane(2, true);
   const SolidContact c = s.build(lawOf(1e4), atBottom);
@@ -557,6 +589,8 @@ TEST(ContactPath, BadOptionsAreRefused) {
   };
   augmented("steps", [](ContactPathOptions& o) { o.steps = 0; });
   augmented("halvings", [](ContactPathOptions& o) { o.halvings = 21; });
+  augmented("raise", [](ContactPathOptions& o) { o.raise = 1; });
+  augmented("raise", [](ContactPathOptions& o) { o.raise = -1e-3; });
   augmented("iterations", [](ContactPathOptions& o) { o.iterations = 0; });
   augmented("passes", [](ContactPathOptions& o) { o.passes = 0; });
   augmented("tolerance", [](ContactPathOptions& o) { o.tolerance = std::nan(""); });

@@ -265,6 +265,71 @@ TEST(FacetSurface, WhatIsOutOfReachIsNotTouched) {
   EXPECT_EQ(touches(s, x, {0.2, 0, -0.49}).size(), 1u);
 }
 
+/// A bumpy cushion of n by n facets, four times as long as wide.
+FacetSurface cushion(std::vector<Vec3>& x, int n) {
+  std::vector<Facet> facets;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) x.push_back({4.0 * i / n, double(j) / n, 0.02 * std::sin(7.0 * i + 3.0 * j)});
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = i + (n + 1) * j;
+      facets.push_back({a, a + 1, a + n + 2, a + n + 1});
+    }
+  return {facets, (n + 1) * (n + 1)};
+}
+
+TEST(FacetSurface, TheGridOfBoxesLeavesOutNothing) {
+  std::vector<Vec3> x;
+  const FacetSurface s = cushion(x, 12);
+  const FacetSurface::Spheres spheres = s.spheres(x);
+  EXPECT_GT(spheres.boxes[0] * spheres.boxes[1] * spheres.boxes[2], 8);
+  std::mt19937 random(7);
+  int found = 0;
+  for (int q = 0; q < 3000; ++q) {
+    Vec3 p{uniform(random, -0.1, 4.1), uniform(random, -0.1, 1.1), uniform(random, -0.1, 0.1)};
+    if (q % 5 == 0) p = x[q % x.size()];  // at a node several facets are equally near: the first
+    const double reach = uniform(random, 0.01, 0.2);
+    NearestFacet all;
+    for (int f = 0; f < 144; ++f) {
+      const FacetPoint at = closestOnFacet(s.corners(f, x), p);
+      if (std::sqrt(at.dist2_m2) <= reach && (all.facet < 0 || at.dist2_m2 < all.at.dist2_m2)) all = {f, at};
+    }
+    const NearestFacet near = s.nearest(x, spheres, p, reach);
+    ASSERT_EQ(near.facet, all.facet) << q;
+    found += near.facet >= 0;
+    if (near.facet >= 0) {
+      EXPECT_EQ(near.at.dist2_m2, all.at.dist2_m2);
+    }
+  }
+  EXPECT_GT(found, 1000);
+}
+
+TEST(FacetSurface, AFacetKeepsAPointInAGrooveButNotOverARidge) {
+  TouchOptions options;
+  options.reach_m = 0.5;
+  options.groove_rad = 0.5;
+  options.keep = 0.3;
+  const int first = 0;
+  const auto facetAt = [&](const FacetSurface& s, const std::vector<Vec3>& x, double along, HeldFacet after) {
+    const std::vector<FacetTouch> t =
+        s.touching(x, s.spheres(x), {along, 0.2, 0.1 * std::abs(along)}, options, {&first, 1}, after);
+    EXPECT_EQ(t.size(), 1u);
+    return t.empty() ? -1 : t[0].facet;
+  };
+  std::vector<Vec3> x;
+  for (const double slope : {0.1, -0.1}) {  // facets 1 wide: half widths of 0.5 beyond their edge at 0
+    const FacetSurface s = valley(x, slope);
+    EXPECT_EQ(facetAt(s, x, -0.1, HeldFacet::goes_on), 0);
+    EXPECT_EQ(facetAt(s, x, 0.1, HeldFacet::goes_on), slope > 0 ? 0 : 1);
+    EXPECT_EQ(facetAt(s, x, 0.2, HeldFacet::goes_on), 1);
+    EXPECT_EQ(facetAt(s, x, 0.2, HeldFacet::keeps), 0);
+  }
+  options.keep = 0;
+  const FacetSurface s = valley(x, 0.1);
+  EXPECT_EQ(facetAt(s, x, 0.1, HeldFacet::goes_on), 1);
+  EXPECT_EQ(facetAt(s, x, 0.1, HeldFacet::keeps), 1);
+}
+
 TEST(FacetSurface, BadFacetsAreRefused) {
   EXPECT_THROW(FacetSurface({{0, 1, 2, 4}}, 4), InputError);
   EXPECT_THROW(FacetSurface({{0, 1, 2, 0}}, 4), InputError);

@@ -130,12 +130,7 @@ TEST(SolidContact, TheTangentIsTheSlopeOfTheForce) {
 TEST(SolidContact, PressureIsTheGradientOfItsEnergy) {
   const Scene s;
   const SolidContact c = s.contact(0, FrictionBound::symmetrised);
-  const auto energy = [&](const std::vector<Vec3>& x) {
-    double sum = 0;
-    for (const ContactPoint& p : c.points(x, s.start, s.multipliers))
-      sum += p.area_m2 * p.pressure_Pa * p.pressure_Pa / (2 * c.law().normal_Pa_per_m);
-    return sum;
-  };
+  const auto energy = [&](const std::vector<Vec3>& x) { return c.energy(c.points(x, s.start, s.multipliers)); };
   const std::vector<Vec3> f = forceOf(c, s, s.x);
   double most = 0;
   for (const Vec3& v : f) most = std::max(most, norm(v));

@@ -195,6 +195,20 @@ TEST(SolidSystem, SaysWhatNothingHolds) {
   }
 }
 
+TEST(SolidSystem, GoesOnWithOtherPrograms) {
+  SolidMesh m = block(1, 1, 1, [](const Vec3& p) { return p; });
+  m.materials = {{isotropicLaw(1e6, 0.3), 0}};
+  const SolidBody body(m);
+  SolidSystem system(body, {{prescribed(0, {1, 0, 0}, 0.5, 0)}, {}, {{{0, 1}, {0, 1}}}});
+  const std::vector<double> y(system.size(), 0.0);
+  EXPECT_EQ(system.positions(y, 1)[0].x, 0.5);
+  system.setPrograms({{{0, 1}, {1, 3}}});
+  EXPECT_EQ(system.positions(y, 0)[0].x, 0.5);
+  EXPECT_EQ(system.positions(y, 1)[0].x, 1.5);
+  EXPECT_THROW(system.setPrograms({}), InputError);
+  EXPECT_THROW(system.setPrograms({{{0, 0}, {1, 3}}}), InputError);
+}
+
 TEST(SolidSystem, BadSupportsAreRefused) {
   SolidMesh m = block(1, 1, 1, [](const Vec3& p) { return p; });
   m.materials = {{isotropicLaw(1e6, 0.3), 0}};

@@ -113,9 +113,9 @@ TEST(SolidYarns, BadInputNamesItsKey) {
   EXPECT_EQ(keyOf(woven(), {2, 6}, true), "along");
   EXPECT_EQ(keyOf(woven(), {2, 3}, true), "along");
   EXPECT_EQ(keyOf(woven(twillWeave(2, 2)), {2, 5}, true), "cell");
-  WovenYarns thick = woven();
-  for (WovenYarn& y : thick.yarn) y = {1, 0.36, 0.1, 0.36};
-  EXPECT_EQ(keyOf(thick, {2, 5}, true), "cell");
+  WovenYarns wide = woven();
+  wide.yarn[along_warp].half_width_m = 0.6;
+  EXPECT_EQ(keyOf(wide, {2, 5}, true), "warp.half_width");
 }
 
 }  // namespace

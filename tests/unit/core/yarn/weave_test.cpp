@@ -38,6 +38,13 @@ TEST(Weave, RepeatsAreThoseOfTheTextbooks) {
   }
 }
 
+TEST(Weave, PlainIsWhatChangesSidesEverywhere) {
+  EXPECT_TRUE(isPlain(plainWeave()));
+  EXPECT_TRUE(isPlain(weaveOf({{1, 0, 1, 0}, {0, 1, 0, 1}})));
+  EXPECT_FALSE(isPlain(twillWeave(2, 1)));
+  EXPECT_FALSE(isPlain(weaveOf({{1, 0, 1, 0}, {1, 0, 1, 0}, {0, 1, 0, 1}, {0, 1, 0, 1}})));
+}
+
 TEST(Weave, WhatFallsApartIsRefused) {
   for (const Weave& w : {plainWeave(), twillWeave(2, 2), twillWeave(3, 1), satinWeave(5, 2), satinWeave(8, 3)})
     EXPECT_NO_THROW(checkWeave(w));
@@ -115,6 +122,25 @@ TEST(WovenYarns, FloatsAreStraight) {
   EXPECT_DOUBLE_EQ(w.height_m(along_weft, 0, 3 * L), A);
   EXPECT_DOUBLE_EQ(w.slope(along_weft, 0, 3 * L), 0);
   EXPECT_EQ(w.middle(along_weft, 1, 0.0).y, 1.5 * w.yarn[along_weft].spacing_m);
+}
+
+TEST(WovenYarns, HalfATurnTakesAWeaveToItselfAboutPlacesOfItsYarns) {
+  for (const Weave& weave : {plainWeave(), twillWeave(2, 2), twillWeave(3, 1), satinWeave(5, 2)}) {
+    const WovenYarns w = cloth(weave);
+    for (const int d : {along_weft, along_warp})
+      for (int k = 0; k < w.count(d); ++k) {
+        const std::optional<int> halves = w.halfTurn(d, k);
+        ASSERT_TRUE(halves);
+        const double L = w.yarn[1 - d].spacing_m, place = 0.5 * (*halves + 1) * L;
+        for (const double s : {0.1, 0.7, 1.3})
+          EXPECT_NEAR(w.height_m(d, k, place + s * L), w.height_m(d, k, place - s * L), 1e-15);
+      }
+  }
+  EXPECT_EQ(cloth(plainWeave()).halfTurn(along_weft, 0), 0);
+  EXPECT_EQ(cloth(twillWeave(2, 2)).halfTurn(along_weft, 0).value() % 2, 1);  // in the middle of a float
+  // A weave whose first weft has no such place: floats of 3, 1, 1 and 2 one after the other.
+  const Weave odd{7, 2, {1, 1, 1, 0, 1, 0, 0, 0, 0, 1, 1, 0, 1, 1}};
+  EXPECT_FALSE(cloth(odd).halfTurn(along_weft, 0));
 }
 
 TEST(WovenYarns, YarnsThatCannotLieThereAreRefused) {
