@@ -39,11 +39,15 @@ void checkTruss(const Entry& root, const CellCase& c) {
     memberOf(root, "weave").failAt("pattern", "the truss is of a plain weave; allowed with yarns truss: plain");
   if (!c.contact)
     memberOf(root, "contact").fail("the truss is joined at its crossings; allowed with yarns truss: true");
-  if (root.node.find("faces"))
-    memberOf(root, "faces").fail("goes with yarns rod: a truss has no sections in its faces");
-  for (const char* key : {"pieces_per_spacing", "tolerance", "iterations", "halvings"})
-    if (const JsonNode* solver = root.node.find("solver"); solver && solver->find(key))
-      root.member(*solver).failAt(key, "goes with yarns rod: a truss is solved to rounding");
+  if (c.holds_faces) memberOf(root, "faces").fail("held goes with yarns rod: a truss has no sections in its faces");
+  // A case that was written in full says what is usual.
+  const CellSolver& s = c.solver;
+  const CellSolver usual;
+  for (const auto& [key, other] :
+       {std::pair("pieces_per_spacing", s.pieces_per_spacing != usual.pieces_per_spacing),
+        std::pair("tolerance", s.tolerance != usual.tolerance),
+        std::pair("iterations", s.iterations != usual.iterations), std::pair("halvings", s.halvings != usual.halvings)})
+    if (other) memberOf(root, "solver").failAt(key, "goes with yarns rod: a truss is solved to rounding");
   double amplitudes = 0, halves = 0;
   for (const int d : {along_weft, along_warp}) {
     amplitudes += c.yarn(d).shape.amplitude_m;

@@ -24,6 +24,16 @@ CellCase truss() {
                   R"(weft.half_width="0.12 mm")", R"(warp.half_width="0.1 mm")"});
 }
 
+/// What is written out in full is read again, whatever the engine has no use for.
+TEST(CellEngine, CasesComeBack) {
+  const Folder folder;
+  for (const CellCase& c : {truss(), example({})}) {
+    const CellCase again = readCellCase(folder.write("again.json", writeCase(c)));
+    EXPECT_EQ(writeCase(again), writeCase(c));
+    EXPECT_EQ(caseIdentity(again), caseIdentity(c));
+  }
+}
+
 CellTarget at(double e11, double e22) { return {{e11, e22, 0, 0, 0}, {}}; }
 
 /// Forces of the truss are the derivatives of what its yarns and crossings store.
