@@ -13,6 +13,9 @@ namespace gambeson {
 namespace {
 
 constexpr int kLeastAugmentations = 2;  ///< with friction
+/// Where the facets of a shallow groove share a node, how they do settles slowly: after so many augmentations the step
+/// is made again with one facet for each node.
+constexpr int kSharedPasses = 15;
 
 [[noreturn]] void reject(const char* key, const std::string& why) { throw InputError({"", 0, key}, why); }
 
@@ -54,12 +57,11 @@ class LoadStep {
 
   /// False where it failed; `why` then.
   bool take() {
-    done.state = {to_, from_.y, from_.multipliers};
-    startAhead();
-    const bool good = options_.method == SolidContactMethod::penalty       ? penalty()
-                      : options_.method == SolidContactMethod::multipliers ? tried()
-                                                                           : augment();
-    if (!good) return false;
+    if (!attempt()) {
+      if (!(contact_.law().touch.keep > 0) || options_.method != SolidContactMethod::augmented) return false;
+      share_ = false;
+      if (!attempt()) return false;
+    }
     done.deepest_m = deepestOf(done.points);
     done.state.multipliers = contact_.settled(solids_.positions(done.state.y, to_), std::move(done.state.multipliers));
     return true;
@@ -70,6 +72,15 @@ class LoadStep {
   double force = 0;
 
  private:
+  bool attempt() {
+    done.state = {to_, from_.y, from_.multipliers};
+    if (!share_) contact_.moveOn(solids_.positions(from_.y, from_.factor), done.state.multipliers, false);
+    startAhead();
+    return options_.method == SolidContactMethod::penalty       ? penalty()
+           : options_.method == SolidContactMethod::multipliers ? tried()
+                                                                : augment();
+  }
+
   /// The tangent's way, where it leads to a state that has forces.
   void startAhead() {
     ContactSystem before(solids_, contact_, from_.factor, solids_.positions(from_.y, from_.factor));
@@ -97,6 +108,7 @@ class LoadStep {
 
   bool penalty() {
     std::vector<ContactMultipliers> multipliers = from_.multipliers;
+    share_ = false;  // without multipliers both facets would press as one does
     for (ContactMultipliers& m : multipliers) m.pressure_Pa = 0;
     for (int k = 0; k <= options_.passes; ++k) {
       if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
@@ -112,14 +124,16 @@ class LoadStep {
 
   int moveOn(std::vector<ContactMultipliers>& multipliers) {
     if (!(contact_.law().touch.keep > 0)) return 0;
-    return contact_.moveOn(solids_.positions(done.state.y, to_), multipliers);
+    return contact_.moveOn(solids_.positions(done.state.y, to_), multipliers, share_);
   }
 
   bool augment() {
     std::vector<ContactMultipliers>& multipliers = done.state.multipliers;
     const int least = contact_.law().friction > 0 ? kLeastAugmentations : 0;
     double change = 0, largest = 0;
-    for (int k = 0; k <= options_.passes; ++k) {
+    const bool kept = contact_.law().touch.keep > 0;
+    const int passes = kept && share_ ? std::min(options_.passes, kSharedPasses) : options_.passes;
+    for (int k = 0; k <= passes; ++k) {
       if (!converged(system_.solve(multipliers, newton_, done.state.y))) return false;
       done.points = system_.points(system_.known(), done.state.y);
       std::vector<ContactMultipliers> next = contact_.augmented(done.points);
@@ -139,7 +153,7 @@ class LoadStep {
     why = fmt::format(
         "after {} augmentations multipliers still change by {:.2e} of the largest pressure, and nodes have "
         "passed by {:.2e} m",
-        options_.passes, largest > 0 ? change / largest : 0, deepestOf(done.points));
+        passes, largest > 0 ? change / largest : 0, deepestOf(done.points));
     return false;
   }
 
@@ -185,6 +199,7 @@ class LoadStep {
   double to_;
   ContactNewton newton_;
   ContactSystem system_;
+  bool share_ = true;
 };
 
 }  // namespace

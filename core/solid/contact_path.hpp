@@ -8,7 +8,8 @@
 ///                boxes is SolidContactLaw::bound's to say. With friction at least two augmentations: new contacts of
 ///                box 7 rub from the second pass on.
 ///
-/// A step that fails is halved. Supports must hold each body, at least until contact presses: what contact alone holds
+/// Where nodes keep facets (TouchOptions::keep), two of a groove share a node; an augmented step that does not settle so
+/// is made again with one facet for each. A step that fails is halved. Supports must hold each body, at least until contact presses: what contact alone holds
 /// has a singular tangent before the first touch, and the step says so.
 
 #include <functional>

@@ -150,10 +150,10 @@ std::vector<int> FacetSurface::facetsOf(const NearestFacet& nearest) const {
   return both;
 }
 
-std::optional<FacetCandidate> FacetSurface::first(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
-                                                  const TouchOptions& options, int held) const {
+std::vector<FacetCandidate> FacetSurface::first(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
+                                                const TouchOptions& options, int held) const {
   const NearestFacet near = nearest(x, spheres, p, options.reach_m);
-  if (near.facet < 0) return std::nullopt;
+  if (near.facet < 0) return {};
   std::vector<Candidate> own;
   Vec3 outward{};  // weighted by angles: its sign is right where the nearest feature is an edge or a corner
   for (const int facet : facetsOf(near)) {
@@ -166,7 +166,7 @@ std::optional<FacetCandidate> FacetSurface::first(std::span<const Vec3> x, const
     outward += weight * facetNormal(c, {});
     if (Candidate candidate; candidateOf(c, facet, p, kBeyondOwn, candidate)) own.push_back(candidate);
   }
-  if (own.empty()) return std::nullopt;
+  if (own.empty()) return {};
   const bool passed = dot(outward, near.at.position - p) > 0;
   const auto shallower = [](const Candidate& a, const Candidate& b) { return a.touch.gap_m < b.touch.gap_m; };
   // Beside a ridge the facet that is passed least; in a groove the one that is passed most goes first.
@@ -175,8 +175,8 @@ std::optional<FacetCandidate> FacetSurface::first(std::span<const Vec3> x, const
   if (Candidate kept;
       held >= 0 && held != found.touch.facet && candidateOf(corners(held, x), held, p, 1 + options.keep, kept) &&
       std::abs(kept.touch.gap_m) <= options.reach_m && dot(kept.normal - found.normal, found.center - kept.center) > 0)
-    return kept;
-  return found;
+    return {kept, found};
+  return {found};
 }
 
 std::vector<FacetTouch> FacetSurface::touching(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
@@ -189,10 +189,8 @@ std::vector<FacetTouch> FacetSurface::touching(std::span<const Vec3> x, const Sp
           candidateOf(corners(facet, x), facet, p, kBeyondOwn, c) && std::abs(c.touch.gap_m) <= options.reach_m)
         taken.push_back(c);
   if (taken.empty()) {
-    const std::optional<Candidate> foremost =
-        first(x, spheres, p, options, options.keep > 0 && !held.empty() ? held[0] : -1);
-    if (!foremost) return {};
-    taken.push_back(*foremost);
+    taken = first(x, spheres, p, options, options.keep > 0 && !held.empty() ? held[0] : -1);
+    if (taken.empty()) return {};
   }
   if (options.simultaneous) {
     std::vector<Candidate> others;

@@ -49,9 +49,9 @@ struct TouchOptions {
   /// at a time in a groove, however shallow, and the solution goes to and fro.
   double groove_rad = 1e-6;
   bool simultaneous = true;  ///< false: the first facet alone, as others do
-  /// 0: a point is held by what is nearest now. Else it keeps its facet while forces are being balanced, and from one
-  /// pass to the next until it lies so far beyond the edges [half widths] of a groove, where it has then passed the
-  /// other facet by this times the sine of their angle. At most 1.
+  /// 0: a point is held by what is nearest now. Else it keeps its facets while forces are being balanced, and goes on
+  /// between passes. Where it then lies beyond the edge of a groove, however shallow, by at most so much [half widths],
+  /// both facets hold it: on either alone it would come to rest beyond the edge. At most 1.
   double keep = 0;
 };
 
@@ -93,16 +93,17 @@ class FacetSurface {
   /// All facets that hold p at once, the nearest first, or where an edge or corner is nearest from inside that which p
   /// has passed most. Empty where none is within reach. `held`: the facets that held p before, the
   /// foremost first. They keep p as long as it lies over them or the next facets; or p goes on to what is nearest now,
-  /// but over no groove before TouchOptions::keep.
+  /// from a groove with both (TouchOptions::keep).
   std::vector<FacetTouch> touching(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
                                    const TouchOptions& options, std::span<const int> held = {},
                                    HeldFacet after = HeldFacet::keeps) const;
 
  private:
   std::vector<int> facetsOf(const NearestFacet& nearest) const;
-  /// The facet that holds p before any other; -1: none held it before.
-  std::optional<FacetCandidate> first(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
-                                      const TouchOptions& options, int held) const;
+  /// The facet that holds p before any other, and the nearest where that is another of a groove; `held`: what held it
+  /// before, or -1.
+  std::vector<FacetCandidate> first(std::span<const Vec3> x, const Spheres& spheres, const Vec3& p,
+                                    const TouchOptions& options, int held) const;
 
   std::vector<Facet> facets_;
   std::vector<int> nodes_;

@@ -228,22 +228,46 @@ std::vector<ContactMultipliers> SolidContact::augmented(std::span<const ContactP
   return multipliers;
 }
 
-int SolidContact::moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers>& multipliers) const {
+int SolidContact::moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers>& multipliers, bool share) const {
   std::vector<FacetSurface::Spheres> spheres;
   for (const ContactSide& side : sides_) spheres.push_back(side.surface.spheres(x));
-  std::vector<char> moved(multipliers.size(), 0);
-  forAll(Each::much, static_cast<int>(multipliers.size()), [&](int k) {
-    ContactMultipliers& m = multipliers[k];
-    const bool first = k == 0 || multipliers[k - 1].side != m.side || multipliers[k - 1].slave != m.slave;
-    if (!first) return;
-    const ContactSide& side = sides_[m.side];
-    const std::vector<FacetTouch> touches = side.surface.touching(x, spheres[m.side], x[side.nodes[m.slave]],
-                                                                  law_.touch, {&m.facet, 1}, HeldFacet::goes_on);
-    if (touches.empty() || touches[0].facet == m.facet) return;
-    moved[k] = 1;
-    m.facet = touches[0].facet;
+  std::vector<std::vector<ContactMultipliers>> of_slave(first_slave_.back());
+  for (const ContactMultipliers& m : multipliers) of_slave[first_slave_[m.side] + m.slave].push_back(m);
+  std::vector<char> changed(of_slave.size(), 0);
+  forAll(Each::much, static_cast<int>(of_slave.size()), [&](int k) {
+    std::vector<ContactMultipliers>& own = of_slave[k];
+    if (own.empty()) return;
+    const ContactSide& side = sides_[own[0].side];
+    const int foremost = own[0].facet;
+    const auto touches = side.surface.touching(x, spheres[own[0].side], x[side.nodes[own[0].slave]], law_.touch,
+                                               {&foremost, 1}, HeldFacet::goes_on);
+    const auto on = [&](int facet) {
+      return std::find_if(own.begin(), own.end(), [&](const ContactMultipliers& m) { return m.facet == facet; });
+    };
+    for (std::size_t t = 0; t < touches.size(); ++t) {
+      const int facet = touches[t].facet;
+      if (t == 0 && facet != foremost) {
+        changed[k] = 1;
+        if (const auto other = on(facet); other != own.end()) {
+          other->pressure_Pa += own[0].pressure_Pa;
+          own.erase(own.begin());
+        } else {
+          own[0].facet = facet;
+        }
+      } else if (share && on(facet) == own.end()) {
+        changed[k] = 1;
+        own.push_back({own[0].side, own[0].slave, facet, facet, 0, {}});
+      }
+    }
+    for (; !share && own.size() > 1; own.pop_back()) {
+      changed[k] = 1;
+      own[0].pressure_Pa += own.back().pressure_Pa;
+    }
   });
-  return static_cast<int>(std::count(moved.begin(), moved.end(), 1));
+  multipliers.clear();
+  for (const std::vector<ContactMultipliers>& own : of_slave)
+    multipliers.insert(multipliers.end(), own.begin(), own.end());
+  return static_cast<int>(std::count(changed.begin(), changed.end(), 1));
 }
 
 std::vector<ContactMultipliers> SolidContact::settled(std::span<const Vec3> x,

@@ -114,9 +114,10 @@ class SolidContact {
 
   /// Multipliers for the next pass: lambda = t; of box 7 t* returned to mu t_N (3.79).
   std::vector<ContactMultipliers> augmented(std::span<const ContactPoint> points) const;
-  /// Where nodes keep facets (TouchOptions::keep): those of these multipliers moved on to what is nearest at x. Returns
-  /// how many have moved.
-  int moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers>& multipliers) const;
+  /// Where nodes keep facets (TouchOptions::keep): those of these multipliers go on to what is nearest at x, with the
+  /// pressure of the facet that is left; a second facet of a groove comes in with none, or, unless they `share`, gives
+  /// its pressure to the foremost. Returns how many have changed.
+  int moveOn(std::span<const Vec3> x, std::vector<ContactMultipliers>& multipliers, bool share) const;
   /// Multipliers for the next step, in the frames of the facets on which the nodes are at x.
   std::vector<ContactMultipliers> settled(std::span<const Vec3> x, std::vector<ContactMultipliers> multipliers) const;
 

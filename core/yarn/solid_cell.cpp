@@ -13,7 +13,8 @@ namespace {
 /// Programs 0 to 3: the steps of face 1 along axes 1 and 2, of face 2 likewise; then two of each held yarn.
 constexpr int kStepPrograms = 4;
 
-/// In grooves that are shallower facets hold a node one after the other; it keeps each for so long [half widths].
+/// Grooves that are shallower hold a node by one facet at a time, or where it would rest beyond the edge, as far as
+/// here [half widths], by two.
 constexpr double kGroove_rad = 0.5, kKeep = 0.3;
 
 constexpr Vec3 kAxis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -8,8 +8,8 @@
 
 namespace gambeson {
 
-/// Yarns that touch nothing slide along the cloth, and a lattice's may leave it: so much of each diagonal entry is added
-/// to what is factorised (ContactNewton::raise).
+/// Yarns that touch nothing slide along the cloth, and a lattice's may leave it: so much of each diagonal entry is
+/// added to what is factorised (ContactNewton::raise).
 inline constexpr double kSolidCellRaise = 1e-10;
 
 /// A cell at rest or in equilibrium: all that the next load starts from.

@@ -222,6 +222,34 @@ TEST(SolidContact, MultipliersGoAlongOverAnEdge) {
   EXPECT_EQ(matchTouches(touches, {}), (std::vector<int>{-1, -1}));
 }
 
+TEST(SolidContact, FacetsOfAShallowGrooveShareANodeBeyondTheEdge) {
+  // Two facets that meet along y; the node has rested on the first and lies 0.2 half widths beyond its edge.
+  const std::vector<Vec3> x{{-1, -1, 0.1}, {0, -1, 0}, {1, -1, 0.1}, {-1, 1, 0.1}, {0, 1, 0}, {1, 1, 0.1}, {0.1, 0, 0}};
+  SolidContactLaw law{3000, 0, 0, FrictionBound::symmetrised, {}};
+  law.touch = {0.4, 0.5, true, 0.3};
+  const SolidContact c({{{6}, {1.0}, FacetSurface({{0, 1, 4, 3}, {1, 2, 5, 4}}, 7)}}, law, x);
+  std::vector<ContactMultipliers> m{{0, 0, 0, 0, 60, {}}};
+  EXPECT_EQ(c.moveOn(x, m, false), 0);
+  EXPECT_EQ(c.moveOn(x, m, true), 1);
+  ASSERT_EQ(m.size(), 2u);
+  EXPECT_EQ(m[0].facet, 0);
+  EXPECT_EQ(m[1].facet, 1);
+  EXPECT_EQ(m[1].pressure_Pa, 0);
+  EXPECT_EQ(c.moveOn(x, m, true), 0);
+  EXPECT_EQ(c.points(x, x, m).size(), 2u);
+  m[1].pressure_Pa = 20;
+  EXPECT_EQ(c.moveOn(x, m, false), 1);
+  ASSERT_EQ(m.size(), 1u);
+  EXPECT_EQ(m[0].pressure_Pa, 80);
+  // Farther on the second holds it alone, with what the first carried.
+  std::vector<Vec3> farther = x;
+  farther[6].x = 0.3;
+  EXPECT_EQ(c.moveOn(farther, m, true), 1);
+  ASSERT_EQ(m.size(), 1u);
+  EXPECT_EQ(m[0].facet, 1);
+  EXPECT_EQ(m[0].pressure_Pa, 80);
+}
+
 TEST(SolidContact, ANodeThatSlidesTooFarInAStepHasNoForce) {
   Scene s;
   s.start[s.nodes[0]] += Vec3{-3, 0, 0};
