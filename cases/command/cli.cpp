@@ -189,6 +189,8 @@ int dressCase(const DressArguments& a) {
 
 /// A time as pictures take it.
 int exportCommand(ExportArguments& a) {
+  if (holdsCell(a.options.results))
+    throw InputError({a.options.results.string(), 0, ""}, "is of a cell of yarns; allowed: results of worn cloth");
   if (!a.options.iges.empty()) checkEnding(a.options.iges, "--iges", {".igs", ".iges"});
   JsonNode node;
   node.type = JsonNode::Type::object;

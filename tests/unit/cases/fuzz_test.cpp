@@ -142,6 +142,10 @@ TEST(Fuzz, Structures) {
   fuzz("roof.json", library("hinged_roof.json"), 12, 300, read);
 }
 
+TEST(Fuzz, Cells) {
+  fuzz("cell.json", library("cell_spun.json"), 15, 300, [](const auto& file) { readAnyCase(file); });
+}
+
 TEST(Fuzz, HumansAndMotions) {
   fuzz("arm.urdf", library("arm.urdf"), 3, 700, readSleeve);
   fuzz("arm_body.json", library("arm_body.json"), 4, 500, readSleeve);
