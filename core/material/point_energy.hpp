@@ -39,8 +39,8 @@ class PointEnergy {
                         std::span<double> remembered, std::span<SheetAnswer> out) const = 0;
   /// Doubles that each point remembers.
   virtual std::size_t historySize() const { return 0; }
-  /// A slope that none of its points exceeds, in the order of matrices: what the stable time step must allow for. Throws
-  /// RunError where nothing bounds them (such laws are of statics).
+  /// A slope that none of its points exceeds, in the order of matrices: what the stable time step must allow for.
+  /// Throws RunError where nothing bounds them (such laws are of statics).
   virtual std::array<double, 36> steepest() const = 0;
 
   SheetAnswer at(const SheetStrain& point, SheetParts parts = SheetParts::slopes,
