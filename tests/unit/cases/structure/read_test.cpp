@@ -70,7 +70,7 @@ TEST(StructureCase, OneReaderForAllKinds) {
     EXPECT_EQ(e.where().key, "loads[0].forces");
   }
   const auto schema = nlohmann::json::parse(caseSchema());
-  EXPECT_EQ(schema.at("properties").at("kind").at("enum").size(), 4u);
+  EXPECT_EQ(schema.at("properties").at("kind").at("enum").size(), 5u);
 }
 
 /// A sheet of this shape; the rest as in the cantilever.
