@@ -60,6 +60,7 @@ RodCell::RodCell(const RodCellDesign& design) : design_(design) {
   checkSection(design_.section[along_weft], "weft.section");
   checkSection(design_.section[along_warp], "warp.section");
   if (design_.contact) checkCompression(design_.compression);
+  checkRodFriction(design_.friction);
   const int n = design_.pieces_per_spacing;
   if (n < 4 || n > 256 || n % 2 != 0)
     throw InputError({"", 0, "pieces_per_spacing"}, fmt::format("{}, must be even, 4 to 256", n));
@@ -157,6 +158,16 @@ double RodCell::yarnLength_m(int direction, int k) const {
 
 double RodCell::reach_m() const { return std::hypot(yarns().period_m(along_weft), yarns().period_m(along_warp)); }
 
+RodCell::PairPlace RodCell::pairAt(const CellFaces& faces, std::span<const Pose> sections, int pair) const {
+  const Pair& p = pairs_[pair];
+  const Pose weft = place(faces, sections, p.weft).pose, warp = place(faces, sections, p.warp).pose;
+  const Vec3 apart = weft.origin - warp.origin;
+  const double normal = norm2(apart) < touch_m_ * touch_m_
+                            ? -p.lengths_m2 * lineContact(design_.compression, touch_m_, norm(apart)).first
+                            : 0;
+  return {weft, warp, p.lengths_m2, normal};
+}
+
 std::vector<int> RodCell::nearPairs(const CellFaces& faces, std::span<const Pose> sections, double part) const {
   const double reach = touch_m_ * (1 + part);
   std::vector<int> near;
@@ -185,6 +196,8 @@ BlockMatrix RodCell::sparsity(std::span<const int> pairs) const {
   for (const int k : pairs) {
     const Pair& p = pairs_[k];
     std::vector<int> together{2 * p.weft.section, 2 * p.warp.section};
+    if (design_.friction.coefficient > 0)
+      together.insert(together.end(), {2 * p.weft.section + 1, 2 * p.warp.section + 1});
     if (p.weft.power != 0) together.push_back(faces + along_weft);
     if (p.warp.power != 0) together.push_back(faces + along_warp);
     join(together);
@@ -217,12 +230,20 @@ void addBlocks(const std::vector<Part>& parts, const Entry& entry, BlockMatrix& 
       if (p.block <= q.block) K.add(p.block, q.block, between(p.by, entry(p.vector, q.vector), q.by));
 }
 
+/// Of the tangent of an element of four vectors.
+Block blockOf(const std::array<double, 144>& tangent, int p, int q) {
+  Block block;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) block[3 * i + j] = tangent[12 * (3 * p + i) + 3 * q + j];
+  return block;
+}
+
 Mat3 scaled(double s) { return {{s, 0, 0}, {0, s, 0}, {0, 0, s}}; }
 
 }  // namespace
 
 void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out, BlockMatrix* K,
-                       bool downhill) const {
+                       bool downhill, const CellFriction* friction) const {
   out.energy_J = 0;
   out.gradient.assign(static_cast<std::size_t>(blocks()), Vec3{});
   out.face_moment_Nm = {};
@@ -241,6 +262,16 @@ void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, C
     const Vec3& own = sections[image.section].origin;
     out.face_moment_Nm[image.direction] +=
         image.power == 1 ? cross(g.rotation * own, force) : -cross(own - g.origin, g.rotation * force);
+  };
+  /// The moment, about its axes, on the turn of a section.
+  const auto addMoment = [&](const Image& image, const Placed& at, const Vec3& moment) {
+    const Vec3 force = moment / turn_length_m_;
+    out.gradient[2 * image.section + 1] += force;
+    balanced += norm2(force);
+    if (image.power == 0) return;
+    const Vec3 in_space = at.pose.rotation * moment;
+    out.face_moment_Nm[image.direction] +=
+        image.power == 1 ? in_space : -(faces.step[image.direction].rotation * in_space);
   };
   const auto addParts = [&](const Image& image, const Placed& at, int vector) {
     parts.push_back({vector, 2 * image.section, at.by_x});
@@ -268,24 +299,43 @@ void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, C
     addParts(piece.b, b, 2);
     parts.push_back({1, 2 * piece.a.section + 1, scaled(per_length)});
     parts.push_back({3, 2 * piece.b.section + 1, scaled(per_length)});
-    addBlocks(
-        parts,
-        [&](int p, int q) {
-          Block block;
-          for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) block[3 * i + j] = answer.tangent[12 * (3 * p + i) + 3 * q + j];
-          return block;
-        },
-        *K);
+    addBlocks(parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
   }
 
   const double touch2 = touch_m_ * touch_m_;
+  std::size_t grip = 0;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Pair& pair = pairs_[k];
     const Placed weft = place(faces, sections, pair.weft), warp = place(faces, sections, pair.warp);
     const Vec3 apart = weft.pose.origin - warp.pose.origin;
-    if (!(norm2(apart) < touch2)) continue;
+    const bool gripped =
+        friction && grip < friction->grips.size() && friction->grips[grip].pair == static_cast<int>(k);
+    const double limit = gripped ? design_.friction.coefficient * friction->normal_N[grip] : 0;
+    if (!(norm2(apart) < touch2) && !(limit > 0)) {
+      grip += gripped;
+      continue;
+    }
     out.touching.push_back(static_cast<int>(k));
+    if (limit > 0) {
+      const RodFrictionAnswer answer =
+          evaluateRodFriction(friction->grips[grip].grip, weft.pose, warp.pose,
+                              design_.friction.stick_stiffness_N_per_m3 * pair.lengths_m2, limit, K != nullptr);
+      out.energy_J += answer.energy_J;
+      addForce(pair.weft, weft, answer.gradient[0]);
+      addMoment(pair.weft, weft, answer.gradient[1]);
+      addForce(pair.warp, warp, answer.gradient[2]);
+      addMoment(pair.warp, warp, answer.gradient[3]);
+      if (K) {
+        parts.clear();
+        addParts(pair.weft, weft, 0);
+        addParts(pair.warp, warp, 2);
+        parts.push_back({1, 2 * pair.weft.section + 1, scaled(per_length)});
+        parts.push_back({3, 2 * pair.warp.section + 1, scaled(per_length)});
+        addBlocks(parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
+      }
+    }
+    grip += gripped;
+    if (!(norm2(apart) < touch2)) continue;
     const double distance = norm(apart);
     const LineContact contact = lineContact(design_.compression, touch_m_, distance);
     out.energy_J += pair.lengths_m2 * contact.energy;
