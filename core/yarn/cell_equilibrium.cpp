@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/statics/newton.hpp"
@@ -55,6 +56,8 @@ std::string EquilibriumReport::reason() const {
       return "no step lowers the energy";
     case End::not_finite:
       return "a force is not finite";
+    case End::friction:
+      return "friction and the forces that press do not settle";
   }
   return {};
 }
@@ -72,14 +75,22 @@ void EquilibriumWork::evaluate(const CellFaces& faces, std::span<const Pose> sec
   cell_.evaluate(faces, sections, out, nullptr, false, friction());
 }
 
-void EquilibriumWork::press(const CellFaces& faces, std::span<const Pose> sections) {
-  if (history) friction_ = frictionAt(cell_, faces, sections, *history);
-}
-
-void EquilibriumWork::pressAsBefore() {
+void EquilibriumWork::pressAsAccepted() {
   if (!history) return;
   friction_ = {history->grips, {}};
   for (const PairGrip& g : history->grips) friction_.normal_N.push_back(g.normal_N);
+}
+
+double EquilibriumWork::press(const CellFaces& faces, std::span<const Pose> sections) {
+  if (!history) return 0;
+  CellFriction now = frictionAt(cell_, faces, sections, *history);
+  double change2 = 0;
+  for (std::size_t g = 0; g < friction_.normal_N.size(); ++g) {
+    const double change = now.normal_N[g] - friction_.normal_N[g];
+    change2 += change * change;
+  }
+  friction_ = std::move(now);
+  return std::sqrt(change2);
 }
 
 void EquilibriumWork::assemble(const CellFaces& faces, std::span<const Pose> sections, const CellAnswer& at,
@@ -141,16 +152,17 @@ std::vector<double> EquilibriumWork::follow(std::span<const double> force) const
 
 namespace {
 
-/// Downhill in the energy, and in friction's potential under the forces that press.
+/// Downhill in the energy, and in friction's potential under the forces that press. `rounding`: of the residual, before
+/// and after [N].
 EquilibriumReport descend(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
-                          EquilibriumWork& work, const EquilibriumOptions& options) {
+                          EquilibriumWork& work, const EquilibriumOptions& options, double& rounding) {
   using End = EquilibriumReport::End;
   constexpr double kMostRaise = 1e3, kArmijo = 1e-4;
   constexpr double kRounding = 1e-14;  ///< of the energy, and of what the forces do along the cell
   constexpr int kCuts = 40;
   EquilibriumReport report;
   const double longest = longestStep(cell);
-  double raise = kLeastRaise, rounding = 0;
+  double raise = kLeastRaise;
   bool known = false;  // whether the tangent is definite, of the last iterate
   work.evaluate(faces, sections, work.answer);
   for (;; ++report.iterations) {
@@ -212,19 +224,23 @@ EquilibriumReport descend(const RodCell& cell, const CellFaces& faces, std::vect
 
 EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
                                   EquilibriumWork& work, const EquilibriumOptions& options) {
-  constexpr int kPasses = 100;
-  work.pressAsBefore();
-  EquilibriumReport report = descend(cell, faces, sections, work, options);
+  constexpr int kPasses = 100, kMostGrowths = 3;
+  double rounding = 0;
+  work.pressAsAccepted();
+  EquilibriumReport report = descend(cell, faces, sections, work, options, rounding);
   if (!work.history || work.history->grips.empty()) return report;
-  int iterations = report.iterations;
-  for (int pass = 0; pass < kPasses && report.converged(); ++pass) {
-    work.press(faces, sections);
-    report = descend(cell, faces, sections, work, options);
-    const bool still = report.iterations == 0;
-    report.iterations = iterations += report.iterations;
-    if (still) return report;
+  double before = std::numeric_limits<double>::infinity();
+  for (int pass = 0, growths = 0; pass < kPasses && growths < kMostGrowths && report.converged(); ++pass) {
+    const double change = work.press(faces, sections);
+    growths += change >= before;
+    before = change;
+    const int iterations = report.iterations;
+    report = descend(cell, faces, sections, work, options, rounding);
+    const bool balanced = report.iterations == 0;
+    report.iterations += iterations;
+    if (balanced) return report;
   }
-  if (report.converged()) report.end = EquilibriumReport::End::too_many_iterations;
+  if (report.converged()) report.end = EquilibriumReport::End::friction;
   return report;
 }
 

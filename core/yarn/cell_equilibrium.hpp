@@ -17,7 +17,7 @@ struct EquilibriumOptions {
 };
 
 struct EquilibriumReport {
-  enum class End { converged, too_many_iterations, no_descent, not_finite };
+  enum class End { converged, too_many_iterations, no_descent, not_finite, friction };
   End end = End::converged;
   /// False where the forces balance and the tangent is not positive definite: yarns would leave at the least push.
   bool stable = true;
@@ -36,9 +36,10 @@ class EquilibriumWork {
 
   /// The energy and forces of the cell, with friction where `history` is given.
   void evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out) const;
-  /// Takes the forces that press in friction from where the sections are, or from the last accepted load.
-  void press(const CellFaces& faces, std::span<const Pose> sections);
-  void pressAsBefore();
+  /// Takes the forces that press in friction from the last accepted load, or from where the sections are. Returns how
+  /// much they changed [N].
+  void pressAsAccepted();
+  double press(const CellFaces& faces, std::span<const Pose> sections);
 
   /// Second derivatives of the energy where `at` was evaluated, for all blocks and for the unknowns.
   void assemble(const CellFaces& faces, std::span<const Pose> sections, const CellAnswer& at, bool downhill = false);
@@ -82,7 +83,7 @@ class EquilibriumWork {
 /// `sections` are the last ones. Bits do not depend on threads.
 ///
 /// With friction (EquilibriumWork::history) the forces that press are held while a potential is minimised, then taken
-/// from where that led, until they leave the forces balanced.
+/// from where that led, until they leave the forces balanced. Where they change more and more there is no such equilibrium within reach.
 EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
                                   EquilibriumWork& work, const EquilibriumOptions& options = {});
 

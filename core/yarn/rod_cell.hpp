@@ -111,7 +111,12 @@ class RodCell {
     Image weft, warp;
     double lengths_m2;  ///< of both yarns for which the pair stands
   };
-  struct Placed;
+  /// An image in space, and how it moves: dx' = by_x dx + by_t dt.
+  struct Placed {
+    Pose pose;
+    Mat3 by_x;
+    Mat3 by_t;  ///< where power is not 0
+  };
 
   static Placed place(const CellFaces& faces, std::span<const Pose> sections, const Image& image);
   Image imageOf(int direction, int k, int i) const;
