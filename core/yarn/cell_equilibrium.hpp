@@ -83,14 +83,15 @@ class EquilibriumWork {
 /// `sections` are the last ones. Bits do not depend on threads.
 ///
 /// With friction (EquilibriumWork::history) the forces that press are held while a potential is minimised, then taken
-/// from where that led, until they leave the forces balanced. Where they change more and more there is no such equilibrium within reach.
+/// from where that led, until they leave the forces balanced. Where they change more and more there is no such
+/// equilibrium within reach.
 EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
                                   EquilibriumWork& work, const EquilibriumOptions& options = {});
 
 /// From an equilibrium under one load to one under another, the sections carried along; where that does not come to
 /// rest, by way of loads between, the change halved up to `halvings` times. Where it fails, `sections` are of the last
-/// load that was reached and `reached` is that. Loads between are not accepted: friction is that of one step. Throws InputError as checkLoad, and with the keys "faces", "extent" where
-/// held faces or a quarter are to bend.
+/// load that was reached and `reached` is that. Loads between are not accepted: friction is that of one step. Throws
+/// InputError as checkLoad, and with the keys "faces", "extent" where held faces or a quarter are to bend.
 struct LoadReport : EquilibriumReport {
   CellLoad reached;
 };

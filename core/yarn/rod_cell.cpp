@@ -193,7 +193,8 @@ void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, C
     addParts(piece.b, b, 2);
     parts.push_back({1, 2 * piece.a.section + 1, scaled(per_length)});
     parts.push_back({3, 2 * piece.b.section + 1, scaled(per_length)});
-    addBlocks(parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
+    addBlocks(
+        parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
   }
 
   const double touch2 = touch_m_ * touch_m_;
@@ -202,8 +203,7 @@ void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, C
     const Pair& pair = pairs_[k];
     const Placed weft = place(faces, sections, pair.weft), warp = place(faces, sections, pair.warp);
     const Vec3 apart = weft.pose.origin - warp.pose.origin;
-    const bool gripped =
-        friction && grip < friction->grips.size() && friction->grips[grip].pair == static_cast<int>(k);
+    const bool gripped = friction && grip < friction->grips.size() && friction->grips[grip].pair == static_cast<int>(k);
     const double limit = gripped ? design_.friction.coefficient * friction->normal_N[grip] : 0;
     if (!(norm2(apart) < touch2) && !(limit > 0)) {
       grip += gripped;
@@ -225,7 +225,8 @@ void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, C
         addParts(pair.warp, warp, 2);
         parts.push_back({1, 2 * pair.weft.section + 1, scaled(per_length)});
         parts.push_back({3, 2 * pair.warp.section + 1, scaled(per_length)});
-        addBlocks(parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
+        addBlocks(
+            parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
       }
     }
     grip += gripped;

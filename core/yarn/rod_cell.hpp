@@ -58,7 +58,8 @@ class RodCell {
  public:
   /// Throws InputError where the yarns cannot lie so (checkWovenYarns), a section stretches, shears or bends without
   /// stiffness (keys "weft.section.stretch" and so on; torsion may have none), the law of compression is out of range
-  /// (checkCompression), friction is (checkRodFriction), "pieces_per_spacing" is, or "extent" is a quarter of no plain weave.
+  /// (checkCompression), friction is (checkRodFriction), "pieces_per_spacing" is, or "extent" is a quarter of no plain
+  /// weave.
   explicit RodCell(const RodCellDesign& design);
 
   const RodCellDesign& design() const { return design_; }
