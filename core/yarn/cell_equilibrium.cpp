@@ -85,7 +85,7 @@ double EquilibriumWork::press(const CellFaces& faces, std::span<const Pose> sect
   if (!history) return 0;
   CellFriction now = frictionAt(cell_, faces, sections, *history);
   double change2 = 0;
-  for (std::size_t g = 0; g < friction_.normal_N.size(); ++g) {
+  for (std::size_t g = 0; g < std::min(now.normal_N.size(), friction_.normal_N.size()); ++g) {
     const double change = now.normal_N[g] - friction_.normal_N[g];
     change2 += change * change;
   }

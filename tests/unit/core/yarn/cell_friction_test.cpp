@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "core/error.hpp"
+#include "core/yarn/cell_bending.hpp"
 #include "core/yarn/cell_response.hpp"
 
 namespace gambeson {
@@ -273,6 +275,28 @@ TEST(CellFriction, NoneIsNone) {
   }
   EXPECT_GT(with.history.grips.size(), 0u);
   EXPECT_EQ(with.lost(), 0);
+}
+
+/// Pulled with its sides free, in one step from an accepted load: friction takes part in where the sides come to.
+TEST(CellFriction, SidesComeFree) {
+  double e22[2];
+  for (const bool rough : {false, true}) {
+    Specimen s(rough ? kFriction : RodFriction{});
+    s.follow(3, [](double t) { return CellLoad{0.03 * t, 0, 0, 0, 0}; });
+    const CellLoad accepted = s.load;
+    const LoadReport report = freeAcross(s.cell, s.load, s.sections, s.work);
+    ASSERT_TRUE(report.converged()) << report.reason();
+    const CellResultants n = resultantsOf(s.cell, s.load, s.sections, s.work.history);
+    EXPECT_LT(std::abs(n.n22), 1e-6 * n.n11);
+    EXPECT_LT(s.load.e22, accepted.e22);
+    e22[rough] = s.load.e22;
+  }
+  EXPECT_GT(e22[1] - e22[0], 1e-4) << "it holds the sides";
+}
+
+TEST(CellFriction, RigidityIsOfYarnsWithoutIt) {
+  Specimen s(kFriction);
+  EXPECT_THROW(bendingOf(s.cell, s.load, s.sections, s.work), RunError);
 }
 
 TEST(CellFriction, SameBitsForAnyThreads) {
