@@ -53,6 +53,7 @@ CellBending bendingOf(const RodCell& cell, const CellLoad& load, std::span<const
   if (cell.design().extent == CellExtent::quarter)
     throw InputError({"", 0, "extent"}, "quarter, must be full where the cloth bends");
   const CellFaces faces = facesOf(cell.yarns(), load);
+  if (work.history) throw RunError("the rigidity of a cell is of yarns without friction");
   cell.evaluate(faces, sections, work.answer);
   if (!work.settle(faces, sections, work.answer)) throw RunError("the cell of yarns is not stable");
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/statics/newton.hpp"
@@ -54,6 +56,8 @@ std::string EquilibriumReport::reason() const {
       return "no step lowers the energy";
     case End::not_finite:
       return "a force is not finite";
+    case End::friction:
+      return "friction and the forces that press do not settle";
   }
   return {};
 }
@@ -67,17 +71,41 @@ std::vector<double> EquilibriumWork::residual(const CellAnswer& of) const {
   return r;
 }
 
+void EquilibriumWork::evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out) const {
+  cell_.evaluate(faces, sections, out, nullptr, false, friction());
+}
+
+void EquilibriumWork::pressAsAccepted() {
+  if (!history) return;
+  friction_ = {history->grips, {}};
+  for (const PairGrip& g : history->grips) friction_.normal_N.push_back(g.normal_N);
+}
+
+double EquilibriumWork::press(const CellFaces& faces, std::span<const Pose> sections) {
+  if (!history) return 0;
+  CellFriction now = frictionAt(cell_, faces, sections, *history);
+  double change2 = 0;
+  for (std::size_t g = 0; g < std::min(now.normal_N.size(), friction_.normal_N.size()); ++g) {
+    const double change = now.normal_N[g] - friction_.normal_N[g];
+    change2 += change * change;
+  }
+  friction_ = std::move(now);
+  return std::sqrt(change2);
+}
+
 void EquilibriumWork::assemble(const CellFaces& faces, std::span<const Pose> sections, const CellAnswer& at,
                                bool downhill) {
   if (!factor_ || !std::includes(pairs_.begin(), pairs_.end(), at.touching.begin(), at.touching.end())) {
-    pairs_ = cell_.nearPairs(faces, sections, kNear);
+    const std::vector<int> near = cell_.nearPairs(faces, sections, kNear);
+    pairs_.clear();
+    std::set_union(near.begin(), near.end(), at.touching.begin(), at.touching.end(), std::back_inserter(pairs_));
     blocks_ = cell_.sparsity(pairs_);
     reduction_ = std::make_unique<Reduction>(blocks_, cell_.freedoms());
     reduced_ = reduction_->sparsity();
     factor_ = std::make_unique<SymmetricFactor>(reduced_, Elimination::entries);
   }
   CellAnswer again;
-  cell_.evaluate(faces, sections, again, &blocks_, downhill);
+  cell_.evaluate(faces, sections, again, &blocks_, downhill, friction());
   reduction_->reduce(blocks_, reduced_);
 }
 
@@ -122,17 +150,21 @@ std::vector<double> EquilibriumWork::follow(std::span<const double> force) const
   return x;
 }
 
-EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
-                                  EquilibriumWork& work, const EquilibriumOptions& options) {
+namespace {
+
+/// Downhill in the energy, and in friction's potential under the forces that press. `rounding`: of the residual, before
+/// and after [N].
+EquilibriumReport descend(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
+                          EquilibriumWork& work, const EquilibriumOptions& options, double& rounding) {
   using End = EquilibriumReport::End;
   constexpr double kMostRaise = 1e3, kArmijo = 1e-4;
   constexpr double kRounding = 1e-14;  ///< of the energy, and of what the forces do along the cell
   constexpr int kCuts = 40;
   EquilibriumReport report;
   const double longest = longestStep(cell);
-  double raise = kLeastRaise, rounding = 0;
+  double raise = kLeastRaise;
   bool known = false;  // whether the tangent is definite, of the last iterate
-  cell.evaluate(faces, sections, work.answer);
+  work.evaluate(faces, sections, work.answer);
   for (;; ++report.iterations) {
     const std::vector<double> r = work.residual(work.answer);
     const double size = norm(r);
@@ -175,7 +207,7 @@ EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, s
     bool lower = false;
     for (int cut = 0; cut < kCuts && !lower; ++cut) {
       std::vector<Pose> moved = movedBy(cell, sections, d, s);
-      cell.evaluate(faces, moved, work.trial);
+      work.evaluate(faces, moved, work.trial);
       lower = work.trial.energy_J <= energy + kArmijo * s * slope + blur;
       if (lower)
         sections.swap(moved);
@@ -186,6 +218,30 @@ EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, s
     std::swap(work.answer, work.trial);
     raise = std::max(kLeastRaise, 0.1 * raise);
   }
+}
+
+}  // namespace
+
+EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
+                                  EquilibriumWork& work, const EquilibriumOptions& options) {
+  constexpr int kPasses = 100, kMostGrowths = 3;
+  double rounding = 0;
+  work.pressAsAccepted();
+  EquilibriumReport report = descend(cell, faces, sections, work, options, rounding);
+  if (!work.history || work.history->grips.empty()) return report;
+  double before = std::numeric_limits<double>::infinity();
+  for (int pass = 0, growths = 0; pass < kPasses && growths < kMostGrowths && report.converged(); ++pass) {
+    const double change = work.press(faces, sections);
+    growths += change >= before;
+    before = change;
+    const int iterations = report.iterations;
+    report = descend(cell, faces, sections, work, options, rounding);
+    const bool balanced = report.iterations == 0;
+    report.iterations += iterations;
+    if (balanced) return report;
+  }
+  if (report.converged()) report.end = EquilibriumReport::End::friction;
+  return report;
 }
 
 LoadReport changeLoad(const RodCell& cell, const CellLoad& from, const CellLoad& to, std::vector<Pose>& sections,

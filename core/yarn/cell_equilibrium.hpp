@@ -17,7 +17,7 @@ struct EquilibriumOptions {
 };
 
 struct EquilibriumReport {
-  enum class End { converged, too_many_iterations, no_descent, not_finite };
+  enum class End { converged, too_many_iterations, no_descent, not_finite, friction };
   End end = End::converged;
   /// False where the forces balance and the tangent is not positive definite: yarns would leave at the least push.
   bool stable = true;
@@ -33,6 +33,13 @@ struct EquilibriumReport {
 class EquilibriumWork {
  public:
   explicit EquilibriumWork(const RodCell& cell) : cell_(cell) {}
+
+  /// The energy and forces of the cell, with friction where `history` is given.
+  void evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out) const;
+  /// Takes the forces that press in friction from the last accepted load, or from where the sections are. Returns how
+  /// much they changed [N].
+  void pressAsAccepted();
+  double press(const CellFaces& faces, std::span<const Pose> sections);
 
   /// Second derivatives of the energy where `at` was evaluated, for all blocks and for the unknowns.
   void assemble(const CellFaces& faces, std::span<const Pose> sections, const CellAnswer& at, bool downhill = false);
@@ -55,9 +62,14 @@ class EquilibriumWork {
   std::vector<double> onUnknowns(std::span<const double> blocks) const;
 
   CellAnswer answer, trial;
+  /// Of the last accepted load, owned by the caller, who accepts loads; none: no friction.
+  const CellHistory* history = nullptr;
 
  private:
+  const CellFriction* friction() const { return history ? &friction_ : nullptr; }
+
   const RodCell& cell_;
+  CellFriction friction_;
   std::vector<int> pairs_;
   BlockMatrix blocks_;
   std::unique_ptr<Reduction> reduction_;
@@ -69,13 +81,17 @@ class EquilibriumWork {
 /// RodTangent::downhill where the tangent is not positive definite and its diagonal raised where that is not either,
 /// steps cut until the energy falls (Nocedal and Wright 2006, algorithms 3.2 and 3.3). Where it does not converge,
 /// `sections` are the last ones. Bits do not depend on threads.
+///
+/// With friction (EquilibriumWork::history) the forces that press are held while a potential is minimised, then taken
+/// from where that led, until they leave the forces balanced. Where they change more and more there is no such
+/// equilibrium within reach.
 EquilibriumReport findEquilibrium(const RodCell& cell, const CellFaces& faces, std::vector<Pose>& sections,
                                   EquilibriumWork& work, const EquilibriumOptions& options = {});
 
 /// From an equilibrium under one load to one under another, the sections carried along; where that does not come to
 /// rest, by way of loads between, the change halved up to `halvings` times. Where it fails, `sections` are of the last
-/// load that was reached and `reached` is that. Throws InputError as checkLoad, and with the keys "faces", "extent" where
-/// held faces or a quarter are to bend.
+/// load that was reached and `reached` is that. Loads between are not accepted: friction is that of one step. Throws
+/// InputError as checkLoad, and with the keys "faces", "extent" where held faces or a quarter are to bend.
 struct LoadReport : EquilibriumReport {
   CellLoad reached;
 };

@@ -9,9 +9,13 @@
 
 namespace gambeson {
 
-CellResultants resultantsOf(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections) {
+CellResultants resultantsOf(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections,
+                            const CellHistory* history) {
   CellAnswer answer;
-  cell.evaluate(facesOf(cell.yarns(), load), sections, answer);
+  const CellFaces faces = facesOf(cell.yarns(), load);
+  CellFriction friction;
+  if (history) friction = frictionAt(cell, faces, sections, *history);
+  cell.evaluate(faces, sections, answer, nullptr, false, history ? &friction : nullptr);
   const std::array<FaceMotion, 4> motions = faceMotions(cell.yarns(), load);
   std::array<double, 4> n{};
   for (int e = 0; e < 4; ++e)
@@ -26,7 +30,8 @@ std::array<double, 9> membraneTangent(const RodCell& cell, const CellLoad& load,
                                       EquilibriumWork& work) {
   if (load.curvature_per_m != 0) throw RunError("the tangent of a cell's membrane is of flat cloth");
   const CellFaces faces = facesOf(cell.yarns(), load);
-  cell.evaluate(faces, sections, work.answer);
+  work.press(faces, sections);
+  work.evaluate(faces, sections, work.answer);
   if (!work.settle(faces, sections, work.answer)) throw RunError("the cell of yarns is not stable");
   const std::array<FaceMotion, 4> motions = faceMotions(cell.yarns(), load);
   const auto rows = static_cast<std::size_t>(3 * cell.blocks());
@@ -73,7 +78,7 @@ LoadReport freeAcross(const RodCell& cell, CellLoad& load, std::vector<Pose>& se
   LoadReport report;
   report.reached = load;
   for (int k = 0; k < kIterations; ++k) {
-    const CellResultants n = resultantsOf(cell, load, sections);
+    const CellResultants n = resultantsOf(cell, load, sections, work.history);
     report.end = EquilibriumReport::End::converged;
     const double side = weft ? n.n22 : n.n11, along = weft ? n.n11 : n.n22;
     if (std::abs(side) <= tolerance * (std::abs(along) + std::abs(n.n12))) return report;

@@ -17,11 +17,14 @@ struct CellResultants {
   double moment_N = 0;         ///< dW/dk [N]
 };
 
-/// Of an equilibrium. Divided by a thickness n11 is a stress.
-CellResultants resultantsOf(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections);
+/// Of an equilibrium. Divided by a thickness n11 is a stress. `history`: of friction, of the last accepted load; W then
+/// holds the potential of friction since, and the resultants are its derivatives while pairs stick.
+CellResultants resultantsOf(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections,
+                            const CellHistory* history = nullptr);
 
 /// d(n11, n22, n12)/d(E11, E22, 2 E12) [N/m] of a flat equilibrium, symmetric, by rows; the sections follow the load.
-/// Throws RunError where the cell is not stable, or where the load has a curvature.
+/// With friction the forces that press are held. Throws RunError where the cell is not stable, or where the load has a
+/// curvature.
 std::array<double, 9> membraneTangent(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections,
                                       EquilibriumWork& work);
 

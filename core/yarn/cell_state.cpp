@@ -42,7 +42,7 @@ std::string findState(const RodCell& cell, const CellState& from, std::vector<Po
   if (!report.converged()) return report.reason();
   if (!report.stable) return "the equilibrium is not stable";
   out = {to, std::move(near), {}};
-  out.resultants = resultantsOf(cell, to, out.sections);
+  out.resultants = resultantsOf(cell, to, out.sections, work.history);
   return {};
 }
 

@@ -1,12 +1,8 @@
 #include "core/yarn/rod_cell.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "core/error.hpp"
 #include "core/yarn/line_contact.hpp"
 
 namespace gambeson {
@@ -25,26 +21,7 @@ Block between(const Mat3& A, const Block& B, const Mat3& C) {
           product.c.y, product.a.z, product.b.z, product.c.z};
 }
 
-void checkSection(const RodSection& s, const std::string& key) {
-  for (const auto& [name, value] : {std::pair{"stretch", s.stretch_N},
-                                    {"shear_across", s.shear_across_N},
-                                    {"shear_through", s.shear_through_N},
-                                    {"bending_through", s.bending_through_Nm2},
-                                    {"bending_in_plane", s.bending_in_plane_Nm2}})
-    if (!(value > 0 && std::isfinite(value)))
-      throw InputError({"", 0, key + "." + name}, fmt::format("{:.6g}, must be > 0", value));
-  if (!(s.torsion_Nm2 >= 0 && std::isfinite(s.torsion_Nm2)))
-    throw InputError({"", 0, key + ".torsion"}, fmt::format("{:.6g}, must be >= 0", s.torsion_Nm2));
-}
-
 }  // namespace
-
-/// An image in space, and how it moves: dx' = by_x dx + by_t dt.
-struct RodCell::Placed {
-  Pose pose;
-  Mat3 by_x;
-  Mat3 by_t;  ///< where power is not 0
-};
 
 RodCell::Placed RodCell::place(const CellFaces& faces, std::span<const Pose> sections, const Image& image) {
   const Pose& own = sections[image.section];
@@ -53,44 +30,6 @@ RodCell::Placed RodCell::place(const CellFaces& faces, std::span<const Pose> sec
   if (image.power == 1) return {g * own, g.rotation, {}};
   const Mat3 back = transpose(g.rotation);
   return {inverse(g) * own, back, minus(back)};
-}
-
-RodCell::RodCell(const RodCellDesign& design) : design_(design) {
-  checkWovenYarns(design_.yarns);
-  checkSection(design_.section[along_weft], "weft.section");
-  checkSection(design_.section[along_warp], "warp.section");
-  if (design_.contact) checkCompression(design_.compression);
-  const int n = design_.pieces_per_spacing;
-  if (n < 4 || n > 256 || n % 2 != 0)
-    throw InputError({"", 0, "pieces_per_spacing"}, fmt::format("{}, must be even, 4 to 256", n));
-  touch_m_ = yarns().yarn[along_weft].half_thickness_m + yarns().yarn[along_warp].half_thickness_m;
-  addYarns();
-  if (design_.contact) addPairs();
-  if (design_.extent == CellExtent::quarter &&
-      (yarns().weave.warps != 2 || yarns().weave.wefts != 2 || !hasEqualFaces(yarns().weave)))
-    throw InputError({"", 0, "extent"}, "quarter, must be full unless the weave is plain");
-  addFreedoms();
-}
-
-/// Column by column of the sections that move by themselves; the images of a quarter refer to theirs.
-void RodCell::addFreedoms() {
-  constexpr std::array<double, 6> kGlide{1, 1, -1, -1, -1, 1};
-  const bool quarter = design_.extent == CellExtent::quarter, held = design_.faces == FaceSupport::held;
-  const int n = design_.pieces_per_spacing;
-  std::vector<std::array<int, 6>> columns(rest_.size());
-  for (const int d : {along_weft, along_warp})
-    for (int k = 0; k < yarns().count(d); ++k)
-      for (int i = 0; i < sectionsOf(d); ++i) {
-        const bool own = !quarter || (k == 0 && i < n), mirrored = quarter && (k + i / n) % 2 == 1;
-        const int here = firstSection(d, k) + i, origin = quarter ? firstSection(d, 0) + i % n : here;
-        for (int c = 0; c < 6; ++c) {
-          const bool in_face = i % (quarter ? n : sectionsOf(d)) == 0;
-          if (own) columns[here][c] = held && in_face && c == 2 ? -1 : freedoms_.column_count++;
-          if (columns[origin][c] >= 0) freedoms_.add(columns[origin][c], mirrored ? kGlide[c] : 1);
-          freedoms_.endRow();
-        }
-      }
-  for (int c = 0; c < 6; ++c) freedoms_.endRow();
 }
 
 int RodCell::sectionsOf(int direction) const { return design_.pieces_per_spacing * yarns().crossings(direction); }
@@ -105,50 +44,6 @@ RodCell::Image RodCell::imageOf(int direction, int k, int i) const {
   return {firstSection(direction, k) + i - power * n, direction, power};
 }
 
-void RodCell::addYarns() {
-  for (const int d : {along_weft, along_warp}) {
-    const int n = sectionsOf(d);
-    const double step = yarns().period_m(d) / n;
-    const Vec3 ahead = d == along_weft ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up{0, 0, 1}, across = cross(up, ahead);
-    for (int k = 0; k < yarns().count(d); ++k)
-      for (int i = 0; i < n; ++i) {
-        const Vec3 tangent = normalized(ahead + yarns().slope(d, k, i * step) * up);
-        rest_.push_back({{tangent, across, cross(tangent, across)}, yarns().middle(d, k, i * step)});
-      }
-  }
-  const CellFaces faces = facesOf(yarns(), {});
-  double total = 0;
-  for (const int d : {along_weft, along_warp}) {
-    const int n = sectionsOf(d);
-    const double step = yarns().period_m(d) / n;
-    for (int k = 0; k < yarns().count(d); ++k)
-      for (int i = 0; i < n; ++i) {
-        const Image a = imageOf(d, k, i), b = imageOf(d, k, i + 1);
-        const double length = yarns().arcLength_m(d, k, i * step, (i + 1) * step);
-        pieces_.push_back({restPiece(place(faces, rest_, a).pose, place(faces, rest_, b).pose, length), d, a, b});
-        total += length;
-      }
-  }
-  turn_length_m_ = total / static_cast<double>(pieces_.size());
-}
-
-/// Around each crossing the sections of both yarns up to their next crossings.
-void RodCell::addPairs() {
-  const int n = design_.pieces_per_spacing;
-  const auto shareOf = [&](int direction, int k, int i) {
-    const int m = sectionsOf(direction), first = firstSection(direction, k), here = ((i % m) + m) % m;
-    return 0.5 * (pieces_[first + here].piece.length_m + pieces_[first + (here + m - 1) % m].piece.length_m);
-  };
-  for (int j = 0; j < yarns().weave.wefts; ++j)
-    for (int i = 0; i < yarns().weave.warps; ++i) {
-      const int on_weft = i * n + n / 2, on_warp = j * n + n / 2;
-      for (int a = on_weft - n; a <= on_weft + n; ++a)
-        for (int b = on_warp - n; b <= on_warp + n; ++b)
-          pairs_.push_back({imageOf(along_weft, j, a), imageOf(along_warp, i, b),
-                            shareOf(along_weft, j, a) * shareOf(along_warp, i, b)});
-    }
-}
-
 double RodCell::yarnLength_m(int direction, int k) const {
   double sum = 0;
   for (int i = 0; i < sectionsOf(direction); ++i) sum += pieces_[firstSection(direction, k) + i].piece.length_m;
@@ -156,6 +51,16 @@ double RodCell::yarnLength_m(int direction, int k) const {
 }
 
 double RodCell::reach_m() const { return std::hypot(yarns().period_m(along_weft), yarns().period_m(along_warp)); }
+
+RodCell::PairPlace RodCell::pairAt(const CellFaces& faces, std::span<const Pose> sections, int pair) const {
+  const Pair& p = pairs_[pair];
+  const Pose weft = place(faces, sections, p.weft).pose, warp = place(faces, sections, p.warp).pose;
+  const Vec3 apart = weft.origin - warp.origin;
+  const double normal = norm2(apart) < touch_m_ * touch_m_
+                            ? -p.lengths_m2 * lineContact(design_.compression, touch_m_, norm(apart)).first
+                            : 0;
+  return {weft, warp, p.lengths_m2, normal};
+}
 
 std::vector<int> RodCell::nearPairs(const CellFaces& faces, std::span<const Pose> sections, double part) const {
   const double reach = touch_m_ * (1 + part);
@@ -185,6 +90,8 @@ BlockMatrix RodCell::sparsity(std::span<const int> pairs) const {
   for (const int k : pairs) {
     const Pair& p = pairs_[k];
     std::vector<int> together{2 * p.weft.section, 2 * p.warp.section};
+    if (design_.friction.coefficient > 0)
+      together.insert(together.end(), {2 * p.weft.section + 1, 2 * p.warp.section + 1});
     if (p.weft.power != 0) together.push_back(faces + along_weft);
     if (p.warp.power != 0) together.push_back(faces + along_warp);
     join(together);
@@ -217,12 +124,20 @@ void addBlocks(const std::vector<Part>& parts, const Entry& entry, BlockMatrix& 
       if (p.block <= q.block) K.add(p.block, q.block, between(p.by, entry(p.vector, q.vector), q.by));
 }
 
+/// Of the tangent of an element of four vectors.
+Block blockOf(const std::array<double, 144>& tangent, int p, int q) {
+  Block block;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) block[3 * i + j] = tangent[12 * (3 * p + i) + 3 * q + j];
+  return block;
+}
+
 Mat3 scaled(double s) { return {{s, 0, 0}, {0, s, 0}, {0, 0, s}}; }
 
 }  // namespace
 
 void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out, BlockMatrix* K,
-                       bool downhill) const {
+                       bool downhill, const CellFriction* friction) const {
   out.energy_J = 0;
   out.gradient.assign(static_cast<std::size_t>(blocks()), Vec3{});
   out.face_moment_Nm = {};
@@ -241,6 +156,16 @@ void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, C
     const Vec3& own = sections[image.section].origin;
     out.face_moment_Nm[image.direction] +=
         image.power == 1 ? cross(g.rotation * own, force) : -cross(own - g.origin, g.rotation * force);
+  };
+  /// The moment, about its axes, on the turn of a section.
+  const auto addMoment = [&](const Image& image, const Placed& at, const Vec3& moment) {
+    const Vec3 force = moment / turn_length_m_;
+    out.gradient[2 * image.section + 1] += force;
+    balanced += norm2(force);
+    if (image.power == 0) return;
+    const Vec3 in_space = at.pose.rotation * moment;
+    out.face_moment_Nm[image.direction] +=
+        image.power == 1 ? in_space : -(faces.step[image.direction].rotation * in_space);
   };
   const auto addParts = [&](const Image& image, const Placed& at, int vector) {
     parts.push_back({vector, 2 * image.section, at.by_x});
@@ -269,23 +194,43 @@ void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, C
     parts.push_back({1, 2 * piece.a.section + 1, scaled(per_length)});
     parts.push_back({3, 2 * piece.b.section + 1, scaled(per_length)});
     addBlocks(
-        parts,
-        [&](int p, int q) {
-          Block block;
-          for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) block[3 * i + j] = answer.tangent[12 * (3 * p + i) + 3 * q + j];
-          return block;
-        },
-        *K);
+        parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
   }
 
   const double touch2 = touch_m_ * touch_m_;
+  std::size_t grip = 0;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Pair& pair = pairs_[k];
     const Placed weft = place(faces, sections, pair.weft), warp = place(faces, sections, pair.warp);
     const Vec3 apart = weft.pose.origin - warp.pose.origin;
-    if (!(norm2(apart) < touch2)) continue;
+    const bool gripped = friction && grip < friction->grips.size() && friction->grips[grip].pair == static_cast<int>(k);
+    const double limit = gripped ? design_.friction.coefficient * friction->normal_N[grip] : 0;
+    if (!(norm2(apart) < touch2) && !(limit > 0)) {
+      grip += gripped;
+      continue;
+    }
     out.touching.push_back(static_cast<int>(k));
+    if (limit > 0) {
+      const RodFrictionAnswer answer =
+          evaluateRodFriction(friction->grips[grip].grip, weft.pose, warp.pose,
+                              design_.friction.stick_stiffness_N_per_m3 * pair.lengths_m2, limit, K != nullptr);
+      out.energy_J += answer.energy_J;
+      addForce(pair.weft, weft, answer.gradient[0]);
+      addMoment(pair.weft, weft, answer.gradient[1]);
+      addForce(pair.warp, warp, answer.gradient[2]);
+      addMoment(pair.warp, warp, answer.gradient[3]);
+      if (K) {
+        parts.clear();
+        addParts(pair.weft, weft, 0);
+        addParts(pair.warp, warp, 2);
+        parts.push_back({1, 2 * pair.weft.section + 1, scaled(per_length)});
+        parts.push_back({3, 2 * pair.warp.section + 1, scaled(per_length)});
+        addBlocks(
+            parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
+      }
+    }
+    grip += gripped;
+    if (!(norm2(apart) < touch2)) continue;
     const double distance = norm(apart);
     const LineContact contact = lineContact(design_.compression, touch_m_, distance);
     out.energy_J += pair.lengths_m2 * contact.energy;

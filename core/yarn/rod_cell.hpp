@@ -9,6 +9,7 @@
 #include "core/math/block_matrix.hpp"
 #include "core/math/sparse.hpp"
 #include "core/yarn/cell_faces.hpp"
+#include "core/yarn/cell_friction.hpp"
 #include "core/yarn/compression.hpp"
 #include "core/yarn/rod.hpp"
 #include "core/yarn/woven_yarns.hpp"
@@ -37,6 +38,7 @@ struct RodCellDesign {
   /// its shear stiffness may still be negative, by some 5e-4 of that along the yarns.
   int pieces_per_spacing = 24;
   CellExtent extent = CellExtent::full;
+  RodFriction friction;  ///< where contact is
 };
 
 /// What a cell answers. Blocks of three unknowns: of section i the place x [m] (block 2 i) and the turn about its own
@@ -46,16 +48,18 @@ struct CellAnswer {
   std::vector<Vec3> gradient;          ///< by block [N]
   std::array<Vec3, 2> face_moment_Nm;  ///< dW = face_moment . w of a spin w of face 1 or 2 about the origin
   double balanced_N = 0;               ///< the size of the forces that balance in the gradient
-  std::vector<int> touching;           ///< pairs of points in contact, ascending
+  std::vector<int> touching;           ///< pairs of points in contact or held by friction, ascending
 };
 
 /// The cell is constant; callers own its sections and faces. Yarns are without force where they lie at rest. Yarns that
-/// cross press on each other without friction (line_contact.hpp), by sums over pairs of sections.
+/// cross press on each other (line_contact.hpp) and hold each other by friction (rod_friction.hpp), both by sums over
+/// pairs of sections.
 class RodCell {
  public:
   /// Throws InputError where the yarns cannot lie so (checkWovenYarns), a section stretches, shears or bends without
   /// stiffness (keys "weft.section.stretch" and so on; torsion may have none), the law of compression is out of range
-  /// (checkCompression), "pieces_per_spacing" is, or "extent" is a quarter of no plain weave.
+  /// (checkCompression), friction is (checkRodFriction), "pieces_per_spacing" is, or "extent" is a quarter of no plain
+  /// weave.
   explicit RodCell(const RodCellDesign& design);
 
   const RodCellDesign& design() const { return design_; }
@@ -77,8 +81,16 @@ class RodCell {
   const SparseRows& freedoms() const { return freedoms_; }
 
   /// Where K is given it has the sparsity of `sparsity` with at least the pairs that touch; `downhill`: RodTangent's.
+  /// Where `friction` is given the energy holds its potential since the last accepted load, and its forces take part.
   void evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out, BlockMatrix* K = nullptr,
-                bool downhill = false) const;
+                bool downhill = false, const CellFriction* friction = nullptr) const;
+  int pairs() const { return static_cast<int>(pairs_.size()); }
+  /// The sections of a pair, or their images, and the force that presses between them.
+  struct PairPlace {
+    Pose weft, warp;
+    double lengths_m2, normal_N;
+  };
+  PairPlace pairAt(const CellFaces& faces, std::span<const Pose> sections, int pair) const;
   /// Pairs that touch, or will when their points are nearer by this part of their distance.
   std::vector<int> nearPairs(const CellFaces& faces, std::span<const Pose> sections, double part) const;
   BlockMatrix sparsity(std::span<const int> pairs) const;
@@ -100,7 +112,12 @@ class RodCell {
     Image weft, warp;
     double lengths_m2;  ///< of both yarns for which the pair stands
   };
-  struct Placed;
+  /// An image in space, and how it moves: dx' = by_x dx + by_t dt.
+  struct Placed {
+    Pose pose;
+    Mat3 by_x;
+    Mat3 by_t;  ///< where power is not 0
+  };
 
   static Placed place(const CellFaces& faces, std::span<const Pose> sections, const Image& image);
   Image imageOf(int direction, int k, int i) const;
