@@ -83,7 +83,8 @@ TEST(Cord, PressesAsACordAroundABodyDoes) {
 
 TEST(Cord, IsDrawnWindowByWindow) {
   const Folder folder;
-  const Case c = readCase(folder.write("case.json", ring));
+  // Half of the step that the cord's frequency allows, at which Verlet's energy is off by 3 % (at 0.1 ms by 0.4 %).
+  const Case c = readCase(folder.write("case.json", ring), {R"(time.max_step="0.2 ms")"});
   ASSERT_EQ(runCase(c, {folder.path() / "out", 1, false}), 0);
   const auto j = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
   EXPECT_LT(j.at("momentum").at("largest_error_ratio").get<double>(), 1e-9);
