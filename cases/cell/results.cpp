@@ -10,6 +10,7 @@
 #include "cases/cell/fields.hpp"
 #include "cases/input/json_at.hpp"
 #include "cases/input/message.hpp"
+#include "cases/runs/check_json.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/own_file.hpp"
@@ -152,15 +153,7 @@ void writeCellSummary(const RecordedCell& cell, const std::vector<AuditCheck>& c
                          {"harmonic_mean_Pa", harmonicMean(bar.bar)},
                          {"characteristic_m", mean.characteristic}});
   }
-  j["checks"] = Json::array();
-  for (const AuditCheck& k : checks)
-    j["checks"].push_back({{"check", k.name},
-                           {"value", k.value},
-                           {"limit", k.limit},
-                           {"unit", k.unit},
-                           {"holds", k.holds()},
-                           {"meaning", k.meaning},
-                           {"wrong", k.holds() ? "" : k.wrong}});
+  j["checks"] = checkJson(checks);
   j["timings"] = {{"wall_s", facts.wall_s}, {"threads", facts.threads}};
   writeOwnFile(file, j.dump(2) + "\n");
 }

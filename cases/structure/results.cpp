@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cloth/thread_strains.hpp"
+#include "cases/runs/check_json.hpp"
 #include "cases/structure/run.hpp"
 #include "cases/structure/self_crossings.hpp"
 #include "core/error.hpp"
@@ -193,15 +194,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
     audit["momentum_gap_over_impulses"] = part(a.largestMomentumGap(), a.impulses());
     j["audit"] = audit;
   }
-  j["checks"] = Json::array();
-  for (const AuditCheck& k : checks)
-    j["checks"].push_back({{"check", k.name},
-                           {"value", k.value},
-                           {"limit", k.limit},
-                           {"unit", k.unit},
-                           {"holds", k.holds()},
-                           {"meaning", k.meaning},
-                           {"wrong", k.holds() ? "" : k.wrong}});
+  j["checks"] = checkJson(checks);
   j["solver"] = {{c.kind == StructureKind::dynamics ? "steps" : "points", facts.points},
                  {"iterations", facts.iterations},
                  {"factorisations", facts.factorisations}};
