@@ -4,25 +4,32 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "core/material/fabric.hpp"
 
 namespace gambeson {
 
+struct CellFile;
 struct LawFile;
 
-/// The table that a fabric's law is (cases/cloth/law_table.hpp).
-struct FabricTable {
+/// What a fabric's law is of that is an energy at a point: a table (cases/cloth/law_table.hpp), or a cell of yarns that
+/// is solved at every point (cases/yarns/cell_file.hpp).
+struct EnergySource {
   std::filesystem::path file;  ///< empty: the case itself holds it
-  std::shared_ptr<const LawFile> content;
-  bool operator==(const FabricTable&) const = default;
+  std::variant<std::shared_ptr<const LawFile>, std::shared_ptr<const CellFile>> content;
+  bool operator==(const EnergySource&) const = default;
+
+  bool isCell() const { return content.index() == 1; }
+  const LawFile& table() const { return *std::get<0>(content); }
+  const CellFile& cell() const { return *std::get<1>(content); }
 };
 
 /// A fabric, and how far it may be stretched: what no force depends on, but the verdict.
 struct FabricCase : Fabric {
   std::optional<double> limit_strain_weft, limit_strain_warp;  ///< Green-Lagrange strains; absent: those of the law
   std::filesystem::path card;  ///< that it is of (cases/cloth/card.hpp); empty: none
-  std::optional<FabricTable> table;  ///< that `energy` is of
+  std::optional<EnergySource> energy_source;  ///< that `energy` is of
   bool operator==(const FabricCase&) const = default;
 };
 

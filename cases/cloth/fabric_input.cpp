@@ -9,8 +9,8 @@
 
 #include "analysis/ticks.hpp"
 #include "cases/cloth/card.hpp"
-#include "cases/cloth/fabric_table.hpp"
 #include "cases/cloth/fields.hpp"
+#include "cases/cloth/law_input.hpp"
 #include "cases/input/table.hpp"
 #include "core/material/kes_shear.hpp"
 
@@ -223,12 +223,12 @@ Object fabricTable() {
       .defaultsTo("limit_strain")
       .object("bending", &F::bending, bendingTable(), "resistance to bending")
       .defaultsTo("required, or card, or law")
-      .object("law", &F::law, tableLawTable(),
-              "in place of young and its like, poisson, jam_area, shear_loop and bending: a law that is a table "
-              "(with nurbs cloth, on the CPU)")
+      .object("law", &F::law, lawTable(),
+              "in place of young and its like, poisson, jam_area, shear_loop and bending: a law that is a table, or a "
+              "cell of yarns (with nurbs cloth, on the CPU)")
       .defaultsTo("none")
       .build();
-  // What a law that is a table leaves no meaning to is not written beside it.
+  // What such a law leaves no meaning to is not written beside it.
   for (Field& f : table.fields)
     if (f.key == "poisson" || f.key == "jam_area" || f.key == "bending")
       f.write = [write = f.write](const void* in) {
@@ -361,7 +361,7 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
   resolveDensity(entry, in, f);
   if (in.law) {
     resolveLimits(entry, in, f);
-    resolveTable(entry, *in.law, f);
+    resolveLaw(entry, *in.law, f);
     return f;
   }
   if (!of_card || entry.node.find("jam_area")) f.jam_area = in.jam_area;
@@ -385,10 +385,10 @@ FabricInput restoreFabric(const FabricCase& f) {
   in.name = f.name;
   in.thickness_m = f.thickness_m;
   in.density_kg_per_m3 = f.density_kg_per_m3;
-  if (f.table) {
+  if (f.energy_source) {
     in.limit_strain_weft = f.limit_strain_weft;
     in.limit_strain_warp = f.limit_strain_warp;
-    in.law = restoreTable(f);
+    in.law = restoreLaw(f);
     return in;
   }
   in.young_weft_Pa = f.young_weft_Pa;

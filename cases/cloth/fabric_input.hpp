@@ -32,10 +32,11 @@ struct ShearLoopInput {
   double friction_angle_rad = 0.0174532925199432958;
 };
 
-/// A law that is a table.
-struct TableInput {
-  std::filesystem::path table;
+/// A law that is a table, or a cell of yarns.
+struct LawInput {
+  std::filesystem::path table, cell;
   std::shared_ptr<const LawFile> values;
+  std::shared_ptr<const CellFile> yarns;
   RestCurvature rest = RestCurvature::zero;
 };
 
@@ -50,7 +51,7 @@ struct FabricInput {
   std::optional<double> limit_strain, limit_strain_weft, limit_strain_warp;
   std::optional<ShearLoopInput> shear_loop;
   BendingInput bending;
-  std::optional<TableInput> law;
+  std::optional<LawInput> law;
 };
 
 /// The fabric that the input says, and where it names a card the card, with what else the entry gives in its place.
@@ -60,8 +61,8 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in);
 std::string bendingName(const BendingLaw& law);
 /// How a fabric of a case file bends, for the report.
 std::string bendingInWords(const BendingLaw& law);
-/// What a law is that is a table, for the report.
-std::string lawInWords(const FabricTable& table);
+/// What a law is that is a table or a cell, for the report.
+std::string lawInWords(const EnergySource& source);
 /// The input, written out in full, that resolves to the fabric.
 FabricInput restoreFabric(const FabricCase& fabric);
 

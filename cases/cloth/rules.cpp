@@ -16,10 +16,12 @@ void checkBending(const Entry& entry, const ClothModel& model) {
 
 void checkNodes(const Entry& entry, const ClothModel& model, const Fabric& fabric) {
   if (fabric.energy && model.kind != ClothKind::nurbs)
-    entry.failAt("model", R"(does not carry a fabric whose law is a table; allowed with it: "nurbs")");
+    entry.failAt("model",
+                 R"(does not carry a fabric whose law is a table or a cell of yarns; allowed with it: "nurbs")");
   if (fabric.energy && model.rule == CellRule::assumed)
-    entry.failAt("cell_rule",
-                 R"(does not go with a fabric whose law is a table; allowed with it: "automatic", "full")");
+    entry.failAt(
+        "cell_rule",
+        R"(does not go with a fabric whose law is a table or a cell of yarns; allowed with it: "automatic", "full")");
   if (model.kind != ClothKind::springs && entry.node.find("springs"))
     entry.failAt("springs", "is for \"model\": \"springs\"");
   if (model.kind != ClothKind::shell && entry.node.find("shell")) entry.failAt("shell", "is for \"model\": \"shell\"");
@@ -27,6 +29,14 @@ void checkNodes(const Entry& entry, const ClothModel& model, const Fabric& fabri
                           : model.kind == ClothKind::shell ? whatShellLacks(fabric)
                                                            : "";
   if (!why.empty()) entry.failAt("model", why + R"(; allowed with it: "nurbs", "triangles")");
+}
+
+void refuseCell(const Entry& entry, const FabricCase& fabric) {
+  if (!fabric.energy_source || !fabric.energy_source->isCell()) return;
+  const Entry law = entry.member(*entry.node.find("law"));
+  law.failAt(
+      law.node.find("cell") ? "cell" : "yarns",
+      "is solved in cases of kind static alone; allowed here: \"table\", which gambeson homogenise makes of the cell");
 }
 
 }  // namespace gambeson::schema

@@ -55,7 +55,7 @@ void sayAt(const schema::Entry& root, const InputError& e) {
     steps[0] = "garment";
   }
   const JsonNode* node = &root.node;
-  std::string path, file = root.file, rest;
+  std::string path = root.path, file = root.file, rest;
   for (const std::string& step : steps) {
     const JsonNode* next = rest.empty() ? childOf(*node, step) : nullptr;
     std::string& to = next ? path : rest;

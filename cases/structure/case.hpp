@@ -43,8 +43,8 @@ struct LaminateMaterial {
 struct MaterialCase {
   std::variant<IsotropicMaterial, OrthotropicMaterial, LaminateMaterial, Fabric> law;
   bool tension_field = false;
-  std::filesystem::path card;        ///< of a fabric; empty: none
-  std::optional<FabricTable> table;  ///< that a fabric's law is
+  std::filesystem::path card;                 ///< of a fabric; empty: none
+  std::optional<EnergySource> energy_source;  ///< that a fabric's law is of
 };
 /// As the shell takes it; a density that is not given is 0.
 Fabric fabricOf(const MaterialCase& material);

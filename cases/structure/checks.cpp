@@ -79,10 +79,22 @@ AuditCheck energyCheck(const PathTable& path) {
           fmt::format("{} % of the energy appears from nowhere", formatNumber(part, 2))};
 }
 
-bool isTable(const MaterialCase& m) { return m.table.has_value(); }
+bool hasEnergy(const MaterialCase& m) { return m.energy_source.has_value(); }
+bool isCell(const MaterialCase& m) { return m.energy_source && m.energy_source->isCell(); }
 
-AuditCheck lawCheck(const LawRange& range) {
+AuditCheck lawCheck(const StructureCase& c, const LawRange& range) {
   const double part = 100.0 * static_cast<double>(range.beyond) / static_cast<double>(range.points);
+  if (isCell(c.material) || std::any_of(c.other_materials.begin(), c.other_materials.end(), isCell))
+    return {"Law range",
+            part,
+            0,
+            "%",
+            "share of the points of the sheet whose cell of yarns finds no equilibrium (or that are strained beyond a "
+            "table), in the state where most do not, or beyond which the path does not go on",
+            range.first
+                ? unansweredInWords(range)
+                : fmt::format("{} of {} points are strained beyond the table of the law: stress there is a guess",
+                              range.beyond, range.points)};
   return {"Law range",
           part,
           0,
@@ -182,8 +194,8 @@ std::vector<AuditCheck> structureChecks(const StructureCase& c, const StructureM
                                   formatNumber(100 * most, 2))});
     return checks;
   }
-  if (facts.law_range.points > 0) checks.push_back(lawCheck(facts.law_range));
-  if (!isTable(c.material) || !std::all_of(c.other_materials.begin(), c.other_materials.end(), isTable))
+  if (facts.law_range.points > 0) checks.push_back(lawCheck(c, facts.law_range));
+  if (!hasEnergy(c.material) || !std::all_of(c.other_materials.begin(), c.other_materials.end(), hasEnergy))
     checks.push_back(strainCheck(c, shape));
   if (!c.supports.empty()) checks.push_back(sizeCheck(c, model, last));
   if (c.kind == StructureKind::statics && c.statics.arc_length)

@@ -114,12 +114,12 @@ Object materialTable() {
             const FabricCase f = resolveFabric(p, in);
             m.law = static_cast<const Fabric&>(f);
             m.card = f.card;
-            m.table = f.table;
+            m.energy_source = f.energy_source;
           },
           [table = fabric.object](const M& m) -> std::optional<JsonNode> {
             const Fabric* f = std::get_if<Fabric>(&m.law);
             if (!f) return std::nullopt;
-            const FabricInput in = restoreFabric(FabricCase{*f, {}, {}, m.card, m.table});
+            const FabricInput in = restoreFabric(FabricCase{*f, {}, {}, m.card, m.energy_source});
             return writeObject(*table, &in);
           })
       .in("law")

@@ -14,7 +14,7 @@ void eachFile(StructureCase& named, Take take) {
   for (ObstacleCase& o : named.obstacles) kindOf(o).files(o, take);
   const auto takeMaterial = [&](MaterialCase& m) {
     take(m.card);
-    if (m.table) take(m.table->file);
+    if (m.energy_source) take(m.energy_source->file);
   };
   takeMaterial(named.material);
   for (MaterialCase& m : named.other_materials) takeMaterial(m);

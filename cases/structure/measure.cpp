@@ -91,6 +91,7 @@ MeasuredState measureStatic(const Structure& s, std::span<const double> y, doubl
     m.turning_Nm = directorMoments(s, {m.q, innerValues(s, y, factor, ProgramEnds::extended), history},
                                    programValues(s, factor, ProgramEnds::extended));
     m.strain_energy_J = strainEnergy(s, y, factor, ProgramEnds::extended, history);
+    m.history.assign(history.begin(), history.end());
     return m;
   }
   const std::vector<double> programs = programValues(s, factor, ProgramEnds::extended);
@@ -169,7 +170,7 @@ MeasuredState measureMode(const Structure& s, std::span<const double> y, double 
 }
 
 StressState::StressState(const StructureModel& model, const MeasuredState& state, bool everywhere)
-    : model_(model), q_(state.q), limit_(state.limit_N_per_m) {
+    : model_(model), q_(state.q), history_(state.history), limit_(state.limit_N_per_m) {
   const Structure& structure = *model.structure;
   if (state.small) {
     // Principal values are homogeneous of degree one in small displacements: taken from a part of them so small that
@@ -179,7 +180,7 @@ StressState::StressState(const StructureModel& model, const MeasuredState& state
     part_ = most > 0 ? std::min(1.0, 1e-7 * sizeOf(structure.cloth->rest()) / most) : 1;
     for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = structure.cloth->rest()[i] + part_ * q_[i];
   }
-  if (everywhere) means_ = model.stress->means(q_, more());
+  if (everywhere) means_ = model.stress->means({q_, {}, history_}, more());
 }
 
 StressView::More StressState::more() const {
@@ -190,7 +191,7 @@ StressView::More StressState::more() const {
 }
 
 PrincipalStress StressState::at(int patch, Vec2 uv) const {
-  PrincipalStress stress = model_.stress->at(q_, patch, uv, means_, more());
+  PrincipalStress stress = model_.stress->at({q_, {}, history_}, patch, uv, means_, more());
   stress.principal1_N_per_m /= part_;
   stress.principal2_N_per_m /= part_;
   stress.strain1 /= part_;

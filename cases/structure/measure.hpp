@@ -19,6 +19,7 @@ struct MeasuredState {
   std::vector<Vec3> reaction_N;     ///< on the free points: what supports push with
   std::vector<Vec3> turning_Nm;     ///< on the directors: what supports turn them with; empty: there are none
   std::vector<Vec2> limit_N_per_m;  ///< field of limitStress where strain is limited; else empty
+  std::vector<double> history;      ///< committed there, of a static path; else empty
   double strain_energy_J = 0;
   bool small = false;  ///< strains and forces are those of the linearised sheet
 };
@@ -49,6 +50,7 @@ class StressState {
   const StructureModel& model_;
   std::vector<StressView::Sample> means_;
   std::vector<Vec3> q_;
+  std::vector<double> history_;
   std::vector<Vec2> limit_;
   double part_ = 1;  ///< of the displacements, in q_
 };

@@ -217,8 +217,8 @@ std::vector<std::string> assumptionsOf(const StructureCase& c) {
       return "Fabric: orthotropic membrane (Zheng 2013, eq. 2.13). " + schema::bendingInWords(f.law);
     }
   };
-  a.push_back(c.material.table ? "Fabric. " + schema::lawInWords(*c.material.table)
-                               : std::visit(Law{}, c.material.law));
+  a.push_back(c.material.energy_source ? "Fabric. " + schema::lawInWords(*c.material.energy_source)
+                                       : std::visit(Law{}, c.material.law));
   if (c.material.tension_field)
     a.push_back("The membrane carries no compression (tension field): wrinkles are not resolved.");
   bool dead = false, follow = false;

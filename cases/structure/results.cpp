@@ -48,6 +48,14 @@ Json valuesOf(const PathTable& path, const std::string& name) {
   return j;
 }
 
+Json lawRangeOf(const StructureFacts& facts) {
+  const LawRange& range = facts.law_range;
+  Json j{{"points", range.points}, {"most_beyond", range.beyond}};
+  if (range.unanswered > 0) j["unanswered"] = range.unanswered;
+  if (facts.unanswered_tries > 0) j["tries_without_answer"] = facts.unanswered_tries;
+  return j;
+}
+
 void addField(Frame& frame, const std::string& name, const std::string& unit, int components, std::vector<float> data) {
   frame.sample_fields.push_back({name, unit, components, std::move(data)});
 }
@@ -170,8 +178,7 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
         {"projections_per_step",
          facts.points > 0 ? static_cast<double>(facts.projections) / static_cast<double>(facts.points) : 0},
         {"unconverged_steps", facts.limits_missed}};
-  if (facts.law_range.points > 0)
-    j["law_range"] = {{"points", facts.law_range.points}, {"most_beyond", facts.law_range.beyond}};
+  if (facts.law_range.points > 0) j["law_range"] = lawRangeOf(facts);
   if (facts.contact)
     j["contact"] = {{"unsolved_steps", facts.contact->unsolved},
                     {"pinched_steps", facts.contact->pinched},

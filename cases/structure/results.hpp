@@ -48,7 +48,10 @@ struct StructureFacts {
   int threads = 1;
   std::optional<MotionAudit> audit;
   std::optional<ContactFacts> contact;
-  LawRange law_range;  ///< of a sheet whose law is a table: of the recorded state with the most points beyond it
+  /// Of a sheet whose law is an energy at a point: of the recorded state with the most points beyond what it knows;
+  /// where the path ends since points find no answer, of the last state tried.
+  LawRange law_range;
+  long unanswered_tries = 0;  ///< states that were tried and given up since points found no answer
 };
 
 struct ModeRow {

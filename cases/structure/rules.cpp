@@ -64,6 +64,7 @@ void checkMaterial(const Entry& entry, const StructureCase& c, const MaterialCas
       if (entry.node.find(key)) return memberOf(entry, key);
     return entry;
   }();
+  if (c.kind != StructureKind::statics && m.energy_source) refuseCell(law, FabricCase{{}, {}, {}, {}, m.energy_source});
   if (!densityOf(m)) {
     if (c.kind != StructureKind::statics)
       law.failAt("density", fmt::format("is required: mass per volume, in a {} case",

@@ -102,7 +102,7 @@ class Run {
     lead.insert(lead.end(), values.begin(), values.end());
     path.rows.push_back(std::move(lead));
     last_ = state;
-    const LawRange range = structure().cloth->lawRange(state.q);
+    const LawRange range = structure().cloth->lawRange({state.q, {}, state.history});
     if (range.points > 0 && (facts.law_range.points == 0 || range.beyond > facts.law_range.beyond))
       facts.law_range = range;
     if (c_.output.shapes == ShapesKept::all) keep(state);
@@ -200,10 +200,23 @@ void attempt(StructureFacts& facts, F f) {
 /// Energy that laws with a memory and the cloth's damping have turned to heat since the start.
 constexpr const char* lost_column = "lost_energy_J";
 
-void solve(const StaticReport& report, StructureFacts& facts) {
+/// The key of the first material whose law is a cell of yarns.
+std::string keyOfCell(const StructureCase& c) {
+  const auto is_cell = [](const MaterialCase& m) { return m.energy_source && m.energy_source->isCell(); };
+  if (is_cell(c.material)) return "material.fabric.law.cell";
+  for (std::size_t i = 0; i < c.other_materials.size(); ++i)
+    if (is_cell(c.other_materials[i])) return fmt::format("other_materials[{}].fabric.law.cell", i);
+  return "material";
+}
+
+void solve(const StructureCase& c, const StaticReport& report, StructureFacts& facts) {
   facts.finished = report.reached;
   facts.why = report.why;
+  if (!report.reached && report.unanswered.unanswered > 0)
+    facts.why = fmt::format("{}: {}. Smaller loads, or more steps, may do", keyOfCell(c), report.why);
   facts.factorisations = report.factorisations;
+  facts.unanswered_tries = report.unanswered_tries;
+  if (!report.reached && report.unanswered.unanswered > 0) facts.law_range = report.unanswered;
 }
 
 void runStatic(const StructureCase& c, Run& run) {
@@ -222,7 +235,8 @@ void runStatic(const StructureCase& c, Run& run) {
   if (remembers) first.push_back(0);
   run.add(start, std::move(first));
   attempt(run.facts, [&] {
-    solve(solveStatic(s, c.statics,
+    solve(c,
+          solveStatic(s, c.statics,
                       [&](const StaticPoint& p) {
                         const MeasuredState state = measureStatic(s, p.y, p.factor, c.statics.linear, p.history);
                         std::vector<double> row{p.factor,
@@ -335,7 +349,8 @@ void runModal(const StructureCase& c, Run& run) {
     double factor = 0;
     run.facts.finished = true;
     if (c.modal.at_equilibrium) {
-      solve(solveStatic(s, c.statics,
+      solve(c,
+            solveStatic(s, c.statics,
                         [&](const StaticPoint& p) {
                           y = p.y;
                           history = p.history;

@@ -550,9 +550,7 @@ std::vector<std::pair<int, Vec2>> JoinedCloth::lawPlaces() const {
 LawRange JoinedCloth::lawRange(const ClothState& state) const {
   LawRange all;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const LawRange own = parts_[i]->lawRange(stateOf(state, i));
-    all.points += own.points;
-    all.beyond += own.beyond;
+    all.add(parts_[i]->lawRange(stateOf(state, i)), patch_[i]);
   }
   return all;
 }

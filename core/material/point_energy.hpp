@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 
 namespace gambeson {
 
@@ -37,6 +38,10 @@ class PointEnergy {
   /// asked. A point that finds no answer has NaN.
   virtual void evaluate(std::span<const SheetStrain> points, SheetParts parts, std::span<const double> history,
                         std::span<double> remembered, std::span<SheetAnswer> out) const = 0;
+  /// Why a point with this history finds no answer, in words; empty where it finds one.
+  virtual std::string whyNone(const SheetStrain& point, std::span<const double> history) const {
+    return static_cast<void>(point), static_cast<void>(history), std::string();
+  }
   /// Doubles that each point remembers.
   virtual std::size_t historySize() const { return 0; }
   /// A slope that none of its points exceeds, in the order of matrices: what the stable time step must allow for.

@@ -208,11 +208,15 @@ void followArc(System& system, const StaticOptions& options, const StaticObserve
         continue;
       }
       if (++halvings > 2 * options.halvings) {
+        const std::string why = newton.finite ? std::string() : system.whyNotFinite();
         report.why = fmt::format(
             "arc length, point {} at factor {:.6g}: the residual is {:.2e} of the forces after {} iterations, with the "
             "arc halved to {:.2e} of the first; likeliest cause: {}. The last converged state is at factor {:.6g}",
             report.points + 1, state.factor, newton.residual, newton.iterations, length / first_length,
-            newton.singular ? "the tangent is singular" : "a bifurcation, or a kink of a law", state.factor);
+            !why.empty()      ? why
+            : newton.singular ? "the tangent is singular"
+                              : "a bifurcation, or a kink of a law",
+            state.factor);
         return;
       }
       length *= 0.5;

@@ -10,7 +10,8 @@ namespace gambeson {
 namespace {
 
 /// What stopped Newton, as far as the tangents tell.
-std::string likeliestCause(const PathState& state, const NewtonReport& newton, double softening) {
+std::string likeliestCause(const System& system, const PathState& state, const NewtonReport& newton, double softening) {
+  if (const std::string why = newton.finite ? "" : system.whyNotFinite(); !why.empty()) return why;
   if (newton.singular) return "the tangent is singular";
   if (state.solver.negativePivots() > 0 || newton.negative_pivots > 0 || softening < 0.1)
     return "a limit point or a bifurcation (the tangent loses its definiteness): follow the path by arc length";
@@ -116,7 +117,7 @@ void followLoadSteps(System& system, const StaticOptions& options, const StaticO
         "with steps halved {} times, and no stable state was found beyond; likeliest cause: {}. The last converged "
         "state is at factor {:.6g}",
         position / units + 1, options.steps, state.factor, next, newton.residual, newton.iterations, options.halvings,
-        likeliestCause(state, newton, softening), state.factor);
+        likeliestCause(system, state, newton, softening), state.factor);
     return;
   }
   report.reached = true;

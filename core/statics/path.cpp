@@ -145,6 +145,8 @@ bool startPath(System& system, const StaticOptions& options, PathState& state, S
           "the start is not in equilibrium at factor 0, and Newton finds none from it (residual {:.2e} of the forces "
           "after {} iterations)",
           r.residual, r.iterations);
+      if (const std::string why = r.finite ? std::string() : system.whyNotFinite(); !why.empty())
+        report.why += "; likeliest cause: " + why;
       return false;
     }
     state.largest_force = r.force;

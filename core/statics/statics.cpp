@@ -9,6 +9,8 @@ StaticReport solveStatic(const Structure& structure, const StaticOptions& option
                          std::vector<double> start) {
   StructureSystem system(structure, ProgramEnds::extended);
   StaticReport report = followPath(system, options, observe, std::move(start));
+  report.unanswered = system.unanswered();
+  report.unanswered_tries = system.unansweredTries();
   if (report.no_start && structure.cloth->springsAtRest(system.length()))
     report.why +=
         "; likeliest cause: the sheet is curved, and its fabric has no moment when it is flat (bending rest: zero), so "

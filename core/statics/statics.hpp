@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "core/cloth/law_range.hpp"
 #include "core/statics/structure.hpp"
 
 namespace gambeson {
@@ -52,6 +53,10 @@ struct StaticReport {
   bool no_start = false;  ///< no equilibrium was found at factor 0
   std::string why;        ///< else: the step, the residual and the likeliest cause
   int points = 0, factorisations = 0;
+  /// Of laws that are an energy at a point: of the last state tried beyond the end of the path that had no answer, and
+  /// how many such states were tried on all of it.
+  LawRange unanswered;
+  long unanswered_tries = 0;
 };
 
 /// Returns false to stop early.

@@ -154,6 +154,7 @@ double StructureSystem::commit(std::span<const double> y, double t) {
   }
   history_.swap(trial_);
   committed_t_ = t;
+  lost_q_.clear();
   residual_y_.clear();
   at_y_.clear();
   return energy_.lost;
@@ -199,7 +200,17 @@ double StructureSystem::residual(std::span<const double> y, double t, std::span<
   pullBack(f_, inner_f_, free_);
   structure_.dofs.Ct.multiply<double>(free_, g);
   for (double& v : g) v = -v;
+  if (!std::isfinite(norm(free_))) ++lost_tries_, lost_q_ = q_, lost_inner_ = inner_;
   return size;
+}
+
+LawRange StructureSystem::unanswered() const {
+  return lost_q_.empty() ? LawRange{} : structure_.cloth->lawRange({lost_q_, lost_inner_, history_});
+}
+
+std::string StructureSystem::whyNotFinite() const {
+  const LawRange range = unanswered();
+  return range.first ? unansweredInWords(range) : std::string();
 }
 
 void StructureSystem::assemble(std::span<const double> y, double t) {

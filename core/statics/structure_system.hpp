@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/cloth/law_range.hpp"
 #include "core/statics/structure.hpp"
 #include "core/statics/system.hpp"
 
@@ -29,6 +30,11 @@ class StructureSystem : public System {
   void setHistory(std::span<const double> history, double t = 0) override;
   double commit(std::span<const double> y, double t) override;
   std::string describe(std::span<const double> motion) const override;
+  std::string whyNotFinite() const override;
+  /// Of the last state tried since the last commit whose forces were not finite; no points: there was none.
+  LawRange unanswered() const;
+  /// How many such states were tried.
+  long unansweredTries() const { return lost_tries_; }
   void mass(bool lumped, SymmetricMatrix& M) override;
   void damping(std::span<const double> y, double t, bool lumped, bool stiffness_part, SymmetricMatrix& D) override;
   void dropIdle(std::span<const double> y, double t, std::span<double> rate) const override;
@@ -57,7 +63,10 @@ class StructureSystem : public System {
   ClothWork work_;
   std::vector<double> history_, trial_;
   double committed_t_ = 0;
-  ClothEnergy energy_;  ///< of the laws that remember, at the last residual
+  ClothEnergy energy_;        ///< of the laws that remember, at the last residual
+  std::vector<Vec3> lost_q_;  ///< of the last state that was tried and had no finite forces
+  std::vector<double> lost_inner_;
+  long lost_tries_ = 0;
   std::vector<double> residual_y_;
   double residual_t_ = 0;
   BlockMatrix K_;

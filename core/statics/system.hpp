@@ -57,6 +57,8 @@ class System {
   /// Accepts y at t: its laws remember it from now on. Returns the energy that they have lost since the last commit
   /// [J], never negative. Forces at (y, t) stay what they are.
   virtual double commit(std::span<const double> y, double t) { return static_cast<void>(y), static_cast<void>(t), 0; }
+  /// In words: where forces were last not finite, of what was tried since the last commit; empty: nowhere, or unknown.
+  virtual std::string whyNotFinite() const { return {}; }
   /// In words: what moves in a motion of the unknowns that meets no stiffness.
   virtual std::string describe(std::span<const double> motion) const = 0;
 

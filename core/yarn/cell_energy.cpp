@@ -1,11 +1,14 @@
 #include "core/yarn/cell_energy.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
 #include "core/yarn/cell_response.hpp"
+#include "core/yarn/cell_state.hpp"
 
 namespace gambeson {
 namespace {
@@ -23,6 +26,8 @@ SheetAnswer noAnswer() {
   return none;
 }
 
+CellLoad loadOf(const SheetStrain& point) { return {point.strain[0], point.strain[1], point.strain[2], 0, 0}; }
+
 const RodCellDesign& checked(const RodCellDesign& design) {
   if (design.faces == FaceSupport::held)
     throw InputError({"", 0, "faces"}, "held, must be glide where the cloth bends");
@@ -36,6 +41,25 @@ CellEnergy::CellEnergy(const RodCellDesign& design, const EquilibriumOptions& op
   EquilibriumWork work(cell_);
   std::vector<Pose> sections(cell_.rest().begin(), cell_.rest().end());
   bending_ = bendingOf(cell_, {}, sections, work);
+}
+
+std::string CellEnergy::whyNone(const SheetStrain& point, std::span<const double> history) const {
+  EquilibriumWork work(cell_);
+  std::vector<Pose> sections;
+  const CellLoad from = remembered(history, sections), to = loadOf(point);
+  const std::string way = inWords(from) + " to " + inWords(to);
+  try {
+    const LoadReport report = changeLoad(cell_, from, to, sections, work, options_);
+    if (!report.converged())
+      return fmt::format("on the way from {} the cell finds no equilibrium beyond {}: {}", way, inWords(report.reached),
+                         report.reason());
+    if (!report.stable)
+      return fmt::format("on the way from {} the cell's yarns leave their places at the least push", way);
+    membraneTangent(cell_, to, sections, work);
+  } catch (const std::runtime_error& e) {
+    return fmt::format("on the way from {}: {}", way, e.what());
+  }
+  return {};
 }
 
 std::size_t CellEnergy::historySize() const {
@@ -69,7 +93,7 @@ void CellEnergy::remember(const CellLoad& load, std::span<const Pose> sections, 
 
 SheetAnswer CellEnergy::answer(const SheetStrain& point, SheetParts parts, CellLoad& load, std::vector<Pose>& sections,
                                EquilibriumWork& work) const {
-  const CellLoad to{point.strain[0], point.strain[1], point.strain[2], 0, 0};
+  const CellLoad to = loadOf(point);
   const LoadReport report = changeLoad(cell_, load, to, sections, work, options_);
   if (!report.converged() || !report.stable) return noAnswer();
   load = to;

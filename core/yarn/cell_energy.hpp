@@ -27,6 +27,7 @@ class CellEnergy : public PointEnergy {
 
   void evaluate(std::span<const SheetStrain> points, SheetParts parts, std::span<const double> history,
                 std::span<double> remembered, std::span<SheetAnswer> out) const override;
+  std::string whyNone(const SheetStrain& point, std::span<const double> history) const override;
   std::size_t historySize() const override;
   std::array<double, 36> steepest() const override;
 

@@ -26,7 +26,7 @@ template <class Take>
 void eachFile(Case& named, Take take) {
   const auto takeFabric = [&](FabricCase& f) {
     take(f.card);
-    if (f.table) take(f.table->file);
+    if (f.energy_source) take(f.energy_source->file);
   };
   for (GarmentCase& g : named.garments) {
     kindOf(g).files(g, take);

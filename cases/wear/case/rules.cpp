@@ -168,6 +168,13 @@ void checkGarments(const Entry& root, const Case& c) {
     if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())
       entry.failAt("stitching", "needs dressing.layer_by_layer: each garment is then put on by itself");
   }
+  for (std::size_t i = 0; i < c.garments.size(); ++i) {
+    const Entry entry = garmentEntry(root, i);
+    if (const auto& own = c.garments[i].fabric) refuseCell(entry.member(*entry.node.find("fabric")), *own);
+    for (std::size_t k = 0; k < c.garments[i].other_fabrics.size(); ++k)
+      refuseCell(entry.member(*entry.node.find("other_fabrics")).item(k), c.garments[i].other_fabrics[k]);
+  }
+  if (const JsonNode* fabric = root.node.find("fabric")) refuseCell(root.member(*fabric), c.fabric);
   const bool common = root.node.find("fabric");
   if (!common && !all_own)
     root.failAt("fabric", "is required: what garments without a fabric of their own are made of");

@@ -58,7 +58,7 @@ namespace {
 /// Whether the law of all garments is a table.
 bool allTables(const Case& c) {
   return std::all_of(c.garments.begin(), c.garments.end(),
-                     [&](const GarmentCase& g) { return fabricOf(c, g).table.has_value(); });
+                     [&](const GarmentCase& g) { return fabricOf(c, g).energy_source.has_value(); });
 }
 
 }  // namespace
@@ -168,11 +168,11 @@ namespace {
 /// How a fabric bends; `of`: "" where there is only one.
 void sayFabric(const std::string& of, const FabricCase& f, std::vector<std::string>& list) {
   const auto say = [&](const std::string& text) { list.push_back(of + text); };
-  say(f.table ? schema::lawInWords(*f.table) : schema::bendingInWords(f.law));
+  say(f.energy_source ? schema::lawInWords(*f.energy_source) : schema::bendingInWords(f.law));
   say(f.rest_curvature_of_shape
           ? "The fabric rests in its sewn shape: bending starts from that curvature."
           : "The fabric is flat at rest (Zheng 2013): bending it around the body already costs moment.");
-  if (f.table) return;
+  if (f.energy_source) return;
   const GivenRigidities* given = givenRigidities(f.law);
   say(given && given->twist_Nm > 0 ? fmt::format("Twist stiffness {} N m.", formatNumber(given->twist_Nm))
                                    : "The fabric has no stiffness against twist (Zheng 2013).");

@@ -25,6 +25,14 @@ std::array<T, 5> physical(const RestFrame& G, const T& d1, const T& d2, const T&
           G.G11 * G.G12 * d11 + (G.G11 * G.G22 + G.G21 * G.G12) * d12 + G.G21 * G.G22 * d22};
 }
 
+Vec2 fractionOf(const NurbsPatch& patch, double u, double v) {
+  const auto part = [](const KnotVector& k, double t) {
+    const std::vector<double> ends = breakpoints(k);
+    return (t - ends.front()) / (ends.back() - ends.front());
+  };
+  return {part(patch.u, u), part(patch.v, v)};
+}
+
 /// The nearest positive semidefinite slopes, in units of the diagonal.
 void takePositivePart(std::array<double, 36>& slope) {
   Eigen::Matrix<double, 6, 1> unit;
@@ -103,6 +111,8 @@ PointCells::PointCells(const Garment& garment, const std::vector<int>& offsets, 
                                     fibreAngleAt(garment, from.patch, {at.u, at.v}));
       Point& point = cell.points.emplace_back();
       point.area_m2 = G.area * at.weight;
+      point.patch = from.patch;
+      point.fraction = fractionOf(patch, at.u, at.v);
       if (of_shape) {
         const Vec3 k = curvature(G, d[1], d[2], d[3], d[4], d[5]);
         point.rest_curvature = {k.x, k.y, 2 * k.z};
@@ -278,13 +288,27 @@ void PointCells::tangent(const ClothState& state, const ForceTerms& terms, int f
 }
 
 LawRange PointCells::range(const ClothState& state) const {
-  LawRange all;
-  Work w;
-  for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+  std::vector<LawRange> of_cell(cells_.size());
+  forAllWith<Work>(Each::much, 0, static_cast<int>(cells_.size()), [&](Work& w, int number) {
+    const auto cell = static_cast<std::size_t>(number);
     answer(cell, state, {}, SheetParts::resultants, false, w);
-    all.points += static_cast<long>(w.answers.size());
-    for (const SheetAnswer& a : w.answers) all.beyond += a.beyond;
-  }
+    LawRange& own = of_cell[cell];
+    own.points = static_cast<long>(w.answers.size());
+    const std::size_t each = energy_->historySize();
+    for (std::size_t i = 0; i < w.answers.size(); ++i) {
+      const SheetAnswer& a = w.answers[i];
+      const bool unanswered = !std::isfinite(a.energy_J_per_m2);
+      own.beyond += a.beyond || unanswered;
+      own.unanswered += unanswered;
+      if (!unanswered || own.first) continue;
+      const Point& point = cells_[cell].points[i];
+      const std::span<const double> history =
+          w.history.empty() ? std::span<const double>() : std::span<const double>(w.history).subspan(i * each, each);
+      own.first = {point.patch, point.fraction, w.strains[i], energy_->whyNone(w.strains[i], history)};
+    }
+  });
+  LawRange all;
+  for (const LawRange& own : of_cell) all.add(own);
   return all;
 }
 

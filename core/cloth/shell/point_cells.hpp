@@ -44,6 +44,8 @@ class PointCells {
   struct Point {
     std::vector<std::array<double, 5>> shapes;  ///< of each node: N,1 N,2 N,11 N,22 N,12 along weft and warp
     double area_m2 = 0;
+    int patch = 0;
+    Vec2 fraction;                           ///< of the patch's range of parameters
     std::array<double, 3> rest_curvature{};  ///< k11, k22, 2 k12 [1/m]
   };
   struct Cell {

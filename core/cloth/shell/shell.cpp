@@ -342,9 +342,7 @@ LawRange Shell::lawRange(const ClothState& state) const {
   LawRange all;
   for (const ShellPart& part : parts_) {
     if (!part.points) continue;
-    const LawRange own = part.points->range(state);
-    all.points += own.points;
-    all.beyond += own.beyond;
+    all.add(part.points->range(state));
   }
   return all;
 }

@@ -99,10 +99,10 @@ TEST(LawFile, AFabricHasItsLawAndTheModuliAtRest) {
   const std::string text = schema::toText(schema::writeObject(schema::fabricTable(), &in));
   folder.write("law.json", "{}");
   const FabricCase again = fabricOf(folder, text);
-  EXPECT_EQ(*again.table->content, *f.table->content);
+  EXPECT_EQ(again.energy_source->table(), f.energy_source->table());
   const schema::FabricInput both = schema::restoreFabric(again);
   EXPECT_EQ(schema::toText(schema::writeObject(schema::fabricTable(), &both)), text);
-  EXPECT_NE(schema::lawInWords(*f.table).find("weave 7"), std::string::npos);
+  EXPECT_NE(schema::lawInWords(*f.energy_source).find("weave 7"), std::string::npos);
 }
 
 }  // namespace
