@@ -116,6 +116,14 @@ class Cloth {
   /// f = - dE/dq, and what else `out` asks for. The same bits for any number of threads.
   virtual void force(const ClothState& state, const ClothForce& out, ClothWork& work,
                      const ForceTerms& terms = {}) const = 0;
+  /// The force by laws at their steepest slopes (ForceTerms::steepest); laws that are an energy at a point are as steep
+  /// as within these strains.
+  virtual void steepForce(const ClothState& state, const ClothForce& out, ClothWork& work, ForceTerms terms,
+                          const StrainBox& within) const {
+    static_cast<void>(within);
+    terms.steepest = true;
+    force(state, out, work, terms);
+  }
   virtual std::unique_ptr<ClothTangent> tangent() const = 0;
 
   // Damping by the cloth itself, linear in the velocities of its points; `force` leaves it out.
@@ -177,6 +185,10 @@ class Cloth {
     static_cast<void>(value), static_cast<void>(rate);
   }
 
+  /// The strains of its points whose law is an energy at a point; none where it has no such points.
+  virtual std::optional<StrainBox> lawStrains(const ClothState& state) const {
+    return static_cast<void>(state), std::nullopt;
+  }
   /// How many of its points are strained beyond what their law knows.
   virtual LawRange lawRange(const ClothState& state) const { return static_cast<void>(state), LawRange{}; }
 

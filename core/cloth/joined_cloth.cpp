@@ -467,6 +467,17 @@ void JoinedCloth::force(const ClothState& state, const ClothForce& out, ClothWor
   }
 }
 
+void JoinedCloth::steepForce(const ClothState& state, const ClothForce& out, ClothWork& work, ForceTerms terms,
+                             const StrainBox& within) const {
+  work.parts.resize(parts_.size());
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const auto first = static_cast<std::size_t>(point_[i]), end = static_cast<std::size_t>(point_[i + 1]);
+    parts_[i]->steepForce(stateOf(state, i),
+                          {range(out.points, first, end), range(out.inner, rates_[i], rates_[i + 1]), {}, nullptr},
+                          work.parts[i], terms, within);
+  }
+}
+
 bool JoinedCloth::damps() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->damps(); });
 }
@@ -544,6 +555,18 @@ std::vector<std::pair<int, Vec2>> JoinedCloth::lawPlaces() const {
   std::vector<std::pair<int, Vec2>> all;
   for (std::size_t i = 0; i < parts_.size(); ++i)
     for (const auto& [patch, uv] : parts_[i]->lawPlaces()) all.emplace_back(patch_[i] + patch, uv);
+  return all;
+}
+
+std::optional<StrainBox> JoinedCloth::lawStrains(const ClothState& state) const {
+  std::optional<StrainBox> all;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const std::optional<StrainBox> own = parts_[i]->lawStrains(stateOf(state, i));
+    if (own && all)
+      all->add(*own);
+    else if (own)
+      all = own;
+  }
   return all;
 }
 

@@ -62,6 +62,9 @@ class JoinedCloth : public Cloth {
   PointState stateAt(const ClothState& state, int patch, Vec2 uv) const override;
   double bendAt(const ClothState& state, int patch, Vec2 uv) const override;
   std::vector<std::pair<int, Vec2>> lawPlaces() const override;
+  void steepForce(const ClothState& state, const ClothForce& out, ClothWork& work, ForceTerms terms,
+                  const StrainBox& within) const override;
+  std::optional<StrainBox> lawStrains(const ClothState& state) const override;
   LawRange lawRange(const ClothState& state) const override;
   bool springsAtRest(double length_m) const override;
 

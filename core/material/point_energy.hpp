@@ -2,8 +2,10 @@
 /// A fabric whose law is an energy per area of the strain and the curvature at a point, and nothing simpler: a table,
 /// or a cell of yarns that is solved at every point.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -28,6 +30,31 @@ struct SheetAnswer {
 
 enum class SheetParts { resultants, slopes };
 
+/// Strains between two corners, in E11, E22 and 2 E12.
+struct StrainBox {
+  std::array<double, 3> low{}, high{};
+
+  static StrainBox all() {
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    return {{-kAny, -kAny, -kAny}, {kAny, kAny, kAny}};
+  }
+  static StrainBox none() { return {all().high, all().low}; }
+  void add(const StrainBox& other) {
+    for (std::size_t i = 0; i < 3; ++i)
+      low[i] = std::min(low[i], other.low[i]), high[i] = std::max(high[i], other.high[i]);
+  }
+  bool contains(const StrainBox& other) const {
+    bool in = true;
+    for (std::size_t i = 0; i < 3; ++i) in = in && low[i] <= other.low[i] && other.high[i] <= high[i];
+    return in;
+  }
+  StrainBox widened(double by) const {
+    StrainBox out = *this;
+    for (std::size_t i = 0; i < 3; ++i) out.low[i] -= by, out.high[i] += by;
+    return out;
+  }
+};
+
 /// Constant; many threads may evaluate it.
 class PointEnergy {
  public:
@@ -44,9 +71,9 @@ class PointEnergy {
   }
   /// Doubles that each point remembers.
   virtual std::size_t historySize() const { return 0; }
-  /// A slope that none of its points exceeds, in the order of matrices: what the stable time step must allow for.
-  /// Throws RunError where nothing bounds them (such laws are of statics).
-  virtual std::array<double, 36> steepest() const = 0;
+  /// A slope that no point strained within a box exceeds, in the order of matrices: what the stable time step must
+  /// allow for. Throws RunError where nothing bounds them (such laws are of statics).
+  virtual std::array<double, 36> steepest(const StrainBox& within = StrainBox::all()) const = 0;
 
   SheetAnswer at(const SheetStrain& point, SheetParts parts = SheetParts::slopes,
                  std::span<const double> history = {}) const {

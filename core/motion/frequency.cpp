@@ -16,6 +16,7 @@ class Stiffness {
       : m_(model),
         p_(state.p),
         inner_(state.inner),
+        within_(state.law_strains.value_or(StrainBox::all())),
         w_(work),
         blocks_(state.p.size() + (model.inner_mass.size() + 2) / 3) {}
 
@@ -47,7 +48,7 @@ class Stiffness {
       m_.cloth->map().T.multiply<Vec3>(shifted_, w_.q);
       m_.cloth->advance(inner_, inner_y_, side * epsilon, inner_shifted_);
       w_.inner_force.resize(inner_y_.size());
-      m_.cloth->force({w_.q, inner_shifted_, {}}, {w_.f, w_.inner_force, {}, nullptr}, w_.cloth, terms);
+      m_.cloth->steepForce({w_.q, inner_shifted_, {}}, {w_.f, w_.inner_force, {}, nullptr}, w_.cloth, terms, within_);
       std::vector<Vec3>& f = side < 0 ? before_ : after_;
       f.assign(blocks_, {});
       m_.cloth->map().Tt.multiply<Vec3>(w_.f, std::span(f).first(p_.size()));
@@ -78,6 +79,7 @@ class Stiffness {
   const Model& m_;
   std::span<const Vec3> p_;
   std::span<const double> inner_;
+  StrainBox within_;
   StepWork& w_;
   std::size_t blocks_;
   std::vector<double> inner_shifted_, inner_y_;
@@ -104,8 +106,7 @@ const char* Frequency::governing() const {
   return seam_share >= spring_share ? "seam" : "spring";
 }
 
-Frequency largestFrequency(const Model& m, const Stage&, State& state, int iterations, StepWork& work,
-                           FrequencyOf of) {
+Frequency largestFrequency(const Model& m, const Stage&, State& state, int iterations, StepWork& work, FrequencyOf of) {
   double damping = 0;
   if (!m.cloth->damps() || of != FrequencyOf::all) return estimate(m, state, iterations, 0, damping, work, of);
   // The step h is stable where h^2 K + 2 h D <= 4 M: with 2/h = w, where no eigenvalue of K + D w is above w^2. Of one

@@ -182,6 +182,8 @@ struct State {
   double frequency_rad_per_s = 0;  ///< estimate of the largest
   std::vector<Vec3> mode;          ///< its mode, warm start of the next estimate
   int steps_to_estimate = 0;
+  /// Within which the estimate takes slopes of laws that are an energy at a point; none where there are no such laws.
+  std::optional<StrainBox> law_strains;
   double swing = 0;  ///< of the highest modes, its peaks held for a while (core/motion/resonance.hpp)
   double share = 0;  ///< of the stable step that this swing allows; 0 where there was no step yet
   double last_step_s = 0;

@@ -18,6 +18,9 @@ constexpr double kLimitPieces = 8;  ///< a step in which strain limits and conta
 /// Each estimate is of the stiffness at one moment. Steps that follow it up and down gain energy (a crumpled sheet
 /// without drag 25 times its own in 0.4 s), so what is used stays near the largest of late.
 constexpr double kFall = 0.995;
+/// Of strains of laws that are an energy at a point, beyond those at an estimate: its slopes hold as far, and a step
+/// that leads farther asks for another one. A cloth that is drawn out at 10 per second needs 50 steps of 10 us for it.
+constexpr double kStrainsAhead = 0.005;
 constexpr int kSoonest = 10;  ///< steps between estimates because of the shown frequency
 /// Cloth that is so many times as stiff (as a frequency) as at rest is crushed or torn: the run would need so many
 /// times as many steps, and its forces mean nothing.
@@ -29,6 +32,7 @@ ControlledSteps::ControlledSteps(const Model& model, const Stage& stage, const S
     : model_(model), stage_(stage), control_(control), frequency_(frequency), work_(work), of_(of) {
   reserve(capacityOf(model), work);
   work.audits_energy = control.audits_energy;
+  has_law_strains_ = model.cloth->lawStrains(model.cloth->rest()).has_value();
 }
 
 double ControlledSteps::shownFrequency2(const State& before, const State& after) {
@@ -69,8 +73,15 @@ void ControlledSteps::refuseCrushed(State& state) {
       state.time_s, positionText(state.p[worst]), state.frequency_rad_per_s / at_rest_rad_per_s_));
 }
 
+std::optional<StrainBox> ControlledSteps::lawStrains(const State& state) {
+  q_.resize(static_cast<std::size_t>(model_.cloth->points()));
+  model_.cloth->map().T.multiply<Vec3>(state.p, q_);
+  return model_.cloth->lawStrains(q_);
+}
+
 void ControlledSteps::estimate(State& state) {
   if (state.steps_to_estimate > 0) return;
+  if (has_law_strains_) state.law_strains = lawStrains(state)->widened(kStrainsAhead);
   const bool cold = state.frequency_rad_per_s == 0 || state.steps_to_estimate < 0;
   frequency_ = lookAtFrequency(state, cold ? kColdIterations : kWarmIterations);
   // A warm estimate may also have followed one mode while another rose.
@@ -88,6 +99,7 @@ void ControlledSteps::countDown(State& after, double shown2) const {
 
 double ControlledSteps::unstableAt(const State& end, double dt) {
   State probe = end;
+  if (has_law_strains_) probe.law_strains = lawStrains(end)->widened(kStrainsAhead);
   const double omega = lookAtFrequency(probe, kColdIterations).largest_rad_per_s;
   return outruns(omega * omega, dt) ? omega : 0;
 }
@@ -151,6 +163,8 @@ bool ControlledSteps::accepts(State& state, State& next, double dt) {
   }
   rejections_ = 0;
   settle(state, next, dt, shown2);
+  if (next.law_strains && next.steps_to_estimate > 0 && !next.law_strains->contains(*lawStrains(next)))
+    next.steps_to_estimate = 0;
   return true;
 }
 

@@ -63,6 +63,8 @@ class ControlledSteps : public Integrator {
  private:
   double frequencyAtRest();
   void refuseCrushed(State& state);
+  /// The strains of the points whose law is an energy at a point.
+  std::optional<StrainBox> lawStrains(const State& state);
   /// Makes `next`, in cuts where it fails. Returns the length that worked.
   StepReport makeInCuts(State& state, double& dt_s, State& next);
   /// The largest frequency at the end of a step of dt_s whose motion shows more than a stable step allows (loads that
@@ -73,6 +75,8 @@ class ControlledSteps : public Integrator {
   FrequencyOf of_;
   double at_rest_rad_per_s_ = -1;  ///< the largest frequency of the cloth at rest; negative: not asked yet
   int rejections_ = 0;
+  bool has_law_strains_ = false;  ///< whether laws of the cloth are an energy at a point
+  std::vector<Vec3> q_;           ///< scratch of lawStrains
 };
 
 }  // namespace gambeson

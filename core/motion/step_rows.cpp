@@ -224,6 +224,7 @@ void leaveToNext(const Model& m, const State& in, double dt, const StepReport& r
   out.frequency_rad_per_s = in.frequency_rad_per_s;
   out.mode = in.mode;
   out.steps_to_estimate = in.steps_to_estimate;
+  out.law_strains = in.law_strains;
   out.swing = in.swing;
   out.share = in.share;
   out.last_step_s = dt;

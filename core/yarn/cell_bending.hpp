@@ -21,9 +21,9 @@ struct CellBending {
 ///   D(t) = D11 c⁴ + D22 s⁴ + (2 D12 + 4 D33) c² s² + 4 D13 c³ s + 4 D23 c s³,  c = cos t, s = sin t,
 /// D(t) = d²W/dk² - g . K^-1 g with g = d²W/(dk dx), by central differences (h = 1e-4 a period, error of h²). b comes
 /// from three directions, D from five. Cylinders cannot part D12 from D33, and no lattice is bent into a saddle: D12 =
-/// 0, which is exact where yarns do not press on each other (each answers its own bend and its own twist) and is kept
-/// where they do. Throws RunError where the cell is not stable, is bent or has friction,
-/// InputError with the key "extent" where it is a quarter.
+/// 0, which is exact where yarns do not press on each other (each answers its own bend and its own twist) and lacks
+/// what they answer to each other's bend where they do, at most 5e-4 of D11 (core/yarn/DECISIONS.md). Throws RunError
+/// where the cell is not stable, is bent or has friction, InputError with the key "extent" where it is a quarter.
 CellBending bendingOf(const RodCell& cell, const CellLoad& load, std::span<const Pose> sections, EquilibriumWork& work);
 
 }  // namespace gambeson

@@ -26,7 +26,12 @@ SheetAnswer noAnswer() {
   return none;
 }
 
-CellLoad loadOf(const SheetStrain& point) { return {point.strain[0], point.strain[1], point.strain[2], 0, 0}; }
+CellLoad loadOf(const SheetStrain& point) {
+  constexpr double kRounding = 1e-13;
+  const auto& [e11, e22, g12] = point.strain;
+  if (std::max({std::abs(e11), std::abs(e22), std::abs(g12)}) < kRounding) return {};
+  return {e11, e22, g12, 0, 0};
+}
 
 const RodCellDesign& checked(const RodCellDesign& design) {
   if (design.faces == FaceSupport::held)
@@ -66,7 +71,7 @@ std::size_t CellEnergy::historySize() const {
   return kOfLoad + kOfSection * static_cast<std::size_t>(cell_.sections());
 }
 
-std::array<double, 36> CellEnergy::steepest() const {
+std::array<double, 36> CellEnergy::steepest(const StrainBox&) const {
   throw RunError("nothing bounds the stiffness of cells of yarns: they are of static cases");
 }
 

@@ -18,7 +18,9 @@ namespace gambeson {
 /// A point remembers the strain of its last accepted state and the sections there; from these the next equilibrium is
 /// sought (changeLoad), so that an answer depends on strain and history alone. Valid: strains under which the cell has
 /// a stable equilibrium near the remembered one, curvatures small against 1 / the height of the cell. A point whose
-/// cell finds none has NaN, upon which solvers shorten their step. Of statics: nothing bounds its slopes.
+/// cell finds none has NaN, upon which solvers shorten their step. Strains below 1e-13 are the rounding of positions
+/// and count as none, so that a sheet at rest, which yarns that slide let move freely, has no force at all. Of statics:
+/// nothing bounds its slopes.
 class CellEnergy : public PointEnergy {
  public:
   /// Throws InputError as RodCell; key "faces" where these are held, which cannot bend; RunError where the cell at rest
@@ -29,7 +31,7 @@ class CellEnergy : public PointEnergy {
                 std::span<double> remembered, std::span<SheetAnswer> out) const override;
   std::string whyNone(const SheetStrain& point, std::span<const double> history) const override;
   std::size_t historySize() const override;
-  std::array<double, 36> steepest() const override;
+  std::array<double, 36> steepest(const StrainBox& within = StrainBox::all()) const override;
 
   const RodCell& cell() const { return cell_; }
   const CellBending& bending() const { return bending_; }

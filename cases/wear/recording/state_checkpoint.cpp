@@ -36,6 +36,10 @@ Checkpoint checkpointOf(const State& s, const Frequency& f) {
                         f.bending_share,       f.seam_share,  f.spring_share};
   c.reals["swing"] = {s.swing, s.share};
   if (!s.history.empty()) c.reals["history"] = s.history;
+  if (s.law_strains) {
+    c.reals["law_strains"].assign(s.law_strains->low.begin(), s.law_strains->low.end());
+    c.reals["law_strains"].insert(c.reals["law_strains"].end(), s.law_strains->high.begin(), s.law_strains->high.end());
+  }
   if (s.elastic_J) c.reals["elastic"] = {*s.elastic_J};
   if (!s.free_change.empty()) c.reals["free_change"] = doubles(s.free_change);
   if (s.damping_W != 0) c.reals["damping"] = {s.damping_W};
@@ -103,6 +107,8 @@ State stateOf(const Checkpoint& c, Frequency& f) {
   s.swing = c.reals.at("swing")[0];
   s.share = c.reals.at("swing")[1];
   f = {control[2], control[3], control[4], control[5], control[6]};
+  if (const std::vector<double> box = ifThere("law_strains"); box.size() == 6)
+    s.law_strains = StrainBox{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
   s.steps_to_estimate = static_cast<int>(c.integers.at("steps_to_estimate")[0]);
   s.tangled = c.integers.at("tangled")[0] != 0;
   for (const auto sample : c.integers.at("pinched")) s.pinched.push_back(static_cast<int>(sample));

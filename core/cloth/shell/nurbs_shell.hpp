@@ -34,6 +34,12 @@ class NurbsShell : public PatchCloth {
   PointState stateAt(const ClothState& state, int patch, Vec2 uv) const override;
   double bendAt(const ClothState& state, int patch, Vec2 uv) const override;
   std::vector<std::pair<int, Vec2>> lawPlaces() const override;
+  void steepForce(const ClothState& state, const ClothForce& out, ClothWork& work, ForceTerms terms,
+                  const StrainBox& within) const override {
+    terms.steepest = true;
+    shell_.force(state, out, work, terms, within);
+  }
+  std::optional<StrainBox> lawStrains(const ClothState& state) const override { return shell_.lawStrains(state); }
   LawRange lawRange(const ClothState& state) const override { return shell_.lawRange(state); }
   bool springsAtRest(double length_m) const override;
 

@@ -14,6 +14,8 @@
 namespace gambeson {
 namespace {
 
+constexpr std::array<double, 36> kNotAsked{};
+
 using Slopes = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
 /// Derivatives in the parameters, turned to the physical basis.
@@ -154,7 +156,7 @@ long PointCells::historyOf(std::size_t cell, std::size_t point) const {
 }
 
 void PointCells::answer(std::size_t cell, const ClothState& state, const ForceTerms& terms, SheetParts parts,
-                        bool remember, Work& w) const {
+                        bool remember, const std::array<double, 36>& steepest, Work& w) const {
   const Cell& c = cells_[cell];
   const std::size_t n = c.points.size(), each = energy_->historySize();
   w.deformed.clear();
@@ -165,7 +167,6 @@ void PointCells::answer(std::size_t cell, const ClothState& state, const ForceTe
   }
   w.answers.assign(n, {});
   if (terms.steepest) {
-    const std::array<double, 36> steepest = energy_->steepest();
     for (std::size_t i = 0; i < n; ++i) w.answers[i] = linear(steepest, w.strains[i], terms);
     return;
   }
@@ -187,13 +188,15 @@ void PointCells::answer(std::size_t cell, const ClothState& state, const ForceTe
   }
 }
 
-void PointCells::force(const ClothState& state, const ClothForce& out, const ForceTerms& terms, double* slots) const {
+void PointCells::force(const ClothState& state, const ClothForce& out, const ForceTerms& terms, const StrainBox& within,
+                       double* slots) const {
+  const std::array<double, 36> steepest = terms.steepest ? energy_->steepest(within) : kNotAsked;
   std::vector<double> stored(out.energy ? cells_.size() : 0);
   const bool remember = !out.history.empty() && energy_->historySize() > 0 && terms.bending && !terms.steepest;
   forAllWith<Work>(Each::much, 0, static_cast<int>(cells_.size()), [&](Work& w, int number) {
     const auto cell = static_cast<std::size_t>(number), lanes = static_cast<std::size_t>(layout_.lanes);
     const Cell& c = cells_[cell];
-    answer(cell, state, terms, SheetParts::resultants, remember, w);
+    answer(cell, state, terms, SheetParts::resultants, remember, steepest, w);
     std::vector<Vec3> f(c.nodes.size());
     double energy = 0;
     for (std::size_t i = 0; i < c.points.size(); ++i) {
@@ -224,11 +227,12 @@ void PointCells::force(const ClothState& state, const ClothForce& out, const For
 
 void PointCells::tangent(const ClothState& state, const ForceTerms& terms, int first, int count, double* pairs) const {
   const int lanes = layout_.lanes, end = std::min((first + count) * lanes, static_cast<int>(cells_.size()));
+  const std::array<double, 36> steepest = terms.steepest ? energy_->steepest() : kNotAsked;
   forAllWith<Work>(Each::much, first * lanes, end, [&](Work& w, int number) {
     const auto cell = static_cast<std::size_t>(number);
     const Cell& c = cells_[cell];
     const std::size_t nn = c.nodes.size(), stride = static_cast<std::size_t>(lanes);
-    answer(cell, state, terms, SheetParts::slopes, false, w);
+    answer(cell, state, terms, SheetParts::slopes, false, steepest, w);
     std::vector<std::array<double, 9>> K(nn * (nn + 1) / 2);
     struct Rows {
       std::array<std::array<double, 3>, 6> of;  ///< of the strains and the curvatures by the node's place
@@ -287,11 +291,31 @@ void PointCells::tangent(const ClothState& state, const ForceTerms& terms, int f
   });
 }
 
+StrainBox PointCells::strains(const ClothState& state) const {
+  std::vector<StrainBox> of_cell(cells_.size(), StrainBox::none());
+  forAll(Each::element, static_cast<int>(cells_.size()), [&](int number) {
+    const Cell& cell = cells_[static_cast<std::size_t>(number)];
+    for (const Point& point : cell.points) {
+      Vec3 e1, e2;
+      for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
+        const Vec3& x = state.q[static_cast<std::size_t>(cell.nodes[k])];
+        e1 += point.shapes[k][0] * x;
+        e2 += point.shapes[k][1] * x;
+      }
+      const std::array<double, 3> at{0.5 * (dot(e1, e1) - 1), 0.5 * (dot(e2, e2) - 1), dot(e1, e2)};
+      of_cell[static_cast<std::size_t>(number)].add({at, at});
+    }
+  });
+  StrainBox all = StrainBox::none();
+  for (const StrainBox& own : of_cell) all.add(own);
+  return all;
+}
+
 LawRange PointCells::range(const ClothState& state) const {
   std::vector<LawRange> of_cell(cells_.size());
   forAllWith<Work>(Each::much, 0, static_cast<int>(cells_.size()), [&](Work& w, int number) {
     const auto cell = static_cast<std::size_t>(number);
-    answer(cell, state, {}, SheetParts::resultants, false, w);
+    answer(cell, state, {}, SheetParts::resultants, false, kNotAsked, w);
     LawRange& own = of_cell[cell];
     own.points = static_cast<long>(w.answers.size());
     const std::size_t each = energy_->historySize();

@@ -35,10 +35,12 @@ class PointCells {
 
   /// Writes f_int of the cells to `slots`, [group][node][3][lane], what the points would remember where `out` asks for
   /// it, and adds the energy that it asks for.
-  void force(const ClothState& state, const ClothForce& out, const ForceTerms& terms, double* slots) const;
+  void force(const ClothState& state, const ClothForce& out, const ForceTerms& terms, const StrainBox& within,
+             double* slots) const;
   /// Writes d2E/dq2 of the cells of the groups [first, first + count): [group - first][pair][9][lane], as the kernels.
   void tangent(const ClothState& state, const ForceTerms& terms, int first, int count, double* pairs) const;
   LawRange range(const ClothState& state) const;
+  StrainBox strains(const ClothState& state) const;
 
  private:
   struct Point {
@@ -56,9 +58,10 @@ class PointCells {
   struct Work;
 
   Deformed deformed(const Cell& cell, const Point& point, std::span<const Vec3> q) const;
-  /// What the points of a cell answer, with what the terms leave out; the first `remembered` doubles of the work.
+  /// What the points of a cell answer, with what the terms leave out, or by the steepest slopes; the first `remembered`
+  /// doubles of the work.
   void answer(std::size_t cell, const ClothState& state, const ForceTerms& terms, SheetParts parts, bool remember,
-              Work& work) const;
+              const std::array<double, 36>& steepest, Work& work) const;
   /// The place in the cloth's history of the first number of a point.
   long historyOf(std::size_t cell, std::size_t point) const;
 

@@ -173,14 +173,15 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   gather_.close();
 }
 
-void Shell::cellForces(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const {
+void Shell::cellForces(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms,
+                       const StrainBox& within) const {
   work.slots.resize(slot_count_);
   const bool cells = terms.membrane || terms.bending;
   if (!cells) std::fill(work.slots.begin(), work.slots.begin() + hinge_slot_, 0.0);
   for (const ShellPart& part : parts_) {
     if (!cells) break;
     if (part.points) {
-      part.points->force(state, out, terms, work.slots.data() + part.first_slot);
+      part.points->force(state, out, terms, within, work.slots.data() + part.first_slot);
       continue;
     }
     BlockLaw law = withHistory(withTerms(part.law, terms), part.block.history_first, state, out);
@@ -203,10 +204,11 @@ void Shell::force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, d
   if (energy) *energy = both.stored;
 }
 
-void Shell::force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const {
+void Shell::force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms,
+                  const StrainBox& within) const {
   const std::span<const Vec3> q = state.q;
   if (out.energy) *out.energy = {};
-  cellForces(state, out, work, terms);
+  cellForces(state, out, work, terms, within);
   double* const energy = out.energy ? &out.energy->stored : nullptr;
   const int hinge_count = static_cast<int>(hinges_.size());
   std::vector<double> hinge_energy(energy ? hinge_count : 0);
@@ -336,6 +338,16 @@ PrincipalStress Shell::stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec
   const double root = std::sqrt(std::max(0.0, 0.25 * trace * trace - det));
   const double mean = 0.5 * (E11 + E22), radius = std::hypot(0.5 * (E11 - E22), E12);
   return {(0.5 * trace + root) / J, (0.5 * trace - root) / J, mean + radius, mean - radius};
+}
+
+std::optional<StrainBox> Shell::lawStrains(const ClothState& state) const {
+  std::optional<StrainBox> all;
+  for (const ShellPart& part : parts_) {
+    if (!part.points) continue;
+    if (!all) all = StrainBox::none();
+    all->add(part.points->strains(state));
+  }
+  return all;
 }
 
 LawRange Shell::lawRange(const ClothState& state) const {

@@ -10,11 +10,11 @@
 #include "core/cloth/draft/garment.hpp"
 #include "core/cloth/draft/seams.hpp"
 #include "core/cloth/law_range.hpp"
+#include "core/cloth/patches/surface.hpp"
 #include "core/cloth/shell/cell_rule.hpp"
 #include "core/cloth/shell/point_cells.hpp"
 #include "core/cloth/shell/shell_kernel.hpp"
 #include "core/cloth/shell/shell_memory.hpp"
-#include "core/cloth/patches/surface.hpp"
 #include "core/cloth/shell/weak_seam.hpp"
 #include "core/cloth/slot_gather.hpp"
 #include "core/cloth/stress.hpp"
@@ -41,10 +41,13 @@ class Shell {
   void force(std::span<const Vec3> q, std::span<Vec3> f, ClothWork& work, double* energy = nullptr,
              const ForceTerms& terms = {}) const;
   /// The same of a state with history, and what else `out` asks for.
-  void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const;
+  /// `within`: what bounds the strains of laws that are an energy at a point, where terms ask for steepest slopes.
+  void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms,
+             const StrainBox& within = StrainBox::all()) const;
   /// The first part of `force` alone: each cell's own contribution, written to work.slots and not yet summed on the
   /// control points. Adds to the energy.
-  void cellForces(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms = {}) const;
+  void cellForces(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms = {},
+                  const StrainBox& within = StrainBox::all()) const;
   /// Stress and strain at a point of a patch.
   /// `more_N_per_m` is added to the second Piola-Kirchhoff resultants along weft and warp (of strain limits, say).
   PrincipalStress stressAt(int patch, Vec2 uv, std::span<const Vec3> q, Vec2 more_N_per_m = {}) const;
@@ -57,6 +60,7 @@ class Shell {
   double bendAt(int patch, Vec2 uv, std::span<const Vec3> q) const;
   /// Of the points whose law is an energy at a point.
   LawRange lawRange(const ClothState& state) const;
+  std::optional<StrainBox> lawStrains(const ClothState& state) const;
 
   const KernelSet& kernels() const { return *kernels_; }
   long gaussPoints() const { return gauss_points_; }

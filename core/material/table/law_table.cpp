@@ -11,6 +11,8 @@
 namespace gambeson {
 namespace {
 
+/// Margins beyond the ends of the range at which slopes are looked at: just beyond, within the margin, far.
+constexpr std::initializer_list<double> kBeyond{1e-9, 0.5, 1, 10};
 constexpr int kPairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
 template <std::size_t kParts>
@@ -66,6 +68,7 @@ LawTable::LawTable(const LawTableData& data)
   settleMargins();
   settleEnds();
   settleSteepest();
+  settleRows();
 }
 
 std::array<std::array<double, 2>, 3> LawTable::range() const {
@@ -212,14 +215,12 @@ void LawTable::settleEnds() {
 }
 
 void LawTable::settleSteepest() {
-  constexpr double kJustBeyond = 1e-9, kRounding = 1e-10;
+  constexpr double kRounding = 1e-10;
   using Slopes = Eigen::Matrix<double, 6, 6>;
   std::vector<Slopes> slopes;
-  forEachPlace({places(0, {kJustBeyond, 0.5, 1, 10}), places(1, {kJustBeyond, 0.5, 1, 10}),
-                places(2, {kJustBeyond, 0.5, 1, 10})},
-               [&](const std::array<double, 3>& E) {
-                 slopes.emplace_back(answer({E, {}}, SheetParts::slopes).slope.data());
-               });
+  forEachPlace({places(0, kBeyond), places(1, kBeyond), places(2, kBeyond)}, [&](const std::array<double, 3>& E) {
+    slopes.emplace_back(answer({E, {}}, SheetParts::slopes).slope.data());
+  });
   Eigen::Matrix<double, 6, 1> greatest = Eigen::Matrix<double, 6, 1>::Zero();
   for (const Slopes& s : slopes) greatest = greatest.cwiseMax(s.diagonal());
   double energy = 0;
@@ -236,6 +237,57 @@ void LawTable::settleSteepest() {
     factor = std::max(factor, Eigen::SelfAdjointEigenSolver<Slopes>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5]);
   }
   for (std::size_t i = 0; i < 6; ++i) steepest_[7 * i] = factor * greatest[static_cast<long>(i)];
+}
+
+void LawTable::settleRows() {
+  std::array<double, 6> unit{};
+  for (std::size_t i = 0; i < 6; ++i) unit[i] = 1 / std::sqrt(steepest_[7 * i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<double>& at = looked_[i];
+    at = data_.membrane.nodes[i];
+    for (std::size_t k = 1; k < data_.membrane.nodes[i].size(); ++k)
+      at.push_back(0.5 * (data_.membrane.nodes[i][k - 1] + data_.membrane.nodes[i][k]));
+    for (const double margin : kBeyond) {
+      if (!(data_.even_in_shear && i == 2)) at.push_back(ends_[i][0].at - margin * ends_[i][0].margin);
+      at.push_back(ends_[i][1].at + margin * ends_[i][1].margin);
+    }
+    std::sort(at.begin(), at.end());
+  }
+  forEachPlace(looked_, [&](const std::array<double, 3>& E) {
+    const SheetAnswer a = answer({E, {}}, SheetParts::slopes);
+    std::array<double, 6>& sums = rows_.emplace_back();
+    // The bound of all strains bounds their bending: of its rows only what couples it with strain is added to that.
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j)
+        if (i < 3 || j < 3) sums[i] += std::abs(a.slope[6 * i + j]) * unit[j] / unit[i];
+  });
+}
+
+std::array<double, 36> LawTable::steepest(const StrainBox& within) const {
+  std::array<std::size_t, 3> first{}, end{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = within.low[i], high = within.high[i];
+    if (data_.even_in_shear && i == 2) {
+      const double far = std::max(std::abs(low), std::abs(high));
+      low = low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high)), high = far;
+    }
+    const std::vector<double>& at = looked_[i];
+    if (!(low >= at.front() && high <= at.back())) return steepest_;
+    first[i] = static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), low) - at.begin()) - 1;
+    end[i] = static_cast<std::size_t>(std::lower_bound(at.begin(), at.end(), high) - at.begin()) + 1;
+  }
+  std::array<double, 6> most{};
+  for (std::size_t a = first[0]; a < end[0]; ++a)
+    for (std::size_t b = first[1]; b < end[1]; ++b)
+      for (std::size_t c = first[2]; c < end[2]; ++c)
+        for (std::size_t i = 0; i < 6; ++i)
+          most[i] = std::max(most[i], rows_[(a * looked_[1].size() + b) * looked_[2].size() + c][i]);
+  std::array<double, 36> out{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (i < 3 && !(most[i] <= steepest_[7 * i])) return steepest_;
+    out[7 * i] = i < 3 ? most[i] : steepest_[7 * i] + most[i];
+  }
+  return out;
 }
 
 }  // namespace gambeson

@@ -36,9 +36,11 @@ class LawTable : public PointEnergy {
 
   void evaluate(std::span<const SheetStrain> points, SheetParts parts, std::span<const double> history,
                 std::span<double> remembered, std::span<SheetAnswer> out) const override;
-  /// alpha diag(S): S the greatest of each diagonal entry of the slopes at nodes and beyond the ends, alpha the
-  /// greatest eigenvalue of these slopes in units of S. Of cloth without curvature.
-  std::array<double, 36> steepest() const override { return steepest_; }
+  /// Of all strains: alpha diag(S), S the greatest of each diagonal entry of the slopes at nodes and beyond the ends,
+  /// alpha the greatest eigenvalue of these slopes in units of S. Within a box: of strain the greatest sums of rows, in
+  /// these units, at the nodes and half way between them that enclose it; of curvature as of all strains, with what
+  /// couples it with strain. Of cloth without curvature.
+  std::array<double, 36> steepest(const StrainBox& within = StrainBox::all()) const override;
 
   const LawTableData& data() const { return data_; }
   /// Ends of the range of E11, E22, 2 E12.
@@ -64,6 +66,7 @@ class LawTable : public PointEnergy {
   void settleMargins();
   void settleEnds();
   void settleSteepest();
+  void settleRows();
 
   LawTableData data_;
   StrainSpline<1> membrane_;
@@ -71,6 +74,8 @@ class LawTable : public PointEnergy {
   StrainSpline<6> rigidity_;
   std::array<Ends, 3> ends_;
   std::array<double, 36> steepest_{};
+  std::array<std::vector<double>, 3> looked_;  ///< places of each direction, ascending; of shear where even: from 0 on
+  std::vector<std::array<double, 6>> rows_;    ///< sums of rows of the slopes there, e11 slowest
   bool convex_ = true;
 };
 

@@ -22,12 +22,14 @@ const std::string strip = R"json({
   "kind": "static",
   "name": "strip",
   "sheet": {"plate": {"width": 0.02, "height": 0.01, "corner": [0, 0, 0], "axis_u": [1, 0, 0], "axis_v": [0, 1, 0]},
-            "cells_u": 2, "cells_v": 2},
+            "cells_u": 2, "cells_v": 2, "degree": 2},
   "material": {"fabric": {
     "thickness": 0.00064, "density": 400,
     "law": LAW
   }},
-  "supports": [{"edge": "u0", "hold": "xyz"}, {"edge": "u1", "hold": "xyz", "move": [0.0006, 0.0004, 0.0005]}],
+  "supports": [{"edge": "u0", "hold": "xyz"}, {"edge": "u1", "hold": "x", "move": [0.0006, 0, 0], "program": "pull"},
+               {"edge": "u1", "hold": "yz", "move": [0, 0.0004, 0.0005], "program": "aside"}],
+  "programs": {"pull": [[0, 0], [0.5, 1], [1, 1]], "aside": [[0, 0], [0.5, 0], [1, 1]]},
   "solver": {"steps": 2},
   "output": {"shapes": "none", "edges": [{"name": "end", "edge": "u1"}]}
 })json";

@@ -99,6 +99,48 @@ TEST(CellBending, UnlikeFacesCurl) {
   }
 }
 
+/// How the unknowns are pushed, by curvature of an arc in a direction; yarns are held at their heights.
+std::vector<double> pushOf(const Strained& s, const CellLoad& flat, double direction) {
+  const double h = 1e-4;
+  std::array<std::vector<double>, 2> r;
+  for (const int side : {0, 1}) {
+    CellLoad bent = flat;
+    bent.curvature_per_m = side == 0 ? -h : h, bent.direction_rad = direction;
+    CellAnswer answer;
+    s.cell.evaluate(facesOf(s.cell.yarns(), bent), carried(s.sections, flat, bent), answer);
+    r[static_cast<std::size_t>(side)] = s.work.residual(answer);
+  }
+  for (std::size_t i = 0; i < r[0].size(); ++i) r[1][i] = (r[1][i] - r[0][i]) / (2 * h);
+  const SparseRows& C = s.cell.freedoms();
+  for (const int d : {along_weft, along_warp})
+    for (int k = 0; k < s.cell.yarns().count(d); ++k) {
+      std::vector<int> heights;
+      for (int i = s.cell.firstSection(d, k); i < s.cell.firstSection(d, k) + s.cell.sectionsOf(d); ++i)
+        for (int e = C.offsets[6 * i + 2]; e < C.offsets[6 * i + 3]; ++e) heights.push_back(C.columns[e]);
+      double sum = 0;
+      for (const int column : heights) sum += r[1][column];
+      for (const int column : heights) r[1][column] -= sum / static_cast<double>(heights.size());
+    }
+  return r[1];
+}
+
+/// What a bend of the weft does to the bend of the warp, which D12 = 0 leaves out: nothing at rest, and next to nothing
+/// where yarns are pressed hard.
+TEST(CellBending, YarnsHardlyAnswerEachOthersBend) {
+  RodCellDesign d = unlike(plainWeave());
+  d.compression = {5, 3};
+  d.pieces_per_spacing = 16;
+  for (const double stretch : {0.0, 0.06}) {
+    const CellLoad load{stretch, stretch, 0, 0, 0};
+    Strained s(d, load);
+    const std::vector<double> weft = pushOf(s, load, 0), warp = pushOf(s, load, kHalf);
+    const std::vector<double> follow = s.work.follow(warp);
+    double both = 0;
+    for (std::size_t i = 0; i < weft.size(); ++i) both -= weft[i] * follow[i] / s.cell.area_m2();
+    EXPECT_LT(std::abs(both), (stretch == 0 ? 1e-9 : 1e-3) * s.bending.rigidity_Nm[0]) << stretch;
+  }
+}
+
 TEST(CellBending, BentCellsAreRefused) {
   Strained rest(unlike(plainWeave()), {});
   EXPECT_THROW(bendingOf(rest.cell, {0, 0, 0, 0.1, 0}, rest.sections, rest.work), RunError);

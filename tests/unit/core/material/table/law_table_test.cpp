@@ -208,6 +208,32 @@ TEST(LawTable, NoSlopeSurpassesTheSteepest) {
   EXPECT_LT(nearest, 3) << "the bound is of no use where it is far from every slope";
 }
 
+/// Of boxes of every size, also across zero shear and beyond the range.
+TEST(LawTable, NoSlopeInABoxSurpassesItsSteepest) {
+  for (const bool even : {true, false}) {
+    const LawTable table(tableOf({}, 7, 4, even));
+    const std::array<double, 36> of_all = table.steepest();
+    using Slopes = Eigen::Matrix<double, 6, 6>;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> part(0, 1);
+    double longest = 0;
+    for (int k = 0; k < 300; ++k) {
+      const std::array<double, 3> middle = strainAt(random, k % 3 == 0 ? 0.4 : 0).strain;
+      StrainBox box = StrainBox{middle, middle}.widened(std::pow(10, -3 + 2 * part(random)));
+      const std::array<double, 36> steepest = table.steepest(box);
+      for (int inside = 0; inside < 10; ++inside) {
+        std::array<double, 3> at{};
+        for (std::size_t i = 0; i < 3; ++i) at[i] = box.low[i] + part(random) * (box.high[i] - box.low[i]);
+        const Slopes left = Slopes(steepest.data()) - Slopes(table.at({at, {}}).slope.data());
+        EXPECT_GT(Eigen::SelfAdjointEigenSolver<Slopes>(left).eigenvalues()[0], -1e-9 * of_all[0]);
+      }
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(steepest[7 * i], of_all[7 * i]);
+      longest = std::max(longest, of_all[0] / steepest[0]);
+    }
+    EXPECT_GT(longest, 4) << "of use where the cloth is soft";
+  }
+}
+
 TEST(Linearised, HasTheSlopesAtRestAndSomeShearWhereYarnsSlide) {
   Fabric cloth;
   cloth.thickness_m = 2e-3;
