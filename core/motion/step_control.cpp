@@ -18,9 +18,9 @@ constexpr double kLimitPieces = 8;  ///< a step in which strain limits and conta
 /// Each estimate is of the stiffness at one moment. Steps that follow it up and down gain energy (a crumpled sheet
 /// without drag 25 times its own in 0.4 s), so what is used stays near the largest of late.
 constexpr double kFall = 0.995;
-/// Of strains of laws that are an energy at a point, beyond those at an estimate: its slopes hold as far, and a step
-/// that leads farther asks for another one. A cloth that is drawn out at 10 per second needs 50 steps of 10 us for it.
-constexpr double kStrainsAhead = 0.005;
+/// Of strains of laws that are an energy at a point, beyond those that the cloth has come to: the slopes of an estimate
+/// hold as far, and a step that leads farther asks for another one (core/motion/DECISIONS.md).
+constexpr double kStrainsAhead = 0.015;
 constexpr int kSoonest = 10;  ///< steps between estimates because of the shown frequency
 /// Cloth that is so many times as stiff (as a frequency) as at rest is crushed or torn: the run would need so many
 /// times as many steps, and its forces mean nothing.
@@ -81,7 +81,14 @@ std::optional<StrainBox> ControlledSteps::lawStrains(const State& state) {
 
 void ControlledSteps::estimate(State& state) {
   if (state.steps_to_estimate > 0) return;
-  if (has_law_strains_) state.law_strains = lawStrains(state)->widened(kStrainsAhead);
+  if (has_law_strains_) {
+    const StrainBox ahead = lawStrains(state)->widened(kStrainsAhead);
+    // Never smaller: steps that follow a swing up and down gain energy.
+    if (state.law_strains)
+      state.law_strains->add(ahead);
+    else
+      state.law_strains = ahead;
+  }
   const bool cold = state.frequency_rad_per_s == 0 || state.steps_to_estimate < 0;
   frequency_ = lookAtFrequency(state, cold ? kColdIterations : kWarmIterations);
   // A warm estimate may also have followed one mode while another rose.

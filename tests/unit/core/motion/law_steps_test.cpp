@@ -37,20 +37,20 @@ double energyOf(const Motion& m) {
 /// twice those that the whole table allows; on the way each step is stable with the slopes of where it leads, and
 /// energy is kept.
 TEST(LawSteps, FollowTheStrainsThatTheClothComesTo) {
-  Motion m(stiffening(), {});
+  Motion m(stiffening(), {Vec3{}, 0});
   Frequency frequency;
   const double whole = [&] {
     State state = m.state;
     return largestFrequency(*m.model, m.stage, state, 40, m.work).largest_rad_per_s;
   }();
-  for (std::size_t i = 0; i < m.state.p.size(); ++i) m.state.v[i] = {7 * (m.state.p[i].x - 0.1), 0, 0};
+  for (std::size_t i = 0; i < m.state.p.size(); ++i) m.state.v[i] = {24 * (m.state.p[i].x - 0.1), 0, 0};
   StepControl control;
   control.max_step_s = 1;
   const double before = energyOf(m);
   double first = 0, shortest = 1, most = 0;
   long steps = 0;
   VelocityVerlet(*m.model, m.stage, control, frequency, m.work)
-      .advance(0.06, m.state,
+      .advance(0.1, m.state,
                [&](const State&, const State& now, const StepReport& r, const StepResult&, const Frequency&) {
                  if (steps++ == 0) first = r.step_s;
                  shortest = std::min(shortest, r.step_s);
@@ -66,7 +66,7 @@ TEST(LawSteps, FollowTheStrainsThatTheClothComesTo) {
   EXPECT_GT(most, 0.06) << "the sheet does not come to where it is stiff";
   EXPECT_GT(first, 2 * 0.8 * 2 / whole);
   EXPECT_LT(shortest, 0.7 * first) << "steps do not follow the strain";
-  EXPECT_NEAR(energyOf(m), before, 5e-3 * before);
+  EXPECT_NEAR(energyOf(m), before, 0.05 * before) << "more than the check of every run lets pass";
 }
 
 }  // namespace
