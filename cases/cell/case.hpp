@@ -41,6 +41,14 @@ struct YarnCase {
   WovenYarn shape;
   std::variant<YarnModuli, RodSection> stiffness;
 };
+
+/// Coulomb's law between yarns that touch.
+struct YarnFriction {
+  double coefficient = 0;  ///< mu
+  /// Tangential force by slip, by the lengths of both rods; none: as stiff as lateral compression at half thickness.
+  std::optional<double> stick_stiffness_N_per_m3{};
+};
+
 // --- Loads -------------------------------------------------------------------------------------------------------
 
 /// Stretched along both directions: Phi11 = 1 + extension, Phi22 = 1 + ratio extension.
@@ -117,6 +125,8 @@ struct CellCase {
   YarnModel yarns = YarnModel::rod;
   bool contact = true;
   std::optional<LateralCompression> compression;
+  std::optional<YarnFriction> friction;  ///< none: yarns slide freely
+  bool quarter = false;            ///< of a plain weave, a quarter of the repeat moves by itself
   bool holds_faces = false;        ///< sections in the faces of the cell stay in the middle of the cloth
   std::optional<double> height_m;  ///< of the cell, by which stress is counted; read: always
   std::vector<PathCase> paths;

@@ -13,6 +13,9 @@ Weave weaveOf(const WeaveCase& weave);
 RodSection sectionOf(const YarnCase& yarn);
 WovenYarns wovenYarns(const CellCase& c);
 
+/// Of yarns that are rods; where the case gives no stiffness to what sticks it is P/(b1 + b2)³, about that of lateral
+/// compression at half thickness.
+RodFriction rodFriction(const CellCase& c);
 /// The cell of rods, whatever `yarns` says.
 RodCellDesign rodDesign(const CellCase& c);
 EquilibriumOptions equilibriumOptions(const CellSolver& solver);

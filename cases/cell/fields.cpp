@@ -17,6 +17,19 @@ Object compressionTable() {
       .build();
 }
 
+Object yarnFrictionTable() {
+  using F = YarnFriction;
+  return Table<F>("Friction between yarns")
+      .number("coefficient", &F::coefficient, "", between(0, 10),
+              "mu: what slides carries mu times the force that presses; each step of a load is one step of friction")
+      .required()
+      .number("stick_stiffness", &F::stick_stiffness_N_per_m3, "N/m^3", aboveTo(0, 1e18),
+              "rods: tangential force by slip, by the lengths of both yarns, of what sticks; it gives way where the "
+              "force is mu times that which presses")
+      .defaultsTo("half_force/(sum of both half thicknesses)^3: about as stiff as lateral compression")
+      .build();
+}
+
 Object barTable() {
   using B = BarCase;
   const auto bar = [](auto member) {
@@ -74,6 +87,13 @@ Object makeTable() {
       .flag("contact", &C::contact, "whether yarns press on each other; false: they pass through each other")
       .object("compression", &C::compression, compressionTable(), "how yarns give way to each other at crossings")
       .defaultsTo("required with contact")
+      .object("friction", &C::friction, yarnFrictionTable(), "between yarns that touch (Coulomb's law)")
+      .defaultsTo("none: yarns slide on each other freely")
+      .choice("extent", &C::quarter, std::vector<std::pair<std::string, bool>>{{"full", false}, {"quarter", true}},
+              "how much of the repeat moves by itself. quarter: of a plain weave one weft and one warp over one spacing "
+              "(Man 2006, fig. 19c), whose images, mirrored in the middle of the cloth, are the others; a plain weave "
+              "keeps that symmetry under any strain of its plane, unless it buckles, and under no bend")
+      .unwritten()
       .choice(
           "faces", &C::holds_faces, std::vector<std::pair<std::string, bool>>{{"glide", false}, {"held", true}},
           "whether sections in the faces of the cell, half way between crossings, may move through the cloth; held: "

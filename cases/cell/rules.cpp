@@ -40,6 +40,8 @@ void checkTruss(const Entry& root, const CellCase& c) {
   if (!c.contact)
     memberOf(root, "contact").fail("the truss is joined at its crossings; allowed with yarns truss: true");
   if (c.holds_faces) memberOf(root, "faces").fail("held goes with yarns rod: a truss has no sections in its faces");
+  if (c.friction) memberOf(root, "friction").fail("goes with yarns rod: a truss is joined at its crossings");
+  if (c.quarter) memberOf(root, "extent").fail("quarter goes with yarns rod: a truss is one crossing");
   // A case that was written in full says what is usual.
   const CellSolver& s = c.solver;
   const CellSolver usual;
@@ -67,6 +69,7 @@ void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
     load.fail("a truss carries loads along its yarns; allowed with yarns truss: biaxial or uniaxial");
   if (const auto* bending = std::get_if<BendingPath>(&p.load)) {
     if (c.holds_faces) load.fail("held faces do not bend; allowed with faces glide");
+    if (c.quarter) load.fail("a quarter does not bend; allowed with extent full");
     double half = 0;
     for (const int d : {along_weft, along_warp})
       half = std::max(half, c.yarn(d).shape.amplitude_m + c.yarn(d).shape.half_thickness_m);
@@ -126,6 +129,7 @@ void applyCellRules(const Entry& root, CellCase& c) {
                 "is required with contact: how yarns give way to each other, such as {\"half_force\": "
                 "\"5 N\"}");
   if (!c.contact && c.compression) memberOf(root, "compression").fail("goes with contact, which is false");
+  if (!c.contact && c.friction) memberOf(root, "friction").fail("goes with contact, which is false");
   if (c.paths.size() > kPaths)
     memberOf(root, "loads").fail(fmt::format("{} are too many; allowed: at most {}", c.paths.size(), kPaths));
   checkTruss(root, c);

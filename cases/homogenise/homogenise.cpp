@@ -19,6 +19,11 @@ CellCase rodsOf(const HomogeniseArguments& a) {
   CellCase c = readCellCase(a.file, a.overrides);
   if (c.yarns != YarnModel::rod)
     sayInCase(c.file, c.overrides, InputError({"", 0, "yarns"}, "is not tabulated; allowed for homogenise: rod"));
+  const auto refuse = [&](const char* key, const char* reason) {
+    sayInCase(c.file, c.overrides, InputError({"", 0, key}, reason));
+  };
+  if (c.friction) refuse("friction", "has no energy to be tabulated; allowed for homogenise: none");
+  if (c.quarter) refuse("extent", "quarter does not bend; allowed for homogenise: full");
   return c;
 }
 
