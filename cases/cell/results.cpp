@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "cases/cell/design.hpp"
 #include "cases/cell/fields.hpp"
 #include "cases/cell/loops.hpp"
 #include "cases/input/json_at.hpp"
 #include "cases/input/message.hpp"
 #include "cases/runs/check_json.hpp"
+#include "cases/yarns/design.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/own_file.hpp"

@@ -4,11 +4,12 @@
 
 #include <ostream>
 
-#include "cases/cell/design.hpp"
+#include "cases/cell/case.hpp"
 #include "cases/cloth/law_table.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/runs/stop_message.hpp"
+#include "cases/yarns/design.hpp"
 #include "core/error.hpp"
 #include "core/yarn/homogenise.hpp"
 
