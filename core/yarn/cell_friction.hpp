@@ -14,7 +14,9 @@ class RodCell;
 /// The spring of a pair in contact, as the last accepted load left it.
 struct PairGrip {
   int pair = 0;
-  RodGrip grip;         ///< first of the weft
+  RodGrip grip;  ///< first of the weft
+  /// Where on the second axes of both sections the ends' line begins: 0 where rods press along their middles.
+  std::array<double, 2> aside_m{};
   double normal_N = 0;  ///< f under that load
 };
 
