@@ -231,9 +231,11 @@ AuditCheck restCheck(const RecordedCell& cell) {
 }  // namespace
 
 std::vector<AuditCheck> cellChecks(const RecordedCell& cell) {
-  return {finiteCheck(cell), reachedCheck(cell), residualCheck(cell),
-          stableCheck(cell), workCheck(cell),    rubs(cell) ? lossCheck(cell) : loopCheck(cell),
-          besideCheck(cell), restCheck(cell)};
+  std::vector<AuditCheck> checks{finiteCheck(cell), reachedCheck(cell), residualCheck(cell),
+                                 stableCheck(cell), workCheck(cell),    rubs(cell) ? lossCheck(cell) : loopCheck(cell)};
+  if (!cell.definition().by_section) checks.push_back(besideCheck(cell));
+  checks.push_back(restCheck(cell));
+  return checks;
 }
 
 }  // namespace gambeson

@@ -123,12 +123,20 @@ std::vector<std::string> RodEngine::assumptions() const {
       "At rest they lie in half sine waves and are without force."};
   const RodCellDesign& design = cell_.design();
   const double mu = design.friction.coefficient;
-  all.push_back(
-      !design.contact
-          ? "Yarns pass through each other."
-          : fmt::format("Yarns that cross press on each other {}, by the law of lateral compression; yarns side by "
-                        "side do not, so that what their width locks is not seen.",
-                        mu > 0 ? fmt::format("and rub with Coulomb's coefficient {:g}", mu) : "without friction"));
+  const std::string rub = mu > 0 ? fmt::format("and rub with Coulomb's coefficient {:g}", mu) : "without friction";
+  if (!design.contact)
+    all.push_back("Yarns pass through each other.");
+  else if (design.touch == RodTouch::section)
+    all.push_back(fmt::format(
+        "Yarns that cross press on each other over the ellipses of their sections {}, by the law of lateral "
+        "compression, and turn each other over their widths; yarns side by side press by the same law, without "
+        "friction. Sections keep their shape: they do not spread where they are pressed.",
+        rub));
+  else
+    all.push_back(
+        fmt::format("Yarns that cross press on each other {}, by the law of lateral compression; yarns side by "
+                    "side do not, so that what their width locks is not seen.",
+                    rub));
   if (design.extent == CellExtent::quarter)
     all.push_back(
         "A quarter of the repeat moves by itself; the others are its images, mirrored in the middle of the cloth.");

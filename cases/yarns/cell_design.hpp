@@ -54,6 +54,7 @@ struct CellDesign {
   YarnModel yarns = YarnModel::rod;
   bool contact = true;
   std::optional<LateralCompression> compression;
+  bool by_section = false;               ///< rods press over the ellipses of their sections, side by side too
   std::optional<YarnFriction> friction;  ///< none: yarns slide freely
   bool quarter = false;                  ///< of a plain weave, a quarter of the repeat moves by itself
   bool holds_faces = false;              ///< sections in the faces of the cell stay in the middle of the cloth

@@ -39,6 +39,7 @@ RodCellDesign rodDesign(const CellDesign& c) {
   design.section = {sectionOf(c.yarn(along_weft)), sectionOf(c.yarn(along_warp))};
   design.contact = c.contact;
   if (c.compression) design.compression = *c.compression;
+  design.touch = c.by_section ? RodTouch::section : RodTouch::axis;
   design.faces = c.holds_faces ? FaceSupport::held : FaceSupport::glide;
   design.pieces_per_spacing = c.solver.pieces_per_spacing;
   design.extent = c.quarter ? CellExtent::quarter : CellExtent::full;

@@ -55,16 +55,14 @@ double RodCell::reach_m() const { return std::hypot(yarns().period_m(along_weft)
 RodCell::PairPlace RodCell::pairAt(const CellFaces& faces, std::span<const Pose> sections, int pair) const {
   const Pair& p = pairs_[pair];
   const Pose first = place(faces, sections, p.first).pose, second = place(faces, sections, p.second).pose;
-  if (design_.touch == RodTouch::section) {
-    if (p.above == 0) return {first, second, p.lengths_m2, 0, {}};
-    const double normal = p.lengths_m2 * crossing_.evaluate(first, second, p.above, false).pressing;
-    return {first, second, p.lengths_m2, normal, crossing_.meeting_m(first, second)};
-  }
+  if (p.above == 0) return {first, second, p.lengths_m2, 0, {}};
   const Vec3 apart = first.origin - second.origin;
-  const double normal = norm2(apart) < touch_m_ * touch_m_
-                            ? -p.lengths_m2 * lineContact(design_.compression, touch_m_, norm(apart)).first
-                            : 0;
-  return {first, second, p.lengths_m2, normal, {}};
+  double normal = 0;
+  if (design_.touch == RodTouch::section)
+    normal = p.lengths_m2 * crossing_.evaluate(first, second, p.above, false).pressing;
+  else if (norm2(apart) < touch_m_ * touch_m_)
+    normal = -p.lengths_m2 * lineContact(design_.compression, touch_m_, norm(apart)).first;
+  return {first, second, p.lengths_m2, normal, crossing_.meeting_m(first, second)};
 }
 
 /// Whether a pair touches when its points are nearer by a part of their distance.
@@ -252,12 +250,11 @@ void RodCell::addPairs(Sum& sum, const CellFriction* friction) const {
     if (touching || limit > 0) sum.out.touching.push_back(static_cast<int>(k));
     if (limit > 0) {
       const PairGrip& held = friction->grips[grip];
-      const bool aside = design_.touch == RodTouch::section;
       const auto& [v1, v2] = held.aside_m;
-      RodFrictionAnswer answer = evaluateRodFriction(
-          held.grip, aside ? movedAside(first.pose, v1) : first.pose, aside ? movedAside(second.pose, v2) : second.pose,
-          design_.friction.stick_stiffness_N_per_m3 * pair.lengths_m2, limit, sum.K != nullptr);
-      if (aside) answer = fromAside(answer, first.pose, second.pose, held.aside_m, sum.K != nullptr);
+      const RodFrictionAnswer answer = fromAside(
+          evaluateRodFriction(held.grip, movedAside(first.pose, v1), movedAside(second.pose, v2),
+                              design_.friction.stick_stiffness_N_per_m3 * pair.lengths_m2, limit, sum.K != nullptr),
+          first.pose, second.pose, held.aside_m, sum.K != nullptr);
       sum.out.energy_J += answer.energy_J;
       sum.addPair(pair, first, second, answer.gradient, answer.tangent);
     }

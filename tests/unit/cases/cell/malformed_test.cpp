@@ -53,6 +53,7 @@ TEST(MalformedCell, EachSaysFileLineKeyAndReason) {
            "friction.stick_stiffness", "allowed: > 0"},
           {"\"compression\": {\"half_force\": \"800 N\", \"exponent\": 3}",
            "\"contact\": false, \"friction\": {\"coefficient\": 0.3}", 13, "friction", "goes with contact"},
+          {"\"height\"", "\"touch\": \"width\", \"height\"", 14, "touch", "axis or section"},
           {"\"height\"", "\"extent\": \"half\", \"height\"", 14, "extent", "full or quarter"},
           {"{\"pattern\": \"plain\"}", "{\"pattern\": \"twill\", \"over\": 1, \"under\": 2}, \"extent\": \"quarter\"",
            4, "extent", "must be full unless the weave is plain"},
