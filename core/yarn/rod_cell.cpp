@@ -32,6 +32,13 @@ RodCell::Placed RodCell::place(const CellFaces& faces, std::span<const Pose> sec
   return {inverse(g) * own, back, minus(back)};
 }
 
+Vec3 RodCell::originOf(const CellFaces& faces, std::span<const Pose> sections, const Image& image) {
+  const Vec3& own = sections[image.section].origin;
+  if (image.power == 0) return own;
+  const Pose& g = faces.step[image.direction];
+  return image.power == 1 ? g * own : inverse(g) * own;
+}
+
 int RodCell::sectionsOf(int direction) const { return design_.pieces_per_spacing * yarns().crossings(direction); }
 
 int RodCell::firstSection(int direction, int k) const {
@@ -65,6 +72,13 @@ RodCell::PairPlace RodCell::pairAt(const CellFaces& faces, std::span<const Pose>
   return {first, second, p.lengths_m2, normal, crossing_.meeting_m(first, second)};
 }
 
+/// Whether the middles of a pair are farther apart than those of any pair that touches, and seen with less trouble.
+bool RodCell::isFar(const CellFaces& faces, std::span<const Pose> sections, const Pair& pair, double part) const {
+  const Vec3 apart = originOf(faces, sections, pair.first) - originOf(faces, sections, pair.second);
+  const double reach = (1 + part) * (pair.above == 0 ? beside_[pair.first.direction].reach_m() : crossing_reach_m_);
+  return norm2(apart) > reach * reach;
+}
+
 /// Whether a pair touches when its points are nearer by a part of their distance.
 bool RodCell::touches(const Pair& pair, const Pose& first, const Pose& second, double part) const {
   if (design_.touch == RodTouch::axis) {
@@ -83,10 +97,12 @@ SectionPair RodCell::evaluateSections(const Pair& pair, const Pose& first, const
 
 std::vector<int> RodCell::nearPairs(const CellFaces& faces, std::span<const Pose> sections, double part) const {
   std::vector<int> near;
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    if (touches(pairs_[k], place(faces, sections, pairs_[k].first).pose, place(faces, sections, pairs_[k].second).pose,
-                part))
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const Pair& pair = pairs_[k];
+    if (isFar(faces, sections, pair, part)) continue;
+    if (touches(pair, place(faces, sections, pair.first).pose, place(faces, sections, pair.second).pose, part))
       near.push_back(static_cast<int>(k));
+  }
   return near;
 }
 
@@ -242,6 +258,9 @@ void RodCell::addPairs(Sum& sum, const CellFriction* friction) const {
   std::size_t grip = 0;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Pair& pair = pairs_[k];
+    if (isFar(sum.faces, sum.sections, pair) &&
+        !(friction && grip < friction->grips.size() && friction->grips[grip].pair == static_cast<int>(k)))
+      continue;
     const Placed first = place(sum.faces, sum.sections, pair.first),
                  second = place(sum.faces, sum.sections, pair.second);
     const bool gripped = friction && grip < friction->grips.size() && friction->grips[grip].pair == static_cast<int>(k);

@@ -130,6 +130,7 @@ class RodCell {
   };
 
   static Placed place(const CellFaces& faces, std::span<const Pose> sections, const Image& image);
+  static Vec3 originOf(const CellFaces& faces, std::span<const Pose> sections, const Image& image);
   Image imageOf(int direction, int k, int i) const;
   double shareOf(int direction, int k, int i) const;
   void addYarns();
@@ -140,6 +141,7 @@ class RodCell {
   struct Sum;
   void addPieces(Sum& sum) const;
   void addPairs(Sum& sum, const CellFriction* friction) const;
+  bool isFar(const CellFaces& faces, std::span<const Pose> sections, const Pair& pair, double part = 0) const;
   bool touches(const Pair& pair, const Pose& first, const Pose& second, double part) const;
   SectionPair evaluateSections(const Pair& pair, const Pose& first, const Pose& second, bool tangent) const;
 
@@ -150,7 +152,7 @@ class RodCell {
   SparseRows freedoms_;
   CrossingContact crossing_;
   std::array<BesideContact, 2> beside_;  ///< by direction
-  double turn_length_m_ = 0, touch_m_ = 0;
+  double turn_length_m_ = 0, touch_m_ = 0, crossing_reach_m_ = 0;
 };
 
 }  // namespace gambeson

@@ -42,6 +42,7 @@ RodCell::RodCell(const RodCellDesign& design) : design_(design) {
   for (const int d : {along_weft, along_warp})
     beside_[d] = {design_.compression, yarns().yarn[d].half_width_m, yarns().yarn[d].half_thickness_m, touch_m_,
                   pressureShare(crossing_)};
+  crossing_reach_m_ = design_.touch == RodTouch::section ? crossing_.reach_m() : touch_m_;
   if (design_.contact) addPairs();
   if (design_.contact && design_.touch == RodTouch::section) addNeighbours();
   if (design_.extent == CellExtent::quarter &&

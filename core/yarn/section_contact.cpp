@@ -1,5 +1,6 @@
 #include "core/yarn/section_contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -85,6 +86,13 @@ double CrossingContact::distance_m(const Pose& first, const Pose& second, double
   return k.h + 0.5 * (bulge(0) * k.v1 * k.v1 + bulge(1) * k.v2 * k.v2);
 }
 
+double CrossingContact::reach_m() const {
+  // b1 v1²/(2 a1²) + b2 v2²/(2 a2²) <= 2 D, and |v2 v - v1 u|² <= 2 (v1² + v2²).
+  double widest = 0;
+  for (int e = 0; e < 2; ++e) widest = std::max(widest, half_width_m[e] * half_width_m[e] / half_thickness_m[e]);
+  return std::sqrt(8 * touch_m() * widest + touch_m() * touch_m());
+}
+
 std::array<double, 2> CrossingContact::meeting_m(const Pose& first, const Pose& second) const {
   const Chords k = chordsOf(first, second, 1);
   return {k.v1, k.v2};
@@ -118,8 +126,8 @@ SectionPair CrossingContact::evaluate(const Pose& first, const Pose& second, dou
   for (int i = 0; i < 4; ++i) W_[i] = w_[i] * psi + w * dpsi * d_[i];
 
   const Vec3 &r = k.r, &u = k.u, &v = k.v, m = cross(u, v), vr = cross(v, r), ru = cross(r, u);
-  const std::array<Three, 4> by{
-      Three{u, cross(u, r), Vec3{}}, Three{v, Vec3{}, vr}, Three{Vec3{}, m, -m}, Three{m, cross(u, vr), cross(v, ru)}};
+  const std::array<Three, 4> by{Three{u, cross(u, r), Vec3{}}, Three{v, Vec3{}, vr}, Three{Vec3{}, m, -m},
+                                Three{m, cross(u, vr), cross(v, ru)}};
   Blocks b;
   for (int s = 0; s < 4; ++s)
     for (int e = 0; e < 3; ++e) b.first[e] += W_[s] * by[s][e];
@@ -191,6 +199,8 @@ double squareOf(const BesideContact& k, const Pose& first, const Pose& second) {
 }
 
 }  // namespace
+
+double BesideContact::reach_m() const { return std::max(2 * half_width_m, 2 * half_thickness_m); }
 
 double BesideContact::distance(const Pose& first, const Pose& second) const {
   return std::sqrt(squareOf(*this, first, second));

@@ -39,6 +39,9 @@ struct CrossingContact {
   double touch_m() const { return half_thickness_m[0] + half_thickness_m[1]; }
   /// d; `above`: 1 where the first yarn lies above (along the cross product of the chords), else -1.
   double distance_m(const Pose& first, const Pose& second, double above) const;
+  /// Middles of a pair with d < D are at most so far apart, whatever the angle; of yarns that have not passed through
+  /// each other by more than D (h > -D).
+  double reach_m() const;
   /// v1 and v2.
   std::array<double, 2> meeting_m(const Pose& first, const Pose& second) const;
   SectionPair evaluate(const Pose& first, const Pose& second, double above, bool tangent) const;
@@ -61,6 +64,8 @@ struct BesideContact {
   double touch_m = 0;                             ///< D of the crossings
   double by_area = 0;                             ///< psi/F of the crossings [1/m²]
 
+  /// Middles of a pair that touches are at most so far apart.
+  double reach_m() const;
   /// rho
   double distance(const Pose& first, const Pose& second) const;
   SectionPair evaluate(const Pose& first, const Pose& second, bool tangent) const;
