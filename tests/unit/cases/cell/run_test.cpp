@@ -144,14 +144,15 @@ TEST(CellRun, FrictionLosesEnergy) {
   const std::vector<double>&lost = rows.at("lost_J_per_m2"), &stored = rows.at("energy_J_per_m2");
   ASSERT_EQ(lost.size(), 33u);
   for (std::size_t k = 1; k < lost.size(); ++k) EXPECT_GE(lost[k], lost[k - 1]) << k;
-  const auto loops = summaryOf(out).at("loads")[0].at("loops");
+  const nlohmann::json loops = summaryOf(out).at("loads")[0].at("loops");
   ASSERT_EQ(loops.size(), 2u);
   EXPECT_EQ(loops[1].at("lost_J_per_m2").get<double>(), lost[32] - lost[16]);
   EXPECT_GT(loops[1].at("lost_J_per_m2").get<double>(), 1e-3 * (stored[8] - stored[0]));
   EXPECT_NEAR(loops[1].at("work_J_per_m2").get<double>(), lost[32] - lost[16] + stored[32] - stored[16],
               0.1 * (lost[32] - lost[16]));
   std::set<std::string> checks;
-  for (const auto& check : summaryOf(out).at("checks")) {
+  const auto summary = summaryOf(out);
+  for (const auto& check : summary.at("checks")) {
     checks.insert(check.at("check").get<std::string>());
     EXPECT_TRUE(check.at("holds").get<bool>()) << check.dump();
   }
@@ -254,7 +255,8 @@ TEST(CellRun, YarnsSideBySideAreWatched) {
   run(c, out);
   // 1 mm cos(65 degrees) of yarns 0.5 mm wide.
   const double overlap = 100 * (1 - std::cos(65 * std::numbers::pi / 180) / 0.5);
-  for (const auto& check : summaryOf(out).at("checks"))
+  const auto summary = summaryOf(out);
+  for (const auto& check : summary.at("checks"))
     if (check.at("check") == "Side by side") {
       EXPECT_NEAR(check.at("value").get<double>(), overlap, 1e-9);
       EXPECT_FALSE(check.at("holds").get<bool>());

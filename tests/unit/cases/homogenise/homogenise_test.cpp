@@ -91,7 +91,7 @@ TEST(Homogenise, LooseCellsTakeMorePieces) {
   a.e12 = {0, 0.05};
   std::ostringstream out;
   EXPECT_EQ(homogeniseCell(a, out), 0);
-  const CellCase given = readCellCase(a.file), finer = readCellCase(a.file, {"solver.pieces_per_spacing=24"});
+  const CellCase given = readCellCase(a.file), finer = readCellCase(a.file, {"solver.pieces_per_spacing=32"});
   EXPECT_EQ(given.solver.pieces_per_spacing, 16);
   EXPECT_EQ(readLawTable(a.law).provenance.cell, caseIdentity(finer));
 }
