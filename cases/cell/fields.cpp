@@ -6,6 +6,19 @@
 namespace gambeson::schema {
 namespace {
 
+Object yarnFrictionTable() {
+  using F = YarnFriction;
+  return Table<F>("Friction between yarns")
+      .number("coefficient", &F::coefficient, "", between(0, 10),
+              "mu: what slides carries mu times the force that presses; each step of a load is one step of friction")
+      .required()
+      .number("stick_stiffness", &F::stick_stiffness_N_per_m3, "N/m^3", aboveTo(0, 1e18),
+              "rods: tangential force by slip, by the lengths of both yarns, of what sticks; it gives way where the "
+              "force is mu times that which presses")
+      .defaultsTo("half_force/(sum of both half thicknesses)^3: about as stiff as lateral compression")
+      .build();
+}
+
 Object barTable() {
   using B = BarCase;
   const auto bar = [](auto member) {
@@ -50,6 +63,14 @@ Object makeTable() {
       .required()
       .text("description", &C::description, "what the case is about");
   addDesign(table);
+  table.object("friction", &C::friction, yarnFrictionTable(), "between yarns that touch (Coulomb's law)")
+      .defaultsTo("none: yarns slide on each other freely")
+      .choice(
+          "extent", &C::quarter, std::vector<std::pair<std::string, bool>>{{"full", false}, {"quarter", true}},
+          "how much of the repeat moves by itself. quarter: of a plain weave one weft and one warp over one spacing "
+          "(Man 2006, fig. 19c), whose images, mirrored in the middle of the cloth, are the others; a plain weave "
+          "keeps that symmetry under any strain of its plane, unless it buckles, and under no bend")
+      .unwritten();
   table.list("loads", &C::paths, pathTable(), "what the cell is taken through, each from rest")
       .defaultsTo("none: its stiffness at rest alone")
       .list("bars", &C::bars, barTable(),

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cases/cell/fields.hpp"
+#include "cases/cell/loops.hpp"
 #include "cases/input/json_at.hpp"
 #include "cases/input/message.hpp"
 #include "cases/runs/check_json.hpp"
@@ -39,7 +40,7 @@ Json stiffnessOf(const RestStiffness& rest) {
   return j;
 }
 
-Json pathOf(const PathCase& path, const RecordedPath& walked) {
+Json pathOf(const PathCase& path, const RecordedPath& walked, bool rubs) {
   Json j{{"name", path.name},
          {"load", schema::wordOf(path.load)},
          {"reached", walked.reached},
@@ -57,6 +58,10 @@ Json pathOf(const PathCase& path, const RecordedPath& walked) {
     if (column != "iterations" && column != "residual" && column != "rounded")
       at[column] = walked.rows.column(column)[end];
   j["end"] = std::move(at);
+  if (!rubs) return j;
+  for (const CellWork& loop : loopsOf(path, walked.rows))
+    j["loops"].push_back(
+        {{"work_J_per_m2", loop.work}, {"stored_J_per_m2", loop.stored}, {"lost_J_per_m2", loop.lost}});
   return j;
 }
 
@@ -144,7 +149,7 @@ void writeCellSummary(const RecordedCell& cell, const std::vector<AuditCheck>& c
                {"crimp_warp", m.crimp[along_warp]}};
   j["at_rest"] = stiffnessOf(cell.rest());
   j["loads"] = Json::array();
-  for (std::size_t k = 0; k < cell.paths().size(); ++k) j["loads"].push_back(pathOf(c.paths[k], cell.paths()[k]));
+  for (std::size_t k = 0; k < cell.paths().size(); ++k) j["loads"].push_back(pathOf(c.paths[k], cell.paths()[k], c.friction.has_value()));
   j["bars"] = Json::array();
   for (const BarCase& bar : c.bars) {
     const HomogenisedBar mean = homogenise(bar.bar);

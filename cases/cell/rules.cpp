@@ -25,6 +25,7 @@ void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
     load.fail("a truss carries loads along its yarns; allowed with yarns truss: biaxial or uniaxial");
   if (const auto* bending = std::get_if<BendingPath>(&p.load)) {
     if (c.holds_faces) load.fail("held faces do not bend; allowed with faces glide");
+    if (c.quarter) load.fail("a quarter does not bend; allowed with extent full");
     double half = 0;
     for (const int d : {along_weft, along_warp})
       half = std::max(half, c.yarn(d).shape.amplitude_m + c.yarn(d).shape.half_thickness_m);

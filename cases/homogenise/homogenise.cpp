@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <ostream>
 
 #include "cases/cell/case.hpp"
 #include "cases/cloth/law_table.hpp"
+#include "cases/input/message.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/runs/stop_message.hpp"
@@ -20,6 +23,11 @@ CellCase rodsOf(const HomogeniseArguments& a) {
   CellCase c = readCellCase(a.file, a.overrides);
   if (c.yarns != YarnModel::rod)
     sayInCase(c.file, c.overrides, InputError({"", 0, "yarns"}, "is not tabulated; allowed for homogenise: rod"));
+  const auto refuse = [&](const char* key, const char* reason) {
+    sayInCase(c.file, c.overrides, InputError({"", 0, key}, reason));
+  };
+  if (c.friction) refuse("friction", "has no energy to be tabulated; allowed for homogenise: none");
+  if (c.quarter) refuse("extent", "quarter does not bend; allowed for homogenise: full");
   return c;
 }
 
@@ -52,21 +60,48 @@ std::string inWords(const HomogeniseOptions& o) {
                      o.rigidity_by_strain ? "by strain" : "at rest", o.equilibrium.tolerance);
 }
 
+/// Yarns that press lightly catch on each other's sections where these are few: what is no stable equilibrium then may
+/// be one of more pieces. So these are tried before a range is given up; the case takes the number that did.
+HomogenisedCell homogeniseWithPieces(CellCase& c, HomogeniseOptions options) {
+  constexpr int kPieces[] = {24, 32};
+  constexpr int kMostCrossings = 900;  // of a repeat, beyond which there would be too many pairs of sections
+  const Weave weave = weaveOf(c.weave);
+  const bool shrink = options.shrink;
+  while (true) {
+    const int* more =
+        std::find_if(std::begin(kPieces), std::end(kPieces), [&](int n) { return n > c.solver.pieces_per_spacing; });
+    const bool last = more == std::end(kPieces) || weave.warps * weave.wefts > kMostCrossings;
+    options.shrink = shrink && last;
+    try {
+      return homogenise(RodCell(rodDesign(c)), options);
+    } catch (const NoEquilibrium& e) {
+      if (last)
+        throw RunError(fmt::format(
+            "{} (with {} pieces of a yarn between crossings; yarns that lightly touch need many); a smaller range "
+            "(--e11, --e22, --e12) may do, or --shrink, or more solver.pieces_per_spacing",
+            e.what(), c.solver.pieces_per_spacing));
+      sayNote(
+          fmt::format("{} with {} pieces of a yarn between crossings (solver.pieces_per_spacing), where yarns that "
+                      "lightly touch catch on each other's sections: once more with {}",
+                      e.what(), c.solver.pieces_per_spacing, *more));
+      c.solver.pieces_per_spacing = *more;
+    }
+  }
+}
+
 }  // namespace
 
 int homogeniseCell(const HomogeniseArguments& a, std::ostream& out) {
-  const CellCase c = rodsOf(a);
+  CellCase c = rodsOf(a);
   checkOutput(a.law, "--output", inputsOf(c));
   useThreads(a.threads);
   const StopMessage stopped("stopped by a signal; nothing is written");
   const HomogeniseOptions options = optionsOf(a, c);
   HomogenisedCell made;
   try {
-    made = homogenise(RodCell(rodDesign(c)), options);
+    made = homogeniseWithPieces(c, options);
   } catch (const InputError& e) {
     sayOfOptions(e);
-  } catch (const RunError& e) {
-    throw RunError(fmt::format("{}; a smaller range (--e11, --e22, --e12) may do, or --shrink", e.what()));
   }
   LawFile law;
   law.table = made.table;

@@ -34,6 +34,13 @@ struct YarnCase {
   std::variant<YarnModuli, RodSection> stiffness;
 };
 
+/// Coulomb's law between yarns that touch.
+struct YarnFriction {
+  double coefficient = 0;  ///< mu
+  /// Of rods: tangential force by slip, by the lengths of both.
+  std::optional<double> stick_stiffness_N_per_m3{};
+};
+
 struct CellSolver {
   int pieces_per_spacing = 16;
   double tolerance = 1e-9;
@@ -47,8 +54,11 @@ struct CellDesign {
   YarnModel yarns = YarnModel::rod;
   bool contact = true;
   std::optional<LateralCompression> compression;
-  bool holds_faces = false;        ///< sections in the faces of the cell stay in the middle of the cloth
-  std::optional<double> height_m;  ///< of the cell, by which stress is counted; read: always
+  bool by_section = false;               ///< rods press over the ellipses of their sections, side by side too
+  std::optional<YarnFriction> friction;  ///< none: yarns slide freely
+  bool quarter = false;                  ///< of a plain weave, a quarter of the repeat moves by itself
+  bool holds_faces = false;              ///< sections in the faces of the cell stay in the middle of the cloth
+  std::optional<double> height_m;        ///< of the cell, by which stress is counted; read: always
   CellSolver solver;
 
   const YarnCase& yarn(int direction) const { return direction == along_weft ? weft : *warp; }

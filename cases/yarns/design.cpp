@@ -26,14 +26,24 @@ WovenYarns wovenYarns(const CellDesign& c) {
   return {weaveOf(c.weave), {c.yarn(along_weft).shape, c.yarn(along_warp).shape}};
 }
 
+RodFriction rodFriction(const CellDesign& c) {
+  if (!c.friction) return {};
+  const double touch_m = c.weft.shape.half_thickness_m + c.warp->shape.half_thickness_m;
+  const double usual = c.compression ? c.compression->half_force_N / (touch_m * touch_m * touch_m) : 0;
+  return {c.friction->coefficient, c.friction->stick_stiffness_N_per_m3.value_or(usual)};
+}
+
 RodCellDesign rodDesign(const CellDesign& c) {
   RodCellDesign design;
   design.yarns = wovenYarns(c);
   design.section = {sectionOf(c.yarn(along_weft)), sectionOf(c.yarn(along_warp))};
   design.contact = c.contact;
   if (c.compression) design.compression = *c.compression;
+  design.touch = c.by_section ? RodTouch::section : RodTouch::axis;
   design.faces = c.holds_faces ? FaceSupport::held : FaceSupport::glide;
   design.pieces_per_spacing = c.solver.pieces_per_spacing;
+  design.extent = c.quarter ? CellExtent::quarter : CellExtent::full;
+  if (c.friction) design.friction = rodFriction(c);
   return design;
 }
 

@@ -13,6 +13,9 @@ Weave weaveOf(const WeaveCase& weave);
 RodSection sectionOf(const YarnCase& yarn);
 WovenYarns wovenYarns(const CellDesign& c);
 
+/// Of yarns that are rods; where the case gives no stiffness to what sticks it is P/(b1 + b2)³, about that of lateral
+/// compression at half thickness.
+RodFriction rodFriction(const CellDesign& c);
 /// The cell of rods, whatever `yarns` says.
 RodCellDesign rodDesign(const CellDesign& c);
 EquilibriumOptions equilibriumOptions(const CellSolver& solver);

@@ -23,10 +23,15 @@ void addDesign(Table<C>& table) {
       .flag("contact", &C::contact, "whether yarns press on each other; false: they pass through each other")
       .object("compression", &C::compression, compressionTable(), "how yarns give way to each other at crossings")
       .defaultsTo("required with contact")
+      .choice("touch", &C::by_section, std::vector<std::pair<std::string, bool>>{{"axis", false}, {"section", true}},
+              "where rods press on each other. axis: along their middles, by the thickness of sections alone; section: "
+              "over the ellipses of the sections, which turn each other over their widths, and side by side, so that "
+              "yarns jam where they are as near as they are wide")
+      .unwritten()
       .choice(
           "faces", &C::holds_faces, std::vector<std::pair<std::string, bool>>{{"glide", false}, {"held", true}},
           "whether sections in the faces of the cell, half way between crossings, may move through the cloth; held: "
-          "as in the thesis (4.3.5.3), which stiffens weaves with floats")
+          "as in the thesis (4.3.5.3), all points of these sections keep their height, which stiffens the cell")
       .number("height", &C::height_m, "m", aboveTo(0, 1e3),
               "of the cell, by which forces per width become stress; no force depends on it")
       .defaultsTo("twice the half thicknesses of weft and warp");

@@ -17,7 +17,8 @@ Entry memberOf(const Entry& parent, const std::string& key) { return parent.memb
 void checkSize(const Entry& root, const CellDesign& c, const Weave& weave) {
   constexpr long kSections = 40000, kPairs = 4000000;
   const long crossings = static_cast<long>(weave.warps) * weave.wefts, n = c.solver.pieces_per_spacing;
-  const long sections = 2 * crossings * n, pairs = crossings * (2 * n + 1) * (2 * n + 1);
+  const long sections = 2 * crossings * n, beside = c.by_section ? sections * (4 * n + 1) : 0,
+             pairs = crossings * (2 * n + 1) * (2 * n + 1) + beside;
   if (sections <= kSections && pairs <= kPairs) return;
   const std::string reason = fmt::format(
       "{} pieces between the crossings of {} x {} yarns give {} sections and {} pairs of them; allowed: at most {} and "
@@ -35,6 +36,9 @@ void checkTruss(const Entry& root, const CellDesign& c) {
   if (!c.contact)
     memberOf(root, "contact").fail("the truss is joined at its crossings; allowed with yarns truss: true");
   if (c.holds_faces) memberOf(root, "faces").fail("held goes with yarns rod: a truss has no sections in its faces");
+  if (c.by_section) memberOf(root, "touch").fail("section goes with yarns rod: a truss is joined at its crossings");
+  if (c.friction) memberOf(root, "friction").fail("goes with yarns rod: a truss is joined at its crossings");
+  if (c.quarter) memberOf(root, "extent").fail("quarter goes with yarns rod: a truss is one crossing");
   // A case that was written in full says what is usual.
   const CellSolver& s = c.solver;
   const CellSolver usual;
@@ -65,6 +69,8 @@ void applyDesignRules(const Entry& root, CellDesign& c) {
                 "is required with contact: how yarns give way to each other, such as {\"half_force\": "
                 "\"5 N\"}");
   if (!c.contact && c.compression) memberOf(root, "compression").fail("goes with contact, which is false");
+  if (!c.contact && c.by_section) memberOf(root, "touch").fail("section goes with contact, which is false");
+  if (!c.contact && c.friction) memberOf(root, "friction").fail("goes with contact, which is false");
   checkTruss(root, c);
   try {
     checkSize(root, c, weaveOf(c.weave));

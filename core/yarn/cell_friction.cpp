@@ -24,7 +24,8 @@ void accept(const RodCell& cell, const CellFaces& faces, std::span<const Pose> s
     const RodCell::PairPlace pair = cell.pairAt(faces, sections, k);
     Vec3 slip{};
     if (held) {
-      slip = slipOf(last[g].grip, pair.weft, pair.warp).slip;
+      const auto& aside = last[g].aside_m;
+      slip = slipOf(last[g].grip, movedAside(pair.first, aside[0]), movedAside(pair.second, aside[1])).slip;
       const double k_N_per_m = law.stick_stiffness_N_per_m3 * pair.lengths_m2, r = norm(slip);
       const double most = law.coefficient * pair.normal_N / k_N_per_m;
       if (r > most) {
@@ -34,7 +35,10 @@ void accept(const RodCell& cell, const CellFaces& faces, std::span<const Pose> s
       history.stored_J += 0.5 * k_N_per_m * norm2(slip);
       ++g;
     }
-    if (pair.normal_N > 0) next.push_back({k, gripBetween(pair.weft, pair.warp, slip), pair.normal_N});
+    if (!(pair.normal_N > 0)) continue;
+    const auto& aside = pair.aside_m;
+    next.push_back({k, gripBetween(movedAside(pair.first, aside[0]), movedAside(pair.second, aside[1]), slip), aside,
+                    pair.normal_N});
   }
   history.grips.swap(next);
 }

@@ -14,7 +14,10 @@ class RodCell;
 /// The spring of a pair in contact, as the last accepted load left it.
 struct PairGrip {
   int pair = 0;
-  RodGrip grip;         ///< first of the weft
+  RodGrip grip;  ///< first of the weft
+  /// Where on the second axes of both sections their chords meet (CrossingContact): the line of the ends goes from one
+  /// of these places to the other, along the normal of the crossing, so that yarns that only come nearer do not slip.
+  std::array<double, 2> aside_m{};
   double normal_N = 0;  ///< f under that load
 };
 

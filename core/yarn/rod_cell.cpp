@@ -32,6 +32,13 @@ RodCell::Placed RodCell::place(const CellFaces& faces, std::span<const Pose> sec
   return {inverse(g) * own, back, minus(back)};
 }
 
+Vec3 RodCell::originOf(const CellFaces& faces, std::span<const Pose> sections, const Image& image) {
+  const Vec3& own = sections[image.section].origin;
+  if (image.power == 0) return own;
+  const Pose& g = faces.step[image.direction];
+  return image.power == 1 ? g * own : inverse(g) * own;
+}
+
 int RodCell::sectionsOf(int direction) const { return design_.pieces_per_spacing * yarns().crossings(direction); }
 
 int RodCell::firstSection(int direction, int k) const {
@@ -54,21 +61,47 @@ double RodCell::reach_m() const { return std::hypot(yarns().period_m(along_weft)
 
 RodCell::PairPlace RodCell::pairAt(const CellFaces& faces, std::span<const Pose> sections, int pair) const {
   const Pair& p = pairs_[pair];
-  const Pose weft = place(faces, sections, p.weft).pose, warp = place(faces, sections, p.warp).pose;
-  const Vec3 apart = weft.origin - warp.origin;
-  const double normal = norm2(apart) < touch_m_ * touch_m_
-                            ? -p.lengths_m2 * lineContact(design_.compression, touch_m_, norm(apart)).first
-                            : 0;
-  return {weft, warp, p.lengths_m2, normal};
+  const Pose first = place(faces, sections, p.first).pose, second = place(faces, sections, p.second).pose;
+  if (p.above == 0) return {first, second, p.lengths_m2, 0, {}};
+  const Vec3 apart = first.origin - second.origin;
+  double normal = 0;
+  if (design_.touch == RodTouch::section)
+    normal = p.lengths_m2 * crossing_.evaluate(first, second, p.above, false).pressing;
+  else if (norm2(apart) < touch_m_ * touch_m_)
+    normal = -p.lengths_m2 * lineContact(design_.compression, touch_m_, norm(apart)).first;
+  return {first, second, p.lengths_m2, normal, crossing_.meeting_m(first, second)};
+}
+
+/// Whether the middles of a pair are farther apart than those of any pair that touches, and seen with less trouble.
+bool RodCell::isFar(const CellFaces& faces, std::span<const Pose> sections, const Pair& pair, double part) const {
+  const Vec3 apart = originOf(faces, sections, pair.first) - originOf(faces, sections, pair.second);
+  const double reach = (1 + part) * (pair.above == 0 ? beside_[pair.first.direction].reach_m() : crossing_reach_m_);
+  return norm2(apart) > reach * reach;
+}
+
+/// Whether a pair touches when its points are nearer by a part of their distance.
+bool RodCell::touches(const Pair& pair, const Pose& first, const Pose& second, double part) const {
+  if (design_.touch == RodTouch::axis) {
+    const double reach = touch_m_ * (1 + part);
+    return norm2(first.origin - second.origin) < reach * reach;
+  }
+  if (pair.above != 0) return crossing_.distance_m(first, second, pair.above) < touch_m_ * (1 + part);
+  const BesideContact& beside = beside_[pair.first.direction];
+  return beside.distance(first, second) < 1 + part;
+}
+
+SectionPair RodCell::evaluateSections(const Pair& pair, const Pose& first, const Pose& second, bool tangent) const {
+  return pair.above != 0 ? crossing_.evaluate(first, second, pair.above, tangent)
+                         : beside_[pair.first.direction].evaluate(first, second, tangent);
 }
 
 std::vector<int> RodCell::nearPairs(const CellFaces& faces, std::span<const Pose> sections, double part) const {
-  const double reach = touch_m_ * (1 + part);
   std::vector<int> near;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const Vec3 apart =
-        place(faces, sections, pairs_[k].weft).pose.origin - place(faces, sections, pairs_[k].warp).pose.origin;
-    if (norm2(apart) < reach * reach) near.push_back(static_cast<int>(k));
+    const Pair& pair = pairs_[k];
+    if (isFar(faces, sections, pair, part)) continue;
+    if (touches(pair, place(faces, sections, pair.first).pose, place(faces, sections, pair.second).pose, part))
+      near.push_back(static_cast<int>(k));
   }
   return near;
 }
@@ -87,13 +120,13 @@ BlockMatrix RodCell::sparsity(std::span<const int> pairs) const {
     if (p.b.power != 0) together.push_back(faces + p.direction);
     join(together);
   }
+  const bool turns = design_.friction.coefficient > 0 || design_.touch == RodTouch::section;
   for (const int k : pairs) {
     const Pair& p = pairs_[k];
-    std::vector<int> together{2 * p.weft.section, 2 * p.warp.section};
-    if (design_.friction.coefficient > 0)
-      together.insert(together.end(), {2 * p.weft.section + 1, 2 * p.warp.section + 1});
-    if (p.weft.power != 0) together.push_back(faces + along_weft);
-    if (p.warp.power != 0) together.push_back(faces + along_warp);
+    std::vector<int> together{2 * p.first.section, 2 * p.second.section};
+    if (turns) together.insert(together.end(), {2 * p.first.section + 1, 2 * p.second.section + 1});
+    for (const Image* image : {&p.first, &p.second})
+      if (image->power != 0) together.push_back(faces + image->direction);
     join(together);
   }
   BlockMatrix K;
@@ -136,114 +169,138 @@ Mat3 scaled(double s) { return {{s, 0, 0}, {0, s, 0}, {0, 0, s}}; }
 
 }  // namespace
 
-void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out, BlockMatrix* K,
-                       bool downhill, const CellFriction* friction) const {
-  out.energy_J = 0;
-  out.gradient.assign(static_cast<std::size_t>(blocks()), Vec3{});
-  out.face_moment_Nm = {};
-  out.touching.clear();
-  if (K) std::fill(K->values.begin(), K->values.end(), 0.0);
+/// What elements add to an answer and its second derivatives.
+struct RodCell::Sum {
+  const RodCell& cell;
+  const CellFaces& faces;
+  std::span<const Pose> sections;
+  CellAnswer& out;
+  BlockMatrix* K;
+  bool downhill;
   double balanced = 0;
-  const int face_block = 2 * this->sections();
-  std::vector<Part> parts;
+  std::vector<Part> parts{};
+
+  int faceBlock() const { return 2 * cell.sections(); }
+  double perLength() const { return 1 / cell.turnLength_m(); }
+
   /// The force on a vector that a place is: to its section and its face.
-  const auto addForce = [&](const Image& image, const Placed& at, const Vec3& force) {
+  void addForce(const Image& image, const Placed& at, const Vec3& force) {
     out.gradient[2 * image.section] += transposeTimes(at.by_x, force);
     balanced += norm2(force);
     if (image.power == 0) return;
-    out.gradient[face_block + image.direction] += transposeTimes(at.by_t, force);
+    out.gradient[faceBlock() + image.direction] += transposeTimes(at.by_t, force);
     const Pose& g = faces.step[image.direction];
     const Vec3& own = sections[image.section].origin;
     out.face_moment_Nm[image.direction] +=
         image.power == 1 ? cross(g.rotation * own, force) : -cross(own - g.origin, g.rotation * force);
-  };
+  }
   /// The moment, about its axes, on the turn of a section.
-  const auto addMoment = [&](const Image& image, const Placed& at, const Vec3& moment) {
-    const Vec3 force = moment / turn_length_m_;
+  void addMoment(const Image& image, const Placed& at, const Vec3& moment) {
+    const Vec3 force = moment / cell.turnLength_m();
     out.gradient[2 * image.section + 1] += force;
     balanced += norm2(force);
     if (image.power == 0) return;
     const Vec3 in_space = at.pose.rotation * moment;
     out.face_moment_Nm[image.direction] +=
         image.power == 1 ? in_space : -(faces.step[image.direction].rotation * in_space);
-  };
-  const auto addParts = [&](const Image& image, const Placed& at, int vector) {
+  }
+  void addParts(const Image& image, const Placed& at, int vector) {
     parts.push_back({vector, 2 * image.section, at.by_x});
-    if (image.power != 0) parts.push_back({vector, face_block + image.direction, at.by_t});
-  };
+    if (image.power != 0) parts.push_back({vector, faceBlock() + image.direction, at.by_t});
+  }
+  /// Of an element of two sections: its derivatives in (x1, turn1, x2, turn2).
+  void addPair(const Pair& pair, const Placed& first, const Placed& second, const std::array<Vec3, 4>& gradient,
+               const std::array<double, 144>& tangent) {
+    addForce(pair.first, first, gradient[0]);
+    addMoment(pair.first, first, gradient[1]);
+    addForce(pair.second, second, gradient[2]);
+    addMoment(pair.second, second, gradient[3]);
+    if (!K) return;
+    parts.clear();
+    addParts(pair.first, first, 0);
+    addParts(pair.second, second, 2);
+    parts.push_back({1, 2 * pair.first.section + 1, scaled(perLength())});
+    parts.push_back({3, 2 * pair.second.section + 1, scaled(perLength())});
+    addBlocks(
+        parts, [&](int p, int q) { return blockOf(tangent, p, q); }, *K);
+  }
+};
 
-  const double per_length = 1 / turn_length_m_;
-  const RodTangent tangent = !K ? RodTangent::none : downhill ? RodTangent::downhill : RodTangent::exact;
+void RodCell::addPieces(Sum& sum) const {
+  const double per_length = sum.perLength();
+  const RodTangent tangent = !sum.K ? RodTangent::none : sum.downhill ? RodTangent::downhill : RodTangent::exact;
+  CellAnswer& out = sum.out;
   for (const Piece& piece : pieces_) {
-    const Placed a = place(faces, sections, piece.a), b = place(faces, sections, piece.b);
+    const Placed a = place(sum.faces, sum.sections, piece.a), b = place(sum.faces, sum.sections, piece.b);
     const RodAnswer answer = evaluateRod(design_.section[piece.direction], piece.piece, a.pose, b.pose, tangent);
     out.energy_J += answer.energy_J;
     const auto vector = [&](int k) {
       return Vec3{answer.gradient[3 * k], answer.gradient[3 * k + 1], answer.gradient[3 * k + 2]};
     };
-    addForce(piece.a, a, vector(0));
-    addForce(piece.b, b, vector(2));
+    sum.addForce(piece.a, a, vector(0));
+    sum.addForce(piece.b, b, vector(2));
     out.gradient[2 * piece.a.section + 1] += per_length * vector(1);
     out.gradient[2 * piece.b.section + 1] += per_length * vector(3);
-    balanced += norm2(per_length * vector(1)) + norm2(per_length * vector(3));
+    sum.balanced += norm2(per_length * vector(1)) + norm2(per_length * vector(3));
     if (piece.b.power == 1) out.face_moment_Nm[piece.direction] += b.pose.rotation * vector(3);
-    if (!K) continue;
-    parts.clear();
-    addParts(piece.a, a, 0);
-    addParts(piece.b, b, 2);
-    parts.push_back({1, 2 * piece.a.section + 1, scaled(per_length)});
-    parts.push_back({3, 2 * piece.b.section + 1, scaled(per_length)});
+    if (!sum.K) continue;
+    sum.parts.clear();
+    sum.addParts(piece.a, a, 0);
+    sum.addParts(piece.b, b, 2);
+    sum.parts.push_back({1, 2 * piece.a.section + 1, scaled(per_length)});
+    sum.parts.push_back({3, 2 * piece.b.section + 1, scaled(per_length)});
     addBlocks(
-        parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
+        sum.parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *sum.K);
   }
+}
 
-  const double touch2 = touch_m_ * touch_m_;
+void RodCell::addPairs(Sum& sum, const CellFriction* friction) const {
   std::size_t grip = 0;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Pair& pair = pairs_[k];
-    const Placed weft = place(faces, sections, pair.weft), warp = place(faces, sections, pair.warp);
-    const Vec3 apart = weft.pose.origin - warp.pose.origin;
+    if (isFar(sum.faces, sum.sections, pair) &&
+        !(friction && grip < friction->grips.size() && friction->grips[grip].pair == static_cast<int>(k)))
+      continue;
+    const Placed first = place(sum.faces, sum.sections, pair.first),
+                 second = place(sum.faces, sum.sections, pair.second);
     const bool gripped = friction && grip < friction->grips.size() && friction->grips[grip].pair == static_cast<int>(k);
     const double limit = gripped ? design_.friction.coefficient * friction->normal_N[grip] : 0;
-    if (!(norm2(apart) < touch2) && !(limit > 0)) {
-      grip += gripped;
-      continue;
-    }
-    out.touching.push_back(static_cast<int>(k));
+    const bool touching = touches(pair, first.pose, second.pose, 0);
+    if (touching || limit > 0) sum.out.touching.push_back(static_cast<int>(k));
     if (limit > 0) {
-      const RodFrictionAnswer answer =
-          evaluateRodFriction(friction->grips[grip].grip, weft.pose, warp.pose,
-                              design_.friction.stick_stiffness_N_per_m3 * pair.lengths_m2, limit, K != nullptr);
-      out.energy_J += answer.energy_J;
-      addForce(pair.weft, weft, answer.gradient[0]);
-      addMoment(pair.weft, weft, answer.gradient[1]);
-      addForce(pair.warp, warp, answer.gradient[2]);
-      addMoment(pair.warp, warp, answer.gradient[3]);
-      if (K) {
-        parts.clear();
-        addParts(pair.weft, weft, 0);
-        addParts(pair.warp, warp, 2);
-        parts.push_back({1, 2 * pair.weft.section + 1, scaled(per_length)});
-        parts.push_back({3, 2 * pair.warp.section + 1, scaled(per_length)});
-        addBlocks(
-            parts, [&](int p, int q) { return blockOf(answer.tangent, p, q); }, *K);
-      }
+      const PairGrip& held = friction->grips[grip];
+      const auto& [v1, v2] = held.aside_m;
+      const RodFrictionAnswer answer = fromAside(
+          evaluateRodFriction(held.grip, movedAside(first.pose, v1), movedAside(second.pose, v2),
+                              design_.friction.stick_stiffness_N_per_m3 * pair.lengths_m2, limit, sum.K != nullptr),
+          first.pose, second.pose, held.aside_m, sum.K != nullptr);
+      sum.out.energy_J += answer.energy_J;
+      sum.addPair(pair, first, second, answer.gradient, answer.tangent);
     }
     grip += gripped;
-    if (!(norm2(apart) < touch2)) continue;
+    if (!touching) continue;
+    if (design_.touch == RodTouch::section) {
+      SectionPair answer = evaluateSections(pair, first.pose, second.pose, sum.K != nullptr);
+      sum.out.energy_J += pair.lengths_m2 * answer.energy;
+      for (Vec3& g : answer.gradient) g *= pair.lengths_m2;
+      for (double& t : answer.tangent) t *= pair.lengths_m2;
+      sum.addPair(pair, first, second, answer.gradient, answer.tangent);
+      continue;
+    }
+    const Vec3 apart = first.pose.origin - second.pose.origin;
     const double distance = norm(apart);
     const LineContact contact = lineContact(design_.compression, touch_m_, distance);
-    out.energy_J += pair.lengths_m2 * contact.energy;
+    sum.out.energy_J += pair.lengths_m2 * contact.energy;
     const Vec3 u = apart / distance, force = pair.lengths_m2 * contact.first * u;
-    addForce(pair.weft, weft, force);
-    addForce(pair.warp, warp, -force);
-    if (!K) continue;
-    parts.clear();
-    addParts(pair.weft, weft, 0);
-    addParts(pair.warp, warp, 1);
+    sum.addForce(pair.first, first, force);
+    sum.addForce(pair.second, second, -force);
+    if (!sum.K) continue;
+    sum.parts.clear();
+    sum.addParts(pair.first, first, 0);
+    sum.addParts(pair.second, second, 1);
     const double across = pair.lengths_m2 * contact.first / distance, along = pair.lengths_m2 * contact.second;
     addBlocks(
-        parts,
+        sum.parts,
         [&](int p, int q) {
           Block block;
           for (int i = 0; i < 3; ++i)
@@ -251,9 +308,21 @@ void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, C
               block[3 * i + j] = (p == q ? 1 : -1) * ((i == j ? across : 0) + (along - across) * u[i] * u[j]);
           return block;
         },
-        *K);
+        *sum.K);
   }
-  out.balanced_N = std::sqrt(balanced);
+}
+
+void RodCell::evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out, BlockMatrix* K,
+                       bool downhill, const CellFriction* friction) const {
+  out.energy_J = 0;
+  out.gradient.assign(static_cast<std::size_t>(blocks()), Vec3{});
+  out.face_moment_Nm = {};
+  out.touching.clear();
+  if (K) std::fill(K->values.begin(), K->values.end(), 0.0);
+  Sum sum{*this, faces, sections, out, K, downhill};
+  addPieces(sum);
+  addPairs(sum, friction);
+  out.balanced_N = std::sqrt(sum.balanced);
 }
 
 RodAnswer RodCell::pieceAt(const CellFaces& faces, std::span<const Pose> sections, int direction, int k, int i) const {

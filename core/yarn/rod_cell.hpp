@@ -12,6 +12,7 @@
 #include "core/yarn/cell_friction.hpp"
 #include "core/yarn/compression.hpp"
 #include "core/yarn/rod.hpp"
+#include "core/yarn/section_contact.hpp"
 #include "core/yarn/woven_yarns.hpp"
 
 namespace gambeson {
@@ -23,22 +24,28 @@ namespace gambeson {
 enum class CellExtent { full, quarter };
 
 /// Whether sections in the faces of the cell may move through the cloth. Faces lie half way between crossings; a
-/// quarter has them between any two, a full cell at its ends. Held faces (Man 2006, section 4.3.5.3) stiffen the cell
-/// and are of flat cloth alone.
+/// quarter has them between any two, a full cell at its ends. Held faces (Man 2006, section 4.3.5.3) keep the height of
+/// all points of their sections, which can only move in the cloth and turn about its normal; they stiffen the cell and
+/// are of flat cloth alone.
 enum class FaceSupport { glide, held };
+
+/// Where rods press on each other. axis: along their middles, by the thickness of sections (line_contact.hpp); yarns
+/// side by side do not touch. section: over the ellipses of the sections, also side by side (section_contact.hpp).
+enum class RodTouch { axis, section };
 
 struct RodCellDesign {
   WovenYarns yarns;
   std::array<RodSection, 2> section;  ///< by YarnDirection
   bool contact = true;                ///< false: yarns pass through each other
   LateralCompression compression;     ///< where they do not
+  RodTouch touch = RodTouch::axis;
   FaceSupport faces = FaceSupport::glide;
   /// Of each yarn between neighbours of the other direction; even, 4 to 256. Contact is a sum over pairs of sections:
   /// with fewer than 16 yarns catch on each other's sections, and a lightly pressed crossing may be unstable; with 16
   /// its shear stiffness may still be negative, by some 5e-4 of that along the yarns.
   int pieces_per_spacing = 24;
   CellExtent extent = CellExtent::full;
-  RodFriction friction;  ///< where contact is
+  RodFriction friction;  ///< where contact is, of yarns that cross
 };
 
 /// What a cell answers. Blocks of three unknowns: of section i the place x [m] (block 2 i) and the turn about its own
@@ -52,8 +59,8 @@ struct CellAnswer {
 };
 
 /// The cell is constant; callers own its sections and faces. Yarns are without force where they lie at rest. Yarns that
-/// cross press on each other (line_contact.hpp) and hold each other by friction (rod_friction.hpp), both by sums over
-/// pairs of sections.
+/// cross press on each other (RodTouch) and hold each other by friction (rod_friction.hpp), both by sums over pairs of
+/// sections.
 class RodCell {
  public:
   /// Throws InputError where the yarns cannot lie so (checkWovenYarns), a section stretches, shears or bends without
@@ -85,10 +92,12 @@ class RodCell {
   void evaluate(const CellFaces& faces, std::span<const Pose> sections, CellAnswer& out, BlockMatrix* K = nullptr,
                 bool downhill = false, const CellFriction* friction = nullptr) const;
   int pairs() const { return static_cast<int>(pairs_.size()); }
-  /// The sections of a pair, or their images, and the force that presses between them.
+  /// The sections of a pair, or their images, the force that presses between them where they cross, and where on the
+  /// second axes of both sections they meet.
   struct PairPlace {
-    Pose weft, warp;
+    Pose first, second;
     double lengths_m2, normal_N;
+    std::array<double, 2> aside_m;
   };
   PairPlace pairAt(const CellFaces& faces, std::span<const Pose> sections, int pair) const;
   /// Pairs that touch, or will when their points are nearer by this part of their distance.
@@ -109,8 +118,9 @@ class RodCell {
     Image a, b;
   };
   struct Pair {
-    Image weft, warp;
-    double lengths_m2;  ///< of both yarns for which the pair stands
+    Image first, second;  ///< of weft and warp, or of neighbours
+    double lengths_m2;    ///< of both yarns for which the pair stands
+    double above = 0;     ///< 1 where the weft lies above, -1 where below; 0: side by side
   };
   /// An image in space, and how it moves: dx' = by_x dx + by_t dt.
   struct Placed {
@@ -120,17 +130,29 @@ class RodCell {
   };
 
   static Placed place(const CellFaces& faces, std::span<const Pose> sections, const Image& image);
+  static Vec3 originOf(const CellFaces& faces, std::span<const Pose> sections, const Image& image);
   Image imageOf(int direction, int k, int i) const;
+  double shareOf(int direction, int k, int i) const;
   void addYarns();
   void addPairs();
+  void addNeighbours();
   void addFreedoms();
+
+  struct Sum;
+  void addPieces(Sum& sum) const;
+  void addPairs(Sum& sum, const CellFriction* friction) const;
+  bool isFar(const CellFaces& faces, std::span<const Pose> sections, const Pair& pair, double part = 0) const;
+  bool touches(const Pair& pair, const Pose& first, const Pose& second, double part) const;
+  SectionPair evaluateSections(const Pair& pair, const Pose& first, const Pose& second, bool tangent) const;
 
   RodCellDesign design_;
   std::vector<Pose> rest_;
   std::vector<Piece> pieces_;
   std::vector<Pair> pairs_;
   SparseRows freedoms_;
-  double turn_length_m_ = 0, touch_m_ = 0;
+  CrossingContact crossing_;
+  std::array<BesideContact, 2> beside_;  ///< by direction
+  double turn_length_m_ = 0, touch_m_ = 0, crossing_reach_m_ = 0;
 };
 
 }  // namespace gambeson

@@ -87,4 +87,39 @@ RodFrictionAnswer evaluateRodFriction(const RodGrip& grip, const Pose& first, co
   return out;
 }
 
+/// X = x + R exp(a) c: dX = dx + R (a x c) + R (a x (a x c))/2.
+RodFrictionAnswer fromAside(const RodFrictionAnswer& answer, const Pose& first, const Pose& second,
+                            const std::array<double, 2>& aside_m, bool tangent) {
+  RodFrictionAnswer out = answer;
+  std::array<Vec3, 12> by_turn{};  // dX of a turn: of the section e, turn i at 6 e + 3 + i
+  const Pose* section[] = {&first, &second};
+  for (int e = 0; e < 2; ++e) {
+    const Vec3 c{0, aside_m[e], 0}, force = transposeTimes(section[e]->rotation, answer.gradient[2 * e]);
+    out.gradient[2 * e + 1] += cross(c, force);
+    for (int i = 0; i < 3; ++i) {
+      Vec3 unit{};
+      unit[i] = 1;
+      by_turn[6 * e + 3 + i] = section[e]->rotation * cross(unit, c);
+    }
+  }
+  if (!tangent) return out;
+  // K J, then Jᵀ (K J).
+  std::array<double, 144> half = answer.tangent;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j)
+      for (int x = 0; x < 3; ++x) half[12 * i + j] += answer.tangent[12 * i + 6 * (j / 6) + x] * by_turn[j][x];
+  out.tangent = half;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j)
+      for (int x = 0; x < 3; ++x) out.tangent[12 * i + j] += by_turn[i][x] * half[12 * (6 * (i / 6) + x) + j];
+  for (int e = 0; e < 2; ++e) {
+    const Vec3 c{0, aside_m[e], 0}, force = transposeTimes(section[e]->rotation, answer.gradient[2 * e]);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        out.tangent[12 * (6 * e + 3 + i) + 6 * e + 3 + j] +=
+            0.5 * (force[i] * c[j] + force[j] * c[i]) - (i == j ? dot(force, c) : 0);
+  }
+  return out;
+}
+
 }  // namespace gambeson

@@ -57,4 +57,12 @@ struct RodFrictionAnswer {
 RodFrictionAnswer evaluateRodFriction(const RodGrip& grip, const Pose& first, const Pose& second,
                                       double stiffness_N_per_m, double limit_N, bool tangent);
 
+/// The section as seen from the place v [m] on its second axis.
+inline Pose movedAside(const Pose& section, double v_m) {
+  return {section.rotation, section.origin + v_m * section.rotation.b};
+}
+/// What evaluateRodFriction answers of two sections moved aside, in the places and turns of the sections themselves.
+RodFrictionAnswer fromAside(const RodFrictionAnswer& answer, const Pose& first, const Pose& second,
+                            const std::array<double, 2>& aside_m, bool tangent);
+
 }  // namespace gambeson

@@ -81,6 +81,21 @@ TEST(Homogenise, WhatItRefuses) {
   EXPECT_THROW(homogeniseCell(a, out), InputError) << "the case itself";
 }
 
+/// Yarns that hardly resist torsion and touch lightly catch on sections where there are few; with more the table is
+/// made, and its provenance is of the case with these.
+TEST(Homogenise, LooseCellsTakeMorePieces) {
+  const Folder folder;
+  HomogeniseArguments a = quick(folder);
+  a.file = std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library/cell_plain.json";
+  a.e11 = a.e22 = {-0.01, 0.01};
+  a.e12 = {0, 0.05};
+  std::ostringstream out;
+  EXPECT_EQ(homogeniseCell(a, out), 0);
+  const CellCase given = readCellCase(a.file), finer = readCellCase(a.file, {"solver.pieces_per_spacing=32"});
+  EXPECT_EQ(given.solver.pieces_per_spacing, 16);
+  EXPECT_EQ(readLawTable(a.law).provenance.cell, caseIdentity(finer));
+}
+
 /// Errors that cannot be reached are said, and the table is there with its own.
 TEST(Homogenise, ErrorsThatAreNotReached) {
   const Folder folder;

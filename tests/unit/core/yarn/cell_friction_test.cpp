@@ -15,7 +15,7 @@ namespace gambeson {
 namespace {
 
 /// The thesis's yarns (Man 2006, section 4.3.5.2).
-RodCellDesign plain(const RodFriction& friction) {
+RodCellDesign plain(const RodFriction& friction, RodTouch touch = RodTouch::axis) {
   RodCellDesign d;
   const double b = 0.16;
   d.yarns = {plainWeave(), {WovenYarn{1, b, 1.5 * b, b}, WovenYarn{1, b, 1.5 * b, b}}};
@@ -23,6 +23,7 @@ RodCellDesign plain(const RodFriction& friction) {
   d.compression = {5, 3};
   d.pieces_per_spacing = 16;
   d.friction = friction;
+  d.touch = touch;
   return d;
 }
 constexpr RodFriction kFriction{0.3, 1e3};
@@ -30,8 +31,8 @@ constexpr RodFriction kSticky{10, 1};  ///< gives way to nothing that happens he
 
 /// A cell that is led from one accepted load to the next, and its books by area.
 struct Specimen {
-  explicit Specimen(const RodFriction& friction)
-      : cell(plain(friction)), work(cell), sections(cell.rest().begin(), cell.rest().end()) {
+  explicit Specimen(const RodFriction& friction, RodTouch touch = RodTouch::axis)
+      : cell(plain(friction, touch)), work(cell), sections(cell.rest().begin(), cell.rest().end()) {
     if (friction.coefficient > 0) work.history = &history;
   }
   void lead(const CellLoad& to) {
@@ -62,13 +63,14 @@ struct Specimen {
 };
 
 /// In all blocks and the spins of faces, of pairs within the cell and beyond its faces, after any motion.
-TEST(CellFriction, ForcesAndTangentAreDerivatives) {
-  RodCellDesign design = plain({0.4, 5e3});
+void expectDerivatives(RodTouch touch) {
+  RodCellDesign design = plain({0.4, 5e3}, touch);
   design.pieces_per_spacing = 4;
   const RodCell cell(design);
   const CellLoad load{0.03, -0.04, 0.1, 0.3, 0.6};
   int spun = 0;
-  for (const double slide : {-0.45, 0.0, 0.45}) {
+  const double far = touch == RodTouch::axis ? 0.45 : 0.2;  // sections that pass through each other have no force
+  for (const double slide : {-far, 0.0, far}) {
     CellFaces faces = facesOf(cell.yarns(), load);
     std::vector<Pose> sections = carried(cell.rest(), {}, load);
     const int first_warp = cell.firstSection(along_warp, 0);
@@ -144,25 +146,45 @@ TEST(CellFriction, ForcesAndTangentAreDerivatives) {
           return side[0].energy_J - side[1].energy_J;
         };
         const Vec3 moment = answer.face_moment_Nm[g] - smooth.face_moment_Nm[g];
-        EXPECT_NEAR((potential(h) - potential(-h)) / (2 * h), moment[c], 1e-5 * norm(moment) + 1e-12)
+        EXPECT_NEAR((potential(h) - potential(-h)) / (2 * h), moment[c],
+                    1e-5 * norm(moment) + (touch == RodTouch::axis ? 1e-12 : 1e-11))
             << slide << g << c;
         spun += norm(moment) > 1e-6;
       }
   }
-  EXPECT_GT(spun, 6) << "faces at both ends";
+  EXPECT_GT(spun, touch == RodTouch::axis ? 6 : 3) << "faces at both ends";
 }
+
+TEST(CellFriction, ForcesAndTangentAreDerivatives) { expectDerivatives(RodTouch::axis); }
+TEST(CellFriction, ForcesAndTangentOfSectionsAreDerivatives) { expectDerivatives(RodTouch::section); }
 
 /// Issue bound: trellis 0.12 at 1 % of stretch, S12 at least doubles with mu 0.3.
 TEST(CellFriction, HoldsShear) {
-  double n12[2];
-  for (const bool rough : {false, true}) {
-    Specimen s(rough ? kFriction : RodFriction{});
-    s.follow(4, [](double t) { return trellis(0, 1 + 0.01 * t); });
-    s.follow(4, [](double t) { return trellis(0.12 * t, 1.01); });
-    n12[rough] = s.n.n12;
+  for (const auto& [touch, found] : {std::pair{RodTouch::axis, 9.09}, {RodTouch::section, 3.81}}) {
+    double n12[2];
+    for (const bool rough : {false, true}) {
+      Specimen s(rough ? kFriction : RodFriction{}, touch);
+      s.follow(4, [](double t) { return trellis(0, 1 + 0.01 * t); });
+      s.follow(4, [](double t) { return trellis(0.12 * t, 1.01); });
+      n12[rough] = s.n.n12;
+    }
+    EXPECT_GT(n12[1], 2 * n12[0]);
+    EXPECT_NEAR(n12[1] / n12[0], found, 0.05) << "as found, on 16 pieces";
   }
-  EXPECT_GT(n12[1], 2 * n12[0]);
-  EXPECT_NEAR(n12[1] / n12[0], 4.99, 0.05) << "as found, on 16 pieces";
+}
+
+/// Pressed as hard as may be, wherever yarns press: pairs that lie obliquely do not slip where yarns come nearer.
+TEST(CellFriction, HardPressingSettles) {
+  for (const RodTouch touch : {RodTouch::axis, RodTouch::section}) {
+    double n11[2];
+    for (const bool rough : {false, true}) {
+      Specimen s(rough ? RodFriction{0.5, 1e3} : RodFriction{}, touch);
+      s.follow(6, [](double t) { return loadOf({1 + 0.12 * t, 0, 0, 1 + 0.12 * t}); });
+      n11[rough] = s.n.n11;
+    }
+    EXPECT_GT(n11[1], n11[0]);
+    EXPECT_LT(n11[1], 1.02 * n11[0]);
+  }
 }
 
 TEST(CellFriction, LoopsWithoutItLoseNothing) {
@@ -185,7 +207,7 @@ TEST(CellFriction, LoopsWithoutItLoseNothing) {
 /// step.
 TEST(CellFriction, CyclesLoseWhatSlides) {
   double gap[2];
-  for (const int steps : {8, 16}) {  // from one side to the other
+  for (const int steps : {16, 32}) {  // from one side to the other
     Specimen s(kFriction);
     s.follow(4, [](double t) { return trellis(0, 1 + 0.01 * t); });
     s.follow(steps / 2, [](double t) { return trellis(0.12 * t, 1.01); });
@@ -195,9 +217,9 @@ TEST(CellFriction, CyclesLoseWhatSlides) {
     const double work = s.work_J_per_m2 - s.stored(), lost = s.lost();
     turnTo(-1);
     const double loss = s.lost() - lost;
-    EXPECT_NEAR(loss, 5.78e-6, 0.05e-6) << "as found, J/m²";
-    gap[steps / 16] = std::abs(s.work_J_per_m2 - s.stored() - work - loss) / loss;
-    if (steps == 16) continue;
+    EXPECT_NEAR(loss, 1.387e-5, 0.005e-5) << "as found, J/m²";
+    gap[steps / 32] = std::abs(s.work_J_per_m2 - s.stored() - work - loss) / loss;
+    if (steps == 32) continue;
     turnTo(1);
     const double n11 = s.n.n11, n12 = s.n.n12, stored = s.stored();
     turnTo(-1), turnTo(1);
@@ -291,7 +313,7 @@ TEST(CellFriction, SidesComeFree) {
     EXPECT_LT(s.load.e22, accepted.e22);
     e22[rough] = s.load.e22;
   }
-  EXPECT_GT(e22[1] - e22[0], 1e-4) << "it holds the sides";
+  EXPECT_GT(e22[1] - e22[0], 1e-6) << "it holds the sides, next to nothing: crossings do not slip as a whole";
 }
 
 TEST(CellFriction, RigidityIsOfYarnsWithoutIt) {

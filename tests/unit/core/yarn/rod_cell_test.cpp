@@ -26,8 +26,9 @@ struct Somewhere {
   CellFaces faces;
   std::vector<Pose> sections;
 };
-/// `slide`: of the yarns across themselves, so that they touch beyond a face of the cell.
-Somewhere somewhere(const RodCell& cell, double slide = 0) {
+/// `slide`: of the yarns across themselves, so that they touch beyond a face of the cell; `squeeze`: of every other
+/// yarn against the rest, so that neighbours touch.
+Somewhere somewhere(const RodCell& cell, double slide = 0, double squeeze = 0) {
   Somewhere s;
   s.faces = facesOf(cell.yarns(), s.load);
   s.sections = carried(cell.rest(), {}, s.load);
@@ -39,7 +40,9 @@ Somewhere somewhere(const RodCell& cell, double slide = 0) {
     p.origin += 0.01 * Vec3{in(random), in(random), in(random)};
     // Crossings lie nearer than at rest, wherever the yarns are on top.
     p.origin.z -= (p.origin.z > 0 ? 1 : -1) * (i < first_warp ? 0.05 : 0.03);
-    p.origin += slide * (i < first_warp ? Vec3{0, 1, 0} : Vec3{1, 0, 0});
+    const bool weft = i < first_warp;
+    const int yarn = (weft ? i : i - first_warp) / cell.sectionsOf(weft ? along_weft : along_warp);
+    p.origin += (slide + (yarn % 2 == 0 ? squeeze : 0)) * (weft ? Vec3{0, 1, 0} : Vec3{1, 0, 0});
     p.rotation = turned(p.rotation, 0.1 * Vec3{in(random), in(random), in(random)});
   }
   return s;
@@ -57,12 +60,9 @@ void move(const RodCell& cell, Somewhere& s, int b, int c, double by) {
     s.sections[b / 2].rotation = turned(s.sections[b / 2].rotation, way / cell.turnLength_m());
 }
 
-TEST(RodCell, ForcesAndTangentAreDerivatives) {
-  RodCellDesign design = smallCell();
-  design.pieces_per_spacing = 6;
-  const RodCell cell(design);
-  for (const double slide : {0.0, -0.45, 0.45}) {
-    const Somewhere here = somewhere(cell, slide);
+void expectDerivatives(const RodCell& cell, const std::vector<std::array<double, 2>>& moves) {
+  for (const auto& [slide, squeeze] : moves) {
+    const Somewhere here = somewhere(cell, slide, squeeze);
     CellAnswer answer, moved;
     cell.evaluate(here.faces, here.sections, answer);
     ASSERT_GT(answer.touching.size(), 8u);
@@ -100,10 +100,40 @@ TEST(RodCell, ForcesAndTangentAreDerivatives) {
   }
 }
 
+TEST(RodCell, ForcesAndTangentAreDerivatives) {
+  RodCellDesign design = smallCell();
+  design.pieces_per_spacing = 6;
+  expectDerivatives(RodCell(design), {{0, 0}, {-0.45, 0}, {0.45, 0}});
+}
+
+/// Wide warps in a straight weft.
+RodCellDesign closeCell() {
+  RodCellDesign d = smallCell();
+  d.yarns.yarn = {WovenYarn{1, 0, 0.15, 0.08}, WovenYarn{1, 0.16, 0.47, 0.08}};
+  d.touch = RodTouch::section;
+  return d;
+}
+
+/// Pressed by their sections where they cross, and side by side within the cell and beyond its faces.
+TEST(RodCell, ForcesAndTangentOfSectionsAreDerivatives) {
+  RodCellDesign design = smallCell();
+  design.pieces_per_spacing = 6;
+  design.touch = RodTouch::section;
+  expectDerivatives(RodCell(design), {{0, 0}, {-0.2, 0}, {0.2, 0}});
+  expectDerivatives(RodCell(closeCell()), {{0, 0.12}, {0, -0.12}});
+}
+
 TEST(RodCell, SpinsOfTheFacesDoTheirWork) {
-  const RodCell cell(smallCell());
-  for (const double slide : {0.0, -0.45, 0.45}) {
-    const Somewhere here = somewhere(cell, slide);
+  RodCellDesign crossed = smallCell();
+  crossed.touch = RodTouch::section;
+  for (const auto& [design, slide, squeeze] : {std::tuple{smallCell(), 0.0, 0.0},
+                                               {smallCell(), -0.45, 0.0},
+                                               {smallCell(), 0.45, 0.0},
+                                               {crossed, 0.2, 0.0},
+                                               {closeCell(), 0.0, 0.12},
+                                               {closeCell(), 0.0, -0.12}}) {
+    const RodCell cell(design);
+    const Somewhere here = somewhere(cell, slide, squeeze);
     CellAnswer answer, moved;
     cell.evaluate(here.faces, here.sections, answer);
     for (int g = 0; g < 2; ++g)
@@ -123,10 +153,38 @@ TEST(RodCell, SpinsOfTheFacesDoTheirWork) {
   }
 }
 
+/// Warps that lie close in a straight weft jam where the cloth is shortened to their width, and not before.
+TEST(RodCell, NeighboursJamAtTheLockingSpacing) {
+  RodCellDesign design = closeCell();
+  design.pieces_per_spacing = 24;
+  const RodCell cell(design);
+  design.contact = false;
+  const RodCell loose(design);
+  const auto pressed = [&](double stretch) {
+    const CellLoad load = loadOf({stretch, 0, 0, 1});
+    const CellFaces faces = facesOf(cell.yarns(), load);
+    const std::vector<Pose> sections = carried(cell.rest(), {}, load);
+    CellAnswer with, without;
+    cell.evaluate(faces, sections, with);
+    loose.evaluate(faces, sections, without);
+    return with.energy_J - without.energy_J;
+  };
+  EXPECT_EQ(pressed(1), 0);
+  EXPECT_EQ(pressed(0.9405), 0) << "twice the half width is 0.94";
+  EXPECT_GT(pressed(0.935), 0);
+  EXPECT_GT(pressed(0.9), 5 * pressed(0.92));
+}
+
 TEST(RodCell, RestIsWithoutForceWhereverItStands) {
   RodCellDesign design = smallCell();
-  for (const Weave& weave : {plainWeave(), twillWeave(2, 2), satinWeave(5, 2)}) {
+  for (const auto& [weave, touch] : {std::pair{plainWeave(), RodTouch::axis},
+                                     {plainWeave(), RodTouch::section},
+                                     {twillWeave(2, 2), RodTouch::axis},
+                                     {twillWeave(2, 2), RodTouch::section},
+                                     {satinWeave(5, 2), RodTouch::axis},
+                                     {satinWeave(5, 2), RodTouch::section}}) {
     design.yarns.weave = weave;
+    design.touch = touch;
     const RodCell cell(design);
     const Pose motion{rotationAbout({0.36, 0.48, 0.8}, 1.1), {3, -2, 1}};
     std::vector<Pose> sections;

@@ -76,6 +76,48 @@ TEST(RodFriction, ForcesAndTangentAreDerivatives) {
   }
 }
 
+/// Seen from places beside the middles, in the places and turns of the sections themselves.
+TEST(RodFriction, FromAsideAreDerivativesToo) {
+  const Two before = crossed();
+  const std::array<double, 2> aside{0.11, -0.07};
+  const auto from = [&](const Two& p) { return Two{movedAside(p.first, aside[0]), movedAside(p.second, aside[1])}; };
+  const RodGrip grip = gripBetween(from(before).first, from(before).second, {0.01, 0.02, 0.005});
+  Two here = before;
+  here.first.origin += Vec3{0.05, -0.03, -0.04};
+  here.second.rotation = turned(here.second.rotation, {-0.2, 0.15, 0.25});
+  for (const double limit : {10.0, 0.05}) {
+    const auto energy = [&](const Two& p) {
+      return evaluateRodFriction(grip, from(p).first, from(p).second, kStiffness, limit, false).energy_J;
+    };
+    const RodFrictionAnswer answer =
+        fromAside(evaluateRodFriction(grip, from(here).first, from(here).second, kStiffness, limit, true), here.first,
+                  here.second, aside, true);
+    const double h = 1e-5, s = 1e-4;
+    for (int i = 0; i < 12; ++i) {
+      EXPECT_NEAR((energy(moved(here, i / 3, i % 3, h)) - energy(moved(here, i / 3, i % 3, -h))) / (2 * h),
+                  answer.gradient[i / 3][i % 3], 1e-9)
+          << limit << " " << i;
+      for (int j = 0; j < 12; ++j) {
+        const auto both = [&](double a, double b) {
+          Two p = here;
+          Vec3 turn[2]{};
+          for (const auto& [k, by] : {std::pair{i, a}, {j, b}}) {
+            if (k / 3 % 2 == 0)
+              p = moved(p, k / 3, k % 3, by);
+            else
+              turn[k / 6][k % 3] += by;
+          }
+          p.first.rotation = turned(p.first.rotation, turn[0]);
+          p.second.rotation = turned(p.second.rotation, turn[1]);
+          return energy(p);
+        };
+        const double second = (both(s, s) - both(s, -s) - both(-s, s) + both(-s, -s)) / (4 * s * s);
+        EXPECT_NEAR(second, answer.tangent[12 * i + j], 5e-6) << limit << " " << i << " " << j;
+      }
+    }
+  }
+}
+
 /// A turn of both makes no slip; a turn of the one against the other by w makes w x c at the middle c between them.
 TEST(RodFriction, SurfacesSlipWhereTheyMeet) {
   const Two before{{{}, {0.1, 0, 0.15}}, {{}, {0, 0.2, -0.15}}};
