@@ -79,8 +79,9 @@ struct Annotation {
 };
 
 /// Where a panel stands around its wearer before it is sewn: (x, y) at origin + x along_x + y along_y, two unit vectors
-/// at a right angle. along_x x along_y points away from the wearer. World axes of the manikins: x forward, y left, z up.
-struct Placement {
+/// at a right angle. along_x x along_y points away from the wearer. World axes of the manikins: x forward, y left, z
+/// up.
+struct PanelPlace {
   Vec3 origin_m, along_x{0, 1, 0}, along_y{0, 0, 1};
 };
 
@@ -93,7 +94,7 @@ struct Panel {
   std::vector<Notch> notches;
   std::vector<InternalLine> lines;
   std::vector<Annotation> annotations;
-  std::optional<Placement> placement;
+  std::optional<PanelPlace> placement;
   std::string region;    ///< of the body: "arm", "body", ..; in the words of where it comes from, or empty
   std::string material;  ///< likewise
   std::string size;      ///< likewise: "M"
@@ -101,19 +102,19 @@ struct Panel {
 };
 
 /// A part of an edge, from one fraction of its length to another; from > to runs against the edge.
-struct EdgePart {
+struct SeamPart {
   int panel = 0, edge = 0;
   double from = 0, to = 1;
 };
 
-/// sewn: two sides become one. dart: both sides are of one panel and meet at the dart's tip. opening: sewn, unless a case
-/// opens it (zip, buttons, lacing).
+/// sewn: two sides become one. dart: both sides are of one panel and meet at the dart's tip. opening: sewn, unless a
+/// case opens it (zip, buttons, lacing).
 enum class SeamUse { sewn, dart, opening };
 /// Points at equal fractions of the length of both sides come together. A side is one part of an edge or several, one
 /// after the other. Sides of unequal length are eased or gathered.
 struct PanelSeam {
   std::string name;
-  std::vector<EdgePart> a, b;
+  std::vector<SeamPart> a, b;
   SeamUse use = SeamUse::sewn;
   double stiffness_N = 0;  ///< rotational spring along it [N m/(m rad)]: pressed open, topstitched; 0: free
   bool proposed = false;   ///< guessed from lengths and notches, not said by anybody

@@ -16,7 +16,8 @@ Vec2 edgeEnd(const Panel& panel, int edge);
 int edgeBefore(const Panel& panel, int edge);
 int edgeAfter(const Panel& panel, int edge);
 
-/// An edge as a NURBS curve, exactly: lines and polylines of degree 1, arcs as rational quadratics of at most 90 degrees.
+/// An edge as a NURBS curve, exactly: lines and polylines of degree 1, arcs as rational quadratics of at most 90
+/// degrees.
 NurbsCurve curveOf(const PanelEdge& edge, Vec2 end);
 NurbsCurve curveOf(const Panel& panel, int edge);
 /// A loop as the trim loop of a patch whose parameters are m in the panel's plane (core/nurbs/trim.hpp).
@@ -51,7 +52,7 @@ class MeasuredCurve {
 
 double lengthOf(const Panel& panel, int edge);
 /// Of a side of a seam.
-double lengthOf(const FlatPattern& pattern, const std::vector<EdgePart>& side);
+double lengthOf(const FlatPattern& pattern, const std::vector<SeamPart>& side);
 double perimeterOf(const PanelLoop& loop);
 /// Signed: positive counter-clockwise.
 double areaOf(const PanelLoop& loop);
