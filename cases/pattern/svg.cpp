@@ -106,7 +106,7 @@ class Drawing {
 
   void cloth(const Sheet& s) {
     std::string holes;
-    for (const PanelLoop& c : s.panel->cutouts) holes += " " + svg::closedPath(s.frame, c);
+    for (const PanelLoop& c : s.panel->cutouts) holes.append(" ").append(svg::closedPath(s.frame, c));
     if (!s.panel->cut_line.empty()) path("allowance", svg::closedPath(s.frame, s.panel->cut_line) + holes);
     path("cloth", svg::closedPath(s.frame, s.panel->outline) + holes);
   }
@@ -128,7 +128,7 @@ class Drawing {
       for (const SeamPart& part : *side) {
         const Sheet& s = sheets_[static_cast<std::size_t>(part.panel)];
         const PanelEdge& e = edgeOf(*s.panel, part.edge);
-        std::string d = "M " + svg::point(s.frame.at(e.start_m)) + svg::along(s.frame, e, edgeEnd(*s.panel, part.edge));
+        std::string d = svg::to("M ", s.frame.at(e.start_m)) + svg::along(s.frame, e, edgeEnd(*s.panel, part.edge));
         if (std::min(part.from, part.to) > 0 || std::max(part.from, part.to) < 1) {
           const MeasuredCurve curve(curveOf(*s.panel, part.edge));
           std::vector<Vec2> points;
@@ -166,7 +166,7 @@ class Drawing {
     for (int e = 0; e < edgeCount(p); ++e) {
       const PanelEdge& edge = edgeOf(p, e);
       path(p.cut_line.empty() ? "edge" : "edge sewline",
-           "M " + svg::point(s.frame.at(edge.start_m)) + svg::along(s.frame, edge, edgeEnd(p, e)));
+           svg::to("M ", s.frame.at(edge.start_m)) + svg::along(s.frame, edge, edgeEnd(p, e)));
     }
     for (const InternalLine& l : p.lines) {
       if (l.points_m.size() == 1) {
@@ -189,7 +189,7 @@ class Drawing {
     const auto beside = [&](Vec2 p, double mm) { return Vec2{p.x + mm * across.x, p.y + mm * across.y}; };
     const auto line = [&](const std::vector<Vec2>& points) {
       std::string d;
-      for (std::size_t k = 0; k < points.size(); ++k) d += (k == 0 ? "M " : " L ") + svg::point(points[k]);
+      for (std::size_t k = 0; k < points.size(); ++k) d += svg::to(k == 0 ? "M " : " L ", points[k]);
       path("mark", d);
     };
     switch (n.kind) {
@@ -223,13 +223,13 @@ class Drawing {
     if (!(length > 0)) return;
     const Vec2 d{(b.x - a.x) / length, (b.y - a.y) / length};
     const std::string kind = s.panel->grain ? "grain" : "grain assumed";
-    path(kind, "M " + svg::point(a) + " L " + svg::point(b));
+    path(kind, svg::to("M ", a) + svg::to(" L ", b));
     const double head = std::min(4.0, 0.3 * length);
     for (const auto& [tip, sense] : {std::pair(a, 1.0), std::pair(b, -1.0)}) {
       const Vec2 back{tip.x + sense * head * d.x, tip.y + sense * head * d.y};
       path(kind,
-           "M " + svg::point(tip) + " L " + svg::point({back.x - 0.3 * head * d.y, back.y + 0.3 * head * d.x}) + " L " +
-               svg::point({back.x + 0.3 * head * d.y, back.y - 0.3 * head * d.x}) + " Z",
+           svg::to("M ", tip) + svg::to(" L ", {back.x - 0.3 * head * d.y, back.y + 0.3 * head * d.x}) +
+               svg::to(" L ", {back.x + 0.3 * head * d.y, back.y - 0.3 * head * d.x}) + " Z",
            " style=\"stroke-dasharray: none\"");
     }
   }

@@ -18,7 +18,9 @@ std::string number(double x) {
   if (s.ends_with('.')) s.pop_back();
   return s == "-0" ? "0" : s;
 }
-std::string point(Vec2 mm) { return number(mm.x) + " " + number(mm.y); }
+std::string to(std::string_view command, Vec2 mm) {
+  return fmt::format("{}{} {}", command, number(mm.x), number(mm.y));
+}
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -43,29 +45,29 @@ struct Along {
   const Frame& frame;
   const PanelEdge& edge;
   Vec2 end;
-  std::string line() const { return " L " + point(frame.at(end)); }
+  std::string line() const { return to(" L ", frame.at(end)); }
   std::string operator()(const StraightEdge&) const { return line(); }
   std::string operator()(const BezierEdge& e) const {
     std::string s = e.controls_m.size() == 1 ? " Q" : " C";
-    for (const Vec2& c : e.controls_m) s += " " + point(frame.at(c));
-    return s + " " + point(frame.at(end));
+    for (const Vec2& c : e.controls_m) s += to(" ", frame.at(c));
+    return s + to(" ", frame.at(end));
   }
   std::string operator()(const ArcEdge& e) const {
     const Vec2 a = edge.start_m;
     const double r = 500 * std::hypot(end.x - a.x, end.y - a.y) / std::sin(0.5 * std::abs(e.turn_rad));
     // A turn to the left is counter-clockwise on the page too: its y points down, and so angles grow clockwise.
     return fmt::format(" A {0} {0} 0 {1} {2} {3}", number(r), std::abs(e.turn_rad) > std::numbers::pi ? 1 : 0,
-                       e.turn_rad > 0 ? 0 : 1, point(frame.at(end)));
+                       e.turn_rad > 0 ? 0 : 1, to("", frame.at(end)));
   }
   std::string operator()(const SplineEdge&) const {
     std::string s;
     std::vector<Vec2> points = flattened(edge, end, 1e-5);
-    for (std::size_t k = 1; k < points.size(); ++k) s += " L " + point(frame.at(points[k]));
+    for (std::size_t k = 1; k < points.size(); ++k) s += to(" L ", frame.at(points[k]));
     return s + line();
   }
   std::string operator()(const PolylineEdge& e) const {
     std::string s;
-    for (const Vec2& p : e.points_m) s += " L " + point(frame.at(p));
+    for (const Vec2& p : e.points_m) s += to(" L ", frame.at(p));
     return s + line();
   }
 };
@@ -77,14 +79,14 @@ std::string along(const Frame& frame, const PanelEdge& edge, Vec2 end) {
 }
 
 std::string closedPath(const Frame& frame, const PanelLoop& loop) {
-  std::string s = "M " + point(frame.at(loop.front().start_m));
+  std::string s = to("M ", frame.at(loop.front().start_m));
   for (std::size_t k = 0; k < loop.size(); ++k) s += along(frame, loop[k], loop[(k + 1) % loop.size()].start_m);
   return s + " Z";
 }
 
 std::string polyline(const Frame& frame, const std::vector<Vec2>& points, bool closed) {
   std::string s;
-  for (std::size_t k = 0; k < points.size(); ++k) s += (k == 0 ? "M " : " L ") + point(frame.at(points[k]));
+  for (std::size_t k = 0; k < points.size(); ++k) s += to(k == 0 ? "M " : " L ", frame.at(points[k]));
   return closed ? s + " Z" : s;
 }
 

@@ -18,8 +18,8 @@ struct Frame {
   Vec2 at(Vec2 p) const { return {corner_mm.x + 1000 * (p.x - low_m.x), corner_mm.y + 1000 * (top_m - p.y)}; }
 };
 
-/// "12.345 6.78": to a micrometre.
-std::string point(Vec2 mm);
+/// "M 12.345 6.78": a command and where it leads, to a micrometre.
+std::string to(std::string_view command, Vec2 mm);
 std::string number(double x);
 std::string escaped(std::string_view text);
 
