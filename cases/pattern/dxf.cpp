@@ -195,6 +195,8 @@ ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& 
     checkPattern(pattern);
     ProposedSeams proposed = proposeSeams(pattern);
     pattern.seams = std::move(proposed.seams);
+    if (proposed.edges_left > 0)
+      out.notes.push_back(fmt::format("{} edges fit no other and are in no proposed seam", proposed.edges_left));
     checkPattern(pattern);
   } catch (const InputError& e) {
     if (!e.where().file.empty()) throw;

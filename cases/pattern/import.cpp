@@ -60,18 +60,18 @@ void say(const ImportedPattern& in, std::ostream& out) {
   out << fmt::format("{:{}}  {:>10}  {:>10}  {:>5}  {:>7}  {}\n", "panel", widest, "area cm^2", "outline cm", "edges",
                      "notches", "grain");
   for (const Panel& panel : p.panels) {
-    out << fmt::format("{:{}}  {:10.2f}  {:10.2f}  {:5}  {:7}  {}", shown(panel.name), widest, 1e4 * areaOf(panel),
+    out << fmt::format("{:{}}  {:10.3f}  {:10.3f}  {:5}  {:7}  {}", shown(panel.name), widest, 1e4 * areaOf(panel),
                        100 * perimeterOf(panel.outline), edgeCount(panel), panel.notches.size(),
                        panel.grain ? "yes" : "no");
     if (!panel.cut_line.empty())
-      out << fmt::format("; cut line {:.2f} cm^2, {:.2f} cm", 1e4 * areaOf(panel.cut_line),
+      out << fmt::format("; cut line {:.3f} cm^2, {:.3f} cm", 1e4 * areaOf(panel.cut_line),
                          100 * perimeterOf(panel.cut_line));
     out << "\n";
   }
   const bool proposed = std::any_of(p.seams.begin(), p.seams.end(), [](const PanelSeam& s) { return s.proposed; });
   if (!p.seams.empty()) out << fmt::format("\n{:6}{:>8}  {:>8}   sides\n", "seam", "a cm", "b cm");
   for (const PanelSeam& s : p.seams)
-    out << fmt::format("{:6}{:8.2f}  {:8.2f}   {}, {}{}{}\n", shown(s.name), 100 * lengthOf(p, s.a),
+    out << fmt::format("{:6}{:8.3f}  {:8.3f}   {}, {}{}{}\n", shown(s.name), 100 * lengthOf(p, s.a),
                        100 * lengthOf(p, s.b), sideText(p, s.a), sideText(p, s.b),
                        s.use == SeamUse::dart      ? ", dart"
                        : s.use == SeamUse::opening ? ", opening"

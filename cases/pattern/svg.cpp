@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cases/pattern/pattern_file.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 using svg::Frame;
 
-constexpr double kMargin_mm = 15, kGap_mm = 22, kHead_mm = 34, kLine_mm = 5.2;
+constexpr double kMargin_mm = 15, kGap_mm = 22, kHead_mm = 40, kLine_mm = 6.4, kText_mm = 3.8;
 
 /// A panel on the page.
 struct Sheet {
@@ -40,9 +41,16 @@ std::vector<Sheet> laidOut(const FlatPattern& pattern, double& width_mm, double&
     widest = std::max(widest, w);
   }
   const double page = std::max(widest, 1.25 * std::sqrt(area));
+  // The highest first, those about as high in the order of the file: rows without holes, pairs side by side.
+  std::vector<std::size_t> order(out.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::floor(out[a].height_mm / 40) > std::floor(out[b].height_mm / 40);
+  });
   double x = 0, y = kMargin_mm + kHead_mm, row = 0;
   width_mm = 0;
-  for (Sheet& s : out) {
+  for (const std::size_t k : order) {
+    Sheet& s = out[k];
     if (x > 0 && x + s.width_mm > page) {
       y += row + kGap_mm;
       x = row = 0;
@@ -159,7 +167,7 @@ class Drawing {
     }
   }
 
-  static double sizeBeside(const Panel& panel, int edge) { return std::clamp(120 * lengthOf(panel, edge), 1.8, 4.2); }
+  static double sizeBeside(const Panel& panel, int edge) { return std::clamp(120 * lengthOf(panel, edge), 1.8, 5.5); }
 
   void marks(const Sheet& s) {
     const Panel& p = *s.panel;
@@ -208,6 +216,18 @@ class Drawing {
     }
   }
 
+  /// Grain lines may be longer than their panels: drawn as far as the panel's box goes, about the line's middle.
+  static std::pair<Vec2, Vec2> drawnWithin(const Sheet& s, const GrainLine& line) {
+    const Vec2 middle{0.5 * (line.from_m.x + line.to_m.x), 0.5 * (line.from_m.y + line.to_m.y)};
+    const Vec2 half{0.5 * (line.to_m.x - line.from_m.x), 0.5 * (line.to_m.y - line.from_m.y)};
+    const Vec2 low = s.frame.low_m, high{low.x + 1e-3 * s.width_mm, s.frame.top_m};
+    double part = 1;
+    for (const auto& [m, h, l, u] :
+         {std::array{middle.x, std::abs(half.x), low.x, high.x}, std::array{middle.y, std::abs(half.y), low.y, high.y}})
+      if (h > 0 && m > l && m < u) part = std::min(part, 0.9 * std::min(m - l, u - m) / h);
+    return {{middle.x - part * half.x, middle.y - part * half.y}, {middle.x + part * half.x, middle.y + part * half.y}};
+  }
+
   /// An arrow with two heads; without a grain line of its own the panel's warp is assumed, in grey.
   void grain(const Sheet& s) {
     const svg::Inside in = svg::insideOf(*s.panel);
@@ -218,7 +238,8 @@ class Drawing {
       const double half = std::max(0.008, 0.75 * in.room_m), left = in.point.x - 0.6 * in.room_m;
       line = {{left, in.point.y - 0.6 * half}, {left, in.point.y + 0.6 * half}};
     }
-    const Vec2 a = s.frame.at(line.from_m), b = s.frame.at(line.to_m);
+    const auto [from, to] = drawnWithin(s, line);
+    const Vec2 a = s.frame.at(from), b = s.frame.at(to);
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (!(length > 0)) return;
     const Vec2 d{(b.x - a.x) / length, (b.y - a.y) / length};
@@ -247,11 +268,18 @@ class Drawing {
 
   void label(const Sheet& s) {
     const svg::Inside in = svg::insideOf(*s.panel);
-    const Vec2 at = s.frame.at(in.point);
+    Vec2 at = s.frame.at(in.point);
     const double letters = std::max<double>(6, static_cast<double>(s.panel->name.size()));
     const double size = std::clamp(2000 * in.room_m * 1.3 / (0.62 * letters), 2.2, 11.0),
                  small = std::max(2.0, 0.48 * size);
-    const std::string middle = " text-anchor=\"middle\"";
+    std::string middle = " text-anchor=\"middle\"";
+    if (s.panel->grain && in.room_m > 0.03) {  // beside the arrow
+      const double x = s.frame.at(drawnWithin(s, *s.panel->grain).first).x;
+      if (std::abs(x - at.x) < 500 * in.room_m) {
+        at.x = x + 4;
+        middle.clear();
+      }
+    }
     text({at.x, at.y}, size, s.panel->name, "halo", middle + " font-weight=\"bold\"");
     std::string cut = fmt::format("cut {}", s.panel->quantity);
     if (!s.panel->size.empty()) cut += " · size " + s.panel->size;
@@ -263,12 +291,12 @@ class Drawing {
   /// Name, scale bar and a square to check the print with.
   void head() {
     const double y = kMargin_mm;
-    text({kMargin_mm, y + 7}, 9, pattern_.name, "", " font-weight=\"bold\"");
+    text({kMargin_mm, y + 8}, 11, pattern_.name, "", " font-weight=\"bold\"");
     std::string from = fmt::format("{} panels, {} seams. Scale 1:1, print at 100 %. Right side of the cloth up.",
                                    pattern_.panels.size(), pattern_.seams.size());
     if (!pattern_.source.format.empty()) from += " From " + pattern_.source.file + " (" + pattern_.source.format + ").";
-    text({kMargin_mm, y + 13.5}, 3.6, from, "small");
-    const double x = kMargin_mm, bar = y + 20;
+    text({kMargin_mm, y + 15.5}, 4.4, from, "small");
+    const double x = kMargin_mm, bar = y + 21;
     for (int k = 0; k < 10; ++k)
       add(
           fmt::format("<rect x=\"{}\" y=\"{}\" width=\"10\" height=\"2.4\" fill=\"{}\" stroke=\"#26262b\" "
@@ -281,27 +309,37 @@ class Drawing {
     text({width_ - kMargin_mm - 25, height_ - kMargin_mm - 24}, 3, "5 × 5 cm", "small", " text-anchor=\"middle\"");
   }
 
+  std::string seamWords(const PanelSeam& s) const {
+    std::string a, b;
+    for (const SeamPart& p : s.a) a += (a.empty() ? "" : " + ") + partText(pattern_, p);
+    for (const SeamPart& p : s.b) b += (b.empty() ? "" : " + ") + partText(pattern_, p);
+    return fmt::format("{}, {}   {:.1f} / {:.1f} cm{}{}", a, b, 100 * lengthOf(pattern_, s.a),
+                       100 * lengthOf(pattern_, s.b),
+                       s.use == SeamUse::dart      ? ", dart"
+                       : s.use == SeamUse::opening ? ", opening"
+                                                   : "",
+                       s.proposed ? ", proposed" : "");
+  }
+
   /// Seams with the lengths of their sides, in columns under the panels; leaves room for the square.
   void list() {
-    const double column = 150, room = std::max(column, width_ - 2 * kMargin_mm - 60);
+    std::vector<std::string> words;
+    std::size_t longest = 20;
+    for (const PanelSeam& s : pattern_.seams) longest = std::max(longest, words.emplace_back(seamWords(s)).size());
+    const double column = 32 + 0.6 * kText_mm * static_cast<double>(longest);
+    const double room = std::max(column, width_ - 2 * kMargin_mm - 60);
     const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor(room / column)));
-    const std::size_t rows = (pattern_.seams.size() + columns - 1) / columns;
+    const std::size_t rows = (words.size() + columns - 1) / columns;
     const double top = height_;
-    for (std::size_t k = 0; k < pattern_.seams.size(); ++k) {
+    for (std::size_t k = 0; k < words.size(); ++k) {
       const PanelSeam& s = pattern_.seams[k];
       const Vec2 at{kMargin_mm + column * static_cast<double>(k / rows),
                     top + kLine_mm * static_cast<double>(k % rows + 1)};
-      path(s.proposed ? "seam proposed" : "seam", fmt::format("M {} {} h 11", svg::number(at.x), svg::number(at.y - 1)),
-           " stroke=\"" + svg::colour(k) + "\"");
-      std::string a, b;
-      for (const SeamPart& p : s.a) a += (a.empty() ? "" : " + ") + partText(pattern_, p);
-      for (const SeamPart& p : s.b) b += (b.empty() ? "" : " + ") + partText(pattern_, p);
-      text({at.x + 13, at.y}, 3.1, s.name, "", " font-weight=\"bold\"");
-      std::string words = fmt::format("{}, {}   {:.1f} / {:.1f} cm", a, b, 100 * lengthOf(pattern_, s.a),
-                                      100 * lengthOf(pattern_, s.b));
-      if (s.use != SeamUse::sewn) words += s.use == SeamUse::dart ? ", dart" : ", opening";
-      if (s.proposed) words += ", proposed";
-      text({at.x + 25, at.y}, 3.1, words, "small");
+      path(s.proposed ? "seam proposed" : "seam",
+           fmt::format("M {} {} h 12.5", svg::number(at.x), svg::number(at.y - 1.2)),
+           fmt::format(" stroke=\"{}\"", svg::colour(k)));
+      text({at.x + 15, at.y}, kText_mm, s.name, "", " font-weight=\"bold\"");
+      text({at.x + 27, at.y}, kText_mm, words[k], "small");
     }
     height_ = top + std::max(56.0, kLine_mm * static_cast<double>(rows + 1)) + kMargin_mm;
   }
