@@ -149,8 +149,10 @@ class Reader {
       const std::vector<double> c = numbers(params, 3);
       const double chord = std::hypot(e.x, e.y), radius = scale_ * c[0];
       if (!(radius > 0)) params.fail(fmt::format("a radius of {:g}; allowed: > 0", c[0]));
-      // An arc of SVG whose radius is too short for its chord is a half circle.
-      double turn = 2 * std::asin(std::min(1.0, 0.5 * chord / radius));
+      // An arc of SVG whose radius is too short for its chord is a half circle; so is one that rounding alone keeps
+      // from it.
+      const double half = 0.5 * chord / radius;
+      double turn = 2 * std::asin(half < 1 - 1e-15 ? half : 1.0);
       if (c[1] != 0) turn = 2 * std::numbers::pi - turn;
       return ArcEdge{c[2] != 0 ? turn : -turn};
     }

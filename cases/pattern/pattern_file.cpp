@@ -145,8 +145,13 @@ std::string patternText(const FlatPattern& pattern) {
     for (const SeamPart& p : s.b) seam.b.push_back(partText(pattern, p));
     in.seams.push_back(std::move(seam));
   }
+  JsonNode root = schema::writeObject(schema::patternTable(), &in);
+  for (JsonNode& panel : root.find("panels")->children)
+    std::erase_if(panel.children, [](const JsonNode& n) {
+      return n.key != "outline" && n.type == JsonNode::Type::list && n.children.empty();
+    });
   std::string out;
-  write(schema::writeObject(schema::patternTable(), &in), 0, out);
+  write(root, 0, out);
   return out + "\n";
 }
 
