@@ -11,10 +11,14 @@
 #include "cases/pattern/dxf_piece.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/flat/panel_check.hpp"
+#include "tryon/pattern/flat/panel_geometry.hpp"
 #include "tryon/pattern/flat/propose_seams.hpp"
 
 namespace gambeson {
 namespace {
+
+/// Largest panels of clothes lie between these.
+constexpr double kSmall_m = 0.15, kLarge_m = 2.5;
 
 [[noreturn]] void reject(const std::filesystem::path& file, const std::string& key, const std::string& reason) {
   throw InputError({file.string(), 0, key}, reason);
@@ -119,6 +123,19 @@ double scaleOf(const std::filesystem::path& file, const DxfFile& dxf, const std:
   return 1;
 }
 
+/// Programs that write cm call that METRIC too.
+void doubtUnit(const FlatPattern& pattern, std::vector<std::string>& notes) {
+  double most = 0;
+  for (const Panel& p : pattern.panels) {
+    const PanelBox box = boxOf(p.outline);
+    most = std::max({most, box.high.x - box.low.x, box.high.y - box.low.y});
+  }
+  if (most < kSmall_m || most > kLarge_m)
+    notes.push_back(
+        fmt::format("the largest panel measures {:.1f} cm in {}; if that is not so, say the unit with --unit",
+                    100 * most, pattern.source.unit));
+}
+
 void checkFinite(const std::filesystem::path& file, const DxfFile& dxf) {
   const auto check = [&](const std::vector<DxfEntity>& entities, const std::string& where) {
     for (const DxfEntity& e : entities) {
@@ -193,6 +210,7 @@ ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& 
   nameApart(pattern.panels, blocks, out.notes);
   try {
     checkPattern(pattern);
+    if (choices.unit.empty()) doubtUnit(pattern, out.notes);
     ProposedSeams proposed = proposeSeams(pattern);
     pattern.seams = std::move(proposed.seams);
     if (proposed.edges_left > 0)

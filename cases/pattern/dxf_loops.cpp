@@ -7,7 +7,7 @@
 namespace gambeson {
 namespace {
 
-constexpr double kMeet_m = 1e-4, kSame_m = 1e-6, kCorner_rad = 30 * std::numbers::pi / 180;
+constexpr double kMeet_m = 1e-4, kTurn_m = 2e-5, kSame_m = 1e-6, kCorner_rad = 30 * std::numbers::pi / 180;
 
 double distance(Vec2 a, Vec2 b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
@@ -113,9 +113,9 @@ PanelLoop loopOf(const DxfChain& chain, const std::vector<Vec2>& turns, bool& gu
   bool any = false;
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 p = chain.points[k];
-    auto near = std::lower_bound(sorted.begin(), sorted.end(), p.x - kMeet_m, [](Vec2 a, double x) { return a.x < x; });
-    for (; near != sorted.end() && near->x <= p.x + kMeet_m && !corner[k]; ++near)
-      corner[k] = distance(*near, p) <= kMeet_m;
+    auto near = std::lower_bound(sorted.begin(), sorted.end(), p.x - kTurn_m, [](Vec2 a, double x) { return a.x < x; });
+    for (; near != sorted.end() && near->x <= p.x + kTurn_m && !corner[k]; ++near)
+      corner[k] = distance(*near, p) <= kTurn_m;
     any = any || corner[k];
   }
   guessed = !any;

@@ -23,9 +23,9 @@ std::vector<DxfChain> chainsOf(const std::vector<DxfEntity>& entities, const std
 /// Ends of an open chain apart [m].
 double gapOf(const DxfChain& chain);
 
-/// A closed chain as a loop, split into edges at the corners that `turns` has (within 0.1 mm) and at arcs; where it has
-/// none of the chain's points, where the chain turns by more than 30 degrees. Lines are straight edges or polylines,
-/// bulges arcs. Says in `guessed` whether the corners are guesses.
+/// A closed chain as a loop, split into edges at the corners that `turns` has (within 0.02 mm) and at arcs; where it
+/// has none of the chain's points, where the chain turns by more than 30 degrees. Lines are straight edges or
+/// polylines, bulges arcs. Says in `guessed` whether the corners are guesses.
 PanelLoop loopOf(const DxfChain& chain, const std::vector<Vec2>& turns, bool& guessed);
 
 }  // namespace gambeson

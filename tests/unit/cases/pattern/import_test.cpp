@@ -151,6 +151,13 @@ TEST(Dxf, UnitsAreNeverGuessed) {
               0.28 * 0.18, 1e-8);
 }
 
+TEST(Dxf, DoubtsAUnitThatMakesNoClothes) {
+  const Folder folder;
+  EXPECT_FALSE(said(importPattern(folder.write("a.dxf", dxfText("METRIC")), {}).notes, "--unit"));
+  EXPECT_TRUE(said(importPattern(folder.write("b.dxf", dxfText("METRIC", 0.1)), {}).notes,
+                   "the largest panel measures 3.0 cm in mm"));
+}
+
 TEST(Dxf, SaysWhatIsWrongAndWhere) {
   const Folder folder;
   const std::string good = dxfText("METRIC");
