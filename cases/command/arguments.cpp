@@ -117,6 +117,34 @@ void addDraft(CLI::App& app, DraftArguments& a) {
       "Example:\n  gambeson draft cases/library/armour_stand.json --garment shirt -o shirt.json");
 }
 
+void addImport(CLI::App& app, ImportArguments& a) {
+  CLI::App& import = *app.add_subcommand(
+      "import", "Reads the pattern of another program: flat panels and what is sewn to what, as a file and as a drawing");
+  import
+      .add_option("FILE", a.file,
+                  "specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), or a pattern that this command wrote")
+      ->type_name("")
+      ->required();
+  import.add_option("-o,--output", a.output, "Pattern file to write (JSON)")->type_name("GARMENT");
+  import.add_option("--svg", a.svg, "Drawing to write (SVG): 1:1 in mm, with edges by number and seams by colour")
+      ->type_name("PATTERN");
+  import
+      .add_option("--unit", a.choices.unit,
+                  "Unit of the file's lengths, in place of the one that it says or where it says none: mm, cm, in ..")
+      ->type_name("UNIT");
+  import.add_option("--size", a.choices.size, "Which size of a graded DXF pattern [its SAMPLE SIZE]")->type_name("SIZE");
+  import.footer(
+      "Prints the panels with their areas, the seams with the lengths of their sides, and what the file says that is "
+      "not\nkept. DXF has no seams: they are proposed by length and notches. Mend them in \"seams\" of GARMENT, where "
+      "a side is\n\"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to 1\" (panel, edge, part of its length), and "
+      "draw it again.\n\n"
+      "Examples:\n"
+      "  gambeson import shirt_specification.json -o shirt.json --svg shirt.svg\n"
+      "  gambeson import blouse.dxf -o blouse.json --svg blouse.svg\n"
+      "  gambeson import blouse.dxf -o blouse.json --unit in --size M\n"
+      "  gambeson import blouse.json --svg blouse.svg");
+}
+
 void addRender(CLI::App& app, RenderArguments& a) {
   CLI::App& render = *app.add_subcommand("render", "Takes a picture of recorded results");
   render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();

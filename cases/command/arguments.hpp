@@ -8,6 +8,7 @@
 
 #include "cases/fabric/run.hpp"
 #include "cases/homogenise/homogenise.hpp"
+#include "cases/pattern/import.hpp"
 #include "cases/study/run.hpp"
 #include "cases/verify/verify.hpp"
 #include "cases/wear/run/export.hpp"
@@ -80,6 +81,7 @@ void addRender(CLI::App& app, RenderArguments& a);
 void addReport(CLI::App& app, ReportOptions& options);
 void addExport(CLI::App& app, ExportArguments& a);
 void addFabric(CLI::App& app, FabricArguments& a);
+void addImport(CLI::App& app, ImportArguments& a);
 void addHomogenise(CLI::App& app, HomogeniseArguments& a);
 void addVerify(CLI::App& app, verify::Options& o);
 void addStudy(CLI::App& app, StudyArguments& a);

@@ -16,6 +16,7 @@
 #include "cases/fabric/run.hpp"
 #include "cases/input/message.hpp"
 #include "cases/kinds/any_case.hpp"
+#include "cases/pattern/import.hpp"
 #include "cases/runs/options.hpp"
 #include "cases/runs/picture.hpp"
 #include "cases/runs/results_folder.hpp"
@@ -187,6 +188,12 @@ int dressCase(const DressArguments& a) {
   return done;
 }
 
+int importCommand(const ImportArguments& a, std::ostream& out) {
+  if (!a.output.empty()) checkEnding(a.output, "--output", {".json"});
+  if (!a.svg.empty()) checkEnding(a.svg, "--svg", {".svg"});
+  return importToFiles(a, out);
+}
+
 /// A time as pictures take it.
 int exportCommand(ExportArguments& a) {
   if (holdsCell(a.options.results))
@@ -268,6 +275,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addVerify(app, verify_options);
   FabricArguments fabric_arguments;
   addFabric(app, fabric_arguments);
+  ImportArguments import_arguments;
+  addImport(app, import_arguments);
   HomogeniseArguments homogenise_arguments;
   addHomogenise(app, homogenise_arguments);
   StudyArguments study_arguments, batch_arguments;
@@ -289,7 +298,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     failure(fmt::format(
         "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, export, verify, "
         "study, "
-        "batch, fabric and homogenise (see "
+        "batch, fabric, import and homogenise (see "
         "gambeson --help)",
         command.substr(0, 80)));
     return bad_input;
@@ -312,6 +321,9 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {fabric_arguments.options.fabric, "--output"},
              {fabric_arguments.options.out, "--out"},
              {fabric_arguments.options.loop, "--fit"},
+             {import_arguments.file, "FILE"},
+             {import_arguments.output, "--output"},
+             {import_arguments.svg, "--svg"},
              {homogenise_arguments.file, "CELL"},
              {homogenise_arguments.law, "--output"},
              {export_arguments.options.results, "RESULTS"},
@@ -325,7 +337,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {batch_arguments.options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
-      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" || name == "CELL"))
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" || name == "CELL" ||
+                            name == "FILE"))
         subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
@@ -336,6 +349,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("render")) return render(render_arguments);
     if (app.got_subcommand("export")) return exportCommand(export_arguments);
     if (app.got_subcommand("fabric")) return fabricCommand(fabric_arguments, out);
+    if (app.got_subcommand("import")) return importCommand(import_arguments, out);
     if (app.got_subcommand("homogenise")) {
       checkEnding(homogenise_arguments.law, "--output", {".json"});
       return homogeniseCell(homogenise_arguments, out);

@@ -4,6 +4,7 @@
 #include "cases/cloth/law_table.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/kinds/any_case.hpp"
+#include "cases/pattern/pattern_file.hpp"
 #include "cases/study/study.hpp"
 
 namespace gambeson {
@@ -12,7 +13,8 @@ std::string caseSchema() { return schema::jsonSchema(kindsOfCase()); }
 std::string caseFields() {
   return schema::markdown(kindsOfCase()) + schema::chapter("Studies", study::studyTable()) +
          schema::chapter("Fabric cards", schema::cardTable()) +
-         schema::chapter("Law tables", schema::lawFileTable());
+         schema::chapter("Law tables", schema::lawFileTable()) +
+         schema::chapter("Patterns", schema::patternTable());
 }
 
 }  // namespace gambeson

@@ -217,6 +217,47 @@ EXAMPLES = {"id": "work", "title": "a work", "source": "nobody", "examples": [
         {"where": "table 4", "published": "1.8", "reference": "plate", "quantity": "area"}, {"where": "text", "published": "flat", "without": "none"}]}]}
 
 
+GARMENTCODE = """{
+  "pattern": {
+    "panels": {
+      "back": {"translation": [20, 0, -20], "rotation": [0, 0, 0], "label": "body", "vertices": [[0, 0], [0, 30], [20, 30], [20, 0]],
+               "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3], "curvature": {"type": "quadratic", "params": [[0.5, 0.1]]}},
+                         {"endpoints": [3, 0], "curvature": {"type": "cubic", "params": [[0.3, 0.1], [0.6, -0.1]]}}]},
+      "front": {"translation": [10, 90, 25], "rotation": [0, 90, 0], "vertices": [[0, 0], [20, 0], [20, 30], [15, 30], [5, 30], [0, 30]],
+                "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]},
+                          {"endpoints": [3, 4], "curvature": {"type": "circle", "params": [5, 0, 0]}}, {"endpoints": [4, 5]}, {"endpoints": [5, 0]}]}
+    },
+    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 1}], [{"panel": "front", "edge": 5}, {"panel": "back", "edge": 3}, "right_wrong"]],
+    "panel_order": ["front", "back"]
+  },
+  "properties": {"curvature_coords": "relative", "units_in_meter": 100}
+}
+"""
+
+
+def importing(name):
+    return ["import", name, "-o", "written.json", "--svg", "written.svg"]
+
+
+def dxf():
+    """Two pieces as DXF-ASTM has them: one with a sew line, one with a bulge and a hole."""
+    at = lambda x, y: f"10\n{x}\n20\n{y}\n"
+    text = lambda words: f"0\nTEXT\n8\n1\n{at(50, 50)}40\n5\n1\n{words}\n"
+    line = lambda layer, points: (f"0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n1\n"
+                                  + "".join(f"0\nVERTEX\n8\n{layer}\n{at(x, y)}42\n{b}\n" for x, y, b in points) + f"0\nSEQEND\n8\n{layer}\n")
+    point = lambda layer, x, y: f"0\nPOINT\n8\n{layer}\n{at(x, y)}"
+    box = [(0, 0), (300, 0), (300, 200), (0, 200)]
+    front = (text("PIECE NAME: FRONT") + text("SIZE: M") + text("QUANTITY: 1,1") + line(1, [(*p, 0) for p in box])
+             + line(14, [(10, 10, 0), (290, 10, 0), (290, 190, 0), (10, 190, 0)]) + "".join(point(2, *p) for p in box)
+             + point(4, 100, 0) + point(80, 290, 100) + point(13, 200, 150) + f"0\nLINE\n8\n7\n{at(150, 50)}11\n150\n21\n150\n")
+    back = (text("PIECE NAME: BACK") + line(1, [(0, 0, 0), (0, 200, 0), (100, 200, -1), (200, 200, 0), (300, 200, 0), (300, 0, 0)])
+            + f"0\nCIRCLE\n8\n11\n{at(150, 100)}40\n10\n")
+    block = lambda name, content: f"0\nBLOCK\n8\n0\n2\n{name}\n70\n64\n{at(0, 0)}{content}0\nENDBLK\n8\n0\n"
+    insert = lambda name: f"0\nINSERT\n8\n1\n2\n{name}\n{at(0, 0)}"
+    return ("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n" + block("F", front) + block("B", back)
+            + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + insert("F") + insert("B") + text("STYLE NAME: s") + text("UNITS: METRIC") + "0\nENDSEC\n0\nEOF\n")
+
+
 class Kind:
     """One file to break among those beside it, and the commands that read it. `made`: a command that makes more files of those before the
     first of them is broken."""
@@ -354,6 +395,9 @@ def kinds():
         results("export_segment", "out/frames/segment_000001.h5", dressed_case, "export", "out", "--iges", "a.igs", "--opensim", "loads"),
         studied("study_summary", "summary.json"),
         studied("study_torques", "torques.csv"),
+        Kind("import_garmentcode", "a.json", {"a.json": GARMENTCODE}, command=importing("a.json")),
+        Kind("import_dxf", "a.dxf", {"a.dxf": dxf()}, command=importing("a.dxf")),
+        Kind("import_pattern", "b.json", {"a.json": GARMENTCODE}, made=["import", "a.json", "-o", "b.json"], command=importing("b.json")),
         Kind("verify_checks", "refs/strip.json", {"refs/strip.json": json.dumps(STRIP, indent=1)}, command=verifying),
         Kind("verify_kept", "verified/cloth/a/summary.json", {"refs/cloth.json": kept}, made=verifying, command=[*verifying, "--results", "verified"]),
         Kind("verify_table", "verified/cloth/a/contact.csv", {"refs/cloth.json": kept}, made=verifying, command=[*verifying, "--results", "verified"]),

@@ -11,12 +11,16 @@
 #include "cases/cloth/card.hpp"
 #include "cases/fabric/raw_loop.hpp"
 #include "cases/kinds/any_case.hpp"
+#include "cases/pattern/import.hpp"
+#include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/svg.hpp"
 #include "core/error.hpp"
 #include "core/material/fabric_law.hpp"
 #include "human/files/mesh.hpp"
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
 #include "unit/cases/example.hpp"
+#include "unit/cases/pattern/small_patterns.hpp"
 
 namespace gambeson {
 namespace {
@@ -214,6 +218,21 @@ TEST(Fuzz, FabricCards) {
     for (int i = way < 0 ? -15 : -16; i <= 16; ++i)
       loop += fmt::format("{},{:.5f}\n", way * i * 0.15, line.bend(way * i * 15.0) / 9.80665e-3);
   fuzz("loop.csv", loop, 82, 600, [](const auto& file) { readLoop(file); });
+}
+
+TEST(Fuzz, Patterns) {
+  // What is let in can be drawn, and is read back from what is written.
+  const auto read = [](const std::filesystem::path& file) {
+    const FlatPattern p = importPattern(file, {}).pattern;
+    patternSvg(p);
+    const std::filesystem::path written = file.parent_path() / "written.json";
+    std::ofstream(written) << patternText(p);
+    readPattern(written);
+  };
+  const Folder folder;
+  fuzz("a_specification.json", kGarmentCode, 91, 500, read);
+  fuzz("a.json", patternText(importPattern(folder.write("a.json", kGarmentCode), {}).pattern), 92, 500, read);
+  fuzz("a.dxf", dxfText("METRIC"), 93, 500, read);
 }
 
 }  // namespace

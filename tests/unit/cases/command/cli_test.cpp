@@ -147,7 +147,7 @@ TEST(Command, BadInputExitsWithTwo) {
       {"", "gambeson run cases/library/shorts_walk.json"},
       {"dance",
        "there is no command \"dance\"; there are run, dress, check, draft, render, report, export, verify, study, "
-       "batch, fabric and homogenise"},
+       "batch, fabric, import and homogenise"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},

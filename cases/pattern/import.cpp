@@ -1,0 +1,143 @@
+#include "cases/pattern/import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <ostream>
+
+#include "cases/input/json.hpp"
+#include "cases/input/message.hpp"
+#include "cases/pattern/dxf.hpp"
+#include "cases/pattern/garmentcode.hpp"
+#include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/svg.hpp"
+#include "cases/runs/results_folder.hpp"
+#include "core/error.hpp"
+#include "core/io/own_file.hpp"
+#include "tryon/pattern/flat/panel_check.hpp"
+#include "tryon/pattern/flat/panel_geometry.hpp"
+
+namespace gambeson {
+namespace {
+
+std::string endingOf(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+/// "shirt" of shirt_specification.json and of shirt/specification.json.
+std::string nameOf(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  if (name == "specification") name = std::filesystem::absolute(file).parent_path().filename().string();
+  if (name.ends_with("_specification")) name.resize(name.size() - 14);
+  return name.empty() ? "pattern" : name;
+}
+
+/// What a terminal shows of a name from a file.
+std::string shown(const std::string& text) { return messageText(text); }
+
+std::string sideText(const FlatPattern& pattern, const std::vector<SeamPart>& side) {
+  std::string out;
+  for (const SeamPart& p : side) out += (out.empty() ? "" : " + ") + partText(pattern, p);
+  return shown(out);
+}
+
+void say(const ImportedPattern& in, std::ostream& out) {
+  const FlatPattern& p = in.pattern;
+  double area = 0;
+  std::size_t widest = 5;
+  for (const Panel& panel : p.panels) {
+    area += areaOf(panel);
+    widest = std::max(widest, std::min<std::size_t>(40, shown(panel.name).size()));
+  }
+  out << fmt::format(
+      "{}: {} panels, {:.1f} cm^2, {} seams{}\n\n", shown(p.name), p.panels.size(), 1e4 * area, p.seams.size(),
+      p.source.format.empty()
+          ? ""
+          : fmt::format(" ({}{}{})", p.source.format, p.source.unit.empty() ? "" : ", ", shown(p.source.unit)));
+  out << fmt::format("{:{}}  {:>10}  {:>10}  {:>5}  {:>7}  {}\n", "panel", widest, "area cm^2", "outline cm", "edges",
+                     "notches", "grain");
+  for (const Panel& panel : p.panels) {
+    out << fmt::format("{:{}}  {:10.3f}  {:10.3f}  {:5}  {:7}  {}", shown(panel.name), widest, 1e4 * areaOf(panel),
+                       100 * perimeterOf(panel.outline), edgeCount(panel), panel.notches.size(),
+                       panel.grain ? "yes" : "no");
+    if (!panel.cut_line.empty())
+      out << fmt::format("; cut line {:.3f} cm^2, {:.3f} cm", 1e4 * areaOf(panel.cut_line),
+                         100 * perimeterOf(panel.cut_line));
+    out << "\n";
+  }
+  const bool proposed = std::any_of(p.seams.begin(), p.seams.end(), [](const PanelSeam& s) { return s.proposed; });
+  if (!p.seams.empty()) out << fmt::format("\n{:6}{:>8}  {:>8}   sides\n", "seam", "a cm", "b cm");
+  for (const PanelSeam& s : p.seams)
+    out << fmt::format("{:6}{:8.3f}  {:8.3f}   {}, {}{}{}\n", shown(s.name), 100 * lengthOf(p, s.a),
+                       100 * lengthOf(p, s.b), sideText(p, s.a), sideText(p, s.b),
+                       s.use == SeamUse::dart      ? ", dart"
+                       : s.use == SeamUse::opening ? ", opening"
+                                                   : "",
+                       s.proposed ? ", proposed" : "");
+  if (proposed)
+    out << "\nSeams are proposed by length and notches: the format has none. Correct them in \"seams\" of the written "
+           "file, and look again:\n  gambeson import GARMENT.json --svg PATTERN.svg\n";
+  std::vector<std::string> notes = in.notes;
+  for (std::string& doubt : doubtsAbout(p)) notes.push_back(std::move(doubt));
+  if (!notes.empty()) out << "\nNotes:\n";
+  for (const std::string& note : notes) out << "  " << shown(note) << "\n";
+  if (!in.dropped.empty()) out << "\nNot kept:\n";
+  for (const std::string& what : in.dropped) out << "  " << shown(what) << "\n";
+}
+
+}  // namespace
+
+ImportedPattern importPattern(const std::filesystem::path& file, const ImportChoices& choices) {
+  const std::string ending = endingOf(file);
+  if (ending == ".dxf") return readDxf(file, choices);
+  const char* const read =
+      "read are specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), and patterns that gambeson import "
+      "wrote";
+  if (ending != ".json") throw InputError({file.string(), 0, ""}, std::string("is of no format that is read; ") + read);
+  const JsonNode root = readJson(file, {.bytes = kPatternBytes});
+  if (!choices.size.empty())
+    throw InputError({"command line", 0, "--size"}, "has no meaning for " + file.string() + "; only DXF has sizes");
+  ImportedPattern out;
+  if (isPattern(root)) {
+    if (!choices.unit.empty())
+      throw InputError({"command line", 0, "--unit"}, "has no meaning for a pattern of ours: it is in m");
+    out.pattern = readPattern(root, file.string());
+    return out;
+  }
+  if (!isGarmentCode(root))
+    throw InputError({file.string(), 0, ""},
+                     std::string("has neither pattern.panels nor \"format\": \"gambeson pattern "
+                                 "1\"; ") +
+                         read);
+  out = readGarmentCode(root, file.string(), choices);
+  out.pattern.name = nameOf(file);
+  out.pattern.source.file = file.filename().string();
+  return out;
+}
+
+int importToFiles(const ImportArguments& a, std::ostream& out) {
+  if (a.output.empty() && a.svg.empty())
+    throw InputError({"command line", 0, "--output"}, "is required, or --svg: what to write");
+  if (!a.output.empty() && a.output == a.svg)
+    throw InputError({"command line", 0, "--svg"}, "is the same file as --output");
+  if (!a.choices.unit.empty()) metresOf(a.choices.unit);
+  if (!a.output.empty()) checkOutput(a.output, "--output", {a.file});
+  if (!a.svg.empty()) checkOutput(a.svg, "--svg", {a.file});
+  const ImportedPattern in = importPattern(a.file, a.choices);
+  say(in, out);
+  out << "\n";
+  if (!a.output.empty()) {
+    writeOwnFile(a.output, patternText(in.pattern));
+    out << "Pattern: " << a.output.string() << "\n";
+  }
+  if (!a.svg.empty()) {
+    writeOwnFile(a.svg, patternSvg(in.pattern));
+    out << "Drawing: " << a.svg.string() << "\n";
+  }
+  return 0;
+}
+
+}  // namespace gambeson

@@ -1,0 +1,24 @@
+#pragma once
+/// `gambeson import`: from the pattern of another program to a pattern's file and a drawing at 1:1.
+
+#include <filesystem>
+#include <iosfwd>
+
+#include "cases/pattern/imported.hpp"
+
+namespace gambeson {
+
+struct ImportArguments {
+  std::filesystem::path file;         ///< of GarmentCode (.json), DXF-AAMA/ASTM (.dxf), or a pattern of ours
+  std::filesystem::path output, svg;  ///< what to write; empty: not
+  ImportChoices choices;
+};
+
+/// Reads by content and ending. Throws InputError where the format is none that is read.
+ImportedPattern importPattern(const std::filesystem::path& file, const ImportChoices& choices);
+
+/// Imports, says what was found (panels with areas, seams with lengths, notes, what was dropped), writes. Returns 0.
+/// Throws InputError as importPattern, and where outputs are in the way.
+int importToFiles(const ImportArguments& a, std::ostream& out);
+
+}  // namespace gambeson
