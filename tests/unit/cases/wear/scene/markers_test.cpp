@@ -82,7 +82,7 @@ TEST(MarkersScene, NamesWhatIsWrong) {
   EXPECT_EQ(keyOf("human.motion.markers.up=\"x\""), "human.motion.markers.up");
   EXPECT_EQ(keyOf("human.motion.markers.forward=\"q\""), "human.motion.markers.forward");
   EXPECT_EQ(keyOf("human.motion.markers.to=0.1"), "human.motion.markers.to");
-  EXPECT_EQ(keyOf("human.segments[0].semi_axes=[0.2, 0, 0.1]"), "human.segments[0].semi_axes");
+  EXPECT_EQ(keyOf("human.segments[0].semi_axes=[0.2, 0, 0.1]"), "human.segments[0].semi_axes[1]");
   EXPECT_EQ(keyOf("analysis.joints=[\"elbow_flexion\"]"), "analysis.joints[0]");
 }
 
