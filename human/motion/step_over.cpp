@@ -5,17 +5,22 @@
 /// ball and the pelvis lifts the side that swings. The leg that leads is carried over in an arc while the pelvis stays
 /// behind; the one that trails folds its knee behind and is turned out to its side, by bumps that are added to its
 /// joints. Arcs and bumps are the least with which the feet clear the obstacle, and legs do as well as with the whole
-/// of them. Arms and the pelvis's turns are those of natural walking.
+/// of them; who would still be deep in the obstacle with a leg is refused. Arms and the pelvis's turns are those of
+/// natural walking.
 ///
 /// Nobody was recorded: ways, times and bumps were sought by hand and by random search such that feet clear 0.5 m,
 /// thighs and shanks keep out of it as far as may be, and joints stay within their limits for all manikins.
 
 #include "human/motion/step_over.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "human/files/units.hpp"
@@ -54,6 +59,7 @@ constexpr double tilt_back = 9 * rad_per_deg, hike = 16.4 * rad_per_deg;  ///< o
 constexpr double cross_slower = 2.2;   ///< time of its stride, over that on the level
 constexpr double tall_m = 0.5;         ///< height from which on feet are pitched, and the trailing one waits, in full
 constexpr double legs_clear_m = 0.01;  ///< of thighs, knees and shanks from the obstacle, where a leg can
+constexpr double legs_touch_m = 2e-3;  ///< by which thighs may brush it
 constexpr double arms_out = 15 * rad_per_deg;
 
 /// A bump over the swing: rises from the first to the second part of it, falls from the third to the fourth.
@@ -102,8 +108,14 @@ struct Step {
   double at(double t) const { return (t - begin) / (end - begin); }
 };
 
+/// Why a body cannot step over the obstacle.
+struct TooHigh {
+  std::string why;
+};
+
 class StepOver final : public Motion {
  public:
+  /// Throws TooHigh.
   StepOver(const Human& human, const StepOverOptions& options)
       : human_(human),
         options_(options),
@@ -121,6 +133,7 @@ class StepOver final : public Motion {
     clearHurdle();
     solveLegs(node_s);
     checkLimits();
+    checkLegs();
   }
 
   double duration() const override { return duration_; }
@@ -392,7 +405,9 @@ class StepOver final : public Motion {
         return clearanceOf(l);
       };
       const Clearance most = clearance(1);
-      if (!(most.foot >= wanted)) refuseHeight("the foot would pass it at " + std::to_string(most.foot) + " m");
+      if (!(most.foot >= wanted))
+        throw TooHigh{fmt::format("a foot would pass it at {:.0f} mm and is to keep {:.0f} mm off", 1e3 * most.foot,
+                                  1e3 * options_.clearance_m)};
       const double leg = std::min(legs_clear_m, most.leg - lost_m);
       double lo = 0, hi = 1;
       while (hi - lo > 0.01) {
@@ -403,9 +418,22 @@ class StepOver final : public Motion {
       share_[l] = hi;
     }
   }
-  [[noreturn]] void refuseHeight(const std::string& why) const {
-    throw InputError({"", 0, "height"},
-                     std::to_string(options_.height_m) + " m is not allowed for this body: " + why + "; allowed: less");
+
+  /// Thighs, knees and shanks, also of the leg that stands while the other one crosses.
+  void checkLegs() const {
+    constexpr double every_s = 0.01;
+    double gap = std::numeric_limits<double>::infinity();
+    for (double t = lead().begin; t < trail().end; t += every_s) {
+      const Posture p = at(t);
+      const std::vector<Pose> X = linkPoses(human_.skeleton, p.q, p.root);
+      for (const BodyShape& shape : human_.shapes)
+        for (const Leg& leg : legs_)
+          if (shape.link == human_.skeleton.joints[leg.joints[2]].child ||
+              shape.link == human_.skeleton.joints[leg.joints[3]].child)
+            gap = std::min(gap, gapToHurdle(shape.shape, X[shape.link] * shape.X_LS, hurdle_));
+    }
+    if (!(gap >= -legs_touch_m))
+      throw TooHigh{fmt::format("a thigh, knee or shank would be {:.0f} mm in it", -1e3 * gap)};
   }
 
   void checkLimits() const {
@@ -415,8 +443,8 @@ class StepOver final : public Motion {
         for (std::size_t k = 0; k < q.size(); ++k) {
           const Joint& joint = human_.skeleton.joints[legs_[l].joints[k]];
           if (!(q[k] >= joint.lower - 1e-9 && q[k] <= joint.upper + 1e-9))
-            refuseHeight("it takes the joint '" + joint.name + "' to " + std::to_string(q[k] / rad_per_deg) +
-                         " degrees, beyond its limit");
+            throw TooHigh{fmt::format("it takes the joint '{}' to {:.1f} degrees, beyond its limit", joint.name,
+                                      q[k] / rad_per_deg)};
         }
       }
   }
@@ -439,6 +467,32 @@ class StepOver final : public Motion {
   std::array<std::array<HermitePath<double>, 5>, 2> path_;
 };
 
+/// The largest height that the body steps over [m], to a centimetre; none where it is below what options may have.
+std::optional<double> largestHeight(const Human& human, StepOverOptions o) {
+  double lo = 0, hi = o.height_m;
+  while (hi - lo > 0.01) {
+    o.height_m = std::max(0.05, 0.5 * (lo + hi));
+    try {
+      const StepOver possible(human, o);
+      lo = o.height_m;
+    } catch (const TooHigh&) {
+      if (o.height_m == 0.05) return std::nullopt;
+      hi = o.height_m;
+    }
+  }
+  return lo;
+}
+
+std::unique_ptr<StepOver> stepOver(const Human& human, const StepOverOptions& o) try {
+  return std::make_unique<StepOver>(human, o);
+} catch (const TooHigh& e) {
+  const std::optional<double> largest = largestHeight(human, o);
+  throw InputError({"", 0, "height"},
+                   fmt::format("{} m is not allowed for this body: {}; allowed: {}", o.height_m, e.why,
+                               largest ? fmt::format("up to {:.2f} m", std::floor(100 * *largest) / 100)
+                                       : "another body, of longer legs"));
+}
+
 }  // namespace
 
 std::unique_ptr<Motion> makeStepOver(const Human& human, const StepOverOptions& o, Hurdle* hurdle) {
@@ -452,7 +506,7 @@ std::unique_ptr<Motion> makeStepOver(const Human& human, const StepOverOptions& 
   check("depth", o.depth_m, o.depth_m >= 0 && o.depth_m <= 0.1, "0 to 0.1");
   check("clearance", o.clearance_m, o.clearance_m >= 0 && o.clearance_m <= 0.1, "0 to 0.1");
   check("stride_time_s", o.stride_time_s, o.stride_time_s >= 0.5 && o.stride_time_s <= 10, "0.5 to 10");
-  auto motion = std::make_unique<StepOver>(human, o);
+  auto motion = stepOver(human, o);
   if (hurdle) *hurdle = motion->hurdle();
   return motion;
 }

@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
 """What Man 2006, section 5.3, says of his sleeve, of the studies of the library that were run.
 
-    sleeve.py [RESULTS]     the folder in which sleeve, sleeve_fit and sleeve_material lie [results]
+    sleeve.py [RESULTS]     the folder in which sleeve, sleeve_fit, sleeve_material and sleeve_starts lie [results]
 
 `gambeson study cases/library/sleeve.study.json --resume` and so on make them; what was not run is left out, by name.
 Torques at the elbow are judged by their means from 55 to 57 degrees; beside them stand means from 20 degrees, as the
-course of one mesh scatters by a few per cent and its peak by a quarter. Exit status 1 where an order does not hold.
+course of one mesh scatters by a few per cent and its peak by a quarter. How much shows sleeve_starts: of each sleeve five
+runs that start a little apart. There the ratio of the means counts, with its standard error and the range of the ratios of
+single runs beside. Exit status 1 where an order does not hold.
 """
 
 import csv
 import json
 import math
 import pathlib
+import statistics
 import sys
 
 MESHES = ("I", "II", "III", "IV")
@@ -125,10 +128,48 @@ def material(study, judge):
         judge.say("straight Kevlar over straight cotton", ratio(late["straight Kevlar"], late["straight cotton"]), 1)
 
 
+def starts(study, judge):
+    """Ratios of sleeves over several starts: what one run of each would have said lies anywhere in the range."""
+    labels = sorted({v["levels"]["start"] for v in study.variants.values()})
+    torques = {}
+    for begin in (55, 20):
+        for sleeve in dict.fromkeys(v["levels"]["sleeve"] for v in study.variants.values()):
+            runs = [study.mean(begin, sleeve=sleeve, start=label) for label in labels]
+            torques[sleeve, begin] = [torque for torque in runs if torque is not None]
+    print(f"Scatter over {len(labels)} starts, mesh IV unless II is said; +- is the standard deviation of one run")
+    for sleeve, begin in torques:
+        if begin == 55 and len(torques[sleeve, 55]) > 1:
+            spread = [f"{statistics.mean(torques[sleeve, b]):8.3f} N m +- {100 * relative_deviation(torques[sleeve, b]):4.1f} %"
+                      for b in (55, 20)]
+            print(f"  {sleeve:40s} {spread[0]} from 55 degrees {spread[1]} from 20")
+    for what, over, under, low, high in (
+            ("2 mm over 1 mm", "smooth, thick", "smooth", 2.0, 2.6),
+            ("2 mm that bends as 1 mm over 1 mm", "smooth, thick as limp", "smooth", 1.9, 2.1),
+            ("the same, mesh II", "smooth II, thick as limp", "smooth II", 1.9, 2.1),
+            ("friction 0.5 over 0.1", "smooth", "smooth, slick", 1.3, 2.0),
+            ("friction 0.5 over 0.1, shell", "shell", "shell, slick", 1.3, 2.0)):
+        a, b = ([torques.get((sleeve, begin), []) for begin in (55, 20)] for sleeve in (over, under))
+        if any(len(runs) < 2 for runs in a + b):
+            judge.say(what, None, low)
+            continue
+        late, whole = (statistics.mean(x) / statistics.mean(y) for x, y in zip(a, b))
+        judge.say(what, late, low, high, whole=whole)
+        for begin, x, y in zip((55, 20), a, b):
+            error = math.hypot(relative_deviation(x) / math.sqrt(len(x)), relative_deviation(y) / math.sqrt(len(y)))
+            single = [p / q for p in x for q in y]
+            print(f"        from {begin} degrees +- {error * statistics.mean(x) / statistics.mean(y):.2f}; of single runs "
+                  f"{min(single):.2f} to {max(single):.2f}")
+
+
+def relative_deviation(values):
+    return statistics.stdev(values) / statistics.mean(values)
+
+
 def main():
     results = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "results")
     judge = Judge()
-    for name, of in (("sleeve", mesh_and_friction), ("sleeve_fit", fit), ("sleeve_material", material)):
+    for name, of in (("sleeve", mesh_and_friction), ("sleeve_fit", fit), ("sleeve_material", material),
+                     ("sleeve_starts", starts)):
         if (results / name / "study.json").exists():
             of(Study(results / name), judge)
         else:

@@ -28,6 +28,7 @@
 #include "human/motion/stairs.hpp"
 #include "human/motion/step_over.hpp"
 #include "human/motion/walk.hpp"
+#include "human/recorded/marker_body.hpp"
 #include "human/recorded/motion_file.hpp"
 #include "human/skin/make_skin.hpp"
 #include "tryon/pattern/armour.hpp"
@@ -149,15 +150,17 @@ struct FeetLeftOut {
   double grow_s = 0.3;  ///< from then on they grow to their size
 };
 
-/// A manikin by name, a URDF with a body file (which may be empty: the URDF's own geometry then), or a character.
+/// A manikin by name, a URDF with a body file (which may be empty: the URDF's own geometry then), a character, or
+/// segments between markers.
 struct HumanCase {
   std::string manikin;
   std::filesystem::path urdf, body;
   std::optional<CharacterOptions> character;
+  std::vector<MarkedSegment> segments;
   std::optional<SkinOptions> skin;  ///< around the manikin; where absent, its ellipsoids are the surface
   std::optional<FeetLeftOut> feet;  ///< where absent, they are there at all times
   std::variant<StandMotion, WalkOptions, StairOptions, AimOptions, TrajectoryMotion, MotionFileOptions, SitOptions,
-               KneelOptions, StepOverOptions>
+               KneelOptions, StepOverOptions, MarkersOptions>
       motion;
 };
 

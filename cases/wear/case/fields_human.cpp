@@ -43,6 +43,43 @@ Object characterTable() {
       .build();
 }
 
+/// Segments between markers, unwritten where there are none.
+void addSegments(Table<HumanCase>& table) {
+  using S = MarkedSegment;
+  Field field = fieldOf("segments", Kind::list, "", {},
+                        "ellipsoids between markers (Man 2006, 5.1), which nothing joins; with the motion \"markers\"");
+  field.object = std::make_shared<const Object>(
+      Table<S>("Segment between markers")
+          .text("name", &S::name,
+                "of the segment, a link of the human; its joints are NAME_x, _y, _z, NAME_pitch, _roll and _yaw")
+          .required()
+          .texts("J1", &S::J1, "markers whose mean is the joint at its upper end")
+          .required()
+          .texts("J2", &S::J2, "markers whose mean is the joint at its lower end")
+          .required()
+          .texts("M", &S::M, "markers whose mean lies beside the line of the joints, always on the same side")
+          .required()
+          .vector("semi_axes", &S::semi_axes_m, "m", above(0),
+                  "of its ellipsoid: along the bone, towards M, across both")
+          .required()
+          .build());
+  table.custom(
+      field,
+      [o = field.object](const Entry& p, HumanCase& h) {
+        if (p.node.type != JsonNode::Type::list || p.node.children.empty())
+          p.fail("expected a list [ ] of one segment or more, not " + describe(p.node));
+        h.segments.clear();
+        for (std::size_t i = 0; i < p.node.children.size(); ++i) readObject(*o, p.item(i), &h.segments.emplace_back());
+      },
+      [o = field.object](const HumanCase& h) -> std::optional<JsonNode> {
+        if (h.segments.empty()) return std::nullopt;
+        JsonNode list = emptyList();
+        for (const MarkedSegment& segment : h.segments) list.children.push_back(writeObject(*o, &segment));
+        return list;
+      });
+  table.in("who");
+}
+
 Object motionTable() {
   Table<MotionKind::Options> table("Motion");
   for (const MotionKind* kind : motionKinds()) {
@@ -58,14 +95,15 @@ Object humanTable() {
   using H = HumanCase;
   std::vector<std::pair<std::string, std::string>> manikins;
   for (const std::string& name : manikinNames()) manikins.emplace_back(name, name);
-  return Table<H>("Human")
-      .choice("manikin", &H::manikin, manikins, "one of our own humans, by sex and percentile of stature")
+  Table<H> table("Human");
+  table.choice("manikin", &H::manikin, manikins, "one of our own humans, by sex and percentile of stature")
       .in("who")
       .path("urdf", &H::urdf, "skeleton of a human of your own")
       .in("who")
       .object("character", &H::character, characterTable(), "a skinned character from a file, in any pose")
-      .in("who")
-      .oneOf("who", true)
+      .in("who");
+  addSegments(table);
+  return table.oneOf("who", true)
       .path("body", &H::body, "body file that goes with urdf: ellipsoids per link")
       .defaultsTo("the geometry in the URDF")
       .object("skin", &H::skin,
@@ -75,13 +113,14 @@ Object humanTable() {
                           "what stays between the two sides of a fold, at hips, knees, elbows and shoulders")
                   .build(),
               "a closed skin around the manikin that bends with its joints, in place of its ellipsoids")
-      .object("feet", &H::feet,
-              Table<FeetLeftOut>("Feet left out")
-                  .number("back", &FeetLeftOut::back_s, "s", between(-60, 600), "when they begin to come back")
-                  .number("grow", &FeetLeftOut::grow_s, "s", between(0.01, 10), "from then on they grow to their size")
-                  .build(),
-              "feet that cloth does not touch at first, so that trousers can be pulled up over the legs; pictures leave "
-              "them out until they come back")
+      .object(
+          "feet", &H::feet,
+          Table<FeetLeftOut>("Feet left out")
+              .number("back", &FeetLeftOut::back_s, "s", between(-60, 600), "when they begin to come back")
+              .number("grow", &FeetLeftOut::grow_s, "s", between(0.01, 10), "from then on they grow to their size")
+              .build(),
+          "feet that cloth does not touch at first, so that trousers can be pulled up over the legs; pictures leave "
+          "them out until they come back")
       .defaultsTo("they are there at all times")
       .object("motion", &H::motion, motionTable(), "what the human does")
       .required()
@@ -90,6 +129,11 @@ Object humanTable() {
           p.failAt("skin", "is made around a manikin, not around a body of your own or a character");
         if (h.feet && (h.skin || h.character))
           p.failAt("feet", "can be left out of a body whose surface is shapes on its links, not of a skin");
+        const bool follows_markers = std::holds_alternative<MarkersOptions>(h.motion);
+        if (!h.segments.empty() && !follows_markers)
+          p.failAt("segments", "are moved by markers alone; allowed with them: the motion \"markers\"");
+        if (follows_markers && h.segments.empty())
+          p.failAt("motion", "\"markers\" moves \"segments\" between markers; other bodies take markers by \"file\"");
         if (h.urdf.empty() && !h.body.empty()) p.failAt("body", "goes with \"urdf\"; a manikin has its own body");
       })
       .build();

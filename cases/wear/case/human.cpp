@@ -11,6 +11,7 @@ namespace gambeson {
 Human skeletonOf(const HumanCase& h, CharacterReport* character) {
   if (!h.manikin.empty()) return makeManikin(h.manikin);
   if (h.character) return loadCharacter(*h.character, character);
+  if (!h.segments.empty()) return markedHuman(h.segments);
   return h.body.empty() ? loadUrdf(h.urdf) : loadHuman(h.urdf, h.body);
 }
 

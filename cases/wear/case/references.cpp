@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/contact/obstacles/kind.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
@@ -103,13 +104,28 @@ void checkGarmentFile(const Entry& root, const Case& c, const GarmentCase& garme
 
 }  // namespace
 
+namespace {
+
+/// Runs f; what turns out to be wrong is said where the key stands.
+template <class F>
+auto locatedAt(const Entry& root, const std::string& key, F&& f) {
+  try {
+    return underKey(key, f);
+  } catch (const InputError& e) {
+    sayAt(root, e);
+  }
+}
+
+}  // namespace
+
 void checkReferences(const Entry& root, const Case& c) {
   double duration_s = c.time.duration_s.value_or(0);
   if (c.human) {
-    const Human human = skeletonOf(*c.human);
+    const Human human = locatedAt(root, "human", [&] { return skeletonOf(*c.human); });
     checkJoints(root, c, human.skeleton);
     checkLinks(root, c, human.skeleton);
-    const double motion_s = motionDuration(*c.human, human);
+    const double motion_s = locatedAt(root, fmt::format("human.motion.{}", kindOf(*c.human).word),
+                                      [&] { return motionDuration(*c.human, human); });
     duration_s = c.time.duration_s.value_or(motion_s);
   }
   for (const GarmentCase& g : c.garments)

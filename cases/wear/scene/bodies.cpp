@@ -52,7 +52,7 @@ void makeHuman(const Case& c, MadeBodies& s) {
   s.human = underKey("human", [&] { return humanOf(*c.human, &character); });
   if (c.human->character) noteCharacter(*c.human->character, character, s.notes);
   const MotionKind& kind = kindOf(*c.human);
-  MadeMotion made = underKey("human.motion", [&] { return kind.make(c.human->motion, *s.human); });
+  MadeMotion made = underKey("human.motion", [&] { return kind.make(*c.human, *s.human); });
   s.motion = std::move(made.motion);
   s.mean_velocity_m_per_s = made.mean_velocity_m_per_s;
   s.air_ramp_s = made.air_ramp_s;

@@ -23,9 +23,9 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {", \"kappa0\": \"30 1/m\"", "", 13, "fabric.bending.kappa0", "is required for the law zheng"},
           {"\"contact\": {\"friction\": 0.2},", "", 1, "contact", "is required"},
           {", \"link\": \"pelvis\"", "", 25, "supports[1].springs.link", "is required"},
-          {"\"manikin\": \"male_p50\",", "", 15, "human", "one of manikin, urdf or character is required"},
+          {"\"manikin\": \"male_p50\",", "", 15, "human", "one of manikin, urdf, character or segments is required"},
           {"{\"walk\": {\"strides\": 1}}", "{}", 17, "human.motion",
-           "one of stand, walk, stairs, aim, trajectory, file, sit, kneel or step_over is required"},
+           "one of stand, walk, stairs, aim, trajectory, file, sit, kneel, step_over or markers is required"},
           // Fields that exclude each other.
           {"\"weft_angle\"", "\"tube\": {\"radius\": 1, \"length\": 1}, \"weft_angle\"", 6, "garment.tube",
            "excludes \"sheet\""},
@@ -43,6 +43,13 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {"\"contact\": {\"friction\": 0.2},",
            "\"contact\": {\"friction\": 0.2}, \"strain_limit\": {\"mode\": \"lower_limit\"},", 27, "strain_limit.mode",
            "upper_limit"},
+          {"\"manikin\": \"male_p50\",",
+           "\"segments\": [{\"name\": \"arm\", \"J1\": [\"a\"], \"J2\": [\"b\"], \"M\": [\"m\"], \"semi_axes\": [0.2, 0.1, "
+           "0.1]}],",
+           16, "human.segments", "moved by markers alone"},
+          {"\"manikin\": \"male_p50\",", "\"segments\": [],", 16, "human.segments", "one segment or more"},
+          {"{\"walk\": {\"strides\": 1}}", "{\"markers\": {\"path\": \"example.json\"}}", 17, "human.motion",
+           "other bodies take markers by \"file\""},
           // Ranges, with the value.
           {"\"1 mm\"", "\"-1 mm\"", 9, "fabric.thickness", "-0.001 m is out of range; allowed: > 0 and <= 0.05 m"},
           {"\"1 mm\"", "0", 9, "fabric.thickness", "allowed: > 0"},

@@ -30,8 +30,8 @@ const MotionKind aim_motion{
                                         "takes aim at the ground, leaning left, from low ready");
         },
     .task = Task::aiming,
-    .make = [](const MotionKind::Options& options,
-               const Human& human) { return MadeMotion{makeAim(human, std::get<AimOptions>(options))}; },
+    .make = [](const HumanCase& moved,
+               const Human& human) { return MadeMotion{makeAim(human, std::get<AimOptions>(moved.motion))}; },
     .carried_kg = [](const MotionKind::Options& options) -> std::optional<double> {
       return std::get<AimOptions>(options).rifle_mass_kg;
     },

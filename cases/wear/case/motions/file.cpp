@@ -87,8 +87,8 @@ const MotionKind file_motion{
     .tells_feet = true,
     .holds_apart = true,
     .make =
-        [](const MotionKind::Options& options, const Human& human) {
-          const auto& o = std::get<MotionFileOptions>(options);
+        [](const HumanCase& moved, const Human& human) {
+          const auto& o = std::get<MotionFileOptions>(moved.motion);
           MadeMotion made;
           MotionFileNotes read;
           made.motion = loadMotionFile(o, human, &read);

@@ -6,11 +6,11 @@
 namespace gambeson {
 
 extern const MotionKind stand_motion, walk_motion, stairs_motion, aim_motion, trajectory_motion, file_motion,
-    sit_motion, kneel_motion, step_over_motion;
+    sit_motion, kneel_motion, step_over_motion, markers_motion;
 
 std::span<const MotionKind* const> motionKinds() {
-  static constexpr std::array kinds{&stand_motion, &walk_motion, &stairs_motion, &aim_motion,      &trajectory_motion,
-                                    &file_motion,  &sit_motion,  &kneel_motion,  &step_over_motion};
+  static constexpr std::array kinds{&stand_motion, &walk_motion, &stairs_motion, &aim_motion,       &trajectory_motion,
+                                    &file_motion,  &sit_motion,  &kneel_motion,  &step_over_motion, &markers_motion};
   static_assert(kinds.size() == std::variant_size_v<MotionKind::Options>);
   return kinds;
 }
@@ -19,7 +19,7 @@ const MotionKind& kindOf(const HumanCase& human) { return *motionKinds()[human.m
 
 double motionDuration(const HumanCase& h, const Human& human) {
   const MotionKind& kind = kindOf(h);
-  return kind.duration ? kind.duration(h.motion) : kind.make(h.motion, human).motion->duration();
+  return kind.duration ? kind.duration(h.motion) : kind.make(h, human).motion->duration();
 }
 
 std::optional<Strides> stridesOf(const Case& c) {

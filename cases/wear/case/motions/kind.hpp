@@ -30,7 +30,7 @@ struct MadeMotion {
   std::optional<Hurdle> hurdle{};    ///< what it steps over
 };
 
-/// All functions are of options of this kind.
+/// All functions are of options of this kind, or of a human who moves by them.
 struct MotionKind {
   using Options = decltype(HumanCase::motion);
   using Take = std::function<void(std::filesystem::path&)>;
@@ -42,7 +42,7 @@ struct MotionKind {
   bool ours = true;          ///< of our own making and tested with our own skins: they do not fold in it
   bool tells_feet = false;   ///< its notes say how its feet stand
   bool holds_apart = false;  ///< has the keys hips_apart and arms_apart
-  MadeMotion (*make)(const Options& options, const Human& human) = nullptr;
+  MadeMotion (*make)(const HumanCase& moved, const Human& human) = nullptr;
   /// Time that it takes [s]. Null: that of the motion that is made.
   double (*duration)(const Options& options) = nullptr;
   /// Those that count; none where it is no walk.

@@ -33,8 +33,8 @@ const MotionKind kneel_motion{
                                           "goes down on the right knee, aims, and gets up again");
         },
     .ours = false,
-    .make = [](const MotionKind::Options& options,
-               const Human& human) { return MadeMotion{makeKneel(human, std::get<KneelOptions>(options))}; },
+    .make = [](const HumanCase& moved,
+               const Human& human) { return MadeMotion{makeKneel(human, std::get<KneelOptions>(moved.motion))}; },
     .assumption = [](const Motion&) -> std::string {
       return "Kneeling is prescribed: the posture at its end is built from written descriptions of the position, "
              "pelvis, trunk and arms get there with minimum jerk, knees and hips such that the feet stand and the "

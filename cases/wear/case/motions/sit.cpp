@@ -30,8 +30,8 @@ const MotionKind sit_motion{
           table.alternative<SitOptions>("sit", std::identity{}, schema::sitTable(),
                                         "sits down and stands up, with both feet where they stand");
         },
-    .make = [](const MotionKind::Options& options,
-               const Human& human) { return MadeMotion{makeSit(human, std::get<SitOptions>(options))}; },
+    .make = [](const HumanCase& moved,
+               const Human& human) { return MadeMotion{makeSit(human, std::get<SitOptions>(moved.motion))}; },
     .assumption = [](const Motion&) -> std::string {
       return "Sitting down is prescribed: knees and shanks with minimum jerk, feet where they stand, the trunk leaning "
              "as far as balance asks for until the seat carries. Flesh does not yield to the seat.";

@@ -41,8 +41,8 @@ const MotionKind stairs_motion{
         },
     .task = Task::natural_stairs,
     .make =
-        [](const MotionKind::Options& options, const Human& human) {
-          const auto& o = std::get<StairOptions>(options);
+        [](const HumanCase& moved, const Human& human) {
+          const auto& o = std::get<StairOptions>(moved.motion);
           MadeMotion made;
           made.motion = makeStairs(human, o, &made.mean_velocity_m_per_s);
           made.air_ramp_s = o.stand_s + o.lead_in_s;

@@ -40,8 +40,9 @@ const MotionKind stand_motion{
           table.alternative<StandMotion>("stand", std::identity{}, schema::standTable(), "stands still");
         },
     .make =
-        [](const MotionKind::Options& options, const Human& human) {
-          return MadeMotion{std::make_unique<Standing>(standing(human), std::get<StandMotion>(options).duration_s)};
+        [](const HumanCase& moved, const Human& human) {
+          return MadeMotion{
+              std::make_unique<Standing>(standing(human), std::get<StandMotion>(moved.motion).duration_s)};
         },
     .duration = [](const MotionKind::Options& options) { return std::get<StandMotion>(options).duration_s; },
 };

@@ -18,7 +18,7 @@ Object stepOverTable() {
       .integer("after", &S::after, 1, 20,
                "full strides after the one that leads over it; the last step puts the feet side by side")
       .number("height", &S::height_m, "m", between(0.05, 1),
-              "of the obstacle; legs of our humans clear 0.5 m, long ones 0.6 m")
+              "of the obstacle; legs of our men and of tall women clear 0.5 m, those of small women 0.44 m")
       .number("depth", &S::depth_m, "m", between(0, 0.1), "of the obstacle, along the way")
       .number("clearance", &S::clearance_m, "m", between(0, 0.1), "of the feet from the obstacle, at least")
       .number("stride_time", &S::stride_time_s, "s", between(0.5, 3),
@@ -39,8 +39,8 @@ const MotionKind step_over_motion{
         },
     .ours = false,
     .make =
-        [](const MotionKind::Options& options, const Human& human) {
-          const auto& o = std::get<StepOverOptions>(options);
+        [](const HumanCase& moved, const Human& human) {
+          const auto& o = std::get<StepOverOptions>(moved.motion);
           MadeMotion made;
           Hurdle& hurdle = made.hurdle.emplace();
           made.motion = makeStepOver(human, o, &hurdle);
@@ -48,10 +48,10 @@ const MotionKind step_over_motion{
           const Vec3 way = m.at(m.duration()).root.origin - m.at(0).root.origin;
           made.mean_velocity_m_per_s = Vec3{way.x, way.y, 0} / (m.duration() - o.stand_s);
           made.air_ramp_s = o.stand_s + o.stride_time_s;
-          made.notes.push_back(
-              fmt::format("motion step_over: the obstacle stands from x = {:.3f} to {:.3f} m and is {:.2f} m high; cloth "
-                          "touches it where obstacles of the case have it (hurdle)",
-                          hurdle.front_m, hurdle.front_m + hurdle.depth_m, hurdle.height_m));
+          made.notes.push_back(fmt::format(
+              "motion step_over: the obstacle stands from x = {:.3f} to {:.3f} m and is {:.2f} m high; cloth "
+              "touches it where obstacles of the case have it (hurdle)",
+              hurdle.front_m, hurdle.front_m + hurdle.depth_m, hurdle.height_m));
           return made;
         },
     .assumption = [](const Motion&) -> std::string {

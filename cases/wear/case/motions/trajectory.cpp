@@ -1,8 +1,8 @@
 /// Detail of kind.hpp: joint angles over time from a file.
 
+#include "human/motion/trajectory.hpp"
 #include "cases/input/table.hpp"
 #include "cases/wear/case/motions/kind.hpp"
-#include "human/motion/trajectory.hpp"
 
 namespace gambeson {
 namespace schema {
@@ -28,8 +28,8 @@ const MotionKind trajectory_motion{
         },
     .ours = false,
     .make =
-        [](const MotionKind::Options& options, const Human& human) {
-          return MadeMotion{loadTrajectory(std::get<TrajectoryMotion>(options).file, human)};
+        [](const HumanCase& moved, const Human& human) {
+          return MadeMotion{loadTrajectory(std::get<TrajectoryMotion>(moved.motion).file, human)};
         },
     .files = [](MotionKind::Options& options, const MotionKind::Take& take,
                 const std::function<void(std::string&)>&) { take(std::get<TrajectoryMotion>(options).file); },

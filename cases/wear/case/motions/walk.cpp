@@ -31,8 +31,8 @@ const MotionKind walk_motion{
         },
     .task = Task::natural_walk,
     .make =
-        [](const MotionKind::Options& options, const Human& human) {
-          const auto& o = std::get<WalkOptions>(options);
+        [](const HumanCase& moved, const Human& human) {
+          const auto& o = std::get<WalkOptions>(moved.motion);
           MadeMotion made;
           made.motion = makeWalk(human, o, &made.mean_velocity_m_per_s);
           made.air_ramp_s = o.stand_s + o.lead_in_s;

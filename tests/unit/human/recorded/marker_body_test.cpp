@@ -55,6 +55,14 @@ struct Seen {
 
 double difference(const Mat3& a, const Mat3& b) { return norm(a.a - b.a) + norm(a.b - b.b) + norm(a.c - b.c); }
 
+struct MarkerBody {
+  Human human;
+  std::unique_ptr<Motion> motion;
+};
+MarkerBody markerBody(const MarkerTable& table, const std::vector<MarkedSegment>& segments, const WorldAxes& world) {
+  return {markedHuman(segments), markedMotion(table, segments, world)};
+}
+
 std::vector<Pose> shapePoses(const MarkerBody& body, double t) {
   const Posture p = body.motion->at(t);
   const auto X = linkPoses(body.human.skeleton, p.q, p.root);
@@ -174,6 +182,7 @@ TEST(MarkerBody, NamesWhatIsMissing) {
   EXPECT_EQ(keyOf([](auto& table, auto&) { table.positions[7][3] = table.positions[7][1]; }), "thigh_right[7]");
   EXPECT_EQ(keyOf([](auto&, auto& segments) { segments[2].semi_axes_m.y = 0; }), "thigh_left");
   EXPECT_EQ(keyOf([](auto&, auto& segments) { segments[3].M.clear(); }), "shank_left");
+  EXPECT_EQ(keyOf([](auto&, auto& segments) { segments[3].name = segments[1].name; }), "shank_right");
 }
 
 }  // namespace
