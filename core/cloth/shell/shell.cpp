@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/cloth/draft/sewing.hpp"
 #include "core/cloth/patches/rest_frame.hpp"
 #include "core/cloth/shell/shell_pack.hpp"
 #include "core/error.hpp"
@@ -142,8 +143,11 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
   WeakPoints weak = buildWeakSeams(garment);
   gaps_ = std::move(weak.gaps);
-  std::vector<HingePoint> hinges = buildHinges(garment);
+  std::vector<GapPoint> sewn = weakSewnRows(garment);
+  std::move(sewn.begin(), sewn.end(), std::back_inserter(gaps_));
+  std::vector<HingePoint> hinges = buildHinges(garment), sewn_hinges = buildSewnHinges(garment);
   std::move(weak.hinges.begin(), weak.hinges.end(), std::back_inserter(hinges));
+  std::move(sewn_hinges.begin(), sewn_hinges.end(), std::back_inserter(hinges));
   for (HingePoint& h : hinges) {
     hingeAngle(h, Q, &gradient);
     std::map<int, Vec3> pulled;
