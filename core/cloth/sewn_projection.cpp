@@ -6,6 +6,11 @@
 namespace gambeson {
 namespace {
 
+/// Of a row's own mobility, what other rows must leave of it. Where sides are straight there are more hats than the cells
+/// on both sides can follow: with 1e-6 the factor of such a seam loses all digits. What a row that is left out gapes by
+/// is the root of this of what its points do against the seam.
+constexpr double kDependent = 1e-3;
+
 /// C W C^T.
 SymmetricMatrix mobilityOf(const SparseRows& C, const SparseRows& Ct, std::span<const double> inverse_mass) {
   SymmetricMatrix S;
@@ -41,7 +46,7 @@ SymmetricMatrix mobilityOf(const SparseRows& C, const SparseRows& Ct, std::span<
 SewnProjection::SewnProjection(SparseRows C, std::vector<double> inverse_mass)
     : C_(std::move(C)), inverse_mass_(std::move(inverse_mass)) {
   const SparseRows whole = transpose(C_);
-  factor_ = EnvelopeFactor(mobilityOf(C_, whole, inverse_mass_));
+  factor_ = EnvelopeFactor(mobilityOf(C_, whole, inverse_mass_), kDependent);
   Ct_.column_count = C_.rows();
   for (int i = 0; i < whole.rows(); ++i) {
     if (whole.offsets[i] == whole.offsets[i + 1]) continue;

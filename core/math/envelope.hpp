@@ -16,7 +16,7 @@ namespace gambeson {
 class EnvelopeFactor {
  public:
   EnvelopeFactor() = default;
-  explicit EnvelopeFactor(const SymmetricMatrix& K, double dependent = 1e-10);
+  explicit EnvelopeFactor(const SymmetricMatrix& K, double dependent = 1e-6);
 
   int size() const { return static_cast<int>(order_.size()); }
   int leftOut() const { return left_out_; }

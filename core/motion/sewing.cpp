@@ -9,10 +9,11 @@ namespace gambeson {
 
 void closingRates(const Model& m, std::span<const Vec3> p, double dt, StepScratch& w) {
   m.sewing.gaps(p, w.sewn_rates);
-  for (Vec3& g : w.sewn_rates) {
-    const double size = norm(g), rate = std::min(m.sewing_options.close_per_s, 1 / dt);
-    g *= -(size * rate > m.sewing_options.close_m_per_s ? m.sewing_options.close_m_per_s / size : rate);
-  }
+  double widest = 0;
+  for (const Vec3& g : w.sewn_rates) widest = std::max(widest, norm(g));
+  double rate = std::min(m.sewing_options.close_per_s, 1 / dt);
+  if (rate * widest > m.sewing_options.close_m_per_s) rate = m.sewing_options.close_m_per_s / widest;
+  for (Vec3& g : w.sewn_rates) g *= -rate;
 }
 
 void sewVelocities(const Model& m, std::span<const Vec3> p, double dt, StepWork& w) {

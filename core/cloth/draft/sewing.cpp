@@ -14,6 +14,10 @@ namespace gambeson {
 namespace {
 
 constexpr double kMostGather = 2;
+/// Of a row over that of its two sides apart, both squared, below which they move with the same control points: less
+/// than about three quarters of a cell from each other, at the tip of a dart. To hold such points together would fold
+/// the cloth beside them.
+constexpr double kLeastApart = 0.5;
 constexpr int kPieces = 2;  ///< of a hat's flank, for the quadrature
 constexpr int kPoints = 4;  ///< of the quadrature in each
 
@@ -134,13 +138,17 @@ void addSeam(const Garment& g, std::size_t index, const std::vector<int>& offset
   const Measured m(g, index);
   Sides(g, m.a, index, m.flanks), Sides(g, m.b, index, m.flanks);  // or a message
   const double length = 0.5 * (m.a.length_m() + m.b.length_m());
-  std::vector<Row> rows(static_cast<std::size_t>(m.flanks + 1));
+  std::vector<Row> rows(static_cast<std::size_t>(m.flanks + 1)), of_a(rows.size()), of_b(rows.size());
   std::vector<double> weight(rows.size(), 0.0);
   alongSeam(m.flanks, [&](double s, double w, int flank, double at) {
     const SewnPoint a = m.a.at(s), b = m.b.at(s);
     Row pair;
     addBasis(g, offsets, a, 1, pair);
     addBasis(g, offsets, b, -1, pair);
+    for (const int end : {0, 1}) {
+      addBasis(g, offsets, a, w * (end == 0 ? 1 - at : at), of_a[static_cast<std::size_t>(flank + end)]);
+      addBasis(g, offsets, b, w * (end == 0 ? 1 - at : at), of_b[static_cast<std::size_t>(flank + end)]);
+    }
     addRow(pair, 1, out.pairs);
     out.cell_m.push_back(1 / std::max(a.cells_per_m, b.cells_per_m));
     for (const int end : {0, 1}) {
@@ -149,12 +157,23 @@ void addSeam(const Garment& g, std::size_t index, const std::vector<int>& offset
       for (const auto& [column, value] : pair) rows[static_cast<std::size_t>(flank + end)][column] += w * phi * value;
     }
   });
+  const auto square = [](const Row& row) {
+    double sum = 0;
+    for (const auto& [column, value] : row) sum += value * value;
+    return sum;
+  };
+  const int before = out.rows();
   for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (square(rows[k]) < kLeastApart * (square(of_a[k]) + square(of_b[k]))) continue;
     addRow(rows[k], 1 / weight[k], out.C);
     out.length_m.push_back(weight[k] * length);
     out.hat_m.push_back(length / m.flanks);
     out.seam.push_back(static_cast<int>(index));
   }
+  if (out.rows() == before)
+    throw InputError({"", 0, keyOf(index)},
+                     "its edges are everywhere closer to each other than a cell of the panel; allowed: a finer panel" +
+                         nameOf(g.sewn_seams[index]));
 }
 
 void addHinges(const Garment& g, std::size_t index, const std::vector<int>& offsets, std::vector<HingePoint>& out) {

@@ -37,7 +37,7 @@ struct SewnSeam {
   double stiffness_N = 0;     ///< of the spring: moment per length and angle [N m/(m rad)]
   double rest_angle_rad = 0;  ///< of the spring, within +-pi
   double factor = 1e3;        ///< weak: penalty over the stiffness of a cell, as of WeakSeam
-  double rows_per_cell = 1;   ///< hats along the seam for each cell of the finer side
+  double rows_per_cell = 3;   ///< hats along the seam for each cell of the finer side (core/cloth/draft/sewing.hpp)
   std::string name{};         ///< for messages; may be empty
 };
 

@@ -29,7 +29,7 @@ struct CutSheet {
   int cells = 10;  ///< along the width of the first panel
   SeamHold hold = SeamHold::weak;
   double stiffness_N = 0;
-  double rows_per_cell = 1;
+  double rows_per_cell = SewnSeam{}.rows_per_cell;
   bool apart = false;
 
   NurbsCurve cut() const {

@@ -42,7 +42,7 @@ std::vector<Vec3> edgeOf(const Garment& g, int far_patch, double length, double 
   if (load == Load::pull)
     o.dead = {{edgeForce(g, {far_patch, Side::u1}, {20, 4, 0}), 0}};
   else
-    o.dead = {{weightForce(g, load == Load::hang ? Vec3{400, 0, 0} : Vec3{0, 0, -0.5}), 0}};
+    o.dead = {{weightForce(g, load == Load::hang ? Vec3{400, 0, 0} : Vec3{0, 0, -0.05}), 0}};
   const auto s = buildStructure(g, o);
   StaticOptions so;
   so.steps = load == Load::drape ? 4 : 1;
@@ -65,7 +65,7 @@ TEST(SewnShell, ASheetCutByAnSHangsAndPullsLikeTheWholeOne) {
       // Pressed open: it bends as the cloth does, but for a twentieth of a cell.
       sheet.stiffness_N = 20 * 5e-5 / (sheet.width / cells);
       const auto sewn = edgeOf(sheet.garment(linen()), 1, sheet.length, sheet.width, load);
-      const auto whole = edgeOf(sheet.whole(linen(), 24), 0, sheet.length, sheet.width, load);
+      const auto whole = edgeOf(sheet.whole(linen(), cells), 0, sheet.length, sheet.width, load);
       double most = 0, off = 0;
       for (std::size_t k = 0; k < sewn.size(); ++k) {
         most = std::max(most, norm(whole[k]));
@@ -76,7 +76,7 @@ TEST(SewnShell, ASheetCutByAnSHangsAndPullsLikeTheWholeOne) {
                   100 * error.back());
     }
     EXPECT_LT(error[0], 0.01);
-    EXPECT_LT(error[1], 0.6 * error[0] + 1e-4);
+    EXPECT_LT(error[1], 0.6 * error[0] + 1e-3);
   }
 }
 
