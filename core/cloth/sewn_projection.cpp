@@ -1,15 +1,14 @@
 #include "core/cloth/sewn_projection.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace gambeson {
 namespace {
 
-/// Of a row's own mobility, what other rows must leave of it. Where sides are straight there are more hats than the cells
-/// on both sides can follow: with 1e-6 the factor of such a seam loses all digits. What a row that is left out gapes by
-/// is the root of this of what its points do against the seam.
-constexpr double kDependent = 1e-3;
+/// Of a row's own mobility, what the rows that are kept must leave of it.
+constexpr double kDependent = 1e-6;
 
 /// C W C^T.
 SymmetricMatrix mobilityOf(const SparseRows& C, const SparseRows& Ct, std::span<const double> inverse_mass) {
@@ -41,12 +40,50 @@ SymmetricMatrix mobilityOf(const SparseRows& C, const SparseRows& Ct, std::span<
   return S;
 }
 
+/// Empties rows that nearly follow from others: Cholesky with the largest pivot first (of what each row has left of its
+/// own) tells them. Where sides are straight or their cells match there are more hats than both sides can follow, and a
+/// factor in any other order would keep rows that hardly differ, and lose its digits to them.
+void dropDependent(SymmetricMatrix& S) {
+  const auto n = static_cast<std::size_t>(S.size);
+  std::vector<double> left(n, 0.0), own(n, 0.0), full(n * n, 0.0);
+  for (std::size_t c = 0; c < n; ++c)
+    for (int k = S.offsets[c]; k < S.offsets[c + 1]; ++k) {
+      const auto r = static_cast<std::size_t>(S.rows[k]);
+      full[r * n + c] = full[c * n + r] = S.values[k];
+      if (r == c) left[c] = own[c] = S.values[k];
+    }
+  std::vector<std::vector<double>> columns;  // of the factor
+  std::vector<char> kept(n, 0);
+  for (;;) {
+    std::size_t best = n;
+    double most = kDependent;
+    for (std::size_t i = 0; i < n; ++i)
+      if (!kept[i] && own[i] > 0 && left[i] > most * own[i]) most = left[i] / own[i], best = i;
+    if (best == n) break;
+    kept[best] = 1;
+    std::vector<double> column(n);
+    const double root = std::sqrt(left[best]);
+    for (std::size_t i = 0; i < n; ++i) {
+      double sum = full[i * n + best];
+      for (const std::vector<double>& c : columns) sum -= c[i] * c[best];
+      column[i] = kept[i] && i != best ? 0 : sum / root;
+      if (!kept[i]) left[i] -= column[i] * column[i];
+    }
+    columns.push_back(std::move(column));
+  }
+  for (std::size_t c = 0; c < n; ++c)
+    for (int k = S.offsets[c]; k < S.offsets[c + 1]; ++k)
+      if (!kept[c] || !kept[static_cast<std::size_t>(S.rows[k])]) S.values[k] = 0;
+}
+
 }  // namespace
 
 SewnProjection::SewnProjection(SparseRows C, std::vector<double> inverse_mass)
     : C_(std::move(C)), inverse_mass_(std::move(inverse_mass)) {
   const SparseRows whole = transpose(C_);
-  factor_ = EnvelopeFactor(mobilityOf(C_, whole, inverse_mass_), kDependent);
+  SymmetricMatrix S = mobilityOf(C_, whole, inverse_mass_);
+  dropDependent(S);
+  factor_ = EnvelopeFactor(S);
   Ct_.column_count = C_.rows();
   for (int i = 0; i < whole.rows(); ++i) {
     if (whole.offsets[i] == whole.offsets[i + 1]) continue;
