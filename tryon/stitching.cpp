@@ -32,6 +32,7 @@ Garment unsewn(const Garment& garment) {
   Garment open = garment;
   open.seams.clear();
   open.weak_seams.clear();
+  open.sewn_seams.clear();
   return open;
 }
 

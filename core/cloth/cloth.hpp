@@ -19,6 +19,7 @@
 #include "core/cloth/free_map.hpp"
 #include "core/cloth/law_range.hpp"
 #include "core/cloth/mounting.hpp"
+#include "core/cloth/sewn_rows.hpp"
 #include "core/cloth/strain_rows.hpp"
 #include "core/cloth/stress.hpp"
 #include "core/cloth/surface.hpp"
@@ -176,6 +177,9 @@ class Cloth {
   virtual StrainRows strainRows(Mobility mobility, LimitPoints points = LimitPoints::vertices) const = 0;
   /// The stress of the strain limits at a place, from a field that limitStress made [N/m].
   virtual Vec2 limitStressAt(const StrainRows& rows, std::span<const Vec2> field, int patch, Vec2 uv) const = 0;
+
+  /// Seams that steps hold together by projection (core/motion/sewing.hpp), on its points.
+  virtual SewnRows sewnRows() const { return {}; }
 
   // Supports and loads.
   virtual const Mounting& mounting() const = 0;

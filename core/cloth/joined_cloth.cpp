@@ -450,6 +450,22 @@ SparseRows JoinedCloth::consistentMass() const {
   return all;
 }
 
+SewnRows JoinedCloth::sewnRows() const {
+  SewnRows all;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const SewnRows part = parts_[i]->sewnRows();
+    appendRows(part.C, point_[i], all.C);
+    appendRows(part.pairs, point_[i], all.pairs);
+    all.length_m.insert(all.length_m.end(), part.length_m.begin(), part.length_m.end());
+    all.hat_m.insert(all.hat_m.end(), part.hat_m.begin(), part.hat_m.end());
+    all.cell_m.insert(all.cell_m.end(), part.cell_m.begin(), part.cell_m.end());
+    const int first = all.seam.empty() ? 0 : all.seam.back() + 1;
+    for (const int seam : part.seam) all.seam.push_back(first + seam);
+  }
+  all.C.column_count = all.pairs.column_count = points();
+  return all;
+}
+
 void JoinedCloth::force(const ClothState& state, const ClothForce& out, ClothWork& work,
                         const ForceTerms& terms) const {
   work.parts.resize(parts_.size());

@@ -39,6 +39,7 @@ class JoinedCloth : public Cloth {
   std::vector<double> masses() const override;
   std::vector<double> evenedMasses(double share) const override;
   SparseRows consistentMass() const override;
+  SewnRows sewnRows() const override;
 
   using Cloth::force;
   void force(const ClothState& state, const ClothForce& out, ClothWork& work, const ForceTerms& terms) const override;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/motion/cloth_damping.hpp"
+#include "core/motion/sewing.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/statics/structure_system.hpp"
 
@@ -101,6 +102,10 @@ void accelerateSupported(const Model& m, const Vec3& air, const Around& around, 
   w.accelerations.resize(n);
   w.support_solver.accelerations(*m.supports, half_step_s, s.a, w.accelerations);
   s.a.swap(w.accelerations);
+  if (!m.sewing.empty()) {
+    const std::span<const Vec3> sewn = sewAccelerations(m, half_step_s, s.a, w);
+    for (const int i : m.held_points) w.support_force[i] -= sewn[i];
+  }
   for (std::size_t i = 0; i < n; ++i) s.v[i] = start[i] + half_step_s * s.a[i];
   m.supports->drive(from, to, s.v);
   for (std::size_t i = 0; i < n; ++i) s.sums.drag -= m.drag_kg_per_s[i] * (s.v[i] - air);
@@ -108,6 +113,23 @@ void accelerateSupported(const Model& m, const Vec3& air, const Around& around, 
   for (const int i : m.held_points) {
     s.held_N.push_back(w.support_force[i] + m.mass_kg[i] * s.a[i] + m.drag_kg_per_s[i] * (s.v[i] - air));
     s.sums.held += s.held_N.back();
+  }
+}
+
+/// The part of the seams in accelerations of worn cloth: velocities and sums follow.
+void sewForces(const Model& m, double half_step_s, State& s, StepWork& w) {
+  std::vector<Vec3>& before = w.start;
+  before = s.a;
+  const std::span<const Vec3> sewn = sewAccelerations(m, half_step_s, s.a, w);
+  for (const int i : m.sewing.points()) {
+    if (m.held[i]) {
+      s.sums.held -= sewn[i];
+      s.held_N[heldSlot(m, i)] -= sewn[i];
+      continue;
+    }
+    const Vec3 more = half_step_s * (s.a[i] - before[i]);
+    s.v[i] += more;
+    s.sums.drag -= m.drag_kg_per_s[i] * more;
   }
 }
 
@@ -176,6 +198,7 @@ double accelerate(const Model& m, const AnchorFrames& anchor_frames, const Vec3&
     s.v[i] = start + half_step_s * s.a[i];
     s.sums.drag -= d * (s.v[i] - air);
   }
+  if (!m.sewing.empty()) sewForces(m, half_step_s, s, w);
   return of_cloth.lost;
 }
 

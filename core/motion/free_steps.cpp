@@ -48,6 +48,8 @@ double leastDamping(const Model& m) {
 }  // namespace
 
 void checkScheme(const MotionOptions& o, const StepControl& control, const Model& m) {
+  if (!m.sewing.empty() && o.scheme != MotionScheme::verlet)
+    throw InputError({"", 0, "scheme"}, "sewn seams are projected in steps of velocity Verlet; allowed with them: verlet");
   if (o.scheme == MotionScheme::verlet) return;
   if (m.strain_limit.mode != LimitMode::none)
     throw InputError({"", 0, "scheme"}, "strain limits go with velocity Verlet");

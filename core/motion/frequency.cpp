@@ -139,12 +139,14 @@ Frequency estimate(const Model& m, State& state, int iterations, double rate_per
   for (std::size_t k = 0; k < m.inner_mass.size(); ++k)
     root[points + static_cast<int>(k / 3)][static_cast<int>(k % 3)] = 1 / std::sqrt(m.inner_mass[k]);
   const auto scaled = [&](int i, const Vec3& v) { return Vec3{root[i].x * v.x, root[i].y * v.y, root[i].z * v.z}; };
-  // What supports leave: M^1/2 P M^1/2, a projection.
+  // What supports and sewn seams leave: M^1/2 P M^1/2, a projection.
   std::vector<Vec3> led(static_cast<std::size_t>(points));
   const auto project = [&](std::vector<Vec3>& x) {
-    if (!m.supports || !m.supports->couple()) return;
+    const bool coupled = m.supports && m.supports->couple();
+    if (!coupled && m.sewing.empty()) return;
     for (int i = 0; i < points; ++i) led[i] = root[i].x * x[i];
-    m.supports->hold(led);
+    if (coupled) m.supports->hold(led);
+    if (!m.sewing.empty()) m.sewing.hold(led, work.sewn);
     for (int i = 0; i < points; ++i)
       if (root[i].x > 0) x[i] = led[i] / root[i].x;
   };

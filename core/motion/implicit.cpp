@@ -245,7 +245,9 @@ ImplicitReport integrate(System& system, const ImplicitOptions& o, double end_s,
 }
 
 ImplicitSteps::ImplicitSteps(const Structure& structure, const ImplicitOptions& options)
-    : structure_(structure), options_(options), system_(structure, ProgramEnds::constant) {}
+    : structure_(structure), options_(options), system_(structure, ProgramEnds::constant) {
+  refuseProjectedSeams(structure);
+}
 
 void ImplicitSteps::advance(double until, State& state, const StepObserver& observe) {
   if (!(state.time_s < until)) return;

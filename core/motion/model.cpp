@@ -120,6 +120,26 @@ SparseRows weftRows(const Model& m) {
   return rows;
 }
 
+/// What projects on the seams.
+void addSewing(const ModelOptions& options, Model& m) {
+  const SewnRows sewn = m.cloth->sewnRows();
+  if (sewn.empty()) return;
+  const auto refuse = [](const char* key, const char* why) { throw InputError({"", 0, key}, why); };
+  if (m.strain_limit.mode != LimitMode::none)
+    refuse("strain_limit", "limits of strain go without sewn seams; allowed with them: none");
+  if (m.supports && m.supports->couple())
+    refuse("supports", "sewn seams go with supports that hold points whole; allowed: all three directions of a point");
+  if (m.contact.method != ContactMethod::together)
+    refuse("contact.method", "goes without sewn seams; allowed with them: together");
+  if (!(options.sewing.close_per_s > 0 && options.sewing.close_m_per_s > 0))
+    refuse("sewing", "seams close at a rate > 0 1/s and a speed > 0 m/s");
+  const SparseRows& T = m.cloth->map().T;
+  m.sewing_options = options.sewing;
+  m.sewn_pairs = multiply(sewn.pairs, T);
+  m.sewn_cell_m = sewn.cell_m;
+  m.sewing = SewnProjection(multiply(sewn.C, T), m.inverse_mass);
+}
+
 }  // namespace
 
 std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const ModelOptions& options,
@@ -166,6 +186,7 @@ std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const Mode
       throw InputError({"", 0, "strain_limit.method"}, "closest and provot go with supports that hold points whole");
     m.strain_rows = m.cloth->strainRows(std::move(mobility), options.strain_limit.points);
   }
+  addSewing(options, m);
   m.proximity = std::make_unique<ProximityQuery>(m.obstacles);
   std::vector<Vec3> rest(m.surface.size());
   m.surface.W.multiply<Vec3>(m.cloth->rest(), rest);
@@ -194,6 +215,7 @@ void holdOnly(std::span<const int> control_points, Model& m) {
   m.held = std::move(held);
   m.held_points = std::move(points);
   m.held_motion = std::move(motion);
+  if (!m.sewing.empty()) m.sewing = SewnProjection(multiply(m.cloth->sewnRows().C, T), m.inverse_mass);
   if (m.strain_limit.mode != LimitMode::none)
     m.strain_rows = m.cloth->strainRows(Mobility{m.inverse_mass, {}}, m.strain_limit.points);
 }

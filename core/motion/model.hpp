@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/cloth/cloth.hpp"
+#include "core/cloth/sewn_projection.hpp"
 #include "core/contact/impact_zones.hpp"
 #include "core/contact/method.hpp"
 #include "core/contact/proximity.hpp"
@@ -58,6 +59,12 @@ struct SpringSupportPoint {
   std::array<int, 3> triangle{};  ///< its vertices
 };
 
+/// How sewn seams that are apart are closed (core/motion/sewing.hpp).
+struct SewingOptions {
+  double close_per_s = 20;      ///< part of a gap
+  double close_m_per_s = 0.25;  ///< at most
+};
+
 struct Environment {
   Vec3 gravity_m_per_s2{0, 0, -9.81};
   double drag_kg_per_m2s = 0;  ///< eta: force per area -eta (v - air), Zheng 2013, section 2.2.3
@@ -93,6 +100,10 @@ struct Model {
   std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
   StrainLimit strain_limit;
   StrainRows strain_rows;  ///< without points where strain is not limited
+  SewnProjection sewing;  ///< of the free points; empty: no seams are projected
+  SewingOptions sewing_options;
+  SparseRows sewn_pairs;  ///< SewnRows::pairs of the free points
+  std::vector<double> sewn_cell_m;
   std::vector<NetEdge> net;
   std::vector<Stitch> stitches;
   std::vector<double> inner_mass;  ///< of the rates of the inner unknowns (Cloth::innerMasses)
@@ -121,6 +132,7 @@ struct ModelOptions {
   int anchor_count = 0;
   std::vector<Vec3> dead_force_N;  ///< per control point, such as edgeForce gives; empty: none
   StrainLimit strain_limit;
+  SewingOptions sewing;
   bool self_contact = true;  ///< cloth touches cloth
   std::vector<Stitch> stitches;
   /// Whose supports, loads and damping act, in the place of held points and dead forces; outlives the model.
@@ -288,6 +300,10 @@ struct StepScratch {
   MethodWork method;
   std::vector<RowLayer> row_layer;  ///< of the rows, where Model::method asks
   LimitWork limit;
+  SewnProjection::Work sewn;
+  std::vector<Vec3> sewn_rates, sewn_force, sewn_part, sewn_right;
+  /// What seams give all free points, held ones too, where they close, and with what they give under contact [N s].
+  std::vector<Vec3> sewn_closing, sewn_impulse;
   StageWork stage;
   CollisionWork collisions;
   std::vector<double> inner_force;

@@ -7,6 +7,7 @@
 #include "core/motion/cloth_damping.hpp"
 #include "core/motion/forces.hpp"
 #include "core/motion/held_motion.hpp"
+#include "core/motion/sewing.hpp"
 #include "core/motion/step_audit.hpp"
 #include "core/motion/step_contact.hpp"
 
@@ -121,6 +122,7 @@ StepReport step(const Model& m, const Stage& stage, const State& in, double dt, 
   if (m.supports) m.supports->drive(in.time_s, in.time_s + dt, w.predictor);
   findHeldMotions(m, stage, in.time_s, in.time_s + dt, w);
   driveHeld(m, in.p, dt, w, w.predictor);
+  if (!m.sewing.empty()) sewVelocities(m, in.p, dt, w);
   const auto notFinite = [&](const char* what) {
     report.failure = StepFailure::not_finite;
     report.why = what;

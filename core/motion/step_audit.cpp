@@ -4,6 +4,7 @@
 
 #include "core/math/parallel.hpp"
 #include "core/motion/forces.hpp"
+#include "core/motion/sewing.hpp"
 #include "core/motion/step_contact.hpp"
 #include "core/motion/step_method.hpp"
 #include "core/statics/structure_system.hpp"
@@ -131,6 +132,8 @@ void auditSupports(const Model& m, const StepEnds& e, StepReport& report, StepWo
   if (!w.rows.empty()) contactImpulses(m, w, given);
   if (m.strain_limit.mode != LimitMode::none)
     for (int i = 0; i < n; ++i) given[i] -= w.limit.pull[i] / e.step_s;
+  if (!m.sewing.empty())
+    for (const int i : m.sewing.points()) given[i] += w.sewn_impulse[i];
   const auto ahead = [&](int i) {  // of the next impulses, in the velocities
     Vec3 d{};
     if (!w.pulled_after.empty()) d += half * w.pulled_after[i];
@@ -173,6 +176,24 @@ void auditHeldMotion(const Model& m, const StepEnds& e, StepReport& report, Step
   }
 }
 
+/// What seams give in a step beside their forces: where they close, and under contact.
+void auditSewing(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
+  report.work.supports += sewingWork(m, dt, in.a, w);
+  w.sewn_impulse = w.sewn_closing;
+  for (const Vec3& impulse : w.sewn_impulse) report.momentum.scale += norm(impulse);
+  if (!w.rows.empty() && !m.held_points.empty()) {
+    std::vector<Vec3> impulses(static_cast<std::size_t>(m.freeCount()));
+    contactImpulses(m, w, impulses);
+    addSeamsUnderContact(m, impulses, w);
+  }
+  if (m.supports) return;  // auditSupports has them
+  for (std::size_t k = 0; k < m.held_points.size(); ++k) {
+    const Vec3& impulse = w.sewn_impulse[m.held_points[k]];
+    report.momentum.supports -= impulse;
+    w.held_impulses[k] -= impulse;
+  }
+}
+
 }  // namespace
 
 void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& w) {
@@ -183,6 +204,7 @@ void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& 
   w.held_impulses.assign(m.held_points.size(), Vec3{});
   for (std::size_t k = 0; k < w.held_impulses.size(); ++k) w.held_impulses[k] = half * (in.held_N[k] + out.held_N[k]);
   contactLedger(m, in, dt, in.a, report, w);
+  if (!m.sewing.empty()) auditSewing(m, in, dt, report, w);
   if (m.supports) auditSupports(m, e, report, w);
   if (m.strain_limit.mode != LimitMode::none && m.supports) {
     for (int i = 0; i < n; ++i)
@@ -258,6 +280,7 @@ double verletWork(const Model& m, const State& in, const State& out, double elas
     if (!w.pulled_before.empty()) change -= half * w.pulled_before[i];
     if (!out.pressed.empty()) change += half * out.pressed[i];
     if (!in.pressed.empty()) change -= half * in.pressed[i];
+    if (!m.sewing.empty()) change += m.inverse_mass[i] * w.sewn_closing[i];
     energy += m.mass_kg[i] *
               (0.5 * dot(change, in.v[i] + out.v[i]) - dt * dot(m.environment.gravity_m_per_s2, w.velocity[i]));
     if (!m.dead_force_N.empty()) energy -= dt * dot(m.dead_force_N[i], w.velocity[i]);

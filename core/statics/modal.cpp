@@ -129,6 +129,7 @@ std::vector<Mode> lowestModes(System& system, std::span<const double> y, double 
 
 std::vector<Mode> naturalModes(const Structure& structure, std::span<const double> y, double t, int count,
                                bool lumped_mass, std::span<const double> history) {
+  refuseProjectedSeams(structure);
   StructureSystem system(structure, ProgramEnds::constant);
   if (!history.empty()) system.setHistory(history, t);
   return lowestModes(system, y, t, count, lumped_mass);

@@ -7,6 +7,7 @@ namespace gambeson {
 
 StaticReport solveStatic(const Structure& structure, const StaticOptions& options, const StaticObserver& observe,
                          std::vector<double> start) {
+  refuseProjectedSeams(structure);
   StructureSystem system(structure, ProgramEnds::extended);
   StaticReport report = followPath(system, options, observe, std::move(start));
   report.unanswered = system.unanswered();

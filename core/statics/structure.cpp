@@ -27,6 +27,12 @@ DofMap dofsOf(const Cloth& cloth, std::span<const LinearConstraint> constraints,
   return buildDofMap(cloth.map(), constraints, programs, length);
 }
 
+void refuseProjectedSeams(const Structure& structure) {
+  if (structure.cloth->sewnRows().empty()) return;
+  throw InputError({"", 0, "sewn_seams"},
+                   "seams that are projected are held in explicit steps alone; allowed here: seams that are weak");
+}
+
 std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, const StructureOptions& o) {
   std::vector<Program> programs = o.programs;
   if (programs.empty()) programs.push_back({{0, 1}, {0, 1}});

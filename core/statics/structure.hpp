@@ -50,6 +50,9 @@ struct StructureOptions {
 /// as a stretch, however thin the sheet is. Throws InputError.
 DofMap dofsOf(const Cloth& cloth, std::span<const LinearConstraint> constraints, int programs);
 
+/// Throws InputError (key "sewn_seams") where a cloth has seams that explicit steps alone hold.
+void refuseProjectedSeams(const Structure& structure);
+
 /// Throws InputError.
 std::unique_ptr<Structure> buildStructure(std::shared_ptr<const Cloth> cloth, const StructureOptions& options);
 

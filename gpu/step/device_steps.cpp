@@ -247,6 +247,7 @@ void DeviceCounts::add(const DeviceCounts& more) {
 std::optional<std::string> stepNotCarried(const Model& m, const MotionOptions& options, const StepControl&) {
   if (options.scheme != MotionScheme::verlet) return "other schemes than velocity Verlet (time.scheme)";
   if (m.strain_limit.mode != LimitMode::none) return "limits of strain (strain_limit)";
+  if (!m.sewing.empty()) return "sewn seams (sewn_seams)";
   if (m.contact.followsMotion()) return "friction that depends on the motion";
   if (m.cloth->losesEnergy()) return "cloth that loses energy";
   return notCarried(m);

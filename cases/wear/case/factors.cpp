@@ -59,6 +59,7 @@ Case withFactors(const Case& c) {
 void scaleSeams(Garment& garment, const FactorsCase& f) {
   for (Seam& s : garment.seams) s.stiffness_N *= bendingScale(f);
   for (WeakSeam& s : garment.weak_seams) s.stiffness_N *= bendingScale(f);
+  for (SewnSeam& s : garment.sewn_seams) s.stiffness_N *= bendingScale(f);
 }
 
 std::string factorsText(const FactorsCase& f) {

@@ -159,11 +159,12 @@ void fields(A& a, T& s) {
   auto& [edge_a, edge_b, kind, stiffness, factor] = s;
   a("a", edge_a)("b", edge_b)("kind", kind)("stiffness", stiffness)("factor", factor);
 }
-/// Fabrics and fields are those of the case.
+/// Fabrics and fields are those of the case; sewn seams hold in steps alone, which are made from the case.
 template <class A, Of<Garment> T>
 void fields(A& a, T& g) {
   auto& [name, patches, seams, weft, trims, fabric, others, of_case, weak_seams, garment_of_patch, patch_names, edges,
-         placed] = g;
+         placed, sewn_seams] = g;
+  static_cast<void>(sewn_seams);
   a("name", name)("patches", patches)("seams", seams)("weft", weft)("trims", trims)("weak_seams", weak_seams);
   a("layer", garment_of_patch)("patch_names", patch_names)("edges", edges)("placed", placed);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/cloth/draft/fields.hpp"
+#include "core/cloth/draft/sewn_seam.hpp"
 #include "core/cloth/patch_edge.hpp"
 #include "core/material/fabric.hpp"
 #include "core/nurbs/trim.hpp"
@@ -59,6 +60,7 @@ struct Garment {
   /// Where the control points of each patch stand when they do not start at rest (a belt that is put on stretched);
   /// empty, or one list per patch, empty where the patch starts at rest.
   std::vector<std::vector<Vec3>> placed;
+  std::vector<SewnSeam> sewn_seams;  ///< of panels that are flat at rest
 
   int garmentOf(int patch) const { return garment_of_patch.empty() ? 0 : garment_of_patch[patch]; }
 };

@@ -39,6 +39,11 @@ Garment joinGarments(std::span<const Garment> garments) {
       seam.a = moved(seam.a), seam.b = moved(seam.b);
       all.weak_seams.push_back(seam);
     }
+    for (SewnSeam seam : g.sewn_seams) {
+      for (SewnEdge* edge : {&seam.a, &seam.b})
+        for (SewnPart& part : *edge) part.patch += first;
+      all.sewn_seams.push_back(std::move(seam));
+    }
     if (placed) {
       all.placed.insert(all.placed.end(), g.placed.begin(), g.placed.end());
       all.placed.resize(all.patches.size());

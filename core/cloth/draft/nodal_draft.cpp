@@ -35,6 +35,8 @@ NodalDraft nodalDraft(const Garment& draft) {
   const auto refuse = [](const char* why) { throw InputError({"", 0, "model"}, why); };
   if (!draft.weak_seams.empty())
     refuse("cloth of nodes has no weak seams, which join edges of unequal cells; allowed with them: \"nurbs\"");
+  if (!draft.sewn_seams.empty())
+    refuse("cloth of nodes is not sewn of flat panels; allowed with sewn seams: \"nurbs\"");
   const std::vector<int> offsets = controlOffsets(draft);
   NodalDraft out{draft, {}};
   out.of_control.column_count = offsets.back();

@@ -7,6 +7,7 @@
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/edge.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/draft/sewing.hpp"
 #include "core/cloth/patches/bulge.hpp"
 #include "core/cloth/patches/consistent_mass.hpp"
 #include "core/cloth/patches/evened_masses.hpp"
@@ -85,6 +86,8 @@ std::string PatchCloth::describePoint(int point) const {
   return "control point (" + std::to_string(local % columns) + ", " + std::to_string(local / columns) + ") of patch " +
          std::to_string(patch);
 }
+
+SewnRows PatchCloth::sewnRows() const { return buildSewnRows(garment_, SeamHold::projected); }
 
 Surface PatchCloth::surface(std::span<const int> per_cell) const { return buildSurface(garment_, map_, per_cell); }
 

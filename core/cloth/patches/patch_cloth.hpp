@@ -43,6 +43,8 @@ class PatchCloth : public Cloth {
   StrainRows strainRows(Mobility mobility, LimitPoints points) const override;
   Vec2 limitStressAt(const StrainRows& rows, std::span<const Vec2> field, int patch, Vec2 uv) const override;
 
+  SewnRows sewnRows() const override;
+
   const Mounting& mounting() const override { return *mounting_; }
 
  protected:

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "core/cloth/draft/sewing.hpp"
+#include "core/cloth/draft/whole_runs.hpp"
 #include "core/cloth/patches/rest_frame.hpp"
 #include "core/cloth/shell/shell_pack.hpp"
 #include "core/error.hpp"
@@ -85,7 +87,9 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
     if (patch.u.degree < 1 || patch.u.degree > 5 || patch.v.degree < 1 || patch.v.degree > 5)
       throw InputError({"", 0, "degree"}, "degrees of a shell patch must be 1 to 5");
   std::map<BlockKind, std::vector<SheetCell>> kinds;
-  for (SheetCell& cell : sheetCells(garment)) {
+  std::vector<SheetCell> all_cells = sheetCells(garment);
+  const WholeRuns runs(garment, all_cells);
+  for (SheetCell& cell : all_cells) {
     if (cell.cut && cell.points.empty()) continue;
     const NurbsPatch& patch = garment.patches[cell.patch];
     BlockKind kind{patch.u.degree,
@@ -102,6 +106,11 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
       const bool fewer = rule != CellRule::full && !isTrimmed(garment, cell.patch) && !(kind.assumed && kind.rational);
       kind.fewer_u = fewer && twoPointsSeeAll(patch.u);
       kind.fewer_v = fewer && twoPointsSeeAll(patch.v);
+      // Panels are trimmed all round, and would lock as thin cloth does under the full rule.
+      if (rule == CellRule::automatic && isTrimmed(garment, cell.patch) && isPanel(garment, cell.patch)) {
+        kind.fewer_u = runs.alongU(cell);
+        kind.fewer_v = runs.alongV(cell);
+      }
     }
     kinds[kind].push_back(std::move(cell));
   }
@@ -142,8 +151,11 @@ Shell::Shell(const Garment& garment, const KernelSet& kernels, int gauss_extra, 
   for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
   WeakPoints weak = buildWeakSeams(garment);
   gaps_ = std::move(weak.gaps);
-  std::vector<HingePoint> hinges = buildHinges(garment);
+  std::vector<GapPoint> sewn = weakSewnRows(garment);
+  std::move(sewn.begin(), sewn.end(), std::back_inserter(gaps_));
+  std::vector<HingePoint> hinges = buildHinges(garment), sewn_hinges = buildSewnHinges(garment);
   std::move(weak.hinges.begin(), weak.hinges.end(), std::back_inserter(hinges));
+  std::move(sewn_hinges.begin(), sewn_hinges.end(), std::back_inserter(hinges));
   for (HingePoint& h : hinges) {
     hingeAngle(h, Q, &gradient);
     std::map<int, Vec3> pulled;

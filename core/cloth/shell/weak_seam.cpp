@@ -8,6 +8,7 @@
 
 #include "core/cloth/draft/edge.hpp"
 #include "core/cloth/draft/fields.hpp"
+#include "core/cloth/draft/sewing.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
 
@@ -18,40 +19,7 @@ namespace {
   throw InputError({"", 0, "weak_seams[" + std::to_string(seam) + "]"}, reason);
 }
 
-/// The size of a fabric's stiffness: of its membrane [N/m] and in bending [N m]. A scale, not a law: the stiffest
-/// direction of each ply.
-struct Scale {
-  double membrane = 0, bending = 0;
-};
-
-Scale scaleOf(const Fabric& f) {
-  Scale s;
-  const Laminate* laminate = f.laminate();
-  if (!laminate) {
-    const double modulus =
-        std::max(f.young_weft_Pa, f.young_warp_Pa) / (1 - f.poisson * f.poisson * f.young_warp_Pa / f.young_weft_Pa);
-    s.membrane = modulus * f.thickness_m;
-    s.bending = std::visit(
-        [&]<class L>(const L& law) {
-          if constexpr (L::is_solid)
-            return s.membrane * f.thickness_m * f.thickness_m / 12;
-          else
-            return steepestSlope(law, law.most_Nm());
-        },
-        f.law);
-    return s;
-  }
-  double bottom = -laminate->thickness_m() / 2;
-  for (const Ply& ply : laminate->plies) {
-    const double top = bottom + ply.thickness_m;
-    const double modulus =
-        std::max(ply.young1_Pa, ply.young2_Pa) / (1 - ply.poisson12 * ply.poisson12 * ply.young2_Pa / ply.young1_Pa);
-    s.membrane += modulus * ply.thickness_m;
-    s.bending += modulus * (top * top * top - bottom * bottom * bottom) / 3;
-    bottom = top;
-  }
-  return s;
-}
+using Scale = StiffnessScale;
 
 Vec3 pointOn(const Garment& g, const PatchEdge& edge, double t, const std::vector<Vec3>& Q) {
   const EdgeBasis b = edgeBasis(g, edge, t);
@@ -112,7 +80,7 @@ struct RestEdge {
     return norm(combine(b.columns, b.along, Q)) * (cells[i] - cells[i - 1]);
   }
 
-  Scale stiffness(double s) const { return scaleOf(fabricAt(g, edge.patch, edgeParameters(g, edge, s))); }
+  Scale stiffness(double s) const { return stiffnessScale(fabricAt(g, edge.patch, edgeParameters(g, edge, s))); }
 };
 
 /// The parameters of edge a at which pieces of the seam begin and end: its own knots and those of b, and the ends of
@@ -208,6 +176,58 @@ void addSeam(const Garment& g, std::size_t index, const std::vector<Vec3>& Q, We
 }
 
 }  // namespace
+
+StiffnessScale stiffnessScale(const Fabric& f) {
+  StiffnessScale s;
+  const Laminate* laminate = f.laminate();
+  if (!laminate) {
+    const double modulus =
+        std::max(f.young_weft_Pa, f.young_warp_Pa) / (1 - f.poisson * f.poisson * f.young_warp_Pa / f.young_weft_Pa);
+    s.membrane = modulus * f.thickness_m;
+    s.bending = std::visit(
+        [&]<class L>(const L& law) {
+          if constexpr (L::is_solid)
+            return s.membrane * f.thickness_m * f.thickness_m / 12;
+          else
+            return steepestSlope(law, law.most_Nm());
+        },
+        f.law);
+    return s;
+  }
+  double bottom = -laminate->thickness_m() / 2;
+  for (const Ply& ply : laminate->plies) {
+    const double top = bottom + ply.thickness_m;
+    const double modulus =
+        std::max(ply.young1_Pa, ply.young2_Pa) / (1 - ply.poisson12 * ply.poisson12 * ply.young2_Pa / ply.young1_Pa);
+    s.membrane += modulus * ply.thickness_m;
+    s.bending += modulus * (top * top * top - bottom * bottom * bottom) / 3;
+    bottom = top;
+  }
+  return s;
+}
+
+std::vector<GapPoint> weakSewnRows(const Garment& garment) {
+  std::vector<GapPoint> out;
+  const SewnRows rows = buildSewnRows(garment, SeamHold::weak);
+  for (int r = 0; r < rows.rows(); ++r) {
+    const SewnSeam& seam = garment.sewn_seams[static_cast<std::size_t>(rows.seam[r])];
+    GapPoint gap;
+    double membrane = 0;
+    for (const SewnEdge* edge : {&seam.a, &seam.b})
+      for (const SewnPart& part : *edge)
+        membrane = std::max(
+            membrane,
+            stiffnessScale(fabricAt(garment, part.patch, curvePoint(part.curve, 0.5 * (part.from + part.to)).point))
+                .membrane);
+    gap.stiffness_N_per_m = seam.factor * membrane * rows.length_m[r] / rows.hat_m[r];
+    for (int k = rows.C.offsets[r]; k < rows.C.offsets[r + 1]; ++k) {
+      gap.columns.push_back(rows.C.columns[k]);
+      gap.row.push_back(rows.C.values[k]);
+    }
+    out.push_back(std::move(gap));
+  }
+  return out;
+}
 
 WeakPoints buildWeakSeams(const Garment& garment) {
   const std::vector<Vec3> Q = restControls(garment);

@@ -38,6 +38,18 @@ struct WeakPoints {
 /// out of range.
 WeakPoints buildWeakSeams(const Garment& garment);
 
+/// The size of a fabric's stiffness: of its membrane [N/m] and in bending [N m]. A scale, not a law: the stiffest
+/// direction of each ply.
+struct StiffnessScale {
+  double membrane = 0, bending = 0;
+};
+StiffnessScale stiffnessScale(const Fabric& fabric);
+
+/// Sewn seams that are weak (SeamHold): each row k of SewnRows has the energy 1/2 f A/h l_k |g_k|^2, l_k the length that
+/// it stands for, A and h as above. A multiplier lambda_k per length then leaves the gap lambda_k h/(f A): as the weak
+/// seam of one curve does, without more conditions than a multiplier would have, so that a large f locks nothing.
+std::vector<GapPoint> weakSewnRows(const Garment& garment);
+
 /// The gap of a point, sum_k row[k] q[columns[k]] [m].
 Vec3 gapOf(const GapPoint& gap, std::span<const Vec3> q);
 /// Adds the forces - dE/dq of all points to f and returns E [J].

@@ -1,0 +1,124 @@
+#include "core/motion/sewing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/parallel.hpp"
+
+namespace gambeson {
+
+void closingRates(const Model& m, std::span<const Vec3> p, double dt, StepScratch& w) {
+  m.sewing.gaps(p, w.sewn_rates);
+  double widest = 0;
+  for (const Vec3& g : w.sewn_rates) widest = std::max(widest, norm(g));
+  double rate = std::min(m.sewing_options.close_per_s, 1 / dt);
+  if (rate * widest > m.sewing_options.close_m_per_s) rate = m.sewing_options.close_m_per_s / widest;
+  for (Vec3& g : w.sewn_rates) g *= -rate;
+}
+
+void sewVelocities(const Model& m, std::span<const Vec3> p, double dt, StepWork& w) {
+  w.sewn_closing.assign(static_cast<std::size_t>(m.freeCount()), Vec3{});
+  closingRates(m, p, dt, w);
+  m.sewing.project(w.predictor, w.sewn_rates, w.sewn_closing, w.sewn);
+}
+
+// With f = - C^T lambda of the projection in the metric of M, (1 + h c) f is nearly that of M + h D, c the mean of d/m on
+// the seams' points; where all points have one d/m it is that, and else each turn leaves h (c - d/m) of the rest.
+std::span<const Vec3> sewAccelerations(const Model& m, double h, std::span<Vec3> a, StepScratch& w) {
+  const std::vector<int>& points = m.sewing.points();
+  w.sewn_force.assign(a.size(), Vec3{});
+  double mean = 0;
+  for (const int i : points) mean += m.drag_kg_per_s[i] / m.mass_kg[i] / static_cast<double>(points.size());
+  std::vector<Vec3>& right = w.sewn_right;  // M times what a misses
+  right.assign(a.size(), Vec3{});
+  constexpr int kMostTurns = 8;
+  double first = 0;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    std::vector<Vec3>& part = w.sewn_part;
+    part.assign(a.size(), Vec3{});
+    m.sewing.project(a, {}, part, w.sewn);
+    double left = 0;
+    for (const int i : points) {
+      const double d = m.drag_kg_per_s[i];
+      w.sewn_force[i] += (1 + h * mean) * part[i];
+      right[i] += (h * (mean - d / m.mass_kg[i])) * part[i];
+      if (m.inverse_mass[i] == 0) continue;
+      left = std::max(left, norm(right[i]));
+      if (turn == 0) first = std::max(first, norm(part[i]));
+    }
+    if (!(left > 1e-14 * first)) break;
+    for (const int i : points) {
+      if (m.inverse_mass[i] > 0) {
+        const double b = m.mass_kg[i] + h * m.drag_kg_per_s[i];
+        a[i] += right[i] / b;
+      }
+      right[i] = {};
+    }
+  }
+  return w.sewn_force;
+}
+
+void addSeamsUnderContact(const Model& m, std::span<const Vec3> impulses, StepWork& w) {
+  w.sewn_part.assign(impulses.begin(), impulses.end());
+  for (std::size_t i = 0; i < w.sewn_part.size(); ++i) w.sewn_part[i] *= m.inverse_mass[i];
+  m.sewing.project(w.sewn_part, {}, w.sewn_impulse, w.sewn);
+}
+
+double sewingWork(const Model& m, double dt, std::span<const Vec3> foreseen, const StepWork& w) {
+  double work = 0;
+  for (const int i : m.sewing.points()) {
+    if (m.inverse_mass[i] == 0) continue;
+    const Vec3& impulse = w.sewn_closing[i];
+    work += dot(impulse, w.predictor[i] - (0.5 * m.inverse_mass[i]) * impulse - (0.5 * dt) * foreseen[i]);
+  }
+  return work;
+}
+
+double widestGap(const Model& m, std::span<const Vec3> p) {
+  std::vector<Vec3> gap(static_cast<std::size_t>(m.sewn_pairs.rows()));
+  m.sewn_pairs.multiply<Vec3>(p, gap);
+  double widest = 0;
+  for (std::size_t k = 0; k < gap.size(); ++k) widest = std::max(widest, norm(gap[k]) / m.sewn_cell_m[k]);
+  return widest;
+}
+
+void SewnHold::touch(std::span<const int> points) {
+  points_.assign(points.begin(), points.end());
+  sewn_.clear();
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (std::binary_search(model_.sewing.points().begin(), model_.sewing.points().end(), points_[k]))
+      sewn_.push_back(static_cast<int>(k));
+  const std::size_t n = sewn_.size();
+  held_.assign(n * n, 0.0);
+  for (std::size_t c = 0; c < n; ++c) {
+    std::fill(all_.begin(), all_.end(), Vec3{});
+    const int point = points_[static_cast<std::size_t>(sewn_[c])];
+    all_[static_cast<std::size_t>(point)] = {1, 0, 0};
+    model_.sewing.hold(all_, work_);
+    for (std::size_t r = 0; r < n; ++r)
+      held_[r * n + c] = all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(sewn_[r])])].x;
+  }
+}
+
+void SewnHold::holdTouched(std::span<Vec3> change) const {
+  const std::size_t n = sewn_.size();
+  std::vector<Vec3>& left = work_.moved;
+  left.assign(n, Vec3{});
+  forAll(Each::sum, static_cast<int>(n), [&](int r) {
+    for (std::size_t c = 0; c < n; ++c)
+      left[static_cast<std::size_t>(r)] +=
+          held_[static_cast<std::size_t>(r) * n + c] * change[static_cast<std::size_t>(sewn_[c])];
+  });
+  for (std::size_t r = 0; r < n; ++r) change[static_cast<std::size_t>(sewn_[r])] = left[r];
+}
+
+bool contactsMeetSeams(const Model& m, std::span<const ContactRow> rows) {
+  const SparseRows& WT = m.surface.WT;
+  for (const ContactRow& row : rows)
+    for (int k = 0; k < row.stencil.count; ++k)
+      for (int e = WT.offsets[row.stencil.sample[k]]; e < WT.offsets[row.stencil.sample[k] + 1]; ++e)
+        if (std::binary_search(m.sewing.points().begin(), m.sewing.points().end(), WT.columns[e])) return true;
+  return false;
+}
+
+}  // namespace gambeson
