@@ -39,7 +39,8 @@ function(gambeson_unnamed out text)
   set(${out} "${found}" PARENT_SCOPE)
 endfunction()
 
-# Types in our headers that a source or header takes, directly or not, and in `functions` all names of those that it takes directly.
+# Types in our headers (of tests all names) that a source or header takes, directly or not, and in `functions` all names of those
+# that it takes directly.
 function(gambeson_taken out functions file)
   get_property(known GLOBAL PROPERTY gambeson_taken_${file} SET)
   if(NOT known)
@@ -50,6 +51,8 @@ function(gambeson_taken out functions file)
     list(TRANSFORM types REPLACE "^.* " "")
     if(file MATCHES "[.]cpp$")
       set(types "")
+    elseif(file MATCHES "^${PROJECT_SOURCE_DIR}/tests/")
+      set(types ${names})  # short words for what tests are about
     endif()
     set(direct "")
     cmake_path(GET file PARENT_PATH folder)
