@@ -55,8 +55,7 @@ install_packages() {
 }
 
 # build_release [TARGET...]: configures and builds, everything where no target is named. As many compilers at once as there are
-# cores, but no more than one for each 1.5 GB of memory. A folder that is not there yet compiles its sources joined
-# (joined.cmake); one that is stays as it was configured.
+# cores, but no more than one for each 1.5 GB of memory.
 build_release() {
   local jobs memory_kb by_memory
   jobs=$(nproc)
@@ -64,7 +63,6 @@ build_release() {
   by_memory=$((memory_kb / 1500000))
   [ "$by_memory" -ge 1 ] || by_memory=1
   [ "$jobs" -le "$by_memory" ] || jobs=$by_memory
-  [ -e "$build/CMakeCache.txt" ] || cmake_options+=(-DGAMBESON_JOINED=ON)
   cmake --preset release "${cmake_options[@]}"
   if [ $# -gt 0 ]; then
     cmake --build "$build" --parallel "$jobs" --target "$@"
