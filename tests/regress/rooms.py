@@ -46,10 +46,15 @@ def by_dots():
     return [str(f.relative_to(SOURCE)) for f in sources(".cpp", ".hpp") if re.search(r'#include\s+"[^"]*\.\./', f.read_text())]
 
 
+def has(file, source):
+    """Whether this compiled file is that source, or is made of it and others (joined.cmake)."""
+    return file == SOURCE / source or "joined" in file.parts and f'#include "{source}"\n' in file.read_text()
+
+
 def compiles(build, source, header):
     """Whether an empty file with this include compiles as that source does."""
     commands = json.loads((Path(build) / "compile_commands.json").read_text())
-    entry = next(c for c in commands if c["file"] == str(SOURCE / source))
+    entry = next(c for c in commands if has(Path(c["file"]), source))
     words = shlex.split(entry["command"])
     start = next(k for k, word in enumerate(words) if re.search(r"(\+\+|clang|gcc)[^/]*$", word) and "ccache" not in word)
     keep = [w for w in words[start:] if w.startswith(("-I", "-D", "-std", "-f"))] + \
