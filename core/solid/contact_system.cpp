@@ -1,6 +1,5 @@
 #include "core/solid/contact_system.hpp"
 
-#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,59 +7,6 @@
 
 namespace gambeson {
 namespace {
-
-using Sparse = Eigen::SparseMatrix<double>;
-using Vector = Eigen::VectorXd;
-
-Sparse matrixOf(std::span<const MatrixEntry> entries, int size, bool lower) {
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(entries.size());
-  for (const MatrixEntry& e : entries)
-    if (!lower || e.row >= e.column) triplets.emplace_back(e.row, e.column, e.value);
-  Sparse K(size, size);
-  K.setFromTriplets(triplets.begin(), triplets.end());
-  return K;
-}
-
-}  // namespace
-
-SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size) {
-  const Sparse K = matrixOf(entries, size, true);
-  SymmetricMatrix lower;
-  lower.size = size;
-  lower.offsets.assign(K.outerIndexPtr(), K.outerIndexPtr() + size + 1);
-  lower.rows.assign(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros());
-  lower.values.assign(K.valuePtr(), K.valuePtr() + K.nonZeros());
-  return lower;
-}
-
-namespace {
-
-/// x with K x = b, the diagonal raised by a part where K is symmetric; none where K is not finite or singular.
-std::optional<std::vector<double>> solution(std::span<const MatrixEntry> entries, std::span<const double> b,
-                                            bool symmetric, double raise) {
-  if (!std::all_of(entries.begin(), entries.end(), [](const MatrixEntry& e) { return std::isfinite(e.value); }))
-    return std::nullopt;
-  const int size = static_cast<int>(b.size());
-  std::vector<double> x(b.size());
-  if (symmetric) {
-    SymmetricMatrix lower = lowerTriangle(entries, size);
-    for (int j = 0; j < size; ++j) lower.values[lower.offsets[j]] += raise * std::abs(lower.values[lower.offsets[j]]);
-    SymmetricFactor factor(lower);
-    if (factor.factorise(lower) == Definiteness::singular) return std::nullopt;
-    factor.solve(b, x);
-    return x;
-  }
-  const Sparse K = matrixOf(entries, size, false);
-  Eigen::SparseLU<Sparse> factor;
-  factor.compute(K);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  const Eigen::Map<const Vector> right(b.data(), size);
-  Vector v = factor.solve(right);
-  v += factor.solve(Vector(right - K * v));
-  std::copy(v.data(), v.data() + size, x.begin());
-  return x;
-}
 
 double diagonalRounding(std::span<const MatrixEntry> entries, int size, double reach_m) {
   std::vector<double> diagonal(size, 0.0);
@@ -96,8 +42,8 @@ bool takeStep(const SlopeAt& slopeAt, double slope0, bool search, bool& finite) 
 
 /// Newton for r(z) = 0: `residual(z, r)` returns the size of the forces, `entries(z)` is the tangent.
 template <class Residual, class Entries>
-NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, bool symmetric, bool search, double reach_m,
-                     const Residual& residual, const Entries& entries) {
+NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, TangentSolver& solver, bool symmetric,
+                     bool search, double reach_m, const Residual& residual, const Entries& entries) {
   NewtonReport report;
   std::vector<double> r(z.size()), next(z.size());
   double force = residual(z, r), rounding = 0;
@@ -120,7 +66,8 @@ NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, bool 
     const std::vector<MatrixEntry> K = entries(z);
     rounding = diagonalRounding(K, static_cast<int>(z.size()), reach_m);
     ++report.factorisations;
-    const std::optional<std::vector<double>> step = solution(K, r, symmetric, options.raise);
+    const std::optional<std::vector<double>> step = solver.solve(K, r, symmetric, options.raise);
+    report.negative_pivots = solver.negativePivots();
     if (!step) {
       report.singular = true;
       return report;
@@ -206,7 +153,7 @@ NewtonReport ContactSystem::solve(std::span<const ContactMultipliers> multiplier
                                   std::vector<double>& y) {
   known_.assign(multipliers.begin(), multipliers.end());
   return iterate(
-      y, options, symmetric(), true, solids_.reach(),
+      y, options, solver_, symmetric(), true, solids_.reach(),
       [&](const std::vector<double>& z, std::vector<double>& r) { return residual(known_, z, r); },
       [&](const std::vector<double>& z) {
         if (contact_.law().touch.keep > 0) keepFacets(z);
@@ -275,7 +222,7 @@ NewtonReport ContactSystem::solveTogether(std::span<ContactMultipliers> pairs, c
     }
     return entries;
   };
-  const NewtonReport report = iterate(z, options, false, false, solids_.reach(), residualAt, entriesAt);
+  const NewtonReport report = iterate(z, options, solver_, false, false, solids_.reach(), residualAt, entriesAt);
   y.assign(z.begin(), z.begin() + n);
   for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].pressure_Pa = eps * z[n + k];
   return report;
@@ -300,7 +247,7 @@ std::vector<double> ContactSystem::ahead(std::span<const ContactMultipliers> mul
   std::vector<double> pulled(y.size());
   solids_.dofs().Ct.multiply<double>({reinterpret_cast<const double*>(force.data()), 3 * force.size()}, pulled);
   for (std::size_t i = 0; i < dg.size(); ++i) dg[i] = -(dg[i] + pulled[i]);
-  return solution(entries, dg, symmetric(), raise).value_or(std::vector<double>{});
+  return solver_.solve(entries, dg, symmetric(), raise).value_or(std::vector<double>{});
 }
 
 }  // namespace gambeson

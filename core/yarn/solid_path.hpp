@@ -19,6 +19,7 @@ struct SolidCellState {
   std::vector<double> y;
   std::vector<ContactMultipliers> multipliers;
   std::vector<ContactPoint> points;  ///< what presses and rubs
+  double lost_J = 0;                 ///< to friction, since rest
 };
 
 struct SolidLoadOptions {
@@ -38,14 +39,23 @@ struct SolidLoadReport {
   bool reached = false;
   std::string why;  ///< else: what failed
   int steps = 0, passes = 0, iterations = 0;
-  double deepest_m = 0;  ///< of nodes that have passed a facet, at the last step
+  // Of the last step:
+  double deepest_m = 0;  ///< of nodes that have passed a facet
+  double residual = 0;   ///< of the forces that balance
+  bool rounded = false;  ///< rounding kept it above the tolerance
+  bool stable = true;    ///< the tangent, if it is symmetric, was positive definite
+
+  /// This one, and then another.
+  void add(const SolidLoadReport& next);
 };
 
-/// Scratch: the system whose supports move.
+/// Scratch: the system whose supports move, and its factor. Entry by entry, so that cells may be computed side by side
+/// (Elimination).
 class SolidCellWork {
  public:
-  explicit SolidCellWork(const SolidCell& cell) : system(cell.body(), cell.supports()) {}
+  explicit SolidCellWork(const SolidCell& cell) : system(cell.body(), cell.supports()), solver(Elimination::entries) {}
   SolidSystem system;
+  TangentSolver solver;
 };
 
 SolidCellState restOf(const SolidCell& cell);

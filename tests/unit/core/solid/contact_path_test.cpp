@@ -251,7 +251,8 @@ TEST(ContactPath, WithOneFacetAtATimeABlockGoesToAndFroInAGroove) {
   // His positions 1 and 2: held by one facet, the edge lies nearest to the other, again and again.
   Scene s = groove(0.013);
   const SolidContact c = grooveContact(s, 0.013, false);
-  ContactSystem system(*s.solids, c, 1, s.mesh.nodes);
+  TangentSolver solver;
+  ContactSystem system(*s.solids, c, solver, 1, s.mesh.nodes);
   std::vector<double> y(s.solids->size(), 0.0);
   std::vector<int> held;
   std::vector<ContactPoint> passed = system.points({}, y);
@@ -314,7 +315,8 @@ TEST(ContactPath, Box7AnswersAsBox6WithASymmetricTangent) {
 
       // The tangent where the path ends, its multipliers those of the last step.
       const ContactStep& before = path[k].steps[path[k].steps.size() - 2];
-      ContactSystem system(*s.solids, c, 1, s.solids->positions(before.state.y, before.state.factor));
+      TangentSolver solver;
+      ContactSystem system(*s.solids, c, solver, 1, s.solids->positions(before.state.y, before.state.factor));
       const std::size_t n = last.state.y.size();
       const double skew = asymmetry(fullMatrix(system.tangent(last.state.multipliers, last.state.y), n), n);
       if (bound == FrictionBound::symmetrised)
@@ -548,7 +550,8 @@ TEST(ContactPath, ABodyThatOnlyContactWouldHoldNeedsARaisedDiagonal) {
     // Nothing holds the cube, and nothing pushes it.
     std::erase_if(s.supports.constraints, [](const LinearConstraint& c) { return c.terms[0].first < 8; });
     const SolidContact c = s.build(lawOf(1e7), atBottom);
-    ContactSystem system(*s.solids, c, 1, s.mesh.nodes);
+    TangentSolver solver;
+    ContactSystem system(*s.solids, c, solver, 1, s.mesh.nodes);
     std::vector<double> y(s.solids->size(), 0.0);
     y[2] = 1e-3;
     const NewtonReport report = system.solve({}, {30, 1e-8, 0, raise}, y);
