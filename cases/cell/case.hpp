@@ -1,7 +1,7 @@
 #pragma once
 /// A cell of a woven cloth, its yarns, and the loads that it is taken through: the kind of case that says what a cloth
 /// will carry before it is woven (Man 2006, chapter 4). What each field means in a case file, its default and range:
-/// cases/FIELDS.md, written by the tables in cases/cell/fields*.cpp.
+/// cases/FIELDS.md, written by the tables in cases/cell/fields*.cpp and cases/yarns.
 
 #include <filesystem>
 #include <optional>
@@ -11,36 +11,11 @@
 
 #include "analysis/render/render.hpp"
 #include "cases/input/json.hpp"
-#include "core/yarn/compression.hpp"
+#include "cases/yarns/cell_design.hpp"
 #include "core/yarn/periodic_bar.hpp"
-#include "core/yarn/rod.hpp"
-#include "core/yarn/woven_yarns.hpp"
 
 namespace gambeson {
 
-// --- Yarns -------------------------------------------------------------------------------------------------------
-
-/// What the yarns are computed as.
-enum class YarnModel { rod, truss };
-
-enum class WeavePattern { plain, twill, satin, matrix };
-struct WeaveCase {
-  WeavePattern pattern = WeavePattern::plain;
-  std::optional<int> over, under;        ///< of a twill
-  std::optional<int> ends, step;         ///< of a satin
-  std::vector<std::vector<int>> matrix;  ///< rows of 0 and 1, as weaveOf takes them
-};
-
-/// Of a yarn whose fibres run along it.
-struct YarnModuli {
-  double young_Pa = 0;  ///< along the yarn
-  double shear_Pa = 0;  ///< axial: of fibres along each other
-};
-
-struct YarnCase {
-  WovenYarn shape;
-  std::variant<YarnModuli, RodSection> stiffness;
-};
 // --- Loads -------------------------------------------------------------------------------------------------------
 
 /// Stretched along both directions: Phi11 = 1 + extension, Phi22 = 1 + ratio extension.
@@ -81,12 +56,6 @@ struct PathCase {
 
 // --- What is asked -----------------------------------------------------------------------------------------------
 
-struct CellSolver {
-  int pieces_per_spacing = 16;
-  double tolerance = 1e-9;
-  int iterations = 200, halvings = 8;
-};
-
 struct BarCase {
   std::string name;
   PeriodicBar bar;
@@ -109,25 +78,14 @@ struct CellOutput {
   std::vector<CellPicture> pictures;  ///< none: one of the cell at rest, and one of the end of each path
 };
 
-struct CellCase {
+struct CellCase : CellDesign {
   std::string name, description;
-  WeaveCase weave;
-  YarnCase weft;
-  std::optional<YarnCase> warp;  ///< read: always
-  YarnModel yarns = YarnModel::rod;
-  bool contact = true;
-  std::optional<LateralCompression> compression;
-  bool holds_faces = false;        ///< sections in the faces of the cell stay in the middle of the cloth
-  std::optional<double> height_m;  ///< of the cell, by which stress is counted; read: always
   std::vector<PathCase> paths;
   std::vector<BarCase> bars;
-  CellSolver solver;
   CellOutput output;
 
   std::filesystem::path file;          ///< where it was read
   std::vector<std::string> overrides;  ///< "path=value" of the command line
-
-  const YarnCase& yarn(int direction) const { return direction == along_weft ? weft : *warp; }
 };
 
 /// Reads and checks a case file of this kind; as readCase of cases/wear/case/case.hpp. The cell is built once, so that

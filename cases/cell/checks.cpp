@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/ticks.hpp"
+#include "cases/cell/loops.hpp"
 
 namespace gambeson {
 namespace {
@@ -21,6 +22,11 @@ struct Worst {
     path = name;
   }
 };
+
+bool rubs(const RecordedCell& cell) {
+  const std::optional<YarnFriction>& friction = cell.definition().friction;
+  return friction && friction->coefficient > 0;
+}
 
 template <class Measure>
 Worst worstOf(const RecordedCell& cell, Measure measure) {
@@ -97,40 +103,36 @@ AuditCheck stableCheck(const RecordedCell& cell) {
                   worst.value, worst.path)};
 }
 
-/// What forces do along the steps on the way there, by trapezia, against the energy that is stored.
-double workError(const PathCase& path, const RecordedTable& rows) {
+/// What forces do along the steps, less what is stored and lost of it: of yarns that rub on all of the way, else there.
+double workError(const RecordedCell& cell, const PathCase& path, const RecordedTable& rows) {
   constexpr int kFew = 8;  // steps that are too long for trapezia
-  const std::size_t n = std::min(rows.rows(), static_cast<std::size_t>(path.steps) + 1);
+  const std::size_t there = static_cast<std::size_t>(path.steps) + 1;
+  const std::size_t n = rubs(cell) ? rows.rows() : std::min(rows.rows(), there);
   if (path.steps < kFew || n < 2) return 0;
-  const auto column = [&](const char* name) -> const std::vector<double>& { return rows.column(name); };
-  const std::vector<double>& energy = column("energy_J_per_m2");
-  double work = 0, error = 0, most = 0;
+  const std::vector<CellWork> along = workAlong(rows);
+  double error = 0, most = 0;
   for (std::size_t k = 1; k < n; ++k) {
-    const auto add = [&](const char* force, const char* strain, double times) {
-      work += 0.5 * times * (column(force)[k] + column(force)[k - 1]) * (column(strain)[k] - column(strain)[k - 1]);
-    };
-    add("n11_N_per_m", "e11", 1);
-    add("n22_N_per_m", "e22", 1);
-    add("n12_N_per_m", "e12", 2);
-    add("moment_N", "curvature_per_m", 1);
-    most = std::max(most, std::abs(energy[k] - energy[0]));
-    error = std::max(error, std::abs(work - (energy[k] - energy[0])));
+    const CellWork& w = along[k];
+    most = std::max(most, std::abs(w.stored) + w.lost);
+    error = std::max(error, std::abs(w.work - w.stored - w.lost));
   }
   return most > 0 ? 100 * error / most : 0;
 }
 
 AuditCheck workCheck(const RecordedCell& cell) {
-  const Worst worst = worstOf(cell, workError);
-  return {
-      "Work",
-      worst.value,
-      2,
-      "%",
-      "work of the forces along a load, by trapezia of its steps, less the energy stored, of the most that is "
-      "stored; of loads with eight steps or more, on the way there",
-      fmt::format("on the load {} the forces do {} % more or less work than the yarns store: steps are too long, or "
-                  "the yarns jumped",
-                  worst.path, formatNumber(worst.value, 2))};
+  const Worst worst = worstOf(
+      cell, [&](const PathCase& path, const RecordedTable& rows) { return workError(cell, path, rows); });
+  const char* lost = rubs(cell) ? " and lost by friction" : "";
+  return {"Work",
+          worst.value,
+          2,
+          "%",
+          fmt::format("work of the forces along a load, by trapezia of its steps, less the energy stored{0}, of the "
+                      "most that is stored{0}; of loads with eight steps or more{1}",
+                      lost, rubs(cell) ? "" : ", on the way there"),
+          fmt::format("on the load {} the forces do {} % more or less work than the yarns store{}: steps are too long, "
+                      "or the yarns jumped",
+                      worst.path, formatNumber(worst.value, 2), lost)};
 }
 
 /// Where the load comes back to a part of its way, the energy should be what it was: nothing rubs.
@@ -145,6 +147,35 @@ double loopError(const PathCase& path, const RecordedTable& rows) {
     error = std::max(error, std::abs(energy[k] - energy[same]));
   }
   return high > low ? error / (high - low) : 0;
+}
+
+/// Around a loop of yarns that rub: what forces do more or less than friction loses and yarns keep, of what is lost.
+/// Next to nothing is lost where all pairs stick: there of a hundredth of what is stored.
+double lossError(const PathCase& path, const RecordedTable& rows) {
+  constexpr int kFew = 8;
+  constexpr double kLittle = 0.01;
+  if (path.steps < kFew || rows.empty()) return 0;
+  const std::vector<double>& energy = rows.column("energy_J_per_m2");
+  const auto [low, high] = std::minmax_element(energy.begin(), energy.end());
+  double error = 0;
+  for (const CellWork& loop : loopsOf(path, rows)) {
+    const double of = std::max(loop.lost, kLittle * (*high - *low));
+    if (of > 0) error = std::max(error, 100 * std::abs(loop.work - loop.stored - loop.lost) / of);
+  }
+  return error;
+}
+
+AuditCheck lossCheck(const RecordedCell& cell) {
+  const Worst worst = worstOf(cell, lossError);
+  return {"Energy lost in loops",
+          worst.value,
+          10,
+          "%",
+          "work of the forces around a closed loop, by trapezia of its steps, less what friction loses and what more is "
+          "stored, of what is lost; of loads with cycles and eight steps or more",
+          fmt::format("around a loop of the load {} the forces do {} % more or less work than friction loses: steps "
+                      "are too long, or the yarns jumped",
+                      worst.path, formatNumber(worst.value, 2))};
 }
 
 AuditCheck loopCheck(const RecordedCell& cell) {
@@ -200,7 +231,7 @@ AuditCheck restCheck(const RecordedCell& cell) {
 
 std::vector<AuditCheck> cellChecks(const RecordedCell& cell) {
   return {finiteCheck(cell), reachedCheck(cell), residualCheck(cell), stableCheck(cell),
-          workCheck(cell),   loopCheck(cell),    besideCheck(cell),   restCheck(cell)};
+          workCheck(cell),   rubs(cell) ? lossCheck(cell) : loopCheck(cell), besideCheck(cell), restCheck(cell)};
 }
 
 }  // namespace gambeson

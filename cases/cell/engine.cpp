@@ -1,8 +1,8 @@
 #include "cases/cell/engine.hpp"
 
-#include "cases/cell/design.hpp"
 #include "cases/cell/rod_engine.hpp"
 #include "cases/cell/truss_engine.hpp"
+#include "cases/yarns/design.hpp"
 
 namespace gambeson {
 

@@ -1,19 +1,21 @@
 #include "cases/cell/fields.hpp"
 
 #include "cases/input/table.hpp"
+#include "cases/yarns/design_rows.hpp"
 
 namespace gambeson::schema {
 namespace {
 
-Object compressionTable() {
-  using L = LateralCompression;
-  return Table<L>("Lateral compression")
-      .number(
-          "half_force", &L::half_force_N, "N", aboveTo(0, 1e12),
-          "P of F = P ((D - d)/d)^p: what presses two crossing yarns from the distance D of their middles, at which "
-          "they touch, to D/2")
+Object yarnFrictionTable() {
+  using F = YarnFriction;
+  return Table<F>("Friction between yarns")
+      .number("coefficient", &F::coefficient, "", between(0, 10),
+              "mu: what slides carries mu times the force that presses; each step of a load is one step of friction")
       .required()
-      .number("exponent", &L::exponent, "", between(2, 6), "p")
+      .number("stick_stiffness", &F::stick_stiffness_N_per_m3, "N/m^3", aboveTo(0, 1e18),
+              "rods: tangential force by slip, by the lengths of both yarns, of what sticks; it gives way where the "
+              "force is mu times that which presses")
+      .defaultsTo("half_force/(sum of both half thicknesses)^3: about as stiff as lateral compression")
       .build();
 }
 
@@ -50,66 +52,34 @@ Object makeTable() {
   Field kind = fieldOf("kind", Kind::choice, "", any(), "what the case is");
   kind.choices = {"cell"};
   kind.required = true;
-  return Table<C>("Case of kind cell",
-                  "one repeat of a woven cloth made of its yarns, taken through loads of the cloth: what the cloth "
-                  "carries, and its stiffness")
+  Table<C> table("Case of kind cell",
+                 "one repeat of a woven cloth made of its yarns, taken through loads of the cloth: what the cloth "
+                 "carries, and its stiffness");
+  table
       .custom(
           kind, [](const Entry& p, C&) { readChoice(p, {"cell"}); },
           [](const C&) { return std::optional(nodeOf(std::string("cell"))); })
       .text("name", &C::name, "title of the pictures and the report")
       .required()
-      .text("description", &C::description, "what the case is about")
-      .object("weave", &C::weave, weaveTable(), "how yarns cross")
-      .required()
-      .object("weft", &C::weft, yarnTable(), "yarns along axis 1")
-      .required()
-      .object("warp", &C::warp, yarnTable(), "yarns along axis 2")
-      .defaultsTo("as the weft: a balanced weave")
-      .choice(
-          "yarns", &C::yarns,
-          std::vector<std::pair<std::string, YarnModel>>{{"rod", YarnModel::rod}, {"truss", YarnModel::truss}},
-          "what they are computed as. rod: yarns stretch, shear, bend and twist, at any rotation, and press on each "
-          "other; truss: Kawabata's straight yarns joined at the crossings of a plain weave (Man 2006, 4.1.2.1), "
-          "for loads along the yarns")
-      .flag("contact", &C::contact, "whether yarns press on each other; false: they pass through each other")
-      .object("compression", &C::compression, compressionTable(), "how yarns give way to each other at crossings")
-      .defaultsTo("required with contact")
-      .choice(
-          "faces", &C::holds_faces, std::vector<std::pair<std::string, bool>>{{"glide", false}, {"held", true}},
-          "whether sections in the faces of the cell, half way between crossings, may move through the cloth; held: "
-          "as in the thesis (4.3.5.3), which stiffens weaves with floats")
-      .number("height", &C::height_m, "m", aboveTo(0, 1e3),
-              "of the cell, by which forces per width become stress; no force depends on it")
-      .defaultsTo("twice the half thicknesses of weft and warp")
-      .list("loads", &C::paths, pathTable(), "what the cell is taken through, each from rest")
+      .text("description", &C::description, "what the case is about");
+  addDesign(table);
+  table.object("friction", &C::friction, yarnFrictionTable(), "between yarns that touch (Coulomb's law)")
+      .defaultsTo("none: yarns slide on each other freely")
+      .choice("extent", &C::quarter, std::vector<std::pair<std::string, bool>>{{"full", false}, {"quarter", true}},
+              "how much of the repeat moves by itself. quarter: of a plain weave one weft and one warp over one spacing "
+              "(Man 2006, fig. 19c), whose images, mirrored in the middle of the cloth, are the others; a plain weave "
+              "keeps that symmetry under any strain of its plane, unless it buckles, and under no bend")
+      .unwritten();
+  table.list("loads", &C::paths, pathTable(), "what the cell is taken through, each from rest")
       .defaultsTo("none: its stiffness at rest alone")
       .list("bars", &C::bars, barTable(),
             "bars of periodic stiffness, whose mean stiffness has a closed form (Man 2006, 4.13 to 4.32); beside the "
-            "cell, without a part in it")
-      .object("solver", &C::solver, cellSolverTable(), "how it is solved")
-      .object("output", &C::output, cellOutputTable(), "what is recorded and pictured")
-      .build();
+            "cell, without a part in it");
+  addSolver(table);
+  return table.object("output", &C::output, cellOutputTable(), "what is recorded and pictured").build();
 }
 
 }  // namespace
-
-Object cellSolverTable() {
-  using S = CellSolver;
-  return Table<S>("Solver of a cell")
-      .integer("pieces_per_spacing", &S::pieces_per_spacing, 4, 256,
-               "rods: pieces of a yarn between two crossings, an even number; with fewer than 16 yarns catch on each "
-               "other's sections, and a lightly pressed crossing may be unstable")
-      .number("tolerance", &S::tolerance, "", between(1e-13, 1e-3),
-              "rods: residual force as a part of the forces that balance")
-      .integer("iterations", &S::iterations, 1, 10000, "rods: Newton iterations of a step")
-      .integer("halvings", &S::halvings, 0, 30, "rods: how often a step that fails is halved")
-      .check([](const Entry& p, const S& s) {
-        if (s.pieces_per_spacing % 2 != 0)
-          p.failAt("pieces_per_spacing",
-                   std::to_string(s.pieces_per_spacing) + " is odd; allowed: even numbers from 4 to 256");
-      })
-      .build();
-}
 
 Object cellOutputTable() {
   using O = CellOutput;

@@ -10,10 +10,7 @@ namespace gambeson::schema {
 const Object& cellTable();
 
 // Its parts.
-Object weaveTable();       ///< WeaveCase
-Object yarnTable();        ///< YarnCase
 Object pathTable();        ///< PathCase
-Object cellSolverTable();  ///< CellSolver
 Object cellOutputTable();  ///< CellOutput
 
 /// The key of a path that says its load: "biaxial".

@@ -9,6 +9,7 @@
 #include "analysis/report/parts.hpp"
 #include "analysis/report/xy_chart.hpp"
 #include "analysis/ticks.hpp"
+#include "cases/cell/loops.hpp"
 #include "cases/cell/results.hpp"
 #include "core/io/own_file.hpp"
 
@@ -92,7 +93,7 @@ std::string endsTable(const RecordedCell& cell) {
           "Strains are Green-Lagrange; forces per width are second Piola-Kirchhoff, and stress is force per width over "
           "the height of the cell.",
           {"load", "E11", "E22", "E12", "N11 [N/m]", "N22 [N/m]", "N12 [N/m]", "S11 [GPa]", "S22 [GPa]", "S12 [GPa]",
-           "moment [N]", "energy [J/m\u00b2]", "yarn, weft [N]", "yarn, warp [N]"},
+           "moment [N]", "energy stored [J/m\u00b2]", "energy lost [J/m\u00b2]", "yarn, weft [N]", "yarn, warp [N]"},
           {}};
   constexpr double kRounding = 1e-6;
   const double height_m = *cell.definition().height_m;
@@ -110,7 +111,7 @@ std::string endsTable(const RecordedCell& cell) {
                                        : 0;
     };
     for (const char* column : {"e11", "e22", "e12", "n11_N_per_m", "n22_N_per_m", "n12_N_per_m", "s11_GPa", "s22_GPa",
-                               "s12_GPa", "moment_N", "energy_J_per_m2", "tension_weft_N", "tension_warp_N"}) {
+                               "s12_GPa", "moment_N", "energy_J_per_m2", "lost_J_per_m2", "tension_weft_N", "tension_warp_N"}) {
       if (path.rows.empty()) {
         row.emplace_back("");
         continue;
@@ -121,6 +122,24 @@ std::string endsTable(const RecordedCell& cell) {
     t.rows.push_back(std::move(row));
   }
   return tableOf(t);
+}
+
+/// Of yarns that rub.
+std::string loopsTable(const RecordedCell& cell) {
+  Table t{"Energy lost in loops",
+          "Each way there and back: what forces do on the cloth, what friction between yarns loses of it, and what more "
+          "the yarns keep.",
+          {"load", "loop", "work [J/m\u00b2]", "lost [J/m\u00b2]", "kept [J/m\u00b2]"},
+          {}};
+  if (!cell.definition().friction) return "";
+  for (std::size_t k = 0; k < cell.paths().size(); ++k) {
+    const PathCase& path = cell.definition().paths[k];
+    int number = 0;
+    for (const CellWork& loop : loopsOf(path, cell.paths()[k].rows))
+      t.rows.push_back({TableCell(path.name), TableCell(std::to_string(++number)), TableCell(loop.work),
+                        TableCell(loop.lost), TableCell(loop.stored)});
+  }
+  return t.rows.empty() ? "" : tableOf(t);
 }
 
 std::string stiffnessTable(const RestStiffness& rest) {
@@ -227,7 +246,7 @@ std::string cellPage(const RecordedCell& cell, const std::vector<AuditCheck>& ch
     for (std::size_t k = 0; k < cell.paths().size(); ++k)
       if (!cell.paths()[k].rows.empty()) curves += forcesOf(c.paths[k], cell.paths()[k]);
     body += pageSectionOf("curves", "What the cloth carries", "All numbers are in curves.csv.",
-                          charts(curves + endsTable(cell)));
+                          charts(curves + endsTable(cell) + loopsTable(cell)));
   }
   if (const std::string stiffness = stiffnessTable(cell.rest()); !stiffness.empty())
     body += pageSectionOf("stiffness", "Stiffness", "", charts(stiffness));

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "analysis/ticks.hpp"
-#include "cases/cell/design.hpp"
 #include "cases/runs/frame_field.hpp"
+#include "cases/yarns/design.hpp"
 #include "core/error.hpp"
 #include "core/yarn/cell_faces.hpp"
 

@@ -65,8 +65,8 @@ std::optional<std::array<double, n>> arrayOf(const Checkpoint& checkpoint, const
 const std::vector<std::string>& curveColumns() {
   static const std::vector<std::string> columns{
       "part",           "e11",      "e22",        "e12",      "curvature_per_m", "n11_N_per_m",     "n22_N_per_m",
-      "n12_N_per_m",    "moment_N", "s11_GPa",    "s22_GPa",  "s12_GPa",         "energy_J_per_m2", "tension_weft_N",
-      "tension_warp_N", "stable",   "iterations", "residual", "rounded"};
+      "n12_N_per_m",    "moment_N", "s11_GPa",    "s22_GPa",  "s12_GPa",         "energy_J_per_m2", "lost_J_per_m2",
+      "tension_weft_N", "tension_warp_N", "stable",   "iterations", "residual", "rounded"};
   return columns;
 }
 
@@ -141,6 +141,7 @@ void CellRecorder::add(const WalkedPath& path) {
                               to_GPa * n.n22,
                               to_GPa * n.n12,
                               n.energy_J_per_m2,
+                              p.lost_J_per_m2,
                               p.tension_N[along_weft],
                               p.tension_N[along_warp],
                               p.stable ? 1. : 0.,

@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "cases/cell/design.hpp"
 #include "cases/cell/fields.hpp"
+#include "cases/cell/loops.hpp"
 #include "cases/input/json_at.hpp"
 #include "cases/input/message.hpp"
 #include "cases/runs/check_json.hpp"
+#include "cases/yarns/design.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/own_file.hpp"
@@ -57,6 +58,9 @@ Json pathOf(const PathCase& path, const RecordedPath& walked) {
     if (column != "iterations" && column != "residual" && column != "rounded")
       at[column] = walked.rows.column(column)[end];
   j["end"] = std::move(at);
+  for (const CellWork& loop : loopsOf(path, walked.rows))
+    j["loops"].push_back(
+        {{"work_J_per_m2", loop.work}, {"stored_J_per_m2", loop.stored}, {"lost_J_per_m2", loop.lost}});
   return j;
 }
 

@@ -1,5 +1,7 @@
 #include "cases/cell/rod_engine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -34,7 +36,9 @@ std::vector<YarnTube> tubesOf(const RodCell& cell, const CellLoad& load, std::sp
 class RodSpecimen : public CellSpecimen {
  public:
   RodSpecimen(const RodCell& cell, const EquilibriumOptions& options)
-      : cell_(cell), options_(options), work_(cell), sections_(cell.rest().begin(), cell.rest().end()) {}
+      : cell_(cell), options_(options), work_(cell), sections_(cell.rest().begin(), cell.rest().end()) {
+    if (cell.design().friction.coefficient > 0) work_.history = &history_;
+  }
 
   CellStep bring(const CellTarget& to) override {
     CellLoad next = to.load;
@@ -58,9 +62,19 @@ class RodSpecimen : public CellSpecimen {
         step.why = e.what();
       }
     }
-    step.point = {load_, resultantsOf(cell_, load_, sections_), {}, report.stable, report.iterations, report.residual};
+    step.point.load = load_;
+    step.point.resultants = resultantsOf(cell_, load_, sections_, work_.history);
+    step.point.stable = report.stable;
+    step.point.iterations = report.iterations;
+    step.point.residual = report.residual;
     step.point.rounded = report.converged() && report.residual > options_.tolerance;
     const CellFaces faces = facesOf(cell_.yarns(), load_);
+    if (work_.history && step.reached) {
+      accept(cell_, faces, sections_, history_);
+      step.point.resultants.energy_J_per_m2 =
+          resultantsOf(cell_, load_, sections_).energy_J_per_m2 + history_.stored_J / cell_.area_m2();
+      step.point.lost_J_per_m2 = history_.lost_J / cell_.area_m2();
+    }
     for (const int d : {along_weft, along_warp}) {
       double& most = step.point.tension_N[d];
       most = cell_.pieceAt(faces, sections_, d, 0, 0).tension_N;
@@ -78,8 +92,10 @@ class RodSpecimen : public CellSpecimen {
   }
 
   std::optional<std::array<double, 3>> bendingStiffness() override {
-    if (cell_.design().faces == FaceSupport::held) return {};
-    const std::array<double, 6> D = bendingOf(cell_, load_, sections_, work_).rigidity_Nm;
+    const RodCellDesign& design = cell_.design();
+    if (design.faces == FaceSupport::held || design.extent == CellExtent::quarter) return {};
+    EquilibriumWork smooth(cell_);  // at rest nothing presses
+    const std::array<double, 6> D = bendingOf(cell_, load_, sections_, smooth).rigidity_Nm;
     return std::array<double, 3>{D[0], D[1], D[3] + 2 * D[2]};
   }
 
@@ -89,6 +105,7 @@ class RodSpecimen : public CellSpecimen {
   const RodCell& cell_;
   EquilibriumOptions options_;
   EquilibriumWork work_;
+  CellHistory history_;  ///< of friction
   std::vector<Pose> sections_;
   CellLoad load_;
 };
@@ -104,11 +121,18 @@ std::vector<std::string> RodEngine::assumptions() const {
   std::vector<std::string> all{
       "Yarns are rods: they stretch, shear, bend and twist, at any rotation, and keep the shape of their sections.",
       "At rest they lie in half sine waves and are without force."};
-  all.push_back(cell_.design().contact
-                    ? "Yarns that cross press on each other without friction, by the law of lateral compression; yarns "
-                      "side by side do not, so that what their width locks is not seen."
-                    : "Yarns pass through each other.");
-  all.push_back(cell_.design().faces == FaceSupport::glide
+  const RodCellDesign& design = cell_.design();
+  const double mu = design.friction.coefficient;
+  all.push_back(
+      !design.contact
+          ? "Yarns pass through each other."
+          : fmt::format("Yarns that cross press on each other {}, by the law of lateral compression; yarns side by "
+                        "side do not, so that what their width locks is not seen.",
+                        mu > 0 ? fmt::format("and rub with Coulomb's coefficient {:g}", mu) : "without friction"));
+  if (design.extent == CellExtent::quarter)
+    all.push_back(
+        "A quarter of the repeat moves by itself; the others are its images, mirrored in the middle of the cloth.");
+  all.push_back(design.faces == FaceSupport::glide
                     ? "Sections in the faces of the cell may move through the cloth."
                     : "Sections in the faces of the cell do not move through the cloth.");
   return all;

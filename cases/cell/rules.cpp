@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
-#include "cases/cell/design.hpp"
 #include "cases/cell/engine.hpp"
 #include "cases/cell/fields.hpp"
 #include "cases/input/wrong_entry.hpp"
+#include "cases/yarns/rules.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::schema {
@@ -18,48 +18,6 @@ namespace {
 Entry memberOf(const Entry& parent, const std::string& key) { return parent.member(*parent.node.find(key)); }
 Entry itemOf(const Entry& parent, const std::string& list, std::size_t i) { return memberOf(parent, list).item(i); }
 
-/// What is counted before anything is built: sections of yarns, and pairs of them near crossings.
-void checkSize(const Entry& root, const CellCase& c, const Weave& weave) {
-  constexpr long kSections = 40000, kPairs = 4000000;
-  const long crossings = static_cast<long>(weave.warps) * weave.wefts, n = c.solver.pieces_per_spacing;
-  const long sections = 2 * crossings * n, pairs = crossings * (2 * n + 1) * (2 * n + 1);
-  if (sections <= kSections && pairs <= kPairs) return;
-  const std::string reason = fmt::format(
-      "{} pieces between the crossings of {} x {} yarns give {} sections and {} pairs of them; allowed: at most {} and "
-      "{}",
-      n, weave.warps, weave.wefts, sections, pairs, kSections, kPairs);
-  if (const JsonNode* solver = root.node.find("solver")) root.member(*solver).failAt("pieces_per_spacing", reason);
-  memberOf(root, "weave").fail(reason);
-}
-
-void checkTruss(const Entry& root, const CellCase& c) {
-  constexpr double kTouch = 0.01;
-  if (c.yarns != YarnModel::truss) return;
-  if (c.weave.pattern != WeavePattern::plain)
-    memberOf(root, "weave").failAt("pattern", "the truss is of a plain weave; allowed with yarns truss: plain");
-  if (!c.contact)
-    memberOf(root, "contact").fail("the truss is joined at its crossings; allowed with yarns truss: true");
-  if (c.holds_faces) memberOf(root, "faces").fail("held goes with yarns rod: a truss has no sections in its faces");
-  // A case that was written in full says what is usual.
-  const CellSolver& s = c.solver;
-  const CellSolver usual;
-  for (const auto& [key, other] :
-       {std::pair("pieces_per_spacing", s.pieces_per_spacing != usual.pieces_per_spacing),
-        std::pair("tolerance", s.tolerance != usual.tolerance),
-        std::pair("iterations", s.iterations != usual.iterations), std::pair("halvings", s.halvings != usual.halvings)})
-    if (other) memberOf(root, "solver").failAt(key, "goes with yarns rod: a truss is solved to rounding");
-  double amplitudes = 0, halves = 0;
-  for (const int d : {along_weft, along_warp}) {
-    amplitudes += c.yarn(d).shape.amplitude_m;
-    halves += c.yarn(d).shape.half_thickness_m;
-  }
-  if (!(std::abs(amplitudes - halves) <= kTouch * halves))
-    memberOf(root, "weft")
-        .failAt("amplitude", fmt::format("the amplitudes of weft and warp add up to {:.6g} m, and a truss touches at "
-                                         "rest; allowed: within {:g} % of the half thicknesses, {:.6g} m",
-                                         amplitudes, 100 * kTouch, halves));
-}
-
 void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
   const std::string word = wordOf(p.load);
   const Entry load = memberOf(path, word);
@@ -67,6 +25,7 @@ void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
     load.fail("a truss carries loads along its yarns; allowed with yarns truss: biaxial or uniaxial");
   if (const auto* bending = std::get_if<BendingPath>(&p.load)) {
     if (c.holds_faces) load.fail("held faces do not bend; allowed with faces glide");
+    if (c.quarter) load.fail("a quarter does not bend; allowed with extent full");
     double half = 0;
     for (const int d : {along_weft, along_warp})
       half = std::max(half, c.yarn(d).shape.amplitude_m + c.yarn(d).shape.half_thickness_m);
@@ -119,18 +78,10 @@ void checkPictures(const Entry& root, const CellCase& c, const std::set<std::str
 
 void applyCellRules(const Entry& root, CellCase& c) {
   constexpr std::size_t kPaths = 1000;
-  if (!c.warp) c.warp = c.weft;
-  if (!c.height_m) c.height_m = 2 * (c.weft.shape.half_thickness_m + c.warp->shape.half_thickness_m);
-  if (c.contact && !c.compression)
-    root.failAt("compression",
-                "is required with contact: how yarns give way to each other, such as {\"half_force\": "
-                "\"5 N\"}");
-  if (!c.contact && c.compression) memberOf(root, "compression").fail("goes with contact, which is false");
+  applyDesignRules(root, c);
   if (c.paths.size() > kPaths)
     memberOf(root, "loads").fail(fmt::format("{} are too many; allowed: at most {}", c.paths.size(), kPaths));
-  checkTruss(root, c);
   try {
-    checkSize(root, c, weaveOf(c.weave));
     makeEngine(c);
   } catch (const InputError& e) {
     sayAt(root, e);

@@ -4,11 +4,12 @@
 
 #include <ostream>
 
-#include "cases/cell/design.hpp"
+#include "cases/cell/case.hpp"
 #include "cases/cloth/law_table.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/runs/stop_message.hpp"
+#include "cases/yarns/design.hpp"
 #include "core/error.hpp"
 #include "core/yarn/homogenise.hpp"
 
@@ -19,6 +20,11 @@ CellCase rodsOf(const HomogeniseArguments& a) {
   CellCase c = readCellCase(a.file, a.overrides);
   if (c.yarns != YarnModel::rod)
     sayInCase(c.file, c.overrides, InputError({"", 0, "yarns"}, "is not tabulated; allowed for homogenise: rod"));
+  const auto refuse = [&](const char* key, const char* reason) {
+    sayInCase(c.file, c.overrides, InputError({"", 0, key}, reason));
+  };
+  if (c.friction) refuse("friction", "has no energy to be tabulated; allowed for homogenise: none");
+  if (c.quarter) refuse("extent", "quarter does not bend; allowed for homogenise: full");
   return c;
 }
 

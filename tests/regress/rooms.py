@@ -19,7 +19,7 @@ from common import SOURCE, check
 ROOMS = ["analysis", "cases", "human", "tryon"]
 #: (a source of the room below, a header of a room that it must not see)
 AGAINST = [("cases/input/units.cpp", "cases/wear/case/case.hpp"), ("cases/structure/rules.cpp", "cases/wear/case/case.hpp"),
-           ("cases/cell/rules.cpp", "cases/cloth/law_table.hpp"),
+           ("cases/cell/rules.cpp", "cases/cloth/law_table.hpp"), ("cases/yarns/rules.cpp", "cases/cell/case.hpp"),
            ("cases/wear/case/rules.cpp", "cases/wear/scene/scenario.hpp"), ("cases/wear/results/report.cpp", "cases/study/study.hpp"),
            ("cases/wear/results/report.cpp", "gpu/step/device_steps.hpp"), ("gpu/step/device_steps.cpp", "cases/runs/options.hpp"),
            ("human/motion/walk.cpp", "human/recorded/motion_file.hpp"), ("human/body/body.cpp", "human/motion/motion.hpp")]

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "cases/cell/design.hpp"
 #include "cases/cell/truss_engine.hpp"
+#include "cases/yarns/design.hpp"
 #include "unit/cases/cell/example.hpp"
 
 namespace gambeson {

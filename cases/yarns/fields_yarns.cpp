@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cases/cell/fields.hpp"
 #include "cases/input/table.hpp"
+#include "cases/yarns/fields.hpp"
 
 namespace gambeson::schema {
 namespace {

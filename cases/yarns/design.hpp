@@ -1,7 +1,7 @@
 #pragma once
-/// What a case of the kind cell describes, as the core computes it. Of a case that was read.
+/// What a cell's case describes, as the core computes it. Of a case that was read.
 
-#include "cases/cell/case.hpp"
+#include "cases/yarns/cell_design.hpp"
 #include "core/yarn/cell_equilibrium.hpp"
 #include "core/yarn/kawabata.hpp"
 #include "core/yarn/rod_cell.hpp"
@@ -11,13 +11,16 @@ namespace gambeson {
 /// Throws InputError as twillWeave, satinWeave and weaveOf.
 Weave weaveOf(const WeaveCase& weave);
 RodSection sectionOf(const YarnCase& yarn);
-WovenYarns wovenYarns(const CellCase& c);
+WovenYarns wovenYarns(const CellDesign& c);
 
+/// Of yarns that are rods; where the case gives no stiffness to what sticks it is P/(b1 + b2)³, about that of lateral
+/// compression at half thickness.
+RodFriction rodFriction(const CellDesign& c);
 /// The cell of rods, whatever `yarns` says.
-RodCellDesign rodDesign(const CellCase& c);
+RodCellDesign rodDesign(const CellDesign& c);
 EquilibriumOptions equilibriumOptions(const CellSolver& solver);
 
 /// The truss whose crossings stand where those of the cell do.
-KawabataCloth trussOf(const CellCase& c);
+KawabataCloth trussOf(const CellDesign& c);
 
 }  // namespace gambeson

@@ -1,4 +1,4 @@
-#include "cases/cell/design.hpp"
+#include "cases/yarns/design.hpp"
 
 namespace gambeson {
 
@@ -22,11 +22,18 @@ RodSection sectionOf(const YarnCase& yarn) {
   return ellipticSection(m.young_Pa, m.shear_Pa, yarn.shape.half_width_m, yarn.shape.half_thickness_m);
 }
 
-WovenYarns wovenYarns(const CellCase& c) {
+WovenYarns wovenYarns(const CellDesign& c) {
   return {weaveOf(c.weave), {c.yarn(along_weft).shape, c.yarn(along_warp).shape}};
 }
 
-RodCellDesign rodDesign(const CellCase& c) {
+RodFriction rodFriction(const CellDesign& c) {
+  if (!c.friction) return {};
+  const double touch_m = c.weft.shape.half_thickness_m + c.warp->shape.half_thickness_m;
+  const double usual = c.compression ? c.compression->half_force_N / (touch_m * touch_m * touch_m) : 0;
+  return {c.friction->coefficient, c.friction->stick_stiffness_N_per_m3.value_or(usual)};
+}
+
+RodCellDesign rodDesign(const CellDesign& c) {
   RodCellDesign design;
   design.yarns = wovenYarns(c);
   design.section = {sectionOf(c.yarn(along_weft)), sectionOf(c.yarn(along_warp))};
@@ -34,6 +41,8 @@ RodCellDesign rodDesign(const CellCase& c) {
   if (c.compression) design.compression = *c.compression;
   design.faces = c.holds_faces ? FaceSupport::held : FaceSupport::glide;
   design.pieces_per_spacing = c.solver.pieces_per_spacing;
+  design.extent = c.quarter ? CellExtent::quarter : CellExtent::full;
+  if (c.friction) design.friction = rodFriction(c);
   return design;
 }
 
@@ -41,7 +50,7 @@ EquilibriumOptions equilibriumOptions(const CellSolver& solver) {
   return {solver.tolerance, solver.iterations, solver.halvings};
 }
 
-KawabataCloth trussOf(const CellCase& c) {
+KawabataCloth trussOf(const CellDesign& c) {
   KawabataCloth cloth;
   for (const int d : {along_weft, along_warp}) {
     const WovenYarn& own = c.yarn(d).shape;
