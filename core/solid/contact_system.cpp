@@ -136,11 +136,13 @@ void ContactSystem::addBlock(const ContactBlock& block, std::vector<MatrixEntry>
 
 std::vector<MatrixEntry> ContactSystem::tangent(std::span<const ContactMultipliers> multipliers,
                                                 std::span<const double> y) {
+  return tangentOf(points(multipliers, y), y);
+}
+
+std::vector<MatrixEntry> ContactSystem::tangentOf(std::span<const ContactPoint> points, std::span<const double> y) {
   std::vector<MatrixEntry> entries;
   addSolids(y, entries);
-  const std::vector<Vec3> x = solids_.positions(y, t_);
-  for (const ContactBlock& block : contact_.tangent(x, contact_.points(x, start_, multipliers)))
-    addBlock(block, entries);
+  for (const ContactBlock& block : contact_.tangent(solids_.positions(y, t_), points)) addBlock(block, entries);
   return entries;
 }
 

@@ -54,6 +54,8 @@ class ContactSystem {
   double residual(std::span<const ContactMultipliers> multipliers, std::span<const double> y, std::span<double> r);
   /// dr/dy, both triangles; entries of one place add up.
   std::vector<MatrixEntry> tangent(std::span<const ContactMultipliers> multipliers, std::span<const double> y);
+  /// The same of these points alone.
+  std::vector<MatrixEntry> tangentOf(std::span<const ContactPoint> points, std::span<const double> y);
 
  private:
   void addForce(std::span<const ContactPoint> points, std::span<double> r) const;
