@@ -120,8 +120,8 @@ double workError(const RecordedCell& cell, const PathCase& path, const RecordedT
 }
 
 AuditCheck workCheck(const RecordedCell& cell) {
-  const Worst worst = worstOf(
-      cell, [&](const PathCase& path, const RecordedTable& rows) { return workError(cell, path, rows); });
+  const Worst worst =
+      worstOf(cell, [&](const PathCase& path, const RecordedTable& rows) { return workError(cell, path, rows); });
   const char* lost = rubs(cell) ? " and lost by friction" : "";
   return {"Work",
           worst.value,
@@ -167,15 +167,16 @@ double lossError(const PathCase& path, const RecordedTable& rows) {
 
 AuditCheck lossCheck(const RecordedCell& cell) {
   const Worst worst = worstOf(cell, lossError);
-  return {"Energy lost in loops",
-          worst.value,
-          10,
-          "%",
-          "work of the forces around a closed loop, by trapezia of its steps, less what friction loses and what more is "
-          "stored, of what is lost; of loads with cycles and eight steps or more",
-          fmt::format("around a loop of the load {} the forces do {} % more or less work than friction loses: steps "
-                      "are too long, or the yarns jumped",
-                      worst.path, formatNumber(worst.value, 2))};
+  return {
+      "Energy lost in loops",
+      worst.value,
+      10,
+      "%",
+      "work of the forces around a closed loop, by trapezia of its steps, less what friction loses and what more is "
+      "stored, of what is lost; of loads with cycles and eight steps or more",
+      fmt::format("around a loop of the load {} the forces do {} % more or less work than friction loses: steps "
+                  "are too long, or the yarns jumped",
+                  worst.path, formatNumber(worst.value, 2))};
 }
 
 AuditCheck loopCheck(const RecordedCell& cell) {
@@ -230,8 +231,9 @@ AuditCheck restCheck(const RecordedCell& cell) {
 }  // namespace
 
 std::vector<AuditCheck> cellChecks(const RecordedCell& cell) {
-  return {finiteCheck(cell), reachedCheck(cell), residualCheck(cell), stableCheck(cell),
-          workCheck(cell),   rubs(cell) ? lossCheck(cell) : loopCheck(cell), besideCheck(cell), restCheck(cell)};
+  return {finiteCheck(cell), reachedCheck(cell), residualCheck(cell),
+          stableCheck(cell), workCheck(cell),    rubs(cell) ? lossCheck(cell) : loopCheck(cell),
+          besideCheck(cell), restCheck(cell)};
 }
 
 }  // namespace gambeson

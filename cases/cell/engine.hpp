@@ -16,8 +16,8 @@ namespace gambeson {
 /// A cell in equilibrium.
 struct CellPoint {
   CellLoad load;
-  CellResultants resultants;  ///< its energy is what is stored: in yarns, in contact, in what friction holds
-  double lost_J_per_m2 = 0;   ///< by friction, on the whole way from rest
+  CellResultants resultants;          ///< its energy is what is stored: in yarns, in contact, in what friction holds
+  double lost_J_per_m2 = 0;           ///< by friction, on the whole way from rest
   std::array<double, 2> tension_N{};  ///< the largest of the yarns of a direction
   bool stable = true;
   int iterations = 0;

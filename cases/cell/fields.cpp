@@ -65,10 +65,11 @@ Object makeTable() {
   addDesign(table);
   table.object("friction", &C::friction, yarnFrictionTable(), "between yarns that touch (Coulomb's law)")
       .defaultsTo("none: yarns slide on each other freely")
-      .choice("extent", &C::quarter, std::vector<std::pair<std::string, bool>>{{"full", false}, {"quarter", true}},
-              "how much of the repeat moves by itself. quarter: of a plain weave one weft and one warp over one spacing "
-              "(Man 2006, fig. 19c), whose images, mirrored in the middle of the cloth, are the others; a plain weave "
-              "keeps that symmetry under any strain of its plane, unless it buckles, and under no bend")
+      .choice(
+          "extent", &C::quarter, std::vector<std::pair<std::string, bool>>{{"full", false}, {"quarter", true}},
+          "how much of the repeat moves by itself. quarter: of a plain weave one weft and one warp over one spacing "
+          "(Man 2006, fig. 19c), whose images, mirrored in the middle of the cloth, are the others; a plain weave "
+          "keeps that symmetry under any strain of its plane, unless it buckles, and under no bend")
       .unwritten()
       .object("solids", &C::solids, solidsTable(), "how solid yarns are cut, and how what touches is found")
       .defaultsTo("of yarns solid all of its defaults; others have none");

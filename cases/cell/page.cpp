@@ -110,8 +110,9 @@ std::string endsTable(const RecordedCell& cell) {
              : column == "moment_N"    ? most * height_m
                                        : 0;
     };
-    for (const char* column : {"e11", "e22", "e12", "n11_N_per_m", "n22_N_per_m", "n12_N_per_m", "s11_GPa", "s22_GPa",
-                               "s12_GPa", "moment_N", "energy_J_per_m2", "lost_J_per_m2", "tension_weft_N", "tension_warp_N"}) {
+    for (const char* column :
+         {"e11", "e22", "e12", "n11_N_per_m", "n22_N_per_m", "n12_N_per_m", "s11_GPa", "s22_GPa", "s12_GPa", "moment_N",
+          "energy_J_per_m2", "lost_J_per_m2", "tension_weft_N", "tension_warp_N"}) {
       if (path.rows.empty()) {
         row.emplace_back("");
         continue;
@@ -126,11 +127,12 @@ std::string endsTable(const RecordedCell& cell) {
 
 /// Of yarns that rub.
 std::string loopsTable(const RecordedCell& cell) {
-  Table t{"Energy lost in loops",
-          "Each way there and back: what forces do on the cloth, what friction between yarns loses of it, and what more "
-          "the yarns keep.",
-          {"load", "loop", "work [J/m\u00b2]", "lost [J/m\u00b2]", "kept [J/m\u00b2]"},
-          {}};
+  Table t{
+      "Energy lost in loops",
+      "Each way there and back: what forces do on the cloth, what friction between yarns loses of it, and what more "
+      "the yarns keep.",
+      {"load", "loop", "work [J/m\u00b2]", "lost [J/m\u00b2]", "kept [J/m\u00b2]"},
+      {}};
   if (!cell.definition().friction) return "";
   for (std::size_t k = 0; k < cell.paths().size(); ++k) {
     const PathCase& path = cell.definition().paths[k];

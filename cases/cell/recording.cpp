@@ -63,10 +63,26 @@ std::optional<std::array<double, n>> arrayOf(const Checkpoint& checkpoint, const
 }  // namespace
 
 std::vector<std::string> curveColumns(const CellCase& c) {
-  std::vector<std::string> columns{
-      "part",           "e11",      "e22",        "e12",      "curvature_per_m", "n11_N_per_m",     "n22_N_per_m",
-      "n12_N_per_m",    "moment_N", "s11_GPa",    "s22_GPa",  "s12_GPa",         "energy_J_per_m2", "lost_J_per_m2",
-      "tension_weft_N", "tension_warp_N", "stable",   "iterations", "residual", "rounded"};
+  std::vector<std::string> columns{"part",
+                                   "e11",
+                                   "e22",
+                                   "e12",
+                                   "curvature_per_m",
+                                   "n11_N_per_m",
+                                   "n22_N_per_m",
+                                   "n12_N_per_m",
+                                   "moment_N",
+                                   "s11_GPa",
+                                   "s22_GPa",
+                                   "s12_GPa",
+                                   "energy_J_per_m2",
+                                   "lost_J_per_m2",
+                                   "tension_weft_N",
+                                   "tension_warp_N",
+                                   "stable",
+                                   "iterations",
+                                   "residual",
+                                   "rounded"};
   if (c.yarns == YarnModel::solid)
     columns.insert(columns.end(), {"mean_s11_GPa", "mean_s22_GPa", "mean_s12_GPa", "passed_m"});
   return columns;

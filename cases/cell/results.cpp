@@ -40,7 +40,7 @@ Json stiffnessOf(const RestStiffness& rest) {
   return j;
 }
 
-Json pathOf(const PathCase& path, const RecordedPath& walked, const std::vector<std::string>& columns) {
+Json pathOf(const CellCase& c, const PathCase& path, const RecordedPath& walked) {
   Json j{{"name", path.name},
          {"load", schema::wordOf(path.load)},
          {"reached", walked.reached},
@@ -54,10 +54,11 @@ Json pathOf(const PathCase& path, const RecordedPath& walked, const std::vector<
   const std::vector<double>& part = walked.rows.column("part");
   const auto end = static_cast<std::size_t>(std::max_element(part.begin(), part.end()) - part.begin());
   Json at = Json::object();
-  for (const std::string& column : columns)
+  for (const std::string& column : curveColumns(c))
     if (column != "iterations" && column != "residual" && column != "rounded")
       at[column] = walked.rows.column(column)[end];
   j["end"] = std::move(at);
+  if (!c.friction) return j;
   for (const CellWork& loop : loopsOf(path, walked.rows))
     j["loops"].push_back(
         {{"work_J_per_m2", loop.work}, {"stored_J_per_m2", loop.stored}, {"lost_J_per_m2", loop.lost}});
@@ -149,7 +150,7 @@ void writeCellSummary(const RecordedCell& cell, const std::vector<AuditCheck>& c
                {"crimp_warp", m.crimp[along_warp]}};
   j["at_rest"] = stiffnessOf(cell.rest());
   j["loads"] = Json::array();
-  for (std::size_t k = 0; k < cell.paths().size(); ++k) j["loads"].push_back(pathOf(c.paths[k], cell.paths()[k], curveColumns(c)));
+  for (std::size_t k = 0; k < cell.paths().size(); ++k) j["loads"].push_back(pathOf(c, c.paths[k], cell.paths()[k]));
   j["bars"] = Json::array();
   for (const BarCase& bar : c.bars) {
     const HomogenisedBar mean = homogenise(bar.bar);
