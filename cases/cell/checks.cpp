@@ -55,7 +55,7 @@ AuditCheck reachedCheck(const RecordedCell& cell) {
 }
 
 AuditCheck finiteCheck(const RecordedCell& cell) {
-  const Worst worst = worstOf(cell, [](const PathCase&, const RecordedTable& rows) {
+  const Worst worst = worstOf(cell, [&](const PathCase&, const RecordedTable& rows) {
     double count = 0;
     for (const std::string& column : curveColumns(cell.definition()))
       for (const double v : rows.column(column)) count += !std::isfinite(v);

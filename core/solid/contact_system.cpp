@@ -45,7 +45,7 @@ template <class Residual, class Entries>
 NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, TangentSolver& solver, bool symmetric,
                      bool search, double reach_m, const Residual& residual, const Entries& entries) {
   NewtonReport report;
-  std::vector<double> r(z.size()), next(z.size());
+  std::vector<double> r(z.size()), next(z.size()), step(z.size());
   double force = residual(z, r), rounding = 0;
   for (;; ++report.iterations) {
     const double size = norm(r);
@@ -66,18 +66,18 @@ NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, Tange
     const std::vector<MatrixEntry> K = entries(z);
     rounding = diagonalRounding(K, static_cast<int>(z.size()), reach_m);
     ++report.factorisations;
-    const std::optional<std::vector<double>> step = solver.solve(K, r, symmetric, options.raise);
-    report.negative_pivots = solver.negativePivots();
-    if (!step) {
+    if (!solver.factorise(K, static_cast<int>(z.size()), symmetric, options.raise)) {
       report.singular = true;
       return report;
     }
+    report.negative_pivots = solver.negativePivots();
+    solver.solve(r, step);
     const auto slopeAt = [&](double s) {
-      for (std::size_t i = 0; i < z.size(); ++i) next[i] = z[i] - s * (*step)[i];
+      for (std::size_t i = 0; i < z.size(); ++i) next[i] = z[i] - s * step[i];
       force = residual(next, r);
-      return -dot(*step, r);
+      return -dot(step, r);
     };
-    const double slope = -dot(*step, r);
+    const double slope = -dot(step, r);
     if (!takeStep(slopeAt, slope, search, report.finite)) {
       report.finite = false;
       return report;
@@ -249,7 +249,10 @@ std::vector<double> ContactSystem::ahead(std::span<const ContactMultipliers> mul
   std::vector<double> pulled(y.size());
   solids_.dofs().Ct.multiply<double>({reinterpret_cast<const double*>(force.data()), 3 * force.size()}, pulled);
   for (std::size_t i = 0; i < dg.size(); ++i) dg[i] = -(dg[i] + pulled[i]);
-  return solver_.solve(entries, dg, symmetric(), raise).value_or(std::vector<double>{});
+  std::vector<double> way(y.size());
+  if (!solver_.factorise(entries, static_cast<int>(y.size()), symmetric(), raise)) return {};
+  solver_.solve(dg, way);
+  return way;
 }
 
 }  // namespace gambeson

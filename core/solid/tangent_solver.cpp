@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace gambeson {
 namespace {
@@ -21,6 +22,12 @@ Sparse matrixOf(std::span<const MatrixEntry> entries, int size, bool lower) {
   return K;
 }
 
+/// Whose turn it is with BLAS.
+std::mutex& blas() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 }  // namespace
 
 SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size) {
@@ -32,6 +39,14 @@ SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size) {
   lower.values.assign(K.valuePtr(), K.valuePtr() + K.nonZeros());
   return lower;
 }
+
+struct TangentSolver::Unsymmetric {
+  Sparse K;
+  Eigen::SparseLU<Sparse> factor;
+};
+
+TangentSolver::TangentSolver() = default;
+TangentSolver::~TangentSolver() = default;
 
 bool TangentSolver::fits(const SymmetricMatrix& lower) {
   if (!factor_ || kept_.size != lower.size) return false;
@@ -48,37 +63,41 @@ bool TangentSolver::fits(const SymmetricMatrix& lower) {
   return true;
 }
 
-std::optional<std::vector<double>> TangentSolver::solve(std::span<const MatrixEntry> entries, std::span<const double> b,
-                                                        bool symmetric, double raise) {
+bool TangentSolver::factorise(std::span<const MatrixEntry> entries, int size, bool symmetric, double raise) {
   negative_ = 0;
+  unsymmetric_.reset();
   if (!std::all_of(entries.begin(), entries.end(), [](const MatrixEntry& e) { return std::isfinite(e.value); }))
-    return std::nullopt;
-  const int size = static_cast<int>(b.size());
-  std::vector<double> x(b.size());
+    return false;
   ++factors_;
-  if (symmetric) {
-    SymmetricMatrix lower = lowerTriangle(entries, size);
-    for (int j = 0; j < size; ++j) lower.values[lower.offsets[j]] += raise * std::abs(lower.values[lower.offsets[j]]);
-    if (!fits(lower)) {
-      ++analyses_;
-      kept_ = std::move(lower);
-      factor_ = std::make_unique<SymmetricFactor>(kept_, elimination_);
-    }
-    if (factor_->factorise(kept_) == Definiteness::singular) return std::nullopt;
-    negative_ = factor_->negativePivots();
-    factor_->solve(b, x);
-    return x;
+  if (!symmetric) {
+    unsymmetric_ = std::make_unique<Unsymmetric>();
+    unsymmetric_->K = matrixOf(entries, size, false);
+    unsymmetric_->factor.compute(unsymmetric_->K);
+    return unsymmetric_->factor.info() == Eigen::Success;
   }
-  ++analyses_;
-  const Sparse K = matrixOf(entries, size, false);
-  Eigen::SparseLU<Sparse> factor;
-  factor.compute(K);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  const Eigen::Map<const Vector> right(b.data(), size);
-  Vector v = factor.solve(right);
-  v += factor.solve(Vector(right - K * v));
-  std::copy(v.data(), v.data() + size, x.begin());
-  return x;
+  SymmetricMatrix lower = lowerTriangle(entries, size);
+  for (int j = 0; j < size; ++j) lower.values[lower.offsets[j]] += raise * std::abs(lower.values[lower.offsets[j]]);
+  if (!fits(lower)) {
+    ++analyses_;
+    kept_ = std::move(lower);
+    factor_ = std::make_unique<SymmetricFactor>(kept_);
+  }
+  const std::lock_guard<std::mutex> turn(blas());
+  const Definiteness found = factor_->factorise(kept_);
+  negative_ = factor_->negativePivots();
+  return found != Definiteness::singular;
+}
+
+void TangentSolver::solve(std::span<const double> b, std::span<double> x) const {
+  if (unsymmetric_) {
+    const Eigen::Map<const Vector> right(b.data(), static_cast<Eigen::Index>(b.size()));
+    Vector v = unsymmetric_->factor.solve(right);
+    v += unsymmetric_->factor.solve(Vector(right - unsymmetric_->K * v));
+    std::copy(v.data(), v.data() + v.size(), x.begin());
+    return;
+  }
+  const std::lock_guard<std::mutex> turn(blas());
+  factor_->solve(b, x);
 }
 
 }  // namespace gambeson

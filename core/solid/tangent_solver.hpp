@@ -2,7 +2,6 @@
 /// Tangents of solids that touch, factorised one after another: their sparsity goes with what touches.
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,29 +18,36 @@ struct MatrixEntry {
 SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size);
 
 /// Keeps the symbolic part of the last factor, and takes it again for every symmetric matrix whose entries are among
-/// those that it was made for. Not for use by two threads at once.
+/// those that it was made for. Several solvers may work side by side, though not one by two threads: blocks are
+/// eliminated by one of them at a time, since some builds of BLAS are not safe otherwise (Elimination).
 class TangentSolver {
  public:
-  explicit TangentSolver(Elimination elimination = Elimination::blocks) : elimination_(elimination) {}
+  TangentSolver();
+  ~TangentSolver();
+  TangentSolver(const TangentSolver&) = delete;
+  TangentSolver& operator=(const TangentSolver&) = delete;
 
-  /// x with K x = b, K of these entries of both triangles, the diagonal raised by a part of it where K is symmetric;
-  /// none where K is not finite or singular.
-  std::optional<std::vector<double>> solve(std::span<const MatrixEntry> entries, std::span<const double> b,
-                                           bool symmetric, double raise);
+  /// K of these entries of both triangles, the diagonal raised by a part of it where K is symmetric. False where K is
+  /// not finite or singular: nothing to solve with.
+  bool factorise(std::span<const MatrixEntry> entries, int size, bool symmetric, double raise);
+  /// x with K x = b, one step of iterative refinement.
+  void solve(std::span<const double> b, std::span<double> x) const;
+
   /// Of the last K, where it was symmetric; else 0.
   int negativePivots() const { return negative_; }
-  /// How often a sparsity was analysed, of how many factors.
-  int analyses() const { return analyses_; }
+  /// How many matrices were factorised, and how often one that is symmetric needed a symbolic part of its own.
   int factors() const { return factors_; }
+  int analyses() const { return analyses_; }
 
  private:
+  struct Unsymmetric;
   /// Puts the values where the kept sparsity has them; false where it lacks one.
   bool fits(const SymmetricMatrix& lower);
 
-  Elimination elimination_;
   SymmetricMatrix kept_;
   std::unique_ptr<SymmetricFactor> factor_;
-  int negative_ = 0, analyses_ = 0, factors_ = 0;
+  std::unique_ptr<Unsymmetric> unsymmetric_;  ///< where the last K was not symmetric
+  int negative_ = 0, factors_ = 0, analyses_ = 0;
 };
 
 }  // namespace gambeson

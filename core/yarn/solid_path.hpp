@@ -16,7 +16,7 @@ inline constexpr double kSolidCellRaise = 1e-10;
 struct SolidCellState {
   CellLoad load;
   std::vector<Vec3> x;  ///< of all nodes [m]
-  std::vector<double> y;
+  std::vector<double> y;  ///< empty: at rest
   std::vector<ContactMultipliers> multipliers;
   std::vector<ContactPoint> points;  ///< what presses and rubs
   double lost_J = 0;                 ///< to friction, since rest
@@ -49,11 +49,10 @@ struct SolidLoadReport {
   void add(const SolidLoadReport& next);
 };
 
-/// Scratch: the system whose supports move, and its factor. Entry by entry, so that cells may be computed side by side
-/// (Elimination).
+/// Scratch: the system whose supports move, and its factor.
 class SolidCellWork {
  public:
-  explicit SolidCellWork(const SolidCell& cell) : system(cell.body(), cell.supports()), solver(Elimination::entries) {}
+  explicit SolidCellWork(const SolidCell& cell) : system(cell.body(), cell.supports()) {}
   SolidSystem system;
   TangentSolver solver;
 };

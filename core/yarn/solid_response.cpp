@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/error.hpp"
 #include "core/solid/contact_system.hpp"
@@ -16,22 +15,20 @@ using Column = std::vector<double>;
 class Linearised {
  public:
   Linearised(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work, SolidContactMethod method)
-      : cell_(cell), x_(state.x), system_(work.system), held_(method != SolidContactMethod::penalty) {
+      : cell_(cell), x_(state.x), system_(work.system), factor_(work.solver), held_(method != SolidContactMethod::penalty) {
     system_.setPrograms(cell.programs(state.load, state.load));
     std::vector<ContactMultipliers> multipliers = state.multipliers;
     if (!held_)
       for (ContactMultipliers& m : multipliers) m.pressure_Pa = 0;
     ContactSystem contact(system_, cell.contact(), work.solver, 1, state.x);
-    for (const ContactPoint& p : contact.points(multipliers, state.y))
+    const Column y = state.y.empty() ? contactStart(system_).y : state.y;
+    for (const ContactPoint& p : contact.points(multipliers, y))
       if (p.pressure_Pa > 0) points_.push_back(p), points_.back().rubs = false;
     blocks_ = cell.contact().tangent(x_, points_);
     SolidWork scratch;
     K_ = cell.body().sparsity();
     cell.body().stiffness(x_, K_, scratch);
-    SymmetricMatrix reduced = lowerTriangle(contact.tangentOf(points_, state.y), system_.size());
-    for (int c = 0; c < reduced.size; ++c) reduced.values[reduced.offsets[c]] *= 1 + kSolidCellRaise;
-    factor_ = std::make_unique<SymmetricFactor>(reduced, Elimination::entries);
-    if (factor_->factorise(reduced) == Definiteness::singular)
+    if (!factor_.factorise(contact.tangentOf(points_, y), system_.size(), true, kSolidCellRaise))
       throw RunError("the tangent of the cell of solids is singular");
   }
 
@@ -50,7 +47,7 @@ class Linearised {
       const double size = norm(r);
       if (k == 0) first = size;
       if (size <= kSettled * first) return force;
-      factor_->solve(r, dy);
+      factor_.solve(r, dy);
       C.multiply<double>(dy, back);
       for (std::size_t i = 0; i < x.size(); ++i) x[i] -= back[i];
       if (!held_) continue;
@@ -86,11 +83,11 @@ class Linearised {
   const SolidCell& cell_;
   std::span<const Vec3> x_;
   SolidSystem& system_;
+  TangentSolver& factor_;
   bool held_;
   std::vector<ContactPoint> points_;
   std::vector<ContactBlock> blocks_;
   BlockMatrix K_;
-  std::unique_ptr<SymmetricFactor> factor_;
 };
 
 std::array<double, 9> tangentOf(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work,
@@ -159,7 +156,7 @@ std::array<double, 9> membraneTangent(const SolidCell& cell, const SolidCellStat
 SolidLoadReport freeAcross(const SolidCell& cell, SolidCellState& state, SolidCellWork& work, double tolerance,
                            const SolidLoadOptions& options, YarnDirection pulled, const SolidCellState* from) {
   constexpr int kIterations = 30;
-  constexpr double kLongest = 0.02;  // of the strain across
+  constexpr double kLongest = 0.02, kRounding = 1e-13;  // of the strain across
   const int free = 1 - pulled;
   const auto across = [&](CellLoad& load) -> double& { return free == along_warp ? load.e22 : load.e11; };
   SolidLoadReport report;
@@ -175,6 +172,7 @@ SolidLoadReport freeAcross(const SolidCell& cell, SolidCellState& state, SolidCe
     } else if ((carried - before) * changed > 0) {
       slope = (carried - before) / changed;
     }
+    if (std::abs(carried) <= kRounding * slope) return report;
     before = carried;
     CellLoad next = state.load;
     changed = -std::clamp(carried / slope, -kLongest, kLongest);
