@@ -96,8 +96,8 @@ Object cellOutputTable() {
                                std::vector<std::pair<std::string, CellField>>{{"stress", CellField::stress},
                                                                               {"pressure", CellField::pressure},
                                                                               {"direction", CellField::direction}},
-                               "what the colours show: stress along the yarns; pressure of other yarns, of solids; "
-                               "or weft and warp")
+                               "what the colours show: stress along the yarns; of solids the pressure of the warp, "
+                               "taken off, on the weft; or weft and warp")
                        .choice("view", &P::view, views, "where it is taken from; axis 1 points to the viewer of front")
                        .integer("repeats", &P::repeats, 1, 8, "how many cells are shown either way")
                        .defaultsTo("as many as show four yarns")

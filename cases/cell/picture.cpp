@@ -46,7 +46,7 @@ std::string captionOf(const RecordedCell& cell, const CellPicture& picture) {
   std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
   std::replace(view.begin(), view.end(), '_', ' ');
   const std::string what = picture.field == CellField::stress     ? "Stress along the yarns"
-                           : picture.field == CellField::pressure ? "Pressure of yarns on each other"
+                           : picture.field == CellField::pressure ? "Pressure of the warp, which is taken off, on the weft"
                                                                   : "Weft (orange) and warp (blue)";
   const std::string where =
       picture.path.empty()
@@ -98,6 +98,7 @@ void renderCell(const RecordedCell& cell, const CellPicture& picture, const std:
     for (int j = 0; j < repeats; ++j) {
       const Pose place = power(faces.step[along_weft], i) * power(faces.step[along_warp], j);
       for (const int d : {along_weft, along_warp}) {
+        if (pressed && d == along_warp) continue;  // it hides where it presses
         RenderMesh mesh;
         mesh.color = d == along_weft ? kWeft : kWarp;
         std::vector<int> index(vertices, -1);
