@@ -146,11 +146,12 @@ std::string loopsTable(const RecordedCell& cell) {
 
 /// Of solids.
 std::string meanTable(const RecordedCell& cell) {
-  Table t{"Stress of the cloth and mean stress of its yarns",
-          "What the faces of the cell carry is the derivative of the energy. The mean of the stress in the yarns over "
-          "the cell, which the thesis prints (Man 2006, eq. 4.64), is not where yarns press on each other across voids.",
-          {"load", "S11 [GPa]", "mean", "S22 [GPa]", "mean", "S12 [GPa]", "mean"},
-          {}};
+  Table t{
+      "Stress of the cloth and mean stress of its yarns",
+      "What the faces of the cell carry is the derivative of the energy. The mean of the stress in the yarns over "
+      "the cell, which the thesis prints (Man 2006, eq. 4.64), is not where yarns press on each other across voids.",
+      {"load", "S11 [GPa]", "mean", "S22 [GPa]", "mean", "S12 [GPa]", "mean"},
+      {}};
   if (cell.definition().yarns != YarnModel::solid) return "";
   for (std::size_t k = 0; k < cell.paths().size(); ++k) {
     const RecordedPath& path = cell.paths()[k];

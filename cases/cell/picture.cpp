@@ -45,9 +45,10 @@ Pose power(const Pose& g, int k) {
 std::string captionOf(const RecordedCell& cell, const CellPicture& picture) {
   std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
   std::replace(view.begin(), view.end(), '_', ' ');
-  const std::string what = picture.field == CellField::stress     ? "Stress along the yarns"
-                           : picture.field == CellField::pressure ? "Pressure of the warp, which is taken off, on the weft"
-                                                                  : "Weft (orange) and warp (blue)";
+  const std::string what = picture.field == CellField::stress ? "Stress along the yarns"
+                           : picture.field == CellField::pressure
+                               ? "Pressure of the warp, which is taken off, on the weft"
+                               : "Weft (orange) and warp (blue)";
   const std::string where =
       picture.path.empty()
           ? "at rest"
@@ -93,7 +94,8 @@ void renderCell(const RecordedCell& cell, const CellPicture& picture, const std:
   for (const float s : shown.data) low = std::min(low, 1e-6 * s), high = std::max(high, 1e-6 * s);
   const bool colours = picture.field != CellField::direction;
   if (colours)
-    scene.bar = ColorBar{pressed ? "Pressure [MPa]" : "Stress along the yarns [MPa]", low < -0.05 * high ? -roundedUp(-low) : 0, roundedUp(high)};
+    scene.bar = ColorBar{pressed ? "Pressure [MPa]" : "Stress along the yarns [MPa]",
+                         low < -0.05 * high ? -roundedUp(-low) : 0, roundedUp(high)};
   for (int i = 0; i < repeats; ++i)
     for (int j = 0; j < repeats; ++j) {
       const Pose place = power(faces.step[along_weft], i) * power(faces.step[along_warp], j);
@@ -125,9 +127,8 @@ std::vector<Picture> takeCellPictures(const RecordedCell& cell, const std::files
   std::vector<Picture> pictures;
   std::filesystem::create_directories(folder);
   for (const CellPicture& picture : picturesOf(cell)) {
-    const std::string name =
-        fmt::format("{:02d}_{}_{}.png", pictures.size() + 1, picture.path.empty() ? "rest" : picture.path,
-                    wordOf(picture.field));
+    const std::string name = fmt::format("{:02d}_{}_{}.png", pictures.size() + 1,
+                                         picture.path.empty() ? "rest" : picture.path, wordOf(picture.field));
     try {
       renderCell(cell, picture, folder / name);
       pictures.push_back({folder / name, captionOf(cell, picture), ""});

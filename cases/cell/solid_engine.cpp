@@ -20,7 +20,8 @@ class SolidSpecimen : public CellSpecimen {
   CellStep bring(const CellTarget& to) override {
     CellLoad next = to.load;
     // The strain that is free goes on from where it is.
-    if (to.free) (*to.free == along_warp ? next.e22 : next.e11) = *to.free == along_warp ? state_.load.e22 : state_.load.e11;
+    if (to.free)
+      (*to.free == along_warp ? next.e22 : next.e11) = *to.free == along_warp ? state_.load.e22 : state_.load.e11;
     const SolidCellState before = state_;
     SolidLoadReport report;
     report.reached = true;
@@ -29,8 +30,7 @@ class SolidSpecimen : public CellSpecimen {
       try {
         const YarnDirection pulled = *to.free == along_warp ? along_weft : along_warp;
         const bool rubs = cell_.design().friction > 0;
-        report.add(
-            freeAcross(cell_, state_, work_, kFree, optionsFor(next), pulled, rubs ? &before : nullptr));
+        report.add(freeAcross(cell_, state_, work_, kFree, optionsFor(next), pulled, rubs ? &before : nullptr));
       } catch (const RunError& e) {
         report.reached = false;
         report.why = e.what();
@@ -48,7 +48,7 @@ class SolidSpecimen : public CellSpecimen {
   std::optional<std::array<double, 3>> bendingStiffness() override { return {}; }
 
  private:
-  static constexpr double kFree = 1e-6;      ///< what a free direction may carry, of what the other does
+  static constexpr double kFree = 1e-6;       ///< what a free direction may carry, of what the other does
   static constexpr double kLongest = 0.0101;  ///< a step's change of a strain
 
   SolidLoadOptions optionsFor(const CellLoad& to) const {

@@ -20,8 +20,9 @@ void checkSolidSize(const Entry& root, const CellDesign& c, const Weave& weave) 
   const long spacings = c.quarter ? 2 : 2L * weave.warps * weave.wefts;
   const long cells = spacings * mesh.along * mesh.across * mesh.across;
   if (cells <= kCells) return;
-  const std::string reason = fmt::format("{} x {} x {} hexahedra along {} spacings of yarns are {}; allowed: at most {}",
-                                         mesh.across, mesh.across, mesh.along, spacings, cells, kCells);
+  const std::string reason =
+      fmt::format("{} x {} x {} hexahedra along {} spacings of yarns are {}; allowed: at most {}", mesh.across,
+                  mesh.across, mesh.along, spacings, cells, kCells);
   if (const JsonNode* solids = root.node.find("solids")) root.member(*solids).failAt("across", reason);
   memberOf(root, "weave").fail(reason);
 }
@@ -33,8 +34,7 @@ void checkSolid(const Entry& root, CellDesign& c) {
     return;
   }
   if (!c.solids) c.solids = SolidsCase{};
-  if (c.compression)
-    memberOf(root, "compression").fail("goes with yarns rod or truss: solids give way by themselves");
+  if (c.compression) memberOf(root, "compression").fail("goes with yarns rod or truss: solids give way by themselves");
   const CellSolver usual;
   if (c.solver.pieces_per_spacing != usual.pieces_per_spacing)
     memberOf(root, "solver").failAt("pieces_per_spacing", "goes with yarns rod; with yarns solid: solids.along");
@@ -45,12 +45,15 @@ void checkSolid(const Entry& root, CellDesign& c) {
     memberOf(root, "friction").failAt("stick_stiffness", "goes with yarns rod; with yarns solid: solids.penalty");
   const bool rubs = c.friction->coefficient > 0;
   if (rubs && c.solids->method == SolidContactMethod::multipliers)
-    memberOf(root, "solids").failAt("contact_method", "multipliers know no friction; allowed with it: augmented or "
-                                                      "penalty");
+    memberOf(root, "solids")
+        .failAt("contact_method",
+                "multipliers know no friction; allowed with it: augmented or "
+                "penalty");
   if (rubs && c.solids->method == SolidContactMethod::penalty && c.solids->bound != FrictionBound::coupled)
-    memberOf(root, "solids").failAt("contact_method",
-                                    "penalty keeps no pressure of a pass before; allowed with friction: \"friction_bound\": "
-                                    "\"coupled\"");
+    memberOf(root, "solids")
+        .failAt("contact_method",
+                "penalty keeps no pressure of a pass before; allowed with friction: \"friction_bound\": "
+                "\"coupled\"");
 }
 
 /// What is counted before anything is built: sections of yarns, and pairs of them near crossings.

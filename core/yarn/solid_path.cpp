@@ -9,7 +9,8 @@ void SolidLoadReport::add(const SolidLoadReport& next) {
   const int before[3] = {steps, passes, iterations};
   const SolidLoadReport last = *this;
   *this = next;
-  if (next.steps == 0) deepest_m = last.deepest_m, residual = last.residual, rounded = last.rounded, stable = last.stable;
+  if (next.steps == 0)
+    deepest_m = last.deepest_m, residual = last.residual, rounded = last.rounded, stable = last.stable;
   steps += before[0];
   passes += before[1];
   iterations += before[2];

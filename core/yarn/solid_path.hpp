@@ -15,7 +15,7 @@ inline constexpr double kSolidCellRaise = 1e-10;
 /// A cell at rest or in equilibrium: all that the next load starts from.
 struct SolidCellState {
   CellLoad load;
-  std::vector<Vec3> x;  ///< of all nodes [m]
+  std::vector<Vec3> x;    ///< of all nodes [m]
   std::vector<double> y;  ///< empty: at rest
   std::vector<ContactMultipliers> multipliers;
   std::vector<ContactPoint> points;  ///< what presses and rubs

@@ -15,7 +15,11 @@ using Column = std::vector<double>;
 class Linearised {
  public:
   Linearised(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work, SolidContactMethod method)
-      : cell_(cell), x_(state.x), system_(work.system), factor_(work.solver), held_(method != SolidContactMethod::penalty) {
+      : cell_(cell),
+        x_(state.x),
+        system_(work.system),
+        factor_(work.solver),
+        held_(method != SolidContactMethod::penalty) {
     system_.setPrograms(cell.programs(state.load, state.load));
     std::vector<ContactMultipliers> multipliers = state.multipliers;
     if (!held_)

@@ -224,9 +224,9 @@ TEST(SolidEngine, WhatALoopLosesIsTheWorkOfItsForces) {
       if (k > 0) {
         EXPECT_GE(p.lost_J_per_m2, before.lost_J_per_m2);
         const CellResultants &a = before.resultants, &b = p.resultants;
-        work += 0.5 * ((a.n11 + b.n11) * (p.load.e11 - before.load.e11) +
-                       (a.n22 + b.n22) * (p.load.e22 - before.load.e22) +
-                       (a.n12 + b.n12) * (p.load.g12 - before.load.g12));
+        work +=
+            0.5 * ((a.n11 + b.n11) * (p.load.e11 - before.load.e11) + (a.n22 + b.n22) * (p.load.e22 - before.load.e22) +
+                   (a.n12 + b.n12) * (p.load.g12 - before.load.g12));
       }
       most = std::max(most, work);
       before = p;

@@ -127,8 +127,8 @@ TEST(MalformedCell, WhatSolidsCannotDo) {
       solid_example,
       {
           // Constants of no stable material.
-          {"\"poisson_axial\": 0.3", "\"poisson_axial\": 5, \"poisson_transverse\": 0.3", 5, "weft.moduli.poisson_axial",
-           "is not allowed: between -4."},
+          {"\"poisson_axial\": 0.3", "\"poisson_axial\": 5, \"poisson_transverse\": 0.3", 5,
+           "weft.moduli.poisson_axial", "is not allowed: between -4."},
           {"\"poisson_axial\": 0.3", "\"poisson_axial\": 0.3, \"poisson_transverse\": 1", 5,
            "weft.moduli.poisson_transverse", "-1 to 1, both excluded"},
           {"\"1.34 GPa\"", "0", 5, "weft.moduli.transverse_young", "allowed: > 0"},
@@ -155,12 +155,12 @@ TEST(MalformedCell, WhatSolidsCannotDo) {
            "with yarns solid: solids.iterations"},
           {"\"solids\"", "\"friction\": {\"coefficient\": 0.3, \"stick_stiffness\": 1}, \"solids\"", 6,
            "friction.stick_stiffness", "with yarns solid: solids.penalty"},
-          {"\"solids\": {", "\"friction\": {\"coefficient\": 0.3}, \"solids\": {\"contact_method\": \"multipliers\", ", 6,
-           "solids.contact_method", "know no friction"},
+          {"\"solids\": {", "\"friction\": {\"coefficient\": 0.3}, \"solids\": {\"contact_method\": \"multipliers\", ",
+           6, "solids.contact_method", "know no friction"},
           {"\"solids\": {", "\"friction\": {\"coefficient\": 0.3}, \"solids\": {\"contact_method\": \"penalty\", ", 6,
            "solids.contact_method", "allowed with friction"},
-          {"{\"pattern\": \"plain\"}", "{\"pattern\": \"twill\", \"over\": 2, \"under\": 2}, \"extent\": \"quarter\"", 3,
-           "extent", "must be full unless the weave is plain"},
+          {"{\"pattern\": \"plain\"}", "{\"pattern\": \"twill\", \"over\": 2, \"under\": 2}, \"extent\": \"quarter\"",
+           3, "extent", "must be full unless the weave is plain"},
           {"\"biaxial\": {\"extension\": 0.04}", "\"bending\": {\"curvature\": 1, \"direction\": 0}", 7,
            "loads[0].bending", "cells of solids stay flat"},
       });

@@ -264,13 +264,14 @@ TEST(CellRun, YarnsSideBySideAreWatched) {
   EXPECT_NE(content(out / "report.html").find("neighbouring yarns overlap"), std::string::npos);
 }
 
-/// Solids leave what rods do, and beside it the thesis's mean stress, how deep surfaces pass, and what presses; the same
-/// bits for any number of threads and after a stop.
+/// Solids leave what rods do, and beside it the thesis's mean stress, how deep surfaces pass, and what presses; the
+/// same bits for any number of threads and after a stop.
 TEST(CellRun, OfSolids) {
   const Folder folder;
   const CellCase c = readCellCase(
       std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library/cell_solid.json",
-      {"solids.along=5", R"(friction={"coefficient":0.2})", R"(output={"pictures":[{"path":"b","field":"pressure","width":160,"height":120}]})",
+      {"solids.along=5", R"(friction={"coefficient":0.2})",
+       R"(output={"pictures":[{"path":"b","field":"pressure","width":160,"height":120}]})",
        R"(loads=[{"name":"a","biaxial":{"extension":0.02},"steps":2},{"name":"b","trellis":{"angle":0.1,"extension":0.01},"steps":2,"cycles":1}])"});
   const auto out = [&](const char* name) { return folder.path() / name; };
   run(c, out("one"));
