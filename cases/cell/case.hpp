@@ -62,8 +62,9 @@ struct BarCase {
 };
 
 enum class CellShapesKept { last, all, none };
-/// stress: along the yarns; direction: weft and warp in colours of their own.
-enum class CellField { stress, direction };
+/// stress: along the yarns; pressure: of yarns on each other, of solids; direction: weft and warp in colours of their
+/// own.
+enum class CellField { stress, pressure, direction };
 
 struct CellPicture {
   std::string path;  ///< its end; empty: the cell at rest

@@ -55,9 +55,9 @@ AuditCheck reachedCheck(const RecordedCell& cell) {
 }
 
 AuditCheck finiteCheck(const RecordedCell& cell) {
-  const Worst worst = worstOf(cell, [](const PathCase&, const RecordedTable& rows) {
+  const Worst worst = worstOf(cell, [&](const PathCase&, const RecordedTable& rows) {
     double count = 0;
-    for (const std::string& column : curveColumns())
+    for (const std::string& column : curveColumns(cell.definition()))
       for (const double v : rows.column(column)) count += !std::isfinite(v);
     return count;
   });
@@ -219,6 +219,28 @@ AuditCheck besideCheck(const RecordedCell& cell) {
                       worst.path, formatNumber(worst.value, 2))};
 }
 
+/// Of solids: how far surfaces have passed through each other, of half the thickness of the thinner yarn.
+AuditCheck passedCheck(const RecordedCell& cell) {
+  const CellCase& c = cell.definition();
+  const SolidsCase solids = c.solids.value_or(SolidsCase{});
+  const double thin_m = std::min(c.weft.shape.half_thickness_m, c.warp->shape.half_thickness_m);
+  const double bound = solids.method == SolidContactMethod::augmented ? 100 * solids.deepest
+                       : solids.method == SolidContactMethod::penalty ? 5
+                                                                      : 1e-6;
+  const Worst worst = worstOf(cell, [&](const PathCase&, const RecordedTable& rows) {
+    const std::vector<double>& passed = rows.column("passed_m");
+    return passed.empty() ? 0 : 100 * *std::max_element(passed.begin(), passed.end()) / thin_m;
+  });
+  return {"Penetration",
+          worst.value,
+          bound,
+          "% of half a thickness",
+          "how far a node of one yarn has passed the surface of another; the most",
+          fmt::format("on the load {} yarns pass through each other by up to {} % of half a thickness: contact is too "
+                      "soft",
+                      worst.path, formatNumber(worst.value, 2))};
+}
+
 AuditCheck restCheck(const RecordedCell& cell) {
   return {"Stiffness at rest",
           cell.rest().why.empty() ? 0. : 1.,
@@ -233,8 +255,10 @@ AuditCheck restCheck(const RecordedCell& cell) {
 std::vector<AuditCheck> cellChecks(const RecordedCell& cell) {
   std::vector<AuditCheck> checks{finiteCheck(cell), reachedCheck(cell), residualCheck(cell),
                                  stableCheck(cell), workCheck(cell),    rubs(cell) ? lossCheck(cell) : loopCheck(cell)};
-  if (!cell.definition().by_section) checks.push_back(besideCheck(cell));
+  const CellCase& c = cell.definition();
+  if (!c.by_section) checks.push_back(besideCheck(cell));
   checks.push_back(restCheck(cell));
+  if (c.yarns == YarnModel::solid && c.contact) checks.push_back(passedCheck(cell));
   return checks;
 }
 

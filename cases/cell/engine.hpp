@@ -23,6 +23,11 @@ struct CellPoint {
   int iterations = 0;
   double residual = 0;   ///< forces out of balance, of those that balance
   bool rounded = false;  ///< rounding kept the residual above the tolerance: there is next to no force
+
+  // Of solids:
+  /// (S11, S22, S12) as the thesis prints them (Man 2006, eq. 4.64), by the height of the cell [Pa].
+  std::array<double, 3> mean_stress_Pa{};
+  double passed_m = 0;  ///< how far surfaces have passed through each other, the most
 };
 
 /// Whether a target was reached; if not, why, and the last equilibrium before it.

@@ -70,7 +70,9 @@ Object makeTable() {
           "how much of the repeat moves by itself. quarter: of a plain weave one weft and one warp over one spacing "
           "(Man 2006, fig. 19c), whose images, mirrored in the middle of the cloth, are the others; a plain weave "
           "keeps that symmetry under any strain of its plane, unless it buckles, and under no bend")
-      .unwritten();
+      .unwritten()
+      .object("solids", &C::solids, solidsTable(), "how solid yarns are cut, and how what touches is found")
+      .defaultsTo("of yarns solid all of its defaults; others have none");
   table.list("loads", &C::paths, pathTable(), "what the cell is taken through, each from rest")
       .defaultsTo("none: its stiffness at rest alone")
       .list("bars", &C::bars, barTable(),
@@ -92,8 +94,10 @@ Object cellOutputTable() {
                        .defaultsTo("none: the cell at rest")
                        .choice("field", &P::field,
                                std::vector<std::pair<std::string, CellField>>{{"stress", CellField::stress},
+                                                                              {"pressure", CellField::pressure},
                                                                               {"direction", CellField::direction}},
-                               "what the colours show: stress along the yarns, or weft and warp")
+                               "what the colours show: stress along the yarns; of solids the pressure of the warp, "
+                               "taken off, on the weft; or weft and warp")
                        .choice("view", &P::view, views, "where it is taken from; axis 1 points to the viewer of front")
                        .integer("repeats", &P::repeats, 1, 8, "how many cells are shown either way")
                        .defaultsTo("as many as show four yarns")

@@ -144,6 +144,31 @@ std::string loopsTable(const RecordedCell& cell) {
   return t.rows.empty() ? "" : tableOf(t);
 }
 
+/// Of solids.
+std::string meanTable(const RecordedCell& cell) {
+  Table t{
+      "Stress of the cloth and mean stress of its yarns",
+      "What the faces of the cell carry is the derivative of the energy. The mean of the stress in the yarns over "
+      "the cell, which the thesis prints (Man 2006, eq. 4.64), is not where yarns press on each other across voids.",
+      {"load", "S11 [GPa]", "mean", "S22 [GPa]", "mean", "S12 [GPa]", "mean"},
+      {}};
+  if (cell.definition().yarns != YarnModel::solid) return "";
+  for (std::size_t k = 0; k < cell.paths().size(); ++k) {
+    const RecordedPath& path = cell.paths()[k];
+    if (path.rows.empty()) continue;
+    std::vector<TableCell> row{TableCell(cell.definition().paths[k].name)};
+    double most = 0;
+    for (const char* column : {"s11_GPa", "s22_GPa", "s12_GPa"})
+      most = std::max(most, std::abs(at(path, column, endOf(path))));
+    for (const char* column : {"s11_GPa", "mean_s11_GPa", "s22_GPa", "mean_s22_GPa", "s12_GPa", "mean_s12_GPa"}) {
+      const double v = at(path, column, endOf(path));
+      row.emplace_back(std::abs(v) < 1e-6 * most ? 0. : v);
+    }
+    t.rows.push_back(std::move(row));
+  }
+  return t.rows.empty() ? "" : tableOf(t);
+}
+
 std::string stiffnessTable(const RestStiffness& rest) {
   Table t{
       "Stiffness at rest",
@@ -248,7 +273,7 @@ std::string cellPage(const RecordedCell& cell, const std::vector<AuditCheck>& ch
     for (std::size_t k = 0; k < cell.paths().size(); ++k)
       if (!cell.paths()[k].rows.empty()) curves += forcesOf(c.paths[k], cell.paths()[k]);
     body += pageSectionOf("curves", "What the cloth carries", "All numbers are in curves.csv.",
-                          charts(curves + endsTable(cell) + loopsTable(cell)));
+                          charts(curves + endsTable(cell) + meanTable(cell) + loopsTable(cell)));
   }
   if (const std::string stiffness = stiffnessTable(cell.rest()); !stiffness.empty())
     body += pageSectionOf("stiffness", "Stiffness", "", charts(stiffness));

@@ -31,6 +31,10 @@ int frameOf(const RecordedCell& cell, const std::string& path) {
   return *cell.paths()[static_cast<std::size_t>(k)].last_frame;
 }
 
+const char* wordOf(CellField field) {
+  return field == CellField::stress ? "stress" : field == CellField::pressure ? "pressure" : "direction";
+}
+
 /// g to the power of k.
 Pose power(const Pose& g, int k) {
   Pose p;
@@ -41,8 +45,10 @@ Pose power(const Pose& g, int k) {
 std::string captionOf(const RecordedCell& cell, const CellPicture& picture) {
   std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
   std::replace(view.begin(), view.end(), '_', ' ');
-  const std::string what =
-      picture.field == CellField::stress ? "Stress along the yarns" : "Weft (orange) and warp (blue)";
+  const std::string what = picture.field == CellField::stress ? "Stress along the yarns"
+                           : picture.field == CellField::pressure
+                               ? "Pressure of the warp, which is taken off, on the weft"
+                               : "Weft (orange) and warp (blue)";
   const std::string where =
       picture.path.empty()
           ? "at rest"
@@ -74,9 +80,10 @@ void renderCell(const RecordedCell& cell, const CellPicture& picture, const std:
   const CellCase& c = cell.definition();
   const WovenYarns yarns = wovenYarns(c);
   const Frame frame = cell.reader().frame(frameOf(cell, picture.path));
-  const Field &stress = fieldOf(frame, "stress"), &direction = fieldOf(frame, "direction");
+  const bool pressed = picture.field == CellField::pressure;
+  const Field &shown = fieldOf(frame, pressed ? "pressure" : "stress"), &direction = fieldOf(frame, "direction");
   const std::size_t vertices = frame.positions.size() / 3;
-  if (stress.data.size() != vertices || direction.data.size() != vertices)
+  if (shown.data.size() != vertices || direction.data.size() != vertices)
     throw RunError("a shape of the recording has not one value for each of its vertices");
   const CellFaces faces = facesOf(yarns, cell.loadOf(frame));
   const int fewest = std::min(yarns.weave.warps, yarns.weave.wefts);
@@ -84,14 +91,16 @@ void renderCell(const RecordedCell& cell, const CellPicture& picture, const std:
 
   Scene scene;
   double low = 0, high = 0;
-  for (const float s : stress.data) low = std::min(low, 1e-6 * s), high = std::max(high, 1e-6 * s);
-  const bool colours = picture.field == CellField::stress;
+  for (const float s : shown.data) low = std::min(low, 1e-6 * s), high = std::max(high, 1e-6 * s);
+  const bool colours = picture.field != CellField::direction;
   if (colours)
-    scene.bar = ColorBar{"Stress along the yarns [MPa]", low < -0.05 * high ? -roundedUp(-low) : 0, roundedUp(high)};
+    scene.bar = ColorBar{pressed ? "Pressure [MPa]" : "Stress along the yarns [MPa]",
+                         low < -0.05 * high ? -roundedUp(-low) : 0, roundedUp(high)};
   for (int i = 0; i < repeats; ++i)
     for (int j = 0; j < repeats; ++j) {
       const Pose place = power(faces.step[along_weft], i) * power(faces.step[along_warp], j);
       for (const int d : {along_weft, along_warp}) {
+        if (pressed && d == along_warp) continue;  // it hides where it presses
         RenderMesh mesh;
         mesh.color = d == along_weft ? kWeft : kWarp;
         std::vector<int> index(vertices, -1);
@@ -100,7 +109,7 @@ void renderCell(const RecordedCell& cell, const CellPicture& picture, const std:
           index[v] = static_cast<int>(mesh.vertices.size());
           mesh.vertices.push_back(place *
                                   Vec3{frame.positions[3 * v], frame.positions[3 * v + 1], frame.positions[3 * v + 2]});
-          if (colours) mesh.scalars.push_back(1e-6 * stress.data[v]);
+          if (colours) mesh.scalars.push_back(1e-6 * shown.data[v]);
         }
         for (const std::array<int, 3>& t : cell.reader().layout().triangles)
           if (index.at(t[0]) >= 0) mesh.triangles.push_back({index.at(t[0]), index.at(t[1]), index.at(t[2])});
@@ -118,9 +127,8 @@ std::vector<Picture> takeCellPictures(const RecordedCell& cell, const std::files
   std::vector<Picture> pictures;
   std::filesystem::create_directories(folder);
   for (const CellPicture& picture : picturesOf(cell)) {
-    const std::string name =
-        fmt::format("{:02d}_{}_{}.png", pictures.size() + 1, picture.path.empty() ? "rest" : picture.path,
-                    picture.field == CellField::stress ? "stress" : "direction");
+    const std::string name = fmt::format("{:02d}_{}_{}.png", pictures.size() + 1,
+                                         picture.path.empty() ? "rest" : picture.path, wordOf(picture.field));
     try {
       renderCell(cell, picture, folder / name);
       pictures.push_back({folder / name, captionOf(cell, picture), ""});

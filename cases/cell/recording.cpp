@@ -28,7 +28,7 @@ RecordingLayout layoutOf(const CellCase& c, const CellEngine& engine) {
   layout.identity = RunIdentity(caseIdentity(c), widestInstructionSet(), DeviceKind::cpu).text();
   layout.metadata = writeCase(c);
   layout.triangles = engine.surface().triangles;
-  layout.tables[kTable] = curveColumns();
+  layout.tables[kTable] = curveColumns(c);
   layout.tables[kTable].insert(layout.tables[kTable].begin(), kPath);
   return layout;
 }
@@ -62,27 +62,29 @@ std::optional<std::array<double, n>> arrayOf(const Checkpoint& checkpoint, const
 
 }  // namespace
 
-const std::vector<std::string>& curveColumns() {
-  static const std::vector<std::string> columns{"part",
-                                                "e11",
-                                                "e22",
-                                                "e12",
-                                                "curvature_per_m",
-                                                "n11_N_per_m",
-                                                "n22_N_per_m",
-                                                "n12_N_per_m",
-                                                "moment_N",
-                                                "s11_GPa",
-                                                "s22_GPa",
-                                                "s12_GPa",
-                                                "energy_J_per_m2",
-                                                "lost_J_per_m2",
-                                                "tension_weft_N",
-                                                "tension_warp_N",
-                                                "stable",
-                                                "iterations",
-                                                "residual",
-                                                "rounded"};
+std::vector<std::string> curveColumns(const CellCase& c) {
+  std::vector<std::string> columns{"part",
+                                   "e11",
+                                   "e22",
+                                   "e12",
+                                   "curvature_per_m",
+                                   "n11_N_per_m",
+                                   "n22_N_per_m",
+                                   "n12_N_per_m",
+                                   "moment_N",
+                                   "s11_GPa",
+                                   "s22_GPa",
+                                   "s12_GPa",
+                                   "energy_J_per_m2",
+                                   "lost_J_per_m2",
+                                   "tension_weft_N",
+                                   "tension_warp_N",
+                                   "stable",
+                                   "iterations",
+                                   "residual",
+                                   "rounded"};
+  if (c.yarns == YarnModel::solid)
+    columns.insert(columns.end(), {"mean_s11_GPa", "mean_s22_GPa", "mean_s12_GPa", "passed_m"});
   return columns;
 }
 
@@ -115,6 +117,8 @@ void CellRecorder::keep(const YarnShape& shape, double row) {
   frame.sample_fields.push_back({"stress", "Pa", 1, std::move(stress)});
   frame.sample_fields.push_back({"direction", "", 1, std::move(direction)});
   frame.sample_fields.push_back({"row", "", 1, std::move(rows)});
+  if (!shape.pressure_Pa.empty())
+    frame.sample_fields.push_back({"pressure", "Pa", 1, {shape.pressure_Pa.begin(), shape.pressure_Pa.end()}});
   writer_->append(std::move(frame));
 }
 
@@ -142,28 +146,32 @@ void CellRecorder::add(const WalkedPath& path) {
     const CellPoint& p = row.point;
     const CellResultants& n = p.resultants;
     const double to_GPa = 1e-9 / *c_.height_m;
-    writer_->append(TableRow{kTable,
-                             {static_cast<double>(units_),
-                              row.part,
-                              p.load.e11,
-                              p.load.e22,
-                              0.5 * p.load.g12,
-                              p.load.curvature_per_m,
-                              n.n11,
-                              n.n22,
-                              n.n12,
-                              n.moment_N,
-                              to_GPa * n.n11,
-                              to_GPa * n.n22,
-                              to_GPa * n.n12,
-                              n.energy_J_per_m2,
-                              p.lost_J_per_m2,
-                              p.tension_N[along_weft],
-                              p.tension_N[along_warp],
-                              p.stable ? 1. : 0.,
-                              static_cast<double>(p.iterations),
-                              p.residual,
-                              p.rounded ? 1. : 0.}});
+    std::vector<double> values{static_cast<double>(units_),
+                               row.part,
+                               p.load.e11,
+                               p.load.e22,
+                               0.5 * p.load.g12,
+                               p.load.curvature_per_m,
+                               n.n11,
+                               n.n22,
+                               n.n12,
+                               n.moment_N,
+                               to_GPa * n.n11,
+                               to_GPa * n.n22,
+                               to_GPa * n.n12,
+                               n.energy_J_per_m2,
+                               p.lost_J_per_m2,
+                               p.tension_N[along_weft],
+                               p.tension_N[along_warp],
+                               p.stable ? 1. : 0.,
+                               static_cast<double>(p.iterations),
+                               p.residual,
+                               p.rounded ? 1. : 0.};
+    if (c_.yarns == YarnModel::solid) {
+      for (const double s : p.mean_stress_Pa) values.push_back(1e-9 * s);
+      values.push_back(p.passed_m);
+    }
+    writer_->append(TableRow{kTable, std::move(values)});
     if (row.shape) keep(*row.shape, rows_);
     ++rows_;
   }

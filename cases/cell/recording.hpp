@@ -12,8 +12,8 @@
 
 namespace gambeson {
 
-/// Columns of curves.csv beside the name of the load.
-const std::vector<std::string>& curveColumns();
+/// Columns of curves.csv beside the name of the load; those of solids come last.
+std::vector<std::string> curveColumns(const CellCase& c);
 
 class CellRecorder {
  public:

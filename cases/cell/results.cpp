@@ -40,7 +40,7 @@ Json stiffnessOf(const RestStiffness& rest) {
   return j;
 }
 
-Json pathOf(const PathCase& path, const RecordedPath& walked, bool rubs) {
+Json pathOf(const CellCase& c, const PathCase& path, const RecordedPath& walked) {
   Json j{{"name", path.name},
          {"load", schema::wordOf(path.load)},
          {"reached", walked.reached},
@@ -54,11 +54,11 @@ Json pathOf(const PathCase& path, const RecordedPath& walked, bool rubs) {
   const std::vector<double>& part = walked.rows.column("part");
   const auto end = static_cast<std::size_t>(std::max_element(part.begin(), part.end()) - part.begin());
   Json at = Json::object();
-  for (const std::string& column : curveColumns())
+  for (const std::string& column : curveColumns(c))
     if (column != "iterations" && column != "residual" && column != "rounded")
       at[column] = walked.rows.column(column)[end];
   j["end"] = std::move(at);
-  if (!rubs) return j;
+  if (!c.friction) return j;
   for (const CellWork& loop : loopsOf(path, walked.rows))
     j["loops"].push_back(
         {{"work_J_per_m2", loop.work}, {"stored_J_per_m2", loop.stored}, {"lost_J_per_m2", loop.lost}});
@@ -89,6 +89,7 @@ CellRunFacts readCellRunFacts(const std::filesystem::path& results) {
 }
 
 void writeCurves(const RecordedCell& cell, const std::filesystem::path& csv) {
+  const std::vector<std::string> columns = curveColumns(cell.definition());
   std::vector<std::string> labels;
   std::vector<std::vector<double>> rows;
   for (std::size_t k = 0; k < cell.paths().size(); ++k) {
@@ -96,10 +97,10 @@ void writeCurves(const RecordedCell& cell, const std::filesystem::path& csv) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
       labels.push_back(cell.definition().paths[k].name);
       rows.emplace_back();
-      for (const std::string& column : curveColumns()) rows.back().push_back(table.column(column)[row]);
+      for (const std::string& column : columns) rows.back().push_back(table.column(column)[row]);
     }
   }
-  writeOwnFile(csv, formatCsv("load", labels, curveColumns(), rows));
+  writeOwnFile(csv, formatCsv("load", labels, columns, rows));
 }
 
 CellMeasures measuresOf(const CellCase& c) {
@@ -149,7 +150,7 @@ void writeCellSummary(const RecordedCell& cell, const std::vector<AuditCheck>& c
                {"crimp_warp", m.crimp[along_warp]}};
   j["at_rest"] = stiffnessOf(cell.rest());
   j["loads"] = Json::array();
-  for (std::size_t k = 0; k < cell.paths().size(); ++k) j["loads"].push_back(pathOf(c.paths[k], cell.paths()[k], c.friction.has_value()));
+  for (std::size_t k = 0; k < cell.paths().size(); ++k) j["loads"].push_back(pathOf(c, c.paths[k], cell.paths()[k]));
   j["bars"] = Json::array();
   for (const BarCase& bar : c.bars) {
     const HomogenisedBar mean = homogenise(bar.bar);

@@ -23,6 +23,8 @@ void checkPath(const Entry& path, const CellCase& c, const PathCase& p) {
   const Entry load = memberOf(path, word);
   if (c.yarns == YarnModel::truss && word != "biaxial" && word != "uniaxial")
     load.fail("a truss carries loads along its yarns; allowed with yarns truss: biaxial or uniaxial");
+  if (c.yarns == YarnModel::solid && word == "bending")
+    load.fail("cells of solids stay flat; allowed with yarns solid: biaxial, uniaxial, compression, shear or trellis");
   if (const auto* bending = std::get_if<BendingPath>(&p.load)) {
     if (c.holds_faces) load.fail("held faces do not bend; allowed with faces glide");
     if (c.quarter) load.fail("a quarter does not bend; allowed with extent full");
@@ -66,6 +68,9 @@ void checkPictures(const Entry& root, const CellCase& c, const std::set<std::str
     memberOf(root, "output").failAt("pictures", "need a shape; allowed with shapes last or all");
   for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
     const std::string& path = c.output.pictures[i].path;
+    if (c.output.pictures[i].field == CellField::pressure && c.yarns != YarnModel::solid)
+      itemOf(memberOf(root, "output"), "pictures", i)
+          .failAt("field", "pressure is of surfaces that touch; allowed with yarns rod or truss: stress or direction");
     if (path.empty() || names.contains(path)) continue;
     itemOf(memberOf(root, "output"), "pictures", i)
         .failAt("path",

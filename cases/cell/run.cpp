@@ -44,7 +44,7 @@ void foretell(const CellCase& c, const CellEngine& engine, const std::filesystem
     shapes += c.output.shapes == CellShapesKept::all ? count : 1;
   }
   const double bytes = 4 * 6 * static_cast<double>(engine.surface().direction.size()) * shapes +
-                       16 * static_cast<double>(curveColumns().size()) * rows;
+                       16 * static_cast<double>(curveColumns(c).size()) * rows;
   if (const std::string note = sizeNote(bytes, freeBytes(out)); !note.empty()) sayNote(note);
 }
 
@@ -186,13 +186,19 @@ int renderCellResults(const RenderOptions& o) {
   const auto refuse = [](const char* option, const std::string& reason) {
     throw InputError({"command line", 0, option}, reason);
   };
-  if (o.field != PictureField::stress && o.field != PictureField::plain)
-    refuse("--field", "pictures of cells show the stress along the yarns, or weft and warp; allowed: stress or plain");
   if (o.when == PictureTime::peak)
     refuse("--time", "there is no peak here; allowed: end, or the number of a load, 0 for the cell at rest");
   const RecordedCell cell(o.results);
+  const bool solid = cell.definition().yarns == YarnModel::solid;
+  if (o.field != PictureField::stress && o.field != PictureField::plain &&
+      !(solid && o.field == PictureField::pressure))
+    refuse("--field", fmt::format("pictures of cells show the stress along the yarns, weft and warp, or of solids the "
+                                  "pressure on each other; allowed: stress{} or plain",
+                                  solid ? ", pressure" : ""));
   CellPicture picture;
-  picture.field = o.field == PictureField::stress ? CellField::stress : CellField::direction;
+  picture.field = o.field == PictureField::stress     ? CellField::stress
+                  : o.field == PictureField::pressure ? CellField::pressure
+                                                      : CellField::direction;
   picture.view = o.view;
   picture.width = o.width;
   picture.height = o.height;

@@ -18,7 +18,8 @@ struct YarnSurface {
 /// Where it is.
 struct YarnShape {
   std::vector<Vec3> vertices;
-  std::vector<double> stress_Pa;  ///< along the yarn, at each vertex
+  std::vector<double> stress_Pa;      ///< along the yarn, at each vertex
+  std::vector<double> pressure_Pa{};  ///< of other yarns on it, at each vertex; empty where the engine does not know
 };
 
 /// A yarn as a tube of elliptical section, closed at both ends.

@@ -6,14 +6,16 @@
 #include <variant>
 #include <vector>
 
+#include "core/solid/contact_path.hpp"
 #include "core/yarn/compression.hpp"
 #include "core/yarn/rod.hpp"
+#include "core/yarn/solid_yarns.hpp"
 #include "core/yarn/woven_yarns.hpp"
 
 namespace gambeson {
 
 /// What the yarns are computed as.
-enum class YarnModel { rod, truss };
+enum class YarnModel { rod, solid, truss };
 
 enum class WeavePattern { plain, twill, satin, matrix };
 struct WeaveCase {
@@ -27,11 +29,18 @@ struct WeaveCase {
 struct YarnModuli {
   double young_Pa = 0;  ///< along the yarn
   double shear_Pa = 0;  ///< axial: of fibres along each other
+  // Of solids:
+  std::optional<double> transverse_young_Pa{};
+  std::optional<double> poisson_axial{}, poisson_transverse{};  ///< the latter absent: as the former
+};
+/// Of a yarn that is the same in all directions.
+struct IsotropicYarn {
+  double young_Pa = 0, poisson = 0;
 };
 
 struct YarnCase {
   WovenYarn shape;
-  std::variant<YarnModuli, RodSection> stiffness;
+  std::variant<YarnModuli, IsotropicYarn, RodSection> stiffness;
 };
 
 /// Coulomb's law between yarns that touch.
@@ -47,6 +56,16 @@ struct CellSolver {
   int iterations = 200, halvings = 8;
 };
 
+/// How solid yarns are cut into hexahedra, and how what touches is found.
+struct SolidsCase {
+  YarnMeshing mesh;
+  SolidContactMethod method = SolidContactMethod::augmented;
+  FrictionBound bound = FrictionBound::symmetrised;
+  double penalty = 50;
+  int iterations = 30, passes = 40;
+  double change = 1e-3, deepest = 1e-2;
+};
+
 struct CellDesign {
   WeaveCase weave;
   YarnCase weft;
@@ -60,6 +79,7 @@ struct CellDesign {
   bool holds_faces = false;              ///< sections in the faces of the cell stay in the middle of the cloth
   std::optional<double> height_m;        ///< of the cell, by which stress is counted; read: always
   CellSolver solver;
+  std::optional<SolidsCase> solids;  ///< of yarns that are solids; read: always there
 
   const YarnCase& yarn(int direction) const { return direction == along_weft ? weft : *warp; }
 };

@@ -5,6 +5,7 @@
 #include "core/yarn/cell_equilibrium.hpp"
 #include "core/yarn/kawabata.hpp"
 #include "core/yarn/rod_cell.hpp"
+#include "core/yarn/solid_path.hpp"
 
 namespace gambeson {
 
@@ -19,6 +20,10 @@ RodFriction rodFriction(const CellDesign& c);
 /// The cell of rods, whatever `yarns` says.
 RodCellDesign rodDesign(const CellDesign& c);
 EquilibriumOptions equilibriumOptions(const CellSolver& solver);
+
+/// Throws InputError, keys under "weft" and "warp", where a yarn is no solid or its moduli are of no stable material.
+SolidCellDesign solidDesign(const CellDesign& c);
+SolidLoadOptions solidOptions(const CellDesign& c);
 
 /// The truss whose crossings stand where those of the cell do.
 KawabataCloth trussOf(const CellDesign& c);

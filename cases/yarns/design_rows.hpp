@@ -16,13 +16,15 @@ void addDesign(Table<C>& table) {
       .defaultsTo("as the weft: a balanced weave")
       .choice(
           "yarns", &C::yarns,
-          std::vector<std::pair<std::string, YarnModel>>{{"rod", YarnModel::rod}, {"truss", YarnModel::truss}},
+          std::vector<std::pair<std::string, YarnModel>>{
+              {"rod", YarnModel::rod}, {"solid", YarnModel::solid}, {"truss", YarnModel::truss}},
           "what they are computed as. rod: yarns stretch, shear, bend and twist, at any rotation, and press on each "
-          "other; truss: Kawabata's straight yarns joined at the crossings of a plain weave (Man 2006, 4.1.2.1), "
+          "other; solid: hexahedra with fibres along the yarn, whose surfaces touch (Man 2006, 4.3), for strains of "
+          "flat cloth; truss: Kawabata's straight yarns joined at the crossings of a plain weave (Man 2006, 4.1.2.1), "
           "for loads along the yarns")
       .flag("contact", &C::contact, "whether yarns press on each other; false: they pass through each other")
       .object("compression", &C::compression, compressionTable(), "how yarns give way to each other at crossings")
-      .defaultsTo("required with contact")
+      .defaultsTo("required with contact, but for solids, which give way by themselves")
       .choice("touch", &C::by_section, std::vector<std::pair<std::string, bool>>{{"axis", false}, {"section", true}},
               "where rods press on each other. axis: along their middles, by the thickness of sections alone; section: "
               "over the ellipses of the sections, which turn each other over their widths, and side by side, so that "

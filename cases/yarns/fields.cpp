@@ -23,9 +23,9 @@ Object cellSolverTable() {
                "rods: pieces of a yarn between two crossings, an even number; with fewer than 16 yarns catch on each "
                "other's sections, and a lightly pressed crossing may be unstable")
       .number("tolerance", &S::tolerance, "", between(1e-13, 1e-3),
-              "rods: residual force as a part of the forces that balance")
+              "rods and solids: residual force as a part of the forces that balance")
       .integer("iterations", &S::iterations, 1, 10000, "rods: Newton iterations of a step")
-      .integer("halvings", &S::halvings, 0, 30, "rods: how often a step that fails is halved")
+      .integer("halvings", &S::halvings, 0, 30, "rods and solids: how often a step that fails is halved")
       .check([](const Entry& p, const S& s) {
         if (s.pieces_per_spacing % 2 != 0)
           p.failAt("pieces_per_spacing",

@@ -10,5 +10,6 @@ Object weaveTable();        ///< WeaveCase
 Object yarnTable();         ///< YarnCase
 Object compressionTable();  ///< LateralCompression
 Object cellSolverTable();   ///< CellSolver
+Object solidsTable();       ///< SolidsCase
 
 }  // namespace gambeson::schema

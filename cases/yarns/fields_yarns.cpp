@@ -75,6 +75,29 @@ Object moduliTable() {
               "shear modulus of fibres along each other; some hundredth of young in a yarn, which lets crimp go by "
               "shear rather than by bending")
       .required()
+      .number("transverse_young", &M::transverse_young_Pa, "Pa", modulus, "solids: Young's modulus across the yarn")
+      .defaultsTo("required with yarns solid")
+      .number("poisson_axial", &M::poisson_axial, "", any(),
+              "solids: contraction across the yarn, of its extension; its square below young/transverse_young (1 - "
+              "poisson_transverse)/2")
+      .defaultsTo("required with yarns solid")
+      .number("poisson_transverse", &M::poisson_transverse, "", any(),
+              "solids: contraction across by extension across, between -1 and 1")
+      .defaultsTo("poisson_axial, as Bonet and Burton have it")
+      .build();
+}
+
+Object isotropicTable() {
+  using I = IsotropicYarn;
+  return Table<I>("Moduli of an isotropic yarn")
+      .number("young", &I::young_Pa, "Pa", aboveTo(0, 1e18), "Young's modulus")
+      .required()
+      .number("poisson", &I::poisson, "", any(), "Poisson's ratio, between -1 and 0.5")
+      .required()
+      .check([](const Entry& p, const I& i) {
+        if (!(i.poisson > -1 && i.poisson < 0.5))
+          p.failAt("poisson", fmt::format("{:g} is out of range; allowed: > -1 and < 0.5", i.poisson));
+      })
       .build();
 }
 
@@ -140,7 +163,10 @@ Object yarnTable() {
       .required()
       .alternative<YarnModuli>("moduli", &Y::stiffness, moduliTable(), "of a massive elliptical section of fibres")
       .in("stiffness")
-      .alternative<RodSection>("section", &Y::stiffness, sectionTable(), "stiffness of the section as a whole")
+      .alternative<IsotropicYarn>("isotropic", &Y::stiffness, isotropicTable(),
+                                  "of a massive elliptical section that is the same in all directions")
+      .in("stiffness")
+      .alternative<RodSection>("section", &Y::stiffness, sectionTable(), "stiffness of the section of a rod as a whole")
       .in("stiffness")
       .oneOf("stiffness", true)
       .build();

@@ -13,6 +13,49 @@ namespace {
 
 Entry memberOf(const Entry& parent, const std::string& key) { return parent.member(*parent.node.find(key)); }
 
+/// Of hexahedra, before anything is built.
+void checkSolidSize(const Entry& root, const CellDesign& c, const Weave& weave) {
+  constexpr long kCells = 60000;
+  const YarnMeshing& mesh = c.solids->mesh;
+  const long spacings = c.quarter ? 2 : 2L * weave.warps * weave.wefts;
+  const long cells = spacings * mesh.along * mesh.across * mesh.across;
+  if (cells <= kCells) return;
+  const std::string reason =
+      fmt::format("{} x {} x {} hexahedra along {} spacings of yarns are {}; allowed: at most {}", mesh.across,
+                  mesh.across, mesh.along, spacings, cells, kCells);
+  if (const JsonNode* solids = root.node.find("solids")) root.member(*solids).failAt("across", reason);
+  memberOf(root, "weave").fail(reason);
+}
+
+/// Keys that are of rods, in a case that may have been written in full.
+void checkSolid(const Entry& root, CellDesign& c) {
+  if (c.yarns != YarnModel::solid) {
+    if (c.solids) memberOf(root, "solids").fail("goes with yarns solid");
+    return;
+  }
+  if (!c.solids) c.solids = SolidsCase{};
+  if (c.compression) memberOf(root, "compression").fail("goes with yarns rod or truss: solids give way by themselves");
+  const CellSolver usual;
+  if (c.solver.pieces_per_spacing != usual.pieces_per_spacing)
+    memberOf(root, "solver").failAt("pieces_per_spacing", "goes with yarns rod; with yarns solid: solids.along");
+  if (c.solver.iterations != usual.iterations)
+    memberOf(root, "solver").failAt("iterations", "goes with yarns rod; with yarns solid: solids.iterations");
+  if (!c.friction) return;
+  if (c.friction->stick_stiffness_N_per_m3)
+    memberOf(root, "friction").failAt("stick_stiffness", "goes with yarns rod; with yarns solid: solids.penalty");
+  const bool rubs = c.friction->coefficient > 0;
+  if (rubs && c.solids->method == SolidContactMethod::multipliers)
+    memberOf(root, "solids")
+        .failAt("contact_method",
+                "multipliers know no friction; allowed with it: augmented or "
+                "penalty");
+  if (rubs && c.solids->method == SolidContactMethod::penalty && c.solids->bound != FrictionBound::coupled)
+    memberOf(root, "solids")
+        .failAt("contact_method",
+                "penalty keeps no pressure of a pass before; allowed with friction: \"friction_bound\": "
+                "\"coupled\"");
+}
+
 /// What is counted before anything is built: sections of yarns, and pairs of them near crossings.
 void checkSize(const Entry& root, const CellDesign& c, const Weave& weave) {
   constexpr long kSections = 40000, kPairs = 4000000;
@@ -64,7 +107,8 @@ void checkTruss(const Entry& root, const CellDesign& c) {
 void applyDesignRules(const Entry& root, CellDesign& c) {
   if (!c.warp) c.warp = c.weft;
   if (!c.height_m) c.height_m = 2 * (c.weft.shape.half_thickness_m + c.warp->shape.half_thickness_m);
-  if (c.contact && !c.compression)
+  checkSolid(root, c);
+  if (c.contact && !c.compression && c.yarns != YarnModel::solid)
     root.failAt("compression",
                 "is required with contact: how yarns give way to each other, such as {\"half_force\": "
                 "\"5 N\"}");
@@ -73,7 +117,11 @@ void applyDesignRules(const Entry& root, CellDesign& c) {
   if (!c.contact && c.friction) memberOf(root, "friction").fail("goes with contact, which is false");
   checkTruss(root, c);
   try {
-    checkSize(root, c, weaveOf(c.weave));
+    if (c.yarns == YarnModel::solid) {
+      checkSolidSize(root, c, weaveOf(c.weave));
+    } else {
+      checkSize(root, c, weaveOf(c.weave));
+    }
   } catch (const InputError& e) {
     sayAt(root, e);
   }

@@ -46,14 +46,15 @@ double deepestOf(std::span<const ContactPoint> points) {
 class LoadStep {
  public:
   LoadStep(SolidSystem& solids, const SolidContact& contact, const ContactPathOptions& options,
-           const ContactState& from, double to, double largest_force)
+           const ContactState& from, TangentSolver& solver, double to, double largest_force)
       : solids_(solids),
         contact_(contact),
+        solver_(solver),
         options_(options),
         from_(from),
         to_(to),
         newton_{options.iterations, options.tolerance, 1e-3 * largest_force, options.raise},
-        system_(solids, contact, to, solids.positions(from.y, from.factor)) {}
+        system_(solids, contact, solver, to, solids.positions(from.y, from.factor)) {}
 
   /// False where it failed; `why` then.
   bool take() {
@@ -83,7 +84,7 @@ class LoadStep {
 
   /// The tangent's way, where it leads to a state that has forces.
   void startAhead() {
-    ContactSystem before(solids_, contact_, from_.factor, solids_.positions(from_.y, from_.factor));
+    ContactSystem before(solids_, contact_, solver_, from_.factor, solids_.positions(from_.y, from_.factor));
     const std::vector<double> way = before.ahead(from_.multipliers, from_.y, to_ - from_.factor, options_.raise);
     if (way.empty()) return;
     std::vector<double> y = from_.y, r(y.size());
@@ -97,6 +98,9 @@ class LoadStep {
     done.iterations += report.iterations;
     force = std::max(force, report.force);
     if (report.residuals.size() > 2 || done.residuals.empty()) done.residuals = report.residuals;
+    done.residual = report.residual;
+    done.rounded = report.rounded;
+    if (report.factorisations > 0) done.stable = report.negative_pivots == 0;
     if (report.converged) return true;
     why = fmt::format("Newton's residual is {:.2e} of the forces after {} iterations of pass {}{}", report.residual,
                       report.iterations, done.passes,
@@ -194,6 +198,7 @@ class LoadStep {
 
   SolidSystem& solids_;
   const SolidContact& contact_;
+  TangentSolver& solver_;
   const ContactPathOptions& options_;
   const ContactState& from_;
   double to_;
@@ -209,7 +214,8 @@ ContactState contactStart(const SolidSystem& solids) {
 }
 
 ContactReport followContact(SolidSystem& solids, const SolidContact& contact, const ContactPathOptions& options,
-                            ContactState& state, const std::function<bool(const ContactStep&)>& observe) {
+                            ContactState& state, TangentSolver& solver,
+                            const std::function<bool(const ContactStep&)>& observe) {
   check(options, contact.law());
   if (static_cast<int>(state.y.size()) != solids.size())
     reject("start", fmt::format("{} unknowns, {} expected", state.y.size(), solids.size()));
@@ -222,7 +228,7 @@ ContactReport followContact(SolidSystem& solids, const SolidContact& contact, co
   double largest_force = 0;
   long position = 0, step = units;
   while (position < options.steps * units) {
-    LoadStep trial(solids, contact, options, state, factorAt(position + step), largest_force);
+    LoadStep trial(solids, contact, options, state, solver, factorAt(position + step), largest_force);
     if (!trial.take()) {
       if (step == 1) {
         report.why =
@@ -241,6 +247,12 @@ ContactReport followContact(SolidSystem& solids, const SolidContact& contact, co
   }
   report.reached = true;
   return report;
+}
+
+ContactReport followContact(SolidSystem& solids, const SolidContact& contact, const ContactPathOptions& options,
+                            ContactState& state, const std::function<bool(const ContactStep&)>& observe) {
+  TangentSolver solver;
+  return followContact(solids, contact, options, state, solver, observe);
 }
 
 }  // namespace gambeson

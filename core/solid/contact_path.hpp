@@ -47,6 +47,9 @@ struct ContactStep {
   std::vector<ContactPoint> points;  ///< what pressed in the last pass
   int passes = 0, iterations = 0;    ///< of all passes
   std::vector<double> residuals;     ///< relative, of the last pass that needed more than one iteration
+  double residual = 0;               ///< relative, of the last pass
+  bool rounded = false;              ///< rounding kept it above the tolerance
+  bool stable = true;                ///< the last tangent that was factorised, if it is symmetric, was positive definite
   double deepest_m = 0;
 };
 
@@ -57,7 +60,11 @@ struct ContactReport {
 };
 
 /// Follows the load from the state to factor 1; `observe` sees each converged step and may end the path by false.
-/// Throws InputError where options are out of their ranges or the method does not know the law.
+/// Throws InputError where options are out of their ranges or the method does not know the law. `solver` is scratch.
+ContactReport followContact(SolidSystem& solids, const SolidContact& contact, const ContactPathOptions& options,
+                            ContactState& state, TangentSolver& solver,
+                            const std::function<bool(const ContactStep&)>& observe);
+/// With scratch of its own.
 ContactReport followContact(SolidSystem& solids, const SolidContact& contact, const ContactPathOptions& options,
                             ContactState& state, const std::function<bool(const ContactStep&)>& observe);
 

@@ -1,6 +1,5 @@
 #include "core/solid/contact_system.hpp"
 
-#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,59 +7,6 @@
 
 namespace gambeson {
 namespace {
-
-using Sparse = Eigen::SparseMatrix<double>;
-using Vector = Eigen::VectorXd;
-
-Sparse matrixOf(std::span<const MatrixEntry> entries, int size, bool lower) {
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(entries.size());
-  for (const MatrixEntry& e : entries)
-    if (!lower || e.row >= e.column) triplets.emplace_back(e.row, e.column, e.value);
-  Sparse K(size, size);
-  K.setFromTriplets(triplets.begin(), triplets.end());
-  return K;
-}
-
-}  // namespace
-
-SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size) {
-  const Sparse K = matrixOf(entries, size, true);
-  SymmetricMatrix lower;
-  lower.size = size;
-  lower.offsets.assign(K.outerIndexPtr(), K.outerIndexPtr() + size + 1);
-  lower.rows.assign(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros());
-  lower.values.assign(K.valuePtr(), K.valuePtr() + K.nonZeros());
-  return lower;
-}
-
-namespace {
-
-/// x with K x = b, the diagonal raised by a part where K is symmetric; none where K is not finite or singular.
-std::optional<std::vector<double>> solution(std::span<const MatrixEntry> entries, std::span<const double> b,
-                                            bool symmetric, double raise) {
-  if (!std::all_of(entries.begin(), entries.end(), [](const MatrixEntry& e) { return std::isfinite(e.value); }))
-    return std::nullopt;
-  const int size = static_cast<int>(b.size());
-  std::vector<double> x(b.size());
-  if (symmetric) {
-    SymmetricMatrix lower = lowerTriangle(entries, size);
-    for (int j = 0; j < size; ++j) lower.values[lower.offsets[j]] += raise * std::abs(lower.values[lower.offsets[j]]);
-    SymmetricFactor factor(lower);
-    if (factor.factorise(lower) == Definiteness::singular) return std::nullopt;
-    factor.solve(b, x);
-    return x;
-  }
-  const Sparse K = matrixOf(entries, size, false);
-  Eigen::SparseLU<Sparse> factor;
-  factor.compute(K);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  const Eigen::Map<const Vector> right(b.data(), size);
-  Vector v = factor.solve(right);
-  v += factor.solve(Vector(right - K * v));
-  std::copy(v.data(), v.data() + size, x.begin());
-  return x;
-}
 
 double diagonalRounding(std::span<const MatrixEntry> entries, int size, double reach_m) {
   std::vector<double> diagonal(size, 0.0);
@@ -96,10 +42,10 @@ bool takeStep(const SlopeAt& slopeAt, double slope0, bool search, bool& finite) 
 
 /// Newton for r(z) = 0: `residual(z, r)` returns the size of the forces, `entries(z)` is the tangent.
 template <class Residual, class Entries>
-NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, bool symmetric, bool search, double reach_m,
-                     const Residual& residual, const Entries& entries) {
+NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, TangentSolver& solver, bool symmetric,
+                     bool search, double reach_m, const Residual& residual, const Entries& entries) {
   NewtonReport report;
-  std::vector<double> r(z.size()), next(z.size());
+  std::vector<double> r(z.size()), next(z.size()), step(z.size());
   double force = residual(z, r), rounding = 0;
   for (;; ++report.iterations) {
     const double size = norm(r);
@@ -120,17 +66,18 @@ NewtonReport iterate(std::vector<double>& z, const ContactNewton& options, bool 
     const std::vector<MatrixEntry> K = entries(z);
     rounding = diagonalRounding(K, static_cast<int>(z.size()), reach_m);
     ++report.factorisations;
-    const std::optional<std::vector<double>> step = solution(K, r, symmetric, options.raise);
-    if (!step) {
+    if (!solver.factorise(K, static_cast<int>(z.size()), symmetric, options.raise)) {
       report.singular = true;
       return report;
     }
+    report.negative_pivots = solver.negativePivots();
+    solver.solve(r, step);
     const auto slopeAt = [&](double s) {
-      for (std::size_t i = 0; i < z.size(); ++i) next[i] = z[i] - s * (*step)[i];
+      for (std::size_t i = 0; i < z.size(); ++i) next[i] = z[i] - s * step[i];
       force = residual(next, r);
-      return -dot(*step, r);
+      return -dot(step, r);
     };
-    const double slope = -dot(*step, r);
+    const double slope = -dot(step, r);
     if (!takeStep(slopeAt, slope, search, report.finite)) {
       report.finite = false;
       return report;
@@ -189,11 +136,13 @@ void ContactSystem::addBlock(const ContactBlock& block, std::vector<MatrixEntry>
 
 std::vector<MatrixEntry> ContactSystem::tangent(std::span<const ContactMultipliers> multipliers,
                                                 std::span<const double> y) {
+  return tangentOf(points(multipliers, y), y);
+}
+
+std::vector<MatrixEntry> ContactSystem::tangentOf(std::span<const ContactPoint> points, std::span<const double> y) {
   std::vector<MatrixEntry> entries;
   addSolids(y, entries);
-  const std::vector<Vec3> x = solids_.positions(y, t_);
-  for (const ContactBlock& block : contact_.tangent(x, contact_.points(x, start_, multipliers)))
-    addBlock(block, entries);
+  for (const ContactBlock& block : contact_.tangent(solids_.positions(y, t_), points)) addBlock(block, entries);
   return entries;
 }
 
@@ -206,7 +155,7 @@ NewtonReport ContactSystem::solve(std::span<const ContactMultipliers> multiplier
                                   std::vector<double>& y) {
   known_.assign(multipliers.begin(), multipliers.end());
   return iterate(
-      y, options, symmetric(), true, solids_.reach(),
+      y, options, solver_, symmetric(), true, solids_.reach(),
       [&](const std::vector<double>& z, std::vector<double>& r) { return residual(known_, z, r); },
       [&](const std::vector<double>& z) {
         if (contact_.law().touch.keep > 0) keepFacets(z);
@@ -275,7 +224,7 @@ NewtonReport ContactSystem::solveTogether(std::span<ContactMultipliers> pairs, c
     }
     return entries;
   };
-  const NewtonReport report = iterate(z, options, false, false, solids_.reach(), residualAt, entriesAt);
+  const NewtonReport report = iterate(z, options, solver_, false, false, solids_.reach(), residualAt, entriesAt);
   y.assign(z.begin(), z.begin() + n);
   for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].pressure_Pa = eps * z[n + k];
   return report;
@@ -300,7 +249,10 @@ std::vector<double> ContactSystem::ahead(std::span<const ContactMultipliers> mul
   std::vector<double> pulled(y.size());
   solids_.dofs().Ct.multiply<double>({reinterpret_cast<const double*>(force.data()), 3 * force.size()}, pulled);
   for (std::size_t i = 0; i < dg.size(); ++i) dg[i] = -(dg[i] + pulled[i]);
-  return solution(entries, dg, symmetric(), raise).value_or(std::vector<double>{});
+  std::vector<double> way(y.size());
+  if (!solver_.factorise(entries, static_cast<int>(y.size()), symmetric(), raise)) return {};
+  solver_.solve(dg, way);
+  return way;
 }
 
 }  // namespace gambeson

@@ -7,17 +7,10 @@
 
 #include "core/solid/solid_contact.hpp"
 #include "core/solid/solid_system.hpp"
+#include "core/solid/tangent_solver.hpp"
 #include "core/statics/newton.hpp"
 
 namespace gambeson {
-
-struct MatrixEntry {
-  int row, column;
-  double value;
-};
-
-/// The lower triangle of what both triangles' entries add up to.
-SymmetricMatrix lowerTriangle(std::span<const MatrixEntry> entries, int size);
 
 struct ContactNewton {
   int iterations = 30;
@@ -28,11 +21,13 @@ struct ContactNewton {
   double raise = 0;
 };
 
-/// Solids in contact at the load t, from the positions `start`, where the step began. Refers to solids and contact.
+/// Solids in contact at the load t, from the positions `start`, where the step began. Refers to solids, contact and
+/// solver.
 class ContactSystem {
  public:
-  ContactSystem(SolidSystem& solids, const SolidContact& contact, double t, std::vector<Vec3> start)
-      : solids_(solids), contact_(contact), t_(t), start_(std::move(start)) {}
+  ContactSystem(SolidSystem& solids, const SolidContact& contact, TangentSolver& solver, double t,
+                std::vector<Vec3> start)
+      : solids_(solids), contact_(contact), solver_(solver), t_(t), start_(std::move(start)) {}
 
   /// f_int + f_cnt = f_ext with the multipliers held (step 2 of boxes 6 and 7; all zero: the penalty method, 3.28). y
   /// is the start and, where the report says so, the solution. Whole steps; those into states that are not finite are
@@ -59,6 +54,8 @@ class ContactSystem {
   double residual(std::span<const ContactMultipliers> multipliers, std::span<const double> y, std::span<double> r);
   /// dr/dy, both triangles; entries of one place add up.
   std::vector<MatrixEntry> tangent(std::span<const ContactMultipliers> multipliers, std::span<const double> y);
+  /// The same of these points alone.
+  std::vector<MatrixEntry> tangentOf(std::span<const ContactPoint> points, std::span<const double> y);
 
  private:
   void addForce(std::span<const ContactPoint> points, std::span<double> r) const;
@@ -70,6 +67,7 @@ class ContactSystem {
 
   SolidSystem& solids_;
   const SolidContact& contact_;
+  TangentSolver& solver_;
   double t_;
   std::vector<Vec3> start_;
   std::vector<ContactMultipliers> known_;

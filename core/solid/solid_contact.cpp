@@ -181,6 +181,20 @@ double SolidContact::energy(std::span<const ContactPoint> points) const {
   return sum;
 }
 
+double SolidContact::lost(std::span<const ContactPoint> points) const {
+  double sum = 0;
+  for (const ContactPoint& p : points)
+    if (p.rubs && p.slips) sum += p.area_m2 * p.bound_Pa * (p.trial_Pa - p.bound_Pa) / law_.tangential_Pa_per_m;
+  return sum;
+}
+
+double SolidContact::held(std::span<const ContactPoint> points) const {
+  double sum = 0;
+  for (const ContactPoint& p : points)
+    if (p.rubs) sum += p.area_m2 * p.tractionSize() * p.tractionSize() / (2 * law_.tangential_Pa_per_m);
+  return sum;
+}
+
 std::vector<ContactBlock> SolidContact::tangent(std::span<const Vec3> x, std::span<const ContactPoint> points) const {
   std::vector<ContactBlock> blocks;
   for (const ContactPoint& p : points) {

@@ -109,6 +109,13 @@ class SolidContact {
   /// What the penalties store [J]: the sum of A (t_N² - lambda_N²)/(2 eps_N). Without friction its gradient is the
   /// force, with the multipliers held.
   double energy(std::span<const ContactPoint> points) const;
+  /// What rubs turns into heat in the step that ended here [J]: the sum of A t_a times what has slipped,
+  /// M^ab (t*_b - t_b)/eps_T, which is A |t| (|t*| - |t|)/eps_T; never negative. Where augmentations have settled,
+  /// lambda = t, all that has slid since the step began has slipped.
+  double lost(std::span<const ContactPoint> points) const;
+  /// What the springs along facets hold [J]: the sum of A |t|²/(2 eps_T). They give way for good with penalties alone;
+  /// where augmentations have settled what sticks has not moved, and there is no such energy.
+  double held(std::span<const ContactPoint> points) const;
   /// The exact slope of that force in x.
   std::vector<ContactBlock> tangent(std::span<const Vec3> x, std::span<const ContactPoint> points) const;
 

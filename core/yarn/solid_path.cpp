@@ -4,6 +4,18 @@
 #include <cmath>
 
 namespace gambeson {
+
+void SolidLoadReport::add(const SolidLoadReport& next) {
+  const int before[3] = {steps, passes, iterations};
+  const SolidLoadReport last = *this;
+  *this = next;
+  if (next.steps == 0)
+    deepest_m = last.deepest_m, residual = last.residual, rounded = last.rounded, stable = last.stable;
+  steps += before[0];
+  passes += before[1];
+  iterations += before[2];
+}
+
 SolidCellState restOf(const SolidCell& cell) {
   SolidCellState state;
   state.x = cell.solids().mesh.nodes;
@@ -31,13 +43,18 @@ SolidLoadReport changeLoad(const SolidCell& cell, const CellLoad& to, SolidCellS
   if (!state.y.empty()) at.y = state.y;
   at.multipliers = state.multipliers;
   SolidLoadReport report;
-  const ContactReport contact = followContact(work.system, cell.contact(), path, at, [&](const ContactStep& step) {
+  const auto keep = [&](const ContactStep& step) {
     state.points = step.points;
+    state.lost_J += cell.contact().lost(step.points);
     report.passes += step.passes;
     report.iterations += step.iterations;
     report.deepest_m = step.deepest_m;
+    report.residual = step.residual;
+    report.rounded = step.rounded;
+    report.stable = step.stable;
     return true;
-  });
+  };
+  const ContactReport contact = followContact(work.system, cell.contact(), path, at, work.solver, keep);
   state.load = cell.between(from, to, at.factor);
   state.x = work.system.positions(at.y, at.factor);
   state.y = std::move(at.y);

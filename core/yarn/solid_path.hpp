@@ -15,10 +15,11 @@ inline constexpr double kSolidCellRaise = 1e-10;
 /// A cell at rest or in equilibrium: all that the next load starts from.
 struct SolidCellState {
   CellLoad load;
-  std::vector<Vec3> x;  ///< of all nodes [m]
-  std::vector<double> y;
+  std::vector<Vec3> x;    ///< of all nodes [m]
+  std::vector<double> y;  ///< empty: at rest
   std::vector<ContactMultipliers> multipliers;
   std::vector<ContactPoint> points;  ///< what presses and rubs
+  double lost_J = 0;                 ///< to friction, since rest
 };
 
 struct SolidLoadOptions {
@@ -38,14 +39,22 @@ struct SolidLoadReport {
   bool reached = false;
   std::string why;  ///< else: what failed
   int steps = 0, passes = 0, iterations = 0;
-  double deepest_m = 0;  ///< of nodes that have passed a facet, at the last step
+  // Of the last step:
+  double deepest_m = 0;  ///< of nodes that have passed a facet
+  double residual = 0;   ///< of the forces that balance
+  bool rounded = false;  ///< rounding kept it above the tolerance
+  bool stable = true;    ///< the tangent, if it is symmetric, was positive definite
+
+  /// This one, and then another.
+  void add(const SolidLoadReport& next);
 };
 
-/// Scratch: the system whose supports move.
+/// Scratch: the system whose supports move, and its factor.
 class SolidCellWork {
  public:
   explicit SolidCellWork(const SolidCell& cell) : system(cell.body(), cell.supports()) {}
   SolidSystem system;
+  TangentSolver solver;
 };
 
 SolidCellState restOf(const SolidCell& cell);

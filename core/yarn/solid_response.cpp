@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/error.hpp"
 #include "core/solid/contact_system.hpp"
@@ -16,24 +15,24 @@ using Column = std::vector<double>;
 class Linearised {
  public:
   Linearised(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work, SolidContactMethod method)
-      : cell_(cell), x_(state.x), system_(work.system), held_(method != SolidContactMethod::penalty) {
+      : cell_(cell),
+        x_(state.x),
+        system_(work.system),
+        factor_(work.solver),
+        held_(method != SolidContactMethod::penalty) {
     system_.setPrograms(cell.programs(state.load, state.load));
     std::vector<ContactMultipliers> multipliers = state.multipliers;
-    for (ContactMultipliers& m : multipliers) {
-      m.traction_N_per_m = {};
-      if (!held_) m.pressure_Pa = 0;
-    }
-    ContactSystem contact(system_, cell.contact(), 1, state.x);
-    for (const ContactPoint& p : contact.points(multipliers, state.y))
+    if (!held_)
+      for (ContactMultipliers& m : multipliers) m.pressure_Pa = 0;
+    ContactSystem contact(system_, cell.contact(), work.solver, 1, state.x);
+    const Column y = state.y.empty() ? contactStart(system_).y : state.y;
+    for (const ContactPoint& p : contact.points(multipliers, y))
       if (p.pressure_Pa > 0) points_.push_back(p), points_.back().rubs = false;
     blocks_ = cell.contact().tangent(x_, points_);
     SolidWork scratch;
     K_ = cell.body().sparsity();
     cell.body().stiffness(x_, K_, scratch);
-    SymmetricMatrix reduced = lowerTriangle(contact.tangent(multipliers, state.y), system_.size());
-    for (int c = 0; c < reduced.size; ++c) reduced.values[reduced.offsets[c]] *= 1 + kSolidCellRaise;
-    factor_ = std::make_unique<SymmetricFactor>(reduced);
-    if (factor_->factorise(reduced) == Definiteness::singular)
+    if (!factor_.factorise(contact.tangentOf(points_, y), system_.size(), true, kSolidCellRaise))
       throw RunError("the tangent of the cell of solids is singular");
   }
 
@@ -52,7 +51,7 @@ class Linearised {
       const double size = norm(r);
       if (k == 0) first = size;
       if (size <= kSettled * first) return force;
-      factor_->solve(r, dy);
+      factor_.solve(r, dy);
       C.multiply<double>(dy, back);
       for (std::size_t i = 0; i < x.size(); ++i) x[i] -= back[i];
       if (!held_) continue;
@@ -88,11 +87,11 @@ class Linearised {
   const SolidCell& cell_;
   std::span<const Vec3> x_;
   SolidSystem& system_;
+  TangentSolver& factor_;
   bool held_;
   std::vector<ContactPoint> points_;
   std::vector<ContactBlock> blocks_;
   BlockMatrix K_;
-  std::unique_ptr<SymmetricFactor> factor_;
 };
 
 std::array<double, 9> tangentOf(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work,
@@ -151,49 +150,40 @@ std::array<double, 3> stressOf(const SolidCell& cell, const CellResultants& n) {
   return {n.n11 / height, n.n22 / height, n.n12 / height};
 }
 
-std::array<double, 3> meanStress(const SolidCell& cell, std::span<const Vec3> x) {
-  const SolidBody& body = cell.body();
-  std::array<double, 3> sum{};
-  for (std::size_t e = 0; e < body.cells().size(); ++e) {
-    std::array<Vec3, kHexahedronNodes> corners;
-    for (int a = 0; a < kHexahedronNodes; ++a) corners[a] = x[body.mesh().cells[e][a]];
-    for (const HexahedronPoint& p : body.cells()[e]) {
-      const Symmetric S = evaluate(body.lawOf(static_cast<int>(e)), p.fibre, strainAt(p, corners).C).stress_Pa;
-      sum[0] += p.volume_m3 * S[0];
-      sum[1] += p.volume_m3 * S[1];
-      sum[2] += p.volume_m3 * S[5];
-    }
-  }
-  for (double& s : sum) s /= cell.area_m2() * cell.height_m();
-  return sum;
-}
-
 std::array<double, 9> membraneTangent(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work,
                                       SolidContactMethod method) {
-  if (cell.design().friction > 0) throw RunError("the tangent of a cell of solids is of yarns without friction");
+  if (std::any_of(state.points.begin(), state.points.end(), [](const ContactPoint& p) { return p.rubs; }))
+    throw RunError("the tangent of a cell of solids is of yarns without friction");
   return tangentOf(cell, state, work, method);
 }
 
 SolidLoadReport freeAcross(const SolidCell& cell, SolidCellState& state, SolidCellWork& work, double tolerance,
-                           const SolidLoadOptions& options) {
+                           const SolidLoadOptions& options, YarnDirection pulled, const SolidCellState* from) {
   constexpr int kIterations = 30;
-  constexpr double kLongest = 0.02;  // of E22
+  constexpr double kLongest = 0.02, kRounding = 1e-13;  // of the strain across
+  const int free = 1 - pulled;
+  const auto across = [&](CellLoad& load) -> double& { return free == along_warp ? load.e22 : load.e11; };
   SolidLoadReport report;
+  report.reached = true;
+  double slope = 0, before = NAN, changed = 0;
   for (int k = 0; k < kIterations; ++k) {
     const CellResultants n = resultantsOf(cell, state);
-    report.reached = true;
-    if (std::abs(n.n22) <= tolerance * (std::abs(n.n11) + std::abs(n.n12))) return report;
-    const double slope = tangentOf(cell, state, work, options.method)[4];
+    const double carried = free == along_warp ? n.n22 : n.n11, along = free == along_warp ? n.n11 : n.n22;
+    if (std::abs(carried) <= tolerance * (std::abs(along) + std::abs(n.n12))) return report;
+    // What rubs is no part of the tangent: the secant is better.
+    if (!from || std::isnan(before)) {
+      slope = std::abs(tangentOf(cell, state, work, options.method)[4 * free]);
+    } else if ((carried - before) * changed > 0) {
+      slope = (carried - before) / changed;
+    }
+    if (std::abs(carried) <= kRounding * slope) return report;
+    before = carried;
     CellLoad next = state.load;
-    next.e22 -= std::clamp(n.n22 / std::abs(slope), -kLongest, kLongest);
-    const SolidLoadReport part = changeLoad(cell, next, state, work, options);
-    report.steps += part.steps;
-    report.passes += part.passes;
-    report.iterations += part.iterations;
-    report.deepest_m = part.deepest_m;
-    report.why = part.why;
-    report.reached = part.reached;
-    if (!part.reached) return report;
+    changed = -std::clamp(carried / slope, -kLongest, kLongest);
+    across(next) += changed;
+    if (from) state = *from;
+    report.add(changeLoad(cell, next, state, work, options));
+    if (!report.reached) return report;
   }
   report.reached = false;
   report.why = "the stress across does not vanish within the iterations";

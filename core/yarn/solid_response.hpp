@@ -13,19 +13,19 @@ CellResultants resultantsOf(const SolidCell& cell, const SolidCellState& state);
 /// (S11, S22, S12) of what the faces carry: resultants divided by the height of the cell [Pa].
 std::array<double, 3> stressOf(const SolidCell& cell, const CellResultants& n);
 
-/// (S11, S22, S12) as Man prints it (2006, eq. 4.58, 4.64): the sum of F⁻¹P over the yarns, divided by area times
-/// height [Pa]. Not conjugate to the load where yarns press on each other across voids (4.56 does not hold there).
-std::array<double, 3> meanStress(const SolidCell& cell, std::span<const Vec3> x);
-
 /// d(n11, n22, n12)/d(E11, E22, 2 E12) [N/m], symmetric, by rows, of an equilibrium without friction that `method`
-/// found: where penalties alone press they give way, else nodes stay on their facets. Throws RunError where yarns rub.
+/// found: where penalties alone press they give way, else nodes stay on their facets. Throws RunError where a node
+/// rubs.
 std::array<double, 9> membraneTangent(const SolidCell& cell, const SolidCellState& state, SolidCellWork& work,
                                       SolidContactMethod method = SolidContactMethod::augmented);
 
 /// The strain E22 at which n22 = 0 under the E11 and 2 E12 of the state's load (uniaxial with free sides), to which it
-/// moves the state: Newton's method with the tangent of what touches, friction apart, until |n22| is below `tolerance`
-/// times |n11| + |n12|.
+/// moves the state; where the cloth is pulled along the warp, E11 at which n11 = 0. Newton's method with the tangent of
+/// what touches, until |n22| is below `tolerance` times |n11| + |n12|, or rounding at rest. With friction: `from`, the
+/// last load that was accepted; every trial starts there, so that what is lost does not depend on how the strain was
+/// found, and slopes are secants.
 SolidLoadReport freeAcross(const SolidCell& cell, SolidCellState& state, SolidCellWork& work, double tolerance = 1e-6,
-                           const SolidLoadOptions& options = {});
+                           const SolidLoadOptions& options = {}, YarnDirection pulled = along_weft,
+                           const SolidCellState* from = nullptr);
 
 }  // namespace gambeson

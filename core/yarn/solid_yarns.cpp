@@ -18,7 +18,7 @@ void check(const WovenYarns& yarns, const YarnMeshing& meshing, bool quarter) {
   if (meshing.across < 2 || meshing.across > 16) refuse("across", fmt::format("{}, must be 2 to 16", meshing.across));
   if (meshing.along < 5 || meshing.along > 63 || meshing.along % 2 == 0)
     refuse("along", fmt::format("{}, must be odd, 5 to 63", meshing.along));
-  if (quarter && !isPlain(yarns.weave)) refuse("cell", "quarter, must be full: the weave is not plain");
+  if (quarter && !isPlain(yarns.weave)) refuse("extent", "quarter, must be full unless the weave is plain");
 }
 
 /// A yarn at s along the cloth: its middle and the axes of its section.

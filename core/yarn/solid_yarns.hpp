@@ -49,7 +49,7 @@ struct SolidYarns {
 /// Heights v are not: yarns touch where they cross and press on each other nowhere.
 ///
 /// Throws InputError as checkWovenYarns, and with the keys "across", "along" where the meshing is out of range, or
-/// "cell" where a quarter is asked of a weave that is not plain.
+/// "extent" where a quarter is asked of a weave that is not plain.
 SolidYarns solidYarns(const WovenYarns& yarns, const std::array<BonetBurton, 2>& law, const YarnMeshing& meshing,
                       bool quarter);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "cases/cell/solid_engine.hpp"
 #include "cases/cell/truss_engine.hpp"
 #include "cases/yarns/design.hpp"
 #include "unit/cases/cell/example.hpp"
@@ -24,10 +25,18 @@ CellCase truss() {
                   R"(weft.half_width="0.12 mm")", R"(warp.half_width="0.1 mm")"});
 }
 
+/// Of solids on a coarse mesh, whose contact is exact.
+CellCase solid(const std::vector<std::string>& changes = {}) {
+  std::vector<std::string> all{"solids.across=2", "solids.along=5", "solids.change=1e-7", "solids.deepest=1e-7",
+                               "solver.tolerance=1e-11"};
+  all.insert(all.end(), changes.begin(), changes.end());
+  return readCellCase(std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library/cell_solid.json", all);
+}
+
 /// What is written out in full is read again, whatever the engine has no use for.
 TEST(CellEngine, CasesComeBack) {
   const Folder folder;
-  for (const CellCase& c : {truss(), example({})}) {
+  for (const CellCase& c : {truss(), solid(), example({})}) {
     const CellCase again = readCellCase(folder.write("again.json", writeCase(c)));
     EXPECT_EQ(writeCase(again), writeCase(c));
     EXPECT_EQ(caseIdentity(again), caseIdentity(c));
@@ -96,8 +105,10 @@ TEST(CellEngine, WeftAndWarpOfABalancedWeaveAreAlike) {
 
 /// Turned outwards, and closed.
 TEST(CellEngine, TubesEncloseTheYarns) {
-  for (const char* yarns : {"rod", "truss"}) {
-    const CellCase c = std::string(yarns) == "rod" ? example({}) : truss();
+  for (const std::string& yarns : std::vector<std::string>{"rod", "truss", "solid", "quarter"}) {
+    const CellCase c = yarns == "rod"     ? example({})
+                       : yarns == "truss" ? truss()
+                                          : solid({"extent=" + std::string(yarns == "solid" ? "full" : "quarter")});
     const auto engine = makeEngine(c);
     const YarnSurface& surface = engine->surface();
     const YarnShape shape = engine->specimen()->shape();
@@ -111,6 +122,149 @@ TEST(CellEngine, TubesEncloseTheYarns) {
         exact += woven.arcLength_m(d, k, 0, woven.period_m(d)) * 3.14159265 * woven.yarn[d].half_width_m *
                  woven.yarn[d].half_thickness_m;
     EXPECT_NEAR(volume, exact, 0.08 * exact) << yarns;  // 24 corners of an ellipse: 1 %; sections that lean take more
+  }
+}
+
+CellTarget toLoad(const CellLoad& load) { return {load, {}}; }
+
+/// A15: resultants are the derivatives of the energy, 1e-5 of the largest; and the mean stress stands beside them.
+TEST(SolidEngine, ForcesAreDerivativesOfTheEnergy) {
+  constexpr double h = 1e-5;
+  const CellCase c = solid();
+  const auto engine = makeEngine(c);
+  const CellLoad load{0.02, 0.015, 0.05, 0, 0};
+  const auto bring = [&](const CellLoad& to) {
+    const auto specimen = engine->specimen();
+    EXPECT_TRUE(specimen->bring(toLoad(load)).reached);
+    const CellStep step = specimen->bring(toLoad(to));
+    EXPECT_TRUE(step.reached) << step.why;
+    return step.point;
+  };
+  const CellPoint point = bring(load);
+  const CellResultants& n = point.resultants;
+  ASSERT_GT(n.n11, 0);
+  const double forces[3] = {n.n11, n.n22, n.n12};
+  for (int e = 0; e < 3; ++e) {
+    double energy[2];
+    for (const int side : {0, 1}) {
+      CellLoad to = load;
+      (e == 0 ? to.e11 : e == 1 ? to.e22 : to.g12) += side ? h : -h;
+      energy[side] = bring(to).resultants.energy_J_per_m2;
+    }
+    EXPECT_NEAR((energy[1] - energy[0]) / (2 * h), forces[e], 1e-5 * n.n11) << e;
+  }
+  EXPECT_NEAR(point.mean_stress_Pa[0], n.n11 / *c.height_m, 0.05 * n.n11 / *c.height_m);
+  EXPECT_NE(point.mean_stress_Pa[0], n.n11 / *c.height_m);
+  EXPECT_LE(point.passed_m, 1e-7 * 0.16e-3);
+  // Of each yarn, by spacing and stretch, and by how much crimp is left.
+  EXPECT_NEAR(point.tension_N[along_weft], n.n11 * 1e-3 * std::sqrt(1 + 2 * load.e11), 0.15 * n.n11 * 1e-3);
+}
+
+/// A14: 1e-4 of the largest resultant; and the images of the quarter are the full cell.
+TEST(SolidEngine, AQuarterAndItsImagesAreTheFullCell) {
+  CellPoint point[2];
+  YarnShape shape[2];
+  std::vector<char> direction[2];
+  for (const int full : {0, 1}) {
+    const auto engine = makeEngine(solid({full ? "extent=full" : "extent=quarter"}));
+    const auto specimen = engine->specimen();
+    const CellStep step = specimen->bring(toLoad({0.015, 0.015, 0.04, 0, 0}));
+    ASSERT_TRUE(step.reached) << step.why;
+    point[full] = step.point;
+    shape[full] = specimen->shape();
+    direction[full] = engine->surface().direction;
+  }
+  const double most = point[1].resultants.n11;
+  EXPECT_NEAR(point[0].resultants.n11, most, 1e-4 * most);
+  EXPECT_NEAR(point[0].resultants.n22, point[1].resultants.n22, 1e-4 * most);
+  EXPECT_NEAR(point[0].resultants.n12, point[1].resultants.n12, 1e-4 * most);
+  EXPECT_NEAR(point[0].mean_stress_Pa[0], point[1].mean_stress_Pa[0], 1e-4 * point[1].mean_stress_Pa[0]);
+  EXPECT_NEAR(point[0].tension_N[along_warp], point[1].tension_N[along_warp], 1e-3 * point[1].tension_N[along_warp]);
+  // Each vertex of the images lies on one of the full cell, with its stress; the cells differ by a shift of the whole.
+  const auto middle = [](const YarnShape& s) {
+    Vec3 low = s.vertices[0], high = low;
+    for (const Vec3& x : s.vertices)
+      for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], x[d]), high[d] = std::max(high[d], x[d]);
+    return 0.5 * (low + high);
+  };
+  const Vec3 shift = middle(shape[1]) - middle(shape[0]);
+  EXPECT_LT(std::hypot(shift.x, shift.y), 1e-4 * 1e-3);  // of the full cell one corner keeps its height
+  double pressed = 0, most_stress = 0;
+  for (const double s : shape[1].stress_Pa) most_stress = std::max(most_stress, s);
+  for (std::size_t i = 0; i < shape[0].vertices.size(); ++i) {
+    double nearest = INFINITY;
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < shape[1].vertices.size(); ++k)
+      if (const double d = norm2(shape[1].vertices[k] - shape[0].vertices[i] - shift);
+          d < nearest && direction[1][k] == direction[0][i])
+        nearest = d, at = k;
+    EXPECT_LT(std::sqrt(nearest), 1e-4 * 1e-3);
+    // At the cuts between images a node has hexahedra on one side alone.
+    EXPECT_NEAR(shape[0].stress_Pa[i], shape[1].stress_Pa[at], 0.3 * most_stress);
+    pressed = std::max(pressed, shape[0].pressure_Pa[i]);
+  }
+  EXPECT_GT(pressed, 1e6);
+}
+
+/// A10: a loop with friction loses what the forces do around it; without, nothing.
+TEST(SolidEngine, WhatALoopLosesIsTheWorkOfItsForces) {
+  for (const double mu : {0.0, 0.3}) {
+    const auto engine = makeEngine(solid({"friction.coefficient=" + std::to_string(mu), "solids.change=1e-3",
+                                          "solids.deepest=1e-2", "solver.tolerance=1e-9"}));
+    const auto specimen = engine->specimen();
+    constexpr int kSteps = 10;
+    double work = 0, most = 0, lost_before = 0;
+    CellPoint before;
+    for (int k = 0; k <= 2 * kSteps; ++k) {
+      const double part = k <= kSteps ? k : 2 * kSteps - k;
+      const CellStep step = specimen->bring(toLoad(trellis(0.2 * part / kSteps, 1.01)));
+      ASSERT_TRUE(step.reached) << step.why;
+      const CellPoint& p = step.point;
+      if (k == 0) lost_before = p.lost_J_per_m2;
+      if (k > 0) {
+        EXPECT_GE(p.lost_J_per_m2, before.lost_J_per_m2);
+        const CellResultants &a = before.resultants, &b = p.resultants;
+        work +=
+            0.5 * ((a.n11 + b.n11) * (p.load.e11 - before.load.e11) + (a.n22 + b.n22) * (p.load.e22 - before.load.e22) +
+                   (a.n12 + b.n12) * (p.load.g12 - before.load.g12));
+      }
+      most = std::max(most, work);
+      before = p;
+      if (k == 2 * kSteps) {
+        const double lost = p.lost_J_per_m2 - lost_before;
+        if (mu == 0) {
+          EXPECT_EQ(lost, 0);
+          EXPECT_NEAR(work, 0, 0.01 * most);
+        } else {
+          EXPECT_GT(lost, 0.2 * most);
+          EXPECT_NEAR(work, lost, 0.2 * lost);  // 0.12 with twice the steps: nodes jump from facet to facet
+        }
+      }
+    }
+  }
+}
+
+/// Sides that are free carry nothing, pulled either way; with friction each step starts where the last was accepted.
+TEST(SolidEngine, FreeSidesCarryNothing) {
+  for (const char* mu : {"0", "0.2"}) {
+    double narrowed[2];
+    for (const YarnDirection along : {along_weft, along_warp}) {
+      const auto engine = makeEngine(solid({std::string("friction.coefficient=") + mu}));
+      const auto specimen = engine->specimen();
+      CellStep step;
+      for (const double part : {0.0, 0.5, 1.0}) {
+        step = specimen->bring(targetOf(UniaxialPath{0.02, along, true}, part));
+        ASSERT_TRUE(step.reached) << part << " " << step.why;
+      }
+      const CellResultants& n = step.point.resultants;
+      const double pulled = along == along_weft ? n.n11 : n.n22, across = along == along_weft ? n.n22 : n.n11;
+      ASSERT_GT(pulled, 0);
+      EXPECT_LE(std::abs(across), 1e-6 * pulled);
+      narrowed[along] = along == along_weft ? step.point.load.e22 : step.point.load.e11;
+      EXPECT_LT(narrowed[along], -0.005);
+      EXPECT_EQ(step.point.lost_J_per_m2 > 0, std::string(mu) != "0");
+    }
+    EXPECT_NEAR(narrowed[0], narrowed[1], 0.05 * std::abs(narrowed[0]));  // one side presses, the other has facets
   }
 }
 

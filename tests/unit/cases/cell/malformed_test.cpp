@@ -78,7 +78,7 @@ TEST(MalformedCell, EachSaysFileLineKeyAndReason) {
           {"\"height\": \"0.64 mm\"", "\"faces\": \"held\"", 18, "loads[2].bending", "do not bend"},
           {"\"height\": \"0.64 mm\"", "\"extent\": \"quarter\"", 18, "loads[2].bending", "allowed with extent full"},
           {"\"height\": \"0.64 mm\"", "\"yarns\": \"truss\"", 22, "solver.pieces_per_spacing", "goes with yarns rod"},
-          {"\"height\": \"0.64 mm\",", "\"yarns\": \"beam\",", 14, "yarns", "allowed: rod or truss"},
+          {"\"height\": \"0.64 mm\",", "\"yarns\": \"beam\",", 14, "yarns", "allowed: rod, solid or truss"},
           // The rest.
           {"[1e9, 3e9]", "[1e9, 0]", 21, "bars[0].young[1]", "allowed: > 0"},
           {"[1e9, 3e9]", "[1e9]", 21, "bars[0].young", "1 values for 2 pieces"},
@@ -114,6 +114,63 @@ TEST(MalformedCell, WhatATrussCannotDo) {
           {"\"biaxial\": {\"extension\": 0.04}", "\"trellis\": {\"angle\": 0.1}", 6, "loads[0].trellis",
            "allowed with yarns truss: biaxial or uniaxial"},
       });
+}
+
+const std::string solid_example = R"json({
+  "kind": "cell", "name": "solid", "yarns": "solid",
+  "weave": {"pattern": "plain"},
+  "weft": {"spacing": "1 mm", "amplitude": "0.16 mm", "half_width": "0.24 mm", "half_thickness": "0.16 mm",
+           "moduli": {"young": "84.63 GPa", "axial_shear": "0.244 GPa", "transverse_young": "1.34 GPa", "poisson_axial": 0.3}},
+  "solids": {"across": 2, "along": 5},
+  "loads": [{"name": "pull", "biaxial": {"extension": 0.04}}]
+})json";
+
+TEST(MalformedCell, WhatSolidsCannotDo) {
+  const std::string moduli =
+      R"("moduli": {"young": "84.63 GPa", "axial_shear": "0.244 GPa", "transverse_young": "1.34 GPa", "poisson_axial": 0.3})";
+  expectRefused(
+      solid_example,
+      {
+          // Constants of no stable material.
+          {"\"poisson_axial\": 0.3", "\"poisson_axial\": 5, \"poisson_transverse\": 0.3", 5,
+           "weft.moduli.poisson_axial", "is not allowed: between -4."},
+          {"\"poisson_axial\": 0.3", "\"poisson_axial\": 0.3, \"poisson_transverse\": 1", 5,
+           "weft.moduli.poisson_transverse", "-1 to 1, both excluded"},
+          {"\"1.34 GPa\"", "0", 5, "weft.moduli.transverse_young", "allowed: > 0"},
+          {", \"transverse_young\": \"1.34 GPa\"", "", 5, "weft.moduli", "is required with yarns solid"},
+          {", \"poisson_axial\": 0.3", "", 5, "weft.moduli", "is required with yarns solid"},
+          {moduli, R"("isotropic": {"young": "84 GPa", "poisson": 0.5})", 5, "weft.isotropic.poisson",
+           "allowed: > -1 and < 0.5"},
+          {moduli,
+           R"("section": {"stretch": 1, "shear_across": 1, "shear_through": 1, "torsion": 1, "bending_through": 1, "bending_in_plane": 1})",
+           5, "weft.section", "allowed with yarns solid: moduli or isotropic"},
+          // The mesh.
+          {"\"along\": 5", "\"along\": 6", 6, "solids.along", "allowed: odd numbers"},
+          {"\"along\": 5", "\"along\": 3", 6, "solids.along", "allowed: >= 5"},
+          {"\"across\": 2", "\"across\": 17", 6, "solids.across", "allowed: >= 2 and <= 16"},
+          {"{\"across\": 2, \"along\": 5}", "{\"across\": 16, \"along\": 63}", 6, "solids.across",
+           "allowed: at most 60000"},
+          // What it does not go with.
+          {"\"yarns\": \"solid\"", "\"yarns\": \"rod\", \"contact\": false", 6, "solids", "goes with yarns solid"},
+          {"\"solids\"", "\"compression\": {\"half_force\": \"5 N\"}, \"solids\"", 6, "compression",
+           "goes with yarns rod or truss"},
+          {"\"solids\"", "\"solver\": {\"pieces_per_spacing\": 8}, \"solids\"", 6, "solver.pieces_per_spacing",
+           "with yarns solid: solids.along"},
+          {"\"solids\"", "\"solver\": {\"iterations\": 8}, \"solids\"", 6, "solver.iterations",
+           "with yarns solid: solids.iterations"},
+          {"\"solids\"", "\"friction\": {\"coefficient\": 0.3, \"stick_stiffness\": 1}, \"solids\"", 6,
+           "friction.stick_stiffness", "with yarns solid: solids.penalty"},
+          {"\"solids\": {", "\"friction\": {\"coefficient\": 0.3}, \"solids\": {\"contact_method\": \"multipliers\", ",
+           6, "solids.contact_method", "know no friction"},
+          {"\"solids\": {", "\"friction\": {\"coefficient\": 0.3}, \"solids\": {\"contact_method\": \"penalty\", ", 6,
+           "solids.contact_method", "allowed with friction"},
+          {"{\"pattern\": \"plain\"}", "{\"pattern\": \"twill\", \"over\": 2, \"under\": 2}, \"extent\": \"quarter\"",
+           3, "extent", "must be full unless the weave is plain"},
+          {"\"biaxial\": {\"extension\": 0.04}", "\"bending\": {\"curvature\": 1, \"direction\": 0}", 7,
+           "loads[0].bending", "cells of solids stay flat"},
+      });
+  expectRefused(cell_example, {{"\"path\": \"both\"", "\"path\": \"both\", \"field\": \"pressure\"", 23,
+                                "output.pictures[0].field", "allowed with yarns rod or truss"}});
 }
 
 /// Refused before anything of that size is built.

@@ -264,5 +264,39 @@ TEST(CellRun, YarnsSideBySideAreWatched) {
   EXPECT_NE(content(out / "report.html").find("neighbouring yarns overlap"), std::string::npos);
 }
 
+/// Solids leave what rods do, and beside it the thesis's mean stress, how deep surfaces pass, and what presses; the
+/// same bits for any number of threads and after a stop.
+TEST(CellRun, OfSolids) {
+  const Folder folder;
+  const CellCase c = readCellCase(
+      std::filesystem::path(GAMBESON_SOURCE_DIR) / "cases/library/cell_solid.json",
+      {"solids.along=5", R"(friction={"coefficient":0.2})",
+       R"(output={"pictures":[{"path":"b","field":"pressure","width":160,"height":120}]})",
+       R"(loads=[{"name":"a","biaxial":{"extension":0.02},"steps":2},{"name":"b","trellis":{"angle":0.1,"extension":0.01},"steps":2,"cycles":1}])"});
+  const auto out = [&](const char* name) { return folder.path() / name; };
+  run(c, out("one"));
+  run(c, out("two"), 2);
+  run(c, out("cut"));
+  std::filesystem::remove(out("cut") / "frames/segment_000002.h5");
+  run(c, out("cut"), 2, true);
+  for (const char* other : {"two", "cut"}) {
+    for (const char* file : {"curves.csv", "case.json", "frames/layout.h5", "frames/segment_000001.h5",
+                             "frames/segment_000002.h5", "snapshots/01_b_pressure.png"})
+      EXPECT_EQ(content(out("one") / file), content(out(other) / file)) << other << " " << file;
+    auto a = summaryOf(out("one")), b = summaryOf(out(other));
+    a.erase("timings"), b.erase("timings");
+    EXPECT_EQ(a, b);
+  }
+  const auto pulled = curve(out("one"), "a"), turned = curve(out("one"), "b");
+  EXPECT_NEAR(pulled.at("mean_s11_GPa")[2], pulled.at("s11_GPa")[2], 0.05 * pulled.at("s11_GPa")[2]);
+  EXPECT_LT(turned.at("mean_s12_GPa")[2], 0.96 * turned.at("s12_GPa")[2]);  // 4.64 is not conjugate to the load
+  EXPECT_GT(turned.at("lost_J_per_m2")[4], turned.at("lost_J_per_m2")[0]);
+  for (const double passed : pulled.at("passed_m")) EXPECT_LE(passed, 1e-2 * 0.16e-3);
+  EXPECT_GT(summaryOf(out("one")).at("loads")[1].at("loops")[0].at("lost_J_per_m2").get<double>(), 0);
+  const std::string page = content(out("one") / "report.html");
+  EXPECT_NE(page.find("mean stress of its yarns"), std::string::npos);
+  EXPECT_NE(page.find("coefficient 0.2"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gambeson

@@ -171,8 +171,9 @@ TEST(ContactPath, WhatIsReleasedIsAsBefore) {
   }
 }
 
-/// A block whose lower edge stands in the groove z = |x| of two facets (Man 2006, fig. 14), a little off its middle.
-Scene groove(double aside) {
+/// A block whose lower edge stands in the groove z = slope |x| of two facets (Man 2006, fig. 14), a little off its
+/// middle.
+Scene groove(double aside, double slope = 1) {
   SolidMesh m = block(4, 1, 3, [&](const Vec3& p) {
     const double x = p.x - 0.5, bottom = 1.5 * std::abs(x);
     return Vec3{x + aside, 0.25 * p.y, bottom + (1.2 - bottom) * p.z};
@@ -183,7 +184,8 @@ Scene groove(double aside) {
   const std::vector<int> top = s.where([](const Vec3& X) { return X.z > 1.199; });
   s.hold(top, kAxes[2], -0.08, 0);
   s.hold(top, kAxes[0]);
-  s.addObstacle({{-1, -1, 1}, {0, -1, 0}, {1, -1, 1}, {-1, 1, 1}, {0, 1, 0}, {1, 1, 1}}, {{0, 1, 4, 3}, {1, 2, 5, 4}});
+  s.addObstacle({{-1, -1, slope}, {0, -1, 0}, {1, -1, slope}, {-1, 1, slope}, {0, 1, 0}, {1, 1, slope}},
+                {{0, 1, 4, 3}, {1, 2, 5, 4}});
   return s;
 }
 
@@ -251,7 +253,8 @@ TEST(ContactPath, WithOneFacetAtATimeABlockGoesToAndFroInAGroove) {
   // His positions 1 and 2: held by one facet, the edge lies nearest to the other, again and again.
   Scene s = groove(0.013);
   const SolidContact c = grooveContact(s, 0.013, false);
-  ContactSystem system(*s.solids, c, 1, s.mesh.nodes);
+  TangentSolver solver;
+  ContactSystem system(*s.solids, c, solver, 1, s.mesh.nodes);
   std::vector<double> y(s.solids->size(), 0.0);
   std::vector<int> held;
   std::vector<ContactPoint> passed = system.points({}, y);
@@ -314,7 +317,8 @@ TEST(ContactPath, Box7AnswersAsBox6WithASymmetricTangent) {
 
       // The tangent where the path ends, its multipliers those of the last step.
       const ContactStep& before = path[k].steps[path[k].steps.size() - 2];
-      ContactSystem system(*s.solids, c, 1, s.solids->positions(before.state.y, before.state.factor));
+      TangentSolver solver;
+      ContactSystem system(*s.solids, c, solver, 1, s.solids->positions(before.state.y, before.state.factor));
       const std::size_t n = last.state.y.size();
       const double skew = asymmetry(fullMatrix(system.tangent(last.state.multipliers, last.state.y), n), n);
       if (bound == FrictionBound::symmetrised)
@@ -542,13 +546,69 @@ TEST(ContactPath, WhereNodesKeepFacetsTheyComeToTheSameRest) {
   }
 }
 
+/// A groove that is too shallow for its facets to hold a node at once; on either alone it would rest beyond the edge,
+/// under the other. Where nodes keep their facets both hold it, from the next pass on.
+TEST(ContactPath, FacetsOfAShallowGrooveShareANode) {
+  constexpr double kAside = 0.003, kSlope = 0.15;
+  Scene s = groove(kAside, kSlope);
+  SolidContactLaw law = lawOf(1e8);
+  law.touch.groove_rad = 0.5;  // they meet at 0.3
+  law.touch.keep = 0.3;
+  const SolidContact c = s.build(law, [&](const Vec3& X) { return X.z < 1.5 * std::abs(X.x - kAside) + 1e-9; });
+  const Path p = followed(s, c, optionsOf(SolidContactMethod::augmented, 1));
+  ASSERT_TRUE(p.report.reached) << p.report.why;
+  const std::vector<Vec3> x = s.solids->positions(p.last().state.y, 1);
+  ASSERT_EQ(p.last().points.size(), 4u);  // two nodes, each on both facets
+  for (const ContactPoint& q : p.last().points) {
+    EXPECT_GT(q.pressure_Pa, 1e3);
+    EXPECT_NEAR(x[q.node].x, 0, 1e-5);
+    EXPECT_NEAR(x[q.node].z, 0, 1e-5);
+  }
+}
+
+/// What slides loses mu times what presses by way, and the work of the supports is what is stored and lost.
+TEST(ContactPath, WhatRubsLosesTheWorkThatIsNotStored) {
+  for (const auto& [method, bound] : {std::pair(SolidContactMethod::penalty, FrictionBound::coupled),
+                                      std::pair(SolidContactMethod::augmented, FrictionBound::coupled),
+                                      std::pair(SolidContactMethod::augmented, FrictionBound::symmetrised)}) {
+    Scene s = cubeOnPlane(2, false, 0.2);
+    const SolidContact c = s.build(lawOf(2e7, 0.3, bound), atBottom);
+    ContactPathOptions o = optionsOf(method, 40);
+    o.change = 1e-4;
+    const Path p = followed(s, c, o);
+    ASSERT_TRUE(p.report.reached) << p.report.why;
+    const std::vector<int> top = s.where([](const Vec3& X) { return X.z > 0.999; });
+    double work = 0, lost = 0, slid = 0, before = 0, energy = 0;
+    std::vector<Vec3> x_before, f_before;
+    for (const ContactStep& step : p.steps) {
+      const std::vector<Vec3> x = s.solids->positions(step.state.y, step.state.factor),
+                              f = s.solids->reactions(step.state.y, step.state.factor);
+      energy = s.solids->energy(step.state.y, step.state.factor) + c.energy(step.points);
+      if (method == SolidContactMethod::penalty) energy += c.held(step.points);
+      if (step.state.factor < 0.5 + 1e-9) {
+        before = energy;
+      } else {
+        for (const int i : top) work += 0.5 * dot(f[i] + f_before[i], x[i] - x_before[i]);
+        lost += c.lost(step.points);
+        for (const ContactPoint& q : step.points) slid += q.slips ? 1 : 0;
+      }
+      x_before = x, f_before = f;
+    }
+    const double stored = energy - before;
+    EXPECT_GT(slid, 50);
+    EXPECT_GT(lost, 0.5 * work);
+    EXPECT_NEAR(work, stored + lost, 0.02 * work) << lost;
+  }
+}
+
 TEST(ContactPath, ABodyThatOnlyContactWouldHoldNeedsARaisedDiagonal) {
   for (const double raise : {0.0, 1e-10}) {
     Scene s = cubeOnPlane(1, true);
     // Nothing holds the cube, and nothing pushes it.
     std::erase_if(s.supports.constraints, [](const LinearConstraint& c) { return c.terms[0].first < 8; });
     const SolidContact c = s.build(lawOf(1e7), atBottom);
-    ContactSystem system(*s.solids, c, 1, s.mesh.nodes);
+    TangentSolver solver;
+    ContactSystem system(*s.solids, c, solver, 1, s.mesh.nodes);
     std::vector<double> y(s.solids->size(), 0.0);
     y[2] = 1e-3;
     const NewtonReport report = system.solve({}, {30, 1e-8, 0, raise}, y);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/yarn/solid_stress.hpp"
 
 namespace gambeson {
 namespace {

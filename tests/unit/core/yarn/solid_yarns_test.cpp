@@ -112,7 +112,7 @@ TEST(SolidYarns, BadInputNamesItsKey) {
   EXPECT_EQ(keyOf(woven(), {17, 5}, true), "across");
   EXPECT_EQ(keyOf(woven(), {2, 6}, true), "along");
   EXPECT_EQ(keyOf(woven(), {2, 3}, true), "along");
-  EXPECT_EQ(keyOf(woven(twillWeave(2, 2)), {2, 5}, true), "cell");
+  EXPECT_EQ(keyOf(woven(twillWeave(2, 2)), {2, 5}, true), "extent");
   WovenYarns wide = woven();
   wide.yarn[along_warp].half_width_m = 0.6;
   EXPECT_EQ(keyOf(wide, {2, 5}, true), "warp.half_width");
