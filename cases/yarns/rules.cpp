@@ -35,6 +35,7 @@ void checkSolid(const Entry& root, CellDesign& c) {
   }
   if (!c.solids) c.solids = SolidsCase{};
   if (c.compression) memberOf(root, "compression").fail("goes with yarns rod or truss: solids give way by themselves");
+  if (c.by_section) memberOf(root, "touch").fail("section goes with yarns rod: solids touch by their surfaces");
   const CellSolver usual;
   if (c.solver.pieces_per_spacing != usual.pieces_per_spacing)
     memberOf(root, "solver").failAt("pieces_per_spacing", "goes with yarns rod; with yarns solid: solids.along");
