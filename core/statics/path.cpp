@@ -105,6 +105,11 @@ void requireHeld(System& system, PathState& state, std::span<const double> p, do
   const SymmetricMatrix at_start = state.K;
   system.stiffness(y, next, state.K);
   ++report.factorisations;
+  if (!isFinite(state.K)) {
+    system.residual(y, next, dx);
+    throw RunError("at rest nothing but the loads holds the structure, and a little way along them " +
+                   system.whyNotFinite());
+  }
   if (isLoose(state, kTryRounding)) throw mechanism("; nor do the loads");
   state.K = at_start;
   state.raised = true;
