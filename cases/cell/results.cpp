@@ -149,7 +149,8 @@ void writeCellSummary(const RecordedCell& cell, const std::vector<AuditCheck>& c
                {"crimp_warp", m.crimp[along_warp]}};
   j["at_rest"] = stiffnessOf(cell.rest());
   j["loads"] = Json::array();
-  for (std::size_t k = 0; k < cell.paths().size(); ++k) j["loads"].push_back(pathOf(c.paths[k], cell.paths()[k], c.friction.has_value()));
+  for (std::size_t k = 0; k < cell.paths().size(); ++k)
+    j["loads"].push_back(pathOf(c.paths[k], cell.paths()[k], c.friction.has_value()));
   j["bars"] = Json::array();
   for (const BarCase& bar : c.bars) {
     const HomogenisedBar mean = homogenise(bar.bar);
