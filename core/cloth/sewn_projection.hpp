@@ -47,8 +47,8 @@ class SewnProjection {
   EnvelopeFactor factor_;
 };
 
-/// The points nearest to q (least sum of weight |change|^2, weights > 0) with C q = 0: panels that stand near each other
-/// are closed.
+/// The points nearest to q (least sum of weight |change|^2, weights > 0) with C q = 0: panels that stand near each
+/// other are closed.
 std::vector<Vec3> closeSeams(const SewnRows& rows, std::span<const double> weight, std::span<const Vec3> q);
 
 }  // namespace gambeson

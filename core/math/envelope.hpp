@@ -11,8 +11,8 @@
 namespace gambeson {
 
 /// K = L L^T of a positive semi-definite matrix in the order of reverse Cuthill and McKee (1969). A row whose pivot is
-/// below `dependent` of its diagonal follows from the rows before it: it is left out, and its unknown is 0, which solves
-/// K x = b for every b that K makes.
+/// below `dependent` of its diagonal follows from the rows before it: it is left out, and its unknown is 0, which
+/// solves K x = b for every b that K makes.
 class EnvelopeFactor {
  public:
   EnvelopeFactor() = default;

@@ -22,8 +22,8 @@ void sewVelocities(const Model& m, std::span<const Vec3> p, double dt, StepWork&
   m.sewing.project(w.predictor, w.sewn_rates, w.sewn_closing, w.sewn);
 }
 
-// With f = - C^T lambda of the projection in the metric of M, (1 + h c) f is nearly that of M + h D, c the mean of d/m on
-// the seams' points; where all points have one d/m it is that, and else each turn leaves h (c - d/m) of the rest.
+// With f = - C^T lambda of the projection in the metric of M, (1 + h c) f is nearly that of M + h D, c the mean of d/m
+// on the seams' points; where all points have one d/m it is that, and else each turn leaves h (c - d/m) of the rest.
 std::span<const Vec3> sewAccelerations(const Model& m, double h, std::span<Vec3> a, StepScratch& w) {
   const std::vector<int>& points = m.sewing.points();
   w.sewn_force.assign(a.size(), Vec3{});

@@ -14,7 +14,8 @@ namespace gambeson {
 
 /// The rates at which the gaps of the rows change in a step that starts at p: all close by the same part of themselves
 /// in a second, close_per_s or what brings the widest to close_m_per_s. One part for all, as rates - c C p can be had
-/// whatever rows nearly depend on each other. Gaps that are closed stay so: what rounding has left of them is taken too.
+/// whatever rows nearly depend on each other. Gaps that are closed stay so: what rounding has left of them is taken
+/// too.
 void closingRates(const Model& model, std::span<const Vec3> p, double dt_s, StepScratch& work);
 
 /// Makes w.predictor keep the seams; w.sewn_closing becomes what that gives all points, held ones too [N s].

@@ -101,10 +101,10 @@ double sideOf(const Garment& g, const SewnLength& edge, double fraction, std::si
   };
   const bool left = isThere(1), right = isThere(-1);
   if (left == right)
-    throw InputError({"", 0, keyOf(index)},
-                     "an edge does not run along the border of what is kept of patch " + std::to_string(at.patch) +
-                         ": near (" + std::to_string(at.uv.x) + ", " + std::to_string(at.uv.y) + ") there is " +
-                         (left ? "cloth" : "none") + " on both sides of it" + nameOf(g.sewn_seams[index]));
+    throw InputError({"", 0, keyOf(index)}, "an edge does not run along the border of what is kept of patch " +
+                                                std::to_string(at.patch) + ": near (" + std::to_string(at.uv.x) + ", " +
+                                                std::to_string(at.uv.y) + ") there is " + (left ? "cloth" : "none") +
+                                                " on both sides of it" + nameOf(g.sewn_seams[index]));
   return left ? 1 : -1;
 }
 

@@ -25,9 +25,10 @@ SewnPart loopPart(const Garment& garment, int patch, int loop, int curve, bool b
 double lengthOf(const Garment& garment, const SewnEdge& edge);
 
 /// Where both sides of a seam are less than about three quarters of a cell apart in one panel (the tip of a dart) there
-/// is no row: both move with the same control points there. Of the seams that are held so (of control points). Throws InputError (key "sewn_seams[i]") where a patch does not
-/// exist, an edge leaves the patch, has no length or does not run along the border of what is kept, where one edge is
-/// more than twice as long as the other, or where a number is out of range.
+/// is no row: both move with the same control points there. Of the seams that are held so (of control points). Throws
+/// InputError (key "sewn_seams[i]") where a patch does not exist, an edge leaves the patch, has no length or does not
+/// run along the border of what is kept, where one edge is more than twice as long as the other, or where a number is
+/// out of range.
 SewnRows buildSewnRows(const Garment& garment, SeamHold hold);
 
 /// The rotational springs of all sewn seams that are not open.

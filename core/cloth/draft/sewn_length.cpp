@@ -108,8 +108,7 @@ SewnPoint SewnLength::at(double fraction) const {
     const int i = findSpan(k, at);
     return k.knots[static_cast<std::size_t>(i + 1)] - k.knots[static_cast<std::size_t>(i)];
   };
-  point.cells_per_m =
-      std::hypot(point.along.x / span(patch.u, point.uv.x), point.along.y / span(patch.v, point.uv.y));
+  point.cells_per_m = std::hypot(point.along.x / span(patch.u, point.uv.x), point.along.y / span(patch.v, point.uv.y));
   return point;
 }
 

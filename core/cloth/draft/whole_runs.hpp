@@ -23,7 +23,7 @@ class WholeRuns {
   bool along(const SheetCell& cell, int direction) const;
 
   const Garment& garment_;
-  std::set<Corner> low_;          ///< corners (u0, v0) of the whole cells
+  std::set<Corner> low_;              ///< corners (u0, v0) of the whole cells
   std::set<Corner> next_u_, next_v_;  ///< their corners (u1, v0) and (u0, v1)
 };
 

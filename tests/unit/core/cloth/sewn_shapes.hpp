@@ -18,8 +18,9 @@ inline KnotVector evenKnots(int degree, int cells, double from, double to) {
 
 /// A flat rectangle whose parameters are lengths.
 inline NurbsPatch panelPatch(int nu, int nv, Vec2 from, Vec2 to) {
-  return patchOf(evenKnots(2, nu, from.x, to.x), evenKnots(2, nv, from.y, to.y),
-                 [](double a, double b) { return Vec3{a, b, 0}; });
+  return patchOf(evenKnots(2, nu, from.x, to.x), evenKnots(2, nv, from.y, to.y), [](double a, double b) {
+    return Vec3{a, b, 0};
+  });
 }
 
 /// A sheet [0, length] x [0, width] that a curve in the shape of an S cuts in two panels, sewn; their cells do not
@@ -38,19 +39,17 @@ struct CutSheet {
             {{middle, 0}, {middle + swing, width / 3}, {middle - swing, 2 * width / 3}, {middle, width}},
             {1, 1, 1, 1}};
   }
-  static Vec3 away(const Vec3& x) {
-    return rotationAbout({0, 0, 1}, 0.7) * x + Vec3{0.5, -0.3, 0};
-  }
+  static Vec3 away(const Vec3& x) { return rotationAbout({0, 0, 1}, 0.7) * x + Vec3{0.5, -0.3, 0}; }
   Garment garment(const Fabric& fabric) const {
     const double middle = 0.5 * length, reach = 0.2 * length * std::sqrt(3) / 6 * 1.5;
     const double h = width / cells;
     const double a_end = middle + reach, b_from = middle - reach;
     const int other = cells + cells / 3 + 1;
     const double k = width / other;
-    Garment g = garmentOf({panelPatch(static_cast<int>(std::lround(a_end / h)), cells, {0, 0}, {a_end, width}),
-                           panelPatch(static_cast<int>(std::lround((length - b_from) / k)), other, {b_from, 0},
-                                      {length, width})},
-                          {}, fabric);
+    Garment g = garmentOf(
+        {panelPatch(static_cast<int>(std::lround(a_end / h)), cells, {0, 0}, {a_end, width}),
+         panelPatch(static_cast<int>(std::lround((length - b_from) / k)), other, {b_from, 0}, {length, width})},
+        {}, fabric);
     const NurbsCurve s = cut();
     g.trims.resize(2);
     g.trims[0].loops = {{line({0, 0}, {middle, 0}), s, line({middle, width}, {0, width}), line({0, width}, {0, 0})}};
@@ -68,8 +67,9 @@ struct CutSheet {
   }
   /// The same sheet in one piece.
   Garment whole(const Fabric& fabric, int across) const {
-    return garmentOf({panelPatch(static_cast<int>(std::lround(length / width * across)), across, {0, 0}, {length, width})},
-                     {}, fabric);
+    return garmentOf(
+        {panelPatch(static_cast<int>(std::lround(length / width * across)), across, {0, 0}, {length, width})}, {},
+        fabric);
   }
 };
 

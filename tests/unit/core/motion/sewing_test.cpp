@@ -238,8 +238,8 @@ TEST(Sewing, HoldsUnderContact) {
   const Garment g = sheet.garment(sheetFabric());
   Placement at;
   at.origin = {0.5 * sheet.length, 0.5 * sheet.width, -0.062};
-  Motion m = startOf(g, {{0, 0, -9.81}, 0.1}, true, {1e-3, 0.3, 0.01, 1e-2, 400}, {{Ellipsoid{{0.06, 0.06, 0.06}}, "ball"}},
-                     {at});
+  Motion m = startOf(g, {{0, 0, -9.81}, 0.1}, true, {1e-3, 0.3, 0.01, 1e-2, 400},
+                     {{Ellipsoid{{0.06, 0.06, 0.06}}, "ball"}}, {at});
   double worst = 0, gap = 0, row = 0;
   int touching = 0;
   std::vector<Vec3> rows;

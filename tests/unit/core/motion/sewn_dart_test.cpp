@@ -23,7 +23,7 @@ Garment dartSheet(double half, double dart, int cells, bool cut, const Fabric& f
   Garment g;
   if (!cut) {
     g = garmentOf({panelPatch(cells, cells, {-half, -half}, {half, half})}, {}, fabric);
-    const std::vector<Vec2> corners{{0, 0},         {half, up},     {half, half}, {-half, half},
+    const std::vector<Vec2> corners{{0, 0},         {half, up},    {half, half}, {-half, half},
                                     {-half, -half}, {half, -half}, {half, -up}};
     g.trims.resize(1);
     g.trims[0].loops = {polygon(corners)};
@@ -96,8 +96,8 @@ void sewDart(bool cut, double least_radius) {
   for (const double radius : {0.4, 0.6, 0.7, 0.8}) {
     if (radius < least_radius) continue;
     const double found = enclosed(g, q, radius * half, dart);
-    std::printf("dart of %.4f rad, %d panels: a circle of %.2f of the half side encloses %+.2f %%, gap %.2e cells\n", dart,
-                cut ? 2 : 1, radius, 100 * (found / dart - 1), widestGap(*m.model, m.state.p));
+    std::printf("dart of %.4f rad, %d panels: a circle of %.2f of the half side encloses %+.2f %%, gap %.2e cells\n",
+                dart, cut ? 2 : 1, radius, 100 * (found / dart - 1), widestGap(*m.model, m.state.p));
     EXPECT_NEAR(found, dart, 0.01 * dart);
   }
 }

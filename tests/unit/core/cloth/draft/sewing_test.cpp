@@ -137,7 +137,8 @@ TEST(Sewing, WhatFollowsFromOtherRowsIsNoTrouble) {
 
 TEST(Sewing, GathersAreEven) {
   // A frill of 0.4 m on a band of 0.2 m.
-  Garment g = garmentOf({panelPatch(8, 2, {0, 0}, {0.2, 0.05}), panelPatch(16, 4, {0, 0}, {0.4, 0.1})}, {}, plainFabric());
+  Garment g =
+      garmentOf({panelPatch(8, 2, {0, 0}, {0.2, 0.05}), panelPatch(16, 4, {0, 0}, {0.4, 0.1})}, {}, plainFabric());
   g.sewn_seams = {{{sidePart(g, {0, Side::v0})}, {sidePart(g, {1, Side::v1})}}};
   std::vector<Vec3> q = restPoints(g);
   for (std::size_t i = g.patches[0].size(); i < q.size(); ++i) q[i] = {0.5 * q[i].x, q[i].y - 0.1, 0};

@@ -134,7 +134,8 @@ TEST(SewnShell, ACylinderOfOnePanelHasTheMomentOfABentPlate) {
     level.name = "level";
     for (const double side : {-1.0, 1.0}) {
       const SurfaceBasis b = surfaceBasis(g.patches[0], side * 0.1 * length, width / 2);
-      for (std::size_t k = 0; k < b.columns.size(); ++k) level.terms.push_back({b.columns[k], {0, 0, side * b.values[0][k]}});
+      for (std::size_t k = 0; k < b.columns.size(); ++k)
+        level.terms.push_back({b.columns[k], {0, 0, side * b.values[0][k]}});
     }
     o.constraints.push_back(level);
     const auto s = buildStructure(g, o);
@@ -159,7 +160,8 @@ TEST(SewnShell, ACylinderOfOnePanelHasTheMomentOfABentPlate) {
       const double m = std::abs(shell.stateAt(ClothState(q), patch, uv).m.x) * radius / 5e-5;
       worst = std::max(worst, std::abs(m - 1)), mean += m, count += 1;
     }
-    std::printf("cylinder, %d cells: moment over B/R %.5f, at worst off by %.3f %%\n", cells, mean / count, 100 * worst);
+    std::printf("cylinder, %d cells: moment over B/R %.5f, at worst off by %.3f %%\n", cells, mean / count,
+                100 * worst);
     EXPECT_NEAR(mean / count, 1, 0.01);
     EXPECT_LT(worst, cells == 12 ? 0.04 : 0.01);
   }
