@@ -14,7 +14,7 @@
 namespace gambeson {
 
 /// A cell in equilibrium.
-struct CellPoint {
+struct BalancedCell {
   CellLoad load;
   CellResultants resultants;          ///< its energy is what is stored: in yarns, in contact, in what friction holds
   double lost_J_per_m2 = 0;           ///< by friction, on the whole way from rest
@@ -34,7 +34,7 @@ struct CellPoint {
 struct CellStep {
   bool reached = true;
   std::string why;
-  CellPoint point;
+  BalancedCell point;
 };
 
 /// One cell that is taken through loads, with whatever it remembers; from rest.

@@ -143,7 +143,7 @@ void CellRecorder::add(const RestStiffness& rest) {
 
 void CellRecorder::add(const WalkedPath& path) {
   for (const WalkedRow& row : path.rows) {
-    const CellPoint& p = row.point;
+    const BalancedCell& p = row.point;
     const CellResultants& n = p.resultants;
     const double to_GPa = 1e-9 / *c_.height_m;
     std::vector<double> values{static_cast<double>(units_),

@@ -60,8 +60,8 @@ class SolidSpecimen : public CellSpecimen {
     return options;
   }
 
-  CellPoint pointOf(const SolidLoadReport& report) const {
-    CellPoint point;
+  BalancedCell pointOf(const SolidLoadReport& report) const {
+    BalancedCell point;
     point.load = state_.load;
     point.resultants = resultantsOf(cell_, state_);
     // Springs of friction are there with penalties alone.

@@ -25,7 +25,7 @@ RestStiffness restStiffness(const CellEngine& engine);
 /// A row of the table of a path, and where yarns were there if that is kept.
 struct WalkedRow {
   double part = 0;  ///< of the way
-  CellPoint point;
+  BalancedCell point;
   std::optional<YarnShape> shape;
 };
 

@@ -90,7 +90,7 @@ TEST(CellEngine, WeftAndWarpOfABalancedWeaveAreAlike) {
     return step.point;
   };
   for (const bool free : {false, true}) {
-    const CellPoint weft = pulled(along_weft, free), warp = pulled(along_warp, free);
+    const BalancedCell weft = pulled(along_weft, free), warp = pulled(along_warp, free);
     EXPECT_NEAR(weft.resultants.n11, warp.resultants.n22, 1e-5 * weft.resultants.n11);
     ASSERT_GT(weft.resultants.n11, 1000);
     if (free) {
@@ -140,7 +140,7 @@ TEST(SolidEngine, ForcesAreDerivativesOfTheEnergy) {
     EXPECT_TRUE(step.reached) << step.why;
     return step.point;
   };
-  const CellPoint point = bring(load);
+  const BalancedCell point = bring(load);
   const CellResultants& n = point.resultants;
   ASSERT_GT(n.n11, 0);
   const double forces[3] = {n.n11, n.n22, n.n12};
@@ -162,7 +162,7 @@ TEST(SolidEngine, ForcesAreDerivativesOfTheEnergy) {
 
 /// A14: 1e-4 of the largest resultant; and the images of the quarter are the full cell.
 TEST(SolidEngine, AQuarterAndItsImagesAreTheFullCell) {
-  CellPoint point[2];
+  BalancedCell point[2];
   YarnShape shape[2];
   std::vector<char> direction[2];
   for (const int full : {0, 1}) {
@@ -214,12 +214,12 @@ TEST(SolidEngine, WhatALoopLosesIsTheWorkOfItsForces) {
     const auto specimen = engine->specimen();
     constexpr int kSteps = 10;
     double work = 0, most = 0, lost_before = 0;
-    CellPoint before;
+    BalancedCell before;
     for (int k = 0; k <= 2 * kSteps; ++k) {
       const double part = k <= kSteps ? k : 2 * kSteps - k;
       const CellStep step = specimen->bring(toLoad(trellis(0.2 * part / kSteps, 1.01)));
       ASSERT_TRUE(step.reached) << step.why;
-      const CellPoint& p = step.point;
+      const BalancedCell& p = step.point;
       if (k == 0) lost_before = p.lost_J_per_m2;
       if (k > 0) {
         EXPECT_GE(p.lost_J_per_m2, before.lost_J_per_m2);
