@@ -63,6 +63,8 @@ build_release() {
   by_memory=$((memory_kb / 1500000))
   [ "$by_memory" -ge 1 ] || by_memory=1
   [ "$jobs" -le "$by_memory" ] || jobs=$by_memory
+  # Where all is to be built, sources are joined; a build folder that is there stays as it is.
+  [ -e "$build/CMakeCache.txt" ] || cmake_options+=(-DGAMBESON_JOINED=ON)
   cmake --preset release "${cmake_options[@]}"
   if [ $# -gt 0 ]; then
     cmake --build "$build" --parallel "$jobs" --target "$@"

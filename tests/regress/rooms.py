@@ -47,7 +47,7 @@ def by_dots():
 
 
 def has(file, source):
-    """Whether this compiled file is that source, or is made of it and others (joined.cmake)."""
+    """Whether this compiled file is that source, or is made of it and others (cases/joined.cmake)."""
     return file == SOURCE / source or "joined" in file.parts and f'#include "{source}"\n' in file.read_text()
 
 
