@@ -58,7 +58,8 @@ class ArchiveWriter {
   template <class T>
   ArchiveWriter& operator()(const char* name, const T& value) {
     const std::string outer = name_;
-    name_ += (name_.empty() ? "" : ".") + std::string(name);
+    if (!name_.empty()) name_ += '.';
+    name_ += name;
     to_ = nullptr;
     items(value);
     name_ = outer;
@@ -117,7 +118,8 @@ class ArchiveReader {
   template <class T>
   ArchiveReader& operator()(const char* name, T& value) {
     const std::string outer = name_;
-    name_ += (name_.empty() ? "" : ".") + std::string(name);
+    if (!name_.empty()) name_ += '.';
+    name_ += name;
     from_ = nullptr;
     items(value);
     name_ = outer;
