@@ -49,6 +49,8 @@ const Object& cellFileTable() {
 }  // namespace
 
 CellFile readCellFile(const Entry& entry) {
+  // Of a case of another kind no key is known.
+  if (const JsonNode* kind = entry.node.find("kind")) readChoice(entry.member(*kind), {"cell"});
   CellFileInput in;
   readObject(cellFileTable(), entry, &in);
   if (!entry.recorded) applyDesignRules(entry, in);
