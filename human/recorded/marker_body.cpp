@@ -106,7 +106,8 @@ Human markedHuman(const std::vector<MarkedSegment>& segments) {
     const auto refuse = [&](const std::string& why) { throw InputError({"", 0, segment.name}, why); };
     if (human.skeleton.link(segment.name) >= 0)
       refuse("is the name of another link already; allowed: a name of its own");
-    for (const auto& [points, what] : {std::pair{&segment.J1, "J1"}, {&segment.J2, "J2"}, {&segment.M, "M"}})
+    for (const auto& [points, what] :
+         {std::pair{&segment.J1, "upper_joint"}, {&segment.J2, "lower_joint"}, {&segment.M, "marker"}})
       if (points->empty())
         refuse(fmt::format("names no marker for {}; allowed: one or more, whose mean is taken", what));
     for (int i = 0; i < 3; ++i)

@@ -53,14 +53,14 @@ void addSegments(Table<HumanCase>& table) {
           .text("name", &S::name,
                 "of the segment, a link of the human; its joints are NAME_x, _y, _z, NAME_pitch, _roll and _yaw")
           .required()
-          .texts("J1", &S::J1, "markers whose mean is the joint at its upper end")
+          .texts("upper_joint", &S::J1, "markers whose mean is the joint at its upper end: J1 of the thesis")
           .required()
-          .texts("J2", &S::J2, "markers whose mean is the joint at its lower end")
+          .texts("lower_joint", &S::J2, "markers whose mean is the joint at its lower end: J2")
           .required()
-          .texts("M", &S::M, "markers whose mean lies beside the line of the joints, always on the same side")
+          .texts("marker", &S::M, "markers whose mean lies beside the line of the joints, always on the same side: M")
           .required()
           .vector("semi_axes", &S::semi_axes_m, "m", above(0),
-                  "of its ellipsoid: along the bone, towards M, across both")
+                  "of its ellipsoid: along the bone, towards the marker, across both")
           .required()
           .build());
   table.custom(

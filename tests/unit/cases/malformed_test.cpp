@@ -44,7 +44,8 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
            "\"contact\": {\"friction\": 0.2}, \"strain_limit\": {\"mode\": \"lower_limit\"},", 27, "strain_limit.mode",
            "upper_limit"},
           {"\"manikin\": \"male_p50\",",
-           "\"segments\": [{\"name\": \"arm\", \"J1\": [\"a\"], \"J2\": [\"b\"], \"M\": [\"m\"], \"semi_axes\": [0.2, 0.1, "
+           "\"segments\": [{\"name\": \"arm\", \"upper_joint\": [\"a\"], \"lower_joint\": [\"b\"], \"marker\": "
+           "[\"m\"], \"semi_axes\": [0.2, 0.1, "
            "0.1]}],",
            16, "human.segments", "moved by markers alone"},
           {"\"manikin\": \"male_p50\",", "\"segments\": [],", 16, "human.segments", "one segment or more"},
@@ -92,7 +93,8 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {"[\"hip_flexion_left\"]", "\"hip_flexion_left\"", 33, "analysis.joints", "expected a list [ ] of texts"},
           {"[\"hip_flexion_left\"]", "[\"hip_flexion_left\", 3]", 33, "analysis.joints[1]", "expected a text"},
           // Words.
-          {"\"law\": \"zheng\"", "\"law\": \"quadratic\"", 13, "fabric.bending.law", "allowed: zheng, linear, stop or hysteresis"},
+          {"\"law\": \"zheng\"", "\"law\": \"quadratic\"", 13, "fabric.bending.law",
+           "allowed: zheng, linear, stop or hysteresis"},
           {"\"male_p50\"", "\"bob\"", 16, "human.manikin", "allowed: male_p5, male_p50"},
           {"\"peak\"", "\"noon\"", 31, "output.pictures[0].time", "allowed: peak or end"},
           {"\"pelvis_mean\"", "\"head_mean\"", 28, "air.velocity", "allowed: pelvis_mean"},
@@ -307,22 +309,20 @@ TEST(MalformedCase, Schemes) {
   };
   const std::string from = "\"contact\": {\"friction\": 0.2},";
   const std::string limit = " \"strain_limit\": {\"mode\": \"upper_limit\", \"limit\": 0.01},";
-  expectRefused(
-      example,
-      {{from, time("\"scheme\": \"rk3\""), 27, "time.scheme",
-        "allowed: verlet, euler, symplectic_euler, rk2, rk4, implicit_euler or semi_implicit"},
-       {from, time("\"scheme\": \"semi_implicit\", \"substeps\": 0"), 27, "time.substeps",
-        "0 is out of range; allowed: >= 1"},
-       {from, time("\"substeps\": 2"), 27, "time.substeps", "it goes with semi_implicit"},
-       {from, time("\"scheme\": \"implicit_euler\", \"substeps\": 2"), 27, "time.substeps",
-        "it goes with semi_implicit"},
-       {from, time("\"scheme\": \"implicit_euler\", \"solve_tolerance\": 0"), 27, "time.solve_tolerance",
-        "0 is out of range; allowed: >= 1e-14"},
-       {from, time("\"scheme\": \"rk4\", \"solve_tolerance\": 1e-3"), 27, "time.solve_tolerance",
-        "it goes with implicit_euler and semi_implicit"},
-       {from, time("\"scheme\": \"rk4\", \"audit\": true"), 27, "time.audit", "it goes with verlet"},
-       {from, time("\"step\": \"-1 ms\""), 27, "time.step", "-0.001 s is out of range"},
-       {from, time("\"scheme\": \"rk4\"", limit), 27, "time.scheme", "goes without strain_limit"}});
+  expectRefused(example, {{from, time("\"scheme\": \"rk3\""), 27, "time.scheme",
+                           "allowed: verlet, euler, symplectic_euler, rk2, rk4, implicit_euler or semi_implicit"},
+                          {from, time("\"scheme\": \"semi_implicit\", \"substeps\": 0"), 27, "time.substeps",
+                           "0 is out of range; allowed: >= 1"},
+                          {from, time("\"substeps\": 2"), 27, "time.substeps", "it goes with semi_implicit"},
+                          {from, time("\"scheme\": \"implicit_euler\", \"substeps\": 2"), 27, "time.substeps",
+                           "it goes with semi_implicit"},
+                          {from, time("\"scheme\": \"implicit_euler\", \"solve_tolerance\": 0"), 27,
+                           "time.solve_tolerance", "0 is out of range; allowed: >= 1e-14"},
+                          {from, time("\"scheme\": \"rk4\", \"solve_tolerance\": 1e-3"), 27, "time.solve_tolerance",
+                           "it goes with implicit_euler and semi_implicit"},
+                          {from, time("\"scheme\": \"rk4\", \"audit\": true"), 27, "time.audit", "it goes with verlet"},
+                          {from, time("\"step\": \"-1 ms\""), 27, "time.step", "-0.001 s is out of range"},
+                          {from, time("\"scheme\": \"rk4\"", limit), 27, "time.scheme", "goes without strain_limit"}});
   expectRefused(replaced(example, "\"rows\": 2", "\"rows\": 2, \"release\": 1"),
                 {{from, time("\"scheme\": \"rk4\""), 27, "time.scheme", "goes without supports that move or let go"}});
   const std::string drag = "\"4 kg/(m^2 s)\"", still = replaced(example, drag, "0");

@@ -39,7 +39,7 @@ std::filesystem::path markerFile() {
 
 Case markerCase(const std::vector<std::string>& more = {}) {
   std::vector<std::string> set{
-      R"(human={"segments": [{"name": "arm", "J1": ["shoulder"], "J2": ["elbow"], "M": ["side"],
+      R"(human={"segments": [{"name": "arm", "upper_joint": ["shoulder"], "lower_joint": ["elbow"], "marker": ["side"],
           "semi_axes": ["20 cm", "5 cm", "4 cm"]}],
           "motion": {"markers": {"path": ")" +
           markerFile().string() + R"(", "up": "y", "from": 0.2, "to": 0.8}}})",
