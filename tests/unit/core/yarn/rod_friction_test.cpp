@@ -32,6 +32,21 @@ Two moved(Two at, int b, int c, double by) {
   return at;
 }
 
+/// Unknowns i and j of the twelve by a and b. Turns of one section are one exponential: by themselves they do not
+/// commute.
+Two movedTwice(Two at, int i, double a, int j, double b) {
+  Vec3 turn[2]{};
+  for (const auto& [k, by] : {std::pair{i, a}, {j, b}}) {
+    if (k / 3 % 2 == 0)
+      at = moved(at, k / 3, k % 3, by);
+    else
+      turn[k / 6][k % 3] += by;
+  }
+  at.first.rotation = turned(at.first.rotation, turn[0]);
+  at.second.rotation = turned(at.second.rotation, turn[1]);
+  return at;
+}
+
 /// Sections that have moved and turned since they were gripped, the spring sticking and sliding.
 TEST(RodFriction, ForcesAndTangentAreDerivatives) {
   const Two before = crossed();
@@ -53,23 +68,10 @@ TEST(RodFriction, ForcesAndTangentAreDerivatives) {
       EXPECT_NEAR((up.energy_J - down.energy_J) / (2 * h), answer.gradient[i / 3][i % 3], 1e-9) << limit << " " << i;
       for (int j = 0; j < 12; ++j) EXPECT_EQ(answer.tangent[12 * i + j], answer.tangent[12 * j + i]);
     }
-    // Turns of one section together, as one exponential: by themselves they do not commute.
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 12; ++j) {
         const double s = 1e-4;
-        const auto both = [&](double a, double b) {
-          Two p = here;
-          Vec3 turn[2]{};
-          for (const auto& [k, by] : {std::pair{i, a}, {j, b}}) {
-            if (k / 3 % 2 == 0)
-              p = moved(p, k / 3, k % 3, by);
-            else
-              turn[k / 6][k % 3] += by;
-          }
-          p.first.rotation = turned(p.first.rotation, turn[0]);
-          p.second.rotation = turned(p.second.rotation, turn[1]);
-          return at(p, false).energy_J;
-        };
+        const auto both = [&](double a, double b) { return at(movedTwice(here, i, a, j, b), false).energy_J; };
         const double second = (both(s, s) - both(s, -s) - both(-s, s) + both(-s, -s)) / (4 * s * s);
         EXPECT_NEAR(second, answer.tangent[12 * i + j], 5e-6) << limit << " " << i << " " << j;
       }
@@ -98,19 +100,7 @@ TEST(RodFriction, FromAsideAreDerivativesToo) {
                   answer.gradient[i / 3][i % 3], 1e-9)
           << limit << " " << i;
       for (int j = 0; j < 12; ++j) {
-        const auto both = [&](double a, double b) {
-          Two p = here;
-          Vec3 turn[2]{};
-          for (const auto& [k, by] : {std::pair{i, a}, {j, b}}) {
-            if (k / 3 % 2 == 0)
-              p = moved(p, k / 3, k % 3, by);
-            else
-              turn[k / 6][k % 3] += by;
-          }
-          p.first.rotation = turned(p.first.rotation, turn[0]);
-          p.second.rotation = turned(p.second.rotation, turn[1]);
-          return energy(p);
-        };
+        const auto both = [&](double a, double b) { return energy(movedTwice(here, i, a, j, b)); };
         const double second = (both(s, s) - both(s, -s) - both(-s, s) + both(-s, -s)) / (4 * s * s);
         EXPECT_NEAR(second, answer.tangent[12 * i + j], 5e-6) << limit << " " << i << " " << j;
       }
