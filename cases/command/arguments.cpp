@@ -26,6 +26,14 @@ static void addDevice(CLI::App& command, std::string& device) {
       ->check(CLI::IsMember({"auto", "cpu", "reference", "cuda"}).description(""));
 }
 
+void addTables(CLI::App& command, std::string& csv) {
+  command
+      .add_option("--csv", csv,
+                  "european: each table also with semicolons and decimal commas, as european/NAME.csv beside it")
+      ->type_name("FORM")
+      ->check(CLI::IsMember({"european"}).description(""));
+}
+
 void addRun(CLI::App& app, RunArguments& a) {
   CLI::App& run =
       *app.add_subcommand("run",
@@ -106,13 +114,13 @@ void addDraft(CLI::App& app, DraftArguments& a) {
   draft.add_option("--garment", a.garment, "Its name in the case; not needed where there is only one")
       ->type_name("NAME");
   addOverrides(draft, a.overrides);
-  draft.add_flag("--obj", a.obj, "Writes it as a mesh of triangles (OBJ) in place of its patches");
-  draft.add_option("-o,--output", a.garment_file, "Garment file to write (JSON, or OBJ)")
+  draft.add_flag("--obj", a.obj, "A mesh of triangles in place of its patches, as a name that ends in .obj says too");
+  draft.add_option("-o,--output", a.garment_file, "Garment file to write, as its name ends: .json its patches, .obj a mesh of triangles")
       ->type_name("GARMENT")
       ->required();
   draft.footer(
       "The file has patches, seams, trims and names of edges, but no fabric; {\"file\": {\"path\": ...}} in a case\n"
-      "wears it, with the same results to the bit. With --obj it has the triangles that the garment is made of with\n"
+      "wears it, with the same results to the bit. An OBJ has the triangles that the garment is made of with\n"
       "\"model\": \"triangles\" (and its \"mesh\"); {\"mesh_file\": {\"path\": ...}} wears these.\n\n"
       "Example:\n  gambeson draft cases/library/armour_stand.json --garment shirt -o shirt.json");
 }
@@ -182,8 +190,13 @@ void addReport(CLI::App& app, ReportOptions& options) {
 }
 
 void addExport(CLI::App& app, ExportArguments& a) {
-  CLI::App& command = *app.add_subcommand("export", "Writes recorded results for other programs: CAD and OpenSim");
+  CLI::App& command = *app.add_subcommand(
+      "export", "Writes recorded results for other programs: animations, CAD and OpenSim");
   command.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
+  std::string endings;
+  for (const ExportFormat& f : exportFormats())
+    endings += (endings.empty() ? "" : "; ") + schema::joined(f.endings) + " " + f.what;
+  command.add_option("-o,--output", a.files, "File to write, as its name ends: " + endings)->type_name("FILE ...");
   command
       .add_option(
           "--iges", a.options.iges,
@@ -191,22 +204,39 @@ void addExport(CLI::App& app, ExportArguments& a) {
           "recorded (single precision)")
       ->type_name("FILE");
   command
-      .add_option("--time", a.time, "Of --iges: a time such as 1.2 or \"1200 ms\", peak (largest joint torque) or end")
-      ->type_name("TIME")
+      .add_option("--time", a.time,
+                  "Of CAD, and of the colours of an animation: a time such as 1.2 or \"1200 ms\", peak (largest joint "
+                  "torque) or end [peak for colours, end for CAD]")
+      ->type_name("TIME");
+  command
+      .add_option("--field", a.field,
+                  "What the colours of an animation show: stress, pressure, strain, thickness, set, friction or plain; the "
+                  "scale is that of pictures")
+      ->type_name("FIELD")
       ->capture_default_str();
+  command.add_option("--frames", a.options.frames, "Of animations: at most so many frames, evenly [all of the motion]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
   command
       .add_option(
           "--opensim", a.options.opensim,
           "What the cloth does to the body, window by window: OpenSim's ExternalLoads PREFIX.xml and their data "
-          "PREFIX.mot, in ground (x forward, y up)")
+          "PREFIX.mot, in ground (x forward, y up); the body as a model, PREFIX.osim, and its coordinates at the same "
+          "times, PREFIX_motion.mot")
       ->type_name("PREFIX");
   command.footer(
+      "Animations: links of the body are nodes that carry its shapes or its skin; a garment has one morph target for "
+      "each\n"
+      "frame, in whole numbers of 16 bits, and the command says how far that is from the recording. OBJ has z up.\n\n"
       "Forces act at the origins of the body's links (joint centres) with their moments about these. Links of our "
       "manikins\n"
       "are called as the bodies of gait2392 and Rajagopal's model: thigh_left is femur_l.\n\n"
       "Examples:\n"
-      "  gambeson export results/shorts_walk --iges shorts.igs --time peak\n"
-      "  gambeson export results/shorts_walk --opensim loads/shorts\n\n"
+      "  gambeson export results/shorts_walk -o walk.glb --field pressure\n"
+      "  gambeson export results/shorts_walk -o frames/walk.obj --frames 40\n"
+      "  gambeson export results/shorts_walk -o shorts.igs --time peak\n"
+      "  gambeson export results/shorts_walk --opensim loads/shorts\n"
+      "  gambeson export results/shorts_walk --csv european\n\n"
       "Exit status: 0 done; 1 the results could not be written; 2 something in the input is wrong.");
 }
 

@@ -50,7 +50,8 @@ struct RenderArguments {
 
 struct ExportArguments {
   ExportOptions options;
-  std::string time = "end";
+  std::vector<std::filesystem::path> files;
+  std::string field = "stress", time;
 };
 
 struct FabricArguments {
@@ -86,6 +87,8 @@ void addHomogenise(CLI::App& app, HomogeniseArguments& a);
 void addVerify(CLI::App& app, verify::Options& o);
 void addStudy(CLI::App& app, StudyArguments& a);
 void addBatch(CLI::App& app, StudyArguments& a);
+/// --csv, of a command that leaves tables.
+void addTables(CLI::App& command, std::string& csv);
 /// What `study` starts; no help names them.
 void addTogether(CLI::App& app, TogetherArguments& a);
 void addResults(CLI::App& app, FinishOptions& options);

@@ -9,6 +9,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "analysis/animation/obj.hpp"
 #include "cases/cell/run.hpp"
 #include "cases/cloth/kind_fields.hpp"
 #include "cases/command/arguments.hpp"
@@ -17,6 +18,7 @@
 #include "cases/input/message.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "cases/pattern/import.hpp"
+#include "cases/runs/european_tables.hpp"
 #include "cases/runs/options.hpp"
 #include "cases/runs/picture.hpp"
 #include "cases/runs/results_folder.hpp"
@@ -38,8 +40,8 @@ namespace {
 
 constexpr int done = 0, failed = 1, bad_input = 2;
 
-/// A file whose name says what is in it. Throws InputError ("command line", option).
-void checkEnding(const std::filesystem::path& file, const std::string& option,
+/// The ending, in lower case, of a file whose name says what is in it. Throws InputError ("command line", option).
+std::string checkEnding(const std::filesystem::path& file, const std::string& option,
                  const std::vector<std::string>& allowed) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -47,6 +49,7 @@ void checkEnding(const std::filesystem::path& file, const std::string& option,
     throw InputError({"command line", 0, option},
                      fmt::format("\"{}\" does not end as what is written; allowed: a name that ends in {}",
                                  file.string(), schema::joined(allowed)));
+  return ending;
 }
 
 /// A blank line between what a command does and how it is used.
@@ -107,10 +110,13 @@ int check(const CheckArguments& a, std::ostream& out) {
 }
 
 int draft(const DraftArguments& a, std::ostream& out) {
+  const std::string ending = checkEnding(a.garment_file, "--output",
+                                         a.obj ? std::vector<std::string>{".obj"}
+                                               : std::vector<std::string>{".json", ".obj"});
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is no case of worn cloth; garments are made by those that wear");
-  draftToFile(*c, a.garment, a.garment_file, a.obj, out);
+  draftToFile(*c, a.garment, a.garment_file, ending == ".obj", out);
   return done;
 }
 
@@ -176,6 +182,7 @@ int batchCommand(StudyArguments& a, std::ostream& out) {
 }
 
 int dressCase(const DressArguments& a) {
+  checkEnding(a.output, "--output", {".json"});
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c || !c->human) throw InputError({a.file.string(), 0, "human"}, "is required: whom to dress");
@@ -194,24 +201,57 @@ int importCommand(const ImportArguments& a, std::ostream& out) {
   return importToFiles(a, out);
 }
 
-/// A time as pictures take it.
-int exportCommand(ExportArguments& a) {
+/// The format of each file from its name.
+void chooseFormats(ExportArguments& a) {
+  std::vector<std::string> allowed;
+  for (const ExportFormat& f : exportFormats()) allowed.insert(allowed.end(), f.endings.begin(), f.endings.end());
+  for (const std::filesystem::path& file : a.files) {
+    checkPath(file, "--output");
+    const std::string ending = checkEnding(file, "--output", allowed);
+    for (const ExportFormat& f : exportFormats())
+      if (std::find(f.endings.begin(), f.endings.end(), ending) != f.endings.end()) {
+        if (!(a.options.*f.file).empty())
+          throw InputError({"command line", 0, "--output"},
+                           fmt::format("\"{}\" is the second file of its format", file.string()));
+        a.options.*f.file = file;
+      }
+  }
+}
+
+/// Time and field as pictures take them.
+int exportCommand(ExportArguments& a, bool tables) {
+  if (tables && a.files.empty() && a.options.iges.empty() && a.options.opensim.empty()) return done;
   if (holdsCell(a.options.results))
     throw InputError({a.options.results.string(), 0, ""}, "is of a cell of yarns; allowed: results of worn cloth");
   if (!a.options.iges.empty()) checkEnding(a.options.iges, "--iges", {".igs", ".iges"});
+  chooseFormats(a);
   JsonNode node;
   node.type = JsonNode::Type::object;
-  overrideValue(node, "time", a.time);
+  overrideValue(node, "field", a.field);
+  overrideValue(node, "time", !a.time.empty() ? a.time : a.options.glb.empty() ? "end" : "peak");
   PictureCase picture;
   const std::string none;
   schema::readObject(schema::pictureTable(), {node, "", none}, &picture);
+  a.options.field = picture.field;
   a.options.when = picture.when;
   a.options.time_s = picture.time_s;
   const Paths recorded = recordedFiles(a.options.results);
-  if (!a.options.iges.empty()) checkOutput(a.options.iges, "--iges", recorded);
+  for (const auto& [file, option] : {std::pair{a.options.iges, "--output"}, {a.options.glb, "--output"}})
+    if (!file.empty()) checkOutput(file, option, recorded);
+  if (!a.options.obj.empty()) checkOutput(numbered(a.options.obj.string(), 0), "--output", recorded);
   if (!a.options.opensim.empty())
-    for (const char* ending : {".xml", ".mot"}) checkOutput(a.options.opensim.string() + ending, "--opensim", recorded);
+    for (const char* ending : {".xml", ".mot", ".osim", "_motion.mot"})
+      checkOutput(a.options.opensim.string() + ending, "--opensim", recorded);
   return exportResults(a.options);
+}
+
+/// What --csv asks for, beside the tables that a command has left in its folder.
+void writeTables(const std::filesystem::path& folder, bool must, std::ostream& out) {
+  const Paths tables = folder.empty() ? Paths{} : writeEuropeanTables(folder);
+  if (tables.empty() && must)
+    throw InputError({"command line", 0, "--csv"}, folder.string() + " has no tables of ours");
+  if (tables.empty()) return;
+  out << fmt::format("{} tables with decimal commas: {}\n", tables.size(), tables.front().parent_path().string());
 }
 
 /// A picture's options go through the same table as the pictures of a case.
@@ -286,6 +326,13 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   addTogether(app, together_arguments);
   FinishOptions finish_options;
   addResults(app, finish_options);
+  // Commands that leave tables, and where.
+  std::string csv;
+  const std::vector<std::pair<std::string, const std::filesystem::path*>> with_tables{
+      {"run", &run_arguments.options.out},       {"study", &study_arguments.options.out},
+      {"batch", &batch_arguments.options.out},   {"verify", &verify_options.out},
+      {"fabric", &fabric_arguments.options.out}, {"export", &export_arguments.options.results}};
+  for (const auto& [name, folder] : with_tables) addTables(*app.get_subcommand(name), csv);
   std::string subject;  // what the command works on, for messages that name no file themselves
   const auto failure = [&](const std::string& text) { err << messageText(text) << '\n'; };
   if (argc < 2) {
@@ -347,7 +394,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     if (app.got_subcommand("check")) return check(check_arguments, out);
     if (app.got_subcommand("draft")) return draft(draft_arguments, out);
     if (app.got_subcommand("render")) return render(render_arguments);
-    if (app.got_subcommand("export")) return exportCommand(export_arguments);
+    if (app.got_subcommand("export")) return exportCommand(export_arguments, !csv.empty());
     if (app.got_subcommand("fabric")) return fabricCommand(fabric_arguments, out);
     if (app.got_subcommand("import")) return importCommand(import_arguments, out);
     if (app.got_subcommand("homogenise")) {
@@ -371,6 +418,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   int status = failed;
   try {
     status = perform();
+    for (const auto& [name, folder] : with_tables)
+      if (!csv.empty() && status != bad_input && app.got_subcommand(name)) writeTables(*folder, name == "export", out);
   } catch (const CLI::ParseError& e) {
     std::ostringstream text;
     status = app.exit(e, out, text) == 0 ? done : bad_input;

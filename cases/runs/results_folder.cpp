@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "cases/runs/european_tables.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
 #include "core/io/recording.hpp"
@@ -28,7 +29,7 @@ constexpr std::array kFiles{"case.json",      "run.json",     "summary.json", "t
                             "energy.csv",     "memory.csv",   "curves.csv"};
 constexpr const char* kPictures = "snapshots";
 /// What stays when these and the recording's layout are gone, as a run begins that replaces an earlier one.
-constexpr std::array kBegun{"frames", "frames.xdmf", kPictures, FolderLock::file};
+constexpr std::array kBegun{"frames", "frames.xdmf", kPictures, kEuropeanTables, FolderLock::file};
 
 [[noreturn]] void fail(const std::string& option, const std::string& reason) {
   throw InputError({"command line", 0, option}, reason);
@@ -52,6 +53,8 @@ Paths entriesOf(const fs::path& folder, Pick pick) {
   std::sort(found.begin(), found.end());
   return found;
 }
+
+bool isTable(const std::string& name) { return name.ends_with(".csv"); }
 
 void requireWritable(const fs::path& folder, const std::string& option) {
   if (::access(folder.c_str(), R_OK | W_OK | X_OK) != 0)
@@ -108,13 +111,14 @@ void checkResultsFolder(const fs::path& out, const Paths& inputs, bool resume) {
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status)) fail("--out", out.string() + " is not a folder");
   requireWritable(out, "--out");
-  for (const char* folder : {"frames", kPictures}) requireFolder(out / folder);
+  for (const char* folder : {"frames", kPictures, kEuropeanTables}) requireFolder(out / folder);
   for (const std::string name : kFiles)
     if (!resume || name != "case.json") requireFreeOf(out / name, inputs, "--out");
   requireFreeOf(out / "frames.xdmf", inputs, "--out");
   if (!resume)
     for (const fs::path& file : entriesOf(out / "frames", isRecorded)) requireFreeOf(file, inputs, "--out");
   for (const fs::path& file : entriesOf(out / kPictures, isPicture)) requireFreeOf(file, inputs, "--out");
+  for (const fs::path& file : entriesOf(out / kEuropeanTables, isTable)) requireFreeOf(file, inputs, "--out");
 }
 
 ResultsFolder::ResultsFolder(const fs::path& out, const Paths& inputs, bool resume)
@@ -142,6 +146,7 @@ bool holdsOnlyABegunRun(const fs::path& folder) {
 void removeEarlierResults(const fs::path& out) {
   for (const char* name : kFiles) removeOwnFile(out / name);
   for (const fs::path& picture : entriesOf(out / kPictures, isPicture)) removeOwnFile(picture);
+  for (const fs::path& table : entriesOf(out / kEuropeanTables, isTable)) removeOwnFile(table);
 }
 
 void useThreads(int threads) {

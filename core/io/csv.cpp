@@ -2,6 +2,7 @@
 #include "core/io/csv_text.hpp"
 #include "core/io/own_file.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
 
@@ -44,16 +45,46 @@ std::string shortest(double value) {
   return s;
 }
 
-std::string csvText(const std::string& text) {
-  std::string safe = text;
-  if (beginsLikeAFormula(text) && !isNumber(text)) safe.insert(safe.begin(), '\'');
-  if (safe.find_first_of(",\"\r\n") == std::string::npos) return safe;
+namespace {
+
+/// In quotes where it holds what would end a cell.
+std::string quoted(const std::string& text, const char* ends) {
+  if (text.find_first_of(ends) == std::string::npos) return text;
   std::string s = "\"";
-  for (const char c : safe) {
+  for (const char c : text) {
     if (c == '"') s += '"';
     s += c;
   }
   return s + '"';
+}
+
+}  // namespace
+
+std::string csvText(const std::string& text) {
+  return quoted(beginsLikeAFormula(text) && !isNumber(text) ? "'" + text : text, ",\"\r\n");
+}
+
+std::string europeanCsv(std::string_view csv) {
+  std::string out, cell;
+  bool inside = false;
+  const auto finish = [&] {
+    if (isNumber(cell)) std::replace(cell.begin(), cell.end(), '.', ',');
+    out += quoted(cell, ";\"\r\n");
+    cell.clear();
+  };
+  for (std::size_t i = 0; i < csv.size(); ++i) {
+    const char c = csv[i];
+    if (inside && c == '"' && i + 1 < csv.size() && csv[i + 1] == '"')
+      cell += csv[++i];
+    else if (c == '"')
+      inside = !inside;
+    else if (!inside && (c == ',' || c == '\n'))
+      finish(), out += c == ',' ? ';' : '\n';
+    else
+      cell += c;
+  }
+  if (!cell.empty()) finish();
+  return out;
 }
 
 std::vector<std::string> csvCells(std::string_view line) {

@@ -12,6 +12,7 @@
 #include "analysis/render/shapes.hpp"
 #include "analysis/ticks.hpp"
 #include "cases/wear/results/body_map.hpp"
+#include "cases/wear/results/shown.hpp"
 #include "cases/wear/results/write.hpp"
 #include "cases/wear/scene/placed_bodies.hpp"
 #include "core/error.hpp"
@@ -19,45 +20,13 @@
 namespace gambeson {
 namespace {
 
-constexpr Color body_color{0.74f, 0.73f, 0.72f}, arrow_color{0.80f, 0.08f, 0.10f};
-/// Of the garments in turn.
-constexpr std::array<Color, 5> cloth_colors{Color{0.42f, 0.50f, 0.62f}, Color{0.76f, 0.57f, 0.35f},
-                                            Color{0.44f, 0.60f, 0.45f}, Color{0.62f, 0.45f, 0.56f},
-                                            Color{0.68f, 0.66f, 0.42f}};
-
+constexpr Color arrow_color{0.80f, 0.08f, 0.10f};
 /// Arrows sum the forces of samples within cells of this size, so that they can be told apart.
 constexpr double arrow_cell_m = 0.05;
 /// Arrows shorter than this part of the longest are left out.
 constexpr double least_arrow = 0.06;
 /// Forces that point this much at the viewer press on the far side: the picture would show them through the body.
 constexpr double far_side = 0.3;
-
-struct FieldWords {
-  const char *field, *title, *word;
-  double scale;  ///< to the unit of the title
-};
-
-FieldWords wordsOf(PictureField field) {
-  switch (field) {
-    case PictureField::stress:
-      return {"stress", "Stress in the fabric: largest pull [N/m]", "stress in the fabric", 1};
-    case PictureField::pressure:
-      return {"pressure", "Contact pressure of single points [kPa]", "contact pressure of single points", 1e-3};
-    case PictureField::strain:
-      return {"strain", "Largest stretch of the fabric [%]", "stretch of the fabric", 100};
-    case PictureField::thickness:
-      return {"", "Thickness of the cloth at rest [mm]", "thickness of the cloth", 1e3};
-    case PictureField::body_pressure:
-      return {"", "Largest pressure on the body, mean over {:g} mm [kPa]", "largest pressure on the body", 1e-3};
-    case PictureField::set:
-      return {"set", "Curvature that is set in the fabric [1/m]", "curvature set in the fabric", 1};
-    case PictureField::friction:
-      return {"friction_left", "Friction in bending that is left [%]", "friction in bending that is left", 100};
-    case PictureField::plain:
-      break;
-  }
-  return {"", "", "the garment", 1};
-}
 
 std::vector<Vec3> positionsOf(const Frame& frame) {
   std::vector<Vec3> x(frame.positions.size() / 3);
@@ -141,7 +110,7 @@ double fieldRange(const Scenario& s, const RecordingReader& recording, PictureFi
     const BodyLoads loads = bodyLoads(map, recording, countedFrom(s, recording));
     return 1e3 * roundedUp(1e-3 * *std::max_element(loads.peak_Pa.begin(), loads.peak_Pa.end()));
   }
-  const FieldWords words = wordsOf(field);
+  const FieldWords words = fieldWords(field);
   if (field == PictureField::thickness) return largestShown(thicknessOf(s), words.scale);
   std::vector<double> values, weights;
   for (const bool motion : {true, false}) {
@@ -175,7 +144,7 @@ PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int in
   placed.moveTo(frame.time_s);
   scale.most_N = mostOf(clustersOf(placed, frame, x));
   if (field == PictureField::plain) return scale;
-  const FieldWords words = wordsOf(field);
+  const FieldWords words = fieldWords(field);
   if (field == PictureField::thickness) {
     scale.high = largestShown(thicknessOf(s), words.scale);
     return scale;
@@ -189,7 +158,7 @@ PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int in
 std::string captionOf(const PictureCase& picture, double time_s, double sensor_m) {
   std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
   std::replace(view.begin(), view.end(), '_', ' ');
-  std::string what = wordsOf(picture.field).word;
+  std::string what = fieldWords(picture.field).word;
   what[0] = static_cast<char>(what[0] - 'a' + 'A');
   if (picture.field == PictureField::body_pressure)
     return fmt::format("{} (the mean over {:g} mm), at each place over the motion, seen from {}{}; posture at {:.2f} s",
@@ -218,7 +187,7 @@ void renderBody(const Scenario& s, const BodyMap& map, const BodyLoads& loads, d
   std::size_t v = 0;
   std::vector<Vec3> touched;
   for (TriangleMesh& mesh : map.meshes(time_s)) {
-    RenderMesh body{std::move(mesh.vertices), std::move(mesh.triangles), {}, body_color, false, {}};
+    RenderMesh body{std::move(mesh.vertices), std::move(mesh.triangles), {}, kBodyColor, false, {}};
     for (const Vec3& x : body.vertices) {
       const double p = loads.peak_Pa[v++];
       body.scalars.push_back(p > 0 ? 1e-3 * p : std::numeric_limits<double>::quiet_NaN());
@@ -226,7 +195,7 @@ void renderBody(const Scenario& s, const BodyMap& map, const BodyLoads& loads, d
     }
     scene.meshes.push_back(std::move(body));
   }
-  const FieldWords words = wordsOf(PictureField::body_pressure);
+  const FieldWords words = fieldWords(PictureField::body_pressure);
   scene.bar = ColorBar{fmt::format(fmt::runtime(words.title), 1e3 * s.definition.comfort.sensor_m), 0, 1e-3 * high_Pa};
   if (!touched.empty()) {
     const std::array<Vec3, 2> box = boxOf(touched, 0);
@@ -250,7 +219,7 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   }
   const Frame frame = recording.frame(index);
   const std::vector<Vec3> x = positionsOf(frame);
-  const FieldWords words = wordsOf(picture.field);
+  const FieldWords words = fieldWords(picture.field);
   Scene scene;
   PlacedBodies placed(s);
   placed.moveTo(frame.time_s);
@@ -258,14 +227,10 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
     if (s.stage->leavesOut(static_cast<int>(o), frame.time_s)) continue;
     scene.meshes.push_back(meshOf(
         s.model->obstacles[o].deforms ? Shape(placed.deformedMesh(static_cast<int>(o))) : s.model->obstacles[o].shape,
-        placed.placements()[o], body_color));
+        placed.placements()[o], kBodyColor));
   }
-  std::vector<double> scalars;
-  if (picture.field != PictureField::plain) {
-    if (picture.field == PictureField::thickness)
-      for (const double h : thicknessOf(s)) scalars.push_back(words.scale * h);
-    else
-      for (const float v : fieldOf(frame, words.field).data) scalars.push_back(words.scale * v);
+  const std::vector<double> scalars = shownOf(s, frame, picture.field);
+  if (!scalars.empty()) {
     // Friction falls from 100 % of new cloth: its least is what tells.
     const bool falls = picture.field == PictureField::friction;
     const auto [least, most] = std::minmax_element(scalars.begin(), scalars.end());
@@ -273,28 +238,14 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
                                      formatBrief(falls ? *least : *most, 2)),
                          0, words.scale * scale.high};
   }
-  // A mesh for each garment, with its samples alone.
-  const Surface& surface = s.model->surface;
-  std::map<int, RenderMesh> garments;
-  std::vector<int> at(x.size(), -1);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const int garment = s.model->cloth->patches()[static_cast<std::size_t>(surface.triangle_patch[t])].garment;
-    RenderMesh& cloth = garments[garment];
-    cloth.color = cloth_colors[static_cast<std::size_t>(garment) % cloth_colors.size()];
-    cloth.edges = true;
-    std::array<int, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto sample = static_cast<std::size_t>(surface.triangles[t][k]);
-      if (at[sample] < 0) {
-        at[sample] = static_cast<int>(cloth.vertices.size());
-        cloth.vertices.push_back(x[sample]);
-        if (!scalars.empty()) cloth.scalars.push_back(scalars[sample]);
-      }
-      corners[k] = at[sample];
+  for (const WornMesh& worn : wornMeshes(s)) {
+    RenderMesh cloth{{}, worn.triangles, {}, worn.color, true, {}};
+    for (const int sample : worn.samples) {
+      cloth.vertices.push_back(x[static_cast<std::size_t>(sample)]);
+      if (!scalars.empty()) cloth.scalars.push_back(scalars[static_cast<std::size_t>(sample)]);
     }
-    cloth.triangles.push_back(corners);
+    scene.meshes.push_back(std::move(cloth));
   }
-  for (auto& [garment, cloth] : garments) scene.meshes.push_back(std::move(cloth));
   const std::array<Vec3, 2> garment = boxOf(x, 0);
   const Vec3 middle = 0.5 * (garment[0] + garment[1]);
   addArrows(scene, clustersOf(placed, frame, x), scale.most_N, 0.14 * scale.size_m,

@@ -45,7 +45,8 @@ void writeCloth(const std::filesystem::path& dir, const Scenario& scenario, cons
 void addZones(const Measured& measured, ReportInput& in);
 
 /// Replaces PREFIX.xml and PREFIX.mot: what the cloth does to the human, as OpenSim's ExternalLoads
-/// (analysis/opensim.hpp).
+/// (analysis/opensim.hpp); PREFIX.osim and PREFIX_motion.mot: the human, and its motion at the times of these
+/// (analysis/opensim_model.hpp).
 void writeOpenSim(const Scenario& scenario, const Measured& measured, const std::filesystem::path& prefix);
 
 /// Pressure on the body against comfort limits, for the page; nothing where nothing touches a human.

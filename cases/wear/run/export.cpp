@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "analysis/animation/glb.hpp"
+#include "analysis/animation/obj.hpp"
 #include "analysis/opensim.hpp"
+#include "analysis/opensim_model.hpp"
+#include "cases/wear/results/animation.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
 #include "core/io/iges.hpp"
+#include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -49,15 +54,53 @@ std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& 
   return surfaces;
 }
 
+/// "walk.glb: 42 frames, 8.1 MB".
+void writeGlb(const Scenario& s, const RecordingReader& recording, AnimationOptions how,
+              const std::filesystem::path& file) {
+  const Animation animation = animationOf(s, recording, how);
+  const Glb glb = encodeGlb(animation.scene);
+  writeOwnFile(file, glb.bytes);
+  fmt::print("{}: {} frames, {:.1f} MB, cloth within {:.2g} mm of the recording", file.string(),
+             animation.scene.time_s.size(), 1e-6 * static_cast<double>(glb.bytes.size()), 1e3 * glb.error_m);
+  if (!animation.scene.skinned.empty()) fmt::print(", the body within {:.2g} mm", 1e3 * animation.skin_error_m);
+  fmt::print("\n");
+  for (const auto& [word, text] : animation.scene.notes)
+    if (word == "colors") fmt::print("Colours: {}\n", text);
+}
+
+void writeObjs(const Scenario& s, const RecordingReader& recording, AnimationOptions how,
+               const std::filesystem::path& file) {
+  how.skins = false;
+  how.field = PictureField::plain;
+  const AnimatedScene scene = animationOf(s, recording, how).scene;
+  for (std::size_t k = 0; k < scene.time_s.size(); ++k) writeOwnFile(numbered(file.string(), k), encodeObj(scene, k));
+  fmt::print("{} to {}: a frame each, {:.3f} to {:.3f} s\n", numbered(file.string(), 0),
+             numbered(file.string(), scene.time_s.size() - 1), scene.time_s.front(), scene.time_s.back());
+}
+
 }  // namespace
 
+const std::vector<ExportFormat>& exportFormats() {
+  using O = ExportOptions;
+  static const std::vector<ExportFormat> formats{
+      {{".glb"}, "an animation (binary glTF 2.0): body, garments, colours of one time", &O::glb},
+      {{".obj"}, "a file of each frame, walk_0001.obj ..., with body and garments as groups", &O::obj},
+      {{".igs", ".iges"}, "the garment at one time as NURBS surfaces, for CAD (IGES 5.3)", &O::iges}};
+  return formats;
+}
+
 int exportResults(const ExportOptions& o) {
-  if (o.iges.empty() && o.opensim.empty())
-    throw InputError({"command line", 0, ""}, "nothing to write: give --iges FILE or --opensim PREFIX");
+  if (o.iges.empty() && o.opensim.empty() && o.glb.empty() && o.obj.empty())
+    throw InputError({"command line", 0, ""}, "nothing to write: give -o FILE or --opensim PREFIX");
+  if (o.field == PictureField::body_pressure)
+    throw InputError({"command line", 0, "--field"}, "\"body_pressure\" is no field of garments");
   const auto [recording, scenario, facts] = recordedRun(o.results);
   const Measured measured = measure(*scenario, recording);
+  const int frame = frameOf(recording, measured, {o.when, o.time_s});
+  const AnimationOptions how{o.frames, frame, o.field};
+  if (!o.glb.empty()) writeGlb(*scenario, recording, how, o.glb);
+  if (!o.obj.empty()) writeObjs(*scenario, recording, how, o.obj);
   if (!o.iges.empty()) {
-    const int frame = frameOf(recording, measured, {o.when, o.time_s});
     writeIges(o.iges, fmt::format("{}, {:.3f} s", scenario->definition.name, recording.time(frame)),
               surfacesOf(recording.layout(), recording.frame(frame)));
     fmt::print("{}: the garment at {:.3f} s, {} surfaces\n", o.iges.string(), recording.time(frame),
@@ -67,8 +110,10 @@ int exportResults(const ExportOptions& o) {
     if (!scenario->human)
       throw InputError({"command line", 0, "--opensim"}, "needs results of a human; this run has none");
     writeOpenSim(*scenario, measured, o.opensim);
-    fmt::print("{0}.xml and {0}.mot: forces of the cloth on the body, {1} windows\n", o.opensim.string(),
-               measured.windows.size());
+    fmt::print(
+        "{0}.xml and {0}.mot: forces of the cloth on the body, {1} windows\n"
+        "{0}.osim and {0}_motion.mot: the body, and its motion at the same times\n",
+        o.opensim.string(), measured.windows.size());
   }
   return 0;
 }
@@ -76,10 +121,16 @@ int exportResults(const ExportOptions& o) {
 void writeOpenSim(const Scenario& s, const Measured& m, const std::filesystem::path& prefix) {
   std::vector<ContactWindow> windows = m.windows;
   std::vector<double> time_s;
+  std::vector<Posture> postures;
   for (ContactWindow& w : windows) {
     w.links.resize(s.human->skeleton.links.size());
     time_s.push_back(w.middle());
+    postures.push_back(s.motion->at(w.middle()));
   }
+  const Skeleton& skeleton = s.human->skeleton;
+  const std::filesystem::path motion = prefix.string() + "_motion.mot";
+  writeOwnFile(prefix.string() + ".osim", openSimModel(skeleton, s.definition.name));
+  writeOwnFile(motion, openSimMotion(motion.filename().string(), skeleton, time_s, postures));
   writeExternalLoads(prefix, s.definition.name, time_s, externalLoads(*s.human, *s.motion, 0, windows));
 }
 

@@ -1,7 +1,9 @@
 #pragma once
-/// Results in the formats of other programs: CAD (IGES) and OpenSim.
+/// Results in the formats of other programs: CAD (IGES), players of animations (glTF, OBJ) and OpenSim.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "cases/wear/case/case.hpp"
 
@@ -10,10 +12,22 @@ namespace gambeson {
 struct ExportOptions {
   std::filesystem::path results;        ///< folder of a run
   std::filesystem::path iges;           ///< empty: none
-  std::filesystem::path opensim;        ///< prefix of the .xml and the .mot; empty: none
-  PictureTime when = PictureTime::end;  ///< of the IGES file
+  std::filesystem::path opensim;        ///< prefix of the .osim, .xml and two .mot; empty: none
+  std::filesystem::path glb;            ///< animation; empty: none
+  std::filesystem::path obj;            ///< of each frame a file of this name with its number; empty: none
+  int frames = 0;                       ///< of animations, at most; 0: all
+  PictureField field = PictureField::stress;  ///< that an animation is coloured by
+  PictureTime when = PictureTime::end;        ///< of the IGES file, and of the colours
   double time_s = 0;                    ///< where `when` is `at`
 };
+
+/// What `export` writes, by the ending of a file's name in lower case.
+struct ExportFormat {
+  std::vector<std::string> endings;
+  std::string what;
+  std::filesystem::path ExportOptions::*file;
+};
+const std::vector<ExportFormat>& exportFormats();
 
 /// Returns the exit status; throws InputError where the results cannot give what is asked.
 int exportResults(const ExportOptions& options);

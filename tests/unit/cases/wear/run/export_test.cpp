@@ -9,8 +9,10 @@
 
 #include "cases/command/cli.hpp"
 #include "cases/wear/results/results.hpp"
+#include "cases/wear/results/shown.hpp"
 #include "core/error.hpp"
 #include "human/recorded/storage.hpp"
+#include "unit/analysis/animation/glb_reader.hpp"
 #include "unit/cases/content.hpp"
 #include "unit/cases/example.hpp"
 
@@ -103,6 +105,47 @@ TEST_F(Export, CadGetsTheControlPointsOfTheFrame) {
   EXPECT_EQ(patch.weights.size() * 3, expected.size());
 }
 
+/// Three times: the links where their joints put them, and every vertex of the cloth.
+TEST_F(Export, AnimationsHaveTheJointsAndTheClothOfTheRecording) {
+  const std::string file = (folder_->path() / "sleeve.glb").string();
+  ASSERT_EQ(command({"export", results_.c_str(), "-o", file.c_str(), "--field", "pressure"}), 0);
+  const GlbReader glb(content(file));
+  const RecordedRun run = recordedRun(results_);
+  const Scenario& s = *run.scenario;
+  const std::vector<WornMesh> garments = wornMeshes(s);
+  ASSERT_EQ(garments.size(), 1u);
+  const int first = run.recording.frameCount() - static_cast<int>(glb.times().size());
+  ASSERT_GE(first, 0);
+  double most = 0;
+  for (const std::size_t k : {std::size_t{0}, glb.times().size() / 2, glb.times().size() - 1}) {
+    const Frame frame = run.recording.frame(first + static_cast<int>(k));
+    EXPECT_NEAR(glb.times()[k], frame.time_s - run.recording.time(first), 1e-6);
+    const Posture posture = s.motion->at(frame.time_s);
+    const std::vector<Pose> X_WL = linkPoses(s.human->skeleton, posture.q, posture.root);
+    for (std::size_t l = 0; l < X_WL.size(); ++l)
+      EXPECT_LT(norm(glb.inOurs(glb.node(s.human->skeleton.links[l].name), k, {}) - X_WL[l].origin), 1e-6);
+    const std::vector<Vec3> x = glb.vertices(glb.node("garment", true), k);
+    ASSERT_EQ(x.size(), garments[0].samples.size());
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      const float* of = frame.positions.data() + 3 * garments[0].samples[v];
+      most = std::max(most, norm(x[v] - Vec3{of[0], of[1], of[2]}));
+    }
+  }
+  EXPECT_LT(most, 2e-5);  // an arm long, in 32766 steps
+  EXPECT_NE(glb.json["asset"]["extras"]["colors"].get<std::string>().find("[kPa]"), std::string::npos);
+}
+
+TEST_F(Export, FramesAreThinnedEvenly) {
+  const std::string all = (folder_->path() / "all.glb").string(), few = (folder_->path() / "few.glb").string();
+  ASSERT_EQ(command({"export", results_.c_str(), "-o", all.c_str()}), 0);
+  ASSERT_EQ(command({"export", results_.c_str(), "-o", few.c_str(), "--frames", "3"}), 0);
+  const std::vector<double> every = GlbReader(content(all)).times(), some = GlbReader(content(few)).times();
+  ASSERT_EQ(some.size(), 3u);
+  EXPECT_EQ(some.front(), every.front());
+  EXPECT_EQ(some.back(), every.back());
+  EXPECT_NEAR(some[1], 0.5 * every.back(), 0.6 * every[1]);
+}
+
 TEST_F(Export, WhatCannotBeWrittenIsSaid) {
   std::string error;
   EXPECT_EQ(command({"export", results_.c_str()}, &error), 2);
@@ -110,6 +153,10 @@ TEST_F(Export, WhatCannotBeWrittenIsSaid) {
   EXPECT_EQ(command({"export", (folder_->path() / "none").c_str(), "--iges", "x.igs"}, &error), 2);
   EXPECT_EQ(command({"export", results_.c_str(), "--iges", "x.igs", "--time", "noon"}, &error), 2);
   EXPECT_NE(error.find("time"), std::string::npos) << error;
+  EXPECT_EQ(command({"export", results_.c_str(), "-o", "walk.mp4"}, &error), 2);
+  EXPECT_NE(error.find("allowed: a name that ends in .glb, .obj, .igs, .iges"), std::string::npos) << error;
+  EXPECT_EQ(command({"export", results_.c_str(), "-o", "a.igs", "--iges", "b.igs"}, &error), 2);
+  EXPECT_NE(error.find("second file of its format"), std::string::npos) << error;
   EXPECT_EQ(command({"export", results_.c_str(), "--iges", "/nowhere/at/all/x.igs"}, &error), 2);
   EXPECT_NE(error.find("--iges: there is no folder /nowhere/at/all"), std::string::npos) << error;
 }
