@@ -78,8 +78,8 @@ std::string joint(const char* kind, const std::string& name, const std::string& 
       "          <frames>\n{3}          </frames>\n"
       "{4}"
       "        </{0}>\n",
-      kind, name,
-      coordinates.empty() ? "" : "          <coordinates>\n" + coordinates + "          </coordinates>\n", frames, more);
+      kind, name, coordinates.empty() ? "" : "          <coordinates>\n" + coordinates + "          </coordinates>\n",
+      frames, more);
 }
 
 std::string rootJoint(const Skeleton& s) {
@@ -101,8 +101,13 @@ std::string jointOf(const Skeleton& s, const Joint& j) {
   const std::string name = html::escape(j.name);
   const bool pin = j.type == JointType::revolute, slider = j.type == JointType::prismatic;
   const Mat3 A = pin ? turnTo({0, 0, 1}, j.axis) : slider ? turnTo({1, 0, 0}, j.axis) : Mat3{};
-  const auto body = [&](int link) { return "/bodyset/" + html::escape(bodyName(s.links[static_cast<std::size_t>(link)])); };
-  return joint(pin ? "PinJoint" : slider ? "SliderJoint" : "WeldJoint", name,
+  const auto body = [&](int link) {
+    return "/bodyset/" + html::escape(bodyName(s.links[static_cast<std::size_t>(link)]));
+  };
+  return joint(pin      ? "PinJoint"
+               : slider ? "SliderJoint"
+                        : "WeldJoint",
+               name,
                frame(name + "_parent", body(j.parent), j.X_PJ.origin, j.X_PJ.rotation * A) +
                    frame(name + "_child", body(j.child), {}, A),
                pin || slider ? coordinate(j.name, pin ? "rad" : "m", j.lower, j.upper) : "");

@@ -8,6 +8,7 @@
 
 #include "analysis/animation/glb_buffer.hpp"
 #include "analysis/render/colormap.hpp"
+#include "analysis/render/geometry.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -124,11 +125,10 @@ class Encoder {
 
   int material(const Color& c, bool both_sides) {
     const auto of = [](float v) { return static_cast<double>(linearOfSrgb(v)); };
-    const Json m{{"pbrMetallicRoughness",
-                  {{"baseColorFactor", {of(c.r), of(c.g), of(c.b), 1.0}},
-                   {"metallicFactor", 0.0},
-                   {"roughnessFactor", 0.85}}},
-                 {"doubleSided", both_sides}};
+    const Json m{
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {of(c.r), of(c.g), of(c.b), 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.85}}},
+        {"doubleSided", both_sides}};
     std::size_t k = 0;
     while (k < materials_.size() && materials_[k] != m) ++k;
     if (k == materials_.size()) materials_.push_back(m);
@@ -175,19 +175,24 @@ class Encoder {
       }
     for (const Pose& X : m.inverse_bind) {
       const Mat3& R = X.rotation;
-      append(matrices, std::array{R.a.x, R.a.y, R.a.z, 0., R.b.x, R.b.y, R.b.z, 0., R.c.x, R.c.y, R.c.z, 0.,
-                                  X.origin.x, X.origin.y, X.origin.z, 1.});
+      append(matrices, std::array{R.a.x, R.a.y, R.a.z, 0., R.b.x, R.b.y, R.b.z, 0., R.c.x, R.c.y, R.c.z, 0., X.origin.x,
+                                  X.origin.y, X.origin.z, 1.});
     }
+    std::vector<Vec3> normals = smoothNormals({m.rest, m.triangles, {}, {}, false, {}});
+    for (Vec3& n : normals)
+      if (!(norm2(n) > 0)) n = {0, 0, 1};  // of no triangle
     const Json attributes{{"POSITION", vectorsOf(m.rest, kPositions)},
+                          {"NORMAL", vectorsOf(normals, kVectors)},
                           {"JOINTS_0", buffer_.put(joints, GlbBuffer::vertices, kJoints)},
                           {"WEIGHTS_0", buffer_.put(weights, GlbBuffer::vertices, kQuaternions)}};
     Json nodes = Json::array();
     for (const int n : m.nodes) nodes.push_back(n + 1);
-    skins_.push_back(
-        {{"inverseBindMatrices", buffer_.put(matrices, GlbBuffer::none, kMatrices)}, {"skeleton", 0}, {"joints", nodes}});
-    const int mesh = addMesh(m.name, {{"attributes", attributes},
-                                      {"indices", indicesOf(m.triangles)},
-                                      {"material", material(m.color, false)}});
+    skins_.push_back({{"inverseBindMatrices", buffer_.put(matrices, GlbBuffer::none, kMatrices)},
+                      {"skeleton", 0},
+                      {"joints", nodes}});
+    const int mesh = addMesh(
+        m.name,
+        {{"attributes", attributes}, {"indices", indicesOf(m.triangles)}, {"material", material(m.color, false)}});
     roots_.push_back(nodes_.size());  // where a skin's node is does not count; players want it on top
     nodes_.push_back({{"name", m.name}, {"mesh", mesh}, {"skin", skins_.size() - 1}});
   }
@@ -288,8 +293,10 @@ class Encoder {
            {"nodes", nodes_}};
     if (!scene_.moving.empty())
       j.update({{"extensionsUsed", {"KHR_mesh_quantization"}}, {"extensionsRequired", {"KHR_mesh_quantization"}}});
-    for (const auto& [key, list] : {std::pair<const char*, const Json&>{"meshes", meshes_}, {"materials", materials_},
-                                    {"skins", skins_}, {"accessors", buffer_.accessors()},
+    for (const auto& [key, list] : {std::pair<const char*, const Json&>{"meshes", meshes_},
+                                    {"materials", materials_},
+                                    {"skins", skins_},
+                                    {"accessors", buffer_.accessors()},
                                     {"bufferViews", buffer_.views()}})
       if (!list.empty()) j[key] = list;
     if (!bytes.empty()) j["buffers"] = {{{"byteLength", bytes.size()}}};

@@ -2,11 +2,12 @@
 /// An animated scene as one binary glTF 2.0 file (.glb), with KHR_mesh_quantization.
 ///
 /// The root turns our axes (z up, x forward) into those of glTF (y up, z forward); below it everything is in ours.
-/// Fixed and skinned meshes have single precision. A mesh whose vertices move has one morph target for each time after
-/// the first, and weights that change linearly from one to the next. Its positions are whole numbers of 16 bits times a
-/// quantum q, about an origin that follows the middle of its bounding box: the node's scale is q, the node's
-/// translation the origin. Rounded are the positions, not the displacements, so that errors do not add:
-///   |x - x_file| <= sqrt(3) q / 2,  q = largest coordinate about the origin, or change of it since the first time / 32766.
+/// Fixed and skinned meshes have single precision, and normals. A mesh whose vertices move has one morph target for
+/// each time after the first, and weights that change linearly from one to the next. Its positions are whole numbers of
+/// 16 bits times a quantum q, about an origin that follows the middle of its bounding box: the node's scale is q, the
+/// node's translation the origin. Rounded are the positions, not the displacements, so that errors do not add:
+///   |x - x_file| <= sqrt(3) q / 2,  q = largest coordinate about the origin, or change of it since the first time /
+///   32766.
 /// Vertex colours are linear, 16 bits.
 
 #include <string>

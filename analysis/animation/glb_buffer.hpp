@@ -42,7 +42,10 @@ class GlbBuffer {
   /// An accessor of `count` elements of a view, whose numbers are `data` (for its bounds), `offset_bytes` into it.
   template <class T>
   int accessor(int view, std::span<const T> data, std::size_t count, const Form& form, std::size_t offset_bytes = 0) {
-    Json a{{"bufferView", view}, {"byteOffset", offset_bytes}, {"componentType", form.component}, {"count", count},
+    Json a{{"bufferView", view},
+           {"byteOffset", offset_bytes},
+           {"componentType", form.component},
+           {"count", count},
            {"type", form.type}};
     if (form.normalized) a["normalized"] = true;
     if (form.bounds) {

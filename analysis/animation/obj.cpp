@@ -25,8 +25,7 @@ class Writer {
     auto to = std::back_inserter(text);
     fmt::format_to(to, "g {}\n", word);
     for (std::size_t i = 0; i + 2 < x.size(); i += 3) fmt::format_to(to, "v {} {} {}\n", x[i], x[i + 1], x[i + 2]);
-    for (const auto& t : triangles)
-      fmt::format_to(to, "f {} {} {}\n", first_ + t[0], first_ + t[1], first_ + t[2]);
+    for (const auto& t : triangles) fmt::format_to(to, "f {} {} {}\n", first_ + t[0], first_ + t[1], first_ + t[2]);
     first_ += static_cast<int>(x.size() / 3);
   }
   std::string text;
@@ -50,7 +49,8 @@ std::vector<float> floatsOf(std::size_t count, At at) {
 
 std::string encodeObj(const AnimatedScene& scene, std::size_t time) {
   std::string title = scene.title;
-  std::replace_if(title.begin(), title.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
+  std::replace_if(
+      title.begin(), title.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
   Writer out;
   out.text = fmt::format("# {}, {} s; metres, z up\n", title, scene.time_s.at(time));
   const std::vector<Placement> X_WN = worldOf(scene, time);

@@ -115,7 +115,9 @@ void addDraft(CLI::App& app, DraftArguments& a) {
       ->type_name("NAME");
   addOverrides(draft, a.overrides);
   draft.add_flag("--obj", a.obj, "A mesh of triangles in place of its patches, as a name that ends in .obj says too");
-  draft.add_option("-o,--output", a.garment_file, "Garment file to write, as its name ends: .json its patches, .obj a mesh of triangles")
+  draft
+      .add_option("-o,--output", a.garment_file,
+                  "Garment file to write, as its name ends: .json its patches, .obj a mesh of triangles")
       ->type_name("GARMENT")
       ->required();
   draft.footer(
@@ -190,8 +192,8 @@ void addReport(CLI::App& app, ReportOptions& options) {
 }
 
 void addExport(CLI::App& app, ExportArguments& a) {
-  CLI::App& command = *app.add_subcommand(
-      "export", "Writes recorded results for other programs: animations, CAD and OpenSim");
+  CLI::App& command =
+      *app.add_subcommand("export", "Writes recorded results for other programs: animations, CAD and OpenSim");
   command.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
   std::string endings;
   for (const ExportFormat& f : exportFormats())
@@ -209,9 +211,10 @@ void addExport(CLI::App& app, ExportArguments& a) {
                   "torque) or end [peak for colours, end for CAD]")
       ->type_name("TIME");
   command
-      .add_option("--field", a.field,
-                  "What the colours of an animation show: stress, pressure, strain, thickness, set, friction or plain; the "
-                  "scale is that of pictures")
+      .add_option(
+          "--field", a.field,
+          "What the colours of an animation show: stress, pressure, strain, thickness, set, friction or plain; the "
+          "scale is that of pictures")
       ->type_name("FIELD")
       ->capture_default_str();
   command.add_option("--frames", a.options.frames, "Of animations: at most so many frames, evenly [all of the motion]")

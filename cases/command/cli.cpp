@@ -42,7 +42,7 @@ constexpr int done = 0, failed = 1, bad_input = 2;
 
 /// The ending, in lower case, of a file whose name says what is in it. Throws InputError ("command line", option).
 std::string checkEnding(const std::filesystem::path& file, const std::string& option,
-                 const std::vector<std::string>& allowed) {
+                        const std::vector<std::string>& allowed) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   if (std::find(allowed.begin(), allowed.end(), ending) == allowed.end())
@@ -110,9 +110,8 @@ int check(const CheckArguments& a, std::ostream& out) {
 }
 
 int draft(const DraftArguments& a, std::ostream& out) {
-  const std::string ending = checkEnding(a.garment_file, "--output",
-                                         a.obj ? std::vector<std::string>{".obj"}
-                                               : std::vector<std::string>{".json", ".obj"});
+  const std::string ending = checkEnding(
+      a.garment_file, "--output", a.obj ? std::vector<std::string>{".obj"} : std::vector<std::string>{".json", ".obj"});
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is no case of worn cloth; garments are made by those that wear");

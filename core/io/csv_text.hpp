@@ -14,8 +14,8 @@ std::string csvText(const std::string& text);
 /// The cells of a line (no line breaks within quotes), with what csvText added taken away.
 std::vector<std::string> csvCells(std::string_view line);
 
-/// A table of ours for spreadsheets with a decimal comma: cells between semicolons, the point of each number (a cell that
-/// is one, whole) a comma. Texts stay, quoted where they hold a semicolon.
+/// A table of ours for spreadsheets with a decimal comma: cells between semicolons, the point of each number (a cell
+/// that is one, whole) a comma. Texts stay, quoted where they hold a semicolon.
 std::string europeanCsv(std::string_view csv);
 
 }  // namespace gambeson

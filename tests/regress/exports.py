@@ -178,6 +178,8 @@ def animation(results, folder):
     few = folder / "few.glb"
     check(run("export", results, "-o", few, "--frames", 3).returncode == 0, "--frames")
     thin = Glb(few)
+    check(run("export", results, "-o", folder / "walk.obj", "--frames", 3).returncode == 0, "--frames of OBJ")
+    check(len(list(folder.glob("walk_*.obj"))) == 3, "frames of a longer sequence are left")
     check(len(thin.times) == 3 and thin.times[-1] == glb.times[-1], f"--frames 3 gave the times {thin.times}")
     print(f"animation: {len(glb.times)} frames, {(folder / 'walk.glb').stat().st_size} bytes, "
           f"{worst * 1e3:.4f} mm from the OBJ, {stated * 1e3:.4f} mm stated")

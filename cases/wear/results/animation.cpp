@@ -111,7 +111,8 @@ class Maker {
       links_.push_back(linkPoses(k, posture.q, posture.root));
     }
     for (std::size_t l = 0; l < k.links.size(); ++l) {
-      const int joint = k.links[l].parent_joint, parent = joint < 0 ? -1 : k.joints[static_cast<std::size_t>(joint)].parent;
+      const int joint = k.links[l].parent_joint,
+                parent = joint < 0 ? -1 : k.joints[static_cast<std::size_t>(joint)].parent;
       std::vector<Placement> at;
       for (const std::vector<Pose>& X_WL : links_) {
         const Placement X{X_WL[l].rotation, X_WL[l].origin, 1};
@@ -133,8 +134,8 @@ class Maker {
       if (s_.stage->leavesOut(static_cast<int>(o), times()[f])) X.scale = 0;
       at.push_back(link < 0 ? X : inFrame(links_[f][static_cast<std::size_t>(link)], X));
     }
-    out_.scene.fixed.push_back({name, static_cast<int>(out_.scene.nodes.size()),
-                                meshOf(s_.model->obstacles[o].shape, {}, kBodyColor)});
+    out_.scene.fixed.push_back(
+        {name, static_cast<int>(out_.scene.nodes.size()), meshOf(s_.model->obstacles[o].shape, {}, kBodyColor)});
     out_.scene.nodes.push_back(node(name, link, std::move(at)));
   }
 
@@ -196,8 +197,8 @@ class Maker {
     const ColorTable table = makeColorTable();
     for (const double v : shownOf(s_, frame, o_.field))
       colors.push_back(std::isfinite(v) ? colorAt(table, v / top) : Color{-1, -1, -1});
-    out_.scene.notes.emplace_back("colors", fmt::format("{} at {:.3f} s, from 0 (dark violet) to {:g} (yellow)", words.title,
-                                                        frame.time_s, top));
+    out_.scene.notes.emplace_back(
+        "colors", fmt::format("{} at {:.3f} s, from 0 (dark violet) to {:g} (yellow)", words.title, frame.time_s, top));
     return colors;
   }
 

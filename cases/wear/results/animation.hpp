@@ -9,8 +9,8 @@
 namespace gambeson {
 
 struct AnimationOptions {
-  int frames = 0;      ///< at most so many, evenly, the first and the last among them; 0: all
-  int color_frame = 0; ///< of the recording: whose field the garments are coloured by
+  int frames = 0;       ///< at most so many, evenly, the first and the last among them; 0: all
+  int color_frame = 0;  ///< of the recording: whose field the garments are coloured by
   PictureField field = PictureField::stress;
   /// Whether a skin that follows its links linearly is a SkinnedMesh: else its vertices move one by one, as those of
   /// skins that bend otherwise do.

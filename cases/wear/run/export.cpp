@@ -73,9 +73,12 @@ void writeObjs(const Scenario& s, const RecordingReader& recording, AnimationOpt
   how.skins = false;
   how.field = PictureField::plain;
   const AnimatedScene scene = animationOf(s, recording, how).scene;
-  for (std::size_t k = 0; k < scene.time_s.size(); ++k) writeOwnFile(numbered(file.string(), k), encodeObj(scene, k));
+  const std::size_t count = scene.time_s.size();
+  for (std::size_t k = 0; k < count; ++k) writeOwnFile(numbered(file.string(), k), encodeObj(scene, k));
+  // Of an earlier sequence that was longer.
+  for (std::size_t k = count; isOwnFile(numbered(file.string(), k)); ++k) removeOwnFile(numbered(file.string(), k));
   fmt::print("{} to {}: a frame each, {:.3f} to {:.3f} s\n", numbered(file.string(), 0),
-             numbered(file.string(), scene.time_s.size() - 1), scene.time_s.front(), scene.time_s.back());
+             numbered(file.string(), count - 1), scene.time_s.front(), scene.time_s.back());
 }
 
 }  // namespace

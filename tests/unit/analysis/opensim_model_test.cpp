@@ -1,4 +1,5 @@
-/// The .osim read back: joints as OpenSim defines them, at the coordinates of the .mot, put the bodies where we have them.
+/// The .osim read back: joints as OpenSim defines them, at the coordinates of the .mot, put the bodies where we have
+/// them.
 
 #include "analysis/opensim_model.hpp"
 
@@ -49,10 +50,10 @@ class OsimKinematics {
       const TiXmlElement* list = j->FirstChildElement("frames");
       for (const TiXmlElement* f = list->FirstChildElement(); f; f = f->NextSiblingElement()) {
         const Vec3 o = tripleOf(f->FirstChildElement("orientation"));
-        frames[f->Attribute("name")] = {f->FirstChildElement("socket_parent")->GetText(),
-                                        {rotationAbout({1, 0, 0}, o.x) * rotationAbout({0, 1, 0}, o.y) *
-                                             rotationAbout({0, 0, 1}, o.z),
-                                         tripleOf(f->FirstChildElement("translation"))}};
+        frames[f->Attribute("name")] = {
+            f->FirstChildElement("socket_parent")->GetText(),
+            {rotationAbout({1, 0, 0}, o.x) * rotationAbout({0, 1, 0}, o.y) * rotationAbout({0, 0, 1}, o.z),
+             tripleOf(f->FirstChildElement("translation"))}};
       }
       const auto& [parent, X_PF] = frames.at(j->FirstChildElement("socket_parent_frame")->GetText());
       const auto& [child, X_CM] = frames.at(j->FirstChildElement("socket_child_frame")->GetText());
@@ -160,8 +161,15 @@ TEST(OpenSimModel, JointsOfAllKindsAndDirections) {
   std::normal_distribution<double> normal;
   const auto random = [&] { return Vec3{normal(rng), normal(rng), normal(rng)}; };
   Skeleton s{"chain", {{"base", -1, 1, {}}}, {}};
-  const std::vector<Vec3> axes{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0},
-                               normalized(random()), normalized(random()), normalized(Vec3{0.01, 0, -1})};
+  const std::vector<Vec3> axes{{0, 0, 1},
+                               {0, 0, -1},
+                               {1, 0, 0},
+                               {-1, 0, 0},
+                               {0, 1, 0},
+                               {0, -1, 0},
+                               normalized(random()),
+                               normalized(random()),
+                               normalized(Vec3{0.01, 0, -1})};
   const auto add = [&](JointType type, const Vec3& axis) {
     const int at = static_cast<int>(s.joints.size());
     Joint j;

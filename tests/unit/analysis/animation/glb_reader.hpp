@@ -59,13 +59,12 @@ class GlbReader {
 
   int node(const std::string& name, bool with_mesh = false) const {
     for (std::size_t n = 0; n < parent_.size(); ++n)
-      if (json["nodes"][n]["name"] == name && (!with_mesh || json["nodes"][n].contains("mesh"))) return static_cast<int>(n);
+      if (json["nodes"][n]["name"] == name && (!with_mesh || json["nodes"][n].contains("mesh")))
+        return static_cast<int>(n);
     throw std::runtime_error("no node " + name);
   }
 
-  std::vector<double> times() const {
-    return numbers(json["animations"][0]["samplers"][0]["input"].get<int>());
-  }
+  std::vector<double> times() const { return numbers(json["animations"][0]["samplers"][0]["input"].get<int>()); }
 
   /// A property of a node at key k.
   std::vector<double> property(int node, const std::string& path, std::size_t k, std::vector<double> otherwise) const {
@@ -75,7 +74,8 @@ class GlbReader {
         const Json& sampler = json["animations"][0]["samplers"][c["sampler"].get<std::size_t>()];
         const std::vector<double> all = numbers(sampler["output"].get<int>());
         const std::size_t per = all.size() / times().size();
-        return {all.begin() + static_cast<std::ptrdiff_t>(k * per), all.begin() + static_cast<std::ptrdiff_t>((k + 1) * per)};
+        return {all.begin() + static_cast<std::ptrdiff_t>(k * per),
+                all.begin() + static_cast<std::ptrdiff_t>((k + 1) * per)};
       }
     const Json& n = json["nodes"][static_cast<std::size_t>(node)];
     return n.contains(path) ? n[path].get<std::vector<double>>() : otherwise;

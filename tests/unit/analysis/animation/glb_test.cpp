@@ -43,7 +43,8 @@ AnimatedScene example() {
   for (std::size_t k = 0; k < 4; ++k) {
     std::vector<float>& x = cloth.at.emplace_back();
     for (int v = 0; v < 4; ++v)
-      for (int c = 0; c < 3; ++c) x.push_back(static_cast<float>(0.5 * of(rng) + (c == 0 ? static_cast<double>(k) : 0)));
+      for (int c = 0; c < 3; ++c)
+        x.push_back(static_cast<float>(0.5 * of(rng) + (c == 0 ? static_cast<double>(k) : 0)));
   }
   cloth.colors = {{0, 0, 0}, {1, 1, 1}, {0.5f, 0.25f, 0.75f}, {0.2f, 0.4f, 0.6f}};
   s.moving = {cloth};
@@ -94,7 +95,9 @@ TEST(Glb, ClothIsWithinTheErrorThatIsStated) {
 TEST(Glb, TheSkinHangsOnItsNodes) {
   const AnimatedScene scene = example();
   const GlbReader file(encodeGlb(scene).bytes);
-  const auto& primitive = file.json["meshes"][file.json["nodes"][static_cast<std::size_t>(file.node("skin"))]["mesh"].get<std::size_t>()]["primitives"][0];
+  const auto& primitive =
+      file.json["meshes"][file.json["nodes"][static_cast<std::size_t>(file.node("skin"))]["mesh"].get<std::size_t>()]
+               ["primitives"][0];
   const std::vector<double> rest = file.numbers(primitive["attributes"]["POSITION"]),
                             joint = file.numbers(primitive["attributes"]["JOINTS_0"]),
                             weight = file.numbers(primitive["attributes"]["WEIGHTS_0"]),
@@ -119,7 +122,8 @@ TEST(Glb, TheSkinHangsOnItsNodes) {
 TEST(Glb, ColoursAreLinear) {
   const AnimatedScene scene = example();
   const GlbReader file(encodeGlb(scene).bytes);
-  const auto& mesh = file.json["meshes"][file.json["nodes"][static_cast<std::size_t>(file.node("shirt"))]["mesh"].get<std::size_t>()];
+  const auto& mesh =
+      file.json["meshes"][file.json["nodes"][static_cast<std::size_t>(file.node("shirt"))]["mesh"].get<std::size_t>()];
   const std::vector<double> colors = file.numbers(mesh["primitives"][0]["attributes"]["COLOR_0"]);
   for (std::size_t v = 0; v < 4; ++v) {
     EXPECT_NEAR(colors[4 * v], linearOfSrgb(scene.moving[0].colors[v].r), 1e-5);

@@ -14,9 +14,9 @@ TEST(EuropeanCsv, NumbersHaveCommasAndCellsSemicolons) {
 }
 
 TEST(EuropeanCsv, TextsStayWhatTheyAre) {
-  const std::string table = formatCsv("variant", {"0.5 mm, thin", "a;b \"c\"", "=1+2", "1.2.3"}, {"v1.0"}, {{1.5}, {2.5}, {3}, {4}});
-  EXPECT_EQ(europeanCsv(table),
-            "variant;v1.0\n0.5 mm, thin;1,5\n\"a;b \"\"c\"\"\";2,5\n'=1+2;3\n1.2.3;4\n");
+  const std::string table =
+      formatCsv("variant", {"0.5 mm, thin", "a;b \"c\"", "=1+2", "1.2.3"}, {"v1.0"}, {{1.5}, {2.5}, {3}, {4}});
+  EXPECT_EQ(europeanCsv(table), "variant;v1.0\n0.5 mm, thin;1,5\n\"a;b \"\"c\"\"\";2,5\n'=1+2;3\n1.2.3;4\n");
 }
 
 TEST(EuropeanCsv, EmptyCellsAndLinesStay) {
