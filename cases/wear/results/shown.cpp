@@ -1,9 +1,12 @@
 #include "cases/wear/results/shown.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 
 #include "cases/runs/frame_field.hpp"
 #include "cases/wear/results/measure.hpp"
+#include "core/error.hpp"
 
 namespace gambeson {
 namespace {
@@ -45,6 +48,9 @@ std::vector<double> shownOf(const Scenario& s, const Frame& frame, PictureField 
     for (const double h : thicknessOf(s)) shown.push_back(words.scale * h);
   else
     for (const float v : fieldOf(frame, words.field).data) shown.push_back(words.scale * static_cast<double>(v));
+  if (shown.size() != static_cast<std::size_t>(s.model->surface.size()))
+    throw RunError(fmt::format("the recording has {} values of {} for {} samples", shown.size(), words.word,
+                               s.model->surface.size()));
   return shown;
 }
 
