@@ -223,6 +223,7 @@ int exportCommand(ExportArguments& a, bool tables) {
   if (holdsCell(a.options.results))
     throw InputError({a.options.results.string(), 0, ""}, "is of a cell of yarns; allowed: results of worn cloth");
   if (!a.options.iges.empty()) checkEnding(a.options.iges, "--iges", {".igs", ".iges"});
+  const char* iges_option = a.options.iges.empty() ? "--output" : "--iges";
   chooseFormats(a);
   JsonNode node;
   node.type = JsonNode::Type::object;
@@ -235,7 +236,7 @@ int exportCommand(ExportArguments& a, bool tables) {
   a.options.when = picture.when;
   a.options.time_s = picture.time_s;
   const Paths recorded = recordedFiles(a.options.results);
-  for (const auto& [file, option] : {std::pair{a.options.iges, "--output"}, {a.options.glb, "--output"}})
+  for (const auto& [file, option] : {std::pair{a.options.iges, iges_option}, {a.options.glb, "--output"}})
     if (!file.empty()) checkOutput(file, option, recorded);
   if (!a.options.obj.empty()) checkOutput(numbered(a.options.obj.string(), 0), "--output", recorded);
   if (!a.options.opensim.empty())
