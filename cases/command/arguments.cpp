@@ -122,7 +122,8 @@ void addImport(CLI::App& app, ImportArguments& a) {
       "import", "Reads the pattern of another program: flat panels and what is sewn to what, as a file and as a drawing");
   import
       .add_option("FILE", a.file,
-                  "specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), or a pattern that this command wrote")
+                  "specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), surfaces of CAD programs (.step, .stp, "
+                  ".igs, .iges, .brep), or a pattern that this command wrote")
       ->type_name("")
       ->required();
   import.add_option("-o,--output", a.output, "Pattern file to write (JSON)")->type_name("GARMENT");
@@ -130,19 +131,22 @@ void addImport(CLI::App& app, ImportArguments& a) {
       ->type_name("PATTERN");
   import
       .add_option("--unit", a.choices.unit,
-                  "Unit of the file's lengths, in place of the one that it says or where it says none: mm, cm, in ..")
+                  "Unit of the file's lengths, in place of the one that it says or where it says none (of CAD files: where it "
+                  "says none): mm, cm, in ..")
       ->type_name("UNIT");
   import.add_option("--size", a.choices.size, "Which size of a graded DXF pattern [its SAMPLE SIZE]")->type_name("SIZE");
   import.footer(
       "Prints the panels with their areas, the seams with the lengths of their sides, and what the file says that is "
       "not\nkept. DXF has no seams: they are proposed by length and notches. Mend them in \"seams\" of GARMENT, where "
       "a side is\n\"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to 1\" (panel, edge, part of its length), and "
-      "draw it again.\n\n"
+      "draw it again.\nOf CAD files each face is a panel where all are planes, and a trimmed patch of a garment (for "
+      "garment.file) where one is curved;\nedges that faces share are their seams.\n\n"
       "Examples:\n"
       "  gambeson import shirt_specification.json -o shirt.json --svg shirt.svg\n"
       "  gambeson import blouse.dxf -o blouse.json --svg blouse.svg\n"
       "  gambeson import blouse.dxf -o blouse.json --unit in --size M\n"
-      "  gambeson import blouse.json --svg blouse.svg");
+      "  gambeson import blouse.json --svg blouse.svg\n"
+      "  gambeson import bodice.step -o bodice.json");
 }
 
 void addRender(CLI::App& app, RenderArguments& a) {
