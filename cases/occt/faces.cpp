@@ -55,11 +55,12 @@ NurbsPatch patchOf(const Handle(Geom_BSplineSurface) & s) {
   NurbsPatch p;
   p.u = {s->UDegree(), listOf(s->UKnotSequence())};
   p.v = {s->VDegree(), listOf(s->VKnotSequence())};
+  const bool rational = s->IsURational() || s->IsVRational();  // else its weights may be anything
   for (int j = 1; j <= s->NbVPoles(); ++j)
     for (int i = 1; i <= s->NbUPoles(); ++i) {
       const gp_Pnt x = s->Pole(i, j);
       p.points.push_back({kMetres * x.X(), kMetres * x.Y(), kMetres * x.Z()});
-      p.weights.push_back(s->Weight(i, j));
+      p.weights.push_back(rational ? s->Weight(i, j) : 1);
     }
   return p;
 }
@@ -69,9 +70,20 @@ NurbsCurve curveOf(const Handle(Geom2d_BSplineCurve) & c) {
   for (int i = 1; i <= c->NbPoles(); ++i) {
     const gp_Pnt2d x = c->Pole(i);
     out.points.push_back({x.X(), x.Y()});
-    out.weights.push_back(c->Weight(i));
+    out.weights.push_back(c->IsRational() ? c->Weight(i) : 1);
   }
   return out;
+}
+
+/// Puts what is wanted of a direction in place of from .. to: all of the surface, which is said, or a period.
+bool withinPeriod(bool periodic, double low, double high, double& from, double& to) {
+  const double period = high - low;
+  if (!periodic || (from >= low - 1e-6 * period && to <= high + 1e-6 * period)) {
+    from = low, to = high;
+    return true;
+  }
+  to = std::min(to, from + period);
+  return false;
 }
 
 /// The surface as a spline with clamped knots over no more than a period, of a face that NurbsConvert left.
@@ -81,15 +93,19 @@ Handle(Geom_BSplineSurface) splineOf(const TopoDS_Face& face) {
   if (!spline.IsNull() && !spline->IsUPeriodic() && !spline->IsVPeriodic()) return spline;
   double u0, u1, v0, v1;
   BRepTools::UVBounds(face, u0, u1, v0, v1);
-  if (!spline.IsNull()) {  // along a direction without a period all of it stays
+  bool whole = false;
+  if (!spline.IsNull()) {
     double a0, a1, b0, b1;
     spline->Bounds(a0, a1, b0, b1);
-    if (!spline->IsUPeriodic()) u0 = a0, u1 = a1;
-    if (!spline->IsVPeriodic()) v0 = b0, v1 = b1;
-    if (spline->IsUPeriodic() && u1 - u0 > spline->UPeriod()) u1 = u0 + spline->UPeriod();
-    if (spline->IsVPeriodic() && v1 - v0 > spline->VPeriod()) v1 = v0 + spline->VPeriod();
+    // Only of what crosses the period's end another period is taken.
+    const bool u = withinPeriod(spline->IsUPeriodic(), a0, a1, u0, u1),
+               v = withinPeriod(spline->IsVPeriodic(), b0, b1, v0, v1);
+    whole = u && v;
   }
-  spline = GeomConvert::SurfaceToBSplineSurface(new Geom_RectangularTrimmedSurface(s, u0, u1, v0, v1));
+  if (whole)
+    spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
+  else
+    spline = GeomConvert::SurfaceToBSplineSurface(new Geom_RectangularTrimmedSurface(s, u0, u1, v0, v1));
   if (spline->IsUPeriodic()) spline->SetUNotPeriodic();
   if (spline->IsVPeriodic()) spline->SetVNotPeriodic();
   return spline;
