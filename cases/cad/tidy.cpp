@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
 #include "core/nurbs/trim_arcs.hpp"
+#include "core/nurbs/trim_faces.hpp"
 
 namespace gambeson {
 namespace {
@@ -140,6 +141,23 @@ bool isWhole(const CadFace& f) {
 }
 
 Trim trimOf(const CadFace& f) { return isWhole(f) ? Trim{} : Trim{f.loops}; }
+
+std::vector<CadFace> cadFaces(const std::string& name, const NurbsPatch& patch, const Trim& trim) {
+  std::vector<CadFace> out;
+  for (const Trim& face : facesOf(patch, trim)) {
+    CadFace& f = out.emplace_back();
+    f.name = name;
+    f.patch = patch;
+    const bool holes_alone = !face.loops.empty() && trimBoundary(patch, face).rectangle_is_outline;
+    if (holes_alone) {
+      const double u0 = patch.u.front(), u1 = patch.u.back(), v0 = patch.v.front(), v1 = patch.v.back();
+      const Vec2 corners[] = {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+      f.loops.push_back(polygon(corners));
+    }
+    f.loops.insert(f.loops.end(), face.loops.begin(), face.loops.end());
+  }
+  return out;
+}
 
 double areaOf(const NurbsPatch& p, const Trim& given) {
   Trim trim = given;

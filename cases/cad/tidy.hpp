@@ -15,6 +15,8 @@ void tidyFaces(CadShape& shape);
 bool isWhole(const CadFace& face);
 /// The loops as a trim; none where the border is the patch's.
 Trim trimOf(const CadFace& face);
+/// A trimmed patch as faces, to be written: one for each outline (facesOf).
+std::vector<CadFace> cadFaces(const std::string& name, const NurbsPatch& patch, const Trim& trim);
 /// Area within the trim [m^2]: Gauss points on each cell, of three more than its degree.
 double areaOf(const NurbsPatch& patch, const Trim& trim);
 

@@ -119,26 +119,31 @@ void addDraft(CLI::App& app, DraftArguments& a) {
 
 void addImport(CLI::App& app, ImportArguments& a) {
   CLI::App& import = *app.add_subcommand(
-      "import", "Reads the pattern of another program: flat panels and what is sewn to what, as a file and as a drawing");
+      "import",
+      "Reads the pattern of another program: flat panels and what is sewn to what, as a file and as a drawing");
   import
-      .add_option("FILE", a.file,
-                  "specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), surfaces of CAD programs (.step, .stp, "
-                  ".igs, .iges, .brep), or a pattern that this command wrote")
+      .add_option(
+          "FILE", a.file,
+          "specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), surfaces of CAD programs (.step, .stp, "
+          ".igs, .iges, .brep), or a pattern that this command wrote")
       ->type_name("")
       ->required();
   import.add_option("-o,--output", a.output, "Pattern file to write (JSON)")->type_name("GARMENT");
   import.add_option("--svg", a.svg, "Drawing to write (SVG): 1:1 in mm, with edges by number and seams by colour")
       ->type_name("PATTERN");
   import
-      .add_option("--unit", a.choices.unit,
-                  "Unit of the file's lengths, in place of the one that it says or where it says none (of CAD files: where it "
-                  "says none): mm, cm, in ..")
+      .add_option(
+          "--unit", a.choices.unit,
+          "Unit of the file's lengths, in place of the one that it says or where it says none (of CAD files: where it "
+          "says none): mm, cm, in ..")
       ->type_name("UNIT");
-  import.add_option("--size", a.choices.size, "Which size of a graded DXF pattern [its SAMPLE SIZE]")->type_name("SIZE");
+  import.add_option("--size", a.choices.size, "Which size of a graded DXF pattern [its SAMPLE SIZE]")
+      ->type_name("SIZE");
   import.footer(
       "Prints the panels with their areas, the seams with the lengths of their sides, and what the file says that is "
       "not\nkept. DXF has no seams: they are proposed by length and notches. Mend them in \"seams\" of GARMENT, where "
-      "a side is\n\"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to 1\" (panel, edge, part of its length), and "
+      "a side is\n\"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to 1\" (panel, edge, part of its length), "
+      "and "
       "draw it again.\nOf CAD files each face is a panel where all are planes, and a trimmed patch of a garment (for "
       "garment.file) where one is curved;\nedges that faces share are their seams.\n\n"
       "Examples:\n"
@@ -195,7 +200,12 @@ void addExport(CLI::App& app, ExportArguments& a) {
           "recorded (single precision)")
       ->type_name("FILE");
   command
-      .add_option("--time", a.time, "Of --iges: a time such as 1.2 or \"1200 ms\", peak (largest joint torque) or end")
+      .add_option("--step", a.options.step,
+                  "The same as shells whose faces are sewn (within 0.01 mm): STEP AP214 (.step, .stp), in millimetres")
+      ->type_name("FILE");
+  command
+      .add_option("--time", a.time,
+                  "Of --iges and --step: a time such as 1.2 or \"1200 ms\", peak (largest joint torque) or end")
       ->type_name("TIME")
       ->capture_default_str();
   command
@@ -209,7 +219,7 @@ void addExport(CLI::App& app, ExportArguments& a) {
       "manikins\n"
       "are called as the bodies of gait2392 and Rajagopal's model: thigh_left is femur_l.\n\n"
       "Examples:\n"
-      "  gambeson export results/shorts_walk --iges shorts.igs --time peak\n"
+      "  gambeson export results/shorts_walk --step shorts.step --time peak\n"
       "  gambeson export results/shorts_walk --opensim loads/shorts\n\n"
       "Exit status: 0 done; 1 the results could not be written; 2 something in the input is wrong.");
 }
@@ -252,7 +262,8 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->allow_extra_args(false)
       ->check(CLI::Range(-360., 360.).description(""));
   command
-      .add_option("--model", a.model, "What the specimen is made of: " + schema::joined(wordsOf(schema::specimenKinds())))
+      .add_option("--model", a.model,
+                  "What the specimen is made of: " + schema::joined(wordsOf(schema::specimenKinds())))
       ->type_name("MODEL")
       ->capture_default_str()
       ->check(CLI::IsMember(wordsOf(schema::specimenKinds())).description(""));
@@ -330,7 +341,8 @@ void addHomogenise(CLI::App& app, HomogeniseArguments& a) {
                    "Takes the bending rigidity of the cell at rest for all strains, in place of one by strain");
   command.add_flag("--shrink", a.shrink,
                    "Makes the range smaller where a load has no stable equilibrium, in place of ending there");
-  command.add_option("--threads", a.threads, "Threads, 0 for as many as the machine has; the law does not depend on it")
+  command
+      .add_option("--threads", a.threads, "Threads, 0 for as many as the machine has; the law does not depend on it")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, 4096).description(""));

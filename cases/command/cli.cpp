@@ -199,6 +199,7 @@ int exportCommand(ExportArguments& a) {
   if (holdsCell(a.options.results))
     throw InputError({a.options.results.string(), 0, ""}, "is of a cell of yarns; allowed: results of worn cloth");
   if (!a.options.iges.empty()) checkEnding(a.options.iges, "--iges", {".igs", ".iges"});
+  if (!a.options.step.empty()) checkEnding(a.options.step, "--step", {".step", ".stp"});
   JsonNode node;
   node.type = JsonNode::Type::object;
   overrideValue(node, "time", a.time);
@@ -209,6 +210,7 @@ int exportCommand(ExportArguments& a) {
   a.options.time_s = picture.time_s;
   const Paths recorded = recordedFiles(a.options.results);
   if (!a.options.iges.empty()) checkOutput(a.options.iges, "--iges", recorded);
+  if (!a.options.step.empty()) checkOutput(a.options.step, "--step", recorded);
   if (!a.options.opensim.empty())
     for (const char* ending : {".xml", ".mot"}) checkOutput(a.options.opensim.string() + ending, "--opensim", recorded);
   return exportResults(a.options);
@@ -328,6 +330,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {homogenise_arguments.law, "--output"},
              {export_arguments.options.results, "RESULTS"},
              {export_arguments.options.iges, "--iges"},
+             {export_arguments.options.step, "--step"},
              {export_arguments.options.opensim, "--opensim"},
              {verify_options.dir, "--dir"},
              {verify_options.out, "--out"},

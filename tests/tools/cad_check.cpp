@@ -9,6 +9,7 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -23,6 +24,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESControl_Writer.hxx>
@@ -104,7 +106,10 @@ TopoDS_Shape read(const std::string& file) {
 
 int report(const std::string& file) {
   const TopoDS_Shape shape = read(file);
-  BRepMesh_IncrementalMesh(shape, 0.02, false, 0.05);
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box);
+  const double size = box.IsVoid() ? 1 : std::sqrt(box.SquareExtent());
+  BRepMesh_IncrementalMesh(shape, 1e-4 * size, false, 0.1);
   std::cout.precision(17);
   std::cout << "{\"valid\": " << (BRepCheck_Analyzer(shape).IsValid() ? "true" : "false") << ", \"areas_mm2\": [";
   bool first = true;
@@ -157,12 +162,11 @@ int make(const std::string& folder) {
         in("pierced"));
   write(BRepPrimAPI_MakeTorus(100, 30, 1.5).Shape(), in("torus"));
   // A panel with a hole, and its neighbour.
-  BRepBuilderAPI_MakePolygon left(gp_Pnt(0, 0, 0), gp_Pnt(200, 0, 0), gp_Pnt(180, 300, 0), gp_Pnt(0, 300, 0),
-                                        true);
+  BRepBuilderAPI_MakePolygon left(gp_Pnt(0, 0, 0), gp_Pnt(200, 0, 0), gp_Pnt(180, 300, 0), gp_Pnt(0, 300, 0), true);
   BRepBuilderAPI_MakeFace front(left.Wire(), true);
   front.Add(circle(gp_Pnt(80, 100, 0), 25, true));
-  BRepBuilderAPI_MakePolygon right(gp_Pnt(200, 0, 0), gp_Pnt(400, 0, 50), gp_Pnt(380, 300, 50),
-                                         gp_Pnt(180, 300, 0), true);
+  BRepBuilderAPI_MakePolygon right(gp_Pnt(200, 0, 0), gp_Pnt(400, 0, 50), gp_Pnt(380, 300, 50), gp_Pnt(180, 300, 0),
+                                   true);
   BRepBuilderAPI_Sewing sewing(1e-4);
   sewing.Add(front.Face());
   sewing.Add(BRepBuilderAPI_MakeFace(right.Wire(), true).Face());

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "analysis/opensim.hpp"
+#include "cases/cad/cad_file.hpp"
+#include "cases/cad/tidy.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
@@ -27,9 +29,9 @@ Trim trimOf(const PatchLayout& layout) {
 }
 
 /// The recorded patches where a frame has their control points.
-std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& frame) {
+std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& frame, const char* option) {
   if (layout.patches.empty())
-    throw InputError({"command line", 0, "--iges"}, "needs cloth of NURBS patches; this run has none");
+    throw InputError({"command line", 0, option}, "needs cloth of NURBS patches; this run has none");
   const Field* position = nullptr;
   for (const Field& f : frame.control_fields)
     if (f.name == "position") position = &f;
@@ -49,19 +51,31 @@ std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& 
   return surfaces;
 }
 
+void writeStep(const std::filesystem::path& file, const std::string& title, const std::vector<IgesSurface>& surfaces) {
+  CadShape shape;
+  for (const IgesSurface& s : surfaces)
+    for (CadFace& f : cadFaces(s.name, s.patch, s.trim)) shape.faces.push_back(std::move(f));
+  writeCad(file, title, shape);
+}
+
 }  // namespace
 
 int exportResults(const ExportOptions& o) {
-  if (o.iges.empty() && o.opensim.empty())
-    throw InputError({"command line", 0, ""}, "nothing to write: give --iges FILE or --opensim PREFIX");
+  if (o.step.empty() && o.iges.empty() && o.opensim.empty())
+    throw InputError({"command line", 0, ""}, "nothing to write: give --step FILE, --iges FILE or --opensim PREFIX");
   const auto [recording, scenario, facts] = recordedRun(o.results);
   const Measured measured = measure(*scenario, recording);
-  if (!o.iges.empty()) {
+  if (!o.step.empty() || !o.iges.empty()) {
     const int frame = frameOf(recording, measured, {o.when, o.time_s});
-    writeIges(o.iges, fmt::format("{}, {:.3f} s", scenario->definition.name, recording.time(frame)),
-              surfacesOf(recording.layout(), recording.frame(frame)));
-    fmt::print("{}: the garment at {:.3f} s, {} surfaces\n", o.iges.string(), recording.time(frame),
-               scenario->patch_names.size());
+    const std::string title = fmt::format("{}, {:.3f} s", scenario->definition.name, recording.time(frame));
+    const std::vector<IgesSurface> surfaces =
+        surfacesOf(recording.layout(), recording.frame(frame), o.step.empty() ? "--iges" : "--step");
+    if (!o.iges.empty()) writeIges(o.iges, title, surfaces);
+    if (!o.step.empty()) writeStep(o.step, title, surfaces);
+    for (const std::filesystem::path& file : {o.step, o.iges})
+      if (!file.empty())
+        fmt::print("{}: the garment at {:.3f} s, {} surfaces\n", file.string(), recording.time(frame),
+                   scenario->patch_names.size());
   }
   if (!o.opensim.empty()) {
     if (!scenario->human)

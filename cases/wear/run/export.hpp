@@ -1,5 +1,5 @@
 #pragma once
-/// Results in the formats of other programs: CAD (IGES) and OpenSim.
+/// Results in the formats of other programs: CAD (STEP, IGES) and OpenSim.
 
 #include <filesystem>
 
@@ -9,9 +9,9 @@ namespace gambeson {
 
 struct ExportOptions {
   std::filesystem::path results;        ///< folder of a run
-  std::filesystem::path iges;           ///< empty: none
+  std::filesystem::path step, iges;     ///< empty: none
   std::filesystem::path opensim;        ///< prefix of the .xml and the .mot; empty: none
-  PictureTime when = PictureTime::end;  ///< of the IGES file
+  PictureTime when = PictureTime::end;  ///< of the STEP and the IGES file
   double time_s = 0;                    ///< where `when` is `at`
 };
 
