@@ -24,9 +24,12 @@ const CadModule& loaded() {
   return *entry();
 }
 
+/// OpenCASCADE needs some seconds for a megabyte.
 ApartLimits limits(const std::filesystem::path& file) {
   ApartLimits out = limitsFor(file);
-  out.cpu_s += 20;  // loading the libraries is some of it
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (!error) out.cpu_s += static_cast<double>(size) / (256 << 10);
   return out;
 }
 

@@ -16,7 +16,10 @@
 #include <TCollection_AsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
+#include <TopoDS_Shape.hxx>
+#include <TopoDS_TShape.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <fstream>
@@ -59,15 +62,33 @@ TopoDS_Shape scaled(const TopoDS_Shape& shape, double metres) {
   return BRepBuilderAPI_Transform(shape, grow, true).Shape();
 }
 
-/// The name of the entity that a shape comes from.
-std::string entityName(const Handle(XSControl_TransferReader) & transfer, const TopoDS_Shape& shape) {
-  const Handle(Standard_Transient) entity = transfer->EntityFromShapeResult(shape, 1);
-  if (const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity); !item.IsNull())
-    return withoutEnds(textOf(item->Name()));
-  if (const auto iges = Handle(IGESData_IGESEntity)::DownCast(entity); !iges.IsNull())
-    return withoutEnds(textOf(iges->HasName() ? iges->NameValue() : Handle(TCollection_HAsciiString)()));
-  return "";
-}
+/// Names of the faces that entities were made into.
+class Names {
+ public:
+  Names(const Handle(XSControl_WorkSession) & session, const Handle(Interface_InterfaceModel) & model) {
+    const Handle(Transfer_TransientProcess) made = session->TransferReader()->TransientProcess();
+    for (int i = 1; i <= model->NbEntities(); ++i) {
+      const std::string name = nameOf(model->Value(i));
+      if (name.empty()) continue;
+      const TopoDS_Shape shape = TransferBRep::ShapeResult(made, model->Value(i));
+      if (!shape.IsNull() && shape.ShapeType() == TopAbs_FACE) names_[shape.TShape().get()] = name;
+    }
+  }
+  std::string operator()(const TopoDS_Shape& face) const {
+    const auto at = names_.find(face.TShape().get());
+    return at == names_.end() ? "" : at->second;
+  }
+
+ private:
+  static std::string nameOf(const Handle(Standard_Transient) & entity) {
+    if (const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity); !item.IsNull())
+      return withoutEnds(textOf(item->Name()));
+    if (const auto iges = Handle(IGESData_IGESEntity)::DownCast(entity); !iges.IsNull() && iges->HasName())
+      return withoutEnds(textOf(iges->NameValue()));
+    return "";
+  }
+  std::map<const TopoDS_TShape*, std::string> names_;
+};
 
 void requireRead(IFSelect_ReturnStatus status, const char* format) {
   if (status != IFSelect_RetDone)
@@ -90,11 +111,8 @@ CadShape readStep(const std::string& file, double metres) {
   if (!out.unit.empty() && metres != 0)
     throw InputError({"", 0, ""}, "says its unit of length (" + out.unit + "); leave out --unit");
   reader.TransferRoots();
-  const Handle(XSControl_TransferReader) transfer = reader.WS()->TransferReader();
   countExtras(reader.Model(), out);
-  addFaces(
-      scaled(reader.OneShape(), out.unit.empty() ? metres : 1e-3),
-      [&](const TopoDS_Shape& f) { return entityName(transfer, f); }, out);
+  addFaces(scaled(reader.OneShape(), out.unit.empty() ? metres : 1e-3), Names(reader.WS(), reader.Model()), out);
   return out;
 }
 
@@ -118,8 +136,7 @@ CadShape readIges(const std::string& file, double metres) {
       ++left[root->TypeNumber()];
   for (const auto& [type, n] : left)
     out.dropped.push_back(std::to_string(n) + " entities of type " + std::to_string(type) + ", which are no shapes");
-  addFaces(
-      reader.OneShape(), [&](const TopoDS_Shape& f) { return entityName(transfer, f); }, out);
+  addFaces(reader.OneShape(), Names(reader.WS(), model), out);
   return out;
 }
 
