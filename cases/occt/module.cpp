@@ -21,7 +21,7 @@ auto guarded(const Work& work) {
   } catch (const Standard_OutOfMemory&) {
     throw std::bad_alloc();
   } catch (const Standard_Failure& e) {
-    throw RunError(std::string("OpenCASCADE fails: ") + e.DynamicType()->Name() +
+    throw RunError(std::string("OpenCASCADE fails, as on damaged files (save it again): ") + e.DynamicType()->Name() +
                    (e.GetMessageString() && *e.GetMessageString() ? std::string(", ") + e.GetMessageString() : ""));
   }
 }

@@ -7,15 +7,11 @@
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
-#include <Interface_Static.hxx>
 #include <STEPControl_Reader.hxx>
-#include <StepBasic_Product.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
-#include <TCollection_AsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TopoDS_TShape.hxx>
 #include <TransferBRep.hxx>
@@ -121,6 +117,7 @@ CadShape readIges(const std::string& file, double metres) {
   requireRead(reader.ReadFile(file.c_str()), "IGES");
   CadShape out;
   const Handle(IGESData_IGESModel) model = reader.IGESModel();
+  if (model->NbEntities() == 0) requireRead(IFSelect_RetFail, "IGES");
   const IGESData_GlobalSection& global = model->GlobalSection();
   if (global.UnitFlag() < 1 || global.UnitFlag() > 11)
     throw InputError({"", 0, "unit flag of the global section"},

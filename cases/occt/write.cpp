@@ -9,16 +9,11 @@
 #include <BRepLib.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
-#include <IGESBasic_Name.hxx>
 #include <IGESControl_Writer.hxx>
-#include <IGESData_IGESModel.hxx>
-#include <IGESData_IGESWriter.hxx>
-#include <IGESSelect_WorkLibrary.hxx>
 #include <Interface_FloatWriter.hxx>
 #include <Interface_Static.hxx>
 #include <STEPConstruct.hxx>
 #include <STEPControl_Writer.hxx>
-#include <ShapeFix_Shape.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
@@ -29,8 +24,8 @@
 #include <TColgp_Array1OfPnt2d.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopoDS.hxx>
-#include <TransferBRep_ShapeMapper.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Wire.hxx>
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <memory>

@@ -61,10 +61,10 @@ def broken(folder):
     step, igs, brep = (box[end].decode() for end in ("step", "igs", "brep"))
     lines = igs.split("\n")
     yield "empty.step", b"", "is no STEP file"
-    yield "empty.igs", b"", ""
+    yield "empty.igs", b"", "is no IGES file"
     yield "empty.brep", b"", "is no .brep file"
     yield "binary.step", bytes(range(256)) * 40, "is no STEP file"
-    yield "binary.igs", bytes(range(256)) * 40, ""
+    yield "binary.igs", bytes(range(256)) * 40, "is no IGES file"
     yield "binary.brep", bytes(range(256)) * 40, "is no .brep file"
     yield "half.step", box["step"][:len(step) // 2], ""
     yield "half.igs", box["igs"][:len(igs) // 2], ""

@@ -63,10 +63,10 @@ TEST_P(Formats, FacesComeBackWithEveryControlPointAndTheirHoles) {
 }
 
 TEST_P(Formats, NeighboursAreSewn) {
-  // The same surface, cut where u is 1/3 (no knots of one are moved).
+  // A surface and its mirror image meet in the edge u = 1.
   const NurbsPatch left = bent(0);
   NurbsPatch right = bent(0);
-  for (Vec3& x : right.points) x.x = 0.6 - x.x;  // mirrored at the edge u = 1
+  for (Vec3& x : right.points) x.x = 0.6 - x.x;
   CadShape shape;
   for (const auto& [name, patch] : {std::pair("left", left), std::pair("right", right)})
     for (const CadFace& f : cadFaces(name, patch, {})) shape.faces.push_back(f);
