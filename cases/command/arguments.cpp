@@ -129,30 +129,39 @@ void addDraft(CLI::App& app, DraftArguments& a) {
 
 void addImport(CLI::App& app, ImportArguments& a) {
   CLI::App& import = *app.add_subcommand(
-      "import", "Reads the pattern of another program: flat panels and what is sewn to what, as a file and as a drawing");
+      "import",
+      "Reads the pattern of another program: flat panels and what is sewn to what, as a file and as a drawing");
   import
-      .add_option("FILE", a.file,
-                  "specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), or a pattern that this command wrote")
+      .add_option(
+          "FILE", a.file,
+          "specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), surfaces of CAD programs (.step, .stp, "
+          ".igs, .iges, .brep), or a pattern that this command wrote")
       ->type_name("")
       ->required();
   import.add_option("-o,--output", a.output, "Pattern file to write (JSON)")->type_name("GARMENT");
   import.add_option("--svg", a.svg, "Drawing to write (SVG): 1:1 in mm, with edges by number and seams by colour")
       ->type_name("PATTERN");
   import
-      .add_option("--unit", a.choices.unit,
-                  "Unit of the file's lengths, in place of the one that it says or where it says none: mm, cm, in ..")
+      .add_option(
+          "--unit", a.choices.unit,
+          "Unit of the file's lengths, in place of the one that it says or where it says none (of CAD files: where it "
+          "says none): mm, cm, in ..")
       ->type_name("UNIT");
-  import.add_option("--size", a.choices.size, "Which size of a graded DXF pattern [its SAMPLE SIZE]")->type_name("SIZE");
+  import.add_option("--size", a.choices.size, "Which size of a graded DXF pattern [its SAMPLE SIZE]")
+      ->type_name("SIZE");
   import.footer(
       "Prints the panels with their areas, the seams with the lengths of their sides, and what the file says that is "
       "not\nkept. DXF has no seams: they are proposed by length and notches. Mend them in \"seams\" of GARMENT, where "
-      "a side is\n\"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to 1\" (panel, edge, part of its length), and "
-      "draw it again.\n\n"
+      "a side is\n\"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to 1\" (panel, edge, part of its length), "
+      "and "
+      "draw it again.\nOf CAD files each face is a panel where all are planes, and a trimmed patch of a garment (for "
+      "garment.file) where one is curved;\nedges that faces share are their seams.\n\n"
       "Examples:\n"
       "  gambeson import shirt_specification.json -o shirt.json --svg shirt.svg\n"
       "  gambeson import blouse.dxf -o blouse.json --svg blouse.svg\n"
       "  gambeson import blouse.dxf -o blouse.json --unit in --size M\n"
-      "  gambeson import blouse.json --svg blouse.svg");
+      "  gambeson import blouse.json --svg blouse.svg\n"
+      "  gambeson import bodice.step -o bodice.json");
 }
 
 void addRender(CLI::App& app, RenderArguments& a) {
@@ -206,6 +215,10 @@ void addExport(CLI::App& app, ExportArguments& a) {
           "recorded (single precision)")
       ->type_name("FILE");
   command
+      .add_option("--step", a.options.step,
+                  "The same as shells whose faces are sewn (within 0.01 mm): STEP AP214 (.step, .stp), in millimetres")
+      ->type_name("FILE");
+  command
       .add_option("--time", a.time,
                   "Of CAD, and of the colours of an animation: a time such as 1.2 or \"1200 ms\", peak (largest joint "
                   "torque) or end [peak for colours, end for CAD]")
@@ -237,7 +250,7 @@ void addExport(CLI::App& app, ExportArguments& a) {
       "Examples:\n"
       "  gambeson export results/shorts_walk -o walk.glb --field pressure\n"
       "  gambeson export results/shorts_walk -o frames/walk.obj --frames 40\n"
-      "  gambeson export results/shorts_walk -o shorts.igs --time peak\n"
+      "  gambeson export results/shorts_walk -o shorts.step --time peak\n"
       "  gambeson export results/shorts_walk --opensim loads/shorts\n"
       "  gambeson export results/shorts_walk --csv european\n\n"
       "Exit status: 0 done; 1 the results could not be written; 2 something in the input is wrong.");
@@ -281,7 +294,8 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->allow_extra_args(false)
       ->check(CLI::Range(-360., 360.).description(""));
   command
-      .add_option("--model", a.model, "What the specimen is made of: " + schema::joined(wordsOf(schema::specimenKinds())))
+      .add_option("--model", a.model,
+                  "What the specimen is made of: " + schema::joined(wordsOf(schema::specimenKinds())))
       ->type_name("MODEL")
       ->capture_default_str()
       ->check(CLI::IsMember(wordsOf(schema::specimenKinds())).description(""));
@@ -359,7 +373,8 @@ void addHomogenise(CLI::App& app, HomogeniseArguments& a) {
                    "Takes the bending rigidity of the cell at rest for all strains, in place of one by strain");
   command.add_flag("--shrink", a.shrink,
                    "Makes the range smaller where a load has no stable equilibrium, in place of ending there");
-  command.add_option("--threads", a.threads, "Threads, 0 for as many as the machine has; the law does not depend on it")
+  command
+      .add_option("--threads", a.threads, "Threads, 0 for as many as the machine has; the law does not depend on it")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, 4096).description(""));

@@ -223,7 +223,9 @@ int exportCommand(ExportArguments& a, bool tables) {
   if (holdsCell(a.options.results))
     throw InputError({a.options.results.string(), 0, ""}, "is of a cell of yarns; allowed: results of worn cloth");
   if (!a.options.iges.empty()) checkEnding(a.options.iges, "--iges", {".igs", ".iges"});
+  if (!a.options.step.empty()) checkEnding(a.options.step, "--step", {".step", ".stp"});
   const char* iges_option = a.options.iges.empty() ? "--output" : "--iges";
+  const char* step_option = a.options.step.empty() ? "--output" : "--step";
   chooseFormats(a);
   JsonNode node;
   node.type = JsonNode::Type::object;
@@ -236,7 +238,8 @@ int exportCommand(ExportArguments& a, bool tables) {
   a.options.when = picture.when;
   a.options.time_s = picture.time_s;
   const Paths recorded = recordedFiles(a.options.results);
-  for (const auto& [file, option] : {std::pair{a.options.iges, iges_option}, {a.options.glb, "--output"}})
+  for (const auto& [file, option] :
+       {std::pair{a.options.iges, iges_option}, {a.options.step, step_option}, {a.options.glb, "--output"}})
     if (!file.empty()) checkOutput(file, option, recorded);
   if (!a.options.obj.empty()) checkOutput(numbered(a.options.obj.string(), 0), "--output", recorded);
   if (!a.options.opensim.empty())
@@ -375,6 +378,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {homogenise_arguments.law, "--output"},
              {export_arguments.options.results, "RESULTS"},
              {export_arguments.options.iges, "--iges"},
+             {export_arguments.options.step, "--step"},
              {export_arguments.options.opensim, "--opensim"},
              {verify_options.dir, "--dir"},
              {verify_options.out, "--out"},

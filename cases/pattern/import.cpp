@@ -6,8 +6,11 @@
 #include <cctype>
 #include <ostream>
 
+#include "cases/cad/cad_file.hpp"
+#include "cases/cad/tidy.hpp"
 #include "cases/input/json.hpp"
 #include "cases/input/message.hpp"
+#include "cases/pattern/cad_panels.hpp"
 #include "cases/pattern/dxf.hpp"
 #include "cases/pattern/garmentcode.hpp"
 #include "cases/pattern/pattern_file.hpp"
@@ -17,6 +20,7 @@
 #include "core/io/own_file.hpp"
 #include "tryon/pattern/flat/panel_check.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
+#include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson {
 namespace {
@@ -42,6 +46,13 @@ std::string sideText(const FlatPattern& pattern, const std::vector<SeamPart>& si
   std::string out;
   for (const SeamPart& p : side) out += (out.empty() ? "" : " + ") + partText(pattern, p);
   return shown(out);
+}
+
+void say(const std::vector<std::string>& notes, const std::vector<std::string>& dropped, std::ostream& out) {
+  if (!notes.empty()) out << "\nNotes:\n";
+  for (const std::string& note : notes) out << "  " << shown(note) << "\n";
+  if (!dropped.empty()) out << "\nNot kept:\n";
+  for (const std::string& what : dropped) out << "  " << shown(what) << "\n";
 }
 
 void say(const ImportedPattern& in, std::ostream& out) {
@@ -82,10 +93,73 @@ void say(const ImportedPattern& in, std::ostream& out) {
            "file, and look again:\n  gambeson import GARMENT.json --svg PATTERN.svg\n";
   std::vector<std::string> notes = in.notes;
   for (std::string& doubt : doubtsAbout(p)) notes.push_back(std::move(doubt));
-  if (!notes.empty()) out << "\nNotes:\n";
-  for (const std::string& note : notes) out << "  " << shown(note) << "\n";
-  if (!in.dropped.empty()) out << "\nNot kept:\n";
-  for (const std::string& what : in.dropped) out << "  " << shown(what) << "\n";
+  say(notes, in.dropped, out);
+}
+
+/// What was read of a CAD file with curved faces.
+void say(const CadShape& shape, const CadGarment& in, std::ostream& out) {
+  const Garment& g = in.garment;
+  double area = 0;
+  std::size_t widest = 5;
+  for (const CadFace& f : shape.faces) area += areaOf(f.patch, trimOf(f));
+  for (const std::string& name : g.patch_names)
+    widest = std::max(widest, std::min<std::size_t>(40, shown(name).size()));
+  out << fmt::format("{}: {} patches, {:.7g} cm^2, {} seams ({})\n\n", shown(g.name), g.patches.size(), 1e4 * area,
+                     in.seams.size(), shape.unit.empty() ? "CAD" : "CAD, " + shown(shape.unit));
+  out << fmt::format("{:{}}  {:>10}  {:>6}  {:>7}  {:>5}  {}\n", "patch", widest, "area cm^2", "degree", "points",
+                     "loops", "border");
+  for (std::size_t k = 0; k < g.patches.size(); ++k) {
+    const NurbsPatch& p = g.patches[k];
+    const CadFace& f = shape.faces[k];
+    out << fmt::format("{:{}}  {:10.7g}  {:>6}  {:>7}  {:5}  {}\n", shown(g.patch_names[k]), widest,
+                       1e4 * areaOf(p, trimOf(f)), fmt::format("{} x {}", p.u.degree, p.v.degree),
+                       fmt::format("{}x{}", p.u.count(), p.v.count()), f.loops.size(),
+                       isWhole(f) ? "whole" : "trimmed");
+  }
+  if (!in.seams.empty()) out << fmt::format("\n{:6}{:>9}   sides\n", "seam", "cm");
+  std::vector<std::string> dropped = shape.dropped;
+  for (std::size_t k = 0; k < in.seams.size(); ++k) {
+    const CadSeamUse& s = in.seams[k];
+    const std::string name = fmt::format("s{}", k + 1);
+    out << fmt::format("{:6}{:9.6g}   {}, {}\n", name, 100 * s.length_m, shown(s.a), shown(s.b));
+    if (!s.reason.empty()) dropped.push_back(fmt::format("seam {}: it {}", name, s.reason));
+  }
+  say(shape.notes, dropped, out);
+}
+
+CadShape readShape(const std::filesystem::path& file, const ImportChoices& choices) {
+  if (!choices.size.empty())
+    throw InputError({"command line", 0, "--size"}, "has no meaning for " + file.string() + "; only DXF has sizes");
+  return readCad(file, choices.unit.empty() ? 0 : metresOf(choices.unit));
+}
+
+ImportedPattern flatPattern(const CadShape& shape, const std::filesystem::path& file) {
+  try {
+    ImportedPattern out = panelsOf(shape);
+    out.pattern.name = nameOf(file);
+    out.pattern.source = {file.filename().string(), "CAD", shape.unit};
+    return out;
+  } catch (const InputError& e) {
+    throw InputError({file.string(), e.where().line, e.where().key}, e.reason());
+  }
+}
+
+/// Curved faces: a garment of patches.
+int importSurfaces(const ImportArguments& a, const CadShape& shape, std::ostream& out) {
+  if (!a.svg.empty())
+    throw InputError({"command line", 0, "--svg"},
+                     a.file.string() + " has curved faces, which have no drawing at 1:1; leave it out");
+  CadGarment in;
+  try {
+    in = garmentOf(shape);
+  } catch (const InputError& e) {
+    throw InputError({a.file.string(), e.where().line, e.where().key}, e.reason());
+  }
+  in.garment.name = nameOf(a.file);
+  say(shape, in, out);
+  writeGarment(in.garment, a.output);
+  out << "\nGarment: " << a.output.string() << "\n";
+  return 0;
 }
 
 }  // namespace
@@ -93,9 +167,15 @@ void say(const ImportedPattern& in, std::ostream& out) {
 ImportedPattern importPattern(const std::filesystem::path& file, const ImportChoices& choices) {
   const std::string ending = endingOf(file);
   if (ending == ".dxf") return readDxf(file, choices);
+  if (CadFormat format; isCadFile(file, format)) {
+    const CadShape shape = readShape(file, choices);
+    if (!isFlat(shape)) throw InputError({file.string(), 0, ""}, "has curved faces, which are no pattern");
+    return flatPattern(shape, file);
+  }
   const char* const read =
-      "read are specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), and patterns that gambeson import "
-      "wrote";
+      "read are specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), STEP, IGES and .brep surfaces "
+      "(.step, "
+      ".stp, .igs, .iges, .brep), and patterns that gambeson import wrote";
   if (ending != ".json") throw InputError({file.string(), 0, ""}, std::string("is of no format that is read; ") + read);
   const JsonNode root = readJson(file, {.bytes = kPatternBytes});
   if (!choices.size.empty())
@@ -126,7 +206,14 @@ int importToFiles(const ImportArguments& a, std::ostream& out) {
   if (!a.choices.unit.empty()) metresOf(a.choices.unit);
   if (!a.output.empty()) checkOutput(a.output, "--output", {a.file});
   if (!a.svg.empty()) checkOutput(a.svg, "--svg", {a.file});
-  const ImportedPattern in = importPattern(a.file, a.choices);
+  ImportedPattern in;
+  if (CadFormat format; isCadFile(a.file, format)) {
+    const CadShape shape = readShape(a.file, a.choices);
+    if (!isFlat(shape)) return importSurfaces(a, shape, out);
+    in = flatPattern(shape, a.file);
+  } else {
+    in = importPattern(a.file, a.choices);
+  }
   say(in, out);
   out << "\n";
   if (!a.output.empty()) {

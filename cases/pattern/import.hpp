@@ -1,5 +1,6 @@
 #pragma once
-/// `gambeson import`: from the pattern of another program to a pattern's file and a drawing at 1:1.
+/// `gambeson import`: from the pattern of another program to a pattern's file and a drawing at 1:1; from its surfaces
+/// to a garment's file.
 
 #include <filesystem>
 #include <iosfwd>
@@ -9,15 +10,18 @@
 namespace gambeson {
 
 struct ImportArguments {
-  std::filesystem::path file;         ///< of GarmentCode (.json), DXF-AAMA/ASTM (.dxf), or a pattern of ours
+  /// Of GarmentCode (.json), DXF-AAMA/ASTM (.dxf), CAD (.step, .stp, .igs, .iges, .brep), or a pattern of ours.
+  std::filesystem::path file;
   std::filesystem::path output, svg;  ///< what to write; empty: not
   ImportChoices choices;
 };
 
-/// Reads by content and ending. Throws InputError where the format is none that is read.
+/// Reads by content and ending; CAD files whose faces are planes. Throws InputError where the format is none that is
+/// read.
 ImportedPattern importPattern(const std::filesystem::path& file, const ImportChoices& choices);
 
-/// Imports, says what was found (panels with areas, seams with lengths, notes, what was dropped), writes. Returns 0.
+/// Imports, says what was found (panels or patches with areas, seams with lengths, notes, what was dropped), writes.
+/// Returns 0.
 /// Throws InputError as importPattern, and where outputs are in the way.
 int importToFiles(const ImportArguments& a, std::ostream& out);
 

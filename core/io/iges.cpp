@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "core/nurbs/trim_arcs.hpp"
-#include "core/nurbs/trim_notches.hpp"
+#include "core/nurbs/trim_faces.hpp"
 
 namespace gambeson {
 namespace {
@@ -234,44 +233,18 @@ void add(File& file, const IgesSurface& s, double tolerance_m) {
     file.add(128, "00000000", name, named(surface128(s.patch)));
     return;
   }
-  // Wires of a face must not touch.
-  const Trim trim = withoutNotches(s.patch, s.trim);
-  const TrimBoundary boundary = trimBoundary(s.patch, trim);
   const int surface = file.add(128, "00010000", name, surface128(s.patch));
-  struct Outline {
-    int loop;  ///< -1: the patch's own border
-    double area;
-    std::vector<int> holes;
-  };
-  std::vector<Outline> outlines;
-  if (boundary.rectangle_is_outline) outlines.push_back({-1, std::numeric_limits<double>::infinity(), {}});
-  for (std::size_t l = 0; l < trim.loops.size(); ++l)
-    if (boundary.signed_area[l] > 0) outlines.push_back({static_cast<int>(l), boundary.signed_area[l], {}});
-  for (std::size_t l = 0; l < trim.loops.size(); ++l) {
-    if (boundary.signed_area[l] > 0) continue;
-    const NurbsCurve& c = trim.loops[l][0];
-    const Vec2 inside = curvePoint(c, c.knots.front()).point;
-    Outline* least = nullptr;
-    for (Outline& o : outlines) {
-      const bool holds = o.loop < 0 || [&] {
-        const TrimBoundary alone = trimBoundary(s.patch, {{trim.loops[static_cast<std::size_t>(o.loop)]}});
-        return alone.winding(inside) > 0;
-      }();
-      if (holds && (!least || o.area < least->area)) least = &o;
+  for (const Trim& face : facesOf(s.patch, s.trim)) {
+    std::vector<int> loops;
+    bool outlined = false;
+    for (const TrimLoop& loop : face.loops) {
+      loops.push_back(loop142(file, s.patch, surface, loop, tolerance_m));
+      outlined = outlined || trimBoundary(s.patch, {{loop}}).signed_area[0] > 0;
     }
-    if (!least) throw std::logic_error("a hole without an outline");
-    least->holes.push_back(static_cast<int>(l));
-  }
-  for (const Outline& o : outlines) {
-    const auto loop = [&](int l) {
-      return loop142(file, s.patch, surface, trim.loops[static_cast<std::size_t>(l)], tolerance_m);
-    };
-    const int outer = o.loop < 0 ? 0 : loop(o.loop);
-    std::vector<int> inner;
-    for (const int h : o.holes) inner.push_back(loop(h));
-    std::vector<std::string> p{std::to_string(surface), outer ? "1" : "0", std::to_string(inner.size()),
-                               std::to_string(outer)};
-    for (const int i : inner) p.push_back(std::to_string(i));
+    const std::size_t first_hole = outlined ? 1 : 0;
+    std::vector<std::string> p{std::to_string(surface), outlined ? "1" : "0", std::to_string(loops.size() - first_hole),
+                               std::to_string(outlined ? loops[0] : 0)};
+    for (std::size_t k = first_hole; k < loops.size(); ++k) p.push_back(std::to_string(loops[k]));
     file.add(144, "00000000", name, named(p));
   }
 }

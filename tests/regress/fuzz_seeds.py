@@ -235,6 +235,10 @@ GARMENTCODE = """{
 """
 
 
+#: Files as OpenCASCADE writes them: a cylinder, and two panels of which one has a hole.
+CAD = SOURCE / "tests/regress/cad_seeds"
+
+
 def importing(name):
     return ["import", name, "-o", "written.json", "--svg", "written.svg"]
 
@@ -397,6 +401,8 @@ def kinds():
         studied("study_torques", "torques.csv"),
         Kind("import_garmentcode", "a.json", {"a.json": GARMENTCODE}, command=importing("a.json")),
         Kind("import_dxf", "a.dxf", {"a.dxf": dxf()}, command=importing("a.dxf")),
+        Kind("import_step", "a.step", {"a.step": (CAD / "cylinder.step").read_text()}, command=["import", "a.step", "-o", "written.json"]),
+        Kind("import_iges", "a.igs", {"a.igs": (CAD / "panels.igs").read_text()}, command=["import", "a.igs", "-o", "written.json"]),
         Kind("import_pattern", "b.json", {"a.json": GARMENTCODE}, made=["import", "a.json", "-o", "b.json"], command=importing("b.json")),
         Kind("verify_checks", "refs/strip.json", {"refs/strip.json": json.dumps(STRIP, indent=1)}, command=verifying),
         Kind("verify_kept", "verified/cloth/a/summary.json", {"refs/cloth.json": kept}, made=verifying, command=[*verifying, "--results", "verified"]),

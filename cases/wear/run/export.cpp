@@ -6,6 +6,8 @@
 #include "analysis/animation/obj.hpp"
 #include "analysis/opensim.hpp"
 #include "analysis/opensim_model.hpp"
+#include "cases/cad/cad_file.hpp"
+#include "cases/cad/tidy.hpp"
 #include "cases/wear/results/animation.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/results/write.hpp"
@@ -32,9 +34,9 @@ Trim trimOf(const PatchLayout& layout) {
 }
 
 /// The recorded patches where a frame has their control points.
-std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& frame) {
+std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& frame, const char* option) {
   if (layout.patches.empty())
-    throw InputError({"command line", 0, "--iges"}, "needs cloth of NURBS patches; this run has none");
+    throw InputError({"command line", 0, option}, "needs cloth of NURBS patches; this run has none");
   const Field* position = nullptr;
   for (const Field& f : frame.control_fields)
     if (f.name == "position") position = &f;
@@ -81,6 +83,13 @@ void writeObjs(const Scenario& s, const RecordingReader& recording, AnimationOpt
              numbered(file.string(), count - 1), scene.time_s.front(), scene.time_s.back());
 }
 
+void writeStep(const std::filesystem::path& file, const std::string& title, const std::vector<IgesSurface>& surfaces) {
+  CadShape shape;
+  for (const IgesSurface& s : surfaces)
+    for (CadFace& f : cadFaces(s.name, s.patch, s.trim)) shape.faces.push_back(std::move(f));
+  writeCad(file, title, shape);
+}
+
 }  // namespace
 
 const std::vector<ExportFormat>& exportFormats() {
@@ -88,12 +97,13 @@ const std::vector<ExportFormat>& exportFormats() {
   static const std::vector<ExportFormat> formats{
       {{".glb"}, "an animation (binary glTF 2.0): body, garments, colours of one time", &O::glb},
       {{".obj"}, "a file of each frame, walk_0001.obj ..., with body and garments as groups", &O::obj},
-      {{".igs", ".iges"}, "the garment at one time as NURBS surfaces, for CAD (IGES 5.3)", &O::iges}};
+      {{".igs", ".iges"}, "the garment at one time as NURBS surfaces, for CAD (IGES 5.3)", &O::iges},
+      {{".step", ".stp"}, "the same as sewn shells (STEP AP214)", &O::step}};
   return formats;
 }
 
 int exportResults(const ExportOptions& o) {
-  if (o.iges.empty() && o.opensim.empty() && o.glb.empty() && o.obj.empty())
+  if (o.step.empty() && o.iges.empty() && o.opensim.empty() && o.glb.empty() && o.obj.empty())
     throw InputError({"command line", 0, ""}, "nothing to write: give -o FILE or --opensim PREFIX");
   if (o.field == PictureField::body_pressure)
     throw InputError({"command line", 0, "--field"}, "\"body_pressure\" is no field of garments");
@@ -103,11 +113,16 @@ int exportResults(const ExportOptions& o) {
   const AnimationOptions how{o.frames, frame, o.field};
   if (!o.glb.empty()) writeGlb(*scenario, recording, how, o.glb);
   if (!o.obj.empty()) writeObjs(*scenario, recording, how, o.obj);
-  if (!o.iges.empty()) {
-    writeIges(o.iges, fmt::format("{}, {:.3f} s", scenario->definition.name, recording.time(frame)),
-              surfacesOf(recording.layout(), recording.frame(frame)));
-    fmt::print("{}: the garment at {:.3f} s, {} surfaces\n", o.iges.string(), recording.time(frame),
-               scenario->patch_names.size());
+  if (!o.step.empty() || !o.iges.empty()) {
+    const std::string title = fmt::format("{}, {:.3f} s", scenario->definition.name, recording.time(frame));
+    const std::vector<IgesSurface> surfaces =
+        surfacesOf(recording.layout(), recording.frame(frame), o.step.empty() ? "--iges" : "--step");
+    if (!o.iges.empty()) writeIges(o.iges, title, surfaces);
+    if (!o.step.empty()) writeStep(o.step, title, surfaces);
+    for (const std::filesystem::path& file : {o.step, o.iges})
+      if (!file.empty())
+        fmt::print("{}: the garment at {:.3f} s, {} surfaces\n", file.string(), recording.time(frame),
+                   scenario->patch_names.size());
   }
   if (!o.opensim.empty()) {
     if (!scenario->human)

@@ -1,5 +1,5 @@
 #pragma once
-/// Results in the formats of other programs: CAD (IGES), players of animations (glTF, OBJ) and OpenSim.
+/// Results in the formats of other programs: CAD (STEP, IGES), players of animations (glTF, OBJ) and OpenSim.
 
 #include <filesystem>
 #include <string>
@@ -11,13 +11,13 @@ namespace gambeson {
 
 struct ExportOptions {
   std::filesystem::path results;        ///< folder of a run
-  std::filesystem::path iges;           ///< empty: none
+  std::filesystem::path step, iges;     ///< empty: none
   std::filesystem::path opensim;        ///< prefix of the .osim, .xml and two .mot; empty: none
   std::filesystem::path glb;            ///< animation; empty: none
   std::filesystem::path obj;            ///< of each frame a file of this name with its number; empty: none
   int frames = 0;                       ///< of animations, at most; 0: all
   PictureField field = PictureField::stress;  ///< that an animation is coloured by
-  PictureTime when = PictureTime::end;        ///< of the IGES file, and of the colours
+  PictureTime when = PictureTime::end;        ///< of the STEP and the IGES file, and of the colours
   double time_s = 0;                    ///< where `when` is `at`
 };
 
