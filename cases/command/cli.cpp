@@ -16,6 +16,7 @@
 #include "cases/fabric/run.hpp"
 #include "cases/input/message.hpp"
 #include "cases/kinds/any_case.hpp"
+#include "cases/pattern/flat_draft.hpp"
 #include "cases/pattern/import.hpp"
 #include "cases/runs/options.hpp"
 #include "cases/runs/picture.hpp"
@@ -110,6 +111,14 @@ int draft(const DraftArguments& a, std::ostream& out) {
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is no case of worn cloth; garments are made by those that wear");
+  if (a.flat) {
+    if (a.obj) throw InputError({"command line", 0, "--flat"}, "excludes --obj; give only one of them");
+    checkEnding(a.garment_file, "--output", {".dxf", ".svg", ".json"});
+    const std::size_t garment = garmentCalled(*c, a.garment);
+    checkOutput(a.garment_file, "--output", inputsOf(any));
+    flatToFile(draftOf(*c, garment), a.garment_file, out);
+    return done;
+  }
   draftToFile(*c, a.garment, a.garment_file, a.obj, out);
   return done;
 }
