@@ -15,7 +15,7 @@ namespace gambeson {
 namespace {
 
 constexpr int coarse = 24;
-constexpr double least_share = 1e-3;  ///< of the number asked for
+constexpr double least_share = 1e-3;  ///< of the way that is searched
 
 /// A number of a garment's table, and the garment with another in its place.
 class Dial {
@@ -89,7 +89,7 @@ void sayLargest(const InputError& e, const GarmentCase& worn, const std::string&
         bad = good;
         continue;
       }
-      while (std::abs(good - bad) > least_share * std::abs(dial.value())) (can(0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
+      while (std::abs(good - bad) > least_share * std::abs(end - dial.value())) (can(0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
       const Said rounded = said(good, dial.field().unit, round);
       return fmt::format("{} {} on {}", word,
                          can(rounded.value) ? rounded.text : fmt::format("{:g} {}", good, dial.field().unit), wearer);

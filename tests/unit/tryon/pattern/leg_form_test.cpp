@@ -55,7 +55,9 @@ TEST_P(Legs, ReachTheAnkleAroundAllOfTheLeg) {
         tape.push_back({x.x, x.y});
         if (v < 1) least_y = std::min(least_y, x.y);
       }
-    if (v == 0) EXPECT_NEAR(z, ankle() + 1e-3, 1e-9);
+    if (v == 0) {
+      EXPECT_NEAR(z, ankle() + 1e-3, 1e-9);
+    }
     // Outside of the leg in every direction, save where the other leg is.
     const ClosedCurve cloth(convexHull(tape));
     for (const Vec2& p : form.level(z, leg))
