@@ -9,10 +9,10 @@ namespace gambeson {
 
 /// Cross-sections of the left leg, level, of the standing body.
 ///
-/// Of a leg that ends above the knee they are hulls of the thigh. A longer one hangs: from the knee down it falls along
-/// the shank's axis, from knee to ankle, as wide as the calf; and from the crotch to the knee it bridges the hollows,
-/// as the wrap of thigh, shank and foot does (Wrap). A cut across the axis is cos(lean) as long in the direction of the
-/// lean as a level one: 0.4 % at 5 degrees.
+/// Of a leg that ends above the knee they are hulls of the thigh. A longer one hangs: its hem is as wide as all that
+/// lies between it and the knee, seen along the shank's axis from knee to ankle, and it goes up from there to the
+/// crotch without hollows, as the wrap of such cross-sections does (Wrap). A cut across the axis is cos(lean) as long
+/// in the direction of the lean as a level one: 0.4 % at 5 degrees.
 class LegForm {
  public:
   /// The leg from the crotch down to the hem, both heights in the world; hem < crotch. Throws InputError: "inseam_m"

@@ -312,7 +312,9 @@ void check(const ShortsPattern& p) {
     reject("crotch_ease_m", std::to_string(p.crotch_ease_m) + ", must lie between -0.1 and 0.2");
   if (!(p.seam_stiffness_N >= 0) || !std::isfinite(p.seam_stiffness_N))
     reject("seam_stiffness_N", "must not be negative");
-  if (!(p.fork_m <= p.rise_m)) reject("fork_m", "must not exceed rise_m");
+  if (!(p.fork_m <= p.rise_m))
+    reject("rise_m",
+           std::to_string(p.rise_m) + ", shorter than the fork; allowed: at least " + std::to_string(p.fork_m));
   if (!(p.blend_m <= p.inseam_m))
     reject("inseam_m", std::to_string(p.inseam_m) +
                            ", shorter than what legs need to go over from the fork to the thigh; " +

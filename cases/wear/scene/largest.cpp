@@ -89,7 +89,8 @@ void sayLargest(const InputError& e, const GarmentCase& worn, const std::string&
         bad = good;
         continue;
       }
-      while (std::abs(good - bad) > least_share * std::abs(end - dial.value())) (can(0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
+      while (std::abs(good - bad) > least_share * std::abs(end - dial.value()))
+        (can(0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
       const Said rounded = said(good, dial.field().unit, round);
       return fmt::format("{} {} on {}", word,
                          can(rounded.value) ? rounded.text : fmt::format("{:g} {}", good, dial.field().unit), wearer);

@@ -49,7 +49,7 @@ class Cut {
  public:
   Cut(const NurbsPatch& patch, const Trim& trim) : patch_(patch), flat_(flattenPatch(patch)) {
     for (const TrimLoop& loop : trim.loops) {
-      double area = 0;  // signed, of the corners between curves and their middles
+      double area = 0;  // signed, in the parameters
       std::vector<Vec2> around;
       for (const NurbsCurve& c : loop)
         for (const Vec2& p : sampled(c)) around.push_back(p);
@@ -250,12 +250,13 @@ FlattenedDraft flattenDraft(const Garment& garment) {
   FlatPattern& pattern = out.pattern;
   pattern.name = garment.name;
   pattern.source = {"", "gambeson draft", "m"};
+  const Trim whole;
   std::vector<Cut> cuts;
   cuts.reserve(garment.patches.size());
   for (std::size_t k = 0; k < garment.patches.size(); ++k) {
     const std::string name = k < garment.patch_names.size() ? garment.patch_names[k] : fmt::format("patch_{}", k);
     try {
-      cuts.emplace_back(garment.patches[k], k < garment.trims.size() ? garment.trims[k] : Trim{});
+      cuts.emplace_back(garment.patches[k], k < garment.trims.size() ? garment.trims[k] : whole);
     } catch (const InputError& e) {
       throw InputError({"", 0, e.where().key}, fmt::format("patch \"{}\": {}", name, e.reason()));
     }

@@ -41,14 +41,23 @@ struct Triangle {
   double area() const { return 0.5 * a * c; }
 };
 
-/// With the metric of the surface in the middle: |e1|, and e2 against it.
+/// Length of the geodesic between two places of the patch: of a chord c with the normal curvature k in its middle,
+/// c (1 + (k c)^2 / 24), up to the fourth power of c.
+double geodesic(const NurbsPatch& patch, Vec2 from, Vec2 to) {
+  const Vec3 chord = surfaceDerivatives(patch, to.x, to.y)[0] - surfaceDerivatives(patch, from.x, from.y)[0];
+  const auto d = surfaceDerivatives(patch, 0.5 * (from.x + to.x), 0.5 * (from.y + to.y));
+  const double du = to.x - from.x, dv = to.y - from.y;
+  const Vec3 along = du * d[1] + dv * d[2], bent = du * du * d[3] + dv * dv * d[4] + 2 * du * dv * d[5];
+  const double k = dot(normalized(cross(d[1], d[2])), bent) / dot(along, along), c = norm(chord);
+  return c * (1 + k * k * c * c / 24);
+}
+
 Triangle triangleOf(const NurbsPatch& patch, const std::array<int, 3>& corner, const std::array<Vec2, 3>& uv) {
-  const auto d = surfaceDerivatives(patch, (uv[0].x + uv[1].x + uv[2].x) / 3, (uv[0].y + uv[1].y + uv[2].y) / 3);
-  const auto side = [&](int k) { return (uv[k].x - uv[0].x) * d[1] + (uv[k].y - uv[0].y) * d[2]; };
-  const Vec3 e1 = side(1), e2 = side(2);
-  Triangle t{corner, norm(e1), 0, 0};
-  t.b = dot(e1, e2) / t.a;
-  t.c = norm(cross(e1, e2)) / t.a;
+  const double e1 = geodesic(patch, uv[0], uv[1]), e2 = geodesic(patch, uv[0], uv[2]),
+               e3 = geodesic(patch, uv[1], uv[2]);
+  Triangle t{corner, e1, 0, 0};
+  t.b = (e1 * e1 + e2 * e2 - e3 * e3) / (2 * e1);
+  t.c = std::sqrt(e2 * e2 - t.b * t.b);
   if (!(t.a > 0 && t.c > 0)) throw InputError({"", 0, "flat"}, "the patch has a cell without area");
   return t;
 }

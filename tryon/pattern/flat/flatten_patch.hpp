@@ -26,10 +26,10 @@ struct FlatPatch {
 /// The flat shape nearest to the patch: of the maps to the plane the one with the least
 ///   E = ∑ A_t |J_t - R_t|^2,   R_t the rotation nearest to J_t
 /// (as rigid as possible: Liu et al. 2008, "A local/global approach to mesh parameterization"), by turns of rotations
-/// and a linear solve, until no point moves by more than 1e-9 of the patch's size. J_t is taken against the metric of
-/// the surface itself in the middle of a triangle, not against its chords: what can be developed comes out with its
-/// own lengths, up to the fourth power of the triangles' size. `per_cell` grid lines for each cell of the patch. The
-/// grid's middle v line runs upward there, and u to the right: the patch is seen along -(x_u cross x_v).
+/// and a linear solve, until no point moves by more than 1e-9 of the patch's size. Triangles have the lengths of
+/// geodesics, not of chords: what can be developed comes out with its own lengths, up to the fourth power of the
+/// triangles' size. `per_cell` grid lines for each cell of the patch. The grid's middle v line runs upward there, and u
+/// to the right: the patch is seen along -(x_u cross x_v).
 ///
 /// Throws InputError (key "flat") where a triangle would lie upside down: the patch can only be laid flat in pieces.
 FlatPatch flattenPatch(const NurbsPatch& patch, int per_cell = 4);

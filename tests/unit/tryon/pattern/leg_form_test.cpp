@@ -71,22 +71,34 @@ TEST_P(Legs, ReachTheAnkleAroundAllOfTheLeg) {
   EXPECT_GT(tightest, 0);
 }
 
-TEST_P(Legs, FallStraightFromTheKnee) {
+// A cut across the shank is cos(lean) as long as a level one in the direction of the lean.
+TEST_P(Legs, StandNearlyUpright) {
+  const Vec2 lean = LegForm(form, crotch(), ankle() + 1e-3).lean();
+  EXPECT_LT(1 - 1 / std::sqrt(1 + lean.x * lean.x + lean.y * lean.y), 4e-3) << lean.x << " " << lean.y;
+}
+
+// Wide enough for what lies above the hem, and no narrower anywhere than straight lines from hem to crotch.
+TEST_P(Legs, TaperToAHemAsWideAsTheCalf) {
   const Garment g = trousers(0.02);
-  const double knee = form.origin(form.links({"shank_left"}, "knee")[0]).z;
-  double hem = 0;
-  for (int k = 0; k <= 8; ++k) {
-    const double v = k / 8.0 * (knee - 0.06 - crotch() + pattern.inseam_m) / pattern.inseam_m;
+  const auto girth = [&](double v) {
     std::vector<Vec2> tape;
     for (const int n : {outer_left, inner_left})
       for (int i = 0; i <= 200; ++i) {
         const Vec3 x = surfaceDerivatives(g.patches[n], i / 200.0, v)[0];
         tape.push_back({x.x, x.y});
       }
-    const double girth = ClosedCurve(convexHull(tape)).length();
-    if (k == 0) hem = girth;
-    EXPECT_NEAR(girth, hem, 1e-3 * hem) << v;
+    return ClosedCurve(convexHull(tape)).length();
+  };
+  const double hem = girth(0), top = 1 - (pattern.blend_m + pattern.cell_m) / pattern.inseam_m, thigh = girth(top);
+  for (int k = 0; k <= 10; ++k) EXPECT_GT(girth(top * k / 10), hem + (thigh - hem) * k / 10 - 0.003 * hem) << k;
+  const Links leg = form.links({"thigh_left", "shank_left", "foot_left"}, "leg");
+  const double knee = form.origin(leg[1]).z;
+  for (int k = 0; k <= 20; ++k) {
+    const double body =
+        ClosedCurve(form.hull(ankle() + 0.02 + (knee - ankle() - 0.02) * k / 20, leg, false, "z")).length();
+    EXPECT_GT(hem, (1 + pattern.ease) * body * 0.998) << k;
   }
+  EXPECT_LT(hem, 0.9 * thigh);
 }
 
 TEST_P(Legs, EndAtTheAnkle) {
