@@ -88,6 +88,18 @@ class Writer {
   std::string out_;
 };
 
+/// JSON without the ends of its lines and what indents them (texts in it have no line ends).
+std::string onOneLine(const std::string& json) {
+  std::string out;
+  bool indent = false;
+  for (const char c : json) {
+    if (c == '\n') out += ' ';
+    indent = c == '\n' || (indent && c == ' ');
+    if (!indent) out += c;
+  }
+  return out;
+}
+
 void writePanel(const Panel& panel, const std::string& block, Writer& w) {
   w.entity("BLOCK", "1"), w.put(2, block), w.put(70, 0), w.at({0, 0});
   const PanelBox box = boxOf(panel.outline);
@@ -131,7 +143,8 @@ std::string patternDxf(const FlatPattern& pattern) {
   double x = 0, y = -0.04;
   const JsonNode root = patternNode(pattern);
   if (const JsonNode* seams = root.find("seams"))
-    for (const JsonNode& seam : seams->children) w.text("1", {0, y}, kDxfSeam + schema::toText(seam)), y -= 0.01;
+    for (const JsonNode& seam : seams->children)
+      w.text("1", {0, y}, kDxfSeam + onOneLine(schema::toText(seam))), y -= 0.01;
   for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
     const PanelBox box = boxOf(pattern.panels[k].outline);
     w.entity("INSERT", "1"), w.put(2, block(k)), w.at({x - box.low.x, -box.low.y});

@@ -51,7 +51,7 @@ class Dial {
   JsonNode node_;
 };
 
-/// The number as people write it, rounded by `round` (floor, ceil), and what that is in SI.
+/// The number as people write it, rounded by `round`, and what that is in SI.
 struct Said {
   double value;
   std::string text;
@@ -91,9 +91,10 @@ void sayLargest(const InputError& e, const GarmentCase& worn, const std::string&
       }
       while (std::abs(good - bad) > least_share * std::abs(end - dial.value()))
         (can(0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
-      const Said rounded = said(good, dial.field().unit, round);
-      return fmt::format("{} {} on {}", word,
-                         can(rounded.value) ? rounded.text : fmt::format("{:g} {}", good, dial.field().unit), wearer);
+      for (const auto& to : {+[](double x) { return std::round(x); }, round})
+        if (const Said rounded = said(good, dial.field().unit, to); can(rounded.value))
+          return fmt::format("{} {} on {}", word, rounded.text, wearer);
+      return fmt::format("{} {:g} {} on {}", word, good, dial.field().unit, wearer);
     }
     return std::nullopt;
   };

@@ -100,8 +100,10 @@ TEST(FlatDraft, TextsOfSeamsAreChecked) {
     }
     return std::string("accepted");
   };
-  EXPECT_NE(refused("\"a\": [\"trunk_left.3\"]", "\"a\": [\"trunk.3\"]").find("names no panel"), std::string::npos);
-  EXPECT_NE(refused("GAMBESON SEAM: {", "GAMBESON SEAM: [").find("GAMBESON SEAM text 1"), std::string::npos);
+  EXPECT_NE(refused("\"trunk_left.3 reversed\"", "\"trunk.3 reversed\"").find("names no panel"), std::string::npos);
+  EXPECT_NE(
+      refused("GAMBESON SEAM: { \"name\": \"s1\"", "GAMBESON SEAM: [ \"name\": \"s1\"").find("GAMBESON SEAM text 1"),
+      std::string::npos);
 }
 
 }  // namespace
