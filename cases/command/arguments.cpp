@@ -115,16 +115,21 @@ void addDraft(CLI::App& app, DraftArguments& a) {
       ->type_name("NAME");
   addOverrides(draft, a.overrides);
   draft.add_flag("--obj", a.obj, "A mesh of triangles in place of its patches, as a name that ends in .obj says too");
+  draft.add_flag("--flat", a.flat, "Flat panels at 1:1 (DXF, SVG, or a pattern in JSON)");
   draft
       .add_option("-o,--output", a.garment_file,
-                  "Garment file to write, as its name ends: .json its patches, .obj a mesh of triangles")
+                  "File to write, as its name ends: .json its patches, .obj a mesh of triangles; with --flat .dxf, .svg "
+                  "or .json")
       ->type_name("GARMENT")
       ->required();
   draft.footer(
       "The file has patches, seams, trims and names of edges, but no fabric; {\"file\": {\"path\": ...}} in a case\n"
       "wears it, with the same results to the bit. An OBJ has the triangles that the garment is made of with\n"
-      "\"model\": \"triangles\" (and its \"mesh\"); {\"mesh_file\": {\"path\": ...}} wears these.\n\n"
-      "Example:\n  gambeson draft cases/library/armour_stand.json --garment shirt -o shirt.json");
+      "\"model\": \"triangles\" (and its \"mesh\"); {\"mesh_file\": {\"path\": ...}} wears these.\n"
+      "With --flat each patch is laid flat, without seam allowance, and what that strains it is said: panels with\n"
+      "grain, notches and seams, which gambeson import reads again.\n\n"
+      "Examples:\n  gambeson draft cases/library/armour_stand.json --garment shirt -o shirt.json\n"
+      "  gambeson draft cases/library/shorts_walk.json --flat -o shorts.dxf");
 }
 
 void addImport(CLI::App& app, ImportArguments& a) {

@@ -40,7 +40,7 @@ struct DraftArguments {
   std::filesystem::path file, garment_file;
   std::vector<std::string> overrides;
   std::string garment;
-  bool obj = false;
+  bool obj = false, flat = false;
 };
 
 struct RenderArguments {

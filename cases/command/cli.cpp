@@ -17,6 +17,7 @@
 #include "cases/fabric/run.hpp"
 #include "cases/input/message.hpp"
 #include "cases/kinds/any_case.hpp"
+#include "cases/pattern/flat_draft.hpp"
 #include "cases/pattern/import.hpp"
 #include "cases/runs/european_tables.hpp"
 #include "cases/runs/options.hpp"
@@ -110,11 +111,20 @@ int check(const CheckArguments& a, std::ostream& out) {
 }
 
 int draft(const DraftArguments& a, std::ostream& out) {
-  const std::string ending = checkEnding(
-      a.garment_file, "--output", a.obj ? std::vector<std::string>{".obj"} : std::vector<std::string>{".json", ".obj"});
+  using Endings = std::vector<std::string>;
+  if (a.flat && a.obj) throw InputError({"command line", 0, "--flat"}, "excludes --obj; give only one of them");
+  const std::string ending =
+      checkEnding(a.garment_file, "--output",
+                  a.flat ? Endings{".dxf", ".svg", ".json"} : a.obj ? Endings{".obj"} : Endings{".json", ".obj"});
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is no case of worn cloth; garments are made by those that wear");
+  if (a.flat) {
+    const std::size_t garment = garmentCalled(*c, a.garment);
+    checkOutput(a.garment_file, "--output", inputsOf(any));
+    flatToFile(draftOf(*c, garment), a.garment_file, out);
+    return done;
+  }
   draftToFile(*c, a.garment, a.garment_file, ending == ".obj", out);
   return done;
 }

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <set>
 
 #include "cases/input/schema.hpp"
 #include "cases/pattern/dxf_piece.hpp"
+#include "cases/pattern/dxf_write.hpp"
+#include "cases/pattern/pattern_file.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/flat/panel_check.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
@@ -174,6 +177,31 @@ void nameApart(std::vector<Panel>& panels, const std::vector<const DxfBlock*>& b
     }
 }
 
+bool isSeam(const DxfEntity& e) { return e.kind == DxfEntity::Kind::text && e.text.starts_with(kDxfSeam); }
+
+/// The seams of texts of ours (patternDxf).
+std::vector<PanelSeam> seamsIn(const std::filesystem::path& file, const DxfFile& dxf, const FlatPattern& pattern) {
+  JsonNode root = patternNode(pattern), seams;
+  seams.type = JsonNode::Type::list;
+  seams.key = "seams";
+  for (const DxfEntity& e : dxf.entities)
+    if (isSeam(e)) {
+      try {
+        seams.children.push_back(parseJson(e.text.substr(std::strlen(kDxfSeam)), file.string()));
+      } catch (const InputError& bad) {
+        reject(file, fmt::format("GAMBESON SEAM text {}", seams.children.size() + 1), bad.reason());
+      }
+    }
+  if (seams.children.empty()) return {};
+  std::erase_if(root.children, [](const JsonNode& n) { return n.key == "seams"; });
+  root.children.push_back(std::move(seams));
+  try {
+    return readPattern(root, "").seams;
+  } catch (const InputError& e) {
+    reject(file, e.where().key, e.reason());
+  }
+}
+
 }  // namespace
 
 ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& choices) {
@@ -211,10 +239,13 @@ ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& 
   try {
     checkPattern(pattern);
     if (choices.unit.empty()) doubtUnit(pattern, out.notes);
-    ProposedSeams proposed = proposeSeams(pattern);
-    pattern.seams = std::move(proposed.seams);
-    if (proposed.edges_left > 0)
-      out.notes.push_back(fmt::format("{} edges fit no other and are in no proposed seam", proposed.edges_left));
+    pattern.seams = seamsIn(file, dxf, pattern);
+    if (pattern.seams.empty()) {
+      ProposedSeams proposed = proposeSeams(pattern);
+      pattern.seams = std::move(proposed.seams);
+      if (proposed.edges_left > 0)
+        out.notes.push_back(fmt::format("{} edges fit no other and are in no proposed seam", proposed.edges_left));
+    }
     checkPattern(pattern);
   } catch (const InputError& e) {
     if (!e.where().file.empty()) throw;

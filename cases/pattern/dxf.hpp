@@ -12,9 +12,10 @@
 
 namespace gambeson {
 
-/// Reads one. The outline is the closed sew line where there is one, else the boundary. Seams are proposed
-/// (proposeSeams): the format has none. Throws InputError with the file, the block and the layer: open boundaries,
-/// units that nobody says, several sizes without a choice; what checkPattern refuses, and what readDxfFile does.
+/// Reads one. The outline is the closed sew line where there is one, else the boundary. Seams are those of
+/// texts that patternDxf writes, or proposed (proposeSeams): the format has none. Throws InputError with the file, the
+/// block and the layer: open boundaries, units that nobody says, several sizes without a choice; what checkPattern
+/// refuses, and what readDxfFile does.
 ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& choices);
 
 }  // namespace gambeson

@@ -136,7 +136,7 @@ FlatPattern readPattern(const std::filesystem::path& file) {
   return readPattern(readJson(file, {.bytes = kPatternBytes}), file.string());
 }
 
-std::string patternText(const FlatPattern& pattern) {
+JsonNode patternNode(const FlatPattern& pattern) {
   schema::PatternInput in;
   in.pattern = pattern;
   for (const PanelSeam& s : pattern.seams) {
@@ -150,8 +150,12 @@ std::string patternText(const FlatPattern& pattern) {
     std::erase_if(panel.children, [](const JsonNode& n) {
       return n.key != "outline" && n.type == JsonNode::Type::list && n.children.empty();
     });
+  return root;
+}
+
+std::string patternText(const FlatPattern& pattern) {
   std::string out;
-  write(root, 0, out);
+  write(patternNode(pattern), 0, out);
   return out + "\n";
 }
 

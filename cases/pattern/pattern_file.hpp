@@ -22,6 +22,8 @@ FlatPattern readPattern(const JsonNode& root, const std::string& file);
 /// Whether JSON says that it is such a file.
 bool isPattern(const JsonNode& root);
 
+/// What such a file has.
+JsonNode patternNode(const FlatPattern& pattern);
 /// Text of a file that is read back to the bit.
 std::string patternText(const FlatPattern& pattern);
 

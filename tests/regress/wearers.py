@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The coarse armour and the coarse shorts on everyone who can wear them: shorts, belt and shirt put on and worn
 standing by the six manikins with their skins and by the public characters, each drafted on its wearer, and the shorts
-worn through a stride of the public recordings, on a skin and on ellipsoids.
+worn through a stride of the public recordings, on a skin and on ellipsoids. Trousers down to the ankle walk, climb
+stairs, step over an obstacle and sit down on all of them.
 
     wearers.py GAMBESON CROSSINGS_CHECK [--jobs N] [--walk] [NAME...]
 
@@ -17,6 +18,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -42,8 +44,17 @@ RECORDED = ("mot", "mot_full_body", "trc", "bvh", "bvh_low", "bvh_clip")
 CHARACTERS = {"gltf": MALE, "makehuman": MAKEHUMAN}
 
 
+TROUSERS = {"trousers_stand": STAND, "trousers_walk": {"walk": {"lead_in": "0.5 s", "strides": 1}},
+            "trousers_stairs": {"stairs": {"strides": 1, "lead_in_strides": 0}},
+            "trousers_step_over": {"step_over": {"height": "0.3 m"}}, "trousers_sit": {"sit": {}}}
+
+
 def stands(human):
     return "stand" in human["motion"]
+
+
+def in_trousers(name):
+    return "_trousers_" in name
 
 
 def wearers(walk):
@@ -60,6 +71,9 @@ def wearers(walk):
                  arms_apart="12 deg"),
         recorded("snu_woody_low_walk.bvh", **{"from": 2, "to": 3.8}, hips_apart="4 deg", arms_apart="12 deg"),
         recorded("makehuman_walk1.bvh", slower=1.8, travel="feet", hips_apart="8 deg", arms_apart="12 deg"))
+    for name in MANIKINS:
+        out |= {f"{name}_{task}": {"manikin": name, "skin": {"cell": "14 mm"}, "motion": motion}
+                for task, motion in TROUSERS.items()}
     absent = []
     if MOTION.exists():
         for name, motion in zip(RECORDED, motions):
@@ -70,6 +84,8 @@ def wearers(walk):
     if BODY.exists():
         for name, character in CHARACTERS.items():
             out[name] = {"character": character, "motion": STAND}
+            out |= {f"{name}_{task}": {"character": {**character, "switch_off_folds": True}, "motion": motion}
+                    for task, motion in TROUSERS.items()}
             if walk:
                 out[name + "_walks"] = {"character": character, "motion": {"walk": {"strides": 1}}}
                 out[name + "_climbs"] = {"character": {**character, "switch_off_folds": True},
@@ -79,10 +95,20 @@ def wearers(walk):
     return out, absent
 
 
-def case(name, human):
+def longest(program, made, folder):
+    """The longest inseam [cm] that `check` says can be drafted on this wearer."""
+    file = folder / f"{made['name']}_longest.json"
+    file.write_text(json.dumps(made | {"garment": {"shorts": {**made["garment"]["shorts"], "inseam": "1.2 m"}}}))
+    said = subprocess.run([program, "check", str(file)], capture_output=True, text=True).stderr
+    found = re.search(r"inseam: .*at most ([0-9.]+) cm on ", said)
+    check(found is not None, f"{made['name']}: check says no longest inseam: {said}")
+    return float(found.group(1))
+
+
+def case(name, human, program, folder):
     # Every frame in double precision.
     output = {"window": "10 ms", "frame": "20 ms", "checkpoint": "20 ms"}
-    if stands(human):
+    if stands(human) and not in_trousers(name):
         made = json.loads((SOURCE / "cases/library/armour_stand.json").read_text())
         return made | {"name": name, "human": human, "output": output}
     made = json.loads((SOURCE / "cases/library/shorts_walk_skin.json").read_text())
@@ -92,6 +118,16 @@ def case(name, human):
     made["garment"] = {"shorts": {"inseam": "20 cm", "ease": "12 %" if crouches else "6 %", "cell": "26.5 mm"}, "samples_per_cell": 3}
     if crouches:  # the seat needs room, and the waist a band: it is drawn down by 6 cm else
         made["supports"] = [{"springs": {"edge": "waist", "stiffness": "8000 N/m^2", "link": "pelvis"}}]
+    if in_trousers(name):
+        made["garment"] = {"shorts": {"ease": "12 %", "waist_ease": "6 %", "cell": "35 mm"}, "samples_per_cell": 3}
+        made["supports"] = [{"springs": {"edge": "waist", "stiffness": "8000 N/m^2", "link": "pelvis"}}]
+        made["output"] = output | {"pictures": []}
+        made["analysis"] = {"joints": ["hip_flexion_left", "hip_flexion_right", "knee_flexion_left",
+                                       "knee_flexion_right"], "counting": "all_distal"}
+        made.pop("air")
+        inseam = longest(program, made, folder) - 1
+        made["garment"]["shorts"]["inseam"] = f"{inseam:.1f} cm"
+        return made
     made["air"] = {"drag": "4 kg/(m^2 s)", "velocity": "pelvis_mean"}
     made["analysis"] = {"joints": ["hip_flexion_left", "hip_flexion_right"], "counting": "all_distal"}
     return made
@@ -111,9 +147,11 @@ def armour_faults(summary):
     return faults
 
 
-def words(summary, human):
+def words(summary, human, name):
     depth = summary["deepest_penetration_of_finer_surface"]
     said = f"{summary['steps']['count']} steps, {1e3 * depth['deepest_m']:.3f} mm deep, "
+    if in_trousers(name):
+        return said + ", ".join(f"{j['joint']} {j['peak_Nm']:.2f} N m" for j in summary["joints"])
     if stands(human):
         masses = {g["garment"]: g["mass_kg"] for g in summary["garments"]}
         return said + ", ".join(f"{name} {mass:.3f} kg" for name, mass in masses.items())
@@ -123,7 +161,7 @@ def words(summary, human):
 
 def wear(program, checker, name, human, folder):
     file, out = folder / f"{name}.json", folder / name
-    file.write_text(json.dumps(case(name, human)))
+    file.write_text(json.dumps(case(name, human, program, folder)))
     begin, one = time.monotonic(), {**os.environ, "OMP_NUM_THREADS": "1"}
     done = subprocess.run([program, "run", str(file), "--out", str(out)], capture_output=True, text=True, env=one)
     faults, said = [], ""
@@ -131,9 +169,9 @@ def wear(program, checker, name, human, folder):
         faults.append((done.stderr.strip().splitlines() or ["no message"])[-1])
     else:
         summary = json.loads((out / "summary.json").read_text())
-        said = words(summary, human)
+        said = words(summary, human, name)
         faults += [f"{c['check']} {c['value']:.3g} {c['unit']}" for c in summary["audit"] if not c["holds"]]
-        if stands(human):
+        if stands(human) and not in_trousers(name):
             faults += armour_faults(summary)
         exact = subprocess.run([checker, str(out)], capture_output=True, text=True, env=one)
         if exact.returncode != 0:
@@ -164,7 +202,7 @@ def main():
         for r in concurrent.futures.as_completed(runs):
             name, faults, said, seconds = r.result()
             bad += bool(faults)
-            print(f"{name:16} {seconds:6.0f} s  {said}  {'; '.join(faults) or 'ok'}", flush=True)
+            print(f"{name:26} {seconds:6.0f} s  {said}  {'; '.join(faults) or 'ok'}", flush=True)
         check(bad == 0, f"{bad} of {len(todo)} do not wear what they should as they should")
     return 0
 

@@ -62,7 +62,7 @@ Garment makeTube(const TubePattern& pattern);
 /// that normals point outward. All rows of control points are horizontal, so cross-sections are curves of constant v.
 ///
 /// Trunk cross-sections are those of the convex hull of pelvis, torso and thighs between crotch and waist (cloth and
-/// tape bridge the hollows); leg cross-sections those of the thigh's hull; both grown by 1 + ease. From the crotch up
+/// tape bridge the hollows); leg cross-sections those of a LegForm; both grown by 1 + ease. From the crotch up
 /// to `fork_m` the centre lines leave the hull towards the gusset (a tape across the cross-section still reads the
 /// same); from the crotch down to `blend_m` the leg goes over from the fork to the thigh's cross-section.
 struct ShortsPattern {

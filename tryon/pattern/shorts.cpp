@@ -7,6 +7,7 @@
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
 #include "tryon/pattern/form.hpp"
+#include "tryon/pattern/leg_form.hpp"
 #include "tryon/pattern/pattern.hpp"
 #include "tryon/pattern/wrap.hpp"
 
@@ -50,9 +51,9 @@ class Drafted {
   double pelvisBottom() const { return form_.lowest({0}); }
   /// The wrap of pelvis, torso and both thighs between two heights; the left half is mirrored.
   Wrap trunk(double from, double to) const { return form_.wrap(from, to, trunk_, "rise_m"); }
-  ClosedCurve leftThigh(double z) const { return ClosedCurve(form_.hull(z, thigh_, false, "inseam_m")); }
+  /// The left leg down to a hem.
+  LegForm leg(double crotch_z, double hem_z) const { return LegForm(form_, crotch_z, hem_z); }
   double medianY() const { return form_.medianY(); }
-  double thighBottom() const { return form_.lowest(thigh_); }
   /// Hulls of the pelvis, whose middle stands on the median plane, and of the left thigh, where they have a
   /// cross-section.
   std::vector<Outline> underFork(double z) const {
@@ -85,18 +86,16 @@ class Draft {
       : p_(p),
         body_(body),
         crotch_z_(body.pelvisBottom() - p.crotch_ease_m),
-        trunk_(body.trunk(crotch_z_, crotch_z_ + p.rise_m)) {
-    if (const double most = crotch_z_ - body.thighBottom(); !(p.inseam_m < most))
-      reject("inseam_m", std::to_string(p.inseam_m) + ", reaches below the thighs, where the body has no section; " +
-                             "allowed: less than " + std::to_string(most));
-    notch_half_width_ = body.leftThigh(crotch_z_).centroid().y - body.medianY();
+        trunk_(body.trunk(crotch_z_, crotch_z_ + p.rise_m)),
+        leg_(body.leg(crotch_z_, crotch_z_ - p.inseam_m)) {
+    notch_half_width_ = leg_.at(crotch_z_).centroid().y - body.medianY();
     if (!(notch_half_width_ > 0)) reject("garment.shorts", "thigh_left does not stand on the left of the body");
 
     const Tape top = tape(0);
     const double depth = top.front_x - top.back_x;
     const int around = cellsFor(0.5 * (top.half + tape(1).half));
     trunk_cells_ = {around, cellsFor(p.rise_m)};
-    leg_cells_ = cellsFor(p.inseam_m);
+    leg_rows_ = cellsFor(p.inseam_m);
     inner_cells_ = std::max(3, cellsFor(p.gusset_share * depth));
     if (!(p.degree < inner_cells_ + 2))
       reject("cell_m", "too large for the degree: the inner leg would have few cells");
@@ -104,7 +103,7 @@ class Draft {
 
   int around() const { return trunk_cells_[0]; }
   int rise() const { return trunk_cells_[1]; }
-  int leg() const { return leg_cells_; }
+  int leg() const { return leg_rows_; }
   int inner() const { return inner_cells_; }
 
   /// s from centre front to centre back around the left hip, t from the crotch's level up to the waist.
@@ -236,7 +235,7 @@ class Draft {
   /// The thigh's tape by the fraction of its length, from the front leg line, outside first.
   Vec3 legPoint(double fraction, double t) const {
     const double z = crotch_z_ - (1 - t) * p_.inseam_m;
-    const ClosedCurve body = body_.leftThigh(z);
+    const ClosedCurve body = leg_.at(z);
     const ClosedCurve tape = legTape(body);
     const double innermost = tape.crossing(body.centroid(), {0, -1});
     const Vec2 x = tape.point(innermost + (fraction + 0.5 * (1 - share())) * tape.length());
@@ -249,7 +248,7 @@ class Draft {
     const double q = std::max(0.0, 1 - (1 - t) * p_.inseam_m / p_.blend_m), w = q * q;
     const Vec3 x{leg.x + w * (top.x - leg.x), leg.y + w * (top.y - leg.y), leg.z};
     if (w == 0 || t == 1 || !(p_.ease > 0)) return x;
-    const Vec2 out = movedOut({x.x, x.y}, body_.outline(body_.leftThigh(x.z)), [&](double radius) {
+    const Vec2 out = movedOut({x.x, x.y}, body_.outline(leg_.at(x.z)), [&](double radius) {
       const double eased = p_.ease * radius;  // not more where q is 0
       return std::min(wantedGap(), eased + std::max(0.0, wantedGap() - eased) * q);
     });
@@ -281,9 +280,10 @@ class Draft {
   const Drafted& body_;
   double crotch_z_;
   Wrap trunk_;
+  LegForm leg_;
   double notch_half_width_ = 0;
   std::array<int, 2> trunk_cells_{};
-  int leg_cells_ = 0, inner_cells_ = 0;
+  int leg_rows_ = 0, inner_cells_ = 0;
 };
 
 /// The patch on the other side; u is turned round, so that the normal still points outward.
@@ -312,7 +312,9 @@ void check(const ShortsPattern& p) {
     reject("crotch_ease_m", std::to_string(p.crotch_ease_m) + ", must lie between -0.1 and 0.2");
   if (!(p.seam_stiffness_N >= 0) || !std::isfinite(p.seam_stiffness_N))
     reject("seam_stiffness_N", "must not be negative");
-  if (!(p.fork_m <= p.rise_m)) reject("fork_m", "must not exceed rise_m");
+  if (!(p.fork_m <= p.rise_m))
+    reject("rise_m",
+           std::to_string(p.rise_m) + ", shorter than the fork; allowed: at least " + std::to_string(p.fork_m));
   if (!(p.blend_m <= p.inseam_m))
     reject("inseam_m", std::to_string(p.inseam_m) +
                            ", shorter than what legs need to go over from the fork to the thigh; " +

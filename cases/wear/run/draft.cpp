@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "cases/cloth/make_cloth.hpp"
 #include "cases/input/schema.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/case/garments/kind.hpp"
@@ -20,29 +22,40 @@
 
 namespace gambeson {
 
-void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, bool as_mesh,
-                 std::ostream& out) {
+std::size_t garmentCalled(const Case& c, const std::string& name) {
   std::vector<std::string> names;
   for (const GarmentCase& g : c.garments) names.push_back(g.name);
-  std::size_t k = 0;
   if (name.empty()) {
     if (names.size() > 1)
       throw InputError({"command line", 0, "--garment"},
                        "is required where there are several garments; allowed: " + schema::joined(names));
-  } else {
-    while (k < names.size() && names[k] != name) ++k;
-    if (k == names.size())
-      throw InputError({"command line", 0, "--garment"},
-                       fmt::format("there is no garment \"{}\"; allowed: {}", name, schema::joined(names)));
+    return 0;
   }
-  checkOutput(file, "--output", inputsOf(c));
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError({"command line", 0, "--garment"},
+                     fmt::format("there is no garment \"{}\"; allowed: {}", name, schema::joined(names)));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+Garment draftOf(const Case& c, std::size_t k) {
   std::optional<Human> human;
   if (c.human) human = humanOf(*c.human);
-  const Case made = withFactors(c);
-  const Garment g = draftGarments(made, human ? &*human : nullptr)[k];
-  if (const GarmentKind& kind = kindOf(c.garments[k]); kind.isMesh())
-    throw InputError({c.file.string(), 0, fmt::format("garments[{}].{}", k, kind.word)},
-                     "is a mesh already; drafts are written");
+  try {
+    std::vector<Garment> drafts = draftGarments(withFactors(c), human ? &*human : nullptr);
+    if (const GarmentKind& kind = kindOf(c.garments[k]); kind.isMesh())
+      throw InputError({"", 0, fmt::format("garments[{}].{}", k, kind.word)}, "is a mesh already; drafts are written");
+    return std::move(drafts[k]);
+  } catch (const InputError& e) {
+    sayInCase(c.file, c.overrides, e);
+  }
+}
+
+void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, bool as_mesh,
+                 std::ostream& out) {
+  const std::size_t k = garmentCalled(c, name);
+  checkOutput(file, "--output", inputsOf(c));
+  const Garment g = draftOf(c, k);
   if (as_mesh) {
     const MeshDraft t = meshOf(g, c.garments[k].cloth);
     writeOwnFile(file, objText(t.mesh, g.name));

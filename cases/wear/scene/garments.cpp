@@ -7,6 +7,7 @@
 #include "cases/cloth/noise.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/garments/kind.hpp"
+#include "cases/wear/scene/largest.hpp"
 #include "core/cloth/block_law.hpp"
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/seams.hpp"
@@ -64,6 +65,23 @@ Garment makeGarment(const Case& c, const GarmentCase& worn, const BodyForm* form
   return garment;
 }
 
+/// What messages call a wearer.
+std::string wearerOf(const HumanCase& h) {
+  if (!h.manikin.empty()) return h.manikin;
+  if (h.character) return h.character->file.filename().string();
+  return h.segments.empty() ? h.urdf.filename().string() : "the human between these markers";
+}
+
+/// What cannot be drafted is said with what can.
+Garment tryGarment(const Case& c, const GarmentCase& worn, const BodyForm* form, std::span<const Worn> under) {
+  try {
+    return makeGarment(c, worn, form, under);
+  } catch (const InputError& e) {
+    if (!form || !c.human || !kindOf(worn).drafted || !e.where().file.empty()) throw;
+    sayLargest(e, worn, wearerOf(*c.human), [&](const GarmentCase& g) { makeGarment(c, g, form, under); });
+  }
+}
+
 }  // namespace
 
 void addFabric(const Case& c, const GarmentCase& worn, Garment& garment) {
@@ -95,7 +113,7 @@ std::vector<Garment> draftGarments(const Case& c, const Human* human) {
     const std::string at = fmt::format("garments[{}]", k), shape = at + "." + kindOf(worn).word;
     underKey(worn.fabric ? at + ".fabric" : "fabric", [&] { checkFabric(fabricOf(c, worn), "fabric"); });
     ClothSize(size).add(kindOf(worn).cells(worn), worn.samples_per_cell, shape);
-    garments.push_back(underKey(shape, [&] { return makeGarment(c, worn, form ? &*form : nullptr, under); }));
+    garments.push_back(underKey(shape, [&] { return tryGarment(c, worn, form ? &*form : nullptr, under); }));
     size.add(cellsOf(garments.back()), worn.samples_per_cell, shape);
     if (kindOf(worn).isMesh()) continue;
     double area = 0;

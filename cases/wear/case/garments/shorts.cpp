@@ -11,7 +11,9 @@ namespace {
 Object shortsTable() {
   using S = ShortsGarment;
   return Table<S>("Shorts")
-      .number("inseam", &S::inseam_m, "m", between(0.08, 0.6), "length of the inner leg, crotch to hem, above the knee")
+      .number("inseam", &S::inseam_m, "m", between(0.08, 1.2),
+              "length of the inner leg, crotch to hem: shorts above the knee, trousers below it, down to the ankle; "
+              "they taper to a hem as wide as the calf")
       .number("rise", &S::rise_m, "m", between(0.1, 0.5), "height of the waist edge above the crotch of the shorts")
       .number(
           "crotch_ease", &S::crotch_ease_m, "m", between(0, 0.08),

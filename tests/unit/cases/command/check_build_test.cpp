@@ -56,7 +56,8 @@ TEST(CheckBuilds, WhatARunOfClothingRefuses) {
            Bad{"}},\n  \"fabric\"", "}, \"samples_per_cell\": 8},\n  \"fabric\"", 0, "", ""},
            Bad{"}},\n  \"fabric\"", "}, \"samples_per_cell\": 1},\n  \"fabric\"", 3, "garment.samples_per_cell",
                "do not see every control point"},
-           Bad{sheet, shorts(R"("inseam": "50 cm")"), 3, "garment.shorts.inseam", "allowed: less than"},
+           Bad{sheet, shorts(R"("inseam": "90 cm")"), 3, "garment.shorts.inseam", "cm on female_p50"},
+           Bad{sheet, shorts(R"("inseam": "8 cm", "rise": "10 cm")"), 3, "garment.shorts.rise", "allowed: at least 11 cm on"},
            Bad{R"("poisson": 0.3)", R"("poisson": 0.3, "jam_area": 0.5)", 0, "", ""},
        }) {
     const Case c = readCase(folder.write("bad.json", replaced(worn, bad.from, bad.to)));

@@ -54,10 +54,10 @@ TEST(Command, StatusesAreAlike) {
   EXPECT_EQ(gambeson(folder, "nonsense").status, 2);
 }
 
-/// Drafted trousers end above the knee: `check` says what `run` would.
+/// Drafted legs end at the ankle: `check` says what `run` would.
 TEST(Command, ShortsThatReachTooFarAreRefusedByCheck) {
   const Folder folder;
-  for (const char* inseam : {"7.9 cm", "60 cm"}) {
+  for (const char* inseam : {"7.9 cm", "90 cm"}) {
     const Outcome o = gambeson(folder, "check '" GAMBESON_SOURCE_DIR
                                        "/cases/library/shorts_walk.json' --set 'garment.shorts.inseam=" +
                                            std::string(inseam) + "'");

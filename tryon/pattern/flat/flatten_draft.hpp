@@ -1,0 +1,24 @@
+#pragma once
+/// Drafts as flat patterns: what a cutter cuts for a garment that was drafted around a body.
+
+#include "core/cloth/draft/garment.hpp"
+#include "tryon/pattern/flat/flatten_patch.hpp"
+#include "tryon/pattern/flat/panel.hpp"
+
+namespace gambeson {
+
+struct FlattenedDraft {
+  FlatPattern pattern;
+  std::vector<Flattening> flattening;  ///< of each panel
+};
+
+/// Each patch as a panel (flattenPatch), seen from outside, without seam allowance. Its sides are edges, those that
+/// have a name in the garment with that name; what trims cut out of a side is spliced into the outline, holes within
+/// are cutouts. Lines run through grid points. The grain runs along the warp, and each seam longer than 2 cm has a
+/// notch in the middle of either side. Sides of a seam that were strained apart differ in length: they are eased.
+///
+/// Throws InputError: key "flat" where a patch cannot be laid flat, or the garment has seams that are no edges of
+/// patches (weak and sewn ones).
+FlattenedDraft flattenDraft(const Garment& garment);
+
+}  // namespace gambeson
