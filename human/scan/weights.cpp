@@ -10,16 +10,26 @@
 namespace gambeson {
 namespace {
 
-constexpr int kSmoothings = 12;
+/// Shares are averaged over this length along the skin [m]: some (length / edge)² times with the neighbours.
+constexpr double kAveraged_m = 0.015;
+constexpr int kMostAverages = 40;
 /// Half the width of a joint's band over the length of thigh, upper arm or trunk, as in our own skins
 /// (human/skin/make_skin.cpp).
 constexpr double kFoot = 0.10, kShank = 0.25, kThigh = 0.28, kHand = 0.15, kForearm = 0.25, kUpperArm = 0.25,
                  kHead = 0.12, kTorso = 0.22;
 
+constexpr double kBetween = 0.03;  ///< half the width over which thighs part below the trunk, in statures
+
+double step(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * (3 - 2 * u);
+}
+
 struct Band {
   int child, parent;  ///< in scanLinks()
   std::vector<char> beyond;
   double half_width_m;
+  std::vector<double> most;  ///< by vertex; empty: 1
 };
 
 class Weigher {
@@ -35,6 +45,10 @@ class Weigher {
       std::sort(list.begin(), list.end());
       list.erase(std::unique(list.begin(), list.end()), list.end());
     }
+    double length = 0;
+    for (const auto& t : body_.triangles) length += norm(body_.vertices[t[1]] - body_.vertices[t[0]]);
+    const double edges = kAveraged_m * static_cast<double>(body_.triangles.size()) / length;
+    averages_ = std::clamp(static_cast<int>(std::lround(edges * edges)), 1, kMostAverages);
     bands();
     shares();
   }
@@ -76,7 +90,7 @@ class Weigher {
   }
 
   void add(const std::string& child, const std::string& parent, std::vector<char> beyond, double half_width) {
-    bands_.push_back({link(child), link(parent), std::move(beyond), half_width});
+    bands_.push_back({link(child), link(parent), std::move(beyond), half_width, {}});
   }
 
   void bands() {
@@ -123,6 +137,12 @@ class Weigher {
             return y > 0 && body_.vertices[v].z < marks_.crotch.z + slope * y;
           }),
           kThigh * thigh);
+      // Nothing of one leg's turn for the other leg; between them, it passes over on either side of the median plane.
+      for (std::size_t v = 0; v < legs.size(); ++v) {
+        const double y = sign * (body_.vertices[v].y - marks_.crotch.y);
+        bands_.back().most.push_back(legs[v] ? (legs[v] == mine ? 1 : 0)
+                                             : step(0.5 + 0.5 * y / (kBetween * marks_.stature_m)));
+      }
     }
     add("head", "torso", where([&](std::size_t v) {
           return !arm[0][v] && !arm[1][v] && body_.vertices[v].z > head.z + 0.02 * trunk &&
@@ -142,11 +162,10 @@ class Weigher {
     std::vector<double> s(b.beyond.size());
     for (std::size_t v = 0; v < s.size(); ++v) {
       const double signed_m = b.beyond[v] ? to_out[v] : -to_in[v];
-      const double u = std::clamp(0.5 + 0.5 * signed_m / b.half_width_m, 0.0, 1.0);
-      s[v] = u * u * (3 - 2 * u);
+      s[v] = step(0.5 + 0.5 * signed_m / b.half_width_m) * (b.most.empty() ? 1 : b.most[v]);
     }
     std::vector<double> next(s.size());
-    for (int k = 0; k < kSmoothings; ++k) {
+    for (int k = 0; k < averages_; ++k) {
       for (std::size_t v = 0; v < s.size(); ++v) {
         double sum = 0;
         for (const int w : beside_[v]) sum += s[static_cast<std::size_t>(w)];
@@ -192,6 +211,7 @@ class Weigher {
   std::vector<std::vector<int>> beside_;
   std::vector<Band> bands_;
   std::vector<VertexWeights> out_;
+  int averages_ = 1;
 };
 
 }  // namespace
