@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -49,15 +51,25 @@ class Repair {
     Vec3 low = mesh_.vertices.front(), high = low;
     for (const Vec3& p : mesh_.vertices)
       for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
-    const double size = norm(high - low), cell = kWeld * size;
+    const double size = norm(high - low);
     if (!(size > 0)) fail("", "all its vertices are at one place");
-    std::map<std::array<long, 3>, int> known;
-    std::vector<int> to(mesh_.vertices.size());
-    for (std::size_t v = 0; v < to.size(); ++v) {
-      std::array<long, 3> c{};
-      for (int k = 0; k < 3; ++k) c[static_cast<std::size_t>(k)] = std::lround((mesh_.vertices[v][k] - low[k]) / cell);
-      to[v] = known.try_emplace(c, static_cast<int>(v)).first->second;
+    // Vertices at exactly one place first: a mesh that is closed then needs no more, and thin parts (lips) stay apart.
+    const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value + 0.0); };
+    join([&](const Vec3& p) { return std::array{bits(p.x), bits(p.y), bits(p.z)}; });
+    if (!isClosed()) {
+      const auto cell = [&](double value) { return std::int64_t{std::llround(value / (kWeld * size))}; };
+      join([&](const Vec3& p) { return std::array{cell(p.x - low.x), cell(p.y - low.y), cell(p.z - low.z)}; });
     }
+    if (mesh_.triangles.empty()) fail("", "holds no triangle with an area");
+  }
+
+  /// Vertices with one key become one; triangles that lose a corner, or are there already, go.
+  template <class Key>
+  void join(Key key) {
+    std::map<std::array<std::int64_t, 3>, int> known;
+    std::vector<int> to(mesh_.vertices.size());
+    for (std::size_t v = 0; v < to.size(); ++v)
+      to[v] = known.try_emplace(key(mesh_.vertices[v]), static_cast<int>(v)).first->second;
     std::set<Triangle> seen;
     std::vector<Triangle> kept;
     std::size_t twice = 0;
@@ -71,9 +83,15 @@ class Repair {
       else
         ++twice;
     }
-    if (kept.empty()) fail("", "holds no triangle with an area");
     if (twice > 0) report_.notes.push_back(fmt::format("{} triangles were there twice", twice));
     mesh_.triangles = std::move(kept);
+  }
+
+  bool isClosed() const {
+    std::map<EdgeKey, int> faces;
+    for (const Triangle& t : mesh_.triangles)
+      for (std::size_t k = 0; k < 3; ++k) ++faces[keyOf(t[k], t[(k + 1) % 3])];
+    return std::all_of(faces.begin(), faces.end(), [](const auto& e) { return e.second == 2; });
   }
 
   void keepBody() {

@@ -6,9 +6,13 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "human/body/girths.hpp"
+#include "human/body/section.hpp"
 #include "human/body/skin.hpp"
 #include "human/character/character.hpp"
 #include "human/files/mesh.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
 #include "human/scan/joints.hpp"
 #include "human/scan/landmarks.hpp"
 #include "human/scan/repair.hpp"
@@ -33,6 +37,16 @@ RiggedMesh rigged(TriangleMesh body, const std::string& file, const Landmarks& m
   }
   out.mesh = std::move(body);
   return out;
+}
+
+/// Girths in a posture, where both postures have the same part of the surface.
+std::vector<std::pair<std::string, double>> girthsOf(const Human& human, const std::vector<Pose>& links) {
+  std::vector<Vec3> x(human.skin->rest.vertices.size());
+  skinPositions(*human.skin, links, x);
+  std::vector<std::pair<std::string, double>> girths;
+  for (const GirthPlane& plane : girthPlanes(human, links))
+    girths.emplace_back(plane.zone, tapeGirth(bodySection(human, plane, links, x)));
+  return girths;
 }
 
 }  // namespace
@@ -67,6 +81,11 @@ Human scanOf(const TriangleMesh& raw, const ScanOptions& o, ScanReport* report) 
   Human human = characterOf(rigged(std::move(body), file, marks), options, &found);
   said.pose = found.pose, said.arms_deg = found.arms_deg, said.height_m = found.height_m;
   said.volume_m3 = found.volume_m3;
+  const Posture posture = standing(human);
+  const auto scanned = girthsOf(human, human.skin->bind),
+             stands = girthsOf(human, linkPoses(human.skeleton, posture.q, posture.root));
+  for (std::size_t k = 0; k < scanned.size(); ++k)
+    said.girths.push_back({scanned[k].first, scanned[k].second, stands[k].second});
   return human;
 }
 
