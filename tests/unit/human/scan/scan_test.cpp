@@ -7,13 +7,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
 #include "human/body/section.hpp"
+#include "human/character/character.hpp"
 #include "human/scan/loops.hpp"
 #include "human/scan/repair.hpp"
+#include "tools/data_folder.hpp"
 #include "unit/human/scan/scan_body.hpp"
 
 namespace gambeson {
@@ -250,6 +253,54 @@ TEST(ScanMalformed, AHandAtTheHipNamesTheArm) {
   }
   EXPECT_EQ(handlesOf(odd), 1);
   refuses(odd, "arm_left", "hand at the hip");
+}
+
+/// The mean body of GarmentCode, in A-pose: girths that its authors published, and those of the skin as it stands.
+TEST(RealScans, GarmentCodesMeanBodyHasItsPublishedGirths) {
+  const auto file = test::dataFolder() / "real" / "body" / "garmentcode_mean_all.obj";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  ScanOptions o;
+  o.file = file;
+  ScanReport report;
+  const Human h = loadScan(o, &report);
+  EXPECT_EQ(report.pose, 'A');
+  EXPECT_NEAR(report.height_m, 1.7199, 1e-4);
+  EXPECT_TRUE(meshTopology(h.skin->rest).closed);
+  EXPECT_NEAR(report.arms_deg, 45.5, 4);  // arm_pose_angle of garmentcode_body_mean_all.yaml
+  for (const ScanGirth& g : report.girths) {
+    // hips, bust and leg_circ of the same file.
+    const double published = g.name == "hip"          ? 1.03478
+                             : g.name == "chest"      ? 0.998407
+                             : g.name == "thigh_left" ? 0.602039
+                                                      : 0;
+    if (published > 0) {
+      EXPECT_NEAR(g.scan_m, published, 0.015 * published) << g.name;
+    }
+    EXPECT_NEAR(g.standing_m, g.scan_m, 0.012 * g.scan_m) << g.name;
+  }
+}
+
+/// MakeHuman's base mesh without its rig, against the rig. Its hips lie 11 cm from the median plane
+/// (human/DECISIONS.md).
+TEST(RealScans, MakeHumansBaseMeshHasTheJointsOfItsRig) {
+  const auto folder = test::dataFolder() / "real" / "body";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
+  CharacterOptions rig;
+  rig.file = folder / "makehuman_base.obj";
+  rig.skeleton = folder / "makehuman_default.mhskel";
+  rig.weights = folder / "makehuman_default_weights.mhw";
+  const Human known = loadCharacter(rig);
+  const Human h = made(known.skin->rest);
+  ASSERT_EQ(h.skin->rest.vertices.size(), known.skin->rest.vertices.size());
+  Vec3 shift;
+  for (const Vec3& x : h.skin->rest.vertices) shift += x / static_cast<double>(h.skin->rest.vertices.size());
+  for (const Vec3& x : known.skin->rest.vertices) shift -= x / static_cast<double>(h.skin->rest.vertices.size());
+  for (const char* link : {"shank_left", "foot_left", "upper_arm_left", "forearm_left", "hand_left", "torso", "head"}) {
+    const auto at = [&](const Human& human) {
+      return human.skin->bind[static_cast<std::size_t>(human.skeleton.link(link))].origin;
+    };
+    EXPECT_LT(norm(at(h) - at(known) - shift), 0.021) << link;
+  }
 }
 
 TEST(CutLoops, OfATubeAreTwoCircles) {
