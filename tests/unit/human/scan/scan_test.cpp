@@ -91,13 +91,13 @@ TEST(Scan, WeightsChangeGraduallyAndStayOnTheirOwnLimb) {
   for (std::size_t v = 0; v < w.size(); ++v)
     for (std::size_t l = 0; l < h.skeleton.links.size(); ++l) {
       const std::string& name = h.skeleton.links[l].name;
-      if (w[v][l] > 0.05 && name.ends_with("_left")) {
-        EXPECT_GT(s.rest.vertices[v].y, -0.06) << name;
+      if (w[v][l] > 0.03 && name.ends_with("_left")) {
+        EXPECT_GT(s.rest.vertices[v].y, -0.045) << name;
       }
-      if (w[v][l] > 0.05 && name.ends_with("_right")) {
-        EXPECT_LT(s.rest.vertices[v].y, 0.06) << name;
+      if (w[v][l] > 0.03 && name.ends_with("_right")) {
+        EXPECT_LT(s.rest.vertices[v].y, 0.045) << name;
       }
-      if (w[v][l] > 0.05 && name.starts_with("hand")) {
+      if (w[v][l] > 0.03 && name.starts_with("hand")) {
         EXPECT_GT(std::abs(s.rest.vertices[v].y), 0.4) << name;
       }
     }
