@@ -47,7 +47,8 @@ struct Entry {
 struct Object;
 
 /// pair: [s, t]; numbers: a list of numbers; lists: a list of such lists; map: an object whose keys are names of the
-/// user's own, with lists in them; number_or_object: one number in place of an object; any: whatever the meaning says.
+/// user's own, with lists in them; number_or_object: one number in place of an object; word_or_object: likewise one of
+/// `choices`; any: whatever the meaning says.
 enum class Kind {
   number,
   integer,
@@ -62,6 +63,7 @@ enum class Kind {
   map,
   object,
   number_or_object,
+  word_or_object,
   list,
   text_list,
   any

@@ -85,6 +85,8 @@ std::string typeText(const Field& f) {
       return "object";
     case Kind::number_or_object:
       return "number or object";
+    case Kind::word_or_object:
+      return "word or object";
     case Kind::list:
       return "list of objects";
     case Kind::text_list:
@@ -160,6 +162,9 @@ Json fieldSchema(const Field& f) {
       break;
     case Kind::number_or_object:
       s = {{"anyOf", Json::array({numberSchema(f), objectSchema(*f.object)})}};
+      break;
+    case Kind::word_or_object:
+      s = {{"anyOf", Json::array({Json{{"enum", f.choices}}, objectSchema(*f.object)})}};
       break;
     case Kind::list:
       s = {{"type", "array"}, {"items", objectSchema(*f.object)}};

@@ -10,6 +10,7 @@
 #include "analysis/ticks.hpp"
 #include "cases/cloth/make_cloth.hpp"
 #include "cases/study/page_parts.hpp"
+#include "cases/wear/case/human.hpp"
 #include "cases/wear/recording/zone_ledger.hpp"
 #include "cases/wear/results/write.hpp"
 
@@ -227,8 +228,7 @@ std::string clothOf(const Study& s, const Comparison& c) {
       const auto* k = std::get_if<Case>(&s.variants[i].definition);
       if (k && stretch.empty()) stretch = stretchMeaning(*k, r.stretch);
       if (k && k->human)
-        wearer = k->human->character ? k->human->character->file.stem().string()
-                                     : (k->human->manikin.empty() ? "own" : k->human->manikin);
+        wearer = wearerName(*k->human);
       fit.push_back({escape(s.variants[i].label), escape(wearer), Html(100 * (worst ? worst->most : r.p99_strain())),
                      Html(100 * (worst ? worst->largest : r.largest_strain)), limitOf(worst), Html(r.sinking_mm(), 2),
                      Html(r.pressing_N()), escape(region), Html(top ? top->p50_N_per_m : std::nan("")),

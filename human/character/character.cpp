@@ -36,10 +36,14 @@ std::string lower(std::string s) {
 
 class Fit {
  public:
-  Fit(const CharacterOptions& o, RiggedMesh body, CharacterReport& report)
+  /// `ours`: bones are named as our links.
+  Fit(const CharacterOptions& o, RiggedMesh body, bool ours, CharacterReport& report)
       : o_(o), body_(std::move(body)), report_(report), human_(makeManikin(o.like)) {
     report_.notes = body_.notes;
-    findBones();
+    if (ours)
+      for (std::size_t b = 0; b < body_.bones.size(); ++b) anchor_[body_.bones[b].name] = static_cast<int>(b);
+    else
+      findBones();
     stand();
     joints();
     lengths();
@@ -343,7 +347,12 @@ Human loadCharacter(const CharacterOptions& o, CharacterReport* report) {
   if (!makehuman && !o.targets.empty()) throw InputError({file, 0, "targets"}, "go with MakeHuman's mesh (.obj) only");
   const RiggedMesh whole =
       makehuman ? readMakeHuman({o.file, o.skeleton, o.weights, o.targets, "body"}) : readRiggedScene(o.file);
-  return Fit(o, bodyOf(whole), report ? *report : mine).take();
+  return Fit(o, bodyOf(whole), false, report ? *report : mine).take();
+}
+
+Human characterOf(RiggedMesh body, const CharacterOptions& o, CharacterReport* report) {
+  CharacterReport mine;
+  return Fit(o, std::move(body), true, report ? *report : mine).take();
 }
 
 }  // namespace gambeson

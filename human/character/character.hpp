@@ -37,5 +37,8 @@ struct CharacterReport {
 /// limbs straight where the file bends them. Each bone that has no joint of its own moves with the next one towards the
 /// root that has (fingers with the hand, collar bones with the trunk). Throws InputError with file and key.
 Human loadCharacter(const CharacterOptions& options, CharacterReport* report = nullptr);
+/// The same of a body (closed, its weights summing to 1) whose bones are named as our links, with toes_left and
+/// toes_right for a point ahead of each ankle.
+Human characterOf(RiggedMesh body, const CharacterOptions& options, CharacterReport* report = nullptr);
 
 }  // namespace gambeson

@@ -5,7 +5,7 @@
 
 namespace gambeson::data {
 
-extern const std::string_view manikins;
+extern const std::string_view manikins, regressions;
 extern const std::string_view walk_natural;
 extern const std::string_view stairs_ascent;
 extern const std::string_view aim_at_ground;

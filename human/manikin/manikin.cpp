@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "human/files/data.hpp"
+#include "human/manikin/person.hpp"
 
 namespace gambeson {
 namespace {
@@ -222,6 +223,20 @@ const std::vector<std::string>& manikinNames() {
   return names;
 }
 
+Human manikinOf(const nlohmann::json& person, bool female, const std::string& name) {
+  const Json facts = Json::parse(data::manikins);
+  const Json& opensim = facts.at("opensim_offsets_m");
+  const double stature = person.at("stature_m");
+  Builder b{{}, facts.at("joint_range_limits_deg")};
+  b.human.mass_kg = person.at("mass_kg");
+  b.human.stature_m = stature;
+  b.human.skeleton.name = name;
+  b.human.skeleton.links.push_back({"pelvis", -1, 0, {}});
+  addBody(b, {person, facts.at("de_leva_1996").at(female ? "female" : "male"), opensim,
+              stature / opensim.at("stature").get<double>()});
+  return b.human;
+}
+
 Human makeManikin(const std::string& name) {
   const Json facts = Json::parse(data::manikins);
   if (!facts.at("manikins").contains(name)) {
@@ -229,18 +244,7 @@ Human makeManikin(const std::string& name) {
     for (const std::string& n : manikinNames()) all += (all.empty() ? "" : ", ") + n;
     throw InputError({"", 0, "manikin"}, "there is no manikin '" + name + "'; there are " + all);
   }
-  const Json& person = facts.at("manikins").at(name);
-  const Json& opensim = facts.at("opensim_offsets_m");
-  const Json& leva = facts.at("de_leva_1996").at(name.starts_with("female") ? "female" : "male");
-  const double stature = person.at("stature_m");
-  const Json& limits = facts.at("joint_range_limits_deg");
-  Builder b{{}, limits};
-  b.human.mass_kg = person.at("mass_kg");
-  b.human.stature_m = stature;
-  b.human.skeleton.name = name;
-  b.human.skeleton.links.push_back({"pelvis", -1, 0, {}});
-  addBody(b, {person, leva, opensim, stature / opensim.at("stature").get<double>()});
-  return b.human;
+  return manikinOf(facts.at("manikins").at(name), name.starts_with("female"), name);
 }
 
 }  // namespace gambeson

@@ -5,17 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/obstacle.hpp"
 #include "core/math/vec.hpp"
+#include "human/body/section.hpp"
 
 namespace gambeson {
-
-/// The points where a placed shape meets the plane z = height: 720 points of an ellipse, or the crossings of a mesh's
-/// edges. Empty where they do not meet.
-std::vector<Vec2> crossSection(const Shape& shape, const Placement& placement, double height);
-
-/// The convex hull, counterclockwise, without points on its edges (Andrew's monotone chain).
-std::vector<Vec2> convexHull(std::vector<Vec2> points);
 
 /// Horizontal cross-sections of the convex hull of a body between two heights: cloth under tension bridges the hollows
 /// between the shapes below one another, as a tape bridges those beside one another.

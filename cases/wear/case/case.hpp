@@ -22,6 +22,7 @@
 #include "core/motion/motion_options.hpp"
 #include "human/body/mesh_sequence.hpp"
 #include "human/character/character.hpp"
+#include "human/manikin/measures.hpp"
 #include "human/motion/aim.hpp"
 #include "human/motion/kneel.hpp"
 #include "human/motion/sit.hpp"
@@ -30,6 +31,7 @@
 #include "human/motion/walk.hpp"
 #include "human/recorded/marker_body.hpp"
 #include "human/recorded/motion_file.hpp"
+#include "human/scan/scan.hpp"
 #include "human/skin/make_skin.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/trousers.hpp"
@@ -150,12 +152,14 @@ struct FeetLeftOut {
   double grow_s = 0.3;  ///< from then on they grow to their size
 };
 
-/// A manikin by name, a URDF with a body file (which may be empty: the URDF's own geometry then), a character, or
-/// segments between markers.
+/// A manikin by name or by measures, a URDF with a body file (which may be empty: the URDF's own geometry then), a
+/// character, a scan, or segments between markers.
 struct HumanCase {
   std::string manikin;
+  std::optional<ManikinMeasures> measures;
   std::filesystem::path urdf, body;
   std::optional<CharacterOptions> character;
+  std::optional<ScanOptions> scan;
   std::vector<MarkedSegment> segments;
   std::optional<SkinOptions> skin;  ///< around the manikin; where absent, its ellipsoids are the surface
   std::optional<FeetLeftOut> feet;  ///< where absent, they are there at all times

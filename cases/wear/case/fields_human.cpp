@@ -10,10 +10,14 @@
 namespace gambeson::schema {
 namespace {
 
+std::vector<std::pair<std::string, std::string>> manikinWords() {
+  std::vector<std::pair<std::string, std::string>> words;
+  for (const std::string& name : manikinNames()) words.emplace_back(name, name);
+  return words;
+}
+
 Object characterTable() {
   using C = CharacterOptions;
-  std::vector<std::pair<std::string, std::string>> manikins;
-  for (const std::string& name : manikinNames()) manikins.emplace_back(name, name);
   return Table<C>("Character")
       .path("file", &C::file, "a skinned character (.gltf, .glb, .fbx), or MakeHuman's base mesh (.obj)")
       .required()
@@ -32,13 +36,77 @@ Object characterTable() {
                    "that which goes with the names of its bones"),
           [](const Entry& p, C& c) { c.map = readMap(p); },
           [](const C& c) { return c.map.empty() ? std::nullopt : std::optional(nodeOf(c.map)); })
-      .choice("like", &C::like, manikins, "the manikin whose limits of joints and shares of mass it takes")
+      .choice("like", &C::like, manikinWords(), "the manikin whose limits of joints and shares of mass it takes")
       .number("height", &C::height_m, "m", between(0.5, 3), "it is scaled to, in the pose of the file")
       .defaultsTo("as the file has it")
       .flag("switch_off_folds", &C::folds_off,
             "where the skin folds into itself at some time of the motion, cloth does not touch it at all; the area is "
             "told either way")
       .number("mass", &C::mass_kg, "kg", aboveTo(0, 500), "of the whole body")
+      .defaultsTo("its volume at 1000 kg/m^3")
+      .build();
+}
+
+Object measuresTable() {
+  using M = ManikinMeasures;
+  return Table<M>("Manikin by measures")
+      .choice("sex", &M::sex, std::vector<std::pair<std::string, Sex>>{{"male", Sex::male}, {"female", Sex::female}},
+              "whose regressions of measures on stature and mass hold (ANSUR II)")
+      .required()
+      .number("stature", &M::stature_m, "m", between(1.3, 2.2), "height")
+      .required()
+      .number("mass", &M::mass_kg, "kg", between(25, 250), "of the whole body")
+      .required()
+      .number("chest", &M::chest_m, "m", between(0.4, 2.5), "girth of the chest by the tape, below the arms")
+      .defaultsTo("the breadth and depth of people of that stature and mass")
+      .number("waist", &M::waist_m, "m", between(0.4, 2.5), "girth at the height of the navel")
+      .defaultsTo("likewise")
+      .number("hip", &M::hip_m, "m", between(0.4, 2.5), "girth at the height of the hip joints")
+      .defaultsTo("likewise")
+      .number("inseam", &M::inseam_m, "m", between(0.3, 1.5), "height of the crotch")
+      .defaultsTo("that of people of that stature and mass")
+      .build();
+}
+
+/// A manikin by name, or by measures.
+void addManikin(Table<HumanCase>& table) {
+  Field field = fieldOf("manikin", Kind::word_or_object, "", {},
+                        "one of our own humans, by sex and percentile of stature, or by a person's measures");
+  field.choices = manikinNames();
+  field.object = std::make_shared<const Object>(measuresTable());
+  table.custom(
+      field,
+      [o = field.object, names = field.choices](const Entry& p, HumanCase& h) {
+        if (p.node.type == JsonNode::Type::object)
+          readObject(*o, p, &h.measures.emplace());
+        else
+          h.manikin = names[readChoice(p, names)];
+      },
+      [o = field.object](const HumanCase& h) -> std::optional<JsonNode> {
+        if (h.measures) return writeObject(*o, &*h.measures);
+        return h.manikin.empty() ? std::nullopt : std::optional(nodeOf(h.manikin));
+      });
+  table.in("who");
+}
+
+Object scanTable() {
+  using S = ScanOptions;
+  std::vector<std::pair<std::string, std::string>> axes;
+  for (const char* word : {"x", "-x", "y", "-y", "z", "-z"}) axes.emplace_back(word, word);
+  return Table<S>("Body scan")
+      .path("file", &S::file, "the surface of a body that stands in an A- or T-pose (.obj, .ply, .stl, .gltf, .glb)")
+      .required()
+      .number("height", &S::height_m, "m", between(0.5, 3), "it is scaled to")
+      .defaultsTo("as the file has it, in the unit in which it is 1.2 to 2.3 m tall")
+      .choice("up", &S::up, axes, "axis of the file that is up")
+      .defaultsTo("found: feet at one end, a head at the other")
+      .choice("facing", &S::facing, axes, "axis of the file that the body looks along")
+      .defaultsTo("found: where the toes point")
+      .number("close_holes", &S::close_holes, "", between(0, 1),
+              "holes are closed whose rim is at most this share of the body's height long")
+      .choice("like", &S::like, manikinWords(), "the manikin whose limits of joints and shares of mass it takes")
+      .flag("switch_off_folds", &S::folds_off, "as of a character")
+      .number("mass", &S::mass_kg, "kg", aboveTo(0, 500), "of the whole body")
       .defaultsTo("its volume at 1000 kg/m^3")
       .build();
 }
@@ -93,14 +161,13 @@ Object motionTable() {
 
 Object humanTable() {
   using H = HumanCase;
-  std::vector<std::pair<std::string, std::string>> manikins;
-  for (const std::string& name : manikinNames()) manikins.emplace_back(name, name);
   Table<H> table("Human");
-  table.choice("manikin", &H::manikin, manikins, "one of our own humans, by sex and percentile of stature")
-      .in("who")
-      .path("urdf", &H::urdf, "skeleton of a human of your own")
+  addManikin(table);
+  table.path("urdf", &H::urdf, "skeleton of a human of your own")
       .in("who")
       .object("character", &H::character, characterTable(), "a skinned character from a file, in any pose")
+      .in("who")
+      .object("scan", &H::scan, scanTable(), "a body scan from a file, without a skeleton")
       .in("who");
   addSegments(table);
   return table.oneOf("who", true)
@@ -125,9 +192,9 @@ Object humanTable() {
       .object("motion", &H::motion, motionTable(), "what the human does")
       .required()
       .check([](const Entry& p, const H& h) {
-        if (h.skin && h.manikin.empty())
-          p.failAt("skin", "is made around a manikin, not around a body of your own or a character");
-        if (h.feet && (h.skin || h.character))
+        if (h.skin && h.manikin.empty() && !h.measures)
+          p.failAt("skin", "is made around a manikin, not around a body of your own, a character or a scan");
+        if (h.feet && (h.skin || h.character || h.scan))
           p.failAt("feet", "can be left out of a body whose surface is shapes on its links, not of a skin");
         const bool follows_markers = std::holds_alternative<MarkersOptions>(h.motion);
         if (!h.segments.empty() && !follows_markers)

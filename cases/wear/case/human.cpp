@@ -1,5 +1,8 @@
 #include "cases/wear/case/human.hpp"
 
+#include <fmt/format.h>
+
+#include "cases/input/wrong_entry.hpp"
 #include "human/body/body_file.hpp"
 #include "human/body/skin.hpp"
 #include "human/body/urdf.hpp"
@@ -8,17 +11,66 @@
 
 namespace gambeson {
 
-Human skeletonOf(const HumanCase& h, CharacterReport* character) {
+namespace {
+
+void tell(std::vector<std::string>* notes, const std::string& note) {
+  if (notes) notes->push_back(note);
+}
+
+Human measured(const ManikinMeasures& measures, std::vector<std::string>* notes) {
+  MeasuresReport made;
+  Human human = underKey("manikin", [&] { return makeManikin(measures, &made); });
+  for (const MadeGirth& g : made.girths)
+    tell(notes, fmt::format("manikin: {} {:.1f} cm, asked for {:.1f} cm", g.name, 100 * g.made_m, 100 * g.asked_m));
+  for (const std::string& note : made.notes) tell(notes, "manikin: " + note);
+  return human;
+}
+
+Human fromCharacter(const CharacterOptions& options, std::vector<std::string>* notes) {
+  CharacterReport found;
+  Human human = loadCharacter(options, &found);
+  const std::string file = options.file.filename().string();
+  tell(notes, fmt::format("character {}: bones as in the map {}, {}-pose (arms {:.0f} degrees from hanging down), "
+                          "{:.3f} m tall, {:.1f} litres",
+                          file, found.map, found.pose, found.arms_deg, found.height_m, 1000 * found.volume_m3));
+  for (const std::string& note : found.notes) tell(notes, fmt::format("character {}: {}", file, note));
+  return human;
+}
+
+Human fromScan(const ScanOptions& options, std::vector<std::string>* notes) {
+  ScanReport found;
+  Human human = loadScan(options, &found);
+  const std::string file = options.file.filename().string();
+  for (const std::string& note : found.notes) tell(notes, fmt::format("scan {}: {}", file, note));
+  tell(notes, fmt::format("scan {}: {}-pose (arms {:.0f} degrees from hanging down), {:.3f} m tall, {:.1f} litres",
+                          file, found.pose, found.arms_deg, found.height_m, 1000 * found.volume_m3));
+  for (const ScanGirth& g : found.girths)
+    tell(notes, fmt::format("scan {}: {} {:.1f} cm as scanned, {:.1f} cm standing", file, g.name, 100 * g.scan_m,
+                            100 * g.standing_m));
+  return human;
+}
+
+}  // namespace
+
+Human skeletonOf(const HumanCase& h, std::vector<std::string>* notes) {
   if (!h.manikin.empty()) return makeManikin(h.manikin);
-  if (h.character) return loadCharacter(*h.character, character);
+  if (h.measures) return measured(*h.measures, notes);
+  if (h.character) return fromCharacter(*h.character, notes);
+  if (h.scan) return fromScan(*h.scan, notes);
   if (!h.segments.empty()) return markedHuman(h.segments);
   return h.body.empty() ? loadUrdf(h.urdf) : loadHuman(h.urdf, h.body);
 }
 
-Human humanOf(const HumanCase& h, CharacterReport* character) {
-  Human human = skeletonOf(h, character);
+Human humanOf(const HumanCase& h, std::vector<std::string>* notes) {
+  Human human = skeletonOf(h, notes);
   if (h.skin) human.skin = std::make_shared<const Skin>(makeSkin(human, *h.skin));
   return human;
+}
+
+std::string wearerName(const HumanCase& h) {
+  if (h.character) return h.character->file.stem().string();
+  if (h.scan) return h.scan->file.stem().string();
+  return h.manikin.empty() ? "own" : h.manikin;
 }
 
 }  // namespace gambeson

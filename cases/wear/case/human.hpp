@@ -1,14 +1,21 @@
 #pragma once
 /// The human of a case.
 
+#include <string>
+#include <vector>
+
 #include "cases/wear/case/case.hpp"
 #include "human/body/body.hpp"
 
 namespace gambeson {
 
-/// With the skin that the case asks for; `skeletonOf` is quicker and leaves it out (a character has it all the same).
-/// `character` tells what was found in a character's file.
-Human humanOf(const HumanCase& human, CharacterReport* character = nullptr);
-Human skeletonOf(const HumanCase& human, CharacterReport* character = nullptr);
+/// With the skin that the case asks for; `skeletonOf` is quicker and leaves it out (characters and scans have it all
+/// the same). `notes` takes what a user should know of what was found and made. Throws InputError with the case's keys,
+/// or with the file of a character or scan.
+Human humanOf(const HumanCase& human, std::vector<std::string>* notes = nullptr);
+Human skeletonOf(const HumanCase& human, std::vector<std::string>* notes = nullptr);
+
+/// What tables call the wearer: a manikin's name, the stem of a character's or scan's file, or "own".
+std::string wearerName(const HumanCase& human);
 
 }  // namespace gambeson

@@ -47,6 +47,10 @@ void eachFile(Case& named, Take take) {
       for (MorphTarget& t : character->targets) take(t.file);
       takeMap(character->map, take);
     }
+    if (auto& scan = named.human->scan) {
+      for (std::filesystem::path file : filesBeside(scan->file)) take(file);
+      take(scan->file);
+    }
     kindOf(*named.human).files(named.human->motion, take, [&](std::string& map) { takeMap(map, take); });
   }
   take(named.dressing.from);

@@ -422,6 +422,7 @@ Measured measureAll(const Scenario& s, const RecordingReader& recording) {
   m.surface_depth = surfaceDepth(s, recording);
   measureStretch(s, recording, m);
   measureFalls(s, recording, m);
+  measureGirths(s, recording, m);
   measureGarmentOrder(s, recording, m);
   return m;
 }

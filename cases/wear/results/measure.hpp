@@ -256,6 +256,18 @@ struct FallMeasure {
   double largest_m = 0, time_s = 0;
 };
 
+/// The girth of a part of the body by the tape (human/body/girths.hpp), and how long the cloth of each garment is that
+/// goes around it in the same plane [m], as the motion begins. Their difference is the ease.
+struct GirthMeasure {
+  std::string zone;
+  double body_m = 0;
+  struct Worn {
+    std::string garment;  ///< empty where there is one only
+    double length_m = 0;
+  };
+  std::vector<Worn> worn;  ///< those that go around it
+};
+
 /// The share of a garment that lies inside of one that belongs under it, by area, of what of it has that one within 30
 /// mm along its normal; the largest of up to 40 frames of the motion. Such garments need not cross.
 struct GarmentOrderMeasure {
@@ -306,6 +318,7 @@ struct Measured {
   std::vector<StressFrame> frames;
   std::vector<StressSummary> stress;
   std::vector<Stretch> stretch;                    ///< of each garment, against what its fabric is meant for
+  std::vector<GirthMeasure> girths;                ///< of a human
   std::vector<FallMeasure> falls;                  ///< of each garment that a human wears
   std::vector<GarmentOrderMeasure> garment_order;  ///< of each two garments that a human wears
   StepMeasure steps;
@@ -341,6 +354,8 @@ void measureCloth(const Scenario& scenario, const RecordingReader& recording, Me
 /// Of fit.cpp: cost seconds; after the frames.
 void measureStretch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 void measureFalls(const Scenario& scenario, const RecordingReader& recording, Measured& out);
+/// Of girths.cpp.
+void measureGirths(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of garment_order.cpp: costs seconds.
 void measureGarmentOrder(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of touch.cpp.

@@ -126,6 +126,24 @@ void addStress(const Scenario& s, const Measured& m, ReportInput& in) {
   in.stress_tables.push_back(std::move(table));
 }
 
+void addGirths(const Measured& m, ReportInput& in) {
+  Table table{
+      "Girths of the body and of what is worn",
+      "As the motion begins: the body by the tape, and the cloth that goes around it in the same plane; ease is "
+      "their difference.",
+      {"zone", "garment", "body [cm]", "garment [cm]", "ease [cm]", "ease [%]"},
+      {}};
+  for (const GirthMeasure& g : m.girths) {
+    std::string zone = g.zone;
+    std::replace(zone.begin(), zone.end(), '_', ' ');
+    if (g.worn.empty()) table.rows.push_back({zone, "", TableCell(100 * g.body_m, 4), "", "", ""});
+    for (const GirthMeasure::Worn& w : g.worn)
+      table.rows.push_back({zone, w.garment, TableCell(100 * g.body_m, 4), TableCell(100 * w.length_m, 4),
+                            TableCell(100 * (w.length_m - g.body_m)), TableCell(100 * (w.length_m / g.body_m - 1))});
+  }
+  if (!table.rows.empty()) in.stress_tables.push_back(std::move(table));
+}
+
 void addSupports(const Measured& m, ReportInput& in) {
   if (m.supports.empty()) return;
   Table table{"Forces of the supports on the cloth",
@@ -271,6 +289,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
                      ? outcomeOf(m)
                      : "The garment touches nothing that a joint moves: no torque tells what it costs. " + outcomeOf(m);
   addStress(s, m, in);
+  addGirths(m, in);
   addSupports(m, in);
   addMemory(m, in);
   in.pictures = pictures;

@@ -389,6 +389,13 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                             {"p99_strain", k.most},
                             {"max_strain", k.largest},
                             {"holds", k.holds()}});
+  j["girths"] = Json::array();
+  for (const GirthMeasure& g : m.girths) {
+    Json worn = Json::array();
+    for (const GirthMeasure::Worn& w : g.worn)
+      worn.push_back({{"garment", w.garment}, {"length_m", w.length_m}, {"ease_m", w.length_m - g.body_m}});
+    j["girths"].push_back({{"zone", g.zone}, {"body_m", g.body_m}, {"worn", worn}});
+  }
   j["audit"] = auditJson(m);
   if (m.recorded) j["recording"] = recordedJson(*m.recorded);
   Json phases = Json::object();

@@ -192,11 +192,17 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
           "The body is the skin of {}: its bones' weights blend the motions of the links linearly. Limits of "
           "joints and shares of mass are those of {}; its mass is {:.1f} kg. Flesh does not give way.",
           c.human->character->file.filename().string(), c.human->character->like, s.human->mass_kg));
+    else if (c.human->scan)
+      say(fmt::format(
+          "The body is the scan {}: its joints were found from landmarks of its surface, and weights by distance along "
+          "the skin blend the motions of the links linearly. Limits of joints and shares of mass are those of {}; its "
+          "mass is {:.1f} kg. Flesh does not give way.",
+          c.human->scan->file.filename().string(), c.human->scan->like, s.human->mass_kg));
     else if (s.hasSkin())
       say("The body is a closed skin drawn around a manikin of ellipsoids (sizes from ANSUR II (2012), masses from de "
           "Leva 1996, offsets of joints from Rajagopal et al. 2016), which bends with the joints. Flesh does not give "
           "way.");
-    else if (!c.human->manikin.empty())
+    else if (!c.human->manikin.empty() || c.human->measures)
       say("The body is a manikin of rigid ellipsoids: sizes from ANSUR II (2012), masses from de Leva 1996, offsets of "
           "joints from Rajagopal et al. "
           "2016. Flesh does not give way, and the thighs are flattened at the sides so that the legs clear each "

@@ -16,15 +16,6 @@ namespace {
 /// Feet of our own motions slip and sink by a centimetre or two at most.
 bool plausible(const FootReport& f) { return f.slip_m < 0.05 && f.penetration_m < 0.02 && f.hover_m < 0.02; }
 
-void noteCharacter(const CharacterOptions& options, const CharacterReport& found, std::vector<std::string>& notes) {
-  const std::string file = options.file.filename().string();
-  notes.push_back(fmt::format(
-      "character {}: bones as in the map {}, {}-pose (arms {:.0f} degrees from hanging down), {:.3f} m tall, {:.1f} "
-      "litres",
-      file, found.map, found.pose, found.arms_deg, found.height_m, 1000 * found.volume_m3));
-  for (const std::string& note : found.notes) notes.push_back(fmt::format("character {}: {}", file, note));
-}
-
 /// Says where the skin passes through itself, and switches it off there where asked. Our own motions keep our own skins
 /// from it (tests/unit/human/skin/fold_test.cpp).
 void noteFolds(const HumanCase& human, MadeBodies& s) {
@@ -35,7 +26,7 @@ void noteFolds(const HumanCase& human, MadeBodies& s) {
       "the skin passes through itself at {} of {} instants of the motion, with at most {:.1f} cm^2 (at {:.2f} s), at "
       "{}",
       o.folded, o.instants, 1e4 * o.largest_m2, o.largest_time_s, fmt::join(o.links, ", "));
-  if (human.character && human.character->folds_off) {
+  if ((human.character && human.character->folds_off) || (human.scan && human.scan->folds_off)) {
     Skin skin = *s.human->skin;
     skin.off = o.triangles;
     s.human->skin = std::make_shared<const Skin>(std::move(skin));
@@ -48,9 +39,7 @@ void noteFolds(const HumanCase& human, MadeBodies& s) {
 
 /// The human of the case and his motion.
 void makeHuman(const Case& c, MadeBodies& s) {
-  CharacterReport character;
-  s.human = underKey("human", [&] { return humanOf(*c.human, &character); });
-  if (c.human->character) noteCharacter(*c.human->character, character, s.notes);
+  s.human = underKey("human", [&] { return humanOf(*c.human, &s.notes); });
   const MotionKind& kind = kindOf(*c.human);
   MadeMotion made = underKey("human.motion", [&] { return kind.make(*c.human, *s.human); });
   s.motion = std::move(made.motion);

@@ -250,9 +250,10 @@ TEST(Table, JsonSchemaListsEveryField) {
       EXPECT_NE(p.at("description").get<std::string>().find(f.doc), std::string::npos);
       EXPECT_EQ(std::count(required.begin(), required.end(), f.key), f.required ? 1 : 0);
       if (f.object)
-        compare(*f.object, f.kind == schema::Kind::list               ? p.at("items")
-                           : f.kind == schema::Kind::number_or_object ? p.at("anyOf").at(1)
-                                                                      : p);
+        compare(*f.object, f.kind == schema::Kind::list ? p.at("items")
+                           : f.kind == schema::Kind::number_or_object || f.kind == schema::Kind::word_or_object
+                               ? p.at("anyOf").at(1)
+                               : p);
     }
   };
   compare(schema::caseTable(), s);

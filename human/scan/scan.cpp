@@ -1,0 +1,94 @@
+#include "human/scan/scan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "human/body/girths.hpp"
+#include "human/body/section.hpp"
+#include "human/body/skin.hpp"
+#include "human/character/character.hpp"
+#include "human/files/mesh.hpp"
+#include "human/motion/motion.hpp"
+#include "human/motion/standing.hpp"
+#include "human/scan/joints.hpp"
+#include "human/scan/landmarks.hpp"
+#include "human/scan/repair.hpp"
+#include "human/scan/upright.hpp"
+#include "human/scan/weights.hpp"
+#include "human/skeleton/joint_map.hpp"
+
+namespace gambeson {
+namespace {
+
+RiggedMesh rigged(TriangleMesh body, const std::string& file, const Landmarks& marks) {
+  RiggedMesh out;
+  out.file = file;
+  const std::map<std::string, Vec3> joints = jointsOf(body, marks);
+  for (const std::string& link : scanLinks()) out.bones.push_back({link, -1, joints.at(link)});
+  for (const char* side : {"_left", "_right"})
+    out.bones.push_back({std::string("toes") + side, -1, joints.at(std::string("toes") + side)});
+  out.first = {0};
+  for (const VertexWeights& list : weightsOf(body, marks, joints)) {
+    for (const auto& [link, w] : list) out.bone.push_back(link), out.weight.push_back(w);
+    out.first.push_back(static_cast<int>(out.bone.size()));
+  }
+  out.mesh = std::move(body);
+  return out;
+}
+
+/// Girths in a posture, where both postures have the same part of the surface.
+std::vector<std::pair<std::string, double>> girthsOf(const Human& human, const std::vector<Pose>& links) {
+  std::vector<Vec3> x(human.skin->rest.vertices.size());
+  skinPositions(*human.skin, links, x);
+  std::vector<std::pair<std::string, double>> girths;
+  for (const GirthPlane& plane : girthPlanes(human, links))
+    girths.emplace_back(plane.zone, tapeGirth(bodySection(human, plane, links, x)));
+  return girths;
+}
+
+}  // namespace
+
+Human scanOf(const TriangleMesh& raw, const ScanOptions& o, ScanReport* report) {
+  ScanReport mine;
+  ScanReport& said = report ? *report : mine;
+  const std::string file = o.file.string();
+  RepairReport repair;
+  TriangleMesh body = repaired(raw, o.close_holes, file, repair);
+  said.notes = repair.notes;
+  Stance given{o.height_m, {}, {}};
+  if (!o.up.empty()) given.up = namedAxis(o.up);
+  if (!o.facing.empty()) given.facing = namedAxis(o.facing);
+  body = upright(std::move(body), given, file, said.notes);
+  Landmarks marks;
+  try {
+    marks = landmarksOf(body, file);
+  } catch (const InputError& e) {
+    if (const int handles = handlesOf(body); handles > 0)
+      throw InputError(e.where(), e.reason() + fmt::format(" (its surface closes {} loop{}: a limb touches the body, "
+                                                           "such as a hand at the hip)",
+                                                           handles, handles == 1 ? "" : "s"));
+    throw;
+  }
+  if (const int handles = handlesOf(body); handles > 0)
+    said.notes.push_back(
+        fmt::format("its surface closes {} loop{}: somewhere it touches itself", handles, handles == 1 ? "" : "s"));
+  CharacterOptions options;
+  options.like = o.like, options.mass_kg = o.mass_kg;
+  CharacterReport found;
+  Human human = characterOf(rigged(std::move(body), file, marks), options, &found);
+  said.pose = found.pose, said.arms_deg = found.arms_deg, said.height_m = found.height_m;
+  said.volume_m3 = found.volume_m3;
+  const Posture posture = standing(human);
+  const auto scanned = girthsOf(human, human.skin->bind),
+             stands = girthsOf(human, linkPoses(human.skeleton, posture.q, posture.root));
+  for (std::size_t k = 0; k < scanned.size(); ++k)
+    said.girths.push_back({scanned[k].first, scanned[k].second, stands[k].second});
+  return human;
+}
+
+Human loadScan(const ScanOptions& o, ScanReport* report) { return scanOf(loadTriangles(o.file), o, report); }
+
+}  // namespace gambeson
