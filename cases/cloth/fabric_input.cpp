@@ -224,8 +224,8 @@ Object fabricTable() {
       .object("bending", &F::bending, bendingTable(), "resistance to bending")
       .defaultsTo("required, or card, or law")
       .object("law", &F::law, lawTable(),
-              "in place of young and its like, poisson, jam_area, shear_loop and bending: a law that is a table, or a "
-              "cell of yarns (with nurbs cloth, on the CPU)")
+              "in place of young and its like, poisson, jam_area, shear_loop and bending, also where a card gives them: "
+              "a law that is a table, a cell of yarns, or curves of tension (with nurbs cloth, on the CPU)")
       .defaultsTo("none")
       .build();
   // What such a law leaves no meaning to is not written beside it.
