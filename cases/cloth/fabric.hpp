@@ -11,29 +11,25 @@
 namespace gambeson {
 
 struct CellFile;
-struct CurveLaw;
 struct LawFile;
 
-/// What a fabric's law is of that is an energy at a point: a table (cases/cloth/law_table.hpp), a cell of yarns that is
-/// solved at every point (cases/yarns/cell_file.hpp), or curves (core/material/table/curve_energy.hpp).
+/// What a fabric's law is of that is an energy at a point: a table (cases/cloth/law_table.hpp), or a cell of yarns that
+/// is solved at every point (cases/yarns/cell_file.hpp).
 struct EnergySource {
   std::filesystem::path file;  ///< empty: the case itself holds it
-  std::variant<std::shared_ptr<const LawFile>, std::shared_ptr<const CellFile>, std::shared_ptr<const CurveLaw>>
-      content;
+  std::variant<std::shared_ptr<const LawFile>, std::shared_ptr<const CellFile>> content;
   bool operator==(const EnergySource&) const = default;
 
   bool isCell() const { return content.index() == 1; }
-  bool isCurves() const { return content.index() == 2; }
   const LawFile& table() const { return *std::get<0>(content); }
   const CellFile& cell() const { return *std::get<1>(content); }
-  const CurveLaw& curves() const { return *std::get<2>(content); }
 };
 
 /// A fabric, and how far it may be stretched: what no force depends on, but the verdict.
 struct FabricCase : Fabric {
   std::optional<double> limit_strain_weft, limit_strain_warp;  ///< Green-Lagrange strains; absent: those of the law
-  std::filesystem::path card;                                  ///< that it is of (cases/cloth/card.hpp); empty: none
-  std::optional<EnergySource> energy_source;                   ///< that `energy` is of
+  std::filesystem::path card;  ///< that it is of (cases/cloth/card.hpp); empty: none
+  std::optional<EnergySource> energy_source;  ///< that `energy` is of
   bool operator==(const FabricCase&) const = default;
 };
 

@@ -35,9 +35,8 @@ struct ShearLoopInput {
 /// A law that is a table, a cell of yarns, or curves.
 struct LawInput {
   std::filesystem::path table, cell;
-  std::shared_ptr<const LawFile> values;
+  std::shared_ptr<const LawFile> values, curves;
   std::shared_ptr<const CellFile> yarns;
-  std::shared_ptr<const CurveLaw> curves;
   RestCurvature rest = RestCurvature::zero;
 };
 

@@ -14,9 +14,21 @@
 #include "core/material/table/curve_energy.hpp"
 #include "core/material/table/law_table.hpp"
 
-namespace gambeson::schema {
+namespace gambeson {
 
+FabricCase withCurves(FabricCase fabric, std::shared_ptr<const LawFile> law) {
+  const auto energy = std::make_shared<const CurveEnergy>(*law->curves);
+  static_cast<Fabric&>(fabric) = withEnergy(std::move(fabric), energy);
+  if (!fabric.limit_strain_weft) fabric.limit_strain_weft = energy->curve(0).end();
+  if (!fabric.limit_strain_warp) fabric.limit_strain_warp = energy->curve(1).end();
+  fabric.energy_source = EnergySource{{}, std::move(law)};
+  return fabric;
+}
+
+namespace schema {
 namespace {
+
+bool isCurves(const EnergySource& source) { return !source.isCell() && source.table().curves; }
 
 /// Fields of a fabric that its law leaves no meaning to.
 void refuseOthers(const Entry& entry) {
@@ -52,6 +64,14 @@ void resolveTable(const Entry& law, const LawInput& in, FabricCase& fabric) {
   fabric.energy_source = EnergySource{in.table, content};
 }
 
+void resolveCurves(const Entry& law, const LawInput& in, FabricCase& fabric) {
+  try {
+    fabric = withCurves(std::move(fabric), in.curves);
+  } catch (const InputError& e) {
+    law.failAt("curves", e.where().key + " " + e.reason());
+  }
+}
+
 void resolveCell(const Entry& law, const LawInput& in, FabricCase& fabric) {
   std::shared_ptr<const CellFile> content = in.yarns;
   std::shared_ptr<const CellEnergy> energy;
@@ -70,19 +90,6 @@ void resolveCell(const Entry& law, const LawInput& in, FabricCase& fabric) {
 }
 
 }  // namespace
-
-void takeCurves(const Entry& law, std::shared_ptr<const CurveLaw> curves, FabricCase& fabric) {
-  std::shared_ptr<const CurveEnergy> energy;
-  try {
-    energy = std::make_shared<const CurveEnergy>(*curves);
-  } catch (const InputError& e) {
-    law.failAt("curves", e.where().key + " " + e.reason());
-  }
-  takeEnergy(law, "curves", energy, fabric);
-  fabric.limit_strain_weft = fabric.limit_strain_weft.value_or(energy->curve(0).end());
-  fabric.limit_strain_warp = fabric.limit_strain_warp.value_or(energy->curve(1).end());
-  fabric.energy_source = EnergySource{{}, std::move(curves)};
-}
 
 Object lawTable() {
   using L = LawInput;
@@ -110,12 +117,12 @@ Object lawTable() {
       .custom(
           curves,
           [o = curves.object](const Entry& p, L& l) {
-            auto law = std::make_shared<CurveLaw>();
-            readObject(*o, p, law.get());
+            auto law = std::make_shared<LawFile>();
+            readObject(*o, p, &law->curves.emplace());
             l.curves = std::move(law);
           },
           [o = curves.object](const L& l) {
-            return l.curves ? std::optional(writeObject(*o, l.curves.get())) : std::nullopt;
+            return l.curves ? std::optional(writeObject(*o, &*l.curves->curves)) : std::nullopt;
           })
       .defaultsTo("none")
       .choice("rest", &L::rest,
@@ -133,7 +140,7 @@ void resolveLaw(const Entry& entry, const LawInput& in, FabricCase& fabric) {
   if (!in.cell.empty() || in.yarns)
     resolveCell(law, in, fabric);
   else if (in.curves)
-    takeCurves(law, in.curves, fabric);
+    resolveCurves(law, in, fabric);
   else
     resolveTable(law, in, fabric);
   fabric.rest_curvature_of_shape = in.rest == RestCurvature::shape;
@@ -143,8 +150,8 @@ LawInput restoreLaw(const FabricCase& fabric) {
   const EnergySource& source = *fabric.energy_source;
   LawInput in;
   (source.isCell() ? in.cell : in.table) = source.file;
-  if (source.isCurves())
-    in.curves = std::get<2>(source.content);
+  if (isCurves(source))
+    in.curves = std::get<0>(source.content);
   else if (source.isCell())
     in.yarns = std::get<1>(source.content);
   else
@@ -187,8 +194,9 @@ std::string tableInWords(const EnergySource& source) {
 }  // namespace
 
 std::string lawInWords(const EnergySource& source) {
-  if (source.isCurves()) return inWords(source.curves());
+  if (isCurves(source)) return inWords(*source.table().curves);
   return source.isCell() ? cellInWords(source) : tableInWords(source);
 }
 
-}  // namespace gambeson::schema
+}  // namespace schema
+}  // namespace gambeson

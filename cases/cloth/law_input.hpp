@@ -3,7 +3,13 @@
 
 #include "cases/cloth/fabric_input.hpp"
 
-namespace gambeson::schema {
+namespace gambeson {
+
+/// The fabric with the law of curves that `law` has, the moduli that it has at rest, and as the limits of its strain,
+/// where none are given, the ends of the curves. Throws InputError as CurveEnergy and withEnergy.
+FabricCase withCurves(FabricCase fabric, std::shared_ptr<const LawFile> law);
+
+namespace schema {
 
 Object lawTable();  ///< LawInput
 
@@ -11,9 +17,8 @@ Object lawTable();  ///< LawInput
 /// of a table or of curves where none are given. `entry` is the fabric's in the file. Throws InputError where it has
 /// keys that the law replaces, or says no law or two.
 void resolveLaw(const Entry& entry, const LawInput& in, FabricCase& fabric);
-/// The same of curves by themselves; at the key "curves" of `law` is said what is wrong with them.
-void takeCurves(const Entry& law, std::shared_ptr<const CurveLaw> curves, FabricCase& fabric);
 /// The input that resolves to the fabric's law, what its file says written out.
 LawInput restoreLaw(const FabricCase& fabric);
 
-}  // namespace gambeson::schema
+}  // namespace schema
+}  // namespace gambeson

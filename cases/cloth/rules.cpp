@@ -16,8 +16,9 @@ void checkBending(const Entry& entry, const ClothModel& model) {
 
 void checkNodes(const Entry& entry, const ClothModel& model, const Fabric& fabric) {
   if (fabric.energy && model.kind != ClothKind::nurbs)
-    entry.failAt("model",
-                 R"(does not carry a fabric whose law is a table, a cell of yarns or curves; allowed with it: "nurbs")");
+    entry.failAt(
+        "model",
+        R"(does not carry a fabric whose law is a table, a cell of yarns or curves; allowed with it: "nurbs")");
   if (fabric.energy && model.rule == CellRule::assumed)
     entry.failAt(
         "cell_rule",

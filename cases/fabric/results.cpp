@@ -78,19 +78,18 @@ std::vector<Reading> shearReadings(const FabricCard& card, const KesTest& test) 
   };
   return {{"G", "gf/(cm deg)", kForceUnit_N_per_m / kDegree, of(s.rigidity),
            laboratory::slopeBetween(test.loop, kShearFrom, kShearTo), kShearFrom},
-          {"2HG at 0.5 deg", "gf/cm", kForceUnit_N_per_m, of(s.hysteresis),
-           laboratory::widthAt(test.loop, kShearFrom), kShearFrom},
-          {"2HG5 at 5 deg", "gf/cm", kForceUnit_N_per_m, of(s.hysteresis_5),
-           laboratory::widthAt(test.loop, kShearWide), kShearWide}};
+          {"2HG at 0.5 deg", "gf/cm", kForceUnit_N_per_m, of(s.hysteresis), laboratory::widthAt(test.loop, kShearFrom),
+           kShearFrom},
+          {"2HG5 at 5 deg", "gf/cm", kForceUnit_N_per_m, of(s.hysteresis_5), laboratory::widthAt(test.loop, kShearWide),
+           kShearWide}};
 }
 
 std::string testTable(const KesTest& test) {
-  std::string text = fmt::format("{}\n  {:<16}{:>12}{:>12}{:>12}  unit\n", test.title(), "", "card", "measured",
-                                 "difference");
+  std::string text =
+      fmt::format("{}\n  {:<16}{:>12}{:>12}{:>12}  unit\n", test.title(), "", "card", "measured", "difference");
   for (const Reading& r : test.readings)
     text += fmt::format("  {:<16}{:>12}{:>12}{:>12}  {}\n", r.name, r.card ? fixed(*r.card / r.per_unit) : "-",
-                        fixed(r.measured / r.per_unit),
-                        r.card ? difference(r) : "-", r.unit);
+                        fixed(r.measured / r.per_unit), r.card ? difference(r) : "-", r.unit);
   return text;
 }
 

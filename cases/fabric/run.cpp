@@ -26,9 +26,7 @@ laboratory::Course bendingCourse(double width_at_per_m) {
           5,
           {-width_at_per_m, width_at_per_m, -kKesFrom_per_m, kKesFrom_per_m, -kKesTo_per_m, kKesTo_per_m}};
 }
-laboratory::Course shearCourse() {
-  return {{8 * kDegree, -8 * kDegree, 8 * kDegree}, 0.25 * kDegree, {}};
-}
+laboratory::Course shearCourse() { return {{8 * kDegree, -8 * kDegree, 8 * kDegree}, 0.25 * kDegree, {}}; }
 
 /// What a raw loop makes of the bending of a card's fabric: its stops, the same about all axes.
 LoopFit bendByFit(const FabricOptions& o, const FabricCard& card, std::vector<LoopSample>& raw, CardFabric& c) {
@@ -64,12 +62,8 @@ Json fabricJson(const FabricCase& fabric) {
 
 std::string fabricFile(const FabricOptions& o, const FabricCard& card, const CardFabric& c,
                        const std::optional<LoopFit>& fit) {
-  Json provenance{{"card", o.card.filename().string()},
-                  {"name", card.name},
-                  {"source", card.source},
-                  {"program", "gambeson " GAMBESON_VERSION},
-                  {"from_the_card", c.derived},
-                  {"assumed", c.assumed}};
+  Json provenance{{"card", o.card.filename().string()},      {"name", card.name},          {"source", card.source},
+                  {"program", "gambeson " GAMBESON_VERSION}, {"from_the_card", c.derived}, {"assumed", c.assumed}};
   if (fit)
     provenance["raw_loop"] = {{"file", o.loop.filename().string()},
                               {"points", fit->points},
@@ -135,12 +129,8 @@ void openLaboratory(const FabricOptions& o, const FabricCard& card, const CardFa
       writeOwnFile(o.out / (test.stem() + ".svg"), loopPicture(card, test, raw, specimen));
       tests.push_back(testJson(test));
     }
-  const Json all{{"card", card.name},
-                 {"source", card.source},
-                 {"program", "gambeson " GAMBESON_VERSION},
-                 {"specimen", specimen},
-                 {"assumed", c.assumed},
-                 {"tests", tests}};
+  const Json all{{"card", card.name},    {"source", card.source}, {"program", "gambeson " GAMBESON_VERSION},
+                 {"specimen", specimen}, {"assumed", c.assumed},  {"tests", tests}};
   writeOwnFile(o.out / "laboratory.json", all.dump(2) + "\n");
   out << fmt::format("The loops, their pictures and laboratory.json are in {}\n", o.out.string());
 }
