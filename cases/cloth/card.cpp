@@ -11,14 +11,7 @@
 #include "core/material/kes_shear.hpp"
 
 namespace gambeson {
-namespace {
 
-using lab::kGfCm2PerCm_Nm, lab::kGfPerCm_N_per_m, lab::kGfPerCmDeg_N_per_m;
-constexpr double kGfCmPerCm_N = 9.80665e-3;
-
-std::string number(double x) { return formatBrief(x, 4); }
-
-/// The point of a direction by whose secant the fabric is linear: engineering strain, and force per width.
 TensilePoint secantPoint(const CardTensile& t, int direction) {
   if (t.curves.any()) {
     const std::vector<TensilePoint>& points = t.curves.of(direction);
@@ -30,6 +23,13 @@ TensilePoint secantPoint(const CardTensile& t, int direction) {
   const double lt = t.linearity.of(direction);
   return {strain * std::pow(*t.secant_at_N_per_m / load, lt / (2 - lt)), *t.secant_at_N_per_m};
 }
+
+namespace {
+
+using lab::kGfCm2PerCm_Nm, lab::kGfPerCm_N_per_m, lab::kGfPerCmDeg_N_per_m;
+constexpr double kGfCmPerCm_N = 9.80665e-3;
+
+std::string number(double x) { return formatBrief(x, 4); }
 
 /// A11 and A22 [N/m].
 std::array<double, 2> tension(const CardTensile& t, CardFabric& out) {

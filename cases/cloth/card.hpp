@@ -105,6 +105,8 @@ FabricCard readCard(const std::filesystem::path& file);
 
 /// The stops of a card, or those of Wong 2014, eq. 4.2.
 StopShape<kStops> shapeOf(const CardBending& bending);
+/// The point of a direction by whose secant a fabric is linear: engineering strain, force per width. Not of moduli.
+TensilePoint secantPoint(const CardTensile& t, int direction);
 /// Of a card's shear with 2HG. Throws InputError (reason only) where no friction has these widths.
 ShearedSheet sheetOf(const CardShear& shear);
 

@@ -1,7 +1,10 @@
 #pragma once
 /// Instruments of the virtual laboratory that pull strips, and one that lets them droop.
 
+#include <vector>
+
 #include "cases/fabric/laboratory.hpp"
+#include "core/math/vec.hpp"
 
 namespace gambeson::laboratory {
 
