@@ -268,8 +268,8 @@ Object makeCardTable() {
               *key == 'W' ? "weight, by the name that KES has for it" : "mass per area",
               *key == 'W' ? "weight" : "400 kg/m^3 times the thickness, said as an assumption");
   byDirection(table, "elongation", &C::elongation, "", "12 %", between(1e-4, 10),
-              "engineering strain that the fabric may reach, where it tears or stays stretched: no run beyond it is "
-              "green",
+              "engineering strain that the fabric may reach, where it tears or stays stretched: no run of worn cloth "
+              "beyond it is green (structures ask no such thing)",
               "none");
   byDirection(table, "strength", &C::strength_N_per_m, "N/m", "16000 N/m", between(1e-2, 1e8),
               "force per width that it may reach: the limit is the strain that the fabric's law has there", "none");
@@ -291,7 +291,7 @@ Object makeCardTable() {
       p.failAt("Tm",
                fmt::format("contradicts T0: {} m under 50 gf/cm^2 is more than {} m under 0.5", *c.Tm_m, *c.T0_m));
     if (c.fast) takeFast(p, c);
-    if (!p.node.find("bending") && !c.bending.rigidity.any())
+    if (!c.bending.rigidity.any() && !c.bending.length_m.any())
       p.failAt("bending", "is required: bending along weft and warp; or C or B of FAST");
     if (c.bending.length_m.any() && !c.bending.rigidity.any()) {
       if (!c.weight_kg_per_m2) p.failAt("weight", "is required where bending has c: B = W g c^3");

@@ -14,6 +14,7 @@
 #include "cases/cloth/law_input.hpp"
 #include "cases/input/table.hpp"
 #include "core/material/kes_shear.hpp"
+#include "core/material/linearised.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -326,8 +327,10 @@ void resolveLimits(const Entry& entry, const FabricInput& in, FabricCase& f) {
        {std::pair("limit_strain_weft", in.limit_strain_weft), std::pair("limit_strain_warp", in.limit_strain_warp)})
     if (given && in.limit_strain)
       entry.failAt(key, "excludes \"limit_strain\"; give limit_strain, or limit_strain_weft and limit_strain_warp");
-  f.limit_strain_weft = in.limit_strain ? in.limit_strain : in.limit_strain_weft;
-  f.limit_strain_warp = in.limit_strain ? in.limit_strain : in.limit_strain_warp;
+  // Else those of the card, if it has any.
+  if (in.limit_strain) f.limit_strain_weft = f.limit_strain_warp = in.limit_strain;
+  if (in.limit_strain_weft) f.limit_strain_weft = in.limit_strain_weft;
+  if (in.limit_strain_warp) f.limit_strain_warp = in.limit_strain_warp;
 }
 
 void resolveBending(const Entry& bending, const BendingInput& b, FabricCase& f) {
@@ -380,6 +383,12 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
   if (in.law) {
     resolveLimits(entry, in, f);
     resolveLaw(entry, *in.law, f);
+    return f;
+  }
+  if (f.energy) {  // a card's curves
+    refuseReplaced(entry, "the card's tension has the law curve");
+    resolveLimits(entry, in, f);
+    static_cast<Fabric&>(f) = withEnergy(f, f.energy);  // moduli of this thickness
     return f;
   }
   if (!of_card || entry.node.find("jam_area")) f.jam_area = in.jam_area;

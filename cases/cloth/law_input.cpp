@@ -30,12 +30,6 @@ namespace {
 
 bool isCurves(const EnergySource& source) { return !source.isCell() && source.table().curves; }
 
-/// Fields of a fabric that its law leaves no meaning to.
-void refuseOthers(const Entry& entry) {
-  for (const char* key : {"young", "young_weft", "young_warp", "shear", "shear_loop", "poisson", "jam_area", "bending"})
-    if (entry.node.find(key)) entry.failAt(key, "has no meaning where \"law\" is given, which replaces it; remove it");
-}
-
 /// One of a table, a cell and curves, the first two by their file or by what that holds.
 void requireOne(const Entry& law) {
   const bool table = law.node.find("table") || law.node.find("values"),
@@ -132,8 +126,14 @@ Object lawTable() {
       .build();
 }
 
+void refuseReplaced(const Entry& entry, const char* by) {
+  for (const char* key : {"young", "young_weft", "young_warp", "shear", "shear_loop", "poisson", "jam_area", "bending"})
+    if (entry.node.find(key))
+      entry.failAt(key, fmt::format("has no meaning where {}, which replaces it; remove it", by));
+}
+
 void resolveLaw(const Entry& entry, const LawInput& in, FabricCase& fabric) {
-  refuseOthers(entry);
+  refuseReplaced(entry, "\"law\" is given");
   fabric.shear_friction = {};  // of a card
   const Entry law = entry.member(*entry.node.find("law"));
   requireOne(law);

@@ -13,6 +13,9 @@ namespace schema {
 
 Object lawTable();  ///< LawInput
 
+/// Throws InputError at a key of the fabric that its law leaves no meaning to; `by`: "\"law\" is given".
+void refuseReplaced(const Entry& entry, const char* by);
+
 /// Gives the fabric the law of the input, with what follows from it at rest, and as the limits of its strain the range
 /// of a table or of curves where none are given. `entry` is the fabric's in the file. Throws InputError where it has
 /// keys that the law replaces, or says no law or two.

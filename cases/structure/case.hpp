@@ -45,7 +45,6 @@ struct MaterialCase {
   bool tension_field = false;
   std::filesystem::path card;                 ///< of a fabric; empty: none
   std::optional<EnergySource> energy_source;  ///< that a fabric's law is of
-  std::optional<double> limit_strain_weft, limit_strain_warp;  ///< of a fabric, as FabricCase has them
 };
 /// As the shell takes it; a density that is not given is 0.
 Fabric fabricOf(const MaterialCase& material);

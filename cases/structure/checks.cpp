@@ -126,38 +126,6 @@ AuditCheck strainCheck(const StructureCase& c, const MeshShape& shape) {
                       formatNumber(most, 2))};
 }
 
-/// The least limit along a thread that a fabric of the case states.
-std::optional<double> limitOf(const StructureCase& c, std::optional<double> MaterialCase::*limit) {
-  std::optional<double> least = c.material.*limit;
-  for (const MaterialCase& m : c.other_materials)
-    if (m.*limit) least = std::min(least.value_or(*(m.*limit)), *(m.*limit));
-  return least;
-}
-
-/// How far threads are stretched, where a fabric says how far they may be.
-void addStretch(const StructureCase& c, const StructureModel& model, const MeasuredState& last,
-                std::vector<AuditCheck>& checks) {
-  const std::optional<double> limits[2] = {limitOf(c, &MaterialCase::limit_strain_weft),
-                                           limitOf(c, &MaterialCase::limit_strain_warp)};
-  if (!limits[0] && !limits[1]) return;
-  const Cloth& cloth = *model.structure->cloth;
-  double most[2] = {-0.5, -0.5};
-  for (const auto& [patch, uv] : cloth.lawPlaces()) {
-    const Vec3 strain = cloth.stateAt(last.q, patch, uv).strain;
-    for (int d = 0; d < 2; ++d)
-      if (!(strain[d] <= most[d])) most[d] = strain[d];
-  }
-  for (int d = 0; d < 2; ++d) {
-    if (!limits[d]) continue;
-    const char* const thread = d == 0 ? "weft" : "warp";
-    checks.push_back({fmt::format("Stretch along the {}", thread), 100 * most[d], 100 * *limits[d], "%",
-                      "the largest strain of the last shape along this thread, against what the fabric, or its card, "
-                      "says it may reach",
-                      fmt::format("the {} is stretched by up to {} %, beyond the {} % that the fabric may reach",
-                                  thread, formatNumber(100 * most[d], 2), formatNumber(100 * *limits[d], 2))});
-  }
-}
-
 double largestMove(const StructureCase& c) {
   double most = 0;
   for (const StructureSupport& s : c.supports)
@@ -229,7 +197,6 @@ std::vector<AuditCheck> structureChecks(const StructureCase& c, const StructureM
   if (facts.law_range.points > 0) checks.push_back(lawCheck(c, facts.law_range));
   if (!hasEnergy(c.material) || !std::all_of(c.other_materials.begin(), c.other_materials.end(), hasEnergy))
     checks.push_back(strainCheck(c, shape));
-  addStretch(c, model, last, checks);
   if (!c.supports.empty()) checks.push_back(sizeCheck(c, model, last));
   if (c.kind == StructureKind::statics && c.statics.arc_length)
     checks.push_back({"Path", static_cast<double>(facts.jumps), 0, "",

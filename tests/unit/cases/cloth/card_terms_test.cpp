@@ -71,6 +71,23 @@ TEST(CardTerms, ASheetOfFastIsAFabric) {
   EXPECT_NEAR(*f.limit_strain_warp, 0.3 + 0.045, 1e-15) << "elongation, e + e^2/2";
 }
 
+TEST(CardTerms, ALimitOfTheCardIsThatOfTheFabricUnlessTheCaseSaysAnother) {
+  const Folder folder;
+  folder.write("fast.card.json", fast);
+  const auto read = [&](const std::string& text) {
+    const std::filesystem::path file = folder.write("fabric.json", text);
+    const JsonNode root = readJson(file);
+    const std::string name = file.string();
+    const schema::Entry entry{root, "", name};
+    schema::FabricInput in;
+    schema::readObject(schema::fabricTable(), entry, &in);
+    return schema::resolveFabric(entry, in);
+  };
+  EXPECT_NEAR(*read(R"({"card": "fast.card.json"})").limit_strain_warp, 0.345, 1e-15);
+  EXPECT_EQ(*read(R"({"card": "fast.card.json", "limit_strain_warp": 0.1})").limit_strain_warp, 0.1);
+  EXPECT_LT(*read(R"({"card": "fast.card.json", "limit_strain_warp": 0.1})").limit_strain_weft, 0.1);
+}
+
 TEST(CardTerms, PointsAreACurveWhereTheCardSaysSo) {
   const Folder folder;
   const FabricCard card = readCard(folder.write("curve.card.json", R"json({
@@ -101,7 +118,7 @@ TEST(CardTerms, PointsAreACurveWhereTheCardSaysSo) {
   const FabricCase same = schema::resolveFabric(entry, again);
   EXPECT_EQ(same.energy_source->table(), f.energy_source->table());
   EXPECT_EQ(same.limit_strain_weft, f.limit_strain_weft);
-  EXPECT_NE(schema::lawInWords(*f.energy_source).find("40 %"), std::string::npos)
+  EXPECT_NE(schema::lawInWords(*f.energy_source).find("40.0 %"), std::string::npos)
       << schema::lawInWords(*f.energy_source);
 }
 
