@@ -69,12 +69,12 @@ TEST(Strips, TheBiasGivesShear) {
 // the overhang is (B/(W g))^(1/3) within 0.02 %.
 TEST(Strips, TheCantileverHasPeircesLength) {
   laboratory::Specimen specimen;
-  specimen.cells = 16;
+  specimen.cells = 32;  // 16 lock a little in the membrane: 0.6 % of so slender a strip
   for (const double rigidity : {2e-6, 1e-4}) {
     const double c = std::cbrt(rigidity / (0.3 * 9.80665));
     const laboratory::Droop droop =
         laboratory::droop(plain(2e4, 2e4, 100, 0, rigidity), specimen, 0.7 * c);  // sought from elsewhere
-    EXPECT_NEAR(droop.length_m, c, 2e-3 * c) << rigidity;
+    EXPECT_NEAR(droop.length_m, c, 1e-3 * c) << rigidity;
     const Vec3 end = droop.shape.back();
     EXPECT_NEAR(std::atan2(-end.z, end.x), laboratory::kDroop_rad, 1e-5);
   }
