@@ -9,10 +9,12 @@
 
 #include "analysis/ticks.hpp"
 #include "cases/cloth/card.hpp"
+#include "cases/cloth/card_library.hpp"
 #include "cases/cloth/fields.hpp"
 #include "cases/cloth/law_input.hpp"
 #include "cases/input/table.hpp"
 #include "core/material/kes_shear.hpp"
+#include "core/material/linearised.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -183,57 +185,74 @@ Object shearLoopTable() {
 
 Object fabricTable() {
   using F = FabricInput;
-  Object table = Table<F>("Fabric")
-      .path("card", &F::card,
-            "file of a fabric card, from which all follows that is not given here (see Fabric cards, and gambeson "
-            "fabric --help)")
-      .text("name", &F::name, "what the reports call it")
-      .number("thickness", &F::thickness_m, "m", aboveTo(0, 0.05), "thickness")
-      .defaultsTo("required, or card")
-      .number("density", &F::density_kg_per_m3, "kg/m^3", aboveTo(0, 3e4), "mass per volume")
-      .in("density")
-      .defaultsTo("required, or surface_density, or card")
-      .number("surface_density", &F::surface_density_kg_per_m2, "kg/m^2", aboveTo(0, 100),
-              "mass per area (also in gsm)")
-      .in("density")
-      .defaultsTo("required, or density, or card")
-      .oneOf("density", false)
-      .number("young", &F::young_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus of isotropic cloth")
-      .defaultsTo("required, or young_weft, young_warp and shear, or card")
-      .number("young_weft", &F::young_weft_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus along the weft")
-      .defaultsTo("young")
-      .number("young_warp", &F::young_warp_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus along the warp")
-      .defaultsTo("young")
-      .number("shear", &F::shear_Pa, "Pa", aboveTo(0, 1e12), "in-plane shear modulus")
-      .defaultsTo("young / (2 (1 + poisson)); required where young is not given")
-      .object("shear_loop", &F::shear_loop, shearLoopTable(), "friction between threads that turn against each other")
-      .defaultsTo("none: shear is elastic")
-      .number("poisson", &F::poisson, "", {.low = 0, .high = 1, .high_open = true},
-              "contraction along the warp under tension along the weft; poisson^2 young_warp < young_weft")
-      .number("jam_area", &F::jam_area, "", {.low = 0, .high = 1, .high_open = true},
-              "area ratio below which cloth pressed together in its plane jams instead of giving way "
-              "(core/material/laws/jamming.hpp); 0: never")
-      .number("limit_strain", &F::limit_strain, "", aboveTo(0, 10),
+  const Field card = fieldOf("card", Kind::path, "", any(),
+                             "file of a fabric card, or the name of one of the library (denim_a), from which all "
+                             "follows that is not given here (see Fabric cards, and gambeson fabric --help)");
+  Object table =
+      Table<F>("Fabric")
+          .custom(
+              card,
+              [](const Entry& p, F& f) {
+                if (p.node.type != JsonNode::Type::text || !isLibraryName(p.node.text)) {
+                  f.card = readPath(p);
+                  return;
+                }
+                f.card = p.node.text;
+                try {
+                  libraryCard(p.node.text);
+                } catch (const InputError& e) {
+                  p.fail(e.reason());
+                }
+              },
+              [](const F& f) { return f.card.empty() ? std::nullopt : std::optional(nodeOf(f.card.string())); })
+          .text("name", &F::name, "what the reports call it")
+          .number("thickness", &F::thickness_m, "m", aboveTo(0, 0.05), "thickness")
+          .defaultsTo("required, or card")
+          .number("density", &F::density_kg_per_m3, "kg/m^3", aboveTo(0, 3e4), "mass per volume")
+          .in("density")
+          .defaultsTo("required, or surface_density, or card")
+          .number("surface_density", &F::surface_density_kg_per_m2, "kg/m^2", aboveTo(0, 100),
+                  "mass per area (also in gsm)")
+          .in("density")
+          .defaultsTo("required, or density, or card")
+          .oneOf("density", false)
+          .number("young", &F::young_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus of isotropic cloth")
+          .defaultsTo("required, or young_weft, young_warp and shear, or card")
+          .number("young_weft", &F::young_weft_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus along the weft")
+          .defaultsTo("young")
+          .number("young_warp", &F::young_warp_Pa, "Pa", aboveTo(0, 1e12), "Young's modulus along the warp")
+          .defaultsTo("young")
+          .number("shear", &F::shear_Pa, "Pa", aboveTo(0, 1e12), "in-plane shear modulus")
+          .defaultsTo("young / (2 (1 + poisson)); required where young is not given")
+          .object("shear_loop", &F::shear_loop, shearLoopTable(),
+                  "friction between threads that turn against each other")
+          .defaultsTo("none: shear is elastic")
+          .number("poisson", &F::poisson, "", {.low = 0, .high = 1, .high_open = true},
+                  "contraction along the warp under tension along the weft; poisson^2 young_warp < young_weft")
+          .number("jam_area", &F::jam_area, "", {.low = 0, .high = 1, .high_open = true},
+                  "area ratio below which cloth pressed together in its plane jams instead of giving way "
+                  "(core/material/laws/jamming.hpp); 0: never")
+          .number(
+              "limit_strain", &F::limit_strain, "", aboveTo(0, 10),
               "Green-Lagrange strain (as the reports give stretch) up to which the fabric may be stretched along weft "
               "and warp, say where it stiffens, stays stretched or tears: beyond it no verdict is green")
-      .defaultsTo("none: the range of the law, 2 % (Zheng 2013, eq. 2.13)")
-      .number("limit_strain_weft", &F::limit_strain_weft, "", aboveTo(0, 10), "the same, along the weft alone")
-      .defaultsTo("limit_strain")
-      .number("limit_strain_warp", &F::limit_strain_warp, "", aboveTo(0, 10), "the same, along the warp alone")
-      .defaultsTo("limit_strain")
-      .object("bending", &F::bending, bendingTable(), "resistance to bending")
-      .defaultsTo("required, or card, or law")
-      .object("law", &F::law, lawTable(),
-              "in place of young and its like, poisson, jam_area, shear_loop and bending: a law that is a table, or a "
-              "cell of yarns (with nurbs cloth, on the CPU)")
-      .defaultsTo("none")
-      .build();
+          .defaultsTo("none: the range of the law, 2 % (Zheng 2013, eq. 2.13)")
+          .number("limit_strain_weft", &F::limit_strain_weft, "", aboveTo(0, 10), "the same, along the weft alone")
+          .defaultsTo("limit_strain")
+          .number("limit_strain_warp", &F::limit_strain_warp, "", aboveTo(0, 10), "the same, along the warp alone")
+          .defaultsTo("limit_strain")
+          .object("bending", &F::bending, bendingTable(), "resistance to bending")
+          .defaultsTo("required, or card, or law")
+          .object("law", &F::law, lawTable(),
+                  "in place of young and its like, poisson, jam_area, shear_loop and bending, also where a card gives "
+                  "them: "
+                  "a law that is a table, a cell of yarns, or curves of tension (with nurbs cloth, on the CPU)")
+          .defaultsTo("none")
+          .build();
   // What such a law leaves no meaning to is not written beside it.
   for (Field& f : table.fields)
     if (f.key == "poisson" || f.key == "jam_area" || f.key == "bending")
-      f.write = [write = f.write](const void* in) {
-        return static_cast<const F*>(in)->law ? std::nullopt : write(in);
-      };
+      f.write = [write = f.write](const void* in) { return static_cast<const F*>(in)->law ? std::nullopt : write(in); };
   return table;
 }
 
@@ -308,8 +327,10 @@ void resolveLimits(const Entry& entry, const FabricInput& in, FabricCase& f) {
        {std::pair("limit_strain_weft", in.limit_strain_weft), std::pair("limit_strain_warp", in.limit_strain_warp)})
     if (given && in.limit_strain)
       entry.failAt(key, "excludes \"limit_strain\"; give limit_strain, or limit_strain_weft and limit_strain_warp");
-  f.limit_strain_weft = in.limit_strain ? in.limit_strain : in.limit_strain_weft;
-  f.limit_strain_warp = in.limit_strain ? in.limit_strain : in.limit_strain_warp;
+  // Else those of the card, if it has any.
+  if (in.limit_strain) f.limit_strain_weft = f.limit_strain_warp = in.limit_strain;
+  if (in.limit_strain_weft) f.limit_strain_weft = in.limit_strain_weft;
+  if (in.limit_strain_warp) f.limit_strain_warp = in.limit_strain_warp;
 }
 
 void resolveBending(const Entry& bending, const BendingInput& b, FabricCase& f) {
@@ -362,6 +383,12 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
   if (in.law) {
     resolveLimits(entry, in, f);
     resolveLaw(entry, *in.law, f);
+    return f;
+  }
+  if (f.energy) {  // a card's curves
+    refuseReplaced(entry, "the card's tension has the law curve");
+    resolveLimits(entry, in, f);
+    static_cast<Fabric&>(f) = withEnergy(f, f.energy);  // moduli of this thickness
     return f;
   }
   if (!of_card || entry.node.find("jam_area")) f.jam_area = in.jam_area;

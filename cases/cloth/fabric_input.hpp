@@ -32,10 +32,10 @@ struct ShearLoopInput {
   double friction_angle_rad = 0.0174532925199432958;
 };
 
-/// A law that is a table, or a cell of yarns.
+/// A law that is a table, a cell of yarns, or curves.
 struct LawInput {
   std::filesystem::path table, cell;
-  std::shared_ptr<const LawFile> values;
+  std::shared_ptr<const LawFile> values, curves;
   std::shared_ptr<const CellFile> yarns;
   RestCurvature rest = RestCurvature::zero;
 };
@@ -61,7 +61,7 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& in);
 std::string bendingName(const BendingLaw& law);
 /// How a fabric of a case file bends, for the report.
 std::string bendingInWords(const BendingLaw& law);
-/// What a law is that is a table or a cell, for the report.
+/// What a law is that is a table, a cell or curves, for the report.
 std::string lawInWords(const EnergySource& source);
 /// The input, written out in full, that resolves to the fabric.
 FabricInput restoreFabric(const FabricCase& fabric);

@@ -5,30 +5,39 @@
 #include <string>
 
 #include "analysis/ticks.hpp"
+#include "cases/cloth/curve_input.hpp"
 #include "cases/cloth/law_table.hpp"
 #include "cases/input/table.hpp"
 #include "cases/yarns/cell_file.hpp"
 #include "core/error.hpp"
 #include "core/material/linearised.hpp"
+#include "core/material/table/curve_energy.hpp"
 #include "core/material/table/law_table.hpp"
 
-namespace gambeson::schema {
+namespace gambeson {
 
-namespace {
-
-/// Fields of a fabric that its law leaves no meaning to.
-void refuseOthers(const Entry& entry) {
-  for (const char* key :
-       {"card", "young", "young_weft", "young_warp", "shear", "shear_loop", "poisson", "jam_area", "bending"})
-    if (entry.node.find(key)) entry.failAt(key, "has no meaning where \"law\" is given, which replaces it; remove it");
+FabricCase withCurves(FabricCase fabric, std::shared_ptr<const LawFile> law) {
+  const auto energy = std::make_shared<const CurveEnergy>(*law->curves);
+  static_cast<Fabric&>(fabric) = withEnergy(std::move(fabric), energy);
+  if (!fabric.limit_strain_weft) fabric.limit_strain_weft = energy->curve(0).end();
+  if (!fabric.limit_strain_warp) fabric.limit_strain_warp = energy->curve(1).end();
+  fabric.energy_source = EnergySource{{}, std::move(law)};
+  return fabric;
 }
 
-/// One of a table and a cell, each by its file or by what that holds.
+namespace schema {
+namespace {
+
+bool isCurves(const EnergySource& source) { return !source.isCell() && source.table().curves; }
+
+/// One of a table, a cell and curves, the first two by their file or by what that holds.
 void requireOne(const Entry& law) {
   const bool table = law.node.find("table") || law.node.find("values"),
-             cell = law.node.find("cell") || law.node.find("yarns");
+             cell = law.node.find("cell") || law.node.find("yarns"), curves = law.node.find("curves");
   if (table && cell) law.failAt(law.node.find("cell") ? "cell" : "yarns", "excludes a table; give one law");
-  if (!table && !cell) law.failAt("table", "is required: the file of a law table, or values; or cell");
+  if (curves && (table || cell)) law.failAt("curves", "excludes a table and a cell; give one law");
+  if (!table && !cell && !curves)
+    law.failAt("table", "is required: the file of a law table, or values; or cell, or curves");
 }
 
 void takeEnergy(const Entry& law, const char* key, std::shared_ptr<const PointEnergy> energy, FabricCase& fabric) {
@@ -47,6 +56,14 @@ void resolveTable(const Entry& law, const LawInput& in, FabricCase& fabric) {
   if (!fabric.limit_strain_weft) fabric.limit_strain_weft = range[0][1];
   if (!fabric.limit_strain_warp) fabric.limit_strain_warp = range[1][1];
   fabric.energy_source = EnergySource{in.table, content};
+}
+
+void resolveCurves(const Entry& law, const LawInput& in, FabricCase& fabric) {
+  try {
+    fabric = withCurves(std::move(fabric), in.curves);
+  } catch (const InputError& e) {
+    law.failAt("curves", e.where().key + " " + e.reason());
+  }
 }
 
 void resolveCell(const Entry& law, const LawInput& in, FabricCase& fabric) {
@@ -70,9 +87,12 @@ void resolveCell(const Entry& law, const LawInput& in, FabricCase& fabric) {
 
 Object lawTable() {
   using L = LawInput;
+  Field curves = fieldOf("curves", Kind::object, "", any(),
+                         "in place of a table, curves of tension along weft and warp, through measured points");
+  curves.object = std::make_shared<const Object>(curvesTable());
   return Table<L>("Law of a fabric")
       .path("table", &L::table, "file of a law table (see Law tables, and gambeson homogenise)")
-      .defaultsTo("required, or values, or cell")
+      .defaultsTo("required, or values, or cell, or curves")
       .custom(
           fieldOf("values", Kind::any, "", any(), "what such a file holds, in its place"),
           [](const Entry& p, L& l) { l.values = std::make_shared<const LawFile>(readLawFile(p)); },
@@ -88,6 +108,17 @@ Object lawTable() {
           [](const Entry& p, L& l) { l.yarns = std::make_shared<const CellFile>(readCellFile(p)); },
           [](const L& l) { return l.yarns ? std::optional(nodeOf(*l.yarns)) : std::nullopt; })
       .defaultsTo("those of the file; a finished run keeps them")
+      .custom(
+          curves,
+          [o = curves.object](const Entry& p, L& l) {
+            auto law = std::make_shared<LawFile>();
+            readObject(*o, p, &law->curves.emplace());
+            l.curves = std::move(law);
+          },
+          [o = curves.object](const L& l) {
+            return l.curves ? std::optional(writeObject(*o, &*l.curves->curves)) : std::nullopt;
+          })
+      .defaultsTo("none")
       .choice("rest", &L::rest,
               std::vector<std::pair<std::string, RestCurvature>>{{"zero", RestCurvature::zero},
                                                                  {"shape", RestCurvature::shape}},
@@ -95,12 +126,21 @@ Object lawTable() {
       .build();
 }
 
+void refuseReplaced(const Entry& entry, const char* by) {
+  for (const char* key : {"young", "young_weft", "young_warp", "shear", "shear_loop", "poisson", "jam_area", "bending"})
+    if (entry.node.find(key))
+      entry.failAt(key, fmt::format("has no meaning where {}, which replaces it; remove it", by));
+}
+
 void resolveLaw(const Entry& entry, const LawInput& in, FabricCase& fabric) {
-  refuseOthers(entry);
+  refuseReplaced(entry, "\"law\" is given");
+  fabric.shear_friction = {};  // of a card
   const Entry law = entry.member(*entry.node.find("law"));
   requireOne(law);
   if (!in.cell.empty() || in.yarns)
     resolveCell(law, in, fabric);
+  else if (in.curves)
+    resolveCurves(law, in, fabric);
   else
     resolveTable(law, in, fabric);
   fabric.rest_curvature_of_shape = in.rest == RestCurvature::shape;
@@ -110,7 +150,9 @@ LawInput restoreLaw(const FabricCase& fabric) {
   const EnergySource& source = *fabric.energy_source;
   LawInput in;
   (source.isCell() ? in.cell : in.table) = source.file;
-  if (source.isCell())
+  if (isCurves(source))
+    in.curves = std::get<0>(source.content);
+  else if (source.isCell())
     in.yarns = std::get<1>(source.content);
   else
     in.values = std::get<0>(source.content);
@@ -152,7 +194,9 @@ std::string tableInWords(const EnergySource& source) {
 }  // namespace
 
 std::string lawInWords(const EnergySource& source) {
+  if (isCurves(source)) return inWords(*source.table().curves);
   return source.isCell() ? cellInWords(source) : tableInWords(source);
 }
 
-}  // namespace gambeson::schema
+}  // namespace schema
+}  // namespace gambeson

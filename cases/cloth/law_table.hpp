@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cases/input/schema.hpp"
+#include "core/material/table/curve_energy.hpp"
 #include "core/material/table/law_table_data.hpp"
 
 namespace gambeson {
@@ -23,9 +24,11 @@ struct LawProvenance {
   bool operator==(const LawProvenance&) const = default;
 };
 
+/// What a law was measured or computed to be: the table of a file, or in its place curves of a case.
 struct LawFile {
   LawTableData table;
   LawProvenance provenance;
+  std::optional<CurveLaw> curves;
   bool operator==(const LawFile&) const = default;
 };
 

@@ -16,12 +16,13 @@ void checkBending(const Entry& entry, const ClothModel& model) {
 
 void checkNodes(const Entry& entry, const ClothModel& model, const Fabric& fabric) {
   if (fabric.energy && model.kind != ClothKind::nurbs)
-    entry.failAt("model",
-                 R"(does not carry a fabric whose law is a table or a cell of yarns; allowed with it: "nurbs")");
+    entry.failAt(
+        "model",
+        R"(does not carry a fabric whose law is a table, a cell of yarns or curves; allowed with it: "nurbs")");
   if (fabric.energy && model.rule == CellRule::assumed)
     entry.failAt(
         "cell_rule",
-        R"(does not go with a fabric whose law is a table or a cell of yarns; allowed with it: "automatic", "full")");
+        R"(does not go with a fabric whose law is a table, a cell of yarns or curves; allowed with it: "automatic", "full")");
   if (model.kind != ClothKind::springs && entry.node.find("springs"))
     entry.failAt("springs", "is for \"model\": \"springs\"");
   if (model.kind != ClothKind::shell && entry.node.find("shell")) entry.failAt("shell", "is for \"model\": \"shell\"");

@@ -272,9 +272,9 @@ static std::vector<std::string> wordsOf(const std::vector<std::pair<std::string,
 void addFabric(CLI::App& app, FabricArguments& a) {
   CLI::App& command = *app.add_subcommand(
       "fabric",
-      "Makes a fabric of a laboratory's card (KES: B, 2HB, G, EMT, ...), and measures it again in a virtual "
+      "Makes a fabric of a laboratory's card (KES, FAST, D1388), and measures it again in a virtual "
       "laboratory");
-  command.add_option("CARD", a.options.card, "Fabric card (JSON)")->type_name("")->required();
+  command.add_option("CARD", a.options.card, "Fabric card (JSON), or the name of one of the library")->type_name("")->required();
   command
       .add_option("-o,--output", a.options.fabric,
                   "Writes the fabric as cases have it, with where each number is from (JSON); the laboratory stays "
@@ -286,15 +286,16 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->type_name("DIR");
   command
       .add_option("--test", a.tests,
-                  "bending (KES-FB2, to 2.5/cm either way) or shear (KES-FB1, to 8 degrees); may be given several "
-                  "times [bending, and shear where the card has G]")
+                  "bending (KES-FB2, to 2.5/cm either way), shear (KES-FB1, to 8 degrees), tension (KES-FB1), bias "
+                  "(FAST-3, EB5) or cantilever (ASTM D1388); may be given several times [those whose numbers the card "
+                  "has]")
       ->type_name("TEST")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"bending", "shear"}).description(""));
+      ->check(CLI::IsMember({"bending", "shear", "tension", "bias", "cantilever"}).description(""));
   command
       .add_option("--direction", a.options.directions_deg,
                   "Direction that the specimen is cut in, degrees from the weft towards the warp; may be given several "
-                  "times [0, and 90 where the card tells weft and warp apart]")
+                  "times [0, and 90 where the card tells weft and warp apart; bias 45]")
       ->type_name("DEG")
       ->allow_extra_args(false)
       ->check(CLI::Range(-360., 360.).description(""));
@@ -324,20 +325,21 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->check(CLI::Range(2, 5).description(""));
   command
       .add_option("--fit", a.options.loop,
-                  "Raw loop of bending (CSV with the columns curvature_per_cm or _per_m, and moment_gf_cm_per_cm, "
-                  "moment_N or moment_mN): finds its stops and bends the fabric by them, in place of B and 2HB")
-      ->type_name("LOOP");
+                  "Measured points (JSON): finds EMT, LT, G, 2HG, B, 2HB from them by least squares, with error bars, in "
+                  "place of the card's. Or a raw loop of bending (CSV with the columns curvature_per_cm or _per_m, and "
+                  "moment_gf_cm_per_cm, moment_N or moment_mN): finds its stops and bends the fabric by them")
+      ->type_name("FILE");
   command.footer(
       "A card has the numbers of a laboratory, each with its unit:\n"
       "  {\"name\": \"Denim A\", \"source\": \"our laboratory, 2026\", \"thickness\": \"1.066 mm\",\n"
       "   \"bending\": {\"B\": \"0.172 gf cm^2/cm\", \"2HB\": \"0.139 gf cm/cm\", \"2HB_at\": \"1 1/cm\"},\n"
       "   \"shear\": {\"G\": \"2.18 gf/(cm deg)\"}, \"tensile\": {\"EMT\": \"5.5 %\"}}\n"
       "All keys: cases/FIELDS.md, Fabric cards. What the card lacks is assumed, and said. A case takes the fabric by\n"
-      "\"fabric\": {\"card\": \"denim_a.card.json\"}, or by what -o writes.\n"
-      "Leaves in DIR, for each test and direction: bending_0.csv and shear_0.csv (the loop), bending_0.svg and\n"
-      "shear_0.svg (the loop beside the card's numbers), and laboratory.json (all numbers).\n\n"
+      "\"fabric\": {\"card\": \"denim_a\"} (a file, or a name of the library), or by what -o writes.\n"
+      "Leaves in DIR, for each test and direction: bending_0.csv and its like (what was measured), bending_0.svg (the\n"
+      "same beside the card's numbers), and laboratory.json (all numbers).\n\n"
       "Examples:\n"
-      "  gambeson fabric cases/library/cards/denim_a.card.json\n"
+      "  gambeson fabric denim_a\n"
       "  gambeson fabric cases/library/cards/denim_a.card.json -o denim_a.json\n"
       "  gambeson fabric denim.card.json --test bending --direction 22.5 --model triangles --cells 16\n"
       "  gambeson fabric denim.card.json --fit measured.csv -o denim.json --out results/denim\n\n"

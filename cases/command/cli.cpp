@@ -71,11 +71,8 @@ int fabricCommand(FabricArguments& a, std::ostream& out) {
   o.specimen.cloth.kind = choiceOf(schema::specimenKinds(), a.model);
   o.specimen.cloth.mesh = choiceOf(schema::meshKinds(), a.mesh);
   o.specimen.cloth.bending = choiceOf(schema::bendingElements(), a.bending);
-  if (!a.tests.empty()) {
-    o.bending = std::find(a.tests.begin(), a.tests.end(), "bending") != a.tests.end();
-    o.shear = std::find(a.tests.begin(), a.tests.end(), "shear") != a.tests.end();
-  }
-  o.chosen = !a.tests.empty();
+  for (const LabTestKind& kind : labTests())
+    if (std::find(a.tests.begin(), a.tests.end(), kind.word) != a.tests.end()) o.tests.push_back(kind.test);
   if (!o.fabric.empty()) checkEnding(o.fabric, "--output", {".json"});
   if (o.out.empty() && o.fabric.empty()) {
     std::string name = o.card.stem().string();

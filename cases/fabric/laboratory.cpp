@@ -4,141 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
+#include <optional>
 
-#include "cases/structure/build.hpp"
+#include "cases/fabric/bench.hpp"
 #include "core/error.hpp"
-#include "core/statics/path.hpp"
-#include "core/statics/structure_system.hpp"
 
 namespace gambeson::laboratory {
 namespace {
 
 constexpr double kBendingLength_m = 0.01, kShearLength_m = 0.05, kTension_N_per_m = 9.80665;
 
-/// The specimen as a plate: its length along x, of as much width as a few cells.
-StructureCase caseOf(const Fabric& fabric, const Specimen& s, double length_m) {
-  StructureCase c;
-  c.name = "specimen";
-  const int across = s.cloth.kind == ClothKind::triangles ? 4 : 1;
-  PlateShape plate;
-  plate.width_m = length_m;
-  plate.height_m = length_m * across / s.cells;
-  c.sheet.shape = plate;
-  c.sheet.cells_u = s.cells;
-  c.sheet.cells_v = across;
-  c.sheet.degree = s.degree;
-  c.sheet.weft_angle_rad = -s.direction_rad;
-  c.sheet.cloth = s.cloth;
-  c.material.law = fabric;
-  StructureSupport still;
-  still.where = EdgeAt{-1, Side::u0};
-  still.hold = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  c.supports.push_back(still);
-  return c;
-}
-
-/// All points that lie side by side across the width move alike along a direction.
-void tieAcross(const Cloth& cloth, const Vec3& direction, std::vector<LinearConstraint>& out) {
-  std::map<long, int> first;  // of each place along the length, in picometres
-  for (int i = 0; i < cloth.points(); ++i) {
-    const auto [it, is_new] = first.emplace(std::lround(1e12 * cloth.rest()[static_cast<std::size_t>(i)].x), i);
-    if (is_new) continue;
-    LinearConstraint l = supportEquation("the width", direction, {});
-    l.terms = {{i, direction}, {it->second, -direction}};
-    out.push_back(std::move(l));
-  }
-}
-
-/// Points stay in the plane.
-void keepFlat(const Cloth& cloth, std::vector<LinearConstraint>& out) {
-  const Vec3 up{0, 0, 1};
-  for (int i = 0; i < cloth.points(); ++i) {
-    out.push_back(supportEquation("the plane", up, {}));
-    out.back().terms = {{i, up}};
-  }
-}
-
-/// A specimen in its clamps: equilibria at a value of the load's programs, of which those that are accepted count.
-class Bench {
- public:
-  template <class Constrain>
-  Bench(const StructureCase& c, ProgramEnds ends, Constrain constrain) : sheet_(sheetOf(c)), ends_(ends) {
-    std::shared_ptr<const Cloth> cloth = clothOf(c, sheet_);
-    StructureOptions options = optionsOf(c, sheet_, *cloth);
-    constrain(*cloth, options.constraints);
-    structure_ = buildStructure(cloth, options);
-    system_.emplace(*structure_, ends);
-    state_.emplace(*system_);
-    double area = 0;
-    for (const double a : structure_->area_m2) area += a;
-    area_m2_ = area;
-  }
-
-  const Structure& structure() const { return *structure_; }
-  /// Equilibrium at t from the last one; its unknowns.
-  const std::vector<double>& settle(double t) {
-    EquilibriumAt equations(*system_, t);
-    StaticOptions options;
-    options.tolerance = 1e-11;  // so that curvatures are known far better than the gauge asks
-    NewtonOptions newton = newtonOptions(*system_, options, *state_);
-    std::vector<double> y = state_->y;
-    NewtonReport report = solveNewton(equations, newton, y, state_->K, state_->solver);
-    if (!report.converged) {
-      newton.line_search = true;
-      newton.iterations = 100;
-      y = state_->y;
-      report = solveNewton(equations, newton, y, state_->K, state_->solver);
-    }
-    if (!report.converged)
-      throw RunError(fmt::format("the specimen finds no equilibrium under a load of {:.4g} after one of {:.4g} (the "
-                                 "residual is {:.2e} of the forces); take more cells, or another model",
-                                 t, state_->factor, report.residual));
-    state_->largest_force = std::max(state_->largest_force, report.force);
-    state_->y = std::move(y);
-    state_->factor = t;
-    return state_->y;
-  }
-  void accept() { state_->lost_J += system_->commit(state_->y, state_->factor); }
-
-  std::vector<Vec3> points() const { return controlPoints(*structure_, state_->y, state_->factor, ends_); }
-  std::vector<Vec3> reactionForces() const {
-    return reactions(*structure_, state_->y, state_->factor, ends_, system_->history());
-  }
-  double lost_J_per_m2() const { return state_->lost_J / area_m2_; }
-  double load() const { return state_->factor; }
-
- private:
-  Sheet sheet_;
-  ProgramEnds ends_;
-  std::unique_ptr<Structure> structure_;
-  std::optional<StructureSystem> system_;
-  std::optional<PathState> state_;
-  double area_m2_ = 0;
-};
-
 /// Reads the curvature of the middle of a specimen: how far the chords over two cells turn between one cell from
 /// either clamp. Exact where it is bent to a circle, by a smooth surface or by facets.
 class CurvatureGauge {
  public:
   CurvatureGauge(const Cloth& cloth, int cells, double length_m) : length_m_(length_m * (cells - 2) / cells) {
-    for (const int at : {0, 2, cells - 2, cells})
-      rows_.push_back(cloth.mounting().place(0, cloth.placeOfDraft(0, {static_cast<double>(at) / cells, 0.5})));
+    for (const int at : {0, 2, cells - 2, cells}) places_.emplace_back(cloth, static_cast<double>(at) / cells);
   }
   double operator()(const std::vector<Vec3>& q) {
     std::vector<Vec3> x;
-    for (const PlaceRow& row : rows_) {
-      Vec3& p = x.emplace_back();
-      for (std::size_t k = 0; k < row.columns.size(); ++k)
-        p += row.value[k] * q[static_cast<std::size_t>(row.columns[k])];
-    }
+    for (const PlaceGauge& place : places_) x.push_back(place(q));
     const Vec3 a = x[1] - x[0], b = x[3] - x[2];
     return std::atan2(a.z * b.x - a.x * b.z, a.x * b.x + a.z * b.z) / length_m_;
   }
 
  private:
-  std::vector<PlaceRow> rows_;
+  std::vector<PlaceGauge> places_;
   double length_m_;
 };
 
@@ -223,7 +114,7 @@ Loop bend(const Fabric& fabric, const Specimen& specimen, const Course& curvatur
   moment.where = EdgeAt{-1, Side::u1};
   moment.amount = 1;  // upwards
   c.loads.push_back(moment);
-  Bench bench(c, ProgramEnds::extended, [](const Cloth& cloth, std::vector<LinearConstraint>& constraints) {
+  Bench bench(c, ProgramEnds::extended, [](const Cloth& cloth, Constraints& constraints) {
     tieAcross(cloth, {1, 0, 0}, constraints);
     tieAcross(cloth, {0, 1, 0}, constraints);
     tieAcross(cloth, {0, 0, 1}, constraints);
@@ -267,8 +158,8 @@ Loop shear(const Fabric& fabric, const Specimen& specimen, const Course& angle_r
   pull.vector = {kTension_N_per_m, 0, 0};
   pull.program = "tension";
   c.loads.push_back(pull);
-  Bench bench(c, ProgramEnds::constant, [](const Cloth& cloth, std::vector<LinearConstraint>& constraints) {
-    keepFlat(cloth, constraints);
+  Bench bench(c, ProgramEnds::constant, [](const Cloth& cloth, Constraints& constraints) {
+    keepFrom(cloth, {0, 0, 1}, constraints);
     tieAcross(cloth, {1, 0, 0}, constraints);
     tieAcross(cloth, {0, 1, 0}, constraints);
   });
@@ -284,8 +175,7 @@ Loop shear(const Fabric& fabric, const Specimen& specimen, const Course& angle_r
     const std::vector<Vec3> force = bench.reactionForces();
     double sideways_N = 0;
     for (const int p : clamped) sideways_N += force[static_cast<std::size_t>(p)].y;
-    loop.push_back(
-        {values[i], sideways_N / width_m - kTension_N_per_m * std::tan(values[i]), bench.lost_J_per_m2()});
+    loop.push_back({values[i], sideways_N / width_m - kTension_N_per_m * std::tan(values[i]), bench.lost_J_per_m2()});
   }
   return loop;
 }

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "cases/cloth/card_library.hpp"
 #include "cases/cloth/fabric_input.hpp"
 #include "cases/cloth/fields.hpp"
+#include "cases/fabric/fit_card.hpp"
 #include "cases/fabric/raw_loop.hpp"
 #include "cases/fabric/results.hpp"
 #include "cases/runs/results_folder.hpp"
@@ -18,20 +20,26 @@ namespace gambeson {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kDegree = 0.017453292519943295;
 
-/// The steps of the instruments: a tenth of a unit of curvature, an eighth of a degree.
-laboratory::Course bendingCourse(double width_at_per_m) {
-  return {{kKesCurvature_per_m, -kKesCurvature_per_m, kKesCurvature_per_m},
-          5,
-          {-width_at_per_m, width_at_per_m, -kKesFrom_per_m, kKesFrom_per_m, -kKesTo_per_m, kKesTo_per_m}};
-}
-laboratory::Course shearCourse() {
-  return {{8 * kDegree, -8 * kDegree, 8 * kDegree}, 0.25 * kDegree, {}};
+/// Whether --fit names a raw loop of bending; else measurements (JSON), or nothing.
+bool fitsLoop(const FabricOptions& o) { return !o.loop.empty() && o.loop.extension() != ".json"; }
+
+/// Puts what the measurements say into the card.
+std::vector<FittedNumber> fitMeasurements(const FabricOptions& o, FabricCard& card) {
+  if (o.loop.empty() || fitsLoop(o)) return {};
+  const Measurements measured = readMeasurements(o.loop);
+  try {
+    return fitCard(measured, card);
+  } catch (const InputError& e) {
+    throw InputError({o.loop.string(), 0, e.where().key}, e.reason());
+  }
 }
 
 /// What a raw loop makes of the bending of a card's fabric: its stops, the same about all axes.
 LoopFit bendByFit(const FabricOptions& o, const FabricCard& card, std::vector<LoopSample>& raw, CardFabric& c) {
+  if (card.tensile && card.tensile->law == TensileLaw::curve)
+    throw InputError({o.card.string(), 0, "tensile.law"},
+                     "a law of curves is elastic, and takes no loop of bending; allowed with --fit: secant");
   raw = readLoop(o.loop);
   LoopFit fit;
   try {
@@ -63,44 +71,35 @@ Json fabricJson(const FabricCase& fabric) {
 }
 
 std::string fabricFile(const FabricOptions& o, const FabricCard& card, const CardFabric& c,
-                       const std::optional<LoopFit>& fit) {
-  Json provenance{{"card", o.card.filename().string()},
-                  {"name", card.name},
-                  {"source", card.source},
-                  {"program", "gambeson " GAMBESON_VERSION},
-                  {"from_the_card", c.derived},
-                  {"assumed", c.assumed}};
+                       const std::optional<LoopFit>& fit, const std::vector<FittedNumber>& numbers) {
+  Json provenance{{"card", o.card.filename().string()},      {"name", card.name},          {"source", card.source},
+                  {"program", "gambeson " GAMBESON_VERSION}, {"from_the_card", c.derived}, {"assumed", c.assumed}};
   if (fit)
     provenance["raw_loop"] = {{"file", o.loop.filename().string()},
                               {"points", fit->points},
                               {"rms_N", fit->rms_N},
                               {"largest_N", fit->largest_N},
                               {"amplitude_N", fit->amplitude_N}};
+  for (const FittedNumber& n : numbers)
+    provenance["fitted"][n.name] = {{"file", o.loop.filename().string()},
+                                    {"value", n.value / n.per_unit},
+                                    {"error", n.error / n.per_unit},
+                                    {"unit", n.unit},
+                                    {"points", n.points},
+                                    {"rms_SI", n.rms}};
   return Json{{"fabric", fabricJson(c.fabric)}, {"provenance", provenance}}.dump(2) + "\n";
 }
 
-std::vector<double> directionsOf(const FabricOptions& o, const FabricCard& card) {
+std::vector<LabTest> testsOf(const FabricOptions& o, const FabricCard& card) {
+  return o.tests.empty() ? testsOf(card) : o.tests;
+}
+
+std::vector<double> directionsOf(const FabricOptions& o, LabTest test, const FabricCard& card) {
   if (!o.directions_deg.empty()) return o.directions_deg;
-  const bool apart = card.bending.rigidity.apart() || card.bending.hysteresis.apart();
-  return apart && o.loop.empty() ? std::vector<double>{0, 90} : std::vector<double>{0};
+  return !fitsLoop(o) || test != LabTest::bending ? directionsOf(test, card) : std::vector<double>{0};
 }
 
-KesTest measure(const FabricOptions& o, const FabricCard& card, const Fabric& fabric, bool bending, double direction) {
-  KesTest test{bending, direction, {}, {}};
-  laboratory::Specimen specimen = o.specimen;
-  specimen.direction_rad = direction * kDegree;
-  if (bending) {
-    const double at = card.bending.hysteresis_at_per_m.value_or(kKesWidthAt_per_m);
-    test.loop = laboratory::bend(fabric, specimen, bendingCourse(at));
-    test.readings = bendingReadings(card, test, at);
-  } else {
-    test.loop = laboratory::shear(fabric, specimen, shearCourse());
-    test.readings = shearReadings(card, test);
-  }
-  return test;
-}
-
-Json testJson(const KesTest& test) {
+Json testJson(const MeasuredTest& test) {
   Json readings = Json::array();
   for (const Reading& r : test.readings) {
     Json one{{"name", r.name}, {"unit", r.unit}, {"measured", r.measured / r.per_unit}, {"measured_SI", r.measured}};
@@ -121,41 +120,36 @@ Json testJson(const KesTest& test) {
 /// All tests of a fabric; each is said as soon as it is done.
 void openLaboratory(const FabricOptions& o, const FabricCard& card, const CardFabric& c,
                     const std::vector<LoopSample>& raw, std::ostream& out) {
-  const std::vector<double> directions = directionsOf(o, card);
   const std::string specimen = specimenText(o.specimen);
   out << specimen << "\n\n";
   Json tests = Json::array();
-  for (const bool bending : {true, false})
-    for (const double direction : directions) {
-      if (!(bending ? o.bending : o.shear && (o.chosen || card.shear))) continue;
-      const KesTest test = measure(o, card, c.fabric, bending, direction);
+  for (const LabTest kind : testsOf(o, card))
+    for (const double direction : directionsOf(o, kind, card)) {
+      const MeasuredTest test = measureTest(kind, direction, card, c, o.specimen);
       out << testTable(test) << '\n';
       out.flush();
       writeOwnFile(o.out / (test.stem() + ".csv"), loopCsv(test));
       writeOwnFile(o.out / (test.stem() + ".svg"), loopPicture(card, test, raw, specimen));
       tests.push_back(testJson(test));
     }
-  const Json all{{"card", card.name},
-                 {"source", card.source},
-                 {"program", "gambeson " GAMBESON_VERSION},
-                 {"specimen", specimen},
-                 {"assumed", c.assumed},
-                 {"tests", tests}};
+  const Json all{{"card", card.name},    {"source", card.source}, {"program", "gambeson " GAMBESON_VERSION},
+                 {"specimen", specimen}, {"assumed", c.assumed},  {"tests", tests}};
   writeOwnFile(o.out / "laboratory.json", all.dump(2) + "\n");
   out << fmt::format("The loops, their pictures and laboratory.json are in {}\n", o.out.string());
 }
 
 /// Everything that is going to be written, before anything is computed.
 void checkOutputs(const FabricOptions& o, const FabricCard& card) {
-  Paths inputs{o.card};
+  Paths inputs;
+  if (!isLibraryName(o.card.string())) inputs.push_back(o.card);
   if (!o.loop.empty()) inputs.push_back(o.loop);
   if (!o.fabric.empty()) checkOutput(o.fabric, "--output", inputs);
   if (o.out.empty()) return;
   requireFolder(o.out);
-  for (const double direction : directionsOf(o, card))
-    for (const bool bending : {true, false})
+  for (const LabTest test : testsOf(o, card))
+    for (const double direction : directionsOf(o, test, card))
       for (const char* ending : {".csv", ".svg"})
-        requireFreeOf(o.out / (KesTest{bending, direction, {}, {}}.stem() + ending), inputs, "--out");
+        requireFreeOf(o.out / (MeasuredTest{test, direction, {}, {}}.stem() + ending), inputs, "--out");
   requireFreeOf(o.out / "laboratory.json", inputs, "--out");
   makeFolder(o.out);
 }
@@ -163,20 +157,22 @@ void checkOutputs(const FabricOptions& o, const FabricCard& card) {
 }  // namespace
 
 int runFabric(const FabricOptions& o, std::ostream& out) {
-  const FabricCard card = readCard(o.card);
+  FabricCard card = readCard(o.card);
+  const std::vector<FittedNumber> numbers = fitMeasurements(o, card);
   CardFabric c;
   std::vector<LoopSample> raw;
   std::optional<LoopFit> fit;
-  if (o.loop.empty())
+  if (!fitsLoop(o))
     c = fabricOf(card);
   else
     fit = bendByFit(o, card, raw, c);
   checkOutputs(o, card);
   useThreads(1);
   out << fabricTable(card, c) << '\n';
+  if (!numbers.empty()) out << fittedTable(numbers) << '\n';
   if (fit) out << fitTable(*fit) << '\n';
   if (!o.fabric.empty()) {
-    writeOwnFile(o.fabric, fabricFile(o, card, c, fit));
+    writeOwnFile(o.fabric, fabricFile(o, card, c, fit, numbers));
     out << fmt::format("Fabric: {}\n", o.fabric.string());
   }
   if (!o.out.empty()) openLaboratory(o, card, c, raw, out);

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <vector>
 
-#include "cases/fabric/laboratory.hpp"
+#include "cases/fabric/lab_test.hpp"
 
 namespace gambeson {
 
@@ -15,8 +15,7 @@ struct FabricOptions {
   std::filesystem::path out;           ///< folder for what the laboratory measures; empty: it stays closed
   std::filesystem::path loop;          ///< raw loop that bending is fitted to; empty: none
   std::vector<double> directions_deg;  ///< empty: weft, and warp where the card tells it apart
-  bool bending = true, shear = true;
-  bool chosen = false;  ///< these two by the user; else shear is measured where the card has it
+  std::vector<LabTest> tests;          ///< empty: those whose numbers the card has
   laboratory::Specimen specimen;
 };
 

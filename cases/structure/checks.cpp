@@ -93,14 +93,14 @@ AuditCheck lawCheck(const StructureCase& c, const LawRange& range) {
             "table), in the state where most do not, or beyond which the path does not go on",
             range.first
                 ? unansweredInWords(range)
-                : fmt::format("{} of {} points are strained beyond the table of the law: stress there is a guess",
+                : fmt::format("{} of {} points are strained beyond the range of the law: stress there is a guess",
                               range.beyond, range.points)};
   return {"Law range",
           part,
           0,
           "%",
-          "share of the points of the sheet that are strained beyond the table of its law, in the state where most are",
-          fmt::format("{} of {} points are strained beyond the table of the law: stress there is a guess",
+          "share of the points of the sheet that are strained beyond the range of its law, in the state where most are",
+          fmt::format("{} of {} points are strained beyond the range of the law: stress there is a guess",
                       range.beyond, range.points)};
 }
 

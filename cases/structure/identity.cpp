@@ -13,7 +13,7 @@ void eachFile(StructureCase& named, Take take) {
   if (auto* file = std::get_if<SheetFile>(&named.sheet.shape)) take(file->path);
   for (ObstacleCase& o : named.obstacles) kindOf(o).files(o, take);
   const auto takeMaterial = [&](MaterialCase& m) {
-    take(m.card);
+    if (m.card.is_absolute()) take(m.card);  // else of the library, whose numbers the case says
     if (m.energy_source) take(m.energy_source->file);
   };
   takeMaterial(named.material);

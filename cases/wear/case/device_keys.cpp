@@ -43,7 +43,7 @@ class Refusals {
   void lookAtFabric(const std::string& key, const Fabric& fabric) const {
     if (fabric.shear_friction != ShearFriction{})
       refuse(key + ".shear_loop", "friction in shear is not carried by", "a fabric without it");
-    if (fabric.energy) refuse(key + ".law", "laws that are tables are not carried by", "moduli and bending");
+    if (fabric.energy) refuse(key + ".law", "laws that are tables or curves are not carried by", "moduli and bending");
   }
 
   void lookAtFriction(const std::string& key, const FrictionLaw& law) const {

@@ -25,7 +25,7 @@ void takeMap(std::string& map, Take take) {
 template <class Take>
 void eachFile(Case& named, Take take) {
   const auto takeFabric = [&](FabricCase& f) {
-    take(f.card);
+    if (f.card.is_absolute()) take(f.card);  // else of the library, whose numbers the case says
     if (f.energy_source) take(f.energy_source->file);
   };
   for (GarmentCase& g : named.garments) {

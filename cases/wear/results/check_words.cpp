@@ -50,7 +50,7 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
     return {fmt::format("threads stretch more than their limit in {} of the steps", much),
             "The cloth is softer than the case says: torques are rather too small.", false};
   if (check == "Law range")
-    return {fmt::format("{} of the cloth is strained beyond the table of its law", withUnit(value)),
+    return {fmt::format("{} of the cloth is strained beyond the range of its law", withUnit(value)),
             "Stress there is a guess: the energy goes on as stiff as at the table's end. A table of a wider range, or a "
             "looser garment, settles it.",
             false};

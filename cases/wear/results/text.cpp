@@ -134,7 +134,7 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
   if (m.law_range.points > 0)
     checks.push_back({"Law range",
                       100.0 * static_cast<double>(m.law_range.beyond) / static_cast<double>(m.law_range.points), 0, "%",
-                      "share of the points of the cloth that are strained beyond the table of its law, in the frame "
+                      "share of the points of the cloth that are strained beyond the range of its law, in the frame "
                       "where most are"});
   if (m.surface_depth)
     checks.push_back(

@@ -61,7 +61,7 @@ TEST(Card, RefusesWhatIsWrong) {
       {"\"2HG\": \"5.012 gf/cm\", ", "", 7, "shear.2HG5", "needs 2HG"},
       {"7.412 gf/cm", "4.9 gf/cm", 7, "shear.2HG5", "out of range; allowed beside 2HG"},
       {"2.18 gf/(cm deg)", "0.2 gf/(cm deg)", 7, "shear.2HG", "what friction alone gives it"},
-      {"  \"thickness\": \"1.066 mm\",\n", "", 1, "thickness", "is required"},
+      {"  \"thickness\": \"1.066 mm\",\n  \"weight\": \"430 g/m^2\",\n", "", 1, "thickness", "is required, or weight"},
       {"\"430 g/m^2\"", "\"0 g/m^2\"", 5, "weight", ">= 0.0001"},
       {"\"MIU\": 0.18", "\"MIU\": 1.8e3", 14, "MIU", "<= 2"},
       {"\"source\"", "\"sauce\"", 3, "sauce", "did you mean \"source\"?"}};
@@ -107,14 +107,13 @@ TEST(Card, GivesTheFabricThatWasMeasured) {
 
 TEST(Card, SaysWhatItAssumes) {
   const Folder folder;
-  const CardFabric made = fabricOf(readCard(folder.write(
-      "little.card.json",
-      R"({"name": "a", "source": "b", "thickness": "1 mm",
+  const CardFabric made = fabricOf(readCard(folder.write("little.card.json",
+                                                         R"({"name": "a", "source": "b", "thickness": "1 mm",
           "bending": {"B": "0.1 gf cm", "2HB": "0.02 gf", "2HB_at": "1 1/cm"}})")));
   for (const char* what : {"weight 400", "EMT 5 %", "poisson 0", "G 1 gf", "K0 0.5/cm", "about all axes"})
-    EXPECT_TRUE(std::any_of(made.assumed.begin(), made.assumed.end(),
-                            [&](const std::string& s) { return s.find(what) != std::string::npos; }))
-        << what;
+    EXPECT_TRUE(std::any_of(made.assumed.begin(), made.assumed.end(), [&](const std::string& s) {
+      return s.find(what) != std::string::npos;
+    })) << what;
 }
 
 TEST(Card, SecantsFollowTheCurveOfLt) {
@@ -127,8 +126,7 @@ TEST(Card, SecantsFollowTheCurveOfLt) {
   t.linearity.both = 2. / 3;  // F = F_max (e/EMT)^2
   t.secant_at_N_per_m = t.load_N_per_m / 4;
   const double e = 0.025;
-  EXPECT_NEAR(pointLaw(fabricOf(card).fabric).section.A[0],
-              t.load_N_per_m / 4 / ((1 + e) * (e + 0.5 * e * e)), 1e-9);
+  EXPECT_NEAR(pointLaw(fabricOf(card).fabric).section.A[0], t.load_N_per_m / 4 / ((1 + e) * (e + 0.5 * e * e)), 1e-9);
 }
 
 const std::string usual_fabric = R"(  "fabric": {

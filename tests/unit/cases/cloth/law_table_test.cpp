@@ -19,7 +19,7 @@ namespace {
 
 TEST(LawFile, IsReadAsItWasWritten) {
   const Folder folder;
-  LawFile law{tableOf({}, 5, 3), {}};
+  LawFile law{tableOf({}, 5, 3), {}, {}};
   law.provenance = {"hash", "weave 7", "Gambeson 1", "range 0.1", "", 1e-3, std::nullopt, 0.1 / 3, {}, 40};
   const std::filesystem::path file = folder.path() / "law.json";
   writeLawTable(file, law);

@@ -22,6 +22,8 @@ TEST(LibraryCards, AllAreReadAndSayWhereTheyAreFrom) {
     EXPECT_TRUE(names.insert(card.name).second) << card.name << " is there twice";
     EXPECT_GT(card.source.size(), 40u);
     EXPECT_FALSE(card.description.empty());
+    EXPECT_FALSE(card.spread.empty());
+    EXPECT_FALSE(card.range.empty());
     const FabricCase fabric = fabricOf(card).fabric;
     EXPECT_GT(fabric.young_weft_Pa, 0);
     EXPECT_GT(fabric.young_warp_Pa, 0);

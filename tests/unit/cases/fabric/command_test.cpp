@@ -35,11 +35,11 @@ TEST(FabricCommand, MeasuresWhatTheCardSays) {
        {"KES-FB2 bending, along the weft", "KES-FB1 shear", "assumed: weight", "2HB at 1/cm", "2HG5"})
     EXPECT_NE(o.out.find(said), std::string::npos) << said << "\n" << o.out;
   const auto all = nlohmann::json::parse(content(folder.path() / "lab/laboratory.json"));
-  ASSERT_EQ(all.at("tests").size(), 2u);
+  ASSERT_EQ(all.at("tests").size(), 3u);
   for (const auto& test : all.at("tests"))
     for (const auto& reading : test.at("readings"))
       EXPECT_LT(std::abs(reading.at("difference").get<double>()), 0.005) << reading;
-  for (const char* stem : {"bending_0", "shear_0"}) {
+  for (const char* stem : {"bending_0", "shear_0", "tension_0"}) {
     EXPECT_NE(content(folder.path() / "lab" / (std::string(stem) + ".svg")).find("<svg xmlns"), std::string::npos);
     EXPECT_NE(content(folder.path() / "lab" / (std::string(stem) + ".csv")).find(","), std::string::npos);
   }
