@@ -90,13 +90,16 @@ void SewnHold::touch(std::span<const int> points) {
       sewn_.push_back(static_cast<int>(k));
   const std::size_t n = sewn_.size();
   held_.assign(n * n, 0.0);
-  for (std::size_t c = 0; c < n; ++c) {
+  const auto at = [&](std::size_t k) -> Vec3& {
+    return all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(sewn_[k])])];
+  };
+  for (std::size_t c = 0; c < n; c += 3) {  // three points at once, each in a component of its own
+    const int count = static_cast<int>(std::min<std::size_t>(3, n - c));
     std::fill(all_.begin(), all_.end(), Vec3{});
-    const int point = points_[static_cast<std::size_t>(sewn_[c])];
-    all_[static_cast<std::size_t>(point)] = {1, 0, 0};
+    for (int k = 0; k < count; ++k) at(c + static_cast<std::size_t>(k))[k] = 1;
     model_.sewing.hold(all_, work_);
     for (std::size_t r = 0; r < n; ++r)
-      held_[r * n + c] = all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(sewn_[r])])].x;
+      for (int k = 0; k < count; ++k) held_[r * n + c + static_cast<std::size_t>(k)] = at(r)[k];
   }
 }
 

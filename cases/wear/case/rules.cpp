@@ -149,6 +149,16 @@ void checkFieldsOf(const Entry& entry, const Case& c, const GarmentCase& g) {
   }
 }
 
+/// Of garments of flat panels: how they are put on, and keys that they have no use for.
+void checkSewn(const Entry& entry, const Case& c, const GarmentKind& kind) {
+  if (c.human && !c.dressing.layer_by_layer && c.dressing.from.empty())
+    entry.failAt(kind.word, "needs dressing.layer_by_layer: panels are sewn around the wearer before they have weight");
+  if (!c.human && c.garments.size() > 1)
+    entry.failAt(kind.word, "is put on by itself: without a human it is the only garment");
+  for (const char* key : {"stitching", "seam_stiffness"})
+    if (entry.node.find(key)) entry.failAt(key, "is for drafted garments; the file of a pattern says it of each seam");
+}
+
 void checkGarments(const Entry& root, const Case& c) {
   std::set<std::string> names;
   bool all_own = true;
@@ -167,6 +177,7 @@ void checkGarments(const Entry& root, const Case& c) {
     all_own = all_own && g.fabric;
     if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())
       entry.failAt("stitching", "needs dressing.layer_by_layer: each garment is then put on by itself");
+    if (kind.sewn) checkSewn(entry, c, kind);
   }
   for (std::size_t i = 0; i < c.garments.size(); ++i) {
     const Entry entry = garmentEntry(root, i);
