@@ -126,9 +126,8 @@ std::vector<Girth> shortGirths(const Surface& s, std::span<const Vec3> rest, std
                    [](const Girth& a, const Girth& b) { return a.short_m() > b.short_m(); });
   std::vector<Girth> out;
   for (const Girth& g : found)
-    if (out.size() < most && std::none_of(out.begin(), out.end(), [&](const Girth& o) {
-          return norm(o.middle_m - g.middle_m) < kNear_m;
-        }))
+    if (out.size() < most &&
+        std::none_of(out.begin(), out.end(), [&](const Girth& o) { return norm(o.middle_m - g.middle_m) < kNear_m; }))
       out.push_back(g);
   return out;
 }

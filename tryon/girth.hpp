@@ -12,9 +12,9 @@ namespace gambeson {
 /// A piece of cloth cut at a height, across sewn seams too: all of it that hangs together there.
 struct Girth {
   double height_m = 0;
-  double rest_m = 0;  ///< length of the cut on the cloth at rest
-  double worn_m = 0;  ///< and as it is worn
-  Vec3 middle_m;      ///< of the cut, worn
+  double rest_m = 0;    ///< length of the cut on the cloth at rest
+  double worn_m = 0;    ///< and as it is worn
+  Vec3 middle_m;        ///< of the cut, worn
   bool closed = false;  ///< it goes all the way around
 
   double short_m() const { return worn_m - rest_m; }

@@ -32,7 +32,8 @@ struct ContactMesh {
   Lists edge_faces, vertex_faces, vertex_edges;
   Lists twins;  ///< of each vertex those that lie on it or beside it across a sewn seam; no lists where there is none
 
-  /// Whether two primitives hang together: by a vertex of both, or by twins. What hangs together does not touch or cross.
+  /// Whether two primitives hang together: by a vertex of both, or by twins. What hangs together does not touch or
+  /// cross.
   template <std::size_t A, std::size_t B>
   bool hangTogether(const std::array<int, A>& a, const std::array<int, B>& b) const {
     for (int v : a)

@@ -70,8 +70,7 @@ class Refusals {
             if (!s.drive.empty())
               refuse(fmt::format("{}.{}.drive", key, kindOf(support).word),
                      "points that are held and moved are not carried by", "supports that stand still");
-          if constexpr (std::is_same_v<S, CordSupport>)
-            refuse(key + ".cord", "cords are not carried by", "springs");
+          if constexpr (std::is_same_v<S, CordSupport>) refuse(key + ".cord", "cords are not carried by", "springs");
         },
         support);
   }

@@ -82,7 +82,7 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
       makeIntegrator(one.time.motion, m, *panels->stage, one.time.control(), frequency, work);
   while (widest > law.close_m && state.time_s < -1e-9) {
     integrator->advance(std::min(0.0, state.time_s + look_s), state,
-                 [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+                        [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     widest = widestStitch(m.stitches, m.surface.WT, state.p);
   }
   if (widest > law.close_m)
@@ -121,7 +121,8 @@ std::string gapesText(const Scenario& s, const State& state) {
   std::sort(widest.begin(), widest.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (std::size_t k = 0; k < std::min<std::size_t>(3, widest.size()); ++k)
-    text += fmt::format("{}\"{}\" by {:.1f} mm", k == 0 ? "" : ", ", seams[widest[k].second].name, 1e3 * widest[k].first);
+    text +=
+        fmt::format("{}\"{}\" by {:.1f} mm", k == 0 ? "" : ", ", seams[widest[k].second].name, 1e3 * widest[k].first);
   return text;
 }
 
@@ -153,10 +154,11 @@ State sewnAround(const Scenario& s) {
     widest = widestGap(m, state.p);
   }
   if (widest > closed_cells)
-    throw RunError(fmt::format("seams gape after {} s, {:.2g} sides of a cell at most (to be closed: {}): {}; more time "
-                               "(close_within), or panels that stand nearer to the wearer, may close them{}{}",
-                               -s.start_s, widest, closed_cells, gapesText(s, state),
-                               fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
+    throw RunError(
+        fmt::format("seams gape after {} s, {:.2g} sides of a cell at most (to be closed: {}): {}; more time "
+                    "(close_within), or panels that stand nearer to the wearer, may close them{}{}",
+                    -s.start_s, widest, closed_cells, gapesText(s, state),
+                    fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
   if (const std::string fit = fitText(s, state); !fit.empty())
     sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));
   return state;

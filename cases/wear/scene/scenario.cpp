@@ -188,10 +188,9 @@ void putOnAtStart(const Case& c, Scenario& s) {
     const Dressed dressed = readDressed(c.dressing.from);
     wear(s, dressed);
     s.stage->dressed = dressed.posture;
-  } else if (s.stage->settle_start_s < 0 && std::any_of(c.garments.begin(), c.garments.end(),
-                                                        [](const GarmentCase& worn) {
-                                                          return kindOf(worn).drafted || kindOf(worn).sewn;
-                                                        }) &&
+  } else if (s.stage->settle_start_s < 0 &&
+             std::any_of(c.garments.begin(), c.garments.end(),
+                         [](const GarmentCase& worn) { return kindOf(worn).drafted || kindOf(worn).sewn; }) &&
              s.human) {
     s.stage->dressed = standing(*s.human);  // which the garments are drafted for
   }

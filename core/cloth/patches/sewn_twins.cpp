@@ -11,8 +11,8 @@
 namespace gambeson {
 namespace {
 
-constexpr double kOn = 0.1;      ///< of the spacing of samples: on the seam
-constexpr double kSame = 1e-6;   ///< of the length: at one fraction
+constexpr double kOn = 0.1;     ///< of the spacing of samples: on the seam
+constexpr double kSame = 1e-6;  ///< of the length: at one fraction
 constexpr int kLooksPerCell = 8;
 
 /// Samples on one side of a seam: fraction of its length, ascending, and sample.

@@ -10,8 +10,8 @@
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/grid_lines.hpp"
 #include "core/cloth/patches/sewn_twins.hpp"
-#include "core/nurbs/trim_mesh.hpp"
 #include "core/error.hpp"
+#include "core/nurbs/trim_mesh.hpp"
 
 namespace gambeson {
 namespace {

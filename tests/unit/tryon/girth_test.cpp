@@ -21,11 +21,12 @@ Garment tube(bool open) {
   fabric.thickness_m = 5e-4, fabric.density_kg_per_m3 = 300;
   fabric.young_weft_Pa = fabric.young_warp_Pa = 1e6, fabric.poisson = 0.2, fabric.shear_Pa = 4e5;
   fabric.law = LinearBending{{1e-5, 1e-5}};
-  Garment g = garmentOf({panelPatch(12, 6, {0, 0}, {kWidth, kHeight}), panelPatch(15, 7, {0, 0}, {kWidth, kHeight})}, {},
-                        fabric);
+  Garment g = garmentOf({panelPatch(12, 6, {0, 0}, {kWidth, kHeight}), panelPatch(15, 7, {0, 0}, {kWidth, kHeight})},
+                        {}, fabric);
   for (Vec3& X : g.patches[1].points) X.z += 0.3;
-  g.sewn_seams = {{{sidePart(g, {0, Side::u1})}, {sidePart(g, {1, Side::u0})}},
-                  {{sidePart(g, {0, Side::u0})}, {sidePart(g, {1, Side::u1})}, open ? SeamHold::open : SeamHold::projected}};
+  g.sewn_seams = {
+      {{sidePart(g, {0, Side::u1})}, {sidePart(g, {1, Side::u0})}},
+      {{sidePart(g, {0, Side::u0})}, {sidePart(g, {1, Side::u1})}, open ? SeamHold::open : SeamHold::projected}};
   return g;
 }
 
@@ -55,7 +56,8 @@ TEST(Girth, OfATubeIsItsWidths) {
   const std::vector<Girth> found = shortGirths(s, rest, worn, {0, 0, 1}, 0.05);
   ASSERT_EQ(found.size(), 2u);  // 20 cm have two that are 10 cm apart
   EXPECT_NEAR(found[0].short_m(), 0.06, 2e-3);
-  EXPECT_NE(shortText(found).find("60.0 cm around and worn 66.0 cm: 6.0 cm short"), std::string::npos) << shortText(found);
+  EXPECT_NE(shortText(found).find("60.0 cm around and worn 66.0 cm: 6.0 cm short"), std::string::npos)
+      << shortText(found);
   EXPECT_TRUE(shortGirths(s, rest, worn, {0, 0, 1}, 0.11).empty());
 }
 

@@ -111,10 +111,12 @@ Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells) {
   for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
     const Panel& panel = pattern.panels[k];
     if (!panel.placement)
-      reject("panels", k, "panel \"" + panel.name + "\" has no placement: nothing says where it stands around its wearer");
+      reject("panels", k,
+             "panel \"" + panel.name + "\" has no placement: nothing says where it stands around its wearer");
     if (panel.quantity > 1)
-      reject("panels", k, "panel \"" + panel.name + "\" is cut " + std::to_string(panel.quantity) +
-                              " times; allowed: once, each piece as a panel of its own");
+      reject("panels", k,
+             "panel \"" + panel.name + "\" is cut " + std::to_string(panel.quantity) +
+                 " times; allowed: once, each piece as a panel of its own");
     const Grain grain(panel);
     g.patches.push_back(patchOf(panel, grain, cells));
     g.weft.push_back(grain.weftInWorld());

@@ -29,8 +29,7 @@ Garment tube(double stiffness_N) {
   }
   for (Vec3& X : g.patches[1].points) X.z += 0.3;  // at rest they are apart
   for (const auto& [side, other] : {std::pair(Side::u1, Side::u0), std::pair(Side::u0, Side::u1)})
-    g.sewn_seams.push_back(
-        {{sidePart(g, {0, side})}, {sidePart(g, {1, other})}, SeamHold::projected, stiffness_N});
+    g.sewn_seams.push_back({{sidePart(g, {0, side})}, {sidePart(g, {1, other})}, SeamHold::projected, stiffness_N});
   return g;
 }
 

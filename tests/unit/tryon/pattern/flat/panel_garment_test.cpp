@@ -68,8 +68,8 @@ TEST(PanelGarment, StandsWhereItIsPlacedOnItsGrain) {
   const Garment g = panelGarment(p, {0.02, 2});
   for (std::size_t k = 0; k < 2; ++k) {
     const NurbsPatch& patch = g.patches[k];
-    const auto d = surfaceDerivatives(patch, 0.5 * (patch.u.front() + patch.u.back()),
-                                      0.5 * (patch.v.front() + patch.v.back()));
+    const auto d =
+        surfaceDerivatives(patch, 0.5 * (patch.u.front() + patch.u.back()), 0.5 * (patch.v.front() + patch.v.back()));
     EXPECT_NEAR(norm(d[1]), 1, 1e-12);
     EXPECT_NEAR(norm(d[2]), 1, 1e-12);
     const PanelPlace& place = *p.panels[k].placement;
