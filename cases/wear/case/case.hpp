@@ -211,9 +211,9 @@ struct PinnedSupport : HeldSupport {
 /// All points of a patch held.
 struct PatchSupport : HeldSupport {};
 
-/// A cord along an edge that is drawn tight, as a belt or a drawstring is: neighbouring samples attract each other,
-/// with `tension_N` where they are as far apart as at rest and in proportion to their distance, so the cord has no
-/// length of its own. It is drawn in `draw_s`, further at the end of each window.
+/// A cord along an edge that is drawn tight, as a belt or a drawstring is: neighbouring samples attract each other, with
+/// `tension_N` where they are as far apart as at rest and in proportion to their distance, so the cord has no length of
+/// its own. It is drawn in `draw_s`, further at the end of each window.
 struct CordSupport {
   EdgeCase edge;
   double tension_N = 30;
