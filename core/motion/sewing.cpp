@@ -99,20 +99,33 @@ void SewnHold::touch(std::span<const int> points) {
     for (int k = 0; k < count; ++k) at(c + static_cast<std::size_t>(k))[k] = 1;
     model_.sewing.hold(all_, work_);
     for (std::size_t r = 0; r < n; ++r)
-      for (int k = 0; k < count; ++k) held_[r * n + c + static_cast<std::size_t>(k)] = at(r)[k];
+      for (int k = 0; k < count; ++k) held_[(c + static_cast<std::size_t>(k)) * n + r] = at(r)[k];
   }
 }
 
+// Column by column, so that rows are summed side by side in vectors, each in the order of the columns.
 void SewnHold::holdTouched(std::span<Vec3> change) const {
-  const std::size_t n = sewn_.size();
-  std::vector<Vec3>& left = work_.moved;
-  left.assign(n, Vec3{});
-  forAll(Each::sum, static_cast<int>(n), [&](int r) {
-    for (std::size_t c = 0; c < n; ++c)
-      left[static_cast<std::size_t>(r)] +=
-          held_[static_cast<std::size_t>(r) * n + c] * change[static_cast<std::size_t>(sewn_[c])];
+  constexpr int kRows = 64;  // of a block
+  const int n = static_cast<int>(sewn_.size());
+  std::vector<Vec3>& before = work_.moved;
+  before.clear();
+  for (const int k : sewn_) before.push_back(change[static_cast<std::size_t>(k)]);
+  forAll(Each::much, (n + kRows - 1) / kRows, [&](int block) {
+    double left[3][kRows] = {};
+    const int first = block * kRows, count = std::min(kRows, n - first);
+    for (int c = 0; c < n; ++c) {
+      const double* column = &held_[static_cast<std::size_t>(c) * n + first];
+      const Vec3 x = before[static_cast<std::size_t>(c)];
+      for (int r = 0; r < count; ++r) {
+        left[0][r] += column[r] * x.x;
+        left[1][r] += column[r] * x.y;
+        left[2][r] += column[r] * x.z;
+      }
+    }
+    for (int r = 0; r < count; ++r)
+      change[static_cast<std::size_t>(sewn_[static_cast<std::size_t>(first + r)])] = {left[0][r], left[1][r],
+                                                                                      left[2][r]};
   });
-  for (std::size_t r = 0; r < n; ++r) change[static_cast<std::size_t>(sewn_[r])] = left[r];
 }
 
 bool contactsMeetSeams(const Model& m, std::span<const ContactRow> rows) {
